@@ -1,5 +1,5 @@
-/* gl_bloom_test.c - light that is spread is all there, has the shape it should, and none is where nobody asked. Exits with 77
- * where there is no OpenGL. */
+/* gl_bloom_test.c - bloom conserves energy, has the right shape, and is off by default. Exits with 77 where there
+ * is no OpenGL. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,7 +12,7 @@
 
 static gl_fixture_contexts contexts;
 
-/* An unlit square in the middle, of edge 2 `scale` in a picture that is 2 m high. */
+/* An unlit square in the center, of edge 2 `scale`, in an image that is 2 m high. */
 static fixture light_fixture(uint32_t width, uint32_t height, float scale)
 {
     fixture f = fixture_create();
@@ -36,7 +36,7 @@ static size_t bytes_of(const film *picture)
     return (size_t)picture->width * picture->height * 4 * sizeof(float);
 }
 
-/* Odd sizes too, whose halves are not whole. */
+/* Odd sizes too, which cannot be halved exactly. */
 static void light_is_kept(void **state)
 {
     (void)state;
@@ -52,7 +52,7 @@ static void light_is_kept(void **state)
                 assert_true(all > 0.5);
                 assert_true(fabs(sum_of(&with, channel) / all - 1.0) < 0.01);
             }
-            /* In the middle it is missing. */
+            /* It is missing in the center. */
             float middle = fixture_pixel(&without, "", sizes[size][0] / 2, sizes[size][1] / 2)[0];
             float left = fixture_pixel(&with, "", sizes[size][0] / 2, sizes[size][1] / 2)[0];
             assert_true(left < 0.95f * middle && left > 0.75f * middle);
@@ -98,7 +98,7 @@ static void even_light_stays_even(void **state)
     }
 }
 
-/* Mean of a ring of pixels around the middle. */
+/* Mean of a ring of pixels around the center. */
 static double ring(const film *picture, double radius)
 {
     double sum = 0.0;
@@ -111,7 +111,7 @@ static double ring(const film *picture, double radius)
     return sum;
 }
 
-/* Power laws between the distances that the filters cover: -2.5 as long as they are. */
+/* A power law of -2.5 within the distances that the filters cover. */
 static void light_falls_with_distance(void **state)
 {
     (void)state;
@@ -132,7 +132,7 @@ static void light_falls_with_distance(void **state)
     }
 }
 
-/* A picture over a background is what it would be with the background in it. */
+/* Bloom over a background equals bloom with the background in the image. */
 static void coverage_is_spread_too(void **state)
 {
     (void)state;
@@ -156,7 +156,7 @@ static void coverage_is_spread_too(void **state)
     }
 }
 
-/* In a picture of twice the size light is spread twice as many pixels. */
+/* In an image of twice the size the glow spreads over twice as many pixels. */
 static void size_does_not_matter(void **state)
 {
     (void)state;

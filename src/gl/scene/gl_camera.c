@@ -6,10 +6,10 @@
 
 #include "draw/camera_rays.h"
 
-static const double NEAREST = 1e-6;        /* of the largest depth: what is nearer is cut off */
-static const double NEAREST_COARSE = 1e-4; /* the same where depth is not reversed */
+static const double NEAREST = 1e-6;        /* near plane over the largest depth */
+static const double NEAREST_COARSE = 1e-4; /* the same without reversed depth */
 
-/* Depths along the axis between which the scene lies. */
+/* Range of depths of the scene along the camera's axis. */
 static void depth_range(const camera_rays *c, const float bounds_min[3], const float bounds_max[3],
                         double *low, double *high)
 {
@@ -26,13 +26,13 @@ static void depth_range(const camera_rays *c, const float bounds_min[3], const f
     }
 }
 
-/* z of clip space is a * depth + b, where w is depth (orthographic: 1). The scene's ground may lie as far behind it as it
- * is deep. */
+/* Clip-space z is a * depth + b, with w = depth (orthographic: 1). The far plane leaves room for the ground, as
+ * far behind the scene as the scene is deep. */
 static void depth_terms(const gl_context *context, const camera_rays *c, double low, double high, double *a,
                         double *b)
 {
     bool is_reversed = context->has_clip_control;
-    /* A flat scene seen from the front has no depth, but depths of its points are rounded. */
+    /* A flat scene seen from the front has no depth, but the depths of its points are rounded. */
     double size = fmax(high - low, fmax(1e-3 * fmax(fabs(low), fabs(high)), 1e-6));
     double far = fmin((double)c->far_m, fmax(high, 0.0) + size);
     double near = fmax((double)c->near_m, low - 0.01 * size);
@@ -80,7 +80,7 @@ void gl_camera_set(const gl_context *context, const camera_rays *c, const float 
     block->far_depth = context->has_clip_control ? 0.0f : 1.0f;
     depth_range(c, bounds_min, bounds_max, &low, &high);
     depth_terms(context, c, low, high, &a, &b);
-    /* A point is at drawn pixel size / 2 + dot(point, d) / (pixel^2 w), d being as long as a pixel. */
+    /* A point is at the drawn pixel size / 2 + dot(point, d) / (pixel^2 w), where d is as long as a pixel. */
     double pixel2 = (double)c->pixel_size * (double)c->pixel_size / scale;
     double step_x = 2.0 / (double)view->width, step_y = 2.0 / (double)view->height;
     double middle_x = (0.5 * width * scale - corner_x) * step_x - 1.0;
@@ -126,7 +126,7 @@ void gl_camera_end_depth(const gl_context *context)
 
 /* ---- samples ---- */
 
-enum { MAX_SAMPLES = 8 }; /* in a drawn pixel: more take memory, and passes do the same */
+enum { MAX_SAMPLES = 8 }; /* per drawn pixel; more cost memory, and passes give the same result */
 
 gl_sampling gl_sampling_plan(uint32_t samples, facet_quality quality, uint32_t max_samples)
 {
@@ -141,7 +141,7 @@ gl_sampling gl_sampling_plan(uint32_t samples, facet_quality quality, uint32_t m
     return plan;
 }
 
-/* A pass's samples are about 1 / sqrt(samples) apart: so far, with a sample in the middle, the others are spread. */
+/* The samples of a pass are about 1 / sqrt(samples) apart; the passes are spread over that distance. */
 void gl_sampling_jitter(const gl_sampling *sampling, float *jitter)
 {
     float gap = 1.0f / sqrtf((float)sampling->samples);

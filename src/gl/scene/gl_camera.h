@@ -1,11 +1,13 @@
-/* gl_camera.h - a camera as a matrix, for a part of a picture.
+/* gl_camera.h - the matrix of a camera for part of an image, and its samples.
  *
- * Depth is reversed where OpenGL can (glClipControl()): 1 at the near plane, 0 infinitely far away, in floats, which are
- * densest where depths of far things lie (Reed 2015, "Depth precision visualized"). So near may be as near as no one
- * looks, and nothing flickers far away. Where it cannot, depth runs from -1 to 1 between planes that follow the scene.
+ * Depth is reversed where glClipControl() exists: 1 at the near plane, 0 at infinity, in floats, whose density
+ * then matches that of distant depths (Reed 2015, "Depth precision visualized"). The near plane can be so close
+ * that it never clips, without z-fighting far away. Elsewhere depth runs from -1 to 1 between planes that are
+ * fitted to the scene.
  *
- * The same function lets rows of a target run from the top, as those of a film do: a pixel's samples then lie where the
- * preview's do (D3D's pattern, the rotated grid of sample_pattern.h). Where it is not there they run from the bottom. */
+ * With glClipControl() the rows of a target also run from the top, as those of a film do, so that a pixel's
+ * samples lie where the preview's do (D3D's pattern, the rotated grid of sample_pattern()). Elsewhere they run
+ * from the bottom. */
 #ifndef GL_GL_CAMERA_H
 #define GL_GL_CAMERA_H
 
@@ -13,43 +15,44 @@
 #include "gl/core/gl_blocks.h"
 #include "gl/core/gl_context.h"
 
-/* What is drawn at once: a rectangle of the picture's pixels, or of a grid that is finer. */
+/* A rectangle that is drawn at once, in pixels of the image or of a finer grid. */
 typedef struct gl_view {
-    uint32_t scale; /* drawn pixels, in a row, for one of the picture; 1: the picture's */
-    uint32_t x, y;  /* of the upper left corner, in drawn pixels from the picture's */
+    uint32_t scale; /* drawn pixels per image pixel along an axis */
+    uint32_t x, y;  /* upper left corner, in drawn pixels from that of the image */
     uint32_t width, height;
-    float jitter[2]; /* of what is seen, in drawn pixels: positive sees what is to the right, below */
+    float jitter[2]; /* offset of the samples in drawn pixels, to the right and down */
 } gl_view;
 
-/* Fills in what block says of camera, size, depth. bounds: of the scene, m. width, height: of the picture. */
+/* Fills in the camera, size and depth members of the block. bounds: of the scene, m. width, height: of the image. */
 void gl_camera_set(const gl_context *context, const camera_rays *camera, const float bounds_min[3],
                    const float bounds_max[3], uint32_t width, uint32_t height, const gl_view *view,
                    gl_frame_block *block);
 
-/* Whether rows of a target run from the top. */
+/* Whether the rows of a target run from the top. */
 static inline bool gl_camera_is_top_down(const gl_context *context)
 {
     return context->has_clip_control;
 }
 
-/* OpenGL's state for that depth and those rows: what is nearer or as near wins, and what clears. */
+/* Sets the depth test (nearer or equal passes), the clear value and the row order. */
 void gl_camera_begin_depth(const gl_context *context);
-/* The state that OpenGL begins with. */
+/* Restores OpenGL's initial state. */
 void gl_camera_end_depth(const gl_context *context);
 
 /* ---- samples ---- */
 
-/* scale^2 * samples * passes of a pixel, at least as many as were asked for. */
+/* A pixel gets scale^2 * samples * passes samples, at least as many as requested. */
 typedef struct gl_sampling {
-    uint32_t scale; /* pixels that are drawn, in a row, for one of the picture; surfaces are shaded in each */
-    uint32_t samples; /* of visibility in each: OpenGL's multisampling */
-    uint32_t passes;  /* that the picture is the mean of */
+    uint32_t scale;   /* drawn pixels per image pixel along an axis; each is shaded */
+    uint32_t samples; /* visibility samples of each: multisampling */
+    uint32_t passes;  /* the image is their mean */
 } gl_sampling;
 
-/* For samples per pixel; FACET_QUALITY_FINAL shades the quarters of a pixel, as the preview does. max_samples: OpenGL's. */
+/* Plans samples per pixel; FACET_QUALITY_FINAL shades the quarters of a pixel, as the preview does. max_samples:
+ * OpenGL's limit. */
 gl_sampling gl_sampling_plan(uint32_t samples, facet_quality quality, uint32_t max_samples);
-/* What each pass sees further right and further down, in drawn pixels, x and y interleaved, passes of them: passes fill the
- * gaps of each other's samples. */
+/* Offset of each pass to the right and down, in drawn pixels, as interleaved x and y: passes fill the gaps between
+ * each other's samples. */
 void gl_sampling_jitter(const gl_sampling *sampling, float *jitter);
 
 #endif

@@ -1,4 +1,4 @@
-/* gl_film.c - see gl_film.h. Radiance of passes and of finer grids is added up on the CPU, in floats, in a fixed order. */
+/* gl_film.c - see gl_film.h. Passes and finer grids are averaged on the CPU, in floats, in a fixed order. */
 #include "gl/scene/gl_film.h"
 
 #include <string.h>
@@ -10,25 +10,26 @@
 #include "gl/scene/gl_camera.h"
 #include "scene/identity.h"
 
-/* Pixels that are drawn at once: some 170 MB with 4 samples; between tiles the caller may cancel. */
+/* Pixels per tile: some 170 MB with 4 samples; the caller may cancel between tiles. */
 static const uint64_t TILE_PIXELS = 1u << 21;
 
-/* A part of the picture in its own pixels. */
+/* A part of the image, in image pixels. */
 typedef struct tile {
-    uint32_t x, y, width, height; /* what is taken over */
-    uint32_t margin[4];           /* left, top, right, bottom: drawn beside it */
+    uint32_t x, y, width, height; /* the part that is kept */
+    uint32_t margin[4];           /* left, top, right, bottom: drawn around it */
 } tile;
 
 typedef struct drawing {
     const gl_film_desc *desc;
     gl_sampling sampling;
-    float *jitter; /* of passes */
+    float *jitter; /* per pass */
     uint32_t tile_width, tile_height, columns, rows;
-    bool looks_around; /* passes read pixels of others: of the whole picture, as far as it can be had */
+    /* passes that read other pixels (transmission, bloom) need as much of the whole image as possible */
+    bool looks_around;
     gl_target layers;
-    scene_identity *identities; /* per geometry; NULL: no layer asks for them */
+    scene_identity *identities; /* per geometry; NULL: no requested layer needs them */
     matte_layers mattes;
-    float *pixels; /* of a tile, as drawn */
+    float *pixels; /* of one tile, as drawn */
     film *film;
     render_watch watch;
 } drawing;
@@ -40,7 +41,7 @@ static uint32_t smaller(uint32_t a, uint32_t b)
 
 /* ---- tiles ---- */
 
-/* Tiles as wide as the crop where they can be: their edges cost vertices. */
+/* Tiles as wide as the crop where possible: each tile processes the vertices again. */
 static void plan_tiles(drawing *d)
 {
     const uint32_t *crop = d->desc->render->crop;
@@ -48,7 +49,7 @@ static void plan_tiles(drawing *d)
     uint32_t most = (uint32_t)d->desc->frame->context->max_texture_size / scale;
     uint64_t pixels = d->looks_around ? UINT64_MAX : TILE_PIXELS / ((uint64_t)scale * scale);
     if (d->looks_around && (d->desc->render->width > most || d->desc->render->height > most))
-        most /= 2; /* the other half is for what lies around */
+        most /= 2; /* half of the texture is for the margin */
     d->tile_width = smaller(crop[2], most);
     uint64_t height = pixels / d->tile_width;
     d->tile_height = smaller(crop[3], height < most ? (uint32_t)(height ? height : 1) : most);
@@ -56,7 +57,7 @@ static void plan_tiles(drawing *d)
     d->rows = (crop[3] + d->tile_height - 1) / d->tile_height;
 }
 
-/* How far the drawn part may reach beyond [begin, begin + size) before and behind, so that it is no larger than most. */
+/* How far the drawn part extends before and behind [begin, begin + size) within a limit of `most` pixels. */
 static void choose_margin(uint32_t begin, uint32_t size, uint32_t whole, uint32_t most, uint32_t *before,
                           uint32_t *behind)
 {
@@ -90,7 +91,7 @@ static gl_view view_of(const tile *t, uint32_t scale)
                      .height = (t->height + t->margin[1] + t->margin[3]) * scale};
 }
 
-/* Reads the tile without its margin, as it was drawn: rows from the top in the end. */
+/* Reads the tile without its margin; rows run from the top afterwards. */
 static void read_tile(const drawing *d, const gl_target *target, uint32_t layer, const tile *t,
                       uint32_t scale)
 {
@@ -108,7 +109,7 @@ static void read_tile(const drawing *d, const gl_target *target, uint32_t layer,
     }
 }
 
-/* ---- the picture ---- */
+/* ---- the image ---- */
 
 static void add_tile(const drawing *d, const tile *t)
 {
@@ -160,7 +161,7 @@ static facet_result draw_picture(drawing *d, const tile *t, facet_error *error)
 
 enum { NUMBER_LAYER = 2, MATTE_SAMPLES = 16 };
 
-/* Which numbers of what was drawn are a layer. */
+/* Components of the drawn AOVs that make up a layer of the film. */
 static const struct layer_source {
     const char *name;
     uint8_t layer, first, count;
@@ -170,7 +171,7 @@ static const struct layer_source {
                      {"occlusion", 1, 3, 1},
                      {"uv", NUMBER_LAYER, 1, 2}};
 
-/* Which number of an identity is a layer. */
+/* The number of an identity that makes up a layer. */
 static const struct identity_source {
     const char *name;
     scene_identity_kind kind;
@@ -178,14 +179,14 @@ static const struct identity_source {
                         {"material", SCENE_IDENTITY_MATERIAL},
                         {"instance", SCENE_IDENTITY_INSTANCE}};
 
-/* Where pixel (x, y) of a tile is in the film. */
+/* Index in the film of pixel (x, y) of a tile. */
 static size_t place_of(const drawing *d, const tile *t, uint32_t x, uint32_t y)
 {
     const uint32_t *crop = d->desc->render->crop;
     return (size_t)(t->y - crop[1] + y) * crop[2] + (t->x - crop[0]) + x;
 }
 
-/* The film has what stands for nothing; that stays where nothing was drawn. */
+/* Pixels without a surface keep the value that the film was initialized with. */
 static void store_layer(const drawing *d, const struct layer_source *source, const tile *t,
                         const uint8_t *is_there)
 {
@@ -201,7 +202,7 @@ static void store_layer(const drawing *d, const struct layer_source *source, con
         }
 }
 
-/* What was drawn at a pixel of the layer with the numbers of geometries; NULL: nothing. */
+/* Identity of the geometry at a pixel; NULL: none. */
 static const scene_identity *find_identity(const drawing *d, const float *pixel)
 {
     return pixel[3] > 0.0f && pixel[0] < (float)d->desc->scene->geometries.count
@@ -237,7 +238,7 @@ static void store_layers(const drawing *d, const tile *t, uint8_t *is_there)
     }
 }
 
-/* Adds one sample of each pixel of the tile to Cryptomatte's layers. */
+/* Adds one sample per pixel of the tile to the Cryptomatte layers. */
 static void add_mattes(const drawing *d, const tile *t)
 {
     read_tile(d, &d->layers, NUMBER_LAYER, t, 1);
@@ -250,7 +251,7 @@ static void add_mattes(const drawing *d, const tile *t)
         }
 }
 
-/* Draws one sample per pixel, jitter pixels beside the middle. */
+/* Draws one sample per pixel, offset from its center by jitter. */
 static facet_result sample_layers(drawing *d, const tile *t, const float jitter[2], facet_error *error)
 {
     const gl_film_desc *desc = d->desc;
@@ -264,7 +265,7 @@ static facet_result sample_layers(drawing *d, const tile *t, const float jitter[
     return gl_frame_draw_layers(desc->frame, &d->layers, desc->render, &block, error);
 }
 
-/* Opaque surfaces and the nearest of those that are not: what is behind one that light passes counts as nothing. */
+/* Opaque surfaces and the nearest transparent ones; nothing behind a transparent surface counts. */
 static facet_result draw_mattes(drawing *d, const tile *t, facet_error *error)
 {
     float points[2 * MATTE_SAMPLES];
@@ -284,7 +285,7 @@ static facet_result draw_mattes(drawing *d, const tile *t, facet_error *error)
     return result;
 }
 
-/* One sample at the middle of each pixel, and those of Cryptomatte. */
+/* One sample at the center of each pixel, and those of Cryptomatte. */
 static facet_result draw_layers(drawing *d, const tile *t, facet_error *error)
 {
     static const float middle[2] = {0.0f, 0.0f};
@@ -305,7 +306,7 @@ static facet_result draw_layers(drawing *d, const tile *t, facet_error *error)
     return result;
 }
 
-/* ---- all ---- */
+/* ---- the film ---- */
 
 static facet_result prepare(drawing *d, facet_error *error)
 {
@@ -324,7 +325,8 @@ static facet_result prepare(drawing *d, facet_error *error)
         return fail_memory(error, "picture", count * 4 * sizeof *d->pixels);
     gl_sampling_jitter(&d->sampling, d->jitter);
     memset(d->film->layers[0].pixels, 0,
-           4 * sizeof(float) * (size_t)d->film->width * d->film->height); /* an attempt may have failed */
+           /* a failed attempt may have left values */
+           4 * sizeof(float) * (size_t)d->film->width * d->film->height);
     d->mattes = matte_find(d->film);
     matte_clear(&d->mattes, (size_t)d->film->width * d->film->height);
     render_watch_init(&d->watch, &r->progress, "shade", d->desc->deadline_s,

@@ -1,4 +1,4 @@
-/* gl_film.h - a film from views: parts of a picture that OpenGL cannot hold at once, and more samples than it has. */
+/* gl_film.h - renders a film in tiles and passes, where an image exceeds OpenGL's size limit or number of samples. */
 #ifndef GL_GL_FILM_H
 #define GL_GL_FILM_H
 
@@ -6,18 +6,18 @@
 #include "film/film.h"
 #include "gl/scene/gl_frame.h"
 
-/* What is drawn; the frame is up to date. */
+/* What is rendered; the frame is up to date. */
 typedef struct gl_film_desc {
     gl_frame *frame;
     const gl_scene *scene;
     const camera_rays *camera;
     const facet_render_desc *render; /* resolved */
-    gl_target *target;               /* kept from picture to picture */
+    gl_target *target;               /* kept from image to image */
     double deadline_s;               /* of clock_seconds(); 0: none */
 } gl_film_desc;
 
-/* Fills every layer of the film. Fails with FACET_ERROR_MEMORY, FACET_ERROR_LIMIT past the deadline, FACET_ERROR_CANCELLED,
- * FACET_ERROR_SYSTEM. */
+/* Fills all layers of the film. Fails with FACET_ERROR_MEMORY, FACET_ERROR_LIMIT past the deadline,
+ * FACET_ERROR_CANCELLED, FACET_ERROR_SYSTEM. */
 facet_result gl_film_draw(const gl_film_desc *desc, film *target, facet_error *error);
 
 #endif

@@ -9,7 +9,7 @@
 #include "gl/scene/gl_camera.h"
 #include "gl/gl_entry.h"
 
-/* ---- what is in OpenGL's memory ---- */
+/* ---- lifetime ---- */
 
 facet_result gl_frame_create(gl_frame *f, gl_context *context, const facet_scene *scene,
                              const facet_allocator *allocator, facet_error *error)
@@ -78,7 +78,7 @@ static facet_result request_batches(gl_frame *f, bool is_layers, facet_error *er
     return result;
 }
 
-/* Of all that the picture will draw, before any of them is waited for: the driver compiles them at the same time. */
+/* Requests all programs before waiting for the first, so that the driver compiles them in parallel. */
 static facet_result request_programs(gl_frame *f, const facet_render_desc *desc, facet_error *error)
 {
     gl_programs_set_log(f->programs, &desc->log);
@@ -170,7 +170,7 @@ static facet_result draw_batches(gl_frame *f, gl_pass pass, bool is_layers, face
     return FACET_OK;
 }
 
-/* What covers the picture. */
+/* Draws a full-screen pass. */
 static facet_result draw_screen(gl_frame *f, gl_main main, uint64_t features, facet_error *error)
 {
     uint32_t program;
@@ -253,7 +253,7 @@ static facet_result draw_background(gl_frame *f, const facet_render_desc *desc, 
     return result;
 }
 
-/* Behind the model, as it never is above what stands on it. */
+/* Drawn behind the model, which stands on it. */
 static facet_result draw_ground(gl_frame *f, const facet_render_desc *desc, facet_error *error)
 {
     if (!gl_light_has_ground(f->light) || !gl_channel_is_light(desc->gl.channel))
@@ -278,7 +278,7 @@ static bool has_transmissive(const gl_frame *f)
     return count > 0;
 }
 
-/* The picture of what is opaque that glass shows. */
+/* Copies the opaque surfaces for transmissive ones. */
 static facet_result take_opaque(gl_frame *f, const gl_target *target, facet_error *error)
 {
     const gl_pyramid_brush brush = {f->programs, f->empty_array};
@@ -288,7 +288,8 @@ static facet_result take_opaque(gl_frame *f, const gl_target *target, facet_erro
     return result;
 }
 
-/* What glass shows is light, also in a picture of one lobe alone, which is drawn over it. */
+/* Transmissive surfaces show radiance also where a single lobe is displayed; the opaque surfaces are then drawn
+ * twice. */
 static facet_result draw_opaque(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
                                 facet_error *error)
 {
@@ -305,7 +306,7 @@ static facet_result draw_opaque(gl_frame *f, const gl_target *target, const face
     return draw_pass(f, GL_PASS_OPAQUE, GL_TIMER_OPAQUE, error);
 }
 
-/* After what is opaque, of which it shows a picture. */
+/* Drawn after the opaque surfaces, a copy of which they look up. */
 static facet_result draw_transmissive(gl_frame *f, facet_error *error)
 {
     if (!has_transmissive(f))

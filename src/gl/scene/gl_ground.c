@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-static const float DEPTH_MARGIN = 0.01f; /* of the height: what lies in the plane is not cut off */
+static const float DEPTH_MARGIN = 0.01f; /* over the height, so that geometry in the plane is not clipped */
 
 void gl_ground_destroy(gl_ground *g)
 {
@@ -18,7 +18,7 @@ void gl_ground_destroy(gl_ground *g)
     *g = (gl_ground){.context = g->context};
 }
 
-/* What hides the sky does so to twice its size at least, and as far as its height makes it seen. */
+/* Ambient occlusion reaches at least twice the model's size, and further for tall models. */
 void gl_ground_plan(gl_ground *g, const facet_render_desc *desc, const float bounds_min[3],
                     const float bounds_max[3])
 {
@@ -70,7 +70,7 @@ static facet_result make_textures(gl_ground *g, facet_error *error)
     return gl_context_check(g->context, "the ground", error);
 }
 
-/* As seen from straight below, or from above in the same place: x and z of the world are x and y of clip space. */
+/* View from straight below or, at the same position, from above: world x and z become clip-space x and y. */
 static void height_matrix(const gl_ground *g, bool is_above, const float eye[3], float out[16])
 {
     double scale = 1.0 / (double)g->place[2];

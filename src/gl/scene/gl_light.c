@@ -20,8 +20,8 @@
 
 /* LUTs of directional albedo (ibl/dfg.h) as half floats: 2^-11 relative. */
 typedef struct light_tables {
-    uint32_t albedo; /* DFG and sheen's albedo */
-    uint32_t glass;  /* 3D: a layer per ior */
+    uint32_t albedo; /* DFG and sheen albedo */
+    uint32_t glass;  /* 3D: one layer per ior */
 } light_tables;
 
 _Static_assert(DFG_SIZE == SHEEN_SIZE, "both tables have the same nodes, so that they share texels");
@@ -89,32 +89,28 @@ static void destroy_tables(light_tables *tables)
 
 /* ---- punctual lights ---- */
 
-/* Punctual lights and the grid that says where they reach (light_grid.h), as one texture.
+/* Punctual lights and the grid of cells that they reach (light_grid.h), as one texture.
  *
- * Rows of GL_LIGHT_ROW texels of four 32-bit words, one behind the other: four texels per light (position and range, spot's
- * direction and scale, intensity and spot's offset, whether it is directional and where its shadow's record is), records of
- * shadows (gl_shadow.h), then lists of numbers (four a texel: the
- * lights that reach everywhere, then those of the cells), then the cells (two a texel: first and end of the list). Positions
- * stay those of the world, so that a camera that moves costs nothing. A lookup of a point costs one texel for its cell, each
- * light one for its number and four for itself: a thousand lights with a range cost what the few near the point cost. */
+ * Rows of GL_LIGHT_ROW texels of four 32-bit words: four texels per light (position and range, spot direction and
+ * scale, intensity and spot offset, whether it is directional and where its shadow record is), shadow records
+ * (gl_shadow.h), lists of light indices (four per texel: the lights without range, then those of each cell), cells
+ * (two per texel: begin and end of the list). Positions are in world space, so a moving camera uploads nothing.
+ * Shading a point reads one texel for its cell, then one for the index and four for the data of each light: the
+ * cost depends on the lights that reach the point, not on their total. */
 typedef struct punctual_lights {
     uint32_t texture;
-    uint32_t *words; /* what was uploaded */
+    uint32_t *words; /* as uploaded */
     uint32_t rows;
 } punctual_lights;
 
-enum {
-    LIGHT_TEXELS = 4,
-    WORDS = 4,
-    RECORD_TEXELS = sizeof(gl_shadow_record) / 16
-}; /* a texel has four words */
+enum { LIGHT_TEXELS = 4, WORDS = 4, RECORD_TEXELS = sizeof(gl_shadow_record) / 16 }; /* of four words each */
 
-/* Where what begins, in texels. */
+/* Where each part begins, in texels. */
 typedef struct layout {
     size_t records, lists, cells, end, number_count, cell_count;
 } layout;
 
-/* Without a grid where none is, or where it is too large for the texture. */
+/* Without a grid where there is none, or where it does not fit. */
 static layout plan_layout(const light_setup *setup, uint32_t record_count, bool has_grid)
 {
     const light_grid *grid = &setup->grid;
@@ -129,7 +125,7 @@ static layout plan_layout(const light_setup *setup, uint32_t record_count, bool 
     return l;
 }
 
-/* record: first texel of its shadow's record; 0: none. */
+/* record: first texel of the light's shadow record; 0: none. */
 static void store_light(const Light *light, size_t record, uint32_t *out)
 {
     float rows[3][4] = {
@@ -241,7 +237,7 @@ struct gl_light {
     gl_shadow *shadow;
     gl_ground ground;
     GLuint caster_block;
-    /* whose parts are in the atlas: as long as it lives they stay what they are */
+    /* retained: as long as it lives, the parts in the atlas stay valid */
     facet_environment *environment;
     bool has_environment;
     uint32_t light_count;
@@ -372,7 +368,7 @@ bool gl_light_has_ground(const gl_light *light)
 uint64_t gl_light_ground_features(const gl_light *light)
 {
     uint64_t features = gl_light_features(light);
-    if (!(features & GL_SURFACE_HAS_SHADOWS)) /* then nothing but the map is looked up */
+    if (!(features & GL_SURFACE_HAS_SHADOWS)) /* then only the map is looked up */
         return 0;
     return GL_GROUND_HAS_LIGHTS | GL_GROUND_HAS_SHADOWS |
            (features & GL_SURFACE_HAS_ENVIRONMENT ? GL_GROUND_HAS_ENVIRONMENT : 0u);
@@ -394,7 +390,7 @@ void gl_light_bind_ground(const gl_light *light)
 {
     glActiveTexture(GL_TEXTURE0 + GL_UNIT_MATERIAL);
     glBindTexture(GL_TEXTURE_2D, light->ground.map);
-    glBindSampler(GL_UNIT_MATERIAL, 0); /* a material's, with mips */
+    glBindSampler(GL_UNIT_MATERIAL, 0); /* without a material's sampler, which has mips */
 }
 
 static void bind(GLuint unit, GLenum target, GLuint texture)

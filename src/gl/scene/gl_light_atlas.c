@@ -1,4 +1,4 @@
-/* gl_light_atlas.c - see gl_light_atlas.h. Parts are put beside each other on shelves, the highest first. */
+/* gl_light_atlas.c - see gl_light_atlas.h. Parts are packed on shelves, the tallest first. */
 #include "gl/scene/gl_light_atlas.h"
 
 #include <epoxy/gl.h>
@@ -11,7 +11,7 @@
 #include "ibl/equirect.h"
 #include "image/half.h"
 
-/* What is to be uploaded: one of the two. */
+/* The source of a part: one of the two. */
 typedef struct atlas_source {
     const cube *faces;
     const image *picture;
@@ -40,7 +40,7 @@ static const void *source_texels(atlas_source s)
 
 /* ---- texels ---- */
 
-/* A power of two that brings the largest of count floats to [2^14, 2^15). */
+/* The power of two that scales the largest of count floats to [2^14, 2^15). */
 static float find_scale(const float *values, size_t count)
 {
     float most = 0.0f;
@@ -82,7 +82,7 @@ static facet_result send_cube(const cube *c, gl_atlas_part *part, const facet_al
     uint16_t *texels = make_texels(allocator, stride, stride, error);
     if (!texels)
         return FACET_ERROR_MEMORY;
-    float most = 0.0f; /* the lane that nobody reads is not looked at */
+    float most = 0.0f; /* without the unused fourth lane */
     for (size_t i = 0; i < 6 * stride * stride; i++)
         for (int k = 0; k < 3; k++)
             most = c->texels[i][k] > most ? c->texels[i][k] : most;
@@ -99,9 +99,10 @@ static facet_result send_cube(const cube *c, gl_atlas_part *part, const facet_al
     return FACET_OK;
 }
 
-enum { BAND = 64 }; /* rows that are sent at a time */
+enum { BAND = 64 }; /* rows per upload */
 
-/* Rows of a picture; border: of texels around it, which repeat what is across the seam, or at a pole the row itself. */
+/* Uploads an equirectangular image. border: texels around it, which wrap around the seam and repeat the rows at
+ * the poles. */
 static facet_result send_equirect(const image *picture, uint32_t border, gl_atlas_part *part,
                                   const facet_allocator *allocator, facet_error *error)
 {
@@ -128,7 +129,7 @@ static facet_result send_equirect(const image *picture, uint32_t border, gl_atla
     return FACET_OK;
 }
 
-/* The same, scaled down to what OpenGL can hold. */
+/* The same, scaled down to OpenGL's limit. */
 static facet_result send_fitting(const image *picture, uint32_t border, gl_atlas_part *part,
                                  const facet_allocator *allocator, facet_error *error)
 {
@@ -164,7 +165,7 @@ static bool is_cube(uint32_t part)
     return part < GL_ATLAS_IMAGES;
 }
 
-/* What a part takes of the texture. */
+/* Size of a part in the texture, border included. */
 static uint32_t outer_width(const gl_light_atlas *a, uint32_t part)
 {
     return is_cube(part) ? 3 * (a->parts[part].width + 2) : a->parts[part].width + 2;
@@ -175,7 +176,7 @@ static uint32_t outer_height(const gl_light_atlas *a, uint32_t part)
     return is_cube(part) ? 2 * (a->parts[part].height + 2) : a->parts[part].height + 2;
 }
 
-/* Numbers of the parts that are there, the highest first; returns how many. */
+/* Sorts the indices of the existing parts, the tallest first; returns their number. */
 static uint32_t sort_parts(const gl_light_atlas *a, uint32_t order[GL_ATLAS_PARTS])
 {
     uint32_t count = 0;
@@ -190,7 +191,7 @@ static uint32_t sort_parts(const gl_light_atlas *a, uint32_t order[GL_ATLAS_PART
     return count;
 }
 
-/* Gives the parts their places in a texture of that width; its height. */
+/* Places the parts in a texture of that width; returns its height. */
 static uint32_t place_parts(gl_light_atlas *a, uint32_t width)
 {
     uint32_t order[GL_ATLAS_PARTS];
@@ -211,8 +212,8 @@ static uint32_t place_parts(gl_light_atlas *a, uint32_t width)
     return y + shelf;
 }
 
-/* Sizes and places. All cube maps that there are take 628 thousand texels; a picture at most a quarter of what OpenGL can
- * hold (at least 2048 rows), and only the first is large: all of it fits. */
+/* Sizes and positions. All cube maps together take 628 thousand texels; an image takes at most a quarter of
+ * OpenGL's limit (at least 2048 rows), and only the first one is large, so everything fits. */
 static void plan(gl_light_atlas *a, const ibl_light *light, uint32_t most)
 {
     uint32_t widest = 1024;
@@ -304,7 +305,7 @@ void gl_light_atlas_destroy(gl_light_atlas *a)
     *a = (gl_light_atlas){0};
 }
 
-/* ---- what shaders know of it ---- */
+/* ---- the uniform block ---- */
 
 static void describe_cube(const gl_atlas_part *p, float place[4])
 {
@@ -323,7 +324,7 @@ static void describe_levels(const gl_light_atlas *a, const ibl_light *light, pre
     block->ranges[2 * lobe + 1] = is_there ? (int32_t)range.last : 1;
     uint32_t count = prefilter_level_count(lobe);
     for (uint32_t i = 0; i < count; i++) {
-        if (is_there) /* else all are black */
+        if (is_there) /* otherwise all levels are black */
             describe_cube(&a->parts[PREFILTER_LEVEL_COUNT * lobe + i], block->places[lobe][i]);
         float low = prefilter_roughness(lobe, i);
         block->steps[i][2 * lobe] = low;

@@ -1,4 +1,4 @@
-/* gl_light_test.c - what shaders look up of light and tables is what the CPU looks up: the same directions and roughnesses
+/* gl_light_test.c - shaders look up the same light and LUTs as the CPU: the same directions and roughnesses
  * through a program and through light_setup.h, with OpenGL and OpenGL ES. Exits with 77 where there is neither. */
 #include <epoxy/gl.h>
 #include <setjmp.h>
@@ -20,7 +20,7 @@
 
 enum { EDGE = 64, COUNT = EDGE * EDGE };
 
-/* A context, the light under test, and rows of numbers that go into a program and come out of it. */
+/* A context, the light under test, and the input and output rows of a program. */
 typedef struct bench {
     gl_context context;
     gl_light *light;
@@ -76,7 +76,7 @@ static const char light_loop[] =
     "    for (int i = 0; i < count; i++)\n"
     "        sum += light_illuminate(light_at(i), P).E;\n    return sum;\n}\n";
 
-/* The fragment shader of a main up to, and with, the file `last`; behind it `expression` of vec4 q. */
+/* The fragment shader of a main up to and including the file `last`, followed by `expression` of vec4 q. */
 static char *shader_text(const bench *b, gl_program_key key, const char *last, const char *expression)
 {
     text t = {0};
@@ -136,7 +136,7 @@ static void bind_names(GLuint program)
         glUniformBlockBinding(program, index, GL_BLOCK_LIGHT);
 }
 
-/* Fills out with expression of in, per row. eye: of the frame. */
+/* Evaluates expression per row of in. eye: of the frame. */
 static void run(bench *b, gl_program_key key, const char *last, const char *expression, const float eye[3])
 {
     static const char vertex[] = "void main()\n{\n    vec2 p = vec2(gl_VertexID & 1, gl_VertexID >> 1);\n"
@@ -172,7 +172,7 @@ static void run(bench *b, gl_program_key key, const char *last, const char *expr
         fail_msg("%s", error.message);
 }
 
-/* ---- what is compared ---- */
+/* ---- comparison ---- */
 
 static facet_result update(gl_light *light, const light_setup *setup)
 {
@@ -187,7 +187,7 @@ static float uniform_number(float low, float high)
     return low + (high - low) * (float)(random_state >> 8) * 0x1p-24f;
 }
 
-/* Directions evenly over the sphere, and along its axes and cube's edges; w: in [0, 1], and often its ends. */
+/* Directions evenly over the sphere, along its axes and the cube's edges; w: in [0, 1], often its ends. */
 static void fill_directions(bench *b)
 {
     for (int i = 0; i < COUNT; i++) {
@@ -227,8 +227,8 @@ static void look_up_background(const light_setup *setup, const float d[3], float
     light_background(setup, d, 0.0f, out);
 }
 
-/* By how much a lookup changes within 1e-4 rad, which is a 60th of the finest texel: OpenGL may place a lookup to a 512th of a
- * texel only. */
+/* How much a lookup changes within 1e-4 rad, a 60th of the finest texel: OpenGL may round the position of a lookup
+ * to a 512th of a texel. */
 static void find_slack(const light_setup *setup, lookup *on_cpu, const float q[4], const float expected[3],
                        float slack[3])
 {
@@ -244,8 +244,8 @@ static void find_slack(const light_setup *setup, lookup *on_cpu, const float q[4
     }
 }
 
-/* Half floats are right to 2^-11 (4.9e-4) or 2^-40 of the brightest texel (gl_light_atlas.h), and a lookup is a mean of texels,
- * none of which is negative: 1e-3 is enough for that, and for sums in another order. */
+/* Half floats are accurate to 2^-11 (4.9e-4) or 2^-40 of the brightest texel (gl_light_atlas.h), and a lookup is a
+ * mean of texels that are not negative: 1e-3 covers that and sums in another order. */
 static void compare(bench *b, const light_setup *setup, lookup *on_cpu, const char *expression,
                     float brightest)
 {
@@ -273,14 +273,14 @@ static void compare(bench *b, const light_setup *setup, lookup *on_cpu, const ch
                  (double)b->in[where][2], (double)b->in[where][3]);
 }
 
-/* A sky with hills in it, 1 to 3, colored. */
+/* A colored sky with hills, 1 to 3. */
 static void gentle(const float d[3], float out[3])
 {
     for (int k = 0; k < 3; k++)
         out[k] = 2.0f + sin(7.0f * d[k] + 3.0f * d[(k + 1) % 3]) * cos(5.0f * d[(k + 2) % 3]);
 }
 
-/* The same over black ground, and a sun that is a million times as bright. */
+/* The same over black ground, with a sun a million times as bright. */
 static void harsh(const float d[3], float out[3])
 {
     bool is_sun = d[0] * 0.6f + d[1] * 0.64f + d[2] * 0.48f > 0.999f;
@@ -309,7 +309,7 @@ static void compare_all(bench *b, const light_setup *setup, float brightest)
     compare(b, setup, look_up_sheen, "light_sheen(q.xyz, q.w), 1.0", brightest);
     compare(b, setup, look_up_irradiance, "light_irradiance_over_pi(q.xyz), 1.0", brightest);
     compare(b, setup, look_up_background, "light_background(q.xyz), 1.0", brightest);
-    for (int i = 0; i < COUNT; i++) /* where mirrors become the first level */
+    for (int i = 0; i < COUNT; i++) /* the transition from the unfiltered image to the first level */
         b->in[i][3] *= 0.2f;
     compare(b, setup, look_up_specular, "light_specular(q.xyz, q.w), 1.0", brightest);
 }
@@ -347,7 +347,7 @@ static void a_sun_leaves_the_shadow_dark(void **state)
     facet_environment_destroy(e);
 }
 
-/* Roughness beyond what was prepared is that of the last level; what was not prepared is black. */
+/* Roughness beyond the prepared levels uses the last level; unprepared light is black. */
 static void what_is_missing_is_as_on_the_cpu(void **state)
 {
     (void)state;
@@ -362,7 +362,8 @@ static void what_is_missing_is_as_on_the_cpu(void **state)
     facet_environment *e[2] = {make_environment(64, 32, gentle), make_environment(40, 20, gentle)};
     for (int i = 0; i < bench_count; i++) {
         assert_int_equal(gl_context_make_current(&on[i].context, NULL), FACET_OK);
-        for (int k = 0; k < 8; k++) { /* an atlas serves what it has, and is made anew for what it lacks */
+        /* the atlas keeps what it has, and is replaced where something is missing */
+        for (int k = 0; k < 8; k++) {
             light_setup setup = prepare_setup(e[k / 4], some[k % 4]);
             compare_all(&on[i], &setup, 3.0f);
             light_setup_destroy(&setup);
@@ -437,7 +438,7 @@ static void make_lights(light_setup *setup, uint32_t count, bool have_range)
     assert_int_equal(light_grid_create(setup->punctual, count, NULL, &setup->grid, NULL), FACET_OK);
 }
 
-/* Irradiance of a surface that faces each of the lights, and how many were looked at. */
+/* Irradiance of a surface that faces each of the lights, and the number of lights evaluated. */
 static const char *const sum_of_lights = "lights_sum(q.xyz), float(light_count(q.xyz))";
 
 static double compare_lights(bench *b, const light_setup *setup)
@@ -447,7 +448,7 @@ static double compare_lights(bench *b, const light_setup *setup)
     assert_int_equal(update(b->light, setup), FACET_OK);
     for (int i = 0; i < COUNT; i++)
         for (int k = 0; k < 3; k++)
-            b->in[i][k] = uniform_number(-14.0f, 14.0f); /* some outside of the box */
+            b->in[i][k] = uniform_number(-14.0f, 14.0f); /* some outside the box */
     run(b, (gl_program_key){GL_MAIN_SURFACE, GL_SURFACE_HAS_LIGHTS}, "lights.glsl", sum_of_lights, eye);
     for (int i = 0; i < COUNT; i++) {
         vec3 P = vec3(b->in[i][0] + eye[0], b->in[i][1] + eye[1], b->in[i][2] + eye[2]);
@@ -468,7 +469,8 @@ static void lights_are_those_of_the_cpu(void **state)
         assert_int_equal(gl_context_make_current(&on[i].context, NULL), FACET_OK);
         light_setup setup = {.scale = 1.0f};
         make_lights(&setup, LIGHTS, true);
-        /* 10 have no range, 5 no place; of the others' spheres 12 reach a point of the box, of their cells' boxes some more. */
+        /* 10 lights have no range, 5 no position; the spheres of 12 others reach a point of the box, the bounding
+         * boxes of their cells some more. */
         double looked_at = compare_lights(&on[i], &setup);
         assert_true(looked_at > 10.0 && looked_at < 100.0);
         light_setup_destroy(&setup);

@@ -1,5 +1,5 @@
-/* gl_material.c - see gl_material.h. Materials are numbered as render_geometry has them: a pose changes the factors of
- * one, never its textures. */
+/* gl_material.c - see gl_material.h. Materials are indexed as in render_geometry: a pose changes factors, never
+ * textures. */
 #include "gl/scene/gl_material.h"
 
 #include <epoxy/gl.h>
@@ -33,7 +33,8 @@ typedef struct gl_material_block {
     float multiscatter_color[3], scatter_anisotropy;
     float thickness, dispersion, reserved[2];
     float texcoords[SCENE_TEXTURE_SLOT_COUNT][2]
-                   [4]; /* by slot: rows of the transform; w: the set; 1: it is filtered by probes */
+                   /* per slot: rows of the transform; w: texture coordinate set; 1: anisotropic probes */
+                   [4];
 } gl_material_block;
 
 static void copy3(const float in[3], float out[3])
@@ -52,7 +53,7 @@ static void fill_texcoords(const facet_scene *scene, const scene_material *m, co
         return;
     const scene_texture *t = &scene->textures[ref->texture];
     uint32_t attribute = gl_texcoord_attribute(m, ref->texcoord);
-    if (attribute == GL_TEXCOORD_SETS) /* it did not get there: 0 */
+    if (attribute == GL_TEXCOORD_SETS) /* the set is not among the attributes: read at 0 */
         memset(rows, 0, 2 * sizeof *rows);
     else
         rows[0][3] = (float)attribute;
@@ -77,7 +78,7 @@ static void fill_layers(const scene_material *m, gl_material_block *b)
     b->diffuse_transmission = m->diffuse_transmission;
     b->thickness = m->thickness;
     copy3(m->attenuation_color, b->attenuation_color);
-    b->attenuation_distance = fminf(m->attenuation_distance, 1e30f); /* not every GPU knows infinity */
+    b->attenuation_distance = fminf(m->attenuation_distance, 1e30f); /* not every GPU supports infinity */
     b->dispersion = m->dispersion;
     copy3(m->multiscatter_color, b->multiscatter_color);
     b->scatter_anisotropy = m->scatter_anisotropy;
@@ -105,12 +106,12 @@ static void fill_block(const facet_scene *scene, const scene_material *m, gl_mat
 
 /* ---- the set ---- */
 
-/* As it was uploaded. */
+/* As uploaded. */
 typedef struct gl_material {
     gl_material_block block;
     bool is_known;
-    bool is_reported;           /* that it has more textures than there are units */
-    bool is_occlusion_reported; /* that its occlusion texture is left out */
+    bool is_reported;           /* too many textures for the units */
+    bool is_occlusion_reported; /* its occlusion texture is left out */
 } gl_material;
 
 struct gl_material_set {
@@ -118,12 +119,12 @@ struct gl_material_set {
     const facet_scene *scene;
     facet_allocator allocator;
     gl_texture_set *textures;
-    const gl_phong *phong; /* of legacy materials; NULL: they are drawn as glTF's */
+    const gl_phong *phong; /* of legacy materials; NULL: they are drawn as glTF materials */
     gl_material *items;    /* by material_id */
     texture_use *uses;     /* by texture */
     GLuint buffer;
-    size_t stride;           /* of blocks in the buffer, bytes */
-    uint64_t image_features; /* of what is lit */
+    size_t stride;           /* of the blocks in the buffer, bytes */
+    uint64_t image_features; /* of lit materials */
     uint64_t channel_feature;
 };
 
@@ -172,7 +173,7 @@ void gl_material_destroy(gl_material_set *set)
     mem_free(set);
 }
 
-/* ---- which textures are read, and how ---- */
+/* ---- textures in use ---- */
 
 static const scene_texture_ref *ref_of(const gl_batch *batch, int slot)
 {
@@ -184,7 +185,7 @@ static uint32_t name_of(const gl_material_set *set, const gl_batch *batch, int s
     return gl_texture_name(set->textures, ref_of(batch, slot)->texture, material_textures[slot].is_color);
 }
 
-/* Whether both show the same texels at the same place. Of what is color, alpha is as it is in the data. */
+/* Whether both sample the same texel. Alpha is the same whether an image is read as color or as data. */
 static bool is_pair(const gl_material_set *set, const scene_texture_ref *a, const scene_texture_ref *b)
 {
     const scene_texture *textures = set->scene->textures;
@@ -196,7 +197,7 @@ static bool is_pair(const gl_material_set *set, const scene_texture_ref *a, cons
            (!a->has_transform || memcmp(a->transform, b->transform, sizeof a->transform) == 0);
 }
 
-/* Features of pairs among the slots that are read (bits). */
+/* Features of the pairs among the sampled slots. */
 static uint64_t pair_features(const gl_material_set *set, const gl_batch *batch, uint32_t slots)
 {
     uint64_t features = 0;
@@ -209,8 +210,8 @@ static uint64_t pair_features(const gl_material_set *set, const gl_batch *batch,
     return features;
 }
 
-/* The textures that a batch reads, as bits of slots. Where rays have real distances the thickness is not read; here bodies of
- * glass are as thick as it says. */
+/* Bits of the slots that a batch samples. The CPU traces real distances through volumes; here the thickness
+ * texture gives them. */
 static uint32_t slots_of(const gl_material_set *set, const gl_batch *batch)
 {
     uint32_t slots = batch->plan->textures;
@@ -223,7 +224,7 @@ static uint32_t slots_of(const gl_material_set *set, const gl_batch *batch)
     return slots;
 }
 
-/* Features of the textures of a batch. *lost: slots that are given up because there are not enough units. */
+/* Texture features of a batch. *lost: slots that are dropped for lack of units. */
 static uint64_t texture_features(const gl_material_set *set, const gl_batch *batch, uint32_t *lost)
 {
     uint32_t slots = slots_of(set, batch);
@@ -246,7 +247,8 @@ static uint64_t texture_features(const gl_material_set *set, const gl_batch *bat
         if (gl_material_slot_units(features, units) <= GL_MATERIAL_UNITS || i == SCENE_TEXTURE_SLOT_COUNT)
             return features;
         uint32_t given_up = 1u << gl_slots_by_loss[i];
-        for (int k = 0; k < GL_SLOT_PAIR_COUNT; k++) /* what reads its texel may have none of its own */
+        /* the second slot of a pair cannot be sampled without the first */
+        for (int k = 0; k < GL_SLOT_PAIR_COUNT; k++)
             if (gl_slot_pairs[k].first == gl_slots_by_loss[i] && features >> (GL_SURFACE_PAIRS + k) & 1)
                 given_up |= 1u << gl_slot_pairs[k].second;
         *lost |= slots & given_up;
@@ -255,7 +257,7 @@ static uint64_t texture_features(const gl_material_set *set, const gl_batch *bat
     return 0;
 }
 
-/* Notes what the batch reads. */
+/* Records the textures that the batch reads. */
 static void add_uses(gl_material_set *set, const gl_batch *batch)
 {
     uint32_t slots = slots_of(set, batch);
@@ -274,7 +276,7 @@ static void add_uses(gl_material_set *set, const gl_batch *batch)
     }
 }
 
-/* ---- what a picture needs ---- */
+/* ---- updates ---- */
 
 static void update_block(gl_material_set *set, const gl_batch *batch)
 {
@@ -352,7 +354,7 @@ facet_result gl_material_update(gl_material_set *set, const gl_mesh_set *meshes,
     return gl_context_check(set->context, "materials", error);
 }
 
-/* ---- a batch ---- */
+/* ---- drawing ---- */
 
 void gl_material_use_phong(gl_material_set *set, const gl_phong *phong)
 {

@@ -1,5 +1,5 @@
-/* gl_material_test.c - materials by OpenGL are those of the preview: textures with their transforms and sets, every
- * extension, alpha modes; each lobe alone, white surfaces under even light. Exits with 77 where there is no OpenGL. */
+/* gl_material_test.c - materials render as in the preview: textures with their transforms and sets, every
+ * extension, alpha modes; single lobes, the white furnace. Exits with 77 where there is no OpenGL. */
 #define _XOPEN_SOURCE 700 /* setenv() */
 #include <math.h>
 #include <setjmp.h>
@@ -25,7 +25,7 @@ static void set3(float out[3], float a, float b, float c)
     out[2] = c;
 }
 
-/* A picture of soft waves, whose mips and footprints show; its channels differ. */
+/* An image of smooth waves, in which mips and footprints show; its channels differ. */
 static uint32_t add_waves(fixture *f, uint32_t seed)
 {
     enum { EDGE = 32 };
@@ -39,8 +39,8 @@ static uint32_t add_waves(fixture *f, uint32_t seed)
     return fixture_add_texture(f, EDGE, EDGE, rgba);
 }
 
-/* A tilted quad before a ball, in the light of lamps and of a constant environment: one sample a pixel, so that edges
- * are the same. */
+/* A tilted quad in front of a sphere, lit by punctual lights and a constant environment: one sample per pixel, so
+ * that edges agree. */
 static void place(fixture *f, scene_material material)
 {
     f->desc.width = f->desc.height = SIZE;
@@ -54,7 +54,8 @@ static void place(fixture *f, scene_material material)
     fixture_add_light(f, lamp, -3.0f, 0.0f, -3.0f);
 }
 
-/* Share of the pixels of which a channel differs by more than 0.4 %, of 1 at least: half floats have 2^-11 of a highlight. */
+/* Share of the pixels in which a channel differs by more than 0.4 % of at least 1: half floats keep 2^-11 of a
+ * highlight. */
 static double share_of_different(const film *a, const film *b)
 {
     size_t different = 0, shown = 0;
@@ -70,8 +71,8 @@ static double share_of_different(const film *a, const film *b)
     return (double)different / (double)shown;
 }
 
-/* Both renderers' pictures of the fixture are the same, but for a share of the pixels: edges. One context after the other
- * has its turn: it is programs that take time. */
+/* The images of both renderers agree, except for a share of the pixels, at edges. Contexts are tested one after
+ * the other, because compiling programs takes most of the time. */
 static void assert_near(fixture *f, double share, const char *what)
 {
     static int turn;
@@ -150,7 +151,7 @@ static void set_texture(scene_material *m, scene_texture_slot slot, uint32_t tex
     m->textures[slot].texture = texture;
 }
 
-/* Every slot, each with a picture of its own, of materials in which it matters. Light through glass is another test's. */
+/* Every slot, each with its own image, in materials where it matters. Transmission has its own test. */
 static void test_slots(void **state)
 {
     (void)state;
@@ -186,7 +187,7 @@ static void test_slots(void **state)
     }
 }
 
-/* Transforms, a second set, wraps, filters. */
+/* Transforms, a second set, wrap modes, filters. */
 static void test_coordinates(void **state)
 {
     (void)state;
@@ -207,7 +208,7 @@ static void test_coordinates(void **state)
         t->wrap_u = variant == 1 ? SCENE_WRAP_CLAMP : SCENE_WRAP_REPEAT;
         t->wrap_v = variant == 2 ? SCENE_WRAP_MIRROR : SCENE_WRAP_REPEAT;
         t->mip_filter = variant == 3 ? SCENE_MIP_NEAREST : variant == 4 ? SCENE_MIP_NONE : SCENE_MIP_LINEAR;
-        ref->texcoord = variant == 5; /* of which there is none: all is read at (0, 0) */
+        ref->texcoord = variant == 5; /* a missing set: everything is read at (0, 0) */
         place(&f, m);
         char what[32];
         snprintf(what, sizeof what, "coordinates, variant %d", variant);
@@ -216,7 +217,7 @@ static void test_coordinates(void **state)
     }
 }
 
-/* Texels that one file holds for two slots are read once, and differ where coordinates do. */
+/* Texels that one image holds for two slots are sampled once, unless the coordinates differ. */
 static void test_pairs(void **state)
 {
     (void)state;
@@ -277,7 +278,7 @@ static void note_warning(void *user, facet_log_level level, const char *message)
     warning_count++;
 }
 
-/* Ten files: the one that matters least is given up, with a warning, once. */
+/* Ten textures: the least important one is dropped, with one warning. */
 static void test_too_many_textures(void **state)
 {
     (void)state;
@@ -315,7 +316,7 @@ static void test_alpha(void **state)
         m.base_color[3] = 0.8f;
         m.is_double_sided = true;
         set_texture(&m, SCENE_BASE_COLOR_TEXTURE, add_waves(&f, 0));
-        f.scene->textures[0].mag_filter = SCENE_FILTER_NEAREST; /* texels are there or not */
+        f.scene->textures[0].mag_filter = SCENE_FILTER_NEAREST; /* no interpolation of alpha */
         fixture_place(&f, fixture_add_quad(&f, fixture_add_material(&f, m)), 0, 0, 0, 0.9f);
         f.desc.width = f.desc.height = SIZE;
         f.desc.samples = 1;
@@ -324,7 +325,7 @@ static void test_alpha(void **state)
     }
 }
 
-/* Samples of a mask: some where the edge goes through the middle, as many as the driver takes for 0.5, and what is there has
+/* Alpha-to-coverage: at an edge through the center of pixels, as many samples as the driver takes for 0.5, with
  * alpha 1. */
 static void test_mask_samples(void **state)
 {
@@ -355,7 +356,7 @@ static void test_mask_samples(void **state)
 
 /* ---- channels ---- */
 
-/* Lobes and emission add up to the whole. */
+/* Lobes and emission add up to the whole image. */
 static void test_lobes(void **state)
 {
     (void)state;
@@ -388,7 +389,7 @@ static void test_lobes(void **state)
                     light += (double)part.layers[0].pixels[i];
                 sum.layers[0].pixels[i] += part.layers[0].pixels[i] / (i % 4 == 3 ? 6.0f : 1.0f);
             }
-            assert_true(light > 0.1); /* each is there */
+            assert_true(light > 0.1); /* each lobe contributes */
             film_destroy(&part);
         }
         for (size_t i = 0; i < count; i++)
@@ -403,7 +404,7 @@ static void test_lobes(void **state)
     }
 }
 
-/* A white surface that conserves energy returns light of 1 as 1, whatever its roughness. */
+/* White furnace: a white energy-conserving surface returns radiance 1 as 1 at any roughness. */
 static void test_furnace(void **state)
 {
     (void)state;
@@ -430,7 +431,7 @@ static void test_furnace(void **state)
     }
 }
 
-/* Parameters as they are. */
+/* Parameters are shown unchanged. */
 static void test_parameters(void **state)
 {
     (void)state;
@@ -459,7 +460,7 @@ static void test_parameters(void **state)
     }
 }
 
-/* Schlick-GGX masks more than Smith's function; multiscatter is what conserves. */
+/* Schlick-GGX masks more than Smith's function; multiscatter conserves energy. */
 static void test_formulas(void **state)
 {
     (void)state;
@@ -468,7 +469,7 @@ static void test_formulas(void **state)
     m.metallic = 1.0f;
     m.perceptual_roughness = 0.8f;
     place(&f, m);
-    facet_environment_destroy(f.environment); /* which has several bounces in both energy modes */
+    facet_environment_destroy(f.environment); /* multiple scattering is on in both energy modes */
     f.environment = NULL;
     gl_renderer *renderer = gl_fixture_renderer(&f, &contexts.items[0]);
     film plain = gl_fixture_draw(&f, renderer);
@@ -496,7 +497,7 @@ static void test_formulas(void **state)
     fixture_destroy(&f);
 }
 
-/* A scene of nothing but metal reads irradiance for its multiple scattering only: white metal in a white room is white. */
+/* A scene of metals only needs irradiance for multiple scattering alone: white metal in a white room is white. */
 static void multiscatter_keeps_the_light_of_metal(void **state)
 {
     (void)state;
@@ -530,7 +531,7 @@ int main(void)
                                        cmocka_unit_test(multiscatter_keeps_the_light_of_metal),
                                        cmocka_unit_test(test_parameters),
                                        cmocka_unit_test(test_formulas)};
-    /* Mesa's llvmpipe filters 8-bit data with weights of 8 bits, which mirrors show, unless it is told not to. */
+    /* Mesa's llvmpipe filters 8-bit data with 8-bit weights by default, which shows in mirrors. */
     setenv("GALLIVM_PERF", "no_aos_sampling", 1);
     if (!gl_fixture_open(&contexts))
         return 77;

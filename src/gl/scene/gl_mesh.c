@@ -11,14 +11,15 @@
 #include "base/result.h"
 #include "gl/core/gl_program.h"
 
-/* What an instance is drawn with; matrices by rows. */
+/* Vertex attributes of an instance; matrices are row-major. */
 typedef struct gl_instance {
     float world[12], normal_matrix[9];
-    float scale, bitangent_sign, number; /* of the scene's geometry; one attribute, with what follows */
-    float sprite_radius;                 /* pixels */
+    /* index of the scene's geometry; one attribute together with the next member */
+    float scale, bitangent_sign, number;
+    float sprite_radius; /* pixels */
 } gl_instance;
 
-/* An array object, and what it was made from. */
+/* A vertex array object and what it was made from. */
 typedef struct gl_mesh_array {
     gl_vertices fixed, streamed;
     uint32_t name, elements, first_instance;
@@ -30,19 +31,19 @@ struct gl_mesh_set {
     gl_vertex_store store;
     uint64_t revision, generation; /* of the scene; 0: there are no batches */
     uint32_t count;
-    gl_batch *batches; /* by pass */
+    gl_batch *batches; /* sorted by pass */
     uint32_t first[GL_PASS_COUNT + 1];
-    gl_instance *instances; /* as in OpenGL's memory: those of a batch behind each other */
+    gl_instance *instances; /* as uploaded: the instances of a batch are contiguous */
     uint32_t *instance_geometries;
-    gl_mesh_array *arrays; /* of the batches in the order in which they were made */
+    gl_mesh_array *arrays; /* of the batches, in the order of creation */
     size_t array_count, array_capacity;
     uint32_t instance_buffer;
     uint64_t sprite_feature; /* of GL_MAIN_SURFACE */
 };
 
-/* Two for each of the eight places along the outline of a sprite: surface.vert. */
+/* Two for each of the eight positions along the outline of a sprite: surface.vert. */
 enum { SPRITE_VERTICES = 16 };
-/* A disc is drawn as a regular polygon of twelve sides with its area: sqrt(pi / (6 sin(pi / 6))). */
+/* A disc is drawn as a regular polygon of twelve sides with the same area: sqrt(pi / (6 sin(pi / 6))). */
 static const float DISC_OF_TWELVE = 1.0233267f;
 
 facet_result gl_mesh_create(gl_context *context, const facet_allocator *allocator, gl_mesh_set **out,
@@ -58,7 +59,7 @@ facet_result gl_mesh_create(gl_context *context, const facet_allocator *allocato
     return FACET_OK;
 }
 
-/* The pose's, but for what is kept for the next one. */
+/* Frees the batches of a pose; keeps what the next pose can reuse. */
 static void clear(gl_mesh_set *set)
 {
     mem_free(set->batches);
@@ -151,7 +152,8 @@ static uint64_t hash_of(const render_geometry *g)
     return hash ^ hash >> 32;
 }
 
-/* Finds what is drawn together. batch_of: per geometry. slots: room for a power of two of them, more than there are. */
+/* Groups instances into batches by hashing. batch_of: per geometry. slots: a power of two of them, more than
+ * geometries. */
 static void group(gl_mesh_set *set, const gl_scene *scene, uint32_t *batch_of, uint32_t *slots,
                   size_t slot_count)
 {
@@ -176,7 +178,7 @@ static void group(gl_mesh_set *set, const gl_scene *scene, uint32_t *batch_of, u
     }
 }
 
-/* Puts the instances of each batch behind each other. */
+/* Makes the instances of each batch contiguous. */
 static void place_instances(gl_mesh_set *set, const gl_scene *scene, const uint32_t *batch_of)
 {
     uint32_t count = 0;
@@ -214,7 +216,7 @@ static facet_result make_batches(gl_mesh_set *set, const gl_scene *scene, facet_
     return has_memory ? FACET_OK : fail_memory(error, "geometry", count * sizeof *set->batches);
 }
 
-/* ---- array objects ---- */
+/* ---- vertex array objects ---- */
 
 static void point_array(GLuint index, GLint size, size_t offset, GLsizei stride, GLuint divisor)
 {
@@ -223,7 +225,7 @@ static void point_array(GLuint index, GLint size, size_t offset, GLsizei stride,
     glVertexAttribDivisor(index, divisor);
 }
 
-/* Where the arrays of a sprite's second end go, in the place of what sprites have not. */
+/* Attributes of the second end of a sprite, in locations that sprites do not use otherwise. */
 static const GLuint end_attributes[GL_VERTEX_ARRAYS] = {
     [GL_ATTRIBUTE_POSITION] = GL_ATTRIBUTE_TANGENT,
     [GL_ATTRIBUTE_NORMAL] = GL_ATTRIBUTE_NORMAL_MATRIX,
@@ -295,7 +297,7 @@ static bool is_same_array(const gl_mesh_array *a, const gl_mesh_array *b)
            a->elements == b->elements && a->mode == b->mode && a->first_instance == b->first_instance;
 }
 
-/* The array object of batch number i: mostly that of the pose before. */
+/* Sets the vertex array object of batch i, usually that of the previous pose. */
 static void set_array(gl_mesh_set *set, uint32_t i)
 {
     gl_batch *b = &set->batches[i];
@@ -329,7 +331,7 @@ static facet_result make_arrays(gl_mesh_set *set, facet_error *error)
     return FACET_OK;
 }
 
-/* ---- all ---- */
+/* ---- updates ---- */
 
 static facet_result upload_batch(gl_mesh_set *set, gl_batch *b, facet_error *error)
 {
@@ -440,8 +442,8 @@ uint32_t gl_mesh_instance_geometry(const gl_mesh_set *set, uint32_t instance)
     return set->instance_geometries[instance];
 }
 
-/* What a primitive has no array for: white, and no matter what else. OpenGL may forget such constants where an array was in
- * their place. */
+/* Constants for attributes without arrays: white colors, the rest is irrelevant. OpenGL may lose such constants
+ * where an array used the location, so they are set for each draw. */
 static void set_absent(const gl_batch *b)
 {
     static const float white[4] = {1.0f, 1.0f, 1.0f, 1.0f}, zero[4] = {0.0f, 0.0f, 0.0f, 1.0f};
@@ -495,11 +497,11 @@ void gl_mesh_draw(const gl_mesh_set *set, const gl_batch *b)
 
 /* ---- order ---- */
 
-/* Whether the box is beyond one side of the picture. Sprites reach a pixel farther. */
+/* Whether the box is entirely beyond one side of the image. Sprites extend a pixel further. */
 bool gl_mesh_is_outside(const gl_batch *b, const gl_frame_block *frame)
 {
     const float *m = frame->view_projection;
-    const float margin = 1.0f + 0.01f; /* of half the picture: a pixel of 200 */
+    const float margin = 1.0f + 0.01f; /* over half the image: one pixel of 200 */
     for (int side = 0; side < 4; side++) {
         int row = side >> 1;
         float sign = side & 1 ? -1.0f : 1.0f, most = margin * m[15] + sign * m[12 + row];
@@ -527,7 +529,7 @@ static int by_geometry(const gl_batch *a, const gl_batch *b)
     return (a->geometry > b->geometry) - (a->geometry < b->geometry);
 }
 
-/* Changing the program costs more than what a hidden pixel saves. */
+/* Changing programs costs more than a hidden pixel saves. */
 static int by_program(const void *x, const void *y)
 {
     const gl_batch *a = x, *b = y;

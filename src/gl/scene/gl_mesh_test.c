@@ -1,4 +1,4 @@
-/* gl_mesh_test.c - geometry in OpenGL's memory: what is uploaded and how often, which instances share a call, and that
+/* gl_mesh_test.c - geometry in GPU memory: what is uploaded and how often, which instances share a call, and that
  * triangles, points and lines are where the preview has them. Exits with 77 where there is no OpenGL. */
 #include <math.h>
 #include <setjmp.h>
@@ -14,7 +14,7 @@
 
 static gl_fixture_contexts contexts;
 
-/* A scene and its geometry in OpenGL's memory. */
+/* A scene and its geometry in GPU memory. */
 typedef struct bench {
     gl_scene scene;
     gl_mesh_set *meshes;
@@ -52,9 +52,9 @@ static const gl_batch *only_batch(const bench *b, gl_pass pass, uint32_t wanted)
     return batches;
 }
 
-/* ---- what is uploaded ---- */
+/* ---- uploads ---- */
 
-/* A quad: 4 vertices of positions, normals and texture coordinates; 6 indices; 25 floats of an instance. */
+/* A quad: 4 vertices with positions, normals and texture coordinates; 6 indices; 25 floats per instance. */
 enum { QUAD_BYTES = 4 * (12 + 12 + 8) + 6 * 4, INSTANCE_BYTES = 25 * 4 };
 
 static void arrays_are_uploaded_once(void **state)
@@ -87,7 +87,7 @@ static void arrays_are_uploaded_once(void **state)
     fixture_destroy(&f);
 }
 
-/* Nothing for another camera; another pose: the instances alone. */
+/* Nothing for another camera; only instances for another pose. */
 static void frames_upload_what_moves(void **state)
 {
     (void)state;
@@ -126,7 +126,7 @@ static void frames_upload_what_moves(void **state)
     fixture_destroy(&f);
 }
 
-/* Morph targets: positions alone are streamed, into the buffer of the frame before. */
+/* Morph targets: only positions are streamed, into the previous frame's buffer. */
 static void deformed_vertices_are_streamed(void **state)
 {
     (void)state;
@@ -168,7 +168,7 @@ static void deformed_vertices_are_streamed(void **state)
     }
     uint64_t frame_bytes = (gl_mesh_uploads(b.meshes).bytes - before) / 3;
     assert_int_equal(frame_bytes,
-                     4 * (12 + 12) + INSTANCE_BYTES); /* with the normals, which are the pose's too */
+                     4 * (12 + 12) + INSTANCE_BYTES); /* with the normals, which belong to the pose, too */
     bench_close(&b);
     film preview = fixture_render(&f);
     for (int c = 0; c < contexts.count; c++) {
@@ -180,7 +180,7 @@ static void deformed_vertices_are_streamed(void **state)
     fixture_destroy(&f);
 }
 
-/* Corners of a smooth sphere agree but along its seam and at its poles. */
+/* Corners of a smooth sphere are shared except along its seam and at its poles. */
 static void corners_are_welded(void **state)
 {
     (void)state;
@@ -212,7 +212,7 @@ static void huge_meshes_are_refused(void **state)
     assert_int_equal(gl_context_make_current(&contexts.items[0], NULL), FACET_OK);
     scene_material material = scene_material_default();
     scene_primitive primitive = {.mode = SCENE_TRIANGLES,
-                                 .vertex_count = 200000000u, /* of which nothing is read */
+                                 .vertex_count = 200000000u, /* nothing of it is read */
                                  .index_count = 3,
                                  .indices = index,
                                  .positions = nothing,
@@ -230,7 +230,7 @@ static void huge_meshes_are_refused(void **state)
     assert_int_equal(gl_vertex_store_use(&store, &g, &use, &error), FACET_ERROR_LIMIT);
     assert_string_equal(error.message,
                         "huge.glb: a mesh has 3600000000 bytes of indices; OpenGL draws at most 2147483647");
-    primitive.index_count = 3; /* and the store goes on */
+    primitive.index_count = 3; /* the store remains usable */
     assert_int_equal(gl_vertex_store_use(&store, &g, &use, &error), FACET_OK);
     assert_int_equal(use.elements.count, 3);
     gl_vertex_store_destroy(&store);
@@ -255,7 +255,7 @@ static void material_chooses_texcoords(void **state)
     assert_false(gl_texcoord_sets(&material, sets));
 }
 
-/* ---- pictures ---- */
+/* ---- images ---- */
 
 static void assert_as_preview(const fixture *f, double mean, double share)
 {
@@ -270,7 +270,7 @@ static void assert_as_preview(const fixture *f, double mean, double share)
     film_destroy(&preview);
 }
 
-/* A seventh set of texture coordinates is read, where the first four would be. */
+/* A seventh set of texture coordinates is read in place of the first four. */
 static void far_texcoords_are_read(void **state)
 {
     (void)state;
@@ -293,7 +293,7 @@ static void far_texcoords_are_read(void **state)
     fixture_destroy(&f);
 }
 
-/* Instances of one call are what separate meshes are, but for rounding where the order of drawing shows. */
+/* Instances of one call render as separate meshes do, except for rounding that depends on the drawing order. */
 static void instances_are_separate_meshes(void **state)
 {
     (void)state;
@@ -335,7 +335,7 @@ static void mirrored_and_culled(void **state)
             scene_node *node =
                 fixture_place(&f, quad, i & 1 ? 0.5f : -0.5f, i & 2 ? 0.5f : -0.5f, 0.0f, 0.4f);
             if (i & 1)
-                node->scale[0] = -0.4f; /* its front is still its front */
+                node->scale[0] = -0.4f; /* its front remains its front */
             if (i & 2)
                 gl_fixture_turn(node, 0.0f, 1.0f, 0.0f, 0.0f); /* shows its back */
         }
@@ -351,7 +351,7 @@ static void mirrored_and_culled(void **state)
     }
 }
 
-/* As steady as at the origin: what is near to the eye is as near far away from the origin. */
+/* A nearby object is as steady far from the origin as at it. */
 static void far_from_the_origin(void **state)
 {
     (void)state;
@@ -395,7 +395,7 @@ static fixture sprite_fixture(scene_mode mode, bool is_orthographic)
     fixture_place(&f, mesh, 0.0f, 0.0f, 0.0f, 0.9f);
     f.desc.width = 96;
     f.desc.height = 72;
-    f.desc.samples = 16; /* so that widths are seen */
+    f.desc.samples = 16; /* to resolve the widths */
     if (!is_orthographic)
         f.camera = (facet_camera){.eye = {0.2f, 0.1f, 1.9f}, .fov_y_rad = 1.0f};
     return f;
@@ -414,7 +414,7 @@ static void sprites_are_a_pixel_wide(void **state)
                 sums[0][k % 4] += (double)preview.layers[0].pixels[k];
                 sums[1][k % 4] += (double)picture.layers[0].pixels[k];
             }
-            for (int k = 0; k < 4; k++) /* what they cover, and the colors between their ends */
+            for (int k = 0; k < 4; k++) /* coverage, and colors between the ends */
                 if (!(fabs(sums[1][k] / sums[0][k] - 1.0) < 0.02))
                     fail_msg("%d: channel %d: %g for %g", i, k, sums[1][k], sums[0][k]);
             image_difference d = gl_fixture_compare(&picture, &preview, 0.25f);
@@ -427,7 +427,7 @@ static void sprites_are_a_pixel_wide(void **state)
     }
 }
 
-/* Lines with normals are lit, those of mirrored nodes too. */
+/* Lines with normals are lit, also those of mirrored nodes. */
 static void sprites_may_be_lit(void **state)
 {
     (void)state;

@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "base/result.h"
 
-/* ---- what a geometry has ---- */
+/* ---- keys: the arrays of a geometry ---- */
 
 static const uint32_t widths[GL_VERTEX_ARRAYS] = {3, 3, 4, 4, 2, 2, 2, 2};
 
@@ -53,10 +53,10 @@ uint32_t gl_texcoord_attribute(const scene_material *m, uint32_t set)
     return i;
 }
 
-/* Arrays of a geometry as the scene has them. What has no other way to be told apart, is told apart by them. */
+/* The arrays of a geometry in the scene, which identify its buffers. */
 typedef struct vertex_key {
     const float *arrays[GL_VERTEX_ARRAYS]; /* NULL: absent */
-    const uint32_t *indices;               /* of vertices that are made for them; or of elements alone */
+    const uint32_t *indices;               /* of generated vertices, or of elements alone */
     uint32_t vertex_count, index_count;
     scene_mode mode;
     uint32_t has_corner_tangents;
@@ -85,21 +85,21 @@ static vertex_key all_of(const render_geometry *g)
     return key;
 }
 
-/* ---- tables: what is there, by its key ---- */
+/* ---- hash tables of buffers by key ---- */
 
 typedef struct vertex_entry {
     vertex_key key;
     gl_vertices vertices;
     gl_elements elements;
-    uint32_t *kept_indices; /* what elements.indices points to, where they were made */
+    uint32_t *kept_indices; /* owned block behind elements.indices, where they were generated */
 } vertex_entry;
 
 typedef struct gl_vertex_table {
     facet_allocator allocator;
     vertex_entry *entries;
-    size_t count, capacity; /* entries beyond count have buffers that may be used again */
+    size_t count, capacity; /* entries beyond count have reusable buffers */
     size_t made;
-    uint32_t *slots; /* number of an entry plus 1; 0: free */
+    uint32_t *slots; /* index of an entry plus 1; 0: free */
     size_t slot_count;
 } gl_vertex_table;
 
@@ -115,7 +115,7 @@ static size_t hash_key(const vertex_key *key)
     return (size_t)hash;
 }
 
-/* The slot where the key is, or would be. */
+/* The slot of the key, or where it would go. */
 static uint32_t *find_slot(const gl_vertex_table *table, const vertex_key *key)
 {
     size_t i = hash_key(key) & (table->slot_count - 1);
@@ -140,7 +140,7 @@ static bool grow_slots(gl_vertex_table *table)
     return true;
 }
 
-/* The entry of a key; *is_new: it was added, with the buffers of one that is no longer used, or without. NULL: no memory. */
+/* Finds or adds the entry of a key. *is_new: it was added, possibly with a reusable buffer. NULL: no memory. */
 static vertex_entry *get_entry(gl_vertex_table *table, const vertex_key *key, bool *is_new)
 {
     *is_new = false;
@@ -161,10 +161,10 @@ static vertex_entry *get_entry(gl_vertex_table *table, const vertex_key *key, bo
     return e;
 }
 
-/* Takes back what was added last, and could not be made. */
+/* Removes the last added entry, whose upload failed. */
 static void drop_last(gl_vertex_table *table)
 {
-    *find_slot(table, &table->entries[table->count - 1].key) = 0; /* nothing was added behind it */
+    *find_slot(table, &table->entries[table->count - 1].key) = 0; /* nothing was added since */
     table->count--;
 }
 
@@ -212,14 +212,14 @@ void gl_vertex_store_begin(gl_vertex_store *store)
         clear_table(store->streamed);
 }
 
-/* ---- vertices that are made ---- */
+/* ---- generated vertices ---- */
 
-/* Which vertices of the scene those in OpenGL's memory are. NULL: the same. */
+/* Source vertices of the uploaded ones. NULL: the same. */
 typedef struct vertex_choice {
     uint32_t count;
     uint32_t *vertices;
-    uint32_t *corners; /* for tangents; NULL: as vertices */
-    uint32_t *indices; /* new ones; NULL: none */
+    uint32_t *corners; /* of tangents; NULL: as vertices */
+    uint32_t *indices; /* new indices; NULL: none */
 } vertex_choice;
 
 static void free_choice(vertex_choice *c)
@@ -230,7 +230,7 @@ static void free_choice(vertex_choice *c)
     *c = (vertex_choice){0};
 }
 
-/* Corners of a vertex that have the same tangent are one vertex. */
+/* Merges the corners of a vertex that have the same tangent. */
 static bool weld(const vertex_key *key, const facet_allocator *allocator, vertex_choice *out)
 {
     const float *tangents = key->arrays[GL_ATTRIBUTE_TANGENT];
@@ -294,7 +294,7 @@ static GLuint fill_buffer(gl_vertex_store *store, GLuint buffer, GLenum target, 
 {
     if (!buffer)
         glGenBuffers(1, &buffer);
-    glBindVertexArray(0); /* whose elements it would become */
+    glBindVertexArray(0); /* otherwise it would become part of the bound vertex array object */
     glBindBuffer(target, buffer);
     glBufferData(target, (GLsizeiptr)bytes, data, changes ? GL_STREAM_DRAW : GL_STATIC_DRAW);
     if (data) {
@@ -353,7 +353,7 @@ static facet_result upload_elements(gl_vertex_store *store, const uint32_t *indi
     return gl_context_check(store->context, "indices", error);
 }
 
-/* Makes an entry's vertices, and the elements where they are its own. */
+/* Uploads an entry's vertices, and its own elements where there are any. */
 static facet_result fill_entry(gl_vertex_store *store, vertex_entry *e, bool is_made, bool changes,
                                facet_error *error)
 {
@@ -431,7 +431,7 @@ facet_result gl_vertex_store_use(gl_vertex_store *store, const render_geometry *
             else
                 moved.arrays[i] = NULL;
     }
-    if (!is_made) { /* whoever has the same vertices may have other indices */
+    if (!is_made) { /* shared vertex buffers may have different indices */
         still.indices = moved.indices = NULL;
         still.index_count = moved.index_count = 0;
     }

@@ -1,5 +1,5 @@
-/* gl_opaque_test.c - what glass shows of what is behind it: walls, bodies, roughness, dispersion by closed forms, and light that
- * is neither lost nor made. Exits with 77 where there is no OpenGL. */
+/* gl_opaque_test.c - what glass shows of surfaces behind it: thin walls, volumes, roughness, dispersion by closed
+ * forms, and energy conservation. Exits with 77 where there is no OpenGL. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,7 +12,7 @@
 
 static gl_fixture_contexts contexts;
 
-/* What clear glass of ior 1.5 reflects head on. */
+/* Reflectance of clear glass of ior 1.5 at normal incidence. */
 static const float F0 = 0.04f;
 
 static scene_material glass(float roughness, float thickness)
@@ -29,7 +29,7 @@ static scene_material glass(float roughness, float thickness)
     return m;
 }
 
-/* Unlit squares of two grays, `count` in a row, on a quad of edge 4 m at z = -1, texels as large as 64 pixels / count. */
+/* Unlit squares of two grays, `count` in a row, on a quad of edge 4 m at z = -1, with texels of 64 pixels / count. */
 static void add_board(fixture *f, uint32_t count, unsigned char dark, unsigned char bright)
 {
     static unsigned char texels[32 * 32 * 4];
@@ -52,7 +52,7 @@ static scene_node *add_pane(fixture *f, scene_material m)
     return fixture_place(f, fixture_add_quad(f, fixture_add_material(f, m)), 0, 0, 0, 1.0f);
 }
 
-/* Head on, in uniform light: reflected light of 1 beside the board as it is. */
+/* At normal incidence in uniform light: reflected radiance 1 plus the board. */
 static void a_clear_wall_shows_what_is_behind(void **state)
 {
     (void)state;
@@ -76,7 +76,7 @@ static void a_clear_wall_shows_what_is_behind(void **state)
     }
 }
 
-/* The light that passes, alone: the board is not dark behind it, though a board has no such lobe. */
+/* The transmission lobe alone: the board shows behind it, although the board itself has no such lobe. */
 static void a_lobe_alone_shows_light_behind(void **state)
 {
     (void)state;
@@ -92,7 +92,8 @@ static void a_lobe_alone_shows_light_behind(void **state)
     }
 }
 
-/* color^(thickness / distance) of a white board, the thickness by a factor and by a texture; the body's color tints at both boundaries. */
+/* color^(thickness / distance) of a white board, with the thickness as a factor and as a texture; the base color
+ * tints at both boundaries. */
 static void a_body_attenuates_by_its_thickness(void **state)
 {
     (void)state;
@@ -123,7 +124,7 @@ static void a_body_attenuates_by_its_thickness(void **state)
         }
 }
 
-/* Standard deviation of the picture's inner part; *mean of it. */
+/* Standard deviation of the inner part of the image; *mean: its mean. */
 static double contrast(const film *picture, double *mean)
 {
     double sum = 0.0, squares = 0.0, count = 0.0;
@@ -162,7 +163,7 @@ static void roughness_blurs_and_keeps_the_mean(void **state)
         }
 }
 
-/* A medium of ior 1 bends nothing, so its roughness blurs nothing. */
+/* A medium of ior 1 does not refract, so its roughness blurs nothing. */
 static void ior_1_stays_sharp(void **state)
 {
     (void)state;
@@ -182,9 +183,9 @@ static void ior_1_stays_sharp(void **state)
     }
 }
 
-/* ---- what bends ---- */
+/* ---- refraction ---- */
 
-/* Where a bright right half begins, in m from the middle of the picture, in a channel seen through the pane. */
+/* Where a bright right half begins, in m from the center of the image, in one channel seen through the pane. */
 static double edge_of(const film *picture, int channel)
 {
     double sum = 0.0;
@@ -195,8 +196,9 @@ static double edge_of(const film *picture, int channel)
     return (56.0 - (sum - 48.0 * low) / (high - low)) / 32.0 - 1.0;
 }
 
-/* A pane turned by 45 degrees about the upward axis shifts what is behind it by thickness sin(45 - t), where Snell's sin t =
- * sin 45 / n; each channel by its own n. Smooth transmission so that reflections, the same everywhere, do not matter. */
+/* A pane rotated by 45 degrees about the upward axis shifts what is behind it by thickness sin(45 - t), with
+ * Snell's sin t = sin 45 / n; each channel by its own n. Smooth transmission, so that reflections, equal
+ * everywhere, do not matter. */
 static void a_slab_shifts_by_snells_law(void **state)
 {
     (void)state;
@@ -237,7 +239,7 @@ static void a_slab_shifts_by_snells_law(void **state)
 
 /* ---- energy ---- */
 
-/* White glass in uniform light, before white things and beside them, cannot be seen. */
+/* White glass in uniform light, in front of and beside white objects, is invisible. */
 static void a_furnace_stays_white(void **state)
 {
     (void)state;
@@ -265,8 +267,8 @@ static void a_furnace_stays_white(void **state)
         }
 }
 
-/* The picture of what is opaque is as wide as the picture: what lies beyond it is the environment, which is reached without
- * a step. A wide sphere whose rays leave the picture. */
+/* The opaque image has the size of the image; rays that leave it see the environment, without a step. A wide
+ * sphere whose rays leave the image. */
 static void rays_leave_the_image_smoothly(void **state)
 {
     (void)state;
@@ -285,7 +287,7 @@ static void rays_leave_the_image_smoothly(void **state)
             least = fminf(least, here);
             most = fmaxf(most, here);
         }
-        assert_true(least < 0.3f && most > 0.8f); /* both are seen */
+        assert_true(least < 0.3f && most > 0.8f); /* both are visible */
         assert_true(largest < 0.2f);
         film_destroy(&seen);
         fixture_destroy(&f);

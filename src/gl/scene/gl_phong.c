@@ -1,4 +1,5 @@
-/* gl_phong.c - see gl_phong.h. Textures are apart from those of glTF: the same image is read as other numbers. */
+/* gl_phong.c - see gl_phong.h. Its textures are separate from those of glTF materials, because the same image may
+ * be decoded differently. */
 #include "gl/scene/gl_phong.h"
 
 #include <epoxy/gl.h>
@@ -14,20 +15,20 @@
 
 /* As phong.glsl has them (std140). */
 enum {
-    GL_PHONG_LIGHTS = 64 /* OpenGL 1 promises eight */
+    GL_PHONG_LIGHTS = 64 /* OpenGL 1 guarantees eight */
 };
 
-/* Of a picture. */
+/* Per image. */
 typedef struct phong_frame_block {
     float view[3][4]; /* rows: world to eye space */
     int32_t variant, is_encoded, are_colors_srgb, light_count;
     float global_ambient[3], has_rgl_colors;
     float fog_color[3], fog_mode;
     float fog_near, fog_far, fog_scale, fog_w;
-    float lights[GL_PHONG_LIGHTS][4][4]; /* position, 1 a point light; ambient; diffuse; specular */
+    float lights[GL_PHONG_LIGHTS][4][4]; /* position, 1 for point lights; ambient; diffuse; specular */
 } phong_frame_block;
 
-/* Of a material. */
+/* Per material. */
 typedef struct phong_material_block {
     float ambient[3], shininess;
     float diffuse[3], opacity;
@@ -35,7 +36,7 @@ typedef struct phong_material_block {
     float emission[3], texture_mode;
     float has_texture_over_light, is_halo, has_fog, bump_multiplier;
     float maps[GL_PHONG_MAP_COUNT][3]
-              [4]; /* rows of the transform, w: the set, 1 trilinear; base, gain, channel */
+              [4]; /* rows of the transform, w: set, 1 for trilinear; base, gain, channel */
 } phong_material_block;
 
 static const legacy_map_slot phong_slots[GL_PHONG_MAP_COUNT] = {
@@ -78,7 +79,7 @@ static void fill_frame(const ogl1_setup *s, facet_ogl1_variant variant, phong_fr
     }
 }
 
-/* 0 to 3; 4: luminance. ogl1_map_scalar(). */
+/* 0 to 3; 4: luminance, as ogl1_map_scalar() has it. */
 static float channel_of(char channel)
 {
     return channel == 'r'   ? 0.0f
@@ -133,9 +134,9 @@ struct gl_phong {
     gl_texture_set *textures;
     texture_use *uses; /* by texture */
     GLuint frame_buffer, material_buffer, white;
-    size_t stride; /* of the materials' blocks */
+    size_t stride; /* of the material blocks */
     facet_ogl1_desc desc;
-    gl_target copy; /* of what is developed */
+    gl_target copy; /* of the image that is linearized */
 };
 
 static GLuint make_white(void)
@@ -190,7 +191,7 @@ void gl_phong_destroy(gl_phong *p)
     mem_free(p);
 }
 
-/* ---- what a picture needs ---- */
+/* ---- updates ---- */
 
 static uint32_t maps_of(const gl_phong *p, const gl_batch *batch)
 {
@@ -228,7 +229,7 @@ static facet_result update_textures(gl_phong *p, const gl_phong_view *view, face
     return gl_texture_update(p->textures, p->uses, &view->render->log, view->render->thread_count, error);
 }
 
-/* The picture's block is too large for the stack of a thread that somebody else made. */
+/* On the heap, because the block is too large for the stack of an arbitrary caller's thread. */
 static facet_result upload_frame(gl_phong *p, const ogl1_setup *setup, facet_error *error)
 {
     phong_frame_block *block = mem_alloc(&p->allocator, 1, sizeof *block);
@@ -281,7 +282,7 @@ facet_result gl_phong_update(gl_phong *p, const gl_phong_view *view, facet_error
     return result == FACET_OK ? gl_context_check(p->context, "materials of OpenGL 1", error) : result;
 }
 
-/* ---- a batch ---- */
+/* ---- drawing ---- */
 
 uint64_t gl_phong_features(const gl_phong *p, const gl_batch *batch)
 {
@@ -330,7 +331,7 @@ void gl_phong_bind(const gl_phong *p, const gl_batch *batch)
     glFrontFace(g->is_mirrored ? GL_CW : GL_CCW);
 }
 
-/* ---- the picture ---- */
+/* ---- linearization ---- */
 
 facet_result gl_phong_develop(gl_phong *p, const gl_pyramid_brush *brush, const gl_target *target,
                               facet_error *error)

@@ -1,5 +1,5 @@
-/* gl_phong.h - materials of OpenGL 1 (FACET_SHADING_OGL1): what gl_material.h is to those of glTF, for batches whose geometry
- * is drawn with a legacy material. */
+/* gl_phong.h - materials of OpenGL 1 (FACET_SHADING_OGL1): the counterpart of gl_material.h for batches with a
+ * legacy material. */
 #ifndef GL_GL_PHONG_H
 #define GL_GL_PHONG_H
 
@@ -15,7 +15,7 @@ facet_result gl_phong_create(gl_context *context, const facet_scene *scene, cons
                              gl_phong **out, facet_error *error);
 void gl_phong_destroy(gl_phong *phong); /* NULL is allowed */
 
-/* What a picture is made of; meshes are up to date. */
+/* The input of an update; meshes are up to date. */
 typedef struct gl_phong_view {
     const gl_scene *scene;
     const camera_rays *camera;
@@ -27,11 +27,12 @@ typedef struct gl_phong_view {
 /* Uploads the blocks of the picture and of its materials, and the textures that they read. Fails with FACET_ERROR_MEMORY,
  * FACET_ERROR_LIMIT. */
 facet_result gl_phong_update(gl_phong *phong, const gl_phong_view *view, facet_error *error);
-/* Features of GL_MAIN_PHONG that a batch has of its material. */
+/* Features of GL_MAIN_PHONG that follow from a batch's material. */
 uint64_t gl_phong_features(const gl_phong *phong, const gl_batch *batch);
 /* Binds blocks and textures. */
 void gl_phong_bind(const gl_phong *phong, const gl_batch *batch);
-/* A resolved picture's numbers to light, where they are a display's. The block of the frame is bound. */
+/* Converts a resolved image from display colors to radiance, unless it was shaded in linear light. The frame block
+ * is bound. */
 facet_result gl_phong_develop(gl_phong *phong, const gl_pyramid_brush *brush, const gl_target *target,
                               facet_error *error);
 uint64_t gl_phong_decoded_texels(const gl_phong *phong);

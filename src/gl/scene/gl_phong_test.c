@@ -1,5 +1,5 @@
-/* gl_phong_test.c - FACET_SHADING_OGL1 by OpenGL: quads against the pipelines in double (cpu/ogl1_fixture.h), everything else
- * against the preview, of whose pictures src/cpu/ogl1_*_test.c have the numbers. Exits with 77 where there is no OpenGL. */
+/* gl_phong_test.c - FACET_SHADING_OGL1 by OpenGL: quads against the pipelines in double (cpu/ogl1_fixture.h),
+ * everything else against the preview, which src/cpu/ogl1_*_test.c test. Exits with 77 where there is no OpenGL. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,13 +22,13 @@ static void set3(float out[3], float a, float b, float c)
     out[2] = c;
 }
 
-/* The preview's picture and OpenGL's: nowhere farther apart than `most`, but for a share of the pixels. */
+/* The images of the preview and of OpenGL differ nowhere by more than `most`, except in a share of the pixels. */
 static void assert_same(fixture *f, float most, double share, const char *what)
 {
     film reference = fixture_render(f);
     for (int c = 0; c < contexts.count; c++) {
         film picture = gl_fixture_render(f, &contexts.items[c]);
-        /* OpenGL ES has half floats where a pixel has several samples: 2^-11 of each number. */
+        /* OpenGL ES multisamples half floats: 2^-11 relative. */
         float near = contexts.items[c].is_es ? fmaxf(most, 1e-3f) : most;
         image_difference d = gl_fixture_compare(&reference, &picture, near);
         if (d.share > share)
@@ -41,7 +41,7 @@ static void assert_same(fixture *f, float most, double share, const char *what)
 
 /* ---- quads in double ---- */
 
-/* With normals that turn through the view. */
+/* With normals that rotate across the view. */
 static ogl1_quad make_quad(facet_ogl1_variant variant, bool is_linear, bool is_flat)
 {
     ogl1_quad q = {.variant = variant,
@@ -75,7 +75,7 @@ static ogl1_quad make_quad(facet_ogl1_variant variant, bool is_linear, bool is_f
     return q;
 }
 
-/* Colors of the file are linear numbers here, so that both ways of computing have the same ones. */
+/* Colors of the file are linear here, so that both ways of computing use the same numbers. */
 static fixture show(ogl1_quad *q, bool is_behind)
 {
     fixture f = fixture_create();
@@ -145,7 +145,7 @@ static void quads_of_every_variant(void **state)
     }
 }
 
-/* ---- the preview's pictures ---- */
+/* ---- against the preview ---- */
 
 static legacy_material *add_quad(fixture *f, float z)
 {
@@ -189,7 +189,7 @@ static void every_texture_type_and_mode(void **state)
     }
 }
 
-/* All maps at once, base, gain and channels in them; bumps too. */
+/* All maps at once, with base, gain and channel; bumps too. */
 static void maps_of_the_terms(void **state)
 {
     (void)state;
@@ -227,7 +227,7 @@ static void maps_of_the_terms(void **state)
     }
 }
 
-/* A sphere in the picture of a sphere map, and layers that fog, halo and opacity thin out. */
+/* A sphere with a sphere map, and layers with fog, halo and opacity. */
 static void spheres_of_every_variant(void **state)
 {
     (void)state;
@@ -262,12 +262,12 @@ static void spheres_of_every_variant(void **state)
         }
         char what[32];
         snprintf(what, sizeof what, "sphere %d", k);
-        assert_same(&f, 4e-3f, 0.04, what); /* where a pixel at the rim is another triangle */
+        assert_same(&f, 4e-3f, 0.04, what); /* a pixel at the rim may see another triangle */
         fixture_destroy(&f);
     }
 }
 
-/* Layers over each other in the display's numbers. */
+/* Layers are blended in display colors. */
 static void layers_are_blended_as_numbers(void **state)
 {
     (void)state;
@@ -286,7 +286,7 @@ static void layers_are_blended_as_numbers(void **state)
     }
 }
 
-/* Lamps of glTF where there are no legacy lights; vertex colors; points and lines. */
+/* Punctual lights of glTF where there are no legacy lights; vertex colors; points and lines. */
 static void lights_colors_and_sprites(void **state)
 {
     (void)state;
@@ -313,7 +313,7 @@ static void lights_colors_and_sprites(void **state)
     }
 }
 
-/* ---- what it is not ---- */
+/* ---- limits ---- */
 
 static facet_result try_render(const fixture *f, gl_context *context, facet_error *error)
 {
@@ -352,7 +352,7 @@ static void what_cannot_be_drawn(void **state)
     fixture_destroy(&f);
 }
 
-/* One renderer for both models: neither leaves anything behind. */
+/* One renderer for both models: neither leaves state behind. */
 static void models_take_turns(void **state)
 {
     (void)state;

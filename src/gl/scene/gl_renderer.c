@@ -1,4 +1,4 @@
-/* gl_renderer.c - see gl_renderer.h: what is kept from picture to picture, and what is done when that breaks. */
+/* gl_renderer.c - see gl_renderer.h: resources that are kept from image to image, and recovery from errors. */
 #include "gl/scene/gl_renderer.h"
 
 #include <epoxy/gl.h>
@@ -16,7 +16,7 @@
 
 struct gl_renderer {
     facet_allocator allocator;
-    gl_context own, *context; /* own: {0} where there is none yet, or it was lost */
+    gl_context own, *context; /* own: {0} before its creation or after its loss */
     gl_scene prepared;
     gl_frame frame;
     gl_target target;
@@ -24,10 +24,10 @@ struct gl_renderer {
     bool has_reported_driver;
 };
 
-/* ---- what is kept ---- */
+/* ---- lifetime ---- */
 
-/* Forgets all that is in OpenGL's memory, and a context of its own: the next picture starts with a new one. A context that
- * is lost can still be current; where it cannot, names are released in an empty one, where they mean nothing. */
+/* Releases all GPU memory and the renderer's own context; the next image creates a new one. A lost context can
+ * still be current; where it cannot, names are released in an empty one, where they have no meaning. */
 static void stop(gl_renderer *r)
 {
     gl_context spare = {.context = NULL};
@@ -45,7 +45,7 @@ static void stop(gl_renderer *r)
         gl_context_destroy(&r->own);
 }
 
-/* A context that is current, and all that hangs on it. */
+/* Makes the context current and creates what depends on it. */
 static facet_result start(gl_renderer *r, facet_error *error)
 {
     bool is_own = r->context == &r->own;
@@ -89,9 +89,9 @@ void gl_renderer_destroy(gl_renderer *r)
     mem_free(r);
 }
 
-/* ---- a picture ---- */
+/* ---- an image ---- */
 
-/* What goes together: OpenGL 1 has no shadows, and channels are those of glTF's materials. */
+/* Resolves combinations: OpenGL 1 has no shadows, and channels are those of glTF materials. */
 static facet_render_desc settle(const facet_render_desc *desc)
 {
     facet_render_desc settled = *desc;
@@ -102,7 +102,7 @@ static facet_render_desc settle(const facet_render_desc *desc)
     return settled;
 }
 
-/* Rays of the camera, or of one that shows the whole scene. */
+/* Rays of desc's camera, or of one that frames the whole scene. */
 static facet_result make_camera(gl_renderer *r, const facet_render_desc *desc, camera_rays *rays,
                                 facet_error *error)
 {
@@ -118,7 +118,7 @@ static facet_result make_camera(gl_renderer *r, const facet_render_desc *desc, c
                               : result;
 }
 
-/* All that comes before drawing: the scene, and what of it is in OpenGL's memory. */
+/* Everything before drawing: the pose and its uploads. */
 static facet_result prepare(gl_renderer *r, const facet_render_desc *desc, camera_rays *camera,
                             double deadline_s, facet_render_stats *stats, facet_error *error)
 {
@@ -138,7 +138,7 @@ static facet_result prepare(gl_renderer *r, const facet_render_desc *desc, camer
     return result;
 }
 
-/* Once for a context. */
+/* Once per context. */
 static void report_driver(gl_renderer *r, const facet_log *log)
 {
     char line[sizeof r->context->name + 16];
@@ -184,7 +184,7 @@ facet_result gl_renderer_render(gl_renderer *r, const facet_render_desc *wanted,
     double deadline_s = desc->time_limit_s > 0.0 ? begin + desc->time_limit_s : 0.0;
     bool was_used = r->prepared.revision > 0;
     facet_result result = attempt(r, desc, deadline_s, target, stats, error);
-    if (result == FACET_ERROR_MEMORY && was_used) { /* once more without what earlier pictures left */
+    if (result == FACET_ERROR_MEMORY && was_used) { /* again, without what earlier images left in memory */
         stop(r);
         gl_scene_clear(&r->prepared);
         result = attempt(r, desc, deadline_s, target, stats, error);
@@ -206,7 +206,7 @@ gl_times gl_renderer_get_times(const gl_renderer *r)
     return r->times;
 }
 
-/* ---- a frame of a window ---- */
+/* ---- a window's frame ---- */
 
 facet_result gl_renderer_present(gl_renderer *r, const facet_render_desc *wanted, uint32_t framebuffer, int x,
                                  int y, facet_render_stats *stats, facet_error *error)
@@ -216,7 +216,7 @@ facet_result gl_renderer_present(gl_renderer *r, const facet_render_desc *wanted
     gl_frame_block block = {.channel = 0};
     *stats = (facet_render_stats){.thread_count = desc->thread_count};
     if (!desc->width || !desc->height)
-        return FACET_OK; /* a window that is closed up to its title */
+        return FACET_OK; /* a window that is reduced to its title bar */
     facet_result result = start(r, error);
     if (result == FACET_OK)
         result = prepare(r, desc, &camera, 0.0, stats, error);

@@ -1,4 +1,4 @@
-/* gl_renderer_life_test.c - what renderers leave behind, what breaks, who draws from where. Exits with 77 where there is no
+/* gl_renderer_life_test.c - leaks, failures, and renderers in several threads. Exits with 77 where there is no
  * OpenGL. */
 #include <epoxy/gl.h>
 #include <pthread.h>
@@ -23,11 +23,11 @@ static void on_each(void (*check)(fixture *f, gl_context *context))
     }
 }
 
-/* ---- what is left behind ---- */
+/* ---- leaks ---- */
 
 enum { KINDS = 8, MOST_NAMES = 20000 };
 
-/* How many objects of each kind there are; names that were released may not be given again for a while. */
+/* Number of objects of each kind; released names may not be reused at once. */
 static void count_objects(int counts[KINDS])
 {
     GLboolean (*const is_there[KINDS])(GLuint) = {glIsTexture,      glIsBuffer,      glIsFramebuffer,
@@ -66,7 +66,7 @@ static void check_leaks(fixture *f, gl_context *context)
     }
     assert_int_equal(atomic_load(&counting.blocks), 0);
     count_objects(after);
-    GLuint name; /* the test sees what it looks for */
+    GLuint name; /* the test detects a leak */
     glGenTextures(1, &name);
     assert_true(name < MOST_NAMES);
     glDeleteTextures(1, &name);
@@ -82,7 +82,7 @@ static void a_hundred_renderers_leave_nothing(void **state)
     on_each(check_leaks);
 }
 
-/* Memory that runs out anywhere is a result; the renderer can be used on. */
+/* Running out of memory anywhere is reported; the renderer remains usable. */
 static void memory_may_run_out(void **state)
 {
     (void)state;
@@ -229,7 +229,7 @@ static void a_lost_context_is_followed_by_a_new_one(void **state)
     fixture_destroy(&f);
 }
 
-/* What was current stays current for the caller. */
+/* The caller's context stays current. */
 static void the_callers_context_comes_back(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* gl_renderer_test.c - pictures of gl_renderer.h: parts, tiles, samples, layers as the preview's, windows. Exits with 77 where
- * there is no OpenGL. */
+/* gl_renderer_test.c - images of gl_renderer.h: crops, tiles, samples, layers as in the preview, windows. Exits
+ * with 77 where there is no OpenGL. */
 #include <epoxy/gl.h>
 #include <math.h>
 #include <setjmp.h>
@@ -35,7 +35,7 @@ static void check_preview(fixture *f, gl_context *context)
         if (d.mean > 0.002 || d.share > 0.02)
             fail_msg("%u samples: mean difference %g, %g of the pixels by more than 0.02", samples[i], d.mean,
                      d.share);
-        size_t different = 0; /* the very same samples; some lie within 1 / 256 of an edge */
+        size_t different = 0; /* the same samples; some lie within 1 / 256 of an edge */
         for (size_t k = 0; k < 96 * 64; k++)
             different += fabsf(ours.layers[0].pixels[4 * k + 3] - theirs.layers[0].pixels[4 * k + 3]) > 1e-5f;
         if (context->has_clip_control)
@@ -64,12 +64,12 @@ static void check_layers(fixture *f, gl_context *context)
         assert_string_equal(a->name, b->name);
         size_t count = (size_t)80 * 50 * a->channel_count, different = 0;
         for (size_t i = 0; i < count; i++) {
-            float tolerance = strcmp(a->name, "albedo") == 0 ? 0.05f : 2e-3f; /* a texture's filter */
+            float tolerance = strcmp(a->name, "albedo") == 0 ? 0.05f : 2e-3f; /* texture filtering */
             bool is_equal = a->pixels[i] == b->pixels[i] || fabsf(a->pixels[i] - b->pixels[i]) < tolerance;
             different += !is_equal;
             shown += strcmp(a->name, "depth") == 0 && isfinite(a->pixels[i]);
         }
-        if (different > count / 100) /* an edge goes through a pixel's middle here and there */
+        if (different > count / 100) /* an edge may pass through the center of a pixel */
             fail_msg("layer %s: %zu of %zu numbers differ", a->name, different, count);
     }
     assert_in_range(shown, 1000, 3900);
@@ -83,9 +83,9 @@ static void layers_are_the_previews(void **state)
     on_each(check_layers);
 }
 
-/* ---- parts ---- */
+/* ---- crops ---- */
 
-/* A part of a picture is that part: as far as vertices fall on the same 256ths of a pixel. */
+/* A crop is part of the whole image, to within the 1/256 pixel precision of vertices. */
 static void check_crop(fixture *f, gl_context *context)
 {
     film whole = gl_fixture_render(f, context);
@@ -109,7 +109,7 @@ static void a_crop_is_a_part_of_the_image(void **state)
     on_each(check_crop);
 }
 
-/* As if OpenGL had no textures above 40 texels: nine tiles, or 30 of twice as many pixels. */
+/* As if OpenGL's limit were 40 texels: nine tiles, or 30 with twice as many pixels. */
 static void check_tiles(fixture *f, gl_context *context)
 {
     for (int is_final = 0; is_final < 2; is_final++) {
@@ -159,7 +159,7 @@ static void samples_are_as_many_as_asked_for(void **state)
     assert_true(fabsf(sum[0]) < 1e-5f && fabsf(sum[1]) < 1e-5f);
 }
 
-/* More samples come closer to what the preview finds with very many. */
+/* More samples come closer to the preview with very many. */
 static void check_samples(fixture *f, gl_context *context)
 {
     f->desc.samples = 256;
@@ -169,7 +169,7 @@ static void check_samples(fixture *f, gl_context *context)
     for (int i = 0; i < 3; i++) {
         f->desc.samples = samples[i];
         film ours = gl_fixture_render(f, context);
-        double sum = 0.0; /* coverage alone: shading is elsewhere */
+        double sum = 0.0; /* only coverage */
         for (size_t k = 0; k < 96 * 64; k++)
             sum += (double)fabsf(ours.layers[0].pixels[4 * k + 3] - truth.layers[0].pixels[4 * k + 3]);
         assert_true(sum < 0.6 * before || i == 0);
@@ -185,13 +185,13 @@ static void more_samples_are_closer(void **state)
     on_each(check_samples);
 }
 
-/* ---- drivers that have less ---- */
+/* ---- drivers with fewer capabilities ---- */
 
 static void check_poor_driver(fixture *f, gl_context *context)
 {
     film rich = gl_fixture_render(f, context);
     gl_context poor = *context;
-    poor.has_clip_control = false; /* rows from the bottom, depth between planes that follow the scene */
+    poor.has_clip_control = false; /* rows from the bottom, depth between fitted planes */
     film bottom_up = gl_fixture_render(f, &poor);
     poor.has_float_target = false;
     film half = gl_fixture_render(f, &poor);
@@ -212,7 +212,7 @@ static void drivers_that_have_less_draw_the_same(void **state)
 
 /* ---- depth ---- */
 
-/* Two quads 1 mm apart, 1 km away, seen by an eye that has something 1 cm before it: the nearer one is seen. */
+/* Two quads 1 mm apart at 1 km, seen past an object at 1 cm: the nearer one is visible. */
 static void check_depth(fixture *f, gl_context *context)
 {
     fixture g = fixture_create();
@@ -244,7 +244,7 @@ static void nothing_flickers_far_away(void **state)
 
 /* ---- windows ---- */
 
-/* Numbers of a window are those that a file of the picture has: sRGB, straight; upright, in its place. */
+/* A window's pixels equal those of a file: sRGB, straight alpha, upright, in place. */
 static void check_window(fixture *f, gl_context *context)
 {
     enum { W = 96, H = 64, LEFT = 5, BELOW = 3 };

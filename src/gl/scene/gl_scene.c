@@ -14,7 +14,7 @@ void gl_scene_init(gl_scene *s, const facet_scene *scene, const facet_allocator 
     s->default_legacy = legacy_material_default();
 }
 
-/* All but the tangents of what does not deform. */
+/* Drops the pose; keeps the tangents of static geometry. */
 static void drop_pose(gl_scene *s)
 {
     material_plans_destroy(&s->plans);

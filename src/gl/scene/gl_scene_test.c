@@ -1,4 +1,4 @@
-/* gl_scene_test.c - what is kept from picture to picture, and that nobody sees it: frames of an animation are those of fresh
+/* gl_scene_test.c - caching from image to image changes no pixel: frames of an animation equal those of fresh
  * renderers to the last bit. Exits with 77 where there is no OpenGL. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,7 +13,7 @@
 
 static gl_fixture_contexts contexts;
 
-/* A sphere that moves, a quad that a morph target bends, a quad at rest; with bumps, so that all have tangents. */
+/* A moving sphere, a quad bent by a morph target, a quad at rest; with normal maps, so that all have tangents. */
 static const float times[3] = {0.0f, 0.5f, 1.0f};
 static const float places[9] = {-0.5f, 0.0f, 0.0f, 0.0f, 0.5f, 0.0f, 0.5f, 0.0f, 0.3f};
 static const float weights[3] = {0.0f, 1.0f, 0.25f}, rest[1] = {0.0f};
@@ -80,9 +80,9 @@ static void the_same_pose_is_kept(void **state)
     const scene_instance *instances = s.pose.instances;
     const float *sphere = s.geometries.items[0].tangents, *bent = s.geometries.items[1].positions;
     assert_non_null(sphere);
-    assert_ptr_equal(bent, f.scene->meshes[1].primitives->positions); /* not yet bent */
+    assert_ptr_equal(bent, f.scene->meshes[1].primitives->positions); /* not bent yet */
     update(&s, &f);
-    f.desc.width = 99; /* and another camera, which is not even asked for */
+    f.desc.width = 99; /* another camera */
     update(&s, &f);
     assert_int_equal(s.revision, revision);
     assert_ptr_equal(s.pose.instances, instances);
@@ -90,7 +90,7 @@ static void the_same_pose_is_kept(void **state)
     f.desc.pose.time_s = 0.4;
     update(&s, &f);
     assert_true(s.revision > revision);
-    assert_ptr_equal(s.geometries.items[0].tangents, sphere); /* it moves as it is */
+    assert_ptr_equal(s.geometries.items[0].tangents, sphere); /* only its transform changes */
     assert_ptr_not_equal(s.geometries.items[1].positions, bent);
     assert_true(s.geometries.items[1].has_corner_tangents);
     assert_ptr_equal(s.geometries.items[0].world, &s.pose.instances[0].world);
@@ -130,7 +130,7 @@ static void frames_are_those_of_fresh_renderers(void **state)
 
 /* ---- memory ---- */
 
-/* malloc that refuses the call number `left`; counts what is not given back. */
+/* malloc that refuses call number `left` and counts leaks. */
 typedef struct poor {
     int left, used;
 } poor;
@@ -166,7 +166,7 @@ static void memory_may_run_out(void **state)
         f.desc.pose.time_s = 0.2;
         p.left = 1000;
         assert_int_equal(gl_scene_update(&s, &f.desc, NULL), FACET_OK);
-        f.desc.pose.time_s = 0.7; /* the second frame is short of memory */
+        f.desc.pose.time_s = 0.7; /* memory runs out in the second frame */
         p.left = calls;
         facet_result result = gl_scene_update(&s, &f.desc, NULL);
         bool has_all = p.left >= 0;
@@ -177,7 +177,7 @@ static void memory_may_run_out(void **state)
             assert_null(s.geometries.items);
         }
         p.left = 1000;
-        assert_int_equal(gl_scene_update(&s, &f.desc, NULL), FACET_OK); /* and it goes on */
+        assert_int_equal(gl_scene_update(&s, &f.desc, NULL), FACET_OK); /* and it remains usable */
         assert_int_equal(s.geometries.count, 3);
         gl_scene_clear(&s);
         assert_int_equal(p.used, 0);

@@ -19,7 +19,7 @@ facet_result gl_casters_make_texture(gl_context *context, uint32_t edge, bool co
                                      uint32_t *framebuffer, facet_error *error)
 {
     static const GLenum none = GL_NONE;
-    GLint filter = compares ? GL_LINEAR : GL_NEAREST; /* of what comparing gives */
+    GLint filter = compares ? GL_LINEAR : GL_NEAREST; /* filter of the comparison results */
     glActiveTexture(GL_TEXTURE0);
     glGenTextures(1, texture);
     glBindTexture(GL_TEXTURE_2D, *texture);
@@ -69,7 +69,7 @@ static facet_result draw_batch(const gl_casters *c, const gl_batch *batch, facet
     glUseProgram(program);
     if (is_masked)
         gl_material_bind(c->materials, batch);
-    glDisable(GL_CULL_FACE); /* whichever side the light sees is in its way */
+    glDisable(GL_CULL_FACE); /* both sides cast shadows */
     gl_mesh_draw(c->meshes, batch);
     return FACET_OK;
 }
@@ -106,10 +106,10 @@ struct gl_shadow {
     uint32_t edge; /* of the texture, texels */
     uint32_t tile, tiles_per_row, tile_count;
     gl_shadow_record *records;
-    uint32_t record_count, lost; /* lights without shadows that nobody was told of */
-    uint32_t *of_light;          /* per light: number of its record + 1 */
+    uint32_t record_count, lost; /* number of lights without shadows in the last warning */
+    uint32_t *of_light;          /* per light: index of its record + 1 */
     uint32_t light_count;
-    uint64_t drawn_revision; /* of the scene whose shadows are in the texture; 0: none */
+    uint64_t drawn_revision; /* scene revision of the texture; 0: none */
     shadow_bounds bounds;
 };
 
@@ -143,7 +143,7 @@ void gl_shadow_destroy(gl_shadow *s)
     mem_free(s);
 }
 
-/* ---- which lights ---- */
+/* ---- selection of lights ---- */
 
 typedef struct candidate {
     uint32_t light, tiles;
@@ -158,7 +158,7 @@ static int brightest_first(const void *x, const void *y)
     return (a->light > b->light) - (a->light < b->light);
 }
 
-/* Those whose light reaches the bounds, sorted; returns how many. */
+/* Lights that reach the bounds, sorted; returns their number. */
 static uint32_t find_candidates(const light_setup *setup, const shadow_bounds *bounds, candidate *out)
 {
     uint32_t count = 0;
@@ -171,7 +171,7 @@ static uint32_t find_candidates(const light_setup *setup, const shadow_bounds *b
     return count;
 }
 
-/* How many of the candidates find room, and the tiles for them. */
+/* Number of candidates that fit, and their tiles. */
 static uint32_t lay_out(gl_shadow *s, const candidate *candidates, uint32_t count)
 {
     uint32_t most = (uint32_t)s->context->max_texture_size;
@@ -200,7 +200,7 @@ static void warn_lost(gl_shadow *s, const facet_log *log, uint32_t lost, uint32_
     s->lost = lost;
 }
 
-/* Takes over what was decided; where it is what it was, what was drawn stays. */
+/* Takes over the records; where they are unchanged, the texture stays valid. */
 static facet_result take_records(gl_shadow *s, const light_setup *setup, const candidate *candidates,
                                  uint32_t count, facet_error *error)
 {

@@ -7,11 +7,11 @@
 
 #include "shade/shade.h"
 
-/* Spots wider than this, half the angle, are seen by six faces: a plane would need endless texels. cos(55 degrees). */
+/* Wider spots (half angle) use six faces, because a plane would need endless texels: cos(55 degrees). */
 static const float WIDE_COS = 0.5736f;
 
-/* Nothing nearer to a light than a 2000th of the farthest distance casts: 24 bits of a + b / depth then tell apart depths that
- * differ by 1e-4 of themselves, a tenth of a texel. */
+/* Casters closer to a light than a 2000th of the farthest distance are ignored: 24 bits of a + b / depth then
+ * resolve depths to 1e-4, a tenth of a texel. */
 static const double NEAREST = 1.0 / 2000.0;
 
 static vec3 middle_of(const shadow_bounds *b)
@@ -25,7 +25,7 @@ static vec3 corner_of(const shadow_bounds *b, int i)
     return vec3(i & 1 ? b->max[0] : b->min[0], i & 2 ? b->max[1] : b->min[1], i & 4 ? b->max[2] : b->min[2]);
 }
 
-/* Distances from a point to what is nearest and farthest of the box. */
+/* Distances from a point to the nearest and farthest point of the box. */
 static void distances(const shadow_bounds *b, vec3 P, float *nearest, float *farthest)
 {
     vec3 low = vec3(0.0f), high = vec3(0.0f);
@@ -79,13 +79,13 @@ static void set3(float out[3], vec3 v)
         out[i] = v[i];
 }
 
-/* Texels that are not guard, of those of a tile. */
+/* Share of a tile's texels that is not guard. */
 static float open_share(uint32_t tile)
 {
     return (float)(tile - 2 * GL_SHADOW_GUARD) / (float)tile;
 }
 
-/* Around the bounds as seen along the light. */
+/* Fitted around the bounds as seen along the light. */
 static void set_parallel(gl_shadow_record *r, const Light *light, const shadow_bounds *bounds, uint32_t tile)
 {
     vec3 forward = light->spot_direction;
@@ -97,7 +97,7 @@ static void set_parallel(gl_shadow_record *r, const Light *light, const shadow_b
         low = min(low, at);
         high = max(high, at);
     }
-    /* What has no thickness gets some, so that it lies within. */
+    /* A flat scene gets some thickness, so that it lies within. */
     float size = max(max3(high - low), 1e-6f);
     float half_edge = 0.5f * max(high[0] - low[0], high[1] - low[1]) + 1e-3f * size;
     float depth = high[2] - low[2] + 0.02f * size;
@@ -108,7 +108,7 @@ static void set_parallel(gl_shadow_record *r, const Light *light, const shadow_b
     r->texel = 2.0f * half_edge / (open_share(tile) * (float)tile);
 }
 
-/* Depths from a light at a point: at least what NEAREST asks for. */
+/* Range of depths from a light at a point, limited by NEAREST. */
 static void set_depths(gl_shadow_record *r, const Light *light, const shadow_bounds *bounds)
 {
     float nearest, farthest;
@@ -116,7 +116,7 @@ static void set_depths(gl_shadow_record *r, const Light *light, const shadow_bou
     double far = 1.01 * fmax((double)farthest, 1e-6);
     if (light->range > 0.0f)
         far = fmin(far, 1.01 * (double)light->range);
-    /* Depth along the axis is shorter than the distance, in a corner of a cube's face 1.74 times. */
+    /* Depth along the axis is shorter than the distance, in a corner of a cube face by 1.74. */
     double near = fmax(0.55 * (double)nearest, NEAREST * far);
     near = fmin(near, 0.5 * far);
     r->depth_a = (float)(far / (far - near));
@@ -158,7 +158,7 @@ gl_shadow_record shadow_record_make(const Light *light, const shadow_bounds *bou
 
 /* ---- matrices ---- */
 
-/* Axes of a tile: x and y of clip space are dot(d, .), of cubes s and t; and forward. */
+/* Axes of a tile: clip-space x and y are dot(d, .) (for cubes s and t); and forward. */
 static void axes_of(const gl_shadow_record *r, uint32_t face, double x[3], double y[3], double forward[3])
 {
     if ((int)r->kind == GL_SHADOW_CUBE) {

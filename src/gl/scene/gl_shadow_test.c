@@ -1,5 +1,6 @@
-/* gl_shadow_test.c - shadow maps: where the shadow of a square falls for each kind of light, what casts none, that nothing
- * shades itself; and the ground's shadow against the form factor of a rectangle. Exits with 77 where there is no OpenGL. */
+/* gl_shadow_test.c - shadow maps: where the shadow of a square falls for each kind of light, what casts none, no
+ * self-shadowing; and the ground's shadow against the form factor of a rectangle. Exits with 77 where there is no
+ * OpenGL. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,7 +18,7 @@ static gl_fixture_contexts contexts;
 enum { SIZE = 256 };
 static const float PIXEL_M = 2.0f / SIZE; /* the camera looks along -z at 2 m */
 
-/* White as it is, without lobe. */
+/* White and diffuse, without a specular lobe. */
 static scene_material matte_material(void)
 {
     scene_material m = scene_material_default();
@@ -25,7 +26,7 @@ static scene_material matte_material(void)
     return m;
 }
 
-/* A white wall of 8 m at z = 0 and, where there is one, a square of 0.5 m at z = 1; no light but the test's. */
+/* A white wall of 8 m at z = 0 and, optionally, a square of 0.5 m at z = 1; no light but the test's. */
 static fixture wall_fixture(bool has_square)
 {
     fixture f = fixture_create();
@@ -49,7 +50,7 @@ static scene_light lamp(scene_light_type type)
                          .outer_cone_rad = 0.5f};
 }
 
-/* Share of the light that arrives: with shadows over without. -1: no light would. */
+/* Visibility of the light: the image with shadows over that without. -1: unlit. */
 typedef struct shares {
     float at[SIZE][SIZE]; /* rows from the top */
 } shares;
@@ -88,8 +89,8 @@ static uint32_t row_of(float y_m)
     return (uint32_t)(0.5f * SIZE - y_m / PIXEL_M);
 }
 
-/* Place (m) of the edge between shadow and light along a row or column, from where it is dark to where it is light: where
- * an edge without width would let as much light pass. */
+/* Position (m) of a shadow's edge along a row or column, from dark to light: where an edge without width would
+ * pass as much light. */
 static float edge_along(bool is_row, float across_m, float dark_m, float light_m)
 {
     float step = light_m > dark_m ? 1.0f : -1.0f;
@@ -114,8 +115,8 @@ static float edge_along(bool is_row, float across_m, float dark_m, float light_m
     return border + step * dark * PIXEL_M;
 }
 
-/* A point 3 m before the wall and 2 m before the square makes its shadow 1.5 times as large. Texels are 2 * 3 m / 1357 and 2 *
- * 3 m tan(0.5) / 2040 wide; pixels in which light is known 7.8 mm, of which the sum over an edge knows a tenth. */
+/* A light 3 m before the wall and 2 m before the square enlarges its shadow 1.5 times. Texels are 2 * 3 m / 1357
+ * and 2 * 3 m tan(0.5) / 2040 wide; pixels 7.8 mm, and a sum over an edge resolves a tenth of one. */
 static void edges_of_lights_are_where_they_should_be(void **state)
 {
     (void)state;
@@ -134,7 +135,7 @@ static void edges_of_lights_are_where_they_should_be(void **state)
         }
 }
 
-/* The sun 0.5 rad above the horizon moves the square's shadow tan(0.5) m down; a texel is 8 m / 2040. */
+/* A sun 0.5 rad above the horizon moves the square's shadow tan(0.5) m down; a texel is 8 m / 2040. */
 static void edges_of_the_sun_are_where_they_are_to_be(void **state)
 {
     (void)state;
@@ -149,7 +150,7 @@ static void edges_of_the_sun_are_where_they_are_to_be(void **state)
     fixture_destroy(&f);
 }
 
-/* The wall, and a ball of flat triangles: at any angle of the light. */
+/* The wall, and a sphere of flat triangles, at any angle of the light. */
 static void nothing_shades_itself(void **state)
 {
     (void)state;
@@ -189,14 +190,15 @@ static void a_ball_is_lit_to_its_terminator(void **state)
             float z2 = 1.0f - px * px - py * py;
             if (z2 < 0.02f)
                 continue;
-            /* Triangles turn by 360 / 64 degrees: at least the one behind the terminator is in their own shadow. */
+            /* Normals of neighboring triangles differ by 360 / 64 degrees: at least one behind the terminator
+             * shadows itself. */
             if (px * L[0] + py * L[1] + sqrtf(z2) * L[2] > 0.1f)
                 assert_near(picture.at[y][x], 1.0f, 1e-5f);
         }
     fixture_destroy(&f);
 }
 
-/* A square that stands on the wall, lit at 45 degrees: its shadow begins where it stands, and is as long as it is high. */
+/* A square that stands on the wall, lit at 45 degrees: its shadow begins at its foot and is as long as it is high. */
 static void shadows_begin_at_the_foot(void **state)
 {
     (void)state;
@@ -211,15 +213,15 @@ static void shadows_begin_at_the_foot(void **state)
     float texel = 8.0f / 2040.0f, dark = 0.0f;
     for (uint32_t x = column_of(-0.7f); x < column_of(0.3f); x++)
         dark += (1.0f - picture.at[row_of(0.05f)][x]) * PIXEL_M;
-    /* The point is raised by up to 3 sqrt(2) sin(45) + 0.1 texels, which end the shadow so much sooner, and moved towards the
-     * light by 1.5 sin(45) across the wall, which begins it so much later. */
+    /* The point is raised by up to 3 sqrt(2) sin(45) + 0.1 texels, which shortens the shadow, and moved towards
+     * the light by 1.5 sin(45) across the wall, which delays its beginning. */
     assert_near(dark, 0.5f, 4.2f * texel);
     assert_near(edge_along(true, 0.05f, -0.4f, -0.6f), -0.5f, 3.2f * texel);
     assert_near(picture.at[row_of(0.05f)][column_of(-4.0f * texel)], 0.0f, 1e-6f);
     fixture_destroy(&f);
 }
 
-/* Of two texels one is transparent, and between their middles alpha crosses the cutoff in the middle of the square. */
+/* One of two texels is transparent; between their centers alpha crosses the cutoff in the middle of the square. */
 static void masked_texels_cast_blended_surfaces_do_not(void **state)
 {
     (void)state;
@@ -242,7 +244,7 @@ static void masked_texels_cast_blended_surfaces_do_not(void **state)
     }
 }
 
-/* ---- which lights ---- */
+/* ---- selection of lights ---- */
 
 typedef struct told {
     int count;
@@ -258,7 +260,7 @@ static void note(void *user, facet_log_level level, const char *message)
     snprintf(t->last, sizeof t->last, "%s", message);
 }
 
-/* 50 points need 300 tiles; the map has 256. The brightest lamp is the last one. */
+/* 50 point lights need 300 tiles; the map has 256. The last light is the brightest. */
 static void too_many_lights_are_reported_once(void **state)
 {
     (void)state;
@@ -276,7 +278,7 @@ static void too_many_lights_are_reported_once(void **state)
     film a = gl_fixture_draw(&f, renderer), b = gl_fixture_draw(&f, renderer);
     assert_int_equal(t.count, 1);
     assert_string_equal(t.last, "shadows: 8 of 50 lights cast none; the map has room for the 42 brightest");
-    /* (0.28, 0) is in the shadow of the brightest, a few of its large texels from the edge. */
+    /* (0.28, 0) is in the shadow of the brightest light, a few of its large texels from the edge. */
     assert_true(fixture_pixel(&a, "", 20, 16)[1] < 0.1f * fixture_pixel(&a, "", 28, 16)[1]);
     assert_memory_equal(a.layers[0].pixels, b.layers[0].pixels, 32 * 32 * 4 * sizeof(float));
     film_destroy(&a);
@@ -285,7 +287,7 @@ static void too_many_lights_are_reported_once(void **state)
     fixture_destroy(&f);
 }
 
-/* A renderer that has drawn shadows draws the picture without them as one that never did. */
+/* A renderer that has drawn shadows draws the image without them as a fresh one does. */
 static void without_shadows_nothing_is_left_of_them(void **state)
 {
     (void)state;
@@ -310,7 +312,7 @@ static void without_shadows_nothing_is_left_of_them(void **state)
 
 /* ---- the ground ---- */
 
-/* Form factor of an element of a plane to a parallel rectangle of x by y, a corner of which is above it at distance 1.
+/* Form factor of a surface element to a parallel rectangle of x by y, with a corner above it at distance 1.
  * Hamilton and Morgan 1952. */
 static float corner_factor(float x, float y)
 {
@@ -318,7 +320,7 @@ static float corner_factor(float x, float y)
     return (x / a * atanf(y / a) + y / b * atanf(x / b)) / (2.0f * 3.14159265f);
 }
 
-/* Opacity of the ground at (x, -0.5, 0), looked at 30 degrees from above (or from below). */
+/* Opacity of the ground at (x, -0.5, 0), seen at 30 degrees from above (or from below). */
 static float ground_at(fixture *f, gl_renderer *renderer, float x, float elevation)
 {
     f->camera.eye[0] = f->camera.target[0] = x;
@@ -334,7 +336,7 @@ static float ground_at(fixture *f, gl_renderer *renderer, float x, float elevati
     return opacity;
 }
 
-/* A plate of 0.5 m hangs 0.5 m above the ground, which is where a speck far away lies. */
+/* A plate of 0.5 m hangs 0.5 m above the ground, whose height is given by a speck far away. */
 static void the_ground_loses_what_a_plate_hides(void **state)
 {
     (void)state;

@@ -10,7 +10,7 @@
 #include "base/result.h"
 
 enum {
-    MAX_RUNS = 4096, /* of what is ordered together; a call takes 1 to 3 us */
+    MAX_RUNS = 4096, /* of a cluster; a call takes 1 to 3 us */
     MIN_SLICES = 64,
     GRAIN = 1 << 14
 };
@@ -37,7 +37,7 @@ void gl_sort_destroy(gl_sort *s)
     s->run_capacity = 0;
 }
 
-/* ---- what there is ---- */
+/* ---- input ---- */
 
 static uint32_t corner_count(const render_geometry *g)
 {
@@ -109,9 +109,9 @@ static facet_result collect(gl_sort *s, const gl_mesh_set *meshes, const gl_scen
     return FACET_OK;
 }
 
-/* ---- what has to be ordered together ---- */
+/* ---- clusters: units that must be sorted together ---- */
 
-/* Where a unit is: in the picture, [-1, 1] where it is seen, and along the axis. */
+/* Extent of a unit: in the image, [-1, 1] where it is visible, and along the axis. */
 typedef struct extent {
     float low[3], high[3];
     uint32_t unit, cluster;
@@ -160,8 +160,8 @@ static uint32_t root_of(extent *clusters, uint32_t i)
     return i;
 }
 
-/* Joins units into clusters, until any two clusters lie beside each other in the picture or behind each other as a whole.
- * clusters: by unit, gets the range of depths of each root. */
+/* Merges units into clusters until any two clusters are disjoint in the image or in depth. clusters: by unit; each
+ * root gets the range of depths. */
 static void join(const extent *extents, extent *clusters, uint32_t count)
 {
     bool is_done = false;
@@ -189,7 +189,7 @@ static int from_the_back(const void *x, const void *y)
     return (a->cluster > b->cluster) - (a->cluster < b->cluster);
 }
 
-/* Number of each unit's cluster, the farthest first. */
+/* Index of each unit's cluster, the farthest first. */
 static bool find_clusters(const gl_sort *s, const gl_frame_block *frame, uint32_t *cluster_of,
                           uint32_t *cluster_count)
 {
@@ -222,9 +222,9 @@ static bool find_clusters(const gl_sort *s, const gl_frame_block *frame, uint32_
     return true;
 }
 
-/* ---- the order ---- */
+/* ---- sorting ---- */
 
-/* Stable. items and keys, with as much room again behind them (other_*), by the lowest bits of the keys. */
+/* Stable sort of items and keys by the lowest bits of the keys, with scratch arrays of the same size (other_*). */
 static void radix_sort(uint32_t *items, uint32_t *keys, uint32_t *other_items, uint32_t *other_keys,
                        uint32_t count, int bits)
 {
@@ -250,7 +250,7 @@ static void radix_sort(uint32_t *items, uint32_t *keys, uint32_t *other_items, u
         }
 }
 
-/* Farther is less. */
+/* Greater depths give smaller keys. */
 static uint32_t depth_key(float depth)
 {
     uint32_t bits;
@@ -294,7 +294,7 @@ static float depth_at(const gl_sort *s, const gl_frame_block *f, uint32_t item)
     return depth;
 }
 
-/* Makes fewer runs of a cluster, which is in order. */
+/* Reduces the number of runs of a sorted cluster. */
 static void take_turns(gl_sort *s, const gl_frame_block *frame, uint32_t *items, uint32_t *keys,
                        uint32_t count, uint32_t unit_count)
 {
@@ -316,7 +316,7 @@ static bool add_runs(gl_sort *s, const uint32_t *items)
     size_t runs = count_runs(s, items, s->count);
     if (!mem_reserve(&s->allocator, (void **)&s->runs, &s->run_capacity, runs, sizeof *s->runs))
         return false;
-    uint32_t *done = s->scratch + 4 * (size_t)s->count; /* per unit; there are no more of them than items */
+    uint32_t *done = s->scratch + 4 * (size_t)s->count; /* per unit; there are at most as many as items */
     for (uint32_t i = 0; i < s->unit_count; i++)
         if (s->units[i].count)
             done[s->units[i].first] = 0;

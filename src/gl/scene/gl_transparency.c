@@ -7,26 +7,26 @@
 #include "base/memory.h"
 #include "base/result.h"
 
-/* The order of gl_sort.h in OpenGL's memory. */
+/* The order of gl_sort.h in GPU memory. */
 typedef struct sorted_triangles {
     gl_sort sort;
-    uint64_t revision; /* of the scene, that arrays belong to */
-    uint32_t elements; /* buffer: indices of the triangles of each unit behind each other */
+    uint64_t revision; /* scene revision of the arrays */
+    uint32_t elements; /* buffer: triangle indices of the units, one after the other */
     uint32_t batch_count;
-    uint32_t *arrays;      /* array objects, per batch */
+    uint32_t *arrays;      /* vertex array objects, per batch */
     size_t *first_element; /* per unit */
     gl_vertices *sprites;  /* per unit */
     uint32_t unit_count;
 } sorted_triangles;
 
-/* Textures as large as the target, and framebuffers of them. */
+/* Textures of the target's size, and their framebuffers. */
 typedef struct blend_layers {
     facet_transparency mode;
     uint32_t width, height, samples;
-    uint32_t sum, layer;       /* peeled: what was put together so far, one layer; weighted: light, weights */
-    uint32_t depths[2];        /* peeled: of the last layer and of this one, in turns */
-    uint32_t renderbuffers[2]; /* weighted, several samples: of sum and layer */
-    /* peeled: a layer with either depth, sum; weighted: both, sum, layer resolved */
+    uint32_t sum, layer;       /* peeled: the composite so far, one layer; weighted: light, weights */
+    uint32_t depths[2];        /* peeled: of the last layer and of this one, alternating */
+    uint32_t renderbuffers[2]; /* weighted, multisampled: of sum and layer */
+    /* peeled: a layer with either depth, sum; weighted: both, then sum and layer resolved */
     uint32_t framebuffers[3];
 } blend_layers;
 
@@ -93,7 +93,7 @@ static void sorted_destroy(sorted_triangles *s)
     gl_sort_destroy(&s->sort);
 }
 
-/* Array objects of the batches' vertices, with the sorted indices and without instances. */
+/* Vertex array objects of the batches, with the sorted indices and without instances. */
 static facet_result make_arrays(gl_transparency *t, const gl_transparency_view *view, facet_error *error)
 {
     sorted_triangles *s = &t->sorted;
@@ -125,7 +125,7 @@ static facet_result make_arrays(gl_transparency *t, const gl_transparency_view *
     return FACET_OK;
 }
 
-/* Indices in their new order, and sprites. */
+/* Uploads the sorted indices and sprites. */
 static facet_result upload_order(gl_transparency *t, const gl_transparency_view *view, facet_error *error)
 {
     sorted_triangles *s = &t->sorted;
@@ -209,7 +209,7 @@ static facet_result sorted_draw(gl_transparency *t, const gl_transparency_view *
     if (result == FACET_OK && is_new)
         result = upload_order(t, view, error);
     if (result != FACET_OK) {
-        s->sort.revision = 0; /* to be made anew */
+        s->sort.revision = 0; /* sort again next time */
         return result;
     }
     glDepthMask(GL_FALSE);
@@ -322,7 +322,7 @@ static facet_result layers_update(gl_transparency *t, const gl_transparency_view
 
 static void layers_bind(uint32_t unit, uint32_t texture)
 {
-    glBindSampler(unit, 0); /* one with mips would find none, and the texture black */
+    glBindSampler(unit, 0); /* without a sampler that expects mips */
     glActiveTexture(GL_TEXTURE0 + unit);
     glBindTexture(GL_TEXTURE_2D, texture);
 }
@@ -350,7 +350,7 @@ static facet_result compose(gl_transparency *t, const gl_transparency_view *view
     return FACET_OK;
 }
 
-/* ---- layers, the nearest first ---- */
+/* ---- depth peeling ---- */
 
 static void clear_color(GLint buffer, float rgb, float alpha)
 {
@@ -358,7 +358,7 @@ static void clear_color(GLint buffer, float rgb, float alpha)
     glClearBufferfv(GL_COLOR, buffer, value);
 }
 
-/* Draws the next layer: what is nearest of all that is behind the last one, and before opaque surfaces. False: there is
+/* Draws the next layer: the nearest surfaces behind the last layer and in front of opaque ones. False: there is
  * none. */
 static bool draw_layer(gl_transparency *t, const gl_transparency_view *view, int number, facet_result *result,
                        facet_error *error)
@@ -380,7 +380,7 @@ static bool draw_layer(gl_transparency *t, const gl_transparency_view *view, int
     return is_seen && *result == FACET_OK;
 }
 
-/* Puts the layer under those before it. */
+/* Composites the layer under the previous ones. */
 static facet_result add_layer(gl_transparency *t, const gl_transparency_view *view, facet_error *error)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, t->layers.framebuffers[2]);
@@ -410,9 +410,9 @@ static facet_result peeled_draw(gl_transparency *t, const gl_transparency_view *
     return compose(t, view, COMPOSE_SUM, error);
 }
 
-/* ---- weighted means ---- */
+/* ---- weighted blending ---- */
 
-/* Depth of the nearest that is blended, and one over how far behind it the farthest is. */
+/* Nearest depth of blended batches, and 1 over the range of depths. */
 static void find_depths(const gl_transparency_view *view, float out[2])
 {
     uint32_t count;
@@ -478,7 +478,8 @@ static facet_result weighted_draw(gl_transparency *t, const gl_transparency_view
     clear_color(1, 0.0f, 0.0f);
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
-    /* Light and weights are added up, what passes is multiplied: with one function, OpenGL 3.3 has no second one. */
+    /* Light and weights are summed, transmittance is multiplied, with one blend function: OpenGL 3.3 has no second
+     * one. */
     glBlendFuncSeparate(GL_ONE, GL_ONE, GL_ZERO, GL_ONE_MINUS_SRC_ALPHA);
     result = draw_weighted(t, view, error);
     glDisable(GL_BLEND);
@@ -489,7 +490,7 @@ static facet_result weighted_draw(gl_transparency *t, const gl_transparency_view
     return result == FACET_OK ? compose(t, view, COMPOSE_WEIGHTED, error) : result;
 }
 
-/* ---- the choice ---- */
+/* ---- dispatch ---- */
 
 facet_result gl_transparency_create(gl_context *context, const facet_allocator *allocator,
                                     gl_transparency **out, facet_error *error)
@@ -517,7 +518,7 @@ void gl_transparency_destroy(gl_transparency *t)
     mem_free(t);
 }
 
-/* Peeling takes a texture unit beside those of materials. */
+/* Peeling takes a texture unit beyond those of materials. */
 static facet_transparency possible_mode(const gl_context *context, facet_transparency mode)
 {
     bool can_peel = context->max_texture_units > GL_UNIT_PEELED;

@@ -1,5 +1,5 @@
-/* gl_transparency_test.c - blended surfaces in the three ways: layers whose blend is known, in any order of the scene, and
- * what only peeling gets right, against the preview. Exits with 77 where there is no OpenGL. */
+/* gl_transparency_test.c - blended surfaces in the three modes: layers with a known result in any order of the
+ * scene, and what only peeling solves, against the preview. Exits with 77 where there is no OpenGL. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,7 +15,7 @@
 
 static gl_fixture_contexts contexts;
 
-/* Layers of the quads that the tests put behind each other, the nearest first. */
+/* Layers of the test quads, the nearest first. */
 enum { LAYERS = 5 };
 static const float layers[LAYERS][4] = {{0.9f, 0.1f, 0.2f, 0.3f},
                                         {0.2f, 0.8f, 0.1f, 0.5f},
@@ -26,7 +26,7 @@ static const float layers[LAYERS][4] = {{0.9f, 0.1f, 0.2f, 0.3f},
 static const facet_transparency modes[] = {FACET_TRANSPARENCY_SORTED, FACET_TRANSPARENCY_PEELED,
                                            FACET_TRANSPARENCY_WEIGHTED};
 
-/* Over: Porter and Duff 1984. */
+/* The over operator: Porter and Duff 1984. */
 static void blend(const float (*list)[4], int count, float out[4])
 {
     float passes = 1.0f;
@@ -39,7 +39,7 @@ static void blend(const float (*list)[4], int count, float out[4])
     out[3] = 1.0f - passes;
 }
 
-/* A texture that changes nothing, but comes with a sampler of its own. */
+/* A white texture, which comes with a sampler of its own. */
 static uint32_t add_white(fixture *f)
 {
     unsigned char white[4 * 4 * 4];
@@ -95,7 +95,7 @@ static void weighted_needs_no_order(void **state)
             f.desc.gl.transparency = FACET_TRANSPARENCY_WEIGHTED;
             film picture = gl_fixture_render(&f, &contexts.items[c]);
             const float *pixel = fixture_pixel(&picture, "", 20, 30);
-            assert_true(fabsf(pixel[3] - wanted[3]) < 2e-3f); /* what passes is exact */
+            assert_true(fabsf(pixel[3] - wanted[3]) < 2e-3f); /* transmittance is exact */
             if (p == 0) {
                 first = picture;
             } else {
@@ -109,7 +109,7 @@ static void weighted_needs_no_order(void **state)
     }
 }
 
-/* One layer is its own mean. */
+/* A single layer is its own mean. */
 static void one_layer_is_exact(void **state)
 {
     (void)state;
@@ -127,7 +127,7 @@ static void one_layer_is_exact(void **state)
         }
 }
 
-/* What is opaque hides what is behind it, and is seen through what is before it. */
+/* Opaque surfaces hide what is behind them and show through what is in front. */
 static void opaque_surfaces_have_their_place(void **state)
 {
     (void)state;
@@ -136,7 +136,7 @@ static void opaque_surfaces_have_their_place(void **state)
     blend(list, 3, wanted);
     for (int c = 0; c < contexts.count; c++)
         for (int m = 0; m < 2; m++) {
-            fixture f = layered_fixture(permutations[2], LAYERS); /* of which the first two are before it */
+            fixture f = layered_fixture(permutations[2], LAYERS); /* the first two are in front of it */
             uint32_t wall = fixture_add_material(&f, gl_fixture_unlit(0.25f, 0.5f, 0.75f, 1.0f));
             fixture_place(&f, fixture_add_quad(&f, wall), 0.0f, 0.0f, -0.3f, 2.0f);
             f.desc.gl.transparency = modes[m];
@@ -147,7 +147,7 @@ static void opaque_surfaces_have_their_place(void **state)
         }
 }
 
-/* Two meshes whose triangles lie between each other's: neither is before the other as a whole. */
+/* Two meshes with interleaved triangles: neither is entirely in front. */
 static void triangles_of_batches_interleave(void **state)
 {
     (void)state;
@@ -162,7 +162,7 @@ static void triangles_of_batches_interleave(void **state)
         uint32_t red = fixture_add_material(&f, gl_fixture_unlit(1.0f, 0.0f, 0.0f, 0.5f));
         uint32_t green = fixture_add_material(&f, gl_fixture_unlit(0.0f, 1.0f, 0.0f, 0.5f));
         uint32_t red_mesh = fixture_add_quad(&f, red), green_mesh = fixture_add_quad(&f, green);
-        fixture_place(&f, green_mesh, 0.0f, 0.0f, -0.9f, 2.0f); /* two instances of a batch each */
+        fixture_place(&f, green_mesh, 0.0f, 0.0f, -0.9f, 2.0f); /* two instances of each batch */
         fixture_place(&f, red_mesh, 0.0f, 0.0f, 0.0f, 2.0f);
         fixture_place(&f, red_mesh, 0.0f, 0.0f, -0.6f, 2.0f);
         fixture_place(&f, green_mesh, 0.0f, 0.0f, -0.3f, 2.0f);
@@ -173,7 +173,7 @@ static void triangles_of_batches_interleave(void **state)
     }
 }
 
-/* Two quads that go through each other: the preview orders each sample, peeling each pixel. */
+/* Two intersecting quads: the preview orders each sample, peeling each pixel. */
 static fixture crossed_fixture(void)
 {
     fixture f = fixture_create();
@@ -199,8 +199,8 @@ static void crossed_surfaces_are_peeled(void **state)
         film sorted = gl_fixture_render(&f, &contexts.items[c]);
         image_difference d = gl_fixture_compare(&peeled, &preview, 4.0f / 255.0f);
         image_difference sorted_d = gl_fixture_compare(&sorted, &preview, 4.0f / 255.0f);
-        assert_true(d.share < 0.05);        /* borders, by other samples */
-        assert_true(sorted_d.share > 0.25); /* half of it is the other way round: the test can fail */
+        assert_true(d.share < 0.05);        /* edges: other samples */
+        assert_true(sorted_d.share > 0.25); /* sorting gets half of it wrong: the test can fail */
         film_destroy(&peeled);
         film_destroy(&sorted);
     }
@@ -208,7 +208,7 @@ static void crossed_surfaces_are_peeled(void **state)
     fixture_destroy(&f);
 }
 
-/* More layers than are peeled: the farthest are missing, which is no more than what passes the others. */
+/* More layers than are peeled: the farthest are missing, which costs at most what the others transmit. */
 static void many_layers_fade(void **state)
 {
     (void)state;
@@ -227,7 +227,7 @@ static void many_layers_fade(void **state)
     fixture_destroy(&f);
 }
 
-/* A sphere's own triangles cover each other. */
+/* A sphere's own triangles overlap. */
 static void spheres_are_the_previews(void **state)
 {
     (void)state;
@@ -251,7 +251,7 @@ static void spheres_are_the_previews(void **state)
     fixture_destroy(&f);
 }
 
-/* Points and lines are blended as the preview blends them. */
+/* Points and lines are blended as in the preview. */
 static void sprites_are_put_in_order(void **state)
 {
     (void)state;
@@ -259,7 +259,7 @@ static void sprites_are_put_in_order(void **state)
     f.camera = (facet_camera){.eye = {0.0f, 0.0f, 10.0f}, .ortho_height = 0.1f}; /* a pixel is 1/640 */
     f.desc.width = f.desc.height = 16;
     float positions[8 * 3];
-    for (int i = 0; i < 8; i++) { /* one behind the other, in no order */
+    for (int i = 0; i < 8; i++) { /* behind each other, in no order */
         positions[3 * i] = 0.0f;
         positions[3 * i + 1] = 0.0f;
         positions[3 * i + 2] = -0.1f * (float)(i * 5 % 8);
@@ -281,7 +281,7 @@ static void sprites_are_put_in_order(void **state)
             sums[1][i % 4] += (double)picture.layers[0].pixels[i];
         }
         assert_true(sums[0][3] > 1.0);
-        for (int k = 0; k < 4; k++) /* samples may differ, the colors may not */
+        for (int k = 0; k < 4; k++) /* samples may differ, colors may not */
             assert_true(fabs(sums[0][k] / sums[0][3] - sums[1][k] / sums[1][3]) < 2e-3);
         film_destroy(&picture);
     }
@@ -289,7 +289,7 @@ static void sprites_are_put_in_order(void **state)
     fixture_destroy(&f);
 }
 
-/* An edge of alpha, askew, is as smooth as one of triangles, and what it leaves is opaque. */
+/* An oblique alpha edge is as smooth as a triangle's, and what remains is opaque. */
 static void masks_have_smooth_edges(void **state)
 {
     (void)state;
@@ -315,14 +315,14 @@ static void masks_have_smooth_edges(void **state)
         }
         assert_true(fabs(sums[1] / sums[0] - 1.0) < 0.01);
         assert_true(gl_fixture_compare(&picture, &preview, 0.51f).share < (partial > 0.0 ? 0.005 : 0.03));
-        assert_true(partial > 40.0 || contexts.items[c].is_es); /* where OpenGL makes samples of alpha */
+        assert_true(partial > 40.0 || contexts.items[c].is_es); /* where alpha-to-coverage is available */
         film_destroy(&picture);
     }
     film_destroy(&preview);
     fixture_destroy(&f);
 }
 
-/* ---- the order itself ---- */
+/* ---- the order ---- */
 
 typedef struct order_bench {
     gl_context *context;
