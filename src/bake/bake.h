@@ -28,8 +28,6 @@ struct facet_cube {
     facet_bake_stats stats;
 };
 
-#define BAKE_CHARLIE_LEAST 0.1f
-
 /* Fills in the defaults. FACET_ERROR_ARGUMENT. */
 facet_result bake_complete(facet_bake_desc *desc, facet_error *error);
 

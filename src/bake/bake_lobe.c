@@ -3,7 +3,6 @@
 
 #include <math.h>
 
-#include "bake/bake.h"
 #include "ibl/gauss.h"
 #include "ibl/prefilter.h"
 

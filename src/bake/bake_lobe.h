@@ -10,6 +10,8 @@
 
 #include "facet/facet.h"
 
+#define BAKE_CHARLIE_LEAST 0.1f
+
 typedef struct bake_lobe {
     facet_lobe kind; /* not FACET_LOBE_NONE */
     double alpha;

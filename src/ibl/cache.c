@@ -46,6 +46,16 @@ uint64_t cache_hash(uint64_t seed, const void *bytes, size_t size)
     return hash;
 }
 
+/* To be raised whenever the same file is read to other texels than before: what a cache holds of it is then not used. */
+enum { READER_VERSION = 1 };
+
+void cache_identify(facet_environment *environment, const void *bytes, size_t size)
+{
+    if (environment->cache_folder)
+        environment->hash =
+            cache_hash(environment->hash + environment->layout + (READER_VERSION << 8), bytes, size);
+}
+
 /* Path of an entry, a block of mem_alloc(); NULL: no memory. */
 static char *entry_path(const facet_environment *e, const char *part, uint64_t key)
 {

@@ -19,6 +19,9 @@ bool cache_read(const facet_environment *environment, const char *part, uint64_t
 void cache_write(const facet_environment *environment, const char *part, uint64_t recipe, const void *data,
                  size_t size);
 
+/* Distinguishes the entries of an environment by these bytes of its source and by the source's layout. */
+void cache_identify(facet_environment *environment, const void *bytes, size_t size);
+
 /* 64 bits of the bytes, starting from seed. */
 uint64_t cache_hash(uint64_t seed, const void *bytes, size_t size);
 

@@ -48,8 +48,6 @@ facet_result environment_create(const facet_environment_desc *desc, facet_enviro
                                 facet_error *error);
 /* Brings the picture's values into [0, ENVIRONMENT_MAX_RADIANCE]; a file may hold what no light is. */
 void environment_limit(facet_environment *environment, uint32_t thread_count);
-/* Entries of the cache are told apart by these bytes (and the layout of the source). */
-void environment_identify(facet_environment *environment, const void *bytes, size_t size);
 
 /* Another reference, and one less: the last one releases everything. */
 void environment_retain(facet_environment *environment);

@@ -3,6 +3,7 @@
 
 #include <assert.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdatomic.h>
 #include <string.h>
 
@@ -10,13 +11,18 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
+#include "ibl/cache.h"
 #include "ibl/cube_layout.h"
 
-image_decode_desc environment_decode_desc(const facet_environment_desc *desc, float *largest)
+static const facet_environment_desc default_desc;
+enum { DEFAULT_MAX_SIZE = 32768 };
+
+/* How sources are decoded: what is not finite stays, to be counted. *largest: image_decode_desc.largest. */
+static image_decode_desc decode_desc(const facet_environment_desc *desc, float *largest)
 {
     return (image_decode_desc){.allocator = desc->allocator,
                                .thread_count = desc->thread_count ? desc->thread_count : facet_thread_count(),
-                               .max_size = desc->max_size ? desc->max_size : ENVIRONMENT_DEFAULT_MAX_SIZE,
+                               .max_size = desc->max_size ? desc->max_size : DEFAULT_MAX_SIZE,
                                .keeps_nonfinite = true,
                                .clips_gamut = true,
                                .largest = largest};
@@ -59,9 +65,11 @@ static void repair_rows(void *context, size_t begin, size_t end)
         ;
 }
 
-facet_result environment_repair(image *decoded, float largest, uint64_t first_place,
-                                const facet_allocator *allocator, uint32_t thread_count, image *out,
-                                environment_repairs *repairs, facet_error *error)
+/* The decoded picture as F32 RGB in [0, ENVIRONMENT_MAX_RADIANCE], with what is no radiance repaired and counted; decoded
+ * is released. largest: what infinity becomes. first_place: the place of its first texel. FACET_ERROR_MEMORY. */
+static facet_result repair_image(image *decoded, float largest, uint64_t first_place,
+                                 const facet_allocator *allocator, uint32_t thread_count, image *out,
+                                 environment_repairs *repairs, facet_error *error)
 {
     facet_result result = FACET_OK;
     if (decoded->type == IMAGE_F32 && decoded->channel_count == 3 && !decoded->is_srgb) {
@@ -137,8 +145,9 @@ static facet_result take_octahedron(facet_environment *e, const image *picture, 
     return result;
 }
 
-facet_result environment_take_picture(facet_environment *e, image *picture, facet_layout layout,
-                                      const char *name, uint32_t thread_count, facet_error *error)
+/* Makes the environment of a repaired picture (released) in any layout but AUTO and FACES, which fits. */
+static facet_result take_image(facet_environment *e, image *picture, facet_layout layout, const char *name,
+                               uint32_t thread_count, facet_error *error)
 {
     facet_result result = FACET_OK;
     e->layout = layout;
@@ -174,7 +183,7 @@ static void decode_faces(void *context, size_t begin, size_t end)
     const decoding *job = context;
     for (size_t i = begin; i < end; i++) {
         cube_face *f = &job->faces[i];
-        image_decode_desc how = environment_decode_desc(job->desc, &f->largest);
+        image_decode_desc how = decode_desc(job->desc, &f->largest);
         how.thread_count = 1;
         how.note = &f->note;
         f->result = image_decode(f->bytes, f->size, f->name, &how, &f->picture, &f->error);
@@ -223,8 +232,8 @@ facet_result cube_faces_assemble(cube_face faces[6], const facet_allocator *allo
     facet_result result = cube_create(faces[0].picture.width, allocator, out, error);
     for (uint32_t i = 0; i < 6 && result == FACET_OK; i++) {
         image rgb = {0};
-        result = environment_repair(&faces[i].picture, faces[i].largest, i * face_texels, allocator,
-                                    thread_count, &rgb, repairs, error);
+        result = repair_image(&faces[i].picture, faces[i].largest, i * face_texels, allocator, thread_count,
+                              &rgb, repairs, error);
         if (result == FACET_OK)
             fill_face(out, i, rgb.pixels);
         image_destroy(&rgb);
@@ -262,13 +271,14 @@ static facet_result take_faces(facet_environment *e, cube_face faces[6], const c
 
 /* ---- KTX2 ---- */
 
-facet_result environment_load_ktx2(facet_environment *e, const ktx2 *k, const facet_environment_desc *desc,
+/* Makes the environment of a cube map, level 0. FACET_ERROR_LIMIT, and how ktx2_load_level() and ktx2_decode() fail. */
+static facet_result load_cube_ktx2(facet_environment *e, const ktx2 *k, const facet_environment_desc *desc,
                                    facet_error *error)
 {
     static const char *const places[6] = {"face +X", "face -X", "face +Y", "face -Y", "face +Z", "face -Z"};
     cube_face faces[6] = {0};
     ktx2_data data = {0};
-    image_decode_desc how = environment_decode_desc(desc, NULL);
+    image_decode_desc how = decode_desc(desc, NULL);
     if (k->width > how.max_size)
         return fail(error, FACET_ERROR_LIMIT, "%s: %u x %u texels, more than %u along an edge", k->name,
                     k->width, k->height, how.max_size);
@@ -303,7 +313,7 @@ static facet_result load_faces(facet_environment *e, const char *const paths[6],
     if (result == FACET_OK)
         result = take_faces(e, faces, "faces", paths, desc->thread_count, error);
     for (int i = 0; i < 6 && result == FACET_OK; i++)
-        environment_identify(e, files[i].data, files[i].size);
+        cache_identify(e, files[i].data, files[i].size);
     cube_faces_destroy(faces);
     for (int i = 0; i < 6; i++)
         file_close(&files[i]);
@@ -313,7 +323,6 @@ static facet_result load_faces(facet_environment *e, const char *const paths[6],
 facet_result facet_environment_load_faces(const char *const paths[6], const facet_environment_desc *desc,
                                           facet_environment **environment, facet_error *error)
 {
-    static const facet_environment_desc default_desc;
     assert(paths && environment);
     *environment = NULL;
     desc = desc ? desc : &default_desc;
@@ -326,5 +335,126 @@ facet_result facet_environment_load_faces(const char *const paths[6], const face
         *environment = e;
     else
         environment_release(e);
+    return result;
+}
+
+/* ---- one file ---- */
+
+/* The layout of a picture: as desc says, as an OpenEXR file says, or by its edges. */
+static facet_result choose_layout(const facet_environment_desc *desc, image_envmap envmap,
+                                  const image *picture, const char *name, facet_layout *layout,
+                                  facet_error *error)
+{
+    uint32_t width = picture->width, height = picture->height;
+    *layout = desc->layout                     ? desc->layout
+              : envmap == IMAGE_ENVMAP_LATLONG ? FACET_LAYOUT_EQUIRECTANGULAR
+                                               : layout_detect(width, height); /* of a cube, too: 1:6 */
+    if (*layout == FACET_LAYOUT_FACES)
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: six faces are six pictures, this is one", name);
+    double ratio = width / (2.0 * height);
+    if (*layout == FACET_LAYOUT_AUTO && fabs(ratio - 1.0) > 0.05)
+        return fail(
+            error, FACET_ERROR_INVALID,
+            "%s: %u x %u texels: an environment is 2:1 (equirectangular), 4:3 or 3:4 (cross), 6:1 or 1:6 "
+            "(strip of faces), or six files NAME{face}.EXT; for any other shape, or an octahedral map, name "
+            "the "
+            "layout (facet_environment_desc.layout; facet bake --input-layout)",
+            name, width, height);
+    if (*layout == FACET_LAYOUT_AUTO)
+        *layout = FACET_LAYOUT_EQUIRECTANGULAR;
+    if (*layout == FACET_LAYOUT_EQUIRECTANGULAR && width != 2 * (uint64_t)height)
+        log_warning(&desc->log,
+                    "%s: %u x %u texels: an equirectangular picture is twice as wide as high; this one is "
+                    "stretched over the sphere",
+                    name, width, height);
+    return layout_check(*layout, width, height, name, error);
+}
+
+/* A picture of any layout. */
+static facet_result load_picture(facet_environment *e, const void *bytes, size_t size, const char *name,
+                                 const facet_environment_desc *desc, facet_error *error)
+{
+    float largest;
+    image_note note;
+    image header, decoded = {0}, rgb = {0};
+    environment_repairs repairs = {.first = UINT64_MAX};
+    facet_layout layout;
+    const image_envmap envmap = image_get_envmap(bytes, size);
+    image_decode_desc how = decode_desc(desc, &largest);
+    how.note = &note;
+    facet_result result = image_probe(bytes, size, name, &header, NULL, error);
+    if (result == FACET_OK) /* before memory is taken */
+        result = choose_layout(desc, envmap, &header, name, &layout, error);
+    if (result == FACET_OK)
+        result = image_decode(bytes, size, name, &how, &decoded, error);
+    if (result == FACET_OK) {
+        image_note_log(&note, name, &e->log);
+        result = repair_image(&decoded, largest, 0, &e->allocator, desc->thread_count, &rgb, &repairs, error);
+    }
+    if (result == FACET_OK) {
+        environment_report(e, &repairs, name, NULL, (uint32_t)(repairs.first % rgb.width),
+                           (uint32_t)(repairs.first / rgb.width));
+        if (envmap == IMAGE_ENVMAP_CUBE && layout == FACET_LAYOUT_STRIP_VERTICAL)
+            layout_flip_seen_faces(&rgb);
+        result = take_image(e, &rgb, layout, name, desc->thread_count, error);
+    }
+    image_destroy(&decoded);
+    return result;
+}
+
+/* KTX2: a cube map, or a picture. */
+static facet_result load_ktx2(facet_environment *e, const void *bytes, size_t size, const char *name,
+                              const facet_environment_desc *desc, facet_error *error)
+{
+    ktx2 k;
+    facet_result result = ktx2_open(bytes, size, name, &k, error);
+    if (result != FACET_OK)
+        return result;
+    if (k.layer_count > 1)
+        return fail(error, FACET_ERROR_UNSUPPORTED,
+                    "%s: KTX2: an array of %u textures: one cube map or one picture was expected", name,
+                    k.layer_count);
+    return k.is_cube ? load_cube_ktx2(e, &k, desc, error) : load_picture(e, bytes, size, name, desc, error);
+}
+
+facet_result facet_environment_load_memory(const void *bytes, size_t size, const char *name,
+                                           const facet_environment_desc *desc,
+                                           facet_environment **environment, facet_error *error)
+{
+    assert(environment && (bytes || size == 0));
+    *environment = NULL;
+    desc = desc ? desc : &default_desc;
+    name = name ? name : "environment";
+    uint64_t max_bytes = file_limit(desc->max_file_bytes);
+    if (size > max_bytes)
+        return fail(error, FACET_ERROR_LIMIT, "%s: %zu bytes: at most %llu are read", name, size,
+                    (unsigned long long)max_bytes);
+    facet_environment *e = NULL;
+    facet_result result = environment_create(desc, &e, error);
+    if (result != FACET_OK)
+        return result;
+    bool is_ktx2 = image_codec_detect(bytes, size) == IMAGE_CODEC_KTX2;
+    result = (is_ktx2 ? load_ktx2 : load_picture)(e, bytes, size, name, desc, error);
+    if (result != FACET_OK) {
+        environment_release(e);
+        return result;
+    }
+    cache_identify(e, bytes, size);
+    *environment = e;
+    return FACET_OK;
+}
+
+facet_result facet_environment_load(const char *path, const facet_environment_desc *desc,
+                                    facet_environment **environment, facet_error *error)
+{
+    assert(path && environment);
+    *environment = NULL;
+    desc = desc ? desc : &default_desc;
+    file_bytes file = {0};
+    facet_result result = file_open(path, file_limit(desc->max_file_bytes), &desc->allocator, &file, error);
+    if (result != FACET_OK)
+        return result;
+    result = facet_environment_load_memory(file.data, file.size, path, desc, environment, error);
+    file_close(&file);
     return result;
 }

@@ -7,36 +7,19 @@
 #include "image/image.h"
 #include "image/ktx2.h"
 
-enum { ENVIRONMENT_DEFAULT_MAX_SIZE = 32768 };
-
-/* How sources are decoded: what is not finite stays, to be counted. *largest: image_decode_desc.largest. */
-image_decode_desc environment_decode_desc(const facet_environment_desc *desc, float *largest);
-
 /* What was wrong with texels. {.first = UINT64_MAX} at first. */
 typedef struct environment_repairs {
     uint64_t count;
     uint64_t first; /* place of the first: what of a picture is before it, in texels */
 } environment_repairs;
 
-/* The decoded picture as F32 RGB in [0, ENVIRONMENT_MAX_RADIANCE], with what is no radiance repaired and counted; decoded
- * is released. largest: what infinity becomes. first_place: the place of its first texel. FACET_ERROR_MEMORY. */
-facet_result environment_repair(image *decoded, float largest, uint64_t first_place,
-                                const facet_allocator *allocator, uint32_t thread_count, image *out,
-                                environment_repairs *repairs, facet_error *error);
 /* Says once what was repaired, where: "texel (x, y) of PLACE"; place NULL: of the picture. */
 void environment_report(facet_environment *e, const environment_repairs *repairs, const char *name,
                         const char *place, uint32_t x, uint32_t y);
 
-/* Makes the environment of a repaired picture (released) in any layout but AUTO and FACES, which fits. */
-facet_result environment_take_picture(facet_environment *e, image *picture, facet_layout layout,
-                                      const char *name, uint32_t thread_count, facet_error *error);
 /* e->picture of a cube map (borders filled), as turned: so many rows that nothing that can be seen is lost. */
 facet_result environment_unroll(facet_environment *e, const cube *c, const sphere_turn *turn,
                                 uint32_t thread_count, facet_error *error);
-
-/* Makes the environment of a cube map, level 0. FACET_ERROR_LIMIT, and how ktx2_load_level() and ktx2_decode() fail. */
-facet_result environment_load_ktx2(facet_environment *e, const ktx2 *k, const facet_environment_desc *desc,
-                                   facet_error *error);
 
 /* ---- six faces ---- */
 

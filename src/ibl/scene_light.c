@@ -10,6 +10,7 @@
 
 #include "base/memory.h"
 #include "base/result.h"
+#include "ibl/cache.h"
 #include "ibl/environment_source.h"
 #include "ibl/sh.h"
 #include "scene/scene.h"
@@ -359,7 +360,7 @@ facet_result facet_environment_create_from_scene(const facet_scene *scene, const
         environment_release(e);
         return result;
     }
-    environment_identify(e, e->picture.pixels, e->picture.height * image_row_size(&e->picture));
+    cache_identify(e, e->picture.pixels, e->picture.height * image_row_size(&e->picture));
     *environment = e;
     return FACET_OK;
 }

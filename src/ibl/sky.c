@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "base/result.h"
+#include "ibl/cache.h"
 #include "ibl/environment.h"
 #include "ibl/sky_picture.h"
 
@@ -147,7 +148,7 @@ facet_result facet_environment_create_sky(const facet_sky_desc *sky, const facet
         return result;
     }
     environment_limit(e, desc->thread_count);
-    environment_identify(e, e->picture.pixels, e->picture.height * image_row_size(&e->picture));
+    cache_identify(e, e->picture.pixels, e->picture.height * image_row_size(&e->picture));
     *environment = e;
     return FACET_OK;
 }

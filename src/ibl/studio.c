@@ -4,10 +4,13 @@
  * and to the left, a dimmer fill from the right, two narrow strips behind for the rim, a broad ceiling, all white, and
  * between them a grey room, lighter above than below, so that metals have both something bright and something dark
  * to show. A soft box is a rectangle as seen from the origin whose edges fade over its softness. */
+#include "base/parallel.h"
+
 #include <assert.h>
 #include <math.h>
 
-#include "base/parallel.h"
+#include "base/result.h"
+#include "ibl/cache.h"
 #include "ibl/environment.h"
 #include "ibl/equirect.h"
 
@@ -121,10 +124,13 @@ static facet_result studio_create(const facet_allocator *allocator, uint32_t thr
     return FACET_OK;
 }
 
+/* ---- the functions of facet.h ---- */
+
+static const facet_environment_desc default_desc;
+
 facet_result facet_environment_create_studio(const facet_environment_desc *desc,
                                              facet_environment **environment, facet_error *error)
 {
-    static const facet_environment_desc default_desc;
     assert(environment);
     *environment = NULL;
     desc = desc ? desc : &default_desc;
@@ -137,7 +143,67 @@ facet_result facet_environment_create_studio(const facet_environment_desc *desc,
         environment_release(e);
         return result;
     }
-    environment_identify(e, e->picture.pixels, e->picture.height * image_row_size(&e->picture));
+    cache_identify(e, e->picture.pixels, e->picture.height * image_row_size(&e->picture));
+    *environment = e;
+    return FACET_OK;
+}
+
+facet_result facet_environment_create_constant(const float radiance[3], const facet_environment_desc *desc,
+                                               facet_environment **environment, facet_error *error)
+{
+    assert(radiance && environment);
+    *environment = NULL;
+    desc = desc ? desc : &default_desc;
+    facet_environment *e = NULL;
+    facet_result result = environment_create(desc, &e, error);
+    if (result != FACET_OK)
+        return result;
+    result = image_create(&e->allocator, 2, 1, 3, IMAGE_F32, &e->picture, error);
+    if (result != FACET_OK) {
+        environment_release(e);
+        return result;
+    }
+    float *p = e->picture.pixels;
+    for (int i = 0; i < 6; i++)
+        p[i] = radiance[i % 3];
+    environment_limit(e, 1);
+    cache_identify(e, e->picture.pixels, image_row_size(&e->picture));
+    *environment = e;
+    return FACET_OK;
+}
+
+enum { GRADIENT_WIDTH = 2, GRADIENT_HEIGHT = 512 };
+
+facet_result facet_environment_create_gradient(const float zenith[3], const float horizon[3],
+                                               const float nadir[3], const facet_environment_desc *desc,
+                                               facet_environment **environment, facet_error *error)
+{
+    assert(zenith && horizon && nadir && environment);
+    *environment = NULL;
+    desc = desc ? desc : &default_desc;
+    facet_environment *e = NULL;
+    facet_result result = environment_create(desc, &e, error);
+    if (result != FACET_OK)
+        return result;
+    result = image_create(&e->allocator, GRADIENT_WIDTH, GRADIENT_HEIGHT, 3, IMAGE_F32, &e->picture, error);
+    if (result != FACET_OK) {
+        environment_release(e);
+        return result;
+    }
+    float *p = e->picture.pixels;
+    for (int y = 0; y < GRADIENT_HEIGHT; y++) {
+        /* equal steps of d.y hold equal parts of the sphere: a row's mean is its middle's */
+        double top = cos(3.14159265358979323846 * y / GRADIENT_HEIGHT);
+        double bottom = cos(3.14159265358979323846 * (y + 1) / GRADIENT_HEIGHT);
+        double height = 0.5 * (top + bottom);
+        const float *end = height > 0.0 ? zenith : nadir;
+        for (int i = 0; i < 3 * GRADIENT_WIDTH; i++)
+            p[3 * GRADIENT_WIDTH * y + i] =
+                (float)((double)horizon[i % 3] +
+                        ((double)end[i % 3] - (double)horizon[i % 3]) * fabs(height));
+    }
+    environment_limit(e, desc->thread_count);
+    cache_identify(e, e->picture.pixels, e->picture.height * image_row_size(&e->picture));
     *environment = e;
     return FACET_OK;
 }

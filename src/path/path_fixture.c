@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "ibl/cache.h"
 #include "ibl/environment.h"
 #include "path/path_render.h"
 
@@ -55,7 +56,7 @@ void truth_set_sky(fixture *f, uint32_t rows, truth_sky *sky)
             sky(d, texels + 3 * ((size_t)y * 2 * rows + x));
         }
     environment_limit(e, 1);
-    environment_identify(e, texels, image_row_size(&e->picture) * rows);
+    cache_identify(e, texels, image_row_size(&e->picture) * rows);
     f->environment = e;
 }
 
