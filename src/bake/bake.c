@@ -192,9 +192,7 @@ static void destroy_materials(bake_materials *m)
 static facet_result fill_sharp(const facet_bake_desc *desc, bake_materials *m, facet_cube *c, uint32_t level,
                                facet_error *error)
 {
-    facet_result result = cube_create(desc->size >> level, &desc->allocator, &c->levels[level], error);
-    if (result != FACET_OK)
-        return result;
+    TRY(cube_create(desc->size >> level, &desc->allocator, &c->levels[level], error));
     if (level == 0)
         return bake_sharp(&m->source, m->source.scale, &desc->allocator, desc->thread_count, &c->levels[0],
                           error);
@@ -227,9 +225,7 @@ static facet_result fill_level(const facet_bake_desc *desc, bake_materials *m, f
         bake_watch_add(&m->watch, plan->work);
         return result;
     }
-    result = cube_create(size, &desc->allocator, out, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(cube_create(size, &desc->allocator, out, error));
     double texels = 6.0 * size * size;
     if (plan->kind == LEVEL_REFERENCE) {
         bake_reference_fill(&m->reference, &plan->lobe, desc->thread_count, &m->watch, out);
@@ -265,9 +261,7 @@ facet_result facet_cube_bake(facet_environment *environment, const facet_bake_de
     *out = NULL;
     facet_bake_desc desc = given ? *given : default_desc;
     double start_s = clock_seconds();
-    facet_result result = bake_complete(&desc, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(bake_complete(&desc, error));
     facet_cube *c = mem_zalloc(&desc.allocator, 1, sizeof *c);
     if (!c)
         return fail_memory(error, "cube map", sizeof *c);
@@ -279,7 +273,7 @@ facet_result facet_cube_bake(facet_environment *environment, const facet_bake_de
                               : desc.lobe == FACET_LOBE_NONE
                                   ? 0.0f
                                   : bake_roughness(desc.mapping, level, desc.level_count);
-    result = fill_levels(environment, &desc, c, error);
+    facet_result result = fill_levels(environment, &desc, c, error);
     c->stats.total_s = clock_seconds() - start_s;
     if (result != FACET_OK) {
         facet_cube_destroy(c);
@@ -385,11 +379,8 @@ facet_result facet_environment_project_sh(const facet_environment *environment, 
                     "were expected",
                     (double)desc->rotation_rad, (double)desc->ev, (double)desc->clamp);
     double radiance[SH_COUNT][3];
-    facet_result result =
-        sh_project_limited(&environment->picture, desc->clamp > 0.0f ? desc->clamp : INFINITY,
-                           &desc->allocator, desc->thread_count, radiance, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(sh_project_limited(&environment->picture, desc->clamp > 0.0f ? desc->clamp : INFINITY,
+                           &desc->allocator, desc->thread_count, radiance, error));
     sh_rotate(radiance, (double)desc->rotation_rad);
     double scale = exp2((double)desc->ev);
     for (int k = 0; k < SH_COUNT; k++)

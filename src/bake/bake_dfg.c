@@ -121,10 +121,8 @@ facet_result bake_dfg(const facet_dfg_desc *desc, image *out, facet_error *error
         return fail(error, FACET_ERROR_ARGUMENT, "dfg: size %u: %d to %d texels were expected", size,
                     MIN_SIZE, MAX_SIZE);
     image table = {0};
-    facet_result result =
-        image_create(&desc->allocator, size, size, kinds[desc->kind].channel_count, IMAGE_F32, &table, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(image_create(&desc->allocator, size, size, kinds[desc->kind].channel_count, IMAGE_F32, &table,
+                     error));
     table_job job = {
         .table = &table, .kind = desc->kind, .progress = desc->progress, .is_reporting = ATOMIC_FLAG_INIT};
     parallel_for(desc->thread_count, size, 1, fill_rows, &job);

@@ -169,9 +169,7 @@ static facet_result percentiles(const float *errors, size_t count, const facet_c
     const double shares[5] = {50.0, 95.0, 99.0, 99.9, desc->percentile};
     double values[5];
     const uint32_t wanted = desc->percentile > 0.0 ? 5 : 4;
-    facet_result result = compare_select(errors, count, shares, wanted, &desc->allocator, values, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(compare_select(errors, count, shares, wanted, &desc->allocator, values, error));
     out->percentile_50 = values[0];
     out->percentile_95 = values[1];
     out->percentile_99 = values[2];

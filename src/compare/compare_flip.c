@@ -379,9 +379,7 @@ static facet_result choose_exposures(flip_job *job, const facet_compare_desc *de
 {
     const size_t count = (size_t)job->source->width * job->source->height;
     double levels[2]; /* median, largest */
-    facet_result result = find_levels(luminance, count, &desc->allocator, levels, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(find_levels(luminance, count, &desc->allocator, levels, error));
     double start = 0.0, stop = 0.0;
     if (levels[1] > 0.0) {
         start = log2(FLIP_BRIGHT / levels[1]);

@@ -4,6 +4,7 @@
 #include <stdatomic.h>
 
 #include "base/parallel.h"
+#include "base/result.h"
 #include "image/srgb.h"
 
 enum { GRAIN = 16384 }; /* pixels; about 0.1 ms */
@@ -107,9 +108,7 @@ facet_result film_to_display_image(const film *f, image_type type, bool has_alph
     if (has_alpha)
         parallel_for(thread_count, pixel_count, GRAIN, find_transparent, &c);
     has_alpha = atomic_load(&c.is_transparent);
-    facet_result result = image_create(allocator, f->width, f->height, has_alpha ? 4 : 3, type, &made, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(image_create(allocator, f->width, f->height, has_alpha ? 4 : 3, type, &made, error));
     made.is_srgb = true;
     srgb_tables_prepare(&c.tables);
     parallel_for(thread_count, pixel_count, GRAIN, has_alpha ? convert_straight : convert_opaque, &c);
@@ -122,9 +121,7 @@ facet_result film_to_linear_image(const film *f, const facet_allocator *allocato
 {
     *out = (image){0};
     image made;
-    facet_result result = image_create(allocator, f->width, f->height, 3, IMAGE_F32, &made, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(image_create(allocator, f->width, f->height, 3, IMAGE_F32, &made, error));
     conversion c = {.pixels = f->layers[0].pixels, .image = &made};
     parallel_for(thread_count, (size_t)f->width * f->height, GRAIN, convert_linear, &c);
     *out = made;

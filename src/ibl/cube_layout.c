@@ -103,11 +103,10 @@ facet_result layout_read(const image *picture, facet_layout layout, const char *
     if (layout == FACET_LAYOUT_AUTO || layout == FACET_LAYOUT_FACES)
         return fail(error, FACET_ERROR_INVALID, "%s: %u x %u texels are no layout of a cube map", name,
                     picture->width, picture->height);
-    facet_result result = layout_check(layout, picture->width, picture->height, name, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(layout_check(layout, picture->width, picture->height, name, error));
     const unfolding *u = find_unfolding(layout);
-    result = cube_create(u ? picture->width / u->columns : (picture->height + 1) / 2, allocator, out, error);
+    facet_result result =
+        cube_create(u ? picture->width / u->columns : (picture->height + 1) / 2, allocator, out, error);
     if (result == FACET_OK && u) {
         read_faces(picture, u, out);
     } else if (result == FACET_OK) {
@@ -175,9 +174,7 @@ facet_result layout_write(const cube *c, facet_layout layout, uint32_t height,
     uint32_t width = u ? u->columns * c->size : layout == FACET_LAYOUT_OCTAHEDRAL ? height : 2 * height;
     if (height > UINT32_MAX / 2)
         return fail(error, FACET_ERROR_ARGUMENT, "a picture of %u rows is not made", height);
-    facet_result result = image_create(allocator, width, height, 4, IMAGE_F32, out, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(image_create(allocator, width, height, 4, IMAGE_F32, out, error));
     if (u) {
         write_faces(c, u, out);
         return FACET_OK;
@@ -186,7 +183,7 @@ facet_result layout_write(const cube *c, facet_layout layout, uint32_t height,
     sphere source = sphere_of_cube(&faces);
     sphere target =
         sphere_of_picture(layout == FACET_LAYOUT_OCTAHEDRAL ? SPHERE_OCTAHEDRON : SPHERE_EQUIRECT, out);
-    result = sphere_resample(&source, NULL, allocator, thread_count, &target, error);
+    facet_result result = sphere_resample(&source, NULL, allocator, thread_count, &target, error);
     if (result != FACET_OK)
         image_destroy(out);
     return result;

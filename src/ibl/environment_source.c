@@ -117,15 +117,13 @@ facet_result environment_unroll(facet_environment *e, const cube *c, const spher
 {
     uint32_t rows = c->size > MAX_ROWS / 2 ? MAX_ROWS : 2 * c->size;
     rows = rows < MIN_ROWS ? MIN_ROWS : rows;
-    facet_result result = image_create(&e->allocator, 2 * rows, rows, 3, IMAGE_F32, &e->picture, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(image_create(&e->allocator, 2 * rows, rows, 3, IMAGE_F32, &e->picture, error));
     cube from = *c;
     sphere source = sphere_of_cube(&from);
     sphere target = sphere_of_picture(SPHERE_EQUIRECT, &e->picture);
     sphere_turn quick = turn ? *turn : (sphere_turn){.scale = 1.0f};
     quick.parts = rows == 2 * c->size ? 2 : 0;
-    result = sphere_resample(&source, &quick, &e->allocator, thread_count, &target, error);
+    facet_result result = sphere_resample(&source, &quick, &e->allocator, thread_count, &target, error);
     environment_limit(e, thread_count);
     return result;
 }
@@ -135,12 +133,10 @@ static facet_result take_octahedron(facet_environment *e, const image *picture, 
                                     facet_error *error)
 {
     uint32_t rows = picture->height < MAX_ROWS ? picture->height : MAX_ROWS;
-    facet_result result = image_create(&e->allocator, 2 * rows, rows, 3, IMAGE_F32, &e->picture, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(image_create(&e->allocator, 2 * rows, rows, 3, IMAGE_F32, &e->picture, error));
     sphere source = sphere_of_picture(SPHERE_OCTAHEDRON, picture);
     sphere target = sphere_of_picture(SPHERE_EQUIRECT, &e->picture);
-    result = sphere_resample(&source, NULL, &e->allocator, thread_count, &target, error);
+    facet_result result = sphere_resample(&source, NULL, &e->allocator, thread_count, &target, error);
     environment_limit(e, thread_count);
     return result;
 }
@@ -257,9 +253,7 @@ static facet_result take_faces(facet_environment *e, cube_face faces[6], const c
                                const char *const places[6], uint32_t thread_count, facet_error *error)
 {
     environment_repairs repairs = {.first = UINT64_MAX};
-    facet_result result = cube_faces_assemble(faces, &e->allocator, thread_count, &e->faces, &repairs, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(cube_faces_assemble(faces, &e->allocator, thread_count, &e->faces, &repairs, error));
     uint32_t face, x, y;
     cube_faces_place(&e->faces, repairs.count ? repairs.first : 0, &face, &x, &y);
     environment_report(e, &repairs, name, places[face], x, y);
@@ -327,10 +321,8 @@ facet_result facet_environment_load_faces(const char *const paths[6], const face
     *environment = NULL;
     desc = desc ? desc : &default_desc;
     facet_environment *e = NULL;
-    facet_result result = environment_create(desc, &e, error);
-    if (result != FACET_OK)
-        return result;
-    result = load_faces(e, paths, desc, error);
+    TRY(environment_create(desc, &e, error));
+    facet_result result = load_faces(e, paths, desc, error);
     if (result == FACET_OK)
         *environment = e;
     else
@@ -407,9 +399,7 @@ static facet_result load_ktx2(facet_environment *e, const void *bytes, size_t si
                               const facet_environment_desc *desc, facet_error *error)
 {
     ktx2 k;
-    facet_result result = ktx2_open(bytes, size, name, &k, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(ktx2_open(bytes, size, name, &k, error));
     if (k.layer_count > 1)
         return fail(error, FACET_ERROR_UNSUPPORTED,
                     "%s: KTX2: an array of %u textures: one cube map or one picture was expected", name,
@@ -430,11 +420,9 @@ facet_result facet_environment_load_memory(const void *bytes, size_t size, const
         return fail(error, FACET_ERROR_LIMIT, "%s: %zu bytes: at most %llu are read", name, size,
                     (unsigned long long)max_bytes);
     facet_environment *e = NULL;
-    facet_result result = environment_create(desc, &e, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(environment_create(desc, &e, error));
     bool is_ktx2 = image_codec_detect(bytes, size) == IMAGE_CODEC_KTX2;
-    result = (is_ktx2 ? load_ktx2 : load_picture)(e, bytes, size, name, desc, error);
+    facet_result result = (is_ktx2 ? load_ktx2 : load_picture)(e, bytes, size, name, desc, error);
     if (result != FACET_OK) {
         environment_release(e);
         return result;
@@ -451,10 +439,8 @@ facet_result facet_environment_load(const char *path, const facet_environment_de
     *environment = NULL;
     desc = desc ? desc : &default_desc;
     file_bytes file = {0};
-    facet_result result = file_open(path, file_limit(desc->max_file_bytes), &desc->allocator, &file, error);
-    if (result != FACET_OK)
-        return result;
-    result = facet_environment_load_memory(file.data, file.size, path, desc, environment, error);
+    TRY(file_open(path, file_limit(desc->max_file_bytes), &desc->allocator, &file, error));
+    facet_result result = facet_environment_load_memory(file.data, file.size, path, desc, environment, error);
     file_close(&file);
     return result;
 }

@@ -234,13 +234,9 @@ facet_result harmonics_filter(harmonics *h, const harmonics_filter_desc *desc, c
     *out = (cube){0};
     uint32_t degree = desc->degree;
     synthesis job = {.in = h, .desc = desc, .width = column_count(degree), .height = 2 * degree, .out = out};
-    facet_result result =
-        create_scratch(h, harmonics_wave_index(degree + 1, 0, 0, degree),
-                       ((size_t)job.height + 2 * PAD) * ((size_t)job.width + 2 * PAD), error);
-    if (result == FACET_OK)
-        result = cube_create(desc->size, desc->allocator, out, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(create_scratch(h, harmonics_wave_index(degree + 1, 0, 0, degree),
+                       ((size_t)job.height + 2 * PAD) * ((size_t)job.width + 2 * PAD), error));
+    TRY(cube_create(desc->size, desc->allocator, out, error));
     fourier_init(&job.transform, job.width);
     legendre_place(&job.rows, 0, degree, job.height);
     parallel_for(desc->thread_count, degree + 1, 4, synthesise_orders, &job);

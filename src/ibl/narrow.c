@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
+#include "base/result.h"
 #include "base/simd.h"
 #include "ibl/equirect.h"
 
@@ -390,10 +391,7 @@ static facet_result blur(const image *from, bool is_halved, double variance, con
                          uint32_t thread_count, image *out, facet_error *error)
 {
     uint32_t shift = is_halved ? 1 : 0;
-    facet_result result =
-        image_create(allocator, from->width >> shift, from->height >> shift, 3, IMAGE_F32, out, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(image_create(allocator, from->width >> shift, from->height >> shift, 3, IMAGE_F32, out, error));
     blurring job = {.from = from, .out = out, .is_halved = is_halved, .variance = variance};
     parallel_for(thread_count, out->height, GRAIN, blur_rows, &job);
     return FACET_OK;

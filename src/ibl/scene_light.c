@@ -39,9 +39,7 @@ enum { FACE_COUNT = 6 };
 static facet_result unpack_rgbd(image *i, const facet_allocator *allocator, facet_error *error)
 {
     image linear = {0};
-    facet_result result = image_convert(i, allocator, 1, 4, IMAGE_F32, false, &linear, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(image_convert(i, allocator, 1, 4, IMAGE_F32, false, &linear, error));
     float *p = linear.pixels;
     for (size_t count = (size_t)linear.width * linear.height; count; count--, p += 4) {
         float d = p[3] > 1.0f / 255.0f ? p[3] : 1.0f / 255.0f;
@@ -276,11 +274,8 @@ static facet_result keep_irradiance(facet_environment *e, const scene_cube *c, c
 {
     double radiance[SH_COUNT][3], irradiance[SH_COUNT][3];
     float picture[SH_COUNT][3];
-    facet_result result = sh_project(&e->picture, &e->allocator, thread_count, radiance, error);
-    if (result == FACET_OK)
-        result = cube_create(IRRADIANCE_SIZE, &e->allocator, &e->irradiance_over_pi, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(sh_project(&e->picture, &e->allocator, thread_count, radiance, error));
+    TRY(cube_create(IRRADIANCE_SIZE, &e->allocator, &e->irradiance_over_pi, error));
     sh_irradiance((const double(*)[3])radiance, irradiance);
     sh_fold_over_pi((const double(*)[3])irradiance, picture);
     light_irradiance said = choose_irradiance(light, c->is_mirrored, (const float(*)[3])picture);
@@ -347,10 +342,8 @@ facet_result facet_environment_create_from_scene(const facet_scene *scene, const
     const scene_image_light *light = &scene->image_lights[index];
     facet_environment *e = NULL;
     scene_cube c = {0};
-    facet_result result = environment_create(desc, &e, error);
-    if (result != FACET_OK)
-        return result;
-    result = scene_cube_decode(scene, index, desc, &c, error);
+    TRY(environment_create(desc, &e, error));
+    facet_result result = scene_cube_decode(scene, index, desc, &c, error);
     if (result == FACET_OK)
         result = take_cube(e, &c, light, scene->source, desc->thread_count, error);
     if (result == FACET_OK)

@@ -237,9 +237,7 @@ facet_result sky_picture_preetham(float turbidity, const sky_sun_light *sun, con
                        .horizon = 0.5 * half_turn,
                        .mu_sun = cosf(zenith),
                        .preetham = preetham_sky(turbidity, zenith)};
-    facet_result result = draw(&job, sun->azimuth_rad, thread_count, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(draw(&job, sun->azimuth_rad, thread_count, error));
     double illuminance[3];
     sum_ground(picture, illuminance);
     vec3 direct = sky_sun_illuminance(sun);

@@ -109,9 +109,7 @@ DISPATCH_AVX2 static void draw_rows(void *context, size_t begin, size_t end)
 static facet_result studio_create(const facet_allocator *allocator, uint32_t thread_count, image *out,
                                   facet_error *error)
 {
-    facet_result result = image_create(allocator, WIDTH, HEIGHT, 3, IMAGE_F32, out, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(image_create(allocator, WIDTH, HEIGHT, 3, IMAGE_F32, out, error));
     studio s = {.pixels = out->pixels};
     for (int b = 0; b < BOX_COUNT; b++)
         place(&boxes[b], &s.placed[b]);
@@ -135,10 +133,8 @@ facet_result facet_environment_create_studio(const facet_environment_desc *desc,
     *environment = NULL;
     desc = desc ? desc : &default_desc;
     facet_environment *e = NULL;
-    facet_result result = environment_create(desc, &e, error);
-    if (result != FACET_OK)
-        return result;
-    result = studio_create(&e->allocator, desc->thread_count, &e->picture, error);
+    TRY(environment_create(desc, &e, error));
+    facet_result result = studio_create(&e->allocator, desc->thread_count, &e->picture, error);
     if (result != FACET_OK) {
         environment_release(e);
         return result;
@@ -155,10 +151,8 @@ facet_result facet_environment_create_constant(const float radiance[3], const fa
     *environment = NULL;
     desc = desc ? desc : &default_desc;
     facet_environment *e = NULL;
-    facet_result result = environment_create(desc, &e, error);
-    if (result != FACET_OK)
-        return result;
-    result = image_create(&e->allocator, 2, 1, 3, IMAGE_F32, &e->picture, error);
+    TRY(environment_create(desc, &e, error));
+    facet_result result = image_create(&e->allocator, 2, 1, 3, IMAGE_F32, &e->picture, error);
     if (result != FACET_OK) {
         environment_release(e);
         return result;
@@ -182,10 +176,9 @@ facet_result facet_environment_create_gradient(const float zenith[3], const floa
     *environment = NULL;
     desc = desc ? desc : &default_desc;
     facet_environment *e = NULL;
-    facet_result result = environment_create(desc, &e, error);
-    if (result != FACET_OK)
-        return result;
-    result = image_create(&e->allocator, GRADIENT_WIDTH, GRADIENT_HEIGHT, 3, IMAGE_F32, &e->picture, error);
+    TRY(environment_create(desc, &e, error));
+    facet_result result =
+        image_create(&e->allocator, GRADIENT_WIDTH, GRADIENT_HEIGHT, 3, IMAGE_F32, &e->picture, error);
     if (result != FACET_OK) {
         environment_release(e);
         return result;

@@ -76,9 +76,7 @@ static facet_result open_file(const unsigned char *bytes, size_t size, const cha
                               facet_error *error)
 {
     *out = (avif_file){0};
-    facet_result result = open_library(&out->library, name, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(open_library(&out->library, name, error));
     avifDecoder *decoder = out->decoder = out->library.create();
     if (!decoder)
         return fail_memory(error, "AVIF decoder", sizeof *decoder);
@@ -249,9 +247,7 @@ static facet_result decode_stored(const avif_file *file, const char *name, const
     const avif_library *l = &file->library;
     avifDecoder *decoder = file->decoder;
     const image header = make_header(decoder);
-    facet_result result = codec_check_size(name, header.width, header.height, desc->max_size, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(codec_check_size(name, header.width, header.height, desc->max_size, error));
     const char *matrix = get_unread_matrix(decoder->image);
     if (matrix)
         return fail(error, FACET_ERROR_UNSUPPORTED,
@@ -265,10 +261,8 @@ static facet_result decode_stored(const avif_file *file, const char *name, const
     if (decoded.width != header.width || decoded.height != header.height || decoded.type != header.type)
         return fail(error, FACET_ERROR_INVALID, "%s: AVIF: %u x %u texels were expected, decoded %u x %u",
                     name, header.width, header.height, decoded.width, decoded.height);
-    result = image_create(&desc->allocator, header.width, header.height, header.channel_count, header.type,
-                          out, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(image_create(&desc->allocator, header.width, header.height, header.channel_count, header.type, out,
+                     error));
     out->is_srgb = true;
     status = convert(l, decoder->image, out);
     return status == AVIF_RESULT_OK ? FACET_OK : fail_avif(l, error, name, status);

@@ -237,13 +237,9 @@ facet_result bmp_decode(const unsigned char *bytes, size_t size, const char *nam
                         const image_decode_desc *desc, image *out, facet_error *error)
 {
     bmp_header h;
-    facet_result result = parse_header(bytes, size, name, &h, error);
-    if (result == FACET_OK)
-        result = check(&h, name, desc->max_size, error);
-    if (result == FACET_OK)
-        result = image_create(&desc->allocator, h.width, h.height, h.channel_count, IMAGE_U8, out, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(parse_header(bytes, size, name, &h, error));
+    TRY(check(&h, name, desc->max_size, error));
+    TRY(image_create(&desc->allocator, h.width, h.height, h.channel_count, IMAGE_U8, out, error));
     out->is_srgb = true;
     const char *fault = read_texels(&h, out);
     if (fault) {

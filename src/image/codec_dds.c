@@ -144,14 +144,10 @@ static facet_result parse_header(const unsigned char *bytes, size_t size, const 
         return fail(error, FACET_ERROR_INVALID, "%s: DDS: the header is cut off", name);
     if (load_u32_le(bytes + 112) & IS_VOLUME)
         return fail(error, FACET_ERROR_UNSUPPORTED, "%s: DDS: volumes are not read", name);
-    facet_result result = parse_format(bytes, size, name, h, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(parse_format(bytes, size, name, h, error));
     h->height = load_u32_le(bytes + 12);
     h->width = load_u32_le(bytes + 16);
-    result = codec_check_size(name, h->width, h->height, max_size, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(codec_check_size(name, h->width, h->height, max_size, error));
     const uint64_t columns = ((uint64_t)h->width + 3) / 4, rows = ((uint64_t)h->height + 3) / 4;
     const bool is_blocks = h->format.block_size != 0;
     const uint64_t row_size =
@@ -237,12 +233,8 @@ facet_result dds_decode(const unsigned char *bytes, size_t size, const char *nam
                         const image_decode_desc *desc, image *out, facet_error *error)
 {
     dds_header h;
-    facet_result result = parse_header(bytes, size, name, desc->max_size, &h, error);
-    if (result == FACET_OK)
-        result =
-            image_create(&desc->allocator, h.width, h.height, h.format.channel_count, IMAGE_U8, out, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(parse_header(bytes, size, name, desc->max_size, &h, error));
+    TRY(image_create(&desc->allocator, h.width, h.height, h.format.channel_count, IMAGE_U8, out, error));
     out->is_srgb = true;
     dds_reading r = {&h, out};
     parallel_for(desc->thread_count, ((size_t)h.height + 3) / 4, 1 + 4096 / h.width, read_rows, &r);

@@ -132,12 +132,8 @@ static facet_result decode(reading *r, const char *name, const image_decode_desc
 {
     const exr_info *info = r->info;
     const exr_sizes *s = r->sizes;
-    facet_result result = check_open(r, name, error);
-    if (result == FACET_OK)
-        result = image_create(&desc->allocator, s->width, s->height, info->channel_count, IMAGE_F32, r->image,
-                              error);
-    if (result != FACET_OK)
-        return result;
+    TRY(check_open(r, name, error));
+    TRY(image_create(&desc->allocator, s->width, s->height, info->channel_count, IMAGE_F32, r->image, error));
     if (info->data.min_x > info->display.min_x || info->data.min_y > info->display.min_y ||
         info->data.max_x < info->display.max_x || info->data.max_y < info->display.max_y)
         memset(r->image->pixels, 0,
@@ -329,9 +325,7 @@ facet_result image_read_exr_channels(const void *bytes, size_t size, const char 
 {
     exr_info info;
     exr_sizes s;
-    facet_result result = check_magic(bytes, size, name, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(check_magic(bytes, size, name, error));
     exr_channel *named = mem_alloc(allocator, channel_count, sizeof *named);
     if (!named)
         return fail_memory(error, "OpenEXR channels", channel_count * sizeof *named);
@@ -340,7 +334,7 @@ facet_result image_read_exr_channels(const void *bytes, size_t size, const char 
                                  .first = channels[c].first,
                                  .texel_stride = channels[c].texel_stride_bytes,
                                  .row_stride = channels[c].row_stride_bytes};
-    result = exr_check(bytes, size, name, INT32_MAX, named, channel_count, &info, &s, error);
+    facet_result result = exr_check(bytes, size, name, INT32_MAX, named, channel_count, &info, &s, error);
     if (result == FACET_OK && (s.data_width != width || s.data_height != height))
         result = fail(error, FACET_ERROR_INVALID, "%s: OpenEXR: %u x %u texels are not %u x %u", name,
                       s.data_width, s.data_height, width, height);
@@ -357,11 +351,8 @@ facet_result image_read_exr_text(const void *bytes, size_t size, const char *nam
     char message[EXR_MESSAGE] = "";
     exr_info info;
     exr_sizes s;
-    facet_result result = check_magic(bytes, size, name, error);
-    if (result == FACET_OK)
-        result = exr_check(bytes, size, name, INT32_MAX, &none, 0, &info, &s, error);
-    if (result != FACET_OK)
-        return result;
-    result = exr_shim_text(bytes, size, text_name, value, value_size, message);
+    TRY(check_magic(bytes, size, name, error));
+    TRY(exr_check(bytes, size, name, INT32_MAX, &none, 0, &info, &s, error));
+    facet_result result = exr_shim_text(bytes, size, text_name, value, value_size, message);
     return result == FACET_OK ? FACET_OK : exr_fail(error, result, name, message);
 }

@@ -295,15 +295,14 @@ facet_result gif_decode(const unsigned char *bytes, size_t size, const char *nam
                         const image_decode_desc *desc, image *out, facet_error *error)
 {
     gif_header h;
-    facet_result result = parse_header(bytes, size, name, desc->max_size, &h, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(parse_header(bytes, size, name, desc->max_size, &h, error));
     const image header = make_header(&h);
     lzw *z = mem_zalloc(&desc->allocator, 1, sizeof *z);
     unsigned char *indices = mem_alloc(&desc->allocator, h.frame_width, h.frame_height);
-    result = z && indices ? image_create(&desc->allocator, header.width, header.height, header.channel_count,
-                                         IMAGE_U8, out, error)
-                          : fail_memory(error, "GIF texels", (size_t)h.frame_width * h.frame_height);
+    facet_result result = z && indices
+                              ? image_create(&desc->allocator, header.width, header.height,
+                                             header.channel_count, IMAGE_U8, out, error)
+                              : fail_memory(error, "GIF texels", (size_t)h.frame_width * h.frame_height);
     if (result == FACET_OK) {
         const char *fault = read_indices(&h, z, indices);
         fault = fault ? fault : put_colors(&h, indices, out);

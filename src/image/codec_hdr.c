@@ -364,16 +364,13 @@ facet_result hdr_decode(const unsigned char *bytes, size_t size, const char *nam
     hdr_header h;
     size_t *offsets = NULL;
     image made = {0};
-    facet_result result = parse_header(bytes, size, name, &h, error);
-    if (result == FACET_OK)
-        result = codec_check_size(name, h.width, h.height, desc->max_size, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(parse_header(bytes, size, name, &h, error));
+    TRY(codec_check_size(name, h.width, h.height, desc->max_size, error));
 
     offsets = mem_alloc(&desc->allocator, h.scan_count, sizeof *offsets);
     if (!offsets)
         return fail_memory(error, "scanline offsets", h.scan_count * sizeof *offsets);
-    result = find_scans(&h, name, offsets, error);
+    facet_result result = find_scans(&h, name, offsets, error);
     if (result == FACET_OK)
         result = image_create(&desc->allocator, h.width, h.height, 3, IMAGE_F32, &made, error);
     if (result != FACET_OK)
@@ -458,10 +455,8 @@ static unsigned char *code_component(const unsigned char *plane, uint32_t length
 facet_result hdr_encode(const image *i, const image_encode_desc *desc, unsigned char **bytes, size_t *size,
                         facet_error *error)
 {
-    facet_result result = codec_check_input(i, "Radiance HDR", i->type == IMAGE_F32 && !i->is_srgb,
-                                            "float RGB", 1u << 3, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(codec_check_input(i, "Radiance HDR", i->type == IMAGE_F32 && !i->is_srgb, "float RGB", 1u << 3,
+                          error));
     const bool is_coding = i->width >= MIN_CODED_LENGTH && i->width <= MAX_CODED_LENGTH;
     const size_t width = i->width;
     const size_t most = 4 + 4 * (width + width / 128 + 2); /* bytes of a scanline */

@@ -113,12 +113,8 @@ static facet_result decode(tjhandle handle, const unsigned char *bytes, size_t s
                            const image_decode_desc *desc, image *out, facet_error *error)
 {
     int full_width, full_height, color_space;
-    facet_result result =
-        read_header(handle, bytes, size, name, &full_width, &full_height, &color_space, error);
-    if (result == FACET_OK)
-        result = codec_check_size(name, (uint64_t)full_width, (uint64_t)full_height, desc->max_size, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(read_header(handle, bytes, size, name, &full_width, &full_height, &color_space, error));
+    TRY(codec_check_size(name, (uint64_t)full_width, (uint64_t)full_height, desc->max_size, error));
     const bool is_cmyk = color_space == TJCS_CMYK || color_space == TJCS_YCCK;
     const uint32_t own_count = color_space == TJCS_GRAY ? 1 : 3;
     const uint32_t channel_count = desc->channel_count ? desc->channel_count : own_count;
@@ -128,7 +124,7 @@ static facet_result decode(tjhandle handle, const unsigned char *bytes, size_t s
 
     image inks = {0}; /* CMYK needs a fourth channel on the way */
     image *target = is_cmyk && channel_count == 3 ? &inks : out;
-    result = image_create(&desc->allocator, width, height, channel_count, IMAGE_U8, out, error);
+    facet_result result = image_create(&desc->allocator, width, height, channel_count, IMAGE_U8, out, error);
     if (result == FACET_OK && target == &inks)
         result = image_create(&desc->allocator, width, height, 4, IMAGE_U8, &inks, error);
     if (result != FACET_OK)

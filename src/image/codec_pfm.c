@@ -71,18 +71,13 @@ facet_result pfm_decode(const unsigned char *bytes, size_t size, const char *nam
                         const image_decode_desc *desc, image *out, facet_error *error)
 {
     pfm_header h;
-    facet_result result = parse_header(bytes, size, name, &h, error);
-    if (result == FACET_OK)
-        result = codec_check_size(name, h.width, h.height, desc->max_size, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(parse_header(bytes, size, name, &h, error));
+    TRY(codec_check_size(name, h.width, h.height, desc->max_size, error));
     const size_t row_size = (size_t)h.width * h.channel_count * 4;
     if ((size - h.data_offset) / row_size < h.height)
         return fail(error, FACET_ERROR_INVALID, "%s: %u x %u texels need %zu bytes, the file has %zu", name,
                     h.width, h.height, row_size * h.height, size - h.data_offset);
-    result = image_create(&desc->allocator, h.width, h.height, 3, IMAGE_F32, out, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(image_create(&desc->allocator, h.width, h.height, 3, IMAGE_F32, out, error));
     float *to = out->pixels;
     for (uint32_t y = 0; y < h.height; y++) {
         const unsigned char *from = bytes + h.data_offset + row_size * (h.height - 1 - y);
@@ -102,10 +97,7 @@ facet_result pfm_decode(const unsigned char *bytes, size_t size, const char *nam
 facet_result pfm_encode(const image *i, const image_encode_desc *desc, unsigned char **bytes, size_t *size,
                         facet_error *error)
 {
-    facet_result result =
-        codec_check_input(i, "PFM", i->type == IMAGE_F32 && !i->is_srgb, "float RGB", 1u << 3, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(codec_check_input(i, "PFM", i->type == IMAGE_F32 && !i->is_srgb, "float RGB", 1u << 3, error));
     const size_t row_size = image_row_size(i);
     unsigned char *file = mem_alloc(&desc->allocator, (size_t)i->height + 1, row_size + 64);
     if (!file)

@@ -179,11 +179,8 @@ facet_result png_probe(const unsigned char *bytes, size_t size, const char *name
 {
     png_header h;
     struct spng_ihdr ihdr;
-    facet_result result = read_chunks(bytes, size, name, false, &h, error);
-    if (result == FACET_OK)
-        result = codec_check_size(name, h.width, h.height, INT32_MAX, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(read_chunks(bytes, size, name, false, &h, error));
+    TRY(codec_check_size(name, h.width, h.height, INT32_MAX, error));
     source s = {bytes, bytes + SIGNATURE_SIZE, bytes + SIGNATURE_SIZE, bytes + size, h.color_type};
     spng_ctx *context = spng_ctx_new(0);
     int code = context ? open_png(context, &s, &ihdr) : SPNG_EMEM;
@@ -316,19 +313,16 @@ facet_result png_decode(const unsigned char *bytes, size_t size, const char *nam
 {
     png_header h;
     image made = {0};
-    facet_result result = read_chunks(bytes, size, name, true, &h, error);
-    if (result == FACET_OK)
-        result = codec_check_size(name, h.width, h.height, desc->max_size, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(read_chunks(bytes, size, name, true, &h, error));
+    TRY(codec_check_size(name, h.width, h.height, desc->max_size, error));
     /* libspng takes what it needs from malloc(): two filtered rows and one of 16-bit RGBA at most */
     const ptrdiff_t library_memory = LIBRARY_MEMORY + (ptrdiff_t)h.width * 3 * 8;
     source s = {bytes, bytes + SIGNATURE_SIZE, bytes + SIGNATURE_SIZE, bytes + size, h.color_type};
     if (!mem_account(&desc->allocator, library_memory))
         return fail_memory(error, "PNG decoder", (size_t)library_memory);
     spng_ctx *context = spng_ctx_new(0);
-    result = context ? decode(context, &h, &s, name, desc, &made, error)
-                     : fail_memory(error, "PNG decoder", LIBRARY_MEMORY);
+    facet_result result = context ? decode(context, &h, &s, name, desc, &made, error)
+                                  : fail_memory(error, "PNG decoder", LIBRARY_MEMORY);
     spng_ctx_free(context);
     mem_account(&desc->allocator, -library_memory);
     if (result == FACET_OK)

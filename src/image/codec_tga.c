@@ -170,11 +170,8 @@ facet_result tga_decode(const unsigned char *bytes, size_t size, const char *nam
     tga_header h;
     if (!parse_header(bytes, size, &h))
         return fail(error, FACET_ERROR_INVALID, "%s: TGA: the header is damaged", name);
-    facet_result result = check(&h, name, desc->max_size, error);
-    if (result == FACET_OK)
-        result = image_create(&desc->allocator, h.width, h.height, h.channel_count, IMAGE_U8, out, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(check(&h, name, desc->max_size, error));
+    TRY(image_create(&desc->allocator, h.width, h.height, h.channel_count, IMAGE_U8, out, error));
     out->is_srgb = true;
     const char *fault = read_texels(&h, out);
     if (fault) {

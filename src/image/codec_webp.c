@@ -58,17 +58,12 @@ facet_result webp_decode(const unsigned char *bytes, size_t size, const char *na
         return fail(error, FACET_ERROR_SYSTEM, "%s: libwebp has another version than facet was built with",
                     name);
     image made = {0};
-    facet_result result = read_header(bytes, size, name, &config.input, error);
-    if (result == FACET_OK)
-        result = codec_check_size(name, (uint64_t)config.input.width, (uint64_t)config.input.height,
-                                  desc->max_size, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(read_header(bytes, size, name, &config.input, error));
+    TRY(codec_check_size(name, (uint64_t)config.input.width, (uint64_t)config.input.height, desc->max_size,
+                         error));
     uint32_t channel_count = desc->channel_count ? desc->channel_count : config.input.has_alpha ? 4 : 3;
-    result = image_create(&desc->allocator, (uint32_t)config.input.width, (uint32_t)config.input.height,
-                          channel_count, IMAGE_U8, &made, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(image_create(&desc->allocator, (uint32_t)config.input.width, (uint32_t)config.input.height,
+                     channel_count, IMAGE_U8, &made, error));
     made.is_srgb = true;
     config.options.use_threads = desc->thread_count > 1;
     config.output.colorspace = channel_count == 4 ? MODE_RGBA : MODE_RGB;

@@ -162,11 +162,8 @@ static facet_result check_sizes(const exr_info *info, size_t size, const char *n
     const uint64_t height = edge(info->display.min_y, info->display.max_y);
     const uint64_t data_width = edge(info->data.min_x, info->data.max_x);
     const uint64_t data_height = edge(info->data.min_y, info->data.max_y);
-    facet_result result = codec_check_size(name, width, height, max_size, error);
-    if (result == FACET_OK)
-        result = codec_check_size(name, data_width, data_height, max_size, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(codec_check_size(name, width, height, max_size, error));
+    TRY(codec_check_size(name, data_width, data_height, max_size, error));
     *s = (exr_sizes){.width = (uint32_t)width,
                      .height = (uint32_t)height,
                      .data_width = (uint32_t)data_width,
@@ -205,10 +202,8 @@ facet_result exr_check(const unsigned char *bytes, size_t size, const char *name
                        facet_error *error)
 {
     char message[EXR_MESSAGE] = "";
-    facet_result result = check_headers(bytes, size, name, error);
-    if (result != FACET_OK)
-        return result;
-    result = exr_shim_info(bytes, size, named, named_count, info, message);
+    TRY(check_headers(bytes, size, name, error));
+    facet_result result = exr_shim_info(bytes, size, named, named_count, info, message);
     if (result != FACET_OK)
         return exr_fail(error, result, name, message);
     return check_sizes(info, size, name, max_size, s, error);

@@ -233,9 +233,7 @@ facet_result image_convert(const image *in, const facet_allocator *allocator, ui
                     "image: %u channels cannot become %u: colors are not mixed to grey", in->channel_count,
                     channel_count);
     image made;
-    facet_result result = image_create(allocator, in->width, in->height, channel_count, type, &made, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(image_create(allocator, in->width, in->height, channel_count, type, &made, error));
     made.is_srgb = to_srgb;
     conversion c = {.in = in, .out = &made};
     if (in->is_srgb != to_srgb) {
@@ -330,9 +328,7 @@ static void pack_rows(void *context, size_t begin, size_t end)
 facet_result rgbm_encode(const image *in, float range, const facet_allocator *allocator,
                          uint32_t thread_count, image *out, facet_error *error)
 {
-    facet_result result = image_create(allocator, in->width, in->height, 4, IMAGE_U8, out, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(image_create(allocator, in->width, in->height, 4, IMAGE_U8, out, error));
     packing p = {in, out, range};
     parallel_for(thread_count, in->height, 16, pack_rows, &p);
     return FACET_OK;

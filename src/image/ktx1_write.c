@@ -118,9 +118,7 @@ facet_result ktx1_write_cube(const ktx1_write_desc *desc, unsigned char **bytes,
 {
     *bytes = NULL;
     *size = 0;
-    facet_result result = check(desc, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(check(desc, error));
     const size_t pair_size = desc->key ? 4 + round_up(strlen(desc->key) + 1 + strlen(desc->value)) : 0;
     size_t total, at = HEADER_SIZE + pair_size;
     if (!file_size(desc, pair_size, &total))

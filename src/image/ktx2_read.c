@@ -341,10 +341,7 @@ static facet_result find_slices(const ktx2 *k, const ktx2_data *data, uint64_t i
                                 facet_error *error)
 {
     const uint64_t image_count = (uint64_t)k->level_count * k->layer_count * k->face_count;
-    facet_result result =
-        etc1s_read_image(k->global, k->global_size, image_count, index, k->name, out, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(etc1s_read_image(k->global, k->global_size, image_count, index, k->name, out, error));
     if (out->flags & ETC1S_P_FRAME)
         return fail(error, FACET_ERROR_UNSUPPORTED, "%s: KTX2: P frames of texture videos are not read",
                     k->name);
@@ -486,14 +483,10 @@ facet_result ktx2_read(const ktx2 *k, uint32_t level, uint32_t layer, uint32_t f
 {
     ktx2_data data;
     *out = (image){0};
-    facet_result result =
-        codec_check_size(k->name, ktx2_level_edge(k->width, level), ktx2_level_edge(k->height, level),
-                         desc->max_size ? desc->max_size : CODEC_MAX_SIZE, error);
-    if (result == FACET_OK)
-        result = ktx2_load_level(k, level, &desc->allocator, &data, error);
-    if (result != FACET_OK)
-        return result;
-    result = ktx2_decode(k, &data, level, layer, face, desc, out, error);
+    TRY(codec_check_size(k->name, ktx2_level_edge(k->width, level), ktx2_level_edge(k->height, level),
+                         desc->max_size ? desc->max_size : CODEC_MAX_SIZE, error));
+    TRY(ktx2_load_level(k, level, &desc->allocator, &data, error));
+    facet_result result = ktx2_decode(k, &data, level, layer, face, desc, out, error);
     ktx2_data_destroy(&data);
     return result;
 }

@@ -377,9 +377,7 @@ facet_result ktx2_write(const ktx2_write_desc *desc, unsigned char **bytes, size
 {
     *bytes = NULL;
     *size = 0;
-    facet_result result = check(desc, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(check(desc, error));
     const metadata m = make_metadata(desc);
     writing w = {.desc = desc,
                  .texel = ktx2_find_texel(desc->format),
@@ -390,7 +388,7 @@ facet_result ktx2_write(const ktx2_write_desc *desc, unsigned char **bytes, size
     /* The least common multiple of 4 and the size of a texel, which is 2 or a multiple of 4. */
     w.alignment = desc->zstd_level ? 1 : w.texel->size < 4 ? 4 : w.texel->size;
     w.start = align_up(front, w.alignment);
-    result =
+    facet_result result =
         desc->zstd_level ? write_compressed(&w, bytes, size, error) : write_plain(&w, bytes, size, error);
     for (uint32_t i = 0; i < desc->level_count; i++)
         mem_free(w.levels[i].compressed);
