@@ -5,7 +5,6 @@
 
 #include "base/result.h"
 #include "legacy/convert_state.h"
-#include "legacy/lights.h"
 #include "scene/legacy_extras.h"
 
 /* ---- textures that only the source materials read leave the scene (facet_legacy_desc.drops_sources) ----

@@ -5,7 +5,6 @@
 
 #include "base/result.h"
 #include "legacy/convert_state.h"
-#include "legacy/lights.h"
 
 static facet_result survey(conversion *c, facet_error *error)
 {

@@ -1,6 +1,6 @@
-/* convert_ogl1_maps.c - see convert_ogl1_maps.h. A legacy material has one exponent: the one that its mean asks for. Each
- * texel takes the colors that come nearest to it with that exponent. */
-#include "legacy/convert_ogl1_maps.h"
+/* convert_ogl1_maps.c - textures of glTF materials as maps of legacy ones. A legacy material has one exponent, that of its mean;
+ * each texel takes the colors that approximate it best with that exponent. */
+#include "legacy/convert_state.h"
 
 #include <math.h>
 #include <string.h>

@@ -115,6 +115,31 @@ facet_result build_material(conversion *c, uint32_t material, legacy_reading *re
 facet_result build_surface_maps(conversion *c, uint32_t material, legacy_reading *reading,
                                 const solve_item *item, scene_material *out, facet_error *error);
 
+/* ---- legacy materials of glTF ones ---- */
+
+/* Whether the statistics of a texture in that slot are needed. */
+bool ogl1_reads_slot(scene_texture_slot slot);
+/* The surface whose numbers a material is converted by: textures at their means. */
+pbr_surface ogl1_representative(const conversion *c, const scene_material *m);
+/* Whether textures do more than scale the base color of a dielectric. */
+bool ogl1_needs_texels(const conversion *c, const scene_material *m);
+/* Maps, and the factors that go with them. Fails with FACET_ERROR_MEMORY. */
+facet_result ogl1_build_maps(conversion *c, uint32_t material, const scene_material *m,
+                             const solve_item *item, legacy_material *out, facet_error *error);
+
+/* ---- lights ----
+ *
+ * A white surface that faces a white light of 1 shows 1 in OpenGL 1 and 1 / pi in glTF: illuminances are pi times legacy
+ * colors. */
+
+/* Punctual lights, each with a node in the default scene, of scene->legacy; those of an earlier conversion are replaced.
+ * Lights that are relative to the viewer are placed for the default camera, point lights get the intensity that is right
+ * at the middle of the scene. Fails with FACET_ERROR_MEMORY, and then leaves the scene as it was. */
+facet_result lights_from_legacy(conversion *c, facet_error *error);
+
+/* c->legacy's lights of the punctual ones of the default scene at rest. */
+facet_result lights_to_legacy(conversion *c, facet_error *error);
+
 /* ---- the directions of a conversion ---- */
 
 facet_result convert_from_ogl1(conversion *c, facet_error *error);

@@ -4,9 +4,7 @@
 #include <string.h>
 
 #include "base/result.h"
-#include "legacy/convert_ogl1_maps.h"
 #include "legacy/convert_state.h"
-#include "legacy/lights.h"
 #include "scene/material_table.h"
 
 /* ---- what is known already ---- */

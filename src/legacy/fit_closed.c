@@ -1,5 +1,5 @@
 /* fit_closed.c - conversions without quadrature: the roughness whose lobe is nearest to Blinn's, and linear least squares with
- * integrals from a LUT (fit_gram.h); and the usual formulas, which the others are measured against. */
+ * integrals from the LUT of fit_table_generate.c; and the usual formulas, which the others are measured against. */
 #include <math.h>
 #include <string.h>
 
@@ -7,8 +7,129 @@
 #include "legacy/fit_gram.h"
 #include "legacy/fit_linear.h"
 #include "legacy/fit_minimize.h"
+#include "legacy_fit_table.h"
 
 #include "shade/shade.h"
+
+/* ---- integrals of the shapes, by a LUT ---- */
+
+/* Products of the shapes that both models are made of: n = N.L, S = pi D V N.L of a roughness, P = (N.H)^s. The index is the
+ * power of w, Schlick's weight. Integrals over all views and lights of fit_metric, with height-correlated masking. */
+typedef struct fit_gram {
+    double nn[3];
+    double nS[3], SS[3];
+    double nP[2], PP;
+    double SP[2];
+} fit_gram;
+
+typedef struct gram_place {
+    int first;        /* of four nodes */
+    double weight[4]; /* of their logarithms */
+} gram_place;
+
+/* x in nodes from the first: the four nodes around it and Lagrange's weights for them. */
+static gram_place gram_find(double x, int count)
+{
+    gram_place p;
+    double node = fmin(fmax(x, 0.0), count - 1.0);
+    int first = (int)node - 1;
+    p.first = first < 0 ? 0 : first > count - 4 ? count - 4 : first;
+    double t = node - p.first;
+    p.weight[0] = (t - 1.0) * (t - 2.0) * (t - 3.0) / -6.0;
+    p.weight[1] = t * (t - 2.0) * (t - 3.0) / 2.0;
+    p.weight[2] = t * (t - 1.0) * (t - 3.0) / -2.0;
+    p.weight[3] = t * (t - 1.0) * (t - 2.0) / 6.0;
+    return p;
+}
+
+static double gram_mean_log(const float *logs, const double *weight)
+{
+    return (double)logs[0] * weight[0] + (double)logs[1] * weight[1] + (double)logs[2] * weight[2] +
+           (double)logs[3] * weight[3];
+}
+
+static double gram_value(const float *logs, const gram_place *p)
+{
+    return exp(gram_mean_log(logs + p->first, p->weight));
+}
+
+/* Each fills in what depends on its argument: in any order, but _both last. Roughness in [0, 1], s >= 0. */
+static gram_place gram_roughness(fit_gram *gram, double perceptual_roughness)
+{
+    gram_place p = gram_find((log(fmax(perceptual_roughness, 1e-9)) - GRAM_LOG_R) / GRAM_STEP_R, GRAM_R);
+    static const float *const nS[3] = {log_nS0, log_nS1, log_nS2};
+    static const float *const SS[3] = {log_SS0, log_SS1, log_SS2};
+    for (int k = 0; k < 3; k++) {
+        gram->nS[k] = gram_value(nS[k], &p);
+        gram->SS[k] = gram_value(SS[k], &p);
+        gram->nn[k] = (double)table_nn[k];
+    }
+    return p;
+}
+
+static gram_place gram_shininess(fit_gram *gram, double shininess)
+{
+    gram_place p = gram_find(log1p(fmax(shininess, 0.0)) / GRAM_STEP_S, GRAM_S);
+    gram->nP[0] = gram_value(log_nP0, &p);
+    gram->nP[1] = gram_value(log_nP1, &p);
+    gram->PP = gram_value(log_PP, &p);
+    return p;
+}
+
+static void gram_both(fit_gram *gram, const gram_place *roughness, const gram_place *shininess)
+{
+    double sum[2] = {0.0, 0.0};
+    for (int i = 0; i < 4; i++) {
+        int at = (roughness->first + i) * GRAM_S + shininess->first;
+        sum[0] += roughness->weight[i] * gram_mean_log(log_SP0 + at, shininess->weight);
+        sum[1] += roughness->weight[i] * gram_mean_log(log_SP1 + at, shininess->weight);
+    }
+    gram->SP[0] = exp(sum[0]);
+    gram->SP[1] = exp(sum[1]);
+}
+
+/* ---- the lobe nearest to Blinn's ---- */
+
+/* Roughness and factors of n and S that approximate P: P = u n + g S. */
+typedef struct fit_nearest {
+    double perceptual_roughness, g;
+} fit_nearest;
+
+/* Linear between nodes, so that what falls in the table falls everywhere; beyond the last with the last's slope. */
+static double gram_along(const float *logs, double x)
+{
+    double node = fmax(x, 0.0);
+    int first = node < GRAM_S - 2.0 ? (int)node : GRAM_S - 2;
+    double t = node - first;
+    return (double)logs[first] * (1.0 - t) + (double)logs[first + 1] * t;
+}
+
+static fit_nearest gram_nearest(double shininess)
+{
+    double x = log1p(fmax(shininess, 0.0)) / GRAM_STEP_S;
+    return (fit_nearest){exp(gram_along(log_nearest_r, x)), exp(gram_along(log_nearest_g, x))};
+}
+
+/* The inverse; at most 1e5. */
+static double gram_nearest_shininess(double perceptual_roughness)
+{
+    static const double most = 1e5;
+    double wanted = log(fmax(perceptual_roughness, 1e-9));
+    if (wanted >= 0.0)
+        return 0.0;
+    int first = 0;
+    int end = GRAM_S - 1;
+    while (end - first > 1) { /* falls from node to node */
+        int middle = (first + end) / 2;
+        if ((double)log_nearest_r[middle] > wanted)
+            first = middle;
+        else
+            end = middle;
+    }
+    double a = (double)log_nearest_r[first];
+    double b = (double)log_nearest_r[first + 1];
+    return fmin(expm1((first + (a - wanted) / (a - b)) * GRAM_STEP_S), most);
+}
 
 /* ---- OpenGL 1 to PBR ---- */
 
@@ -16,17 +137,17 @@
  * neither depends on the colors as long as these need no clamping. */
 float perceptual_roughness_from_shininess(float shininess)
 {
-    return (float)fit_gram_nearest((double)shininess).perceptual_roughness;
+    return (float)gram_nearest((double)shininess).perceptual_roughness;
 }
 
 float shininess_from_perceptual_roughness(float perceptual_roughness)
 {
-    return (float)fit_gram_nearest_shininess((double)perceptual_roughness);
+    return (float)gram_nearest_shininess((double)perceptual_roughness);
 }
 
 float reflectance_share_from_shininess(float shininess)
 {
-    return (float)fit_gram_nearest((double)shininess).g;
+    return (float)gram_nearest((double)shininess).g;
 }
 
 uint32_t fit_remarks_to_pbr(const ogl1_surface *in, const pbr_surface *out)
@@ -45,9 +166,9 @@ uint32_t fit_remarks_to_pbr(const ogl1_surface *in, const pbr_surface *out)
 static fit_gram gram_of(double perceptual_roughness, double shininess)
 {
     fit_gram gram;
-    gram_place r = fit_gram_roughness(&gram, perceptual_roughness);
-    gram_place s = fit_gram_shininess(&gram, shininess);
-    fit_gram_both(&gram, &r, &s);
+    gram_place r = gram_roughness(&gram, perceptual_roughness);
+    gram_place s = gram_shininess(&gram, shininess);
+    gram_both(&gram, &r, &s);
     return gram;
 }
 
@@ -145,8 +266,8 @@ static double core_square(void *context, const double *x)
     double F0 = (double)dielectric_F0(1.5f, 1.0f, vec3(1.0f))[0];
     double m = x[1];
     if (x[0] != s->roughness) {
-        gram_place r = fit_gram_roughness(g, x[0]);
-        fit_gram_both(g, &r, &s->shininess);
+        gram_place r = gram_roughness(g, x[0]);
+        gram_both(g, &r, &s->shininess);
         s->roughness = x[0];
     }
     double a = (1.0 - m) * (1.0 - F0); /* base: a n (1 - w) + m S (1 - w) */
@@ -176,7 +297,7 @@ static double core_square(void *context, const double *x)
 uint32_t ogl1_to_pbr_core_closed(const ogl1_surface *in, pbr_surface *out)
 {
     core_search s = {.in = in, .roughness = -1.0};
-    s.shininess = fit_gram_shininess(&s.gram, (double)in->shininess);
+    s.shininess = gram_shininess(&s.gram, (double)in->shininess);
     double x[2] = {(double)perceptual_roughness_from_shininess(in->shininess), 0.1};
     fit_minimize_n(core_square, &s, 2, x, (const double[2]){0.1, 0.2}, 1e-4, 60);
     *out = pbr_surface_default();
@@ -202,8 +323,8 @@ static double square_at(void *context, const double *x)
     static const fit_bounds displayable = {{0.0, 0.0}, {1.0, 1.0}};
     ogl1_search *s = context;
     fit_gram *g = &s->gram;
-    gram_place shininess = fit_gram_shininess(g, expm1(*x));
-    fit_gram_both(g, &s->roughness, &shininess);
+    gram_place shininess = gram_shininess(g, expm1(*x));
+    gram_both(g, &s->roughness, &shininess);
     double sum = 0.0;
     for (int k = 0; k < 3; k++) {
         double d0 = (double)s->lobes.diffuse[k] * (1.0 - (double)s->lobes.shade[0]);
@@ -222,7 +343,7 @@ static double square_at(void *context, const double *x)
 static void start(ogl1_search *s, const pbr_surface *in)
 {
     s->lobes = fit_lobes_of(in);
-    s->roughness = fit_gram_roughness(&s->gram, (double)in->perceptual_roughness);
+    s->roughness = gram_roughness(&s->gram, (double)in->perceptual_roughness);
 }
 
 static uint32_t finish(const ogl1_search *s, const pbr_surface *in, double shininess, ogl1_surface *out)

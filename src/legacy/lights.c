@@ -1,5 +1,5 @@
-/* lights.c - see lights.h. */
-#include "legacy/lights.h"
+/* lights.c - lights of OpenGL 1 to KHR_lights_punctual and back. */
+#include "legacy/convert_state.h"
 
 #include <math.h>
 #include <stdio.h>

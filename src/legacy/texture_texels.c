@@ -49,8 +49,8 @@ static facet_result make_rgba(struct image *raw, const facet_scene *scene, uint3
     return result;
 }
 
-facet_result texels_decode(const facet_scene *scene, uint32_t index, uint32_t max_reduction,
-                           uint32_t thread_count, struct image *out, facet_error *error)
+static facet_result texels_decode(const facet_scene *scene, uint32_t index, uint32_t max_reduction,
+                                  uint32_t thread_count, struct image *out, facet_error *error)
 {
     image raw;
     *out = (image){0};
