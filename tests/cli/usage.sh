@@ -99,8 +99,8 @@ expect 2 render -o '{nope}.png'
 says "facet: --output: {nope} stands for nothing; there are {stem}, {name}, {dir}, {index}"
 expect 2 ocean -o 'sea_{level}.png'
 says "{level} stands for nothing"
-expect 2 bake neutral -o '{stem}.hdr'
-says "{stem} stands for nothing; there are {level}, {face}"
+expect 2 bake neutral -o '{name}.hdr'
+says "{name} stands for nothing; there are {stem}, {level}, {face}"
 expect 2 convert a.glb '{dirname}.gltf'
 says "facet: convert: {dirname} stands for nothing"
 expect 2 convert a.glb b.glb --report '{Stem}.json'

@@ -55,21 +55,6 @@ bool bake_name_has_face(const char *pattern)
     return strstr(pattern, "{face}") != NULL;
 }
 
-const char *bake_name_find_unknown(const char *pattern, size_t *length)
-{
-    static const char *const known[] = {"{stem}", "{level}", "{face}"};
-    for (const char *at = strchr(pattern, '{'); at; at = strchr(at + 1, '{')) {
-        const size_t word = strspn(at + 1, "abcdefghijklmnopqrstuvwxyz");
-        bool is_known = word == 0 || at[word + 1] != '}';
-        *length = word + 2;
-        for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-            is_known = is_known || (strlen(known[i]) == *length && strncmp(at, known[i], *length) == 0);
-        if (!is_known)
-            return at;
-    }
-    return NULL;
-}
-
 bool bake_name_expand(const char *pattern, const char *stem, int level, bool has_levels, int face, char *name)
 {
     char number[16];

@@ -20,8 +20,6 @@ const char *bake_container_extension(bake_container container); /* "ktx2" */
 bool bake_name_expand(const char *pattern, const char *stem, int level, bool has_levels, int face,
                       char *name);
 bool bake_name_has_face(const char *pattern);
-/* The first {word} of pattern that stands for nothing, with its braces, and its length; NULL: there is none. */
-const char *bake_name_find_unknown(const char *pattern, size_t *length);
 
 /* folder/file. False: too long. */
 bool bake_name_join(const char *folder, const char *file, char *name);

@@ -255,8 +255,6 @@ static facet_result check_stdout(const command_line *c, const bake_options *o, f
         if (side[i] && strcmp(side[i], "-") == 0)
             return fail(error, FACET_ERROR_ARGUMENT,
                         "bake: - is standard output for --output only; name a file");
-    if (o->output)
-        TRY(output_name_check("--output", o->output, "level face", error));
     if (!o->output || strcmp(o->output, "-") != 0)
         return FACET_OK;
     if (o->layout != BAKE_LAYOUT_NONE)

@@ -258,18 +258,19 @@ static bool find_stem(const bake_options *o, char *stem, size_t size)
     return output_name_stem(name, stem, size);
 }
 
-/* Outputs whose names say something that they do not mean. */
+/* Refuses names with {words} that stand for nothing, and the name of a file where a folder is filled. */
 static facet_result check_patterns(const bake_options *o, facet_error *error)
 {
-    const char *const patterns[] = {o->output, o->diffuse, o->sheen, o->sh, o->preview};
-    for (size_t i = 0; i < sizeof patterns / sizeof *patterns; i++) {
-        size_t length = 0;
-        const char *unknown = patterns[i] ? bake_name_find_unknown(patterns[i], &length) : NULL;
-        if (unknown)
-            return fail(error, FACET_ERROR_ARGUMENT,
-                        "bake: \"%.200s\": %.*s stands for nothing; {stem}, {level} and {face} do",
-                        patterns[i], (int)(length < 40 ? length : 40), unknown);
-    }
+    const struct {
+        const char *place, *pattern;
+    } names[] = {{"--output", o->output},
+                 {"--diffuse", o->diffuse},
+                 {"--sheen", o->sheen},
+                 {"--sh", o->sh},
+                 {"--preview", o->preview}};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (names[i].pattern)
+            TRY(output_name_check(names[i].place, names[i].pattern, "stem level face", error));
     if (o->layout != BAKE_LAYOUT_NONE && o->output && bake_container_of(o->output) != CONTAINER_FROM_NAME)
         return fail(error, FACET_ERROR_ARGUMENT,
                     "--layout: it fills a folder, and \"%.200s\" is the name of a file", o->output);

@@ -15,33 +15,33 @@
 
 const verb compare_verb = {
     .name = "compare",
-    .summary = "measure how far two pictures are apart",
+    .summary = "measure the difference of two images",
     .arguments = "A B",
     .max_arguments = 2,
     .file_types = "png jpg jpeg webp avif tga bmp gif dds exr hdr pfm ktx2",
     .output_types = "png jpg jpeg webp exr hdr pfm",
     .description =
-        "A is the reference, B what is compared with it; both are .png .jpg .webp .avif .tga .bmp "
-        ".gif .dds .exr .hdr .pfm .ktx2, told apart by content; - is standard input, once. They have "
-        "to be of the same size.\n\n"
+        "A is the reference, B is compared with it; both are .png .jpg .webp .avif .tga .bmp .gif "
+        ".dds .exr .hdr .pfm .ktx2, recognized by content; - is standard input, once. They must have "
+        "the same size.\n\n"
         "Without limits the exit code is 0, however different they are. With --max or --min it is 1 "
-        "where one is exceeded, and one line says by what; then numbers are printed only with "
-        "--metric or -v.\n\n"
-        "Files of light (exr, hdr, pfm, ktx2 with linear texels) are compared as light, all others "
-        "as displays show them; of two that are not of a kind, the light is tone-mapped "
-        "(--tone-mapping) and clamped. FLIP of light is the largest over a range of exposures.\n\n"
-        "Pixels that are not a number, or infinite, in one picture and not the same in the other are "
-        "in no mean, but they differ, infinitely far; with such pixels no limit holds.",
+        "if a limit is exceeded, with one line that states by how much; then numbers are printed "
+        "only with --metric or -v.\n\n"
+        "Scene-linear files (exr, hdr, pfm, ktx2 with linear texels) are compared as radiance, all "
+        "others as display values; if only one of two is linear, it is tone-mapped (--tone-mapping) "
+        "and clamped. FLIP of linear files is the largest over a range of exposures (HDR-FLIP).\n\n"
+        "Pixels that are NaN or infinite in one image and not the same in the other enter no mean, "
+        "but they count as infinitely different; with such pixels no limit holds.",
     .examples =
         (const example[]){
             {"facet compare reference.png render.png", "a table"},
-            {"facet compare golden.exr new.exr --max flip=0.02,nrmse=0.01", "a test: exit 1 where it fails"},
-            {"facet compare a.png b.png -o diff.png --heat-map --sheet", "to look at"},
+            {"facet compare golden.exr new.exr --max flip=0.02,nrmse=0.01", "a test: exit 1 if it fails"},
+            {"facet compare a.png b.png -o diff.png --heat-map --sheet", "a false-color image beside both"},
             {"facet compare a.png b.png --metric psnr --min 40 -q", "only the exit code"},
             {"facet compare light.exr shot.png --tone-mapping neutral --json | jq .metrics.flip",
-             "light and what a display shows"},
+             "a linear image and a display image"},
             {"facet render shoe.glb -o - --format png | facet compare golden.png - --max differing=0",
-             "every bit that a file holds"},
+             "equal in every bit of the file"},
             {NULL, NULL}},
     .basics = OPTION_IDS(OPT_METRIC, OPT_MAX, OPT_MIN, OPT_OUTPUT, OPT_HEAT_MAP, OPT_GAIN, OPT_MASK,
                          OPT_LAYER, OPT_SPACE, OPT_EXPOSURE, OPT_TONE_MAPPING, OPT_JSON),
@@ -49,10 +49,10 @@ const verb compare_verb = {
         (const option_group *const[]){OPTION_GROUP("Metrics", OPT_METRIC, OPT_MAX, OPT_MIN, OPT_PERCENTILE,
                                                    OPT_THRESHOLD, OPT_PIXELS_PER_DEGREE, OPT_PEAK,
                                                    OPT_EPSILON),
-                                      OPTION_GROUP("Pictures", OPT_SPACE, OPT_TONE_MAPPING, OPT_EXPOSURE,
+                                      OPTION_GROUP("Images", OPT_SPACE, OPT_TONE_MAPPING, OPT_EXPOSURE,
                                                    OPT_ALPHA, OPT_BACKGROUND, OPT_LAYER, OPT_MASK, OPT_CROP),
-                                      OPTION_GROUP("Picture of the difference", OPT_OUTPUT, OPT_NO_CLOBBER,
-                                                   OPT_FORMAT, OPT_HEAT_MAP, OPT_GAIN, OPT_SHEET),
+                                      OPTION_GROUP("Difference image", OPT_OUTPUT, OPT_NO_CLOBBER, OPT_FORMAT,
+                                                   OPT_HEAT_MAP, OPT_GAIN, OPT_SHEET),
                                       &limits_group, &messages_group, NULL},
 };
 

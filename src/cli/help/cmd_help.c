@@ -219,16 +219,15 @@ const verb help_verb = {
 #undef VERB
             "exit-codes", "documents", NULL},
     .description =
-        "Prints what facet --help or facet COMMAND --help print; of an option what it means and "
-        "which commands have it; of another word all that mentions it. exit-codes and documents are "
-        "topics.",
-    .examples =
-        (const example[]){{"facet help render", "render in short; with --help-all all of its options"},
-                          {"facet help orbit", "an option, in all commands that have it"},
-                          {"facet help --search ground", "all that mentions a word"},
-                          {"facet help documents", "where the manual is"},
-                          {"facet help exit-codes", "what 0 to 75 mean"},
-                          {NULL, NULL}},
+        "Prints the same as facet --help or facet COMMAND --help; of an option its meaning and the "
+        "commands that have it; of another word all places that mention it. exit-codes and documents "
+        "are topics.",
+    .examples = (const example[]){{"facet help render", "the main options of render; --help-all shows all"},
+                                  {"facet help orbit", "an option, in all commands that have it"},
+                                  {"facet help --search ground", "all places that mention a word"},
+                                  {"facet help documents", "where the manual is"},
+                                  {"facet help exit-codes", "the exit codes"},
+                                  {NULL, NULL}},
     .groups =
         (const option_group *const[]){OPTION_GROUP("Options", OPT_SEARCH, OPT_HELP, OPT_HELP_ALL), NULL},
 };

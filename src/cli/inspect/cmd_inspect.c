@@ -12,7 +12,7 @@
 
 const verb inspect_verb = {
     .name = "inspect",
-    .summary = "say what is in a model",
+    .summary = "print what is in a model",
     .arguments = "MODEL|FOLDER...",
     .max_arguments = SIZE_MAX,
     .file_types = "glb gltf obj stl ply json",
@@ -21,13 +21,14 @@ const verb inspect_verb = {
     .description =
         "Reads each MODEL (.glb, .gltf, .obj with its .mtl, .stl, .ply, .json of rgl's parameters; - "
         "is standard input) and prints counts, bounds, materials, textures, images, cameras, lights, "
-        "the extensions with what facet makes of them, and the warnings of reading. With -v lists "
-        "are printed to their end.\n\n"
-        "The exit code is 0 when the model can be read, also with warnings (--strict: 1).",
-    .examples = (const example[]){{"facet inspect helmet.glb", "for reading"},
-                                  {"facet inspect helmet.glb --json | jq .materials", "for a program"},
-                                  {"facet inspect --strict models/", "check all in a folder and below it"},
-                                  {NULL, NULL}},
+        "the extensions and how facet supports them, and the warnings of reading. With -v lists are "
+        "printed in full.\n\n"
+        "The exit code is 0 if the model can be read, also with warnings (--strict: 1).",
+    .examples =
+        (const example[]){{"facet inspect helmet.glb", "as text"},
+                          {"facet inspect helmet.glb --json | jq .materials", "as JSON"},
+                          {"facet inspect --strict models/", "check all models in a folder and below it"},
+                          {NULL, NULL}},
     .basics = OPTION_IDS(OPT_JSON, OPT_VERBOSE, OPT_STRICT, OPT_FILES_FROM, OPT_ROOT, OPT_TIME_LIMIT,
                          OPT_MAX_MEMORY),
     .groups =

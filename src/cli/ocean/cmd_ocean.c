@@ -68,27 +68,27 @@ static facet_result ocean_check_maps(const ocean_run *run, const char *name, uin
 
 const verb ocean_verb = {
     .name = "ocean",
-    .summary = "draw the sea, or write it as maps and meshes",
+    .summary = "render the sea, or write it as maps and meshes",
     .arguments = "",
     .output_types = "png jpg jpeg webp exr hdr pfm y4m glb gltf obj",
     .description =
-        "Draws a sea by what is known of seas: waves by wind and fetch, water by what is in it, "
-        "under a sky or an environment, exposed as a light meter has it. --preset begins with a sea "
-        "that has a name; all other options change it. Directions are degrees from +Z towards +X, "
-        "and for wind and waves where they go to.\n\n"
-        "With .glb, .gltf or .obj as output the surface is written as a mesh with the water's "
-        "material; with --maps the tiles of waves, for programs that draw by themselves; with --info "
-        "or --json what is known of the sea is printed.",
+        "Renders a sea from its physics: a wave spectrum from wind and fetch, the optical properties "
+        "of the water, under a sky or an environment, exposed by a light meter. --preset starts from "
+        "a predefined sea; all other options change it. Azimuths are degrees from +Z towards +X; "
+        "those of wind and waves are where they travel to.\n\n"
+        "An output of .glb, .gltf or .obj holds the surface as a mesh with the water's material; "
+        "--maps writes the wave tiles for other renderers; --info and --json print the properties of "
+        "the sea.",
     .examples =
         (const example[]){
             {"facet ocean -o sea.png", "a fresh breeze, the sun at the right"},
             {"facet ocean --preset gale --sun 12 -o gale.jpg --size 1920x1080", "a gale at low sun"},
             {"facet ocean --preset lagoon --height-of-eye 20 -o lagoon.png", "sand below clear water"},
             {"facet ocean --wind 7,45 --swell 2,12,90 --chl 1 -o 'sea_####.png' --loop 24", "a loop of 24 s"},
-            {"facet ocean --before-after -o compare.png", "before and now"},
+            {"facet ocean --before-after -o compare.png", "legacy style and now"},
             {"facet ocean --sweep roughness=0.01:0.1:5,ior=1.3:1.4:5 -s 320x180 -o sweep.png",
              "a sheet of 25"},
-            {"facet ocean --preset harbour --info", "heights, periods, colors"},
+            {"facet ocean --preset harbour --info", "wave heights, periods, colors"},
             {"facet ocean --wind 8 -o sea.glb --maps maps", "a mesh, and maps in a folder that exists"},
             {NULL, NULL}},
     .basics = OPTION_IDS(OPT_OUTPUT, OPT_SIZE, OPT_PRESET, OPT_WIND, OPT_WATER, OPT_DEPTH, OPT_SUN,
@@ -106,7 +106,7 @@ const verb ocean_verb = {
                          OPT_TONE_MAPPING),
             &environment_group,
             OPTION_GROUP("Camera", OPT_EYE_HEIGHT, OPT_HEADING, OPT_EYE, OPT_TARGET, OPT_FOV),
-            OPTION_GROUP("Look", OPT_BEFORE, OPT_BEFORE_AFTER, OPT_STAGE, OPT_ROUGHNESS, OPT_NORMALS,
+            OPTION_GROUP("Shading", OPT_BEFORE, OPT_BEFORE_AFTER, OPT_STAGE, OPT_ROUGHNESS, OPT_NORMALS,
                          OPT_MASKING, OPT_FRESNEL, OPT_NO_GLINTS, OPT_NO_FOAM, OPT_NO_CAUSTICS, OPT_CLAMP,
                          OPT_SWEEP, OPT_WITH),
             OPTION_GROUP("Quality", OPT_QUALITY, OPT_SAMPLES, OPT_RENDERER, OPT_DENOISE),

@@ -16,7 +16,7 @@
 
 const verb plot_verb = {
     .name = "plot",
-    .summary = "draw reflectance as curves, lobes and tables",
+    .summary = "plot reflectance as curves, lobes and tables",
     .arguments = "KIND [MATERIAL...]",
     .max_arguments = FACET_PLOT_MAX_MATERIALS + 1,
     .file_types = "glb gltf obj json binary",
@@ -25,37 +25,37 @@ const verb plot_verb = {
                           "dfg", "tone", "fresnel", "error"),
     .description =
         "KIND is one of these:\n\n"
-        "legacy: PBR and OpenGL 1 over the angle of the light, with the best fit and the difference\n\n"
+        "legacy: PBR and OpenGL 1 over the light's angle, with the best fit and the difference\n\n"
         "brdf: lobes in the plane of incidence, as polar slices; slice: the same as curves over the "
-        "angle of the light\n\n"
-        "hemisphere: all directions of the light in false color; lobe: the same as a surface in space\n\n"
-        "terms: D, V and F over their cosines; dfg: the tables of split-sum light\n\n"
-        "albedo: what returns over the angle of the view; furnace: of light from everywhere, over "
+        "light's angle\n\n"
+        "hemisphere: all light directions in false color; lobe: the same as a surface in space\n\n"
+        "terms: D, V and F over their cosines; dfg: the DFG tables of the split sum\n\n"
+        "albedo: directional albedo over the view's angle; furnace: albedo under uniform light, over "
         "roughness\n\n"
-        "tone: the tone mapping operators; fresnel: water, glass, metals, exact beside Schlick's "
+        "tone: tone mapping operators; fresnel: water, glass, metals, exact and by Schlick's "
         "approximation\n\n"
-        "error: how near PBR and OpenGL 1 come to each other, over roughness\n\n"
+        "error: how close PBR and OpenGL 1 come to each other, over roughness\n\n"
         "A MATERIAL is a list of parameters (roughness=0.3,metallic=1,color=gold; or "
         "ogl1,diffuse=#808080,specular=white,shininess=50), the name of a model alone or before them "
-        "(ggx, pbr; blinn-phong, phong, ogl1: the highlight of OpenGL 1, which is Blinn's), a model "
-        "file, optionally with #NAME of one of its materials, or a measured BRDF in MERL's format "
-        "(.binary). Several are drawn over one another.\n\n"
+        "(ggx, pbr; blinn-phong, phong, ogl1: OpenGL 1's highlight, which is Blinn's), a model file, "
+        "optionally with #NAME of one of its materials, or a measured BRDF in MERL's format "
+        "(.binary). Several are plotted together.\n\n"
         "Parameters are color, metallic, roughness, ior, specular, specular-color, clearcoat, "
         "clearcoat-roughness, sheen-color, sheen-roughness, anisotropy, anisotropy-rotation "
         "(degrees), iridescence, iridescence-ior, iridescence-thickness (nm); after ogl1, diffuse, "
         "specular, shininess. A color is #rrggbb or a CSS name, one linear number for a grey, or "
-        "three as r/g/b; the others are those of glTF, mostly from 0 to 1.",
+        "three as r/g/b; the others are glTF's, mostly from 0 to 1.",
     .examples =
         (const example[]){
             {"facet plot legacy -o vignette.svg",
-             "the plots of \"Shininess in OpenGL 1 versus glTF PBR\", and what they lack"},
+             "the plots of \"Shininess in OpenGL 1 versus glTF PBR\", with fit and difference"},
             {"facet plot brdf --roughness 0.1,0.3,0.6 --angle 45 -o ggx.svg", "three lobes"},
             {"facet plot slice helmet.glb#Leather roughness=0.5 -o slice.pdf",
-             "a material of a model beside another"},
-            {"facet plot slice gold-paint.binary --fit -o gold.png", "a measured BRDF and a model of it"},
+             "a material of a model and another one"},
+            {"facet plot slice gold-paint.binary --fit -o gold.png", "a measured BRDF and its fit"},
             {"facet plot legacy ogl1,diffuse=gray,shininess=20 --fit -o fit.svg",
-             "an old material and its PBR"},
-            {"facet plot tone -o tone.csv", "the numbers"},
+             "an OpenGL 1 material and its PBR fit"},
+            {"facet plot tone -o tone.csv", "as numbers"},
             {NULL, NULL}},
     .basics = OPTION_IDS(OPT_OUTPUT, OPT_FORMAT, OPT_ROUGHNESS, OPT_METALLIC, OPT_BASE_COLOR, OPT_ANGLE,
                          OPT_FIT, OPT_LOG, OPT_ENERGY, OPT_SIZE, OPT_TITLE, OPT_DARK, OPT_JSON),

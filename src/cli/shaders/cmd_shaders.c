@@ -13,7 +13,7 @@
 
 const verb shaders_verb = {
     .name = "shaders",
-    .summary = "print the shading text as GLSL, for other renderers",
+    .summary = "print the shader library as GLSL, for other renderers",
     .arguments = "[PART...]",
     .max_arguments = SIZE_MAX,
     .output_types = "glsl",
@@ -25,17 +25,17 @@ const verb shaders_verb = {
                           "specular_glossiness", "layers", "layers_direct", "layers_ibl", "layers_lobes",
                           "material", "layers_sample", "phong", "tonemap"),
     .description =
-        "Prints the functions that facet shades with as one file of GLSL, or those parts of it that "
-        "are named, with all that they use. It has no main(): other programs put it before their own "
-        "shader text, in any stage. The same text, compiled as C, is what facet's CPU renderers run; "
-        "every function is tested to give the same numbers in both.\n\n"
-        "facet shaders --list has the parts; each comment says what a function takes and gives, and "
-        "where its formula is from.",
+        "Prints the functions of facet's shader library as one GLSL file, or the named parts of it "
+        "with all that they use. It has no main(): other programs put it before their own shader, in "
+        "any stage. Compiled as C, the same text runs in facet's CPU renderers; every function is "
+        "tested to give the same numbers in both.\n\n"
+        "facet shaders --list lists the parts; each comment states what a function takes and "
+        "returns, and the source of its formula.",
     .examples = (const example[]){{"facet shaders -o facet.glsl", "all of it, for WebGL 2 and OpenGL ES 3"},
                                   {"facet shaders --glsl 460 brdf fresnel -o ggx.glsl",
                                    "two parts, for desktop OpenGL"},
                                   {"facet shaders --glsl none tonemap | cat head.glsl - main.glsl > my.frag",
-                                   "between texts of one's own"},
+                                   "between other shader texts"},
                                   {NULL, NULL}},
     .groups =
         (const option_group *const[]){OPTION_GROUP("Options", OPT_OUTPUT, OPT_NO_CLOBBER, OPT_GLSL, OPT_NAMES,

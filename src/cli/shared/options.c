@@ -59,7 +59,7 @@ const option_group shading_group = {"Shading",
                                     OPTION_IDS(OPT_SHADING, OPT_OGL1_VARIANT, OPT_OGL1_SPACE, OPT_FOG)};
 const option_group scene_group = {"Scene", OPTION_IDS(OPT_SCENE, OPT_VARIANT)};
 const option_group files_group = {"Files", OPTION_IDS(OPT_FILES_FROM, OPT_ROOT)};
-const option_group legacy_group = {"OBJ files and old materials",
+const option_group legacy_group = {"OBJ files and OpenGL 1 materials",
                                    OPTION_IDS(OPT_PARAMETERS, OPT_METHOD, OPT_PROFILE, OPT_FIT_TARGET,
                                               OPT_KEEP_HUE, OPT_MTL_COLORS, OPT_DIALECT, OPT_ILLUM,
                                               OPT_AMBIENT, OPT_GLASS, OPT_MIRRORS, OPT_LIGHT_SCALE,

@@ -10,7 +10,7 @@
 
 const verb version_verb = {
     .name = "version",
-    .summary = "say which facet this is",
+    .summary = "print the version",
     .arguments = "",
     .description = "Prints the version; with -v also how it was built and what it found on this machine.",
     .examples = (const example[]){{"facet version -v", "for a bug report"}, {NULL, NULL}},

@@ -20,16 +20,16 @@ const verb view_verb = {
     .output_types = "png jpg jpeg webp exr hdr pfm y4m",
     .output_hint = "facet render MODEL -o",
     .description =
-        "Opens a window that shows the MODEL; the arrow keys go through the others of its folder, or "
-        "through all that are named. Drag to orbit, right drag to move, the wheel comes nearer; H "
-        "lists the keys. Models, folders and environments can be dropped on it, and a model is read "
-        "again when its files change. Without a MODEL the built-in scene is shown.\n\n"
-        "It is drawn with OpenGL as facet render --renderer gl draws it; R switches to path tracing, "
-        "which converges while one looks. Ctrl+C copies the facet render command line of the view. "
-        "Exit code 8: there is no display, GLFW or OpenGL.",
+        "Opens a window that shows the MODEL; the arrow keys go through the other models of its "
+        "folder, or through those that are named. Drag to orbit, right drag to pan, scroll to zoom; "
+        "H lists the keys. Models, folders and environments can be dropped on the window, and a "
+        "model is read again when its files change. Without a MODEL the built-in scene is shown.\n\n"
+        "The window renders with OpenGL as facet render --renderer gl does; R switches to "
+        "progressive path tracing. Ctrl+C copies the facet render command line of the view. Exit "
+        "code 8: there is no display, GLFW or OpenGL.",
     .examples = (const example[]){{"facet view helmet.glb", "one model, and the others of its folder"},
                                   {"facet view models/ --env studio.hdr --background env",
-                                   "a folder, in a light of your own"},
+                                   "a folder, under another environment"},
                                   {"facet view ring.glb --renderer path --ground shadow", "path traced"},
                                   {NULL, NULL}},
     .basics = OPTION_IDS(OPT_ENV, OPT_BACKGROUND, OPT_EXPOSURE, OPT_TONE_MAPPING, OPT_ORBIT, OPT_RENDERER,
