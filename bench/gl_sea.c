@@ -21,7 +21,7 @@
 #include "median.h"
 #include "ocean/sea.h"
 #include "ocean/sea_preset.h"
-#include "water/water_picture.h"
+#include "water/water_frame.h"
 
 enum { MOST_FRAMES = 1000, UNTIMED_FRAMES = 2, LOOKS = 2 };
 typedef enum part { WAVES, LIGHT, UPLOAD, DRAW, FRAME, DRAW_PROCESSOR, PROCESSOR, PART_COUNT } part;
@@ -71,20 +71,20 @@ static void read_options(int argc, char **argv)
 }
 
 /* One picture; to: its times, or NULL. */
-static void draw(gl_sea *renderer, facet_sea *sea, const facet_sea_render_desc *desc, double time_s,
-                 film *target, double *to[PART_COUNT])
+static void draw(gl_sea *renderer, water_cache *cache, facet_sea *sea, const facet_render_desc *desc,
+                 double time_s, film *target, double *to[PART_COUNT])
 {
     facet_error error;
     facet_render_stats stats = {.total_s = 0.0};
-    water_picture *picture;
+    water_frame *picture;
     double begin = clock_seconds(), processor = processor_seconds();
     waves_set_time(&sea->waves, time_s);
     double stepped = clock_seconds();
-    check(water_picture_create(sea, NULL, desc, &picture, &stats, &error), &error);
+    check(water_frame_create(cache, NULL, desc, &picture, &stats, &error), &error);
     double prepared = clock_seconds(), unlit = processor_seconds();
-    check(gl_sea_draw(renderer, water_picture_get(picture), target, &stats, &error), &error);
+    check(gl_sea_draw(renderer, picture, target, &stats, &error), &error);
     double end = clock_seconds(), drawn = processor_seconds();
-    water_picture_destroy(picture);
+    water_frame_destroy(picture);
     if (!to)
         return;
     *to[WAVES] = 1e3 * (stepped - begin);
@@ -126,32 +126,35 @@ int main(int argc, char **argv)
     gl_sea *renderer;
     check(gl_sea_create_api(options.is_es ? GL_API_ES : GL_API_ANY, NULL, &renderer, &error), &error);
     facet_sea *sea = make_sea();
-    facet_sea_render_desc desc = {.sky = {.sun_elevation_rad = 0.384f, .sun_azimuth_rad = -0.63f}};
     const facet_camera camera = facet_sea_camera(sea, 0.0f, 0.0f);
-    desc.render = (facet_render_desc){.width = options.width,
-                                      .height = options.height,
-                                      .samples = 1,
-                                      .camera = &camera,
-                                      .crop = {0, 0, options.width, options.height},
-                                      .exposure_ev = (float)meter_exposure_ev(13.3),
-                                      .renderer = FACET_RENDERER_KIND_GL,
-                                      .thread_count = facet_thread_count()};
+    facet_render_desc desc = {.sea = sea,
+                              .sky = {.sun_elevation_rad = 0.384f, .sun_azimuth_rad = -0.63f},
+                              .width = options.width,
+                              .height = options.height,
+                              .samples = 1,
+                              .camera = &camera,
+                              .crop = {0, 0, options.width, options.height},
+                              .exposure_ev = (float)meter_exposure_ev(13.3),
+                              .renderer = FACET_RENDERER_KIND_GL,
+                              .thread_count = facet_thread_count()};
+    water_cache cache = {.sea_serial = 0};
     film target = {.width = 0};
     check(film_create(NULL, options.width, options.height, 0, &target, &error), &error);
     double begin = clock_seconds();
-    draw(renderer, sea, &desc, 0.0, &target, NULL);
+    draw(renderer, &cache, sea, &desc, 0.0, &target, NULL);
     double first_s = clock_seconds() - begin;
     for (uint32_t i = 0; i < UNTIMED_FRAMES + options.frames; i++)
         for (int look = 0; look < LOOKS; look++) {
-            desc.shading.style = look ? FACET_SEA_STYLE_LEGACY_INTENDED : FACET_SEA_STYLE_PHYSICAL;
+            desc.sea_shading.style = look ? FACET_SEA_STYLE_LEGACY_INTENDED : FACET_SEA_STYLE_PHYSICAL;
             double *to[PART_COUNT];
             for (int p = 0; p < PART_COUNT; p++)
                 to[p] = &times[look][p][i < UNTIMED_FRAMES ? 0 : i - UNTIMED_FRAMES];
-            draw(renderer, sea, &desc, i / 24.0, &target, to);
+            draw(renderer, &cache, sea, &desc, i / 24.0, &target, to);
         }
     printf("%s, %u x %u, first %.0f ms\n", options.preset, options.width, options.height, 1e3 * first_s);
     print_times();
     film_destroy(&target);
+    water_cache_clear(&cache);
     sea_destroy(sea);
     gl_sea_destroy(renderer);
     return 0;

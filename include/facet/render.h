@@ -7,6 +7,7 @@
 #include "environment.h"
 #include "image.h"
 #include "scene.h"
+#include "sea.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -231,6 +232,9 @@ typedef struct facet_render_desc {
     float background_blur;     /* perceptual roughness of the environment as background, [0, 1] */
     facet_sun sun;
     facet_ground ground;
+    const facet_sea *sea; /* that the scene stands and floats in, constant while it is rendered; NULL: none */
+    facet_sky_desc sky;   /* above the sea where environment is NULL, with its sun */
+    facet_sea_shading sea_shading;
     facet_renderer_kind renderer;
     facet_path_desc path;
     facet_gl_desc gl;
@@ -263,13 +267,20 @@ typedef struct facet_render_desc {
 /* ---- rendering ---- */
 
 /* Renders one image with the renderer that desc names. The image has the layer "" (RGBA, float, linear,
- * premultiplied) and the layers of desc->aovs. */
+ * premultiplied) and the layers of desc->aovs.
+ *
+ * In a sea (desc->sea) scene NULL renders water only. camera NULL: of facet_sea_camera(); cameras are at most 50 km high
+ * under the atmosphere's sky. _PREVIEW renders the endless sea; _GL the same image, for perspective cameras; _PATH traces
+ * paths through the waves as triangles out to the horizon: of sea_shading it reads omits_foam, has_schlick_fresnel and
+ * perceptual_roughness. The punctual lights of the scene light the scene; with _PATH the water, too. background is the sky.
+ * FACET_ERROR_ARGUMENT: a ground, FACET_SHADING_OGL1, layers of aovs but with _PATH. */
 FACET_API facet_result facet_render(const facet_scene *scene, const facet_render_desc *desc,
                                     facet_image **image, facet_error *error);
 
 /* Renders several images of one scene, such as frames and views. What they share (textures, tangents, BVHs of what
  * does not move, OpenGL objects) is kept. Each image equals that of facet_render() to the last bit. The scene must
- * outlive the renderer; one image at a time. allocator NULL: {0}; that of a desc serves its image only. */
+ * outlive the renderer; one image at a time. allocator NULL: {0}; that of a desc serves its image only. scene NULL: for
+ * descs with a sea, whose sky and foam are kept; a scene in a sea may be placed anew between images. */
 FACET_API facet_result facet_renderer_create(const facet_scene *scene, const facet_allocator *allocator,
                                              facet_renderer **renderer, facet_error *error);
 FACET_API facet_result facet_renderer_render(facet_renderer *renderer, const facet_render_desc *desc,
@@ -295,7 +306,7 @@ FACET_API facet_render_stats facet_image_get_render_stats(const facet_image *ima
 
 /* Measures a small preview, without shadows and interreflection, so that all renderers get the same exposure: EV at
  * ISO 100 that brings the log-average luminance of the model, and of the environment where it is the background, to
- * 0.22 of white (Reinhard et al. 2002). Meter sequences once; their frames would flicker otherwise. Where nothing
+ * 0.22 of white (Reinhard et al. 2002). Of an image with a sea, the sea without the scene and glints is measured. Meter sequences once; their frames would flicker otherwise. Where nothing
  * is seen or all is black, the exposure is 0 and log gets a warning. desc NULL: {0}. Fails as facet_render(), and
  * with FACET_ERROR_ARGUMENT for FACET_SHADING_OGL1, which has display values. */
 FACET_API facet_result facet_renderer_meter(facet_renderer *renderer, const facet_render_desc *desc,
@@ -303,6 +314,22 @@ FACET_API facet_result facet_renderer_meter(facet_renderer *renderer, const face
 
 /* The exposure_ev of a camera set to ev100 (ISO 12232; Lagarde and de Rousiers 2014). */
 FACET_API float facet_exposure_from_ev100(double ev100);
+
+/* ---- the sea by itself ---- */
+
+/* A facet_render_desc whose sea, sky and sea_shading are these. */
+typedef struct facet_sea_render_desc {
+    facet_render_desc render;
+    facet_sky_desc sky;
+    facet_sea_shading shading;
+} facet_sea_render_desc;
+
+/* facet_render() and facet_renderer_meter() for one image of a sea; sequences are faster with a facet_renderer. desc NULL: {0}. */
+FACET_API facet_result facet_sea_render(const facet_sea *sea, const facet_scene *scene,
+                                        const facet_sea_render_desc *desc, facet_image **image,
+                                        facet_error *error);
+FACET_API facet_result facet_sea_meter(const facet_sea *sea, const facet_sea_render_desc *desc, double *ev100,
+                                       facet_error *error);
 
 #ifdef __cplusplus
 }

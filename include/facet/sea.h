@@ -9,7 +9,6 @@
 #include "camera.h"
 #include "environment.h"
 #include "image.h"
-#include "render.h"
 #include "scene.h"
 
 #ifdef __cplusplus
@@ -204,32 +203,10 @@ typedef struct facet_sea_shading {
     float clamp;         /* maximum of radiance times exposure; 0: none */
 } facet_sea_shading;
 
-/* render: as for facet_render(), of which size, crop, camera, exposure, tone mapping, quality, samples,
- * environment, sun, threads, progress and time limit apply. environment NULL: the sky of `sky` with its sun. camera
- * NULL: of facet_sea_camera(); cameras are at most 50 km high under the atmosphere's sky.
- *
- * FACET_RENDERER_KIND_PREVIEW renders the endless sea; _GL the same image, for perspective cameras; _PATH traces
- * paths through the waves as triangles out to the horizon, with foam, the scene and its punctual lights: of shading
- * it reads omits_foam, has_schlick_fresnel and perceptual_roughness. */
-typedef struct facet_sea_render_desc {
-    facet_render_desc render;
-    facet_sky_desc sky;
-    facet_sea_shading shading;
-} facet_sea_render_desc;
-
-/* Renders the sea with a model in it; scene NULL: water only. The pose of the scene applies, its cameras do not. */
-FACET_API facet_result facet_sea_render(const facet_sea *sea, const facet_scene *scene,
-                                        const facet_sea_render_desc *desc, facet_image **image,
-                                        facet_error *error);
-
 /* A view from above the origin: height_m above the still water (0: 3 m, more in high seas; negative: under water)
  * and at least a metre above the waves there, towards azimuth_rad (from +Z towards +X, as the sun of a sky), just
  * below the horizon. */
 FACET_API facet_camera facet_sea_camera(const facet_sea *sea, float height_m, float azimuth_rad);
-
-/* As facet_renderer_meter(), for the image of facet_sea_render(), whose failures it has. */
-FACET_API facet_result facet_sea_meter(const facet_sea *sea, const facet_sea_render_desc *desc, double *ev100,
-                                       facet_error *error);
 
 #ifdef __cplusplus
 }

@@ -16,9 +16,6 @@ struct facet_image {
     bool is_for_display; /* read from a file whose colors are a display's */
 };
 
-/* The desc with every default but the camera filled in, or what is wrong with it: FACET_ERROR_ARGUMENT. */
-facet_result render_desc_resolve(const facet_render_desc *desc, facet_render_desc *out, facet_error *error);
-
 /* facet_render() by a renderer of OpenGL that is there already, a window's. */
 facet_result render_by_gl(gl_renderer *renderer, const facet_render_desc *desc, facet_image **image,
                           facet_error *error);

@@ -1,10 +1,7 @@
 /* ocean_api.c - the part of facet.h about the sea. */
 #include "api/api.h"
-#include "api/gl_library.h"
-#include "api/ocean_path.h"
 
 #include <math.h>
-#include <stdatomic.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -15,9 +12,6 @@
 #include "ocean/sea_mesh.h"
 #include "ocean/sea_preset.h"
 #include "film/meter.h"
-#include "water/water_exposure.h"
-#include "water/water_picture.h"
-#include "water/water_render.h"
 
 /* ---- seas ---- */
 
@@ -47,19 +41,8 @@ facet_result facet_sea_create(const facet_sea_desc *desc, facet_sea **sea, facet
     return sea_create(desc ? desc : &defaults, sea, error);
 }
 
-/* Keeps what draws a sea, or gives up the one that was kept. */
-static void keep_gl(facet_sea *sea, gl_sea *used)
-{
-    const gl_entry *gl;
-    gl_sea *other = atomic_exchange(&sea->gl, used);
-    if (other && gl_library_open(&gl, NULL) == FACET_OK)
-        gl->destroy_sea(other);
-}
-
 void facet_sea_destroy(facet_sea *sea)
 {
-    if (sea)
-        keep_gl(sea, NULL);
     sea_destroy(sea);
 }
 
@@ -218,141 +201,42 @@ facet_result facet_sea_create_mesh(const facet_sea *sea, const facet_sea_mesh_de
     return sea_mesh_create(sea, desc ? desc : &defaults, scene, error);
 }
 
-/* ---- pictures ---- */
-
-static const float EYE_M = 3.0f, CLEARANCE_M = 1.0f, FOV_RAD = 0.61f, /* a lens of 38 mm */
-    DIP_RAD = 0.07f;
+/* ---- images ---- */
 
 facet_camera facet_sea_camera(const facet_sea *sea, float height_m, float azimuth_rad)
 {
-    height_m = isfinite(height_m) ? height_m : 0.0f;
-    azimuth_rad = isfinite(azimuth_rad) ? azimuth_rad : 0.0f;
-    float waves_m = 4.0f * (float)sqrt(sea_state_moments(&sea->waves.state, 0.0, ENDLESS).height);
-    float y = height_m != 0.0f ? height_m : fmaxf(EYE_M, waves_m);
-    float water = waves_height(&sea->waves, 0.0, 0.0, 0.0f);
-    if (y > 0.0f)
-        y = fmaxf(y, water + CLEARANCE_M);
-    float x = sinf(azimuth_rad) * cosf(DIP_RAD), z = cosf(azimuth_rad) * cosf(DIP_RAD);
-    return (facet_camera){.eye = {0.0f, y, 0.0f}, .target = {x, y - sinf(DIP_RAD), z}, .fov_y_rad = FOV_RAD};
+    return sea_camera(sea, height_m, azimuth_rad);
 }
 
-static facet_result check_look(const facet_sea_shading *look, facet_error *error)
+/* desc (NULL: {0}) as facet_render() takes it. */
+static facet_render_desc in_sea(const facet_sea *sea, const facet_sea_render_desc *desc)
 {
-    if ((unsigned)look->style > FACET_SEA_STYLE_LEGACY_INTENDED ||
-        (unsigned)look->normals > FACET_SEA_NORMALS_GGX ||
-        (unsigned)look->masking > FACET_SEA_MASKING_SCHLICK_KARIS || look->stage > 5)
-        return fail(error, FACET_ERROR_ARGUMENT, "look: before %d, normals %d, masking %d, stage %u; no such",
-                    (int)look->style, (int)look->normals, (int)look->masking, look->stage);
-    float r = look->perceptual_roughness;
-    if (r != 0.0f && !(r >= 0.001f && r <= 1.0f))
-        return fail(error, FACET_ERROR_ARGUMENT, "look: a roughness of %g is not within [0.001, 1]",
-                    (double)r);
-    if (!(look->clamp >= 0.0f && look->clamp < INFINITY))
-        return fail(error, FACET_ERROR_ARGUMENT, "look: a clamp of %g is not 0 or more", (double)look->clamp);
-    return FACET_OK;
-}
-
-/* Whether path tracing has it: what is there, and nothing in its place. */
-static bool is_physical(const facet_sea_shading *look)
-{
-    return look->style == FACET_SEA_STYLE_PHYSICAL && look->stage == 0 &&
-           look->normals == FACET_SEA_NORMALS_BECKMANN && look->masking == FACET_SEA_MASKING_SCALES &&
-           !look->omits_glints && !look->omits_caustics && !(look->clamp > 0.0f);
-}
-
-/* The desc (NULL: defaults) with nothing left open; *camera is where the camera of one that has none is kept. */
-static facet_result resolve_sea(const facet_sea *sea, const facet_sea_render_desc *asked,
-                                facet_sea_render_desc *out, facet_camera *camera, facet_error *error)
-{
-    const facet_sea_render_desc defaults = {0}, *desc = asked ? asked : &defaults;
-    *out = *desc;
-    facet_renderer_kind renderer = desc->render.renderer;
-    facet_result result = check_look(&desc->shading, error);
-    if (result == FACET_OK && renderer == FACET_RENDERER_KIND_PATH && !is_physical(&desc->shading))
-        result =
-            fail(error, FACET_ERROR_ARGUMENT,
-                 "look: path tracing knows no stages, no look of before, no other normals or masking, no "
-                 "glints or caustics to leave out and no clamp");
-    if (result == FACET_OK && renderer != FACET_RENDERER_KIND_PATH &&
-        renderer != FACET_RENDERER_KIND_PREVIEW && renderer != FACET_RENDERER_KIND_GL)
-        result = fail(error, FACET_ERROR_ARGUMENT, "sea: renderer %d does not draw it", (int)renderer);
-    if (result == FACET_OK)
-        result = render_desc_resolve(&desc->render, &out->render, error);
-    if (result == FACET_OK && !out->render.camera) {
-        *camera = facet_sea_camera(sea, 0.0f, out->sky.sun_azimuth_rad);
-        out->render.camera = camera;
-    }
-    return result;
-}
-
-/* What the sea keeps is taken while it is in use: several threads may draw one sea. */
-static facet_result draw_gl(const facet_sea *sea, const facet_scene *scene, const facet_sea_render_desc *d,
-                            facet_image *image, facet_error *error)
-{
-    facet_sea *kept = (facet_sea *)(uintptr_t)sea;
-    const gl_entry *gl;
-    water_picture *picture = NULL;
-    facet_result result = gl_library_open(&gl, error);
-    if (result != FACET_OK)
-        return result;
-    gl_sea *renderer = atomic_exchange(&kept->gl, NULL);
-    if (!renderer)
-        result = gl->create_sea(&sea->desc.allocator, &renderer, error);
-    if (result == FACET_OK)
-        result = water_picture_create(sea, scene, d, &picture, &image->stats, error);
-    if (result == FACET_OK)
-        result = gl->draw_sea(renderer, water_picture_get(picture), &image->film, &image->stats, error);
-    water_picture_destroy(picture);
-    if (renderer)
-        keep_gl(kept, renderer);
-    return result;
-}
-
-static facet_result draw(const facet_sea *sea, const facet_scene *scene, const facet_sea_render_desc *d,
-                         facet_image *image, facet_error *error)
-{
-    const facet_render_desc *r = &d->render;
-    facet_result result = film_create(&r->allocator, r->crop[2], r->crop[3], 0, &image->film, error);
-    if (result == FACET_OK)
-        result = r->renderer == FACET_RENDERER_KIND_GL
-                     ? draw_gl(sea, scene, d, image, error)
-                     : water_render(sea, scene, d, &image->film, &image->stats, error);
-    if (result == FACET_OK)
-        film_develop(&image->film, r->tonemap, NULL, r->thread_count);
-    return result;
+    static const facet_sea_render_desc defaults = {.shading = {0}};
+    const facet_sea_render_desc *d = desc ? desc : &defaults;
+    facet_render_desc render = d->render;
+    render.sea = sea;
+    render.sky = d->sky;
+    render.sea_shading = d->shading;
+    return render;
 }
 
 facet_result facet_sea_render(const facet_sea *sea, const facet_scene *scene,
                               const facet_sea_render_desc *desc, facet_image **image, facet_error *error)
 {
-    *image = NULL;
-    facet_sea_render_desc d;
-    facet_camera camera;
-    facet_result result = resolve_sea(sea, desc, &d, &camera, error);
-    if (result != FACET_OK)
-        return result;
-    water_warn_of_eye(sea, &d);
-    if (d.render.renderer == FACET_RENDERER_KIND_PATH)
-        return ocean_path_render(sea, scene, &d, image, error);
-    facet_image *made = mem_zalloc(&d.render.allocator, 1, sizeof *made);
-    if (!made)
-        return fail_memory(error, "image", sizeof *made);
-    result = draw(sea, scene, &d, made, error);
-    if (result == FACET_OK)
-        *image = made;
-    else
-        facet_image_destroy(made);
-    return result;
+    const facet_render_desc render = in_sea(sea, desc);
+    return facet_render(scene, &render, image, error);
 }
 
 facet_result facet_sea_meter(const facet_sea *sea, const facet_sea_render_desc *desc, double *ev100,
                              facet_error *error)
 {
-    facet_sea_render_desc d;
-    facet_camera camera;
     *ev100 = 0.0;
-    facet_result result = resolve_sea(sea, desc, &d, &camera, error);
-    return result == FACET_OK ? water_exposure_ev100(sea, &d, ev100, error) : result;
+    facet_renderer *renderer;
+    const facet_render_desc render = in_sea(sea, desc);
+    TRY(facet_renderer_create(NULL, &render.allocator, &renderer, error));
+    facet_result result = facet_renderer_meter(renderer, &render, ev100, error);
+    facet_renderer_destroy(renderer);
+    return result;
 }
 
 float facet_exposure_from_ev100(double ev100)

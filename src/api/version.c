@@ -4,9 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "api/gl_library.h"
 #include "build_config.h"
 #include "cpu/embree_scene.h"
+#include "render/render_gl.h"
 
 const char *facet_version(void)
 {

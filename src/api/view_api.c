@@ -1,8 +1,9 @@
 /* view_api.c - facet_view(): what the caller leaves to the library, and the module that has the window. */
 #include <math.h>
 
-#include "api/gl_library.h"
+#include "api/api.h"
 #include "base/result.h"
+#include "render/render_gl.h"
 
 enum { DEFAULT_PATH_SAMPLES = 4096 };
 
@@ -56,6 +57,20 @@ static facet_result check(const facet_view_desc *d, facet_error *error)
     return FACET_OK;
 }
 
+/* The functions of libfacet that the module uses for its window; it has copies of all others. */
+static const gl_host host = {.renderer_create = facet_renderer_create,
+                             .renderer_render = facet_renderer_render,
+                             .renderer_destroy = facet_renderer_destroy,
+                             .render_gl = render_by_gl,
+                             .image_get_layer_count = facet_image_get_layer_count,
+                             .image_get_layer = facet_image_get_layer,
+                             .image_save = facet_image_save,
+                             .image_destroy = facet_image_destroy,
+                             .image_create = facet_image_create,
+                             .scene_destroy = facet_scene_destroy,
+                             .environment_destroy = facet_environment_destroy,
+                             .camera_from_scene = facet_camera_from_scene};
+
 facet_result facet_view(const facet_view_desc *desc, facet_error *error)
 {
     static const facet_view_desc default_desc = {.render = {.renderer = FACET_RENDERER_KIND_GL}};
@@ -81,5 +96,5 @@ facet_result facet_view(const facet_view_desc *desc, facet_error *error)
         *s = (facet_view_source){.user = &d, .load_model = load_model, .load_environment = load_environment};
     s->describe = s->describe ? s->describe : describe;
     s->print = s->print ? s->print : print;
-    return gl->view(gl_library_host(), &d, error);
+    return gl->view(&host, &d, error);
 }

@@ -28,9 +28,11 @@ static facet_result draw(render_setup *setup, double deadline_s, film *target, f
     return result;
 }
 
-static facet_result attempt(prepared_scene *prepared, const facet_render_desc *desc, double deadline_s,
-                            film *target, facet_render_stats *stats, bool *has_setup, facet_error *error)
+static facet_result attempt(const void *context, prepared_scene *prepared, const facet_render_desc *desc,
+                            double deadline_s, film *target, facet_render_stats *stats, bool *has_setup,
+                            facet_error *error)
 {
+    (void)context;
     *stats = (facet_render_stats){.thread_count = desc->thread_count};
     *has_setup = false;
     render_setup setup = {.prepared = prepared, .desc = desc, .stats = stats};
@@ -53,7 +55,7 @@ static facet_result attempt(prepared_scene *prepared, const facet_render_desc *d
 facet_result preview_render_prepared(prepared_scene *p, const facet_render_desc *desc, film *target,
                                      facet_render_stats *stats, facet_error *error)
 {
-    return render_with_prepared(attempt, p, desc, target, stats, error);
+    return render_with_prepared(attempt, NULL, p, desc, target, stats, error);
 }
 
 facet_result preview_render(const facet_scene *scene, const facet_render_desc *desc, film *target,

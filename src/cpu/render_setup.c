@@ -208,19 +208,20 @@ void render_setup_destroy(render_setup *p)
     p->uses = NULL;
 }
 
-facet_result render_with_prepared(render_attempt *attempt, prepared_scene *p, const facet_render_desc *desc,
-                                  film *target, facet_render_stats *stats, facet_error *error)
+facet_result render_with_prepared(render_attempt *attempt, const void *context, prepared_scene *p,
+                                  const facet_render_desc *desc, film *target, facet_render_stats *stats,
+                                  facet_error *error)
 {
     double start = clock_seconds();
     double deadline_s = desc->time_limit_s > 0.0 ? start + desc->time_limit_s : 0.0;
     bool was_empty = !p->key.is_set;
     bool has_setup;
-    facet_result result = attempt(p, desc, deadline_s, target, stats, &has_setup, error);
+    facet_result result = attempt(context, p, desc, deadline_s, target, stats, &has_setup, error);
     if (!has_setup && result != FACET_OK)
         prepared_scene_clear(p);
     if (result == FACET_ERROR_MEMORY && !was_empty) {
         prepared_scene_clear(p);
-        result = attempt(p, desc, deadline_s, target, stats, &has_setup, error);
+        result = attempt(context, p, desc, deadline_s, target, stats, &has_setup, error);
         if (!has_setup && result != FACET_OK)
             prepared_scene_clear(p);
     }

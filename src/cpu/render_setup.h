@@ -30,11 +30,12 @@ facet_result render_setup_create(render_setup *setup, facet_error *error);
 void render_setup_destroy(render_setup *setup);
 
 /* Draws once with what is prepared; where memory runs out it starts again with nothing prepared. draw: as
- * preview_render_prepared(); *has_setup tells whether all was prepared. Whatever comes back, p can be used on. */
-typedef facet_result render_attempt(prepared_scene *p, const facet_render_desc *desc, double deadline_s,
-                                    film *target, facet_render_stats *stats, bool *has_setup,
-                                    facet_error *error);
-facet_result render_with_prepared(render_attempt *attempt, prepared_scene *p, const facet_render_desc *desc,
-                                  film *target, facet_render_stats *stats, facet_error *error);
+ * preview_render_prepared(); context is passed on to it; *has_setup tells whether all was prepared. Whatever comes back, p can be used on. */
+typedef facet_result render_attempt(const void *context, prepared_scene *p, const facet_render_desc *desc,
+                                    double deadline_s, film *target, facet_render_stats *stats,
+                                    bool *has_setup, facet_error *error);
+facet_result render_with_prepared(render_attempt *attempt, const void *context, prepared_scene *p,
+                                  const facet_render_desc *desc, film *target, facet_render_stats *stats,
+                                  facet_error *error);
 
 #endif

@@ -26,7 +26,7 @@ static void report(char *out, size_t size)
     gl_context_destroy(&context);
 }
 
-const gl_entry *facet_gl_entry(const char *build, const gl_host *host)
+const gl_entry *facet_gl_entry(const char *build)
 {
     static const gl_entry entry = {.create = create,
                                    .render = gl_renderer_render,
@@ -36,6 +36,5 @@ const gl_entry *facet_gl_entry(const char *build, const gl_host *host)
                                    .destroy_sea = gl_sea_destroy,
                                    .report = report,
                                    .view = view_run};
-    (void)host;
     return strcmp(build, GL_ENTRY_BUILD) == 0 ? &entry : NULL;
 }

@@ -8,7 +8,7 @@
 
 typedef struct gl_renderer gl_renderer;
 typedef struct gl_sea gl_sea;
-struct sea_picture;
+struct water_frame;
 
 /* Functions of libfacet that the module calls. It has its own copy of everything else that it uses. */
 typedef struct gl_host {
@@ -53,7 +53,7 @@ typedef struct gl_entry {
     /* Creates the renderer of seas, with a context of its own. It keeps programs and textures from image to image:
      * gl_sea.h. */
     facet_result (*create_sea)(const facet_allocator *allocator, gl_sea **out, facet_error *error);
-    facet_result (*draw_sea)(gl_sea *sea, const struct sea_picture *picture, film *target,
+    facet_result (*draw_sea)(gl_sea *sea, const struct water_frame *picture, film *target,
                              facet_render_stats *stats, facet_error *error);
     void (*destroy_sea)(gl_sea *sea); /* NULL is allowed */
     /* Writes one line: renderer and version, or the reason why there is no OpenGL. */
@@ -66,8 +66,8 @@ typedef struct gl_entry {
 facet_result view_run(const gl_host *host, const facet_view_desc *desc, facet_error *error);
 
 /* The module's only exported symbol. build: the caller's GL_ENTRY_BUILD. NULL where the module is of another
- * build, whose structures may differ. host outlives everything that the module creates. */
-FACET_API const gl_entry *facet_gl_entry(const char *build, const gl_host *host);
-typedef const gl_entry *gl_entry_function(const char *build, const gl_host *host);
+ * build, whose structures may differ. */
+FACET_API const gl_entry *facet_gl_entry(const char *build);
+typedef const gl_entry *gl_entry_function(const char *build);
 
 #endif

@@ -196,11 +196,6 @@ facet_result foam_history_gather(foam_history *h, const waves *w, float *share, 
 
 /* ---- all ---- */
 
-static void destroy(sea_kept *kept)
-{
-    foam_history_destroy((foam_history *)kept);
-}
-
 static bool allocate(foam_history *h, const waves *w)
 {
     size_t modes = 0, rows = 0, size = h->size;
@@ -240,15 +235,14 @@ static void choose_times(foam_history *h, const waves *w)
         h->pair_count = 1;
 }
 
-facet_result foam_history_create(const waves *w, double threshold, double decay_s, foam_history **out,
-                                 facet_error *error)
+facet_result foam_history_create(const waves *w, double threshold, double decay_s,
+                                 const facet_allocator *allocator, foam_history **out, facet_error *error)
 {
-    foam_history *h = mem_zalloc(&w->allocator, 1, sizeof *h);
+    foam_history *h = mem_zalloc(allocator, 1, sizeof *h);
     *out = NULL;
     if (!h)
         return fail_memory(error, "foam", sizeof *h);
-    *h = (foam_history){
-        .kept.destroy = destroy, .allocator = w->allocator, .size = w->tiles[0].size, .decay_s = decay_s};
+    *h = (foam_history){.allocator = *allocator, .size = w->tiles[0].size, .decay_s = decay_s};
     choose_times(h, w);
     if (!allocate(h, w)) {
         foam_history_destroy(h);

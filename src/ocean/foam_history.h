@@ -4,7 +4,6 @@
 #define OCEAN_FOAM_HISTORY_H
 
 #include "ocean/foam_plane.h"
-#include "ocean/sea_kept.h"
 #include "ocean/waves.h"
 
 enum { FOAM_CELLS, FOAM_CLOUDS, FOAM_PATTERNS }; /* foam_pattern.h */
@@ -13,7 +12,6 @@ typedef struct foam_chances foam_chances;
 typedef struct foam_pair foam_pair;
 
 typedef struct foam_history {
-    sea_kept kept; /* first */
     facet_allocator allocator;
     uint32_t size;
     double step_s, decay_s; /* of the times that are looked at; in which foam fades by e */
@@ -29,8 +27,8 @@ typedef struct foam_history {
 } foam_history;
 
 /* For a sea's waves, of any time; threshold of convergence: above 0. FACET_ERROR_MEMORY. */
-facet_result foam_history_create(const waves *w, double threshold, double decay_s, foam_history **out,
-                                 facet_error *error);
+facet_result foam_history_create(const waves *w, double threshold, double decay_s,
+                                 const facet_allocator *allocator, foam_history **out, facet_error *error);
 void foam_history_destroy(foam_history *h); /* NULL is allowed */
 
 /* For the waves as they are: each texel of share, size^2, to the largest of what was active, faded by its age. FACET_ERROR_MEMORY. */

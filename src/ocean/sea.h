@@ -2,7 +2,6 @@
 #ifndef OCEAN_SEA_H
 #define OCEAN_SEA_H
 
-#include "ocean/sea_kept.h"
 #include "ocean/water_optics.h"
 #include "ocean/waves.h"
 
@@ -12,13 +11,14 @@ struct facet_sea {
     slope_filter slopes;
     foam_rule foam;
     water_optics optics;
-    void *_Atomic
-        gl; /* what OpenGL draws it with, kept from picture to picture; ocean_api.c's. NULL: nothing, or in use */
-    sea_kept_place light, foam_history; /* water_light.c's, foam_history.c's */
+    uint64_t
+        serial; /* another one for each sea of the process, from 1: what was made for it is recognized by it */
 };
 
 /* See facet_sea_create(); and its end. */
 facet_result sea_create(const facet_sea_desc *desc, facet_sea **sea, facet_error *error);
 void sea_destroy(facet_sea *sea); /* NULL is allowed */
+/* See facet_sea_camera(). */
+facet_camera sea_camera(const facet_sea *sea, float height_m, float azimuth_rad);
 
 #endif

@@ -76,8 +76,9 @@ void waves_foam_destroy(waves_foam *f)
     *f = (waves_foam){.w = NULL};
 }
 
-facet_result waves_foam_create(const waves *w, const foam_rule *rule, double decay_s, foam_history **history,
-                               waves_foam *out, facet_error *error)
+facet_result waves_foam_create(const waves *w, const foam_rule *rule, double decay_s,
+                               const facet_allocator *allocator, foam_history **history, waves_foam *out,
+                               facet_error *error)
 {
     *out = (waves_foam){.w = w};
     if (!w->tile_count || !(rule->active_threshold < INFINITY) || !(rule->active_threshold > 0.0f))
@@ -85,8 +86,8 @@ facet_result waves_foam_create(const waves *w, const foam_rule *rule, double dec
     uint32_t size = w->tiles[0].size;
     facet_result result = FACET_OK;
     if (!*history)
-        result = foam_history_create(w, (double)rule->active_threshold, decay_s, history, error);
-    if (result == FACET_OK && !foam_plane_create(&w->allocator, size, &out->share))
+        result = foam_history_create(w, (double)rule->active_threshold, decay_s, allocator, history, error);
+    if (result == FACET_OK && !foam_plane_create(allocator, size, &out->share))
         result = fail_memory(error, "foam", (size_t)size * size * sizeof(float));
     if (result == FACET_OK)
         result = foam_history_gather(*history, w, out->share.levels[0], error);

@@ -35,8 +35,9 @@ typedef struct waves_foam {
 
 /* For w as it is, which stays as long. The mean share is rule->coverage. decay_s: some 3.7 s in
  * sea water, 2.5 s in fresh. *history: of the same waves, NULL: is made; the caller destroys it, after the foam. FACET_ERROR_MEMORY. */
-facet_result waves_foam_create(const waves *w, const foam_rule *rule, double decay_s, foam_history **history,
-                               waves_foam *out, facet_error *error);
+facet_result waves_foam_create(const waves *w, const foam_rule *rule, double decay_s,
+                               const facet_allocator *allocator, foam_history **history, waves_foam *out,
+                               facet_error *error);
 void waves_foam_destroy(waves_foam *f); /* {0} is allowed */
 
 /* Foam in a footprint. */

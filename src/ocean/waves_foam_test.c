@@ -33,8 +33,9 @@ static void set_time(foamy *f, double time_s)
 {
     waves_foam_destroy(&f->foam);
     waves_set_time(&f->w, time_s);
-    assert_int_equal(waves_foam_create(&f->w, &f->rule, foam_decay_s(35.0), &f->history, &f->foam, NULL),
-                     FACET_OK);
+    assert_int_equal(
+        waves_foam_create(&f->w, &f->rule, foam_decay_s(35.0), &f->w.allocator, &f->history, &f->foam, NULL),
+        FACET_OK);
 }
 
 static void create(foamy *f, facet_sea_desc d)
@@ -202,7 +203,7 @@ static void running_out_of_memory_leaks_nothing(void **state)
         facet_result result = waves_create(&d, &s, &w, NULL);
         if (!result) {
             foam_rule rule = foam_rule_create(&w);
-            result = waves_foam_create(&w, &rule, 3.7, &history, &foam, NULL);
+            result = waves_foam_create(&w, &rule, 3.7, &w.allocator, &history, &foam, NULL);
         }
         waves_foam_destroy(&foam);
         foam_history_destroy(history);

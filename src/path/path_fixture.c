@@ -293,7 +293,7 @@ static facet_result try_prepared(fixture *f, prepared_scene *p, film *out, facet
     facet_result result = film_create(&desc.allocator, desc.crop[2], desc.crop[3], desc.aovs, out, error);
     if (result != FACET_OK)
         return result;
-    return desc.renderer == FACET_RENDERER_KIND_PATH ? path_render_prepared(p, &desc, out, stats, error)
+    return desc.renderer == FACET_RENDERER_KIND_PATH ? path_render_prepared(p, &desc, NULL, out, stats, error)
                                                      : preview_render_prepared(p, &desc, out, stats, error);
 }
 

@@ -29,6 +29,7 @@ enum {
 typedef struct path_picture {
     const facet_render_desc *desc;
     prepared_scene *prepared;
+    const struct path_surface *surface;
     film *target;
     facet_render_stats *stats;
     double deadline_s;
@@ -136,7 +137,7 @@ static facet_result begin_instant(path_picture *p, facet_error *error)
                             .has_ground = desc->ground == FACET_GROUND_SHADOW,
                             .ground_y = p->ground_y,
                             .draws_background = desc->background == FACET_BACKGROUND_ENVIRONMENT,
-                            .surface = p->prepared->scene->surface,
+                            .surface = p->surface,
                             .finds_first = p->mattes.aovs != 0};
     return result;
 }
@@ -409,14 +410,16 @@ static facet_result develop(path_picture *p, facet_error *error)
     return desc->path.denoises ? denoise(p, scale, error) : FACET_OK;
 }
 
-static facet_result attempt(prepared_scene *prepared, const facet_render_desc *desc, double deadline_s,
-                            film *target, facet_render_stats *stats, bool *has_setup, facet_error *error)
+static facet_result attempt(const void *surface, prepared_scene *prepared, const facet_render_desc *desc,
+                            double deadline_s, film *target, facet_render_stats *stats, bool *has_setup,
+                            facet_error *error)
 {
     *stats = (facet_render_stats){.thread_count = desc->thread_count};
     *has_setup = false;
     path_picture p = {.desc = desc,
                       .instant = *desc,
                       .prepared = prepared,
+                      .surface = surface,
                       .target = target,
                       .stats = stats,
                       .mattes = matte_find(target),
@@ -447,8 +450,9 @@ static facet_result attempt(prepared_scene *prepared, const facet_render_desc *d
     return result;
 }
 
-facet_result path_render_prepared(prepared_scene *p, const facet_render_desc *desc, film *target,
-                                  facet_render_stats *stats, facet_error *error)
+facet_result path_render_prepared(prepared_scene *p, const facet_render_desc *desc,
+                                  const struct path_surface *surface, film *target, facet_render_stats *stats,
+                                  facet_error *error)
 {
-    return render_with_prepared(attempt, p, desc, target, stats, error);
+    return render_with_prepared(attempt, surface, p, desc, target, stats, error);
 }

@@ -373,9 +373,6 @@ typedef struct facet_scene {
     struct scene_legacy *legacy;         /* scene/legacy.h; NULL: materials of glTF only */
     struct scene_conversion *conversion; /* the last one; NULL: none */
 
-    const struct path_surface
-        *surface; /* path/path_surface.h: of primitives that have water; NULL: none has */
-
     uint32_t max_texture_size; /* from the desc, for the decoding to come */
     uint32_t thread_count;     /* from the desc, for questions about the scene; 0: facet_thread_count() */
     uint32_t file_count;       /* files that arrays and images point into */

@@ -207,7 +207,7 @@ static void refine_rows(void *context, size_t begin, size_t end)
 
 static void fill_texels(making *m)
 {
-    uint32_t threads = m->s->desc->render.thread_count;
+    uint32_t threads = m->s->desc->thread_count;
     parallel_for(threads, BED_SHADOW_EDGE, 4, fill_rows, m);
     if (!(m->s->light.L[1] > 0.0f))
         return;
@@ -307,14 +307,14 @@ static bool is_worth_it(const water_setup *s, float depth)
 facet_result bed_shadow_of_picture(const struct water_setup *s, bed_shadow *out, facet_error *error)
 {
     *out = (bed_shadow){.is_there = false};
-    if (!s->model.is_there || !water_has_bed(s) || s->desc->shading.style != FACET_SEA_STYLE_PHYSICAL)
+    if (!s->model.is_there || !water_has_bed(s) || s->desc->sea_shading.style != FACET_SEA_STYLE_PHYSICAL)
         return FACET_OK;
     const float *low = s->model.prepared.pose.bounds_min, *high = s->model.prepared.pose.bounds_max;
     double X = 0.5 * ((double)low[0] + (double)high[0]), Z = 0.5 * ((double)low[2] + (double)high[2]);
     float depth = (float)-water_bed_height(&s->sea->desc.bed, X, Z);
     if (!(depth > 0.0f) || !is_worth_it(s, depth))
         return FACET_OK;
-    const facet_allocator *allocator = &s->desc->render.allocator;
+    const facet_allocator *allocator = &s->desc->allocator;
     const size_t count = (size_t)BED_SHADOW_EDGE * BED_SHADOW_EDGE;
     out->texels = mem_alloc(allocator, count, sizeof *out->texels);
     float *around = mem_alloc(allocator, count, sizeof *around);

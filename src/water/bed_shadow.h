@@ -4,7 +4,7 @@
 #ifndef WATER_BED_SHADOW_H
 #define WATER_BED_SHADOW_H
 
-#include "ocean/sea_picture.h"
+#include "water/water_frame.h"
 
 struct water_setup;
 

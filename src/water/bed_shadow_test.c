@@ -45,7 +45,7 @@ static void begin(lagoon *l, float eye_m, const float *sky)
     d.bed.depth_m = DEPTH_M;
     l->sea = make_sea(&d);
     make_shot(&l->s, 160, 120, eye_m, 1.5f);
-    facet_render_desc *r = &l->s.desc.render;
+    facet_render_desc *r = &l->s.desc;
     l->s.desc.sky.sun_elevation_rad = ELEVATION;
     l->s.desc.sky.sun_azimuth_rad = AZIMUTH;
     if (sky) {
@@ -56,14 +56,16 @@ static void begin(lagoon *l, float eye_m, const float *sky)
     r->camera = &l->s.camera;
     l->s.camera.eye[0] = l->s.camera.target[0] = -1.5f;
     facet_error error;
-    if (water_setup_create(l->sea, l->f.scene, &l->s.desc, &l->setup, &l->s.stats, &error) != FACET_OK)
+    if (water_setup_create(shot_in(l->sea, &l->s), l->f.scene, &l->s.desc, &l->setup, &l->s.stats, &error) !=
+        FACET_OK)
         fail_msg("%s", error.message);
 }
 
 static void end(lagoon *l)
 {
     water_setup_destroy(&l->setup);
-    facet_environment_destroy(l->s.desc.render.environment);
+    water_cache_clear(&l->s.cache);
+    facet_environment_destroy(l->s.desc.environment);
     sea_destroy(l->sea);
     fixture_destroy(&l->f);
 }

@@ -107,7 +107,7 @@ static bool has_structure(const water_setup *s, const seen_place *place)
 static void look_around(view *v)
 {
     const water_setup *s = v->s;
-    const facet_render_desc *r = &s->desc->render;
+    const facet_render_desc *r = s->desc;
     for (uint32_t i = 0; i < MOST_SEEN; i++) {
         float x = (float)(i % RAYS) / (RAYS - 1) * (float)r->width;
         float y = (float)(i / RAYS) / (RAYS - 1) * (float)r->height;
@@ -226,7 +226,7 @@ static float finest_texel(const view *v)
 
 static bool has_caustics(const water_setup *s)
 {
-    const facet_sea_shading *look = &s->desc->shading;
+    const facet_sea_shading *look = &s->desc->sea_shading;
     bool is_whole = !look->style && (look->stage == 0 || look->stage == 5);
     return is_whole && !look->omits_caustics && water_has_bed(s) && (has_waves(s) || s->model.is_there) &&
            s->light.L[1] > 0.0f && max(max(s->beam[0], s->beam[1]), s->beam[2]) > 0.0f;
@@ -243,8 +243,8 @@ static void begin(view *v, const water_setup *s)
                                  .bed_rise = {water_bed_rise(bed, vec3(1.0f, 0.0f, 0.0f)),
                                               water_bed_rise(bed, vec3(0.0f, 0.0f, 1.0f))},
                                  .model = s->model.is_there ? &s->model : NULL,
-                                 .thread_count = s->desc->render.thread_count,
-                                 .allocator = s->desc->render.allocator};
+                                 .thread_count = s->desc->thread_count,
+                                 .allocator = s->desc->allocator};
     float level = sqrt(s->light.L[0] * s->light.L[0] + s->light.L[2] * s->light.L[2]);
     v->axis[0] = level > 1e-4f ? s->light.L[0] / level : 1.0f;
     v->axis[1] = level > 1e-4f ? s->light.L[2] / level : 0.0f;

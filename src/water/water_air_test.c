@@ -5,9 +5,9 @@
 
 static void make_sky(float elevation_rad, float azimuth_rad, float lux, float eye_m, water_sky *sky)
 {
-    facet_sea_render_desc d = {
+    facet_render_desc d = {
         .sky = {.sun_elevation_rad = elevation_rad, .sun_azimuth_rad = azimuth_rad, .illuminance_lux = lux}};
-    d.render.thread_count = 2;
+    d.thread_count = 2;
     facet_error error;
     if (water_sky_create(&d, eye_m, 1000.0f, sky, &error) != FACET_OK)
         fail_msg("%s", error.message);

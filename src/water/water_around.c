@@ -56,10 +56,10 @@ static void draw_surroundings(void *context, size_t begin, size_t end)
 
 facet_result water_around_prepare(water_setup *s, facet_error *error)
 {
-    const facet_render_desc *r = &s->desc->render;
-    const facet_environment_desc desc = {.allocator = s->sea->desc.allocator};
+    const facet_render_desc *r = s->desc;
+    const facet_environment_desc desc = {.allocator = s->cache->allocator};
     facet_environment *around;
-    if (s->lit->around && s->lit->around_has_foam == has_foam(s))
+    if (s->cache->light->around && s->cache->light->around_has_foam == has_foam(s))
         return FACET_OK;
     facet_result result = environment_create(&desc, &around, error);
     if (result == FACET_OK)
@@ -72,9 +72,9 @@ facet_result water_around_prepare(water_setup *s, facet_error *error)
     const void *context[2] = {s, &around->picture};
     parallel_for(r->thread_count, HEIGHT, 8, draw_surroundings, (void *)(uintptr_t)context);
     environment_limit(around, r->thread_count);
-    if (s->lit->around)
-        environment_release(s->lit->around);
-    s->lit->around = around;
-    s->lit->around_has_foam = has_foam(s);
+    if (s->cache->light->around)
+        environment_release(s->cache->light->around);
+    s->cache->light->around = around;
+    s->cache->light->around_has_foam = has_foam(s);
     return FACET_OK;
 }

@@ -4,7 +4,7 @@
 
 #include "water/water_setup.h"
 
-/* Makes s->lit->around, once for a light. FACET_ERROR_MEMORY. */
+/* Makes s->cache->light->around, once for a light. FACET_ERROR_MEMORY. */
 facet_result water_around_prepare(water_setup *s, facet_error *error);
 
 #endif

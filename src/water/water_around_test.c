@@ -29,9 +29,9 @@ static vec3 seen_by_model(const facet_sea *sea, shot *s)
     water_setup setup;
     facet_render_stats stats = {0};
     facet_error error;
-    if (water_setup_create(sea, f.scene, &s->desc, &setup, &stats, &error) != FACET_OK)
+    if (water_setup_create(shot_in(sea, s), f.scene, &s->desc, &setup, &stats, &error) != FACET_OK)
         fail_msg("%s", error.message);
-    const image *around = &setup.lit->around->picture;
+    const image *around = &setup.cache->light->around->picture;
     float d[3];
     vec3 found = vec3(0.0f);
     double closest = -1.0;
@@ -45,6 +45,7 @@ static vec3 seen_by_model(const facet_sea *sea, shot *s)
                 found = vec3(texel[0], texel[1], texel[2]), closest = cosine;
         }
     water_setup_destroy(&setup);
+    water_cache_clear(&s->cache);
     fixture_destroy(&f);
     return found;
 }
@@ -56,14 +57,13 @@ static void compare(const facet_sea_desc *d, float eye_m, double bound, const ch
     shot s;
     make_shot(&s, 64, 64, eye_m, STEEP_RAD);
     s.camera.fov_y_rad = 0.3f;
-    assert_int_equal(facet_environment_create_constant(white, NULL, &s.desc.render.environment, NULL),
-                     FACET_OK);
+    assert_int_equal(facet_environment_create_constant(white, NULL, &s.desc.environment, NULL), FACET_OK);
     draw_shot(sea, &s);
     vec3 expected = mean_of(&s), seen = seen_by_model(sea, &s);
     for (int k = 0; k < 3; k++)
         if (!(fabs((double)(seen[k] / expected[k]) - 1.0) < bound))
             fail_msg("%s, channel %d: %g, not %g", name, k, (double)seen[k], (double)expected[k]);
-    facet_environment_destroy(s.desc.render.environment);
+    facet_environment_destroy(s.desc.environment);
     film_destroy(&s.film);
     sea_destroy(sea);
 }

@@ -219,12 +219,12 @@ static void light_by_picture(shot *s, float elevation_rad)
 {
     static const float zenith[3] = {1000.0f, 2000.0f, 4000.0f}, horizon[3] = {5000.0f, 5500.0f, 6000.0f};
     static const float nadir[3] = {100.0f, 100.0f, 100.0f};
-    facet_render_desc *r = &s->desc.render;
+    facet_render_desc *r = &s->desc;
     assert_int_equal(facet_environment_create_gradient(zenith, horizon, nadir, NULL, &r->environment, NULL),
                      FACET_OK);
     r->sun = (facet_sun){
         .azimuth_rad = 1.0f, .elevation_rad = elevation_rad, .illuminance_lux = {1e5f, 9e4f, 8e4f}};
-    s->desc.shading.omits_glints = s->desc.shading.omits_foam = true;
+    s->desc.sea_shading.omits_glints = s->desc.sea_shading.omits_foam = true;
 }
 
 /* Sums over all pixels, per channel. */
@@ -252,7 +252,7 @@ static void test_picture_mean(void **state)
     float *pixels = malloc((size_t)120 * 120 * 4 * sizeof(float));
     assert_non_null(pixels);
     memcpy(pixels, s.film.layers[0].pixels, (size_t)120 * 120 * 4 * sizeof(float));
-    s.desc.shading.omits_caustics = true;
+    s.desc.sea_shading.omits_caustics = true;
     draw_shot(sea, &s);
     sum_shot(&s, without);
     for (size_t i = 1; i < (size_t)120 * 120 * 4; i += 4)
@@ -261,7 +261,7 @@ static void test_picture_mean(void **state)
         expect_about(with[k] / without[k], 1.0, 0.005, "mean of a channel");
     assert_true(apart > 0.03 * without[1]); /* and they are seen */
     free(pixels);
-    facet_environment_destroy(s.desc.render.environment);
+    facet_environment_destroy(s.desc.environment);
     film_destroy(&s.film);
     sea_destroy(sea);
 }
@@ -273,10 +273,10 @@ static bool has_map(const facet_sea_desc *d, float elevation_rad, float eye_m, f
     shot s;
     make_shot(&s, 24, 16, eye_m, down_rad);
     light_by_picture(&s, elevation_rad);
-    s.desc.render.camera = &s.camera;
+    s.desc.camera = &s.camera;
     water_setup setup;
     facet_error error;
-    if (water_setup_create(sea, NULL, &s.desc, &setup, &s.stats, &error) != FACET_OK)
+    if (water_setup_create(shot_in(sea, &s), NULL, &s.desc, &setup, &s.stats, &error) != FACET_OK)
         fail_msg("%s", error.message);
     bool is_there = setup.caustics.is_there;
     for (uint32_t l = 0; is_there && l < CAUSTIC_LAYERS; l++)
@@ -290,7 +290,8 @@ static bool has_map(const facet_sea_desc *d, float elevation_rad, float eye_m, f
         assert_true(L[0] >= 0.0f && L[1] >= 0.0f && L[2] >= 0.0f && isfinite(L[0] + L[1] + L[2]));
     }
     water_setup_destroy(&setup);
-    facet_environment_destroy(s.desc.render.environment);
+    water_cache_clear(&s.cache);
+    facet_environment_destroy(s.desc.environment);
     sea_destroy(sea);
     return is_there;
 }

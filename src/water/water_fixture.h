@@ -16,11 +16,19 @@
 /* A picture to be: what tests change before they draw it. */
 typedef struct shot {
     facet_camera camera;
-    facet_sea_render_desc desc;
+    facet_render_desc desc;
     const facet_scene *scene; /* in the sea; NULL: none */
     film film;
     facet_render_stats stats;
+    water_cache cache;
 } shot;
+
+/* The cache for images of the sea, which desc has from now on. */
+static inline water_cache *shot_in(const facet_sea *sea, shot *s)
+{
+    s->desc.sea = sea;
+    return &s->cache;
+}
 
 static inline facet_sea *make_sea(const facet_sea_desc *desc)
 {
@@ -37,17 +45,17 @@ static inline void make_shot(shot *s, uint32_t width, uint32_t height, float eye
     *s = (shot){.camera = {.eye = {0.0f, eye_m, 0.0f},
                            .target = {0.0f, eye_m - 100.0f * sinf(down_rad), -100.0f * cosf(down_rad)},
                            .fov_y_rad = 0.7f}};
-    s->desc.render.width = width;
-    s->desc.render.height = height;
-    s->desc.render.samples = 1;
-    s->desc.render.thread_count = 2;
+    s->desc.width = width;
+    s->desc.height = height;
+    s->desc.samples = 1;
+    s->desc.thread_count = 2;
     s->desc.sky.sun_elevation_rad = 0.7f;
     s->desc.sky.sun_azimuth_rad = 1.0f;
 }
 
 static inline facet_result try_shot(const facet_sea *sea, shot *s, facet_error *error)
 {
-    facet_render_desc *r = &s->desc.render;
+    facet_render_desc *r = &s->desc;
     r->camera = &s->camera;
     if (r->crop[2] == 0) {
         r->crop[2] = r->width;
@@ -56,7 +64,9 @@ static inline facet_result try_shot(const facet_sea *sea, shot *s, facet_error *
     film_destroy(&s->film);
     if (film_create(&r->allocator, r->crop[2], r->crop[3], 0, &s->film, error) != FACET_OK)
         return FACET_ERROR_MEMORY;
-    return water_render(sea, s->scene, &s->desc, &s->film, &s->stats, error);
+    facet_result result = water_render(shot_in(sea, s), s->scene, &s->desc, &s->film, &s->stats, error);
+    water_cache_clear(&s->cache);
+    return result;
 }
 
 static inline void draw_shot(const facet_sea *sea, shot *s)

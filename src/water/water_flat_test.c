@@ -59,7 +59,7 @@ static void test_flat(void **state)
     s.desc.sky.sun_azimuth_rad = 0.3f; /* behind the eye: no disc in sight */
     draw_shot(sea, &s);
     water_setup setup;
-    assert_int_equal(water_setup_create(sea, NULL, &s.desc, &setup, &s.stats, NULL), FACET_OK);
+    assert_int_equal(water_setup_create(shot_in(sea, &s), NULL, &s.desc, &setup, &s.stats, NULL), FACET_OK);
     int seen = 0;
     for (uint32_t y = 0; y < 48; y++)
         for (uint32_t x = 0; x < 32; x++) {
@@ -80,6 +80,7 @@ static void test_flat(void **state)
         }
     assert_in_range(seen, 700, 1500);
     water_setup_destroy(&setup);
+    water_cache_clear(&s.cache);
     film_destroy(&s.film);
     sea_destroy(sea);
 }
@@ -93,11 +94,11 @@ static void test_sun(void **state)
     shot s;
     make_shot(&s, 65, 65, 3.0f, 0.7f);
     s.camera.fov_y_rad = 0.04f;
-    s.desc.render.samples = 4;
+    s.desc.samples = 4;
     s.desc.sky.sun_azimuth_rad = 3.14159265f;
     draw_shot(sea, &s);
     water_setup setup;
-    assert_int_equal(water_setup_create(sea, NULL, &s.desc, &setup, &s.stats, NULL), FACET_OK);
+    assert_int_equal(water_setup_create(shot_in(sea, &s), NULL, &s.desc, &setup, &s.stats, NULL), FACET_OK);
     double F = fresnel((sin)(0.7), (double)setup.water.ior);
     double E = (double)setup.light.sun_irradiance[1],
            disc = E / (3.14159265358979323846 * 0.00465305 * 0.00465305);
@@ -117,6 +118,7 @@ static void test_sun(void **state)
             assert_true(radii > 0.85 || share > 0.98);
         }
     water_setup_destroy(&setup);
+    water_cache_clear(&s.cache);
     film_destroy(&s.film);
     sea_destroy(sea);
 }
@@ -134,10 +136,9 @@ static void test_closed_box(void **state)
         shot s;
         make_shot(&s, 24, 48, 30.0f, 0.8f);
         s.camera.fov_y_rad = 1.5f;
-        s.desc.shading.omits_foam = true;
-        assert_int_equal(facet_environment_create_constant(one, NULL, &s.desc.render.environment, NULL),
-                         FACET_OK);
-        s.desc.render.camera = &s.camera;
+        s.desc.sea_shading.omits_foam = true;
+        assert_int_equal(facet_environment_create_constant(one, NULL, &s.desc.environment, NULL), FACET_OK);
+        s.desc.camera = &s.camera;
         for (int i = 0; i < 3; i++)
             sea->optics.reflectance[i] = 1.0f;
         draw_shot(sea, &s);
@@ -145,7 +146,7 @@ static void test_closed_box(void **state)
             if (fabsf(s.film.layers[0].pixels[i] - 1.0f) > 0.01f)
                 fail_msg("wind %g: pixel %u, %u shows %g", (double)winds[k], i / 4 % 24, i / 96,
                          (double)s.film.layers[0].pixels[i]);
-        facet_environment_destroy(s.desc.render.environment);
+        facet_environment_destroy(s.desc.environment);
         film_destroy(&s.film);
         sea_destroy(sea);
     }
@@ -173,16 +174,15 @@ static void test_furnace(void **state)
         s.camera.fov_y_rad = 1.5f;
         if (is_below)
             s.camera.eye[1] = -2.0f, s.camera.target[1] = -1.9f;
-        s.desc.shading.omits_foam = !is_below;
-        assert_int_equal(facet_environment_create_constant(one, NULL, &s.desc.render.environment, NULL),
-                         FACET_OK);
+        s.desc.sea_shading.omits_foam = !is_below;
+        assert_int_equal(facet_environment_create_constant(one, NULL, &s.desc.environment, NULL), FACET_OK);
         draw_shot(sea, &s);
         float expected = is_below ? sea->optics.ior * sea->optics.ior : 1.0f;
         for (uint32_t i = 0; i < 12 * 24 * 4; i++)
             if (i % 4 < 3 && fabsf(s.film.layers[0].pixels[i] / expected - 1.0f) > 2e-3f)
                 fail_msg("case %d: pixel %u, %u shows %g, not %g", k, i / 4 % 12, i / 48,
                          (double)s.film.layers[0].pixels[i], (double)expected);
-        facet_environment_destroy(s.desc.render.environment);
+        facet_environment_destroy(s.desc.environment);
         film_destroy(&s.film);
         sea_destroy(sea);
     }
@@ -198,13 +198,12 @@ static void test_night(void **state)
     facet_sea *sea = make_sea(&d);
     shot s;
     make_shot(&s, 16, 16, 3.0f, 0.2f);
-    assert_int_equal(facet_environment_create_constant(black, NULL, &s.desc.render.environment, NULL),
-                     FACET_OK);
+    assert_int_equal(facet_environment_create_constant(black, NULL, &s.desc.environment, NULL), FACET_OK);
     draw_shot(sea, &s);
     for (uint32_t i = 0; i < 16 * 16; i++)
         for (uint32_t c = 0; c < 3; c++)
             assert_true(s.film.layers[0].pixels[4 * i + c] == 0.0f);
-    facet_environment_destroy(s.desc.render.environment);
+    facet_environment_destroy(s.desc.environment);
     film_destroy(&s.film);
     sea_destroy(sea);
 }

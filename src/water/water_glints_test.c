@@ -14,12 +14,12 @@ static void make_view(shot *s, const facet_sea_desc *desc, facet_environment *sk
     bool is_mirror = desc->wind_mps == 0.0f;
     make_shot(s, WIDTH, HEIGHT, 3.0f, is_mirror ? height_deg * 0.0174532925f : 0.35f);
     s->camera.fov_y_rad = is_mirror ? 0.08f : 0.66f;
-    s->desc.render.samples = samples;
-    s->desc.render.environment = sky;
-    s->desc.render.sun = (facet_sun){.azimuth_rad = 3.14159265f,
-                                     .elevation_rad = height_deg * 0.0174532925f,
-                                     .illuminance_lux = {9e4f, 9e4f, 9e4f}};
-    s->desc.shading.omits_foam = true;
+    s->desc.samples = samples;
+    s->desc.environment = sky;
+    s->desc.sun = (facet_sun){.azimuth_rad = 3.14159265f,
+                              .elevation_rad = height_deg * 0.0174532925f,
+                              .illuminance_lux = {9e4f, 9e4f, 9e4f}};
+    s->desc.sea_shading.omits_foam = true;
 }
 
 /* Light of the rows of a block, and of their squares. */
@@ -46,7 +46,7 @@ static void compare(const facet_sea *sea, const facet_sea_desc *desc, facet_envi
     shot s;
     make_view(&s, desc, sky, height_deg, samples);
     for (int i = 0; i < 2; i++) {
-        s.desc.shading.omits_glints = i;
+        s.desc.sea_shading.omits_glints = i;
         draw_shot(sea, &s);
         scan_shot(&s, name);
         sum_blocks(&s, i ? without : with);

@@ -34,8 +34,8 @@ static void compare_view(const facet_sea *sea, const view *v)
     facet_sea plane = plane_of(sea);
     shot rough, flat;
     make_shot(&rough, WIDTH, HEIGHT, v->eye_m, v->down_rad);
-    rough.desc.render.samples = 4;
-    rough.desc.shading.omits_foam = true;
+    rough.desc.samples = 4;
+    rough.desc.sea_shading.omits_foam = true;
     rough.desc.sky.sun_azimuth_rad = v->azimuth_rad;
     rough.camera.fov_y_rad = v->fov_rad;
     flat = rough;

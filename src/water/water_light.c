@@ -1,45 +1,60 @@
-/* water_light.c - see water_light.h. */
+/* water_light.c - see water_light.h; and the cache of water_render.h. */
 #include <string.h>
 
 #include "base/memory.h"
 #include "base/result.h"
+#include "ocean/foam_history.h"
 #include "ibl/environment.h"
 
 #include "water/water_light.h"
 
-static void destroy(sea_kept *kept)
+static void destroy_light(water_light *l)
 {
-    water_light *l = (water_light *)kept;
+    if (!l)
+        return;
     water_sky_destroy(&l->sky);
     if (l->around)
         environment_release(l->around);
-    if (l->desc.render.environment)
-        environment_release(l->desc.render.environment);
+    if (l->desc.environment)
+        environment_release(l->desc.environment);
     mem_free(l->pictures);
     mem_free(l->lobes);
     mem_free(l);
 }
 
-static facet_result create(const facet_sea *sea, const facet_sea_render_desc *desc, float eye_height_m,
-                           float rows_per_rad, water_light **out, facet_error *error)
+void water_cache_clear(water_cache *cache)
 {
-    const facet_allocator *allocator = &sea->desc.allocator;
+    destroy_light(cache->light);
+    foam_history_destroy(cache->foam);
+    *cache = (water_cache){.allocator = cache->allocator};
+}
+
+void water_cache_begin(water_cache *cache, const facet_render_desc *desc)
+{
+    if (cache->sea_serial != desc->sea->serial)
+        water_cache_clear(cache);
+    cache->sea_serial = desc->sea->serial;
+}
+
+static facet_result create_light(const facet_allocator *allocator, const facet_render_desc *desc,
+                                 float eye_height_m, float rows_per_rad, water_light **out,
+                                 facet_error *error)
+{
     water_light *l = mem_zalloc(allocator, 1, sizeof *l);
     *out = NULL;
     if (!l)
         return fail_memory(error, "the light of a sea", sizeof *l);
-    *l = (water_light){
-        .kept.destroy = destroy, .desc = *desc, .eye_height_m = eye_height_m, .rows_per_rad = rows_per_rad};
-    l->desc.render.allocator = *allocator;
-    if (desc->render.environment)
-        environment_retain(desc->render.environment);
+    *l = (water_light){.desc = *desc, .eye_height_m = eye_height_m, .rows_per_rad = rows_per_rad};
+    l->desc.allocator = *allocator;
+    if (desc->environment)
+        environment_retain(desc->environment);
     facet_result result = water_sky_create(&l->desc, eye_height_m, rows_per_rad, &l->sky, error);
     if (result != FACET_OK) {
-        destroy(&l->kept);
+        destroy_light(l);
         return result;
     }
-    water_table_create(desc->shading.normals == FACET_SEA_NORMALS_GGX ? WATER_GGX : WATER_BECKMANN,
-                       (int)desc->shading.masking, sea->optics.ior, desc->render.thread_count, &l->table);
+    water_table_create(desc->sea_shading.normals == FACET_SEA_NORMALS_GGX ? WATER_GGX : WATER_BECKMANN,
+                       (int)desc->sea_shading.masking, desc->sea->optics.ior, desc->thread_count, &l->table);
     *out = l;
     return FACET_OK;
 }
@@ -60,39 +75,23 @@ static bool is_same_sun(const facet_sun *a, const facet_sun *b)
 }
 
 /* Of all that water_sky_create() and water_table_create() read. */
-static bool is_made_for(const water_light *l, const facet_sea_render_desc *desc, float eye_height_m,
+static bool is_made_for(const water_light *l, const facet_render_desc *desc, float eye_height_m,
                         float rows_per_rad)
 {
-    const facet_render_desc *a = &l->desc.render, *b = &desc->render;
+    const facet_render_desc *a = &l->desc, *b = desc;
     return l->eye_height_m == eye_height_m && (l->sky.has_views || l->rows_per_rad == rows_per_rad) &&
-           l->desc.shading.normals == desc->shading.normals &&
-           l->desc.shading.masking == desc->shading.masking && is_same_sky(&l->desc.sky, &desc->sky) &&
-           is_same_sun(&a->sun, &b->sun) && a->environment == b->environment &&
-           a->environment_rotation_rad == b->environment_rotation_rad &&
+           l->desc.sea_shading.normals == desc->sea_shading.normals &&
+           l->desc.sea_shading.masking == desc->sea_shading.masking &&
+           is_same_sky(&l->desc.sky, &desc->sky) && is_same_sun(&a->sun, &b->sun) &&
+           a->environment == b->environment && a->environment_rotation_rad == b->environment_rotation_rad &&
            a->environment_ev == b->environment_ev;
 }
 
-/* Nothing of a sea but what it keeps changes. */
-static sea_kept_place *place_of(const facet_sea *sea)
+facet_result water_light_update(water_cache *cache, const facet_render_desc *desc, float eye_height_m,
+                                float rows_per_rad, facet_error *error)
 {
-    return &((facet_sea *)(uintptr_t)sea)->light;
-}
-
-facet_result water_light_take(const facet_sea *sea, const facet_sea_render_desc *desc, float eye_height_m,
-                              float rows_per_rad, water_light **out, facet_error *error)
-{
-    water_light *kept = (water_light *)sea_kept_take(place_of(sea));
-    if (kept && is_made_for(kept, desc, eye_height_m, rows_per_rad)) {
-        *out = kept;
+    if (cache->light && is_made_for(cache->light, desc, eye_height_m, rows_per_rad))
         return FACET_OK;
-    }
-    if (kept)
-        destroy(&kept->kept);
-    return create(sea, desc, eye_height_m, rows_per_rad, out, error);
-}
-
-void water_light_give_back(const facet_sea *sea, water_light *light)
-{
-    if (light)
-        sea_kept_put(place_of(sea), &light->kept);
+    destroy_light(cache->light);
+    return create_light(&cache->allocator, desc, eye_height_m, rows_per_rad, &cache->light, error);
 }

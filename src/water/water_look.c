@@ -21,7 +21,7 @@ vec3 water_look_sky(vec3 d)
 
 vec3 water_look_shade(const water_setup *s, const water_place *p, vec3 d)
 {
-    const facet_sea_shading *look = &s->desc->shading;
+    const facet_sea_shading *look = &s->desc->sea_shading;
     int variant = look->style == FACET_SEA_STYLE_LEGACY_WRITTEN ? BEFORE_WRITTEN : BEFORE_INTENDED;
     int stage = look->style != FACET_SEA_STYLE_PHYSICAL ? BEFORE_STAGE_NONE
                 : look->stage == 1                      ? BEFORE_STAGE_FRESNEL
@@ -41,7 +41,7 @@ vec3 water_look_shade(const water_setup *s, const water_place *p, vec3 d)
 
 vec3 water_look_painted(const water_setup *s, const water_place *p)
 {
-    float given = s->desc->shading.perceptual_roughness;
+    float given = s->desc->sea_shading.perceptual_roughness;
     float perceptual_roughness = given > 0.0f ? given : BEFORE_ROUGHNESS;
     vec3 sky = water_sky_reflected(&s->sky, painted_mirror(p->point.N, p->V), perceptual_roughness);
     return painted_water(s->light, p->point.N, p->V, s->water.ior, perceptual_roughness, sky);

@@ -241,7 +241,7 @@ bool water_mesh_surface(const water_setup *s, const water_mesh_lattice *l, rende
 {
     size_t vertices = (size_t)l->column_count * l->row_count;
     size_t triangles = 2 * (size_t)(l->column_count - 1) * (l->row_count - 1), cuts = 0;
-    uint32_t threads = s->desc->render.thread_count;
+    uint32_t threads = s->desc->thread_count;
     surface f = {.s = s, .l = l, .watch = watch, .vertex_count = (uint32_t)vertices};
     f.positions = arena_alloc(memory, vertices, 3 * sizeof(float));
     f.normals = arena_alloc(memory, vertices, 3 * sizeof(float));

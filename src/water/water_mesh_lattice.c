@@ -24,7 +24,7 @@ typedef struct lattice_view {
 static lattice_view view_of(const water_setup *s, water_mesh_lattice *l)
 {
     const camera_rays *c = &s->camera;
-    const uint32_t whole[4] = {0, 0, s->desc->render.width, s->desc->render.height};
+    const uint32_t whole[4] = {0, 0, s->desc->width, s->desc->height};
     lattice_view v = {.step_rad = (double)c->pixel_size, .far_m = BEYOND_M};
     l->center[0] = (double)c->origin[0];
     l->center[1] = (double)c->origin[2];

@@ -25,9 +25,10 @@ static void make(made *m, const facet_sea_desc *desc, const facet_scene *scene, 
     const facet_allocator plain = {0};
     m->sea = make_sea(desc);
     make_shot(&m->shot, 160, 90, eye_m, 0.1f);
-    m->shot.desc.render.camera = &m->shot.camera;
-    m->shot.desc.render.renderer = FACET_RENDERER_KIND_PATH;
-    if (water_setup_create(m->sea, scene, &m->shot.desc, &m->setup, &stats, &error) != FACET_OK)
+    m->shot.desc.camera = &m->shot.camera;
+    m->shot.desc.renderer = FACET_RENDERER_KIND_PATH;
+    if (water_setup_create(shot_in(m->sea, &m->shot), scene, &m->shot.desc, &m->setup, &stats, &error) !=
+        FACET_OK)
         fail_msg("%s", error.message);
     m->memory = arena_create(&plain);
     assert_true(water_mesh_lattice_create(&m->setup, most, m->memory, &m->lattice));
@@ -38,6 +39,7 @@ static void end(made *m)
 {
     arena_destroy(m->memory);
     water_setup_destroy(&m->setup);
+    water_cache_clear(&m->shot.cache);
     sea_destroy(m->sea);
 }
 
@@ -249,7 +251,7 @@ static void it_ends_early(void **state)
     assert_int_equal(water_mesh_scene(&m.setup, NULL, clock_seconds() - 1.0, &scene, &error),
                      FACET_ERROR_LIMIT);
     assert_null(scene);
-    m.shot.desc.render.progress.report = refuse;
+    m.shot.desc.progress.report = refuse;
     assert_int_equal(water_mesh_scene(&m.setup, NULL, 0.0, &scene, &error), FACET_ERROR_CANCELLED);
     assert_null(scene);
     end(&m);

@@ -17,11 +17,12 @@ enum { SIDES = 8 };
 
 /* ---- making ---- */
 
-static void fill_desc(const facet_sea_render_desc *desc, const water_sky *sky, facet_environment *around,
+static void fill_desc(const facet_render_desc *desc, const water_sky *sky, facet_environment *around,
                       water_model *m)
 {
     vec3 L = sky->L, E = sky->sun_irradiance;
-    m->desc = desc->render;
+    m->desc = *desc;
+    m->desc.sea = NULL;
     m->desc.environment = around;
     m->desc.environment_rotation_rad = m->desc.environment_ev = 0.0f;
     m->desc.renderer = FACET_RENDERER_KIND_PREVIEW;
@@ -56,19 +57,19 @@ static facet_result make_shade(const facet_allocator *allocator, bool has_sun, w
     return FACET_OK;
 }
 
-facet_result water_model_create(const facet_scene *scene, const facet_sea_render_desc *desc,
-                                const water_sky *sky, facet_environment *around, facet_render_stats *stats,
-                                water_model *m, facet_error *error)
+facet_result water_model_create(const facet_scene *scene, const facet_render_desc *desc, const water_sky *sky,
+                                facet_environment *around, facet_render_stats *stats, water_model *m,
+                                facet_error *error)
 {
     fill_desc(desc, sky, around, m);
-    prepared_scene_init(&m->prepared, scene, &desc->render.allocator);
+    prepared_scene_init(&m->prepared, scene, &desc->allocator);
     m->is_there = true;
     m->setup =
         (render_setup){.prepared = &m->prepared, .desc = &m->desc, .stats = stats, .reads_everywhere = true};
     facet_result result = render_setup_create(&m->setup, error);
     if (result == FACET_OK) {
         vec3 E = sky->sun_irradiance;
-        result = make_shade(&desc->render.allocator, max(E[0], max(E[1], E[2])) > 0.0f, m, error);
+        result = make_shade(&desc->allocator, max(E[0], max(E[1], E[2])) > 0.0f, m, error);
     }
     return result;
 }

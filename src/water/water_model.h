@@ -17,9 +17,9 @@ typedef struct water_model {
 } water_model;
 
 /* around: the sky, whose lower half shows the sea; it stays as long. Fails as preview_render(). */
-facet_result water_model_create(const facet_scene *scene, const facet_sea_render_desc *desc,
-                                const water_sky *sky, facet_environment *around, facet_render_stats *stats,
-                                water_model *out, facet_error *error);
+facet_result water_model_create(const facet_scene *scene, const facet_render_desc *desc, const water_sky *sky,
+                                facet_environment *around, facet_render_stats *stats, water_model *out,
+                                facet_error *error);
 void water_model_destroy(water_model *m); /* {0} is allowed */
 
 /* The nearest surface of the model, of either side. */

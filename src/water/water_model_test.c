@@ -33,14 +33,13 @@ static void make_dark_shot(shot *s, uint32_t size, float eye_m, float down_rad, 
 {
     make_shot(s, size, size, eye_m, down_rad);
     s->scene = scene;
-    s->desc.render.energy = (facet_energy){0};
-    assert_int_equal(facet_environment_create_constant(black, NULL, &s->desc.render.environment, NULL),
-                     FACET_OK);
+    s->desc.energy = (facet_energy){0};
+    assert_int_equal(facet_environment_create_constant(black, NULL, &s->desc.environment, NULL), FACET_OK);
 }
 
 static void end_shot(shot *s)
 {
-    facet_environment_destroy(s->desc.render.environment);
+    facet_environment_destroy(s->desc.environment);
     film_destroy(&s->film);
 }
 
@@ -107,7 +106,7 @@ static void test_shadow(void **state)
         shot s;
         make_dark_shot(&s, 33, 4.0f, 0.78539816f, k ? f.scene : NULL);
         s.camera.fov_y_rad = 0.03f;
-        s.desc.render.sun = (facet_sun){
+        s.desc.sun = (facet_sun){
             .azimuth_rad = 3.14159265f, .elevation_rad = 0.78539816f, .illuminance_lux = {1e5f, 1e5f, 1e5f}};
         draw_shot(sea, &s);
         brightest[k] = scan_shot(&s, "the sun in the water");
@@ -129,13 +128,15 @@ static void test_dry(void **state)
     shot s;
     water_setup setup;
     make_dark_shot(&s, 8, 3.0f, 0.5f, f.scene);
-    s.desc.render.camera = &s.camera;
-    assert_int_equal(water_setup_create(sea, f.scene, &s.desc, &setup, &s.stats, NULL), FACET_OK);
+    s.desc.camera = &s.camera;
+    assert_int_equal(water_setup_create(shot_in(sea, &s), f.scene, &s.desc, &setup, &s.stats, NULL),
+                     FACET_OK);
     assert_true(water_model_is_dry(&setup.model, (const double[3]){0.1, 0.0, 0.2}));
     assert_false(
         water_model_is_dry(&setup.model, (const double[3]){0.9, 0.0, 0.9})); /* within the box around it */
     assert_false(water_model_is_dry(&setup.model, (const double[3]){3.0, 0.0, 0.0}));
     water_setup_destroy(&setup);
+    water_cache_clear(&s.cache);
     end_shot(&s);
     sea_destroy(sea);
     fixture_destroy(&f);
@@ -155,7 +156,7 @@ static void test_memory(void **state)
         shot s;
         facet_error error;
         make_dark_shot(&s, 4, 3.0f, 0.3f, f.scene);
-        s.desc.render.allocator = failing_allocator_get(&memory);
+        s.desc.allocator = failing_allocator_get(&memory);
         facet_result result = try_shot(sea, &s, &error);
         assert_true(result == FACET_OK || result == FACET_ERROR_MEMORY);
         refused += result == FACET_ERROR_MEMORY;

@@ -94,8 +94,8 @@ static bool is_near_sun(const water_setup *s, vec3 d)
 static bool can_group(const water_setup *s, uint32_t count)
 {
     bool has_land = water_has_bed(s) && s->sea->desc.bed.slope > 0.0f;
-    return count > 1 && count <= MOST_GROUPED && s->desc->render.quality != FACET_QUALITY_FINAL &&
-           !s->is_below && !s->model.is_there && !has_land && !s->camera.is_orthographic;
+    return count > 1 && count <= MOST_GROUPED && s->desc->quality != FACET_QUALITY_FINAL && !s->is_below &&
+           !s->model.is_there && !has_land && !s->camera.is_orthographic;
 }
 
 static vec3 trace_grouped(const water_setup *s, float x, float y, const float *pattern, uint32_t count)

@@ -13,10 +13,10 @@ static void make_view(shot *s, float down_rad)
 {
     static const float zenith[3] = {1000.0f, 2000.0f, 4000.0f}, horizon[3] = {5000.0f, 5500.0f, 6000.0f};
     static const float nadir[3] = {100.0f, 100.0f, 100.0f};
-    facet_render_desc *r = &s->desc.render;
+    facet_render_desc *r = &s->desc;
     make_shot(s, WIDTH, HEIGHT, 3.0f, down_rad);
     s->camera.fov_y_rad = 0.0013f * HEIGHT;
-    s->desc.shading.omits_glints = true;
+    s->desc.sea_shading.omits_glints = true;
     assert_int_equal(facet_environment_create_gradient(zenith, horizon, nadir, NULL, &r->environment, NULL),
                      FACET_OK);
     r->sun = (facet_sun){.azimuth_rad = 2.8f, .elevation_rad = 0.384f, .illuminance_lux = {7e4f, 6e4f, 5e4f}};
@@ -25,8 +25,8 @@ static void make_view(shot *s, float down_rad)
 
 static void draw_view(const facet_sea *sea, shot *s, uint32_t samples, facet_quality quality)
 {
-    s->desc.render.samples = samples;
-    s->desc.render.quality = quality;
+    s->desc.samples = samples;
+    s->desc.quality = quality;
     draw_shot(sea, s);
     film_develop(&s->film, FACET_TONEMAP_AGX, NULL, 2);
 }
@@ -52,7 +52,7 @@ static double error_of_few(const char *name, float down_rad)
     memcpy(many, s.film.layers[0].pixels, sizeof many);
     draw_view(sea, &s, FEW, FACET_QUALITY_NORMAL);
     double error = distance(&s, many);
-    facet_environment_destroy(s.desc.render.environment);
+    facet_environment_destroy(s.desc.environment);
     film_destroy(&s.film);
     sea_destroy(sea);
     return error;

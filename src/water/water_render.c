@@ -10,6 +10,7 @@
 #include "base/result.h"
 #include "draw/render_watch.h"
 #include "draw/camera_rays.h"
+#include "film/meter.h"
 
 #include "water/water_pixel.h"
 
@@ -63,7 +64,7 @@ static void draw_tiles(void *context, size_t begin, size_t end)
 static facet_result draw(const water_setup *s, double deadline_s, film *target, facet_render_stats *stats,
                          facet_error *error)
 {
-    const facet_render_desc *r = &s->desc->render;
+    const facet_render_desc *r = s->desc;
     film_layer *color = film_find(target, "");
     picture p = {.setup = s,
                  .crop = {r->crop[0], r->crop[1], target->width, target->height},
@@ -82,25 +83,71 @@ static facet_result draw(const water_setup *s, double deadline_s, film *target, 
     return render_watch_explain(&p.watch, error);
 }
 
-facet_result water_render(const facet_sea *sea, const facet_scene *scene, const facet_sea_render_desc *desc,
+facet_result water_render(water_cache *cache, const facet_scene *scene, const facet_render_desc *desc,
                           film *target, facet_render_stats *stats, facet_error *error)
 {
     double start = clock_seconds();
-    double limit_s = desc->render.time_limit_s, deadline_s = limit_s > 0.0 ? start + limit_s : 0.0;
-    *stats = (facet_render_stats){.thread_count = desc->render.thread_count};
+    double limit_s = desc->time_limit_s, deadline_s = limit_s > 0.0 ? start + limit_s : 0.0;
+    *stats = (facet_render_stats){.thread_count = desc->thread_count};
     water_setup setup;
-    facet_result result = render_check_limits(&desc->render, "prepare", 0.0, deadline_s, error);
+    facet_result result = render_check_limits(desc, "prepare", 0.0, deadline_s, error);
     if (result != FACET_OK)
         return result;
-    result = water_setup_create(sea, scene, desc, &setup, stats, error);
+    result = water_setup_create(cache, scene, desc, &setup, stats, error);
     stats->light_s += clock_seconds() - start;
     double drawing = clock_seconds();
     if (result == FACET_OK)
         result = draw(&setup, deadline_s, target, stats, error);
     stats->shade_s = clock_seconds() - drawing;
     if (result == FACET_OK)
-        result = render_check_limits(&desc->render, "shade", 1.0, 0.0, error);
+        result = render_check_limits(desc, "shade", 1.0, 0.0, error);
     water_setup_destroy(&setup);
     stats->total_s = clock_seconds() - start;
+    return result;
+}
+
+/* ---- the light meter ---- */
+
+static const double DARKEST = 1e-3; /* cd/m^2 */
+enum { METER_SIZE = 64 };           /* pixels along the longer edge */
+
+/* The same view, small. */
+static facet_render_desc meter_desc(const facet_render_desc *desc)
+{
+    facet_render_desc d = *desc;
+    facet_render_desc *r = &d;
+    double longer = r->width > r->height ? r->width : r->height;
+    r->width = (uint32_t)ceil(METER_SIZE * r->width / longer);
+    r->height = (uint32_t)ceil(METER_SIZE * r->height / longer);
+    r->crop[0] = r->crop[1] = 0;
+    r->crop[2] = r->width;
+    r->crop[3] = r->height;
+    r->samples = 1;
+    r->quality = FACET_QUALITY_DRAFT;
+    r->renderer = FACET_RENDERER_KIND_PREVIEW;
+    r->exposure_ev = 0.0f;
+    r->progress = (facet_progress){0};
+    d.sea_shading = (facet_sea_shading){.omits_glints = true};
+    return d;
+}
+
+facet_result water_meter(water_cache *cache, const facet_render_desc *desc, double *ev100, facet_error *error)
+{
+    const facet_render_desc d = meter_desc(desc);
+    facet_render_stats stats;
+    film f = {0};
+    *ev100 = 0.0;
+    facet_result result = film_create(&d.allocator, d.width, d.height, 0, &f, error);
+    if (result == FACET_OK)
+        result = water_render(cache, NULL, &d, &f, &stats, error);
+    if (result == FACET_OK) {
+        double L = film_log_average(&f, 1e-6);
+        if (L < DARKEST)
+            log_warning(
+                &d.log,
+                "sea: there is hardly any light, and the picture dark: say what the exposure is to be");
+        *ev100 = meter_ev100(fmax(L, DARKEST));
+    }
+    film_destroy(&f);
     return result;
 }

@@ -3,7 +3,6 @@
 #include "water/water_fixture.h"
 
 #include "film/meter.h"
-#include "water/water_exposure.h"
 #include "water/water_setup.h"
 
 static facet_sea_desc small_sea(float wind)
@@ -53,7 +52,7 @@ static void light_by_picture(shot *s)
 {
     static const float zenith[3] = {1000.0f, 2000.0f, 4000.0f}, horizon[3] = {5000.0f, 5500.0f, 6000.0f};
     static const float nadir[3] = {100.0f, 100.0f, 100.0f};
-    facet_render_desc *r = &s->desc.render;
+    facet_render_desc *r = &s->desc;
     assert_int_equal(facet_environment_create_gradient(zenith, horizon, nadir, NULL, &r->environment, NULL),
                      FACET_OK);
     r->sun = (facet_sun){.azimuth_rad = s->desc.sky.sun_azimuth_rad,
@@ -85,7 +84,7 @@ static void test_edge_cases(void **state)
         float largest = scan_shot(&s, e->name);
         assert_true(largest > 0.0f || e->sun_rad < -1.0f);
         assert_true(largest < 2.1e9f); /* the sun outside of the air */
-        facet_environment_destroy(s.desc.render.environment);
+        facet_environment_destroy(s.desc.environment);
         film_destroy(&s.film);
         sea_destroy(sea);
     }
@@ -103,19 +102,19 @@ static void test_threads(void **state)
     make_shot(&three, 50, 70, 3.0f, 0.1f);
     light_by_picture(&one);
     light_by_picture(&three);
-    one.desc.render.thread_count = 1;
-    three.desc.render.thread_count = 3;
+    one.desc.thread_count = 1;
+    three.desc.thread_count = 3;
     draw_shot(sea, &one);
     draw_shot(sea, &three);
     assert_memory_equal(one.film.layers[0].pixels, three.film.layers[0].pixels, 50 * 70 * 4 * sizeof(float));
     const uint32_t part[4] = {11, 30, 20, 35};
-    memcpy(three.desc.render.crop, part, sizeof part);
+    memcpy(three.desc.crop, part, sizeof part);
     draw_shot(sea, &three);
     for (uint32_t y = 0; y < part[3]; y++)
         assert_memory_equal(shot_pixel(&three, 0, y), shot_pixel(&one, part[0], part[1] + y),
                             part[2] * 4 * sizeof(float));
-    facet_environment_destroy(one.desc.render.environment);
-    facet_environment_destroy(three.desc.render.environment);
+    facet_environment_destroy(one.desc.environment);
+    facet_environment_destroy(three.desc.environment);
     film_destroy(&one.film);
     film_destroy(&three.film);
     sea_destroy(sea);
@@ -139,12 +138,12 @@ static void test_limits(void **state)
     shot s;
     facet_error error;
     make_shot(&s, 24, 24, 3.0f, 0.1f);
-    s.desc.render.time_limit_s = 1e-6;
+    s.desc.time_limit_s = 1e-6;
     assert_int_equal(try_shot(sea, &s, &error), FACET_ERROR_LIMIT);
-    s.desc.render.time_limit_s = 0.0;
-    s.desc.render.progress.report = cancel;
+    s.desc.time_limit_s = 0.0;
+    s.desc.progress.report = cancel;
     assert_int_equal(try_shot(sea, &s, &error), FACET_ERROR_CANCELLED);
-    s.desc.render.progress.report = NULL;
+    s.desc.progress.report = NULL;
     s.desc.sky.turbidity = 0.5f;
     assert_int_equal(try_shot(sea, &s, &error), FACET_ERROR_ARGUMENT);
     assert_non_null(strstr(error.message, "turbidity"));
@@ -229,10 +228,14 @@ static void count_warning(void *user, facet_log_level level, const char *words)
     warning_count += level == FACET_LOG_LEVEL_WARNING;
 }
 
-static double metered(const facet_sea *sea, const facet_sea_render_desc *desc)
+static double metered(const facet_sea *sea, const facet_render_desc *desc)
 {
     double ev100 = 0.0;
-    assert_int_equal(water_exposure_ev100(sea, desc, &ev100, NULL), FACET_OK);
+    facet_render_desc in_sea = *desc;
+    water_cache cache = {.sea_serial = 0};
+    in_sea.sea = sea;
+    assert_int_equal(water_meter(&cache, &in_sea, &ev100, NULL), FACET_OK);
+    water_cache_clear(&cache);
     return ev100;
 }
 
@@ -244,10 +247,10 @@ static void test_exposure(void **state)
     facet_sea *sea = make_sea(&desc);
     shot s;
     make_shot(&s, 96, 64, 3.0f, 0.1f);
-    s.desc.render.camera = &s.camera;
-    s.desc.shading.omits_glints = true;
+    s.desc.camera = &s.camera;
+    s.desc.sea_shading.omits_glints = true;
     double day = metered(sea, &s.desc), sum = 0.0;
-    s.desc.render.exposure_ev = (float)meter_exposure_ev(day);
+    s.desc.exposure_ev = (float)meter_exposure_ev(day);
     draw_shot(sea, &s);
     for (uint32_t i = 0; i < 96 * 64; i++) {
         const float *p = shot_pixel(&s, i % 96, i / 96);
@@ -255,11 +258,11 @@ static void test_exposure(void **state)
     }
     film_destroy(&s.film);
     assert_true(fabs((exp)(sum) / 0.22 - 1.0) < 0.04);
-    s.desc.render.samples = 7;
-    s.desc.render.crop[0] = 20;
-    s.desc.render.crop[2] = 8;
+    s.desc.samples = 7;
+    s.desc.crop[0] = 20;
+    s.desc.crop[2] = 8;
     assert_true(metered(sea, &s.desc) == day);
-    s.desc.render.log.message = count_warning;
+    s.desc.log.message = count_warning;
     s.desc.sky.sun_elevation_rad = -0.07f;
     double dusk = metered(sea, &s.desc);
     assert_true(dusk < day - 3.0 && warning_count == 0);

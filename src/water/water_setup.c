@@ -22,7 +22,7 @@ static inline vec3 load3(const float *v)
 static void fill_water(water_setup *s)
 {
     const water_optics *o = &s->sea->optics;
-    const facet_sea_shading *look = &s->desc->shading;
+    const facet_sea_shading *look = &s->desc->sea_shading;
     s->water.ior = o->ior;
     s->water.absorption = load3(o->absorption);
     s->water.scattering = load3(o->scattering);
@@ -72,32 +72,27 @@ static facet_result add_model(water_setup *s, const facet_scene *scene, facet_re
 {
     facet_result result = water_around_prepare(s, error);
     return result == FACET_OK
-               ? water_model_create(scene, s->desc, &s->sky, s->lit->around, stats, &s->model, error)
+               ? water_model_create(scene, s->desc, &s->sky, s->cache->light->around, stats, &s->model, error)
                : result;
 }
 
 /* ---- all ---- */
 
-/* Nothing of a sea but what it keeps changes. */
-static sea_kept_place *history_place(const facet_sea *sea)
-{
-    return &((facet_sea *)(uintptr_t)sea)->foam_history;
-}
-
 static facet_result make_foam(water_setup *s, facet_error *error)
 {
     const facet_sea *sea = s->sea;
-    s->foam_history = (foam_history *)sea_kept_take(history_place(sea));
     return waves_foam_create(&sea->waves, &sea->foam, foam_decay_s((double)sea->desc.water.salinity),
-                             &s->foam_history, &s->foam, error);
+                             &s->cache->allocator, &s->cache->foam, &s->foam, error);
 }
 
-facet_result water_setup_create(const facet_sea *sea, const facet_scene *scene,
-                                const facet_sea_render_desc *desc, water_setup *s, facet_render_stats *stats,
-                                facet_error *error)
+facet_result water_setup_create(water_cache *cache, const facet_scene *scene, const facet_render_desc *desc,
+                                water_setup *s, facet_render_stats *stats, facet_error *error)
 {
-    const facet_render_desc *r = &desc->render;
+    const facet_render_desc *r = desc;
+    const facet_sea *sea = desc->sea;
     memset(s, 0, sizeof *s);
+    water_cache_begin(cache, desc);
+    s->cache = cache;
     s->sea = sea;
     s->desc = desc;
     s->exposure = exp2(r->exposure_ev);
@@ -112,22 +107,22 @@ facet_result water_setup_create(const facet_sea *sea, const facet_scene *scene,
     if (r->renderer == FACET_RENDERER_KIND_PREVIEW)
         result = water_profile_create(&s->march, &s->camera, whole, s->is_below, r->thread_count,
                                       &r->allocator, &s->profile, error);
-    const facet_sea_shading *look = &desc->shading;
+    const facet_sea_shading *look = &desc->sea_shading;
     bool has_foam = look->style == FACET_SEA_STYLE_PHYSICAL && (look->stage == 0 || look->stage == 5) &&
                     !look->omits_foam && sea->foam.threshold < HUGE_VALF;
     if (result == FACET_OK && has_foam)
         result = make_foam(s, error);
     float rows_per_rad = s->camera.is_orthographic ? 1000.0f : 1.0f / s->camera.pixel_size;
     if (result == FACET_OK)
-        result = water_light_take(sea, desc, s->camera.origin[1], rows_per_rad, &s->lit, error);
+        result = water_light_update(cache, desc, s->camera.origin[1], rows_per_rad, error);
     if (result != FACET_OK)
         return result;
-    s->sky = s->lit->sky;
-    s->table = s->lit->table;
+    s->sky = cache->light->sky;
+    s->table = cache->light->table;
     fill_water(s);
     fill_light(s);
     fill_crest(s);
-    float perceptual_roughness = desc->shading.perceptual_roughness;
+    float perceptual_roughness = desc->sea_shading.perceptual_roughness;
     s->roughness = perceptual_roughness > 0.0f ? slopes_from_roughness(perceptual_roughness) : vec3(-1.0f);
     if (scene)
         result = add_model(s, scene, stats, error);
@@ -145,9 +140,6 @@ void water_setup_destroy(water_setup *s)
     caustic_map_destroy(&s->caustics);
     water_profile_destroy(&s->profile);
     waves_foam_destroy(&s->foam);
-    if (s->foam_history)
-        sea_kept_put(history_place(s->sea), &s->foam_history->kept);
-    water_light_give_back(s->sea, s->lit);
     memset(s, 0, sizeof *s);
 }
 
@@ -169,17 +161,18 @@ water_slopes water_slopes_at(const water_setup *s, float footprint_m)
                           .rate = mix(f->rate[i], f->rate[i + 1], share)};
 }
 
-void water_warn_of_eye(const facet_sea *sea, const facet_sea_render_desc *d)
+void water_warn_of_eye(const facet_render_desc *d)
 {
-    const float *eye = d->render.camera->eye;
+    const facet_sea *sea = d->sea;
+    const float *eye = d->camera->eye;
     const facet_sea_bed *bed = &sea->desc.bed;
     double below = water_bed_height(bed, (double)eye[0], (double)eye[2]) - (double)eye[1];
     bool is_below = is_under_water(sea, eye);
     if (water_is_bed(bed) && below > 0.0)
-        log_warning(&d->render.log, "sea: the camera stands %.3g m below the bed, from where nothing is seen",
+        log_warning(&d->log, "sea: the camera stands %.3g m below the bed, from where nothing is seen",
                     below);
     else if (is_below != (eye[1] < 0.0f))
-        log_warning(&d->render.log, "sea: the camera, %.3g m %s still water, is %s", fabs((double)eye[1]),
+        log_warning(&d->log, "sea: the camera, %.3g m %s still water, is %s", fabs((double)eye[1]),
                     is_below ? "above" : "below",
                     is_below ? "inside of a wave" : "over a trough, in the air");
 }

@@ -13,16 +13,15 @@
 
 typedef struct water_setup {
     const facet_sea *sea;
-    const facet_sea_render_desc *desc;
+    const facet_render_desc *desc;
     camera_rays camera;
-    float footprint; /* of a sample, over that of its pixel */
-    bool is_below;   /* the eye is in the water */
+    float footprint;    /* of a sample, over that of its pixel */
+    bool is_below;      /* the eye is in the water */
+    water_cache *cache; /* owns what sky points to */
     water_march march;
     water_profile profile;
-    foam_history *foam_history; /* the sea's */
-    waves_foam foam;            /* what crests have left behind */
-    water_light *lit;           /* owns what sky points to, and the rest that is kept */
-    water_sky sky;              /* its */
+    waves_foam foam; /* of crests that broke */
+    water_sky sky;   /* its */
     water_model model;
     water_table table; /* of means over facets; its */
     Water water;
@@ -38,11 +37,10 @@ typedef struct water_setup {
     float shutter_s;  /* for which glints are seen */
 } water_setup;
 
-/* Stays where it is between create and destroy; scene NULL: nothing but water. Adds to stats what a model took. Fails as water_render(). What
- * comes back, even after a failure, is to be destroyed. */
-facet_result water_setup_create(const facet_sea *sea, const facet_scene *scene,
-                                const facet_sea_render_desc *desc, water_setup *out,
-                                facet_render_stats *stats, facet_error *error);
+/* Stays where it is between create and destroy; scene NULL: nothing but water. cache: not used by others until destroy. Adds to stats what
+ * a model took. Fails as water_render(). To be destroyed even after a failure. */
+facet_result water_setup_create(water_cache *cache, const facet_scene *scene, const facet_render_desc *desc,
+                                water_setup *out, facet_render_stats *stats, facet_error *error);
 void water_setup_destroy(water_setup *s);
 
 /* Slopes that a footprint (m) does not resolve, with SLOPE_VARIANCE_MIN; *curvature, *rate: of their waves (slope_filter). */

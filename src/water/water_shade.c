@@ -62,7 +62,7 @@ vec3 water_from_below(const water_setup *s, const water_place *p)
 static float glints(const water_setup *s, const water_place *p)
 {
     vec3 H = normalize(p->V + s->light.L);
-    const facet_sea_shading *look = &s->desc->shading;
+    const facet_sea_shading *look = &s->desc->sea_shading;
     if (look->omits_glints || look->stage == 4 || H[1] <= 0.0f || p->slopes.rate <= 0.0f)
         return 1.0f;
     float area = p->pixel_m * p->pixel_m / p->cosine, lifetime = 1.0f / p->slopes.rate;

@@ -96,9 +96,9 @@ static sky_tables over_black(const sky_tables *t)
     return dark;
 }
 
-static facet_result make_views(const facet_sea_render_desc *desc, water_sky *s, facet_error *error)
+static facet_result make_views(const facet_render_desc *desc, water_sky *s, facet_error *error)
 {
-    const facet_render_desc *r = &desc->render;
+    const facet_render_desc *r = desc;
     float elevation = desc->sky.sun_elevation_rad;
     sky_tables dark = over_black(&s->tables);
     facet_result result =
@@ -138,20 +138,20 @@ static void mirror_at_horizon(image *picture)
 }
 
 /* Everything that is looked up in a picture; mirrored is drawn already. */
-static facet_result prepare_reflections(const facet_sea_render_desc *desc, water_sky *s, facet_error *error)
+static facet_result prepare_reflections(const facet_render_desc *desc, water_sky *s, facet_error *error)
 {
     mirror_at_horizon(&s->mirrored->picture);
-    environment_limit(s->mirrored, desc->render.thread_count);
-    const ibl_light_desc light = {.thread_count = desc->render.thread_count,
+    environment_limit(s->mirrored, desc->thread_count);
+    const ibl_light_desc light = {.thread_count = desc->thread_count,
                                   .needs_irradiance = true,
                                   .needs_specular = true,
                                   .max_roughness = 1.0f};
     return ibl_light_prepare(s->mirrored, &light, &s->reflected, error);
 }
 
-static facet_result use_views(const facet_sea_render_desc *desc, water_sky *s, facet_error *error)
+static facet_result use_views(const facet_render_desc *desc, water_sky *s, facet_error *error)
 {
-    const facet_render_desc *r = &desc->render;
+    const facet_render_desc *r = desc;
     facet_result result = make_views(desc, s, error);
     if (result == FACET_OK)
         result = make_environment(&r->allocator, 2 * PICTURE_HEIGHT, PICTURE_HEIGHT, &s->mirrored, error);
@@ -168,17 +168,17 @@ static facet_result use_views(const facet_sea_render_desc *desc, water_sky *s, f
     return result;
 }
 
-static facet_result use_picture(const facet_sea_render_desc *desc, facet_environment *environment,
+static facet_result use_picture(const facet_render_desc *desc, facet_environment *environment,
                                 float rows_per_rad, water_sky *s, facet_error *error)
 {
     const image *picture = &environment->picture;
-    const facet_allocator *allocator = &desc->render.allocator;
+    const facet_allocator *allocator = &desc->allocator;
     facet_result result = make_environment(allocator, picture->width, picture->height, &s->mirrored, error);
     if (result != FACET_OK)
         return result;
     memcpy(s->mirrored->picture.pixels, picture->pixels, image_row_size(picture) * picture->height);
     result = prepare_reflections(desc, s, error);
-    const ibl_light_desc light = {.thread_count = desc->render.thread_count,
+    const ibl_light_desc light = {.thread_count = desc->thread_count,
                                   .needs_background = true,
                                   .background_size = (uint32_t)clamp(rows_per_rad, 1.0f, 1e6f)};
     if (result == FACET_OK)
@@ -193,11 +193,11 @@ static facet_result use_picture(const facet_sea_render_desc *desc, facet_environ
 }
 
 /* Preetham's sky is a picture like any other, with a sun. */
-static facet_result use_preetham(const facet_sea_render_desc *desc, float rows_per_rad, water_sky *s,
+static facet_result use_preetham(const facet_render_desc *desc, float rows_per_rad, water_sky *s,
                                  facet_error *error)
 {
-    const facet_environment_desc environment_desc = {.allocator = desc->render.allocator,
-                                                     .thread_count = desc->render.thread_count};
+    const facet_environment_desc environment_desc = {.allocator = desc->allocator,
+                                                     .thread_count = desc->thread_count};
     facet_environment *sky = NULL;
     facet_sky_desc without = desc->sky;
     without.omits_disc = true;
@@ -233,20 +233,18 @@ static void scale_light(const facet_sky_desc *sky, water_sky *s)
 
 /* ---- making ---- */
 
-static facet_result begin(const facet_sea_render_desc *desc, float eye_height_m, water_sky *s,
-                          facet_error *error)
+static facet_result begin(const facet_render_desc *desc, float eye_height_m, water_sky *s, facet_error *error)
 {
     memset(s, 0, sizeof *s);
     s->scale = s->rotation_cos = 1.0f;
-    facet_result result = desc->render.environment ? FACET_OK : check(&desc->sky, eye_height_m, error);
+    facet_result result = desc->environment ? FACET_OK : check(&desc->sky, eye_height_m, error);
     if (result != FACET_OK)
         return result;
     place_sun(s, desc->sky.sun_elevation_rad, desc->sky.sun_azimuth_rad);
     fill_air(&desc->sky, s);
-    s->has_views = !desc->render.environment && desc->sky.model != FACET_SKY_MODEL_PREETHAM;
+    s->has_views = !desc->environment && desc->sky.model != FACET_SKY_MODEL_PREETHAM;
     if (s->has_views)
-        result =
-            sky_tables_create(s->air, &desc->render.allocator, desc->render.thread_count, &s->tables, error);
+        result = sky_tables_create(s->air, &desc->allocator, desc->thread_count, &s->tables, error);
     return result;
 }
 
@@ -257,7 +255,7 @@ static void rotate(const facet_render_desc *r, water_sky *s)
     s->scale = exp2(r->environment_ev);
 }
 
-facet_result water_sky_create(const facet_sea_render_desc *desc, float eye_height_m, float rows_per_rad,
+facet_result water_sky_create(const facet_render_desc *desc, float eye_height_m, float rows_per_rad,
                               water_sky *s, facet_error *error)
 {
     facet_result result = begin(desc, eye_height_m, s, error);
@@ -267,10 +265,10 @@ facet_result water_sky_create(const facet_sea_render_desc *desc, float eye_heigh
     s->horizon_mu = horizon_mu(s->eye_km);
     s->horizon_rad = acos(s->horizon_mu);
     water_sky_fill_ways(s);
-    if (desc->render.environment) {
-        rotate(&desc->render, s);
-        result = use_picture(desc, desc->render.environment, rows_per_rad, s, error);
-        take_sun(s, &desc->render.sun);
+    if (desc->environment) {
+        rotate(desc, s);
+        result = use_picture(desc, desc->environment, rows_per_rad, s, error);
+        take_sun(s, &desc->sun);
     } else if (desc->sky.model == FACET_SKY_MODEL_PREETHAM) {
         result = use_preetham(desc, rows_per_rad, s, error);
         scale_light(&desc->sky, s);
@@ -279,7 +277,7 @@ facet_result water_sky_create(const facet_sea_render_desc *desc, float eye_heigh
         result = use_views(desc, s, error);
         scale_light(&desc->sky, s);
         if (result == FACET_OK)
-            result = water_sky_fill_air(s, &desc->render.allocator, desc->render.thread_count, error);
+            result = water_sky_fill_air(s, &desc->allocator, desc->thread_count, error);
     }
     return result;
 }

@@ -46,7 +46,7 @@ static inline const sky_view *water_sky_low(const water_sky *s)
 
 /* For a desc whose members are resolved, seen from a height; rows_per_rad: pixels, how fine a picture is seen. What comes back, even
  * after a failure, is to be destroyed. FACET_ERROR_MEMORY, _ARGUMENT: a number in desc->sky. */
-facet_result water_sky_create(const facet_sea_render_desc *desc, float eye_height_m, float rows_per_rad,
+facet_result water_sky_create(const facet_render_desc *desc, float eye_height_m, float rows_per_rad,
                               water_sky *out, facet_error *error);
 void water_sky_destroy(water_sky *s); /* {0} is allowed */
 

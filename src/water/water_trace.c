@@ -62,7 +62,7 @@ static vec3 shade_sea(const water_sample *p, const march_hit *hit)
     const water_setup *s = p->s;
     water_place place = place_of(p, hit);
     place.pixel_m = place.footprint_m / p->footprint;
-    if (s->desc->shading.stage == 3)
+    if (s->desc->sea_shading.stage == 3)
         return water_look_painted(s, &place);
     water_findings found = water_find(s, &place, p->footprint, p->random);
     return water_shade(s, &place, &found);
@@ -108,7 +108,7 @@ static vec3 from_below(const water_sample *p, bool is_met, const march_hit *sea)
 
 static vec3 exposed(const water_setup *s, vec3 L)
 {
-    float most = s->desc->shading.clamp;
+    float most = s->desc->sea_shading.clamp;
     L = L * s->exposure;
     return most > 0.0f ? min(L, most) : L;
 }
@@ -116,7 +116,7 @@ static vec3 exposed(const water_setup *s, vec3 L)
 vec3 water_sample_shade(const water_sample *p, bool is_met, const march_hit *sea)
 {
     const water_setup *s = p->s;
-    if (!water_look_is_before(&s->desc->shading))
+    if (!water_look_is_before(&s->desc->sea_shading))
         return exposed(s, (p->ray.is_below ? from_below : from_above)(p, is_met, sea));
     if (!is_met)
         return water_look_sky(p->d);

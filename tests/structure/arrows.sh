@@ -21,14 +21,15 @@ allowed() {
     ocean) echo ocean scene image base shade facet ;;
     water) echo water path ocean cpu draw film ibl scene image base shade facet ;;
     cpu) echo cpu draw film ibl scene image base shade facet ;;
-    gl) echo gl ocean draw glsl film ibl scene image base shade facet ;;
+    gl) echo gl water ocean draw glsl film ibl scene image base shade facet ;;
     view) echo view gl plot draw film ibl scene image base shade facet ;;
     legacy) echo legacy scene image base shade facet ;;
     plot) echo plot legacy ibl scene image base shade facet ;;
     report) echo report bake plot legacy cpu draw film ibl scene image base facet ;;
     path) echo path cpu draw film ibl scene image base shade facet ;;
     compare) echo compare image base shade facet ;;
-    api) echo api gl path water ocean bake compare report plot legacy io cpu draw ibl film scene image base facet ;;
+    render) echo render gl path water ocean cpu draw film ibl scene image base facet ;;
+    api) echo api render gl ocean bake compare report plot legacy io cpu ibl film scene image base facet ;;
     cli) echo cli base facet ;;
     *) echo "" ;;
     esac
@@ -58,6 +59,49 @@ wrong=$(echo "$files" | grep -vE '_test\.[ch]$' | xargs grep -E '^#include "[^"/
         split(place[1], path, "/")
         if (index(may[path[2]], " " target[1] " ") == 0)
             print place[1] ": includes " quoted[2] "; " path[2] " may include only:" may[path[2]]
+    }')
+if [ -n "$wrong" ]; then
+    echo "$wrong"
+    status=1
+fi
+
+# A name is no way around an arrow: "struct NAME" of a module that may not be included is refused, defined or not.
+wrong=$(echo "$files" | grep -vE '_test\.[ch]$' | xargs grep -oE '(^|[^"[:alnum:]_])struct [[:alpha:]_][[:alnum:]_]*( *\{|)' /dev/null |
+    awk -v rules="$rules" '
+    BEGIN {
+        count = split(rules, lines, "\n")
+        for (i = 1; i <= count; i++) {
+            words = split(lines[i], word, " ")
+            may[word[1]] = " "
+            for (k = 2; k <= words; k++)
+                may[word[1]] = may[word[1]] word[k] " "
+        }
+    }
+    {
+        place = substr($0, 1, index($0, ":") - 1)
+        split(place, path, "/")
+        rest = substr($0, index($0, "struct ") + 7)
+        name = rest
+        sub(/[^A-Za-z0-9_].*/, "", name)
+        if (rest ~ /\{/)
+            defined[name] = defined[name] " " path[2]
+        else if (!((place, name) in used)) {
+            used[place, name] = 1
+            uses[++use_count] = place " " path[2] " " name
+        }
+    }
+    END {
+        for (i = 1; i <= use_count; i++) {
+            split(uses[i], use, " ")
+            if (!(use[3] in defined))
+                continue
+            homes = split(defined[use[3]], home, " ")
+            is_near = 0
+            for (k = 1; k <= homes; k++)
+                is_near = is_near || index(may[use[2]], " " home[k] " ") > 0
+            if (!is_near)
+                print use[1] ": names struct " use[3] " of" defined[use[3]] "; " use[2] " may know only:" may[use[2]]
+        }
     }')
 if [ -n "$wrong" ]; then
     echo "$wrong"

@@ -441,6 +441,7 @@ static void destroy(verb_run *base)
 {
     ocean_run *run = (ocean_run *)base;
     json_decref(run->outputs);
+    facet_renderer_destroy(run->renderer);
     facet_sea_destroy(run->sea);
     facet_scene_destroy(run->model);
     facet_environment_destroy(run->environment);

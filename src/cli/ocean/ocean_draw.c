@@ -37,25 +37,37 @@ facet_camera ocean_run_camera(const ocean_run *run, const ocean_options *o)
 }
 
 /* But for exposure and camera. */
-static facet_sea_render_desc desc_of(ocean_run *run, const ocean_options *o, const facet_sea_shading *look)
+static facet_render_desc desc_of(ocean_run *run, const ocean_options *o, const facet_sea_shading *shading)
 {
-    facet_sea_render_desc d = {.render = o->picture.desc, .sky = o->sky, .shading = *look};
-    d.render.allocator = run->base.allocator;
-    d.render.log = messages_log(&run->base.messages);
-    d.render.environment = run->environment;
+    facet_render_desc d = o->picture.desc;
+    d.sea = run->sea;
+    d.sky = o->sky;
+    d.sea_shading = *shading;
+    d.allocator = run->base.allocator;
+    d.log = messages_log(&run->base.messages);
+    d.environment = run->environment;
     if (o->picture.environment.kind == ENVIRONMENT_NONE) /* a cell of --sweep without the others' light */
-        d.render.environment_ev = BLACK_EV;
+        d.environment_ev = BLACK_EV;
     return d;
+}
+
+/* The renderer of all images, which keeps the sky and OpenGL's programs. */
+static facet_result make_renderer(ocean_run *run, facet_error *error)
+{
+    return run->renderer ? FACET_OK
+                         : facet_renderer_create(run->model, &run->base.allocator, &run->renderer, error);
 }
 
 facet_result ocean_run_meter(ocean_run *run, const ocean_options *o, facet_error *error)
 {
     const facet_camera camera = ocean_run_camera(run, o);
-    facet_sea_render_desc d = desc_of(run, o, &o->shading);
-    d.render.camera = &camera;
+    facet_render_desc d = desc_of(run, o, &o->shading);
+    d.camera = &camera;
     run->ev100 = o->ev100;
-    facet_result result = o->has_ev100 ? FACET_OK : facet_sea_meter(run->sea, &d, &run->ev100, error);
-    run->ev100 -= (double)d.render.exposure_ev;
+    facet_result result = make_renderer(run, error);
+    if (result == FACET_OK && !o->has_ev100)
+        result = facet_renderer_meter(run->renderer, &d, &run->ev100, error);
+    run->ev100 -= (double)d.exposure_ev;
     return result;
 }
 
@@ -69,16 +81,18 @@ static facet_result draw(ocean_run *run, const ocean_options *o, const facet_sea
     facet_result result = interrupt_check(shown->subject, error);
     if (result != FACET_OK)
         return result;
-    facet_sea_render_desc d = desc_of(run, o, look);
-    d.render.camera = &camera;
-    d.render.progress = progress_callback(shown);
-    d.render.tonemap = tonemap;
-    bool is_path = d.render.renderer == FACET_RENDERER_KIND_PATH;
-    d.render.time_limit_s = left > 1e29 ? 0.0 : is_path ? left / images_left : left;
-    d.render.path.keeps_cancelled = true;
-    d.render.exposure_ev = facet_exposure_from_ev100(run->ev100);
+    facet_render_desc d = desc_of(run, o, look);
+    d.camera = &camera;
+    d.progress = progress_callback(shown);
+    d.tonemap = tonemap;
+    bool is_path = d.renderer == FACET_RENDERER_KIND_PATH;
+    d.time_limit_s = left > 1e29 ? 0.0 : is_path ? left / images_left : left;
+    d.path.keeps_cancelled = true;
+    d.exposure_ev = facet_exposure_from_ev100(run->ev100);
     interrupt_begin_polling(shown->subject, "drawing", shown->mode == PROGRESS_BAR);
-    result = facet_sea_render(run->sea, run->model, &d, image, error);
+    result = make_renderer(run, error);
+    if (result == FACET_OK)
+        result = facet_renderer_render(run->renderer, &d, image, error);
     interrupt_end();
     progress_clear();
     return result;

@@ -20,6 +20,7 @@ typedef struct ocean_run {
     facet_environment *environment; /* NULL: the sky */
     facet_sea *sea;
     facet_scene *model;                /* NULL: none */
+    facet_renderer *renderer;          /* of model; NULL: not made yet */
     float model_low[3], model_high[3]; /* where it is before it floats */
     ocean_berth berth;
     bool is_afloat;       /* it has been placed before */

@@ -130,7 +130,7 @@ static void set_block(GLuint buffer, GLuint point, const void *block, size_t siz
 }
 
 /* Of a picture in the sky's place: itself and its filtered light. Of the atmosphere, gl_sea_textures.c has all. */
-static facet_result update_light(gl_sea *s, const sea_picture *p, facet_error *error)
+static facet_result update_light(gl_sea *s, const water_frame *p, facet_error *error)
 {
     ibl_light both = *p->reflected;
     if (p->background)
@@ -180,9 +180,9 @@ static facet_result update_indices(gl_sea *s, const gl_sea_fan *fan, facet_error
     return gl_context_check(&s->context, "a sea's mesh", error);
 }
 
-static uint64_t features_of(const sea_picture *p)
+static uint64_t features_of(const water_frame *p)
 {
-    const facet_sea_shading *look = &p->desc->shading;
+    const facet_sea_shading *look = &p->desc->sea_shading;
     const facet_sea_bed *bed = &p->sea->desc.bed;
     if (look->style != FACET_SEA_STYLE_PHYSICAL || look->stage == 1 || look->stage == 2)
         return GL_SEA_IS_LEGACY;
@@ -208,7 +208,7 @@ static const uint64_t BESIDE =
 /* A picture on its way. */
 typedef struct drawing {
     gl_sea *s;
-    const sea_picture *picture;
+    const water_frame *picture;
     camera_rays camera;
     gl_sea_fan fan;
     gl_sea_block block;
@@ -229,7 +229,7 @@ static facet_result get_programs(drawing *d, facet_error *error)
         {GL_MAIN_SEA_CLASS, 0},  {GL_MAIN_SEA, features | GL_SEA_HAS_CUBIC},
         {GL_MAIN_SEA, features}, {GL_MAIN_SEA, (features & BESIDE) | GL_SEA_IS_BESIDE}};
     GLuint *names[COUNT] = {&d->grid, &d->surface, &d->sorting, &d->smooth, &d->linear, &d->beside};
-    gl_programs_set_log(d->s->programs, &d->picture->desc->render.log);
+    gl_programs_set_log(d->s->programs, &d->picture->desc->log);
     for (int i = 0; i < COUNT; i++)
         TRY(gl_programs_request(d->s->programs, keys[i], error));
     for (int i = 0; i < COUNT; i++)
@@ -271,13 +271,12 @@ static facet_result draw_grid(drawing *d, facet_error *error)
 
 static void set_frame(const drawing *d, const gl_view *view)
 {
-    const sea_picture *p = d->picture;
+    const water_frame *p = d->picture;
     const float *eye = d->camera.origin;
     const float low[3] = {eye[0] - 1000.0f, eye[1] - 1000.0f, eye[2] - 1000.0f};
     const float high[3] = {eye[0] + 1000.0f, eye[1] + 1000.0f, eye[2] + 1000.0f};
     gl_frame_block block = {.channel = 0};
-    gl_camera_set(&d->s->context, &d->camera, low, high, p->desc->render.width, p->desc->render.height, view,
-                  &block);
+    gl_camera_set(&d->s->context, &d->camera, low, high, p->desc->width, p->desc->height, view, &block);
     block.light[0] = p->light_scale;
     block.light[1] = p->rotation_cos;
     block.light[2] = p->rotation_sin;
@@ -358,7 +357,7 @@ typedef struct tile {
 
 static void add_tile(const drawing *d, const tile *t, uint32_t sample_count)
 {
-    const uint32_t *crop = d->picture->desc->render.crop;
+    const uint32_t *crop = d->picture->desc->crop;
     float *film_pixels = film_find(d->film, "")->pixels, weight = 1.0f / (float)sample_count;
     bool is_top_down = gl_camera_is_top_down(&d->s->context);
     for (uint32_t y = 0; y < t->height; y++) {
@@ -382,7 +381,7 @@ static facet_result draw_model(drawing *d, const gl_view *view, facet_error *err
 static facet_result draw_tile(drawing *d, const tile *t, facet_error *error)
 {
     gl_sea *s = d->s;
-    uint32_t sample_count = d->picture->desc->render.samples ? d->picture->desc->render.samples : 1;
+    uint32_t sample_count = d->picture->desc->samples ? d->picture->desc->samples : 1;
     facet_result result =
         gl_target_update(&s->seen, &s->context, GL_TARGET_FILM, t->width, t->height, 1, error);
     if (result == FACET_OK)
@@ -414,7 +413,7 @@ static facet_result draw_tile(drawing *d, const tile *t, facet_error *error)
 
 static facet_result draw_tiles(drawing *d, double deadline_s, facet_error *error)
 {
-    const facet_render_desc *r = &d->picture->desc->render;
+    const facet_render_desc *r = d->picture->desc;
     uint32_t most = (uint32_t)d->s->context.max_texture_size, samples = r->samples ? r->samples : 1;
     uint32_t width = r->crop[2] < most ? r->crop[2] : most;
     uint64_t lines = TILE_PIXELS / width;
@@ -443,8 +442,8 @@ static facet_result draw_tiles(drawing *d, double deadline_s, facet_error *error
 static facet_result prepare(drawing *d, facet_render_stats *stats, facet_error *error)
 {
     gl_sea *s = d->s;
-    const sea_picture *p = d->picture;
-    const facet_render_desc *r = &p->desc->render;
+    const water_frame *p = d->picture;
+    const facet_render_desc *r = p->desc;
     facet_result result = camera_rays_create(r->camera, r->width, r->height, &d->camera, error);
     if (result == FACET_OK && d->camera.is_orthographic)
         result = fail(error, FACET_ERROR_UNSUPPORTED,
@@ -470,11 +469,11 @@ static facet_result prepare(drawing *d, facet_render_stats *stats, facet_error *
     return result;
 }
 
-facet_result gl_sea_draw(gl_sea *s, const sea_picture *picture, film *target, facet_render_stats *stats,
+facet_result gl_sea_draw(gl_sea *s, const water_frame *picture, film *target, facet_render_stats *stats,
                          facet_error *error)
 {
     double begin = clock_seconds();
-    const facet_render_desc *r = &picture->desc->render;
+    const facet_render_desc *r = picture->desc;
     double deadline_s = r->time_limit_s > 0.0 ? begin + r->time_limit_s : 0.0;
     drawing d = {.s = s, .picture = picture, .film = target};
     facet_result result = render_check_limits(r, "prepare", 0.0, deadline_s, error);

@@ -1,4 +1,4 @@
-/* gl_sea.h - a sea drawn by OpenGL: ocean/sea_picture.h into a film.
+/* gl_sea.h - a sea drawn by OpenGL: water/water_frame.h into a film.
  *
  * The surface is a mesh: a fan around the eye, whose nodes a pass of their own moves to where the waves are. Its fragments read the tiles of waves and
  * are shaded by the shared text, as the preview's places are. Samples of a pixel are pictures of their own. */
@@ -8,7 +8,7 @@
 #include "film/film.h"
 #include "gl/core/gl_context.h"
 #include "gl/gl_entry.h"
-#include "ocean/sea_picture.h"
+#include "water/water_frame.h"
 
 /* With a context of its own, current for no thread between calls. FACET_ERROR_SYSTEM, _MEMORY. */
 facet_result gl_sea_create(const facet_allocator *allocator, gl_sea **out, facet_error *error);
@@ -18,7 +18,7 @@ void gl_sea_destroy(gl_sea *sea); /* NULL is allowed */
 
 /* Linear radiance times exposure, as the preview has it, or a display's numbers with looks of before. film: of the desc's crop. Fails as
  * water_render(), with FACET_ERROR_UNSUPPORTED: parallel rays; with FACET_ERROR_SYSTEM. */
-facet_result gl_sea_draw(gl_sea *sea, const sea_picture *picture, film *target, facet_render_stats *stats,
+facet_result gl_sea_draw(gl_sea *sea, const water_frame *picture, film *target, facet_render_stats *stats,
                          facet_error *error);
 
 #endif

@@ -21,7 +21,7 @@ static float wrapped(double samples, uint32_t size)
     return rest < (double)size ? (float)rest : 0.0f;
 }
 
-static void fill_tiles(const sea_picture *p, const double eye[2], gl_sea_block *b)
+static void fill_tiles(const water_frame *p, const double eye[2], gl_sea_block *b)
 {
     const waves *w = &p->sea->waves;
     for (uint32_t i = 0; i < w->tile_count; i++) {
@@ -41,7 +41,7 @@ static void fill_tiles(const sea_picture *p, const double eye[2], gl_sea_block *
     b->counts[2] = w->tile_count ? (int32_t)w->tiles[0].size : 1;
 }
 
-static void fill_slopes(const sea_picture *p, gl_sea_block *b)
+static void fill_slopes(const water_frame *p, gl_sea_block *b)
 {
     const slope_filter *f = &p->sea->slopes;
     for (int i = 0; i < GL_SEA_FOOTPRINTS; i++) {
@@ -56,7 +56,7 @@ static void fill_slopes(const sea_picture *p, gl_sea_block *b)
     set4(b->rough, p->roughness, 0.0f);
 }
 
-static void fill_foam(const sea_picture *p, const double eye[2], gl_sea_block *b)
+static void fill_foam(const water_frame *p, const double eye[2], gl_sea_block *b)
 {
     if (!p->foam)
         return;
@@ -76,10 +76,10 @@ static void fill_foam(const sea_picture *p, const double eye[2], gl_sea_block *b
             b->foam_hidden[level][1 + i] = f->patterns[i].hidden[level];
 }
 
-static void fill_water(const sea_picture *p, gl_sea_block *b)
+static void fill_water(const water_frame *p, gl_sea_block *b)
 {
     const water_optics *o = &p->sea->optics;
-    const facet_sea_shading *look = &p->desc->shading;
+    const facet_sea_shading *look = &p->desc->sea_shading;
     set4(b->absorption, o->absorption, o->ior);
     set4(b->scattering, o->scattering, o->foam_albedo);
     set4(b->backscattering, o->backscattering,
@@ -98,7 +98,7 @@ static void fill_water(const sea_picture *p, gl_sea_block *b)
     b->sky_at[1] = SEA_SKY_WAY_KM;
 }
 
-static void fill_bed(const sea_picture *p, const double eye[2], gl_sea_block *b)
+static void fill_bed(const water_frame *p, const double eye[2], gl_sea_block *b)
 {
     const facet_sea_bed *bed = &p->sea->desc.bed;
     double x = (double)bed->slope * (double)cos(bed->direction_rad),
@@ -134,11 +134,11 @@ static void fill_look(const facet_sea_shading *look, gl_sea_block *b)
     b->look[3] = !look->omits_glints;
 }
 
-void gl_sea_block_fill(const sea_picture *p, const camera_rays *camera, const gl_sea_fan *fan,
+void gl_sea_block_fill(const water_frame *p, const camera_rays *camera, const gl_sea_fan *fan,
                        gl_sea_block *b)
 {
     const double eye[2] = {(double)camera->origin[0], (double)camera->origin[2]};
-    uint32_t samples = p->desc->render.samples ? p->desc->render.samples : 1;
+    uint32_t samples = p->desc->samples ? p->desc->samples : 1;
     *b = (gl_sea_block){
         .eye = {camera->origin[1], (float)p->fall, p->deviation_m, p->sea->waves.level_m},
         .ray = {camera->pixel_size, inversesqrt((float)samples), fan->near_m, 0.0f},
@@ -152,7 +152,7 @@ void gl_sea_block_fill(const sea_picture *p, const camera_rays *camera, const gl
     fill_water(p, b);
     fill_bed(p, eye, b);
     fill_caustics(p->caustics, eye, b);
-    fill_look(&p->desc->shading, b);
+    fill_look(&p->desc->sea_shading, b);
 }
 
 /* ---- pixel classes ---- */

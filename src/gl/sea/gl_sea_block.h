@@ -4,7 +4,7 @@
 
 #include "draw/camera_rays.h"
 #include "gl/sea/gl_sea_fan.h"
-#include "ocean/sea_picture.h"
+#include "water/water_frame.h"
 
 enum { GL_SEA_PATCHES = 128, GL_SEA_FOOTPRINTS = 64 }; /* corners of patches along an edge around the eye */
 
@@ -29,7 +29,7 @@ typedef struct gl_sea_block {
     float model_depth[4], model_ball[4], model_half[4], touch[4], shadow[4];
 } gl_sea_block;
 
-void gl_sea_block_fill(const sea_picture *picture, const camera_rays *camera, const gl_sea_fan *fan,
+void gl_sea_block_fill(const water_frame *picture, const camera_rays *camera, const gl_sea_fan *fan,
                        gl_sea_block *block);
 
 /* ---- pixel classes ---- */

@@ -34,7 +34,7 @@ static void find_azimuths(const camera_rays *rays, uint32_t width, uint32_t heig
 }
 
 /* Distance at which all waves together are a tenth of a pixel high. */
-static double last_waves(const sea_picture *p, double pixel_rad, double from)
+static double last_waves(const water_frame *p, double pixel_rad, double from)
 {
     double r = from;
     for (; r < MAX_DISTANCE_M; r *= 1.3) {
@@ -45,7 +45,7 @@ static double last_waves(const sea_picture *p, double pixel_rad, double from)
     return r;
 }
 
-static double horizon_m(const sea_picture *p, double eye_y)
+static double horizon_m(const water_frame *p, double eye_y)
 {
     return p->fall > 0.0 ? sqrt(fmax(fabs(eye_y), 1.0) / p->fall) : MAX_DISTANCE_M;
 }
@@ -55,9 +55,9 @@ static uint32_t at_most(double count, uint32_t most)
     return count < (double)most ? (uint32_t)count : most;
 }
 
-gl_sea_fan gl_sea_fan_of(const sea_picture *p, const camera_rays *camera, uint32_t most_nodes)
+gl_sea_fan gl_sea_fan_of(const water_frame *p, const camera_rays *camera, uint32_t most_nodes)
 {
-    const facet_render_desc *r = &p->desc->render;
+    const facet_render_desc *r = p->desc;
     const waves *w = &p->sea->waves;
     gl_sea_fan fan = {.ratio = 1.1f, .farthest_m = waves_bounds(w, 0.0f).farthest};
     find_azimuths(camera, r->width, r->height, &fan);

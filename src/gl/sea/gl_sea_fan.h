@@ -8,7 +8,7 @@
 #define GL_GL_SEA_FAN_H
 
 #include "draw/camera_rays.h"
-#include "ocean/sea_picture.h"
+#include "water/water_frame.h"
 
 typedef struct gl_sea_fan {
     float azimuth, half_azimuth; /* rad, from +X towards +Z */
@@ -23,7 +23,7 @@ typedef struct gl_sea_fan {
 } gl_sea_fan;
 
 /* most_nodes along an edge: OpenGL's largest texture. */
-gl_sea_fan gl_sea_fan_of(const sea_picture *picture, const camera_rays *camera, uint32_t most_nodes);
+gl_sea_fan gl_sea_fan_of(const water_frame *picture, const camera_rays *camera, uint32_t most_nodes);
 
 /* One triangle strip: bands of columns, in each of them the rows from near to far, joined by degenerate triangles. The indices are
  * a block of mem_alloc(). FACET_ERROR_MEMORY. */

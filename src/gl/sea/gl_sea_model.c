@@ -39,7 +39,7 @@ static double apparent_depth(double depth_m, double height_m, double away_m, dou
 }
 
 /* Over the eye, as deep as flat water lifts it for the middle of what is over the water; no wider than it takes to see that. */
-static facet_camera window_camera(const sea_picture *p, const float eye[3], float ior)
+static facet_camera window_camera(const water_frame *p, const float eye[3], float ior)
 {
     facet_camera c = {.eye = {eye[0], 0.0f, eye[2]}, .fov_y_rad = 0.0f};
     float low = fmaxf(p->model_low[1], p->model_water_m), radius = 0.0f;
@@ -60,7 +60,7 @@ static facet_camera window_camera(const sea_picture *p, const float eye[3], floa
 }
 
 /* Height of a near plane that leaves the eye at y on the other side of it and all that water around the model leaves free on this one. */
-static float cut_height(const sea_picture *p, float y, float side)
+static float cut_height(const water_frame *p, float y, float side)
 {
     float middle = p->model_water_m, least = y + 0.1f * (middle - y);
     return side > 0.0f ? fmaxf(p->model_water_low_m, least) : fminf(p->model_water_high_m, least);
@@ -69,7 +69,7 @@ static float cut_height(const sea_picture *p, float y, float side)
 /* The near plane lies in the water, so that what is on its other side does not stand before the rest (Lengyel 2005): how much nearer than
  * far a point is, is scale times its height over the plane, over its depth. Such that the whole model is nearer than far. side: 1: what is
  * above is seen, -1: below. */
-static float plane_scale(const sea_picture *p, const camera_rays *c, float plane_m, float side)
+static float plane_scale(const water_frame *p, const camera_rays *c, float plane_m, float side)
 {
     double scale = 1.0;
     for (int corner = 0; corner < 8; corner++) {
@@ -105,7 +105,7 @@ static gl_view view_of(const facet_render_desc *r)
 }
 
 /* c: from where; eye: the picture's. */
-static facet_result draw_cut(gl_sea_model *m, const sea_picture *p, const camera_rays *c, const gl_view *v,
+static facet_result draw_cut(gl_sea_model *m, const water_frame *p, const camera_rays *c, const gl_view *v,
                              const float eye[3], int cut, gl_sea_block *b, facet_error *error)
 {
     gl_target *target = &m->cuts[cut];
@@ -129,11 +129,11 @@ static facet_result draw_cut(gl_sea_model *m, const sea_picture *p, const camera
     return result;
 }
 
-static facet_result draw_cuts(gl_sea_model *m, const sea_picture *p, gl_sea_block *b, facet_error *error)
+static facet_result draw_cuts(gl_sea_model *m, const water_frame *p, gl_sea_block *b, facet_error *error)
 {
-    gl_view v = view_of(&p->desc->render);
+    gl_view v = view_of(p->desc);
     camera_rays eye, window;
-    facet_result result = camera_rays_create(p->desc->render.camera, v.width, v.height, &eye, error);
+    facet_result result = camera_rays_create(p->desc->camera, v.width, v.height, &eye, error);
     if (result != FACET_OK)
         return result;
     camera_rays mirror = mirrored(&eye, p->model_water_m);
@@ -149,7 +149,7 @@ static facet_result draw_cuts(gl_sea_model *m, const sea_picture *p, gl_sea_bloc
 
 /* ---- the water around ---- */
 
-static void upload_touch(gl_sea_model *m, const sea_picture *p, const camera_rays *camera, gl_sea_block *b)
+static void upload_touch(gl_sea_model *m, const water_frame *p, const camera_rays *camera, gl_sea_block *b)
 {
     m->touch =
         gl_sea_texture_make(GL_UNIT_SEA_TOUCH, GL_TEXTURE_2D, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
@@ -163,7 +163,7 @@ static void upload_touch(gl_sea_model *m, const sea_picture *p, const camera_ray
     }
 }
 
-static void describe_ball(const sea_picture *p, const camera_rays *camera, gl_sea_block *b)
+static void describe_ball(const water_frame *p, const camera_rays *camera, gl_sea_block *b)
 {
     float square = 0.0f;
     for (int i = 0; i < 3; i++) {
@@ -177,7 +177,7 @@ static void describe_ball(const sea_picture *p, const camera_rays *camera, gl_se
 
 /* ---- all ---- */
 
-static facet_render_desc desc_of(const sea_picture *p)
+static facet_render_desc desc_of(const water_frame *p)
 {
     facet_render_desc d = *p->model_desc;
     d.renderer = FACET_RENDERER_KIND_GL;
@@ -187,11 +187,11 @@ static facet_render_desc desc_of(const sea_picture *p)
     return d;
 }
 
-facet_result gl_sea_model_begin(gl_sea_model *m, gl_context *context, const sea_picture *p,
+facet_result gl_sea_model_begin(gl_sea_model *m, gl_context *context, const water_frame *p,
                                 const camera_rays *camera, gl_sea_block *b, facet_render_stats *stats,
                                 facet_error *error)
 {
-    const facet_render_desc *r = &p->desc->render;
+    const facet_render_desc *r = p->desc;
     *m = (gl_sea_model){.context = context, .allocator = r->allocator, .desc = desc_of(p)};
     describe_ball(p, camera, b);
     gl_scene_init(&m->prepared, p->model, &m->allocator);
@@ -207,13 +207,13 @@ facet_result gl_sea_model_begin(gl_sea_model *m, gl_context *context, const sea_
     return result;
 }
 
-facet_result gl_sea_model_draw(gl_sea_model *m, const sea_picture *p, const camera_rays *camera,
+facet_result gl_sea_model_draw(gl_sea_model *m, const water_frame *p, const camera_rays *camera,
                                const gl_view *view, gl_sea_block *b, facet_error *error)
 {
     gl_frame_block block = {.channel = 0};
     TRY(gl_target_update(&m->seen, m->context, GL_TARGET_FILM, view->width, view->height, 1, error));
-    gl_camera_set(m->context, camera, p->model_low, p->model_high, p->desc->render.width,
-                  p->desc->render.height, view, &block);
+    gl_camera_set(m->context, camera, p->model_low, p->model_high, p->desc->width, p->desc->height, view,
+                  &block);
     float along = 0.0f; /* depth in clip space is along * depth + block.view_projection[14] */
     for (int i = 0; i < 3; i++)
         along += block.view_projection[4 * i + 2] * block.forward[i];

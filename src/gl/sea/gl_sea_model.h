@@ -6,7 +6,7 @@
 #include "gl/scene/gl_camera.h"
 #include "gl/scene/gl_frame.h"
 #include "gl/sea/gl_sea_block.h"
-#include "ocean/sea_picture.h"
+#include "water/water_frame.h"
 
 typedef struct gl_sea_model {
     gl_context *context;
@@ -20,11 +20,11 @@ typedef struct gl_sea_model {
 
 /* For a picture with a model: uploads it, and draws its cuts and shadow maps. Anew for each picture, as the model may have moved. Fails as
  * gl_renderer_render(). gl_sea_model_end() whatever comes back. */
-facet_result gl_sea_model_begin(gl_sea_model *m, gl_context *context, const sea_picture *picture,
+facet_result gl_sea_model_begin(gl_sea_model *m, gl_context *context, const water_frame *picture,
                                 const camera_rays *camera, gl_sea_block *block, facet_render_stats *stats,
                                 facet_error *error);
 /* The model as a view sees it. What OpenGL has bound is other afterwards. */
-facet_result gl_sea_model_draw(gl_sea_model *m, const sea_picture *picture, const camera_rays *camera,
+facet_result gl_sea_model_draw(gl_sea_model *m, const water_frame *picture, const camera_rays *camera,
                                const gl_view *view, gl_sea_block *block, facet_error *error);
 void gl_sea_model_bind(const gl_sea_model *m);
 void gl_sea_model_end(gl_sea_model *m); /* {0} is allowed; leaves {0} */

@@ -7,7 +7,7 @@
 #include "cpu/preview_fixture.h"
 #include "gl/sea/gl_sea.h"
 #include "film/meter.h"
-#include "water/water_picture.h"
+#include "water/water_frame.h"
 
 enum { WIDTH = 160, HEIGHT = 96 };
 
@@ -43,7 +43,7 @@ static int destroy_renderers(void **state)
 
 static void expose(shot *s)
 {
-    s->desc.render.exposure_ev = (float)meter_exposure_ev(13.3); /* a sun 22 degrees high */
+    s->desc.exposure_ev = (float)meter_exposure_ev(13.3); /* a sun 22 degrees high */
 }
 
 /* A display's number: Reinhard's operator, gamma 2.2; looks of before are for displays already. */
@@ -56,20 +56,23 @@ static double shown(float x, bool is_light)
 /* Draws the shot's picture by OpenGL into another film. */
 static void draw_gl(gl_sea *renderer, const facet_sea *sea, const shot *s, film *out)
 {
-    facet_sea_render_desc desc = s->desc;
+    facet_render_desc desc = s->desc;
     facet_render_stats stats = {.total_s = 0.0};
     facet_error error;
-    water_picture *picture;
-    desc.render.renderer = FACET_RENDERER_KIND_GL;
-    desc.render.crop[2] = WIDTH;
-    desc.render.crop[3] = HEIGHT;
+    water_cache cache = {.sea_serial = 0};
+    water_frame *picture;
+    desc.sea = sea;
+    desc.renderer = FACET_RENDERER_KIND_GL;
+    desc.crop[2] = WIDTH;
+    desc.crop[3] = HEIGHT;
     *out = (film){.width = 0};
-    assert_int_equal(film_create(&desc.render.allocator, WIDTH, HEIGHT, 0, out, &error), FACET_OK);
-    if (water_picture_create(sea, s->scene, &desc, &picture, &stats, &error) != FACET_OK)
+    assert_int_equal(film_create(&desc.allocator, WIDTH, HEIGHT, 0, out, &error), FACET_OK);
+    if (water_frame_create(&cache, s->scene, &desc, &picture, &stats, &error) != FACET_OK)
         fail_msg("%s", error.message);
-    if (gl_sea_draw(renderer, water_picture_get(picture), out, &stats, &error) != FACET_OK)
+    if (gl_sea_draw(renderer, picture, out, &stats, &error) != FACET_OK)
         fail_msg("%s", error.message);
-    water_picture_destroy(picture);
+    water_frame_destroy(picture);
+    water_cache_clear(&cache);
 }
 
 /* Mean difference of both in 255ths; *contrast: mean distance of a number of the preview's from the one below it. */
@@ -108,7 +111,7 @@ static double compare(gl_sea *renderer, const facet_sea *sea, shot *s, const cha
 {
     film gl;
     double contrast;
-    bool is_light = s->desc.shading.style == FACET_SEA_STYLE_PHYSICAL;
+    bool is_light = s->desc.sea_shading.style == FACET_SEA_STYLE_PHYSICAL;
     draw_shot(sea, s);
     draw_gl(renderer, sea, s, &gl);
     double apart = difference(s, &gl, is_light, &contrast);
@@ -129,7 +132,7 @@ static void compare_breeze(gl_api api)
     expose(&s);
     assert_true(compare(renderer, sea, &s, "10 m/s") < 0.5);
     if (api == GL_API_CORE) {
-        s.desc.shading.style = FACET_SEA_STYLE_LEGACY_INTENDED;
+        s.desc.sea_shading.style = FACET_SEA_STYLE_LEGACY_INTENDED;
         assert_true(compare(renderer, sea, &s, "before") < 0.3);
     }
     sea_destroy(sea);
@@ -185,11 +188,11 @@ static void parts_and_depths(void **state)
     assert_true(compare(renderer, sea, &s, "from below") < 0.2);
     make_shot(&s, 2 * WIDTH, 2 * HEIGHT, 3.0f, 0.2f);
     expose(&s);
-    s.desc.render.samples = 2;
-    s.desc.render.crop[0] = WIDTH / 2;
-    s.desc.render.crop[1] = HEIGHT;
-    s.desc.render.crop[2] = WIDTH;
-    s.desc.render.crop[3] = HEIGHT;
+    s.desc.samples = 2;
+    s.desc.crop[0] = WIDTH / 2;
+    s.desc.crop[1] = HEIGHT;
+    s.desc.crop[2] = WIDTH;
+    s.desc.crop[3] = HEIGHT;
     assert_true(compare(renderer, sea, &s, "a part") < 1.5);
     sea_destroy(sea);
 }
@@ -208,11 +211,11 @@ static void other_facets(void **state)
     double contrast;
     make_shot(&s, WIDTH, HEIGHT, 3.0f, 0.1f);
     expose(&s);
-    s.desc.render.camera = &s.camera;
+    s.desc.camera = &s.camera;
     draw_gl(renderer, sea, &s, &gl);
-    s.desc.shading.normals = FACET_SEA_NORMALS_GGX;
-    s.desc.shading.masking = FACET_SEA_MASKING_SCHLICK_KARIS;
-    s.desc.shading.has_schlick_fresnel = true;
+    s.desc.sea_shading.normals = FACET_SEA_NORMALS_GGX;
+    s.desc.sea_shading.masking = FACET_SEA_MASKING_SCHLICK_KARIS;
+    s.desc.sea_shading.has_schlick_fresnel = true;
     draw_shot(sea, &s);
     double without = difference(&s, &gl, true, &contrast);
     film_destroy(&gl);
@@ -236,10 +239,10 @@ static void environments(void **state)
     assert_int_equal(facet_environment_create_studio(NULL, &studio, NULL), FACET_OK);
     shot s;
     make_shot(&s, WIDTH, HEIGHT, 3.0f, 0.1f);
-    s.desc.render.environment = studio;
-    s.desc.render.environment_rotation_rad = 1.9f;
-    s.desc.render.environment_ev = 13.0f;
-    s.desc.render.sun = (facet_sun){
+    s.desc.environment = studio;
+    s.desc.environment_rotation_rad = 1.9f;
+    s.desc.environment_ev = 13.0f;
+    s.desc.sun = (facet_sun){
         .azimuth_rad = 2.9f, .elevation_rad = 0.3f, .illuminance_lux = {60000.0f, 50000.0f, 40000.0f}};
     expose(&s);
     assert_true(compare(renderer, sea, &s, "a picture") < 0.3);
@@ -272,7 +275,8 @@ static void compare_model(gl_sea *renderer, float wind_mps, float eye_m, float d
     make_shot(&s, WIDTH, HEIGHT, eye_m, down_rad);
     s.desc.sky.sun_azimuth_rad = 2.6f;
     s.scene = f.scene;
-    s.desc.shading.omits_glints = true; /* which of them are drawn hangs by a bit of where the water rests */
+    s.desc.sea_shading.omits_glints =
+        true; /* which of them are drawn hangs by a bit of where the water rests */
     expose(&s);
     assert_true(compare(renderer, sea, &s, eye_m > 0.0f ? "spheres" : "spheres from below") < bound);
     double without = without_model(renderer, sea, &s);
@@ -298,7 +302,7 @@ static void a_hull_in_waves(void **state)
     make_shot(&s, WIDTH, HEIGHT, -3.0f, -0.85f);
     s.camera.fov_y_rad = 0.9f;
     s.scene = f.scene;
-    s.desc.shading.omits_glints = true;
+    s.desc.sea_shading.omits_glints = true;
     expose(&s);
     assert_true(compare(renderer, sea, &s, "a hull in waves") < 0.28);
     sea_destroy(sea);
@@ -338,7 +342,7 @@ static void frames_are_stills(void **state)
     shot s;
     film frame, still;
     make_shot(&s, WIDTH, HEIGHT, 3.0f, 0.1f);
-    s.desc.render.camera = &s.camera;
+    s.desc.camera = &s.camera;
     expose(&s);
     for (int i = 0; i < 3; i++) {
         waves_set_time(&sea->waves, 0.7 * i);
@@ -365,20 +369,20 @@ static void unsupported_cameras_are_reported(void **state)
     shot s;
     facet_error error;
     facet_render_stats stats = {.total_s = 0.0};
-    water_picture *picture;
+    water_frame *picture;
     make_shot(&s, WIDTH, HEIGHT, 3.0f, 0.5f);
     s.camera.fov_y_rad = 0.0f;
     s.camera.ortho_height = 10.0f;
-    s.desc.render.camera = &s.camera;
-    s.desc.render.crop[2] = WIDTH;
-    s.desc.render.crop[3] = HEIGHT;
-    s.desc.render.renderer = FACET_RENDERER_KIND_GL;
-    assert_int_equal(film_create(&s.desc.render.allocator, WIDTH, HEIGHT, 0, &s.film, &error), FACET_OK);
-    assert_int_equal(water_picture_create(sea, NULL, &s.desc, &picture, &stats, &error), FACET_OK);
-    assert_int_equal(gl_sea_draw(renderer, water_picture_get(picture), &s.film, &stats, &error),
-                     FACET_ERROR_UNSUPPORTED);
+    s.desc.camera = &s.camera;
+    s.desc.crop[2] = WIDTH;
+    s.desc.crop[3] = HEIGHT;
+    s.desc.renderer = FACET_RENDERER_KIND_GL;
+    assert_int_equal(film_create(&s.desc.allocator, WIDTH, HEIGHT, 0, &s.film, &error), FACET_OK);
+    assert_int_equal(water_frame_create(shot_in(sea, &s), NULL, &s.desc, &picture, &stats, &error), FACET_OK);
+    assert_int_equal(gl_sea_draw(renderer, picture, &s.film, &stats, &error), FACET_ERROR_UNSUPPORTED);
     assert_true(strlen(error.message) > 10);
-    water_picture_destroy(picture);
+    water_frame_destroy(picture);
+    water_cache_clear(&s.cache);
     film_destroy(&s.film);
     sea_destroy(sea);
 }

@@ -79,7 +79,7 @@ static void make_layers(uint32_t *name, uint32_t unit, const gl_context *c, GLen
 }
 
 /* What is not there, or has another size. A picture without foam or caustics reads none: what was there stays. */
-static void make_missing(gl_sea_textures *t, const gl_context *c, const sea_picture *p)
+static void make_missing(gl_sea_textures *t, const gl_context *c, const water_frame *p)
 {
     const waves *w = &p->sea->waves;
     uint32_t size = w->tile_count ? w->tiles[0].size : 1, tile_count = w->tile_count ? w->tile_count : 1;
@@ -108,7 +108,7 @@ static void make_missing(gl_sea_textures *t, const gl_context *c, const sea_pict
 
 /* ---- light ---- */
 
-static void upload_light(gl_sea_textures *t, const gl_context *c, const sea_picture *p)
+static void upload_light(gl_sea_textures *t, const gl_context *c, const water_frame *p)
 {
     GLint format = format_of(c, GL_RGBA);
     t->sky =
@@ -150,10 +150,10 @@ static void upload_layer(uint32_t unit, uint32_t level, uint32_t layer, uint32_t
                     channels, GL_FLOAT, texels);
 }
 
-static facet_result upload_waves(const sea_picture *p, facet_error *error)
+static facet_result upload_waves(const water_frame *p, facet_error *error)
 {
     const waves *w = &p->sea->waves;
-    const facet_render_desc *r = &p->desc->render;
+    const facet_render_desc *r = p->desc;
     if (!w->tile_count)
         return FACET_OK;
     size_t most = (size_t)w->tiles[0].size * w->tiles[0].size;
@@ -217,15 +217,14 @@ static gl_sea_patches patches_around(const waves *w, const camera_rays *camera)
 }
 
 /* Corners around the eye's, each where its index falls modulo the edge; those that are there where they are the same. */
-static facet_result upload_patches(gl_sea_textures *t, const sea_picture *p, const camera_rays *camera,
+static facet_result upload_patches(gl_sea_textures *t, const water_frame *p, const camera_rays *camera,
                                    facet_error *error)
 {
     enum { EDGE = GL_SEA_PATCHES, TEXELS = EDGE * EDGE };
     gl_sea_patches around = patches_around(&p->sea->waves, camera);
     if (t->patches && memcmp(&around, &t->around, sizeof around) == 0)
         return FACET_OK;
-    float *texels =
-        mem_zalloc(&p->desc->render.allocator, (size_t)TEXELS * WAVES_MAX_TILES, 2 * sizeof *texels);
+    float *texels = mem_zalloc(&p->desc->allocator, (size_t)TEXELS * WAVES_MAX_TILES, 2 * sizeof *texels);
     if (!texels)
         return fail_memory(error, "patches of waves", (size_t)TEXELS * WAVES_MAX_TILES * 2 * sizeof *texels);
     for (uint32_t tile = 0; tile < WAVES_MAX_TILES; tile++)
@@ -248,7 +247,7 @@ static facet_result upload_patches(gl_sea_textures *t, const sea_picture *p, con
 
 /* ---- all ---- */
 
-facet_result gl_sea_textures_update(gl_sea_textures *t, gl_context *c, const sea_picture *p,
+facet_result gl_sea_textures_update(gl_sea_textures *t, gl_context *c, const water_frame *p,
                                     const camera_rays *camera, facet_error *error)
 {
     const waves *w = &p->sea->waves;

@@ -28,7 +28,7 @@ void gl_sea_texture_bind(uint32_t unit, uint32_t target, uint32_t name);
 
 /* Uploads what is not there, and what moves. FACET_ERROR_MEMORY, _LIMIT: tiles are larger than textures. */
 facet_result gl_sea_textures_update(gl_sea_textures *textures, gl_context *context,
-                                    const sea_picture *picture, const camera_rays *camera,
+                                    const water_frame *picture, const camera_rays *camera,
                                     facet_error *error);
 /* Pictures of the sky and the table of means are those of another light from now on. */
 void gl_sea_textures_forget_light(gl_sea_textures *textures);

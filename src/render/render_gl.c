@@ -1,6 +1,6 @@
-/* gl_library.c - see gl_library.h. */
+/* render_gl.c - see render_gl.h. */
 #define _GNU_SOURCE /* dladdr */
-#include "api/gl_library.h"
+#include "render/render_gl.h"
 
 #include <dlfcn.h>
 #include <pthread.h>
@@ -9,27 +9,17 @@
 #include <sys/auxv.h>
 #include <unistd.h>
 
-#include "api/api.h"
+#include "base/memory.h"
 #include "base/result.h"
 #include "gl/gl_build.h"
+#include "water/water_frame.h"
 
 static const char name[] = "facet_gl.so";
 
+/* ---- the module ---- */
+
 /* Beside what holds this code (libfacet.so, or a program that has it inside): installed, and where facet was built. */
 static const char *const folders[] = {"facet", "../" FACET_LIBDIR_NAME "/facet", "../gl", "../src/gl", "."};
-
-static const gl_host host = {.renderer_create = facet_renderer_create,
-                             .renderer_render = facet_renderer_render,
-                             .renderer_destroy = facet_renderer_destroy,
-                             .render_gl = render_by_gl,
-                             .image_get_layer_count = facet_image_get_layer_count,
-                             .image_get_layer = facet_image_get_layer,
-                             .image_save = facet_image_save,
-                             .image_destroy = facet_image_destroy,
-                             .image_create = facet_image_create,
-                             .scene_destroy = facet_scene_destroy,
-                             .environment_destroy = facet_environment_destroy,
-                             .camera_from_scene = facet_camera_from_scene};
 
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 static const gl_entry *opened;
@@ -86,7 +76,7 @@ static void open_once(void)
     if (handle)
         *(void **)&enter = dlsym(handle, "facet_gl_entry");
     if (enter)
-        opened = enter(GL_ENTRY_BUILD, &host);
+        opened = enter(GL_ENTRY_BUILD);
     if (enter && !opened)
         snprintf(why, sizeof why, "it belongs to another build of facet");
 }
@@ -103,7 +93,71 @@ facet_result gl_library_open(const gl_entry **entry, facet_error *error)
                 why[0] ? " (" : ": it is not installed", why, why[0] ? ")" : "");
 }
 
-const gl_host *gl_library_host(void)
+/* ---- the renderer ---- */
+
+/* Channels that are not light are drawn as they are, over black. */
+facet_result render_gl_resolve(facet_render_desc *d, facet_error *error)
 {
-    return &host;
+    const facet_gl_desc *gl = &d->gl;
+    if ((unsigned)gl->channel >= FACET_CHANNEL_COUNT || (unsigned)gl->brdf > FACET_BRDF_MULTISCATTER ||
+        (unsigned)gl->transparency > FACET_TRANSPARENCY_WEIGHTED)
+        return fail(error, FACET_ERROR_ARGUMENT, "channel %d, brdf %d, transparency %d; there is no such",
+                    (int)gl->channel, (int)gl->brdf, (int)gl->transparency);
+    if (!(gl->bloom >= 0.0f && gl->bloom <= 1.0f))
+        return fail(error, FACET_ERROR_ARGUMENT, "bloom: %g; it is a share of the light, 0 to 1",
+                    (double)gl->bloom);
+    if (gl_channel_is_light(gl->channel))
+        return FACET_OK;
+    d->tonemap = FACET_TONEMAP_NONE;
+    d->exposure_ev = 0.0f;
+    d->background = FACET_BACKGROUND_COLOR;
+    for (int i = 0; i < 3; i++)
+        d->background_color[i] = 0.0f;
+    return FACET_OK;
+}
+
+facet_result render_gl_create(renderer_set *set, void **state, facet_error *error)
+{
+    render_gl *r = mem_zalloc(&set->allocator, 1, sizeof *r);
+    if (!r)
+        return fail_memory(error, "renderer", sizeof *r);
+    r->set = set;
+    *state = r;
+    return FACET_OK;
+}
+
+void render_gl_destroy(void *state)
+{
+    render_gl *r = state;
+    const gl_entry *gl;
+    if ((r->scenes || r->seas) && gl_library_open(&gl, NULL) == FACET_OK) {
+        gl->destroy(r->scenes);
+        gl->destroy_sea(r->seas);
+    }
+    mem_free(r);
+}
+
+static facet_result draw_sea(render_gl *r, const gl_entry *gl, const facet_render_desc *desc, film *target,
+                             facet_render_stats *stats, facet_error *error)
+{
+    water_frame *picture;
+    if (!r->seas)
+        TRY(gl->create_sea(&r->set->allocator, &r->seas, error));
+    TRY(water_frame_create(&r->set->water, r->set->scene, desc, &picture, stats, error));
+    facet_result result = gl->draw_sea(r->seas, picture, target, stats, error);
+    water_frame_destroy(picture);
+    return result;
+}
+
+facet_result render_gl_draw(void *state, const facet_render_desc *desc, film *target,
+                            facet_render_stats *stats, facet_error *error)
+{
+    render_gl *r = state;
+    const gl_entry *gl;
+    TRY(gl_library_open(&gl, error));
+    if (desc->sea)
+        return draw_sea(r, gl, desc, target, stats, error);
+    if (!r->scenes)
+        TRY(gl->create(r->set->scene, &r->set->allocator, &r->scenes, error));
+    return gl->render(r->scenes, desc, target, stats, error);
 }

@@ -1,6 +1,6 @@
 /* render_check.h - what is looked for in every image that was drawn, whatever drew it. */
-#ifndef API_RENDER_CHECK_H
-#define API_RENDER_CHECK_H
+#ifndef RENDER_RENDER_CHECK_H
+#define RENDER_RENDER_CHECK_H
 
 #include "film/film.h"
 #include "scene/scene.h"
@@ -11,8 +11,8 @@ typedef struct render_check {
 } render_check;
 
 /* Before development. pose: what was drawn, where it is at hand; NULL: is found out where it is needed. desc: as resolved. Warns
- * to desc's log where nothing of the scene is seen, and where the median of what is seen is more than a stop beyond white. Images of a
- * sea are left alone. */
+ * to desc's log where nothing of the scene is seen, and where the median of what is seen is more than a stop beyond white. Not for
+ * images of a sea. */
 void render_check_film(render_check *check, const facet_scene *scene, const scene_pose *pose,
                        const facet_render_desc *desc, const film *drawn);
 

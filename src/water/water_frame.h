@@ -1,12 +1,12 @@
-/* sea_picture.h - all that a picture of a sea is made of, as plain data for a renderer on the GPU: what of it the CPU renderer
- * prepares, too, once per picture. */
-#ifndef OCEAN_SEA_PICTURE_H
-#define OCEAN_SEA_PICTURE_H
+/* water_frame.h - all that an image of a sea is made of, as plain data for a renderer on the GPU: what the CPU renderer prepares once per
+ * image, too. */
+#ifndef WATER_WATER_FRAME_H
+#define WATER_WATER_FRAME_H
 
 #include "ocean/caustic_map.h"
-#include "ocean/sea.h"
 #include "ocean/water_table.h"
 #include "ocean/waves_foam.h"
+#include "water/water_render.h"
 
 struct ibl_light;
 
@@ -36,10 +36,10 @@ typedef struct sea_touch {
     float bed_sun, bed_rest; /* of the beam's light on the bed, and of all other: bed_shadow.h */
 } sea_touch;
 
-typedef struct sea_picture {
+typedef struct water_frame {
     const facet_sea *sea;
-    const facet_sea_render_desc *desc; /* resolved, with a camera */
-    const waves_foam *foam;            /* NULL: none */
+    const facet_render_desc *desc; /* resolved, with a camera */
+    const waves_foam *foam;        /* NULL: none */
     const water_table *table;
     const caustic_map *caustics; /* NULL: the bed is lit evenly, or there is none */
     bool is_below;               /* the eye is in the water */
@@ -68,6 +68,12 @@ typedef struct sea_picture {
     float touch_low[2], touch_high[2];   /* x, z of its rectangle, m */
     bool has_shadow;                     /* of the model on the bed */
     float shadow_low[2], shadow_high[2]; /* x, z of that rectangle, m */
-} sea_picture;
+} water_frame;
+
+/* desc: resolved, as of water_render(); it, its sea and scene (NULL: water only) outlive the frame, and the cache, which nothing else uses
+ * meanwhile. *out NULL where it fails, as water_render() does. */
+facet_result water_frame_create(water_cache *cache, const facet_scene *scene, const facet_render_desc *desc,
+                                water_frame **out, facet_render_stats *stats, facet_error *error);
+void water_frame_destroy(water_frame *frame); /* NULL is allowed */
 
 #endif

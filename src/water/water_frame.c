@@ -1,5 +1,5 @@
-/* water_picture.c - see water_picture.h. The sky is drawn by the functions that rays of the CPU look it up with. */
-#include "water/water_picture.h"
+/* water_frame.c - see water_frame.h. The sky is drawn by the functions that rays of the CPU look it up with. */
+#include "water/water_frame.h"
 
 #include <math.h>
 #include <string.h>
@@ -11,11 +11,12 @@
 
 #include "water/water_setup.h"
 
-struct water_picture {
+/* What a frame refers to. */
+typedef struct frame_parts {
+    water_frame frame; /* first */
     water_setup setup;
-    sea_picture picture;
     sea_touch *touch;
-};
+} frame_parts;
 
 /* ---- the sky ---- */
 
@@ -101,18 +102,18 @@ static facet_result draw_once(const water_setup *setup, size_t row_count, size_t
 {
     if (*texels)
         return FACET_OK;
-    *texels = mem_alloc(&setup->sea->desc.allocator, row_count * width, 4 * sizeof(float));
+    *texels = mem_alloc(&setup->cache->allocator, row_count * width, 4 * sizeof(float));
     if (!*texels)
         return fail_memory(error, "pictures of the sky", row_count * width * 4 * sizeof(float));
     sky_drawing s = {.sky = setup->sky, .setup = setup, .texels = *texels};
     s.sky.disc_radius = 0.0f;
-    parallel_for(setup->desc->render.thread_count, row_count, 4, draw, &s);
+    parallel_for(setup->desc->thread_count, row_count, 4, draw, &s);
     return FACET_OK;
 }
 
-static facet_result draw_sky(const water_setup *setup, sea_picture *p, facet_error *error)
+static facet_result draw_sky(const water_setup *setup, water_frame *p, facet_error *error)
 {
-    water_light *lit = setup->lit;
+    water_light *lit = setup->cache->light;
     facet_result result =
         draw_once(setup, SEA_SKY_LAYERS * SEA_SKY_HEIGHT, SEA_SKY_WIDTH, draw_rows, &lit->pictures, error);
     if (result == FACET_OK && setup->sky.has_views)
@@ -127,14 +128,14 @@ static facet_result draw_sky(const water_setup *setup, sea_picture *p, facet_err
 
 typedef struct touching {
     const water_setup *setup;
-    const sea_picture *picture;
+    const water_frame *picture;
     sea_touch *touch;
 } touching;
 
 static void touch_rows(void *context, size_t begin, size_t end)
 {
     const touching *t = context;
-    const sea_picture *p = t->picture;
+    const water_frame *p = t->picture;
     double width = (double)(p->touch_high[0] - p->touch_low[0]) / SEA_TOUCH_EDGE;
     double length = (double)(p->touch_high[1] - p->touch_low[1]) / SEA_TOUCH_EDGE;
     vec3 L = t->setup->light.L;
@@ -157,7 +158,7 @@ static void touch_rows(void *context, size_t begin, size_t end)
 
 /* The model's bounds and the shadow that they cast on the water, no longer than eight times as they are wide; with an edge where nothing
  * is touched. */
-static void choose_rectangle(const vec3 L, sea_picture *p)
+static void choose_rectangle(const vec3 L, water_frame *p)
 {
     float above = max(p->model_high[1] - p->model_water_m, 0.0f);
     float size = max(p->model_high[0] - p->model_low[0], p->model_high[2] - p->model_low[2]);
@@ -172,7 +173,7 @@ static void choose_rectangle(const vec3 L, sea_picture *p)
 enum { LEVELS_EDGE = 24 };
 
 /* Between which heights the water is that the model stands in, read as wide as width_m. */
-static void find_water_around(const water_setup *s, float width_m, sea_picture *p)
+static void find_water_around(const water_setup *s, float width_m, water_frame *p)
 {
     p->model_water_low_m = p->model_water_high_m = p->model_water_m;
     for (int i = 0; i < LEVELS_EDGE * LEVELS_EDGE; i++) {
@@ -185,11 +186,11 @@ static void find_water_around(const water_setup *s, float width_m, sea_picture *
     }
 }
 
-static facet_result describe_model(const water_setup *s, sea_touch **touch, sea_picture *p,
+static facet_result describe_model(const water_setup *s, sea_touch **touch, water_frame *p,
                                    facet_error *error)
 {
     const scene_pose *pose = &s->model.prepared.pose;
-    *touch = mem_alloc(&s->desc->render.allocator, SEA_TOUCH_EDGE * SEA_TOUCH_EDGE, sizeof **touch);
+    *touch = mem_alloc(&s->desc->allocator, SEA_TOUCH_EDGE * SEA_TOUCH_EDGE, sizeof **touch);
     if (!*touch)
         return fail_memory(error, "water around a model", SEA_TOUCH_EDGE * SEA_TOUCH_EDGE * sizeof **touch);
     p->model_desc = &s->model.desc;
@@ -207,7 +208,7 @@ static facet_result describe_model(const water_setup *s, sea_touch **touch, sea_
         p->shadow_high[i] = (float)s->shadow.high[i];
     }
     touching t = {s, p, *touch};
-    parallel_for(s->desc->render.thread_count, SEA_TOUCH_EDGE, 4, touch_rows, &t);
+    parallel_for(s->desc->thread_count, SEA_TOUCH_EDGE, 4, touch_rows, &t);
     p->touch = *touch;
     return FACET_OK;
 }
@@ -220,7 +221,7 @@ static void store3(vec3 from, float to[3])
         to[i] = from[i];
 }
 
-static void describe(const water_setup *s, sea_picture *p)
+static void describe(const water_setup *s, water_frame *p)
 {
     const water_sky *sky = &s->sky;
     p->sea = s->sea;
@@ -255,43 +256,38 @@ static void describe(const water_setup *s, sea_picture *p)
     p->rotation_sin = sky->rotation_sin;
 }
 
-facet_result water_picture_create(const facet_sea *sea, const facet_scene *scene,
-                                  const facet_sea_render_desc *desc, water_picture **out,
-                                  facet_render_stats *stats, facet_error *error)
+facet_result water_frame_create(water_cache *cache, const facet_scene *scene, const facet_render_desc *desc,
+                                water_frame **out, facet_render_stats *stats, facet_error *error)
 {
     double begin = clock_seconds();
     *out = NULL;
-    water_picture *p = mem_zalloc(&desc->render.allocator, 1, sizeof *p);
+    frame_parts *p = mem_zalloc(&desc->allocator, 1, sizeof *p);
     if (!p)
-        return fail_memory(error, "a picture of the sea", sizeof *p);
-    facet_result result = water_setup_create(sea, scene, desc, &p->setup, stats, error);
+        return fail_memory(error, "an image of the sea", sizeof *p);
+    facet_result result = water_setup_create(cache, scene, desc, &p->setup, stats, error);
     if (result == FACET_OK) {
-        describe(&p->setup, &p->picture);
-        result = draw_sky(&p->setup, &p->picture, error);
+        describe(&p->setup, &p->frame);
+        result = draw_sky(&p->setup, &p->frame, error);
     }
     if (result == FACET_OK && scene) {
-        p->picture.model = scene;
-        result = describe_model(&p->setup, &p->touch, &p->picture, error);
+        p->frame.model = scene;
+        result = describe_model(&p->setup, &p->touch, &p->frame, error);
     }
     stats->light_s += clock_seconds() - begin;
     if (result != FACET_OK) {
-        water_picture_destroy(p);
+        water_frame_destroy(&p->frame);
         return result;
     }
-    *out = p;
+    *out = &p->frame;
     return FACET_OK;
 }
 
-void water_picture_destroy(water_picture *p)
+void water_frame_destroy(water_frame *frame)
 {
-    if (!p)
+    if (!frame)
         return;
+    frame_parts *p = (frame_parts *)frame;
     water_setup_destroy(&p->setup);
     mem_free(p->touch);
     mem_free(p);
-}
-
-const sea_picture *water_picture_get(const water_picture *p)
-{
-    return &p->picture;
 }

@@ -1,0 +1,126 @@
+/* render_desc.c - facet_render_desc checked, with its defaults filled in: see renderer.h. */
+#include <math.h>
+
+#include "base/result.h"
+#include "render/renderer.h"
+
+enum { MAX_IMAGE_SIZE = 65536 };
+
+static bool are_finite(const float *x, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!isfinite(x[i]))
+            return false;
+    return true;
+}
+
+static facet_result check_numbers(const facet_render_desc *d, facet_error *error)
+{
+    const float light[] = {
+        d->exposure_ev,           d->environment_ev,   d->environment_rotation_rad, d->sun.azimuth_rad,
+        d->sun.elevation_rad,     d->sun.diameter_rad, d->sun.illuminance_lux[0],   d->sun.illuminance_lux[1],
+        d->sun.illuminance_lux[2]};
+    if (!are_finite(light, sizeof light / sizeof *light))
+        return fail(error, FACET_ERROR_ARGUMENT, "exposure, light: a value is not a finite number");
+    const float path[] = {d->path.noise, d->path.clamp, d->path.shutter_s,
+                          d->camera ? d->camera->lens_radius_m : 0.0f, d->camera ? d->camera->focus_m : 0.0f};
+    for (size_t i = 0; i < sizeof path / sizeof *path; i++)
+        if (!isfinite(path[i]) || path[i] < 0.0f)
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "noise, clamp, shutter, lens: a value is negative or not a finite number");
+    if (!renderer_get(d->renderer) || (unsigned)d->ground > FACET_GROUND_SHADOW ||
+        (unsigned)d->path.filter > FACET_FILTER_MITCHELL ||
+        (unsigned)d->path.light_sampling > FACET_LIGHT_SAMPLING_LIGHTS)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "renderer %d, ground %d, filter %d, light sampling %d; there is no such",
+                    (int)d->renderer, (int)d->ground, (int)d->path.filter, (int)d->path.light_sampling);
+    return FACET_OK;
+}
+
+/* ---- the sea ---- */
+
+static facet_result check_sea_shading(const facet_sea_shading *s, facet_error *error)
+{
+    if ((unsigned)s->style > FACET_SEA_STYLE_LEGACY_INTENDED ||
+        (unsigned)s->normals > FACET_SEA_NORMALS_GGX ||
+        (unsigned)s->masking > FACET_SEA_MASKING_SCHLICK_KARIS || s->stage > 5)
+        return fail(error, FACET_ERROR_ARGUMENT, "look: style %d, normals %d, masking %d, stage %u; no such",
+                    (int)s->style, (int)s->normals, (int)s->masking, s->stage);
+    float r = s->perceptual_roughness;
+    if (r != 0.0f && !(r >= 0.001f && r <= 1.0f))
+        return fail(error, FACET_ERROR_ARGUMENT, "look: a roughness of %g is not within [0.001, 1]",
+                    (double)r);
+    if (!(s->clamp >= 0.0f && s->clamp < INFINITY))
+        return fail(error, FACET_ERROR_ARGUMENT, "look: a clamp of %g is not 0 or more", (double)s->clamp);
+    return FACET_OK;
+}
+
+/* What no renderer draws in a sea; the sky is behind all of it. */
+static facet_result resolve_sea(const renderer_row *r, facet_render_desc *d, facet_error *error)
+{
+    TRY(check_sea_shading(&d->sea_shading, error));
+    if (d->ground != FACET_GROUND_NONE)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "ground: in a sea the water and its bed (facet_sea_bed) take its place");
+    if (d->shading != FACET_SHADING_GLTF)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "shading: OpenGL 1 has display colors, which the light of a sea cannot be added to");
+    if (d->aovs & ~r->sea_aovs)
+        return fail(error, FACET_ERROR_ARGUMENT, "layers: %s draws none in a sea; path tracing does",
+                    r->name);
+    d->background = FACET_BACKGROUND_ENVIRONMENT;
+    return FACET_OK;
+}
+
+/* ---- all ---- */
+
+static facet_result resolve_renderer(facet_render_desc *d, facet_error *error)
+{
+    const renderer_row *r = renderer_get(d->renderer);
+    if (!d->samples)
+        d->samples = r->samples[(unsigned)d->quality <= FACET_QUALITY_FINAL ? d->quality : 0];
+    if (d->samples > r->max_samples)
+        return fail(error, FACET_ERROR_ARGUMENT, "samples: %u per pixel; the most are %u", d->samples,
+                    r->max_samples);
+    if (d->aovs & ~r->aovs)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "layers: variance and samples are known to path tracing only");
+    if (d->sea)
+        TRY(resolve_sea(r, d, error));
+    return r->resolve(d, error);
+}
+
+facet_result render_desc_resolve(const facet_render_desc *desc, facet_render_desc *out, facet_error *error)
+{
+    *out = *desc;
+    if (!out->width && !out->height) {
+        out->width = 1024;
+        out->height = 768;
+    }
+    if (!out->width || !out->height || out->width > MAX_IMAGE_SIZE || out->height > MAX_IMAGE_SIZE)
+        return fail(error, FACET_ERROR_ARGUMENT, "picture: %u x %u pixels; each side must be 1 to %d",
+                    out->width, out->height, MAX_IMAGE_SIZE);
+    const uint32_t *crop = out->crop;
+    if (crop[0] || crop[1] || crop[2] || crop[3]) {
+        if (!crop[2] || !crop[3] || crop[0] >= out->width || crop[1] >= out->height ||
+            crop[2] > out->width - crop[0] || crop[3] > out->height - crop[1])
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "crop: %u,%u,%u,%u is not inside the picture of %u x %u pixels", crop[0], crop[1],
+                        crop[2], crop[3], out->width, out->height);
+    } else {
+        out->crop[2] = out->width;
+        out->crop[3] = out->height;
+    }
+    if ((unsigned)out->shading > FACET_SHADING_OGL1 ||
+        (unsigned)out->ogl1.variant > FACET_OGL1_VARIANT_RGL_DESKTOP)
+        return fail(error, FACET_ERROR_ARGUMENT, "shading: %d, variant %d; there is no such",
+                    (int)out->shading, (int)out->ogl1.variant);
+    if ((unsigned)out->isa > FACET_ISA_AVX512)
+        return fail(error, FACET_ERROR_ARGUMENT, "isa: %d is no instruction set", (int)out->isa);
+    facet_result result = check_numbers(out, error);
+    if (result == FACET_OK)
+        result = resolve_renderer(out, error);
+    if (!out->thread_count)
+        out->thread_count = facet_thread_count();
+    return result;
+}

@@ -1,0 +1,287 @@
+/* renderer.c - see renderer.h: the table, the renderers on the CPU, and the set of a facet_renderer. */
+#include "render/renderer.h"
+
+#include <math.h>
+
+#include "base/clock.h"
+#include "base/result.h"
+#include "base/text.h"
+#include "cpu/preview.h"
+#include "film/matte.h"
+#include "film/meter.h"
+#include "ocean/sea.h"
+#include "path/path_render.h"
+#include "render/render_gl.h"
+#include "scene/identity.h"
+#include "water/water_scene.h"
+
+/* Cryptomatte's metadata: the names of all that scene may draw. */
+static facet_result describe_mattes(const facet_scene *scene, const facet_render_desc *desc, film *target,
+                                    facet_error *error)
+{
+    static const uint32_t aovs[SCENE_IDENTITY_KINDS] = {FACET_AOV_CRYPTO_OBJECT, FACET_AOV_CRYPTO_MATERIAL,
+                                                        FACET_AOV_CRYPTO_INSTANCE};
+    facet_result result = FACET_OK;
+    for (uint32_t kind = 0; kind < SCENE_IDENTITY_KINDS && result == FACET_OK; kind++) {
+        if (!(desc->aovs & aovs[kind]))
+            continue;
+        text manifest = {.allocator = desc->allocator};
+        result = scene_identity_manifest(scene, (scene_identity_kind)kind, &manifest, error);
+        if (result == FACET_OK)
+            result = matte_describe(target, kind, manifest.data, &desc->allocator, error);
+        text_destroy(&manifest);
+    }
+    return result;
+}
+
+/* The renderers on the CPU keep nothing but what is shared. */
+static facet_result create_nothing(renderer_set *set, void **state, facet_error *error)
+{
+    (void)error;
+    *state = set;
+    return FACET_OK;
+}
+
+static void destroy_nothing(void *state)
+{
+    (void)state;
+}
+
+/* ---- preview ---- */
+
+static facet_result resolve_preview(facet_render_desc *desc, facet_error *error)
+{
+    if (desc->ground != FACET_GROUND_NONE)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "ground: the preview finds no shadow; path tracing does, and OpenGL");
+    return FACET_OK;
+}
+
+static facet_result draw_preview(void *state, const facet_render_desc *desc, film *target,
+                                 facet_render_stats *stats, facet_error *error)
+{
+    renderer_set *set = state;
+    if (desc->sea)
+        return water_render(&set->water, set->scene, desc, target, stats, error);
+    return preview_render_prepared(&set->prepared, desc, target, stats, error);
+}
+
+/* ---- path tracing ---- */
+
+enum { DEFAULT_DEPTH = 64 };
+
+/* Whether the sea's surface is as path tracing has it, with nothing left out. */
+static bool is_physical(const facet_sea_shading *s)
+{
+    return s->style == FACET_SEA_STYLE_PHYSICAL && s->stage == 0 &&
+           s->normals == FACET_SEA_NORMALS_BECKMANN && s->masking == FACET_SEA_MASKING_SCALES &&
+           !s->omits_glints && !s->omits_caustics && !(s->clamp > 0.0f);
+}
+
+static facet_result resolve_path(facet_render_desc *desc, facet_error *error)
+{
+    if (desc->path.resumes && desc->aovs & FACET_AOV_CRYPTOMATTE)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "layers: a checkpoint does not keep Cryptomatte's; render them without resuming");
+    if (desc->shading != FACET_SHADING_GLTF)
+        return fail(error, FACET_ERROR_ARGUMENT, "shading: path tracing knows that of glTF only");
+    if (desc->sea && !is_physical(&desc->sea_shading))
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "look: path tracing knows no stages, no legacy style, no other normals or masking, no "
+                    "glints or caustics to leave out and no clamp");
+    if (!desc->path.max_depth)
+        desc->path.max_depth = DEFAULT_DEPTH;
+    return FACET_OK;
+}
+
+/* The sea's surface and bed are part of the scene that is drawn. */
+static facet_result draw_path_in_sea(renderer_set *set, const facet_render_desc *desc, film *target,
+                                     facet_render_stats *stats, facet_error *error)
+{
+    double deadline_s = desc->time_limit_s > 0.0 ? clock_seconds() + desc->time_limit_s : 0.0;
+    water_scene *water;
+    prepared_scene prepared;
+    TRY(water_scene_create(&set->water, set->scene, desc, deadline_s, &water, stats, error));
+    const facet_render_desc *inner = water_scene_get_desc(water);
+    prepared_scene_init(&prepared, water_scene_get_scene(water), &desc->allocator);
+    facet_result result =
+        path_render_prepared(&prepared, inner, water_scene_get_surface(water), target, stats, error);
+    if (result == FACET_OK)
+        result = describe_mattes(prepared.scene, inner, target, error);
+    prepared_scene_clear(&prepared);
+    water_scene_destroy(water);
+    return result;
+}
+
+static facet_result draw_path(void *state, const facet_render_desc *desc, film *target,
+                              facet_render_stats *stats, facet_error *error)
+{
+    renderer_set *set = state;
+    if (desc->sea)
+        return draw_path_in_sea(set, desc, target, stats, error);
+    return path_render_prepared(&set->prepared, desc, NULL, target, stats, error);
+}
+
+/* ---- the table ---- */
+
+enum {
+    PATH_AOVS = FACET_AOV_VARIANCE | FACET_AOV_SAMPLES, /* statistics of samples */
+    ALL_AOVS = ~0 & ~PATH_AOVS
+};
+
+const renderer_row *renderer_get(facet_renderer_kind kind)
+{
+    static const renderer_row preview = {.name = "the preview",
+                                         .samples = {4, 1, 16},
+                                         .max_samples = 4096,
+                                         .aovs = (uint32_t)ALL_AOVS,
+                                         .resolve = resolve_preview,
+                                         .create = create_nothing,
+                                         .draw = draw_preview,
+                                         .destroy = destroy_nothing},
+                              path = {.name = "path tracing",
+                                      .samples = {64, 16, 512},
+                                      .max_samples = 1 << 24,
+                                      .aovs = UINT32_MAX,
+                                      .sea_aovs = UINT32_MAX,
+                                      .resolve = resolve_path,
+                                      .create = create_nothing,
+                                      .draw = draw_path,
+                                      .destroy = destroy_nothing},
+                              gl = {.name = "OpenGL",
+                                    .samples = {4, 1, 16},
+                                    .max_samples = 4096,
+                                    .aovs = (uint32_t)ALL_AOVS,
+                                    .poses_scene = true,
+                                    .resolve = render_gl_resolve,
+                                    .create = render_gl_create,
+                                    .draw = render_gl_draw,
+                                    .destroy = render_gl_destroy};
+    static const renderer_row *const table[RENDERER_COUNT] = {
+        [FACET_RENDERER_KIND_PREVIEW] = &preview,
+        [FACET_RENDERER_KIND_PATH] = &path,
+        [FACET_RENDERER_KIND_GL] = &gl,
+    };
+    return (unsigned)kind < RENDERER_COUNT ? table[kind] : NULL;
+}
+
+/* ---- a set of them ---- */
+
+void renderer_set_init(renderer_set *set, const facet_scene *scene, const facet_allocator *allocator)
+{
+    *set = (renderer_set){.scene = scene};
+    if (allocator)
+        set->allocator = *allocator;
+    set->water.allocator = set->allocator;
+    prepared_scene_init(&set->prepared, scene, allocator);
+}
+
+void renderer_set_clear(renderer_set *set)
+{
+    for (int i = 0; i < RENDERER_COUNT; i++) {
+        if (set->states[i])
+            renderer_get((facet_renderer_kind)i)->destroy(set->states[i]);
+        set->states[i] = NULL;
+    }
+    prepared_scene_clear(&set->prepared);
+    water_cache_clear(&set->water);
+}
+
+facet_result renderer_set_camera(renderer_set *set, const facet_render_desc *desc, facet_camera *camera,
+                                 facet_error *error)
+{
+    if (desc->sea) {
+        *camera = sea_camera(desc->sea, 0.0f, desc->sky.sun_azimuth_rad);
+        return FACET_OK;
+    }
+    prepared_scene *prepared = &set->prepared;
+    facet_orbit orbit = scene_orbit_default();
+    orbit.log = desc->log;
+    facet_result result = prepared_scene_pose(prepared, desc, error);
+    if (result == FACET_ERROR_MEMORY) {
+        prepared_scene_clear(prepared);
+        result = prepared_scene_pose(prepared, desc, error);
+    }
+    if (result != FACET_OK)
+        return result;
+    return scene_fit_pose(prepared->scene, &prepared->pose, &orbit, (float)desc->width / (float)desc->height,
+                          desc->thread_count, camera, error);
+}
+
+facet_result renderer_set_draw(renderer_set *set, const facet_render_desc *desc, film *target,
+                               facet_render_stats *stats, facet_error *error)
+{
+    const renderer_row *r = renderer_get(desc->renderer);
+    void **state = &set->states[desc->renderer];
+    if (desc->sea)
+        water_warn_of_eye(desc);
+    if (!*state)
+        TRY(r->create(set, state, error));
+    TRY(r->draw(*state, desc, target, stats, error));
+    return desc->sea ? FACET_OK : describe_mattes(set->scene, desc, target, error);
+}
+
+/* ---- the light meter ---- */
+
+enum { METER_SIZE = 128 }; /* pixels along the longer edge */
+
+/* The same view, small, by the preview. Warnings are those of the image itself. */
+static facet_render_desc meter_desc(const facet_render_desc *desc)
+{
+    facet_render_desc d = *desc;
+    double longer = d.width > d.height ? d.width : d.height;
+    d.width = (uint32_t)ceil(METER_SIZE * d.width / longer);
+    d.height = (uint32_t)ceil(METER_SIZE * d.height / longer);
+    d.crop[0] = d.crop[1] = 0;
+    d.crop[2] = d.width;
+    d.crop[3] = d.height;
+    d.samples = 1;
+    d.quality = FACET_QUALITY_DRAFT;
+    d.renderer = FACET_RENDERER_KIND_PREVIEW;
+    d.energy = FACET_ENERGY_GLTF;
+    d.ground = FACET_GROUND_NONE;
+    d.exposure_ev = 0.0f;
+    d.aovs = 0;
+    d.log = (facet_log){0};
+    d.progress = (facet_progress){0};
+    return d;
+}
+
+static facet_result meter_scene(renderer_set *set, const facet_render_desc *desc, double *ev100,
+                                facet_error *error)
+{
+    const facet_render_desc small = meter_desc(desc);
+    facet_render_stats stats;
+    film metered = {0};
+    *ev100 = meter_exposure_ev(0.0); /* an exposure of 0 */
+    facet_result result = film_create(&small.allocator, small.width, small.height, 0, &metered, error);
+    if (result == FACET_OK)
+        result = preview_render_prepared(&set->prepared, &small, &metered, &stats, error);
+    if (result == FACET_OK) {
+        double average = film_meter(&metered);
+        if (average > 0.0)
+            *ev100 = meter_ev100(average);
+        else
+            log_warning(&desc->log, "%s: nothing is seen that could be metered: the exposure is 0",
+                        set->scene->source);
+    }
+    film_destroy(&metered);
+    return result;
+}
+
+facet_result renderer_set_meter(renderer_set *set, const facet_render_desc *desc, double *ev100,
+                                facet_error *error)
+{
+    facet_camera camera;
+    facet_render_desc d = *desc;
+    if (desc->shading == FACET_SHADING_OGL1)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "exposure: the numbers of OpenGL 1 are a display's, and no light that can be metered");
+    if (!desc->camera) { /* that of the image, to the last bit of its proportions */
+        d.log = (facet_log){0};
+        TRY(renderer_set_camera(set, &d, &camera, error));
+        d.log = desc->log;
+        d.camera = &camera;
+    }
+    return desc->sea ? water_meter(&set->water, &d, ev100, error) : meter_scene(set, &d, ev100, error);
+}

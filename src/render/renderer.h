@@ -1,0 +1,57 @@
+/* renderer.h - one door to all renderers. Each is a row of the table in renderer.c: a few limits and three functions, create, draw and
+ * destroy. A new renderer is a new row; nothing above this folder knows which there are. */
+#ifndef RENDER_RENDERER_H
+#define RENDER_RENDERER_H
+
+#include "cpu/prepared_scene.h"
+#include "film/film.h"
+#include "water/water_render.h"
+
+/* The renderers of one facet_renderer, and what they share and keep from image to image. It stays where it is between init and clear. */
+enum { RENDERER_COUNT = FACET_RENDERER_KIND_GL + 1 };
+typedef struct renderer_set {
+    const facet_scene *scene; /* NULL: none, or not at hand (a window's) */
+    facet_allocator allocator;
+    prepared_scene prepared;      /* of scene, for the renderers on the CPU */
+    water_cache water;            /* of the sea that was drawn last */
+    void *states[RENDERER_COUNT]; /* NULL: not used yet */
+} renderer_set;
+
+typedef struct renderer_row {
+    const char *name;    /* in messages */
+    uint32_t samples[3]; /* per pixel, by facet_quality */
+    uint32_t max_samples;
+    uint32_t aovs, sea_aovs; /* that it draws: of scenes, of scenes in a sea */
+    bool
+        poses_scene; /* by itself: outside of a sea, draw() fits the camera where desc has none, and leaves set->prepared alone */
+    /* Refuses what it cannot draw (FACET_ERROR_ARGUMENT), and fills in its own defaults. */
+    facet_result (*resolve)(facet_render_desc *desc, facet_error *error);
+    facet_result (*create)(renderer_set *set, void **state, facet_error *error);
+    /* Draws what desc (resolved, with a camera) describes into target: linear radiance times 2^exposure_ev, premultiplied, and the
+     * AOVs. state stays usable whatever comes back. */
+    facet_result (*draw)(void *state, const facet_render_desc *desc, film *target, facet_render_stats *stats,
+                         facet_error *error);
+    void (*destroy)(void *state);
+} renderer_row;
+
+const renderer_row *renderer_get(facet_renderer_kind kind); /* NULL: there is none */
+
+void renderer_set_init(renderer_set *set, const facet_scene *scene, const facet_allocator *allocator);
+void renderer_set_clear(renderer_set *set); /* as after init */
+
+/* desc with all defaults but the camera filled in. FACET_ERROR_ARGUMENT: what is wrong with it. */
+facet_result render_desc_resolve(const facet_render_desc *desc, facet_render_desc *out, facet_error *error);
+
+/* The default camera of a resolved desc without one: that of the sea, or one that shows the whole scene. */
+facet_result renderer_set_camera(renderer_set *set, const facet_render_desc *desc, facet_camera *camera,
+                                 facet_error *error);
+
+/* Draws a resolved desc, with its camera, by the renderer that it names. */
+facet_result renderer_set_draw(renderer_set *set, const facet_render_desc *desc, film *target,
+                               facet_render_stats *stats, facet_error *error);
+
+/* What a camera's light meter reads of a resolved desc: facet_renderer_meter(). */
+facet_result renderer_set_meter(renderer_set *set, const facet_render_desc *desc, double *ev100,
+                                facet_error *error);
+
+#endif
