@@ -2,6 +2,7 @@
 #include "cpu/preview.h"
 
 #include "base/clock.h"
+#include "base/result.h"
 #include "cpu/render_setup.h"
 #include "cpu/tiles.h"
 
@@ -28,6 +29,19 @@ static facet_result draw(render_setup *setup, double deadline_s, film *target, f
     return result;
 }
 
+static facet_result render_image(render_setup *setup, double deadline_s, film *target, bool *has_setup,
+                                 facet_error *error)
+{
+    const facet_render_desc *desc = setup->desc;
+    TRY(render_check_limits(desc, "prepare", 0.0, deadline_s, error));
+    TRY(ogl1_check(setup->prepared->scene, desc, error));
+    TRY(render_setup_create(setup, error));
+    *has_setup = true;
+    TRY(render_check_limits(desc, "shade", 0.0, deadline_s, error));
+    TRY(draw(setup, deadline_s, target, error));
+    return render_check_limits(desc, "shade", 1.0, 0.0, error);
+}
+
 static facet_result attempt(const void *context, prepared_scene *prepared, const facet_render_desc *desc,
                             double deadline_s, film *target, facet_render_stats *stats, bool *has_setup,
                             facet_error *error)
@@ -36,18 +50,7 @@ static facet_result attempt(const void *context, prepared_scene *prepared, const
     *stats = (facet_render_stats){.thread_count = desc->thread_count};
     *has_setup = false;
     render_setup setup = {.prepared = prepared, .desc = desc, .stats = stats};
-    facet_result result = render_check_limits(desc, "prepare", 0.0, deadline_s, error);
-    if (result == FACET_OK)
-        result = ogl1_check(prepared->scene, desc, error);
-    if (result == FACET_OK)
-        result = render_setup_create(&setup, error);
-    *has_setup = result == FACET_OK;
-    if (result == FACET_OK)
-        result = render_check_limits(desc, "shade", 0.0, deadline_s, error);
-    if (result == FACET_OK)
-        result = draw(&setup, deadline_s, target, error);
-    if (result == FACET_OK)
-        result = render_check_limits(desc, "shade", 1.0, 0.0, error);
+    facet_result result = render_image(&setup, deadline_s, target, has_setup, error);
     render_setup_destroy(&setup);
     return result;
 }

@@ -33,11 +33,10 @@ static facet_result find_texture_need(render_setup *p, facet_error *error)
                               .ogl1 = &desc->ogl1,
                               .opacity_footprint = fminf(footprint, opacity_footprint),
                               .thread_count = desc->thread_count};
-    facet_result result =
-        texture_need(scene, &p->prepared->geometries, &p->camera, &need, &desc->allocator, p->uses, error);
-    if (result == FACET_OK && (p->reads_everywhere || desc->decodes_whole_textures))
+    TRY(texture_need(scene, &p->prepared->geometries, &p->camera, &need, &desc->allocator, p->uses, error));
+    if (p->reads_everywhere || desc->decodes_whole_textures)
         read_everywhere(scene, p->uses);
-    return result;
+    return FACET_OK;
 }
 
 static facet_result prepare_textures(render_setup *p, facet_error *error)
@@ -163,27 +162,21 @@ facet_result render_setup_create(render_setup *p, facet_error *error)
 {
     const facet_render_desc *desc = p->desc;
     double start = clock_seconds();
-    facet_result result = prepared_scene_pose(p->prepared, desc, error);
-    if (result == FACET_OK)
-        result = camera_rays_create(desc->camera, desc->width, desc->height, &p->camera, error);
-    if (result == FACET_OK)
-        result = prepared_scene_geometry(p->prepared, desc, &p->camera, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(prepared_scene_pose(p->prepared, desc, error));
+    TRY(camera_rays_create(desc->camera, desc->width, desc->height, &p->camera, error));
+    TRY(prepared_scene_geometry(p->prepared, desc, &p->camera, error));
     size_t texture_count = p->prepared->scene->texture_count;
     p->uses = mem_zalloc(&desc->allocator, texture_count, sizeof *p->uses);
     if (!p->uses)
         return fail_memory(error, "textures", texture_count * sizeof *p->uses);
     p->stats->geometry_s += clock_seconds() - start;
 
-    result = run_all_stages(p, error);
-    if (result == FACET_OK)
-        result = material_plans_create(&p->prepared->geometries, &desc->allocator, &p->plans, error);
-    if (result == FACET_OK)
-        result = drop_black_occlusion(p, error);
-    if (result == FACET_OK && desc->aovs & SCENE_IDENTITY_AOVS)
-        result = scene_identities_create(p->prepared->scene, &p->prepared->pose, &desc->allocator,
-                                         &p->identities, error);
+    TRY(run_all_stages(p, error));
+    TRY(material_plans_create(&p->prepared->geometries, &desc->allocator, &p->plans, error));
+    TRY(drop_black_occlusion(p, error));
+    if (desc->aovs & SCENE_IDENTITY_AOVS)
+        TRY(scene_identities_create(p->prepared->scene, &p->prepared->pose, &desc->allocator, &p->identities,
+                                    error));
     p->shading = (shading_scene){.geometries = &p->prepared->geometries,
                                  .embree = &p->prepared->embree,
                                  .plans = &p->plans,
@@ -191,9 +184,8 @@ facet_result render_setup_create(render_setup *p, facet_error *error)
                                  .light = &p->light,
                                  .camera = &p->camera};
     set_options(&p->shading, desc);
-    if (result == FACET_OK)
-        light_setup_warn_dark(&p->light, &p->prepared->geometries, desc);
-    return result;
+    light_setup_warn_dark(&p->light, &p->prepared->geometries, desc);
+    return FACET_OK;
 }
 
 void render_setup_destroy(render_setup *p)

@@ -145,11 +145,8 @@ facet_result path_key_create(prepared_scene *p, const facet_render_desc *desc, p
                              facet_error *error)
 {
     key_state k = {.lanes = {1, 2, 3, 4}};
-    facet_result result = prepared_scene_pose(p, desc, error);
-    if (result == FACET_OK)
-        result = add_description(&k, p, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(prepared_scene_pose(p, desc, error));
+    TRY(add_description(&k, p, error));
     add_scene(&k, p->scene, &p->pose);
     add_desc(&k, desc);
     for (int i = 0; i < LANES; i++)
@@ -203,15 +200,15 @@ static uint64_t digest_of(const path_film *f, const char *key, uint64_t dropped)
     return f->ground ? cache_hash(hash, f->ground, count * sizeof *f->ground) : hash;
 }
 
-/* ---- the place ---- */
+/* ---- the path of the file ---- */
 
-/* What is there that is neither file nor folder (a pipe may never be read, nor written) is refused. */
+/* Refuses what is neither file nor folder: a pipe may never be read, nor written. */
 static facet_result check_place(const char *path, bool *exists, facet_error *error)
 {
     struct stat info;
     *exists = stat(path, &info) == 0;
     if (*exists && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode))
-        return fail(error, FACET_ERROR_WRITE, "%s: a checkpoint is a file, and this is none", path);
+        return fail(error, FACET_ERROR_WRITE, "%s: is not a regular file, as a checkpoint has to be", path);
     return FACET_OK;
 }
 
@@ -245,7 +242,6 @@ facet_result path_film_save(const path_film *f, const char *key, const char *pat
 
 /* ---- reading ---- */
 
-/* A file that is being read. */
 typedef struct checkpoint {
     const char *path;
     file_bytes file;
@@ -257,47 +253,39 @@ static facet_result read_text(const checkpoint *c, const char *name, char *value
     return image_read_exr_text(c->file.data, c->file.size, c->path, name, value, size, error);
 }
 
-/* Whether the file is a checkpoint at all. Of an OpenEXR file that is damaged its codec says so. */
+/* Whether the file is a checkpoint at all. The codec reports a damaged OpenEXR file. */
 static facet_result check_kind(const checkpoint *c, facet_error *error)
 {
     char version[VERSION_SIZE] = "";
     image header;
     if (image_codec_detect(c->file.data, c->file.size) != IMAGE_CODEC_EXR)
-        return fail(error, FACET_ERROR_INVALID, "%s: is no checkpoint of a picture, which is an OpenEXR file",
-                    c->path);
-    facet_result result = image_probe(c->file.data, c->file.size, c->path, &header, NULL, error);
-    if (result != FACET_OK)
-        return result;
+        return fail(error, FACET_ERROR_INVALID, "%s: is no checkpoint, which is an OpenEXR file", c->path);
+    TRY(image_probe(c->file.data, c->file.size, c->path, &header, NULL, error));
     if (read_text(c, "facetCheckpoint", version, sizeof version, NULL) != FACET_OK)
-        return fail(error, FACET_ERROR_INVALID, "%s: is a picture, but no checkpoint of one", c->path);
+        return fail(error, FACET_ERROR_INVALID, "%s: is an image, but no checkpoint of one", c->path);
     if (strcmp(version, VERSION) != 0)
         return fail(error, FACET_ERROR_INVALID,
-                    "%s: is a checkpoint of version %s; this build of facet goes on with version %s", c->path,
+                    "%s: is a checkpoint of version %s; this build of facet resumes version %s", c->path,
                     version, VERSION);
     return FACET_OK;
 }
 
-/* Whether it is one of this picture. */
-static facet_result check_picture(const checkpoint *c, const path_film *f, const char *key,
-                                  facet_error *error)
+/* Whether it is one of this image. */
+static facet_result check_image(const checkpoint *c, const path_film *f, const char *key, facet_error *error)
 {
     char found[KEY_SIZE] = "";
     image header;
-    facet_result result = image_probe(c->file.data, c->file.size, c->path, &header, NULL, error);
-    if (result == FACET_OK)
-        result = read_text(c, "facetKey", found, sizeof found, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(image_probe(c->file.data, c->file.size, c->path, &header, NULL, error));
+    TRY(read_text(c, "facetKey", found, sizeof found, error));
     if (header.width != f->width || header.height != f->height)
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "%s: is the checkpoint of a picture of %u x %u pixels, not %u x %u", c->path,
-                    header.width, header.height, f->width, f->height);
+                    "%s: is the checkpoint of an image of %u x %u pixels, not %u x %u", c->path, header.width,
+                    header.height, f->width, f->height);
     if (strcmp(found, key) != 0)
-        return fail(
-            error, FACET_ERROR_ARGUMENT,
-            "%s: is the checkpoint of another picture: model, view, light and what decides over samples have "
-            "to be the same",
-            c->path);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "%s: is the checkpoint of another image: model, view, light and sampling options have to "
+                    "be the same",
+                    c->path);
     return FACET_OK;
 }
 
@@ -336,24 +324,20 @@ static facet_result read_numbers(const checkpoint *c, path_film *into, const cha
     image_channel channels[CHANNELS];
     uint32_t count = list_channels(into, channels);
     char digest[DIGEST_SIZE] = "", dropped[COUNT_SIZE] = "", expected[DIGEST_SIZE];
-    facet_result result = read_text(c, "facetDigest", digest, sizeof digest, error);
-    if (result == FACET_OK)
-        result = read_text(c, "facetDropped", dropped, sizeof dropped, error);
-    if (result == FACET_OK)
-        result = image_read_exr_channels(c->file.data, c->file.size, c->path, &into->allocator, into->width,
-                                         into->height, channels, count, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(read_text(c, "facetDigest", digest, sizeof digest, error));
+    TRY(read_text(c, "facetDropped", dropped, sizeof dropped, error));
+    TRY(image_read_exr_channels(c->file.data, c->file.size, c->path, &into->allocator, into->width,
+                                into->height, channels, count, error));
     uint64_t dropped_count = strtoull(dropped, NULL, 10);
     snprintf(expected, sizeof expected, "%016" PRIx64, digest_of(into, key, dropped_count));
     if (strcmp(digest, expected) != 0 || !is_sound(into))
         return fail(error, FACET_ERROR_INVALID,
-                    "%s: the checkpoint is damaged: its numbers are not those that were written", c->path);
+                    "%s: the checkpoint is damaged: its values differ from those that were written", c->path);
     atomic_store(&into->dropped, dropped_count);
     return FACET_OK;
 }
 
-/* Into a film of its own first, so that f stays as it is where the file is no good. */
+/* Reads into a film of its own first, so that f is unchanged on failure. */
 static facet_result read_film(const checkpoint *c, path_film *f, const char *key, facet_error *error)
 {
     path_film *made;
@@ -384,7 +368,7 @@ facet_result path_film_load(path_film *f, const char *key, const char *path, boo
     if (result == FACET_OK)
         result = check_kind(&c, error);
     if (result == FACET_OK)
-        result = check_picture(&c, f, key, error);
+        result = check_image(&c, f, key, error);
     if (result == FACET_OK)
         result = read_film(&c, f, key, error);
     file_close(&c.file);
@@ -394,10 +378,10 @@ facet_result path_film_load(path_film *f, const char *key, const char *path, boo
 facet_result path_checkpoint_check(const char *path, facet_error *error)
 {
     bool exists;
-    facet_result result = check_place(path, &exists, error);
-    if (result == FACET_OK && exists)
+    TRY(check_place(path, &exists, error));
+    if (exists)
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "%s: it is there already and would be lost; resume it, remove it, or name another file",
+                    "%s: the checkpoint exists and would be lost; resume it, remove it, or name another file",
                     path);
-    return result;
+    return FACET_OK;
 }

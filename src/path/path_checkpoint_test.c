@@ -200,9 +200,9 @@ static void other_files_are_refused(void **state)
     assert_false(exists);
 
     write_bytes(other_path, "", 0);
-    expect_refusal(other_path, KEY, WIDTH, false, FACET_ERROR_INVALID, "is no checkpoint of a picture");
+    expect_refusal(other_path, KEY, WIDTH, false, FACET_ERROR_INVALID, "is no checkpoint, which");
     write_bytes(other_path, "Dear diary, today", 17);
-    expect_refusal(other_path, KEY, WIDTH, false, FACET_ERROR_INVALID, "is no checkpoint of a picture");
+    expect_refusal(other_path, KEY, WIDTH, false, FACET_ERROR_INVALID, "is no checkpoint, which");
     static const char *const names[] = {"R", "G", "B"};
     static const float texels[WIDTH * HEIGHT * 3];
     const image_layer layer = {names, 3, texels, WIDTH * 3 * sizeof(float), false};

@@ -43,6 +43,6 @@ void path_film_resolve(const path_film *f, float scale, film *target, uint32_t t
 
 /* Filters the noise out of the shadow on the ground, in place: biased, for a film that gets no more samples and is not
  * kept. FACET_ERROR_MEMORY. */
-facet_result path_film_calm_ground(path_film *f, uint32_t thread_count, facet_error *error);
+facet_result path_film_denoise_ground(path_film *f, uint32_t thread_count, facet_error *error);
 
 #endif

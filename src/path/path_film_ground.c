@@ -114,7 +114,7 @@ static shadow shadow_of(const path_ground *g)
     return (shadow){.taken = g->taken / g->open, .variance = fminf(variance, 1.0f), .weight = g->samples};
 }
 
-facet_result path_film_calm_ground(path_film *f, uint32_t thread_count, facet_error *error)
+facet_result path_film_denoise_ground(path_film *f, uint32_t thread_count, facet_error *error)
 {
     size_t count = (size_t)f->width * f->height;
     if (!f->ground)

@@ -274,7 +274,7 @@ static void a_shadow_becomes_calm(void **state)
         }
     for (int is_calm = 0; is_calm < 2; is_calm++) {
         if (is_calm)
-            assert_int_equal(path_film_calm_ground(f, 2, NULL), FACET_OK);
+            assert_int_equal(path_film_denoise_ground(f, 2, NULL), FACET_OK);
         double *sum = is_calm ? &after : &before;
         for (uint32_t i = 0; i < SIDE * SIDE; i++) {
             double expected = i % SIDE < SIDE / 2 ? 0.2 : 0.7;
@@ -297,7 +297,7 @@ static void a_calm_shadow_stays(void **state)
                 s.ground_lit[c] = i % 16 < 8 ? 0.25f : 0.75f;
             path_film_add(f, i, &s);
         }
-    assert_int_equal(path_film_calm_ground(f, 1, NULL), FACET_OK);
+    assert_int_equal(path_film_denoise_ground(f, 1, NULL), FACET_OK);
     for (uint32_t i = 0; i < 64; i++)
         assert_near(f->ground[i].taken, i % 16 > 2 ? (i % 16 < 8 ? 0.75 : 0.25) : 0.0, 1e-6);
     path_film_destroy(f);

@@ -1,5 +1,5 @@
-/* path_render.c - see path_render.h. Pixels are independent of each other: a pixel's samples are numbered, and a pass
- * takes each pixel to a number. What a picture is depends on these numbers alone. */
+/* path_render.c - see path_render.h. Pixels are independent of each other: a pixel's samples are numbered, and a pass draws all
+ * pixels up to one number. The image depends on these numbers alone. */
 #include "path/path_render.h"
 
 #include <math.h>
@@ -25,8 +25,8 @@ enum {
     SHUTTER_SAMPLES = 4 /* per pixel and instant: preparing one costs about as much as these */
 };
 
-/* All of one picture. */
-typedef struct path_picture {
+/* The rendering of one image. */
+typedef struct path_job {
     const facet_render_desc *desc;
     prepared_scene *prepared;
     const struct path_surface *surface;
@@ -35,27 +35,27 @@ typedef struct path_picture {
     double deadline_s;
     path_film *sums;
     path_key key;
-    double saved_s; /* when the checkpoint was written, or the picture begun */
+    double saved_s; /* when the checkpoint was written, or rendering begun */
     float ground_y;
-    matte_layers mattes; /* of target: sums until develop() */
+    matte_layers mattes; /* of target; sums until develop() */
     /* of one instant */
     facet_render_desc instant; /* desc at its time */
     render_setup setup;
     path_lights *lights;
     path_scene scene;
     /* of one pass */
-    uint32_t goal; /* samples that a pixel has behind it */
+    uint32_t goal; /* samples per pixel after the pass */
     /* samples of the pixels that are drawn; 0: those that path_film_needs_more() names */
     uint32_t cut_off_at;
     uint32_t tile_columns;
     render_watch watch;
     _Atomic uint64_t rays;
-} path_picture;
+} path_job;
 
 /* ---- a pass ---- */
 
-/* Brings one pixel to the goal; the rays that took. */
-static uint64_t draw_pixel(path_picture *p, uint32_t x, uint32_t y, size_t pixel)
+/* Draws one pixel up to the goal. Returns the number of rays. */
+static uint64_t draw_pixel(path_job *p, uint32_t x, uint32_t y, size_t pixel)
 {
     uint64_t rays = 0;
     const uint32_t *crop = p->desc->crop;
@@ -71,7 +71,7 @@ static uint64_t draw_pixel(path_picture *p, uint32_t x, uint32_t y, size_t pixel
     return rays;
 }
 
-static void draw_tile(path_picture *p, uint32_t tile)
+static void draw_tile(path_job *p, uint32_t tile)
 {
     uint32_t left = tile % p->tile_columns * TILE;
     uint32_t top = tile / p->tile_columns * TILE;
@@ -97,7 +97,7 @@ static void draw_tile(path_picture *p, uint32_t tile)
 
 static void draw_tiles(void *context, size_t begin, size_t end)
 {
-    path_picture *p = context;
+    path_job *p = context;
     for (size_t tile = begin; tile < end; tile++) {
         if (render_watch_is_stopped(&p->watch))
             return;
@@ -105,7 +105,7 @@ static void draw_tiles(void *context, size_t begin, size_t end)
     }
 }
 
-static void draw_pass(path_picture *p, uint32_t goal)
+static void draw_pass(path_job *p, uint32_t goal)
 {
     p->goal = goal;
     uint32_t rows = (p->target->height + TILE - 1) / TILE;
@@ -115,7 +115,7 @@ static void draw_pass(path_picture *p, uint32_t goal)
 
 /* ---- an instant ---- */
 
-static void end_instant(path_picture *p)
+static void end_instant(path_job *p)
 {
     path_lights_destroy(p->lights);
     p->lights = NULL;
@@ -123,15 +123,14 @@ static void end_instant(path_picture *p)
     p->setup = (render_setup){0};
 }
 
-static facet_result begin_instant(path_picture *p, facet_error *error)
+static facet_result begin_instant(path_job *p, facet_error *error)
 {
     const facet_render_desc *desc = &p->instant;
     end_instant(p);
     p->setup =
         (render_setup){.prepared = p->prepared, .desc = desc, .stats = p->stats, .reads_everywhere = true};
-    facet_result result = render_setup_create(&p->setup, error);
-    if (result == FACET_OK)
-        result = path_lights_create(&p->setup, &p->lights, error);
+    TRY(render_setup_create(&p->setup, error));
+    TRY(path_lights_create(&p->setup, &p->lights, error));
     p->scene = (path_scene){.setup = &p->setup,
                             .lights = p->lights,
                             .has_ground = desc->ground == FACET_GROUND_SHADOW,
@@ -139,11 +138,11 @@ static facet_result begin_instant(path_picture *p, facet_error *error)
                             .draws_background = desc->background == FACET_BACKGROUND_ENVIRONMENT,
                             .surface = p->surface,
                             .finds_first = p->mattes.aovs != 0};
-    return result;
+    return FACET_OK;
 }
 
-/* The part of the shutter's time that instant number i stands for: the sequence 0.5, 0.25, 0.75, .. fills it evenly
- * however many there are. */
+/* The time of instant i as a share of the shutter's: the sequence 0.5, 0.25, 0.75, .. covers it evenly for any number of
+ * instants. */
 static double shutter_share(uint32_t i)
 {
     double share = 0.0;
@@ -154,8 +153,8 @@ static double shutter_share(uint32_t i)
 }
 
 /* The number of samples at which the pass ends that a pixel with `goal` is in: 1, 2, 4, .. LARGEST_PASS, and its
- * multiples, whatever number a picture was begun or interrupted at. */
-static uint32_t next_goal(const path_picture *p, uint32_t goal)
+ * multiples, whatever number an image was begun or interrupted at. */
+static uint32_t next_goal(const path_job *p, uint32_t goal)
 {
     uint32_t step = LARGEST_PASS;
     if (p->desc->path.shutter_s > 0.0f)
@@ -167,7 +166,7 @@ static uint32_t next_goal(const path_picture *p, uint32_t goal)
     return next < p->desc->samples ? (uint32_t)next : p->desc->samples;
 }
 
-static facet_result next_instant(path_picture *p, uint32_t goal, facet_error *error)
+static facet_result next_instant(path_job *p, uint32_t goal, facet_error *error)
 {
     bool is_moving = p->desc->path.shutter_s > 0.0f;
     if (p->lights && !is_moving)
@@ -180,8 +179,8 @@ static facet_result next_instant(path_picture *p, uint32_t goal, facet_error *er
 
 /* ---- checkpoints ---- */
 
-/* An image is not given up because its checkpoint cannot be written. */
-static void save(path_picture *p)
+/* A checkpoint that cannot be written is a warning. */
+static void save(path_job *p)
 {
     const char *path = p->desc->path.checkpoint_path;
     facet_error error;
@@ -194,35 +193,32 @@ static void save(path_picture *p)
         p->desc->log.message(p->desc->log.user, FACET_LOG_LEVEL_WARNING, error.message);
 }
 
-static void save_from_time_to_time(path_picture *p)
+static void save_from_time_to_time(path_job *p)
 {
     double interval = p->desc->path.checkpoint_interval_s;
     if (clock_seconds() - p->saved_s > (interval > 0.0 ? interval : 60.0))
         save(p);
 }
 
-static facet_result resume(path_picture *p, facet_error *error)
+static facet_result resume(path_job *p, facet_error *error)
 {
     p->saved_s = clock_seconds();
     if (!p->desc->path.checkpoint_path)
         return FACET_OK;
     const char *path = p->desc->path.checkpoint_path;
-    facet_result result = path_key_create(p->prepared, p->desc, &p->key, error);
     bool exists = false;
-    if (result == FACET_OK && !p->desc->path.resumes)
-        return path_checkpoint_check(path, error);
-    if (result == FACET_OK)
-        result = path_film_load(p->sums, p->key.hex, path, &exists, error);
-    return result;
+    TRY(path_key_create(p->prepared, p->desc, &p->key, error));
+    return p->desc->path.resumes ? path_film_load(p->sums, p->key.hex, path, &exists, error)
+                                 : path_checkpoint_check(path, error);
 }
 
-/* ---- the picture ---- */
+/* ---- the image ---- */
 
 typedef struct sample_range {
     uint32_t fewest, most; /* of any pixel */
 } sample_range;
 
-static sample_range count_samples(const path_picture *p)
+static sample_range count_samples(const path_job *p)
 {
     sample_range range = {.fewest = UINT32_MAX};
     for (size_t i = 0; i < (size_t)p->target->width * p->target->height; i++) {
@@ -233,27 +229,27 @@ static sample_range count_samples(const path_picture *p)
     return range;
 }
 
-/* Where the passes of a checkpoint go on. Adaptive ones where the last of them ended, so that regions are judged at the
+/* Where the passes of a checkpoint resume. Adaptive ones where the last of them ended, so that regions are judged at the
  * same numbers as without the interruption; others at the fewest, since the samples of an open shutter belong to their
  * instant. */
-static uint32_t first_goal(const path_picture *p)
+static uint32_t first_goal(const path_job *p)
 {
     sample_range range = count_samples(p);
     bool is_adaptive = p->desc->path.noise > 0.0f && range.most < p->desc->samples;
     return is_adaptive ? range.most : range.fewest;
 }
 
-/* Whether regions are judged before the pass that begins at goal. One that an earlier, shorter picture ended in is first
- * brought to its end. */
-static bool judges_at(const path_picture *p, uint32_t goal)
+/* Whether regions are judged before the pass that begins at goal. A pass in which an earlier, shorter render ended is first
+ * completed. */
+static bool judges_at(const path_job *p, uint32_t goal)
 {
     if (p->desc->path.shutter_s > 0.0f)
         return goal % SHUTTER_SAMPLES == 0;
     return goal % LARGEST_PASS == 0 || (goal < LARGEST_PASS && (goal & (goal - 1)) == 0);
 }
 
-/* What is still noisy goes on; of a pass that was cut off, the pixels that were in it. True: all is calm. */
-static bool judge(path_picture *p, uint32_t goal)
+/* Selects the pixels of the next pass: those that are still noisy, or those that an interrupted pass left out. True: none is noisy. */
+static bool judge(path_job *p, uint32_t goal)
 {
     p->cut_off_at = 0;
     if (p->desc->path.noise > 0.0f && !judges_at(p, goal)) {
@@ -266,7 +262,7 @@ static bool judge(path_picture *p, uint32_t goal)
 
 enum { GUIDES = FACET_AOV_ALBEDO | FACET_AOV_NORMAL | FACET_AOV_VARIANCE };
 
-static facet_result denoise(path_picture *p, float scale, facet_error *error)
+static facet_result denoise(path_job *p, float scale, facet_error *error)
 {
     double start = clock_seconds();
     const facet_render_desc *desc = p->desc;
@@ -285,9 +281,9 @@ static facet_result denoise(path_picture *p, float scale, facet_error *error)
     return result;
 }
 
-/* Whoever asked knows which film is drawn into; of images nothing is known here. Denoising takes its time and is not worth it
- * before the noise has halved; the shadow on the ground stays noisy, since what calms it is for films that get no more. */
-static void tell_pass(path_picture *p, uint32_t goal)
+/* Calls desc->path.pass, without an image: the caller has the film. Denoising takes its time and is not worth it before the noise has
+ * halved; the shadow on the ground stays noisy, since its filter is for films that get no more samples. */
+static void report_pass(path_job *p, uint32_t goal)
 {
     const facet_path_desc *path = &p->desc->path;
     bool is_power_of_two = (goal & (goal - 1)) == 0;
@@ -301,29 +297,26 @@ static void tell_pass(path_picture *p, uint32_t goal)
 }
 
 /* Pass after pass until all is done, or the watch stops it. */
-static facet_result draw_passes(path_picture *p, facet_error *error)
+static facet_result draw_passes(path_job *p, facet_error *error)
 {
     uint32_t goal = first_goal(p);
-    facet_result result = FACET_OK;
-    while (goal < p->desc->samples && result == FACET_OK && !render_watch_is_stopped(&p->watch)) {
+    while (goal < p->desc->samples && !render_watch_is_stopped(&p->watch)) {
         if (judge(p, goal))
             break;
-        result = next_instant(p, goal, error);
-        if (result != FACET_OK)
-            break;
+        TRY(next_instant(p, goal, error));
         goal = next_goal(p, goal);
         draw_pass(p, goal);
         if (!render_watch_is_stopped(&p->watch)) {
             save_from_time_to_time(p);
-            tell_pass(p, goal);
+            report_pass(p, goal);
         }
     }
-    return result;
+    return FACET_OK;
 }
 
-/* What ended the passes. The time limit, and a cancellation that asks for it, leave an image where each pixel has a
- * sample. */
-static facet_result conclude(path_picture *p, facet_error *error)
+/* Maps the reason that ended the passes to a result. The time limit, and a cancellation with keeps_cancelled, leave an image where
+ * each pixel has a sample. */
+static facet_result conclude(path_job *p, facet_error *error)
 {
     facet_result ended = (facet_result)atomic_load(&p->watch.result);
     save(p);
@@ -339,18 +332,16 @@ static facet_result conclude(path_picture *p, facet_error *error)
     return FACET_OK;
 }
 
-static facet_result draw(path_picture *p, facet_error *error)
+static facet_result draw(path_job *p, facet_error *error)
 {
     double start = clock_seconds();
     const facet_render_desc *desc = p->desc;
-    facet_result result = resume(p, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(resume(p, error));
     uint64_t pixel_count = (uint64_t)p->target->width * p->target->height;
     render_watch_init(&p->watch, &desc->progress, "sample", p->deadline_s,
                       (double)pixel_count * (double)desc->samples);
     atomic_store(&p->watch.done, path_film_total_samples(p->sums));
-    result = draw_passes(p, error);
+    facet_result result = draw_passes(p, error);
     if (result == FACET_OK)
         result = conclude(p, error);
     p->stats->shade_s = clock_seconds() - start;
@@ -359,8 +350,8 @@ static facet_result draw(path_picture *p, facet_error *error)
 
 /* ---- from sums to the film ---- */
 
-/* The layers that are not means over samples: those of the first instant. */
-static facet_result draw_aovs(path_picture *p, facet_error *error)
+/* Layers that are not means over samples are those of the first instant. */
+static facet_result draw_aovs(path_job *p, facet_error *error)
 {
     facet_render_desc desc = *p->desc;
     desc.aovs &= ~(uint32_t)(GUIDES | FACET_AOV_SAMPLES | FACET_AOV_CRYPTOMATTE);
@@ -371,43 +362,57 @@ static facet_result draw_aovs(path_picture *p, facet_error *error)
 }
 
 /* From sums over a pixel's samples to shares of it. */
-static void finish_mattes(path_picture *p)
+static void finish_mattes(path_job *p)
 {
     size_t pixel_count = (size_t)p->target->width * p->target->height;
     for (size_t pixel = 0; p->mattes.aovs && pixel < pixel_count; pixel++)
         matte_finish(&p->mattes, pixel, path_film_share(p->sums, pixel));
 }
 
-static void tell_dropped(const path_picture *p)
+static void warn_dropped(const path_job *p)
 {
     const facet_log *log = &p->desc->log;
     if (p->stats->dropped_samples == 0 || !log->message)
         return;
     char message[256];
-    snprintf(
-        message, sizeof message,
-        "%llu of %llu light samples were not finite and count as black: the model or a light holds numbers "
-        "that are none",
-        (unsigned long long)p->stats->dropped_samples, (unsigned long long)p->stats->samples);
+    snprintf(message, sizeof message,
+             "%llu of %llu light samples were not finite and count as black: a value of the model or of a "
+             "light is not finite",
+             (unsigned long long)p->stats->dropped_samples, (unsigned long long)p->stats->samples);
     log->message(log->user, FACET_LOG_LEVEL_WARNING, message);
 }
 
-static facet_result develop(path_picture *p, facet_error *error)
+static facet_result develop(path_job *p, facet_error *error)
 {
     const facet_render_desc *desc = p->desc;
     float scale = exp2f(desc->exposure_ev);
-    if (desc->path.denoises) {
-        facet_result result = path_film_calm_ground(p->sums, desc->thread_count, error);
-        if (result != FACET_OK)
-            return result;
-    }
+    if (desc->path.denoises)
+        TRY(path_film_denoise_ground(p->sums, desc->thread_count, error));
     path_film_resolve(p->sums, scale, p->target, desc->thread_count);
     finish_mattes(p);
     p->stats->samples = path_film_total_samples(p->sums);
     p->stats->dropped_samples = path_film_dropped(p->sums);
     p->stats->rays += atomic_load(&p->rays);
-    tell_dropped(p);
+    warn_dropped(p);
     return desc->path.denoises ? denoise(p, scale, error) : FACET_OK;
+}
+
+/* All of it; the caller releases what p holds. *has_setup: the first instant was prepared. */
+static facet_result render_image(path_job *p, bool *has_setup, facet_error *error)
+{
+    const facet_render_desc *desc = p->desc;
+    TRY(render_check_limits(desc, "prepare", 0.0, p->deadline_s, error));
+    TRY(prepared_scene_pose(p->prepared, desc, error));
+    p->ground_y = p->prepared->pose.bounds_min[1];
+    TRY(begin_instant(p, error));
+    *has_setup = true;
+    TRY(path_film_create(&desc->allocator, p->target->width, p->target->height, p->scene.has_ground, &p->sums,
+                         error));
+    path_film_set_scale(p->sums, exp2f(desc->exposure_ev));
+    TRY(draw_aovs(p, error));
+    TRY(draw(p, error));
+    TRY(develop(p, error));
+    return p->stats->is_partial ? FACET_OK : render_check_limits(desc, "sample", 1.0, 0.0, error);
 }
 
 static facet_result attempt(const void *surface, prepared_scene *prepared, const facet_render_desc *desc,
@@ -416,35 +421,16 @@ static facet_result attempt(const void *surface, prepared_scene *prepared, const
 {
     *stats = (facet_render_stats){.thread_count = desc->thread_count};
     *has_setup = false;
-    path_picture p = {.desc = desc,
-                      .instant = *desc,
-                      .prepared = prepared,
-                      .surface = surface,
-                      .target = target,
-                      .stats = stats,
-                      .mattes = matte_find(target),
-                      .deadline_s = deadline_s};
-    matte_clear(&p.mattes, (size_t)target->width * target->height); /* an attempt may have failed */
-    facet_result result = render_check_limits(desc, "prepare", 0.0, deadline_s, error);
-    if (result == FACET_OK)
-        result = prepared_scene_pose(prepared, desc, error);
-    p.ground_y = result == FACET_OK ? prepared->pose.bounds_min[1] : 0.0f;
-    if (result == FACET_OK)
-        result = begin_instant(&p, error);
-    *has_setup = result == FACET_OK;
-    if (result == FACET_OK)
-        result = path_film_create(&desc->allocator, target->width, target->height, p.scene.has_ground,
-                                  &p.sums, error);
-    if (result == FACET_OK) {
-        path_film_set_scale(p.sums, exp2f(desc->exposure_ev));
-        result = draw_aovs(&p, error);
-    }
-    if (result == FACET_OK)
-        result = draw(&p, error);
-    if (result == FACET_OK)
-        result = develop(&p, error);
-    if (result == FACET_OK && !stats->is_partial)
-        result = render_check_limits(desc, "sample", 1.0, 0.0, error);
+    path_job p = {.desc = desc,
+                  .instant = *desc,
+                  .prepared = prepared,
+                  .surface = surface,
+                  .target = target,
+                  .stats = stats,
+                  .mattes = matte_find(target),
+                  .deadline_s = deadline_s};
+    matte_clear(&p.mattes, (size_t)target->width * target->height); /* a failed attempt may have filled it */
+    facet_result result = render_image(&p, has_setup, error);
     path_film_destroy(p.sums);
     end_instant(&p);
     return result;
