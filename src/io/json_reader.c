@@ -115,7 +115,7 @@ json_t *io_parse_json(io_reader *r, const char *text, size_t size)
     if (!json && json_error_code(&error) == json_error_numeric_overflow) { /* an id of 64 bits in extras */
         json = json_loadb(text, size, JSON_ALLOW_NUL | JSON_DECODE_INT_AS_REAL, &error);
         if (json)
-            io_note(r, NULL, NULL, "has whole numbers beyond 2^63; they are rounded");
+            io_note(r, NULL, NULL, "has integers beyond 2^63; they are rounded");
     }
     if (!json && json_error_code(&error) != json_error_out_of_memory) {
         json = parse_mended(r, text, size, false, &error);
@@ -316,8 +316,8 @@ uint32_t io_get_index_value(io_reader *r, const json_place *at, uint32_t count, 
     if (!json_is_number(at->value))
         fail_type(r, at, "a number");
     else if (!to_uint(at->value, SCENE_NONE - 1, &index) || index >= count)
-        io_fail(r, at, NULL, FACET_ERROR_INVALID, "%.17g is the number of no %s (there %s %u)",
-                json_number_value(at->value), what, count == 1 ? "is" : "are", count);
+        io_fail(r, at, NULL, FACET_ERROR_INVALID, "%s %.17g does not exist (there %s %u)", what,
+                json_number_value(at->value), count == 1 ? "is" : "are", count);
     else
         return (uint32_t)index;
     return SCENE_NONE;
@@ -457,7 +457,7 @@ const char *io_get_string(io_reader *r, const json_place *object, const char *ke
     }
     const char *string = json_string_value(at.value);
     if (strlen(string) != json_string_length(at.value)) {
-        io_fail(r, &at, NULL, FACET_ERROR_INVALID, "has a character 0 inside");
+        io_fail(r, &at, NULL, FACET_ERROR_INVALID, "contains a NUL character");
         return fallback;
     }
     return string;

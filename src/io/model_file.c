@@ -74,8 +74,8 @@ facet_result model_file_load(const char *path, const facet_scene_desc *desc, fac
     facet_result result = file_open(path, file_limit(desc->max_file_bytes), &desc->allocator, &file, error);
     if (result == FACET_ERROR_READ && is_url(path))
         return fail(error, FACET_ERROR_READ,
-                    "%s: facet reads files, not addresses; try: curl -sL %s | facet render - -o out.png",
-                    path, path);
+                    "%s: facet reads files, not URLs; try: curl -sL %s | facet render - -o out.png", path,
+                    path);
     if (result != FACET_OK)
         return result;
     model_kind kind = model_kind_detect(file.data, file.size, path);

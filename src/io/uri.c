@@ -208,7 +208,7 @@ static bool open_exact(const file_scope *scope, const char *name, const char *sh
     else if (fd < 0 || fstat(fd, &status) != 0)
         uri_fail(out, FACET_ERROR_READ, "\"%.200s\" cannot be opened: %s", name, strerror(errno));
     else if (!S_ISREG(status.st_mode)) /* a pipe could keep us waiting for ever */
-        uri_fail(out, FACET_ERROR_READ, "\"%.200s\" is no regular file", name);
+        uri_fail(out, FACET_ERROR_READ, "\"%.200s\" is not a regular file", name);
     else
         done = read_once(scope, fd, path, &status, out);
     if (fd >= 0)
@@ -305,14 +305,14 @@ bool uri_load(const file_scope *scope, const char *uri, uri_bytes *out)
     if (strncmp(uri, "data:", 5) == 0)
         return load_data_uri(scope, uri, out);
     if (has_scheme(uri))
-        return uri_fail(out, FACET_ERROR_READ, "\"%.200s\" is no file beside the model; only those are read",
-                        uri);
+        return uri_fail(out, FACET_ERROR_READ,
+                        "\"%.200s\" is not a file beside the model; no others are read", uri);
     size_t length = strlen(uri);
     char *name = mem_alloc(scope->allocator, length + 1, 1);
     if (!name)
         return uri_fail(out, FACET_ERROR_MEMORY, "out of memory for a path");
     bool done = decode_percent(uri, name) ? file_scope_open(scope, name, uri, out)
-                                          : uri_fail(out, FACET_ERROR_INVALID, "has a character 0 inside");
+                                          : uri_fail(out, FACET_ERROR_INVALID, "contains a NUL character");
     if (!done && out->result == FACET_ERROR_READ && strchr(uri, '%')) {
         uri_bytes raw = {0}; /* a name that was written without escaping its % */
         if (file_scope_open(scope, uri, uri, &raw)) {

@@ -335,7 +335,7 @@ facet_result scene_state_create(const facet_scene *scene, const facet_pose_desc 
         return FACET_OK;
     if (!copy_moved(scene, desc, allocator, state) || !copy_weights(scene, desc, allocator, state)) {
         scene_state_destroy(state);
-        return fail_memory(error, "what animations move",
+        return fail_memory(error, "animated values",
                            scene->node_count * sizeof(scene_node) +
                                scene->material_count * sizeof(scene_material));
     }

@@ -254,7 +254,8 @@ static facet_result check(const facet_orbit *orbit, float aspect, facet_error *e
 {
     const float most = 1e18f;
     if (!is_in(aspect, 1e-6f, 1e6f))
-        return fail(error, FACET_ERROR_ARGUMENT, "orbit: an aspect of %g is no picture", (double)aspect);
+        return fail(error, FACET_ERROR_ARGUMENT, "orbit: an aspect ratio of %g is not in [1e-6, 1e6]",
+                    (double)aspect);
     if (!is_in(orbit->azimuth_rad, -most, most) || !is_in(orbit->polar_rad, -most, most))
         return fail(error, FACET_ERROR_ARGUMENT, "orbit: azimuth and polar angle must be finite");
     if (!is_in(orbit->radius, 0.0f, most))

@@ -120,7 +120,7 @@ sed "s/{\"mesh\":0}/{\"mesh\":0,$instances}/; s/\"scene\":0/\"extensionsUsed\":[
     tri.gltf >copies.gltf
 expect 4 inspect copies.gltf
 expect 4 render $small copies.gltf
-says "attributes.TRANSLATION: 9 is the number of no accessor"
+says "attributes.TRANSLATION: accessor 9 does not exist"
 [ "$(wc -l <err)" = 1 ] || failed "more than one sentence about one cause"
 # A model that never comes
 for words in "convert - late.glb" "render - $small -o late.png" "inspect -"; do

@@ -95,13 +95,13 @@ class guard
     bool allow_values()
     {
         return values_ <= limits_.value_count ||
-               refuse(FACET_ERROR_LIMIT, "says that it has %llu values, far more than its bytes can hold",
+               refuse(FACET_ERROR_LIMIT, "declares %llu values, far more than its bytes can hold",
                       static_cast<unsigned long long>(values_));
     }
     bool take(uint64_t bytes)
     {
         if (!mem_account(&allocator_, static_cast<ptrdiff_t>(bytes)))
-            return refuse(FACET_ERROR_MEMORY, "needs %llu bytes to be decoded, more than there are",
+            return refuse(FACET_ERROR_MEMORY, "needs %llu bytes to be decoded, more than are available",
                           static_cast<unsigned long long>(bytes));
         taken_ += bytes;
         return true;
@@ -235,7 +235,7 @@ facet_result decode(const unsigned char *bytes, size_t size, draco_mesh *out, ch
     in.Init(reinterpret_cast<const char *>(bytes), size);
     draco::DecoderBuffer ahead = in;
     if (!draco::PointCloudDecoder::DecodeHeader(&ahead, &header).ok())
-        return say(message, FACET_ERROR_INVALID, "does not begin as one of Draco does");
+        return say(message, FACET_ERROR_INVALID, "does not begin with Draco's signature");
     if (header.encoder_type != draco::TRIANGULAR_MESH)
         return say(message, FACET_ERROR_INVALID, "holds points where a mesh is expected");
     std::unique_ptr<draco::MeshDecoder> decoder;
@@ -244,7 +244,7 @@ facet_result decode(const unsigned char *bytes, size_t size, draco_mesh *out, ch
     else if (header.encoder_method == draco::MESH_SEQUENTIAL_ENCODING)
         decoder = std::make_unique<sequential>(&out->guarded);
     else
-        return say(message, FACET_ERROR_UNSUPPORTED, "has a coding that is not known");
+        return say(message, FACET_ERROR_UNSUPPORTED, "has an unknown encoding");
     const draco::DecoderOptions options;
     const draco::Status status = decoder->Decode(options, &in, &out->mesh);
     if (out->guarded.result() != FACET_OK)
@@ -258,8 +258,7 @@ facet_result decode(const unsigned char *bytes, size_t size, draco_mesh *out, ch
     bool is_valid = are_faces_valid(out->mesh);
     for (int i = 0; i < out->mesh.num_attributes(); i++)
         is_valid = is_valid && is_attribute_valid(*out->mesh.attribute(i), out->mesh.num_points());
-    return is_valid ? FACET_OK
-                    : say(message, FACET_ERROR_INVALID, "refers to vertices that it does not have");
+    return is_valid ? FACET_OK : say(message, FACET_ERROR_INVALID, "refers to vertices that do not exist");
 }
 
 } // namespace
@@ -277,7 +276,7 @@ facet_result draco_shim_decode(const unsigned char *bytes, size_t size, const dr
             *out = mesh.release();
         return result;
     } catch (const std::bad_alloc &) {
-        return say(message, FACET_ERROR_MEMORY, "needs more memory than there is");
+        return say(message, FACET_ERROR_MEMORY, "needs more memory than is available");
     } catch (...) {
         return say(message, FACET_ERROR_INVALID, "is damaged");
     }

@@ -35,9 +35,9 @@ static bool check_header(io_reader *r, const unsigned char *bytes, size_t *size)
     uint32_t length = read_u32(bytes + 8);
     if (length > *size)
         return io_fail(r, NULL, NULL, FACET_ERROR_INVALID,
-                       "is cut off: its header says %u bytes, but there are %zu", length, *size);
+                       "is cut off: its header declares %u bytes, but there are %zu", length, *size);
     if (length < *size) {
-        io_note(r, NULL, NULL, "has %zu bytes behind the %u that its header says; they are ignored",
+        io_note(r, NULL, NULL, "has %zu bytes after the %u that its header declares; they are ignored",
                 *size - length, length);
         *size = length;
     }
@@ -61,7 +61,8 @@ static bool split_glb(io_reader *r, const unsigned char *bytes, size_t size, con
         at += CHUNK_HEADER_SIZE;
         if (length > size - at)
             return io_fail(r, NULL, NULL, FACET_ERROR_INVALID,
-                           "is cut off: chunk %u says %u bytes, but %zu follow", number, length, size - at);
+                           "is cut off: chunk %u declares %u bytes, but %zu follow", number, length,
+                           size - at);
         if (length % 4)
             io_note(r, NULL, NULL, "chunk %u has %u bytes, which is not a multiple of 4", number, length);
         if (number == 0 && type != CHUNK_JSON)
@@ -74,7 +75,7 @@ static bool split_glb(io_reader *r, const unsigned char *bytes, size_t size, con
             r->gltf->bin = bytes + at;
             r->gltf->bin_size = length;
         } else if (type == CHUNK_BIN || type == CHUNK_JSON) {
-            io_warn(r, NULL, NULL, "chunk %u is a second one of its type and is ignored", number);
+            io_warn(r, NULL, NULL, "chunk %u repeats a type and is ignored", number);
         } /* others may come with extensions and are skipped */
         at += length;
     }
@@ -124,22 +125,23 @@ static void read_asset(io_reader *r, const json_place *root)
     const char *version = io_get_string(r, &asset, "version", NULL);
     const char *minimum = io_is_ok(r) ? io_get_string(r, &asset, "minVersion", NULL) : NULL;
     if (version)
-        io_leave_out(r, "it does not count");
+        io_leave_out(r, "it is ignored");
     unsigned major = 0;
     unsigned minor = 0;
     if (!io_is_ok(r))
         return;
     if (!version) {
-        io_fail(r, &asset, "version", FACET_ERROR_INVALID, "is missing; this is no glTF 2.0 file");
+        io_fail(r, &asset, "version", FACET_ERROR_INVALID, "is missing; this is not a glTF 2.0 file");
         return;
     }
     bool is_2 = version[0] == '2' && version[1] != '0' && strspn(version + 1, ".0") == strlen(version + 1);
     if (is_2 && !parse_version(version, &major, &minor)) { /* "2", "2.0.0" */
-        io_note(r, &asset, "version", "\"%.40s\" is no version, as \"2.0\" is", version);
+        io_note(r, &asset, "version", "\"%.40s\" is not a version such as \"2.0\"", version);
         major = 2;
         minor = 0;
     } else if (!parse_version(version, &major, &minor)) {
-        io_fail(r, &asset, "version", FACET_ERROR_INVALID, "\"%.40s\" is no version, as \"2.0\" is", version);
+        io_fail(r, &asset, "version", FACET_ERROR_INVALID, "\"%.40s\" is not a version such as \"2.0\"",
+                version);
         return;
     }
     if (major != 2) {
@@ -150,10 +152,10 @@ static void read_asset(io_reader *r, const json_place *root)
     if (minor != 0)
         io_warn(r, &asset, "version", "is glTF %u.%u; it is read as glTF 2.0", major, minor);
     if (minimum && !parse_version(minimum, &major, &minor))
-        io_note(r, &asset, "minVersion", "\"%.40s\" is no version", minimum);
+        io_note(r, &asset, "minVersion", "\"%.40s\" is not a version", minimum);
     else if (minimum && (major > 2 || minor > 0))
         io_fail(r, &asset, "minVersion", FACET_ERROR_UNSUPPORTED,
-                "asks for a reader of glTF %u.%u; facet "
+                "requires a reader of glTF %u.%u; facet "
                 "reads 2.0",
                 major, minor);
     if (!io_is_ok(r))

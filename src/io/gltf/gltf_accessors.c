@@ -54,7 +54,7 @@ static gltf_component get_component(io_reader *r, const json_place *at)
     bool is_known = (value >= GLTF_I8 && value <= GLTF_U16) || value == GLTF_U32 || value == GLTF_F32;
     if (!is_known && io_is_ok(r))
         io_fail(r, at, "componentType", FACET_ERROR_INVALID,
-                "%llu is none of 5120, 5121, 5122, 5123, 5125, 5126", (unsigned long long)value);
+                "%llu is not one of 5120, 5121, 5122, 5123, 5125, 5126", (unsigned long long)value);
     return is_known ? (gltf_component)value : GLTF_U8;
 }
 
@@ -65,7 +65,7 @@ static gltf_type get_type(io_reader *r, const json_place *at)
         if (strcmp(name, TYPE_NAMES[i]) == 0)
             return (gltf_type)i;
     if (name)
-        io_fail(r, at, "type", FACET_ERROR_INVALID, "\"%.40s\" is no type of accessor", name);
+        io_fail(r, at, "type", FACET_ERROR_INVALID, "\"%.40s\" is not an accessor type", name);
     else
         io_fail(r, at, "type", FACET_ERROR_INVALID, "is missing");
     return GLTF_SCALAR;
@@ -111,7 +111,8 @@ static void read_sparse(io_reader *r, const json_place *accessor, gltf_accessor 
         return;
     gltf_component c = a->sparse_index_component;
     if (c != GLTF_U8 && c != GLTF_U16 && c != GLTF_U32) {
-        io_fail(r, &indices, "componentType", FACET_ERROR_INVALID, "%d is none of 5121, 5123, 5125", (int)c);
+        io_fail(r, &indices, "componentType", FACET_ERROR_INVALID, "%d is not one of 5121, 5123, 5125",
+                (int)c);
         return;
     }
     if (a->sparse_count > a->count) {
@@ -148,7 +149,7 @@ static void read_accessor(io_reader *r, const json_place *at, gltf_accessor *a)
     if (a->count == 0)
         io_note(r, at, "count", "must be at least 1, but is 0");
     if (a->is_normalized && (a->component == GLTF_F32 || a->component == GLTF_U32)) {
-        io_note(r, at, "normalized", "means nothing for this componentType and is ignored");
+        io_note(r, at, "normalized", "has no meaning for this componentType and is ignored");
         a->is_normalized = false;
     }
     if (a->view != SCENE_NONE) {
@@ -183,7 +184,7 @@ static bool check_claim(io_reader *r, const json_place *at, const gltf_accessor 
         a->count <= per_value * a->sparse_count)
         return true;
     return io_fail(r, at, "count", FACET_ERROR_LIMIT,
-                   "%u elements are claimed without a buffer view; at most %llu are allowed here", a->count,
+                   "%u elements are declared without a buffer view; at most %llu are allowed", a->count,
                    (unsigned long long)free_count);
 }
 

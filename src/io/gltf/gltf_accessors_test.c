@@ -195,7 +195,7 @@ static void claims_without_data_are_bounded(void **state)
     scene_destroy(scene);
     snprintf(body, sizeof body, format, 65537u, sparse);
     assert_refused(body, &bin, FACET_ERROR_LIMIT,
-                   "accessors[0].count: 65537 elements are claimed without a buffer view");
+                   "accessors[0].count: 65537 elements are declared without a buffer view");
 }
 
 static void what_leaves_its_buffer_is_left_out(void **state)
@@ -220,7 +220,7 @@ static void what_leaves_its_buffer_is_left_out(void **state)
         "'bufferViews':[{'buffer':0,'byteOffset':9007199254740992,'byteLength':9007199254740992}]", &bin,
         "bufferViews[0].byteOffset");
     assert_left_out("'bufferViews':[{'buffer':1,'byteLength':1}]", &bin,
-                    "bufferViews[0].buffer: 1 is the number of no buffer (there is 1)");
+                    "bufferViews[0].buffer: buffer 1 does not exist (there is 1)");
     /* The last element may end with the view, its stride may not be there. */
     facet_scene *scene =
         load("'bufferViews':[{'buffer':0,'byteLength':64,'byteStride':52}],'accessors':[{'bufferView':0,"
@@ -235,10 +235,10 @@ static void wrong_types_are_refused_where_they_are_used(void **state)
     test_bin bin = {.size = 64};
     const char *views = "'bufferViews':[{'buffer':0,'byteLength':64}],'accessors':[{'bufferView':0,%s}]";
     static const char *const cases[][2] = {
-        {"'componentType':5124,'count':1,'type':'SCALAR'", "5124 is none of"},
+        {"'componentType':5124,'count':1,'type':'SCALAR'", "5124 is not one of"},
         {"'componentType':'x','count':1,'type':'SCALAR'", "must be a number, but is a string"},
         {"'count':1,'type':'SCALAR'", "componentType: is missing"},
-        {"'componentType':5121,'count':1,'type':'VEC5'", "\"VEC5\" is no type"},
+        {"'componentType':5121,'count':1,'type':'VEC5'", "\"VEC5\" is not an accessor type"},
         {"'componentType':5121,'count':1", "type: is missing"},
         {"'componentType':5121,'type':'SCALAR'", "count: is missing"},
         {"'componentType':5121,'count':-1,'type':'SCALAR'", "-1 is not a whole number"},

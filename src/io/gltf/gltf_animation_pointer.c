@@ -6,7 +6,7 @@
 #include "io/gltf/gltf_reader.h"
 #include "scene/material_table.h"
 
-static const char NOTHING[] = "names nothing that can be animated";
+static const char NOTHING[] = "does not name an animatable property";
 
 /* ---- the pointer as tokens ---- */
 
@@ -90,9 +90,9 @@ static const char *resolve_weights(const facet_scene *scene, const pointer_path 
     uint32_t count = mesh == SCENE_NONE ? 0 : scene->meshes[mesh].weight_count;
     uint32_t weight = 0;
     if (count == 0)
-        return "names weights where there are no morph targets";
+        return "names weights of a mesh without morph targets";
     if (p->count == 4 && !get_number(p, 3, count, &weight))
-        return "names a weight that is not there";
+        return "names a weight that does not exist";
     if (p->count > 4)
         return NOTHING;
     set(out, SCENE_TARGET_WEIGHTS, index, weight, p->count == 3 ? count : 1);
@@ -103,7 +103,7 @@ static const char *resolve_mesh(io_reader *r, const pointer_path *p, gltf_target
 {
     uint32_t index;
     if (!get_number(p, 1, r->scene->mesh_count, &index))
-        return "names a mesh that is not there";
+        return "names a mesh that does not exist";
     if (p->count < 3 || strcmp(p->tokens[2], "weights") != 0)
         return NOTHING;
     const char *message = resolve_weights(r->scene, p, index, index, out);
@@ -125,7 +125,7 @@ static const char *resolve_node(io_reader *r, const pointer_path *p, gltf_target
     static const char *const visible[] = {"extensions", "KHR_node_visibility", "visible"};
     uint32_t index;
     if (!get_number(p, 1, r->gltf->file_node_count, &index))
-        return "names a node that is not there";
+        return "names a node that does not exist";
     if (p->count >= 3 && strcmp(p->tokens[2], "weights") == 0)
         return resolve_weights(r->scene, p, index, r->scene->nodes[index].mesh, out);
     for (size_t i = 0; i < sizeof members / sizeof *members; i++)
@@ -173,7 +173,7 @@ static const char *resolve_parameter(const scene_material *m, const pointer_path
         if (!matches(p, 2, names, 4))
             continue;
         if (!has_object(m, row->extension, row->object))
-            return "names what the material lacks";
+            return "names a property that the material lacks";
         if (row->texture && !scene_material_has(m, find_slot(row->extension, row->object, row->texture)))
             return "names a texture that the material lacks";
         if (row->extension == SCENE_IOR && m->ior == 0.0f)
@@ -220,7 +220,7 @@ static const char *resolve_material(io_reader *r, const pointer_path *p, gltf_ta
                                              "diffuseTexture", true};
     uint32_t index;
     if (!get_number(p, 1, r->scene->material_count, &index))
-        return "names a material that is not there";
+        return "names a material that does not exist";
     const scene_material *m = &r->scene->materials[index];
     const char *message = resolve_parameter(m, p, index, out);
     for (int slot = 0; message == NOTHING && slot < SCENE_TEXTURE_SLOT_COUNT; slot++)
@@ -244,13 +244,13 @@ static const char *resolve_light(io_reader *r, const pointer_path *p, gltf_targe
                    {"spot", "outerConeAngle", offsetof(scene_light, outer_cone_rad), 1}};
     uint32_t index;
     if (!get_number(p, 3, r->scene->light_count, &index))
-        return "names a light that is not there";
+        return "names a light that does not exist";
     for (size_t i = 0; i < sizeof members / sizeof *members; i++) {
         const char *names[] = {members[i].object, members[i].name};
         if (!matches(p, 4, names, 2))
             continue;
         if (members[i].object && r->scene->lights[index].type != SCENE_LIGHT_SPOT)
-            return "names a cone of a light that has none";
+            return "names the cone of a light without one";
         set(out, SCENE_TARGET_LIGHT, index, members[i].offset, members[i].width);
         return NULL;
     }
@@ -273,7 +273,7 @@ static const char *resolve_camera(io_reader *r, const pointer_path *p, gltf_targ
                    {"orthographic", "zfar", offsetof(scene_camera, far_m), 1}};
     uint32_t index;
     if (!get_number(p, 1, r->scene->camera_count, &index))
-        return "names a camera that is not there";
+        return "names a camera that does not exist";
     for (size_t i = 0; i < sizeof members / sizeof *members; i++) {
         const char *names[] = {members[i].object, members[i].name};
         if (!matches(p, 2, names, 2))
@@ -310,7 +310,7 @@ const char *gltf_resolve_pointer(io_reader *r, const char *pointer, gltf_target 
     pointer_path path;
     *out = (gltf_target){0};
     if (!split(pointer, &path))
-        return "is no JSON pointer";
+        return "is not a JSON pointer";
     const char *message = resolve_tokens(r, &path, out);
     if (message)
         return message;

@@ -55,7 +55,7 @@ static bool repair_times(io_reader *r, const json_place *at, scene_sampler *s)
     if (!keys)
         return io_fail_memory(r, "animation", s->key_count * sizeof *keys);
     uint32_t count = order_keys(s->times, s->key_count, keys);
-    io_warn(r, at, "input", "does not increase strictly; %u of %u keys are used in their order", count,
+    io_warn(r, at, "input", "does not increase strictly; %u of %u keys are used, sorted", count,
             s->key_count);
     float *times = io_alloc_raw(r, "animation", count, sizeof *times);
     float *values = io_alloc_raw(r, "animation", count, width * sizeof *values);
@@ -138,7 +138,8 @@ static scene_interpolation get_interpolation(io_reader *r, const json_place *at)
     for (int i = 0; i < 3; i++)
         if (strcmp(name, names[i]) == 0)
             return (scene_interpolation)i;
-    io_warn(r, at, "interpolation", "\"%.40s\" is none of LINEAR, STEP, CUBICSPLINE; LINEAR is used", name);
+    io_warn(r, at, "interpolation", "\"%.40s\" is not one of LINEAR, STEP, CUBICSPLINE; LINEAR is used",
+            name);
     return SCENE_LINEAR;
 }
 
@@ -152,12 +153,12 @@ static bool read_sampler(io_reader *r, const json_place *at, scene_sampler *out)
     const gltf_accessor *times = &r->gltf->accessors[input];
     const gltf_accessor *values = &r->gltf->accessors[output];
     if (times->type != GLTF_SCALAR || times->component != GLTF_F32) {
-        io_warn(r, at, "input", "accessor %u must have SCALAR elements of floats; nothing moves by it",
+        io_warn(r, at, "input", "accessor %u must have SCALAR elements of floats; it animates nothing",
                 input);
         return false;
     }
     if (!gltf_has_accessor_source(r, input) || !gltf_has_accessor_source(r, output)) {
-        io_warn(r, at, NULL, "is in a buffer without bytes; nothing moves by it");
+        io_warn(r, at, NULL, "is in a buffer without bytes; it animates nothing");
         return false;
     }
     *out = (scene_sampler){.interpolation = get_interpolation(r, at), .key_count = times->count};
@@ -255,7 +256,7 @@ static bool find_core_target(io_reader *r, const json_place *target, const char 
     while (i < 4 && strcmp(path, paths[i].path) != 0)
         i++;
     if (i == 4)
-        io_warn(r, target, "path", "\"%.40s\" is nothing that moves", path);
+        io_warn(r, target, "path", "\"%.40s\" is not a target path", path);
     if (i == 4 || node == SCENE_NONE)
         return false;
     *out = (gltf_target){.channel = {.kind = paths[i].kind,
@@ -269,9 +270,9 @@ static bool find_core_target(io_reader *r, const json_place *target, const char 
     uint32_t mesh = r->scene->nodes[node].mesh;
     out->width = mesh == SCENE_NONE ? 0 : r->scene->meshes[mesh].weight_count;
     if (mesh == SCENE_NONE)
-        io_warn(r, target, NULL, "asks for weights of node %u, which has no mesh", node);
+        io_warn(r, target, NULL, "targets weights of node %u, which has no mesh", node);
     else if (out->width == 0)
-        io_warn(r, target, NULL, "asks for weights of node %u, whose mesh has no morph targets", node);
+        io_warn(r, target, NULL, "targets weights of node %u, whose mesh has no morph targets", node);
     return out->width > 0;
 }
 
@@ -282,11 +283,11 @@ static bool find_pointed_target(io_reader *r, const json_place *target, gltf_tar
     if (!io_is_ok(r))
         return false;
     if (!pointer) {
-        io_warn(r, target, "path", "is \"pointer\", but there is none");
+        io_warn(r, target, "path", "is \"pointer\", but the pointer is missing");
         return false;
     }
     if (io_has_member(target, "node"))
-        io_note(r, target, "node", "is there beside a pointer; it is ignored");
+        io_note(r, target, "node", "is present beside a pointer; it is ignored");
     const char *message = gltf_resolve_pointer(r, pointer, out);
     if (message && io_is_ok(r))
         io_warn(r, &extension, "pointer", "\"%.200s\" %s; it is ignored", pointer, message);
@@ -356,16 +357,16 @@ static void read_channel(io_reader *r, animation_reader *a, const json_place *at
     found.channel.sampler = number;
     const scene_sampler *s = &a->made[number];
     if (s->width != found.width) {
-        io_warn(r, at, "sampler", "has %u numbers per key, but %u move; it is ignored", s->width,
+        io_warn(r, at, "sampler", "has %u numbers per key, but its target has %u; it is ignored", s->width,
                 found.width);
         return;
     }
     if (found.needs_steps && s->interpolation != SCENE_STEP) {
-        io_warn(r, at, "sampler", "must be of interpolation STEP to move a truth value; it is ignored");
+        io_warn(r, at, "sampler", "must have interpolation STEP to animate a boolean; it is ignored");
         return;
     }
     if (found.channel.kind == SCENE_TARGET_NODE && r->scene->nodes[found.channel.index].has_matrix)
-        io_warn(r, &target, NULL, "moves node %u, which has a matrix", found.channel.index);
+        io_warn(r, &target, NULL, "animates node %u, which has a matrix", found.channel.index);
     if (found.is_of_mesh)
         add_mesh_channels(r, a, &found.channel, s->width);
     else
@@ -395,7 +396,7 @@ static void finish_animation(io_reader *r, const animation_reader *a, scene_anim
 
 static void read_animation(io_reader *r, const json_place *at, scene_animation *out)
 {
-    static const char consequence[] = "nothing moves by it";
+    static const char consequence[] = "it animates nothing";
     animation_reader a = {.samplers = io_get_array(r, at, "samplers")};
     json_place channels = io_get_array(r, at, "channels");
     out->name = io_get_name(r, at);
@@ -432,12 +433,12 @@ void gltf_read_animations(io_reader *r, const json_place *root)
 {
     json_place array = io_get_array(r, root, "animations");
     size_t count = io_get_count(&array);
-    io_leave_out(r, "nothing moves by them");
+    io_leave_out(r, "they animate nothing");
     r->scene->animations = io_alloc(r, "animations", count, sizeof *r->scene->animations);
     for (size_t i = 0; i < count && io_is_ok(r); i++) {
         json_place at = io_get_element_object(r, &array, i);
         r->scene->animations[i].name = "";
-        if (!io_leave_out(r, "nothing moves by it"))
+        if (!io_leave_out(r, "it animates nothing"))
             read_animation(r, &at, &r->scene->animations[i]);
         r->scene->animation_count = (uint32_t)(i + 1);
     }

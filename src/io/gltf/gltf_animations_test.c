@@ -153,12 +153,11 @@ static void what_cannot_move_is_named(void **state)
         {"'input':0,'output':2,'interpolation':'CUBICSPLINE'", "'node':0,'path':'scale'",
          "which is no multiple of 9"},
         {"'input':2,'output':2", "'node':0,'path':'scale'", "accessor 2 must have SCALAR elements"},
-        {"'input':0,'output':3", "'node':0,'path':'scale'", "has 2 numbers per key, but 3 move"},
-        {"'input':0,'output':2", "'node':0,'path':'rotation'", "has 3 numbers per key, but 4 move"},
-        {"'input':0,'output':2", "'node':0,'path':'weights'",
-         "asks for weights of node 0, which has no mesh"},
-        {"'input':0,'output':2", "'node':0,'path':'color'", "\"color\" is nothing that moves"},
-        {"'input':0,'output':2", "'path':'pointer'", "is \"pointer\", but there is none"},
+        {"'input':0,'output':3", "'node':0,'path':'scale'", "has 2 numbers per key, but its target has 3"},
+        {"'input':0,'output':2", "'node':0,'path':'rotation'", "has 3 numbers per key, but its target has 4"},
+        {"'input':0,'output':2", "'node':0,'path':'weights'", "targets weights of node 0, which has no mesh"},
+        {"'input':0,'output':2", "'node':0,'path':'color'", "\"color\" is not a target path"},
+        {"'input':0,'output':2", "'path':'pointer'", "is \"pointer\", but the pointer is missing"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         facet_scene *scene =
@@ -176,8 +175,8 @@ static void what_cannot_move_is_named(void **state)
             "'output':2,'interpolation':'SMOOTH'}],'channels':[{'sampler':0,'target':{'node':0,"
             "'path':'scale'}}]}]");
     assert_int_equal(scene->animations[0].samplers[0].interpolation, SCENE_LINEAR);
-    assert_true(has_warning(scene, "\"SMOOTH\" is none of LINEAR, STEP, CUBICSPLINE"));
-    assert_true(has_warning(scene, "moves node 0, which has a matrix"));
+    assert_true(has_warning(scene, "\"SMOOTH\" is not one of LINEAR, STEP, CUBICSPLINE"));
+    assert_true(has_warning(scene, "animates node 0, which has a matrix"));
     scene_destroy(scene);
 }
 
@@ -295,34 +294,35 @@ static void pointers_that_move_nothing_are_named(void **state)
         size_t width;
         const char *warning;
     } cases[] = {
-        {"/nodes/4/scale", 3, "\"/nodes/4/scale\" names a node that is not there; it is ignored"},
-        {"/nodes/01/scale", 3, "names a node that is not there"},
-        {"/nodes/0", 3, "names nothing that can be animated"},
-        {"/nodes/0/scale/0", 1, "names nothing that can be animated"},
-        {"/nodes/0/mesh", 1, "names nothing that can be animated"},
-        {"/nodes/1/weights", 1, "names weights where there are no morph targets"},
-        {"/nodes/0/weights/2", 1, "names a weight that is not there"},
-        {"/nodes/1/translation", 4, "has 4 numbers per key, but 3 move"},
-        {"nodes/0/scale", 3, "is no JSON pointer"},
-        {"", 3, "is no JSON pointer"},
-        {"/no~2des/0/scale", 3, "is no JSON pointer"},
-        {"/nodes//0/scale", 3, "names a node that is not there"},
-        {"/", 1, "names nothing that can be animated"},
-        {"/a/b/c/d/e/f/g/h/i/j/k/l/m/n", 1, "is no JSON pointer"},
+        {"/nodes/4/scale", 3, "\"/nodes/4/scale\" names a node that does not exist; it is ignored"},
+        {"/nodes/01/scale", 3, "names a node that does not exist"},
+        {"/nodes/0", 3, "does not name an animatable property"},
+        {"/nodes/0/scale/0", 1, "does not name an animatable property"},
+        {"/nodes/0/mesh", 1, "does not name an animatable property"},
+        {"/nodes/1/weights", 1, "names weights of a mesh without morph targets"},
+        {"/nodes/0/weights/2", 1, "names a weight that does not exist"},
+        {"/nodes/1/translation", 4, "has 4 numbers per key, but its target has 3"},
+        {"nodes/0/scale", 3, "is not a JSON pointer"},
+        {"", 3, "is not a JSON pointer"},
+        {"/no~2des/0/scale", 3, "is not a JSON pointer"},
+        {"/nodes//0/scale", 3, "names a node that does not exist"},
+        {"/", 1, "does not name an animatable property"},
+        {"/a/b/c/d/e/f/g/h/i/j/k/l/m/n", 1, "is not a JSON pointer"},
         {"/materials/0/occlusionTexture/strength", 1, "names a texture that the material lacks"},
         {"/materials/0/emissiveTexture/extensions/KHR_texture_transform/offset", 2,
          "names a texture that the material lacks"},
         {"/materials/0/normalTexture/extensions/KHR_texture_transform/texCoord", 1,
-         "names nothing that can be animated"},
-        {"/materials/0/extensions/KHR_materials_sheen/sheenColorFactor", 3, "names what the material lacks"},
+         "does not name an animatable property"},
+        {"/materials/0/extensions/KHR_materials_sheen/sheenColorFactor", 3,
+         "names a property that the material lacks"},
         {"/materials/0/extensions/KHR_materials_ior/ior", 1, "names an index of refraction of 0"},
-        {"/materials/1/pbrMetallicRoughness/baseColorFactor", 4, "names what the material lacks"},
-        {"/materials/0/alphaMode", 1, "names nothing that can be animated"},
+        {"/materials/1/pbrMetallicRoughness/baseColorFactor", 4, "names a property that the material lacks"},
+        {"/materials/0/alphaMode", 1, "does not name an animatable property"},
         {"/extensions/KHR_lights_punctual/lights/0/spot/outerConeAngle", 1,
-         "names a cone of a light that has none"},
-        {"/extensions/KHR_lights_punctual/lights/2/color", 3, "names a light that is not there"},
+         "names the cone of a light without one"},
+        {"/extensions/KHR_lights_punctual/lights/2/color", 3, "names a light that does not exist"},
         {"/cameras/0/orthographic/ymag", 1, "names a lens that the camera lacks"},
-        {"/nodes/0/extensions/KHR_node_visibility/visible", 1, "must be of interpolation STEP"},
+        {"/nodes/0/extensions/KHR_node_visibility/visible", 1, "must have interpolation STEP"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         facet_scene *scene = load_pointer(cases[i].pointer, cases[i].width, "LINEAR");

@@ -61,14 +61,14 @@ uint32_t gltf_get_attribute(io_reader *r, const json_place *attributes, const ch
     gltf_accessor *a = &r->gltf->accessors[index];
     /* Colors as plain integers are a common slip; normalised is the only thing they can mean. */
     if (attribute == GLTF_COLOR && format_of(a) == PLAIN_UNSIGNED && !a->floats) {
-        io_warn(r, attributes, name, "accessor %u must be normalized; it is taken as if", index);
+        io_warn(r, attributes, name, "accessor %u must be normalized; it is read as if it were", index);
         a->is_normalized = true;
     }
     unsigned format = format_of(a);
     if ((a->type != RULES[attribute].type && a->type != RULES[attribute].other_type) ||
         !(format & (RULES[attribute].formats | RULES[attribute].quantized_formats))) {
         io_fail(r, attributes, name, FACET_ERROR_INVALID,
-                "accessor %u has a type and componentType that %s cannot have", index, name);
+                "accessor %u has a type and componentType that are not allowed for %s", index, name);
         return SCENE_NONE;
     }
     if (!(format & RULES[attribute].formats) && !r->gltf->has_quantization)
@@ -128,10 +128,10 @@ void gltf_check_attribute_names(io_reader *r, const json_place *attributes)
             char previous[32];
             snprintf(previous, sizeof previous, "%s%u", numbered[i], number - 1);
             if (is_known && number > 0 && !io_has_member(attributes, previous))
-                io_warn(r, attributes, name, "is there without %s", previous);
+                io_warn(r, attributes, name, "is present without %s", previous);
         }
         if (!is_known)
-            io_note(r, attributes, name, "is no attribute of glTF and is ignored");
+            io_note(r, attributes, name, "is not a glTF attribute and is ignored");
         if (!gltf_is_read_attribute(name) && io_is_ok(r)) {
             gltf_get_accessor(r, attributes, name);
             io_leave_out(r, "nothing reads it");
@@ -220,9 +220,10 @@ const float *gltf_get_positions(io_reader *r, const json_place *at, uint32_t ind
         for (size_t k = 0; k < 3; k++)
             out[3 * i + k] = flags[i] ? 0.0f : in[3 * i + k];
     }
-    io_warn(r, at, NULL,
-            "accessor %u has positions that are not finite or beyond %g m; what uses them is not drawn",
-            index, (double)SCENE_FARTHEST);
+    io_warn(
+        r, at, NULL,
+        "accessor %u has positions that are not finite or beyond %g m; elements that use them are not drawn",
+        index, (double)SCENE_FARTHEST);
     *is_lost = a->is_lost = flags;
     return a->positions = out;
 }

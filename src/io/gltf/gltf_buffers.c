@@ -46,7 +46,7 @@ static void read_view(io_reader *r, const json_place *at, gltf_view *view)
     if (view->stride && (view->stride < 4 || view->stride > 252 || view->stride % 4))
         io_note(r, at, "byteStride", "%zu is not one of 4, 8, .. 252", view->stride);
     if (view->stride && io_get_uint(r, at, "target", UINT32_MAX, 0) == 34963)
-        io_note(r, at, "byteStride", "means nothing for indices");
+        io_note(r, at, "byteStride", "has no meaning for indices");
     gltf_read_meshopt(r, at, view);
 }
 
@@ -112,7 +112,7 @@ static bool load_buffer(io_reader *r, const json_place *at, uint32_t index)
     }
     buffer->available = size < buffer->byte_length ? size : buffer->byte_length;
     if (size > buffer->byte_length && size - buffer->byte_length > (buffer->uri ? 0u : 3u))
-        io_note(r, at, "byteLength", "says %zu bytes, but there are %zu; the rest is ignored",
+        io_note(r, at, "byteLength", "declares %zu bytes, but there are %zu; the rest is ignored",
                 buffer->byte_length, size);
     return true;
 }
@@ -126,13 +126,13 @@ const unsigned char *gltf_get_buffer_bytes(io_reader *r, uint32_t index, size_t 
     if (!io_is_ok(r) || !load_buffer(r, &at, index))
         return NULL;
     if (end > buffer->available) {
-        io_fail(r, &at, "byteLength", FACET_ERROR_INVALID, "says %zu bytes, but there are %zu",
+        io_fail(r, &at, "byteLength", FACET_ERROR_INVALID, "declares %zu bytes, but there are %zu",
                 buffer->byte_length, buffer->available);
         return NULL;
     }
     if (buffer->available < buffer->byte_length)
-        io_warn(r, &at, NULL, "has %zu of its %zu bytes; what needs only those is drawn", buffer->available,
-                buffer->byte_length);
+        io_warn(r, &at, NULL, "has %zu of its %zu bytes; parts that need only those are drawn",
+                buffer->available, buffer->byte_length);
     return buffer->data;
 }
 

@@ -109,8 +109,9 @@ static void broken_targets_change_nothing(void **state)
     static const char body[] =
         "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'targets':[{'POSITION':%d}]}]}]";
     model_assert_left_out(&m, "targets[0].POSITION: accessor 1 has 2 elements, but POSITION has 3", body, 1);
-    model_assert_left_out(&m, "accessor 2 has a type and componentType that POSITION cannot have", body, 2);
-    model_assert_left_out(&m, "targets[0].POSITION: 3 is the number of no accessor", body, 3);
+    model_assert_left_out(&m, "accessor 2 has a type and componentType that are not allowed for POSITION",
+                          body, 2);
+    model_assert_left_out(&m, "targets[0].POSITION: accessor 3 does not exist", body, 3);
 }
 
 static void changes_that_are_not_finite_are_none(void **state)
@@ -126,7 +127,7 @@ static void changes_that_are_not_finite_are_none(void **state)
         &m,
         "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'NORMAL':1},'targets':[{'POSITION':2}]}]}]");
     assert_floats(first_primitive(scene)->targets[0].positions, expected, 9, 0);
-    assert_true(has_warning(scene, "accessor 2 has changes of positions that are not finite"));
+    assert_true(has_warning(scene, "accessor 2 has displacements of positions that are not finite"));
     scene_destroy(scene);
 }
 
@@ -232,7 +233,8 @@ static void broken_influences_are_refused(void **state)
     static const char body[] =
         "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'JOINTS_0':%d,'WEIGHTS_0':%d}}]}],"
         "'nodes':[{'mesh':0,'skin':0},{}],'skins':[{'joints':[0,1]}]";
-    model_assert_refused(&m, "accessor 2 has a type and componentType that JOINTS_0 cannot have", body, 2, 2);
+    model_assert_refused(&m, "accessor 2 has a type and componentType that are not allowed for JOINTS_0",
+                         body, 2, 2);
     model_assert_refused(&m, "accessor 3 has 2 elements, but POSITION has 3", body, 3, 2);
     model_assert_refused(&m, "nodes[0].skin: a vertex of mesh 0 is moved by joint 2, but skin 0 has 2 joints",
                          body, 1, 2);
@@ -241,7 +243,7 @@ static void broken_influences_are_refused(void **state)
                        "'nodes':[{'mesh':0,'skin':0}],'skins':[{'joints':[0]}]");
     assert_int_equal(first_primitive(scene)->influence_count, 0);
     assert_true(has_warning(scene, "has 0 sets of JOINTS_n, but 1 of WEIGHTS_n"));
-    assert_true(has_warning(scene, "nodes[0].skin: moves nothing: mesh 0 has no JOINTS_0"));
+    assert_true(has_warning(scene, "nodes[0].skin: has no effect: mesh 0 has no JOINTS_0"));
     scene_destroy(scene);
 }
 

@@ -207,7 +207,7 @@ static bool bind_attribute(io_reader *r, const json_place *at, const bitstream *
         return true;
     if (components == 0)
         return io_fail(r, at, NULL, FACET_ERROR_INVALID,
-                       "%u is no attribute of the bitstream in buffer view %u", id, view);
+                       "%u is not an attribute of the bitstream in buffer view %u", id, view);
     if (a->count != points)
         return io_fail(r, at, NULL, FACET_ERROR_INVALID,
                        "accessor %u has %u elements, but the bitstream in buffer view %u has %u vertices",

@@ -104,11 +104,11 @@ static void what_does_not_fit_is_refused(void **state)
          "accessor 0 has elements of 2 components, but those in buffer view 0 have 3"},
         {"'type':'VEC4'", "'type':'MAT2'", "accessor 1 has elements of 4 components"},
         {"{'bufferView':0,'attributes':{'POSITION':0", "{'bufferView':0,'attributes':{'POSITION':7",
-         "7 is no attribute of the bitstream"},
+         "7 is not an attribute of the bitstream"},
         {"'componentType':5126", "'componentType':5121",
          "the values in buffer view 0 do not have the componentType of accessor 0"},
         {"{'bufferView':0,'attributes'", "{'bufferView':1,'attributes'",
-         "KHR_draco_mesh_compression.bufferView: 1"},
+         "KHR_draco_mesh_compression.bufferView: buffer view 1"},
         {"{'bufferView':0,'attributes'", "{'attributes'",
          "KHR_draco_mesh_compression.bufferView: is missing"},
         {"'indices':2", "'indices':2,'mode':0", "mode: must be 4 or 5"},
@@ -286,7 +286,7 @@ static void large_counts_take_no_memory(void **state)
     memcpy(bytes + FACE_COUNT_AT + 4, SEQUENTIAL + FACE_COUNT_AT + 1, sizeof SEQUENTIAL - FACE_COUNT_AT - 1);
     const test_bin bin = make_bin(bytes, sizeof bytes);
     assert_refused(make_body(sizeof bytes, "'count':6", "'count':180000000"), &bin, FACET_ERROR_LIMIT,
-                   "has a bitstream that says that it has 180000000 values");
+                   "has a bitstream that declares 180000000 values");
     assert_refused(make_body(sizeof bytes, NULL, NULL), &bin, FACET_ERROR_INVALID,
                    "has a bitstream that has 60000000 triangles where 2 are expected");
     assert_refused(make_body(sizeof bytes, "'count':6", "'count':900000000"), &bin, FACET_ERROR_LIMIT,

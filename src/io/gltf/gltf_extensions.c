@@ -35,16 +35,16 @@ static const known_extension KNOWN[] = {
     /* Says which primitives may be drawn in one call: they are ordinary ones, and are drawn. */
     {"EXT_mesh_primitive_restart", SCENE_SUPPORTED, ELSEWHERE, NULL, 0},
     {"EXT_meshopt_compression", SCENE_SUPPORTED, BUFFER | VIEW, NULL, 0},
-    {"EXT_texture_avif", SCENE_SUPPORTED, TEXTURE, "other images are used where there are any",
+    {"EXT_texture_avif", SCENE_SUPPORTED, TEXTURE, "fallback images are used where the file has them",
      IMAGE_CODEC_AVIF},
-    {"EXT_texture_webp", SCENE_SUPPORTED, TEXTURE, "other images are used where there are any",
+    {"EXT_texture_webp", SCENE_SUPPORTED, TEXTURE, "fallback images are used where the file has them",
      IMAGE_CODEC_WEBP},
     {"KHR_animation_pointer", SCENE_SUPPORTED, TARGET, NULL, 0},
 #ifdef HAVE_DRACO
     {"KHR_draco_mesh_compression", SCENE_SUPPORTED, PRIMITIVE, NULL, 0},
 #else
-    {"KHR_draco_mesh_compression", SCENE_IGNORED, PRIMITIVE, "uncompressed data is used where there is any",
-     0},
+    {"KHR_draco_mesh_compression", SCENE_IGNORED, PRIMITIVE,
+     "uncompressed data is used where the file has it", 0},
 #endif
     {"KHR_lights_punctual", SCENE_SUPPORTED, ROOT | NODE, NULL, 0},
     {"KHR_materials_anisotropy", SCENE_SUPPORTED, MATERIAL, NULL, 0},
@@ -97,7 +97,7 @@ static const known_extension KNOWN[] = {
     {"OMI_spawn_point", SCENE_IGNORED, ANYWHERE, NULL, 0},
     /* Left out; docs/gltf-support.md says why. */
     {"EXT_lights_ies", SCENE_IGNORED, ANYWHERE, "its lights are left out", 0},
-    {"MSFT_texture_dds", SCENE_SUPPORTED, TEXTURE, "other images are used where there are any",
+    {"MSFT_texture_dds", SCENE_SUPPORTED, TEXTURE, "fallback images are used where the file has them",
      IMAGE_CODEC_DDS},
 };
 
@@ -187,7 +187,7 @@ static void check_extensions_of(io_reader *r, json_t *extensions, int place)
         if (listed && known && !(known->places & place))
             io_note_each(r, NULL, NULL, "has %.100s in an object that it does not extend", name);
         if (!json_is_object(extension))
-            io_note_each(r, NULL, NULL, "has an extension %.100s that is no object", name);
+            io_note_each(r, NULL, NULL, "has an extension %.100s that is not an object", name);
     }
 }
 
@@ -222,7 +222,7 @@ static void warn_ignored(io_reader *r)
         if (!known && !extension->is_present)
             io_note_each(r, NULL, NULL, "lists the extension %.100s, which no object has", extension->name);
         else if (!known)
-            io_warn_each(r, NULL, NULL, "uses the extension %.100s, which facet does not know",
+            io_warn_each(r, NULL, NULL, "uses the extension %.100s, which facet does not support",
                          extension->name);
         else if (extension->is_present && extension->support == SCENE_IGNORED && known->effect)
             io_warn_each(r, NULL, NULL, "uses %s, which is not drawn: %s", extension->name, known->effect);
@@ -232,7 +232,7 @@ static void warn_ignored(io_reader *r)
 void gltf_read_extensions(io_reader *r, const json_place *root)
 {
     json_place used = io_get_array(r, root, "extensionsUsed");
-    io_leave_out(r, "extensions count where they are");
+    io_leave_out(r, "extensions of objects are read all the same");
     json_place required = io_get_array(r, root, "extensionsRequired");
     io_leave_out(r, "none is required");
     size_t most = io_get_count(&used) + io_get_count(&required);
@@ -263,7 +263,7 @@ void gltf_read_extensions(io_reader *r, const json_place *root)
         const known_extension *known = find_known(extension->name);
         if (!known || !is_built(known) || (known->support == SCENE_IGNORED && known->effect))
             io_fail(r, NULL, NULL, FACET_ERROR_UNSUPPORTED,
-                    "requires the extension %.100s, which facet lacks", extension->name);
+                    "requires the extension %.100s, which facet does not support", extension->name);
     }
     scene_extension *quantization = find_listed(r, "KHR_mesh_quantization");
     r->gltf->has_quantization = quantization != NULL;

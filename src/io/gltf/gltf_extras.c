@@ -56,7 +56,7 @@ static void check_packet(io_reader *r, const json_place *extension)
     const json_t *packet = json_object_get(extension->value, "packet");
     json_int_t index = json_is_integer(packet) ? json_integer_value(packet) : -1;
     if (packet && (index < 0 || (uint64_t)index >= io_get_count(&list)))
-        io_note(r, extension, "packet", "is the number of no packet");
+        io_note(r, extension, "packet", "is not the index of a packet");
 }
 
 scene_meta gltf_get_meta(io_reader *r, const json_place *object)

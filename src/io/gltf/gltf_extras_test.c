@@ -37,8 +37,8 @@ static void variants_name_materials(void **state)
         "'extensions':{'KHR_materials_variants':{'variants':[{'name':'a'}]}},"
         "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'extensions':{'KHR_materials_variants':{"
         "'mappings':[{'material':%d,'variants':[%d]}]}}}]}]";
-    model_assert_left_out(&m, "mappings[0].material: 1 is the number of no material", body, 1, 0);
-    model_assert_left_out(&m, "mappings[0].variants[0]: 1 is the number of no variant", body, 0, 1);
+    model_assert_left_out(&m, "mappings[0].material: material 1 does not exist", body, 1, 0);
+    model_assert_left_out(&m, "mappings[0].variants[0]: variant 1 does not exist", body, 0, 1);
 }
 
 /* ---- instances ---- */
@@ -80,8 +80,9 @@ static void instances_arrive(void **state)
         "'POSITION':0}}]}],'nodes':[{'mesh':0,'extensions':{'EXT_mesh_gpu_instancing':{'attributes':{"
         "'TRANSLATION':%d,'ROTATION':%d}}}}]";
     model_assert_refused(&m, "ROTATION: accessor 2 has 2 elements, but there are 3 instances", body, 0, 2);
-    model_assert_refused(&m, "accessor 1 has a type and componentType that ROTATION of instances", body, 1,
-                         1);
+    model_assert_refused(
+        &m, "accessor 1 has a type and componentType that are not allowed for ROTATION of instances", body, 1,
+        1);
 }
 
 /* A few bytes of JSON that claim a million instances take nothing: without data, all of them are the same. */
@@ -102,7 +103,7 @@ static void instances_without_data_are_one(void **state)
         assert_int_equal(scene->nodes[0].instancing->count, 1);
         assert_null(scene->nodes[0].instancing->translations);
         assert_true((scene->nodes[0].instancing->scales != NULL) == (i == 1)); /* of size 0 */
-        assert_true(has_warning(scene, "1000000 instances without data are at one place; one is drawn"));
+        assert_true(has_warning(scene, "1000000 instances without data are in one place; one is drawn"));
         scene_destroy(scene);
     }
 }
@@ -145,10 +146,10 @@ static void image_lights_arrive(void **state)
         int image;
         const char *coefficient, *extension, *message;
     } cases[] = {
-        {2, "[7,8,9]", "'light':0", "specularImages[1][5]: 2 is the number of no image"},
+        {2, "[7,8,9]", "'light':0", "specularImages[1][5]: image 2 does not exist"},
         {0, "[7,8]", "'light':0", "irradianceCoefficients[8]: must have 3 numbers, but has 2"},
         {0, "[7,8,9],[0,0,0]", "'light':0", "must have 9 coefficients, but has 10"},
-        {0, "[7,8,9]", "'light':1", "light: 1 is the number of no light"},
+        {0, "[7,8,9]", "'light':1", "light: light 1 does not exist"},
         {0, "[7,8,9]", "", "light: is missing"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -195,7 +196,7 @@ static void xmp_is_kept(void **state)
              NULL);
     assert_string_equal(scene->meta.extensions, "{\"KHR_xmp_json_ld\":{\"packets\":[{\"dc:title\":\"t\"}]}}");
     assert_string_equal(scene->nodes[0].meta.extensions, "{\"KHR_xmp_json_ld\":{\"packet\":0}}");
-    assert_true(has_note(scene, "nodes[1].KHR_xmp_json_ld.packet: is the number of no packet"));
+    assert_true(has_note(scene, "nodes[1].KHR_xmp_json_ld.packet: is not the index of a packet"));
     assert_int_equal(scene->extensions[0].support, SCENE_SUPPORTED);
     scene_destroy(scene);
 }

@@ -175,7 +175,7 @@ static void files_that_are_too_short_are_refused(void **state)
     facet_scene *scene;
     facet_error error = {0};
     assert_int_equal(load_uri_model(*state, "short.bin", NULL, &scene, &error), FACET_ERROR_INVALID);
-    assert_non_null(strstr(error.message, "buffers[0].byteLength: says 36 bytes, but there are 35"));
+    assert_non_null(strstr(error.message, "buffers[0].byteLength: declares 36 bytes, but there are 35"));
 }
 
 static void data_uris_are_decoded(void **state)
@@ -196,7 +196,7 @@ static void data_uris_are_decoded(void **state)
                                          {"data:text/plain,hello", "is a data URI that is not base64"},
                                          {"data:;base64,AAA!", "characters that are not base64"},
                                          {"data:;base64,AAAAA", "characters that are not base64"},
-                                         {"data:;base64,", "says 36 bytes, but there are 0"}};
+                                         {"data:;base64,", "declares 36 bytes, but there are 0"}};
     for (int i = 0; i < 5; i++) {
         assert_int_equal(load_uri_model(*state, bad[i][0], NULL, &scene, &error), FACET_ERROR_INVALID);
         if (!strstr(error.message, bad[i][1]))
@@ -232,11 +232,12 @@ static void broken_containers_say_what_is_wrong(void **state)
         {"glTF\1\0\0\0\14\0\0\0", 12, FACET_ERROR_UNSUPPORTED, "is binary glTF 1.0"},
         {"glTF\3\0\0\0\14\0\0\0", 12, FACET_ERROR_UNSUPPORTED, "is GLB version 3"},
         {"glTF\2\0\0\0\14\0\0\0", 12, FACET_ERROR_INVALID, "has no JSON chunk"},
-        {"glTF\2\0\0\0\15\0\0\0", 12, FACET_ERROR_INVALID, "its header says 13 bytes, but there are 12"},
+        {"glTF\2\0\0\0\15\0\0\0", 12, FACET_ERROR_INVALID, "its header declares 13 bytes, but there are 12"},
         {"glTF\2\0\0\0\20\0\0\0abcd", 16, FACET_ERROR_INVALID, "is cut off in the header of chunk 0"},
-        {"glTF\2\0\0\0\24\0\0\0\4\0\0\0JSON", 20, FACET_ERROR_INVALID, "chunk 0 says 4 bytes, but 0 follow"},
+        {"glTF\2\0\0\0\24\0\0\0\4\0\0\0JSON", 20, FACET_ERROR_INVALID,
+         "chunk 0 declares 4 bytes, but 0 follow"},
         {"glTF\2\0\0\0\24\0\0\0\377\377\377\377JSON", 20, FACET_ERROR_INVALID,
-         "chunk 0 says 4294967295 bytes"},
+         "chunk 0 declares 4294967295 bytes"},
         {"glTF\2\0\0\0\24\0\0\0\0\0\0\0BIN\0", 20, FACET_ERROR_INVALID, "the first chunk must be JSON"},
         {"{", 1, FACET_ERROR_INVALID, "is not valid JSON: line 1"},
         {"{}", 2, FACET_ERROR_INVALID, "asset.version: is missing"},
@@ -336,7 +337,7 @@ static void versions_of_two_written_otherwise_are_read(void **state)
         snprintf(json, sizeof json, "{'asset':{'version':'%s'}}", versions[i]);
         if (try_load_text(json, &scene, &error) != FACET_OK)
             fail_msg("%s", error.message);
-        assert_true(has_note(scene, "is no version, as \"2.0\" is"));
+        assert_true(has_note(scene, "is not a version such as \"2.0\""));
         scene_destroy(scene);
     }
 }
@@ -349,7 +350,7 @@ static void large_numbers_are_rounded(void **state)
                               NULL);
     assert_string_equal(scene->materials[0].meta.extras, "{\"id\":1.8446744073709552e19}");
     assert_int_equal(scene->warning_count, 0);
-    assert_true(has_note(scene, "has whole numbers beyond 2^63; they are rounded"));
+    assert_true(has_note(scene, "has integers beyond 2^63; they are rounded"));
     scene_destroy(scene);
 }
 
@@ -364,11 +365,11 @@ static void versions_are_looked_at(void **state)
         {"{'asset':{'version':'1.0'}}", FACET_ERROR_UNSUPPORTED,
          "asset.version: is glTF 1.0; only glTF 2.0 is read"},
         {"{'asset':{'version':'3.1'}}", FACET_ERROR_UNSUPPORTED, "is glTF 3.1"},
-        {"{'asset':{'version':'two'}}", FACET_ERROR_INVALID, "is no version"},
-        {"{'asset':{'version':'20'}}", FACET_ERROR_INVALID, "is no version"},
+        {"{'asset':{'version':'two'}}", FACET_ERROR_INVALID, "is not a version"},
+        {"{'asset':{'version':'20'}}", FACET_ERROR_INVALID, "is not a version"},
         {"{'asset':{'version':2}}", FACET_ERROR_INVALID, "must be a string, but is a number"},
         {"{'asset':{'version':'2.0','minVersion':'2.1'}}", FACET_ERROR_UNSUPPORTED,
-         "asks for a reader of glTF 2.1"},
+         "requires a reader of glTF 2.1"},
         {"{'asset':{'version':'2.1'}}", FACET_OK, "is glTF 2.1; it is read as glTF 2.0"},
         {"{'asset':{'version':'2.1','minVersion':'2.0'}}", FACET_OK, "is glTF 2.1; it is read as glTF 2.0"},
     };
@@ -386,14 +387,14 @@ static void extensions_are_named(void **state)
 {
     (void)state;
     assert_refused("'extensionsUsed':['VENDOR_x'],'extensionsRequired':['VENDOR_x']", NULL,
-                   FACET_ERROR_UNSUPPORTED, "requires the extension VENDOR_x, which facet lacks");
+                   FACET_ERROR_UNSUPPORTED, "requires the extension VENDOR_x, which facet does not support");
     facet_scene *scene =
         load("'extensionsUsed':['VENDOR_x','EXT_lights_ies','KHR_xmp_json_ld','KHR_materials_ior'],"
              "'extensionsRequired':['KHR_materials_ior'],'materials':[{'extensions':{'VENDOR_y':{},'VENDOR_x'"
              ":{}}}],"
              "'nodes':[{'extensions':{'KHR_materials_ior':{},'EXT_lights_ies':{}}}]",
              NULL);
-    assert_true(has_warning(scene, "uses the extension VENDOR_x, which facet does not know"));
+    assert_true(has_warning(scene, "uses the extension VENDOR_x, which facet does not support"));
     assert_true(has_warning(scene, "uses EXT_lights_ies, which is not drawn: its lights are left out"));
     assert_true(has_warning(scene, "uses VENDOR_y without naming it in extensionsUsed"));
     assert_true(has_note(scene, "has KHR_materials_ior in an object that it does not extend"));

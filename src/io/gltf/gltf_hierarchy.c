@@ -232,7 +232,8 @@ static uint32_t get_instances(io_reader *r, const json_place *attributes, const 
     bool is_signed = a->is_normalized && (a->component == GLTF_I8 || a->component == GLTF_I16);
     if (a->type != type || !(a->component == GLTF_F32 || (type == GLTF_VEC4 && is_signed))) {
         io_fail(r, attributes, name, FACET_ERROR_INVALID,
-                "accessor %u has a type and componentType that %s of instances cannot have", index, name);
+                "accessor %u has a type and componentType that are not allowed for %s of instances", index,
+                name);
         return SCENE_NONE;
     }
     if (*count != SCENE_NONE && a->count != *count) {
@@ -301,7 +302,7 @@ const scene_instancing *gltf_read_instancing(io_reader *r, const json_place *nod
     if (!has_data) { /* all zeros: where the node is, or of size 0 */
         static const float zeros[3] = {0, 0, 0};
         if (count > 1)
-            io_warn(r, &attributes, NULL, "%u instances without data are at one place; one is drawn", count);
+            io_warn(r, &attributes, NULL, "%u instances without data are in one place; one is drawn", count);
         *out = (scene_instancing){.count = count ? 1 : 0, .scales = scale != SCENE_NONE ? zeros : NULL};
         return out;
     }

@@ -140,7 +140,7 @@ static uint32_t exclude(io_reader *r, const json_place *material, uint32_t bits,
         return bits;
     for (size_t i = 0; i < MATERIAL_EXTENSION_COUNT; i++)
         if (bits & others & material_extensions[i].bit)
-            io_note(r, material, NULL, "has %s, which excludes %s; that one is ignored", winner_name,
+            io_note(r, material, NULL, "has %s, which excludes %s; the latter is ignored", winner_name,
                     material_extensions[i].name);
     return bits & ~others;
 }
@@ -169,7 +169,7 @@ static scene_alpha_mode get_alpha_mode(io_reader *r, const json_place *at)
     if (strcmp(mode, "BLEND") == 0)
         return SCENE_ALPHA_BLEND;
     if (strcmp(mode, "OPAQUE") != 0)
-        io_warn(r, at, "alphaMode", "\"%.40s\" is none of OPAQUE, MASK, BLEND; OPAQUE is used", mode);
+        io_warn(r, at, "alphaMode", "\"%.40s\" is not one of OPAQUE, MASK, BLEND; OPAQUE is used", mode);
     return SCENE_ALPHA_OPAQUE;
 }
 

@@ -237,7 +237,7 @@ static void extensions_that_exclude_others_win(void **state)
     assert_int_equal(m[1].extensions, SCENE_SPECULAR_GLOSSINESS | SCENE_EMISSIVE_STRENGTH);
     assert_near(m[1].specular_color[1], 0.5, 0);
     assert_true(has_note(scene, "materials[0]: has KHR_materials_unlit, which excludes "
-                                "KHR_materials_pbrSpecularGlossiness; that one is ignored"));
+                                "KHR_materials_pbrSpecularGlossiness; the latter is ignored"));
     assert_true(has_note(scene, "(2 times in all)"));
     assert_int_equal(scene->warning_count, 0);
     scene_destroy(scene);
@@ -317,7 +317,7 @@ static void values_out_of_range_are_clamped_with_a_warning(void **state)
     assert_near(m->emissive[0], 5, 0); /* viewers draw it */
     assert_int_equal(m->alpha_mode, SCENE_ALPHA_OPAQUE);
     assert_true(has_warning(scene, "baseColorFactor[0]: 2 is out of range; 1 is used (3 times in all)"));
-    assert_true(has_warning(scene, "\"SHINY\" is none of OPAQUE, MASK, BLEND"));
+    assert_true(has_warning(scene, "\"SHINY\" is not one of OPAQUE, MASK, BLEND"));
     assert_int_equal(scene->warning_count, 3);
     assert_true(has_note(scene, "emissiveFactor: is above 1"));
     scene_destroy(scene);
@@ -327,7 +327,7 @@ static void wrong_members_are_refused_where_they_are_used(void **state)
 {
     (void)state;
     static const char *const cases[][2] = {
-        {"'materials':[{'normalTexture':{'index':0}}]", "normalTexture.index: 0 is the number of no texture"},
+        {"'materials':[{'normalTexture':{'index':0}}]", "normalTexture.index: texture 0 does not exist"},
         {"'materials':[{'normalTexture':{}}]", "materials[0].normalTexture.index: is missing"},
         {"'materials':[{'pbrMetallicRoughness':{'baseColorFactor':[1,1,1]}}]",
          "must have 4 numbers, but has 3"},
@@ -343,12 +343,12 @@ static void wrong_members_are_refused_where_they_are_used(void **state)
     assert_refused("'materials':{}", NULL, FACET_ERROR_INVALID,
                    "materials: must be an array, but is an object");
     assert_left_out("'textures':[{'sampler':0}]", NULL,
-                    "textures[0].sampler: 0 is the number of no sampler (there are 0); the texture has the "
+                    "textures[0].sampler: sampler 0 does not exist (there are 0); the texture has the "
                     "default sampler");
     assert_left_out("'textures':[{'source':0}]", NULL,
-                    "textures[0].source: 0 is the number of no image (there are 0); white is used");
+                    "textures[0].source: image 0 does not exist (there are 0); white is used");
     assert_left_out("'images':[{'bufferView':0}]", NULL,
-                    "images[0].bufferView: 0 is the number of no buffer view (there are 0); white is used");
+                    "images[0].bufferView: buffer view 0 does not exist (there are 0); white is used");
 }
 
 static void samplers_translate(void **state)

@@ -78,9 +78,9 @@ static const struct {
     const char *name, *what;
     gltf_attribute attribute;
 } DELTAS[3] = {
-    {"POSITION", "changes of positions", GLTF_POSITION_DELTA},
-    {"NORMAL", "changes of normals", GLTF_NORMAL_DELTA},
-    {"TANGENT", "changes of tangents", GLTF_TANGENT_DELTA},
+    {"POSITION", "displacements of positions", GLTF_POSITION_DELTA},
+    {"NORMAL", "displacements of normals", GLTF_NORMAL_DELTA},
+    {"TANGENT", "displacements of tangents", GLTF_TANGENT_DELTA},
 };
 
 /* Every accessor that a target names must be there, and so must the attribute that it changes. */
@@ -102,7 +102,7 @@ static void check_target(io_reader *r, const json_place *target, const json_plac
         else if (strncmp(name, "TEXCOORD_", 9) == 0 || strncmp(name, "COLOR_", 6) == 0)
             io_warn(r, target, name, "is not morphed");
         else if (!is_read && name[0] != '_')
-            io_note(r, target, name, "is nothing that a morph target can change");
+            io_note(r, target, name, "cannot be changed by a morph target");
     }
 }
 
@@ -401,7 +401,7 @@ static void read_mesh(io_reader *r, const json_place *at, scene_mesh *mesh)
     if (!io_is_ok(r))
         return;
     mesh->weights = gltf_read_weights(r, at, mesh->weight_count);
-    if (io_leave_out(r, "no morph target counts"))
+    if (io_leave_out(r, "its morph targets are ignored"))
         mesh->weights = NULL;
     if (!mesh->weights && mesh->weight_count)
         mesh->weights = io_alloc(r, "weights", mesh->weight_count, sizeof *mesh->weights);

@@ -159,7 +159,7 @@ static void the_last_index_restarts_where_there_is_no_vertex(void **state)
         snprintf(members, sizeof members, ",'mode':%d", expected[i].mode);
         facet_scene *scene = load_byte_indices(8, indices, sizeof indices, members);
         const scene_primitive *p = first_primitive(scene);
-        assert_true(has_warning(scene, "has the index 255, which is taken as a primitive restart"));
+        assert_true(has_warning(scene, "has the index 255, which is read as a primitive restart"));
         assert_int_equal(scene->warning_count, 1);
         assert_int_equal(p->index_count, expected[i].count);
         for (uint32_t k = 0; k < p->index_count; k++)
@@ -323,9 +323,9 @@ static void attributes_must_fit_together(void **state)
         {",'COLOR_0':1", ",{'componentType':5126,'count':2,'type':'VEC3'}",
          "COLOR_0: accessor 1 has 2 elements, but POSITION has 3"},
         {",'COLOR_0':1", ",{'componentType':5126,'count':3,'type':'VEC2'}",
-         "accessor 1 has a type and componentType that COLOR_0 cannot have"},
-        {",'NORMAL':9", "", "attributes.NORMAL: 9 is the number of no accessor"},
-        {",'NORMAL':1", ",{'componentType':5125,'count':3,'type':'VEC3'}", "that NORMAL cannot have"},
+         "accessor 1 has a type and componentType that are not allowed for COLOR_0"},
+        {",'NORMAL':9", "", "attributes.NORMAL: accessor 9 does not exist"},
+        {",'NORMAL':1", ",{'componentType':5125,'count':3,'type':'VEC3'}", "that are not allowed for NORMAL"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         facet_scene *scene = NULL;
@@ -341,14 +341,14 @@ static void attributes_that_nothing_reads_are_left_out(void **state)
 {
     (void)state;
     static const char *const cases[][3] = {
-        {",'_X':9", "", "attributes._X: 9 is the number of no accessor (there is 1); nothing reads it"},
+        {",'_X':9", "", "attributes._X: accessor 9 does not exist (there is 1); nothing reads it"},
         {",'COLOR_1':'a'", "", "attributes.COLOR_1: must be a number, but is a string; nothing reads it"},
         {",'TEXCOORD_0':1", ",{'componentType':5126,'count':2,'type':'VEC2'}",
          "TEXCOORD_0: accessor 1 has 2 elements, but POSITION has 3; no texture reads it"},
         {",'NORMAL':0,'TANGENT':9", "",
-         "TANGENT: 9 is the number of no accessor (there is 1); tangents are computed"},
+         "TANGENT: accessor 9 does not exist (there is 1); tangents are computed"},
         {",'JOINTS_0':9,'WEIGHTS_0':9", "",
-         "JOINTS_0: 9 is the number of no accessor (there is 1); nothing that is drawn uses it"},
+         "JOINTS_0: accessor 9 does not exist (there is 1); nothing that is drawn uses it"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         facet_scene *scene = load_mesh(3, cases[i][0], "", NULL, "", cases[i][1]);
@@ -366,7 +366,7 @@ static void texcoord_sets_are_all_there(void **state)
     facet_scene *scene = load_mesh(3, ",'TEXCOORD_0':1,'TEXCOORD_1':1,'TEXCOORD_2':1,'TEXCOORD_4':1", "",
                                    NULL, "", ",{'componentType':5126,'count':3,'type':'VEC2'}");
     assert_int_equal(first_primitive(scene)->texcoord_count, 3);
-    assert_true(has_warning(scene, "TEXCOORD_4: is there without TEXCOORD_3"));
+    assert_true(has_warning(scene, "TEXCOORD_4: is present without TEXCOORD_3"));
     scene_destroy(scene);
 }
 

@@ -76,7 +76,7 @@ void gltf_read_cameras(io_reader *r, const json_place *root)
     for (size_t i = 0; i < count && io_is_ok(r); i++) {
         json_place at = io_get_element_object(r, &array, i);
         read_camera(r, &at, &r->scene->cameras[i]);
-        if (io_leave_out(r, "the camera gets an angle of 0.8"))
+        if (io_leave_out(r, "a field of view of 0.8 rad is used"))
             r->scene->cameras[i] = (scene_camera){.name = io_get_name(r, &at), .fov_y_rad = 0.8f};
         r->scene->cameras[i].meta = gltf_get_meta(r, &at);
         r->scene->camera_count = (uint32_t)(i + 1);
@@ -116,7 +116,7 @@ static void read_light(io_reader *r, const json_place *at, scene_light *out)
         out->type = SCENE_LIGHT_SPOT;
         read_spot(r, at, out);
     } else {
-        io_warn(r, at, "type", "\"%.40s\" is none of directional, point, spot; the light is dark", type);
+        io_warn(r, at, "type", "\"%.40s\" is not one of directional, point, spot; the light is dark", type);
         out->type = SCENE_LIGHT_POINT;
         out->intensity = 0.0f;
     }
@@ -195,7 +195,7 @@ static void read_attachments(io_reader *r, const json_place *at, scene_node *out
     if (out->mesh != SCENE_NONE)
         out->weights = gltf_read_weights(r, at, r->scene->meshes[out->mesh].weight_count);
     else if (io_has_member(at, "weights"))
-        io_note(r, at, "weights", "are there without a mesh");
+        io_note(r, at, "weights", "are present without a mesh");
     if (io_leave_out(r, "the node has the weights of its mesh"))
         out->weights = NULL;
 }
@@ -216,7 +216,7 @@ static void read_node(io_reader *r, const json_place *at, scene_node *out, uint3
     if (out->mesh == SCENE_NONE) {
         io_leave_out(r, "the node has no mesh");
         if (out->skin != SCENE_NONE)
-            io_note(r, at, "skin", "is there without a mesh");
+            io_note(r, at, "skin", "is present without a mesh");
         if (out->instancing)
             io_note(r, at, NULL, "has instances, but no mesh");
     } else if (out->skin != SCENE_NONE && out->instancing) {
@@ -262,7 +262,7 @@ static void read_scene(io_reader *r, const json_place *at, scene_root *out, bool
         if (node == SCENE_NONE)
             return;
         if (r->scene->nodes[node].parent != SCENE_NONE) {
-            io_warn(r, &element, NULL, "node %u is no root, but a child of node %u", node,
+            io_warn(r, &element, NULL, "node %u is not a root but a child of node %u", node,
                     r->scene->nodes[node].parent);
         }
         if (is_listed[node]) {
@@ -278,7 +278,7 @@ static void read_scene(io_reader *r, const json_place *at, scene_root *out, bool
     out->image_light = io_get_required_index(r, &light, "light", r->scene->image_light_count, "light");
     if (out->image_light != SCENE_NONE && r->scene->image_lights[out->image_light].mip_count == 0)
         out->image_light = SCENE_NONE; /* a warning said why */
-    if (io_leave_out(r, "the scene has no light of images"))
+    if (io_leave_out(r, "the scene has no image-based light"))
         out->image_light = SCENE_NONE;
     out->meta = gltf_get_meta(r, at);
 }
@@ -356,7 +356,7 @@ void gltf_read_image_lights(io_reader *r, const json_place *root)
     size_t count = io_get_count(&array);
     if (io_is_ok(r) && extension.value && !array.value)
         io_note(r, &extension, "lights", "is missing");
-    io_leave_out(r, "there is no light of images");
+    io_leave_out(r, "there is no image-based light");
     r->scene->image_lights = io_alloc(r, "lights", count, sizeof *r->scene->image_lights);
     for (size_t i = 0; i < count && io_is_ok(r); i++) {
         json_place at = io_get_element_object(r, &array, i);
@@ -367,7 +367,7 @@ void gltf_read_image_lights(io_reader *r, const json_place *root)
         out->intensity = io_get_float_in(r, &at, "intensity", 0.0f, FLT_MAX, 1.0f);
         read_irradiance(r, &at, out);
         read_cube(r, &at, out);
-        if (io_leave_out(r, "the light of images is left out"))
+        if (io_leave_out(r, "the image-based light is left out"))
             *out = (scene_image_light){.name = io_get_name(r, &at), .rotation = {0, 0, 0, 1}};
         out->meta = gltf_get_meta(r, &at);
         r->scene->image_light_count = (uint32_t)(i + 1);

@@ -54,10 +54,10 @@ static void broken_hierarchies_are_refused(void **state)
     static const char *const cases[][2] = {
         {"'nodes':[{'children':[0]}]", "nodes[0]: is its own ancestor"},
         {"'nodes':[{'children':[1]},{'children':[0]}]", "nodes[0]: is its own ancestor"},
-        {"'nodes':[{'children':[7]}]", "nodes[0].children[0]: 7 is the number of no node (there is 1)"},
-        {"'nodes':[{'mesh':0}]", "nodes[0].mesh: 0 is the number of no mesh (there are 0)"},
+        {"'nodes':[{'children':[7]}]", "nodes[0].children[0]: node 7 does not exist (there is 1)"},
+        {"'nodes':[{'mesh':0}]", "nodes[0].mesh: mesh 0 does not exist (there are 0)"},
         {"'nodes':[{'matrix':[1,2,3]}]", "must have 16 numbers, but has 3"},
-        {"'nodes':[{}],'scenes':[{'nodes':[1]}]", "scenes[0].nodes[0]: 1 is the number of no node"},
+        {"'nodes':[{}],'scenes':[{'nodes':[1]}]", "scenes[0].nodes[0]: node 1 does not exist"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         assert_refused(cases[i][0], NULL, FACET_ERROR_INVALID, cases[i][1]);
@@ -269,7 +269,7 @@ static void skins_and_animations_that_are_broken_are_left_out(void **state)
     (void)state;
     const char *used =
         "'meshes':[{'primitives':[{'attributes':{}}]}],'nodes':[{'mesh':0,'skin':0}],'skins':[{%s}]";
-    static const char *const skins[][2] = {{"'joints':[1]", "skins[0].joints[0]: 1 is the number of no node"},
+    static const char *const skins[][2] = {{"'joints':[1]", "skins[0].joints[0]: node 1 does not exist"},
                                            {"", "skins[0].joints: is missing"}};
     for (size_t i = 0; i < sizeof skins / sizeof *skins; i++) {
         char body[256];
@@ -278,19 +278,17 @@ static void skins_and_animations_that_are_broken_are_left_out(void **state)
         snprintf(body, sizeof body, used, skins[i][0]);
         assert_refused(body, NULL, FACET_ERROR_INVALID, skins[i][1]);
     }
-    assert_left_out(
-        "'animations':[{'samplers':[{'input':0,'output':0}],'channels':[]}]", NULL,
-        "animations[0].samplers[0].input: 0 is the number of no accessor (there are 0); nothing moves by "
-        "it");
+    assert_left_out("'animations':[{'samplers':[{'input':0,'output':0}],'channels':[]}]", NULL,
+                    "animations[0].samplers[0].input: accessor 0 does not exist (there are 0); it animates "
+                    "nothing");
     assert_left_out("'animations':[{'samplers':[],'channels':[{'sampler':0,'target':{'path':'scale'}}]}]",
-                    NULL,
-                    "channels[0].sampler: 0 is the number of no sampler (there are 0); nothing moves by it");
+                    NULL, "channels[0].sampler: sampler 0 does not exist (there are 0); it animates nothing");
     assert_left_out("'nodes':[{'camera':1,'extensions':{'KHR_lights_punctual':{'light':7}}}]", NULL,
-                    "nodes[0].camera: 1 is the number of no camera (there are 0); the node has no camera");
+                    "nodes[0].camera: camera 1 does not exist (there are 0); the node has no camera");
     assert_left_out("'nodes':[{}],'scenes':[{'nodes':[0]}],'scene':4", NULL,
-                    "scene: 4 is the number of no scene (there is 1); the first scene is drawn");
+                    "scene: scene 4 does not exist (there is 1); the first scene is drawn");
     assert_left_out("'nodes':[{}],'scenes':[{'nodes':[0]},{'nodes':[9]}]", NULL,
-                    "scenes[1].nodes[0]: 9 is the number of no node (there is 1); that scene is empty");
+                    "scenes[1].nodes[0]: node 9 does not exist (there is 1); that scene is empty");
 }
 
 int main(void)

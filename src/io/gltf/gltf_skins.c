@@ -282,7 +282,7 @@ static void check_users(io_reader *r, const json_place *root, io_problem *proble
             *count = count_joints(&scene->meshes[node->mesh]);
         json_place at = io_get_element(&array, i);
         if (*count == 0)
-            io_warn(r, &at, "skin", "moves nothing: mesh %u has no JOINTS_0 and WEIGHTS_0", node->mesh);
+            io_warn(r, &at, "skin", "has no effect: mesh %u has no JOINTS_0 and WEIGHTS_0", node->mesh);
         if (*count > scene->skins[node->skin].joint_count)
             io_fail(r, &at, "skin", FACET_ERROR_INVALID,
                     "a vertex of mesh %u is moved by joint %u, but skin %u has %u joints", node->mesh,

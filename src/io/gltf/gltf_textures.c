@@ -13,7 +13,7 @@
 static const char *get_mime_type(io_reader *r, const json_place *at)
 {
     const char *type = io_get_string(r, at, "mimeType", NULL);
-    return io_leave_out(r, "the bytes say what they are") ? NULL : type;
+    return io_leave_out(r, "the format is detected from the bytes") ? NULL : type;
 }
 
 static bool find_bytes(io_reader *r, const json_place *at, scene_image *out)
@@ -67,11 +67,11 @@ static void check_ktx2(io_reader *r, const json_place *at, const scene_image *i)
     else if (k.is_array)
         io_warn(r, at, NULL, "is an array; its first layer is used");
     if (k.is_right_to_left || k.is_bottom_up)
-        io_warn(r, at, NULL, "has a KTXorientation other than \"rd\"; it is turned");
+        io_warn(r, at, NULL, "has a KTXorientation other than \"rd\"; it is flipped to that");
     if (memcmp(k.swizzle, "rgba", 4) != 0)
         io_warn(r, at, NULL, "has a KTXswizzle other than \"rgba\"; it is applied");
     if (k.is_premultiplied)
-        io_warn(r, at, NULL, "has colors that are multiplied by alpha, which glTF does not know");
+        io_warn(r, at, NULL, "has premultiplied alpha, which glTF does not define");
 }
 
 /* From the header of the file. Where that of an extension's file cannot be read, neither can the rest, and a texture
@@ -123,7 +123,7 @@ static void read_image(io_reader *r, const json_place *at, scene_image *out)
     if (kind->gltf_extension && !gltf_is_extension_listed(r, kind->gltf_extension))
         io_note(r, at, NULL, "is a %s file, which needs %s", kind->name, kind->gltf_extension);
     if (kind->is_converted && !kind->gltf_extension)
-        io_note(r, at, NULL, "is a %s file, which glTF does not have; it is read all the same", kind->name);
+        io_note(r, at, NULL, "is a %s file, which glTF does not allow; it is read all the same", kind->name);
     if (kind->codec == IMAGE_CODEC_KTX2)
         check_ktx2(r, at, out);
     read_size(r, at, kind, out);
@@ -154,7 +154,7 @@ static scene_wrap get_wrap(io_reader *r, const json_place *sampler, const char *
     if (value == 33648)
         return SCENE_WRAP_MIRROR;
     if (value != 10497)
-        io_warn(r, sampler, key, "%llu is none of 10497, 33071, 33648; textures repeat",
+        io_warn(r, sampler, key, "%llu is not one of 10497, 33071, 33648; textures repeat",
                 (unsigned long long)value);
     return SCENE_WRAP_REPEAT;
 }
@@ -168,7 +168,7 @@ void gltf_read_texture_sampler(io_reader *r, const json_place *sampler, scene_te
     if (mag != 9728 && mag != 9729)
         io_warn(r, sampler, "magFilter", "%llu is neither 9728 nor 9729", (unsigned long long)mag);
     if (min != 9728 && min != 9729 && (min < 9984 || min > 9987)) {
-        io_warn(r, sampler, "minFilter", "%llu is no filter", (unsigned long long)min);
+        io_warn(r, sampler, "minFilter", "%llu is not a filter", (unsigned long long)min);
         min = 9987;
     }
     out->mag_filter = mag == 9728 ? SCENE_FILTER_NEAREST : SCENE_FILTER_LINEAR;

@@ -128,7 +128,8 @@ static void ktx2_files_beside_the_extension(void **state)
         {0, 1, NULL, NULL, "images[0]: holds RGBA8, where KHR_texture_basisu has ETC1S or UASTC"},
         {0, 6, NULL, NULL, "images[0]: is a cube; its first face is used"},
         {2, 1, NULL, NULL, "images[0]: is an array; its first layer is used"},
-        {0, 1, "KTXorientation", "ru", "images[0]: has a KTXorientation other than \"rd\"; it is turned"},
+        {0, 1, "KTXorientation", "ru",
+         "images[0]: has a KTXorientation other than \"rd\"; it is flipped to that"},
         {0, 1, "KTXswizzle", "rrr1", "images[0]: has a KTXswizzle other than \"rgba\"; it is applied"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {

@@ -135,7 +135,7 @@ static void find_restarts(io_reader *r, const json_place *at, unsigned mode, uin
     s->has_restarts = is_connected(mode) && (s->restart >= vertex_count ||
                                              gltf_is_extension_listed(r, "EXT_mesh_primitive_restart"));
     if (s->has_restarts)
-        io_warn(r, at, "indices", "has the index %u, which is taken as a primitive restart", s->restart);
+        io_warn(r, at, "indices", "has the index %u, which is read as a primitive restart", s->restart);
     else if (s->restart < vertex_count)
         io_warn(r, at, "indices",
                 "has the index %u, which glTF keeps for primitive restart; it is drawn as that vertex",
@@ -176,7 +176,7 @@ static void warn_missing_vertex(io_reader *r, const json_place *at, const index_
         if (++i == s->count)
             return;
     io_warn(r, at, "indices",
-            "index %u is %u, but there are %u vertices; what uses it or others like it is left out", i,
+            "index %u is %u, but there are %u vertices; elements that use such indices are left out", i,
             s->indices[i], vertex_count);
 }
 

@@ -152,7 +152,7 @@ static inline __attribute__((always_inline)) const char *decode_triangles(const 
     }
     if (t.data != table)
         return t.data > table ? MESHOPT_TOO_SHORT : MESHOPT_TOO_LONG;
-    return is_known ? NULL : "refers to vertices before the first one";
+    return is_known ? NULL : "refers to vertices before the first";
 }
 
 /* Two bytes of the table are reserved, and no half of one is 15. */
@@ -171,7 +171,7 @@ static const char *meshopt_decode_triangles(const meshopt_stream *s, uint8_t *ou
     if (s->size < meshopt_smallest_size(s))
         return MESHOPT_TOO_SHORT;
     if (!is_triangle_table(s->bytes + s->size - TRIANGLES_TAIL))
-        return "has a table of codes that is not valid";
+        return "has an invalid table of codes";
     return s->stride == 2 ? decode_triangles(s, 2, out) : decode_triangles(s, 4, out);
 }
 
@@ -398,7 +398,7 @@ const char *meshopt_check(const meshopt_stream *s)
     if (s->stride != 2 && s->stride != 4)
         return "byteStride must be 2 or 4 in this mode";
     if (s->filter != MESHOPT_NONE)
-        return "there can be no filter in this mode";
+        return "this mode allows no filter";
     return s->mode == MESHOPT_TRIANGLES && s->count % 3 ? "count must be a multiple of 3 in this mode" : NULL;
 }
 

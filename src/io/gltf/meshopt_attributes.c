@@ -299,7 +299,7 @@ const char *meshopt_decode_attributes(const meshopt_stream *s, uint8_t *out)
     const uint8_t *channel_modes = s->bytes + s->size - s->stride / 4; /* version 1 */
     const uint8_t *first = s->bytes + s->size - s->stride - (l.is_v1 ? s->stride / 4 : 0);
     if (l.is_v1 && !are_channel_modes(channel_modes, s->stride / 4))
-        return "has a channel mode that is not known";
+        return "has an unknown channel mode";
     uint32_t last[64];
     for (size_t c = 0; c < s->stride / 4; c++)
         last[c] = load_u32(first + 4 * c);

@@ -157,7 +157,7 @@ mtl_gltf *mtl_gltf_begin(mtl_parser *p, mtl_files *f, const char *folder, const 
     g->reserve = reserve;
     g->json = json_loadb(m->gltf_json, length, JSON_ALLOW_NUL, &error);
     if (!g->json || !json_is_object(g->json))
-        mtl_warn(p, "#facet-gltf: is no valid JSON object; the statements count");
+        mtl_warn(p, "#facet-gltf: is not a valid JSON object; the statements are used");
     else if (is_unchanged(p, g->json, m)) {
         settle_name(p, g->json, m);
         resolve_textures(p, f, folder, g->json, m->name);
@@ -180,7 +180,7 @@ bool mtl_gltf_end(mtl_gltf *g, mtl_parser *p, scene_material *out)
     else if (r.result == FACET_ERROR_MEMORY)
         p->has_failed = true;
     else
-        mtl_warn(p, "#facet-gltf: %.400s; the statements count", error.message);
+        mtl_warn(p, "#facet-gltf: %.400s; the statements are used", error.message);
     mtl_gltf_destroy(g);
     return io_is_ok(&r);
 }

@@ -153,7 +153,7 @@ static void begin_material(library *l, mtl_span name)
     l->has_begun = true;
     l->is_ignored = mtl_reader_find(l->reader, name.begin, mtl_length(name)) != SCENE_NONE;
     if (l->is_ignored) {
-        mtl_warn(&l->parser, "there is a material \"%.*s\" already; the first one counts",
+        mtl_warn(&l->parser, "material \"%.*s\" is defined more than once; the first definition is used",
                  (int)(mtl_length(name) < 60 ? mtl_length(name) : 60), name.begin);
         return;
     }
@@ -382,8 +382,8 @@ facet_result mtl_reader_settle(mtl_reader *r, bool needs_materials, facet_error 
 {
     bool is_found = needs_materials && r->library_count == 0 && r->files.scope.folder && load_namesake(r);
     for (size_t i = 0; i < r->missing_count && !is_found; i++)
-        scene_warn(r->scene, &r->desc.log, "%s: mtllib: %s; its materials are defaults", r->scene->source,
-                   r->missing[i]);
+        scene_warn(r->scene, &r->desc.log, "%s: mtllib: %s; its materials have default values",
+                   r->scene->source, r->missing[i]);
     r->has_failed = r->has_failed || r->files.has_failed;
     return r->has_failed ? fail_memory(error, "materials", r->count * sizeof *r->drafts) : FACET_OK;
 }

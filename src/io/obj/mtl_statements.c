@@ -159,7 +159,7 @@ static bool parse_number(mtl_parser *p, const char *keyword, mtl_span arguments,
     mtl_span word = mtl_next_word(&arguments);
     double value;
     if (!mtl_to_number(word, &value)) {
-        mtl_warn(p, "%s: \"%.*s\" is no number; the statement is ignored", keyword, SHOWN(word));
+        mtl_warn(p, "%s: \"%.*s\" is not a number; the statement is ignored", keyword, SHOWN(word));
         return false;
     }
     double clamped = value < least ? least : value > most ? most : value;
@@ -201,7 +201,7 @@ static void parse_illum(mtl_parser *p, mtl_span line, mtl_span arguments, mtl_dr
     double value;
     (void)line;
     if (!mtl_to_number(word, &value) || value < 0.0 || value > 10.0 || value != (double)(int)value) {
-        mtl_warn(p, "illum: \"%.*s\" is none of 0, 1, .. 10; the statement is ignored", SHOWN(word));
+        mtl_warn(p, "illum: \"%.*s\" is not one of 0, 1, .. 10; the statement is ignored", SHOWN(word));
         return;
     }
     draft->m.illum = (int)value;
@@ -292,7 +292,7 @@ static void refuse_library(mtl_parser *p, mtl_span line, mtl_span arguments, mtl
     (void)line;
     (void)arguments;
     (void)draft;
-    mtl_warn(p, "mtllib is no statement of an MTL file; no library is read");
+    mtl_warn(p, "mtllib is not a statement of an MTL file; no library is read");
 }
 
 static const special_row SPECIAL[] = {

@@ -134,10 +134,10 @@ static bool parse_spectral(mtl_parser *p, const char *keyword, mtl_span argument
             name = mtl_trim((mtl_span){name.begin, word.begin});
         }
     }
-    uri_bytes bytes = {.message = "there are no files here"};
+    uri_bytes bytes = {.message = "the model was not read from a folder"};
     const char *file = mtl_keep(p, name);
     if (mtl_length(name) == 0 || !p->open || !p->open(p->user, file, &bytes)) {
-        mtl_warn(p, "%s: the spectrum cannot be had: %.400s; the statement is ignored", keyword,
+        mtl_warn(p, "%s: the spectrum cannot be read: %.400s; the statement is ignored", keyword,
                  mtl_length(name) == 0 ? "names no file" : bytes.message);
         return false;
     }
@@ -147,8 +147,8 @@ static bool parse_spectral(mtl_parser *p, const char *keyword, mtl_span argument
     for (int i = 0; i < 3; i++)
         rgb[i] = found->rgb[i] * factor;
     if (!found->is_valid)
-        mtl_warn(p, "%s: \"%.200s\" is no list of wavelengths and values; the statement is ignored", keyword,
-                 file);
+        mtl_warn(p, "%s: \"%.200s\" is not a list of wavelengths and values; the statement is ignored",
+                 keyword, file);
     return found->is_valid;
 }
 
@@ -164,7 +164,7 @@ static bool parse_triple(mtl_parser *p, const char *keyword, mtl_span arguments,
         if (i > 0 && is_end) {
             out[i] = out[i - 1];
         } else if (!mtl_to_number(word, &out[i])) {
-            mtl_warn(p, "%s: \"%.*s\" is no number; the statement is ignored", keyword,
+            mtl_warn(p, "%s: \"%.*s\" is not a number; the statement is ignored", keyword,
                      (int)(mtl_length(word) < 60 ? mtl_length(word) : 60), word.begin);
             return false;
         }

@@ -219,11 +219,13 @@ static void warn_of_map(const mtl_writer *w, const legacy_map *map, const char *
 {
     const scene_texture *t = map->ref.texture == SCENE_NONE ? NULL : &w->scene->textures[map->ref.texture];
     if (map->ref.rotation_rad != 0.0f)
-        log_warning(&w->desc->log, "material \"%s\": %s: MTL cannot turn textures; it is written upright",
+        log_warning(&w->desc->log,
+                    "material \"%s\": %s: MTL cannot rotate textures; it is written without rotation",
                     w->name, key);
     if (t && (t->wrap_u != t->wrap_v || t->wrap_u == SCENE_WRAP_MIRROR))
-        log_warning(&w->desc->log, "material \"%s\": %s: MTL textures repeat or are clamped, both ways; %s",
-                    w->name, key, "this one is written as repeating");
+        log_warning(&w->desc->log,
+                    "material \"%s\": %s: MTL textures repeat or are clamped in both directions; %s", w->name,
+                    key, "this one is written as repeating");
 }
 
 /* Names that others would read as options, their numbers or comments are quoted, and have no quotes in them then; nor do

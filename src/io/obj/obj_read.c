@@ -38,20 +38,20 @@ static const struct {
     [OBJ_VERTEX_NOT_FINITE] = {"a vertex is not finite, or farther out than 1e17; it is not drawn", AT_BYTE},
     [OBJ_VERTEX_SHORT] = {"a vertex has fewer than 3 coordinates; the others are 0", AT_BYTE},
     [OBJ_TEXCOORD_NOT_FINITE] = {"a texture coordinate is not finite; it becomes 0", AT_BYTE},
-    [OBJ_NOT_A_NUMBER] = {"something is no number; what of it is one is used", AT_BYTE},
-    [OBJ_UNKNOWN_STATEMENT] = {"the statement is none of OBJ's; it is left out", AT_BYTE},
-    [OBJ_FACE_WRONG] = {"an element names a vertex that is not there; it is left out", AT_ELEMENT},
+    [OBJ_NOT_A_NUMBER] = {"a word is not a number; its numeric beginning is used", AT_BYTE},
+    [OBJ_UNKNOWN_STATEMENT] = {"the statement is unknown; it is ignored", AT_BYTE},
+    [OBJ_FACE_WRONG] = {"an element refers to a vertex that does not exist; it is left out", AT_ELEMENT},
     [OBJ_ATTRIBUTE_WRONG] =
-        {"an element names a texture coordinate or normal that is not there; it does without", AT_ELEMENT},
+        {"an element refers to a texture coordinate or normal that does not exist; it is drawn without",
+         AT_ELEMENT},
     [OBJ_FACE_SHORT] = {"a face has fewer than 3 different corners, or a line fewer than 2; it is left out",
                         AT_ELEMENT},
     [OBJ_FACE_NOT_FINITE] = {"an element uses a vertex that is not finite; it is left out", AT_ELEMENT},
     [OBJ_NORMAL_ZERO] = {"a normal has no direction; another one is computed", AT_ELEMENT},
-    [OBJ_TEXCOORD_MISSING] =
-        {"some corners have no texture coordinates, others of the same material have; they get "
-         "(0, 0)",
-         NOWHERE},
-    [OBJ_POLYGON_ROUGH] = {"a polygon has so many corners that it was cut into triangles roughly", NOWHERE},
+    [OBJ_TEXCOORD_MISSING] = {"some corners of a material have texture coordinates, others do not; those get "
+                              "(0, 0)",
+                              NOWHERE},
+    [OBJ_POLYGON_ROUGH] = {"a polygon has so many corners that it was triangulated only roughly", NOWHERE},
 };
 
 static size_t count_remark(const obj_reader *r, obj_remark remark)
@@ -109,8 +109,8 @@ void obj_warn_all(obj_reader *r, const char *bytes)
 {
     for (int i = 0; i < OBJ_REMARK_COUNT; i++)
         warn_remark(r, (obj_remark)i, bytes);
-    warn_statements(r, true, "free-form curves and surfaces are not read, but polygons only; left out were");
-    warn_statements(r, false, "statements that nothing here corresponds to are left out");
+    warn_statements(r, true, "free-form curves and surfaces are not supported; ignored");
+    warn_statements(r, false, "statements without a counterpart in facet; ignored");
 }
 
 /* ---- failures ---- */
@@ -126,7 +126,7 @@ bool obj_fail_limit(obj_reader *r, const char *what)
 {
     if (obj_is_ok(r))
         r->result =
-            fail(r->error, FACET_ERROR_LIMIT, "%s: has more %s than can be numbered", r->scene->source, what);
+            fail(r->error, FACET_ERROR_LIMIT, "%s: has more %s than can be indexed", r->scene->source, what);
     return false;
 }
 

@@ -124,7 +124,7 @@ static void read_header(ogl1_document *d, const json_place *root)
     if (strcmp(kind, "ogl1") != 0)
         io_fail(r, root, "facet", FACET_ERROR_UNSUPPORTED, "\"%.40s\" is not \"ogl1\"", kind);
     if (version != VERSION)
-        io_fail(r, root, "version", FACET_ERROR_UNSUPPORTED, "%g is not %d, the only one that is read",
+        io_fail(r, root, "version", FACET_ERROR_UNSUPPORTED, "%g is not supported; only version %d is",
                 version, VERSION);
     d->generator = arena_strdup(r->scene->arena, generator);
     if (!d->generator)

@@ -160,18 +160,18 @@ static void test_wrong_colors(void **state)
 {
     (void)state;
     static const char *const rows[][2] = {
-        {"'stealblue'", "\"stealblue\" is no color of R"},
-        {"'#12345'", "\"#12345\" is no color"},
+        {"'stealblue'", "\"stealblue\" is not a color of R"},
+        {"'#12345'", "\"#12345\" is not a color"},
         {"[0.1, 0.2]", "has 2 numbers"},
         {"[1, 2, 3, 4, 5]", "has 5 numbers"},
-        {"[0.1, -0.2, 0]", "[1]: -0.2 is no part"},
+        {"[0.1, -0.2, 0]", "[1]: -0.2 is not a component"},
         {"[0.1, 'a', 0]", "[1]: must be a number"},
         {"true", "must be a color, but is a boolean"},
         {"0.5", "must be a color, but is a number"},
         {"{'r':1}", "must be a color, but is an object"},
-        {"[1e300, 0, 0]", "no part of a color"},
-        {"-3", "\"-3\" is no color"},
-        {"'a\\u0000b'", "character 0"},
+        {"[1e300, 0, 0]", "not a component of a color"},
+        {"-3", "\"-3\" is not a color"},
+        {"'a\\u0000b'", "contains a NUL character"},
         {"[[1, 0], [1, 0]]", "has 2 numbers"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
@@ -203,8 +203,8 @@ static void test_parameters(void **state)
     assert_false(legacy_has(m, LEGACY_METALLIC));
     assert_true(m->illum == 2 && m->ior == 1.45f && m->transmission_filter[1] == 0.5f &&
                 m->roughness == 0.3f && m->anisotropy_rotation == 0.125f);
-    assert_true(has_warning(scene, "\"foo\" is no parameter of material3d(); it is kept"));
-    assert_true(has_warning(scene, "\"two words\" is no parameter of material3d(); it is dropped"));
+    assert_true(has_warning(scene, "\"foo\" is not a parameter of material3d(); it is kept"));
+    assert_true(has_warning(scene, "\"two words\" is not a parameter of material3d(); it is dropped"));
     assert_int_equal(scene->warning_count, 2);
     assert_int_equal(scene->legacy->colors, FACET_LEGACY_COLORS_LINEAR);
     scene_destroy(scene);
@@ -234,7 +234,7 @@ static void test_unknown_is_told_once(void **state)
     assert_null(scene->legacy->materials[2].unknown);
     assert_int_equal(scene->warning_count, 3);
     assert_true(has_warning(scene, "\"foo\""));
-    assert_true(has_warning(scene, "\"baz\" is no parameter of light3d(); it is dropped"));
+    assert_true(has_warning(scene, "\"baz\" is not a parameter of light3d(); it is dropped"));
     assert_true(has_warning(scene, "\"extra\" has no meaning here"));
     scene_destroy(scene);
 }
@@ -266,7 +266,7 @@ static void test_lights(void **state)
     scene_destroy(scene);
     scene = ogl1_load("{'materials':[{}],'lights':[{},{},{},{},{},{},{},{},{}]}");
     assert_int_equal(scene->legacy->light_count, 9);
-    assert_true(has_warning(scene, "OpenGL 1 shows 8"));
+    assert_true(has_warning(scene, "OpenGL 1 supports 8"));
     scene_destroy(scene);
 }
 
@@ -281,7 +281,7 @@ static void test_fog(void **state)
     ogl1_assert_color(scene->legacy->fog.color, 0xE5E5E5);
     scene_destroy(scene);
     ogl1_assert_refused("{'materials':[{}],'fog':{'fogtype':'thick'}}", FACET_ERROR_INVALID, "fog.fogtype",
-                        "\"thick\" is none of none, linear, exp, exp2");
+                        "\"thick\" is not one of none, linear, exp, exp2");
 }
 
 static void test_wrong_documents(void **state)
@@ -313,7 +313,7 @@ static void test_wrong_documents(void **state)
         {"{'materials':[{}],'lights':[3]}", "lights[0]: ", "must be an object"},
         {"{'materials':[{}],'lights':[{'x':1,'y':2}]}", "lights[0].z: ", "is missing"},
         {"{'materials':[{}],'lights':[{'x':[1,2]}]}", "lights[0].x: ", "three numbers"},
-        {"{'materials':[{}],'lights':[{'direction':[0,0,0]}]}", "lights[0].direction: ", "no direction"},
+        {"{'materials':[{}],'lights':[{'direction':[0,0,0]}]}", "lights[0].direction: ", "not a direction"},
         {"{'materials':[{}],'lights':[{'vertices':[[1e30,0,0]]}]}", "lights[0].vertices[0]: ", "too far out"},
         {"{'materials':[{}],'lights':[{'colors':[[1,1,1]]}]}", "lights[0].colors: ", "three rows"},
         {"{'materials':[{}],'fog':7}", "fog: ", "must be an object"},
@@ -323,7 +323,8 @@ static void test_wrong_documents(void **state)
         ogl1_assert_refused(rows[i].json, FACET_ERROR_INVALID, rows[i].place, rows[i].what);
     ogl1_assert_refused("{'facet':'scene','materials':[{}]}", FACET_ERROR_UNSUPPORTED,
                         "facet: ", "\"scene\"");
-    ogl1_assert_refused("{'version':2,'materials':[{}]}", FACET_ERROR_UNSUPPORTED, "version: ", "2 is not 1");
+    ogl1_assert_refused("{'version':2,'materials':[{}]}", FACET_ERROR_UNSUPPORTED,
+                        "version: ", "2 is not supported");
 }
 
 static void test_hostile_sizes(void **state)

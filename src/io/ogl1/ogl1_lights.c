@@ -23,7 +23,7 @@ static void report_unknown(io_reader *r, const json_place *at, const char *what,
     json_object_foreach((json_t *)at->value, key, value)
     {
         if (!is_among(key, known, count) && ogl1_member(at, key).value)
-            io_warn(r, NULL, NULL, "\"%.60s\" is no parameter of %s; it is dropped", key, what);
+            io_warn(r, NULL, NULL, "\"%.60s\" is not a parameter of %s; it is dropped", key, what);
     }
 }
 
@@ -44,7 +44,7 @@ static bool set_direction(io_reader *r, const json_place *at, const char *key, c
         sqrt((double)v[0] * (double)v[0] + (double)v[1] * (double)v[1] + (double)v[2] * (double)v[2]);
     bool is_unit = fabs(length - 1.0) < 1e-6;
     if (!(length > 0.0))
-        return io_fail(r, at, key, FACET_ERROR_INVALID, "is no direction: its length is 0");
+        return io_fail(r, at, key, FACET_ERROR_INVALID, "is not a direction: its length is 0");
     for (int k = 0; k < 3; k++)
         out->position[k] = is_unit ? v[k] : (float)((double)v[k] / length);
     return true;
@@ -147,9 +147,9 @@ void ogl1_read_lights(ogl1_document *d, const json_place *root)
     ogl1_list list = ogl1_list_begin(r, root, "lights", is_light);
     d->has_lights = true;
     if (list.count == 0 && io_is_ok(r))
-        io_warn(r, &list.at, NULL, "is empty; the light that rgl begins with shines");
+        io_warn(r, &list.at, NULL, "is empty; rgl's default light is used");
     if (list.count > RGL_LIGHTS)
-        io_warn(r, &list.at, NULL, "has %zu lights; OpenGL 1 shows %d", list.count, RGL_LIGHTS);
+        io_warn(r, &list.at, NULL, "has %zu lights; OpenGL 1 supports %d", list.count, RGL_LIGHTS);
     if (list.count > MOST_LIGHTS)
         io_fail(r, &list.at, NULL, FACET_ERROR_LIMIT, "has %zu lights, more than %d", list.count,
                 MOST_LIGHTS);

@@ -160,7 +160,8 @@ static void read_sides(io_reader *r, const json_place *at, legacy_material *m)
     ogl1_choice(r, at, "back", OGL1_SIDES, &back);
     m->is_culled = back == OGL1_CULLED && front != OGL1_CULLED;
     if (front == OGL1_CULLED)
-        io_warn(r, at, "front", "\"culled\" leaves the inside, or nothing; both sides are shown");
+        io_warn(r, at, "front",
+                "\"culled\" leaves only the inside, or nothing, visible; both sides are shown");
 }
 
 static void read_statements(io_reader *r, const json_place *at, legacy_material *m)
@@ -248,8 +249,8 @@ static void keep_unknown(io_reader *r, const json_place *at, legacy_material *m)
         bool is_rgls = ogl1_is_parameter(key) || is_kept(key);
         if (!is_rgls)
             io_warn(r, NULL, NULL,
-                    is_word(key) ? "\"%.60s\" is no parameter of material3d(); it is kept"
-                                 : "\"%.60s\" is no parameter of material3d(); it is dropped",
+                    is_word(key) ? "\"%.60s\" is not a parameter of material3d(); it is kept"
+                                 : "\"%.60s\" is not a parameter of material3d(); it is dropped",
                     key);
         if (is_word(key))
             add_line(key, value, is_rgls ? &kept : &foreign);

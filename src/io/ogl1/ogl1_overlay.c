@@ -37,7 +37,7 @@ static void keep_last(ogl1_document *d, bool of_objects, entry_names *n)
         if (is_last)
             n->names[kept++] = n->names[i];
         else if (n->names[i].entry != n->names[i + 1].entry)
-            io_warn(&d->r, NULL, NULL, "%s \"%.200s\" is there more than once; the last one counts",
+            io_warn(&d->r, NULL, NULL, "%s \"%.200s\" is listed more than once; the last entry is used",
                     of_objects ? "object" : "material", n->names[i].name);
     }
     n->count = kept;

@@ -131,8 +131,8 @@ static void test_the_more_specific_wins(void **state)
     scene = lay(*state, "{'materials':[{'name':'red','shininess':7},{'name':'red','shininess':8},"
                         "{'objects':'c','shininess':3},{'objects':'c','shininess':4}]}");
     assert_true(shininess(scene, 0, 0) == 8.0f && shininess(scene, 2, 0) == 4.0f);
-    assert_true(has_warning(scene, "material \"red\" is there more than once"));
-    assert_true(has_warning(scene, "object \"c\" is there more than once"));
+    assert_true(has_warning(scene, "material \"red\" is listed more than once"));
+    assert_true(has_warning(scene, "object \"c\" is listed more than once"));
     scene_destroy(scene);
 }
 

@@ -53,7 +53,7 @@ static json_place first_of(io_reader *r, const json_place *object, const char *k
     for (size_t i = 1; i < json_array_size(at.value) && is_same; i++)
         is_same = json_equal(first, json_array_get(at.value, i));
     if (!is_same)
-        io_warn(r, &at, NULL, "has %zu values; the first one counts", json_array_size(at.value));
+        io_warn(r, &at, NULL, "has %zu values; the first is used", json_array_size(at.value));
     at.value = first;
     return at;
 }
@@ -117,7 +117,7 @@ bool ogl1_string_value(io_reader *r, const json_place *at, const char **out)
     if (!json_is_string(at->value))
         return fail_type(r, at, "a string");
     if (strlen(json_string_value(at->value)) != json_string_length(at->value))
-        return io_fail(r, at, NULL, FACET_ERROR_INVALID, "has a character 0 inside");
+        return io_fail(r, at, NULL, FACET_ERROR_INVALID, "contains a NUL character");
     *out = json_string_value(at->value);
     return true;
 }
@@ -136,7 +136,7 @@ bool ogl1_choice(io_reader *r, const json_place *object, const char *key, const 
         size_t length = strlen(all);
         snprintf(all + length, sizeof all - length, "%s%s", i ? ", " : "", names[i]);
     }
-    return io_fail(r, object, key, FACET_ERROR_INVALID, "\"%.40s\" is none of %s", value, all);
+    return io_fail(r, object, key, FACET_ERROR_INVALID, "\"%.40s\" is not one of %s", value, all);
 }
 
 bool ogl1_vector(io_reader *r, const json_place *object, const char *key, float out[3])
@@ -174,7 +174,7 @@ static bool color_of_numbers(io_reader *r, const json_place *at, float rgba[4])
             return fail_type(r, &element, "a number");
         if (!(number >= 0.0 && number <= (double)LEGACY_LARGEST))
             return io_fail(r, &element, NULL, FACET_ERROR_INVALID,
-                           "%g is no part of a color, which is from 0 to 1", number);
+                           "%g is not a component of a color, which is from 0 to 1", number);
         if (number > 1.0)
             io_warn(r, at, NULL,
                     "has numbers above 1, brighter than OpenGL shows; divide by 255 what col2rgb() "
@@ -199,7 +199,7 @@ bool ogl1_color_value(io_reader *r, const json_place *at, float rgba[4])
     if (ogl1_find_r_color(name, rgba))
         return true;
     return io_fail(r, at, NULL, FACET_ERROR_INVALID,
-                   "\"%.40s\" is no color of R; expected was a name of colors(), \"#rrggbb\" or three "
+                   "\"%.40s\" is not a color of R; expected was a name of colors(), \"#rrggbb\" or three "
                    "numbers from 0 to 1",
                    name);
 }

@@ -104,7 +104,8 @@ static void read_format(ply_reader *r, span rest)
         r->form = PLY_BIG;
     else
         ply_fail(r, FACET_ERROR_INVALID,
-                 "format \"%.*s\" is none of ascii, binary_little_endian and binary_big_endian", SHOWN(word));
+                 "format \"%.*s\" is not one of ascii, binary_little_endian and binary_big_endian",
+                 SHOWN(word));
 }
 
 static void read_element(ply_reader *r, span rest)
@@ -204,7 +205,7 @@ static bool read_header(ply_reader *r)
             read_comment(r, rest, (size_t)i + 2);
         else if (word.at < word.end)
             return ply_fail(r, FACET_ERROR_INVALID,
-                            "\"%.*s\" is no line of a header; element, property, comment or "
+                            "\"%.*s\" is not a line of a header; element, property, comment or "
                             "end_header was expected",
                             SHOWN(word));
         has_format |= is_word(word, "format");
@@ -252,7 +253,7 @@ static bool make_cloud(ply_reader *r)
     if (!s->v)
         return ply_fail_memory(r, "points");
     if (s->place_count >= UINT32_MAX)
-        return ply_fail(r, FACET_ERROR_LIMIT, "has more points than can be numbered");
+        return ply_fail(r, FACET_ERROR_LIMIT, "has more points than can be indexed");
     for (size_t i = 0; i < s->place_count; i++)
         s->v[i] = (uint32_t)i;
     s->corner_count = s->place_count;

@@ -192,24 +192,24 @@ static void warn_faces(faces *f, uint64_t announced, uint64_t count)
 {
     ply_reader *r = f->r;
     if (count < announced)
-        scene_warn(r->scene, &r->desc->log, "%s: is cut off: %llu faces were announced, %llu are there",
+        scene_warn(r->scene, &r->desc->log, "%s: is cut off: %llu faces were declared, %llu are there",
                    r->scene->source, (unsigned long long)announced, (unsigned long long)count);
     if (f->wrong_count)
         scene_warn(r->scene, &r->desc->log,
-                   "%s: %zu faces name a vertex that is not there; they are left out", r->scene->source,
+                   "%s: %zu faces refer to a vertex that does not exist; they are left out", r->scene->source,
                    f->wrong_count);
     if (f->rough_count)
         scene_warn(r->scene, &r->desc->log,
-                   "%s: %zu polygons are so large that they were cut into triangles roughly",
-                   r->scene->source, f->rough_count);
+                   "%s: %zu polygons are so large that they were triangulated only roughly", r->scene->source,
+                   f->rough_count);
 }
 
 static void warn_face_colors(const ply_reader *r, const ply_element *e)
 {
     for (size_t k = 0; k < e->property_count && !r->soup.colors; k++)
         if (strcmp(e->properties[k].name, "red") == 0)
-            scene_warn(r->scene, &r->desc->log, "%s: colors of faces are not read, but of vertices only",
-                       r->scene->source);
+            scene_warn(r->scene, &r->desc->log,
+                       "%s: colors of faces are not supported, only those of vertices", r->scene->source);
 }
 
 bool ply_read_faces(ply_reader *r, const ply_element *e, bool are_strips)

@@ -279,17 +279,17 @@ static void damage_is_told(void **state)
         const char *bytes, *warning;
     } cut[] = {
         {"ply\nformat ascii 1.0\nelement vertex 4000000000\n" XYZ "end_header\n" SQUARE,
-         "4000000000 vertices were announced, 4 are there"},
+         "4000000000 vertices were declared, 4 are there"},
         {"ply\nformat ascii 1.0\nelement vertex 4\n" XYZ "element face 99\n" CORNERS "end_header\n" SQUARE
          "3 0 1 2\n3 0 1",
-         "99 faces were announced, 1 are there"},
+         "99 faces were declared, 1 are there"},
         {"ply\nformat ascii 1.0\nelement vertex 4\n" XYZ "element face 1\n" CORNERS
          "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n" SQUARE
          "3 0 1 2 255 0 0\n",
-         "colors of faces are not read"},
+         "colors of faces are not supported"},
         {"ply\nformat ascii 1.0\nelement vertex 4\n" XYZ "element face 4\n" CORNERS "end_header\n" SQUARE
          "3 0 1 2\n3 0 1 4\n3 -1 1 2\n3 0 1.5 2\n",
-         "3 faces name a vertex that is not there"},
+         "3 faces refer to a vertex that does not exist"},
     };
     for (size_t i = 0; i < sizeof cut / sizeof *cut; i++) {
         facet_scene *scene = load_text(cut[i].bytes);
@@ -304,12 +304,12 @@ static void damage_is_told(void **state)
         {"ply\nend_header\n", "its header has no format"},
         {"ply\nformat ascii 1.0\nend_header\n", "has no element \"vertex\""},
         {"ply\nformat ascii 1.0\nelement vertex 1\nproperty float a\nend_header\n1\n", "have no x and y"},
-        {"ply\nformat latin 1.0\nend_header\n", "format \"latin\" is none of"},
+        {"ply\nformat latin 1.0\nend_header\n", "format \"latin\" is not one of"},
         {"ply\nformat ascii 1.0\nelement vertex many\nend_header\n", "a number of elements was expected"},
         {"ply\nformat ascii 1.0\nproperty float x\nend_header\n", "type and name behind an element"},
         {"ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\nend_header\n", "type and name"},
         {"ply\nformat ascii 1.0\nelement vertex 1\nproperty list float int x\nend_header\n", "type and name"},
-        {"ply\nformat ascii 1.0\nhello\nend_header\n", "\"hello\" is no line of a header"},
+        {"ply\nformat ascii 1.0\nhello\nend_header\n", "\"hello\" is not a line of a header"},
         {"ply\nformat ascii 1.0\nelement vertex 1\n" XYZ
          "element face 1\nproperty int a\nend_header\n0 0 0\n1\n",
          "has no list of corners"},

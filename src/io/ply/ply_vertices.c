@@ -305,7 +305,7 @@ bool ply_read_vertices(ply_reader *r, const ply_element *e)
     r->soup.place_count = i;
     r->soup.texcoord_count = r->soup.texcoords ? i : 0;
     if (is_ok && i < e->count)
-        scene_warn(r->scene, &r->desc->log, "%s: is cut off: %llu vertices were announced, %zu are there",
+        scene_warn(r->scene, &r->desc->log, "%s: is cut off: %llu vertices were declared, %zu are there",
                    r->scene->source, (unsigned long long)e->count, i);
     if (is_ok && r->soup.colors)
         settle_colors(r, &l, i);

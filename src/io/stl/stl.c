@@ -162,14 +162,13 @@ static facet_result read_binary(stl_reader *r, const unsigned char *bytes, size_
     const char *source = r->scene->source;
     if (size < HEADER_SIZE)
         return fail(r->error, FACET_ERROR_INVALID,
-                    "%s: is neither STL text, which begins with \"solid\", nor has it the %d bytes before "
-                    "the triangles "
-                    "of a binary file",
+                    "%s: is neither STL text, which begins with \"solid\", nor long enough for the "
+                    "%d bytes before the triangles of a binary file",
                     source, (int)HEADER_SIZE);
     size_t there = (size - HEADER_SIZE) / TRIANGLE_SIZE;
     size_t claimed = read_u32(bytes + 80);
     if (claimed > there)
-        scene_warn(r->scene, &r->desc->log, "%s: is cut off: %zu triangles were announced, %zu are there",
+        scene_warn(r->scene, &r->desc->log, "%s: is cut off: %zu triangles were declared, %zu are there",
                    source, claimed, there);
     size_t count = claimed < there ? claimed : there;
     if (!add_part(r, "", 0))
@@ -215,9 +214,8 @@ static facet_result read_vertex(stl_reader *r, words *w, const char *begin, size
     obj_soup *s = &r->soup;
     const char *at = w->at;
     if (!read_place(w, place))
-        return fail(r->error, FACET_ERROR_INVALID,
-                    "%s: line %zu: a vertex has three numbers, but here are others", r->scene->source,
-                    line_number(begin, at));
+        return fail(r->error, FACET_ERROR_INVALID, "%s: line %zu: a vertex must have three numbers",
+                    r->scene->source, line_number(begin, at));
     size_t first = s->corner_count - (*in_loop >= 3 ? 3 : *in_loop);
     if (!mem_reserve(&r->desc->allocator, (void **)&s->v, &s->corner_capacity, s->corner_count + 3,
                      sizeof *s->v))

@@ -170,7 +170,7 @@ static void damage_is_told(void **state)
     write_binary("x", binary);
     facet_scene *scene = load(binary, 84 + 50 * 5 + 7, NULL);
     assert_int_equal(obj_only_primitive(scene)->index_count, 15);
-    assert_true(obj_has_warning(scene, "is cut off: 12 triangles were announced, 5 are there"));
+    assert_true(obj_has_warning(scene, "is cut off: 12 triangles were declared, 5 are there"));
     scene_destroy(scene);
     put_u32(binary + 84 + 12, 0x7fc00000u); /* not a number */
     put_u32(binary + 80, UINT32_MAX);
@@ -181,7 +181,7 @@ static void damage_is_told(void **state)
     static const struct {
         const char *bytes, *message;
     } bad[] = {{"solid a\nfacet normal 0 0 0\nouter loop\nvertex 0 0 zero\n",
-                "test.stl: line 4: a vertex has three"},
+                "test.stl: line 4: a vertex must have three"},
                {"short", "is neither STL text"}};
     for (size_t i = 0; i < 2; i++) {
         facet_error error = {0};
