@@ -13,17 +13,17 @@
 
 /* ---- SVG files ---- */
 
-/* The names that cairo counts through its life. */
+/* Prefixes of the ids that cairo numbers during its lifetime. */
 static const char *const COUNTED[] = {"surface", "image"};
 enum { COUNTED_COUNT = 2 };
 
-/* The numbers of one of them, in the order in which they come. */
+/* The numbers of one prefix in order of appearance. */
 typedef struct id_list {
     unsigned long *ids;
     size_t count, capacity;
 } id_list;
 
-/* The place of id in the list, from 1; 0: out of memory. */
+/* The position of id in the list, from 1; 0: out of memory. */
 static size_t renumber(id_list *list, const facet_allocator *allocator, unsigned long id)
 {
     for (size_t i = 0; i < list->count; i++)
@@ -35,7 +35,7 @@ static size_t renumber(id_list *list, const facet_allocator *allocator, unsigned
     return list->count;
 }
 
-/* Which counted name stands at p, with a number behind; -1: none. */
+/* The prefix at p that a number follows; -1: none. */
 static int counted_at(const char *p, const char *end)
 {
     for (int i = 0; i < COUNTED_COUNT; i++) {
@@ -122,8 +122,8 @@ struct canvas {
     cairo_surface_t *surface;
     cairo_t *context;
     uint32_t *pixels; /* PNG */
-    text file;        /* SVG, PDF: what cairo has written */
-    bool has_failed;  /* out of memory in a function that cannot say so */
+    text file;        /* SVG, PDF: the output of cairo */
+    bool has_failed;  /* out of memory in a function that returns nothing */
 };
 
 /* Points are 1/72 inch, pixels 1/96. */
@@ -136,7 +136,7 @@ static cairo_status_t write_bytes(void *user, const unsigned char *bytes, unsign
     return file->has_failed ? CAIRO_STATUS_WRITE_ERROR : CAIRO_STATUS_SUCCESS;
 }
 
-/* The surface of the format; false: no memory for it. */
+/* Creates the surface of the format; false: out of memory. */
 static bool create_surface(canvas *c)
 {
     const double width = c->desc.width, height = c->desc.height;
@@ -148,7 +148,7 @@ static bool create_surface(canvas *c)
     case FACET_PLOT_FORMAT_PDF:
         c->surface = c->cairo.pdf_surface_create_for_stream(write_bytes, &c->file, width * POINTS_PER_PIXEL,
                                                             height * POINTS_PER_PIXEL);
-        /* the time of writing would make each file another one */
+        /* the time of writing would change the bytes */
         c->cairo.pdf_surface_set_metadata(c->surface, CAIRO_PDF_METADATA_CREATE_DATE, "");
         c->cairo.pdf_surface_set_metadata(c->surface, CAIRO_PDF_METADATA_CREATOR, "facet");
         if (c->desc.title && *c->desc.title)
@@ -164,7 +164,7 @@ static bool create_surface(canvas *c)
     }
 }
 
-/* Text that is the same at every size and in every format, whatever the desktop is set to. */
+/* Text that is equal at every size and in every format, independent of desktop settings. */
 static void set_font(canvas *c)
 {
     cairo_font_options_t *options = c->cairo.font_options_create();
@@ -220,7 +220,7 @@ void canvas_destroy(canvas *c)
     mem_free(c);
 }
 
-/* cairo's premultiplied 0xAARRGGBB, opaque everywhere, as PNG. */
+/* cairo's premultiplied 0xAARRGGBB, opaque, as PNG. */
 static facet_result encode_png(canvas *c, unsigned char **bytes, size_t *size, facet_error *error)
 {
     image picture;
@@ -253,7 +253,7 @@ static facet_result take_file(canvas *c, unsigned char **bytes, size_t *size, fa
     return FACET_OK;
 }
 
-/* Ends the drawing; what went wrong. */
+/* Ends the drawing and returns its error. */
 static facet_result finish_drawing(canvas *c, facet_error *error)
 {
     cairo_status_t status = c->cairo.status(c->context);
@@ -353,7 +353,7 @@ void canvas_draw(canvas *c, const canvas_stroke *stroke)
 
 static void select_font(canvas *c, canvas_font font)
 {
-    /* where this family is missing, fontconfig takes its sans-serif */
+    /* if this family is missing, fontconfig takes its sans-serif */
     c->cairo.select_font_face(c->context, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
                               font.is_bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
     c->cairo.set_font_size(c->context, font.size);
@@ -392,12 +392,12 @@ void canvas_image(canvas *c, double x, double y, double width, double height, ui
     c->cairo.translate(c->context, x, y);
     c->cairo.scale(c->context, width / pixel_width, height / pixel_height);
     c->cairo.set_source_surface(c->context, picture, 0.0, 0.0);
-    /* for PNG pixels fall on pixels */
+    /* for PNG, pixels align with pixels */
     c->cairo.pattern_set_filter(c->cairo.get_source(c->context),
                                 c->pixels ? CAIRO_FILTER_NEAREST : CAIRO_FILTER_GOOD);
     c->cairo.paint(c->context);
     c->cairo.restore(c->context);
     c->has_failed = c->has_failed || c->cairo.surface_status(picture) == CAIRO_STATUS_NO_MEMORY;
-    c->cairo.surface_finish(picture); /* pixels are the caller's: a copy is taken where they are kept */
+    c->cairo.surface_finish(picture); /* cairo copies the pixels of the caller if it keeps them */
     c->cairo.surface_destroy(picture);
 }

@@ -1,8 +1,7 @@
-/* cairo_canvas.h - what a chart is drawn on: paths, text and pictures in pixels, y down, kept as SVG, PDF or PNG. The
- * only place that knows of cairo.
+/* cairo_canvas.h - the canvas of a chart: paths, text and images in pixels, y down, as SVG, PDF or PNG. Only this file and
+ * cairo_library.c use cairo.
  *
- * What cannot be drawn is remembered and reported by canvas_finish(). Coordinates beyond 1e6 px overflow in cairo:
- * clip before. */
+ * Drawing errors are kept and returned by canvas_finish(). Coordinates beyond 1e6 px overflow in cairo: clip first. */
 #ifndef PLOT_CAIRO_CANVAS_H
 #define PLOT_CAIRO_CANVAS_H
 
@@ -21,7 +20,7 @@ typedef struct canvas_stroke {
     double dash[4]; /* on, off, on, off */
     int dash_count; /* 0: solid */
     double dash_offset;
-    bool is_butt; /* ends are cut at the last point; else round */
+    bool is_butt; /* butt caps; else round */
 } canvas_stroke;
 
 typedef struct canvas_font {
@@ -33,43 +32,43 @@ typedef struct canvas_desc {
     facet_allocator allocator;
     facet_plot_format format; /* not CSV */
     uint32_t width, height;   /* px, at most CANVAS_MAX_SIZE */
-    const char *title;        /* in the file's properties; UTF-8 */
-    const char *library;      /* NULL: libcairo as it was when facet was built; tests name another */
+    const char *title;        /* metadata of the file; UTF-8 */
+    const char *library;      /* NULL: the libcairo that facet was built with; another one for tests */
 } canvas_desc;
 
 enum { CANVAS_MAX_SIZE = 16384 };
 
-/* FACET_ERROR_SYSTEM, FACET_ERROR_UNSUPPORTED: there is no cairo; FACET_ERROR_MEMORY. */
+/* FACET_ERROR_SYSTEM, FACET_ERROR_UNSUPPORTED: cairo is missing; FACET_ERROR_MEMORY. */
 facet_result canvas_create(const canvas_desc *desc, canvas **out, facet_error *error);
 void canvas_destroy(canvas *c); /* NULL is allowed */
-/* The file: a block of mem_alloc() and its used size. Nothing can be drawn after it. */
+/* The bytes of the file, a block of mem_alloc(), and their count. Nothing can be drawn afterwards. */
 facet_result canvas_finish(canvas *c, unsigned char **bytes, size_t *size, facet_error *error);
 
-/* Of a raster canvas instead: its pixels, width * height of premultiplied 0xAARRGGBB, which are the canvas'. */
+/* The pixels of a raster canvas instead: width * height, premultiplied 0xAARRGGBB, owned by the canvas. */
 facet_result canvas_read(canvas *c, const uint32_t **pixels, facet_error *error);
 
-bool canvas_is_raster(const canvas *c); /* pixels of the canvas are those of the file */
+bool canvas_is_raster(const canvas *c); /* pixels of the canvas are pixels of the file */
 
-/* A path, then one of fill, stroke, clip, which end it. Clips hold until the matching canvas_restore(). */
+/* A path, then fill, stroke or clip, which end it. A clip holds until the matching canvas_restore(). */
 void canvas_save(canvas *c);
 void canvas_restore(canvas *c);
 void canvas_move_to(canvas *c, double x, double y);
 void canvas_line_to(canvas *c, double x, double y);
 void canvas_rectangle(canvas *c, double x, double y, double width, double height);
-/* Around (x, y), from angle to angle in rad, clockwise from the right, as y points down. */
+/* Around (x, y) between two angles, rad, clockwise from the right, since y points down. */
 void canvas_arc(canvas *c, double x, double y, double radius, double from_rad, double to_rad);
 void canvas_close(canvas *c);
 void canvas_clip(canvas *c);
 void canvas_fill(canvas *c, canvas_color color);
 void canvas_draw(canvas *c, const canvas_stroke *stroke);
 
-/* text is valid UTF-8 without control characters (chart_text.h makes such). From (x, y) along the base line, turned
- * by angle_rad, clockwise. */
+/* text is valid UTF-8 without control characters (see label_clean()), drawn from (x, y) along the baseline, rotated
+ * clockwise by angle_rad. */
 double canvas_text_width(canvas *c, canvas_font font, const char *text);
 void canvas_text(canvas *c, double x, double y, double angle_rad, canvas_font font, canvas_color color,
                  const char *text);
 
-/* A picture over a rectangle; pixels: width * height of premultiplied 0xAARRGGBB. */
+/* An image over a rectangle; pixels: width * height, premultiplied 0xAARRGGBB. */
 void canvas_image(canvas *c, double x, double y, double width, double height, uint32_t *pixels,
                   uint32_t pixel_width, uint32_t pixel_height);
 

@@ -7,7 +7,7 @@ facet_result cairo_library_open(const char *soname, cairo_library *out, facet_er
 {
     *out = (cairo_library){0};
     const library_symbol symbols[] = {CAIRO_FUNCTIONS(LIBRARY_SYMBOL, out)};
-    /* It stays: it and its font libraries keep caches that unloading would leak. */
+    /* libcairo stays loaded: its font libraries keep caches that unloading would leak. */
     const library_desc desc = {
         .subject = "plot",
         .advice = ", which draws SVG, PDF and PNG, is not installed; install it (Debian: libcairo2) or write "

@@ -1,4 +1,4 @@
-/* chart.c - draws a chart: the canvas, the ground, each panel in its place. */
+/* chart.c - draws a chart: canvas, background, panels. */
 #include "plot/chart.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@ double view_snap(double px)
 
 void view_line(const drawing *d, double x0, double y0, double x1, double y1, canvas_color color, double width)
 {
-    /* hairlines of large pictures are as wide as others seen from further away, in whole pixels */
+    /* hairlines scale with the size of the chart, in whole pixels */
     const double whole = fmax(floor(0.9 * d->scale * width), 1.0);
     canvas_move_to(d->canvas, x0, y0);
     canvas_line_to(d->canvas, x1, y1);
@@ -32,7 +32,7 @@ static void draw_header(const drawing *d, const panel_view *v)
                    y + 1.05 * note.size);
 }
 
-/* Says that a panel of curves has none that can be seen. */
+/* A note in a panel whose curves have no visible points. */
 static void draw_emptiness(const drawing *d, const panel_view *v)
 {
     const chart_box all = {-1e9, -1e9, 2e9, 2e9};

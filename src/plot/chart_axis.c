@@ -19,7 +19,7 @@ void axis_extent_add(axis_extent *e, chart_scale scale, size_t count, const doub
     }
 }
 
-/* The range that was asked for where it is one; else that of the data. */
+/* The requested range if there is a valid one, else that of the data. */
 static ticks_desc describe(const chart_axis *axis, axis_extent data)
 {
     ticks_desc d = {.scale = axis->scale == CHART_LOG10 ? CHART_LOG10 : CHART_LINEAR,
@@ -32,7 +32,7 @@ static ticks_desc describe(const chart_axis *axis, axis_extent data)
         d.is_fixed = true;
         d.minimum = low;
         d.maximum = high;
-        if (d.scale == CHART_LOG10 && low <= 0.0) { /* as far down as the data go */
+        if (d.scale == CHART_LOG10 && low <= 0.0) { /* down to the smallest value */
             d.is_fixed = high > 0.0;
             d.minimum = data.minimum > 0.0 && data.minimum < high ? data.minimum : 1e-3 * high;
             d.minimum = fmax(d.minimum, 1e-300);
@@ -47,7 +47,7 @@ static ticks_desc describe(const chart_axis *axis, axis_extent data)
     return d;
 }
 
-/* Whether neighboring labels in a row keep apart. */
+/* Whether neighboring labels of a row do not touch. */
 static bool labels_fit(canvas *c, canvas_font font, const axis_view *a)
 {
     double end = -HUGE_VAL;

@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "plot/chart_number.h"
 
-/* Quoted where it needs be. */
+/* Quoted if necessary. */
 static void add_field(text *t, const char *field)
 {
     if (!strpbrk(field, ",\"\r\n") && field[0] != '#') {
@@ -53,7 +53,7 @@ static bool shares_x(const chart_curve *a, const chart_curve *b)
            (a->x == b->x || a->count == 0 || memcmp(a->x, b->x, a->count * sizeof *a->x) == 0);
 }
 
-/* The first of the curves with the x of curve i. */
+/* The first curve with the same x as curve i. */
 static size_t leader_of(const chart_panel *p, size_t i)
 {
     for (size_t k = 0; k < i; k++)
@@ -201,7 +201,7 @@ facet_result chart_write_csv(const chart *c, const facet_allocator *allocator, u
     text t = {.allocator = allocator ? *allocator : (facet_allocator){0}};
     *bytes = NULL;
     *size = 0;
-    text_add(&t, ""); /* a chart without panels is an empty file, not none */
+    text_add(&t, ""); /* a chart without panels gives an empty file */
     for (uint32_t i = 0; i < c->panel_count; i++) {
         const char *title = c->panels[i].title;
         if (c->panel_count == 1)

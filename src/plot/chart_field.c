@@ -6,7 +6,7 @@
 
 /* ---- the bar ---- */
 
-/* In units of the size of its labels. */
+/* In units of the label size. */
 static const double GAP = 1.5, WIDTH = 1.25, TICK = 0.4, LABEL_GAP = 0.35;
 
 double view_bar_measure(const drawing *d, const char *label, chart_scale scale, axis_extent data,
@@ -14,7 +14,7 @@ double view_bar_measure(const drawing *d, const char *label, chart_scale scale, 
 {
     const canvas_font font = view_tick_font(d);
     chart_axis axis = {.scale = scale};
-    if (is_fixed || data.maximum > data.minimum) { /* all colors are used: not widened */
+    if (is_fixed || data.maximum > data.minimum) { /* the range of colors is not widened to round numbers */
         axis.has_range = true;
         axis.minimum = data.minimum;
         axis.maximum = data.maximum;
@@ -76,19 +76,19 @@ void view_bar_draw(const drawing *d, const char *label, axis_view *bar, const ch
 
 /* ---- the field ---- */
 
-/* Fractions of the bar; NaN: outside of the field. */
+/* Positions on the color bar; NaN: outside of the field. */
 static void find_fractions(const chart_field *field, const axis_view *bar, float *fractions)
 {
     const size_t count = (size_t)field->width * field->height;
     for (size_t i = 0; i < count; i++) {
         const double v = field->values[i];
         const double t = axis_fraction(bar, isinf(v) ? copysign(1e300, v) : v);
-        /* on a logarithmic bar what is not positive is below its end */
+        /* values that are not positive are below the end of a logarithmic bar */
         fractions[i] = isnan(v) ? NAN : isnan(t) ? 0.0f : (float)fmin(fmax(t, 0.0), 1.0);
     }
 }
 
-/* Where a pixel's middle lies between the middles of cells: the lower cell, the upper one, the weight of the upper. */
+/* The position of a pixel center between cell centers: the lower cell, the upper one, the weight of the upper. */
 static double between(uint32_t pixel, uint32_t pixel_count, uint32_t cell_count, uint32_t *low,
                       uint32_t *high)
 {
@@ -98,7 +98,7 @@ static double between(uint32_t pixel, uint32_t pixel_count, uint32_t cell_count,
     return place - *low;
 }
 
-/* Of the four cells around, those that have a value; premultiplied, 0: none has. */
+/* Interpolates those of the four surrounding cells that have a value; premultiplied, 0: none has. */
 static uint32_t pixel_color(const float *top, const float *bottom, uint32_t x0, uint32_t x1, double fx,
                             double fy, const uint32_t *colors, uint32_t last_color)
 {
@@ -137,7 +137,7 @@ static void paint(const chart_field *field, const float *fractions, uint32_t *pi
 facet_result view_field_draw(const drawing *d, const chart_field *field, const axis_view *bar,
                              const chart_box *box, facet_error *error)
 {
-    /* in the file's pixels; two to one in vector files, which are magnified */
+    /* pixels of the file; two per pixel in vector files, which are magnified */
     const double fine = canvas_is_raster(d->canvas) ? 1.0 : 2.0;
     const uint32_t width = (uint32_t)fmin(fmax(rint(box->width * fine), 1.0), CANVAS_MAX_SIZE);
     const uint32_t height = (uint32_t)fmin(fmax(rint(box->height * fine), 1.0), CANVAS_MAX_SIZE);

@@ -23,7 +23,7 @@ double layout_scale(const chart *c)
         fmin(sqrt((double)c->width * c->height / (960.0 * 640.0)), fmin(c->width, c->height) / 300.0);
     const double whole = size < 1.0 ? sqrt(size) : size;
     const double shared = whole * pow((double)column_count(c) * row_count(c), -0.18);
-    return fmax(shared, fmin(whole, 0.72)); /* text of 8 px is the smallest that is read */
+    return fmax(shared, fmin(whole, 0.72)); /* text below 8 px is not readable */
 }
 
 static bool is_cartesian(const panel_view *v)
@@ -31,7 +31,7 @@ static bool is_cartesian(const panel_view *v)
     return v->panel->kind == CHART_XY || v->panel->kind == CHART_FIELD;
 }
 
-/* Where a legend below begins, and its width: under the plot. */
+/* The left end and the width of a legend below: those of the plot. */
 static chart_box room_below(const panel_view *v)
 {
     const double x = is_cartesian(v) ? v->plot.x - 0.55 * v->legend.font.size : v->cell.x;
@@ -62,7 +62,7 @@ static void measure(const drawing *d, panel_view *v)
 
 /* ---- panels in their grid ---- */
 
-/* The chart's title; returns the px below which panels begin. */
+/* Draws the title of the chart; returns the y below which panels begin. */
 static double draw_title(const drawing *d, double margin)
 {
     const canvas_font font = {.size = 16.0 * d->scale, .is_bold = true};
@@ -84,7 +84,7 @@ static void make_header(const drawing *d, panel_view *v)
     v->header = 1.25 * title.size * v->title_lines + 1.35 * note.size * v->note_lines;
     if (v->header > 0.0)
         v->header += 0.5 * title.size;
-    if (v->header > 0.3 * v->cell.height && v->note_lines + v->title_lines > 1) { /* the plot comes first */
+    if (v->header > 0.3 * v->cell.height && v->note_lines + v->title_lines > 1) { /* the plot has priority */
         v->note_lines = 0;
         v->title_lines = v->title_lines > 0;
         label_fit(d->canvas, title, v->panel->title, v->cell.width, &v->title[0]);
@@ -123,7 +123,7 @@ static void place_cells(const drawing *d, panel_view *views)
     }
 }
 
-/* The plot is what margins leave of the cell. */
+/* The plot is the cell without its margins. */
 static void place_plot(panel_view *v)
 {
     const view_margins *m = &v->margins;
@@ -146,12 +146,11 @@ static void align_columns(panel_view *a, panel_view *b)
     a->margins.right = b->margins.right = fmax(a->margins.right, b->margins.right);
 }
 
-/* Axes above one another begin and end at the same place, and so do those beside one another; discs, half discs and
- * surfaces of a chart are of one size. */
+/* Axes in a column, and axes in a row, are aligned; discs, half discs and surfaces of a chart are of equal size. */
 static void align(const chart *c, panel_view *views)
 {
     const uint32_t columns = column_count(c);
-    for (int pass = 0; pass < 2; pass++) /* the second hands on what the first has found late */
+    for (int pass = 0; pass < 2; pass++) /* the second pass propagates margins that the first found late */
         for (uint32_t i = 0; i < c->panel_count; i++)
             for (uint32_t k = 0; k < i; k++) {
                 panel_view *a = &views[i], *b = &views[k];
@@ -170,7 +169,7 @@ static void align(const chart *c, panel_view *views)
 static void measure_all(const drawing *d, panel_view *views)
 {
     const chart *c = d->chart;
-    /* the number of ticks depends on the plot's size, and that on the width of their labels */
+    /* the number of ticks depends on the size of the plot, and that on the width of their labels */
     for (int pass = 0; pass < 2; pass++) {
         for (uint32_t i = 0; i < c->panel_count; i++)
             measure(d, &views[i]);
@@ -193,12 +192,12 @@ facet_result layout_trace(const drawing *d, panel_view *v, facet_error *error)
     return FACET_OK;
 }
 
-/* The least that a legend inside covers; its place. */
+/* The smallest cover of a legend inside, and its position. */
 static double fit_inside(const drawing *d, panel_view *v)
 {
     if (v->panel->kind != CHART_POLAR)
         return legend_fit_inside(&v->legend, &v->plot, &v->traces, 0.0, 0.0, 0.0);
-    /* the corners outside of the half disc */
+    /* the corners beside the half disc */
     const double radius = fmin(0.5 * v->plot.width, v->plot.height);
     const double bottom = v->plot.y + 0.5 * (v->plot.height + radius), top = v->cell.y + v->header;
     const chart_box free = {v->cell.x, top, v->cell.width, bottom - top};
@@ -206,7 +205,7 @@ static double fit_inside(const drawing *d, panel_view *v)
                              radius + 2.2 * view_tick_font(d).size);
 }
 
-/* Inside where nothing is covered; else where it takes the smaller part of the plot. */
+/* Inside if it covers nothing, else where it takes the smaller part of the plot. */
 static void choose_place(const drawing *d, panel_view *v)
 {
     const canvas_font font = view_tick_font(d);
@@ -221,15 +220,15 @@ static void choose_place(const drawing *d, panel_view *v)
     legend_create(d->canvas, v->panel, font, d->scale, room_below(v).width, &below);
     right.place = LEGEND_RIGHT;
     below.place = LEGEND_BELOW;
-    /* names that are cut say little */
+    /* cut names are hardly readable */
     const bool is_whole = right.height <= v->plot.height && right.name_width >= below.name_width - 0.5;
     const double lost_right = is_whole ? right.width / v->plot.width : 1.0;
     const double lost_below = legend_rows_height(&below, room_below(v).width) / v->plot.height;
-    /* names that are not there at all are worse than a small plot */
+    /* missing names are worse than a small plot */
     if (fmin(lost_right, lost_below) < (isfinite(covered) ? 0.45 : 0.7))
         v->legend = lost_right < lost_below ? right : below;
     else if (!isfinite(covered))
-        v->legend.place = LEGEND_NONE; /* too small a panel */
+        v->legend.place = LEGEND_NONE; /* the panel is too small */
 }
 
 static void place_legend(const drawing *d, panel_view *v)
@@ -247,7 +246,7 @@ static void place_legend(const drawing *d, panel_view *v)
     }
 }
 
-/* A legend that the plot has become too small for, as its neighbor has one below, goes below as well. */
+/* If the plot has become too small for a legend inside, as a neighbor has one below, it goes below as well. */
 static void settle_place(const drawing *d, panel_view *v)
 {
     if (v->legend.place != LEGEND_INSIDE || isfinite(fit_inside(d, v)))

@@ -7,7 +7,7 @@
 
 #include "plot/palette.h"
 
-/* In units of the font's size. */
+/* In units of the font size. */
 static const double LINE_HEIGHT = 1.5, SAMPLE = 2.5, SAMPLE_GAP = 0.6, PADDING = 0.55, ENTRY_GAP = 1.6;
 
 static double entry_width(const legend *l, int i)
@@ -66,7 +66,7 @@ static bool touches_disc(const chart_box *b, double x, double y, double radius)
 double legend_fit_inside(legend *l, const chart_box *plot, const trace_list *traces, double disc_x,
                          double disc_y, double disc_radius)
 {
-    /* in the order of preference: fractions of the room that is left over */
+    /* in order of preference: fractions of the remaining space */
     static const double PLACES[][2] = {{1, 0},    {0, 0},    {1, 1},    {0, 1},    {0.5, 0},  {1, 0.5},
                                        {0, 0.5},  {0.5, 1},  {0.75, 0}, {0.25, 0}, {0.75, 1}, {0.25, 1},
                                        {1, 0.25}, {0, 0.25}, {1, 0.75}, {0, 0.75}, {0.5, 0.5}};
@@ -92,7 +92,7 @@ double legend_fit_inside(legend *l, const chart_box *plot, const trace_list *tra
     return best;
 }
 
-/* Columns of equal width in which the entries are set; 0: all of them fit in one row, one behind the other. */
+/* Columns of equal width for the entries; 0: all fit in one row, side by side. */
 static int column_count(const legend *l, double width)
 {
     const double gap = l->font.size * ENTRY_GAP,
@@ -103,7 +103,7 @@ static int column_count(const legend *l, double width)
     return sum <= width ? 0 : (int)fmax(floor((width + gap) / (widest + gap)), 1.0);
 }
 
-/* Where entry i stands in rows of that width, from (0, 0). */
+/* The position of entry i in rows of that width, relative to (0, 0). */
 static void place_in_rows(const legend *l, double width, int i, double *x, double *y)
 {
     const double gap = l->font.size * ENTRY_GAP,

@@ -1,4 +1,4 @@
-/* chart_legend.h - the names of curves beside samples of their lines, where they hide least. */
+/* chart_legend.h - the legend: names of curves beside samples of their lines, placed where it covers the least. */
 #ifndef PLOT_CHART_LEGEND_H
 #define PLOT_CHART_LEGEND_H
 
@@ -13,7 +13,7 @@ typedef struct legend {
     legend_place place;
     int count; /* of entries */
     const chart_curve *curves[LEGEND_MAX_ENTRIES];
-    int left_out;                          /* curves that there is no entry for: "and 3 more" */
+    int left_out;                          /* curves without an entry: "and 3 more" */
     double widths[LEGEND_MAX_ENTRIES + 1]; /* px of the names as shown */
     double name_width;                     /* px of the widest */
     double width, height;                  /* px as one column, with padding */
@@ -22,16 +22,16 @@ typedef struct legend {
     chart_box box; /* where it is drawn */
 } legend;
 
-/* What stands in the legend of panel, names cut to max_width; place is LEGEND_NONE where nothing does. */
+/* The entries for a panel, names cut to max_width; place is LEGEND_NONE if there are none. */
 void legend_create(canvas *c, const chart_panel *panel, canvas_font font, double scale, double max_width,
                    legend *out);
-/* The place inside plot that covers the least of traces; keep_out: a disc that it must not touch (radius 0: none).
- * Returns the px of lines that it covers; infinity: there is no room. Sets box. */
+/* The position inside plot that covers the least of traces and does not touch a disc (radius 0: none). Returns the
+ * px of covered lines; infinity: there is no space. Sets box. */
 double legend_fit_inside(legend *l, const chart_box *plot, const trace_list *traces, double disc_x,
                          double disc_y, double disc_radius);
-/* px of height that entries in rows of that width take. */
+/* Height in px of entries in rows of that width. */
 double legend_rows_height(const legend *l, double width);
-/* Draws it in box, as its place says. */
+/* Draws the legend in box, arranged by its place. */
 void legend_draw(canvas *c, const legend *l, bool is_dark);
 
 #endif

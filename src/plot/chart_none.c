@@ -1,4 +1,4 @@
-/* chart_none.c - chart_draw() where cairo was not there when facet was built. */
+/* chart_none.c - chart_draw() in builds without cairo. */
 #include "plot/chart.h"
 
 #include "base/result.h"

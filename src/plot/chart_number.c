@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The decimal point of any locale becomes ".". */
+/* Replaces the decimal point of any locale by ".". */
 static void set_point(char *text)
 {
     char *p = text + (*text == '-');
@@ -40,8 +40,8 @@ static bool add_one(char *text)
     return false;
 }
 
-/* A decimal of that many digits that reads back as value. The nearest one need not: below a power of two doubles lie
- * twice as close, and the next one above may be near enough where the nearest, below, is not. */
+/* A decimal of that many digits that reads back as value. The nearest decimal may not: below a power of two doubles
+ * are twice as dense, so the next one above may read back where the nearest, below, does not. */
 static bool find_digits(double value, int digits, char out[NUMBER_SIZE])
 {
     snprintf(out, NUMBER_SIZE, "%.*g", digits, value);
@@ -64,7 +64,7 @@ void number_shortest(double value, char out[NUMBER_SIZE])
         strcpy(out, isnan(value) ? "" : value > 0.0 ? "inf" : "-inf");
         return;
     }
-    /* 15 digits hold every shorter decimal, but not where doubles have fewer bits */
+    /* 15 digits hold every shorter decimal, except where doubles have fewer bits */
     for (int digits = fabs(value) < DBL_MIN ? 1 : 15; digits <= 17; digits++)
         if (find_digits(value, digits, out))
             break;
@@ -75,7 +75,7 @@ void number_label(double value, int decimals, char out[NUMBER_SIZE])
 {
     char digits[NUMBER_SIZE];
     decimals = decimals < 0 ? 0 : decimals > 17 ? 17 : decimals;
-    /* what does not fit is not a label: a power of ten is */
+    /* too long for a label: a power of ten is used instead */
     int length = fabs(value) < 1e9 ? snprintf(digits, sizeof digits, "%.*f", decimals, value)
                                    : snprintf(digits, sizeof digits, "%.6g", value);
     if (length < 0 || length >= NUMBER_SIZE - 4)

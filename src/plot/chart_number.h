@@ -1,4 +1,4 @@
-/* chart_number.h - numbers as text: for files, and as labels of ticks. Independent of the locale. */
+/* chart_number.h - numbers as text for files and tick labels, independent of the locale. */
 #ifndef PLOT_CHART_NUMBER_H
 #define PLOT_CHART_NUMBER_H
 
@@ -8,7 +8,7 @@ enum { NUMBER_SIZE = 32 };
 
 /* The shortest decimal that reads back as the same double; "": NaN; "inf", "-inf". */
 void number_shortest(double value, char out[NUMBER_SIZE]);
-/* As many decimals as asked for, with the minus sign of typography (U+2212); never "-0". */
+/* The given number of decimals, with the typographic minus sign (U+2212); never "-0". */
 void number_label(double value, int decimals, char out[NUMBER_SIZE]);
 
 #endif

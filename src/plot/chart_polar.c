@@ -12,7 +12,7 @@ static const double DEGREE = 0.017453292519943295;
 static const double ANGLE_GAP = 0.55, RADIUS_GAP = 0.45;
 
 typedef struct half_disc {
-    double x, y, radius; /* the middle of its base, px */
+    double x, y, radius; /* the center of its base, px */
 } half_disc;
 
 static half_disc place_half_disc(const panel_view *v)
@@ -35,7 +35,7 @@ void view_polar_measure(const drawing *d, panel_view *v)
     axis_extent e = AXIS_EXTENT_NONE;
     for (size_t i = 0; i < p->curve_count; i++)
         axis_extent_add(&e, p->y.scale, p->curves[i].count, p->curves[i].y);
-    if (p->y.scale == CHART_LINEAR && e.minimum <= e.maximum) { /* from the middle */
+    if (p->y.scale == CHART_LINEAR && e.minimum <= e.maximum) { /* from the center */
         e.minimum = 0.0;
         e.maximum = fmax(e.maximum, 0.0);
     }
@@ -65,7 +65,7 @@ void view_polar_trace(const drawing *d, panel_view *v)
         for (size_t k = 0; k < t->count; k++) {
             const double angle = t->curve->x[k], value = t->curve->y[k];
             double radius = axis_fraction(&v->y, value);
-            if (isfinite(value) && !(radius > 0.0)) /* what is too small for the axis ends in the middle */
+            if (isfinite(value) && !(radius > 0.0)) /* values below the axis are in the center */
                 radius = 0.0;
             const bool is_point = isfinite(angle) && isfinite(radius);
             t->x[k] = is_point ? disc.x + disc.radius * radius * sin(angle) : (double)NAN;
@@ -107,7 +107,7 @@ static void draw_angles(const drawing *d, const half_disc *disc)
         char text[16];
         angle_label(degrees, text);
         label_fit(d->canvas, font, text, 1e4, &l);
-        /* the label's near edge touches the circle of that reach, whatever the direction */
+        /* the near edge of the label touches the circle of that radius in every direction */
         const double middle = disc->x + reach * x + 0.5 * l.width * x;
         if (middle - 0.5 * l.width < end && fabs(y) > 0.9) /* in a very small panel */
             continue;
@@ -136,7 +136,7 @@ static void draw_names(const drawing *d, const panel_view *v, const half_disc *d
     const double base = disc->y + tick.size * (RADIUS_GAP + 1.3) + 1.1 * font.size;
     label_line name;
     label_fit(d->canvas, font, v->panel->y.label, v->cell.width, &name);
-    /* under the radii, where there is room for it */
+    /* below the radii, if there is space */
     const double x = name.width <= disc->radius ? disc->x + 0.5 * disc->radius : disc->x;
     label_draw(d->canvas, &name, font, d->theme->text, LABEL_CENTER, x, base);
     const tick_label power = axis_power(&v->y);
@@ -213,7 +213,7 @@ void view_disc_measure(const drawing *d, panel_view *v)
         v->margins.right += width;
 }
 
-/* Of the disc's radius: where directions that far from the normal are. */
+/* The radius of directions at that angle from the normal, over that of the disc. */
 static double ring_radius(const chart_field *f, int degrees)
 {
     return f && f->is_equidistant ? degrees / 90.0 : sin(degrees * DEGREE);
@@ -238,7 +238,7 @@ static facet_result draw_field(const drawing *d, const panel_view *v, const full
     return result;
 }
 
-/* A line that is seen on every color: dark below, light above. */
+/* A line that is visible on every color: dark below, light above. */
 static void draw_on_colors(const drawing *d, double width)
 {
     canvas_draw(d->canvas, &(canvas_stroke){.color = {1.0, 1.0, 1.0, 0.45}, .width = width, .is_butt = true});
@@ -263,7 +263,7 @@ static void draw_rings(const drawing *d, const panel_view *v, const full_disc *d
     canvas_draw(d->canvas, &(canvas_stroke){.color = d->theme->axis, .width = fmax(1.2 * d->scale, 1.0)});
 }
 
-/* "30 deg" beside its ring, on a plate that lets it be read on every color. */
+/* "30 deg" beside its ring, on a plate that makes it readable on every color. */
 static void draw_ring_labels(const drawing *d, const panel_view *v, const full_disc *disc)
 {
     canvas_font font = view_tick_font(d);

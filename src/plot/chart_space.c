@@ -120,7 +120,7 @@ static bool is_same_point(const chart_surface *s, size_t i, size_t k)
     return fabs(s->x[i] - s->x[k]) + fabs(s->y[i] - s->y[k]) + fabs(s->z[i] - s->z[k]) <= 1e-6 * size;
 }
 
-/* Points that are one in space have one normal: count of them from first, stride apart. */
+/* Coincident points share a normal: count of them from first, stride apart. */
 static void join_normals(const chart_surface *s, double (*normals)[3], size_t first, size_t stride,
                          size_t count)
 {
@@ -136,7 +136,7 @@ static void join_normals(const chart_surface *s, double (*normals)[3], size_t fi
             normals[first + i * stride][c] = sum[c];
 }
 
-/* Where a grid goes round (its first and last column are one), and at its poles (all points of a row are one). */
+/* Seams: the first and last column of a closed grid, and its poles, where all points of a row coincide. */
 static void join_seams(const chart_surface *s, double (*normals)[3])
 {
     const size_t columns = s->width, rows = s->height;
@@ -168,9 +168,10 @@ double space_shade(const space_view *w, const double normal[3])
 
 /* ---- the z-buffer ---- */
 
-enum { SAMPLES = 3, BAND = 32 }; /* samples of a pixel each way; rows of pixels that are in work at a time */
+/* samples per pixel in each direction; rows of pixels that are rendered at a time */
+enum { SAMPLES = 3, BAND = 32 };
 
-/* The samples of some rows of the picture. */
+/* Samples of a band of rows. */
 typedef struct band {
     uint32_t first_row, row_count; /* pixels */
     uint32_t columns;              /* samples in a row */
@@ -255,7 +256,7 @@ static void draw_grid(const band *of, const solid_vertex *vertices, uint32_t col
         }
 }
 
-/* The mean of a pixel's samples. */
+/* The mean of the samples of a pixel. */
 static void resolve(const band *of, solid *out)
 {
     for (uint32_t row = 0; row < of->row_count; row++)

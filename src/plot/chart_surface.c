@@ -1,5 +1,5 @@
-/* chart_surface.c - panels of a surface in space: seen without perspective, lit a little, in false color, over a disc
- * with the directions of x and y. */
+/* chart_surface.c - panels of a surface in space: orthographic, lightly shaded, in false color, over a disc with the directions of x
+ * and y. */
 #include "plot/chart_view.h"
 
 #include <math.h>
@@ -52,13 +52,13 @@ static facet_result make_solid(const drawing *d, const space_view *w, const pane
     return result;
 }
 
-/* How a line in space is drawn: all of it (solid NULL), or what lies in front of the surface or on it. */
+/* How a line in space is drawn: whole (solid NULL), or the part in front of the surface or on it. */
 typedef struct space_line {
     canvas_stroke stroke;
     const solid *solid;
-    double slack; /* px of depth that a line on the surface may seem to lie behind it */
-    bool is_over; /* only where the surface is behind */
-    int around;   /* pixels to look around: the next one of a steep surface is much nearer */
+    double slack; /* px of depth by which a line on the surface may appear behind it */
+    bool is_over; /* only where the surface is farther */
+    int around;   /* neighborhood in pixels, since depth changes fast on a steep surface */
 } space_line;
 
 static bool is_visible(const space_view *w, const space_line *line, double x, double y, double depth)
@@ -100,7 +100,7 @@ static void draw_segment(const drawing *d, const space_view *w, const space_line
     }
 }
 
-/* The line of the grid along points first, first + stride .. */
+/* The grid line of points first, first + stride .. */
 static void draw_mesh_line(const drawing *d, const space_view *w, const chart_surface *s,
                            const space_line *line, size_t first, size_t stride, size_t count)
 {
@@ -117,7 +117,7 @@ static void draw_mesh_line(const drawing *d, const space_view *w, const chart_su
 
 static void draw_mesh(const drawing *d, const space_view *w, const chart_surface *s, const solid *picture)
 {
-    enum { LINES = 12 }; /* about so many each way */
+    enum { LINES = 12 }; /* about this many in each direction */
     const space_line line = {.stroke = {.color = {1.0, 1.0, 1.0, 0.3}, .width = fmax(0.7 * d->scale, 0.6)},
                              .solid = picture,
                              .slack = 0.012 * w->scale * w->base_radius,
@@ -141,7 +141,7 @@ static void draw_ring(const drawing *d, const space_view *w, const space_line *l
     canvas_draw(d->canvas, &line->stroke);
 }
 
-/* The disc at z = 0 and the axis of z; under the surface all of it, then what is before it. */
+/* The disc at z = 0 and the z axis: all of it below the surface, then the part in front of it. */
 static void draw_base(const drawing *d, const space_view *w, const solid *picture)
 {
     space_line line = {.stroke = {.color = d->theme->grid, .width = 1.0},
@@ -165,7 +165,7 @@ static void draw_base(const drawing *d, const space_view *w, const solid *pictur
     canvas_draw(d->canvas, &line.stroke);
 }
 
-/* Whether the surface covers nothing of a box. */
+/* Whether the surface leaves a box uncovered. */
 static bool is_free(const space_view *w, const solid *picture, const chart_box *box)
 {
     for (int row = 0; row <= 4; row++)
@@ -177,7 +177,7 @@ static bool is_free(const space_view *w, const solid *picture, const chart_box *
     return true;
 }
 
-/* Azimuths around the disc, where the surface leaves room for them. */
+/* Azimuths around the disc, where the surface does not cover them. */
 static void draw_compass(const drawing *d, const space_view *w, const solid *picture)
 {
     const canvas_font font = view_tick_font(d);
@@ -222,7 +222,7 @@ void view_surface_measure(const drawing *d, panel_view *v)
         v->margins.right += width;
 }
 
-/* What the surface covers, in whole px. */
+/* The bounds of the surface, in whole px. */
 static chart_box picture_box(const space_view *w)
 {
     const double x0 = floor(w->x + w->scale * w->low[0]) - 1.0, x1 = ceil(w->x + w->scale * w->high[0]) + 1.0;

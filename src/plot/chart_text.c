@@ -9,7 +9,7 @@
 
 static const char ELLIPSIS[] = "\xe2\x80\xa6", REPLACEMENT[] = "\xef\xbf\xbd";
 
-/* Characters that have no glyph and would break lines: controls, U+FFFE and U+FFFF, which XML forbids. */
+/* Characters without a glyph, which would break lines: controls, and U+FFFE and U+FFFF, which XML forbids. */
 static bool is_control(const unsigned char *s, size_t length)
 {
     return (length == 1 && (s[0] < 0x20 || s[0] == 0x7f)) || (length == 2 && s[0] == 0xc2 && s[1] < 0xa0) ||
@@ -47,7 +47,8 @@ static void set_label(canvas *c, canvas_font font, const char *text, size_t leng
     out->width = canvas_text_width(c, font, out->text);
 }
 
-/* The longest start of text (clean, length bytes) that fits with an ellipsis; nothing at all where that is too wide. */
+/* The longest prefix of text (clean, length bytes) that fits with an ellipsis; empty if even the ellipsis is too
+ * wide. */
 static void cut(canvas *c, canvas_font font, const char *text, size_t length, double max_width,
                 label_line *out)
 {
@@ -56,7 +57,7 @@ static void cut(canvas *c, canvas_font font, const char *text, size_t length, do
         size_t middle = (low + high + 1) / 2;
         while (middle > low && ((unsigned char)text[middle] & 0xc0) == 0x80)
             middle--;
-        if (middle == low) { /* inside the one character that is left: take it or leave it */
+        if (middle == low) { /* a single character remains */
             middle = low + 1;
             while (middle < high && ((unsigned char)text[middle] & 0xc0) == 0x80)
                 middle++;
@@ -85,8 +86,8 @@ void label_fit(canvas *c, canvas_font font, const char *text, double max_width, 
         cut(c, font, clean, strlen(clean), max_width, out);
 }
 
-/* The bytes of text that make one line: up to a line feed, or the last space before max_width; a word that is too wide
- * by itself is one. */
+/* The bytes of text in one line: up to a line feed, or the last space before max_width; a word that is too wide
+ * makes a line of its own. */
 static size_t line_length(canvas *c, canvas_font font, const char *text, double max_width)
 {
     size_t best = 0;

@@ -1,4 +1,4 @@
-/* chart_text.h - text that fits: any bytes become lines of valid UTF-8 that are no wider than they may be. */
+/* chart_text.h - text that fits: any bytes as lines of valid UTF-8 within a width. */
 #ifndef PLOT_CHART_TEXT_H
 #define PLOT_CHART_TEXT_H
 
@@ -7,24 +7,24 @@
 
 enum { LABEL_SIZE = 1024, LABEL_MAX_LINES = 4 };
 
-/* One line; what is longer than its bytes is cut before it is measured. */
+/* One line; longer text is cut before it is measured. */
 typedef struct label_line {
     char text[LABEL_SIZE];
     double width; /* px */
 } label_line;
 
-/* text (NULL: "") as valid UTF-8, at most LABEL_SIZE - 1 bytes: bytes that are none become U+FFFD, control characters
+/* text (NULL: "") as valid UTF-8, at most LABEL_SIZE - 1 bytes: invalid bytes become U+FFFD, control characters
  * spaces; line feeds stay. */
 void label_clean(const char *text, char out[LABEL_SIZE]);
 /* One line, cut to max_width with an ellipsis. */
 void label_fit(canvas *c, canvas_font font, const char *text, double max_width, label_line *out);
-/* Up to max_lines of it (at most LABEL_MAX_LINES), broken at spaces and line feeds; what is left is cut with an
- * ellipsis. Returns their number; "" has none. */
+/* Up to max_lines lines (at most LABEL_MAX_LINES), broken at spaces and line feeds; the rest is cut with an
+ * ellipsis. Returns the number of lines; "" has none. */
 int label_wrap(canvas *c, canvas_font font, const char *text, double max_width, int max_lines,
                label_line *lines);
 
 typedef enum label_align { LABEL_LEFT, LABEL_CENTER, LABEL_RIGHT } label_align;
-/* y: the base line. */
+/* y: the baseline. */
 void label_draw(canvas *c, const label_line *l, canvas_font font, canvas_color color, label_align align,
                 double x, double y);
 /* Centered at (x, y), read from below. */
@@ -35,7 +35,7 @@ double label_tick_width(canvas *c, canvas_font font, const tick_label *t);
 void label_draw_tick(canvas *c, const tick_label *t, canvas_font font, canvas_color color, label_align align,
                      double x, double y);
 
-/* From a line's base to where the middle of its figures is. */
+/* Height of the center of figures above the baseline. */
 static inline double label_middle(canvas_font font)
 {
     return 0.365 * font.size; /* half the height of figures and capitals of DejaVu Sans */

@@ -23,7 +23,7 @@ void ticks_range(chart_scale scale, double *minimum, double *maximum)
             high *= 3.0;
         }
     } else if (high - low <=
-               fmax(1e-9 * fmax(fabs(low), fabs(high)), 1e-290)) { /* constant, but for rounding */
+               fmax(1e-9 * fmax(fabs(low), fabs(high)), 1e-290)) { /* constant except for rounding */
         const double reach = 1.25 * fmax(fabs(low), fabs(high));
         if (reach < 1e-290) {
             low = -1.0;
@@ -46,7 +46,7 @@ void ticks_range(chart_scale scale, double *minimum, double *maximum)
 
 /* ---- linear ---- */
 
-/* One step that is tried: ticks are first * step .. last * step. */
+/* A candidate step: ticks are first * step .. last * step. */
 typedef struct candidate {
     double digit; /* step = digit * 10^power, which need not be a double */
     int power;
@@ -67,16 +67,16 @@ static candidate make_candidate(const ticks_desc *d, double digit, int power)
     candidate c = {.digit = digit, .power = power};
     const double step = tick_at(&c, 1.0);
     const double low = d->minimum / step, high = d->maximum / step;
-    /* a range that ends on a tick but for rounding has it */
+    /* a range that ends on a tick, except for rounding, includes it */
     const double slack = 1e-9 * fmax(1.0, high - low);
     c.first = d->is_fixed ? ceil(low - slack) : floor(low + slack);
     c.last = d->is_fixed ? floor(high + slack) : ceil(high - slack);
     return c;
 }
 
-/* How well ticks suit: Talbot, Lin and Hanrahan 2010, "An extension of Wilkinson's algorithm for positioning tick
- * labels on axes", their weights for the roundness of the step (1: best), for how well the ticks cover the range, and
- * for how near their number is to the wanted one. */
+/* The score of ticks by Talbot, Lin and Hanrahan 2010, "An extension of Wilkinson's algorithm for positioning tick
+ * labels on axes", with their weights for the roundness of the step (1: best), the coverage of the range, and the
+ * density. */
 static double score(const ticks_desc *d, const candidate *c, double roundness)
 {
     const double range = d->maximum - d->minimum, first = tick_at(c, c->first), last = tick_at(c, c->last);
@@ -92,7 +92,7 @@ static double score(const ticks_desc *d, const candidate *c, double roundness)
 /* The best of those with at most limit ticks; digit 0: there is none. */
 static candidate choose_step(const ticks_desc *d, double limit)
 {
-    /* the order is that of preference */
+    /* in order of preference */
     static const double DIGITS[] = {1.0, 5.0, 2.0, 2.5, 3.0};
     static const double DEGREES[] = {30.0, 10.0, 15.0, 45.0, 20.0, 90.0, 5.0, 60.0, 180.0, 2.0, 1.0};
     const double range = d->maximum - d->minimum;
@@ -123,7 +123,7 @@ static int decimals_of(const candidate *c)
     return decimals > 0 ? decimals : 0;
 }
 
-/* The power of ten that is taken out of labels which would be long: |largest| from 1e5 or below 1e-3. */
+/* The power of ten that long labels omit: |largest| from 1e5 or below 1e-3. */
 static int common_power(const candidate *c, double largest)
 {
     const int magnitude = largest > 0.0 ? (int)floor(log10(largest) + 1e-12) : 0;
@@ -150,7 +150,7 @@ static void label_linear(const candidate *c, bool is_degrees, ticks *out)
     }
 }
 
-/* Ticks between: five or four to a step, as divides it well. */
+/* Minor ticks: five or four per step, whichever divides it. */
 static void add_minor(const candidate *c, ticks *out)
 {
     const int parts = c->digit == 2.0 || c->digit == 20.0 ? 4 : c->digit == 3.0 || c->digit == 30.0 ? 3 : 5;
@@ -165,11 +165,11 @@ static void add_minor(const candidate *c, ticks *out)
 
 static void create_linear(const ticks_desc *desc, ticks *out)
 {
-    /* a fixed range has no more than look well; one that is widened for few of them would be mostly empty */
+    /* a fixed range has as many as suit it; a range widened for few ticks would be mostly empty */
     candidate c = choose_step(desc, desc->is_fixed ? desc->target + 1 : fmin(2 * desc->target, TICKS_MAX));
     if (c.digit == 0.0)
         c = choose_step(desc, TICKS_MAX);
-    if (c.digit == 0.0) /* nothing fits between: no ticks are better than wrong ones */
+    if (c.digit == 0.0) /* no step fits: no ticks are better than wrong ones */
         return;
     if (!desc->is_fixed) {
         out->minimum = fmin(out->minimum, tick_at(&c, c.first));
@@ -196,13 +196,13 @@ static void label_power(int exponent, bool is_plain, tick_label *label)
              exponent < 0 ? -exponent : exponent);
 }
 
-/* 10^exponent * digit, rounded once where a double can. */
+/* 10^exponent * digit, rounded once if possible. */
 static double power_of_ten(int exponent, double digit)
 {
     return exponent < 0 ? digit / pow(10.0, -exponent) : digit * pow(10.0, exponent);
 }
 
-/* 1, 2 and 5 of each decade; where that is about one decade, more of them. */
+/* 1, 2 and 5 of each decade; within about one decade more of them. */
 static void create_mantissas(bool is_one_decade, ticks *out)
 {
     static const double FEW[] = {1.0, 2.0, 5.0}, MORE[] = {1.0, 2.0, 3.0, 4.0, 6.0, 8.0};
@@ -228,7 +228,7 @@ static void create_mantissas(bool is_one_decade, ticks *out)
         }
 }
 
-/* Every so many decades. */
+/* One tick every several decades. */
 static void create_decades(int target, ticks *out)
 {
     static const int STEPS[] = {1, 2, 3, 5, 10, 20, 50, 100, 200};
@@ -252,7 +252,7 @@ static void create_logarithmic(const ticks_desc *desc, ticks *out)
 {
     double decades = log10(out->maximum) - log10(out->minimum);
     if (!desc->is_fixed) {
-        /* to whole decades, or to 1, 2, 5 of one where the whole would be mostly empty */
+        /* widened to whole decades, or to 1, 2, 5 of one if the whole would be mostly empty */
         static const double DIGITS[] = {1.0, 2.0, 5.0, 10.0};
         const int low = (int)floor(log10(out->minimum) + 1e-9), high = (int)floor(log10(out->maximum) - 1e-9);
         double minimum = power_of_ten(low, 1.0), maximum = power_of_ten(high, 10.0);

@@ -1,4 +1,4 @@
-/* chart_ticks.h - where an axis has its ticks, and what stands beside them. */
+/* chart_ticks.h - ticks of an axis and their labels. */
 #ifndef PLOT_CHART_TICKS_H
 #define PLOT_CHART_TICKS_H
 
@@ -13,7 +13,7 @@ typedef struct tick_label {
     char exponent[TICKS_EXPONENT_SIZE];
 } tick_label;
 
-/* All in units of the axis; ticks rise, and lie within the range. */
+/* In units of the axis, increasing, within the range. */
 typedef struct ticks {
     double minimum, maximum;
     int count, minor_count;
@@ -22,10 +22,10 @@ typedef struct ticks {
     int power; /* the labels say values / 10^power */
 } ticks;
 
-/* What an axis has to show, and how many ticks at most look well. */
+/* The range of an axis and the number of ticks that suit it. */
 typedef struct ticks_desc {
     chart_scale scale;
-    bool is_fixed; /* the range is taken as it is; else widened to round numbers */
+    bool is_fixed; /* the range stays; else it is widened to round numbers */
     bool is_degrees;
     double minimum, maximum; /* finite, minimum < maximum; logarithmic: positive */
     int target;              /* wanted count, 2 to TICKS_MAX */
@@ -33,8 +33,8 @@ typedef struct ticks_desc {
 
 void ticks_create(const ticks_desc *desc, ticks *out);
 
-/* A range for values from minimum to maximum that ticks_create() takes: not empty, with 0 where that is near, within
- * +-1e300; of no values (minimum > maximum): 0 to 1, logarithmic 0.1 to 1. */
+/* The range for values from minimum to maximum as ticks_create() needs it: not empty, including 0 if that is near,
+ * within +-1e300; without values (minimum > maximum) 0 to 1, logarithmic 0.1 to 1. */
 void ticks_range(chart_scale scale, double *minimum, double *maximum);
 
 #endif

@@ -109,7 +109,7 @@ static unsigned dash_of(const trace *t)
     return (unsigned)t->curve->style.dash % 4;
 }
 
-/* Whether the step from point i runs along the same step of other. */
+/* Whether the segment from point i coincides with the same segment of other. */
 static bool runs_along(const trace *t, const trace *other, size_t i, double near)
 {
     for (size_t k = i; k <= i + 1; k++)
@@ -119,8 +119,8 @@ static bool runs_along(const trace *t, const trace *other, size_t i, double near
     return true;
 }
 
-/* How many of the earlier traces with the same dash the step from point i runs along. Of a crowd nothing is told apart
- * anyway: only the nearest few are looked at. */
+/* The number of earlier traces with the same dash that coincide with the segment from point i. Only the nearest few
+ * are compared, as a crowd cannot be distinguished anyway. */
 static size_t covered_at(const trace_list *list, size_t index, size_t i, double near)
 {
     enum { NEAREST = 32 };
@@ -131,7 +131,7 @@ static size_t covered_at(const trace_list *list, size_t index, size_t i, double 
     return covered;
 }
 
-/* Dash number rank of those that share a line: a stretch of its own, then room for the others. */
+/* The dash of the rank-th of the coincident lines: a stretch of its own, then gaps for the others. */
 static canvas_stroke share_line(canvas_stroke stroke, size_t rank)
 {
     const double stretch = 7.0 * stroke.width;
@@ -181,7 +181,7 @@ static void draw_line(canvas *c, const trace_list *list, size_t index, const cha
     }
 }
 
-/* Dots where they are asked for, and for points that no line reaches. */
+/* Dots where the style has markers, and for isolated points. */
 static void draw_markers(canvas *c, const trace *t, const chart_box *box, const canvas_stroke *stroke)
 {
     for (size_t i = 0; i < t->count; i++) {
@@ -203,7 +203,7 @@ void trace_list_draw(canvas *c, const trace_list *list, const chart_box *box, bo
             if (dash_of(t) != dash)
                 continue;
             const canvas_stroke stroke = palette_stroke(&t->curve->style, is_dark, scale);
-            /* lines go on a little outside, so that their ends are not seen */
+            /* lines continue a little outside, which hides their ends */
             const double m = 2.0 * stroke.width;
             const chart_box wide = {box->x - m, box->y - m, box->width + 2.0 * m, box->height + 2.0 * m};
             draw_line(c, list, i, &wide, &stroke);

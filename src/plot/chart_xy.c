@@ -11,7 +11,7 @@ static bool is_field(const panel_view *v)
     return v->panel->kind == CHART_FIELD && v->panel->field;
 }
 
-/* The axis of a field is as long as the field, where nothing else is asked for. */
+/* By default the axis of a field ends with the field. */
 static chart_axis field_axis(const chart_axis *axis, double from, double to)
 {
     chart_axis a = *axis;
@@ -71,7 +71,7 @@ void view_xy_measure(const drawing *d, panel_view *v)
         m->left = tick.size * (TICK + LABEL_GAP) + axis_label_width(d->canvas, tick, &v->y);
         m->bottom = tick.size * (TICK + 1.35);
         const int last = v->x.ticks.count - 1;
-        /* half the last label may stand out */
+        /* half of the last label may protrude */
         m->right = last >= 0 ? 0.5 * label_tick_width(d->canvas, tick, &v->x.ticks.labels[last]) : 0.0;
         m->right = fmax(m->right, 0.6 * tick.size);
         m->top = 0.6 * tick.size;
@@ -106,7 +106,7 @@ void view_xy_trace(const drawing *d, panel_view *v)
 
 /* ---- drawing ---- */
 
-/* Lines between the decades where they can be told apart. */
+/* Minor lines of the decades if they are far enough apart. */
 static bool has_minor_grid(const drawing *d, const axis_view *a)
 {
     const double decades = log10(a->ticks.maximum) - log10(a->ticks.minimum);
@@ -217,7 +217,7 @@ static facet_result draw_field(const drawing *d, const panel_view *v, facet_erro
     const double y0 = axis_place(&v->y, f->y0), y1 = axis_place(&v->y, f->y1);
     if (!(x1 > x0) || !(y0 > y1) || x1 - x0 > 1e5 || y0 - y1 > 1e5)
         return FACET_OK;
-    /* the file's pixels, whole */
+    /* aligned with pixels of the file */
     const chart_box box = {rint(x0), rint(y1), fmax(rint(x1) - rint(x0), 1.0),
                            fmax(rint(y0) - rint(y1), 1.0)};
     canvas_save(d->canvas);
@@ -238,7 +238,7 @@ facet_result view_xy_draw(const drawing *d, panel_view *v, facet_error *error)
     if (result != FACET_OK)
         return result;
     canvas_save(d->canvas);
-    const double slack = 2.0 * d->scale; /* a line along the frame is not halved */
+    const double slack = 2.0 * d->scale; /* lines along the frame keep their width */
     canvas_rectangle(d->canvas, v->plot.x - slack, v->plot.y - slack, v->plot.width + 2.0 * slack,
                      v->plot.height + 2.0 * slack);
     canvas_clip(d->canvas);

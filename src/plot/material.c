@@ -91,7 +91,7 @@ static LayerTables tables_of(Layers m, vec3 V, int energy)
                         sheen_E, vec3(0.0f));
 }
 
-/* Visibility with masking and shadowing independent over the height-correlated one. */
+/* Ratio of separable to height-correlated visibility. */
 static float separable_ratio(Layers m, vec3 V, vec3 L)
 {
     vec2 a = layers_alpha(m, m.base.alpha);
@@ -103,7 +103,7 @@ static float separable_ratio(Layers m, vec3 V, vec3 L)
     return G / (4.0f * L[2] * V[2] * V_SmithGGX_anisotropic(l, v, a[0], a[1]));
 }
 
-/* What is below sheen and coat with the separable term: the interface's part is put in again, scaled. The tables of
+/* The layers below sheen and clearcoat with separable visibility: the specular lobe is exchanged. The LUTs of
  * ENERGY_CONSERVING remain those of the correlated one. */
 static vec3 base_cos_separable(Layers m, vec3 V, vec3 L, int energy, LayerTables t)
 {
@@ -204,8 +204,7 @@ double material_width(const material *m)
     } else if (p->model == FACET_PLOT_MODEL_OGL1)
         alpha = alpha_from_roughness(perceptual_roughness_from_shininess(p->shininess));
     else
-        alpha =
-            0.01f; /* the cells of a measured BRDF are 0.01 degrees wide at the mirror direction, and 2 at 45 */
+        alpha = 0.01f; /* cells of a measured BRDF are 0.01 degrees wide at the mirror direction, 2 at 45 */
     return (double)max(alpha, ALPHA_MIRROR);
 }
 
@@ -261,11 +260,11 @@ bool material_has_layers(const facet_plot_material *p)
 
 enum { MAX_LOBES = 6, BATCH = 256, FIRST_COUNT = 1024, LAST_COUNT = 65536 };
 
-/* A density of directions to light: cosine, GGX by visible normals, or Charlie's fibres. */
+/* A pdf of light directions: cosine, GGX visible normals, or Charlie. */
 typedef struct lobe {
     enum { LOBE_COSINE, LOBE_GGX, LOBE_CHARLIE } kind;
     float alpha_x, alpha_y;
-    vec2 along; /* of alpha_x, in the plane */
+    vec2 along; /* tangent of alpha_x */
 } lobe;
 
 typedef struct lobe_set {
@@ -288,14 +287,13 @@ static lobe_set lobes_of(const material *m)
     const facet_plot_material *p = &m->parameters;
     lobe_set set = {0};
     add_lobe(&set, (lobe){.kind = LOBE_COSINE});
-    if (p->model == FACET_PLOT_MODEL_MERL) { /* whatever was measured: mirrors to velvet */
+    if (p->model == FACET_PLOT_MODEL_MERL) { /* unknown: mirrors to velvet */
         add_ggx(&set, 0.02f);
         add_ggx(&set, 0.1f);
         add_ggx(&set, 0.4f);
     } else if (p->model == FACET_PLOT_MODEL_OGL1) {
         add_ggx(&set, alpha_from_roughness(perceptual_roughness_from_shininess(p->shininess)));
-        add_ggx(&set,
-                1.0f); /* its highlight reaches the horizon undiminished, where the cosine's density is 0 */
+        add_ggx(&set, 1.0f); /* its highlight does not vanish at the horizon, where the cosine pdf is 0 */
     } else {
         vec2 a = anisotropic_alpha(alpha_from_roughness(p->perceptual_roughness), p->anisotropy);
         vec2 along = anisotropy_direction(vec2(1.0f, 0.0f), p->anisotropy_rotation_rad);
@@ -329,7 +327,7 @@ static vec3 sample_lobe(const lobe *l, vec2 u, vec3 V)
     return reflect(-V, out_of_grain(l, H));
 }
 
-/* Density of L per sr, of all lobes together. */
+/* Combined pdf of L of all lobes, 1/sr. */
 static float pdf_lobes(const lobe_set *set, vec3 V, vec3 L)
 {
     vec3 H = normalize(V + L);
@@ -347,7 +345,7 @@ static float pdf_lobes(const lobe_set *set, vec3 V, vec3 L)
     return sum;
 }
 
-/* Adds the terms of samples begin .. begin + BATCH of n of one lobe: the balance heuristic, Veach and Guibas 1995. */
+/* Adds samples begin to begin + BATCH of n of one lobe, weighted by the balance heuristic (Veach and Guibas 1995). */
 static void add_batch(const material *m, const lobe_set *set, const lobe *l, const float V_[3],
                       uint32_t begin, uint32_t n, double sum[3])
 {
@@ -366,7 +364,7 @@ static void add_batch(const material *m, const lobe_set *set, const lobe *l, con
             continue;
         double pdf = (double)pdf_lobes(set, V, vec3(L[i][0], L[i][1], L[i][2]));
         for (int c = 0; c < 3; c++)
-            if (f[i][c] > 0.0) /* not NAN: measured */
+            if (f[i][c] > 0.0) /* false for NAN: not measured */
                 sum[c] += f[i][c] / (pdf * (double)n);
     }
 }
@@ -401,7 +399,7 @@ static bool is_gray(const float c[3])
     return !(c[0] < c[1]) && !(c[0] > c[1]) && !(c[1] < c[2]) && !(c[1] > c[2]);
 }
 
-/* " name 0.3" or " name (0.8, 0.1, 0.1)", as short as the numbers allow. */
+/* " name 0.3" or " name (0.8, 0.1, 0.1)" with few digits. */
 static void add_number(text *t, const char *before, float value)
 {
     text_addf(t, "%s%.3g", before, (double)value);
@@ -414,11 +412,11 @@ static void add_color(text *t, const char *before, const float c[3])
         text_addf(t, "%s(%.3g, %.3g, %.3g)", before, (double)c[0], (double)c[1], (double)c[2]);
 }
 
-/* No dielectric reflects more than diamond, whose F0 is this. */
+/* F0 of diamond, the largest of a dielectric. */
 static const float MAX_DIELECTRIC_F0 = 0.17f;
 
-/* A surface whose F0 is free (ior 0), as fits are: a metal where the interface returns more than any dielectric's, and most of
- * what is returned. Linear luminance of Rec.709. */
+/* A surface with free F0 (ior 0), as the fits make: a metal if its F0 is above any dielectric's and most of its
+ * albedo. Linear luminance of Rec.709. */
 static void describe_free_F0(const facet_plot_material *p, text *t)
 {
     static const double weights[3] = {0.2126, 0.7152, 0.0722};

@@ -1,4 +1,4 @@
-/* material_fit.c - parameters for a measured BRDF: Levenberg and Marquardt's method within [0, 1]. See material.h. */
+/* material_fit.c - parameters of a measured BRDF by the Levenberg-Marquardt method within [0, 1]. See material.h. */
 #include <math.h>
 #include <string.h>
 
@@ -10,8 +10,8 @@
 enum {
     PARAMETERS = 7, /* roughness; diffuse and specular color */
     VIEWS = 6,      /* 0 to 75 degrees */
-    RINGS = 60,     /* of half vectors, spaced as the cells of the file */
-    SPOKES = 8,     /* half a circle of them: BRDFs are isotropic */
+    RINGS = 60,     /* polar angles of the half vector, spaced as the cells of the file */
+    SPOKES = 8,     /* azimuths of the half vector, half a circle: BRDFs are isotropic */
     PER_VIEW = RINGS * SPOKES,
     RESIDUALS = VIEWS * PER_VIEW * 3,
     ITERATIONS = 40
@@ -25,7 +25,7 @@ typedef struct directions {
 typedef struct fit_state {
     facet_plot_model model;
     directions at;
-    double target[RESIDUALS]; /* log(1 + f cos); NAN: left out */
+    double target[RESIDUALS]; /* log(1 + f cos); NAN: excluded */
     double residual[RESIDUALS], trial[RESIDUALS];
     double jacobian[PARAMETERS][RESIDUALS];
     double values[PER_VIEW][3];
@@ -50,7 +50,7 @@ static void make_directions(directions *at)
     }
 }
 
-/* log(1 + f cos) of m in all directions, less target if that is there. */
+/* log(1 + f cos) of m in all directions, minus target if there is one. */
 static void evaluate(fit_state *s, const material *m, const double *target, double *out)
 {
     for (int v = 0; v < VIEWS; v++) {
@@ -63,7 +63,7 @@ static void evaluate(fit_state *s, const material *m, const double *target, doub
     }
 }
 
-/* The target, without what is near the horizon or was not measured. */
+/* The target without directions near the horizon and unmeasured ones. */
 static void take_target(fit_state *s, const material *measured)
 {
     const float lowest = (float)cos(80.0 * PLOT_DEGREE);
@@ -112,7 +112,7 @@ static double residuals(fit_state *s, const double p[PARAMETERS], double *out)
     return sum;
 }
 
-/* Differences inwards of [0, 1]; single precision of shade asks for steps of 1e-3. */
+/* Differences towards the inside of [0, 1]; the single precision of shade/ needs steps of 1e-3. */
 static void differentiate(fit_state *s, const double p[PARAMETERS])
 {
     for (int j = 0; j < PARAMETERS; j++) {
@@ -126,7 +126,7 @@ static void differentiate(fit_state *s, const double p[PARAMETERS])
     }
 }
 
-/* Solves A x = b in place by Gauss with pivots; A positive definite but for rounding. */
+/* Solves A x = b in place by Gaussian elimination with pivoting; A is positive definite except for rounding. */
 static bool solve(double A[PARAMETERS][PARAMETERS], double b[PARAMETERS])
 {
     for (int i = 0; i < PARAMETERS; i++) {
@@ -158,7 +158,7 @@ static bool solve(double A[PARAMETERS][PARAMETERS], double b[PARAMETERS])
     return true;
 }
 
-/* Normal equations of the parameters that are free: those at a bound whose gradient points outwards stay. */
+/* Normal equations of the free parameters: those at a bound whose gradient points outwards stay. */
 static bool step_of(const fit_state *s, const double p[PARAMETERS], double damping, double step[PARAMETERS])
 {
     double A[PARAMETERS][PARAMETERS] = {{0}};
@@ -187,7 +187,7 @@ static bool step_of(const fit_state *s, const double p[PARAMETERS], double dampi
     return solve(A, step);
 }
 
-/* Marquardt 1963 from p on, which is replaced; returns the sum of squares. */
+/* Marquardt 1963, starting from p, which is replaced; returns the sum of squares. */
 static double descend(fit_state *s, double p[PARAMETERS])
 {
     double damping = 1e-2;
@@ -200,7 +200,7 @@ static double descend(fit_state *s, double p[PARAMETERS])
             double moved[PARAMETERS], step[PARAMETERS];
             if (!step_of(s, p, damping, step))
                 return sum;
-            for (int i = 0; i < PARAMETERS; i++) /* roughness 0.02: narrower than the cells tell */
+            for (int i = 0; i < PARAMETERS; i++) /* roughness 0.02 is narrower than the cells resolve */
                 moved[i] = fmin(fmax(p[i] + step[i], i == 0 ? 0.02 : 0.0), 1.0);
             double trial = residuals(s, moved, s->trial);
             is_better = trial < sum;

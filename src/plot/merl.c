@@ -14,7 +14,7 @@ struct merl {
     const unsigned char *cells; /* doubles, at 12 bytes from the start: not aligned */
 };
 
-enum { HEADER_SIZE = 3 * 4, LARGEST_FILE = 1 << 26 }; /* the format has one size, 35 MB */
+enum { HEADER_SIZE = 3 * 4, LARGEST_FILE = 1 << 26 }; /* the size of the format is 35 MB */
 
 double merl_scale(int channel)
 {
@@ -137,7 +137,7 @@ void merl_directions(double theta_h, double theta_d, double phi_d, float V[3], f
 }
 
 typedef struct half_angles {
-    double theta_h, theta_d, phi_d; /* phi_d in [0, pi): reciprocity */
+    double theta_h, theta_d, phi_d; /* phi_d in [0, pi) by reciprocity */
 } half_angles;
 
 static half_angles half_angles_of(const float V[3], const float L[3])
@@ -145,14 +145,14 @@ static half_angles half_angles_of(const float V[3], const float L[3])
     double h[3], d[3], length = 0.0;
     for (int i = 0; i < 3; i++) {
         h[i] = (double)V[i] + (double)L[i];
-        d[i] = (double)L[i] - (double)V[i]; /* along the tangent at H, its length 2 sin theta_d */
+        d[i] = (double)L[i] - (double)V[i]; /* tangent at H, of length 2 sin theta_d */
         length += h[i] * h[i];
     }
     length = sqrt(length);
     double across = hypot(h[0], h[1]);
     half_angles a = {.theta_h = atan2(across, h[2]),
                      .theta_d = atan2(sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), length)};
-    if (across > 0.0) { /* H turned back to z: about z into the plane of x, then about y */
+    if (across > 0.0) { /* rotates H to z: about z into the plane of x, then about y */
         turn(-atan2(h[1], h[0]), &d[0], &d[1]);
         turn(-a.theta_h, &d[2], &d[0]);
     }
@@ -164,7 +164,7 @@ static half_angles half_angles_of(const float V[3], const float L[3])
 
 /* ---- interpolation ---- */
 
-/* The two cells whose middles are around place x, and the second one's weight. Ends are held; phi_d goes round. */
+/* The two cells whose centers enclose x, and the second one's weight. Ends are clamped; phi_d wraps. */
 typedef struct neighbours {
     int cell[2];
     double weight;

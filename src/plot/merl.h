@@ -21,17 +21,17 @@ typedef struct merl merl;
 facet_result merl_open(const char *path, const facet_allocator *allocator, merl **out, facet_error *error);
 void merl_close(merl *m); /* NULL is allowed */
 
-/* BRDF in 1/sr per channel, N = +Z, V and L unit and above the horizon: linear between the middles of the cells around,
- * of those that have values; NAN where none has. */
+/* BRDF per channel, 1/sr, N = +Z, V and L unit and above the horizon: linear between the centers of neighboring
+ * cells that have values; NAN where none has. */
 void merl_brdf(const merl *m, const float V[3], const float L[3], double out[3]);
 
-/* Directions of half and difference angles (rad), for those who go through the cells. */
+/* Directions of half and difference angles (rad), for iterating over the cells. */
 void merl_directions(double theta_h, double theta_d, double phi_d, float V[3], float L[3]);
-/* theta_h of a place in cells, [0, 90], and its inverse. */
+/* theta_h of a cell coordinate, [0, 90], and its inverse. */
 double merl_theta_h(double cell);
 double merl_cell_of_theta_h(double theta_h);
 
-/* Factor of a channel: BRDF = value in the file times it. */
+/* Factor of a channel: the BRDF is the stored value times it. */
 double merl_scale(int channel);
 
 #endif

@@ -52,7 +52,7 @@ double palette_contrast(canvas_color a, canvas_color b)
     return la > lb ? la / lb : lb / la;
 }
 
-/* rgb, moved towards the color of text as far as it needs to be seen. */
+/* rgb, moved towards the text color until its contrast suffices. */
 static canvas_color own_color(const float rgb[3], bool is_dark)
 {
     const palette_theme *theme = palette_get_theme(is_dark);
@@ -76,7 +76,7 @@ canvas_color palette_color(const chart_style *style, bool is_dark)
 
 canvas_stroke palette_stroke(const chart_style *style, bool is_dark, double scale)
 {
-    /* in widths of the line; the round ends make strokes one width longer, gaps one shorter */
+    /* in line widths; round caps lengthen strokes and shorten gaps by one width */
     static const double DASHES[4][4] = {{0.0}, {3.0, 3.6}, {0.01, 2.2}, {5.0, 2.6, 0.01, 2.6}};
     static const int COUNTS[4] = {0, 2, 2, 4};
     const int dash = (int)((unsigned)style->dash % 4);
@@ -112,7 +112,7 @@ static const double VIRIDIS[][3] = {
     {0.845561, 0.887322, 0.099702}, {0.896320, 0.893616, 0.096335}, {0.945636, 0.899815, 0.112838},
     {0.993248, 0.906157, 0.143936}};
 
-/* Between b and c, Catmull-Rom. */
+/* Catmull-Rom between b and c. */
 static double cubic(double a, double b, double c, double d, double t)
 {
     return b + 0.5 * t * (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a)));

@@ -13,13 +13,13 @@
 
 enum { MAX_PIXELS = 16384 };
 
-/* Numbers of a material: their ranges as facet.h gives them. */
+/* Ranges of the parameters of a material, as in facet/plot.h. */
 typedef struct parameter {
     const char *name;
     size_t offset;
     int count;
     float minimum, maximum;
-    bool has_zero; /* 0 is allowed besides */
+    bool has_zero; /* 0 is allowed as well */
 } parameter;
 
 #define AT(member) offsetof(facet_plot_material, member)
@@ -79,7 +79,7 @@ static facet_result check_material(const facet_plot_material *m, uint32_t number
                 (int)m->model);
 }
 
-/* What a kind cannot make of a material. */
+/* Materials that a kind does not support. */
 static facet_result check_kind(facet_plot_kind kind, const facet_plot_material *m, uint32_t number,
                                facet_error *error)
 {
@@ -135,7 +135,7 @@ static facet_result check_desc(const facet_plot_desc *desc, facet_error *error)
 
 typedef struct plot_kind {
     facet_result (*make)(plot *p);
-    bool shows_reflectance; /* of materials: has defaults, and fits beside them */
+    bool shows_reflectance; /* of materials: has default materials, and fits */
     uint32_t angle_count;
     float degrees[3];
 } plot_kind;
@@ -196,7 +196,7 @@ static facet_result open_material(plot *p, const facet_plot_material *from, merl
     return result;
 }
 
-/* The materials, each with its fit behind it where those are asked for. */
+/* The materials, each followed by its fit if fits are requested. */
 static facet_result open_subjects(plot *p, const plot_kind *kind, merl *files[FACET_PLOT_MAX_MATERIALS])
 {
     facet_plot_material defaults[DEFAULT_MATERIALS];

@@ -4,7 +4,7 @@
 
 #include "plot/chart.h"
 
-/* The chart of desc: facet_plot_encode() is this and chart.h. The arena is the caller's. */
+/* Makes the chart of desc; facet_plot_encode() then draws it. The arena belongs to the caller. */
 facet_result plot_create(const facet_plot_desc *desc, arena *memory, chart *out, facet_error *error);
 
 #endif

@@ -25,7 +25,7 @@ static void integrate_albedo(void *context, size_t begin, size_t end)
     }
 }
 
-/* 0 to 89.5 degrees, closer together towards grazing views. */
+/* 0 to 89.5 degrees, denser towards grazing angles. */
 static double *view_angles(plot *p)
 {
     double *x = plot_numbers(p, ALBEDO_POINTS);
@@ -83,14 +83,14 @@ facet_result plot_make_albedo(plot *p)
 
 /* ---- white furnace ---- */
 
-enum { FURNACE_POINTS = 26, MODES = 2, WAYS = 2 /* lamps, image based */ };
+enum { FURNACE_POINTS = 26, MODES = 2, WAYS = 2 /* punctual lights, image-based lighting */ };
 
 static float roughness_at(int i)
 {
     return 0.05f + 0.95f * (float)i / (FURNACE_POINTS - 1);
 }
 
-/* The material with that roughness in all that it has; of OpenGL 1 the shininess that stands for it. */
+/* The material with that roughness in all of its layers; for OpenGL 1 the corresponding shininess. */
 static facet_plot_material with_roughness(const facet_plot_material *from, float roughness)
 {
     facet_plot_material m = *from;

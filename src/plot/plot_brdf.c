@@ -5,7 +5,7 @@
 
 /* ---- the plane of incidence ---- */
 
-/* One subject for one view. */
+/* One subject at one view angle. */
 typedef struct slice {
     size_t count;
     const double *angles;
@@ -59,7 +59,7 @@ static const char *note_of(plot *p, double view)
                      is_forced ? "; times N.L, which OpenGL 1's highlight lacks" : "");
 }
 
-/* A ray from the middle to the border. */
+/* A ray from the center to the border. */
 static void add_ray(plot *p, plot_panel *panel, double angle, double from, double to, int dash)
 {
     double *x = plot_numbers(p, 2);
@@ -139,7 +139,7 @@ static void add_curves(plot *p, double view)
     if (p->has_failed)
         return;
     panel->panel.y.scale = plot_scale(p);
-    if (p->desc->is_logarithmic) { /* what falls to 0 at the horizon would take all decades */
+    if (p->desc->is_logarithmic) { /* values that fall to 0 at the horizon would use up all decades */
         double decade = pow(10.0, ceil(log10(fmax(highest, 1e-12))));
         plot_set_range(&panel->panel.y, decade * 1e-6, decade);
     }
@@ -200,7 +200,7 @@ static bool evaluate(plot *p, const material *m, double view, size_t count, cons
     return true;
 }
 
-/* As seen from above: places on the disc are L.x and L.y, the eye to the right. */
+/* Seen from above: coordinates on the disc are L.x and L.y, with the eye at the right. */
 static void add_disc(plot *p, const plot_subject *subject, double view)
 {
     plot_panel *panel = plot_add_panel(p, CHART_DISC, title_of(p, subject, view), "", "");
@@ -221,7 +221,7 @@ static void add_disc(plot *p, const plot_subject *subject, double view)
         }
     if (!evaluate(p, &subject->material, view, (size_t)DISC * DISC, (const float(*)[3])L, values))
         return;
-    if (p->desc->is_logarithmic) { /* five decades at most: what falls to 0 has no logarithm */
+    if (p->desc->is_logarithmic) { /* at most five decades, since values fall to 0 */
         double highest = 0.0;
         for (int i = 0; i < DISC * DISC; i++)
             highest = values[i] > highest ? values[i] : highest;
@@ -233,8 +233,8 @@ static void add_disc(plot *p, const plot_subject *subject, double view)
     }
 }
 
-/* count places in [first, last], half of them even, half as close to peak as a Lorentzian of that width has them: the
- * inverse of its distribution, by bisection. */
+/* count positions in [first, last]: half of them even, half distributed as a Lorentzian of that width around peak,
+ * by inverting its distribution function with bisection. */
 static void places(size_t count, double first, double last, double peak, double width, double *out)
 {
     double low_tail = atan((first - peak) / width);
@@ -255,8 +255,8 @@ static void places(size_t count, double first, double last, double peak, double 
     }
 }
 
-/* Radius of a value: its square root over that of the peak, so that a diffuse base is seen beside a highlight; or the
- * decades that it is above a hundred-thousandth of the peak. */
+/* Radius of a value: its square root over that of the peak, which shows a diffuse base beside a highlight; or its
+ * decades above 1e-5 of the peak. */
 static double radius_of(const plot *p, double value, double peak)
 {
     double share = value > 0.0 && peak > 0.0 ? value / peak : 0.0;
@@ -321,7 +321,7 @@ facet_result plot_make_hemisphere(plot *p)
                 add_lobe(p, &p->subjects[k], (double)p->angles[a]);
     uint32_t count = p->subject_count * p->angle_count;
     uint32_t columns = p->angle_count > 1 ? p->angle_count
-                       : p->desc->has_fit ? (count < 7 ? 2 : 4) /* fits beside what they fit */
+                       : p->desc->has_fit ? (count < 7 ? 2 : 4) /* each fit beside its material */
                        : count < 4        ? count
                        : count == 4       ? 2
                        : count < 13       ? 3

@@ -135,7 +135,7 @@ facet_result plot_finish(plot *p, const char *title, uint32_t columns, uint32_t 
 
 chart_style plot_color(uint32_t number, int dash)
 {
-    /* the palette begins anew after eight: then with other dashes */
+    /* the palette repeats after eight colors, with other dashes */
     return (chart_style){.color = (int)number, .dash = dash + (int)(number / 8u)};
 }
 
@@ -152,8 +152,8 @@ chart_style plot_channel(int channel, int dash)
 chart_style plot_subject_style(const plot *p, const plot_subject *subject, int channel)
 {
     static const float fit_rgb[3][3] = {
-        {0.93f, 0.50f, 0.05f}, {0.47f, 0.67f, 0.05f}, {0.10f, 0.63f, 0.80f}}; /* beside those of channels */
-    if (channel < 0) /* fits behind all materials in the palette, so that few of both share no color */
+        {0.93f, 0.50f, 0.05f}, {0.47f, 0.67f, 0.05f}, {0.10f, 0.63f, 0.80f}}; /* fits of channels */
+    if (channel < 0) /* fits follow all materials in the palette, which avoids equal colors */
         return plot_color(subject->is_fit ? p->material_count + subject->number : subject->number,
                           subject->is_fit ? 1 : 0);
     chart_style style = plot_channel(channel, subject->is_fit ? 1 : 0);
@@ -225,7 +225,7 @@ enum {
     NEAR_PEAK = 81 /* per width */
 };
 
-/* Widths of all subjects, each once. */
+/* Distinct lobe widths of all subjects. */
 static size_t widths_of(const plot *p, double *widths)
 {
     size_t count = 0;
@@ -240,8 +240,8 @@ static size_t widths_of(const plot *p, double *widths)
     return count;
 }
 
-/* The half vector turns by half the light's angle, and D falls to a quarter at tan theta_h = alpha: places even in
- * atan(tan theta_h / alpha) follow D from its peak to its tail. */
+/* The half vector rotates by half the angle of the light, and D falls to a quarter at tan theta_h = alpha: angles
+ * that are even in atan(tan theta_h / alpha) resolve D from its peak to its tail. */
 double *plot_light_angles(plot *p, double view_rad, size_t *count)
 {
     const double limit = 89.9 * PLOT_DEGREE;
@@ -262,7 +262,7 @@ double *plot_light_angles(plot *p, double view_rad, size_t *count)
                 x[n++] = angle;
         }
     qsort(x, n, sizeof *x, compare);
-    for (size_t i = 0; i < n; i++) /* each once: closer than floats of directions differ is the same */
+    for (size_t i = 0; i < n; i++) /* angles closer than float directions resolve count as equal */
         if (*count == 0 || x[i] - x[*count - 1] > 1e-7)
             x[(*count)++] = x[i];
     return x;
@@ -292,7 +292,7 @@ const fit_metric *plot_metric(plot *p)
 {
     if (!p->metric && !p->has_failed) {
         pbr_masking masking = p->desc->has_separable_smith ? PBR_SEPARABLE : PBR_CORRELATED;
-        /* the vignette's own material is seen with its own formula */
+        /* the material of the vignette uses its formula */
         if (p->desc->kind == FACET_PLOT_KIND_LEGACY && p->has_default_materials)
             masking = PBR_SEPARABLE;
         if (fit_metric_create(&p->desc->allocator, masking, &p->metric, NULL) != FACET_OK)

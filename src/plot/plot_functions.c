@@ -94,7 +94,7 @@ static const conductor conductors[] = {
     {"aluminium", "Rakic 1995: 620, 564, 443 nm", {1.3660f, 1.0728f, 0.60790f}, {7.4052f, 6.7839f, 5.3676f}},
 };
 
-/* The boundary of index eta (far over near): exact, and Schlick's as the renderer has it from either side. */
+/* An interface of relative index eta: exact, and by Schlick as the renderer has it from either side. */
 static double exact(float cosine, float eta)
 {
     return (double)F_dielectric(cosine, eta);
@@ -142,7 +142,7 @@ static void add_dielectrics(plot *p, const dielectric *media, uint32_t count, co
         }
     }
     set_reflectance(p, panel);
-    if (panel && is_inside) /* that of the panel before */
+    if (panel && is_inside) /* explained in the first panel */
         panel->panel.has_legend = false;
 }
 
@@ -177,11 +177,11 @@ static void add_conductor(plot *p, const conductor *c, const double *x)
         }
     }
     set_reflectance(p, panel);
-    if (panel) /* the last one has the most room */
+    if (panel)
         panel->panel.has_legend = c == &conductors[sizeof conductors / sizeof *conductors - 1];
 }
 
-/* Those of the materials. */
+/* The roughnesses of the materials. */
 static facet_result media_of(plot *p, dielectric *media, uint32_t *count)
 {
     for (uint32_t k = 0; k < p->subject_count; k++) {
@@ -240,7 +240,7 @@ static void add_table(plot *p, dfg_quantity what, const char *title, const char 
     chart_field *field = plot_add_field(p, panel, DFG_SIZE, DFG_SIZE, CHART_LINEAR, label, &values);
     if (!field)
         return;
-    /* rows from the top, places in the middles of the cells */
+    /* rows from the top, at cell centers */
     for (int row = 0; row < DFG_SIZE; row++)
         for (int column = 0; column < DFG_SIZE; column++)
             values[row * DFG_SIZE + column] =

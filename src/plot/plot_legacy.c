@@ -147,7 +147,7 @@ static const char *const channels[3] = {"red", "green", "blue"};
 
 /* ---- the vignette ---- */
 
-/* Its parameters: roughness 1, metallic 1, all white; rgl's defaults. */
+/* The vignette's parameters: roughness 1, metallic 1, all white; rgl's defaults. */
 #define ROUGHNESS 1.0
 #define METALLIC 1.0
 #define SHININESS 50.0
@@ -180,7 +180,7 @@ static const experiment *run_experiment(plot *p)
     return e;
 }
 
-/* An axis as R draws it: the range of the data and 4 % more at either end. */
+/* An axis in R's style: the range of the data widened by 4 % at both ends. */
 static void set_range_as_R(chart_axis *axis, const double *values)
 {
     double low = values[0], high = values[0];
@@ -191,7 +191,7 @@ static void set_range_as_R(chart_axis *axis, const double *values)
     plot_set_range(axis, low - 0.04 * (high - low), high + 0.04 * (high - low));
 }
 
-/* Three curves that coincide, blue on top, as the vignette draws them. */
+/* Three coincident curves, blue on top, as in the vignette. */
 static void add_vignette_panel(plot *p, const experiment *e, const double *y, const char *title,
                                const char *label, const char *note)
 {
@@ -221,7 +221,7 @@ static void add_vignette_fit(plot *p, const experiment *e)
 
 /* ---- sources and their conversions ---- */
 
-/* A material and what it becomes, for one view. */
+/* A material and its conversion at one view angle. */
 typedef struct pair {
     size_t count;
     const double *phi;
@@ -290,15 +290,15 @@ static void add_pair(plot *p, const material *source, const plot_conversion *con
     if (!panel)
         return;
     panel->panel.y.scale = plot_scale(p);
-    panel->panel.has_legend = !r.is_colored; /* six names of what color and dash say */
+    panel->panel.has_legend = !r.is_colored; /* color and dash already say it */
     panel->panel.note = conversion->material.label;
-    for (int i = 0; conversion->has_error && i < 3; i++) /* the views that errors are found for */
+    for (int i = 0; conversion->has_error && i < 3; i++) /* the views of the metric */
         if (fabs(view - 30.0 * i * PLOT_DEGREE) < 1e-4)
             panel->panel.note = plot_text(p, "E %.3f here; dashed, %s", conversion->error.views[i],
                                           conversion->material.label);
 }
 
-/* The curves of all views less their sources', in one panel. */
+/* Conversion minus source for all views in one panel. */
 static plot_panel *add_differences(plot *p, const material *source, const plot_conversion *conversion,
                                    const char *title)
 {

@@ -12,7 +12,7 @@ typedef struct roughness_list {
     float values[MAX_ROUGHNESS];
 } roughness_list;
 
-/* Those of the materials, each once. */
+/* The distinct roughnesses of the materials. */
 static roughness_list roughness_of(const plot *p)
 {
     static const float defaults[] = {0.1f, 0.3f, 0.5f, 0.75f, 1.0f};
@@ -36,19 +36,20 @@ static const char *label_of(plot *p, float roughness)
     return plot_text(p, "roughness %.3g", (double)roughness);
 }
 
-/* Cosines of even angles, 1 first: as close together as highlights are narrow. */
+/* Cosines of angles from 0 on, as dense as the highlights are narrow. */
 static double *cosines(plot *p)
 {
     double *x = plot_numbers(p, POINTS);
     for (int i = 0; x && i < POINTS; i++) {
         double u = (double)i / (POINTS - 1);
         x[i] =
-            (cos)(0.5 * PLOT_PI * u * u * u); /* cubed: alpha of 0.01 has its peak in the first 0.6 degrees */
+            /* cubic spacing: alpha of 0.01 has its peak within 0.6 degrees */
+            (cos)(0.5 * PLOT_PI * u * u * u);
     }
     return x;
 }
 
-/* From nearly 0 on, where visibility has no bound, closer together there. */
+/* From near 0, where visibility is unbounded, denser there. */
 static double *cosines_from_horizon(plot *p)
 {
     double *x = plot_numbers(p, POINTS);
@@ -108,7 +109,7 @@ static float visibility(visibility_kind kind, float NdotL, float NdotV, float ro
     return V_Charlie(NdotL, NdotV, sheen_alpha(roughness));
 }
 
-/* G = 4 (N.L) (N.V) V, the share of microfacets that light and eye both see; or V itself. */
+/* G = 4 (N.L) (N.V) V, the share of microfacets visible from both light and eye; or V itself. */
 static void add_visibility(plot *p, const roughness_list *list, const double *x, visibility_kind last,
                            bool is_G)
 {

@@ -4,7 +4,7 @@
 #include "plot/plot_build.h"
 #include "plot/plot_vignette.h"
 
-/* Cosines of the vignette's directions, all in one plane. */
+/* Cosines of directions in one plane. */
 typedef struct cosines {
     double NdotL, NdotV, NdotH, VdotH;
 } cosines;
@@ -62,7 +62,7 @@ static double clamp01(double x)
     return fmin(fmax(x, 0.0), 1.0);
 }
 
-/* Least squares of target = Cd a + Cs b with both in [0, 1]: the inner solution, or the best of the four edges. */
+/* Least squares of target = Cd a + Cs b with both in [0, 1]: the interior solution, or the best on the four edges. */
 static vignette_parameters solve_colors(double theta, const double target[VIGNETTE_POINTS], double shininess)
 {
     double aa = 0.0, ab = 0.0, bb = 0.0, at = 0.0, bt = 0.0;

@@ -1,6 +1,6 @@
-/* plot_vignette.h - the experiment of Murdoch's vignette "Shininess in OpenGL 1 versus glTF PBR" as it is programmed
- * there, in double precision: PBR and OpenGL 1 in the plane of incidence. Its PBR has the separable masking of glTF's text
- * before 2026, and max(x, 0) where that has a step, which shade does not have; with the step it is shade's
+/* plot_vignette.h - the computation of Murdoch's vignette "Shininess in OpenGL 1 versus glTF PBR" in double
+ * precision: PBR and OpenGL 1 in the plane of incidence. Its PBR has the separable masking of the glTF text before
+ * 2026, and max(x, 0) where that has a step, which shade/ does not have; with the step it equals shade/
  * (plot_vignette_test.c). */
 #ifndef PLOT_PLOT_VIGNETTE_H
 #define PLOT_PLOT_VIGNETTE_H
@@ -20,11 +20,11 @@ typedef struct vignette_parameters {
     double error; /* relative root mean square over the points */
 } vignette_parameters;
 
-/* Root mean square of OpenGL 1 less target over that of target, at the vignette's points. */
+/* RMS of OpenGL 1 minus target over that of target, at the points of the vignette. */
 double vignette_error(double theta, const double target[VIGNETTE_POINTS], double shininess, double diffuse,
                       double specular);
-/* The parameters within OpenGL's ranges (shininess to 128, colors to 1) with the smallest error: the colors, on which
- * the model depends linearly, are solved for at each shininess, which is searched for. */
+/* The parameters within the ranges of OpenGL (shininess to 128, colors to 1) with the smallest error: a search for
+ * the shininess, with linear least squares for the colors. */
 vignette_parameters vignette_fit(double theta, const double target[VIGNETTE_POINTS]);
 
 #endif
