@@ -1,7 +1,6 @@
-/* classic_materials.h - public materials of OpenGL 1 and MTL, for tests and benchmarks: the teapots of the OpenGL
- * Programming Guide ("red book"; shininess is 128 times the number listed there), rgl's defaults, and what common
- * writers of MTL leave behind; with the errors of four conversions as reference/legacy-materials.md, section 11 has
- * them. */
+/* classic_materials.h - public materials of OpenGL 1 and MTL for tests and benchmarks: the teapots of the OpenGL
+ * Programming Guide ("red book"; shininess is 128 times the number listed there), rgl's defaults, and typical
+ * output of MTL exporters; with the errors of four conversions. */
 #ifndef LEGACY_CLASSIC_MATERIALS_H
 #define LEGACY_CLASSIC_MATERIALS_H
 
@@ -15,7 +14,7 @@ typedef struct classic_material {
 
 enum {
     CLASSIC_COUNT = 29,
-    CLASSIC_USUAL = 27 /* the last two are exponents that no material should have: left out of means */
+    CLASSIC_USUAL = 27 /* the last two have extreme exponents and are excluded from means */
 };
 
 #define GREY(x)                                                                                              \

@@ -31,20 +31,20 @@ ogl1_surface build_representative(const conversion *c, const legacy_reading *r)
     if (!legacy_has_map(&r->m, LEGACY_DIFFUSE_MAP) && !legacy_has_map(&r->m, LEGACY_SPECULAR_MAP) &&
         !legacy_has_map(&r->m, LEGACY_SHININESS_MAP))
         return s;
-    color_table diffuse = color_table_make(c->bench, &maps[LEGACY_DIFFUSE_MAP], r->surface.diffuse);
-    color_table specular = color_table_make(c->bench, &maps[LEGACY_SPECULAR_MAP], r->surface.specular);
-    scalar_table shininess =
-        scalar_table_make(c->bench, &maps[LEGACY_SHININESS_MAP], r->surface.shininess, TEXTURE_GREY);
-    color_table_mean(&diffuse, c->bench, &maps[LEGACY_DIFFUSE_MAP], s.diffuse);
-    color_table_mean(&specular, c->bench, &maps[LEGACY_SPECULAR_MAP], s.specular);
-    s.shininess = scalar_table_mean(&shininess, c->bench, &maps[LEGACY_SHININESS_MAP]);
+    color_lut diffuse = color_lut_make(c->bench, &maps[LEGACY_DIFFUSE_MAP], r->surface.diffuse);
+    color_lut specular = color_lut_make(c->bench, &maps[LEGACY_SPECULAR_MAP], r->surface.specular);
+    scalar_lut shininess =
+        scalar_lut_make(c->bench, &maps[LEGACY_SHININESS_MAP], r->surface.shininess, TEXTURE_GREY);
+    color_lut_mean(&diffuse, c->bench, &maps[LEGACY_DIFFUSE_MAP], s.diffuse);
+    color_lut_mean(&specular, c->bench, &maps[LEGACY_SPECULAR_MAP], s.specular);
+    s.shininess = scalar_lut_mean(&shininess, c->bench, &maps[LEGACY_SHININESS_MAP]);
     return s;
 }
 
 /* ---- emission and occlusion ---- */
 
 typedef struct emission_parameters {
-    color_table color;
+    color_lut color;
     const srgb_tables *srgb;
 } emission_parameters;
 
@@ -53,7 +53,7 @@ static void emission_row(const void *parameters, uint32_t width, const uint8_t *
     const emission_parameters *p = parameters;
     for (uint32_t x = 0; x < width; x++, out += 3) {
         float color[3];
-        table_color(&p->color, in[0] + (size_t)x * 4, color);
+        lut_color(&p->color, in[0] + (size_t)x * 4, color);
         for (int k = 0; k < 3; k++)
             out[k] = srgb_encode_u8(p->srgb, color[k]);
     }
@@ -79,7 +79,7 @@ static facet_result build_emission(conversion *c, const legacy_reading *r, scene
         return FACET_OK;
     emission_parameters p;
     memset(&p, 0, sizeof p);
-    p.color = color_table_make(c->bench, map, (const float[3]){1, 1, 1});
+    p.color = color_lut_make(c->bench, map, (const float[3]){1, 1, 1});
     p.srgb = texture_bench_srgb(c->bench);
     texture_bake bake = {.name = made_name(c, map->ref.texture, "emission"),
                          .inputs = {map->ref.texture},
@@ -153,7 +153,7 @@ static facet_result build_normals(conversion *c, uint32_t material, const legacy
 /* ---- MTL's extension for physically based materials ---- */
 
 typedef struct sheen_parameters {
-    scalar_table sheen;
+    scalar_lut sheen;
     const srgb_tables *srgb;
 } sheen_parameters;
 
@@ -161,7 +161,7 @@ static void sheen_row(const void *parameters, uint32_t width, const uint8_t *con
 {
     const sheen_parameters *p = parameters;
     for (uint32_t x = 0; x < width; x++, out += 3)
-        memset(out, srgb_encode_u8(p->srgb, table_scalar(&p->sheen, in[0] + (size_t)x * 4)), 3);
+        memset(out, srgb_encode_u8(p->srgb, lut_scalar(&p->sheen, in[0] + (size_t)x * 4)), 3);
 }
 
 /* Ps has no roughness; importers of principled materials start from this. */
@@ -183,7 +183,7 @@ static facet_result build_sheen(conversion *c, const legacy_reading *r, scene_ma
         return FACET_OK;
     sheen_parameters p;
     memset(&p, 0, sizeof p);
-    p.sheen = scalar_table_make(c->bench, map, 1.0f, TEXTURE_GREY);
+    p.sheen = scalar_lut_make(c->bench, map, 1.0f, TEXTURE_GREY);
     p.srgb = texture_bench_srgb(c->bench);
     texture_bake bake = {.name = made_name(c, map->ref.texture, "sheen"),
                          .inputs = {map->ref.texture},

@@ -26,7 +26,7 @@ static void set_mean(conversion *c, uint32_t material, const char *statement, le
 /* Where the alpha of the base color comes from. */
 typedef struct opacity_source {
     legacy_map map; /* texture SCENE_NONE: the factor alone */
-    scalar_table table;
+    scalar_lut table;
 } opacity_source;
 
 static bool is_cut_out(const texture_bench *bench, const opacity_source *o)
@@ -54,8 +54,8 @@ static opacity_source read_opacity(const conversion *c, const legacy_reading *r,
         return o;
     }
     int channel = map_opacity_channel(c->bench, &o.map);
-    o.table = scalar_table_make(c->bench, &o.map, r->opacity, channel);
-    if (scalar_table_lowest(&o.table, c->bench, &o.map) >= 1.0f) {
+    o.table = scalar_lut_make(c->bench, &o.map, r->opacity, channel);
+    if (scalar_lut_lowest(&o.table, c->bench, &o.map) >= 1.0f) {
         o.map.ref.texture = SCENE_NONE;
         out->base_color[3] = 1.0f;
         return o;
@@ -92,7 +92,7 @@ static void base_factors(const surface_job *job, float out[3])
         out[k] = job->r->surface.diffuse[k];
         if (!item)
             continue;
-        float mean = item->question.ogl1.diffuse[k];
+        float mean = item->input.ogl1.diffuse[k];
         float rest = 1.0f - (item->pbr.ior == 0.0f ? item->pbr.specular : 0.04f);
         if (job->r->m.maps[LEGACY_DIFFUSE_MAP].ref.texture == SCENE_NONE)
             out[k] = item->pbr.base_color[k];
@@ -124,7 +124,7 @@ static void base_scale(surface_job *job)
 {
     const legacy_map *diffuse = &job->r->m.maps[LEGACY_DIFFUSE_MAP];
     float most[3];
-    color_table_highest(&job->p.diffuse, job->c->bench, diffuse, most);
+    color_lut_highest(&job->p.diffuse, job->c->bench, diffuse, most);
     for (int k = 0; k < 3; k++) {
         float highest = is_varying(job) ? 1.0f : unit_of(most[k]);
         job->p.base_scale[k] = highest > 0.0f ? highest : 1.0f;
@@ -179,7 +179,7 @@ static facet_result build_base(surface_job *job, facet_error *error)
     }
     if (!is_varying(job)) {
         /* The table is of base colors already: no specular color takes part. */
-        job->p.diffuse = color_table_make(job->c->bench, diffuse, factors);
+        job->p.diffuse = color_lut_make(job->c->bench, diffuse, factors);
         memset(job->p.specular.values, 0, sizeof job->p.specular.values);
         job->p.is_core = 0;
     }
@@ -204,9 +204,9 @@ static facet_result build_specular(surface_job *job, facet_error *error)
     scene_material *out = job->out;
     texel_parameters *p = &job->p;
     float highest[3];
-    color_table_highest(&p->specular, job->c->bench, &job->specular, highest);
+    color_lut_highest(&p->specular, job->c->bench, &job->specular, highest);
     p->specular_scale =
-        unit_of(highest_of(highest) * scalar_table_highest(&p->share, job->c->bench, &job->shininess));
+        unit_of(highest_of(highest) * scalar_lut_highest(&p->share, job->c->bench, &job->shininess));
     out->specular = p->specular_scale;
     for (int k = 0; k < 3; k++)
         out->specular_color[k] = 1.0f;
@@ -262,19 +262,19 @@ static void align(surface_job *job, legacy_reading *r)
         if (map_refs_agree(job->c->scene, first, &map->ref))
             continue;
         if (i == TEXEL_SPECULAR) {
-            color_table t = color_table_make(bench, map, r->surface.specular);
-            color_table_mean(&t, bench, map, r->surface.specular);
+            color_lut t = color_lut_make(bench, map, r->surface.specular);
+            color_lut_mean(&t, bench, map, r->surface.specular);
         } else if (i == TEXEL_SHININESS) {
-            scalar_table t = scalar_table_make(bench, map, r->surface.shininess, TEXTURE_GREY);
-            r->surface.shininess = scalar_table_mean(&t, bench, map);
+            scalar_lut t = scalar_lut_make(bench, map, r->surface.shininess, TEXTURE_GREY);
+            r->surface.shininess = scalar_lut_mean(&t, bench, map);
         } else {
-            r->opacity = scalar_table_mean(&job->opacity.table, bench, map);
+            r->opacity = scalar_lut_mean(&job->opacity.table, bench, map);
             job->out->base_color[3] = r->opacity;
             job->out->alpha_mode = r->opacity < 1.0f ? SCENE_ALPHA_BLEND : SCENE_ALPHA_OPAQUE;
         }
         set_mean(job->c, job->material, maps[i].statement, map);
         if (i == TEXEL_OPACITY)
-            job->opacity.table = scalar_table_make(bench, map, r->opacity, TEXTURE_GREY);
+            job->opacity.table = scalar_lut_make(bench, map, r->opacity, TEXTURE_GREY);
     }
 }
 
@@ -285,9 +285,9 @@ static void make_tables(surface_job *job)
     const ogl1_surface *s = &job->r->surface;
     p->srgb = texture_bench_srgb(bench);
     p->is_core = is_varying(job) && job->c->desc.profile == FACET_LEGACY_PROFILE_CORE;
-    p->diffuse = color_table_make(bench, &job->r->m.maps[LEGACY_DIFFUSE_MAP], s->diffuse);
-    p->specular = color_table_make(bench, &job->specular, s->specular);
-    p->shininess = scalar_table_make(bench, &job->shininess, s->shininess, TEXTURE_GREY);
+    p->diffuse = color_lut_make(bench, &job->r->m.maps[LEGACY_DIFFUSE_MAP], s->diffuse);
+    p->specular = color_lut_make(bench, &job->specular, s->specular);
+    p->shininess = scalar_lut_make(bench, &job->shininess, s->shininess, TEXTURE_GREY);
     p->roughness.channel = p->share.channel = p->shininess.channel;
     for (int code = 0; code < 256; code++) {
         p->roughness.values[code] = perceptual_roughness_from_shininess(p->shininess.values[code]);
@@ -313,8 +313,8 @@ static facet_result build_packed(conversion *c, uint32_t material, legacy_map ro
     packed_parameters p;
     memset(&p, 0, sizeof p);
     if (is_rough && is_metal && !map_refs_agree(c->scene, &roughness.ref, &metallic.ref)) {
-        scalar_table t = scalar_table_make(c->bench, &metallic, out->metallic, TEXTURE_GREY);
-        out->metallic = scalar_table_mean(&t, c->bench, &metallic);
+        scalar_lut t = scalar_lut_make(c->bench, &metallic, out->metallic, TEXTURE_GREY);
+        out->metallic = scalar_lut_mean(&t, c->bench, &metallic);
         set_mean(c, material, "map_Pm", &metallic);
         is_metal = false;
     }
@@ -322,11 +322,11 @@ static facet_result build_packed(conversion *c, uint32_t material, legacy_map ro
     if (!is_gloss && is_rough && is_metal && roughness.ref.texture == metallic.ref.texture &&
         is_channel(&roughness, 'g') && is_channel(&metallic, 'b'))
         return FACET_OK;
-    p.roughness = scalar_table_make(c->bench, &roughness, 1.0f, TEXTURE_GREY);
-    p.metallic = scalar_table_make(c->bench, &metallic, 1.0f, TEXTURE_GREY);
+    p.roughness = scalar_lut_make(c->bench, &roughness, 1.0f, TEXTURE_GREY);
+    p.metallic = scalar_lut_make(c->bench, &metallic, 1.0f, TEXTURE_GREY);
     legacy_map occlusion = is_rma ? roughness : legacy_map_default();
     occlusion.channel = 'b';
-    p.occlusion = scalar_table_make(c->bench, &occlusion, 1.0f, TEXTURE_BLUE);
+    p.occlusion = scalar_lut_make(c->bench, &occlusion, 1.0f, TEXTURE_BLUE);
     if (is_gloss) { /* roughness = 1 - factor gloss: the factor goes into the texels */
         for (int code = 0; code < 256; code++)
             p.roughness.values[code] = 1.0f - (1.0f - out->perceptual_roughness) * p.roughness.values[code];
@@ -395,8 +395,8 @@ facet_result build_surface_maps(conversion *c, uint32_t material, legacy_reading
         core = mem_alloc(&c->scene->allocator, 1, sizeof *core);
         if (!core)
             return fail_memory(error, "textures", sizeof *core);
-        core_grid_make(core, scalar_table_lowest(&job.p.shininess, c->bench, &job.shininess),
-                       scalar_table_highest(&job.p.shininess, c->bench, &job.shininess),
+        core_grid_make(core, scalar_lut_lowest(&job.p.shininess, c->bench, &job.shininess),
+                       scalar_lut_highest(&job.p.shininess, c->bench, &job.shininess),
                        c->scene->thread_count);
         job.p.core = core;
     }

@@ -132,7 +132,7 @@ static void check_model(const char *path)
 }
 
 /* Larger models show nothing new, but for what a sanitizer takes for their texels. */
-enum { MOST_BYTES = IS_SLOW ? 50000 : 300000 };
+enum { MAX_BYTES = IS_SLOW ? 50000 : 300000 };
 
 /* Models below a folder that end so. */
 static int check_folder(const char *folder, const char *const *ends)
@@ -151,7 +151,7 @@ static int check_folder(const char *folder, const char *const *ends)
             count += check_folder(path, ends);
             continue;
         }
-        for (const char *const *end = ends; *end && status.st_size < MOST_BYTES; end++) {
+        for (const char *const *end = ends; *end && status.st_size < MAX_BYTES; end++) {
             size_t length = strlen(path);
             if (length > strlen(*end) && strcmp(path + length - strlen(*end), *end) == 0) {
                 check_model(path);

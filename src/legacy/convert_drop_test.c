@@ -47,8 +47,8 @@ static facet_scene *dropped(void)
 /* Every texture is read by some glTF material, every picture by some texture; numbers are in range. */
 static void assert_all_used(const facet_scene *scene)
 {
-    bool textures[TEST_MOST] = {false};
-    bool images[TEST_MOST] = {false};
+    bool textures[TEST_MAX] = {false};
+    bool images[TEST_MAX] = {false};
     for (uint32_t i = 0; i < scene->material_count; i++) {
         for (int slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++) {
             uint32_t texture = scene->materials[i].textures[slot].texture;

@@ -27,12 +27,12 @@ static facet_result survey(conversion *c, facet_error *error)
 
 static void ask(const conversion *c, const legacy_reading *r, solve_item *item)
 {
-    memset(&item->question, 0, sizeof item->question);
-    item->is_asked = r->kind == READING_OGL1;
-    if (!item->is_asked)
+    memset(&item->input, 0, sizeof item->input);
+    item->is_wanted = r->kind == READING_OGL1;
+    if (!item->is_wanted)
         return;
-    item->question.ogl1 = build_representative(c, r);
-    item->question.is_closed =
+    item->input.ogl1 = build_representative(c, r);
+    item->input.is_closed =
         legacy_has_map(&r->m, LEGACY_SPECULAR_MAP) || legacy_has_map(&r->m, LEGACY_SHININESS_MAP) ? 1.0f
                                                                                                   : 0.0f;
 }
@@ -53,10 +53,10 @@ static void report(const conversion *c, uint32_t material, const legacy_reading 
     out->summary.name = out->pbr.name;
     out->summary.source = c->scene->legacy->is_rgl ? "ogl1" : "mtl";
     out->summary.profile = profile_of(out->pbr.extensions);
-    if (item->is_asked) {
+    if (item->is_wanted) {
         summary_solved(c, &out->summary, item);
         out->has_surfaces = true;
-        out->ogl1_surface = item->question.ogl1;
+        out->ogl1_surface = item->input.ogl1;
         out->pbr_surface = item->pbr;
         out->summary.method =
             solve_is_closed(c, FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS, item) ? "closed" : "fit";
@@ -101,7 +101,7 @@ static facet_result build_all(conversion *c, legacy_reading *readings, solve_ite
     facet_result result =
         solve_all(c, FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS, items, scene->material_count, error);
     for (uint32_t i = 0; i < scene->material_count && result == FACET_OK; i++) {
-        if (items[i].is_asked)
+        if (items[i].is_wanted)
             solve_note(c, i, &items[i]);
         if (readings[i].kind == READING_KEPT)
             c->materials[i] = scene->materials[i];

@@ -36,9 +36,9 @@ int map_opacity_channel(const texture_bench *bench, const legacy_map *map)
     return channel_of(map->channel, s && s->has_alpha ? TEXTURE_ALPHA : TEXTURE_GREY);
 }
 
-color_table color_table_make(const texture_bench *bench, const legacy_map *map, const float factor[3])
+color_lut color_lut_make(const texture_bench *bench, const legacy_map *map, const float factor[3])
 {
-    color_table t;
+    color_lut t;
     const srgb_tables *srgb = texture_bench_srgb(bench);
     bool is_plain = map_is_plain(map);
     for (int k = 0; k < 3; k++) {
@@ -55,9 +55,9 @@ color_table color_table_make(const texture_bench *bench, const legacy_map *map, 
     return t;
 }
 
-scalar_table scalar_table_make(const texture_bench *bench, const legacy_map *map, float factor, int fallback)
+scalar_lut scalar_lut_make(const texture_bench *bench, const legacy_map *map, float factor, int fallback)
 {
-    scalar_table t;
+    scalar_lut t;
     (void)bench;
     t.channel = channel_of(map->channel, fallback);
     for (int code = 0; code < 256; code++) {
@@ -68,14 +68,14 @@ scalar_table scalar_table_make(const texture_bench *bench, const legacy_map *map
     return t;
 }
 
-void color_table_mean(const color_table *t, const texture_bench *bench, const legacy_map *map, float out[3])
+void color_lut_mean(const color_lut *t, const texture_bench *bench, const legacy_map *map, float out[3])
 {
     const texture_statistics *s = texture_bench_statistics(bench, map->ref.texture);
     for (int k = 0; k < 3; k++)
         out[k] = s ? (float)texture_mean(s, t->channels[k], t->values[k]) : t->values[k][255];
 }
 
-float scalar_table_mean(const scalar_table *t, const texture_bench *bench, const legacy_map *map)
+float scalar_lut_mean(const scalar_lut *t, const texture_bench *bench, const legacy_map *map)
 {
     const texture_statistics *s = texture_bench_statistics(bench, map->ref.texture);
     return s ? (float)texture_mean(s, t->channel, t->values) : t->values[255];
@@ -96,20 +96,19 @@ static float extreme(const texture_statistics *s, int channel, const float value
     return found;
 }
 
-void color_table_highest(const color_table *t, const texture_bench *bench, const legacy_map *map,
-                         float out[3])
+void color_lut_highest(const color_lut *t, const texture_bench *bench, const legacy_map *map, float out[3])
 {
     const texture_statistics *s = texture_bench_statistics(bench, map->ref.texture);
     for (int k = 0; k < 3; k++)
         out[k] = extreme(s, t->channels[k], t->values[k], 1.0f);
 }
 
-float scalar_table_highest(const scalar_table *t, const texture_bench *bench, const legacy_map *map)
+float scalar_lut_highest(const scalar_lut *t, const texture_bench *bench, const legacy_map *map)
 {
     return extreme(texture_bench_statistics(bench, map->ref.texture), t->channel, t->values, 1.0f);
 }
 
-float scalar_table_lowest(const scalar_table *t, const texture_bench *bench, const legacy_map *map)
+float scalar_lut_lowest(const scalar_lut *t, const texture_bench *bench, const legacy_map *map)
 {
     return extreme(texture_bench_statistics(bench, map->ref.texture), t->channel, t->values, -1.0f);
 }

@@ -1,11 +1,11 @@
-/* convert_notes.h - what a conversion has to say of single materials and of the scene: codes, sentences, and which of
- * them a user hears of while it runs. */
+/* convert_notes.h - notes of a conversion about materials and the scene: codes, sentences, and which of them are
+ * logged as warnings. */
 #ifndef LEGACY_CONVERT_NOTES_H
 #define LEGACY_CONVERT_NOTES_H
 
 #include "scene/legacy.h"
 
-/* In the order in which the report has them for one material. */
+/* In the order of the report. */
 typedef enum note_code {
     NOTE_LEGACY_LIGHT_PI,
     NOTE_COLOR_SPACE_ASSUMED,
@@ -48,7 +48,7 @@ typedef enum note_code {
 } note_code;
 
 typedef struct note {
-    uint32_t material; /* SCENE_NONE: the scene's */
+    uint32_t material; /* SCENE_NONE: of the scene */
     note_code code;
     const char *text; /* in the scene's arena */
 } note;
@@ -57,16 +57,17 @@ typedef struct note_list {
     facet_scene *scene;
     note *notes;
     size_t count, capacity;
-    bool has_failed; /* no memory */
+    bool has_failed; /* out of memory */
 } note_list;
 
-/* A sentence without the material's name and without a full stop. One per material and code: the first. */
+/* Adds a sentence without the name of the material and without a full stop. Only the first per material and code is
+ * kept. */
 void note_add(note_list *list, uint32_t material, note_code code, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 void note_list_destroy(note_list *list);
 
-/* Puts them into out, whose materials are there, and tells log of those that mean that something was lost: one line
- * per code. False: no memory. */
+/* Moves the notes into out, whose materials exist, and logs those that report a loss as warnings, one line per
+ * code. False: out of memory. */
 bool note_list_finish(note_list *list, const facet_log *log, scene_conversion *out);
 
 #endif

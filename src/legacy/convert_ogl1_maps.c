@@ -258,7 +258,7 @@ static void reuse_base(const conversion *c, const scene_material *m, const solve
         return;
     float diffuse[3];
     for (int k = 0; k < 3; k++) {
-        float mean = item->question.pbr.base_color[k];
+        float mean = item->input.pbr.base_color[k];
         diffuse[k] =
             unit_of(mean > 0.0f ? m->base_color[k] * item->ogl1.diffuse[k] / mean : m->base_color[k]);
     }
@@ -269,17 +269,17 @@ static void reuse_base(const conversion *c, const scene_material *m, const solve
 /* ---- single channels: roughness, metallic, alpha tests ---- */
 
 typedef struct channel_parameters {
-    scalar_table table;
+    scalar_lut table;
 } channel_parameters;
 
 static void channel_row(const void *parameters, uint32_t width, const uint8_t *const *in, uint8_t *out)
 {
     const channel_parameters *p = parameters;
     for (uint32_t x = 0; x < width; x++)
-        out[x] = texel_code(table_scalar(&p->table, in[0] + (size_t)x * 4));
+        out[x] = texel_code(lut_scalar(&p->table, in[0] + (size_t)x * 4));
 }
 
-static facet_result bake_channel(conversion *c, const scene_texture_ref *ref, const scalar_table *table,
+static facet_result bake_channel(conversion *c, const scene_texture_ref *ref, const scalar_lut *table,
                                  const char *purpose, legacy_map *out, facet_error *error)
 {
     channel_parameters p;
@@ -296,9 +296,9 @@ static facet_result bake_channel(conversion *c, const scene_texture_ref *ref, co
     return texture_bench_bake(c->bench, &bake, &out->ref.texture, error);
 }
 
-static scalar_table channel_table(int channel)
+static scalar_lut channel_table(int channel)
 {
-    scalar_table t;
+    scalar_lut t;
     t.channel = channel;
     for (int code = 0; code < 256; code++)
         t.values[code] = (float)code / 255.0f;
@@ -314,7 +314,7 @@ static facet_result build_opacity(conversion *c, const scene_material *m, legacy
         return FACET_OK;
     if (m->alpha_mode == SCENE_ALPHA_BLEND && !s->has_alpha)
         return FACET_OK;
-    scalar_table t = channel_table(TEXTURE_ALPHA);
+    scalar_lut t = channel_table(TEXTURE_ALPHA);
     for (int code = 0; code < 256 && m->alpha_mode == SCENE_ALPHA_MASK; code++)
         t.values[code] = m->base_color[3] * t.values[code] >= m->alpha_cutoff ? 1.0f : 0.0f;
     return bake_channel(c, ref, &t, "opacity", &out->maps[LEGACY_OPACITY_MAP], error);
@@ -326,8 +326,8 @@ static facet_result build_split(conversion *c, const scene_material *m, legacy_m
     const scene_texture_ref *ref = &m->textures[SCENE_METALLIC_ROUGHNESS_TEXTURE];
     if (m->extensions & SCENE_SPECULAR_GLOSSINESS || !is_readable(c, m, SCENE_METALLIC_ROUGHNESS_TEXTURE))
         return FACET_OK;
-    scalar_table green = channel_table(TEXTURE_GREEN);
-    scalar_table blue = channel_table(TEXTURE_BLUE);
+    scalar_lut green = channel_table(TEXTURE_GREEN);
+    scalar_lut blue = channel_table(TEXTURE_BLUE);
     facet_result result = bake_channel(c, ref, &green, "roughness", &out->maps[LEGACY_ROUGHNESS_MAP], error);
     if (result == FACET_OK)
         result = bake_channel(c, ref, &blue, "metallic", &out->maps[LEGACY_METALLIC_MAP], error);

@@ -226,14 +226,14 @@ static void read_illum(conversion *c, uint32_t material, legacy_reading *r, face
  * not stated, but no author has seen it: exporters that know no highlight write 0, those that count from 0 to 1 a
  * fraction, and today's programs read both as a matte surface. Where a mirror was asked for, Ks is its reflectance. rgl's
  * parameters were seen as they are. */
-#define LEAST_EXPONENT 1.0f
+#define MIN_EXPONENT 1.0f
 
 static void read_widest_highlight(conversion *c, uint32_t material, legacy_reading *r)
 {
     legacy_material *m = &r->m;
     bool is_mirror = c->desc.has_mirrors && reflects_surroundings(m->illum);
     if (r->kind != READING_OGL1 || c->scene->legacy->is_rgl || c->desc.dialect == FACET_MTL_DIALECT_SPEC ||
-        is_mirror || m->shininess > LEAST_EXPONENT || is_black(r->surface.specular))
+        is_mirror || m->shininess > MIN_EXPONENT || is_black(r->surface.specular))
         return;
     if (legacy_has(m, LEGACY_SHININESS))
         note_add(
@@ -462,7 +462,7 @@ static void note_mirror(conversion *c, uint32_t material, const legacy_material 
  * taken at its word. Between 100, where a highlight is as wide as that of brushed metal, and 500 the two are mixed. */
 static float mirror_roughness(const legacy_material *m, float shininess)
 {
-    if (!legacy_has(m, LEGACY_SHININESS) || m->shininess <= LEAST_EXPONENT)
+    if (!legacy_has(m, LEGACY_SHININESS) || m->shininess <= MIN_EXPONENT)
         return 0.0f;
     return perceptual_roughness_from_shininess(shininess) * unit_of((500.0f - shininess) / 400.0f);
 }

@@ -1,5 +1,5 @@
 /* convert_solve.c - the numbers of all materials: distinct questions are sorted out, answered in parallel and handed back
- * to everybody who asked. */
+ * to everybody who solve_request. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,20 +9,19 @@
 #include "legacy/convert_state.h"
 #include "legacy/convert_texels.h"
 
-typedef struct solve_question solve_question;
+typedef struct solve_input solve_input;
 
-/* One distinct question, with a material that asks it. */
-typedef struct asked {
-    const solve_question *question;
+/* One distinct input, with a material that asks it. */
+typedef struct solve_request {
+    const solve_input *input;
     uint32_t item;
-    uint32_t answer; /* the item that has the answer */
-} asked;
+} solve_request;
 
-static int by_question(const void *a, const void *b)
+static int by_input(const void *a, const void *b)
 {
-    const asked *x = a;
-    const asked *y = b;
-    int order = memcmp(x->question, y->question, sizeof *x->question);
+    const solve_request *x = a;
+    const solve_request *y = b;
+    int order = memcmp(x->input, y->input, sizeof *x->input);
     return order ? order : (x->item > y->item) - (x->item < y->item);
 }
 
@@ -32,7 +31,7 @@ typedef struct solver {
     const fit_metric *metric;
     facet_material_model to;
     solve_item *items;
-    const asked *distinct;
+    const solve_request *distinct;
 } solver;
 
 /* A program that reads linear colors adds them as light. */
@@ -52,13 +51,13 @@ bool solve_is_closed(const conversion *c, facet_material_model to, const solve_i
 {
     bool is_linear = c->target == FACET_LEGACY_TARGET_LINEAR;
     if (to == FACET_MATERIAL_MODEL_OGL1)
-        return item->question.is_closed > 0.0f && is_linear;
-    return item->question.is_closed > 0.0f || (c->desc.method == FACET_LEGACY_METHOD_CLOSED && is_linear);
+        return item->input.is_closed > 0.0f && is_linear;
+    return item->input.is_closed > 0.0f || (c->desc.method == FACET_LEGACY_METHOD_CLOSED && is_linear);
 }
 
 static void solve_from_ogl1(const solver *s, solve_item *item)
 {
-    const ogl1_surface *in = &item->question.ogl1;
+    const ogl1_surface *in = &item->input.ogl1;
     bool is_closed = solve_is_closed(s->c, s->to, item);
     bool is_core = s->desc->profile == FACET_LEGACY_PROFILE_CORE;
     if (is_closed)
@@ -67,11 +66,11 @@ static void solve_from_ogl1(const solver *s, solve_item *item)
     else
         item->remarks = is_core ? ogl1_to_pbr_core_fit(s->metric, in, s->c->target, &item->pbr)
                                 : ogl1_to_pbr_fit(s->metric, in, s->c->target, &item->pbr);
-    if (item->question.is_closed > 0.0f && !is_core)
+    if (item->input.is_closed > 0.0f && !is_core)
         item->pbr = texel_surface(in); /* as its textures will have it */
     item->ogl1 = *in;
     item->hue_error = fit_compare(s->metric, in, &item->pbr, FIT_FROM_OGL1);
-    item->is_hue_kept = s->desc->keeps_hue && item->question.is_closed == 0.0f &&
+    item->is_hue_kept = s->desc->keeps_hue && item->input.is_closed == 0.0f &&
                         fit_keep_hue(s->metric, in, s->c->target, &item->pbr);
     item->error = item->is_hue_kept ? fit_compare(s->metric, in, &item->pbr, FIT_FROM_OGL1) : item->hue_error;
     item->hue_share = fit_hue_share(in, &item->pbr);
@@ -88,7 +87,7 @@ static void solve_from_ogl1(const solver *s, solve_item *item)
 
 static void solve_to_ogl1(const solver *s, solve_item *item)
 {
-    const pbr_surface *in = &item->question.pbr;
+    const pbr_surface *in = &item->input.pbr;
     item->pbr = *in;
     if (solve_is_closed(s->c, s->to, item))
         item->remarks = pbr_to_ogl1_closed(in, &item->ogl1);
@@ -116,14 +115,14 @@ static void solve_range(void *context, size_t begin, size_t end)
 }
 
 /* Puts the first of each kind to the front, in order, and notes for all who has their answer. */
-static size_t sort_out(asked *all, size_t count, uint32_t *answers)
+static size_t merge_equal(solve_request *all, size_t count, uint32_t *solved_by)
 {
-    qsort(all, count, sizeof *all, by_question);
+    qsort(all, count, sizeof *all, by_input);
     size_t distinct = 0;
     for (size_t i = 0; i < count; i++) {
-        if (distinct == 0 || memcmp(all[i].question, all[distinct - 1].question, sizeof *all->question) != 0)
+        if (distinct == 0 || memcmp(all[i].input, all[distinct - 1].input, sizeof *all->input) != 0)
             all[distinct++] = all[i];
-        answers[all[i].item] = all[distinct - 1].item;
+        solved_by[all[i].item] = all[distinct - 1].item;
     }
     return distinct;
 }
@@ -134,27 +133,27 @@ facet_result solve_all(conversion *c, facet_material_model to, solve_item *items
     const facet_allocator *allocator = &c->scene->allocator;
     fit_metric *metric = NULL;
     facet_result result = FACET_OK;
-    asked *all = mem_alloc(allocator, (size_t)count + 1, sizeof *all);
-    uint32_t *answers = mem_alloc(allocator, (size_t)count + 1, sizeof *answers);
-    size_t asked_count = 0;
+    solve_request *all = mem_alloc(allocator, (size_t)count + 1, sizeof *all);
+    uint32_t *solved_by = mem_alloc(allocator, (size_t)count + 1, sizeof *solved_by);
+    size_t wanted_count = 0;
     c->target = target_of(c, to);
-    if (!all || !answers)
+    if (!all || !solved_by)
         result = fail_memory(error, "materials", count * sizeof *all);
     for (uint32_t i = 0; i < count && result == FACET_OK; i++)
-        if (items[i].is_asked)
-            all[asked_count++] = (asked){.question = &items[i].question, .item = i};
-    if (result == FACET_OK && asked_count > 0)
+        if (items[i].is_wanted)
+            all[wanted_count++] = (solve_request){.input = &items[i].input, .item = i};
+    if (result == FACET_OK && wanted_count > 0)
         result = fit_metric_create(allocator, PBR_CORRELATED, &metric, error);
-    if (result == FACET_OK && asked_count > 0) {
-        size_t distinct = sort_out(all, asked_count, answers);
+    if (result == FACET_OK && wanted_count > 0) {
+        size_t distinct = merge_equal(all, wanted_count, solved_by);
         solver s = {.c = c, .desc = &c->desc, .metric = metric, .to = to, .items = items, .distinct = all};
         parallel_for(c->scene->thread_count, distinct, 1, solve_range, &s);
         for (uint32_t i = 0; i < count; i++)
-            if (items[i].is_asked)
-                items[i] = items[answers[i]];
+            if (items[i].is_wanted)
+                items[i] = items[solved_by[i]];
     }
     mem_free(all);
-    mem_free(answers);
+    mem_free(solved_by);
     fit_metric_destroy(metric);
     return result;
 }
@@ -181,7 +180,7 @@ void solve_note(conversion *c, uint32_t material, const solve_item *item)
                  "as drawn %.3f instead of %.3f",
                  item->error.E, item->hue_error.E, item->error.E_display, item->hue_error.E_display,
                  item->error.E_drawn, item->hue_error.E_drawn);
-    else if (item->hue_share < 0.25 && item->question.is_closed == 0.0f)
+    else if (item->hue_share < 0.25 && item->input.is_closed == 0.0f)
         note_add(
             notes, material, NOTE_HUE_LOST,
             "its highlight of shininess %g is so broad that %.0f %% of the hue of its diffuse color is left; "

@@ -1,11 +1,11 @@
-/* convert_surface.h - colors of legacy files to linear light and back, and materials as the surfaces of fit.h. */
+/* convert_surface.h - colors of legacy files in linear light and back, and materials as the surfaces of fit.h. */
 #ifndef LEGACY_CONVERT_SURFACE_H
 #define LEGACY_CONVERT_SURFACE_H
 
 #include "legacy/fit.h"
 #include "scene/legacy.h"
 
-/* A number of a color; the sRGB curve goes on above 1. Negative and NaN: 0. */
+/* A component of a color; the sRGB curve is extended above 1. Negative and NaN: 0. */
 float legacy_to_linear(float value, facet_legacy_colors colors);
 float legacy_from_linear(float value, facet_legacy_colors colors);
 void legacy_color_to_linear(const float in[3], facet_legacy_colors colors, float out[3]);

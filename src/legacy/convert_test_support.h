@@ -18,9 +18,9 @@
 #include "legacy/convert_surface.h"
 #include "legacy/fit.h"
 
-enum { TEST_MOST = 32 };
+enum { TEST_MAX = 32 };
 
-/* A scene with one ball-less primitive per material; room for TEST_MOST images. */
+/* A scene with one ball-less primitive per material; room for TEST_MAX images. */
 static inline facet_scene *legacy_scene_in(const facet_allocator *allocator, uint32_t count)
 {
     facet_scene *scene = NULL;
@@ -28,8 +28,8 @@ static inline facet_scene *legacy_scene_in(const facet_allocator *allocator, uin
         return NULL;
     arena *a = scene->arena;
     scene->materials = arena_zalloc(a, count + 1, sizeof *scene->materials);
-    scene->images = arena_zalloc(a, TEST_MOST, sizeof *scene->images);
-    scene->textures = arena_zalloc(a, TEST_MOST, sizeof *scene->textures);
+    scene->images = arena_zalloc(a, TEST_MAX, sizeof *scene->images);
+    scene->textures = arena_zalloc(a, TEST_MAX, sizeof *scene->textures);
     scene->legacy = arena_zalloc(a, 1, sizeof *scene->legacy);
     legacy_material *materials = arena_zalloc(a, count + 1, sizeof *materials);
     if (!scene->materials || !scene->images || !scene->textures || !scene->legacy || !materials) {
@@ -88,7 +88,7 @@ static inline uint32_t add_picture(facet_scene *scene, uint32_t width, uint32_t 
     mem_free(bytes);
     if (!kept)
         return SCENE_NONE;
-    assert_true(scene->image_count < TEST_MOST);
+    assert_true(scene->image_count < TEST_MAX);
     scene->images[scene->image_count] =
         (scene_image){.name = "picture.png", .mime_type = "image/png", .bytes = kept, .size = byte_count};
     scene->textures[scene->texture_count] = (scene_texture){.name = "", .image = scene->image_count++};

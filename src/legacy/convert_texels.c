@@ -46,15 +46,15 @@ pbr_surface texel_surface(const ogl1_surface *in)
 
 static float strength_of(const texel_parameters *p, const float specular[3], const uint8_t *shininess)
 {
-    return unit_of(highest_of(specular) * table_scalar(&p->share, shininess));
+    return unit_of(highest_of(specular) * lut_scalar(&p->share, shininess));
 }
 
 static pbr_surface core_of(const texel_parameters *p, const uint8_t *const *in, uint32_t x)
 {
     ogl1_surface s;
-    table_color(&p->diffuse, texel_of(in, TEXEL_DIFFUSE, x), s.diffuse);
-    table_color(&p->specular, texel_of(in, TEXEL_SPECULAR, x), s.specular);
-    s.shininess = table_scalar(&p->shininess, texel_of(in, TEXEL_SHININESS, x));
+    lut_color(&p->diffuse, texel_of(in, TEXEL_DIFFUSE, x), s.diffuse);
+    lut_color(&p->specular, texel_of(in, TEXEL_SPECULAR, x), s.specular);
+    s.shininess = lut_scalar(&p->shininess, texel_of(in, TEXEL_SHININESS, x));
     return core_grid_look_up(p->core, &s);
 }
 
@@ -66,8 +66,8 @@ static void base_of(const texel_parameters *p, const uint8_t *const *in, uint32_
         return;
     }
     float specular[3];
-    table_color(&p->specular, texel_of(in, TEXEL_SPECULAR, x), specular);
-    table_color(&p->diffuse, texel_of(in, TEXEL_DIFFUSE, x), base);
+    lut_color(&p->specular, texel_of(in, TEXEL_SPECULAR, x), specular);
+    lut_color(&p->diffuse, texel_of(in, TEXEL_DIFFUSE, x), base);
     float strength = strength_of(p, specular, texel_of(in, TEXEL_SHININESS, x));
     for (int k = 0; k < 3; k++)
         base[k] = under_highlight(base[k], strength);
@@ -82,7 +82,7 @@ void texel_base_row(const void *parameters, uint32_t width, const uint8_t *const
         for (int k = 0; k < 3; k++)
             out[k] = srgb_encode_u8(p->srgb, base[k] / p->base_scale[k]);
         if (p->channel_count == 4)
-            out[3] = texel_code(table_scalar(&p->opacity, texel_of(in, TEXEL_OPACITY, x)));
+            out[3] = texel_code(lut_scalar(&p->opacity, texel_of(in, TEXEL_OPACITY, x)));
     }
 }
 
@@ -91,7 +91,7 @@ void texel_specular_row(const void *parameters, uint32_t width, const uint8_t *c
     const texel_parameters *p = parameters;
     for (uint32_t x = 0; x < width; x++, out += 4) {
         float specular[3];
-        table_color(&p->specular, texel_of(in, TEXEL_SPECULAR, x), specular);
+        lut_color(&p->specular, texel_of(in, TEXEL_SPECULAR, x), specular);
         float most = highest_of(specular);
         for (int k = 0; k < 3; k++)
             out[k] = most > 0.0f ? srgb_encode_u8(p->srgb, specular[k] / most) : 255;
@@ -104,7 +104,7 @@ void texel_roughness_row(const void *parameters, uint32_t width, const uint8_t *
     const texel_parameters *p = parameters;
     for (uint32_t x = 0; x < width; x++, out += 3) {
         out[0] = 255;
-        out[1] = texel_code(table_scalar(&p->roughness, texel_of(in, TEXEL_SHININESS, x)));
+        out[1] = texel_code(lut_scalar(&p->roughness, texel_of(in, TEXEL_SHININESS, x)));
         out[2] = 0;
         if (p->is_core) {
             pbr_surface core = core_of(p, in, x);
@@ -118,9 +118,9 @@ void texel_packed_row(const void *parameters, uint32_t width, const uint8_t *con
 {
     const packed_parameters *p = parameters;
     for (uint32_t x = 0; x < width; x++, out += 3) {
-        out[0] = texel_code(table_scalar(&p->occlusion, texel_of(in, 0, x)));
-        out[1] = texel_code(table_scalar(&p->roughness, texel_of(in, 0, x)));
-        out[2] = texel_code(table_scalar(&p->metallic, texel_of(in, 1, x)));
+        out[0] = texel_code(lut_scalar(&p->occlusion, texel_of(in, 0, x)));
+        out[1] = texel_code(lut_scalar(&p->roughness, texel_of(in, 0, x)));
+        out[2] = texel_code(lut_scalar(&p->metallic, texel_of(in, 1, x)));
     }
 }
 

@@ -53,13 +53,13 @@ static facet_result survey(conversion *c, facet_error *error)
 static void ask(conversion *c, uint32_t i, bool *known, solve_item *item)
 {
     const scene_material *m = &c->scene->materials[i];
-    memset(&item->question, 0, sizeof item->question);
+    memset(&item->input, 0, sizeof item->input);
     *known = is_known(c, i);
-    item->is_asked = !*known && !(m->extensions & SCENE_UNLIT);
-    if (!item->is_asked)
+    item->is_wanted = !*known && !(m->extensions & SCENE_UNLIT);
+    if (!item->is_wanted)
         return;
-    item->question.pbr = ogl1_representative(c, m);
-    item->question.is_closed = ogl1_needs_texels(c, m) ? 1.0f : 0.0f;
+    item->input.pbr = ogl1_representative(c, m);
+    item->input.is_closed = ogl1_needs_texels(c, m) ? 1.0f : 0.0f;
 }
 
 /* ---- factors ---- */
@@ -212,7 +212,7 @@ static facet_result make(conversion *c, uint32_t i, bool known, const solve_item
     } else {
         set_factors(c, m, item, out);
         note_losses(c, i, m);
-        if (item->is_asked)
+        if (item->is_wanted)
             solve_note(c, i, item);
         result = ogl1_build_maps(c, i, m, item, out, error);
         /* In a file of legacy materials, one that is glTF's stays glTF's. */
@@ -225,16 +225,16 @@ static facet_result make(conversion *c, uint32_t i, bool known, const solve_item
     report->summary.source =
         m->extensions & SCENE_SPECULAR_GLOSSINESS ? "specular-glossiness" : "metallic-roughness";
     report->summary.profile = "ogl1";
-    if (item->is_asked)
+    if (item->is_wanted)
         summary_solved(c, &report->summary, item);
     else
         summary_exact(&report->summary, "exact");
     if (known)
         report->summary.method = "source";
-    report->has_surfaces = item->is_asked;
+    report->has_surfaces = item->is_wanted;
     report->ogl1_surface = item->ogl1;
-    report->pbr_surface = item->question.pbr;
-    if (item->is_asked)
+    report->pbr_surface = item->input.pbr;
+    if (item->is_wanted)
         report->summary.method = solve_is_closed(c, FACET_MATERIAL_MODEL_OGL1, item) ? "closed" : "fit";
     return result;
 }

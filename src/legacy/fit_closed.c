@@ -363,8 +363,8 @@ uint32_t pbr_to_ogl1_closed(const pbr_surface *in, ogl1_surface *out)
     ogl1_search s;
     double x;
     start(&s, in);
-    fit_minimize_1(square_at, &s, 0.0, log1p((double)OGL1_MOST_SHININESS), 15, 0.01, &x);
-    return finish(&s, in, fmin(expm1(x), (double)OGL1_MOST_SHININESS), out);
+    fit_minimize_1(square_at, &s, 0.0, log1p((double)OGL1_MAX_SHININESS), 15, 0.01, &x);
+    return finish(&s, in, fmin(expm1(x), (double)OGL1_MAX_SHININESS), out);
 }
 
 uint32_t pbr_to_ogl1_closed_at(const pbr_surface *in, float shininess, ogl1_surface *out)

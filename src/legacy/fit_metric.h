@@ -1,5 +1,4 @@
-/* fit_metric.h - inside the fits: directions of light that the error is integrated over, and the shapes of both models
- * there. For fit*.c only. */
+/* fit_metric.h - quadrature directions of the error, and the shapes of both models there. For fit*.c only. */
 #ifndef LEGACY_FIT_METRIC_H
 #define LEGACY_FIT_METRIC_H
 
@@ -7,7 +6,7 @@
 
 enum {
     FIT_VIEWS = 3,
-    FIT_LANES = 16,      /* nodes of a view are a multiple of this, so that sums have a fixed order */
+    FIT_LANES = 16,      /* nodes of a view are a multiple of this, which fixes the order of sums */
     FIT_MAX_RINGS = 448, /* angles between N and H */
     FIT_MAX_NODES = 4096,
     DISPLAY_STEPS = 1024
@@ -25,20 +24,20 @@ struct fit_metric {
     float NdotL[FIT_MAX_NODES];
     float VdotH[FIT_MAX_NODES];
     float fresnel[FIT_MAX_NODES]; /* Schlick's weight */
-    float weight[FIT_MAX_NODES];  /* N.L dL; 0 of the nodes that fill up a view */
-    /* light of display numbers at even distances in [0, 1], and once more the last; linear between them within 5e-7 */
+    float weight[FIT_MAX_NODES];  /* N.L dL; 0 for padding */
+    /* light of even display values in [0, 1], the last one twice; linear interpolation is within 5e-7 */
     float display[DISPLAY_STEPS + 2];
 };
 
-/* Fills in the nodes: all but masking, fresnel and display. */
+/* Fills the nodes: everything except masking, fresnel and display. */
 void fit_quadrature(fit_metric *metric);
 
 /* pi D V N.L at every node, and N.H^s. */
 void fit_specular_lobe(const fit_metric *metric, float perceptual_roughness, float *out);
 void fit_highlight(const fit_metric *metric, float shininess, float *out);
 
-/* A surface as its two lobes: pi f N.L = N.L diffuse[k] (1 - mix(shade[0], shade[1], w)) + lobe mix(F0[k], F90[k], w) with
- * Schlick's weight w. */
+/* The two lobes of a surface: pi f N.L = N.L diffuse[k] (1 - mix(shade[0], shade[1], w)) + lobe mix(F0[k], F90[k],
+ * w) with Schlick's weight w. */
 typedef struct fit_lobes {
     float diffuse[3], shade[2];
     float F0[3], F90[3];
@@ -50,23 +49,23 @@ void fit_radiance_ogl1(const fit_metric *metric, const ogl1_surface *surface, co
                        float *out);
 void fit_radiance_pbr(const fit_metric *metric, const fit_lobes *lobes, const float *lobe, int k, float *out);
 
-/* ---- OpenGL 1 as its programs draw it ---- */
+/* ---- OpenGL 1 as its programs display it ---- */
 
-/* Display numbers (sRGB) of linear colors, and back: any value >= 0. */
+/* Display values (sRGB) of linear colors, and back: any value >= 0. */
 float fit_display_number(float linear);
 float fit_display_light(float number);
 
-/* Light at every node of what a program shows, at most 1: the sum of display numbers, clamped. */
+/* Displayed light at every node, at most 1: the clamped sum of display values, decoded. */
 void fit_radiance_drawn(const fit_metric *metric, const ogl1_surface *surface, const float *highlight, int k,
                         float *out);
 
-/* What conversions tell, by comparing what went in with what came out. */
+/* Remarks on a conversion from its input and its output. */
 uint32_t fit_remarks_to_pbr(const ogl1_surface *in, const pbr_surface *out);
 uint32_t fit_remarks_to_ogl1(const pbr_surface *in, const ogl1_surface *out);
 
-#define OGL1_MOST_SHININESS 128.0f
+#define OGL1_MAX_SHININESS 128.0f
 
-/* The least mean square that errors are relative to: a source that is darker than this share of white counts as that. */
+/* The smallest mean square of a source, relative to white; darker sources count as that. */
 #define FIT_DARKEST 1e-3
 
 #endif

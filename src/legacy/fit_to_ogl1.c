@@ -37,7 +37,7 @@ uint32_t fit_remarks_to_ogl1(const pbr_surface *in, const ogl1_surface *out)
         remarks |= out->specular[k] > 0.02f && out->shininess < 4.0f ? (uint32_t)FIT_LOW_EXPONENT : 0u;
     }
     /* the search ends a little before the bound */
-    return remarks | (out->shininess > 0.998f * OGL1_MOST_SHININESS ? (uint32_t)FIT_SHININESS_CLAMPED : 0u);
+    return remarks | (out->shininess > 0.998f * OGL1_MAX_SHININESS ? (uint32_t)FIT_SHININESS_CLAMPED : 0u);
 }
 
 static void begin(search *s, const fit_metric *metric, const pbr_surface *in, facet_legacy_target target,
@@ -70,7 +70,7 @@ uint32_t pbr_to_ogl1_fit(const fit_metric *metric, const pbr_surface *in, facet_
 {
     search s;
     double x;
-    double most = range == FIT_DISPLAYABLE ? (double)OGL1_MOST_SHININESS : unlimited_shininess;
+    double most = range == FIT_DISPLAYABLE ? (double)OGL1_MAX_SHININESS : unlimited_shininess;
     double least = target == FACET_LEGACY_TARGET_DRAWN ? log1p(least_drawn_shininess) : 0.0;
     begin(&s, metric, in, target, range == FIT_DISPLAYABLE ? 1.0 : 1e12);
     fit_minimize_1(error_at, &s, least, log1p(most), range == FIT_DISPLAYABLE ? 25 : 65, 1e-3, &x);

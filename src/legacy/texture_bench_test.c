@@ -7,7 +7,7 @@ static const uint8_t TEXELS[] = {10, 20, 30, 255, 10, 20, 30, 0, 250, 20, 30, 25
 static texture_bench *bench_of(facet_scene *scene)
 {
     texture_bench *bench = NULL;
-    const bool wanted[TEST_MOST] = {true, true, true, true};
+    const bool wanted[TEST_MAX] = {true, true, true, true};
     assert_int_equal(texture_bench_create(scene, &bench, NULL), FACET_OK);
     assert_int_equal(texture_bench_survey(bench, wanted, &(facet_log){0}, NULL), FACET_OK);
     return bench;
@@ -28,7 +28,7 @@ static void unreadable_images_are_reported(void **state)
     add_texels(scene, 2, 2, 4, TEXELS);
     add_texels(scene, 2, 2, 4, TEXELS);
     scene->images[1].size = 50;
-    const bool wanted[TEST_MOST] = {true, true, true, true};
+    const bool wanted[TEST_MAX] = {true, true, true, true};
     const facet_log log = {.message = count_line};
     texture_bench *bench = NULL;
     facet_error error;

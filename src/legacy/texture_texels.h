@@ -1,4 +1,4 @@
-/* texture_texels.h - a scene's image as RGBA texels of 8 bits, decoded when asked for, a few kept. */
+/* texture_texels.h - images of a scene as RGBA texels of 8 bits, decoded on demand, a few of them cached. */
 #ifndef LEGACY_TEXTURE_TEXELS_H
 #define LEGACY_TEXTURE_TEXELS_H
 
@@ -19,9 +19,9 @@ facet_result texels_resize(const struct image *in, const scene_texture *texture,
 facet_result texels_count(const facet_scene *scene, uint32_t image, uint32_t max_reduction,
                           uint32_t thread_count, texture_statistics *out, facet_error *error);
 
-/* Decoded images, the last used of which are kept, up to a number of bytes. */
+/* A cache of the last used decoded images, limited in bytes. */
 typedef struct texels_cache texels_cache;
-texels_cache *texels_cache_create(const facet_scene *scene); /* NULL: no memory */
+texels_cache *texels_cache_create(const facet_scene *scene); /* NULL: out of memory */
 void texels_cache_destroy(texels_cache *cache);
 /* RGBA of 8 bits: codes as in the file, floats sRGB-encoded. Valid until four others were requested. */
 facet_result texels_cache_get(texels_cache *cache, uint32_t image, const struct image **out,

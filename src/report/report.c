@@ -333,15 +333,15 @@ static void add_errors(text *out, const facet_conversion *c)
 
 static facet_result add_spheres(page *p, uint32_t material, facet_error *error)
 {
-    static const char *const captions[SPHERE_LOOK_COUNT] = {"OpenGL 1, on its screen",
-                                                            "OpenGL 1, in linear light", "glTF"};
+    static const char *const captions[SPHERE_STYLE_COUNT] = {"OpenGL 1, on its screen",
+                                                             "OpenGL 1, in linear light", "glTF"};
     bool is_back = p->conversion->to == FACET_MATERIAL_MODEL_OGL1; /* the source stands first */
-    for (int i = 0; i < SPHERE_LOOK_COUNT; i++) {
-        int look = is_back ? SPHERE_LOOK_COUNT - 1 - i : i;
+    for (int i = 0; i < SPHERE_STYLE_COUNT; i++) {
+        int look = is_back ? SPHERE_STYLE_COUNT - 1 - i : i;
         unsigned char *bytes = NULL;
         size_t size = 0;
         facet_result result =
-            sphere_draw(p->stage, material, (sphere_look)look, 2 * SPHERE_SIZE, &bytes, &size, error);
+            sphere_draw(p->stage, material, (sphere_style)look, 2 * SPHERE_SIZE, &bytes, &size, error);
         if (result != FACET_OK)
             return result;
         text_add(p->out, "<figure>");

@@ -62,7 +62,7 @@ static void every_material_is_there(void **state)
     char *page = make_page(scene);
     assert_int_equal(count(page, "<section"), 3);
     assert_int_equal(count(page, "</section>"), 3);
-    assert_int_equal(count(page, "data:image/png"), 3 * SPHERE_LOOK_COUNT);
+    assert_int_equal(count(page, "data:image/png"), 3 * SPHERE_STYLE_COUNT);
     assert_int_equal(count(page, "<table"), count(page, "</table>"));
     assert_int_equal(count(page, "<div"), count(page, "</div>"));
     assert_int_equal(count(page, "<tr"), count(page, "</tr>"));
@@ -89,7 +89,7 @@ static void pages_repeat(void **state)
     scene_destroy(scene);
 }
 
-static void draw(sphere_stage *stage, uint32_t material, sphere_look look, image *out)
+static void draw(sphere_stage *stage, uint32_t material, sphere_style look, image *out)
 {
     unsigned char *bytes;
     size_t size;

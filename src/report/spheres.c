@@ -147,7 +147,7 @@ static facet_result encode(const film *f, const facet_scene *scene, unsigned cha
     return result;
 }
 
-facet_result sphere_draw(sphere_stage *stage, uint32_t material, sphere_look look, uint32_t size,
+facet_result sphere_draw(sphere_stage *stage, uint32_t material, sphere_style look, uint32_t size,
                          unsigned char **bytes, size_t *byte_count, facet_error *error)
 {
     facet_scene *scene = stage->scene;

@@ -4,12 +4,12 @@
 
 #include "scene/legacy.h"
 
-typedef enum sphere_look {
+typedef enum sphere_style {
     SPHERE_OGL1_DISPLAY, /* as the old program showed it: light added in the display's numbers */
     SPHERE_OGL1_LINEAR,  /* the same material with light added as light: what a conversion aims at */
     SPHERE_PBR,
-    SPHERE_LOOK_COUNT
-} sphere_look;
+    SPHERE_STYLE_COUNT
+} sphere_style;
 
 /* A scene of one ball under one light from the upper left, which takes materials and textures from another. */
 typedef struct sphere_stage sphere_stage;
@@ -17,7 +17,7 @@ facet_result sphere_stage_create(const facet_scene *scene, sphere_stage **out, f
 void sphere_stage_destroy(sphere_stage *stage); /* NULL is allowed */
 
 /* A PNG file of size x size pixels, transparent around the ball; a block of mem_alloc(). */
-facet_result sphere_draw(sphere_stage *stage, uint32_t material, sphere_look look, uint32_t size,
+facet_result sphere_draw(sphere_stage *stage, uint32_t material, sphere_style look, uint32_t size,
                          unsigned char **bytes, size_t *byte_count, facet_error *error);
 
 #endif
