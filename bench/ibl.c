@@ -148,7 +148,7 @@ static void print_errors(const settings *s)
     const ibl_light *light = prepare(
         e, &(ibl_light_desc){.thread_count = s->thread_count, .needs_specular = true, .max_roughness = 1.0f});
     for (uint32_t level = 1; level < prefilter_level_count(PREFILTER_GGX); level++) {
-        probing p = {.picture = &e->picture,
+        probing p = {.picture = &e->panorama,
                      .light = light,
                      .roughness = prefilter_roughness(PREFILTER_GGX, level),
                      .size = e->parts.levels[PREFILTER_GGX][level].size};

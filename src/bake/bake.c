@@ -23,7 +23,7 @@ enum {
     DEFAULT_SAMPLES = 1024,
     MAX_SAMPLES = 1 << 20,
     MAX_PYRAMID = 1024, /* 134 MB; larger only beside larger results */
-    LEAST_DEGREE = 256  /* of the analysis of a fine picture */
+    LEAST_DEGREE = 256  /* of the analysis of a fine image */
 };
 
 static const facet_bake_desc default_desc;
@@ -107,7 +107,7 @@ static void plan_lobe(const facet_bake_desc *desc, const bake_source *source, fl
     }
     if (plan->kind == LEVEL_SAMPLED) {
         uint32_t most = desc->size > MAX_PYRAMID ? desc->size : MAX_PYRAMID;
-        uint32_t size = bake_pyramid_size(&plan->lobe, desc->samples, source->picture.height, most);
+        uint32_t size = bake_pyramid_size(&plan->lobe, desc->samples, source->panorama.height, most);
         plans->pyramid_size = size > plans->pyramid_size ? size : plans->pyramid_size;
     }
     plans->needs_reference |= plan->kind == LEVEL_REFERENCE;
@@ -117,7 +117,7 @@ static void plan_lobe(const facet_bake_desc *desc, const bake_source *source, fl
 static double make_plans(const facet_bake_desc *desc, const facet_cube *c, const bake_source *source,
                          bake_plans *plans)
 {
-    double texels = (double)source->picture.width * source->picture.height;
+    double texels = (double)source->panorama.width * source->panorama.height;
     double total = 0.0;
     for (uint32_t i = 0; i < c->level_count; i++) {
         level_plan *plan = &plans->levels[i];
@@ -132,11 +132,11 @@ static double make_plans(const facet_bake_desc *desc, const facet_cube *c, const
                                                      : 6.0 * size * size * texels;
         total += plan->work;
     }
-    /* analyses of low degrees would take fine pictures as coarser than they are */
+    /* analyses of low degrees would take fine images as coarser than they are */
     while (plans->degree > 0 && plans->degree < LEAST_DEGREE &&
-           (16 * plans->degree < source->picture.width || 8 * plans->degree < source->picture.height))
+           (16 * plans->degree < source->panorama.width || 8 * plans->degree < source->panorama.height))
         plans->degree += 32;
-    plans->analysis_work = 0.15 * plans->degree * plans->degree * source->picture.height;
+    plans->analysis_work = 0.15 * plans->degree * plans->degree * source->panorama.height;
     plans->pyramid_work = 400.0 * plans->pyramid_size * plans->pyramid_size;
     return total + plans->analysis_work + plans->pyramid_work;
 }
@@ -166,7 +166,7 @@ static facet_result create_materials(const facet_environment *environment, const
     bake_watch_init(&m->watch, &desc->progress, "bake", make_plans(desc, c, &m->source, &m->plans));
     bake_watch_add(&m->watch, 0.0);
     if (m->plans.degree > 0) {
-        result = harmonics_create(&m->source.picture, m->plans.degree, &desc->allocator, desc->thread_count,
+        result = harmonics_create(&m->source.panorama, m->plans.degree, &desc->allocator, desc->thread_count,
                                   &m->harmonics, error);
         bake_watch_add(&m->watch, m->plans.analysis_work);
     }
@@ -229,7 +229,7 @@ static facet_result fill_level(const facet_bake_desc *desc, bake_materials *m, f
     double texels = 6.0 * size * size;
     if (plan->kind == LEVEL_REFERENCE) {
         bake_reference_fill(&m->reference, &plan->lobe, desc->thread_count, &m->watch, out);
-        c->stats.samples += (uint64_t)(texels * m->source.picture.width * m->source.picture.height);
+        c->stats.samples += (uint64_t)(texels * m->source.panorama.width * m->source.panorama.height);
         return FACET_OK;
     }
     c->stats.samples += (uint64_t)(texels * desc->samples);
@@ -379,7 +379,7 @@ facet_result facet_environment_project_sh(const facet_environment *environment, 
                     "were expected",
                     (double)desc->rotation_rad, (double)desc->ev, (double)desc->clamp);
     double radiance[SH_COUNT][3];
-    TRY(sh_project_limited(&environment->picture, desc->clamp > 0.0f ? desc->clamp : INFINITY,
+    TRY(sh_project_limited(&environment->panorama, desc->clamp > 0.0f ? desc->clamp : INFINITY,
                            &desc->allocator, desc->thread_count, radiance, error));
     sh_rotate(radiance, (double)desc->rotation_rad);
     double scale = exp2((double)desc->ev);

@@ -37,8 +37,8 @@ bool bake_level_is_sharp(const facet_cube *c, uint32_t level);
 /* A table of reflectance: F32, facet_dfg_get_channel_count() channels. FACET_ERROR_ARGUMENT, _MEMORY, _CANCELLED. */
 facet_result bake_dfg(const facet_dfg_desc *desc, image *out, facet_error *error);
 
-/* A picture (F32, 1 to 4 channels) as a KTX2 file of one level. */
-facet_result bake_image_ktx2(const image *picture, const facet_ktx2_desc *desc, unsigned char **bytes,
+/* An image (F32, 1 to 4 channels) as a KTX2 file of one level. */
+facet_result bake_image_ktx2(const image *panorama, const facet_ktx2_desc *desc, unsigned char **bytes,
                              size_t *size, facet_error *error);
 
 #endif

@@ -24,16 +24,16 @@ enum { SUM_COLUMNS = 32 };
 static void sum_columns(void *context, size_t begin, size_t end)
 {
     bake_area *a = context;
-    uint32_t width = a->picture->width;
+    uint32_t width = a->panorama->width;
     for (size_t group = begin; group < end; group++) {
         size_t first = group * SUM_COLUMNS;
         size_t count = width - first < SUM_COLUMNS ? width - first : SUM_COLUMNS;
         double sums[SUM_COLUMNS][3] = {{0.0}};
-        for (uint32_t y = 0; y < a->picture->height; y++) {
+        for (uint32_t y = 0; y < a->panorama->height; y++) {
             if (y % a->step == 0)
                 memcpy(a->sums + (size_t)(y / a->step) * width + first, sums, count * sizeof *sums);
             double height = a->heights[y] - a->heights[y + 1];
-            const float *p = (const float *)a->picture->pixels + 3 * ((size_t)y * width + first);
+            const float *p = (const float *)a->panorama->pixels + 3 * ((size_t)y * width + first);
             for (size_t x = 0; x < count; x++)
                 for (int k = 0; k < 3; k++)
                     sums[x][k] += height * (double)*p++;
@@ -42,12 +42,12 @@ static void sum_columns(void *context, size_t begin, size_t end)
     }
 }
 
-facet_result bake_area_create(const image *picture, double rotation_rad, const facet_allocator *allocator,
+facet_result bake_area_create(const image *panorama, double rotation_rad, const facet_allocator *allocator,
                               uint32_t thread_count, bake_area *out, facet_error *error)
 {
-    size_t width = picture->width;
-    size_t height = picture->height;
-    bake_area a = {.picture = picture, .rotation_rad = rotation_rad, .step = 4};
+    size_t width = panorama->width;
+    size_t height = panorama->height;
+    bake_area a = {.panorama = panorama, .rotation_rad = rotation_rad, .step = 4};
     while (width * (height / a.step + 1) > MAX_SUMS && a.step < 64)
         a.step *= 2;
     size_t count = width * (height / a.step + 1);
@@ -96,11 +96,11 @@ typedef struct area_line {
     double radius; /* of base from the axis; 0: a meridian, along which there is nothing to integrate */
     double slope;  /* T: of base, height over radius */
     double factor; /* T / (1 + T^2) */
-    double phi0, cosine, sine; /* of base, in the picture */
+    double phi0, cosine, sine; /* of base, in the image */
     int sign;
 } area_line;
 
-/* A point of a line and the texel of the picture that it is in. */
+/* A point of a line and the texel of the image that it is in. */
 typedef struct area_point {
     double c, s; /* cos, sin of psi */
     double q;    /* sqrt(1 + T^2 c^2) */
@@ -155,10 +155,10 @@ static area_cursor start_at(const bake_area *a, const area_line *l, double tau)
 {
     area_cursor c = {.at = point_at(l, tau)};
     double turns = (l->phi0 + l->sign * atan2(c.at.s, c.at.c)) / (2.0 * pi) + 0.5;
-    double column = floor((turns - floor(turns)) * a->picture->width);
-    c.column = column < a->picture->width ? (uint32_t)column : a->picture->width - 1;
-    double row = floor(acos(c.at.h) / pi * a->picture->height);
-    c.row = row < a->picture->height ? (uint32_t)row : a->picture->height - 1;
+    double column = floor((turns - floor(turns)) * a->panorama->width);
+    c.column = column < a->panorama->width ? (uint32_t)column : a->panorama->width - 1;
+    double row = floor(acos(c.at.h) / pi * a->panorama->height);
+    c.row = row < a->panorama->height ? (uint32_t)row : a->panorama->height - 1;
     return c;
 }
 
@@ -170,7 +170,7 @@ static inline double arc_sine(double x)
     return x * (1.0 + x2 * (1.0 / 6.0 + x2 * (3.0 / 40.0 + x2 * (15.0 / 336.0 + x2 * (105.0 / 3456.0)))));
 }
 
-/* Adds the integral from the cursor to a point within its texel of the picture, and goes there. With G for the meridian above
+/* Adds the integral from the cursor to a point within its texel of the image, and goes there. With G for the meridian above
  * (is_above) or, less the same, below. */
 static inline void add_piece(const bake_area *a, const area_line *l, bool is_above, const area_point *to,
                              area_cursor *c, area_sum *sum)
@@ -180,11 +180,11 @@ static inline void add_piece(const bake_area *a, const area_line *l, bool is_abo
     c->at = *to;
     turn = l->sign > 0 ? turn : -turn;
     height = l->sign > 0 ? height : -height;
-    size_t width = a->picture->width;
+    size_t width = a->panorama->width;
     uint32_t y = c->row / a->step * a->step;
     const double *above = a->sums[(size_t)(c->row / a->step) * width + c->column];
     double over[3] = {above[0], above[1], above[2]};
-    const float *p = (const float *)a->picture->pixels + 3 * ((size_t)y * width + c->column);
+    const float *p = (const float *)a->panorama->pixels + 3 * ((size_t)y * width + c->column);
     for (; y < c->row; y++, p += 3 * width) {
         double high = a->heights[y] - a->heights[y + 1];
         for (int k = 0; k < 3; k++)
@@ -207,7 +207,7 @@ static inline void cross_rows(const bake_area *a, const area_line *l, bool is_ab
         bool is_up = to->h > a->heights[c->row];
         if (is_up && c->row > 0)
             edge = c->row;
-        else if (to->h < a->heights[c->row + 1] && c->row + 1 < a->picture->height)
+        else if (to->h < a->heights[c->row + 1] && c->row + 1 < a->panorama->height)
             edge = c->row + 1;
         else
             break;
@@ -227,7 +227,7 @@ static area_sum integrate(const bake_area *a, const area_line *l, bool is_above,
 {
     area_sum sum = {{0.0}};
     area_point end = point_at(l, tau);
-    uint32_t width = a->picture->width;
+    uint32_t width = a->panorama->width;
     for (;;) {
         uint32_t edge = l->sign > 0 ? c->column + 1 : c->column;
         double cosine = a->cosines[edge] * l->cosine + a->sines[edge] * l->sine;
@@ -416,7 +416,7 @@ static void box_rows(void *context, size_t begin, size_t end)
 
 bool bake_sharp_is_interpolated(const bake_source *source, uint32_t size)
 {
-    return !bake_sharp_is_of_faces(source, size) && 2 * (uint64_t)size > source->picture.height;
+    return !bake_sharp_is_of_faces(source, size) && 2 * (uint64_t)size > source->panorama.height;
 }
 
 typedef struct interpolating {
@@ -424,7 +424,7 @@ typedef struct interpolating {
     cube *out;
 } interpolating;
 
-enum { POINTS = 4 }; /* along a texel's edge; it is at most as large as the picture's */
+enum { POINTS = 4 }; /* along a texel's edge; it is at most as large as the image's */
 
 DISPATCH_AVX2 static void interpolate_rows(void *context, size_t begin, size_t end)
 {
@@ -446,7 +446,7 @@ DISPATCH_AVX2 static void interpolate_rows(void *context, size_t begin, size_t e
                 const float e[3] = {((float)d[0] * c - (float)d[2] * s) * r, (float)d[1] * r,
                                     ((float)d[0] * s + (float)d[2] * c) * r};
                 float w = r * r * r; /* of solid angle */
-                sum += equirect_fetch(&job->source->picture, equirect_locate(e)) * w;
+                sum += equirect_fetch(&job->source->panorama, equirect_locate(e)) * w;
                 whole += w;
             }
             *cube_texel(job->out, face, (int)x, (int)y) = sum * (1.0f / whole);
@@ -487,7 +487,7 @@ facet_result bake_sharp(const bake_source *source, float scale, const facet_allo
     }
     bake_area area = {0};
     facet_result result =
-        bake_area_create(&source->picture, source->rotation_rad, allocator, thread_count, &area, error);
+        bake_area_create(&source->panorama, source->rotation_rad, allocator, thread_count, &area, error);
     if (result == FACET_OK)
         bake_area_fill(&area, false, scale, thread_count, out);
     bake_area_destroy(&area);

@@ -25,24 +25,24 @@ facet_result facet_cube_encode_ktx2(const facet_cube *c, const facet_ktx2_desc *
     ktx2_write_desc d = make_desc(desc ? desc : &default_desc);
     d.level_count = c->level_count;
     d.face_count = 6;
-    d.pictures = faces;
+    d.images = faces;
     d.is_opaque = true; /* the lane behind RGB is undefined */
     return ktx2_write(&d, bytes, size, error);
 }
 
-facet_result bake_image_ktx2(const image *picture, const facet_ktx2_desc *desc, unsigned char **bytes,
+facet_result bake_image_ktx2(const image *panorama, const facet_ktx2_desc *desc, unsigned char **bytes,
                              size_t *size, facet_error *error)
 {
     const facet_image_view view = {.name = "",
-                                   .width = picture->width,
-                                   .height = picture->height,
-                                   .channel_count = picture->channel_count,
-                                   .pixels = picture->pixels,
-                                   .row_stride_bytes = image_row_size(picture)};
+                                   .width = panorama->width,
+                                   .height = panorama->height,
+                                   .channel_count = panorama->channel_count,
+                                   .pixels = panorama->pixels,
+                                   .row_stride_bytes = image_row_size(panorama)};
     ktx2_write_desc d = make_desc(desc ? desc : &default_desc);
     d.level_count = 1;
     d.face_count = 1;
-    d.pictures = &view;
+    d.images = &view;
     return ktx2_write(&d, bytes, size, error);
 }
 
@@ -80,7 +80,7 @@ facet_result facet_cube_encode_ktx1(const facet_cube *c, const facet_ktx1_desc *
         result = ktx1_write_cube(&(ktx1_write_desc){.allocator = desc->allocator,
                                                     .thread_count = desc->thread_count,
                                                     .level_count = c->level_count,
-                                                    .pictures = faces,
+                                                    .images = faces,
                                                     .key = desc->harmonics ? "sh" : NULL,
                                                     .value = harmonics.data},
                                  bytes, size, error);

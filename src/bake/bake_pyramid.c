@@ -184,7 +184,7 @@ static facet_result create_base(const bake_source *source, uint32_t size, const 
     facet_result result = cube_create(size, allocator, out, error);
     if (result == FACET_OK)
         result =
-            bake_area_create(&source->picture, source->rotation_rad, allocator, thread_count, &area, error);
+            bake_area_create(&source->panorama, source->rotation_rad, allocator, thread_count, &area, error);
     if (result == FACET_OK)
         bake_area_fill(&area, true, source->scale, thread_count, out);
     else
@@ -234,7 +234,7 @@ void bake_pyramid_destroy(bake_pyramid *p)
     *p = (bake_pyramid){0};
 }
 
-uint32_t bake_pyramid_size(const bake_lobe *lobe, uint32_t sample_count, uint32_t picture_height,
+uint32_t bake_pyramid_size(const bake_lobe *lobe, uint32_t sample_count, uint32_t image_height,
                            uint32_t most_texels)
 {
     bake_lobe_shares shares;
@@ -246,7 +246,7 @@ uint32_t bake_pyramid_size(const bake_lobe *lobe, uint32_t sample_count, uint32_
     double wanted = sqrt(4.0 * pi / (6.0 * solid));
     uint32_t size = 1;
     while (size < most_texels &&
-           (size < picture_height / 2 || (size < picture_height * 2 && size < 2.0 * wanted)))
+           (size < image_height / 2 || (size < image_height * 2 && size < 2.0 * wanted)))
         size *= 2;
     return size;
 }

@@ -23,8 +23,8 @@ enum {
 facet_result bake_reference_create(const bake_source *source, const facet_allocator *allocator,
                                    bake_reference *out, facet_error *error)
 {
-    size_t width = source->picture.width;
-    size_t height = source->picture.height;
+    size_t width = source->panorama.width;
+    size_t height = source->panorama.height;
     bake_reference r = {.source = source, .stride = (width + SPAN - 1) / SPAN * SPAN};
     *out = (bake_reference){0};
     r.planes = mem_zalloc(allocator, height, 3 * r.stride * sizeof *r.planes);
@@ -38,7 +38,7 @@ facet_result bake_reference_create(const bake_source *source, const facet_alloca
         r.waves[x] = (float)cos(phi);
         r.waves[r.stride + x] = (float)sin(phi);
     }
-    const float *p = source->picture.pixels;
+    const float *p = source->panorama.pixels;
     for (size_t y = 0; y < height; y++)
         for (size_t x = 0; x < width; x++)
             for (size_t k = 0; k < 3; k++)
@@ -67,7 +67,7 @@ void bake_reference_set_lobe(const bake_lobe *lobe, bake_reference_lobe *out)
 typedef struct gathering {
     const bake_reference *r;
     const bake_reference_lobe *lobe;
-    double d[3];            /* unit, in the picture */
+    double d[3];            /* unit, in the image */
     double from, to, close; /* rad from R: texels are integrated over, and up to where with more points */
     uint32_t parts, points; /* of a texel's edge there, and in each of its parts */
     double sum[3], weight;
@@ -88,7 +88,7 @@ static inline __attribute__((always_inline)) void add_span(gathering *g, uint32_
     bool is_charlie = g->lobe->lobe.kind == FACET_LOBE_CHARLIE;
     float a2 = (float)(g->lobe->lobe.alpha * g->lobe->lobe.alpha);
     float weights[SPAN];
-    size_t count = r->source->picture.width - x < SPAN ? r->source->picture.width - x : SPAN;
+    size_t count = r->source->panorama.width - x < SPAN ? r->source->panorama.width - x : SPAN;
     for (size_t i = 0; i < SPAN; i++) {
         float ex = dx - sine * c[i];
         float ez = dz - sine * s[i];
@@ -152,10 +152,10 @@ static inline double weigh(const bake_reference_lobe *lobe, double s2)
 /* One texel, integrated over. */
 static void add_texel(gathering *g, uint32_t y, size_t x)
 {
-    const image *picture = &g->r->source->picture;
-    double width = 2.0 * pi / picture->width;
-    double north = cos(pi * y / picture->height);
-    double south = y + 1 == picture->height ? -1.0 : cos(pi * (y + 1.0) / picture->height);
+    const image *panorama = &g->r->source->panorama;
+    double width = 2.0 * pi / panorama->width;
+    double north = cos(pi * y / panorama->height);
+    double south = y + 1 == panorama->height ? -1.0 : cos(pi * (y + 1.0) / panorama->height);
     double cosines[256], sines[256], weights[256];
     uint32_t count = g->points * g->parts;
     for (uint32_t i = 0; i < count; i++) {
@@ -185,7 +185,7 @@ static void add_texel(gathering *g, uint32_t y, size_t x)
 
 static double cosine_at(const gathering *g, double theta, double x)
 {
-    double phi = 2.0 * pi * x / g->r->source->picture.width - pi;
+    double phi = 2.0 * pi * x / g->r->source->panorama.width - pi;
     return sin(theta) * (g->d[0] * cos(phi) + g->d[2] * sin(phi)) + g->d[1] * cos(theta);
 }
 
@@ -193,7 +193,7 @@ static double cosine_at(const gathering *g, double theta, double x)
 static bool is_near(const gathering *g, double theta, size_t x)
 {
     double angle = acos(fmax(-1.0, fmin(1.0, cosine_at(g, theta, (double)x + 0.5 * SPAN))));
-    double reach = sin(theta) * pi * SPAN / g->r->source->picture.width + 1e-3;
+    double reach = sin(theta) * pi * SPAN / g->r->source->panorama.width + 1e-3;
     return angle - reach < g->to && angle + reach > g->from;
 }
 
@@ -206,7 +206,7 @@ static double angle_to(const gathering *g, double theta, size_t x)
 static void add_near_span(gathering *g, uint32_t y, size_t x, double theta, double solid_angle)
 {
     const bake_reference *r = g->r;
-    size_t width = r->source->picture.width;
+    size_t width = r->source->panorama.width;
     for (size_t i = x; i < x + SPAN && i < width; i++) {
         double angle = angle_to(g, theta, i);
         if (angle < g->to && angle > g->from) {
@@ -227,16 +227,16 @@ static void add_near_span(gathering *g, uint32_t y, size_t x, double theta, doub
 
 DISPATCH_AVX2 static void gather_rows(gathering *g)
 {
-    const image *picture = &g->r->source->picture;
+    const image *panorama = &g->r->source->panorama;
     double across = sqrt(g->d[0] * g->d[0] + g->d[2] * g->d[2]);
-    for (uint32_t y = 0; y < picture->height; y++) {
-        double theta = pi * (y + 0.5) / picture->height;
+    for (uint32_t y = 0; y < panorama->height; y++) {
+        double theta = pi * (y + 0.5) / panorama->height;
         double sine = sin(theta);
         double cosine = cos(theta);
-        if (across * sine + g->d[1] * cosine < -pi / picture->height) /* all of it below the horizon */
+        if (across * sine + g->d[1] * cosine < -pi / panorama->height) /* all of it below the horizon */
             continue;
-        double solid_angle = equirect_texel_solid_angle(picture->width, picture->height, y);
-        for (size_t x = 0; x < picture->width; x += SPAN)
+        double solid_angle = equirect_texel_solid_angle(panorama->width, panorama->height, y);
+        for (size_t x = 0; x < panorama->width; x += SPAN)
             if (is_near(g, theta, x))
                 add_near_span(g, y, x, theta, solid_angle);
             else
@@ -252,7 +252,7 @@ void bake_reference_gather(const bake_reference *r, const bake_reference_lobe *l
     double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     for (int k = 0; k < 3; k++)
         g.d[k] /= length;
-    double texel = pi / fmin(r->source->picture.height, 0.5 * r->source->picture.width);
+    double texel = pi / fmin(r->source->panorama.height, 0.5 * r->source->panorama.width);
     double parts = ceil(texel / lobe->lobe.width);
     g.parts = parts < 32.0 ? (uint32_t)parts : 32;
     g.from = -1.0;
@@ -274,8 +274,8 @@ void bake_reference_gather(const bake_reference *r, const bake_reference_lobe *l
 static void look_up(const bake_reference *r, bool is_interpolated, double u, double v, double weight,
                     double sum[3])
 {
-    size_t width = r->source->picture.width;
-    size_t height = r->source->picture.height;
+    size_t width = r->source->panorama.width;
+    size_t height = r->source->panorama.height;
     double x = is_interpolated ? u - 0.5 : floor(u);
     double y = is_interpolated ? fmin(fmax(v - 0.5, 0.0), (double)height - 1.0) : floor(v);
     for (int k = 0; k < 4; k++) {
@@ -292,8 +292,8 @@ static void look_up(const bake_reference *r, bool is_interpolated, double u, dou
 void bake_reference_average(const bake_reference *r, bool is_interpolated, uint32_t size, uint32_t face,
                             uint32_t x, uint32_t y, double out[3])
 {
-    const image *picture = &r->source->picture;
-    uint32_t across = picture->height / (2 * size) + 1; /* texels of the picture */
+    const image *panorama = &r->source->panorama;
+    uint32_t across = panorama->height / (2 * size) + 1; /* texels of the image */
     uint32_t points = across < 8 ? 64 : across < 32 ? 8 * across : 256;
     double whole = 0.0;
     out[0] = out[1] = out[2] = 0.0;
@@ -305,8 +305,8 @@ void bake_reference_average(const bake_reference *r, bool is_interpolated, uint3
         double d[3], e[3];
         cube_direction(face, s, t, d);
         bake_source_turn(r->source, d, e);
-        double u = (atan2(e[2], e[0]) / (2.0 * pi) + 0.5) * picture->width;
-        double v = acos(e[1] / sqrt(r2)) / pi * picture->height;
+        double u = (atan2(e[2], e[0]) / (2.0 * pi) + 0.5) * panorama->width;
+        double v = acos(e[1] / sqrt(r2)) / pi * panorama->height;
         look_up(r, is_interpolated, u, v, w, out);
         whole += w;
     }
@@ -327,14 +327,14 @@ static void fill_texels(void *context, size_t begin, size_t end)
 {
     const filling *job = context;
     uint32_t size = job->out->size;
-    const image *picture = &job->reference->source->picture;
+    const image *panorama = &job->reference->source->panorama;
     for (size_t i = begin; i < end; i++) {
         uint32_t face = (uint32_t)(i / size / size);
         uint32_t y = (uint32_t)(i / size % size);
         uint32_t x = (uint32_t)(i % size);
         double d[3], light[3];
         cube_direction(face, (2.0 * x + 1.0) / size - 1.0, (2.0 * y + 1.0) / size - 1.0, d);
-        if (!bake_watch_add(job->watch, (double)picture->width * picture->height))
+        if (!bake_watch_add(job->watch, (double)panorama->width * panorama->height))
             return;
         bake_reference_gather(job->reference, &job->lobe, d, light);
         *cube_texel(job->out, face, (int)x, (int)y) =

@@ -1,4 +1,4 @@
-/* bake_reference.h - what cube maps are measured against: for one direction, every texel of the picture weighed with the lobe.
+/* bake_reference.h - what cube maps are measured against: for one direction, every texel of the image weighed with the lobe.
  *
  * A texel counts with its radiance times the integral of the weight over its solid angle: the weight in its middle or, within
  * 24 texels of R and on the ring of Charlie, Gauss and Legendre's rule of 2 x 2 points, within 6 texels 8 x 8, in each
@@ -12,7 +12,7 @@
 
 typedef struct bake_reference {
     const bake_source *source;
-    float *planes; /* the picture as [row][R G B][column], rows filled up with 0 */
+    float *planes; /* the image as [row][R G B][column], rows filled up with 0 */
     float *waves;  /* [cos sin][column] */
     size_t stride; /* columns in a row of planes and waves */
 } bake_reference;
@@ -22,7 +22,7 @@ facet_result bake_reference_create(const bake_source *source, const facet_alloca
                                    bake_reference *out, facet_error *error);
 void bake_reference_destroy(bake_reference *r); /* {0} is allowed; leaves {0} */
 
-/* A lobe's weight where it is looked up per texel of the picture. */
+/* A lobe's weight where it is looked up per texel of the image. */
 typedef struct bake_reference_lobe {
     bake_lobe lobe;
     float table[4097 + 7]; /* Charlie's, over 2 s^2 */
@@ -32,7 +32,7 @@ void bake_reference_set_lobe(const bake_lobe *lobe, bake_reference_lobe *out);
 /* Light of the lobe around a direction (any length) of the cube map, scaled. */
 void bake_reference_gather(const bake_reference *r, const bake_reference_lobe *lobe, const double d[3],
                            double out[3]);
-/* The mean over a texel of a cube map of size texels, from 64 x 64 points of it and more, 8 for each texel of the picture along an
+/* The mean over a texel of a cube map of size texels, from 64 x 64 points of it and more, 8 for each texel of the image along an
  * edge: what a mirror's texel is, within 1 % of what is small in it and bright. is_interpolated: bake_area.h. */
 void bake_reference_average(const bake_reference *r, bool is_interpolated, uint32_t size, uint32_t face,
                             uint32_t x, uint32_t y, double out[3]);

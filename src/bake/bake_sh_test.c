@@ -135,7 +135,7 @@ static void test_basis(void **state)
     facet_environment_destroy(e);
 }
 
-/* By whole texels, rotating the picture is moving its columns: positive turns from +Z towards +X. */
+/* By whole texels, rotating the image is moving its columns: positive turns from +Z towards +X. */
 static void test_rotation(void **state)
 {
     (void)state;
@@ -145,8 +145,8 @@ static void test_rotation(void **state)
     for (int n = 0; n < 4; n++) {
         for (uint32_t y = 0; y < HEIGHT; y++)
             for (uint32_t x = 0; x < WIDTH; x++) /* +Z is right of +X, so columns go to the left */
-                memcpy((float *)moved->picture.pixels + 3 * (y * WIDTH + x),
-                       (float *)e->picture.pixels + 3 * (y * WIDTH + (x + steps[n]) % WIDTH),
+                memcpy((float *)moved->panorama.pixels + 3 * (y * WIDTH + x),
+                       (float *)e->panorama.pixels + 3 * (y * WIDTH + (x + steps[n]) % WIDTH),
                        3 * sizeof(float));
         float a[9][3], b[9][3];
         project(moved, (facet_sh_desc){0}, a);
@@ -164,7 +164,7 @@ static void test_exposure_and_clamp(void **state)
     (void)state;
     facet_environment *e = make_environment(WIDTH, HEIGHT, room);
     facet_environment *cut = make_environment(WIDTH, HEIGHT, room);
-    float *p = cut->picture.pixels;
+    float *p = cut->panorama.pixels;
     for (size_t k = 0; k < (size_t)WIDTH * HEIGHT * 3; k++)
         p[k] = fminf(p[k], 3.0f);
     float a[9][3], b[9][3];

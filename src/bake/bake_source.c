@@ -39,26 +39,27 @@ DISPATCH_AVX2 static void cut_rows(void *context, size_t begin, size_t end)
 facet_result bake_source_create(const facet_environment *environment, const facet_bake_desc *desc,
                                 bake_source *out, facet_error *error)
 {
-    const image *picture = &environment->picture;
-    bake_source s = {.picture = *picture,
+    const image *panorama = &environment->panorama;
+    bake_source s = {.panorama = *panorama,
                      .faces = environment->faces.texels ? &environment->faces : NULL,
                      .limit = desc->clamp > 0.0f ? desc->clamp : INFINITY,
                      .rotation_rad = (double)desc->rotation_rad,
                      .scale = exp2f(desc->ev)};
     double whole[3];
-    facet_result result = equirect_mean(picture, &desc->allocator, desc->thread_count, whole, error);
-    cutting job = {.from = picture, .limit = s.limit};
+    facet_result result = equirect_mean(panorama, &desc->allocator, desc->thread_count, whole, error);
+    cutting job = {.from = panorama, .limit = s.limit};
     atomic_init(&job.is_over, false);
     if (result == FACET_OK && desc->clamp > 0.0f)
-        parallel_for(desc->thread_count, picture->height, 16, cut_rows, &job);
+        parallel_for(desc->thread_count, panorama->height, 16, cut_rows, &job);
     for (int k = 0; k < 3; k++)
         s.mean[k] = whole[k];
     if (result == FACET_OK && atomic_load(&job.is_over)) {
-        result = image_create(&desc->allocator, picture->width, picture->height, 3, IMAGE_F32, &s.cut, error);
+        result =
+            image_create(&desc->allocator, panorama->width, panorama->height, 3, IMAGE_F32, &s.cut, error);
         if (result == FACET_OK) {
             job.to = &s.cut;
-            parallel_for(desc->thread_count, picture->height, 16, cut_rows, &job);
-            s.picture = s.cut;
+            parallel_for(desc->thread_count, panorama->height, 16, cut_rows, &job);
+            s.panorama = s.cut;
             result = equirect_mean(&s.cut, &desc->allocator, desc->thread_count, s.mean, error);
         }
         double sum = whole[0] + whole[1] + whole[2];

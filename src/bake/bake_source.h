@@ -1,7 +1,7 @@
-/* bake_source.h - what is baked: an environment's picture, cut off where that was asked for, and how it is turned; and how far
+/* bake_source.h - what is baked: an environment's image, cut off where that was asked for, and how it is turned; and how far
  * baking is, reported to the caller from any thread.
  *
- * A texel of the picture is of one radiance all over its solid angle; see bake.h. */
+ * A texel of the image is of one radiance all over its solid angle; see bake.h. */
 #ifndef BAKE_BAKE_SOURCE_H
 #define BAKE_BAKE_SOURCE_H
 
@@ -12,9 +12,9 @@
 #include "image/image.h"
 
 typedef struct bake_source {
-    image picture;       /* equirectangular, F32 RGB */
-    image cut;           /* what picture is where something was cut off; else {0} */
-    const cube *faces;   /* what the picture was made from, not cut off; NULL: no cube map */
+    image panorama;      /* equirectangular, F32 RGB */
+    image cut;           /* what image is where something was cut off; else {0} */
+    const cube *faces;   /* what the image was made from, not cut off; NULL: no cube map */
     float limit;         /* where radiance is cut off; infinity: nowhere */
     double mean[3];      /* radiance over the sphere, cut off */
     double cut_share;    /* of the mean over the channels, what was cut off */
@@ -27,7 +27,7 @@ facet_result bake_source_create(const facet_environment *environment, const face
                                 bake_source *out, facet_error *error);
 void bake_source_destroy(bake_source *s); /* {0} is allowed; leaves {0} */
 
-/* Direction d of the result, turned back: where its light is in the picture. */
+/* Direction d of the result, turned back: where its light is in the image. */
 void bake_source_turn(const bake_source *s, const double d[3], double out[3]);
 
 /* ---- progress ---- */

@@ -112,7 +112,7 @@ static double worst_of_bands(facet_environment *e, facet_lobe lobe, facet_bake_m
 static void test_bands(void **state)
 {
     (void)state;
-    /* a picture of texels 0.025 rad wide has l (l + 1) width^2 / 24 = 5e-4 less of band 4; samples blur a little more */
+    /* an image of texels 0.025 rad wide has l (l + 1) width^2 / 24 = 5e-4 less of band 4; samples blur a little more */
     static const double tolerance[2] = {6e-4, 2e-2};
     facet_environment *low = make_environment(256, 128, low_bands);
     facet_environment *high = make_environment(256, 128, high_bands);
@@ -131,7 +131,7 @@ static void test_bands(void **state)
     for (int lobe = IS_SLOW; lobe < 2; lobe++) {
         double a = worst_of_bands(low, (facet_lobe)lobe, FACET_BAKE_METHOD_REFERENCE, false);
         print_message("lobe %d, reference, 64 x 32: largest deviation %.1e\n", lobe, a);
-        assert_true(a < 5e-3); /* the picture's texels are 0.1 rad wide */
+        assert_true(a < 5e-3); /* the image's texels are 0.1 rad wide */
     }
     facet_environment_destroy(low);
 }
@@ -173,9 +173,9 @@ static facet_environment *make_sun(uint32_t x, uint32_t y, double d[3])
     facet_environment *e = NULL;
     assert_int_equal(facet_environment_create_constant((float[3]){0.0f, 0.0f, 0.0f}, NULL, &e, NULL),
                      FACET_OK);
-    image_destroy(&e->picture);
-    assert_int_equal(image_create(NULL, SUN_WIDTH, SUN_HEIGHT, 3, IMAGE_F32, &e->picture, NULL), FACET_OK);
-    float *p = e->picture.pixels;
+    image_destroy(&e->panorama);
+    assert_int_equal(image_create(NULL, SUN_WIDTH, SUN_HEIGHT, 3, IMAGE_F32, &e->panorama, NULL), FACET_OK);
+    float *p = e->panorama.pixels;
     memset(p, 0, sizeof(float) * 3 * SUN_WIDTH * SUN_HEIGHT);
     for (size_t k = 0; k < 3; k++)
         p[3 * ((size_t)y * SUN_WIDTH + x) + k] = 1e5f;
@@ -281,25 +281,25 @@ static void test_areas_keep_light(void **state)
 {
     (void)state;
     static const uint32_t sizes[5] = {1, 2, 4, 16, 64};
-    static const uint32_t pictures[4][2] = {{2, 1}, {7, 5}, {64, 32}, {333, 150}};
+    static const uint32_t panoramas[4][2] = {{2, 1}, {7, 5}, {64, 32}, {333, 150}};
     for (int i = 0; i < 4; i++) {
-        image picture;
-        assert_int_equal(image_create(NULL, pictures[i][0], pictures[i][1], 3, IMAGE_F32, &picture, NULL),
+        image panorama;
+        assert_int_equal(image_create(NULL, panoramas[i][0], panoramas[i][1], 3, IMAGE_F32, &panorama, NULL),
                          FACET_OK);
         uint32_t random = 1;
-        float *p = picture.pixels;
-        for (uint32_t k = 0; k < 3 * pictures[i][0] * pictures[i][1]; k++) {
+        float *p = panorama.pixels;
+        for (uint32_t k = 0; k < 3 * panoramas[i][0] * panoramas[i][1]; k++) {
             p[k] = (float)((random = random * 1664525u + 1013904223u) >> 20);
             p[k] = k % 97 == 0 ? 1e9f : k % 3 == 2 ? 5.0f : p[k]; /* suns, and blue that is nearly uniform */
         }
         double whole[3];
-        assert_int_equal(equirect_mean(&picture, NULL, 1, whole, NULL), FACET_OK);
+        assert_int_equal(equirect_mean(&panorama, NULL, 1, whole, NULL), FACET_OK);
         for (int k = 0; k < 5; k++)
             for (int turn = 0; turn < 3; turn++) {
                 bake_area area;
                 cube c;
                 double mean[3];
-                assert_int_equal(bake_area_create(&picture, turn * 0.77, NULL, 1, &area, NULL), FACET_OK);
+                assert_int_equal(bake_area_create(&panorama, turn * 0.77, NULL, 1, &area, NULL), FACET_OK);
                 assert_int_equal(cube_create(sizes[k], NULL, &c, NULL), FACET_OK);
                 bake_area_fill(&area, false, 1.0f, 1, &c);
                 cube_mean(&c, mean);
@@ -308,7 +308,7 @@ static void test_areas_keep_light(void **state)
                 cube_destroy(&c);
                 bake_area_destroy(&area);
             }
-        image_destroy(&picture);
+        image_destroy(&panorama);
     }
 }
 
@@ -419,7 +419,7 @@ static void test_clamp(void **state)
     (void)state;
     double sun[3];
     facet_environment *e = make_sun(17, 256, sun);
-    float *p = e->picture.pixels;
+    float *p = e->panorama.pixels;
     for (size_t i = 0; i < 3 * SUN_WIDTH * SUN_HEIGHT; i++)
         p[i] += 1.0f;
     double share = equirect_texel_solid_angle(SUN_WIDTH, SUN_HEIGHT, 256) / (4.0 * pi);

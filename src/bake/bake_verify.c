@@ -16,8 +16,8 @@ enum {
     LEAST_TEXELS = 96
 };
 
-/* Texels of the picture that are weighed for a level: 0.5 to 1 s of one core. */
-static const double picture_texels = 8e8;
+/* Texels of the image that are weighed for a level: 0.5 to 1 s of one core. */
+static const double image_texels = 8e8;
 
 static const facet_bake_desc default_desc;
 
@@ -52,9 +52,9 @@ static void verify_texels(void *context, size_t begin, size_t end)
 {
     const verifying *job = context;
     uint32_t size = job->level->size;
-    const image *picture = &job->reference->source->picture;
+    const image *panorama = &job->reference->source->panorama;
     for (size_t i = begin; i < end; i++) {
-        if (!bake_watch_add(job->watch, (double)picture->width * picture->height))
+        if (!bake_watch_add(job->watch, (double)panorama->width * panorama->height))
             return;
         uint32_t texel = choose_texel(job, (uint32_t)i);
         uint32_t face = texel / size / size;
@@ -97,10 +97,10 @@ static facet_cube_error sum_up(const verifying *job)
                               .texels = job->count};
 }
 
-static uint32_t count_texels(const facet_cube *c, uint32_t level, const image *picture)
+static uint32_t count_texels(const facet_cube *c, uint32_t level, const image *panorama)
 {
     double texels = 6.0 * c->levels[level].size * c->levels[level].size;
-    double affordable = picture_texels / ((double)picture->width * picture->height);
+    double affordable = image_texels / ((double)panorama->width * panorama->height);
     double count = fmin(fmax(affordable, LEAST_TEXELS), MOST_TEXELS);
     return (uint32_t)fmin(count, texels);
 }
@@ -135,14 +135,14 @@ facet_result facet_cube_verify(const facet_cube *c, facet_environment *environme
     }
     for (uint32_t level = 0; level < c->level_count; level++)
         total +=
-            (double)count_texels(c, level, &source.picture) * source.picture.width * source.picture.height;
+            (double)count_texels(c, level, &source.panorama) * source.panorama.width * source.panorama.height;
     bake_watch_init(&watch, &desc.progress, "verify", total);
     for (uint32_t level = 0; result == FACET_OK && level < c->level_count; level++) {
         verifying job = {.reference = &reference,
                          .level = &c->levels[level],
                          .is_sharp = bake_level_is_sharp(c, level),
                          .is_interpolated = bake_sharp_is_interpolated(&source, c->levels[0].size),
-                         .count = count_texels(c, level, &source.picture),
+                         .count = count_texels(c, level, &source.panorama),
                          .errors = texels,
                          .watch = &watch};
         if (!job.is_sharp) {

@@ -32,7 +32,7 @@ void compare_magma(float error, float color[3])
         color[k] = magma[i][k] + (magma[i + 1][k] - magma[i][k]) * compare_clamp(t, 0.0f, 1.0f);
 }
 
-/* ---- pictures ---- */
+/* ---- images ---- */
 
 typedef struct map_job {
     const compare_source *source;

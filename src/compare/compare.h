@@ -1,4 +1,4 @@
-/* compare.h - how far two pictures are from each other: errors per pixel, structure, and what an eye sees. */
+/* compare.h - how far two images are from each other: errors per pixel, structure, and what an eye sees. */
 #ifndef COMPARE_COMPARE_H
 #define COMPARE_COMPARE_H
 

@@ -1,4 +1,4 @@
-/* compare_fixture.h - for tests: small pictures, and comparisons of them. Include after cmocka.h. */
+/* compare_fixture.h - for tests: small images, and comparisons of them. Include after cmocka.h. */
 #ifndef COMPARE_COMPARE_FIXTURE_H
 #define COMPARE_COMPARE_FIXTURE_H
 

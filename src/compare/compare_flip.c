@@ -1,4 +1,4 @@
-/* compare_flip.c - see compare_flip.h. Works on tiles; both pictures go through the filters one after the other, and what an
+/* compare_flip.c - see compare_flip.h. Works on tiles; both images go through the filters one after the other, and what an
  * eye makes of them is then compared. */
 #include "compare/compare_metrics.h"
 
@@ -147,7 +147,7 @@ typedef struct flip_view {
 
 /* What a tile is worked on in. */
 typedef struct flip_work {
-    float *light[2][3];  /* of both pictures, stride x rows */
+    float *light[2][3];  /* of both images, stride x rows */
     float *opponent[3];  /* y, cx, cz of one of them */
     float *lines[LINES]; /* TILE_WIDTH x rows */
     float *opacity[2];   /* a row that nobody reads */
@@ -220,11 +220,11 @@ opponent_row(const float *restrict red, const float *restrict green, const float
     }
 }
 
-/* The opponent colors of a picture as a display shows it: at an exposure, or as they are. */
-DISPATCH_AVX2 static void flip_fill_opponent(const flip_job *job, flip_work *w, int picture, float gain,
+/* The opponent colors of an image as a display shows it: at an exposure, or as they are. */
+DISPATCH_AVX2 static void flip_fill_opponent(const flip_job *job, flip_work *w, int side, float gain,
                                              uint32_t width, size_t height)
 {
-    float *const *light = w->light[picture], *const *to = w->opponent;
+    float *const *light = w->light[side], *const *to = w->opponent;
     for (size_t row = 0; row < height; row++) {
         const size_t at = row * job->stride;
         if (job->is_hdr)
@@ -305,11 +305,11 @@ static void compare_at(const flip_job *job, const compare_tile *t, float gain, f
 {
     const uint32_t width = t->width + 2 * (uint32_t)job->kernels.halo;
     const size_t height = t->height + 2 * (size_t)job->kernels.halo;
-    for (int picture = 0; picture < 2; picture++) {
-        flip_fill_opponent(job, w, picture, gain, width, height);
+    for (int side = 0; side < 2; side++) {
+        flip_fill_opponent(job, w, side, gain, width, height);
         flip_filter_rows(job, w, t->width, height);
         for (uint32_t row = 0; row < t->height; row++)
-            flip_filter_columns(job, w, row, t->width, &w->views[picture]);
+            flip_filter_columns(job, w, row, t->width, &w->views[side]);
     }
     for (uint32_t row = 0; row < t->height; row++)
         flip_combine(w, row, t->width);
@@ -372,7 +372,7 @@ static facet_result find_levels(const float *luminance, size_t count, const face
     return compare_select(luminance, count, shares, 2, allocator, levels, error);
 }
 
-/* From the shortest, at which nothing is too bright, to the longest, at which half of the picture is. Andersson et al. 2021,
+/* From the shortest, at which nothing is too bright, to the longest, at which half of the image is. Andersson et al. 2021,
  * section 4.2. */
 static facet_result choose_exposures(flip_job *job, const facet_compare_desc *desc, const float *luminance,
                                      facet_comparison *out, facet_error *error)
@@ -396,7 +396,7 @@ static facet_result choose_exposures(flip_job *job, const facet_compare_desc *de
     return FACET_OK;
 }
 
-/* ---- pictures ---- */
+/* ---- images ---- */
 
 facet_result compare_flip_make(const compare_source *s, const facet_compare_desc *desc,
                                const float *luminance, float *map, facet_comparison *out, facet_error *error)

@@ -294,7 +294,7 @@ static void equal_is_zero_and_order_does_not_matter(void **state)
         fixture_draw(b, 2, 0.3f);
         double forth = fixture_compare(a, b, &flip_only).flip, back = fixture_compare(b, a, &flip_only).flip;
         assert_true(forth > 0.01);
-        if (is_display) /* of light, the exposures are those of the first picture */
+        if (is_display) /* of light, the exposures are those of the first image */
             assert_true(forth == back);
         free(a);
         free(b);

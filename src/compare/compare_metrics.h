@@ -22,9 +22,9 @@ facet_result compare_errors_make(const compare_source *s, const facet_compare_de
                                  facet_comparison *out, facet_error *error);
 
 /* Fills ssim and ssim_channels of out by its channel_count and peak: the mean over all windows of 11 x 11 pixels, weighted
- * by a Gaussian of 1.5 pixels, that lie in the picture and whose middle counts, of
+ * by a Gaussian of 1.5 pixels, that lie in the image and whose middle counts, of
  *   ((2 ma mb + C1) (2 sab + C2)) / ((ma^2 + mb^2 + C1) (sa^2 + sb^2 + C2)),  C1 = (0.01 peak)^2, C2 = (0.03 peak)^2
- * Wang, Bovik, Sheikh, Simoncelli 2004, equation 13; without the reduction of large pictures that came later. NAN where
+ * Wang, Bovik, Sheikh, Simoncelli 2004, equation 13; without the reduction of large images that came later. NAN where
  * there is no such window. Fails with FACET_ERROR_MEMORY. */
 facet_result compare_ssim_make(const compare_source *s, const facet_compare_desc *desc, facet_comparison *out,
                                facet_error *error);

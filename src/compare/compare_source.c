@@ -175,7 +175,7 @@ static void gather(const compare_source *s, int64_t x, int64_t y, uint32_t count
     }
 }
 
-/* Linear pictures to what a display shows of them. The operator works on the color of what is there, not on what is left of
+/* Linear images to what a display shows of them. The operator works on the color of what is there, not on what is left of
  * it before black. */
 static void develop(const compare_source *s, float *const c[4], uint32_t count)
 {

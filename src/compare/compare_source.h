@@ -1,4 +1,4 @@
-/* compare_source.h - the pixels of two pictures as they are compared: the crop, tone-mapped, over a background, what the
+/* compare_source.h - the pixels of two images as they are compared: the crop, tone-mapped, over a background, what the
  * mask leaves out made equal, and what is no number taken out. Read a row at a time; nothing is copied. */
 #ifndef COMPARE_COMPARE_SOURCE_H
 #define COMPARE_COMPARE_SOURCE_H
@@ -38,7 +38,7 @@ typedef struct compare_row {
     unsigned char *flags;
 } compare_row;
 
-/* The space, crop and all else that desc says of the pictures; has_opacity is what alpha asks for, before the pixels were
+/* The space, crop and all else that desc says of the images; has_opacity is what alpha asks for, before the pixels were
  * looked at. FACET_ERROR_ARGUMENT, _MEMORY. */
 facet_result compare_source_open(const compare_image *a, const compare_image *b, const compare_image *mask,
                                  const facet_compare_desc *desc, compare_source *out, facet_error *error);

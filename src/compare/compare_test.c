@@ -78,7 +78,7 @@ static void codes_are_what_a_file_has(void **state)
     free(b);
 }
 
-static void equal_pictures_have_no_error(void **state)
+static void equal_images_have_no_error(void **state)
 {
     (void)state;
     fixture *a = fixture_create(300, 30, false), *b = fixture_create(300, 30, false);
@@ -511,9 +511,9 @@ static void what_cannot_be_is_refused(void **state)
     free(b);
 }
 
-/* ---- pictures ---- */
+/* ---- images ---- */
 
-static void the_difference_picture_has_the_numbers(void **state)
+static void the_difference_image_has_the_numbers(void **state)
 {
     (void)state;
     fixture *a = fixture_create(30, 20, true), *b = fixture_create(30, 20, true);
@@ -589,7 +589,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(of_an_offset_everything_is_known),
         cmocka_unit_test(codes_are_what_a_file_has),
-        cmocka_unit_test(equal_pictures_have_no_error),
+        cmocka_unit_test(equal_images_have_no_error),
         cmocka_unit_test(percentiles_are_those_of_sorting),
         cmocka_unit_test(ssim_is_that_of_every_window),
         cmocka_unit_test(ssim_of_constants_is_that_of_their_means),
@@ -602,7 +602,7 @@ int main(void)
         cmocka_unit_test(threads_change_no_bit),
         cmocka_unit_test(running_out_of_memory_is_a_result),
         cmocka_unit_test(what_cannot_be_is_refused),
-        cmocka_unit_test(the_difference_picture_has_the_numbers),
+        cmocka_unit_test(the_difference_image_has_the_numbers),
         cmocka_unit_test(heat_rises),
         cmocka_unit_test(powers_are_those_of_libm),
     };

@@ -1,4 +1,4 @@
-/* denoise.c - windows over the whole picture, each pixel the mean of what they say; see denoise.h. */
+/* denoise.c - windows over the whole image, each pixel the mean of what they say; see denoise.h. */
 #include "film/denoise.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* denoise.h - a picture of few samples per pixel, made calm. */
+/* denoise.h - an image of few samples per pixel, made calm. */
 #ifndef FILM_DENOISE_H
 #define FILM_DENOISE_H
 

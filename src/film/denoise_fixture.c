@@ -306,7 +306,7 @@ static scene make_scene(fixture_scene which, ball balls[MAX_BALLS])
     return s;
 }
 
-/* ---- pictures ---- */
+/* ---- images ---- */
 
 typedef struct drawing {
     const scene *scene;

@@ -1,4 +1,4 @@
-/* denoise_fixture.h - pictures of few samples with real Monte Carlo noise, and what they converge to: a path tracer of
+/* denoise_fixture.h - images of few samples with real Monte Carlo noise, and what they converge to: a path tracer of
  * spheres for tests of the denoiser, which cannot see the real one. */
 #ifndef FILM_DENOISE_FIXTURE_H
 #define FILM_DENOISE_FIXTURE_H

@@ -244,8 +244,8 @@ static void read_rows(void *context, size_t begin, size_t end)
             read_pixel(s, x, (uint32_t)y);
 }
 
-/* The power of two next to the mean of what is finite: nothing that follows sees the unit of the picture. */
-static float picture_scale(const film *f)
+/* The power of two next to the mean of what is finite: nothing that follows sees the unit of the image. */
+static float image_scale(const film *f)
 {
     double sum = 0.0;
     size_t count = (size_t)f->width * f->height;
@@ -263,7 +263,7 @@ facet_result denoise_planes_create(const film *f, const facet_allocator *allocat
                                    denoise_planes *out, facet_error *error)
 {
     enum { KEPT = 13, PASSING = 2, EXTRA = 8 };
-    denoise_planes p = {.width = f->width, .height = f->height, .scale = picture_scale(f)};
+    denoise_planes p = {.width = f->width, .height = f->height, .scale = image_scale(f)};
     p.pitch = ((size_t)f->width + 2 * DENOISE_MARGIN + EXTRA) / EXTRA * EXTRA;
     size_t plane_size = p.pitch * ((size_t)f->height + 2 * DENOISE_MARGIN);
     p.block = mem_alloc(allocator, plane_size, (KEPT + PASSING) * sizeof(float));

@@ -1,4 +1,4 @@
-/* denoise_planes.h - the denoiser's picture: one plane of floats per quantity, with margins that repeat the border, so
+/* denoise_planes.h - the denoiser's image: one plane of floats per quantity, with margins that repeat the border, so
  * that windows can be read anywhere. */
 #ifndef FILM_DENOISE_PLANES_H
 #define FILM_DENOISE_PLANES_H
@@ -14,7 +14,7 @@ enum {
     DENOISE_MARGIN = DENOISE_RADIUS + DENOISE_PATCH /* of a plane, px; one more on the right */
 };
 
-/* Light is what is left of the picture when the albedo is divided out, in units of about its mean; noise is the
+/* Light is what is left of the image when the albedo is divided out, in units of about its mean; noise is the
  * variance of that. radiance = light * denoise_divisor(albedo) * scale. */
 typedef struct denoise_planes {
     uint32_t width, height;
@@ -51,7 +51,7 @@ typedef struct denoise_fit {
     float value[3][DENOISE_WINDOW]; /* what its radiance over scale should be */
 } denoise_fit;
 
-/* Fits the window around (x, y) of the picture. */
+/* Fits the window around (x, y) of the image. */
 void denoise_fit_window(const denoise_planes *p, ptrdiff_t x, ptrdiff_t y, denoise_fit *out);
 
 #endif

@@ -18,7 +18,7 @@
 
 static const uint32_t guides = FACET_AOV_ALBEDO | FACET_AOV_NORMAL | FACET_AOV_VARIANCE;
 
-/* ---- pictures of a known truth ---- */
+/* ---- images of a known truth ---- */
 
 static float uniform(uint32_t *state)
 {
@@ -157,7 +157,7 @@ static double column_mean(const film *f, uint32_t x)
     return sum / (double)f->height;
 }
 
-/* The pixels on both sides of an edge keep their light, within 3 standard errors of a column of the noisy picture. */
+/* The pixels on both sides of an edge keep their light, within 3 standard errors of a column of the noisy image. */
 static void edges_stay_where_they_are(void **state)
 {
     (void)state;
@@ -175,7 +175,7 @@ static void edges_stay_where_they_are(void **state)
     }
 }
 
-/* Each texel's light, picture over albedo, is that of its neighbours, to a third of the noise of 12.5 %: the texture is as
+/* Each texel's light, image over albedo, is that of its neighbours, to a third of the noise of 12.5 %: the texture is as
  * sharp as it was. */
 static void textures_stay_sharp(void **state)
 {
@@ -193,12 +193,12 @@ static void textures_stay_sharp(void **state)
     film_destroy(&f);
 }
 
-/* ---- pictures of real noise ---- */
+/* ---- images of real noise ---- */
 
 /* Relative to the light (Rousselle et al. 2011) and absolute; what is left of the absolute error is mostly that of edges,
  * which are as rough as 16 samples make them: color and guides come of the same samples. In the last one surfaces come and
  * go by chance, which the guides say too, and the noise of that stays. */
-static void errors_of_traced_pictures_fall(void **state)
+static void errors_of_traced_images_fall(void **state)
 {
     (void)state;
     static const struct {
@@ -225,7 +225,7 @@ static void errors_of_traced_pictures_fall(void **state)
     }
 }
 
-/* Weights that go by likeness and outliers that are taken down would leave pictures too dark: here by 4 % and more. */
+/* Weights that go by likeness and outliers that are taken down would leave images too dark: here by 4 % and more. */
 static void light_is_not_lost(void **state)
 {
     (void)state;
@@ -266,7 +266,7 @@ static void fireflies_go(void **state)
 
 /* ---- what stays ---- */
 
-static void clean_pictures_keep_their_bits(void **state)
+static void clean_images_keep_their_bits(void **state)
 {
     (void)state;
     film f = noisy_film(WIDTH, HEIGHT, grainy_wall, 1.0f, 21, NULL);
@@ -297,7 +297,7 @@ static void the_filter_fades_out(void **state)
     film_destroy(&before);
 }
 
-/* Opacity keeps its bits, nothing comes of nothing, and at the edges, where the picture may be laid over anything, color
+/* Opacity keeps its bits, nothing comes of nothing, and at the edges, where the image may be laid over anything, color
  * over opacity gets no noisier: there are no fringes. */
 static void opacity_is_kept(void **state)
 {
@@ -397,7 +397,7 @@ static void odd_numbers_stay_where_they_are(void **state)
                 layer->pixels[layer->channel_count * i + l % 3] = odd[k];
             denoise(&f);
             denoise(&clean);
-            bool is_light = l == 0 && fabsf(odd[k]) == FLT_MAX; /* is in the picture's mean */
+            bool is_light = l == 0 && fabsf(odd[k]) == FLT_MAX; /* is in the image's mean */
             for (size_t i = 0; i < 4 * 60 * 20; i++) {
                 float value = f.layers[0].pixels[i];
                 assert_true(isfinite(value));
@@ -458,7 +458,7 @@ static void missing_layers_are_errors(void **state)
     }
 }
 
-/* Each refused block is an error that leaves the picture alone and gives all blocks back. */
+/* Each refused block is an error that leaves the image alone and gives all blocks back. */
 static void memory_runs_out_cleanly(void **state)
 {
     (void)state;
@@ -511,10 +511,10 @@ int main(void)
         cmocka_unit_test(known_light_comes_out_of_noise),
         cmocka_unit_test(edges_stay_where_they_are),
         cmocka_unit_test(textures_stay_sharp),
-        cmocka_unit_test(errors_of_traced_pictures_fall),
+        cmocka_unit_test(errors_of_traced_images_fall),
         cmocka_unit_test(light_is_not_lost),
         cmocka_unit_test(fireflies_go),
-        cmocka_unit_test(clean_pictures_keep_their_bits),
+        cmocka_unit_test(clean_images_keep_their_bits),
         cmocka_unit_test(the_filter_fades_out),
         cmocka_unit_test(opacity_is_kept),
         cmocka_unit_test(units_change_nothing),

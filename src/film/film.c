@@ -12,7 +12,7 @@
 
 /* ---- layers ---- */
 
-/* What a film can hold beside the picture. */
+/* What a film can hold beside the image. */
 typedef struct layer_kind {
     uint32_t aov; /* 0: always there */
     const char *name;

@@ -19,7 +19,7 @@ typedef struct film_text {
     char *name, *value; /* blocks of mem_alloc() */
 } film_text;
 
-/* Layer 0 is the picture, RGBA premultiplied. */
+/* Layer 0 is the image, RGBA premultiplied. */
 typedef struct film {
     uint32_t width, height;
     uint32_t layer_count;
@@ -37,10 +37,10 @@ film_layer *film_find(film *f, const char *name); /* NULL: not asked for */
 facet_result film_add_text(film *f, const char *name, const char *value, const facet_allocator *allocator,
                            facet_error *error);
 
-/* Tone-maps the picture in place: un-premultiplies, applies operator, clamps negative values to 0, premultiplies
+/* Tone-maps the image in place: un-premultiplies, applies operator, clamps negative values to 0, premultiplies
  * again, and lays it over color (display-linear RGB; NULL: stays transparent). */
 void film_develop(film *f, facet_tonemap operator_, const float color[3], uint32_t thread_count);
-/* Lays a developed picture over color (display-linear RGB) as programs did that knew nothing of light: by mixing the
+/* Lays a developed image over color (display-linear RGB) as programs did that knew nothing of light: by mixing the
  * display's sRGB-encoded numbers. */
 void film_blend_encoded(film *f, const float color[3], uint32_t thread_count);
 

@@ -66,10 +66,10 @@ facet_result layout_check(facet_layout layout, uint32_t width, uint32_t height, 
     if (fits && width && height)
         return FACET_OK;
     return fail(error, FACET_ERROR_INVALID, "%s: %u x %u texels are not %s", name, width, height,
-                u ? u->name : "an octahedral picture (1:1)");
+                u ? u->name : "an octahedral image (1:1)");
 }
 
-/* The place of texel (x, y) of a face in the picture. */
+/* The place of texel (x, y) of a face in the image. */
 static size_t unfolded_texel(const unfolding *u, uint32_t size, uint32_t face, uint32_t x, uint32_t y)
 {
     if (u->faces[face].is_turned) {
@@ -82,36 +82,36 @@ static size_t unfolded_texel(const unfolding *u, uint32_t size, uint32_t face, u
 
 /* ---- reading ---- */
 
-static void read_faces(const image *picture, const unfolding *u, cube *c)
+static void read_faces(const image *panorama, const unfolding *u, cube *c)
 {
     for (uint32_t face = 0; face < 6; face++)
         for (uint32_t y = 0; y < c->size; y++)
             for (uint32_t x = 0; x < c->size; x++) {
-                const float *from = (const float *)picture->pixels +
-                                    picture->channel_count * unfolded_texel(u, c->size, face, x, y);
+                const float *from = (const float *)panorama->pixels +
+                                    panorama->channel_count * unfolded_texel(u, c->size, face, x, y);
                 *cube_texel(c, face, (int)x, (int)y) = (rgbx){from[0], from[1], from[2], 0.0f};
             }
 }
 
-facet_result layout_read(const image *picture, facet_layout layout, const char *name,
+facet_result layout_read(const image *panorama, facet_layout layout, const char *name,
                          const facet_allocator *allocator, uint32_t thread_count, cube *out,
                          facet_error *error)
 {
     *out = (cube){0};
     if (layout == FACET_LAYOUT_AUTO)
-        layout = layout_detect(picture->width, picture->height);
+        layout = layout_detect(panorama->width, panorama->height);
     if (layout == FACET_LAYOUT_AUTO || layout == FACET_LAYOUT_FACES)
         return fail(error, FACET_ERROR_INVALID, "%s: %u x %u texels are no layout of a cube map", name,
-                    picture->width, picture->height);
-    TRY(layout_check(layout, picture->width, picture->height, name, error));
+                    panorama->width, panorama->height);
+    TRY(layout_check(layout, panorama->width, panorama->height, name, error));
     const unfolding *u = find_unfolding(layout);
     facet_result result =
-        cube_create(u ? picture->width / u->columns : (picture->height + 1) / 2, allocator, out, error);
+        cube_create(u ? panorama->width / u->columns : (panorama->height + 1) / 2, allocator, out, error);
     if (result == FACET_OK && u) {
-        read_faces(picture, u, out);
+        read_faces(panorama, u, out);
     } else if (result == FACET_OK) {
-        sphere source = sphere_of_picture(
-            layout == FACET_LAYOUT_OCTAHEDRAL ? SPHERE_OCTAHEDRON : SPHERE_EQUIRECT, picture);
+        sphere source = sphere_of_image(
+            layout == FACET_LAYOUT_OCTAHEDRAL ? SPHERE_OCTAHEDRON : SPHERE_EQUIRECT, panorama);
         sphere target = sphere_of_cube(out);
         result = sphere_resample(&source, NULL, allocator, thread_count, &target, error);
     }
@@ -169,11 +169,11 @@ facet_result layout_write(const cube *c, facet_layout layout, uint32_t height,
     *out = (image){0};
     const unfolding *u = find_unfolding(layout);
     if (!u && layout != FACET_LAYOUT_EQUIRECTANGULAR && layout != FACET_LAYOUT_OCTAHEDRAL)
-        return fail(error, FACET_ERROR_ARGUMENT, "layout %d is not that of one picture", (int)layout);
+        return fail(error, FACET_ERROR_ARGUMENT, "layout %d is not that of one image", (int)layout);
     height = u ? u->rows * c->size : height ? height : 2 * c->size;
     uint32_t width = u ? u->columns * c->size : layout == FACET_LAYOUT_OCTAHEDRAL ? height : 2 * height;
     if (height > UINT32_MAX / 2)
-        return fail(error, FACET_ERROR_ARGUMENT, "a picture of %u rows is not made", height);
+        return fail(error, FACET_ERROR_ARGUMENT, "an image of %u rows is not made", height);
     TRY(image_create(allocator, width, height, 4, IMAGE_F32, out, error));
     if (u) {
         write_faces(c, u, out);
@@ -182,7 +182,7 @@ facet_result layout_write(const cube *c, facet_layout layout, uint32_t height,
     cube faces = *c;
     sphere source = sphere_of_cube(&faces);
     sphere target =
-        sphere_of_picture(layout == FACET_LAYOUT_OCTAHEDRAL ? SPHERE_OCTAHEDRON : SPHERE_EQUIRECT, out);
+        sphere_of_image(layout == FACET_LAYOUT_OCTAHEDRAL ? SPHERE_OCTAHEDRON : SPHERE_EQUIRECT, out);
     facet_result result = sphere_resample(&source, NULL, allocator, thread_count, &target, error);
     if (result != FACET_OK)
         image_destroy(out);

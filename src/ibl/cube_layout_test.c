@@ -1,4 +1,4 @@
-/* cube_layout_test.c - cube maps as flat pictures and back, and resampling between spheres. */
+/* cube_layout_test.c - cube maps as flat images and back, and resampling between spheres. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -69,13 +69,13 @@ static void faces_come_back_as_they_were(void **state)
                 i % 4 == 3 ? NAN : (float)(i * 2654435761u % 1000003) * 0.37f;
         }
         cube_fill_borders(&c);
-        image picture = write_layout(&c, face_layouts[k % 4], 0);
+        image panorama = write_layout(&c, face_layouts[k % 4], 0);
         image rgb;
         cube back;
-        assert_int_equal(image_convert(&picture, NULL, 1, 3, IMAGE_F32, false, &rgb, NULL), FACET_OK);
+        assert_int_equal(image_convert(&panorama, NULL, 1, 3, IMAGE_F32, false, &rgb, NULL), FACET_OK);
         assert_int_equal(layout_detect(rgb.width, rgb.height), face_layouts[k % 4]);
         for (int channels = 3; channels <= 4; channels++) {
-            assert_int_equal(layout_read(channels == 3 ? &rgb : &picture,
+            assert_int_equal(layout_read(channels == 3 ? &rgb : &panorama,
                                          channels == 3 ? FACET_LAYOUT_AUTO : face_layouts[k % 4], "made",
                                          NULL, 1, &back, NULL),
                              FACET_OK);
@@ -87,7 +87,7 @@ static void faces_come_back_as_they_were(void **state)
             cube_destroy(&back);
         }
         image_destroy(&rgb);
-        image_destroy(&picture);
+        image_destroy(&panorama);
         cube_destroy(&c);
     }
 }
@@ -109,16 +109,16 @@ static void faces_are_where_facet_h_says(void **state)
     enum { SIZE = 8 };
     cube c = make_directions(SIZE);
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        image picture = write_layout(&c, cases[k].layout, 0);
-        assert_int_equal(picture.width, cases[k].columns * SIZE);
-        assert_int_equal(picture.height, cases[k].rows * SIZE);
+        image panorama = write_layout(&c, cases[k].layout, 0);
+        assert_int_equal(panorama.width, cases[k].columns * SIZE);
+        assert_int_equal(panorama.height, cases[k].rows * SIZE);
         for (uint32_t cell = 0; cell < cases[k].columns * cases[k].rows; cell++) {
             const char letter = cases[k].cells[cell];
             const char *at = strchr("XxYyZzv", letter);
             const uint32_t x0 = cell % cases[k].columns * SIZE, y0 = cell / cases[k].columns * SIZE;
             for (uint32_t i = 0; i < SIZE * SIZE; i++) {
                 const uint32_t x = i % SIZE, y = i / SIZE;
-                const float *texel = texel_at(&picture, x0 + x, y0 + y);
+                const float *texel = texel_at(&panorama, x0 + x, y0 + y);
                 assert_true(texel[3] == (letter == '.' ? 0.0f : 1.0f));
                 if (letter == '.') {
                     assert_true(texel[0] == 0.0f && texel[1] == 0.0f && texel[2] == 0.0f);
@@ -131,7 +131,7 @@ static void faces_are_where_facet_h_says(void **state)
                 assert_memory_equal(texel, wanted, 12);
             }
         }
-        image_destroy(&picture);
+        image_destroy(&panorama);
     }
     cube_destroy(&c);
 }
@@ -250,18 +250,18 @@ static double direction_error(const sphere *s)
 }
 
 /* A target of kind and height, with memory of its own. */
-static sphere make_target(sphere_kind kind, uint32_t height, cube *c, image *picture)
+static sphere make_target(sphere_kind kind, uint32_t height, cube *c, image *panorama)
 {
     *c = (cube){0};
-    *picture = (image){0};
+    *panorama = (image){0};
     if (kind == SPHERE_CUBE) {
         *c = make_cube(height);
         return sphere_of_cube(c);
     }
     assert_int_equal(image_create(NULL, kind == SPHERE_EQUIRECT ? 2 * height : height, height, 3, IMAGE_F32,
-                                  picture, NULL),
+                                  panorama, NULL),
                      FACET_OK);
-    return sphere_of_picture(kind, picture);
+    return sphere_of_image(kind, panorama);
 }
 
 /* From each kind to each, finer, as fine and coarser. A smooth function stays what it is, to the second order of the
@@ -468,21 +468,21 @@ static void what_does_not_fit(void **state)
         {FACET_LAYOUT_CROSS_VERTICAL, 8, 6, "a vertical cross (3:4)"},
         {FACET_LAYOUT_STRIP_HORIZONTAL, 6, 2, "a horizontal strip (6:1)"},
         {FACET_LAYOUT_STRIP_VERTICAL, 7, 42 + 1, "a vertical strip (1:6)"},
-        {FACET_LAYOUT_OCTAHEDRAL, 6, 5, "an octahedral picture (1:1)"},
+        {FACET_LAYOUT_OCTAHEDRAL, 6, 5, "an octahedral image (1:1)"},
         {FACET_LAYOUT_AUTO, 5, 5, "no layout of a cube map"},
         {FACET_LAYOUT_FACES, 6, 1, "no layout of a cube map"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        image picture;
+        image panorama;
         cube c;
         facet_error error;
-        assert_int_equal(image_create(NULL, cases[k].width, cases[k].height, 3, IMAGE_F32, &picture, NULL),
+        assert_int_equal(image_create(NULL, cases[k].width, cases[k].height, 3, IMAGE_F32, &panorama, NULL),
                          FACET_OK);
-        assert_int_equal(layout_read(&picture, cases[k].layout, "x", NULL, 1, &c, &error),
+        assert_int_equal(layout_read(&panorama, cases[k].layout, "x", NULL, 1, &c, &error),
                          FACET_ERROR_INVALID);
         assert_null(c.texels);
         assert_non_null(strstr(error.message, cases[k].message));
-        image_destroy(&picture);
+        image_destroy(&panorama);
     }
     cube c = make_directions(2);
     image out;

@@ -57,11 +57,11 @@ void environment_release(facet_environment *environment)
     for (int lobe = 0; lobe < PREFILTER_LOBE_COUNT; lobe++)
         for (int i = 0; i < PREFILTER_LEVEL_COUNT; i++)
             cube_destroy(&parts->levels[lobe][i]);
-    for (int i = 0; i < PICTURE_COUNT; i++)
-        image_destroy(&parts->pictures[i]);
+    for (int i = 0; i < REDUCED_COUNT; i++)
+        image_destroy(&parts->reduced[i]);
     harmonics_destroy(&parts->harmonics);
     narrow_destroy(&parts->narrow);
-    image_destroy(&environment->picture);
+    image_destroy(&environment->panorama);
     cube_destroy(&environment->faces);
     cube_destroy(&environment->irradiance_over_pi);
     mem_free(environment->cache_folder);
@@ -75,7 +75,7 @@ void facet_environment_destroy(facet_environment *environment)
         environment_release(environment);
 }
 
-/* ---- what is kept of a decoded picture ---- */
+/* ---- what is kept of a decoded image ---- */
 
 DISPATCH_AVX2 static void limit_rows(void *context, size_t begin, size_t end)
 {
@@ -91,7 +91,7 @@ DISPATCH_AVX2 static void limit_rows(void *context, size_t begin, size_t end)
 
 void environment_limit(facet_environment *environment, uint32_t thread_count)
 {
-    parallel_for(thread_count, environment->picture.height, 16, limit_rows, &environment->picture);
+    parallel_for(thread_count, environment->panorama.height, 16, limit_rows, &environment->panorama);
 }
 
 /* ---- figures ---- */
@@ -142,10 +142,10 @@ static void measure_face_rows(void *context, size_t begin, size_t end)
     }
 }
 
-static void measure_picture_rows(void *context, size_t begin, size_t end)
+static void measure_image_rows(void *context, size_t begin, size_t end)
 {
     const measuring *m = context;
-    const image *p = &m->environment->picture;
+    const image *p = &m->environment->panorama;
     for (size_t row = begin; row < end; row++) {
         row_sum sum = {0};
         double solid_angle = equirect_texel_solid_angle(p->width, p->height, (uint32_t)row);
@@ -161,17 +161,17 @@ facet_result facet_environment_get_info(const facet_environment *environment, fa
     assert(environment && info);
     const facet_environment *e = environment;
     *info = (facet_environment_info){.layout = e->layout ? e->layout : FACET_LAYOUT_EQUIRECTANGULAR,
-                                     .width = e->source_width ? e->source_width : e->picture.width,
-                                     .height = e->source_height ? e->source_height : e->picture.height,
+                                     .width = e->source_width ? e->source_width : e->panorama.width,
+                                     .height = e->source_height ? e->source_height : e->panorama.height,
                                      .repaired_texels = e->repaired_texels};
-    size_t count = e->faces.texels ? 6 * (size_t)e->faces.size : e->picture.height;
+    size_t count = e->faces.texels ? 6 * (size_t)e->faces.size : e->panorama.height;
     measuring m = {e, mem_alloc(&e->allocator, count, sizeof(row_sum))};
     if (!m.rows)
         return fail_memory(error, "environment", count * sizeof(row_sum));
-    if (e->faces.texels) /* else the picture */
+    if (e->faces.texels) /* else the image */
         parallel_for(0, e->faces.size, 16, measure_face_rows, &m);
     else
-        parallel_for(0, count, 16, measure_picture_rows, &m);
+        parallel_for(0, count, 16, measure_image_rows, &m);
     double solid_angle = 0.0;
     for (size_t row = 0; row < count; row++) {
         for (int i = 0; i < 3; i++)

@@ -38,7 +38,7 @@ static void keep_message(void *user, facet_log_level level, const char *text)
     snprintf(m->last, sizeof m->last, "%s", text);
 }
 
-/* Encoded pictures. */
+/* Encoded images. */
 typedef struct bytes {
     unsigned char *data;
     size_t size;
@@ -109,7 +109,7 @@ static bytes encode_ktx2(const cube *c, facet_texel_format format, uint32_t zstd
                                       .zstd_level = zstd_level,
                                       .level_count = 1,
                                       .face_count = 6,
-                                      .pictures = faces,
+                                      .images = faces,
                                       .is_opaque = true,
                                       .writer = "test"},
                    &b.data, &b.size, NULL) != FACET_OK)
@@ -134,13 +134,13 @@ static facet_environment_info get_info(const facet_environment *e)
     return info;
 }
 
-/* The picture that is rendered with shows get_radiance(), to tolerance. */
-static void check_picture(const facet_environment *e, double tolerance)
+/* The image that is rendered with shows get_radiance(), to tolerance. */
+static void check_image(const facet_environment *e, double tolerance)
 {
     for (uint32_t i = 0; i < 2048; i++) {
         float d[3], got[3], wanted[3];
         equirect_direction(64, 32, i % 64, i / 64, d);
-        equirect_lookup(&e->picture, d, got);
+        equirect_lookup(&e->panorama, d, got);
         get_radiance((const double[3]){(double)d[0], (double)d[1], (double)d[2]}, wanted);
         for (int k = 0; k < 3; k++)
             if (!(fabs((double)(got[k] - wanted[k])) < tolerance))
@@ -160,24 +160,24 @@ static void check_faces(const facet_environment *e, const cube *c)
 
 static void check_mean(const facet_environment *e, const cube *c, double tolerance)
 {
-    double mean[3], picture[3] = {0.0, 0.0, 0.0}, whole = 0.0;
+    double mean[3], panorama[3] = {0.0, 0.0, 0.0}, whole = 0.0;
     const facet_environment_info info = get_info(e);
     cube_mean(c, mean);
-    const float *p = e->picture.pixels;
-    for (uint32_t y = 0; y < e->picture.height; y++)
-        for (uint32_t x = 0; x < e->picture.width; x++, p += 3) {
-            double w = equirect_texel_solid_angle(e->picture.width, e->picture.height, y);
+    const float *p = e->panorama.pixels;
+    for (uint32_t y = 0; y < e->panorama.height; y++)
+        for (uint32_t x = 0; x < e->panorama.width; x++, p += 3) {
+            double w = equirect_texel_solid_angle(e->panorama.width, e->panorama.height, y);
             whole += w;
             for (int k = 0; k < 3; k++)
-                picture[k] += w * (double)p[k];
+                panorama[k] += w * (double)p[k];
         }
     for (int k = 0; k < 3; k++) {
         assert_true(fabs(info.mean[k] / mean[k] - 1.0) < tolerance);
-        assert_true(fabs(picture[k] / whole / mean[k] - 1.0) < tolerance);
+        assert_true(fabs(panorama[k] / whole / mean[k] - 1.0) < tolerance);
     }
 }
 
-/* A picture as an OpenEXR file with the attribute envmap. */
+/* An image as an OpenEXR file with the attribute envmap. */
 static bytes encode_exr(const image *rgb, unsigned char envmap)
 {
     static const char *const names[3] = {"R", "G", "B"};
@@ -220,7 +220,7 @@ static void openexr_cubes_are_not_mirrored(void **state)
     facet_environment *e = load(b, FACET_LAYOUT_AUTO, &m);
     assert_int_equal(get_info(e).layout, FACET_LAYOUT_STRIP_VERTICAL);
     assert_int_equal(m.count, 0);
-    check_picture(e, 0.006);
+    check_image(e, 0.006);
     check_mean(e, &c, 1e-5);
     facet_environment_destroy(e);
     cube_destroy(&c);
@@ -262,7 +262,7 @@ static void layouts_are_told_by_their_edges(void **state)
             assert_int_equal(info.repaired_texels, 0);
             assert_int_equal(m.count, 0);
             check_faces(e, &c);
-            check_picture(e, 0.006);
+            check_image(e, 0.006);
             check_mean(e, &c, 1e-5);
             facet_environment_destroy(e);
             mem_free(b.data);
@@ -274,7 +274,7 @@ static void layouts_are_told_by_their_edges(void **state)
     assert_int_equal(info.width, 4 * SIZE);
     assert_int_equal(info.height, 2 * SIZE);
     assert_null(e->faces.texels);
-    check_picture(e, 0.02);
+    check_image(e, 0.02);
     facet_environment_destroy(e);
     mem_free(b.data);
     b = encode_layout(&c, FACET_LAYOUT_OCTAHEDRAL);
@@ -283,14 +283,14 @@ static void layouts_are_told_by_their_edges(void **state)
     assert_int_equal(info.layout, FACET_LAYOUT_OCTAHEDRAL);
     assert_int_equal(info.width, 2 * SIZE);
     assert_int_equal(info.height, 2 * SIZE);
-    check_picture(e, 0.03);
+    check_image(e, 0.03);
     check_mean(e, &c, 1e-3);
     facet_environment_destroy(e);
     mem_free(b.data);
     cube_destroy(&c);
 }
 
-/* A sun of one texel in a cube map: all of its light is in the picture, and the sharp faces are kept. */
+/* A sun of one texel in a cube map: all of its light is in the image, and the sharp faces are kept. */
 static void suns_keep_their_energy(void **state)
 {
     (void)state;
@@ -323,7 +323,7 @@ static void cubes_of_ktx2(void **state)
             assert_int_equal(m.count, 0);
             if (k < 2)
                 check_faces(e, &c);
-            check_picture(e, 0.01);
+            check_image(e, 0.01);
             check_mean(e, &c, k < 2 ? 1e-5 : 1e-3);
             facet_environment_destroy(e);
         }
@@ -354,9 +354,9 @@ static void ktx2_that_is_no_environment(void **state)
         {4, 4, 2, 6, 1, FACET_ERROR_UNSUPPORTED, "KTX2: an array of 2 textures"},
         {4, 2, 3, 1, 1, FACET_ERROR_UNSUPPORTED, "KTX2: an array of 3 textures"},
         {4, 3, 0, 6, 1, FACET_ERROR_INVALID,
-         "faceCount: 1, or 6 of a square picture, was expected, not 6 of 4 x 3"},
+         "faceCount: 1, or 6 of a square image, was expected, not 6 of 4 x 3"},
         {4, 4, 0, 5, 1, FACET_ERROR_INVALID,
-         "faceCount: 1, or 6 of a square picture, was expected, not 5 of 4 x 4"},
+         "faceCount: 1, or 6 of a square image, was expected, not 5 of 4 x 4"},
         {4, 4, 0, 6, 9, FACET_ERROR_INVALID, "levelCount: 4 x 4 texels do not have 9 levels"},
         {4, 4, 0, 1, 1, FACET_ERROR_INVALID,
          "4 x 4 texels: an environment is 2:1 (equirectangular), 4:3 or 3:4"},
@@ -393,7 +393,7 @@ static void ktx2_that_is_no_environment(void **state)
     free(b.data);
 }
 
-/* Any end of a file is an error or a picture, never a crash. */
+/* Any end of a file is an error or an image, never a crash. */
 static void files_that_end_early(void **state)
 {
     (void)state;
@@ -519,7 +519,7 @@ static void what_is_no_radiance(void **state)
         }
         messages m = {0};
         facet_environment *e = load(b, FACET_LAYOUT_AUTO, &m);
-        const float *p = e->picture.pixels;
+        const float *p = e->panorama.pixels;
         assert_int_equal(get_info(e).repaired_texels, 2); /* as half, 1e30 is infinity as well */
         assert_int_equal(m.count, 1);
         assert_non_null(strstr(m.last, "made: 2 texels are NaN, infinity or less than 0"));
@@ -563,7 +563,7 @@ static void what_is_no_radiance_in_ktx2(void **state)
     free(b.data);
 }
 
-/* ---- pictures that are no layout ---- */
+/* ---- images that are no layout ---- */
 
 static void other_ratios(void **state)
 {
@@ -580,8 +580,7 @@ static void other_ratios(void **state)
          "faces)"},
         {1, 1, FACET_LAYOUT_AUTO, FACET_ERROR_INVALID, 0, "NAME{face}.EXT; for any other shape"},
         {19, 9, FACET_LAYOUT_AUTO, FACET_ERROR_INVALID, 0, "19 x 9"},
-        {41, 20, FACET_LAYOUT_AUTO, FACET_OK, 1,
-         "41 x 20 texels: an equirectangular picture is twice as wide"},
+        {41, 20, FACET_LAYOUT_AUTO, FACET_OK, 1, "41 x 20 texels: an equirectangular image is twice as wide"},
         {7, 5, FACET_LAYOUT_EQUIRECTANGULAR, FACET_OK, 1, "stretched over the sphere"},
         {1, 1, FACET_LAYOUT_EQUIRECTANGULAR, FACET_OK, 1, "stretched over the sphere"},
         {1, 1, FACET_LAYOUT_OCTAHEDRAL, FACET_OK, 0, ""},
@@ -590,7 +589,7 @@ static void other_ratios(void **state)
         {4, 3, FACET_LAYOUT_EQUIRECTANGULAR, FACET_OK, 1, "stretched over the sphere"},
         {4, 4, FACET_LAYOUT_CROSS_VERTICAL, FACET_ERROR_INVALID, 0,
          "4 x 4 texels are not a vertical cross (3:4)"},
-        {4, 3, FACET_LAYOUT_FACES, FACET_ERROR_ARGUMENT, 0, "six faces are six pictures, this is one"},
+        {4, 3, FACET_LAYOUT_FACES, FACET_ERROR_ARGUMENT, 0, "six faces are six images, this is one"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         image i = make_image(cases[k].width, cases[k].height, 2.0f);
@@ -681,7 +680,7 @@ static void threads_do_not_matter(void **state)
                                                        &(facet_environment_desc){.thread_count = 1 + 4 * k},
                                                        &e[k], NULL),
                          FACET_OK);
-    assert_memory_equal(e[0]->picture.pixels, e[1]->picture.pixels, mem_size(e[0]->picture.pixels));
+    assert_memory_equal(e[0]->panorama.pixels, e[1]->panorama.pixels, mem_size(e[0]->panorama.pixels));
     facet_environment_info a = get_info(e[0]), z = get_info(e[1]);
     assert_memory_equal(a.mean, z.mean, sizeof a.mean);
     for (int k = 0; k < 2; k++)
@@ -690,7 +689,7 @@ static void threads_do_not_matter(void **state)
     cube_destroy(&c);
 }
 
-/* The mean is over solid angles, which rows of a picture do not share evenly. */
+/* The mean is over solid angles, which rows of an image do not share evenly. */
 static void what_an_environment_says(void **state)
 {
     (void)state;

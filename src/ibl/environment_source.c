@@ -31,7 +31,7 @@ static image_decode_desc decode_desc(const facet_environment_desc *desc, float *
 /* ---- repairs ---- */
 
 typedef struct repairing {
-    image *picture;
+    image *panorama;
     float largest;
     uint64_t first_place;
     _Atomic uint64_t count, first;
@@ -50,8 +50,8 @@ static void repair_rows(void *context, size_t begin, size_t end)
 {
     repairing *r = context;
     uint64_t count = 0, first = UINT64_MAX;
-    float *p = (float *)r->picture->pixels + 3 * begin * r->picture->width;
-    for (size_t i = begin * r->picture->width; i < end * r->picture->width; i++, p += 3) {
+    float *p = (float *)r->panorama->pixels + 3 * begin * r->panorama->width;
+    for (size_t i = begin * r->panorama->width; i < end * r->panorama->width; i++, p += 3) {
         bool is_good = repair(p, r->largest);
         is_good &= repair(p + 1, r->largest);
         is_good &= repair(p + 2, r->largest);
@@ -65,7 +65,7 @@ static void repair_rows(void *context, size_t begin, size_t end)
         ;
 }
 
-/* The decoded picture as F32 RGB in [0, ENVIRONMENT_MAX_RADIANCE], with what is no radiance repaired and counted; decoded
+/* The decoded image as F32 RGB in [0, ENVIRONMENT_MAX_RADIANCE], with what is no radiance repaired and counted; decoded
  * is released. largest: what infinity becomes. first_place: the place of its first texel. FACET_ERROR_MEMORY. */
 static facet_result repair_image(image *decoded, float largest, uint64_t first_place,
                                  const facet_allocator *allocator, uint32_t thread_count, image *out,
@@ -81,7 +81,7 @@ static facet_result repair_image(image *decoded, float largest, uint64_t first_p
     }
     if (result != FACET_OK)
         return result;
-    repairing r = {.picture = out, .largest = largest, .first_place = first_place};
+    repairing r = {.panorama = out, .largest = largest, .first_place = first_place};
     atomic_init(&r.count, 0);
     atomic_init(&r.first, UINT64_MAX);
     parallel_for(thread_count, out->height, 16, repair_rows, &r);
@@ -106,21 +106,21 @@ void environment_report(facet_environment *e, const environment_repairs *repairs
 
 /* ---- layouts ---- */
 
-/* Of pictures that are made of others. */
+/* Of images that are made of others. */
 enum { MIN_ROWS = 64, MAX_ROWS = 8192 };
 
 /* A row for 1.57 / n, where a texel of a cube is 2 / n wide in the middle of a face, 1.45 / n on average and 0.94 / n at its
  * corners: 8 n^2 texels for 6 n^2, two lookups a texel in each direction. Small cubes get more rows: between their texels
- * radiance changes linearly in the cube, not in the picture. */
+ * radiance changes linearly in the cube, not in the image. */
 facet_result environment_unroll(facet_environment *e, const cube *c, const sphere_turn *turn,
                                 uint32_t thread_count, facet_error *error)
 {
     uint32_t rows = c->size > MAX_ROWS / 2 ? MAX_ROWS : 2 * c->size;
     rows = rows < MIN_ROWS ? MIN_ROWS : rows;
-    TRY(image_create(&e->allocator, 2 * rows, rows, 3, IMAGE_F32, &e->picture, error));
+    TRY(image_create(&e->allocator, 2 * rows, rows, 3, IMAGE_F32, &e->panorama, error));
     cube from = *c;
     sphere source = sphere_of_cube(&from);
-    sphere target = sphere_of_picture(SPHERE_EQUIRECT, &e->picture);
+    sphere target = sphere_of_image(SPHERE_EQUIRECT, &e->panorama);
     sphere_turn quick = turn ? *turn : (sphere_turn){.scale = 1.0f};
     quick.parts = rows == 2 * c->size ? 2 : 0;
     facet_result result = sphere_resample(&source, &quick, &e->allocator, thread_count, &target, error);
@@ -128,40 +128,40 @@ facet_result environment_unroll(facet_environment *e, const cube *c, const spher
     return result;
 }
 
-/* As many rows as the octahedral picture, whose texels are no smaller. */
-static facet_result take_octahedron(facet_environment *e, const image *picture, uint32_t thread_count,
+/* As many rows as the octahedral image, whose texels are no smaller. */
+static facet_result take_octahedron(facet_environment *e, const image *panorama, uint32_t thread_count,
                                     facet_error *error)
 {
-    uint32_t rows = picture->height < MAX_ROWS ? picture->height : MAX_ROWS;
-    TRY(image_create(&e->allocator, 2 * rows, rows, 3, IMAGE_F32, &e->picture, error));
-    sphere source = sphere_of_picture(SPHERE_OCTAHEDRON, picture);
-    sphere target = sphere_of_picture(SPHERE_EQUIRECT, &e->picture);
+    uint32_t rows = panorama->height < MAX_ROWS ? panorama->height : MAX_ROWS;
+    TRY(image_create(&e->allocator, 2 * rows, rows, 3, IMAGE_F32, &e->panorama, error));
+    sphere source = sphere_of_image(SPHERE_OCTAHEDRON, panorama);
+    sphere target = sphere_of_image(SPHERE_EQUIRECT, &e->panorama);
     facet_result result = sphere_resample(&source, NULL, &e->allocator, thread_count, &target, error);
     environment_limit(e, thread_count);
     return result;
 }
 
-/* Makes the environment of a repaired picture (released) in any layout but AUTO and FACES, which fits. */
-static facet_result take_image(facet_environment *e, image *picture, facet_layout layout, const char *name,
+/* Makes the environment of a repaired image (released) in any layout but AUTO and FACES, which fits. */
+static facet_result take_image(facet_environment *e, image *panorama, facet_layout layout, const char *name,
                                uint32_t thread_count, facet_error *error)
 {
     facet_result result = FACET_OK;
     e->layout = layout;
-    e->source_width = picture->width;
-    e->source_height = picture->height;
+    e->source_width = panorama->width;
+    e->source_height = panorama->height;
     if (layout_is_faces(layout)) {
-        result = layout_read(picture, layout, name, &e->allocator, thread_count, &e->faces, error);
-        image_destroy(picture);
+        result = layout_read(panorama, layout, name, &e->allocator, thread_count, &e->faces, error);
+        image_destroy(panorama);
         e->source_width = e->source_height = e->faces.size;
         if (result == FACET_OK)
             result = environment_unroll(e, &e->faces, NULL, thread_count, error);
     } else if (layout == FACET_LAYOUT_OCTAHEDRAL) {
-        result = take_octahedron(e, picture, thread_count, error);
+        result = take_octahedron(e, panorama, thread_count, error);
     } else {
-        e->picture = *picture;
-        *picture = (image){0};
+        e->panorama = *panorama;
+        *panorama = (image){0};
     }
-    image_destroy(picture);
+    image_destroy(panorama);
     return result;
 }
 
@@ -182,10 +182,10 @@ static void decode_faces(void *context, size_t begin, size_t end)
         image_decode_desc how = decode_desc(job->desc, &f->largest);
         how.thread_count = 1;
         how.note = &f->note;
-        f->result = image_decode(f->bytes, f->size, f->name, &how, &f->picture, &f->error);
-        if (f->result == FACET_OK && f->picture.width != f->picture.height)
+        f->result = image_decode(f->bytes, f->size, f->name, &how, &f->image, &f->error);
+        if (f->result == FACET_OK && f->image.width != f->image.height)
             f->result = fail(&f->error, FACET_ERROR_INVALID, "%s: %u x %u texels: faces of a cube are square",
-                             f->name, f->picture.width, f->picture.height);
+                             f->name, f->image.width, f->image.height);
     }
 }
 
@@ -197,9 +197,9 @@ facet_result cube_faces_decode(cube_face faces[6], const facet_environment_desc 
     for (int i = 0; i < 6 && result == FACET_OK; i++) {
         if (faces[i].result != FACET_OK)
             result = fail(error, faces[i].result, "%s", faces[i].error.message);
-        else if (faces[i].picture.width != faces[0].picture.width)
+        else if (faces[i].image.width != faces[0].image.width)
             result = fail(error, FACET_ERROR_INVALID, "%s has %u texels along an edge, face +X has %u",
-                          faces[i].name, faces[i].picture.width, faces[0].picture.width);
+                          faces[i].name, faces[i].image.width, faces[0].image.width);
         else if (i == 0 || strcmp(faces[i].note.text, faces[0].note.text) != 0)
             image_note_log(&faces[i].note, faces[i].name, &desc->log); /* alike ones once */
     }
@@ -211,7 +211,7 @@ facet_result cube_faces_decode(cube_face faces[6], const facet_environment_desc 
 void cube_faces_destroy(cube_face faces[6])
 {
     for (int i = 0; i < 6; i++)
-        image_destroy(&faces[i].picture);
+        image_destroy(&faces[i].image);
 }
 
 static void fill_face(cube *c, uint32_t face, const float *p)
@@ -224,11 +224,11 @@ static void fill_face(cube *c, uint32_t face, const float *p)
 facet_result cube_faces_assemble(cube_face faces[6], const facet_allocator *allocator, uint32_t thread_count,
                                  cube *out, environment_repairs *repairs, facet_error *error)
 {
-    uint64_t face_texels = (uint64_t)faces[0].picture.width * faces[0].picture.width;
-    facet_result result = cube_create(faces[0].picture.width, allocator, out, error);
+    uint64_t face_texels = (uint64_t)faces[0].image.width * faces[0].image.width;
+    facet_result result = cube_create(faces[0].image.width, allocator, out, error);
     for (uint32_t i = 0; i < 6 && result == FACET_OK; i++) {
         image rgb = {0};
-        result = repair_image(&faces[i].picture, faces[i].largest, i * face_texels, allocator, thread_count,
+        result = repair_image(&faces[i].image, faces[i].largest, i * face_texels, allocator, thread_count,
                               &rgb, repairs, error);
         if (result == FACET_OK)
             fill_face(out, i, rgb.pixels);
@@ -279,7 +279,7 @@ static facet_result load_cube_ktx2(facet_environment *e, const ktx2 *k, const fa
     facet_result result = ktx2_load_level(k, 0, &desc->allocator, &data, error);
     for (uint32_t i = 0; i < 6 && result == FACET_OK; i++) {
         how.largest = &faces[i].largest;
-        result = ktx2_decode(k, &data, 0, 0, i, &how, &faces[i].picture, error);
+        result = ktx2_decode(k, &data, 0, 0, i, &how, &faces[i].image, error);
     }
     ktx2_data_destroy(&data);
     if (result == FACET_OK)
@@ -332,17 +332,17 @@ facet_result facet_environment_load_faces(const char *const paths[6], const face
 
 /* ---- one file ---- */
 
-/* The layout of a picture: as desc says, as an OpenEXR file says, or by its edges. */
+/* The layout of an image: as desc says, as an OpenEXR file says, or by its edges. */
 static facet_result choose_layout(const facet_environment_desc *desc, image_envmap envmap,
-                                  const image *picture, const char *name, facet_layout *layout,
+                                  const image *panorama, const char *name, facet_layout *layout,
                                   facet_error *error)
 {
-    uint32_t width = picture->width, height = picture->height;
+    uint32_t width = panorama->width, height = panorama->height;
     *layout = desc->layout                     ? desc->layout
               : envmap == IMAGE_ENVMAP_LATLONG ? FACET_LAYOUT_EQUIRECTANGULAR
                                                : layout_detect(width, height); /* of a cube, too: 1:6 */
     if (*layout == FACET_LAYOUT_FACES)
-        return fail(error, FACET_ERROR_ARGUMENT, "%s: six faces are six pictures, this is one", name);
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: six faces are six images, this is one", name);
     double ratio = width / (2.0 * height);
     if (*layout == FACET_LAYOUT_AUTO && fabs(ratio - 1.0) > 0.05)
         return fail(
@@ -356,15 +356,15 @@ static facet_result choose_layout(const facet_environment_desc *desc, image_envm
         *layout = FACET_LAYOUT_EQUIRECTANGULAR;
     if (*layout == FACET_LAYOUT_EQUIRECTANGULAR && width != 2 * (uint64_t)height)
         log_warning(&desc->log,
-                    "%s: %u x %u texels: an equirectangular picture is twice as wide as high; this one is "
+                    "%s: %u x %u texels: an equirectangular image is twice as wide as high; this one is "
                     "stretched over the sphere",
                     name, width, height);
     return layout_check(*layout, width, height, name, error);
 }
 
-/* A picture of any layout. */
-static facet_result load_picture(facet_environment *e, const void *bytes, size_t size, const char *name,
-                                 const facet_environment_desc *desc, facet_error *error)
+/* An image of any layout. */
+static facet_result load_image(facet_environment *e, const void *bytes, size_t size, const char *name,
+                               const facet_environment_desc *desc, facet_error *error)
 {
     float largest;
     image_note note;
@@ -394,7 +394,7 @@ static facet_result load_picture(facet_environment *e, const void *bytes, size_t
     return result;
 }
 
-/* KTX2: a cube map, or a picture. */
+/* KTX2: a cube map, or an image. */
 static facet_result load_ktx2(facet_environment *e, const void *bytes, size_t size, const char *name,
                               const facet_environment_desc *desc, facet_error *error)
 {
@@ -402,9 +402,9 @@ static facet_result load_ktx2(facet_environment *e, const void *bytes, size_t si
     TRY(ktx2_open(bytes, size, name, &k, error));
     if (k.layer_count > 1)
         return fail(error, FACET_ERROR_UNSUPPORTED,
-                    "%s: KTX2: an array of %u textures: one cube map or one picture was expected", name,
+                    "%s: KTX2: an array of %u textures: one cube map or one image was expected", name,
                     k.layer_count);
-    return k.is_cube ? load_cube_ktx2(e, &k, desc, error) : load_picture(e, bytes, size, name, desc, error);
+    return k.is_cube ? load_cube_ktx2(e, &k, desc, error) : load_image(e, bytes, size, name, desc, error);
 }
 
 facet_result facet_environment_load_memory(const void *bytes, size_t size, const char *name,
@@ -422,7 +422,7 @@ facet_result facet_environment_load_memory(const void *bytes, size_t size, const
     facet_environment *e = NULL;
     TRY(environment_create(desc, &e, error));
     bool is_ktx2 = image_codec_detect(bytes, size) == IMAGE_CODEC_KTX2;
-    facet_result result = (is_ktx2 ? load_ktx2 : load_picture)(e, bytes, size, name, desc, error);
+    facet_result result = (is_ktx2 ? load_ktx2 : load_image)(e, bytes, size, name, desc, error);
     if (result != FACET_OK) {
         environment_release(e);
         return result;

@@ -10,14 +10,14 @@
 /* What was wrong with texels. {.first = UINT64_MAX} at first. */
 typedef struct environment_repairs {
     uint64_t count;
-    uint64_t first; /* place of the first: what of a picture is before it, in texels */
+    uint64_t first; /* place of the first: what of an image is before it, in texels */
 } environment_repairs;
 
-/* Says once what was repaired, where: "texel (x, y) of PLACE"; place NULL: of the picture. */
+/* Says once what was repaired, where: "texel (x, y) of PLACE"; place NULL: of the image. */
 void environment_report(facet_environment *e, const environment_repairs *repairs, const char *name,
                         const char *place, uint32_t x, uint32_t y);
 
-/* e->picture of a cube map (borders filled), as turned: so many rows that nothing that can be seen is lost. */
+/* e->image of a cube map (borders filled), as turned: so many rows that nothing that can be seen is lost. */
 facet_result environment_unroll(facet_environment *e, const cube *c, const sphere_turn *turn,
                                 uint32_t thread_count, facet_error *error);
 
@@ -29,7 +29,7 @@ typedef struct cube_face {
     const void *bytes;
     size_t size;
     const char *name; /* for messages */
-    image picture;    /* decoded, with what is not finite */
+    image image;      /* decoded, with what is not finite */
     float largest;    /* what infinity becomes */
     image_note note;  /* of decoding */
     facet_result result;
@@ -40,7 +40,7 @@ typedef struct cube_face {
 facet_result cube_faces_decode(cube_face faces[6], const facet_environment_desc *desc, facet_error *error);
 void cube_faces_destroy(cube_face faces[6]); /* {0} is allowed */
 
-/* The pictures as a cube map without borders, repaired and released one by one. */
+/* The images as a cube map without borders, repaired and released one by one. */
 facet_result cube_faces_assemble(cube_face faces[6], const facet_allocator *allocator, uint32_t thread_count,
                                  cube *out, environment_repairs *repairs, facet_error *error);
 /* The face, column and row of environment_repairs.first. */

@@ -99,7 +99,7 @@ static void test_refused(void **state)
     facet_environment_desc short_file = {.max_file_bytes = 100};
     assert_int_equal(facet_environment_load_memory(bytes, size, "x.hdr", &short_file, &e, &error),
                      FACET_ERROR_LIMIT);
-    for (size_t cut = 0; cut < size; cut++) { /* any end is an error or a picture, never a crash */
+    for (size_t cut = 0; cut < size; cut++) { /* any end is an error or an image, never a crash */
         if (facet_environment_load_memory(bytes, cut, "cut.hdr", NULL, &e, NULL) == FACET_OK)
             facet_environment_destroy(e);
         else
@@ -107,7 +107,7 @@ static void test_refused(void **state)
     }
 }
 
-/* 8-bit pictures are decoded from sRGB. */
+/* 8-bit images are decoded from sRGB. */
 static void test_8_bit(void **state)
 {
     (void)state;
@@ -122,7 +122,7 @@ static void test_8_bit(void **state)
         FACET_OK);
     facet_environment *e = NULL;
     assert_int_equal(facet_environment_load_memory(bytes, size, "grey.png", NULL, &e, NULL), FACET_OK);
-    assert_near(((float *)e->picture.pixels)[20], 0.5028864580, 1e-5); /* shading-model.md 16.12 */
+    assert_near(((float *)e->panorama.pixels)[20], 0.5028864580, 1e-5); /* shading-model.md 16.12 */
     facet_environment_destroy(e);
     mem_free(bytes);
     image_destroy(&grey);
@@ -349,7 +349,7 @@ static void test_cache(void **state)
     rmdir(folder);
 }
 
-/* A folder that cannot be written costs a warning, not the picture. */
+/* A folder that cannot be written costs a warning, not the image. */
 static void test_cache_without_folder(void **state)
 {
     (void)state;

@@ -25,15 +25,15 @@ void equirect_direction(uint32_t width, uint32_t height, double x, double y, flo
     d[2] = (float)(sin(theta) * sin(phi));
 }
 
-void equirect_lookup(const image *picture, const float d[3], float out[3])
+void equirect_lookup(const image *panorama, const float d[3], float out[3])
 {
-    rgbx c = equirect_fetch(picture, equirect_locate(d));
+    rgbx c = equirect_fetch(panorama, equirect_locate(d));
     for (int i = 0; i < 3; i++)
         out[i] = c[i];
 }
 
 typedef struct averaging {
-    const image *picture;
+    const image *panorama;
     double (*rows)[3]; /* sums */
 } averaging;
 
@@ -42,9 +42,9 @@ enum { SUM_SPAN = 32 }; /* texels that are summed in float */
 DISPATCH_AVX2 static void average_rows(void *context, size_t begin, size_t end)
 {
     const averaging *job = context;
-    size_t count = 3 * (size_t)job->picture->width;
+    size_t count = 3 * (size_t)job->panorama->width;
     for (size_t y = begin; y < end; y++) {
-        const float *row = (const float *)job->picture->pixels + y * count;
+        const float *row = (const float *)job->panorama->pixels + y * count;
         double *sum = job->rows[y];
         sum[0] = sum[1] = sum[2] = 0.0;
         size_t i = 0;
@@ -61,17 +61,17 @@ DISPATCH_AVX2 static void average_rows(void *context, size_t begin, size_t end)
     }
 }
 
-facet_result equirect_mean(const image *picture, const facet_allocator *allocator, uint32_t thread_count,
+facet_result equirect_mean(const image *panorama, const facet_allocator *allocator, uint32_t thread_count,
                            double mean[3], facet_error *error)
 {
-    averaging job = {picture, mem_alloc(allocator, picture->height, sizeof *job.rows)};
+    averaging job = {panorama, mem_alloc(allocator, panorama->height, sizeof *job.rows)};
     if (!job.rows)
-        return fail_memory(error, "environment", picture->height * sizeof *job.rows);
-    parallel_for(thread_count, picture->height, 16, average_rows, &job);
+        return fail_memory(error, "environment", panorama->height * sizeof *job.rows);
+    parallel_for(thread_count, panorama->height, 16, average_rows, &job);
     mean[0] = mean[1] = mean[2] = 0.0;
-    for (uint32_t y = 0; y < picture->height; y++)
+    for (uint32_t y = 0; y < panorama->height; y++)
         for (int k = 0; k < 3; k++)
-            mean[k] += job.rows[y][k] * equirect_texel_solid_angle(picture->width, picture->height, y);
+            mean[k] += job.rows[y][k] * equirect_texel_solid_angle(panorama->width, panorama->height, y);
     for (int k = 0; k < 3; k++)
         mean[k] /= 4.0 * pi;
     mem_free(job.rows);
@@ -135,12 +135,12 @@ static void axis_destroy(equirect_axis *axis)
     mem_free(axis->weights);
 }
 
-bool equirect_view_create(const image *picture, uint32_t width, uint32_t height, bool is_smooth,
+bool equirect_view_create(const image *panorama, uint32_t width, uint32_t height, bool is_smooth,
                           const facet_allocator *allocator, equirect_view *view)
 {
-    *view = (equirect_view){.picture = picture, .width = width, .height = height, .is_smooth = is_smooth};
-    if (axis_create(picture->width, width, false, is_smooth, allocator, &view->columns) &&
-        axis_create(picture->height, height, true, is_smooth, allocator, &view->rows))
+    *view = (equirect_view){.panorama = panorama, .width = width, .height = height, .is_smooth = is_smooth};
+    if (axis_create(panorama->width, width, false, is_smooth, allocator, &view->columns) &&
+        axis_create(panorama->height, height, true, is_smooth, allocator, &view->rows))
         return true;
     equirect_view_destroy(view);
     return false;
@@ -153,12 +153,12 @@ void equirect_view_destroy(equirect_view *view)
     *view = (equirect_view){0};
 }
 
-/* Columns x0 .. x0 + count - 1 of a row of the picture, resampled, times weight added to out. */
+/* Columns x0 .. x0 + count - 1 of a row of the image, resampled, times weight added to out. */
 static inline void add_row(const equirect_view *view, uint32_t y, uint32_t x0, uint32_t count, float weight,
                            rgbx *out)
 {
-    uint32_t in_width = view->picture->width;
-    const float *row = (const float *)view->picture->pixels + (size_t)y * in_width * 3;
+    uint32_t in_width = view->panorama->width;
+    const float *row = (const float *)view->panorama->pixels + (size_t)y * in_width * 3;
     if (in_width == view->width) { /* the common cases, without the table */
         const float *p = row + 3 * (size_t)x0;
         for (uint32_t x = 0; x < count; x++, p += 3)
@@ -217,13 +217,13 @@ static void resize_rows(void *context, size_t begin, size_t end)
         }
 }
 
-facet_result equirect_resize(const image *picture, uint32_t width, uint32_t height,
+facet_result equirect_resize(const image *panorama, uint32_t width, uint32_t height,
                              const facet_allocator *allocator, uint32_t thread_count, image *out,
                              facet_error *error)
 {
     *out = (image){0};
     equirect_view view;
-    if (!equirect_view_create(picture, width, height, true, allocator, &view))
+    if (!equirect_view_create(panorama, width, height, true, allocator, &view))
         return fail_memory(error, "environment", (size_t)width * sizeof(float));
     facet_result result = image_create(allocator, width, height, 3, IMAGE_F32, out, error);
     if (result == FACET_OK) {

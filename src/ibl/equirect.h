@@ -1,7 +1,7 @@
-/* equirect.h - equirectangular pictures: where directions are in them, lookup, resampling.
+/* equirect.h - equirectangular images: where directions are in them, lookup, resampling.
  *
  * u = 0.5 + atan2(d.z, d.x) / 2pi from the left, v = acos(d.y) / pi from the top: facet.h, facet_environment_load().
- * Texel (x, y) has its middle at u = (x + 0.5) / width, v = (y + 0.5) / height. Pictures are F32 RGB, linear. */
+ * Texel (x, y) has its middle at u = (x + 0.5) / width, v = (y + 0.5) / height. Images are F32 RGB, linear. */
 #ifndef IBL_EQUIRECT_H
 #define IBL_EQUIRECT_H
 
@@ -41,7 +41,7 @@ static inline float equirect_atan2(float y, float x)
     return y < 0.0f ? -p : p;
 }
 
-/* Where a direction is in any picture: turns from the middle column, half turns from the top. */
+/* Where a direction is in any image: turns from the middle column, half turns from the top. */
 typedef struct equirect_point {
     float turns, half_turns;
 } equirect_point;
@@ -59,10 +59,10 @@ static inline rgbx equirect_texel(const float *p)
 }
 
 /* Bilinear. */
-static inline rgbx equirect_fetch(const image *picture, equirect_point p)
+static inline rgbx equirect_fetch(const image *panorama, equirect_point p)
 {
-    float width = (float)picture->width;
-    float height = (float)picture->height;
+    float width = (float)panorama->width;
+    float height = (float)panorama->height;
     float x = p.turns * width + (0.5f * width - 0.5f);
     float y = p.half_turns * height - 0.5f;
     x = x < 0.0f ? x + width : x;
@@ -71,11 +71,11 @@ static inline rgbx equirect_fetch(const image *picture, equirect_point p)
     uint32_t y0 = (uint32_t)y;
     float wx = x - (float)x0;
     float wy = y - (float)y0;
-    x0 = x0 < picture->width ? x0 : picture->width - 1; /* rounded up */
-    uint32_t x1 = x0 + 1 < picture->width ? x0 + 1 : 0;
-    uint32_t y1 = y0 + 1 < picture->height ? y0 + 1 : y0;
-    const float *row0 = (const float *)picture->pixels + 3 * (size_t)picture->width * y0;
-    const float *row1 = (const float *)picture->pixels + 3 * (size_t)picture->width * y1;
+    x0 = x0 < panorama->width ? x0 : panorama->width - 1; /* rounded up */
+    uint32_t x1 = x0 + 1 < panorama->width ? x0 + 1 : 0;
+    uint32_t y1 = y0 + 1 < panorama->height ? y0 + 1 : y0;
+    const float *row0 = (const float *)panorama->pixels + 3 * (size_t)panorama->width * y0;
+    const float *row1 = (const float *)panorama->pixels + 3 * (size_t)panorama->width * y1;
     rgbx a = equirect_texel(row0 + 3 * (size_t)x0);
     rgbx b = equirect_texel(row1 + 3 * (size_t)x0);
     a += (equirect_texel(row0 + 3 * (size_t)x1) - a) * wx;
@@ -84,38 +84,38 @@ static inline rgbx equirect_fetch(const image *picture, equirect_point p)
 }
 
 /* Radiance from the unit direction d, bilinear. */
-void equirect_lookup(const image *picture, const float d[3], float out[3]);
+void equirect_lookup(const image *panorama, const float d[3], float out[3]);
 
 /* Mean radiance over the sphere. Deterministic for every thread count. FACET_ERROR_MEMORY. */
-facet_result equirect_mean(const image *picture, const facet_allocator *allocator, uint32_t thread_count,
+facet_result equirect_mean(const image *panorama, const facet_allocator *allocator, uint32_t thread_count,
                            double mean[3], facet_error *error);
 
 /* ---- resampling ---- */
 
-/* How samples along an axis of a picture make those of another. */
+/* How samples along an axis of an image make those of another. */
 typedef struct equirect_axis {
     struct equirect_span *spans;
     float *weights;
 } equirect_axis;
 
-/* A picture seen at another resolution: the mean over each texel's solid angle where that is coarser; where it is finer,
+/* An image seen at another resolution: the mean over each texel's solid angle where that is coarser; where it is finer,
  * linear interpolation along an axis (smooth), or the mean there as well, which repeats texels. */
 typedef struct equirect_view {
-    const image *picture;
+    const image *panorama;
     uint32_t width, height;
     bool is_smooth;
     equirect_axis columns, rows;
 } equirect_view;
 
 /* False: no memory. */
-bool equirect_view_create(const image *picture, uint32_t width, uint32_t height, bool is_smooth,
+bool equirect_view_create(const image *panorama, uint32_t width, uint32_t height, bool is_smooth,
                           const facet_allocator *allocator, equirect_view *view);
 void equirect_view_destroy(equirect_view *view); /* {0} is allowed */
 /* Texels x0 .. x0 + count - 1 of row y. */
 void equirect_view_texels(const equirect_view *view, uint32_t y, uint32_t x0, uint32_t count, rgbx *out);
 
-/* The smooth view as a picture. FACET_ERROR_MEMORY. */
-facet_result equirect_resize(const image *picture, uint32_t width, uint32_t height,
+/* The smooth view as an image. FACET_ERROR_MEMORY. */
+facet_result equirect_resize(const image *panorama, uint32_t width, uint32_t height,
                              const facet_allocator *allocator, uint32_t thread_count, image *out,
                              facet_error *error);
 

@@ -1,7 +1,7 @@
-/* harmonics.c - analysis: from a picture to coefficients. Fourier transform of each row, then for each order m sums over
+/* harmonics.c - analysis: from an image to coefficients. Fourier transform of each row, then for each order m sums over
  * rows against the associated Legendre functions.
  *
- * The picture is what its texels say: each of one radiance. Along a row the integrals of e^(-i m phi) over texels are those of
+ * The image is what its texels say: each of one radiance. Along a row the integrals of e^(-i m phi) over texels are those of
  * the middles times sinc(m width / 2), exactly. Along a column f = P_lm sin(theta) obeys f'' = -k^2 f to first order, with
  * k^2 = l (l + 1) - m^2 / sin(theta)^2 by Legendre's equation, which makes the integral over a texel of height d its middle
  * times 1 - k^2 d^2 / 24. */
@@ -34,7 +34,7 @@ typedef struct analysis {
     fourier transform;
     uint32_t splits; /* transforms that together are that of a row */
     bool is_wider,
-        is_higher; /* texels of the view hold several of the picture, or parts: not whole parts of one */
+        is_higher; /* texels of the view hold several of the image, or parts: not whole parts of one */
     uint32_t first, count; /* pairs of rows of the band */
     uint32_t capacity;     /* of pairs in the waves: a multiple of LANES */
     legendre_rows rows;
@@ -182,14 +182,14 @@ static uint32_t power_of_two_from(uint32_t x)
     return x <= 1 ? 1u : 2u << (31 - __builtin_clz(x - 1));
 }
 
-/* Columns: those of the picture where they are a power of two, or else so many that what a texel straddles is small beside it.
+/* Columns: those of the image where they are a power of two, or else so many that what a texel straddles is small beside it.
  * More than 16 for a degree only blur nothing. */
-static void choose_columns(const image *picture, uint32_t degree, analysis *job, uint32_t *width)
+static void choose_columns(const image *panorama, uint32_t degree, analysis *job, uint32_t *width)
 {
-    uint32_t own = power_of_two_from(picture->width);
+    uint32_t own = power_of_two_from(panorama->width);
     uint32_t least = power_of_two_from(2 * degree + 2);
     uint32_t most = power_of_two_from(16 * degree);
-    bool is_own = own == picture->width;
+    bool is_own = own == panorama->width;
     uint32_t columns = is_own ? own : 2 * own;
     columns = columns > most ? most : columns < least ? least : columns;
     job->is_wider = !is_own || columns < own;
@@ -197,35 +197,35 @@ static void choose_columns(const image *picture, uint32_t degree, analysis *job,
     *width = columns;
 }
 
-/* Rows: those of the picture or each cut into as many as k d < 2 asks for; no more than 8 for a degree. */
-static void choose_rows(const image *picture, uint32_t degree, analysis *job, uint32_t *height)
+/* Rows: those of the image or each cut into as many as k d < 2 asks for; no more than 8 for a degree. */
+static void choose_rows(const image *panorama, uint32_t degree, analysis *job, uint32_t *height)
 {
     uint32_t least = degree + degree / 2 + degree / 8;
-    uint32_t parts = (least + picture->height - 1) / picture->height;
-    if (picture->height & parts & 1)
+    uint32_t parts = (least + panorama->height - 1) / panorama->height;
+    if (panorama->height & parts & 1)
         parts++;
-    job->is_higher = picture->height > 8 * degree;
-    *height = job->is_higher ? 8 * degree : parts * picture->height;
+    job->is_higher = panorama->height > 8 * degree;
+    *height = job->is_higher ? 8 * degree : parts * panorama->height;
 }
 
 /* ---- the least radiance ---- */
 
-enum { LEAST_PARTS = 64 }; /* of the picture's rows */
+enum { LEAST_PARTS = 64 }; /* of the image's rows */
 
 typedef struct least_search {
-    const image *picture;
+    const image *panorama;
     float least[LEAST_PARTS][3];
 } least_search;
 
 static void search_rows(void *context, size_t begin, size_t end)
 {
     least_search *job = context;
-    size_t row = (size_t)job->picture->width * 3;
+    size_t row = (size_t)job->panorama->width * 3;
     for (size_t part = begin; part < end; part++) {
         const float *texel =
-            (const float *)job->picture->pixels + job->picture->height * part / LEAST_PARTS * row;
+            (const float *)job->panorama->pixels + job->panorama->height * part / LEAST_PARTS * row;
         const float *last =
-            (const float *)job->picture->pixels + job->picture->height * (part + 1) / LEAST_PARTS * row;
+            (const float *)job->panorama->pixels + job->panorama->height * (part + 1) / LEAST_PARTS * row;
         float *least = job->least[part];
         least[0] = least[1] = least[2] = FLT_MAX;
         for (; texel < last; texel += 3)
@@ -234,9 +234,9 @@ static void search_rows(void *context, size_t begin, size_t end)
     }
 }
 
-static void find_least(const image *picture, uint32_t thread_count, float least[3])
+static void find_least(const image *panorama, uint32_t thread_count, float least[3])
 {
-    least_search job = {.picture = picture};
+    least_search job = {.panorama = panorama};
     parallel_for(thread_count, LEAST_PARTS, 1, search_rows, &job);
     for (int i = 0; i < 3; i++) {
         least[i] = FLT_MAX;
@@ -247,7 +247,7 @@ static void find_least(const image *picture, uint32_t thread_count, float least[
 
 /* ---- the functions of harmonics.h ---- */
 
-facet_result harmonics_create(const image *picture, uint32_t degree, const facet_allocator *allocator,
+facet_result harmonics_create(const image *panorama, uint32_t degree, const facet_allocator *allocator,
                               uint32_t thread_count, harmonics *out, facet_error *error)
 {
     *out = (harmonics){0};
@@ -257,8 +257,8 @@ facet_result harmonics_create(const image *picture, uint32_t degree, const facet
     equirect_view view = {0};
     double mean[3];
     uint32_t width, height;
-    choose_columns(picture, degree, &job, &width);
-    choose_rows(picture, degree, &job, &height);
+    choose_columns(panorama, degree, &job, &width);
+    choose_rows(panorama, degree, &job, &height);
     uint32_t pairs = height / 2;
     job.capacity = pairs < BAND_ROWS ? (pairs + LANES - 1) / LANES * LANES : BAND_ROWS;
     size_t count = harmonics_order_index(degree, degree) + PARTS;
@@ -266,16 +266,17 @@ facet_result harmonics_create(const image *picture, uint32_t degree, const facet
     h.coefficients = mem_zalloc(allocator, count, sizeof *h.coefficients);
     h.waves = mem_alloc(allocator, wave_count, sizeof *h.waves);
     facet_result result = FACET_OK;
-    if (!h.coefficients || !h.waves || !equirect_view_create(picture, width, height, false, allocator, &view))
+    if (!h.coefficients || !h.waves ||
+        !equirect_view_create(panorama, width, height, false, allocator, &view))
         result = fail_memory(error, "harmonics", (count + wave_count) * sizeof(float));
     if (result == FACET_OK)
-        result = equirect_mean(picture, allocator, thread_count, mean, error);
+        result = equirect_mean(panorama, allocator, thread_count, mean, error);
     if (result == FACET_OK) {
         job.view = &view;
         fourier_init(&job.transform, width / job.splits);
         for (int i = 0; i < 3; i++)
             h.mean[i] = (float)mean[i];
-        find_least(picture, thread_count, h.least);
+        find_least(panorama, thread_count, h.least);
         for (job.first = 0; job.first < pairs; job.first += job.count) {
             job.count = pairs - job.first < job.capacity ? pairs - job.first : job.capacity;
             legendre_place(&job.rows, job.first, job.count, height);

@@ -3,7 +3,7 @@
  * A lobe that looks the same all around its axis, as that of a surface seen head on does (N = V = R), filters an
  * environment by scaling each degree l of its harmonics with one number k_l (Ramamoorthi and Hanrahan 2001, for any
  * such kernel). That is exact: no samples, no noise, a sun of one texel comes out as the lobe itself. A lobe of GGX
- * width alpha needs degrees up to about 4 / alpha. Analysis takes in the order of degree^2 times rows of the picture, a
+ * width alpha needs degrees up to about 4 / alpha. Analysis takes in the order of degree^2 times rows of the image, a
  * filter degree^3; at degree 512 that is 0.1 s. */
 #ifndef IBL_HARMONICS_H
 #define IBL_HARMONICS_H
@@ -15,7 +15,7 @@
 enum { HARMONICS_MAX_DEGREE = 1344 }; /* three columns of a grid for each, at most FOURIER_MAX */
 
 /* Coefficients c_lm = integral of L P_lm(cos theta) e^(-i m phi), orthonormal P_lm, theta from +Y, for 0 <= m <= l;
- * of the difference from the mean, so that a uniform environment leaves nothing. Texels of the picture are taken as of one
+ * of the difference from the mean, so that a uniform environment leaves nothing. Texels of the image are taken as of one
  * radiance all over their solid angle. */
 typedef struct harmonics {
     facet_allocator allocator;
@@ -23,7 +23,7 @@ typedef struct harmonics {
     /* of the grid of the analysis, whose middle of column 0 is phi = 0 of the coefficients */
     uint32_t column_count;
     float mean[3];
-    float least[3];      /* of the picture, below which no mean of it can be */
+    float least[3];      /* of the image, below which no mean of it can be */
     float *coefficients; /* of order m: [l - m][R G B][re im]; orders follow each other */
     float *waves; /* scratch memory of filters, the larger arrays of which would cost more to map than */
     rgbx *grid;   /* to compute */
@@ -31,14 +31,14 @@ typedef struct harmonics {
 } harmonics;
 
 /* degree: a multiple of 32 up to HARMONICS_MAX_DEGREE. FACET_ERROR_MEMORY. */
-facet_result harmonics_create(const image *picture, uint32_t degree, const facet_allocator *allocator,
+facet_result harmonics_create(const image *panorama, uint32_t degree, const facet_allocator *allocator,
                               uint32_t thread_count, harmonics *out, facet_error *error);
 void harmonics_destroy(harmonics *h); /* {0} is allowed; leaves {0} */
 /* Releases the scratch memory until the next filter. */
 void harmonics_trim(harmonics *h);
 
 /* A cube map of the environment with degree l scaled by kernel[l], l up to degree (a multiple of 32, at most h->degree), times
- * scale, turned by rotation_rad around +Y from +Z towards +X; nowhere below the least radiance of the picture, as rings around a sun would be. One filter at a time per h. FACET_ERROR_MEMORY. */
+ * scale, turned by rotation_rad around +Y from +Z towards +X; nowhere below the least radiance of the image, as rings around a sun would be. One filter at a time per h. FACET_ERROR_MEMORY. */
 typedef struct harmonics_filter_desc {
     const float *kernel;
     uint32_t degree;

@@ -1,6 +1,6 @@
-/* ibl.h - image based light: from an environment picture to what a renderer looks up.
+/* ibl.h - image based light: from an environment image to what a renderer looks up.
  *
- * An environment (facet_environment) keeps the picture. A light is what was prepared from it for one render:
+ * An environment (facet_environment) keeps the image. A light is what was prepared from it for one render:
  * cube maps filtered for GGX lobes, the roughest of which is the irradiance, as far as asked for. The environment
  * keeps prepared parts and hands them out again; they are shared and never change. */
 #ifndef IBL_IBL_H
@@ -18,7 +18,7 @@ typedef struct ibl_light_desc {
     bool needs_sheen;  /* ibl_sheen() */
     float min_sheen_roughness, max_sheen_roughness;
     bool needs_background;    /* sharp environment, ibl_background() */
-    uint32_t background_size; /* height of the picture in pixels divided by its field of view in rad: how fine
+    uint32_t background_size; /* height of the image in pixels divided by its field of view in rad: how fine
                                   the background has to be; 0: as fine as the source */
 } ibl_light_desc;
 
@@ -37,7 +37,7 @@ void ibl_specular(const ibl_light *light, const float R[3], float perceptual_rou
 /* Radiance around R filtered with Charlie's lobe (KHR_materials_sheen) of that perceptual roughness in [0, 1] (cd/m^2 per
  * channel). The lobe is a ring on the horizon of R; below 0.1, where it would be a circle, it is that of 0.1. */
 void ibl_sheen(const ibl_light *light, const float R[3], float sheen_roughness, float out[3]);
-/* Radiance from direction d (cd/m^2 per channel), from the picture reduced to background_size texels per rad, or up to
+/* Radiance from direction d (cd/m^2 per channel), from the image reduced to background_size texels per rad, or up to
  * twice as many. footprint_rad is what the caller samples; with several samples a pixel it needs no more filtering
  * and is not read. */
 void ibl_background(const ibl_light *light, const float d[3], float footprint_rad, float out[3]);

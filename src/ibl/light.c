@@ -14,7 +14,7 @@
 /* Counts the changes to how parts are prepared: what a cache kept of another version is not used. */
 static const uint64_t recipe_version = 3;
 
-/* Rows of the picture that mirrors show: at 0.35 degrees each, finer than most reflections of it can be seen. */
+/* Rows of the image that mirrors show: at 0.35 degrees each, finer than most reflections of it can be seen. */
 static const double sharp_rows = 512.0;
 
 /* ---- preparing; the environment's mutex is held ---- */
@@ -46,7 +46,7 @@ static facet_result prepare_level(facet_environment *e, prefilter_lobe lobe, uin
         return FACET_OK;
     facet_result result = FACET_OK;
     if (!parts->harmonics.coefficients)
-        result = harmonics_create(&e->picture, PREFILTER_DEGREE, &e->allocator, thread_count,
+        result = harmonics_create(&e->panorama, PREFILTER_DEGREE, &e->allocator, thread_count,
                                   &parts->harmonics, error);
     if (result == FACET_OK)
         result = prefilter_level(&parts->harmonics, lobe, level, &e->allocator, thread_count, out, error);
@@ -55,26 +55,26 @@ static facet_result prepare_level(facet_environment *e, prefilter_lobe lobe, uin
     return result;
 }
 
-/* The picture, halved as often as leaves at least rows rows (0: never). */
-static facet_result prepare_picture(facet_environment *e, double rows, uint32_t thread_count, image *picture,
-                                    facet_error *error)
+/* The image, halved as often as leaves at least rows rows (0: never). */
+static facet_result prepare_image(facet_environment *e, double rows, uint32_t thread_count, image *panorama,
+                                  facet_error *error)
 {
     uint32_t index = 0;
-    while (rows > 0.0 && index + 1 < PICTURE_COUNT && (e->picture.height >> (index + 1)) >= rows)
+    while (rows > 0.0 && index + 1 < REDUCED_COUNT && (e->panorama.height >> (index + 1)) >= rows)
         index++;
-    image *part = index ? &e->parts.pictures[index] : &e->picture;
+    image *part = index ? &e->parts.reduced[index] : &e->panorama;
     if (!part->pixels) {
-        uint32_t width = e->picture.width >> index;
-        facet_result result = equirect_resize(&e->picture, width ? width : 1, e->picture.height >> index,
+        uint32_t width = e->panorama.width >> index;
+        facet_result result = equirect_resize(&e->panorama, width ? width : 1, e->panorama.height >> index,
                                               &e->allocator, thread_count, part, error);
         if (result != FACET_OK)
             return result;
     }
-    *picture = *part;
+    *panorama = *part;
     return FACET_OK;
 }
 
-/* Blurred pictures are made in less time than a cache takes to read them. */
+/* Blurred images are made in less time than a cache takes to read them. */
 static facet_result prepare_narrow(facet_environment *e, uint32_t thread_count, ibl_light *light,
                                    facet_error *error)
 {
@@ -104,7 +104,7 @@ static facet_result prepare_parts(facet_environment *e, const ibl_light_desc *de
         light->irradiance_over_pi = e->parts.levels[PREFILTER_GGX][lambert];
     }
     if (desc->needs_specular && light->ranges[PREFILTER_GGX].first == 0) {
-        result = prepare_picture(e, sharp_rows, desc->thread_count, &light->sharp, error);
+        result = prepare_image(e, sharp_rows, desc->thread_count, &light->sharp, error);
         if (result == FACET_OK && light->ranges[PREFILTER_GGX].last > 0)
             result = prepare_narrow(e, desc->thread_count, light, error);
         if (result != FACET_OK)
@@ -122,8 +122,8 @@ static facet_result prepare_parts(facet_environment *e, const ibl_light_desc *de
     harmonics_trim(&e->parts.harmonics);
     /* texels smaller than pixels */
     if (desc->needs_background)
-        result = prepare_picture(e, 3.14159265358979 * desc->background_size, desc->thread_count,
-                                 &light->background, error);
+        result = prepare_image(e, 3.14159265358979 * desc->background_size, desc->thread_count,
+                               &light->background, error);
     return result;
 }
 
@@ -212,7 +212,7 @@ static rgbx fetch_narrow(const ibl_light *light, const float R[3], float percept
         c += equirect_fetch(&light->sharp, p) * weights[NARROW_MIRROR];
     for (uint32_t i = 0; i < light->narrow->count; i++)
         if (weights[1 + i] > 0.0f)
-            c += equirect_fetch(&light->narrow->pictures[i], p) * weights[1 + i];
+            c += equirect_fetch(&light->narrow->blurred[i], p) * weights[1 + i];
     return c;
 }
 

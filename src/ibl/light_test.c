@@ -188,7 +188,7 @@ static void check_sun(uint32_t sun_x, uint32_t sun_y)
 {
     const uint32_t width = 1024;
     facet_environment *e = make_environment(width, 512, sky);
-    float *p = (float *)e->picture.pixels + 3 * ((size_t)sun_y * width + sun_x);
+    float *p = (float *)e->panorama.pixels + 3 * ((size_t)sun_y * width + sun_x);
     p[0] = p[1] = p[2] = 1e5f;
     const ibl_light *light = prepare(e, everything);
     double omega = equirect_texel_solid_angle(width, 512, sun_y);
@@ -226,7 +226,7 @@ static void test_sun(void **state)
 {
     (void)state;
     check_sun(614, 139); /* anywhere */
-    check_sun(0, 256);   /* on the picture's own seam */
+    check_sun(0, 256);   /* on the image's own seam */
     check_sun(511, 20);  /* near a pole */
     check_sun(384, 255); /* near the middle of an edge of the cube */
 }
@@ -313,13 +313,13 @@ static void test_seams(void **state)
     facet_environment_destroy(e);
 }
 
-/* Roughness 0 is the picture: at the middle of a texel, that texel. */
+/* Roughness 0 is the image: at the middle of a texel, that texel. */
 static void test_mirror(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(256, 128, pattern);
     const ibl_light *light = prepare(e, everything);
-    const float *pixels = e->picture.pixels;
+    const float *pixels = e->panorama.pixels;
     for (uint32_t i = 0; i < 256 * 128; i += 37) {
         float d[3], out[3];
         equirect_direction(256, 128, i % 256, i / 256, d);
@@ -331,7 +331,7 @@ static void test_mirror(void **state)
     facet_environment_destroy(e);
 }
 
-/* No mean of a picture is below its darkest texel: next to a sun, harmonics alone would be. */
+/* No mean of an image is below its darkest texel: next to a sun, harmonics alone would be. */
 static void sun_in_grey(const float d[3], float out[3])
 {
     bool is_sun = d[0] > 0.5f && d[1] > 0.5f && d[2] > 0.5f && d[0] < 0.62f && d[1] < 0.62f && d[2] < 0.62f;
@@ -339,7 +339,7 @@ static void sun_in_grey(const float d[3], float out[3])
         out[k] = is_sun ? 1e5f : 1.0f + (float)k;
 }
 
-static void test_never_darker_than_the_picture(void **state)
+static void test_never_darker_than_the_image(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(64, 32, sun_in_grey);
@@ -551,7 +551,7 @@ int main(void)
         cmocka_unit_test(test_rotation),
         cmocka_unit_test(test_seams),
         cmocka_unit_test(test_mirror),
-        cmocka_unit_test(test_never_darker_than_the_picture),
+        cmocka_unit_test(test_never_darker_than_the_image),
         cmocka_unit_test(test_roughness_is_continuous),
         cmocka_unit_test(test_parts_are_lazy),
         cmocka_unit_test(test_levels_are_equal),

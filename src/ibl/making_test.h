@@ -15,13 +15,13 @@ static inline facet_environment *make_environment(uint32_t width, uint32_t heigh
     facet_environment *e = NULL;
     assert_int_equal(facet_environment_create_constant((float[3]){0.0f, 0.0f, 0.0f}, NULL, &e, NULL),
                      FACET_OK);
-    image_destroy(&e->picture);
-    assert_int_equal(image_create(NULL, width, height, 3, IMAGE_F32, &e->picture, NULL), FACET_OK);
+    image_destroy(&e->panorama);
+    assert_int_equal(image_create(NULL, width, height, 3, IMAGE_F32, &e->panorama, NULL), FACET_OK);
     for (uint32_t y = 0; y < height; y++)
         for (uint32_t x = 0; x < width; x++) {
             float d[3];
             equirect_direction(width, height, x, y, d);
-            radiance(d, (float *)e->picture.pixels + 3 * ((size_t)y * width + x));
+            radiance(d, (float *)e->panorama.pixels + 3 * ((size_t)y * width + x));
         }
     return e;
 }

@@ -1,4 +1,4 @@
-/* narrow.c - see narrow.h: the blurred pictures and the fit of their weights.
+/* narrow.c - see narrow.h: the blurred images and the fit of their weights.
  *
  * A Gaussian on the sphere is blurred along rows, where its variance is 1 / sin(theta)^2 times as large in columns, and
  * then along columns. Columns exchange radiance through the edges between their texels, in proportion to the length of
@@ -19,13 +19,13 @@ static const double pi = 3.14159265358979323846;
 
 enum { DEGREES = 64 };
 
-/* Of the mixture's mass around a picture's variance, what its weight is at least. */
+/* Of the mixture's mass around an image's variance, what its weight is at least. */
 static const double least_share = 0.5;
 
 /* Transfer functions, and how much a degree counts. */
 typedef struct spectrum {
-    uint32_t picture_count;
-    double variance[NARROW_COUNT]; /* of the pictures, rad^2 */
+    uint32_t blurred_count;
+    double variance[NARROW_COUNT]; /* of the images, rad^2 */
     double degree[DEGREES], importance[DEGREES];
     double part[NARROW_PARTS][DEGREES];
     double product[NARROW_PARTS][NARROW_PARTS];
@@ -71,24 +71,24 @@ static double tent(double x)
 }
 
 /* Of what narrow.c makes, relative to the mirror, of waves that run x radians a column and y a row. */
-static double picture_transfer(uint32_t picture, double x, double y)
+static double blur_transfer(uint32_t index, double x, double y)
 {
     double result = 1.0 / (tent(x) * tent(y));
     for (uint32_t i = 0;; i++, x *= 2.0, y *= 2.0) {
         for (int pass = 0; pass < NARROW_PASSES; pass++)
             result *= (1.0 - narrow_variances[i][pass] * (1.0 - cos(x))) *
                       (1.0 - narrow_variances[i][pass] * (1.0 - cos(y)));
-        if (i == picture)
+        if (i == index)
             return result * tent(x) * tent(y);
         result *= 0.25 * (3.0 * cos(0.5 * x) + cos(1.5 * x)) * 0.25 * (3.0 * cos(0.5 * y) + cos(1.5 * y));
     }
 }
 
-static void spectrum_init(spectrum *s, uint32_t picture_count, double row_rad)
+static void spectrum_init(spectrum *s, uint32_t blurred_count, double row_rad)
 {
     double row2 = row_rad * row_rad;
-    double variance = 0.0; /* of what a picture holds; bilinear lookup adds a sixth of a squared texel */
-    s->picture_count = picture_count;
+    double variance = 0.0; /* of what an image holds; bilinear lookup adds a sixth of a squared texel */
+    s->blurred_count = blurred_count;
     for (uint32_t k = 0; k < NARROW_COUNT; k++, row2 *= 4.0) {
         variance += k ? 0.1875 * row2 : 0.0;
         for (int pass = 0; pass < NARROW_PASSES; pass++)
@@ -101,14 +101,14 @@ static void spectrum_init(spectrum *s, uint32_t picture_count, double row_rad)
         double l = lowest * pow(highest / lowest, i / (DEGREES - 1.0));
         double x = l * row_rad * cos(pi / 8.0); /* neither along the grid nor diagonal */
         double y = l * row_rad * sin(pi / 8.0);
-        /* Pictures hold about as much in each octave, 1 / l^2 in a degree; suns as much in each degree. */
+        /* Images hold about as much in each octave, 1 / l^2 in a degree; suns as much in each degree. */
         double mirror = tent(x) * tent(y);
         s->degree[i] = l;
         s->importance[i] = (1.0 + l * l / (120.0 * 120.0)) * mirror * mirror;
         s->part[NARROW_MIRROR][i] = 1.0;
         s->part[NARROW_LOBE][i] = lobe_transfer((double)NARROW_END, l);
         for (uint32_t k = 0; k < NARROW_COUNT; k++)
-            s->part[1 + k][i] = k < picture_count ? picture_transfer(k, x, y) : 0.0;
+            s->part[1 + k][i] = k < blurred_count ? blur_transfer(k, x, y) : 0.0;
     }
     for (int a = 0; a < NARROW_PARTS; a++)
         for (int b = 0; b < NARROW_PARTS; b++) {
@@ -184,7 +184,7 @@ static double error_of(const spectrum *s, const double b[NARROW_PARTS], const do
     return sum;
 }
 
-/* Weights that the parts have at least: of the lobe of NARROW_END what makes its tail this lobe's, of the wider pictures
+/* Weights that the parts have at least: of the lobe of NARROW_END what makes its tail this lobe's, of the wider images
  * some of the mixture's mass around their variance. Next to what a sun sends to the middle, the squared error knows
  * nothing of the glow around it, and would leave gaps there. */
 static void find_least(const spectrum *s, double perceptual_roughness, double least[NARROW_PARTS])
@@ -194,9 +194,9 @@ static void find_least(const spectrum *s, double perceptual_roughness, double le
     double before = 0.0;
     memset(least, 0, NARROW_PARTS * sizeof *least);
     least[NARROW_LOBE] = alpha2 / end;
-    for (uint32_t k = s->picture_count; k > 1; k--) {
+    for (uint32_t k = s->blurred_count; k > 1; k--) {
         double limit =
-            sqrt(s->variance[k - 1] * s->variance[k - 2]); /* between a picture and the narrower one */
+            sqrt(s->variance[k - 1] * s->variance[k - 2]); /* between an image and the narrower one */
         double mass = (1.0 - exp(-2.0 * alpha2 / limit)) - alpha2 / end * (1.0 - exp(-2.0 * end / limit));
         least[k] = least_share * (mass - before);
         before = mass;
@@ -206,7 +206,7 @@ static void find_least(const spectrum *s, double perceptual_roughness, double le
 /* The best set of parts: the error is convex, so that the best of those without negative weights is the best there is. */
 static void fit_lobe(const spectrum *s, double perceptual_roughness, float weights[NARROW_PARTS])
 {
-    uint32_t available = 1u << NARROW_MIRROR | 1u << NARROW_LOBE | ((1u << s->picture_count) - 1) << 1;
+    uint32_t available = 1u << NARROW_MIRROR | 1u << NARROW_LOBE | ((1u << s->blurred_count) - 1) << 1;
     double least[NARROW_PARTS];
     double b[NARROW_PARTS] = {0.0};
     double left = 1.0;
@@ -299,7 +299,7 @@ static inline void halve_row(const float *row, uint32_t width, float *out)
     }
 }
 
-/* ---- pictures ---- */
+/* ---- images ---- */
 
 typedef struct blurring {
     const image *from;
@@ -315,7 +315,7 @@ static double edge_share(double variance, uint32_t height, uint32_t y, uint32_t 
 }
 
 /* Variance in columns that row y lacks: sin(theta)^-2 times that of the columns, those of bilinear lookup (a sixth of a
- * texel squared, less that of the mirrored picture) included, less what halving and lookup bring themselves. */
+ * texel squared, less that of the mirrored image) included, less what halving and lookup bring themselves. */
 static double row_variance(const blurring *job, uint32_t y)
 {
     double s = sin(pi * (y + 0.5) / job->out->height);
@@ -397,8 +397,8 @@ static facet_result blur(const image *from, bool is_halved, double variance, con
     return FACET_OK;
 }
 
-/* How many pictures a lobe of NARROW_END can hold, if the first is as large as base. */
-static uint32_t count_pictures(uint32_t width, uint32_t height)
+/* How many images a lobe of NARROW_END can hold, if the first is as large as base. */
+static uint32_t count_blurred(uint32_t width, uint32_t height)
 {
     uint32_t count = 0;
     double row = pi / height;
@@ -426,12 +426,12 @@ facet_result narrow_create(const image *mirror, const facet_allocator *allocator
     uint32_t width = (mirror->width < MAX_WIDTH ? mirror->width : MAX_WIDTH) & ~3u;
     uint32_t height = (mirror->height < MAX_HEIGHT ? mirror->height : MAX_HEIGHT) & ~3u;
     facet_result result = FACET_OK;
-    n.count = count_pictures(width, height);
+    n.count = count_blurred(width, height);
     if (n.count && (width != mirror->width || height != mirror->height))
         result = equirect_resize(mirror, width, height, allocator, thread_count, &base, error);
     const image *from = base.pixels ? &base : mirror;
     for (uint32_t i = 0; i < n.count && result == FACET_OK; i++) {
-        image *to = &n.pictures[i];
+        image *to = &n.blurred[i];
         result = blur(from, i > 0, narrow_variances[i][0], allocator, thread_count, to, error);
         for (int pass = 1; pass < NARROW_PASSES && narrow_variances[i][pass] > 0.0 && result == FACET_OK;
              pass++) {
@@ -454,6 +454,6 @@ facet_result narrow_create(const image *mirror, const facet_allocator *allocator
 void narrow_destroy(narrow *n)
 {
     for (int i = 0; i < NARROW_COUNT; i++)
-        image_destroy(&n->pictures[i]);
+        image_destroy(&n->blurred[i]);
     *n = (narrow){0};
 }

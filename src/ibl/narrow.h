@@ -3,10 +3,10 @@
  *
  * In the plane, which a few degrees of the sphere are, GGX of width alpha is a mixture of Gaussians of variance v (rad^2)
  * whose share of mass up to v is exp(-2 alpha^2 / v). Without (alpha / alpha_end)^2 times the lobe of NARROW_END, whose
- * tail is then the whole tail, next to nothing of it is wider than that lobe. The rest is made of the picture that
+ * tail is then the whole tail, next to nothing of it is wider than that lobe. The rest is made of the image that
  * mirrors show and of three blurred ones, each about 2.5 times as wide as the one before and half as large (Burt and
- * Adelson 1983). One set of pictures does for every roughness; weights in between change continuously and are never
- * negative. With texels of 0.35 degrees the pictures' standard deviations are 0.25, 0.6 and 1.6 degrees.
+ * Adelson 1983). One set of images does for every roughness; weights in between change continuously and are never
+ * negative. With texels of 0.35 degrees the images' standard deviations are 0.25, 0.6 and 1.6 degrees.
  *
  * What is left of error in real environments is 0.1 to 6 % of the root mean square, most of it on the flanks of small
  * lamps, and up to 14 % for a sun; a mirror mixed with the lobe of NARROW_END is off by 10 to 60 %, and 200 %. */
@@ -17,9 +17,9 @@
 #include "image/image.h"
 
 enum {
-    NARROW_COUNT = 3,  /* blurred pictures */
+    NARROW_COUNT = 3,  /* blurred images */
     NARROW_STEPS = 16, /* steps of roughness between sets of weights */
-    /* of what a lookup adds up: mirror, blurred pictures, lobe of NARROW_END */
+    /* of what a lookup adds up: mirror, blurred images, lobe of NARROW_END */
     NARROW_MIRROR = 0,
     NARROW_LOBE = NARROW_COUNT + 1,
     NARROW_PARTS
@@ -29,12 +29,12 @@ enum {
 #define NARROW_END 0.16f
 
 typedef struct narrow {
-    image pictures[NARROW_COUNT];                  /* F32 RGB; {0} from count on */
+    image blurred[NARROW_COUNT];                   /* F32 RGB; {0} from count on */
     uint32_t count;                                /* a coarse source needs fewer, one of 40 rows none */
     float weights[NARROW_STEPS + 1][NARROW_PARTS]; /* each set adds up to 1 */
 } narrow;
 
-/* From the picture that mirrors show. Mean radiance over the sphere is kept, and what is uniform. FACET_ERROR_MEMORY. */
+/* From the image that mirrors show. Mean radiance over the sphere is kept, and what is uniform. FACET_ERROR_MEMORY. */
 facet_result narrow_create(const image *mirror, const facet_allocator *allocator, uint32_t thread_count,
                            narrow *out, facet_error *error);
 void narrow_destroy(narrow *n); /* {0} is allowed; leaves {0} */
@@ -50,12 +50,12 @@ static inline void narrow_weights(const narrow *n, float perceptual_roughness, f
         weights[k] = n->weights[i][k] + (n->weights[i + 1][k] - n->weights[i][k]) * fraction;
 }
 
-/* Variances in squared texels by which each picture is blurred once it has its size; the last twice, or its edges would
+/* Variances in squared texels by which each image is blurred once it has its size; the last twice, or its edges would
  * show around a sun. */
 enum { NARROW_PASSES = 2 };
 extern const double narrow_variances[NARROW_COUNT][NARROW_PASSES];
 
-/* The fit behind narrow_create(): weights for count pictures made of one whose rows are row_rad apart, each set the one
+/* The fit behind narrow_create(): weights for count images made of one whose rows are row_rad apart, each set the one
  * that is best in the least-squares sense over the lobe's spectrum. */
 void narrow_fit(uint32_t count, double row_rad, float weights[NARROW_STEPS + 1][NARROW_PARTS]);
 

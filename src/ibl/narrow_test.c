@@ -51,7 +51,7 @@ static void add_sample(double sum[4], double weight, const float L[3])
 
 /* The part of the lobe up to rad from R, by quadrature: half vectors with density D N.h, tan^2(t) = a^2 u / (1 - u), of
  * which dl = 4 N.h dh makes 4 N.l each. */
-static void add_core(const image *picture, const float R[3], float a2, double rad, double sum[4])
+static void add_core(const image *panorama, const float R[3], float a2, double rad, double sum[4])
 {
     enum { RINGS = 96, SECTORS = 96 };
     double T[3] = {0.0}, B[3];
@@ -71,36 +71,36 @@ static void add_core(const image *picture, const float R[3], float a2, double ra
         float d[3], L[3];
         for (int k = 0; k < 3; k++)
             d[k] = (float)(cos(angle) * (double)R[k] + sin(angle) * (cos(phi) * T[k] + sin(phi) * B[k]));
-        equirect_lookup(picture, d, L);
+        equirect_lookup(panorama, d, L);
         add_sample(sum, 4.0 * pi * cos(angle) * share / (RINGS * SECTORS), L);
     }
 }
 
 /* A texel in parts x parts pieces; what is nearer to R than near2 is left out. */
-static void add_pieces(const image *picture, uint32_t x, uint32_t y, int parts, const float R[3], float a2,
+static void add_pieces(const image *panorama, uint32_t x, uint32_t y, int parts, const float R[3], float a2,
                        float near2, double sum[4])
 {
-    double omega = equirect_texel_solid_angle(picture->width, picture->height, y) / (parts * parts);
+    double omega = equirect_texel_solid_angle(panorama->width, panorama->height, y) / (parts * parts);
     for (int i = 0; i < parts * parts; i++) {
         float d[3], L[3];
-        equirect_direction(picture->width, picture->height, x - 0.5 + (i % parts + 0.5) / parts,
+        equirect_direction(panorama->width, panorama->height, x - 0.5 + (i % parts + 0.5) / parts,
                            y - 0.5 + (i / parts + 0.5) / parts, d);
         float distance2 = squared_distance(d, R);
         if (distance2 < near2 || distance2 > 2.0f)
             continue;
-        equirect_lookup(picture, d, L);
+        equirect_lookup(panorama, d, L);
         add_sample(sum, omega * (double)lobe_weight(distance2, a2), L);
     }
 }
 
-/* Mean of the mirrored picture over the lobe: integral of D N.l L dl over that of D N.l. The middle by quadrature over
+/* Mean of the mirrored image over the lobe: integral of D N.l L dl over that of D N.l. The middle by quadrature over
  * the lobe, texels near it in pieces, the rest as they are. */
-static void lobe_mean(const image *picture, const float R[3], float perceptual_roughness, double mean[3])
+static void lobe_mean(const image *panorama, const float R[3], float perceptual_roughness, double mean[3])
 {
     enum { MAX_WIDTH = 1024 };
-    uint32_t width = picture->width;
+    uint32_t width = panorama->width;
     float a2 = powf(perceptual_roughness, 4.0f);
-    double texel = pi / picture->height;
+    double texel = pi / panorama->height;
     double sum[4] = {0.0};
     float near2 = (float)(2.25 * texel * texel);
     float column_cos[MAX_WIDTH], column_sin[MAX_WIDTH];
@@ -111,10 +111,10 @@ static void lobe_mean(const image *picture, const float R[3], float perceptual_r
         column_cos[x] = d[0];
         column_sin[x] = d[2];
     }
-    add_core(picture, R, a2, 2.0 * asin(0.75 * texel), sum);
-    for (uint32_t y = 0; y < picture->height; y++) {
-        float ring = (float)sin(pi * (y + 0.5) / picture->height);
-        float dy = (float)cos(pi * (y + 0.5) / picture->height) - R[1];
+    add_core(panorama, R, a2, 2.0 * asin(0.75 * texel), sum);
+    for (uint32_t y = 0; y < panorama->height; y++) {
+        float ring = (float)sin(pi * (y + 0.5) / panorama->height);
+        float dy = (float)cos(pi * (y + 0.5) / panorama->height) - R[1];
         float distance2[MAX_WIDTH], row[4] = {0.0f};
         for (uint32_t x = 0; x < width; x++) {
             float dx = ring * column_cos[x] - R[0];
@@ -124,16 +124,16 @@ static void lobe_mean(const image *picture, const float R[3], float perceptual_r
         for (uint32_t x = 0; x < width; x++) {
             double texels2 = (double)distance2[x] / (texel * texel);
             if (texels2 < 900.0) {
-                add_pieces(picture, x, y, texels2 < 64.0 ? 12 : 3, R, a2, near2, sum);
+                add_pieces(panorama, x, y, texels2 < 64.0 ? 12 : 3, R, a2, near2, sum);
             } else if (distance2[x] < 2.0f) {
-                const float *L = (const float *)picture->pixels + 3 * ((size_t)y * width + x);
+                const float *L = (const float *)panorama->pixels + 3 * ((size_t)y * width + x);
                 float w = lobe_weight(distance2[x], a2);
                 for (int k = 0; k < 3; k++)
                     row[k] += w * L[k];
                 row[3] += w;
             }
         }
-        double omega = equirect_texel_solid_angle(width, picture->height, y);
+        double omega = equirect_texel_solid_angle(width, panorama->height, y);
         for (int k = 0; k < 4; k++)
             sum[k] += (double)row[k] * omega;
     }
@@ -142,7 +142,7 @@ static void lobe_mean(const image *picture, const float R[3], float perceptual_r
 }
 
 /* Root mean square of the error over that of the lobe itself, at directions spread over the sphere. */
-static double error_over_sphere(const ibl_light *light, const image *picture, float roughness, int count)
+static double error_over_sphere(const ibl_light *light, const image *panorama, float roughness, int count)
 {
     double square = 0.0;
     double reference = 0.0;
@@ -150,7 +150,7 @@ static double error_over_sphere(const ibl_light *light, const image *picture, fl
         float d[3], out[3];
         double mean[3];
         test_direction(i, count, d);
-        lobe_mean(picture, d, roughness, mean);
+        lobe_mean(panorama, d, roughness, mean);
         ibl_specular(light, d, roughness, out);
         for (int k = 0; k < 3; k++) {
             square += ((double)out[k] - mean[k]) * ((double)out[k] - mean[k]);
@@ -193,16 +193,16 @@ static void test_weights(void **state)
         }
 }
 
-/* ---- pictures ---- */
+/* ---- images ---- */
 
-static double picture_mean(const image *picture)
+static double image_mean(const image *panorama)
 {
     double sum = 0.0;
-    for (uint32_t y = 0; y < picture->height; y++) {
+    for (uint32_t y = 0; y < panorama->height; y++) {
         double row = 0.0;
-        for (uint32_t x = 0; x < picture->width; x++)
-            row += (double)((const float *)picture->pixels)[3 * ((size_t)y * picture->width + x)];
-        sum += row * equirect_texel_solid_angle(picture->width, picture->height, y);
+        for (uint32_t x = 0; x < panorama->width; x++)
+            row += (double)((const float *)panorama->pixels)[3 * ((size_t)y * panorama->width + x)];
+        sum += row * equirect_texel_solid_angle(panorama->width, panorama->height, y);
     }
     return sum / (4.0 * pi);
 }
@@ -221,16 +221,16 @@ static void test_energy(void **state)
                                          {0, 200}, {511, 256}, {1023, 300}, {17, 511}};
     for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
         facet_environment *e = make_environment(1024, 512, dark);
-        ((float *)e->picture.pixels)[3 * (1024 * (size_t)places[i][1] + places[i][0])] = 1e5f;
-        double expected = picture_mean(&e->picture);
+        ((float *)e->panorama.pixels)[3 * (1024 * (size_t)places[i][1] + places[i][0])] = 1e5f;
+        double expected = image_mean(&e->panorama);
         narrow n;
-        assert_int_equal(narrow_create(&e->picture, NULL, 2, &n, NULL), FACET_OK);
+        assert_int_equal(narrow_create(&e->panorama, NULL, 2, &n, NULL), FACET_OK);
         assert_int_equal(n.count, NARROW_COUNT);
         for (uint32_t k = 0; k < n.count; k++) {
-            assert_int_equal(n.pictures[k].width, 1024 >> k);
-            assert_near(picture_mean(&n.pictures[k]) / expected, 1.0, 1e-5);
-            const float *p = n.pictures[k].pixels;
-            for (size_t j = 0; j < 3 * (size_t)n.pictures[k].width * n.pictures[k].height; j++)
+            assert_int_equal(n.blurred[k].width, 1024 >> k);
+            assert_near(image_mean(&n.blurred[k]) / expected, 1.0, 1e-5);
+            const float *p = n.blurred[k].pixels;
+            for (size_t j = 0; j < 3 * (size_t)n.blurred[k].width * n.blurred[k].height; j++)
                 assert_true(p[j] >= 0.0f);
         }
         narrow_destroy(&n);
@@ -256,29 +256,29 @@ static void test_sizes(void **state)
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         facet_environment *e = make_environment(sizes[i][0], sizes[i][1], uniform);
         narrow n;
-        assert_int_equal(narrow_create(&e->picture, NULL, 1, &n, NULL), FACET_OK);
+        assert_int_equal(narrow_create(&e->panorama, NULL, 1, &n, NULL), FACET_OK);
         for (uint32_t k = 0; k < n.count; k++) {
-            const float *p = n.pictures[k].pixels;
-            for (size_t j = 0; j < (size_t)n.pictures[k].width * n.pictures[k].height; j++) {
+            const float *p = n.blurred[k].pixels;
+            for (size_t j = 0; j < (size_t)n.blurred[k].width * n.blurred[k].height; j++) {
                 assert_near(p[3 * j] / 0.3f, 1.0, 1e-6);
                 assert_near(p[3 * j + 2] / 1e6f, 1.0, 1e-6);
             }
         }
         narrow_destroy(&n);
         uint32_t seed = 1;
-        float *pixels = e->picture.pixels;
+        float *pixels = e->panorama.pixels;
         for (size_t j = 0; j < 3 * (size_t)sizes[i][0] * sizes[i][1]; j++) {
             seed = seed * 1664525u + 1013904223u;
             pixels[j] = (float)(seed >> 8);
         }
         narrow m;
-        assert_int_equal(narrow_create(&e->picture, NULL, 1, &n, NULL), FACET_OK);
-        assert_int_equal(narrow_create(&e->picture, NULL, 3, &m, NULL), FACET_OK);
+        assert_int_equal(narrow_create(&e->panorama, NULL, 1, &n, NULL), FACET_OK);
+        assert_int_equal(narrow_create(&e->panorama, NULL, 3, &m, NULL), FACET_OK);
         assert_int_equal(n.count, m.count);
         assert_memory_equal(n.weights, m.weights, sizeof n.weights);
         for (uint32_t k = 0; k < n.count; k++)
-            assert_memory_equal(n.pictures[k].pixels, m.pictures[k].pixels,
-                                image_row_size(&n.pictures[k]) * n.pictures[k].height);
+            assert_memory_equal(n.blurred[k].pixels, m.blurred[k].pixels,
+                                image_row_size(&n.blurred[k]) * n.blurred[k].height);
         narrow_destroy(&n);
         narrow_destroy(&m);
         facet_environment_destroy(e);
@@ -298,7 +298,7 @@ static void blob(const float d[3], float out[3])
     out[0] = out[1] = out[2] = 0.2f + 100.0f * expf((x * x + y * y + z * z) * -1100.0f);
 }
 
-/* The lobe itself around a lamp: the same at the poles, where texels are narrow, on the picture's seam and elsewhere. */
+/* The lobe itself around a lamp: the same at the poles, where texels are narrow, on the image's seam and elsewhere. */
 static void test_lamp_anywhere(void **state)
 {
     (void)state;
@@ -324,7 +324,7 @@ static void test_lamp_anywhere(void **state)
                     sum += (double)d[j] * (double)d[j];
                 for (int j = 0; j < 3; j++)
                     d[j] /= (float)sqrt(sum);
-                lobe_mean(&e->picture, d, some_roughness[r], mean);
+                lobe_mean(&e->panorama, d, some_roughness[r], mean);
                 ibl_specular(light, d, some_roughness[r], out);
                 assert_near(out[1], mean[1], 3.0); /* of 100; a mirror mixed with the rough lobe: 11 */
             }
@@ -338,7 +338,7 @@ static void test_sun_is_continuous(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(1024, 512, dark);
-    float *sun = (float *)e->picture.pixels + 3 * (1024 * 200 + 77);
+    float *sun = (float *)e->panorama.pixels + 3 * (1024 * 200 + 77);
     sun[0] = sun[1] = sun[2] = 1e5f;
     const ibl_light *light = prepare(e, (ibl_light_desc){.needs_specular = true, .max_roughness = 0.2f});
     float d[3], first[3], out[3];
@@ -374,7 +374,7 @@ static void check_file(const char *name, double tolerance)
     print_message("%s:", name);
     double worst = 0.0;
     for (int i = 0; i < ROUGHNESS_COUNT; i++) {
-        double error_of_lobe = error_over_sphere(light, &e->picture, some_roughness[i], PROBES);
+        double error_of_lobe = error_over_sphere(light, &e->panorama, some_roughness[i], PROBES);
         worst = fmax(worst, error_of_lobe);
         print_message("  %.2f: %.4f", (double)some_roughness[i], error_of_lobe);
     }

@@ -1,4 +1,4 @@
-/* octahedron.h - octahedral pictures: the sphere on the faces of an octahedron, unfolded into a square (Cigolle et al. 2014,
+/* octahedron.h - octahedral images: the sphere on the faces of an octahedron, unfolded into a square (Cigolle et al. 2014,
  * "A Survey of Efficient Representations for Independent Unit Vectors").
  *
  * Position (u, v), both in [-1, 1], v downwards. Where |u| + |v| <= 1 it is the direction of (u, 1 - |u| - |v|, v), the
@@ -23,7 +23,7 @@ static inline void octahedron_direction(float u, float v, float p[3])
 }
 
 /* Solid angle, sr, of the square of edge step with its middle in (u, v), to the second order of step. The folds of the
- * picture must not cut it, but from corner to corner: it is halved there. */
+ * image must not cut it, but from corner to corner: it is halved there. */
 static inline float octahedron_solid_angle(float u, float v, float step)
 {
     float sum = 0.0f;
@@ -48,7 +48,7 @@ static inline void octahedron_locate(const float d[3], float uv[2])
     uv[1] = is_lower ? copysignf(1.0f - fabsf(u), v) : v;
 }
 
-/* The texel of a picture of n x n that (x, y) in [-1, n] is: across an edge is the same edge turned around its middle. */
+/* The texel of an image of n x n that (x, y) in [-1, n] is: across an edge is the same edge turned around its middle. */
 static inline size_t octahedron_texel(uint32_t n, int x, int y)
 {
     int last = (int)n - 1;

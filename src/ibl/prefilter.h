@@ -16,7 +16,7 @@
 
 typedef enum prefilter_lobe { PREFILTER_GGX, PREFILTER_CHARLIE, PREFILTER_LOBE_COUNT } prefilter_lobe;
 
-/* Levels of a lobe, from smooth to rough. Level 0 is no cube map: for GGX it is a mirror, the picture itself, and what
+/* Levels of a lobe, from smooth to rough. Level 0 is no cube map: for GGX it is a mirror, the image itself, and what
  * is between it and level 1 is made by narrow.h. */
 enum {
     PREFILTER_LEVEL_COUNT = 16, /* of the lobe that has the most */

@@ -1,6 +1,6 @@
 /* scene_light.c - environments that a model brings along: EXT_lights_image_based.
  *
- * The picture is mip 0 of the file's cube map. The lower mips, which hold it filtered for GGX, are not used: facet's
+ * The image is mip 0 of the file's cube map. The lower mips, which hold it filtered for GGX, are not used: facet's
  * own filter (prefilter.h) is exact where a chain of 8-bit images has few and small levels, and background, reflections
  * of any roughness, refraction, sheen and a path tracer then see one and the same surroundings. Diffuse light is what
  * the file's coefficients of irradiance say, also where they come from brighter surroundings than 8 bits hold. */
@@ -75,7 +75,7 @@ static facet_result decode_faces(cube_face faces[FACE_COUNT], const facet_enviro
 {
     facet_result result = cube_faces_decode(faces, desc, error);
     for (int face = 0; face < FACE_COUNT && result == FACET_OK; face++) {
-        image *p = &faces[face].picture;
+        image *p = &faces[face].image;
         if (image_codec_detect(faces[face].bytes, faces[face].size) == IMAGE_CODEC_PNG &&
             (p->channel_count == 2 || p->channel_count == 4))
             result = unpack_rgbd(p, &desc->allocator, error);
@@ -133,9 +133,9 @@ static facet_result scene_cube_decode(const facet_scene *scene, uint32_t index,
     facet_result result = find_faces(scene, light, place, &names, faces, error);
     if (result == FACET_OK)
         result = decode_faces(faces, desc, error);
-    if (result == FACET_OK && faces[0].picture.width != light->specular_size)
+    if (result == FACET_OK && faces[0].image.width != light->specular_size)
         log_warning(&desc->log, "%s: specularImageSize is %u, but the faces have %u texels along an edge",
-                    place, light->specular_size, faces[0].picture.width);
+                    place, light->specular_size, faces[0].image.width);
     out->repairs = (environment_repairs){.first = UINT64_MAX};
     if (result == FACET_OK)
         result = cube_faces_assemble(faces, &desc->allocator, desc->thread_count, &out->texels, &out->repairs,
@@ -227,16 +227,16 @@ static void probe_direction(uint32_t i, uint32_t size, float N[3])
         N[k] = (float)(d[k] * scale);
 }
 
-/* Correlation over directions, in [-1, 1], of what the file says with the irradiance of its picture: 0 where one of
- * them is uniform. Sizes do not count: the picture may hold less than there was. */
-static double correlate(const light_irradiance *said, const float picture[SH_COUNT][3])
+/* Correlation over directions, in [-1, 1], of what the file says with the irradiance of its image: 0 where one of
+ * them is uniform. Sizes do not count: the image may hold less than there was. */
+static double correlate(const light_irradiance *said, const float panorama[SH_COUNT][3])
 {
     double a1 = 0.0, b1 = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
     for (uint32_t i = 0; i < PROBE_COUNT; i++) {
         float N[3], p[3], q[3];
         probe_direction(i, 8, N);
         evaluate(said, N, p);
-        sh_evaluate(picture, N, q);
+        sh_evaluate(panorama, N, q);
         double a = (double)p[0] + (double)p[1] + (double)p[2];
         double b = (double)q[0] + (double)q[1] + (double)q[2];
         a1 += a / PROBE_COUNT;
@@ -251,15 +251,15 @@ static double correlate(const light_irradiance *said, const float picture[SH_COU
 
 /* The file's irradiance as its writer meant it: of the four readings (mirrored or not, signs with or without phase)
  * the first, which is the extension's own and in the frame of the cube, unless another is clearly more like the
- * picture's own irradiance. */
+ * image's own irradiance. */
 static light_irradiance choose_irradiance(const scene_image_light *light, bool is_mirrored,
-                                          const float picture[SH_COUNT][3])
+                                          const float panorama[SH_COUNT][3])
 {
     light_irradiance best = read_irradiance(light, is_mirrored, false);
-    double best_correlation = correlate(&best, picture) + 0.1;
+    double best_correlation = correlate(&best, panorama) + 0.1;
     for (int k = 1; k < 4; k++) {
         light_irradiance other = read_irradiance(light, is_mirrored != (k >= 2), k & 1);
-        double correlation = correlate(&other, picture);
+        double correlation = correlate(&other, panorama);
         if (correlation > best_correlation) {
             best = other;
             best_correlation = correlation;
@@ -273,12 +273,12 @@ static facet_result keep_irradiance(facet_environment *e, const scene_cube *c, c
                                     uint32_t thread_count, facet_error *error)
 {
     double radiance[SH_COUNT][3], irradiance[SH_COUNT][3];
-    float picture[SH_COUNT][3];
-    TRY(sh_project(&e->picture, &e->allocator, thread_count, radiance, error));
+    float panorama[SH_COUNT][3];
+    TRY(sh_project(&e->panorama, &e->allocator, thread_count, radiance, error));
     TRY(cube_create(IRRADIANCE_SIZE, &e->allocator, &e->irradiance_over_pi, error));
     sh_irradiance((const double(*)[3])radiance, irradiance);
-    sh_fold_over_pi((const double(*)[3])irradiance, picture);
-    light_irradiance said = choose_irradiance(light, c->is_mirrored, (const float(*)[3])picture);
+    sh_fold_over_pi((const double(*)[3])irradiance, panorama);
+    light_irradiance said = choose_irradiance(light, c->is_mirrored, (const float(*)[3])panorama);
     const uint32_t n = IRRADIANCE_SIZE;
     for (uint32_t i = 0; i < 6 * n * n; i++) {
         float N[3], out[3];
@@ -292,7 +292,7 @@ static facet_result keep_irradiance(facet_environment *e, const scene_cube *c, c
     return FACET_OK;
 }
 
-/* ---- the picture ---- */
+/* ---- the image ---- */
 
 /* Its faces are not kept: they are turned and mirrored. */
 static facet_result take_cube(facet_environment *e, const scene_cube *c, const scene_image_light *light,
@@ -353,7 +353,7 @@ facet_result facet_environment_create_from_scene(const facet_scene *scene, const
         environment_release(e);
         return result;
     }
-    cache_identify(e, e->picture.pixels, e->picture.height * image_row_size(&e->picture));
+    cache_identify(e, e->panorama.pixels, e->panorama.height * image_row_size(&e->panorama));
     *environment = e;
     return FACET_OK;
 }

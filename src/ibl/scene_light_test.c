@@ -409,7 +409,7 @@ static void test_bad_files(void **state)
     s->images[3] = good;
     s->images[3].size = 60;
     check_failure(s, FACET_ERROR_INVALID, "light 0: face -Y");
-    s->images[3] = (scene_image){.bytes = (const unsigned char *)"no picture", .size = 10};
+    s->images[3] = (scene_image){.bytes = (const unsigned char *)"no image", .size = 10};
     check_failure(s, FACET_ERROR_INVALID, "light 0: face -Y");
 
     image oblong;
@@ -461,8 +461,8 @@ static void test_no_alpha(void **state)
     scene_image good = s->images[0];
     s->images[0] = (scene_image){.bytes = bytes, .size = size};
     facet_environment *e = make_light(s);
-    const float *p = e->picture.pixels;
-    for (uint32_t k = 0; k < 3 * e->picture.width * e->picture.height; k++)
+    const float *p = e->panorama.pixels;
+    for (uint32_t k = 0; k < 3 * e->panorama.width * e->panorama.height; k++)
         assert_true(p[k] >= 0.0f && p[k] <= 255.0f);
     facet_environment_destroy(e);
     mem_free(bytes);
@@ -510,7 +510,7 @@ static void test_threads(void **state)
             facet_environment_create_from_scene(
                 &s->scene, NULL, &(facet_environment_desc){.thread_count = 1 + 4 * i}, &e[i], NULL),
             FACET_OK);
-    assert_memory_equal(e[0]->picture.pixels, e[1]->picture.pixels, 80 * 40 * 12);
+    assert_memory_equal(e[0]->panorama.pixels, e[1]->panorama.pixels, 80 * 40 * 12);
     assert_memory_equal(e[0]->irradiance_over_pi.texels, e[1]->irradiance_over_pi.texels,
                         mem_size(e[0]->irradiance_over_pi.texels));
     facet_environment_destroy(e[0]);

@@ -45,7 +45,7 @@ void sh_basis(const double d[3], double y[SH_COUNT])
 }
 
 typedef struct projection {
-    const image *picture;
+    const image *panorama;
     float limit;
     float *waves;                      /* [WAVE_COUNT][3 width]: each value three times, for R, G, B */
     double (*row_sums)[WAVE_COUNT][3]; /* [height] */
@@ -59,10 +59,10 @@ static inline float least_of(float a, float b)
 DISPATCH_AVX2 static void sum_rows(void *context, size_t begin, size_t end)
 {
     const projection *p = context;
-    size_t count = 3 * (size_t)p->picture->width;
+    size_t count = 3 * (size_t)p->panorama->width;
     float limit = p->limit;
     for (size_t y = begin; y < end; y++) {
-        const float *row = (const float *)p->picture->pixels + y * count;
+        const float *row = (const float *)p->panorama->pixels + y * count;
         double(*sums)[3] = p->row_sums[y];
         for (int w = 0; w < WAVE_COUNT; w++)
             sums[w][0] = sums[w][1] = sums[w][2] = 0.0;
@@ -124,19 +124,19 @@ static void add_row(double sums[WAVE_COUNT][3], const double latitude[6], double
     }
 }
 
-facet_result sh_project(const image *picture, const facet_allocator *allocator, uint32_t thread_count,
+facet_result sh_project(const image *panorama, const facet_allocator *allocator, uint32_t thread_count,
                         double radiance[SH_COUNT][3], facet_error *error)
 {
-    return sh_project_limited(picture, INFINITY, allocator, thread_count, radiance, error);
+    return sh_project_limited(panorama, INFINITY, allocator, thread_count, radiance, error);
 }
 
-facet_result sh_project_limited(const image *picture, float limit, const facet_allocator *allocator,
+facet_result sh_project_limited(const image *panorama, float limit, const facet_allocator *allocator,
                                 uint32_t thread_count, double radiance[SH_COUNT][3], facet_error *error)
 {
-    uint32_t width = picture->width;
-    uint32_t height = picture->height;
+    uint32_t width = panorama->width;
+    uint32_t height = panorama->height;
     facet_result result = FACET_OK;
-    projection p = {picture, limit, mem_alloc(allocator, width, 3 * WAVE_COUNT * sizeof(float)),
+    projection p = {panorama, limit, mem_alloc(allocator, width, 3 * WAVE_COUNT * sizeof(float)),
                     mem_alloc(allocator, height, sizeof *p.row_sums)};
     if (!p.waves || !p.row_sums) {
         result = fail_memory(error, "irradiance", width * sizeof(float) * 3 * WAVE_COUNT);

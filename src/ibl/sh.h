@@ -15,13 +15,13 @@ enum { SH_COUNT = 9 };
 /* The basis functions at the unit direction d. */
 void sh_basis(const double d[3], double y[SH_COUNT]);
 
-/* Coefficients of radiance, L_lm = integral of L Y_lm over the sphere, for a picture (F32 RGB) whose texels are
+/* Coefficients of radiance, L_lm = integral of L Y_lm over the sphere, for an image (F32 RGB) whose texels are
  * each of one radiance: integrals over texels are exact. Deterministic for every thread count.
  * FACET_ERROR_MEMORY. */
-facet_result sh_project(const image *picture, const facet_allocator *allocator, uint32_t thread_count,
+facet_result sh_project(const image *panorama, const facet_allocator *allocator, uint32_t thread_count,
                         double radiance[SH_COUNT][3], facet_error *error);
-/* The same of a picture whose channels are cut off at limit. */
-facet_result sh_project_limited(const image *picture, float limit, const facet_allocator *allocator,
+/* The same of an image whose channels are cut off at limit. */
+facet_result sh_project_limited(const image *panorama, float limit, const facet_allocator *allocator,
                                 uint32_t thread_count, double radiance[SH_COUNT][3], facet_error *error);
 
 /* Coefficients of irradiance, E_lm = A_l L_lm: A_l = pi, 2 pi / 3, pi / 4 are those of the clamped cosine. */

@@ -16,7 +16,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-static image make_picture(uint32_t width, uint32_t height)
+static image make_image(uint32_t width, uint32_t height)
 {
     image i;
     assert_int_equal(image_create(NULL, width, height, 3, IMAGE_F32, &i, NULL), FACET_OK);
@@ -39,7 +39,7 @@ static void fold(double radiance[SH_COUNT][3], float c[SH_COUNT][3])
 static void test_constant_is_pi(void **state)
 {
     (void)state;
-    image i = make_picture(173, 91);
+    image i = make_image(173, 91);
     for (size_t k = 0; k < 173 * 91 * 3; k++)
         ((float *)i.pixels)[k] = 1.0f;
     double radiance[SH_COUNT][3];
@@ -62,7 +62,7 @@ static void test_golden_numbers(void **state)
     (void)state;
     const uint32_t width = 1024;
     const uint32_t height = 512;
-    image i = make_picture(width, height);
+    image i = make_image(width, height);
     for (uint32_t y = 0; y < height; y++)
         for (uint32_t x = 0; x < width; x++) {
             float d[3];
@@ -96,7 +96,7 @@ static void test_single_texel(void **state)
     const uint32_t width = 2048;
     const uint32_t height = 1024;
     static const uint32_t places[4][2] = {{0, 40}, {1999, 300}, {512, 512}, {77, 980}};
-    image i = make_picture(width, height);
+    image i = make_image(width, height);
     for (int k = 0; k < 4; k++) {
         float *p = (float *)i.pixels + 3 * (places[k][1] * width + places[k][0]);
         p[0] = p[1] = p[2] = 1e5f;
@@ -118,7 +118,7 @@ static void test_single_texel(void **state)
 static void test_threads_do_not_matter(void **state)
 {
     (void)state;
-    image i = make_picture(331, 120);
+    image i = make_image(331, 120);
     for (uint32_t k = 0; k < 331 * 120 * 3; k++)
         ((float *)i.pixels)[k] = (float)(k * 2654435761u >> 8) * 1e-6f;
     double a[SH_COUNT][3], b[SH_COUNT][3];

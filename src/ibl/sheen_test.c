@@ -103,7 +103,7 @@ static void test_sun_is_the_lobe(void **state)
     const uint32_t width = 1024, height = 512, sun_x = 614, sun_y = 139;
     facet_environment *e = make_environment(width, height, nothing);
     double omega = equirect_texel_solid_angle(width, height, sun_y);
-    float *sun = (float *)e->picture.pixels + 3 * ((size_t)sun_y * width + sun_x);
+    float *sun = (float *)e->panorama.pixels + 3 * ((size_t)sun_y * width + sun_x);
     sun[0] = sun[1] = sun[2] = (float)(1.0 / omega);
     float L[3];
     equirect_direction(width, height, sun_x, sun_y, L);
@@ -138,17 +138,17 @@ static void test_sun_is_the_lobe(void **state)
 /* ---- brute force ---- */
 
 /* The sum over all texels, the lobe in the middle of each. */
-static void filter_by_sum(const image *picture, const float R[3], double roughness, double out[3])
+static void filter_by_sum(const image *panorama, const float R[3], double roughness, double out[3])
 {
     double whole = 0.0;
     out[0] = out[1] = out[2] = 0.0;
-    for (uint32_t y = 0; y < picture->height; y++) {
-        double omega = equirect_texel_solid_angle(picture->width, picture->height, y);
-        for (uint32_t x = 0; x < picture->width; x++) {
+    for (uint32_t y = 0; y < panorama->height; y++) {
+        double omega = equirect_texel_solid_angle(panorama->width, panorama->height, y);
+        for (uint32_t x = 0; x < panorama->width; x++) {
             float d[3];
-            equirect_direction(picture->width, picture->height, x, y, d);
+            equirect_direction(panorama->width, panorama->height, x, y, d);
             double w = omega * lobe((double)(d[0] * R[0] + d[1] * R[1] + d[2] * R[2]), roughness);
-            const float *texel = (const float *)picture->pixels + 3 * ((size_t)y * picture->width + x);
+            const float *texel = (const float *)panorama->pixels + 3 * ((size_t)y * panorama->width + x);
             whole += w;
             for (int k = 0; k < 3; k++)
                 out[k] += w * (double)texel[k];
@@ -168,7 +168,7 @@ static double compare(facet_environment *e, const char *name, double roughness, 
         double expected[3];
         test_direction(i, count, R);
         ibl_sheen(light, R, (float)roughness, out);
-        filter_by_sum(&e->picture, R, roughness, expected);
+        filter_by_sum(&e->panorama, R, roughness, expected);
         for (int k = 0; k < 3; k++) {
             double error = (double)out[k] - expected[k];
             mean += expected[k] / (3.0 * count);

@@ -1,4 +1,4 @@
-/* sky.c - clear skies as environments: what is asked for, and to what it is exposed. The skies themselves: sky_picture.c. */
+/* sky.c - clear skies as environments: what is asked for, and to what it is exposed. The skies themselves: sky_image.c. */
 #include <assert.h>
 #include <math.h>
 
@@ -6,7 +6,7 @@
 #include "base/result.h"
 #include "ibl/cache.h"
 #include "ibl/environment.h"
-#include "ibl/sky_picture.h"
+#include "ibl/sky_image.h"
 
 enum { DEFAULT_HEIGHT = 512, DEFAULT_MAX_SIZE = 32768 };
 static const float default_turbidity = 2.5f, max_turbidity = 10.0f, min_preetham_turbidity = 1.7f;
@@ -57,7 +57,7 @@ static facet_result check(const facet_sky_desc *sky, uint32_t max_size, facet_er
 /* ---- drawing ---- */
 
 static facet_result draw_atmosphere(const facet_sky_desc *sky, const facet_environment_desc *desc,
-                                    image *picture, facet_error *error)
+                                    image *panorama, facet_error *error)
 {
     Atmosphere air[SKY_HALVES];
     sky_tables tables = {.columns = NULL};
@@ -69,12 +69,12 @@ static facet_result draw_atmosphere(const facet_sky_desc *sky, const facet_envir
         result = sky_view_create(&tables, altitude_km, sky->sun_elevation_rad, &desc->allocator,
                                  desc->thread_count, &view, error);
     if (result == FACET_OK)
-        result = sky_picture_atmosphere(&view, sky->sun_azimuth_rad, &desc->allocator, desc->thread_count,
-                                        picture, error);
+        result = sky_image_atmosphere(&view, sky->sun_azimuth_rad, &desc->allocator, desc->thread_count,
+                                      panorama, error);
     if (result == FACET_OK && !sky->omits_disc) {
         sky_sun_light sun =
             sky_sun_through_air(air, altitude_km, sky->sun_elevation_rad, sky->sun_azimuth_rad);
-        sky_sun_draw(&sun, picture);
+        sky_sun_draw(&sun, panorama);
     }
     sky_view_destroy(&view);
     sky_tables_destroy(&tables);
@@ -82,42 +82,42 @@ static facet_result draw_atmosphere(const facet_sky_desc *sky, const facet_envir
 }
 
 static facet_result draw_preetham(const facet_sky_desc *sky, const facet_environment_desc *desc,
-                                  image *picture, facet_error *error)
+                                  image *panorama, facet_error *error)
 {
     sky_sun_light sun = sky_sun_preetham(sky->turbidity, sky->sun_elevation_rad, sky->sun_azimuth_rad);
-    facet_result result = sky_picture_preetham(sky->turbidity, &sun, sky->ground_albedo, &desc->allocator,
-                                               desc->thread_count, picture, error);
+    facet_result result = sky_image_preetham(sky->turbidity, &sun, sky->ground_albedo, &desc->allocator,
+                                             desc->thread_count, panorama, error);
     if (result == FACET_OK && !sky->omits_disc)
-        sky_sun_draw(&sun, picture);
+        sky_sun_draw(&sun, panorama);
     return result;
 }
 
-/* Scales the picture so that the surface that gets most light gets lux. */
+/* Scales the image so that the surface that gets most light gets lux. */
 typedef struct scaling {
-    image *picture;
+    image *panorama;
     float factor;
 } scaling;
 
 static void scale_rows(void *context, size_t begin, size_t end)
 {
     const scaling *s = context;
-    size_t row = (size_t)s->picture->width * 3;
-    float *p = s->picture->pixels;
+    size_t row = (size_t)s->panorama->width * 3;
+    float *p = s->panorama->pixels;
     for (size_t i = begin * row; i < end * row; i++)
         p[i] *= s->factor;
 }
 
-static facet_result expose(const facet_sky_desc *sky, const facet_environment_desc *desc, image *picture,
+static facet_result expose(const facet_sky_desc *sky, const facet_environment_desc *desc, image *panorama,
                            facet_error *error)
 {
     double lux = 0.0;
     if (sky->illuminance_lux == 0.0f)
         return FACET_OK;
-    facet_result result = sky_picture_illuminance(picture, sky->sun_azimuth_rad, &desc->allocator,
-                                                  desc->thread_count, &lux, error);
-    scaling s = {picture, (float)((double)sky->illuminance_lux / fmax(lux, darkest_lux))};
+    facet_result result = sky_image_illuminance(panorama, sky->sun_azimuth_rad, &desc->allocator,
+                                                desc->thread_count, &lux, error);
+    scaling s = {panorama, (float)((double)sky->illuminance_lux / fmax(lux, darkest_lux))};
     if (result == FACET_OK)
-        parallel_for(desc->thread_count, picture->height, 16, scale_rows, &s);
+        parallel_for(desc->thread_count, panorama->height, 16, scale_rows, &s);
     return result;
 }
 
@@ -137,18 +137,18 @@ facet_result facet_environment_create_sky(const facet_sky_desc *sky, const facet
     facet_sky_desc s = *sky;
     s.turbidity = s.turbidity != 0.0f ? s.turbidity : default_turbidity;
     s.height = s.height ? s.height : DEFAULT_HEIGHT;
-    result = image_create(&e->allocator, 2 * s.height, s.height, 3, IMAGE_F32, &e->picture, error);
+    result = image_create(&e->allocator, 2 * s.height, s.height, 3, IMAGE_F32, &e->panorama, error);
     if (result == FACET_OK)
         result = (s.model == FACET_SKY_MODEL_PREETHAM ? draw_preetham : draw_atmosphere)(&s, desc,
-                                                                                         &e->picture, error);
+                                                                                         &e->panorama, error);
     if (result == FACET_OK)
-        result = expose(&s, desc, &e->picture, error);
+        result = expose(&s, desc, &e->panorama, error);
     if (result != FACET_OK) {
         environment_release(e);
         return result;
     }
     environment_limit(e, desc->thread_count);
-    cache_identify(e, e->picture.pixels, e->picture.height * image_row_size(&e->picture));
+    cache_identify(e, e->panorama.pixels, e->panorama.height * image_row_size(&e->panorama));
     *environment = e;
     return FACET_OK;
 }

@@ -14,16 +14,16 @@
 #include "ibl/sky_monte_carlo_test.h"
 
 #include "ibl/equirect.h"
-#include "ibl/sky_picture.h"
+#include "ibl/sky_image.h"
 
 static const double degree = 0.017453292519943295;
 enum { HEIGHT = 256 };
 
-/* Air, its tables, and a picture of its sky without the sun. */
+/* Air, its tables, and an image of its sky without the sun. */
 typedef struct scene {
     Atmosphere air[SKY_HALVES];
     sky_tables tables;
-    image picture;
+    image panorama;
 } scene;
 
 static void make_air(scene *s, bool is_very_clear)
@@ -33,13 +33,13 @@ static void make_air(scene *s, bool is_very_clear)
     for (int half = 0; half < SKY_HALVES && is_very_clear; half++)
         s->air[half] = atmosphere_with_haze(s->air[half], 4.44e-3f * 1.2f, 0.0f, 0.9f, 0.8f);
     assert_int_equal(sky_tables_create(s->air, NULL, 0, &s->tables, NULL), FACET_OK);
-    assert_int_equal(image_create(NULL, 2 * HEIGHT, HEIGHT, 3, IMAGE_F32, &s->picture, NULL), FACET_OK);
+    assert_int_equal(image_create(NULL, 2 * HEIGHT, HEIGHT, 3, IMAGE_F32, &s->panorama, NULL), FACET_OK);
 }
 
 static void destroy(scene *s)
 {
     sky_tables_destroy(&s->tables);
-    image_destroy(&s->picture);
+    image_destroy(&s->panorama);
 }
 
 /* The sun towards +Z. */
@@ -47,7 +47,7 @@ static void draw(scene *s, double elevation)
 {
     sky_view view;
     assert_int_equal(sky_view_create(&s->tables, 0.0f, (float)elevation, NULL, 0, &view, NULL), FACET_OK);
-    assert_int_equal(sky_picture_atmosphere(&view, 0.0f, NULL, 0, &s->picture, NULL), FACET_OK);
+    assert_int_equal(sky_image_atmosphere(&view, 0.0f, NULL, 0, &s->panorama, NULL), FACET_OK);
     sky_view_destroy(&view);
 }
 
@@ -56,11 +56,11 @@ static double luminance_at(const scene *s, double elevation, double azimuth)
 {
     double e = elevation * degree, a = azimuth * degree;
     float d[3] = {(float)((cos)(e) * (sin)(a)), (float)(sin)(e), (float)((cos)(e) * (cos)(a))}, c[3];
-    equirect_lookup(&s->picture, d, c);
+    equirect_lookup(&s->panorama, d, c);
     return (double)luminance(vec3(c[0], c[1], c[2]));
 }
 
-/* Illuminance of level ground by the picture. */
+/* Illuminance of level ground by the image. */
 static void sum_sky(const scene *s, double out[3])
 {
     out[0] = out[1] = out[2] = 0.0;
@@ -68,7 +68,8 @@ static void sum_sky(const scene *s, double out[3])
         double weight = equirect_texel_solid_angle(2 * HEIGHT, HEIGHT, y) * (cos)((y + 0.5) * MC_PI / HEIGHT);
         for (uint32_t x = 0; x < 2 * HEIGHT; x++)
             for (uint32_t i = 0; i < 3; i++)
-                out[i] += weight * (double)((float *)s->picture.pixels)[((size_t)y * 2 * HEIGHT + x) * 3 + i];
+                out[i] +=
+                    weight * (double)((float *)s->panorama.pixels)[((size_t)y * 2 * HEIGHT + x) * 3 + i];
     }
 }
 
@@ -249,7 +250,7 @@ static void test_bright_ground(void **state)
         }
 }
 
-/* What the ground gets of the sky is what the picture holds. */
+/* What the ground gets of the sky is what the image holds. */
 static void test_irradiance(void **state)
 {
     (void)state;

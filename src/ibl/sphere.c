@@ -6,16 +6,16 @@ sphere sphere_of_cube(cube *c)
     return (sphere){.kind = SPHERE_CUBE, .width = c->size, .height = c->size, .cube = c};
 }
 
-sphere sphere_of_picture(sphere_kind kind, const image *picture)
+sphere sphere_of_image(sphere_kind kind, const image *panorama)
 {
     return (sphere){.kind = kind,
-                    .width = picture->width,
-                    .height = picture->height,
-                    .pixels = picture->pixels,
-                    .channel_count = picture->channel_count};
+                    .width = panorama->width,
+                    .height = panorama->height,
+                    .pixels = panorama->pixels,
+                    .channel_count = panorama->channel_count};
 }
 
-static inline rgbx picture_texel(const sphere *s, size_t texel)
+static inline rgbx image_texel(const sphere *s, size_t texel)
 {
     return equirect_texel(s->pixels + texel * s->channel_count);
 }
@@ -23,7 +23,7 @@ static inline rgbx picture_texel(const sphere *s, size_t texel)
 rgbx sphere_texel(const sphere *s, size_t texel)
 {
     if (s->kind != SPHERE_CUBE)
-        return picture_texel(s, texel);
+        return image_texel(s, texel);
     size_t row = texel / s->width;
     return *cube_texel(s->cube, (uint32_t)(row / s->height), (int)(texel % s->width), (int)(row % s->height));
 }
@@ -104,7 +104,7 @@ static inline between find_in_cube(float size, float x, float y, float z)
     return find_between(size, size, face, u * q, v * q);
 }
 
-static inline between find_in_picture(const sphere *s, float x, float y, float z)
+static inline between find_in_image(const sphere *s, float x, float y, float z)
 {
     const float d[3] = {x, y, z};
     float uv[2];
@@ -118,7 +118,7 @@ static inline between find_in_picture(const sphere *s, float x, float y, float z
     return find_between((float)s->width, (float)s->height, 0, uv[0], uv[1]);
 }
 
-/* The texel at column x in [-1, width], row y in [-1, height] of a picture: around the circle, at the pole the last row. */
+/* The texel at column x in [-1, width], row y in [-1, height] of an image: around the circle, at the pole the last row. */
 static size_t wrap(const sphere *s, int x, int y)
 {
     if (s->kind == SPHERE_OCTAHEDRON)
@@ -199,13 +199,13 @@ static void look_up_cube(const sphere *s, sphere_batch *batch, uint32_t count, f
                           batch);
 }
 
-static void look_up_picture(const sphere *s, sphere_batch *batch, uint32_t count, rgbx limit)
+static void look_up_image(const sphere *s, sphere_batch *batch, uint32_t count, rgbx limit)
 {
     for (uint32_t i = 0; i < count; i++) {
-        between b = find_in_picture(s, batch->x[i], batch->y[i], batch->z[i]);
+        between b = find_in_image(s, batch->x[i], batch->y[i], batch->z[i]);
         rgbx c[4];
         for (int k = 0; k < 4; k++)
-            c[k] = picture_texel(s, wrap(s, b.x + (k & 1), b.y + (k >> 1)));
+            c[k] = image_texel(s, wrap(s, b.x + (k & 1), b.y + (k >> 1)));
         batch->is_cut[i] = cut_off(c, limit);
         batch->radiance[i] = interpolate(c, b.wx, b.wy);
     }
@@ -217,7 +217,7 @@ void sphere_look_up(const sphere *s, sphere_batch *batch, uint32_t count, float 
     if (s->kind == SPHERE_CUBE)
         look_up_cube(s, batch, count, limit);
     else
-        look_up_picture(s, batch, count, limits);
+        look_up_image(s, batch, count, limits);
 }
 
 /* ---- footprints ---- */
@@ -261,7 +261,7 @@ static void add_bordered(const sphere *s, uint32_t face, int x, int y, float wei
 void sphere_find(const sphere *s, const float d[3], sphere_footprint *out)
 {
     between b = s->kind == SPHERE_CUBE ? find_in_cube((float)s->width, d[0], d[1], d[2])
-                                       : find_in_picture(s, d[0], d[1], d[2]);
+                                       : find_in_image(s, d[0], d[1], d[2]);
     out->count = 0;
     for (int i = 0; i < 4; i++) {
         int x = b.x + (i & 1), y = b.y + (i >> 1);

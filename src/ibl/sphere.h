@@ -13,14 +13,14 @@ typedef enum sphere_kind { SPHERE_CUBE, SPHERE_EQUIRECT, SPHERE_OCTAHEDRON } sph
 /* Texels are numbered face by face, row by row. */
 typedef struct sphere {
     sphere_kind kind;
-    uint32_t width, height; /* of a face or the picture */
+    uint32_t width, height; /* of a face or the image */
     cube *cube;             /* SPHERE_CUBE; borders filled where it is a source */
     float *pixels;          /* else: channel_count (3 or 4) a texel, a fourth is not looked at */
     uint32_t channel_count;
 } sphere;
 
 sphere sphere_of_cube(cube *c);
-sphere sphere_of_picture(sphere_kind kind, const image *picture /* F32 */);
+sphere sphere_of_image(sphere_kind kind, const image *panorama /* F32 */);
 
 static inline size_t sphere_texel_count(const sphere *s)
 {
@@ -95,7 +95,7 @@ typedef struct sphere_turn {
         parts; /* lookups per texel of the target in each direction; 0: closer than the texels of the source */
 } sphere_turn;
 
-/* Fills the texels of target (of a cube: not the borders; of pictures: the first three channels, a fourth becomes 1).
+/* Fills the texels of target (of a cube: not the borders; of images: the first three channels, a fourth becomes 1).
  * FACET_ERROR_MEMORY. */
 facet_result sphere_resample(const sphere *source, const sphere_turn *turn /* NULL: as it is */,
                              const facet_allocator *allocator, uint32_t thread_count, const sphere *target,

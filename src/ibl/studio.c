@@ -134,12 +134,12 @@ facet_result facet_environment_create_studio(const facet_environment_desc *desc,
     desc = desc ? desc : &default_desc;
     facet_environment *e = NULL;
     TRY(environment_create(desc, &e, error));
-    facet_result result = studio_create(&e->allocator, desc->thread_count, &e->picture, error);
+    facet_result result = studio_create(&e->allocator, desc->thread_count, &e->panorama, error);
     if (result != FACET_OK) {
         environment_release(e);
         return result;
     }
-    cache_identify(e, e->picture.pixels, e->picture.height * image_row_size(&e->picture));
+    cache_identify(e, e->panorama.pixels, e->panorama.height * image_row_size(&e->panorama));
     *environment = e;
     return FACET_OK;
 }
@@ -152,16 +152,16 @@ facet_result facet_environment_create_constant(const float radiance[3], const fa
     desc = desc ? desc : &default_desc;
     facet_environment *e = NULL;
     TRY(environment_create(desc, &e, error));
-    facet_result result = image_create(&e->allocator, 2, 1, 3, IMAGE_F32, &e->picture, error);
+    facet_result result = image_create(&e->allocator, 2, 1, 3, IMAGE_F32, &e->panorama, error);
     if (result != FACET_OK) {
         environment_release(e);
         return result;
     }
-    float *p = e->picture.pixels;
+    float *p = e->panorama.pixels;
     for (int i = 0; i < 6; i++)
         p[i] = radiance[i % 3];
     environment_limit(e, 1);
-    cache_identify(e, e->picture.pixels, image_row_size(&e->picture));
+    cache_identify(e, e->panorama.pixels, image_row_size(&e->panorama));
     *environment = e;
     return FACET_OK;
 }
@@ -178,12 +178,12 @@ facet_result facet_environment_create_gradient(const float zenith[3], const floa
     facet_environment *e = NULL;
     TRY(environment_create(desc, &e, error));
     facet_result result =
-        image_create(&e->allocator, GRADIENT_WIDTH, GRADIENT_HEIGHT, 3, IMAGE_F32, &e->picture, error);
+        image_create(&e->allocator, GRADIENT_WIDTH, GRADIENT_HEIGHT, 3, IMAGE_F32, &e->panorama, error);
     if (result != FACET_OK) {
         environment_release(e);
         return result;
     }
-    float *p = e->picture.pixels;
+    float *p = e->panorama.pixels;
     for (int y = 0; y < GRADIENT_HEIGHT; y++) {
         /* equal steps of d.y hold equal parts of the sphere: a row's mean is its middle's */
         double top = cos(3.14159265358979323846 * y / GRADIENT_HEIGHT);
@@ -196,7 +196,7 @@ facet_result facet_environment_create_gradient(const float zenith[3], const floa
                         ((double)end[i % 3] - (double)horizon[i % 3]) * fabs(height));
     }
     environment_limit(e, desc->thread_count);
-    cache_identify(e, e->picture.pixels, e->picture.height * image_row_size(&e->picture));
+    cache_identify(e, e->panorama.pixels, e->panorama.height * image_row_size(&e->panorama));
     *environment = e;
     return FACET_OK;
 }

@@ -20,7 +20,7 @@ int astc_shim_create(unsigned block_width, unsigned block_height, bool is_srgb, 
 void astc_shim_destroy(astc_shim *s); /* NULL is allowed */
 
 /* Decodes blocks, which cover width x height texels, to RGBA of 8 bits. Called once for each thread, number thread,
- * with the same picture: they share the work, and it is done when all calls have returned. */
+ * with the same image: they share the work, and it is done when all calls have returned. */
 int astc_shim_decode(astc_shim *s, const unsigned char *blocks, size_t size, unsigned width, unsigned height,
                      unsigned char *rgba, unsigned thread);
 

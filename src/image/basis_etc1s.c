@@ -175,7 +175,7 @@ facet_result etc1s_decode_slice(const etc1s_codebook *c, const unsigned char *by
 
 /* ---- global data ---- */
 
-/* Its four parts behind the records of pictures. */
+/* Its four parts behind the records of images. */
 typedef struct parts {
     bit_reader ends, selectors, tables;
     uint32_t end_count, selector_count;
@@ -190,7 +190,7 @@ static facet_result find_parts(const unsigned char *global, size_t size, uint64_
                                const char *name, parts *out, facet_error *error)
 {
     if (size < ETC1S_GLOBAL_HEADER || image_count > (size - ETC1S_GLOBAL_HEADER) / ETC1S_IMAGE_RECORD)
-        return fail_global(error, name, "is too small for the pictures of the file");
+        return fail_global(error, name, "is too small for the images of the file");
     const uint64_t sizes[3] = {load_u32_le(global + 4), load_u32_le(global + 8), load_u32_le(global + 12)};
     const size_t first = ETC1S_GLOBAL_HEADER + (size_t)image_count * ETC1S_IMAGE_RECORD;
     if (sizes[0] + sizes[1] + sizes[2] > size - first)
@@ -211,7 +211,7 @@ facet_result etc1s_read_image(const unsigned char *global, size_t size, uint64_t
 {
     *out = (etc1s_image){0};
     if (size < ETC1S_GLOBAL_HEADER || image_count > (size - ETC1S_GLOBAL_HEADER) / ETC1S_IMAGE_RECORD)
-        return fail_global(error, name, "is too small for the pictures of the file");
+        return fail_global(error, name, "is too small for the images of the file");
     const unsigned char *record = global + ETC1S_GLOBAL_HEADER + (size_t)index * ETC1S_IMAGE_RECORD;
     *out = (etc1s_image){load_u32_le(record), load_u32_le(record + 4), load_u32_le(record + 8),
                          load_u32_le(record + 12), load_u32_le(record + 16)};

@@ -1,4 +1,4 @@
-/* basis_etc1s.h - pictures of ETC1S blocks in BasisLZ supercompression: codebooks that a file's pictures share, and
+/* basis_etc1s.h - images of ETC1S blocks in BasisLZ supercompression: codebooks that a file's images share, and
  * slices of blocks that refer to them (KTX 2.0 appendices "BasisLZ Global Data" and "BasisLZ/ETC1S Bitstream
  * Specification"). */
 #ifndef IMAGE_BASIS_ETC1S_H
@@ -21,14 +21,14 @@ typedef struct etc1s_codebook {
 
 enum { ETC1S_TABLE_COUNT = 4, ETC1S_GLOBAL_HEADER = 20, ETC1S_IMAGE_RECORD = 20 };
 
-/* Where the slices of a picture lie in their level. */
+/* Where the slices of an image lie in their level. */
 typedef struct etc1s_image {
     uint32_t flags, color_offset, color_size, alpha_offset, alpha_size; /* alpha_size 0: there is none */
 } etc1s_image;
 
 enum { ETC1S_P_FRAME = 2 };
 
-/* The record of picture number index out of image_count. Fails with FACET_ERROR_INVALID where the global data is
+/* The record of image number index out of image_count. Fails with FACET_ERROR_INVALID where the global data is
  * smaller than it says. */
 facet_result etc1s_read_image(const unsigned char *global, size_t size, uint64_t image_count, uint64_t index,
                               const char *name, etc1s_image *out, facet_error *error);
@@ -43,7 +43,7 @@ typedef struct etc1s_block {
     uint16_t end, selector;
 } etc1s_block;
 
-/* The blocks of one slice, rows first; not for P frames, which refer to the picture before. */
+/* The blocks of one slice, rows first; not for P frames, which refer to the image before. */
 facet_result etc1s_decode_slice(const etc1s_codebook *c, const unsigned char *bytes, size_t size,
                                 uint32_t columns, uint32_t rows, const char *name,
                                 const facet_allocator *allocator, etc1s_block *blocks, facet_error *error);

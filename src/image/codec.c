@@ -99,7 +99,7 @@ facet_result codec_check_size(const char *name, uint64_t width, uint64_t height,
                               facet_error *error)
 {
     if (width == 0 || height == 0)
-        return fail(error, FACET_ERROR_INVALID, "%s: the picture has no texels (%llu x %llu)", name,
+        return fail(error, FACET_ERROR_INVALID, "%s: the image has no texels (%llu x %llu)", name,
                     (unsigned long long)width, (unsigned long long)height);
     if (width > max_size || height > max_size)
         return fail(error, FACET_ERROR_LIMIT, "%s: %llu x %llu texels, more than %u along an edge", name,

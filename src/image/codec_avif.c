@@ -71,7 +71,7 @@ static facet_result fail_avif(const avif_library *l, facet_error *error, const c
     }
 }
 
-/* Reads all but the picture itself. *out: to be closed, also after a failure. */
+/* Reads all but the image itself. *out: to be closed, also after a failure. */
 static facet_result open_file(const unsigned char *bytes, size_t size, const char *name, avif_file *out,
                               facet_error *error)
 {
@@ -81,7 +81,7 @@ static facet_result open_file(const unsigned char *bytes, size_t size, const cha
     if (!decoder)
         return fail_memory(error, "AVIF decoder", sizeof *decoder);
     decoder->ignoreExif = decoder->ignoreXMP = AVIF_TRUE;
-    decoder->strictFlags = AVIF_STRICT_DISABLED; /* boxes that only describe the picture may be missing */
+    decoder->strictFlags = AVIF_STRICT_DISABLED; /* boxes that only describe the image may be missing */
     decoder->imageDimensionLimit = 0;            /* sizes are checked here */
     decoder->imageSizeLimit = (uint32_t)CODEC_MAX_SIZE * CODEC_MAX_SIZE; /* the most that it takes */
     avifResult status = out->library.set_memory(decoder, bytes, size);

@@ -1,4 +1,4 @@
-/* codec_avif_test.c - AVIF pictures whose texels are known. */
+/* codec_avif_test.c - AVIF images whose texels are known. */
 #include "image/image_test.h"
 
 static void eight_bits_with_alpha(void **state)

@@ -1,4 +1,4 @@
-/* codec_exr.c - OpenEXR pictures through their library (exr_shim.h): rows to texels, in parallel, and layers to channels.
+/* codec_exr.c - OpenEXR images through their library (exr_shim.h): rows to texels, in parallel, and layers to channels.
  * Read are the first part of a file, its scanlines or its tiles of the finest level; deep data is refused. */
 #include "image/codec.h"
 
@@ -63,7 +63,7 @@ static void store_rows(const reading *r, uint32_t row, uint32_t row_end, const f
 {
     const exr_info *info = r->info;
     const size_t channels = info->channel_count;
-    const int64_t x = (int64_t)info->data.min_x - info->display.min_x; /* of the data window in the picture */
+    const int64_t x = (int64_t)info->data.min_x - info->display.min_x; /* of the data window in the image */
     const int64_t y = (int64_t)info->data.min_y - info->display.min_y;
     const int64_t width = r->sizes->data_width;
     const int64_t first = x < 0 ? -x : 0; /* column of the data window */
@@ -115,7 +115,7 @@ static void read_strips(void *context, size_t begin, size_t end)
     mem_free(texels);
 }
 
-/* Opens the file, so that damage to its tables is found before memory is taken for the picture. */
+/* Opens the file, so that damage to its tables is found before memory is taken for the image. */
 static facet_result check_open(const reading *r, const char *name, facet_error *error)
 {
     char message[EXR_MESSAGE] = "";

@@ -89,8 +89,8 @@ static void written_layers_come_back(void **state)
     static const uint32_t sizes[][2] = {{1, 1}, {3, 16}, {203, 117}, {64, 33}};
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++)
         for (int as_half = 0; as_half < 2; as_half++) {
-            image rgba = make_picture(sizes[k][0], sizes[k][1], 4, IMAGE_F32);
-            image depth = make_picture(sizes[k][0], sizes[k][1], 1, IMAGE_F32);
+            image rgba = make_image(sizes[k][0], sizes[k][1], 4, IMAGE_F32);
+            image depth = make_image(sizes[k][0], sizes[k][1], 1, IMAGE_F32);
             unsigned char *bytes, *again;
             size_t size, again_size;
             write_layers(1, as_half, &rgba, &depth, &bytes, &size);
@@ -194,7 +194,7 @@ static void unreadable_chromaticities_are_a_warning(void **state)
     }
 }
 
-/* A picture without R, G, B shows Y, a layer's colors, or its only channel. */
+/* An image without R, G, B shows Y, a layer's colors, or its only channel. */
 static void channels_are_chosen(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* codec_hdr.c - Radiance pictures: RGBE texels, flat or run-length coded, with scanlines in any direction.
+/* codec_hdr.c - Radiance images: RGBE texels, flat or run-length coded, with scanlines in any direction.
  * Format: Ward 1991, "Real Pixels" (Graphics Gems II); Radiance file formats, "picture". */
 #include "image/codec.h"
 

@@ -163,7 +163,7 @@ static void new_runs(void **state)
                          FACET_ERROR_INVALID);
 }
 
-/* The eight orientations of a picture of 2 x 3 texels are one picture. */
+/* The eight orientations of an image of 2 x 3 texels are one image. */
 static void orientations(void **state)
 {
     (void)state;
@@ -240,7 +240,7 @@ static void hdr_round_trip(void **state)
     (void)state;
     static const uint32_t widths[] = {1, 7, 8, 127, 128, 129, 1000, 33000};
     for (size_t k = 0; k < sizeof widths / sizeof *widths; k++) {
-        image i = make_picture(widths[k], 5, 3, IMAGE_F32);
+        image i = make_image(widths[k], 5, 3, IMAGE_F32);
         image_decode_desc desc = {.max_size = 40000};
         unsigned char *bytes;
         size_t size;
@@ -377,7 +377,7 @@ static void exposure_of_a_file(void **state)
 static void pfm_round_trip(void **state)
 {
     (void)state;
-    image i = make_picture(37, 21, 3, IMAGE_F32);
+    image i = make_image(37, 21, 3, IMAGE_F32);
     image back = through(&i, IMAGE_CODEC_PFM);
     assert_same_texels(&i, &back);
     image_destroy(&back);

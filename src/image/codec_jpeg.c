@@ -102,7 +102,7 @@ static void convert_cmyk(const unsigned char *cmyk, bool is_inverted, size_t tex
     }
 }
 
-/* Fits the picture reduced by 2^k into *width and *height. */
+/* Fits the image reduced by 2^k into *width and *height. */
 static void reduce(uint32_t k, uint32_t *width, uint32_t *height)
 {
     *width = (*width + (1u << k) - 1) >> k;

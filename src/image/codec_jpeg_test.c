@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-/* dB, of 8-bit pictures of one size. */
+/* dB, of 8-bit images of one size. */
 static double psnr(const image *a, const image *b)
 {
     assert_int_equal(a->width, b->width);
@@ -22,7 +22,7 @@ static double psnr(const image *a, const image *b)
 /* Waves, as photographs have them. */
 static image make_waves(uint32_t width, uint32_t height, uint32_t channel_count)
 {
-    image i = make_picture(width, height, channel_count, IMAGE_U8);
+    image i = make_image(width, height, channel_count, IMAGE_U8);
     for (uint32_t y = 0; y < height; y++)
         for (uint32_t x = 0; x < width; x++)
             for (uint32_t c = 0; c < channel_count; c++)
@@ -162,8 +162,8 @@ static bool has_webp(void)
     return result == FACET_OK;
 }
 
-/* Tables alone, which libjpeg takes without a word on the picture. */
-static void jpeg_without_a_picture_is_refused(void **state)
+/* Tables alone, which libjpeg takes without a word on the image. */
+static void jpeg_without_a_image_is_refused(void **state)
 {
     (void)state;
     static const unsigned char files[2][20] = {{0xff, 0xd8, 0xff, 0xd9},
@@ -217,7 +217,7 @@ static void webp_is_lossless_at_100(void **state)
     if (!has_webp())
         skip();
     for (uint32_t channels = 3; channels <= 4; channels++) {
-        image i = make_picture(203, 117, channels, IMAGE_U8);
+        image i = make_image(203, 117, channels, IMAGE_U8);
         if (channels == 4)
             for (uint32_t k = 0; k < 1000; k++)
                 ((uint8_t *)i.pixels)[4 * k + 3] = 0; /* color under no opacity is kept */
@@ -249,7 +249,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(jpeg_is_close),          cmocka_unit_test(jpeg_keeps_chroma),
         cmocka_unit_test(jpeg_is_reduced),        cmocka_unit_test(jpeg_color_spaces),
-        cmocka_unit_test(jpeg_takes_what_it_can), cmocka_unit_test(jpeg_without_a_picture_is_refused),
+        cmocka_unit_test(jpeg_takes_what_it_can), cmocka_unit_test(jpeg_without_a_image_is_refused),
         cmocka_unit_test(jpeg_skips_stray_bytes), cmocka_unit_test(webp_is_lossless_at_100),
         cmocka_unit_test(webp_is_close),
     };

@@ -4,8 +4,8 @@
 
 #include "image/ktx2.h"
 
-/* FNV-1a of all pictures of a file as RGBA, layers and faces inside levels. */
-static uint64_t hash_pictures(const char *path, uint32_t thread_count)
+/* FNV-1a of all images of a file as RGBA, layers and faces inside levels. */
+static uint64_t hash_images(const char *path, uint32_t thread_count)
 {
     file_bytes file = read_file(path);
     ktx2 k;
@@ -30,7 +30,7 @@ static uint64_t hash_pictures(const char *path, uint32_t thread_count)
 }
 
 /* The numbers are of what basis_transcoder.wasm of three.js 0.187 gives as RGBA32. */
-static void pictures_are_those_of_the_transcoder(void **state)
+static void images_are_those_of_the_transcoder(void **state)
 {
     (void)state;
     static const struct {
@@ -53,9 +53,9 @@ static void pictures_are_those_of_the_transcoder(void **state)
         if (result == FACET_ERROR_UNSUPPORTED && strstr(error.message, "libzstd"))
             continue;
         for (uint32_t threads = 1; threads <= 4; threads += 3)
-            if (hash_pictures(path, threads) != cases[k].hash)
+            if (hash_images(path, threads) != cases[k].hash)
                 fail_msg("%s, %u threads: 0x%016llx", cases[k].name, threads,
-                         (unsigned long long)hash_pictures(path, threads));
+                         (unsigned long long)hash_images(path, threads));
     }
 }
 
@@ -146,7 +146,7 @@ static void red_and_green_of_toktx(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pictures_are_those_of_the_transcoder),
+        cmocka_unit_test(images_are_those_of_the_transcoder),
         cmocka_unit_test(files_of_other_makers),
         cmocka_unit_test(broken_files_are_refused),
         cmocka_unit_test(red_and_green_of_toktx),

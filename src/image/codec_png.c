@@ -195,7 +195,7 @@ facet_result png_probe(const unsigned char *bytes, size_t size, const char *name
     return FACET_OK;
 }
 
-/* Deflate makes at most 1032 bytes of one: refuses pictures that the data cannot fill, before memory is taken for
+/* Deflate makes at most 1032 bytes of one: refuses images that the data cannot fill, before memory is taken for
  * them. Rows are counted a little too small, never too large. */
 static facet_result check_data_size(const png_header *h, const char *name, facet_error *error)
 {

@@ -43,7 +43,7 @@ static void all_layouts_come_back(void **state)
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++)
         for (uint32_t channels = 1; channels <= 4; channels++)
             for (int type = IMAGE_U8; type <= IMAGE_U16; type++) {
-                image i = make_picture(sizes[s][0], sizes[s][1], channels, (image_type)type);
+                image i = make_image(sizes[s][0], sizes[s][1], channels, (image_type)type);
                 comes_back(&i, 0);
                 image_destroy(&i);
             }
@@ -52,7 +52,7 @@ static void all_layouts_come_back(void **state)
 static void all_levels_come_back(void **state)
 {
     (void)state;
-    image i = make_picture(301, 257, 4, IMAGE_U8);
+    image i = make_image(301, 257, 4, IMAGE_U8);
     size_t sizes[10];
     for (uint32_t level = 1; level <= 9; level++) {
         comes_back(&i, level);
@@ -62,7 +62,7 @@ static void all_levels_come_back(void **state)
     }
     assert_true(sizes[9] < sizes[1]);
     image_destroy(&i);
-    i = make_picture(1, 1, 3, IMAGE_F32);
+    i = make_image(1, 1, 3, IMAGE_F32);
     unsigned char *bytes;
     size_t size;
     assert_int_equal(image_encode(&i, IMAGE_CODEC_PNG, NULL, &bytes, &size, NULL), FACET_ERROR_ARGUMENT);
@@ -70,11 +70,11 @@ static void all_levels_come_back(void **state)
     image_destroy(&i);
 }
 
-/* Noise does not compress, a flat picture to almost nothing. */
+/* Noise does not compress, a flat image to almost nothing. */
 static void extremes_come_back(void **state)
 {
     (void)state;
-    image i = make_picture(640, 480, 4, IMAGE_U8);
+    image i = make_image(640, 480, 4, IMAGE_U8);
     uint32_t noise = 7;
     for (uint32_t k = 0; k < 640 * 480 * 4; k++) {
         noise = noise * 1664525u + 1013904223u;
@@ -96,7 +96,7 @@ static void extremes_come_back(void **state)
 static void bytes_do_not_depend_on_threads(void **state)
 {
     (void)state;
-    image i = make_picture(513, 600, 4, IMAGE_U8);
+    image i = make_image(513, 600, 4, IMAGE_U8);
     unsigned char *one, *three;
     size_t one_size, three_size;
     encode(&i, 1, 4, &one, &one_size);
@@ -115,7 +115,7 @@ static void channel_counts_as_asked(void **state)
     for (uint32_t channels = 1; channels <= 4; channels++)
         for (int type = IMAGE_U8; type <= IMAGE_U16; type++)
             for (uint32_t asked = 3; asked <= 4; asked++) {
-                image i = make_picture(33, 9, channels, (image_type)type);
+                image i = make_image(33, 9, channels, (image_type)type);
                 unsigned char *bytes;
                 size_t size;
                 encode(&i, 1, 4, &bytes, &size);
@@ -228,7 +228,7 @@ static void corrupt_files_are_refused(void **state)
 static void every_changed_byte_is_noticed(void **state)
 {
     (void)state;
-    image i = make_picture(12, 9, 3, IMAGE_U8);
+    image i = make_image(12, 9, 3, IMAGE_U8);
     unsigned char *bytes;
     size_t size;
     encode(&i, 1, 4, &bytes, &size);
@@ -245,13 +245,13 @@ static void every_changed_byte_is_noticed(void **state)
     image_destroy(&i);
 }
 
-/* What does not count is not read: a text with a wrong CRC and a profile that is none do not refuse a picture. */
+/* What does not count is not read: a text with a wrong CRC and a profile that is none do not refuse an image. */
 static void other_chunks_are_passed_over(void **state)
 {
     (void)state;
     static const unsigned char others[] = "\0\0\0\4tEXt\1\2\3\4wxyz\0\0\0\3iCCPabc\0\0\0\0";
     enum { BEFORE = 8 + 25 /* signature and IHDR */, OTHERS = sizeof others - 1 };
-    image i = make_picture(12, 9, 3, IMAGE_U8);
+    image i = make_image(12, 9, 3, IMAGE_U8);
     unsigned char *bytes;
     size_t size;
     encode(&i, 1, 4, &bytes, &size);
@@ -273,7 +273,7 @@ static void other_chunks_are_passed_over(void **state)
 static void limits_hold(void **state)
 {
     (void)state;
-    image i = make_picture(40, 20, 3, IMAGE_U8);
+    image i = make_image(40, 20, 3, IMAGE_U8);
     unsigned char *bytes;
     size_t size;
     facet_error error;
@@ -323,7 +323,7 @@ static void rows_are_those_of_the_whole(void **state)
     (void)state;
     for (uint32_t channels = 1; channels <= 4; channels++)
         for (int type = IMAGE_U8; type <= IMAGE_U16; type++) {
-            image i = make_picture(37, 19, channels, (image_type)type);
+            image i = make_image(37, 19, channels, (image_type)type);
             unsigned char *bytes;
             size_t size;
             facet_error error;

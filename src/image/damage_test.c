@@ -39,7 +39,7 @@ static void add_file(const char *folder, const char *name)
 static void add_encoded(const char *name, image_codec codec, uint32_t channels, image_type type,
                         uint32_t quality)
 {
-    image i = make_picture(37, 23, channels, type);
+    image i = make_image(37, 23, channels, type);
     unsigned char *bytes;
     size_t size;
     if (image_encode(&i, codec, &(image_encode_desc){.quality = quality}, &bytes, &size, NULL) == FACET_OK)
@@ -132,7 +132,7 @@ static void truncated_files_do_no_harm(void **state)
         const sample *s = &samples[k];
         for (size_t size = 0; size < s->size; size += size < 600 || s->size - size < 20 ? 1 : 37) {
             facet_result result = try_bytes(s->bytes, size, s->name);
-            /* half a picture is none; the ends of JPEG and PNG files hold no texels */
+            /* half an image is none; the ends of JPEG and PNG files hold no texels */
             if (result == FACET_OK && size < s->size / 2 && !strstr(s->name, "multipart"))
                 fail_msg("%s: %zu of %zu bytes were enough", s->name, size, s->size);
         }
@@ -196,7 +196,7 @@ static void memory_that_runs_out_while_writing(void **state)
                  {IMAGE_CODEC_WEBP, 4, IMAGE_U8}, {IMAGE_CODEC_HDR, 3, IMAGE_F32},
                  {IMAGE_CODEC_PFM, 3, IMAGE_F32}, {IMAGE_CODEC_EXR, 3, IMAGE_F32}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        image i = make_picture(257, 200, cases[k].channels, cases[k].type);
+        image i = make_image(257, 200, cases[k].channels, cases[k].type);
         facet_result result = FACET_ERROR_MEMORY;
         for (long calls = 0; result == FACET_ERROR_MEMORY && calls < 1000; calls++) {
             failing f = {.calls_left = calls};
@@ -223,7 +223,7 @@ static void memory_that_runs_out_while_writing(void **state)
     }
 }
 
-/* A few bytes that claim a huge picture are refused before memory is taken for it. */
+/* A few bytes that claim a huge image are refused before memory is taken for it. */
 static void small_files_take_little_memory(void **state)
 {
     (void)state;

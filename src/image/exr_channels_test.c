@@ -88,7 +88,7 @@ static void bits_come_back(void **state)
         assert_string_equal(text, "one");
         assert_int_equal(image_read_exr_text(bytes, size, "p", "second", text, sizeof text, NULL), FACET_OK);
         assert_string_equal(text, "");
-        /* and it is a picture */
+        /* and it is an image */
         image header;
         assert_int_equal(image_probe(bytes, size, "p", &header, NULL, NULL), FACET_OK);
         assert_true(header.width == WIDTH && header.height == HEIGHT && header.channel_count == 4);

@@ -135,7 +135,7 @@ facet_result say_exception(char *message, facet_result result)
     }
 }
 
-/* ---- which channels make the picture ---- */
+/* ---- which channels make the image ---- */
 
 using channel_iterator = Imf::ChannelList::ConstIterator;
 
@@ -361,7 +361,7 @@ facet_result fill_info(const unsigned char *bytes, size_t size, const exr_channe
     *out = exr_info{};
     const int version = read_header(bytes, size, header);
     if (Imf::isNonImage(version) || (header.hasType() && Imf::isDeepData(header.type())))
-        return say(message, FACET_ERROR_UNSUPPORTED, "deep pictures are not read");
+        return say(message, FACET_ERROR_UNSUPPORTED, "deep images are not read");
     out->data = window(header.dataWindow());
     out->display = window(header.displayWindow());
     fill_color(header, out);

@@ -15,7 +15,7 @@ typedef struct exr_window {
     int32_t min_x, min_y, max_x, max_y; /* both ends belong to it */
 } exr_window;
 
-/* A channel that the picture is made of. */
+/* A channel that the image is made of. */
 typedef struct exr_source {
     char name[EXR_NAME];
     bool is_half;
@@ -39,13 +39,13 @@ typedef struct exr_info {
     bool has_chromaticities;          /* the attribute of that name */
     float chromaticities[8]; /* x, y of red, green, blue and white; NaN where it is of another type */
     image_envmap envmap;
-    uint32_t channel_count; /* of the picture: 3 or 4; of those that were named */
-    exr_source sources[4];  /* of a picture: R, G, B, A; the same one three times where it is grey */
+    uint32_t channel_count; /* of the image: 3 or 4; of those that were named */
+    exr_source sources[4];  /* of an image: R, G, B, A; the same one three times where it is grey */
 } exr_info;
 
 /* Reads the first header of a file whose headers are whole (see exr_check()). named: the channels that are wanted; NULL:
- * those that the picture is made of. Fails with FACET_ERROR_INVALID, also where one of named is missing or does not hold
- * floats, and, where the picture is of a kind that is not read, FACET_ERROR_UNSUPPORTED. */
+ * those that the image is made of. Fails with FACET_ERROR_INVALID, also where one of named is missing or does not hold
+ * floats, and, where the image is of a kind that is not read, FACET_ERROR_UNSUPPORTED. */
 facet_result exr_shim_info(const unsigned char *bytes, size_t size, const exr_channel *named,
                            uint32_t named_count, exr_info *out, char message[EXR_MESSAGE]);
 /* Makes the sources of info, which exr_shim_info() has filled, those of a layer: the channels LAYER.R .G .B .A, or .X .Y .Z,

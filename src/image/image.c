@@ -1,4 +1,4 @@
-/* image.c - pictures in memory: making them and changing their type. Files: codec.c. */
+/* image.c - images in memory: making them and changing their type. Files: codec.c. */
 #include "image/image.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* image.h - pictures in memory. Texel (0, 0) is the top left one, rows go down: said here, once. */
+/* image.h - images in memory. Texel (0, 0) is the top left one, rows go down: said here, once. */
 #ifndef IMAGE_IMAGE_H
 #define IMAGE_IMAGE_H
 
@@ -107,16 +107,16 @@ typedef struct image_row_sink {
 typedef struct image_decode_desc {
     facet_allocator allocator;
     uint32_t thread_count; /* for codecs that can use them; 0: 1 */
-    uint32_t max_size; /* texels along an edge, 0: 16384; a larger picture fails with FACET_ERROR_LIMIT before
+    uint32_t max_size; /* texels along an edge, 0: 16384; a larger image fails with FACET_ERROR_LIMIT before
                               memory is taken for it */
-    uint32_t max_reduction; /* 0: none. The picture may come reduced by 2^k with k <= max_reduction in both
+    uint32_t max_reduction; /* 0: none. The image may come reduced by 2^k with k <= max_reduction in both
                                directions (rounded up) where the codec does that cheaply (JPEG: k <= 3; KTX2: the
                                levels in the file that are of that size) */
     uint32_t channel_count; /* 0: the file's own; 3 or 4: as asked, 8-bit formats only */
-    /* EXR: one of its layers by name, see exr_shim_layer(), of 2, 3 or 4 channels (one becomes 3); NULL: the picture
+    /* EXR: one of its layers by name, see exr_shim_layer(), of 2, 3 or 4 channels (one becomes 3); NULL: the image
      * */
     const char *layer;
-    /* EXR, PFM, KTX2: NaN and infinity stay: for a picture to be looked at, not to be lit by, or where the caller
+    /* EXR, PFM, KTX2: NaN and infinity stay: for an image to be looked at, not to be lit by, or where the caller
      * counts them */
     bool keeps_nonfinite;
     /* NULL: not wanted. What infinity becomes: 65504 where the file holds half, else the largest float */
@@ -172,7 +172,7 @@ typedef struct image_encode_desc {
     uint32_t quality;        /* JPEG, WebP: 1 to 100, 0: 92; WebP 100 is lossless */
     uint32_t compression;    /* PNG, EXR: zlib level 1 to 9; 0: 4 */
     bool is_stored;          /* EXR: not compressed at all, which is quick */
-    const image_text *texts; /* EXR: beside the picture */
+    const image_text *texts; /* EXR: beside the image */
     uint32_t text_count;
 } image_encode_desc;
 
@@ -195,7 +195,7 @@ typedef struct image_channel {
 } image_channel;
 
 /* Reads named float channels bit for bit; allocator (NULL: malloc) is asked for little. FACET_ERROR_INVALID where one is
- * missing or holds no floats, the picture is not of this size, or the file is damaged: what is in the channels then is
+ * missing or holds no floats, the image is not of this size, or the file is damaged: what is in the channels then is
  * undefined. */
 facet_result image_read_exr_channels(const void *bytes, size_t size, const char *name,
                                      const facet_allocator *allocator, uint32_t width, uint32_t height,

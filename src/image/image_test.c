@@ -1,4 +1,4 @@
-/* image_test.c - making and converting pictures, half numbers, the sRGB transfer function. */
+/* image_test.c - making and converting images, half numbers, the sRGB transfer function. */
 #include "image/image_test.h"
 
 #include <math.h>
@@ -170,7 +170,7 @@ static void channels_spread_and_drop(void **state)
 static void conversion_does_not_depend_on_threads(void **state)
 {
     (void)state;
-    image in = make_picture(701, 203, 3, IMAGE_F32);
+    image in = make_image(701, 203, 3, IMAGE_F32);
     for (int type = IMAGE_U8; type <= IMAGE_F32; type++) {
         image one, four;
         assert_int_equal(image_convert(&in, NULL, 1, 4, (image_type)type, true, &one, NULL), FACET_OK);

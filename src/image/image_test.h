@@ -1,4 +1,4 @@
-/* image_test.h - what the tests of this module share: files, generated pictures, an allocator that fails. */
+/* image_test.h - what the tests of this module share: files, generated images, an allocator that fails. */
 #ifndef IMAGE_IMAGE_TEST_H
 #define IMAGE_IMAGE_TEST_H
 
@@ -57,8 +57,8 @@ static inline image decode_file(const char *path)
     return decode_file_as(path, NULL);
 }
 
-/* A picture with smooth and noisy parts, the same in every run. */
-static inline image make_picture(uint32_t width, uint32_t height, uint32_t channel_count, image_type type)
+/* An image with smooth and noisy parts, the same in every run. */
+static inline image make_image(uint32_t width, uint32_t height, uint32_t channel_count, image_type type)
 {
     image i;
     assert_int_equal(image_create(NULL, width, height, channel_count, type, &i, NULL), FACET_OK);

@@ -40,7 +40,7 @@ static void pack_rows(void *context, size_t begin, size_t end)
 {
     const writing *w = context;
     for (size_t i = begin; i < end; i++) {
-        const facet_image_view *v = &w->desc->pictures[w->level * FACES + i / w->edge];
+        const facet_image_view *v = &w->desc->images[w->level * FACES + i / w->edge];
         const float *row = (const float *)((const char *)v->pixels + i % w->edge * v->row_stride_bytes);
         ktx2_pack(FACET_TEXEL_FORMAT_B10G11R11, row, v->channel_count, w->edge, true,
                   w->to + i * w->edge * TEXEL_SIZE);
@@ -49,12 +49,12 @@ static void pack_rows(void *context, size_t begin, size_t end)
 
 static facet_result check(const ktx1_write_desc *d, facet_error *error)
 {
-    const uint32_t edge = d->pictures[0].width;
+    const uint32_t edge = d->images[0].width;
     if (d->level_count == 0 || d->level_count > MAX_LEVELS || edge >> (d->level_count - 1) == 0)
         return fail(error, FACET_ERROR_ARGUMENT, "KTX: %u texels do not have %u levels", edge,
                     d->level_count);
     for (uint32_t i = 0; i < FACES * d->level_count; i++) {
-        const facet_image_view *v = &d->pictures[i];
+        const facet_image_view *v = &d->images[i];
         const uint32_t wanted = edge >> i / FACES;
         if (v->width != wanted || v->height != wanted || v->channel_count == 0 || v->channel_count > 4)
             return fail(error, FACET_ERROR_ARGUMENT,
@@ -76,7 +76,7 @@ static bool file_size(const ktx1_write_desc *d, size_t pair_size, size_t *size)
     *size = HEADER_SIZE + pair_size;
     for (uint32_t i = 0; i < d->level_count; i++) {
         size_t face, level;
-        if (!face_size(d->pictures[0].width >> i, &face) || !checked_mul(face, FACES, &level) ||
+        if (!face_size(d->images[0].width >> i, &face) || !checked_mul(face, FACES, &level) ||
             !checked_add(level, 4, &level) || !checked_add(*size, level, size))
             return false;
     }
@@ -85,7 +85,7 @@ static bool file_size(const ktx1_write_desc *d, size_t pair_size, size_t *size)
 
 static void put_header(const ktx1_write_desc *d, size_t pair_size, unsigned char *bytes)
 {
-    const uint32_t edge = d->pictures[0].width;
+    const uint32_t edge = d->images[0].width;
     const uint32_t words[] = {0x04030201, /* endianness */
                               GL_R11F_G11F_B10F,
                               TEXEL_SIZE, /* glTypeSize: a packed texel is one word */
@@ -131,7 +131,7 @@ facet_result ktx1_write_cube(const ktx1_write_desc *desc, unsigned char **bytes,
     if (desc->key)
         put_pair(desc, file + HEADER_SIZE);
     for (uint32_t level = 0; level < desc->level_count; level++) {
-        writing w = {.desc = desc, .level = level, .edge = desc->pictures[0].width >> level};
+        writing w = {.desc = desc, .level = level, .edge = desc->images[0].width >> level};
         const size_t face = (size_t)w.edge * w.edge * TEXEL_SIZE;
         store_u32_le(file + at,
                      (uint32_t)face); /* of a cube map that is no array the size is that of a face */

@@ -10,17 +10,17 @@
 enum { EDGE = 4, LEVELS = 3, FACES = 6 };
 
 /* Faces of one number each, 2^(face - 3) at level 0, twice that at level 1 ..: exact in 10 and 11 bits. */
-typedef struct cube_picture {
+typedef struct cube_image {
     float texels[LEVELS][FACES][EDGE * EDGE * 3];
     facet_image_view views[LEVELS * FACES];
-} cube_picture;
+} cube_image;
 
 static float value_of(int level, int face)
 {
     return ldexpf(1.0f, face - 3 + level);
 }
 
-static void make(cube_picture *p)
+static void make(cube_image *p)
 {
     for (int level = 0; level < LEVELS; level++)
         for (int face = 0; face < FACES; face++) {
@@ -45,7 +45,7 @@ static float small_float(uint32_t code, int digits)
 static void test_bytes(void **state)
 {
     (void)state;
-    static cube_picture p;
+    static cube_image p;
     static const uint32_t words[] = {0x04030201, 0x8C3A, 4, 0x1907, 0x8C3A, 0x1907,
                                      EDGE,       EDGE,   0, 0,      FACES,  LEVELS};
     const char value[] = "1 2 3\n";
@@ -53,7 +53,7 @@ static void test_bytes(void **state)
     size_t size, at = 64;
     facet_error error;
     make(&p);
-    const ktx1_write_desc desc = {.level_count = LEVELS, .pictures = p.views, .key = "sh", .value = value};
+    const ktx1_write_desc desc = {.level_count = LEVELS, .images = p.views, .key = "sh", .value = value};
     assert_int_equal(ktx1_write_cube(&desc, &bytes, &size, &error), FACET_OK);
     assert_memory_equal(bytes, "\xABKTX 11\xBB\r\n\x1A\n", 12);
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
@@ -84,12 +84,12 @@ static void test_bytes(void **state)
 static void test_threads(void **state)
 {
     (void)state;
-    static cube_picture p;
+    static cube_image p;
     unsigned char *one, *three;
     size_t one_size, three_size;
     facet_error error;
     make(&p);
-    ktx1_write_desc desc = {.level_count = LEVELS, .pictures = p.views, .thread_count = 1};
+    ktx1_write_desc desc = {.level_count = LEVELS, .images = p.views, .thread_count = 1};
     assert_int_equal(ktx1_write_cube(&desc, &one, &one_size, &error), FACET_OK);
     desc.thread_count = 3;
     assert_int_equal(ktx1_write_cube(&desc, &three, &three_size, &error), FACET_OK);
@@ -103,12 +103,12 @@ static void test_threads(void **state)
 static void test_what_is_no_cube(void **state)
 {
     (void)state;
-    static cube_picture p;
+    static cube_image p;
     unsigned char *bytes;
     size_t size;
     facet_error error;
     make(&p);
-    ktx1_write_desc desc = {.level_count = LEVELS + 1, .pictures = p.views};
+    ktx1_write_desc desc = {.level_count = LEVELS + 1, .images = p.views};
     assert_int_equal(ktx1_write_cube(&desc, &bytes, &size, &error), FACET_ERROR_ARGUMENT);
     desc.level_count = 0;
     assert_int_equal(ktx1_write_cube(&desc, &bytes, &size, &error), FACET_ERROR_ARGUMENT);
@@ -123,14 +123,14 @@ static void test_what_is_no_cube(void **state)
 static void test_no_memory(void **state)
 {
     (void)state;
-    static cube_picture p;
+    static cube_image p;
     unsigned char *bytes;
     size_t size;
     facet_error error;
     failing none = {.calls_left = 0};
     make(&p);
     const ktx1_write_desc desc = {
-        .level_count = LEVELS, .pictures = p.views, .allocator = failing_allocator(&none)};
+        .level_count = LEVELS, .images = p.views, .allocator = failing_allocator(&none)};
     assert_int_equal(ktx1_write_cube(&desc, &bytes, &size, &error), FACET_ERROR_MEMORY);
     assert_null(bytes);
 }

@@ -1,4 +1,4 @@
-/* ktx2.c - opening a file: header, index of levels, format descriptor, metadata. See ktx2.h; pictures: ktx2_read.c. */
+/* ktx2.c - opening a file: header, index of levels, format descriptor, metadata. See ktx2.h; images: ktx2_read.c. */
 #include "image/ktx2.h"
 #include "base/result.h"
 #include "image/codec.h"
@@ -73,11 +73,11 @@ static facet_result read_counts(span file, ktx2 *k, facet_error *error)
         return fail(error, FACET_ERROR_UNSUPPORTED, "%s: KTX2: 3D textures are not read (pixelDepth is %u)",
                     k->name, load_u32_le(b + PIXEL_DEPTH));
     if (k->width == 0 || k->height == 0)
-        return fail(error, FACET_ERROR_INVALID, "%s: KTX2: the picture has no texels (%u x %u)", k->name,
+        return fail(error, FACET_ERROR_INVALID, "%s: KTX2: the image has no texels (%u x %u)", k->name,
                     k->width, k->height);
     if (k->face_count != 1 && (k->face_count != 6 || k->width != k->height))
         return fail(error, FACET_ERROR_INVALID,
-                    "%s: KTX2: faceCount: 1, or 6 of a square picture, was expected, not %u of %u x %u",
+                    "%s: KTX2: faceCount: 1, or 6 of a square image, was expected, not %u of %u x %u",
                     k->name, k->face_count, k->width, k->height);
     k->is_array = k->layer_count > 0;
     k->is_cube = k->face_count == 6;
@@ -297,7 +297,7 @@ static uint32_t get_reduced_edge(uint32_t edge, uint32_t k)
     return (uint32_t)(((uint64_t)edge + (UINT64_C(1) << k) - 1) >> k);
 }
 
-/* The smallest level that is the reduced picture: levels round down, which for odd edges is another size. */
+/* The smallest level that is the reduced image: levels round down, which for odd edges is another size. */
 static uint32_t choose_level(const ktx2 *k, uint32_t max_reduction)
 {
     uint32_t level = 0;
@@ -313,7 +313,7 @@ facet_result ktx2_decode_file(const unsigned char *bytes, size_t size, const cha
 {
     ktx2 k;
     facet_result result = ktx2_open(bytes, size, name, &k, error);
-    if (result == FACET_OK) /* of the whole picture, whatever is decoded of it */
+    if (result == FACET_OK) /* of the whole image, whatever is decoded of it */
         result = codec_check_size(name, k.width, k.height, desc->max_size, error);
     if (result == FACET_OK)
         result = ktx2_read(&k, choose_level(&k, desc->max_reduction), 0, 0, desc, out, error);

@@ -1,4 +1,4 @@
-/* ktx2.h - KTX 2.0 texture containers: what a file holds, checked against its bytes, and its pictures, one by one:
+/* ktx2.h - KTX 2.0 texture containers: what a file holds, checked against its bytes, and its images, one by one:
  * levels (0: the full size), layers of arrays, faces of cubes (+X -X +Y -Y +Z -Z). ktx2.c shows the first of them
  * as an image file. Khronos, "KTX File Format Specification 2.0". */
 #ifndef IMAGE_KTX2_H
@@ -18,8 +18,8 @@ typedef struct ktx2 {
     uint32_t level_count, layer_count, face_count; /* 1 or more */
     bool is_array, is_cube, has_all_mips; /* has_all_mips: the file wants mips to be made of level 0 */
     bool is_srgb, is_premultiplied;
-    bool is_right_to_left, is_bottom_up; /* order of texels, rows; decoded pictures are from top left */
-    char swizzle[4]; /* of "rgba01": where the channels of a picture come from; decoded ones are so */
+    bool is_right_to_left, is_bottom_up; /* order of texels, rows; decoded images are from top left */
+    char swizzle[4]; /* of "rgba01": where the channels of an image come from; decoded ones are so */
     ktx2_scheme scheme;
     const unsigned char *global; /* of BasisLZ */
     size_t global_size;
@@ -49,7 +49,7 @@ facet_result ktx2_load_level(const ktx2 *k, uint32_t level, const facet_allocato
                              facet_error *error);
 void ktx2_data_destroy(ktx2_data *d); /* {0} is allowed */
 
-/* Decodes one picture of a loaded level: the type and channels of k->format (RGBA where a swizzle asks for alpha), or
+/* Decodes one image of a loaded level: the type and channels of k->format (RGBA where a swizzle asks for alpha), or
  * desc->channel_count of them for U8. Blocks are decoded in parallel on desc->thread_count threads. Only allocator,
  * thread_count, max_size, channel_count, keeps_nonfinite and largest of desc count. */
 facet_result ktx2_decode(const ktx2 *k, const ktx2_data *data, uint32_t level, uint32_t layer, uint32_t face,
@@ -58,7 +58,7 @@ facet_result ktx2_decode(const ktx2 *k, const ktx2_data *data, uint32_t level, u
 facet_result ktx2_read(const ktx2 *k, uint32_t level, uint32_t layer, uint32_t face,
                        const image_decode_desc *desc, image *out, facet_error *error);
 
-/* Type, channels and transfer function of decoded pictures; no pixels. */
+/* Type, channels and transfer function of decoded images; no pixels. */
 image ktx2_header(const ktx2 *k);
 
 #endif

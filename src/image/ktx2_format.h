@@ -11,7 +11,7 @@ typedef void texel_unpack(const unsigned char *bytes, size_t count, unsigned com
 
 typedef enum ktx2_kind {
     KTX2_TEXELS, /* unpack */
-    KTX2_BLOCKS, /* decode, or decode_srgb for pictures in sRGB where there is one; 4 x 4 texels */
+    KTX2_BLOCKS, /* decode, or decode_srgb for images in sRGB where there is one; 4 x 4 texels */
     KTX2_ASTC,   /* through a library */
     KTX2_ETC1S
 } ktx2_kind;
@@ -19,13 +19,13 @@ typedef enum ktx2_kind {
 typedef struct ktx2_format {
     const char *name; /* for messages, "BC7" */
     ktx2_kind kind;
-    image_type type;                                     /* of the decoded picture */
-    unsigned char channel_count;                         /* of the decoded picture: 3 or 4 */
+    image_type type;                                     /* of the decoded image */
+    unsigned char channel_count;                         /* of the decoded image: 3 or 4 */
     unsigned char block_width, block_height, block_size; /* texels, texels, bytes */
     unsigned char component_count;                       /* KTX2_TEXELS: in the file */
     texel_unpack *unpack;
     block_decode *decode, *decode_srgb;
-    unsigned char from[4]; /* RGBA of the picture from RGBA as decoded, as numbers of channels; 4: 0, 5: 1 */
+    unsigned char from[4]; /* RGBA of the image from RGBA as decoded, as numbers of channels; 4: 0, 5: 1 */
 } ktx2_format;
 
 /* What VkFormat number is; NULL: unknown. *is_srgb: it is a format in sRGB. *is_missing: known, but this build lacks

@@ -1,4 +1,4 @@
-/* ktx2_read.c - from the bytes of a level to a picture: supercompression, then blocks or texels, row by row in
+/* ktx2_read.c - from the bytes of a level to an image: supercompression, then blocks or texels, row by row in
  * parallel, with their channels in order. See ktx2.h. */
 #include "image/ktx2.h"
 
@@ -100,8 +100,8 @@ static bool inflate_zstd(const unsigned char *in, size_t in_size, unsigned char 
 #endif
 }
 
-/* Bytes of one picture of a level. */
-static size_t get_picture_size(const ktx2 *k, uint32_t level)
+/* Bytes of one image of a level. */
+static size_t get_image_size(const ktx2 *k, uint32_t level)
 {
     const ktx2_format *f = k->format;
     const size_t columns = ((size_t)ktx2_level_edge(k->width, level) + f->block_width - 1) / f->block_width;
@@ -115,7 +115,7 @@ facet_result ktx2_load_level(const ktx2 *k, uint32_t level, const facet_allocato
     *out = (ktx2_data){.bytes = k->levels[level].bytes, .size = k->levels[level].size};
     if (k->scheme == KTX2_NONE || k->scheme == KTX2_BASISLZ)
         return FACET_OK;
-    const size_t size = get_picture_size(k, level) * k->face_count * k->layer_count;
+    const size_t size = get_image_size(k, level) * k->face_count * k->layer_count;
     unsigned char *block = mem_alloc(allocator, size, 1);
     if (!block) {
         *out = (ktx2_data){0};
@@ -139,7 +139,7 @@ void ktx2_data_destroy(ktx2_data *d)
 
 /* ---- channels ---- */
 
-/* Where RGBA of the picture come from: numbers of decoded channels; 4: 0, 5: 1. Transcoders put the second channel of red
+/* Where RGBA of the image come from: numbers of decoded channels; 4: 0, 5: 1. Transcoders put the second channel of red
  * and green into alpha, and toktx writes "ra01" of what they give: there, a is that channel, and not the 1 of a format
  * without opacity. */
 static void compose_channels(const ktx2 *k, unsigned char from[4])
@@ -235,7 +235,7 @@ static void store_texels(const store *s, const void *rgba, size_t count, void *t
 
 enum { CHUNK_TEXELS = 256, GRAIN_TEXELS = 16384 };
 
-/* A picture being decoded; a row is one of texels or of blocks. */
+/* An image being decoded; a row is one of texels or of blocks. */
 typedef struct job {
     const ktx2_format *format;
     const unsigned char *bytes;
@@ -271,7 +271,7 @@ static void unpack_rows(void *context, size_t begin, size_t end)
         }
 }
 
-/* The part of a tile that is inside the picture. */
+/* The part of a tile that is inside the image. */
 static void store_tile(const job *j, const void *tile, uint32_t x, uint32_t y)
 {
     const image *out = j->out;
@@ -312,7 +312,7 @@ static void run_rows(job *j, uint32_t thread_count, void (*body)(void *, size_t,
 
 /* ---- ETC1S ---- */
 
-/* The two slices of a picture. */
+/* The two slices of an image. */
 typedef struct slices {
     const ktx2 *k;
     const etc1s_codebook *codebook;
@@ -336,7 +336,7 @@ static void decode_slices(void *context, size_t begin, size_t end)
                                s->k->name, s->allocator, s->parts[i].blocks, &s->parts[i].error);
 }
 
-/* The record of a picture, with slices that are inside of the level. */
+/* The record of an image, with slices that are inside of the level. */
 static facet_result find_slices(const ktx2 *k, const ktx2_data *data, uint64_t index, etc1s_image *out,
                                 facet_error *error)
 {
@@ -432,7 +432,7 @@ static facet_result decode_astc(const ktx2 *k, const unsigned char *bytes, size_
     return result;
 }
 
-/* ---- pictures ---- */
+/* ---- images ---- */
 
 facet_result ktx2_decode(const ktx2 *k, const ktx2_data *data, uint32_t level, uint32_t layer, uint32_t face,
                          const image_decode_desc *desc, image *out, facet_error *error)
@@ -454,7 +454,7 @@ facet_result ktx2_decode(const ktx2 *k, const ktx2_data *data, uint32_t level, u
     if (desc->largest)
         *desc->largest = f->type == IMAGE_F16 ? 65504.0f : FLT_MAX;
     const uint64_t index = (uint64_t)layer * k->face_count + face;
-    const size_t size = get_picture_size(k, level);
+    const size_t size = get_image_size(k, level);
     job j = {.format = f, .store = make_store(k, &made), .out = &made};
     if (f->kind == KTX2_ETC1S) {
         const uint64_t per_level = (uint64_t)k->layer_count * k->face_count;

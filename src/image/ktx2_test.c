@@ -205,11 +205,11 @@ static void layers_and_faces(void **state)
                         .levels = 2,
                         .transfer = 1};
     for (uint32_t l = 0; l < 2; l++) {
-        const size_t picture = (size_t)(EDGE >> l) * (EDGE >> l);
+        const size_t image_size = (size_t)(EDGE >> l) * (EDGE >> l);
         f.bytes[l] = memory[l];
-        f.sizes[l] = LAYERS * FACES * picture;
+        f.sizes[l] = LAYERS * FACES * image_size;
         for (size_t n = 0; n < LAYERS * FACES; n++)
-            memset(memory[l] + n * picture, (int)(l * 100 + n), picture);
+            memset(memory[l] + n * image_size, (int)(l * 100 + n), image_size);
     }
     size_t size;
     unsigned char *bytes = ktx2_test_write(&f, &size);
@@ -265,7 +265,7 @@ static void orientation_and_swizzle(void **state)
     }
 }
 
-enum { PICTURE_SIZE = 24 * 16 * 4 };
+enum { IMAGE_SIZE = 24 * 16 * 4 };
 
 /* A Zstandard frame (RFC 8878) of one block that is not compressed. */
 static size_t write_zstd(const unsigned char *data, size_t size, unsigned char *out)
@@ -285,14 +285,14 @@ static size_t write_zstd(const unsigned char *data, size_t size, unsigned char *
 static void supercompression(void **state)
 {
     (void)state;
-    image picture = make_picture(24, 16, 4, IMAGE_U8);
+    image drawn = make_image(24, 16, 4, IMAGE_U8);
     for (uint32_t scheme = 2; scheme <= 3; scheme++) {
-        unsigned char packed[PICTURE_SIZE + 64];
+        unsigned char packed[IMAGE_SIZE + 64];
         uLongf packed_size = sizeof packed;
         if (scheme == 3)
-            assert_int_equal(compress(packed, &packed_size, picture.pixels, PICTURE_SIZE), Z_OK);
+            assert_int_equal(compress(packed, &packed_size, drawn.pixels, IMAGE_SIZE), Z_OK);
         else
-            packed_size = (uLongf)write_zstd(picture.pixels, PICTURE_SIZE, packed);
+            packed_size = (uLongf)write_zstd(drawn.pixels, IMAGE_SIZE, packed);
         ktx2_test_file f = {.vk_format = 43,
                             .width = 24,
                             .height = 16,
@@ -302,7 +302,7 @@ static void supercompression(void **state)
                             .transfer = 2};
         f.bytes[0] = packed;
         f.sizes[0] = packed_size;
-        f.whole_sizes[0] = PICTURE_SIZE;
+        f.whole_sizes[0] = IMAGE_SIZE;
         size_t size;
         unsigned char *bytes = ktx2_test_write(&f, &size);
         image i;
@@ -313,7 +313,7 @@ static void supercompression(void **state)
             assert_non_null(strstr(error.message, "libzstd"));
         } else {
             assert_int_equal(result, FACET_OK);
-            assert_same_texels(&i, &picture);
+            assert_same_texels(&i, &drawn);
             image_destroy(&i);
             bytes[size - 200] ^= 0x55; /* Zstandard frames need not have a check sum */
             result = image_decode(bytes, size, "packed", NULL, &i, &error);
@@ -325,7 +325,7 @@ static void supercompression(void **state)
         }
         free(bytes);
     }
-    image_destroy(&picture);
+    image_destroy(&drawn);
 }
 
 /* Blocks of one color (KDF, "ASTC void-extent blocks") in all sizes, clipped at the edges. */

@@ -177,7 +177,7 @@ static void pack_rows(void *context, size_t begin, size_t end)
     const uint32_t height = ktx2_level_edge(w->height, w->packing);
     unsigned char *to = w->packed + w->levels[w->packing].offset;
     for (size_t i = begin; i < end; i++) {
-        const facet_image_view *v = &d->pictures[w->packing * d->face_count + i / height];
+        const facet_image_view *v = &d->images[w->packing * d->face_count + i / height];
         const float *row = (const float *)((const char *)v->pixels + i % height * v->row_stride_bytes);
         ktx2_pack(d->format, row, v->channel_count, width, d->is_opaque, to + i * width * w->texel->size);
     }
@@ -257,20 +257,20 @@ static void compress_levels(void *context, size_t begin, size_t end)
 
 static facet_result check(const ktx2_write_desc *d, facet_error *error)
 {
-    const uint32_t width = d->pictures[0].width, height = d->pictures[0].height;
+    const uint32_t width = d->images[0].width, height = d->images[0].height;
     const uint32_t larger = width > height ? width : height;
     if ((unsigned)d->format > FACET_TEXEL_FORMAT_R32F)
         return fail(error, FACET_ERROR_ARGUMENT, "KTX2: %u is no facet_texel_format", (unsigned)d->format);
     if (width == 0 || height == 0 || (d->face_count != 1 && d->face_count != 6) ||
         (d->face_count == 6 && width != height))
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "KTX2: one picture or the six square ones of a cube were expected, not %u of %u x %u",
+                    "KTX2: one image or the six square ones of a cube were expected, not %u of %u x %u",
                     d->face_count, width, height);
     if (d->level_count == 0 || d->level_count > KTX2_MAX_LEVELS || larger >> (d->level_count - 1) == 0)
         return fail(error, FACET_ERROR_ARGUMENT, "KTX2: %u x %u texels do not have %u levels", width, height,
                     d->level_count);
     for (uint32_t i = 0; i < d->level_count * d->face_count; i++) {
-        const facet_image_view *v = &d->pictures[i];
+        const facet_image_view *v = &d->images[i];
         const uint32_t l = i / d->face_count;
         if (v->width != ktx2_level_edge(width, l) || v->height != ktx2_level_edge(height, l) ||
             v->channel_count == 0 || v->channel_count > 4)
@@ -381,8 +381,8 @@ facet_result ktx2_write(const ktx2_write_desc *desc, unsigned char **bytes, size
     const metadata m = make_metadata(desc);
     writing w = {.desc = desc,
                  .texel = ktx2_find_texel(desc->format),
-                 .width = desc->pictures[0].width,
-                 .height = desc->pictures[0].height};
+                 .width = desc->images[0].width,
+                 .height = desc->images[0].height};
     const size_t front = HEADER_SIZE + LEVEL_RECORD * (size_t)desc->level_count +
                          descriptor_size(desc->format) + metadata_size(&m);
     /* The least common multiple of 4 and the size of a texel, which is 2 or a multiple of 4. */

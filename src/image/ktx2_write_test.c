@@ -10,7 +10,7 @@
 #include "image/ktx2_pack.h"
 #include "image/ktx_write.h"
 
-enum { FORMAT_COUNT = 8, MAX_PICTURES = 6 * 16 };
+enum { FORMAT_COUNT = 8, MAX_IMAGES = 6 * 16 };
 static const char *const format_names[FORMAT_COUNT] = {"RGBA16F", "RGBA32F", "RGB9E5", "B10G11R11",
                                                        "RG16F",   "RG32F",   "R16F",   "R32F"};
 
@@ -144,7 +144,7 @@ static void what_formats_cannot_hold(void **state)
 /* ---- files ---- */
 
 typedef struct texture {
-    facet_image_view pictures[MAX_PICTURES];
+    facet_image_view images[MAX_IMAGES];
     float *texels;
     ktx2_write_desc desc;
 } texture;
@@ -169,7 +169,7 @@ static texture make_texture(facet_texel_format format, uint32_t width, uint32_t 
     float *at = t.texels;
     for (uint32_t i = 0; i < levels * faces; i++) {
         const uint32_t w = ktx2_level_edge(width, i / faces), h = ktx2_level_edge(height, i / faces);
-        t.pictures[i] = (facet_image_view){"", w, h, channels, at, w * channels * sizeof(float)};
+        t.images[i] = (facet_image_view){"", w, h, channels, at, w * channels * sizeof(float)};
         at += (size_t)w * h * channels;
     }
     return t;
@@ -179,7 +179,7 @@ static unsigned char *write_texture(texture *t, size_t *size)
 {
     unsigned char *bytes = NULL;
     facet_error error;
-    t->desc.pictures = t->pictures;
+    t->desc.images = t->images;
     if (ktx2_write(&t->desc, &bytes, size, &error) != FACET_OK)
         fail_msg("%s", error.message);
     return bytes;
@@ -191,10 +191,10 @@ static float get_float(const image *i, size_t at)
                                 : ((const float *)i->pixels)[at];
 }
 
-static void check_picture(const texture *t, const ktx2 *k, uint32_t level, uint32_t face)
+static void check_image(const texture *t, const ktx2 *k, uint32_t level, uint32_t face)
 {
     static const uint32_t kept[FORMAT_COUNT] = {4, 4, 3, 3, 2, 2, 1, 1};
-    const facet_image_view *v = &t->pictures[level * t->desc.face_count + face];
+    const facet_image_view *v = &t->images[level * t->desc.face_count + face];
     image i;
     facet_error error;
     if (ktx2_read(k, level, 0, face, &(image_decode_desc){0}, &i, &error) != FACET_OK)
@@ -231,7 +231,7 @@ static void what_is_written_is_read(void **state)
     for (uint32_t n = 0; n < FORMAT_COUNT * SHAPE_COUNT * 2; n++) {
         texture t = make_shape(n % FORMAT_COUNT, n / FORMAT_COUNT % SHAPE_COUNT);
         t.desc.zstd_level = n / FORMAT_COUNT / SHAPE_COUNT ? 1 + n % 19 : 0;
-        t.desc.pictures = t.pictures;
+        t.desc.images = t.images;
         unsigned char *bytes;
         size_t size;
         facet_error error;
@@ -249,7 +249,7 @@ static void what_is_written_is_read(void **state)
         assert_false(k.is_array || k.has_all_mips || k.is_srgb || k.is_premultiplied || k.is_bottom_up);
         assert_int_equal(k.scheme, t.desc.zstd_level ? KTX2_ZSTD : KTX2_NONE);
         for (uint32_t i = 0; i < t.desc.level_count * t.desc.face_count; i++)
-            check_picture(&t, &k, i / t.desc.face_count, i % t.desc.face_count);
+            check_image(&t, &k, i / t.desc.face_count, i % t.desc.face_count);
         mem_free(bytes);
         free(t.texels);
     }
@@ -344,7 +344,7 @@ static size_t check_metadata(const unsigned char *kvd, size_t size)
 static void check_file(const texture *t, const unsigned char *b, size_t size)
 {
     const uint32_t format = t->desc.format, levels = t->desc.level_count;
-    const uint32_t width = t->pictures[0].width, height = t->pictures[0].height;
+    const uint32_t width = t->images[0].width, height = t->images[0].height;
     const uint32_t words[] = {expected[format].vk_format,
                               expected[format].type_size,
                               width,
@@ -389,7 +389,7 @@ static void files_keep_the_rules(void **state)
     for (uint32_t n = 0; n < FORMAT_COUNT * SHAPE_COUNT * 2; n++) {
         texture t = make_shape(n % FORMAT_COUNT, n / FORMAT_COUNT % SHAPE_COUNT);
         t.desc.zstd_level = n / FORMAT_COUNT / SHAPE_COUNT ? 3 : 0;
-        t.desc.pictures = t.pictures;
+        t.desc.images = t.images;
         unsigned char *bytes;
         size_t size;
         if (ktx2_write(&t.desc, &bytes, &size, NULL) == FACET_OK)
@@ -407,7 +407,7 @@ static void bytes_do_not_depend_on_threads(void **state)
     for (uint32_t zstd = 0; zstd <= 3; zstd += 3) {
         texture t = make_texture(FACET_TEXEL_FORMAT_RGB9E5, 256, 256, 6, 9, 4);
         t.desc.zstd_level = zstd;
-        t.desc.pictures = t.pictures;
+        t.desc.images = t.images;
         unsigned char *first = NULL;
         size_t first_size = 0;
         for (uint32_t threads = 1; threads <= 5; threads += 2) {
@@ -439,7 +439,7 @@ static void what_is_no_texture(void **state)
     (void)state;
     for (int k = 0; k < 9; k++) {
         texture t = make_texture(FACET_TEXEL_FORMAT_RGBA16F, 8, 8, 6, 2, 4);
-        t.desc.pictures = t.pictures;
+        t.desc.images = t.images;
         switch (k) {
         case 0:
             t.desc.face_count = 5;
@@ -457,13 +457,13 @@ static void what_is_no_texture(void **state)
             t.desc.level_count = 0xffffffff;
             break;
         case 5:
-            t.pictures[7].width = 5;
+            t.images[7].width = 5;
             break;
         case 6:
-            t.pictures[3].channel_count = 5;
+            t.images[3].channel_count = 5;
             break;
         case 7:
-            t.pictures[0].height = 4;
+            t.images[0].height = 4;
             break;
         case 8:
             t.desc.zstd_level = 20;
@@ -489,7 +489,7 @@ static void memory_runs_out(void **state)
             t.desc.allocator = failing_allocator(&counter);
             t.desc.thread_count = 1;
             t.desc.zstd_level = zstd;
-            t.desc.pictures = t.pictures;
+            t.desc.images = t.images;
             unsigned char *bytes;
             size_t size;
             facet_result result = ktx2_write(&t.desc, &bytes, &size, NULL);
@@ -510,7 +510,7 @@ static void zstandard_stays_within_a_budget(void **state)
     (void)state;
     texture t = make_texture(FACET_TEXEL_FORMAT_RGBA32F, 256, 256, 1, 1, 4);
     t.desc.zstd_level = 19;
-    t.desc.pictures = t.pictures;
+    t.desc.images = t.images;
     facet_budget *budget;
     assert_int_equal(facet_budget_create(16u << 20, &budget, NULL), FACET_OK);
     t.desc.allocator = facet_budget_allocator(budget);
@@ -534,7 +534,7 @@ static void rows_may_lie_anywhere(void **state)
     (void)state;
     static const float texels[] = {1, 2, 99, 3, 4, 99};
     texture t = {
-        .pictures = {{"", 2, 2, 1, texels, 3 * sizeof(float)}},
+        .images = {{"", 2, 2, 1, texels, 3 * sizeof(float)}},
         .desc = {.format = FACET_TEXEL_FORMAT_R32F, .level_count = 1, .face_count = 1, .writer = "x"}};
     size_t size;
     unsigned char *bytes = write_texture(&t, &size);

@@ -15,9 +15,9 @@ typedef struct ktx2_write_desc {
     uint32_t zstd_level; /* each level a frame of Zstandard: 1 to 19; 0: none */
     uint32_t level_count;
     uint32_t face_count; /* 1, or 6: +X -X +Y -Y +Z -Z */
-    /* level_count * face_count pictures of 1 to 4 channels, the faces of level 0 first; the edges of a level are those of
+    /* level_count * face_count images of 1 to 4 channels, the faces of level 0 first; the edges of a level are those of
      * the one before halved, rounded down, at least 1. */
-    const facet_image_view *pictures;
+    const facet_image_view *images;
     bool is_opaque;     /* alpha is 1, whatever a fourth channel says */
     const char *writer; /* KTXwriter: name and version of the program */
 } ktx2_write_desc;
@@ -34,9 +34,9 @@ typedef struct ktx1_write_desc {
     facet_allocator allocator;
     uint32_t thread_count; /* 0: facet_thread_count(); the bytes do not depend on it */
     uint32_t level_count;
-    /* Six square pictures of 1 to 4 channels per level, +X -X +Y -Y +Z -Z, the faces of level 0 first; the edges of a level
+    /* Six square images of 1 to 4 channels per level, +X -X +Y -Y +Z -Z, the faces of level 0 first; the edges of a level
      * are half as long as those of the one before. */
-    const facet_image_view *pictures;
+    const facet_image_view *images;
     const char *key, *value; /* one entry of metadata; the value is written without a final 0. NULL: none */
 } ktx1_write_desc;
 

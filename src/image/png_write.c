@@ -1,6 +1,6 @@
 /* png_write.c - writing PNG, in parallel: rows are filtered each by itself, then blocks of them deflated
  * each by itself, with the 32 KiB before it as dictionary, and put behind each other. Block size and all
- * choices depend on the picture alone, so the bytes do not depend on threads. Specification: PNG third
+ * choices depend on the image alone, so the bytes do not depend on threads. Specification: PNG third
  * edition (W3C 2023); RFC 1950, 1951. */
 #include "image/codec.h"
 

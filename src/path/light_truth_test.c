@@ -119,7 +119,7 @@ static void a_glossy_metal_in_the_studio(void **state)
             assert_int_equal(facet_environment_create_studio(NULL, &f.environment, NULL), FACET_OK);
             truth_value v = truth_measure_pixels(&f);
             double alpha = (double)roughness[r] * (double)roughness[r];
-            double expected = reflected_by_quadrature(&f.environment->picture, angle, alpha);
+            double expected = reflected_by_quadrature(&f.environment->panorama, angle, alpha);
             truth_assert_channel(&v, 1, expected, "roughness %g, %g rad", (double)roughness[r], angle);
             fixture_destroy(&f);
         }

@@ -63,8 +63,8 @@ static void add_light(key_state *k, const facet_render_desc *desc)
     const facet_environment *e = desc->environment;
     add_number(k, e ? 1.0 : 0.0);
     if (e) {
-        add_number(k, e->picture.width);
-        add(k, e->picture.pixels, image_row_size(&e->picture) * e->picture.height);
+        add_number(k, e->panorama.width);
+        add(k, e->panorama.pixels, image_row_size(&e->panorama) * e->panorama.height);
     }
     add_number(k, (double)desc->environment_rotation_rad);
     add_number(k, (double)desc->environment_ev);

@@ -46,8 +46,8 @@ void truth_set_sky(fixture *f, uint32_t rows, truth_sky *sky)
     f->environment = NULL;
     facet_environment *e = NULL;
     assert_int_equal(environment_create(&(facet_environment_desc){0}, &e, NULL), FACET_OK);
-    assert_int_equal(image_create(&e->allocator, 2 * rows, rows, 3, IMAGE_F32, &e->picture, NULL), FACET_OK);
-    float *texels = e->picture.pixels;
+    assert_int_equal(image_create(&e->allocator, 2 * rows, rows, 3, IMAGE_F32, &e->panorama, NULL), FACET_OK);
+    float *texels = e->panorama.pixels;
     for (uint32_t y = 0; y < rows; y++)
         for (uint32_t x = 0; x < 2 * rows; x++) {
             double theta = TRUTH_PI * (y + 0.5) / rows;
@@ -56,7 +56,7 @@ void truth_set_sky(fixture *f, uint32_t rows, truth_sky *sky)
             sky(d, texels + 3 * ((size_t)y * 2 * rows + x));
         }
     environment_limit(e, 1);
-    cache_identify(e, texels, image_row_size(&e->picture) * rows);
+    cache_identify(e, texels, image_row_size(&e->panorama) * rows);
     f->environment = e;
 }
 

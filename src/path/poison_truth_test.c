@@ -185,7 +185,7 @@ static void poisoned_surroundings(void **state)
     for (int poison = 0; poison < POISON_COUNT; poison++) {
         fixture f = healthy();
         truth_set_sky(&f, 16, truth_sky_halves);
-        float *texels = f.environment->picture.pixels;
+        float *texels = f.environment->panorama.pixels;
         texels[3 * (8 * 32 + 5)] = POISONS[poison];
         texels[3 * (2 * 32 + 9) + 1] = POISONS[poison];
         environment_limit(f.environment, 1);

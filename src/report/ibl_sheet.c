@@ -465,7 +465,7 @@ static facet_result draw_levels(sheet *s, facet_error *error)
 static facet_result prepare(sheet *s, facet_error *error)
 {
     const facet_allocator *allocator = &s->desc->allocator;
-    const image *whole = &s->environment->picture;
+    const image *whole = &s->environment->panorama;
     s->picture = whole;
     if (s->bake->clamp > 0.0f) {
         TRY(image_create(allocator, whole->width, whole->height, 3, IMAGE_F32, &s->cut, error));

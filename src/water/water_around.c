@@ -63,13 +63,13 @@ facet_result water_around_prepare(water_setup *s, facet_error *error)
         return FACET_OK;
     facet_result result = environment_create(&desc, &around, error);
     if (result == FACET_OK)
-        result = image_create(&desc.allocator, 2 * HEIGHT, HEIGHT, 3, IMAGE_F32, &around->picture, error);
+        result = image_create(&desc.allocator, 2 * HEIGHT, HEIGHT, 3, IMAGE_F32, &around->panorama, error);
     if (result != FACET_OK) {
         if (around)
             environment_release(around);
         return result;
     }
-    const void *context[2] = {s, &around->picture};
+    const void *context[2] = {s, &around->panorama};
     parallel_for(r->thread_count, HEIGHT, 8, draw_surroundings, (void *)(uintptr_t)context);
     environment_limit(around, r->thread_count);
     if (s->cache->light->around)

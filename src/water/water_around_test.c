@@ -31,7 +31,7 @@ static vec3 seen_by_model(const facet_sea *sea, shot *s)
     facet_error error;
     if (water_setup_create(shot_in(sea, s), f.scene, &s->desc, &setup, &stats, &error) != FACET_OK)
         fail_msg("%s", error.message);
-    const image *around = &setup.cache->light->around->picture;
+    const image *around = &setup.cache->light->around->panorama;
     float d[3];
     vec3 found = vec3(0.0f);
     double closest = -1.0;

@@ -6,7 +6,7 @@
 #include "base/result.h"
 #include "ibl/environment.h"
 #include "ibl/equirect.h"
-#include "ibl/sky_picture.h"
+#include "ibl/sky_image.h"
 
 #include "water/water_sky.h"
 
@@ -125,7 +125,7 @@ static facet_result make_environment(const facet_allocator *allocator, uint32_t 
     const facet_environment_desc desc = {.allocator = *allocator};
     facet_result result = environment_create(&desc, out, error);
     if (result == FACET_OK)
-        result = image_create(allocator, width, height, 3, IMAGE_F32, &(*out)->picture, error);
+        result = image_create(allocator, width, height, 3, IMAGE_F32, &(*out)->panorama, error);
     return result;
 }
 
@@ -140,7 +140,7 @@ static void mirror_at_horizon(image *picture)
 /* Everything that is looked up in a picture; mirrored is drawn already. */
 static facet_result prepare_reflections(const facet_render_desc *desc, water_sky *s, facet_error *error)
 {
-    mirror_at_horizon(&s->mirrored->picture);
+    mirror_at_horizon(&s->mirrored->panorama);
     environment_limit(s->mirrored, desc->thread_count);
     const ibl_light_desc light = {.thread_count = desc->thread_count,
                                   .needs_irradiance = true,
@@ -156,8 +156,8 @@ static facet_result use_views(const facet_render_desc *desc, water_sky *s, facet
     if (result == FACET_OK)
         result = make_environment(&r->allocator, 2 * PICTURE_HEIGHT, PICTURE_HEIGHT, &s->mirrored, error);
     if (result == FACET_OK)
-        result = sky_picture_atmosphere(water_sky_low(s), desc->sky.sun_azimuth_rad, &r->allocator,
-                                        r->thread_count, &s->mirrored->picture, error);
+        result = sky_image_atmosphere(water_sky_low(s), desc->sky.sun_azimuth_rad, &r->allocator,
+                                      r->thread_count, &s->mirrored->panorama, error);
     if (result == FACET_OK)
         result = prepare_reflections(desc, s, error);
     if (result == FACET_OK && !desc->sky.omits_disc && s->L[1] > -SUN_RADIUS - 0.2f) {
@@ -171,12 +171,12 @@ static facet_result use_views(const facet_render_desc *desc, water_sky *s, facet
 static facet_result use_picture(const facet_render_desc *desc, facet_environment *environment,
                                 float rows_per_rad, water_sky *s, facet_error *error)
 {
-    const image *picture = &environment->picture;
+    const image *picture = &environment->panorama;
     const facet_allocator *allocator = &desc->allocator;
     facet_result result = make_environment(allocator, picture->width, picture->height, &s->mirrored, error);
     if (result != FACET_OK)
         return result;
-    memcpy(s->mirrored->picture.pixels, picture->pixels, image_row_size(picture) * picture->height);
+    memcpy(s->mirrored->panorama.pixels, picture->pixels, image_row_size(picture) * picture->height);
     result = prepare_reflections(desc, s, error);
     const ibl_light_desc light = {.thread_count = desc->thread_count,
                                   .needs_background = true,

@@ -7,7 +7,7 @@
 #define WATER_WATER_SKY_H
 
 #include "ibl/ibl.h"
-#include "ibl/sky_picture.h"
+#include "ibl/sky_image.h"
 #include "ibl/sky_view.h"
 
 #include "shade/shade.h"

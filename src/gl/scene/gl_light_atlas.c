@@ -28,7 +28,7 @@ static atlas_source source_of(const ibl_light *light, uint32_t part)
     uint32_t number = part - GL_ATLAS_IMAGES;
     const image *picture = number == 0 ? &light->sharp
                            : light->narrow && number <= light->narrow->count
-                               ? &light->narrow->pictures[number - 1]
+                               ? &light->narrow->blurred[number - 1]
                                : NULL;
     return (atlas_source){.picture = picture && picture->pixels ? picture : NULL};
 }

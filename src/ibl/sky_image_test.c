@@ -1,4 +1,4 @@
-/* sky_picture_test.c - pictures of skies: the sun's energy in any of them, symmetry, seams, numbers that stay numbers, exposure,
+/* sky_image_test.c - images of skies: the sun's energy in any of them, symmetry, seams, numbers that stay numbers, exposure,
  * arguments; and gradients. */
 #include <math.h>
 #include <setjmp.h>
@@ -16,7 +16,7 @@
 #include "ibl/environment.h"
 
 #include "ibl/equirect.h"
-#include "ibl/sky_picture.h"
+#include "ibl/sky_image.h"
 
 static const double degree = 0.017453292519943295;
 static const double pi = 3.14159265358979323846;
@@ -59,7 +59,7 @@ static double illuminance(const image *p, const double n[3])
 
 /* ---- the disc ---- */
 
-/* All of the sun's light is in a picture of any size, at any height of the sun: 0.05 %, for sums of float. */
+/* All of the sun's light is in an image of any size, at any height of the sun: 0.05 %, for sums of float. */
 static void test_disc_energy(void **state)
 {
     (void)state;
@@ -125,7 +125,7 @@ static void test_disc_shape(void **state)
     image_destroy(&p);
 }
 
-/* The picture of the whole sky has it too: with the disc minus without is the sun. */
+/* The image of the whole sky has it too: with the disc minus without is the sun. */
 static void test_disc_in_sky(void **state)
 {
     (void)state;
@@ -140,7 +140,7 @@ static void test_disc_in_sky(void **state)
         facet_environment *with = create(sky);
         sky.omits_disc = true;
         facet_environment *without = create(sky);
-        double sun = illuminance(&with->picture, n) - illuminance(&without->picture, n);
+        double sun = illuminance(&with->panorama, n) - illuminance(&without->panorama, n);
         assert_true(sun > 80000.0 &&
                     sun < 96000.0); /* 90 to 100 klx above a sea (section 13.3), and more haze here */
         facet_environment_destroy(with);
@@ -179,7 +179,7 @@ static void test_symmetry(void **state)
         facet_environment *e = create(sky); /* the sun between columns 3/4 - 1 and 3/4 of the width */
         sky.sun_azimuth_rad = (float)(-0.5 * pi);
         facet_environment *turned = create(sky); /* at the seam, where both ends of rows meet */
-        const image *p = &e->picture, *q = &turned->picture;
+        const image *p = &e->panorama, *q = &turned->panorama;
         uint32_t width = p->width, axis = 3 * width / 4;
         for (uint32_t y = 0; y < SIZE; y++)
             for (uint32_t x = 0; x < width; x++)
@@ -206,7 +206,7 @@ static void test_smooth(void **state)
                           .omits_disc = true,
                           .height = SIZE};
     facet_environment *e = create(sky);
-    const image *p = &e->picture;
+    const image *p = &e->panorama;
     const double row = pi / SIZE; /* rad */
     for (uint32_t y = 0; y < SIZE; y++)
         for (uint32_t x = 0; x < p->width; x++) {
@@ -230,7 +230,7 @@ static void test_smooth(void **state)
     facet_environment_destroy(e);
 }
 
-/* No picture holds what is no number, whatever the arguments. */
+/* No image holds what is no number, whatever the arguments. */
 static void test_numbers(void **state)
 {
     (void)state;
@@ -247,7 +247,7 @@ static void test_numbers(void **state)
                                   .ground_albedo = {0.0f, 0.5f, 1.0f},
                                   .height = 32};
             facet_environment *e = create(sky);
-            const float *c = e->picture.pixels;
+            const float *c = e->panorama.pixels;
             for (size_t k = 0; k < (size_t)64 * 32 * 3; k++)
                 assert_true(c[k] >= 0.0f && c[k] < ENVIRONMENT_MAX_RADIANCE);
             facet_environment_destroy(e);
@@ -264,7 +264,7 @@ static void test_twilight(void **state)
     for (int i = 0; i < 4; i++) {
         facet_environment *e = create((facet_sky_desc){
             .sun_elevation_rad = (float)(expected[i][0] * degree), .turbidity = 1.55f, .height = 64});
-        double E = illuminance(&e->picture, (double[3]){0.0, 1.0, 0.0});
+        double E = illuminance(&e->panorama, (double[3]){0.0, 1.0, 0.0});
         if (!(E >= expected[i][1] && E <= expected[i][2]))
             print_error("%g degrees: %g lx\n", expected[i][0], E);
         assert_true(E >= expected[i][1] && E <= expected[i][2]);
@@ -283,8 +283,8 @@ static void test_ground(void **state)
                                                        .ground_albedo = {albedo, albedo, albedo},
                                                        .omits_disc = true,
                                                        .height = 64});
-        double sky = illuminance(&e->picture, (double[3]){0.0, 1.0, 0.0});
-        double up = illuminance(&e->picture, (double[3]){0.0, -1.0, 0.0});
+        double sky = illuminance(&e->panorama, (double[3]){0.0, 1.0, 0.0});
+        double up = illuminance(&e->panorama, (double[3]){0.0, -1.0, 0.0});
         Atmosphere air[SKY_HALVES];
         sky_atmosphere(2.5f, (float[3]){0.0f, 0.0f, 0.0f}, air);
         sky_sun_light sun = sky_sun_through_air(air, 0.0f, 0.7f, 0.0f);
@@ -304,11 +304,11 @@ static void test_altitude(void **state)
     facet_environment *low = create(sky);
     sky.altitude_m = 30000.0f;
     facet_environment *high = create(sky);
-    double a = luminance_of(texel(&low->picture, 0, 20)), b = luminance_of(texel(&high->picture, 0, 20));
+    double a = luminance_of(texel(&low->panorama, 0, 20)), b = luminance_of(texel(&high->panorama, 0, 20));
     assert_true(b < 0.1 * a && b > 0.0);
     /* dips by acos(R / (R + h)) = 5.55 degrees: rows of a degree; air in front of the ground shines */
-    double limb = luminance_of(texel(&high->picture, 0, 94)),
-           space = luminance_of(texel(&high->picture, 0, 86));
+    double limb = luminance_of(texel(&high->panorama, 0, 94)),
+           space = luminance_of(texel(&high->panorama, 0, 86));
     assert_true(limb > 2.0 * space);
     facet_environment_destroy(low);
     facet_environment_destroy(high);
@@ -330,14 +330,14 @@ static void test_exposure(void **state)
         for (int k = 0; k < 60; k++) {
             double a = k * 6.0 * degree;
             double n[3] = {(cos)(a) * (sin)(0.5), (sin)(a), (cos)(a) * (cos)(0.5)};
-            largest = fmax(largest, illuminance(&e->picture, n));
+            largest = fmax(largest, illuminance(&e->panorama, n));
         }
         assert_near(largest, 100.0, 0.5); /* cos 3 degrees is 0.9986 */
         facet_environment_destroy(e);
     }
     facet_environment *night = create((facet_sky_desc){
         .sun_elevation_rad = (float)(-20.0 * degree), .height = 16, .illuminance_lux = 100.0f});
-    assert_true(illuminance(&night->picture, (double[3]){0.0, 1.0, 0.0}) < 1.0); /* night stays night */
+    assert_true(illuminance(&night->panorama, (double[3]){0.0, 1.0, 0.0}) < 1.0); /* night stays night */
     facet_environment_destroy(night);
 }
 
@@ -356,7 +356,7 @@ static void test_threads(void **state)
             assert_int_equal(facet_environment_create_sky(
                                  &sky, &(facet_environment_desc){.thread_count = 1 + 4 * i}, &e[i], NULL),
                              FACET_OK);
-        assert_memory_equal(e[0]->picture.pixels, e[1]->picture.pixels, (size_t)100 * 50 * 12);
+        assert_memory_equal(e[0]->panorama.pixels, e[1]->panorama.pixels, (size_t)100 * 50 * 12);
         facet_environment_destroy(e[0]);
         facet_environment_destroy(e[1]);
     }
@@ -427,18 +427,18 @@ static void test_gradient(void **state)
     for (int i = -10; i <= 10; i++) {
         double y = 0.1 * i;
         float d[3] = {(float)(sqrt)(fmax(1.0 - y * y, 0.0)), (float)y, 0.0f}, c[3];
-        equirect_lookup(&e->picture, d, c);
+        equirect_lookup(&e->panorama, d, c);
         for (int k = 0; k < 3; k++) {
             double end = (double)(i < 0 ? nadir : zenith)[k];
             assert_near((double)c[k], (double)horizon[k] + (end - (double)horizon[k]) * fabs(y), 0.02);
         }
     }
     double sum[3] = {0.0, 0.0, 0.0};
-    for (uint32_t y = 0; y < e->picture.height; y++)
-        for (uint32_t x = 0; x < e->picture.width; x++)
+    for (uint32_t y = 0; y < e->panorama.height; y++)
+        for (uint32_t x = 0; x < e->panorama.width; x++)
             for (int k = 0; k < 3; k++)
-                sum[k] += (double)texel(&e->picture, x, y)[k] *
-                          equirect_texel_solid_angle(e->picture.width, e->picture.height, y);
+                sum[k] += (double)texel(&e->panorama, x, y)[k] *
+                          equirect_texel_solid_angle(e->panorama.width, e->panorama.height, y);
     for (int k = 0; k < 3; k++) /* d.y is spread evenly over the sphere */
         assert_near(sum[k] / (4.0 * pi), 0.25 * (double)(zenith[k] + 2.0f * horizon[k] + nadir[k]), 1e-5);
     facet_environment_destroy(e);

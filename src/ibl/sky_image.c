@@ -1,4 +1,4 @@
-/* sky_picture.c - see sky_picture.h. */
+/* sky_image.c - see sky_image.h. */
 #include <math.h>
 #include <string.h>
 
@@ -6,7 +6,7 @@
 #include "base/parallel.h"
 #include "base/result.h"
 #include "ibl/equirect.h"
-#include "ibl/sky_picture.h"
+#include "ibl/sky_image.h"
 
 /* ---- the sun ---- */
 
@@ -96,10 +96,10 @@ vec3 sky_sun_illuminance(const sky_sun_light *sun)
     return vec3((float)sum[0], (float)sum[1], (float)sum[2]);
 }
 
-void sky_sun_draw(const sky_sun_light *sun, image *picture)
+void sky_sun_draw(const sky_sun_light *sun, image *panorama)
 {
     disc_frame frame = make_frame(sun);
-    uint32_t width = picture->width, height = picture->height;
+    uint32_t width = panorama->width, height = panorama->height;
     int finer = 1 + (int)(height / 2048);
     int count = PARTS * finer * finer; /* hundreds of parts per texel */
     for (int k = 0; k < count; k++) {
@@ -110,7 +110,7 @@ void sky_sun_draw(const sky_sun_light *sun, image *picture)
         uint32_t x = (uint32_t)fmin(fmax(u * width, 0.0), width - 1.0);
         uint32_t y = (uint32_t)fmin(v * height, height - 1.0);
         float per_sr = (float)(1.0 / equirect_texel_solid_angle(width, height, y));
-        float *texel = (float *)picture->pixels + 3 * ((size_t)y * width + x);
+        float *texel = (float *)panorama->pixels + 3 * ((size_t)y * width + x);
         for (int i = 0; i < 3; i++)
             texel[i] += part.illuminance[i] * per_sr;
     }
@@ -120,26 +120,26 @@ enum { FINE_SUB_ROWS = 16, BLOCK_ROWS = 32, BLOCK_COLUMNS = 64, CANDIDATES = 360
 
 static const double half_turn = 3.14159265358979323846;
 
-/* A picture, and one of the two skies. */
-typedef struct picture_job {
-    image *picture;
+/* An image, and one of the two skies. */
+typedef struct image_job {
+    image *panorama;
     sky_azimuth *columns; /* from the sun */
     double horizon;       /* angle from the zenith */
     float mu_sun, across_sun;
     const sky_view *view; /* NULL: Preetham's */
     PreethamSky preetham;
     const facet_allocator *allocator;
-} picture_job;
+} image_job;
 
 /* ---- rows ---- */
 
-/* Adds the sky at an angle from the zenith to a row of the picture. */
-static void add_view_row(const picture_job *job, double angle, float weight, float *texels)
+/* Adds the sky at an angle from the zenith to a row of the image. */
+static void add_view_row(const image_job *job, double angle, float weight, float *texels)
 {
     sky_light row[SKY_VIEW_AZIMUTHS];
     float mu = (float)(cos)(angle), across = (float)(sin)(angle)*job->across_sun;
     sky_view_fetch_row(job->view, (float)angle, row);
-    for (uint32_t x = 0; x < job->picture->width; x++) {
+    for (uint32_t x = 0; x < job->panorama->width; x++) {
         float cos_angle = clamp(mu * job->mu_sun + across * job->columns[x].cosine, -1.0f, 1.0f);
         vec3 L = sky_view_radiance(job->view, row, &job->columns[x], cos_angle);
         for (int i = 0; i < 3; i++)
@@ -147,10 +147,10 @@ static void add_view_row(const picture_job *job, double angle, float weight, flo
     }
 }
 
-static void add_preetham_row(const picture_job *job, double angle, float weight, float *texels)
+static void add_preetham_row(const image_job *job, double angle, float weight, float *texels)
 {
     float mu = (float)(cos)(angle), across = (float)(sin)(angle)*job->across_sun;
-    for (uint32_t x = 0; x < job->picture->width && angle < job->horizon; x++) {
+    for (uint32_t x = 0; x < job->panorama->width && angle < job->horizon; x++) {
         float cos_angle = clamp(mu * job->mu_sun + across * job->columns[x].cosine, -1.0f, 1.0f);
         vec3 L = preetham_radiance(job->preetham, mu, cos_angle);
         for (int i = 0; i < 3; i++)
@@ -161,11 +161,11 @@ static void add_preetham_row(const picture_job *job, double angle, float weight,
 /* Rows are means over rows within them where the sky changes fast: at the horizon, and where there are few. */
 static void draw_rows(void *context, size_t begin, size_t end)
 {
-    const picture_job *job = context;
-    double row_angle = half_turn / job->picture->height;
-    size_t row_floats = (size_t)job->picture->width * 3;
+    const image_job *job = context;
+    double row_angle = half_turn / job->panorama->height;
+    size_t row_floats = (size_t)job->panorama->width * 3;
     for (size_t y = begin; y < end; y++) {
-        float *texels = (float *)job->picture->pixels + y * row_floats;
+        float *texels = (float *)job->panorama->pixels + y * row_floats;
         double top = (double)y * row_angle;
         bool is_fine = fabs(top + 0.5 * row_angle - job->horizon) < 2.0 * row_angle;
         int count = is_fine ? FINE_SUB_ROWS : (int)fmin(ceil(row_angle / 0.007), FINE_SUB_ROWS);
@@ -182,9 +182,9 @@ static void draw_rows(void *context, size_t begin, size_t end)
     }
 }
 
-static facet_result draw(picture_job *job, float sun_azimuth_rad, uint32_t thread_count, facet_error *error)
+static facet_result draw(image_job *job, float sun_azimuth_rad, uint32_t thread_count, facet_error *error)
 {
-    uint32_t width = job->picture->width;
+    uint32_t width = job->panorama->width;
     job->columns = mem_alloc(job->allocator, width, sizeof *job->columns);
     if (!job->columns)
         return fail_memory(error, "sky", width * sizeof *job->columns);
@@ -192,62 +192,62 @@ static facet_result draw(picture_job *job, float sun_azimuth_rad, uint32_t threa
     for (uint32_t x = 0; x < width; x++)
         job->columns[x] = sky_view_azimuth(2.0 * half_turn * ((x + 0.5) / width - 0.5) - sun);
     job->across_sun = sqrtf(max(1.0f - job->mu_sun * job->mu_sun, 0.0f));
-    parallel_for(thread_count, job->picture->height, 8, draw_rows, job);
+    parallel_for(thread_count, job->panorama->height, 8, draw_rows, job);
     mem_free(job->columns);
     return FACET_OK;
 }
 
-facet_result sky_picture_atmosphere(const sky_view *view, float sun_azimuth_rad,
-                                    const facet_allocator *allocator, uint32_t thread_count, image *picture,
-                                    facet_error *error)
+facet_result sky_image_atmosphere(const sky_view *view, float sun_azimuth_rad,
+                                  const facet_allocator *allocator, uint32_t thread_count, image *panorama,
+                                  facet_error *error)
 {
-    picture_job job = {.picture = picture,
-                       .allocator = allocator,
-                       .horizon = (acos)((double)horizon_mu(view->height_km)),
-                       .mu_sun = view->mu_sun,
-                       .view = view};
+    image_job job = {.panorama = panorama,
+                     .allocator = allocator,
+                     .horizon = (acos)((double)horizon_mu(view->height_km)),
+                     .mu_sun = view->mu_sun,
+                     .view = view};
     return draw(&job, sun_azimuth_rad, thread_count, error);
 }
 
 /* ---- Preetham's ground ---- */
 
-/* Illuminance of level ground by the upper half of the picture. */
-static void sum_ground(const image *picture, double out[3])
+/* Illuminance of level ground by the upper half of the image. */
+static void sum_ground(const image *panorama, double out[3])
 {
     out[0] = out[1] = out[2] = 0.0;
-    for (uint32_t y = 0; y < picture->height / 2; y++) {
-        const float *row = (const float *)picture->pixels + (size_t)y * picture->width * 3;
+    for (uint32_t y = 0; y < panorama->height / 2; y++) {
+        const float *row = (const float *)panorama->pixels + (size_t)y * panorama->width * 3;
         double sums[3] = {0.0, 0.0, 0.0};
-        for (uint32_t x = 0; x < picture->width; x++)
+        for (uint32_t x = 0; x < panorama->width; x++)
             for (int i = 0; i < 3; i++)
                 sums[i] += (double)row[3 * x + (uint32_t)i];
-        double cosine = (cos)((y + 0.5) * half_turn / picture->height);
+        double cosine = (cos)((y + 0.5) * half_turn / panorama->height);
         for (int i = 0; i < 3; i++)
-            out[i] += sums[i] * cosine * equirect_texel_solid_angle(picture->width, picture->height, y);
+            out[i] += sums[i] * cosine * equirect_texel_solid_angle(panorama->width, panorama->height, y);
     }
 }
 
-facet_result sky_picture_preetham(float turbidity, const sky_sun_light *sun, const float ground_albedo[3],
-                                  const facet_allocator *allocator, uint32_t thread_count, image *picture,
-                                  facet_error *error)
+facet_result sky_image_preetham(float turbidity, const sky_sun_light *sun, const float ground_albedo[3],
+                                const facet_allocator *allocator, uint32_t thread_count, image *panorama,
+                                facet_error *error)
 {
     float zenith = 0.5f * PI - sun->elevation_rad;
-    picture_job job = {.picture = picture,
-                       .allocator = allocator,
-                       .horizon = 0.5 * half_turn,
-                       .mu_sun = cosf(zenith),
-                       .preetham = preetham_sky(turbidity, zenith)};
+    image_job job = {.panorama = panorama,
+                     .allocator = allocator,
+                     .horizon = 0.5 * half_turn,
+                     .mu_sun = cosf(zenith),
+                     .preetham = preetham_sky(turbidity, zenith)};
     TRY(draw(&job, sun->azimuth_rad, thread_count, error));
     double illuminance[3];
-    sum_ground(picture, illuminance);
+    sum_ground(panorama, illuminance);
     vec3 direct = sky_sun_illuminance(sun);
-    float *texels = picture->pixels;
-    for (uint32_t y = picture->height / 2; y < picture->height; y++) {
-        bool is_half = 2 * y + 1 == picture->height; /* the horizon goes through its middle */
-        for (uint32_t x = 0; x < picture->width; x++)
+    float *texels = panorama->pixels;
+    for (uint32_t y = panorama->height / 2; y < panorama->height; y++) {
+        bool is_half = 2 * y + 1 == panorama->height; /* the horizon goes through its middle */
+        for (uint32_t x = 0; x < panorama->width; x++)
             for (uint32_t i = 0; i < 3; i++) {
                 double light = illuminance[i] + (double)direct[i] * (double)job.mu_sun;
-                texels[((size_t)y * picture->width + x) * 3 + i] +=
+                texels[((size_t)y * panorama->width + x) * 3 + i] +=
                     (float)(light * (double)ground_albedo[i] / half_turn) * (is_half ? 0.5f : 1.0f);
             }
     }
@@ -258,14 +258,14 @@ facet_result sky_picture_preetham(float turbidity, const sky_sun_light *sun, con
 
 /* Luminous flux per area that comes through blocks of texels, as vectors to where it comes from. */
 typedef struct flux_blocks {
-    const image *picture;
+    const image *panorama;
     double vectors[BLOCK_ROWS][BLOCK_COLUMNS][3];
 } flux_blocks;
 
 static void sum_blocks(void *context, size_t begin, size_t end)
 {
     flux_blocks *b = context;
-    const image *p = b->picture;
+    const image *p = b->panorama;
     for (size_t row = begin; row < end; row++)
         for (uint32_t y = (uint32_t)(row * p->height / BLOCK_ROWS);
              y < (uint32_t)((row + 1) * p->height / BLOCK_ROWS); y++) {
@@ -282,14 +282,13 @@ static void sum_blocks(void *context, size_t begin, size_t end)
         }
 }
 
-facet_result sky_picture_illuminance(const image *picture, float azimuth_rad,
-                                     const facet_allocator *allocator, uint32_t thread_count, double *out,
-                                     facet_error *error)
+facet_result sky_image_illuminance(const image *panorama, float azimuth_rad, const facet_allocator *allocator,
+                                   uint32_t thread_count, double *out, facet_error *error)
 {
     flux_blocks *b = mem_zalloc(allocator, 1, sizeof *b);
     if (!b)
         return fail_memory(error, "sky", sizeof *b);
-    b->picture = picture;
+    b->panorama = panorama;
     parallel_for(thread_count, BLOCK_ROWS, 1, sum_blocks, b);
     double largest = 0.0;
     for (int c = 0; c < CANDIDATES; c++) {
