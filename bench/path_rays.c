@@ -125,9 +125,9 @@ static void trace_facet(void *context, size_t begin, size_t end)
         visibility_hit *hit = &p->hits[i];
         if (p->kind == RAYS_SHADOW) {
             crossings.takes_all = r->takes_all;
-            float opening =
+            float transmittance =
                 __real_ray_trace_transmittance(p->scene, &r->ray, r->has_crossings ? &crossings : NULL);
-            hit->geometry = opening > 0.0f ? VISIBILITY_NONE : 0;
+            hit->geometry = transmittance > 0.0f ? VISIBILITY_NONE : 0;
         } else if (p->kind == RAYS_BOUNCE) {
             if (!__real_ray_trace_nearest(p->scene, &r->ray, r->random, hit))
                 hit->geometry = VISIBILITY_NONE;

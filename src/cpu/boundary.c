@@ -10,7 +10,7 @@
  * leans towards a sharp edge leans no more. */
 
 /* Normals that lean farther from the triangle count as this far. */
-static const float LEAST_COS = 0.2f;
+static const float MIN_COS = 0.2f;
 
 typedef struct corner_normals {
     vec3 Ng;       /* unit, outward */
@@ -57,7 +57,7 @@ static corner_normals corner_normals_of(const shading_hit *h, vec3 Ng)
         c.farthest = max(c.farthest, abs(p[i]));
         vec3 n = unit_normal(h->geometry, h->corner[i]);
         float cos_n = dot(n, Ng);
-        slope[i] = (n - Ng * cos_n) * (1.0f / max(cos_n, LEAST_COS));
+        slope[i] = (n - Ng * cos_n) * (1.0f / max(cos_n, MIN_COS));
     }
     float along[3]; /* of the edge from i to i + 1 */
     for (int i = 0; i < 3; i++) {
@@ -111,13 +111,13 @@ boundary_normal boundary_normal_at(const surface_point *s, const visibility_hit 
 
 /* A bundle does not open wider than this, in rad per footprint: beyond it (at the rim of a sphere) the linear changes
  * mean nothing. */
-static const float WIDEST = 0.5f;
+static const float MAX_SPREAD = 0.5f;
 
 static vec3 bounded(vec3 v)
 {
     float length2 = dot(v, v);
-    if (!(length2 <= WIDEST * WIDEST))
-        return length2 < 1e30f ? v * (WIDEST * inversesqrt(length2)) : vec3(0.0f);
+    if (!(length2 <= MAX_SPREAD * MAX_SPREAD))
+        return length2 < 1e30f ? v * (MAX_SPREAD * inversesqrt(length2)) : vec3(0.0f);
     return v;
 }
 
@@ -129,7 +129,7 @@ static vec3 change_of_position(vec3 dO, vec3 dD, float t, vec3 D, vec3 Ng)
     return cos_D < -1e-4f ? off - D * (dot(off, Ng) / cos_D) : off;
 }
 
-bundle_hit ray_bundle_meet(const shading_ray *ray, const surface_point *s, const boundary_normal *normal)
+bundle_hit ray_bundle_hit(const shading_ray *ray, const surface_point *s, const boundary_normal *normal)
 {
     bundle_hit hit = {.P = s->P, .D = -s->V, .dN_dx = normal->dN_dx, .dN_dy = normal->dN_dy};
     const ray_spread *spread = ray->spread;

@@ -29,7 +29,7 @@ typedef struct bundle_hit {
     vec3 dN_dx, dN_dy; /* of the shading normal */
 } bundle_hit;
 
-bundle_hit ray_bundle_meet(const shading_ray *ray, const surface_point *s, const boundary_normal *normal);
+bundle_hit ray_bundle_hit(const shading_ray *ray, const surface_point *s, const boundary_normal *normal);
 
 /* A ray with a spread of its own, which becomes that of the ray where it is followed. */
 typedef struct bundle_ray {

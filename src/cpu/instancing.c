@@ -13,14 +13,14 @@
 
 enum {
     RAYS_PER_TRIANGLE = 16,
-    LEAST_SAVED = 1 << 15, /* triangles: 8 ms */
-    MOST_SAVED = 1 << 20,  /* from here on it is memory that is saved: 80 MB */
-    LEAST_TRIANGLES = 16   /* of a shape; an instance costs as much as 5 triangles */
+    MIN_SAVED = 1 << 15, /* triangles: 8 ms */
+    MAX_SAVED = 1 << 20, /* from here on it is memory that is saved: 80 MB */
+    MIN_TRIANGLES = 16   /* of a shape; an instance costs as much as 5 triangles */
 };
 
 /* Coordinates of rays stay within 1e10 * 1e7. */
-static const double FARTHEST = 1e10;
-static const double STRONGEST_SCALE = 1e7;
+static const double MAX_COORDINATE = 1e10;
+static const double MAX_SCALE = 1e7;
 
 bool instancing_is_within_reach(const scene_pose *pose, const camera_rays *camera)
 {
@@ -33,13 +33,13 @@ bool instancing_is_within_reach(const scene_pose *pose, const camera_rays *camer
                            fabs((double)camera->direction_dx[i]) * width +
                            fabs((double)camera->direction_dy[i]) * height;
         double bounds = fmax(fabs((double)pose->bounds_min[i]), fabs((double)pose->bounds_max[i]));
-        if (!(origin <= FARTHEST && direction <= FARTHEST && bounds <= FARTHEST))
+        if (!(origin <= MAX_COORDINATE && direction <= MAX_COORDINATE && bounds <= MAX_COORDINATE))
             return false;
     }
     return true;
 }
 
-/* Whether world and its inverse scale by no more than STRONGEST_SCALE. The inverse is the cofactors over the
+/* Whether world and its inverse scale by no more than MAX_SCALE. The inverse is the cofactors over the
  * determinant. */
 static bool is_moderate(const mat4 *world)
 {
@@ -62,7 +62,7 @@ static bool is_moderate(const mat4 *world)
     double determinant = 0.0;
     for (int row = 0; row < 3; row++)
         determinant += (double)m[row] * cofactors[3 * row];
-    return largest <= STRONGEST_SCALE && largest_cofactor <= STRONGEST_SCALE * fabs(determinant);
+    return largest <= MAX_SCALE && largest_cofactor <= MAX_SCALE * fabs(determinant);
 }
 
 /* Whether a mesh is near its own origin: far from it, the rounding of where rays meet it would be large beside it, and
@@ -150,8 +150,7 @@ static void find_shapes(chooser *c)
         const scene_instance *instance = &c->pose->instances[i];
         render_geometry *g = &set->items[i];
         g->shape = SCENE_NONE;
-        if (triangle_count(g) < LEAST_TRIANGLES || !is_centered(g->primitive) ||
-            !is_moderate(&instance->world))
+        if (triangle_count(g) < MIN_TRIANGLES || !is_centered(g->primitive) || !is_moderate(&instance->world))
             continue;
         uint32_t *slot = &c->slots[c->first_slots[instance->mesh] + instance->primitive_index];
         if (*slot == SCENE_NONE || set->shapes[*slot].positions != g->positions) {
@@ -245,7 +244,7 @@ facet_result instancing_choose(const facet_scene *scene, const scene_pose *pose,
                                const facet_allocator *allocator, render_geometry_set *set, facet_error *error)
 {
     uint64_t needed = desc->ray_count / RAYS_PER_TRIANGLE;
-    needed = needed < LEAST_SAVED ? LEAST_SAVED : needed > MOST_SAVED ? MOST_SAVED : needed;
+    needed = needed < MIN_SAVED ? MIN_SAVED : needed > MAX_SAVED ? MAX_SAVED : needed;
     chooser c = {.scene = scene, .pose = pose, .desc = desc, .set = set, .needed = needed};
     if (!desc->is_within_reach || !is_worth_a_look(&c))
         return FACET_OK;

@@ -150,23 +150,23 @@ typedef struct survey {
     uint32_t count;
     struct {
         const render_geometry *geometry;
-        int excess;        /* sides met from inside, less those from outside */
-    } bodies[MEDIA_DEPTH]; /* by material, in the order in which they are met */
+        int excess;         /* sides met from inside, less those from outside */
+    } volumes[MEDIA_DEPTH]; /* by material, in the order in which they are met */
 } survey;
 
 static void count_side(survey *s, const visibility_hit *hit)
 {
     const render_geometry *g = &s->scene->geometries->items[hit->geometry];
     uint32_t i = 0;
-    while (i < s->count && s->bodies[i].geometry->material != g->material)
+    while (i < s->count && s->volumes[i].geometry->material != g->material)
         i++;
     if (i == MEDIA_DEPTH)
         return;
     if (i == s->count) {
-        s->bodies[s->count].geometry = g;
-        s->bodies[s->count++].excess = 0;
+        s->volumes[s->count].geometry = g;
+        s->volumes[s->count++].excess = 0;
     }
-    s->bodies[i].excess += surface_sees_front(g, hit, s->direction) ? -1 : 1;
+    s->volumes[i].excess += surface_sees_front(g, hit, s->direction) ? -1 : 1;
 }
 
 static void note_side(const struct RTCFilterFunctionNArguments *arguments)
@@ -195,8 +195,8 @@ static survey survey_from(const shading_scene *scene, const float P[3], vec3 dir
 static int excess_of(const survey *s, const scene_material *material)
 {
     for (uint32_t i = 0; i < s->count; i++)
-        if (s->bodies[i].geometry->material == material)
-            return s->bodies[i].excess;
+        if (s->volumes[i].geometry->material == material)
+            return s->volumes[i].excess;
     return 0;
 }
 
@@ -208,25 +208,25 @@ static bool is_within_bounds(const shading_scene *scene, const float P[3])
            P[2] >= b.lower_z && P[2] <= b.upper_z;
 }
 
-/* Three ways out that no model is aligned to: an open mesh has its back turned to one of them at most by chance. */
+/* Three directions out that no model is aligned to: an open mesh has its back turned to one of them at most by chance. */
 uint32_t media_at(const shading_scene *scene, const float P[3], media *m)
 {
-    enum { WAYS = 3 };
-    static const float ways[WAYS][3] = {
+    enum { DIRECTIONS = 3 };
+    static const float directions[DIRECTIONS][3] = {
         {0.3015f, 0.9045f, 0.3015f}, {-0.8018f, -0.2673f, 0.5345f}, {0.4575f, -0.1525f, -0.8760f}};
     if (!scene->plans->has_bodies || !is_within_bounds(scene, P))
         return 0;
-    survey surveys[WAYS];
-    for (uint32_t i = 0; i < WAYS; i++) {
-        surveys[i] = survey_from(scene, P, load3(ways[i]));
+    survey surveys[DIRECTIONS];
+    for (uint32_t i = 0; i < DIRECTIONS; i++) {
+        surveys[i] = survey_from(scene, P, load3(directions[i]));
         if (surveys[i].count == 0)
             return i + 1;
     }
     for (uint32_t i = surveys[0].count; i > 0; i--) {
-        const render_geometry *g = surveys[0].bodies[i - 1].geometry;
-        if (surveys[0].bodies[i - 1].excess > 0 && excess_of(&surveys[1], g->material) > 0 &&
+        const render_geometry *g = surveys[0].volumes[i - 1].geometry;
+        if (surveys[0].volumes[i - 1].excess > 0 && excess_of(&surveys[1], g->material) > 0 &&
             excess_of(&surveys[2], g->material) > 0)
             media_enter(m, g->material, g->material->thickness * g->scale);
     }
-    return WAYS;
+    return DIRECTIONS;
 }

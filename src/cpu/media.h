@@ -22,29 +22,29 @@ typedef struct medium {
 
 typedef struct media {
     uint32_t count;
-    medium bodies[MEDIA_DEPTH]; /* the last is what is here */
+    medium volumes[MEDIA_DEPTH]; /* the last is what is here */
 } media;
 
 /* NULL: air. */
 static inline const scene_material *media_here(const media *m)
 {
-    return m->count ? m->bodies[m->count - 1].material : NULL;
+    return m->count ? m->volumes[m->count - 1].material : NULL;
 }
 
 /* Beyond MEDIA_DEPTH the outermost is forgotten. */
 static inline void media_enter(media *m, const scene_material *material, float thickness_m)
 {
     if (m->count == MEDIA_DEPTH)
-        memmove(m->bodies, m->bodies + 1, --m->count * sizeof *m->bodies);
-    m->bodies[m->count++] = (medium){.material = material, .thickness_m = thickness_m};
+        memmove(m->volumes, m->volumes + 1, --m->count * sizeof *m->volumes);
+    m->volumes[m->count++] = (medium){.material = material, .thickness_m = thickness_m};
 }
 
 /* A ray that leaves what it has not entered (a mesh with a hole, a camera inside) stays where it is. */
 static inline void media_leave(media *m, const scene_material *material)
 {
     for (uint32_t i = m->count; i > 0; i--)
-        if (m->bodies[i - 1].material == material) {
-            memmove(m->bodies + i - 1, m->bodies + i, (m->count - i) * sizeof *m->bodies);
+        if (m->volumes[i - 1].material == material) {
+            memmove(m->volumes + i - 1, m->volumes + i, (m->count - i) * sizeof *m->volumes);
             m->count--;
             return;
         }

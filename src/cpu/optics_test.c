@@ -144,7 +144,7 @@ static void bundles_follow_their_neighbours(void **state)
             else
                 normal.dN_dx = there - N;
         }
-        bundle_hit hit = ray_bundle_meet(&ray, &s, &normal);
+        bundle_hit hit = ray_bundle_hit(&ray, &s, &normal);
         bundle_ray out;
         if (etas[i] > 0.0f)
             assert_true(ray_bundle_refract(&hit, N, etas[i], &out));
@@ -160,7 +160,7 @@ static void bundles_follow_their_neighbours(void **state)
     ray_spread none = {0};
     shading_ray ray = {.spread = &none, .footprint = 1.0f, .direction = {-1.0f, 0.0f, -0.3f}};
     boundary_normal flat = {.N = vec3(0.0f, 0.0f, 1.0f), .Ng = vec3(0.0f, 0.0f, 1.0f)};
-    bundle_hit hit = ray_bundle_meet(&ray, &s, &flat);
+    bundle_hit hit = ray_bundle_hit(&ray, &s, &flat);
     bundle_ray out;
     assert_false(ray_bundle_refract(&hit, flat.N, 1.5f, &out)); /* total reflection */
 }

@@ -37,7 +37,7 @@ typedef struct prepared_scene {
     facet_isa isa;         /* of embree */
     tangent_store tangents;
     struct texture_store *textures; /* NULL: none was read yet */
-    bool has_told_occlusion;        /* which materials do without */
+    bool has_warned_occlusion;      /* which materials do without */
 } prepared_scene;
 
 /* Of a scene that outlives it; NULL: {0}. Nothing is prepared yet. */

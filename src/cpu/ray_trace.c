@@ -86,7 +86,7 @@ static bool have_common_edge(const render_geometry *g, const visibility_hit *a, 
 }
 
 /* A ray through an edge meets both triangles, which are one surface there. */
-static bool is_twin(const layer_search *w, const visibility_hit *a, const visibility_hit *b)
+static bool is_same_surface(const layer_search *w, const visibility_hit *a, const visibility_hit *b)
 {
     const render_geometry *g = &w->scene->geometries->items[a->geometry];
     return a->geometry == b->geometry && a->primitive != b->primitive &&
@@ -153,7 +153,7 @@ static void tidy(layer_search *w)
     for (uint32_t i = 0; i < w->count; i++) {
         bool repeats = false;
         for (uint32_t k = kept; k > 0 && is_same_distance(w->layers[i].t, w->layers[k - 1].t); k--)
-            repeats = repeats || is_twin(w, &w->layers[i], &w->layers[k - 1]);
+            repeats = repeats || is_same_surface(w, &w->layers[i], &w->layers[k - 1]);
         if (!repeats)
             w->layers[kept++] = w->layers[i];
     }
@@ -208,7 +208,7 @@ static float opacity_of(const shading_scene *scene, const shading_ray *ray, cons
 
 /* Takes the next of several things, of the given weight, in place of the one that was drawn among those before it, whose
  * weights add up to sum; what is left of u serves the next draw. */
-static bool draws(float weight, float sum, float *u)
+static bool reservoir_takes(float weight, float sum, float *u)
 {
     float share = weight / (sum + weight);
     if (*u < share) {
@@ -233,7 +233,7 @@ static void gather_layers(const shading_scene *scene, const shading_ray *ray, fl
         for (uint32_t i = 0; i < count; i++) {
             opacity = opacity_of(scene, ray, &hits[i]);
             float weight = passes * opacity;
-            if (weight > 0.0f && draws(weight, first->opacity, &u))
+            if (weight > 0.0f && reservoir_takes(weight, first->opacity, &u))
                 first->hit = hits[i];
             first->opacity += weight;
             passes *= 1.0f - opacity;
@@ -268,7 +268,7 @@ typedef struct search {
     const shading_scene *scene;
     shading_ray ray; /* without spread */
     uint32_t random;
-    float opening;
+    float transmittance;
     ray_crossings *crossings;
 } search;
 
@@ -286,7 +286,7 @@ static float uniform_of(uint32_t random, const visibility_hit *hit)
     return (float)(bits >> 8) * (1.0f / 16777216.0f);
 }
 
-static void meet_by_chance(const struct RTCFilterFunctionNArguments *arguments)
+static void accept_by_opacity(const struct RTCFilterFunctionNArguments *arguments)
 {
     if (arguments->valid[0] != -1)
         return;
@@ -308,7 +308,7 @@ bool ray_trace_nearest(const shading_scene *scene, const shading_ray *ray, uint3
     s.ray.spread = &NO_SPREAD;
     struct RTCRayHit rayhit = ray_trace_embree_hit(ray);
     rayhit.ray.tnear = max(ray->near_t, hit->t);
-    embree_intersect1_filtered(scene->embree->scene, &rayhit, &s.context, meet_by_chance);
+    embree_intersect1_filtered(scene->embree->scene, &rayhit, &s.context, accept_by_opacity);
     if (rayhit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return false;
     *hit = visibility_hit_read(scene->geometries, rayhit.ray.tfar, &rayhit.hit);
@@ -347,8 +347,8 @@ static void dim(const struct RTCFilterFunctionNArguments *arguments)
         arguments->valid[0] = 0;
         return;
     }
-    s->opening *= max(1.0f - opacity_of(s->scene, &s->ray, &hit), 0.0f);
-    if (s->opening > 0.0f)
+    s->transmittance *= max(1.0f - opacity_of(s->scene, &s->ray, &hit), 0.0f);
+    if (s->transmittance > 0.0f)
         arguments->valid[0] = 0;
 }
 
@@ -361,7 +361,7 @@ float ray_trace_transmittance(const shading_scene *scene, const shading_ray *ray
     }
     if (!scene->plans->has_see_through && !crossings)
         return embree_occluded1(scene->embree->scene, &r) ? 0.0f : 1.0f;
-    search s = {.scene = scene, .ray = *ray, .opening = 1.0f, .crossings = crossings};
+    search s = {.scene = scene, .ray = *ray, .transmittance = 1.0f, .crossings = crossings};
     s.ray.spread = &NO_SPREAD;
-    return embree_occluded1_filtered(scene->embree->scene, &r, &s.context, dim) ? 0.0f : s.opening;
+    return embree_occluded1_filtered(scene->embree->scene, &r, &s.context, dim) ? 0.0f : s.transmittance;
 }

@@ -8,13 +8,13 @@
 #include "cpu/surface_light.h"
 
 enum {
-    WAITING = 24, /* rays that branched off and were not followed yet */
-    DEPTH = 16,   /* surfaces on a ray's way */
-    COLORS = 3    /* rays of a white one that meets a dispersive body behind another surface */
+    MAX_PENDING = 24, /* rays that branched off and were not followed yet */
+    DEPTH = 16,       /* surfaces on a ray's way */
+    COLORS = 3        /* rays of a white one that meets a dispersive body behind another surface */
 };
 
 /* What carries less of a shade is not followed. */
-static const float LEAST_WEIGHT[] = {
+static const float MIN_WEIGHT[] = {
     [FACET_QUALITY_NORMAL] = 0.01f, [FACET_QUALITY_DRAFT] = 0.02f, [FACET_QUALITY_FINAL] = 0.003f};
 /* Factor on it where what is seen is blurred: no inner reflection of one boundary, but total ones. */
 static const float BLURRED = 6.0f;
@@ -45,8 +45,8 @@ typedef struct tracer {
     uint32_t budget;
     uint64_t rays;
     vec3 radiance;
-    uint32_t waiting_count;
-    branch waiting[WAITING];
+    uint32_t pending_count;
+    branch pending[MAX_PENDING];
 } tracer;
 
 /* ---- between surfaces ---- */
@@ -116,14 +116,14 @@ static void travel(tracer *t, branch *b, float length_m)
 static void end(tracer *t, branch *b)
 {
     if (b->media.count)
-        travel(t, b, b->media.bodies[b->media.count - 1].thickness_m);
+        travel(t, b, b->media.volumes[b->media.count - 1].thickness_m);
     t->radiance += b->weight * environment_seen(t->scene, b);
 }
 
 static void follow_later(tracer *t, const branch *b)
 {
-    if (t->waiting_count < WAITING) {
-        t->waiting[t->waiting_count++] = *b;
+    if (t->pending_count < MAX_PENDING) {
+        t->pending[t->pending_count++] = *b;
         return;
     }
     branch last = *b;
@@ -170,7 +170,7 @@ static boundary boundary_of(const shading_scene *scene, const branch *b, const v
                   .normal = boundary_normal_at(s, hit),
                   .alpha = layers_transmission_alpha(s->m),
                   .behind = b->media};
-    y.bundle = ray_bundle_meet(&b->ray, s, &y.normal);
+    y.bundle = ray_bundle_hit(&b->ray, s, &y.normal);
     if (s->plan->is_volume)
         media_cross(scene, hit, s, y.normal.tolerance, &y.behind);
     return y;
@@ -317,7 +317,8 @@ static bool is_dispersed_by(const branch *b, const surface_point *s)
 
 /* A surface on the way of a ray, which brings `weight` of what it sends. A white ray that meets a dispersive body goes
  * on as one of each color. */
-static void meet(tracer *t, const branch *b, const visibility_hit *hit, const surface_point *s, vec3 weight)
+static void shade_hit(tracer *t, const branch *b, const visibility_hit *hit, const surface_point *s,
+                      vec3 weight)
 {
     bool passes = (s->m.layers & LAYER_TRANSMISSION) != 0;
     if (!passes || is_outer_surface(b, s)) {
@@ -360,7 +361,7 @@ static void follow(tracer *t, branch *b)
         /* Whether a masked texel is there has been decided. */
         float opacity =
             material->alpha_mode == SCENE_ALPHA_BLEND ? surface_opacity(material, s.base_color[3]) : 1.0f;
-        meet(t, b, &hits[i], &s, b->weight * opacity);
+        shade_hit(t, b, &hits[i], &s, b->weight * opacity);
         b->weight *= 1.0f - opacity;
         if (opacity >= 1.0f)
             return;
@@ -370,13 +371,13 @@ static void follow(tracer *t, branch *b)
 
 static void follow_all(tracer *t)
 {
-    while (t->waiting_count) {
+    while (t->pending_count) {
         uint32_t heaviest = 0;
-        for (uint32_t i = 1; i < t->waiting_count; i++)
-            if (max3(t->waiting[i].weight) > max3(t->waiting[heaviest].weight))
+        for (uint32_t i = 1; i < t->pending_count; i++)
+            if (max3(t->pending[i].weight) > max3(t->pending[heaviest].weight))
                 heaviest = i;
-        branch b = t->waiting[heaviest];
-        t->waiting[heaviest] = t->waiting[--t->waiting_count];
+        branch b = t->pending[heaviest];
+        t->pending[heaviest] = t->pending[--t->pending_count];
         b.ray.spread = &b.spread;
         if (t->budget == 0 || b.depth > DEPTH || max3(b.weight) < t->least_weight) {
             end(t, &b);
@@ -466,7 +467,7 @@ uint64_t refraction_shade(const shading_scene *scene, const shading_point *point
     vec3 colors = p.is_dispersed ? color_sum(&p, point) : vec3((float)p.count);
     /* Four times its part of the lobe, which that widens by a tenth: bright lamps leave no specks. */
     t.share = p.is_rough ? min(4.0f / (float)p.total, 1.0f) : 1.0f;
-    t.least_weight = LEAST_WEIGHT[scene->quality] * (p.is_rough ? BLURRED : 1.0f) / (float)p.count;
+    t.least_weight = MIN_WEIGHT[scene->quality] * (p.is_rough ? BLURRED : 1.0f) / (float)p.count;
     uint32_t place = ray_samples_place(point->x, point->y);
     for (uint32_t i = 0; i < p.count; i++) {
         branch b = first;

@@ -126,9 +126,9 @@ static facet_result drop_black_occlusion(render_setup *p, facet_error *error)
 {
     const uint32_t bit = 1u << SCENE_OCCLUSION_TEXTURE;
     const facet_scene *scene = p->prepared->scene;
-    bool tells = !p->prepared->has_told_occlusion && p->desc->renderer != FACET_RENDERER_KIND_PATH;
-    bool *is_told = mem_zalloc(&p->desc->allocator, (size_t)scene->material_count + 1, sizeof *is_told);
-    if (!is_told)
+    bool warns = !p->prepared->has_warned_occlusion && p->desc->renderer != FACET_RENDERER_KIND_PATH;
+    bool *is_warned = mem_zalloc(&p->desc->allocator, (size_t)scene->material_count + 1, sizeof *is_warned);
+    if (!is_warned)
         return fail_memory(error, "materials", scene->material_count);
     for (uint32_t i = 0; i < p->prepared->geometries.count; i++) {
         const render_geometry *g = &p->prepared->geometries.items[i];
@@ -137,12 +137,12 @@ static facet_result drop_black_occlusion(render_setup *p, facet_error *error)
                 g->material, lacks_red(p->textures, g->material->textures[SCENE_OCCLUSION_TEXTURE].texture)))
             continue;
         p->plans.items[i].textures &= ~bit;
-        if (tells && !is_told[g->material_id])
+        if (warns && !is_warned[g->material_id])
             material_plan_warn_occlusion(scene, g->material_id - 1, &p->desc->log);
-        is_told[g->material_id] = true;
+        is_warned[g->material_id] = true;
     }
-    p->prepared->has_told_occlusion |= tells;
-    mem_free(is_told);
+    p->prepared->has_warned_occlusion |= warns;
+    mem_free(is_warned);
     return FACET_OK;
 }
 

@@ -11,7 +11,7 @@ static light_cursor lights_at(const shading_scene *scene, vec3 P)
     return light_grid_at(&scene->light->grid, point);
 }
 
-/* ---- lookups of the surroundings ---- */
+/* ---- lookups of the environment ---- */
 
 static vec3 specular_light(const shading_scene *scene, vec3 direction, float perceptual_roughness)
 {
@@ -80,8 +80,8 @@ static vec3 light_from_behind(const shading_scene *scene, const surface_point *s
            volume_transmittance(m->attenuation_color, m->attenuation_distance, exit.distance_m);
 }
 
-static LayerLight surroundings_of(const shading_scene *scene, const surface_point *s, Layers *m,
-                                  uint64_t *rays)
+static LayerLight environment_light(const shading_scene *scene, const surface_point *s, Layers *m,
+                                    uint64_t *rays)
 {
     vec3 V = s->V;
     LayerLight light;
@@ -122,7 +122,7 @@ static surface_light layered_light(const shading_scene *scene, const surface_poi
     LayerTables tables = surface_tables(&m, s->V, energy);
     LayerLight light = {.specular = vec3(0.0f)};
     if (scene->light->ibl)
-        light = surroundings_of(scene, s, &m, &out.rays);
+        light = environment_light(scene, s, &m, &out.rays);
     out.radiance = layers_emission(m, s->V) + layers_ibl(m, s->V, tables, light, energy) +
                    punctual_radiance(scene, &m, s->P, s->V, tables);
     if (m.layers & LAYER_TRANSMISSION) {

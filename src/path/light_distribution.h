@@ -7,13 +7,13 @@
 
 /* ---- a few weights ---- */
 
-enum { LIGHT_CHOICE_MOST = 16 };
+enum { MAX_LIGHT_WEIGHTS = 16 };
 
-/* The item that *u in [0, 1) falls on, of count <= LIGHT_CHOICE_MOST with weights of at least 0, some above; never one of 0.
+/* The item that *u in [0, 1) falls on, of count <= MAX_LIGHT_WEIGHTS with weights of at least 0, some above; never one of 0.
  * *u becomes where in its share it fell, in [0, 1). Without branches on weights, which are as random as u. */
 static inline int light_choose(const float *weights, int count, double *u)
 {
-    double ends[LIGHT_CHOICE_MOST];
+    double ends[MAX_LIGHT_WEIGHTS];
     double sum = 0.0;
     for (int i = 0; i < count; i++) {
         sum += (double)weights[i];

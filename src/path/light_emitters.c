@@ -19,7 +19,7 @@
 /* From this area on, in squares of the distance to the middle. Below, distances and angles to its points differ by a tenth
  * at most, and points cost a fifth of directions. */
 static const float NEAR_AREA = 0.01f;
-static const double LEAST_SOLID_ANGLE = 1e-6; /* sr; below it is seen edge on */
+static const double MIN_SOLID_ANGLE = 1e-6; /* sr; below it is seen edge on */
 
 typedef struct direction {
     double x, y, z;
@@ -79,7 +79,7 @@ static bool is_near(const light_triangle *t, vec3 P, spherical_triangle *s)
     double volume = inner(s->a, outer(s->b, s->c));
     double sum = 1.0 + inner(s->a, s->b) + inner(s->b, s->c) + inner(s->c, s->a);
     s->solid_angle = 2.0 * atan2(fabs(volume), sum);
-    return s->solid_angle > LEAST_SOLID_ANGLE;
+    return s->solid_angle > MIN_SOLID_ANGLE;
 }
 
 /* A uniform direction: the triangle is cut from b so that the part at a has the share u[0] of its area, and the cut is gone
@@ -123,7 +123,7 @@ static float area_pdf(const light_triangle *t, vec3 d, float distance_m)
 }
 
 /* Where the ray from P along w meets the plane of the triangle, kept inside of it. Moeller and Trumbore 1997. */
-static bool meet(const light_triangle *t, vec3 P, direction w, light_triangle_point *out)
+static bool intersect_plane(const light_triangle *t, vec3 P, direction w, light_triangle_point *out)
 {
     direction e1 = {(double)t->edge1[0], (double)t->edge1[1], (double)t->edge1[2]};
     direction e2 = {(double)t->edge2[0], (double)t->edge2[1], (double)t->edge2[2]};
@@ -147,7 +147,7 @@ bool light_triangle_sample(const light_triangle *t, vec3 P, vec2 u, light_triang
     spherical_triangle s;
     if (is_near(t, P, &s)) {
         out->pdf = (float)(1.0 / s.solid_angle);
-        return meet(t, P, sample_spherical(&s, u), out);
+        return intersect_plane(t, P, sample_spherical(&s, u), out);
     }
     vec2 weights = uniform_point(u);
     vec3 to = t->corner + t->edge1 * weights[0] + t->edge2 * weights[1] - P;
@@ -177,7 +177,7 @@ float light_triangle_pdf(const light_triangle *t, vec3 P, vec3 d, float distance
 static const float DEFENSIVE_SHARE = 0.01f;
 
 /* Radiance above this times the largest areas would not be finite. */
-static const float MOST_RADIANCE = 1e15f;
+static const float MAX_RADIANCE = 1e15f;
 
 /* ---- geometry ---- */
 
@@ -227,7 +227,7 @@ static bool emits(const render_geometry *g)
     if (g->primitive->mode != SCENE_TRIANGLES || !g->is_lit)
         return false;
     vec3 factor = emission_factor(g->material);
-    return is_finite(factor) && max3(factor) > 0.0f && max3(factor) <= MOST_RADIANCE;
+    return is_finite(factor) && max3(factor) > 0.0f && max3(factor) <= MAX_RADIANCE;
 }
 
 vec3 light_emitters_radiance(const light_emitters *e, uint32_t item, float u, float v, vec3 P, vec3 d,

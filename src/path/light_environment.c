@@ -18,7 +18,7 @@ enum { BANDS = LIGHT_ENVIRONMENT_BANDS, BLOCKS = LIGHT_ENVIRONMENT_BLOCKS, CELLS
  * patch, in which radiance is bilinear. Patch (x, y) has points x and x + 1 of rows y - 1 and y; beyond the first and the last
  * row there is the pole, up to which radiance is that of the row. */
 struct light_environment {
-    const image *picture;
+    const image *map;
     float scale, rotation_cos, rotation_sin;
     uint32_t width, height; /* patches: as many columns as points, one row more */
     bool is_finer;          /* than the picture */
@@ -49,7 +49,7 @@ static inline float mean_of_channels(const float *texel)
 /* Mean of the channels at point x of row y, unscaled. */
 static inline float radiance_at(const light_environment *e, uint32_t x, uint32_t y)
 {
-    const image *p = e->picture;
+    const image *p = e->map;
     if (!e->is_finer)
         return mean_of_channels((const float *)p->pixels + 3 * ((size_t)p->width * y + x));
     equirect_point point = {((float)x + 0.5f) / (float)e->width - 0.5f,
@@ -260,7 +260,7 @@ facet_result light_environment_create(const image *picture, const light_setup *l
     if (!b.e)
         return fail_memory(error, "environment", sizeof *b.e);
     light_environment *e = b.e;
-    e->picture = picture;
+    e->map = picture;
     e->scale = light->scale;
     e->rotation_cos = light->rotation_cos;
     e->rotation_sin = light->rotation_sin;
@@ -348,13 +348,13 @@ static float sample_linear(float u, float a, float b)
 /* ---- directions ---- */
 
 /* World to environment and back: draw/light_setup.c. */
-static vec3 to_picture(const light_environment *e, vec3 d)
+static vec3 to_map(const light_environment *e, vec3 d)
 {
     return vec3(d[0] * e->rotation_cos - d[2] * e->rotation_sin, d[1],
                 d[0] * e->rotation_sin + d[2] * e->rotation_cos);
 }
 
-static vec3 from_picture(const light_environment *e, vec3 d)
+static vec3 from_map(const light_environment *e, vec3 d)
 {
     return vec3(d[0] * e->rotation_cos + d[2] * e->rotation_sin, d[1],
                 d[2] * e->rotation_cos - d[0] * e->rotation_sin);
@@ -405,8 +405,8 @@ static patch_point locate(const light_environment *e, vec3 d)
 
 vec3 light_environment_radiance(const light_environment *e, vec3 d)
 {
-    vec3 turned = to_picture(e, d);
-    rgbx c = equirect_fetch(e->picture, equirect_locate((float[3]){turned[0], turned[1], turned[2]}));
+    vec3 turned = to_map(e, d);
+    rgbx c = equirect_fetch(e->map, equirect_locate((float[3]){turned[0], turned[1], turned[2]}));
     return vec3(c[0], c[1], c[2]) * e->scale;
 }
 
@@ -432,7 +432,7 @@ DISPATCH_AVX2 static void weigh_cells(const light_environment *restrict e, const
 
 void light_environment_see(const light_environment *e, vec3 N, light_environment_view *view)
 {
-    vec3 turned = to_picture(e, N);
+    vec3 turned = to_map(e, N);
     if (dot(N, N) > 0.0f)
         weigh_cells(e, (float[3]){turned[0], turned[1], turned[2]}, view->cells);
     else
@@ -472,7 +472,7 @@ float light_environment_sample(const light_environment *e, const light_environme
     float t = sample_linear((float)down, p.upper_left + p.upper_right, p.lower_left + p.lower_right);
     float s = sample_linear((float)across, mix(p.upper_left, p.lower_left, t),
                             mix(p.upper_right, p.lower_right, t));
-    *d = from_picture(e, direction_in_patch(e, x, y, s, t));
+    *d = from_map(e, direction_in_patch(e, x, y, s, t));
     float cell_probability = view->cells[block * BANDS + band] / view->irradiance;
     return cell_probability * (float)row_probability * (float)column_probability * e->per_sr[y] *
            patch_density(&p, s, t);
@@ -480,7 +480,7 @@ float light_environment_sample(const light_environment *e, const light_environme
 
 float light_environment_pdf(const light_environment *e, const light_environment_view *view, vec3 d)
 {
-    patch_point at = locate(e, to_picture(e, d));
+    patch_point at = locate(e, to_map(e, d));
     uint32_t band = division_of(at.y, e->height, BANDS);
     uint32_t block = division_of(at.x, e->width, BLOCKS);
     float cell = view->cells[block * BANDS + band];

@@ -299,7 +299,7 @@ static bool are_finite(const float *numbers, size_t count)
 
 static bool is_count(float samples)
 {
-    return samples >= 0.0f && samples <= (float)PATH_FILM_MOST_SAMPLES && floorf(samples) == samples;
+    return samples >= 0.0f && samples <= (float)PATH_FILM_MAX_SAMPLES && floorf(samples) == samples;
 }
 
 /* Whether the numbers are those of a film, so that nothing that reads them has to doubt them. */

@@ -191,7 +191,7 @@ static void other_files_are_refused(void **state)
     path_film *f = create(WIDTH, HEIGHT, false);
     draw(f, 5);
     save(f, path);
-    expect_refusal(path, OTHER_KEY, WIDTH, false, FACET_ERROR_ARGUMENT, "of another picture");
+    expect_refusal(path, OTHER_KEY, WIDTH, false, FACET_ERROR_ARGUMENT, "of another image");
     expect_refusal(path, KEY, WIDTH + 1, false, FACET_ERROR_ARGUMENT, "23 x 17 pixels, not 24 x 17");
     expect_refusal(path, KEY, WIDTH, true, FACET_ERROR_INVALID, "channel ground.open is missing");
 
@@ -249,7 +249,7 @@ static void other_versions_are_refused(void **state)
     *(find(bytes, size, "facetCheckpoint") + 1 + sizeof "string" + 4) = '7';
     write_bytes(other_path, bytes, size);
     expect_refusal(other_path, KEY, WIDTH, false, FACET_ERROR_INVALID,
-                   "version 7; this build of facet goes on with");
+                   "version 7; this build of facet resumes");
     free(bytes);
     path_film_destroy(f);
 }

@@ -106,11 +106,11 @@ static void add_ground(path_ground *g, const path_sample *s)
     if (!is_there)
         return;
     double open = (double)luminance_of(s->ground_open);
-    double taken = open - (double)luminance_of(s->ground_lit);
+    double blocked = open - (double)luminance_of(s->ground_lit);
     double share = 1.0 / (double)(g->samples += 1.0f);
-    double distance = taken - (double)g->taken;
+    double distance = blocked - (double)g->blocked;
     g->open = mean_with(g->open, open, share);
-    g->taken = mean_with(g->taken, taken, share);
+    g->blocked = mean_with(g->blocked, blocked, share);
     g->spread = spread_with(g->spread, distance, distance * (1.0 - share), share);
 }
 
@@ -118,7 +118,7 @@ void path_film_add(path_film *f, size_t pixel, const path_sample *sample)
 {
     static const path_sample black = {0};
     path_pixel *p = &f->pixels[pixel];
-    if (p->samples >= (float)PATH_FILM_MOST_SAMPLES)
+    if (p->samples >= (float)PATH_FILM_MAX_SAMPLES)
         return;
     if (!is_finite(sample)) {
         atomic_fetch_add_explicit(&f->dropped, 1, memory_order_relaxed);
@@ -195,7 +195,7 @@ static void resolve_color(const resolving *r, size_t i, float out[4])
 }
 
 /* The variance of the mean: of one sample, estimated without bias (n / (n - 1)), by their number. Samples that fill the
- * pixel evenly make better means than this says. One sample alone is taken to be as far off as it is large. */
+ * pixel evenly make better means than this says. One sample alone is assumed to be as far off as it is large. */
 static float resolve_variance(const path_pixel *p, int c, float scale)
 {
     double square = p->samples > 1.0f ? (double)p->spread[c] / ((double)p->samples - 1.0)
@@ -302,7 +302,7 @@ static float block_noise_square(const path_film *f, uint32_t column, uint32_t ro
     for (uint32_t y = row * PATH_FILM_BLOCK; y < y_end; y++)
         for (uint32_t x = column * PATH_FILM_BLOCK; x < x_end; x++, count++) {
             size_t i = (size_t)y * f->width + x;
-            if (f->pixels[i].samples < (float)PATH_FILM_FEWEST_SAMPLES)
+            if (f->pixels[i].samples < (float)PATH_FILM_MIN_SAMPLES)
                 return INFINITY;
             sum += pixel_noise_square(f, i);
         }

@@ -12,29 +12,29 @@
 
 /* ---- opacity ---- */
 
-/* The standard error of what is taken. One sample says nothing of it. */
-static double taken_error(const path_ground *g)
+/* The standard error of what is blocked. One sample says nothing of it. */
+static double blocked_error(const path_ground *g)
 {
     return g->samples > 1.0f ? (sqrt)((double)g->spread / ((double)g->samples - 1.0)) : 0.0;
 }
 
 float path_ground_error(const path_ground *g)
 {
-    double error = g->open > 0.0f ? taken_error(g) / (double)g->open : 0.0;
+    double error = g->open > 0.0f ? blocked_error(g) / (double)g->open : 0.0;
     return (float)(error < 1.0 ? error : 1.0);
 }
 
-/* The share of the light that is taken: one minus the ratio of the means (not the mean of ratios) of lit and open. Where
- * nothing is taken but for noise, clamping at 0 would darken by 0.4 standard errors in the mean; so what is taken is
+/* The share of the light that is blocked: one minus the ratio of the means (not the mean of ratios) of lit and open. Where
+ * nothing is blocked but for noise, clamping at 0 would darken by 0.4 standard errors in the mean; so what is blocked is
  * first drawn towards 0 by the gain d^2 / (d^2 + e^2) of Wiener's filter, estimated as max(0, 1 - e^2 / d^2) for an
  * observed d with the standard error e, which leaves 0.1 of them and a real shadow as it is: e^2 / d less. */
 float path_ground_opacity(const path_ground *g)
 {
-    double taken = (double)g->taken, error = taken_error(g);
-    if (!(taken > error && g->open > 0.0f))
+    double blocked = (double)g->blocked, error = blocked_error(g);
+    if (!(blocked > error && g->open > 0.0f))
         return 0.0f;
-    taken -= error * error / taken;
-    return (float)(taken < (double)g->open ? taken / (double)g->open : 1.0);
+    blocked -= error * error / blocked;
+    return (float)(blocked < (double)g->open ? blocked / (double)g->open : 1.0);
 }
 
 float path_ground_share(const path_ground *g, const path_pixel *p)
@@ -50,7 +50,7 @@ enum { LEVELS = 4, GRAIN_ROWS = 8 };
 
 /* What is known of the shadow in a pixel. */
 typedef struct shadow {
-    float taken;    /* share of the light, not limited to [0, 1]: its noise is to average out */
+    float blocked;  /* share of the light, not limited to [0, 1]: its noise is to average out */
     float variance; /* of that */
     float weight;   /* samples of the ground; 0: none is seen */
 } shadow;
@@ -73,7 +73,7 @@ static shadow filter_pixel(const filtering *f, uint32_t x, uint32_t y)
     static const float spline[3] = {0.375f, 0.25f, 0.0625f};
     const shadow *here = &f->from[(size_t)y * f->width + x];
     float sum = 0.0f;
-    float taken = 0.0f;
+    float blocked = 0.0f;
     float variance = 0.0f;
     for (int dy = -2; dy <= 2; dy++)
         for (int dx = -2; dx <= 2; dx++) {
@@ -83,16 +83,16 @@ static shadow filter_pixel(const filtering *f, uint32_t x, uint32_t y)
                 continue;
             const shadow *there = &f->from[(size_t)py * f->width + (size_t)px];
             float noise = here->variance + there->variance;
-            float difference = square(here->taken - there->taken);
+            float difference = square(here->blocked - there->blocked);
             float w = spline[abs(dx)] * spline[abs(dy)] * there->weight *
                       expf(-0.25f * difference / (noise + 1e-6f));
             sum += w;
-            taken += w * there->taken;
+            blocked += w * there->blocked;
             variance += w * w * there->variance;
         }
     if (!(sum > 0.0f))
         return *here;
-    return (shadow){.taken = taken / sum, .variance = variance / square(sum), .weight = here->weight};
+    return (shadow){.blocked = blocked / sum, .variance = variance / square(sum), .weight = here->weight};
 }
 
 static void filter_rows(void *context, size_t begin, size_t end)
@@ -111,7 +111,7 @@ static shadow shadow_of(const path_ground *g)
     if (!(g->samples > 0.0f && g->open > 0.0f))
         return (shadow){.weight = 0.0f};
     float variance = g->samples > 1.0f ? g->spread / (g->samples - 1.0f) / square(g->open) : 0.25f;
-    return (shadow){.taken = g->taken / g->open, .variance = fminf(variance, 1.0f), .weight = g->samples};
+    return (shadow){.blocked = g->blocked / g->open, .variance = fminf(variance, 1.0f), .weight = g->samples};
 }
 
 facet_result path_film_denoise_ground(path_film *f, uint32_t thread_count, facet_error *error)
@@ -136,13 +136,13 @@ facet_result path_film_denoise_ground(path_film *f, uint32_t thread_count, facet
                           .to = buffers[(level + 1) % 2]};
         parallel_for(thread_count, f->height, GRAIN_ROWS, filter_rows, &pass);
     }
-    const shadow *calm = buffers[LEVELS % 2];
+    const shadow *filtered = buffers[LEVELS % 2];
     for (size_t i = 0; i < count; i++) {
         path_ground *g = &f->ground[i];
-        if (!(calm[i].weight > 0.0f))
+        if (!(filtered[i].weight > 0.0f))
             continue;
-        g->taken = calm[i].taken * g->open;
-        g->spread = calm[i].variance * square(g->open) * fmaxf(g->samples - 1.0f, 0.0f);
+        g->blocked = filtered[i].blocked * g->open;
+        g->spread = filtered[i].variance * square(g->open) * fmaxf(g->samples - 1.0f, 0.0f);
     }
     mem_free(buffers[0]);
     mem_free(buffers[1]);

@@ -8,9 +8,9 @@
 #include "path/path_film.h"
 
 enum {
-    PATH_FILM_MOST_SAMPLES = 1 << 24, /* of a pixel: up to here a float counts */
-    PATH_FILM_FEWEST_SAMPLES = 32,    /* that noise is judged by */
-    PATH_FILM_BLOCK = 8               /* pixels along the side of what is judged together */
+    PATH_FILM_MAX_SAMPLES = 1 << 24, /* of a pixel: up to here a float counts */
+    PATH_FILM_MIN_SAMPLES = 32,      /* that noise is judged by */
+    PATH_FILM_BLOCK = 8              /* pixels along the side of what is judged together */
 };
 
 /* Means over samples. The color's are mean + rest, 48 bits: after n samples their rounding is about 2^-49 sqrt(n / 3) of
@@ -25,9 +25,9 @@ typedef struct path_pixel {
 
 /* Means over those samples of a pixel that met the ground, of luminance. */
 typedef struct path_ground {
-    float open;   /* that comes without the model */
-    float taken;  /* of it, by the model; negative: it reflects more than it takes */
-    float spread; /* mean square distance of what is taken from its mean */
+    float open;    /* that comes without the model */
+    float blocked; /* of it, by the model; negative: it reflects more than it takes */
+    float spread;  /* mean square distance of what is taken from its mean */
     float samples;
 } path_ground;
 

@@ -148,7 +148,7 @@ static void a_pixel_can_be_full(void **state)
     path_film *f = create(1, 1, false);
     path_sample s = grey(1.0f);
     path_film_add(f, 0, &s);
-    f->pixels[0].samples = (float)(PATH_FILM_MOST_SAMPLES - 1);
+    f->pixels[0].samples = (float)(PATH_FILM_MAX_SAMPLES - 1);
     path_film_add(f, 0, &s);
     assert_int_equal(path_film_samples(f, 0), 1 << 24);
     s = grey(100.0f);
@@ -278,7 +278,7 @@ static void a_shadow_becomes_calm(void **state)
         double *sum = is_calm ? &after : &before;
         for (uint32_t i = 0; i < SIDE * SIDE; i++) {
             double expected = i % SIDE < SIDE / 2 ? 0.2 : 0.7;
-            *sum += ((double)f->ground[i].taken - expected) * ((double)f->ground[i].taken - expected);
+            *sum += ((double)f->ground[i].blocked - expected) * ((double)f->ground[i].blocked - expected);
         }
     }
     assert_true(after * 25.0 < before); /* a fifth of the error, edge and all */
@@ -299,7 +299,7 @@ static void a_calm_shadow_stays(void **state)
         }
     assert_int_equal(path_film_denoise_ground(f, 1, NULL), FACET_OK);
     for (uint32_t i = 0; i < 64; i++)
-        assert_near(f->ground[i].taken, i % 16 > 2 ? (i % 16 < 8 ? 0.75 : 0.25) : 0.0, 1e-6);
+        assert_near(f->ground[i].blocked, i % 16 > 2 ? (i % 16 < 8 ? 0.75 : 0.25) : 0.0, 1e-6);
     path_film_destroy(f);
 }
 

@@ -14,7 +14,7 @@
 #include "path/light_tree.h"
 
 static const float EVEN_SHARE = 0.25f;
-static const float MOST_INTENSITY = 1e15f; /* cd or lx; above, sums might not be finite */
+static const float MAX_INTENSITY = 1e15f; /* cd or lx; above, sums might not be finite */
 
 /* ---- the sun: a disc of uniform radiance at infinite distance ---- */
 
@@ -127,7 +127,7 @@ static bool is_light(const path_lights *lights, Light *l)
     (void)lights;
     bool is_fit = is_finite(l->position) && is_finite(l->spot_direction) && is_finite(l->intensity) &&
                   isfinite(l->spot_scale) && isfinite(l->spot_offset) && !isnan(l->range) &&
-                  max3(l->intensity) <= MOST_INTENSITY && max3(abs(l->position)) < 1e15f;
+                  max3(l->intensity) <= MAX_INTENSITY && max3(abs(l->position)) < 1e15f;
     l->intensity = max(l->intensity, 0.0f);
     return is_fit && max3(l->intensity) > 0.0f;
 }

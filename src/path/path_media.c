@@ -43,8 +43,8 @@ const medium *path_media_here(const media *m)
     const medium *here = NULL;
     for (uint32_t i = 0; i < m->count; i++)
         if (!here ||
-            (m->bodies[i].material != here->material && displaces(m->bodies[i].material, here->material)))
-            here = &m->bodies[i];
+            (m->volumes[i].material != here->material && displaces(m->volumes[i].material, here->material)))
+            here = &m->volumes[i];
     return here;
 }
 
@@ -64,7 +64,7 @@ bool path_media_disperses(const media *m)
 bool path_media_has(const media *m, const scene_material *material)
 {
     for (uint32_t i = 0; i < m->count; i++)
-        if (m->bodies[i].material == material)
+        if (m->volumes[i].material == material)
             return true;
     return false;
 }
