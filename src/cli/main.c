@@ -66,7 +66,7 @@ static int explain_verb(const char *word, int argc, char **argv)
     facet_error error;
     if (verb_is_planned(word)) {
         fail(&error, FACET_ERROR_ARGUMENT,
-             "this version does not have the command %.60s yet; facet help lists those it has", word);
+             "this version does not have the command %.60s yet; facet help lists the commands", word);
     } else if (word[0] == '-') {
         fail(&error, FACET_ERROR_ARGUMENT,
              "the command comes first, as in facet render %.300s; facet help lists the commands", word);
@@ -81,13 +81,12 @@ static int explain_verb(const char *word, int argc, char **argv)
                  word, stem, word);
         else
             fail(&error, FACET_ERROR_ARGUMENT,
-                 "which command? For a picture: facet render %.300s -o %s.png; to see what is in it: "
+                 "which command? For an image: facet render %.300s -o %s.png; to see what is in it: "
                  "facet inspect %.300s",
                  word, stem, word);
     } else {
         fail(&error, FACET_ERROR_ARGUMENT, "there is no command \"%.300s\"%s%s%s", word,
-             near ? "; did you mean " : "", near ? near : "; facet help lists those there are",
-             near ? "?" : "");
+             near ? "; did you mean " : "", near ? near : "; facet help lists the commands", near ? "?" : "");
     }
     return refuse(argc, argv, &error);
 }

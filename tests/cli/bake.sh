@@ -113,14 +113,14 @@ expect 0 bake white $tiny -o x.ktx2 --diffuse d.exr --sheen s.ktx2 --sh sh.h
 only x.ktx2 d.exr s.ktx2 sh.h
 cp x.ktx2 before
 expect 0 bake neutral $tiny -o x.ktx2 --sh new.txt --no-clobber
-says "x.ktx2: kept; it was there already"
+says "x.ktx2: kept, since it exists"
 cmp -s x.ktx2 before || failed "--no-clobber replaces"
 [ -s new.txt ] || failed "--no-clobber leaves out what was not there"
 expect 0 bake missing.hdr -o x.ktx2 --no-clobber
 expect 2 bake white -o x.ktx2 --diffuse ./x.ktx2
-says "two outputs would both be written to x.ktx2"
+says "two outputs have the name x.ktx2"
 expect 2 bake x.ktx2 -o ./x.ktx2
-says "it is an input, too"
+says "this input would be overwritten"
 expect 0 bake x.ktx2 $tiny -o again.ktx2
 cmp -s x.ktx2 before || failed "an input was replaced"
 clean
@@ -307,12 +307,12 @@ fi
 expect 1 bake small.pfm --size 8 --mips 2 -o x.ktx2 --verify --max-error 1e-12
 grep -q '^lobe *level *texels *roughness *rms *max *energy$' out || failed "no table of errors: $(head -1 out)"
 [ "$(wc -l <out)" = 3 ] || failed "not a line per level: $(cat out)"
-says "is more than --max-error 1e-12"
+says "is above --max-error 1e-12"
 [ -s x.ktx2 ] || failed "--max-error keeps the file back"
 expect 0 bake small.pfm --size 4 --mips 2 -o x.ktx2 --max-error 10
 [ ! -s out ] || failed "--max-error alone prints a table"
 expect 0 bake neutral --size 16 -o x.ktx2 --clamp 0.5
-says "studio: --clamp 0.5 takes "
+says "studio: --clamp 0.5 removes "
 pfm nan.pfm 4 w w w w w n w w w w - w w w w w
 expect 0 bake nan.pfm nan.pfm nan.pfm nan.pfm nan.pfm nan.pfm $tiny -o x.ktx2
 says "12 texels"
@@ -328,7 +328,7 @@ clean
 # ---- what a file cannot hold ----
 pfm bright.pfm 4 w w w w w w w w w w w w w w w w
 expect 0 bake bright.pfm bright.pfm bright.pfm bright.pfm bright.pfm bright.pfm $tiny --exposure 20 -o x.ktx2
-says "cuts off"
+says "which removes"
 expect 1 bake bright.pfm bright.pfm bright.pfm bright.pfm bright.pfm bright.pfm $tiny --exposure 20 -o x.ktx2 --strict
 expect 0 bake bright.pfm bright.pfm bright.pfm bright.pfm bright.pfm bright.pfm $tiny --exposure 20 -o x.ktx2 --format rgba32f --strict
 expect 7 bake bright.pfm bright.pfm bright.pfm bright.pfm bright.pfm bright.pfm -o x.ktx2 --max-memory 1K
@@ -343,7 +343,7 @@ clean
 
 # ---- outputs that cannot be ----
 expect 2 bake white -o 'x_{lvl}.exr'
-says "{lvl} stands for nothing"
+says "{lvl} is not a placeholder"
 expect 2 bake white --layout khronos -o x.ktx2
 says "fills a folder"
 expect 6 bake white -o /dev/null/x.ktx2

@@ -49,7 +49,7 @@ grep -q 'as light, equal' out || failed "equal pictures are not called equal"
 grep -qE '^  psnr +inf ' out || failed "psnr of equal pictures is not inf"
 expect 0 compare half.pfm ones.pfm
 grep -qE '^  rmse +0\.5 ' out || failed "rmse is not 0.5"
-grep -q '^psnr and ssim: of the largest value, 0.5$' out || failed "the peak is not told"
+grep -q '^psnr and ssim: for a peak of 0.5$' out || failed "the peak is not told"
 grep -q '^flip: the largest of 2 exposures from +2.08 to +2.08 stops$' out || failed "exposures are not told: $(cat out)"
 grep -q 'different' out || failed "different pictures are not called so"
 expect 0 compare half.pfm ones.pfm --metric mse,max
@@ -115,7 +115,7 @@ is passed true
 expect 1 compare half.pfm half.pfm --min ssim=0.5
 says "ssim cannot be measured"
 expect 2 compare half.pfm ones.pfm --max 0.1
-says "of which metric is 0.1 the limit?"
+says "the limit 0.1 names no metric"
 expect 2 compare half.pfm ones.pfm --max psnr=40
 says "write --min psnr=40"
 expect 2 compare half.pfm ones.pfm --min flip=0.1
@@ -140,7 +140,7 @@ expect 0 compare half.pfm nan.pfm
 says "nan.pfm: 1 pixel is not finite"
 expect 1 compare half.pfm nan.pfm --strict
 expect 1 compare half.pfm nan.pfm --max mse=1 -q
-says "1 pixel is not finite in one of them"
+says "1 pixel is not finite in one image"
 expect 0 compare inf.pfm inf.pfm --max max=0 -q
 expect 1 compare inf.pfm nan.pfm --max max=9 -q
 
@@ -172,7 +172,7 @@ says "a.png: 48 x 32 pixels, but half.pfm has 4 x 4"
 # ---- light and displays ----
 expect 0 render $small -o light.exr --background transparent
 expect 0 compare light.exr a.png --tone-mapping neutral --max max=0.004,flip=0.01
-says "it is light, and a.png is for displays"
+says "it is scene-linear, and a.png is for displays"
 expect 1 compare light.exr a.png --tone-mapping agx --max flip=0.01
 expect 0 compare light.exr a.png --space display --max differing=0 --threshold 1
 [ ! -s err ] || failed "--space display is asked for, and still explained"
@@ -220,20 +220,20 @@ expect 2 compare b.png a.png -o -
 says "needs --format"
 expect 2 compare b.png a.png -o - --format png --json
 expect 2 compare b.png a.png -o a.png
-says "it is an input, too"
+says "this input would be overwritten"
 expect 2 compare b.png a.png --heat-map
-says "the picture of -o only"
+says "it needs a difference image"
 expect 6 compare b.png a.png -o /dev/null/d.png
 rm -f d.* piped.png saved.png
 
 # ---- inputs ----
 expect 2 compare
-says "which pictures?"
+says "which images?"
 expect 2 compare a.png
 says "compare: a.png with what?"
 expect 2 compare a.png b.png c.png
 expect 2 compare - -
-says "standard input is one picture"
+says "standard input is one image"
 expect 3 compare a.png missing.png
 says "missing.png"
 expect 3 compare a.png missing.png --json

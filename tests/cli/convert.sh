@@ -25,7 +25,7 @@ cmp -s piped.glb fourth.glb || failed "standard input gives another file"
 # What cannot be done leaves nothing behind.
 rm -f *.glb *.png again.*
 expect 2 convert in.gltf
-says "one model and the name of the new one were expected"
+says "a model and the name of the new one were expected"
 expect 2 convert in.gltf out.stl
 says '"out.stl" does not end in .glb, .gltf, .obj or .json'
 expect 2 convert in.gltf out.glb --to gltf
@@ -39,7 +39,7 @@ says "several models need a name with {stem}"
 expect 2 convert in.gltf out.glb --report report.txt
 says "--report"
 expect 2 convert in.gltf in.gltf
-says "it is an input, too"
+says "this input would be overwritten"
 expect 3 convert missing.glb out.glb
 expect 6 convert in.gltf /dev/null/out.glb
 says "/dev/null is not a folder"
@@ -74,7 +74,7 @@ printf '{"asset":{"version":"2.0"},"images":[{"uri":"pic.png"}]}    ' >text
 printf 'glTF\002\000\000\000\120\000\000\000\074\000\000\000JSON' | cat - text >pic.glb
 expect 0 render $small in.gltf -o pic.png
 expect 2 render $small pic.glb
-says "pic.png: it is an input, too"
+says "pic.png: this input would be overwritten"
 rm -f data.gltf old.gltf shoe.* before.bin noname text pic.*
 only in.gltf
 

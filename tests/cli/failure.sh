@@ -69,13 +69,13 @@ code=0
 [ $code = 6 ] || failed "exit code $code, not 6, beyond the limit on file size"
 cp tri.gltf in.png
 expect 2 render $small in.png -o in.png
-says "in.png: it is an input, too"
+says "in.png: this input would be overwritten"
 cmp -s tri.gltf in.png || failed "the input was overwritten"
 rm in.png
 echo texture >'my tri.png'
 sed 's/"scene":0/"images":[{"uri":"my%20tri.png"}],"scene":0/' tri.gltf >'my tri.gltf'
 expect 2 render $small 'my tri.gltf'
-says "my tri.png: it is an input, too"
+says "my tri.png: this input would be overwritten"
 [ "$(cat 'my tri.png')" = texture ] || failed "a texture was overwritten"
 rm 'my tri.png' 'my tri.gltf'
 

@@ -36,12 +36,12 @@ rm -r img
 
 # A clash stops nothing but the two models.
 expect 1 render models -o 'img/{stem}.png' $tiny
-says "models/sub/chair.gltf: it and models/sub/deeper/chair.gltf would both be written to img/chair.png; put {dir}"
-says "models/sub/deeper/chair.gltf: it and models/sub/chair.gltf would both be written to img/chair.png"
+says "models/sub/chair.gltf: it and models/sub/deeper/chair.gltf have the same output img/chair.png; put {dir}"
+says "models/sub/deeper/chair.gltf: it and models/sub/chair.gltf have the same output img/chair.png"
 [ "$(tree img)" = "Cup.png;zebra.png;" ] || failed "the names are $(tree img)"
 rm -r img
 expect 1 convert models -o 'new/{stem}.glb' -q
-says "models/sub/chair.gltf: it and models/sub/deeper/chair.gltf would both be written to new/chair.glb"
+says "models/sub/chair.gltf: it and models/sub/deeper/chair.gltf have the same output new/chair.glb"
 [ "$(tree new)" = "Cup.glb;zebra.glb;" ] || failed "the names are $(tree new)"
 rm -r new
 expect 0 convert models 'new/{dir}/{stem}.glb' -q
@@ -75,7 +75,7 @@ rm -r img
 # A folder without models; outputs in folders that cannot be made
 mkdir none
 expect 3 render none -o x.png $tiny
-says "none: there is no model in this folder"
+says "none: there is no model in or below this folder"
 expect 1 inspect none models/zebra.gltf
 expect 6 render models/zebra.gltf -o models/zebra.gltf/a/b.png $tiny
 [ ! -e x.png ] || failed "a picture of nothing"

@@ -60,12 +60,12 @@ says "OpenGL: "
 # What belongs to it says so with another renderer, and the other way round.
 for option in --shadows '--transparency peeled' '--bloom 0.1' '--channel normal' '--brdf schlick-ggx'; do
     expect 2 render model.gltf -o no.png $small $option
-    says "it says something only with --renderer gl"
+    says "it needs --renderer gl"
 done
 expect 2 render model.gltf -o no.png $small --ground shadow
-says "it says something only with --renderer path or gl"
+says "it needs --renderer path or gl"
 expect 2 render model.gltf -o no.png $small --renderer gl --bounces 2
-says "--bounces: it says something only with --renderer path"
+says "--bounces: it needs --renderer path"
 expect 2 render model.gltf -o no.png $small --renderer gl --channel colour
 says "colour"
 expect 2 render model.gltf -o no.png $small --renderer gl --bloom 2

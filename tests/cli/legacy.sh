@@ -168,7 +168,7 @@ grep -q "illum 5" err && failed "--mirrors is not heard"
 cmp -s shiny.glb mirror.glb && failed "--mirrors changes nothing"
 
 expect 2 render old.obj -o f.png --ogl1-variant fixed
-says "--ogl1-variant: it says something only with --shading ogl1"
+says "--ogl1-variant: it needs --shading ogl1"
 expect 2 plot slice old.obj#blue -o f.csv
 says 'there is no material "blue"; there are "gold", "matte"'
 expect 0 plot slice old.obj#gold new.glb#matte -o f.csv
@@ -182,7 +182,7 @@ grep -q 'data:image/png' r.html || failed "the page lacks its spheres"
 expect 0 convert old.obj r2.glb --report r2.html
 cmp -s r.html r2.html || failed "two runs give different pages"
 expect 1 convert old.obj r.glb --max-error 0.0001
-says "a larger error than --max-error"
+says "an error above --max-error"
 expect 0 convert old.obj r.glb --json
 grep -qE '"count": ?2' out || failed "--json does not count the materials"
 expect 0 convert pure.gltf r.glb --report r.json
@@ -190,7 +190,7 @@ grep -qE '"materials": ?\[\]' r.json || failed "a report of nothing is not empty
 expect 0 convert pure.gltf r.glb --report r.html
 
 expect 2 convert old.obj x.json --report ./x.json
-says "it and its report would both be written to x.json"
+says "it and its report have the same output x.json"
 
 # To standard output
 "$facet" convert old.obj -o - 2>err | cat >piped.glb
@@ -215,7 +215,7 @@ rm -rf in made
 # Nothing that is read is overwritten.
 cp old.mtl keep.mtl
 expect 2 convert old.obj old.obj
-says "it is an input, too"
+says "this input would be overwritten"
 sed 's/old.mtl/new.mtl/' old.obj >source.obj
 cp old.mtl new.mtl
 expect 2 convert source.obj new.obj
@@ -226,13 +226,13 @@ printf 'newmtl t\nKd 1 1 1\nmap_Kd tex.png\n' >tex.mtl
 cp a.png tex.png
 printf 'mtllib tex.mtl\nusemtl t\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >tex.obj
 expect 2 render tex.obj
-says "tex.png: it is an input, too"
+says "tex.png: this input would be overwritten"
 cmp -s a.png tex.png || failed "a texture was overwritten"
 
 cp old.obj link.obj
 ln -s link.obj other.obj
 expect 2 convert link.obj other.obj
-says "it is an input, too"
+says "this input would be overwritten"
 cp new.json params.json
 expect 2 convert old.obj params.json --parameters params.json
 says "it is an input, too"

@@ -97,7 +97,7 @@ expect 2 render walk.gltf -o 'a_##.png' --animation Run
 says 'there is no animation "Run"; there is only 0 "Walk"'
 expect 2 render walk.gltf -o 'a_##.y4m' --animation Walk
 expect 2 render -o a.png --time 1
-says "has no animation, which --time asks for"
+says "it has no animation for --time"
 expect 0 render walk.gltf -o a.png $small --animation none
 [ -e a.png ] || failed "--animation none draws no picture"
 

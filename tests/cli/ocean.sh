@@ -141,7 +141,7 @@ expect 0 ocean $small -s 64x32 --cascades 1 --resolution 32 -o maps/tile_00.exr
 cp maps/tile_00.exr saved
 cp saved sky_01.exr
 kept() { # kept FILE
-    says "it is an input, too"
+    says "this input would be overwritten"
     cmp -s "$1" saved || failed "the input $1 was overwritten"
 }
 expect 2 ocean $small -e sky_01.exr -o 'sky_##.exr' --frames 1-2

@@ -48,11 +48,11 @@ expect 2 render --renderer path --ground shadow --up z -o x.png
 
 # The time limit leaves a picture of what there is, and says so.
 expect 0 render --renderer path --size 64 --samples 10000000 --time-limit 2s -o late.png
-says "the time limit came after"
+says "the time limit was reached after"
 expect 0 render --renderer path --size 64 --samples 10000000 --time-limit 2s --json -o late.png
 grep -q '"partial": true' out || failed "JSON does not say that it is partial"
 grep -q '"samples_taken": [1-9]' out || failed "JSON does not say how many samples were taken"
-grep -q '"warnings": .*the image is partial: the time limit came after' out || failed "JSON does not warn"
+grep -q '"warnings": .*the image is partial: the time limit was reached after' out || failed "JSON does not warn"
 expect 1 render --renderer path --size 64 --samples 10000000 --time-limit 1s --strict -o late.png
 expect 7 render --renderer path --size 8192 --time-limit 300ms -o never.png
 says "the time limit"
@@ -152,7 +152,7 @@ if "$facet" version -v | grep -q 'OpenEXR [0-9]'; then
     wait $! || code=$?
     [ $code = 75 ] || failed "exit code $code after SIGTERM, not 75"
     is_type cut_off.png "PNG image data, 48 x 32"
-    says "; --resume goes on with cut_off.exr"
+    says "; --resume continues cut_off.exr"
     rm -f cut_off.png
     expect 0 render --renderer path --size 48x32 --samples 1 --checkpoint cut_off.exr --resume -o cut_off.png
     is_type cut_off.png "PNG image data, 48 x 32"

@@ -62,7 +62,7 @@ for name in ggx phong blinn-phong; do
     expect 0 plot brdf $name -o $name.csv
 done
 expect 2 plot brdf ogl1:shininess=30
-says 'a comma stands after ogl1: ogl1,shininess=30'
+says 'write a comma after ogl1: ogl1,shininess=30'
 expect 2 plot ggx -o c.csv
 says "the kind of plot comes first, as in facet plot brdf ggx"
 cmp -s phong.csv blinn-phong.csv || failed "phong is another model than blinn-phong"
@@ -94,7 +94,7 @@ expect 2 plot slice --size 0x1 -o c.csv
 printf '{"asset":{"version":"2.0"},"materials":[{"name":"m"}]}' >mat.gltf
 cp mat.gltf saved.gltf
 expect 2 plot slice mat.gltf roughness=0.5 -o mat.gltf --format csv
-says "it is an input, too"
+says "this input would be overwritten"
 cmp -s mat.gltf saved.gltf || failed "an input was overwritten"
 
 # What is asked for

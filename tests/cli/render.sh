@@ -61,7 +61,7 @@ expect 0 render $small -o a.png --camera-orbit "45deg 55deg 4m" --camera-target 
 expect 0 render $small -o b.png --orbit 45,55,4m --target 0,0,auto --fov 30
 cmp -s a.png b.png || failed "attributes of model-viewer are other options"
 expect 0 render $small -o a.png --camera-orbit 45deg --exposure 1.2 --strict
-says "exposure is the factor: for that write --exposure 1.2x"
+says "exposure is a factor, which is written --exposure 1.2x"
 for plain in "--exposure 1.2" "--camera-orbit 45deg --exposure 1.2x" "--camera-orbit 45deg --exposure +1.2"; do
     expect 0 render $small -o a.png $plain
     grep -q 'the factor' err && failed "a note on what is plain: $plain"
@@ -134,7 +134,7 @@ expect 2 render matrix.gltf --camera-matrix 1,0,0,0,1,1,0,0,0,0,1,0,0,0,3,1 -o x
 says "not at right angles"
 expect 2 render matrix.gltf --view-matrix 0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,1 -o x.png
 expect 2 render matrix.gltf --camera-matrix 1,0,0,0,0,1,0,0,0,0,1,0,0,0,3,1 --orbit 30 -o x.png
-says "does not go together with --orbit"
+says "excludes --orbit"
 rm -f hero.png matrix.png matrix.gltf rolled.png rolled_view.png
 
 # --no-clobber and --config

@@ -79,7 +79,7 @@ if command -v script >/dev/null; then
     NO_COLOR=1 TERM=xterm script -qec "$facet render missing.glb" /dev/null >out 2>&1 </dev/null || true
     ! grep -q "$esc" out || failed "color in spite of NO_COLOR"
     script -qec "$facet render -o - --format png" /dev/null >out 2>&1 </dev/null && failed "a picture on a terminal"
-    grep -q "which is a terminal" out || failed "no refusal to write to a terminal"
+    grep -q "standard output is a terminal" out || failed "no refusal to write to a terminal"
 fi
 
 # inspect for people

@@ -17,7 +17,7 @@ expect 0 help exit-codes
 grep -q '75' out || failed "help exit-codes lacks 75"
 
 expect 2 model.glb
-says "facet: which command? For a picture: facet render model.glb -o model.png; to see what is in it: facet inspect"
+says "facet: which command? For an image: facet render model.glb -o model.png; to see what is in it: facet inspect"
 expect 2 studio.hdr
 says "facet bake studio.hdr -o studio.ktx2"
 expect 2 cmgen
@@ -58,7 +58,7 @@ says "is not preview, path or gl"
 expect 2 render -o x.bmp
 says ".png, .jpg, .webp, .exr, .hdr, .pfm or .y4m"
 expect 2 render --aov depth -o x.png
-says "only .exr files hold layers"
+says "layers need an .exr file"
 says "a .png holds one of object, material and instance alone, in false color"
 expect 2 render --aov object,material -o x.png
 expect 2 render --aov object -o x.jpg
@@ -67,7 +67,7 @@ says "--renderer preview has depth, normal, albedo, material, object, instance, 
 expect 2 render --aov samples -o x.exr --renderer gl
 says "--renderer gl has depth, normal"
 expect 2 render --aov cryptomatte -o x.exr --renderer path --checkpoint y.exr --resume
-says "a checkpoint does not keep cryptomatte"
+says "a checkpoint does not hold cryptomatte"
 expect 2 render --max-memory lots
 expect 2 render --time-limit 0
 expect 2 render --turntable 3 -o a.png
@@ -75,8 +75,8 @@ says "put #### in it"
 expect 2 render a.glb b.glb -o a.png
 says "put {stem} in it"
 expect 1 render a/x.glb b/x.glb
-says "a/x.glb: it and b/x.glb would both be written to x.png"
-says "b/x.glb: it and a/x.glb would both be written to x.png"
+says "a/x.glb: it and b/x.glb have the same output x.png"
+says "b/x.glb: it and a/x.glb have the same output x.png"
 expect 2 render -o - </dev/null
 says "add --format png"
 expect 2 render -o - --format png --json
@@ -94,19 +94,19 @@ for words in "render https://example.org/a.glb" "inspect http://example.org/a.gl
     says "facet reads files, not addresses"
 done
 
-# A word in braces that stands for nothing is refused.
+# A word in braces that is not a placeholder is refused.
 expect 2 render -o '{nope}.png'
-says "facet: --output: {nope} stands for nothing; there are {stem}, {name}, {dir}, {index}"
+says "facet: --output: {nope} is not a placeholder; the placeholders are {stem}, {name}, {dir}, {index}"
 expect 2 ocean -o 'sea_{level}.png'
-says "{level} stands for nothing"
+says "{level} is not a placeholder"
 expect 2 bake neutral -o '{name}.hdr'
-says "{name} stands for nothing; there are {stem}, {level}, {face}"
+says "{name} is not a placeholder; the placeholders are {stem}, {level}, {face}"
 expect 2 convert a.glb '{dirname}.gltf'
-says "facet: convert: {dirname} stands for nothing"
+says "facet: convert: {dirname} is not a placeholder"
 expect 2 convert a.glb b.glb --report '{Stem}.json'
-says "--report: {Stem} stands for nothing"
+says "--report: {Stem} is not a placeholder"
 expect 2 render --renderer path -o a.exr --checkpoint '{face}.exr'
-says "--checkpoint: {face} stands for nothing"
+says "--checkpoint: {face} is not a placeholder"
 expect 0 render --size 8 -q -o '{}{1}.png'
 only '{}{1}.png'
 rm '{}{1}.png'
@@ -189,7 +189,7 @@ grep -q "HDRLoader().load('studio/environment.hdr'" out || failed "bake --help d
 for verb in render ocean bake convert compare plot view inspect; do
     expect 0 help $verb
     [ "$(wc -l <out)" -le 80 ] || failed "help $verb has $(wc -l <out) lines"
-    grep -q "facet $verb --help-all has all" out || failed "help $verb does not name --help-all"
+    grep -q "facet $verb --help-all lists all" out || failed "help $verb does not name --help-all"
     expect 0 $verb --help-all
     cp out all
     grep -q '^Messages' all && grep -q -- '--help-all' all || failed "$verb --help-all is not all"
@@ -214,6 +214,6 @@ while read -r name; do
     grep -qE -- "(^ .*)$name( |$)" out || failed "help render lacks $name"
 done <names
 COLUMNS=60 "$facet" help render --help-all >out
-[ "$(sed -n '/^Picture/,$p' out | awk '{ if (length($0) > w) w = length($0) } END { print w }')" -le 60 ] ||
+[ "$(sed -n '/^Image/,$p' out | awk '{ if (length($0) > w) w = length($0) } END { print w }')" -le 60 ] ||
     failed "help does not wrap to 60 columns"
 finish

@@ -335,7 +335,7 @@ static facet_result encode_linear_png(const bake_making *m, const facet_image_vi
     float *pixels = m->allocator.allocate(m->allocator.user, size);
     facet_image *picture = NULL;
     if (!pixels)
-        return fail(error, FACET_ERROR_MEMORY, "out of memory: %zu bytes of a picture", size);
+        return fail(error, FACET_ERROR_MEMORY, "out of memory: %zu bytes of an image", size);
     for (uint32_t y = 0; y < view->height; y++)
         linear_row(file->table_channel,
                    (const float *)((const char *)view->pixels + y * view->row_stride_bytes), pixels + y * row,

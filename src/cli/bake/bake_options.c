@@ -36,7 +36,7 @@ static facet_result refuse(const command_line *c, const option_id *ids, size_t c
 {
     for (size_t i = 0; i < count; i++)
         if (is_given(c, ids[i]))
-            return fail(error, FACET_ERROR_ARGUMENT, "--%s: it says nothing %s", name_of(c, ids[i]), why);
+            return fail(error, FACET_ERROR_ARGUMENT, "--%s: it has no effect %s", name_of(c, ids[i]), why);
     return FACET_OK;
 }
 
@@ -70,9 +70,9 @@ static facet_result read_environment(const command_line *c, bake_options *out, f
     for (int i = 0; i < 6; i++) {
         out->faces[i] = c->arguments[i];
         if (strcmp(out->faces[i], "-") == 0)
-            return fail(error, FACET_ERROR_ARGUMENT, "bake: a face is not read from standard input");
+            return fail(error, FACET_ERROR_ARGUMENT, "bake: faces are not read from standard input");
     }
-    return refuse(c, faces_idle, COUNT(faces_idle), "about six faces", error);
+    return refuse(c, faces_idle, COUNT(faces_idle), "with six faces", error);
 }
 
 static facet_result read_light(const command_line *c, bake_options *out, facet_error *error)
@@ -137,7 +137,7 @@ static facet_result read_filter(const command_line *c, bake_options *out, facet_
         d->method = FACET_BAKE_METHOD_REFERENCE;
     }
     if (d->method == FACET_BAKE_METHOD_REFERENCE &&
-        refuse(c, idle_reference, COUNT(idle_reference), "about the reference, which takes no samples",
+        refuse(c, idle_reference, COUNT(idle_reference), "with --method reference, which takes no samples",
                error) != FACET_OK)
         return error->result;
     d->samples = (uint32_t)option_number(c, OPT_SAMPLES, is_given(c, OPT_QUICK) ? 64.0 : 0.0);
@@ -164,7 +164,7 @@ static facet_result read_table(const command_line *c, bake_options *out, facet_e
     out->is_table = is_given(c, OPT_DFG);
     out->table = kinds[option_choice(c, OPT_DISTRIBUTION, 0)];
     if (!out->is_table)
-        return refuse(c, tables_only, COUNT(tables_only), "without --dfg; of cube maps the lobe is --lobe",
+        return refuse(c, tables_only, COUNT(tables_only), "without --dfg; the lobe of cube maps is --lobe",
                       error);
     bool is_output =
         c->argument_count && !out->output && output_name_has_type(c->arguments[0], c->verb->output_types);
@@ -173,7 +173,7 @@ static facet_result read_table(const command_line *c, bake_options *out, facet_e
                     "--dfg: the table needs no environment, but got \"%s\"%s%s%s", c->arguments[0],
                     is_output ? "; did you mean -o " : "", is_output ? c->arguments[0] : "",
                     is_output ? "?" : "");
-    return refuse(c, idle, COUNT(idle), "about a table (--dfg)", error);
+    return refuse(c, idle, COUNT(idle), "with --dfg", error);
 }
 
 /* ---- output ---- */
@@ -197,7 +197,8 @@ static facet_result read_format(const command_line *c, bake_options *out, facet_
     } else if (format >= 0) {
         out->container = containers[format - texel_count];
         if (!out->is_table && out->container == CONTAINER_HEADER)
-            return fail(error, FACET_ERROR_ARGUMENT, "--format: h is of tables (--dfg) and of --sh NAME.h");
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "--format: h holds tables (--dfg); harmonics are --sh NAME.h");
     }
     out->zstd_level = (uint32_t)option_number(c, OPT_ZSTD, 0.0);
     return FACET_OK;
@@ -240,7 +241,7 @@ static facet_result check_layout(const command_line *c, const bake_options *o, f
     const bool is_picture = o->container == CONTAINER_EXR || o->container == CONTAINER_HDR;
     if ((o->has_texels && !takes_texels) ||
         (o->container != CONTAINER_FROM_NAME && !(takes_pictures && is_picture)))
-        return fail(error, FACET_ERROR_ARGUMENT, "--format: %s is not what is loaded %s",
+        return fail(error, FACET_ERROR_ARGUMENT, "--format: %s is not loaded %s",
                     option_text(c, OPT_FORMAT, ""), why[o->layout]);
     if (o->zstd_level && o->layout != BAKE_LAYOUT_KHRONOS)
         return fail(error, FACET_ERROR_ARGUMENT, "--zstd: no file is compressed %s", why[o->layout]);
@@ -260,15 +261,14 @@ static facet_result check_stdout(const command_line *c, const bake_options *o, f
     if (o->layout != BAKE_LAYOUT_NONE)
         return fail(error, FACET_ERROR_ARGUMENT, "--output: --layout fills a folder, not standard output");
     if (!is_given(c, OPT_FORMAT))
-        return fail(
-            error, FACET_ERROR_ARGUMENT,
-            "--output: - is standard output, which has no name to tell the format; add --format ktx2");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--output: standard output has no file name; add --format ktx2");
     if (is_given(c, OPT_JSON))
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "--json: it writes to standard output, and so does --output -; give one of them");
+                    "--json: it writes to standard output, as --output - does; give one of them");
     if (terminal_is(stdout))
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "--output: - is standard output, which is a terminal; send it to a file or a program");
+                    "--output: standard output is a terminal; redirect it to a file or a program");
     return FACET_OK;
 }
 

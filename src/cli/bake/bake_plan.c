@@ -91,9 +91,9 @@ static facet_result add_pictures(const bake_options *o, bake_plan *plan, const c
     facet_result result = FACET_OK;
     if (is_stdout && (has_levels || has_faces))
         return fail(error, FACET_ERROR_ARGUMENT,
-                    has_faces ? "--output: standard output takes one picture, not faces"
-                              : "--output: standard output takes one picture; say "
-                                "which with --level, or --format ktx2 for all");
+                    has_faces ? "--output: standard output takes one image, not faces"
+                              : "--output: standard output takes one image; choose it with --level, or give "
+                                "--format ktx2 for all");
     if (!has_faces && bake_name_has_face(pattern))
         return fail(error, FACET_ERROR_ARGUMENT, "--projection: \"%s\" has a place for a {face}; faces",
                     pattern);
@@ -134,12 +134,12 @@ static facet_result check_container(const bake_options *o, const wanted_cube *w,
                     w->option, w->pattern);
     if (container == CONTAINER_PNG && o->rgbm_range <= 0.0f)
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "%s: PNG holds numbers up to 1 only; give --rgbm RANGE, or write .ktx2, .exr or .hdr "
-                    "(a picture to look at: --preview)",
+                    "%s: PNG holds values up to 1 only; give --rgbm RANGE, or write .ktx2, .exr or .hdr (an "
+                    "image to look at: --preview)",
                     w->option);
     if (container != CONTAINER_KTX2 && w->is_main && o->has_texels)
-        return fail(error, FACET_ERROR_ARGUMENT, "--format: texels are chosen of .ktx2 files, not of \"%s\"",
-                    w->pattern);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--format: texel formats are those of .ktx2 files, not of \"%s\"", w->pattern);
     return FACET_OK;
 }
 
@@ -197,7 +197,7 @@ static facet_result add_side_files(const bake_options *o, bake_plan *plan, const
     diffuse.desc.level_count = 1;
     if (o->sheen && o->bake.lobe == FACET_LOBE_LAMBERT)
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "--sheen: beside --lobe lambert it would have one level, too; write irradiance with "
+                    "--sheen: with --lobe lambert it would have one level only; write irradiance with "
                     "--diffuse FILE");
     if (o->sheen)
         result = add_cube_files(o, plan, stem, &sheen, error);
@@ -244,8 +244,8 @@ static facet_result add_table(const bake_options *o, bake_plan *plan, const char
                     "--output: a table is .ktx2, .exr, .png (16 bits), .pfm or .h, not \"%s\"", path);
     }
     if (o->has_texels && what.container != CONTAINER_KTX2)
-        return fail(error, FACET_ERROR_ARGUMENT, "--format: texels are chosen of .ktx2 files, not of \"%s\"",
-                    path);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--format: texel formats are those of .ktx2 files, not of \"%s\"", path);
     return add(plan, path, &what, error);
 }
 
@@ -369,7 +369,7 @@ static facet_result check_twice(const bake_plan *plan, facet_error *error)
         qsort(identities, plan->file_count, sizeof *identities, compare_identities);
     for (size_t i = 1; i < plan->file_count && result == FACET_OK; i++)
         if (strcmp(identities[i - 1], identities[i]) == 0)
-            result = fail(error, FACET_ERROR_ARGUMENT, "bake: two outputs would both be written to %s",
+            result = fail(error, FACET_ERROR_ARGUMENT, "bake: two outputs have the name %s",
                           strchr(identities[i], '/') + 1);
     for (size_t i = 0; identities && i < plan->file_count; i++)
         free(identities[i]);
@@ -415,7 +415,7 @@ static facet_result check_idle_options(const command_line *c, const bake_plan *p
                  {OPT_SH_WINDOW, has_sh, "--sh"}};
     for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
         if (is_given(c, rules[i].id) && !rules[i].is_of_use)
-            return fail(error, FACET_ERROR_ARGUMENT, "--%s: it says nothing without %s",
+            return fail(error, FACET_ERROR_ARGUMENT, "--%s: it needs %s",
                         option_find_id(c->verb, rules[i].id)->name, rules[i].what);
     return FACET_OK;
 }
@@ -433,9 +433,8 @@ facet_result bake_plan_check(const command_line *c, const bake_options *o, bake_
         result = output_check(file->path, error);
         file->is_kept = result == FACET_OK && o->keeps_existing && exists;
         if (result == FACET_OK && exists && !file->is_kept && is_read(c, o, file->path))
-            result =
-                fail(error, FACET_ERROR_ARGUMENT,
-                     "%s: it is an input, too, and would be overwritten; name another output", file->path);
+            result = fail(error, FACET_ERROR_ARGUMENT,
+                          "%s: this input would be overwritten; name another output", file->path);
     }
     if (result == FACET_OK)
         result = check_twice(plan, error);

@@ -59,7 +59,7 @@ void bake_report_files(const messages *m, const bake_plan *plan, bool is_news, d
         const bake_file *file = &plan->files[i];
         char what[128], bytes[32];
         if (file->is_kept) {
-            message_at(m, VERBOSITY_NORMAL, "%s: kept; it was there already", file->path);
+            message_at(m, VERBOSITY_NORMAL, "%s: kept, since it exists", file->path);
             continue;
         }
         describe(plan, file, what, sizeof what);

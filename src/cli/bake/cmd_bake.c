@@ -159,7 +159,7 @@ static void tell_clamped(bake_run *run, const bake_cube *baked)
 {
     const facet_bake_stats stats = facet_cube_get_stats(baked->cube);
     if (baked->desc.clamp > 0.0f)
-        message_at(&run->base.messages, VERBOSITY_NORMAL, "%s: --clamp %g takes %.3g %% of the light",
+        message_at(&run->base.messages, VERBOSITY_NORMAL, "%s: --clamp %g removes %.3g %% of the light",
                    bake_input_name(&run->options), (double)baked->desc.clamp, 100.0 * stats.clamped_share);
 }
 
@@ -177,8 +177,8 @@ static void warn_of_cut(bake_run *run, const bake_file *file)
     char text[1024];
     const facet_log log = messages_log(&run->base.messages);
     snprintf(text, sizeof text,
-             "%.800s: its numbers end at %g, which cuts off %.3g %% of the light; full floats "
-             "(--format rgba32f or exr32) keep it, or lower it with --exposure",
+             "%.800s: the format ends at %g, which removes %.3g %% of the light; full floats (--format "
+             "rgba32f or exr32) keep it, or scale it down with --exposure",
              file->path, (double)limit, 100.0 * share);
     log.message(log.user, FACET_LOG_LEVEL_WARNING, text);
 }
@@ -320,7 +320,7 @@ static bool tell_errors(const bake_run *run)
     bake_report_worst(&run->plan, o->has_max_error ? o->max_error : 1e300, worst, sizeof worst);
     if (!worst[0])
         return true;
-    message_error("%s: %s is more than --max-error %g", bake_plan_subject(&run->plan), worst, o->max_error);
+    message_error("%s: %s is above --max-error %g", bake_plan_subject(&run->plan), worst, o->max_error);
     return false;
 }
 

@@ -76,14 +76,14 @@ static facet_result read_pictures(compare_run *run, facet_error *error)
     if (c->argument_count < 2)
         return fail(error, FACET_ERROR_ARGUMENT,
                     c->argument_count ? "compare: %s with what? facet compare reference.png render.png"
-                                      : "compare: which pictures?%s facet compare reference.png render.png",
+                                      : "compare: which images?%s facet compare reference.png render.png",
                     c->argument_count ? c->arguments[0] : "");
     int streams = 0;
     for (int i = 0; i < 2; i++)
         streams += strcmp(c->arguments[i], "-") == 0;
     streams += mask && strcmp(mask, "-") == 0;
     if (streams > 1)
-        return fail(error, FACET_ERROR_ARGUMENT, "compare: standard input is one picture, not %d", streams);
+        return fail(error, FACET_ERROR_ARGUMENT, "compare: standard input is one image, not %d", streams);
     return FACET_OK;
 }
 
@@ -97,7 +97,7 @@ static facet_result read_output(compare_run *run, facet_error *error)
         static const option_id idle[] = {OPT_HEAT_MAP, OPT_SHEET, OPT_GAIN, OPT_FORMAT, OPT_NO_CLOBBER};
         for (size_t i = 0; i < sizeof idle / sizeof *idle; i++)
             if (is_given(c, idle[i]))
-                return fail(error, FACET_ERROR_ARGUMENT, "--%s: it says something of the picture of -o only",
+                return fail(error, FACET_ERROR_ARGUMENT, "--%s: it needs a difference image, -o FILE",
                             option_find_id(c->verb, idle[i])->name);
         return FACET_OK;
     }
@@ -113,15 +113,14 @@ static facet_result read_output(compare_run *run, facet_error *error)
                     run->output);
     if (is_stdout && is_given(c, OPT_JSON))
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "--json: standard output is taken by the picture (-o -); write one of them elsewhere");
+                    "--json: the image goes to standard output (-o -); write one of them elsewhere");
     run->save.format =
         format >= 0 ? (facet_image_format)(FACET_IMAGE_FORMAT_PNG + format) : FACET_IMAGE_FORMAT_FROM_NAME;
     const char *inputs[] = {c->arguments[0], c->arguments[1], option_text(c, OPT_MASK, NULL)};
     for (int i = 0; i < 3; i++)
         if (inputs[i] && !is_stdout && input_is_same_file(inputs[i], run->output))
             return fail(error, FACET_ERROR_ARGUMENT,
-                        "%s: it is an input, too, and would be overwritten; name another output with -o",
-                        run->output);
+                        "%s: this input would be overwritten; name another output with -o", run->output);
     return output_check(run->output, error);
 }
 
@@ -133,8 +132,7 @@ static facet_result read_look(compare_run *run, facet_error *error)
     d->space = (facet_compare_space)option_choice(c, OPT_SPACE, FACET_COMPARE_SPACE_AUTO);
     d->tonemap = (facet_tonemap)option_choice(c, OPT_TONE_MAPPING, FACET_TONEMAP_NONE);
     if (d->space == FACET_COMPARE_SPACE_LINEAR && d->tonemap != FACET_TONEMAP_NONE)
-        return fail(error, FACET_ERROR_ARGUMENT,
-                    "--tone-mapping: it is for displays, not for --space linear");
+        return fail(error, FACET_ERROR_ARGUMENT, "--tone-mapping: it has no effect in --space linear");
     if (is_given(c, OPT_EXPOSURE) && !value_exposure(option_text(c, OPT_EXPOSURE, ""), &stops))
         return option_fail(c, OPT_EXPOSURE, "stops such as +0.5, or a factor such as 2x", error);
     d->exposure_ev = (float)stops;
@@ -145,7 +143,7 @@ static facet_result read_look(compare_run *run, facet_error *error)
         return option_fail(c, OPT_BACKGROUND, "#rgb, #rrggbb or a CSS color name", error);
     if ((d->alpha == FACET_COMPARE_ALPHA_BACKGROUND) != (background != NULL))
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "--alpha: background goes with --background COLOR, and with it only");
+                    "--alpha: background and --background COLOR need each other");
     if (is_given(c, OPT_CROP) && !value_rectangle(option_text(c, OPT_CROP, ""), d->crop))
         return option_fail(c, OPT_CROP, "X,Y,WIDTH,HEIGHT in pixels", error);
     return FACET_OK;
@@ -194,7 +192,7 @@ static facet_result load(compare_run *run, const char *path, const char *layer, 
     const facet_image_view loaded = picture(*image), first = picture(run->a);
     if (loaded.width != first.width || loaded.height != first.height)
         return fail(error, FACET_ERROR_INVALID,
-                    "%s: %u x %u pixels, but %s has %u x %u; pictures of one size were expected",
+                    "%s: %u x %u pixels, but %s has %u x %u; images of the same size were expected",
                     input_name(path), loaded.width, loaded.height, input_name(run->base.line->arguments[0]),
                     first.width, first.height);
     return FACET_OK;
@@ -222,7 +220,7 @@ static void tell(compare_run *run)
     const uint64_t nonfinite[] = {c->nonfinite_a, c->nonfinite_b};
     if (is_display[0] != is_display[1] && !is_given(run->base.line, OPT_SPACE))
         message_at(&run->base.messages, VERBOSITY_NORMAL,
-                   "%s: it is light, and %s is for displays; compared as a display shows them%s",
+                   "%s: it is scene-linear, and %s is for displays; compared as display values%s",
                    input_name(names[is_display[0]]), input_name(names[!is_display[0]]),
                    run->desc.tonemap == FACET_TONEMAP_NONE ? ", clamped (--tone-mapping)" : "");
     facet_log log = messages_log(&run->base.messages);
@@ -256,7 +254,7 @@ static facet_result compare(compare_run *run, facet_error *error)
     if (result == FACET_OK && is_drawn)
         result = output_write(run->difference, run->output, &run->save, error);
     if (result == FACET_OK && run->is_kept)
-        message_at(&run->base.messages, VERBOSITY_NORMAL, "%s: kept; it was there already", run->output);
+        message_at(&run->base.messages, VERBOSITY_NORMAL, "%s: kept, since it exists", run->output);
     return result;
 }
 

@@ -57,8 +57,8 @@ static facet_result set_limit(compare_wish *w, int metric, bool is_max, double l
     const compare_metric *m = &compare_metrics[metric];
     if (m->is_similarity == is_max)
         return fail(error, FACET_ERROR_ARGUMENT,
-                    is_max ? "--max: %s is larger the more alike the pictures are; write --min %s=%g"
-                           : "--min: %s is smaller the more alike the pictures are; write --max %s=%g",
+                    is_max ? "--max: %s grows with similarity; write --min %s=%g"
+                           : "--min: %s shrinks with similarity; write --max %s=%g",
                     m->name, m->name, limit);
     compare_limit *l = &w->limits[metric];
     if (is_max) {
@@ -86,8 +86,7 @@ static facet_result only_metric(const compare_wish *w, const char *label, const 
         return FACET_OK;
     return fail(
         error, FACET_ERROR_ARGUMENT,
-        "%s: of which metric is %.40s the limit? Write %s NAME=%.40s, as flip=0.02, or choose one with "
-        "--metric",
+        "%s: the limit %.40s names no metric; write %s NAME=%.40s, as flip=0.02, or choose one with --metric",
         label, text, label, text);
 }
 
@@ -106,7 +105,7 @@ static facet_result read_limits(const command_line *c, option_id id, compare_wis
         int metric = equals ? find_metric(at, (size_t)(equals - at)) : 0;
         if (metric < 0)
             return fail(error, FACET_ERROR_ARGUMENT,
-                        "%s: there is no metric \"%.*s\"; facet help compare lists those there are", label,
+                        "%s: there is no metric \"%.*s\"; facet help compare lists the metrics", label,
                         (int)(equals - at), at);
         snprintf(text, sizeof text, "%.*s", (int)(length - (size_t)(number - at)), number);
         if (!value_number(text, &limit))
@@ -195,11 +194,11 @@ void compare_report_table(FILE *stream, const compare_wish *wish, const facet_co
     }
     if (!wish->has_choice)
         fprintf(stream, "%u x %u pixels, %s, %s\n", c->width, c->height,
-                c->space == FACET_COMPARE_SPACE_LINEAR ? "as light" : "as a display shows them",
+                c->space == FACET_COMPARE_SPACE_LINEAR ? "as light" : "as display values",
                 c->is_equal ? "equal" : "different");
     table_print(&t, stream, wish->has_choice ? 0 : 2);
     if (!wish->has_choice && c->space == FACET_COMPARE_SPACE_LINEAR)
-        fprintf(stream, "psnr and ssim: of the largest value, %.6g\n", c->peak);
+        fprintf(stream, "psnr and ssim: for a peak of %.6g\n", c->peak);
     if (!wish->has_choice && c->is_flip_hdr)
         fprintf(stream, "flip: the largest of %u exposures from %+.2f to %+.2f stops\n",
                 c->flip_exposure_count, c->flip_start_ev, c->flip_stop_ev);
@@ -220,8 +219,8 @@ void compare_report_failures(const compare_wish *wish, const facet_comparison *c
     text[0] = 0;
     if (wish->has_limits && c->invalid_count)
         used += (size_t)snprintf(text, size,
-                                 c->invalid_count == 1 ? "%llu pixel is not finite in one of them"
-                                                       : "%llu pixels are not finite in one of them",
+                                 c->invalid_count == 1 ? "%llu pixel is not finite in one image"
+                                                       : "%llu pixels are not finite in one image",
                                  (unsigned long long)c->invalid_count);
     for (int i = 0; i < COMPARE_METRIC_COUNT && used < size; i++) {
         const double value = compare_metric_value(c, i);

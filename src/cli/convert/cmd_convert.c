@@ -239,8 +239,8 @@ static facet_result save(convert_run *run, const model_name *model, const facet_
     if (run->names.report)
         result = convert_name(&run->names, model, true, report, error);
     if (result == FACET_OK && run->names.report && facet_scene_has_file(scene, report))
-        result = fail(error, FACET_ERROR_ARGUMENT,
-                      "%s: it is an input, too, and would be overwritten; name another report", report);
+        result = fail(error, FACET_ERROR_ARGUMENT, "%s: this input would be overwritten; name another report",
+                      report);
     bool is_stdout = strcmp(output, "-") == 0;
     desc.is_glb = is_stdout;
     if (result == FACET_OK)
@@ -270,7 +270,7 @@ static void tell_model(convert_run *run, const char *model, const char *output, 
         output = "stdout";
     convert_report_print(&run->base.messages, output, scene);
     if (large)
-        message_error("%s: %u material%s a larger error than --max-error %g", output, large,
+        message_error("%s: %u material%s an error above --max-error %g", output, large,
                       large == 1 ? " has" : "s have", option_number(run->base.line, OPT_MAX_ERROR, 0.0));
     run->base.is_negative = run->base.is_negative || large;
     message_at(&run->base.messages, VERBOSITY_DETAILS, "%s: %.2f s", output, interrupt_clock() - start);
@@ -290,7 +290,7 @@ static facet_result convert_model(convert_run *run, const model_name *model, fac
     if (result != FACET_OK)
         return result;
     if (run->names.keeps_existing && output_exists(output)) {
-        message_at(&run->base.messages, VERBOSITY_NORMAL, "%s: kept; it was there already", output);
+        message_at(&run->base.messages, VERBOSITY_NORMAL, "%s: kept, since it exists", output);
         return FACET_OK;
     }
     facet_scene *scene = NULL;

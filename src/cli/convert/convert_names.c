@@ -42,14 +42,14 @@ static facet_result read_format(const command_line *c, convert_names *out, facet
         out->format = MODEL_GLB;
         if (terminal_is(stdout))
             return fail(error, FACET_ERROR_ARGUMENT,
-                        "--output: standard output is a terminal; send the model into a file or a program");
+                        "--output: standard output is a terminal; redirect it to a file or a program");
         if (is_given(c, OPT_JSON))
             return fail(error, FACET_ERROR_ARGUMENT,
-                        "--json: standard output holds the model already; name a file with -o");
+                        "--json: the model goes to standard output already; name a file with -o");
         return to < 0 || choices[to] == MODEL_GLB
                    ? FACET_OK
                    : fail(error, FACET_ERROR_ARGUMENT,
-                          "--to: standard output takes a .glb file; the other formats are several files");
+                          "--to: standard output takes a .glb file; other formats consist of several files");
     }
     if (!find_format(out->output, &out->format))
         return fail(error, FACET_ERROR_ARGUMENT, "convert: \"%s\" does not end in .glb, .gltf, .obj or .json",
@@ -93,8 +93,8 @@ static facet_result check_name(const convert_names *n, const model_name *model, 
     char name[CONVERT_NAME_SIZE];
     facet_result result = convert_name(n, model, report, name, error);
     if (result == FACET_OK && input_is_same_file(model->path, name) && !(n->keeps_existing && !report))
-        result = fail(error, FACET_ERROR_ARGUMENT,
-                      "%s: it is an input, too, and would be overwritten; name another output", name);
+        result = fail(error, FACET_ERROR_ARGUMENT, "%s: this input would be overwritten; name another output",
+                      name);
     if (result == FACET_OK)
         result = output_check(name, error);
     if (result == FACET_OK && !(claim->identity = output_identity(name)))
@@ -135,8 +135,8 @@ facet_result convert_names_read(command_line *c, convert_names *out, facet_error
         out->output = c->arguments[--argument_count];
     if (!out->output || (argument_count == 0 && !is_given(c, OPT_FILES_FROM)))
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "convert: one model and the name of the new one were expected, as in facet convert "
-                    "old.gltf new.glb; several go with -o 'new/{stem}.glb'");
+                    "convert: a model and the name of the new one were expected, as in facet convert "
+                    "old.gltf new.glb; for several models give -o 'new/{stem}.glb'");
     TRY(output_name_check(is_pair ? "convert" : "--output", out->output, OUTPUT_NAME_WORDS, error));
     TRY(model_list_create(c, argument_count, &out->models, error));
     if (out->models.count > 1 && !output_name_has_model(out->output))

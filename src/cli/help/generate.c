@@ -158,9 +158,8 @@ static void print_overview(FILE *stream)
     fputs(".SH SYNOPSIS\n.B facet\n\\fICOMMAND\\fR [\\fIMODEL\\fR...] [\\fIoptions\\fR]\n.SH DESCRIPTION\n",
           stream);
     print_text(stream,
-               "Reads glTF 2.0, OBJ, STL and PLY models and draws them on the CPU, without a GPU, display or "
-               "network; converts between "
-               "them, and plots reflectance. Begin with:");
+               "Reads glTF 2.0, OBJ, STL and PLY models and renders them on the CPU, without a GPU, display "
+               "or network; converts between them, bakes environments, and plots reflectance. Begin with:");
     fputs(".PP\n.RS\n.B ", stream);
     print_text(stream, help_first_use);
     fputs(".RE\n.SH COMMANDS\n", stream);

@@ -9,7 +9,7 @@
 
 enum { OPTION_COLUMN = 2, VERB_COLUMN = 12, SHORT_EXAMPLES = 5 };
 
-const char help_summary[] = "physically based pictures of models on any CPU, conversions, plots";
+const char help_summary[] = "physically based images of models on any CPU, conversions, plots";
 const char help_first_use[] = "facet render helmet.glb -o helmet.png";
 
 /* A paragraph, or several, each wrapped. */
@@ -85,12 +85,12 @@ static size_t count_options(const verb *v)
 static void print_basics(FILE *stream, const verb *v)
 {
     print_examples(stream, v, SHORT_EXAMPLES);
-    print_heading(stream, "Options that matter most");
+    print_heading(stream, "Main options");
     for (const option_id *id = v->basics; *id != OPTION_ID_COUNT; id++)
         help_print_option_line(stream, option_find_id(v, *id));
     fprintf(stream,
-            "\nfacet %s --help-all has all %zu options and says more; facet help OPTION explains one, and\n"
-            "facet help --search WORD finds them.\n",
+            "\nfacet %s --help-all lists all %zu options with a description; facet help OPTION explains one, "
+            "and\nfacet help --search WORD finds them.\n",
             v->name, count_options(v));
 }
 
@@ -128,11 +128,9 @@ void help_print_overview(FILE *stream)
         terminal_wrap(stream, (*v)->summary, VERB_COLUMN, width, &column);
         fputc('\n', stream);
     }
-    fprintf(stream, "\nfacet help COMMAND explains one, facet help OPTION an option (facet help orbit), "
-                    "facet help --search "
-                    "WORD\nfinds what there is; facet help documents says where the manual is, facet help "
-                    "exit-codes what 0 "
-                    "to 75 mean.\n");
+    fprintf(stream, "\nfacet help COMMAND explains a command, facet help OPTION an option (facet help "
+                    "orbit); facet help --search\nWORD searches all of it, facet help documents lists the "
+                    "manual, facet help exit-codes the exit codes.\n");
 }
 
 void help_print_exit_codes(FILE *stream)

@@ -45,8 +45,8 @@ static facet_result ocean_check_name(const ocean_run *run, const char *name, fac
     const render_options *p = &run->options.picture;
     bool is_of_model = run->model && facet_scene_has_file(run->model, name);
     if (is_of_model || render_name_is_input(run->base.line, p, NULL, name))
-        return fail(error, FACET_ERROR_ARGUMENT,
-                    "%s: it is an input, too, and would be overwritten; name another output", name);
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: this input would be overwritten; name another output",
+                    name);
     return output_check(name, error);
 }
 

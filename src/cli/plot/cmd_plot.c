@@ -104,9 +104,10 @@ static facet_result read_kind(plot_run *run, facet_error *error)
             error, FACET_ERROR_ARGUMENT,
             "plot: \"%.200s\" is a material; the kind of plot comes first, as in facet plot brdf %.200s",
             c->arguments[0], c->arguments[0]);
-    return c->argument_count ? fail(error, FACET_ERROR_ARGUMENT,
-                                    "plot: there is no plot \"%.60s\"; those are %s", c->arguments[0], names)
-                             : fail(error, FACET_ERROR_ARGUMENT, "plot: which plot? One of %s", names);
+    return c->argument_count
+               ? fail(error, FACET_ERROR_ARGUMENT, "plot: there is no plot \"%.60s\"; the plots are %s",
+                      c->arguments[0], names)
+               : fail(error, FACET_ERROR_ARGUMENT, "plot: which plot? One of %s", names);
 }
 
 static facet_result read_output(plot_run *run, facet_error *error)
@@ -252,8 +253,7 @@ static facet_result plot(plot_run *run, facet_error *error)
 {
     if (strcmp(run->path, "-") != 0 && is_an_input(run))
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "%s: it is an input, too, and would be overwritten; name another output with -o",
-                    run->path);
+                    "%s: this input would be overwritten; name another output with -o", run->path);
     unsigned char *bytes = NULL;
     size_t size = 0;
     facet_result result = facet_plot_encode(&run->desc, run->format, &bytes, &size, error);
@@ -296,7 +296,7 @@ static facet_result read_and_plot(plot_run *run, facet_error *error)
     run->is_written = is_given(c, OPT_NO_CLOBBER) && output_exists(run->path);
     if (!run->is_written)
         return plot(run, error);
-    message_at(&run->base.messages, VERBOSITY_NORMAL, "%s: kept; it was there already", run->path);
+    message_at(&run->base.messages, VERBOSITY_NORMAL, "%s: kept, since it exists", run->path);
     return FACET_OK;
 }
 

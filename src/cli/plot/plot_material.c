@@ -92,7 +92,8 @@ static facet_result fail_parameter(const char *text, const char *key, facet_plot
             snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", parameters[i].name);
     }
     return fail(error, FACET_ERROR_ARGUMENT,
-                "plot: \"%.200s\": there is no parameter \"%.60s\"; those are: %s", text, key, names);
+                "plot: \"%.200s\": there is no parameter \"%.60s\"; the parameters are: %s", text, key,
+                names);
 }
 
 static facet_result set_parameter(const char *text, const char *key, const char *value,
@@ -156,14 +157,15 @@ static facet_result read_parameters(const char *text, facet_plot_material *out, 
         if (colon && is_first && find_model(word, (size_t)(colon - word), &out->model)) {
             size_t length = (size_t)(colon - word);
             return fail(error, FACET_ERROR_ARGUMENT,
-                        "plot: \"%.200s\": a comma stands after %.*s: %.*s,%.200s", text, (int)length, text,
+                        "plot: \"%.200s\": write a comma after %.*s: %.*s,%.200s", text, (int)length, text,
                         (int)length, text, text + length + 1);
         }
         if (!value && is_first && find_model(word, strlen(word), &out->model))
             continue;
         if (!value)
             return fail(error, FACET_ERROR_ARGUMENT,
-                        "plot: \"%.200s\": \"%.60s\" is no parameter; NAME=VALUE was expected", text, word);
+                        "plot: \"%.200s\": \"%.60s\" is not a parameter; NAME=VALUE was expected", text,
+                        word);
         *value++ = 0;
         facet_result result = set_parameter(text, word, value, out, error);
         if (result != FACET_OK)

@@ -221,11 +221,10 @@ static facet_result camera_matrix_read(const command_line *c, render_options *ou
         return FACET_OK;
     if (is_view && is_given(c, OPT_CAMERA_MATRIX))
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "--view-matrix: it does not go together with --camera-matrix; give one of them");
+                    "--view-matrix: it excludes --camera-matrix; give one of them");
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (is_given(c, others[i]))
-            return fail(error, FACET_ERROR_ARGUMENT,
-                        "--%s: it does not go together with --%s; give one of them",
+            return fail(error, FACET_ERROR_ARGUMENT, "--%s: it excludes --%s; give one of them",
                         option_find_id(c->verb, id)->name, option_find_id(c->verb, others[i])->name);
     double m[16], inverse[16];
     if (!read_numbers(option_text(c, id, ""), m))
@@ -275,7 +274,7 @@ facet_result camera_options_read(const command_line *c, render_options *out, fac
     for (size_t i = 0; out->camera && i < sizeof orbit_options / sizeof *orbit_options; i++)
         if (is_given(c, orbit_options[i]))
             return fail(error, FACET_ERROR_ARGUMENT,
-                        "--camera: a camera of the file does not go together with --%s; give one of them",
+                        "--camera: a camera of the file excludes --%s; give one of them",
                         option_find_id(c->verb, orbit_options[i])->name);
     facet_result result = read_orbit(c, out, error);
     if (result != FACET_OK)
@@ -287,7 +286,7 @@ facet_result camera_options_read(const command_line *c, render_options *out, fac
     if (!value_numbers(option_text(c, OPT_EYE, ""), 3, out->eye))
         return option_fail(c, OPT_EYE, "X,Y,Z in metres", error);
     if (is_given(c, OPT_ORBIT) || out->turntable)
-        return fail(error, FACET_ERROR_ARGUMENT, "--eye: it does not go together with --%s; give one of them",
+        return fail(error, FACET_ERROR_ARGUMENT, "--eye: it excludes --%s; give one of them",
                     out->turntable ? "turntable" : "orbit");
     return FACET_OK;
 }

@@ -151,8 +151,7 @@ static facet_result frame_camera(model_run *m, uint32_t index, const sequence_fr
         .pose = &s->pose, .turn = frame->turn, .turns = s->turns > 0, .moves = s->moves};
     m->options.orbit.log = m->is_framed ? (facet_log){0} : messages_log(&m->run->base.messages);
     m->is_framed = true;
-    interrupt_begin(input_name(m->model->path), "finding a camera for it",
-                    m->run->base.progress == PROGRESS_BAR);
+    interrupt_begin(input_name(m->model->path), "framing the camera", m->run->base.progress == PROGRESS_BAR);
     facet_result result = render_camera(m->scene, &view, &m->options, camera, error);
     interrupt_end();
     if (result == FACET_OK && index == 0 && is_sequence)
@@ -169,7 +168,7 @@ static facet_result check_inputs(const model_run *m, const char *name, facet_err
     if (o->is_stdout || o->keeps_existing || !facet_scene_has_file(m->scene, name))
         return FACET_OK;
     return fail(error, FACET_ERROR_ARGUMENT,
-                "%s: it is an input, too, and would be overwritten; name another output with -o", name);
+                "%s: this input would be overwritten; name another output with -o", name);
 }
 
 /* Seconds that a picture may take; 0: as long as it wants. Path tracing takes all that it gets: its pictures share evenly
@@ -241,7 +240,7 @@ static facet_result render_frame(model_run *m, uint32_t index, const sequence_fr
     facet_result result = draw_frame(m, index, frame, report->output, checkpoint, &image, error);
     if (result == FACET_ERROR_CANCELLED)
         return fail(error, result, "%.400s: interrupted before there was an image%s%.400s", report->output,
-                    *checkpoint ? "; --resume goes on with " : "", checkpoint);
+                    *checkpoint ? "; --resume continues " : "", checkpoint);
     if (result != FACET_OK)
         return result;
     double rendered = interrupt_clock();
@@ -372,7 +371,7 @@ static facet_result render_scene(render_run *run, const model_name *model, facet
                                  facet_error *error)
 {
     model_run m = {.run = run, .options = run->options, .model = model, .scene = scene};
-    interrupt_begin(input_name(model->path), "looking for its frames", run->base.progress == PROGRESS_BAR);
+    interrupt_begin(input_name(model->path), "finding its frames", run->base.progress == PROGRESS_BAR);
     facet_result result = sequence_create(scene, input_name(model->path), &m.options, &m.sequence, error);
     interrupt_end();
     if (result == FACET_OK)

@@ -51,14 +51,13 @@ static facet_result check_renderer(const command_line *c, const render_options *
          is_gl = o->desc.renderer == FACET_RENDERER_KIND_GL;
     facet_result result = FACET_OK;
     if (!is_path)
-        result = refuse(c, path_only, "it says something only with --renderer path", error);
+        result = refuse(c, path_only, "it needs --renderer path", error);
     if (result == FACET_OK && !is_gl)
-        result = refuse(c, gl_only, "it says something only with --renderer gl", error);
+        result = refuse(c, gl_only, "it needs --renderer gl", error);
     if (result == FACET_OK && !is_path && !is_gl && is_given(c, OPT_GROUND))
-        result =
-            fail(error, FACET_ERROR_ARGUMENT, "--ground: it says something only with --renderer path or gl");
+        result = fail(error, FACET_ERROR_ARGUMENT, "--ground: it needs --renderer path or gl");
     if (result == FACET_OK && is_path)
-        result = refuse(c, not_path, "it says nothing to --renderer path", error);
+        result = refuse(c, not_path, "it has no effect with --renderer path", error);
     return result;
 }
 
@@ -94,7 +93,7 @@ static facet_result read_ground(const command_line *c, render_options *out, face
     out->desc.ground = option_choice(c, OPT_GROUND, 0) == 1 ? FACET_GROUND_SHADOW : FACET_GROUND_NONE;
     if (out->desc.ground == FACET_GROUND_SHADOW && option_choice(c, OPT_UP, 0) == 1)
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "--ground: the ground is below models with +Y up; it does not go together with --up z");
+                    "--ground: the ground lies below models with +Y up; it excludes --up z");
     return FACET_OK;
 }
 
@@ -106,12 +105,10 @@ static facet_result read_lens(const command_line *c, render_options *out, facet_
     double diameter = 0.0;
     out->aperture_is_relative = scan_number(&text, &diameter) && strcmp(text, "%") == 0;
     if ((!out->aperture_is_relative && *text) || diameter < 0.0 || diameter > 1e9)
-        return option_fail(c, OPT_APERTURE, "a diameter in m, or in % of the distance that is sharp, as 2%",
-                           error);
+        return option_fail(c, OPT_APERTURE, "a diameter in m, or in % of the focus distance, as 2%", error);
     out->aperture = (float)(out->aperture_is_relative ? 0.01 * diameter : diameter);
     if (is_given(c, OPT_FOCUS) && !(out->aperture > 0.0f))
-        return fail(error, FACET_ERROR_ARGUMENT,
-                    "--focus: all is sharp without a lens; give its diameter, --aperture 2%%");
+        return fail(error, FACET_ERROR_ARGUMENT, "--focus: it needs a lens, as --aperture 2%%");
     text = option_text(c, OPT_FOCUS, "auto");
     double focus = 0.0;
     if (strcmp(text, "auto") != 0 && (!value_number(text, &focus) || !(focus > 0.0)))
@@ -174,7 +171,7 @@ static facet_result read_checkpoint(const command_line *c, render_options *out, 
     out->desc.path.resumes = is_given(c, OPT_RESUME);
     if (!out->checkpoint)
         return out->desc.path.resumes
-                   ? fail(error, FACET_ERROR_ARGUMENT, "--resume: it needs the file, --checkpoint FILE")
+                   ? fail(error, FACET_ERROR_ARGUMENT, "--resume: it needs --checkpoint FILE")
                    : FACET_OK;
     TRY(output_name_check("--checkpoint", out->checkpoint, OUTPUT_NAME_WORDS, error));
     const char *dot = strrchr(out->checkpoint, '.');
@@ -186,9 +183,9 @@ static facet_result read_checkpoint(const command_line *c, render_options *out, 
                     c->argument_count);
     if (out->is_sequence && !output_name_has_frame(out->checkpoint))
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "--checkpoint: \"%s\" is one name for several pictures; put #### in it", out->checkpoint);
+                    "--checkpoint: \"%s\" is one name for several images; put #### in it", out->checkpoint);
     if (out->output && strcmp(out->output, out->checkpoint) == 0)
-        return fail(error, FACET_ERROR_ARGUMENT, "--checkpoint: it is the name of the picture, too");
+        return fail(error, FACET_ERROR_ARGUMENT, "--checkpoint: this is also the name of the image");
     return FACET_OK;
 }
 

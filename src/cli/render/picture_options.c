@@ -23,12 +23,11 @@ facet_result picture_options_output(const command_line *c, render_options *out, 
     TRY(output_name_check("--output", out->output, OUTPUT_NAME_WORDS, error));
     if (out->is_stdout) {
         if (terminal_is(stdout))
-            return fail(
-                error, FACET_ERROR_ARGUMENT,
-                "--output: - is standard output, which is a terminal; send it to a file or a program");
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "--output: standard output is a terminal; redirect it to a file or a program");
         if (is_given(c, OPT_JSON))
             return fail(error, FACET_ERROR_ARGUMENT,
-                        "--json: it writes to standard output, and so does --output -; give one of them");
+                        "--json: it writes to standard output, as --output - does; give one of them");
     } else if (c->argument_count > 1 && !output_name_has_model(out->output)) {
         return fail(error, FACET_ERROR_ARGUMENT,
                     "--output: \"%s\" is one name for %zu models; put {stem} in it, as in {stem}.png",
@@ -82,7 +81,7 @@ facet_result picture_options_format(const command_line *c, render_options *out, 
     }
     if (out->is_stdout)
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "--output: - is standard output, which has no name to tell the format; add --format png");
+                    "--output: standard output has no file name; add --format png");
     const char *slash = strrchr(out->output, '/'), *dot = strrchr(slash ? slash : out->output, '.');
     for (size_t i = 0; dot && i < sizeof formats / sizeof *formats; i++)
         if (strcasecmp(dot + 1, formats[i].extension) == 0) {
@@ -90,8 +89,8 @@ facet_result picture_options_format(const command_line *c, render_options *out, 
             return FACET_OK;
         }
     return option_fail(c, OPT_OUTPUT,
-                       "a name that ends in .png, .jpg, .webp, .exr, .hdr, .pfm or .y4m (videos in other "
-                       "forms: send --format y4m to ffmpeg)",
+                       "a name that ends in .png, .jpg, .webp, .exr, .hdr, .pfm or .y4m (for other video "
+                       "formats send --format y4m to ffmpeg)",
                        error);
 }
 
@@ -102,15 +101,15 @@ facet_result picture_options_size(const command_line *c, const char *otherwise, 
 {
     facet_render_desc *d = &out->desc;
     if (!value_size(option_text(c, OPT_SIZE, otherwise), &d->width, &d->height))
-        return option_fail(
-            c, OPT_SIZE,
-            "WIDTHxHEIGHT in pixels such as 640x480, or one number for a square; the most are 65536", error);
+        return option_fail(c, OPT_SIZE,
+                           "WIDTHxHEIGHT in pixels such as 640x480, or one number for a square, up to 65536",
+                           error);
     if (!is_given(c, OPT_CROP))
         return FACET_OK;
     if (!value_rectangle(option_text(c, OPT_CROP, ""), d->crop))
         return option_fail(c, OPT_CROP, "X,Y,WIDTH,HEIGHT in pixels", error);
     if (d->crop[0] + d->crop[2] > d->width || d->crop[1] + d->crop[3] > d->height)
-        return option_fail(c, OPT_CROP, "inside the picture that --size gives", error);
+        return option_fail(c, OPT_CROP, "inside the image of --size", error);
     return FACET_OK;
 }
 
@@ -129,8 +128,8 @@ facet_result picture_options_exposure(const command_line *c, render_options *out
     double plain;
     if (c->has_attributes && has_stops && text[0] != '+' && text[0] != '-' && value_number(text, &plain))
         snprintf(out->note, sizeof out->note,
-                 "--exposure %s: read as stops, a factor of %.4g; model-viewer's exposure is the factor: for "
-                 "that write --exposure %sx",
+                 "--exposure %s: read as stops, a factor of %.4g; model-viewer's exposure is a factor, which "
+                 "is written --exposure %sx",
                  text, exp2(stops), text);
     out->desc.exposure_ev = (float)stops;
     return FACET_OK;
@@ -184,7 +183,7 @@ facet_result picture_options_frames(const command_line *c, render_options *out, 
                            error);
     if (out->has_time && out->has_frames)
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "--time: it is one moment and does not go together with --frames; give one of them");
+                    "--time: it is one moment and excludes --frames; give one of them");
     return FACET_OK;
 }
 
@@ -204,10 +203,10 @@ facet_result picture_options_check_sequence(const command_line *c, const render_
         return FACET_OK;
     if (o->turntable)
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "--output: \"%s\" is one name for %u pictures; put #### in it, as in turn_####.png",
+                    "--output: \"%s\" is one name for %u images; put #### in it, as in turn_####.png",
                     o->output, o->turntable);
     return fail(error, FACET_ERROR_ARGUMENT,
                 "--output: \"%s\" is one name for the frames of an animation; put #### in it, as in "
-                "walk_####.png, or give --time for one picture",
+                "walk_####.png, or give --time for one image",
                 o->output);
 }

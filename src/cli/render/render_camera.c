@@ -64,9 +64,8 @@ static facet_result camera_from_eye(const facet_scene *scene, const facet_pose_d
         camera->eye[i] = (float)(options->eye[i] - origin[i]);
     float far_away = distance(camera->eye, camera->target);
     if (!(far_away > 0.0f))
-        return fail(error, FACET_ERROR_ARGUMENT,
-                    "--eye: the camera stands on what it looks at (%.9g,%.9g,%.9g)", options->eye[0],
-                    options->eye[1], options->eye[2]);
+        return fail(error, FACET_ERROR_ARGUMENT, "--eye: the camera is at its target (%.9g,%.9g,%.9g)",
+                    options->eye[0], options->eye[1], options->eye[2]);
     if (options->orbit.is_orthographic) {
         camera->ortho_height = 2.0f * far_away * tanf(0.5f * camera->fov_y_rad);
         camera->fov_y_rad = 0.0f;

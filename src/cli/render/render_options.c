@@ -74,13 +74,13 @@ static facet_result check_renderer(const char *text, const render_options *o, fa
             continue;
         if (o->desc.path.resumes && aov_names[i].aovs & FACET_AOV_CRYPTOMATTE)
             return fail(error, FACET_ERROR_ARGUMENT,
-                        "--aov: a checkpoint does not keep %s; render it without --resume",
+                        "--aov: a checkpoint does not hold %s; render it without --resume",
                         aov_names[i].name);
         char list[256] = "";
         list_names(all, list, sizeof list);
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "--aov: %s is a layer of --renderer path only; --renderer %s has %s, or all",
-                    aov_names[i].name, renderers[o->desc.renderer], list);
+                    "--aov: %s needs --renderer path; --renderer %s has %s, or all", aov_names[i].name,
+                    renderers[o->desc.renderer], list);
     }
     return FACET_OK;
 }
@@ -96,10 +96,9 @@ static facet_result read_id_layer(const char *text, render_options *out, facet_e
             out->desc.aovs = aov_names[i].aovs | FACET_AOV_INSTANCE_ID;
             return FACET_OK;
         }
-    return fail(
-        error, FACET_ERROR_ARGUMENT,
-        "--aov: only .exr files hold layers beside the image, write -o NAME.exr; a .png holds one of object, "
-        "material and instance alone, in false color");
+    return fail(error, FACET_ERROR_ARGUMENT,
+                "--aov: layers need an .exr file, -o NAME.exr; a .png holds one of object, material and "
+                "instance alone, in false color");
 }
 
 /* Sets desc.aovs; the format and the renderer are read before. FACET_ERROR_ARGUMENT: the renderer lacks a layer, or the file
@@ -158,7 +157,7 @@ static facet_result read_look(const command_line *c, render_options *out, facet_
     static const option_id ogl1_only[] = {OPT_OGL1_VARIANT, OPT_OGL1_SPACE, OPT_FOG};
     for (size_t i = 0; i < sizeof ogl1_only / sizeof *ogl1_only; i++)
         if (is_given(c, ogl1_only[i]) && d->shading != FACET_SHADING_OGL1)
-            return fail(error, FACET_ERROR_ARGUMENT, "--%s: it says something only with --shading ogl1",
+            return fail(error, FACET_ERROR_ARGUMENT, "--%s: it needs --shading ogl1",
                         option_find_id(c->verb, ogl1_only[i])->name);
     picture_options_look(c, d->shading == FACET_SHADING_OGL1 ? FACET_TONEMAP_NONE : FACET_TONEMAP_NEUTRAL,
                          out);
@@ -180,7 +179,7 @@ static facet_result read_motion(const command_line *c, render_options *out, face
         return result;
     bool plays_none = out->animation && strcmp(out->animation, "none") == 0;
     if (plays_none && (out->has_time || out->has_frames))
-        return fail(error, FACET_ERROR_ARGUMENT, "--animation: none does not go together with --%s",
+        return fail(error, FACET_ERROR_ARGUMENT, "--animation: none excludes --%s",
                     out->has_time ? "time" : "frames");
     bool is_still = out->has_time || plays_none;
     out->is_sequence = out->turntable || out->has_frames || (!is_still && (out->animation || out->has_fps));

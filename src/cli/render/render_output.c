@@ -65,7 +65,7 @@ static facet_result check_checkpoint(const command_line *c, const render_options
         (render_name_is_input(c, o, model->path, name) ||
          (output_exists(picture) && input_is_same_file(name, picture))))
         result = fail(error, FACET_ERROR_ARGUMENT,
-                      "--checkpoint: %s is an input or the picture, too, and would be overwritten", name);
+                      "--checkpoint: %s is an input or the image itself and would be overwritten", name);
     return result;
 }
 
@@ -79,7 +79,7 @@ static facet_result check_model(const command_line *c, const render_options *o, 
         result = output_check(name, error);
     if (result == FACET_OK && render_name_is_input(c, o, model->path, name))
         result = fail(error, FACET_ERROR_ARGUMENT,
-                      "%s: it is an input, too, and would be overwritten; name another output with -o", name);
+                      "%s: this input would be overwritten; name another output with -o", name);
     if (result == FACET_OK)
         result = check_checkpoint(c, o, model, name, error);
     if (result == FACET_OK && !(claim->identity = output_identity(name)))
@@ -123,8 +123,8 @@ void report_partial(messages *m, const picture_report *p, const char *resume_wit
     const facet_log log = messages_log(m);
     snprintf(text, sizeof text, "%.400s: the image is partial: %s after %.1f of %u samples per pixel%s%.400s",
              strcmp(p->output, "-") == 0 ? "stdout" : p->output,
-             interrupt_signal() ? "interrupted" : "the time limit came", samples_taken(p), p->samples,
-             *checkpoint ? "; --resume goes on with " : "", checkpoint);
+             interrupt_signal() ? "interrupted" : "the time limit was reached", samples_taken(p), p->samples,
+             *checkpoint ? "; --resume continues " : "", checkpoint);
     log.message(log.user, FACET_LOG_LEVEL_WARNING, text);
 }
 
@@ -135,7 +135,7 @@ void report_picture(const messages *m, const picture_report *p, bool is_news)
     verbosity least = is_news || terminal_is(stderr) ? VERBOSITY_NORMAL : VERBOSITY_DETAILS;
     const char *name = strcmp(p->output, "-") == 0 ? "stdout" : p->output;
     if (p->is_kept) {
-        message_at(m, VERBOSITY_NORMAL, "%s: kept; it was there already", name);
+        message_at(m, VERBOSITY_NORMAL, "%s: kept, since it exists", name);
         return;
     }
     const facet_render_stats *s = &p->stats;

@@ -21,7 +21,7 @@ static facet_result choose_animations(const facet_scene *scene, const char *name
     if (there == 0)
         return o->turntable && !o->animation
                    ? FACET_OK
-                   : fail(error, FACET_ERROR_ARGUMENT, "%s: has no animation, which --%s asks for", name,
+                   : fail(error, FACET_ERROR_ARGUMENT, "%s: it has no animation for --%s", name,
                           o->animation  ? "animation"
                           : o->has_time ? "time"
                           : o->has_fps  ? "fps"

@@ -81,7 +81,7 @@ static facet_result write_text(const command_line *c, facet_error *error)
         return result;
     if (is_given(c, OPT_NO_CLOBBER) && output_exists(path)) {
         if (!is_given(c, OPT_QUIET))
-            fprintf(stderr, "%s: kept; it was there already\n", path);
+            fprintf(stderr, "%s: kept, since it exists\n", path);
         return FACET_OK;
     }
     const facet_shader_desc desc = {.version = versions[option_choice(c, OPT_GLSL, 0)],
@@ -109,6 +109,6 @@ int cmd_shaders(command_line *c)
         return EXIT_DONE;
     bool names_no_file = result == FACET_ERROR_ARGUMENT || result == FACET_ERROR_MEMORY;
     message_error("%s%s%s", names_no_file ? "facet: " : "", error.message,
-                  result == FACET_ERROR_ARGUMENT ? "; facet shaders --list has them" : "");
+                  result == FACET_ERROR_ARGUMENT ? "; facet shaders --list lists them" : "");
     return exit_code_of(result);
 }

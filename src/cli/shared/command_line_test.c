@@ -233,7 +233,7 @@ static void test_bad_config(void **state)
         {"{\"samples\": 0}", "whole number", FACET_ERROR_ARGUMENT},
         {"{\"samples\": {}}", "must be text", FACET_ERROR_ARGUMENT},
         {"{\"json\": \"yes\"}", "true or false", FACET_ERROR_ARGUMENT},
-        {"{\"config\": \"x\"}", "cannot stand", FACET_ERROR_ARGUMENT},
+        {"{\"config\": \"x\"}", "cannot be given", FACET_ERROR_ARGUMENT},
         {"{\"output\": [[1]]}", "must be text", FACET_ERROR_ARGUMENT},
         {"[]", "one JSON object", FACET_ERROR_ARGUMENT},
         {"{\"size\": 1,\n \"size\": 2}", "line 2", FACET_ERROR_ARGUMENT},

@@ -93,7 +93,7 @@ static facet_result apply_member(command_line *c, const char *name, const json_t
         return fail(error, FACET_ERROR_ARGUMENT, "%s: %.900s", path, suggestion.message);
     }
     if (o->id == OPT_CONFIG || o->id == OPT_HELP || o->id == OPT_HELP_ALL)
-        return fail(error, FACET_ERROR_ARGUMENT, "%s: %s: it cannot stand in a file", path, name);
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: %s: it cannot be given in a file", path, name);
     if (is_given(c, o->id))
         return FACET_OK;
     if (!option_takes_value(o)) {

@@ -294,8 +294,8 @@ facet_result environment_input_parse(const char *place, const char *text, unsign
     *out = (environment_input){.kind = ENVIRONMENT_FILE, .path = text};
     if (read_plain_word(text, out)) {
         if (out->kind == ENVIRONMENT_NONE && !(takes & ENVIRONMENT_TAKES_NONE))
-            return fail(error, FACET_ERROR_ARGUMENT, "%s: none is no light; ./none is a file of that name",
-                        place);
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "%s: none is not an environment here; ./none is a file of that name", place);
         return FACET_OK;
     }
     if (strcmp(text, "white") == 0 || text[0] == '#') {
@@ -309,7 +309,7 @@ facet_result environment_input_parse(const char *place, const char *text, unsign
     }
     if (strcmp(text, "-") == 0 && !(takes & ENVIRONMENT_TAKES_STDIN))
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "%s: an environment is not read from standard input; name a file", place);
+                    "%s: environments are not read from standard input; name a file", place);
     for (size_t i = 0; i < sizeof all_words / sizeof *all_words; i++) {
         const environment_word *word = &all_words[i];
         size_t length = strlen(word->name);

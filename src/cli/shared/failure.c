@@ -7,10 +7,9 @@
 
 const exit_meaning exit_meanings[] = {
     {"0", "done; the output is complete"},
-    {"1", "done, with a negative answer: --strict and there were warnings, an error above --max-error, "
-          "pictures beyond --max or --min, or "
-          "some of several models failed"},
-    {"2", "the command line, or the file of --config, is wrong"},
+    {"1", "done, with a negative result: warnings with --strict, an error above --max-error, images beyond "
+          "--max or --min, or a failure of some of several models"},
+    {"2", "the command line or the file of --config is wrong"},
     {"3", "an input cannot be read: missing, no permission, I/O"},
     {"4", "an input is not valid"},
     {"5", "an input needs a feature that facet lacks"},

@@ -53,7 +53,7 @@ static facet_result read_stdin(const char *expected, growing *out, facet_error *
 {
     if (terminal_is(stdin))
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "stdin: - is standard input, which is a terminal; send a file into it");
+                    "stdin: standard input is a terminal; redirect a file into it");
     for (;;) {
         if (out->used == out->capacity && !grow(out))
             return fail(error, FACET_ERROR_MEMORY, "stdin: out of memory after %zu bytes", out->used);
@@ -95,7 +95,7 @@ static facet_result check(const char *path, const char *root, facet_error *error
     if (path)
         TRY(check_address(path, error));
     if (path && stat(path, &info) == 0 && S_ISDIR(info.st_mode)) /* others were replaced by what is in them */
-        return fail(error, FACET_ERROR_READ, "%s: there is no model in this folder, nor below it", path);
+        return fail(error, FACET_ERROR_READ, "%s: there is no model in or below this folder", path);
     if (root && (stat(root, &info) != 0 || !S_ISDIR(info.st_mode)))
         return fail(error, FACET_ERROR_READ, "%s: there is no such folder (--root)", root);
     return FACET_OK;
@@ -124,7 +124,7 @@ facet_result input_load_image(const char *path, const facet_image_load_desc *des
 {
     *image = NULL;
     if (!path[0])
-        return fail(error, FACET_ERROR_ARGUMENT, "facet: the name of a picture is empty");
+        return fail(error, FACET_ERROR_ARGUMENT, "facet: the name of an image is empty");
     TRY(check_address(path, error));
     if (strcmp(path, "-") != 0)
         return facet_image_load(path, desc, image, error);

@@ -249,7 +249,7 @@ facet_result model_list_create(command_line *c, size_t argument_count, model_lis
 {
     *out = (model_list){0};
     facet_result result = limits_start_clock(c, error);
-    interrupt_begin("facet", "looking for models", false);
+    interrupt_begin("facet", "finding models", false);
     for (size_t i = 0; i < argument_count && result == FACET_OK; i++)
         result = add_argument(c, c->arguments[i], out, error);
     if (result == FACET_OK && is_given(c, OPT_FILES_FROM))
@@ -306,9 +306,8 @@ facet_result model_list_check_clash(const model_list *list, size_t i, const char
     size_t other = list->clashes[i];
     if (other == MODEL_NO_CLASH)
         return FACET_OK;
-    return fail(
-        error, FACET_ERROR_ARGUMENT,
-        "%.300s: it and %.300s would both be written to %.300s; put {dir}, {name} or {index} in the name",
-        input_name(list->models[i].path), other == i ? "its report" : input_name(list->models[other].path),
-        output);
+    return fail(error, FACET_ERROR_ARGUMENT,
+                "%.300s: it and %.300s have the same output %.300s; put {dir}, {name} or {index} in the name",
+                input_name(list->models[i].path),
+                other == i ? "its report" : input_name(list->models[other].path), output);
 }

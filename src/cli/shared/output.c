@@ -61,7 +61,7 @@ facet_result output_make_folders(const char *path, facet_error *error)
     for (const char *slash = rest; slash && (slash = strchr(slash, '/')); slash++) {
         snprintf(folder, sizeof folder, "%.*s", (int)(slash - path), path);
         if (mkdir(folder, 0777) != 0 && errno != EEXIST)
-            return fail(error, FACET_ERROR_WRITE, "%s: the folder %s cannot be made: %s", path, folder,
+            return fail(error, FACET_ERROR_WRITE, "%s: the folder %s cannot be created: %s", path, folder,
                         strerror(errno));
     }
     return FACET_OK;

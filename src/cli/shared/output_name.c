@@ -72,8 +72,8 @@ facet_result output_name_check(const char *place, const char *pattern, const cha
             snprintf(known + used, sizeof known - used, "%s{%.*s}", used ? ", " : "", n, w);
             w += n;
         }
-        return fail(error, FACET_ERROR_ARGUMENT, "%s: {%.*s} stands for nothing; there are %s", place,
-                    (int)(length < 60 ? length : 60), at + 1, known);
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: {%.*s} is not a placeholder; the placeholders are %s",
+                    place, (int)(length < 60 ? length : 60), at + 1, known);
     }
     return FACET_OK;
 }

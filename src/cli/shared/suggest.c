@@ -340,7 +340,7 @@ facet_result suggest_option(const verb *v, const char *name, size_t length, face
         }
     if (best)
         return fail(error, FACET_ERROR_ARGUMENT, "unknown option --%s; did you mean --%s?", text, best);
-    return fail(error, FACET_ERROR_ARGUMENT, "unknown option --%s; facet help %s lists those there are", text,
+    return fail(error, FACET_ERROR_ARGUMENT, "unknown option --%s; facet help %s lists the options", text,
                 v->name);
 }
 
@@ -350,6 +350,6 @@ facet_result suggest_letter(const verb *v, char letter, facet_error *error)
         if (letter == foreign_letters[i].theirs && option_find_id(v, foreign_letters[i].id))
             return fail(error, FACET_ERROR_ARGUMENT, "unknown option -%c; did you mean %s?", letter,
                         foreign_letters[i].ours);
-    return fail(error, FACET_ERROR_ARGUMENT, "unknown option -%c; facet help %s lists those there are",
-                letter, v->name);
+    return fail(error, FACET_ERROR_ARGUMENT, "unknown option -%c; facet help %s lists the options", letter,
+                v->name);
 }

@@ -1,14 +1,14 @@
 /* value_test.c - sizes, times, angles, orbits, colors, names. */
+#include "cli/render/render_options.h"
+#include "cli/shared/color.h"
+#include "cli/shared/output_name.h"
+#include "cli/shared/value.h"
+
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 
-#include <cmocka.h>
-
-#include "cli/shared/color.h"
-#include "cli/render/render_options.h"
-#include "cli/shared/output_name.h"
-#include "cli/shared/value.h"
+#include <cmocka.h> /* after base/result.h, which has a function of the name of its macro fail() */
 
 #include <math.h>
 #include <stdio.h>

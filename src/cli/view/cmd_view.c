@@ -180,9 +180,10 @@ static facet_result read_line(verb_run *base, facet_error *error)
     base->limits = o->limits;
     if (o->meters_exposure)
         return option_fail(c, OPT_EXPOSURE,
-                           "stops or a factor; the window has no meter, + and - change its exposure", error);
+                           "stops or a factor; the window has no light meter, + and - change its exposure",
+                           error);
     if (o->desc.renderer == FACET_RENDERER_KIND_PREVIEW)
-        return option_fail(c, OPT_RENDERER, "gl or path; facet render has the preview", error);
+        return option_fail(c, OPT_RENDERER, "gl or path; the preview is in facet render", error);
     return FACET_OK;
 }
 
