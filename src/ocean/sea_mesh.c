@@ -139,7 +139,7 @@ static bool make_floor(const sheet *s, arena *memory, float depth_m, scene_primi
     float *positions, *normals, *uvs;
     if (!allocate(memory, 2, p, &positions, &normals, &uvs))
         return false;
-    double slope = bed->depth_m > 0.0f ? (double)bed->slope : 0.0;
+    double slope = sea_has_bed(bed) ? (double)bed->slope : 0.0;
     double ex = slope * cos((double)bed->direction_rad), ez = slope * sin((double)bed->direction_rad);
     double length = sqrt(1.0 + slope * slope);
     for (uint32_t i = 0; i < 4; i++) {
@@ -182,7 +182,7 @@ static scene_material water_material(const facet_sea *sea, double step_m)
     m.perceptual_roughness = roughness_below(sea, step_m);
     m.ior = sea->optics.ior;
     m.transmission = 1.0f;
-    m.thickness = sea->desc.bed.depth_m > 0.0f ? sea->desc.bed.depth_m : DEEP_THICKNESS_M;
+    m.thickness = sea_has_bed(&sea->desc.bed) ? sea->desc.bed.depth_m : DEEP_THICKNESS_M;
     m.attenuation_distance = 1.0f;
     for (int i = 0; i < 3; i++)
         m.attenuation_color[i] = expf(-attenuation(sea, i));
@@ -193,7 +193,7 @@ static scene_material water_material(const facet_sea *sea, double step_m)
 static scene_material floor_material(const facet_sea *sea, float depth_m)
 {
     scene_material m = scene_material_default();
-    bool is_bed = sea->desc.bed.depth_m > 0.0f;
+    bool is_bed = sea_has_bed(&sea->desc.bed);
     m.name = is_bed ? "bed" : "deep water";
     m.metallic = 0.0f;
     double n = (double)sea->optics.ior, F0 = (n - 1.0) * (n - 1.0) / ((n + 1.0) * (n + 1.0));
@@ -262,7 +262,7 @@ static bool fill(facet_scene *scene, sheet *s, bool has_floor)
     if (!scene->materials || !scene->meshes || !scene->nodes || !scene->scenes || !roots ||
         !make_surface(s, scene->arena, &surface))
         return false;
-    float depth = sea->desc.bed.depth_m > 0.0f ? sea->desc.bed.depth_m : 1.0f - surface.bounds_min[1];
+    float depth = sea_has_bed(&sea->desc.bed) ? sea->desc.bed.depth_m : 1.0f - surface.bounds_min[1];
     scene->materials[0] = water_material(sea, step_of(s, s->samples / 2));
     bool fits = add_node(scene, 0, &surface);
     if (fits && has_floor) {

@@ -241,7 +241,7 @@ facet_result sea_state_create(const facet_sea_desc *desc, sea_state *out, facet_
         result = check_tiles(desc, error);
     if (result)
         return result;
-    *out = (sea_state){.depth_m = desc->bed.depth_m > 0.0f ? (double)desc->bed.depth_m : ENDLESS,
+    *out = (sea_state){.depth_m = sea_has_bed(&desc->bed) ? (double)desc->bed.depth_m : ENDLESS,
                        .wind_mps = (double)desc->wind_mps,
                        .wind_direction = (double)desc->wind_direction_rad,
                        .taper_k = ENDLESS,

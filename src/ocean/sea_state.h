@@ -116,4 +116,10 @@ void cox_munk_slopes(double wind_mps, double out[2]);
  * Below 3.7 m/s no crest breaks (Callaghan et al. 2008, whose law begins there); smooth between. */
 double whitecap_coverage(double wind_mps);
 
+/* Whether there is ground below; a bed that is infinitely deep is none. */
+static inline bool sea_has_bed(const facet_sea_bed *bed)
+{
+    return bed->depth_m > 0.0f && isfinite(bed->depth_m);
+}
+
 #endif

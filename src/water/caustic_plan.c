@@ -227,9 +227,9 @@ static float finest_texel(const view *v)
 static bool has_caustics(const water_setup *s)
 {
     const facet_sea_shading *look = &s->desc->sea_shading;
-    bool is_whole = !look->style && (look->stage == 0 || look->stage == 5);
-    return is_whole && !look->omits_caustics && water_has_bed(s) && (has_waves(s) || s->model.is_there) &&
-           s->light.L[1] > 0.0f && max(max(s->beam[0], s->beam[1]), s->beam[2]) > 0.0f;
+    return sea_shading_is_complete(look) && !look->omits_caustics && water_has_bed(s) &&
+           (has_waves(s) || s->model.is_there) && s->light.L[1] > 0.0f &&
+           max(max(s->beam[0], s->beam[1]), s->beam[2]) > 0.0f;
 }
 
 static void begin(view *v, const water_setup *s)

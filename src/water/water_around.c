@@ -38,10 +38,16 @@ static vec3 surroundings(const water_setup *s, vec3 d)
     return has_foam(s) ? mix(L, water_foam(s->water, s->light, point.N), foam_on_average(s)) : L;
 }
 
+typedef struct surroundings_drawing {
+    const water_setup *setup;
+    const image *picture;
+} surroundings_drawing;
+
 static void draw_surroundings(void *context, size_t begin, size_t end)
 {
-    const water_setup *s = ((const void *const *)context)[0];
-    const image *picture = ((const void *const *)context)[1];
+    const surroundings_drawing *drawing = context;
+    const water_setup *s = drawing->setup;
+    const image *picture = drawing->picture;
     for (size_t y = begin; y < end; y++) {
         float *texel = (float *)picture->pixels + y * picture->width * 3;
         for (uint32_t x = 0; x < picture->width; x++, texel += 3) {
@@ -69,8 +75,8 @@ facet_result water_around_prepare(water_setup *s, facet_error *error)
             environment_release(around);
         return result;
     }
-    const void *context[2] = {s, &around->panorama};
-    parallel_for(r->thread_count, HEIGHT, 8, draw_surroundings, (void *)(uintptr_t)context);
+    surroundings_drawing drawing = {s, &around->panorama};
+    parallel_for(r->thread_count, HEIGHT, 8, draw_surroundings, &drawing);
     environment_limit(around, r->thread_count);
     if (s->cache->light->around)
         environment_release(s->cache->light->around);

@@ -3,11 +3,6 @@
 
 #include "water/water_look.h"
 
-bool water_look_is_before(const facet_sea_shading *look)
-{
-    return look->style != FACET_SEA_STYLE_PHYSICAL || look->stage == 1 || look->stage == 2;
-}
-
 /* Displays were given c^0.95 as it is; the numbers here are encoded later. */
 static vec3 shown(vec3 c)
 {

@@ -8,9 +8,6 @@
 /* Stages of facet_sea_shading: 1 Schlick's formula with water's ior, 2 a microfacet highlight, 3 light of the sky and the sun in place of
  * constants, 4 refraction and absorption in place of a base color, 5 foam and glints: all of it. */
 
-/* Whether the look is drawn as before: what it makes is for a display as it is, whatever the exposure. */
-bool water_look_is_before(const facet_sea_shading *look);
-
 /* As linear numbers that a display's sRGB encoding takes to what the look had shown. */
 vec3 water_look_sky(vec3 d);
 vec3 water_look_shade(const water_setup *s, const water_place *p, vec3 d);

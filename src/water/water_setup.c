@@ -107,9 +107,8 @@ facet_result water_setup_create(water_cache *cache, const facet_scene *scene, co
     if (r->renderer == FACET_RENDERER_KIND_PREVIEW)
         result = water_profile_create(&s->march, &s->camera, whole, s->is_below, r->thread_count,
                                       &r->allocator, &s->profile, error);
-    const facet_sea_shading *look = &desc->sea_shading;
-    bool has_foam = look->style == FACET_SEA_STYLE_PHYSICAL && (look->stage == 0 || look->stage == 5) &&
-                    !look->omits_foam && sea->foam.threshold < HUGE_VALF;
+    bool has_foam = sea_shading_is_complete(&desc->sea_shading) && !desc->sea_shading.omits_foam &&
+                    sea->foam.threshold < HUGE_VALF;
     if (result == FACET_OK && has_foam)
         result = make_foam(s, error);
     float rows_per_rad = s->camera.is_orthographic ? 1000.0f : 1.0f / s->camera.pixel_size;
@@ -168,7 +167,7 @@ void water_warn_of_eye(const facet_render_desc *d)
     const facet_sea_bed *bed = &sea->desc.bed;
     double below = water_bed_height(bed, (double)eye[0], (double)eye[2]) - (double)eye[1];
     bool is_below = is_under_water(sea, eye);
-    if (water_is_bed(bed) && below > 0.0)
+    if (sea_has_bed(bed) && below > 0.0)
         log_warning(&d->log, "sea: the camera stands %.3g m below the bed, from where nothing is seen",
                     below);
     else if (is_below != (eye[1] < 0.0f))

@@ -62,13 +62,9 @@ static inline float water_sigma_of(vec3 covariance)
 
 /* ---- the ground below ---- */
 
-static inline bool water_is_bed(const facet_sea_bed *bed)
-{
-    return bed->depth_m > 0.0f && isfinite(bed->depth_m);
-}
 static inline bool water_has_bed(const water_setup *s)
 {
-    return water_is_bed(&s->sea->desc.bed);
+    return sea_has_bed(&s->sea->desc.bed);
 }
 /* Whether light on it differs from place to place. */
 static inline bool water_has_light_on_bed(const water_setup *s)

@@ -116,7 +116,7 @@ static vec3 exposed(const water_setup *s, vec3 L)
 vec3 water_sample_shade(const water_sample *p, bool is_met, const march_hit *sea)
 {
     const water_setup *s = p->s;
-    if (!water_look_is_before(&s->desc->sea_shading))
+    if (!sea_shading_is_legacy(&s->desc->sea_shading))
         return exposed(s, (p->ray.is_below ? from_below : from_above)(p, is_met, sea));
     if (!is_met)
         return water_look_sky(p->d);

@@ -183,20 +183,17 @@ static facet_result update_indices(gl_sea *s, const gl_sea_fan *fan, facet_error
 static uint64_t features_of(const water_frame *p)
 {
     const facet_sea_shading *look = &p->desc->sea_shading;
-    const facet_sea_bed *bed = &p->sea->desc.bed;
-    if (look->style != FACET_SEA_STYLE_PHYSICAL || look->stage == 1 || look->stage == 2)
+    if (sea_shading_is_legacy(look))
         return GL_SEA_IS_LEGACY;
-    bool is_shaded_whole = look->stage != 3 && look->stage != 4;
-    bool has_bed = bed->depth_m > 0.0f && bed->depth_m < 1e30f;
+    bool has_bed = sea_has_bed(&p->sea->desc.bed);
     bool has_other_facets = look->normals == FACET_SEA_NORMALS_GGX ||
                             look->masking != FACET_SEA_MASKING_SCALES || look->has_schlick_fresnel;
-    bool has_foam = is_shaded_whole && !look->omits_foam && p->foam;
-    bool has_glints = is_shaded_whole && !look->omits_glints && !p->is_below;
+    bool has_glints = sea_shading_is_complete(look) && !look->omits_glints && !p->is_below;
     return (p->background ? GL_SEA_HAS_IMAGE : 0u) | (p->model ? GL_SEA_HAS_MODEL : 0u) |
            (has_other_facets ? GL_SEA_HAS_OTHER_MICROFACETS : 0u) |
            (look->stage == 3 && !p->is_below ? GL_SEA_IS_PAINTED : 0u) |
            (p->is_below ? GL_SEA_IS_BELOW : 0u) | (has_bed ? GL_SEA_HAS_BED : 0u) |
-           (has_foam ? GL_SEA_HAS_FOAM : 0u) | (has_glints ? GL_SEA_HAS_GLINTS : 0u);
+           (p->foam ? GL_SEA_HAS_FOAM : 0u) | (has_glints ? GL_SEA_HAS_GLINTS : 0u);
 }
 
 /* Features that what is not water has, too. */
