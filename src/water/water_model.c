@@ -44,15 +44,14 @@ static facet_result make_shade(const facet_allocator *allocator, bool has_sun, w
     m->shaded_light.punctual = NULL;
     m->shaded = m->setup.shading;
     m->shaded.light = &m->shaded_light;
-    if (!has_sun || light->punctual_count == 0) {
-        m->shaded_light.punctual_count = 0;
+    if (light->punctual_count == 0)
         return FACET_OK;
-    }
     Light *lights = mem_alloc(allocator, light->punctual_count, sizeof *lights);
     if (!lights)
         return fail_memory(error, "lights", light->punctual_count * sizeof *lights);
     memcpy(lights, light->punctual, light->punctual_count * sizeof *lights);
-    lights[light->punctual_count - 1].intensity = vec3(0.0f);
+    if (has_sun)
+        lights[light->punctual_count - 1].intensity = vec3(0.0f);
     m->shaded_light.punctual = lights;
     return FACET_OK;
 }

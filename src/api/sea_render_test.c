@@ -1,0 +1,257 @@
+/* sea_render_test.c - a sea in facet_render_desc: what a facet_renderer keeps changes no image, and what holds of a scene holds in a
+ * sea for each renderer, or is refused by name. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "facet/facet.h"
+
+enum { WIDTH = 24, HEIGHT = 16 };
+
+static facet_error failure;
+
+static void done(facet_result result)
+{
+    if (result != FACET_OK)
+        fail_msg("%s", failure.message);
+}
+
+static facet_sea *make_sea(float wind_mps)
+{
+    facet_sea_desc d = facet_sea_default();
+    facet_sea *sea = NULL;
+    d.wind_mps = wind_mps;
+    d.resolution = 64;
+    d.cascade_count = 2;
+    d.thread_count = 1;
+    done(facet_sea_create(&d, &sea, &failure));
+    return sea;
+}
+
+static facet_render_desc desc_of(const facet_sea *sea, facet_renderer_kind renderer)
+{
+    return (facet_render_desc){.width = WIDTH,
+                               .height = HEIGHT,
+                               .samples = 1,
+                               .thread_count = 1,
+                               .exposure_ev = -14.0f,
+                               .sea = sea,
+                               .sky = {.sun_elevation_rad = 0.5f},
+                               .renderer = renderer};
+}
+
+/* A white square of 2 x 2 m, 8 m before the eye and 2 to 4 m over the water, and a point light of 10^6 cd 2 m before it. */
+static facet_scene *lit_square(void)
+{
+    static const char file[] =
+        "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_lights_punctual\"],"
+        "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"point\",\"intensity\":1000000}]}},"
+        "\"scenes\":[{\"nodes\":[0,1]}],\"scene\":0,\"nodes\":[{\"mesh\":0,\"name\":\"square\"},"
+        "{\"translation\":[0,3,-6],\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1},\"indices\":2,"
+        "\"material\":0}]}],\"materials\":[{\"doubleSided\":true,\"pbrMetallicRoughness\":{"
+        "\"metallicFactor\":0}}],\"accessors\":["
+        "{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\",\"min\":[-1,2,-8],"
+        "\"max\":[1,4,-8]},{\"bufferView\":1,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},"
+        "{\"bufferView\":2,\"componentType\":5123,\"count\":6,\"type\":\"SCALAR\"}],\"bufferViews\":["
+        "{\"buffer\":0,\"byteLength\":48},{\"buffer\":0,\"byteOffset\":48,\"byteLength\":48},"
+        "{\"buffer\":0,\"byteOffset\":96,\"byteLength\":12}],\"buffers\":[{\"byteLength\":108,\"uri\":"
+        "\"data:application/octet-stream;base64,"
+        "AACAvwAAAEAAAADBAACAPwAAAEAAAADBAACAPwAAgEAAAADBAACAvwAAgEAAAADBAAAAAAAAAAAAAIA/"
+        "AAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/AAABAAIAAAACAAMA\"}]}";
+    facet_scene *scene = NULL;
+    done(facet_scene_load_memory(file, strlen(file), "square.gltf", NULL, &scene, &failure));
+    return scene;
+}
+
+static const facet_camera at_square = {.eye = {0, 3, 0}, .target = {0, 3, -1}, .fov_y_rad = 0.4f};
+
+static const char *const names[] = {"the preview", "path tracing", "OpenGL"};
+
+/* Whether there is a driver; elsewhere OpenGL's share of a test is skipped, with a line. */
+static bool has_gl(void)
+{
+    static int known = -1;
+    facet_image *image = NULL;
+    facet_sea *sea = make_sea(0.0f);
+    const facet_render_desc desc = desc_of(sea, FACET_RENDERER_KIND_GL);
+    if (known < 0) {
+        facet_result result = facet_render(NULL, &desc, &image, &failure);
+        known = result != FACET_ERROR_SYSTEM;
+        if (!known)
+            print_message("OpenGL: skipped: %s\n", failure.message);
+    }
+    facet_image_destroy(image);
+    facet_sea_destroy(sea);
+    return known;
+}
+
+static void assert_same(const facet_image *a, const facet_image *b)
+{
+    facet_image_view x = facet_image_get_layer(a, 0), y = facet_image_get_layer(b, 0);
+    assert_int_equal(x.width, y.width);
+    assert_memory_equal(x.pixels, y.pixels, sizeof(float) * 4 * x.width * x.height);
+}
+
+/* Frames of two seas by turns, forwards and back: those of facet_sea_render(). */
+static void what_is_kept_changes_no_image(void **state)
+{
+    (void)state;
+    facet_sea *seas[2] = {make_sea(9.0f), make_sea(14.0f)};
+    for (int kind = 0; kind <= FACET_RENDERER_KIND_GL; kind++) {
+        if (kind == FACET_RENDERER_KIND_GL && !has_gl())
+            continue;
+        facet_renderer *renderer = NULL;
+        done(facet_renderer_create(NULL, NULL, &renderer, &failure));
+        static const struct {
+            int sea;
+            double time_s;
+        } frames[] = {{0, 0.0}, {0, 1.0}, {1, 1.0}, {0, 0.0}};
+        for (size_t i = 0; i < sizeof frames / sizeof *frames; i++) {
+            facet_sea *sea = seas[frames[i].sea];
+            facet_image *kept = NULL, *fresh = NULL;
+            done(facet_sea_set_time(sea, frames[i].time_s, &failure));
+            const facet_render_desc desc = desc_of(sea, (facet_renderer_kind)kind);
+            const facet_sea_render_desc alone = {.render = desc, .sky = desc.sky};
+            done(facet_renderer_render(renderer, &desc, &kept, &failure));
+            done(facet_sea_render(sea, NULL, &alone, &fresh, &failure));
+            assert_same(kept, fresh);
+            facet_image_destroy(kept);
+            facet_image_destroy(fresh);
+        }
+        facet_renderer_destroy(renderer);
+    }
+    facet_sea_destroy(seas[0]);
+    facet_sea_destroy(seas[1]);
+}
+
+static void what_is_not_drawn_is_refused_by_name(void **state)
+{
+    (void)state;
+    facet_sea *sea = make_sea(5.0f);
+    for (int kind = 0; kind <= FACET_RENDERER_KIND_GL; kind++) {
+        facet_render_desc cases[4];
+        const char *words[] = {"ground", "shading", names[kind], "look"};
+        for (int i = 0; i < 4; i++)
+            cases[i] = desc_of(sea, (facet_renderer_kind)kind);
+        cases[0].ground = FACET_GROUND_SHADOW;
+        cases[1].shading = FACET_SHADING_OGL1;
+        cases[2].aovs = FACET_AOV_DEPTH;
+        cases[3].sea_shading.stage = 6;
+        for (int i = 0; i < 4; i++) {
+            facet_image *image = NULL;
+            if (kind == FACET_RENDERER_KIND_PATH && i == 2)
+                continue; /* it draws them */
+            assert_int_equal(facet_render(NULL, &cases[i], &image, &failure), FACET_ERROR_ARGUMENT);
+            assert_null(image);
+            if (!strstr(failure.message, words[i]))
+                fail_msg("%s, case %d: %s", names[kind], i, failure.message);
+        }
+    }
+    facet_image *image = NULL;
+    const facet_render_desc neither = {.width = WIDTH, .height = HEIGHT};
+    assert_int_equal(facet_render(NULL, &neither, &image, &failure), FACET_ERROR_ARGUMENT);
+    assert_non_null(strstr(failure.message, "neither a scene nor a sea"));
+    facet_sea_destroy(sea);
+}
+
+static const float *layer(const facet_image *image, const char *name)
+{
+    for (uint32_t i = 0; i < facet_image_get_layer_count(image); i++) {
+        facet_image_view view = facet_image_get_layer(image, i);
+        if (strcmp(view.name, name) == 0)
+            return view.pixels;
+    }
+    fail_msg("there is no layer %s", name);
+    return NULL;
+}
+
+/* Path tracing has the water in its layers, beside the model: the lowest row shows it, the middle the square. */
+static void layers_show_water_and_model(void **state)
+{
+    (void)state;
+    facet_sea *sea = make_sea(0.0f);
+    facet_scene *scene = lit_square();
+    facet_image *image = NULL;
+    facet_render_desc desc = desc_of(sea, FACET_RENDERER_KIND_PATH);
+    desc.camera = &at_square;
+    desc.aovs = FACET_AOV_DEPTH | FACET_AOV_NORMAL | FACET_AOV_OBJECT_ID | FACET_AOV_CRYPTOMATTE;
+    done(facet_render(scene, &desc, &image, &failure));
+    const size_t middle = (size_t)(HEIGHT / 2) * WIDTH + WIDTH / 2, low = (size_t)(HEIGHT - 1) * WIDTH;
+    const float *depth = layer(image, "depth"), *object = layer(image, "object");
+    assert_true(fabsf(depth[middle] - 8.0f) < 0.01f);
+    assert_true(object[middle] == 1.0f && object[low] > 1.0f);
+    assert_true(depth[low] > 10.0f && depth[low] < 20.0f);    /* 3 m below the eye, 0.19 rad down */
+    assert_true(layer(image, "normal")[3 * low + 1] > 0.99f); /* still water */
+    facet_image_destroy(image);
+    facet_scene_destroy(scene);
+    facet_sea_destroy(sea);
+}
+
+static double middle_of(const facet_scene *scene, const facet_render_desc *desc)
+{
+    facet_image *image = NULL;
+    done(facet_render(scene, desc, &image, &failure));
+    double L = (double)facet_image_get_layer(image, 0).pixels[4 * (HEIGHT / 2 * WIDTH + WIDTH / 2) + 1];
+    facet_image_destroy(image);
+    return L;
+}
+
+/* The square, 2 m behind a light of 10^6 cd, sends back E / pi = 10^6 / 4 / pi cd/m^2 in the night, nearly all of it. */
+static void punctual_lights_light_the_model(void **state)
+{
+    (void)state;
+    facet_sea *sea = make_sea(0.0f);
+    facet_scene *scene = lit_square();
+    for (int kind = 0; kind <= FACET_RENDERER_KIND_GL; kind++) {
+        if (kind == FACET_RENDERER_KIND_GL && !has_gl())
+            continue;
+        facet_render_desc desc = desc_of(sea, (facet_renderer_kind)kind);
+        desc.camera = &at_square;
+        desc.sky.sun_elevation_rad = -0.6f;
+        desc.samples = 16;
+        double lit = middle_of(scene, &desc) * 16384.0; /* exposed by -14 EV */
+        if (!(lit > 0.85 * 79577.0 && lit < 1.15 * 79577.0))
+            fail_msg("%s: %g cd/m^2", names[kind], lit);
+        desc.ignores_scene_lights = true;
+        assert_true(middle_of(scene, &desc) * 16384.0 < 100.0);
+    }
+    facet_scene_destroy(scene);
+    facet_sea_destroy(sea);
+}
+
+/* A desc that meters exposes as facet_sea_meter() says. */
+static void images_meter_themselves(void **state)
+{
+    (void)state;
+    facet_sea *sea = make_sea(7.0f);
+    facet_render_desc desc = desc_of(sea, FACET_RENDERER_KIND_PREVIEW);
+    facet_image *metered = NULL, *exposed = NULL;
+    double ev100 = 0.0;
+    desc.exposure_ev = 1.0f;
+    desc.meters_exposure = true;
+    done(facet_render(NULL, &desc, &metered, &failure));
+    desc.meters_exposure = false;
+    const facet_sea_render_desc alone = {.render = desc, .sky = desc.sky};
+    done(facet_sea_meter(sea, &alone, &ev100, &failure));
+    desc.exposure_ev += facet_exposure_from_ev100(ev100);
+    done(facet_render(NULL, &desc, &exposed, &failure));
+    assert_same(metered, exposed);
+    facet_image_destroy(metered);
+    facet_image_destroy(exposed);
+    facet_sea_destroy(sea);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_kept_changes_no_image),
+        cmocka_unit_test(what_is_not_drawn_is_refused_by_name), cmocka_unit_test(layers_show_water_and_model),
+        cmocka_unit_test(punctual_lights_light_the_model), cmocka_unit_test(images_meter_themselves)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
