@@ -200,7 +200,7 @@ static bool leads_to_descriptor(const char *path)
  * called. Negative: errno says why. */
 static int create_temporary(const char *path, char **name)
 {
-    enum { LONGEST = 240, ATTEMPTS = 100 }; /* of the 255 bytes that names may have */
+    enum { MAX_LENGTH = 240, ATTEMPTS = 100 }; /* of the 255 bytes that names may have */
     const char *base = path_base_name(path);
     int fd = -1;
     *name = NULL;
@@ -210,7 +210,7 @@ static int create_temporary(const char *path, char **name)
         uint32_t number = (uint32_t)now.tv_nsec * 2654435761u ^ (uint32_t)getpid() * 40503u ^
                           (uint32_t)((uintptr_t)&now >> 4) ^ (uint32_t)i;
         free(*name);
-        if (asprintf(name, "%.*s%.*s.%08x", (int)(base - path), path, LONGEST, base, number) < 0) {
+        if (asprintf(name, "%.*s%.*s.%08x", (int)(base - path), path, MAX_LENGTH, base, number) < 0) {
             *name = NULL;
             errno = ENOMEM;
             return -1;

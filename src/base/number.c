@@ -13,14 +13,14 @@
 /* Powers of ten that a double holds exactly. */
 static const double TENS[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                               1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-enum { MOST_TENS = 22 };
+enum { MAX_TENS = 22 };
 
 /* ---- integers of many digits ---- */
 
 /* Significant digits that are kept. The middle between two floats has at most 112 of them; what comes behind is a 1 where
  * it is not all zeros. */
-enum { MOST_DIGITS = 128 };
-/* The larger side of a comparison is below 2^25 10^(46 + MOST_DIGITS + 1), which has 607 bits. */
+enum { MAX_DIGITS = 128 };
+/* The larger side of a comparison is below 2^25 10^(46 + MAX_DIGITS + 1), which has 607 bits. */
 enum { BIG_WORDS = 24 };
 
 typedef struct big {
@@ -66,7 +66,7 @@ static int big_compare(const big *a, const big *b)
 typedef struct decimal {
     int count;
     long exponent;
-    unsigned char digits[MOST_DIGITS + 1];
+    unsigned char digits[MAX_DIGITS + 1];
 } decimal;
 
 /* Its sign against the middle between the positive float of these bits and the next one. */
@@ -91,10 +91,10 @@ static int compare_with_middle(const decimal *d, uint32_t bits)
 /* Times 10^power. */
 static double scale(double value, long power)
 {
-    for (; power > 0; power -= power > MOST_TENS ? MOST_TENS : power)
-        value *= TENS[power > MOST_TENS ? MOST_TENS : power];
-    for (; power<0; power += -power> MOST_TENS ? MOST_TENS : -power)
-        value /= TENS[-power > MOST_TENS ? MOST_TENS : -power];
+    for (; power > 0; power -= power > MAX_TENS ? MAX_TENS : power)
+        value *= TENS[power > MAX_TENS ? MAX_TENS : power];
+    for (; power<0; power += -power> MAX_TENS ? MAX_TENS : -power)
+        value /= TENS[-power > MAX_TENS ? MAX_TENS : -power];
     return value;
 }
 
@@ -139,7 +139,7 @@ static decimal collect(const char *p, long exponent)
         unsigned digit = (unsigned char)*p - (unsigned)'0';
         if (digit > 9)
             break;
-        if (d.count < MOST_DIGITS && (d.count || digit))
+        if (d.count < MAX_DIGITS && (d.count || digit))
             d.digits[d.count++] = (unsigned char)digit;
         else if (d.count) {
             has_more |= digit != 0;
@@ -163,7 +163,7 @@ static bool round_quickly(uint64_t m, long power, float *value)
         *value = 0.0f;
         return true;
     }
-    if (power < -MOST_TENS || power > MOST_TENS)
+    if (power < -MAX_TENS || power > MAX_TENS)
         return false;
     double d = power < 0 ? (double)m / TENS[-power] : (double)m * TENS[power];
     if (!(d >= (double)FLT_MIN && d <= (double)FLT_MAX))

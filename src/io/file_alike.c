@@ -12,7 +12,7 @@
 
 /* ---- letters ---- */
 
-enum { LONGEST_NAME = 255, MOST_LETTERS = 3 * LONGEST_NAME, MOST_PARTS = 3 };
+enum { LONGEST_NAME = 255, MAX_LETTERS = 3 * LONGEST_NAME, MAX_PARTS = 3 };
 
 /* The next character of *p, which moves behind it. */
 static uint32_t take_character(const unsigned char **p)
@@ -90,7 +90,7 @@ static const struct {
     {0x45c, 0x43a, {0x301}}, {0x45d, 0x438, {0x300}},        {0x45e, 0x443, {0x306}},
 };
 
-static size_t parts_of_row(const char *row, size_t width, uint32_t out[MOST_PARTS])
+static size_t parts_of_row(const char *row, size_t width, uint32_t out[MAX_PARTS])
 {
     size_t count = 0;
     for (size_t i = 0; i < width && row[i] != ' '; i++)
@@ -99,7 +99,7 @@ static size_t parts_of_row(const char *row, size_t width, uint32_t out[MOST_PART
 }
 
 /* A syllable of Hangul, whose parts follow from its number (Unicode, section 3.12). */
-static size_t parts_of_hangul(uint32_t c, uint32_t out[MOST_PARTS])
+static size_t parts_of_hangul(uint32_t c, uint32_t out[MAX_PARTS])
 {
     uint32_t number = c - 0xac00;
     out[0] = 0x1100 + number / 588;
@@ -109,7 +109,7 @@ static size_t parts_of_hangul(uint32_t c, uint32_t out[MOST_PARTS])
 }
 
 /* Kana with a voiced or half-voiced mark stand behind those without. 0: it has none. */
-static size_t parts_of_kana(uint32_t c, uint32_t out[MOST_PARTS])
+static size_t parts_of_kana(uint32_t c, uint32_t out[MAX_PARTS])
 {
     uint32_t at = c >= 0x30a0 ? c - 0x30a0 : c - 0x3040; /* in either syllabary */
     uint32_t base = c - at;
@@ -126,7 +126,7 @@ static size_t parts_of_kana(uint32_t c, uint32_t out[MOST_PARTS])
 }
 
 /* The letter and marks that a character is made of, in lower case. Returns how many. */
-static size_t take_apart(uint32_t c, uint32_t out[MOST_PARTS])
+static size_t take_apart(uint32_t c, uint32_t out[MAX_PARTS])
 {
     size_t count = 0;
     c = to_lower(c);
@@ -157,14 +157,14 @@ static bool is_mark(uint32_t c)
 }
 
 /* A name as letters and marks, those of one letter in the order of their numbers. SIZE_MAX: longer than a name may be. */
-static size_t spell(const char *name, uint32_t out[MOST_LETTERS])
+static size_t spell(const char *name, uint32_t out[MAX_LETTERS])
 {
     size_t count = 0;
     const unsigned char *p = (const unsigned char *)name;
     if (strlen(name) > LONGEST_NAME)
         return SIZE_MAX;
     while (*p) {
-        uint32_t parts[MOST_PARTS];
+        uint32_t parts[MAX_PARTS];
         size_t part_count = take_apart(take_character(&p), parts);
         for (size_t i = 0; i < part_count; i++) {
             size_t at = count++;
@@ -178,8 +178,8 @@ static size_t spell(const char *name, uint32_t out[MOST_LETTERS])
 
 bool file_names_are_alike(const char *a, const char *b)
 {
-    uint32_t x[MOST_LETTERS];
-    uint32_t y[MOST_LETTERS];
+    uint32_t x[MAX_LETTERS];
+    uint32_t y[MAX_LETTERS];
     size_t count = spell(a, x);
     return count != SIZE_MAX && spell(b, y) == count && memcmp(x, y, count * sizeof *x) == 0;
 }
@@ -214,8 +214,8 @@ static bool append_part(search *s, const char *part, size_t length, bool is_last
 /* Appends the only entry of the folder so far that is like name. */
 static bool append_alike(search *s, const char *name, bool is_last)
 {
-    uint32_t wanted[MOST_LETTERS];
-    uint32_t letters[MOST_LETTERS];
+    uint32_t wanted[MAX_LETTERS];
+    uint32_t letters[MAX_LETTERS];
     size_t wanted_count = spell(name, wanted);
     size_t begin = s->length;
     char only[LONGEST_NAME + 1];

@@ -198,7 +198,7 @@ bool io_defer(io_reader *r, io_problem *problem)
 
 bool io_fail_deferred(io_reader *r, io_problem *problem)
 {
-    problem->is_told = true;
+    problem->is_reported = true;
     if (r->result == FACET_OK)
         r->result = fail(r->error, problem->result, "%s", problem->message);
     return false;
@@ -208,9 +208,9 @@ void io_warn_deferred(io_reader *r, io_problem *problem)
 {
     static const char consequence[] = "nothing that is drawn uses it";
     char message[1088];
-    if (!problem->message || problem->is_told)
+    if (!problem->message || problem->is_reported)
         return;
-    problem->is_told = true;
+    problem->is_reported = true;
     snprintf(message, sizeof message, "%s; %s", problem->message, consequence);
     if (!count_remark(r, false, "", consequence, message))
         pass_on(r, false, message);

@@ -64,7 +64,7 @@ void io_end_remarks(io_reader *r);
 typedef struct io_problem {
     const char *message; /* NULL: none */
     facet_result result;
-    bool is_told; /* by an error or a warning */
+    bool is_reported; /* by an error or a warning */
 } io_problem;
 
 /* ---- parts that an image may do without ----

@@ -256,7 +256,7 @@ static bool has_lost_pictures(const facet_scene *scene)
     if (!scene->legacy || !scene->legacy->is_source || !scene->conversion)
         return false;
     for (uint32_t i = 0; i < scene->material_count; i++)
-        if (legacy_lacks_pictures(&scene->legacy->materials[i]))
+        if (legacy_lacks_images(&scene->legacy->materials[i]))
             return true;
     return false;
 }

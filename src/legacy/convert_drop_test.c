@@ -95,16 +95,16 @@ static void what_only_old_materials_read_leaves(void **state)
     uint32_t color = scene->materials[PLAIN_MAP].textures[SCENE_BASE_COLOR_TEXTURE].texture;
     assert_string_equal(scene->images[scene->textures[color].image].uri, "color.png");
     assert_int_equal(m[PLAIN_MAP].maps[LEGACY_DIFFUSE_MAP].ref.texture, color);
-    assert_false(legacy_lacks_pictures(&m[PLAIN_MAP]));
+    assert_false(legacy_lacks_images(&m[PLAIN_MAP]));
     /* Those that became texels. */
     assert_int_equal(m[BAKED].maps[LEGACY_SPECULAR_MAP].ref.texture, SCENE_NONE);
     assert_string_equal(m[BAKED].maps[LEGACY_SPECULAR_MAP].path, "picture.png");
     assert_true(m[BAKED].maps[LEGACY_SPECULAR_MAP].is_left_out);
-    assert_true(legacy_lacks_pictures(&m[BAKED]));
-    assert_false(legacy_lacks_pictures(&m[UNTEXTURED]));
+    assert_true(legacy_lacks_images(&m[BAKED]));
+    assert_false(legacy_lacks_images(&m[UNTEXTURED]));
     /* One without a counterpart says nothing of the surface. */
     assert_true(m[ONLY_DISPLACED].maps[LEGACY_DISPLACEMENT_MAP].is_left_out);
-    assert_false(legacy_lacks_pictures(&m[ONLY_DISPLACED]));
+    assert_false(legacy_lacks_images(&m[ONLY_DISPLACED]));
     assert_non_null(strstr(scene->materials[BAKED].meta.extras, "left_out"));
     assert_null(strstr(scene->materials[PLAIN_MAP].meta.extras, "left_out"));
     /* The glTF materials are the same. */
@@ -154,7 +154,7 @@ static void what_is_not_known_whole_is_fitted(void **state)
     assert_string_not_equal(report[BAKED].summary.method, "source");
     assert_true(legacy_has_map(&m[BAKED], LEGACY_DIFFUSE_MAP));
     assert_true(report[BAKED].summary.error < .3);
-    assert_false(legacy_lacks_pictures(&m[BAKED]));
+    assert_false(legacy_lacks_images(&m[BAKED]));
     scene_destroy(scene);
 }
 
@@ -188,7 +188,7 @@ static void pictures_of_light_stay(void **state)
     convert(scene, &DROPS);
     assert_null(scene->conversion->before);
     assert_ptr_equal(scene->images[0].bytes, first.bytes);
-    assert_false(legacy_lacks_pictures(&scene->legacy->materials[BAKED]));
+    assert_false(legacy_lacks_images(&scene->legacy->materials[BAKED]));
     scene_destroy(scene);
 }
 
@@ -215,7 +215,7 @@ static void memory_runs_out(void **state)
             assert_int_equal(result, FACET_ERROR_MEMORY);
             assert_ptr_equal(scene->materials, before);
             assert_ptr_equal(scene->legacy, legacy);
-            assert_false(legacy_lacks_pictures(&legacy->materials[BAKED]));
+            assert_false(legacy_lacks_images(&legacy->materials[BAKED]));
             assert_int_equal(scene->image_count, images);
         }
         failing.fail_at = -1;

@@ -17,7 +17,7 @@ static bool is_known(const conversion *c, uint32_t material)
     if (!scene->legacy || c->desc.ignores_source)
         return false;
     const legacy_material *m = &scene->legacy->materials[material];
-    if (legacy_lacks_pictures(m))
+    if (legacy_lacks_images(m))
         return false;
     if (scene->legacy->is_source)
         return !m->is_gltf_restored || m->fields != 0;

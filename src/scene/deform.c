@@ -21,7 +21,7 @@ typedef struct part {
     deformed *item;
     size_t begin, end;
     box bounds;
-    bool is_endless;
+    bool is_unbounded;
 } part;
 
 static bool is_near(const float *positions, size_t begin, size_t end)
@@ -51,10 +51,10 @@ static void move_part(part *p)
         in = (vertex_source){out->positions, out->normals, out->tangents};
     }
     if (item->skin) {
-        p->is_endless = !skin_vertices(item->skin, primitive, &in, p->begin, p->end, out);
+        p->is_unbounded = !skin_vertices(item->skin, primitive, &in, p->begin, p->end, out);
         return;
     }
-    p->is_endless = out->positions && !is_near(out->positions, p->begin, p->end);
+    p->is_unbounded = out->positions && !is_near(out->positions, p->begin, p->end);
     if (out->normals)
         unit_directions(out->normals, primitive->normals, 3, p->begin, p->end);
     if (out->tangents)
@@ -134,7 +134,7 @@ static size_t divide(const deform_set *set, bool is_indices, part *parts)
     return count;
 }
 
-/* Second half of deform_create(): fills the arrays, bounds and is_endless. */
+/* Second half of deform_create(): fills the arrays, bounds and is_unbounded. */
 static facet_result run(deform_set *set, const facet_allocator *allocator, uint32_t thread_count,
                         facet_error *error)
 {
@@ -147,7 +147,7 @@ static facet_result run(deform_set *set, const facet_allocator *allocator, uint3
     size_t count = divide(set, false, parts);
     parallel_for(thread_count, count, 1, move_body, parts);
     for (size_t i = 0; i < count; i++)
-        parts[i].item->is_endless |= parts[i].is_endless;
+        parts[i].item->is_unbounded |= parts[i].is_unbounded;
     count = divide(set, true, parts);
     parallel_for(thread_count, count, 1, finish_body, parts);
     for (size_t i = 0; i < set->count; i++)

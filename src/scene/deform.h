@@ -14,7 +14,7 @@ typedef struct deformed {
     vertex_arrays arrays;  /* NULL: as the primitive's */
     box bounds;            /* of positions that indices use */
     bool is_moved;         /* false: nothing moves it, all of the above is the primitive's */
-    bool is_endless;       /* a vertex is farther out than SCENE_FARTHEST, or not finite: not to be drawn */
+    bool is_unbounded;     /* a vertex is farther out than SCENE_FARTHEST, or not finite: not to be drawn */
 } deformed;
 
 typedef struct deform_set {

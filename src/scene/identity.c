@@ -147,7 +147,7 @@ static bool list_nodes(const facet_scene *scene, bool is_instances, name_list *l
     for (uint32_t i = 0; i < scene->node_count; i++) {
         uint32_t copies = count_copies(&scene->nodes[i]);
         uint32_t names = is_instances || !copies ? copies : 1;
-        for (uint32_t k = 0; k < names && list->count < SCENE_IDENTITY_MOST_NAMES; k++) {
+        for (uint32_t k = 0; k < names && list->count < SCENE_IDENTITY_MAX_NAMES; k++) {
             if (!begin_name(list))
                 return false;
             if (is_instances)

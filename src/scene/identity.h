@@ -35,7 +35,7 @@ facet_result scene_identities_create(const facet_scene *scene, const scene_pose 
 float scene_identity_hash(const char *name);
 
 /* A file can repeat few instances in many nodes, which need not be shown: a manifest has no more names than this. */
-enum { SCENE_IDENTITY_MOST_NAMES = 1 << 20 };
+enum { SCENE_IDENTITY_MAX_NAMES = 1 << 20 };
 
 /* Cryptomatte's manifest of all that the scene may draw: a JSON object from names to IDs of 8 hexadecimal digits, in the
  * order of the names. The name of an object is that of its node, else of its mesh, else "node INDEX"; of a material its own,

@@ -94,7 +94,7 @@ static void manifests_have_an_end(void **state)
     size_t names = 0;
     for (const char *c = manifest.data; *c; c++)
         names += *c == ':';
-    assert_int_equal(names, SCENE_IDENTITY_MOST_NAMES);
+    assert_int_equal(names, SCENE_IDENTITY_MAX_NAMES);
     text_destroy(&manifest);
     scene_destroy(scene);
 }

@@ -49,7 +49,7 @@ legacy_light legacy_light_default(void)
     return light;
 }
 
-bool legacy_lacks_pictures(const legacy_material *m)
+bool legacy_lacks_images(const legacy_material *m)
 {
     for (int slot = 0; slot < LEGACY_MAP_COUNT; slot++) {
         bool has_counterpart = slot != LEGACY_AMBIENT_MAP && slot != LEGACY_DISPLACEMENT_MAP &&

@@ -129,7 +129,7 @@ static inline bool legacy_has_map(const legacy_material *m, legacy_map_slot slot
 }
 
 /* Whether the picture of a map that becomes something in glTF left the scene: what the material was is not known whole. */
-bool legacy_lacks_pictures(const legacy_material *m);
+bool legacy_lacks_images(const legacy_material *m);
 
 /* A light of OpenGL 1 as rgl has them: without attenuation, without spots. */
 typedef struct legacy_light {

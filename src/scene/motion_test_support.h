@@ -58,12 +58,12 @@ typedef struct test_channel {
 /* Appends an animation of these channels. */
 static inline void test_animation(facet_scene *scene, const test_channel *channels, uint32_t count)
 {
-    enum { MOST = 8 };
+    enum { MAX = 8 };
     if (!scene->animations)
-        scene->animations = arena_zalloc(scene->arena, MOST, sizeof *scene->animations);
+        scene->animations = arena_zalloc(scene->arena, MAX, sizeof *scene->animations);
     scene_channel *c = arena_zalloc(scene->arena, count, sizeof *c);
     scene_sampler *s = arena_zalloc(scene->arena, count, sizeof *s);
-    assert_true(scene->animations && c && s && scene->animation_count < MOST);
+    assert_true(scene->animations && c && s && scene->animation_count < MAX);
     scene_animation *animation = &scene->animations[scene->animation_count++];
     *animation = (scene_animation){.name = "",
                                    .channel_count = count,

@@ -120,7 +120,7 @@ static uint32_t count_copies(const pose_parts *parts, uint32_t shown, uint32_t i
 {
     const deformed *moved = deform_get(&parts->deformed, shown, index);
     const scene_node *node = &parts->state.nodes[parts->nodes.shown[shown]];
-    if (parts->scene->meshes[node->mesh].primitives[index].index_count == 0 || (moved && moved->is_endless))
+    if (parts->scene->meshes[node->mesh].primitives[index].index_count == 0 || (moved && moved->is_unbounded))
         return 0;
     if (!node->instancing)
         return 1;

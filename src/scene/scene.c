@@ -159,13 +159,13 @@ typedef struct message_list {
 static bool keep_message(facet_scene *scene, const message_list *list, char *message, size_t size)
 {
     /* A broken file can say the same thing for each of a million elements: such a list has an end. */
-    enum { MOST_MESSAGES = 1000 };
-    if (*list->count >= MOST_MESSAGES)
+    enum { MAX_MESSAGES = 1000 };
+    if (*list->count >= MAX_MESSAGES)
         return false;
     for (uint32_t i = 0; i < *list->count; i++)
         if (strcmp((*list->texts)[i], message) == 0)
             return false;
-    if (*list->count + 1 == MOST_MESSAGES)
+    if (*list->count + 1 == MAX_MESSAGES)
         snprintf(message, size, "%s: has more to warn about; this is the last one", scene->source);
     const char *copy = arena_strdup(scene->arena, message);
     if (copy && mem_reserve(&scene->allocator, (void **)list->texts, list->capacity, (size_t)*list->count + 1,

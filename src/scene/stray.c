@@ -6,8 +6,8 @@
 #include "scene/unseen.h"
 
 enum { SAMPLES = 256, MAX_ROUNDS = 64 };
-static const double FAR = 30.0;  /* diagonals */
-static const double MOST = 0.75; /* of the elements */
+static const double FAR = 30.0; /* diagonals */
+static const double MAX = 0.75; /* of the elements */
 
 /* ---- elements ---- */
 
@@ -95,7 +95,7 @@ static core find_core(double middles[3][SAMPLES], uint32_t count)
             sorted[i] = fmax(sorted[i], fabs(middles[axis][i] - c.center[axis]));
     }
     qsort(sorted, count, sizeof *sorted, compare);
-    c.radius = sorted[(uint32_t)ceil(MOST * count) - 1];
+    c.radius = sorted[(uint32_t)ceil(MAX * count) - 1];
     return c;
 }
 
@@ -231,5 +231,5 @@ bool stray_find(const scene_pose *pose, stray_parts *out)
     if (!(box_diagonal(&out->kept) > 0.0) || !grow(pose, out))
         return false;
     out->diagonal_m = box_diagonal(&out->kept);
-    return (double)(out->whole - out->count) >= MOST * (double)out->whole;
+    return (double)(out->whole - out->count) >= MAX * (double)out->whole;
 }

@@ -86,14 +86,14 @@ uint32_t gltf_get_attribute(io_reader *r, const json_place *attributes, const ch
 
 uint32_t gltf_count_sets(const json_place *attributes, const char *prefix)
 {
-    enum { MOST = 64 };
+    enum { MAX = 64 };
     char name[32];
-    for (uint32_t count = 0; count < MOST; count++) {
+    for (uint32_t count = 0; count < MAX; count++) {
         snprintf(name, sizeof name, "%s%u", prefix, count);
         if (!io_has_member(attributes, name))
             return count;
     }
-    return MOST;
+    return MAX;
 }
 
 /* ---- names ---- */

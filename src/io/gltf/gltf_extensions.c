@@ -236,9 +236,9 @@ void gltf_read_extensions(io_reader *r, const json_place *root)
     json_place required = io_get_array(r, root, "extensionsRequired");
     io_leave_out(r, "none is required");
     size_t most = io_get_count(&used) + io_get_count(&required);
-    enum { MOST_EXTENSIONS = 1000 }; /* lookups are linear */
-    if (most > MOST_EXTENSIONS) {
-        io_fail(r, &used, NULL, FACET_ERROR_LIMIT, "lists more than %d extensions", (int)MOST_EXTENSIONS);
+    enum { MAX_EXTENSIONS = 1000 }; /* lookups are linear */
+    if (most > MAX_EXTENSIONS) {
+        io_fail(r, &used, NULL, FACET_ERROR_LIMIT, "lists more than %d extensions", (int)MAX_EXTENSIONS);
         return;
     }
     r->scene->extensions = io_alloc(r, "extensions", most, sizeof *r->scene->extensions);

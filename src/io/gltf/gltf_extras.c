@@ -310,7 +310,7 @@ void gltf_read_legacy_extras(io_reader *r, const json_place *root)
             continue;
         legacy_material known = legacy->materials[i];
         get_material(r, member, &known);
-        if (!legacy_lacks_pictures(&known))
+        if (!legacy_lacks_images(&known))
             legacy->materials[i] = known;
     }
     if (io_is_ok(r))

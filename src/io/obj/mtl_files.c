@@ -152,7 +152,7 @@ uint32_t mtl_files_image(mtl_files *f, mtl_parser *p, const char *folder, const 
         .image = {.name = found, .mime_type = "", .bytes = bytes.data, .size = bytes.size, .uri = found},
         .index = SCENE_NONE};
     if (look_at(p, &bytes, name, &new.image))
-        new.index = f->picture_count++;
+        new.index = f->readable_count++;
     if (!mem_reserve(f->scope.allocator, (void **)&f->images, &f->image_capacity, f->image_count + 1,
                      sizeof *f->images) ||
         !index_table_add(&f->images_by_file, f->scope.allocator, bytes.file, (uint32_t)f->image_count)) {
@@ -204,7 +204,7 @@ uint32_t mtl_files_texture(mtl_files *f, const scene_texture *texture)
 bool mtl_files_finish(mtl_files *f)
 {
     facet_scene *scene = f->scope.scene;
-    scene->images = arena_alloc(scene->arena, f->picture_count, sizeof *scene->images);
+    scene->images = arena_alloc(scene->arena, f->readable_count, sizeof *scene->images);
     scene->textures = arena_alloc(scene->arena, f->texture_count, sizeof *scene->textures);
     if (!scene->images || !scene->textures)
         return false;
@@ -213,7 +213,7 @@ bool mtl_files_finish(mtl_files *f)
             scene->images[f->images[i].index] = f->images[i].image;
     if (f->texture_count)
         memcpy(scene->textures, f->textures, f->texture_count * sizeof *f->textures);
-    scene->image_count = f->picture_count;
+    scene->image_count = f->readable_count;
     scene->texture_count = (uint32_t)f->texture_count;
     return true;
 }

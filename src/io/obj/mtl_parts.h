@@ -107,7 +107,7 @@ typedef struct mtl_files {
     struct mtl_image *images; /* all that were opened */
     size_t image_count, image_capacity;
     index_table images_by_file;
-    uint32_t picture_count; /* those that can be read */
+    uint32_t readable_count; /* those that can be read */
     scene_texture *textures;
     size_t texture_count, texture_capacity;
     index_table textures_by_hash;

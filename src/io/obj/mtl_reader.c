@@ -164,7 +164,7 @@ static void begin_material(library *l, mtl_span name)
 static void read_comment(library *l, mtl_span line)
 {
     static const char word[] = "#facet-gltf";
-    enum { MOST_JSON = 1 << 20 }; /* what a material needs is far less; jansson's memory is nobody's */
+    enum { MAX_JSON = 1 << 20 }; /* what a material needs is far less; jansson's memory is nobody's */
     mtl_span rest = line;
     if (!mtl_is_word(mtl_next_word(&rest), word)) {
         line.begin++;
@@ -175,8 +175,8 @@ static void read_comment(library *l, mtl_span line)
     rest = mtl_trim(rest);
     if (l->current == SCENE_NONE)
         return;
-    if (mtl_length(rest) > MOST_JSON) {
-        mtl_warn(&l->parser, "#facet-gltf: is longer than %d bytes; it is ignored", (int)MOST_JSON);
+    if (mtl_length(rest) > MAX_JSON) {
+        mtl_warn(&l->parser, "#facet-gltf: is longer than %d bytes; it is ignored", (int)MAX_JSON);
         return;
     }
     l->reader->drafts[l->current].m.gltf_json = mtl_keep(&l->parser, rest);
@@ -280,14 +280,14 @@ static bool load_library(mtl_reader *r, const char *name, name_leeway leeway, ur
     return true;
 }
 
-/* Loads the shortest name of up to MOST_WORDS words at the front of *rest that is a file's, and moves *rest behind it.
+/* Loads the shortest name of up to MAX_WORDS words at the front of *rest that is a file's, and moves *rest behind it.
  * Words are names by the letter of the format; names with spaces are common all the same. */
 static bool load_front(mtl_reader *r, mtl_span *rest, name_leeway leeway, mtl_parser *p)
 {
-    enum { MOST_WORDS = 16 };
+    enum { MAX_WORDS = 16 };
     mtl_span all = mtl_trim(*rest);
     mtl_span ahead = all;
-    for (int words = 0; words < MOST_WORDS && mtl_length(mtl_trim(ahead)) > 0; words++) {
+    for (int words = 0; words < MAX_WORDS && mtl_length(mtl_trim(ahead)) > 0; words++) {
         mtl_next_word(&ahead);
         mtl_span name = mtl_trim((mtl_span){all.begin, ahead.begin});
         if (mtl_length(name) >= 2 && *name.begin == '"') {
@@ -333,10 +333,10 @@ static void add_missing(mtl_reader *r, mtl_parser *p, const char *message)
 
 facet_result mtl_reader_load(mtl_reader *r, const char *names, size_t length, facet_error *error)
 {
-    enum { MOST_LIBRARIES = 256 }; /* of one statement: each that is missing costs questions to the system */
+    enum { MAX_LIBRARIES = 256 }; /* of one statement: each that is missing costs questions to the system */
     mtl_span rest = {names, names + length};
     mtl_parser p = {.arena = r->scene->arena};
-    for (int i = 0; i < MOST_LIBRARIES && mtl_length(mtl_trim(rest)) > 0 && !r->has_failed; i++) {
+    for (int i = 0; i < MAX_LIBRARIES && mtl_length(mtl_trim(rest)) > 0 && !r->has_failed; i++) {
         if (load_front(r, &rest, NAME_LITERAL, &p) || load_front(r, &rest, NAME_ALIKE, &p) || r->has_failed ||
             p.has_failed)
             continue;

@@ -396,7 +396,7 @@ static mtl_span cut_comment(mtl_span s)
     return s;
 }
 
-enum { MOST_TRIES = 16 }; /* each may look at the whole rest of the line */
+enum { MAX_TRIES = 16 }; /* each may look at the whole rest of the line */
 
 /* A name in quotes, which may itself have quotes in it: up to one behind which nothing but options or a comment follows.
  * False: there is none. */
@@ -406,7 +406,7 @@ static bool take_quoted(const mtl_parser *p, mtl_span *s, mtl_span *name)
     if (mtl_length(all) < 2 || *all.begin != '"')
         return false;
     int tries = 0;
-    for (const char *c = all.begin + 1; c < all.end && tries < MOST_TRIES; c++) {
+    for (const char *c = all.begin + 1; c < all.end && tries < MAX_TRIES; c++) {
         if (*c != '"')
             continue;
         mtl_span rest = mtl_trim((mtl_span){c + 1, all.end});
@@ -429,7 +429,7 @@ static mtl_span take_name(const mtl_parser *p, mtl_span *s)
     mtl_span all = cut_comment(mtl_trim(*s));
     int tries = 0;
     mtl_span rest = all;
-    while (mtl_length(mtl_trim(rest)) > 0 && tries < MOST_TRIES) {
+    while (mtl_length(mtl_trim(rest)) > 0 && tries < MAX_TRIES) {
         mtl_span before = mtl_trim(rest);
         mtl_span word = mtl_next_word(&rest);
         bool is_option = word.begin > all.begin && find_option(word);

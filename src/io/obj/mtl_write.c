@@ -129,16 +129,16 @@ static bool is_clamped(const mtl_writer *w, const legacy_map *map)
 
 /* What a reader takes for options of s, on one line: extras of a glTF file may hold anything there. said->options and
  * said->dropped are the text of it. */
-static void read_options(const mtl_writer *w, const char *s, legacy_map *said, bool *is_said_clamped)
+static void read_options(const mtl_writer *w, const char *s, legacy_map *said, bool *is_option_clamped)
 {
     mtl_parser p = make_parser(w);
     text line = {.allocator = w->desc->allocator};
     *said = legacy_map_default();
-    *is_said_clamped = false;
+    *is_option_clamped = false;
     text_add(&line, "");
     add_line_text(&line, s);
     if (!line.has_failed)
-        mtl_parse_options(&p, line.data, said, is_said_clamped);
+        mtl_parse_options(&p, line.data, said, is_option_clamped);
     w->out->has_failed = w->out->has_failed || line.has_failed || p.has_failed;
     text_destroy(&line);
 }

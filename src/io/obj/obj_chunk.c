@@ -33,7 +33,7 @@ static uint32_t resolve(uint32_t index, size_t base, size_t count)
         return index;
     if (index < OBJ_RELATIVE || index == OBJ_WRONG)
         return OBJ_WRONG;
-    int64_t own = (int64_t)base + (int64_t)(index - OBJ_RELATIVE) - (int64_t)OBJ_MOST;
+    int64_t own = (int64_t)base + (int64_t)(index - OBJ_RELATIVE) - (int64_t)OBJ_MAX;
     return own >= 0 && own < (int64_t)count ? (uint32_t)own : OBJ_WRONG;
 }
 
@@ -372,7 +372,7 @@ void obj_join_chunks(obj_reader *r)
 {
     joining j = {.r = r};
     size_t mrgb_count = sum_up(r, &j.has_colors);
-    if (r->position_count > OBJ_MOST || r->texcoord_count > OBJ_MOST || r->normal_count > OBJ_MOST) {
+    if (r->position_count > OBJ_MAX || r->texcoord_count > OBJ_MAX || r->normal_count > OBJ_MAX) {
         obj_fail_limit(r, "vertices");
         return;
     }

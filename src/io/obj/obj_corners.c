@@ -12,7 +12,7 @@
 enum {
     RANGE = 1 << 16,         /* corners that one thread takes at once */
     BLOCK_CORNERS = 1 << 15, /* about so many in a block */
-    MOST_BLOCKS = 4096
+    MAX_BLOCKS = 4096
 };
 
 typedef struct sorting {
@@ -65,7 +65,7 @@ static void sort_ranges(void *context, size_t begin, size_t end)
 void obj_partition_plan(obj_partition *p, uint32_t v_minimum, uint32_t v_maximum)
 {
     size_t wanted = (p->end - p->begin) / BLOCK_CORNERS + 1;
-    wanted = wanted < MOST_BLOCKS ? wanted : MOST_BLOCKS;
+    wanted = wanted < MAX_BLOCKS ? wanted : MAX_BLOCKS;
     uint32_t span = v_maximum - v_minimum;
     p->v_minimum = v_minimum;
     p->shift = 0;

@@ -17,7 +17,7 @@ static const double CREASE_COSINE = 0.70710678118654752;
  * exactly opposite where their polygons are cut along different diagonals. */
 static const double FOLD_COSINE = -0.86602540378443865;
 /* Triangles along one edge that are compared with each other; more than 2 are rare. And fans at one position. */
-enum { MOST_ALONG_EDGE = 8, MOST_FANS = 16 };
+enum { MAX_ALONG_EDGE = 8, MAX_FANS = 16 };
 enum { BLOCK_GRAIN = 4, FEW_KEYS = 64 };
 
 /* What one block of positions came to. */
@@ -177,7 +177,7 @@ static void unite_smooth_edges(const obj_reader *r, workspace *w, uint32_t count
 {
     sort_edges(r, w, count);
     for (size_t i = 1; i < 2 * (size_t)count; i++)
-        for (size_t k = i; k-- > 0 && i - k < MOST_ALONG_EDGE && w->keys[k] >> 32 == w->keys[i] >> 32;) {
+        for (size_t k = i; k-- > 0 && i - k < MAX_ALONG_EDGE && w->keys[k] >> 32 == w->keys[i] >> 32;) {
             uint32_t a = spoke_of(w->keys[k]);
             uint32_t b = spoke_of(w->keys[i]);
             if (a != b && cosine_between(&w->spokes[a], &w->spokes[b]) > CREASE_COSINE)
@@ -244,7 +244,7 @@ static bool are_alike(const obj_reader *r, const spoke *a, const spoke *b)
 /* Fans that share no edge, as where an edge meets the middle of another, are smoothed where they bend little. */
 static void unite_fans(const obj_reader *r, spoke *spokes, uint32_t count)
 {
-    uint32_t leaders[MOST_FANS];
+    uint32_t leaders[MAX_FANS];
     size_t leader_count = 0;
     for (uint32_t i = 0; i < count; i++) {
         spoke *first = &spokes[find_first(spokes, i)];
@@ -259,7 +259,7 @@ static void unite_fans(const obj_reader *r, spoke *spokes, uint32_t count)
             k++;
         if (k < leader_count)
             unite(spokes, leaders[k], i);
-        else if (leader_count < MOST_FANS)
+        else if (leader_count < MAX_FANS)
             leaders[leader_count++] = i;
     }
 }
@@ -271,7 +271,7 @@ static void unite_groups(const obj_reader *r, workspace *w, uint32_t count)
     sort_edges(r, w, count);
     for (size_t begin = 0; begin < 2 * (size_t)count; begin = end) {
         end = begin + 1;
-        while (end < 2 * (size_t)count && end - begin < MOST_ALONG_EDGE &&
+        while (end < 2 * (size_t)count && end - begin < MAX_ALONG_EDGE &&
                w->keys[end] >> 32 == w->keys[begin] >> 32)
             end++;
         size_t left = end - begin;

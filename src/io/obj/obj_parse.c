@@ -191,11 +191,11 @@ static inline const char *read_index(const char *p, size_t count, uint32_t *out)
     uint64_t index = value;
     if (digits == 8)
         for (; *q >= '0' && *q <= '9'; q++)
-            index = index < OBJ_MOST ? 10 * index + (uint64_t)(*q - '0') : index;
+            index = index < OBJ_MAX ? 10 * index + (uint64_t)(*q - '0') : index;
     *out = OBJ_WRONG;
-    if (index == 0 || index > OBJ_MOST)
+    if (index == 0 || index > OBJ_MAX)
         return digits ? q : p;
-    *out = is_negative ? (uint32_t)(OBJ_RELATIVE + OBJ_MOST + count - index) : (uint32_t)index - 1;
+    *out = is_negative ? (uint32_t)(OBJ_RELATIVE + OBJ_MAX + count - index) : (uint32_t)index - 1;
     return q;
 }
 

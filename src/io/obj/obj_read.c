@@ -150,12 +150,12 @@ static void parse_chunks(void *context, size_t begin, size_t end)
 /* A few positions of all chunks, of which the origin is found. */
 static bool find_origin(obj_reader *r)
 {
-    enum { MOST = 1024 };
+    enum { MAX = 1024 };
     size_t total = 0, count = 0, next = 0, before = 0;
     for (size_t i = 0; i < r->chunk_count; i++)
         total += r->chunks[i].positions.count;
-    size_t step = total / MOST + 1;
-    float *few = mem_alloc(r->allocator, MOST, 3 * sizeof *few);
+    size_t step = total / MAX + 1;
+    float *few = mem_alloc(r->allocator, MAX, 3 * sizeof *few);
     for (size_t i = 0; few && i < r->chunk_count; i++) {
         const obj_floats *list = &r->chunks[i].positions;
         for (; next < before + list->count; next += step)
@@ -164,7 +164,7 @@ static bool find_origin(obj_reader *r)
     }
     bool is_far = few && scene_find_origin(few, count, r->allocator, r->origin);
     mem_free(few);
-    return few ? is_far : obj_fail_memory(r, "positions", MOST * 3 * sizeof *few);
+    return few ? is_far : obj_fail_memory(r, "positions", MAX * 3 * sizeof *few);
 }
 
 /* Numbers of a model that is far from the origin are read once more, as floats have not held them. */
@@ -196,10 +196,10 @@ static void check_chunks(void *context, size_t begin, size_t end)
 /* Comments before the first statement: the first one that says something names the program that wrote the file. */
 static void read_head(obj_reader *r)
 {
-    enum { MOST_COMMENTS = 8, LONGEST = 200 };
+    enum { MAX_COMMENTS = 8, MAX_LENGTH = 200 };
     const char *p = r->chunks[0].text;
     const char *end = p + r->chunks[0].size;
-    for (int i = 0; i < MOST_COMMENTS && p < end;) {
+    for (int i = 0; i < MAX_COMMENTS && p < end;) {
         while (p < end && (obj_is_blank(*p) || obj_is_line_end(*p)))
             p++;
         if (p == end || *p != '#')
@@ -209,7 +209,7 @@ static void read_head(obj_reader *r)
         const char *line = p;
         while (!obj_is_line_end(*p))
             p++;
-        size_t length = (size_t)(p - line) < LONGEST ? (size_t)(p - line) : LONGEST;
+        size_t length = (size_t)(p - line) < MAX_LENGTH ? (size_t)(p - line) : MAX_LENGTH;
         if (length == 0)
             continue;
         mtl_reader_hint(r->materials, line, length);

@@ -22,10 +22,10 @@
 #include "io/obj/obj.h"
 
 /* Indices into the lists of the file. As parse finds them, those that count back from the end are
- * OBJ_RELATIVE + OBJ_MOST + the index in the chunk's own list, which may be negative. */
+ * OBJ_RELATIVE + OBJ_MAX + the index in the chunk's own list, which may be negative. */
 #define OBJ_ABSENT UINT32_MAX
 #define OBJ_WRONG (UINT32_MAX - 1)
-#define OBJ_MOST ((uint32_t)1 << 30) /* elements of a list */
+#define OBJ_MAX ((uint32_t)1 << 30) /* elements of a list */
 #define OBJ_RELATIVE ((uint32_t)1 << 31)
 
 /* What can be wrong with a file that is read all the same. */

@@ -164,7 +164,7 @@ static bool set_positions(obj_reader *r, const obj_soup *soup)
 static void make_scene(obj_reader *r, obj_soup *soup)
 {
     bool needs_normals = !soup->is_cloud && (soup->normals || r->desc->obj_normals != FACET_OBJ_NORMALS_FLAT);
-    if (soup->corner_count >= UINT32_MAX || soup->place_count > OBJ_MOST) {
+    if (soup->corner_count >= UINT32_MAX || soup->place_count > OBJ_MAX) {
         obj_fail_limit(r, "vertices");
         return;
     }

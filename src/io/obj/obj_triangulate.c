@@ -148,7 +148,7 @@ static bool is_convex(const cutting *c)
 
 /* ---- a grid of the corners that can be in an ear ---- */
 
-enum { FEW_CORNERS = 48, MOST_CELLS_ACROSS = 1024 };
+enum { FEW_CORNERS = 48, MAX_CELLS_ACROSS = 1024 };
 
 static uint32_t cell_of(const cutting *c, int axis, double x)
 {
@@ -179,7 +179,7 @@ static void make_grid(cutting *c, uint32_t count)
     obj_polygon *p = c->p;
     double high[2];
     find_extent(c, count, high);
-    c->scale = fmin(floor(sqrt((double)count)), MOST_CELLS_ACROSS) / c->extent;
+    c->scale = fmin(floor(sqrt((double)count)), MAX_CELLS_ACROSS) / c->extent;
     if (count < FEW_CORNERS || !(c->extent > 0.0 && c->scale < 1e300))
         return;
     for (int k = 0; k < 2; k++)

@@ -11,16 +11,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_CORNERS = 200000 };
+enum { MAX_CORNERS = 200000 };
 
 typedef struct shape {
     uint32_t count;
-    double xy[2 * MOST_CORNERS];
+    double xy[2 * MAX_CORNERS];
 } shape;
 
 static shape s;
 static obj_polygon polygon;
-static uint32_t triangles[3 * MOST_CORNERS];
+static uint32_t triangles[3 * MAX_CORNERS];
 
 static double next_random(uint64_t *state)
 {
@@ -30,7 +30,7 @@ static double next_random(uint64_t *state)
 
 static void add(double x, double y)
 {
-    assert_true(s.count < MOST_CORNERS);
+    assert_true(s.count < MAX_CORNERS);
     s.xy[2 * s.count] = x;
     s.xy[2 * s.count + 1] = y;
     s.count++;

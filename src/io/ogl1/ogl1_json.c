@@ -11,7 +11,7 @@
 #include "io/ogl1/ogl1_reader.h"
 #include "scene/sphere.h"
 
-enum { MOST_MATERIALS = 16384, VERSION = 1 };
+enum { MAX_MATERIALS = 16384, VERSION = 1 };
 
 /* ---- telling it apart, without parsing ---- */
 
@@ -145,9 +145,9 @@ static void read_entries(ogl1_document *d, const json_place *root)
     json_place at;
     ogl1_list list = ogl1_list_begin(r, root, "materials", is_material);
     json_place bare = is_bare(root) ? *root : ogl1_object(r, root, "material3d");
-    if (list.count > MOST_MATERIALS)
+    if (list.count > MAX_MATERIALS)
         io_fail(r, &list.at, NULL, FACET_ERROR_LIMIT, "has %zu materials, more than %d", list.count,
-                MOST_MATERIALS);
+                MAX_MATERIALS);
     d->entries = io_alloc(r, "materials", list.count + 1, sizeof *d->entries);
     while (ogl1_list_next(r, &list, &at)) {
         ogl1_entry *entry = &d->entries[d->entry_count++];

@@ -4,7 +4,7 @@
 
 #include "io/ogl1/ogl1_reader.h"
 
-enum { RGL_LIGHTS = 8, MOST_LIGHTS = 1024 };
+enum { RGL_LIGHTS = 8, MAX_LIGHTS = 1024 };
 
 static bool is_among(const char *key, const char *const *names, size_t count)
 {
@@ -150,9 +150,8 @@ void ogl1_read_lights(ogl1_document *d, const json_place *root)
         io_warn(r, &list.at, NULL, "is empty; rgl's default light is used");
     if (list.count > RGL_LIGHTS)
         io_warn(r, &list.at, NULL, "has %zu lights; OpenGL 1 supports %d", list.count, RGL_LIGHTS);
-    if (list.count > MOST_LIGHTS)
-        io_fail(r, &list.at, NULL, FACET_ERROR_LIMIT, "has %zu lights, more than %d", list.count,
-                MOST_LIGHTS);
+    if (list.count > MAX_LIGHTS)
+        io_fail(r, &list.at, NULL, FACET_ERROR_LIMIT, "has %zu lights, more than %d", list.count, MAX_LIGHTS);
     d->lights = io_alloc(r, "lights", list.count, sizeof *d->lights);
     while (ogl1_list_next(r, &list, &at))
         read_light(r, &at, &d->lights[d->light_count++]);

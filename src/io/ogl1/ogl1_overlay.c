@@ -12,7 +12,7 @@
 typedef struct entry_name {
     const char *name;
     uint32_t entry;
-    bool is_met; /* was looked up */
+    bool is_used; /* was looked up */
 } entry_name;
 
 typedef struct entry_names {
@@ -80,7 +80,7 @@ static uint32_t names_find(entry_names *n, const char *name)
         size_t middle = begin + (end - begin) / 2;
         int order = strcmp(n->names[middle].name, name);
         if (order == 0) {
-            n->names[middle].is_met = true;
+            n->names[middle].is_used = true;
             return n->names[middle].entry;
         }
         if (order < 0)
@@ -100,12 +100,12 @@ typedef struct use {
 typedef struct overlay {
     ogl1_document d;
     entry_names materials, objects;
-    uint32_t all;            /* the entry for all; SCENE_NONE: none */
-    bool *is_set;            /* per material: an entry took its place */
-    uint32_t *numbers;       /* per entry: its material in the scene; SCENE_NONE: none yet */
-    bool *is_met, *is_named; /* per entry */
-    uint32_t *node_entries;  /* per node: as in use; UINT32_MAX: not known yet */
-    uint32_t *path;          /* node_count, for find_entry() */
+    uint32_t all;             /* the entry for all; SCENE_NONE: none */
+    bool *is_set;             /* per material: an entry took its place */
+    uint32_t *numbers;        /* per entry: its material in the scene; SCENE_NONE: none yet */
+    bool *is_used, *is_named; /* per entry */
+    uint32_t *node_entries;   /* per node: as in use; UINT32_MAX: not known yet */
+    uint32_t *path;           /* node_count, for find_entry() */
     size_t use_count;
     use *uses;
 } overlay;
@@ -116,13 +116,13 @@ static bool take_memory(overlay *o)
     const facet_allocator *allocator = o->d.r.allocator;
     o->is_set = mem_zalloc(allocator, (size_t)scene->material_count + o->d.entry_count, sizeof *o->is_set);
     o->numbers = mem_alloc(allocator, o->d.entry_count, sizeof *o->numbers);
-    o->is_met = mem_zalloc(allocator, o->d.entry_count, sizeof *o->is_met);
+    o->is_used = mem_zalloc(allocator, o->d.entry_count, sizeof *o->is_used);
     o->is_named = mem_zalloc(allocator, o->d.entry_count, sizeof *o->is_named);
     o->node_entries = mem_alloc(allocator, scene->node_count, sizeof *o->node_entries);
     o->path = mem_alloc(allocator, scene->node_count, sizeof *o->path);
     o->uses = mem_alloc(allocator, scene->node_count, sizeof *o->uses);
-    if (!o->is_set || !o->numbers || !o->is_met || !o->is_named || !o->node_entries || !o->path || !o->uses ||
-        !names_create(&o->d, false, &o->materials) || !names_create(&o->d, true, &o->objects))
+    if (!o->is_set || !o->numbers || !o->is_used || !o->is_named || !o->node_entries || !o->path ||
+        !o->uses || !names_create(&o->d, false, &o->materials) || !names_create(&o->d, true, &o->objects))
         return io_fail_memory(&o->d.r, "parameters", scene->node_count * sizeof *o->uses);
     memset(o->numbers, 0xff, o->d.entry_count * sizeof *o->numbers);
     memset(o->node_entries, 0xff, scene->node_count * sizeof *o->node_entries);
@@ -139,7 +139,7 @@ static void release(overlay *o)
     names_destroy(&o->objects);
     mem_free(o->is_set);
     mem_free(o->numbers);
-    mem_free(o->is_met);
+    mem_free(o->is_used);
     mem_free(o->is_named);
     mem_free(o->node_entries);
     mem_free(o->path);
@@ -184,7 +184,7 @@ static void set_material(overlay *o, uint32_t material, uint32_t entry)
     scene->materials[material] = plain;
     scene->legacy->materials[material] = o->d.entries[entry].material;
     scene->legacy->materials[material].name = name;
-    o->is_set[material] = o->is_met[entry] = true;
+    o->is_set[material] = o->is_used[entry] = true;
 }
 
 static uint32_t add_material(overlay *o, uint32_t entry, const char *name)
@@ -391,16 +391,16 @@ static void warn_unmet(overlay *o)
 {
     io_reader *r = &o->d.r;
     for (size_t i = 0; i < o->objects.count; i++)
-        if (o->objects.names[i].is_met)
-            o->is_met[o->objects.names[i].entry] = true;
+        if (o->objects.names[i].is_used)
+            o->is_used[o->objects.names[i].entry] = true;
     for (size_t i = 0; i < o->objects.count; i++) {
         const entry_name *n = &o->objects.names[i];
-        if (!n->is_met && !o->is_named[n->entry])
+        if (!n->is_used && !o->is_named[n->entry])
             io_warn(r, NULL, NULL, "object \"%.200s\" is not in the model", n->name);
     }
     for (size_t i = 0; i < o->materials.count; i++) {
         const entry_name *n = &o->materials.names[i];
-        if (!n->is_met && !o->is_met[n->entry] && o->d.entries[n->entry].object_count == 0)
+        if (!n->is_used && !o->is_used[n->entry] && o->d.entries[n->entry].object_count == 0)
             io_warn(r, NULL, NULL, "material \"%.200s\" is not in the model", n->name);
     }
 }

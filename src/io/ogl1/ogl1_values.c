@@ -7,7 +7,7 @@
 #include "io/ogl1/ogl1_json.h"
 #include "io/ogl1/ogl1_reader.h"
 
-enum { DEEPEST = 8 }; /* arrays around a value; R makes one or two */
+enum { MAX_DEPTH = 8 }; /* arrays around a value; R makes one or two */
 
 static const char *type_name(const json_t *value)
 {
@@ -35,7 +35,7 @@ json_place ogl1_member(const json_place *object, const char *key)
 {
     json_place at = {.parent = object, .key = key};
     at.value = json_is_object(object->value) ? json_object_get(object->value, key) : NULL;
-    for (int i = 0; i < DEEPEST && json_is_array(at.value) && json_array_size(at.value) == 1; i++)
+    for (int i = 0; i < MAX_DEPTH && json_is_array(at.value) && json_array_size(at.value) == 1; i++)
         at.value = json_array_get(at.value, 0);
     if (is_absent(at.value))
         at.value = NULL;

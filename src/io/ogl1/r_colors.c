@@ -157,7 +157,7 @@ static const struct {
 static const uint32_t PALETTE[8] = {0x000000, 0xDF536B, 0x61D04F, 0x2297E6,
                                     0x28E2E5, 0xCD0BBC, 0xF5C710, 0x9E9E9E};
 
-enum { LONGEST = 31 };
+enum { MAX_LENGTH = 31 };
 
 static void set_rgb(uint32_t rgb, float out[4])
 {
@@ -194,13 +194,13 @@ static bool find_hex(const char *digits, float out[4])
 }
 
 /* R does not mind capitals and blanks. False: the name is longer than all that there are. */
-static bool normalise(const char *name, char out[LONGEST + 1])
+static bool normalise(const char *name, char out[MAX_LENGTH + 1])
 {
     size_t length = 0;
     for (; *name; name++) {
         if (*name == ' ')
             continue;
-        if (length == LONGEST)
+        if (length == MAX_LENGTH)
             return false;
         out[length++] = *name >= 'A' && *name <= 'Z' ? (char)(*name - 'A' + 'a') : *name;
     }
@@ -257,7 +257,7 @@ static bool find_named(const char *name, float out[4])
 
 bool ogl1_find_r_color(const char *name, float rgba[4])
 {
-    char plain[LONGEST + 1];
+    char plain[MAX_LENGTH + 1];
     if (name[0] == '#')
         return find_hex(name + 1, rgba);
     if (!normalise(name, plain))

@@ -14,7 +14,7 @@
 
 /* ---- the header ---- */
 
-enum { MOST_ELEMENTS = 64, MOST_PROPERTIES = 1024, MOST_LINES = 100000 };
+enum { MAX_ELEMENTS = 64, MAX_PROPERTIES = 1024, MAX_LINES = 100000 };
 
 static const struct {
     const char *name;
@@ -118,10 +118,10 @@ static void read_element(ply_reader *r, span rest)
         is_number = is_number && *c >= '0' && *c <= '9';
         count = is_number && count < UINT64_MAX / 16 ? 10 * count + (uint64_t)(*c - '0') : count;
     }
-    if (!is_number || r->element_count == MOST_ELEMENTS) {
+    if (!is_number || r->element_count == MAX_ELEMENTS) {
         ply_fail(r, FACET_ERROR_INVALID,
                  "element \"%.*s\": a number of elements was expected, %d kinds at most", SHOWN(name),
-                 (int)MOST_ELEMENTS);
+                 (int)MAX_ELEMENTS);
         return;
     }
     if (!mem_reserve(&r->desc->allocator, (void **)&r->elements, &r->element_capacity, r->element_count + 1,
@@ -147,8 +147,7 @@ static void read_property(ply_reader *r, span rest)
         word = take_word(&rest);
     p.type = find_type(word);
     span name = take_word(&rest);
-    if (!e || !is_count || p.type == PLY_NONE || name.at == name.end ||
-        e->property_count == MOST_PROPERTIES) {
+    if (!e || !is_count || p.type == PLY_NONE || name.at == name.end || e->property_count == MAX_PROPERTIES) {
         ply_fail(r, FACET_ERROR_INVALID,
                  "property \"%.*s\": type and name behind an element were expected, not \"%.*s\"",
                  SHOWN(name), SHOWN(word));
@@ -189,7 +188,7 @@ static bool read_header(ply_reader *r)
     if (!take_line(r, &line))
         return ply_fail(r, FACET_ERROR_INVALID, "is cut off in its header");
     for (int i = 0; r->result == FACET_OK; i++) {
-        if (i == MOST_LINES || !take_line(r, &line))
+        if (i == MAX_LINES || !take_line(r, &line))
             return ply_fail(r, FACET_ERROR_INVALID, "has no \"end_header\"");
         span rest = line;
         span word = take_word(&rest);

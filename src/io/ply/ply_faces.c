@@ -215,7 +215,7 @@ static void warn_face_colors(const ply_reader *r, const ply_element *e)
 bool ply_read_faces(ply_reader *r, const ply_element *e, bool are_strips)
 {
     faces f = {.r = r, .polygon.allocator = r->desc->allocator};
-    uint64_t most = ply_most_elements(r, e);
+    uint64_t most = ply_max_elements(r, e);
     uint64_t count = 0;
     find_lists(&f, e, are_strips);
     bool is_ok =
@@ -241,7 +241,7 @@ bool ply_read_faces(ply_reader *r, const ply_element *e, bool are_strips)
 
 bool ply_skip_element(ply_reader *r, const ply_element *e)
 {
-    uint64_t most = ply_most_elements(r, e);
+    uint64_t most = ply_max_elements(r, e);
     for (uint64_t i = 0; i < e->count && i < most; i++)
         for (size_t k = 0; k < e->property_count; k++)
             if (!skip_property(r, &e->properties[k]))

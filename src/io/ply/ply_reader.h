@@ -56,7 +56,7 @@ size_t ply_type_size(ply_type type);
 /* ply_vertices.c: the next value of a type. False: there are no more. */
 bool ply_read_value(ply_reader *r, ply_type type, double *value);
 /* How many of count elements the bytes that are left can hold at most: each has one value per property at least. */
-uint64_t ply_most_elements(const ply_reader *r, const ply_element *e);
+uint64_t ply_max_elements(const ply_reader *r, const ply_element *e);
 
 /* ply_vertices.c: places with what they have. False: a failure is recorded. */
 bool ply_read_vertices(ply_reader *r, const ply_element *e);

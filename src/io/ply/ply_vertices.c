@@ -79,7 +79,7 @@ bool ply_read_value(ply_reader *r, ply_type type, double *value)
     return true;
 }
 
-uint64_t ply_most_elements(const ply_reader *r, const ply_element *e)
+uint64_t ply_max_elements(const ply_reader *r, const ply_element *e)
 {
     uint64_t least = 0;
     for (size_t i = 0; i < e->property_count; i++) {
@@ -293,7 +293,7 @@ static bool read_vertex(ply_reader *r, const ply_element *e, const layout *l, do
 bool ply_read_vertices(ply_reader *r, const ply_element *e)
 {
     layout l;
-    uint64_t most = ply_most_elements(r, e);
+    uint64_t most = ply_max_elements(r, e);
     size_t count = (size_t)(e->count < most ? e->count : most);
     if (r->soup.places)
         return ply_fail(r, FACET_ERROR_INVALID, "has two elements \"vertex\"");
