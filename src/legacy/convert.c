@@ -12,9 +12,9 @@
  * Planned before extras are written, which refer to textures by index, and carried out when all else is there. The original
  * lists stay with the conversion, whose report renders the source materials. */
 
-enum { STAYS = 0 }; /* until places are counted */
+enum { STAYS = 0 }; /* until new indices are counted */
 
-/* The picture of a texture as texture_bench_finish() will leave it: what was made stands behind what was there. */
+/* The image of a texture after texture_bench_finish(), which appends new ones. */
 static uint32_t image_of(const facet_scene *scene, uint32_t texture)
 {
     return texture < scene->texture_count ? scene->textures[texture].image
@@ -42,7 +42,7 @@ static void mark_textures(const conversion *c, drop_plan *plan)
 
 static void mark_images(const facet_scene *scene, drop_plan *plan)
 {
-    /* Those that leave first: a texture that stays keeps a picture that it shares. */
+    /* Dropped textures first, since a texture that stays keeps an image that they share. */
     for (int stays = 0; stays < 2; stays++)
         for (uint32_t i = 0; i < plan->texture_count; i++) {
             uint32_t image = image_of(scene, i);
@@ -51,7 +51,7 @@ static void mark_images(const facet_scene *scene, drop_plan *plan)
         }
 }
 
-/* Places of those that stay, in their order. Returns how many. */
+/* Numbers the entries that stay, in order; returns their count. */
 static uint32_t count_places(uint32_t *places, uint32_t count)
 {
     uint32_t next = 0;
@@ -82,7 +82,7 @@ static void move_legacy(const drop_plan *plan, legacy_material *m)
     }
 }
 
-/* Copies of the materials, with the new numbers. */
+/* Copies of the materials with the new indices. */
 static bool move_materials(conversion *c, drop_plan *plan)
 {
     facet_scene *scene = c->scene;
@@ -128,7 +128,7 @@ static facet_result drop_plan_make(conversion *c, facet_error *error)
     mark_images(scene, plan);
     uint32_t kept_textures = count_places(plan->textures, plan->texture_count);
     uint32_t kept_images = count_places(plan->images, plan->image_count);
-    /* Light of pictures counts them too, and comes with glTF files alone: these keep theirs. */
+    /* Image-based lights refer to images too, but come with glTF files only, whose images stay. */
     plan->is_needed = scene->image_light_count == 0 &&
                       (kept_textures < plan->texture_count || kept_images < plan->image_count);
     if (plan->is_needed && !move_materials(c, plan))
@@ -167,7 +167,7 @@ static void drop_plan_carry_out(conversion *c)
 
 /* ---- extras.facet_legacy of each glTF material and of the scene: nothing is lost, and the reverse is exact ---- */
 
-/* extras with that member, in the arena; NULL: no memory. */
+/* Extras with that member, in the arena; NULL: out of memory. */
 static const char *merged(const facet_scene *scene, const char *extras, const text *member)
 {
     text all = {.allocator = scene->allocator};
@@ -250,7 +250,7 @@ static facet_result convert_all(conversion *c, facet_material_model to, facet_er
     return is_source ? convert_from_ogl1(c, error) : convert_from_glossiness(c, error);
 }
 
-/* Whether the old materials cannot be converted once more: pictures of theirs have left, with the first time. */
+/* Whether legacy materials cannot be converted again, since the first conversion dropped images of theirs. */
 static bool has_lost_pictures(const facet_scene *scene)
 {
     if (!scene->legacy || !scene->legacy->is_source || !scene->conversion)
@@ -272,7 +272,7 @@ facet_result legacy_convert(facet_scene *scene, facet_material_model to, const f
         result = convert_all(&c, to, error);
     if (result == FACET_OK)
         note_light(&c, to);
-    /* Nothing of the scene is touched before all is there. */
+    /* The scene is unchanged until everything else has succeeded. */
     bool has_legacy = c.materials && scene->legacy && scene->legacy->is_source;
     if (result == FACET_OK && has_legacy && desc->drops_sources &&
         to == FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS)

@@ -1,5 +1,5 @@
-/* convert_build.c - a glTF material of an understood legacy one: factors, opacity, emission and extensions. The textures
- * of the surface itself are convert_build_maps.c's. */
+/* convert_build.c - a glTF material from an interpreted legacy one: factors, opacity, emission and extensions.
+ * Textures of the surface are made by convert_build_maps.c. */
 #include "legacy/convert_state.h"
 
 #include <math.h>
@@ -59,7 +59,7 @@ static void emission_row(const void *parameters, uint32_t width, const uint8_t *
     }
 }
 
-/* emissiveFactor is at most 1; what is brighter goes into the strength. */
+/* emissiveFactor is at most 1; the rest goes into the strength. */
 static facet_result build_emission(conversion *c, const legacy_reading *r, scene_material *out,
                                    facet_error *error)
 {
@@ -93,10 +93,10 @@ static facet_result build_emission(conversion *c, const legacy_reading *r, scene
 
 /* ---- relief ---- */
 
-/* The full range of a bump map at -bm 1 rises by this share of the width of its picture. */
+/* The full range of a bump map at -bm 1 rises by this fraction of the width of its image. */
 #define BUMP_SLOPE 0.02f
 
-/* Tangent-space normals are (.5, .5, 1) on average; a grey picture has three equal means. */
+/* Tangent-space normals are (.5, .5, 1) on average; a grey image has three equal means. */
 static bool is_normal_map(const texture_statistics *s)
 {
     float codes[256];
@@ -164,7 +164,7 @@ static void sheen_row(const void *parameters, uint32_t width, const uint8_t *con
         memset(out, srgb_encode_u8(p->srgb, lut_scalar(&p->sheen, in[0] + (size_t)x * 4)), 3);
 }
 
-/* Ps has no roughness; importers of principled materials start from this. */
+/* Ps states no roughness; importers of principled materials start from this. */
 #define SHEEN_ROUGHNESS 0.5f
 
 static facet_result build_sheen(conversion *c, const legacy_reading *r, scene_material *out,
@@ -217,7 +217,7 @@ static void build_coat(const conversion *c, const legacy_reading *r, scene_mater
 
 /* ---- glass ---- */
 
-/* The least extent of what has the material: a volume as thick as the thing. */
+/* The smallest extent of the geometry with the material: the thickness of its volume. */
 static float thickness_of(const facet_scene *scene, uint32_t material)
 {
     float least = 0;

@@ -1,7 +1,7 @@
-/* convert_build_maps.c - textures of a glTF material's surface: base color with opacity, specular, roughness. A picture
- * that only needs a factor stays the file that it is; others are made texel by texel. Maps of one material that look up
- * different places cannot meet in one texture: the first of diffuse, specular, shininess, opacity keeps its texels, the
- * others count with their means. */
+/* convert_build_maps.c - textures of the surface of a glTF material: base color with opacity, specular, roughness.
+ * An image that needs a factor only stays the same file; others are converted texel by texel. Maps of one material
+ * with different lookups cannot be combined into one texture: the first of diffuse, specular, shininess, opacity
+ * keeps its texels, the others are replaced by their means. */
 #include <string.h>
 
 #include "base/result.h"
@@ -23,9 +23,9 @@ static void set_mean(conversion *c, uint32_t material, const char *statement, le
 
 /* ---- opacity ---- */
 
-/* Where the alpha of the base color comes from. */
+/* The source of the alpha of the base color. */
 typedef struct opacity_source {
-    legacy_map map; /* texture SCENE_NONE: the factor alone */
+    legacy_map map; /* texture SCENE_NONE: only the factor */
     scalar_lut table;
 } opacity_source;
 
@@ -73,7 +73,7 @@ typedef struct surface_job {
     const legacy_reading *r;
     const solve_item *item; /* NULL: the diffuse color is the base color */
     opacity_source opacity;
-    legacy_map specular, shininess; /* of Blinn-Phong; texture SCENE_NONE: one number for all */
+    legacy_map specular, shininess; /* of Blinn-Phong; texture SCENE_NONE: constant */
     texel_parameters p;
     scene_material *out;
 } surface_job;
@@ -83,8 +83,8 @@ static bool is_varying(const surface_job *job)
     return job->specular.ref.texture != SCENE_NONE || job->shininess.ref.texture != SCENE_NONE;
 }
 
-/* Base color per diffuse color where specular color and shininess are one for the whole material: what the fit found for
- * the mean; where that is nearly black or was clamped, the closed form's. */
+/* Base color over diffuse color if specular color and shininess are constant: that of the fit of the mean, or, if
+ * that is nearly black or clamped, of the closed form. */
 static void base_factors(const surface_job *job, float out[3])
 {
     const solve_item *item = job->item;
@@ -103,7 +103,7 @@ static void base_factors(const surface_job *job, float out[3])
     }
 }
 
-/* Whether the picture of the diffuse map serves as it is. */
+/* Whether the image of the diffuse map can be used unchanged. */
 static bool is_reusable(const surface_job *job, const float factors[3])
 {
     const legacy_map *diffuse = &job->r->m.maps[LEGACY_DIFFUSE_MAP];
@@ -119,7 +119,7 @@ static bool is_reusable(const surface_job *job, const float factors[3])
            opacity->base == 0.0f && opacity->gain == 1.0f;
 }
 
-/* The largest base color that can come out, and with it the least loss to 8 bits. */
+/* The largest possible base color, which keeps the loss to 8 bits small. */
 static void base_scale(surface_job *job)
 {
     const legacy_map *diffuse = &job->r->m.maps[LEGACY_DIFFUSE_MAP];
@@ -152,7 +152,7 @@ static texture_bake bake_of(surface_job *job, const char *purpose, uint32_t chan
     return bake;
 }
 
-/* The place that a bake's inputs share. */
+/* The lookup that the inputs of a bake share. */
 static scene_texture_ref shared_ref(const surface_job *job)
 {
     const legacy_map *maps[] = {&job->r->m.maps[LEGACY_DIFFUSE_MAP], &job->specular, &job->shininess,
@@ -178,14 +178,14 @@ static facet_result build_base(surface_job *job, facet_error *error)
         return FACET_OK;
     }
     if (!is_varying(job)) {
-        /* The table is of base colors already: no specular color takes part. */
+        /* The LUT holds base colors already, without a specular color. */
         job->p.diffuse = color_lut_make(job->c->bench, diffuse, factors);
         memset(job->p.specular.values, 0, sizeof job->p.specular.values);
         job->p.is_core = 0;
     }
     base_scale(job);
     job->p.opacity = job->opacity.table;
-    for (int code = 0; code < 256; code++) /* the factor stays a factor */
+    for (int code = 0; code < 256; code++) /* the factor is not baked */
         job->p.opacity.values[code] =
             out->base_color[3] > 0.0f ? job->p.opacity.values[code] / out->base_color[3] : 0.0f;
     job->p.channel_count = is_transparent ? 4 : 3;
@@ -242,7 +242,7 @@ static facet_result build_roughness(surface_job *job, facet_error *error)
     return texture_bench_bake(job->c->bench, &bake, &ref->texture, error);
 }
 
-/* Of the maps that must meet in one texture, those that lie elsewhere than the first count with their means. */
+/* Replaces the maps whose lookup differs from that of the first by their means. */
 static void align(surface_job *job, legacy_reading *r)
 {
     const texture_bench *bench = job->c->bench;
@@ -327,7 +327,7 @@ static facet_result build_packed(conversion *c, uint32_t material, legacy_map ro
     legacy_map occlusion = is_rma ? roughness : legacy_map_default();
     occlusion.channel = 'b';
     p.occlusion = scalar_lut_make(c->bench, &occlusion, 1.0f, TEXTURE_BLUE);
-    if (is_gloss) { /* roughness = 1 - factor gloss: the factor goes into the texels */
+    if (is_gloss) { /* roughness = 1 - factor gloss: the factor is baked */
         for (int code = 0; code < 256; code++)
             p.roughness.values[code] = 1.0f - (1.0f - out->perceptual_roughness) * p.roughness.values[code];
         out->perceptual_roughness = 1.0f;
@@ -360,7 +360,7 @@ static facet_result build_stated(conversion *c, uint32_t material, const legacy_
     const legacy_map *maps = r->m.maps;
     const legacy_map none = legacy_map_default();
     if (r->kind == READING_GLOSSY) {
-        /* A specular color is read as sRGB: its picture serves as it is. */
+        /* Specular colors are sRGB in both: the image is used unchanged. */
         out->textures[SCENE_SPECULAR_COLOR_TEXTURE] = maps[LEGACY_SPECULAR_MAP].ref;
         return build_packed(c, material, maps[LEGACY_SHININESS_MAP], none, true, false, out, error);
     }
@@ -385,7 +385,7 @@ facet_result build_surface_maps(conversion *c, uint32_t material, legacy_reading
                        .specular = is_fitted ? r->m.maps[LEGACY_SPECULAR_MAP] : none,
                        .shininess = is_fitted ? r->m.maps[LEGACY_SHININESS_MAP] : none,
                        .out = out};
-    memset(&job.p, 0, sizeof job.p); /* its padding is part of a key */
+    memset(&job.p, 0, sizeof job.p); /* its padding is part of the key */
     job.opacity = read_opacity(c, r, out);
     align(&job, r);
     if (has_map(r, LEGACY_DIFFUSE_MAP) || is_varying(&job) || job.opacity.map.ref.texture != SCENE_NONE)

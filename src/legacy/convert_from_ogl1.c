@@ -1,4 +1,4 @@
-/* convert_from_ogl1.c - glTF materials for all legacy ones of a scene: understood one by one, their numbers solved together,
+/* convert_from_ogl1.c - glTF materials for all legacy ones of a scene: interpreted one by one, solved together,
  * built one by one. */
 #include <math.h>
 #include <string.h>
@@ -61,7 +61,7 @@ static void report(const conversion *c, uint32_t material, const legacy_reading 
         out->summary.method =
             solve_is_closed(c, FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS, item) ? "closed" : "fit";
     } else if (r->has_roughness_from_shininess) {
-        /* Glass: OpenGL 1 has nothing to compare with. */
+        /* Glass has no counterpart in OpenGL 1 to compare with. */
         summary_exact(&out->summary, "closed");
         out->summary.grade = FACET_CONVERSION_GRADE_FAIR;
     } else {
@@ -112,7 +112,7 @@ static facet_result build_all(conversion *c, legacy_reading *readings, solve_ite
     return result;
 }
 
-/* Materials that some primitive with colors at its vertices has. */
+/* Marks materials of primitives with vertex colors. */
 static void find_vertex_colors(const facet_scene *scene, bool *out)
 {
     for (uint32_t i = 0; i < scene->mesh_count; i++)
@@ -123,7 +123,8 @@ static void find_vertex_colors(const facet_scene *scene, bool *out)
         }
 }
 
-/* Whether all that is drawn has opacity 0. rgl's parameters mean it: a scene there may have hidden parts only. */
+/* Whether everything drawn has opacity 0. In rgl's parameters that is intended: a scene may consist of hidden
+ * parts. */
 static bool hides_everything(const facet_scene *scene)
 {
     bool has_primitive = false;

@@ -11,7 +11,7 @@
 
 /* ---- texels ---- */
 
-/* The order of a bake's inputs. */
+/* Inputs of a bake. */
 enum { GLOSS_BASE, GLOSS_SECOND, GLOSS_SPECULAR, GLOSS_SPECULAR_COLOR };
 
 typedef enum gloss_output {
@@ -21,11 +21,11 @@ typedef enum gloss_output {
     GLOSS_TO_SPECULAR   /* RGBA: specular color and glossiness */
 } gloss_output;
 
-/* Part of a bake's key. Factors are in the texels. */
+/* Part of the key of a bake. Factors are baked. */
 typedef struct gloss_parameters {
-    pbr_surface factors; /* as legacy_surface_of_pbr() has them */
+    pbr_surface factors; /* as of legacy_surface_of_pbr() */
     int is_glossy;       /* the source */
-    int is_core;         /* metallic is solved for */
+    int is_core;         /* to core glTF: metallic is solved for */
     int output;          /* gloss_output */
     int channel_count;
     const srgb_tables *srgb;
@@ -189,7 +189,7 @@ static facet_result to_specular(gloss_job *job, facet_error *error)
     if (!is_readable(job->c, job->in, SCENE_SPECULAR_GLOSSINESS_TEXTURE))
         return FACET_OK;
     out->perceptual_roughness = 1.0f;
-    /* Roughness comes of one texture alone, wherever the others lie. */
+    /* Roughness has a texture of its own, so lookups may differ. */
     job->inputs[GLOSS_BASE] = SCENE_NONE;
     job->inputs[GLOSS_SECOND] = job->in->textures[SCENE_SPECULAR_GLOSSINESS_TEXTURE].texture;
     job->ref = job->in->textures[SCENE_SPECULAR_GLOSSINESS_TEXTURE];
@@ -216,7 +216,7 @@ static facet_result to_core(gloss_job *job, facet_error *error)
     return result;
 }
 
-/* The two surfaces where textures are white; of the core, which loses something, also how much. */
+/* The error between the two surfaces with white textures; for core glTF, which is lossy, also its own. */
 static void report(conversion *c, uint32_t material, bool is_exact, const char *profile)
 {
     material_conversion *report = &c->out->materials[material];
@@ -242,7 +242,7 @@ static void measure(conversion *c, uint32_t material, const pbr_surface *before,
     fit_error error = compare_pbr(before, after);
     summary->error = error.E;
     summary->error_display = summary->error_graded = error.E_display;
-    summary->error_drawn = (double)NAN; /* neither is drawn by OpenGL 1 */
+    summary->error_drawn = (double)NAN; /* neither is a model of OpenGL 1 */
     memcpy(summary->error_views, error.views, sizeof summary->error_views);
     summary->grade = summary->grade_drawn = grade_of(error.E_display);
 }
@@ -341,7 +341,7 @@ static facet_result to_glossy(gloss_job *job, bool *is_exact, facet_error *error
     bool is_scaled = job->in->metallic == 0.0f;
     for (int i = GLOSS_SECOND; i < TEXTURE_INPUTS; i++)
         is_scaled &= job->inputs[i] == SCENE_NONE;
-    if (is_scaled) /* a dielectric: the base color is the diffuse color, texture and all */
+    if (is_scaled) /* a dielectric: the base color is the diffuse color, including its texture */
         return FACET_OK;
     if (job->ref.texture == SCENE_NONE)
         return FACET_OK;
@@ -376,7 +376,7 @@ facet_result convert_to_glossiness(conversion *c, facet_error *error)
         scene_material *out = &c->materials[i];
         bool is_exact;
         gloss_job job = begin(c, i, out);
-        const uint32_t folded = SCENE_SPECULAR | SCENE_IOR; /* into the specular color */
+        const uint32_t folded = SCENE_SPECULAR | SCENE_IOR; /* folded into the specular color */
         note_dropped(c, i, in->extensions & ~(folded | (uint32_t)SCENE_EMISSIVE_STRENGTH));
         out->extensions = SCENE_SPECULAR_GLOSSINESS | (in->extensions & (uint32_t)SCENE_EMISSIVE_STRENGTH);
         out->ior = 1.5f;

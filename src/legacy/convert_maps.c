@@ -81,7 +81,7 @@ float scalar_lut_mean(const scalar_lut *t, const texture_bench *bench, const leg
     return s ? (float)texture_mean(s, t->channel, t->values) : t->values[255];
 }
 
-/* The largest (sign 1) or least (-1) value of codes that occur. */
+/* The largest (sign 1) or smallest (-1) value of the codes that occur. */
 static float extreme(const texture_statistics *s, int channel, const float values[256], float sign)
 {
     float found = 0;

@@ -7,7 +7,7 @@
 
 #include "base/result.h"
 
-/* What every conversion has, or what the files' readers told already, is in the report only. */
+/* Notes of every conversion, and those that readers have logged already, are in the report only. */
 static const struct {
     const char *name;
     bool is_told;
@@ -55,7 +55,7 @@ void note_add(note_list *list, uint32_t material, note_code code, const char *fo
 {
     char text[512];
     va_list arguments;
-    /* Notes of one material come one after the other. */
+    /* Notes of a material are consecutive. */
     for (size_t i = list->count; i-- > 0 && list->notes[i].material == material;)
         if (list->notes[i].code == code)
             return;
@@ -76,7 +76,7 @@ void note_list_destroy(note_list *list)
     mem_free(list->notes);
 }
 
-/* "FILE: material "gold" and 3 more: SENTENCE." of the first that has a code. */
+/* Logs "FILE: material "gold" and 3 more: SENTENCE." with the first sentence of a code. */
 static void tell(const note_list *list, note_code code, const facet_log *log)
 {
     const note *first = NULL;
@@ -111,7 +111,7 @@ bool note_list_finish(note_list *list, const facet_log *log, scene_conversion *o
         mem_free(counts);
         return false;
     }
-    /* Counted, then laid out material by material; the scene's come last. */
+    /* Counts notes, then distributes them to their materials; those of the scene come last. */
     for (size_t i = 0; i < list->count; i++) {
         uint32_t owner = list->notes[i].material;
         counts[owner == SCENE_NONE ? out->material_count : owner]++;

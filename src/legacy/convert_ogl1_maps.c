@@ -9,19 +9,20 @@
 
 /* ---- texels as surfaces ---- */
 
-/* The order of a bake's inputs. */
+/* Inputs of a bake. */
 enum { PBR_BASE, PBR_METALLIC_ROUGHNESS, PBR_SPECULAR, PBR_SPECULAR_COLOR, PBR_INPUTS };
 
-/* Part of a bake's key. */
+/* Part of the key of a bake. */
 typedef struct pbr_parameters {
     pbr_surface factors;
     float shininess;          /* of the material */
     int is_glossy;            /* input 1 is a specular-glossiness texture */
-    int is_specular;          /* what comes out: the specular color; else the diffuse one */
-    float occlusion_strength; /* input 2 is an occlusion texture; 0: it is not */
+    int is_specular;          /* the result is the specular color, else the diffuse one */
+    float occlusion_strength; /* strength of the occlusion texture in input 2; 0: none */
     int target;               /* facet_legacy_target */
     const srgb_tables *srgb;
-    const ogl1_grid *grid; /* last: of the members above, and so no part of the key; NULL: the closed form */
+    /* last: determined by the members above, and no part of the key; NULL: closed form */
+    const ogl1_grid *grid;
 } pbr_parameters;
 
 bool ogl1_reads_slot(scene_texture_slot slot)
@@ -155,10 +156,10 @@ typedef struct pbr_job {
     legacy_material *out;
     pbr_parameters p;
     uint32_t inputs[PBR_INPUTS];
-    scene_texture_ref ref; /* that the inputs share; texture SCENE_NONE: there are none */
+    scene_texture_ref ref; /* shared by the inputs; texture SCENE_NONE: there are none */
 } pbr_job;
 
-/* Takes a texture as an input if it can be read and lies where the others lie. */
+/* Adds a texture as an input if it can be read and has the same lookup as the others. */
 static bool take(pbr_job *job, int input, scene_texture_slot slot)
 {
     const scene_texture_ref *ref = &job->m->textures[slot];
@@ -224,7 +225,7 @@ static facet_result bake_color(pbr_job *job, bool is_specular, facet_error *erro
     return result;
 }
 
-/* Exponents that the roughest and the smoothest tenth would have by themselves. */
+/* The exponents of the roughest and the smoothest tenth of the texels. */
 static void note_spread(const pbr_job *job, float shininess)
 {
     scene_texture_slot slot = second_slot(job->m);
@@ -250,7 +251,7 @@ static void note_spread(const pbr_job *job, float shininess)
                  (double)found[1]);
 }
 
-/* A picture that only scales stays what it is: the diffuse color is proportional to the base color of a dielectric. */
+/* An image that is only scaled stays the same: the diffuse color is proportional to the base color of a dielectric. */
 static void reuse_base(const conversion *c, const scene_material *m, const solve_item *item,
                        legacy_material *out)
 {
@@ -334,7 +335,7 @@ static facet_result build_split(conversion *c, const scene_material *m, legacy_m
     return result;
 }
 
-/* A grid where the target is not linear radiance and texels differ in no more than it has axes for. */
+/* A grid if the target is not linear radiance and texels vary in its axes only. */
 static facet_result make_grid(pbr_job *job, ogl1_grid **grid, facet_error *error)
 {
     const pbr_surface *f = &job->p.factors;
@@ -382,7 +383,7 @@ facet_result ogl1_build_maps(conversion *c, uint32_t material, const scene_mater
     job.p.grid = grid;
     if (result == FACET_OK)
         result = bake_color(&job, false, error);
-    /* The base color takes part in the highlight of a metal only. */
+    /* The base color affects the highlight of metals only. */
     bool is_varying = m->metallic > 0.0f && !job.p.is_glossy && job.inputs[PBR_BASE] != SCENE_NONE;
     for (int i = PBR_METALLIC_ROUGHNESS; i < PBR_INPUTS; i++)
         is_varying |= job.inputs[i] != SCENE_NONE;

@@ -1,5 +1,5 @@
-/* convert_read.c - what a legacy material means: its dialect, its illum, rgl's switches and what exporters get wrong.
- * docs/legacy.md, "What becomes of each statement". Numbers and textures are made of it elsewhere. */
+/* convert_read.c - interprets a legacy material: its dialect, its illum, switches of rgl, mistakes of exporters.
+ * docs/legacy.md, "What becomes of each statement". Values and textures are converted elsewhere. */
 #include "legacy/convert_state.h"
 #include "legacy/specular_glossiness.h"
 #include "scene/legacy_extras.h"
@@ -12,7 +12,7 @@ static void remove_map(legacy_map *map)
     map->ref.texture = SCENE_NONE;
 }
 
-/* ---- what is not there, and what has no counterpart ---- */
+/* ---- missing textures, and statements without counterpart ---- */
 
 static bool is_surveyed(legacy_map_slot slot)
 {
@@ -50,7 +50,7 @@ static void note_losses(conversion *c, uint32_t material, const legacy_material 
     if (legacy_has(m, LEGACY_SHARPNESS) && m->sharpness != 60.0f)
         note_add(&c->notes, material, NOTE_SHARPNESS_DROPPED,
                  "the sharpness of reflections has no counterpart in glTF; it is kept in extras");
-    /* Up to the parameters that the format knows and a surface under light does not need. */
+    /* Everything before parameters that the format defines but a lit surface does not need. */
     size_t length = m->kept ? (size_t)(m->kept - m->unknown) : m->unknown ? strlen(m->unknown) : 0;
     if (length > 0) {
         size_t first = strcspn(m->unknown, "\n");
@@ -64,8 +64,8 @@ static void note_losses(conversion *c, uint32_t material, const legacy_material 
 
 /* ---- factors that exporters leave black ----
  *
- * A map that cannot be read leaves the diffuse color and the opacity that it would have been multiplied with: white, as
- * lost images are in glTF. Highlights and light do not come from a map that is lost. */
+ * A map that cannot be read keeps the factors of diffuse color and opacity white, as missing images are in glTF. It adds no
+ * highlights and no emission. */
 
 static const float WHITE[3] = {1, 1, 1};
 
@@ -74,7 +74,7 @@ static void read_diffuse(conversion *c, uint32_t material, legacy_reading *r, fa
     legacy_material *m = &r->m;
     legacy_color_to_linear(m->diffuse, colors, r->surface.diffuse);
     bool yields = c->scene->legacy->is_rgl || !legacy_has(m, LEGACY_DIFFUSE);
-    if (yields && c->has_vertex_colors[material]) /* which take its place */
+    if (yields && c->has_vertex_colors[material]) /* they replace it */
         memcpy(r->surface.diffuse, WHITE, sizeof WHITE);
     bool has_map = legacy_has_map(m, LEGACY_DIFFUSE_MAP);
     if (!has_map && !m->maps[LEGACY_DIFFUSE_MAP].path)
@@ -157,7 +157,7 @@ static void read_ambient(conversion *c, uint32_t material, legacy_reading *r, fa
         return;
     }
     if (c->desc.ambient == FACET_LEGACY_AMBIENT_EMISSIVE) {
-        /* One emissive texture: the ambient map takes it where there is no other. */
+        /* There is one emissive texture: the ambient map gets it if there is no emission map. */
         if (has_map && !legacy_has_map(m, LEGACY_EMISSION_MAP) && is_black(r->emission)) {
             m->maps[LEGACY_EMISSION_MAP] = m->maps[LEGACY_AMBIENT_MAP];
         } else if (has_map || legacy_has_map(m, LEGACY_EMISSION_MAP)) {
@@ -190,7 +190,7 @@ static bool is_known_good(facet_mtl_dialect dialect)
            dialect == FACET_MTL_DIALECT_BLENDER3;
 }
 
-/* Exporters write illum 0 and 1 for materials that shine, so that these count where nothing speaks against them. */
+/* Exporters write illum 0 and 1 for shiny materials too, so these are honored only if nothing contradicts them. */
 static void read_illum(conversion *c, uint32_t material, legacy_reading *r, facet_mtl_dialect dialect)
 {
     legacy_material *m = &r->m;
@@ -222,10 +222,10 @@ static void read_illum(conversion *c, uint32_t material, legacy_reading *r, face
 
 /* ---- highlights as wide as the surface ---- */
 
-/* At an exponent of 0 the highlight is everywhere and lays Ks over the whole surface. The format says so, also where Ns is
- * not stated, but no author has seen it: exporters that know no highlight write 0, those that count from 0 to 1 a
- * fraction, and today's programs read both as a matte surface. Where a mirror was asked for, Ks is its reflectance. rgl's
- * parameters were seen as they are. */
+/* At an exponent of 0 the highlight adds Ks to the whole surface. The format says so, also for a missing Ns, but no
+ * author has seen it: exporters without highlights write 0, those with a range of [0, 1] write fractions, and
+ * present readers take both as matte. With a mirror, Ks is its reflectance. rgl's parameters were displayed as they
+ * are. */
 #define MIN_EXPONENT 1.0f
 
 static void read_widest_highlight(conversion *c, uint32_t material, legacy_reading *r)
@@ -245,14 +245,14 @@ static void read_widest_highlight(conversion *c, uint32_t material, legacy_readi
             &c->notes, material, NOTE_HIGHLIGHT_IGNORED,
             "Ks without Ns is a highlight over the whole surface; it is left out (--dialect spec keeps it)");
     memset(r->surface.specular, 0, sizeof r->surface.specular);
-    r->surface.shininess = 0.0f; /* rough to viewers without the extensions, too */
+    r->surface.shininess = 0.0f; /* rough in viewers without the extensions, too */
     remove_map(&m->maps[LEGACY_SPECULAR_MAP]);
     remove_map(&m->maps[LEGACY_SHININESS_MAP]);
 }
 
 /* ---- rgl's kinds of textures and their modes: docs/legacy.md, "Textures of rgl" ---- */
 
-/* rgl lays its texture over highlight and emission too. */
+/* The texture of rgl affects highlight and emission too. */
 static void lay_over_all(const conversion *c, legacy_reading *r)
 {
     legacy_material *m = &r->m;
@@ -327,7 +327,7 @@ static void read_texture_mode(conversion *c, uint32_t material, legacy_reading *
     }
 }
 
-/* ---- programs that put other things into the statements ---- */
+/* ---- dialects ---- */
 
 static void read_blender_principled(legacy_reading *r, facet_mtl_dialect dialect)
 {
@@ -337,7 +337,7 @@ static void read_blender_principled(legacy_reading *r, facet_mtl_dialect dialect
     r->perceptual_roughness = dialect == FACET_MTL_DIALECT_BLENDER28
                                   ? unit_of(1.0f - sqrtf(shininess) / 30.0f)
                                   : unit_of(1.0f - sqrtf(shininess / 1000.0f));
-    /* Ka is metallic only where illum says that there is a mirror; else it is 1, and says nothing. */
+    /* Ka is metallic only if illum states a mirror; else it is 1 without meaning. */
     r->metallic = m->illum == 3 || m->illum == 6 || m->illum == 7 ? unit_of(m->ambient[0]) : 0.0f;
     /* Ks is the level of the principled shader: F0 = 0.08 level. */
     r->specular_level = legacy_has(m, LEGACY_SPECULAR) ? 2.0f * unit_of(m->specular[0]) : 1.0f;
@@ -350,7 +350,7 @@ static void read_dialect(legacy_reading *r, facet_mtl_dialect dialect)
     case FACET_MTL_DIALECT_AUTO:
     case FACET_MTL_DIALECT_SPEC:
         break;
-    case FACET_MTL_DIALECT_BLENDER27: /* the exponent is the hardness, of which Ns is 1.96078 times one less */
+    case FACET_MTL_DIALECT_BLENDER27: /* the exponent is the hardness; Ns is 1.96078 times hardness minus 1 */
         if (legacy_has(m, LEGACY_SHININESS))
             r->surface.shininess = r->surface.shininess / 1.9607843f + 1.0f;
         break;
@@ -374,13 +374,13 @@ static void read_dialect(legacy_reading *r, facet_mtl_dialect dialect)
         legacy_has_map(m, LEGACY_SHININESS_MAP))
         r->glossiness = r->perceptual_roughness = 1.0f;
     if (dialect == FACET_MTL_DIALECT_OBJ2GLTF_MR && !legacy_has(m, LEGACY_SHININESS))
-        r->perceptual_roughness = 1.0f; /* obj2gltf's default, where Ns is a roughness */
+        r->perceptual_roughness = 1.0f; /* default of obj2gltf, where Ns is a roughness */
     if (dialect == FACET_MTL_DIALECT_OBJ2GLTF_MR && !legacy_has(m, LEGACY_SPECULAR) &&
         legacy_has_map(m, LEGACY_SPECULAR_MAP))
         r->metallic = 1.0f;
 }
 
-/* Pr and Pm win over Ns and Ks. */
+/* Pr and Pm override Ns and Ks. */
 static void read_pbr_statements(legacy_reading *r)
 {
     const legacy_material *m = &r->m;
@@ -397,7 +397,7 @@ static void read_pbr_statements(legacy_reading *r)
     }
     r->kind = READING_METALLIC;
     r->has_shininess_as_roughness = false;
-    /* Where a map stands alone its factor is 1. */
+    /* A map without a factor has factor 1. */
     if (has_roughness)
         r->perceptual_roughness = legacy_has(m, LEGACY_ROUGHNESS) ? unit_of(m->roughness) : 1.0f;
     if (has_metallic)
@@ -406,7 +406,7 @@ static void read_pbr_statements(legacy_reading *r)
 
 /* ---- glass ---- */
 
-/* illum 4 and 9: glass that light passes straight; 6 and 7: refraction, tinted by Tf. */
+/* illum 4 and 9: glass without refraction; 6 and 7: with refraction, tinted by Tf. */
 static void read_glass(conversion *c, legacy_reading *r, facet_legacy_colors colors)
 {
     const legacy_material *m = &r->m;
@@ -422,7 +422,7 @@ static void read_glass(conversion *c, legacy_reading *r, facet_legacy_colors col
         transmission = unit_of(highest_of(filter));
     if (transmission == 0.0f)
         return;
-    /* What passes is tinted with the base color, which is that of the diffuse part too: their mix. */
+    /* Transmission is tinted with the base color, which is that of the diffuse part too: they are mixed. */
     float most = highest_of(filter);
     for (int k = 0; k < 3; k++) {
         float tint = has_filter ? filter[k] / most : 1.0f;
@@ -436,21 +436,21 @@ static void read_glass(conversion *c, legacy_reading *r, facet_legacy_colors col
         r->metallic = 0.0f;
         r->perceptual_roughness = perceptual_roughness_from_shininess(r->surface.shininess);
         if (is_black(r->surface.specular))
-            r->perceptual_roughness = 0.0f; /* nothing is said of how it shines: clear */
+            r->perceptual_roughness = 0.0f; /* no roughness is stated: clear */
         r->has_roughness_from_shininess = true;
     }
 }
 
 /* ---- mirrors ---- */
 
-/* A diffuse color (linear) that nobody sees beside a mirror: with it the mirror is a metal, in viewers without extensions
- * too. */
+/* A diffuse color (linear) that is invisible beside a mirror: the mirror is then a metal, also in viewers without
+ * extensions. */
 #define MIRROR_BLACK 0.02f
 
 static void note_mirror(conversion *c, uint32_t material, const legacy_material *m)
 {
     bool is_bright = legacy_has(m, LEGACY_SPECULAR) ? highest_of(m->specular) > 0.5f : true;
-    /* illum 7 is glass first of all, and a dim mirror hardly one. */
+    /* illum 7 is primarily glass, whose mirror is dim. */
     note_add(&c->notes, material,
              is_bright && m->illum != 7 ? NOTE_MIRROR_IGNORED : NOTE_MIRROR_IGNORED_QUIETLY,
              "illum %d has Ks reflect the surroundings like a mirror; that was not asked for, and only the "
@@ -458,8 +458,8 @@ static void note_mirror(conversion *c, uint32_t material, const legacy_material 
              m->illum);
 }
 
-/* Programs that trace rays reflect the surroundings sharply, whatever Ns, which is the highlight's; for large ones this is
- * taken at its word. Between 100, where a highlight is as wide as that of brushed metal, and 500 the two are mixed. */
+/* Ray tracers reflect the environment sharply whatever Ns, which belongs to the highlight; for large Ns that is
+ * followed. Between 100, the highlight width of brushed metal, and 500 the two are interpolated. */
 static float mirror_roughness(const legacy_material *m, float shininess)
 {
     if (!legacy_has(m, LEGACY_SHININESS) || m->shininess <= MIN_EXPONENT)
@@ -467,7 +467,7 @@ static float mirror_roughness(const legacy_material *m, float shininess)
     return perceptual_roughness_from_shininess(shininess) * unit_of((500.0f - shininess) / 400.0f);
 }
 
-/* A metal of that color: its maps become those of the base color. */
+/* A metal of that color, whose maps become those of the base color. */
 static void read_metal_mirror(legacy_reading *r)
 {
     r->kind = READING_METALLIC;
@@ -477,7 +477,8 @@ static void read_metal_mirror(legacy_reading *r)
     r->has_diffuse_alpha = false;
 }
 
-/* Without extensions: a base color and a metallic whose mix is near to both colors. Of maps their means count. */
+/* Without extensions: a base color and a metallic whose mix approximates both colors; maps are replaced by their
+ * means. */
 static void read_core_mirror(conversion *c, uint32_t material, legacy_reading *r)
 {
     ogl1_surface mean = build_representative(c, r);
@@ -492,7 +493,7 @@ static void read_core_mirror(conversion *c, uint32_t material, legacy_reading *r
                  "without extensions a mirror reflects the same everywhere; the mean of map_Ks is used");
 }
 
-/* Ks is a reflectance: what it leaves is for Kd. glTF weights the base color with 1 - max(F0). */
+/* Ks is a reflectance: the remainder is for Kd. glTF weights the base color with 1 - max(F0). */
 static void read_mirror(conversion *c, uint32_t material, legacy_reading *r)
 {
     legacy_material *m = &r->m;
@@ -518,7 +519,7 @@ static void read_mirror(conversion *c, uint32_t material, legacy_reading *r)
     }
     float most = highest_of(r->surface.specular);
     float brightest = highest_of(r->surface.diffuse);
-    float rest = fmaxf(1.0f - most, 0.05f); /* of a base under a perfect mirror nothing is seen */
+    float rest = fmaxf(1.0f - most, 0.05f); /* a base below a perfect mirror is invisible */
     if (brightest + most > 1.0f && !has_map) {
         rest = fmaxf(rest, brightest);
         note_add(
@@ -528,7 +529,7 @@ static void read_mirror(conversion *c, uint32_t material, legacy_reading *r)
     }
     for (int k = 0; k < 3; k++)
         r->surface.diffuse[k] /= rest;
-    /* With Fresnel, illum 5 and 7, all light that grazes is reflected; without, as much as elsewhere. */
+    /* With Fresnel (illum 5 and 7) reflectance at grazing angles is 1; without, it is constant. */
     r->F90 = m->illum == 5 || m->illum == 7 ? 1.0f : most;
     r->kind = READING_GLOSSY;
     if (c->desc.profile == FACET_LEGACY_PROFILE_CORE)
@@ -556,7 +557,7 @@ void legacy_read(conversion *c, uint32_t material, legacy_reading *out)
     read_pbr_statements(out);
     if (out->kind != READING_METALLIC)
         read_specular(c, material, out, colors);
-    /* Ka is metallic to the programs that write a principled material. */
+    /* Ka is metallic in exporters of principled materials. */
     if (legacy->dialect != FACET_MTL_DIALECT_BLENDER28 && legacy->dialect != FACET_MTL_DIALECT_BLENDER3)
         read_ambient(c, material, out, colors);
     else

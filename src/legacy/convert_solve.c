@@ -1,5 +1,5 @@
-/* convert_solve.c - the numbers of all materials: distinct questions are sorted out, answered in parallel and handed back
- * to everybody who solve_request. */
+/* convert_solve.c - converts the values of all materials: distinct inputs in parallel, their results copied to
+ * equal ones. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +11,7 @@
 
 typedef struct solve_input solve_input;
 
-/* One distinct input, with a material that asks it. */
+/* An input, and a material that has it. */
 typedef struct solve_request {
     const solve_input *input;
     uint32_t item;
@@ -34,7 +34,7 @@ typedef struct solver {
     const solve_request *distinct;
 } solver;
 
-/* A program that reads linear colors adds them as light. */
+/* With linear colors programs add light. */
 static facet_legacy_target target_of(const conversion *c, facet_material_model to)
 {
     const struct scene_legacy *legacy = to == FACET_MATERIAL_MODEL_OGL1 ? c->legacy : c->scene->legacy;
@@ -67,7 +67,7 @@ static void solve_from_ogl1(const solver *s, solve_item *item)
         item->remarks = is_core ? ogl1_to_pbr_core_fit(s->metric, in, s->c->target, &item->pbr)
                                 : ogl1_to_pbr_fit(s->metric, in, s->c->target, &item->pbr);
     if (item->input.is_closed > 0.0f && !is_core)
-        item->pbr = texel_surface(in); /* as its textures will have it */
+        item->pbr = texel_surface(in); /* as for its textures */
     item->ogl1 = *in;
     item->hue_error = fit_compare(s->metric, in, &item->pbr, FIT_FROM_OGL1);
     item->is_hue_kept = s->desc->keeps_hue && item->input.is_closed == 0.0f &&
@@ -77,7 +77,7 @@ static void solve_from_ogl1(const solver *s, solve_item *item)
     pbr_surface naive;
     ogl1_to_pbr_naive(in, &naive);
     item->naive = fit_compare(s->metric, in, &naive, FIT_FROM_OGL1).E;
-    /* A viewer without the extensions sees the core values with glTF's dielectric. */
+    /* Viewers without the extensions use the core values with the dielectric of glTF. */
     pbr_surface core = pbr_surface_default();
     memcpy(core.base_color, item->pbr.base_color, sizeof core.base_color);
     core.metallic = item->pbr.metallic;
@@ -114,7 +114,7 @@ static void solve_range(void *context, size_t begin, size_t end)
     }
 }
 
-/* Puts the first of each kind to the front, in order, and notes for all who has their answer. */
+/* Moves the first of equal requests to the front, in order, and notes which item each result is copied from. */
 static size_t merge_equal(solve_request *all, size_t count, uint32_t *solved_by)
 {
     qsort(all, count, sizeof *all, by_input);

@@ -39,7 +39,7 @@ void legacy_surface_of_ogl1(const legacy_material *m, facet_legacy_colors colors
     out->shininess = m->shininess > 0.0f ? m->shininess : 0.0f;
 }
 
-/* Within the ranges of the format, which files overstep. */
+/* Clamped to the ranges of the format, which files exceed. */
 void legacy_surface_of_pbr(const scene_material *m, struct pbr_surface *out)
 {
     bool is_glossy = (m->extensions & SCENE_SPECULAR_GLOSSINESS) != 0;

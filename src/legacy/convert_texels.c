@@ -162,7 +162,7 @@ void core_grid_make(core_grid *grid, float least_shininess, float most_shininess
     parallel_for(thread_count, is_single ? 1 : CORE_EXPONENTS, 1, make_exponents, grid);
 }
 
-/* A place between two nodes. */
+/* A position between two nodes. */
 typedef struct between {
     int low, high;
     float t;
@@ -288,7 +288,7 @@ void ogl1_grid_destroy(ogl1_grid *grid)
 
 /* ---- looking up ---- */
 
-/* A place between two neighbouring nodes. */
+/* A position between two neighboring nodes. */
 typedef struct grid_place {
     int low;
     float t;
@@ -301,7 +301,8 @@ static grid_place place_even(float at, int count)
     return (grid_place){.low = low, .t = x - (float)low};
 }
 
-/* Colors are nearly proportional to the base color, and so are their roots to its root, in which nodes lie evenly. */
+/* Colors are nearly proportional to the base color, and so are their square roots to its root, in which nodes are
+ * even. */
 static float blend(const float grid[OGL1_GRID_ROUGHNESS][OGL1_GRID_SECOND][OGL1_GRID_BASE], grid_place r,
                    grid_place second, grid_place base)
 {

@@ -1,5 +1,5 @@
-/* convert_to_ogl1.c - legacy materials for all glTF ones of a scene. What a material was converted from counts where that is
- * known; others are fitted. */
+/* convert_to_ogl1.c - legacy materials for all glTF ones of a scene. The original of a converted material is
+ * restored if it is known; others are fitted. */
 #include <math.h>
 #include <string.h>
 
@@ -9,7 +9,7 @@
 
 /* ---- what is known already ---- */
 
-/* Values that were read, and not those of an earlier conversion of this kind. */
+/* The original values, and not those of an earlier conversion to OpenGL 1. */
 static bool is_known(const conversion *c, uint32_t material)
 {
     const facet_scene *scene = c->scene;
@@ -134,7 +134,7 @@ static void set_opacity(const scene_material *m, legacy_material *out)
         out->opacity = unit_of(m->base_color[3]);
     if (m->alpha_mode == SCENE_ALPHA_MASK && !scene_material_has(m, SCENE_BASE_COLOR_TEXTURE))
         out->opacity = m->base_color[3] >= m->alpha_cutoff ? 1.0f : 0.0f;
-    /* Glass that let all light through would be invisible as a blended surface. */
+    /* Fully transmissive glass would be invisible as a blended surface. */
     if (m->extensions & SCENE_TRANSMISSION)
         out->opacity *= 1.0f - 0.9f * unit_of(m->transmission);
 }
@@ -187,7 +187,7 @@ static bool begin_legacy(conversion *c)
     return true;
 }
 
-/* Known values in the colors that are asked for. */
+/* The original values in the requested encoding of colors. */
 static void recode(const conversion *c, legacy_material *m)
 {
     facet_legacy_colors from = c->scene->legacy->colors;
@@ -215,7 +215,7 @@ static facet_result make(conversion *c, uint32_t i, bool known, const solve_item
         if (item->is_wanted)
             solve_note(c, i, item);
         result = ogl1_build_maps(c, i, m, item, out, error);
-        /* In a file of legacy materials, one that is glTF's stays glTF's. */
+        /* A glTF material in a file of legacy materials stays. */
         out->is_gltf_restored = c->legacy->is_source;
     }
     material_conversion *report = &c->out->materials[i];

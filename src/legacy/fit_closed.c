@@ -23,11 +23,11 @@ typedef struct fit_gram {
 } fit_gram;
 
 typedef struct gram_place {
-    int first;        /* of four nodes */
-    double weight[4]; /* of their logarithms */
+    int first;        /* first of four nodes */
+    double weight[4]; /* weights of the logarithms */
 } gram_place;
 
-/* x in nodes from the first: the four nodes around it and Lagrange's weights for them. */
+/* The four nodes around x (in nodes from the first) and their Lagrange weights. */
 static gram_place gram_find(double x, int count)
 {
     gram_place p;
@@ -53,7 +53,7 @@ static double gram_value(const float *logs, const gram_place *p)
     return exp(gram_mean_log(logs + p->first, p->weight));
 }
 
-/* Each fills in what depends on its argument: in any order, but _both last. Roughness in [0, 1], s >= 0. */
+/* Each fills the products that depend on its argument, in any order, but _both last. Roughness in [0, 1], s >= 0. */
 static gram_place gram_roughness(fit_gram *gram, double perceptual_roughness)
 {
     gram_place p = gram_find((log(fmax(perceptual_roughness, 1e-9)) - GRAM_LOG_R) / GRAM_STEP_R, GRAM_R);
@@ -95,7 +95,7 @@ typedef struct fit_nearest {
     double perceptual_roughness, g;
 } fit_nearest;
 
-/* Linear between nodes, so that what falls in the table falls everywhere; beyond the last with the last's slope. */
+/* Linear interpolation, which keeps monotonicity; extrapolated with the last slope. */
 static double gram_along(const float *logs, double x)
 {
     double node = fmax(x, 0.0);
@@ -119,7 +119,7 @@ static double gram_nearest_shininess(double perceptual_roughness)
         return 0.0;
     int first = 0;
     int end = GRAM_S - 1;
-    while (end - first > 1) { /* falls from node to node */
+    while (end - first > 1) { /* decreasing */
         int middle = (first + end) / 2;
         if ((double)log_nearest_r[middle] > wanted)
             first = middle;
@@ -133,8 +133,8 @@ static double gram_nearest_shininess(double perceptual_roughness)
 
 /* ---- OpenGL 1 to PBR ---- */
 
-/* The best roughness for exponents from 0 to 10^8 is near alpha = 1.5 / sqrt(s), and the best strength near 8.5 / (s + 2);
- * neither depends on the colors as long as these need no clamping. */
+/* The optimal roughness for exponents from 0 to 10^8 is near alpha = 1.5 / sqrt(s), the optimal strength near 8.5 /
+ * (s + 2); neither depends on the colors unless these are clamped. */
 float perceptual_roughness_from_shininess(float shininess)
 {
     return (float)gram_nearest((double)shininess).perceptual_roughness;
@@ -174,7 +174,7 @@ static fit_gram gram_of(double perceptual_roughness, double shininess)
 
 /* ---- with extensions ---- */
 
-/* Products of the source's channel k with n and S. */
+/* Products of channel k of the source with n and S. */
 static void wanted_of(const fit_gram *g, const ogl1_surface *in, int k, double wanted[2])
 {
     double Cd = (double)in->diffuse[k];
@@ -183,8 +183,8 @@ static void wanted_of(const fit_gram *g, const ogl1_surface *in, int k, double w
     wanted[1] = Cd * g->nS[0] + Cs * g->SP[0];
 }
 
-/* The strength of the lobe: F = F90 at all angles, of channel k share[k] F90, beside A n with the best A in [0, 1 - F90],
- * where base is 1. The square is convex in F90: its derivative, which has one root, is halved down. */
+/* The strength of the lobe: F = F90 at all angles, share[k] F90 for channel k, beside A n with the optimal A in [0,
+ * 1 - F90], where base is 1. The square is convex in F90: the root of its derivative is found by bisection. */
 static double flat_reflectance(const fit_gram *g, const ogl1_surface *in, const double share[3])
 {
     double low = 0.0;
@@ -232,7 +232,7 @@ uint32_t ogl1_to_pbr_closed(const ogl1_surface *in, pbr_surface *out)
     out->perceptual_roughness = (float)r;
     out->ior = 0.0f;
     out->specular = (float)F90;
-    for (int k = 0; k < 3; k++) { /* once more, with the Fresnel that a color brings */
+    for (int k = 0; k < 3; k++) { /* again, with the Fresnel term of a color */
         double Cd = (double)in->diffuse[k];
         double Cs = (double)in->specular[k];
         fit_bounds bounds = {{0.0, in->specular[k] == brightest ? F90 : 0.0}, {1.0, F90}};
@@ -257,8 +257,8 @@ typedef struct core_search {
     double base[3];
 } core_search;
 
-/* Square of the difference, less what the source alone has; x: roughness, metallic. The lobe's Fresnel is
- * mix(F0 + (1 - F0) w, base (1 - w) + w, metallic). */
+/* Square of the difference minus the constant of the source; x: roughness, metallic. The Fresnel term of the lobe
+ * is mix(F0 + (1 - F0) w, base (1 - w) + w, metallic). */
 static double core_square(void *context, const double *x)
 {
     core_search *s = context;
@@ -317,7 +317,7 @@ typedef struct ogl1_search {
     double factor[3][2]; /* Cd, Cs */
 } ogl1_search;
 
-/* Square of the difference, less what the source alone has; x: log(1 + s). */
+/* Square of the difference minus the constant of the source; x: log(1 + s). */
 static double square_at(void *context, const double *x)
 {
     static const fit_bounds displayable = {{0.0, 0.0}, {1.0, 1.0}};
@@ -388,7 +388,7 @@ pbr_surface pbr_surface_default(void)
                          .specular_color = {1.0f, 1.0f, 1.0f}};
 }
 
-/* Diffuse as base color, shininess to roughness, and the dielectric's usual 4 % for specular. */
+/* Diffuse as base color, shininess to roughness, and the usual 4 % of dielectrics for specular. */
 uint32_t ogl1_to_pbr_naive(const ogl1_surface *in, pbr_surface *out)
 {
     uint32_t remarks = 0;

@@ -15,13 +15,13 @@ static double square_at(const fit_moments *m, double a, double b)
            2.0 * a * b * m->shapes[1] + b * b * m->shapes[2];
 }
 
-/* The best value in [low, high] of an unknown whose square is q and whose product with what is wanted is w. */
+/* The optimum in [low, high] of q x^2 - 2 w x. */
 static double best_alone(double q, double w, double low, double high)
 {
     return q > 0.0 ? fmin(fmax(w / q, low), high) : low;
 }
 
-/* The square is convex: without bounds, or else on an edge of the box. */
+/* The square is convex: the unconstrained minimum, or one on an edge of the box. */
 double fit_box(const fit_moments *m, const fit_bounds *bounds, double factor[2])
 {
     const double *low = bounds->low;
@@ -84,9 +84,9 @@ DISPATCH_AVX2 static void moments_of(const fit_problem *p, int k, fit_moments *o
     *out = (fit_moments){{sum[0], sum[1], sum[2]}, {sum[3], sum[4]}, sum[5]};
 }
 
-/* The same over nodes that the screen leaves free, with the model at factor: where both it and the source are beyond
- * white nothing is wanted of it. Without is_strict a model that is too bright counts as too bright by how much it is,
- * which makes the square convex. *square is what the screen shows. */
+/* The same for clamped radiance, linearized at factor: nodes where both the model and the source exceed white
+ * contribute nothing. Without is_strict a model that is too bright counts with its excess, which keeps the square
+ * convex. *square is that of clamped radiance. */
 DISPATCH_AVX2 static void display_moments_of(const fit_problem *p, int k, const double factor[2],
                                              bool is_strict, fit_moments *out, double *square)
 {
@@ -94,7 +94,8 @@ DISPATCH_AVX2 static void display_moments_of(const fit_problem *p, int k, const 
     const float *T = p->source[k];
     float u = (float)factor[0];
     float v = (float)factor[1];
-    float end = is_strict ? 0.0f : 1.0f; /* sources from here on leave a model beyond white free */
+    /* from this source value on, a model above white contributes nothing */
+    float end = is_strict ? 0.0f : 1.0f;
     size_t count = p->metric->node_begin[FIT_VIEWS];
     for (size_t i = 0; i < count; i += FIT_LANES) {
         for (size_t j = 0; j < FIT_LANES; j++) {
@@ -129,8 +130,8 @@ DISPATCH_AVX2 static void display_moments_of(const fit_problem *p, int k, const 
 
 /* ---- sums of display numbers ---- */
 
-/* The same with the model as a program draws it: its sum is a display number, whose light is linearised at factor (Gauss and
- * Newton). Where both model and source are beyond white nothing is wanted. *square is that of light. */
+/* The same with the model as a program displays it: a sum of display values whose light is linearized at factor
+ * (Gauss-Newton). Nodes where both model and source exceed white contribute nothing. *square is that of light. */
 DISPATCH_AVX2 static void drawn_moments_of(const fit_problem *p, int k, const double factor[2],
                                            fit_moments *out, double *square)
 {
@@ -155,7 +156,7 @@ DISPATCH_AVX2 static void drawn_moments_of(const fit_problem *p, int k, const do
             double a = (double)(slope * x);
             double b = (double)(slope * y);
             double d = (double)(T[i + j] - light);
-            double t = (double)(slope * min(M, 1.0f)) + d; /* slope times the number that would be right */
+            double t = (double)(slope * min(M, 1.0f)) + d; /* slope times the exact display value */
             double w = full * (double)is_free;
             double w_a = w * a;
             double w_b = w * b;
@@ -176,7 +177,7 @@ DISPATCH_AVX2 static void drawn_moments_of(const fit_problem *p, int k, const do
     *square = sum[6];
 }
 
-/* A start: the least squares of numbers whose squares are light, which is near to what a display shows. */
+/* The start: least squares of gamma 2 display values, an approximation of the displayed light. */
 DISPATCH_AVX2 static void start_of(const fit_problem *p, int k, fit_moments *out)
 {
     double lane[5][FIT_LANES] = {{0.0}};
@@ -211,7 +212,7 @@ static void keep_best(double square, const double now[2], double *best, double f
     }
 }
 
-/* Newton's method on the convex square, then on the strict one with steps that are halved until it falls. */
+/* Newton's method on the convex square, then on the strict one with step halving. */
 static double display_factors(const fit_problem *p, int k, const fit_bounds *bounds, double factor[2])
 {
     double best = (double)INFINITY;
@@ -246,7 +247,7 @@ static double display_factors(const fit_problem *p, int k, const fit_bounds *bou
     return best;
 }
 
-/* From numbers of gamma 2 on, with steps that are halved until the square of light falls. */
+/* From gamma 2 display values on, with step halving until the square of light decreases. */
 static double drawn_factors(const fit_problem *p, int k, const fit_bounds *bounds, double factor[2])
 {
     fit_moments m;
@@ -294,7 +295,7 @@ double fit_factors(const fit_problem *p, const fit_bounds bounds[3], double fact
         }
         sum += square;
     }
-    return fmax(sum, 0.0) / p->source_square; /* rounding may have left less */
+    return fmax(sum, 0.0) / p->source_square; /* rounding may make it negative */
 }
 
 /* ---- sources ---- */

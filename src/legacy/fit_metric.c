@@ -27,7 +27,7 @@ static const double view_rad[FIT_VIEWS] = {0.0, 0.52359877559829887308, 1.047197
 
 enum { POINTS = 8, MAX_POINTS = 16, GROWING_PANELS = 12 };
 
-/* Gauss and Legendre's nodes in (0, 1) and their weights: roots of P_n by Newton's method. */
+/* Gauss-Legendre nodes in (0, 1) and their weights: roots of P_n by Newton's method. */
 static void gauss_legendre(int n, double *x, double *w)
 {
     for (int i = 0; i < n; i++) {
@@ -54,7 +54,7 @@ typedef struct builder {
     int view;
     size_t ring, node;
     double x[POINTS], w[POINTS];               /* along t */
-    double arc[MAX_POINTS], arc_w[MAX_POINTS]; /* along p, where it does not go all around */
+    double arc[MAX_POINTS], arc_w[MAX_POINTS]; /* along p, where it is not a full circle */
 } builder;
 
 static void add_node(builder *b, double t, double p, double weight)
@@ -63,7 +63,7 @@ static void add_node(builder *b, double t, double p, double weight)
     double VdotH = sin(v) * sin(t) * cos(p) + cos(v) * cos(t);
     double NdotL = 2.0 * VdotH * cos(t) - cos(v);
     if (NdotL <= 0.0 || VdotH <= 0.0)
-        return; /* by rounding */
+        return; /* rounding */
     size_t i = b->node++;
     b->metric->ring[i] = (uint16_t)b->ring;
     b->metric->NdotL[i] = (float)NdotL;
@@ -71,7 +71,7 @@ static void add_node(builder *b, double t, double p, double weight)
     b->metric->weight[i] = (float)(weight * sin(t) * 4.0 * VdotH * NdotL);
 }
 
-/* All p at one t; p and -p are the same. */
+/* All p at one t; p and -p are symmetric. */
 static void add_ring(builder *b, double t, double weight)
 {
     double v = view_rad[b->view];
@@ -81,7 +81,7 @@ static void add_ring(builder *b, double t, double weight)
     m->log_cos_h[b->ring] = (float)(0.5 * log1p(-sin(t) * sin(t)));
     if (v == 0.0) {
         add_node(b, t, 0.0, weight * 2.0 * pi);
-    } else if (2.0 * t <= 0.5 * pi - v) { /* the midpoint rule: best for a whole period */
+    } else if (2.0 * t <= 0.5 * pi - v) { /* the midpoint rule, optimal for a full period */
         int n = t < 0.01 ? 4 : t < 0.1 ? 8 : MAX_POINTS;
         for (int i = 0; i < n; i++)
             add_node(b, t, pi * (i + 0.5) / n, weight * 2.0 * pi / n);
@@ -93,7 +93,7 @@ static void add_ring(builder *b, double t, double weight)
     b->ring++;
 }
 
-/* t from from to to; end -1: a root at from, 1: at to. */
+/* A panel of t; end -1: a square root at from, 1: at to. */
 static void add_panel(builder *b, double from, double to, int end)
 {
     double width = to - from;
@@ -235,7 +235,7 @@ fit_lobes fit_lobes_of(const pbr_surface *p)
     return lobes;
 }
 
-/* Clones have to be static with clang. */
+/* With clang, clones must be static. */
 DISPATCH_AVX2 static void add_lambert_and_highlight(size_t count, const float *NdotL, const float *highlight,
                                                     float Cd, float Cs, float *out)
 {
@@ -270,7 +270,7 @@ void fit_radiance_pbr(const fit_metric *metric, const fit_lobes *lobes, const fl
     add_lobes(metric, lobes, lobe, k, out);
 }
 
-/* ---- OpenGL 1 as its programs draw it ---- */
+/* ---- OpenGL 1 as its programs display it ---- */
 
 float fit_display_number(float linear)
 {
@@ -297,7 +297,7 @@ void fit_radiance_drawn(const fit_metric *metric, const ogl1_surface *surface, c
 
 /* ---- errors ---- */
 
-/* Sums of squares with the weights of nodes: of the difference and of the source, as they are and clamped. */
+/* Weighted sums of squares over nodes: of the difference and of the source, unclamped and clamped. */
 typedef struct squares {
     double difference, source, difference_display, source_display;
 } squares;
@@ -315,8 +315,8 @@ static inline double sum_of(size_t count, const float *values)
     return sum;
 }
 
-/* Products in float, sums in double: no product is a difference of others, so a rounding of 6e-8 of each stays that.
- * Block by block, because a loop that does both is not vectorised well. */
+/* Products in float, sums in double: products are not differences, so each keeps its relative rounding of 6e-8. By
+ * blocks, since a loop that does both does not vectorize well. */
 DISPATCH_AVX2 static void add_squares(size_t count, const float *weight, const float *source,
                                       const float *model, squares *sum)
 {
@@ -343,7 +343,7 @@ DISPATCH_AVX2 static void add_squares(size_t count, const float *weight, const f
     }
 }
 
-/* The same of two that are clamped already. */
+/* The same for two clamped radiances. */
 DISPATCH_AVX2 static void add_squares_shown(size_t count, const float *weight, const float *source,
                                             const float *model, double *difference_sum, double *source_sum)
 {
@@ -426,7 +426,7 @@ void ogl1_radiance(const ogl1_surface *s, const float V[3], const float L[3], fl
         out[k] = radiance[k];
 }
 
-/* The renderer's own function; separable masking by the ratio of the two visibilities. */
+/* The function of the renderer; separable masking by the ratio of the two visibilities. */
 void pbr_radiance(const pbr_surface *p, pbr_masking masking, const float V[3], const float L[3], float out[3])
 {
     vec3 v = vec3(V[0], V[1], V[2]);

@@ -1,8 +1,8 @@
-/* fit_table_generate.c - computes the table of fit_gram.h; runs when facet is built.
+/* fit_table_generate.c - computes the LUT of fit_gram.h when facet is built.
  * usage: fit_table_generate OUTPUT
  *
- * Logarithms of the integrals, and for each shininess the roughness and the strength of the GGX lobe that comes nearest to
- * Blinn's together with Lambert's. */
+ * Logarithms of the integrals, and for each shininess the roughness and strength of the GGX lobe that, with a Lambert term,
+ * approximates Blinn's best. */
 #include <math.h>
 #include <stdio.h>
 
@@ -29,7 +29,7 @@ static double product(const fit_metric *m, const float *a, const float *b, int p
     return sum;
 }
 
-/* What is left of P beside the best factors of n and S, and the latter in g. */
+/* The residual of P with the optimal factors of n and S; that of S in g. */
 static double distance(void *context, const double *log_r)
 {
     shapes *s = context;
@@ -77,7 +77,7 @@ int main(int argc, char **argv)
         for (int k = 0; k < 2; k++)
             of_s[k][j] = log(product(m, m->NdotL, s.P, k));
         of_s[2][j] = log(product(m, s.P, s.P, 0));
-        of_s[3][j] = j ? log_r : 0.0; /* constant light: as rough as can be (0.999) */
+        of_s[3][j] = j ? log_r : 0.0; /* constant radiance: the largest roughness (0.999) */
         of_s[4][j] = log(s.g);
     }
     for (int i = 0; i < GRAM_R; i++) {

@@ -1,5 +1,5 @@
-/* fit_to_ogl1.c - PBR to OpenGL 1 by search. With the exponent given, the old model is linear in Cd and Cs; so the search
- * is along the exponent alone. */
+/* fit_to_ogl1.c - PBR to OpenGL 1 by fitting. For a given exponent OpenGL 1 is linear in Cd and Cs; the search is
+ * along the exponent. */
 #include <math.h>
 #include <string.h>
 
@@ -8,10 +8,10 @@
 
 #include "shade/shade.h"
 
-static const double unlimited_shininess = 1e9; /* beyond that of the smoothest GGX lobe that is drawn */
+static const double unlimited_shininess = 1e9; /* above that of the smoothest GGX lobe of the renderer */
 
-/* The least exponent where display numbers are added. A broader highlight would imitate the brighter shadow side of light that
- * is added as light, but programs that do not gate highlights by N.L show it where no light falls, and others as white. */
+/* The smallest exponent for display values. A broader highlight would imitate the brighter shadow side of linear
+ * light, but programs that do not gate highlights by N.L show it on unlit sides, and others as white. */
 static const double least_drawn_shininess = 2.0;
 
 typedef struct search {
@@ -20,7 +20,7 @@ typedef struct search {
     double factor[3][2]; /* Cd, Cs */
 } search;
 
-/* x is log(1 + s): each step changes the highlight's width by the same factor. */
+/* x is log(1 + s): steps scale the width of the highlight. */
 static double error_at(void *context, const double *x)
 {
     search *s = context;
@@ -50,7 +50,7 @@ static void begin(search *s, const fit_metric *metric, const pbr_surface *in, fa
         s->bounds[k] = (fit_bounds){{0.0, 0.0}, {highest, highest}};
 }
 
-/* The colors found; whether there is a highlight. */
+/* Stores the colors; returns whether there is a highlight. */
 static bool read_colors(const search *s, facet_legacy_target target, ogl1_surface *out)
 {
     bool has_highlight = false;

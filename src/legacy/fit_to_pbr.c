@@ -1,9 +1,9 @@
-/* fit_to_pbr.c - OpenGL 1 to PBR by search, with KHR_materials_specular and KHR_materials_ior and without.
+/* fit_to_pbr.c - OpenGL 1 to PBR by fitting, with KHR_materials_specular and KHR_materials_ior and without.
  *
- * With ior 0, F0 is the specular color times specular and F90 is specular: Fresnel is flat for a white one, as Blinn's
- * highlight is. With roughness, F90 and the largest F0 given, radiance is linear in base color and in the other F0; the
- * search is along those three, from the best of the flat ones along roughness. Without the extensions it is along
- * roughness and metallic, and linear in base color. */
+ * With ior 0, F0 is the specular color times specular and F90 is specular: Fresnel is constant for a white one, as Blinn's
+ * highlight is. For given roughness, F90 and largest F0, radiance is linear in base color and the other F0; the search is
+ * along those three, starting from the best constant Fresnel along roughness. Without the extensions it is along roughness
+ * and metallic, and linear in base color. */
 #include <math.h>
 #include <string.h>
 
@@ -15,7 +15,7 @@
 
 typedef struct search {
     fit_problem problem;
-    bool is_brightest[3]; /* channels of the largest Cs: theirs is the largest F0 */
+    bool is_brightest[3]; /* channels of the largest Cs, which have the largest F0 */
     double roughness;     /* of problem.lobe */
     double F0, F90;
     double factor[3][2]; /* base color, F0 */
@@ -41,8 +41,8 @@ static void specular_shapes(fit_problem *p, float F0, float F90)
     }
 }
 
-/* x: roughness, largest F0, how far F90 is from there to 1. (These three and not F90 itself: the error changes little along
- * the last, and long valleys across the axes take a simplex many steps.) */
+/* x: roughness, largest F0, position of F90 between it and 1. (These rather than F90: the error changes little
+ * along the last, and a simplex takes many steps along diagonal valleys.) */
 static double specular_error(void *context, const double *x)
 {
     search *s = context;
@@ -58,7 +58,7 @@ static double specular_error(void *context, const double *x)
     return fit_factors(&s->problem, bounds, s->factor);
 }
 
-/* x: roughness. F is the largest factor that the lobe would have beside Lambert's without any coupling. */
+/* x: roughness. F is the largest factor of the lobe beside an uncoupled Lambert term. */
 static double flat_error(void *context, const double *x)
 {
     search *s = context;
@@ -87,13 +87,13 @@ static void set_target(search *s, const fit_metric *metric, const ogl1_surface *
         if (s->is_brightest[k])
             most = max(most, in->diffuse[k]);
     }
-    /* In display numbers a white highlight adds more light to a bright channel. */
+    /* In display values a white highlight adds more light to a bright channel. */
     for (int k = 0; k < 3 && target == FACET_LEGACY_TARGET_DRAWN; k++)
         s->is_brightest[k] = s->is_brightest[k] && in->diffuse[k] == most;
     s->roughness = -1.0;
 }
 
-/* A first search is linear and quick: along the radiance of the source, or along the light that a program draws. */
+/* A first fast search is linear: of the radiance of the source, or of the displayed light. */
 static void begin_linear(search *s, const fit_metric *metric, const ogl1_surface *in,
                          facet_legacy_target target)
 {
@@ -102,12 +102,13 @@ static void begin_linear(search *s, const fit_metric *metric, const ogl1_surface
     s->problem.target = FACET_LEGACY_TARGET_LINEAR;
 }
 
-/* From x on, from an ordinary dielectric and from the closed form: a broad highlight is a second diffuse term, of which the
- * first may have lost its lobe, or kept one where a grazing sheen is nearer. Narrow ones have one valley only. */
+/* From x, from an ordinary dielectric and from the closed form: a broad highlight resembles a second diffuse term,
+ * for which the first search may have lost its lobe, or kept one where grazing sheen is better. Narrow highlights
+ * have a single valley. */
 static void search_specular(search *s, const ogl1_surface *in, facet_legacy_target target, double x[3])
 {
     static const double step[3] = {0.05, 0.05, 0.1};
-    static const float broad = 8.0f; /* of 300 random materials none with a higher exponent gained 1 % */
+    static const float broad = 8.0f; /* of 300 random materials none with a larger exponent gained 1 % */
     pbr_surface closed;
     ogl1_to_pbr_closed(in, &closed);
     double starts[3][3] = {
@@ -115,7 +116,7 @@ static void search_specular(search *s, const ogl1_surface *in, facet_legacy_targ
         {(double)closed.perceptual_roughness, (double)closed.specular, 0.0},
         {0.7 * (double)closed.perceptual_roughness, fmin(4.0 * (double)closed.specular, 1.0), 0.0}};
     int count =
-        target == FACET_LEGACY_TARGET_DRAWN ? 3 : 2; /* a sum that is clamped early has a small bright core */
+        target == FACET_LEGACY_TARGET_DRAWN ? 3 : 2; /* a sum that clamps early has a small bright core */
     double error = fit_minimize_n(specular_error, s, 3, x, step, 1e-5, 120);
     for (int i = 0; i < count; i++) {
         if (i < 2 && in->shininess > broad && specular_error(s, starts[i]) >= error)
@@ -191,7 +192,7 @@ static double core_error_along_roughness(void *context, const double *x)
     return fit_minimize_1(core_error_along_metallic, l, 0.0, 1.0, 7, 0.1, &l->metallic);
 }
 
-/* From x on, and from another start where that is better already or asked for. */
+/* From x, and from another start if that is better already or requested. */
 static void search_core(search *s, const double other[2], bool is_other_tried, double x[2])
 {
     static const double step[2] = {0.05, 0.05};
@@ -215,7 +216,7 @@ uint32_t ogl1_to_pbr_core_fit(const fit_metric *metric, const ogl1_surface *in, 
     x[1] = l.metallic;
     ogl1_to_pbr_core_closed(in, out);
     search_core(&s, (const double[2]){(double)out->perceptual_roughness, (double)out->metallic}, false, x);
-    if (target != FACET_LEGACY_TARGET_LINEAR) { /* where the peak is clamped a narrower lobe may be better */
+    if (target != FACET_LEGACY_TARGET_LINEAR) { /* with a clamped peak a narrower lobe may be better */
         set_target(&s, metric, in, target);
         search_core(&s, (const double[2]){0.75 * x[0], x[1]}, true, x);
     }
@@ -233,7 +234,7 @@ uint32_t ogl1_to_pbr_core_fit(const fit_metric *metric, const ogl1_surface *in, 
  * diffuse color was. With the hue kept, the base color is proportional to Cd, and the specular reflectance is limited such that
  * most of the hue remains in the reflection of a white environment. */
 
-/* Where a color lies beside gray of the same sum. */
+/* Chromaticity relative to gray. */
 static void chromaticity(const float color[3], double out[3])
 {
     double sum = (double)color[0] + (double)color[1] + (double)color[2];
@@ -243,7 +244,7 @@ static void chromaticity(const float color[3], double out[3])
 
 double fit_hue_share(const ogl1_surface *in, const pbr_surface *out)
 {
-    static const double gray = 0.02; /* less has no hue to lose */
+    static const double gray = 0.02; /* below this there is no hue */
     fit_lobes lobes = fit_lobes_of(out);
     float reflected[3];
     double wanted[3], found[3];
@@ -292,7 +293,7 @@ bool fit_keep_hue(const fit_metric *metric, const ogl1_surface *in, facet_legacy
                   pbr_surface *out)
 {
     static const double step[3] = {0.05, 0.05, 0.02};
-    static const double least = 0.04; /* what an ordinary dielectric reflects */
+    static const double least = 0.04; /* reflectance of an ordinary dielectric */
     hue_search s = {.metric = metric, .in = in, .target = target, .out = *out};
     s.brightest = max(in->diffuse[0], max(in->diffuse[1], in->diffuse[2]));
     if (s.brightest <= 0.0f || fit_hue_share(in, out) >= FIT_HUE_KEPT)

@@ -9,7 +9,7 @@
 
 #define PI 3.14159265358979323846
 
-/* What lights that were made of legacy ones are called: so that a second conversion finds them. */
+/* Name prefix of lights made from legacy ones, by which a later conversion finds them. */
 static const char MADE_PREFIX[] = "legacy light ";
 
 static double distance(const float a[3], const float b[3])
@@ -28,15 +28,15 @@ static bool normalize3(double v[3])
     return length > 0;
 }
 
-/* ---- where things are ---- */
+/* ---- places ---- */
 
-/* The scene's middle and reach, and the default camera's space. */
+/* Center and radius of the scene, and the space of the default camera. */
 typedef struct stage {
     float center[3];
     double radius;
     float eye[3];
     double axes[3][3]; /* right, up, backward: unit, world space */
-    double origin[3];  /* the scene's: lights of OpenGL 1 stand in the file's coordinates, as nodes do */
+    double origin[3];  /* of the scene: lights of OpenGL 1 are in coordinates of the file, as nodes are */
 } stage;
 
 static void set_camera(stage *s, const facet_camera *camera)
@@ -48,7 +48,7 @@ static void set_camera(stage *s, const facet_camera *camera)
         s->eye[k] = camera->eye[k];
         back[k] = (double)camera->eye[k] - (double)camera->target[k];
     }
-    /* The camera of an orbit never looks along its up. */
+    /* An orbit camera never looks along its up vector. */
     if (!normalize3(back))
         back[2] = 1;
     const double y[3] = {0, 1, 0};
@@ -89,13 +89,13 @@ static void to_world(const stage *s, const float in[3], bool is_point, double ou
                  (double)in[2] * s->axes[2][k] + (is_point ? (double)s->eye[k] : 0.0);
 }
 
-/* The turn from -Z, along which punctual lights shine, to a direction. */
+/* The rotation from -Z, the direction of punctual lights, to a direction. */
 static void turn_to(const double direction[3], float q[4])
 {
     /* (from x to, 1 + from . to), normalised; from = (0, 0, -1). */
     double v[4] = {direction[1], -direction[0], 0, 1.0 - direction[2]};
     double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[3] * v[3]);
-    if (length < 1e-9) { /* straight back: half a turn about y */
+    if (length < 1e-9) { /* opposite: half a turn about y */
         v[0] = v[3] = 0;
         v[1] = length = 1;
     }
@@ -138,7 +138,7 @@ static void make_light(conversion *c, const stage *s, const legacy_light *in, sc
             at[k] = (float)(in->is_viewpoint_relative ? place[k] : place[k] - s->origin[k]);
             node->translation[k] = s->origin[k] + (double)at[k];
         }
-        /* Within the scene there is no one distance: a light in its middle is right at half its reach. */
+        /* Inside the scene distances vary: a light at its center is right at half its radius. */
         double reach = fmax(distance(at, s->center), 0.5 * s->radius);
         light->type = SCENE_LIGHT_POINT;
         light->intensity = (float)(illuminance * reach * reach);
@@ -159,7 +159,7 @@ static bool is_made(const facet_scene *scene, const scene_node *node)
            strncmp(scene->lights[node->light].name, MADE_PREFIX, sizeof MADE_PREFIX - 1) == 0;
 }
 
-/* Those of an earlier conversion are put in the places that they have. */
+/* Lights of an earlier conversion keep their indices. */
 static bool replace_lights(conversion *c, const stage *s)
 {
     facet_scene *scene = c->scene;
@@ -180,7 +180,7 @@ static bool replace_lights(conversion *c, const stage *s)
     return found > 0;
 }
 
-/* Arrays that are longer by count; false: no memory. */
+/* Extends arrays by count; false: out of memory. */
 typedef struct longer {
     scene_node *nodes;
     scene_light *lights;

@@ -7,7 +7,7 @@
 
 static const float DIELECTRIC = 0.04f;
 
-/* Of the sample code: luma of Rec.601 in the mean square. */
+/* As in the sample code: root mean square with the weights of Rec.601 luma. */
 static float perceived_brightness(const float c[3])
 {
     return sqrtf(0.299f * c[0] * c[0] + 0.587f * c[1] * c[1] + 0.114f * c[2] * c[2]);
@@ -26,7 +26,7 @@ static float solve_metallic(float diffuse, float specular, float rest)
 void core_from_glossiness(const float diffuse[3], const float specular[3], float base_color[3],
                           float *metallic)
 {
-    const float epsilon = 1e-4f; /* either side of the mix vanishes where its divisor does */
+    const float epsilon = 1e-4f; /* each side of the mix vanishes with its divisor */
     float rest = 1.0f - unit_of(highest_of(specular));
     float m = solve_metallic(perceived_brightness(diffuse), perceived_brightness(specular), rest);
     for (int k = 0; k < 3; k++) {
@@ -39,7 +39,7 @@ void core_from_glossiness(const float diffuse[3], const float specular[3], float
 
 bool glossiness_from_surface(const pbr_surface *in, float diffuse[3], float specular[3])
 {
-    /* KHR_materials_ior: 0 stands for an infinite one. */
+    /* KHR_materials_ior: 0 is an infinite index. */
     float root = in->ior == 0.0f ? 1.0f : (in->ior - 1.0f) / (in->ior + 1.0f);
     float dielectric[3];
     bool is_exact = in->specular == 1.0f || in->metallic == 1.0f;
@@ -51,7 +51,7 @@ bool glossiness_from_surface(const pbr_surface *in, float diffuse[3], float spec
     float after = 1.0f - highest_of(specular);
     for (int k = 0; k < 3; k++) {
         float wanted = (1.0f - in->metallic) * in->base_color[k] * before;
-        /* Under a mirror nothing of the base is seen. */
+        /* The base below a mirror is invisible. */
         diffuse[k] = after > 0.0f ? wanted / after : 0.0f;
         is_exact &= diffuse[k] <= 1.0f;
         diffuse[k] = unit_of(diffuse[k]);
@@ -96,7 +96,7 @@ static void add_direction(const pbr_surface *a, const pbr_surface *b, const floa
     }
 }
 
-/* A circle of half vectors around N: both halves are alike. dw_L = 4 (V.H) dw_H. */
+/* A circle of half vectors around N; both halves are symmetric. dw_L = 4 (V.H) dw_H. */
 static void add_ring(const pbr_surface *a, const pbr_surface *b, double view, double theta, double weight,
                      sums *s)
 {
@@ -125,7 +125,7 @@ static void add_ring(const pbr_surface *a, const pbr_surface *b, double view, do
         }
 }
 
-/* Panels that are short where narrow lobes are, and end where the circles begin to be cut by the horizon. */
+/* Panels are short where lobes are narrow, and end where the horizon begins to cut the circles. */
 static int panel_ends(double view, double ends[PANELS + 1])
 {
     double cut = 0.5 * (PI / 2 - view);
@@ -150,7 +150,7 @@ static int panel_ends(double view, double ends[PANELS + 1])
 
 static double relative(double difference, double source)
 {
-    /* The same floor as fit.h's metric: what is darker than a thousandth counts as that. */
+    /* The same floor as in the metric of fit.h: a thousandth of white. */
     const double darkest = 1e-6 * PI * 3.0;
     return sqrt(difference / (source > darkest ? source : darkest));
 }

@@ -9,14 +9,14 @@
 #include "image/image.h"
 #include "legacy/texture_texels.h"
 
-/* A texture that is not in the scene yet. */
+/* A texture that is not yet in the scene. */
 typedef struct made_texture {
-    const char *name;     /* in the scene's arena */
+    const char *name;     /* in the arena of the scene */
     uint32_t like;        /* the texture whose sampler it has */
     unsigned char *bytes; /* a PNG file */
     size_t byte_count;
     uint32_t width, height;
-    void *key; /* of what it was made */
+    void *key; /* of its input */
     size_t key_size;
 } made_texture;
 
@@ -24,8 +24,8 @@ struct texture_bench {
     facet_scene *scene;
     srgb_tables srgb;
     texels_cache *cache;
-    uint32_t image_count;            /* of the scene, before anything is made */
-    texture_statistics **statistics; /* per image; NULL: not looked at */
+    uint32_t image_count;            /* of the scene before the conversion */
+    texture_statistics **statistics; /* per image; NULL: not read */
     made_texture *made;
     uint32_t made_count, shared_count;
     size_t made_capacity;
@@ -94,10 +94,10 @@ static uint32_t image_of(const texture_bench *bench, uint32_t texture)
 typedef struct survey {
     const texture_bench *bench;
     const uint32_t *images;
-    facet_error *errors; /* one per image; .result FACET_OK: there is none */
+    facet_error *errors; /* one per image; .result FACET_OK: none */
 } survey;
 
-/* One thread per image: decoders differ in what they make of several. */
+/* One thread per image, since decoders use several threads differently. */
 static void survey_images(void *context, size_t begin, size_t end)
 {
     const survey *s = context;
@@ -107,7 +107,8 @@ static void survey_images(void *context, size_t begin, size_t end)
     }
 }
 
-/* The first failure that ends the conversion; the others are warnings. One without bytes was warned of by the reader. */
+/* The first failure that ends the conversion; others are warnings. The reader has warned about images without
+ * bytes. */
 static facet_result judge_survey(const survey *s, size_t count, const facet_log *log, facet_error *error)
 {
     facet_scene *scene = s->bench->scene;
@@ -162,9 +163,9 @@ const texture_statistics *texture_bench_statistics(const texture_bench *bench, u
     return s && s->is_readable ? s : NULL;
 }
 
-/* ---- what was made ---- */
+/* ---- new textures ---- */
 
-/* The texture that was made of the same; SCENE_NONE: none. */
+/* The texture with an equal key; SCENE_NONE: none. */
 static uint32_t find_made(texture_bench *bench, const void *key, size_t size)
 {
     for (uint32_t i = 0; i < bench->made_count; i++)
@@ -243,7 +244,7 @@ facet_result texture_bench_finish(texture_bench *bench, facet_error *error)
 
 /* ---- bakes ---- */
 
-/* The texels of a bake's inputs, all of one size. */
+/* The texels of the inputs of a bake, resized to one size. */
 typedef struct bake_inputs {
     uint32_t count, width, height;
     const image *texels[TEXTURE_INPUTS]; /* NULL: none */
@@ -297,7 +298,7 @@ static void bake_rows(void *context, size_t begin, size_t end)
     }
 }
 
-/* What makes two bakes the same: their inputs, what is done, and with which numbers. */
+/* The key of a bake: inputs, function and parameters. */
 static void *key_of(const texture_bench *bench, const texture_bake *bake, size_t *size)
 {
     struct {
@@ -362,7 +363,7 @@ facet_result texture_bench_bake(texture_bench *bench, const texture_bake *bake, 
         image_destroy(&in.resized[i]);
     image_destroy(&out);
     mem_free(key);
-    /* Only memory ends a conversion; what cannot be decoded counts as absent. */
+    /* Only running out of memory ends a conversion; an image that cannot be decoded counts as absent. */
     return result == FACET_ERROR_MEMORY ? result : FACET_OK;
 }
 
@@ -424,7 +425,7 @@ static void relief_rows(void *context, size_t begin, size_t end)
     }
 }
 
-/* Floats as the file's codes say: heights carry no transfer function. */
+/* Floats proportional to the stored codes: heights have no transfer function. */
 static facet_result decode_heights(const texture_bench *bench, uint32_t index, image *out, facet_error *error)
 {
     image raw;

@@ -33,7 +33,7 @@ facet_result texels_decode_raw(const facet_scene *scene, uint32_t index, uint32_
     return decode(scene, index, max_reduction, thread_count, NULL, out, error);
 }
 
-/* To RGBA of 8 bits; takes raw over. */
+/* Converts to RGBA of 8 bits; takes over raw. */
 static facet_result make_rgba(struct image *raw, const facet_scene *scene, uint32_t thread_count,
                               struct image *out, facet_error *error)
 {
@@ -131,10 +131,10 @@ static void add_texels(const uint8_t *texel, size_t count, texture_statistics *o
     }
 }
 
-/* An image that is counted while it is decoded. */
+/* An image that is counted while decoding. */
 typedef struct row_count {
     const facet_scene *scene;
-    image row; /* pixels: a block of a row */
+    image row; /* a row of pixels */
     texture_statistics *out;
 } row_count;
 
@@ -192,10 +192,10 @@ facet_result texels_count(const facet_scene *scene, uint32_t index, uint32_t max
     return FACET_OK;
 }
 
-/* ---- those that were used last ---- */
+/* ---- the cache ---- */
 
 enum { CACHE_SLOTS = 16, CACHE_PINNED = 4 };
-/* Beyond this, pictures other than the last four are let go. */
+/* Above this size only the last four images are kept. */
 static const size_t CACHE_BYTES = (size_t)192 << 20;
 
 typedef struct cached {
@@ -238,7 +238,7 @@ static cached *oldest(texels_cache *cache)
     return found;
 }
 
-/* An empty slot, after old pictures went that are too many or too large together. */
+/* An empty slot, after evicting old images that are too many or too large. */
 static cached *make_room(texels_cache *cache)
 {
     for (;;) {

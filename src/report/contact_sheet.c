@@ -10,11 +10,11 @@
 #include "report/ibl_sheet_words.h"
 
 enum { MAX_SIZE = 65536, DEFAULT_GAP = 4 };
-static const float BACKGROUND = 0.0100f; /* linear: a dark grey */
+static const float BACKGROUND = 0.0100f; /* linear, dark grey */
 
 typedef struct layout {
-    uint32_t width, height;            /* of a picture */
-    uint32_t columns, rows, gap, band; /* band: below each picture, for its label */
+    uint32_t width, height;            /* of an image */
+    uint32_t columns, rows, gap, band; /* band: below each image, for its label */
 } layout;
 
 static uint32_t left_of(const layout *l, uint32_t i)

@@ -25,12 +25,12 @@ enum {
     CROSS_GAP = 40,
     LEVEL_GAP = 24,
     CAPTION = 34,
-    LABELS = 144, /* column of words left of balls */
+    LABELS = 144, /* column of text left of the spheres */
     BALL = 148,
     BALL_STEP = 168,
-    PAIR = BALL_STEP + BALL + 44, /* height of one ball over another with what is written below */
+    PAIR = BALL_STEP + BALL + 44, /* height of a pair of spheres with their text */
     TITLE = 82,
-    SECTION = 60, /* height of its words */
+    SECTION = 60, /* height of its title */
     SECTION_GAP = 44,
     MAX_WORDS = 160,
     ROW_BALLS = 8,
@@ -39,7 +39,7 @@ enum {
 
 #define DOT "  \xc2\xb7  "
 
-/* Of words, 1 is white. */
+/* Strength of text, 1: white. */
 static const float STRONG = 0.92f;
 static const float PLAIN = 0.78f;
 static const float QUIET = 0.55f;
@@ -51,7 +51,7 @@ typedef struct sheet {
     const facet_bake_desc *bake;
     film film;
     sheet_canvas canvas;
-    image cut; /* the environment where desc->bake.clamp cuts it */
+    image cut; /* the environment clamped by desc->bake.clamp */
     const image *picture;
     harmonics analysis;        /* of picture */
     facet_cube filtered;       /* one level: the environment filtered for the reference of one sphere */
@@ -60,7 +60,7 @@ typedef struct sheet {
     sheet_word words[MAX_WORDS];
     uint32_t word_count;
     uint32_t step, step_count; /* for progress */
-    uint32_t y;                /* where the next thing goes */
+    uint32_t y;                /* where the next element goes */
 } sheet;
 
 /* sRGB (30, 32, 36) in linear light: bright spheres stand out, and so do black ones. */
@@ -68,7 +68,7 @@ static const float BACKGROUND[3] = {0.01298f, 0.01444f, 0.01764f};
 
 /* ---- words ---- */
 
-/* Words at a place, in a style; none are written where the text is empty. */
+/* Adds text at a position in a style; nothing if the text is empty. */
 __attribute__((format(printf, 5, 6))) static void sheet_write(sheet *s, sheet_word style, float x, float y,
                                                               const char *format, ...)
 {
@@ -80,10 +80,10 @@ __attribute__((format(printf, 5, 6))) static void sheet_write(sheet *s, sheet_wo
     va_start(arguments, format);
     vsnprintf(w->text, sizeof w->text, format, arguments);
     va_end(arguments);
-    s->word_count += w->text[0] != 0; /* a word without letters would be a line */
+    s->word_count += w->text[0] != 0; /* empty text would be a line */
 }
 
-/* A line over the sheet, below it a title, and a remark on the right. */
+/* A line across the sheet, below it a title, and a remark on the right. */
 static void sheet_write_section(sheet *s, const char *title, const char *remark)
 {
     s->words[s->word_count++] =
@@ -138,7 +138,7 @@ static facet_result sheet_step(sheet *s, facet_error *error)
                 s->step_count);
 }
 
-/* value * 100 with as many decimals as say something. */
+/* value * 100 with its significant decimals. */
 static void percent(double value, char out[NUMBER_SIZE])
 {
     value *= 100.0;
@@ -153,7 +153,7 @@ static float ball_roughness(facet_lobe lobe, uint32_t i)
     return lobe == FACET_LOBE_GGX ? (float)i / 7.0f : 0.3f + 0.1f * (float)i;
 }
 
-/* Whether there is a sphere for each of several roughnesses; otherwise the only one stands beside those of harmonics. */
+/* Whether there is a sphere for each of several roughnesses; otherwise the only one is beside those of harmonics. */
 static bool has_row(const facet_cube *c)
 {
     return c->lobe == FACET_LOBE_GGX || c->lobe == FACET_LOBE_CHARLIE;
@@ -162,7 +162,7 @@ static bool has_row(const facet_cube *c)
 /* The degree of s->analysis that the spheres need. */
 static uint32_t sheet_analysis_degree(const facet_cube *c)
 {
-    enum { MIN_DEGREE = 256 }; /* a lower one would average texels of the environment beforehand */
+    enum { MIN_DEGREE = 256 }; /* a lower one would blur texels of the environment */
     float kernel[HARMONICS_MAX_DEGREE + 1];
     uint32_t degree = 0;
     if (has_row(c)) {
@@ -173,7 +173,7 @@ static uint32_t sheet_analysis_degree(const facet_cube *c)
     return degree > MIN_DEGREE ? degree : MIN_DEGREE;
 }
 
-/* The environment filtered with a lobe into s->filtered, turned and scaled as the cube map is. */
+/* The environment filtered with a lobe into s->filtered, rotated and scaled as the cube map. */
 static facet_result filter_reference(sheet *s, facet_lobe kind, float roughness, facet_error *error)
 {
     enum { MIN_SIZE = 64, MAX_SIZE = 512 };
@@ -196,7 +196,7 @@ static facet_result filter_reference(sheet *s, facet_lobe kind, float roughness,
                             &s->filtered.levels[0], error);
 }
 
-/* A mirror that shows the environment's image. */
+/* A mirror sphere that shows the image of the environment. */
 static sheet_ball environment_ball(const sheet *s)
 {
     double angle = (double)s->bake->rotation_rad;
@@ -209,7 +209,7 @@ static sheet_ball environment_ball(const sheet *s)
 
 /* ---- spheres ---- */
 
-/* One above the other; the difference below. */
+/* A pair of spheres, with their difference below. */
 static facet_result draw_pair(sheet *s, const sheet_ball *made, const sheet_ball *exact, uint32_t x,
                               const char *label, facet_error *error)
 {
@@ -296,7 +296,7 @@ static void fold(const double radiance[SH_COUNT][3], float out[SH_COUNT][3])
     sh_fold_over_pi((const double(*)[3])irradiance, out);
 }
 
-/* The coefficients beside the spheres that they light. */
+/* Writes the coefficients beside the spheres that they light. */
 static void write_harmonics(sheet *s, uint32_t x, const float plain[SH_COUNT][3],
                             const float windowed[SH_COUNT][3], double narrowness)
 {
@@ -388,7 +388,7 @@ static uint32_t sheet_ball_steps(const facet_cube *c)
 
 /* ---- levels ---- */
 
-/* Two decimals, or three where two would lie. */
+/* Two decimals, or three where two would round misleadingly. */
 static void roughness_label(float roughness, char out[NUMBER_SIZE])
 {
     double hundredths = 100.0 * (double)roughness;
@@ -409,15 +409,15 @@ static void write_level(sheet *s, uint32_t level, sheet_place place)
                 has_roughness ? roughness : "");
 }
 
-/* Level 0 is on the left, the others in rows and columns right of it, which are as high. */
+/* Level 0 is on the left, the others in rows and columns at its right, of the same height in total. */
 typedef struct level_grid {
     uint32_t columns;
     uint32_t first, width; /* of crosses: level 0's and the others' */
     uint32_t height;       /* of all */
 } level_grid;
 
-/* With r rows of c columns, first * 3/4 + CAPTION = r (width * 3/4 + CAPTION) and first + c width + gaps = room are two lines
- * that cross; c is the one for which level 0 is nearest to half the sheet. */
+/* With r rows of c columns, first * 3/4 + CAPTION = r (width * 3/4 + CAPTION) and first + c width + gaps = room are
+ * two linear equations; c is chosen such that level 0 takes about half of the sheet. */
 static level_grid plan_levels(const facet_cube *c)
 {
     const double room = WIDTH - 2 * MARGIN;

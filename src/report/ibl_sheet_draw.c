@@ -21,7 +21,7 @@ static void draw_cross_rows(void *context, size_t begin, size_t end)
     const cross_job *job = context;
     const film *f = job->canvas->film;
     uint32_t edge = job->place.width / 4;
-    /* as many samples as the texels that a pixel covers; one where a texel covers pixels */
+    /* as many samples as a pixel covers texels; one where a texel covers pixels */
     uint32_t samples = (job->level->size + edge - 1) / edge;
     samples = samples < MAX_SAMPLES ? samples : MAX_SAMPLES;
     for (size_t y = begin; y < end; y++)
@@ -51,9 +51,9 @@ void sheet_draw_cross(const sheet_canvas *canvas, sheet_place place, const cube 
     parallel_for(canvas->thread_count, (size_t)place.width / 4 * 3, 4, draw_cross_rows, &job);
 }
 
-/* ---- balls ---- */
+/* ---- spheres ---- */
 
-/* Trilinear, between the levels around lod. */
+/* Trilinear lookup at lod. */
 static rgbx read_cube(const facet_cube *c, float lod, const float d[3])
 {
     float last = (float)(c->level_count - 1);
@@ -86,7 +86,7 @@ typedef struct ball_job {
     float *values;
 } ball_job;
 
-/* Distance from the middle, 1 on the rim; u to the right, v up. */
+/* Distance from the center, 1 on the rim; u to the right, v up. */
 static float ball_radius(uint32_t width, float x, float y, float *u, float *v)
 {
     *u = 2.0f * x / (float)width - 1.0f;
@@ -94,7 +94,7 @@ static float ball_radius(uint32_t width, float x, float y, float *u, float *v)
     return sqrtf(*u * *u + *v * *v);
 }
 
-/* A pixel on the rim has the light of the nearest point of the ball. */
+/* A pixel on the rim gets the light of the nearest point of the sphere. */
 static void ball_direction(const sheet_ball *b, float u, float v, float radius, float d[3])
 {
     const float most = 0.9999f;

@@ -1,5 +1,5 @@
-/* ibl_sheet_words.c - see ibl_sheet_words.h. cairo draws in white on nothing; what it covers is mixed with the picture in a
- * display's numbers, which keeps the weight of letters. */
+/* ibl_sheet_words.c - see ibl_sheet_words.h. cairo draws in white on transparent; coverage blends in display
+ * values, which keeps the weight of letters. */
 #include "report/ibl_sheet_words.h"
 
 #include "image/srgb.h"
@@ -22,7 +22,7 @@ static void write_word(canvas *c, const sheet_word *w)
     label_draw(c, &line, font, color, aligns[w->align], x, y);
 }
 
-/* Premultiplied white: its share is any of its channels. */
+/* Premultiplied white: coverage is any of its channels. */
 static void lay_over(const uint32_t *pixels, image *picture)
 {
     float *p = picture->pixels;

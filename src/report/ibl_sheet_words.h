@@ -1,4 +1,4 @@
-/* ibl_sheet_words.h - words and lines on a sheet. */
+/* ibl_sheet_words.h - text and lines on a sheet. */
 #ifndef REPORT_IBL_SHEET_WORDS_H
 #define REPORT_IBL_SHEET_WORDS_H
 
@@ -7,19 +7,19 @@
 
 typedef enum word_align { WORD_LEFT, WORD_CENTER, WORD_RIGHT } word_align;
 
-/* A line of text, or where text is "" a thin line to the right as long as it may be wide. */
+/* A line of text; if text is "", a thin line of that width. */
 typedef struct sheet_word {
-    float x, y;     /* px; of the base line */
+    float x, y;     /* px; of the baseline */
     float size;     /* px */
-    float width;    /* longer text is cut; 0: it is not */
+    float width;    /* longer text is cut; 0: not */
     float strength; /* 1: white */
     word_align align;
     bool is_bold;
     char text[160]; /* UTF-8 */
 } sheet_word;
 
-/* Writes them on a picture (F32 RGBA, linear light of a display). FACET_ERROR_SYSTEM, _UNSUPPORTED: there is no cairo, and
- * the picture is as it was; _MEMORY. */
+/* Draws them into an image (F32 RGBA, display-referred linear). FACET_ERROR_SYSTEM, _UNSUPPORTED: cairo is missing,
+ * and the image is unchanged; _MEMORY. */
 facet_result sheet_write_words(const sheet_word *words, uint32_t count, const facet_allocator *allocator,
                                image *picture, facet_error *error);
 

@@ -1,4 +1,4 @@
-/* ibl_sheet_words_none.c - no words, where cairo was not there when facet was built. */
+/* ibl_sheet_words_none.c - no text in builds without cairo. */
 #include "report/ibl_sheet_words.h"
 
 #include "base/result.h"

@@ -18,7 +18,7 @@
 
 enum { CURVES_WIDTH = 900, CURVES_HEIGHT = 270 };
 
-enum { VIEWS = 3, STEPS = 361 }; /* half a degree: a lobe of shininess 1000 is 8 wide */
+enum { VIEWS = 3, STEPS = 361 }; /* every half degree: a lobe of shininess 1000 is 8 degrees wide */
 static const double PI = 3.14159265358979323846;
 static const double VIEW_ANGLES[VIEWS] = {0.0, 30.0, 60.0};
 static const char *const VIEW_TITLES[VIEWS] = {"seen at 0\xc2\xb0", "seen at 30\xc2\xb0",
@@ -35,7 +35,7 @@ typedef struct pair {
     bool is_from_ogl1;
 } pair;
 
-/* x, and y of the source and of what was made of it. */
+/* x, and y of source and result. */
 static void sample(const pair *p, double view_degrees, double *x, double *source, double *made)
 {
     double view = view_degrees * PI / 180.0;
@@ -118,7 +118,7 @@ typedef struct page {
     const scene_conversion *conversion;
     text *out;
     sphere_stage *stage; /* NULL: no legacy materials to show */
-    bool has_curves;     /* false: they could not be drawn */
+    bool has_curves;     /* false: cairo is missing */
 } page;
 
 static bool has_error(const facet_conversion *c)
@@ -193,7 +193,7 @@ static void begin_row(text *out, const char *name)
     text_addf(out, "<tr><th>%s</th><td>", name);
 }
 
-/* A row that says that the values above it are factors. */
+/* A row that marks the values above as factors. */
 static void add_texture_row(text *out)
 {
     text_add(out, "<tr><th></th><td class=\"dim\">times a texture</td></tr>\n");
@@ -335,7 +335,7 @@ static facet_result add_spheres(page *p, uint32_t material, facet_error *error)
 {
     static const char *const captions[SPHERE_STYLE_COUNT] = {"OpenGL 1, on its screen",
                                                              "OpenGL 1, in linear light", "glTF"};
-    bool is_back = p->conversion->to == FACET_MATERIAL_MODEL_OGL1; /* the source stands first */
+    bool is_back = p->conversion->to == FACET_MATERIAL_MODEL_OGL1; /* the source comes first */
     for (int i = 0; i < SPHERE_STYLE_COUNT; i++) {
         int look = is_back ? SPHERE_STYLE_COUNT - 1 - i : i;
         unsigned char *bytes = NULL;
@@ -352,7 +352,7 @@ static facet_result add_spheres(page *p, uint32_t material, facet_error *error)
     return FACET_OK;
 }
 
-/* Where they cannot be drawn that is said once, above. */
+/* Without cairo a line above says so once. */
 static facet_result add_curves(page *p, uint32_t material, facet_error *error)
 {
     unsigned char *bytes = NULL;

@@ -1,5 +1,5 @@
-/* spheres.c - see spheres.h. The stage is a scene of its own that shares materials, textures and images with the one that
- * was converted, so that what is shown is what a render of it would show. */
+/* spheres.c - see spheres.h. The stage is a scene of its own that shares materials, textures and images with the
+ * converted scene, so that spheres look as in a render of it. */
 #include "report/spheres.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 #include "film/film_image.h"
 #include "scene/sphere.h"
 
-/* Unit, from the ball to the light: from the upper left, in front. */
+/* Unit, from the sphere to the light: from the upper left, in front. */
 static const float TO_LIGHT[3] = {-0.5153882f, 0.6184658f, 0.5933908f};
 
 struct sphere_stage {
@@ -20,10 +20,10 @@ struct sphere_stage {
     legacy_light light;
 };
 
-/* A rotation that turns -Z, along which lights shine, to d. */
+/* The rotation from -Z, the direction of punctual lights, to d. */
 static void rotation_to(const float d[3], float out[4])
 {
-    /* half way between the two: axis (0, 0, -1) x d, cosine -d.z */
+    /* half of it: axis (0, 0, -1) x d, cosine -d.z */
     float w = 1.0f - d[2];
     const float q[4] = {d[1], -d[0], 0.0f, w};
     float length = sqrtf(q[0] * q[0] + q[1] * q[1] + q[3] * q[3]);
@@ -43,7 +43,7 @@ static scene_node make_node(void)
                         .skin = SCENE_NONE};
 }
 
-/* Ball and light. False: no memory. */
+/* Creates sphere and light. False: out of memory. */
 static bool fill_scene(sphere_stage *stage)
 {
     facet_scene *s = stage->scene;
@@ -61,7 +61,7 @@ static bool fill_scene(sphere_stage *stage)
     s->lights[0] = (scene_light){.name = "",
                                  .type = SCENE_LIGHT_DIRECTIONAL,
                                  .color = {1, 1, 1},
-                                 .intensity = 3.14159265f}; /* what makes PBR as bright as OpenGL 1 */
+                                 .intensity = 3.14159265f}; /* makes PBR as bright as OpenGL 1 */
     s->nodes[0] = s->nodes[1] = make_node();
     s->nodes[0].mesh = 0;
     s->nodes[1].light = 0;
@@ -75,7 +75,7 @@ static bool fill_scene(sphere_stage *stage)
     return true;
 }
 
-/* Where pictures of the old materials have left the scene, they are shown with them. */
+/* Images of the source materials that the conversion dropped are restored. */
 static void share_source(const facet_scene *scene, facet_scene *s)
 {
     const scene_conversion_source *before = scene->conversion ? scene->conversion->before : NULL;
