@@ -112,7 +112,7 @@ if "$facet" version -v | grep -q 'OpenEXR [0-9]'; then
     expect 2 $path --seed 5 --checkpoint state.exr --resume -o other.exr
     says "state.exr"
     [ ! -e other.exr ] || failed "other.exr is there"
-    cmp -s state.exr before.exr || failed "the checkpoint of another picture was changed"
+    cmp -s state.exr before.exr || failed "the checkpoint of another image was changed"
     head -c 700 state.exr >cut.exr
     expect 4 $path --checkpoint cut.exr --resume -o other.exr
     says "cut.exr"
@@ -122,7 +122,7 @@ if "$facet" version -v | grep -q 'OpenEXR [0-9]'; then
     [ -s new/folder/state.exr ] || failed "no checkpoint in a new folder"
     expect 0 $path --checkpoint new.exr --resume -o first.exr
     expect 2 $path --checkpoint new.exr -o first.exr
-    says "new.exr: it is there already"
+    says "new.exr: the checkpoint exists"
     cp first.exr light.exr
     expect 2 $path --env light.exr --checkpoint ./light.exr --resume -o other.exr
     expect 2 $path --checkpoint ./first.exr --resume -o first.exr
