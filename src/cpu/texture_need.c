@@ -12,7 +12,7 @@
 #include "base/result.h"
 #include "scene/material_table.h"
 
-#include "shade/shade.h"
+#include "cpu/shading_hit.h"
 
 enum {
     TRIANGLE_GRAIN = 1 << 12,
@@ -46,11 +46,6 @@ typedef struct need_job {
     uint32_t reader_count;
     lod_histogram *histograms; /* per texture */
 } need_job;
-
-static vec3 load3(const float *v)
-{
-    return vec3(v[0], v[1], v[2]);
-}
 
 /* ---- a triangle in the picture ---- */
 
