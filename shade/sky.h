@@ -6,7 +6,7 @@
  * atmosphere_color() converts it to linear Rec.709 in lx or cd/m^2.
  *
  * Order of use: air_column() fills the LUT of optical columns; air_light_*() with table_sun() and a LUT of
- * air_bounce_*() marches along a ray from the eye; air_radiance() adds the terms up. src/ibl/sky_tables.c does
+ * air_bounce_*() marches along a ray from the eye; air_radiance() adds the terms up. src/ibl/sky_luts.c does
  * all of it in C. */
 #ifndef SHADE_SKY_H
 #define SHADE_SKY_H

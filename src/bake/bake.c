@@ -23,7 +23,7 @@ enum {
     DEFAULT_SAMPLES = 1024,
     MAX_SAMPLES = 1 << 20,
     MAX_PYRAMID = 1024, /* 134 MB; larger only beside larger results */
-    LEAST_DEGREE = 256  /* of the analysis of a fine image */
+    MIN_DEGREE = 256    /* of the analysis of a fine image */
 };
 
 static const facet_bake_desc default_desc;
@@ -133,7 +133,7 @@ static double make_plans(const facet_bake_desc *desc, const facet_cube *c, const
         total += plan->work;
     }
     /* analyses of low degrees would take fine images as coarser than they are */
-    while (plans->degree > 0 && plans->degree < LEAST_DEGREE &&
+    while (plans->degree > 0 && plans->degree < MIN_DEGREE &&
            (16 * plans->degree < source->panorama.width || 8 * plans->degree < source->panorama.height))
         plans->degree += 32;
     plans->analysis_work = 0.15 * plans->degree * plans->degree * source->panorama.height;

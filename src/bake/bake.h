@@ -11,7 +11,7 @@
  *   size and are not turned, and averaged, weighted with solid angles, where they have a multiple of it.
  * - No light is lost: the mean over the sphere, texels weighted with solid angles, is that of the source at every level, as
  *   near as sums over few texels come to it.
- * - Charlie's ring of a roughness below BAKE_CHARLIE_LEAST is that one's, as in the renderer: at 0 it would be a circle. */
+ * - Charlie's ring of a roughness below BAKE_CHARLIE_MIN is that one's, as in the renderer: at 0 it would be a circle. */
 #ifndef BAKE_BAKE_H
 #define BAKE_BAKE_H
 

@@ -11,8 +11,8 @@ static const double pi = 3.14159265358979323846;
 bake_lobe bake_lobe_create(facet_lobe kind, float perceptual_roughness)
 {
     float r = perceptual_roughness;
-    if (kind == FACET_LOBE_CHARLIE && r < BAKE_CHARLIE_LEAST)
-        r = BAKE_CHARLIE_LEAST;
+    if (kind == FACET_LOBE_CHARLIE && r < BAKE_CHARLIE_MIN)
+        r = BAKE_CHARLIE_MIN;
     bake_lobe lobe = {.kind = kind, .alpha = kind == FACET_LOBE_LAMBERT ? 1.0 : (double)r * (double)r};
     lobe.width = 2.0 * lobe.alpha;
     return lobe;

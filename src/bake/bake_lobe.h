@@ -10,7 +10,7 @@
 
 #include "facet/facet.h"
 
-#define BAKE_CHARLIE_LEAST 0.1f
+#define BAKE_CHARLIE_MIN 0.1f
 
 typedef struct bake_lobe {
     facet_lobe kind; /* not FACET_LOBE_NONE */
@@ -18,7 +18,7 @@ typedef struct bake_lobe {
     double width; /* rad: over which the weight changes by half or more */
 } bake_lobe;
 
-/* Roughness above 0; that of Charlie is at least BAKE_CHARLIE_LEAST. */
+/* Roughness above 0; that of Charlie is at least BAKE_CHARLIE_MIN. */
 bake_lobe bake_lobe_create(facet_lobe kind, float perceptual_roughness);
 
 /* Weight of a direction, from s^2 in [0, 1/2]: without cancellation near the middle. */

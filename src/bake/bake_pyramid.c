@@ -235,7 +235,7 @@ void bake_pyramid_destroy(bake_pyramid *p)
 }
 
 uint32_t bake_pyramid_size(const bake_lobe *lobe, uint32_t sample_count, uint32_t image_height,
-                           uint32_t most_texels)
+                           uint32_t max_texels)
 {
     bake_lobe_shares shares;
     bake_lobe_share_init(lobe, &shares);
@@ -245,8 +245,7 @@ uint32_t bake_pyramid_size(const bake_lobe *lobe, uint32_t sample_count, uint32_
     double solid = BAKE_OVERLAP / (sample_count * most);
     double wanted = sqrt(4.0 * pi / (6.0 * solid));
     uint32_t size = 1;
-    while (size < most_texels &&
-           (size < image_height / 2 || (size < image_height * 2 && size < 2.0 * wanted)))
+    while (size < max_texels && (size < image_height / 2 || (size < image_height * 2 && size < 2.0 * wanted)))
         size *= 2;
     return size;
 }

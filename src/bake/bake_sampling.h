@@ -33,9 +33,9 @@ facet_result bake_pyramid_create(const bake_source *source, uint32_t size, const
 void bake_pyramid_destroy(bake_pyramid *p); /* {0} is allowed; leaves {0} */
 
 /* Size of a base for a lobe: texels of half the samples' width and less, or a little finer than the image's; at most
- * most_texels along an edge. */
+ * max_texels along an edge. */
 uint32_t bake_pyramid_size(const bake_lobe *lobe, uint32_t sample_count, uint32_t image_height,
-                           uint32_t most_texels);
+                           uint32_t max_texels);
 
 /* Texels of half the size: means of four, weighted with solid angles. */
 void bake_halve(const cube *from, uint32_t thread_count, cube *out);

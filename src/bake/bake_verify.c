@@ -12,8 +12,8 @@
 #include "base/result.h"
 
 enum {
-    MOST_TEXELS = 6 * 16 * 16, /* all of a level of 16 texels */
-    LEAST_TEXELS = 96
+    MAX_TEXELS = 6 * 16 * 16, /* all of a level of 16 texels */
+    MIN_TEXELS = 96
 };
 
 /* Texels of the image that are weighed for a level: 0.5 to 1 s of one core. */
@@ -101,7 +101,7 @@ static uint32_t count_texels(const facet_cube *c, uint32_t level, const image *p
 {
     double texels = 6.0 * c->levels[level].size * c->levels[level].size;
     double affordable = image_texels / ((double)panorama->width * panorama->height);
-    double count = fmin(fmax(affordable, LEAST_TEXELS), MOST_TEXELS);
+    double count = fmin(fmax(affordable, MIN_TEXELS), MAX_TEXELS);
     return (uint32_t)fmin(count, texels);
 }
 
@@ -128,9 +128,9 @@ facet_result facet_cube_verify(const facet_cube *c, facet_environment *environme
         result = bake_reference_create(&source, &desc.allocator, &reference, error);
     if (result != FACET_OK)
         goto done;
-    texels = mem_alloc(&desc.allocator, MOST_TEXELS, sizeof *texels);
+    texels = mem_alloc(&desc.allocator, MAX_TEXELS, sizeof *texels);
     if (!texels) {
-        result = fail_memory(error, "reference", MOST_TEXELS * sizeof *texels);
+        result = fail_memory(error, "reference", MAX_TEXELS * sizeof *texels);
         goto done;
     }
     for (uint32_t level = 0; level < c->level_count; level++)

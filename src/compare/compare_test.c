@@ -326,7 +326,7 @@ static void light_meets_what_a_display_shows(void **state)
 
 /* ---- what is no number ---- */
 
-static void what_is_no_number_is_told_and_spoils_nothing(void **state)
+static void nonfinite_pixels_are_reported_and_left_out(void **state)
 {
     (void)state;
     fixture *a = fixture_create(40, 40, false), *b = fixture_create(40, 40, false);
@@ -597,7 +597,7 @@ int main(void)
         cmocka_unit_test(only_what_the_mask_shows_counts),
         cmocka_unit_test(opacity_is_a_channel_where_there_is_some),
         cmocka_unit_test(light_meets_what_a_display_shows),
-        cmocka_unit_test(what_is_no_number_is_told_and_spoils_nothing),
+        cmocka_unit_test(nonfinite_pixels_are_reported_and_left_out),
         cmocka_unit_test(integers_are_compared_as_floats_are),
         cmocka_unit_test(threads_change_no_bit),
         cmocka_unit_test(running_out_of_memory_is_a_result),

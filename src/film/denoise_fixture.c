@@ -13,20 +13,20 @@
 
 const char *const fixture_scene_names[FIXTURE_SCENE_COUNT] = {"box", "sky", "lamps", "cutout"};
 
-typedef enum ball_kind { MATTE, GLOSSY, GLASS, VEIL } ball_kind;
+typedef enum sphere_kind { MATTE, GLOSSY, GLASS, VEIL } sphere_kind;
 
-typedef struct ball {
+typedef struct sphere {
     vec3 center;
     float radius;
-    ball_kind kind;
+    sphere_kind kind;
     vec3 albedo, emission;
     float checks; /* per metre: the albedo alternates with a quarter of it; 0: plain */
     float grain;  /* share of the albedo that a fine noise takes away */
-} ball;
+} sphere;
 
 typedef struct scene {
-    const ball *balls;
-    int ball_count;
+    const sphere *spheres;
+    int sphere_count;
     vec3 eye;
     vec3 sky, sun; /* radiance of the zenith; illuminance of the sun */
     bool has_background;
@@ -53,13 +53,13 @@ static float random_number(random_state *r)
 
 /* ---- geometry ---- */
 
-typedef struct ball_hit {
+typedef struct sphere_hit {
     float t;
     int index; /* -1: none */
     vec3 P, N; /* N outwards */
-} ball_hit;
+} sphere_hit;
 
-static bool meets(const ball *b, vec3 O, vec3 D, float *t)
+static bool meets(const sphere *b, vec3 O, vec3 D, float *t)
 {
     vec3 to = b->center - O;
     float along = dot(to, D);
@@ -73,18 +73,18 @@ static bool meets(const ball *b, vec3 O, vec3 D, float *t)
     return *t > eps;
 }
 
-static ball_hit nearest(const scene *s, vec3 O, vec3 D)
+static sphere_hit nearest(const scene *s, vec3 O, vec3 D)
 {
-    ball_hit h = {.t = FLT_MAX, .index = -1};
+    sphere_hit h = {.t = FLT_MAX, .index = -1};
     float t;
-    for (int i = 0; i < s->ball_count; i++)
-        if (meets(&s->balls[i], O, D, &t) && t < h.t) {
+    for (int i = 0; i < s->sphere_count; i++)
+        if (meets(&s->spheres[i], O, D, &t) && t < h.t) {
             h.t = t;
             h.index = i;
         }
     if (h.index >= 0) {
         h.P = O + D * h.t;
-        h.N = normalize(h.P - s->balls[h.index].center);
+        h.N = normalize(h.P - s->spheres[h.index].center);
     }
     return h;
 }
@@ -104,7 +104,7 @@ static vec3 lobe(vec3 N, float n, random_state *r)
     return around(N, s * cosf(phi), s * sinf(phi), z);
 }
 
-static vec3 texture(const ball *b, vec3 P)
+static vec3 texture(const sphere *b, vec3 P)
 {
     vec3 a = b->albedo;
     if (b->checks > 0.0f) {
@@ -138,11 +138,11 @@ static vec3 direct_light(const scene *s, vec3 P, vec3 N, random_state *r)
     vec3 sum = vec3(0.0f);
     int lamps = 0;
     int chosen = -1;
-    for (int i = 0; i < s->ball_count; i++)
-        if (s->balls[i].emission[1] > 0.0f && random_number(r) * (float)++lamps < 1.0f)
+    for (int i = 0; i < s->sphere_count; i++)
+        if (s->spheres[i].emission[1] > 0.0f && random_number(r) * (float)++lamps < 1.0f)
             chosen = i;
     if (chosen >= 0) {
-        const ball *b = &s->balls[chosen];
+        const sphere *b = &s->spheres[chosen];
         vec3 to = b->center - P;
         float d2 = dot(to, to);
         float least = sqrtf(fmaxf(0.0f, 1.0f - b->radius * b->radius / d2));
@@ -172,9 +172,9 @@ static fixture_sample trace(const scene *s, vec3 O, vec3 D, random_state *r)
         .radiance = vec3(0.0f), .albedo = vec3(0.0f), .normal = vec3(0.0f), .opacity = 1.0f};
     vec3 throughput = vec3(1.0f);
     bool has_features = false;
-    bool sees_lamps = true; /* else direct_light() has them */
+    bool sees_lights = true; /* else direct_light() has them */
     for (int depth = 0; depth < 12; depth++) {
-        ball_hit h = nearest(s, O, D);
+        sphere_hit h = nearest(s, O, D);
         if (h.index < 0) {
             if (depth == 0 || (!has_features && !s->has_background))
                 out.opacity = s->has_background ? 1.0f : 0.0f;
@@ -182,7 +182,7 @@ static fixture_sample trace(const scene *s, vec3 O, vec3 D, random_state *r)
                 out.radiance = out.radiance + throughput * sky_radiance(s, D);
             return out;
         }
-        const ball *b = &s->balls[h.index];
+        const sphere *b = &s->spheres[h.index];
         if (b->kind == VEIL && random_number(r) < 0.5f) {
             O = h.P;
             depth--;
@@ -193,7 +193,7 @@ static fixture_sample trace(const scene *s, vec3 O, vec3 D, random_state *r)
         float cosine = -dot(N, D);
         vec3 albedo = texture(b, h.P);
         if (b->emission[1] > 0.0f) {
-            if (sees_lamps)
+            if (sees_lights)
                 out.radiance = out.radiance + throughput * b->emission;
             if (!has_features) {
                 out.albedo = vec3(1.0f);
@@ -209,7 +209,7 @@ static fixture_sample trace(const scene *s, vec3 O, vec3 D, random_state *r)
             D = k < 0.0f || random_number(r) < fresnel ? D + N * (2.0f * cosine)
                                                        : D * eta + N * (eta * cosine - sqrtf(k));
             D = normalize(D);
-            sees_lamps = true;
+            sees_lights = true;
             continue;
         }
         if (!has_features) {
@@ -222,13 +222,13 @@ static fixture_sample trace(const scene *s, vec3 O, vec3 D, random_state *r)
             D = lobe(D + N * (2.0f * cosine), 50.0f, r);
             if (dot(D, N) <= 0.0f)
                 return out;
-            sees_lamps = true;
+            sees_lights = true;
             continue;
         }
         throughput = throughput * albedo;
         out.radiance = out.radiance + throughput * direct_light(s, h.P, N, r);
         D = lobe(N, 1.0f, r);
-        sees_lamps = false;
+        sees_lights = false;
         float survival =
             depth > 2 ? fminf(0.95f, fmaxf(throughput[0], fmaxf(throughput[1], throughput[2]))) : 1.0f;
         if (random_number(r) >= survival)
@@ -240,47 +240,47 @@ static fixture_sample trace(const scene *s, vec3 O, vec3 D, random_state *r)
 
 /* ---- scenes ---- */
 
-enum { MAX_BALLS = 80 };
+enum { MAX_SPHERES = 80 };
 
-static ball plain(float x, float y, float z, float radius, ball_kind kind, vec3 albedo)
+static sphere plain(float x, float y, float z, float radius, sphere_kind kind, vec3 albedo)
 {
-    return (ball){
+    return (sphere){
         .center = vec3(x, y, z), .radius = radius, .kind = kind, .albedo = albedo, .emission = vec3(0.0f)};
 }
 
-static scene make_scene(fixture_scene which, ball balls[MAX_BALLS])
+static scene make_scene(fixture_scene which, sphere spheres[MAX_SPHERES])
 {
-    scene s = {.balls = balls, .eye = vec3(0.0f, 1.0f, 4.0f), .sky = vec3(0.0f), .sun = vec3(0.0f)};
+    scene s = {.spheres = spheres, .eye = vec3(0.0f, 1.0f, 4.0f), .sky = vec3(0.0f), .sun = vec3(0.0f)};
     int n = 0;
     const float far = 1000.0f;
-    ball floor = plain(0.0f, -far, 0.0f, far, MATTE, vec3(0.7f, 0.65f, 0.6f));
+    sphere floor = plain(0.0f, -far, 0.0f, far, MATTE, vec3(0.7f, 0.65f, 0.6f));
     floor.checks = 2.0f;
-    if (which == FIXTURE_BOX || which == FIXTURE_LAMPS) {
+    if (which == FIXTURE_BOX || which == FIXTURE_LIGHTS) {
         s.has_background = true;
-        balls[n++] = floor;
-        balls[n++] = plain(0.0f, far + 2.6f, 0.0f, far, MATTE, vec3(0.75f));
-        balls[n++] = plain(-far - 2.0f, 0.0f, 0.0f, far, MATTE, vec3(0.65f, 0.1f, 0.1f));
-        balls[n++] = plain(far + 2.0f, 0.0f, 0.0f, far, MATTE, vec3(0.1f, 0.5f, 0.15f));
-        balls[n++] = plain(0.0f, 0.0f, -far - 2.0f, far, MATTE, vec3(0.7f));
-        balls[n++] = plain(0.0f, 0.0f, far + 5.0f, far, MATTE, vec3(0.5f));
-        balls[n++] =
+        spheres[n++] = floor;
+        spheres[n++] = plain(0.0f, far + 2.6f, 0.0f, far, MATTE, vec3(0.75f));
+        spheres[n++] = plain(-far - 2.0f, 0.0f, 0.0f, far, MATTE, vec3(0.65f, 0.1f, 0.1f));
+        spheres[n++] = plain(far + 2.0f, 0.0f, 0.0f, far, MATTE, vec3(0.1f, 0.5f, 0.15f));
+        spheres[n++] = plain(0.0f, 0.0f, -far - 2.0f, far, MATTE, vec3(0.7f));
+        spheres[n++] = plain(0.0f, 0.0f, far + 5.0f, far, MATTE, vec3(0.5f));
+        spheres[n++] =
             plain(-1.0f, 0.6f, -0.6f, 0.6f, which == FIXTURE_BOX ? GLOSSY : MATTE, vec3(0.8f, 0.7f, 0.3f));
-        balls[n++] = plain(0.9f, 0.5f, 0.2f, 0.5f, which == FIXTURE_BOX ? GLASS : GLOSSY, vec3(0.9f));
-        balls[n] = plain(0.1f, 0.35f, -0.9f, 0.35f, MATTE, vec3(0.2f, 0.3f, 0.8f));
-        balls[n++].grain = 0.8f;
+        spheres[n++] = plain(0.9f, 0.5f, 0.2f, 0.5f, which == FIXTURE_BOX ? GLASS : GLOSSY, vec3(0.9f));
+        spheres[n] = plain(0.1f, 0.35f, -0.9f, 0.35f, MATTE, vec3(0.2f, 0.3f, 0.8f));
+        spheres[n++].grain = 0.8f;
     }
     if (which == FIXTURE_BOX) {
-        balls[n] = plain(0.2f, 2.7f, 1.8f, 0.5f, MATTE, vec3(0.0f));
-        balls[n++].emission = vec3(8.0f, 7.0f, 5.5f);
-    } else if (which == FIXTURE_LAMPS) {
+        spheres[n] = plain(0.2f, 2.7f, 1.8f, 0.5f, MATTE, vec3(0.0f));
+        spheres[n++].emission = vec3(8.0f, 7.0f, 5.5f);
+    } else if (which == FIXTURE_LIGHTS) {
         for (uint32_t i = 0; i < 12; i++) {
             random_state r = {i * 77u};
             float x = 3.6f * random_number(&r) - 1.8f;
             float y = 0.1f + 2.3f * random_number(&r);
             float z = 4.2f + 0.6f * random_number(&r); /* behind the eye */
-            balls[n] = plain(x, y, z, 0.05f, MATTE, vec3(0.0f));
+            spheres[n] = plain(x, y, z, 0.05f, MATTE, vec3(0.0f));
             vec3 hue = vec3(random_number(&r), random_number(&r), random_number(&r));
-            balls[n++].emission = hue * 12.0f + 1.0f;
+            spheres[n++].emission = hue * 12.0f + 1.0f;
         }
     } else if (which == FIXTURE_SKY) {
         s.has_background = true;
@@ -288,21 +288,21 @@ static scene make_scene(fixture_scene which, ball balls[MAX_BALLS])
         s.sun = vec3(5.0f, 4.5f, 3.6f);
         floor.checks = 0.0f;
         floor.grain = 0.2f;
-        balls[n++] = floor;
-        balls[n] = plain(-0.9f, 0.7f, 0.0f, 0.7f, MATTE, vec3(0.8f, 0.3f, 0.2f));
-        balls[n++].grain = 0.5f;
-        balls[n] = plain(0.8f, 0.5f, 0.4f, 0.5f, MATTE, vec3(0.9f));
-        balls[n++].checks = 7.0f;
-        balls[n++] = plain(0.1f, 0.3f, 1.1f, 0.3f, GLOSSY, vec3(0.3f, 0.8f, 0.4f));
+        spheres[n++] = floor;
+        spheres[n] = plain(-0.9f, 0.7f, 0.0f, 0.7f, MATTE, vec3(0.8f, 0.3f, 0.2f));
+        spheres[n++].grain = 0.5f;
+        spheres[n] = plain(0.8f, 0.5f, 0.4f, 0.5f, MATTE, vec3(0.9f));
+        spheres[n++].checks = 7.0f;
+        spheres[n++] = plain(0.1f, 0.3f, 1.1f, 0.3f, GLOSSY, vec3(0.3f, 0.8f, 0.4f));
     } else {
         s.sky = vec3(1.2f, 1.0f, 0.9f);
         s.sun = vec3(3.0f);
-        balls[n] = plain(-0.6f, 1.2f, 0.0f, 0.8f, MATTE, vec3(0.9f, 0.4f, 0.2f));
-        balls[n++].checks = 5.0f;
-        balls[n++] = plain(0.7f, 0.9f, 0.5f, 0.6f, VEIL, vec3(0.2f, 0.4f, 0.9f));
-        balls[n++] = plain(0.3f, 1.8f, -0.5f, 0.4f, GLOSSY, vec3(0.02f));
+        spheres[n] = plain(-0.6f, 1.2f, 0.0f, 0.8f, MATTE, vec3(0.9f, 0.4f, 0.2f));
+        spheres[n++].checks = 5.0f;
+        spheres[n++] = plain(0.7f, 0.9f, 0.5f, 0.6f, VEIL, vec3(0.2f, 0.4f, 0.9f));
+        spheres[n++] = plain(0.3f, 1.8f, -0.5f, 0.4f, GLOSSY, vec3(0.02f));
     }
-    s.ball_count = n;
+    s.sphere_count = n;
     return s;
 }
 
@@ -360,8 +360,8 @@ static void draw_rows(void *context, size_t begin, size_t end)
 film fixture_render(fixture_scene which, uint32_t width, uint32_t height, uint32_t samples, uint32_t seed)
 {
     static const uint32_t aovs = FACET_AOV_NORMAL | FACET_AOV_ALBEDO | FACET_AOV_VARIANCE;
-    ball balls[MAX_BALLS];
-    scene s = make_scene(which, balls);
+    sphere spheres[MAX_SPHERES];
+    scene s = make_scene(which, spheres);
     film f;
     if (film_create(NULL, width, height, aovs, &f, NULL) != FACET_OK)
         abort();

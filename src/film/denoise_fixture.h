@@ -6,10 +6,10 @@
 #include "film/film.h"
 
 typedef enum fixture_scene {
-    FIXTURE_BOX,    /* closed room, small bright lamp: a matte, a glossy, a glass ball; checkered floor */
-    FIXTURE_SKY,    /* textured balls on a textured floor under sun and sky: hard and contact shadows */
-    FIXTURE_LAMPS,  /* many small lamps of all colors, one sampled at a time: heavy tails */
-    FIXTURE_CUTOUT, /* balls before nothing, one of them half transparent by chance: partial opacity */
+    FIXTURE_BOX,    /* closed room, small bright lamp: a matte, a glossy, a glass sphere; checkered floor */
+    FIXTURE_SKY,    /* textured spheres on a textured floor under sun and sky: hard and contact shadows */
+    FIXTURE_LIGHTS, /* many small lamps of all colors, one sampled at a time: heavy tails */
+    FIXTURE_CUTOUT, /* spheres before nothing, one of them half transparent by chance: partial opacity */
     FIXTURE_SCENE_COUNT
 } fixture_scene;
 

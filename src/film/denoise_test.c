@@ -206,7 +206,7 @@ static void errors_of_traced_images_fall(void **state)
         double most, most_relative;
     } cases[] = {
         {FIXTURE_BOX, 0.5, 0.3},
-        {FIXTURE_LAMPS, 0.4, 0.25},
+        {FIXTURE_LIGHTS, 0.4, 0.25},
         {FIXTURE_SKY, 0.7, 0.8},
         {FIXTURE_CUTOUT, 0.85, 0.95},
     };
@@ -229,7 +229,7 @@ static void errors_of_traced_images_fall(void **state)
 static void light_is_not_lost(void **state)
 {
     (void)state;
-    static const fixture_scene scenes[] = {FIXTURE_BOX, FIXTURE_LAMPS};
+    static const fixture_scene scenes[] = {FIXTURE_BOX, FIXTURE_LIGHTS};
     for (size_t k = 0; k < 2; k++) {
         film f = fixture_render(scenes[k], 128, 96, 16, 1);
         double sums[2] = {0};

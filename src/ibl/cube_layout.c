@@ -135,7 +135,7 @@ static void swap_texels(image *i, size_t a, size_t b)
 
 /* ImfEnvmap.h: +X is to the right where +Y and -Y are seen, up and down are the other way round than in OpenGL; the other
  * faces are mirrored. */
-void layout_flip_seen_faces(image *strip)
+void layout_flip_inside_faces(image *strip)
 {
     const size_t n = strip->width;
     for (size_t face = 0; face < 6; face++) {

@@ -23,7 +23,7 @@ facet_result layout_read(const image *panorama, facet_layout layout, const char 
 
 /* Turns a vertical strip as OpenEXR has it, each face as it is seen from inside, into one of faces as OpenGL has them, in
  * place; and back. */
-void layout_flip_seen_faces(image *strip);
+void layout_flip_inside_faces(image *strip);
 
 /* A cube map with borders as an image (F32 RGBA, alpha 0 where a cross is empty). height: of equirectangular and octahedral
  * ones; 0: twice the cube's size. FACET_ERROR_ARGUMENT: FACET_LAYOUT_AUTO or _FACES. */

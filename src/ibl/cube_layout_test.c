@@ -352,7 +352,7 @@ static void no_light_is_lost(void **state)
 }
 
 /* A bright and even patch, hot, stays even: few lookups weigh its texels by a few thousandths more or less. */
-static void lamps_stay_even(void **state)
+static void lights_stay_even(void **state)
 {
     (void)state;
     static const uint32_t heights[] = {32, 57, 96};
@@ -528,7 +528,7 @@ int main(void)
         cmocka_unit_test(directions_are_where_facet_h_says),
         cmocka_unit_test(smooth_functions_stay),
         cmocka_unit_test(no_light_is_lost),
-        cmocka_unit_test(lamps_stay_even),
+        cmocka_unit_test(lights_stay_even),
         cmocka_unit_test(constants_stay),
         cmocka_unit_test(turns),
         cmocka_unit_test(bits_do_not_depend_on_threads),

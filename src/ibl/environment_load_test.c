@@ -229,7 +229,7 @@ static void openexr_cubes_are_not_mirrored(void **state)
 }
 
 /* A panorama that says so is none of a cross, whatever its edges. */
-static void openexr_panoramas_are_told_by_their_attribute(void **state)
+static void openexr_panoramas_are_detected_by_their_attribute(void **state)
 {
     (void)state;
     if (!image_codec_is_built(IMAGE_CODEC_EXR))
@@ -246,15 +246,15 @@ static void openexr_panoramas_are_told_by_their_attribute(void **state)
     image_destroy(&i);
 }
 
-static void layouts_are_told_by_their_edges(void **state)
+static void layouts_are_detected_by_their_edges(void **state)
 {
     (void)state;
     cube c = make_cube(SIZE);
     for (int layout = FACET_LAYOUT_CROSS_HORIZONTAL; layout <= FACET_LAYOUT_STRIP_VERTICAL; layout++)
-        for (int is_said = 0; is_said < 2; is_said++) {
+        for (int is_stated = 0; is_stated < 2; is_stated++) {
             messages m = {0};
             bytes b = encode_layout(&c, (facet_layout)layout);
-            facet_environment *e = load(b, is_said ? (facet_layout)layout : FACET_LAYOUT_AUTO, &m);
+            facet_environment *e = load(b, is_stated ? (facet_layout)layout : FACET_LAYOUT_AUTO, &m);
             facet_environment_info info = get_info(e);
             assert_int_equal(info.layout, layout);
             assert_int_equal(info.width, SIZE);
@@ -718,9 +718,9 @@ static void what_an_environment_says(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(layouts_are_told_by_their_edges),
+        cmocka_unit_test(layouts_are_detected_by_their_edges),
         cmocka_unit_test(openexr_cubes_are_not_mirrored),
-        cmocka_unit_test(openexr_panoramas_are_told_by_their_attribute),
+        cmocka_unit_test(openexr_panoramas_are_detected_by_their_attribute),
         cmocka_unit_test(suns_keep_their_energy),
         cmocka_unit_test(cubes_of_ktx2),
         cmocka_unit_test(ktx2_that_is_no_environment),

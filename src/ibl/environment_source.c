@@ -387,7 +387,7 @@ static facet_result load_image(facet_environment *e, const void *bytes, size_t s
         environment_report(e, &repairs, name, NULL, (uint32_t)(repairs.first % rgb.width),
                            (uint32_t)(repairs.first / rgb.width));
         if (envmap == IMAGE_ENVMAP_CUBE && layout == FACET_LAYOUT_STRIP_VERTICAL)
-            layout_flip_seen_faces(&rgb);
+            layout_flip_inside_faces(&rgb);
         result = take_image(e, &rgb, layout, name, desc->thread_count, error);
     }
     image_destroy(&decoded);

@@ -36,7 +36,7 @@ typedef struct analysis {
     bool is_wider,
         is_higher; /* texels of the view hold several of the image, or parts: not whole parts of one */
     uint32_t first, count; /* pairs of rows of the band */
-    uint32_t capacity;     /* of pairs in the waves: a multiple of LANES */
+    uint32_t capacity;     /* of pairs in the spectra: a multiple of LANES */
     legendre_rows rows;
 } analysis;
 
@@ -101,8 +101,8 @@ DISPATCH_AVX2 static void analyse_rows(void *context, size_t begin, size_t end)
         }
         for (uint32_t m = 0; m <= degree; m++)
             for (uint32_t i = 0; i < 3; i++) {
-                float *even = job->out->waves + harmonics_wave_index(m, 0, 2 * i, job->capacity) + j;
-                float *odd = job->out->waves + harmonics_wave_index(m, 1, 2 * i, job->capacity) + j;
+                float *even = job->out->spectra + harmonics_spectrum_index(m, 0, 2 * i, job->capacity) + j;
+                float *odd = job->out->spectra + harmonics_spectrum_index(m, 1, 2 * i, job->capacity) + j;
                 even[0] = x_re[m][i] + x_re[m][i + 4];
                 odd[0] = x_re[m][i] - x_re[m][i + 4];
                 even[job->capacity] = x_im[m][i] + x_im[m][i + 4];
@@ -116,7 +116,7 @@ static void clear_fill(const analysis *job)
 {
     for (uint32_t wave = 0; wave < 2 * PARTS * (job->out->degree + 1); wave++)
         for (uint32_t j = job->count; j % LANES; j++)
-            job->out->waves[(size_t)wave * job->capacity + j] = 0.0f;
+            job->out->spectra[(size_t)wave * job->capacity + j] = 0.0f;
 }
 
 /* ---- orders ---- */
@@ -151,7 +151,7 @@ DISPATCH_AVX2 static void analyse_orders(void *context, size_t begin, size_t end
             while (first > 0 && p.from[first - 1] <= l)
                 first--;
             const float8 *wave =
-                (const float8 *)(h->waves + harmonics_wave_index(m, (l - m) & 1, 0, job->capacity));
+                (const float8 *)(h->spectra + harmonics_spectrum_index(m, (l - m) & 1, 0, job->capacity));
             float l_share = curvature * (float)l * (float)(l + 1);
             double a = p.a[l + 1];
             double b = p.b[l + 1];
@@ -210,11 +210,11 @@ static void choose_rows(const image *panorama, uint32_t degree, analysis *job, u
 
 /* ---- the least radiance ---- */
 
-enum { LEAST_PARTS = 64 }; /* of the image's rows */
+enum { MIN_PARTS = 64 }; /* of the image's rows */
 
 typedef struct least_search {
     const image *panorama;
-    float least[LEAST_PARTS][3];
+    float least[MIN_PARTS][3];
 } least_search;
 
 static void search_rows(void *context, size_t begin, size_t end)
@@ -223,9 +223,9 @@ static void search_rows(void *context, size_t begin, size_t end)
     size_t row = (size_t)job->panorama->width * 3;
     for (size_t part = begin; part < end; part++) {
         const float *texel =
-            (const float *)job->panorama->pixels + job->panorama->height * part / LEAST_PARTS * row;
+            (const float *)job->panorama->pixels + job->panorama->height * part / MIN_PARTS * row;
         const float *last =
-            (const float *)job->panorama->pixels + job->panorama->height * (part + 1) / LEAST_PARTS * row;
+            (const float *)job->panorama->pixels + job->panorama->height * (part + 1) / MIN_PARTS * row;
         float *least = job->least[part];
         least[0] = least[1] = least[2] = FLT_MAX;
         for (; texel < last; texel += 3)
@@ -237,10 +237,10 @@ static void search_rows(void *context, size_t begin, size_t end)
 static void find_least(const image *panorama, uint32_t thread_count, float least[3])
 {
     least_search job = {.panorama = panorama};
-    parallel_for(thread_count, LEAST_PARTS, 1, search_rows, &job);
+    parallel_for(thread_count, MIN_PARTS, 1, search_rows, &job);
     for (int i = 0; i < 3; i++) {
         least[i] = FLT_MAX;
-        for (int part = 0; part < LEAST_PARTS; part++)
+        for (int part = 0; part < MIN_PARTS; part++)
             least[i] = job.least[part][i] < least[i] ? job.least[part][i] : least[i];
     }
 }
@@ -262,13 +262,13 @@ facet_result harmonics_create(const image *panorama, uint32_t degree, const face
     uint32_t pairs = height / 2;
     job.capacity = pairs < BAND_ROWS ? (pairs + LANES - 1) / LANES * LANES : BAND_ROWS;
     size_t count = harmonics_order_index(degree, degree) + PARTS;
-    size_t wave_count = harmonics_wave_index(degree + 1, 0, 0, job.capacity);
+    size_t spectrum_count = harmonics_spectrum_index(degree + 1, 0, 0, job.capacity);
     h.coefficients = mem_zalloc(allocator, count, sizeof *h.coefficients);
-    h.waves = mem_alloc(allocator, wave_count, sizeof *h.waves);
+    h.spectra = mem_alloc(allocator, spectrum_count, sizeof *h.spectra);
     facet_result result = FACET_OK;
-    if (!h.coefficients || !h.waves ||
+    if (!h.coefficients || !h.spectra ||
         !equirect_view_create(panorama, width, height, false, allocator, &view))
-        result = fail_memory(error, "harmonics", (count + wave_count) * sizeof(float));
+        result = fail_memory(error, "harmonics", (count + spectrum_count) * sizeof(float));
     if (result == FACET_OK)
         result = equirect_mean(panorama, allocator, thread_count, mean, error);
     if (result == FACET_OK) {
@@ -296,11 +296,11 @@ facet_result harmonics_create(const image *panorama, uint32_t degree, const face
 
 void harmonics_trim(harmonics *h)
 {
-    mem_free(h->waves);
+    mem_free(h->spectra);
     mem_free(h->grid);
-    h->waves = NULL;
+    h->spectra = NULL;
     h->grid = NULL;
-    h->wave_count = h->grid_count = 0;
+    h->spectrum_count = h->grid_count = 0;
 }
 
 void harmonics_destroy(harmonics *h)

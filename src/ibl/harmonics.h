@@ -25,9 +25,9 @@ typedef struct harmonics {
     float mean[3];
     float least[3];      /* of the image, below which no mean of it can be */
     float *coefficients; /* of order m: [l - m][R G B][re im]; orders follow each other */
-    float *waves; /* scratch memory of filters, the larger arrays of which would cost more to map than */
-    rgbx *grid;   /* to compute */
-    size_t wave_count, grid_count; /* what there is of them */
+    float *spectra; /* scratch memory of filters, the larger arrays of which would cost more to map than */
+    rgbx *grid;     /* to compute */
+    size_t spectrum_count, grid_count; /* what there is of them */
 } harmonics;
 
 /* degree: a multiple of 32 up to HARMONICS_MAX_DEGREE. FACET_ERROR_MEMORY. */
@@ -63,7 +63,8 @@ static inline size_t harmonics_order_index(uint32_t degree, uint32_t order)
 /* Waves, rows of Fourier coefficients by order: [order][even odd][HARMONICS_PARTS][row], of pairs of rows that mirror each
  * other at the equator. As P_lm(-x) = (-1)^(l - m) P_lm(x), even (their sum) goes with even l - m, odd (their difference) with
  * odd, and the two rows share their Legendre functions. */
-static inline size_t harmonics_wave_index(uint32_t order, uint32_t is_odd, uint32_t part, uint32_t row_count)
+static inline size_t harmonics_spectrum_index(uint32_t order, uint32_t is_odd, uint32_t part,
+                                              uint32_t row_count)
 {
     return (((size_t)order * 2 + is_odd) * HARMONICS_PARTS + part) * row_count;
 }

@@ -90,9 +90,10 @@ DISPATCH_AVX2 static void synthesise_orders(void *context, size_t begin, size_t 
                 legendre_step(&x, &before, &now, p.b[l + 2], p.a[l + 2]);
             }
             for (uint32_t part = 0; part < PARTS; part++) {
-                float *to = job->in->waves + harmonics_wave_index(m, 0, part, pair_count) + (size_t)k * LANES;
+                float *to =
+                    job->in->spectra + harmonics_spectrum_index(m, 0, part, pair_count) + (size_t)k * LANES;
                 memcpy(to, &even[part], sizeof even[part]);
-                to = job->in->waves + harmonics_wave_index(m, 1, part, pair_count) + (size_t)k * LANES;
+                to = job->in->spectra + harmonics_spectrum_index(m, 1, part, pair_count) + (size_t)k * LANES;
                 memcpy(to, &odd[part], sizeof odd[part]);
             }
         }
@@ -113,8 +114,8 @@ DISPATCH_AVX2 static void synthesise_rows(void *context, size_t begin, size_t en
         for (uint32_t m = 0; m <= job->desc->degree; m++) {
             float e[PARTS], o[PARTS];
             for (uint32_t part = 0; part < PARTS; part++) {
-                e[part] = job->in->waves[harmonics_wave_index(m, 0, part, pair_count) + j];
-                o[part] = job->in->waves[harmonics_wave_index(m, 1, part, pair_count) + j];
+                e[part] = job->in->spectra[harmonics_spectrum_index(m, 0, part, pair_count) + j];
+                o[part] = job->in->spectra[harmonics_spectrum_index(m, 1, part, pair_count) + j];
             }
             re[m] = (float8){e[0] + o[0], e[2] + o[2], e[4] + o[4], 0.0f,
                              e[0] - o[0], e[2] - o[2], e[4] - o[4], 0.0f};
@@ -212,19 +213,19 @@ DISPATCH_AVX2 static void fill_cube_rows(void *context, size_t begin, size_t end
     }
 }
 
-/* The arrays of h->waves and h->grid, as large as is needed. */
-static facet_result create_scratch(harmonics *h, size_t wave_count, size_t grid_count, facet_error *error)
+/* The arrays of h->spectra and h->grid, as large as is needed. */
+static facet_result create_scratch(harmonics *h, size_t spectrum_count, size_t grid_count, facet_error *error)
 {
-    if (h->wave_count >= wave_count && h->grid_count >= grid_count)
+    if (h->spectrum_count >= spectrum_count && h->grid_count >= grid_count)
         return FACET_OK;
     harmonics_trim(h);
-    h->waves = mem_alloc(&h->allocator, wave_count, sizeof *h->waves);
+    h->spectra = mem_alloc(&h->allocator, spectrum_count, sizeof *h->spectra);
     h->grid = mem_alloc(&h->allocator, grid_count, sizeof *h->grid);
-    if (!h->waves || !h->grid) {
+    if (!h->spectra || !h->grid) {
         harmonics_trim(h);
         return fail_memory(error, "filtered environment", grid_count * sizeof *h->grid);
     }
-    h->wave_count = wave_count;
+    h->spectrum_count = spectrum_count;
     h->grid_count = grid_count;
     return FACET_OK;
 }
@@ -234,7 +235,7 @@ facet_result harmonics_filter(harmonics *h, const harmonics_filter_desc *desc, c
     *out = (cube){0};
     uint32_t degree = desc->degree;
     synthesis job = {.in = h, .desc = desc, .width = column_count(degree), .height = 2 * degree, .out = out};
-    TRY(create_scratch(h, harmonics_wave_index(degree + 1, 0, 0, degree),
+    TRY(create_scratch(h, harmonics_spectrum_index(degree + 1, 0, 0, degree),
                        ((size_t)job.height + 2 * PAD) * ((size_t)job.width + 2 * PAD), error));
     TRY(cube_create(desc->size, desc->allocator, out, error));
     fourier_init(&job.transform, job.width);

@@ -407,7 +407,7 @@ static void test_parts_are_lazy(void **state)
                              prefilter_roughness(PREFILTER_GGX, level) <= 0.52f);
     rgbx *texels = e->parts.levels[PREFILTER_GGX][4].texels;
     assert_non_null(texels);
-    assert_null(e->parts.harmonics.waves); /* scratch memory is not kept */
+    assert_null(e->parts.harmonics.spectra); /* scratch memory is not kept */
     assert_false(e->parts.has_narrow);
     ibl_light_release(light);
 

@@ -299,7 +299,7 @@ static void blob(const float d[3], float out[3])
 }
 
 /* The lobe itself around a lamp: the same at the poles, where texels are narrow, on the image's seam and elsewhere. */
-static void test_lamp_anywhere(void **state)
+static void test_light_anywhere(void **state)
 {
     (void)state;
     static const float places[][3] = {{0.0f, 1.0f, 0.0f},
@@ -401,7 +401,7 @@ int main(void)
         cmocka_unit_test(test_weights),
         cmocka_unit_test(test_energy),
         cmocka_unit_test(test_sizes),
-        cmocka_unit_test(test_lamp_anywhere),
+        cmocka_unit_test(test_light_anywhere),
         cmocka_unit_test(test_sun_is_continuous),
         cmocka_unit_test(test_real_files),
     };

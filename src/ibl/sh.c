@@ -296,7 +296,7 @@ static void jacobi_turn(quadric *f, int p, int q)
  *   g(s) = c + s - sum of b_i^2 / (4 (m_i - s)),
  * which is concave (Lagrange's multiplier; there is no gap, More and Sorensen 1983). Its slope 1 - sum (b_i / (2 (m_i -
  * s)))^2 changes sign between min m - |b| / 2 and min m. */
-double sh_least(const double c[SH_COUNT])
+double sh_minimum(const double c[SH_COUNT])
 {
     quadric f = quadric_from(c);
     for (int sweep = 0; sweep < 8; sweep++) { /* converges quadratically: 4 do */
@@ -355,7 +355,7 @@ static bool is_lit_everywhere(const double radiance[SH_COUNT][3])
         double one[SH_COUNT];
         for (int k = 0; k < SH_COUNT; k++)
             one[k] = irradiance[k][i];
-        if (sh_least(one) < 1e-6 * K0 * one[0])
+        if (sh_minimum(one) < 1e-6 * K0 * one[0])
             return false;
     }
     return true;

@@ -39,7 +39,7 @@ void sh_evaluate(const float c[SH_COUNT][3], const float N[3], float out[3]);
 void sh_rotate(double c[SH_COUNT][3], double rotation_rad);
 
 /* The least value of the sum of c times sh_basis() over the sphere, exact but for rounding. */
-double sh_least(const double c[SH_COUNT]);
+double sh_minimum(const double c[SH_COUNT]);
 
 /* The factors of bands 1 and 2 in a window that ends at band 1 / narrowness, narrowness in [0, 1/3]; 0: 1 and 1. Four times the
  * Lanczos window: (sin x / x)^4, x = pi l narrowness (Sloan 2017, "Deringing Spherical Harmonics"). */

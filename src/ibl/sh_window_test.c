@@ -77,13 +77,13 @@ static void test_least_value(void **state)
             c[1] = c[2] = c[3] = 0.0;
         if (i % 8 == 3) /* axes of equal length */
             c[4] = c[5] = c[7] = c[8] = 0.0;
-        assert_near(sh_least(c), search_least(c), 1e-8);
+        assert_near(sh_minimum(c), search_least(c), 1e-8);
     }
-    assert_near(sh_least((double[SH_COUNT]){1.0}), 0.28209479177387814, 1e-12);
+    assert_near(sh_minimum((double[SH_COUNT]){1.0}), 0.28209479177387814, 1e-12);
     /* 1/4 + z/2 + 5/32 (3 z^2 - 1), the irradiance of a sun at +Z over pi, is least at z = -8/15: -19/480 */
     double sun[SH_COUNT] = {0.25 / 0.28209479177387814,      0, 0.5 / 0.48860251190291992, 0, 0, 0,
                             5.0 / 32.0 / 0.31539156525252005};
-    assert_near(sh_least(sun), -19.0 / 480.0, 1e-12);
+    assert_near(sh_minimum(sun), -19.0 / 480.0, 1e-12);
 }
 
 /* The function turned is the function at the direction turned back. */
@@ -134,7 +134,7 @@ static double least_irradiance(double radiance[SH_COUNT][3], int channel)
     sh_irradiance((const double(*)[3])radiance, irradiance);
     for (int k = 0; k < SH_COUNT; k++)
         one[k] = irradiance[k][channel];
-    return sh_least(one);
+    return sh_minimum(one);
 }
 
 /* A sun in any direction: the window takes the negative away, no more than that, alike in all channels. */

@@ -184,8 +184,8 @@ static double compare(facet_environment *e, const char *name, double roughness, 
 
 static void room(const float d[3], float out[3])
 {
-    bool is_lamp = d[1] > 0.9f && d[0] > 0.0f;
-    out[0] = is_lamp ? 30.0f : 0.6f + 0.4f * d[0];
+    bool is_light = d[1] > 0.9f && d[0] > 0.0f;
+    out[0] = is_light ? 30.0f : 0.6f + 0.4f * d[0];
     out[1] = 1.0f + sinf(5.0f * d[2]) * sinf(3.0f * d[0]) * 0.8f;
     out[2] = d[2] > 0.2f ? 4.0f : 0.5f;
 }

@@ -60,11 +60,11 @@ static facet_result draw_atmosphere(const facet_sky_desc *sky, const facet_envir
                                     image *panorama, facet_error *error)
 {
     Atmosphere air[SKY_HALVES];
-    sky_tables tables = {.columns = NULL};
+    sky_luts tables = {.columns = NULL};
     sky_view view = {.rows = NULL};
     float altitude_km = sky->altitude_m * 0.001f;
     sky_atmosphere(sky->turbidity, sky->ground_albedo, air);
-    facet_result result = sky_tables_create(air, &desc->allocator, desc->thread_count, &tables, error);
+    facet_result result = sky_luts_create(air, &desc->allocator, desc->thread_count, &tables, error);
     if (result == FACET_OK)
         result = sky_view_create(&tables, altitude_km, sky->sun_elevation_rad, &desc->allocator,
                                  desc->thread_count, &view, error);
@@ -77,7 +77,7 @@ static facet_result draw_atmosphere(const facet_sky_desc *sky, const facet_envir
         sky_sun_draw(&sun, panorama);
     }
     sky_view_destroy(&view);
-    sky_tables_destroy(&tables);
+    sky_luts_destroy(&tables);
     return result;
 }
 

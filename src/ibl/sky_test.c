@@ -22,7 +22,7 @@ enum { HEIGHT = 256 };
 /* Air, its tables, and an image of its sky without the sun. */
 typedef struct scene {
     Atmosphere air[SKY_HALVES];
-    sky_tables tables;
+    sky_luts tables;
     image panorama;
 } scene;
 
@@ -32,13 +32,13 @@ static void make_air(scene *s, bool is_very_clear)
     s->air[1] = atmosphere_earth(SKY_BANDS_SECOND);
     for (int half = 0; half < SKY_HALVES && is_very_clear; half++)
         s->air[half] = atmosphere_with_haze(s->air[half], 4.44e-3f * 1.2f, 0.0f, 0.9f, 0.8f);
-    assert_int_equal(sky_tables_create(s->air, NULL, 0, &s->tables, NULL), FACET_OK);
+    assert_int_equal(sky_luts_create(s->air, NULL, 0, &s->tables, NULL), FACET_OK);
     assert_int_equal(image_create(NULL, 2 * HEIGHT, HEIGHT, 3, IMAGE_F32, &s->panorama, NULL), FACET_OK);
 }
 
 static void destroy(scene *s)
 {
-    sky_tables_destroy(&s->tables);
+    sky_luts_destroy(&s->tables);
     image_destroy(&s->panorama);
 }
 
@@ -207,7 +207,7 @@ static void test_all_orders(void **state)
     enum { PATHS = 8000 };
     scene s = {.air = {atmosphere_earth(SKY_BANDS_FIRST), atmosphere_earth(SKY_BANDS_SECOND)}};
     sky_atmosphere(1.55f, (float[3]){0.3f, 0.3f, 0.3f}, s.air);
-    assert_int_equal(sky_tables_create(s.air, NULL, 0, &s.tables, NULL), FACET_OK);
+    assert_int_equal(sky_luts_create(s.air, NULL, 0, &s.tables, NULL), FACET_OK);
     for (size_t i = 0; i < sizeof sights / sizeof *sights; i++)
         for (int c = 1; c < 3; c++) {
             double d[3], sun[3], eye[3] = {0.0, MC_GROUND + 1e-6, 0.0}, deviation;
@@ -219,7 +219,7 @@ static void test_all_orders(void **state)
             double truth = mc_radiance(&air, eye, d, sun, PATHS, 88172645463325252u + i, &deviation);
             assert_near((double)L[c], truth, 0.12 * truth + 4.0 * deviation);
         }
-    sky_tables_destroy(&s.tables);
+    sky_luts_destroy(&s.tables);
 }
 
 /* Light that the ground sends up comes back from the sky: E_sky over grounds from black to snow at 574 and 465 nm, 12 % of what
@@ -234,7 +234,7 @@ static void test_bright_ground(void **state)
             scene s;
             vec3 sky[SKY_HALVES];
             sky_atmosphere(2.5f, (float[3]){albedo, albedo, albedo}, s.air);
-            assert_int_equal(sky_tables_create(s.air, NULL, 0, &s.tables, NULL), FACET_OK);
+            assert_int_equal(sky_luts_create(s.air, NULL, 0, &s.tables, NULL), FACET_OK);
             sky_irradiance(&s.tables, mu_sun, sky);
             mc_air air = band(&s.air[0], c);
             uint64_t random = 88172645463325252u;
@@ -246,7 +246,7 @@ static void test_bright_ground(void **state)
                 sum += mc_path(&air, eye, d, sun, &random);
             }
             assert_near(relative((double)sky[0][c], MC_PI * sum / PATHS), 0.0, 0.12);
-            sky_tables_destroy(&s.tables);
+            sky_luts_destroy(&s.tables);
         }
 }
 

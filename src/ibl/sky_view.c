@@ -18,7 +18,7 @@ typedef struct ground_light {
 } ground_light;
 
 typedef struct view_job {
-    const sky_tables *tables;
+    const sky_luts *tables;
     const sky_view *view;
     ground_light ground;
 } view_job;
@@ -46,7 +46,7 @@ static void light_ground(view_job *job, uint32_t thread_count)
 }
 
 /* Light that the ground sends up where the sun has mu_sun, per half. */
-static void ground_radiance(const sky_tables *t, const ground_light *g, float mu_sun, vec3 out[SKY_HALVES])
+static void ground_radiance(const sky_luts *t, const ground_light *g, float mu_sun, vec3 out[SKY_HALVES])
 {
     float x = clamp((acosf(mu_sun) - g->first) / g->step, 0.0f, (float)(g->count - 1));
     int node = (int)x < g->count - 2 ? (int)x : g->count - 2;
@@ -64,7 +64,7 @@ static void ground_radiance(const sky_tables *t, const ground_light *g, float mu
 
 static sky_light light_along(const view_job *job, const sky_ray *ray, bool is_ground)
 {
-    const sky_tables *t = job->tables;
+    const sky_luts *t = job->tables;
     AirLight light[SKY_HALVES];
     float to_ground = ray_to_ground(ray->height_km, ray->mu);
     to_ground =
@@ -105,7 +105,7 @@ static void fill_rows(void *context, size_t begin, size_t end)
     }
 }
 
-facet_result sky_view_create(const sky_tables *tables, float altitude_km, float sun_elevation_rad,
+facet_result sky_view_create(const sky_luts *tables, float altitude_km, float sun_elevation_rad,
                              const facet_allocator *allocator, uint32_t thread_count, sky_view *out,
                              facet_error *error)
 {

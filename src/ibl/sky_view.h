@@ -3,7 +3,7 @@
 #ifndef IBL_SKY_VIEW_H
 #define IBL_SKY_VIEW_H
 
-#include "ibl/sky_tables.h"
+#include "ibl/sky_luts.h"
 
 enum {
     SKY_VIEW_UP = 128,     /* rows from the horizon to the zenith */
@@ -23,7 +23,7 @@ typedef struct sky_view {
 } sky_view;
 
 /* For an eye altitude_km above the ground. FACET_ERROR_MEMORY. */
-facet_result sky_view_create(const sky_tables *tables, float altitude_km, float sun_elevation_rad,
+facet_result sky_view_create(const sky_luts *tables, float altitude_km, float sun_elevation_rad,
                              const facet_allocator *allocator, uint32_t thread_count, sky_view *out,
                              facet_error *error);
 void sky_view_destroy(sky_view *v); /* {0} is allowed */

@@ -28,7 +28,7 @@ typedef struct resampling {
     uint32_t parts;      /* a texel of the target is looked up parts x parts times */
     float (*columns)[2]; /* equirectangular target: cosine and sine of the longitude of each part of a row */
     float limit;         /* of what is not hot */
-    uint32_t *hot_numbers; /* of the source's texels, from 1 on; NULL: none is hot */
+    uint32_t *bright_numbers; /* of the source's texels, from 1 on; NULL: none is hot */
     hot_texel *hot;
     size_t hot_count;
     uint32_t span;       /* texels of a row that are resampled at a time */
@@ -278,7 +278,7 @@ static void list_hot(resampling *r, const row_survey *rows)
             h->texel = row * r->source->width + x;
             h->excess = rgbx_not_negative((rgbx){c[0], c[1], c[2], 0.0f} - rgbx_splat(r->limit));
             atomic_init(&h->covered, 0);
-            r->hot_numbers[h->texel] = ++number;
+            r->bright_numbers[h->texel] = ++number;
         }
     }
 }
@@ -295,19 +295,19 @@ static bool find_hot(resampling *r, const facet_allocator *allocator, uint32_t t
         r->hot_count += v.rows[row].hot_count;
     r->limit = r->hot_count ? v.limit : INFINITY;
     if (r->hot_count) {
-        r->hot_numbers = mem_zalloc(allocator, sphere_texel_count(r->source), sizeof *r->hot_numbers);
+        r->bright_numbers = mem_zalloc(allocator, sphere_texel_count(r->source), sizeof *r->bright_numbers);
         r->hot = mem_alloc(allocator, r->hot_count, sizeof *r->hot);
-        if (r->hot_numbers && r->hot)
+        if (r->bright_numbers && r->hot)
             list_hot(r, v.rows);
     }
     mem_free(v.rows);
-    return r->hot_count == 0 || (r->hot_numbers && r->hot);
+    return r->hot_count == 0 || (r->bright_numbers && r->hot);
 }
 
 /* The hot texel of a number of the source; NULL: it is not hot. */
 static hot_texel *get_hot(const resampling *r, size_t texel)
 {
-    uint32_t number = r->hot_numbers[texel];
+    uint32_t number = r->bright_numbers[texel];
     return number ? &r->hot[number - 1] : NULL;
 }
 
@@ -387,7 +387,7 @@ static void store_texel(const sphere *t, uint32_t face, uint32_t x, uint32_t y, 
 }
 
 /* Radiance where something hot is near. */
-static rgbx look_up_hot(const resampling *r, const sphere_footprint *f)
+static rgbx look_up_bright(const resampling *r, const sphere_footprint *f)
 {
     rgbx sum = {0};
     for (uint32_t k = 0; k < f->count; k++) {
@@ -419,7 +419,7 @@ static bool add_parts(const resampling *r, const part_row *p, uint32_t first, ui
         if (!b.is_cut[k] || !r->has_hot_excesses)
             continue;
         find_part(r, &b, k, &f);
-        b.radiance[k] = look_up_hot(r, &f);
+        b.radiance[k] = look_up_bright(r, &f);
     }
     for (uint32_t k = 0; k < count;) {
         uint32_t end = (first + k) / r->parts * r->parts + r->parts - first; /* of the texel */
@@ -484,7 +484,7 @@ facet_result sphere_resample(const sphere *source, const sphere_turn *turn, cons
     r.span_count = (target->width - 1) / r.span + 1;
     r.is_near_hot = mem_zalloc(allocator, rows, r.span_count);
     if (!r.is_near_hot || !make_columns(&r, allocator) || !find_hot(&r, allocator, thread_count)) {
-        result = fail_memory(error, "resampling", sphere_texel_count(source) * sizeof *r.hot_numbers);
+        result = fail_memory(error, "resampling", sphere_texel_count(source) * sizeof *r.bright_numbers);
     } else {
         parallel_for(thread_count, rows, 2, resample_rows, &r);
         if (r.hot) { /* where it is near, once more */
@@ -496,7 +496,7 @@ facet_result sphere_resample(const sphere *source, const sphere_turn *turn, cons
     }
     mem_free(r.is_near_hot);
     mem_free(r.columns);
-    mem_free(r.hot_numbers);
+    mem_free(r.bright_numbers);
     mem_free(r.hot);
     return result;
 }

@@ -9,7 +9,7 @@
 enum {
     SCREEN_END = 13, /* behind the logical screen descriptor */
     MAX_CODES = 4096,
-    MOST_TEXELS_PER_BYTE = 2732 /* a code of 12 bits stands for at most 4096 texels */
+    MAX_TEXELS_PER_BYTE = 2732 /* a code of 12 bits stands for at most 4096 texels */
 };
 
 /* A reader over the bytes of a file. */
@@ -130,7 +130,7 @@ static facet_result parse_header(const unsigned char *bytes, size_t size, const 
     h->width = h->width > right ? h->width : right;
     h->height = h->height > bottom ? h->height : bottom;
     facet_result result = codec_check_size(name, h->width, h->height, max_size, error);
-    if (result == FACET_OK && (uint64_t)h->width * h->height / MOST_TEXELS_PER_BYTE > size)
+    if (result == FACET_OK && (uint64_t)h->width * h->height / MAX_TEXELS_PER_BYTE > size)
         return fail(error, FACET_ERROR_INVALID, "%s: GIF: %zu bytes cannot be %u x %u texels", name, size,
                     h->width, h->height);
     return result;

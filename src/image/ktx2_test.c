@@ -140,7 +140,7 @@ static void what_is_not_finite_can_stay(void **state)
     }
 }
 
-static void transfer_functions_are_told(void **state)
+static void transfer_functions_are_reported(void **state)
 {
     (void)state;
     static const unsigned char texel[4] = {1, 2, 3, 4};
@@ -472,7 +472,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(texels_without_compression),
         cmocka_unit_test(what_is_not_finite_can_stay),
-        cmocka_unit_test(transfer_functions_are_told),
+        cmocka_unit_test(transfer_functions_are_reported),
         cmocka_unit_test(levels_are_reductions),
         cmocka_unit_test(layers_and_faces),
         cmocka_unit_test(orientation_and_swizzle),

@@ -22,7 +22,7 @@ static vec3 downwards(double angle, double longitude)
 /* What the eye sees over black ground, on rays that are marched. */
 static void march_view(const water_sky *sky, float elevation_rad, sky_view *view)
 {
-    sky_tables dark = sky->tables;
+    sky_luts dark = sky->tables;
     for (int half = 0; half < SKY_HALVES; half++)
         dark.air[half].ground_albedo = vec3(0.0f);
     const facet_allocator allocator = {0};

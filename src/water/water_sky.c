@@ -89,9 +89,9 @@ static void fill_air(const facet_sky_desc *sky, water_sky *s)
 }
 
 /* The same air over black ground: what a view shows below the horizon then is the air's own light. */
-static sky_tables over_black(const sky_tables *t)
+static sky_luts over_black(const sky_luts *t)
 {
-    sky_tables dark = *t;
+    sky_luts dark = *t;
     dark.air[0].ground_albedo = dark.air[1].ground_albedo = vec3(0.0f);
     return dark;
 }
@@ -100,7 +100,7 @@ static facet_result make_views(const facet_render_desc *desc, water_sky *s, face
 {
     const facet_render_desc *r = desc;
     float elevation = desc->sky.sun_elevation_rad;
-    sky_tables dark = over_black(&s->tables);
+    sky_luts dark = over_black(&s->tables);
     facet_result result =
         sky_view_create(&dark, s->eye_km, elevation, &r->allocator, r->thread_count, &s->eye, error);
     if (result == FACET_OK && s->eye_km > SAME_VIEW_KM)
@@ -244,7 +244,7 @@ static facet_result begin(const facet_render_desc *desc, float eye_height_m, wat
     fill_air(&desc->sky, s);
     s->has_views = !desc->environment && desc->sky.model != FACET_SKY_MODEL_PREETHAM;
     if (s->has_views)
-        result = sky_tables_create(s->air, &desc->allocator, desc->thread_count, &s->tables, error);
+        result = sky_luts_create(s->air, &desc->allocator, desc->thread_count, &s->tables, error);
     return result;
 }
 
@@ -287,7 +287,7 @@ void water_sky_destroy(water_sky *s)
     sky_view_destroy(&s->eye);
     sky_view_destroy(&s->low);
     mem_free(s->air_light);
-    sky_tables_destroy(&s->tables);
+    sky_luts_destroy(&s->tables);
     ibl_light_release(s->reflected);
     ibl_light_release(s->background);
     if (s->mirrored)

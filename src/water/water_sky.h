@@ -1,6 +1,6 @@
 /* water_sky.h - what lights a sea: the sky around it, or a picture in its place, the sun, and the air between the sea and the eye.
  *
- * The sky is the atmosphere of ibl/sky_tables.h. Reflections look it up filtered (ibl/ibl.h) with its upper half mirrored below the
+ * The sky is the atmosphere of ibl/sky_luts.h. Reflections look it up filtered (ibl/ibl.h) with its upper half mirrored below the
  * horizon: a lobe that dips below it finds there what it would find just above, and which share of light comes from other waves
  * in fact is the surface's matter. Holds shared shading text: include it last. */
 #ifndef WATER_WATER_SKY_H
@@ -17,7 +17,7 @@ enum { WATER_SKY_WAYS = 257 };
 typedef struct water_sky {
     bool has_views; /* the sky is the atmosphere's; else a picture */
     Atmosphere air[SKY_HALVES];
-    sky_tables tables;    /* has_views */
+    sky_luts tables;      /* has_views */
     sky_view eye;         /* as the eye sees it; below the horizon, what water_sky_air_light() is made of */
     vec3 *air_light;      /* has_views: water_sky_air_light() */
     sky_view low;         /* as the surface does, where the eye is far above it; else {0} */

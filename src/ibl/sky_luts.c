@@ -1,9 +1,9 @@
-/* sky_tables.c - the loops around shade/sky.h: tables, and rays marched with them. */
+/* sky_luts.c - the loops around shade/sky.h: tables, and rays marched with them. */
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
 
-#include "ibl/sky_tables.h"
+#include "ibl/sky_luts.h"
 
 enum {
     COLUMN_STEPS = 64,
@@ -33,12 +33,12 @@ static inline vec3 fetch(const vec3 *table, int stride, int width, int height, v
     return a + (b - a) * wy;
 }
 
-static inline vec3 sun_column(const sky_tables *t, float height_km, float mu)
+static inline vec3 sun_column(const sky_luts *t, float height_km, float mu)
 {
     return fetch(t->columns, 1, COLUMN_TABLE_WIDTH, COLUMN_TABLE_HEIGHT, column_table_place(height_km, mu));
 }
 
-void sky_sun(const sky_tables *t, float height_km, float mu_sun, vec3 out[SKY_HALVES])
+void sky_sun(const sky_luts *t, float height_km, float mu_sun, vec3 out[SKY_HALVES])
 {
     vec3 column = sun_column(t, height_km, mu_sun);
     for (int half = 0; half < SKY_HALVES; half++)
@@ -54,8 +54,8 @@ static AirField fetch_field(const AirField *table, vec2 place)
 }
 
 /* bounces NULL: light that is scattered again comes with radiance 1 from everywhere. */
-static void march(const sky_tables *t, AirField *const *bounces, const sky_ray *ray, float length_km,
-                  int steps, AirLight out[SKY_HALVES])
+static void march(const sky_luts *t, AirField *const *bounces, const sky_ray *ray, float length_km, int steps,
+                  AirLight out[SKY_HALVES])
 {
     out[0] = out[1] = air_light_none();
     for (int i = 0; i < steps; i++) {
@@ -78,7 +78,7 @@ static void march(const sky_tables *t, AirField *const *bounces, const sky_ray *
     }
 }
 
-void sky_march(const sky_tables *t, const sky_ray *ray, float length_km, int steps, AirLight out[SKY_HALVES])
+void sky_march(const sky_luts *t, const sky_ray *ray, float length_km, int steps, AirLight out[SKY_HALVES])
 {
     march(t, t->bounces, ray, length_km, steps, out);
 }
@@ -87,7 +87,7 @@ void sky_march(const sky_tables *t, const sky_ray *ray, float length_km, int ste
 
 static void fill_columns(void *context, size_t begin, size_t end)
 {
-    const sky_tables *t = context;
+    const sky_luts *t = context;
     for (size_t y = begin; y < end; y++)
         for (int x = 0; x < COLUMN_TABLE_WIDTH; x++) {
             vec2 ray = column_table_ray(vec2(((float)x + 0.5f) / (float)COLUMN_TABLE_WIDTH,
@@ -105,7 +105,7 @@ static sky_ray make_ray(float height_km, float mu, float mu_sun, float cos_azimu
 
 /* Light that the sky sends to the ground where the sun is as in column x of the table of bounces: scattered once, and more by
  * a share that is right to a tenth of all light on the ground. */
-static void fill_sky(sky_tables *t, int x)
+static void fill_sky(sky_luts *t, int x)
 {
     const float scattered_again = 0.4f;
     float mu_sun = bounce_table_ray(vec2(((float)x + 0.5f) / (float)BOUNCE_TABLE_SIZE, 0.0f))[1];
@@ -126,7 +126,7 @@ static void fill_sky(sky_tables *t, int x)
         }
 }
 
-static void light_ground(const sky_tables *t, float mu_sun, vec3 out[SKY_HALVES])
+static void light_ground(const sky_luts *t, float mu_sun, vec3 out[SKY_HALVES])
 {
     float x = bounce_table_place(0.0f, mu_sun)[0] * (float)BOUNCE_TABLE_SIZE - 0.5f;
     int first = (int)x < BOUNCE_TABLE_SIZE - 2 ? (int)x : BOUNCE_TABLE_SIZE - 2;
@@ -137,7 +137,7 @@ static void light_ground(const sky_tables *t, float mu_sun, vec3 out[SKY_HALVES]
     }
 }
 
-static void add_bounce(const sky_tables *t, const sky_ray *ray, float share, AirBounce sums[SKY_HALVES])
+static void add_bounce(const sky_luts *t, const sky_ray *ray, float share, AirBounce sums[SKY_HALVES])
 {
     AirLight light[SKY_HALVES];
     vec3 ground[SKY_HALVES] = {vec3(0.0f), vec3(0.0f)};
@@ -154,7 +154,7 @@ static void add_bounce(const sky_tables *t, const sky_ray *ray, float share, Air
 
 static void fill_bounces(void *context, size_t begin, size_t end)
 {
-    const sky_tables *t = context;
+    const sky_luts *t = context;
     for (size_t i = begin; i < end; i++) {
         vec2 place =
             bounce_table_ray(vec2(((float)(i % BOUNCE_TABLE_SIZE) + 0.5f) / (float)BOUNCE_TABLE_SIZE,
@@ -173,16 +173,16 @@ static void fill_bounces(void *context, size_t begin, size_t end)
     }
 }
 
-facet_result sky_tables_create(const Atmosphere air[SKY_HALVES], const facet_allocator *allocator,
-                               uint32_t thread_count, sky_tables *out, facet_error *error)
+facet_result sky_luts_create(const Atmosphere air[SKY_HALVES], const facet_allocator *allocator,
+                             uint32_t thread_count, sky_luts *out, facet_error *error)
 {
     const size_t column_count = (size_t)COLUMN_TABLE_WIDTH * COLUMN_TABLE_HEIGHT;
     const size_t bounce_count = (size_t)BOUNCE_TABLE_SIZE * BOUNCE_TABLE_SIZE;
-    *out = (sky_tables){.air = {air[0], air[1]},
-                        .columns = mem_alloc(allocator, column_count, sizeof *out->columns),
-                        .bounces = {mem_alloc(allocator, SKY_HALVES * bounce_count, sizeof(AirField))}};
+    *out = (sky_luts){.air = {air[0], air[1]},
+                      .columns = mem_alloc(allocator, column_count, sizeof *out->columns),
+                      .bounces = {mem_alloc(allocator, SKY_HALVES * bounce_count, sizeof(AirField))}};
     if (!out->columns || !out->bounces[0]) {
-        sky_tables_destroy(out);
+        sky_luts_destroy(out);
         return fail_memory(error, "sky", column_count * sizeof(vec3) + 2 * bounce_count * sizeof(AirField));
     }
     out->bounces[1] = out->bounces[0] + bounce_count;
@@ -193,11 +193,11 @@ facet_result sky_tables_create(const Atmosphere air[SKY_HALVES], const facet_all
     return FACET_OK;
 }
 
-void sky_tables_destroy(sky_tables *t)
+void sky_luts_destroy(sky_luts *t)
 {
     mem_free(t->columns);
     mem_free(t->bounces[0]);
-    *t = (sky_tables){.columns = NULL};
+    *t = (sky_luts){.columns = NULL};
 }
 
 /* ---- what they are asked for ---- */
@@ -214,7 +214,7 @@ void sky_atmosphere(float turbidity, const float ground_albedo[3], Atmosphere ai
 }
 
 /* E = integral of L mu d_omega; with w = mu^2 it is half that of L over w and azimuth. */
-void sky_irradiance(const sky_tables *t, float mu_sun, vec3 out[SKY_HALVES])
+void sky_irradiance(const sky_luts *t, float mu_sun, vec3 out[SKY_HALVES])
 {
     out[0] = out[1] = vec3(0.0f);
     for (int p = 0; p < IRRADIANCE_POLAR; p++)
