@@ -6,6 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/result.h"
+
 const char *made_name(conversion *c, uint32_t texture, const char *purpose)
 {
     const facet_scene *scene = c->scene;
@@ -314,10 +316,7 @@ facet_result build_material(conversion *c, uint32_t material, legacy_reading *r,
     build_glass(c, material, r, out);
     if (c->desc.ambient == FACET_LEGACY_AMBIENT_OCCLUSION && legacy_has_map(&r->m, LEGACY_AMBIENT_MAP))
         out->textures[SCENE_OCCLUSION_TEXTURE] = r->m.maps[LEGACY_AMBIENT_MAP].ref;
-    result = build_emission(c, r, out, error);
-    if (result == FACET_OK)
-        result = build_sheen(c, r, out, error);
-    if (result == FACET_OK)
-        result = build_normals(c, material, r, out, error);
-    return result;
+    TRY(build_emission(c, r, out, error));
+    TRY(build_sheen(c, r, out, error));
+    return build_normals(c, material, r, out, error);
 }

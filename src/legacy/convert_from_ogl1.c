@@ -25,7 +25,7 @@ static facet_result survey(conversion *c, facet_error *error)
     return result;
 }
 
-static void ask(const conversion *c, const legacy_reading *r, solve_item *item)
+static void prepare_item(const conversion *c, const legacy_reading *r, solve_item *item)
 {
     memset(&item->input, 0, sizeof item->input);
     item->is_wanted = r->kind == READING_OGL1;
@@ -96,7 +96,7 @@ static facet_result build_all(conversion *c, legacy_reading *readings, solve_ite
     facet_scene *scene = c->scene;
     for (uint32_t i = 0; i < scene->material_count; i++) {
         legacy_read(c, i, &readings[i]);
-        ask(c, &readings[i], &items[i]);
+        prepare_item(c, &readings[i], &items[i]);
     }
     facet_result result =
         solve_all(c, FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS, items, scene->material_count, error);

@@ -50,7 +50,7 @@ static facet_result survey(conversion *c, facet_error *error)
     return result;
 }
 
-static void ask(conversion *c, uint32_t i, bool *known, solve_item *item)
+static void prepare_item(conversion *c, uint32_t i, bool *known, solve_item *item)
 {
     const scene_material *m = &c->scene->materials[i];
     memset(&item->input, 0, sizeof item->input);
@@ -249,7 +249,7 @@ facet_result convert_to_ogl1(conversion *c, facet_error *error)
                               ? survey(c, error)
                               : fail_memory(error, "materials", count * sizeof *items);
     for (uint32_t i = 0; i < scene->material_count && result == FACET_OK; i++)
-        ask(c, i, &known[i], &items[i]);
+        prepare_item(c, i, &known[i], &items[i]);
     if (result == FACET_OK)
         result = solve_all(c, FACET_MATERIAL_MODEL_OGL1, items, scene->material_count, error);
     for (uint32_t i = 0; i < scene->material_count && result == FACET_OK; i++)

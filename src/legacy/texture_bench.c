@@ -190,9 +190,7 @@ static facet_result keep_made(texture_bench *bench, const struct image *picture,
     made.name = arena_strdup(scene->arena, name);
     if (!made.name)
         return fail_memory(error, "textures", strlen(name));
-    facet_result result = image_encode(picture, IMAGE_CODEC_PNG, &desc, &made.bytes, &made.byte_count, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(image_encode(picture, IMAGE_CODEC_PNG, &desc, &made.bytes, &made.byte_count, error));
     made.width = picture->width;
     made.height = picture->height;
     *texture = scene->texture_count + bench->made_count;
@@ -260,9 +258,7 @@ static facet_result gather(texture_bench *bench, const texture_bake *bake, bake_
         uint32_t index = image_of(bench, bake->inputs[i]);
         if (index == SCENE_NONE)
             continue;
-        facet_result result = texels_cache_get(bench->cache, index, &in->texels[i], error);
-        if (result != FACET_OK)
-            return result;
+        TRY(texels_cache_get(bench->cache, index, &in->texels[i], error));
         in->width = in->texels[i]->width > in->width ? in->texels[i]->width : in->width;
         in->height = in->texels[i]->height > in->height ? in->texels[i]->height : in->height;
     }
@@ -270,10 +266,8 @@ static facet_result gather(texture_bench *bench, const texture_bake *bake, bake_
         const image *texels = in->texels[i];
         if (!texels || (texels->width == in->width && texels->height == in->height))
             continue;
-        facet_result result = texels_resize(texels, &scene->textures[bake->inputs[i]], in->width, in->height,
-                                            scene->thread_count, &scene->allocator, &in->resized[i], error);
-        if (result != FACET_OK)
-            return result;
+        TRY(texels_resize(texels, &scene->textures[bake->inputs[i]], in->width, in->height,
+                          scene->thread_count, &scene->allocator, &in->resized[i], error));
         in->texels[i] = &in->resized[i];
     }
     return FACET_OK;

@@ -54,9 +54,7 @@ static facet_result texels_decode(const facet_scene *scene, uint32_t index, uint
 {
     image raw;
     *out = (image){0};
-    facet_result result = texels_decode_raw(scene, index, max_reduction, thread_count, &raw, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(texels_decode_raw(scene, index, max_reduction, thread_count, &raw, error));
     return make_rgba(&raw, scene, thread_count, out, error);
 }
 
@@ -111,9 +109,7 @@ facet_result texels_resize(const struct image *in, const scene_texture *texture,
                            uint32_t height, uint32_t thread_count, const facet_allocator *allocator,
                            struct image *out, facet_error *error)
 {
-    facet_result result = image_create(allocator, width, height, 4, IMAGE_U8, out, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(image_create(allocator, width, height, 4, IMAGE_U8, out, error));
     resize r = {.in = in, .out = out, .texture = texture};
     parallel_for(thread_count, height, 16, resize_rows, &r);
     return FACET_OK;
@@ -275,10 +271,7 @@ facet_result texels_cache_get(texels_cache *cache, uint32_t index, const struct 
         }
     }
     cached *slot = make_room(cache);
-    facet_result result =
-        texels_decode(cache->scene, index, 0, cache->scene->thread_count, &slot->texels, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(texels_decode(cache->scene, index, 0, cache->scene->thread_count, &slot->texels, error));
     slot->index = index;
     slot->last_use = ++cache->clock;
     *out = &slot->texels;

@@ -274,9 +274,7 @@ facet_result canvas_finish(canvas *c, unsigned char **bytes, size_t *size, facet
 {
     *bytes = NULL;
     *size = 0;
-    facet_result result = finish_drawing(c, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(finish_drawing(c, error));
     return c->pixels ? encode_png(c, bytes, size, error) : take_file(c, bytes, size, error);
 }
 

@@ -266,9 +266,7 @@ static facet_result for_legends(const drawing *d, panel_view *views, legend_step
         if (v->detail != VIEW_ALL || !v->panel->has_legend || v->panel->curve_count == 0 ||
             !(is_cartesian(v) || v->panel->kind == CHART_POLAR))
             continue;
-        const facet_result result = layout_trace(d, v, error);
-        if (result != FACET_OK)
-            return result;
+        TRY(layout_trace(d, v, error));
         step(d, v);
         trace_list_destroy(&v->traces);
     }
@@ -281,9 +279,7 @@ facet_result layout_create(const drawing *d, panel_view *views, facet_error *err
     place_cells(d, views);
     for (int i = 0; i < 3; i++) { /* legends outside make plots smaller */
         measure_all(d, views);
-        const facet_result result = for_legends(d, views, STEPS[i], error);
-        if (result != FACET_OK)
-            return result;
+        TRY(for_legends(d, views, STEPS[i], error));
     }
     return FACET_OK;
 }

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/result.h"
 #include "plot/chart_view.h"
 
 /* ---- half discs: curves over an angle ---- */
@@ -311,9 +312,7 @@ static void draw_compass(const drawing *d, const full_disc *disc)
 facet_result view_disc_draw(const drawing *d, panel_view *v, facet_error *error)
 {
     const full_disc disc = place_disc(v);
-    const facet_result result = draw_field(d, v, &disc, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(draw_field(d, v, &disc, error));
     draw_rings(d, v, &disc);
     if (v->detail >= VIEW_TICKS) {
         draw_ring_labels(d, v, &disc);

@@ -241,9 +241,7 @@ facet_result view_surface_draw(const drawing *d, panel_view *v, facet_error *err
     w.fine = canvas_is_raster(d->canvas) ? 1.0 : 2.0;
     w.fine = fmin(w.fine, CANVAS_MAX_SIZE / fmax(w.box.width, w.box.height));
     solid picture;
-    const facet_result result = make_solid(d, &w, v, &picture, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(make_solid(d, &w, v, &picture, error));
     draw_base(d, &w, NULL);
     canvas_image(d->canvas, w.box.x, w.box.y, w.box.width, w.box.height, picture.pixels, picture.width,
                  picture.height);

@@ -333,10 +333,7 @@ facet_result plot_convert(plot *p, const material *source, facet_plot_model to, 
     *out = (plot_conversion){.material = *source};
     out->material.measured = NULL;
     if (source->measured) {
-        facet_result result =
-            material_fit(source, to, &p->desc->allocator, &out->material.parameters, &out->rms, p->error);
-        if (result != FACET_OK)
-            return result;
+        TRY(material_fit(source, to, &p->desc->allocator, &out->material.parameters, &out->rms, p->error));
     } else {
         const fit_metric *metric = plot_metric(p);
         if (!metric)

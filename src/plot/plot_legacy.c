@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/parallel.h"
+#include "base/result.h"
 #include "plot/plot_build.h"
 #include "plot/plot_vignette.h"
 
@@ -351,9 +352,7 @@ static facet_result make_vignette(plot *p)
     white.perceptual_roughness = (float)ROUGHNESS;
     material source = {.parameters = white, .label = "the vignette's PBR", .has_separable_smith = true};
     plot_conversion conversion;
-    facet_result result = plot_convert(p, &source, FACET_PLOT_MODEL_OGL1, true, &conversion);
-    if (result != FACET_OK)
-        return result;
+    TRY(plot_convert(p, &source, FACET_PLOT_MODEL_OGL1, true, &conversion));
 
     const char *eye = plot_degrees(p, e->theta);
     add_vignette_panel(p, e, e->pbr, "the vignette's PBR", "PBR",
@@ -386,9 +385,7 @@ static facet_result make_conversions(plot *p)
         facet_plot_model to =
             source->parameters.model == FACET_PLOT_MODEL_OGL1 ? FACET_PLOT_MODEL_PBR : FACET_PLOT_MODEL_OGL1;
         plot_conversion conversion;
-        facet_result result = plot_convert(p, source, to, p->desc->has_fit, &conversion);
-        if (result != FACET_OK)
-            return result;
+        TRY(plot_convert(p, source, to, p->desc->has_fit, &conversion));
         if (p->desc->has_fit)
             plot_report_fit(p, k, source, &conversion);
         for (uint32_t a = 0; a < p->angle_count; a++)

@@ -340,10 +340,7 @@ static facet_result add_spheres(page *p, uint32_t material, facet_error *error)
         int look = is_back ? SPHERE_STYLE_COUNT - 1 - i : i;
         unsigned char *bytes = NULL;
         size_t size = 0;
-        facet_result result =
-            sphere_draw(p->stage, material, (sphere_style)look, 2 * SPHERE_SIZE, &bytes, &size, error);
-        if (result != FACET_OK)
-            return result;
+        TRY(sphere_draw(p->stage, material, (sphere_style)look, 2 * SPHERE_SIZE, &bytes, &size, error));
         text_add(p->out, "<figure>");
         html_image(p->out, "image/png", bytes, size, SPHERE_SIZE, SPHERE_SIZE, captions[look]);
         text_addf(p->out, "<figcaption>%s</figcaption></figure>\n", captions[look]);
