@@ -9,8 +9,7 @@
 
 #include <cmocka.h>
 
-#include "base/failing_allocator.h"
-#include "base/near_test.h"
+#include "tests/support/support.h"
 #include "facet/facet.h"
 
 enum { WIDTH = 24, HEIGHT = 16 };

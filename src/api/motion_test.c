@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "base/near_test.h"
+#include "tests/support/support.h"
 #include "scene/scene.h"
 
 /* NULL, after a line that says so, where there is no such model. */

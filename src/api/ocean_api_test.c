@@ -12,7 +12,7 @@
 
 #include "facet/facet.h"
 
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 
 #define PI 3.14159265358979
 

@@ -13,8 +13,7 @@
 
 #include "facet/facet.h"
 
-#include "base/failing_allocator.h"
-#include "base/test_effort.h"
+#include "tests/support/support.h"
 
 static facet_error failure;
 

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "base/near_test.h"
+#include "tests/support/support.h"
 #include "bake/bake.h"
 #include "ibl/dfg_integrate.h"
 

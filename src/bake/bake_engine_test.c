@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "bake/bake.h"
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 #include "base/memory.h"
 
 /* A cube map of two levels of which every texel of the first differs from all others: its direction. */

@@ -5,8 +5,7 @@
 #include <math.h>
 
 #include "bake/bake.h"
-#include "base/near_test.h"
-#include "base/test_effort.h"
+#include "tests/support/support.h"
 #include "ibl/making_test.h"
 
 /* Rings take harmonics of a high degree, seconds where nothing is optimised: the tests of rings are enough there. */

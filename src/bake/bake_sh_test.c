@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "base/near_test.h"
+#include "tests/support/support.h"
 #include "facet/facet.h"
 #include "ibl/making_test.h"
 #include "ibl/sh.h"

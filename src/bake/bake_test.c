@@ -13,9 +13,8 @@
 
 #include "bake/bake_area.h"
 #include "bake/bake_lobe.h"
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 #include "base/memory.h"
-#include "base/test_effort.h"
 #include "ibl/gauss.h"
 
 static const double pi = 3.14159265358979323846;
@@ -289,7 +288,7 @@ static void test_areas_keep_light(void **state)
         uint32_t random = 1;
         float *p = panorama.pixels;
         for (uint32_t k = 0; k < 3 * panoramas[i][0] * panoramas[i][1]; k++) {
-            p[k] = (float)((random = random * 1664525u + 1013904223u) >> 20);
+            p[k] = (float)(lcg_next(&random) >> 20);
             p[k] = k % 97 == 0 ? 1e9f : k % 3 == 2 ? 5.0f : p[k]; /* suns, and blue that is nearly uniform */
         }
         double whole[3];

@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "base/text.h"
+#include "tests/support/support.h"
 
 static void json_has_commas_where_they_belong(void **state)
 {
@@ -104,7 +105,7 @@ static void shortest_floats_are_those_of_printf(void **state)
     (void)state;
     uint64_t random = 1;
     for (int i = 0; i < 300000; i++) { /* any bits; then sizes that models have */
-        random = random * 6364136223846793005u + 1442695040888963407u;
+        lcg64_next(&random);
         assert_shortest((uint32_t)(random >> 32));
         assert_shortest((uint32_t)(random >> 32) % 0x1a000000 + 0x2f000000);
     }
@@ -145,7 +146,7 @@ static void shortest_doubles_keep_what_floats_lose(void **state)
     }
     uint64_t random = 1;
     for (int i = 0; i < 100000; i++) {
-        random = random * 6364136223846793005u + 1442695040888963407u;
+        lcg64_next(&random);
         double value = 4096.0 + (double)(random >> 11) * 0x1p-53 * 1e9;
         char digits[TEXT_FLOAT_SIZE];
         text_shortest_double(value, digits);
@@ -170,7 +171,7 @@ static void places_keep_both_their_parts(void **state)
     }
     uint64_t random = 1;
     for (int i = 0; i < 100000; i++) {
-        random = random * 6364136223846793005u + 1442695040888963407u;
+        lcg64_next(&random);
         float value = (float)((int64_t)random >> 20) * 0x1p-40f;
         double origin = (double)(1 << (10 + i % 17));
         char digits[TEXT_FLOAT_SIZE];

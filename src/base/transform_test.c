@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "base/near_test.h"
+#include "tests/support/support.h"
 #include "base/transform.h"
 
 /* 90 degrees around +Z, scale 2 along X, then translate. */

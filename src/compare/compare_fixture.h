@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-#include "base/near_test.h"
+#include "tests/support/support.h"
 #include "compare/compare.h"
 #include "image/srgb.h"
 
@@ -46,13 +46,6 @@ static inline void fixture_fill(fixture *f, float r, float g, float b, float opa
         }
 }
 
-/* A number in [0, 1) from the state: the same on every machine. */
-static inline float fixture_random(uint32_t *state)
-{
-    *state = *state * 1664525u + 1013904223u;
-    return (float)(*state >> 8) * 0x1p-24f;
-}
-
 /* Stripes, a disc, a ramp and noise: something for every filter. seed 0: without noise; amount: of it. */
 static inline void fixture_draw(fixture *f, uint32_t seed, float amount)
 {
@@ -65,7 +58,7 @@ static inline void fixture_draw(fixture *f, uint32_t seed, float amount)
             p[1] = x / 5 % 2 ? 0.7f : 0.1f;
             p[2] = dx * dx + dy * dy < 300.0f ? 0.9f : 0.2f;
             for (int k = 0; k < 3 && seed; k++) {
-                p[k] += amount * (fixture_random(&state) - 0.5f);
+                p[k] += amount * (lcg_float(&state) - 0.5f);
                 p[k] = p[k] < 0.0f ? 0.0f : p[k] > 1.0f ? 1.0f : p[k];
             }
         }

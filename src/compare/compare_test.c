@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 #include "base/memory.h"
 #include "compare/compare.h"
 #include "compare/compare_fixture.h"
@@ -110,7 +110,7 @@ static void percentiles_are_those_of_sorting(void **state)
     static float values[COUNT], sorted[COUNT];
     uint32_t random = 9;
     for (int i = 0; i < COUNT; i++)
-        values[i] = i % 10 == 0 ? -1.0f : ldexpf(fixture_random(&random), i % 40 - 20);
+        values[i] = i % 10 == 0 ? -1.0f : ldexpf(lcg_float(&random), i % 40 - 20);
     values[5] = INFINITY;
     values[6] = 0.0f;
     int count = 0;
@@ -390,7 +390,7 @@ static void integers_are_compared_as_floats_are(void **state)
             image noise;
             assert_int_equal(image_create(NULL, 301, 40, 4, IMAGE_F32, &noise, NULL), FACET_OK);
             for (size_t i = 0; i < (size_t)301 * 40 * 4; i++)
-                ((float *)noise.pixels)[i] = fixture_random(&seed);
+                ((float *)noise.pixels)[i] = lcg_float(&seed);
             if (kinds[k].channel_count < 3) {
                 noise.channel_count = kinds[k].channel_count; /* fewer of the random numbers */
             }

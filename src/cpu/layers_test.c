@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "base/test_effort.h"
+#include "tests/support/support.h"
 #include "cpu/preview_fixture.h"
 
 enum { SIZE = 32, FLOATS = SIZE * SIZE * 4 };

@@ -6,8 +6,7 @@
 
 #include <cmocka.h>
 
-#include "base/failing_allocator.h"
-#include "base/test_effort.h"
+#include "tests/support/support.h"
 #include "cpu/ogl1_fixture.h"
 
 /* ---- sameness ---- */

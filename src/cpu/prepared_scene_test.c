@@ -9,9 +9,8 @@
 
 #include <cmocka.h>
 
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 #include "base/memory.h"
-#include "base/test_effort.h"
 #include "cpu/preview_fixture.h"
 
 static facet_render_desc resolved_desc(const fixture *f)

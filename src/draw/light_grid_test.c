@@ -10,11 +10,12 @@
 #include "draw/light_grid.h"
 
 #include "shade/shade.h"
+#include "tests/support/support.h"
 
 static uint32_t random_state = 1;
 static float uniform_number(float low, float high)
 {
-    random_state = random_state * 1664525u + 1013904223u;
+    lcg_next(&random_state);
     return low + (high - low) * (float)(random_state >> 8) * 0x1p-24f;
 }
 

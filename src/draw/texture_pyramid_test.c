@@ -9,14 +9,14 @@
 
 #include <cmocka.h>
 
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 #include "draw/texture_pyramid.h"
 
 static texture_tables tables;
 
 static uint32_t next_random(uint32_t *random)
 {
-    *random = *random * 1664525u + 1013904223u;
+    lcg_next(random);
     return *random >> 16;
 }
 

@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "draw/texture_set.h"
+#include "tests/support/support.h"
 
 static texture_tables tables;
 
@@ -50,7 +51,7 @@ static image make_noise(uint32_t width, uint32_t height, uint32_t channel_count)
     image i = make_image(width, height, channel_count, IMAGE_U8);
     uint32_t random = 5;
     for (size_t k = 0; k < (size_t)width * height * channel_count; k++) {
-        random = random * 1664525u + 1013904223u;
+        lcg_next(&random);
         ((uint8_t *)i.pixels)[k] = (uint8_t)(random >> 24);
     }
     return i;

@@ -13,7 +13,7 @@
 
 #include <cmocka.h>
 
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "draw/texture_set.h"

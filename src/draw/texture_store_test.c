@@ -7,9 +7,8 @@
 
 #include <cmocka.h>
 
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 #include "base/memory.h"
-#include "base/test_effort.h"
 #include "draw/texture_set.h"
 
 enum { IMAGE_COUNT = 4 };
@@ -38,7 +37,7 @@ static void encode(scene_image *out, uint32_t width, uint32_t height, image_code
     i.is_srgb = true;
     uint32_t noise = width;
     for (uint32_t k = 0; k < width * height * 3; k++) {
-        noise = noise * 1664525u + 1013904223u;
+        lcg_next(&noise);
         ((uint8_t *)i.pixels)[k] = (uint8_t)(noise >> 24);
     }
     unsigned char *bytes;

@@ -320,7 +320,7 @@ static void draw_pixel(const drawing *d, uint32_t x, uint32_t y)
     size_t i = (size_t)y * f->width + x;
     double sum[10] = {0}, square[3] = {0};
     random_state r = {hash_bits(hash_bits((uint32_t)i) + 77u * d->seed)};
-    uint32_t strata = (uint32_t)(sqrt)((double)d->samples);
+    uint32_t strata = (uint32_t)sqrt((double)d->samples);
     for (uint32_t k = 0; k < d->samples; k++) {
         float sx = ((float)(k % strata) + random_number(&r)) / (float)strata;
         float sy = ((float)(k / strata % strata) + random_number(&r)) / (float)strata;
@@ -337,7 +337,7 @@ static void draw_pixel(const drawing *d, uint32_t x, uint32_t y)
         sum[3] += (double)one.opacity;
     }
     double n = (double)d->samples;
-    double length = (sqrt)(sum[7] * sum[7] + sum[8] * sum[8] + sum[9] * sum[9]);
+    double length = sqrt(sum[7] * sum[7] + sum[8] * sum[8] + sum[9] * sum[9]);
     for (size_t c = 0; c < 4; c++)
         film_find(f, "")->pixels[4 * i + c] = (float)(sum[c] / n);
     for (size_t c = 0; c < 3; c++) {
@@ -398,5 +398,5 @@ double fixture_error(const film *f, const film *truth, bool is_relative)
             double square = e * e - (double)noise[3 * i + c];
             sum += is_relative ? square / (t * t + 0.01 * mean * mean) : square;
         }
-    return (sqrt)(fmax(sum, 0.0) / (3.0 * (double)count));
+    return sqrt(fmax(sum, 0.0) / (3.0 * (double)count));
 }

@@ -10,21 +10,13 @@
 
 #include <cmocka.h>
 
-#include "base/failing_allocator.h"
-#include "base/near_test.h"
-#include "base/test_effort.h"
+#include "tests/support/support.h"
 #include "film/denoise.h"
 #include "film/denoise_fixture.h"
 
 static const uint32_t guides = FACET_AOV_ALBEDO | FACET_AOV_NORMAL | FACET_AOV_VARIANCE;
 
 /* ---- images of a known truth ---- */
-
-static float uniform(uint32_t *state)
-{
-    *state = *state * 1664525u + 1013904223u;
-    return (float)(*state >> 8) * 0x1p-24f;
-}
 
 typedef struct pixel_truth {
     float light, albedo, normal[3];
@@ -44,7 +36,7 @@ static film noisy_film(uint32_t width, uint32_t height, pixel_truth (*at)(uint32
         double sum[3] = {0}, square[3] = {0};
         for (int k = 0; k < SAMPLES; k++)
             for (int c = 0; c < 3; c++) {
-                float value = t.light * t.albedo * (1.0f - amount - amount * logf(1.0f - uniform(&random)));
+                float value = t.light * t.albedo * (1.0f - amount - amount * logf(1.0f - lcg_float(&random)));
                 sum[c] += (double)value;
                 square[c] += (double)value * (double)value;
             }
@@ -94,10 +86,10 @@ static pixel_truth plain_wall(uint32_t x, uint32_t y)
 static pixel_truth grainy_wall(uint32_t x, uint32_t y)
 {
     uint32_t random = x * 7919u + y * 104729u;
-    uniform(&random);
-    uniform(&random);
+    lcg_float(&random);
+    lcg_float(&random);
     return (pixel_truth){
-        .light = 1.0f + 0.01f * (float)x, .albedo = 0.1f + 0.8f * uniform(&random), .normal = {0, 0, 1}};
+        .light = 1.0f + 0.01f * (float)x, .albedo = 0.1f + 0.8f * lcg_float(&random), .normal = {0, 0, 1}};
 }
 
 /* Two walls of a corner, differently lit. */

@@ -10,12 +10,7 @@
 #include <cmocka.h>
 
 #include "film/film_image.h"
-
-/* IEC 61966-2-1, written down a second time on purpose. */
-static double encode(double x)
-{
-    return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055;
-}
+#include "tests/support/support.h"
 
 /* A film of one row: pixel i is (value, value, 1 - value) * opacity with value = i / (count - 1). */
 static film make_ramp(uint32_t count, float opacity)
@@ -46,8 +41,8 @@ static void codes_are_rounded_exactly(void **state)
     for (size_t i = 0; i < COUNT; i++)
         for (size_t k = 0; k < 3; k++) {
             double value = (double)f.layers[0].pixels[4 * i + k];
-            assert_int_equal(((uint8_t *)narrow.pixels)[3 * i + k], lround(255.0 * encode(value)));
-            assert_int_equal(((uint16_t *)wide.pixels)[3 * i + k], lround(65535.0 * encode(value)));
+            assert_int_equal(((uint8_t *)narrow.pixels)[3 * i + k], lround(255.0 * srgb_encode(value)));
+            assert_int_equal(((uint16_t *)wide.pixels)[3 * i + k], lround(65535.0 * srgb_encode(value)));
         }
     image_destroy(&narrow);
     image_destroy(&wide);
@@ -70,7 +65,7 @@ static void alpha_is_straight_in_files(void **state)
             const uint8_t *texel = (uint8_t *)narrow.pixels + 4 * i;
             const uint16_t *texel_16 = (uint16_t *)wide.pixels + 4 * i;
             for (size_t k = 0; k < 3; k++) {
-                double exact = encode((double)pixel[k] / (double)opacity);
+                double exact = srgb_encode((double)pixel[k] / (double)opacity);
                 assert_true(fabs(texel[k] - 255.0 * exact) <= 0.5 + 1e-4);
                 assert_true(fabs(texel_16[k] - 65535.0 * exact) <= 0.5 + 1e-2); /* the quotient is a float */
             }
@@ -108,7 +103,7 @@ static void without_alpha_white_is_behind(void **state)
     for (size_t p = 0; p < 256; p++)
         for (size_t k = 0; k < 3; k++)
             assert_int_equal(((uint8_t *)i.pixels)[3 * p + k],
-                             lround(255.0 * encode((double)(f.layers[0].pixels[4 * p + k] + 0.5f))));
+                             lround(255.0 * srgb_encode((double)(f.layers[0].pixels[4 * p + k] + 0.5f))));
     image_destroy(&i);
     assert_int_equal(film_to_linear_image(&f, NULL, 1, &i, NULL), FACET_OK);
     assert_true(i.type == IMAGE_F32 && i.channel_count == 3 && !i.is_srgb);
@@ -151,7 +146,7 @@ static void threads_change_nothing(void **state)
     assert_int_equal(film_create(NULL, 301, 257, 0, &f, NULL), FACET_OK);
     uint32_t random = 7;
     for (size_t i = 0; i < 4 * 301 * 257; i++) {
-        random = random * 1664525u + 1013904223u;
+        lcg_next(&random);
         f.layers[0].pixels[i] = (float)(random >> 8) * 0x1p-24f;
     }
     for (image_type type = IMAGE_U8; type <= IMAGE_U16; type++) {

@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 #include "film/film.h"
 
 static film make_film(uint32_t width, uint32_t height)
@@ -212,7 +212,7 @@ static void threads_change_nothing(void **state)
         film many = make_film(WIDTH, HEIGHT);
         uint32_t random = 1;
         for (size_t i = 0; i < 4 * WIDTH * HEIGHT; i++) {
-            random = random * 1664525u + 1013904223u;
+            lcg_next(&random);
             one.layers[0].pixels[i] = many.layers[0].pixels[i] = (float)(random >> 8) * 0x1p-22f;
         }
         film_develop(&one, (facet_tonemap)op, NULL, 1);
@@ -224,11 +224,6 @@ static void threads_change_nothing(void **state)
 }
 
 /* ---- blending of encoded numbers ---- */
-
-static double encode(double x)
-{
-    return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055;
-}
 
 /* Half of 0.8 over 0.2 is 0.5 on the display; blended as light it would be 0.6. Opaque pixels keep their bits. */
 static void encoded_numbers_are_mixed_as_they_are(void **state)
@@ -247,7 +242,8 @@ static void encoded_numbers_are_mixed_as_they_are(void **state)
         film_blend_encoded(&f, color, 1);
         for (int c = 0; c < 3; c++) {
             double a = (double)opacities[i];
-            assert_true(fabs(encode((double)pixel[c]) - (a * numbers[c] + (1.0 - a) * behind[c])) < 1e-6);
+            assert_true(fabs(srgb_encode((double)pixel[c]) - (a * numbers[c] + (1.0 - a) * behind[c])) <
+                        1e-6);
             if (i == 3)
                 assert_memory_equal(pixel, linear, sizeof linear);
         }

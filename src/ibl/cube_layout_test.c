@@ -9,9 +9,8 @@
 
 #include <cmocka.h>
 
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 #include "base/memory.h"
-#include "base/test_effort.h"
 #include "ibl/cube_layout.h"
 #include "ibl/sphere.h"
 

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "base/near_test.h"
+#include "tests/support/support.h"
 
 #include "ibl/cube.h"
 
@@ -68,8 +68,7 @@ static cube make_noise(uint32_t size)
         for (int y = 0; y < (int)size; y++)
             for (int x = 0; x < (int)size; x++)
                 for (int k = 0; k < 3; k++)
-                    (*cube_texel(&c, face, x, y))[k] =
-                        (float)((random = random * 1664525u + 1013904223u) >> 8);
+                    (*cube_texel(&c, face, x, y))[k] = (float)(lcg_next(&random) >> 8);
     cube_fill_borders(&c);
     return c;
 }

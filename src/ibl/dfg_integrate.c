@@ -87,8 +87,8 @@ DISPATCH_AVX2 static void dfg_add_ring(lobe *o, ring r)
 /* The integral over p at one s, times weight, added to the sums. */
 static void add_node(lobe *o, double s, double weight)
 {
-    double tangent = (double)o->alpha * (exp)(s);
-    double cos_t = 1.0 / (sqrt)(1.0 + tangent * tangent);
+    double tangent = (double)o->alpha * exp(s);
+    double cos_t = 1.0 / sqrt(1.0 + tangent * tangent);
     double sin_t = tangent * cos_t;
     double cos_2t = (cos_t - sin_t) * (cos_t + sin_t);
     double sin_2t = 2.0 * sin_t * cos_t;
@@ -99,7 +99,7 @@ static void add_node(lobe *o, double s, double weight)
     double edge = o->cos_v * cos_2t + o->sin_v * sin_2t * -1.0; /* N.L at p = pi */
     double opening = 2.0 * half_pi;
     if (edge < 0.0)
-        opening = (acos)(fmin(fmax(-o->cos_v * cos_2t / (o->sin_v * sin_2t), -1.0), 1.0));
+        opening = acos(fmin(fmax(-o->cos_v * cos_2t / (o->sin_v * sin_2t), -1.0), 1.0));
     r.opening = (float)opening;
     /* dH = sin t dt dp and dt = sin t cos t ds; 2: p and -p */
     float D = D_GGX_stable(r.cos_t, vec3(r.sin_t, 0.0f, 0.0f), o->alpha);
@@ -127,7 +127,7 @@ static void add_panel(lobe *o, double a, double b, bool has_root_at_a, bool has_
 static const double LOWEST = -8.0;
 static double highest(const lobe *o)
 {
-    return fmax(8.0, 15.0 + (log)((double)o->alpha / fmax((double)o->alpha, o->cos_v)));
+    return fmax(8.0, 15.0 + log((double)o->alpha / fmax((double)o->alpha, o->cos_v)));
 }
 
 static const double PANEL = 1.5;
@@ -135,7 +135,7 @@ static const double PANEL = 1.5;
 /* The last panel always closes in on its end: there N.L comes near 0 and Vis changes fastest. */
 static void add_interval(lobe *o, double a, double b, bool has_root_at_a)
 {
-    int count = (int)(ceil)((b - a) / PANEL);
+    int count = (int)ceil((b - a) / PANEL);
     if (has_root_at_a && count < 2)
         count = 2;
     for (int i = 0; i < count; i++)
@@ -152,8 +152,8 @@ dfg_terms dfg_integrate(dfg_masking masking, float perceptual_roughness, double 
     double mu = fmax(NdotV, (double)NDOTV_MIN);
     lobe o = {.masking = masking,
               .cos_v = mu,
-              .sin_v = (sqrt)((1.0 - mu) * (1.0 + mu)),
-              .v = (acos)(mu),
+              .sin_v = sqrt((1.0 - mu) * (1.0 + mu)),
+              .v = acos(mu),
               .alpha = alpha_from_roughness(perceptual_roughness)};
     o.k = masking == DFG_SCHLICK_DIRECT ? k_direct(perceptual_roughness) : k_ibl(o.alpha);
     for (int i = 0; i < RING; i++) {
@@ -161,9 +161,8 @@ dfg_terms dfg_integrate(dfg_masking masking, float perceptual_roughness, double 
         o.nodes[i] = (float)gauss_16(i, 0.0, 1.0, &w);
         o.weights[i] = (float)w;
     }
-    double open =
-        (log)((tan)(0.5 * (half_pi - o.v)) / (double)o.alpha); /* all of the ring is lit up to here */
-    double close = (log)((tan)(0.5 * (half_pi + o.v)) / (double)o.alpha); /* none of it is from here */
+    double open = log(tan(0.5 * (half_pi - o.v)) / (double)o.alpha);  /* all of the ring is lit up to here */
+    double close = log(tan(0.5 * (half_pi + o.v)) / (double)o.alpha); /* none of it is from here */
     close = fmin(close, highest(&o));
     if (open > LOWEST)
         add_interval(&o, LOWEST, fmin(open, close), false);
@@ -256,7 +255,7 @@ sheen_albedos sheen_integrate(const sheen_nodes *nodes, double NdotV)
     float cosines[LONGITUDES], weights[LONGITUDES];
     for (int k = 0; k < LONGITUDES; k++) {
         double w;
-        cosines[k] = (float)(cos)(gauss_16(k, 0.0, pi, &w));
+        cosines[k] = (float)cos(gauss_16(k, 0.0, pi, &w));
         weights[k] = (float)w;
     }
     for (int i = 0; i < SHEEN_NODES; i++) {

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "base/near_test.h"
+#include "tests/support/support.h"
 #include "ibl/dfg_integrate.h"
 
 #include "shade/shade.h"
@@ -160,7 +160,7 @@ static void test_mirror(void **state)
     for (int i = 0; i < 4; i++) {
         dfg_masking masking = (dfg_masking)i;
         for (double mu = 0.05; mu <= 1.0; mu += 0.05) {
-            double Fc = (pow)(1.0 - mu, 5.0);
+            double Fc = pow(1.0 - mu, 5.0);
             dfg_terms t = dfg_integrate(masking, 0.0f, mu);
             assert_near(t.scale, 1.0 - Fc, 1e-6);
             assert_near(t.bias, Fc, 1e-6);
@@ -184,7 +184,7 @@ static void test_facts(void **state)
     (void)state;
     for (int i = 0; i < 4; i++) {
         dfg_terms t = dfg_integrate((dfg_masking)i, 1.0f, 1.0);
-        assert_near(t.scale + t.bias, 1.0 - (log)(2.0) * 1.0, 1e-6);
+        assert_near(t.scale + t.bias, 1.0 - log(2.0) * 1.0, 1e-6);
         dfg_terms least = dfg_integrate((dfg_masking)i, 0.5f, (double)NDOTV_MIN);
         dfg_terms zero = dfg_integrate((dfg_masking)i, 0.5f, 0.0);
         assert_true(least.scale == zero.scale && least.bias == zero.bias);
@@ -228,22 +228,22 @@ static void integrate_brdf(double r, double NoV, uint32_t samples, double *A, do
 {
     double a = r * r;
     double k = 0.5 * a;
-    double V[3] = {(sqrt)(1.0 - NoV * NoV), 0.0, NoV};
+    double V[3] = {sqrt(1.0 - NoV * NoV), 0.0, NoV};
     *A = *B = 0.0;
     for (uint32_t i = 0; i < samples; i++) {
         double u = (i + 0.5) / samples;
         double v = (double)(reverse(i) + 0.5) / 4294967296.0;
         double phi = 2.0 * 3.14159265358979323846 * u;
-        double cos_theta = (sqrt)((1.0 - v) / (1.0 + (a * a - 1.0) * v));
-        double sin_theta = (sqrt)(1.0 - cos_theta * cos_theta);
-        double H[3] = {sin_theta * (cos)(phi), sin_theta * (sin)(phi), cos_theta};
+        double cos_theta = sqrt((1.0 - v) / (1.0 + (a * a - 1.0) * v));
+        double sin_theta = sqrt(1.0 - cos_theta * cos_theta);
+        double H[3] = {sin_theta * cos(phi), sin_theta * sin(phi), cos_theta};
         double VoH = V[0] * H[0] + V[2] * H[2];
         double NoL = 2.0 * VoH * H[2] - V[2];
         if (NoL <= 0.0)
             continue;
         double G = NoV / (NoV * (1.0 - k) + k) * (NoL / (NoL * (1.0 - k) + k));
         double G_Vis = G * VoH / (H[2] * NoV);
-        double Fc = (pow)(1.0 - VoH, 5.0);
+        double Fc = pow(1.0 - VoH, 5.0);
         *A += (1.0 - Fc) * G_Vis / samples;
         *B += Fc * G_Vis / samples;
     }

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "base/near_test.h"
+#include "tests/support/support.h"
 
 #include "ibl/dfg.h"
 #include "ibl/ibl.h"
@@ -63,7 +63,7 @@ static void test_mirror(void **state)
         float dfg[2];
         double root = (double)x / (DFG_SIZE - 1);
         ibl_dfg((float)(root * root), 0.0f, dfg);
-        double Fc = (pow)(1.0 - root * root, 5.0);
+        double Fc = pow(1.0 - root * root, 5.0);
         assert_near(dfg[0], 1.0 - Fc, 1e-5);
         assert_near(dfg[1], Fc, 1e-5);
     }

@@ -13,10 +13,9 @@
 
 #include <cmocka.h>
 
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 #include "base/file.h"
 #include "base/memory.h"
-#include "base/test_effort.h"
 #include "ibl/cube_layout.h"
 #include "ibl/environment.h"
 #include "ibl/equirect.h"

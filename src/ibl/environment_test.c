@@ -19,7 +19,7 @@
 #include "ibl/environment.h"
 #include "ibl/equirect.h"
 #include "ibl/ibl.h"
-#include "base/near_test.h"
+#include "tests/support/support.h"
 
 static const ibl_light_desc everything = {.needs_irradiance = true,
                                           .needs_specular = true,

@@ -11,12 +11,11 @@
 #include <cmocka.h>
 
 #include "base/memory.h"
-#include "base/test_effort.h"
+#include "tests/support/support.h"
 #include "ibl/environment.h"
 #include "ibl/equirect.h"
 #include "ibl/ibl.h"
 #include "ibl/making_test.h"
-#include "base/near_test.h"
 
 static const double pi = 3.14159265358979323846;
 

@@ -16,7 +16,7 @@
 #include "ibl/ibl.h"
 #include "ibl/making_test.h"
 #include "ibl/narrow.h"
-#include "base/near_test.h"
+#include "tests/support/support.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -268,7 +268,7 @@ static void test_sizes(void **state)
         uint32_t seed = 1;
         float *pixels = e->panorama.pixels;
         for (size_t j = 0; j < 3 * (size_t)sizes[i][0] * sizes[i][1]; j++) {
-            seed = seed * 1664525u + 1013904223u;
+            lcg_next(&seed);
             pixels[j] = (float)(seed >> 8);
         }
         narrow m;

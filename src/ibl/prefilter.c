@@ -71,9 +71,9 @@ float prefilter_lod_of(prefilter_lobe lobe, float perceptual_roughness)
 static double distribution(prefilter_lobe lobe, double t, float alpha)
 {
     if (lobe == PREFILTER_GGX)
-        return (double)D_GGX_stable((float)(cos)(t), vec3((float)(sin)(t), 0.0f, 0.0f), alpha);
+        return (double)D_GGX_stable((float)cos(t), vec3((float)sin(t), 0.0f, 0.0f), alpha);
     /* D_Charlie over its value on the horizon, t = pi / 4: both are below any float at low roughness */
-    return (exp)(0.5 / (double)alpha * (log)(2.0 * (sin)(t) * (sin)(t)));
+    return exp(0.5 / (double)alpha * log(2.0 * sin(t) * sin(t)));
 }
 
 enum { NODES = 8 };
@@ -88,9 +88,9 @@ static void add_panel(prefilter_lobe lobe, float alpha, double from, double to, 
         double weight;
         double s = gauss_8(i, from, to, &weight);
         double t = lobe == PREFILTER_GGX ? s : end - s;
-        x[i] = (cos)(2.0 * t);
+        x[i] = cos(2.0 * t);
         /* dl = 2 pi sin(2 t) d(2 t) */
-        now[i] = weight * distribution(lobe, t, alpha) * x[i] * (sin)(2.0 * t);
+        now[i] = weight * distribution(lobe, t, alpha) * x[i] * sin(2.0 * t);
         before[i] = 0.0;
     }
     for (uint32_t l = 0; l <= degree; l++) {
@@ -145,7 +145,7 @@ uint32_t prefilter_choose_degree(prefilter_lobe lobe, float perceptual_roughness
         uint32_t degree = 32;
         while (degree < known && square(kernel, degree + 1, known) + beyond > allowed)
             degree += 32;
-        *cut = (sqrt)((square(kernel, degree + 1, known) + beyond) / (whole + beyond));
+        *cut = sqrt((square(kernel, degree + 1, known) + beyond) / (whole + beyond));
         if (degree < known || known == HARMONICS_MAX_DEGREE)
             return degree;
     }

@@ -11,8 +11,7 @@
 #include <cmocka.h>
 
 #include "base/memory.h"
-#include "base/near_test.h"
-#include "base/test_effort.h"
+#include "tests/support/support.h"
 #include "ibl/making_test.h"
 #include "ibl/environment_source.h"
 #include "scene/scene.h"
@@ -30,11 +29,6 @@ typedef struct writing {
     bool is_mirrored; /* as Babylon.js reads it: cube of a world with X mirrored, images as they are */
     bool has_phase;   /* coefficients of odd m with the sign of Condon and Shortley */
 } writing;
-
-static double srgb_of(double x)
-{
-    return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055;
-}
 
 /* The model's direction that texel (x, y) of image number face holds. */
 static void texel_direction(const writing *w, uint32_t face, uint32_t x, uint32_t y, double d[3])
@@ -54,7 +48,7 @@ static void write_texel(const writing *w, const double c[3], double out[4])
     double peak = fmax(fmax(c[0], c[1]), fmax(c[2], 1.0));
     double d = w->is_rgb ? 1.0 : floor(255.0 / peak) / 255.0;
     for (int k = 0; k < 3; k++)
-        out[k] = srgb_of(fmin(c[k] * d, 1.0));
+        out[k] = srgb_encode(fmin(c[k] * d, 1.0));
     out[3] = d;
 }
 

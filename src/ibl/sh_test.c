@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "base/near_test.h"
+#include "tests/support/support.h"
 
 #include "base/memory.h"
 #include "ibl/equirect.h"

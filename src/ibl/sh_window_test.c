@@ -8,14 +8,14 @@
 
 #include <cmocka.h>
 
-#include "base/near_test.h"
+#include "tests/support/support.h"
 #include "ibl/sh.h"
 
 static const double pi = 3.14159265358979323846;
 
 static double random_number(uint32_t *state) /* [-1, 1) */
 {
-    *state = *state * 1664525u + 1013904223u;
+    lcg_next(state);
     return (double)(*state >> 8) / 8388608.0 - 1.0;
 }
 

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "base/near_test.h"
+#include "tests/support/support.h"
 #include "ibl/making_test.h"
 
 static const double pi = 3.14159265358979323846;

@@ -57,8 +57,8 @@ typedef struct disc_frame {
 
 static disc_frame make_frame(const sky_sun_light *sun)
 {
-    double se = (sin)((double)sun->elevation_rad), ce = (cos)((double)sun->elevation_rad);
-    double sa = (sin)((double)sun->azimuth_rad), ca = (cos)((double)sun->azimuth_rad);
+    double se = sin((double)sun->elevation_rad), ce = cos((double)sun->elevation_rad);
+    double sa = sin((double)sun->azimuth_rad), ca = cos((double)sun->azimuth_rad);
     return (disc_frame){{sa * ce, se, ca * ce}, {-sa * se, ce, -ca * se}, {ca, 0.0, -sa}};
 }
 
@@ -66,15 +66,15 @@ static disc_frame make_frame(const sky_sun_light *sun)
 static disc_part make_part(const sky_sun_light *sun, const disc_frame *frame, int part, int count)
 {
     const double golden_angle = 2.399963229728653;
-    double r = (sqrt)((part / 2 + 0.5) / (count / 2));
+    double r = sqrt((part / 2 + 0.5) / (count / 2));
     double turn = golden_angle * (part / 2) * (part % 2 ? 1.0 : -1.0);
     double angle = r * (double)SUN_RADIUS;
-    double up = (sin)(angle) * (cos)(turn), side = (sin)(angle) * (sin)(turn);
-    double limb = (1.0 - limb_darkening * (1.0 - (sqrt)(1.0 - r * r))) / (1.0 - limb_darkening / 3.0);
+    double up = sin(angle) * cos(turn), side = sin(angle) * sin(turn);
+    double limb = (1.0 - limb_darkening * (1.0 - sqrt(1.0 - r * r))) / (1.0 - limb_darkening / 3.0);
     disc_part out;
     for (int i = 0; i < 3; i++)
-        out.direction[i] = frame->middle[i] * (cos)(angle) + frame->up[i] * up + frame->side[i] * side;
-    float elevation = (float)(asin)(fmax(-1.0, fmin(1.0, out.direction[1])));
+        out.direction[i] = frame->middle[i] * cos(angle) + frame->up[i] * up + frame->side[i] * side;
+    float elevation = (float)asin(fmax(-1.0, fmin(1.0, out.direction[1])));
     float x = (elevation - sun->elevation_rad) / SUN_RADIUS * 0.5f + 0.5f;
     x = clamp(x, 0.0f, 1.0f) * (SKY_SUN_NODES - 1);
     int node = (int)x < SKY_SUN_NODES - 2 ? (int)x : SKY_SUN_NODES - 2;
@@ -106,7 +106,7 @@ void sky_sun_draw(const sky_sun_light *sun, image *panorama)
         disc_part part = make_part(sun, &frame, k, count);
         const double *d = part.direction;
         double u = 0.5 + (atan2)(d[2], d[0]) * 0.15915494309189535;
-        double v = (acos)(fmax(-1.0, fmin(1.0, d[1]))) * 0.3183098861837907;
+        double v = acos(fmax(-1.0, fmin(1.0, d[1]))) * 0.3183098861837907;
         uint32_t x = (uint32_t)fmin(fmax(u * width, 0.0), width - 1.0);
         uint32_t y = (uint32_t)fmin(v * height, height - 1.0);
         float per_sr = (float)(1.0 / equirect_texel_solid_angle(width, height, y));
@@ -137,7 +137,7 @@ typedef struct image_job {
 static void add_view_row(const image_job *job, double angle, float weight, float *texels)
 {
     sky_light row[SKY_VIEW_AZIMUTHS];
-    float mu = (float)(cos)(angle), across = (float)(sin)(angle)*job->across_sun;
+    float mu = (float)cos(angle), across = (float)sin(angle) * job->across_sun;
     sky_view_fetch_row(job->view, (float)angle, row);
     for (uint32_t x = 0; x < job->panorama->width; x++) {
         float cos_angle = clamp(mu * job->mu_sun + across * job->columns[x].cosine, -1.0f, 1.0f);
@@ -149,7 +149,7 @@ static void add_view_row(const image_job *job, double angle, float weight, float
 
 static void add_preetham_row(const image_job *job, double angle, float weight, float *texels)
 {
-    float mu = (float)(cos)(angle), across = (float)(sin)(angle)*job->across_sun;
+    float mu = (float)cos(angle), across = (float)sin(angle) * job->across_sun;
     for (uint32_t x = 0; x < job->panorama->width && angle < job->horizon; x++) {
         float cos_angle = clamp(mu * job->mu_sun + across * job->columns[x].cosine, -1.0f, 1.0f);
         vec3 L = preetham_radiance(job->preetham, mu, cos_angle);
@@ -169,11 +169,11 @@ static void draw_rows(void *context, size_t begin, size_t end)
         double top = (double)y * row_angle;
         bool is_fine = fabs(top + 0.5 * row_angle - job->horizon) < 2.0 * row_angle;
         int count = is_fine ? FINE_SUB_ROWS : (int)fmin(ceil(row_angle / 0.007), FINE_SUB_ROWS);
-        double whole = (cos)(top) - (cos)(top + row_angle);
+        double whole = cos(top) - cos(top + row_angle);
         memset(texels, 0, row_floats * sizeof *texels);
         for (int i = 0; i < count; i++) {
             double from = top + row_angle * i / count, to = top + row_angle * (i + 1) / count;
-            float weight = (float)(((cos)(from) - (cos)(to)) / whole);
+            float weight = (float)((cos(from) - cos(to)) / whole);
             if (job->view)
                 add_view_row(job, 0.5 * (from + to), weight, texels);
             else
@@ -203,7 +203,7 @@ facet_result sky_image_atmosphere(const sky_view *view, float sun_azimuth_rad,
 {
     image_job job = {.panorama = panorama,
                      .allocator = allocator,
-                     .horizon = (acos)((double)horizon_mu(view->height_km)),
+                     .horizon = acos((double)horizon_mu(view->height_km)),
                      .mu_sun = view->mu_sun,
                      .view = view};
     return draw(&job, sun_azimuth_rad, thread_count, error);
@@ -221,7 +221,7 @@ static void sum_ground(const image *panorama, double out[3])
         for (uint32_t x = 0; x < panorama->width; x++)
             for (int i = 0; i < 3; i++)
                 sums[i] += (double)row[3 * x + (uint32_t)i];
-        double cosine = (cos)((y + 0.5) * half_turn / panorama->height);
+        double cosine = cos((y + 0.5) * half_turn / panorama->height);
         for (int i = 0; i < 3; i++)
             out[i] += sums[i] * cosine * equirect_texel_solid_angle(panorama->width, panorama->height, y);
     }
@@ -293,8 +293,8 @@ facet_result sky_image_illuminance(const image *panorama, float azimuth_rad, con
     double largest = 0.0;
     for (int c = 0; c < CANDIDATES; c++) {
         double elevation = 2.0 * half_turn * c / CANDIDATES;
-        double n[3] = {(cos)(elevation) * (sin)((double)azimuth_rad), (sin)(elevation),
-                       (cos)(elevation) * (cos)((double)azimuth_rad)};
+        double n[3] = {cos(elevation) * sin((double)azimuth_rad), sin(elevation),
+                       cos(elevation) * cos((double)azimuth_rad)};
         double sum = 0.0;
         for (int row = 0; row < BLOCK_ROWS; row++)
             for (int column = 0; column < BLOCK_COLUMNS; column++) {

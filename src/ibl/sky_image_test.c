@@ -10,9 +10,7 @@
 
 #include <cmocka.h>
 
-#include "base/failing_allocator.h"
-#include "base/near_test.h"
-#include "base/test_effort.h"
+#include "tests/support/support.h"
 #include "ibl/environment.h"
 
 #include "ibl/equirect.h"
@@ -99,8 +97,7 @@ static void test_disc_shape(void **state)
     double elevation = 50.0 * degree, azimuth = 0.7;
     sky_sun_light sun = sky_sun_through_air(air, 0.0f, (float)elevation, (float)azimuth);
     sky_sun_draw(&sun, &p);
-    double towards[3] = {(cos)(elevation) * (sin)(azimuth), (sin)(elevation),
-                         (cos)(elevation) * (cos)(azimuth)};
+    double towards[3] = {cos(elevation) * sin(azimuth), sin(elevation), cos(elevation) * cos(azimuth)};
     double mean = (double)luminance(sky_sun_illuminance(&sun)) / (double)SUN_SOLID_ANGLE;
     uint32_t top = (uint32_t)(0.95 * (0.5 * pi - elevation) / pi * SIZE);
     uint32_t middle = (uint32_t)((0.5 + (0.5 * pi - azimuth) / (2.0 * pi)) * p.width);
@@ -113,12 +110,12 @@ static void test_disc_shape(void **state)
             float d[3];
             equirect_direction(p.width, p.height, x, y, d);
             double cosine = towards[0] * (double)d[0] + towards[1] * (double)d[1] + towards[2] * (double)d[2];
-            double r = (acos)(fmin(cosine, 1.0)) / (double)SUN_RADIUS; /* 1: the edge; a texel is 0.17 wide */
+            double r = acos(fmin(cosine, 1.0)) / (double)SUN_RADIUS; /* 1: the edge; a texel is 0.17 wide */
             double L = luminance_of(texel(&p, x, y)) / mean;
             if (r > 1.13)
                 assert_true(L == 0.0);
             if (r < 0.85) { /* linear limb darkening of 0.6 */
-                double expected = (1.0 - 0.6 * (1.0 - (sqrt)(1.0 - r * r))) / 0.8;
+                double expected = (1.0 - 0.6 * (1.0 - sqrt(1.0 - r * r))) / 0.8;
                 assert_near(L / expected, 1.0, 0.03);
             }
         }
@@ -135,8 +132,7 @@ static void test_disc_in_sky(void **state)
                               .sun_azimuth_rad = -2.0f,
                               .turbidity = 2.0f,
                               .height = 128};
-        double n[3] = {(cos)(35.0 * degree) * (sin)(-2.0), (sin)(35.0 * degree),
-                       (cos)(35.0 * degree) * (cos)(-2.0)};
+        double n[3] = {cos(35.0 * degree) * sin(-2.0), sin(35.0 * degree), cos(35.0 * degree) * cos(-2.0)};
         facet_environment *with = create(sky);
         sky.omits_disc = true;
         facet_environment *without = create(sky);
@@ -288,7 +284,7 @@ static void test_ground(void **state)
         Atmosphere air[SKY_HALVES];
         sky_atmosphere(2.5f, (float[3]){0.0f, 0.0f, 0.0f}, air);
         sky_sun_light sun = sky_sun_through_air(air, 0.0f, 0.7f, 0.0f);
-        double direct = (double)luminance(sky_sun_illuminance(&sun)) * (sin)(0.7);
+        double direct = (double)luminance(sky_sun_illuminance(&sun)) * sin(0.7);
         assert_near(up, (double)albedo * (sky + direct), 0.01 * up);
         assert_true(sky > before * 1.02 && (i == 0 || sky < before * 1.35));
         before = sky;
@@ -329,7 +325,7 @@ static void test_exposure(void **state)
                                                        .illuminance_lux = 100.0f});
         for (int k = 0; k < 60; k++) {
             double a = k * 6.0 * degree;
-            double n[3] = {(cos)(a) * (sin)(0.5), (sin)(a), (cos)(a) * (cos)(0.5)};
+            double n[3] = {cos(a) * sin(0.5), sin(a), cos(a) * cos(0.5)};
             largest = fmax(largest, illuminance(&e->panorama, n));
         }
         assert_near(largest, 100.0, 0.5); /* cos 3 degrees is 0.9986 */
@@ -426,7 +422,7 @@ static void test_gradient(void **state)
     assert_int_equal(facet_environment_create_gradient(zenith, horizon, nadir, NULL, &e, NULL), FACET_OK);
     for (int i = -10; i <= 10; i++) {
         double y = 0.1 * i;
-        float d[3] = {(float)(sqrt)(fmax(1.0 - y * y, 0.0)), (float)y, 0.0f}, c[3];
+        float d[3] = {(float)sqrt(fmax(1.0 - y * y, 0.0)), (float)y, 0.0f}, c[3];
         equirect_lookup(&e->panorama, d, c);
         for (int k = 0; k < 3; k++) {
             double end = (double)(i < 0 ? nadir : zenith)[k];

@@ -33,7 +33,7 @@ static double mc_dot(const double a[3], const double b[3])
 
 static double mc_height(const double p[3])
 {
-    return fmax((sqrt)(mc_dot(p, p)) - MC_GROUND, 0.0);
+    return fmax(sqrt(mc_dot(p, p)) - MC_GROUND, 0.0);
 }
 
 static void mc_move(double p[3], const double d[3], double t)
@@ -46,9 +46,9 @@ static void mc_move(double p[3], const double d[3], double t)
 static void mc_coefficients(const mc_air *a, double h, double out[3])
 {
     double ozone = fmax(0.0, 1.0 - fabs(h - 25.0) / 15.0);
-    out[0] = a->rayleigh * (exp)(-h / 8.0);
-    out[1] = a->haze_scattering * (exp)(-h / 1.2);
-    out[2] = out[0] + a->haze_extinction * (exp)(-h / 1.2) + a->ozone * ozone;
+    out[0] = a->rayleigh * exp(-h / 8.0);
+    out[1] = a->haze_scattering * exp(-h / 1.2);
+    out[2] = out[0] + a->haze_extinction * exp(-h / 1.2) + a->ozone * ozone;
 }
 
 /* Length of a ray in the air; *is_ground: it ends at the ground. */
@@ -57,7 +57,7 @@ static double mc_length(const double p[3], const double d[3], bool *is_ground)
     double b = mc_dot(p, d), r2 = mc_dot(p, p);
     double ground = b * b - r2 + MC_GROUND * MC_GROUND;
     *is_ground = b < 0.0 && ground >= 0.0;
-    return *is_ground ? fmax(-b - (sqrt)(ground), 0.0) : -b + (sqrt)(b * b - r2 + MC_TOP * MC_TOP);
+    return *is_ground ? fmax(-b - sqrt(ground), 0.0) : -b + sqrt(b * b - r2 + MC_TOP * MC_TOP);
 }
 
 static double mc_transmittance(const mc_air *a, const double p[3], const double d[3], double length,
@@ -72,7 +72,7 @@ static double mc_transmittance(const mc_air *a, const double p[3], const double 
         mc_coefficients(a, mc_height(q), c);
         sum += c[2] * (to - from);
     }
-    return (exp)(-sum);
+    return exp(-sum);
 }
 
 static double mc_sun(const mc_air *a, const double p[3], const double sun[3])
@@ -88,7 +88,7 @@ static double mc_phase_rayleigh(double c)
 }
 static double mc_phase_haze(double c, double g)
 {
-    return (1.0 - g * g) / (4.0 * MC_PI * (pow)(1.0 + g * g - 2.0 * g * c, 1.5));
+    return (1.0 - g * g) / (4.0 * MC_PI * pow(1.0 + g * g - 2.0 * g * c, 1.5));
 }
 
 /* Light scattered once, per illuminance of the sun outside, by direct integration. */
@@ -104,7 +104,7 @@ static inline double mc_single(const mc_air *a, const double eye[3], const doubl
         mc_move(p, d, 0.5 * (from + to));
         mc_coefficients(a, mc_height(p), k);
         double source = k[0] * mc_phase_rayleigh(c) + k[1] * mc_phase_haze(c, a->haze_g);
-        sum += source * mc_sun(a, p, sun) * (exp)(-depth - 0.5 * k[2] * (to - from)) * (to - from);
+        sum += source * mc_sun(a, p, sun) * exp(-depth - 0.5 * k[2] * (to - from)) * (to - from);
         depth += k[2] * (to - from);
     }
     return sum;
@@ -115,13 +115,13 @@ static void mc_turn(double d[3], double cosine, uint64_t *random)
 {
     double s = d[2] < 0.0 ? -1.0 : 1.0, k = -1.0 / (s + d[2]), q = d[0] * d[1] * k;
     double t[3] = {1.0 + s * d[0] * d[0] * k, s * q, -s * d[0]}, b[3] = {q, s + d[1] * d[1] * k, -d[1]};
-    double sine = (sqrt)(fmax(1.0 - cosine * cosine, 0.0)), phi = 2.0 * MC_PI * mc_random(random), norm = 0.0;
+    double sine = sqrt(fmax(1.0 - cosine * cosine, 0.0)), phi = 2.0 * MC_PI * mc_random(random), norm = 0.0;
     for (int i = 0; i < 3; i++) {
-        d[i] = d[i] * cosine + sine * ((cos)(phi)*t[i] + (sin)(phi)*b[i]);
+        d[i] = d[i] * cosine + sine * (cos(phi) * t[i] + sin(phi) * b[i]);
         norm += d[i] * d[i];
     }
     for (int i = 0; i < 3; i++)
-        d[i] /= (sqrt)(norm);
+        d[i] /= sqrt(norm);
 }
 
 static double mc_scattering_cosine(bool is_haze, double g, uint64_t *random)
@@ -145,7 +145,7 @@ static bool mc_collide(const mc_air *a, double p[3], const double d[3], double l
     mc_coefficients(a, fmax(mc_height(lowest) - 1e-5, 0.0), k);
     double most = k[2] + a->ozone, t = 0.0;
     for (;;) {
-        t -= (log)(1.0 - mc_random(random)) / most;
+        t -= log(1.0 - mc_random(random)) / most;
         if (t >= length)
             return false;
         double q[3] = {p[0], p[1], p[2]};
@@ -176,14 +176,14 @@ static double mc_path(const mc_air *a, const double eye[3], const double directi
             mc_turn(d, mc_scattering_cosine(mc_random(random) * both >= k[0], a->haze_g, random), random);
         } else if (is_ground) {
             mc_move(p, d, length);
-            double r = (sqrt)(mc_dot(p, p));
+            double r = sqrt(mc_dot(p, p));
             for (int i = 0; i < 3; i++) {
                 d[i] = p[i] / r;
                 p[i] = d[i] * (MC_GROUND + 1e-7);
             }
             weight *= a->ground_albedo;
             L += weight / MC_PI * fmax(mc_dot(d, sun), 0.0) * mc_sun(a, p, sun);
-            mc_turn(d, (sqrt)(mc_random(random)), random);
+            mc_turn(d, sqrt(mc_random(random)), random);
         } else {
             break;
         }
@@ -207,7 +207,7 @@ static inline double mc_radiance(const mc_air *a, const double eye[3], const dou
         squares += L * L;
     }
     double mean = sum / paths;
-    *deviation = (sqrt)(fmax(squares / paths - mean * mean, 0.0) / paths);
+    *deviation = sqrt(fmax(squares / paths - mean * mean, 0.0) / paths);
     return mean;
 }
 

@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "base/near_test.h"
+#include "tests/support/support.h"
 #include "ibl/sky_monte_carlo_test.h"
 
 #include "ibl/equirect.h"
@@ -55,7 +55,7 @@ static void draw(scene *s, double elevation)
 static double luminance_at(const scene *s, double elevation, double azimuth)
 {
     double e = elevation * degree, a = azimuth * degree;
-    float d[3] = {(float)((cos)(e) * (sin)(a)), (float)(sin)(e), (float)((cos)(e) * (cos)(a))}, c[3];
+    float d[3] = {(float)(cos(e) * sin(a)), (float)sin(e), (float)(cos(e) * cos(a))}, c[3];
     equirect_lookup(&s->panorama, d, c);
     return (double)luminance(vec3(c[0], c[1], c[2]));
 }
@@ -65,7 +65,7 @@ static void sum_sky(const scene *s, double out[3])
 {
     out[0] = out[1] = out[2] = 0.0;
     for (uint32_t y = 0; y < HEIGHT / 2; y++) {
-        double weight = equirect_texel_solid_angle(2 * HEIGHT, HEIGHT, y) * (cos)((y + 0.5) * MC_PI / HEIGHT);
+        double weight = equirect_texel_solid_angle(2 * HEIGHT, HEIGHT, y) * cos((y + 0.5) * MC_PI / HEIGHT);
         for (uint32_t x = 0; x < 2 * HEIGHT; x++)
             for (uint32_t i = 0; i < 3; i++)
                 out[i] +=
@@ -165,8 +165,8 @@ typedef struct sight {
 static void aim(sight v, double d[3], double sun[3])
 {
     double e = v.elevation * degree, a = v.azimuth * degree, s = v.sun * degree;
-    d[0] = (cos)(e) * (sin)(a), d[1] = (sin)(e), d[2] = (cos)(e) * (cos)(a);
-    sun[0] = 0.0, sun[1] = (sin)(s), sun[2] = (cos)(s);
+    d[0] = cos(e) * sin(a), d[1] = sin(e), d[2] = cos(e) * cos(a);
+    sun[0] = 0.0, sun[1] = sin(s), sun[2] = cos(s);
 }
 
 static void march(const scene *s, const double d[3], const double sun[3], AirLight light[SKY_HALVES])
@@ -239,10 +239,10 @@ static void test_bright_ground(void **state)
             mc_air air = band(&s.air[0], c);
             uint64_t random = 88172645463325252u;
             double eye[3] = {0.0, MC_GROUND + 1e-6, 0.0}, sum = 0.0;
-            double sun[3] = {0.0, (double)mu_sun, (sqrt)(1.0 - (double)(mu_sun * mu_sun))};
+            double sun[3] = {0.0, (double)mu_sun, sqrt(1.0 - (double)(mu_sun * mu_sun))};
             for (int k = 0; k < PATHS; k++) { /* directions by their cosine */
                 double u = mc_random(&random), phi = 2.0 * MC_PI * mc_random(&random);
-                double d[3] = {(sqrt)(u) * (cos)(phi), (sqrt)(1.0 - u), (sqrt)(u) * (sin)(phi)};
+                double d[3] = {sqrt(u) * cos(phi), sqrt(1.0 - u), sqrt(u) * sin(phi)};
                 sum += mc_path(&air, eye, d, sun, &random);
             }
             assert_near(relative((double)sky[0][c], MC_PI * sum / PATHS), 0.0, 0.12);
@@ -299,7 +299,7 @@ static void test_azimuths(void **state)
     (void)state;
     for (int i = 0; i < 400; i++) {
         double radians =
-            (i % 2 ? -1.0 : 1.0) * (pow)(10.0, 0.2 * i - 40.0); /* to 6e39, more than floats hold */
+            (i % 2 ? -1.0 : 1.0) * pow(10.0, 0.2 * i - 40.0); /* to 6e39, more than floats hold */
         sky_azimuth azimuth = sky_view_azimuth(radians);
         float sum = 0.0f;
         for (int k = 0; k < 4; k++) {

@@ -5,6 +5,7 @@
 
 #include "image/block.h"
 #include "image/half.h"
+#include "tests/support/support.h"
 
 enum { BLOCK_COUNT = 4096 };
 
@@ -12,7 +13,7 @@ enum { BLOCK_COUNT = 4096 };
 static void make_block(uint32_t *random, uint32_t number, bool is_bc7, unsigned char block[16])
 {
     for (int i = 0; i < 16; i++) {
-        *random = *random * 1664525u + 1013904223u;
+        lcg_next(random);
         block[i] = (unsigned char)(*random >> 24);
     }
     if (is_bc7)

@@ -1,6 +1,7 @@
 /* codec_png_test.c - PNG: what we write libspng reads back, PngSuite, refusals, independence of threads. */
 #define _GNU_SOURCE
 #include "image/image_test.h"
+#include "tests/support/support.h"
 
 #include <dirent.h>
 
@@ -77,7 +78,7 @@ static void extremes_come_back(void **state)
     image i = make_image(640, 480, 4, IMAGE_U8);
     uint32_t noise = 7;
     for (uint32_t k = 0; k < 640 * 480 * 4; k++) {
-        noise = noise * 1664525u + 1013904223u;
+        lcg_next(&noise);
         ((uint8_t *)i.pixels)[k] = (uint8_t)(noise >> 24);
     }
     for (uint32_t level = 1; level <= 9; level += 4)

@@ -6,6 +6,7 @@
 
 #include "image/block.h"
 #include "image/codec.h"
+#include "tests/support/support.h"
 
 enum { WIDTH = 7, HEIGHT = 5, MAX_FILE = 65536 };
 
@@ -425,7 +426,7 @@ static void gif_of_long_codes(void **state)
     static unsigned char indices[200 * 150];
     uint32_t noise = 1;
     for (size_t i = 0; i < sizeof indices; i++) {
-        noise = noise * 1664525u + 1013904223u;
+        lcg_next(&noise);
         indices[i] = (unsigned char)(i % 7 < 3 ? noise >> 24 : i / 200);
     }
     static made m;

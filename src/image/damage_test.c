@@ -1,6 +1,7 @@
 /* damage_test.c - what all decoders owe: truncated and changed files do no harm, memory that runs out is a
  * result, nothing leaks. Made to run under the address sanitizer. */
 #include "image/image_test.h"
+#include "tests/support/support.h"
 
 /* Small files of every codec. */
 typedef struct sample {
@@ -92,10 +93,10 @@ static facet_result try_bytes(const unsigned char *bytes, size_t size, const cha
 {
     unsigned char *copy = malloc(size ? size : 1);
     memcpy(copy, bytes, size);
-    failing counter = {.calls_left = -1};
+    failing_allocator counter = {.fail_at = -1};
     image i, header;
     facet_error error = {0};
-    image_decode_desc desc = {.allocator = failing_allocator(&counter), .max_size = 2048};
+    image_decode_desc desc = {.allocator = failing_allocator_get(&counter), .max_size = 2048};
     facet_result probed = image_probe(copy, size, name, &header, NULL, &error);
     facet_result result = image_decode(copy, size, name, &desc, &i, &error);
     if (result == FACET_OK) {
@@ -148,10 +149,10 @@ static void changed_files_do_no_harm(void **state)
         unsigned char *copy = malloc(s->size);
         for (int round = 0; round < 600; round++) {
             memcpy(copy, s->bytes, s->size);
-            random = random * 1664525u + 1013904223u;
+            lcg_next(&random);
             int changes = 1 + (int)(random >> 30);
             for (int c = 0; c < changes; c++) {
-                random = random * 1664525u + 1013904223u;
+                lcg_next(&random);
                 /* every second time in the first bytes, where sizes are */
                 size_t at = (random >> 8) % (round % 2 && s->size > 400 ? 400 : s->size);
                 static const unsigned char odd[] = {0, 0xff, 0x7f, 0x80, 1};
@@ -170,11 +171,11 @@ static void memory_that_runs_out_is_a_result(void **state)
     for (size_t k = 0; k < sample_count; k++) {
         facet_result result = FACET_ERROR_MEMORY;
         for (long calls = 0; result != FACET_OK && calls < 1000; calls++) {
-            failing f = {.calls_left = calls};
+            failing_allocator f = {.fail_at = calls};
             image i;
             facet_error error = {0};
             image_decode_desc desc = {
-                .allocator = failing_allocator(&f), .thread_count = 1, .channel_count = 4};
+                .allocator = failing_allocator_get(&f), .thread_count = 1, .channel_count = 4};
             result = image_decode(samples[k].bytes, samples[k].size, samples[k].name, &desc, &i, &error);
             if (result != FACET_OK && result != FACET_ERROR_MEMORY)
                 fail_msg("%s: after %ld allocations: %s", samples[k].name, calls, error.message);
@@ -199,8 +200,8 @@ static void memory_that_runs_out_while_writing(void **state)
         image i = make_image(257, 200, cases[k].channels, cases[k].type);
         facet_result result = FACET_ERROR_MEMORY;
         for (long calls = 0; result == FACET_ERROR_MEMORY && calls < 1000; calls++) {
-            failing f = {.calls_left = calls};
-            image_encode_desc desc = {.allocator = failing_allocator(&f)};
+            failing_allocator f = {.fail_at = calls};
+            image_encode_desc desc = {.allocator = failing_allocator_get(&f)};
             unsigned char *bytes;
             size_t size;
             if (cases[k].codec == IMAGE_CODEC_EXR) {

@@ -4,12 +4,13 @@
 #include <zlib.h>
 
 #include "image/deflate.h"
+#include "tests/support/support.h"
 
 enum { MOST = 300000 };
 
 static uint32_t next_random(uint32_t *random)
 {
-    *random = *random * 1664525u + 1013904223u;
+    lcg_next(random);
     return *random >> 8;
 }
 

@@ -1,5 +1,6 @@
 /* exr_channels_test.c - numbers and texts written into OpenEXR files come back bit for bit, or not at all. */
 #include "image/image_test.h"
+#include "tests/support/support.h"
 
 #include <math.h>
 
@@ -16,7 +17,7 @@ static int make_numbers(void **state)
                                 -INFINITY, NAN,   3.4028235e38f, 16777216.0f};
     uint32_t bits = 1;
     for (size_t i = 0; i < COUNT; i++) {
-        bits = bits * 1664525u + 1013904223u;
+        lcg_next(&bits);
         uint32_t finite = (bits & 0x7f800000u) == 0x7f800000u ? bits & 0xbfffffffu : bits;
         memcpy(&numbers[i], &finite, sizeof finite);
         if (i % CHANNELS == 3)
@@ -155,7 +156,7 @@ static void damage(void **state)
         }
         uint32_t random = 9;
         for (int k = 0; k < 3000; k++) {
-            random = random * 1664525u + 1013904223u;
+            lcg_next(&random);
             size_t at = k < 1200 ? (size_t)k % 600 : (random >> 4) % size;
             unsigned char kept = bytes[at];
             bytes[at] = (unsigned char)(k < 600 ? 0xff : random >> 24);
@@ -175,10 +176,10 @@ static void memory_runs_out(void **state)
     size_t size;
     unsigned char *bytes = encode(true, false, &size);
     float *back = make_room();
-    failing how = {.calls_left = 0};
-    facet_allocator allocator = failing_allocator(&how);
+    failing_allocator how = {.fail_at = 0};
+    facet_allocator allocator = failing_allocator_get(&how);
     assert_int_equal(read(bytes, size, &allocator, back, NULL), FACET_ERROR_MEMORY);
-    how.calls_left = -1;
+    how.fail_at = -1;
     assert_int_equal(read(bytes, size, &allocator, back, NULL), FACET_OK);
     assert_int_equal(how.blocks, 0);
     assert_true(is_same(back));

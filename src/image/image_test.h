@@ -15,6 +15,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "image/image.h"
+#include "tests/support/support.h"
 
 #define TEST_DATA "src/image/testdata/"
 
@@ -68,7 +69,7 @@ static inline image make_image(uint32_t width, uint32_t height, uint32_t channel
         for (uint32_t x = 0; x < width; x++)
             for (uint32_t c = 0; c < channel_count; c++) {
                 size_t at = ((size_t)y * width + x) * channel_count + c;
-                noise = noise * 1664525u + 1013904223u;
+                lcg_next(&noise);
                 uint32_t smooth = (x * 3 + y * (c + 1) * 2) % 256;
                 uint32_t value = y % 16 < 8 ? smooth : (smooth + (noise >> 28)) % 256;
                 if (x < width / 4)
@@ -90,35 +91,6 @@ static inline void assert_same_texels(const image *a, const image *b)
     assert_int_equal(a->channel_count, b->channel_count);
     assert_int_equal(a->type, b->type);
     assert_memory_equal(a->pixels, b->pixels, image_row_size(a) * a->height);
-}
-
-/* Gives memory until calls_left is 0; counts what is out. */
-typedef struct failing {
-    long calls_left; /* negative: never fails */
-    long blocks;     /* not yet released */
-} failing;
-
-static inline void *failing_allocate(void *user, size_t size)
-{
-    failing *f = user;
-    if (f->calls_left == 0)
-        return NULL;
-    f->calls_left--;
-    void *memory = malloc(size);
-    f->blocks += memory != NULL;
-    return memory;
-}
-
-static inline void failing_release(void *user, void *memory, size_t size)
-{
-    (void)size;
-    ((failing *)user)->blocks--;
-    free(memory);
-}
-
-static inline facet_allocator failing_allocator(failing *f)
-{
-    return (facet_allocator){f, failing_allocate, failing_release};
 }
 
 #endif

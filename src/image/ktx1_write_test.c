@@ -127,10 +127,10 @@ static void test_no_memory(void **state)
     unsigned char *bytes;
     size_t size;
     facet_error error;
-    failing none = {.calls_left = 0};
+    failing_allocator none = {.fail_at = 0};
     make(&p);
     const ktx1_write_desc desc = {
-        .level_count = LEVELS, .images = p.views, .allocator = failing_allocator(&none)};
+        .level_count = LEVELS, .images = p.views, .allocator = failing_allocator_get(&none)};
     assert_int_equal(ktx1_write_cube(&desc, &bytes, &size, &error), FACET_ERROR_MEMORY);
     assert_null(bytes);
 }

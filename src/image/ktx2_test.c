@@ -421,8 +421,8 @@ static void what_is_refused(void **state)
         unsigned char saved[4];
         memcpy(saved, bytes + cases[k].offset, 4);
         store_u32_le(bytes + cases[k].offset, cases[k].value);
-        failing counter = {.calls_left = 0}; /* refused before memory is asked for */
-        image_decode_desc desc = {.allocator = failing_allocator(&counter)};
+        failing_allocator counter = {.fail_at = 0}; /* refused before memory is asked for */
+        image_decode_desc desc = {.allocator = failing_allocator_get(&counter)};
         image i;
         facet_error error = {0};
         facet_result result = image_decode(bytes, size, "bad", &desc, &i, &error);
@@ -455,8 +455,8 @@ static void what_is_refused_besides(void **state)
                                  .whole_sizes = {(size_t)16384 * 16384 * 4}};
         size_t size;
         unsigned char *bytes = ktx2_test_write(&f, &size);
-        failing counter = {.calls_left = 0};
-        image_decode_desc desc = {.allocator = failing_allocator(&counter)};
+        failing_allocator counter = {.fail_at = 0};
+        image_decode_desc desc = {.allocator = failing_allocator_get(&counter)};
         image i;
         facet_error error;
         facet_result result = image_decode(bytes, size, "bad", &desc, &i, &error);

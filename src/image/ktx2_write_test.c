@@ -1,5 +1,5 @@
 /* ktx2_write_test.c - KTX2 files of floats: rounding, descriptors, the places of things, and that ktx2.h reads them back. */
-#include "base/test_effort.h"
+#include "tests/support/support.h"
 #include "image/image_test.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ static uint32_t random_state;
 
 static uint32_t next_random(void)
 {
-    random_state = random_state * 1664525u + 1013904223u;
+    lcg_next(&random_state);
     return random_state >> 8 ^ random_state << 13;
 }
 
@@ -485,8 +485,8 @@ static void memory_runs_out(void **state)
     for (uint32_t zstd = 0; zstd <= 1; zstd++)
         for (long calls = 0;; calls = next_failure(calls)) {
             texture t = make_texture(FACET_TEXEL_FORMAT_RGBA16F, 8, 8, 6, 4, 4);
-            failing counter = {.calls_left = calls};
-            t.desc.allocator = failing_allocator(&counter);
+            failing_allocator counter = {.fail_at = calls};
+            t.desc.allocator = failing_allocator_get(&counter);
             t.desc.thread_count = 1;
             t.desc.zstd_level = zstd;
             t.desc.images = t.images;

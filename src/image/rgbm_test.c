@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "image/image.h"
+#include "tests/support/support.h"
 
 enum { WIDTH = 256, HEIGHT = 64 };
 
@@ -13,7 +14,7 @@ static image make_texels(uint32_t channel_count)
     assert_int_equal(image_create(NULL, WIDTH, HEIGHT, channel_count, IMAGE_F32, &i, NULL), FACET_OK);
     uint32_t noise = 1;
     for (size_t k = 0; k < (size_t)WIDTH * HEIGHT * channel_count; k++) {
-        noise = noise * 1664525u + 1013904223u;
+        lcg_next(&noise);
         ((float *)i.pixels)[k] = exp2f((float)(noise >> 8) / 16777216.0f * 20.0f - 15.0f); /* 2^-15 to 32 */
     }
     return i;

@@ -1,7 +1,7 @@
 #define _POSIX_C_SOURCE 200809L /* stat(), getpid() */
 /* convert_corpus_test.c - every model of the test data is converted in every direction: numbers stay in their ranges,
  * textures are there, errors are finite, and values that were read come back as they were. */
-#include "base/test_effort.h"
+#include "tests/support/support.h"
 #include "legacy/convert_test_support.h"
 
 #include <dirent.h>

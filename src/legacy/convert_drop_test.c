@@ -1,8 +1,7 @@
 /* convert_drop_test.c - pictures that only the old materials read leave the scene, and what is known without them. */
-#include "base/test_effort.h"
+#include "tests/support/support.h"
 #include "legacy/convert_test_support.h"
 
-#include "base/failing_allocator.h"
 #include "scene/legacy_extras.h"
 
 static const facet_legacy_desc DROPS = {.drops_sources = true};

@@ -1,10 +1,9 @@
 /* convert_robust_test.c - conversions of whole scenes: the same for every number of threads, whole or not at all where
  * memory runs out, each distinct material solved once. */
-#include "base/test_effort.h"
+#include "tests/support/support.h"
 #include "legacy/convert_test_support.h"
 
 #include "base/clock.h"
-#include "base/failing_allocator.h"
 
 static const uint8_t WOOD[] = {200, 150, 100, 180, 120, 80, 90, 60, 30, 250, 240, 230};
 static const uint8_t FADE[] = {255, 128, 64, 0};

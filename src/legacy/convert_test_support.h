@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "base/near_test.h"
+#include "tests/support/support.h"
 #include "image/image.h"
 #include "image/srgb.h"
 #include "legacy/convert.h"

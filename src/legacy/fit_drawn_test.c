@@ -3,7 +3,7 @@
  * optimizer there (scipy.optimize.least_squares), the grid for texels, default targets, and the hue of broad highlights. */
 #include <math.h>
 
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 #include "legacy/convert_texels.h"
 #include "legacy/convert_test_support.h"
 

@@ -366,7 +366,7 @@ DISPATCH_AVX2 static void add_squares_shown(size_t count, const float *weight, c
 static double relative(double difference, double source, double view_count)
 {
     double least = FIT_DARKEST * FIT_DARKEST * 1.5 * (double)PI * view_count;
-    return (sqrt)(difference / fmax(source, least));
+    return sqrt(difference / fmax(source, least));
 }
 
 fit_error fit_compare(const fit_metric *metric, const ogl1_surface *ogl1, const pbr_surface *pbr,

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "base/near_test.h"
+#include "tests/support/support.h"
 #include "ibl/ibl.h"
 #include "legacy/classic_materials.h"
 #include "legacy/fit_metric.h"

@@ -12,7 +12,7 @@
 
 #include <cminpack.h>
 
-#include "base/near_test.h"
+#include "tests/support/support.h"
 #include "legacy/classic_materials.h"
 #include "legacy/fit_metric.h"
 
@@ -36,8 +36,7 @@ enum { COUNT = 40 }; /* sanitizers take 50 times as long */
 static uint32_t random_state = 1;
 static float random_float(void)
 {
-    random_state = random_state * 1664525u + 1013904223u;
-    return (float)(random_state >> 8) * 0x1p-24f;
+    return lcg_float(&random_state);
 }
 
 static float pick(const float *values, size_t count)

@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "base/near_test.h"
+#include "tests/support/support.h"
 #include "legacy/classic_materials.h"
 #include "legacy/fit_linear.h"
 #include "legacy/fit_minimize.h"

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "base/near_test.h"
+#include "tests/support/support.h"
 #include "ocean/foam_pattern.h"
 
 enum { SIZE = 128 };

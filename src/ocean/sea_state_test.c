@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "base/near_test.h"
+#include "tests/support/support.h"
 #include "ocean/sea_preset.h"
 #include "ocean/sea_state.h"
 

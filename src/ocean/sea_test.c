@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 #include "ocean/sea.h"
 #include "ocean/sea_preset.h"
 

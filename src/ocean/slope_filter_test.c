@@ -10,8 +10,7 @@
 
 #include <cmocka.h>
 
-#include "base/near_test.h"
-#include "base/test_effort.h"
+#include "tests/support/support.h"
 #include "ocean/waves_fixture.h"
 
 static facet_sea_desc windy(float wind_mps, uint32_t resolution, uint32_t cascade_count, uint64_t seed)
@@ -59,7 +58,8 @@ static void hidden_and_read_slopes_are_all_there_are(void **state)
             uint64_t random = 77 + seed;
             footprints[k] = slope_filter_footprint(nearest_entry(wanted[k]));
             for (int i = 0; i < PLACES; i++) {
-                wave_point p = waves_at(&w, 1e4 * uniform(&random), 1e4 * uniform(&random), footprints[k]);
+                wave_point p =
+                    waves_at(&w, 1e4 * lcg64_double(&random), 1e4 * lcg64_double(&random), footprints[k]);
                 double x = (double)p.slope[0], z = (double)p.slope[1], q = (double)(p.Dxx + p.Dzz);
                 const double all[4] = {x * x, z * z, x * z, q * q};
                 for (int j = 0; j < 4; j++)
@@ -171,7 +171,7 @@ static double covered(const waves *w, float threshold, uint64_t *random, int cou
         wave_point p = {.height_m = 0.0f};
         for (uint32_t t = 0; t < w->tile_count; t++) { /* turned: all derivatives, not their sum alone */
             const wave_tile *tile = &w->tiles[t];
-            size_t texel = (size_t)(uniform(random) * tile->size * tile->size) * WAVE_FIELDS;
+            size_t texel = (size_t)(lcg64_double(random) * tile->size * tile->size) * WAVE_FIELDS;
             float c = tile->cos_turn, s = tile->sin_turn;
             const float *f = tile->levels[0] + texel;
             p.Dxx += c * c * f[WAVE_DXX] - 2.0f * c * s * f[WAVE_DXZ] + s * s * f[WAVE_DZZ];
@@ -221,7 +221,7 @@ static void foam_is_the_same_from_afar(void **state)
             uint32_t entry = nearest_entry(footprints[k]);
             double area = 0.0, sum = 0.0;
             for (int i = 0; i < PLACES; i++) {
-                wave_point p = waves_at(&w, 1e5 * uniform(&random), 1e5 * uniform(&random),
+                wave_point p = waves_at(&w, 1e5 * lcg64_double(&random), 1e5 * lcg64_double(&random),
                                         slope_filter_footprint(entry));
                 wave_shape s = wave_shape_of(&p);
                 area += (double)s.jacobian;

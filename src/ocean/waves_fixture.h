@@ -11,6 +11,7 @@
 
 #include "ocean/sea_preset.h"
 #include "ocean/waves.h"
+#include "tests/support/support.h"
 
 /* The wind's waves are as high as 100 km let them grow. */
 static inline facet_sea_desc desc_of(uint32_t resolution, uint32_t cascade_count, uint64_t seed)
@@ -32,13 +33,6 @@ static inline waves waves_of(facet_sea_desc d)
     if (sea_state_create(&d, &s, &error) || waves_create(&d, &s, &w, &error))
         fail_msg("%s", error.message);
     return w;
-}
-
-/* [0, 1) */
-static inline double uniform(uint64_t *random)
-{
-    *random = *random * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*random >> 11) * 0x1p-53;
 }
 
 #endif

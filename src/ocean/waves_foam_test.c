@@ -9,9 +9,7 @@
 
 #include <cmocka.h>
 
-#include "base/failing_allocator.h"
-#include "base/near_test.h"
-#include "base/test_effort.h"
+#include "tests/support/support.h"
 #include "ocean/waves_fixture.h"
 #include "ocean/waves_foam.h"
 
@@ -89,9 +87,9 @@ static void lace_covers_its_share(void **state)
         for (int k = 0; k < 4; k++) {
             uint64_t random = seed;
             for (int i = 0; i < PLACES; i++) {
-                float share =
-                    waves_foam_at(&f.foam, 1e5 * uniform(&random), 1e5 * uniform(&random), footprints[k])
-                        .share;
+                float share = waves_foam_at(&f.foam, 1e5 * lcg64_double(&random), 1e5 * lcg64_double(&random),
+                                            footprints[k])
+                                  .share;
                 assert_true(share >= 0.0f && share <= 1.0f);
                 sums[k] += (double)share / (PLACES * (double)SEEDS);
             }

@@ -9,9 +9,7 @@
 
 #include <cmocka.h>
 
-#include "base/failing_allocator.h"
-#include "base/near_test.h"
-#include "base/test_effort.h"
+#include "tests/support/support.h"
 #include "ocean/wave_amplitudes.h"
 #include "ocean/wave_patches.h"
 #include "ocean/waves_fixture.h"
@@ -386,8 +384,8 @@ static void water_above_a_place_is_displaced_to_it(void **state)
     double apart = 0.0;
     waves w = waves_of(desc_of(128, 3, 10));
     for (int i = 0; i < 2000; i++) {
-        double X = 2e5 * (uniform(&random) - 0.5), Z = 2e5 * (uniform(&random) - 0.5), rest[2];
-        float footprint = i % 4 ? (float)pow(10.0, -3.0 + 4.0 * uniform(&random)) : 0.0f;
+        double X = 2e5 * (lcg64_double(&random) - 0.5), Z = 2e5 * (lcg64_double(&random) - 0.5), rest[2];
+        float footprint = i % 4 ? (float)pow(10.0, -3.0 + 4.0 * lcg64_double(&random)) : 0.0f;
         wave_point p = waves_above(&w, X, Z, footprint, rest);
         double close = fmax(0.02 * (double)footprint, 2e-4);
         assert_near(rest[0] + (double)p.displacement[0], X, 2.0 * close + 3e-4);
@@ -424,10 +422,10 @@ static void normals_are_those_of_the_displaced_surface(void **state)
     (void)state;
     uint64_t random = 5;
     for (int i = 0; i < 100; i++) {
-        wave_point p = {.slope = {(float)uniform(&random) - 0.5f, (float)uniform(&random) - 0.5f},
-                        .Dxx = 0.8f * (float)uniform(&random) - 0.4f,
-                        .Dzz = 0.8f * (float)uniform(&random) - 0.4f,
-                        .Dxz = 0.4f * (float)uniform(&random) - 0.2f};
+        wave_point p = {.slope = {(float)lcg64_double(&random) - 0.5f, (float)lcg64_double(&random) - 0.5f},
+                        .Dxx = 0.8f * (float)lcg64_double(&random) - 0.4f,
+                        .Dzz = 0.8f * (float)lcg64_double(&random) - 0.4f,
+                        .Dxz = 0.4f * (float)lcg64_double(&random) - 0.2f};
         double a[3] = {1.0 + (double)p.Dxx, (double)p.slope[0], (double)p.Dxz};
         double b[3] = {(double)p.Dxz, (double)p.slope[1], 1.0 + (double)p.Dzz};
         double n[3] = {b[1] * a[2] - b[2] * a[1], b[2] * a[0] - b[0] * a[2], b[0] * a[1] - b[1] * a[0]};
@@ -449,8 +447,8 @@ static void velocity_is_the_change_of_height(void **state)
     waves w = waves_of(desc_of(32, 2, 13));
     uint64_t random = 2;
     for (int i = 0; i < 10; i++) { /* the longest tile: interpolation is nearly exact there */
-        double t = 10.0 * uniform(&random), x = 500.0 * uniform(&random), z = 500.0 * uniform(&random),
-               h = 0.01;
+        double t = 10.0 * lcg64_double(&random), x = 500.0 * lcg64_double(&random),
+               z = 500.0 * lcg64_double(&random), h = 0.01;
         w.tile_count = 1;
         waves_set_time(&w, t + h);
         double after = (double)waves_at(&w, x, z, 0.0f).height_m;
@@ -522,7 +520,7 @@ static void patches_keep_the_variance(void **state)
     uint32_t counts[4] = {0};
     for (int i = 0; i < 20000; i++) {
         wave_patch patches[WAVES_MAX_PATCHES];
-        double x = 1e5 * (uniform(&random) - 0.5), z = 1e5 * (uniform(&random) - 0.5), sum = 0.0;
+        double x = 1e5 * (lcg64_double(&random) - 0.5), z = 1e5 * (lcg64_double(&random) - 0.5), sum = 0.0;
         uint32_t count = wave_patches_at(&w, 0, x, z, patches);
         assert_in_range(count, 1, 3);
         counts[count]++;
@@ -548,7 +546,7 @@ static void assert_finite_sea(facet_sea_desc d)
     uint64_t random = 9;
     for (int i = 0; i < 300; i++) {
         double rest[2];
-        wave_point p = waves_above(&w, 1e3 * uniform(&random), 1e3 * uniform(&random), 0.01f, rest);
+        wave_point p = waves_above(&w, 1e3 * lcg64_double(&random), 1e3 * lcg64_double(&random), 0.01f, rest);
         wave_shape s = wave_shape_of(&p);
         assert_true(isfinite(p.height_m) && isfinite(rest[0]) && isfinite(rest[1]));
         assert_true(isfinite(s.normal[0]) && s.normal[1] > 0.0f && isfinite(s.normal[2]));

@@ -44,7 +44,7 @@ static direction combined(direction a, double s, direction b, double t)
 static direction unit(direction a)
 {
     double length2 = inner(a, a);
-    double scale = length2 > 0.0 ? 1.0 / (sqrt)(length2) : 0.0;
+    double scale = length2 > 0.0 ? 1.0 / sqrt(length2) : 0.0;
     return (direction){a.x * scale, a.y * scale, a.z * scale};
 }
 
@@ -90,20 +90,20 @@ static direction sample_spherical(const spherical_triangle *s, vec2 u)
     direction normal_ac = unit(outer(s->a, s->c));
     double cos_alpha = within(inner(normal_ab, normal_ac), -1.0, 1.0);
     direction across = outer(normal_ab, normal_ac);
-    double sin_alpha = (sqrt)(inner(across, across));
+    double sin_alpha = sqrt(inner(across, across));
     double alpha = atan2(sin_alpha, cos_alpha);
     double phi = (double)u[0] * s->solid_angle - alpha; /* of the part: beta - pi */
-    double cos_phi = (cos)(phi);
-    double sin_phi = (sin)(phi);
+    double cos_phi = cos(phi);
+    double sin_phi = sin(phi);
     double p = cos_phi - cos_alpha;
     double q = sin_phi + sin_alpha * inner(s->a, s->b);
     double cos_b = ((q * cos_phi - p * sin_phi) * cos_alpha - q) / ((q * sin_phi + p * cos_phi) * sin_alpha);
     cos_b = isnan(cos_b) ? 1.0 : within(cos_b, -1.0, 1.0);
     direction side = unit(combined(s->c, 1.0, s->a, -inner(s->c, s->a)));
-    direction end = combined(s->a, cos_b, side, (sqrt)(1.0 - cos_b * cos_b));
+    direction end = combined(s->a, cos_b, side, sqrt(1.0 - cos_b * cos_b));
     double z = 1.0 - (double)u[1] * (1.0 - inner(end, s->b));
     direction along = unit(combined(end, 1.0, s->b, -inner(end, s->b)));
-    return combined(s->b, z, along, (sqrt)(fmax(1.0 - z * z, 0.0)));
+    return combined(s->b, z, along, sqrt(fmax(1.0 - z * z, 0.0)));
 }
 
 /* ---- points and directions ---- */

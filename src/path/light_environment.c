@@ -74,7 +74,7 @@ static double patch_solid_angle(const light_environment *e, uint32_t y)
     double rows = (double)(e->height - 1);
     double a = fmax((double)y - 0.5, 0.0) / rows;
     double b = fmin((double)y + 0.5, rows) / rows;
-    return 4.0 * pi / (double)e->width * (sin)(0.5 * pi * (a + b)) * (sin)(0.5 * pi * (b - a));
+    return 4.0 * pi / (double)e->width * sin(0.5 * pi * (a + b)) * sin(0.5 * pi * (b - a));
 }
 
 /* What building needs beside: directions of the columns, and sums over each row's part of a block. */
@@ -184,7 +184,7 @@ static void make_cell(const building *b, uint32_t band, uint32_t block)
         const struct row_part *part = &b->parts[(size_t)y * BLOCKS + block];
         float up[3];
         equirect_direction(e->width, e->height - 1, 0.0, (double)y - 0.5, up);
-        double sin_theta = (sqrt)(1.0 - (double)up[1] * (double)up[1]);
+        double sin_theta = sqrt(1.0 - (double)up[1] * (double)up[1]);
         all += part->light;
         moment[0] += part->along[0] * sin_theta;
         moment[1] += part->light * (double)up[1];
@@ -225,7 +225,7 @@ static void make_tables(const building *b)
     for (uint32_t y = 0; y < e->height; y++)
         e->per_sr[y] = (float)(1.0 / patch_solid_angle(e, y));
     for (uint32_t y = 0; y < e->height / 2 + 2; y++) {
-        double s = (sin)(0.5 * pi * fmax((double)y - 0.5, 0.0) / (double)(e->height - 1));
+        double s = sin(0.5 * pi * fmax((double)y - 0.5, 0.0) / (double)(e->height - 1));
         e->half_sine2[y] = (float)(s * s);
     }
 }

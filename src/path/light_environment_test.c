@@ -12,14 +12,14 @@
 #include "ibl/equirect.h"
 
 #include "path/light_environment.h"
+#include "tests/support/support.h"
 
 static const double pi = 3.14159265358979323846;
 
 static uint64_t random_state = 1;
 static double random_number(void)
 {
-    random_state = random_state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(random_state >> 11) * 0x1p-53;
+    return lcg64_double(&random_state);
 }
 
 /* ---- pictures ---- */
@@ -47,7 +47,7 @@ static image make_sky(uint32_t width, uint32_t height, int bright_count)
                 double v = (y + 0.5) / height;
                 double u = (x + 0.5) / width;
                 texel(&picture, x, y)[c] =
-                    v < 0.7 ? (float)(0.2 + 0.1 * c + (1.0 - v) * (1.0 + (cos)(2.0 * pi * u))) : 0.0f;
+                    v < 0.7 ? (float)(0.2 + 0.1 * c + (1.0 - v) * (1.0 + cos(2.0 * pi * u))) : 0.0f;
             }
     for (int i = 0; i < bright_count; i++)
         texel(&picture, (uint32_t)(random_number() * width), (uint32_t)(random_number() * height))[i % 3] +=
@@ -72,9 +72,9 @@ static light_environment *make_environment(const image *picture, float rotation_
 static vec3 random_direction(void)
 {
     double z = 1.0 - 2.0 * random_number();
-    double r = (sqrt)(1.0 - z * z);
+    double r = sqrt(1.0 - z * z);
     double phi = 2.0 * pi * random_number();
-    return vec3((float)(r * (cos)(phi)), (float)(r * (sin)(phi)), (float)z);
+    return vec3((float)(r * cos(phi)), (float)(r * sin(phi)), (float)z);
 }
 
 /* {0}, then three that look around. */
@@ -150,8 +150,8 @@ static void densities_integrate_to_one(void **state)
             for (int k = 0; k < SIDE * SIDE; k++) {
                 double z = 1.0 - 2.0 * (k / SIDE + random_number()) / SIDE;
                 double phi = 2.0 * pi * (k % SIDE + random_number()) / SIDE;
-                double r = (sqrt)(1.0 - z * z);
-                vec3 d = vec3((float)(r * (cos)(phi)), (float)z, (float)(r * (sin)(phi)));
+                double r = sqrt(1.0 - z * z);
+                vec3 d = vec3((float)(r * cos(phi)), (float)z, (float)(r * sin(phi)));
                 float pdf = light_environment_pdf(e, &view, d);
                 sum += (double)pdf;
                 vec3 radiance = light_environment_radiance(e, d);
@@ -200,13 +200,13 @@ static void samples_have_their_density(void **state)
             for (int k = 0; k < INNER * INNER; k++) {
                 double z = 1.0 - 2.0 * (cell / COLUMNS + (k / INNER + 0.5) / INNER) / ROWS;
                 double phi = 2.0 * pi * ((cell % COLUMNS + (k % INNER + 0.5) / INNER) / COLUMNS - 0.5);
-                double r = (sqrt)(1.0 - z * z);
+                double r = sqrt(1.0 - z * z);
                 expected += (double)light_environment_pdf(
-                    e, &view, vec3((float)(r * (cos)(phi)), (float)z, (float)(r * (sin)(phi))));
+                    e, &view, vec3((float)(r * cos(phi)), (float)z, (float)(r * sin(phi))));
             }
             expected *= SAMPLES * 4.0 * pi / ((double)ROWS * COLUMNS * INNER * INNER);
             if (expected < 20.0) {
-                assert_true(counts[cell] < 20.0 + 12.0 * (sqrt)(expected + 1.0));
+                assert_true(counts[cell] < 20.0 + 12.0 * sqrt(expected + 1.0));
                 continue;
             }
             /* the integral over texels that a cell cuts is off by up to half a percent */
@@ -216,7 +216,7 @@ static void samples_have_their_density(void **state)
             freedom++;
         }
         assert_true(freedom > 100);
-        if (chi2 > freedom + 4.0 * (sqrt)(2.0 * freedom))
+        if (chi2 > freedom + 4.0 * sqrt(2.0 * freedom))
             fail_msg("normal %d: chi2 %.1f with %d degrees of freedom", i, chi2, freedom);
     }
     light_environment_destroy(e);
@@ -244,7 +244,7 @@ static estimate irradiance(const light_environment *e, vec3 N, int count)
         sum2 += x * x;
     }
     double mean = sum / count;
-    return (estimate){mean, (sqrt)(fmax(sum2 / count - mean * mean, 0.0) / count)};
+    return (estimate){mean, sqrt(fmax(sum2 / count - mean * mean, 0.0) / count)};
 }
 
 /* By a sum over 64 points of each texel of a picture of 96 x 48. */
@@ -283,7 +283,7 @@ static void irradiance_is_right(void **state)
             light_environment_view view;
             light_environment_see(e, N, &view);
             assert_true(view.irradiance > 0.0f);
-            worst = fmax(worst, found.error * (sqrt)(20000.0) / expected);
+            worst = fmax(worst, found.error * sqrt(20000.0) / expected);
         }
         assert_true(worst < (with_sun ? 2.5 : 1.0));
         light_environment_destroy(e);

@@ -11,12 +11,12 @@
 #include "base/memory.h"
 
 #include "path/light_tree.h"
+#include "tests/support/support.h"
 
 static uint64_t random_state = 1;
 static double random_number(void)
 {
-    random_state = random_state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(random_state >> 11) * 0x1p-53;
+    return lcg64_double(&random_state);
 }
 
 static float number_between(float low, float high)
@@ -189,7 +189,7 @@ static void the_rest_is_uniform(void **state)
     double chi2 = 0.0;
     for (int i = 0; i < BINS; i++)
         chi2 += (bins[i] - total / BINS) * (bins[i] - total / BINS) / (total / BINS);
-    assert_true(chi2 < BINS - 1 + 4.0 * (sqrt)(2.0 * (BINS - 1)));
+    assert_true(chi2 < BINS - 1 + 4.0 * sqrt(2.0 * (BINS - 1)));
     light_tree_destroy(tree);
     mem_free(lights);
 }

@@ -9,11 +9,12 @@
 #include <cmocka.h>
 
 #include "path/light_emitters.h"
+#include "tests/support/support.h"
 
 static uint64_t random_state = 1;
 static float random_number(void)
 {
-    random_state = random_state * 6364136223846793005u + 1442695040888963407u;
+    lcg64_next(&random_state);
     return (float)(random_state >> 40) * 0x1p-24f;
 }
 
@@ -48,7 +49,7 @@ static double solid_angle(vec3 a, vec3 b, vec3 c, vec3 P)
         for (int k = 0; k < 3; k++)
             length2 += (double)corners[i][k] * (double)corners[i][k];
         for (int k = 0; k < 3; k++)
-            d[i][k] = (double)corners[i][k] / (sqrt)(length2);
+            d[i][k] = (double)corners[i][k] / sqrt(length2);
     }
     double volume = 0.0;
     double sum = 1.0;
@@ -102,7 +103,7 @@ static void near_directions_are_uniform(void **state)
         }
         for (int k = 0; k < 3; k++) {
             double p = expected[k] / all;
-            double error = (sqrt)(p * (1.0 - p) / SAMPLES);
+            double error = sqrt(p * (1.0 - p) / SAMPLES);
             if (fabs(found[k] / SAMPLES - p) > 4.5 * error + 1e-4)
                 fail_msg("part %d: %.4f, expected %.4f", k, found[k] / SAMPLES, p);
         }
@@ -137,7 +138,7 @@ static void densities_are_right(void **state)
             sum2 += 1.0 / ((double)point.pdf * (double)point.pdf);
         }
         double mean = sum / SAMPLES;
-        double error = (sqrt)(fmax(sum2 / SAMPLES - mean * mean, 0.0) / SAMPLES);
+        double error = sqrt(fmax(sum2 / SAMPLES - mean * mean, 0.0) / SAMPLES);
         if (fabs(mean - expected) > 4.5 * error + 1e-4 * expected + 1e-6)
             fail_msg("%g +- %g, expected %g", mean, error, expected);
     }

@@ -12,11 +12,10 @@
 
 #include <cmocka.h>
 
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/hash.h"
-#include "base/test_effort.h"
 #include "image/image.h"
 #include "path/path_checkpoint.h"
 #include "path/path_film_state.h"

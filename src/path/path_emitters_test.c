@@ -68,7 +68,7 @@ static estimate irradiance_by_chance(const stage *s, vec3 P, vec3 N, int count)
 
 static void assert_same(estimate a, estimate b)
 {
-    double error = (sqrt)(a.error * a.error + b.error * b.error);
+    double error = sqrt(a.error * a.error + b.error * b.error);
     if (!(fabs(a.mean - b.mean) <= 4.0 * error + 1e-4 * fabs(a.mean)))
         fail_msg("%.6g +- %.2g against %.6g +- %.2g", a.mean, a.error, b.mean, b.error);
 }
@@ -83,7 +83,7 @@ static void assert_ways_agree(const stage *s, vec3 P, vec3 N, int count)
     assert_same(aimed, chance);
     /* never much worse than the better of the two */
     double best = fmin(chance.error, aimed.error);
-    assert_true(both.error * (sqrt)(0.5) < 3.1 * best + 1e-6 * chance.mean);
+    assert_true(both.error * sqrt(0.5) < 3.1 * best + 1e-6 * chance.mean);
 }
 
 /* ---- emitters of every kind ---- */
@@ -223,7 +223,7 @@ static double triangle_irradiance(vec3 a, vec3 b, vec3 c, vec3 N)
         }
         for (int k = 0; k < 3; k++)
             product[k] = p[(k + 1) % 3] * q[(k + 2) % 3] - p[(k + 2) % 3] * q[(k + 1) % 3];
-        double length = (sqrt)(product[0] * product[0] + product[1] * product[1] + product[2] * product[2]);
+        double length = sqrt(product[0] * product[0] + product[1] * product[1] + product[2] * product[2]);
         double inner = p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
         double height = product[0] * (double)N[0] + product[1] * (double)N[1] + product[2] * (double)N[2];
         sum += atan2(length, inner) * height / length;
@@ -261,8 +261,8 @@ static void a_hundred_thousand_emitters(void **state)
         start = clock();
         estimate found = irradiance_at(&s, P, up, SAMPLES);
         double sampled_s = (double)(clock() - start) / CLOCKS_PER_SEC;
-        assert_near(found, expected);
-        double deviation = found.error * (sqrt)((double)SAMPLES) / expected;
+        assert_estimate(found, expected);
+        double deviation = found.error * sqrt((double)SAMPLES) / expected;
         print_message("102080 emitters made in %.0f ms, %.0f ns a sample, deviation %.3f\n", made_s * 1e3,
                       sampled_s / SAMPLES * 1e9, deviation);
         assert_true(deviation < (k ? 0.6 : 1.6));

@@ -15,7 +15,7 @@
 /* The standard error of what is blocked. One sample says nothing of it. */
 static double blocked_error(const path_ground *g)
 {
-    return g->samples > 1.0f ? (sqrt)((double)g->spread / ((double)g->samples - 1.0)) : 0.0;
+    return g->samples > 1.0f ? sqrt((double)g->spread / ((double)g->samples - 1.0)) : 0.0;
 }
 
 float path_ground_error(const path_ground *g)

@@ -10,11 +10,9 @@
 
 #include <cmocka.h>
 
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 #include "base/hash.h"
-#include "base/near_test.h"
 #include "base/parallel.h"
-#include "base/test_effort.h"
 #include "path/path_film_state.h"
 
 enum { ALL = FACET_AOV_NORMAL | FACET_AOV_ALBEDO | FACET_AOV_VARIANCE | FACET_AOV_SAMPLES };
@@ -263,7 +261,7 @@ static void a_shadow_becomes_calm(void **state)
     double after = 0.0;
     for (uint32_t i = 0; i < SIDE * SIDE; i++)
         for (int n = 0; n < 16; n++) {
-            random = random * 1664525u + 1013904223u;
+            lcg_next(&random);
             bool is_lit = (double)(random >> 8) / 16777216.0 > (i % SIDE < SIDE / 2 ? 0.2 : 0.7);
             path_sample s = {0};
             for (int c = 0; c < 3; c++) {

@@ -61,10 +61,10 @@ static light_sun sun_create(const facet_sun *desc)
     radius = radius < MIN_RADIUS_RAD ? MIN_RADIUS_RAD : radius > half_pi ? half_pi : radius;
     double azimuth = (double)desc->azimuth_rad;
     double elevation = (double)desc->elevation_rad;
-    double half_sine = (sin)(0.5 * radius);
-    double sine = (sin)(radius);
-    sun.direction = vec3((float)((cos)(elevation) * (sin)(azimuth)), (float)(sin)(elevation),
-                         (float)((cos)(elevation) * (cos)(azimuth)));
+    double half_sine = sin(0.5 * radius);
+    double sine = sin(radius);
+    sun.direction = vec3((float)(cos(elevation) * sin(azimuth)), (float)sin(elevation),
+                         (float)(cos(elevation) * cos(azimuth)));
     for (int i = 0; i < 3; i++)
         sun.illuminance[i] = max(desc->illuminance_lux[i], 0.0f);
     /* The projected solid angle of a disc around the normal is pi sin^2(radius). */

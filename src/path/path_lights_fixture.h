@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "base/test_effort.h"
+#include "tests/support/support.h"
 #include "cpu/preview_fixture.h"
 #include "cpu/ray_trace.h"
 
@@ -104,7 +104,7 @@ static inline scene_light point_light(float intensity, float range)
 static uint64_t random_state = 1;
 static inline float random_number(void)
 {
-    random_state = random_state * 6364136223846793005u + 1442695040888963407u;
+    lcg64_next(&random_state);
     return (float)(random_state >> 40) * 0x1p-24f;
 }
 
@@ -130,7 +130,7 @@ typedef struct estimate {
 static inline estimate estimate_of(double sum, double sum_of_squares, int count)
 {
     double mean = sum / count;
-    return (estimate){mean, (sqrt)(fmax(sum_of_squares / count - mean * mean, 0.0) / count)};
+    return (estimate){mean, sqrt(fmax(sum_of_squares / count - mean * mean, 0.0) / count)};
 }
 
 /* Irradiance (first channel) at P on a surface with normal N, nothing in between. */
@@ -208,7 +208,7 @@ static inline estimate irradiance_by_both(const stage *s, vec3 P, vec3 N, int co
     return estimate_of(sum, sum2, count);
 }
 
-static inline void assert_near(estimate e, double expected)
+static inline void assert_estimate(estimate e, double expected)
 {
     double allowed = 4.0 * e.error + 1e-5 * fabs(expected);
     if (!(fabs(e.mean - expected) <= allowed))

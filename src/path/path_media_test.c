@@ -147,7 +147,7 @@ static void flight_keeps_the_balance(void **state)
         fly_all(&m, beta, 0.3f, passed, scattered);
         vec3 albedo = single_scatter_albedo(load3(scatter));
         for (int c = 0; c < 3; c++) {
-            double T = (pow)((double)colors[i][c], 0.75);
+            double T = pow((double)colors[i][c], 0.75);
             double each = (double)beta[c];
             assert_true(fabs(passed[c] - each * T) < 1e-3 * each);
             assert_true(fabs(scattered[c] - each * (1.0 - T) * (double)albedo[c]) < 1e-3 * each);

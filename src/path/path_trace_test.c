@@ -198,7 +198,7 @@ static void all_layers_count(void **state)
         fixture_place(&s.f, sphere, 0.0f, 0.0f, 0.0f, 1.0f + 0.01f * (float)i);
     s.f.camera.eye[2] = 5.0f;
     stage_prepare(&s);
-    double passes = (pow)(0.97, 80.0);
+    double passes = pow(0.97, 80.0);
     mean seen = trace_all(&s);
     assert_near(seen.opacity, 1.0 - passes, 1e-5);
     assert_near(seen.radiance[1], 1.0 - passes, 1e-5);
@@ -302,7 +302,7 @@ static void shadow_rays_pass_clear_walls(void **state)
     for (int i = 0; i < 40; i++)
         fixture_place(&s.f, sphere, 0.0f, 0.0f, 0.0f, 2.0f + 0.01f * (float)i);
     s.f.desc.path.max_depth = 1;
-    double expected = LIT * (pow)(0.98, 40.0);
+    double expected = LIT * pow(0.98, 40.0);
     mean m = measure(&s);
     assert_near(m.radiance[0], expected, 1e-4 * expected);
     assert_near(m.square, expected * expected, 1e-4);

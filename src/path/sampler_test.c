@@ -113,7 +113,7 @@ static double measured_variance(const int dimensions[], int count, double g, uin
 static void pairs_are_even_together(void **state)
 {
     (void)state;
-    const double g = (sqrt)(0.5);
+    const double g = sqrt(0.5);
     const struct {
         uint32_t n;
         double mean, worst;
@@ -145,9 +145,9 @@ static void all_dimensions_are_even_together(void **state)
     int dimensions[DIMENSIONS];
     for (int d = 0; d < DIMENSIONS; d++)
         dimensions[d] = d;
-    double v16 = variance_of(dimensions, DIMENSIONS, (sqrt)(0.1), 16);
-    double v64 = variance_of(dimensions, DIMENSIONS, (sqrt)(0.1), 64);
-    double v1024 = variance_of(dimensions, DIMENSIONS, (sqrt)(0.1), 1024);
+    double v16 = variance_of(dimensions, DIMENSIONS, sqrt(0.1), 16);
+    double v64 = variance_of(dimensions, DIMENSIONS, sqrt(0.1), 64);
+    double v1024 = variance_of(dimensions, DIMENSIONS, sqrt(0.1), 1024);
     assert_true(v16 < 17.6 && v64 < 13.3 && v1024 < 11.7);
 }
 

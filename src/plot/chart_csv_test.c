@@ -9,8 +9,7 @@
 
 #include <cmocka.h>
 
-#include "base/failing_allocator.h"
-#include "base/test_effort.h"
+#include "tests/support/support.h"
 #include "plot/chart.h"
 
 static void expect_csv(const chart *c, const char *expected)

@@ -1,5 +1,6 @@
 /* chart_layout_test.c - where things stand: inside, aligned, not over one another; and what of the data is seen. */
 #include "plot/chart_test_scene.h"
+#include "tests/support/support.h"
 
 static scene_data data;
 
@@ -61,12 +62,6 @@ static void axes_of_a_grid_are_aligned(void **state)
     free(v);
 }
 
-static double random_unit(uint64_t *state)
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*state >> 11) / 9007199254740992.0;
-}
-
 /* Wherever the curves are, the legend is in the plot and on none of them, or outside. */
 static void legends_cover_no_curve(void **state)
 {
@@ -80,7 +75,7 @@ static void legends_cover_no_curve(void **state)
         for (int k = 0; k < 40; k++)
             x[k] = k;
         for (int k = 0; k < count; k++) {
-            const double level = random_unit(&random), swing = (i % 3) * random_unit(&random);
+            const double level = lcg64_double(&random), swing = (i % 3) * lcg64_double(&random);
             for (int p = 0; p < 40; p++)
                 y[k][p] = level + swing * sin(p * 0.5 * level);
             curves[k] =

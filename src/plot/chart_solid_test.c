@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 #include "plot/chart_space.h"
 
 enum { SIZE = 70 }; /* more than two bands */

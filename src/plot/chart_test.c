@@ -1,11 +1,10 @@
 /* chart_test.c - charts as files: SVG that is well-formed, the same bytes each time, whatever the data and the labels;
  * what happens without cairo and without memory. */
-#include "base/test_effort.h"
+#include "tests/support/support.h"
 #include "plot/chart_test_scene.h"
 
 #include <pthread.h>
 
-#include "base/failing_allocator.h"
 #include "plot/chart_test_xml.h"
 
 static scene_data data;

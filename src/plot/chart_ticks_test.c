@@ -10,12 +10,7 @@
 #include <cmocka.h>
 
 #include "plot/chart_ticks.h"
-
-static double random_unit(uint64_t *state)
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*state >> 11) / 9007199254740992.0;
-}
+#include "tests/support/support.h"
 
 static void expect_order(const ticks *t, double minimum, double maximum, bool is_fixed)
 {
@@ -72,13 +67,13 @@ static void linear_ticks_hold_their_properties(void **state)
     (void)state;
     uint64_t random = 1;
     for (int i = 0; i < 20000; i++) {
-        const double size = pow(10.0, floor(random_unit(&random) * 560.0 - 280.0));
-        const double a = (random_unit(&random) * 2.0 - 1.0) * size;
-        const double width = size * pow(10.0, -4.0 * random_unit(&random));
+        const double size = pow(10.0, floor(lcg64_double(&random) * 560.0 - 280.0));
+        const double a = (lcg64_double(&random) * 2.0 - 1.0) * size;
+        const double width = size * pow(10.0, -4.0 * lcg64_double(&random));
         ticks_desc d = {.minimum = a,
                         .maximum = a + width,
                         .is_fixed = i % 2 == 0,
-                        .target = 3 + (int)(7.0 * random_unit(&random))};
+                        .target = 3 + (int)(7.0 * lcg64_double(&random))};
         ticks t;
         ticks_create(&d, &t);
         assert_in_range(t.count, 2, d.is_fixed ? d.target + 1 : 2 * d.target);
@@ -146,13 +141,13 @@ static void logarithmic_ticks_hold_their_properties(void **state)
     (void)state;
     uint64_t random = 7;
     for (int i = 0; i < 20000; i++) {
-        const double low = random_unit(&random) * 500.0 - 280.0;
-        const double decades = pow(10.0, random_unit(&random) * 3.2 - 1.0);
+        const double low = lcg64_double(&random) * 500.0 - 280.0;
+        const double decades = pow(10.0, lcg64_double(&random) * 3.2 - 1.0);
         ticks_desc d = {.scale = CHART_LOG10,
                         .minimum = pow(10.0, low),
                         .maximum = pow(10.0, fmin(low + decades, 295.0)),
                         .is_fixed = i % 2 == 0,
-                        .target = 3 + (int)(7.0 * random_unit(&random))};
+                        .target = 3 + (int)(7.0 * lcg64_double(&random))};
         ticks t;
         ticks_create(&d, &t);
         expect_order(&t, d.minimum, d.maximum, d.is_fixed);

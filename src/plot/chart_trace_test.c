@@ -8,12 +8,7 @@
 #include <cmocka.h>
 
 #include "plot/chart_trace.h"
-
-static double random_unit(uint64_t *state)
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*state >> 11) / 9007199254740992.0;
-}
+#include "tests/support/support.h"
 
 static const chart_box BOX = {10.0, 20.0, 100.0, 50.0};
 
@@ -31,8 +26,8 @@ static void clipping_keeps_what_is_inside(void **state)
     for (int i = 0; i < 5000; i++) {
         double x[2], y[2];
         for (int k = 0; k < 2; k++) {
-            x[k] = random_unit(&random) * 200.0 - 40.0;
-            y[k] = i % 7 == 0 && k == 1 ? y[0] : random_unit(&random) * 150.0 - 30.0;
+            x[k] = lcg64_double(&random) * 200.0 - 40.0;
+            y[k] = i % 7 == 0 && k == 1 ? y[0] : lcg64_double(&random) * 150.0 - 30.0;
         }
         if (i % 11 == 0)
             x[1] = x[0];

@@ -54,8 +54,8 @@ static void matte_is_albedo_over_pi(void **state)
     base.parameters.specular = 0.0f;
     for (int i = -8; i <= 8; i++) {
         double light = i * 10.0 * PLOT_DEGREE;
-        assert_near(brdf_cos(&legacy, 0.5, light, 0.3), 0.6 / PLOT_PI * (cos)(light), 1e-6);
-        assert_near(brdf_cos(&base, 0.5, light, 0.3), 0.6 / PLOT_PI * (cos)(light), 1e-6);
+        assert_near(brdf_cos(&legacy, 0.5, light, 0.3), 0.6 / PLOT_PI * cos(light), 1e-6);
+        assert_near(brdf_cos(&base, 0.5, light, 0.3), 0.6 / PLOT_PI * cos(light), 1e-6);
     }
     assert_near(albedo(&legacy, 40), 0.6, 1e-3);
     assert_near(albedo(&base, 40), 0.6, 1e-3);
@@ -101,7 +101,7 @@ static void albedo_is_the_table(void **state)
     for (int r = 0; r < 5; r++)
         for (int d = 0; d < 4; d++) {
             float terms[2];
-            ibl_dfg((float)(cos)(degrees[d] * PLOT_DEGREE), roughness[r], terms);
+            ibl_dfg((float)cos(degrees[d] * PLOT_DEGREE), roughness[r], terms);
             material white = pbr(roughness[r], 1.0f, 1.0f);
             assert_near(albedo(&white, degrees[d]), terms[0] + terms[1], 1e-3);
             material half = pbr(roughness[r], 1.0f, 0.5f);
@@ -142,7 +142,7 @@ static void sheen_is_its_table(void **state)
         m.parameters.sheen_color[0] = m.parameters.sheen_color[1] = m.parameters.sheen_color[2] = 1.0f;
         m.parameters.sheen_roughness = roughness[r];
         for (int d = 10; d < 80; d += 20)
-            assert_near(albedo(&m, d), ibl_sheen_albedo((float)(cos)(d * PLOT_DEGREE), roughness[r]), 2e-3);
+            assert_near(albedo(&m, d), ibl_sheen_albedo((float)cos(d * PLOT_DEGREE), roughness[r]), 2e-3);
     }
 }
 
@@ -160,7 +160,7 @@ static void grain_is_sampled_where_it_is(void **state)
         for (int i = 0; i < N; i++)
             for (int j = 0; j < N; j++) {
                 double z = (i + 0.5) / N;
-                sum += brdf_cos(&m, 0.6, (acos)(z), (j + 0.5) / N * 2 * PLOT_PI) * 2 * PLOT_PI / (N * N);
+                sum += brdf_cos(&m, 0.6, acos(z), (j + 0.5) / N * 2 * PLOT_PI) * 2 * PLOT_PI / (N * N);
             }
         assert_near(albedo(&m, 0.6 / PLOT_DEGREE), sum, 2e-3);
     }
@@ -175,7 +175,7 @@ static void highlight_has_its_integral(void **state)
     for (int i = 0; i < 6; i++) {
         material m = ogl1(0.0f, 1.0f, shininess[i]);
         double half = (double)shininess[i] / 2.0;
-        assert_near(albedo(&m, 0), 2.0 * (2.0 - (exp2)(-half)) / (half + 1.0),
+        assert_near(albedo(&m, 0), 2.0 * (2.0 - exp2(-half)) / (half + 1.0),
                     1e-3 * (1.0 + 4.0 / (half + 1.0)));
     }
 }

@@ -49,7 +49,7 @@ facet_result plot_make_tone(plot *p)
     const double *x = plot_steps(p, TONE_POINTS, -STOPS, STOPS);
     double *light = plot_numbers(p, TONE_POINTS);
     for (int i = 0; light && x && i < TONE_POINTS; i++)
-        light[i] = MIDDLE_GRAY * (exp2)(x[i]);
+        light[i] = MIDDLE_GRAY * exp2(x[i]);
     add_operators(p, stops, x, light, true);
     plot_panel *linear =
         plot_add_panel(p, CHART_XY, "over scene light", "scene light, linear, 1: white", "display, linear");
@@ -136,7 +136,7 @@ static void add_dielectrics(plot *p, const dielectric *media, uint32_t count, co
         double *approximate = plot_add_curve(p, panel, plot_text(p, "%s, Schlick", media[k].name),
                                              plot_color(k, 1), FRESNEL_POINTS, x);
         for (int i = 0; y && approximate && i < FRESNEL_POINTS; i++) {
-            float cosine = (float)(cos)(x[i] * PLOT_DEGREE);
+            float cosine = (float)cos(x[i] * PLOT_DEGREE);
             y[i] = exact(cosine, eta);
             approximate[i] = schlick(cosine, eta);
         }
@@ -153,7 +153,7 @@ static void add_differences(plot *p, const dielectric *media, uint32_t count, co
     for (uint32_t k = 0; k < count; k++) {
         double *y = plot_add_curve(p, panel, media[k].name, plot_color(k, 0), FRESNEL_POINTS, x);
         for (int i = 0; y && i < FRESNEL_POINTS; i++) {
-            float cosine = (float)(cos)(x[i] * PLOT_DEGREE);
+            float cosine = (float)cos(x[i] * PLOT_DEGREE);
             y[i] = schlick(cosine, media[k].ior) - exact(cosine, media[k].ior);
         }
     }
@@ -171,7 +171,7 @@ static void add_conductor(plot *p, const conductor *c, const double *x)
         double *approximate = plot_add_curve(p, panel, plot_text(p, "%s, Schlick", channels[channel]),
                                              plot_channel(channel, 1), FRESNEL_POINTS, x);
         for (int i = 0; y && approximate && i < FRESNEL_POINTS; i++) {
-            float cosine = (float)(cos)(x[i] * PLOT_DEGREE);
+            float cosine = (float)cos(x[i] * PLOT_DEGREE);
             y[i] = (double)F_conductor(cosine, eta, k)[channel];
             approximate[i] = (double)F_Schlick(F0, vec3(1.0f), cosine)[channel];
         }

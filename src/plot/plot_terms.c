@@ -44,7 +44,7 @@ static double *cosines(plot *p)
         double u = (double)i / (POINTS - 1);
         x[i] =
             /* cubic spacing: alpha of 0.01 has its peak within 0.6 degrees */
-            (cos)(0.5 * PLOT_PI * u * u * u);
+            cos(0.5 * PLOT_PI * u * u * u);
     }
     return x;
 }
@@ -114,7 +114,7 @@ static void add_visibility(plot *p, const roughness_list *list, const double *x,
                            bool is_G)
 {
     static const char *const forms[] = {"", ", separable", ", Schlick-GGX"};
-    float NdotV = (float)(cos)((double)p->angles[0]);
+    float NdotV = (float)cos((double)p->angles[0]);
     const char *eye = plot_degrees(p, (double)p->angles[0]);
     plot_panel *panel = panel_over(
         p,

@@ -1,9 +1,8 @@
 /* plot_test.c - the charts of all kinds: their numbers against closed forms and the functions that they come from, and
  * what is refused. */
-#include "base/test_effort.h"
+#include "tests/support/support.h"
 #include "plot/plot_test_support.h"
 
-#include "base/failing_allocator.h"
 #include "ibl/ibl.h"
 
 #include "shade/shade.h"
@@ -173,7 +172,7 @@ static void matte_slice_is_flat(void **state)
         assert_int_equal(panel->curve_count, 1);
         for (size_t i = 0; i < panel->curves[0].count; i++)
             assert_near(panel->curves[0].y[i],
-                        0.5 / PLOT_PI * (cosine ? (cos)(panel->curves[0].x[i] * PLOT_DEGREE) : 1.0), 1e-6);
+                        0.5 / PLOT_PI * (cosine ? cos(panel->curves[0].x[i] * PLOT_DEGREE) : 1.0), 1e-6);
         free_plot(&f);
     }
 }
@@ -265,7 +264,7 @@ static void disc_has_the_slice_in_it(void **state)
     plot_direction((double)view, 0.0, V);
     for (uint32_t column = 8; column < field->width - 8; column += 9) {
         double x = (column + 0.5) / field->width * 2.0 - 1.0;
-        float L[1][3] = {{(float)x, 0.0f, (float)(sqrt)(1.0 - x * x)}};
+        float L[1][3] = {{(float)x, 0.0f, (float)sqrt(1.0 - x * x)}};
         double out[1][3];
         material_brdf_cos(&prepared, V, 1, (const float(*)[3])L, out);
         assert_near(field->values[middle * field->width + column] / (out[0][0] / (double)L[0][2]), 1.0, 1e-4);
@@ -285,8 +284,8 @@ static void lobe_is_as_long_as_the_root_of_its_value(void **state)
         for (size_t k = 0; k < count; k++)
             peak = fmax(peak, s->values[k]);
         for (size_t k = 0; k < count; k++) {
-            double r = (sqrt)(s->x[k] * s->x[k] + s->y[k] * s->y[k] + s->z[k] * s->z[k]);
-            assert_near(r, (sqrt)(s->values[k] / peak), 1e-4);
+            double r = sqrt(s->x[k] * s->x[k] + s->y[k] * s->y[k] + s->z[k] * s->z[k]);
+            assert_near(r, sqrt(s->values[k] / peak), 1e-4);
             longest = fmax(longest, r);
         }
         assert_near(longest, 1.0, 1e-4);
@@ -338,7 +337,7 @@ static void albedo_of_white_metal_is_the_tables_sum(void **state)
     const chart_curve *c = &f.drawing.panels[0].curves[0];
     for (size_t i = 0; i < c->count; i++) {
         float terms[2];
-        ibl_dfg((float)(cos)(c->x[i] * PLOT_DEGREE), 0.7f, terms);
+        ibl_dfg((float)cos(c->x[i] * PLOT_DEGREE), 0.7f, terms);
         assert_near(c->y[i], terms[0] + terms[1], 1e-3);
     }
     free_plot(&f);
@@ -422,10 +421,10 @@ static void fresnel_has_its_ends(void **state)
         }
         /* Brewster's angle: s alone, ((1 - n^2) / (1 + n^2))^2 / 2 */
         double n2 = media[k].ior * media[k].ior, s = (1.0 - n2) / (1.0 + n2);
-        double brewster = (atan)(media[k].ior) / PLOT_DEGREE;
+        double brewster = atan(media[k].ior) / PLOT_DEGREE;
         assert_near(value_at(find_curve(&p[0], media[k].name), brewster, 0.13), 0.5 * s * s, 2e-3);
         /* total reflection from the critical angle on, not before */
-        double critical = (asin)(1.0 / media[k].ior) / PLOT_DEGREE;
+        double critical = asin(1.0 / media[k].ior) / PLOT_DEGREE;
         const chart_curve *inside = find_curve(&p[1], media[k].name);
         for (size_t i = 0; i < inside->count; i++)
             if (inside->x[i] > critical)

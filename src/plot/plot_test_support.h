@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "base/near_test.h"
+#include "tests/support/support.h"
 #include "plot/material.h"
 #include "plot/plot.h"
 #include "plot/plot_build.h"

@@ -8,9 +8,8 @@
 
 #include <cmocka.h>
 
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 #include "base/memory.h"
-#include "base/near_test.h"
 #include "ibl/making_test.h"
 #include "report/ibl_sheet.h"
 #include "report/ibl_sheet_draw.h"

@@ -1,6 +1,7 @@
 /* fit_test.c - framing: everything is in the picture, and something touches its border, also of what moves. */
 #include "scene/fit_times.h"
 #include "scene/motion_test_support.h"
+#include "tests/support/support.h"
 
 #include <math.h>
 #include <string.h>
@@ -28,7 +29,7 @@ static facet_scene *make_scene(void)
     for (uint32_t i = 0; i < COUNT; i++) {
         indices[i] = i;
         for (uint32_t k = 0; k < 3; k++) {
-            random = random * 1664525u + 1013904223u;
+            lcg_next(&random);
             float value = middle[k] + extent[k] * ((float)(random >> 8) / 8388608.0f - 1.0f);
             positions[3 * i + k] = value;
             p.bounds_min[k] = fminf(p.bounds_min[k], value);

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 #include "base/text.h"
 #include "scene/identity.h"
 

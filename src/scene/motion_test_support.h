@@ -5,11 +5,12 @@
 #include <string.h>
 
 #include "scene/scene_test_support.h"
+#include "tests/support/support.h"
 
 /* [-1, 1), after a fixed recipe. */
 static inline float test_random(uint32_t *state)
 {
-    *state = *state * 1664525u + 1013904223u;
+    lcg_next(state);
     return (float)(*state >> 8) / 8388608.0f - 1.0f;
 }
 

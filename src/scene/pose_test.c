@@ -3,7 +3,7 @@
 
 #include <float.h>
 #include <math.h>
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 
 /* Corners of a triangle and a vertex that nothing uses, far out. */
 static const float POSITIONS[12] = {0, 0, 0, 1, 0, 0, 0, 2, 0, 100, 100, 100};

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "base/near_test.h"
+#include "tests/support/support.h"
 
 static const float TIMES[4] = {0.5f, 1.0f, 2.5f, 3.0f};
 

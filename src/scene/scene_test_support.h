@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "base/near_test.h"
+#include "tests/support/support.h"
 #include "scene/scene.h"
 
 /* count nodes that are roots of the one scene, each with a mesh of one primitive, which is empty. */

@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 
 static facet_result parse(const char *text, view_script *out, facet_error *error)
 {

@@ -109,7 +109,7 @@ static edges edges_of(const lagoon *l, reading *read, const void *what, double r
     for (int k = 0; k < 4 * PLACES; k++) {
         double a = (double)TURNED + (k / PLACES) * 0.5 * 3.14159265358979,
                along = (k % PLACES) / (double)PLACES - 0.5;
-        double nx = (cos)(a), nz = -(sin)(a), step = 2.0 * reach_m / (STEPS - 1);
+        double nx = cos(a), nz = -sin(a), step = 2.0 * reach_m / (STEPS - 1);
         float shares[STEPS];
         for (int i = 0; i < STEPS; i++) {
             double out = 1.0 + step * (i - 0.5 * (STEPS - 1));
@@ -245,7 +245,7 @@ static void add(pair *to, double light, float share)
 static double beam_at(const photons *w, const double P[3])
 {
     double way = -P[1] / (double)w->s->sunward[1];
-    return (double)w->s->beam[w->channel] * (exp)(-(double)(w->absorption + w->scattering) * way);
+    return (double)w->s->beam[w->channel] * exp(-(double)(w->absorption + w->scattering) * way);
 }
 
 static float sun_open(const photons *w, const double P[3])
@@ -300,7 +300,7 @@ static vec3 upwards(photons *w)
 /* Where the walk is scattered or meets a border, m along d. */
 static bool is_scattered(photons *w, double P[3], vec3 d)
 {
-    double t = -(log)(1.0 - (double)rng_float(&w->rng)) / (double)(w->absorption + w->scattering);
+    double t = -log(1.0 - (double)rng_float(&w->rng)) / (double)(w->absorption + w->scattering);
     double far = (d[1] > 0.0f ? -P[1] : -(double)DEPTH_M - P[1]) / (double)d[1];
     for (int k = 0; k < 3; k++)
         P[k] += fmin(t, far) * (double)d[k];

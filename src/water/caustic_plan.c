@@ -202,8 +202,8 @@ static void place_layer(const view *v, caustic_plan *p)
         }
     }
     const double step = 2.0 * (double)p->texel_m; /* so that an eye that moves sees the same points */
-    double u = step * (floor)(0.5 * (least[0] + most[0]) / step),
-           w = step * (floor)(0.5 * (least[1] + most[1]) / step);
+    double u = step * floor(0.5 * (least[0] + most[0]) / step),
+           w = step * floor(0.5 * (least[1] + most[1]) / step);
     p->middle[0] = u * a - w * b;
     p->middle[1] = u * b + w * a;
 }

@@ -85,8 +85,8 @@ static void fill_rows(void *context, size_t begin, size_t end)
         float y = mix(s->horizon_mu, -1.0f, sky_rise((float)i / (ROWS - 1)));
         float level = sqrt(max(1.0f - y * y, 0.0f));
         for (int k = 0; k < COLUMNS; k++) {
-            double longitude = s->sun_longitude + 2.0 * (asin)((double)k / (COLUMNS - 1));
-            vec3 d = vec3(level * (float)(cos)(longitude), y, level * (float)(sin)(longitude));
+            double longitude = s->sun_longitude + 2.0 * asin((double)k / (COLUMNS - 1));
+            vec3 d = vec3(level * (float)cos(longitude), y, level * (float)sin(longitude));
             s->air_light[i * COLUMNS + (size_t)k] = water_sky_view(s, &s->eye, d, s->horizon_rad + 1e-5f, PI);
         }
     }

@@ -15,8 +15,8 @@ static void make_sky(float elevation_rad, float azimuth_rad, float lux, float ey
 
 static vec3 downwards(double angle, double longitude)
 {
-    double level = (sin)(angle);
-    return vec3((float)(level * (cos)(longitude)), (float)(cos)(angle), (float)(level * (sin)(longitude)));
+    double level = sin(angle);
+    return vec3((float)(level * cos(longitude)), (float)cos(angle), (float)(level * sin(longitude)));
 }
 
 /* What the eye sees over black ground, on rays that are marched. */

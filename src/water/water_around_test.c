@@ -38,8 +38,7 @@ static vec3 seen_by_model(const facet_sea *sea, shot *s)
     for (uint32_t y = 0; y < around->height; y++)
         for (uint32_t x = 0; x < around->width; x++) {
             equirect_direction(around->width, around->height, (double)x, (double)y, d);
-            double cosine =
-                -(sin)((double)STEEP_RAD) * (double)d[1] - (cos)((double)STEEP_RAD) * (double)d[2];
+            double cosine = -sin((double)STEEP_RAD) * (double)d[1] - cos((double)STEEP_RAD) * (double)d[2];
             const float *texel = (const float *)around->pixels + 3 * ((size_t)y * around->width + x);
             if (cosine > closest)
                 found = vec3(texel[0], texel[1], texel[2]), closest = cosine;

@@ -5,7 +5,7 @@
 
 #include "water/water_fixture.h"
 
-#include "base/test_effort.h"
+#include "tests/support/support.h"
 #include "ocean/sea.h"
 #include "water/water_caustics.h"
 #include "water/water_pixel.h"
@@ -56,9 +56,9 @@ static void make_sine(sine *s, double amplitude_m)
                 s->texels[l][i] = 0.25f * (from[0] + from[WAVE_FIELDS] + from[2 * edge * WAVE_FIELDS] +
                                            from[(2 * edge + 1) * WAVE_FIELDS]);
             else if (field == WAVE_ETA)
-                s->texels[l][i] = (float)(s->a * (cos)(kx));
+                s->texels[l][i] = (float)(s->a * cos(kx));
             else if (field == WAVE_ETA_X)
-                s->texels[l][i] = (float)(-s->a * s->k * (sin)(kx));
+                s->texels[l][i] = (float)(-s->a * s->k * sin(kx));
         }
     }
 }
@@ -99,8 +99,8 @@ static void test_sine(void **state)
     double C = depth * a * s.k * s.k * (n - 1.0) / n, worst = 0.0;
     assert_true(C > 0.1 && C < 0.3);
     for (int i = 0; i < 100; i++) {
-        double x = -2.0 + 0.04 * i, on_bed = x - C / s.k * (sin)(s.k * x);
-        double expected = 1.0 / (1.0 - C * (cos)(s.k * x));
+        double x = -2.0 + 0.04 * i, on_bed = x - C / s.k * sin(s.k * x);
+        double expected = 1.0 / (1.0 - C * cos(s.k * x));
         double found = (double)caustic_map_at(&map, on_bed, 0.3, 0.0f);
         worst = fmax(worst, fabs(found / expected - 1.0));
     }
@@ -117,12 +117,12 @@ static double below_crest(double C)
         return sum;
     for (int i = 0; i < 60; i++) {
         double middle = 0.5 * (low + high);
-        if (middle < C * (sin)(middle))
+        if (middle < C * sin(middle))
             low = middle;
         else
             high = middle;
     }
-    return sum + 2.0 / fabs(1.0 - C * (cos)(low));
+    return sum + 2.0 / fabs(1.0 - C * cos(low));
 }
 
 /* Crests focus at the depth n / ((n - 1) a k^2), where C is 1: light below them is brightest there. */

@@ -15,7 +15,7 @@ static facet_sea_desc still_sea(void)
 /* Unpolarised, in double; reference 9.2. */
 static double fresnel(double c, double n)
 {
-    double g = (sqrt)(n * n + c * c - 1.0), a = (g - c) / (g + c),
+    double g = sqrt(n * n + c * c - 1.0), a = (g - c) / (g + c),
            b = (c * (g + c) - 1.0) / (c * (g - c) + 1.0);
     return 0.5 * a * a * (1.0 + b * b);
 }
@@ -36,8 +36,8 @@ static vec3 expected_flat(const water_setup *s, const double d[3])
 {
     const double R = 6360000.0, n = (double)s->water.ior, h = (double)s->camera.origin[1];
     double level2 = 1.0 - d[1] * d[1], a = level2 / (2.0 * R);
-    double t = (-d[1] - (sqrt)(d[1] * d[1] - 4.0 * a * h)) / (2.0 * a); /* h + d_y t + a t^2 = 0 */
-    double rise = d[1] + 2.0 * a * t, length = (sqrt)(level2 + rise * rise);
+    double t = (-d[1] - sqrt(d[1] * d[1] - 4.0 * a * h)) / (2.0 * a); /* h + d_y t + a t^2 = 0 */
+    double rise = d[1] + 2.0 * a * t, length = sqrt(level2 + rise * rise);
     double c = -rise / length, F = fresnel(c, n);
     vec3 mirror = vec3((float)(d[0] / length), (float)c, (float)(d[2] / length));
     vec3 sky = water_sky_reflected(&s->sky, mirror, 0.0f);
@@ -65,8 +65,8 @@ static void test_flat(void **state)
         for (uint32_t x = 0; x < 32; x++) {
             float o[3], f[3];
             camera_rays_at(&setup.camera, (float)x + 0.5f, (float)y + 0.5f, o, f);
-            double length = (sqrt)((double)f[0] * (double)f[0] + (double)f[1] * (double)f[1] +
-                                   (double)f[2] * (double)f[2]);
+            double length =
+                sqrt((double)f[0] * (double)f[0] + (double)f[1] * (double)f[1] + (double)f[2] * (double)f[2]);
             double e[3] = {(double)f[0] / length, (double)f[1] / length, (double)f[2] / length};
             if (e[1] > -0.002)
                 continue;
@@ -99,7 +99,7 @@ static void test_sun(void **state)
     draw_shot(sea, &s);
     water_setup setup;
     assert_int_equal(water_setup_create(shot_in(sea, &s), NULL, &s.desc, &setup, &s.stats, NULL), FACET_OK);
-    double F = fresnel((sin)(0.7), (double)setup.water.ior);
+    double F = fresnel(sin(0.7), (double)setup.water.ior);
     double E = (double)setup.light.sun_irradiance[1],
            disc = E / (3.14159265358979323846 * 0.00465305 * 0.00465305);
     double pixel = (double)setup.camera.pixel_size, flux = 0.0, around = (double)shot_pixel(&s, 0, 0)[1];

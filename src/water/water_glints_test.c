@@ -54,7 +54,7 @@ static void compare(const facet_sea *sea, const facet_sea_desc *desc, facet_envi
     film_destroy(&s.film);
     for (int i = 0; i < BLOCKS; i++) {
         double pixels = without[i].sum * without[i].sum / without[i].squares;
-        double more = with[i].sum / without[i].sum - 1.0, most = 0.01 + 2.0 / (sqrt)(pixels);
+        double more = with[i].sum / without[i].sum - 1.0, most = 0.01 + 2.0 / sqrt(pixels);
         if (!(fabs(more) < most))
             fail_msg("%s, sun at %g, block %d: glints add %g to the light of %g pixels, at most %g is chance",
                      name, (double)height_deg, i, more, pixels, most);

@@ -43,7 +43,7 @@ static void fill_vertex(const surface *f, uint32_t row, uint32_t column)
     const water_setup *s = f->s;
     const water_mesh_lattice *l = f->l;
     double r = l->radii[row], a = l->azimuths[column];
-    const double rest[2] = {l->center[0] + r * (cos)(a), l->center[1] + r * (sin)(a)};
+    const double rest[2] = {l->center[0] + r * cos(a), l->center[1] + r * sin(a)};
     double spacing = fmax(l->row_steps[row], r * l->column_steps[column]);
     float footprint = (float)(WIDTH_OF_SPACING * spacing);
     wave_point p = waves_at(&s->sea->waves, rest[0], rest[1], footprint);
@@ -289,9 +289,9 @@ bool water_mesh_bed(const water_setup *s, const water_mesh_lattice *l, arena *me
     for (size_t at = 0; at < vertices; at++) {
         uint32_t row = (uint32_t)(at / BED_COLUMNS),
                  column = (uint32_t)(at % BED_COLUMNS) % (BED_COLUMNS - 1);
-        double r = row ? BED_NEAREST_M * (pow)(far_m / BED_NEAREST_M, (row - 1.0) / (BED_ROWS - 2.0)) : 0.0;
+        double r = row ? BED_NEAREST_M * pow(far_m / BED_NEAREST_M, (row - 1.0) / (BED_ROWS - 2.0)) : 0.0;
         double a = 6.283185307179586 * column / (BED_COLUMNS - 1);
-        double X = l->center[0] + r * (cos)(a), Z = l->center[1] + r * (sin)(a);
+        double X = l->center[0] + r * cos(a), Z = l->center[1] + r * sin(a);
         f.positions[3 * at] = (float)X;
         f.positions[3 * at + 1] = (float)(water_bed_height(bed, X, Z) - fallen(s, l, X, Z));
         f.positions[3 * at + 2] = (float)Z;

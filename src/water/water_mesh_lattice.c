@@ -44,7 +44,7 @@ static lattice_view view_of(const water_setup *s, water_mesh_lattice *l)
     if (!water_profile_azimuths(c, whole, &v.middle, &v.half))
         v.half = 0.5 * TURN;
     if (s->march.fall > 0.0)
-        v.far_m += 1.1 * (sqrt)(v.height_m / s->march.fall);
+        v.far_m += 1.1 * sqrt(v.height_m / s->march.fall);
     return v;
 }
 
@@ -114,7 +114,7 @@ bool water_mesh_lattice_create(const water_setup *s, uint32_t most, arena *memor
         double count = (double)l->column_count * (double)l->row_count;
         if (count <= (double)most)
             break;
-        scale *= fmax((sqrt)(count / (double)most), 1.01);
+        scale *= fmax(sqrt(count / (double)most), 1.01);
     }
     l->azimuths = arena_alloc(memory, l->column_count, sizeof(double));
     l->radii = arena_alloc(memory, l->row_count, sizeof(double));

@@ -139,9 +139,9 @@ static double foam_of_preview(const made *m, double from, double to)
     const float footprint = 0.5f;
     double foam = 0.0, area = 0.0;
     for (int i = 0; i < 20000; i++) {
-        double r = (sqrt)(from * from + (to * to - from * from) * (i % 200 + 0.5) / 200.0);
+        double r = sqrt(from * from + (to * to - from * from) * (i % 200 + 0.5) / 200.0);
         double angle = -1.5707963 + 0.5 * ((i / 200 + 0.5) / 100.0 - 0.5);
-        const double rest[2] = {r * (cos)(angle), r * (sin)(angle)};
+        const double rest[2] = {r * cos(angle), r * sin(angle)};
         wave_point p = waves_at(&m->sea->waves, rest[0], rest[1], footprint);
         wave_shape shape = wave_shape_of(&p);
         float share = water_foam_at(&m->setup, rest, footprint);
@@ -181,7 +181,7 @@ static void it_reaches_beyond_the_horizon(void **state)
     make(&m, &d, NULL, 20.0f, 150000);
     const water_mesh_lattice *l = &m.lattice;
     double far_m = l->radii[l->row_count - 1];
-    assert_true(far_m > (sqrt)(20.0 / m.setup.march.fall));
+    assert_true(far_m > sqrt(20.0 / m.setup.march.fall));
     assert_true((size_t)l->column_count * l->row_count <= 150000);
     for (uint32_t i = 0; i < m.surface.vertex_count; i++) {
         const float *P = corner(m.surface.positions, 3, i);

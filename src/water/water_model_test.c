@@ -2,7 +2,7 @@
  * that runs out. */
 #include "water/water_fixture.h"
 
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 #include "cpu/preview_fixture.h"
 #include "water/water_setup.h"
 
@@ -45,7 +45,7 @@ static void end_shot(shot *s)
 
 static double fresnel(double c, double n)
 {
-    double g = (sqrt)(n * n + c * c - 1.0), a = (g - c) / (g + c),
+    double g = sqrt(n * n + c * c - 1.0), a = (g - c) / (g + c),
            b = (c * (g + c) - 1.0) / (c * (g - c) + 1.0);
     return 0.5 * a * a * (1.0 + b * b);
 }
@@ -59,7 +59,7 @@ static void test_mirror(void **state)
     shot s;
     make_dark_shot(&s, 33, 3.0f, 0.78539816f, f.scene);
     draw_shot(sea, &s);
-    double F = fresnel((sqrt)(0.5), (double)sea->optics.ior);
+    double F = fresnel(sqrt(0.5), (double)sea->optics.ior);
     assert_true(fabs((double)shot_pixel(&s, 16, 16)[1] / (1000.0 * F) - 1.0) < 2e-3);
     assert_true(shot_pixel(&s, 16, 32)[1] == 0.0f); /* under the eye there is but dark water */
     s.camera.target[1] = 3.0f;
@@ -113,7 +113,7 @@ static void test_shadow(void **state)
         end_shot(&s);
     }
     double disc = 1e5 / (3.14159265358979 * 0.00465305 * 0.00465305),
-           F = fresnel((sqrt)(0.5), (double)sea->optics.ior);
+           F = fresnel(sqrt(0.5), (double)sea->optics.ior);
     assert_true(fabs((double)brightest[0] / (F * disc) - 1.0) < 0.03);
     assert_true((double)brightest[1] < 1e-3 * F * disc);
     sea_destroy(sea);

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "base/test_effort.h"
+#include "tests/support/support.h"
 
 #include "water/water_path.h"
 

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "base/test_effort.h"
+#include "tests/support/support.h"
 #include "film/meter.h"
 
 enum { WIDTH = 40, HEIGHT = 32, FEW = 4, MANY = 64 };

@@ -158,7 +158,7 @@ static march_ray ray_of(const camera_rays *c, float x, float y)
     float o[3], d[3];
     camera_rays_at(c, x, y, o, d);
     double length =
-        (sqrt)((double)d[0] * (double)d[0] + (double)d[1] * (double)d[1] + (double)d[2] * (double)d[2]);
+        sqrt((double)d[0] * (double)d[0] + (double)d[1] * (double)d[1] + (double)d[2] * (double)d[2]);
     march_ray ray = {.near_m = 0.0, .far_m = 1e7, .spread = c->pixel_size / (float)length};
     for (int i = 0; i < 3; i++) {
         ray.origin[i] = (double)o[i];
@@ -254,10 +254,10 @@ static void test_exposure(void **state)
     draw_shot(sea, &s);
     for (uint32_t i = 0; i < 96 * 64; i++) {
         const float *p = shot_pixel(&s, i % 96, i / 96);
-        sum += (log)((double)luminance(vec3(p[0], p[1], p[2]))) / (96 * 64);
+        sum += log((double)luminance(vec3(p[0], p[1], p[2]))) / (96 * 64);
     }
     film_destroy(&s.film);
-    assert_true(fabs((exp)(sum) / 0.22 - 1.0) < 0.04);
+    assert_true(fabs(exp(sum) / 0.22 - 1.0) < 0.04);
     s.desc.samples = 7;
     s.desc.crop[0] = 20;
     s.desc.crop[2] = 8;
@@ -267,9 +267,9 @@ static void test_exposure(void **state)
     double dusk = metered(sea, &s.desc);
     assert_true(dusk < day - 3.0 && warning_count == 0);
     s.desc.sky.sun_elevation_rad = -1.5f;
-    assert_true(fabs(metered(sea, &s.desc) - (log2)(1e-3 / 0.264)) < 1e-6);
+    assert_true(fabs(metered(sea, &s.desc) - log2(1e-3 / 0.264)) < 1e-6);
     assert_int_equal(warning_count, 1);
-    assert_true(fabs((exp2)(meter_exposure_ev(15.0)) * 1.2 * 32768.0 - 1.0) < 1e-12);
+    assert_true(fabs(exp2(meter_exposure_ev(15.0)) * 1.2 * 32768.0 - 1.0) < 1e-12);
     sea_destroy(sea);
 }
 

@@ -29,7 +29,7 @@ static inline float luminance_of(vec3 c)
 static void place_sun(water_sky *s, float elevation_rad, float azimuth_rad)
 {
     double e = (double)elevation_rad, a = (double)azimuth_rad;
-    s->L = vec3((float)((cos)(e) * (sin)(a)), (float)(sin)(e), (float)((cos)(e) * (cos)(a)));
+    s->L = vec3((float)(cos(e) * sin(a)), (float)sin(e), (float)(cos(e) * cos(a)));
     s->sun_longitude = 1.5707963267948966 - a;
 }
 

@@ -15,7 +15,7 @@ water_sample water_sample_begin(const water_setup *s, float x, float y, float fo
     float o[3], d[3];
     camera_rays_at(&s->camera, x, y, o, d);
     double length =
-        (sqrt)((double)d[0] * (double)d[0] + (double)d[1] * (double)d[1] + (double)d[2] * (double)d[2]);
+        sqrt((double)d[0] * (double)d[0] + (double)d[1] * (double)d[1] + (double)d[2] * (double)d[2]);
     water_sample p = {.s = s, .x = x, .y = y, .footprint = footprint, .random = random};
     p.ray.near_m = (double)s->camera.near_m * length;
     p.ray.far_m = fmin((double)s->camera.far_m * length, FAR_M);

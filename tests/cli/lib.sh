@@ -42,7 +42,7 @@ only() {
     [ "$found" = "$wanted" ] || failed "the folder holds: $found; expected: $wanted"
 }
 
-# is_quick: whether long tests are to leave out what another build of the same run does (src/base/test_effort.h).
+# is_quick: whether long tests are to leave out what another build of the same run does (tests/support/support.h).
 is_quick() {
     [ "${FACET_QUICK_TESTS:-0}" = 1 ]
 }

@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-#include "base/test_effort.h"
+#include "tests/support/support.h"
 #include "gl/core/gl_blocks.h"
 #include "gl/core/gl_program.h"
 

@@ -16,6 +16,7 @@
 #include "gl/core/gl_texture.h"
 #include "image/half.h"
 #include "image/image.h"
+#include "tests/support/support.h"
 
 static gl_fixture_contexts contexts;
 static int warning_count;
@@ -40,7 +41,7 @@ static unsigned char *encoded(uint32_t width, uint32_t height, uint32_t channel_
     assert_int_equal(image_create(NULL, width, height, channel_count, type, &picture, NULL), FACET_OK);
     uint32_t state = 12345 + channel_count;
     for (size_t i = 0; i < image_row_size(&picture) * height; i++) {
-        state = state * 1664525u + 1013904223u;
+        lcg_next(&state);
         ((unsigned char *)picture.pixels)[i] = (unsigned char)(state >> 24);
     }
     picture.is_srgb = true;

@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "base/memory.h"
-#include "base/near_test.h"
+#include "tests/support/support.h"
 #include "gl/scene/gl_light.h"
 #include "gl/core/gl_program.h"
 #include "ibl/making_test.h"
@@ -183,7 +183,7 @@ static facet_result update(gl_light *light, const light_setup *setup)
 static uint32_t random_state = 1;
 static float uniform_number(float low, float high)
 {
-    random_state = random_state * 1664525u + 1013904223u;
+    lcg_next(&random_state);
     return low + (high - low) * (float)(random_state >> 8) * 0x1p-24f;
 }
 

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 #include "gl/scene/gl_fixture_test.h"
 
 static gl_fixture_contexts contexts;

@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "base/near_test.h"
+#include "tests/support/support.h"
 #include "gl/scene/gl_fixture_test.h"
 
 static gl_fixture_contexts contexts;

@@ -17,7 +17,7 @@ static void set4(float to[4], const float xyz[3], float w)
 /* In [0, size). */
 static float wrapped(double samples, uint32_t size)
 {
-    double rest = samples - (double)size * (floor)(samples / (double)size);
+    double rest = samples - (double)size * floor(samples / (double)size);
     return rest < (double)size ? (float)rest : 0.0f;
 }
 

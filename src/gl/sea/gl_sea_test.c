@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "base/test_effort.h"
+#include "tests/support/support.h"
 #include "cpu/preview_fixture.h"
 #include "gl/sea/gl_sea.h"
 #include "film/meter.h"

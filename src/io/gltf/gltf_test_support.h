@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "base/near_test.h"
+#include "tests/support/support.h"
 #include "io/gltf/gltf.h"
 
 /* Bytes of a binary chunk that grow. */

@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 #include "base/file.h"
 #include "scene/material_table.h"
 #include "scene/origin.h"

@@ -1,5 +1,6 @@
 /* meshopt_test.c - streams of the reference encoder, of the specification, and broken ones. */
 #include "io/gltf/meshopt.h"
+#include "tests/support/support.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -299,7 +300,7 @@ static void filters_take_any_bytes(void **state)
             if (filters[f] == MESHOPT_QUATERNION && stride == 4)
                 continue;
             for (size_t i = 0; i < 8 * 4096; i++) {
-                random = random * 1664525 + 1013904223;
+                lcg_next(&random);
                 bytes[i] = i < 64 ? 0 : i < 128 ? 128 : (uint8_t)(random >> 24);
             }
             meshopt_apply_filter(filters[f], bytes, 4096, stride);
@@ -361,9 +362,9 @@ static void damaged_streams_do_no_harm(void **state)
         uint8_t *out = malloc(s->count * s->stride);
         assert_non_null(out);
         for (int k = 0; k < 200; k++) {
-            random = random * 1664525 + 1013904223;
+            lcg_next(&random);
             size_t place = (random >> 8) % s->size;
-            random = random * 1664525 + 1013904223;
+            lcg_next(&random);
             decode_copy(s, s->size, place, (uint8_t)(random >> 24), out);
         }
         assert_non_null(decode_copy(s, s->size, 0, 0x7f, out)); /* the header */

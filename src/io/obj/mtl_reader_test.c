@@ -9,7 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 #include "image/srgb.h"
 #include "io/obj/mtl_parts.h"
 

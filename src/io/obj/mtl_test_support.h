@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "base/near_test.h"
+#include "tests/support/support.h"
 #include "io/obj/mtl.h"
 
 /* A new folder for a test; test_folder_remove() at its end. */

@@ -1,6 +1,6 @@
 /* mtl_write_test.c - what is written of materials comes back; glTF materials to the bit. */
 #define _POSIX_C_SOURCE 200809L
-#include "base/test_effort.h"
+#include "tests/support/support.h"
 #include "io/obj/mtl_test_support.h"
 
 #include <stdio.h>
@@ -8,7 +8,6 @@
 #include <string.h>
 #include <time.h>
 
-#include "base/failing_allocator.h"
 #include "io/gltf/gltf.h"
 #include "scene/legacy_extras.h"
 #include "scene/material_table.h"

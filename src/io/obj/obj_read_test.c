@@ -6,8 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/failing_allocator.h"
-#include "base/test_effort.h"
+#include "tests/support/support.h"
 #include "io/obj/obj_test_support.h"
 
 #define SQUARE "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"

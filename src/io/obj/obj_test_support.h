@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "base/near_test.h"
+#include "tests/support/support.h"
 #include "io/obj/obj.h"
 
 /* Loads bytes as test.obj; must succeed. desc NULL: {0}. */

@@ -4,8 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/test_effort.h"
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 #include "io/obj/obj_test_support.h"
 
 enum { WIDTH = 330 };

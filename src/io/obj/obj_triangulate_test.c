@@ -1,4 +1,5 @@
 #include "io/obj/obj_triangulate.h"
+#include "tests/support/support.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -21,12 +22,6 @@ typedef struct shape {
 static shape s;
 static obj_polygon polygon;
 static uint32_t triangles[3 * MAX_CORNERS];
-
-static double next_random(uint64_t *state)
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*state >> 11) * 0x1p-53;
-}
 
 static void add(double x, double y)
 {
@@ -115,10 +110,10 @@ static void test_stars(void **state)
     uint64_t random = 1;
     for (int round = 0; round < 400; round++) {
         s.count = 0;
-        uint32_t count = 3 + (uint32_t)(next_random(&random) * (round < 300 ? 30 : 500));
+        uint32_t count = 3 + (uint32_t)(lcg64_double(&random) * (round < 300 ? 30 : 500));
         for (uint32_t i = 0; i < count; i++) {
-            double angle = 6.283185307179586 * ((double)i + 0.8 * next_random(&random)) / (double)count;
-            double radius = 0.1 + next_random(&random);
+            double angle = 6.283185307179586 * ((double)i + 0.8 * lcg64_double(&random)) / (double)count;
+            double radius = 0.1 + lcg64_double(&random);
             add(radius * cos(angle), radius * sin(angle));
         }
         check_in_all_planes();
@@ -239,9 +234,9 @@ static void test_odd_polygons(void **state)
     uint64_t random = 5;
     for (int round = 0; round < 200; round++) {
         s.count = 0;
-        uint32_t count = 5 + (uint32_t)(next_random(&random) * 60);
+        uint32_t count = 5 + (uint32_t)(lcg64_double(&random) * 60);
         for (uint32_t i = 0; i < count; i++)
-            add(floor(8 * next_random(&random)), floor((round % 5 ? 8 : 1) * next_random(&random)));
+            add(floor(8 * lcg64_double(&random)), floor((round % 5 ? 8 : 1) * lcg64_double(&random)));
         place(2);
         obj_triangulate(&polygon, s.count, triangles);
         double sum = 0.0;
@@ -258,7 +253,7 @@ static void test_work_has_an_end(void **state)
     uint64_t random = 6;
     s.count = 0;
     for (uint32_t i = 0; i < 100000; i++)
-        add(next_random(&random), next_random(&random));
+        add(lcg64_double(&random), lcg64_double(&random));
     place(2);
     obj_triangulate(&polygon, s.count, triangles);
     for (uint32_t i = 0; i < 3 * (s.count - 2); i++)

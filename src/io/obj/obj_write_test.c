@@ -1,6 +1,6 @@
 /* obj_write_test.c - OBJ files as they are written, and scenes that come back from them. */
 #define _POSIX_C_SOURCE 200809L
-#include "base/test_effort.h"
+#include "tests/support/support.h"
 #include "io/obj/mtl_test_support.h"
 
 #include <dirent.h>
@@ -12,7 +12,6 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "base/failing_allocator.h"
 #include "base/text.h"
 #include "image/srgb.h"
 #include "io/obj/obj_write.h"

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 #include "io/ogl1/ogl1_test_support.h"
 
 /* toJSON(list(materials = list(gold = material3d(id = id)), lights = ..), auto_unbox = TRUE) of rgl 1.0.1 */

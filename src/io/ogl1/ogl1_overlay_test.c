@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 #include "io/ogl1/ogl1_test_support.h"
 
 /* Materials red, green; nodes: 0 "a" (mesh "m": red, green), 1 "b" (mesh "m" again), 2 "c" (mesh "n": none), 3 "top" above

@@ -5,7 +5,7 @@
 
 #include <jansson.h>
 
-#include "base/failing_allocator.h"
+#include "tests/support/support.h"
 #include "io/ogl1/ogl1_test_support.h"
 
 static char *write(const facet_scene *scene)
@@ -144,7 +144,7 @@ static void test_random_directions(void **state)
         double v[3];
         double length = 0.0;
         for (int k = 0; k < 3; k++) {
-            seed = seed * 1664525u + 1013904223u;
+            lcg_next(&seed);
             v[k] = (double)(seed >> 8) / (double)(1 << 23) - 1.0;
             length += v[k] * v[k];
         }

@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "base/near_test.h"
+#include "tests/support/support.h"
 #include "image/srgb.h"
 #include "io/obj/mtl_test_support.h"
 #include "io/obj/obj_test_support.h"

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "base/near_test.h"
+#include "tests/support/support.h"
 #include "io/obj/obj_test_support.h"
 #include "io/stl/stl.h"
 
