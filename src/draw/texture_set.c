@@ -23,13 +23,7 @@ static size_t collect_wants(const facet_scene *scene, const texture_use *uses, t
         want->is_read[0] |= uses[t].is_read_as_data;
         want->is_read[1] |= uses[t].is_read_as_color;
     }
-    size_t count = 0;
-    for (uint32_t i = 0; i < scene->image_count; i++)
-        if (wants[i].is_read[0] || wants[i].is_read[1]) {
-            wants[count] = wants[i];
-            wants[count++].image = i;
-        }
-    return count;
+    return texture_wants_compact(wants, scene->image_count);
 }
 
 /* Connects textures with the pyramids. A finer level than this picture asked for is not looked at. */

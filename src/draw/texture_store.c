@@ -383,6 +383,17 @@ static facet_result report_jobs(texture_store *store, const job *jobs, size_t co
     return FACET_OK;
 }
 
+size_t texture_wants_compact(texture_want *wants, size_t image_count)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < image_count; i++)
+        if (wants[i].is_read[0] || wants[i].is_read[1]) {
+            wants[count] = wants[i];
+            wants[count++].image = (uint32_t)i;
+        }
+    return count;
+}
+
 facet_result texture_store_get(texture_store *store, texture_want *wants, size_t count, const facet_log *log,
                                uint32_t thread_count, uint64_t *decoded_texels, facet_error *error)
 {

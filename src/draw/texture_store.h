@@ -21,6 +21,9 @@ typedef struct texture_want {
     const texture_pyramid *pyramid[2];
 } texture_want;
 
+/* Moves those of image_count wants, one per image, that are read to the front and sets their images; returns their number. */
+size_t texture_wants_compact(texture_want *wants, size_t image_count);
+
 /* Fails with FACET_ERROR_MEMORY. scene outlives the store. */
 facet_result texture_store_create(const facet_scene *scene, const facet_allocator *allocator,
                                   texture_store **out, facet_error *error);

@@ -195,13 +195,7 @@ static size_t collect_wants(const gl_texture_set *set, const texture_use *uses, 
                 wants[number].min_lod = (float)find_first_level(set, (uint32_t)size[0], (uint32_t)size[1]);
         }
     }
-    size_t count = 0;
-    for (uint32_t i = 0; i < scene->image_count; i++)
-        if (wants[i].is_read[0] || wants[i].is_read[1]) {
-            wants[count] = wants[i];
-            wants[count++].image = i;
-        }
-    return count;
+    return texture_wants_compact(wants, scene->image_count);
 }
 
 static void warn_reduced(const gl_texture_set *set, const texture_want *want, const texture_pyramid *p,
