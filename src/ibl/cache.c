@@ -56,6 +56,17 @@ void cache_identify(facet_environment *environment, const void *bytes, size_t si
             cache_hash(environment->hash + environment->layout + (READER_VERSION << 8), bytes, size);
 }
 
+facet_result cache_finish(facet_result result, facet_environment *made, facet_environment **environment)
+{
+    if (result != FACET_OK) {
+        environment_release(made);
+        return result;
+    }
+    cache_identify(made, made->panorama.pixels, made->panorama.height * image_row_size(&made->panorama));
+    *environment = made;
+    return FACET_OK;
+}
+
 /* Path of an entry, a block of mem_alloc(); NULL: no memory. */
 static char *entry_path(const facet_environment *e, const char *part, uint64_t key)
 {

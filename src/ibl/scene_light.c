@@ -349,11 +349,5 @@ facet_result facet_environment_create_from_scene(const facet_scene *scene, const
     if (result == FACET_OK)
         result = keep_irradiance(e, &c, light, desc->thread_count, error);
     scene_cube_destroy(&c);
-    if (result != FACET_OK) {
-        environment_release(e);
-        return result;
-    }
-    cache_identify(e, e->panorama.pixels, e->panorama.height * image_row_size(&e->panorama));
-    *environment = e;
-    return FACET_OK;
+    return cache_finish(result, e, environment);
 }

@@ -143,12 +143,7 @@ facet_result facet_environment_create_sky(const facet_sky_desc *sky, const facet
                                                                                          &e->panorama, error);
     if (result == FACET_OK)
         result = expose(&s, desc, &e->panorama, error);
-    if (result != FACET_OK) {
-        environment_release(e);
-        return result;
-    }
-    environment_limit(e, desc->thread_count);
-    cache_identify(e, e->panorama.pixels, e->panorama.height * image_row_size(&e->panorama));
-    *environment = e;
-    return FACET_OK;
+    if (result == FACET_OK)
+        environment_limit(e, desc->thread_count);
+    return cache_finish(result, e, environment);
 }

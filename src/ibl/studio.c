@@ -135,13 +135,7 @@ facet_result facet_environment_create_studio(const facet_environment_desc *desc,
     facet_environment *e = NULL;
     TRY(environment_create(desc, &e, error));
     facet_result result = studio_create(&e->allocator, desc->thread_count, &e->panorama, error);
-    if (result != FACET_OK) {
-        environment_release(e);
-        return result;
-    }
-    cache_identify(e, e->panorama.pixels, e->panorama.height * image_row_size(&e->panorama));
-    *environment = e;
-    return FACET_OK;
+    return cache_finish(result, e, environment);
 }
 
 facet_result facet_environment_create_constant(const float radiance[3], const facet_environment_desc *desc,
@@ -196,7 +190,5 @@ facet_result facet_environment_create_gradient(const float zenith[3], const floa
                         ((double)end[i % 3] - (double)horizon[i % 3]) * fabs(height));
     }
     environment_limit(e, desc->thread_count);
-    cache_identify(e, e->panorama.pixels, e->panorama.height * image_row_size(&e->panorama));
-    *environment = e;
-    return FACET_OK;
+    return cache_finish(FACET_OK, e, environment);
 }
