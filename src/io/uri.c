@@ -344,3 +344,12 @@ facet_result io_load_file(io_loader *load, const char *path, const facet_scene_d
     file_close(&file);
     return result;
 }
+
+facet_result io_check_size(size_t size, const char *name, const facet_scene_desc *desc, facet_error *error)
+{
+    uint64_t limit = file_limit(desc->max_file_bytes);
+    if (size <= limit)
+        return FACET_OK;
+    return fail(error, FACET_ERROR_LIMIT, "%s: %zu bytes is larger than the limit of %llu", name, size,
+                (unsigned long long)limit);
+}

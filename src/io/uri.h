@@ -23,6 +23,9 @@ typedef facet_result io_loader(const char *bytes, size_t size, const char *sourc
 facet_result io_load_file(io_loader *load, const char *path, const facet_scene_desc *desc,
                           facet_scene **scene, facet_error *error);
 
+/* FACET_ERROR_LIMIT for a model in memory that is larger than desc allows. */
+facet_result io_check_size(size_t size, const char *name, const facet_scene_desc *desc, facet_error *error);
+
 /* The bytes that a name stands for. */
 typedef struct uri_bytes {
     const unsigned char *data;

@@ -376,9 +376,6 @@ facet_result ogl1_json_load_memory(const void *bytes, size_t size, const char *n
     const facet_scene_desc defaults = {0};
     desc = desc ? desc : &defaults;
     *scene = NULL;
-    uint64_t most = file_limit(desc->max_file_bytes);
-    if (size > most)
-        return fail(error, FACET_ERROR_LIMIT, "%s: %zu bytes is larger than the limit of %llu", name, size,
-                    (unsigned long long)most);
+    TRY(io_check_size(size, name, desc, error));
     return load(bytes, size, name, NULL, desc, scene, error);
 }
