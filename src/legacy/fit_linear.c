@@ -56,6 +56,33 @@ double fit_box(const fit_moments *m, const fit_bounds *bounds, double factor[2])
 
 /* ---- sums ---- */
 
+/* Adds an equation w (u a + v b - t)^2 to lane j of the six sums; inlined, so that the loops over j vectorise. */
+static inline __attribute__((always_inline)) void add_moments(double lane[][FIT_LANES], size_t j, double w,
+                                                              double a, double b, double t)
+{
+    double w_a = w * a;
+    double w_b = w * b;
+    lane[0][j] += w_a * a;
+    lane[1][j] += w_a * b;
+    lane[2][j] += w_b * b;
+    lane[3][j] += w_a * t;
+    lane[4][j] += w_b * t;
+    lane[5][j] += w * t * t;
+}
+
+/* Sums the lanes of the moments, and of one more number: *square (NULL: there is none). */
+static inline __attribute__((always_inline)) void sum_lanes(double lane[][FIT_LANES], fit_moments *out,
+                                                            double *square)
+{
+    double sum[7] = {0.0};
+    for (int i = 0; i < (square ? 7 : 6); i++)
+        for (int j = 0; j < FIT_LANES; j++)
+            sum[i] += lane[i][j];
+    *out = (fit_moments){{sum[0], sum[1], sum[2]}, {sum[3], sum[4]}, sum[5]};
+    if (square)
+        *square = sum[6];
+}
+
 DISPATCH_AVX2 static void moments_of(const fit_problem *p, int k, fit_moments *out)
 {
     double lane[6][FIT_LANES] = {{0.0}};
@@ -67,21 +94,10 @@ DISPATCH_AVX2 static void moments_of(const fit_problem *p, int k, fit_moments *o
             double b = (double)p->shape[1][i + j];
             double t = (double)T[i + j] - (double)p->rest[i + j];
             double w = (double)p->metric->weight[i + j];
-            double w_a = w * a;
-            double w_b = w * b;
-            lane[0][j] += w_a * a;
-            lane[1][j] += w_a * b;
-            lane[2][j] += w_b * b;
-            lane[3][j] += w_a * t;
-            lane[4][j] += w_b * t;
-            lane[5][j] += w * t * t;
+            add_moments(lane, j, w, a, b, t);
         }
     }
-    double sum[6] = {0.0};
-    for (int i = 0; i < 6; i++)
-        for (int j = 0; j < FIT_LANES; j++)
-            sum[i] += lane[i][j];
-    *out = (fit_moments){{sum[0], sum[1], sum[2]}, {sum[3], sum[4]}, sum[5]};
+    sum_lanes(lane, out, NULL);
 }
 
 /* The same for clamped radiance, linearized at factor: nodes where both the model and the source exceed white
@@ -109,23 +125,11 @@ DISPATCH_AVX2 static void display_moments_of(const fit_problem *p, int k, const 
             double t = (double)T[i + j] - (double)p->rest[i + j];
             double full = (double)p->metric->weight[i + j];
             double w = full * (double)is_free;
-            double w_a = w * a;
-            double w_b = w * b;
-            lane[0][j] += w_a * a;
-            lane[1][j] += w_a * b;
-            lane[2][j] += w_b * b;
-            lane[3][j] += w_a * t;
-            lane[4][j] += w_b * t;
-            lane[5][j] += w * t * t;
+            add_moments(lane, j, w, a, b, t);
             lane[6][j] += full * (double)shown * (double)shown;
         }
     }
-    double sum[7] = {0.0};
-    for (int i = 0; i < 7; i++)
-        for (int j = 0; j < FIT_LANES; j++)
-            sum[i] += lane[i][j];
-    *out = (fit_moments){{sum[0], sum[1], sum[2]}, {sum[3], sum[4]}, sum[5]};
-    *square = sum[6];
+    sum_lanes(lane, out, square);
 }
 
 /* ---- sums of display numbers ---- */
@@ -158,23 +162,11 @@ DISPATCH_AVX2 static void drawn_moments_of(const fit_problem *p, int k, const do
             double d = (double)(T[i + j] - light);
             double t = (double)(slope * min(M, 1.0f)) + d; /* slope times the exact display value */
             double w = full * (double)is_free;
-            double w_a = w * a;
-            double w_b = w * b;
-            lane[0][j] += w_a * a;
-            lane[1][j] += w_a * b;
-            lane[2][j] += w_b * b;
-            lane[3][j] += w_a * t;
-            lane[4][j] += w_b * t;
-            lane[5][j] += w * t * t;
+            add_moments(lane, j, w, a, b, t);
             lane[6][j] += full * d * d;
         }
     }
-    double sum[7] = {0.0};
-    for (int i = 0; i < 7; i++)
-        for (int j = 0; j < FIT_LANES; j++)
-            sum[i] += lane[i][j];
-    *out = (fit_moments){{sum[0], sum[1], sum[2]}, {sum[3], sum[4]}, sum[5]};
-    *square = sum[6];
+    sum_lanes(lane, out, square);
 }
 
 /* The start: least squares of gamma 2 display values, an approximation of the displayed light. */
