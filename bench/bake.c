@@ -1,13 +1,13 @@
-/* bake.c - how fast environments are baked: cube maps by each method, tables, harmonics, files.
+/* bake.c - time of baking environments: cube maps by each method, LUTs, spherical harmonics, files.
  *
- *     bake [-n RUNS] [-e] [-b] [ENVIRONMENT]        5 runs; a clear sky with its sun of 1024 x 512 where none is named
+ *     bake [-n RUNS] [-e] [-b] [ENVIRONMENT]        5 runs; default: a clear sky with its sun, 1024 x 512
  *       -e   error of each cube map against the reference, which takes a while
  *       -b   without the baseline, which takes 10 seconds
  *
- * Wall and processor seconds are medians, and so is the largest memory that the call held by its own allocator. One thread
- * and two take turns. The baseline is what the notes on Karis 2013 ("Real Shading in Unreal Engine 4") have, in C: for each
- * texel 1024 directions of GGX, each looked up in the sharp environment, one after the other on one thread. Texels of a
- * few rows are done, and the time is scaled to all. */
+ * Wall and CPU seconds are medians, and so is the peak memory of the call's own allocator. Runs alternate
+ * between one thread and two. The baseline is the code in the notes on Karis 2013 ("Real Shading in Unreal
+ * Engine 4"), in C: for each texel 1024 GGX directions, each looked up in the unfiltered environment, on one
+ * thread. Texels of a few rows are computed, and the time is scaled to all. */
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stdio.h>
@@ -39,7 +39,7 @@ typedef struct timing {
     int count;
 } timing;
 
-/* Something that is timed; it takes its memory from allocator. */
+/* A timed operation; it allocates from allocator. */
 typedef struct job {
     void (*run)(const struct job *job, uint32_t thread_count, facet_allocator allocator);
     const char *path; /* of the environment */
@@ -48,7 +48,7 @@ typedef struct job {
     facet_dfg_desc dfg;
     facet_ktx2_desc ktx2;
     const facet_cube *cube;
-    uint64_t *samples; /* that were drawn; NULL: does not say */
+    uint64_t *samples; /* number drawn; NULL: unknown */
     size_t *bytes;     /* of a file */
 } job;
 
@@ -66,7 +66,7 @@ static void time_once(const job *j, uint32_t thread_count, timing *t)
     facet_budget_destroy(budget);
 }
 
-/* Prints a line; returns processor seconds of one thread. */
+/* Prints a line; returns CPU seconds of one thread. */
 static double time_job(const char *name, const job *j, int runs)
 {
     static timing one, two;
@@ -95,7 +95,7 @@ static void print_head(const char *what, bool has_samples)
            has_samples ? "    1 cpu    2 wall  M samples/s" : "");
 }
 
-/* ---- what is timed ---- */
+/* ---- timed operations ---- */
 
 static void run_bake(const job *j, uint32_t thread_count, facet_allocator allocator)
 {
@@ -142,7 +142,7 @@ static void run_encode(const job *j, uint32_t thread_count, facet_allocator allo
     facet_bytes_destroy(bytes);
 }
 
-/* From a file to a file's bytes, as the command does it. */
+/* From an input file to the bytes of an output file, as in the command. */
 static void run_all(const job *j, uint32_t thread_count, facet_allocator allocator)
 {
     facet_environment *environment = NULL;
@@ -166,7 +166,7 @@ static void run_all(const job *j, uint32_t thread_count, facet_allocator allocat
 /* ---- the baseline ---- */
 
 typedef struct picture {
-    facet_image_view faces[6]; /* sharp */
+    facet_image_view faces[6]; /* unfiltered */
 } picture;
 
 static void look_up(const picture *p, const float d[3], float out[3])
@@ -279,7 +279,7 @@ static void face_direction(uint32_t face, float s, float t, float d[3])
     normalise(d);
 }
 
-/* Processor seconds of all levels but the first, which is a copy, from those of every row that is a multiple of step. */
+/* CPU seconds of all levels but the first, which is a copy, extrapolated from every step-th row. */
 static double time_baseline(facet_environment *environment, uint32_t size, float *sink)
 {
     enum { STEP = 16 };

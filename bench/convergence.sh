@@ -1,10 +1,9 @@
 #!/bin/sh
-# convergence.sh - error against time of the path tracer, for five scenes of bench/make_scenes: seconds of the whole process
-# by the clock and of processors, RMSE and relative MSE, mean of (x - r)^2 / (r^2 + 0.01), for 4 to 1024 samples per pixel.
+# convergence.sh - error against time of the path tracer, for five scenes of bench/make_scenes: seconds of the whole process,
+# wall and CPU, RMSE and relative MSE, mean of (x - r)^2 / (r^2 + 0.01), for 4 to 1024 samples per pixel.
 #     bench/convergence.sh [BUILD [SCENE...]]      BUILD: a build folder with benchmarks (build/release)
-# SIZE (256), MOST (1024), REFERENCE (4096): pixels, samples. The reference r is facet's own, of another seed; what its noise
-# adds to the errors is taken off: N / REFERENCE of them for N samples. REFERENCES: a folder that keeps references from
-# one run to the next.
+# SIZE (256), MOST (1024), REFERENCE (4096): pixels, samples. The reference r is facet's own, of another seed; its own noise is
+# subtracted from the errors: N / REFERENCE of them for N samples. REFERENCES: a folder that keeps references between runs.
 set -eu
 here=$(CDPATH= cd -- "$(dirname -- "$0")/.." && pwd)
 build=${1:-$here/build/release}
@@ -19,7 +18,7 @@ references=${REFERENCES:-$work/references}
 mkdir -p "$references"
 "$build/bench/make_scenes" "$work" >"$work/log"
 
-# draw SCENE SAMPLES SEED OUT: prints what bench/measure does.
+# draw SCENE SAMPLES SEED OUT: renders and prints the line of bench/measure.
 draw() {
     case $1 in
     interior | lights | volume) light="--env none" ;;

@@ -1,10 +1,10 @@
 #!/bin/sh
-# denoise.sh - what --denoise leaves of the error of pictures of few samples: RMSE, relative MSE (mean of
-# (x - r)^2 / (r^2 + 0.01)) and FLIP of the tone-mapped pictures, before and after.
+# denoise.sh - error of images of few samples before and after --denoise: RMSE, relative MSE (mean of
+# (x - r)^2 / (r^2 + 0.01)) and FLIP of the tone-mapped images.
 #     bench/denoise.sh [BUILD [SCENE...]]      BUILD: a build folder with benchmarks (build/release)
-# SIZE (256), SAMPLES (16), REFERENCE (1024): pixels, samples. What the noise of the reference r, of another seed, adds to
-# the squared errors is taken off. REFERENCES: a folder that keeps references from one run to the next. FACET_TEST_DATA: the
-# folder of models and environments that some scenes come from; without it they are left out.
+# SIZE (256), SAMPLES (16), REFERENCE (1024): pixels, samples. The noise of the reference r, of another seed, is subtracted
+# from the squared errors. REFERENCES: a folder that keeps references between runs. FACET_TEST_DATA: the folder of models and
+# environments of some scenes, which are skipped without it.
 set -eu
 here=$(CDPATH= cd -- "$(dirname -- "$0")/.." && pwd)
 build=${1:-$here/build/release}

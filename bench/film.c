@@ -1,4 +1,4 @@
-/* film.c - milliseconds that a film of 512 x 512 pixels takes from light to 8-bit codes, per tone operator.
+/* film.c - milliseconds from radiance to 8-bit codes of a film of 512 x 512 pixels, by tone mapping operator.
  *     build/release/bench/film [THREADS] */
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 
 enum { SIZE = 512, REPEATS = 20 };
 
-/* Half of the picture is background, a line of partly covered pixels, light from 0 to 4. */
+/* Half of the image is background, with a line of partly covered pixels; radiance from 0 to 4. */
 static void fill(film *f)
 {
     uint32_t random = 1;

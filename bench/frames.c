@@ -1,9 +1,9 @@
-/* frames.c - frames per second of one scene: a turntable, or its first animation where it has one; with a facet_renderer
- * beside facet_render() for each, which must give the same bits.
+/* frames.c - frames per second of one scene: a turntable, or its first animation if it has one; with one
+ * facet_renderer and with facet_render() per frame, which must give the same bits.
  *
  *     frames MODEL [FRAMES] [SIZE] [ENVIRONMENT]     24 frames of 512 x 512 pixels, 4 samples; facet's studio
  *
- * Saving is not in it. Memory: the most that the process had. */
+ * Without saving. Memory: the peak of the process. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -81,7 +81,7 @@ static uint64_t hash_image(const facet_image *picture)
     return hash;
 }
 
-/* Draws all frames; renderer NULL: each on its own. */
+/* Renders all frames; renderer NULL: each by facet_render(). */
 static void run(const film_strip *s, facet_renderer *renderer, uint64_t *hashes, const char *name)
 {
     facet_error error;
@@ -101,7 +101,7 @@ static void run(const film_strip *s, facet_renderer *renderer, uint64_t *hashes,
               &error);
         seconds[i] = clock_seconds() - start;
         facet_render_stats stats = facet_image_get_render_stats(picture);
-        if (i > 0) { /* the first prepares what the others may keep */
+        if (i > 0) { /* the first frame prepares what the others reuse */
             geometry += stats.geometry_s;
             textures += stats.textures_s;
             shade += stats.shade_s;

@@ -1,5 +1,5 @@
 #!/bin/sh
-# gallery.sh - draws every model of a folder of glTF models and puts the pictures, small, on contact sheets.
+# gallery.sh - renders every model of a folder of glTF models to thumbnails on contact sheets.
 #     bench/gallery.sh FACET DATA     FACET: the command; DATA: a folder with models/GROUP/*.glb and a README.md whose
 #                                     tables say "| `models/GROUP/NAME` | what it exercises | source | licence | size |"
 # Writes docs/pictures/gallery_GROUP.jpg and docs/gallery.md. Needs ImageMagick.
@@ -14,7 +14,7 @@ columns=6
 quality=76 # of the sheets
 dark='--background #707070'
 
-# options MODEL: what shows the model best where the whole model at rest, from the front, does not.
+# options MODEL: options for models that are not shown best at rest, as a whole, from the front.
 options() {
     case $1 in
     */Fox.glb) echo "--time 0.5 --orbit 50,75,105%" ;;

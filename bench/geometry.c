@@ -1,5 +1,5 @@
-/* geometry.c - how long models take to read, compressed or not. Usage: bench/geometry MODEL.. ; each number is the best
- * of several runs, on one thread and on all. */
+/* geometry.c - time of reading models, compressed or not. Usage: bench/geometry MODEL.. ; each number is the
+ * best of several runs, on one thread and on all. */
 #include <math.h>
 #include <stdio.h>
 
@@ -20,7 +20,7 @@ static uint64_t count_triangles(const facet_scene *scene)
     return count;
 }
 
-/* Seconds; *triangles: how many there are. Negative: it could not be read. */
+/* Seconds, and the number of triangles; negative: unreadable. */
 static double time_load(const char *path, uint32_t threads, uint64_t *triangles)
 {
     double best = 1e9;

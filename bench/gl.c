@@ -1,16 +1,17 @@
-/* gl.c - how long a frame takes with OpenGL: every pass by the GPU's timers, the whole by the clock.
+/* gl.c - frame times with OpenGL: each pass by GPU timers, the whole by the clock.
  *
  *     gl [-n FRAMES] [-s WxH] [-m SAMPLES] [-e] [-o] [-b] [MODEL]
- *       -n   50 frames, after 5 that nobody looks at
+ *       -n   50 frames, after 5 untimed ones
  *       -s   1920x1080
  *       -m   4 samples a pixel
  *       -e   OpenGL ES in place of OpenGL
- *       -o   the model as OpenGL 1 drew it: Blinn-Phong beside physically based
+ *       -o   the model with OpenGL 1 shading: Blinn-Phong beside physically based
  *       -b   the environment as background
  *
- * Frames are those of a window: into a target of RGBA8, tone-mapped, from one camera, under the studio's light. Milliseconds
- * of passes are medians over the frames; "frame" is the wall clock over all of them, the GPU kept busy without waiting in
- * between; "first" is what the first picture took, with all that is uploaded and compiled, and "context" what came before. */
+ * Frames are those of a window: a target of RGBA8, tone-mapped, one camera, the studio environment.
+ * Milliseconds of passes are medians over the frames; "frame" is the wall time over all of them, without
+ * waiting for the GPU in between; "first" is the first frame with all uploads and compilations, and "context"
+ * the time before it. */
 #define _POSIX_C_SOURCE 200809L
 #include <epoxy/gl.h>
 #include <stdio.h>
@@ -86,7 +87,7 @@ static facet_scene *load(facet_error *error)
     return scene;
 }
 
-/* What a window would be. */
+/* A target like that of a window. */
 static GLuint make_window(void)
 {
     GLuint texture, framebuffer;
@@ -107,12 +108,12 @@ static void present(gl_renderer *renderer, const facet_render_desc *desc, GLuint
     check(gl_renderer_present(renderer, desc, window, 0, 0, &stats, &error), &error);
 }
 
-/* A frame alone, and what its passes took. */
+/* A single frame, and the times of its passes. */
 static void time_passes(gl_renderer *renderer, const facet_render_desc *desc, GLuint window, uint32_t frame)
 {
     present(renderer, desc, window);
     glFinish();
-    present(renderer, desc, window); /* asks for the answers of the one before */
+    present(renderer, desc, window); /* queries the results of the previous frame */
     glFinish();
     gl_times times = gl_renderer_get_times(renderer);
     for (int i = 0; i < GL_TIMER_COUNT; i++)

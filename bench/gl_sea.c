@@ -1,14 +1,15 @@
-/* gl_sea.c - frames of an animated sea by OpenGL: what each costs, beside the look of before on the same surface.
+/* gl_sea.c - frame times of an animated sea with OpenGL, beside the legacy style on the same surface.
  *
  *     gl_sea [-n FRAMES] [-s WxH] [-p PRESET] [-e]
- *       -n   20 frames of each look, taken by turns, 1/24 s apart, after 2 that nobody looks at
+ *       -n   20 frames of each style, alternating, 1/24 s apart, after 2 untimed ones
  *       -s   640x360, one sample a pixel
  *       -p   trade-wind
  *       -e   OpenGL ES in place of OpenGL
  *
- * Medians over the frames of the wall clock, in ms. waves: the step of time; light: what is prepared for a picture of it; upload:
- * textures and blocks; draw: passes and reading back; processors: time of all of them, the driver's included, and
- * what of it upload and drawing take. "first" is the first picture, with all that is compiled. */
+ * Medians over the frames of the wall time, in ms. waves: the time step; light: preparation of the frame's
+ * lighting; upload: textures and buffers; draw: passes and reading back; processors: CPU time of all threads,
+ * the driver's included, and the part of it in upload and draw. "first" is the first frame, with all
+ * compilations. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdio.h>
 #include <stdlib.h>
@@ -70,7 +71,7 @@ static void read_options(int argc, char **argv)
     }
 }
 
-/* One picture; to: its times, or NULL. */
+/* One frame; to: its times, or NULL. */
 static void draw(gl_sea *renderer, water_cache *cache, facet_sea *sea, const facet_render_desc *desc,
                  double time_s, film *target, double *to[PART_COUNT])
 {

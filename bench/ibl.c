@@ -1,6 +1,6 @@
-/* ibl.c - time and error of preparing lights.
- * usage: ibl [-t THREADS] [-r RUNS] [-e] [-d FOLDER] [ENVIRONMENT]       (none: the studio)
- *   -e   root mean square error of each level against direct summation over the picture, in double
+/* ibl.c - time and error of preparing environments. usage: ibl [-t THREADS] [-r RUNS] [-e] [-d FOLDER]
+ * [ENVIRONMENT]       (default: the studio)
+ *   -e   root mean square error of each level against direct summation over the image, in double
  *   -d   writes the levels as PNG files: faces side by side, as sRGB, scaled to a mean of 0.5 */
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
@@ -50,7 +50,7 @@ static const ibl_light *prepare(facet_environment *e, const ibl_light_desc *desc
     return light;
 }
 
-/* Best of the runs, each with an environment of its own. */
+/* Best of the runs, each with its own environment. */
 static void time_stage(const settings *s, const char *name, ibl_light_desc desc)
 {
     double best = 1e9;
@@ -82,7 +82,7 @@ typedef struct probing {
     double square[PROBE_COUNT], reference[PROBE_COUNT];
 } probing;
 
-/* Middle of a texel of the level, so that lookup does not interpolate. */
+/* Center of a texel of the level, where the lookup does not interpolate. */
 static void probe_direction(size_t i, uint32_t size, float R[3])
 {
     uint32_t hash = (uint32_t)i * 2654435761u;
@@ -172,7 +172,7 @@ static void print_errors(const settings *s)
     facet_environment_destroy(e);
 }
 
-/* ---- pictures ---- */
+/* ---- images ---- */
 
 static void write_faces(const cube *c, float scale, const char *folder, uint32_t level)
 {

@@ -1,5 +1,5 @@
-/* image.c - how long pictures take to read and write. Usage: bench/image [FILE..]; without files only
- * generated pictures. Each number is the best of several runs; "T" says how many threads. */
+/* image.c - time of reading and writing images. Usage: bench/image [FILE..]; without files only generated
+ * images. Each number is the best of several runs; "T" is the number of threads. */
 #include <math.h>
 #include <stdio.h>
 
@@ -10,7 +10,7 @@
 
 enum { RUNS = 15 };
 
-/* Waves with noise, as photographs of surfaces have them; the alpha of a disc. */
+/* Waves with noise, like photographs of surfaces; the alpha of a disc. */
 static image make_texture(uint32_t size, uint32_t channel_count)
 {
     image i;

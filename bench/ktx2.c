@@ -1,6 +1,6 @@
-/* ktx2.c - how fast KTX2 pictures are decoded, by format. Usage: bench/ktx2 [FILE.ktx2..]; without files blocks of
- * random bits, 1024 x 1024 texels. Each number is the best of several runs; MB/s counts the bytes of the decoded
- * picture, "T" says how many threads. */
+/* ktx2.c - decoding speed of KTX2 images, by format. Usage: bench/ktx2 [FILE.ktx2..]; without files blocks of
+ * random bits, 1024 x 1024 texels. Each number is the best of several runs; MB/s counts the bytes of the
+ * decoded image, "T" is the number of threads. */
 #include <math.h>
 #include <stdio.h>
 

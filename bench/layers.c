@@ -1,5 +1,6 @@
-/* layers.c - nanoseconds per shade of each material layer: a ball of it in the studio, one thread, 512 x 512 pixels, one
- * sample. What a picture of the plain ball takes besides shading is in the first line, and not in the others.
+/* layers.c - nanoseconds per shade of each material layer: a sphere in the studio, one thread, 512 x 512
+ * pixels, one sample. The cost of the plain sphere's image without shading is in the first line, and subtracted
+ * from the others.
  *
  *     layers [RUNS]     default: 9; prints minima */
 #include <math.h>
@@ -12,7 +13,7 @@
 
 enum { COLUMNS = 128, ROWS = 64, VERTICES = (COLUMNS + 1) * (ROWS + 1), SIZE = 512 };
 
-/* ---- the ball ---- */
+/* ---- the sphere ---- */
 
 typedef struct ball {
     float positions[3 * VERTICES], tangents[4 * VERTICES], texcoords[2 * VERTICES];
@@ -95,7 +96,7 @@ static void die(const facet_error *error)
     exit(1);
 }
 
-/* Least seconds of the drawing of runs pictures. */
+/* Minimum seconds of rendering over runs. */
 static double draw(facet_scene *scene, const facet_render_desc *desc, int runs, facet_render_stats *stats)
 {
     double least = HUGE_VAL;

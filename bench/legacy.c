@@ -53,7 +53,7 @@ static void closed_and_errors(void *context, size_t begin, size_t end)
     }
 }
 
-/* All that a report tells of one material: E, E for the display, of the views, of the naive formula, of core glTF. */
+/* All errors in a report on one material: E, E of the display, of views, of the naive formula, of core glTF. */
 static void reported(void *context, size_t begin, size_t end)
 {
     work *w = context;
@@ -157,7 +157,7 @@ int main(int argc, char **argv)
     static pbr_surface new[MATERIALS];
     static double error[MATERIALS];
     uint32_t thread_count = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : facet_thread_count();
-    for (size_t i = 0; i < MATERIALS; i++) { /* the classics, each a little different */
+    for (size_t i = 0; i < MATERIALS; i++) { /* the classic materials, slightly varied */
         old[i] = classic_materials[i % CLASSIC_COUNT].surface;
         old[i].shininess *= 0.9f + 0.2f * noise();
         new[i] = pbr_surface_default();

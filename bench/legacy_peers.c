@@ -1,9 +1,9 @@
-/* legacy_peers.c - how near the materials of a converted model come to those of the OBJ file that it was made of.
+/* legacy_peers.c - error of the materials of converted models against those of the source OBJ file.
  *
  *     legacy_peers OLD.obj NAME=NEW.glb ...
  *
- * Prints one line per NEW: materials found by name, mean and worst E and E_display (docs/legacy.md, "The error"). The
- * file's colors count as linear light, as the converters of others take them. */
+ * Prints one line per NEW: materials found by name, mean and largest E and E_display (docs/legacy.md, "The
+ * error"). The file's colors count as linear, as in the other converters. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -54,7 +54,7 @@ static void compare(const fit_metric *metric, const facet_scene *old, const face
             continue;
         legacy_surface_of_ogl1(&old->legacy->materials[i], FACET_LEGACY_COLORS_LINEAR, &source);
         legacy_surface_of_pbr(&new->materials[k], &made);
-        if (is_black(&source)) /* nothing to be relative to */
+        if (is_black(&source)) /* the relative error is undefined */
             continue;
         fit_error error = fit_compare(metric, &source, &made, FIT_FROM_OGL1);
         sum += error.E;

@@ -1,6 +1,6 @@
 #!/bin/sh
 # legacy_peers.sh - facet convert beside obj2gltf (npm, bench/peers) and assimp (Debian's assimp-utils), on the OBJ files of
-# the test data: error of the materials by the same metric, and time. Medians of several runs, one command after the other.
+# the test data: error of the materials by the same metric, and time. Medians of several runs, commands alternating.
 #     bench/legacy_peers.sh BUILD [RUNS]      BUILD: a build with benchmarks
 # With FACET_BIG_OBJ=FILE also the time for a large file.
 set -eu

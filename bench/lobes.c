@@ -1,7 +1,8 @@
-/* lobes.c - nanoseconds of a path's vertex in the shared text, one thread, tables given: probabilities of the lobes, one
- * direction with its density, its value, and for light samples value and density of another direction.
+/* lobes.c - nanoseconds per path vertex in the shader library, one thread, LUT values given: lobe
+ * probabilities, a sampled direction with its density, its value, and for light samples value and density of
+ * another direction.
  *
- *     lobes [RUNS]     default: 21; prints minima of processor time */
+ *     lobes [RUNS]     default: 21; prints minima of CPU time */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -66,7 +67,7 @@ static void fill(Layers m)
     }
 }
 
-/* ---- what is measured ---- */
+/* ---- measured functions ---- */
 
 static __attribute__((noinline)) LayersLobes lobes_of(const vertex *v)
 {

@@ -1,7 +1,7 @@
 /* make_models.c - writes the inputs of bench/still into a folder: three models and an environment.
  *     small.glb       a cube, one material
  *     textured.glb    about 15 000 triangles, five 2048 x 2048 JPEG textures (base color, roughness and metallic,
- *                     normal, occlusion, emission): what a game or a shop calls an asset
+ *                     normal, occlusion, emission): a typical game or shop asset
  *     heavy.glb       about a million triangles, no textures
  *     light_1k.hdr    1024 x 512 sky with a sun, RLE
  * usage: make_models FOLDER */
@@ -170,7 +170,7 @@ static void sphere_point(float u, float v, float bump, float out[3])
     out[2] = radius * sinf(phi) * sinf(theta);
 }
 
-/* Vertices, then indices, as the GLB's binary chunk has them. */
+/* Vertices, then indices, in the binary chunk of the GLB. */
 static void add_sphere(text *bin, uint32_t columns, uint32_t rows, float bump)
 {
     for (uint32_t row = 0; row <= rows; row++)

@@ -1,7 +1,7 @@
 /* make_motion.c - writes the inputs of bench/frames beside those of bench/make_models into a folder:
  *     many.glb        100 000 instances of a mesh of 1000 triangles (EXT_mesh_gpu_instancing)
- *     parts.glb       200 parts of 5000 triangles of their own; every fourth turns
- *     waves.glb       100 000 triangles that a morph target deforms, before 400 000 that stand still
+ *     parts.glb       200 different parts of 5000 triangles; every fourth rotates
+ *     waves.glb       100 000 triangles deformed by a morph target, in front of 400 000 static ones
  * usage: make_motion FOLDER */
 #include <math.h>
 #include <stdint.h>
@@ -12,7 +12,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 
-/* A model as it grows. The JSON of each array is complete but for its brackets. */
+/* A model under construction. The JSON of each array is complete except for its brackets. */
 typedef struct model {
     text bin, views, accessors, meshes, nodes, roots, animations;
     uint32_t accessor_count, mesh_count, node_count;
@@ -29,7 +29,7 @@ static const char *string_of(const text *t)
     return t->data ? t->data : "";
 }
 
-/* Appends floats (or indices, width 0) as an accessor of their own; returns its number. */
+/* Appends floats (or indices, width 0) as a new accessor; returns its number. */
 static uint32_t add_array(model *m, const void *values, uint32_t count, uint32_t width)
 {
     static const char *const types[5] = {"SCALAR", "SCALAR", "VEC2", "VEC3", "VEC4"};
@@ -40,7 +40,7 @@ static uint32_t add_array(model *m, const void *values, uint32_t count, uint32_t
     separate(&m->accessors);
     text_addf(&m->accessors, "{\"bufferView\":%u,\"componentType\":%d,\"count\":%u,\"type\":\"%s\"",
               m->accessor_count, width ? 5126 : 5125, count, types[width]);
-    if (width == 3) /* positions need bounds; other arrays may have them */
+    if (width == 3) /* positions require bounds, other arrays may have them */
         text_add(&m->accessors, ",\"min\":[-2,-2,-2],\"max\":[2,2,2]");
     text_add(&m->accessors, "}");
     return m->accessor_count++;

@@ -1,9 +1,9 @@
-/* make_scenes.c - writes the scenes of bench/convergence.sh into a folder, each with a camera of its own:
- *     interior.glb    a closed room of glossy surfaces, two panels shine
- *     sky.glb         blocks and balls on a plain, for a sun and sky.hdr
- *     glass.glb       clear, rough and colored glass on a chequered floor, for studio.hdr
- *     lights.glb      10 000 emissive triangles over a few things
- *     volume.glb      bodies that scatter light inside, under a panel
+/* make_scenes.c - writes the scenes of bench/convergence.sh into a folder, each with its own camera:
+ *     interior.glb    a closed room of glossy surfaces with two luminous panels
+ *     sky.glb         blocks and spheres on a plane, for a sun and sky.hdr
+ *     glass.glb       clear, rough and colored glass on a checkered floor, for studio.hdr
+ *     lights.glb      10 000 emissive triangles over a few objects
+ *     volume.glb      scattering volumes under a panel
  *     sky.hdr         256 x 128, a clear sky without the sun
  *     studio.hdr      512 x 256, two soft boxes
  * usage: make_scenes FOLDER */
@@ -17,10 +17,10 @@
 #include "base/text.h"
 #include "image/image.h"
 
-/* A model as it grows. The JSON of each array is complete but for its brackets. */
+/* A model under construction. The JSON of each array is complete except for its brackets. */
 typedef struct model {
     text bin, views, accessors, meshes, nodes, roots, materials;
-    text positions, normals, indices; /* of the mesh that is being made */
+    text positions, normals, indices; /* of the current mesh */
     uint32_t accessor_count, mesh_count, material_count, vertex_count;
 } model;
 
@@ -76,7 +76,7 @@ static void add_quad_indices(model *m, uint32_t a, uint32_t b, uint32_t c, uint3
     text_add_bytes(&m->indices, quad, sizeof quad);
 }
 
-/* The parallelogram around c with half sides u and v; it faces u x v. */
+/* The parallelogram around c with half sides u and v, facing u x v. */
 static void add_panel(model *m, const float c[3], const float u[3], const float v[3])
 {
     static const float signs[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
@@ -129,7 +129,7 @@ static void add_ball(model *m, float x, float y, float z, float radius)
         }
 }
 
-/* Places what was added since the last call as a mesh of one material. */
+/* Turns the geometry added since the last call into a mesh of one material. */
 static void end_mesh(model *m, uint32_t material)
 {
     float bounds[6] = {1e9f, 1e9f, 1e9f, -1e9f, -1e9f, -1e9f};
@@ -170,7 +170,7 @@ static uint32_t add_material(model *m, float r, float g, float b, float metallic
     return m->material_count++;
 }
 
-/* Nothing but light: black, without a specular lobe of its own. */
+/* Emission only: black, without a specular lobe. */
 static uint32_t add_light(model *m, float r, float g, float b, float radiance)
 {
     char more[256];
@@ -194,7 +194,7 @@ static uint32_t add_glass(model *m, float roughness, const char *volume, const c
 
 /* ---- camera and file ---- */
 
-/* The last node: a camera at eye that looks at target, +Y up. */
+/* The last node: a camera at eye looking at target, +Y up. */
 static void add_camera(model *m, const float eye[3], const float target[3])
 {
     float z[3];
@@ -424,7 +424,7 @@ static void write_volume(const char *folder)
 
 /* ---- light ---- */
 
-/* Radiance at (u, v): u around from -Z's left edge, v from the zenith down, both in [0, 1]. */
+/* Radiance at (u, v): u around from the left edge of -Z, v from the zenith down, both in [0, 1]. */
 typedef void light_at(float u, float v, float out[3]);
 
 static void sky_at(float u, float v, float out[3])

@@ -1,11 +1,11 @@
-/* median.h - what benchmarks do with their times; and the clock of processors, which base/clock.h is not. */
+/* median.h - shared by benchmarks: medians, and the CPU clock, which base/clock.h does not have. */
 #ifndef BENCH_MEDIAN_H
 #define BENCH_MEDIAN_H
 
 #include <stdlib.h>
 #include <time.h>
 
-/* Seconds of all threads of this process. */
+/* CPU seconds of all threads of this process. */
 static inline double processor_seconds(void)
 {
     return (double)clock() / (double)CLOCKS_PER_SEC;
@@ -17,7 +17,7 @@ static inline int median_order(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Sorts the values; there is at least one. */
+/* Sorts the values, at least one. */
 static inline double median(double *values, int count)
 {
     qsort(values, (size_t)count, sizeof *values, median_order);

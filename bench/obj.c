@@ -1,7 +1,7 @@
-/* obj.c - how quickly OBJ files are read, from the opened file to the finished scene, beside a scan of the same bytes for
- * line ends by memchr(). Usage: bench/obj [MEGABYTES (300)] [FILE..]; without files it writes a temporary one per kind:
- * a wavy sheet of positions, texture coordinates, normals and triangles; the same with positions only, where normals are
- * computed; quadrilaterals whose indices count back from the end. Medians. */
+/* obj.c - time of reading OBJ files, from the open file to the finished scene, beside a scan of the same bytes
+ * for line ends by memchr(). Usage: bench/obj [MEGABYTES (300)] [FILE..]; without files it writes a temporary
+ * one per kind: a wavy sheet of positions, texture coordinates, normals and triangles; the same with positions
+ * only, where normals are computed; quadrilaterals with negative (relative) indices. Medians. */
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stdio.h>
@@ -51,7 +51,7 @@ static void write_faces(FILE *file, kind k, long a, long width)
                     c[1 + i], c[2 + i], c[2 + i], c[2 + i]);
 }
 
-/* Rows of vertices, as exporters of scans write them; faces at the end, or behind each row where they are relative. */
+/* Rows of vertices, as written by scanners; faces at the end, or after each row if relative. */
 static void write_sheet(FILE *file, kind k, double bytes)
 {
     const long width = 1000;

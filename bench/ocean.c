@@ -1,4 +1,5 @@
-/* ocean.c - what waves cost: a step of time by resolution, tables of what footprints hide, and questions about the surface.
+/* ocean.c - cost of waves: a time step by resolution, LUTs of what footprints filter away, and queries of the
+ * surface.
  *     build/release/bench/ocean [THREADS] */
 #include <math.h>
 #include <stdio.h>

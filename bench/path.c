@@ -1,15 +1,15 @@
-/* path.c - how fast the path tracer is: paths, rays, vertices, one thread and two, and its rays beside those of bare
+/* path.c - speed of the path tracer: paths, rays, vertices, on one thread and two, and its rays beside bare
  * Embree on the same stream.
  *
  *     path [-c 1] [-n RUNS] [-s SIZE] MODEL[,LIGHT.hdr] ...    5 runs, 512 x 512 pixels, 4 samples, the file's camera if any
  *
- * -c 1: seconds are those of processors, over the number of threads: for a machine that does other things as well. What two
- * threads lose by waiting for each other is not in them.
+ * -c 1: seconds are CPU time over the number of threads, for a busy machine; they exclude the time that two
+ * threads wait for each other.
  *
- * First line of a model: samples drawn by path_trace() alone, without the film; medians of RUNS runs that alternate
- * between one thread and two. A vertex is a surface that a path meets. Then for each kind of ray what facet's functions
- * (src/cpu/ray_trace.h: the ray made, alpha looked at, the hit read) and bare Embree make of the same rays, M rays/s.
- * "traced" is the share of one thread's time that the rays take by themselves. */
+ * First line of a model: samples of path_trace() alone, without the film; medians of RUNS runs that alternate
+ * between one thread and two. A vertex is a surface hit by a path. Then, by kind of ray, the rate of facet's
+ * functions (src/cpu/ray_trace.h: ray setup, alpha test, hit) and of bare Embree on the same rays, M rays/s.
+ * "traced" is the fraction of one thread's time spent in these rays. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,7 +23,7 @@
 
 enum { MOST_RUNS = 100, SAMPLES = 4, TILE = 16, DEPTH = 64 };
 
-/* One picture, ready to be sampled. */
+/* An image ready to be sampled. */
 typedef struct picture {
     facet_scene *scene;
     facet_environment *environment;
@@ -34,7 +34,7 @@ typedef struct picture {
     render_setup setup;
     path_lights *lights;
     path_scene paths;
-    float *sums; /* of a row of tiles: so that nothing is left out */
+    float *sums; /* of a row of tiles: keeps the compiler from removing the work */
     uint64_t *rays;
     bool counts_processors;
 } picture;
@@ -120,7 +120,7 @@ static double draw(picture *p, uint32_t thread_count)
 
 /* ---- numbers ---- */
 
-/* Medians of each way to trace the rays of a kind: seconds[way]. */
+/* Medians of each way to trace a kind of ray: seconds[way]. */
 static void time_rays(const picture *p, rays_kind kind, int runs, uint32_t threads, double seconds[3],
                       uint64_t hits[3])
 {
@@ -142,7 +142,7 @@ static void time_rays(const picture *p, rays_kind kind, int runs, uint32_t threa
 
 static const char *const kind_names[RAYS_KINDS] = {"camera", "bounce", "shadow"};
 
-/* Returns the seconds that all rays take on one thread; counts surfaces met in *vertices. */
+/* Seconds of all rays on one thread; counts surface hits in *vertices. */
 static double print_rays(const picture *p, int runs, uint64_t *vertices)
 {
     double traced = 0.0;

@@ -10,7 +10,7 @@
 
 enum { GRAIN = 1024 /* rays that a thread takes at once: 80 kB of them */ };
 
-/* A ray with what the function that traces it needs beside; spread is that of nothing. */
+/* A ray with the other arguments of its function; spread is not recorded. */
 typedef struct record {
     shading_ray ray;
     float u;
@@ -103,7 +103,7 @@ float __wrap_ray_trace_transmittance(const shading_scene *scene, const shading_r
     return __real_ray_trace_transmittance(scene, ray, crossings);
 }
 
-/* ---- once more ---- */
+/* ---- replay ---- */
 
 /* One pass over the rays of a kind. */
 typedef struct pass {
@@ -111,7 +111,7 @@ typedef struct pass {
     rays_kind kind;
     const record *records;
     size_t count;
-    visibility_hit *hits;       /* facet's; of shadow rays: geometry is 0 or VISIBILITY_NONE */
+    visibility_hit *hits;       /* facet's; for shadow rays: geometry is 0 or VISIBILITY_NONE */
     struct RTCRayHit *embree;   /* of bare Embree */
     struct RTCRayHit16 *packet; /* of packets */
 } pass;
@@ -149,7 +149,7 @@ rays_result rays_trace_facet(const shading_scene *scene, rays_kind kind, uint32_
               .hits = mem_zalloc(NULL, recording.counts[kind] + 1, sizeof(visibility_hit))};
     if (!p.hits)
         abort();
-    memset(p.hits, 1, p.count * sizeof *p.hits); /* its pages are there */
+    memset(p.hits, 1, p.count * sizeof *p.hits); /* touches its pages */
     double start = rays_now(counts_processors, thread_count);
     parallel_for(thread_count, p.count, GRAIN, trace_facet, &p);
     rays_result result = {.seconds = rays_now(counts_processors, thread_count) - start};

@@ -1,6 +1,6 @@
-/* path_rays.h - the rays of a picture, kept as they are traced, and traced again: by facet's functions and by bare
- * Embree. Nothing of it is in facet: the linker puts the recorder between path_trace() and src/cpu/ray_trace.h
- * (--wrap in bench/CMakeLists.txt). Holds shared shading text: include it last. */
+/* path_rays.h - records the rays of an image while they are traced, and replays them: by facet's functions and
+ * by bare Embree. facet itself is unchanged: the linker inserts the recorder between path_trace() and
+ * src/cpu/ray_trace.h (--wrap in bench/CMakeLists.txt). */
 #ifndef BENCH_PATH_RAYS_H
 #define BENCH_PATH_RAYS_H
 
@@ -8,28 +8,29 @@
 
 typedef enum rays_kind { RAYS_CAMERA, RAYS_BOUNCE, RAYS_SHADOW, RAYS_KINDS } rays_kind;
 
-/* What came out of tracing rays again. */
+/* Results of a replay. */
 typedef struct rays_result {
     double seconds;
-    uint64_t hits; /* of shadow rays: those that something stops */
+    uint64_t hits; /* of shadow rays: the occluded ones */
 } rays_result;
 
-/* Seconds since something, for differences: of the clock, or with by_processors of all processors that the process had,
- * over thread_count. The latter hardly depends on what else the machine does. */
+/* Seconds, for differences: wall time, or with by_processors CPU time of the process over thread_count, which
+ * hardly depends on other load. */
 double rays_now(bool by_processors, uint32_t thread_count);
 
-/* Keeps up to capacity rays of each kind from now on, of one thread; 0: no more. What was kept before is gone. */
+/* Records up to capacity rays of each kind from now on, of one thread; 0: stops. Earlier recordings are
+ * dropped. */
 void rays_record(size_t capacity);
 size_t rays_count(rays_kind kind);
 
-/* Whether the seconds of what follows are those of processors. */
+/* Whether the following seconds are CPU time. */
 void rays_count_processors(bool by_processors);
 
-/* All rays of a kind by the function of ray_trace.h that path_trace() called, results kept. */
+/* Replays all rays of a kind by the function of ray_trace.h called by path_trace(), results kept. */
 rays_result rays_trace_facet(const shading_scene *scene, rays_kind kind, uint32_t thread_count);
 /* The same by rtcIntersect1() or rtcOccluded1() alone, on rays ready in memory. */
 rays_result rays_trace_embree(const shading_scene *scene, rays_kind kind, uint32_t thread_count);
-/* The same in packets of 16 (8, 4 where that is the machine's width) in the order in which they were traced. */
+/* The same in packets of 16 (or 8, 4 by the machine's width) in recorded order. */
 rays_result rays_trace_packets(const shading_scene *scene, rays_kind kind, uint32_t thread_count);
 
 #endif

@@ -1,5 +1,5 @@
-/* pose.c - how long a scene takes to be posed: skinned and morphed vertices per second, many nodes, many copies.
- * Hand-made scenes: 100,000 vertices with normals and tangents, 64 joints, 4 influences, 8 targets.
+/* pose.c - time of posing a scene: skinned and morphed vertices per second, many nodes, many instances.
+ * Generated scenes: 100,000 vertices with normals and tangents, 64 joints, 4 influences, 8 targets.
  *     build/release/bench/pose [THREADS] */
 #include <math.h>
 #include <stdio.h>
@@ -51,7 +51,7 @@ static void fill_primitive(facet_scene *scene, scene_primitive *p, uint32_t coun
                            .bounds_max = {1, 1, 1}};
 }
 
-/* node_count roots with the one mesh of vertex_count vertices, turned. */
+/* node_count rotated roots sharing one mesh of vertex_count vertices. */
 static facet_scene *make_scene(uint32_t node_count, uint32_t vertex_count)
 {
     facet_scene *scene = NULL;
@@ -114,7 +114,7 @@ static void add_targets(facet_scene *scene)
     scene->meshes[0].weights = noise_array(scene->arena, TARGETS, 1.0f);
 }
 
-/* Median seconds of a pose; prints it with count things per second. */
+/* Median seconds of a pose; prints it with the rate of count items per second. */
 static void measure(const char *name, facet_scene *scene, uint32_t thread_count, double count,
                     const char *what)
 {

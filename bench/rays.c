@@ -2,8 +2,8 @@
  *
  *     rays [MODEL.glb] [SIZE]     default: a wavy sphere of 15 360 triangles, 1024 x 1024 pixels, 4 samples
  *
- * Bare Embree is the time inside of rtcIntersect16 alone (8, 4 where that is the machine's width), packets made
- * beforehand; facet's time contains making the rays and keeping the hits. Prints the medians of RUNS runs that
+ * Bare Embree is the time inside rtcIntersect16 only (or 8, 4 by the machine's width), with packets prepared
+ * beforehand; facet's time includes generating the rays and storing the hits. Prints the medians of RUNS runs that
  * alternate. */
 #include <math.h>
 #include <stdio.h>
@@ -35,7 +35,7 @@ static void die(const facet_error *error)
     exit(1);
 }
 
-/* ---- what is traced ---- */
+/* ---- scene ---- */
 
 static void make_sphere(setup *s)
 {
@@ -146,7 +146,7 @@ static double time_embree(const setup *s, uint64_t *hit_count)
     double seconds = 0.0;
     uint64_t count = 0;
     uint32_t squares = s->size / 2;
-    /* Along 4 x 4 blocks, as facet goes. */
+    /* in 4 x 4 blocks, as in facet */
     uint32_t total = squares * squares;
     for (uint32_t first = 0; first < total; first += CHUNK) {
         uint32_t n = total - first < CHUNK ? total - first : CHUNK;

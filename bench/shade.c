@@ -1,6 +1,6 @@
-/* shade.c - nanoseconds per evaluation of the shared text: the whole surface, one hit at a time, and the scalar terms,
- * one at a time and in loops over arrays of float that the compiler vectorises. Each line is the median of RUNS runs
- * and how many times faster that is than the line it is compared with. bench/shade.sh runs it with gcc and clang. */
+/* shade.c - nanoseconds per evaluation of the shader library: the whole surface, one hit at a time, and the
+ * scalar terms, one at a time and in vectorisable loops over arrays of float. Each line is the median of RUNS
+ * runs and its speedup over the line that it is compared with. bench/shade.sh runs it with gcc and clang. */
 #include <stdio.h>
 
 #include "base/clock.h"
@@ -84,7 +84,7 @@ static inline float term_DVF(const cosines *c, int i)
 {
     return term_DV(c, i) * F_Schlick1(0.04f, 1.0f, c->VdotH[i]);
 }
-/* Lambert under a dielectric, all of the glTF mix for one channel. */
+/* Lambert under a dielectric: the glTF mix for one channel. */
 static inline float term_mix(const cosines *c, int i)
 {
     float F = F_Schlick1(0.04f, 1.0f, c->VdotH[i]);
@@ -161,7 +161,7 @@ int main(void)
     static const struct {
         const char *name;
         void (*kernel)(void);
-        bool starts_group; /* what the lines below are compared with */
+        bool starts_group; /* the lines below are compared with this one */
     } lines[] = {{"surface_brdf_cos, call per hit", surface_by_call, true},
                  {"surface_brdf_cos, inlined", surface_inlined, false},
                  {"surface_brdf_cos_energy, conserving", surface_conserving, false},

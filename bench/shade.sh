@@ -1,5 +1,5 @@
 #!/bin/sh
-# shade.sh: bench/shade with each compiler that is there, for the baseline instruction set and for AVX2.
+# shade.sh - bench/shade with each installed compiler, for the baseline instruction set and for AVX2.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 tmp=$(mktemp -d)

@@ -1,7 +1,6 @@
-/* texture.c - nanoseconds of a texture lookup, and what decoding textures takes.
+/* texture.c - nanoseconds per texture lookup, and time of decoding textures.
  *     build/release/bench/texture            lookups, on one thread
- *     build/release/bench/texture decode K..   five 2048 x 2048 JPEGs at minimum lod K on 2 threads, with the memory
- *                                            that facet itself takes */
+ *     build/release/bench/texture decode K..   five 2048 x 2048 JPEGs at minimum lod K on 2 threads, with facet's own memory */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,7 +13,7 @@
 
 enum { TEXTURE_COUNT = 5, JPEG_SIZE = 2048, LOOKUPS = 1 << 19, REPEATS = 9 };
 
-/* Waves of all lengths with some grain: what a photograph asks of a decoder. */
+/* Waves of all lengths with grain, as hard to decode as a photograph. */
 static facet_result draw_image(uint32_t size, uint32_t channel_count, uint32_t seed, image *out)
 {
     facet_result result = image_create(NULL, size, size, channel_count, IMAGE_U8, out, NULL);
@@ -48,7 +47,7 @@ static void measure(const texture_set *set, const char *name, float major, float
     for (int repeat = 0; repeat < REPEATS; repeat++) {
         double start = clock_seconds();
         for (uint32_t i = 0; i < LOOKUPS; i++) {
-            /* Pixels row by row, as a renderer goes, on a plane turned by half a radian. */
+            /* pixels row by row, as in a renderer, on a plane rotated by half a radian */
             float x = (float)(i & 511) * 1.3f * minor * scale;
             float y = (float)(i >> 9) * 1.3f * major * scale;
             const float uv[2] = {0.8776f * x - 0.4794f * y, 0.4794f * x + 0.8776f * y};

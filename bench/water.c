@@ -1,5 +1,6 @@
-/* water.c - nanoseconds per shade of a sea's surface: the look before physics, the physical one, and its parts. Waves, sky and bed are looked
- * up beforehand. Each line is the median of RUNS runs, and how often the first line would fit into it. */
+/* water.c - nanoseconds per shade of a sea's surface: the legacy style, the physical model, and its parts.
+ * Waves, sky and bed are looked up beforehand. Each line is the median of RUNS runs and its ratio to the first
+ * line. */
 #include <stdio.h>
 
 #include "base/clock.h"
@@ -15,7 +16,7 @@ enum { COUNT = 1024, PASSES = 40, RUNS = 41 };
 #define COMPILER "gcc " __VERSION__
 #endif
 
-/* What a renderer has when it comes to shading. */
+/* Inputs of shading, as a renderer has them. */
 typedef struct hit {
     vec3 N, V, slopes, sky, table; /* table: fresnel, escape, lift */
     float spread, y, sparkle, count;

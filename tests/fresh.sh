@@ -1,12 +1,12 @@
 #!/bin/sh
 # fresh.sh - the README's two commands on a Debian 12 with nothing installed: a debootstrap of variant minbase, a clone of
-# this checkout's HEAD in it, then ./run render and ./run test in a chroot with /proc and /dev of its own. Prints how long each
-# took, and what was skipped. Needs root, debootstrap, git, and some 6 GB of disk.
+# this checkout's HEAD in it, then ./run render and ./run test in a chroot with /proc and /dev of its own. Prints the time of
+# each, and skipped tests. Needs root, debootstrap, git, and some 6 GB of disk.
 #
-#     tests/fresh.sh [FOLDER]    FOLDER (a new one below /var/tmp) keeps the chroot; given again, its packages serve again
+#     tests/fresh.sh [FOLDER]    FOLDER (a new one below /var/tmp) keeps the chroot and its packages for the next run
 #
-# MIRROR names another Debian mirror. FACET_TEST_DATA is shown to the tests where it is set. The apt sources and settings and
-# the certificates of this machine hold in the chroot as well.
+# MIRROR names another Debian mirror. FACET_TEST_DATA, if set, is visible to the tests. The chroot uses the apt sources and
+# settings and the certificates of this machine.
 set -eu
 here=$(CDPATH= cd -- "$(dirname -- "$0")/.." && pwd)
 [ "$(id -u)" = 0 ] || { echo "fresh: chroot and mount need root"; exit 1; }
@@ -27,7 +27,7 @@ rm -rf "$system"
 mkdir -p "$system"
 tar -C "$system" -xf "$base"
 
-# How this machine reaches its packages: names, apt, certificates.
+# Access to packages: host names, apt, certificates.
 cp /etc/resolv.conf "$system/etc/resolv.conf"
 if [ -z "${MIRROR:-}" ]; then
     cp /etc/apt/sources.list "$system/etc/apt/" 2>/dev/null || true

@@ -1,7 +1,7 @@
 #!/bin/sh
 # run_all.sh - builds facet in four ways and runs every test in one ctest, whose summary comes last:
 #     gcc     optimised, gcc, warnings are errors: all tests
-#     clang   optimised, clang, warnings are errors: the tests labelled threads, which compute most
+#     clang   optimised, clang, warnings are errors: the tests labelled threads, the most computational
 #     asan    clang with address and undefined behaviour sanitizers, and the fuzz targets: all tests
 #     tsan    clang with the thread sanitizer: the tests labelled threads
 # Arguments go to ctest, for example: ./run test -R brdf
@@ -33,8 +33,8 @@ configure() {
     echo "built $name"
 }
 
-# Khronos' glTF validator, and programs that read what facet bakes; their tests are skipped where there is no npm, or no
-# registry that it reaches. Some of tests/clients need a browser, too, which is left to you (.ci/run installs it).
+# Khronos' glTF validator, and programs that read baked environments; their tests are skipped without npm or network access.
+# Some of tests/clients need a browser, too, which ./run test installs.
 for folder in validator clients; do
     if command -v npm >/dev/null 2>&1 && [ ! -d "$here/tests/$folder/node_modules" ]; then
         (cd "$here/tests/$folder" && npm ci --no-audit --no-fund >"$build/npm.log" 2>&1) ||
@@ -45,7 +45,7 @@ done
 configure gcc all -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Release
 configure clang facet_tested -DCMAKE_C_COMPILER=clang $lld -DCMAKE_BUILD_TYPE=Release -DFACET_TRUTH=OFF -DFACET_BENCH=OFF \
     -DFACET_TEST_LABEL=threads
-# Lines are all that a sanitizer's report needs of debugging information.
+# A sanitizer's report needs line numbers only.
 sanitized="-DCMAKE_C_COMPILER=clang $lld -DCMAKE_BUILD_TYPE=RelWithDebInfo -DFACET_BENCH=OFF"
 configure asan all $sanitized -DCMAKE_C_FLAGS_RELWITHDEBINFO="-O2 -g1 -DNDEBUG" -DFACET_SANITIZE=address,undefined -DFACET_FUZZ=ON \
     -DFACET_FUZZ_GUIDED=OFF
@@ -54,5 +54,5 @@ configure tsan facet_tested $sanitized -DCMAKE_C_FLAGS_RELWITHDEBINFO="-O2 -g1 -
 # One ctest over all builds: one summary.
 printf 'subdirs("gcc" "clang" "asan" "tsan")\n' >"$build/CTestTestfile.cmake"
 cd "$build"
-# One test more than there are cores, as some wait: for a window, a browser, a limit of time.
+# One test more than there are cores, as some wait for a window, a browser, a time limit.
 exec ctest -j "$((jobs + 1))" --output-on-failure "$@"

@@ -1,4 +1,4 @@
-/* fuzz_cache.c - entries of the cache of prepared light, as somebody else may have left them in its folder. */
+/* fuzz_cache.c - damaged entries of the cache of prepared environments. */
 #include "fuzz_support.h"
 
 #include <string.h>
@@ -16,7 +16,7 @@ static void remove_folder(void)
     rmdir(folder);
 }
 
-/* The folder, and the name of the one entry in it, which is found out by having it written. */
+/* The folder and the name of its one entry, found by writing it. */
 static void prepare(const facet_environment *environment, uint64_t recipe, float values[16])
 {
     static bool is_prepared;

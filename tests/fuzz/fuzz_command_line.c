@@ -1,5 +1,5 @@
-/* fuzz_command_line.c - words of a command line, one per line of the input, the first a verb: parsed, and the values of the
- * verb's options read. No verb is run. */
+/* fuzz_command_line.c - a command line, one argument per line of the input, the first a verb: parsed, and its
+ * option values read. No verb is run. */
 #include "fuzz_support.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* fuzz_draco.c - bitstreams of Draco through the shim, and all that can be asked of what it made. */
+/* fuzz_draco.c - Draco bitstreams through the shim, and all queries of the result. */
 #include "fuzz_support.h"
 
 #include "io/gltf/draco_shim.h"

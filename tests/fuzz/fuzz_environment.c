@@ -1,5 +1,5 @@
-/* fuzz_environment.c - images of light in every layout, cube maps among them, as environments: read, prepared, baked. The
- * first byte is the layout that the caller names. */
+/* fuzz_environment.c - images as environments in every layout, cube maps included: read, prepared, baked. The
+ * first byte is the layout. */
 #include "fuzz_support.h"
 
 static void bake(facet_environment *environment, const facet_allocator *allocator)

@@ -1,4 +1,4 @@
-/* fuzz_gltf.c - the glTF reader, and what is made of a scene before it is drawn, over any bytes. */
+/* fuzz_gltf.c - the glTF reader, and the preparation of a scene for rendering, on arbitrary bytes. */
 #include "fuzz_support.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "io/gltf/gltf.h"
 
-/* What scene_primitive promises of joints and morph targets. */
+/* Invariants of the joints and morph targets of scene_primitive. */
 static void use_deformation(const scene_primitive *p)
 {
     for (size_t vertex = 0; p->influence_count && vertex < p->vertex_count; vertex++) {
@@ -29,7 +29,7 @@ static void use_deformation(const scene_primitive *p)
     }
 }
 
-/* What a renderer asks of each primitive. Also reads every vertex that an index names. */
+/* Queries of each primitive by a renderer. Also reads every indexed vertex. */
 static void use_primitive(const scene_primitive *p, const facet_allocator *allocator)
 {
     double sum = 0.0;
@@ -53,7 +53,7 @@ static void use_primitive(const scene_primitive *p, const facet_allocator *alloc
     mem_free(tangents);
 }
 
-/* What scene_animation promises, and the scene as it stands in the middle of it. */
+/* Invariants of scene_animation, and the pose in the middle of it. */
 static void use_animation(const facet_scene *scene, uint32_t number, const facet_allocator *allocator)
 {
     const scene_animation *a = &scene->animations[number];

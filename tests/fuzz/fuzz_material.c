@@ -15,7 +15,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const facet_scene_desc desc = {.log = {.message = fuzz_ignore}};
     plot_materials materials = {0};
     facet_error error = {0};
-    /* Others name files. */
+    /* the others name files */
     if (strchr(text, '=') || strncmp(text, "ogl1", 4) == 0)
         fuzz_check_error(plot_materials_add(&materials, text, &desc, &error), &error);
     plot_materials_destroy(&materials);

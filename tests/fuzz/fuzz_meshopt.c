@@ -1,4 +1,5 @@
-/* fuzz_meshopt.c - the bitstreams of meshopt: the first bytes are what the view says of the stream, the others the stream. */
+/* fuzz_meshopt.c - meshopt bitstreams: the first bytes are the parameters of the buffer view, the others the
+ * stream. */
 #include "fuzz_support.h"
 
 #include "io/gltf/meshopt.h"

@@ -1,8 +1,8 @@
-/* fuzz_model.c - what the command does with a model, over any bytes: read, describe, frame, render one pixel by the preview and
- * by paths, convert to glTF and back to OpenGL 1, write, read again. */
+/* fuzz_model.c - all operations of the command on a model, on arbitrary bytes: read, describe, frame, render
+ * one pixel with the preview and the path tracer, convert to glTF and back to OpenGL 1, write, read again. */
 #include "fuzz_support.h"
 
-/* One pixel in the middle of what frames the model. */
+/* One pixel in the center of the default framing. */
 static void render(const facet_scene *scene, const facet_pose_desc *pose, const facet_allocator *allocator)
 {
     facet_error error = {0};

@@ -1,4 +1,4 @@
-/* fuzz_mtl.c - the MTL reader over any bytes; what it understood is written, read again, and must be the same. */
+/* fuzz_mtl.c - the MTL reader on arbitrary bytes; the result is written, read again, and must be equal. */
 #include "fuzz_support.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 #include "io/obj/mtl_parts.h"
 #include "scene/legacy_extras.h"
 
-/* What legacy_material promises. */
+/* Invariants of legacy_material. */
 static void check_material(const legacy_material *m)
 {
     for (int i = 0; i < LEGACY_PARAMETER_COUNT; i++) {

@@ -1,4 +1,4 @@
-/* fuzz_obj.c - the OBJ reader over any bytes; the first byte chooses how normals are made and how many threads read. */
+/* fuzz_obj.c - the OBJ reader on arbitrary bytes; the first byte chooses the normals and the number of threads. */
 #include "fuzz_support.h"
 
 #include "fuzz_scene.h"

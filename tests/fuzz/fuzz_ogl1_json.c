@@ -1,4 +1,4 @@
-/* fuzz_ogl1_json.c - the reader of rgl's parameters over any bytes; and what it read, written and read again. */
+/* fuzz_ogl1_json.c - the reader of rgl's parameters on arbitrary bytes; the result is written and read again. */
 #include "fuzz_support.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@ static void check_numbers(const float *values, size_t count, float minimum, floa
             abort();
 }
 
-/* What scene/legacy.h promises. */
+/* Invariants of scene/legacy.h. */
 static void check_legacy(const facet_scene *scene)
 {
     const scene_legacy *legacy = scene->legacy;

@@ -1,4 +1,4 @@
-/* fuzz_parameters.c - JSON of rgl's parameters that takes the place of a model's materials (--parameters). */
+/* fuzz_parameters.c - rgl's parameters in JSON that replace the materials of a model (--parameters). */
 #include "fuzz_support.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

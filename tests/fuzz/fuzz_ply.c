@@ -1,4 +1,4 @@
-/* fuzz_ply.c - the PLY reader over any bytes; the first byte chooses how normals are made. */
+/* fuzz_ply.c - the PLY reader on arbitrary bytes; the first byte chooses the normals. */
 #include "fuzz_support.h"
 
 #include "fuzz_scene.h"

@@ -1,4 +1,4 @@
-/* fuzz_scene.h - what a scene of meshes promises, for fuzz targets: they abort where it does not hold. */
+/* fuzz_scene.h - invariants of a scene with meshes; fuzz targets abort if one does not hold. */
 #ifndef FUZZ_SCENE_H
 #define FUZZ_SCENE_H
 
@@ -9,7 +9,7 @@
 #include "base/text.h"
 #include "scene/scene.h"
 
-/* What scene_primitive promises. */
+/* Invariants of scene_primitive. */
 static inline void fuzz_check_primitive(const facet_scene *scene, const scene_primitive *p)
 {
     if (p->index_count == 0 || p->index_count % (p->mode == SCENE_TRIANGLES ? 3

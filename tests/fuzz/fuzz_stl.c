@@ -1,4 +1,4 @@
-/* fuzz_stl.c - the STL reader over any bytes; the first byte chooses how normals are made. */
+/* fuzz_stl.c - the STL reader on arbitrary bytes; the first byte chooses the normals. */
 #include "fuzz_support.h"
 
 #include "fuzz_scene.h"

@@ -1,4 +1,4 @@
-/* fuzz_support.h - what the fuzzing targets share: memory with a limit, a silent log, bytes as a file. */
+/* fuzz_support.h - shared by the fuzz targets: a memory budget, a silent log, bytes as a file. */
 #ifndef FUZZ_SUPPORT_H
 #define FUZZ_SUPPORT_H
 
@@ -14,7 +14,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* A budget of limit_bytes for one input; fuzz_end() aborts where some of it is still in use. */
+/* A budget of limit_bytes for one input; fuzz_end() aborts if some of it is still in use. */
 static inline facet_budget *fuzz_begin(uint64_t limit_bytes)
 {
     facet_budget *budget = NULL;
@@ -38,14 +38,14 @@ static inline void fuzz_ignore(void *user, facet_log_level level, const char *me
         abort();
 }
 
-/* A failure says what is wrong. */
+/* A failure must have a message. */
 static inline void fuzz_check_error(facet_result result, const facet_error *error)
 {
     if (result != FACET_OK && error->message[0] == 0)
         abort();
 }
 
-/* The path of a file in memory, one for all inputs, that holds data from offset 0 on. */
+/* The path of a file in memory, shared by all inputs, with data from offset 0 on. */
 static inline const char *fuzz_file(const uint8_t *data, size_t size)
 {
     static int fd = -1;
@@ -59,7 +59,7 @@ static inline const char *fuzz_file(const uint8_t *data, size_t size)
     return path;
 }
 
-/* Takes count bytes from the front of the input, as many as there are; the rest of out is 0. */
+/* Takes up to count bytes from the front of the input; the rest of out is 0. */
 static inline void fuzz_take(const uint8_t **data, size_t *size, void *out, size_t count)
 {
     unsigned char *to = out;

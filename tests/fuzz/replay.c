@@ -1,5 +1,5 @@
-/* replay.c - runs a fuzzing target over each file of the folders that are named, in the order of their names: the
- * kept corpus as a test, without libFuzzer. */
+/* replay.c - runs a fuzz target on each file of the given folders, in the order of their names: the corpus as a
+ * test, without libFuzzer. */
 #define _POSIX_C_SOURCE 200809L
 #include <dirent.h>
 #include <stdint.h>
@@ -34,7 +34,7 @@ static int replay(const char *path)
         got = fread(data + size, 1, capacity - size, file);
     }
     fclose(file);
-    /* A block of the exact size, so that sanitizers see one byte too many. */
+    /* a block of the exact size, so that sanitizers detect reads beyond it */
     uint8_t *exact = malloc(size ? size : 1);
     if (!exact)
         abort();

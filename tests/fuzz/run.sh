@@ -1,7 +1,7 @@
 #!/bin/sh
 # run.sh [TARGET] [MINUTES] - builds the fuzzing targets with libFuzzer and the address and undefined behaviour sanitizers, and
-# runs TARGET, or each in turn, for MINUTES (1). What reaches new code is kept in build/fuzz/found/TARGET and serves the next
-# run; an input that fails is kept as build/fuzz/failed/TARGET-.., named, and makes the exit code 1.
+# runs TARGET, or each in turn, for MINUTES (1). Inputs that reach new code are kept in build/fuzz/found/TARGET for the
+# next run; a failing input is reported, kept as build/fuzz/failed/TARGET-.., and makes the exit code 1.
 set -eu
 here=$(CDPATH= cd -- "$(dirname -- "$0")" && pwd)
 build=$here/../../build/fuzz

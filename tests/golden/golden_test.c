@@ -1,13 +1,13 @@
-/* golden_test.c - the built-in scene against pictures that were looked at and kept: whatever changes a picture, on
- * purpose or not, shows here. Linear floats, 64 x 48.
+/* golden_test.c - the built-in scene against reference images that were inspected: any change of an image,
+ * intended or not, shows here. Linear floats, 64 x 48.
  *
- * A picture may be off by 0.2 % of its own root mean square: far above what compilers differ by (1e-5), far below what
- * an eye sees (FLIP, which is limited to 0.005 beside). To keep new pictures, after looking at them:
+ * An image may differ by 0.2 % of its own root mean square: far above the difference between compilers (1e-5),
+ * far below the visible (FLIP, which is limited to 0.005 as well). To replace the references, after inspection:
  *     facet render -s 64x48 --background transparent --tone-mapping none -o tests/golden/builtin_gltf.pfm
  *     facet render -s 64x48 --background env --energy conserving --orbit 40,60,105% --env-rotation 30 \
  *         --tone-mapping none -o tests/golden/builtin_conserving.pfm
- * A test that fails leaves NAME.got.pfm and NAME.difference.png (kept, got, and where they differ) in the folder that it
- * runs in; the same by hand: facet compare KEPT GOT --max nrmse=0.002,flip=0.005 --alpha ignore. */
+ * A failing test leaves NAME.got.pfm and NAME.difference.png (reference, result, difference) in its working
+ * folder; the same by hand: facet compare REFERENCE RESULT --max nrmse=0.002,flip=0.005 --alpha ignore. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,10 +20,10 @@
 #include "facet/facet.h"
 
 enum { WIDTH = 64, HEIGHT = 48 };
-static const char *folder; /* of the kept pictures */
+static const char *folder; /* of the reference images */
 static const double most_nrmse = 0.002, most_flip = 0.005;
 
-/* Kept pictures are over black. */
+/* Reference images are over black. */
 static void check(const char *name, const facet_image *got)
 {
     char path[1024];

@@ -1,7 +1,7 @@
-/* compare_test.c - the Compare* models of Khronos' sample assets that are about the surface: two or three things side by
- * side that differ by one property of the material. Each test says what physics makes of that property and looks for it.
- * Pictures are without perspective, so that the pixels of both sides correspond; where the sides differ by more than
- * the property, the one that has it is compared with itself without it. */
+/* compare_test.c - the Compare* models of Khronos' sample assets about surfaces: two or three objects side by
+ * side that differ by one material property. Each test states the physics of that property and checks for it.
+ * Images are orthographic, so that the pixels of both sides correspond; where the sides differ by more than the
+ * property, the one that has it is compared with itself without it. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -39,8 +39,8 @@ static picture take(const char *path, float x, const char *text, const char *by,
     return p;
 }
 
-/* A metal reflects all it gives off, a dielectric 4 %, and the rest is spread: reflections are many times stronger beside
- * what lies between them. */
+/* Metals reflect specularly only, dielectrics 4 %, the rest diffusely: reflections of metals have many times
+ * the contrast. */
 static void metal_mirrors_its_surroundings(void **state)
 {
     (void)state;
@@ -53,8 +53,8 @@ static void metal_mirrors_its_surroundings(void **state)
     picture_destroy(&metal);
 }
 
-/* Roughness spreads a highlight over more of the sphere: its peak and its edges go. In light that is the same from
- * everywhere there is nothing to spread: only the rim, where a smooth surface reflects all, is darker. */
+/* Roughness spreads highlights: their peak decreases and their edges blur. In uniform light there is nothing to
+ * spread: only the rim, where a smooth surface reflects all, is darker. */
 static void roughness_spreads_highlights(void **state)
 {
     (void)state;
@@ -73,8 +73,8 @@ static void roughness_spreads_highlights(void **state)
     picture_destroy(&rough);
 }
 
-/* A factor, a texture, and that texture times the colors of the vertices, which go around the circle of hues. In white
- * light a surface shows its color. */
+/* A factor, a texture, and that texture times vertex colors around the circle of hues. In white light a surface
+ * shows its albedo. */
 static void vertex_colors_tint_the_texture(void **state)
 {
     (void)state;
@@ -97,8 +97,8 @@ static void vertex_colors_tint_the_texture(void **state)
     picture_destroy(&vertices);
 }
 
-/* A normal map turns the surface here and there, and adds neither light nor shadow: the light that comes back in total
- * changes little, its detail much. */
+/* A normal map tilts the surface locally and adds neither light nor shadow: the total reflected light hardly
+ * changes, its detail does. */
 static void normals_make_relief(void **state)
 {
     (void)state;
@@ -118,8 +118,8 @@ static void normals_make_relief(void **state)
     picture_destroy(&relief);
 }
 
-/* A coat of index 1.5 reflects Fc = 0.04 + 0.96 (1 - NdotV)^5 of what comes, sharply, and leaves 1 - Fc to what is
- * below. In light of 1 from everywhere that is all there is to it: coated = Fc + (1 - Fc) bare, pixel by pixel; near the rim a pixel sees too many angles for that. */
+/* A coat of index 1.5 reflects Fc = 0.04 + 0.96 (1 - NdotV)^5 specularly and transmits 1 - Fc. In uniform light
+ * of 1 that is all: coated = Fc + (1 - Fc) bare, pixel by pixel; near the rim a pixel covers too many angles. */
 static void a_clearcoat_takes_its_fresnel_share(void **state)
 {
     (void)state;
@@ -140,8 +140,8 @@ static void a_clearcoat_takes_its_fresnel_share(void **state)
     picture_destroy(&coated);
 }
 
-/* Of three spheres, smooth, rough, and rough with a smooth coat, the coated one has the sharp highlights of the first
- * over the soft ones of the second. */
+/* Three spheres, smooth, rough, and rough with a smooth coat: the coated one has the sharp highlights of the
+ * first over the blurred ones of the second. */
 static void a_clearcoat_has_sharp_highlights(void **state)
 {
     (void)state;
@@ -156,15 +156,15 @@ static void a_clearcoat_has_sharp_highlights(void **state)
     picture_destroy(&coated);
 }
 
-/* Sheen of color (1, 0, 0) is laid over a base that gets 1 - E(NdotV) of the light: green and blue go down by the same
- * factor, most at the rim, where fibers scatter most; red comes back there. */
+/* Sheen of color (1, 0, 0) over a base attenuated by 1 - E(NdotV): green and blue decrease by the same factor,
+ * most at the rim, where fibers scatter most; red returns there. */
 static void sheen_glows_at_the_rim(void **state)
 {
     (void)state;
     const char *model = "materials/CompareSheen.glb";
     picture fabric = take(model, 0.55f, NULL, NULL, white);
     picture plain = take(model, 0.55f, "\"sheenColorFactor\":[1,0,0]", "\"sheenColorFactor\":[0,0,0]", white);
-    double left[3] = {0}, count = 0.0; /* of the base, by green, at the middle, between, at the rim */
+    double left[3] = {0}, count = 0.0; /* fraction of the base, by green: center, between, rim */
     static const double edges[4] = {0.0, 0.5, 0.85, 0.98};
     for (int r = 0; r < 3; r++)
         left[r] = picture_ring(&fabric, 1, 1, edges[r], edges[r + 1]) /
@@ -184,8 +184,8 @@ static void sheen_glows_at_the_rim(void **state)
     picture_destroy(&plain);
 }
 
-/* A color factor of 10 takes F0 from 0.04 to 0.4 where the texture, of small specks, is white: highlights there are
- * stronger; without specular there are none. */
+/* A color factor of 10 raises F0 from 0.04 to 0.4 where the texture of small specks is white: highlights there
+ * are stronger; without specular there are none. */
 static void a_specular_color_strengthens_reflections(void **state)
 {
     (void)state;
@@ -201,8 +201,8 @@ static void a_specular_color_strengthens_reflections(void **state)
     picture_destroy(&none);
 }
 
-/* What a thin film reflects depends on the wavelength and on the angle: a grey surface shows many hues. Where the film's
- * texture is 0, at the logo, all is as on the other side. */
+/* Reflection of a thin film depends on wavelength and angle: a gray surface shows many hues. Where the film's
+ * texture is 0, at the logo, both sides are equal. */
 static void a_film_shows_many_hues(void **state)
 {
     (void)state;
@@ -227,7 +227,7 @@ static void a_film_shows_many_hues(void **state)
     picture_destroy(&off);
 }
 
-/* In the dark only what the surface gives off is left, and a strength of 3 is three times as much of it. */
+/* In the dark only emission is visible, and a strength of 3 triples it. */
 static void emission_grows_with_its_strength(void **state)
 {
     (void)state;
@@ -259,8 +259,8 @@ static double across(const picture *p)
     return x / y;
 }
 
-/* Anisotropy draws highlights out along the tangent, here around the sphere's axis: half of what varies along x in a
- * picture of the sphere goes, and what varies along y stays. */
+/* Anisotropy stretches highlights along the tangent, here around the sphere's axis: half of the variation along
+ * x of a sphere's image disappears, and the variation along y remains. */
 static void anisotropy_draws_highlights_out(void **state)
 {
     (void)state;
@@ -279,8 +279,8 @@ static void anisotropy_draws_highlights_out(void **state)
     facet_scene_destroy(scene);
 }
 
-/* The half without anisotropy is the other one with a strength of 0. The turned lid mirrors the lights in streaks from
- * its middle outwards, wherever its grooves run by them, in place of spots: it is brighter in more places. */
+/* The half without anisotropy equals the other one with a strength of 0. The brushed lid reflects the lights as
+ * radial streaks instead of spots: more of it is bright. */
 static void anisotropy_makes_streaks(void **state)
 {
     (void)state;
@@ -295,8 +295,7 @@ static void anisotropy_makes_streaks(void **state)
     picture_destroy(&off);
 }
 
-/* The texture of occlusion dims what comes from all around, so nothing is brighter, and the gaps between the fruit are
- * darker. */
+/* The occlusion texture dims ambient light, so nothing is brighter, and the gaps between the fruit are darker. */
 static void occlusion_only_darkens(void **state)
 {
     (void)state;

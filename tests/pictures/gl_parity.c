@@ -1,14 +1,13 @@
-/* gl_parity.c - every model of the test data drawn by OpenGL and by the preview: the same picture. A line for each; models that
- * light passes through are told apart, because OpenGL has rays to no depth.
- *     gl_parity [-v] [MODEL...]      -v: every model's line, not only those that are too far apart, and more of those which
- *                                    light passes through than that both draw them
+/* gl_parity.c - every model of the test data rendered with OpenGL and with the preview: equal images. A line
+ * for each; transmissive models are listed apart, because OpenGL does not trace rays to any depth.
+ *     gl_parity [-v] [MODEL...]      -v: a line for every model, not only for large differences, and more on transmissive ones
  *
- * Compared are display values (8 bits' worth of sRGB, not rounded), twice:
- * with one sample a pixel, where both shade the same points, in pixels away from edges: where two pixels beside each other
- * show other materials, depths that a plane would not explain, or normals that differ by more than 25 degrees;
- * and with four, edges and all, both with the preview's picture of 64 samples, shaded four times a pixel. The preview shades once
- * what four samples see of a surface; OpenGL shades each triangle, so that pixels of small triangles with sharp
- * reflections differ one by one: neither may be much farther from the better picture than the other. */
+ * Display values (8-bit sRGB, not rounded) are compared twice: with one sample a pixel, where both shade the
+ * same points, in pixels away from edges, where neighboring pixels differ in material, in depth by more than a
+ * plane would, or in normal by more than 25 degrees; and with four, edges included, both against the preview's
+ * image of 64 samples, shaded four times a pixel. The preview shades once per surface in a pixel; OpenGL shades
+ * each triangle, so that pixels of small triangles with sharp reflections differ: neither may be much farther
+ * from the reference than the other. */
 #define _XOPEN_SOURCE 700 /* nftw */
 #include <ftw.h>
 #include <math.h>
@@ -22,7 +21,7 @@ enum { WIDTH = 256, HEIGHT = 192, COUNT = WIDTH * HEIGHT, MAX_MODELS = 1024 };
 
 /* In 8-bit codes. */
 static const double MOST_MEAN = 1.0, MOST_PERCENTILE = 4.0;
-/* How much farther from the better picture: times, and besides. */
+/* Allowed excess over the other error: factor and offset. */
 static const double MOST_TIMES = 1.5, MOST_MORE = 0.25;
 
 static char *models[MAX_MODELS];
@@ -44,7 +43,7 @@ static int compare_names(const void *a, const void *b)
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-/* ---- two pictures ---- */
+/* ---- two images ---- */
 
 static facet_result draw(const facet_scene *scene, facet_environment *environment,
                          facet_renderer_kind renderer, uint32_t samples, facet_image **drawn,
@@ -84,7 +83,7 @@ static double code(float linear)
     return 255.0 * (x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055);
 }
 
-/* Whether what pixel i shows goes on in pixel k, beside it. */
+/* Whether the surface in pixel i continues in its neighbor k. */
 static bool goes_on(const float *depth, const float *normal, const float *material, size_t i, size_t k)
 {
     if (isinf(depth[i]) || isinf(depth[k]))
@@ -119,7 +118,7 @@ typedef struct distance {
     size_t count;
 } distance;
 
-/* differences: of the channel that differs most. */
+/* differences: of the channel with the largest one. */
 static distance sum_up(double *differences, size_t count, double sum)
 {
     if (count == 0)
@@ -129,7 +128,7 @@ static distance sum_up(double *differences, size_t count, double sum)
                       count};
 }
 
-/* Adds a pair of colors to what sum_up() takes. */
+/* Adds a pair of colors to the sums. */
 static void add(const double a[3], const double b[3], double *differences, size_t *count, double *sum)
 {
     double most = 0.0;
@@ -187,10 +186,10 @@ static bool lets_light_through(const facet_scene *scene)
 
 typedef enum verdict { SAME, DIFFERENT, LISTED, NOT_LOADED, NO_GL } verdict;
 
-/* How far apart a scene's pictures are. */
+/* Differences between a scene's images. */
 typedef struct comparison {
     distance pixels;            /* of one sample */
-    double gl_error, cpu_error; /* of four; infinite and 0 where they were not drawn */
+    double gl_error, cpu_error; /* of four samples; infinite and 0 if not rendered */
 } comparison;
 
 static facet_result measure(const facet_scene *scene, facet_environment *environment, bool is_whole,
@@ -219,8 +218,8 @@ static facet_result measure(const facet_scene *scene, facet_environment *environ
     return result;
 }
 
-/* Mirrors of triangles smaller than a pixel: OpenGL puts corners onto a grid of 1/256 pixel, which turns their normals. The
- * percentile says nothing of them. */
+/* Mirrors made of triangles smaller than a pixel: OpenGL snaps vertices to a grid of 1/256 pixel, which tilts
+ * them. The percentile does not apply. */
 static bool has_fine_mirrors(const char *name)
 {
     return strcmp(name, "core/NormalTangentTest.glb") == 0;

@@ -1,5 +1,5 @@
-/* glass_test.c - the Compare* models of Khronos' sample assets that are about what light does behind the surface: alpha,
- * transmission, volume, index of refraction, dispersion. As in compare_test.c. */
+/* glass_test.c - the Compare* models of Khronos' sample assets about transmitted light: alpha, transmission,
+ * volume, index of refraction, dispersion. As in compare_test.c. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -35,8 +35,8 @@ static picture take(const char *path, float x, const char *text, const char *by,
     return p;
 }
 
-/* Alpha fades all of a surface, its reflections too; transmission takes from the diffuse light only, so that glass which
- * lets all through still has its highlights. */
+/* Alpha fades the whole surface, reflections included; transmission replaces diffuse light only, so that fully
+ * transmissive glass keeps its highlights. */
 static void glass_keeps_its_reflections(void **state)
 {
     (void)state;
@@ -45,14 +45,16 @@ static void glass_keeps_its_reflections(void **state)
     assert_true(picture_percentile(&glass, 3, 0.99) > 2.0 * picture_percentile(&faded, 1, 0.99));
     assert_true(picture_detail(&glass, 3) > 2.0 * picture_detail(&faded, 1));
     double middle[2] = {picture_percentile(&glass, 3, 0.5), picture_percentile(&faded, 1, 0.5)};
-    assert_float_equal((float)(middle[0] / middle[1]), 1.0f, 0.2f); /* both let the same wall be seen */
+    assert_float_equal((float)(middle[0] / middle[1]), 1.0f,
+                       0.2f); /* the same wall is visible through both */
     picture_destroy(&faded);
     picture_destroy(&glass);
 }
 
-/* Light loses c^(x / d) of each color c on a way of x (Beer and Lambert): green keeps all of it where c is (0.15, 1, 0.5),
- * and red loses most. Where little is lost, the losses of two colors are as their logarithms, whatever the ways of a pixel's
- * light are. Glass without a volume, the other half, is as colorless as its surroundings. */
+/* Transmittance is c^(x / d) per channel over a path length x (Beer-Lambert): green is not absorbed where c is
+ * (0.15, 1, 0.5), and red is absorbed most. Small losses of two channels are proportional to their logarithms
+ * for any mix of path lengths in a pixel. Glass without a volume, the other half, is as colorless as its
+ * environment. */
 static void a_volume_absorbs_by_beer_and_lambert(void **state)
 {
     (void)state;
@@ -83,8 +85,8 @@ static void a_volume_absorbs_by_beer_and_lambert(void **state)
     picture_destroy(&faint);
 }
 
-/* A gem splits a grey world into its colors, all of them; without dispersion there are none. The light stays the same in
- * total. */
+/* A gem disperses a gray environment into all hues; without dispersion there are none. The total light is the
+ * same. */
 static void dispersion_splits_colors(void **state)
 {
     (void)state;
@@ -107,8 +109,8 @@ static void dispersion_splits_colors(void **state)
     picture_destroy(&little);
 }
 
-/* A larger index reflects more: F0 is 0.04 for 1.5, 0.17 for diamond's 2.42; and it bends more, so that the body gathers
- * the light of all around. */
+/* A larger index reflects more: F0 is 0.04 for 1.5, 0.17 for diamond's 2.42; and it refracts more, so that the
+ * object gathers light from all around. */
 static void a_larger_index_reflects_and_bends_more(void **state)
 {
     (void)state;
@@ -125,8 +127,8 @@ static void a_larger_index_reflects_and_bends_more(void **state)
     picture_destroy(&glass);
 }
 
-/* Fur of three kinds: opaque shows the texels that alpha would hide, which are red; mask cuts them off, all or nothing;
- * blend lets the floor shine through what is nearly there, so that the fur's edges are softer than the mask's. */
+/* Fur in three alpha modes: opaque shows the hidden texels, which are red; mask cuts them off; blend shows the
+ * floor through nearly transparent ones, so that the fur's edges are softer than the mask's. */
 static void alpha_covers_by_its_mode(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* twins_test.c - models that should look alike: compressed and plain, instanced and spelled out, of one material model and
- * the other, embedded and packed; and variants and times that should not. */
+/* twins_test.c - models that should look alike: compressed and plain, instanced and expanded, in either
+ * material model, embedded and packed; and variants and times that should not. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -41,9 +41,9 @@ static double distance_of(const char *a, const char *b)
     return distance;
 }
 
-/* ---- the same, written otherwise ---- */
+/* ---- other encodings ---- */
 
-/* The box has integers as coordinates of its vertices, which every quantisation keeps; normals along the axes too. */
+/* The box has integer coordinates, which every quantisation preserves; its normals are along the axes. */
 static void compressed_boxes_are_the_box(void **state)
 {
     (void)state;
@@ -58,8 +58,8 @@ static void embedded_models_are_the_packed(void **state)
     assert_true(distance_of("core/TextureSettingsTest.glb", "gltf/TextureSettingsTest-embedded.gltf") < 1e-6);
 }
 
-/* Rows of cubes, 4 m apart: the first as it is, the others compressed in four ways. The camera has no perspective, so a
- * column's cubes are one picture; filters quantise colors and normals to 8 bits and fewer. */
+/* Rows of cubes, 4 m apart: the first is uncompressed, the others are compressed in four ways. In an
+ * orthographic view the cubes of a column look equal; filters quantise colors and normals to 8 bits and fewer. */
 static void cubes_of_a_column_look_alike(void **state)
 {
     (void)state;
@@ -86,7 +86,8 @@ static void cubes_of_a_column_look_alike(void **state)
     facet_scene_destroy(scene);
 }
 
-/* Brushed metal with a normal map whose node is scaled, seen from as much farther: its relief is as deep as before. */
+/* Brushed metal with a normal map under a scaled node, seen from proportionally farther: its relief has the
+ * same depth. */
 static void scaled_nodes_look_the_same(void **state)
 {
     (void)state;
@@ -110,7 +111,7 @@ static void scaled_nodes_look_the_same(void **state)
 
 /* ---- instances ---- */
 
-/* SimpleInstancing's 125 copies as nodes: translations, rotations and scales stand at these places of its buffer. */
+/* SimpleInstancing's 125 instances as nodes: translations, rotations and scales at these offsets of its buffer. */
 static char *write_nodes(const unsigned char *glb)
 {
     enum { COUNT = 125, ROOM = COUNT * 256 };
@@ -169,8 +170,8 @@ static void instances_are_nodes(void **state)
 
 /* ---- materials ---- */
 
-/* The same avocado for two models of materials. Its textures were made separately (the reflectance of one is not 0.04
- * everywhere), so that they are alike, not equal. */
+/* The same avocado in two material models. Its textures were authored separately (the reflectance of one is not
+ * 0.04 everywhere), so that the images are similar, not equal. */
 static void an_avocado_is_an_avocado(void **state)
 {
     (void)state;
@@ -178,8 +179,8 @@ static void an_avocado_is_an_avocado(void **state)
     assert_true(distance > 1e-3 && distance < 0.15);
 }
 
-/* Every variant maps the shoe to another material; the fabric and the wood of the chair change, its metal and label do
- * not. Without a variant the primitive's own material is drawn, here that of the first. */
+/* Every variant assigns another material to the shoe; the fabric and the wood of the chair change, its metal
+ * and label do not. Without a variant the primitive's own material is drawn, here that of the first. */
 static void variants_change_what_they_map(void **state)
 {
     (void)state;
@@ -236,7 +237,7 @@ static picture take_at(const facet_scene *scene, uint32_t animation, double time
     return picture_take(scene, &FRAMED, &desc);
 }
 
-/* Models move, and these clips end as they began. */
+/* Models move, and these clips are loops. */
 static void models_move_and_loops_close(void **state)
 {
     (void)state;
