@@ -24,10 +24,10 @@ cmp -s a.png c.png && failed "another seed gives the same noise"
 
 # What one renderer knows is told to the other.
 expect 2 render --noise 0.1 -o x.png
-says "only with --renderer path"
+says "it needs --renderer path"
 expect 2 render --ground shadow -o x.png
 expect 2 render --renderer path --specular-aa -o x.png
-says "says nothing to --renderer path"
+says "it has no effect with --renderer path"
 expect 2 render --aov variance -o x.exr
 expect 2 render --renderer path --sun 30 -o x.png
 says "AZIMUTH,ELEVATION"

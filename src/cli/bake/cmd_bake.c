@@ -85,7 +85,7 @@ typedef struct bake_run {
 
 /* ---- reading ---- */
 
-static void tell_environment(bake_run *run)
+static void report_environment(bake_run *run)
 {
     const char *name = bake_input_name(&run->options);
     const facet_environment_info *info = &run->info;
@@ -113,7 +113,7 @@ static facet_result load(bake_run *run, facet_error *error)
     for (uint32_t i = 0; i < run->plan.cube_count; i++)
         run->plan.cubes[i].desc.rotation_rad += turn;
     run->options.harmonics.rotation_rad += turn;
-    tell_environment(run);
+    report_environment(run);
     return FACET_OK;
 }
 
@@ -155,7 +155,7 @@ static facet_progress next_step(bake_run *run, bake_step step, const facet_bake_
     return progress_callback(&run->shown);
 }
 
-static void tell_clamped(bake_run *run, const bake_cube *baked)
+static void report_clamped(bake_run *run, const bake_cube *baked)
 {
     const facet_bake_stats stats = facet_cube_get_stats(baked->cube);
     if (baked->desc.clamp > 0.0f)
@@ -174,13 +174,11 @@ static void warn_of_cut(bake_run *run, const bake_file *file)
     if (share < 0.0005)
         return;
     baked->is_cut = true;
-    char text[1024];
     const facet_log log = messages_log(&run->base.messages);
-    snprintf(text, sizeof text,
-             "%.800s: the format ends at %g, which removes %.3g %% of the light; full floats (--format "
-             "rgba32f or exr32) keep it, or scale it down with --exposure",
-             file->path, (double)limit, 100.0 * share);
-    log.message(log.user, FACET_LOG_LEVEL_WARNING, text);
+    log_warning(&log,
+                "%.800s: the format ends at %g, which removes %.3g %% of the light; full floats (--format "
+                "rgba32f or exr32) keep it, or scale it down with --exposure",
+                file->path, (double)limit, 100.0 * share);
 }
 
 static bool needs_mirrored(const bake_plan *plan, uint32_t cube_index)
@@ -203,7 +201,7 @@ static facet_result bake_cubes(bake_run *run, facet_error *error)
         baked->desc.progress = next_step(run, STEP_BAKE, &baked->desc);
         result = facet_cube_bake(run->environment, &baked->desc, &baked->cube, error);
         if (result == FACET_OK && !has_told)
-            tell_clamped(run, baked);
+            report_clamped(run, baked);
         has_told = true;
         if (result == FACET_OK && baked->is_verified) {
             baked->desc.progress = next_step(run, STEP_VERIFY, &baked->desc);
@@ -307,7 +305,7 @@ static void add_json(const verb_run *base, json_t *root)
 }
 
 /* The table of --verify, and whether --max-error holds. */
-static bool tell_errors(const bake_run *run)
+static bool report_errors(const bake_run *run)
 {
     const bake_options *o = &run->options;
     const command_line *c = run->base.line;
@@ -347,7 +345,7 @@ static facet_result work(verb_run *base, facet_error *error)
     messages_flush(&base->messages);
     TRY(write_files(run, error));
     bake_report_files(&base->messages, &run->plan, run->plan.has_own_name, interrupt_clock() - base->start_s);
-    base->is_negative = !tell_errors(run);
+    base->is_negative = !report_errors(run);
     return FACET_OK;
 }
 

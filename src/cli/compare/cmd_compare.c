@@ -212,7 +212,7 @@ static facet_result load_all(compare_run *run, facet_error *error)
 }
 
 /* What a reader of the numbers should know. */
-static void tell(compare_run *run)
+static void warn(compare_run *run)
 {
     const facet_comparison *c = &run->comparison;
     const char *const *names = run->base.line->arguments;
@@ -225,14 +225,12 @@ static void tell(compare_run *run)
                    run->desc.tonemap == FACET_TONEMAP_NONE ? ", clamped (--tone-mapping)" : "");
     facet_log log = messages_log(&run->base.messages);
     for (int i = 0; i < 2; i++) {
-        char text[512];
         if (!nonfinite[i])
             continue;
-        snprintf(text, sizeof text,
-                 nonfinite[i] == 1 ? "%.400s: %llu pixel is not finite"
-                                   : "%.400s: %llu pixels are not finite",
-                 input_name(names[i]), (unsigned long long)nonfinite[i]);
-        log.message(log.user, FACET_LOG_LEVEL_WARNING, text);
+        log_warning(&log,
+                    nonfinite[i] == 1 ? "%.400s: %llu pixel is not finite"
+                                      : "%.400s: %llu pixels are not finite",
+                    input_name(names[i]), (unsigned long long)nonfinite[i]);
     }
 }
 
@@ -250,7 +248,7 @@ static facet_result compare(compare_run *run, facet_error *error)
     if (result == FACET_OK && interrupt_signal())
         result = fail(error, FACET_ERROR_CANCELLED, "compare: interrupted");
     if (result == FACET_OK)
-        tell(run);
+        warn(run);
     if (result == FACET_OK && is_drawn)
         result = output_write(run->difference, run->output, &run->save, error);
     if (result == FACET_OK && run->is_kept)

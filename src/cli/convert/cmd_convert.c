@@ -78,7 +78,7 @@ static void print_material(const messages *m, verbosity least, const char *model
 
 static void print_materials(const messages *m, const char *model, const facet_scene *scene, uint32_t count)
 {
-    enum { MOST_LINES = 8 }; /* without -v */
+    enum { MAX_LINES = 8 }; /* without -v */
     facet_conversion *all = malloc(count * sizeof *all);
     if (!all)
         return;
@@ -86,7 +86,7 @@ static void print_materials(const messages *m, const char *model, const facet_sc
         all[i] = facet_scene_get_conversion(scene, i);
     qsort(all, count, sizeof *all, compare_errors);
     for (uint32_t i = 0; i < count; i++) {
-        bool is_news = i < MOST_LINES && !isnan(all[i].error) && all[i].grade >= FACET_CONVERSION_GRADE_POOR;
+        bool is_news = i < MAX_LINES && !isnan(all[i].error) && all[i].grade >= FACET_CONVERSION_GRADE_POOR;
         print_material(m, is_news ? VERBOSITY_NORMAL : VERBOSITY_DETAILS, model, &all[i]);
     }
     free(all);
@@ -262,8 +262,8 @@ static uint32_t count_large_errors(const convert_run *run, const facet_scene *sc
     return count;
 }
 
-static void tell_model(convert_run *run, const char *model, const char *output, const facet_scene *scene,
-                       double start)
+static void report_model(convert_run *run, const char *model, const char *output, const facet_scene *scene,
+                         double start)
 {
     uint32_t large = count_large_errors(run, scene);
     if (strcmp(output, "-") == 0)
@@ -309,7 +309,7 @@ static facet_result convert_model(convert_run *run, const model_name *model, fac
         result = save(run, model, scene, output, error);
     messages_flush(&run->base.messages);
     if (result == FACET_OK)
-        tell_model(run, model->path, output, scene, start);
+        report_model(run, model->path, output, scene, start);
     facet_scene_destroy(scene);
     if (result != FACET_OK)
         failure_complete(

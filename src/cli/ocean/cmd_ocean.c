@@ -115,13 +115,13 @@ const verb ocean_verb = {
 };
 
 /* Of a file that is no picture, of which there is nothing else to say. */
-static void tell_file(ocean_run *run, const char *name)
+static void report_file(ocean_run *run, const char *name)
 {
     if (run->outputs)
         json_array_append_new(run->outputs, json_pack("{s:o}", "output", report_string_json(name)));
 }
 
-static void tell(ocean_run *run, const picture_report *report)
+static void report_output(ocean_run *run, const picture_report *report)
 {
     report_picture(&run->base.messages, report, false);
     if (run->outputs)
@@ -135,7 +135,7 @@ static bool is_kept(ocean_run *run, const char *name)
     const render_options *p = &run->options.picture;
     if (!p->keeps_existing || run->video || p->is_stdout || !output_exists(name))
         return false;
-    tell(run, &(picture_report){.model = "sea", .output = name, .is_kept = true});
+    report_output(run, &(picture_report){.model = "sea", .output = name, .is_kept = true});
     return true;
 }
 
@@ -178,7 +178,7 @@ static facet_result make_picture(ocean_run *run, uint32_t index, const char *nam
                                  .save_s = interrupt_clock() - drawn,
                                  .total_s = interrupt_clock() - start};
         report_partial(&run->base.messages, &report, NULL);
-        tell(run, &report);
+        report_output(run, &report);
         run->base.is_interrupted = report.stats.is_partial && interrupt_signal();
     }
     facet_image_destroy(image);
@@ -215,7 +215,7 @@ static facet_result make_mesh(ocean_run *run, const char *name, facet_error *err
         result = output_write_scene(scene, name, save, error);
     if (result == FACET_OK) {
         message_at(&run->base.messages, VERBOSITY_DETAILS, "%s: written", name);
-        tell_file(run, name);
+        report_file(run, name);
     }
     facet_scene_destroy(scene);
     return result;
@@ -238,7 +238,7 @@ static facet_result make_map(ocean_run *run, uint32_t tile, const char *name, fa
     if (result == FACET_OK)
         result = output_write(image, name, &save, error);
     if (result == FACET_OK)
-        tell_file(run, name);
+        report_file(run, name);
     facet_image_destroy(image);
     return result;
 }
@@ -329,7 +329,7 @@ static void warn_of_loop(ocean_run *run)
         snprintf(text, sizeof text, "--loop: %g s are %g frames; the last one does not join the first", loop,
                  frames);
     if (*text)
-        log.message(log.user, FACET_LOG_LEVEL_WARNING, text);
+        log_warning(&log, "%s", text);
 }
 
 /* What is known is that of the first moment. */
@@ -379,13 +379,11 @@ static void warn_of_sun(ocean_run *run)
     double times = (double)d->sun.illuminance_lux[1] / lux;
     if (!(lux > 0.0) || times < 1000.0)
         return;
-    char text[256];
     facet_log log = messages_log(&run->base.messages);
-    snprintf(text, sizeof text,
-             "--sun: it has %.2g times the light of the environment, %.2g lx, which will be black; "
-             "--env-intensity scales that",
-             times, lux);
-    log.message(log.user, FACET_LOG_LEVEL_WARNING, text);
+    log_warning(&log,
+                "--sun: it has %.2g times the light of the environment, %.2g lx, which will be black; "
+                "--env-intensity scales that",
+                times, lux);
 }
 
 static facet_result check_names(const command_line *c, const ocean_options *o, facet_error *error)

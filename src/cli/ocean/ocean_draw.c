@@ -143,9 +143,9 @@ facet_result ocean_run_draw(ocean_run *run, const ocean_options *o, ocean_step s
 
 /* ---- sweeps ---- */
 
-enum { MAX_STEPS = 64, AXES = 2, LABEL_SIZE = 96, LONGEST_EDGE = 65536 };
+enum { MAX_STEPS = 64, AXES = 2, LABEL_SIZE = 96, MAX_EDGE = 65536 };
 
-static const double LARGEST = 1e15; /* of numbers: whole ones are exact */
+static const double MAX_NUMBER = 1e15; /* of numbers: whole ones are exact */
 
 typedef struct axis {
     const option *option;
@@ -187,7 +187,7 @@ static facet_result read_axis(const command_line *c, const char **at, axis *out,
     double count = 0.0;
     bool is_range = scan_number(at, &out->from) && *(*at)++ == ':' && scan_number(at, &out->to) &&
                     *(*at)++ == ':' && scan_number(at, &count);
-    if (!is_range || !(fabs(out->from) <= LARGEST && fabs(out->to) <= LARGEST) || count < 1.0 ||
+    if (!is_range || !(fabs(out->from) <= MAX_NUMBER && fabs(out->to) <= MAX_NUMBER) || count < 1.0 ||
         count > MAX_STEPS || count != floor(count))
         return option_fail(c, OPT_SWEEP, expected, error);
     out->count = (uint32_t)count;
@@ -207,12 +207,10 @@ static facet_result read_axes(const ocean_run *run, axis axes[AXES], facet_error
         result = option_fail(c, OPT_SWEEP, expected, error);
     const render_options *p = &run->options.picture;
     uint64_t columns = axes[0].count, rows = axes[1].count; /* 0: the columns are as many as look well */
-    if (result == FACET_OK &&
-        (columns * p->desc.width > LONGEST_EDGE || rows * p->desc.height > LONGEST_EDGE))
-        result =
-            fail(error, FACET_ERROR_ARGUMENT,
-                 "--sweep: %u x %u pictures of %u x %u pixels are more than a sheet of %d x %d holds",
-                 axes[0].count, (unsigned)rows, p->desc.width, p->desc.height, LONGEST_EDGE, LONGEST_EDGE);
+    if (result == FACET_OK && (columns * p->desc.width > MAX_EDGE || rows * p->desc.height > MAX_EDGE))
+        result = fail(error, FACET_ERROR_ARGUMENT,
+                      "--sweep: %u x %u pictures of %u x %u pixels are more than a sheet of %d x %d holds",
+                      axes[0].count, (unsigned)rows, p->desc.width, p->desc.height, MAX_EDGE, MAX_EDGE);
     if (result == FACET_OK && axes[0].option == axes[1].option)
         result =
             fail(error, FACET_ERROR_ARGUMENT, "--sweep: both of its axes are --%s", axes[0].option->name);

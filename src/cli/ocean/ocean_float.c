@@ -18,7 +18,7 @@
 static const double FARTHEST = 1e6, SIZE_AWAY = 1.2, NEAREST = 1.15;
 
 /* When a size is a warning: m; in lengths of the highest waves; pixels. The longest ship has 458 m. */
-static const double LARGEST = 1000.0, MOST_WAVES = 30.0, LEAST_PIXELS = 2.0;
+static const double MAX_SIZE = 1000.0, MAX_WAVES = 30.0, MIN_PIXELS = 2.0;
 
 enum { GRID = 9 }; /* points along an edge of the footprint */
 
@@ -55,7 +55,7 @@ static void warn_of_origin(ocean_run *run, const char *path)
         "--with: %s is far from the origin of its file; it floats as if that were at %.15g, %.15g, %.15g",
         path, origin[0], origin[1], origin[2]);
     facet_log log = messages_log(&run->base.messages);
-    log.message(log.user, FACET_LOG_LEVEL_WARNING, text);
+    log_warning(&log, "%s", text);
 }
 
 facet_result ocean_float_load(ocean_run *run, facet_error *error)
@@ -187,7 +187,7 @@ static void warn_of_view(ocean_run *run)
              "camera looks towards %.0f (--heading, --target)",
              at[0], at[2], azimuth_of(to[0], to[2]), azimuth_of(along[0], along[2]));
     facet_log log = messages_log(&run->base.messages);
-    log.message(log.user, FACET_LOG_LEVEL_WARNING, text);
+    log_warning(&log, "%s", text);
 }
 
 /* Height in the image, in pixels, of a ball around the model; it may stand around the camera. */
@@ -210,13 +210,13 @@ static void warn_of_size(ocean_run *run)
     const facet_sea_info sea = facet_sea_get_info(run->sea);
     double pixels = pixels_of(run, size);
     char text[512] = "";
-    if (size > LARGEST || (sea.peak_length_m > 0.0 && size > MOST_WAVES * sea.peak_length_m))
+    if (size > MAX_SIZE || (sea.peak_length_m > 0.0 && size > MAX_WAVES * sea.peak_length_m))
         snprintf(text, sizeof text,
                  "--with: the model is %.3g m large, and the highest waves are %.2g m high and %.3g m long; "
                  "a model "
                  "is in metres",
                  size, sea.height_m, sea.peak_length_m);
-    else if (pixels < LEAST_PIXELS)
+    else if (pixels < MIN_PIXELS)
         snprintf(text, sizeof text,
                  "--with: the model is %.3g m large, which is %.2g pixels of the image where it floats; a "
                  "model is in "
@@ -230,7 +230,7 @@ static void warn_of_size(ocean_run *run)
             size, -(double)high[1], (double)low[1], (double)high[1]);
     facet_log log = messages_log(&run->base.messages);
     if (*text)
-        log.message(log.user, FACET_LOG_LEVEL_WARNING, text);
+        log_warning(&log, "%s", text);
 }
 
 facet_result ocean_float_place(ocean_run *run, facet_error *error)

@@ -15,7 +15,8 @@
 
 static const double DEFAULT_SUN_EL = 22.0, BESIDE_SUN = 36.0;
 /* Of what the options take: of a length, a place, an azimuth (degrees), light (lx), a coefficient (1/m). */
-static const double LONGEST = 1e7, FARTHEST = 1e6, MOST_TURNED = 1e6, BRIGHTEST = 1e9, MOST_ABSORBING = 1e3;
+static const double MAX_LENGTH = 1e7, MAX_DISTANCE = 1e6, MAX_TURN = 1e6, MAX_BRIGHTNESS = 1e9,
+                    MAX_ABSORPTION = 1e3;
 static const float SAND[3] = {0.42f, 0.36f, 0.27f};
 
 /* ---- notations ---- */
@@ -35,7 +36,7 @@ bool value_length(const char *text, double *metres)
     else if (*at && strcmp(at, "m") != 0)
         return false;
     *metres = number;
-    return number <= LONGEST;
+    return number <= MAX_LENGTH;
 }
 
 /* Between least and most numbers separated by commas; how many, 0: it is no such list. */
@@ -57,7 +58,7 @@ static bool are_within(const double *numbers, size_t count, double least, double
 
 static bool is_azimuth(double degrees)
 {
-    return fabs(degrees) <= MOST_TURNED;
+    return fabs(degrees) <= MAX_TURN;
 }
 
 /* The command line's directions are azimuths from +Z towards +X, the sea's angles from +X towards +Z. */
@@ -135,7 +136,7 @@ static facet_result read_absorption(const command_line *c, facet_sea_desc *d, fa
     if (!is_given(c, OPT_ABSORPTION))
         return FACET_OK;
     if (!value_numbers(option_text(c, OPT_ABSORPTION, ""), 3, numbers) ||
-        !are_within(numbers, 3, 0.0, MOST_ABSORBING))
+        !are_within(numbers, 3, 0.0, MAX_ABSORPTION))
         return option_fail(c, OPT_ABSORPTION, "R,G,B in 1/m, each from 0 to 1000", error);
     facet_sea_desc flat = *d;
     flat.wind_mps = flat.swell.height_m = 0.0f;
@@ -213,7 +214,7 @@ static facet_result read_sky(const command_line *c, ocean_options *out, facet_er
     if (is_given(c, OPT_SUN))
         count = scan_list(option_text(c, OPT_SUN, ""), 1, 3, numbers);
     if (!count || !are_within(numbers, 1, -90.0, 90.0) || !is_azimuth(numbers[1]) ||
-        !are_within(numbers + 2, 1, 0.0, BRIGHTEST))
+        !are_within(numbers + 2, 1, 0.0, MAX_BRIGHTNESS))
         return option_fail(
             c, OPT_SUN,
             "ELEVATION or ELEVATION,AZIMUTH in degrees such as 30,15, from -90 to 90; beside --env "
@@ -303,7 +304,7 @@ static facet_result read_camera(const command_line *c, ocean_options *out, facet
             return fail(error, FACET_ERROR_ARGUMENT,
                         "--eye: it does not go together with --height-of-eye; give one of them");
         if (!value_numbers(option_text(c, OPT_EYE, ""), 3, numbers) ||
-            !are_within(numbers, 3, -FARTHEST, FARTHEST))
+            !are_within(numbers, 3, -MAX_DISTANCE, MAX_DISTANCE))
             return option_fail(c, OPT_EYE, "X,Y,Z in metres, each from -1e6 to 1e6", error);
         for (int i = 0; i < 3; i++)
             out->picture.eye[i] = numbers[i];
@@ -314,7 +315,7 @@ static facet_result read_camera(const command_line *c, ocean_options *out, facet
             return fail(error, FACET_ERROR_ARGUMENT,
                         "--target: it does not go together with --heading; give one of them");
         if (!value_numbers(option_text(c, OPT_TARGET, ""), 3, numbers) ||
-            !are_within(numbers, 3, -2.0 * FARTHEST, 2.0 * FARTHEST))
+            !are_within(numbers, 3, -2.0 * MAX_DISTANCE, 2.0 * MAX_DISTANCE))
             return option_fail(c, OPT_TARGET, "X,Y,Z in metres, each from -2e6 to 2e6", error);
         for (int i = 0; i < 3; i++)
             out->target[i] = (float)numbers[i];

@@ -319,7 +319,7 @@ static facet_result choose_environment(model_run *m, facet_error *error)
 }
 
 /* What is after the last key is its pose again and again, and hardly meant. */
-static void tell_late_frames(const model_run *m)
+static void warn_of_late_frames(const model_run *m)
 {
     const sequence *s = &m->sequence;
     uint32_t last = 0;
@@ -375,7 +375,7 @@ static facet_result render_scene(render_run *run, const model_name *model, facet
     facet_result result = sequence_create(scene, input_name(model->path), &m.options, &m.sequence, error);
     interrupt_end();
     if (result == FACET_OK)
-        tell_late_frames(&m);
+        warn_of_late_frames(&m);
     if (result == FACET_OK)
         result = choose_environment(&m, error);
     messages_flush(&run->base.messages);

@@ -118,14 +118,12 @@ void report_partial(messages *m, const picture_report *p, const char *resume_wit
 {
     if (!p->stats.is_partial)
         return;
-    char text[1200];
     const char *checkpoint = resume_with ? resume_with : "";
     const facet_log log = messages_log(m);
-    snprintf(text, sizeof text, "%.400s: the image is partial: %s after %.1f of %u samples per pixel%s%.400s",
-             strcmp(p->output, "-") == 0 ? "stdout" : p->output,
-             interrupt_signal() ? "interrupted" : "the time limit was reached", samples_taken(p), p->samples,
-             *checkpoint ? "; --resume continues " : "", checkpoint);
-    log.message(log.user, FACET_LOG_LEVEL_WARNING, text);
+    log_warning(&log, "%.400s: the image is partial: %s after %.1f of %u samples per pixel%s%.400s",
+                strcmp(p->output, "-") == 0 ? "stdout" : p->output,
+                interrupt_signal() ? "interrupted" : "the time limit was reached", samples_taken(p),
+                p->samples, *checkpoint ? "; --resume continues " : "", checkpoint);
 }
 
 void report_picture(const messages *m, const picture_report *p, bool is_news)

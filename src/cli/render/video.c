@@ -32,7 +32,7 @@ static facet_result fail_write(const video *v, facet_error *error)
 /* A file of its own beside path, with the modes that a new file has. */
 static FILE *open_beside(video *v)
 {
-    enum { LONGEST = 240 }; /* of the 255 bytes that names may have */
+    enum { MAX_NAME = 240 }; /* of the 255 bytes that names may have */
     const char *slash = strrchr(v->path, '/');
     const char *base = slash ? slash + 1 : v->path;
     size_t size = strlen(v->path) + 16;
@@ -40,7 +40,7 @@ static FILE *open_beside(video *v)
     if (!v->temporary)
         return NULL;
     interrupt_file_begin();
-    snprintf(v->temporary, size, "%.*s%.*s.XXXXXX", (int)(base - v->path), v->path, LONGEST, base);
+    snprintf(v->temporary, size, "%.*s%.*s.XXXXXX", (int)(base - v->path), v->path, MAX_NAME, base);
     int fd = mkstemp(v->temporary);
     if (fd < 0)
         return NULL;

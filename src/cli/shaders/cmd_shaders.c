@@ -65,10 +65,10 @@ static void list_parts(void)
 
 static facet_result write_text(const command_line *c, facet_error *error)
 {
-    enum { MOST = 64 };
-    static char names[MOST][64];
-    const char *parts[MOST];
-    if (c->argument_count > MOST)
+    enum { MAX_PARTS = 64 };
+    static char names[MAX_PARTS][64];
+    const char *parts[MAX_PARTS];
+    if (c->argument_count > MAX_PARTS)
         return fail(error, FACET_ERROR_ARGUMENT, "shaders: %zu parts: there are only %u", c->argument_count,
                     facet_shader_get_part_count());
     for (size_t i = 0; i < c->argument_count; i++) {

@@ -118,18 +118,18 @@ static facet_result apply_member(command_line *c, const char *name, const json_t
 /* The whole file in *text, for free(). */
 static facet_result read_config(const char *path, char **text, size_t *size, facet_error *error)
 {
-    enum { MOST_BYTES = 1 << 20 };
+    enum { MAX_BYTES = 1 << 20 };
     FILE *file = fopen(path, "re");
     if (!file)
         return fail(error, FACET_ERROR_READ, "%s: %s", path, strerror(errno));
-    *text = malloc(MOST_BYTES + 1);
-    *size = *text ? fread(*text, 1, MOST_BYTES + 1, file) : 0;
+    *text = malloc(MAX_BYTES + 1);
+    *size = *text ? fread(*text, 1, MAX_BYTES + 1, file) : 0;
     facet_result result = FACET_OK;
     if (!*text)
         result = fail(error, FACET_ERROR_MEMORY, "%s: out of memory", path);
     else if (ferror(file))
         result = fail(error, FACET_ERROR_READ, "%s: %s", path, strerror(errno));
-    else if (*size > MOST_BYTES)
+    else if (*size > MAX_BYTES)
         result = fail(error, FACET_ERROR_LIMIT, "%s: it is larger than 1 MiB; options were expected", path);
     fclose(file);
     if (result != FACET_OK) {

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { LONGEST = 63 };
+enum { MAX_WORD = 63 };
 
 /* Names in f3d, blender, <model-viewer>, screenshot-glb, cmgen, glTF-IBL-Sampler, cmft, ktx, gltf-transform, ImageMagick, and
  * what to write here. The first of a name that the verb has an option for counts. */
@@ -207,17 +207,17 @@ static const struct {
 
 /* ---- near names ---- */
 
-/* Lower case, "-" for "_", at most LONGEST characters. */
+/* Lower case, "-" for "_", at most MAX_WORD characters. */
 static size_t fold(const char *word, char *folded)
 {
     size_t n = 0;
-    for (; n < LONGEST && word[n]; n++)
+    for (; n < MAX_WORD && word[n]; n++)
         folded[n] = word[n] == '_' ? '-' : (char)tolower((unsigned char)word[n]);
     folded[n] = 0;
     return n;
 }
 
-static unsigned least(unsigned a, unsigned b)
+static unsigned minimum(unsigned a, unsigned b)
 {
     return a < b ? a : b;
 }
@@ -225,18 +225,18 @@ static unsigned least(unsigned a, unsigned b)
 /* Optimal string alignment: Levenshtein 1966 with swaps of neighbours, three rows of the table at a time. */
 unsigned edit_distance(const char *a, const char *b)
 {
-    char x[LONGEST + 1], y[LONGEST + 1];
+    char x[MAX_WORD + 1], y[MAX_WORD + 1];
     size_t nx = fold(a, x), ny = fold(b, y);
-    unsigned rows[3][LONGEST + 1];
+    unsigned rows[3][MAX_WORD + 1];
     unsigned *before = rows[0], *last = rows[1], *row = rows[2];
     for (size_t j = 0; j <= ny; j++)
         last[j] = (unsigned)j;
     for (size_t i = 1; i <= nx; i++) {
         row[0] = (unsigned)i;
         for (size_t j = 1; j <= ny; j++) {
-            row[j] = least(least(last[j], row[j - 1]) + 1, last[j - 1] + (x[i - 1] != y[j - 1]));
+            row[j] = minimum(minimum(last[j], row[j - 1]) + 1, last[j - 1] + (x[i - 1] != y[j - 1]));
             if (i > 1 && j > 1 && x[i - 1] == y[j - 2] && x[i - 2] == y[j - 1])
-                row[j] = least(row[j], before[j - 2] + 1);
+                row[j] = minimum(row[j], before[j - 2] + 1);
         }
         unsigned *free_row = before;
         before = last;
@@ -281,10 +281,10 @@ const char *suggest_word(const char *text, const char *const *words)
     if (foreign)
         return foreign;
     const char *best = NULL;
-    unsigned least_bad = ~0u, badness;
+    unsigned best_badness = ~0u, badness;
     for (; *words; words++)
-        if (is_near(text, *words, &badness) && badness < least_bad) {
-            least_bad = badness;
+        if (is_near(text, *words, &badness) && badness < best_badness) {
+            best_badness = badness;
             best = *words;
         }
     return best;
@@ -314,16 +314,16 @@ static const char *find_foreign(const verb *v, const char *folded)
 
 const char *suggest_foreign(const verb *v, const char *name, size_t length)
 {
-    char text[LONGEST + 1], folded[LONGEST + 1];
-    snprintf(text, sizeof text, "%.*s", (int)(length < LONGEST ? length : LONGEST), name);
+    char text[MAX_WORD + 1], folded[MAX_WORD + 1];
+    snprintf(text, sizeof text, "%.*s", (int)(length < MAX_WORD ? length : MAX_WORD), name);
     fold(text, folded);
     return find_foreign(v, folded);
 }
 
 facet_result suggest_option(const verb *v, const char *name, size_t length, facet_error *error)
 {
-    char text[LONGEST + 1], folded[LONGEST + 1];
-    snprintf(text, sizeof text, "%.*s", (int)(length < LONGEST ? length : LONGEST), name);
+    char text[MAX_WORD + 1], folded[MAX_WORD + 1];
+    snprintf(text, sizeof text, "%.*s", (int)(length < MAX_WORD ? length : MAX_WORD), name);
     fold(text, folded);
     const char *ours = find_foreign(v, folded);
     if (ours)
@@ -331,11 +331,11 @@ facet_result suggest_option(const verb *v, const char *name, size_t length, face
     if (option_is_planned(folded))
         return fail(error, FACET_ERROR_ARGUMENT, "--%s: this version of facet does not have it yet", text);
     const char *best = NULL;
-    unsigned least_bad = ~0u, badness;
+    unsigned best_badness = ~0u, badness;
     const option *o;
     for (size_t i = 0; (o = option_at(v, i)); i++)
-        if (is_near(folded, o->name, &badness) && badness < least_bad) {
-            least_bad = badness;
+        if (is_near(folded, o->name, &badness) && badness < best_badness) {
+            best_badness = badness;
             best = o->name;
         }
     if (best)
