@@ -1,5 +1,5 @@
 #!/bin/sh
-# names.sh begin|end > header: what shade.h includes before and after the shared text, for programs that are not of its
+# names.sh begin|end > header: what shade.h includes before and after the shader library, for programs that are not of its
 # dialect. Macros of the same names, the program's or the standard library's, are put aside and come back; in C every
 # function and type of the text gets the prefix shade_, and the constants stay as SHADE_ macros.
 set -eu
@@ -17,14 +17,14 @@ system="I complex near far major minor unix linux"
 all="$words $constants $functions $types $system"
 
 if [ "$part" = begin ]; then
-    echo "/* Written by shade/names.sh from the shared text. */"
+    echo "/* Written by shade/names.sh from the shader library. */"
     for name in $all; do printf '#pragma push_macro("%s")\n#undef %s\n' "$name" "$name"; done
     echo "#if !defined(__cplusplus)"
     for name in $functions; do echo "#define $name(...) shade_$name(__VA_ARGS__)"; done
     for name in $types; do echo "#define $name shade_$name"; done
     echo "#endif"
 else
-    echo "/* Written by shade/names.sh from the shared text. */"
+    echo "/* Written by shade/names.sh from the shader library. */"
     for name in $all; do printf '#undef %s\n#pragma pop_macro("%s")\n' "$name" "$name"; done
     # a constant may be made of others
     text | sed -n 's/^#define \([A-Z_0-9]*\) \(..*\)$/\1 \2/p' | sed 's: */\*.*::' | grep -v 'vec3(' |

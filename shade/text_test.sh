@@ -1,5 +1,5 @@
 #!/bin/sh
-# text_test.sh c COMPILER | glsl: what the compilers say about the shared text. C: every header compiles with those
+# text_test.sh c COMPILER | glsl: what the compilers say about the shader library. C: every header compiles with those
 # before it, in the one order and in no other; the GLSL side the same in each version; slips of the dialect that one
 # side alone would let through are rejected. Exits with 77 where glslangValidator is missing.
 set -eu

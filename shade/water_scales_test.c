@@ -3,7 +3,7 @@
  * eleven octaves, and of one, whose hidden facets rays have found. */
 #include "testing/test_support.h"
 
-#include <complex.h> /* its I is a name in the shared text */
+#include <complex.h> /* its I is a name in the shader library */
 
 static const double PI_DOUBLE = 3.14159265358979324;
 

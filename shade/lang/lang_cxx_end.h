@@ -1,3 +1,3 @@
-/* lang_cxx_end.h - closes the namespace that lang_cxx.h opens around the shared text. */
+/* lang_cxx_end.h - closes the namespace that lang_cxx.h opens around the shader library. */
 } /* namespace facet */
 } /* extern "C++" */

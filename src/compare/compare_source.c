@@ -15,7 +15,7 @@ _Static_assert(TONEMAP_NEUTRAL == (int)FACET_TONEMAP_NEUTRAL && TONEMAP_ACES == 
                    TONEMAP_AGX == (int)FACET_TONEMAP_AGX && TONEMAP_REINHARD == (int)FACET_TONEMAP_REINHARD &&
                    TONEMAP_REINHARD_EXTENDED == (int)FACET_TONEMAP_REINHARD_EXTENDED &&
                    TONEMAP_HABLE == (int)FACET_TONEMAP_HABLE,
-               "the shared text numbers operators as the interface does");
+               "the shader library numbers operators as the interface does");
 
 /* ---- opening ---- */
 

@@ -1,5 +1,5 @@
 /* boundary.h - a refracting surface: the normal by which it refracts, and how a bundle of rays goes on behind it: direction, and
- * its changes over the footprint. Holds shared shading text: include it last. */
+ * its changes over the footprint. */
 #ifndef CPU_BOUNDARY_H
 #define CPU_BOUNDARY_H
 

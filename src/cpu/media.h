@@ -1,5 +1,5 @@
 /* media.h - the closed volumes that a ray is in, glass in liquid in glass: a small stack of their materials, and where a ray crosses
- * their boundaries. Holds shared shading text: include it last. */
+ * their boundaries. */
 #ifndef CPU_MEDIA_H
 #define CPU_MEDIA_H
 

@@ -10,7 +10,7 @@ _Static_assert(PHONG_RGB == (int)LEGACY_RGB && PHONG_RGBA == (int)LEGACY_RGBA &&
                    PHONG_MODULATE == (int)LEGACY_MODULATE && PHONG_REPLACE == (int)LEGACY_REPLACE &&
                    PHONG_DECAL == (int)LEGACY_DECAL && PHONG_BLEND == (int)LEGACY_BLEND &&
                    PHONG_ADD == (int)LEGACY_ADD,
-               "the shared text numbers texture types and modes as legacy materials do");
+               "the shader library numbers texture types and modes as legacy materials do");
 
 /* ---- a hit in eye space, with its legacy material and maps ---- */
 

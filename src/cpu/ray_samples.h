@@ -1,6 +1,5 @@
 /* ray_samples.h - numbers in [0, 1) for the rays that one shade splits into: spread evenly over the rays of a pixel, and
- * over those of pixels next to each other, so that what error is left is as fine-grained as it can be. Holds shared
- * shading text: include it last. */
+ * over those of pixels next to each other, so that what error is left is as fine-grained as it can be. */
 #ifndef CPU_RAY_SAMPLES_H
 #define CPU_RAY_SAMPLES_H
 

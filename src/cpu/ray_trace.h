@@ -1,5 +1,4 @@
-/* ray_trace.h - single rays that go anywhere: what they meet, and whether something is in between. Holds shared shading
- * text: include it last. */
+/* ray_trace.h - single rays that go anywhere: what they meet, and whether something is in between. */
 #ifndef CPU_RAY_TRACE_H
 #define CPU_RAY_TRACE_H
 

@@ -1,5 +1,4 @@
-/* shading_hit.h - where on its triangle, line or point a ray hit; the vertex attributes, frames and texels there. Holds shared shading
- * text: include it last. */
+/* shading_hit.h - where on its triangle, line or point a ray hit; the vertex attributes, frames and texels there. */
 #ifndef CPU_SHADING_HIT_H
 #define CPU_SHADING_HIT_H
 

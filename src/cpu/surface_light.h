@@ -1,5 +1,4 @@
-/* surface_light.h - the radiance that leaves a surface: emission, the prefiltered surroundings, every light. Holds shared
- * shading text: include it last. */
+/* surface_light.h - the radiance that leaves a surface: emission, the prefiltered surroundings, every light. */
 #ifndef CPU_SURFACE_LIGHT_H
 #define CPU_SURFACE_LIGHT_H
 

@@ -1,5 +1,4 @@
-/* surface_point.h - from a hit to the values that shade/ works with: the surface and its layers, textures looked up.
- * Holds shared shading text: include it last. */
+/* surface_point.h - from a hit to the values that shade/ works with: the surface and its layers, textures looked up. */
 #ifndef CPU_SURFACE_POINT_H
 #define CPU_SURFACE_POINT_H
 

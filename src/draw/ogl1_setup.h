@@ -1,5 +1,5 @@
 /* ogl1_setup.h - what drawing with FACET_SHADING_OGL1 takes, found once per picture: rules, lights in eye space, fog,
- * materials. Holds shared shading text: include it last. */
+ * materials. */
 #ifndef DRAW_OGL1_SETUP_H
 #define DRAW_OGL1_SETUP_H
 

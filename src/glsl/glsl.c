@@ -1,4 +1,4 @@
-/* glsl.c - the shared shading text as GLSL: all of it, or some parts with what they use. */
+/* glsl.c - the shader library as GLSL: all of it, or some parts with what they use. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -164,13 +164,13 @@ static facet_result find_parts(const facet_shader_desc *desc, bool is_wanted[PAR
     for (uint32_t k = 0; k < desc->part_count; k++) {
         size_t i = part_index(desc->parts[k]);
         if (i == PART_COUNT)
-            return fail(error, FACET_ERROR_ARGUMENT, "the shading text has no part \"%.60s\"",
+            return fail(error, FACET_ERROR_ARGUMENT, "the shader library has no part \"%.60s\"",
                         desc->parts[k]);
         is_wanted[i] = true;
     }
     return is_whole || close_parts(&desc->allocator, is_wanted)
                ? FACET_OK
-               : fail_memory(error, "shading text", PART_COUNT * sizeof *parts);
+               : fail_memory(error, "shader library", PART_COUNT * sizeof *parts);
 }
 
 facet_result facet_shader_text(const facet_shader_desc *desc, unsigned char **bytes, size_t *size,
@@ -190,7 +190,7 @@ facet_result facet_shader_text(const facet_shader_desc *desc, unsigned char **by
     text t = {.allocator = desc->allocator};
     if (desc->version)
         text_addf(&t, "#version %s\n", desc->version);
-    text_add(&t, "/* The shading text of facet " FACET_VERSION ", under the Apache License 2.0. */\n");
+    text_add(&t, "/* The shader library of facet " FACET_VERSION ", under the Apache License 2.0. */\n");
     bool is_khronos = desc->names == FACET_SHADER_NAMES_KHRONOS;
     text_add(&t, (const char *)text_0);
     if (is_khronos)
@@ -202,7 +202,7 @@ facet_result facet_shader_text(const facet_shader_desc *desc, unsigned char **by
         text_add(&t, (const char *)khronos_end);
     if (t.has_failed) {
         text_destroy(&t);
-        return fail_memory(error, "shading text", t.length);
+        return fail_memory(error, "shader library", t.length);
     }
     *bytes = (unsigned char *)t.data;
     *size = t.length;

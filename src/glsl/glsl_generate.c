@@ -1,5 +1,5 @@
 /* glsl_generate.c - puts texts of shaders into a C header; runs when facet is built.
- * usage: glsl_generate OUTPUT SHADE_FOLDER       the shared shading text
+ * usage: glsl_generate OUTPUT SHADE_FOLDER       the shader library
  *        glsl_generate OUTPUT FOLDER NAME...     files of a folder, as the array `parts`
  *
  * OUTPUT gets the dialect of GLSL and, in the order of shade.h, the parts of the text as arrays of bytes: a string literal

@@ -108,7 +108,7 @@ static void test_sheen_golden_numbers(void **state)
     assert_true(worst < 2e-3);
 }
 
-/* The sampled integral of the shared text: another method, the same D and V. */
+/* The sampled integral of the shader library: another method, the same D and V. */
 static void test_sheen_is_that_of_the_shared_text(void **state)
 {
     (void)state;

@@ -23,7 +23,7 @@ typedef struct foam_plane_value {
  * what is hidden, it is as much of it to either side of where levels change, and no line is seen. */
 foam_plane_value foam_plane_read(const foam_plane *p, double u, double v, float texels);
 
-/* foam_lace() and inverse_normal() of the shared text. */
+/* foam_lace() and inverse_normal() of the shader library. */
 float wave_foam_lace(float share, float mean, float variance);
 float wave_inverse_normal(float u);
 

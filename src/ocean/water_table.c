@@ -1,4 +1,4 @@
-/* water_table.c - the table is filled with integrals of the shared text. */
+/* water_table.c - the table is filled with integrals of the shader library. */
 #include "ocean/water_table.h"
 
 #include "base/parallel.h"

@@ -1,4 +1,4 @@
-/* wave_place.c - what a place of the surface looks like, by the shared text. */
+/* wave_place.c - what a place of the surface looks like, by the shader library. */
 #include "ocean/foam_plane.h"
 
 #include "shade/shade.h"

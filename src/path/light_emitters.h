@@ -1,4 +1,4 @@
-/* light_emitters.h - the triangles that shine, as points are chosen on them. Holds shared shading text: include it last.
+/* light_emitters.h - the triangles that shine, as points are chosen on them.
  *
  * A light is a triangle of a lit geometry whose material emits. What has no light on it (KHR_materials_unlit, points,
  * lines, triangles without normals) emits as well, but is only met: a path that does so counts all of it, as

@@ -1,5 +1,5 @@
 /* light_environment.h - directions towards the light of an equirectangular picture, in proportion to what each of its
- * texels gives a surface. Holds shared shading text: include it last.
+ * texels gives a surface.
  *
  * The density is bilinear between the middles of texels, as radiance is (the mean of its three channels), and differs from
  * it only by how solid angle bends rows near the poles: it is above 0 wherever radiance is, and uniform where radiance

@@ -1,5 +1,5 @@
 /* light_tree.h - a choice among many lights by what each may give a point: a tree of their bounds, drawn from the root
- * down. Holds shared shading text: include it last.
+ * down.
  *
  * Conty Estevez and Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree Splitting", with eight children a
  * node, weighed together: up to eight lights are all compared with one another, and 100 000 are six steps down. Each

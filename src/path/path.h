@@ -1,5 +1,5 @@
 /* path.h - the state of one light path, its walk through the scene and its shadow rays. Names are those of pbrt (Pharr, Jakob and
- * Humphreys 2023, "Physically Based Rendering", 4th edition, chapters 13 and 14). Holds shared shading text: include it last. */
+ * Humphreys 2023, "Physically Based Rendering", 4th edition, chapters 13 and 14). */
 #ifndef PATH_PATH_H
 #define PATH_PATH_H
 

@@ -13,7 +13,7 @@
 _Static_assert(PIXEL_FILTER_BLACKMAN_HARRIS == (int)FACET_FILTER_BLACKMAN_HARRIS &&
                    PIXEL_FILTER_BOX == (int)FACET_FILTER_BOX &&
                    PIXEL_FILTER_MITCHELL == (int)FACET_FILTER_MITCHELL,
-               "the shared text numbers filters as the interface does");
+               "the shader library numbers filters as the interface does");
 
 enum { GRAIN = 4096 }; /* pixels: about 0.1 ms */
 

@@ -1,5 +1,5 @@
 /* path_lights.h - all that shines, for paths that aim at it and for paths that meet it: the environment, the sun,
- * punctual lights, emissive triangles. Holds shared shading text: include it last. */
+ * punctual lights, emissive triangles. */
 #ifndef PATH_LIGHTS_H
 #define PATH_LIGHTS_H
 

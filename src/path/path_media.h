@@ -1,5 +1,5 @@
 /* path_media.h - the participating media between surfaces: which of several nested dielectrics a path is in, what it absorbs, where
- * it scatters. Holds shared shading text: include it last. */
+ * it scatters. */
 #ifndef PATH_PATH_MEDIA_H
 #define PATH_PATH_MEDIA_H
 

@@ -1,6 +1,5 @@
 /* path_surface.h - the interface of a boundary that is no mesh's material, and of the medium below it: the path tracer calls these
  * functions wherever a ray hits a primitive of the boundary or travels through its medium. Water implements it (water/water_path.h).
- * Holds shared shading text: include it last.
  *
  * V: unit, towards where the path comes from; L: unit, where it goes on. All functions are thread-safe and only read `self`. */
 #ifndef PATH_SURFACE_H

@@ -1,5 +1,4 @@
-/* path_vertex.h - a hit as a vertex of a path: the surface, its lobes and tables, and the media on both its sides. Holds shared
- * shading text: include it last. */
+/* path_vertex.h - a hit as a vertex of a path: the surface, its lobes and tables, and the media on both its sides. */
 #ifndef PATH_PATH_VERTEX_H
 #define PATH_PATH_VERTEX_H
 

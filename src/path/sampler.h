@@ -1,6 +1,6 @@
 /* sampler.h - the random numbers of one sample of one pixel: pair after pair, each from an Owen-scrambled Sobol sequence
  * over the pixel's samples. Numbers depend on seed, pixel, sample and dimension alone, so a picture does not depend on
- * threads, tiles or where it was interrupted. Holds shared shading text: include it last.
+ * threads, tiles or where it was interrupted.
  *
  * Sequences in one order would put all samples of a pixel on lines through its dimensions; in orders shuffled at random,
  * pairs do not know of each other, and their product is as noisy as chance makes it, or more. So pairs that belong together,

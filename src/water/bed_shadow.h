@@ -1,6 +1,5 @@
 /* bed_shadow.h - the shadow of a model on the bed: what share of the light there it lets pass, of the sun's beam and of all other light
- * apart. Where layers of caustics are, these have the beam's shadow, as waves bend it; this is what holds beyond them. Holds shared
- * shading text: include it last. */
+ * apart. Where layers of caustics are, these have the beam's shadow, as waves bend it; this is what holds beyond them. */
 #ifndef WATER_BED_SHADOW_H
 #define WATER_BED_SHADOW_H
 

@@ -1,5 +1,5 @@
 /* caustic_plan.h - where a picture needs sunlight on the bed: layers around what of it is seen from nearest, as fine as pixels are, and no
- * finer than light is focused. Holds shared shading text: include it last. */
+ * finer than light is focused. */
 #ifndef WATER_CAUSTIC_PLAN_H
 #define WATER_CAUSTIC_PLAN_H
 

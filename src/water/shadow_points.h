@@ -1,6 +1,6 @@
 /* shadow_points.h - where rays go that find a model's shadow: over the share of a point of a grid, and over the sun's disc. They are the same for
  * all points of a grid, so that a straight edge's shadow depends on the distance from the edge alone: nothing of the grid shows, nor of
- * chance. Holds shared shading text: include it last. */
+ * chance. */
 #ifndef WATER_SHADOW_POINTS_H
 #define WATER_SHADOW_POINTS_H
 

@@ -1,4 +1,4 @@
-/* water_around.h - what a model sees around it: the sky, and the sea on average. Holds shared shading text: include it last. */
+/* water_around.h - what a model sees around it: the sky, and the sea on average. */
 #ifndef WATER_WATER_AROUND_H
 #define WATER_WATER_AROUND_H
 

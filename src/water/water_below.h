@@ -1,4 +1,4 @@
-/* water_below.h - what an eye in the water sees. Holds shared shading text: include it last. */
+/* water_below.h - what an eye in the water sees. */
 #ifndef WATER_WATER_BELOW_H
 #define WATER_WATER_BELOW_H
 

@@ -1,5 +1,5 @@
 /* water_caustics.h - sunlight that waves focus on the bed: rays of the sun through a regular grid of the surface, refracted, and laid
- * down where they meet the bed. Holds shared shading text: include it last. */
+ * down where they meet the bed. */
 #ifndef WATER_WATER_CAUSTICS_H
 #define WATER_WATER_CAUSTICS_H
 

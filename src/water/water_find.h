@@ -1,5 +1,4 @@
-/* water_find.h - what a place of the surface shows of a model in the sea, to an eye over the water and to one in it. Holds shared shading
- * text: include it last. */
+/* water_find.h - what a place of the surface shows of a model in the sea, to an eye over the water and to one in it. */
 #ifndef WATER_WATER_FIND_H
 #define WATER_WATER_FIND_H
 

@@ -1,6 +1,5 @@
 /* water_light.h - what lights a sea and does not move: the sky with its filtered light, means over microfacets, and images of the sky for
- * the GPU. A water_cache keeps it from image to image, so that frames from one place pay only for the waves. Holds shared shading text:
- * include it last. */
+ * the GPU. A water_cache keeps it from image to image, so that frames from one place pay only for the waves. */
 #ifndef WATER_WATER_LIGHT_H
 #define WATER_WATER_LIGHT_H
 

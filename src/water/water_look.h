@@ -1,5 +1,4 @@
-/* water_look.h - looks that are not physics: those of before (shade/water_before.h), and the steps from there to now. Holds shared
- * shading text: include it last. */
+/* water_look.h - looks that are not physics: those of before (shade/water_before.h), and the steps from there to now. */
 #ifndef WATER_WATER_LOOK_H
 #define WATER_WATER_LOOK_H
 

@@ -1,7 +1,6 @@
 /* water_mesh.h - the sea around an eye as triangles, for a path tracer. Vertices lie on rays from the point below the eye, about a pixel
  * apart where they are seen and farther to the sides and behind; out to beyond the horizon, falling away as the Earth does. Each
- * has the waves that are twice as wide as vertices are apart, and says what slopes are left (scene_primitive.water). Holds shared
- * shading text: include it last. */
+ * has the waves that are twice as wide as vertices are apart, and says what slopes are left (scene_primitive.water). */
 #ifndef WATER_WATER_MESH_H
 #define WATER_WATER_MESH_H
 

@@ -1,5 +1,5 @@
 /* water_model.h - a model that stands or floats in the sea: what rays of the sea's picture meet of it, lit by the sky, by what the sea
- * reflects, and by the sun where the model itself is not in between. Holds shared shading text: include it last. */
+ * reflects, and by the sun where the model itself is not in between. */
 #ifndef WATER_WATER_MODEL_H
 #define WATER_WATER_MODEL_H
 

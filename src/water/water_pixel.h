@@ -1,5 +1,5 @@
 /* water_pixel.h - what a pixel shows: the mean of its samples. Samples that meet one piece of water are shaded as one, with
- * the slopes that each of them sees, unless the quality is the best. Holds shared shading text: include it last. */
+ * the slopes that each of them sees, unless the quality is the best. */
 #ifndef WATER_WATER_PIXEL_H
 #define WATER_WATER_PIXEL_H
 

@@ -1,5 +1,4 @@
-/* water_place.h - a place of the surface: what one ray sees of it, or some that share a pixel. Holds shared shading text: include it
- * last. */
+/* water_place.h - a place of the surface: what one ray sees of it, or some that share a pixel. */
 #ifndef WATER_WATER_PLACE_H
 #define WATER_WATER_PLACE_H
 

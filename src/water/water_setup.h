@@ -1,4 +1,4 @@
-/* water_setup.h - all that is made for one picture of a sea before its rays are. Holds shared shading text: include it last. */
+/* water_setup.h - all that is made for one picture of a sea before its rays are. */
 #ifndef WATER_WATER_SETUP_H
 #define WATER_WATER_SETUP_H
 

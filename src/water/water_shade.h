@@ -1,4 +1,4 @@
-/* water_shade.h - light that comes from a place of the surface to an eye over the water. Holds shared shading text: include it last. */
+/* water_shade.h - light that comes from a place of the surface to an eye over the water. */
 #ifndef WATER_WATER_SHADE_H
 #define WATER_WATER_SHADE_H
 

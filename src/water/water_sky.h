@@ -2,7 +2,7 @@
  *
  * The sky is the atmosphere of ibl/sky_luts.h. Reflections look it up filtered (ibl/ibl.h) with its upper half mirrored below the
  * horizon: a lobe that dips below it finds there what it would find just above, and which share of light comes from other waves
- * in fact is the surface's matter. Holds shared shading text: include it last. */
+ * in fact is the surface's matter. */
 #ifndef WATER_WATER_SKY_H
 #define WATER_WATER_SKY_H
 

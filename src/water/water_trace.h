@@ -1,5 +1,4 @@
-/* water_trace.h - one sample of a picture: the nearest of sea, land, model and sky, and what is seen in them. Holds shared shading text:
- * include it last. */
+/* water_trace.h - one sample of a picture: the nearest of sea, land, model and sky, and what is seen in them. */
 #ifndef WATER_WATER_TRACE_H
 #define WATER_WATER_TRACE_H
 

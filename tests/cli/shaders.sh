@@ -20,7 +20,7 @@ expect 0 shaders --no-clobber -o facet.glsl
 [ "$(cat facet.glsl)" = mine ] || failed "--no-clobber wrote"
 
 expect 2 shaders radiosity
-says 'the shading text has no part "radiosity"'
+says 'the shader library has no part "radiosity"'
 expect 2 shaders --glsl 120
 expect 6 shaders -o /dev/null/folder.glsl
 [ ! -c /dev/full ] || expect 6 shaders -o /dev/full

@@ -65,7 +65,7 @@ if grep -q 'FACET_HAS_GL 1' "$build/generated/build_config.h"; then
         [ "$code" = 77 ] && grep -q 'there is no driver' "$prefix/why" || { cat "$prefix/why"; exit 1; }
     fi
 fi
-# The sources of the shared text stand alone as well.
+# The sources of the shader library stand alone as well.
 cc -std=c11 -I"$prefix/usr/include" "$sources/../../docs/examples/c/shade.c" -lm -o shade && ./shade
 printf '#include <facet/shade/shade.h>\nint main() { return facet::D_GGX(1.0f, 1.0f) > 0.0f ? 0 : 1; }\n' >shade.cc
 c++ -std=c++17 -I"$prefix/usr/include" shade.cc -o shade && ./shade

@@ -138,7 +138,7 @@ fi
 # shade/ includes nothing but itself.
 found=$(grep -nE '^#include' shade/*.h | grep -vE '^shade/shade\.h:' || true)
 if [ -n "$found" ]; then
-    echo "shared text must not include anything: $found"
+    echo "the shader library must not include anything: $found"
     status=1
 fi
 [ $status = 0 ] && echo "include arrows: all point downwards"

@@ -1,4 +1,4 @@
-/* cmd_shaders.c - facet shaders: the shading text as GLSL, for other programs. */
+/* cmd_shaders.c - facet shaders: the shader library as GLSL, for other programs. */
 #include "cli/shared/options.h"
 
 #include "cli/shared/command_line.h"

@@ -1,7 +1,7 @@
 /* gl_sea.h - a sea drawn by OpenGL: water/water_frame.h into a film.
  *
  * The surface is a mesh: a fan around the eye, whose nodes a pass of their own moves to where the waves are. Its fragments read the tiles of waves and
- * are shaded by the shared text, as the preview's places are. Samples of a pixel are pictures of their own. */
+ * are shaded by the shader library, as the preview's places are. Samples of a pixel are pictures of their own. */
 #ifndef GL_GL_SEA_H
 #define GL_GL_SEA_H
 

@@ -1,5 +1,5 @@
 /* sea_look.glsl - what a place of the sea looks like, physically and before: water_shade.c, water_below.c, water_look.c with the same
- * functions of the shared text. */
+ * functions of the shader library. */
 uniform highp sampler2D u_sea_means; /* means over facets: water_table.h */
 
 /* Where the water rests in the world, m. */
