@@ -1,4 +1,4 @@
-/* facet/render.h - rendering: by rasterized or ray-cast preview, path tracing, OpenGL, and as OpenGL 1 did. */
+/* facet/render.h - rendering: ray-cast preview, path tracing, OpenGL; shading as in glTF or OpenGL 1; exposure. */
 #ifndef FACET_RENDER_H
 #define FACET_RENDER_H
 

@@ -12,6 +12,9 @@ for file in bin/facet include/facet/facet.h include/facet/base.h include/facet/s
     share/fish/vendor_completions.d/facet.fish include/facet/shade/brdf.h share/doc/facet/cli.md share/doc/facet/bake.md; do
     [ -e "$prefix/usr/$file" ] || { echo "not installed: $file"; exit 1; }
 done
+for header in "$prefix"/usr/include/facet/*.h; do # each as it is installed
+    printf '#include <facet/%s>\n' "$(basename "$header")" | c++ -x c++ -std=c++17 -fsyntax-only -I"$prefix/usr/include" -
+done
 pc=$(dirname "$(find "$prefix/usr" -name facet.pc)")
 lib=$(dirname "$pc")
 export PKG_CONFIG_PATH="$pc"
