@@ -63,7 +63,7 @@ facet_result bake_complete(facet_bake_desc *desc, facet_error *error)
                                                     : MIN_LEVELS;
     desc->samples = desc->samples ? desc->samples : DEFAULT_SAMPLES;
     if (desc->samples > MAX_SAMPLES)
-        return fail(error, FACET_ERROR_ARGUMENT, "bake: %u samples per texel: at most %d are taken",
+        return fail(error, FACET_ERROR_ARGUMENT, "bake: %u samples per texel: at most %d were expected",
                     desc->samples, MAX_SAMPLES);
     return FACET_OK;
 }

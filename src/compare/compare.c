@@ -120,7 +120,7 @@ static facet_result compare_map_make(const compare_source *s, const facet_compar
     const uint32_t columns = desc->is_sheet ? 3 : 1;
     if (s->width > UINT32_MAX / columns)
         return fail(error, FACET_ERROR_LIMIT,
-                    "compare: three times %u pixels are too many beside one another", s->width);
+                    "compare: a sheet of three images of %u pixels side by side is too wide", s->width);
     image made;
     TRY(image_create(&desc->allocator, s->width * columns, s->height, 4, IMAGE_F32, &made, error));
     map_job job = {.source = s,
@@ -142,19 +142,19 @@ static facet_result check_desc(const facet_compare_desc *desc, facet_error *erro
         desc->difference > FACET_DIFFERENCE_HEAT_MAP || (int)desc->tonemap < 0 ||
         desc->tonemap > FACET_TONEMAP_HABLE)
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "compare: space, alpha, difference or tonemap is none there is");
+                    "compare: space, alpha, difference or tonemap is not a value of its enumeration");
     if (desc->pixels_per_degree != 0.0f &&
         !(desc->pixels_per_degree >= 1.0f && desc->pixels_per_degree <= 1000.0f))
-        return fail(error, FACET_ERROR_ARGUMENT, "compare: %g pixels per degree are not 1 to 1000",
+        return fail(error, FACET_ERROR_ARGUMENT, "compare: %g pixels per degree: 1 to 1000 were expected",
                     (double)desc->pixels_per_degree);
     if (desc->percentile != 0.0 && !(desc->percentile > 0.0 && desc->percentile <= 100.0))
-        return fail(error, FACET_ERROR_ARGUMENT, "compare: the percentile %g is not above 0 and at most 100",
-                    desc->percentile);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "compare: percentile %g: above 0 and at most 100 was expected", desc->percentile);
     if (!(desc->threshold >= 0.0f) || !(desc->gain >= 0.0f && desc->gain < INFINITY) ||
         !(desc->relative_epsilon >= 0.0f) || !(desc->peak >= 0.0f && desc->peak < INFINITY) ||
         !(fabsf(desc->exposure_ev) <= 100.0f))
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "compare: threshold, gain, relative_epsilon or peak is below 0 or no number, or "
+                    "compare: threshold, gain, relative_epsilon or peak is negative or not finite, or "
                     "exposure_ev beyond "
                     "100 stops");
     if (desc->space == FACET_COMPARE_SPACE_LINEAR && desc->tonemap != FACET_TONEMAP_NONE)

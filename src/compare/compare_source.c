@@ -30,8 +30,8 @@ static facet_result take_crop(const uint32_t crop[4], compare_source *s, facet_e
     if (crop[2] == 0 || crop[3] == 0 || crop[0] >= width || crop[1] >= height || crop[2] > width - crop[0] ||
         crop[3] > height - crop[1])
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "compare: the crop of %u x %u pixels at %u, %u is not inside of %u x %u", crop[2],
-                    crop[3], crop[0], crop[1], width, height);
+                    "compare: the crop of %u x %u pixels at %u, %u is not inside the image of %u x %u",
+                    crop[2], crop[3], crop[0], crop[1], width, height);
     s->x = crop[0];
     s->y = crop[1];
     s->width = crop[2];

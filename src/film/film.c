@@ -57,7 +57,8 @@ facet_result film_create(const facet_allocator *allocator, uint32_t width, uint3
 {
     *out = (film){0};
     if (width == 0 || height == 0)
-        return fail(error, FACET_ERROR_ARGUMENT, "film: %u x %u pixels are none", width, height);
+        return fail(error, FACET_ERROR_ARGUMENT, "film: %u x %u pixels: at least 1 x 1 were expected", width,
+                    height);
     film f = {.width = width, .height = height};
     size_t pixel_count = (size_t)width * height;
     for (size_t k = 0; k < LAYER_KIND_COUNT; k++) {

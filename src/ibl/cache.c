@@ -169,7 +169,7 @@ void cache_write(const facet_environment *environment, const char *part, uint64_
         memcpy(entry, &header, sizeof header);
         memcpy(entry + sizeof header, data, size);
         if (mkdir(environment->cache_folder, 0777) != 0 && errno != EEXIST)
-            fail(&error, FACET_ERROR_WRITE, "%s: cannot be made: %s", environment->cache_folder,
+            fail(&error, FACET_ERROR_WRITE, "%s: cannot be created: %s", environment->cache_folder,
                  strerror(errno));
         else
             is_written = file_replace(path, entry, sizeof header + size, &error) == FACET_OK;
@@ -177,7 +177,7 @@ void cache_write(const facet_environment *environment, const char *part, uint64_
     if (is_written)
         remove_oldest(environment);
     else
-        log_warning(&environment->log, "prepared light is not kept: %s", error.message);
+        log_warning(&environment->log, "the prepared light cannot be cached: %s", error.message);
     mem_free(path);
     mem_free(entry);
 }

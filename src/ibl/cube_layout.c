@@ -101,8 +101,8 @@ facet_result layout_read(const image *panorama, facet_layout layout, const char 
     if (layout == FACET_LAYOUT_AUTO)
         layout = layout_detect(panorama->width, panorama->height);
     if (layout == FACET_LAYOUT_AUTO || layout == FACET_LAYOUT_FACES)
-        return fail(error, FACET_ERROR_INVALID, "%s: %u x %u texels are no layout of a cube map", name,
-                    panorama->width, panorama->height);
+        return fail(error, FACET_ERROR_INVALID, "%s: %u x %u texels do not fit any layout of a cube map",
+                    name, panorama->width, panorama->height);
     TRY(layout_check(layout, panorama->width, panorama->height, name, error));
     const unfolding *u = find_unfolding(layout);
     facet_result result =
@@ -169,11 +169,11 @@ facet_result layout_write(const cube *c, facet_layout layout, uint32_t height,
     *out = (image){0};
     const unfolding *u = find_unfolding(layout);
     if (!u && layout != FACET_LAYOUT_EQUIRECTANGULAR && layout != FACET_LAYOUT_OCTAHEDRAL)
-        return fail(error, FACET_ERROR_ARGUMENT, "layout %d is not that of one image", (int)layout);
+        return fail(error, FACET_ERROR_ARGUMENT, "layout %d does not fit in one image", (int)layout);
     height = u ? u->rows * c->size : height ? height : 2 * c->size;
     uint32_t width = u ? u->columns * c->size : layout == FACET_LAYOUT_OCTAHEDRAL ? height : 2 * height;
     if (height > UINT32_MAX / 2)
-        return fail(error, FACET_ERROR_ARGUMENT, "an image of %u rows is not made", height);
+        return fail(error, FACET_ERROR_ARGUMENT, "an image of %u rows is not written", height);
     TRY(image_create(allocator, width, height, 4, IMAGE_F32, out, error));
     if (u) {
         write_faces(c, u, out);

@@ -468,8 +468,8 @@ static void what_does_not_fit(void **state)
         {FACET_LAYOUT_STRIP_HORIZONTAL, 6, 2, "a horizontal strip (6:1)"},
         {FACET_LAYOUT_STRIP_VERTICAL, 7, 42 + 1, "a vertical strip (1:6)"},
         {FACET_LAYOUT_OCTAHEDRAL, 6, 5, "an octahedral image (1:1)"},
-        {FACET_LAYOUT_AUTO, 5, 5, "no layout of a cube map"},
-        {FACET_LAYOUT_FACES, 6, 1, "no layout of a cube map"},
+        {FACET_LAYOUT_AUTO, 5, 5, "do not fit any layout of a cube map"},
+        {FACET_LAYOUT_FACES, 6, 1, "do not fit any layout of a cube map"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         image panorama;

@@ -588,7 +588,8 @@ static void other_ratios(void **state)
         {4, 3, FACET_LAYOUT_EQUIRECTANGULAR, FACET_OK, 1, "stretched over the sphere"},
         {4, 4, FACET_LAYOUT_CROSS_VERTICAL, FACET_ERROR_INVALID, 0,
          "4 x 4 texels are not a vertical cross (3:4)"},
-        {4, 3, FACET_LAYOUT_FACES, FACET_ERROR_ARGUMENT, 0, "six faces are six images, this is one"},
+        {4, 3, FACET_LAYOUT_FACES, FACET_ERROR_ARGUMENT, 0,
+         "the layout of six faces needs six images; this is one"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         image i = make_image(cases[k].width, cases[k].height, 2.0f);

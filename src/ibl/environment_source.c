@@ -342,7 +342,8 @@ static facet_result choose_layout(const facet_environment_desc *desc, image_envm
               : envmap == IMAGE_ENVMAP_LATLONG ? FACET_LAYOUT_EQUIRECTANGULAR
                                                : layout_detect(width, height); /* of a cube, too: 1:6 */
     if (*layout == FACET_LAYOUT_FACES)
-        return fail(error, FACET_ERROR_ARGUMENT, "%s: six faces are six images, this is one", name);
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: the layout of six faces needs six images; this is one",
+                    name);
     double ratio = width / (2.0 * height);
     if (*layout == FACET_LAYOUT_AUTO && fabs(ratio - 1.0) > 0.05)
         return fail(

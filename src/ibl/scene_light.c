@@ -338,7 +338,7 @@ facet_result facet_environment_create_from_scene(const facet_scene *scene, const
     desc = desc ? desc : &default_desc;
     uint32_t index = find_light(scene, pose);
     if (index == SCENE_NONE)
-        return fail(error, FACET_ERROR_ARGUMENT, "%s: the scene brings no light of its own", scene->source);
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: the scene has no image-based light", scene->source);
     const scene_image_light *light = &scene->image_lights[index];
     facet_environment *e = NULL;
     scene_cube c = {0};

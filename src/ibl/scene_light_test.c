@@ -485,7 +485,7 @@ static void test_which_light(void **state)
     facet_error error = {0};
     assert_int_equal(facet_environment_create_from_scene(&s->scene, &first, NULL, &e, &error),
                      FACET_ERROR_ARGUMENT);
-    assert_non_null(strstr(error.message, "brings no light"));
+    assert_non_null(strstr(error.message, "has no image-based light"));
     s->scene.default_scene = SCENE_NONE;
     s->scene.scene_count = 0;
     assert_false(facet_scene_has_environment(&s->scene, NULL));

@@ -28,28 +28,28 @@ static facet_result check(const facet_sky_desc *sky, uint32_t max_size, facet_er
     double degrees = (double)sky->sun_elevation_rad * 57.29577951308232;
     if (!is_within(sky->sun_elevation_rad, -right_angle, right_angle) || !isfinite(sky->sun_azimuth_rad))
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "sky: the sun is %g degrees above the horizon; -90 to 90 are", degrees);
+                    "sky: the sun is %g degrees above the horizon; -90 to 90 were expected", degrees);
     if (is_preetham && sky->sun_elevation_rad < 0.0f)
         return fail(error, FACET_ERROR_ARGUMENT,
                     "sky: the sun is %.4g degrees below the horizon; Preetham's formula has no twilight, the "
                     "atmosphere has",
                     -degrees);
     if (sky->turbidity != 0.0f && !is_within(sky->turbidity, least, max_turbidity))
-        return fail(error, FACET_ERROR_ARGUMENT, "sky: the turbidity is %g; %g to %g are possible",
+        return fail(error, FACET_ERROR_ARGUMENT, "sky: the turbidity is %g; %g to %g were expected",
                     (double)sky->turbidity, (double)least, (double)max_turbidity);
     for (int i = 0; i < 3; i++)
         if (!is_within(sky->ground_albedo[i], 0.0f, 1.0f))
             return fail(error, FACET_ERROR_ARGUMENT,
-                        "sky: the albedo of the ground is %g; 0 to 1 are possible",
+                        "sky: the albedo of the ground is %g; 0 to 1 were expected",
                         (double)sky->ground_albedo[i]);
     if (!is_within(sky->altitude_m, 0.0f, max_altitude_m))
-        return fail(error, FACET_ERROR_ARGUMENT, "sky: the altitude is %g m; 0 to %g are possible",
+        return fail(error, FACET_ERROR_ARGUMENT, "sky: the altitude is %g m; 0 to %g were expected",
                     (double)sky->altitude_m, (double)max_altitude_m);
     if (!(sky->illuminance_lux >= 0.0f) || !isfinite(sky->illuminance_lux))
-        return fail(error, FACET_ERROR_ARGUMENT, "sky: the illuminance is %g lx; 0 or more is possible",
+        return fail(error, FACET_ERROR_ARGUMENT, "sky: the illuminance is %g lx; 0 or more was expected",
                     (double)sky->illuminance_lux);
     if (sky->height == 1 || sky->height > max_size / 2)
-        return fail(error, FACET_ERROR_ARGUMENT, "sky: a height of %u texels; 2 to %u are possible",
+        return fail(error, FACET_ERROR_ARGUMENT, "sky: a height of %u texels; 2 to %u were expected",
                     (unsigned)sky->height, (unsigned)(max_size / 2));
     return FACET_OK;
 }

@@ -194,7 +194,7 @@ static facet_result find_parts(const unsigned char *global, size_t size, uint64_
     const uint64_t sizes[3] = {load_u32_le(global + 4), load_u32_le(global + 8), load_u32_le(global + 12)};
     const size_t first = ETC1S_GLOBAL_HEADER + (size_t)image_count * ETC1S_IMAGE_RECORD;
     if (sizes[0] + sizes[1] + sizes[2] > size - first)
-        return fail_global(error, name, "its parts are larger than all of it");
+        return fail_global(error, name, "its parts are larger than the whole");
     const unsigned char *bytes = global + first;
     *out = (parts){.ends = bits_open(bytes, (size_t)sizes[0]),
                    .selectors = bits_open(bytes + sizes[0], (size_t)sizes[1]),

@@ -215,7 +215,7 @@ static facet_result find_codec(const void *bytes, size_t size, const char *name,
                     name);
     if (!codecs[*id].decode)
         return fail(error, FACET_ERROR_UNSUPPORTED,
-                    "%s: this build of facet does not read %s files: %s was not there when it was made", name,
+                    "%s: this build of facet does not read %s files: %s was missing when it was built", name,
                     codecs[*id].name, codecs[*id].library);
     return FACET_OK;
 }
@@ -254,7 +254,7 @@ facet_result image_decode(const void *bytes, size_t size, const char *name, cons
     *out = (image){0};
     image_decode_desc d = desc ? *desc : (image_decode_desc){0};
     if (d.channel_count != 0 && d.channel_count != 3 && d.channel_count != 4)
-        return fail(error, FACET_ERROR_ARGUMENT, "%s: %u channels were asked for; 0, 3 and 4 can be had",
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: %u channels were asked for; 0, 3 or 4 was expected",
                     name, d.channel_count);
     if (d.max_size == 0)
         d.max_size = CODEC_MAX_SIZE;
@@ -285,8 +285,9 @@ facet_result image_encode(const image *i, image_codec codec_id, const image_enco
     if (d.compression == 0)
         d.compression = 4;
     if (d.quality > 100 || d.compression > 9)
-        return fail(error, FACET_ERROR_ARGUMENT, "%s: quality %u (1 to 100) or compression %u (1 to 9)",
-                    codecs[codec_id].name, d.quality, d.compression);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "%s: quality %u is not 1 to 100 or compression %u not 1 to 9", codecs[codec_id].name,
+                    d.quality, d.compression);
     if (!codecs[codec_id].encode)
         return fail(error, FACET_ERROR_UNSUPPORTED, "this build of facet does not write %s files this way",
                     codecs[codec_id].name);
@@ -303,7 +304,7 @@ image_envmap image_get_envmap(const void *bytes, size_t size)
 static facet_result fail_without_openexr(const char *what, facet_error *error)
 {
     return fail(error, FACET_ERROR_UNSUPPORTED,
-                "this build of facet does not %s %s files: %s was not there when it was made", what,
+                "this build of facet does not %s %s files: %s was missing when it was built", what,
                 codecs[IMAGE_CODEC_EXR].name, codecs[IMAGE_CODEC_EXR].library);
 }
 

@@ -247,7 +247,8 @@ static facet_result list_channels(const image_layer *layers, uint32_t layer_coun
         const size_t length = strlen(channels[c].name);
         if (length == 0 || length >= EXR_NAME)
             return fail(error, FACET_ERROR_ARGUMENT,
-                        "OpenEXR: a channel's name has %zu bytes, 1 to %d can be", length, EXR_NAME - 1);
+                        "OpenEXR: a channel's name has %zu bytes; 1 to %d were expected", length,
+                        EXR_NAME - 1);
         if (c > 0 && strcmp(channels[c].name, channels[c - 1].name) == 0)
             return fail(error, FACET_ERROR_ARGUMENT, "OpenEXR: two channels are named %s", channels[c].name);
     }
@@ -299,7 +300,7 @@ static facet_result check_magic(const void *bytes, size_t size, const char *name
 {
     return image_codec_detect(bytes, size) == IMAGE_CODEC_EXR
                ? FACET_OK
-               : fail(error, FACET_ERROR_INVALID, "%s: is no OpenEXR file", name);
+               : fail(error, FACET_ERROR_INVALID, "%s: an OpenEXR file was expected", name);
 }
 
 static facet_result read_all(const void *bytes, size_t size, const char *name,
@@ -336,8 +337,8 @@ facet_result image_read_exr_channels(const void *bytes, size_t size, const char 
                                  .row_stride = channels[c].row_stride_bytes};
     facet_result result = exr_check(bytes, size, name, INT32_MAX, named, channel_count, &info, &s, error);
     if (result == FACET_OK && (s.data_width != width || s.data_height != height))
-        result = fail(error, FACET_ERROR_INVALID, "%s: OpenEXR: %u x %u texels are not %u x %u", name,
-                      s.data_width, s.data_height, width, height);
+        result = fail(error, FACET_ERROR_INVALID, "%s: OpenEXR: the image has %u x %u texels, not %u x %u",
+                      name, s.data_width, s.data_height, width, height);
     if (result == FACET_OK)
         result = read_all(bytes, size, name, allocator, named, &info, &s, error);
     mem_free(named);

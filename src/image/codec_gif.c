@@ -131,7 +131,7 @@ static facet_result parse_header(const unsigned char *bytes, size_t size, const 
     h->height = h->height > bottom ? h->height : bottom;
     facet_result result = codec_check_size(name, h->width, h->height, max_size, error);
     if (result == FACET_OK && (uint64_t)h->width * h->height / MAX_TEXELS_PER_BYTE > size)
-        return fail(error, FACET_ERROR_INVALID, "%s: GIF: %zu bytes cannot be %u x %u texels", name, size,
+        return fail(error, FACET_ERROR_INVALID, "%s: GIF: %zu bytes cannot hold %u x %u texels", name, size,
                     h->width, h->height);
     return result;
 }

@@ -339,7 +339,7 @@ static facet_result find_scans(hdr_header *h, const char *name, size_t *offsets,
         p = is_coded(h, p) ? skip_coded(h, p, end) : skip_flat(h, p, end);
         if (!p)
             return fail(error, FACET_ERROR_INVALID,
-                        "%s: scanline %u of %u: is cut off or does not code %u texels", name, s,
+                        "%s: scanline %u of %u: is cut off or does not encode %u texels", name, s,
                         h->scan_count, h->scan_length);
     }
     return FACET_OK;

@@ -475,7 +475,7 @@ static void gif_sizes_are_checked(void **state)
     image i;
     facet_error error;
     assert_int_equal(image_decode(m.bytes, m.size, "large", NULL, &i, &error), FACET_ERROR_INVALID);
-    assert_non_null(strstr(error.message, "cannot be 16000 x 16000 texels"));
+    assert_non_null(strstr(error.message, "cannot hold 16000 x 16000 texels"));
 }
 
 /* ---- DDS ---- */

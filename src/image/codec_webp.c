@@ -55,8 +55,8 @@ facet_result webp_decode(const unsigned char *bytes, size_t size, const char *na
 {
     WebPDecoderConfig config;
     if (!WebPInitDecoderConfig(&config))
-        return fail(error, FACET_ERROR_SYSTEM, "%s: libwebp has another version than facet was built with",
-                    name);
+        return fail(error, FACET_ERROR_SYSTEM,
+                    "%s: libwebp has a different version from the one that facet was built with", name);
     image made = {0};
     TRY(read_header(bytes, size, name, &config.input, error));
     TRY(codec_check_size(name, (uint64_t)config.input.width, (uint64_t)config.input.height, desc->max_size,
@@ -115,7 +115,8 @@ facet_result webp_encode(const image *i, const image_encode_desc *desc, unsigned
     WebPConfig config;
     WebPPicture picture;
     if (!WebPConfigPreset(&config, WEBP_PRESET_DEFAULT, (float)desc->quality) || !WebPPictureInit(&picture))
-        return fail(error, FACET_ERROR_SYSTEM, "libwebp has another version than facet was built with");
+        return fail(error, FACET_ERROR_SYSTEM,
+                    "libwebp has a different version from the one that facet was built with");
     if (is_lossless)
         WebPConfigLosslessPreset(&config, 4);
     config.exact = is_lossless; /* colors under zero alpha are kept */

@@ -116,7 +116,7 @@ static void what_is_not_there(void **state)
     expect_refusal(result, &error, "p: OpenEXR: channel state.high is missing");
     channel.name = "A";
     result = image_read_exr_channels(bytes, size, "p", NULL, WIDTH, HEIGHT + 1, &channel, 1, &error);
-    expect_refusal(result, &error, "p: OpenEXR: 37 x 21 texels are not 37 x 22");
+    expect_refusal(result, &error, "p: OpenEXR: the image has 37 x 21 texels, not 37 x 22");
     char text[3];
     result = image_read_exr_text(bytes, size, "p", "third", text, sizeof text, &error);
     expect_refusal(result, &error, "p: OpenEXR: the text third is missing");
@@ -130,9 +130,9 @@ static void what_is_not_there(void **state)
     expect_refusal(result, &error, "p: OpenEXR: channel A does not hold floats");
     mem_free(bytes);
     result = image_read_exr_channels("GIF89a, and more", 16, "p", NULL, WIDTH, HEIGHT, &channel, 1, &error);
-    expect_refusal(result, &error, "p: is no OpenEXR file");
+    expect_refusal(result, &error, "p: an OpenEXR file was expected");
     result = image_read_exr_text("", 0, "p", "first", text, sizeof text, &error);
-    expect_refusal(result, &error, "p: is no OpenEXR file");
+    expect_refusal(result, &error, "p: an OpenEXR file was expected");
 }
 
 /* Part of a file is none; changed bytes do no harm. */

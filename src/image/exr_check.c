@@ -114,7 +114,7 @@ static facet_result check_header(cursor *c, const char *name, bool *is_empty, fa
             return fail(error, FACET_ERROR_INVALID, "%s: OpenEXR: attribute %s: %zu bytes, the file has %zu",
                         name, attribute, size, (size_t)(c->end - c->next));
         if (!is_right_size(type, c->next, size))
-            return fail(error, FACET_ERROR_INVALID, "%s: OpenEXR: attribute %s: %zu bytes are no %s", name,
+            return fail(error, FACET_ERROR_INVALID, "%s: OpenEXR: attribute %s: %zu bytes are not a %s", name,
                         attribute, size, type);
         for (unsigned k = 0; k < 4; k++)
             found |= (unsigned)(strcmp(attribute, needed[k]) == 0) << k;
@@ -180,8 +180,8 @@ static facet_result check_sizes(const exr_info *info, size_t size, const char *n
                     name, (unsigned long long)chunk_count);
     const uint64_t samples = data_width * data_height * info->texel_size;
     if (!info->is_dwa && samples / 1376 > size)
-        return fail(error, FACET_ERROR_INVALID, "%s: OpenEXR: %zu bytes cannot be %llu of samples", name,
-                    size, (unsigned long long)samples);
+        return fail(error, FACET_ERROR_INVALID, "%s: OpenEXR: %zu bytes cannot hold %llu bytes of samples",
+                    name, size, (unsigned long long)samples);
     if (info->is_tiled && (info->tile_width > CODEC_MAX_SIZE || info->tile_height > CODEC_MAX_SIZE))
         return fail(error, FACET_ERROR_LIMIT,
                     "%s: OpenEXR: tiles of %u x %u texels, more than %d along an edge", name,

@@ -374,7 +374,7 @@ facet_result fill_info(const unsigned char *bytes, size_t size, const exr_channe
     out->chunk_rows = rows_of(compression);
     if (out->is_tiled) {
         if (!header.hasTileDescription())
-            return say(message, FACET_ERROR_INVALID, "tiles is missing");
+            return say(message, FACET_ERROR_INVALID, "the tiles attribute is missing");
         out->tile_width = header.tileDescription().xSize;
         out->tile_height = out->chunk_rows = header.tileDescription().ySize;
     }

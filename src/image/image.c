@@ -22,8 +22,8 @@ facet_result image_create(const facet_allocator *allocator, uint32_t width, uint
     *out = (image){0};
     if (width == 0 || height == 0 || channel_count == 0 || channel_count > 4)
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "image: %u x %u texels of %u channels are not 1 or more texels of 1 to 4 channels", width,
-                    height, channel_count);
+                    "image: %u x %u texels of %u channels: at least 1 x 1 of 1 to 4 channels were expected",
+                    width, height, channel_count);
     image i = {.width = width, .height = height, .channel_count = channel_count, .type = type};
     i.pixels = mem_alloc(allocator, height, image_row_size(&i)); /* a row has less than 2^36 bytes */
     if (!i.pixels)

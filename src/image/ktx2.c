@@ -141,11 +141,11 @@ static facet_result read_format(span file, ktx2 *k, facet_error *error)
     bool is_srgb, is_missing;
     k->format = ktx2_find_format(number, &is_srgb, &is_missing);
     if (!k->format)
-        return fail(error, FACET_ERROR_UNSUPPORTED, "%s: KTX2: vkFormat %u is none that facet reads", k->name,
+        return fail(error, FACET_ERROR_UNSUPPORTED, "%s: KTX2: vkFormat %u is not supported", k->name,
                     number);
     if (is_missing)
         return fail(error, FACET_ERROR_UNSUPPORTED,
-                    "%s: this build of facet does not read %s: libastcenc was not there when it was made",
+                    "%s: this build of facet does not read %s: libastcenc was missing when it was built",
                     k->name, k->format->name);
     if (k->scheme == KTX2_BASISLZ)
         return fail_ktx2(error, k->name, "supercompressionScheme: BasisLZ was expected with vkFormat 0 only");

@@ -260,7 +260,7 @@ static facet_result check(const ktx2_write_desc *d, facet_error *error)
     const uint32_t width = d->images[0].width, height = d->images[0].height;
     const uint32_t larger = width > height ? width : height;
     if ((unsigned)d->format > FACET_TEXEL_FORMAT_R32F)
-        return fail(error, FACET_ERROR_ARGUMENT, "KTX2: %u is no facet_texel_format", (unsigned)d->format);
+        return fail(error, FACET_ERROR_ARGUMENT, "KTX2: %u is not a facet_texel_format", (unsigned)d->format);
     if (width == 0 || height == 0 || (d->face_count != 1 && d->face_count != 6) ||
         (d->face_count == 6 && width != height))
         return fail(error, FACET_ERROR_ARGUMENT,
@@ -281,7 +281,7 @@ static facet_result check(const ktx2_write_desc *d, facet_error *error)
                         ktx2_level_edge(width, l), ktx2_level_edge(height, l));
     }
     if (d->zstd_level > MAX_ZSTD_LEVEL)
-        return fail(error, FACET_ERROR_ARGUMENT, "KTX2: Zstandard's level %u: 1 to %d can be had",
+        return fail(error, FACET_ERROR_ARGUMENT, "KTX2: Zstandard level %u: 1 to %d were expected",
                     d->zstd_level, MAX_ZSTD_LEVEL);
 #ifndef HAVE_ZSTD
     if (d->zstd_level)

@@ -179,7 +179,7 @@ void primaries_convert(image *i, const primaries *p, const image_decode_desc *de
     if (!primaries_to_rec709(p, matrix)) {
         image_note_set(
             desc->note, FACET_LOG_LEVEL_WARNING,
-            "its primaries make no color space (x, y of red %g, %g, green %g, %g, blue %g, %g, white "
+            "its primaries do not form a color space (x, y of red %g, %g, green %g, %g, blue %g, %g, white "
             "%g, %g): colors are taken as linear Rec.709",
             p->xy[0][0], p->xy[0][1], p->xy[1][0], p->xy[1][1], p->xy[2][0], p->xy[2][1], p->xy[3][0],
             p->xy[3][1]);

@@ -12,7 +12,7 @@ typedef struct primaries {
 /* The matrix from linear RGB of these primaries to linear Rec.709: to XYZ (SMPTE RP 177), white adapted to D65 by
  * Bradford's transform (as ICC v4 and OpenColorIO's configurations for ACES have it), to Rec.709. XYZ themselves, which
  * is what red (1, 0), green (0, 1), blue (0, 0) with the white of equal energy stand for, are not adapted: their white is
- * a unit, not a light. False: they make no color space (not finite, on one line, white outside). */
+ * a unit, not a light. False: they do not form a color space (not finite, on one line, white outside). */
 bool primaries_to_rec709(const primaries *p, double matrix[3][3]);
 
 /* Converts the first three channels of an F32 image in place, unless the primaries are those of Rec.709, and sets

@@ -1,4 +1,4 @@
-/* primaries_test.c - matrices beside those that others publish; primaries that make no color space. */
+/* primaries_test.c - matrices beside those that others publish; primaries that do not form a color space. */
 #include "image/image_test.h"
 
 #include <math.h>
@@ -113,7 +113,7 @@ static void what_is_no_space_is_a_warning(void **state)
         primaries_convert(&i, &bad[k], &(image_decode_desc){.note = &note, .thread_count = 1});
         assert_memory_equal(i.pixels, texels, sizeof texels);
         assert_int_equal(note.level, FACET_LOG_LEVEL_WARNING);
-        assert_non_null(strstr(note.text, "no color space"));
+        assert_non_null(strstr(note.text, "do not form a color space"));
         image_destroy(&i);
     }
     float texels[4][3] = {{1, 2, 3}};
