@@ -21,7 +21,6 @@
 #include "gl/sea/gl_sea.h"
 #include "median.h"
 #include "ocean/sea.h"
-#include "ocean/sea_preset.h"
 #include "water/water_frame.h"
 
 enum { MOST_FRAMES = 1000, UNTIMED_FRAMES = 2, LOOKS = 2 };

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 #include "base/clock.h"
-#include "ocean/sea_preset.h"
+#include "ocean/sea.h"
 #include "ocean/waves.h"
 
 enum { REPEATS = 20, CALLS = 20000 };

@@ -8,9 +8,6 @@
 #include "base/parallel.h"
 #include "base/result.h"
 #include "ocean/sea.h"
-#include "ocean/sea_maps.h"
-#include "ocean/sea_mesh.h"
-#include "ocean/sea_preset.h"
 #include "film/meter.h"
 
 /* ---- seas ---- */

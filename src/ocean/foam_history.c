@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
-#include "ocean/foam_pattern.h"
+#include "ocean/foam_plane.h"
 #include "ocean/wave_amplitudes.h"
 #include "ocean/wave_transform.h"
 

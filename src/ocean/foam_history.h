@@ -6,7 +6,7 @@
 #include "ocean/foam_plane.h"
 #include "ocean/waves.h"
 
-enum { FOAM_CELLS, FOAM_CLOUDS, FOAM_PATTERNS }; /* foam_pattern.h */
+enum { FOAM_CELLS, FOAM_CLOUDS, FOAM_PATTERNS }; /* foam_plane.h */
 
 typedef struct foam_chances foam_chances;
 typedef struct foam_pair foam_pair;

@@ -1,4 +1,4 @@
-/* Tests of foam_pattern.h: normal distributions whatever the size and at all scales, the same for all threads, without seams. */
+/* Tests of foam_plane.h: normal distributions whatever the size and at all scales, the same for all threads, without seams. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "tests/support/support.h"
-#include "ocean/foam_pattern.h"
+#include "ocean/foam_plane.h"
 
 enum { SIZE = 128 };
 

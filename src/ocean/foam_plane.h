@@ -27,4 +27,11 @@ foam_plane_value foam_plane_read(const foam_plane *p, double u, double v, float 
 float wave_foam_lace(float share, float mean, float variance);
 float wave_inverse_normal(float u);
 
+/* Highest on borders of cells of many sizes and lowest in their middles: holes open in the middles, borders get thin and break last. A cell
+ * is some FOAM_CELL_SAMPLES wide. */
+enum { FOAM_CELL_SAMPLES = 16 };
+void foam_pattern_cells(foam_plane *p, uint32_t thread_count);
+/* Clouds of all sizes from a quarter of the plane down. */
+void foam_pattern_clouds(foam_plane *p, uint32_t thread_count);
+
 #endif

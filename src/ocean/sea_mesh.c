@@ -1,5 +1,5 @@
-/* sea_mesh.c - see sea_mesh.h. */
-#include "ocean/sea_mesh.h"
+/* sea_mesh.c - the surface and its bed as a mesh: see sea.h. */
+#include "ocean/sea.h"
 
 #include <math.h>
 #include <string.h>

@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "tests/support/support.h"
-#include "ocean/sea_preset.h"
+#include "ocean/sea.h"
 #include "ocean/sea_state.h"
 
 static const double TWO_PI = 6.28318530717958647693;

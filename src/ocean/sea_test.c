@@ -9,7 +9,6 @@
 
 #include "tests/support/support.h"
 #include "ocean/sea.h"
-#include "ocean/sea_preset.h"
 
 static void presets_can_be_made(void **state)
 {

@@ -1,4 +1,4 @@
-/* Tests of slope_filter.c and foam_rule.c: what is read of waves and what is said to be hidden is all there is; foam covers what
+/* Tests of slope_filter.c and foam_rule_create(): what is read of waves and what is said to be hidden is all there is; foam covers what
  * it should at every footprint. */
 #include <math.h>
 #include <setjmp.h>

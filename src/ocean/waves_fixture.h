@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "ocean/sea_preset.h"
+#include "ocean/sea.h"
 #include "ocean/waves.h"
 #include "tests/support/support.h"
 

@@ -8,6 +8,13 @@
 
 #include <math.h>
 
+#include "ocean/wave_patches.h"
+#include "ocean/foam_plane.h"
+#include "ocean/waves.h"
+#include "ocean/wave_amplitudes.h"
+
+#include "shade/shade.h"
+
 /* Half of a texel: displacement, height and one slope; or the other slope and the derivatives. */
 typedef float float4 __attribute__((vector_size(16), may_alias));
 
@@ -332,5 +339,105 @@ wave_bounds waves_bounds(const waves *w, float footprint_m)
     for (uint32_t i = 0; i < w->tile_count; i++)
         if (read_at(&r, &w->tiles[i], 0.0, 0.0, footprint_m))
             add_bounds(&sum, &w->tiles[i].bounds[r.level], w->tiles[i].is_patched ? 1.7320508f : 1.0f);
+    return sum;
+}
+
+/* ---- patches ---- */
+
+uint32_t wave_patches_at(const waves *w, uint32_t tile, double x, double z, wave_patch out[WAVES_MAX_PATCHES])
+{
+    const wave_tile *t = &w->tiles[tile];
+    if (!t->is_patched) {
+        out[0] = (wave_patch){1.0f, 0, 0};
+        return 1;
+    }
+    wave_rhombus at = wave_rhombus_at(t, x, z);
+    vec3 weights = wave_patch_weights(vec2(at.a, at.b));
+    int64_t upper = at.a + at.b > 1.0f; /* of the two triangles of a rhombus */
+    int64_t corners[WAVES_MAX_PATCHES][2] = {
+        {at.i + upper, at.j + upper}, {at.i, at.j + 1}, {at.i + 1, at.j}};
+    uint32_t count = 0;
+    for (int c = 0; c < WAVES_MAX_PATCHES; c++) {
+        if (weights[c] <= 0.0f)
+            continue;
+        uint64_t hash = wave_patch_hash(w->seed + tile, corners[c][0], corners[c][1]);
+        out[count++] = (wave_patch){weights[c], (uint32_t)hash & (t->size - 1u),
+                                    (uint32_t)(hash >> 32) & (t->size - 1u)};
+    }
+    return count;
+}
+
+/* ---- the shape of the surface ---- */
+
+wave_shape wave_shape_of(const wave_point *p)
+{
+    vec3 D = vec3(p->Dxx, p->Dzz, p->Dxz);
+    vec3 N = wave_normal(vec2(p->slope[0], p->slope[1]), D);
+    return (wave_shape){{N[0], N[1], N[2]}, wave_jacobian(D), -(p->Dxx + p->Dzz)};
+}
+
+float foam_coverage(const foam_rule *r, float mean, float variance, float threshold)
+{
+    (void)r;
+    return threshold < INFINITY ? foam_share(mean, variance, threshold) : 0.0f;
+}
+
+float wave_foam_lace(float share, float mean, float variance)
+{
+    return foam_lace(share, mean, variance);
+}
+
+float wave_inverse_normal(float u)
+{
+    return inverse_normal(u);
+}
+
+/* ---- velocity ---- */
+
+static const double FARTHEST = 0x1p40; /* m */
+
+enum { MAX_REACH = 1 << (WAVES_MAX_LEVELS - 2) };
+
+/* e^(i n phase), n from 0 to reach. */
+static void powers_of(double phase, int32_t reach, double out[][2])
+{
+    for (int32_t n = 0; n <= reach; n++) {
+        out[n][0] = cos(n * phase);
+        out[n][1] = sin(n * phase);
+    }
+}
+
+/* Twice the real part of the sum over half of the plane; (u, v): the place in lengths of the tile. */
+static double tile_velocity(const wave_amplitudes *a, double u, double v)
+{
+    double x[MAX_REACH + 1][2], z[MAX_REACH + 1][2], sum = 0.0;
+    powers_of(6.28318530717958647693 * (u - floor(u)), a->reach, x);
+    powers_of(6.28318530717958647693 * (v - floor(v)), a->reach, z);
+    for (size_t i = 0; i < a->count; i++) {
+        const wave_mode *m = &a->modes[i];
+        const double *ex = x[m->n_x < 0 ? -m->n_x : m->n_x], *ez = z[m->n_z];
+        double sx = m->n_x < 0 ? -ex[1] : ex[1];
+        double c = ex[0] * ez[0] - sx * ez[1], s = ex[0] * ez[1] + sx * ez[0];
+        sum += (double)a->rate[i][0] * c - (double)a->rate[i][1] * s;
+    }
+    return 2.0 * sum;
+}
+
+double waves_velocity(const waves *w, double x, double z)
+{
+    double sum = 0.0;
+    if (!(fabs(x) < FARTHEST && fabs(z) < FARTHEST))
+        x = z = 0.0;
+    for (uint32_t i = 0; i < w->tile_count; i++) {
+        const wave_tile *t = &w->tiles[i];
+        double u = (x * t->cos_per_m + z * t->sin_per_m) / t->size;
+        double v = (z * t->cos_per_m - x * t->sin_per_m) / t->size;
+        wave_patch patches[WAVES_MAX_PATCHES];
+        uint32_t patch_count = wave_patches_at(w, i, x, z, patches);
+        for (uint32_t p = 0; p < patch_count; p++)
+            sum += (double)patches[p].weight * tile_velocity(w->amplitudes[i],
+                                                             u + (double)patches[p].u / t->size,
+                                                             v + (double)patches[p].v / t->size);
+    }
     return sum;
 }

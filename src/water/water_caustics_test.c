@@ -8,7 +8,7 @@
 #include "tests/support/support.h"
 #include "ocean/sea.h"
 #include "water/water_caustics.h"
-#include "water/water_pixel.h"
+#include "water/water_trace.h"
 
 static const float X_AXIS[2] = {1.0f, 0.0f};
 

@@ -2,7 +2,7 @@
 #ifndef WATER_WATER_FIND_H
 #define WATER_WATER_FIND_H
 
-#include "water/water_below.h"
+#include "water/water_shade.h"
 
 /* footprint: of a sample, over that of its pixel; random: which facets are looked into. */
 water_findings water_find(const water_setup *s, const water_place *place, float footprint, uint32_t random);

@@ -10,7 +10,7 @@
 #include <cmocka.h>
 #include <math.h>
 
-#include "ocean/sea_preset.h"
+#include "ocean/sea.h"
 #include "water/water_render.h"
 
 /* A picture to be: what tests change before they draw it. */

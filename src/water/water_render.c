@@ -12,7 +12,7 @@
 #include "draw/camera_rays.h"
 #include "film/meter.h"
 
-#include "water/water_pixel.h"
+#include "water/water_trace.h"
 
 enum { TILE = 32 };
 

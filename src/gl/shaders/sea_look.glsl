@@ -1,4 +1,4 @@
-/* sea_look.glsl - what a place of the sea looks like, physically and before: water_shade.c, water_below.c, water_look.c with the same
+/* sea_look.glsl - what a place of the sea looks like, physically and in the legacy style: water_shade.c with the same
  * functions of the shader library. */
 uniform highp sampler2D u_sea_means; /* means over facets: water_table.h */
 
@@ -107,7 +107,7 @@ vec3 sea_mirrored_below(SeaPlace p, vec3 m)
     return sea_seen_through_water(vec3(p.at.x, min(p.at.y, 0.0), p.at.z), mirrored, p.width, water_mirrored_spread(p.point.covariance));
 }
 
-/* What the facets show to it: facets_light of water_below.c. */
+/* What the facets show to it: facets_light of water_shade.c. */
 struct SeaMicrofacets
 {
     vec3 window;

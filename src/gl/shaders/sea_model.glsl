@@ -185,7 +185,7 @@ vec4 sea_model_reflected(vec3 P, vec3 V, WaterPoint point, Water w, uint seed)
 }
 
 #ifdef IS_BELOW
-/* water_findings_below of water_below.h; water: what the facets mirror of it. */
+/* water_findings_below of water_shade.h; water: what the facets mirror of it. */
 struct SeaFound
 {
     float covered;
