@@ -86,7 +86,8 @@ void water_model_destroy(water_model *m)
 /* ---- rays ---- */
 
 /* Slabs; a ray within a plane of them is neither in nor out, which keeps it (0 / 0 compares false). */
-bool water_model_may_meet(const water_model *m, const double P[3], vec3 d, double far_m)
+/* Whether a ray from P along d comes near the model: within its bounds. Much faster than what is asked along rays. */
+static bool may_meet(const water_model *m, const double P[3], vec3 d, double far_m)
 {
     if (!m->is_there)
         return false;
@@ -126,7 +127,7 @@ static bool find(const water_model *m, double length, uint32_t random, model_hit
 bool water_model_find(const water_model *m, const double P[3], vec3 d, double far_m, uint32_t random,
                       model_hit *hit)
 {
-    if (!water_model_may_meet(m, P, d, far_m))
+    if (!may_meet(m, P, d, far_m))
         return false;
     hit->ray = ray_from(P, d, far_m);
     return find(m, 1.0, random, hit);
@@ -146,7 +147,7 @@ bool water_model_find_seen(const water_model *m, float x, float y, float footpri
 
 float water_model_opening(const water_model *m, const double P[3], vec3 d, double far_m)
 {
-    if (!water_model_may_meet(m, P, d, far_m))
+    if (!may_meet(m, P, d, far_m))
         return 1.0f;
     shading_ray ray = ray_from(P, d, far_m);
     return ray_trace_transmittance(&m->setup.shading, &ray, NULL);

@@ -43,9 +43,6 @@ vec3 water_model_radiance(const water_model *m, const model_hit *hit, vec3 sun);
 /* Share of light that passes the model from P along d for far_m (HUGE_VAL: for ever), [0, 1]. */
 float water_model_opening(const water_model *m, const double P[3], vec3 d, double far_m);
 
-/* Whether a ray from P along d comes near the model: within its bounds. Much faster than what is asked along rays. */
-bool water_model_may_meet(const water_model *m, const double P[3], vec3 d, double far_m);
-
 /* Whether P is inside of a hull, which keeps the sea out: the model is met below and to all sides. */
 bool water_model_is_dry(const water_model *m, const double P[3]);
 

@@ -274,7 +274,7 @@ bool water_profile_look(const water_profile *p, const march_ray *ray, profile_ne
     return out->t <= ray->far_m;
 }
 
-march_hit water_profile_correct(const water_profile *p, const march_ray *ray, const profile_place *place)
+static march_hit correct(const water_profile *p, const march_ray *ray, const profile_place *place)
 {
     double f, level = hypot(ray->direction[0], ray->direction[2]);
     march_hit hit = water_march_hit_at(p->march, ray, place->t, place->displacement, &f);
@@ -293,6 +293,6 @@ bool water_profile_find(const water_profile *p, const march_ray *ray, march_hit 
     profile_nearby nowhere = {.row = 0};
     if (!water_profile_look(p, ray, &nowhere, &place))
         return false;
-    *hit = water_profile_correct(p, ray, &place);
+    *hit = correct(p, ray, &place);
     return true;
 }

@@ -56,6 +56,4 @@ typedef struct profile_nearby {
 } profile_nearby;
 bool water_profile_look(const water_profile *p, const march_ray *ray, profile_nearby *nearby,
                         profile_place *out);
-march_hit water_profile_correct(const water_profile *p, const march_ray *ray, const profile_place *place);
-
 #endif

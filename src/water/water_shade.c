@@ -39,7 +39,8 @@ vec3 water_from_still(const water_setup *s, float depth_m, vec3 down)
                             : water_from_deep(s->water, s->light.downwelling);
 }
 
-vec3 water_from_below(const water_setup *s, const water_place *p)
+/* Radiance (cd/m^2) that goes up just below the place, towards the eye: of deep water, or of the bed through it. */
+static vec3 from_below(const water_setup *s, const water_place *p)
 {
     vec3 down = water_refracted(s->water, -p->V, p->point.N), lit = vec3(1.0f), mean_lit = lit;
     vec3 crest = water_crest(s->water, s->light, s->crest, p->point.N, p->V, down, p->height_m);
@@ -101,7 +102,7 @@ vec3 water_shade(const water_setup *s, const water_place *p, const water_finding
         float share = min(found->covered / m.fresnel, 1.0f);
         sky = sky * (1.0f - share) + found->mirrored * (share / found->covered);
     }
-    vec3 below = found->has_below ? found->below : water_from_below(s, p);
+    vec3 below = found->has_below ? found->below : from_below(s, p);
     WaterLight light = s->light;
     if (found->has_shadow)
         light.sun_irradiance = light.sun_irradiance * found->sun;

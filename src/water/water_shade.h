@@ -18,9 +18,6 @@ typedef struct water_findings {
 /* Radiance (cd/m^2) towards the eye over the water. */
 vec3 water_shade(const water_setup *s, const water_place *p, const water_findings *found);
 
-/* Radiance (cd/m^2) that goes up just below the place, towards the eye: of deep water, or of the bed through it. */
-vec3 water_from_below(const water_setup *s, const water_place *p);
-
 /* The same of still water that is depth_m deep and evenly lit, along the refracted ray `down`. */
 vec3 water_from_still(const water_setup *s, float depth_m, vec3 down);
 

@@ -9,7 +9,18 @@
 
 static const double FAR_M = 1e7;
 
-water_sample water_sample_begin(const water_setup *s, float x, float y, float footprint, uint32_t random)
+/* A sample that is being traced. */
+typedef struct water_sample {
+    const water_setup *s;
+    float x, y;      /* pixels */
+    float footprint; /* over that of a pixel */
+    uint32_t random;
+    march_ray ray;
+    vec3 d;                   /* its direction */
+    const water_place *place; /* that it shows of the sea; NULL: yet to be known */
+} water_sample;
+
+static water_sample begin_sample(const water_setup *s, float x, float y, float footprint, uint32_t random)
 {
     float o[3], d[3];
     camera_rays_at(&s->camera, x, y, o, d);
@@ -112,7 +123,8 @@ static vec3 exposed(const water_setup *s, vec3 L)
     return most > 0.0f ? min(L, most) : L;
 }
 
-vec3 water_sample_shade(const water_sample *p, bool is_met, const march_hit *sea)
+/* Radiance (cd/m^2) times the exposure, or the legacy style; sea: where the ray meets the water, if it does. */
+static vec3 shade_sample(const water_sample *p, bool is_met, const march_hit *sea)
 {
     const water_setup *s = p->s;
     if (!sea_shading_is_legacy(&s->desc->sea_shading))
@@ -127,10 +139,10 @@ vec3 water_sample_shade(const water_sample *p, bool is_met, const march_hit *sea
 
 static vec3 trace(const water_setup *s, float x, float y, float footprint, uint32_t random)
 {
-    water_sample p = water_sample_begin(s, x, y, footprint, random);
+    water_sample p = begin_sample(s, x, y, footprint, random);
     march_hit sea;
     bool is_met = water_profile_find(&s->profile, &p.ray, &sea);
-    return water_sample_shade(&p, is_met, &sea);
+    return shade_sample(&p, is_met, &sea);
 }
 
 /* ---- groups of samples ---- */
@@ -193,14 +205,14 @@ static vec3 shade_group(const grouping *p, const group *g)
 {
     const water_setup *s = p->s;
     float n = (float)g->count;
-    water_sample one = water_sample_begin(s, g->x / n, g->y / n, sqrt(n / (float)p->sample_count), 0);
+    water_sample one = begin_sample(s, g->x / n, g->y / n, sqrt(n / (float)p->sample_count), 0);
     march_hit sea = {.t = 0.0};
     water_place place;
     if (g->is_met) {
         place = water_place_of_samples(s, &one.ray, g->sights, g->count, &sea);
         one.place = &place;
     }
-    return water_sample_shade(&one, g->is_met, &sea);
+    return shade_sample(&one, g->is_met, &sea);
 }
 
 /* A disc has an edge that a sample may show. */
@@ -228,14 +240,14 @@ static vec3 trace_grouped(const water_setup *s, float x, float y, const float *p
     vec3 sum = vec3(0.0f);
     for (uint32_t i = 0; i < count; i++) {
         float px = x + pattern[2 * i], py = y + pattern[2 * i + 1];
-        water_sample one = water_sample_begin(s, px, py, s->footprint, 0);
+        water_sample one = begin_sample(s, px, py, s->footprint, 0);
         water_sight *sight = &p.sights[i];
         sight->place = (profile_place){.closing = 1.0};
         for (int k = 0; k < 3; k++)
             sight->direction[k] = one.ray.direction[k];
         bool is_met = water_profile_look(&s->profile, &one.ray, &nearby, &sight->place);
         if (!is_met && is_near_sun(s, one.d))
-            sum = sum + water_sample_shade(&one, false, NULL);
+            sum = sum + shade_sample(&one, false, NULL);
         else
             add(&p, px, py, is_met, sight);
     }
