@@ -1,5 +1,5 @@
-/* file_alike.c - see file_alike.h. Names are compared as letters and marks, of which composed letters are made (Unicode's
- * canonical decomposition), in lower case. */
+/* file_alike.c - see file_alike.h. Names are compared as lower-case base letters and combining marks (Unicode's
+ * canonical decomposition). */
 #define _POSIX_C_SOURCE 200809L
 #include "io/file_alike.h"
 
@@ -14,7 +14,7 @@
 
 enum { LONGEST_NAME = 255, MAX_LETTERS = 3 * LONGEST_NAME, MAX_PARTS = 3 };
 
-/* The next character of *p, which moves behind it. */
+/* Reads the next character and advances *p. */
 static uint32_t take_character(const unsigned char **p)
 {
     static const uint32_t least[] = {0, 0x80, 0x800, 0x10000};
@@ -40,7 +40,7 @@ static uint32_t to_lower(uint32_t c)
         (c >= 0x410 && c <= 0x42f))
         return c + 32;
     if ((c >= 0x100 && c <= 0x137) || (c >= 0x14a && c <= 0x177) || (c >= 0x1e00 && c <= 0x1eff))
-        return c | 1; /* pairs of capital and small letter */
+        return c | 1; /* pairs of upper-case and lower-case letters */
     if ((c >= 0x139 && c <= 0x148) || (c >= 0x179 && c <= 0x17e) || (c >= 0x1cd && c <= 0x1dc))
         return c + (c & 1);
     if (c >= 0x400 && c <= 0x40f)
@@ -54,7 +54,7 @@ static uint32_t to_lower(uint32_t c)
                                       : c;
 }
 
-/* What stands for a mark in the tables below. */
+/* The combining mark of a character in the tables below. */
 static uint32_t mark_of(char letter)
 {
     static const char letters[] = "`'^~-u.:?o\"v+_,;";
@@ -64,8 +64,8 @@ static uint32_t mark_of(char letter)
     return at ? marks[at - letters] : 0;
 }
 
-/* Letter and marks of the small letters from U+00C0, U+01CE and U+1EA1 on; blanks: none. The first has both letters of a
- * pair, the others one of two. */
+/* Base letters and marks of the lower-case letters from U+00C0, U+01CE and U+1EA1 on; blanks: none. The first table
+ * has both letters of a case pair, the others one of two. */
 static const char LATIN[] =
     "a`a'a^a~a:ao  c,e`e'e^e:i`i'i^i:  n~o`o'o^o~o:    u`u'u^u:y'    a`a'a^a~a:ao  c,e`e'"
     "e^e:i`i'i^i:  n~o`o'o^o~o:    u`u'u^u:y'  y:a-a-auaua;a;c'c'c^c^c.c.cvcvdvdv    e-e-"
@@ -77,7 +77,7 @@ static const char VIETNAMESE[] =
     "a_ a? a^'a^`a^?a^~a_^au'au`au?au~a_ue_ e? e~ e^'e^`e^?e^~e_^i? i_ o_ o? o^'o^`o^?o^~"
     "o_^o+'o+`o+?o+~o+_u_ u? u+'u+`u+?u+~u+_y` y_ y? y~ ";
 
-/* The other letters that have marks, in lower case. */
+/* The remaining letters with marks, in lower case. */
 static const struct {
     uint16_t composed, letter, marks[2];
 } OTHERS[] = {
@@ -98,7 +98,7 @@ static size_t parts_of_row(const char *row, size_t width, uint32_t out[MAX_PARTS
     return count;
 }
 
-/* A syllable of Hangul, whose parts follow from its number (Unicode, section 3.12). */
+/* A Hangul syllable, whose parts follow from its code point (Unicode, section 3.12). */
 static size_t parts_of_hangul(uint32_t c, uint32_t out[MAX_PARTS])
 {
     uint32_t number = c - 0xac00;
@@ -108,7 +108,7 @@ static size_t parts_of_hangul(uint32_t c, uint32_t out[MAX_PARTS])
     return number % 28 ? 3 : 2;
 }
 
-/* Kana with a voiced or half-voiced mark stand behind those without. 0: it has none. */
+/* Kana with a voiced or semi-voiced mark follow those without. 0: the character has no mark. */
 static size_t parts_of_kana(uint32_t c, uint32_t out[MAX_PARTS])
 {
     uint32_t at = c >= 0x30a0 ? c - 0x30a0 : c - 0x3040; /* in either syllabary */
@@ -125,7 +125,7 @@ static size_t parts_of_kana(uint32_t c, uint32_t out[MAX_PARTS])
     return 2;
 }
 
-/* The letter and marks that a character is made of, in lower case. Returns how many. */
+/* Decomposes a character into a lower-case letter and marks. Returns their number. */
 static size_t take_apart(uint32_t c, uint32_t out[MAX_PARTS])
 {
     size_t count = 0;
@@ -156,7 +156,7 @@ static bool is_mark(uint32_t c)
     return (c >= 0x300 && c <= 0x36f) || c == 0x3099 || c == 0x309a;
 }
 
-/* A name as letters and marks, those of one letter in the order of their numbers. SIZE_MAX: longer than a name may be. */
+/* Decomposes a name; the marks of a letter are sorted by code point. SIZE_MAX: too long. */
 static size_t spell(const char *name, uint32_t out[MAX_LETTERS])
 {
     size_t count = 0;
@@ -188,14 +188,15 @@ bool file_names_are_alike(const char *a, const char *b)
 
 enum { LONGEST_PATH = 4096 };
 
-/* A search that goes down part by part: text is the folder and what was found below it so far. */
+/* A search that descends part by part: text is the folder and the path found so far. */
 typedef struct search {
     char text[LONGEST_PATH];
     size_t length;
     size_t *budget;
 } search;
 
-/* Whether text with that part behind it is there, which stays then: a folder, or a file where it is the last part. */
+/* Whether the path with that part appended exists, as a folder or, for the last part, as a file; if so it stays
+ * appended. */
 static bool append_part(search *s, const char *part, size_t length, bool is_last)
 {
     struct stat status;
@@ -211,7 +212,7 @@ static bool append_part(search *s, const char *part, size_t length, bool is_last
     return true;
 }
 
-/* Appends the only entry of the folder so far that is like name. */
+/* Appends the only entry of the current folder that is alike. */
 static bool append_alike(search *s, const char *name, bool is_last)
 {
     uint32_t wanted[MAX_LETTERS];
@@ -237,7 +238,7 @@ static bool append_alike(search *s, const char *name, bool is_last)
     return count == 1 && append_part(s, only, strlen(only), is_last);
 }
 
-/* Goes down all parts of a path. The longest name has LONGEST_NAME bytes. */
+/* Descends all parts of a path. The longest name has LONGEST_NAME bytes. */
 static bool find_parts(search *s, const char *path)
 {
     while (*path) {

@@ -1,4 +1,4 @@
-/* json_messages.c - errors, warnings and notes of the readers of JSON, which say where; see json_reader.h. */
+/* json_messages.c - errors, warnings and notes of the JSON readers, each with its place; see json_reader.h. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,12 +8,12 @@
 
 enum { PLACE_SIZE = 256, MAX_REMARKS = 256, KEY_SIZE = 32 };
 
-/* Appends the way to a place, "meshes[3].primitives[0]"; a way that is too long loses its end. */
+/* Appends the path of a place, "meshes[3].primitives[0]"; a path that is too long is cut off. */
 static void append_place(char *text, const json_place *at)
 {
     if (!at)
         return;
-    append_place(text, at->parent); /* as deep as the calls that built the chain */
+    append_place(text, at->parent); /* recursion as deep as the chain of places */
     size_t length = strlen(text);
     if (at->key)
         snprintf(text + length, PLACE_SIZE - length, "%s%s", length ? "." : "", at->key);
@@ -62,9 +62,9 @@ bool io_fail_memory(io_reader *r, const char *what, size_t size)
 
 /* ---- remarks ---- */
 
-/* A kind of warning or note: where it was made and about which member. */
+/* A kind of warning or note. */
 typedef struct remark {
-    const char *format; /* of the call: a literal, which stands for the kind */
+    const char *format; /* format string of the call, a literal, which identifies the kind */
     char key[KEY_SIZE];
     bool is_note;
     size_t count;
@@ -81,7 +81,7 @@ static void pass_on(io_reader *r, bool is_note, const char *message)
     (is_note ? scene_note : scene_warn)(r->scene, r->log, "%s", message);
 }
 
-/* Counts a remark. False: it is the first of its kind, and there is no room to keep it. */
+/* Counts a remark. False: it is the first of its kind and cannot be stored. */
 static bool count_remark(io_reader *r, bool is_note, const char *key, const char *format, const char *message)
 {
     struct io_remarks *list = r->remarks;

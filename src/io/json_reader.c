@@ -1,5 +1,5 @@
-/* json_reader.c - JSON text as a tree, also where exporters wrote it in another encoding than UTF-8, and typed access to
- * its members; see json_reader.h. */
+/* json_reader.c - parses JSON text, also in other encodings than UTF-8, and gives typed access to its members; see
+ * json_reader.h. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -18,7 +18,7 @@ size_t io_json_memory_estimate(const char *text, size_t size)
 
 /* ---- text that is no UTF-8 ---- */
 
-/* The code unit of an escape "\uXXXX" at text; -1: none is there. */
+/* The code unit of an escape "\uXXXX" at the string; -1: there is none. */
 static long escaped_unit(const char *text, size_t size)
 {
     long unit = 0;
@@ -39,8 +39,8 @@ static bool is_surrogate(long unit, long first)
     return unit >= first && unit < first + 0x400;
 }
 
-/* Copies an escape. Half of a surrogate pair becomes U+FFFD; a backslash that escapes nothing stands for itself. Returns
- * how many bytes of text it took; *mends counts. */
+/* Copies an escape. An unpaired surrogate becomes U+FFFD; a backslash that begins no escape is escaped. Returns the
+ * number of bytes read; *mends counts changes. */
 static size_t mend_escape(const char *text, size_t size, char *out, size_t *used, size_t *mends)
 {
     long unit = escaped_unit(text, size);
@@ -59,8 +59,8 @@ static size_t mend_escape(const char *text, size_t size, char *out, size_t *used
     return length;
 }
 
-/* Makes JSON text of bytes of another encoding, taken for Latin-1. has_pairs: of GBK or Shift-JIS, where the second byte
- * of a character may be a backslash. out has 2 * size bytes. Returns the length; *mends: how often it was not a copy. */
+/* Converts text of another encoding, taken as Latin-1, to valid JSON. has_pairs: GBK or Shift-JIS, where the second
+ * byte of a character may be a backslash. out has 2 * size bytes. Returns the length; *mends counts changes. */
 static size_t mend(const char *text, size_t size, bool has_pairs, char *out, size_t *mends)
 {
     size_t used = 0;
@@ -88,7 +88,8 @@ static size_t mend(const char *text, size_t size, bool has_pairs, char *out, siz
     return used;
 }
 
-/* Parses mended text; NULL: there was nothing to mend (*error stays), it is still no JSON, or (recorded) no memory. */
+/* Parses mended text; NULL: nothing needed mending (*error is unchanged), the result is not JSON either, or
+ * (recorded) no memory. */
 static json_t *parse_mended(io_reader *r, const char *text, size_t size, bool has_pairs, json_error_t *error)
 {
     size_t mends;
@@ -112,7 +113,8 @@ json_t *io_parse_json(io_reader *r, const char *text, size_t size)
     json_error_t error;
     json_error_t second;
     json_t *json = json_loadb(text, size, JSON_ALLOW_NUL, &error);
-    if (!json && json_error_code(&error) == json_error_numeric_overflow) { /* an id of 64 bits in extras */
+    if (!json &&
+        json_error_code(&error) == json_error_numeric_overflow) { /* for example a 64-bit id in extras */
         json = json_loadb(text, size, JSON_ALLOW_NUL | JSON_DECODE_INT_AS_REAL, &error);
         if (json)
             io_note(r, NULL, NULL, "has integers beyond 2^63; they are rounded");
@@ -258,8 +260,8 @@ json_place io_get_element_object(io_reader *r, const json_place *array, size_t i
 
 json_place io_get_extension(io_reader *r, const json_place *object, const char *name)
 {
-    /* The chain must outlive this call, so "extensions" and the name are one link in messages. What is no object extends
-     * nothing; gltf_extensions.c says so. */
+    /* The chain must outlive this call, so that "extensions" and the name are one link in messages. A value that is
+     * not an object extends nothing; gltf_extensions.c reports it. */
     json_place extensions = get_member(object, "extensions");
     json_place at = get_member(&extensions, name);
     at.parent = object;
@@ -345,7 +347,7 @@ uint32_t io_peek_index(const json_place *object, const char *key, uint32_t count
     return value && to_uint(value, SCENE_NONE - 1, &index) && index < count ? (uint32_t)index : SCENE_NONE;
 }
 
-/* False: recorded. Doubles beyond float are the largest float. */
+/* False: an error is recorded. Doubles beyond the range of float become the largest float. */
 static bool to_float(io_reader *r, const json_place *at, float *out)
 {
     if (!json_is_number(at->value)) {

@@ -15,7 +15,7 @@
 #include "scene/origin.h"
 #include "scene/unseen.h"
 
-/* STL and PLY, from a file that is open. folder: of the file; NULL: from memory. */
+/* Reads STL or PLY from bytes. folder: of the file; NULL: from memory. */
 static facet_result load_bytes(model_kind kind, const void *bytes, size_t size, const char *name,
                                const char *folder, const facet_scene_desc *desc, facet_scene **scene,
                                facet_error *error)
@@ -24,7 +24,7 @@ static facet_result load_bytes(model_kind kind, const void *bytes, size_t size, 
                              : ply_load_memory(bytes, size, name, folder, desc, scene, error);
 }
 
-/* The same from an open file, which the scene remembers. */
+/* The same from an open file, which the scene records. */
 static facet_result load_open(model_kind kind, const file_bytes *file, const char *path,
                               const facet_scene_desc *desc, facet_scene **scene, facet_error *error)
 {
@@ -40,7 +40,7 @@ static facet_result load_open(model_kind kind, const file_bytes *file, const cha
     return result;
 }
 
-/* An empty file is left to the glTF reader, which says so. */
+/* An empty file is left to the glTF reader, which reports it. */
 static bool is_refused(model_kind kind, size_t size)
 {
     return kind == MODEL_FOREIGN || (kind == MODEL_UNKNOWN && size > 0);
@@ -51,7 +51,7 @@ static bool is_url(const char *path)
     return strncasecmp(path, "http://", 7) == 0 || strncasecmp(path, "https://", 8) == 0;
 }
 
-/* Ends every reader's work. */
+/* The last step after every reader. */
 static facet_result settle(facet_result result, const facet_scene_desc *desc, facet_scene **scene,
                            facet_error *error)
 {
@@ -87,7 +87,7 @@ facet_result model_file_load(const char *path, const facet_scene_desc *desc, fac
     else
         is_here = false;
     file_close(&file);
-    if (!is_here) /* they open it themselves */
+    if (!is_here) /* these readers open the file themselves */
         result = kind == MODEL_OBJ          ? obj_load(path, desc, scene, error)
                  : kind == MODEL_PARAMETERS ? ogl1_json_load(path, desc, scene, error)
                                             : gltf_load(path, desc, scene, error);

@@ -18,8 +18,8 @@
 #define WITH_ASSIMP WITH_BLENDER ", or run: assimp export MODEL model.glb"
 
 typedef struct foreign_kind {
-    const char *extensions[4]; /* in the order of the likely ones; NULL: none */
-    const char *magic;         /* at the front of the file, behind blanks; NULL: any */
+    const char *extensions[4]; /* extensions, the likely ones first; NULL: none */
+    const char *magic;         /* at the start of the file, after white space; NULL: any */
     const char *name, *advice;
 } foreign_kind;
 
@@ -80,7 +80,7 @@ static bool has_extension(const foreign_kind *kind, const char *name)
     return false;
 }
 
-/* Behind a byte order mark and blanks. */
+/* The position after a byte order mark and white space. */
 static size_t find_start(const char *bytes, size_t size)
 {
     size_t i = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
@@ -96,7 +96,7 @@ static bool begins_with(const char *bytes, size_t size, const char *magic)
     return size - start >= length && strncasecmp(bytes + start, magic, length) == 0;
 }
 
-/* COLLADA and X3D stand behind a heading of XML. */
+/* COLLADA and X3D follow an XML declaration. */
 static bool names_root(const char *bytes, size_t size, const char *magic)
 {
     enum { HEADING = 1024 };
@@ -109,8 +109,8 @@ static bool names_root(const char *bytes, size_t size, const char *magic)
     return false;
 }
 
-/* By extension and content, by the content's magic, by the extension; NULL: none of them. A magic of two letters needs the
- * extension, too. */
+/* By extension and content, by magic bytes, by extension; NULL: unknown. A magic of two letters also needs the
+ * extension. */
 static const foreign_kind *find_foreign(const char *bytes, size_t size, const char *name)
 {
     const foreign_kind *found = NULL;
@@ -124,7 +124,7 @@ static const foreign_kind *find_foreign(const char *bytes, size_t size, const ch
             bool is_found = pass == 0 ? is_named && is_alike : pass == 1 ? is_sure : is_named;
             found = is_found ? kind : NULL;
         }
-    /* Archives of other kinds are recognised by their extension only. */
+    /* Other archives are recognized by their extension only. */
     if (found && strcmp(found->magic ? found->magic : "", "PK\x03\x04") == 0 && !has_extension(found, name))
         for (int i = 0; i < FOREIGN_COUNT; i++)
             if (strcmp(FOREIGN[i].name, "zip") == 0)
@@ -172,7 +172,7 @@ facet_result model_kind_refuse(const void *bytes, size_t size, const char *name,
         return fail(error, FACET_ERROR_UNSUPPORTED, "%s: %s files are not read; %s", name, kind->name,
                     kind->advice);
     image_codec codec = image_codec_detect(bytes, size);
-    if (codec != IMAGE_CODEC_UNKNOWN && codec != IMAGE_CODEC_TGA) /* which begins with no word of its own */
+    if (codec != IMAGE_CODEC_UNKNOWN && codec != IMAGE_CODEC_TGA) /* which begins with arbitrary text */
         return fail(error, FACET_ERROR_UNSUPPORTED,
                     "%s: is an image (%s), not a model; facet render --env and facet bake take it as an "
                     "environment, facet compare as an image",

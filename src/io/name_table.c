@@ -7,7 +7,7 @@
 
 struct name_entry {
     const char *name;
-    size_t next; /* numbers below it are taken; 0: none was tried */
+    size_t next; /* suffixes below it are taken; 0: none was tried */
 };
 
 static uint32_t hash_name(const name_table *table, const char *name)
@@ -22,7 +22,7 @@ static uint32_t hash_name(const name_table *table, const char *name)
     return hash;
 }
 
-/* NULL: the name is not in the table. */
+/* NULL: not in the table. */
 static struct name_entry *find(const name_table *table, const char *name)
 {
     uint32_t hash = hash_name(table, name);

@@ -1,5 +1,5 @@
-/* uri.c - what a URI or name in a model stands for: base64 data inside it, or a file below the model's folder. Nothing
- * else is ever opened. */
+/* uri.c - resolves URIs and names in a model: base64 data inside it, or a file below the model's folder. No other
+ * file is opened. */
 #define _POSIX_C_SOURCE 200809L
 #include <errno.h>
 #include <stdarg.h>
@@ -28,7 +28,7 @@ static bool uri_fail(uri_bytes *out, facet_result result, const char *format, ..
 
 /* ---- data: ---- */
 
-/* 0 to 63; 64: none. Also the URL-safe alphabet, which some writers use. */
+/* 0 to 63; 64: invalid. Accepts the URL-safe alphabet as well, which some writers use. */
 static unsigned base64_value(unsigned char c)
 {
     if (c >= 'A' && c <= 'Z')
@@ -40,7 +40,7 @@ static unsigned base64_value(unsigned char c)
     return c == '+' || c == '-' ? 62u : c == '/' || c == '_' ? 63u : 64u;
 }
 
-/* Decodes length characters into out (3 bytes per 4 characters begun); false: something is no base64. */
+/* Decodes length characters into out (3 bytes for every 4 characters or part of 4); false: invalid base64. */
 static bool decode_base64(const char *text, size_t length, unsigned char *out, size_t *size)
 {
     unsigned char values[256];
@@ -106,7 +106,8 @@ static int hex_value(char c)
                                   : -1;
 }
 
-/* %20 to a space; a % that starts no pair of digits stays. out has strlen(uri) + 1 bytes. False: a 0 inside. */
+/* Decodes %XX; a % without two hexadecimal digits stays. out has strlen(uri) + 1 bytes. False: the result contains a
+ * 0. */
 static bool decode_percent(const char *uri, char *out)
 {
     for (; *uri; uri++) {
@@ -125,14 +126,14 @@ static bool decode_percent(const char *uri, char *out)
     return true;
 }
 
-/* Whether uri starts with "letters:", as http: or C: do. */
+/* Whether uri starts with a scheme or drive letter, as http: or C:. */
 static bool has_scheme(const char *uri)
 {
     size_t length = strspn(uri, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789+.-");
     return length > 0 && uri[length] == ':';
 }
 
-/* Whether the path climbs out of where it starts, on its way or in the end. */
+/* Whether the path leaves its starting folder at any point. */
 static bool climbs_out(const char *path)
 {
     long depth = 0;
@@ -173,7 +174,7 @@ static bool read_once(const file_scope *scope, int fd, const char *path, const s
     return true;
 }
 
-/* Whether a name may be looked for at all. */
+/* Whether the scope permits a search for the name. */
 static bool may_look_for(const file_scope *scope, const char *name, const char *shown, uri_bytes *out)
 {
     bool is_absolute = name[0] == '/';
@@ -187,7 +188,7 @@ static bool may_look_for(const file_scope *scope, const char *name, const char *
     return true;
 }
 
-/* The file of exactly that name. */
+/* Opens the file of exactly that name. */
 static bool open_exact(const file_scope *scope, const char *name, const char *shown, uri_bytes *out)
 {
     const char *folder = scope->folder ? scope->folder : scope->root;
@@ -207,7 +208,7 @@ static bool open_exact(const file_scope *scope, const char *name, const char *sh
         uri_fail(out, FACET_ERROR_READ, "there is no file \"%.200s\"", name);
     else if (fd < 0 || fstat(fd, &status) != 0)
         uri_fail(out, FACET_ERROR_READ, "\"%.200s\" cannot be opened: %s", name, strerror(errno));
-    else if (!S_ISREG(status.st_mode)) /* a pipe could keep us waiting for ever */
+    else if (!S_ISREG(status.st_mode)) /* opening a pipe could block forever */
         uri_fail(out, FACET_ERROR_READ, "\"%.200s\" is not a regular file", name);
     else
         done = read_once(scope, fd, path, &status, out);
@@ -218,7 +219,7 @@ static bool open_exact(const file_scope *scope, const char *name, const char *sh
     return done && !out->name ? uri_fail(out, FACET_ERROR_MEMORY, "out of memory for a path") : done;
 }
 
-/* The only file whose name differs in upper and lower case, or in the form of its letters. */
+/* Opens the only file whose name differs in case or in Unicode normalization. */
 static bool open_alike(const file_scope *scope, const char *name, const char *shown, uri_bytes *out)
 {
     *out = (uri_bytes){0};
@@ -235,17 +236,17 @@ static bool open_alike(const file_scope *scope, const char *name, const char *sh
     return done;
 }
 
-/* What a name may mean, the more literal first. */
+/* Interpretations of a name, the literal one first. */
 typedef enum name_reading {
     NAME_AS_WRITTEN,
-    NAME_OF_WINDOWS,      /* backslashes between folders */
-    NAME_WITHOUT_ESCAPES, /* a backslash before a blank, as in a shell */
-    NAME_WITHOUT_QUERY,   /* "a.png?v=1", "a.png#b": from a web site */
-    NAME_DECODED,         /* %20 is a blank */
+    NAME_OF_WINDOWS,      /* backslashes separate folders */
+    NAME_WITHOUT_ESCAPES, /* a backslash escapes a space, as in a shell */
+    NAME_WITHOUT_QUERY,   /* "a.png?v=1", "a.png#b": copied from a web site */
+    NAME_DECODED,         /* %20 is a space */
     NAME_READING_COUNT
 } name_reading;
 
-/* Puts name as it is read into out, of strlen(name) + 1 bytes. False: as the readings before. */
+/* Writes the interpretation of name to out, of strlen(name) + 1 bytes. False: it equals an earlier one. */
 static bool read_name(const char *name, name_reading reading, char *out)
 {
     size_t length = strcspn(name, reading == NAME_WITHOUT_QUERY ? "?#" : "");
@@ -265,7 +266,8 @@ static bool read_name(const char *name, name_reading reading, char *out)
     return differs;
 }
 
-/* The other readings of a name, exactly and then, unless the scope is literal, alike. *out: the failure of the first. */
+/* Tries the other interpretations of a name, exactly and then, unless the scope is literal, by alike names. *out: the
+ * failure of the first. */
 static bool open_otherwise(const file_scope *scope, const char *name, const char *shown, uri_bytes *out)
 {
     char *text = mem_alloc(scope->allocator, strlen(name) + 1, 1);
@@ -314,7 +316,7 @@ bool uri_load(const file_scope *scope, const char *uri, uri_bytes *out)
     bool done = decode_percent(uri, name) ? file_scope_open(scope, name, uri, out)
                                           : uri_fail(out, FACET_ERROR_INVALID, "contains a NUL character");
     if (!done && out->result == FACET_ERROR_READ && strchr(uri, '%')) {
-        uri_bytes raw = {0}; /* a name that was written without escaping its % */
+        uri_bytes raw = {0}; /* a name whose % was not escaped */
         if (file_scope_open(scope, uri, uri, &raw)) {
             *out = raw;
             done = true;

@@ -1,5 +1,5 @@
-/* draco_shim.cc - see draco_shim.h. The library's own entry point takes memory for whatever counts a bitstream has, so
- * its two decoders are used through classes that look at the counts first. */
+/* draco_shim.cc - see draco_shim.h. The library's own entry point allocates memory for any counts in a bitstream, so
+ * its two decoders are used through subclasses that check the counts first. */
 #include "io/gltf/draco_shim.h"
 
 #include <cstdio>
@@ -20,15 +20,15 @@ namespace
 
 /* ---- limits ---- */
 
-/* What the library takes, roughly and rather more: corner tables and the marks of their traversal; each component as
- * it is coded, as it is stored and as a prediction. */
+/* A generous estimate of the library's memory: corner tables and traversal marks; each component in its encoded and
+ * stored form and as a prediction. */
 enum { BYTES_PER_FACE = 160, BYTES_PER_COMPONENT = 16 };
 
-/* In libdraco 1.5.5 an attribute of texture coordinates can claim 2^31 bits of orientations, which are made (20 s, 512
- * MB) before it is seen that they are not there; nothing outside the library can see the claim. So few are allowed. */
+/* In libdraco 1.5.5 an attribute of texture coordinates can declare 2^31 bits of orientations, which are allocated
+ * (20 s, 512 MB) before their absence is noticed; callers cannot see the count. So few are allowed. */
 enum { MAX_ATTRIBUTES = 32 };
 
-/* Compares counts with limits and takes the memory from the budget. */
+/* Compares counts with limits and reserves the memory in the budget. */
 class guard
 {
   public:
@@ -44,8 +44,8 @@ class guard
         mem_account(&allocator_, -static_cast<ptrdiff_t>(taken_));
     }
 
-    /* A mesh whose counts are known and whose faces are not read yet; seam_count: attributes that have seams of their
-     * own, and so corner tables of their own. */
+    /* A mesh whose counts are known and whose faces are not read yet; seam_count: attributes with their own seams,
+     * and so their own corner tables. */
     bool allow_faces(uint32_t face_count, uint32_t seam_count)
     {
         values_ = uint64_t{3} * face_count * (1 + seam_count);
@@ -61,7 +61,7 @@ class guard
                       limits_.point_count);
     }
 
-    /* The attributes of a cloud whose points and attributes are known and whose values are not read yet. */
+    /* The attributes of a point cloud whose points and attributes are known and whose values are not read yet. */
     bool allow_attributes(const draco::PointCloud &cloud)
     {
         uint64_t components = 0;
@@ -116,7 +116,7 @@ class guard
 
 /* ---- decoders ---- */
 
-/* A count that is one way in the bitstream of today and another in older ones. */
+/* A count whose encoding differs between versions of the bitstream. */
 bool read_count(draco::DecoderBuffer *in, uint16_t first_with_varint, uint32_t *out)
 {
     return in->bitstream_version() < first_with_varint ? in->Decode(out) : draco::DecodeVarint(out, in);
@@ -194,14 +194,14 @@ struct draco_mesh {
     draco_mesh(const draco_limits &limits, const facet_allocator *allocator) : guarded(limits, allocator)
     {
     }
-    guard guarded; /* gives the accounted bytes back last */
+    guard guarded; /* returns the accounted bytes last */
     draco::Mesh mesh;
 };
 
 namespace
 {
 
-/* Whether no face names a point that is not there. The library does not say so for all bitstreams. */
+/* Whether all faces refer to existing points, which the library does not check for all bitstreams. */
 bool are_faces_valid(const draco::Mesh &mesh)
 {
     for (draco::FaceIndex f(0); f < mesh.num_faces(); ++f)
@@ -211,7 +211,7 @@ bool are_faces_valid(const draco::Mesh &mesh)
     return true;
 }
 
-/* Whether the values that points refer to are there. */
+/* Whether the values that points refer to exist. */
 bool is_attribute_valid(const draco::PointAttribute &a, uint32_t point_count)
 {
     const int64_t size = static_cast<int64_t>(a.size());
@@ -315,7 +315,7 @@ void draco_shim_copy_faces(const draco_mesh *mesh, uint32_t *out)
 namespace
 {
 
-/* Values that are of the wanted type already. */
+/* Values that have the wanted type already. */
 void copy_values(const draco::PointAttribute &a, uint32_t point_count, size_t size, unsigned char *out)
 {
     if (a.is_mapping_identity() && static_cast<size_t>(a.byte_stride()) == size) {

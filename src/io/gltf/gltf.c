@@ -15,7 +15,7 @@ enum { HEADER_SIZE = 12, CHUNK_HEADER_SIZE = 8 };
 static const uint32_t CHUNK_JSON = 0x4e4f534a;
 static const uint32_t CHUNK_BIN = 0x004e4942;
 
-/* Little-endian whatever the machine is. */
+/* Little-endian on every machine. */
 static uint32_t read_u32(const unsigned char *bytes)
 {
     return (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
@@ -76,7 +76,7 @@ static bool split_glb(io_reader *r, const unsigned char *bytes, size_t size, con
             r->gltf->bin_size = length;
         } else if (type == CHUNK_BIN || type == CHUNK_JSON) {
             io_warn(r, NULL, NULL, "chunk %u repeats a type and is ignored", number);
-        } /* others may come with extensions and are skipped */
+        } /* other chunks may belong to extensions and are skipped */
         at += length;
     }
     if (!*json)
@@ -219,7 +219,7 @@ static void read_bytes(io_reader *r, const unsigned char *bytes, size_t size)
     mem_free(reserve);
 }
 
-/* Reads what file holds; the scene takes file over. folder as in reader. */
+/* Reads the bytes of file, which the scene takes over. folder: as in io_reader. */
 static facet_result load(file_bytes *file, const char *source, const char *folder,
                          const facet_scene_desc *desc, facet_scene **out, facet_error *error)
 {

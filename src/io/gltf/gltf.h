@@ -4,15 +4,15 @@
 
 #include "scene/scene.h"
 
-/* Reads a file that facet_scene_load() was asked for. See facet.h for what desc means and how it fails. */
+/* Reads a file for facet_scene_load(); see facet.h for desc and failures. */
 facet_result gltf_load(const char *path, const facet_scene_desc *desc, facet_scene **scene,
                        facet_error *error);
 /* The same from bytes, which are copied where the scene needs them. */
 facet_result gltf_load_memory(const void *bytes, size_t size, const char *name, const facet_scene_desc *desc,
                               facet_scene **scene, facet_error *error);
 
-/* facet_scene_save(). Numbers of objects stay; what facet does not read is lost, as are the compression of geometry and
- * the metallic-roughness fallback of specular-glossiness materials. */
+/* facet_scene_save(). Indices of objects stay; extensions that facet does not read are lost, as are the compression
+ * of geometry and the metallic-roughness fallback of specular-glossiness materials. */
 facet_result gltf_save(const facet_scene *scene, const char *path,
                        const char *generator /* asset.generator */, const facet_scene_save_desc *desc,
                        facet_error *error);

@@ -21,7 +21,7 @@ static size_t component_size(gltf_component component)
                                                             : 4;
 }
 
-/* of a matrix; 1 for all else */
+/* 1 for types other than matrices */
 static size_t column_count(gltf_type type)
 {
     return type == GLTF_MAT2 ? 2 : type == GLTF_MAT3 ? 3 : type == GLTF_MAT4 ? 4 : 1;
@@ -39,7 +39,7 @@ size_t gltf_element_size(gltf_component component, gltf_type type)
     return column_count(type) * column_size(component, type);
 }
 
-/* Bytes from one dense element to the next. */
+/* Bytes between consecutive dense elements. */
 static size_t accessor_stride(const io_reader *r, const gltf_accessor *a)
 {
     size_t stride = a->decoded || a->view == SCENE_NONE ? 0 : r->gltf->views[a->view].stride;
@@ -71,7 +71,7 @@ static gltf_type get_type(io_reader *r, const json_place *at)
     return GLTF_SCALAR;
 }
 
-/* Whether count elements of size bytes every stride bytes from offset are inside the view. */
+/* Whether count elements of size bytes, stride bytes apart from offset on, are inside the view. */
 static bool check_extent(io_reader *r, const json_place *at, uint32_t index, size_t offset, size_t count,
                          size_t stride, size_t size)
 {
@@ -174,11 +174,11 @@ bool gltf_is_zero_accessor(const io_reader *r, uint32_t accessor)
     return a->view == SCENE_NONE && a->sparse_count == 0 && !a->decoded;
 }
 
-/* Refuses (FACET_ERROR_LIMIT) an accessor without a buffer view that has many more elements than any array in the file
- * and than its sparse values: a few bytes of JSON must not take gigabytes. */
+/* Refuses (FACET_ERROR_LIMIT) an accessor without a buffer view that has many more elements than any array in the
+ * file and than its sparse values: a few bytes of JSON must not allocate gigabytes. */
 static bool check_claim(io_reader *r, const json_place *at, const gltf_accessor *a)
 {
-    const uint64_t free_count = 1 << 16; /* of elements, at most 4 MiB */
+    const uint64_t free_count = 1 << 16; /* elements, at most 4 MiB */
     const uint64_t per_value = 64;
     if (a->view != SCENE_NONE || a->decoded || a->count <= free_count || a->count <= r->gltf->backed_count ||
         a->count <= per_value * a->sparse_count)
@@ -222,11 +222,11 @@ uint32_t gltf_get_required_accessor(io_reader *r, const json_place *object, cons
 
 /* ---- elements ---- */
 
-enum { GRAIN = 1 << 15 }; /* elements that one thread converts at once */
+enum { GRAIN = 1 << 15 }; /* elements per work item */
 
 /* ---- components ---- */
 
-/* Little-endian loads from any address. */
+/* Little-endian loads from unaligned addresses. */
 static uint16_t load_u16(const unsigned char *p)
 {
     return (uint16_t)(p[0] | p[1] << 8);
@@ -237,14 +237,13 @@ static uint32_t load_u32(const unsigned char *p)
     return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
 }
 
-/* An unsigned component that is not normalised. */
+/* An unsigned component that is not normalized. */
 static uint32_t load_unsigned(const unsigned char *p, gltf_component component)
 {
     return component == GLTF_U8 ? p[0] : component == GLTF_U16 ? load_u16(p) : load_u32(p);
 }
 
-/* Components one after another (section 3.6.2.2 and, for normalised ones, 3.11). The compiler makes each case a
- * loop. */
+/* Converts components in order (section 3.6.2.2; normalized ones: 3.11). The compiler turns each case into a loop. */
 static void convert_components(const unsigned char *in, gltf_component component, bool is_normalized,
                                size_t count, float *out)
 {
@@ -292,11 +291,11 @@ typedef struct conversion {
     gltf_component component;
     bool is_normalized;
     size_t component_count;
-    size_t column_length; /* components; only matrices have several columns in an element */
+    size_t column_length; /* components per column; only matrices have several columns */
     size_t column_size;   /* bytes */
     float *floats;
     uint32_t *indices;
-    uint32_t *largest; /* per GRAIN */
+    uint32_t *largest; /* per work item */
 } conversion;
 
 static void convert_element(const conversion *c, const unsigned char *in, float *out)
@@ -330,7 +329,7 @@ static conversion make_conversion(const io_reader *r, const gltf_accessor *a, co
                         .column_size = column_size(a->component, a->type)};
 }
 
-/* Puts the sparse elements over what is there: into floats, or into indices. */
+/* Writes the sparse elements into floats or indices. */
 static bool apply_sparse(io_reader *r, const json_place *at, const gltf_accessor *a, float *floats,
                          uint32_t *indices)
 {
@@ -361,7 +360,7 @@ static bool apply_sparse(io_reader *r, const json_place *at, const gltf_accessor
 
 /* ---- whole accessors ---- */
 
-/* The place of an accessor, for messages. */
+/* The place of an accessor in messages. */
 #define ACCESSOR_PLACE(name, number)                                                                         \
     const json_place name##_root = {0};                                                                      \
     const json_place name##_array = {.parent = &name##_root, .key = "accessors"};                            \
@@ -375,7 +374,7 @@ static bool is_little_endian(void)
     return first == 1;
 }
 
-/* The first dense element; *bytes is NULL where there are none, which stand for zeros. */
+/* The first dense element; *bytes is NULL where there are none and all elements are 0. */
 static bool get_dense_bytes(io_reader *r, const json_place *at, const gltf_accessor *a,
                             const unsigned char **bytes)
 {
@@ -389,7 +388,7 @@ static bool get_dense_bytes(io_reader *r, const json_place *at, const gltf_acces
     return true;
 }
 
-/* Whether the bytes are an array of this component (of 4 bytes) already, so that nothing has to be copied. */
+/* Whether the bytes are already a tight array of this 4-byte component, which needs no copy. */
 static bool is_plain_array(const io_reader *r, const gltf_accessor *a, const unsigned char *bytes,
                            gltf_component component)
 {

@@ -1,5 +1,5 @@
-/* gltf_animation_pointer.c - what a JSON pointer (RFC 6901) of KHR_animation_pointer moves: a place in the file made the
- * place of floats in the scene, by the names of Khronos' object model. */
+/* gltf_animation_pointer.c - the target of a JSON pointer (RFC 6901) of KHR_animation_pointer: translates a location
+ * in the file to the location of floats in the scene, by the names of Khronos' object model. */
 #include <stddef.h>
 #include <string.h>
 
@@ -18,8 +18,7 @@ typedef struct pointer_path {
     size_t count;
 } pointer_path;
 
-/* Splits at '/', and undoes ~1 (a '/') and ~0 (a '~'). False: it is no pointer, or longer than any that means
- * something. */
+/* Splits at '/', and undoes ~1 (a '/') and ~0 (a '~'). False: not a pointer, or longer than any with a meaning. */
 static bool split(const char *pointer, pointer_path *out)
 {
     size_t used = 0;
@@ -45,7 +44,7 @@ static bool split(const char *pointer, pointer_path *out)
     return true;
 }
 
-/* Whether the tokens from number from on are these, of which NULL ones do not count, and no more. */
+/* Whether the tokens from `from` on are exactly these; NULL matches any token. */
 static bool matches(const pointer_path *p, size_t from, const char *const *names, size_t name_count)
 {
     for (size_t i = 0; i < name_count; i++) {
@@ -58,7 +57,7 @@ static bool matches(const pointer_path *p, size_t from, const char *const *names
     return from == p->count;
 }
 
-/* A token as an index below count, written as JSON pointers write them. */
+/* A token as an index below count, in the syntax of JSON pointers. */
 static bool get_number(const pointer_path *p, size_t token, uint32_t count, uint32_t *out)
 {
     const char *text = token < p->count ? p->tokens[token] : "";
@@ -83,7 +82,7 @@ static void set(gltf_target *out, scene_target_kind kind, uint32_t index, size_t
 
 /* ---- weights ---- */
 
-/* All weights or one of them; index is that of the node or the mesh. */
+/* All weights or one of them; index: of the node or the mesh. */
 static const char *resolve_weights(const facet_scene *scene, const pointer_path *p, uint32_t index,
                                    uint32_t mesh, gltf_target *out)
 {
@@ -143,8 +142,8 @@ static const char *resolve_node(io_reader *r, const pointer_path *p, gltf_target
 
 /* ---- materials ---- */
 
-/* Whether a material has what a row of the table extends. KHR_materials_pbrSpecularGlossiness takes the place of
- * metallic-roughness. */
+/* Whether a material has the parameters of a table row. KHR_materials_pbrSpecularGlossiness replaces metallic-
+ * roughness. */
 static bool has_object(const scene_material *m, uint32_t extension, const char *object)
 {
     if (extension)
@@ -152,7 +151,7 @@ static bool has_object(const scene_material *m, uint32_t extension, const char *
     return !*object || !(m->extensions & SCENE_SPECULAR_GLOSSINESS);
 }
 
-/* A texture of a material by the object and the key of the JSON. */
+/* A texture of a material by the object and the key in the JSON. */
 static scene_texture_slot find_slot(uint32_t extension, const char *object, const char *key)
 {
     size_t slot = 0;
@@ -184,7 +183,7 @@ static const char *resolve_parameter(const scene_material *m, const pointer_path
     return NOTHING;
 }
 
-/* KHR_texture_transform of one texture, which stands in the JSON at object and key. */
+/* KHR_texture_transform of one texture, at object and key in the JSON. */
 static const char *resolve_transform(const scene_material *m, const pointer_path *p, uint32_t index,
                                      const material_texture *row, scene_texture_slot slot, gltf_target *out)
 {

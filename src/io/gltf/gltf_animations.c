@@ -31,8 +31,8 @@ static bool is_increasing(const float *times, size_t count)
     return is_right;
 }
 
-/* Sorts keys by time; of several at the same time the last one stays. Those without a finite time go. Returns how many
- * are left. */
+/* Sorts keys by time and removes those without a finite time; of several at the same time the last one stays. Returns
+ * the number that is left. */
 static uint32_t order_keys(const float *times, uint32_t count, key *out)
 {
     uint32_t finite = 0;
@@ -47,7 +47,7 @@ static uint32_t order_keys(const float *times, uint32_t count, key *out)
     return kept;
 }
 
-/* Replaces the keys of a sampler, which do not increase, by those of them that do. */
+/* Replaces keys that do not increase strictly by their sorted subset. */
 static bool repair_times(io_reader *r, const json_place *at, scene_sampler *s)
 {
     size_t width = (size_t)s->width * (s->interpolation == SCENE_CUBIC_SPLINE ? 3 : 1);
@@ -72,9 +72,9 @@ static bool repair_times(io_reader *r, const json_place *at, scene_sampler *s)
 
 /* ---- rotations ---- */
 
-/* Beyond this a quaternion is made unit; rounded ones of the file stay. */
+/* Quaternions beyond this tolerance are normalized; others are kept as rounded by the exporter. */
 static const double UNIT_TOLERANCE = 1e-5;
-static const double FAR_OFF = 0.01; /* worth a warning */
+static const double FAR_OFF = 0.01; /* tolerance of a warning */
 
 static double length_of(const float q[4])
 {
@@ -82,7 +82,7 @@ static double length_of(const float q[4])
                 (double)q[3] * (double)q[3]);
 }
 
-/* Makes the rotations of a sampler unit; tangents of splines shrink with them. */
+/* Normalizes the rotations of a sampler; tangents of splines are scaled with them. */
 static bool repair_rotations(io_reader *r, const json_place *at, scene_sampler *s)
 {
     bool is_cubic = s->interpolation == SCENE_CUBIC_SPLINE;
@@ -114,7 +114,7 @@ static bool repair_rotations(io_reader *r, const json_place *at, scene_sampler *
 
 /* ---- samplers ---- */
 
-/* What does not depend on what the sampler moves; for those that nothing asks for too. */
+/* The checks that do not depend on the target, made for unused samplers, too. */
 static void check_animation_sampler(io_reader *r, const json_place *at)
 {
     static const char *const keys[2] = {"input", "output"};
@@ -143,7 +143,7 @@ static scene_interpolation get_interpolation(io_reader *r, const json_place *at)
     return SCENE_LINEAR;
 }
 
-/* The keys as the file has them. False: an error is recorded, or a warning says what is wrong with them. */
+/* The keys of the file. False: an error is recorded, or a warning reports the reason. */
 static bool read_sampler(io_reader *r, const json_place *at, scene_sampler *out)
 {
     uint32_t input = gltf_get_required_accessor(r, at, "input");
@@ -162,7 +162,7 @@ static bool read_sampler(io_reader *r, const json_place *at, scene_sampler *out)
         return false;
     }
     *out = (scene_sampler){.interpolation = get_interpolation(r, at), .key_count = times->count};
-    /* Several elements make a value of an array: as many of them per key as there are weights. */
+    /* Several elements form a value of an array: as many per key as there are weights. */
     uint64_t per_element = out->interpolation == SCENE_CUBIC_SPLINE ? 3 : 1;
     uint64_t keys = per_element * out->key_count;
     if (keys == 0 || values->count < keys || values->count % keys != 0) {
@@ -176,13 +176,12 @@ static bool read_sampler(io_reader *r, const json_place *at, scene_sampler *out)
         return false;
     out->times = gltf_get_accessor_floats(r, at, input);
     out->values = gltf_get_finite(r, at, output, "values");
-    out->width =
-        (uint32_t)(values->count / keys) * gltf_component_counts[values->type]; /* below 2^30 by now */
+    out->width = (uint32_t)(values->count / keys) * gltf_component_counts[values->type]; /* below 2^30 here */
     return out->times && out->values;
 }
 
-/* Keys as scene_sampler wants them; is_rotation: values of 4 floats become unit. False: an error is recorded, or a
- * warning says why nothing can move by them. */
+/* Keys in the form of scene_sampler; is_rotation: values of 4 floats become unit. False: an error is recorded, or a
+ * warning reports why it animates nothing. */
 static bool read_animation_sampler(io_reader *r, const json_place *at, bool is_rotation, scene_sampler *out)
 {
     if (!read_sampler(r, at, out))
@@ -199,7 +198,7 @@ static bool read_animation_sampler(io_reader *r, const json_place *at, bool is_r
 /* The animation that is being read. */
 typedef struct animation_reader {
     json_place samplers; /* of the file */
-    /* Per sampler of the file, as it is and as rotations: its number in the scene, NOT_YET or USELESS. */
+    /* Per sampler of the file, plain and as rotations: its index in the scene, NOT_YET or USELESS. */
     uint32_t (*numbers)[2];
     scene_sampler *made;
     uint32_t made_count;
@@ -208,11 +207,11 @@ typedef struct animation_reader {
 } animation_reader;
 
 static const uint32_t NOT_YET = UINT32_MAX;
-static const uint32_t USELESS = UINT32_MAX - 1; /* a warning said why */
+static const uint32_t USELESS = UINT32_MAX - 1; /* a warning gave the reason */
 
 /* ---- samplers ---- */
 
-/* The number in the scene of a sampler of the file, or USELESS. */
+/* The index in the scene of a sampler of the file, or USELESS. */
 static uint32_t get_sampler(io_reader *r, animation_reader *a, uint32_t index, bool is_rotation)
 {
     uint32_t *number = &a->numbers[index][is_rotation];
@@ -239,7 +238,7 @@ static void add_channel(io_reader *r, animation_reader *a, const scene_channel *
     a->channels[a->channel_count++] = *channel;
 }
 
-/* What node and path name. False: nothing that moves; a warning says so where it is not as the specification asks. */
+/* The target of node and path. False: no target; a warning reports it if the file is invalid. */
 static bool find_core_target(io_reader *r, const json_place *target, const char *path, gltf_target *out)
 {
     static const struct {
@@ -294,8 +293,8 @@ static bool find_pointed_target(io_reader *r, const json_place *target, gltf_tar
     return !message;
 }
 
-/* Weights of a mesh are those of every node that has it and no weights of its own: a channel for each, as a file
- * without pointers would have them. */
+/* Weights of a mesh apply to every node that uses it without weights of its own: a channel for each, as in a file
+ * without pointers. */
 static void add_mesh_channels(io_reader *r, animation_reader *a, const scene_channel *channel, uint32_t width)
 {
     const facet_scene *scene = r->scene;
@@ -316,7 +315,7 @@ static void add_mesh_channels(io_reader *r, animation_reader *a, const scene_cha
     }
 }
 
-/* Copies of a node, which has several parents, move with it. */
+/* The copies of a node with several parents move with it. */
 static void add_node_channels(io_reader *r, animation_reader *a, const scene_channel *channel)
 {
     add_channel(r, a, channel);

@@ -11,7 +11,7 @@
 
 /* ---- formats ---- */
 
-enum { /* or-ed: component types, each plain or normalised */
+enum { /* or-ed: component types, each plain or normalized */
        F32 = 1,
        NORMALIZED_UNSIGNED = 2,
        NORMALIZED_SIGNED = 4,
@@ -59,7 +59,7 @@ uint32_t gltf_get_attribute(io_reader *r, const json_place *attributes, const ch
     if (index == SCENE_NONE)
         return SCENE_NONE;
     gltf_accessor *a = &r->gltf->accessors[index];
-    /* Colors as plain integers are a common slip; normalised is the only thing they can mean. */
+    /* Colors as plain integers are a common mistake; they can only be meant as normalized. */
     if (attribute == GLTF_COLOR && format_of(a) == PLAIN_UNSIGNED && !a->floats) {
         io_warn(r, attributes, name, "accessor %u must be normalized; it is read as if it were", index);
         a->is_normalized = true;
@@ -147,16 +147,16 @@ void gltf_check_attribute_names(io_reader *r, const json_place *attributes)
 
 enum { GRAIN = 1 << 15 };
 
-/* A check of all elements: ranges count their offenders by themselves. */
+/* A check of all elements; each work item counts separately. */
 typedef struct check {
     const float *in;
     float *out;
-    size_t *counts;   /* per range: elements to repair */
-    size_t *warnings; /* per range: those of them worth a word */
-    size_t width;     /* of an element, where that is not fixed */
+    size_t *counts;   /* per item: elements to repair */
+    size_t *warnings; /* per item: those of them that deserve a warning */
+    size_t width;     /* floats per element, where that varies */
 } check;
 
-/* Sums what body counts over count elements. False: no memory. */
+/* Runs body over count elements and sums the counts. False: no memory. */
 static bool run_check(io_reader *r, check *c, size_t count, void (*body)(void *, size_t, size_t),
                       size_t *to_repair, size_t *to_warn)
 {
@@ -230,9 +230,9 @@ const float *gltf_get_positions(io_reader *r, const json_place *at, uint32_t ind
 
 /* ---- unit vectors ---- */
 
-/* A deviation from length 1 that floats from a file may have; within it they are used as they are. */
+/* Tolerance within which vectors count as unit length and are used unchanged. */
 static const float UNIT_TOLERANCE = 1e-4f;
-/* What Khronos' validator allows; beyond it is worth a warning. */
+/* Tolerance of the Khronos validator; a larger deviation is reported. */
 static const float VALIDATOR_TOLERANCE = 0.0135f;
 
 static float deviation(const float *v)
@@ -254,7 +254,7 @@ static void check_units(void *context, size_t begin, size_t end, size_t width)
     c->warnings[begin / GRAIN] = warnings;
 }
 
-/* Makes v unit, in double so that no length over- or underflows. False: it has no direction, and is 0 then. */
+/* Normalizes v, in double so that no length overflows or underflows. False: v has no direction and becomes 0. */
 static bool normalise(float v[3])
 {
     double length =

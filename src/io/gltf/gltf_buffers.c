@@ -1,4 +1,4 @@
-/* gltf_buffers.c - buffers and buffer views: where bytes are. A buffer is read when something needs its bytes. */
+/* gltf_buffers.c - buffers and buffer views. The bytes of a buffer are loaded on first use. */
 #include <string.h>
 
 #include "io/gltf/gltf_reader.h"
@@ -87,7 +87,7 @@ bool gltf_has_accessor_source(const io_reader *r, uint32_t accessor)
             (gltf_has_view_source(r, a->sparse_index_view) && gltf_has_view_source(r, a->sparse_value_view)));
 }
 
-/* Makes the bytes of a buffer come to be. */
+/* Loads the bytes of a buffer. */
 static bool load_buffer(io_reader *r, const json_place *at, uint32_t index)
 {
     gltf_buffer *buffer = &r->gltf->buffers[index];
@@ -98,7 +98,7 @@ static bool load_buffer(io_reader *r, const json_place *at, uint32_t index)
     size_t size = 0;
     if (buffer->uri) {
         uri_bytes bytes;
-        if (!io_load_uri(r, buffer->uri, &bytes)) { /* looked for once */
+        if (!io_load_uri(r, buffer->uri, &bytes)) { /* searched for once only */
             io_fail(r, at, "uri", bytes.result, "%s", bytes.message);
             return io_defer(r, &buffer->problem) && io_fail_deferred(r, &buffer->problem);
         }
@@ -175,7 +175,7 @@ void gltf_check_unused_parts(io_reader *r)
         io_warn_deferred(r, &r->gltf->accessors[i].problem);
     for (uint32_t i = 0; i < r->scene->mesh_count; i++) {
         if (r->gltf->meshes[i].problem.message && !draws_meshes(r->scene))
-            io_fail_deferred(r, &r->gltf->meshes[i].problem); /* rather than an empty image */
+            io_fail_deferred(r, &r->gltf->meshes[i].problem); /* instead of rendering an empty image */
         io_warn_deferred(r, &r->gltf->meshes[i].problem);
         io_warn_deferred(r, &r->gltf->meshes[i].joints);
     }

@@ -1,41 +1,41 @@
 /* gltf_draco.c - KHR_draco_mesh_compression: primitives whose attributes and faces are in a bitstream. All bitstreams
- * of the file are decoded beside one another when the first such primitive is read. */
+ * of the file are decoded in parallel when the first such primitive is read. */
 #include <string.h>
 
 #include "base/parallel.h"
 #include "io/gltf/draco_shim.h"
 #include "io/gltf/gltf_reader.h"
 
-/* A buffer view with a bitstream; primitives may share it. */
+/* A buffer view with a bitstream, which primitives may share. */
 typedef struct bitstream {
-    const unsigned char *bytes; /* NULL: they cannot be had */
-    io_problem missing;         /* why */
+    const unsigned char *bytes; /* NULL: not available */
+    io_problem missing;         /* the reason */
     size_t size;
     draco_limits limits;
     uint32_t user_count; /* primitives that are still to be read */
-    draco_mesh *mesh;    /* NULL: not decoded, or result and message say why */
+    draco_mesh *mesh;    /* NULL: not decoded, or result and message give the reason */
     facet_result result;
     char message[DRACO_MESSAGE];
-    const uint32_t *corners; /* of its faces; NULL: nobody asked yet */
+    const uint32_t *corners; /* indices of its faces; NULL: not requested yet */
 } bitstream;
 
 struct gltf_draco_state {
     bitstream *streams; /* of the arena */
     uint32_t stream_count;
-    uint32_t *stream_of_view; /* SCENE_NONE: the view is none */
+    uint32_t *stream_of_view; /* SCENE_NONE: the view is not a bitstream */
     const facet_allocator *allocator;
 };
 
 static const char NAME[] = "KHR_draco_mesh_compression";
 
-/* A bitstream may make so many values of each of its bytes, and so many of nothing. A flat grid, 2 million triangles in
- * 50 kB with 20 constant components in each vertex, comes to 600. */
+/* Limits on the number of values that a bitstream may decode to, per byte and in total. A flat grid of 2 million
+ * triangles in 50 kB, with 20 constant components per vertex, needs 600 per byte. */
 enum { VALUES_PER_BYTE = 4096, VALUES_OF_NOTHING = 1 << 20 };
 
 /* ---- all bitstreams at once ---- */
 
-/* Calls visit for each primitive of the file that has the extension, until one is false. What is wrong with other
- * primitives is reported when they are read. */
+/* Calls visit for each primitive of the file that has the extension, until it returns false. Errors in other
+ * primitives are reported when they are read. */
 static bool for_each_primitive(io_reader *r, bool (*visit)(io_reader *, const json_place *primitive,
                                                            const json_place *extension))
 {
@@ -71,7 +71,7 @@ static bool list_stream(io_reader *r, const json_place *primitive, const json_pl
     return io_is_ok(r);
 }
 
-/* Counts a primitive among the users of its bitstream, and what its accessors say into the limits. */
+/* Counts a primitive among the users of its bitstream, and adds the counts of its accessors to the limits. */
 static bool note_user(io_reader *r, const json_place *primitive, const json_place *extension)
 {
     uint32_t view = io_peek_index(extension, "bufferView", r->gltf->view_count);
@@ -90,7 +90,7 @@ static bool note_user(io_reader *r, const json_place *primitive, const json_plac
     }
     uint32_t indices = io_peek_index(primitive, "indices", r->gltf->accessor_count);
     uint32_t mode = io_has_member(primitive, "mode") ? io_peek_index(primitive, "mode", 7) : 4;
-    /* of a strip each index may close a triangle; without indices the faces may be any */
+    /* each index of a strip may complete a triangle; without indices there may be any number of faces */
     uint32_t faces = indices == SCENE_NONE ? points : r->gltf->accessors[indices].count;
     faces = mode == 5 || indices == SCENE_NONE ? faces : faces / 3;
     s->limits.point_count = points > s->limits.point_count ? points : s->limits.point_count;
@@ -133,7 +133,7 @@ static void decode_streams(void *context, size_t begin, size_t end)
     }
 }
 
-/* Makes r->gltf->draco, with all bitstreams decoded that can be. */
+/* Creates r->gltf->draco and decodes all bitstreams. */
 static bool decode_all(io_reader *r)
 {
     gltf_draco_state *d = io_alloc(r, NAME, 1, sizeof *d);
@@ -182,7 +182,7 @@ static draco_type type_of(gltf_component component)
     }
 }
 
-/* What was made of an accessor's elements before, of another bitstream or of none, counts no more. */
+/* Discards arrays that were converted from other elements of the accessor. */
 static void replace_elements(gltf_accessor *a, const unsigned char *elements, uint32_t view, uint32_t id)
 {
     *a = (gltf_accessor){.view = a->view,
@@ -196,7 +196,8 @@ static void replace_elements(gltf_accessor *a, const unsigned char *elements, ui
                          .draco_attribute = id};
 }
 
-/* Gives the accessor of an attribute what the bitstream has under id. at: the attribute in the extension. */
+/* Replaces the elements of an attribute's accessor by the attribute `id` of the bitstream. at: the attribute in the
+ * extension. */
 static bool bind_attribute(io_reader *r, const json_place *at, const bitstream *s, uint32_t view, uint32_t id,
                            uint32_t accessor)
 {
@@ -229,7 +230,7 @@ static bool bind_attribute(io_reader *r, const json_place *at, const bitstream *
     return true;
 }
 
-/* The faces become the indices of the primitive, and the number of those that its accessor claims is checked. */
+/* Makes the faces the indices of the primitive, after a check against the count of its index accessor. */
 static bool bind_faces(io_reader *r, const json_place *primitive, bitstream *s, uint32_t view, uint64_t mode)
 {
     uint32_t faces = draco_shim_face_count(s->mesh);

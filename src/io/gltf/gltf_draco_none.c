@@ -1,5 +1,5 @@
-/* gltf_draco_none.c - gltf_draco.c where facet is built without the Draco library: what is there uncompressed beside
- * the bitstream is read, as the extension allows. */
+/* gltf_draco_none.c - replaces gltf_draco.c in builds without the Draco library: uncompressed data beside the
+ * bitstream is read, as the extension allows. */
 #include "io/gltf/gltf_reader.h"
 
 static bool has_elements(const io_reader *r, uint32_t accessor)

@@ -1,4 +1,4 @@
-/* gltf_extensions.c - what the file says it uses, and what facet makes of each: the one table of extensions. */
+/* gltf_extensions.c - the table of extensions, and what is reported about those that a file uses. */
 #include <string.h>
 
 #include "image/image.h"
@@ -23,16 +23,16 @@ enum {
 typedef struct known_extension {
     const char *name;
     scene_support support;
-    int places;         /* where facet reads it; in others it means nothing */
-    const char *effect; /* of ignoring it, for the warning; NULL: none, no warning */
-    image_codec codec;  /* supported where this is built in */
+    int places;         /* objects where facet reads it; elsewhere it has no meaning */
+    const char *effect; /* effect of ignoring it, for the warning; NULL: none, no warning */
+    image_codec codec;  /* depends on the build */
 } known_extension;
 
 static const known_extension KNOWN[] = {
     {"CESIUM_RTC", SCENE_SUPPORTED, ROOT, NULL, 0},
     {"EXT_lights_image_based", SCENE_SUPPORTED, ROOT | SCENE, NULL, 0},
     {"EXT_mesh_gpu_instancing", SCENE_SUPPORTED, NODE, NULL, 0},
-    /* Says which primitives may be drawn in one call: they are ordinary ones, and are drawn. */
+    /* Only groups primitives that may be drawn in one call; they are ordinary ones, and are drawn. */
     {"EXT_mesh_primitive_restart", SCENE_SUPPORTED, ELSEWHERE, NULL, 0},
     {"EXT_meshopt_compression", SCENE_SUPPORTED, BUFFER | VIEW, NULL, 0},
     {"EXT_texture_avif", SCENE_SUPPORTED, TEXTURE, "fallback images are used where the file has them",
@@ -69,7 +69,7 @@ static const known_extension KNOWN[] = {
     {"KHR_texture_transform", SCENE_SUPPORTED, TEXTURE_INFO, NULL, 0},
     {"KHR_xmp", SCENE_SUPPORTED, ANYWHERE, NULL, 0},
     {"KHR_xmp_json_ld", SCENE_SUPPORTED, ANYWHERE, NULL, 0},
-    /* Metadata, behavior, sound, and hints for editors, which do not outlive another order of vertices: nothing to see. */
+    /* Metadata, behavior, sound, and hints for editors that depend on the order of vertices: no effect on images. */
     {"AGI_articulations", SCENE_IGNORED, ANYWHERE, NULL, 0},
     {"AGI_stk_metadata", SCENE_IGNORED, ANYWHERE, NULL, 0},
     {"EXT_feature_metadata", SCENE_IGNORED, ANYWHERE, NULL, 0},
@@ -88,14 +88,14 @@ static const known_extension KNOWN[] = {
     {"MSFT_audio_emitter", SCENE_IGNORED, ANYWHERE, NULL, 0},
     {"MSFT_lod", SCENE_IGNORED, ANYWHERE, NULL, 0}, /* the finest level is the node itself */
     {"MSFT_packing_normalRoughnessMetallic", SCENE_IGNORED, ANYWHERE, NULL,
-     0}, /* of textures that are there twice */
+     0}, /* for textures that exist twice */
     {"MSFT_packing_occlusionRoughnessMetallic", SCENE_IGNORED, ANYWHERE, NULL, 0},
     {"OMI_audio_emitter", SCENE_IGNORED, ANYWHERE, NULL, 0},
     {"OMI_collider", SCENE_IGNORED, ANYWHERE, NULL, 0},
     {"OMI_physics_body", SCENE_IGNORED, ANYWHERE, NULL, 0},
     {"OMI_physics_shape", SCENE_IGNORED, ANYWHERE, NULL, 0},
     {"OMI_spawn_point", SCENE_IGNORED, ANYWHERE, NULL, 0},
-    /* Left out; docs/gltf-support.md says why. */
+    /* Unsupported; docs/gltf-support.md gives the reasons. */
     {"EXT_lights_ies", SCENE_IGNORED, ANYWHERE, "its lights are left out", 0},
     {"MSFT_texture_dds", SCENE_SUPPORTED, TEXTURE, "fallback images are used where the file has them",
      IMAGE_CODEC_DDS},
@@ -127,7 +127,7 @@ bool gltf_is_extension_listed(const io_reader *r, const char *name)
     return find_listed(r, name) != NULL;
 }
 
-/* Takes a name from extensionsUsed or extensionsRequired into the list; NULL: it is no name, or an error is recorded. */
+/* Adds a name of extensionsUsed or extensionsRequired to the list; NULL: it is not a string, or an error is recorded. */
 static scene_extension *list(io_reader *r, const json_place *at)
 {
     if (!json_is_string(at->value)) {
@@ -150,7 +150,7 @@ static scene_extension *list(io_reader *r, const json_place *at)
     return listed;
 }
 
-/* What an object at a member of a parent at place is. */
+/* The kind of object that a member of a parent is. */
 static int place_below(int place, const char *key)
 {
     static const struct {
@@ -160,7 +160,7 @@ static int place_below(int place, const char *key)
                       {"scenes", SCENE}, {"buffers", BUFFER},     {"bufferViews", VIEW}};
     if (place == MATERIAL || place == TEXTURE_INFO)
         return TEXTURE_INFO;
-    /* These names stand for nothing else anywhere in glTF. */
+    /* These names have no other meaning in glTF. */
     if (strcmp(key, "primitives") == 0)
         return PRIMITIVE;
     if (strcmp(key, "target") == 0)
@@ -191,8 +191,8 @@ static void check_extensions_of(io_reader *r, json_t *extensions, int place)
     }
 }
 
-/* Says, once per name, which extension objects stand below value, an object or array at place, without being listed
- * or where they mean nothing. Bounded in depth: glTF's own objects nest no deeper. */
+/* Reports, once per name, extension objects below value, an object or array at place, that are not listed or are
+ * misplaced. The depth is bounded: glTF's own objects are not nested deeper. */
 static void check_objects(io_reader *r, json_t *value, int place, int depth)
 {
     size_t index;
@@ -213,7 +213,7 @@ static void check_objects(io_reader *r, json_t *value, int place, int depth)
     }
 }
 
-/* Of what an image lacks; an extension that no object has is lost to none. */
+/* Reports extensions that the image lacks; an extension that no object uses affects nothing. */
 static void warn_ignored(io_reader *r)
 {
     for (uint32_t i = 0; i < r->scene->extension_count; i++) {

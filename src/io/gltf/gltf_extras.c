@@ -16,7 +16,7 @@ static const char *const METADATA[] = {"KHR_xmp_json_ld", "KHR_xmp"};
 
 /* ---- text ---- */
 
-/* With 15 digits 0.1 is 0.1; where those are not enough to come back to the same value, with all 17. */
+/* 15 digits where they read back as the same value, so that 0.1 stays 0.1; otherwise 17. */
 static size_t choose_format(const json_t *value)
 {
     const size_t plain = JSON_COMPACT | JSON_ENCODE_ANY;
@@ -29,7 +29,7 @@ static size_t choose_format(const json_t *value)
     return is_same ? plain | JSON_REAL_PRECISION(15) : exact;
 }
 
-/* A value as text in the scene, members in the order of the file; NULL: an error is recorded. */
+/* A value as JSON text in the scene's arena, members in the order of the file; NULL: an error is recorded. */
 static const char *keep_text(io_reader *r, const json_t *value)
 {
     size_t format = choose_format(value);
@@ -37,7 +37,7 @@ static const char *keep_text(io_reader *r, const json_t *value)
     char *string = io_alloc_raw(r, "metadata", size + 1, 1);
     if (!string)
         return NULL;
-    if (size == 0 || json_dumpb(value, string, size, format) != size) { /* jansson had no memory */
+    if (size == 0 || json_dumpb(value, string, size, format) != size) { /* jansson ran out of memory */
         io_fail_memory(r, "metadata", size);
         return NULL;
     }
@@ -47,7 +47,7 @@ static const char *keep_text(io_reader *r, const json_t *value)
 
 /* ---- objects ---- */
 
-/* Other objects name a packet of the root by its number; a wrong one harms nobody who draws. */
+/* Other objects refer to a packet of the root by index; a wrong index does not affect images. */
 static void check_packet(io_reader *r, const json_place *extension)
 {
     const json_place root = {.value = r->json};
@@ -107,7 +107,7 @@ static const char MEMBER[] = "facet_legacy";
 
 /* ---- values ---- */
 
-/* count numbers, in range; of one, a number or an array of it. False: out is as it was. */
+/* Reads count numbers in range; one number may stand without an array. False: out is unchanged. */
 static bool get_numbers(const json_t *value, float *out, size_t count, float minimum, float maximum)
 {
     double numbers[3];
@@ -131,7 +131,7 @@ static void get_flag(const json_t *value, bool *out)
         *out = json_is_true(value);
 }
 
-/* The number of a name; what it was where there is none. */
+/* The index of a name; fallback where it is unknown. */
 static int get_choice(const json_t *value, const char *const *names, int fallback)
 {
     for (int i = 0; json_is_string(value) && names[i]; i++)
@@ -213,7 +213,7 @@ static void get_material(io_reader *r, const json_t *object, legacy_material *m)
     m->unknown = get_text(r, json_object_get(object, "unknown"));
 }
 
-/* Whether a material is what the conversion made. */
+/* Whether a material equals the result of the conversion. */
 static bool is_unchanged(const json_t *pbr, const scene_material *m)
 {
     if (!json_is_object(pbr))

@@ -1,16 +1,16 @@
 /* gltf_hierarchy.c - parents and children of nodes, and copies. The specification allows a node one parent; some
  * exporters give it several and mean instances, so that the second parent and all after it get copies of the node and
- * its descendants. Copies follow the nodes of the file, whose numbers stay. Cycles are an error.
- * EXT_mesh_gpu_instancing: the places of a node's mesh. Custom attributes (_ID, ..) affect no image. */
+ * its descendants. Copies follow the nodes of the file, whose indices stay. Cycles are an error.
+ * EXT_mesh_gpu_instancing: the transforms of a node's instances. Custom attributes (_ID, ..) affect no image. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "io/gltf/gltf_reader.h"
 
-/* Copies of copies can be exponentially many. The first way to a node is the node itself, and each other one a copy: WAYS_ENOUGH
- * ways are too many copies already. */
-enum { MAX_COPIES = 1 << 16, WAYS_ENOUGH = MAX_COPIES + 2 };
+/* Copies of copies can grow exponentially. The first path to a node is the node itself, and each other path a copy;
+ * with MAX_PATHS paths there are too many copies. */
+enum { MAX_COPIES = 1 << 16, MAX_PATHS = MAX_COPIES + 2 };
 
 void gltf_read_children(io_reader *r, const json_place *at, uint32_t index, uint32_t node_count)
 {
@@ -23,7 +23,7 @@ void gltf_read_children(io_reader *r, const json_place *at, uint32_t index, uint
         uint32_t child = io_get_index_value(r, &element, node_count, "node");
         if (child == SCENE_NONE)
             return;
-        if (r->scene->nodes[child].parent == index) { /* the last node that listed it */
+        if (r->scene->nodes[child].parent == index) { /* the last node that listed it as a child */
             io_note(r, &element, NULL, "node %u is listed twice", child);
             continue;
         }
@@ -34,15 +34,15 @@ void gltf_read_children(io_reader *r, const json_place *at, uint32_t index, uint
     r->scene->nodes[index].child_count = used;
 }
 
-/* ---- how many there are ---- */
+/* ---- the number of copies ---- */
 
-typedef struct way_count {
-    uint32_t *waiting, *queue; /* parents that were not looked at; nodes without such */
-    uint64_t *ways;            /* from roots to a node; more than WAYS_ENOUGH count as WAYS_ENOUGH */
-} way_count;
+typedef struct path_count {
+    uint32_t *waiting, *queue; /* parents not visited yet; nodes without any */
+    uint64_t *paths;           /* paths from roots to a node, at most MAX_PATHS */
+} path_count;
 
-/* Looks at parents before children. Returns how many nodes that reached: all, where there are no loops. */
-static uint32_t follow_ways(const scene_node *nodes, uint32_t count, way_count *w, uint64_t *total)
+/* Visits parents before children. Returns the number of nodes reached: all, if there are no cycles. */
+static uint32_t count_paths(const scene_node *nodes, uint32_t count, path_count *w, uint64_t *total)
 {
     uint32_t queued = 0;
     for (uint32_t i = 0; i < count; i++)
@@ -50,17 +50,17 @@ static uint32_t follow_ways(const scene_node *nodes, uint32_t count, way_count *
             w->waiting[nodes[i].children[k]]++;
     for (uint32_t i = 0; i < count; i++)
         if (w->waiting[i] == 0) {
-            w->ways[i] = 1;
+            w->paths[i] = 1;
             w->queue[queued++] = i;
         }
     for (uint32_t i = 0; i < queued; i++) {
         const scene_node *node = &nodes[w->queue[i]];
-        uint64_t ways = w->ways[w->queue[i]];
-        *total += ways;
+        uint64_t paths = w->paths[w->queue[i]];
+        *total += paths;
         for (uint32_t k = 0; k < node->child_count; k++) {
             uint32_t child = node->children[k];
-            uint64_t sum = w->ways[child] + ways;
-            w->ways[child] = sum < WAYS_ENOUGH ? sum : WAYS_ENOUGH;
+            uint64_t sum = w->paths[child] + paths;
+            w->paths[child] = sum < MAX_PATHS ? sum : MAX_PATHS;
             if (--w->waiting[child] == 0)
                 w->queue[queued++] = child;
         }
@@ -68,17 +68,17 @@ static uint32_t follow_ways(const scene_node *nodes, uint32_t count, way_count *
     return queued;
 }
 
-/* How many nodes there are when each is there once for every way from a root to it. False: an error is recorded. */
+/* Counts nodes, each once per path from a root. False: an error is recorded. */
 static bool count_nodes(io_reader *r, const json_place *array, uint64_t *total)
 {
     uint32_t count = r->scene->node_count;
-    way_count w = {.waiting = mem_zalloc(r->allocator, count, sizeof *w.waiting),
-                   .queue = mem_alloc(r->allocator, count, sizeof *w.queue),
-                   .ways = mem_zalloc(r->allocator, count, sizeof *w.ways)};
+    path_count w = {.waiting = mem_zalloc(r->allocator, count, sizeof *w.waiting),
+                    .queue = mem_alloc(r->allocator, count, sizeof *w.queue),
+                    .paths = mem_zalloc(r->allocator, count, sizeof *w.paths)};
     *total = 0;
-    if (!w.waiting || !w.queue || !w.ways) {
-        io_fail_memory(r, "nodes", count * (2 * sizeof *w.queue + sizeof *w.ways));
-    } else if (follow_ways(r->scene->nodes, count, &w, total) < count) {
+    if (!w.waiting || !w.queue || !w.paths) {
+        io_fail_memory(r, "nodes", count * (2 * sizeof *w.queue + sizeof *w.paths));
+    } else if (count_paths(r->scene->nodes, count, &w, total) < count) {
         uint32_t i = 0;
         while (w.waiting[i] == 0)
             i++;
@@ -90,7 +90,7 @@ static bool count_nodes(io_reader *r, const json_place *array, uint64_t *total)
     }
     mem_free(w.waiting);
     mem_free(w.queue);
-    mem_free(w.ways);
+    mem_free(w.paths);
     return io_is_ok(r);
 }
 
@@ -105,8 +105,8 @@ static void warn_shared(io_reader *r, const json_place *array, uint32_t parent, 
             r->scene->nodes[child].parent);
 }
 
-/* A copy has no camera, as choosing one is choosing a node, and draws no mesh that joints place: that would be drawn
- * again where it is. */
+/* A copy has no camera, since a camera is selected by node, and no skinned mesh, which would be drawn again in the
+ * same place. */
 static void make_copy(io_reader *r, uint32_t copy, uint32_t of, uint32_t parent)
 {
     scene_node *node = &r->scene->nodes[copy];
@@ -121,7 +121,7 @@ static void make_copy(io_reader *r, uint32_t copy, uint32_t of, uint32_t parent)
     r->gltf->next_copy[original] = copy;
 }
 
-/* Gives a node its children: those of the file that have no parent yet, and copies of the others. */
+/* Sets the children of a node: those nodes of the file that have no parent yet, and copies of the others. */
 static void adopt(io_reader *r, const json_place *array, uint32_t index, uint32_t *used)
 {
     scene_node *nodes = r->scene->nodes;
@@ -177,7 +177,7 @@ uint32_t gltf_next_node_copy(const io_reader *r, uint32_t node)
 
 /* ---- CESIUM_RTC ---- */
 
-/* Every root gets a node above it that is at the center: its own place may be animated. */
+/* Inserts a node at the center above every root, whose own transform may be animated. */
 void gltf_read_center(io_reader *r, const json_place *root)
 {
     double center[3];
@@ -221,7 +221,8 @@ void gltf_read_center(io_reader *r, const json_place *root)
 
 /* ---- instances of a mesh ---- */
 
-/* The accessor of one attribute, whose count must be that of the others; SCENE_NONE: none, or an error is recorded. */
+/* The accessor of one attribute, whose count must equal that of the others; SCENE_NONE: none, or an error is
+ * recorded. */
 static uint32_t get_instances(io_reader *r, const json_place *attributes, const char *name, gltf_type type,
                               uint32_t *count)
 {
@@ -245,7 +246,7 @@ static uint32_t get_instances(io_reader *r, const json_place *attributes, const 
     return index;
 }
 
-/* Unit quaternions, in a copy where some are not. */
+/* Unit quaternions, copied where some need normalization. */
 static const float *get_rotations(io_reader *r, const json_place *at, uint32_t index)
 {
     const gltf_accessor *a = &r->gltf->accessors[index];
@@ -299,7 +300,7 @@ const scene_instancing *gltf_read_instancing(io_reader *r, const json_place *nod
     bool has_data = false;
     for (int i = 0; i < 3; i++)
         has_data |= accessors[i] != SCENE_NONE && !gltf_is_zero_accessor(r, accessors[i]);
-    if (!has_data) { /* all zeros: where the node is, or of size 0 */
+    if (!has_data) { /* all zeros: at the node, or of size 0 */
         static const float zeros[3] = {0, 0, 0};
         if (count > 1)
             io_warn(r, &attributes, NULL, "%u instances without data are in one place; one is drawn", count);

@@ -1,5 +1,5 @@
-/* gltf_materials.c - materials: the numbers and textures that scene/material_table.h lists, and the rules that no
- * table of ranges can say (glTF 2.0 section 3.9 and the extensions of materials). */
+/* gltf_materials.c - materials: the parameters and textures of scene/material_table.h, and rules beyond the ranges of
+ * that table (glTF 2.0 section 3.9 and the extensions of materials). */
 #include <math.h>
 #include <string.h>
 
@@ -97,8 +97,7 @@ static void check_volume_scatter(io_reader *r, const json_place *at, scene_mater
     m->scatter_anisotropy = copysignf(most, m->scatter_anisotropy);
 }
 
-/* It stands in place of metallic-roughness, which such files have as a fallback: that one has been read, and is
- * forgotten. */
+/* The extension replaces metallic-roughness, which such files have as a fallback and which is discarded here. */
 static void take_specular_glossiness(io_reader *r, const json_place *at, scene_material *m)
 {
     static const scene_texture_slot core[] = {SCENE_BASE_COLOR_TEXTURE, SCENE_METALLIC_ROUGHNESS_TEXTURE};
@@ -132,7 +131,7 @@ static void apply_rules(io_reader *r, const json_place *at, uint32_t bit, bool i
 
 /* ---- which extensions count ---- */
 
-/* Those of bits that cannot be beside the winner are taken out, with a warning each. */
+/* Removes the extensions of bits, which `winner` excludes, with a warning for each. */
 static uint32_t exclude(io_reader *r, const json_place *material, uint32_t bits, uint32_t winner,
                         uint32_t others, const char *winner_name)
 {
@@ -145,8 +144,8 @@ static uint32_t exclude(io_reader *r, const json_place *material, uint32_t bits,
     return bits & ~others;
 }
 
-/* Unlit excludes all other models of reflection, pbrSpecularGlossiness all that extend metallic-roughness; emission is
- * apart from the latter. */
+/* Unlit excludes all other reflection models, pbrSpecularGlossiness all extensions of metallic-roughness; emission is
+ * independent of the latter. */
 static uint32_t find_extensions(io_reader *r, const json_place *material)
 {
     uint32_t bits = 0;
@@ -181,7 +180,7 @@ void gltf_read_material(io_reader *r, const json_place *at, scene_material *m)
     m->is_double_sided = io_get_bool(r, at, "doubleSided", false);
     m->extensions = find_extensions(r, at);
     read_rows(r, at, 0, m);
-    /* Factors above 1 were common before emissive_strength; all viewers draw them. */
+    /* Factors above 1 were common before emissive_strength, and all viewers draw them. */
     for (int i = 0; i < 3; i++)
         if (m->emissive[i] > 1.0f)
             io_note(r, at, "emissiveFactor", "is above 1, which needs KHR_materials_emissive_strength");

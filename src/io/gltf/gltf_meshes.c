@@ -50,7 +50,7 @@ static void read_mapping(io_reader *r, const json_place *at, uint32_t *materials
     }
 }
 
-/* The materials of a primitive, by variant; NULL: it has its own in all of them, or an error is recorded. */
+/* The materials of a primitive, by variant; NULL: the same one in all of them, or an error is recorded. */
 static const uint32_t *read_mappings(io_reader *r, const json_place *primitive)
 {
     json_place extension = io_get_extension(r, primitive, NAME);
@@ -83,7 +83,7 @@ static const struct {
     {"TANGENT", "displacements of tangents", GLTF_TANGENT_DELTA},
 };
 
-/* Every accessor that a target names must be there, and so must the attribute that it changes. */
+/* Every accessor of a target must exist, and so must the attribute that it displaces. */
 static void check_target(io_reader *r, const json_place *target, const json_place *attributes)
 {
     const char *name;
@@ -115,7 +115,7 @@ static bool read_target(io_reader *r, const json_place *target, const scene_prim
         uint32_t accessor =
             gltf_get_attribute(r, target, DELTAS[i].name, DELTAS[i].attribute, p->vertex_count);
         if (accessor == SCENE_NONE || !is_used[i] || gltf_is_zero_accessor(r, accessor))
-            continue; /* what changes nothing takes no memory */
+            continue; /* a displacement of 0 takes no memory */
         if (!gltf_has_accessor_source(r, accessor))
             io_warn(r, target, DELTAS[i].name, "is in a buffer without bytes and changes nothing");
         else
@@ -124,7 +124,7 @@ static bool read_target(io_reader *r, const json_place *target, const scene_prim
     return io_is_ok(r);
 }
 
-/* The targets of a primitive whose attributes are read, and the weights of a mesh or a node. */
+/* The morph targets of a primitive whose attributes are read. */
 static bool read_targets(io_reader *r, const json_place *at, scene_primitive *p)
 {
     json_place attributes = io_get_object(r, at, "attributes");
@@ -170,7 +170,7 @@ const float *gltf_read_weights(io_reader *r, const json_place *object, uint32_t 
 
 enum { GRAIN = 1 << 15 };
 
-/* Whether a texture of the material reads a set of texture coordinates; the materials of variants may. */
+/* Whether a texture of the material, or of one of its variants, reads a set of texture coordinates. */
 static bool is_set_read(const io_reader *r, const json_place *at, const scene_primitive *p, uint32_t set)
 {
     const scene_material *m = scene_get_material(r->scene, p->material);
@@ -200,7 +200,7 @@ static bool read_texcoords(io_reader *r, const json_place *at, const json_place 
     return io_is_ok(r);
 }
 
-/* Joints are needed where a skin moves the mesh, which is known later. */
+/* Whether joints are needed, because a skin moves the mesh, is known later. */
 static bool read_joints(io_reader *r, const json_place *attributes, scene_primitive *p)
 {
     if (!gltf_read_influences(r, attributes, p) && io_defer(r, &r->gltf->mesh->joints)) {
@@ -211,7 +211,7 @@ static bool read_joints(io_reader *r, const json_place *attributes, scene_primit
     return io_is_ok(r);
 }
 
-/* Whether all that the primitive reads has bytes somewhere. Errors of an accessor are reported when it is read. */
+/* Whether all data that the primitive reads has a source. Errors of an accessor are reported when it is read. */
 static bool has_sources(io_reader *r, const json_place *at, const json_place *attributes)
 {
     const char *name;
@@ -259,7 +259,7 @@ static bool read_attributes(io_reader *r, const json_place *at, const json_place
 
 typedef struct bounds_job {
     const scene_primitive *primitive;
-    float (*boxes)[6]; /* per GRAIN indices: minimum, maximum */
+    float (*boxes)[6]; /* minimum and maximum per work item */
 } bounds_job;
 
 static void bound_range(void *context, size_t begin, size_t end)
@@ -304,7 +304,7 @@ static bool bound_primitive(io_reader *r, scene_primitive *p)
 
 /* ---- primitives ---- */
 
-/* A primitive that draws nothing keeps its place in the mesh. */
+/* An empty primitive keeps its index in the mesh. */
 static void make_empty(scene_primitive *p)
 {
     static const uint32_t no_index = 0;
@@ -313,7 +313,7 @@ static void make_empty(scene_primitive *p)
         .mode = p->mode, .indices = &no_index, .positions = no_position, .material = p->material};
 }
 
-/* Whether the texture coordinates that the material reads are there. */
+/* Reports sets of texture coordinates that the material reads and the primitive lacks. */
 static void check_texcoords(io_reader *r, const json_place *at, const scene_primitive *p)
 {
     if (p->material == SCENE_NONE)
@@ -408,7 +408,7 @@ static void read_mesh(io_reader *r, const json_place *at, scene_mesh *mesh)
     mesh->meta = gltf_get_meta(r, at);
 }
 
-/* A mesh that cannot be read, and may not be needed, keeps its number. */
+/* A mesh that cannot be read keeps its index; it may not be needed. */
 static void read_or_defer_mesh(io_reader *r, const json_place *at, uint32_t index)
 {
     scene_mesh *mesh = &r->scene->meshes[index];

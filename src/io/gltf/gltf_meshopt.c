@@ -1,6 +1,6 @@
 /* gltf_meshopt.c - EXT_meshopt_compression and KHR_meshopt_compression: buffer views whose bytes are decoded from
- * others. They are checked when the table of views is read, and decoded, all of them at once and beside one another,
- * when the bytes of the first one are asked for. */
+ * others. They are checked when the table of views is read, and decoded in parallel, all at once, when the bytes of
+ * the first one are requested. */
 #include <string.h>
 
 #include "base/parallel.h"
@@ -10,10 +10,10 @@
 struct gltf_compressed_view {
     uint32_t buffer;
     size_t offset;
-    meshopt_stream stream; /* bytes: NULL: they cannot be had */
-    uint8_t *decoded;      /* NULL: not asked for yet, or problem says why */
+    meshopt_stream stream; /* bytes: NULL: not available */
+    uint8_t *decoded;      /* NULL: not requested yet, or see problem */
     const char *problem;
-    io_problem missing; /* why its stream cannot be had */
+    io_problem missing; /* why its stream is not available */
 };
 
 static const char *const NAMES[] = {"KHR_meshopt_compression", "EXT_meshopt_compression"};
@@ -31,7 +31,7 @@ bool gltf_is_meshopt_fallback(io_reader *r, const json_place *buffer)
 
 /* ---- the table ---- */
 
-/* The place of key's value among count words; 0 with the error recorded, where it is none of them. */
+/* The index of key's value among count words; 0 with the error recorded if it is not one of them. */
 static int get_word(io_reader *r, const json_place *at, const char *key, const char *const *words, int count,
                     const char *fallback)
 {
@@ -60,7 +60,7 @@ static void read_stream(io_reader *r, const json_place *at, gltf_compressed_view
     v->stream.filter = (meshopt_filter)get_word(r, at, "filter", filters, 5, "NONE");
 }
 
-/* Whether the numbers fit one another, the buffer with the stream, and the view of size bytes that it makes. */
+/* Whether the numbers are consistent with each other, with the buffer of the stream, and with the view of size bytes. */
 static bool check_stream(io_reader *r, const json_place *at, const gltf_compressed_view *v, size_t size)
 {
     const gltf_buffer *buffer = &r->gltf->buffers[v->buffer];
@@ -112,8 +112,8 @@ uint32_t gltf_get_meshopt_buffer(const gltf_compressed_view *view)
 
 /* ---- bytes ---- */
 
-/* Finds the bytes of a stream and takes memory for what they decode to. What is wrong with one view is said when that
- * one is asked for. */
+/* Finds the bytes of a stream and allocates memory for the decoded ones. Errors of a view are reported when it is
+ * requested. */
 static bool prepare(io_reader *r, const json_place *at, gltf_compressed_view *v)
 {
     meshopt_stream *s = &v->stream;
@@ -127,7 +127,7 @@ static bool prepare(io_reader *r, const json_place *at, gltf_compressed_view *v)
         v->problem = MESHOPT_TOO_SHORT;
         return true;
     }
-    if (!io_spend(r, at, s->count * s->stride / 12)) /* as many floats of 3 components */
+    if (!io_spend(r, at, s->count * s->stride / 12)) /* at most that many floats of 3 components */
         return false;
     v->decoded = io_alloc_raw(r, "buffer view", s->count, s->stride);
     return v->decoded != NULL;

@@ -181,7 +181,7 @@ static void read_transform(io_reader *r, const json_place *at, scene_node *out)
     }
 }
 
-/* What a node has beside its mesh: what of that is wrong is left out. */
+/* The camera, light, skin, weights and visibility of a node; invalid ones are left out. */
 static void read_attachments(io_reader *r, const json_place *at, scene_node *out)
 {
     out->camera = io_get_index(r, at, "camera", r->scene->camera_count, "camera");
@@ -277,7 +277,7 @@ static void read_scene(io_reader *r, const json_place *at, scene_root *out, bool
     json_place light = io_get_extension(r, at, "EXT_lights_image_based");
     out->image_light = io_get_required_index(r, &light, "light", r->scene->image_light_count, "light");
     if (out->image_light != SCENE_NONE && r->scene->image_lights[out->image_light].mip_count == 0)
-        out->image_light = SCENE_NONE; /* a warning said why */
+        out->image_light = SCENE_NONE; /* a warning gave the reason */
     if (io_leave_out(r, "the scene has no image-based light"))
         out->image_light = SCENE_NONE;
     out->meta = gltf_get_meta(r, at);

@@ -11,9 +11,9 @@
 
 enum { GRAIN = 1 << 14, MAX_SETS = 64 };
 
-/* A deviation of the sum from 1 that rounding explains; within it weights are used as they are. */
+/* Tolerance for the sum of weights, within which they are used unchanged. */
 static const double SUM_TOLERANCE = 1e-4;
-/* Beyond this it is worth a warning. */
+/* A larger deviation is reported. */
 static const double FAR_OFF = 0.01;
 
 typedef struct gathering {
@@ -21,10 +21,10 @@ typedef struct gathering {
     const float *joints[MAX_SETS], *weights[MAX_SETS]; /* 4 per vertex */
     uint16_t *out_joints;
     float *out_weights;
-    size_t *far_off, *without; /* per GRAIN: vertices whose weights do not sum to 1, or are all 0 */
+    size_t *far_off, *without; /* per work item: vertices whose weights do not sum to 1, or are all 0 */
 } gathering;
 
-/* A vertex that no joint moves would stay behind at the origin: as in other viewers the first one takes it along. */
+/* A vertex without weights would stay at the origin: as in other viewers the first joint moves it. */
 static void gather_vertex(const gathering *g, size_t vertex, size_t range)
 {
     size_t count = 4 * (size_t)g->set_count;
@@ -44,7 +44,7 @@ static void gather_vertex(const gathering *g, size_t vertex, size_t range)
     else if (fabs(sum - 1.0) > SUM_TOLERANCE)
         for (size_t i = 0; i < count; i++)
             weights[i] = (float)((double)weights[i] / sum);
-    for (size_t i = 0; i < count; i++) /* a joint that moves nothing may be any number in the file */
+    for (size_t i = 0; i < count; i++) /* a joint of weight 0 may have any index in the file */
         joints[i] = weights[i] > 0.0f ? joints[i] : 0;
 }
 
@@ -55,7 +55,7 @@ static void gather(void *context, size_t begin, size_t end)
         gather_vertex(g, vertex, begin / GRAIN);
 }
 
-/* The arrays of the sets. False: an error is recorded, or (set_count 0) the file has none. */
+/* The arrays of all sets. False: an error is recorded, or (set_count 0) the file has none. */
 static bool get_sets(io_reader *r, const json_place *attributes, uint32_t vertex_count, gathering *g)
 {
     uint32_t joint_sets = gltf_count_sets(attributes, "JOINTS_");
@@ -119,7 +119,7 @@ bool gltf_read_influences(io_reader *r, const json_place *attributes, scene_prim
 
 /* ---- the nodes above joints ---- */
 
-/* For each node the outermost one above it; a block of mem_alloc(), NULL: an error is recorded. */
+/* The root above each node; a block of mem_alloc(), NULL: an error is recorded. */
 static uint32_t *find_roots(io_reader *r)
 {
     const facet_scene *scene = r->scene;
@@ -163,7 +163,7 @@ static void read_joints(io_reader *r, const json_place *at, const uint32_t *root
     out->joint_count = (uint32_t)count;
 }
 
-/* A matrix that moves points; false: it is not finite. */
+/* Whether a matrix is finite; *has_last_row: its last row is 0 0 0 1. */
 static bool is_affine(const float m[16], bool *has_last_row)
 {
     bool is_finite = true;
@@ -173,7 +173,7 @@ static bool is_affine(const float m[16], bool *has_last_row)
     return is_finite;
 }
 
-/* Copies of the file's matrices, which are set right where they do not move points. */
+/* Copies the file's matrices and repairs those that are not affine. */
 static const mat4 *get_matrices(io_reader *r, const json_place *skin, uint32_t accessor, uint32_t count)
 {
     const float *in = gltf_get_accessor_floats(r, skin, accessor);
@@ -225,7 +225,7 @@ static void read_bind_matrices(io_reader *r, const json_place *skin, scene_skin 
         io_warn(r, skin, "inverseBindMatrices", "is in a buffer without bytes; identities are used");
 }
 
-/* A skin that cannot be read, and may not be needed, keeps its number: it has one joint where there is a node. */
+/* A skin that cannot be read keeps its index, with a single joint if there is a node; it may not be needed. */
 static void make_unused_skin(io_reader *r, scene_skin *out)
 {
     *out = (scene_skin){.name = out->name, .skeleton = SCENE_NONE};
@@ -245,7 +245,7 @@ static void read_skin(io_reader *r, const json_place *at, const uint32_t *roots,
 
 /* ---- the meshes that skins move ---- */
 
-/* The largest joint that some vertex of a mesh names, plus 1; 0: it has none. */
+/* The largest joint index in a mesh, plus 1; 0: none. */
 static uint32_t count_joints(const scene_mesh *mesh)
 {
     uint32_t count = 0;
@@ -258,7 +258,7 @@ static uint32_t count_joints(const scene_mesh *mesh)
     return count;
 }
 
-/* Every vertex must name joints that the skins of its mesh have. */
+/* The vertices of a mesh must refer to joints of the skins that are used with it. */
 static void check_users(io_reader *r, const json_place *root, io_problem *problems)
 {
     const facet_scene *scene = r->scene;

@@ -1,6 +1,6 @@
-/* gltf_textures.c - images, found but not decoded, and textures with their samplers (glTF 2.0 sections 3.8, 5.18,
- * 5.29; KHR_texture_basisu, EXT_texture_webp, EXT_texture_avif, MSFT_texture_dds). A picture that cannot be had costs a warning and is
- * white, as viewers do it. */
+/* gltf_textures.c - images, located but not decoded, and textures with their samplers (glTF 2.0 sections 3.8, 5.18,
+ * 5.29; KHR_texture_basisu, EXT_texture_webp, EXT_texture_avif, MSFT_texture_dds). A missing image is reported and
+ * rendered white, as in other viewers. */
 #include <string.h>
 
 #include "image/ktx2.h"
@@ -9,7 +9,7 @@
 
 /* ---- images ---- */
 
-/* What the file says that an image is; NULL: nothing. The bytes say so themselves. */
+/* The MIME type in the file; NULL: none. The bytes decide. */
 static const char *get_mime_type(io_reader *r, const json_place *at)
 {
     const char *type = io_get_string(r, at, "mimeType", NULL);
@@ -54,12 +54,12 @@ static bool find_bytes(io_reader *r, const json_place *at, scene_image *out)
     return out->bytes != NULL;
 }
 
-/* What KHR_texture_basisu asks of a file, and what is made of one that is otherwise. */
+/* The requirements of KHR_texture_basisu, and how deviations are handled. */
 static void check_ktx2(io_reader *r, const json_place *at, const scene_image *i)
 {
     ktx2 k;
     if (ktx2_open(i->bytes, i->size, "", &k, NULL) != FACET_OK)
-        return; /* read_size() tells */
+        return; /* read_size() reports it */
     if (k.format->kind != KTX2_ETC1S && k.format->decode != uastc_decode)
         io_note(r, at, NULL, "holds %s, where KHR_texture_basisu has ETC1S or UASTC", k.format->name);
     if (k.is_cube)
@@ -74,8 +74,8 @@ static void check_ktx2(io_reader *r, const json_place *at, const scene_image *i)
         io_warn(r, at, NULL, "has premultiplied alpha, which glTF does not define");
 }
 
-/* From the header of the file. Where that of an extension's file cannot be read, neither can the rest, and a texture
- * takes another source. */
+/* From the header of the image. If it cannot be read for the format of an extension, the image is unusable and a
+ * texture uses its other source. */
 static void read_size(io_reader *r, const json_place *at, const image_kind *kind, scene_image *out)
 {
     image header;
@@ -191,14 +191,14 @@ static uint32_t get_source(io_reader *r, const json_place *at, const char *name)
     return io_get_index(r, &extension, "source", r->scene->image_count, "image");
 }
 
-/* The first source that can be read wins; those of extensions come before the fallback. */
+/* The first readable source wins; extensions come before the fallback. */
 static void find_source(io_reader *r, const json_place *at, scene_texture *out)
 {
     static const char *const names[] = {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif", NULL,
                                         "MSFT_texture_dds"};
     bool has_source = false;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        uint32_t source = get_source(r, at, names[i]); /* all of them: each is checked */
+        uint32_t source = get_source(r, at, names[i]); /* all sources, so that each is checked */
         if (source == SCENE_NONE)
             continue;
         has_source = true;
@@ -230,7 +230,7 @@ void gltf_read_textures(io_reader *r, const json_place *root)
 {
     json_place array = io_get_array(r, root, "textures");
     size_t count = io_get_count(&array);
-    io_get_array(r, root, "samplers"); /* checked even where nothing uses it */
+    io_get_array(r, root, "samplers"); /* checked even if unused */
     io_leave_out(r, "textures have the default sampler");
     r->scene->textures = io_alloc(r, "textures", count, sizeof *r->scene->textures);
     for (size_t i = 0; i < count && io_is_ok(r); i++) {

@@ -11,7 +11,7 @@
 
 enum { POINTS, LINES, LINE_LOOP, LINE_STRIP, TRIANGLES, TRIANGLE_STRIP, TRIANGLE_FAN, MODE_COUNT };
 
-/* 0, 1, .. count - 1; one array serves all primitives. */
+/* 0, 1, .. count - 1; one array is shared by all primitives. */
 static const uint32_t *get_iota(io_reader *r, uint32_t count)
 {
     if (r->gltf->iota && r->gltf->iota_count >= count)
@@ -37,7 +37,7 @@ static bool is_connected(unsigned mode)
     return mode == LINE_LOOP || mode == LINE_STRIP || mode == TRIANGLE_STRIP || mode == TRIANGLE_FAN;
 }
 
-/* How many indices the list has that in indices in make. */
+/* The length of the list that in indices of a mode unroll to. */
 static uint64_t list_length(unsigned mode, uint32_t in)
 {
     switch (mode) {
@@ -64,7 +64,7 @@ static void unroll(unsigned mode, const uint32_t *in, uint32_t in_count, uint32_
             out[2 * i] = in[i];
             out[2 * i + 1] = in[(i + 1) % in_count];
         }
-    else if (mode == TRIANGLE_STRIP) /* every second one turns round, to face the same way */
+    else if (mode == TRIANGLE_STRIP) /* every second triangle is reversed, to keep the winding */
         for (size_t i = 0; 3 * i < out_count; i++) {
             out[3 * i] = in[i];
             out[3 * i + 1] = in[i + 1 + i % 2];
@@ -80,16 +80,16 @@ static void unroll(unsigned mode, const uint32_t *in, uint32_t in_count, uint32_
 
 /* ---- primitive restart ---- */
 
-/* Indices as the accessor has them. */
+/* The indices of the accessor. */
 typedef struct index_source {
     const uint32_t *indices;
     uint32_t count;
     uint32_t largest;
-    uint32_t restart; /* the largest number of the component type */
+    uint32_t restart; /* the largest value of the component type */
     bool has_restarts;
 } index_source;
 
-/* The end of the strip, loop or fan that begins there: a restart or the end of the indices. */
+/* The end of the strip, loop or fan that begins at the index: a restart or the end of the indices. */
 static uint32_t find_end(const index_source *s, uint32_t begin)
 {
     uint32_t end = begin;
@@ -98,7 +98,7 @@ static uint32_t find_end(const index_source *s, uint32_t begin)
     return end;
 }
 
-/* How many indices the list has that all strips, loops or fans of the source make. */
+/* The length of the list that all strips, loops or fans of the source unroll to. */
 static uint64_t total_length(unsigned mode, const index_source *s)
 {
     uint64_t total = 0;
@@ -124,9 +124,9 @@ static void unroll_all(unsigned mode, const index_source *s, uint32_t *out)
     }
 }
 
-/* The largest number of a component type is no index in glTF 2.0, but was written as one before that rule came, and is:
- * lists know no restart. In strips, loops and fans it restarts where the vertex is not there, or the file has
- * EXT_mesh_primitive_restart. (That extension itself joins ordinary primitives, which are drawn.) */
+/* The largest value of a component type is not an index in glTF 2.0, but older exporters wrote it as one: in lists it
+ * is an index. In strips, loops and fans it restarts the primitive if there is no such vertex, or if the file has
+ * EXT_mesh_primitive_restart. (That extension itself groups ordinary primitives, which are drawn.) */
 static void find_restarts(io_reader *r, const json_place *at, unsigned mode, uint32_t vertex_count,
                           index_source *s)
 {
@@ -144,8 +144,8 @@ static void find_restarts(io_reader *r, const json_place *at, unsigned mode, uin
 
 /* ---- vertices that are lost or not there ---- */
 
-/* Leaves out the elements of a list, of so many corners each, that use such vertices; is_lost: NULL: none is. False: an
- * error is recorded. */
+/* Removes elements of a list, of `corners` corners each, that use lost or missing vertices; is_lost: NULL: none.
+ * False: an error is recorded. */
 static bool drop_unusable(io_reader *r, scene_primitive *p, size_t corners, const uint8_t *is_lost)
 {
     uint32_t *out = io_alloc_raw(r, "indices", p->index_count, sizeof *out);
@@ -182,8 +182,8 @@ static void warn_missing_vertex(io_reader *r, const json_place *at, const index_
 
 /* ---- the primitive ---- */
 
-/* Where the indices come from; indices NULL: an error is recorded. *mode becomes that of a list where a bitstream has
- * faces, whatever mode they were stored in: each corner is a vertex. */
+/* The indices of a primitive; indices NULL: an error is recorded. If a bitstream has faces, *mode becomes that of a
+ * list, whatever mode they were stored in, with a vertex per corner. */
 static index_source find_indices(io_reader *r, const json_place *at, uint32_t vertex_count, unsigned *mode)
 {
     uint32_t accessor = gltf_get_accessor(r, at, "indices");
@@ -220,7 +220,7 @@ bool gltf_read_primitive_indices(io_reader *r, const json_place *at, scene_primi
     if ((mode == LINES || mode == TRIANGLES) ? count != in.count : count == 0)
         io_note(r, at, NULL, "%u vertices do not make whole %s", in.count,
                 p->mode == SCENE_LINES ? "lines" : "triangles");
-    if (!io_spend(r, at, count)) /* also what follows is linear in it: bounds, flat normals */
+    if (!io_spend(r, at, count)) /* later work is linear in it as well: bounds, flat normals */
         return false;
     p->index_count = (uint32_t)count;
     p->indices = in.indices;
@@ -241,7 +241,7 @@ bool gltf_read_primitive_indices(io_reader *r, const json_place *at, scene_primi
 
 enum { GRAIN = 1 << 14 };
 
-/* Twice the area times the normal, in double: tiny and huge triangles keep a direction. */
+/* Twice the area times the normal, in double, so that tiny and huge triangles keep a direction. */
 static void face_vector(const scene_primitive *p, const uint32_t corners[3], double out[3])
 {
     const float *a = p->positions + 3 * (size_t)corners[0];
@@ -258,7 +258,7 @@ static void face_vector(const scene_primitive *p, const uint32_t corners[3], dou
     out[2] = u[0] * v[1] - u[1] * v[0];
 }
 
-/* Something without direction, as a triangle without area, gets +Y: nobody sees it. */
+/* A vector without direction, as of a triangle without area, becomes +Y; it is not visible. */
 static void store_unit(const double v[3], float out[3])
 {
     double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
@@ -266,7 +266,7 @@ static void store_unit(const double v[3], float out[3])
         out[k] = length > 0.0 ? (float)(v[k] / length) : k == 1 ? 1.0f : 0.0f;
 }
 
-/* An array of the primitive that is spread: every corner gets its own element. */
+/* An array of a primitive that is unshared: every corner gets its own element. */
 typedef struct stream {
     const void *in;
     void *out;
@@ -280,7 +280,7 @@ typedef struct spreading {
     size_t stream_count;
 } spreading;
 
-/* One case per size that is common: the compiler makes each a loop of plain moves. */
+/* One case per common size, so that the compiler makes each a loop of plain moves. */
 static void spread_stream(const stream *s, const uint32_t *corners, size_t begin, size_t end)
 {
     const char *in = s->in;
@@ -318,8 +318,8 @@ static void spread(void *context, size_t begin, size_t end)
         spread_stream(&s->streams[i], s->in->indices, 3 * begin, 3 * end);
 }
 
-/* Adds an array of elements of size bytes to what is spread. Returns where it will be; NULL: in is NULL, or an error
- * is recorded. */
+/* Adds an array of elements of size bytes to the arrays that are unshared. Returns its copy; NULL: in is NULL, or an
+ * error is recorded. */
 static void *add_stream(io_reader *r, spreading *s, const void *in, size_t size)
 {
     void *out = in ? io_alloc_raw(r, "vertices", s->in->index_count, size) : NULL;
@@ -328,7 +328,7 @@ static void *add_stream(io_reader *r, spreading *s, const void *in, size_t size)
     return out;
 }
 
-/* All arrays of the primitive but normals and tangents, which a flat one has no use for. */
+/* All arrays of the primitive but normals and tangents, which flat shading replaces. */
 static void add_streams(io_reader *r, spreading *s, scene_primitive *out)
 {
     const scene_primitive *in = s->in;

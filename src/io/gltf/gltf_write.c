@@ -1,4 +1,4 @@
-/* gltf_write.c - a scene as a glTF 2.0 file: .glb, or .gltf with a .bin and the images beside it. */
+/* gltf_write.c - writes a scene as a glTF 2.0 file: .glb, or .gltf with a .bin and the images beside it. */
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -34,7 +34,7 @@ static void write_variant_names(gltf_writer *w)
     }
 }
 
-/* What the file that was read required is required of this one as far as it is used. */
+/* Extensions that the original file required are required again if they are used. */
 static void write_extension_names(gltf_writer *w)
 {
     const char *name;
@@ -52,7 +52,7 @@ static void write_extension_names(gltf_writer *w)
     }
 }
 
-/* uri: that of the binary data; NULL: the binary chunk. */
+/* uri: of the binary data; NULL: the binary chunk. */
 static void write_buffer(gltf_writer *w, const char *uri)
 {
     if (w->bin_size == 0)
@@ -103,7 +103,7 @@ static void put_u32(unsigned char *at, size_t value)
         at[i] = (unsigned char)(value >> 8 * i);
 }
 
-/* A chunk with its header at *at, padded to a multiple of 4; moves *at behind it. */
+/* Writes a chunk with its header at *at, padded to a multiple of 4, and advances *at. */
 static void add_chunk(unsigned char **at, size_t type, const void *bytes, size_t size, char padding)
 {
     size_t padded = (size + 3) & ~(size_t)3;
@@ -148,7 +148,7 @@ static facet_result save_glb(gltf_writer *w, const char *path)
     return w->result;
 }
 
-/* All files, or none where one cannot be written. */
+/* Writes all files or none. */
 static void save_files(gltf_writer *w, const char *path, const char *text, const char *bin_name)
 {
     file_set set = file_set_begin(w->scene, path, w->desc);

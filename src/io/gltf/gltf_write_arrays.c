@@ -10,7 +10,7 @@ enum { UNSIGNED_BYTE = 5121, UNSIGNED_SHORT = 5123, UNSIGNED_INT = 5125, FLOAT =
 static const char *const type_names[] = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT4"};
 static const uint32_t component_counts[] = {1, 2, 3, 4, 16};
 
-/* Room for size bytes at a multiple of 4; NULL: no memory. */
+/* Appends size bytes at a multiple of 4; NULL: no memory. */
 static unsigned char *add_bytes(gltf_writer *w, size_t size, size_t *offset)
 {
     size_t begin = (w->bin_size + 3) & ~(size_t)3;
@@ -172,7 +172,7 @@ uint32_t gltf_write_indices(gltf_writer *w, const uint32_t *values, size_t count
     uint32_t largest = 0;
     for (size_t i = 0; i < count; i++)
         largest = values[i] > largest ? values[i] : largest;
-    bool is_short = largest < UINT16_MAX; /* the largest one restarts primitives */
+    bool is_short = largest < UINT16_MAX; /* the largest value is reserved for primitive restart */
     size_t size = count * (is_short ? sizeof(uint16_t) : sizeof(uint32_t));
     size_t offset;
     unsigned char *at = add_bytes(w, size, &offset);

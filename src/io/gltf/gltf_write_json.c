@@ -1,4 +1,4 @@
-/* gltf_write_json.c - JSON as the glTF writer needs it. */
+/* gltf_write_json.c - helpers for the JSON of the glTF writer. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -65,7 +65,7 @@ json_t *gltf_put_array(gltf_writer *w, json_t *object, const char *key)
     return json_object_get(object, key);
 }
 
-/* JSON has neither infinities, which become the largest number that every reader takes, nor NaN, which becomes 0. */
+/* JSON has neither infinities, which become the largest portable number, nor NaN, which becomes 0. */
 static json_t *json_decimal(const char digits[TEXT_FLOAT_SIZE])
 {
     double number = strtod(digits, NULL);
@@ -76,7 +76,7 @@ static json_t *json_decimal(const char digits[TEXT_FLOAT_SIZE])
     return json_real(number);
 }
 
-/* The double that is nearest to the shortest decimal of the float, which is printed with 9 digits. */
+/* The double nearest to the shortest decimal of the float, which prints with 9 digits. */
 json_t *gltf_json_float(float value)
 {
     char digits[TEXT_FLOAT_SIZE];
@@ -183,7 +183,7 @@ static bool has_many_digits(const json_t *value)
     return found;
 }
 
-/* JSON text of the file that was read, whose nesting the reader bounded. */
+/* Parses JSON text of the original file, whose nesting the reader limited. */
 static json_t *parse(gltf_writer *w, const char *json)
 {
     json_t *value = json_loads(json, JSON_DECODE_ANY | JSON_ALLOW_NUL, NULL);
@@ -195,8 +195,7 @@ static json_t *parse(gltf_writer *w, const char *json)
     return value;
 }
 
-/* RFC 3986: what is neither unreserved nor a character of UTF-8 is escaped; of a name that is not UTF-8, which files
- * may have, all bytes beyond ASCII. */
+/* RFC 3986: escapes bytes that are neither unreserved nor UTF-8; in a name that is not UTF-8, all bytes beyond ASCII. */
 void gltf_put_uri(gltf_writer *w, json_t *object, const char *name)
 {
     const bool has_characters = utf8_is_valid(name, strlen(name));

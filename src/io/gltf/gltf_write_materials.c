@@ -15,14 +15,14 @@ static const image_kind *kind_of(const scene_image *source)
     return source->bytes ? image_kind_of_mime_type(source->mime_type) : NULL;
 }
 
-/* One white texel as a PNG file: what an image that could not be read stands for. */
+/* One white texel as a PNG file, which replaces images that could not be read. */
 static const unsigned char WHITE[] = {
     0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00,
     0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x00, 0x00, 0x00, 0x00, 0x3a, 0x7e, 0x9b, 0x55, 0x00,
     0x00, 0x00, 0x0a, 0x49, 0x44, 0x41, 0x54, 0x78, 0xda, 0x63, 0xf8, 0x0f, 0x00, 0x01, 0x01, 0x01, 0x00,
     0x1c, 0xb0, 0x8c, 0x99, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
 
-/* Takes made, which is NULL where bytes are the scene's. */
+/* Takes ownership of made, which is NULL if the bytes belong to the scene. */
 static void add_file(gltf_writer *w, json_t *object, uint32_t index, const char *extension,
                      const unsigned char *bytes, size_t size, unsigned char *made)
 {
@@ -42,8 +42,7 @@ static void add_file(gltf_writer *w, json_t *object, uint32_t index, const char 
     gltf_put_uri(w, object, name);
 }
 
-/* An image as the bytes of a PNG file, a block of mem_alloc(). NULL: it cannot be read, which is a warning, or there is no
- * memory. */
+/* An image as a PNG file in a block of mem_alloc(). NULL: it cannot be read, which is reported, or no memory. */
 static unsigned char *convert_to_png(gltf_writer *w, uint32_t index, size_t *size)
 {
     const scene_image *source = &w->scene->images[index];
@@ -172,7 +171,7 @@ void gltf_write_textures(gltf_writer *w)
 
 /* ---- materials ---- */
 
-/* The object of the JSON that a row names; borrowed. */
+/* The JSON object of a table row; borrowed. */
 static json_t *object_of(gltf_writer *w, json_t *material, const char *name, uint32_t extension)
 {
     if (name[0] == 0)
@@ -180,8 +179,8 @@ static json_t *object_of(gltf_writer *w, json_t *material, const char *name, uin
     return extension ? gltf_put_extension(w, material, name) : gltf_put_object(w, material, name);
 }
 
-/* pbrSpecularGlossiness stands in place of pbrMetallicRoughness and shares members with it: whether the material is
- * of the kind that a row belongs to. */
+/* pbrSpecularGlossiness replaces pbrMetallicRoughness and shares members with it: whether a row applies to the
+ * material. */
 static bool is_of_kind(const scene_material *m, uint32_t extension, const char *object)
 {
     if (extension == SCENE_SPECULAR_GLOSSINESS)
@@ -191,7 +190,7 @@ static bool is_of_kind(const scene_material *m, uint32_t extension, const char *
     return true;
 }
 
-/* In place of the texture's number: its image by the name of the file, its sampler and its name. */
+/* Replaces the index of the texture by the file name of its image, its sampler and its name. */
 static void put_named_texture(gltf_writer *w, json_t *info, uint32_t texture)
 {
     const scene_texture *t = &w->scene->textures[texture];
@@ -254,7 +253,7 @@ static void write_parameters(gltf_writer *w, json_t *out, const scene_material *
             memcmp(values, material_floats_const(&defaults, row), row->count * sizeof *values) == 0)
             continue;
         json_t *object = object_of(w, out, row->object, row->extension);
-        if (row->texture) /* a member of the texture's object, which is there or says nothing */
+        if (row->texture) /* a member of the textureInfo, which exists or is irrelevant */
             object = json_object_get(object, row->texture);
         if (object)
             gltf_put_floats(w, object, row->key, values, material_floats_const(&defaults, row), row->count);

@@ -28,7 +28,7 @@ static void put_floats_attribute(gltf_writer *w, json_t *attributes, const char 
             gltf_write_floats(w, values, count, type, WRITE_VERTICES, strcmp(name, "POSITION") == 0));
 }
 
-/* A morph target that changes nothing: glTF wants it to name an attribute. */
+/* A morph target without effect: glTF requires an attribute in it. */
 static void add_still_target(gltf_writer *w, json_t *targets, size_t vertex_count)
 {
     json_t *target = json_object();
@@ -36,8 +36,8 @@ static void add_still_target(gltf_writer *w, json_t *targets, size_t vertex_coun
     gltf_append(w, targets, target);
 }
 
-/* A primitive that draws nothing keeps its place in the mesh: a triangle without area, with as many morph targets as
- * the others have. */
+/* An empty primitive keeps its index in the mesh: a triangle without area, with as many morph targets as the other
+ * primitives. */
 static void write_empty(gltf_writer *w, json_t *out, uint32_t target_count)
 {
     static const float positions[9] = {0};
@@ -49,7 +49,7 @@ static void write_empty(gltf_writer *w, json_t *out, uint32_t target_count)
         add_still_target(w, gltf_put_array(w, out, "targets"), 3);
 }
 
-/* Normals that facet made are made again by whoever reads the file. */
+/* Normals that facet computed are left to the reader of the file. */
 static void write_attributes(gltf_writer *w, json_t *out, const scene_mesh *mesh, const scene_primitive *p)
 {
     json_t *attributes = gltf_put_object(w, out, "attributes");
@@ -91,7 +91,7 @@ static void write_targets(gltf_writer *w, json_t *out, const scene_primitive *p)
     }
 }
 
-/* The variants that have a material of their own, by material. */
+/* The variants with a material of their own, by material. */
 static void write_variants(gltf_writer *w, json_t *out, const scene_primitive *p)
 {
     for (uint32_t i = 0; p->variant_materials && i < w->scene->variant_count; i++) {
@@ -167,7 +167,7 @@ static void write_camera(gltf_writer *w, const scene_camera *camera)
         gltf_put(w, lens, "yfov", gltf_json_float(camera->fov_y_rad));
         gltf_put_float(w, lens, "aspectRatio", camera->aspect, 0.0f);
     }
-    /* The specification wants a zfar of the one and a znear above 0 of the other, where facet has no such plane. */
+    /* glTF requires zfar of an orthographic and znear above 0 of a perspective camera; facet may have neither plane. */
     bool lacks_far = camera->is_orthographic && camera->far_m == 0.0f;
     bool lacks_near = !camera->is_orthographic && camera->near_m == 0.0f;
     gltf_put(w, lens, "znear", gltf_json_float(lacks_near ? FLT_MIN : camera->near_m));
@@ -193,7 +193,7 @@ static void write_light(gltf_writer *w, json_t *lights, const scene_light *light
     gltf_put_float(w, out, "range", light->range, 0.0f);
     if (light->type == SCENE_LIGHT_SPOT) {
         json_t *spot = gltf_put_object(w, out, "spot");
-        /* A cone without a soft border, or without width: angles must be above 0, the inner one below the outer one. */
+        /* glTF requires angles above 0 and an inner angle below the outer one. */
         float outer = fmaxf(light->outer_cone_rad, FLT_MIN);
         float inner = light->inner_cone_rad < outer ? light->inner_cone_rad : nextafterf(outer, 0.0f);
         gltf_put_float(w, spot, "innerConeAngle", inner, 0.0f);
@@ -328,7 +328,7 @@ void gltf_write_skins(gltf_writer *w)
 
 /* ---- animations ---- */
 
-/* Whether a channel's values are whether something is there: bytes, 0 or 1. */
+/* Whether the values of a channel are booleans: bytes, 0 or 1. */
 static bool is_boolean(const scene_animation *animation, uint32_t sampler)
 {
     for (uint32_t i = 0; i < animation->channel_count; i++)
@@ -337,7 +337,7 @@ static bool is_boolean(const scene_animation *animation, uint32_t sampler)
     return false;
 }
 
-/* Weights, any number of them, are as many scalars; so is what has more components than vectors. */
+/* Whether values are written as scalars: weights of any number, and values with more components than vectors. */
 static bool is_scalars(const scene_animation *animation, uint32_t sampler)
 {
     for (uint32_t i = 0; i < animation->channel_count; i++)
@@ -386,7 +386,7 @@ static void write_sampler(gltf_writer *w, json_t *samplers, const scene_animatio
     gltf_append(w, samplers, out);
 }
 
-/* What a channel of the core moves. */
+/* The path of a core target. */
 static const char *path_of(const scene_channel *c)
 {
     if (c->kind == SCENE_TARGET_WEIGHTS)
@@ -416,8 +416,7 @@ void gltf_write_animations(gltf_writer *w)
 {
     for (uint32_t i = 0; i < w->scene->animation_count && gltf_writer_is_ok(w); i++) {
         const scene_animation *animation = &w->scene->animations[i];
-        if (animation->channel_count ==
-            0) /* what glTF does not allow; none has a number that others refer to */
+        if (animation->channel_count == 0) /* glTF allows no empty arrays */
             continue;
         json_t *out = json_object();
         gltf_put_name(w, out, animation->name);

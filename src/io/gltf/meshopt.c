@@ -1,4 +1,5 @@
-/* meshopt.c - which modes, filters and strides go together, and the way through a stream's decoder and filter. */
+/* meshopt.c - decodes index streams and applies filters: which modes, filters and strides are consistent, and the
+ * sequence of decoder and filter for a stream. */
 #include "io/gltf/meshopt.h"
 
 #include <math.h>
@@ -15,7 +16,7 @@ static inline void put(uint8_t *out, size_t i, size_t size, uint32_t value)
         out[k] = (uint8_t)(value >> (8 * k));
 }
 
-/* A number in groups of 7 bits, lowest first; at most 5 bytes. */
+/* An integer in groups of 7 bits, lowest first; at most 5 bytes. */
 static inline uint32_t get_varint(const uint8_t **in)
 {
     const uint8_t *p = *in;
@@ -33,14 +34,14 @@ static inline uint32_t unzigzag(uint32_t v)
 
 /* ---- triangles ---- */
 
-enum { FIFO = 16, UNWRITTEN = -1 /* no vertex has that number: glTF keeps it for primitive restart */ };
+enum { FIFO = 16, UNWRITTEN = -1 /* not a valid index: glTF reserves it for primitive restart */ };
 
-/* Edges and vertices that triangles lately used; at: where the next one goes, as a number that grows. */
+/* FIFOs of recent edges and vertices; at: increasing index of the next slot. */
 typedef struct triangle_state {
     uint32_t edges[FIFO][2], vertices[FIFO];
     unsigned edge_at, vertex_at;
-    uint32_t next; /* the vertex that has not been used yet */
-    uint32_t last; /* the vertex that was written in full last */
+    uint32_t next; /* the next new vertex */
+    uint32_t last; /* the last vertex that was stored in full */
     const uint8_t *data;
 } triangle_state;
 
@@ -56,7 +57,7 @@ static inline void push_vertex(triangle_state *t, uint32_t v)
     t->vertices[t->vertex_at++ % FIFO] = v;
 }
 
-/* back: 0 is the latest. */
+/* back: 0 is the latest entry. */
 static inline uint32_t get_vertex(const triangle_state *t, unsigned back)
 {
     return t->vertices[(t->vertex_at - 1 - back) % FIFO];
@@ -93,7 +94,8 @@ static inline void decode_beside_edge(triangle_state *t, unsigned code, uint32_t
     triangle[2] = c;
 }
 
-/* The second or third vertex of a free triangle: 0 is the next one, 15 one in full, else one of those lately used. */
+/* The second or third vertex of a separate triangle: 0 is the next new vertex, 15 one stored in full, others a recent
+ * one. */
 static inline uint32_t get_corner(triangle_state *t, unsigned how)
 {
     return how == 0 ? t->next++ : how == 15 ? get_delta(t) : get_vertex(t, how - 1);
@@ -107,7 +109,7 @@ static inline void decode_free(triangle_state *t, unsigned code, const uint8_t *
         how = table[code & 15];
     } else {
         how = *t->data++;
-        if (how == 0) /* a mesh of its own begins */
+        if (how == 0) /* a restart of the vertex numbering */
             t->next = 0;
     }
     const uint32_t a = code == 0xff ? get_delta(t) : t->next++;
@@ -126,7 +128,7 @@ static inline void decode_free(triangle_state *t, unsigned code, const uint8_t *
     triangle[2] = c;
 }
 
-/* A code takes at most 16 bytes of data, as many as the tail has: so one comparison for each is enough. */
+/* A code takes at most 16 bytes of data, the size of the tail, so that one comparison per code suffices. */
 static inline __attribute__((always_inline)) const char *decode_triangles(const meshopt_stream *s,
                                                                           size_t size, uint8_t *out)
 {
@@ -155,7 +157,7 @@ static inline __attribute__((always_inline)) const char *decode_triangles(const 
     return is_known ? NULL : "refers to vertices before the first";
 }
 
-/* Two bytes of the table are reserved, and no half of one is 15. */
+/* Two bytes of the table are reserved, and none of its nibbles is 15. */
 static bool is_triangle_table(const uint8_t *table)
 {
     bool is_valid = table[14] == 0 && table[15] == 0;
@@ -187,7 +189,7 @@ static const char *decode_indices(const meshopt_stream *s, uint8_t *out)
     const uint8_t *in = s->bytes + 1;
     uint32_t last[2] = {0, 0};
     for (size_t i = 0; i < s->count; i++) {
-        if (in >= end) /* a number of 5 bytes ends within the tail */
+        if (in >= end) /* an integer of 5 bytes ends within the tail */
             return MESHOPT_TOO_SHORT;
         uint32_t value = get_varint(&in);
         last[value & 1] += unzigzag(value >> 1);
@@ -223,7 +225,7 @@ static inline void store_u32(uint8_t *p, uint32_t value)
         p[i] = (uint8_t)(value >> (8 * i));
 }
 
-/* Whole numbers of either sign. */
+/* Signed integers. */
 static void store_components(components c, size_t count, size_t stride, uint8_t *out)
 {
     uint32_t words[2][BATCH];
@@ -246,8 +248,8 @@ static void store_components(components c, size_t count, size_t stride, uint8_t 
         }
 }
 
-/* To the nearest whole number, halves away from zero, in [-limit, limit]; what is no number, which only damaged
- * elements give, is -limit. */
+/* Rounds to the nearest integer, halves away from zero, clamped to [-limit, limit]; NaN, which only damaged elements
+ * give, becomes -limit. */
 static inline float round_within(float value, float limit)
 {
     value += value < 0.0f ? -0.5f : 0.5f;
@@ -256,14 +258,15 @@ static inline float round_within(float value, float limit)
     return (float)(int)value;
 }
 
-/* Unit vectors, octahedral: x and y, and 1 as a whole number; what is fourth stays. scale: 1 in the result. */
+/* Octahedral unit vectors: x, y, and an integer that stands for 1; the fourth component stays. scale: 1 in the
+ * result. */
 static void decode_octahedral(components c, size_t count, float scale)
 {
     for (size_t i = 0; i < count; i++) {
         float x = c[0][i] / c[2][i];
         float y = c[1][i] / c[2][i];
         const float z = 1.0f - fabsf(x) - fabsf(y);
-        const float t = z < 0.0f ? z : 0.0f; /* the corners are the lower half, folded outwards */
+        const float t = z < 0.0f ? z : 0.0f; /* the corners are the lower hemisphere, folded outwards */
         x += x < 0.0f ? -t : t;
         y += y < 0.0f ? -t : t;
         const float to_scale = scale / sqrtf(x * x + y * y + z * z);
@@ -273,8 +276,8 @@ static void decode_octahedral(components c, size_t count, float scale)
     }
 }
 
-/* Unit quaternions: three components, scaled by sqrt(2) since the largest is left out; the fourth has 1 as a whole
- * number, but for its lowest two bits, which say which one that is. */
+/* Unit quaternions: three components, scaled by sqrt(2) since the largest is omitted; the fourth has an integer that
+ * stands for 1, and in its lowest two bits the index of the omitted one. */
 static void decode_quaternion(components c, size_t count, float scale)
 {
     const float range = 0.70710678f * scale;
@@ -288,14 +291,14 @@ static void decode_quaternion(components c, size_t count, float scale)
         const float rest = scale * scale - x * x - y * y - z * z;
         const float w = sqrtf(rest > 0.0f ? rest : 0.0f);
         for (int k = 0; k < 4; k++) {
-            const int after = (k - largest) & 3; /* how far behind the largest */
+            const int after = (k - largest) & 3; /* offset from the largest */
             const float value = after == 0 ? w : after == 1 ? x : after == 2 ? y : z;
             c[k][i] = round_within(value, scale);
         }
     }
 }
 
-/* YCoCg and alpha of K bits, alpha one bit less under a leading 1 that tells K, to RGBA of limit. */
+/* YCoCg and alpha of K bits, alpha one bit less below a leading 1 that encodes K, to RGBA of limit. */
 static void decode_color(components c, size_t count, float limit)
 {
     for (size_t i = 0; i < count; i++) {
@@ -317,14 +320,14 @@ static void decode_color(components c, size_t count, float limit)
     }
 }
 
-/* Elements are little-endian: a word as the machine has it, and back. */
+/* Elements are little-endian: to the byte order of the machine, and back. */
 static inline uint32_t native_32(uint32_t v)
 {
     return __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? v : __builtin_bswap32(v);
 }
 
-/* 8 bits of exponent over 24 of mantissa, both signed: 2^e m. Exponents that no encoder may write (beyond 100) stay
- * within those of floats. */
+/* 8 bits of exponent over 24 of mantissa, both signed: 2^e m. Exponents that encoders may not write (beyond 100) stay
+ * within the range of floats. */
 static void filter_exponential(uint32_t *words, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
@@ -361,7 +364,7 @@ void meshopt_apply_filter(meshopt_filter filter, uint8_t *elements, size_t count
         } else if (filter == MESHOPT_QUATERNION) {
             decode_quaternion(c, n, signed_limit);
         } else {
-            components plain; /* luma and alpha have no sign */
+            components plain; /* luma and alpha are unsigned */
             load_components(at, n, stride, false, plain);
             memcpy(c[0], plain[0], sizeof c[0]);
             memcpy(c[3], plain[3], sizeof c[3]);

@@ -1,9 +1,9 @@
-/* meshopt_attributes.c - mode ATTRIBUTES, versions 0 and 1: elements of 4 to 256 bytes as deltas between neighbours,
- * byte by byte ("planes"), in blocks of at most 256 elements, each plane in groups of 16 bytes that are packed to 0, 1,
- * 2, 4 or 8 bits.
+/* meshopt_attributes.c - mode ATTRIBUTES, versions 0 and 1: elements of 4 to 256 bytes as deltas between neighbors,
+ * byte by byte ("planes"), in blocks of at most 256 elements, each plane in groups of 16 bytes that are packed to 0,
+ * 1, 2, 4 or 8 bits.
  *
- * Whole words stand in for vectors of bytes ("SWAR": Lamport, "Multiple byte processing with full-word instructions",
- * 1975), so the code is the same for every machine. */
+ * Whole words serve as vectors of bytes ("SWAR": Lamport, "Multiple byte processing with full-word instructions",
+ * 1975), so that the code is the same for every machine. */
 #include <string.h>
 
 #include "io/gltf/meshopt.h"
@@ -12,13 +12,14 @@ enum {
     BLOCK_BYTES = 8192,
     MAX_BLOCK = 256, /* elements */
     GROUP = 16,
-    GROUP_ROOM = 24 /* the most bytes that a group has; as many are behind every place where one may begin */
+    GROUP_ROOM =
+        24 /* the maximal size of a group in bytes; that many bytes are readable wherever a group may begin */
 };
 
 typedef struct layout {
     bool is_v1;
     size_t tail;  /* bytes: padding, the element before the first, the modes of the channels */
-    size_t block; /* elements of all blocks but the last */
+    size_t block; /* elements of every block but the last */
 } layout;
 
 static layout make_layout(bool is_v1, size_t stride)
@@ -31,7 +32,8 @@ static layout make_layout(bool is_v1, size_t stride)
                     .block = fitting < MAX_BLOCK ? fitting : MAX_BLOCK};
 }
 
-/* The least bytes of a block. Version 1: a control byte for 4 planes; version 0: 2 bits for each group of each plane. */
+/* The minimal size of a block. Version 1: a control byte for 4 planes; version 0: 2 bits for each group of each
+ * plane. */
 static size_t block_size(const layout *l, size_t count, size_t stride)
 {
     const size_t groups = (count + GROUP - 1) / GROUP;
@@ -83,7 +85,7 @@ static void store_u64_big(uint8_t *p, uint64_t value)
 
 /* ---- groups: 16 bytes that are packed ---- */
 
-/* 8 fields of 2 or 4 bits, the first one highest, to 8 bytes. */
+/* Expands 8 fields of 2 or 4 bits, the first one highest, to 8 bytes. */
 static uint64_t spread_2(uint32_t fields)
 {
     uint64_t x = fields;
@@ -100,8 +102,8 @@ static uint64_t spread_4(uint32_t fields)
     return (x | x << 4) & UINT64_C(0x0f0f0f0f0f0f0f0f);
 }
 
-/* Each decodes one group to out[16] and returns what follows. Fields of all ones ("sentinels") say that the value is a
- * byte behind the fields, in the same order. */
+/* Each decodes one group to out[16] and returns the position behind it. A field of all ones ("sentinel") means that
+ * the value is a byte behind the fields, in the same order. */
 
 static const uint8_t *unpack_1(const uint8_t *in, uint8_t *out)
 {
@@ -166,7 +168,7 @@ static const uint8_t *unpack_group(unsigned bits, const uint8_t *in, uint8_t *ou
 
 /* ---- planes: one byte of each element of a block ---- */
 
-/* A plane of groups; end: where the tail begins. NULL: it goes past that. */
+/* A plane of groups; end: where the tail begins. NULL: the plane exceeds it. */
 static const uint8_t *decode_groups(const uint8_t *in, const uint8_t *end, const uint8_t bits[4],
                                     size_t group_count, uint8_t *plane)
 {
@@ -183,7 +185,7 @@ static const uint8_t *decode_groups(const uint8_t *in, const uint8_t *end, const
     return in > end ? NULL : in;
 }
 
-/* A plane in one of the control modes of version 1; 4: that of version 0. */
+/* A plane in one of the control modes of version 1; 4: the mode of version 0. */
 static const uint8_t *decode_plane(unsigned control, const uint8_t *in, const uint8_t *end, size_t count,
                                    uint8_t *plane)
 {
@@ -227,8 +229,8 @@ static uint32_t rotate_right(uint32_t v, unsigned by)
     return v >> by | v << ((32 - by) & 31);
 }
 
-/* Undoes the deltas of one channel: *last is its word in the element before the block, and then in the last one. mode:
- * its byte in the tail. out: the word of the block's first element. */
+/* Undoes the deltas of one channel: *last is its word in the element before the block, and becomes that of the last
+ * element. mode: its byte in the tail. out: the word of the block's first element. */
 static void decode_channel(planes_of_channel planes, unsigned mode, size_t count, size_t stride,
                            uint32_t *last, uint8_t *out)
 {
@@ -266,7 +268,7 @@ static bool are_channel_modes(const uint8_t *modes, size_t count)
     return true;
 }
 
-/* One block of count elements; returns what follows it. */
+/* Decodes one block of count elements; returns the position behind it. */
 static const uint8_t *decode_block(const layout *l, const uint8_t *in, const uint8_t *end,
                                    const uint8_t *channel_modes, size_t count, size_t stride, uint32_t *last,
                                    uint8_t *out)

@@ -1,16 +1,16 @@
-/* mtl_dialect.c - which program wrote a file, by its comments and numbers.
+/* mtl_dialect.c - detects the program that wrote a file, from comments and numbers.
  *
  * Blender's older exporter names its version in the OBJ file only ("# Blender v2.79 (sub 0) OBJ File: ''"); its MTL
- * files all begin "# Blender MTL File: '..'". It wrote Ns = (hardness - 1) / 0.51 with a whole number of hardness up to
- * 2.79, and Ns = (30 (1 - roughness))^2 from 2.80 on: where the version is unknown, an Ns that is no multiple of 1 / 0.51
- * tells. The exporter of 3.1 and later writes "# Blender 3.3.0 MTL File: '..'" and "# Blender 3.3.0". */
+ * files all begin "# Blender MTL File: '..'". It wrote Ns = (hardness - 1) / 0.51 with an integer hardness up to
+ * 2.79, and Ns = (30 (1 - roughness))^2 from 2.80 on: where the version is unknown, an Ns that is not a multiple of 1
+ * / 0.51 decides. The exporter of 3.1 and later writes "# Blender 3.3.0 MTL File: '..'" and "# Blender 3.3.0". */
 #include <math.h>
 #include <string.h>
 #include <strings.h>
 
 #include "io/obj/mtl_parts.h"
 
-/* Behind word, wherever it stands in s; NULL: it does not. */
+/* The position behind word in s; NULL: not found. */
 static const char *find_word(mtl_span s, const char *word)
 {
     size_t length = strlen(word);
@@ -70,7 +70,7 @@ void mtl_clues_comment(mtl_clues *clues, mtl_span comment, bool is_obj)
 void mtl_clues_shininess(mtl_clues *clues, float shininess)
 {
     double steps = 0.51 * (double)shininess;
-    /* Six decimals are written: half of the last one, and the float's rounding. */
+    /* Ns is written with six decimals: half a unit of the last one, and the rounding of the float. */
     clues->has_odd_shininess |= fabs(steps - round(steps)) > 1e-6 + 1e-7 * steps;
 }
 

@@ -1,18 +1,18 @@
-/* mtl_files.c - the files that MTL names: where they may be, pictures told apart by content, textures shared. */
+/* mtl_files.c - the files that MTL names: where they are searched, image formats by content, shared textures. */
 #include <string.h>
 
 #include "io/image_kind.h"
 #include "io/obj/mtl_parts.h"
 
-/* An image that was looked for. */
+/* An image file that was searched for. */
 typedef struct mtl_image {
     scene_image image;
-    uint32_t index; /* in the scene; SCENE_NONE: no picture that can be read */
+    uint32_t index; /* in the scene; SCENE_NONE: not a readable image */
 } mtl_image;
 
 /* ---- where a name may lead ---- */
 
-/* Behind the last separator, of Windows too, and behind a drive ("C:a.png"). */
+/* The name behind the last separator, of Windows as well, and behind a drive ("C:a.png"). */
 static const char *base_name(const char *name)
 {
     const char *base = name;
@@ -22,7 +22,7 @@ static const char *base_name(const char *name)
     return base;
 }
 
-/* Takes the last folder off [path, end), for "..". False: there is none to take. */
+/* Removes the last folder from [path, end), for "..". False: there is none. */
 static bool go_up(const char *path, char **end)
 {
     char *start = *end;
@@ -36,8 +36,8 @@ static bool go_up(const char *path, char **end)
     return true;
 }
 
-/* folder and name with slashes, without "./", doubled slashes and "folder/../", so that a file has one name; in the
- * arena. */
+/* Joins folder and name with slashes, without "./", doubled slashes and "folder/../", so that a file has one name; in
+ * the arena. */
 static const char *join(mtl_files *f, const char *folder, const char *name)
 {
     size_t folder_length = name[0] == '/' ? 0 : strlen(folder);
@@ -65,7 +65,7 @@ static const char *join(mtl_files *f, const char *folder, const char *name)
     return path;
 }
 
-/* One place. The first message stays: it is about what the file says. */
+/* Tries one location. The first failure message stays, since it is about the name in the file. */
 static bool try_place(mtl_files *f, const char *folder, const char *name, const char *shown, uri_bytes *out,
                       const char **found)
 {
@@ -115,7 +115,7 @@ static void warn_foreign(mtl_parser *p, const uri_bytes *bytes, const char *name
         mtl_warn(p, "\"%.200s\" is no " IMAGE_KINDS_TEXT " file; the map is left out", name);
 }
 
-/* What kind of picture it is, and its size. False: none that can be read; p warns. */
+/* Detects format and size of an image. False: not readable; p warns. */
 static bool look_at(mtl_parser *p, const uri_bytes *bytes, const char *name, scene_image *out)
 {
     const image_kind *kind = image_kind_of_bytes(bytes->data, bytes->size);

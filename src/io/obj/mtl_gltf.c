@@ -1,8 +1,10 @@
-/* mtl_gltf.c - comments "#facet-gltf {..}" in MTL files: the glTF material that the statements above were made of.
+/* mtl_gltf.c - comments "#facet-gltf {..}" in MTL files: the glTF material from which the statements above were
+ * converted.
  *
- * The JSON is a glTF material with the names of image files and samplers in the place of textures' numbers, and a member
- * "facet": what the statements said when it was written. As long as they still say that, the glTF material comes back
- * exactly, but for textures that read a second set of coordinates; once somebody has changed them, they count. */
+ * The JSON is a glTF material with file names of images and samplers in place of texture indices, and a member
+ * "facet": the statements at the time of writing. While the statements are unchanged, the glTF material is restored
+ * exactly, except for textures that read a second set of coordinates; once they have been edited, the statements are
+ * used. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,12 +16,12 @@
 
 struct mtl_gltf {
     json_t *json;
-    void *reserve; /* stands for jansson's memory */
+    void *reserve; /* accounts for jansson's memory */
 };
 
 /* ---- what statements say ---- */
 
-/* As JSON, without what depends on which files are there; NULL: no memory. */
+/* As JSON, without what depends on existing files; NULL: no memory. */
 static json_t *statements_json(const facet_allocator *allocator, const legacy_material *m)
 {
     legacy_material plain = *m;
@@ -44,7 +46,7 @@ static io_reader begin_reader(mtl_parser *p, mtl_files *f, json_t *json, facet_e
                        .max_file_bytes = f ? f->scope.max_file_bytes : 0};
 }
 
-/* Index of the texture that an info tells of; SCENE_NONE: its image cannot be had. */
+/* The texture of a textureInfo; SCENE_NONE: its image is not available. */
 static uint32_t find_texture(mtl_parser *p, mtl_files *f, const char *folder, json_t *info)
 {
     facet_error error;
@@ -69,7 +71,7 @@ static uint32_t find_texture(mtl_parser *p, mtl_files *f, const char *folder, js
     return texture.image == SCENE_NONE ? SCENE_NONE : mtl_files_texture(f, &texture);
 }
 
-/* The set of texture coordinates that an info reads. */
+/* The set of texture coordinates of a textureInfo. */
 static double texcoord_of(const json_t *info)
 {
     const json_t *transform = json_object_get(json_object_get(info, "extensions"), "KHR_texture_transform");
@@ -77,15 +79,15 @@ static double texcoord_of(const json_t *info)
     return json_number_value(set ? set : json_object_get(info, "texCoord"));
 }
 
-/* Puts the number of a texture where the name of an image is; takes the info out where its image is gone. OBJ has one set
- * of coordinates, which mtl_gltf_write() calls 0: what read another one cannot be drawn. */
+/* Replaces the name of an image by a texture index, or removes the textureInfo if the image is missing. OBJ has one
+ * set of coordinates, which mtl_gltf_write() calls 0: other sets cannot be drawn. */
 static void resolve_texture(mtl_parser *p, mtl_files *f, const char *folder, json_t *object, const char *key,
                             const char *material)
 {
     json_t *info = json_object_get(object, key);
     if (!json_object_get(info, "image") && !json_object_get(info, "index"))
         return;
-    uint32_t texture = SCENE_NONE; /* a number is that of another scene's texture */
+    uint32_t texture = SCENE_NONE; /* an index would be that of another scene's texture */
     if (texcoord_of(info) != 0.0)
         mtl_warn(p,
                  "#facet-gltf: material \"%.200s\": %s reads another set of texture coordinates than the one "
@@ -99,7 +101,7 @@ static void resolve_texture(mtl_parser *p, mtl_files *f, const char *folder, jso
         p->has_failed = true;
 }
 
-/* All textures that gltf_read_material() knows; what else has images in it is nobody's. */
+/* All textures that gltf_read_material() reads. */
 static void resolve_textures(mtl_parser *p, mtl_files *f, const char *folder, json_t *json,
                              const char *material)
 {
@@ -111,12 +113,12 @@ static void resolve_textures(mtl_parser *p, mtl_files *f, const char *folder, js
                                         : json;
         resolve_texture(p, f, folder, object, row->key, material);
     }
-    /* The base color's place in the one extension that replaces its object. */
+    /* pbrSpecularGlossiness has the base color texture in its own object. */
     resolve_texture(p, f, folder, json_object_get(extensions, "KHR_materials_pbrSpecularGlossiness"),
                     "diffuseTexture", material);
 }
 
-/* Whether the statements are those that the comment was written with. */
+/* Whether the statements are those of the time of writing. */
 static bool is_unchanged(mtl_parser *p, const json_t *json, const legacy_material *m)
 {
     json_t *said = json_copy(json_object_get(json, "facet"));
@@ -129,14 +131,14 @@ static bool is_unchanged(mtl_parser *p, const json_t *json, const legacy_materia
     return is_same;
 }
 
-/* A material that was renamed keeps its new name. */
+/* Keeps the new name of a renamed material. */
 static void settle_name(mtl_parser *p, json_t *json, const legacy_material *m)
 {
     const json_t *name = json_object_get(json_object_get(json, "facet"), "newmtl");
     if (json_is_string(name) && strcmp(json_string_value(name), m->name) == 0)
         return;
     json_t *new =
-        json_string(m->name); /* NULL also where it is no UTF-8; mtl_reader_finish() names it then */
+        json_string(m->name); /* NULL also if it is not UTF-8; then mtl_reader_finish() sets the name */
     if (new &&json_object_set_new(json, "name", new) != 0)
         p->has_failed = true;
 }
@@ -196,7 +198,7 @@ void mtl_gltf_destroy(mtl_gltf *g)
 
 /* ---- writing ---- */
 
-/* What a reader will take the statements for; NULL: no memory. */
+/* The material that a reader will make of the statements; NULL: no memory. */
 static json_t *parse_back(const char *statements, const char *name, const facet_scene_save_desc *desc)
 {
     mtl_parser p = {.arena = arena_create(&desc->allocator),
@@ -223,8 +225,8 @@ static json_t *parse_back(const char *statements, const char *name, const facet_
     return json;
 }
 
-/* The material as it reads an OBJ file's coordinates, of which there is one set: that of the first map, as obj_write.c
- * chooses it. It is 0 in the comment, and the set that was 0 takes its number. */
+/* The material for an OBJ file with its single set of coordinates, that of the first map, as obj_write.c chooses it.
+ * That set becomes 0 in the comment, and set 0 takes its index. */
 static scene_material with_one_set(const facet_scene *scene, uint32_t material)
 {
     scene_material m = scene->materials[material];

@@ -1,4 +1,4 @@
-/* mtl_reader.c - libraries of materials, and the scene's materials made of them. */
+/* mtl_reader.c - reads material libraries, and makes the scene's materials. */
 #include <string.h>
 #include <strings.h>
 
@@ -14,10 +14,10 @@ struct mtl_reader {
     mtl_clues clues;
     mtl_draft *drafts;
     size_t count, capacity;
-    index_table names;     /* of drafts; of equal names the first */
-    index_table libraries; /* those read, by file */
+    index_table names;     /* of drafts; the first of equal names */
+    index_table libraries; /* libraries that were read, by file */
     size_t library_count;
-    const char **missing; /* why libraries that are named cannot be read; block of mem_alloc() */
+    const char **missing; /* reasons why libraries could not be read; block of mem_alloc() */
     size_t missing_count, missing_capacity;
     mtl_spectra spectra;
     bool has_failed;
@@ -93,17 +93,17 @@ uint32_t mtl_reader_add(mtl_reader *r, const char *name, size_t length)
 
 /* ---- one library ---- */
 
-/* A library while it is read. */
+/* A library during reading. */
 typedef struct library {
     mtl_reader *reader;
     mtl_parser parser;
     const char *folder; /* below the OBJ file's: "" or "materials/" */
     uint32_t current;   /* material; SCENE_NONE: none */
-    bool is_ignored;    /* within a material whose name was there already */
-    bool has_begun;     /* some newmtl was there */
+    bool is_ignored;    /* inside a material whose name was defined before */
+    bool has_begun;     /* a newmtl was read */
 } library;
 
-/* For the parser: a spectrum's file. */
+/* Opens the file of a spectrum for the parser. */
 static bool open_beside(void *user, const char *name, uri_bytes *out)
 {
     library *l = user;
@@ -113,7 +113,7 @@ static bool open_beside(void *user, const char *name, uri_bytes *out)
     return is_open;
 }
 
-/* Finds the textures of maps that are new. */
+/* Finds the textures of new maps. */
 static void resolve_maps(library *l, mtl_draft *draft)
 {
     mtl_files *files = &l->reader->files;
@@ -164,7 +164,7 @@ static void begin_material(library *l, mtl_span name)
 static void read_comment(library *l, mtl_span line)
 {
     static const char word[] = "#facet-gltf";
-    enum { MAX_JSON = 1 << 20 }; /* what a material needs is far less; jansson's memory is nobody's */
+    enum { MAX_JSON = 1 << 20 }; /* a material needs far less, and jansson's memory is not accounted */
     mtl_span rest = line;
     if (!mtl_is_word(mtl_next_word(&rest), word)) {
         line.begin++;
@@ -203,7 +203,7 @@ static void read_line(library *l, mtl_span line, bool *has_warned)
     }
 }
 
-/* Its folder, with the slash behind it. */
+/* The folder of a path, with the slash behind it. */
 static const char *folder_of(mtl_parser *p, const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -250,14 +250,14 @@ facet_result mtl_reader_load_bytes(mtl_reader *r, const char *name, const void *
 
 /* ---- mtllib ---- */
 
-/* How a name may be read. */
+/* Interpretations of a library name. */
 typedef enum name_leeway {
     NAME_LITERAL,
-    NAME_ALIKE, /* as file_scope_open() has it */
-    NAME_BASE   /* the same, and beside the OBJ file wherever it is said to be */
+    NAME_ALIKE, /* as in file_scope_open() */
+    NAME_BASE   /* the same, then the base name beside the OBJ file */
 } name_leeway;
 
-/* Reads the library of a name unless it was read already. False: there is none; *why is filled. */
+/* Reads the library of a name unless it was read already. False: not found; *why is filled. */
 static bool load_library(mtl_reader *r, const char *name, name_leeway leeway, uri_bytes *why)
 {
     const char *found;
@@ -280,8 +280,8 @@ static bool load_library(mtl_reader *r, const char *name, name_leeway leeway, ur
     return true;
 }
 
-/* Loads the shortest name of up to MAX_WORDS words at the front of *rest that is a file's, and moves *rest behind it.
- * Words are names by the letter of the format; names with spaces are common all the same. */
+/* Loads the shortest name of up to MAX_WORDS words at the front of *rest that is a file, and advances *rest. The
+ * format separates names by spaces, but names with spaces are common. */
 static bool load_front(mtl_reader *r, mtl_span *rest, name_leeway leeway, mtl_parser *p)
 {
     enum { MAX_WORDS = 16 };
@@ -305,7 +305,7 @@ static bool load_front(mtl_reader *r, mtl_span *rest, name_leeway leeway, mtl_pa
     return false;
 }
 
-/* The name of a library that is not there: up to the next word that ends in ".mtl", or the first word. */
+/* The name of a missing library: up to the next word that ends in ".mtl", or the first word. */
 static mtl_span missing_name(mtl_span *rest)
 {
     mtl_span all = mtl_trim(*rest);
@@ -320,7 +320,7 @@ static mtl_span missing_name(mtl_span *rest)
     return first;
 }
 
-/* Remembers why a library cannot be read. */
+/* Records why a library cannot be read. */
 static void add_missing(mtl_reader *r, mtl_parser *p, const char *message)
 {
     const char *kept = mtl_keep(p, (mtl_span){message, message + strlen(message)});
@@ -333,7 +333,7 @@ static void add_missing(mtl_reader *r, mtl_parser *p, const char *message)
 
 facet_result mtl_reader_load(mtl_reader *r, const char *names, size_t length, facet_error *error)
 {
-    enum { MAX_LIBRARIES = 256 }; /* of one statement: each that is missing costs questions to the system */
+    enum { MAX_LIBRARIES = 256 }; /* per statement: each missing library costs several system calls */
     mtl_span rest = {names, names + length};
     mtl_parser p = {.arena = r->scene->arena};
     for (int i = 0; i < MAX_LIBRARIES && mtl_length(mtl_trim(rest)) > 0 && !r->has_failed; i++) {
@@ -350,7 +350,7 @@ facet_result mtl_reader_load(mtl_reader *r, const char *names, size_t length, fa
     return r->has_failed ? fail_memory(error, "materials", r->count * sizeof *r->drafts) : FACET_OK;
 }
 
-/* Exporters write the library's name into the OBJ file; people rename both. False: there is no such file. */
+/* Exporters write the library's name into the OBJ file; users rename both. False: there is no such file. */
 static bool load_namesake(mtl_reader *r)
 {
     const char *base = path_base_name(r->scene->source);
@@ -431,7 +431,7 @@ static void fill_material(mtl_reader *r, scene_legacy *legacy, size_t i)
     legacy->materials[i] = draft->m;
 }
 
-/* The name as UTF-8, told from those in the table; NULL: no memory. */
+/* The name as UTF-8, made unique in the table; NULL: no memory. */
 static const char *settle_name(const mtl_reader *r, name_table *names, const char *name)
 {
     size_t size = strlen(name);
@@ -443,8 +443,8 @@ static const char *settle_name(const mtl_reader *r, name_table *names, const cha
     return copy;
 }
 
-/* Statements found materials by the bytes of their names; from here on names are UTF-8. Bytes of another encoding are
- * taken for Latin-1, with one warning. */
+/* Statements refer to materials by the bytes of their names; afterwards names are UTF-8. Bytes of another encoding
+ * are taken as Latin-1, with one warning. */
 static bool settle_names(mtl_reader *r, scene_legacy *legacy)
 {
     size_t others = 0;

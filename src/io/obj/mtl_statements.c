@@ -62,7 +62,7 @@ mtl_lines mtl_lines_begin(const facet_allocator *allocator, const void *bytes, s
     return lines;
 }
 
-/* The next line of the file without its end, which is LF, CR or both; or 0, which no line may hold. */
+/* The next line of the file without its end, which is LF, CR, both, or a 0. */
 static mtl_span take_line(mtl_lines *lines)
 {
     mtl_span line = {lines->at, lines->at};
@@ -75,7 +75,7 @@ static mtl_span take_line(mtl_lines *lines)
     return line;
 }
 
-/* A backslash at the end of a line continues it, but for comments: those end in paths of Windows now and then. */
+/* A backslash at the end of a line continues it, except in comments, which may end in a Windows path. */
 static bool is_continued(const mtl_lines *lines, mtl_span line)
 {
     return line.end > line.begin && line.end[-1] == '\\' && lines->at < lines->end &&
@@ -140,7 +140,7 @@ mtl_draft mtl_draft_begin(const facet_allocator *allocator)
     return draft;
 }
 
-/* Keeps a statement that nothing here holds, to be written again. */
+/* Keeps a statement without a counterpart, to be written again. */
 static void keep_line(mtl_draft *draft, mtl_span line)
 {
     text_add_bytes(&draft->unknown, line.begin, mtl_length(line));
@@ -152,7 +152,7 @@ static void keep_line(mtl_draft *draft, mtl_span line)
 
 /* ---- numbers and colors ---- */
 
-/* One number in its range. What stands behind it is not looked at: a comment, or numbers for other readers. */
+/* One number in its range. The rest of the line is ignored: a comment, or numbers for other readers. */
 static bool parse_number(mtl_parser *p, const char *keyword, mtl_span arguments, double least, double most,
                          float *out)
 {
@@ -226,7 +226,7 @@ static void parse_transparency(mtl_parser *p, mtl_span line, mtl_span arguments,
     draft->has_tr = parse_number(p, "Tr", arguments, 0, 1, &draft->tr) || draft->has_tr;
 }
 
-/* "Pe" is what some programs call Ke, which counts more. */
+/* "Pe" is an alias of Ke in some programs; Ke has precedence. */
 static void parse_emission(mtl_parser *p, mtl_span line, mtl_span arguments, mtl_draft *draft)
 {
     bool is_ke = line.begin[0] == 'K' || line.begin[0] == 'k';
@@ -248,7 +248,7 @@ static void parse_map_row(mtl_parser *p, const char *keyword, legacy_map_slot sl
     draft->is_clamped[slot] = is_clamped;
 }
 
-/* map_Tr counts where there is no map_d: which end of its values is opaque is anybody's guess. */
+/* map_Tr is used without a map_d only; whether 0 or 1 is opaque differs between programs. */
 static void parse_transparency_map(mtl_parser *p, mtl_span line, mtl_span arguments, mtl_draft *draft)
 {
     (void)line;
@@ -263,7 +263,7 @@ static void parse_opacity_map(mtl_parser *p, mtl_span line, mtl_span arguments, 
     draft->has_map_d = draft->m.maps[LEGACY_OPACITY_MAP].path != NULL;
 }
 
-/* Six of them make a cube: the first is looked at, all others are kept as they are. */
+/* Six of them make a cube: the first is parsed, the others are kept as text. */
 static void parse_reflection(mtl_parser *p, mtl_span line, mtl_span arguments, mtl_draft *draft)
 {
     if (draft->m.maps[LEGACY_REFLECTION_MAP].path)
@@ -279,7 +279,7 @@ static void parse_orm(mtl_parser *p, mtl_span line, mtl_span arguments, mtl_draf
     draft->m.is_rma = is_rma && draft->m.maps[LEGACY_ORM_MAP].path;
 }
 
-/* Antialiasing of all maps: nothing to convert. */
+/* Antialiasing of all maps: no counterpart. */
 static void keep_statement(mtl_parser *p, mtl_span line, mtl_span arguments, mtl_draft *draft)
 {
     (void)p;
@@ -311,7 +311,7 @@ static const special_row SPECIAL[] = {
     {"mtllib", refuse_library},
 };
 
-/* What some programs call the keys of legacy_map_keys. */
+/* Aliases of legacy_map_keys in some programs. */
 static const struct {
     const char *keyword;
     legacy_map_slot slot;
@@ -320,7 +320,7 @@ static const struct {
     {"map_norm", LEGACY_NORMAL_MAP}, {"map_Pe", LEGACY_EMISSION_MAP},
 };
 
-/* The slot of a keyword; LEGACY_MAP_COUNT: it is none of a map. */
+/* The slot of a keyword; LEGACY_MAP_COUNT: not a map. */
 static int find_slot(mtl_span keyword)
 {
     for (int i = 0; i < LEGACY_MAP_COUNT; i++)
@@ -352,7 +352,7 @@ void mtl_parse_statement(mtl_parser *p, mtl_span line, mtl_draft *draft)
         keep_line(draft, line);
 }
 
-/* Tr is 1 - d for most programs, and d for some: only beside a d that agrees is it beyond doubt. */
+/* Tr is 1 - d in most programs, and d in some: only a matching d makes it unambiguous. */
 static void settle_opacity(mtl_draft *draft)
 {
     legacy_material *m = &draft->m;

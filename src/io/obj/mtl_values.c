@@ -24,7 +24,7 @@ typedef struct spectrum {
     size_t count, capacity;
 } spectrum;
 
-/* Linear between samples, beyond them that of the nearest. */
+/* Linear interpolation between samples, constant beyond them. */
 static double spectrum_at(const spectrum *s, double nm)
 {
     size_t i = 0;
@@ -36,7 +36,7 @@ static double spectrum_at(const spectrum *s, double nm)
     return a[1] + (a[3] - a[1]) * (nm - a[0]) / (a[2] - a[0]);
 }
 
-/* The color of a reflectance in daylight, relative to that of a perfect white, which is 1 1 1. */
+/* The color of a reflectance in daylight, relative to a perfect white of 1 1 1. */
 static void color_of_reflectance(const spectrum *s, double rgb[3])
 {
     double sum[3] = {0, 0, 0};
@@ -57,8 +57,8 @@ static void color_of_reflectance(const spectrum *s, double rgb[3])
         rgb[k] /= white_rgb[k];
 }
 
-/* Pairs of wavelength and value, one per line; lines that are otherwise are comments or headings. False: no pair, or
- * wavelengths that do not increase. Wavelengths below 10 are in micrometres. */
+/* Parses pairs of wavelength and value, one per line; other lines are comments or headings. False: no pair, or
+ * wavelengths that do not increase. Wavelengths below 10 are in micrometers. */
 static bool read_spectrum(mtl_parser *p, const uri_bytes *bytes, spectrum *out)
 {
     mtl_lines lines = mtl_lines_begin(p->allocator, bytes->data, bytes->size);
@@ -85,10 +85,10 @@ static bool read_spectrum(mtl_parser *p, const uri_bytes *bytes, spectrum *out)
     return is_increasing && out->count > 0 && !p->has_failed;
 }
 
-/* What a file is the spectrum of. */
+/* The spectrum of a file. */
 struct mtl_spectrum {
     double rgb[3];
-    bool is_valid; /* false: the file is none */
+    bool is_valid; /* false: not a spectrum */
 };
 
 void mtl_spectra_destroy(mtl_spectra *spectra)
@@ -97,7 +97,7 @@ void mtl_spectra_destroy(mtl_spectra *spectra)
     index_table_release(&spectra->by_file);
 }
 
-/* The color of a file, parsed at most once. NULL: no memory. */
+/* The color of a file, which is parsed at most once. NULL: no memory. */
 static const struct mtl_spectrum *find_spectrum(mtl_parser *p, const uri_bytes *bytes)
 {
     mtl_spectra *all = p->spectra;
@@ -125,7 +125,7 @@ static bool parse_spectral(mtl_parser *p, const char *keyword, mtl_span argument
     mtl_span name = mtl_trim(arguments);
     mtl_span rest = arguments;
     double factor = 1.0;
-    mtl_next_word(&rest); /* the name; with spaces in it the factor is the last word still */
+    mtl_next_word(&rest); /* the name; if it contains spaces, the factor is still the last word */
     for (mtl_span ahead = rest; mtl_length(mtl_trim(ahead)) > 0;) {
         mtl_span word = mtl_next_word(&ahead);
         double number;
@@ -154,7 +154,7 @@ static bool parse_spectral(mtl_parser *p, const char *keyword, mtl_span argument
 
 /* ---- statements ---- */
 
-/* One number or three; of two the last counts for the third. */
+/* One number or three; the second of two is repeated. */
 static bool parse_triple(mtl_parser *p, const char *keyword, mtl_span arguments, double out[3])
 {
     mtl_span rest = arguments;
@@ -172,8 +172,8 @@ static bool parse_triple(mtl_parser *p, const char *keyword, mtl_span arguments,
     return true;
 }
 
-/* Physical colors are linear; where the file's are sRGB, these become so too, to be treated alike. What is outside of
- * Rec.709 is clamped. */
+/* Physical colors are linear; if those of the file are sRGB, they are encoded to match. Components outside of Rec.709
+ * are clamped. */
 static void encode(const mtl_parser *p, const double linear[3], double out[3])
 {
     for (int i = 0; i < 3; i++) {
@@ -211,9 +211,9 @@ bool mtl_parse_color(mtl_parser *p, const char *keyword, mtl_span arguments, flo
     return true;
 }
 
-/* What options say. */
+/* The values of the options. */
 typedef struct map_options {
-    text all, dropped; /* dropped: what nothing here holds */
+    text all, dropped; /* dropped: options without a counterpart */
     double offset[3], scale[3], turbulence[3];
     double base_gain[2], bump_multiplier[1];
     bool is_clamped;
@@ -228,8 +228,8 @@ typedef struct option_row {
     const char *name;
     option_kind kind;
     size_t least, most;  /* numbers */
-    size_t offset;       /* of the numbers in map_options; 0: the option is dropped */
-    const char *neutral; /* dropped without loss where it says this; NULL: never */
+    size_t offset;       /* index of the first number in map_options; 0: the option is dropped */
+    const char *neutral; /* value with which it is dropped without loss; NULL: never */
 } option_row;
 
 static const option_row OPTIONS[] = {
@@ -263,7 +263,7 @@ static void add_words(text *t, mtl_span s)
     text_add_bytes(t, s.begin, mtl_length(s));
 }
 
-/* Numbers behind an option: at least row->least. What is left out repeats nothing: it keeps its default. */
+/* The numbers of an option, at least row->least; missing ones keep their defaults. */
 static bool take_numbers(const option_row *row, mtl_span *rest, map_options *out)
 {
     double values[3] = {0, 0, 0};
@@ -309,7 +309,7 @@ static bool take_word(const option_row *row, mtl_span *rest, map_options *out)
     return true;
 }
 
-/* Takes one option with its values off the front. False: there is none, or it lacks its values. */
+/* Takes an option with its values off the front. False: there is none, or it lacks its values. */
 static bool take_option(mtl_span *rest, map_options *out)
 {
     mtl_span ahead = *rest;
@@ -340,7 +340,7 @@ static void map_options_begin(const mtl_parser *p, map_options *o)
         o->dropped.allocator = o->all.allocator = *p->allocator;
 }
 
-/* Turns what options say into the map. */
+/* Applies the options to the map. */
 static void map_options_end(mtl_parser *p, map_options *o, legacy_map *map, bool *is_clamped)
 {
     scene_texture_ref *ref = &map->ref;
@@ -375,7 +375,7 @@ void mtl_parse_options(mtl_parser *p, const char *options, legacy_map *map, bool
 
 /* ---- the name ---- */
 
-/* Whether s is nothing but options. */
+/* Whether s consists of options only. */
 static bool is_all_options(const mtl_parser *p, mtl_span s)
 {
     map_options scratch;
@@ -396,10 +396,10 @@ static mtl_span cut_comment(mtl_span s)
     return s;
 }
 
-enum { MAX_TRIES = 16 }; /* each may look at the whole rest of the line */
+enum { MAX_TRIES = 16 }; /* each try may parse the whole rest of the line */
 
-/* A name in quotes, which may itself have quotes in it: up to one behind which nothing but options or a comment follows.
- * False: there is none. */
+/* A name in quotes, which may itself contain quotes: up to one that is followed by options or a comment only. False:
+ * there is none. */
 static bool take_quoted(const mtl_parser *p, mtl_span *s, mtl_span *name)
 {
     mtl_span all = mtl_trim(*s);
@@ -420,7 +420,7 @@ static bool take_quoted(const mtl_parser *p, mtl_span *s, mtl_span *name)
     return false;
 }
 
-/* The name at the front of s: what quotes enclose, or all up to where only options follow. Moves *s behind it. */
+/* The name at the front of s: in quotes, or up to where only options follow. Advances *s. */
 static mtl_span take_name(const mtl_parser *p, mtl_span *s)
 {
     mtl_span name;
@@ -454,7 +454,7 @@ bool mtl_parse_map(mtl_parser *p, const char *keyword, mtl_span arguments, legac
         if (!take_option(&rest, &o)) {
             mtl_span name = mtl_next_word(&word);
             if (!find_option(name) || mtl_length(mtl_trim(word)) == 0)
-                break; /* a file may be called -something */
+                break; /* the file may be named -something */
             mtl_warn(p, "%s: %.*s lacks its value; it is ignored", keyword, (int)mtl_length(name),
                      name.begin);
             rest = word;

@@ -9,8 +9,8 @@
 
 /* ---- names ---- */
 
-/* The characters that a line holds: control characters and a backslash at the end, which would continue it, become "_".
- * Blanks at the ends are left out. */
+/* Appends text that fits on a line: control characters, and a backslash at the end, which would continue the line,
+ * become "_". Blanks at the ends are removed. */
 static void add_line_text(text *out, const char *s)
 {
     mtl_span trimmed = mtl_trim((mtl_span){s, s + strlen(s)});
@@ -57,7 +57,7 @@ const char **mtl_names_create(const facet_scene *scene, const facet_allocator *a
 
 /* ---- statements ---- */
 
-/* Where the text goes, and what decides about it. */
+/* The output and the settings of a writer. */
 typedef struct mtl_writer {
     const facet_scene *scene;
     const char *const *image_names;
@@ -67,7 +67,7 @@ typedef struct mtl_writer {
     text *out;
 } mtl_writer;
 
-/* Reads what is about to be written, without warnings. */
+/* A parser for text that is about to be written, without warnings. */
 static mtl_parser make_parser(const mtl_writer *w)
 {
     return (mtl_parser){.arena = w->strings,
@@ -108,7 +108,7 @@ static void write_parameters(mtl_writer *w, const legacy_material *m)
     }
 }
 
-/* The source's own number; else what says which terms are there. */
+/* The source's own number; otherwise one that matches the terms of the material. */
 static int illum_of(const legacy_material *m)
 {
     if (legacy_has(m, LEGACY_ILLUM))
@@ -127,8 +127,8 @@ static bool is_clamped(const mtl_writer *w, const legacy_map *map)
     return t->wrap_u == SCENE_WRAP_CLAMP && t->wrap_v == SCENE_WRAP_CLAMP;
 }
 
-/* What a reader takes for options of s, on one line: extras of a glTF file may hold anything there. said->options and
- * said->dropped are the text of it. */
+/* Parses s as options on one line: extras of a glTF file may contain anything there. said->options and said->dropped
+ * are the text of it. */
 static void read_options(const mtl_writer *w, const char *s, legacy_map *said, bool *is_option_clamped)
 {
     mtl_parser p = make_parser(w);
@@ -143,7 +143,7 @@ static void read_options(const mtl_writer *w, const char *s, legacy_map *said, b
     text_destroy(&line);
 }
 
-/* The options as they once were written, where they still say what the map is; else NULL. */
+/* The original options, if they still describe the map; otherwise NULL. */
 static const char *find_true_options(const mtl_writer *w, const legacy_map *map)
 {
     legacy_map said;
@@ -159,7 +159,7 @@ static const char *find_true_options(const mtl_writer *w, const legacy_map *map)
     return is_true ? said.options : NULL;
 }
 
-/* The shortest decimal that becomes the offset again: see mtl_values.c. */
+/* The shortest decimal that reads back as the offset: see mtl_values.c. */
 static void add_offset(const mtl_writer *w, const scene_texture_ref *ref)
 {
     double scale = (double)ref->scale[1];
@@ -214,7 +214,7 @@ static void add_options(const mtl_writer *w, const legacy_map *map)
     }
 }
 
-/* What MTL has no words for. */
+/* Warns about properties of a map that MTL cannot express. */
 static void warn_of_map(const mtl_writer *w, const legacy_map *map, const char *key)
 {
     const scene_texture *t = map->ref.texture == SCENE_NONE ? NULL : &w->scene->textures[map->ref.texture];
@@ -228,8 +228,8 @@ static void warn_of_map(const mtl_writer *w, const legacy_map *map, const char *
                     key, "this one is written as repeating");
 }
 
-/* Names that others would read as options, their numbers or comments are quoted, and have no quotes in them then; nor do
- * names begin with one. */
+/* Quotes names that readers would take as options, numbers or comments; such names contain no quotes, and none begins
+ * with one. */
 static void add_path(text *out, const char *path)
 {
     text name = {.allocator = out->allocator};
@@ -251,7 +251,7 @@ static void add_path(text *out, const char *path)
     text_destroy(&name);
 }
 
-/* The name of a map's file; NULL: the map is not written. */
+/* The file name of a map; NULL: the map is not written. */
 static const char *find_path(const mtl_writer *w, const legacy_map *map)
 {
     uint32_t image = map->ref.texture == SCENE_NONE ? SCENE_NONE : w->scene->textures[map->ref.texture].image;
@@ -283,8 +283,8 @@ static void write_maps(mtl_writer *w, const legacy_material *m)
             write_map(w, &m->maps[i], i == LEGACY_ORM_MAP && m->is_rma ? "map_RMA" : legacy_map_keys[i]);
 }
 
-/* Whether a reader would keep the line once more. Extras of a glTF file may hold statements and comments that mean
- * something: they would begin another material, or change this one. */
+/* Whether a reader would keep the line again. Extras of a glTF file may contain statements and comments with a
+ * meaning, which would begin another material or change this one. */
 static bool is_unknown(const mtl_writer *w, const legacy_material *m, mtl_span line)
 {
     mtl_span rest = line;
@@ -300,7 +300,7 @@ static bool is_unknown(const mtl_writer *w, const legacy_material *m, mtl_span l
     return is_kept;
 }
 
-/* Lines that were kept. A backslash at the end of one would join the next to it, but for the blank. */
+/* Writes kept lines. A trailing blank keeps a backslash at the end from joining the next line. */
 static void write_unknown(const mtl_writer *w, const legacy_material *m)
 {
     for (const char *lines = m->unknown; *lines && !w->out->has_failed;) {
@@ -316,7 +316,7 @@ static void write_unknown(const mtl_writer *w, const legacy_material *m)
 
 /* ---- the file ---- */
 
-/* What the glTF material of a scene is written for: it came from glTF, or was restored from such a comment. */
+/* Whether to write the glTF material of a scene: it came from glTF, or was restored from such a comment. */
 static bool has_gltf(const mtl_writer *w, const legacy_material *m)
 {
     return !w->desc->omits_mtl_pbr && (!w->scene->legacy->is_source || m->is_gltf_restored);

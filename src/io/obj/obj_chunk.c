@@ -11,7 +11,7 @@
 
 /* ---- the check of indices ---- */
 
-/* What one chunk is checked against, and where the next corner and element that stay are put. */
+/* The limits for one chunk, and the positions of the next corner and element that are kept. */
 typedef struct checking {
     const obj_reader *r;
     obj_chunk *c;
@@ -20,13 +20,13 @@ typedef struct checking {
     uint32_t triangle_count;
 } checking;
 
-/* Notes hold the number of the element; obj_warn_all() finds its line. */
+/* Remarks store the index of the element; obj_warn_all() finds its line. */
 static void note(checking *k, obj_remark remark)
 {
     obj_note(&k->c->remarks, remark, k->number);
 }
 
-/* An index that is not simply one of count; OBJ_WRONG where there is nothing. */
+/* Resolves a relative index; OBJ_WRONG if it is out of range. */
 static uint32_t resolve(uint32_t index, size_t base, size_t count)
 {
     if (index < count || index == OBJ_ABSENT)
@@ -37,7 +37,7 @@ static uint32_t resolve(uint32_t index, size_t base, size_t count)
     return own >= 0 && own < (int64_t)count ? (uint32_t)own : OBJ_WRONG;
 }
 
-/* Whether all positions of the element are there and finite. */
+/* Whether all positions of the element exist and are finite. */
 static bool check_positions(checking *k, size_t begin, size_t end)
 {
     const obj_reader *r = k->r;
@@ -60,7 +60,7 @@ static bool check_positions(checking *k, size_t begin, size_t end)
     return true;
 }
 
-/* An index of nothing that is there counts as none. */
+/* An index out of range counts as absent. */
 static void check_attributes(checking *k, obj_indices *list, size_t begin, size_t end, size_t base,
                              size_t count)
 {
@@ -77,7 +77,7 @@ static void check_attributes(checking *k, obj_indices *list, size_t begin, size_
     }
 }
 
-/* The file's normals count where all corners have one. */
+/* The file's normals are used if all corners of the element have one. */
 static void check_normals(checking *k, size_t begin, size_t end)
 {
     uint32_t *n = k->c->n.data;
@@ -97,8 +97,7 @@ static void check_normals(checking *k, size_t begin, size_t end)
         n[i] = OBJ_ABSENT;
 }
 
-/* Moves the corners to their place, those of a face without the ones that repeat the position before; returns how many
- * stay. */
+/* Moves the corners to their place, those of a face without consecutive duplicates; returns how many are kept. */
 static uint32_t move_corners(checking *k, size_t begin, size_t end, bool is_face)
 {
     const obj_chunk *c = k->c;
@@ -166,13 +165,13 @@ void obj_check_chunk(obj_reader *r, obj_chunk *c)
     c->triangle_count = k.triangle_count;
 }
 
-/* So large that what is done once per chunk does not count, so small that what is read of one stays in the cache of a
- * core until it is copied to its place. */
+/* Large enough to make the work per chunk negligible, small enough for a chunk's arrays to stay in a core's cache
+ * until they are copied. */
 enum { CHUNK_SIZE = 1 << 19 };
 
 /* ---- pieces ---- */
 
-/* Behind the first line end at or behind position at which is not joined with the next line. */
+/* The position behind the first line end at or after `at` that is not continued. */
 static size_t find_cut(const char *bytes, size_t size, size_t at)
 {
     for (; at < size; at++) {
@@ -186,8 +185,8 @@ static size_t find_cut(const char *bytes, size_t size, size_t at)
     return size;
 }
 
-/* The end of the chunk that begins at begin. The last one is not shorter than NUMBER_TAIL, so that those before can be
- * read that far behind their ends. */
+/* The end of the chunk that begins at `begin`. The last chunk has at least NUMBER_TAIL bytes, so that the others can
+ * be read that far beyond their ends. */
 static size_t find_chunk_end(const char *bytes, size_t size, size_t begin)
 {
     if (size - begin <= CHUNK_SIZE)
@@ -196,7 +195,7 @@ static size_t find_chunk_end(const char *bytes, size_t size, size_t begin)
     return size - end < 2 * NUMBER_TAIL ? size : end;
 }
 
-/* The last chunk with a line end, and one more where a backslash joins that one, and room behind. */
+/* Copies the last chunk and appends a line end, a second one if a backslash joins the first, and padding. */
 static bool copy_tail(obj_reader *r, obj_chunk *last)
 {
     size_t size;
@@ -254,7 +253,7 @@ void obj_chunk_release(obj_chunk *c)
 
 /* ---- colors ---- */
 
-/* How the numbers of vertex colors are read. */
+/* The encoding of vertex colors. */
 typedef struct color_scale {
     bool is_8bit, is_linear;
 } color_scale;
@@ -266,7 +265,7 @@ static float to_linear(float x, color_scale scale)
     return (float)(scale.is_linear ? c : srgb_decode(c));
 }
 
-/* Whole numbers above 1 can only be those of 8 bits. */
+/* Integers above 1 can only be 8-bit values. */
 static color_scale find_color_scale(const obj_reader *r)
 {
     float maximum = 0.0f;
@@ -284,7 +283,7 @@ static color_scale find_color_scale(const obj_reader *r)
 typedef struct joining {
     obj_reader *r;
     color_scale scale;
-    bool has_colors; /* of v statements; else of ZBrush's comments, if there are any */
+    bool has_colors; /* of v statements; otherwise of ZBrush's comments, if any */
 } joining;
 
 static void join_colors(const joining *j, const obj_chunk *c)
@@ -336,7 +335,7 @@ static void join_chunk(void *context, size_t begin, size_t end)
     }
 }
 
-/* Where the lists of each chunk begin; whether there are colors. */
+/* Where the lists of each chunk begin, and whether there are colors. */
 static size_t sum_up(obj_reader *r, bool *has_colors)
 {
     size_t mrgb_count = 0;

@@ -10,14 +10,14 @@
 /* ---- blocks of positions ---- */
 
 enum {
-    RANGE = 1 << 16,         /* corners that one thread takes at once */
-    BLOCK_CORNERS = 1 << 15, /* about so many in a block */
+    RANGE = 1 << 16,         /* corners per work item */
+    BLOCK_CORNERS = 1 << 15, /* approximate corners per block */
     MAX_BLOCKS = 4096
 };
 
 typedef struct sorting {
     obj_partition *p;
-    uint32_t *counts; /* per range and block: corners, then where they go in the block */
+    uint32_t *counts; /* per work item and block: corners, then their position in the block */
 } sorting;
 
 static inline bool is_left_out(const obj_partition *p, size_t corner)
@@ -100,7 +100,7 @@ bool obj_partition_run(obj_partition *p, uint32_t thread_count, const facet_allo
 
 /* ---- corners ---- */
 
-/* Where corners of one run come from and go to. */
+/* Source and destination of the corners of one run. */
 typedef struct writer {
     const obj_reader *r;
     const uint32_t *v, *t, *n; /* of the chunk; t, n NULL: none */
@@ -112,7 +112,7 @@ typedef struct writer {
     size_t rough_count;
 } writer;
 
-/* n only exists for triangles, which stand first. */
+/* n exists for triangles only, which come first. */
 static inline void put(writer *w, size_t corner)
 {
     const obj_reader *r = w->r;
@@ -175,7 +175,8 @@ static bool put_run(writer *w, const obj_chunk *c, const obj_run *run)
             if (!put_face(w, corner, count))
                 return false;
         } else {
-            for (size_t i = 0; i < count; i++) { /* inner points of a line end one piece and begin the next */
+            for (size_t i = 0; i < count;
+                 i++) { /* inner points of a polyline end one segment and begin the next */
                 put(w, corner + i);
                 if (mode == SCENE_LINES && i > 0 && i + 1 < count)
                     put(w, corner + i);

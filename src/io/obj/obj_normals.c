@@ -1,9 +1,10 @@
-/* obj_normals.c - normals that the file does not have: where faces are smooth, corners at one position share the sum of
- * their triangles' normals, weighted by the angle that each has there (Thuermer and Wuethrich 1998, "Computing vertex
- * normals from polygonal facets"): how a face is cut into triangles does not matter then.
+/* obj_normals.c - normals for files without them: where faces are smooth, corners at one position share the sum of
+ * their triangles' normals, weighted by the angle at the corner (Thuermer and Wuethrich 1998, "Computing vertex
+ * normals from polygonal facets"), which does not depend on how a face is triangulated.
  *
- * A smoothing group smooths across edges, from a triangle to the one that continues its surface. Sheets are often modeled
- * twice, once each way round, in one group: front and back share positions and edges, and their normals cancel out. */
+ * A smoothing group smooths across edges, between triangles that continue each other's surface. Sheets are often
+ * modeled twice, with opposite windings, in one group: front and back share positions and edges, and their normals
+ * would cancel out. */
 #include <math.h>
 #include <string.h>
 
@@ -11,16 +12,17 @@
 #include "io/obj/obj_reader.h"
 #include "scene/unit.h"
 
-/* Of the angle across which AUTO smooths, 45 degrees. */
+/* Cosine of the angle across which AUTO smooths, 45 degrees. */
 static const double CREASE_COSINE = 0.70710678118654752;
-/* Of the sharpest fold within a smoothing group, 150 degrees: beyond are the two sides of a sheet, which need not be
- * exactly opposite where their polygons are cut along different diagonals. */
+/* Cosine of the sharpest fold within a smoothing group, 150 degrees: beyond are the two sides of a sheet, which need
+ * not be exactly opposite where their polygons are cut along different diagonals. */
 static const double FOLD_COSINE = -0.86602540378443865;
-/* Triangles along one edge that are compared with each other; more than 2 are rare. And fans at one position. */
+/* Maximum numbers of triangles along one edge that are compared with each other (more than 2 are rare), and of fans
+ * at one position. */
 enum { MAX_ALONG_EDGE = 8, MAX_FANS = 16 };
 enum { BLOCK_GRAIN = 4, FEW_KEYS = 64 };
 
-/* What one block of positions came to. */
+/* Results of one block of positions. */
 typedef struct block {
     float *normals; /* 3 per class */
     size_t count, capacity, base;
@@ -28,34 +30,34 @@ typedef struct block {
 
 typedef struct making {
     obj_reader *r;
-    bool has_angles; /* angles decide; else groups, or all is one */
+    bool has_angles; /* by angle; otherwise by group, or everything is smooth */
     obj_partition partition;
     block *blocks;
 } making;
 
-/* A corner at the position that is worked at. */
+/* A corner at the current position. */
 typedef struct spoke {
     uint32_t corner; /* of the reader */
-    uint32_t next;   /* a spoke of the same class; itself: the first */
+    uint32_t next;   /* a spoke of the same class; the first refers to itself */
     uint32_t number; /* of the class, in the block */
-    float normal[3]; /* of the triangle, unit; 0: it has no area */
+    float normal[3]; /* unit normal of the triangle; 0: it has no area */
     float angle;     /* rad */
-    float fan[3];    /* the first of a class: the sum of its normals by angle */
+    float fan[3];    /* in the first spoke of a class: the sum of its normals weighted by angle */
 } spoke;
 
-/* What a block is worked at with. */
+/* Scratch arrays of a block. */
 typedef struct workspace {
     uint32_t *begins;  /* per position of the block: its spokes */
     uint32_t *corners; /* sorted by position */
     spoke *spokes;     /* of one position */
-    uint64_t *keys;    /* two per spoke: what sorts, and its number; and as many more to sort them */
+    uint64_t *keys;    /* two sort keys with indices per spoke, and as many again as scratch space */
     size_t begin_room, corner_room, spoke_room, key_room;
 } workspace;
 
 /* ---- triangles ---- */
 
-/* The angle of a sine >= 0 and a cosine, both times the same, to 1e-5 (Abramowitz and Stegun 4.4.47): a weight needs no
- * more, and atan2() would take most of the time. */
+/* The angle of a sine >= 0 and a cosine, both scaled alike, to 1e-5 (Abramowitz and Stegun 4.4.47): enough for a
+ * weight, where atan2() would take most of the time. */
 static double angle_of(double sine, double cosine)
 {
     double c = fabs(cosine);
@@ -104,7 +106,7 @@ static uint32_t find_first(spoke *spokes, uint32_t i)
     return i;
 }
 
-/* The smaller number stays the first, so that classes are in the order of the file. */
+/* The smaller index stays the first, so that classes are in the order of the file. */
 static void unite(spoke *spokes, uint32_t a, uint32_t b)
 {
     a = find_first(spokes, a);
@@ -115,11 +117,10 @@ static void unite(spoke *spokes, uint32_t a, uint32_t b)
         spokes[a].next = b;
 }
 
-/* Sorts by the upper halves of the keys; equal ones stay as they are. spare: as large, where there are more than
- * FEW_KEYS. */
+/* Sorts by the upper halves of the keys, stably. spare: scratch space of the same size for more than FEW_KEYS. */
 static void sort_keys(uint64_t *keys, uint64_t *spare, size_t count)
 {
-    if (count <= FEW_KEYS) { /* nearly always: a position has six triangles */
+    if (count <= FEW_KEYS) { /* the common case: a position has six triangles */
         for (size_t i = 1; i < count; i++) {
             uint64_t key = keys[i];
             size_t k = i;
@@ -129,7 +130,7 @@ static void sort_keys(uint64_t *keys, uint64_t *spare, size_t count)
         }
         return;
     }
-    for (int shift = 32; shift < 64; shift += 8) { /* four passes: they end where they began */
+    for (int shift = 32; shift < 64; shift += 8) { /* four passes, after which the data is back in place */
         size_t places[256] = {0};
         for (size_t i = 0; i < count; i++)
             places[keys[i] >> shift & 0xffu]++;
@@ -154,8 +155,8 @@ static double cosine_between(const spoke *a, const spoke *b)
     return cosine;
 }
 
-/* Keys of the edges from here, two per spoke: the position at the other end, then the spoke and whether the edge leads
- * here. Those of one edge stand together then. */
+/* Keys of the edges at the position, two per spoke: the position at the other end, then the spoke and the edge's
+ * direction. Sorting groups the keys of an edge. */
 static void sort_edges(const obj_reader *r, workspace *w, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
@@ -172,7 +173,7 @@ static uint32_t spoke_of(uint64_t key)
     return (uint32_t)key >> 1;
 }
 
-/* Spokes whose triangles share an edge from here, and bend little there. */
+/* Unites spokes whose triangles share an edge at the position and fold little there. */
 static void unite_smooth_edges(const obj_reader *r, workspace *w, uint32_t count)
 {
     sort_edges(r, w, count);
@@ -192,8 +193,8 @@ static uint32_t group_of(const obj_reader *r, const spoke *s)
     return r->groups ? r->groups[s->corner / 3] : 0;
 }
 
-/* Whether the triangles of two keys continue each other: the edge leads here in one and away in the other, so that they
- * are seen from the same side. The cosine of their fold, or -1. */
+/* The cosine of the fold between the triangles of two keys, if they continue each other: the edge leads to the
+ * position in one and away from it in the other, so that they face the same side. Otherwise -1. */
 static double continues(const obj_reader *r, const workspace *w, uint64_t a, uint64_t b)
 {
     const spoke *s = &w->spokes[spoke_of(a)];
@@ -202,7 +203,7 @@ static double continues(const obj_reader *r, const workspace *w, uint64_t a, uin
     return is_opposite && group_of(r, s) == group_of(r, t) ? cosine_between(s, t) : -1.0;
 }
 
-/* The pair of triangles along one edge that folds least, which is united and leaves the list. False: there is none. */
+/* Unites the pair of triangles along one edge that folds least, and removes it from the list. False: there is none. */
 static bool unite_best_pair(const obj_reader *r, workspace *w, uint64_t *keys, size_t *count)
 {
     double best = FOLD_COSINE;
@@ -241,7 +242,7 @@ static bool are_alike(const obj_reader *r, const spoke *a, const spoke *b)
     return group_of(r, a) == group_of(r, b) && dot > CREASE_COSINE * sqrt(lengths[0] * lengths[1]);
 }
 
-/* Fans that share no edge, as where an edge meets the middle of another, are smoothed where they bend little. */
+/* Smooths fans that share no edge, as at T-junctions, if they bend little. */
 static void unite_fans(const obj_reader *r, spoke *spokes, uint32_t count)
 {
     uint32_t leaders[MAX_FANS];
@@ -264,7 +265,7 @@ static void unite_fans(const obj_reader *r, spoke *spokes, uint32_t count)
     }
 }
 
-/* Along each edge in pairs, so that of two sheets that cross there each stays with itself. */
+/* Pairs the triangles along each edge, so that two sheets that cross there stay separate. */
 static void unite_groups(const obj_reader *r, workspace *w, uint32_t count)
 {
     size_t end;
@@ -283,8 +284,8 @@ static void unite_groups(const obj_reader *r, workspace *w, uint32_t count)
 
 /* ---- sums ---- */
 
-/* The unit normals of all classes at one position. One without direction (its triangles have no area, or cancel out) gets
- * that of the others, and +Y where they have none. */
+/* The unit normals of all classes at one position. A class without direction (its triangles have no area, or cancel
+ * out) gets the normal of the others, or +Y if they have none. */
 static bool sum_classes(const making *m, block *b, spoke *spokes, uint32_t count)
 {
     size_t first_class = b->count;
@@ -312,7 +313,7 @@ static bool sum_classes(const making *m, block *b, spoke *spokes, uint32_t count
         float *n = b->normals + 3 * i;
         const float sum[3] = {n[0], n[1], n[2]};
         const double wide[3] = {(double)sum[0], (double)sum[1], (double)sum[2]};
-        /* Sums of floats that cancel out leave rests of this size. */
+        /* Residue of float sums that cancel out. */
         bool has_direction = fabs(wide[0]) + fabs(wide[1]) + fabs(wide[2]) > 1e-5;
         if (!has_direction || !unit_from_double(wide, n))
             memcpy(n, otherwise, sizeof otherwise);
@@ -333,7 +334,7 @@ static bool do_position(const making *m, block *b, workspace *w, const uint32_t 
 
 /* ---- blocks ---- */
 
-/* Sorts the corners of a block by position. Returns the largest number at one. */
+/* Sorts the corners of a block by position. Returns the largest number at one position. */
 static uint32_t sort_corners(const making *m, const workspace *w, size_t begin, size_t end, uint32_t first_v)
 {
     const obj_partition *p = &m->partition;
@@ -398,7 +399,7 @@ static void do_blocks(void *context, size_t begin, size_t end)
     mem_free(w.keys);
 }
 
-/* Numbers in the block become those behind the file's normals. */
+/* Indices in the block become indices behind the file's normals. */
 static void join_blocks(void *context, size_t begin, size_t end)
 {
     const making *m = context;

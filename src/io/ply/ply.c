@@ -70,7 +70,7 @@ static const char *keep(ply_reader *r, span s)
     return copy;
 }
 
-/* The next line, whose end is LF, CR or both. False: the file ends within it. */
+/* The next line, which ends with LF, CR or both. False: the file ends before. */
 static bool take_line(ply_reader *r, span *line)
 {
     const unsigned char *p = r->at;
@@ -162,7 +162,7 @@ static void read_property(ply_reader *r, span rest)
     e->properties[e->property_count++] = p;
 }
 
-/* MeshLab names its texture in a comment; the first counts. */
+/* MeshLab names its texture in a comment; the first one is used. */
 static void read_comment(ply_reader *r, span rest, size_t line)
 {
     span all = rest;
@@ -243,7 +243,7 @@ bool ply_detect(const void *bytes, size_t size)
 
 /* ---- the parts of a scene ---- */
 
-/* Vertices that no face uses are points. */
+/* Vertices that no face uses become points. */
 static bool make_cloud(ply_reader *r)
 {
     obj_soup *s = &r->soup;
@@ -259,7 +259,7 @@ static bool make_cloud(ply_reader *r)
     return true;
 }
 
-/* Faces without texture coordinates beside some that have them. */
+/* Faces without texture coordinates in a file where others have them. */
 static void fill_texcoords(obj_soup *s)
 {
     if (s->t && s->texcoord_count == 0) {

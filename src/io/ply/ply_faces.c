@@ -1,5 +1,5 @@
-/* ply_faces.c - faces of a PLY file as triangles: lists of corners, polygons of any number, with texture coordinates per
- * corner where the file has them, and strips, in which -1 starts anew. */
+/* ply_faces.c - faces of a PLY file as triangles: lists of corners, polygons of any size, with texture coordinates
+ * per corner if the file has them, and strips, in which -1 restarts. */
 #include <math.h>
 #include <string.h>
 
@@ -7,11 +7,11 @@
 #include "io/obj/obj_triangulate.h"
 #include "io/ply/ply_reader.h"
 
-/* The lists of a face that count, and what becomes of them. */
+/* The lists of a face that are used, and the triangles made from them. */
 typedef struct faces {
     ply_reader *r;
-    const ply_property *corners, *texcoords; /* NULL: there is none */
-    double *list, *uvs;                      /* of the face that is read; blocks of mem_alloc() */
+    const ply_property *corners, *texcoords; /* NULL: none */
+    double *list, *uvs;                      /* of the current face; blocks of mem_alloc() */
     size_t list_count, list_capacity, uv_count, uv_capacity;
     obj_polygon polygon;
     uint32_t *triangles;
@@ -32,14 +32,14 @@ static bool is_texcoord_list(const ply_property *p)
            (strcmp(p->name, "texcoord") == 0 || strcmp(p->name, "texcoords") == 0);
 }
 
-/* A property's values; those of a list into *list. False: the file ends within it, or no memory. */
+/* Reads the values of a property, those of a list into *list. False: the file ends before, or no memory. */
 static bool read_list(faces *f, const ply_property *p, double **list, size_t *count, size_t *capacity)
 {
     double number;
     *count = 0;
     if (!ply_read_value(f->r, p->count_type, &number))
         return false;
-    for (double i = 0; i < number; i++) { /* memory grows with what is there */
+    for (double i = 0; i < number; i++) { /* memory grows with the data that is present */
         if (!mem_reserve(&f->r->desc->allocator, (void **)list, capacity, *count + 1, sizeof **list))
             return ply_fail_memory(f->r, "faces");
         if (!ply_read_value(f->r, p->type, *list + *count))
@@ -77,7 +77,7 @@ static bool read_face(faces *f, const ply_element *e)
 
 /* ---- triangles ---- */
 
-/* Appends corner number i of the face. */
+/* Appends corner i of the face. */
 static bool put_corner(faces *f, size_t i)
 {
     obj_soup *s = &f->r->soup;
@@ -95,7 +95,7 @@ static bool put_corner(faces *f, size_t i)
     return true;
 }
 
-/* Texture coordinates of the face, behind the others. */
+/* Appends the texture coordinates of the face. */
 static bool put_texcoords(faces *f)
 {
     obj_soup *s = &f->r->soup;
@@ -151,7 +151,7 @@ static bool put_face(faces *f)
     return f->list_count > 3 ? put_polygon(f) : put_corner(f, 0) && put_corner(f, 1) && put_corner(f, 2);
 }
 
-/* Every corner of a strip from the third on ends a triangle, of which every second is wound the other way. */
+/* Every corner of a strip from the third on completes a triangle; every second one is reversed. */
 static bool put_strip(faces *f)
 {
     size_t begin = 0;
@@ -183,7 +183,7 @@ static void find_lists(faces *f, const ply_element *e, bool are_strips)
     }
     if (!f->texcoords)
         return;
-    mem_free(f->r->soup.texcoords); /* those of corners say more than those of vertices */
+    mem_free(f->r->soup.texcoords); /* coordinates of corners take precedence over those of vertices */
     f->r->soup.texcoords = NULL;
     f->r->soup.texcoord_count = 0;
 }
@@ -245,6 +245,6 @@ bool ply_skip_element(ply_reader *r, const ply_element *e)
     for (uint64_t i = 0; i < e->count && i < most; i++)
         for (size_t k = 0; k < e->property_count; k++)
             if (!skip_property(r, &e->properties[k]))
-                return true; /* those behind find that nothing is left */
+                return true; /* so that later elements find no data */
     return true;
 }

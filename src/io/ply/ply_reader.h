@@ -40,12 +40,12 @@ typedef struct ply_reader {
     ply_form form;
     ply_element *elements; /* block of mem_alloc() */
     size_t element_count, element_capacity;
-    const char *texture_file; /* NULL: none is named */
+    const char *texture_file; /* NULL: none */
     size_t texture_line;
     obj_soup soup;
 } ply_reader;
 
-/* Records a failure, which stays the first; returns false. */
+/* Records a failure unless there is one; returns false. */
 bool ply_fail(ply_reader *r, facet_result result, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 bool ply_fail_memory(ply_reader *r, const char *what);
@@ -53,17 +53,17 @@ bool ply_fail_memory(ply_reader *r, const char *what);
 /* The size of a type in a binary file. */
 size_t ply_type_size(ply_type type);
 
-/* ply_vertices.c: the next value of a type. False: there are no more. */
+/* ply_vertices.c: the next value of a type. False: the file ends before. */
 bool ply_read_value(ply_reader *r, ply_type type, double *value);
-/* How many of count elements the bytes that are left can hold at most: each has one value per property at least. */
+/* An upper bound on how many of count elements the remaining bytes hold: each has at least one value per property. */
 uint64_t ply_max_elements(const ply_reader *r, const ply_element *e);
 
-/* ply_vertices.c: places with what they have. False: a failure is recorded. */
+/* ply_vertices.c: positions and their attributes. False: a failure is recorded. */
 bool ply_read_vertices(ply_reader *r, const ply_element *e);
 
 /* ply_faces.c: faces and strips of triangles. False: a failure is recorded. */
 bool ply_read_faces(ply_reader *r, const ply_element *e, bool are_strips);
-/* Any other element. */
+/* Skips any other element. */
 bool ply_skip_element(ply_reader *r, const ply_element *e);
 
 #endif

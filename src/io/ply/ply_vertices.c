@@ -25,14 +25,14 @@ static bool read_text(ply_reader *r, double *value)
     const char *text = (const char *)r->at;
     *value = codec_parse_number(text, (const char *)r->end, &after);
     r->at = (const unsigned char *)after;
-    if (after == text) /* no number: nan, or nonsense, counts as not finite */
+    if (after == text) /* not a number: nan, or invalid text, counts as not finite */
         *value = (double)NAN;
     while (r->at < r->end && !is_space(*r->at))
         r->at++;
     return true;
 }
 
-/* The bits of a value of that size, whatever the order of its bytes. */
+/* The bits of a value of that size, independent of byte order. */
 static uint64_t read_bits(const unsigned char *p, size_t size, bool is_big)
 {
     uint64_t bits = 0;
@@ -86,7 +86,8 @@ uint64_t ply_max_elements(const ply_reader *r, const ply_element *e)
         const ply_property *p = &e->properties[i];
         least += r->form == PLY_TEXT ? 2 : ply_type_size(p->count_type != PLY_NONE ? p->count_type : p->type);
     }
-    uint64_t left = (uint64_t)(r->end - r->at) + (r->form == PLY_TEXT); /* the last has no blank behind it */
+    uint64_t left =
+        (uint64_t)(r->end - r->at) + (r->form == PLY_TEXT); /* the last value has no blank behind it */
     return least ? left / least : 0;
 }
 
@@ -105,7 +106,7 @@ typedef enum vertex_value {
     VALUE_ALPHA,
     VALUE_U,
     VALUE_V,
-    VALUE_SPLAT_RED, /* of Gaussian splats: the constant of spherical harmonics */
+    VALUE_SPLAT_RED, /* Gaussian splats: the constant spherical harmonic */
     VALUE_SPLAT_GREEN,
     VALUE_SPLAT_BLUE,
     VALUE_COUNT
@@ -151,10 +152,10 @@ static const struct {
     {"f_dc_2", VALUE_SPLAT_BLUE},
 };
 
-/* What the properties of the element are. */
+/* The properties of the vertex element. */
 typedef struct layout {
     uint32_t values;           /* bits of vertex_value */
-    vertex_value *of_property; /* VALUE_COUNT: of no use; block of mem_alloc() */
+    vertex_value *of_property; /* VALUE_COUNT: unused; block of mem_alloc() */
     ply_type types[VALUE_COUNT];
 } layout;
 
@@ -211,7 +212,7 @@ static bool take_arrays(ply_reader *r, const layout *l, size_t count)
 
 /* ---- colors ---- */
 
-/* The largest value of a component: whole numbers have 8 or 16 bits, floats reach 1 unless one is beyond. */
+/* The largest value of a component: integers have 8 or 16 bits, floats reach 1 unless one is larger. */
 static double largest_of(ply_type type, double most)
 {
     bool is_float = type == PLY_FLOAT || type == PLY_DOUBLE;
@@ -224,7 +225,7 @@ static double to_unit(double value)
     return value > 0.0 ? value < 1.0 ? value : 1.0 : 0.0;
 }
 
-/* From the numbers of the file to linear light. An opacity that is 0 throughout was never set. */
+/* Converts the file's numbers to linear light. An opacity that is 0 everywhere was never set. */
 static void settle_colors(ply_reader *r, const layout *l, size_t count)
 {
     /* Kerbl et al. 2023, "3D Gaussian splatting": the band of order 0 is 1 / (2 sqrt(pi)), colors are 0.5 above it. */
@@ -272,7 +273,7 @@ static void store_vertex(ply_reader *r, const layout *l, size_t i, const double 
     }
 }
 
-/* One vertex; the values of lists do not count. False: the file ends within it. */
+/* Reads one vertex; values of lists are ignored. False: the file ends before. */
 static bool read_vertex(ply_reader *r, const ply_element *e, const layout *l, double values[VALUE_COUNT])
 {
     for (size_t k = 0; k < e->property_count; k++) {

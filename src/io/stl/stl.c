@@ -1,5 +1,5 @@
-/* stl.c - see stl.h. A binary file has 80 bytes of header, the number of triangles, and 50 bytes for each: normal and
- * three corners as floats, then 16 bits of no agreed meaning. */
+/* stl.c - see stl.h. A binary file has a header of 80 bytes, the number of triangles, and 50 bytes per triangle: the
+ * normal and three corners as floats, and 16 bits without a standard meaning. */
 #include "io/stl/stl.h"
 
 #include <string.h>
@@ -19,7 +19,7 @@ typedef struct stl_reader {
     const facet_scene_desc *desc;
     facet_error *error;
     obj_soup soup;
-    obj_table table; /* places, to find equal ones */
+    obj_table table; /* positions, to merge equal ones */
 } stl_reader;
 
 /* ---- text ---- */
@@ -79,7 +79,7 @@ static bool is_binary(const unsigned char *bytes, size_t size)
            (size - HEADER_SIZE) / TRIANGLE_SIZE == read_u32(bytes + 80);
 }
 
-/* "solid", the rest of whose line is a name, then a facet or the end. */
+/* "solid", the rest of whose line is a name, followed by a facet or the end. */
 static bool is_text(const void *bytes, size_t size)
 {
     words w = begin_words(bytes, size);
@@ -100,7 +100,7 @@ bool stl_detect(const void *bytes, size_t size)
 
 /* ---- corners ---- */
 
-/* What equal places have in common, and others hardly ever. */
+/* A key that equal positions share, and others rarely. */
 static obj_key key_of(const double place[3], uint32_t number)
 {
     uint64_t hash = 0;
@@ -112,7 +112,7 @@ static obj_key key_of(const double place[3], uint32_t number)
     return (obj_key){.v = (uint32_t)hash, .t = (uint32_t)(hash >> 32), .vertex = number};
 }
 
-/* Appends a corner, at the place before that is the same, if there is one. False: no memory. */
+/* Appends a corner, which shares an equal position if there is one. False: no memory. */
 static bool add_corner(stl_reader *r, const double at[3])
 {
     obj_soup *s = &r->soup;
@@ -207,7 +207,7 @@ static size_t line_number(const void *bytes, const char *at)
     return line;
 }
 
-/* Numbers of a vertex; a loop of more than three corners is a fan of triangles. */
+/* The numbers of a vertex; a loop of more than three corners is a triangle fan. */
 static facet_result read_vertex(stl_reader *r, words *w, const char *begin, size_t *in_loop)
 {
     double place[3];
@@ -229,7 +229,7 @@ static facet_result read_vertex(stl_reader *r, words *w, const char *begin, size
     return add_corner(r, place) ? FACET_OK : fail_triangles(r);
 }
 
-/* Takes away the corners of a loop that ended before its third. */
+/* Removes the corners of a loop that has fewer than three. */
 static void end_loop(stl_reader *r, size_t *in_loop, size_t *short_count)
 {
     if (*in_loop > 0 && *in_loop < 3) {
@@ -254,7 +254,7 @@ static facet_result read_text(stl_reader *r, const void *bytes, size_t size)
             result = r->soup.part_count || add_part(r, "", 0) ? read_vertex(r, &w, bytes, &in_loop)
                                                               : fail_triangles(r);
         } else if (is_word(word, length, "solid")) {
-            end_loop(r, &in_loop, &short_count); /* a loop that is cut off belongs to the solid before */
+            end_loop(r, &in_loop, &short_count); /* an unfinished loop belongs to the previous solid */
             const char *end = line_end(&w);
             while (w.at < end && is_space(*w.at))
                 w.at++;
