@@ -154,9 +154,7 @@ static facet_result add_cube_files(const bake_options *o, bake_plan *plan, const
         container = o->container;
     else if (is_stdout)
         container = CONTAINER_KTX2;
-    facet_result result = check_container(o, w, container, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(check_container(o, w, container, error));
     const bake_file what = {.container = container,
                             .content = BAKE_CUBE,
                             .cube = bake_plan_add_cube(plan, &w->desc, is_verified),

@@ -202,13 +202,12 @@ static facet_result load_all(compare_run *run, facet_error *error)
 {
     const command_line *c = run->base.line;
     const char *mask = option_text(c, OPT_MASK, NULL), *layer = option_text(c, OPT_LAYER, NULL);
-    facet_result result = load(run, c->arguments[0], layer, &run->a, error);
-    if (result == FACET_OK)
-        result = load(run, c->arguments[1], layer, &run->b, error);
-    if (result == FACET_OK && mask)
-        result = load(run, mask, NULL, &run->mask, error);
+    TRY(load(run, c->arguments[0], layer, &run->a, error));
+    TRY(load(run, c->arguments[1], layer, &run->b, error));
+    if (mask)
+        TRY(load(run, mask, NULL, &run->mask, error));
     run->desc.mask = run->mask;
-    return result;
+    return FACET_OK;
 }
 
 /* What a reader of the numbers should know. */

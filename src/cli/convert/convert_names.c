@@ -91,15 +91,13 @@ static facet_result check_name(const convert_names *n, const model_name *model, 
                                output_claim *claim, facet_error *error)
 {
     char name[CONVERT_NAME_SIZE];
-    facet_result result = convert_name(n, model, report, name, error);
-    if (result == FACET_OK && input_is_same_file(model->path, name) && !(n->keeps_existing && !report))
-        result = fail(error, FACET_ERROR_ARGUMENT, "%s: this input would be overwritten; name another output",
-                      name);
-    if (result == FACET_OK)
-        result = output_check(name, error);
-    if (result == FACET_OK && !(claim->identity = output_identity(name)))
-        result = fail(error, FACET_ERROR_MEMORY, "out of memory: names");
-    return result;
+    TRY(convert_name(n, model, report, name, error));
+    if (input_is_same_file(model->path, name) && !(n->keeps_existing && !report))
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: this input would be overwritten; name another output",
+                    name);
+    TRY(output_check(name, error));
+    claim->identity = output_identity(name);
+    return claim->identity ? FACET_OK : fail(error, FACET_ERROR_MEMORY, "out of memory: names");
 }
 
 static facet_result check_names(convert_names *n, facet_error *error)

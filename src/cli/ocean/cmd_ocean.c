@@ -272,21 +272,17 @@ static facet_result set_moment(ocean_run *run, uint32_t number, facet_error *err
 static facet_result make_frame(ocean_run *run, uint32_t index, uint32_t number, const char *name,
                                facet_error *error)
 {
-    facet_result result = interrupt_check(*name ? name : "maps", error);
-    if (result == FACET_OK)
-        result = set_moment(run, number, error);
-    if (result == FACET_OK && run->options.maps)
-        result = make_maps(run, number, error);
-    if (result != FACET_OK || !*name)
-        return result;
+    TRY(interrupt_check(*name ? name : "maps", error));
+    TRY(set_moment(run, number, error));
+    if (run->options.maps)
+        TRY(make_maps(run, number, error));
+    if (!*name)
+        return FACET_OK;
     snprintf(run->name, sizeof run->name, "%s", run->options.picture.is_stdout ? "stdout" : name);
     if (!run->video && !run->options.picture.is_stdout) {
-        result = ocean_check_name(run, name, error);
-        if (result == FACET_OK)
-            result = ocean_check_maps(run, name, number, error);
+        TRY(ocean_check_name(run, name, error));
+        TRY(ocean_check_maps(run, name, number, error));
     }
-    if (result != FACET_OK)
-        return result;
     return run->options.has_mesh ? make_mesh(run, name, error) : make_picture(run, index, name, error);
 }
 

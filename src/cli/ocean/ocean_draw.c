@@ -238,23 +238,18 @@ static facet_result draw_cell(ocean_run *run, const axis *axes, uint32_t cell, o
         const option *o = axes[i].option;
         put_number(&axes[i], i ? cell / axes[0].count : cell % axes[0].count, numbers[i], sizeof numbers[i]);
         line.values[o->id] = (option_value){.text = NULL};
-        facet_result result = command_line_set(&line, o, numbers[i], SOURCE_COMMAND_LINE, error);
-        if (result != FACET_OK)
-            return result;
+        TRY(command_line_set(&line, o, numbers[i], SOURCE_COMMAND_LINE, error));
         size_t used = strlen(label);
         snprintf(label + used, LABEL_SIZE - used, "%s%s %s", i ? ", " : "", o->name, numbers[i]);
     }
     ocean_options options;
-    facet_result result = ocean_options_read(&line, &options, error);
-    if (result == FACET_OK)
-        result = ocean_run_set_sea(run, &options, error);
-    if (result == FACET_OK)
-        result = ocean_run_meter(run, &options, error);
-    if (result == FACET_OK)
-        result = facet_sea_set_time(run->sea, options.picture.time_s, error);
-    if (result == FACET_OK && run->model)
-        result = ocean_float_place(run, error);
-    return result == FACET_OK ? ocean_run_draw(run, &options, step, image, error) : result;
+    TRY(ocean_options_read(&line, &options, error));
+    TRY(ocean_run_set_sea(run, &options, error));
+    TRY(ocean_run_meter(run, &options, error));
+    TRY(facet_sea_set_time(run->sea, options.picture.time_s, error));
+    if (run->model)
+        TRY(ocean_float_place(run, error));
+    return ocean_run_draw(run, &options, step, image, error);
 }
 
 facet_result ocean_sweep(ocean_run *run, const char *output, facet_image **image, facet_error *error)

@@ -208,9 +208,7 @@ static facet_result read_sky(const command_line *c, ocean_options *out, facet_er
     render_options *o = &out->picture;
     double numbers[3] = {DEFAULT_SUN_EL, 0.0, 0.0};
     size_t count = 2;
-    facet_result result = picture_options_environment(c, o, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(picture_options_environment(c, o, error));
     if (is_given(c, OPT_SUN))
         count = scan_list(option_text(c, OPT_SUN, ""), 1, 3, numbers);
     if (!count || !are_within(numbers, 1, -90.0, 90.0) || !is_azimuth(numbers[1]) ||
@@ -343,9 +341,7 @@ static bool is_mesh_name(const char *name)
 static facet_result read_sequence(const command_line *c, ocean_options *out, facet_error *error)
 {
     render_options *o = &out->picture;
-    facet_result result = picture_options_frames(c, o, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(picture_options_frames(c, o, error));
     double loop = out->sea.loop_s;
     o->is_sequence = o->has_frames || (!o->has_time && (is_given(c, OPT_LOOP) || o->has_fps));
     if (!o->has_frames)
@@ -366,9 +362,7 @@ static facet_result read_sequence(const command_line *c, ocean_options *out, fac
 static facet_result read_output(const command_line *c, ocean_options *out, facet_error *error)
 {
     render_options *o = &out->picture;
-    facet_result result = picture_options_output(c, o, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(picture_options_output(c, o, error));
     out->maps = option_text(c, OPT_MAPS, NULL);
     out->sweep = option_text(c, OPT_SWEEP, NULL);
     out->model = option_text(c, OPT_WITH, NULL);
@@ -435,21 +429,15 @@ static facet_result check_output(const command_line *c, const ocean_options *out
 facet_result ocean_options_read(const command_line *c, ocean_options *out, facet_error *error)
 {
     *out = (ocean_options){.sea = facet_sea_default()};
-    facet_result result = FACET_OK;
     if (is_given(c, OPT_PRESET))
-        result = facet_sea_preset(option_text(c, OPT_PRESET, ""), &out->sea, error);
+        TRY(facet_sea_preset(option_text(c, OPT_PRESET, ""), &out->sea, error));
     facet_result (*const readers[])(const command_line *, ocean_options *, facet_error *) = {
         read_output, read_waves, read_water, read_bed, read_sky, read_look, read_camera, read_sequence};
-    if (result == FACET_OK)
-        result = limits_read(c, &out->picture.limits, error);
-    for (size_t i = 0; i < sizeof readers / sizeof *readers && result == FACET_OK; i++)
-        result = readers[i](c, out, error);
-    if (result == FACET_OK)
-        result = picture_options_size(c, "1280x720", &out->picture, error);
-    if (result == FACET_OK)
-        result = check_output(c, out, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(limits_read(c, &out->picture.limits, error));
+    for (size_t i = 0; i < sizeof readers / sizeof *readers; i++)
+        TRY(readers[i](c, out, error));
+    TRY(picture_options_size(c, "1280x720", &out->picture, error));
+    TRY(check_output(c, out, error));
     bool is_before = out->shading.style || (out->shading.stage && out->shading.stage <= 2);
     picture_options_look(c, is_before ? FACET_TONEMAP_NONE : FACET_TONEMAP_AGX, &out->picture);
     out->picture.desc.thread_count = out->picture.save.thread_count = out->picture.limits.thread_count;

@@ -250,9 +250,7 @@ static facet_result add_file(plot_materials *m, const char *text, const facet_sc
     memcpy(file, text, length);
     file[length] = 0;
     facet_scene *scene = NULL;
-    facet_result result = facet_scene_load(file, desc, &scene, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(facet_scene_load(file, desc, &scene, error));
     m->scenes[m->scene_count++] = scene;
     return add_scene(m, scene, file, mark ? mark + 1 : NULL, error);
 }

@@ -276,9 +276,7 @@ facet_result camera_options_read(const command_line *c, render_options *out, fac
             return fail(error, FACET_ERROR_ARGUMENT,
                         "--camera: a camera of the file excludes --%s; give one of them",
                         option_find_id(c->verb, orbit_options[i])->name);
-    facet_result result = read_orbit(c, out, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(read_orbit(c, out, error));
     out->turntable = (uint32_t)option_number(c, OPT_TURNTABLE, 0.0);
     out->has_eye = is_given(c, OPT_EYE);
     if (!out->has_eye)

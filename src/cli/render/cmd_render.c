@@ -334,10 +334,9 @@ static void warn_of_late_frames(const model_run *m)
 static facet_result open_video(model_run *m, facet_error *error)
 {
     char name[RENDER_NAME_SIZE];
-    facet_result result = render_name(&m->options, m->model, 1, name, sizeof name, error);
-    if (result == FACET_OK)
-        result = check_inputs(m, name, error);
-    return result == FACET_OK ? video_open(name, m->options.video, m->options.fps, &m->video, error) : result;
+    TRY(render_name(&m->options, m->model, 1, name, sizeof name, error));
+    TRY(check_inputs(m, name, error));
+    return video_open(name, m->options.video, m->options.fps, &m->video, error);
 }
 
 /* --exposure auto: one for all frames, so that they do not flicker, by the first one of the whole sequence, so that it does not

@@ -152,10 +152,8 @@ facet_result picture_options_environment(const command_line *c, render_options *
 {
     out->has_environment = is_given(c, OPT_ENV);
     out->environment_cache = option_text(c, OPT_ENV_CACHE, NULL);
-    facet_result result = environment_input_parse("--env", option_text(c, OPT_ENV, "neutral"),
-                                                  ENVIRONMENT_TAKES_NONE, &out->environment, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(environment_input_parse("--env", option_text(c, OPT_ENV, "neutral"), ENVIRONMENT_TAKES_NONE,
+                                &out->environment, error));
     double rotation = 0.0;
     if (is_given(c, OPT_ENV_ROTATION) && !value_angle(option_text(c, OPT_ENV_ROTATION, ""), &rotation))
         return option_fail(c, OPT_ENV_ROTATION, "an angle in degrees, such as 90", error);

@@ -110,9 +110,7 @@ static facet_result aov_options_read(const command_line *c, render_options *out,
         out->save.format == FACET_IMAGE_FORMAT_EXR || out->save.format == FACET_IMAGE_FORMAT_EXR_FLOAT;
     if (*text && !is_exr)
         return read_id_layer(text, out, error);
-    facet_result result = check_renderer(text, out, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(check_renderer(text, out, error));
     if (has_word(text, "all"))
         out->desc.aovs = all_aovs(out);
     for (size_t i = 0; i < AOV_NAMES; i++)
@@ -150,9 +148,7 @@ static facet_result read_background(const command_line *c, render_options *out, 
 static facet_result read_look(const command_line *c, render_options *out, facet_error *error)
 {
     facet_render_desc *d = &out->desc;
-    facet_result result = picture_options_exposure(c, out, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(picture_options_exposure(c, out, error));
     d->shading = (facet_shading)option_choice(c, OPT_SHADING, FACET_SHADING_GLTF);
     static const option_id ogl1_only[] = {OPT_OGL1_VARIANT, OPT_OGL1_SPACE, OPT_FOG};
     for (size_t i = 0; i < sizeof ogl1_only / sizeof *ogl1_only; i++)
@@ -174,9 +170,7 @@ static facet_result read_look(const command_line *c, render_options *out, facet_
 static facet_result read_motion(const command_line *c, render_options *out, facet_error *error)
 {
     out->animation = option_text(c, OPT_ANIMATION, NULL);
-    facet_result result = picture_options_frames(c, out, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(picture_options_frames(c, out, error));
     bool plays_none = out->animation && strcmp(out->animation, "none") == 0;
     if (plays_none && (out->has_time || out->has_frames))
         return fail(error, FACET_ERROR_ARGUMENT, "--animation: none excludes --%s",

@@ -74,17 +74,14 @@ static facet_result check_model(const command_line *c, const render_options *o, 
                                 output_claim *claim, facet_error *error)
 {
     char name[RENDER_NAME_SIZE];
-    facet_result result = render_name(o, model, 1, name, sizeof name, error);
-    if (result == FACET_OK)
-        result = output_check(name, error);
-    if (result == FACET_OK && render_name_is_input(c, o, model->path, name))
-        result = fail(error, FACET_ERROR_ARGUMENT,
-                      "%s: this input would be overwritten; name another output with -o", name);
-    if (result == FACET_OK)
-        result = check_checkpoint(c, o, model, name, error);
-    if (result == FACET_OK && !(claim->identity = output_identity(name)))
-        result = fail(error, FACET_ERROR_MEMORY, "out of memory: names");
-    return result;
+    TRY(render_name(o, model, 1, name, sizeof name, error));
+    TRY(output_check(name, error));
+    if (render_name_is_input(c, o, model->path, name))
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "%s: this input would be overwritten; name another output with -o", name);
+    TRY(check_checkpoint(c, o, model, name, error));
+    claim->identity = output_identity(name);
+    return claim->identity ? FACET_OK : fail(error, FACET_ERROR_MEMORY, "out of memory: names");
 }
 
 facet_result render_names_check(const command_line *c, const render_options *o, model_list *models,
