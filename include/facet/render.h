@@ -232,8 +232,8 @@ typedef struct facet_render_desc {
     float background_blur;     /* perceptual roughness of the environment as background, [0, 1] */
     facet_sun sun;
     facet_ground ground;
-    const facet_sea *sea; /* that the scene stands and floats in, constant while it is rendered; NULL: none */
-    facet_sky_desc sky;   /* above the sea where environment is NULL, with its sun */
+    const facet_sea *sea; /* around the scene, unchanged while it is rendered; NULL: none */
+    facet_sky_desc sky;   /* above the sea if environment is NULL, with its sun */
     facet_sea_shading sea_shading;
     facet_renderer_kind renderer;
     facet_path_desc path;
@@ -306,9 +306,10 @@ FACET_API facet_render_stats facet_image_get_render_stats(const facet_image *ima
 
 /* Measures a small preview, without shadows and interreflection, so that all renderers get the same exposure: EV at
  * ISO 100 that brings the log-average luminance of the model, and of the environment where it is the background, to
- * 0.22 of white (Reinhard et al. 2002). Of an image with a sea, the sea without the scene and glints is measured. Meter sequences once; their frames would flicker otherwise. Where nothing
- * is seen or all is black, the exposure is 0 and log gets a warning. desc NULL: {0}. Fails as facet_render(), and
- * with FACET_ERROR_ARGUMENT for FACET_SHADING_OGL1, which has display values. */
+ * 0.22 of white (Reinhard et al. 2002). With a sea, the sea without the scene and without glints is measured. Meter
+ * sequences once; their frames would flicker otherwise. Where nothing is seen or all is black, the exposure is 0 and
+ * log gets a warning. desc NULL: {0}. Fails as facet_render(), and with FACET_ERROR_ARGUMENT for FACET_SHADING_OGL1,
+ * which has display values. */
 FACET_API facet_result facet_renderer_meter(facet_renderer *renderer, const facet_render_desc *desc,
                                             double *ev100, facet_error *error);
 
@@ -324,7 +325,8 @@ typedef struct facet_sea_render_desc {
     facet_sea_shading shading;
 } facet_sea_render_desc;
 
-/* facet_render() and facet_renderer_meter() for one image of a sea; sequences are faster with a facet_renderer. desc NULL: {0}. */
+/* facet_render() and facet_renderer_meter() for a single image of a sea; sequences are faster with a facet_renderer.
+ * desc NULL: {0}. */
 FACET_API facet_result facet_sea_render(const facet_sea *sea, const facet_scene *scene,
                                         const facet_sea_render_desc *desc, facet_image **image,
                                         facet_error *error);
