@@ -18,26 +18,27 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "tests/support/support.h"
 
-static char folder[] = "/tmp/facet_file_test_XXXXXX";
+static temporary_folder folder;
 
 static int make_folder(void **state)
 {
     (void)state;
-    return mkdtemp(folder) ? 0 : -1;
+    temporary_folder_create(&folder);
+    return 0;
 }
 
 static int remove_folder(void **state)
 {
     (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    return system(command);
+    temporary_folder_remove(&folder);
+    return 0;
 }
 
 static char *in_folder(const char *name)
 {
-    return path_join(NULL, folder, name);
+    return path_join(NULL, folder.path, name);
 }
 
 static void what_is_written_is_read(void **state)
@@ -200,8 +201,8 @@ static void failures_name_the_file(void **state)
     char *missing = in_folder("missing");
     assert_int_equal(file_open(missing, 0, NULL, &file, &error), FACET_ERROR_READ);
     assert_non_null(strstr(error.message, missing));
-    assert_int_equal(file_open(folder, 0, NULL, &file, &error), FACET_ERROR_READ);
-    assert_int_equal(file_write(folder, "x", 1, &error), FACET_ERROR_WRITE);
+    assert_int_equal(file_open(folder.path, 0, NULL, &file, &error), FACET_ERROR_READ);
+    assert_int_equal(file_write(folder.path, "x", 1, &error), FACET_ERROR_WRITE);
     char *below_missing = in_folder("missing/x.png");
     assert_int_equal(file_write(below_missing, "x", 1, &error), FACET_ERROR_WRITE);
     assert_non_null(strstr(error.message, below_missing));
@@ -336,7 +337,7 @@ static void staged_files_wait(void **state)
     char path[300];
     file_stage stage, other;
     file_bytes file;
-    snprintf(path, sizeof path, "%s/staged", folder);
+    snprintf(path, sizeof path, "%s/staged", folder.path);
     assert_int_equal(file_stage_write(path, "new", 3, &stage, NULL), FACET_OK);
     assert_int_not_equal(access(path, F_OK), 0);
     assert_int_equal(file_stage_write(path, "never", 5, &other, NULL), FACET_OK);

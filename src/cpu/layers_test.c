@@ -133,7 +133,7 @@ static void a_texel_of_0_is_the_base(void **state)
 static float decoded(unsigned char code)
 {
     double encoded = code / 255.0;
-    return (float)(encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4));
+    return (float)srgb_decode(encoded);
 }
 
 enum { R = 51, G = 102, B = 153, A = 204 };

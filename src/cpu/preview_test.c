@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "cpu/preview_fixture.h"
+#include "tests/support/support.h"
 
 static double coverage(const film *picture)
 {
@@ -412,46 +413,23 @@ static void a_time_limit_is_kept(void **state)
     fixture_destroy(&f);
 }
 
-/* An allocator that refuses the call number `fails`, counted over all threads. */
-typedef struct failing {
-    _Atomic int calls;
-    int fails;
-    _Atomic long live;
-} failing;
-
-static void *failing_allocate(void *user, size_t size)
-{
-    failing *f = user;
-    if (++f->calls == f->fails)
-        return NULL;
-    f->live++;
-    return malloc(size);
-}
-
-static void failing_release(void *user, void *memory, size_t size)
-{
-    (void)size;
-    ((failing *)user)->live--;
-    free(memory);
-}
-
 static void running_out_of_memory_leaks_nothing(void **state)
 {
     (void)state;
     fixture f = busy_scene();
     f.desc.width = f.desc.height = 40;
     f.desc.thread_count = 1;
-    for (int fails = 1;; fails++) {
-        failing memory = {.fails = fails};
-        f.desc.allocator = (facet_allocator){&memory, failing_allocate, failing_release};
+    for (long fail_at = 0;; fail_at++) {
+        failing_allocator memory = {.fail_at = fail_at};
+        f.desc.allocator = failing_allocator_get(&memory);
         film picture = {0};
         facet_render_stats stats;
         facet_error error;
         facet_result result = fixture_try_render(&f, &picture, &stats, &error);
         film_destroy(&picture);
-        assert_int_equal(memory.live, 0);
+        assert_int_equal(memory.blocks, 0);
         assert_true(result == FACET_OK || result == FACET_ERROR_MEMORY);
-        if (memory.calls < fails) {
+        if (memory.calls <= fail_at) {
             assert_int_equal(result, FACET_OK);
             break;
         }

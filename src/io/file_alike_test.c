@@ -15,6 +15,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "io/file_alike.h"
+#include "tests/support/support.h"
 
 static void names_differ_in_case_and_form_only(void **state)
 {
@@ -57,7 +58,7 @@ static void names_differ_in_case_and_form_only(void **state)
     assert_false(file_names_are_alike(longest, longest)); /* no file has such a name */
 }
 
-static char folder[] = "/tmp/facet_file_alike_test_XXXXXX";
+static temporary_folder folder;
 
 static int make_files(void **state)
 {
@@ -66,15 +67,14 @@ static int make_files(void **state)
                                         "Textures/A.png", "x/b.png",   "X/c.png"};
     static const char *const folders[] = {"Textures", "x", "X", "Wood.PNG"};
     char path[256];
-    if (!mkdtemp(folder))
-        return -1;
+    temporary_folder_create(&folder);
     for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
-        snprintf(path, sizeof path, "%s/%s", folder, folders[i]);
+        snprintf(path, sizeof path, "%s/%s", folder.path, folders[i]);
         if (mkdir(path, 0700) != 0)
             return -1;
     }
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        snprintf(path, sizeof path, "%s/%s", folder, names[i]);
+        snprintf(path, sizeof path, "%s/%s", folder.path, names[i]);
         if (file_write(path, "x", 1, NULL) != FACET_OK)
             return -1;
     }
@@ -84,16 +84,15 @@ static int make_files(void **state)
 static int remove_files(void **state)
 {
     (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    return system(command);
+    temporary_folder_remove(&folder);
+    return 0;
 }
 
 static void assert_found(const char *path, const char *wanted)
 {
     size_t budget = 1000;
     bool has_failed;
-    char *found = file_find_alike(NULL, folder, path, &budget, &has_failed);
+    char *found = file_find_alike(NULL, folder.path, path, &budget, &has_failed);
     assert_false(has_failed);
     if ((found == NULL) != (wanted == NULL) || (found && strcmp(found, wanted) != 0))
         fail_msg("%s is %s", path, found ? found : "not found");
@@ -125,7 +124,7 @@ static void the_budget_ends_a_search(void **state)
     (void)state;
     bool has_failed;
     size_t budget = 0;
-    assert_null(file_find_alike(NULL, folder, "WOOD.png", &budget, &has_failed));
+    assert_null(file_find_alike(NULL, folder.path, "WOOD.png", &budget, &has_failed));
     assert_false(has_failed);
 }
 

@@ -12,28 +12,27 @@
 #include <cmocka.h>
 
 #include "io/file_set.h"
+#include "tests/support/support.h"
 
-static char folder[] = "/tmp/facet_file_set_test_XXXXXX";
-static char path[256];
+static temporary_folder folder;
 
 static int make_folder(void **state)
 {
     (void)state;
-    return mkdtemp(folder) ? 0 : -1;
+    temporary_folder_create(&folder);
+    return 0;
 }
 
 static int remove_folder(void **state)
 {
     (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    return system(command);
+    temporary_folder_remove(&folder);
+    return 0;
 }
 
 static const char *in_folder(const char *name)
 {
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    return path;
+    return temporary_folder_file(&folder, name);
 }
 
 static bool is_there(const char *name)
@@ -46,7 +45,7 @@ static void files_appear_together(void **state)
     (void)state;
     facet_error error;
     char main_path[256];
-    snprintf(main_path, sizeof main_path, "%s/a.obj", folder);
+    snprintf(main_path, sizeof main_path, "%s/a.obj", folder.path);
     file_set set = {.main = main_path};
     assert_int_equal(file_set_add(&set, "a.mtl", "m", 1, &error), FACET_OK);
     assert_int_equal(file_set_add(&set, NULL, "o", 1, &error), FACET_OK);
@@ -63,7 +62,7 @@ static void what_is_not_committed_is_gone(void **state)
     (void)state;
     facet_error error;
     char main_path[256];
-    snprintf(main_path, sizeof main_path, "%s/b.obj", folder);
+    snprintf(main_path, sizeof main_path, "%s/b.obj", folder.path);
     file_set set = {.main = main_path};
     assert_int_equal(file_set_add(&set, "b.mtl", "m", 1, &error), FACET_OK);
     assert_int_equal(file_set_add(&set, "no/such/folder", "m", 1, &error), FACET_ERROR_WRITE);
@@ -85,7 +84,7 @@ static void cancelled_sets_leave_nothing(void **state)
     (void)state;
     facet_error error;
     char main_path[256];
-    snprintf(main_path, sizeof main_path, "%s/c.obj", folder);
+    snprintf(main_path, sizeof main_path, "%s/c.obj", folder.path);
     for (int n = 0; n <= 3; n++) {
         int left = n;
         const facet_scene_save_desc desc = {.progress = {.user = &left, .report = until}};
@@ -112,7 +111,7 @@ static void inputs_are_not_replaced(void **state)
     file_bytes file;
     assert_int_equal(file_open(in_folder("input.mtl"), 0, NULL, &file, &error), FACET_OK);
     assert_true(scene_keep_file(scene, &file));
-    snprintf(main_path, sizeof main_path, "%s/input.obj", folder);
+    snprintf(main_path, sizeof main_path, "%s/input.obj", folder.path);
     file_set set = {.main = main_path, .inputs = scene};
     assert_int_equal(file_set_add(&set, "input.mtl", "new", 3, &error), FACET_ERROR_ARGUMENT);
     assert_non_null(strstr(error.message, "which belongs to source.obj"));

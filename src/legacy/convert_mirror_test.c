@@ -163,13 +163,6 @@ static void maps_of_mirrors(void **state)
     scene_destroy(scene);
 }
 
-static void logged(void *user, facet_log_level level, const char *message)
-{
-    (void)level;
-    (void)message;
-    ++*(int *)user;
-}
-
 /* In the report always; on standard error where it is to be seen. */
 static void ignored_mirrors_are_told(void **state)
 {
@@ -182,18 +175,18 @@ static void ignored_mirrors_are_told(void **state)
                  {7, .95f, true, false},  {3, .5f, true, false},   {5, .1f, true, false},
                  {2, .95f, false, false}, {6, .95f, false, false}, {5, 0, false, false}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        int lines = 0;
+        captured_messages log = {0};
+        const facet_log capture = capture_log(&log);
         facet_scene *scene = legacy_scene(1);
         legacy_material m = mirror();
         set_color(m.specular, cases[i].Ks, cases[i].Ks, cases[i].Ks);
         set_color(m.diffuse, 0, 0, 0);
         m.illum = cases[i].illum;
         scene->legacy->materials[0] = m;
-        assert_int_equal(legacy_convert(scene, FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS, &PLAIN,
-                                        &(facet_log){&lines, logged}, NULL),
-                         FACET_OK);
+        assert_int_equal(
+            legacy_convert(scene, FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS, &PLAIN, &capture, NULL), FACET_OK);
         assert_int_equal(has_warning(scene, 0, "mirror-ignored"), cases[i].is_noted);
-        assert_int_equal(lines, cases[i].is_told);
+        assert_int_equal(log.count, cases[i].is_told);
         scene_destroy(scene);
     }
     /* Blender's illum 3 is a metal's, which has a metallic. */

@@ -24,25 +24,23 @@ enum { WIDTH = 23, HEIGHT = 17, COUNT = WIDTH * HEIGHT };
 static const char KEY[] = "0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef";
 static const char OTHER_KEY[] = "0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdee";
 
-static char folder[] = "/tmp/facet-checkpoint-XXXXXX";
-static char path[64], other_path[64];
+static temporary_folder folder;
+static char path[80], other_path[80];
 
 static int make_folder(void **state)
 {
     (void)state;
-    if (!mkdtemp(folder))
-        return -1;
-    snprintf(path, sizeof path, "%s/a.exr", folder);
-    snprintf(other_path, sizeof other_path, "%s/b.exr", folder);
+    temporary_folder_create(&folder);
+    snprintf(path, sizeof path, "%s/a.exr", folder.path);
+    snprintf(other_path, sizeof other_path, "%s/b.exr", folder.path);
     return 0;
 }
 
 static int remove_folder(void **state)
 {
     (void)state;
-    remove(path);
-    remove(other_path);
-    return rmdir(folder);
+    temporary_folder_remove(&folder);
+    return 0;
 }
 
 static path_film *create(uint32_t width, uint32_t height, bool has_ground)
@@ -211,7 +209,7 @@ static void other_files_are_refused(void **state)
     write_bytes(other_path, bytes, size);
     mem_free(bytes);
     expect_refusal(other_path, KEY, WIDTH, false, FACET_ERROR_INVALID, "no checkpoint of one");
-    expect_refusal(folder, KEY, WIDTH, false, FACET_ERROR_READ, "");
+    expect_refusal(folder.path, KEY, WIDTH, false, FACET_ERROR_READ, "");
     path_film_destroy(f);
 }
 
