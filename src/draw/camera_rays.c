@@ -102,7 +102,7 @@ facet_result camera_rays_create(const facet_camera *camera, uint32_t width, uint
     if (!is_within_reach(rays->origin, rays->origin_dx, rays->origin_dy, width, height) ||
         !is_within_reach(rays->direction, rays->direction_dx, rays->direction_dy, width, height))
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "camera: the picture is too wide or too far away; its corners must be within 1e18 m");
+                    "camera: the view is too wide or too far away; its corners must be within 1e18 m");
     return FACET_OK;
 }
 

@@ -243,11 +243,11 @@ static void explain(const view *v, const scene_pose *pose, const facet_render_de
         [REASON_BEHIND] =
             "it is behind the camera; turn the camera round, or leave --camera, --eye and --target away, "
             "which frames the model",
-        [REASON_OUTSIDE] = has_crop ? "it is outside of the part of the image that --crop names"
-                                    : "it is outside of the image; aim the camera at it, or leave --camera, "
+        [REASON_OUTSIDE] = has_crop ? "it is outside the part of the image that --crop names"
+                                    : "it is outside the image; aim the camera at it, or leave --camera, "
                                       "--eye and --target away, which "
                                       "frames the model",
-        [REASON_BACK] = is_inside(v, pose) ? "the camera is inside of it, and its surfaces are drawn from "
+        [REASON_BACK] = is_inside(v, pose) ? "the camera is inside it, and its surfaces are drawn from "
                                              "the other side only; move the camera out, "
                                              "or set doubleSided in its materials"
                                            : "it is seen from behind, and its surfaces are drawn from the "

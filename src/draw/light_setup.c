@@ -218,7 +218,7 @@ void light_setup_warn_dark(const light_setup *light, const render_geometry_set *
     if (set->count)
         desc->log.message(
             desc->log.user, FACET_LOG_LEVEL_WARNING,
-            "the picture is black: there is no environment, and the model has no light of its own");
+            "the image is black: there is no environment, and the model has no light of its own");
 }
 
 /* ---- lookups ---- */

@@ -7,7 +7,7 @@
 #include "shade/shade.h"
 
 _Static_assert((int)SCENE_SPECULAR_COLOR_TEXTURE + 1 == (int)SCENE_CLEARCOAT_TEXTURE,
-               "slots of plain surfaces are the first ones");
+               "the slots of simple materials come first");
 
 static bool has(const scene_material *m, uint32_t extension)
 {

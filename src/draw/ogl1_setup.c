@@ -11,7 +11,7 @@ _Static_assert(PHONG_VIGNETTE == (int)FACET_OGL1_VARIANT_VIGNETTE &&
                    PHONG_WEBGL == (int)FACET_OGL1_VARIANT_WEBGL &&
                    PHONG_FIXED == (int)FACET_OGL1_VARIANT_FIXED &&
                    PHONG_RGL_DESKTOP == (int)FACET_OGL1_VARIANT_RGL_DESKTOP,
-               "the shader library numbers variants as the interface does");
+               "the shader library numbers variants as facet.h does");
 _Static_assert(PHONG_FOG_NONE == (int)LEGACY_FOG_NONE && PHONG_FOG_LINEAR == (int)LEGACY_FOG_LINEAR &&
                    PHONG_FOG_EXP == (int)LEGACY_FOG_EXP && PHONG_FOG_EXP2 == (int)LEGACY_FOG_EXP2,
                "and fog as scenes do");

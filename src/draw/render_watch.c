@@ -72,7 +72,7 @@ facet_result render_watch_explain(render_watch *w, facet_error *error)
     case FACET_OK:
         return FACET_OK;
     case FACET_ERROR_LIMIT:
-        return fail(error, FACET_ERROR_LIMIT, "the time limit was reached after %.0f %% of the picture",
+        return fail(error, FACET_ERROR_LIMIT, "the time limit was reached after %.0f %% of the image",
                     100.0 * render_watch_share(w));
     case FACET_ERROR_CANCELLED:
         return fail(error, FACET_ERROR_CANCELLED, "cancelled while drawing");

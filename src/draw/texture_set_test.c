@@ -290,7 +290,7 @@ static void broken_images_are_white_with_a_warning(void **state)
     texture_set_destroy(set);
 
     f.warning_count = 0;
-    f.images[0].bytes = (const unsigned char *)"no picture at all";
+    f.images[0].bytes = (const unsigned char *)"no image at all";
     f.images[0].size = 17;
     set = create(&f, 1);
     assert_int_equal(f.warning_count, 1);

@@ -191,8 +191,9 @@ static facet_result decode(const texture_store *store, job *j, const char *name,
     if (out->type == IMAGE_U8 || out->type == IMAGE_U16)
         return FACET_OK;
     if (record->codec != IMAGE_CODEC_KTX2)
-        return fail(&j->error, FACET_ERROR_UNSUPPORTED, "%s: expected an image for displays, this is %s",
-                    name, image_codec_name(record->codec));
+        return fail(&j->error, FACET_ERROR_UNSUPPORTED,
+                    "%s: expected an image of 8 or 16 bits per channel, this is %s", name,
+                    image_codec_name(record->codec));
     /* Floats, which glTF does not have: in [0, 1], coded as what reads them expects. */
     image codes;
     result = image_convert(out, &store->allocator, 1, out->channel_count, IMAGE_U16, !j->want->is_read[0],

@@ -51,7 +51,7 @@ static void encode(scene_image *out, uint32_t width, uint32_t height, image_code
 /* Two JPEGs, one of which no decoder can reduce exactly, a PNG, and bytes that are no picture. */
 static void set_up(fixture *f)
 {
-    static const unsigned char nothing[] = "no picture";
+    static const unsigned char nothing[] = "no image";
     *f =
         (fixture){.scene = {.source = "model.glb", .image_count = IMAGE_COUNT, .texture_count = IMAGE_COUNT}};
     encode(&f->images[0], 256, 128, IMAGE_CODEC_JPEG);

@@ -53,7 +53,7 @@ typedef struct gl_entry {
     /* Creates the renderer of seas, with a context of its own. It keeps programs and textures from image to image:
      * gl_sea.h. */
     facet_result (*create_sea)(const facet_allocator *allocator, gl_sea **out, facet_error *error);
-    facet_result (*draw_sea)(gl_sea *sea, const struct water_frame *picture, film *target,
+    facet_result (*draw_sea)(gl_sea *sea, const struct water_frame *frame, film *target,
                              facet_render_stats *stats, facet_error *error);
     void (*destroy_sea)(gl_sea *sea); /* NULL is allowed */
     /* Writes one line: renderer and version, or the reason why there is no OpenGL. */

@@ -47,9 +47,9 @@ facet_result view_surface_resize(view_surface *s, gl_context *context, uint32_t 
     s->width = width;
     s->height = height;
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-        return fail(error, FACET_ERROR_SYSTEM, "OpenGL (%s): pictures of %u x %u pixels cannot be drawn",
+        return fail(error, FACET_ERROR_SYSTEM, "OpenGL (%s): images of %u x %u pixels cannot be drawn",
                     context->name, width, height);
-    return gl_context_check(context, "the window's picture", error);
+    return gl_context_check(context, "the window's image", error);
 }
 
 void view_surface_upload(view_surface *s, uint32_t width, uint32_t height, const unsigned char *pixels)
@@ -96,7 +96,7 @@ static const char vertex_text[] =
 /* The squares are mixed with the display's numbers, as browsers lay transparent pictures over a page. */
 static const char fragment_text[] =
     "uniform sampler2D u_image;\n"
-    "uniform vec4 u_color;   /* times the picture; with u_square < 0 in its place */\n"
+    "uniform vec4 u_color;   /* times the image; with u_square < 0 instead of it */\n"
     "uniform float u_square; /* pixels; 0: no checkerboard */\n"
     "in vec2 v_place;\n"
     "out vec4 fragment;\n"

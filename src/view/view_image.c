@@ -12,7 +12,7 @@ facet_result view_image_create(const facet_image_view *v, const facet_allocator 
     srgb_tables tables;
     *out = (view_image){v->width, v->height, mem_alloc(allocator, count, 4)};
     if (!out->pixels)
-        return fail_memory(error, "picture", count * 4);
+        return fail_memory(error, "image", count * 4);
     srgb_tables_prepare(&tables);
     unsigned char *to = out->pixels;
     for (uint32_t y = 0; y < v->height; y++) {

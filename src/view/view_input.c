@@ -102,7 +102,7 @@ const view_binding view_bindings[] = {
     {'F', SHIFT, VIEW_ACTION_ENERGY, 0, NULL, "energy: glTF's or conserving"},
     {VIEW_KEY_TAB, 0, VIEW_ACTION_DIVIDER, 1, NULL, "compare two, with a divider to drag"},
     {VIEW_KEY_TAB, SHIFT, VIEW_ACTION_DIVIDER, -1, NULL, NULL},
-    {'P', 0, VIEW_ACTION_TRANSPARENCY, 0, NULL, "order of what is transparent"},
+    {'P', 0, VIEW_ACTION_TRANSPARENCY, 0, NULL, "transparency: how it is sorted"},
 
     {'H', 0, VIEW_ACTION_HELP, 0, "Window", "this help"},
     {'Z', 0, VIEW_ACTION_VALUES, 0, NULL, "frame time and settings"},

@@ -37,7 +37,7 @@ static void give_up(view_app *a, const view_step *s)
     if (s->kind == VIEW_STEP_TRACE) {
         view_trace_state trace = view_trace_get(a->traced[1].tracer);
         uint32_t wanted = s->numbers[0] > 0.0 ? (uint32_t)fmin(s->numbers[0], 4e9) : trace.wanted;
-        snprintf(what, sizeof what, "the path traced picture (%u of %u samples)", trace.samples, wanted);
+        snprintf(what, sizeof what, "the path traced image (%u of %u samples)", trace.samples, wanted);
     }
     a->result = fail(&a->error, FACET_ERROR_LIMIT, "%s: line %u: %s did not come within %g s",
                      a->desc->script, s->line, what, patience_of(s));

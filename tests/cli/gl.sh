@@ -148,7 +148,7 @@ timeout --preserve-status -k 20 -s TERM 1 "$facet" $long >out 2>err || code=$?
 expect 0 render model.gltf -o one.png $small --renderer gl --json
 grep -q '"width": 48' out || failed "no report"
 expect 0 render model.gltf -o dark.png $small --renderer gl --env none
-says "the picture is black"
+says "the image is black"
 
 # OpenGL ES, where the driver is Mesa's and can be told to have no more.
 if MESA_GL_VERSION_OVERRIDE=3.0 "$facet" version -v | grep -q '^opengl .*OpenGL ES'; then

@@ -81,10 +81,10 @@ static facet_result update(gl_pyramid *p, gl_context *context, uint32_t width, u
     allocate(p);
     begin_level(p, 0, -1);
     bool is_complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-    facet_result result = gl_context_check(context, "the levels of a picture", error);
+    facet_result result = gl_context_check(context, "the mip levels of an image", error);
     if (result == FACET_OK && !is_complete)
-        result =
-            fail(error, FACET_ERROR_SYSTEM, "OpenGL (%s): half floats cannot be drawn into", context->name);
+        result = fail(error, FACET_ERROR_SYSTEM, "OpenGL (%s): half float images cannot be rendered",
+                      context->name);
     if (result != FACET_OK)
         gl_pyramid_destroy(p);
     return result;
@@ -103,13 +103,13 @@ static facet_result draw_level(const gl_pyramid *p, const gl_pyramid_brush *brus
     return FACET_OK;
 }
 
-static facet_result fill(const gl_pyramid *p, const gl_pyramid_brush *brush, uint32_t picture,
+static facet_result fill(const gl_pyramid *p, const gl_pyramid_brush *brush, uint32_t texture,
                          facet_error *error)
 {
     const gl_program_key copy = {GL_MAIN_HALVE, GL_HALVE_IS_COPY}, halve = {GL_MAIN_HALVE, 0};
     begin_level(p, 0, -1);
     glActiveTexture(GL_TEXTURE0 + GL_UNIT_OPAQUE);
-    glBindTexture(GL_TEXTURE_2D, picture);
+    glBindTexture(GL_TEXTURE_2D, texture);
     facet_result result = draw_level(p, brush, copy, 0, error);
     for (uint32_t level = 1; level < p->level_count && result == FACET_OK; level++) {
         begin_level(p, level, (int)level - 1);

@@ -104,7 +104,7 @@ facet_result gl_target_update(gl_target *t, gl_context *context, gl_target_kind 
     uint32_t most = (uint32_t)context->max_texture_size;
     if (width > most || height > most)
         return fail(error, FACET_ERROR_LIMIT,
-                    "OpenGL (%s): a picture of %u x %u pixels; the most are %u x %u", context->name, width,
+                    "OpenGL (%s): an image of %u x %u pixels; the maximum is %u x %u", context->name, width,
                     height, most, most);
     if (samples > (uint32_t)context->max_samples)
         samples = (uint32_t)context->max_samples;
@@ -120,7 +120,7 @@ facet_result gl_target_update(gl_target *t, gl_context *context, gl_target_kind 
         *t = (gl_target){
             .kind = kind, .width = width, .height = height, .samples = samples, .format = formats[i]};
         make(t);
-        facet_result result = gl_context_check(context, "the picture", error);
+        facet_result result = gl_context_check(context, "the image", error);
         if (result == FACET_OK && glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE)
             return FACET_OK;
         if (result == FACET_ERROR_MEMORY) {
@@ -129,7 +129,7 @@ facet_result gl_target_update(gl_target *t, gl_context *context, gl_target_kind 
         }
     }
     gl_target_destroy(t);
-    return fail(error, FACET_ERROR_SYSTEM, "OpenGL (%s): floating point pictures cannot be drawn",
+    return fail(error, FACET_ERROR_SYSTEM, "OpenGL (%s): floating point images cannot be rendered",
                 context->name);
 }
 

@@ -202,7 +202,7 @@ static void warn_reduced(const gl_texture_set *set, const texture_want *want, co
                          const facet_log *log)
 {
     const texture_level *l = &p->levels[want->first_level];
-    log_warning(log, "%s: image %u: %u x %u texels are more than OpenGL's %d; it is drawn with %u x %u",
+    log_warning(log, "%s: image %u: %u x %u texels exceed OpenGL's maximum of %d; it is drawn with %u x %u",
                 set->scene->source, want->image, p->width, p->height, set->context->max_texture_size,
                 l->width, l->height);
 }

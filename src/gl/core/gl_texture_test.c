@@ -37,18 +37,18 @@ static const facet_log test_log = {.message = note_warning};
 static unsigned char *encoded(uint32_t width, uint32_t height, uint32_t channel_count, image_type type,
                               size_t *size)
 {
-    image picture;
-    assert_int_equal(image_create(NULL, width, height, channel_count, type, &picture, NULL), FACET_OK);
+    image sample;
+    assert_int_equal(image_create(NULL, width, height, channel_count, type, &sample, NULL), FACET_OK);
     uint32_t state = 12345 + channel_count;
-    for (size_t i = 0; i < image_row_size(&picture) * height; i++) {
+    for (size_t i = 0; i < image_row_size(&sample) * height; i++) {
         lcg_next(&state);
-        ((unsigned char *)picture.pixels)[i] = (unsigned char)(state >> 24);
+        ((unsigned char *)sample.pixels)[i] = (unsigned char)(state >> 24);
     }
-    picture.is_srgb = true;
+    sample.is_srgb = true;
     unsigned char *bytes;
-    assert_int_equal(image_encode(&picture, IMAGE_CODEC_PNG, &(image_encode_desc){0}, &bytes, size, NULL),
+    assert_int_equal(image_encode(&sample, IMAGE_CODEC_PNG, &(image_encode_desc){0}, &bytes, size, NULL),
                      FACET_OK);
-    image_destroy(&picture);
+    image_destroy(&sample);
     return bytes;
 }
 

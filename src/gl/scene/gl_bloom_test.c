@@ -23,17 +23,17 @@ static fixture light_fixture(uint32_t width, uint32_t height, float scale)
     return f;
 }
 
-static double sum_of(const film *picture, int channel)
+static double sum_of(const film *image, int channel)
 {
     double sum = 0.0;
-    for (size_t i = 0; i < (size_t)picture->width * picture->height; i++)
-        sum += (double)picture->layers[0].pixels[4 * i + (size_t)channel];
+    for (size_t i = 0; i < (size_t)image->width * image->height; i++)
+        sum += (double)image->layers[0].pixels[4 * i + (size_t)channel];
     return sum;
 }
 
-static size_t bytes_of(const film *picture)
+static size_t bytes_of(const film *image)
 {
-    return (size_t)picture->width * picture->height * 4 * sizeof(float);
+    return (size_t)image->width * image->height * 4 * sizeof(float);
 }
 
 /* Odd sizes too, which cannot be halved exactly. */
@@ -90,23 +90,22 @@ static void even_light_stays_even(void **state)
     for (int c = 0; c < contexts.count; c++) {
         fixture f = light_fixture(100, 70, 4.0f);
         f.desc.gl.bloom = 1.0f;
-        film picture = gl_fixture_render(&f, &contexts.items[c]);
+        film image = gl_fixture_render(&f, &contexts.items[c]);
         for (uint32_t i = 0; i < 70; i += 3)
-            gl_fixture_assert_pixel(&picture, i, i, wanted, 1e-3f);
-        film_destroy(&picture);
+            gl_fixture_assert_pixel(&image, i, i, wanted, 1e-3f);
+        film_destroy(&image);
         fixture_destroy(&f);
     }
 }
 
 /* Mean of a ring of pixels around the center. */
-static double ring(const film *picture, double radius)
+static double ring(const film *image, double radius)
 {
     double sum = 0.0;
     for (int i = 0; i < 64; i++) {
         double angle = 6.283185307179586 * i / 64.0;
-        double x = 0.5 * picture->width + radius * cos(angle),
-               y = 0.5 * picture->height + radius * sin(angle);
-        sum += (double)fixture_pixel(picture, "", (uint32_t)x, (uint32_t)y)[0] / 64.0;
+        double x = 0.5 * image->width + radius * cos(angle), y = 0.5 * image->height + radius * sin(angle);
+        sum += (double)fixture_pixel(image, "", (uint32_t)x, (uint32_t)y)[0] / 64.0;
     }
     return sum;
 }
@@ -118,16 +117,16 @@ static void light_falls_with_distance(void **state)
     for (int c = 0; c < contexts.count; c++) {
         fixture f = light_fixture(512, 512, 0.01f);
         f.desc.gl.bloom = 1.0f;
-        film picture = gl_fixture_render(&f, &contexts.items[c]);
-        double last = ring(&picture, 4.0);
+        film image = gl_fixture_render(&f, &contexts.items[c]);
+        double last = ring(&image, 4.0);
         for (double radius = 6.0; radius < 220.0; radius *= 1.5) {
-            double here = ring(&picture, radius);
+            double here = ring(&image, radius);
             assert_true(here > 0.0 && here < last);
             last = here;
         }
-        double power = log2(ring(&picture, 64.0) / ring(&picture, 16.0)) / 2.0;
+        double power = log2(ring(&image, 64.0) / ring(&image, 16.0)) / 2.0;
         assert_true(power > -2.8 && power < -2.2);
-        film_destroy(&picture);
+        film_destroy(&image);
         fixture_destroy(&f);
     }
 }

@@ -147,7 +147,7 @@ static facet_result draw_picture(drawing *d, const tile *t, facet_error *error)
         if (result == FACET_OK)
             read_tile(d, desc->target, 0, t, d->sampling.scale);
         if (result == FACET_OK)
-            result = gl_context_check(desc->frame->context, "the picture", error);
+            result = gl_context_check(desc->frame->context, "the image", error);
         if (result == FACET_OK)
             add_tile(d, t);
         render_watch_add(&d->watch, (uint64_t)t->width * t->height);
@@ -322,7 +322,7 @@ static facet_result prepare(drawing *d, facet_error *error)
     d->pixels = mem_alloc(&r->allocator, count, 4 * sizeof *d->pixels);
     d->jitter = mem_alloc(&r->allocator, d->sampling.passes, 2 * sizeof *d->jitter);
     if (!d->pixels || !d->jitter)
-        return fail_memory(error, "picture", count * 4 * sizeof *d->pixels);
+        return fail_memory(error, "image", count * 4 * sizeof *d->pixels);
     gl_sampling_jitter(&d->sampling, d->jitter);
     memset(d->film->layers[0].pixels, 0,
            /* a failed attempt may have left values */

@@ -93,10 +93,9 @@ image_difference gl_fixture_compare(const film *a, const film *b, float most)
     return d;
 }
 
-void gl_fixture_assert_pixel(const film *picture, uint32_t x, uint32_t y, const float rgba[4],
-                             float tolerance)
+void gl_fixture_assert_pixel(const film *image, uint32_t x, uint32_t y, const float rgba[4], float tolerance)
 {
-    const float *p = fixture_pixel(picture, "", x, y);
+    const float *p = fixture_pixel(image, "", x, y);
     for (int c = 0; c < 4; c++)
         if (!(fabsf(p[c] - rgba[c]) <= tolerance))
             fail_msg("pixel %u, %u is %g %g %g %g in place of %g %g %g %g", x, y, (double)p[0], (double)p[1],

@@ -27,8 +27,7 @@ typedef struct image_difference {
 } image_difference;
 image_difference gl_fixture_compare(const film *a, const film *b, float most);
 /* Fails where a channel of the pixel is farther from rgba than tolerance. */
-void gl_fixture_assert_pixel(const film *picture, uint32_t x, uint32_t y, const float rgba[4],
-                             float tolerance);
+void gl_fixture_assert_pixel(const film *image, uint32_t x, uint32_t y, const float rgba[4], float tolerance);
 
 /* Fails where two images differ in any bit. */
 void gl_fixture_assert_same(const film *a, const film *b);

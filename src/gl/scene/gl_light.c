@@ -192,7 +192,7 @@ static facet_result update_punctual(punctual_lights *p, gl_context *context, con
     if (l.end > most)
         l = plan_layout(setup, record_count, false);
     if (l.end > most)
-        return fail(error, FACET_ERROR_LIMIT, "OpenGL (%s): %u lights; the most are %zu", context->name,
+        return fail(error, FACET_ERROR_LIMIT, "OpenGL (%s): %u lights; the maximum is %zu", context->name,
                     setup->punctual_count, most / LIGHT_TEXELS);
     describe_grid(setup, &l, block);
     if (setup->punctual_count == 0)

@@ -14,7 +14,7 @@
 /* The source of a part: one of the two. */
 typedef struct atlas_source {
     const cube *faces;
-    const image *picture;
+    const image *equirect;
 } atlas_source;
 
 static atlas_source source_of(const ibl_light *light, uint32_t part)
@@ -26,16 +26,16 @@ static atlas_source source_of(const ibl_light *light, uint32_t part)
     if (faces)
         return (atlas_source){.faces = faces->texels ? faces : NULL};
     uint32_t number = part - GL_ATLAS_IMAGES;
-    const image *picture = number == 0 ? &light->sharp
-                           : light->narrow && number <= light->narrow->count
-                               ? &light->narrow->blurred[number - 1]
-                               : NULL;
-    return (atlas_source){.picture = picture && picture->pixels ? picture : NULL};
+    const image *equirect = number == 0 ? &light->sharp
+                            : light->narrow && number <= light->narrow->count
+                                ? &light->narrow->blurred[number - 1]
+                                : NULL;
+    return (atlas_source){.equirect = equirect && equirect->pixels ? equirect : NULL};
 }
 
 static const void *source_texels(atlas_source s)
 {
-    return s.faces ? s.faces->texels : s.picture ? s.picture->pixels : NULL;
+    return s.faces ? s.faces->texels : s.equirect ? s.equirect->pixels : NULL;
 }
 
 /* ---- texels ---- */
@@ -103,24 +103,24 @@ enum { BAND = 64 }; /* rows per upload */
 
 /* Uploads an equirectangular image. border: texels around it, which wrap around the seam and repeat the rows at
  * the poles. */
-static facet_result send_equirect(const image *picture, uint32_t border, gl_atlas_part *part,
+static facet_result send_equirect(const image *equirect, uint32_t border, gl_atlas_part *part,
                                   const facet_allocator *allocator, facet_error *error)
 {
-    uint32_t width = picture->width + 2 * border;
-    uint32_t height = picture->height + 2 * border;
+    uint32_t width = equirect->width + 2 * border;
+    uint32_t height = equirect->height + 2 * border;
     uint16_t *texels = make_texels(allocator, width, BAND, error);
     if (!texels)
         return FACET_ERROR_MEMORY;
-    part->scale = find_scale(picture->pixels, 3 * (size_t)picture->width * picture->height);
+    part->scale = find_scale(equirect->pixels, 3 * (size_t)equirect->width * equirect->height);
     for (uint32_t first = 0; first < height; first += BAND) {
         uint32_t count = height - first < BAND ? height - first : BAND;
         for (uint32_t i = 0; i < count; i++) {
             uint32_t y = first + i < border ? 0 : first + i - border;
-            y = y < picture->height ? y : picture->height - 1;
-            const float *row = (const float *)picture->pixels + 3 * (size_t)picture->width * y;
+            y = y < equirect->height ? y : equirect->height - 1;
+            const float *row = (const float *)equirect->pixels + 3 * (size_t)equirect->width * y;
             for (uint32_t x = 0; x < width; x++)
                 store_texel(texels + 4 * ((size_t)i * width + x),
-                            row + 3 * (size_t)((x + picture->width - border) % picture->width),
+                            row + 3 * (size_t)((x + equirect->width - border) % equirect->width),
                             1.0f / part->scale);
         }
         send(texels, part->x, part->y + first, width, count);
@@ -130,13 +130,13 @@ static facet_result send_equirect(const image *picture, uint32_t border, gl_atla
 }
 
 /* The same, scaled down to OpenGL's limit. */
-static facet_result send_fitting(const image *picture, uint32_t border, gl_atlas_part *part,
+static facet_result send_fitting(const image *equirect, uint32_t border, gl_atlas_part *part,
                                  const facet_allocator *allocator, facet_error *error)
 {
-    if (part->width == picture->width && part->height == picture->height)
-        return send_equirect(picture, border, part, allocator, error);
+    if (part->width == equirect->width && part->height == equirect->height)
+        return send_equirect(equirect, border, part, allocator, error);
     image small = {0};
-    facet_result result = equirect_resize(picture, part->width, part->height, allocator, 1, &small, error);
+    facet_result result = equirect_resize(equirect, part->width, part->height, allocator, 1, &small, error);
     if (result == FACET_OK)
         result = send_equirect(&small, border, part, allocator, error);
     image_destroy(&small);
@@ -223,9 +223,9 @@ static void plan(gl_light_atlas *a, const ibl_light *light, uint32_t most)
         *p = (gl_atlas_part){.texels = source_texels(s)};
         if (s.faces)
             p->width = p->height = s.faces->size;
-        if (s.picture) {
-            p->width = s.picture->width < most - 2 ? s.picture->width : most - 2;
-            p->height = s.picture->height < most / 4 ? s.picture->height : most / 4;
+        if (s.equirect) {
+            p->width = s.equirect->width < most - 2 ? s.equirect->width : most - 2;
+            p->height = s.equirect->height < most / 4 ? s.equirect->height : most / 4;
         }
         uint32_t width = p->texels ? outer_width(a, i) : 0;
         widest = widest > width ? widest : width;
@@ -244,21 +244,21 @@ static facet_result upload(gl_light_atlas *a, const ibl_light *light, const face
         atlas_source s = source_of(light, i);
         if (s.faces)
             result = send_cube(s.faces, &a->parts[i], allocator, error);
-        else if (s.picture)
-            result = send_fitting(s.picture, 1, &a->parts[i], allocator, error);
+        else if (s.equirect)
+            result = send_fitting(s.equirect, 1, &a->parts[i], allocator, error);
     }
     return result;
 }
 
-static facet_result upload_background(gl_light_atlas *a, const image *picture, uint32_t most,
+static facet_result upload_background(gl_light_atlas *a, const image *equirect, uint32_t most,
                                       const facet_allocator *allocator, facet_error *error)
 {
-    a->behind = (gl_atlas_part){.texels = picture->pixels,
-                                .width = picture->width < most ? picture->width : most,
-                                .height = picture->height < most ? picture->height : most,
+    a->behind = (gl_atlas_part){.texels = equirect->pixels,
+                                .width = equirect->width < most ? equirect->width : most,
+                                .height = equirect->height < most ? equirect->height : most,
                                 .scale = 1.0f};
     a->background = make_texture(a->behind.width, a->behind.height, GL_REPEAT);
-    return send_fitting(picture, 0, &a->behind, allocator, error);
+    return send_fitting(equirect, 0, &a->behind, allocator, error);
 }
 
 static bool has_parts(const gl_light_atlas *a, const ibl_light *light)

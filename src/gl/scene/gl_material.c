@@ -14,7 +14,7 @@
 
 _Static_assert((int)GL_SURFACE_PAIRS == (int)GL_SURFACE_TEXTURES + (int)SCENE_TEXTURE_SLOT_COUNT &&
                    (int)GL_SURFACE_LAYERS == (int)GL_SURFACE_PAIRS + (int)GL_SLOT_PAIR_COUNT,
-               "features of gl_program.h stand where slots and pairs do");
+               "the features of gl_program.h have the order of the slots and pairs");
 
 /* ---- the uniform block ---- */
 

@@ -78,12 +78,12 @@ static void assert_near(fixture *f, double share, const char *what)
     static int turn;
     gl_context *context = &contexts.items[turn++ % contexts.count];
     film reference = fixture_render(f);
-    film picture = gl_fixture_render(f, context);
-    double different = share_of_different(&reference, &picture);
+    film image = gl_fixture_render(f, context);
+    double different = share_of_different(&reference, &image);
     if (different > share)
         fail_msg("%s%s: %g of the pixels differ by more than 0.4 %%", what, context->is_es ? ", ES" : "",
                  different);
-    film_destroy(&picture);
+    film_destroy(&image);
     film_destroy(&reference);
 }
 
@@ -294,8 +294,8 @@ static void test_too_many_textures(void **state)
     warning_count = 0;
     gl_renderer *renderer = gl_fixture_renderer(&f, &contexts.items[0]);
     for (int i = 0; i < 2; i++) {
-        film picture = gl_fixture_draw(&f, renderer);
-        film_destroy(&picture);
+        film image = gl_fixture_draw(&f, renderer);
+        film_destroy(&image);
     }
     gl_renderer_destroy(renderer);
     assert_int_equal(warning_count, 1);
@@ -342,14 +342,13 @@ static void test_mask_samples(void **state)
     for (int k = 0; k < contexts.count; k++) {
         if (contexts.items[k].is_es)
             continue;
-        film picture = gl_fixture_render(&f, &contexts.items[k]);
-        gl_fixture_assert_pixel(&picture, 15, 16, (float[4]){1.0f, 0.5f, 0.25f, 1.0f}, 1e-3f);
-        gl_fixture_assert_pixel(&picture, 17, 16, (float[4]){0.0f}, 0.0f);
-        float share = fixture_pixel(&picture, "", 16, 16)[3];
+        film image = gl_fixture_render(&f, &contexts.items[k]);
+        gl_fixture_assert_pixel(&image, 15, 16, (float[4]){1.0f, 0.5f, 0.25f, 1.0f}, 1e-3f);
+        gl_fixture_assert_pixel(&image, 17, 16, (float[4]){0.0f}, 0.0f);
+        float share = fixture_pixel(&image, "", 16, 16)[3];
         assert_true(share >= 0.25f && share <= 0.75f);
-        gl_fixture_assert_pixel(&picture, 16, 16, (float[4]){share, 0.5f * share, 0.25f * share, share},
-                                1e-3f);
-        film_destroy(&picture);
+        gl_fixture_assert_pixel(&image, 16, 16, (float[4]){share, 0.5f * share, 0.25f * share, share}, 1e-3f);
+        film_destroy(&image);
     }
     fixture_destroy(&f);
 }
@@ -418,15 +417,15 @@ static void test_furnace(void **state)
         f.desc.gl.channel = FACET_CHANNEL_FURNACE;
         f.desc.width = f.desc.height = SIZE;
         f.desc.samples = 1;
-        film picture = gl_fixture_render(&f, &contexts.items[0]);
+        film image = gl_fixture_render(&f, &contexts.items[0]);
         for (uint32_t k = 0; k < SIZE * SIZE; k++) {
-            const float *p = picture.layers[0].pixels + 4 * (size_t)k;
+            const float *p = image.layers[0].pixels + 4 * (size_t)k;
             for (int c = 0; c < 3 && p[3] > 0.0f; c++)
                 if (fabsf(p[c] - 1.0f) > 0.004f)
                     fail_msg("metallic %g, roughness %g: %g", (double)m.metallic,
                              (double)m.perceptual_roughness, (double)p[c]);
         }
-        film_destroy(&picture);
+        film_destroy(&image);
         fixture_destroy(&f);
     }
 }
@@ -452,10 +451,10 @@ static void test_parameters(void **state)
         }
         fixture_place(&f, fixture_add_quad(&f, fixture_add_material(&f, m)), 0, 0, 0, 1);
         f.desc.gl.channel = cases[i].channel;
-        film picture = gl_fixture_render(&f, &contexts.items[contexts.count - 1]);
+        film image = gl_fixture_render(&f, &contexts.items[contexts.count - 1]);
         const float *v = cases[i].value;
-        gl_fixture_assert_pixel(&picture, 30, 30, (float[4]){v[0], v[1], v[2], 1.0f}, 1e-3f);
-        film_destroy(&picture);
+        gl_fixture_assert_pixel(&image, 30, 30, (float[4]){v[0], v[1], v[2], 1.0f}, 1e-3f);
+        film_destroy(&image);
         fixture_destroy(&f);
     }
 }
@@ -508,9 +507,9 @@ static void multiscatter_keeps_the_light_of_metal(void **state)
         m.perceptual_roughness = 0.25f * (float)i;
         fixture_place(&f, fixture_add_sphere(&f, 64, fixture_add_material(&f, m)), 0, 0, 0, 0.9f);
         f.desc.gl.brdf = FACET_BRDF_MULTISCATTER;
-        film picture = gl_fixture_render(&f, &contexts.items[0]);
-        gl_fixture_assert_pixel(&picture, 32, 32, (float[4]){1.0f, 1.0f, 1.0f, 1.0f}, 4e-3f);
-        film_destroy(&picture);
+        film image = gl_fixture_render(&f, &contexts.items[0]);
+        gl_fixture_assert_pixel(&image, 32, 32, (float[4]){1.0f, 1.0f, 1.0f, 1.0f}, 4e-3f);
+        film_destroy(&image);
         fixture_destroy(&f);
     }
 }

@@ -172,9 +172,9 @@ static void deformed_vertices_are_streamed(void **state)
     bench_close(&b);
     film preview = fixture_render(&f);
     for (int c = 0; c < contexts.count; c++) {
-        film picture = gl_fixture_render(&f, &contexts.items[c]);
-        assert_true(gl_fixture_compare(&picture, &preview, 0.3f).share < 0.01);
-        film_destroy(&picture);
+        film image = gl_fixture_render(&f, &contexts.items[c]);
+        assert_true(gl_fixture_compare(&image, &preview, 0.3f).share < 0.01);
+        film_destroy(&image);
     }
     film_destroy(&preview);
     fixture_destroy(&f);
@@ -261,11 +261,11 @@ static void assert_as_preview(const fixture *f, double mean, double share)
 {
     film preview = fixture_render((fixture *)(uintptr_t)f);
     for (int c = 0; c < contexts.count; c++) {
-        film picture = gl_fixture_render(f, &contexts.items[c]);
-        image_difference d = gl_fixture_compare(&picture, &preview, 0.1f);
+        film image = gl_fixture_render(f, &contexts.items[c]);
+        image_difference d = gl_fixture_compare(&image, &preview, 0.1f);
         if (d.mean > mean || d.share > share)
             fail_msg("context %d: mean %g, share %g", c, d.mean, d.share);
-        film_destroy(&picture);
+        film_destroy(&image);
     }
     film_destroy(&preview);
 }
@@ -339,13 +339,13 @@ static void mirrored_and_culled(void **state)
             if (i & 2)
                 gl_fixture_turn(node, 0.0f, 1.0f, 0.0f, 0.0f); /* shows its back */
         }
-        film picture = gl_fixture_render(&f, &contexts.items[0]);
+        film image = gl_fixture_render(&f, &contexts.items[0]);
         for (int i = 0; i < 4; i++) {
             float shown = !(i & 2) || is_double_sided ? 1.0f : 0.0f;
             const float wanted[4] = {0.9f * shown, 0.5f * shown, 0.1f * shown, shown};
-            gl_fixture_assert_pixel(&picture, i & 1 ? 48 : 16, i & 2 ? 16 : 48, wanted, 1e-3f);
+            gl_fixture_assert_pixel(&image, i & 1 ? 48 : 16, i & 2 ? 16 : 48, wanted, 1e-3f);
         }
-        film_destroy(&picture);
+        film_destroy(&image);
         assert_as_preview(&f, 1e-3, 0.0);
         fixture_destroy(&f);
     }
@@ -408,19 +408,19 @@ static void sprites_are_a_pixel_wide(void **state)
         fixture f = sprite_fixture(i & 1 ? SCENE_LINES : SCENE_POINTS, i & 2);
         film preview = fixture_render(&f);
         for (int c = 0; c < contexts.count; c++) {
-            film picture = gl_fixture_render(&f, &contexts.items[c]);
+            film image = gl_fixture_render(&f, &contexts.items[c]);
             double sums[2][4] = {{0.0}};
             for (size_t k = 0; k < 4 * 96 * 72; k++) {
                 sums[0][k % 4] += (double)preview.layers[0].pixels[k];
-                sums[1][k % 4] += (double)picture.layers[0].pixels[k];
+                sums[1][k % 4] += (double)image.layers[0].pixels[k];
             }
             for (int k = 0; k < 4; k++) /* coverage, and colors between the ends */
                 if (!(fabs(sums[1][k] / sums[0][k] - 1.0) < 0.02))
                     fail_msg("%d: channel %d: %g for %g", i, k, sums[1][k], sums[0][k]);
-            image_difference d = gl_fixture_compare(&picture, &preview, 0.25f);
+            image_difference d = gl_fixture_compare(&image, &preview, 0.25f);
             if (d.share > 0.02 || d.mean > 0.05)
                 fail_msg("%d: share %g, mean %g", i, d.share, d.mean);
-            film_destroy(&picture);
+            film_destroy(&image);
         }
         film_destroy(&preview);
         fixture_destroy(&f);
@@ -445,16 +445,16 @@ static void sprites_may_be_lit(void **state)
                          .intensity = 3.0f,
                          .outer_cone_rad = 0.7f};
     fixture_add_light(&f, light, 0.0f, 0.0f, 0.0f);
-    film preview = fixture_render(&f), picture = gl_fixture_render(&f, &contexts.items[0]);
+    film preview = fixture_render(&f), image = gl_fixture_render(&f, &contexts.items[0]);
     double sums[2] = {0.0, 0.0};
     for (size_t k = 1; k < 4 * 96 * 72; k += 4) {
         sums[0] += (double)preview.layers[0].pixels[k];
-        sums[1] += (double)picture.layers[0].pixels[k];
+        sums[1] += (double)image.layers[0].pixels[k];
     }
     if (!(fabs(sums[1] / sums[0] - 1.0) < 0.03))
         fail_msg("%g for %g", sums[1], sums[0]);
     film_destroy(&preview);
-    film_destroy(&picture);
+    film_destroy(&image);
     fixture_destroy(&f);
 }
 

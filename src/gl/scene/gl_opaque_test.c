@@ -125,12 +125,12 @@ static void a_body_attenuates_by_its_thickness(void **state)
 }
 
 /* Standard deviation of the inner part of the image; *mean: its mean. */
-static double contrast(const film *picture, double *mean)
+static double contrast(const film *image, double *mean)
 {
     double sum = 0.0, squares = 0.0, count = 0.0;
     for (uint32_t y = 16; y < 48; y++)
         for (uint32_t x = 16; x < 48; x++) {
-            double value = (double)fixture_pixel(picture, "", x, y)[1];
+            double value = (double)fixture_pixel(image, "", x, y)[1];
             sum += value;
             squares += value * value;
             count += 1.0;
@@ -186,13 +186,13 @@ static void ior_1_stays_sharp(void **state)
 /* ---- refraction ---- */
 
 /* Where a bright right half begins, in m from the center of the image, in one channel seen through the pane. */
-static double edge_of(const film *picture, int channel)
+static double edge_of(const film *image, int channel)
 {
     double sum = 0.0;
     for (uint32_t x = 8; x < 56; x++)
-        sum += (double)fixture_pixel(picture, "", x, 32)[channel];
-    double low = (double)fixture_pixel(picture, "", 9, 32)[channel];
-    double high = (double)fixture_pixel(picture, "", 54, 32)[channel];
+        sum += (double)fixture_pixel(image, "", x, 32)[channel];
+    double low = (double)fixture_pixel(image, "", 9, 32)[channel];
+    double high = (double)fixture_pixel(image, "", 54, 32)[channel];
     return (56.0 - (sum - 48.0 * low) / (high - low)) / 32.0 - 1.0;
 }
 

@@ -27,14 +27,14 @@ static void assert_same(fixture *f, float most, double share, const char *what)
 {
     film reference = fixture_render(f);
     for (int c = 0; c < contexts.count; c++) {
-        film picture = gl_fixture_render(f, &contexts.items[c]);
+        film image = gl_fixture_render(f, &contexts.items[c]);
         /* OpenGL ES multisamples half floats: 2^-11 relative. */
         float near = contexts.items[c].is_es ? fmaxf(most, 1e-3f) : most;
-        image_difference d = gl_fixture_compare(&reference, &picture, near);
+        image_difference d = gl_fixture_compare(&reference, &image, near);
         if (d.share > share)
             fail_msg("%s, context %d: %g of the pixels differ by more than %g, mean %g", what, c, d.share,
                      (double)near, d.mean);
-        film_destroy(&picture);
+        film_destroy(&image);
     }
     film_destroy(&reference);
 }
@@ -109,12 +109,12 @@ static fixture show(ogl1_quad *q, bool is_behind)
 
 static void check_quad(const fixture *f, const ogl1_quad *q, gl_context *context, const char *what)
 {
-    film picture = gl_fixture_render(f, context);
+    film image = gl_fixture_render(f, context);
     uint32_t count = 0;
     for (uint32_t y = 0; y < q->size; y++)
         for (uint32_t x = 0; x < q->size; x++) {
             double rgb[3];
-            const float *pixel = fixture_pixel(&picture, "", x, y);
+            const float *pixel = fixture_pixel(&image, "", x, y);
             if (pixel[3] < 1.0f || !ogl1_quad_color(q, x, y, rgb))
                 continue;
             count++;
@@ -126,7 +126,7 @@ static void check_quad(const fixture *f, const ogl1_quad *q, gl_context *context
             }
         }
     assert_true(count >= 200);
-    film_destroy(&picture);
+    film_destroy(&image);
 }
 
 static void quads_of_every_variant(void **state)
@@ -364,14 +364,14 @@ static void models_take_turns(void **state)
     film first[2];
     for (int i = 0; i < 4; i++) {
         f.desc.shading = i % 2 ? FACET_SHADING_GLTF : FACET_SHADING_OGL1;
-        film picture = gl_fixture_draw(&f, renderer);
+        film image = gl_fixture_draw(&f, renderer);
         if (i < 2) {
-            first[i] = picture;
+            first[i] = image;
             continue;
         }
-        assert_memory_equal(first[i - 2].layers[0].pixels, picture.layers[0].pixels,
-                            (size_t)picture.width * picture.height * 4 * sizeof(float));
-        film_destroy(&picture);
+        assert_memory_equal(first[i - 2].layers[0].pixels, image.layers[0].pixels,
+                            (size_t)image.width * image.height * 4 * sizeof(float));
+        film_destroy(&image);
     }
     assert_true(fixture_pixel(&first[0], "", 4, 2)[2] > 0.1f);
     film_destroy(&first[0]);

@@ -151,13 +151,13 @@ static void two_renderers_do_not_meet(void **state)
 typedef struct errand {
     const fixture *f;
     gl_renderer *renderer;
-    film picture;
+    film image;
 } errand;
 
 static void *draw_elsewhere(void *context)
 {
     errand *e = context;
-    e->picture = gl_fixture_draw(e->f, e->renderer);
+    e->image = gl_fixture_draw(e->f, e->renderer);
     return NULL;
 }
 
@@ -181,13 +181,13 @@ static void any_thread_may_draw(void **state)
     errand e = {.f = &f, .renderer = own_renderer(&f)};
     film here = gl_fixture_draw(&f, e.renderer);
     run_thread(draw_elsewhere, &e);
-    gl_fixture_assert_same(&here, &e.picture);
-    film_destroy(&e.picture);
+    gl_fixture_assert_same(&here, &e.image);
+    film_destroy(&e.image);
     run_thread(draw_elsewhere, &e);
-    gl_fixture_assert_same(&here, &e.picture);
+    gl_fixture_assert_same(&here, &e.image);
     run_thread(destroy_elsewhere, &e);
     film_destroy(&here);
-    film_destroy(&e.picture);
+    film_destroy(&e.image);
     fixture_destroy(&f);
 }
 
@@ -240,7 +240,7 @@ static void the_callers_context_comes_back(void **state)
     glGenTextures(1, &name);
     glBindTexture(GL_TEXTURE_2D, name);
     gl_renderer *renderer = own_renderer(&f);
-    film picture = gl_fixture_draw(&f, renderer);
+    film image = gl_fixture_draw(&f, renderer);
     GLint bound = 0;
     glGetIntegerv(GL_TEXTURE_BINDING_2D, &bound);
     assert_int_equal(bound, name);
@@ -249,7 +249,7 @@ static void the_callers_context_comes_back(void **state)
     assert_int_equal(bound, name);
     glDeleteTextures(1, &name);
     gl_context_release(mine);
-    film_destroy(&picture);
+    film_destroy(&image);
     fixture_destroy(&f);
 }
 
@@ -290,7 +290,7 @@ static void an_image_may_be_cancelled(void **state)
 static void count_warning(void *user, facet_log_level level, const char *said)
 {
     (void)level;
-    *(int *)user += strncmp(said, "the picture is black", 20) == 0;
+    *(int *)user += strncmp(said, "the image is black", 18) == 0;
 }
 
 static void darkness_is_reported(void **state)

@@ -223,16 +223,16 @@ static void check_depth(fixture *f, gl_context *context)
     fixture_place(&g, fixture_add_quad(&g, green), 0.0f, 0.0f, 0.0f, 1.0f);
     fixture_place(&g, fixture_add_quad(&g, red), 0.0f, 0.006f, 999.99f, 1e-3f);
     g.camera = (facet_camera){.eye = {0.0f, 0.0f, 1000.0f}, .fov_y_rad = 0.0022f};
-    film picture = gl_fixture_render(&g, context);
+    film image = gl_fixture_render(&g, context);
     size_t seen = 0;
     for (uint32_t y = 0; y < 64; y++)
         for (uint32_t x = 0; x < 64; x++) {
-            const float *p = fixture_pixel(&picture, "", x, y);
+            const float *p = fixture_pixel(&image, "", x, y);
             seen += p[3] > 0.99f && p[1] > 0.99f && p[0] < 0.01f;
         }
     if (context->has_clip_control)
         assert_true(seen > 50 * 50);
-    film_destroy(&picture);
+    film_destroy(&image);
     fixture_destroy(&g);
 }
 
@@ -268,13 +268,13 @@ static void check_window(fixture *f, gl_context *context)
     static unsigned char window[H][W][4];
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glReadPixels(LEFT, BELOW, W, H, GL_RGBA, GL_UNSIGNED_BYTE, window);
-    film picture = gl_fixture_draw(f, renderer);
-    film_develop(&picture, FACET_TONEMAP_NEUTRAL, f->desc.background_color, 1);
+    film image = gl_fixture_draw(f, renderer);
+    film_develop(&image, FACET_TONEMAP_NEUTRAL, f->desc.background_color, 1);
     size_t different = 0;
     for (uint32_t y = 0; y < H; y++)
         for (uint32_t x = 0; x < W; x++)
             for (int c = 0; c < 3; c++) {
-                double linear = (double)fixture_pixel(&picture, "", x, y)[c];
+                double linear = (double)fixture_pixel(&image, "", x, y)[c];
                 double wanted =
                     linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(fmin(linear, 1.0), 1.0 / 2.4) - 0.055;
                 different += fabs(255.0 * wanted - (double)window[H - 1 - y][x][c]) > 1.01;
@@ -288,7 +288,7 @@ static void check_window(fixture *f, gl_context *context)
     assert_int_equal(glGetError(), GL_NO_ERROR);
     gl_renderer_destroy(renderer);
     gl_context_release(context);
-    film_destroy(&picture);
+    film_destroy(&image);
 }
 
 static void a_window_shows_the_image(void **state)
@@ -302,7 +302,7 @@ static void a_window_shows_the_image(void **state)
 static void check_times(fixture *f, gl_context *context)
 {
     gl_renderer *renderer = gl_fixture_renderer(f, context);
-    film picture = gl_fixture_draw(f, renderer);
+    film image = gl_fixture_draw(f, renderer);
     gl_times times = gl_renderer_get_times(renderer);
     assert_int_equal(times.is_known, context->has_timer_query);
     if (times.is_known) {
@@ -315,7 +315,7 @@ static void check_times(fixture *f, gl_context *context)
     assert_int_equal(gl_context_make_current(context, NULL), FACET_OK);
     gl_renderer_destroy(renderer);
     gl_context_release(context);
-    film_destroy(&picture);
+    film_destroy(&image);
 }
 
 static void passes_are_timed(void **state)

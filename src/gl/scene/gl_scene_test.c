@@ -112,15 +112,14 @@ static void frames_are_those_of_fresh_renderers(void **state)
         for (int frame = 0; frame < 5; frame++) {
             f.desc.pose.time_s = at[frame];
             f.camera.eye[0] = frame == 2 ? 1.0f : 0.0f;
-            film picture = gl_fixture_draw(&f, kept), fresh = gl_fixture_render(&f, &contexts.items[c]);
-            assert_memory_equal(picture.layers[0].pixels, fresh.layers[0].pixels,
-                                4 * sizeof(float) * 48 * 48);
+            film image = gl_fixture_draw(&f, kept), fresh = gl_fixture_render(&f, &contexts.items[c]);
+            assert_memory_equal(image.layers[0].pixels, fresh.layers[0].pixels, 4 * sizeof(float) * 48 * 48);
             if (c == 0) {
                 film preview = fixture_render(&f);
-                assert_true(gl_fixture_compare(&picture, &preview, 0.1f).share < 0.05);
+                assert_true(gl_fixture_compare(&image, &preview, 0.1f).share < 0.05);
                 film_destroy(&preview);
             }
-            film_destroy(&picture);
+            film_destroy(&image);
             film_destroy(&fresh);
         }
         gl_renderer_destroy(kept);

@@ -193,8 +193,8 @@ static void warn_lost(gl_shadow *s, const facet_log *log, uint32_t lost, uint32_
     if (lost && lost != s->lost && log->message) {
         char message[160];
         snprintf(message, sizeof message,
-                 "shadows: %u of %u lights cast none; the map has room for the %u brightest", lost, all,
-                 all - lost);
+                 "shadows: %u of %u lights cast none; the shadow map has room for the %u brightest", lost,
+                 all, all - lost);
         log->message(log->user, FACET_LOG_LEVEL_WARNING, message);
     }
     s->lost = lost;

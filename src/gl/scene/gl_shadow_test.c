@@ -55,7 +55,7 @@ typedef struct shares {
     float at[SIZE][SIZE]; /* rows from the top */
 } shares;
 
-static shares picture;
+static shares image;
 
 static void find_shares_by(fixture *f, gl_renderer *renderer)
 {
@@ -66,7 +66,7 @@ static void find_shares_by(fixture *f, gl_renderer *renderer)
     for (uint32_t y = 0; y < SIZE; y++)
         for (uint32_t x = 0; x < SIZE; x++) {
             float without = fixture_pixel(&open, "", x, y)[1];
-            picture.at[y][x] = without > 1e-4f ? fixture_pixel(&shadowed, "", x, y)[1] / without : -1.0f;
+            image.at[y][x] = without > 1e-4f ? fixture_pixel(&shadowed, "", x, y)[1] / without : -1.0f;
         }
     film_destroy(&open);
     film_destroy(&shadowed);
@@ -99,7 +99,7 @@ static float edge_along(bool is_row, float across_m, float dark_m, float light_m
     uint32_t first = is_row ? column_of(dark_m) : row_of(dark_m);
     for (int i = 0; i < count; i++) {
         uint32_t at = is_row ? first + (uint32_t)(i * (int)step) : first - (uint32_t)(i * (int)step);
-        float share = is_row ? picture.at[row_of(across_m)][at] : picture.at[at][column_of(across_m)];
+        float share = is_row ? image.at[row_of(across_m)][at] : image.at[at][column_of(across_m)];
         if (i == 0)
             assert_near(share, 0.0f, 1e-6f);
         if (i == count - 1)
@@ -162,7 +162,7 @@ static void nothing_shades_itself(void **state)
         find_shares_by(&f, renderer);
         for (uint32_t y = 0; y < SIZE; y++)
             for (uint32_t x = 0; x < SIZE; x++)
-                assert_near(picture.at[y][x], 1.0f, 1e-5f);
+                assert_near(image.at[y][x], 1.0f, 1e-5f);
     }
     gl_renderer_destroy(renderer);
     fixture_destroy(&f);
@@ -193,7 +193,7 @@ static void a_ball_is_lit_to_its_terminator(void **state)
             /* Normals of neighboring triangles differ by 360 / 64 degrees: at least one behind the terminator
              * shadows itself. */
             if (px * L[0] + py * L[1] + sqrtf(z2) * L[2] > 0.1f)
-                assert_near(picture.at[y][x], 1.0f, 1e-5f);
+                assert_near(image.at[y][x], 1.0f, 1e-5f);
         }
     fixture_destroy(&f);
 }
@@ -212,12 +212,12 @@ static void shadows_begin_at_the_foot(void **state)
     find_shares(&f, &contexts.items[0]);
     float texel = 8.0f / 2040.0f, dark = 0.0f;
     for (uint32_t x = column_of(-0.7f); x < column_of(0.3f); x++)
-        dark += (1.0f - picture.at[row_of(0.05f)][x]) * PIXEL_M;
+        dark += (1.0f - image.at[row_of(0.05f)][x]) * PIXEL_M;
     /* The point is raised by up to 3 sqrt(2) sin(45) + 0.1 texels, which shortens the shadow, and moved towards
      * the light by 1.5 sin(45) across the wall, which delays its beginning. */
     assert_near(dark, 0.5f, 4.2f * texel);
     assert_near(edge_along(true, 0.05f, -0.4f, -0.6f), -0.5f, 3.2f * texel);
-    assert_near(picture.at[row_of(0.05f)][column_of(-4.0f * texel)], 0.0f, 1e-6f);
+    assert_near(image.at[row_of(0.05f)][column_of(-4.0f * texel)], 0.0f, 1e-6f);
     fixture_destroy(&f);
 }
 
@@ -235,9 +235,9 @@ static void masked_texels_cast_blended_surfaces_do_not(void **state)
         fixture_add_light(&f, lamp(SCENE_LIGHT_SPOT), 0.0f, 0.0f, 3.0f);
         find_shares(&f, &contexts.items[0]);
         float texel = 6.0f * tanf(0.5f) / 2040.0f;
-        assert_near(picture.at[row_of(0.0f)][column_of(0.3f)], 1.0f, 1e-5f);
+        assert_near(image.at[row_of(0.0f)][column_of(0.3f)], 1.0f, 1e-5f);
         if (is_blended)
-            assert_near(picture.at[row_of(0.0f)][column_of(-0.3f)], 1.0f, 1e-5f);
+            assert_near(image.at[row_of(0.0f)][column_of(-0.3f)], 1.0f, 1e-5f);
         else
             assert_near(edge_along(true, 0.0f, -0.3f, -0.45f), -0.375f, texel + 0.1f * PIXEL_M);
         fixture_destroy(&f);

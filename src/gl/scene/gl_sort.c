@@ -79,7 +79,7 @@ static facet_result collect(gl_sort *s, const gl_mesh_set *meshes, const gl_scen
         count += (uint64_t)instances * (g->primitive->index_count / corner_count(g));
     }
     if (count > UINT32_MAX / 8)
-        return fail(error, FACET_ERROR_LIMIT, "%s: %llu blended triangles; at most %u can be put in order",
+        return fail(error, FACET_ERROR_LIMIT, "%s: %llu blended triangles; at most %u can be sorted",
                     scene->scene->source, (unsigned long long)count, UINT32_MAX / 8);
     s->units = mem_alloc(&s->allocator, unit_count, sizeof *s->units);
     s->middles = mem_alloc(&s->allocator, count, 3 * sizeof *s->middles);

@@ -313,8 +313,7 @@ static facet_result layers_update(gl_transparency *t, const gl_transparency_view
     facet_result result = gl_context_check(t->context, "blended surfaces", error);
     if (result == FACET_OK && !is_complete)
         result = fail(error, FACET_ERROR_SYSTEM,
-                      "OpenGL (%s): floating point pictures of blended surfaces cannot be drawn",
-                      t->context->name);
+                      "OpenGL (%s): blending into floating point images is not supported", t->context->name);
     if (result != FACET_OK)
         layers_destroy(l);
     return result;

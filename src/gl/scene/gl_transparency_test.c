@@ -75,10 +75,10 @@ static void layers_blend_in_any_order(void **state)
             for (int p = 0; p < (c == 0 ? 4 : 2); p++) {
                 fixture f = layered_fixture(permutations[p], LAYERS);
                 f.desc.gl.transparency = modes[m];
-                film picture = gl_fixture_render(&f, &contexts.items[c]);
+                film image = gl_fixture_render(&f, &contexts.items[c]);
                 for (uint32_t i = 0; i < 64; i += 9)
-                    gl_fixture_assert_pixel(&picture, i, 63 - i, wanted, 2e-3f);
-                film_destroy(&picture);
+                    gl_fixture_assert_pixel(&image, i, 63 - i, wanted, 2e-3f);
+                film_destroy(&image);
                 fixture_destroy(&f);
             }
 }
@@ -93,15 +93,15 @@ static void weighted_needs_no_order(void **state)
         for (int p = 0; p < (c == 0 ? 4 : 2); p++) {
             fixture f = layered_fixture(permutations[p], LAYERS);
             f.desc.gl.transparency = FACET_TRANSPARENCY_WEIGHTED;
-            film picture = gl_fixture_render(&f, &contexts.items[c]);
-            const float *pixel = fixture_pixel(&picture, "", 20, 30);
+            film image = gl_fixture_render(&f, &contexts.items[c]);
+            const float *pixel = fixture_pixel(&image, "", 20, 30);
             assert_true(fabsf(pixel[3] - wanted[3]) < 2e-3f); /* transmittance is exact */
             if (p == 0) {
-                first = picture;
+                first = image;
             } else {
-                image_difference d = gl_fixture_compare(&first, &picture, 2e-3f);
+                image_difference d = gl_fixture_compare(&first, &image, 2e-3f);
                 assert_true(d.share <= 0.0);
-                film_destroy(&picture);
+                film_destroy(&image);
             }
             fixture_destroy(&f);
         }
@@ -120,9 +120,9 @@ static void one_layer_is_exact(void **state)
         for (int m = 0; m < 3; m++) {
             fixture f = layered_fixture(only, 1);
             f.desc.gl.transparency = modes[m];
-            film picture = gl_fixture_render(&f, &contexts.items[c]);
-            gl_fixture_assert_pixel(&picture, 32, 32, wanted, 1e-3f);
-            film_destroy(&picture);
+            film image = gl_fixture_render(&f, &contexts.items[c]);
+            gl_fixture_assert_pixel(&image, 32, 32, wanted, 1e-3f);
+            film_destroy(&image);
             fixture_destroy(&f);
         }
 }
@@ -140,9 +140,9 @@ static void opaque_surfaces_have_their_place(void **state)
             uint32_t wall = fixture_add_material(&f, gl_fixture_unlit(0.25f, 0.5f, 0.75f, 1.0f));
             fixture_place(&f, fixture_add_quad(&f, wall), 0.0f, 0.0f, -0.3f, 2.0f);
             f.desc.gl.transparency = modes[m];
-            film picture = gl_fixture_render(&f, &contexts.items[c]);
-            gl_fixture_assert_pixel(&picture, 32, 32, wanted, 2e-3f);
-            film_destroy(&picture);
+            film image = gl_fixture_render(&f, &contexts.items[c]);
+            gl_fixture_assert_pixel(&image, 32, 32, wanted, 2e-3f);
+            film_destroy(&image);
             fixture_destroy(&f);
         }
 }
@@ -166,9 +166,9 @@ static void triangles_of_batches_interleave(void **state)
         fixture_place(&f, red_mesh, 0.0f, 0.0f, 0.0f, 2.0f);
         fixture_place(&f, red_mesh, 0.0f, 0.0f, -0.6f, 2.0f);
         fixture_place(&f, green_mesh, 0.0f, 0.0f, -0.3f, 2.0f);
-        film picture = gl_fixture_render(&f, &contexts.items[c]);
-        gl_fixture_assert_pixel(&picture, 40, 20, wanted, 2e-3f);
-        film_destroy(&picture);
+        film image = gl_fixture_render(&f, &contexts.items[c]);
+        gl_fixture_assert_pixel(&image, 40, 20, wanted, 2e-3f);
+        film_destroy(&image);
         fixture_destroy(&f);
     }
 }
@@ -219,11 +219,11 @@ static void many_layers_fade(void **state)
     for (int i = 0; i < MANY; i++)
         fixture_place(&f, quad, 0.0f, 0.0f, -0.1f * (float)i, 2.0f);
     f.desc.gl.transparency = FACET_TRANSPARENCY_PEELED;
-    film picture = gl_fixture_render(&f, &contexts.items[0]);
+    film image = gl_fixture_render(&f, &contexts.items[0]);
     float passes = powf(0.5f, GL_TRANSPARENCY_LAYERS),
           wanted[4] = {1.0f - passes, 1.0f - passes, 1.0f - passes, 1.0f - passes};
-    gl_fixture_assert_pixel(&picture, 32, 32, wanted, 1e-3f);
-    film_destroy(&picture);
+    gl_fixture_assert_pixel(&image, 32, 32, wanted, 1e-3f);
+    film_destroy(&image);
     fixture_destroy(&f);
 }
 
@@ -241,11 +241,11 @@ static void spheres_are_the_previews(void **state)
     for (int c = 0; c < contexts.count; c++)
         for (int mode = 0; mode < 2; mode++) {
             f.desc.gl.transparency = modes[mode];
-            film picture = gl_fixture_render(&f, &contexts.items[c]);
-            image_difference d = gl_fixture_compare(&picture, &preview, 4.0f / 255.0f);
+            film image = gl_fixture_render(&f, &contexts.items[c]);
+            image_difference d = gl_fixture_compare(&image, &preview, 4.0f / 255.0f);
             assert_true(d.mean < 1.0 / 255.0);
             assert_true(d.share < 0.06);
-            film_destroy(&picture);
+            film_destroy(&image);
         }
     film_destroy(&preview);
     fixture_destroy(&f);
@@ -274,16 +274,16 @@ static void sprites_are_put_in_order(void **state)
     fixture_place(&f, mesh, 0.003f, 0.003f, 0.0f, 1.0f);
     film preview = fixture_render(&f);
     for (int c = 0; c < contexts.count; c++) {
-        film picture = gl_fixture_render(&f, &contexts.items[c]);
+        film image = gl_fixture_render(&f, &contexts.items[c]);
         double sums[2][4] = {{0.0}};
         for (size_t i = 0; i < 4 * 16 * 16; i++) {
             sums[0][i % 4] += (double)preview.layers[0].pixels[i];
-            sums[1][i % 4] += (double)picture.layers[0].pixels[i];
+            sums[1][i % 4] += (double)image.layers[0].pixels[i];
         }
         assert_true(sums[0][3] > 1.0);
         for (int k = 0; k < 4; k++) /* samples may differ, colors may not */
             assert_true(fabs(sums[0][k] / sums[0][3] - sums[1][k] / sums[1][3]) < 2e-3);
-        film_destroy(&picture);
+        film_destroy(&image);
     }
     film_destroy(&preview);
     fixture_destroy(&f);
@@ -304,19 +304,19 @@ static void masks_have_smooth_edges(void **state)
     fixture_place(&f, quad, 0.0f, 0.0f, 0.0f, 2.0f);
     film preview = fixture_render(&f);
     for (int c = 0; c < contexts.count; c++) {
-        film picture = gl_fixture_render(&f, &contexts.items[c]);
+        film image = gl_fixture_render(&f, &contexts.items[c]);
         double partial = 0.0, sums[2] = {0.0, 0.0};
         for (size_t i = 0; i < 64 * 64; i++) {
-            const float *p = picture.layers[0].pixels + 4 * i;
+            const float *p = image.layers[0].pixels + 4 * i;
             partial += p[3] > 0.0f && p[3] < 1.0f;
             sums[0] += (double)preview.layers[0].pixels[4 * i + 3];
             sums[1] += (double)p[3];
             assert_true(fabsf(p[2] - 0.9f * p[3]) < 1e-4f);
         }
         assert_true(fabs(sums[1] / sums[0] - 1.0) < 0.01);
-        assert_true(gl_fixture_compare(&picture, &preview, 0.51f).share < (partial > 0.0 ? 0.005 : 0.03));
+        assert_true(gl_fixture_compare(&image, &preview, 0.51f).share < (partial > 0.0 ? 0.005 : 0.03));
         assert_true(partial > 40.0 || contexts.items[c].is_es); /* where alpha-to-coverage is available */
-        film_destroy(&picture);
+        film_destroy(&image);
     }
     film_destroy(&preview);
     fixture_destroy(&f);

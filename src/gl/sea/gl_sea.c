@@ -1,4 +1,4 @@
-/* gl_sea.c - see gl_sea.h: what is kept from picture to picture, and the passes of one. */
+/* gl_sea.c - see gl_sea.h: what is kept from image to image, and the render passes. */
 #include "gl/sea/gl_sea.h"
 
 #include <epoxy/gl.h>
@@ -20,7 +20,7 @@
 #include "ibl/environment.h"
 #include "ibl/light.h"
 
-/* Pixels that are drawn at once; between tiles the caller may cancel. */
+/* Pixels drawn at once; between tiles the caller may cancel. */
 static const uint64_t TILE_PIXELS = 1u << 21;
 
 struct gl_sea {
@@ -31,13 +31,13 @@ struct gl_sea {
     gl_sea_textures textures;
     gl_light_atlas atlas;
     gl_target grid, seen, target;
-    /* whose parts are in the atlas: as long as they live they stay what they are */
+    /* those whose parts are in the atlas: referenced, so they do not change */
     facet_environment *environments[2];
     GLuint frame_buffer, light_buffer, sea_buffer, index_buffer, mesh_array, empty_array;
-    uint32_t columns, rows; /* of the indices */
+    uint32_t columns, rows; /* of the index buffer */
 };
 
-/* ---- what is kept ---- */
+/* ---- kept state ---- */
 
 static void forget_light(gl_sea *s)
 {
@@ -50,7 +50,7 @@ static void forget_light(gl_sea *s)
     }
 }
 
-/* Forgets all that is in OpenGL's memory, and the context. */
+/* Frees all OpenGL objects, and the context. */
 static void stop(gl_sea *s)
 {
     if (s->context.context && gl_context_make_current(&s->context, NULL) == FACET_OK) {
@@ -120,7 +120,7 @@ void gl_sea_destroy(gl_sea *s)
     mem_free(s);
 }
 
-/* ---- what a picture needs ---- */
+/* ---- what an image needs ---- */
 
 static void set_block(GLuint buffer, GLuint point, const void *block, size_t size)
 {
@@ -129,7 +129,8 @@ static void set_block(GLuint buffer, GLuint point, const void *block, size_t siz
     glBindBufferBase(GL_UNIFORM_BUFFER, point, buffer);
 }
 
-/* Of a picture in the sky's place: itself and its filtered light. Of the atmosphere, gl_sea_textures.c has all. */
+/* For an image as the sky: the image itself and its filtered light. For the atmosphere, gl_sea_textures.c has
+ * everything. */
 static facet_result update_light(gl_sea *s, const water_frame *p, facet_error *error)
 {
     ibl_light both = *p->reflected;
@@ -153,7 +154,7 @@ static facet_result update_light(gl_sea *s, const water_frame *p, facet_error *e
     return FACET_OK;
 }
 
-/* Making a texture binds it to some unit: this comes behind all of that. */
+/* Creating a texture binds it to some unit, so this comes after all creations. */
 static void bind_textures(const gl_sea *s)
 {
     gl_sea_textures_bind(&s->textures);
@@ -196,16 +197,16 @@ static uint64_t features_of(const water_frame *p)
            (p->foam ? GL_SEA_HAS_FOAM : 0u) | (has_glints ? GL_SEA_HAS_GLINTS : 0u);
 }
 
-/* Features that what is not water has, too. */
+/* Features that programs other than the water's have too. */
 static const uint64_t BESIDE =
     GL_SEA_HAS_IMAGE | GL_SEA_IS_LEGACY | GL_SEA_IS_BELOW | GL_SEA_HAS_BED | GL_SEA_HAS_MODEL;
 
 /* ---- passes ---- */
 
-/* A picture on its way. */
+/* The state of one image. */
 typedef struct drawing {
     gl_sea *s;
-    const water_frame *picture;
+    const water_frame *frame;
     camera_rays camera;
     gl_sea_fan fan;
     gl_sea_block block;
@@ -219,14 +220,14 @@ typedef struct drawing {
 
 static facet_result get_programs(drawing *d, facet_error *error)
 {
-    uint64_t features = features_of(d->picture);
+    uint64_t features = features_of(d->frame);
     enum { COUNT = 6 };
     const gl_program_key keys[COUNT] = {
         {GL_MAIN_SEA_GRID, 0},   {GL_MAIN_SEA_SURFACE, 0},
         {GL_MAIN_SEA_CLASS, 0},  {GL_MAIN_SEA, features | GL_SEA_HAS_CUBIC},
         {GL_MAIN_SEA, features}, {GL_MAIN_SEA, (features & BESIDE) | GL_SEA_IS_BESIDE}};
     GLuint *names[COUNT] = {&d->grid, &d->surface, &d->sorting, &d->smooth, &d->linear, &d->beside};
-    gl_programs_set_log(d->s->programs, &d->picture->desc->log);
+    gl_programs_set_log(d->s->programs, &d->frame->desc->log);
     for (int i = 0; i < COUNT; i++)
         TRY(gl_programs_request(d->s->programs, keys[i], error));
     for (int i = 0; i < COUNT; i++)
@@ -253,14 +254,14 @@ static void use(GLuint program, gl_sea_class reading)
                 reading.linear_end);
 }
 
-/* Where nodes are. */
+/* Moves the nodes of the mesh to the waves. */
 static facet_result draw_grid(drawing *d, facet_error *error)
 {
     gl_sea *s = d->s;
     TRY(gl_target_update(&s->grid, &s->context, GL_TARGET_LAYERED, d->fan.columns, d->fan.rows, 1, error));
     begin_pass(&s->grid);
     gl_sea_textures_bind(&s->textures);
-    use(d->grid, (gl_sea_class){.linear_end = (int32_t)d->picture->sea->waves.tile_count});
+    use(d->grid, (gl_sea_class){.linear_end = (int32_t)d->frame->sea->waves.tile_count});
     glBindVertexArray(s->empty_array);
     glDrawArrays(GL_TRIANGLES, 0, 3);
     return gl_context_check(&s->context, "a sea's mesh", error);
@@ -268,7 +269,7 @@ static facet_result draw_grid(drawing *d, facet_error *error)
 
 static void set_frame(const drawing *d, const gl_view *view)
 {
-    const water_frame *p = d->picture;
+    const water_frame *p = d->frame;
     const float *eye = d->camera.origin;
     const float low[3] = {eye[0] - 1000.0f, eye[1] - 1000.0f, eye[2] - 1000.0f};
     const float high[3] = {eye[0] + 1000.0f, eye[1] + 1000.0f, eye[2] + 1000.0f};
@@ -281,7 +282,7 @@ static void set_frame(const drawing *d, const gl_view *view)
     set_block(d->s->frame_buffer, GL_BLOCK_FRAME, &block, sizeof block);
 }
 
-/* Whatever a triangle's depth is, it is taken for this one. */
+/* Maps the depths of triangles to this range. */
 static void set_depths(const gl_context *context, double nearest, double farthest)
 {
     if (context->is_es)
@@ -290,18 +291,18 @@ static void set_depths(const gl_context *context, double nearest, double farthes
         glDepthRange(nearest, farthest);
 }
 
-/* Of pixels of a class. */
+/* Pixels of one class. */
 static void draw_class(const drawing *d, double depth)
 {
     set_depths(&d->s->context, depth, depth);
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-/* What all pixels look like, whose classes are the target's depths. */
+/* Shades all pixels; the target's depths are their classes. */
 static void draw_classes(const drawing *d)
 {
     gl_sea_class classes[GL_SEA_MAX_CLASSES];
-    uint32_t count = gl_sea_classes(d->picture->sea->waves.tile_count, classes);
+    uint32_t count = gl_sea_classes(d->frame->sea->waves.tile_count, classes);
     glDepthMask(GL_FALSE);
     glDepthFunc(GL_EQUAL);
     glUseProgram(d->beside);
@@ -314,7 +315,7 @@ static void draw_classes(const drawing *d)
     glDepthMask(GL_TRUE);
 }
 
-/* Which water is seen, what is to be done for it, then what that looks like. */
+/* First which water is visible, then its class, then its shading. */
 static void draw_view(const drawing *d)
 {
     const gl_sea *s = d->s;
@@ -324,14 +325,14 @@ static void draw_view(const drawing *d)
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     glEnable(GL_DEPTH_TEST);
     bind_textures(s);
-    glBindTexture(GL_TEXTURE_2D, s->grid.layers[0]); /* in the place of what is drawn now */
-    glEnable(GL_CULL_FACE); /* backs of waves are behind their fronts, and half of the mesh far away */
-    glCullFace(d->picture->is_below ? GL_FRONT : GL_BACK);
+    glBindTexture(GL_TEXTURE_2D, s->grid.layers[0]); /* instead of the texture that is rendered to */
+    glEnable(GL_CULL_FACE); /* backs of waves are hidden by their fronts, and half of a distant mesh */
+    glCullFace(d->frame->is_below ? GL_FRONT : GL_BACK);
     glUseProgram(d->surface);
     glBindVertexArray(s->mesh_array);
     size_t count = gl_sea_fan_index_count(&d->fan);
     glDrawElements(GL_TRIANGLE_STRIP, (GLsizei)count, GL_UNSIGNED_INT, NULL);
-    glCullFace(GL_BACK); /* as all others take it to be */
+    glCullFace(GL_BACK); /* the state other passes expect */
     glBindTexture(GL_TEXTURE_2D, s->seen.color);
     if (d->has_model)
         gl_sea_model_bind(&d->model);
@@ -347,14 +348,14 @@ static void draw_view(const drawing *d)
 
 /* ---- the film ---- */
 
-/* In pixels of the whole picture. */
+/* In pixels of the whole image. */
 typedef struct tile {
     uint32_t x, y, width, height;
 } tile;
 
 static void add_tile(const drawing *d, const tile *t, uint32_t sample_count)
 {
-    const uint32_t *crop = d->picture->desc->crop;
+    const uint32_t *crop = d->frame->desc->crop;
     float *film_pixels = film_find(d->film, "")->pixels, weight = 1.0f / (float)sample_count;
     bool is_top_down = gl_camera_is_top_down(&d->s->context);
     for (uint32_t y = 0; y < t->height; y++) {
@@ -365,11 +366,11 @@ static void add_tile(const drawing *d, const tile *t, uint32_t sample_count)
     }
 }
 
-/* And what was bound before. */
+/* And restores what was bound before. */
 static facet_result draw_model(drawing *d, const gl_view *view, facet_error *error)
 {
     gl_sea *s = d->s;
-    facet_result result = gl_sea_model_draw(&d->model, d->picture, &d->camera, view, &d->block, error);
+    facet_result result = gl_sea_model_draw(&d->model, d->frame, &d->camera, view, &d->block, error);
     set_block(s->sea_buffer, GL_BLOCK_SEA, &d->block, sizeof d->block);
     glBindBufferBase(GL_UNIFORM_BUFFER, GL_BLOCK_LIGHT, s->light_buffer);
     return result;
@@ -378,7 +379,7 @@ static facet_result draw_model(drawing *d, const gl_view *view, facet_error *err
 static facet_result draw_tile(drawing *d, const tile *t, facet_error *error)
 {
     gl_sea *s = d->s;
-    uint32_t sample_count = d->picture->desc->samples ? d->picture->desc->samples : 1;
+    uint32_t sample_count = d->frame->desc->samples ? d->frame->desc->samples : 1;
     facet_result result =
         gl_target_update(&s->seen, &s->context, GL_TARGET_FILM, t->width, t->height, 1, error);
     if (result == FACET_OK)
@@ -397,7 +398,7 @@ static facet_result draw_tile(drawing *d, const tile *t, facet_error *error)
         set_frame(d, &view);
         draw_view(d);
         gl_target_read(&s->target, 0, 0, 0, t->width, t->height, d->pixels);
-        result = gl_context_check(&s->context, "the picture", error);
+        result = gl_context_check(&s->context, "the image", error);
         if (result == FACET_OK)
             add_tile(d, t, sample_count);
         render_watch_add(&d->watch, (uint64_t)t->width * t->height);
@@ -410,7 +411,7 @@ static facet_result draw_tile(drawing *d, const tile *t, facet_error *error)
 
 static facet_result draw_tiles(drawing *d, double deadline_s, facet_error *error)
 {
-    const facet_render_desc *r = d->picture->desc;
+    const facet_render_desc *r = d->frame->desc;
     uint32_t most = (uint32_t)d->s->context.max_texture_size, samples = r->samples ? r->samples : 1;
     uint32_t width = r->crop[2] < most ? r->crop[2] : most;
     uint64_t lines = TILE_PIXELS / width;
@@ -419,7 +420,7 @@ static facet_result draw_tiles(drawing *d, double deadline_s, facet_error *error
     d->pattern = mem_alloc(&r->allocator, samples, 2 * sizeof *d->pattern);
     d->pixels = mem_alloc(&r->allocator, (size_t)width * height, 4 * sizeof *d->pixels);
     if (!d->pattern || !d->pixels)
-        return fail_memory(error, "picture", (size_t)width * height * 4 * sizeof *d->pixels);
+        return fail_memory(error, "image", (size_t)width * height * 4 * sizeof *d->pixels);
     sample_pattern(samples, d->pattern);
     memset(film_find(d->film, "")->pixels, 0, 4 * sizeof(float) * (size_t)d->film->width * d->film->height);
     render_watch_init(&d->watch, &r->progress, "shade", deadline_s,
@@ -434,12 +435,12 @@ static facet_result draw_tiles(drawing *d, double deadline_s, facet_error *error
     return result;
 }
 
-/* ---- all ---- */
+/* ---- entry points ---- */
 
 static facet_result prepare(drawing *d, facet_render_stats *stats, facet_error *error)
 {
     gl_sea *s = d->s;
-    const water_frame *p = d->picture;
+    const water_frame *p = d->frame;
     const facet_render_desc *r = p->desc;
     facet_result result = camera_rays_create(r->camera, r->width, r->height, &d->camera, error);
     if (result == FACET_OK && d->camera.is_orthographic)
@@ -466,13 +467,13 @@ static facet_result prepare(drawing *d, facet_render_stats *stats, facet_error *
     return result;
 }
 
-facet_result gl_sea_draw(gl_sea *s, const water_frame *picture, film *target, facet_render_stats *stats,
+facet_result gl_sea_draw(gl_sea *s, const water_frame *frame, film *target, facet_render_stats *stats,
                          facet_error *error)
 {
     double begin = clock_seconds();
-    const facet_render_desc *r = picture->desc;
+    const facet_render_desc *r = frame->desc;
     double deadline_s = r->time_limit_s > 0.0 ? begin + r->time_limit_s : 0.0;
-    drawing d = {.s = s, .picture = picture, .film = target};
+    drawing d = {.s = s, .frame = frame, .film = target};
     facet_result result = render_check_limits(r, "prepare", 0.0, deadline_s, error);
     if (result == FACET_OK)
         result = prepare(&d, stats, error);

@@ -1,7 +1,8 @@
 /* gl_sea.h - a sea drawn by OpenGL: water/water_frame.h into a film.
  *
- * The surface is a mesh: a fan around the eye, whose nodes a pass of their own moves to where the waves are. Its fragments read the tiles of waves and
- * are shaded by the shader library, as the preview's places are. Samples of a pixel are pictures of their own. */
+ * The surface is a mesh: a fan around the eye, whose nodes a pass of its own displaces by the waves. Its fragments
+ * read the tiles of waves and are shaded by the shader library, as the places of the preview are. The samples of a
+ * pixel are images of their own. */
 #ifndef GL_GL_SEA_H
 #define GL_GL_SEA_H
 
@@ -10,15 +11,15 @@
 #include "gl/gl_entry.h"
 #include "water/water_frame.h"
 
-/* With a context of its own, current for no thread between calls. FACET_ERROR_SYSTEM, _MEMORY. */
+/* Has a context of its own, current on no thread between calls. FACET_ERROR_SYSTEM, _MEMORY. */
 facet_result gl_sea_create(const facet_allocator *allocator, gl_sea **out, facet_error *error);
 facet_result gl_sea_create_api(gl_api wanted, const facet_allocator *allocator, gl_sea **out,
                                facet_error *error);
 void gl_sea_destroy(gl_sea *sea); /* NULL is allowed */
 
-/* Linear radiance times exposure, as the preview has it, or a display's numbers with looks of before. film: of the desc's crop. Fails as
- * water_render(), with FACET_ERROR_UNSUPPORTED: parallel rays; with FACET_ERROR_SYSTEM. */
-facet_result gl_sea_draw(gl_sea *sea, const water_frame *picture, film *target, facet_render_stats *stats,
+/* Linear radiance times exposure, as in the preview, or display values for the legacy styles. film: of the desc's
+ * crop. Fails as water_render(), with FACET_ERROR_UNSUPPORTED: parallel rays; with FACET_ERROR_SYSTEM. */
+facet_result gl_sea_draw(gl_sea *sea, const water_frame *frame, film *target, facet_render_stats *stats,
                          facet_error *error);
 
 #endif

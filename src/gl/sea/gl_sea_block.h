@@ -1,4 +1,4 @@
-/* gl_sea_block.h - numbers of a picture of a sea, as sea_block.glsl has them: std140. */
+/* gl_sea_block.h - the parameters of one image of a sea, as in sea_block.glsl: std140. */
 #ifndef GL_GL_SEA_BLOCK_H
 #define GL_GL_SEA_BLOCK_H
 
@@ -6,10 +6,10 @@
 #include "gl/sea/gl_sea_fan.h"
 #include "water/water_frame.h"
 
-enum { GL_SEA_PATCHES = 128, GL_SEA_FOOTPRINTS = 64 }; /* corners of patches along an edge around the eye */
+enum { GL_SEA_PATCHES = 128, GL_SEA_FOOTPRINTS = 64 }; /* corners of patches per axis around the eye */
 
-/* Pictures of a model whose near plane is the water: of what the eye's mirror image sees on the eye's side, and, of what is over the
- * water, for an eye in it. */
+/* Images of a model whose near plane is the water: what the eye's mirror image sees on the eye's side, and, for an
+ * eye in the water, what is above it. */
 enum { GL_SEA_MIRRORED, GL_SEA_WINDOW, GL_SEA_CUTS };
 
 typedef struct gl_sea_block {
@@ -29,19 +29,20 @@ typedef struct gl_sea_block {
     float model_depth[4], model_ball[4], model_half[4], touch[4], shadow[4];
 } gl_sea_block;
 
-void gl_sea_block_fill(const water_frame *picture, const camera_rays *camera, const gl_sea_fan *fan,
+void gl_sea_block_fill(const water_frame *frame, const camera_rays *camera, const gl_sea_fan *fan,
                        gl_sea_block *block);
 
 /* ---- pixel classes ---- */
 
-/* How the tiles of waves are read: those from 0 to cubic_end may be so by cubics, those from linear_begin to linear_end linearly. */
+/* How the tiles of waves are read: those from 0 to cubic_end may be read with cubic filtering, those from
+ * linear_begin to linear_end linearly. */
 typedef struct gl_sea_class {
     int32_t cubic_end, linear_begin, linear_end;
 } gl_sea_class;
 
 enum { GL_SEA_MAX_CLASSES = 24 };
 
-/* Those that there are with so many tiles; how many. Depth 0 is what is not water. */
+/* The classes that exist with that many tiles; returns their number. Depth 0 is what is not water. */
 uint32_t gl_sea_classes(uint32_t tile_count, gl_sea_class classes[GL_SEA_MAX_CLASSES]);
 /* What sea_class.frag writes for it, exact in floats. */
 double gl_sea_class_depth(gl_sea_class c);

@@ -8,7 +8,7 @@
 
 static const double CELL_PIXELS = 4.0, MAX_NODES = 6e5, MAX_DISTANCE_M = 1e5;
 static const double PI_D = 3.14159265358979323846;
-static const double MIN_LEVEL = 0.2; /* level part of rays that need no whole circle */
+static const double MIN_LEVEL = 0.2; /* horizontal part of rays below which the whole circle is needed */
 enum { PROBES = 33 };
 
 static double turned(double azimuth, double from)
@@ -17,7 +17,7 @@ static double turned(double azimuth, double from)
     return a - 2.0 * PI_D * floor(a / (2.0 * PI_D) + 0.5);
 }
 
-/* Azimuths that are seen; a whole circle where the eye looks up or down. */
+/* Azimuths in view; a whole circle where the eye looks up or down. */
 static void find_azimuths(const camera_rays *rays, uint32_t width, uint32_t height, gl_sea_fan *fan)
 {
     double middle = atan2((double)rays->direction[2], (double)rays->direction[0]), half = 0.0;
@@ -72,7 +72,7 @@ gl_sea_fan gl_sea_fan_of(const water_frame *p, const camera_rays *camera, uint32
     double last = last_waves(p, pixel, 4.0 * (double)fan.first_m);
     double first = (double)fan.first_m, angle = 2.0 * (double)fan.half_azimuth;
     double level = fmin(fmax(2.0 * (double)p->deviation_m / (CELL_PIXELS * pixel), 4.0 * first), last);
-    double standing = asinh(level / first), lying = 1.0 - level / last; /* rows of a step of 1 */
+    double standing = asinh(level / first), lying = 1.0 - level / last; /* rows per step of 1 */
     double step = fmin(CELL_PIXELS * pixel, 0.05);
     double nodes = (standing + lying) / step * angle / step;
     step *= nodes > MAX_NODES ? sqrt(nodes / MAX_NODES) : 1.0;

@@ -8,11 +8,11 @@
 #include "base/result.h"
 #include "gl/sea/gl_sea_textures.h"
 
-static const uint32_t MAX_PIXELS = 2048; /* of a cut along an edge */
+static const uint32_t MAX_PIXELS = 2048; /* of a cut per axis */
 
 /* ---- cuts: gl_sea_block.h ---- */
 
-/* What a mirror in the water's plane shows to the eye; turned around its axis, so that it is not left-handed. */
+/* The eye mirrored at the water's plane; turned around its axis, so that it is not left-handed. */
 static camera_rays mirrored(const camera_rays *c, float plane_m)
 {
     camera_rays m = *c;
@@ -24,8 +24,8 @@ static camera_rays mirrored(const camera_rays *c, float plane_m)
     return m;
 }
 
-/* The depth, over that of an eye, at which it would see the same without water: of a point so high over flat water, both in m, as are
- * away_m. Snell's law by halving. */
+/* The depth, relative to the eye's depth, at which an eye would see the same without water: of a point height_m
+ * above flat water, away_m away. Snell's law by bisection. */
 static double apparent_depth(double depth_m, double height_m, double away_m, double ior)
 {
     double low = 0.0, high = 1.0; /* sine in the air */
@@ -38,7 +38,8 @@ static double apparent_depth(double depth_m, double height_m, double away_m, dou
     return sqrt(1.0 - low * low) / (ior * sqrt(1.0 - in * in));
 }
 
-/* Over the eye, as deep as flat water lifts it for the middle of what is over the water; no wider than it takes to see that. */
+/* From the eye, as deep as flat water raises it for the middle of what is above the water; no wider than needed to
+ * see that. */
 static facet_camera window_camera(const water_frame *p, const float eye[3], float ior)
 {
     facet_camera c = {.eye = {eye[0], 0.0f, eye[2]}, .fov_y_rad = 0.0f};
@@ -59,16 +60,17 @@ static facet_camera window_camera(const water_frame *p, const float eye[3], floa
     return c;
 }
 
-/* Height of a near plane that leaves the eye at y on the other side of it and all that water around the model leaves free on this one. */
+/* Height of a near plane that leaves the eye at y on the other side and all free water around the model on this
+ * one. */
 static float cut_height(const water_frame *p, float y, float side)
 {
     float middle = p->model_water_m, least = y + 0.1f * (middle - y);
     return side > 0.0f ? fmaxf(p->model_water_low_m, least) : fminf(p->model_water_high_m, least);
 }
 
-/* The near plane lies in the water, so that what is on its other side does not stand before the rest (Lengyel 2005): how much nearer than
- * far a point is, is scale times its height over the plane, over its depth. Such that the whole model is nearer than far. side: 1: what is
- * above is seen, -1: below. */
+/* The near plane lies in the water, so that what is on its other side does not hide the rest (Lengyel 2005): the
+ * nearness of a point to the far plane is scale times its height over the plane, divided by its depth. Chosen so
+ * that the whole model is nearer than the far plane. side: 1: what is above is visible, -1: below. */
 static float plane_scale(const water_frame *p, const camera_rays *c, float plane_m, float side)
 {
     double scale = 1.0;
@@ -94,7 +96,7 @@ static void lay_near_plane(gl_frame_block *block, float scale, float below_m, bo
     m[4 * 3 + 2] += sign * scale * below_m;
 }
 
-/* As large as the picture, if it is not too large. */
+/* As large as the image, if that is not too large. */
 static gl_view view_of(const facet_render_desc *r)
 {
     double edge = r->width > r->height ? r->width : r->height;
@@ -104,7 +106,7 @@ static gl_view view_of(const facet_render_desc *r)
                      .height = (uint32_t)fmax((double)r->height * share, 1.0)};
 }
 
-/* c: from where; eye: the picture's. */
+/* c: from where; eye: that of the image. */
 static facet_result draw_cut(gl_sea_model *m, const water_frame *p, const camera_rays *c, const gl_view *v,
                              const float eye[3], int cut, gl_sea_block *b, facet_error *error)
 {
@@ -141,7 +143,7 @@ static facet_result draw_cuts(gl_sea_model *m, const water_frame *p, gl_sea_bloc
     if (result != FACET_OK || !p->is_below)
         return result;
     facet_camera camera = window_camera(p, eye.origin, p->sea->optics.ior);
-    float edge = 2.0f * tanf(0.5f * camera.fov_y_rad) / eye.pixel_size; /* pixels as large as the picture's */
+    float edge = 2.0f * tanf(0.5f * camera.fov_y_rad) / eye.pixel_size; /* pixels as large as the image's */
     v.width = v.height = (uint32_t)fminf(fmaxf(edge, 1.0f), (float)MAX_PIXELS);
     result = camera_rays_create(&camera, v.width, v.height, &window, error);
     return result == FACET_OK ? draw_cut(m, p, &window, &v, eye.origin, GL_SEA_WINDOW, b, error) : result;
@@ -175,7 +177,7 @@ static void describe_ball(const water_frame *p, const camera_rays *camera, gl_se
     b->model_ball[3] = sqrtf(square);
 }
 
-/* ---- all ---- */
+/* ---- entry points ---- */
 
 static facet_render_desc desc_of(const water_frame *p)
 {

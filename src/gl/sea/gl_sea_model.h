@@ -1,5 +1,6 @@
-/* gl_sea_model.h - a model in a sea: pictures of it from the eye, from the eye's mirror image behind the water, and, of what is over it, for
- * an eye in it, which sea_model.glsl puts behind the surface, before it, and into what it reflects and bends. Drawn as any model is (gl_frame.h), by the light over the sea. */
+/* gl_sea_model.h - a model in a sea: images of it from the eye, from the eye's mirror image behind the water, and,
+ * for an eye in the water, of what is above it. sea_model.glsl puts them behind the surface, in front of it, and
+ * into what it reflects and refracts. Drawn as any model is (gl_frame.h), by the light over the sea. */
 #ifndef GL_GL_SEA_MODEL_H
 #define GL_GL_SEA_MODEL_H
 
@@ -18,13 +19,13 @@ typedef struct gl_sea_model {
     facet_render_desc desc;
 } gl_sea_model;
 
-/* For a picture with a model: uploads it, and draws its cuts and shadow maps. Anew for each picture, as the model may have moved. Fails as
- * gl_renderer_render(). gl_sea_model_end() whatever comes back. */
-facet_result gl_sea_model_begin(gl_sea_model *m, gl_context *context, const water_frame *picture,
+/* For an image with a model: uploads it, and draws its cuts and shadow maps. Anew for each image, as the model may
+ * have moved. Fails as gl_renderer_render(). Call gl_sea_model_end() whatever it returns. */
+facet_result gl_sea_model_begin(gl_sea_model *m, gl_context *context, const water_frame *frame,
                                 const camera_rays *camera, gl_sea_block *block, facet_render_stats *stats,
                                 facet_error *error);
-/* The model as a view sees it. What OpenGL has bound is other afterwards. */
-facet_result gl_sea_model_draw(gl_sea_model *m, const water_frame *picture, const camera_rays *camera,
+/* The model as a view sees it. Changes OpenGL's bindings. */
+facet_result gl_sea_model_draw(gl_sea_model *m, const water_frame *frame, const camera_rays *camera,
                                const gl_view *view, gl_sea_block *block, facet_error *error);
 void gl_sea_model_bind(const gl_sea_model *m);
 void gl_sea_model_end(gl_sea_model *m); /* {0} is allowed; leaves {0} */

@@ -1,4 +1,5 @@
-/* gl_sea_test.c - the sea by OpenGL beside the preview's, as people see both: after tone mapping, in 255ths of a display. */
+/* gl_sea_test.c - the sea by OpenGL against the preview, compared as people see both: after tone mapping, in
+ * 255ths of a display. */
 #include "water/water_fixture.h" /* cmocka, and seas */
 
 #include <string.h>
@@ -46,36 +47,36 @@ static void expose(shot *s)
     s->desc.exposure_ev = (float)meter_exposure_ev(13.3); /* a sun 22 degrees high */
 }
 
-/* A display's number: Reinhard's operator, gamma 2.2; looks of before are for displays already. */
+/* A display value: Reinhard's operator, gamma 2.2; legacy styles are for displays already. */
 static double shown(float x, bool is_light)
 {
     double y = is_light ? (double)(x / (1.0f + x)) : fmin((double)x, 1.0);
     return 255.0 * pow(fmax(y, 0.0), 1.0 / 2.2);
 }
 
-/* Draws the shot's picture by OpenGL into another film. */
+/* Draws the shot by OpenGL into another film. */
 static void draw_gl(gl_sea *renderer, const facet_sea *sea, const shot *s, film *out)
 {
     facet_render_desc desc = s->desc;
     facet_render_stats stats = {.total_s = 0.0};
     facet_error error;
     water_cache cache = {.sea_serial = 0};
-    water_frame *picture;
+    water_frame *frame;
     desc.sea = sea;
     desc.renderer = FACET_RENDERER_KIND_GL;
     desc.crop[2] = WIDTH;
     desc.crop[3] = HEIGHT;
     *out = (film){.width = 0};
     assert_int_equal(film_create(&desc.allocator, WIDTH, HEIGHT, 0, out, &error), FACET_OK);
-    if (water_frame_create(&cache, s->scene, &desc, &picture, &stats, &error) != FACET_OK)
+    if (water_frame_create(&cache, s->scene, &desc, &frame, &stats, &error) != FACET_OK)
         fail_msg("%s", error.message);
-    if (gl_sea_draw(renderer, picture, out, &stats, &error) != FACET_OK)
+    if (gl_sea_draw(renderer, frame, out, &stats, &error) != FACET_OK)
         fail_msg("%s", error.message);
-    water_frame_destroy(picture);
+    water_frame_destroy(frame);
     water_cache_clear(&cache);
 }
 
-/* Mean difference of both in 255ths; *contrast: mean distance of a number of the preview's from the one below it. */
+/* Mean difference of both in 255ths; *contrast: mean distance of a value of the preview from the one below it. */
 static double difference(const shot *s, const film *gl, bool is_light, double *contrast)
 {
     double sum = 0.0, steps = 0.0;
@@ -90,7 +91,8 @@ static double difference(const shot *s, const film *gl, bool is_light, double *c
     return sum / (3.0 * WIDTH * (HEIGHT - 1));
 }
 
-/* How far the preview's picture is from OpenGL's without the model: what a comparison would find if it were not drawn. */
+/* Difference between the preview with the model and OpenGL without it: what a comparison would find if the model
+ * were not drawn. */
 static double without_model(gl_sea *renderer, const facet_sea *sea, shot *s)
 {
     film gl;
@@ -106,7 +108,7 @@ static double without_model(gl_sea *renderer, const facet_sea *sea, shot *s)
     return apart;
 }
 
-/* Draws both and says how far they are apart; a sea that is not flat shows waves. */
+/* Draws both and reports their difference; checks that a sea that is not flat shows waves. */
 static double compare(gl_sea *renderer, const facet_sea *sea, shot *s, const char *name)
 {
     film gl;
@@ -173,7 +175,7 @@ static void still_and_shallow_water(void **state)
         sea_destroy(seas[i]);
 }
 
-/* From in the water, and a part of a picture with several samples: the same places, whatever the part. */
+/* From in the water, and a crop with several samples: the same places, whatever the crop. */
 static void parts_and_depths(void **state)
 {
     (void)state;
@@ -197,7 +199,7 @@ static void parts_and_depths(void **state)
     sea_destroy(sea);
 }
 
-/* Of GGX, with Schlick's masking and reflectance; not what the default facets look like. */
+/* GGX with Schlick's masking and reflectance, in contrast to the default microfacets. */
 static void other_facets(void **state)
 {
     (void)state;
@@ -226,7 +228,7 @@ static void other_facets(void **state)
     sea_destroy(sea);
 }
 
-/* A picture in the sky's place, turned, with a sun beside it. */
+/* An image as the sky, turned, with a sun in addition. */
 static void environments(void **state)
 {
     (void)state;
@@ -245,12 +247,13 @@ static void environments(void **state)
     s.desc.sun = (facet_sun){
         .azimuth_rad = 2.9f, .elevation_rad = 0.3f, .illuminance_lux = {60000.0f, 50000.0f, 40000.0f}};
     expose(&s);
-    assert_true(compare(renderer, sea, &s, "a picture") < 0.3);
+    assert_true(compare(renderer, sea, &s, "an image") < 0.3);
     facet_environment_destroy(studio);
     sea_destroy(sea);
 }
 
-/* Spheres of radius 1: one floats between the eye and the sun, one lies on the right below the surface, one hangs over it on the left. */
+/* Spheres of radius 1: one floats between the eye and the sun, one lies on the right below the surface, one hangs
+ * over it on the left. */
 static fixture spheres(void)
 {
     fixture f = fixture_create();
@@ -276,7 +279,7 @@ static void compare_model(gl_sea *renderer, float wind_mps, float eye_m, float d
     s.desc.sky.sun_azimuth_rad = 2.6f;
     s.scene = f.scene;
     s.desc.sea_shading.omits_glints =
-        true; /* which of them are drawn hangs by a bit of where the water rests */
+        true; /* which glints are drawn depends on single bits of the resting positions */
     expose(&s);
     assert_true(compare(renderer, sea, &s, eye_m > 0.0f ? "spheres" : "spheres from below") < bound);
     double without = without_model(renderer, sea, &s);
@@ -286,7 +289,7 @@ static void compare_model(gl_sea *renderer, float wind_mps, float eye_m, float d
     fixture_destroy(&f);
 }
 
-/* An eye in the water sees a sphere afloat through the window from where waves begin, in troughs as well. */
+/* An eye in the water sees a floating sphere through the window from where waves begin, in troughs as well. */
 static void a_hull_in_waves(void **state)
 {
     (void)state;
@@ -332,7 +335,7 @@ static void a_model_from_below_in_opengl_es(void **state)
     compare_model(renderer_of(GL_API_ES), 0.0f, -2.0f, -0.65f, 0.0f, 0.2);
 }
 
-/* The same as a still of its time, whatever was drawn before. */
+/* The same as a still image of its time, whatever was drawn before. */
 static void frames_are_stills(void **state)
 {
     (void)state;
@@ -369,7 +372,7 @@ static void unsupported_cameras_are_reported(void **state)
     shot s;
     facet_error error;
     facet_render_stats stats = {.total_s = 0.0};
-    water_frame *picture;
+    water_frame *frame;
     make_shot(&s, WIDTH, HEIGHT, 3.0f, 0.5f);
     s.camera.fov_y_rad = 0.0f;
     s.camera.ortho_height = 10.0f;
@@ -378,10 +381,10 @@ static void unsupported_cameras_are_reported(void **state)
     s.desc.crop[3] = HEIGHT;
     s.desc.renderer = FACET_RENDERER_KIND_GL;
     assert_int_equal(film_create(&s.desc.allocator, WIDTH, HEIGHT, 0, &s.film, &error), FACET_OK);
-    assert_int_equal(water_frame_create(shot_in(sea, &s), NULL, &s.desc, &picture, &stats, &error), FACET_OK);
-    assert_int_equal(gl_sea_draw(renderer, picture, &s.film, &stats, &error), FACET_ERROR_UNSUPPORTED);
+    assert_int_equal(water_frame_create(shot_in(sea, &s), NULL, &s.desc, &frame, &stats, &error), FACET_OK);
+    assert_int_equal(gl_sea_draw(renderer, frame, &s.film, &stats, &error), FACET_ERROR_UNSUPPORTED);
     assert_true(strlen(error.message) > 10);
-    water_frame_destroy(picture);
+    water_frame_destroy(frame);
     water_cache_clear(&s.cache);
     film_destroy(&s.film);
     sea_destroy(sea);

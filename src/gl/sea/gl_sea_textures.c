@@ -65,7 +65,7 @@ static GLint format_of(const gl_context *c, GLenum channels)
     return c->has_float_linear ? GL_RGBA32F : GL_RGBA16F;
 }
 
-/* With all mips, in the place of what is there; bound. */
+/* With all mips, in place of the previous one; bound. */
 static void make_layers(uint32_t *name, uint32_t unit, const gl_context *c, GLenum channels, uint32_t size,
                         uint32_t layers, GLenum filter, GLenum wrap)
 {
@@ -78,7 +78,8 @@ static void make_layers(uint32_t *name, uint32_t unit, const gl_context *c, GLen
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, level - 1);
 }
 
-/* What is not there, or has another size. A picture without foam or caustics reads none: what was there stays. */
+/* Textures that are missing, or have another size. An image without foam or caustics reads neither: the previous
+ * ones stay. */
 static void make_missing(gl_sea_textures *t, const gl_context *c, const water_frame *p)
 {
     const waves *w = &p->sea->waves;
@@ -202,7 +203,7 @@ static void upload_caustics(const caustic_map *map)
 static gl_sea_patches patches_around(const waves *w, const camera_rays *camera)
 {
     gl_sea_patches around;
-    memset(&around, 0, sizeof around); /* with what lies between members: it is compared */
+    memset(&around, 0, sizeof around); /* including padding: it is compared as bytes */
     around.seed = w->seed;
     for (uint32_t tile = 0; tile < w->tile_count; tile++) {
         const wave_tile *t = &w->tiles[tile];
@@ -216,7 +217,7 @@ static gl_sea_patches patches_around(const waves *w, const camera_rays *camera)
     return around;
 }
 
-/* Corners around the eye's, each where its index falls modulo the edge; those that are there where they are the same. */
+/* Corners around the eye's, each stored at its index modulo the width; kept where they are the same. */
 static facet_result upload_patches(gl_sea_textures *t, const water_frame *p, const camera_rays *camera,
                                    facet_error *error)
 {
@@ -245,14 +246,14 @@ static facet_result upload_patches(gl_sea_textures *t, const water_frame *p, con
     return FACET_OK;
 }
 
-/* ---- all ---- */
+/* ---- entry points ---- */
 
 facet_result gl_sea_textures_update(gl_sea_textures *t, gl_context *c, const water_frame *p,
                                     const camera_rays *camera, facet_error *error)
 {
     const waves *w = &p->sea->waves;
     if (w->tile_count && w->tiles[0].size > (uint32_t)c->max_texture_size)
-        return fail(error, FACET_ERROR_LIMIT, "OpenGL (%s): tiles of %u samples; the most are %d", c->name,
+        return fail(error, FACET_ERROR_LIMIT, "OpenGL (%s): tiles of %u samples; the maximum is %d", c->name,
                     w->tiles[0].size, c->max_texture_size);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
     make_missing(t, c, p);

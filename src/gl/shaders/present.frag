@@ -1,6 +1,6 @@
 /* present.frag - radiance to the numbers of a window: as film_develop() makes them and a file for displays has them, sRGB and
  * not premultiplied. */
-uniform sampler2D u_picture;
+uniform sampler2D u_image;
 
 out vec4 fragment;
 
@@ -8,13 +8,13 @@ void main()
 {
     ivec2 at = ivec2(gl_FragCoord.xy - frame_size.zw); /* the window's corner */
 #ifdef IS_TOP_DOWN
-    at.y = textureSize(u_picture, 0).y - 1 - at.y;
+    at.y = textureSize(u_image, 0).y - 1 - at.y;
 #endif
-    vec4 picture = texelFetch(u_picture, at, 0);
-    float opacity = clamp(picture.w, 0.0, 1.0);
+    vec4 texel = texelFetch(u_image, at, 0);
+    float opacity = clamp(texel.w, 0.0, 1.0);
     vec3 color = vec3(0.0);
     if (opacity > 0.0) {
-        color = min(picture.xyz / opacity, vec3(65504.0)); /* half floats may have run over */
+        color = min(texel.xyz / opacity, vec3(65504.0)); /* half floats may have run over */
         color = tonemap(int(tonemap_operator), color);
     }
     if (background.w > 0.0) {

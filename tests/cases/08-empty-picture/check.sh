@@ -27,7 +27,7 @@ empty "it is seen from behind" tri.gltf --orbit 180 --background env
 empty "it is seen from behind" tri.gltf --orbit 180 --ortho
 empty "it is flat and seen edge-on" tri.gltf --orbit 90,90
 empty "it is behind the camera" tri.gltf --eye 0.3,0.3,3 --target 0.3,0.3,9
-empty "it is outside of the image" tri.gltf --eye 0.3,0.3,3 --target 9,0.3,1
+empty "it is outside the image" tri.gltf --eye 0.3,0.3,3 --target 9,0.3,1
 empty "it is outside of the part of the image that --crop names" tri.gltf --crop 28,0,4,4
 empty "it is smaller than a pixel" tri.gltf --orbit 0,90,50000m
 empty "the nodes that have a mesh are scaled to 0" scale.gltf
@@ -52,4 +52,4 @@ END
 printf 'newmtl m\nKd .5 .5 .5\n' >box.mtl
 expect 0 convert box.obj box.gltf
 sed 's/"doubleSided": *true/"doubleSided":false/' box.gltf >inside.gltf
-empty "the camera is inside of it" inside.gltf --eye 0,0,-0.5 --target 0,0,0
+empty "the camera is inside it" inside.gltf --eye 0,0,-0.5 --target 0,0,0
