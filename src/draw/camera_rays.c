@@ -1,5 +1,5 @@
-/* camera_rays.c - see camera_rays.h. The basis is computed in double: what it costs is nothing, and the rays of a
- * telephoto camera far from the origin differ in the last bits only. */
+/* camera_rays.c - see camera_rays.h. The basis is computed in double: that costs nothing, and keeps the rays of a
+ * telephoto camera far from the origin exact to the last bits. */
 #include "draw/camera_rays.h"
 
 #include <math.h>
@@ -32,7 +32,7 @@ static bool normalize3(double a[3])
     return true;
 }
 
-/* Right, up and forward of the camera; false: it looks nowhere. */
+/* Right, up and forward of the camera; false: its view direction is undefined. */
 static bool camera_basis(const facet_camera *camera, basis *b)
 {
     for (int i = 0; i < 3; i++) {
@@ -54,8 +54,8 @@ static bool camera_basis(const facet_camera *camera, basis *b)
     return true;
 }
 
-/* Whether vectors that vary over the picture as middle + x dx + y dy stay where Embree takes them: it ends the process
- * for what is beyond 1.8e18. */
+/* Whether vectors that vary over the image as middle + x dx + y dy stay within Embree's limit: it aborts the
+ * process beyond 1.8e18. */
 static bool is_within_reach(const float middle[3], const float dx[3], const float dy[3], uint32_t width,
                             uint32_t height)
 {
@@ -75,7 +75,7 @@ facet_result camera_rays_create(const facet_camera *camera, uint32_t width, uint
         return fail(error, FACET_ERROR_ARGUMENT,
                     "camera: eye and target must be two points, and up not along the line between them");
     double aspect = (double)width / (double)height;
-    /* A picture narrower than the camera was made for: keep the width, show more above and below. */
+    /* An image narrower than the camera was made for: keep the width, show more above and below. */
     double fit =
         camera->aspect > 0.0f && aspect < (double)camera->aspect ? (double)camera->aspect / aspect : 1.0;
     bool is_orthographic = !(camera->fov_y_rad > 0.0f);
@@ -108,8 +108,8 @@ facet_result camera_rays_create(const facet_camera *camera, uint32_t width, uint
 
 /* ---- samples in a pixel ---- */
 
-/* Rank-1 lattices (Korobov 1959) with the generator that keeps the points farthest apart on a torus; for 4 points the
- * rotated grid, which is no lattice of that form. */
+/* Rank-1 lattices (Korobov 1959) with the generator that keeps the points farthest apart on a torus; for 4 points
+ * the rotated grid, which is not such a lattice. */
 
 /* Smallest squared distance of point i to point 0, in units of (1 / count)^2. */
 static uint64_t lattice_distance2(uint32_t count, uint32_t generator)

@@ -4,7 +4,7 @@
 
 #include "facet/facet.h"
 
-/* The ray through picture position (x, y) (pixels; (0, 0) is the top left corner, the middle of a pixel is at
+/* The ray through image position (x, y) (pixels; (0, 0) is the top left corner, the middle of a pixel is at
  * 0.5) is
  *     origin + X origin_dx + Y origin_dy + t (direction + X direction_dx + Y direction_dy)
  * with X = x - middle[0], Y = y - middle[1]. Directions are not of unit length: t is the depth along the camera's
@@ -14,12 +14,12 @@ typedef struct camera_rays {
     float direction[3], direction_dx[3], direction_dy[3];
     float middle[2];
     float near_m, far_m; /* far_m: infinity where there is no limit */
-    float pixel_size;    /* height of a pixel in m, at depth 1 m where the camera is perspective */
+    float pixel_size;    /* height of a pixel in m, for a perspective camera at depth 1 m */
     bool is_orthographic;
 } camera_rays;
 
-/* For the whole picture of width x height pixels. A camera made for another aspect shows all that it was made to
- * show, and more on two sides. Fails with FACET_ERROR_ARGUMENT for a camera that looks nowhere. */
+/* For the whole image of width x height pixels. A camera made for another aspect ratio shows its whole view, and
+ * more on two sides. Fails with FACET_ERROR_ARGUMENT for a camera without a view direction. */
 facet_result camera_rays_create(const facet_camera *camera, uint32_t width, uint32_t height,
                                 camera_rays *rays, facet_error *error);
 
@@ -35,7 +35,7 @@ static inline void camera_rays_at(const camera_rays *rays, float x, float y, flo
     }
 }
 
-/* Height of a pixel in m at that depth, at least that of 0. */
+/* Height of a pixel in m at that depth; negative depths count as 0. */
 static inline float camera_rays_pixel_size(const camera_rays *rays, float depth_m)
 {
     return rays->is_orthographic ? rays->pixel_size : rays->pixel_size * (depth_m > 0.0f ? depth_m : 0.0f);

@@ -1,4 +1,4 @@
-/* Tests of camera_rays.h and sample_pattern.h. */
+/* Tests of camera_rays.h, with sample_pattern(). */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -45,7 +45,7 @@ static void up_is_made_where_it_is_missing(void **state)
     assert_int_equal(camera_rays_create(&flat, 10, 10, &rays, NULL), FACET_ERROR_ARGUMENT);
 }
 
-/* Embree ends the process for rays beyond 1.8e18. */
+/* Embree aborts the process for rays beyond 1.8e18. */
 static void what_is_out_of_reach_is_refused(void **state)
 {
     (void)state;

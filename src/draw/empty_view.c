@@ -1,5 +1,5 @@
-/* empty_view.c - see empty_view.h. Each triangle, line and point is put down to the first reason that keeps it from being
- * seen; what most of them have is reported. */
+/* empty_view.c - see empty_view.h. Each triangle, line and point is counted under the first reason that keeps it
+ * from being seen; the most frequent reason is reported. */
 #include "draw/empty_view.h"
 
 #include <math.h>
@@ -21,11 +21,11 @@ typedef enum reason {
 
 typedef struct view {
     const camera_rays *camera;
-    double axes[3][3]; /* right and down, such that dot products are pixels at depth 1; forward */
+    double axes[3][3]; /* right and down, scaled such that dot products are pixels at depth 1; forward */
     double frame[4];   /* left, top, right, bottom: pixels from the middle */
     uint64_t counts[REASON_COUNT];
     uint64_t seen;        /* elements without a reason */
-    uint64_t see_through; /* of these: those with a material that is not opaque */
+    uint64_t see_through; /* of these: those whose material is not opaque */
 } view;
 
 static double dot(const double a[3], const double b[3])
@@ -57,7 +57,7 @@ static view make_view(const facet_render_desc *desc, const camera_rays *camera)
 
 /* ---- one element ---- */
 
-/* Its corners by the camera: pixels from the middle times the depth (perspective) or as they are, and the depth. */
+/* Its corners in camera space: pixels from the middle, times the depth for a perspective camera, and the depth. */
 typedef struct element {
     uint32_t count;
     double world[3][3], seen[3][3];
@@ -81,7 +81,7 @@ static element read_element(const view *v, const scene_instance *instance, uint3
     return e;
 }
 
-/* Whether all corners have a depth outside of (low, high). */
+/* Whether the depths of all corners are outside (low, high). */
 static bool is_beside(const element *e, double low, double high)
 {
     bool is_low = true;
@@ -93,7 +93,7 @@ static bool is_beside(const element *e, double low, double high)
     return is_low || is_high;
 }
 
-/* Whether all corners of the frame are beyond one side of a triangle that is before the eye. */
+/* Whether all corners of the frame are on the outer side of an edge of a triangle in front of the eye. */
 static bool is_frame_outside(const view *v, const element *e)
 {
     double at[3][2];
@@ -121,7 +121,7 @@ static bool is_frame_outside(const view *v, const element *e)
     return false;
 }
 
-/* Whether no pixel of the frame can be within the element. */
+/* Whether no pixel of the frame can be inside the element. */
 static bool is_outside(const view *v, const element *e)
 {
     for (int side = 0; side < 4; side++) {
@@ -137,7 +137,7 @@ static bool is_outside(const view *v, const element *e)
     return is_frame_outside(v, e);
 }
 
-/* The cosine between the triangle's front and the way to the eye. */
+/* The cosine between the triangle's front and the direction to the eye. */
 static double facing(const view *v, const element *e, bool is_mirrored)
 {
     double a[3];

@@ -11,7 +11,7 @@
 enum {
     CELLS_PER_AXIS = 128,
     CELLS_PER_LIGHT = 64,  /* of the whole grid */
-    ENTRIES_PER_LIGHT = 64 /* cells that a light is in, in the mean */
+    ENTRIES_PER_LIGHT = 64 /* average number of cells per light */
 };
 
 /* The cells that a light's sphere touches, and some at its corners. */
@@ -26,13 +26,13 @@ static uint32_t cell_of(const light_grid *grid, int axis, float x)
     return (uint32_t)clamp(cell, 0.0f, last);
 }
 
-/* A range that is beyond all that is drawn is none: the sums here stay finite. */
+/* A range beyond everything drawn counts as none: the sums here stay finite. */
 static bool has_range(const Light *light)
 {
     return !light->directional && light->range > 0.0f && light->range < 1e18f;
 }
 
-/* The range and what rounding may add to it. */
+/* The range, with a margin for rounding. */
 static float reach(const Light *light)
 {
     vec3 p = abs(light->position);
@@ -64,7 +64,7 @@ static uint64_t count_entries(const light_grid *grid, const Light *lights, uint3
     return entries;
 }
 
-/* Cubes of such a size that the longest edge of the box has `longest` of them. */
+/* Cubes, `longest` of them along the longest side of the box. */
 static void divide(light_grid *grid, const float extent[3], uint32_t longest)
 {
     float edge = max(max(extent[0], extent[1]), extent[2]) / (float)longest;
@@ -75,7 +75,7 @@ static void divide(light_grid *grid, const float extent[3], uint32_t longest)
     }
 }
 
-/* Puts each light into its cells; is_counting: adds them up in first[cell + 1] only. */
+/* Puts each light into its cells; is_counting: only adds to first[cell + 1]. */
 static void fill_cells(light_grid *grid, const Light *lights, uint32_t count, bool is_counting)
 {
     for (uint32_t i = 0; i < count; i++) {
@@ -100,7 +100,7 @@ static facet_result make_cells(light_grid *grid, const Light *lights, uint32_t c
     uint32_t longest = CELLS_PER_AXIS;
     uint64_t entries;
     size_t cells;
-    for (;; longest /= 2) { /* one cell has as many entries as there are lights: it ends */
+    for (;; longest /= 2) { /* terminates: one cell has as many entries as there are lights */
         divide(grid, extent, longest);
         cells = (size_t)grid->cell_count[0] * grid->cell_count[1] * grid->cell_count[2];
         entries = count_entries(grid, lights, count);
@@ -117,7 +117,7 @@ static facet_result make_cells(light_grid *grid, const Light *lights, uint32_t c
     for (size_t i = 0; i < cells; i++)
         grid->first[i + 1] += grid->first[i];
     fill_cells(grid, lights, count, false);
-    for (size_t i = cells; i > 0; i--) /* each has moved on to the next one's */
+    for (size_t i = cells; i > 0; i--) /* each has advanced to the next one's */
         grid->first[i] = grid->first[i - 1];
     grid->first[0] = 0;
     return FACET_OK;
@@ -167,13 +167,13 @@ light_cursor light_grid_at(const light_grid *grid, const float P[3])
 {
     light_cursor c = {.everywhere = grid->everywhere};
     size_t cell = 0;
-    if (grid->everywhere) /* C has no NULL + 0 */
+    if (grid->everywhere) /* C does not define NULL + 0 */
         c.everywhere_end = grid->everywhere + grid->everywhere_count;
     if (!grid->first)
         return c;
     for (int axis = 2; axis >= 0; axis--) {
         float x = (P[axis] - grid->origin[axis]) * grid->cells_per_m[axis];
-        /* A little beyond the box counts as the cell at its border, as in cell_of(); NaN is nowhere. */
+        /* A little beyond the box counts as the cell at its border, as in cell_of(); NaN is in no cell. */
         if (!(x >= -1.0f && x <= (float)grid->cell_count[axis] + 1.0f))
             return c;
         cell = cell * grid->cell_count[axis] + cell_of(grid, axis, P[axis]);

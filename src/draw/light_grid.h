@@ -6,13 +6,13 @@
 
 struct Light; /* shade/light.h */
 
-/* Cells over all that the lights with a range reach, each with the numbers of the lights that reach into it, ascending.
- * Lights without range reach everywhere and are a list of their own. */
+/* Cells over the bounds of all lights with a range, each with the indices of the lights that reach into it,
+ * ascending. Lights without range reach everywhere and have a list of their own. */
 typedef struct light_grid {
     float origin[3];        /* m */
     float cells_per_m[3];   /* per axis */
     uint32_t cell_count[3]; /* per axis; 0: no light has a range */
-    uint32_t *first;        /* per cell, and one more behind them: its first number */
+    uint32_t *first;        /* per cell, and one more at the end: index of its first entry */
     uint32_t *lights;
     uint32_t everywhere_count;
     uint32_t *everywhere; /* ascending */
@@ -23,15 +23,15 @@ facet_result light_grid_create(const struct Light *lights, uint32_t count, const
                                light_grid *out, facet_error *error);
 void light_grid_destroy(light_grid *grid); /* {0} is allowed */
 
-/* Goes over the numbers of the lights that may reach a point, ascending: all that do are among them, so that a sum over
- * them has the terms other than 0 of the sum over all, in the same order. */
+/* Iterates over the indices of the lights that may reach a point, ascending: all that do are among them, so that a
+ * sum over them has the nonzero terms of the sum over all, in the same order. */
 typedef struct light_cursor {
     const uint32_t *near, *near_end, *everywhere, *everywhere_end;
 } light_cursor;
 
 light_cursor light_grid_at(const light_grid *grid, const float P[3]);
 
-/* False: there is none left. */
+/* False: there are no more. */
 static inline bool light_cursor_next(light_cursor *c, uint32_t *light)
 {
     bool has_near = c->near < c->near_end;

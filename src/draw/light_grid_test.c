@@ -1,4 +1,4 @@
-/* Tests of the grid of lights: all that reach a point are found, in order, and few that do not. */
+/* Tests of the grid of lights: all that reach a point are found, in order, and few others. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -50,7 +50,7 @@ static vec3 shaded(const Light *light, vec3 P)
     return shade_punctual(s, P, normalize(vec3(0.3f, 1.0f, 0.2f)), *light, ENERGY_GLTF, vec2(0.0f));
 }
 
-/* The sum over what the grid gives is that over all, to the last bit; returns the mean number of lights looked at. */
+/* The sum over the grid's lights equals that over all, to the last bit; returns the mean number of lights visited. */
 static double compare_with_loop(uint32_t count, float extent, float range, float share_without)
 {
     enum { POINTS = 300 };
@@ -60,7 +60,7 @@ static double compare_with_loop(uint32_t count, float extent, float range, float
     double looked_at = 0.0;
     for (int k = 0; k < POINTS; k++) {
         vec3 P = random_point(extent * 1.2f);
-        if (k % 5 == 0) /* just inside of a range */
+        if (k % 5 == 0) /* just inside a range */
             P = lights[(uint32_t)k % count].position +
                 vec3(0.0f, lights[(uint32_t)k % count].range * 0.999999f, 0.0f);
         vec3 all = vec3(0.0f);
@@ -100,7 +100,8 @@ static void ten_thousand_lights_cost_what_reaches(void **state)
 {
     (void)state;
     double looked_at = compare_with_loop(10000, 50.0f, 5.0f, 0.0f);
-    /* Of spheres of radius 0.5 to 5 in a cube of 100 m 1.5 reach a point in the mean; their boxes are twice as large. */
+    /* Of spheres of radius 0.5 to 5 in a cube of 100 m, 1.5 reach a point on average; their boxes are twice as
+     * large. */
     assert_true(looked_at < 10.0);
 }
 

@@ -8,7 +8,7 @@
 
 #include "shade/shade.h"
 
-/* ---- what has to be prepared ---- */
+/* ---- what must be prepared ---- */
 
 facet_energy light_energy(const facet_render_desc *desc)
 {
@@ -28,7 +28,7 @@ static void add_range(ibl_light_desc *needs, float lowest, float highest)
     needs->needs_specular = true;
 }
 
-/* Texels scale the factor down: a textured roughness may be anything up to it. Anti-aliasing widens it. */
+/* Texels scale the factor down: a textured roughness may be anything up to it. Anti-aliasing increases it. */
 static void add_lobe(ibl_light_desc *needs, float roughness, bool is_textured, bool is_widened)
 {
     float most = roughness;
@@ -39,8 +39,8 @@ static void add_lobe(ibl_light_desc *needs, float roughness, bool is_textured, b
     add_range(needs, is_textured ? 0.0f : roughness, most);
 }
 
-/* Layers look up with their own roughness; rays that passed a surface with anything up to what several of them make of
- * a lobe, and see what a camera sees. */
+/* Layers look up with their own roughness; refracted rays with anything up to the combination of several lobes,
+ * and they see what a camera sees. */
 static void add_layers(ibl_light_desc *needs, const scene_material *m, const facet_render_desc *desc)
 {
     uint32_t layers = material_plan_layers(m);
@@ -75,7 +75,7 @@ static void add_material(ibl_light_desc *needs, const scene_material *material, 
         add_lobe(needs, material->perceptual_roughness, is_textured, false);
     if (desc->has_specular_antialiasing)
         add_lobe(needs, needs->max_roughness, false, true);
-    /* A metal scatters no light below its surface; the conserving mode takes multiple scattering from it. */
+    /* A metal does not scatter light below its surface; the conserving mode reads it for multiple scattering. */
     if (is_glossy || !is_entirely_metallic(material) || light_energy(desc) == FACET_ENERGY_CONSERVING)
         needs->needs_irradiance = true;
     add_layers(needs, material, desc);
@@ -85,11 +85,11 @@ static ibl_light_desc light_needs(const render_geometry_set *set, const camera_r
                                   const facet_render_desc *desc)
 {
     ibl_light_desc needs = {.thread_count = desc->thread_count, .min_roughness = 1.0f};
-    bool is_path = desc->renderer == FACET_RENDERER_KIND_PATH; /* whose paths meet the picture itself */
+    bool is_path = desc->renderer == FACET_RENDERER_KIND_PATH; /* its paths read the image itself */
     for (uint32_t i = 0; i < set->count && !is_path; i++)
         if (set->items[i].is_lit)
             add_material(&needs, set->items[i].material, desc);
-    if (desc->ground == FACET_GROUND_SHADOW && !is_path) /* of which a sun's shadow is a share */
+    if (desc->ground == FACET_GROUND_SHADOW && !is_path) /* a sun's shadow is a share of it */
         needs.needs_irradiance = true;
     if (desc->background == FACET_BACKGROUND_ENVIRONMENT) {
         if (desc->background_blur > 0.0f)
@@ -126,7 +126,7 @@ static Light posed_light(const scene_posed_light *posed)
     return light_point(position, intensity, l->range);
 }
 
-/* A sun without size; false: there is none, or paths meet its disc. */
+/* A sun without size; false: there is none, or paths hit its disc. */
 static bool preview_sun(const facet_render_desc *desc, Light *out)
 {
     const facet_sun *sun = &desc->sun;
@@ -204,7 +204,7 @@ static bool shines(const render_geometry *g)
     return !g->is_lit || (e[0] + e[1] + e[2]) * g->material->emissive_strength > 0.0f;
 }
 
-/* A picture that is black because nothing shines is rarely meant. */
+/* A black image because nothing emits light is rarely intended. */
 void light_setup_warn_dark(const light_setup *light, const render_geometry_set *set,
                            const facet_render_desc *desc)
 {
@@ -223,7 +223,7 @@ void light_setup_warn_dark(const light_setup *light, const render_geometry_set *
 
 /* ---- lookups ---- */
 
-/* World to environment: the environment is turned from +Z towards +X, so the direction is turned back. */
+/* From world to environment: the environment is rotated from +Z towards +X, so the direction is rotated back. */
 static void to_environment(const light_setup *light, const float d[3], float out[3])
 {
     out[0] = d[0] * light->rotation_cos - d[2] * light->rotation_sin;

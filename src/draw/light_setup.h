@@ -18,16 +18,17 @@ typedef struct light_setup {
     light_grid grid; /* which of them reach a point */
 } light_setup;
 
-/* The energy mode that a render's surfaces are shaded with: FACET_BRDF_MULTISCATTER conserves whatever desc->energy says. */
+/* The energy mode of a render's surfaces: FACET_BRDF_MULTISCATTER conserves energy whatever desc->energy says. */
 facet_energy light_energy(const facet_render_desc *desc);
 
-/* Prepares what the materials of the drawn geometries and the background read; with FACET_SHADING_OGL1 the punctual
- * lights only, with FACET_RENDERER_KIND_PATH those and a blurred background. Fails as ibl_light_prepare(). */
+/* Prepares what the materials of the drawn geometries and the background read; with FACET_SHADING_OGL1 the
+ * punctual lights only, with FACET_RENDERER_KIND_PATH those and a blurred background. Fails as
+ * ibl_light_prepare(). */
 facet_result light_setup_create(const render_geometry_set *set, const scene_pose *pose,
                                 const camera_rays *camera, const facet_render_desc *desc, light_setup *out,
                                 facet_error *error);
 void light_setup_destroy(light_setup *light); /* {0} is allowed */
-/* Warns of a picture that is black because nothing shines, which is rarely meant. */
+/* Warns of an image that is black because nothing emits light, which is rarely intended. */
 void light_setup_warn_dark(const light_setup *light, const render_geometry_set *set,
                            const facet_render_desc *desc);
 

@@ -1,4 +1,5 @@
-/* material_plan.c - see material_plan.h. Texels only scale a factor down: a layer whose factor is 0 is nowhere. */
+/* material_plan.c - see material_plan.h. Texels only scale a factor down: a layer whose factor is 0 is absent
+ * everywhere. */
 #include "draw/material_plan.h"
 
 #include "base/memory.h"
@@ -21,7 +22,8 @@ static bool is_black(const float color[3])
 
 /* ---- layers ---- */
 
-/* Layers below the surface of a dielectric. ior 0 stands for a surface that reflects all: nothing gets below it. */
+/* Layers below the surface of a dielectric. ior 0 means a surface that reflects everything: no light gets below
+ * it. */
 static uint32_t layers_below(const scene_material *m)
 {
     uint32_t layers = 0;
@@ -44,7 +46,7 @@ static uint32_t layers_below(const scene_material *m)
 uint32_t material_plan_layers(const scene_material *m)
 {
     if (has(m, SCENE_UNLIT | SCENE_SPECULAR_GLOSSINESS))
-        return 0; /* which no other extension goes with */
+        return 0; /* which excludes all other extensions */
     uint32_t layers = layers_below(m);
     if (has(m, SCENE_CLEARCOAT) && m->clearcoat > 0.0f)
         layers |= LAYER_CLEARCOAT;
@@ -78,7 +80,7 @@ static uint32_t textures_of_layers(uint32_t layers)
     if (layers & LAYER_DIFFUSE_TRANSMISSION) {
         bits |= BIT(SCENE_DIFFUSE_TRANSMISSION_TEXTURE) | BIT(SCENE_DIFFUSE_TRANSMISSION_COLOR_TEXTURE);
         if (layers & LAYER_VOLUME)
-            bits |= BIT(SCENE_THICKNESS_TEXTURE); /* rays that go straight through have real distances */
+            bits |= BIT(SCENE_THICKNESS_TEXTURE); /* straight rays have true distances */
     }
     return bits;
 }
@@ -105,8 +107,8 @@ uint32_t material_plan_textures(const render_geometry *g)
 
 /* ---- all ---- */
 
-/* A thin wall that blurs nothing, a body's boundary with the same ior on both sides: of a body of ior 1, or where
- * bodies overlap. */
+/* A thin wall without blur, or the boundary of a volume with the same ior on both sides: of a volume of ior 1, or
+ * where volumes overlap. */
 static bool may_pass_straight(const render_geometry *g, const material_plan *plan, bool has_several_volumes)
 {
     const scene_material *m = g->material;

@@ -103,15 +103,15 @@ facet_result ogl1_check(const facet_scene *scene, const facet_render_desc *desc,
 
 /* ---- colors ---- */
 
-/* A color of the file as it is computed with. */
+/* A color of the file in the values of the computation. */
 static vec3 computed(const ogl1_setup *s, const float color[3])
 {
     vec3 c = load3(color);
     return !s->is_encoded && s->are_colors_srgb ? linear_from_srgb(c) : c;
 }
 
-/* A color beside its map: what is not stated counts as 1, so that the map is seen; so does a diffuse color of black,
- * which most programs write for one that is all texture. */
+/* A color with a map: an unspecified one counts as 1, so that the map is visible; so does a black diffuse color,
+ * which most programs write for fully textured materials. */
 static vec3 color_beside_map(const ogl1_setup *s, const legacy_material *m, legacy_map_slot slot,
                              uint32_t field, const float color[3])
 {
@@ -138,7 +138,7 @@ static ogl1_material make_material(const ogl1_setup *s, const legacy_material *m
 
 /* ---- the view ---- */
 
-/* The rows of view are the picture's right, up and backward. */
+/* The rows of view are the image's right, up and backward. */
 static void set_view(ogl1_setup *s, const camera_rays *camera)
 {
     const float *dx = camera->is_orthographic ? camera->origin_dx : camera->direction_dx;
@@ -149,7 +149,7 @@ static void set_view(ogl1_setup *s, const camera_rays *camera)
 
 /* ---- lights ---- */
 
-/* origin: the scene's, as places of lights are in the file's coordinates. */
+/* origin: the scene's, as light positions are in the file's coordinates. */
 static PhongLight make_light(const ogl1_setup *s, const legacy_light *l, const double origin[3])
 {
     float w = l->is_point ? 1.0f : s->rules.direction_w;
@@ -165,8 +165,8 @@ static PhongLight make_light(const ogl1_setup *s, const legacy_light *l, const d
                        : phong_light_directional(position, ambient, diffuse, specular);
 }
 
-/* Where nothing shines: rgl's light. Its ambient part of 1 is meant for rgl's materials, which are black there; exporters
- * of MTL state a Ka of 1 or that of Kd, for the ambient light of 0.2 that OpenGL has by itself. */
+/* Where there are no lights: rgl's light. Its ambient part of 1 is meant for rgl's materials, whose ambient color
+ * is black; exporters of MTL write a Ka of 1 or equal to Kd, for OpenGL's default ambient light of 0.2. */
 static legacy_light fallback_light(const ogl1_setup *s)
 {
     legacy_light light = legacy_light_default();
@@ -206,7 +206,7 @@ static float fov_y(const camera_rays *camera, const facet_render_desc *desc)
                         : 2.0f * atanf(0.5f * (float)desc->height * camera->pixel_size);
 }
 
-/* Where the camera has no clipping distances they are rgl's, which touch the sphere around what is drawn. */
+/* Where the camera has no clipping distances they are rgl's, which enclose the bounding sphere of the scene. */
 static PhongFog make_fog(const ogl1_setup *s, const legacy_fog *fog, const scene_pose *pose,
                          const camera_rays *camera, const facet_render_desc *desc)
 {

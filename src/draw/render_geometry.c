@@ -23,7 +23,7 @@ static bool has_vertex_alpha(const scene_primitive *primitive)
     return false;
 }
 
-/* Whether some hit may let light through. A BLEND material without texture whose factor is 1 is opaque. */
+/* Whether some hit may be transparent. A BLEND material without texture whose factor is 1 is opaque. */
 static bool may_see_through(const scene_primitive *primitive, const scene_material *material)
 {
     if (material->alpha_mode == SCENE_ALPHA_OPAQUE)
@@ -32,7 +32,7 @@ static bool may_see_through(const scene_primitive *primitive, const scene_materi
            material->base_color[3] < 1.0f || has_vertex_alpha(primitive);
 }
 
-/* The same of a material of OpenGL 1: what its opacity is multiplied with. */
+/* The same of a material of OpenGL 1: its opacity includes these factors. */
 static bool may_see_through_legacy(const scene_primitive *primitive, const legacy_material *m)
 {
     bool has_texture_opacity = legacy_has_map(m, LEGACY_DIFFUSE_MAP) && m->texture_type != LEGACY_RGB &&
@@ -63,15 +63,15 @@ static float determinant9(const float m[9])
            m[2] * (m[3] * m[7] - m[4] * m[6]);
 }
 
-/* What a 3x3 matrix is scaled by so that its determinant becomes 1 or -1. */
+/* The scale of a 3x3 matrix that makes its determinant 1 or -1. */
 static float unit_volume(float determinant)
 {
     float scale = cbrtf(fabsf(determinant));
     return scale > 0.0f ? 1.0f / scale : 1.0f;
 }
 
-/* Normals and tangents are scaled alike, so that a normal map is as deep on a small node as on a large one; the normal
- * matrix comes with a scale of its own. */
+/* Normals and tangents are scaled alike, so that a normal map has the same depth on small and large nodes; the
+ * normal matrix has a scale of its own. */
 static void set_transform(render_geometry *g, const scene_instance *instance)
 {
     float vector_scale = unit_volume(mat4_determinant3(instance->world));
@@ -198,7 +198,7 @@ static float *make_vertices(const scene_instance *instance, const camera_rays *c
     const scene_primitive *primitive = instance->primitive;
     bool is_mesh = primitive->mode == SCENE_TRIANGLES;
     size_t count = is_mesh ? primitive->vertex_count : primitive->index_count;
-    /* One vertex more: Embree reads 16 bytes for the last three floats. */
+    /* One additional vertex: Embree reads 16 bytes for the last three floats. */
     transform_job job = {.instance = instance,
                          .camera = camera,
                          .out = mem_alloc(allocator, count + 1, (is_mesh ? 3 : 4) * sizeof(float))};
@@ -223,7 +223,7 @@ static facet_result copy_shapes(render_geometry_set *set, const facet_allocator 
     return FACET_OK;
 }
 
-/* Room for as many blocks as will be made. */
+/* Reserves as many blocks as will be made. */
 static facet_result reserve_blocks(render_geometry_set *set, const facet_allocator *allocator,
                                    facet_error *error)
 {

@@ -32,7 +32,7 @@ double render_watch_share(render_watch *w)
     return share < 1.0 ? share : 1.0;
 }
 
-/* A thread that finds another one telling goes on drawing. */
+/* A thread that finds another one reporting continues to draw. */
 static void report(render_watch *w)
 {
     if (!w->progress.report || render_watch_is_stopped(w) || atomic_flag_test_and_set(&w->is_reporting))

@@ -7,7 +7,7 @@
 #include "base/parallel.h"
 #include "base/result.h"
 
-/* The set of texture coordinates along which tangents go; SCENE_NONE: none are needed. That of the normal texture
+/* The set of texture coordinates that tangents follow; SCENE_NONE: none are needed. That of the normal texture
  * counts for all (KHR_materials_anisotropy, KHR_materials_clearcoat: one tangent space for a material). */
 static uint32_t tangent_texcoord(const render_geometry *g)
 {
@@ -86,7 +86,8 @@ static void make_tangents(void *context, size_t begin, size_t end)
     }
 }
 
-/* Writes what is missing, each once; returns its number. missing: room for all geometries that need tangents. */
+/* Writes the missing entries, each once; returns their number. missing: room for all geometries that need
+ * tangents. */
 static size_t collect_missing(const tangent_store *store, const render_geometry_set *set,
                               tangent_entry *missing)
 {

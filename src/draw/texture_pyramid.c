@@ -68,7 +68,7 @@ static size_t levels_size(const texture_pyramid *p, uint32_t first)
     return size;
 }
 
-/* Sets p->levels[level] and returns where its texels go in the block *at, which moves behind them. */
+/* Sets p->levels[level] and returns where its texels go in the block *at, which advances past them. */
 static unsigned char *place_level(texture_pyramid *p, uint32_t level, unsigned char **at)
 {
     unsigned char *texels = *at;
@@ -84,40 +84,40 @@ static unsigned char *place_level(texture_pyramid *p, uint32_t level, unsigned c
 
 enum { WINDOW_ROWS = 3 };
 
-/* A level while its rows come, from above. Three rows of 16 bits are all that is ever held of it. */
+/* A level whose rows arrive, from the top. Only three rows of 16 bits are kept of it. */
 typedef struct growing_level {
     uint32_t width, height;
     uint16_t *rows[WINDOW_ROWS]; /* row y is rows[y % WINDOW_ROWS] */
-    uint32_t next_row;           /* of the level below, which is not made yet */
-    unsigned char *out;          /* where its texels are kept; NULL: they are not */
+    uint32_t next_row;           /* of the next level, not made yet */
+    unsigned char *out;          /* where its texels are stored; NULL: nowhere */
 } growing_level;
 
-/* Levels are made row by row, all of them at once: as soon as a row has all that it covers of the level above, it
- * is there. So nothing but the result leaves the cache, and the source need not be held whole. */
+/* All levels are made row by row at the same time: a row is made as soon as the rows it covers are there. So only
+ * the result leaves the cache, and the source need not be held as a whole. */
 struct texture_growth {
     texture_pyramid *pyramid;
     uint32_t source_level;
     bool as_color;
     const texture_tables *tables;
-    uint16_t *work;                /* block of growth_room() values, shared out to room and levels */
+    uint16_t *work;                /* block of growth_room() values, divided into room and levels */
     uint16_t *room;                /* a row of the source */
     const unsigned char *source;   /* row y of the source is row y % source_rows here */
     size_t source_row_size;        /* bytes */
     uint32_t source_rows;          /* all, or WINDOW_ROWS while rows are added */
     unsigned char *window;         /* block of the latest rows that were added */
-    uint16_t *linear;              /* block: values of their codes; NULL: the codes stay */
-    uint32_t added_rows, next_row; /* next_row: of the level below the source, which is not made yet */
+    uint16_t *linear;              /* block: linear values of their codes; NULL: the codes are kept */
+    uint32_t added_rows, next_row; /* next_row: of the level after the source, not made yet */
     growing_level levels[TEXTURE_MAX_LEVELS];
 };
 typedef struct texture_growth growth;
 
-/* Values of a row of a level, with what texture_reduce_rows() writes behind it. */
+/* Values of a row of a level, with the overrun of texture_reduce_rows(). */
 static size_t row_room(const texture_pyramid *p, uint32_t level)
 {
     return (size_t)level_size(p->width, level) * p->channel_count + TEXTURE_ROW_TAIL;
 }
 
-/* Values that a growth works in. */
+/* Number of values that a growth works in. */
 static size_t growth_room(const texture_pyramid *p, uint32_t source_level)
 {
     size_t count = (1 + WINDOW_ROWS) * row_room(p, source_level);
@@ -126,7 +126,7 @@ static size_t growth_room(const texture_pyramid *p, uint32_t source_level)
     return count;
 }
 
-/* Keeps row y of a level that has come out in 16 bits. */
+/* Stores row y of a level, given in 16 bits. */
 static void store_row(const growth *g, const growing_level *level, uint32_t y)
 {
     const texture_pyramid *p = g->pyramid;
@@ -140,7 +140,7 @@ static void store_row(const growth *g, const growing_level *level, uint32_t y)
         texture_row_to_8(g->tables, g->as_color, row, level->width, p->channel_count, level->out + y * count);
 }
 
-/* Row y of level number has come: stores it and makes the rows below that now can be made. */
+/* Row y of a level has arrived: stores it and makes the rows of further levels that are now complete. */
 static void add_row(growth *g, uint32_t number, uint32_t y)
 {
     for (;;) {
@@ -162,7 +162,7 @@ static void add_row(growth *g, uint32_t number, uint32_t y)
     }
 }
 
-/* Makes row y of the level below the source. */
+/* Makes row y of the level after the source. */
 static void make_first_row(growth *g, uint32_t y)
 {
     const texture_pyramid *p = g->pyramid;
@@ -189,7 +189,7 @@ static void make_first_row(growth *g, uint32_t y)
     texture_reduce_rows(rows, covered, above->width, below->width, p->channel_count, g->room, out);
 }
 
-/* Makes and stores what the source's first row_count rows, and no fewer, are enough for. */
+/* Makes and stores everything that the source's first row_count rows suffice for. */
 static void grow(growth *g, uint32_t row_count)
 {
     const uint32_t first = g->source_level + 1;
@@ -202,7 +202,8 @@ static void grow(growth *g, uint32_t row_count)
     }
 }
 
-/* Takes the memory for growing p below source_level, where there is a level. On failure growth_end() releases it. */
+/* Allocates what growing p from source_level on needs, where there is a further level. On failure growth_end()
+ * releases it. */
 static facet_result growth_begin(growth *g, texture_pyramid *p, uint32_t source_level, bool as_color,
                                  const texture_tables *tables, const facet_allocator *allocator,
                                  facet_error *error)
@@ -237,7 +238,7 @@ static void growth_end(growth *g)
     mem_free(g->linear);
 }
 
-/* Images that have red show it soon; only those without are looked at to the end. */
+/* Images that have red usually show it early; only those without are scanned to the end. */
 static bool lacks_red(const texture_pyramid *p)
 {
     const texture_level *l = &p->levels[p->first_level];
@@ -266,7 +267,7 @@ static texture_pyramid describe(const image *source, uint32_t width, uint32_t he
                              .alpha_values = tables->data};
 }
 
-/* Whether codes have to be made linear before they are averaged: only those of 8 bits have tables for that. */
+/* Whether codes must be made linear before they are averaged: only those of 8 bits have tables for that. */
 static bool is_coded_16(const image *source, bool as_color)
 {
     return as_color && source->type == IMAGE_U16 && source->is_srgb;
@@ -314,7 +315,7 @@ done:
     return result;
 }
 
-/* ---- from rows as they come ---- */
+/* ---- row by row ---- */
 
 facet_result texture_growth_create(const image *header, uint32_t first_level, bool as_color,
                                    const texture_tables *tables, const facet_allocator *allocator,

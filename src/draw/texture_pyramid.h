@@ -1,15 +1,16 @@
-/* texture_pyramid.h - the mips of one image, kept for reading it as colors or as data. */
+/* texture_pyramid.h - the mips of one image, stored for reading it as colors or as data. */
 #ifndef DRAW_TEXTURE_PYRAMID_H
 #define DRAW_TEXTURE_PYRAMID_H
 
 #include "image/image.h"
 
 enum { TEXTURE_MAX_LEVELS = 32 };
-#define TEXTURE_BLACK (4.0f / 255.0f) /* what lossy codecs make of 0, and no light that one sees */
+/* the error of lossy codecs around 0, and an invisible amount of light */
+#define TEXTURE_BLACK (4.0f / 255.0f)
 
-/* What 8-bit codes stand for, and back. One per texture_set. */
+/* Conversion tables from and to 8-bit codes. One per texture_set. */
 typedef struct texture_tables {
-    float color[256], data[256];        /* linear value of a code, read as sRGB and as it is */
+    float color[256], data[256];        /* linear value of a code, read as sRGB and as data */
     uint16_t color16[256], data16[256]; /* the same times 65535, rounded */
     unsigned char color_from_16[65536]; /* code of a linear color times 65535 */
 } texture_tables;
@@ -19,24 +20,24 @@ void texture_tables_fill(texture_tables *tables);
 typedef struct texture_level {
     const unsigned char *texels; /* rows without padding */
     uint32_t width, height;
-    float size[2]; /* the same, for lookups to load */
+    float size[2]; /* the same as floats, for sampling */
 } texture_level;
 
-/* Level n has max(1, size >> n) texels along an edge of size texels, as in OpenGL. 8-bit images keep their codes
- * (colors in sRGB); 16-bit ones are linear, whatever they were. */
+/* Level n has max(1, size >> n) texels along an axis of size texels, as in OpenGL. 8-bit images keep their codes
+ * (colors in sRGB); 16-bit ones are always linear. */
 typedef struct texture_pyramid {
     uint32_t width, height;            /* of the full image, level 0 */
     float texel_size[2];               /* 1 / width, 1 / height */
-    uint32_t first_level, level_count; /* levels first_level to level_count - 1 are there */
+    uint32_t first_level, level_count; /* levels first_level to level_count - 1 exist */
     uint32_t channel_count;
     image_type type; /* IMAGE_U8 or IMAGE_U16 */
     bool lacks_red;  /* of data: no texel of the finest level has red above TEXTURE_BLACK */
-    const float *color_values, *alpha_values; /* IMAGE_U8: what the codes stand for */
+    const float *color_values, *alpha_values; /* IMAGE_U8: values of the codes */
     texture_level levels[TEXTURE_MAX_LEVELS];
     void *blocks[2]; /* of mem_alloc(): the finest level, the others */
 } texture_pyramid;
 
-/* How many levels an image of that size has. */
+/* Number of levels of an image of that size. */
 uint32_t texture_level_count(uint32_t width, uint32_t height);
 
 /* Builds the levels from first_level on.
@@ -55,12 +56,12 @@ facet_result texture_pyramid_create(image *source, uint32_t source_level, uint32
                                     const facet_allocator *allocator, texture_pyramid *out,
                                     facet_error *error);
 
-/* The same pyramid from an image of which one row after the other is known, as a decoder gives them: what is held besides
- * the result is a few rows. */
+/* The same pyramid from an image that arrives row by row, as from a decoder: only a few rows are held besides the
+ * result. */
 typedef struct texture_growth texture_growth;
 
 /* header: the whole image (level 0), U8 or U16; its pixels are not read. first_level: at least 1, less than
- * texture_level_count(). out stays in its place until it is complete. Fails with FACET_ERROR_MEMORY. */
+ * texture_level_count(). out must not move until it is complete. Fails with FACET_ERROR_MEMORY. */
 facet_result texture_growth_create(const image *header, uint32_t first_level, bool as_color,
                                    const texture_tables *tables, const facet_allocator *allocator,
                                    texture_pyramid *out, texture_growth **grown, facet_error *error);

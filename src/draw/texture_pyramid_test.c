@@ -1,4 +1,4 @@
-/* Tests of texture_pyramid.h: means in the right space, odd edges, levels left out. */
+/* Tests of texture_pyramid.h: means in the right space, odd sizes, omitted levels. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -117,7 +117,7 @@ static void colors_are_averaged_in_linear_light(void **state)
         }
 }
 
-/* Sixteen bits are linear once they are in: half way between black and white is the mean of both. */
+/* Sixteen-bit texels are linear once decoded: the mean of black and white is half way in linear light. */
 static void sixteen_bits_stay(void **state)
 {
     (void)state;
@@ -205,7 +205,7 @@ static image take_channel(const image *from, uint32_t channel)
     return i;
 }
 
-/* Each channel is reduced as if it were alone, alpha as data, whatever loops a format and a size have. */
+/* Each channel is reduced independently, alpha as data, whatever loops a format and a size use. */
 static void channels_are_independent(void **state)
 {
     (void)state;
@@ -235,7 +235,7 @@ static void channels_are_independent(void **state)
     }
 }
 
-/* What is left out changes nothing about what is kept. */
+/* Omitting levels does not change the others. */
 static void levels_do_not_depend_on_the_first(void **state)
 {
     (void)state;
@@ -257,7 +257,7 @@ static void levels_do_not_depend_on_the_first(void **state)
         }
 }
 
-/* A decoder may give level 2 instead of the full image. */
+/* A decoder may provide level 2 instead of the full image. */
 static void pyramids_start_at_any_level(void **state)
 {
     (void)state;
@@ -353,7 +353,7 @@ static void assert_same_levels(const texture_pyramid *a, const texture_pyramid *
     }
 }
 
-/* Rows that come one after the other give what the whole image gives. */
+/* Adding row by row gives the same as the whole image. */
 static void rows_give_the_same_pyramid(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* texture_reduce.c - see texture_reduce.h. Loops run over values that are neighbours and in 16 bits where that is
- * exact, so that every x86-64 has vector instructions for them. */
+/* texture_reduce.c - see texture_reduce.h. Loops run over adjacent values, in 16 bits where that is exact, so that
+ * every x86-64 has vector instructions for them. */
 #include "draw/texture_reduce.h"
 
 #include <string.h>
@@ -52,7 +52,7 @@ void texture_row_from_8(const texture_tables *tables, bool as_color, const unsig
 #undef FROM_8
 }
 
-/* (v + 128) / 257, the nearest code. With q = (v + 128) / 256 it is (v + 128 - q) / 256, all of which fits. */
+/* (v + 128) / 257, the nearest code. With q = (v + 128) / 256 it is (v + 128 - q) / 256, which does not overflow. */
 INLINE unsigned char data_to_8(uint16_t v)
 {
     uint16_t q = (uint16_t)((v >> 8) + (v >> 7 & 1));
@@ -86,7 +86,7 @@ void texture_row_to_8(const texture_tables *tables, bool as_color, const uint16_
 /* Every second texel of means, which are of each texel and its right neighbour. */
 INLINE void keep_even_texels(const uint16_t *means, uint32_t width, uint32_t channel_count, uint16_t *out)
 {
-    /* Three values are moved as four: the next texel overwrites the one too many. */
+    /* Three values are moved as four: the next texel overwrites the fourth. */
     size_t moved = channel_count == 3 ? 4 : channel_count;
     for (size_t x = 0; x < width; x++)
         memcpy(out + x * channel_count, means + 2 * x * channel_count, moved * sizeof *out);
@@ -98,7 +98,7 @@ static void keep_even(const uint16_t *means, uint32_t width, uint32_t channel_co
 #undef KEEP
 }
 
-/* (a + b + c + d + 2) / 4 of 16-bit values: of the quarters, and of what they leave. */
+/* (a + b + c + d + 2) / 4 of 16-bit values: from the quarters and their remainders. */
 INLINE uint16_t mean4(uint16_t a, uint16_t b, uint16_t c, uint16_t d)
 {
     uint16_t quarters = (uint16_t)((a >> 2) + (b >> 2) + (c >> 2) + (d >> 2));
@@ -153,7 +153,7 @@ void texture_halve_codes(const texture_tables *tables, bool as_color, const unsi
 #undef HALVE
 }
 
-/* ---- edges of any size ---- */
+/* ---- sizes of any parity ---- */
 
 /* An odd size = 2 n + 1 gives n texels, each of which covers 2 + 1 / n: (n - i) / n of the first one, all of the
  * second and (i + 1) / n of the third. */

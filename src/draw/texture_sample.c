@@ -1,5 +1,6 @@
-/* texture_sample.c - filtered lookups; see texture.h. Trilinear lookups with anisotropic probes, the common case, sample several
- * textures at once, on both levels at the same time, in eight lanes; the rarer filters take one texture at a time. */
+/* texture_sample.c - filtered lookups; see texture.h. Trilinear lookups with anisotropic probes, the common case,
+ * sample several textures together, on both levels at the same time, in eight lanes; the rarer filters sample one
+ * texture at a time. */
 #include "draw/texture_set.h"
 
 #include <math.h>
@@ -21,11 +22,11 @@ typedef struct level_pair {
     float fraction;
 } level_pair;
 
-/* The lod log2(sqrt(width_2)) as levels that are there; width_2 > 0 and normal.
+/* The lod log2(sqrt(width_2)) as existing levels; width_2 > 0 and normal.
  *
- * Which levels they are comes from the exponent of width_2 alone, so that fetching need not wait for the logarithm.
- * That is right to 6e-5: far below what a lod shows. With the mantissa 1 + t it is t and a correction that vanishes
- * at both ends, so that octaves join. */
+ * The level numbers depend on the exponent of width_2 alone, so that fetching need not wait for the logarithm,
+ * which is accurate to 6e-5: far below what is visible. With the mantissa 1 + t it is t and a correction that
+ * vanishes at both ends, so that octaves join. */
 INLINE level_pair get_levels(const texture_pyramid *p, float width_2)
 {
     uint32_t bits;
@@ -45,7 +46,7 @@ INLINE level_pair get_levels(const texture_pyramid *p, float width_2)
     return (level_pair){.first = (uint32_t)first, .second = (uint32_t)first + 1, .fraction = fraction};
 }
 
-/* Where the pixel lands in the image. False: it has no finite size. */
+/* The pixel's footprint in the image. False: it has no finite size. */
 INLINE bool get_footprint(const texture_pyramid *p, const float duv_dx[2], const float duv_dy[2],
                           Footprint *f)
 {
@@ -64,8 +65,8 @@ typedef int32_t int4 __attribute__((vector_size(16)));
 
 /* ---- coordinates ---- */
 
-/* Texture coordinate u of any value, NaN and infinity too, to [0, 1] of the image as wrap has it. Beyond 2^23 floats
- * have no fraction. */
+/* Maps a texture coordinate u of any value, including NaN and infinity, to [0, 1] of the image by the wrap mode.
+ * Beyond 2^23 floats have no fraction. */
 INLINE float wrap_coordinate(float u, scene_wrap wrap)
 {
     if (wrap == SCENE_WRAP_CLAMP)
@@ -116,15 +117,15 @@ INLINE float4 fetch(const texture_pyramid *p, const unsigned char *texels, size_
                             : fetch_16(texels + index * channel_count * 2, channel_count);
 }
 
-/* ---- trilinear: where the probes read ---- */
+/* ---- trilinear: positions of the probes ---- */
 
 typedef uint32_t uint8 __attribute__((vector_size(32)));
 typedef int32_t int8 __attribute__((vector_size(32)));
 
-/* Texel numbers of one probe, of the finer and the coarser level, and the weights of the second texels. */
+/* Texel indices of one probe, of the finer and the coarser level, and the weights of the second texels. */
 typedef struct probe_taps {
     int4 above;      /* left, right of the finer level, left, right of the coarser one */
-    int4 below;      /* the row under it */
+    int4 below;      /* the row below it */
     float4 fraction; /* u, v of the finer level, u, v of the coarser one */
 } probe_taps;
 
@@ -132,7 +133,7 @@ typedef struct probe_taps {
 typedef struct level_pair_view {
     float4 size;
     int4 int_size;
-    int4 wrap_step; /* from behind an edge to where it goes on: the size where the axis repeats, else 1 */
+    int4 wrap_step; /* from beyond an edge to where it continues: the size where the axis repeats, else 1 */
     int4 stride;    /* width of the level */
 } level_pair_view;
 
@@ -152,7 +153,7 @@ INLINE level_pair_view view_levels(const texture_binding *b, const texture_pyram
     return view;
 }
 
-/* The taps at (u, v) in [0, 1]: what get_taps() in texture_sample.c does, for four coordinates. */
+/* The taps at (u, v) in [0, 1]: as get_taps(), for four coordinates. */
 INLINE probe_taps place_taps(const level_pair_view *view, float u, float v)
 {
     float4 x = (float4){u, v, u, v} * view->size - 0.5f;
@@ -168,26 +169,27 @@ INLINE probe_taps place_taps(const level_pair_view *view, float u, float v)
     return taps;
 }
 
-/* ---- trilinear: what they read ---- */
+/* ---- trilinear: texels ---- */
 
 /* Two texels of three or four 8-bit channels, one of each level.
  *
- * Colors are linear. Data stays where it is in the four bytes, so channel c comes out as 256^c times its code, which
- * a float has room for; data_scale() undoes that after blending, to the same bits. */
+ * Colors are linear. Data stays in its place in the four bytes, so channel c is 256^c times its code, which is
+ * exact in a float; data_scale() undoes that after blending, with identical bits. */
 INLINE void fetch_two(const texture_pyramid *p, const unsigned char *a, const unsigned char *b,
                       uint32_t channel_count, bool is_data, float8 *out)
 {
     if (is_data) {
         uint32_t s;
         uint32_t t;
-        memcpy(&s, a, sizeof s); /* of three channels a byte more: MEM_TAIL allows it */
+        memcpy(&s, a, sizeof s); /* for three channels one byte more: MEM_TAIL allows it */
         memcpy(&t, b, sizeof t);
         uint8 texels = {s, s, s, s, t, t, t, t};
         if (channel_count == 3) {
             texels &= (uint8){0xff, 0xff00, 0xff0000, 0, 0xff, 0xff00, 0xff0000, 0};
             texels |= (uint8){0, 0, 0, 255, 0, 0, 0, 255};
             *out = __builtin_convertvector((int8)texels, float8);
-        } else { /* the fourth one would be a sign: it is taken down by half its range and lifted again */
+            /* the top bit of the fourth would be a sign: half of its range is subtracted and added again */
+        } else {
             texels &= (uint8){0xff, 0xff00, 0xff0000, 0xff000000, 0xff, 0xff00, 0xff0000, 0xff000000};
             texels ^= (uint8){0, 0, 0, 0x80000000, 0, 0, 0, 0x80000000};
             *out =
@@ -203,7 +205,7 @@ INLINE void fetch_two(const texture_pyramid *p, const unsigned char *a, const un
                     color[b[0]], color[b[1]], color[b[2]], alpha[opacity_b]};
 }
 
-/* From what fetch_two() makes of data to [0, 255]. */
+/* From data as fetch_two() returns it to [0, 255]. */
 INLINE float4 data_scale(uint32_t channel_count)
 {
     return (float4){1.0f, 0x1p-8f, 0x1p-16f, channel_count == 3 ? 1.0f : 0x1p-24f};
@@ -323,8 +325,8 @@ static inline bool is_alike(const texture_binding *a, const texture_pyramid *p, 
            p->first_level == q->first_level;
 }
 
-/* The two texels of an edge between whose centers a coordinate in [0, 1] lies, and how far. Clamped and mirrored
- * edges continue with their last texel. */
+/* The two adjacent texels whose centers enclose a coordinate in [0, 1], and the weight of the second. Clamped and
+ * mirrored edges repeat their last texel. */
 typedef struct taps {
     int32_t first, second;
     float fraction;
@@ -407,7 +409,7 @@ static float4 sample_minified(const texture_binding *b, const texture_pyramid *p
         return look_up(b, p, p->first_level, b->min_filter, u, v);
     level_pair levels = get_levels(p, f->longest2);
     if (b->mip_filter ==
-        SCENE_MIP_NEAREST) /* at lod + 1/2 exactly it is the finer one: OpenGL 4.6, equation 8.16 */
+        SCENE_MIP_NEAREST) /* at lod + 1/2 exactly the finer one: OpenGL 4.6, equation 8.16 */
         return look_up(b, p, levels.fraction > 0.5f ? levels.second : levels.first, b->min_filter, u, v);
     float4 fine = look_up(b, p, levels.first, b->min_filter, u, v);
     float4 coarse = look_up(b, p, levels.second, b->min_filter, u, v);
@@ -419,8 +421,8 @@ static bool is_trilinear(const texture_binding *b)
     return b->mip_filter == SCENE_MIP_LINEAR && b->min_filter == SCENE_FILTER_LINEAR;
 }
 
-/* Whether the magnification filter applies: up to lod 0, or 0.5 where minification is coarser by a nearest filter
- * (OpenGL ES 3.0, section 3.8.11). */
+/* Whether the magnification filter applies: up to lod 0, or 0.5 where minification with a nearest filter is
+ * coarser (OpenGL ES 3.0, section 3.8.11). */
 static bool is_magnified(const texture_binding *b, const Footprint *f)
 {
     bool has_mips = b->mip_filter != SCENE_MIP_NONE;
@@ -439,7 +441,7 @@ static const texture_pyramid *find_pyramid(const texture_set *set, const texture
     return request->as_color ? b->color : b->data;
 }
 
-/* Looks up requests[first] and all those behind it that are alike; returns them as bits. */
+/* Samples requests[first] and all later ones that are alike; returns them as bits. */
 static uint32_t sample_alike(const texture_set *set, texture_request *requests, uint32_t first,
                              uint32_t count, const float uv[2], const Footprint *f)
 {

@@ -106,7 +106,7 @@ static void what_is_missing_is_white(void **state)
     const float zero[2] = {0.0f, 0.0f};
     const float white[4] = {1.0f, 1.0f, 1.0f, 1.0f};
     float out[4];
-    texture_sample(&f.set, 0, false, zero, zero, zero, out); /* not there as data */
+    texture_sample(&f.set, 0, false, zero, zero, zero, out); /* not available as data */
     assert_memory_equal(out, white, sizeof white);
     texture_sample(&f.set, 7, true, zero, zero, zero, out);
     assert_memory_equal(out, white, sizeof white);
@@ -117,7 +117,7 @@ static void what_is_missing_is_white(void **state)
 
 /* ---- one level ---- */
 
-/* The texel that OpenGL reads for index i of an edge of n texels (OpenGL 4.6, table 8.20). */
+/* The texel that OpenGL reads for index i of an axis of n texels (OpenGL 4.6, table 8.20). */
 static int wrap_index(int i, int n, scene_wrap wrap)
 {
     if (wrap == SCENE_WRAP_CLAMP)
@@ -266,7 +266,7 @@ static void set_up_staircase(fixture *f, uint32_t width, uint32_t height)
     }
 }
 
-/* The level that a lookup read, real where it read two. */
+/* The level that a lookup read, fractional where it read two. */
 static float get_lod(const fixture *f, const float dx[2], const float dy[2])
 {
     float out[4];
@@ -363,9 +363,10 @@ static void stretched_footprints_keep_what_is_across(void **state)
         float u = (4.0f * (float)stripe + 2.0f) / SIZE;
         texture_sample(&f.set, 0, false, (float[2]){u, 0.4f}, narrow, high, along);
         assert_float_equal(along[0], (stripe % 2 ? 1.0f : 0.0f), 0.01f);
-        texture_sample(&f.set, 0, false, (float[2]){u, 0.4f}, high, narrow, along); /* x and y are alike */
+        /* x and y are interchangeable */
+        texture_sample(&f.set, 0, false, (float[2]){u, 0.4f}, high, narrow, along);
         assert_float_equal(along[0], (stripe % 2 ? 1.0f : 0.0f), 0.01f);
-        /* The other way around the stripes average out. */
+        /* Rotated by 90 degrees the stripes average out. */
         texture_sample(&f.set, 0, false, (float[2]){u, 0.4f}, (float[2]){16.0f / SIZE, 0.0f},
                        (float[2]){0.0f, 1.0f / SIZE}, across);
         assert_float_equal(across[0], 0.5f, 0.1f);
@@ -373,7 +374,7 @@ static void stretched_footprints_keep_what_is_across(void **state)
     tear_down(&f);
 }
 
-/* Smooth noise: level 3 of white noise, blown up. */
+/* Smooth noise: level 3 of white noise, magnified. */
 static image make_smooth(uint32_t size)
 {
     image i = make_image(size, size, 1, IMAGE_U16);
@@ -429,7 +430,7 @@ static float integrate(const fixture *f, const float uv[2], const float dx[2], c
     return (float)(sum / 4096.0);
 }
 
-/* Against the true mean over the pixel, stretched and skewed lookups do better than isotropic ones, and well. */
+/* Against the true mean over the pixel, stretched and skewed lookups are better than isotropic ones, and accurate. */
 static void footprints_are_covered(void **state)
 {
     (void)state;
@@ -463,7 +464,7 @@ static void footprints_are_covered(void **state)
 
 /* ---- groups ---- */
 
-/* A group gives the bits that its textures give one by one, whatever is alike among them. */
+/* A group gives the same bits as its textures one by one, whatever they have in common. */
 static void groups_are_lookups_one_by_one(void **state)
 {
     (void)state;

@@ -1,10 +1,10 @@
-/* texture_set.c - which images a picture's textures show, and how. See texture.h. */
+/* texture_set.c - which images the textures of a render show, and how. See texture.h. */
 #include "draw/texture_set.h"
 
 #include "base/memory.h"
 #include "base/result.h"
 
-/* Collects what textures want of their images; returns the number of images that are read. wants:
+/* Collects what textures need of their images; returns the number of images that are read. wants:
  * scene->image_count of them, zero. */
 static size_t collect_wants(const facet_scene *scene, const texture_use *uses, texture_want *wants)
 {
@@ -15,7 +15,7 @@ static size_t collect_wants(const facet_scene *scene, const texture_use *uses, t
             continue;
         texture_want *want = &wants[texture->image];
         bool is_new = !want->is_read[0] && !want->is_read[1];
-        /* Without mips the full image is looked up, however small it is seen. */
+        /* Without mips the full image is read, at any distance. */
         float min_lod = texture->mip_filter == SCENE_MIP_NONE ? 0.0f : uses[t].min_lod;
         if (!(min_lod > 0.0f))
             min_lod = 0.0f;
@@ -26,7 +26,7 @@ static size_t collect_wants(const facet_scene *scene, const texture_use *uses, t
     return texture_wants_compact(wants, scene->image_count);
 }
 
-/* Connects textures with the pyramids. A finer level than this picture asked for is not looked at. */
+/* Connects textures with the pyramids. Levels finer than this render asked for are not used. */
 static void bind(texture_set *set, const facet_scene *scene, const texture_want *wants, size_t count)
 {
     for (size_t i = 0; i < count; i++)
@@ -54,7 +54,7 @@ static void bind(texture_set *set, const facet_scene *scene, const texture_want 
     }
 }
 
-/* From a store; owned: it goes with the set. */
+/* From a store; owned: released with the set. */
 static facet_result create(texture_store *store, const facet_scene *scene, const texture_use *uses,
                            const facet_allocator *allocator, const facet_log *log, uint32_t thread_count,
                            texture_set **out, facet_error *error)

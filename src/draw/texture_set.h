@@ -16,13 +16,13 @@ typedef struct texture_binding {
 struct texture_set {
     uint32_t binding_count, image_count;
     texture_binding *bindings; /* one per scene texture */
-    /* two per scene image: color, data; level_count 0: not there. Texels are the store's */
+    /* two per scene image: color, data; level_count 0: missing. The store owns the texels */
     texture_pyramid *pyramids;
-    texture_store *own_store; /* NULL: it stays behind */
+    texture_store *own_store; /* NULL: not owned */
     uint64_t decoded_texels;
 };
 
-/* texture_set_create() out of a store of the same scene, which outlives the set; one set at a time. */
+/* texture_set_create() from a store of the same scene, which must outlive the set; one set at a time. */
 facet_result texture_set_create_from(texture_store *store, const facet_scene *scene, const texture_use *uses,
                                      const facet_allocator *allocator, const facet_log *log,
                                      uint32_t thread_count, texture_set **out, facet_error *error);

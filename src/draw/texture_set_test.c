@@ -1,4 +1,4 @@
-/* Tests of texture_set_create(): what is decoded, how far, and what happens where it cannot be. */
+/* Tests of texture_set_create(): what is decoded, to which level, and what happens on failure. */
 #define _DEFAULT_SOURCE /* readdir() */
 #include <dirent.h>
 #include <math.h>
@@ -54,7 +54,7 @@ static void tear_down(fixture *f)
         mem_free(f->bytes[i]);
 }
 
-/* Soft waves, a different picture for each seed; no grain, so that JPEG keeps nearly all of it. */
+/* Smooth waves, a different image for each seed; without noise, so that JPEG preserves nearly all of it. */
 static image draw(uint32_t width, uint32_t height, uint32_t channel_count, uint32_t seed)
 {
     image i;
@@ -126,7 +126,7 @@ static void images_are_decoded_once(void **state)
     sample_middle(set, 0, true, color);
     sample_middle(set, 2, false, data);
     assert_float_equal(pow(((double)data[0] + 0.055) / 1.055, 2.4), color[0],
-                       0.01); /* one interpolates encoded */
+                       0.01); /* one interpolates encoded values */
     assert_float_equal(data[3], color[3], 1e-6f);
     sample_middle(set, 1, false, data); /* never asked for as data */
     assert_true(is_white(data));
@@ -204,7 +204,7 @@ static void reduced_images_are_their_mips(void **state)
     }
 }
 
-/* 100 is 25 times 4: reduced by 8, texels of a JPEG would stand between those of the mips. */
+/* 100 is 25 times 4: reduced by 8, texels of a JPEG would lie between those of the mips. */
 static void reductions_divide_the_image(void **state)
 {
     (void)state;
@@ -299,7 +299,7 @@ static void broken_images_are_white_with_a_warning(void **state)
     texture_set_destroy(set);
 
     f.warning_count = 0;
-    f.images[0].bytes = NULL; /* the reader has warned of it */
+    f.images[0].bytes = NULL; /* the reader has already warned of it */
     set = create(&f, 1);
     sample_middle(set, 0, true, texel);
     assert_true(is_white(texel));
@@ -317,7 +317,7 @@ static void broken_images_are_white_with_a_warning(void **state)
     tear_down(&f);
 }
 
-/* A float image is no texture, even where it can be decoded. */
+/* A float image is not a texture, even where it can be decoded. */
 static void float_images_are_white_with_a_warning(void **state)
 {
     (void)state;
@@ -386,7 +386,7 @@ static void sizes_are_those_of_the_full_image(void **state)
     float size[2];
     assert_true(texture_full_size(&f.scene, 0, size));
     assert_true(size[0] == 48.0f && size[1] == 24.0f);
-    f.images[0].width = 7; /* what the reader found out is believed */
+    f.images[0].width = 7; /* the reader's result is trusted */
     f.images[0].height = 9;
     assert_true(texture_full_size(&f.scene, 0, size));
     assert_true(size[0] == 7.0f && size[1] == 9.0f);
@@ -414,14 +414,14 @@ static void every_refused_block_is_an_error(void **state)
             assert_true(count > 12);
             break;
         }
-        /* A codec library that cannot say what failed makes it a broken image. */
+        /* A codec library that does not say what failed makes it a broken image. */
         assert_true(result == FACET_ERROR_MEMORY || f.warning_count == 1);
         f.warning_count = 0;
     }
     tear_down(&f);
 }
 
-/* Looks the picture up in all ways, reduced and not. */
+/* Reads the image in all ways, reduced and not. */
 static void use_as_texture(const char *path)
 {
     file_bytes file;

@@ -9,10 +9,10 @@
 #include "base/parallel.h"
 #include "base/result.h"
 
-/* An image as one reduction of its decoder gives it. */
+/* An image as decoded with one reduction. */
 typedef struct stored_image {
     uint32_t reduction;    /* what the decoder was allowed */
-    uint32_t source_level; /* what it took: less, where it cannot do more */
+    uint32_t source_level; /* what it used: less, where it does not support more */
     texture_pyramid pyramids[2];
     struct stored_image *next;
 } stored_image;
@@ -111,8 +111,8 @@ static bool find_reduction(const image *header, const image *decoded, uint32_t *
     return false;
 }
 
-/* The largest reduction up to wanted that divides both edges: only then the reduced picture shows the same part
- * of the plane as the full one, and its texels stand where the mips' texels stand. */
+/* The largest reduction up to wanted that divides both sizes: only then the reduced image covers the same area as
+ * the full one, with texels aligned to those of the mips. */
 static uint32_t get_exact_reduction(const image_record *record, uint32_t wanted)
 {
     uint32_t edges = record->header.width | record->header.height;
@@ -123,7 +123,7 @@ static uint32_t get_exact_reduction(const image_record *record, uint32_t wanted)
     case IMAGE_CODEC_TGA:
     case IMAGE_CODEC_BMP:
     case IMAGE_CODEC_GIF:
-    case IMAGE_CODEC_DDS: /* come whole */
+    case IMAGE_CODEC_DDS: /* decoded as a whole */
         return 0;
     default:
         break;
@@ -194,7 +194,7 @@ static facet_result decode(const texture_store *store, job *j, const char *name,
         return fail(&j->error, FACET_ERROR_UNSUPPORTED,
                     "%s: expected an image of 8 or 16 bits per channel, this is %s", name,
                     image_codec_name(record->codec));
-    /* Floats, which glTF does not have: in [0, 1], coded as what reads them expects. */
+    /* Floats, which glTF does not have: in [0, 1], coded as their readers expect. */
     image codes;
     result = image_convert(out, &store->allocator, 1, out->channel_count, IMAGE_U16, !j->want->is_read[0],
                            &codes, &j->error);
@@ -203,7 +203,7 @@ static facet_result decode(const texture_store *store, job *j, const char *name,
     return result;
 }
 
-/* Pyramids from first_level on of those ways of reading that is_read asks for. */
+/* Pyramids from first_level on of the ways of reading that is_read asks for. */
 static facet_result build(const texture_store *store, job *j, const bool is_read[2], uint32_t first_level,
                           const image *header, image *decoded, stored_image *out)
 {
@@ -220,8 +220,8 @@ static facet_result build(const texture_store *store, job *j, const bool is_read
     return result;
 }
 
-/* What is stored under that reduction; NULL: nothing. A decoder that took less than it was allowed takes no more when
- * it is allowed more. */
+/* What is stored under that reduction; NULL: nothing. A decoder that used less than it was allowed does not use
+ * more when allowed more. */
 static stored_image *find_stored(const image_record *record, uint32_t reduction)
 {
     for (stored_image *s = record->stored; s; s = s->next)
@@ -239,7 +239,7 @@ static bool has_all(const stored_image *s, const texture_want *want)
     return true;
 }
 
-/* Makes what want asks for, and what is stored of the image already: it takes its place. */
+/* Makes what want asks for, and what is stored of the image already, which it replaces. */
 static void run_job(const texture_store *store, job *j)
 {
     if (j->result != FACET_OK)
@@ -291,7 +291,7 @@ static void run_jobs(void *context, size_t begin, size_t end)
 
 /* ---- all images ---- */
 
-static int compare_jobs(const void *a, const void *b) /* the largest first: it must not come last */
+static int compare_jobs(const void *a, const void *b) /* the largest first, so that it does not finish last */
 {
     const job *first = a;
     const job *second = b;
@@ -305,7 +305,7 @@ static int compare_images(const void *a, const void *b)
     return ((const job *)a)->want->image < ((const job *)b)->want->image ? -1 : 1;
 }
 
-/* Reads the header where that was not done; writes want->first_level. */
+/* Reads the header if not done yet; writes want->first_level. */
 static facet_result read_header(texture_store *store, texture_want *want, facet_error *error)
 {
     image_record *record = &store->records[want->image];
@@ -326,7 +326,7 @@ static facet_result read_header(texture_store *store, texture_want *want, facet_
     return FACET_OK;
 }
 
-/* One job for each want that nothing answers. */
+/* One job for each want that nothing stored answers. */
 static size_t collect_jobs(texture_store *store, texture_want *wants, size_t count, job *jobs)
 {
     size_t job_count = 0;
@@ -348,7 +348,7 @@ static size_t collect_jobs(texture_store *store, texture_want *wants, size_t cou
     return job_count;
 }
 
-/* Puts what was made in the place of what it contains. */
+/* Replaces what a new image contains by it. */
 static void keep(image_record *record, stored_image *made)
 {
     stored_image **place = &record->stored;
@@ -356,13 +356,14 @@ static void keep(image_record *record, stored_image *made)
         place = &(*place)->next;
     stored_image *old = *place;
     made->next = old ? old->next : NULL;
-    if (old && old->reduction > made->reduction) /* what it tells of the decoder stays known */
+    if (old && old->reduction > made->reduction) /* what is known of the decoder is kept */
         made->reduction = old->reduction;
     *place = made;
     destroy_stored(old);
 }
 
-/* Reports the notes of images, and warns of those that cannot be decoded; fails for those that say more of the machine than of the image. */
+/* Reports the notes of images, and warns of those that cannot be decoded; fails for errors of the machine rather
+ * than of the image. */
 static facet_result report_jobs(texture_store *store, const job *jobs, size_t count, const facet_log *log,
                                 facet_error *error)
 {

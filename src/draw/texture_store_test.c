@@ -1,4 +1,4 @@
-/* Tests of texture_store.c: textures out of a store are those of a set of their own, and nothing is decoded twice. */
+/* Tests of texture_store.c: textures of a store equal those of a separate set, and nothing is decoded twice. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -29,7 +29,7 @@ static void note_warning(void *user, facet_log_level level, const char *text)
     ((fixture *)user)->warning_count++;
 }
 
-/* Grain, so that a reduced JPEG differs from the mips of the whole one. */
+/* With noise, so that a reduced JPEG differs from the mips of the whole one. */
 static void encode(scene_image *out, uint32_t width, uint32_t height, image_codec codec)
 {
     image i;
@@ -48,7 +48,7 @@ static void encode(scene_image *out, uint32_t width, uint32_t height, image_code
     image_destroy(&i);
 }
 
-/* Two JPEGs, one of which no decoder can reduce exactly, a PNG, and bytes that are no picture. */
+/* Two JPEGs, one of which no decoder can reduce exactly, a PNG, and bytes that are not an image. */
 static void set_up(fixture *f)
 {
     static const unsigned char nothing[] = "no image";
@@ -83,7 +83,7 @@ static void assert_same(const texture_pyramid *a, const texture_pyramid *b)
     }
 }
 
-/* Ways of use number n of many, each texture another one. */
+/* Uses of the n-th render, different for each texture. */
 static void choose_uses(fixture *f, uint32_t n)
 {
     for (uint32_t i = 0; i < IMAGE_COUNT; i++) {
@@ -118,7 +118,7 @@ static void a_store_gives_what_a_set_of_its_own_has(void **state)
         texture_set_destroy(fresh);
     }
     texture_store_destroy(store);
-    assert_int_equal(f.warning_count, 1); /* once, not for each picture */
+    assert_int_equal(f.warning_count, 1); /* once, not for each render */
     tear_down(&f);
 }
 
@@ -147,7 +147,7 @@ static void nothing_is_decoded_twice(void **state)
     tear_down(&f);
 }
 
-/* After a failure the store has what it had, and goes on. */
+/* After a failure the store has what it had, and stays usable. */
 static void a_store_survives_running_out_of_memory(void **state)
 {
     (void)state;
@@ -191,7 +191,7 @@ static void a_store_survives_running_out_of_memory(void **state)
     tear_down(&f);
 }
 
-/* A small image of a large PNG needs neither its texels nor its finest mips: 48 MiB here, 8 bits or 16. */
+/* A small render of a large PNG needs neither its texels nor its finest mips: 48 MiB here, 8 bits or 16. */
 static void large_images_are_not_held_whole(void **state)
 {
     (void)state;

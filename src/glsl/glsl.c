@@ -1,4 +1,4 @@
-/* glsl.c - the shader library as GLSL: all of it, or some parts with what they use. */
+/* glsl.c - the shader library as GLSL: all of it, or some parts with their dependencies. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,7 +19,7 @@ enum { PART_COUNT = sizeof parts / sizeof *parts };
 static const char *const versions[] = {"300 es", "310 es", "320 es", "330", "400", "410",
                                        "420",    "430",    "440",    "450", "460", NULL};
 
-/* ---- which parts use which ---- */
+/* ---- dependencies of parts ---- */
 
 static bool is_name_start(char c)
 {
@@ -42,7 +42,7 @@ static bool is_word(word w, const char *name)
     return strlen(name) == w.length && memcmp(w.start, name, w.length) == 0;
 }
 
-/* The next word behind *at that is in no comment; length 0: there is none. */
+/* The next word after *at outside comments; length 0: there is none. */
 static word next_word(const char **at)
 {
     const char *c = *at;
@@ -50,7 +50,7 @@ static word next_word(const char **at)
         if (strncmp(c, "/*", 2) == 0) {
             const char *end = strstr(c + 2, "*/");
             c = end ? end + 2 : c + strlen(c);
-        } else if (is_name(*c)) { /* a number, with its letters */
+        } else if (is_name(*c)) { /* a number, with its suffix */
             while (is_name(*c) || *c == '.')
                 c++;
         } else {
@@ -91,7 +91,7 @@ static bool find_definitions(const facet_allocator *allocator, definitions *d)
             if (!is_function && !is_word(w, "STRUCT") && !is_word(w, "define"))
                 continue;
             if (is_function)
-                next_word(&at); /* what it returns */
+                next_word(&at); /* the type it returns */
             if (!mem_reserve(allocator, (void **)&d->items, &d->capacity, d->count + 1, sizeof *d->items))
                 return false;
             d->items[d->count++] = (definition){next_word(&at), i};
@@ -101,7 +101,7 @@ static bool find_definitions(const facet_allocator *allocator, definitions *d)
     return true;
 }
 
-/* Marks all that the parts marked use. A part uses earlier ones only. */
+/* Marks everything that the marked parts use. A part uses only earlier ones. */
 static bool close_parts(const facet_allocator *allocator, bool is_wanted[PART_COUNT])
 {
     definitions d = {0};
@@ -131,7 +131,7 @@ const char *facet_shader_get_part_name(uint32_t index)
     return index < PART_COUNT ? parts[index].name : NULL;
 }
 
-/* Whether version begins with one of GLSL's that the text compiles as; "core" may stand behind it. */
+/* Whether version begins with a GLSL version that the text compiles as; "core" may follow it. */
 static bool is_version(const char *version)
 {
     for (const char *const *v = versions; *v; v++) {

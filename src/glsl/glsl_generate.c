@@ -1,9 +1,9 @@
-/* glsl_generate.c - puts texts of shaders into a C header; runs when facet is built.
+/* glsl_generate.c - writes texts of shaders to a C header; runs when facet is built.
  * usage: glsl_generate OUTPUT SHADE_FOLDER       the shader library
  *        glsl_generate OUTPUT FOLDER NAME...     files of a folder, as the array `parts`
  *
  * OUTPUT gets the dialect of GLSL and, in the order of shade.h, the parts of the text as arrays of bytes: a string literal
- * may hold 4095 only. */
+ * is limited to 4095. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,7 +26,7 @@ static FILE *open_text(const char *folder, const char *name)
     return file;
 }
 
-/* The file's lines, without those for C alone, as an array. */
+/* The file's lines, except those for C alone, as an array. */
 static void put_text(FILE *out, const char *folder, const char *name, const char *array)
 {
     FILE *file = open_text(folder, name);
@@ -53,7 +53,7 @@ static void put_part(FILE *out, const char *folder, const char *name, int index)
     put_text(out, folder, name, array);
 }
 
-/* What puts the parts of shade.h; returns how many there are. */
+/* Writes the parts of shade.h; returns their number. */
 static int put_shared(FILE *out, const char *folder, char names[MAX_PARTS][MAX_NAME])
 {
     int count = 0;
@@ -66,7 +66,7 @@ static int put_shared(FILE *out, const char *folder, char names[MAX_PARTS][MAX_N
         char *name = names[count];
         int end = 0;
         if (sscanf(line, "#include \"%63[a-z_0-9].h\"%n", name, &end) != 1 || end == 0)
-            continue; /* the dialect for C stands in a folder */
+            continue; /* the dialect for C is in a folder */
         char file[MAX_NAME + 2];
         snprintf(file, sizeof file, "%s.h", name);
         if (++count == MAX_PARTS)

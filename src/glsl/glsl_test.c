@@ -1,4 +1,4 @@
-/* glsl_test.c - the shader library as GLSL: complete, in order, and in parts that stand alone. */
+/* glsl_test.c - the shader library as GLSL: complete, in order, and in parts that compile alone. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

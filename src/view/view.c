@@ -1,4 +1,4 @@
-/* view.c - the viewer: facet_view(). The loop sleeps until something happens, lets it change the state, and draws what
+/* view.c - the viewer: facet_view(). The loop sleeps until an event, applies it to the state, and redraws what
  * changed. */
 #include <math.h>
 #include <stdio.h>
@@ -10,9 +10,10 @@
 #include "base/result.h"
 #include "view/view_app.h"
 
-static const double longest_step_s = 0.25; /* of an animation: who was asleep does not jump */
-static const double rest_s = 0.2;          /* of the hand, after which the picture is drawn sharp */
-static const double patience_s = 0.3;      /* before a window is shown whose model is still being read */
+static const double longest_step_s = 0.25; /* of an animation: after a sleep it does not jump */
+/* after the last camera movement, before the image is drawn in full resolution */
+static const double rest_s = 0.2;
+static const double patience_s = 0.3; /* before a window is shown whose model is still being read */
 
 void view_app_say(view_app *a, const char *text, double seconds)
 {
@@ -39,7 +40,7 @@ static void receive_warning(void *user, facet_log_level level, const char *text)
     wake(a);
 }
 
-/* Once, not with every frame. */
+/* Once per warning, not with every frame. */
 static void show_warning(view_app *a)
 {
     char text[sizeof a->warning];
@@ -114,7 +115,7 @@ static void press_key(view_app *a, const view_event *e)
     }
 }
 
-/* The hint at the start goes with the first input; a pointer that passes over the window is none. */
+/* The hint at the start disappears with the first input; pointer movement does not count. */
 static void end_hint(view_app *a, const view_event *e)
 {
     if (!a->is_hint || e->kind == VIEW_MOVE || e->kind == VIEW_RELEASE)
@@ -145,7 +146,7 @@ static void handle_events(view_app *a)
                 a->needs_image = true;
                 a->moves_until_s = a->state.divider.is_dragged ? 0.0 : clock_seconds() + rest_s;
             }
-            /* what was moved is traced when it is let go */
+            /* after a movement path tracing starts when the button is released */
             a->needs_image = a->needs_image || (was_held && !a->state.is_held);
         }
         free(e.path);
@@ -154,7 +155,7 @@ static void handle_events(view_app *a)
 
 /* ---- the loop ---- */
 
-/* Seconds until something is to be done that nobody wakes the loop for. */
+/* Seconds until something is due that does not wake the loop itself. */
 static double time_to_sleep(const view_app *a)
 {
     bool is_visible = a->state.width > 0;
@@ -189,7 +190,7 @@ static void advance_clock(view_app *a)
     }
 }
 
-/* Shows the window with its first picture, or without one where that takes its time. */
+/* Shows the window with its first image, or without one where that takes longer. */
 static void show_window(view_app *a, double start)
 {
     if (a->is_shown || (!a->scene && clock_seconds() - start < patience_s))
@@ -213,12 +214,12 @@ static void draw(view_app *a)
     bool traces = a->state.render.renderer == FACET_RENDERER_KIND_PATH ||
                   a->state.divider.comparison == VIEW_COMPARE_RENDERER;
     if (traces)
-        a->needs_frame = true; /* the tracer may have more */
+        a->needs_frame = true; /* the tracer may have a newer image */
     facet_error error;
     if ((a->needs_image || a->needs_frame) && view_show(a, &error) != FACET_OK) {
         a->needs_image = a->needs_frame = false;
         view_app_say(a, error.message, 8.0);
-        if (a->desc->script) { /* nobody reads messages */
+        if (a->desc->script) { /* nobody would read messages */
             a->error = error;
             a->result = error.result;
         }
@@ -236,7 +237,7 @@ static void loop(view_app *a)
             a->is_closing = true;
         else
             view_window_wait(a->window, time_to_sleep(a));
-        if (a->result == FACET_OK) { /* else the script has failed */
+        if (a->result == FACET_OK) { /* otherwise the script has failed */
             advance_clock(a);
             handle_events(a);
             a->result = view_files_update(a, &a->error);
@@ -249,7 +250,7 @@ static void loop(view_app *a)
     }
 }
 
-/* ---- beginning and end ---- */
+/* ---- begin and end ---- */
 
 static facet_result begin(view_app *a, facet_error *error)
 {
@@ -264,7 +265,7 @@ static facet_result begin(view_app *a, facet_error *error)
     if (result == FACET_OK)
         result = view_load_create(a->host, d, wake, a, &a->loader, error);
     if (result == FACET_OK)
-        result = view_files_begin(a, error); /* is read while the window opens */
+        result = view_files_begin(a, error); /* the model is read while the window opens */
     if (result == FACET_OK)
         result =
             view_window_create(&d->allocator, d->render.width, d->render.height, &a->queue, &window, error);

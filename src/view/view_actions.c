@@ -1,4 +1,4 @@
-/* view_actions.c - what keys change of a view_state. */
+/* view_actions.c - what keys change in a view_state. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -229,7 +229,7 @@ static void step_renderer(view_state *s)
     s->render.renderer = is_path ? FACET_RENDERER_KIND_GL : FACET_RENDERER_KIND_PATH;
     if (!is_path)
         s->render.gl.channel = FACET_CHANNEL_LIGHT;
-    if (!is_path && s->divider.comparison == VIEW_COMPARE_MASKING) /* which paths do not have */
+    if (!is_path && s->divider.comparison == VIEW_COMPARE_MASKING) /* which path tracing does not support */
         s->divider.comparison = VIEW_COMPARE_NOTHING;
     say(s, "Renderer: %s", is_path ? "OpenGL" : "path tracing");
 }
@@ -240,7 +240,7 @@ bool view_state_has_casters(const view_state *s)
     return (s->counts.lights && !s->render.ignores_scene_lights) || sun[0] + sun[1] + sun[2] > 0.0f;
 }
 
-/* The first variant that looks otherwise than the file without: often the first one is its default. */
+/* The first variant that looks different from the file without one: often the first is its default. */
 static uint32_t find_variant(const facet_scene *scene)
 {
     for (uint32_t v = 0; v < scene->variant_count; v++)
@@ -259,7 +259,7 @@ static void step_divider(view_state *s, int steps)
     view_divider_step(&s->divider, steps, s->counts.variants > 0,
                       s->render.renderer == FACET_RENDERER_KIND_PATH);
     s->divider.variant = s->scene ? find_variant(s->scene) : 0;
-    if (s->divider.comparison == VIEW_COMPARE_NOTHING) /* else the sides have labels */
+    if (s->divider.comparison == VIEW_COMPARE_NOTHING) /* otherwise the sides have labels */
         say(s, "No comparison");
 }
 
@@ -312,15 +312,15 @@ static bool apply_motion(view_state *s, view_action action, int amount)
     return true;
 }
 
-/* Numbers that are short in decimal stay so: degrees to a thousandth, as they are read; stops to a ten thousandth; factors to
- * five digits. */
+/* Rounds to short decimals: degrees to thousandths, as options are read; stops to ten thousandths; factors to five
+ * digits. */
 static float turn(float radians, double degrees)
 {
     double turned = round(((double)radians / degree + degrees) * 1e3) / 1e3;
     return (float)((remainder(turned, 360.0) + 0.0) * degree);
 }
 
-/* Thirds of a stop stay thirds. */
+/* Keeps thirds of a stop exact. */
 static double step_third(float stops, int steps)
 {
     double thirds = 3.0 * (double)stops;

@@ -1,5 +1,5 @@
-/* view_app.h - the viewer's parts, which its files share: view.c (the loop), view_files.c (what is read), view_show.c (what is
- * drawn), view_shot.c (what is kept of it), view_play.c (scripts). */
+/* view_app.h - the state that the viewer's files share: view.c (the loop), view_files.c (reading), view_show.c
+ * (drawing), view_shot.c (saving), view_play.c (scripts). */
 #ifndef VIEW_VIEW_APP_H
 #define VIEW_VIEW_APP_H
 
@@ -17,7 +17,7 @@
 #include "view/view_watch.h"
 #include "view/view_window.h"
 
-/* A panel of text with what it was made of, so that it is made anew only when that changes. */
+/* A text panel and its source, so that it is redrawn only when that changes. */
 typedef struct view_shown_panel {
     view_surface surface;
     char text[2048];
@@ -26,11 +26,11 @@ typedef struct view_shown_panel {
     bool is_there;
 } view_shown_panel;
 
-/* What is path traced for one side. */
+/* The path traced image of one side. */
 typedef struct view_traced {
     view_tracer *tracer;
     view_surface surface;
-    bool is_current;  /* surface shows what is wanted */
+    bool is_current;  /* surface shows the current state */
     uint32_t samples; /* per pixel, of surface */
 } view_traced;
 
@@ -48,7 +48,7 @@ typedef struct view_app {
     const gl_host *host;
     const facet_view_desc *desc;
     view_queue queue;
-    _Atomic(view_window *) window; /* threads wake it */
+    _Atomic(view_window *) window; /* other threads wake it */
     gl_context context;
     view_draw *draw;
     view_state state;
@@ -57,36 +57,37 @@ typedef struct view_app {
 
     /* files */
     view_list models, environments;
-    facet_scene *scene; /* what is shown; NULL: nothing yet */
+    facet_scene *scene; /* displayed; NULL: nothing yet */
     char *path;         /* NULL: the built-in scene; blocks of malloc() */
     char *environment_name;
     facet_environment *environment;
     gl_renderer *renderer;
     bool is_reloading;
-    uint32_t reload_count; /* models that were read again as their files had changed */
+    uint32_t reload_count; /* models reloaded after their files changed */
 
-    /* the picture */
+    /* the image */
     view_surface sides[2], shot;
     view_traced traced[2]; /* left, right; without a divider the right one */
-    double frame_s;        /* of the last frame; while something moves smoothed; 0: none yet */
+    double frame_s;        /* of the last frame; smoothed while something moves; 0: none yet */
     view_pace pace;
-    uint32_t divisor;     /* of the resolution in which it was drawn */
-    double moves_until_s; /* on the clock; the hand rests when it has not moved the camera for a moment */
+    uint32_t divisor;     /* of the resolution at which it was drawn */
+    double moves_until_s; /* on the clock; the camera counts as moving until then */
     char variant[128];    /* label of a side */
-    bool needs_image;     /* something of the model, the camera, the light changed */
-    bool needs_frame;     /* only what is laid over it did */
-    bool has_drawn;       /* OpenGL did, for the frame that is being made */
-    bool is_for_file;     /* with all the care that facet render takes, if slower */
+    bool needs_image;     /* model, camera or light changed */
+    bool needs_frame;     /* only the overlay changed */
+    bool has_drawn;       /* by OpenGL, for the current frame */
+    bool is_for_file;     /* with the quality of facet render, if slower */
     view_shown_panel panels[VIEW_PANEL_COUNT];
     bool has_no_text; /* there is no cairo */
 
     /* messages */
     char message[1024];
     double message_until_s;
-    bool is_hint;                  /* the message is the hint at the start, which goes with the first input */
+    /* the message is the hint at the start, which disappears with the first input */
+    bool is_hint;
     pthread_mutex_t warning_mutex; /* guards: */
     char warning[256],
-        said_warning[256]; /* what a renderer says, from any thread; the last one that was shown */
+        said_warning[256]; /* the warning of a renderer, from any thread; the last one that was shown */
 
     /* the loop */
     double time_s; /* of animations and messages: the clock's, or the script's */
@@ -94,15 +95,15 @@ typedef struct view_app {
     bool is_shown, is_closing;
     view_script script;
     size_t script_at;
-    double script_wait_s; /* clock at which a step is given up */
+    double script_wait_s; /* clock time at which a step times out */
     uint32_t script_reload_count;
     facet_result result;
     facet_error error;
 } view_app;
 
-/* Says it in the window for a while; without letters, to the caller. */
+/* Shows text in the window for a while; without cairo reports it to the caller. */
 void view_app_say(view_app *a, const char *text, double seconds);
-/* What renderers warn of is said again, if it is still so. */
+/* Warnings of renderers are shown again if they still apply. */
 void view_app_forget_warning(view_app *a);
 
 /* view_files.c */
@@ -118,25 +119,25 @@ facet_result view_files_update(view_app *a, facet_error *error);
 /* view_show.c */
 /* Draws the window; nothing where it has no size. */
 facet_result view_show(view_app *a, facet_error *error);
-/* Draws the picture into a->shot, with the text over it or without. */
+/* Draws the image into a->shot, with or without the overlay. */
 facet_result view_show_into(view_app *a, bool has_panels, facet_error *error);
 void view_show_end(view_app *a);
-/* The desc of what the window shows, of the side that a person means: the right one. */
+/* The desc of what the window shows; with a divider of the right side. */
 facet_render_desc view_show_desc(view_app *a, uint32_t width, uint32_t height, facet_camera *camera);
 
-/* view_values.c: what Z shows, rows of a name, a tab and a value. */
-/* The counter while paths are traced; "": there are none. */
+/* view_values.c: the values that Z shows, rows of a name, a tab and a value. */
+/* The sample counter of path tracing; "": path tracing is off. */
 void view_values_write_samples(const view_app *a, char *out, size_t size);
 void view_values_write(view_app *a, uint32_t width, uint32_t height, char *out, size_t size);
 
 /* view_shot.c */
 facet_result view_shot_save(view_app *a, const char *path, bool has_panels, facet_error *error);
-void view_shot_key(view_app *a);   /* F12: under a name that is free */
+void view_shot_key(view_app *a);   /* F12: to an unused name */
 void view_shot_copy(view_app *a);  /* the command line to the clipboard, */
 void view_shot_print(view_app *a); /* and to the caller */
 
 /* view_play.c */
-/* Goes on with the script as far as it can now. True: something was done, and the loop is not to wait. */
+/* Advances the script as far as possible now. True: something was done, and the loop must not wait. */
 bool view_play(view_app *a);
 
 #endif

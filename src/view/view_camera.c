@@ -6,7 +6,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* Where an orbit looks from, as scene/fit.c has it. */
+/* Where an orbit looks from, as in scene/fit.c. */
 typedef struct view_axes {
     double right[3], up[3], back[3];
 } view_axes;
@@ -78,7 +78,7 @@ facet_camera view_camera_of(const facet_orbit *o, float aspect, const float low[
                               fabs((double)high[i] - (double)o->target[i]));
             reach += far * far;
         }
-        distance = fmax(distance, 2.0 * sqrt(reach)); /* what moves may leave the bounds */
+        distance = fmax(distance, 2.0 * sqrt(reach)); /* animation may leave the bounds */
     } else {
         camera.fov_y_rad = o->fov_y_rad;
     }
@@ -90,7 +90,7 @@ facet_camera view_camera_of(const facet_orbit *o, float aspect, const float low[
     return camera;
 }
 
-/* Thousandths of a degree, as an option in degrees is read. */
+/* To thousandths of a degree, as an option in degrees is read. */
 static float round_angle(float radians)
 {
     const double degree = 0.017453292519943295; /* pi / 180 */
@@ -128,7 +128,7 @@ facet_orbit view_camera_orbit(const facet_camera *c, const facet_orbit *like, co
         length2 += back[i] * back[i];
     }
     double length = sqrt(length2);
-    double along = 0.0; /* from the eye to where the axis is nearest to the middle */
+    double along = 0.0; /* from the eye to the point of the axis nearest to the middle */
     for (int i = 0; i < 3; i++) {
         back[i] /= length;
         along += back[i] * ((double)c->eye[i] - (double)middle[i]);
@@ -144,7 +144,7 @@ facet_orbit view_camera_orbit(const facet_camera *c, const facet_orbit *like, co
     if (fabs(y) < 0.999999)
         o.azimuth_rad = (float)atan2(back[0], z);
     o.is_orthographic = c->fov_y_rad == 0.0f;
-    if (o.is_orthographic) /* the height tells the radius; the eye may stand anywhere */
+    if (o.is_orthographic) /* the height determines the radius; the eye may be anywhere on its axis */
         o.radius = (float)(0.5 * (double)c->ortho_height / tan(0.5 * (double)o.fov_y_rad));
     else
         o.fov_y_rad = round_angle(c->fov_y_rad);

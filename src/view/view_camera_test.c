@@ -1,4 +1,4 @@
-/* view_camera_test.c - view_camera.h: drags do what hands expect. */
+/* view_camera_test.c - view_camera.h: drags do what users expect. */
 #include "view/view_camera.h"
 
 #include <math.h>
@@ -23,7 +23,7 @@ static facet_orbit start(bool is_z_up)
                          .is_z_up = is_z_up};
 }
 
-/* Where a point is in a picture of 200 x 100 pixels, from its top left. */
+/* Projects a point to an image of 200 x 100 pixels, from its top left. */
 static void project(const facet_camera *c, const double p[3], double out[2])
 {
     double back[3];
@@ -60,15 +60,15 @@ static void a_drag_over_the_height_is_a_turn(void **state)
     view_camera_turn(&o, 240.0, 0.0, 240);
     assert_true(fabsf(remainderf(o.azimuth_rad - 0.3f, 2.0f * pi)) < 1e-5f);
     assert_true(fabsf(o.polar_rad - 1.2f) < 1e-6f);
-    view_camera_turn(&o, 60.0, 0.0, 240); /* to the right: what faced us goes right */
+    view_camera_turn(&o, 60.0, 0.0, 240); /* to the right: the front moves right */
     assert_true(fabsf(o.azimuth_rad - (0.3f - 0.5f * pi)) < 1e-5f);
-    view_camera_turn(&o, 0.0, -1000.0, 240); /* up: the eye sinks, as far as straight below */
+    view_camera_turn(&o, 0.0, -1000.0, 240); /* up: the eye sinks, at most straight below */
     assert_true(fabsf(o.polar_rad - pi) < 1e-6f);
     view_camera_turn(&o, 0.0, 1000.0, 240);
     assert_true(o.polar_rad == 0.0f);
 }
 
-/* The point at the target's depth that was under the pointer is under it still. */
+/* The point at the target's depth that was under the pointer stays under it. */
 static void what_is_held_stays_under_the_pointer(void **state)
 {
     (void)state;
@@ -116,7 +116,7 @@ static void directions_look_along_axes(void **state)
     }
 }
 
-/* A window's camera is the one that facet render makes of --orbit, and orbits of cameras come back. */
+/* A window's camera is the one that facet render makes of --orbit, and orbits of cameras round-trip. */
 static void an_orbit_survives_being_a_camera(void **state)
 {
     (void)state;
@@ -134,7 +134,7 @@ static void an_orbit_survives_being_a_camera(void **state)
     }
 }
 
-/* Rounding takes away what nobody sees, and leaves zero, halves and whole numbers as they are. */
+/* Rounding is invisible, and keeps zero, halves and whole numbers exact. */
 static void numbers_are_short(void **state)
 {
     (void)state;
@@ -157,7 +157,7 @@ static void numbers_are_short(void **state)
     assert_memory_equal(&again, &r, sizeof r);
 }
 
-/* An orthographic eye may stand anywhere on its axis, but not within the model. */
+/* An orthographic eye may be anywhere on its axis, but not inside the model. */
 static void a_parallel_eye_is_outside(void **state)
 {
     (void)state;

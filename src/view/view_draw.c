@@ -22,7 +22,7 @@ static void make_texture(view_surface *s)
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
-/* What the renderer left bound of unpacking would make rows of another length. */
+/* The renderer's unpack state would change the row length. */
 static void fill(uint32_t width, uint32_t height, const unsigned char *pixels)
 {
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
@@ -93,7 +93,7 @@ static const char vertex_text[] =
     "    gl_Position = vec4(mix(u_place.xy, u_place.zw, corner), 0.0, 1.0);\n"
     "}\n";
 
-/* The squares are mixed with the display's numbers, as browsers lay transparent pictures over a page. */
+/* The checkerboard is blended in display values, as browsers blend transparent images over a page. */
 static const char fragment_text[] =
     "uniform sampler2D u_image;\n"
     "uniform vec4 u_color;   /* times the image; with u_square < 0 instead of it */\n"
@@ -216,7 +216,7 @@ void view_draw_begin(view_draw *d, uint32_t framebuffer, uint32_t width, uint32_
     glBindSampler(0, 0);
 }
 
-/* Pixels from the top left to the corners of a rectangle. */
+/* From pixels from the top left to the corners of a rectangle. */
 static void set_place(const view_draw *d, float x, float y, float width, float height)
 {
     float w = 2.0f / (float)d->width;

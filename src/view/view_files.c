@@ -1,5 +1,5 @@
-/* view_files.c - models and environments of a window: stepping, dropping, reading again, and what happens when they are
- * there. */
+/* view_files.c - models and environments of a window: stepping, dropping, reloading, and updating the state when
+ * they are read. */
 #include "view/view_app.h"
 
 #include <stdio.h>
@@ -16,7 +16,8 @@ static void request(view_app *a, const view_request *r)
         view_app_say(a, "There is no memory", 4.0);
 }
 
-/* The environment comes with a model where the model may bring its own: without a name it is that, or the default one. */
+/* The environment is read together with a model, as the model may have its own: without a name it is that, or the
+ * default one. */
 static void request_model(view_app *a, const char *path)
 {
     bool may_have_light = !a->environment_name;
@@ -88,7 +89,7 @@ void view_files_drop(view_app *a, const char *path)
         a->models = dropped;
         path = view_list_step(&a->models, 0);
     }
-    request_model(a, path); /* which is in no list until it has been read */
+    request_model(a, path); /* added to the list only when it has been read */
 }
 
 /* ---- what was read ---- */
@@ -115,7 +116,7 @@ static void report_environment(view_app *a)
     view_app_say(a, text, 2.0);
 }
 
-/* Before the model or the environment goes that paths are traced in. */
+/* Before the model or the environment that is being traced is released. */
 static void stop_traces(view_app *a)
 {
     for (int i = 0; i < 2; i++) {
@@ -141,7 +142,7 @@ static void show_environment(view_app *a, view_loaded *l)
         report_environment(a);
 }
 
-/* A model that was dropped brings the others of its folder. */
+/* A dropped model makes the others of its folder the list. */
 static void find_in_list(view_app *a)
 {
     size_t i = 0;
@@ -156,7 +157,7 @@ static void find_in_list(view_app *a)
 
 static const double HINT_S = 10.0; /* at the start, unless there is input before */
 
-/* The first message says, too, which keys to begin with; and what was asked for and does nothing. */
+/* The first message also names the keys to begin with, and options that have no effect. */
 static void report_model(view_app *a, bool is_again, bool is_first)
 {
     char text[512];

@@ -33,7 +33,7 @@ bool view_path_is_environment(const char *path)
         path, (const char *const[]){"hdr", "exr", "pfm", "ktx2", "png", "jpg", "jpeg", "webp", "avif", NULL});
 }
 
-/* Light without end: pictures of eight bits in a folder are rather textures. */
+/* Environment light has high dynamic range: images of eight bits in a folder are more likely textures. */
 static bool is_light(const char *path)
 {
     return has_extension(path, (const char *const[]){"hdr", "exr", "ktx2", NULL});
@@ -49,7 +49,7 @@ void view_list_clear(view_list *l)
     *l = (view_list){.allocator = l->allocator};
 }
 
-/* Takes name over. */
+/* Takes ownership of name. */
 static bool add(view_list *l, char *name)
 {
     bool fits =
@@ -76,7 +76,7 @@ static bool add_copy(view_list *l, const char *name)
     return add(l, copy_of(l, name));
 }
 
-/* Figures in names count as numbers: ball2 before ball10. */
+/* Numbers in names sort by value: ball2 before ball10. */
 static int compare_names(const void *a, const void *b)
 {
     const char *x = *(char *const *)a;
@@ -111,7 +111,7 @@ bool view_path_is_folder(const char *path)
     return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
 }
 
-/* Files of a folder that are wanted, by name, behind those that are there. depth: how far below it they may be, where it has none
+/* Appends the matching files of a folder, by name. depth: how many folders further down it looks where it has none
  * itself. */
 static bool add_folder(view_list *l, const char *folder, bool (*is_wanted)(const char *), int depth)
 {
@@ -160,7 +160,7 @@ static size_t find(const view_list *l, const char *path)
     return l->count;
 }
 
-/* Beside path, which is among them whatever its extension is. */
+/* The matching files in path's folder; path is among them whatever its extension is. */
 static bool add_neighbours(view_list *l, const char *path, bool (*is_wanted)(const char *))
 {
     char *folder = path_folder(&l->allocator, path);

@@ -1,4 +1,4 @@
-/* view_image.h - a picture as files for displays have it: sRGB, 8 bits, straight alpha, rows from the top. */
+/* view_image.h - an image as in files for displays: sRGB, 8 bits, straight alpha, rows from the top. */
 #ifndef VIEW_VIEW_IMAGE_H
 #define VIEW_VIEW_IMAGE_H
 
@@ -9,12 +9,12 @@ typedef struct view_image {
     unsigned char *pixels; /* RGBA; a block of mem_alloc() */
 } view_image;
 
-/* From a developed picture: linear, premultiplied. FACET_ERROR_MEMORY. */
+/* From a developed image: linear, premultiplied. FACET_ERROR_MEMORY. */
 facet_result view_image_create(const facet_image_view *linear, const facet_allocator *allocator,
                                view_image *out, facet_error *error);
 void view_image_destroy(view_image *p); /* {0} is allowed */
-/* The same backwards, a block of mem_alloc(): linear, premultiplied RGBA, from which facet_image_save() makes the same
- * numbers again. NULL: no memory. */
+/* The inverse, a block of mem_alloc(): linear, premultiplied RGBA, from which facet_image_save() writes the same
+ * values again. NULL: out of memory. */
 float *view_image_to_linear(const view_image *p, const facet_allocator *allocator);
 
 #endif

@@ -1,4 +1,4 @@
-/* view_input.c - see view_input.h. The keys are those of f3d where it has them, the views those of Blender's number pad. */
+/* view_input.c - see view_input.h. The keys follow f3d, the views Blender's number pad. */
 #include "view/view_input.h"
 
 #include <stdio.h>

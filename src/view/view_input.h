@@ -1,5 +1,5 @@
-/* view_input.h - the events of a window, from a user or a script, and one table of which key does what. The overlay, the
- * documentation and tests read that table. */
+/* view_input.h - the events of a window, from a user or a script, and the table of key bindings, which the
+ * overlay, the documentation and tests read. */
 #ifndef VIEW_VIEW_INPUT_H
 #define VIEW_VIEW_INPUT_H
 
@@ -22,7 +22,7 @@ enum { VIEW_SHIFT = 1 << 0, VIEW_CONTROL = 1 << 1, VIEW_ALT = 1 << 2 };
 
 typedef enum view_button { VIEW_LEFT_BUTTON, VIEW_RIGHT_BUTTON, VIEW_MIDDLE_BUTTON } view_button;
 
-/* Keys that write a character are that character, letters in upper case. */
+/* Keys that type a character are that character, letters in upper case. */
 enum {
     VIEW_KEY_LEFT = 256,
     VIEW_KEY_RIGHT,
@@ -43,7 +43,7 @@ typedef struct view_event {
     view_button button;
     double x,
         y; /* pointer, pixels of the framebuffer from its top left; SCROLL: steps, positive: right, away */
-    char *path; /* DROP: a block of malloc(), whose owner is who takes the event from its queue */
+    char *path; /* DROP: a block of malloc(), owned by whoever takes the event from the queue */
 } view_event;
 
 /* Events wait here between the window, or a script, and the loop. */
@@ -53,7 +53,7 @@ typedef struct view_queue {
     uint32_t first, count;
 } view_queue;
 
-/* Movements that follow each other become one. False: it is full, and the event, with its path, is lost. */
+/* Consecutive movements are merged. False: the queue is full, and the event, with its path, is dropped. */
 bool view_queue_put(view_queue *q, view_event event);
 bool view_queue_take(view_queue *q, view_event *event); /* false: empty */
 void view_queue_clear(view_queue *q);
@@ -116,22 +116,22 @@ typedef struct view_binding {
     unsigned modifiers;
     view_action action;
     int amount;
-    const char *group; /* NULL: of the line before */
-    const char *help;  /* NULL: the line before tells of it, too */
+    const char *group; /* NULL: the same as in the previous line */
+    const char *help;  /* NULL: the previous line describes it too */
 } view_binding;
 
 extern const view_binding view_bindings[];
 extern const uint32_t view_binding_count;
 
-/* NULL: the key does nothing. */
+/* NULL: the key is not bound. */
 const view_binding *view_binding_find(uint32_t key, unsigned modifiers);
 
-/* "Shift+L", "Left", "?", in any case of letters. False: no such key. */
+/* "Shift+L", "Left", "?", letters in any case. False: no such key. */
 bool view_key_parse(const char *text, uint32_t *key, unsigned *modifiers);
-/* The same backwards; size of 32 is enough. */
+/* The inverse; size of 32 is enough. */
 void view_key_write(uint32_t key, unsigned modifiers, char *out, uint32_t size);
 
-/* What the pointer does: lines of help that belong to no key. */
+/* Help for the pointer, which belongs to no key. */
 typedef struct view_pointer_help {
     const char *input, *help;
 } view_pointer_help;

@@ -1,4 +1,4 @@
-/* view_keys_test.c - view_keys.h: every key once, every key with help, all of it in docs/view.md. */
+/* view_input_test.c - view_input.h: every key once, every key with help, all of it in docs/view.md. */
 #include "view/view_input.h"
 
 #include <setjmp.h>
@@ -31,7 +31,7 @@ static void no_key_is_bound_twice(void **state)
     assert_null(view_binding_find('H', VIEW_ALT));
 }
 
-/* A line without help tells of the same as the one before. */
+/* A line without help shares that of the previous one. */
 static void every_key_has_help(void **state)
 {
     (void)state;

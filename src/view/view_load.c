@@ -1,5 +1,5 @@
-/* view_load.c - see view_load.h. One request waits at most: who steps through a folder wants the last model, not all of
- * them. */
+/* view_load.c - see view_load.h. At most one request waits: a user who steps through a folder wants the last
+ * model, not all of them. */
 #define _POSIX_C_SOURCE 200809L /* strdup */
 #include "view/view_load.h"
 
@@ -11,7 +11,7 @@
 #include "base/result.h"
 #include "scene/scene.h"
 
-/* A request with names of its own. */
+/* A request that owns its names. */
 typedef struct request_copy {
     view_request request;
     char *path, *environment;
@@ -55,7 +55,7 @@ void view_loaded_destroy(const gl_host *host, view_loaded *loaded)
 
 /* ---- the thread ---- */
 
-/* Radius and target of the orbit that frames the model, which are then moved by hand. */
+/* Radius and target of the orbit that frames the model, before it is moved by hand. */
 static facet_result frame(const facet_view_desc *desc, view_loaded *out, facet_error *error)
 {
     facet_view_model *m = &out->model;
@@ -65,7 +65,7 @@ static facet_result frame(const facet_view_desc *desc, view_loaded *out, facet_e
     memcpy(out->low, pose.bounds_min, sizeof out->low);
     memcpy(out->high, pose.bounds_max, sizeof out->high);
     scene_pose_destroy(&pose);
-    /* an orbit that cannot frame the model says so now; where the window is wider is found when it is drawn */
+    /* an orbit that cannot frame the model fails now; the fit to a wider window is found when it is drawn */
     return scene_fit_orbit(m->scene, &m->pose, &m->orbit,
                            (float)desc->render.width / (float)desc->render.height, &camera, error);
 }
@@ -176,7 +176,7 @@ bool view_load_request(view_loader *l, const view_request *request)
         return false;
     }
     pthread_mutex_lock(&l->mutex);
-    if (l->has_next) { /* what only the older one wants is still wanted */
+    if (l->has_next) { /* parts that only the older request names are still wanted */
         request_copy *old = &l->next;
         if (old->request.wants_model && !c.request.wants_model) {
             c.request.wants_model = true;

@@ -1,4 +1,4 @@
-/* view_overlay.c - see view_overlay.h. Light letters on dark glass, which reads over any picture. */
+/* view_overlay.c - see view_overlay.h. Light text on a dark translucent panel, which is legible over any image. */
 #include "view/view_overlay.h"
 
 #include <math.h>
@@ -16,21 +16,20 @@ static const canvas_color glass = {0.06, 0.06, 0.07, 0.86};
 static const canvas_color bright = {1.0, 1.0, 1.0, 0.96};
 static const canvas_color soft = {1.0, 1.0, 1.0, 0.72};
 
-/* A line in two columns; without right it is as wide as it likes, bold where it is a heading. */
+/* A row of two columns; without right it may be of any width, bold where it is a heading. */
 typedef struct overlay_row {
     char left[OVERLAY_TEXT], right[OVERLAY_TEXT];
     bool is_heading, has_gap; /* above */
 } overlay_row;
 
 typedef struct overlay_rows {
-    overlay_row rows[MAX_ROWS + 1]; /* one for a line below */
+    overlay_row rows[MAX_ROWS + 1]; /* one for the page footer */
     int count;
 } overlay_rows;
 
 /* Lengths in pixels. */
 typedef struct overlay_metrics {
-    double size, line, gap, margin,
-        between; /* letters, rows, above a group, to the border, between columns */
+    double size, line, gap, margin, between; /* text, rows, above a group, to the border, between columns */
 } overlay_metrics;
 
 static overlay_metrics metrics_of(double size)
@@ -112,7 +111,7 @@ static void draw_glass(canvas *c, double width, double height, double radius)
     canvas_fill(c, glass);
 }
 
-/* cairo's words to bytes. */
+/* From cairo's 32-bit words to bytes. */
 static facet_result read_panel(canvas *c, const facet_allocator *allocator, view_panel *out,
                                facet_error *error)
 {
@@ -131,7 +130,7 @@ static facet_result read_panel(canvas *c, const facet_allocator *allocator, view
     return FACET_OK;
 }
 
-/* foot: the row for a line below all blocks; -1: none. */
+/* foot: the row below all columns; -1: none. */
 static facet_result draw_panel(const overlay_rows *rows, const overlay_block *blocks, int block_count,
                                int foot, overlay_metrics m, const facet_allocator *allocator, view_panel *out,
                                facet_error *error)
@@ -176,7 +175,7 @@ static void clean(const char *text, size_t length, char out[OVERLAY_TEXT])
     snprintf(piece, sizeof piece, "%.*s", (int)length, text);
     label_clean(piece, whole);
     size_t used = strlen(whole);
-    if (used >= OVERLAY_TEXT) { /* not within a character */
+    if (used >= OVERLAY_TEXT) { /* not inside a UTF-8 character */
         used = OVERLAY_TEXT - 1;
         while (used > 0 && (whole[used] & 0xc0) == 0x80)
             used--;
@@ -185,7 +184,7 @@ static void clean(const char *text, size_t length, char out[OVERLAY_TEXT])
     out[used] = 0;
 }
 
-/* A line without a second column that is too wide goes on in the next ones. */
+/* A single-column line that is too wide is wrapped to further rows. */
 static void wrap_rows(canvas *c, overlay_rows *rows, double size, double max_width)
 {
     const canvas_font font = {size, false};
@@ -243,7 +242,7 @@ static void add_help_rows(overlay_rows *rows)
         const view_binding *b = &view_bindings[i];
         char input[32];
         view_key_write(b->key, b->modifiers, input, sizeof input);
-        if (!b->help) { /* the line before has it */
+        if (!b->help) { /* described by the previous line */
             overlay_row *r = &rows->rows[rows->count - 1];
             size_t used = strlen(r->left);
             snprintf(r->left + used, sizeof r->left - used, ", %s", input);
@@ -268,7 +267,8 @@ static void add_help_rows(overlay_rows *rows)
     }
 }
 
-/* Groups from top to bottom, then to the right: columns of about the same number of rows, none of which breaks a group. */
+/* Groups from top to bottom, then to the right: columns of about the same number of rows, without breaking a
+ * group. */
 static int split(canvas *c, const overlay_rows *rows, int columns, overlay_metrics m, overlay_block *blocks)
 {
     int count = 0;
@@ -276,7 +276,7 @@ static int split(canvas *c, const overlay_rows *rows, int columns, overlay_metri
     for (int i = 1; i <= rows->count; i++) {
         if (i < rows->count && !rows->rows[i].is_heading)
             continue;
-        int next = i; /* where the group after this one ends */
+        int next = i; /* the end of the following group */
         while (next < rows->count && (next == i || !rows->rows[next].is_heading))
             next++;
         bool is_full = (next - first) * columns > rows->count + columns * 3;
@@ -299,7 +299,8 @@ static bool fits(const overlay_block *blocks, int count, overlay_metrics m, doub
     return used <= width && !is_high;
 }
 
-/* Rows from first on that fit below each other: whole groups, or as much of one as there is room for. Returns how many. */
+/* The rows from first on that fit into a column: whole groups, or part of one that is taller than the column.
+ * Returns their number. */
 static int fill_column(const overlay_rows *rows, int first, overlay_metrics m, double height)
 {
     double used = 0.0;
@@ -319,7 +320,8 @@ static int fill_column(const overlay_rows *rows, int first, overlay_metrics m, d
     return count > 0 ? count : 1;
 }
 
-/* Columns of the page that begins with row first, side by side; at least one. Returns how many; *next: where the next one begins. */
+/* The columns, side by side, of the page that begins with row first; at least one. Returns their number; *next:
+ * first row of the next page. */
 static int fill_page(canvas *c, const overlay_rows *rows, int first, overlay_metrics m, double width,
                      double height, overlay_block *blocks, int *next)
 {
@@ -340,7 +342,8 @@ static int fill_page(canvas *c, const overlay_rows *rows, int first, overlay_met
     return count;
 }
 
-/* The page that is wanted, or the last one; below it a line that tells of the others, a row behind those of the table. */
+/* Lays out the requested page, or the last one; the footer, which names the other pages, is the row after the
+ * table's. */
 static int lay_pages(canvas *c, overlay_rows *rows, overlay_metrics m, double width, double height,
                      uint32_t page, uint32_t *page_count, overlay_block *blocks)
 {
@@ -362,7 +365,7 @@ static int lay_pages(canvas *c, overlay_rows *rows, overlay_metrics m, double wi
     return count;
 }
 
-/* Letters no smaller than this fraction of the usual ones, on one page or several. */
+/* Smallest text, as a fraction of the usual size, on one page or several. */
 static const double smallest_letters = 0.8, letters_of_pages = 0.9;
 
 facet_result view_overlay_help(float scale, uint32_t max_width, uint32_t max_height, uint32_t page,

@@ -1,4 +1,4 @@
-/* view_pace_test.c - view_pace.h: coarse where it helps, and sharp as soon as it can be. */
+/* view_pace_test.c - the pace of view_state.h: coarse where it helps, and sharp as soon as possible. */
 #include "view/view_state.h"
 
 #include <setjmp.h>
@@ -22,7 +22,7 @@ static void slower_is_coarser(void **state)
     assert_int_equal(view_pace_divisor(&(view_pace){.full_s = 0.3}, true), 4);
 }
 
-/* After a first frame of a second, in which a driver compiled, one coarse frame shows how quick it is. */
+/* After a first frame of a second, in which a driver compiled, one coarse frame shows how fast it is. */
 static void a_slow_first_frame_is_forgotten(void **state)
 {
     (void)state;
@@ -32,9 +32,9 @@ static void a_slow_first_frame_is_forgotten(void **state)
     view_pace_measure(&p, 4, 0.001);
     assert_int_equal(view_pace_divisor(&p, true), 1);
     view_pace_measure(&p, 1, 0.02);
-    view_pace_measure(&p, 1, 0.4); /* a change of the light, perhaps */
+    view_pace_measure(&p, 1, 0.4); /* a change of the light, for example */
     assert_int_equal(view_pace_divisor(&p, true), 4);
-    view_pace_measure(&p, 4, 0.05); /* its vertices take the time, not its pixels */
+    view_pace_measure(&p, 4, 0.05); /* limited by its vertices, not its pixels */
     assert_int_equal(view_pace_divisor(&p, true), 4);
 }
 

@@ -1,4 +1,4 @@
-/* view_play.c - a script instead of a person: its steps become events, and its clock the viewer's. */
+/* view_play.c - plays a script in place of a user: its steps become events, and its clock the viewer's. */
 #define _POSIX_C_SOURCE 200809L /* strdup */
 #include "view/view_app.h"
 
@@ -10,7 +10,7 @@
 #include "base/clock.h"
 #include "base/result.h"
 
-/* How long a step waits for what does not come. */
+/* Timeout of a step, s. */
 static double patience_of(const view_step *s)
 {
     const double patience_s = 60.0;
@@ -62,7 +62,7 @@ static bool traces_both(const view_app *a)
            s->divider.comparison != VIEW_COMPARE_RENDERER;
 }
 
-/* Whether what a step waits for is there. */
+/* Whether a step's condition holds. */
 static bool is_ready(view_app *a, const view_step *s)
 {
     switch (s->kind) {

@@ -1,4 +1,4 @@
-/* view_script.c - see view_script.h. A line is a word and what it takes; # begins a comment. */
+/* view_script.c - see view_script.h. A line is a word and its arguments; # begins a comment. */
 #include "view/view_script.h"
 
 #include <math.h>
@@ -10,14 +10,14 @@
 #include "base/result.h"
 #include "view/view_input.h"
 
-/* What stands behind a word. */
+/* The arguments of a word. */
 typedef enum step_takes { TAKES_NOTHING, TAKES_KEY, TAKES_DRAG, TAKES_NUMBERS, TAKES_PATH } step_takes;
 
 static const struct {
     const char *word;
     view_step_kind kind;
     step_takes takes;
-    int fewest, most; /* numbers */
+    int fewest, most; /* count of numbers */
     const char *expected;
 } words[] = {
     {"key", VIEW_STEP_KEY, TAKES_KEY, 0, 0, "a key such as h, Shift+L, Left or F12"},
@@ -38,7 +38,7 @@ static const struct {
     {"close", VIEW_STEP_CLOSE, TAKES_NOTHING, 0, 0, "nothing more"},
 };
 
-/* The next word of a line, ended with 0; NULL: there is none. */
+/* The next word of a line, terminated by 0; NULL: there is none. */
 static char *next_word(char **at)
 {
     char *word = *at + strspn(*at, " \t\r");
@@ -55,7 +55,7 @@ static bool read_numbers(char **at, int fewest, int most, double numbers[4])
     int count = 0;
     for (char *word; (word = next_word(at)) != NULL; count++) {
         float number;
-        const char *end = number_read_float(word, &number); /* the script's memory has a tail */
+        const char *end = number_read_float(word, &number); /* the script's text has padding after it */
         if (count == most || !end || *end || !isfinite(number))
             return false;
         numbers[count] = (double)number;
@@ -89,7 +89,7 @@ static bool read_button(char **at, view_step *step)
     return false;
 }
 
-/* The rest of the line, which may hold blanks. */
+/* The rest of the line, which may contain spaces. */
 static bool read_path(char **at, view_step *step)
 {
     step->path = *at + strspn(*at, " \t\r");

@@ -1,4 +1,4 @@
-/* view_script_test.c - view_script.h, and the queue that its input goes through. */
+/* view_script_test.c - view_script.h, and the queue of its events. */
 #define _POSIX_C_SOURCE 200809L /* strdup */
 #include "view/view_script.h"
 

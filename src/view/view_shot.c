@@ -1,4 +1,4 @@
-/* view_shot.c - what is kept of a view: an image of it, and the command line that renders it. */
+/* view_shot.c - saves a view: an image of it, and the command line that renders it. */
 #include "view/view_app.h"
 
 #include <stdio.h>
@@ -54,7 +54,7 @@ facet_result view_shot_save(view_app *a, const char *path, bool has_panels, face
     return result;
 }
 
-/* helmet-1.png, helmet-2.png .. in the folder that the program was started in. */
+/* helmet-1.png, helmet-2.png .. in the working directory. */
 static bool find_name(const view_app *a, char *name, size_t size)
 {
     const char *base = a->path ? path_base_name(a->path) : "facet";

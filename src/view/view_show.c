@@ -1,5 +1,5 @@
-/* view_show.c - what the window shows: the model by OpenGL or path traced, one way or two beside each other, text over
- * it. */
+/* view_show.c - what the window shows: the model by OpenGL or path tracing, one image or two side by side, with
+ * the overlay. */
 #include "view/view_app.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@
 
 /* ---- the image ---- */
 
-/* The orbit's radius and target where they are to be found, or the file's camera at this moment. */
+/* Finds the orbit's radius and target where needed, or the file's camera at this time. */
 static facet_result find_camera(view_app *a, uint32_t width, uint32_t height, facet_error *error)
 {
     view_state *s = &a->state;
@@ -37,8 +37,9 @@ facet_render_desc view_show_desc(view_app *a, uint32_t width, uint32_t height, f
     return sides[1];
 }
 
-/* Traces what is still, and draws with OpenGL what moves: an image that is one sample old says less than one that keeps
- * up. What a held pointer does not change, as where the divider is, is traced on. */
+/* Path traces still images, and draws moving ones by OpenGL: an image of one sample says less than one that is up
+ * to date. Changes by a held pointer that do not affect the image, such as the divider's, do not interrupt
+ * tracing. */
 static bool trace(view_app *a, int side, const facet_render_desc *wanted)
 {
     facet_render_desc desc = *wanted;
@@ -61,14 +62,14 @@ static bool trace(view_app *a, int side, const facet_render_desc *wanted)
     return t->is_current;
 }
 
-/* The left side is traced only beside the right one. */
+/* The left side is traced only next to the right one. */
 static void stop_left(view_app *a)
 {
     view_trace_stop(a->traced[0].tracer);
     a->traced[0].is_current = false;
 }
 
-/* As facet render draws it: in floats of 32 bits, and with the eye of a parallel view where it has it. */
+/* As facet render draws it: in floats of 32 bits, and with its eye for a parallel view. */
 static facet_result draw_for_file(view_app *a, view_surface *to, const facet_render_desc *wanted,
                                   facet_error *error)
 {
@@ -151,7 +152,7 @@ static bool is_made(const view_shown_panel *p, const char *text, float scale, ui
            p->max_height == max_height;
 }
 
-/* text "": none; for VIEW_PANEL_HELP any. */
+/* text "": no panel; ignored for VIEW_PANEL_HELP. */
 static void make_panel(view_app *a, view_panel_id id, const char *text, float scale, uint32_t max_width,
                        uint32_t max_height)
 {
@@ -185,7 +186,7 @@ static void make_panel(view_app *a, view_panel_id id, const char *text, float sc
     view_panel_destroy(&panel);
 }
 
-/* Smaller letters where the panel would take more than half of the window. */
+/* Smaller text where the panel would take more than half of the window. */
 static float scale_of_values(const view_app *a, const char *values, uint32_t height)
 {
     int rows = 1;
@@ -231,8 +232,8 @@ static void draw_panel(view_app *a, view_panel_id id, int x, int y, int left, in
                           left, right);
 }
 
-/* Beside the border, or, where a side is narrower than its label, the right one a line below. Returns where there is room below
- * them. */
+/* Next to the border, or, where a side is narrower than its label, the right label a line below. Returns the y
+ * below them. */
 static int draw_labels(view_app *a, int width, int border, int margin)
 {
     const view_surface *left = &a->panels[VIEW_PANEL_LEFT].surface;
@@ -248,7 +249,7 @@ static int draw_labels(view_app *a, int width, int border, int margin)
     return y + (int)right->height + margin;
 }
 
-/* Bottom left; above a message that is too wide to leave room beside it. */
+/* Bottom left; above a message that leaves no room beside it. */
 static void draw_samples(view_app *a, int width, int height, int margin)
 {
     const view_shown_panel *samples = &a->panels[VIEW_PANEL_SAMPLES],
@@ -260,7 +261,7 @@ static void draw_samples(view_app *a, int width, int height, int margin)
     draw_panel(a, VIEW_PANEL_SAMPLES, margin, y, 0, width);
 }
 
-/* Values top right, messages bottom middle, what the sides are at the top, help in the middle. */
+/* Values top right, messages bottom center, labels of sides at the top, help in the middle. */
 static void draw_panels(view_app *a, uint32_t width, uint32_t height)
 {
     int margin = (int)(12.0f * a->state.scale);
@@ -288,7 +289,7 @@ static void draw_border(view_app *a, int x)
     view_draw_bar(a->draw, x, thickness, light);
 }
 
-/* square 0: transparent pixels stay so. */
+/* square 0: transparent pixels stay transparent. */
 static facet_result compose(view_app *a, uint32_t framebuffer, uint32_t width, uint32_t height, float square,
                             bool has_panels, facet_error *error)
 {
@@ -316,7 +317,7 @@ static facet_result compose(view_app *a, uint32_t framebuffer, uint32_t width, u
     return gl_context_check(&a->context, "the window", error);
 }
 
-/* Without waiting for the driver it would be how long asking took. */
+/* Waits for the driver: otherwise it would measure only the submission. */
 static void measure_frame(view_app *a, double start, bool is_moving)
 {
     if (!a->has_drawn || !a->needs_image || (a->script.count && !a->state.shows_values))
@@ -352,7 +353,8 @@ facet_result view_show(view_app *a, facet_error *error)
     bool had_image = a->needs_image;
     measure_frame(a, start, is_moving);
     a->needs_image = false;
-    a->needs_frame = had_image && a->state.shows_values && !a->state.is_playing; /* what it took */
+    /* to show the measured time */
+    a->needs_frame = had_image && a->state.shows_values && !a->state.is_playing;
     view_window_present(w);
     return FACET_OK;
 }

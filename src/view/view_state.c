@@ -18,7 +18,7 @@ void view_state_create(view_state *s, const facet_view_desc *desc)
                       .scale = 1.0f,
                       .divider = {.position = 0.5},
                       .orbit = scene_orbit_default()};
-    facet_render_desc *r = &s->render; /* what belongs to the window */
+    facet_render_desc *r = &s->render; /* settings of the window */
     r->allocator = desc->allocator;
     r->log = desc->log;
     r->progress = (facet_progress){0};
@@ -46,7 +46,7 @@ void view_state_set_animations(view_state *s, const uint32_t *animations, uint32
     s->pose.animations = s->animations;
 }
 
-/* The pose of a model that was shown before, as far as the one that was read now has what it refers to. */
+/* The pose of the previously shown model, as far as the newly read one has what it refers to. */
 static void keep_pose(view_state *s, const facet_pose_desc *old)
 {
     const facet_scene_counts *c = &s->counts;
@@ -97,7 +97,7 @@ void view_state_set_model(view_state *s, const facet_view_model *model, const fl
     s->needs_framing = true;
 }
 
-/* ---- time, and the picture ---- */
+/* ---- time, and the image ---- */
 
 bool view_state_advance(view_state *s, double seconds)
 {
@@ -257,8 +257,8 @@ bool view_divider_labels(int border, int width, int margin, const int widths[2],
 
 /* ---- the pointer ---- */
 
-/* model-viewer's and Blender's habits: left and middle orbit; right, or either with shift, moves; with control comes
- * nearer. */
+/* Habits from model-viewer and Blender: left and middle button orbit; right, or either with Shift, pans; with Ctrl
+ * zooms. */
 static void drag(view_state *s, double dx, double dy, unsigned modifiers)
 {
     view_state_leave_file_camera(s);
@@ -273,7 +273,7 @@ static void drag(view_state *s, double dx, double dy, unsigned modifiers)
 
 static void scroll(view_state *s, const view_event *e)
 {
-    const double pixels = 40.0 * (double)s->scale; /* of a step, of two fingers or a wheel */
+    const double pixels = 40.0 * (double)s->scale; /* per step, of two fingers or a wheel */
     view_state_leave_file_camera(s);
     s->is_framed = false;
     if (e->modifiers & VIEW_SHIFT)
@@ -332,8 +332,8 @@ uint32_t view_pace_divisor(const view_pace *p, bool is_moving)
     return p->full_s <= 4.0 * slow_s ? 2 : 4;
 }
 
-/* No frame takes more than its pixels times what a pixel of a coarse one took. The first frame, in which the driver compiles, is
- * corrected so. */
+/* No frame takes more than its pixel count times the time per pixel of a coarse one. This corrects the first
+ * frame, in which the driver compiles. */
 void view_pace_measure(view_pace *p, uint32_t divisor, double seconds)
 {
     double most = seconds * divisor * divisor;

@@ -1,4 +1,5 @@
-/* view_state.h - all that decides what the window shows, and how keys and the pointer change it. No window, no OpenGL. */
+/* view_state.h - everything that determines what the window shows, and how keys and the pointer change it. No
+ * window, no OpenGL. */
 #ifndef VIEW_VIEW_STATE_H
 #define VIEW_VIEW_STATE_H
 
@@ -6,7 +7,7 @@
 
 #include "facet/facet.h"
 
-/* ---- the divider: two variants side by side, with a border that can be dragged ---- */
+/* ---- the divider: two variants side by side, with a draggable border ---- */
 
 typedef enum view_comparison {
     VIEW_COMPARE_NOTHING,
@@ -25,18 +26,19 @@ typedef struct view_divider {
     bool is_dragged;
 } view_divider;
 
-/* What the left and the right side draw, by name; base is what is drawn without a divider, and keeps its renderer: paths are
- * traced on both sides, where what is compared is not OpenGL's alone (VIEW_COMPARE_MASKING) or the renderer. */
+/* The settings of the left and right side, in that order; base is what is drawn without a divider, and its
+ * renderer is kept: both sides are path traced, unless the comparison is of the renderers or needs OpenGL
+ * (VIEW_COMPARE_MASKING). */
 void view_divider_sides(const view_divider *d, const facet_render_desc *base, facet_render_desc sides[2],
                         const char *labels[2]);
-/* Whether the pointer at x can take hold of it. reach: px to either side. */
+/* Whether the pointer at x can grab it. reach: px to either side. */
 bool view_divider_is_at(const view_divider *d, double x, uint32_t width, double reach);
 void view_divider_drag(view_divider *d, double x, uint32_t width);
-/* The next comparison, in either direction; those of variants only where there are some, that of masking only without path
- * tracing, which has no separable one. */
+/* The next comparison, in either direction; variants only where there are some, masking only without path tracing,
+ * which has no separable one. */
 void view_divider_step(view_divider *d, int steps, bool has_variants, bool traces_paths);
-/* Where labels of those widths begin (x), beside the border where they fit there, else as near as the window allows. True: one of
- * them does not fit on its own side, and they are not to stand in one line. */
+/* Where labels of those widths begin (x): next to the border where they fit there, else as near as the window
+ * allows. True: one of them does not fit on its own side, and they need separate lines. */
 bool view_divider_labels(int border, int width, int margin, const int widths[2], int x[2]);
 
 /* ---- the state ---- */
@@ -48,23 +50,23 @@ typedef struct view_state {
     const facet_scene *scene;
     facet_scene_counts counts;
     float low[3], high[3]; /* bounds */
-    facet_pose_desc pose;  /* its animations are those here */
+    facet_pose_desc pose;  /* its animations point to the array here */
     uint32_t animations[VIEW_MAX_ANIMATIONS];
     double begin_s, end_s, speed;
     bool is_playing;
 
     facet_orbit orbit; /* with radius and target, unless needs_framing */
-    facet_orbit home;  /* as the model was first shown; they may be left to the model's size */
+    facet_orbit home;  /* as the model was first shown; radius and target may be left to framing */
     facet_camera file_camera;
     int camera;          /* of the file */
     bool needs_framing;  /* orbit's radius and target are to be found */
-    facet_orbit framing; /* what they were found for, as long as is_framed: the orbit was not moved since */
+    facet_orbit framing; /* the orbit they were found for, while is_framed: the orbit was not moved since */
     bool is_framed;
 
-    facet_render_desc render; /* renderer: GL or PATH; without what belongs to the model and the window */
+    facet_render_desc render; /* renderer: GL or PATH; without the settings of the model and the window */
     uint32_t path_samples;
     view_divider divider;
-    uint32_t help_page, help_pages; /* which is shown, from 1, of how many; 0: none */
+    uint32_t help_page, help_pages; /* the visible page, from 1, and how many; 0: none */
     bool shows_values;
 
     /* the pointer */
@@ -72,10 +74,10 @@ typedef struct view_state {
     view_button button;
     unsigned held_modifiers; /* when it was pressed */
     double x, y;
-    uint32_t width, height; /* of the picture */
+    uint32_t width, height; /* of the image */
     float scale;            /* of text and handles */
 
-    char message[256]; /* what was just changed; "": nothing */
+    char message[256]; /* about the last change; "": nothing */
 } view_state;
 
 void view_state_create(view_state *s, const facet_view_desc *desc);
@@ -83,41 +85,43 @@ void view_state_create(view_state *s, const facet_view_desc *desc);
 void view_state_set_model(view_state *s, const facet_view_model *model, const float low[3],
                           const float high[3], bool keeps_view);
 
-/* Does what a key asks for and says so in message. False: it is not the state's to do (files, the window). */
+/* Applies the action of a key and describes it in message. False: the action is not the state's (files, the
+ * window). */
 bool view_state_apply(view_state *s, view_action action, int amount);
-/* What the pointer does. True: something is to be drawn anew. */
+/* Applies the pointer. True: a redraw is needed. */
 bool view_state_point(view_state *s, const view_event *event);
-/* Lets time pass. True: something moved. */
+/* Advances time. True: something moved. */
 bool view_state_advance(view_state *s, double seconds);
 
 /* Whether there is a light that could cast shadows. */
 bool view_state_has_casters(const view_state *s);
-/* For what changes it: which animations of the scene run; the model's longest edge in m, 1 where it has none; and what makes an orbit of a camera of the file, before
- * it is moved by hand. */
+/* For other files: which animations of the scene run; the model's longest side in m, 1 where it has none; and an
+ * orbit equal to the file's camera, before it is moved by hand. */
 void view_state_set_animations(view_state *s, const uint32_t *animations, uint32_t count);
 float view_state_size(const view_state *s);
 void view_state_leave_file_camera(view_state *s);
 
-/* view_frame.c: finds the radius and the target of an orbit that needs_framing, as facet render does: at all times, where there
+/* Finds the radius and the target of an orbit that needs_framing, as facet render does: for all times, where there
  * is motion. Fails as scene_fit_orbit(). */
 facet_result view_state_frame(view_state *s, float aspect, facet_error *error);
-/* From now on the whole model is to be seen, from the direction that the orbit has. */
+/* From now on the whole model is in view, from the direction that the orbit has. */
 void view_state_show_whole(view_state *s);
-/* For whoever changes which animations run: an orbit that was found for the others, and that nobody moved, is found anew. */
+/* After a change of the running animations: an orbit that was found for others, and that was not moved by hand, is
+ * found again. */
 void view_state_follow_motion(view_state *s);
 
-/* The whole desc of a picture of that size, but for the environment. camera: where it is kept. */
+/* The whole desc of an image of that size, except for the environment. camera: where it is stored. */
 facet_render_desc view_state_desc(const view_state *s, uint32_t width, uint32_t height, facet_camera *camera);
 
 /* ---- resolution while the camera moves: a coarse image that keeps up says more than a sharp one that lags ---- */
 
 typedef struct view_pace {
-    double full_s; /* that a frame in full resolution takes, or more; 0: unknown */
+    double full_s; /* upper bound of the time of a frame in full resolution; 0: unknown */
 } view_pace;
 
-/* By what width and height are divided: 1; 2 where frames take more than 50 ms, 4 where a half would, too. */
+/* The divisor of width and height: 1; 2 where frames take more than 50 ms, 4 where a half would, too. */
 uint32_t view_pace_divisor(const view_pace *pace, bool is_moving);
-/* A frame took this long. */
+/* Records the time of a frame. */
 void view_pace_measure(view_pace *pace, uint32_t divisor, double seconds);
 
 /* ---- names of settings, for users ---- */

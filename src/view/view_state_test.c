@@ -1,4 +1,4 @@
-/* view_state_test.c - view_state.h and view_divider.h: what keys and the pointer make of a picture, without a window. */
+/* view_state_test.c - view_state.h: how keys and the pointer change what is shown, without a window. */
 #include "view/view_state.h"
 
 #include <math.h>
@@ -51,7 +51,7 @@ static void press(view_state *s, const char *name)
     assert_true(view_state_apply(s, b->action, b->amount));
 }
 
-/* Keys that step go around; there and back is where it was. */
+/* Keys that step wrap around, and reverse steps return to the start. */
 static void keys_go_around(void **state)
 {
     (void)state;
@@ -79,7 +79,7 @@ static void keys_go_around(void **state)
     assert_int_equal(s.render.gl.brdf, FACET_BRDF_ENERGY);
 }
 
-/* What the model lacks is said, and changes nothing. */
+/* Missing features of a model are reported, and change nothing. */
 static void what_is_not_there_is_said(void **state)
 {
     (void)state;
@@ -95,7 +95,7 @@ static void what_is_not_there_is_said(void **state)
     assert_int_equal(s.camera, VIEW_NO_CAMERA);
 }
 
-/* Before there is a model keys that are about one do nothing, and nothing breaks. */
+/* Before a model is loaded, keys about it do nothing. */
 static void keys_without_a_model(void **state)
 {
     (void)state;
@@ -124,7 +124,7 @@ static void what_does_nothing_is_said(void **state)
     assert_null(strstr(s.message, "there is no light"));
 }
 
-/* H goes through the pages, as many as the window made of them, and then away. */
+/* H shows one page after the other, as many as the window made, and then hides the help. */
 static void help_has_pages(void **state)
 {
     (void)state;
@@ -210,7 +210,7 @@ static void the_divider_is_taken_where_it_is(void **state)
     assert_true(orbit.azimuth_rad != s.orbit.azimuth_rad);
 }
 
-/* Keys for views are at the distance that frames the model from there, whatever was before. */
+/* Keys for views use the distance that frames the model from there, whatever was before. */
 static void views_show_the_whole_model(void **state)
 {
     (void)state;
@@ -231,13 +231,13 @@ static void views_show_the_whole_model(void **state)
         assert_true(fabs((double)s.orbit.radius - sqrt(distance2)) < 1e-5);
         view_state_point(&s, &(view_event){.kind = VIEW_SCROLL, .y = 1.0});
         float nearer = s.orbit.radius;
-        view_state_follow_motion(&s); /* what a hand has set stays */
+        view_state_follow_motion(&s); /* an orbit moved by hand stays */
         assert_int_equal(view_state_frame(&s, 2.0f, NULL), FACET_OK);
         assert_true(s.orbit.radius == nearer);
     }
 }
 
-/* The two sides differ in what the comparison is about, and in nothing else. */
+/* The two sides differ in the compared setting, and in nothing else. */
 static void sides_differ_in_one_thing(void **state)
 {
     (void)state;
@@ -260,7 +260,7 @@ static void sides_differ_in_one_thing(void **state)
     }
 }
 
-/* A divider leaves path tracing on, and passes over what only OpenGL has. */
+/* A divider leaves path tracing on, and skips comparisons that only OpenGL has. */
 static void comparisons_keep_tracing_paths(void **state)
 {
     (void)state;
@@ -279,7 +279,7 @@ static void comparisons_keep_tracing_paths(void **state)
                                                 ? FACET_RENDERER_KIND_GL
                                                 : FACET_RENDERER_KIND_PATH);
     }
-    /* the other way round: what only OpenGL has goes when paths are traced */
+    /* conversely: path tracing ends comparisons that only OpenGL has */
     press(&s, "0");
     press(&s, "r");
     press(&s, "Tab");

@@ -10,7 +10,7 @@
 
 enum { MAX_ANIMATIONS = 256 };
 
-/* A desc with what it points to. */
+/* A desc that owns what it points to. */
 typedef struct trace_job {
     const facet_scene *scene;
     facet_render_desc desc;
@@ -24,16 +24,16 @@ struct view_tracer {
     void (*wake)(void *user);
     void *user;
     pthread_t thread;
-    facet_renderer *renderer; /* of rendered; the thread's */
+    facet_renderer *renderer; /* of rendered; used by the thread */
     const facet_scene *rendered;
-    trace_job job; /* what the thread works on; its own while it does */
+    trace_job job; /* the job being traced; used by the thread while it is */
 
     pthread_mutex_t mutex; /* guards all below */
     pthread_cond_t changed;
     bool is_started, is_ending, is_working, is_cancelled, has_next;
     trace_job next;
     bool has_last;
-    trace_job last; /* what was asked for last */
+    trace_job last; /* the last requested job */
     bool has_image;
     view_image display;
     view_trace_state state;
@@ -43,7 +43,7 @@ struct view_tracer {
 
 static void fill_job(trace_job *job, const facet_scene *scene, const facet_render_desc *desc)
 {
-    memset(job, 0, sizeof *job); /* the padding, too: jobs are compared byte by byte */
+    memset(job, 0, sizeof *job); /* including padding: jobs are compared as bytes */
     job->scene = scene;
     job->desc = *desc;
     job->camera = *desc->camera;
@@ -52,7 +52,7 @@ static void fill_job(trace_job *job, const facet_scene *scene, const facet_rende
     for (uint32_t i = 0; i < count; i++)
         job->animations[i] = desc->pose.animations[i];
     job->desc.pose.animation_count = count;
-    job->desc.camera = NULL; /* they belong to the job that is worked on */
+    job->desc.camera = NULL; /* the copy is set by the job that is traced */
     job->desc.pose.animations = NULL;
 }
 
@@ -211,7 +211,7 @@ bool view_trace_start(view_tracer *t, const facet_scene *scene, const facet_rend
         t->has_last = true;
         memcpy(&t->next, &job, sizeof job);
         t->has_next = true;
-        t->is_cancelled = true; /* what is traced now */
+        t->is_cancelled = true; /* the current job */
         t->state = (view_trace_state){.wanted = desc->samples};
         t->has_image = false;
         pthread_cond_broadcast(&t->changed);

@@ -1,5 +1,5 @@
-/* view_values.c - the panel of what is shown, how it is drawn, and how long that takes. What is as it is from the start is left
- * out, so that the panel stays small. */
+/* view_values.c - the panel of current settings, rendering and frame time. Default settings are omitted, so that
+ * the panel stays small. */
 #include "view/view_app.h"
 
 #include <stdarg.h>
@@ -16,7 +16,7 @@ typedef struct values {
     size_t size, used;
 } values;
 
-/* What does not fit is left out. */
+/* What does not fit is omitted. */
 static void add(values *v, const char *name, const char *format, ...) __attribute__((format(printf, 3, 4)));
 static void add(values *v, const char *name, const char *format, ...)
 {

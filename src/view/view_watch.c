@@ -1,5 +1,5 @@
-/* view_watch.c - see view_watch.h. Programs replace files rather than write into them, so that what is watched is names in
- * folders; which names are the scene's is found while its files are still those that were read. */
+/* view_watch.c - see view_watch.h. Programs replace files rather than write into them, so names in folders are
+ * watched; the names of the scene's files are found while they are still the ones that were read. */
 #define _GNU_SOURCE /* NAME_MAX, strdup */
 #include "view/view_watch.h"
 
@@ -55,7 +55,7 @@ static bool is_watched(view_watcher *w, const struct inotify_event *event)
     return is_found;
 }
 
-/* Whether something that is watched is among what inotify has to say. */
+/* Whether inotify reports something that is watched. */
 static bool read_events(view_watcher *w)
 {
     _Alignas(struct inotify_event) char buffer[16 * (sizeof(struct inotify_event) + NAME_MAX + 1)];
@@ -92,7 +92,7 @@ static void *run(void *user)
     }
 }
 
-/* ---- which names ---- */
+/* ---- watched names ---- */
 
 static void forget(view_watcher *w)
 {
@@ -104,7 +104,7 @@ static void forget(view_watcher *w)
     w->has_changed = false;
 }
 
-/* The scene's files in a folder; where subfolders is not NULL their names go there, as many as fit. */
+/* The scene's files in a folder; where subfolders is not NULL their names are added to it, as many as fit. */
 static void add_folder(view_watcher *w, const facet_scene *scene, const char *folder, char **subfolders,
                        int *subfolder_count)
 {
@@ -163,7 +163,7 @@ bool view_watch_take(view_watcher *w)
     return has_changed;
 }
 
-/* ---- making it ---- */
+/* ---- create ---- */
 
 facet_result view_watch_create(const facet_allocator *allocator, void (*wake)(void *user), void *user,
                                view_watcher **out, facet_error *error)

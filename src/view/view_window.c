@@ -55,12 +55,12 @@ struct view_window {
     bool is_started, is_damaged;
     int drawn_width, drawn_height;
     bool is_full_screen;
-    bool is_minimised;                       /* was asked for; not every desktop does it at once, or at all */
-    int old_x, old_y, old_width, old_height; /* before it filled the screen */
+    bool is_minimised;                       /* requested; not every desktop minimises at once, or at all */
+    int old_x, old_y, old_width, old_height; /* before full screen */
 };
 
-/* GLFW's callbacks get a handle only; what belongs to it is asked of the library, whose functions are not linked but found.
- * GLFW itself is one for the process and lives on its first thread: so does this. */
+/* GLFW's callbacks get only a handle; its user data is read through the library, whose functions are found at run
+ * time. GLFW has one instance per process, on its first thread: so has this. */
 static void *(*get_user_pointer)(GLFWwindow *handle);
 
 static view_window *of(GLFWwindow *handle)
@@ -77,8 +77,8 @@ static unsigned modifiers_of(int mods)
            (mods & GLFW_MOD_ALT ? (unsigned)VIEW_ALT : 0);
 }
 
-/* Letters and figures by what is printed on the key, whatever the layout; 0: none of ours. Other characters come through
- * on_character(), which knows how they are typed. */
+/* Letters and digits by what is printed on the key, whatever the layout; 0: not bound. Other characters come
+ * through on_character(), which knows how they are typed. */
 static uint32_t key_of(const view_window *w, int key, int scancode)
 {
     static const struct {
@@ -130,7 +130,7 @@ static void on_character(GLFWwindow *handle, unsigned character)
 
 /* ---- pointer, files, window ---- */
 
-/* Windows are measured in points, pictures in pixels. */
+/* Windows are measured in points, images in pixels. */
 static void to_pixels(const view_window *w, double *x, double *y)
 {
     int width = 1;
@@ -167,7 +167,7 @@ static void on_move(GLFWwindow *handle, double x, double y)
     view_queue_put(w->queue, (view_event){.kind = VIEW_MOVE, .x = x, .y = y});
 }
 
-/* GLFW does not tell a scroll's. */
+/* GLFW does not report a scroll's modifiers. */
 static unsigned held_modifiers(const view_window *w)
 {
     static const struct {
@@ -207,12 +207,12 @@ static void on_refresh(GLFWwindow *handle)
     of(handle)->is_damaged = true;
 }
 
-/* ---- making it ---- */
+/* ---- create ---- */
 
 static facet_result open_glfw(glfw_library *out, facet_error *error)
 {
     const library_symbol symbols[] = {GLFW_FUNCTIONS(LIBRARY_SYMBOL, out)};
-    /* It stays: it opens libraries of the display that do not support being unloaded. */
+    /* Never unloaded: it loads display libraries that do not support it. */
     const library_desc desc = {.subject = "window",
                                .advice = ", which opens windows, is not installed (Debian: libglfw3)",
                                .version = "; GLFW 3.3 or later was expected",
@@ -228,7 +228,7 @@ static facet_result fail_glfw(const view_window *w, const char *what, facet_erro
     const char *why = NULL;
     w->glfw.get_error(&why);
     size_t length = why ? strlen(why) : 0;
-    while (length && why[length - 1] == ' ') /* behind which a name was to stand */
+    while (length && why[length - 1] == ' ') /* which a name was to follow */
         length--;
     return fail(error, FACET_ERROR_SYSTEM, "window: %s (%.*s)", what, (int)length, why ? why : "");
 }
@@ -243,7 +243,7 @@ static bool create_handle(view_window *w, int width, int height)
         g->window_hint(GLFW_CONTEXT_VERSION_MAJOR, 3);
         g->window_hint(GLFW_CONTEXT_VERSION_MINOR, is_es ? 0 : 3);
         g->window_hint(GLFW_OPENGL_PROFILE, is_es ? GLFW_OPENGL_ANY_PROFILE : GLFW_OPENGL_CORE_PROFILE);
-        g->window_hint(GLFW_DEPTH_BITS, 0); /* what is drawn has targets of its own */
+        g->window_hint(GLFW_DEPTH_BITS, 0); /* rendering uses targets of its own */
         g->window_hint(GLFW_STENCIL_BITS, 0);
         g->window_hint_string(GLFW_X11_CLASS_NAME, "facet");
         w->handle = g->create_window(width, height, "facet", NULL, NULL);
@@ -308,7 +308,7 @@ void view_window_destroy(view_window *w)
     mem_free(w);
 }
 
-/* ---- what is done with it ---- */
+/* ---- operations ---- */
 
 void view_window_show(view_window *w)
 {
@@ -347,7 +347,7 @@ float view_window_scale(view_window *w)
     return y >= 1.0f && y <= 8.0f ? y : 1.0f;
 }
 
-/* That on which most of the window's middle is; else the first. */
+/* The monitor that contains the window's middle; else the first. */
 static GLFWmonitor *find_monitor(const view_window *w)
 {
     int count = 0;

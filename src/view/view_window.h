@@ -1,4 +1,4 @@
-/* view_window.h - the window: GLFW's, with a context of OpenGL 3.3 or ES 3.0. What is done to it becomes events. */
+/* view_window.h - the window: GLFW's, with a context of OpenGL 3.3 or ES 3.0. Its input becomes events. */
 #ifndef VIEW_VIEW_WINDOW_H
 #define VIEW_VIEW_WINDOW_H
 
@@ -8,8 +8,8 @@
 
 typedef struct view_window view_window;
 
-/* Hidden until view_window_show(); its context is current. width, height: of the framebuffer as far as the desktop allows it.
- * queue: where events go. Fails with FACET_ERROR_SYSTEM: no GLFW, no display, no OpenGL. */
+/* Hidden until view_window_show(); its context is current. width, height: of the framebuffer as far as the desktop
+ * allows. queue: where events go. Fails with FACET_ERROR_SYSTEM: no GLFW, no display, no OpenGL. */
 facet_result view_window_create(const facet_allocator *allocator, uint32_t width, uint32_t height,
                                 view_queue *queue, view_window **out, facet_error *error);
 void view_window_destroy(view_window *w); /* NULL is allowed */
@@ -23,13 +23,13 @@ float view_window_scale(view_window *w); /* of text: 2 on dense displays */
 void view_window_toggle_full_screen(view_window *w);
 void view_window_minimise(view_window *w, bool is_minimised);
 void view_window_copy(view_window *w, const char *text);
-void view_window_present(view_window *w); /* what was drawn */
+void view_window_present(view_window *w); /* swaps buffers */
 
-/* Takes what came; waits for something for seconds (0: not at all, INFINITY: for ever). */
+/* Takes pending events; waits for one for up to that many seconds (0: not at all, INFINITY: forever). */
 void view_window_wait(view_window *w, double seconds);
 /* Ends a wait; from any thread. */
 void view_window_wake(view_window *w);
-/* Whether what is shown was damaged, or its size changed, since the last question. */
+/* Whether the content was damaged, or the size changed, since the last call. */
 bool view_window_needs_drawing(view_window *w);
 
 #endif

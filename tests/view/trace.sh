@@ -98,7 +98,7 @@ trace 0 1.5
 close
 END
 expect 7 view triangle.gltf --script script $size
-says "script: line 3: the path traced picture ("
+says "script: line 3: the path traced image ("
 says "of 4096 samples) did not come within 1.5 s"
 cat >script <<'END'
 load

@@ -207,8 +207,8 @@ static void test_too_large(void **state)
     assert_int_equal(gl_texture_update(set, &use, &test_log, 1, NULL), FACET_OK);
     assert_int_equal(gl_texture_update(set, &use, &test_log, 1, NULL), FACET_OK);
     assert_int_equal(warning_count, 1);
-    assert_string_equal(warning,
-                        "fixture: image 0: 37 x 9 texels are more than OpenGL's 10; it is drawn with 9 x 2");
+    assert_string_equal(
+        warning, "fixture: image 0: 37 x 9 texels exceed OpenGL's maximum of 10; it is drawn with 9 x 2");
     assert_uploaded(gl_texture_name(set, 0, true), want.pyramid[1], 2);
     assert_uploaded(gl_texture_name(set, 0, false), want.pyramid[0], 2);
     gl_texture_destroy(set);

@@ -277,7 +277,8 @@ static void too_many_lights_are_reported_once(void **state)
     gl_renderer *renderer = gl_fixture_renderer(&f, &contexts.items[0]);
     film a = gl_fixture_draw(&f, renderer), b = gl_fixture_draw(&f, renderer);
     assert_int_equal(t.count, 1);
-    assert_string_equal(t.last, "shadows: 8 of 50 lights cast none; the map has room for the 42 brightest");
+    assert_string_equal(t.last,
+                        "shadows: 8 of 50 lights cast none; the shadow map has room for the 42 brightest");
     /* (0.28, 0) is in the shadow of the brightest light, a few of its large texels from the edge. */
     assert_true(fixture_pixel(&a, "", 20, 16)[1] < 0.1f * fixture_pixel(&a, "", 28, 16)[1]);
     assert_memory_equal(a.layers[0].pixels, b.layers[0].pixels, 32 * 32 * 4 * sizeof(float));

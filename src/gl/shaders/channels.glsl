@@ -1,4 +1,4 @@
-/* channels.glsl - what of a surface is drawn in place of its light: facet_channel. */
+/* channels.glsl - what of a surface is drawn instead of its light: facet_channel. */
 #ifdef HAS_CHANNEL
 #define CHANNEL_NORMAL 1
 #define CHANNEL_BASE_COLOR 2
@@ -29,7 +29,7 @@ vec3 surface_channel(Surface s, vec3 V, float opacity)
 }
 
 #ifdef IS_LIT
-/* Of one lobe, of the emission, or of light of 1 from everywhere. */
+/* Of one lobe, of the emission, or under uniform light of 1. */
 vec3 lobe_channel(Layers m, vec3 V)
 {
     if (channel == CHANNEL_EMISSION)

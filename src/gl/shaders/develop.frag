@@ -1,4 +1,4 @@
-/* develop.frag - a picture of OpenGL 1's numbers as light: what a display makes of them. */
+/* develop.frag - an image of OpenGL 1's display values, converted to linear light as a display shows them. */
 uniform highp sampler2D u_level;
 
 out vec4 fragment;

@@ -1,12 +1,12 @@
-/* environment.glsl - lookups of the surroundings and of the tables, as light_setup.h and ibl.h have them. Radiance in
- * cd/m^2 per channel, without exposure; directions are unit vectors of the world. 0 where there is no environment, or
- * nothing was prepared of it because no material reads it. */
+/* environment.glsl - lookups of the environment and of the tables, as light_setup.h and ibl.h have them. Radiance
+ * in cd/m^2 per channel, without exposure; directions are unit vectors in world space. 0 where there is no
+ * environment, or where it was not prepared because no material reads it. */
 uniform highp sampler2D u_tables; /* x, y: DFG; z: sheen's albedo */
 uniform highp sampler3D u_glass;
 
 /* ---- cube maps (cube.h) ---- */
 
-/* Where d is: column and row of the face (axis, sign), then s and t on it. */
+/* The direction d: column and row of the face (axis, sign), then s and t on it. */
 vec4 cube_locate(vec3 d)
 {
     vec3 a = abs(d);
@@ -18,8 +18,9 @@ vec4 cube_locate(vec3 d)
 }
 
 #ifdef HAS_ENVIRONMENT
-uniform highp sampler2D u_environment; /* cube maps and pictures, each with a border of one texel */
-uniform highp sampler2D u_sharp;       /* the picture behind the model */
+/* cube maps and equirectangular images, each with a border of one texel */
+uniform highp sampler2D u_environment;
+uniform highp sampler2D u_sharp;       /* the image behind the model */
 
 /* World to environment. */
 vec3 to_environment(vec3 d)
@@ -27,14 +28,14 @@ vec3 to_environment(vec3 d)
     return vec3(d.x * frame_light.y - d.z * frame_light.z, d.y, d.x * frame_light.z + d.z * frame_light.y);
 }
 
-/* place: column and row of the first texel, edge of a face in texels, scale. */
+/* place: column and row of the first texel, size of a face in texels, scale. */
 vec3 cube_fetch(vec4 place, vec4 at)
 {
     vec2 texel = place.xy + at.xy * (place.z + 2.0) + (at.zw * (0.5 * place.z) + (0.5 * place.z + 1.0));
     return textureLod(u_environment, texel * light_atlas.xy, 0.0).xyz * place.w;
 }
 
-/* The level of a lobe (0: GGX, 1: Charlie), with fraction, between the first and last that were prepared. */
+/* The level of a lobe (0: GGX, 1: Charlie), with fraction, between the first and last prepared ones. */
 float light_lod(int lobe, float roughness)
 {
     int first = lobe == 0 ? light_ranges.x : light_ranges.z;
@@ -47,7 +48,7 @@ float light_lod(int lobe, float roughness)
     return lod;
 }
 
-/* Between two levels. */
+/* Interpolated between two levels. */
 vec3 light_levels(int lobe, float lod, vec3 d)
 {
     int last = lobe == 0 ? light_ranges.y : light_ranges.w;
@@ -58,9 +59,10 @@ vec3 light_levels(int lobe, float lod, vec3 d)
     return near + (far - near) * (lod - float(level));
 }
 
-/* ---- pictures (equirect.h) ---- */
+/* ---- equirectangular images (equirect.h) ---- */
 
-/* Turns from the middle column, half turns from the top. At the poles there is no angle: they are in the middle column. */
+/* Turns from the middle column, half turns from the top. At the poles the azimuth is undefined: they are in the
+ * middle column. */
 vec2 equirect_locate(vec3 d)
 {
     float across = length(d.xz);
@@ -93,7 +95,7 @@ vec3 light_narrow(float lod, vec3 d)
     return c;
 }
 
-/* ---- what surfaces look up ---- */
+/* ---- lookups for surfaces ---- */
 
 /* Around R, filtered with the lobe of GGX. */
 vec3 light_specular(vec3 R, float perceptual_roughness)
@@ -109,7 +111,7 @@ vec3 light_sheen(vec3 R, float sheen_roughness)
     return frame_light.x * light_levels(1, light_lod(1, sheen_roughness), to_environment(R));
 }
 
-/* What a white Lambertian surface sends out. */
+/* Reflected radiance of a white Lambertian surface. */
 vec3 light_irradiance_over_pi(vec3 N)
 {
     return frame_light.x * cube_fetch(light_irradiance, cube_locate(to_environment(N)));
@@ -145,7 +147,7 @@ vec3 light_background(vec3 d)
 
 /* ---- tables (dfg.h) ---- */
 
-/* Texture coordinate of x in [0, 1] between size nodes. */
+/* Texture coordinate of x in [0, 1] in a table of size nodes. */
 float table_place(float x, float size)
 {
     return (clamp(x, 0.0, 1.0) * (size - 1.0) + 0.5) / size;
@@ -169,7 +171,7 @@ float table_sheen_albedo(float NdotV, float sheen_roughness)
     return table_albedo(NdotV, sheen_roughness).z;
 }
 
-/* integrate_glass() of shade/glass.h. The layers for light from inside come behind the others. */
+/* integrate_glass() of shade/glass.h. The layers for light from inside follow the others. */
 vec3 table_glass(float NdotV, float perceptual_roughness, float eta)
 {
     vec3 size = vec3(textureSize(u_glass, 0));

@@ -1,14 +1,16 @@
-/* ground.frag - the shadow on an unseen plane under the model: dark with the opacity of what it takes from the light, as seen
- * through the middle of each pixel. The plane is behind all of the model for an eye above it, and not there for others.
+/* ground.frag - the shadow on an invisible plane under the model: black with an opacity of the share of light that
+ * the model blocks, at the middle of each pixel. The plane is behind the whole model for an eye above it, and not
+ * drawn for others.
  *
- * Of the environment it takes what ground_map.frag found of a uniform sky; of punctual lights and the sun, where they have
- * shadows, what those take. Lights without shadows do not count: they would make what there is fainter. */
+ * From the environment it takes the occlusion that ground_map.frag found for a uniform sky; from punctual lights
+ * and the sun, where they have shadows, what those block. Lights without shadows do not count: they would weaken
+ * the shadows of others. */
 uniform highp sampler2D u_ground;
 
 out vec4 fragment;
 
-/* P: relative to the eye. The mean of 4 x 4 lookups a texel apart: directions of neighbours lie between each other and repeat
- * every four. The map fades out where it ends. */
+/* P: relative to the eye. The mean of 4 x 4 lookups a texel apart: the directions of neighbours interleave and
+ * repeat every four texels. The map fades out at its border. */
 float hidden_sky(vec3 P)
 {
     vec2 at = (P.xz + eye.xz - light_ground.xy) / (2.0 * light_ground.z) + 0.5;
@@ -22,7 +24,7 @@ float hidden_sky(vec3 P)
     return sum * (inside / 16.0);
 }
 
-/* Share of the light that the model takes. */
+/* Share of the light that the model blocks. */
 float opacity_at(vec3 P)
 {
     float hidden = hidden_sky(P);

@@ -1,15 +1,15 @@
-/* ground_map.frag - how much of a uniform sky the model hides from a point of the ground, in [0, 1]: ambient occlusion of
- * the plane (Zhukov et al. 1998), weighted with the cosine.
+/* ground_map.frag - how much of a uniform sky the model hides from a point of the ground, in [0, 1]: ambient
+ * occlusion of the plane (Zhukov et al. 1998), weighted with the cosine.
  *
- * A map has for each place the lowest and the highest of what stands above it, which is taken for solid in between. Along a
- * direction of the plane, each step of it hides the elevations e from its lower edge to its upper one. sin(e)^2 is
- * uniformly distributed for light that counts with the cosine, and its 32 parts are the bits of a word (Therrien et al.
+ * For each place a map has the lowest and the highest point above it, and the space in between counts as solid.
+ * Along a direction in the plane, each step hides the elevations e from its lower end to its upper one. sin(e)^2
+ * is uniformly distributed for cosine-weighted light, and its 32 parts are the bits of a word (Therrien et al.
  * 2023, "Screen space indirect lighting with visibility bitmask"): what several steps hide counts once. */
-uniform highp sampler2D u_heights; /* lowest, and beside them the highest: of depth 1 less */
+uniform highp sampler2D u_heights; /* lowest, and beside them the highest: 1 - depth */
 
 out vec4 fragment;
 
-const int SLICES = 12; /* directions; those of 4 x 4 neighbours lie between each other */
+const int SLICES = 12; /* directions; those of 4 x 4 neighbours interleave */
 const int STEPS = 48;
 
 float part_of_sky(float height, float distance)
@@ -35,13 +35,13 @@ int count_bits(uint x)
     return int((x * 0x01010101u) >> 24);
 }
 
-/* Height above the ground, m, of depth in [0, 1]. */
+/* Height above the ground, m, of a depth in [0, 1]. */
 float height_of(float depth)
 {
     return max(mix(light_ground_height.x, light_ground_height.y, depth), 0.0);
 }
 
-/* What a step of a slice hides: the column at a place of the map, from near to far (texels). */
+/* What a step of a slice hides: the column at a texel of the map, from near to far (texels). */
 uint step_bits(ivec2 at, int size, float near, float far, float m_per_texel)
 {
     float low = texelFetch(u_heights, at, 0).x;

@@ -1,9 +1,9 @@
-/* halve.frag - a picture at half its size: 13 bilinear lookups over 6 x 6 pixels, five boxes of which the middle one has half
- * of the weight, so that small bright things do not flicker where they move (Jimenez 2014, "Next generation
- * post-processing in Call of Duty: Advanced Warfare"). The sum of light stays what it is. With IS_COPY each pixel as it
- * is. Halves of floats hold no more than 65504: brighter light, and what is no number, ends here. */
+/* halve.frag - an image downsampled to half its size: 13 bilinear lookups over 6 x 6 pixels, five boxes of which
+ * the middle one has half of the weight, so that small bright spots do not flicker when they move (Jimenez 2014,
+ * "Next generation post-processing in Call of Duty: Advanced Warfare"). The sum of light is preserved. With
+ * IS_COPY each pixel is copied. Half floats hold at most 65504: larger values are clamped, and NaN is removed. */
 uniform highp sampler2D u_level;
-uniform vec2 u_pixel; /* 1 / size of what is drawn */
+uniform vec2 u_pixel; /* 1 / size of the viewport */
 
 out vec4 fragment;
 

@@ -1,4 +1,4 @@
-/* light_block.glsl - where a picture's light lies in textures, as gl_light_block.h has it. */
+/* light_block.glsl - where the light of an image is in textures, as gl_light_block.h has it. */
 #define LIGHT_LEVELS 16
 #define LIGHT_IMAGES 4
 #define LIGHT_STEPS 17
@@ -6,19 +6,23 @@
 
 layout(std140) uniform Lighting
 {
-    vec4 light_atlas;    /* 1 / width, 1 / height; scale of the background's texels; GLASS_ROOT_MAX of dfg.h */
+    /* 1 / width, 1 / height; scale of the background's texels; GLASS_ROOT_MAX of dfg.h */
+    vec4 light_atlas;
     ivec4 light_ranges;  /* first and last level of GGX, of Charlie */
-    vec4 light_places[2 * LIGHT_LEVELS]; /* of the levels of GGX, then of Charlie: column, row, edge, scale */
+    vec4 light_places[2 * LIGHT_LEVELS]; /* of the levels of GGX, then of Charlie: column, row, size, scale */
     vec4 light_irradiance;               /* the same */
-    vec4 light_steps[LIGHT_LEVELS];      /* roughness of GGX, 1 over what is missing to the next one; Charlie's */
+    vec4 light_steps[LIGHT_LEVELS];      /* roughness of GGX, 1 / difference to the next one; Charlie's */
     vec4 light_images[LIGHT_IMAGES]; /* mirror, blurred ones: column, row, width, height */
-    vec4 light_narrow_weights[LIGHT_STEPS];         /* of the pictures, with their scales */
+    vec4 light_narrow_weights[LIGHT_STEPS];         /* of the images, with their scales */
     vec4 light_narrow_lobe[(LIGHT_STEPS + 3) / 4];  /* of level 1 of GGX, four steps each */
     vec4 light_grid_origin;                         /* m, world */
     vec4 light_grid_cells;                          /* per m */
-    ivec4 light_grid_size;                          /* per axis; 0: all lights are looked at everywhere */
-    vec4 light_shadow;                              /* edge of a tile, texels; tiles in a row; 1 over the edge of the map */
-    vec4 light_ground;        /* x, z of the middle of its map, half of its edge, height of the plane; m, world */
-    vec4 light_ground_height; /* of what stands on it, m: lowest and highest that the map of heights has */
+    ivec4 light_grid_size;                          /* per axis; 0: all lights are evaluated everywhere */
+    /* size of a tile, texels; tiles per row; 1 / size of the map */
+    vec4 light_shadow;
+    /* x, z of the middle of its map, half of its size, height of the plane; m, world */
+    vec4 light_ground;
+    /* of the objects on it, m: the heights at both ends of the height map's range */
+    vec4 light_ground_height;
     ivec4 light_lists; /* first texel of lists, of cells; number of lights that reach everywhere */
 };

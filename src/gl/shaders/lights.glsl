@@ -1,16 +1,16 @@
-/* lights.glsl - punctual lights (and the sun) that may reach a point: a loop over them is
+/* lights.glsl - punctual lights (and the sun) that may reach a point. A loop over them:
  *     int count = light_count(P);
  *     for (int i = 0; i < count; i++)
  *         ... light_at(i) ...
  * P and the lights' positions are relative to the eye (m). With HAS_SHADOWS their intensity is what arrives at P. */
 #ifdef HAS_LIGHTS
-uniform highp usampler2D u_lights; /* four texels a light, then lists of numbers: gl_punctual.h */
+uniform highp usampler2D u_lights; /* four texels per light, then lists of indices: gl_light.c */
 
-/* Of the point: its cell's list (light_grid.h); and where it is. */
+/* Of the point: its cell's list (light_grid.h), and its position. */
 int light_near_first = 0;
 #ifdef HAS_SHADOWS
 vec3 light_P = vec3(0.0);
-vec3 light_face = vec3(0.0); /* unit, normal of the face; either way */
+vec3 light_face = vec3(0.0); /* unit, normal of the face; on either side */
 #endif
 
 uvec4 light_texel(int i)
@@ -23,7 +23,7 @@ int light_number(int i)
     return int(light_texel(light_lists.x + i / 4)[i & 3]);
 }
 
-/* First and end of the list of the cell that P (m, world) is in. */
+/* First and end of the list of the cell that contains P (m, world). */
 ivec2 light_cell(vec3 P)
 {
     vec3 x = (P - light_grid_origin.xyz) * light_grid_cells.xyz;
@@ -49,7 +49,7 @@ ShadowRecord shadow_record(int first)
     return r;
 }
 
-/* first: texel of the light's record; 0: it has none. */
+/* first: texel of the light's shadow record; 0: it has none. */
 Light with_shadow(Light l, int first)
 {
     if (first > 0 && max3(light_illuminate(l, light_P).E) > 0.0)
@@ -74,10 +74,10 @@ int light_count(vec3 P)
     return count;
 }
 
-/* The i-th of them, as if nothing were in its way; rest: of its texels. light_count() comes first. */
+/* The i-th light, unoccluded; rest: the rest of its texels. Call light_count() first. */
 Light light_open_at(int i, out uvec4 rest)
 {
-    /* Those that reach everywhere have a list of their own, before the others'. */
+    /* Those that reach everywhere have a list of their own, before the others. */
     int number = i;
     if (light_grid_size.x > 0)
         number = light_number(i < light_lists.z ? i : light_near_first + i - light_lists.z);
@@ -96,7 +96,7 @@ Light light_open_at(int i, out uvec4 rest)
     return l;
 }
 
-/* The same with the share of its intensity that arrives. */
+/* The same, with its intensity scaled by its visibility. */
 Light light_at(int i)
 {
     uvec4 rest;

@@ -1,5 +1,6 @@
-/* material.glsl - a material's numbers and texels (gl_material_block.h, gl_material_slots.h) to the surface and its layers,
- * by shade/material.h. Texels are read before anything is decided by them: mips follow from the neighbors' coordinates. */
+/* material.glsl - from a material's parameters and texels (gl_material.c, gl_program_text.c) to the surface and
+ * its layers, by shade/material.h. Texels are read before any branch: mip levels follow from the coordinates of
+ * neighboring fragments. */
 layout(std140) uniform Material
 {
     vec4 base_color_factor;
@@ -19,7 +20,7 @@ layout(std140) uniform Material
 
 /* ---- texels ---- */
 
-/* The texel of a slot: where it is, and how its sampler filters. */
+/* The texel of a slot, at its coordinates and with the filter of its sampler. */
 vec4 material_texel(sampler2D image, int slot)
 {
     vec4 row_u = texcoord_rows[2 * slot];
@@ -30,12 +31,12 @@ vec4 material_texel(sampler2D image, int slot)
 
 /* ---- color and opacity ---- */
 
-/* Linear, with the alpha before its mode. */
+/* Linear; the alpha before its mode is applied. */
 vec4 base_color()
 {
     vec4 texel = BASE_COLOR_TEXEL;
 #ifdef HAS_COLORS
-    vec4 color = max(v_color, 0.0); /* beyond the triangle's edge it may be less */
+    vec4 color = max(v_color, 0.0); /* extrapolated beyond the triangle's edge it may be negative */
 #else
     vec4 color = vec4(1.0);
 #endif
@@ -56,13 +57,13 @@ float coverage(float alpha)
 
 /* ---- normals ---- */
 
-/* Unit, of the vertices alone. */
+/* Unit, from the vertices alone. */
 vec3 smooth_normal(vec3 V)
 {
     return normalize_or(v_normal * seen_side(), V);
 }
 
-/* From the change of a texture coordinate from pixel to pixel. */
+/* From the screen-space derivatives of a texture coordinate. */
 ShadingFrame frame_of_texcoord(int set)
 {
     vec2 uv = texcoord_of_set(set);
@@ -121,7 +122,7 @@ vec3 clearcoat_normal(vec3 V)
     vec3 n = normal_from_texel(CLEARCOAT_NORMAL_TEXEL.xyz, map_scales.z);
     int set = int(texcoord_rows[18].w);
 #ifdef HAS_TANGENTS
-    /* They are those of the base's normal texture. */
+    /* The same as those of the base's normal texture. */
 #ifdef HAS_NORMAL_TEXTURE
     if (int(texcoord_rows[4].w) == set)
         return frame_normal(frame_of_tangents(), n, N);
@@ -191,7 +192,7 @@ Layers layers_of_material(Surface s, vec3 V)
 #ifdef HAS_SCATTER
     m = with_scatter(m, scatter_factors.xyz, scatter_factors.w);
 #endif
-    m.layers &= MATERIAL_LAYERS; /* which the compiler then knows */
+    m.layers &= MATERIAL_LAYERS; /* constant, so the compiler removes the other layers */
     return m;
 }
 #endif

@@ -2,18 +2,19 @@
  * gl_film.c reads. */
 #if defined(AOVS)
 layout(location = 0) out vec4 aov_normal_depth;    /* world; m along the camera's axis */
-layout(location = 1) out vec4 aov_color_occlusion; /* linear base color; 1: open */
-layout(location = 2) out vec4 aov_number_texcoord; /* of the geometry; TEXCOORD_0; opacity, 0: nothing is there */
+layout(location = 1) out vec4 aov_color_occlusion; /* linear base color; 1: unoccluded */
+/* of the geometry; TEXCOORD_0; opacity, 0: there is no surface */
+layout(location = 2) out vec4 aov_number_texcoord;
 #elif defined(IS_WEIGHTED)
-layout(location = 0) out vec4 fragment;         /* light and what passes */
-layout(location = 1) out float fragment_weight; /* what the light is to be divided by */
-uniform vec2 u_depths;                          /* of the nearest, m; one over how far behind it the farthest is */
+layout(location = 0) out vec4 fragment;         /* light and transmittance */
+layout(location = 1) out float fragment_weight; /* the divisor of the light */
+uniform vec2 u_depths;                          /* of the nearest, m; 1 / distance from it to the farthest */
 #else
 out vec4 fragment;
 #endif
 
 #ifdef IS_PEELED
-uniform highp sampler2D u_peeled; /* depth of the layer before */
+uniform highp sampler2D u_peeled; /* depth of the previous layer */
 
 bool is_behind_peeled()
 {
@@ -33,7 +34,7 @@ void put_aovs(vec3 N, vec3 color, float occlusion, float opacity)
     aov_number_texcoord = vec4(v_instance.z, texcoord_of_set(0), opacity);
 }
 #else
-/* Radiance that is not yet multiplied by opacity. Every fragment ends here, after all that needs its neighbors. */
+/* radiance: not yet multiplied by opacity. Every fragment ends here, after everything that reads derivatives. */
 void put_fragment(vec3 radiance, float opacity)
 {
 #ifdef IS_PEELED

@@ -1,5 +1,5 @@
-/* phong.frag - a material of OpenGL 1. The order is OpenGL's, as in src/cpu/ogl1_shade.c: light, texture, the highlight where it
- * is separate, fog, clamp. Every formula is in shade/phong.h. */
+/* phong.frag - a material of OpenGL 1. The order is OpenGL's, as in src/cpu/ogl1_shade.c: light, texture, the
+ * highlight where it is separate, fog, clamp. All formulas are in shade/phong.h. */
 uniform highp sampler2D u_material0;
 uniform highp sampler2D u_material1;
 uniform highp sampler2D u_material2;
@@ -19,7 +19,7 @@ in vec3 v_back_highlight;
 #endif
 #endif
 
-/* Numbers of maps: gl_phong_block.h. */
+/* Indices of maps: gl_phong.c. */
 #define AMBIENT_MAP 0
 #define DIFFUSE_MAP 1
 #define SPECULAR_MAP 2
@@ -28,7 +28,7 @@ in vec3 v_back_highlight;
 #define OPACITY_MAP 5
 #define NORMAL_MAP 6
 
-/* ---- normals, eye space, on the front ---- */
+/* ---- normals in eye space, on the front side ---- */
 
 vec3 face_in_eye_space()
 {
@@ -67,7 +67,7 @@ PhongColor map_color(vec4 texel, int map)
     return c;
 }
 
-/* base + gain times the channel that is named: 0 to 3; 4: luminance. */
+/* base + gain times the selected channel: 0 to 3; 4: luminance. */
 float map_scalar(vec4 texel, int map)
 {
     vec4 values = phong_maps[3 * map + 2];
@@ -146,7 +146,7 @@ PhongLit light_of_fragment(vec3 diffuse)
 
 /* ---- color and opacity ---- */
 
-/* Vertex colors and the map of opacity counted in, without the diffuse map. */
+/* Including vertex colors and the opacity map, without the diffuse map. */
 PhongColor base_color()
 {
 #if defined(IS_AT_VERTICES) && defined(IS_FLAT)
@@ -213,7 +213,7 @@ void main()
     PhongRules r = ogl1_rules();
     PhongColor c = lit_color();
     if (is_encoded() && r.is_lit_at_vertices)
-        c.rgb = clamp(c.rgb, 0.0, 1.0); /* the color sum, before fog */
+        c.rgb = clamp(c.rgb, 0.0, 1.0); /* after the color sum, before fog */
     c.rgb = with_fog(r, c.rgb);
     if (is_encoded())
         c.rgb = clamp(c.rgb, 0.0, 1.0);

@@ -1,13 +1,14 @@
-/* phong.glsl - what OpenGL 1's shading takes of a picture and of a material (gl_phong_block.h), and light at a point. The eye
- * space is that of shade/phong.h; numbers are those that are computed with, encoded ones or linear light. */
+/* phong.glsl - what OpenGL 1's shading needs of an image and of a material (gl_phong.c), and light at a point. The
+ * eye space is that of shade/phong.h; values are those of the computation, encoded ones or linear light. */
 layout(std140) uniform Ogl1
 {
     vec4 ogl1_view[3];     /* rows: world to eye space */
-    ivec4 ogl1_modes;      /* variant; 1: computed with encoded numbers; 1: colors are sRGB; lights, 0: punctual ones */
+    /* variant; 1: computed with encoded values; 1: colors are sRGB; number of lights, 0: punctual ones */
+    ivec4 ogl1_modes;
     vec4 ogl1_ambient;     /* global; w: 1 rgl's colors */
     vec4 ogl1_fog_color;   /* w: mode */
     vec4 ogl1_fog;         /* near, far, m; scale; w */
-    vec4 ogl1_lights[256]; /* four each: position, 1 a point light; ambient; diffuse; specular */
+    vec4 ogl1_lights[256]; /* four vectors each: position, 1: a point light; ambient; diffuse; specular */
 };
 
 layout(std140) uniform Material
@@ -16,8 +17,10 @@ layout(std140) uniform Material
     vec4 phong_diffuse;  /* w: opacity */
     vec4 phong_specular; /* w: type of the texture */
     vec4 phong_emission; /* w: its mode */
-    vec4 phong_flags;    /* 1: the texture is laid over all light; 1: halo; 1: fog; multiplier of bumps */
-    vec4 phong_maps[21]; /* three each: rows of the transform, w: the set, 1 trilinear; base, gain, channel */
+    /* 1: the texture is multiplied with all light; 1: halo; 1: fog; multiplier of bumps */
+    vec4 phong_flags;
+    /* three vectors each: rows of the transform, w: the set, 1: trilinear; base, gain, channel */
+    vec4 phong_maps[21];
 };
 
 bool is_encoded()
@@ -44,7 +47,7 @@ PhongRules ogl1_rules()
 
 /* ---- places ---- */
 
-/* Of a direction, or of a point relative to the eye. */
+/* A direction, or a point relative to the eye, in eye space. */
 vec3 to_eye_space(vec3 v)
 {
     return vec3(dot(ogl1_view[0].xyz, v), dot(ogl1_view[1].xyz, v), dot(ogl1_view[2].xyz, v));
@@ -69,7 +72,7 @@ PhongMaterial phong_material(vec3 diffuse)
     return m;
 }
 
-/* Diffuse color and opacity before any map; color: that of a vertex, or between vertices, as it is computed with. */
+/* Diffuse color and opacity before any map; color: of a vertex or interpolated, in the values of the computation. */
 PhongColor phong_color(vec4 color)
 {
     PhongColor c;
@@ -95,7 +98,7 @@ PhongLight ogl1_light(int i)
 }
 
 #ifdef HAS_LIGHTS
-/* A lamp of glTF as a light that shines on the point only: legacy light 1 is the irradiance pi. */
+/* A punctual light of glTF as a light that shines on this point only: legacy light 1 is the irradiance pi. */
 PhongLight ogl1_punctual(Light light, vec3 P)
 {
     LightSample l = light_illuminate(light, P);
@@ -104,7 +107,7 @@ PhongLight ogl1_punctual(Light light, vec3 P)
 }
 #endif
 
-/* at: the point relative to the eye in the world's directions. N: as the mesh has it, eye space. */
+/* at: the point relative to the eye in world directions. N: as in the mesh, in eye space. */
 PhongLit light_at_point(PhongMaterial m, vec3 at, vec3 N, bool is_front)
 {
     PhongRules r = ogl1_rules();
@@ -129,7 +132,7 @@ PhongLit with_highlight(PhongLit lit)
     return lit;
 }
 
-/* That of a corner, as it is interpolated: clamped to what a color register holds. */
+/* At a corner, before interpolation: clamped to the range of a color register. */
 PhongLit light_at_corner(vec4 color, vec3 at, vec3 N, bool is_front)
 {
     PhongLit lit = light_at_point(phong_material(phong_color(color).rgb), at, N, is_front);

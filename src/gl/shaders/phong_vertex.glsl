@@ -1,9 +1,9 @@
-/* phong_vertex.glsl - what vertices of OpenGL 1 have beside those of glTF: colors as they are computed with, and where light is
- * computed at vertices what it makes of them (Gouraud 1971), on both sides. A flat surface has the light of its last
- * corner, on a face that is known to fragments only. */
+/* phong_vertex.glsl - additional vertex outputs of OpenGL 1: colors in the values of the computation, and, where
+ * light is computed at vertices (Gouraud 1971), the lit colors of both sides. A flat surface takes the light of
+ * its last corner, on the side that only fragments know. */
 #ifdef IS_AT_VERTICES
 #ifdef IS_FLAT
-flat out vec3 v_corner; /* the last one, m, relative to the eye */
+flat out vec3 v_corner; /* the last corner, m, relative to the eye */
 flat out vec4 v_corner_color;
 #else
 out vec3 v_front;

@@ -1,5 +1,5 @@
-/* present.frag - radiance to the numbers of a window: as film_develop() makes them and a file for displays has them, sRGB and
- * not premultiplied. */
+/* present.frag - radiance to the display values of a window: as film_develop() computes them for files meant for
+ * displays, sRGB and not premultiplied. */
 uniform sampler2D u_image;
 
 out vec4 fragment;
@@ -14,7 +14,7 @@ void main()
     float opacity = clamp(texel.w, 0.0, 1.0);
     vec3 color = vec3(0.0);
     if (opacity > 0.0) {
-        color = min(texel.xyz / opacity, vec3(65504.0)); /* half floats may have run over */
+        color = min(texel.xyz / opacity, vec3(65504.0)); /* half floats may have overflowed */
         color = tonemap(int(tonemap_operator), color);
     }
     if (background.w > 0.0) {

@@ -1,5 +1,6 @@
-/* radiance.glsl - what leaves a surface towards the eye, in cd/m^2: emission, the prefiltered surroundings, every light.
- * What is looked up for which layer; the formulas are in shade/, as are those of src/cpu/surface_light.c. */
+/* radiance.glsl - radiance from a surface towards the eye, in cd/m^2: emission, the prefiltered environment, every
+ * light. These are the lookups for each layer; the formulas are in shade/, as are those of
+ * src/cpu/surface_light.c. */
 
 /* (A, B) of the split sum. */
 vec2 dfg_at(vec2 point)
@@ -82,7 +83,7 @@ LayerLight environment_light_of(Layers m, vec3 V)
 }
 #endif
 
-/* All that arrives but for lamps. */
+/* All arriving light except from punctual lights. */
 LayerLight layer_light(Layers m, vec3 V)
 {
     LayerLight light;
@@ -104,7 +105,7 @@ LayerLight layer_light(Layers m, vec3 V)
 }
 
 #ifdef HAS_LIGHTS
-/* Of the sheen, at the cosine of a lamp. */
+/* Of the sheen, at the cosine of a punctual light. */
 float sheen_albedo_of(Layers m, Light l)
 {
 #ifdef HAS_SHEEN
@@ -114,7 +115,7 @@ float sheen_albedo_of(Layers m, Light l)
 #endif
 }
 
-/* What another formula of the base's visibility adds to a lamp's highlight. */
+/* What another visibility term of the base adds to the highlight of a punctual light. */
 vec3 specular_variant(Layers m, vec3 V, Light l, LayerTables t)
 {
 #ifdef HAS_SCHLICK_GGX

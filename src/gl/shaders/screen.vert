@@ -1,4 +1,4 @@
-/* screen.vert - one triangle that covers the picture. */
+/* screen.vert - one triangle that covers the viewport. */
 out vec2 v_place; /* [0, 1], from the lower left corner */
 
 void main()

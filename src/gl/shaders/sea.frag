@@ -1,6 +1,8 @@
-/* sea.frag - a pixel of a picture of the sea: the surface, or what is seen where it is not. Which of both, and how waves are read, is known
- * before (sea_class.frag). */
-uniform highp sampler2D u_sea_seen; /* where the water rests that is seen, from the eye, m; distance, m; how fast rays close, 0: there is none */
+/* sea.frag - a pixel of an image of the sea: the surface, or what is visible where there is none. Which of both,
+ * and how waves are read, is decided before (sea_class.frag). */
+/* resting position of the visible water, from the eye, m; distance, m; the closing rate of rays, 0: there is no
+ * water */
+uniform highp sampler2D u_sea_seen;
 
 layout(location = 0) out highp vec4 fragment;
 
@@ -78,7 +80,7 @@ vec4 sea_pixel(vec3 d, vec4 seen, ivec2 pixel)
 #endif
     float t = p.t;
 #ifdef HAS_MODEL
-    if (sea_touched(p.at.xz).x > 0.5) /* a hull keeps it out */
+    if (sea_touched(p.at.xz).x > 0.5) /* a hull displaces it */
         t = 1e9;
 #endif
     return sea_exposed(sea_model_over(sea_through_air(radiance, d, p.t), d, t, pixel));

@@ -1,12 +1,12 @@
-/* sea.vert - the mesh of a sea: nodes were computed before (sea_grid.frag). */
+/* sea.vert - the mesh of a sea: its nodes were computed before (sea_grid.frag). */
 uniform highp sampler2D u_sea_grid;
 uniform highp sampler2D u_sea_rest;
 
 out highp vec3 v_at;   /* from the eye, m */
 out highp vec2 v_rest; /* of the water */
-out highp float v_closing; /* how fast a ray that meets it comes nearer, m per m of distance */
+out highp float v_closing; /* how fast a ray approaches the surface, m per m of distance */
 
-/* Tangent of the elevation at which it is seen, its distance. */
+/* Tangent of the elevation at which it is seen, and its distance. */
 vec2 sea_seen_at(vec3 at)
 {
     float r = max(length(at.xz), 1e-4);
@@ -15,7 +15,8 @@ vec2 sea_seen_at(vec3 at)
 
 void main()
 {
-    float row = floor((float(gl_VertexID) + 0.5) / sea_fan_ends.x); /* of 2^20 at most; whole numbers are divided one by one */
+    /* at most 2^20; the offset of 0.5 makes the rounded division exact */
+    float row = floor((float(gl_VertexID) + 0.5) / sea_fan_ends.x);
     ivec2 node = ivec2(float(gl_VertexID) - row * sea_fan_ends.x, row);
     v_at = texelFetch(u_sea_grid, node, 0).xyz;
     v_rest = texelFetch(u_sea_rest, node, 0).xy;

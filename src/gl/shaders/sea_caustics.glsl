@@ -5,13 +5,13 @@ uniform highp sampler2DArray u_sea_caustics;
 uniform highp sampler2D u_sea_touch; /* sea_touch */
 #endif
 
-/* Whether light on the bed differs from place to place. */
+/* Whether light on the bed varies from place to place. */
 bool sea_has_light_on_bed()
 {
     return sea_caustic_axis.z > 0.0 || sea_shadow.z > 0.0;
 }
 
-/* Shares of light that a model lets pass to the bed: of the beam, and of all other. bed_shadow_at(). */
+/* Transmittance of a model for light to the bed: for the beam, and for all other light. bed_shadow_at(). */
 vec2 sea_shadow_at(vec2 at)
 {
 #ifdef HAS_MODEL
@@ -24,7 +24,8 @@ vec2 sea_shadow_at(vec2 at)
 #endif
 }
 
-/* The beam's light over its mean at a place from the eye; width: of the footprint, m; beyond: what it is beyond all layers. */
+/* The beam's light relative to its mean at a position from the eye; width: of the footprint, m; beyond: the value
+ * outside all layers. */
 float sea_caustic(vec2 place, float width, float beyond)
 {
     float sum = 0.0;
@@ -40,7 +41,7 @@ float sea_caustic(vec2 place, float width, float beyond)
     return sum + open * beyond;
 }
 
-/* Light just below the surface where the bed lies so deep below, lx: water_light_over_bed(). */
+/* Light just below the surface where the bed is that far below, lx: water_light_over_bed(). */
 vec3 sea_light_over_bed(Water w, float depth)
 {
     return water_interreflected(w, sea_downwelling.xyz, water_bed_reflectance(w, sea_bed.xyz, depth));

@@ -1,8 +1,9 @@
-/* sea_class.frag - sorts pixels by what is done for them, as a depth that the passes behind are tested with: a driver that draws on the CPU
- * skips what fails, but goes through both branches of an if. gl_sea_block.h has the numbers. */
+/* sea_class.frag - sorts pixels by the work they need, as a depth that the following passes test against: a
+ * software rasterizer skips what fails the depth test, but executes both branches of an if. gl_sea_block.h has the
+ * numbers. */
 uniform highp sampler2D u_sea_seen;
 
-/* By how much the footprint may be off: as far as sea_corrected() moves the place. */
+/* Bounds the error of the footprint: as far as sea_corrected() moves the place. */
 const float SEA_MARGIN = 1.12;
 
 float sea_class(vec3 d, vec4 seen)

@@ -1,8 +1,10 @@
-/* sea_grid.frag - nodes of the mesh: places relative to the eye, as it sees them over a round Earth, and where their water rests. */
+/* sea_grid.frag - nodes of the mesh: positions relative to the eye, as it sees them over a round Earth, and the
+ * resting positions of their water. */
 layout(location = 0) out highp vec4 fragment;
 layout(location = 1) out highp vec4 fragment_rest;
 
-/* Where the water of a node rests. Near the eye, where water moves farther than it is away, the fan is wider than the picture. */
+/* The resting position of a node's water. Near the eye, where displacements exceed the distance, the fan is wider
+ * than the image. */
 vec2 sea_grid_rest(ivec2 node)
 {
     float waves = sea_fan_ends.y;

@@ -1,8 +1,8 @@
-/* sea_look.glsl - what a place of the sea looks like, physically and in the legacy style: water_shade.c with the same
+/* sea_look.glsl - the appearance of a place of the sea, in the physical and in the legacy styles: water_shade.c with the same
  * functions of the shader library. */
-uniform highp sampler2D u_sea_means; /* means over facets: water_table.h */
+uniform highp sampler2D u_sea_means; /* means over microfacets: water_table.h */
 
-/* Where the water rests in the world, m. */
+/* Resting position of the water in the world, m. */
 vec2 sea_world_rest(SeaPlace p)
 {
     return p.rest + eye.xz;
@@ -44,7 +44,7 @@ WaterCrest sea_crest()
     return WaterCrest(sea_crest_beam.xyz, sea_crest_sunward.xyz, sea_crest_beam.w, sea_crest_sunward.w);
 }
 
-/* Radiance that goes up just below the surface, towards the eye. */
+/* Upward radiance just below the surface, towards the eye. */
 vec3 sea_from_below(SeaPlace p, Water w, WaterLight light)
 {
     vec3 down = water_refracted(w, -p.V, p.point.N);
@@ -67,7 +67,7 @@ vec3 sea_from_below(SeaPlace p, Water w, WaterLight light)
 #endif
 }
 
-/* To an eye over the water. */
+/* To an eye above the water. */
 vec3 sea_shade(SeaPlace p)
 {
     Water w = sea_water();
@@ -98,7 +98,7 @@ vec3 sea_shade(SeaPlace p)
     return water_radiance(water_parts(w, p.point, light, m, sky, sea_sun_seen(p, w, light), below));
 }
 
-/* Water as an eye in it sees it mirrored by facets of the mean normal m. */
+/* Water that an eye in it sees mirrored by microfacets of the mean normal m. */
 vec3 sea_mirrored_below(SeaPlace p, vec3 m)
 {
     vec3 mirrored = reflect(p.d, m);
@@ -107,7 +107,7 @@ vec3 sea_mirrored_below(SeaPlace p, vec3 m)
     return sea_seen_through_water(vec3(p.at.x, min(p.at.y, 0.0), p.at.z), mirrored, p.width, water_mirrored_spread(p.point.covariance));
 }
 
-/* What the facets show to it: facets_light of water_shade.c. */
+/* What the microfacets show to it: the same as in water_shade.c. */
 struct SeaMicrofacets
 {
     vec3 window;
@@ -115,7 +115,7 @@ struct SeaMicrofacets
     vec3 mirrored;
 };
 
-/* upwards: radiance of what goes up below the surface. */
+/* upwards: upward radiance below the surface. */
 SeaMicrofacets sea_microfacets_below(SeaPlace p, Water w, vec3 upwards)
 {
     vec3 C = p.point.covariance;
@@ -172,18 +172,19 @@ vec3 sea_shade_below(SeaPlace p)
                                  sharp * (1.0 - p.point.foam), max(-sea_eye.x, 0.0), p.d, p.t);
 }
 
-/* The looks before, in numbers of a display. */
+/* The legacy styles, in display values. */
 vec3 sea_legacy(SeaPlace p)
 {
     vec2 slope = slope_from_normal(p.point.N);
     float sparkle = 0.0;
-    if (sea_look.w != 0) /* noise in the water, about one cell in ten */
+    if (sea_look.w != 0) /* white noise fixed to the water, about one cell in ten */
         sparkle = glint_uniform(glint_cell(sea_world_rest(p), vec2(p.width), 1.0).key) > 0.9 ? 1.0 : 0.0;
     float foam = sea_look.z != 0 ? before_foam(length(slope)) : 0.0;
     return before_shade(sea_look.y, sea_look.x, p.d, p.point.N, sea_sun.xyz, p.at.y, sparkle, foam, sea_absorption.w, sea_bed_slope.z);
 }
 
-/* Stage 3: the sky in a mirror of Schlick's reflectance, the sun in GGX of one roughness, and a matt base color below. */
+/* Stage 3: the sky in a mirror of Schlick's reflectance, the sun in GGX of one roughness, and a diffuse base color
+ * below. */
 vec3 sea_painted(SeaPlace p)
 {
     vec3 sky = sea_sky_reflected(painted_mirror(p.point.N, p.V), sea_bed_slope.z);

@@ -1,5 +1,6 @@
-/* sea_model.glsl - a model in the sea, looked up in pictures of it (gl_sea_model.h): before the surface, behind it, and in its facets. Rays that
- * the surface bends look for it step by step: a place on the ray, what the picture shows in its direction, the place as far away as that. */
+/* sea_model.glsl - a model in the sea, looked up in images of it (gl_sea_model.h): in front of the surface, behind
+ * it, and in its microfacets. Refracted rays search for it iteratively: a point on the ray, the depth of the image
+ * in its direction, the point at that distance. */
 #ifdef HAS_MODEL
 uniform highp sampler2D u_sea_model; /* premultiplied radiance, as the eye sees it */
 uniform highp sampler2D u_sea_model_depth;
@@ -19,10 +20,10 @@ struct SeaModel
 const int SEA_MODEL_STEPS = 32;
 const int SEA_SAMPLES = 16;
 const int SEA_SAMPLE_STEPS = 8;
-const float SEA_MIN_SHARE = 1e-3; /* as in water_find.c, these two */
+const float SEA_MIN_SHARE = 1e-3; /* both as in water_find.c */
 const float SEA_SMOOTH = 1e-3;
 
-/* d: at depth 1 m. What is but blended has no depth, and counts as nearest. */
+/* d: at depth 1 m. Blended surfaces have no depth, and count as nearest. */
 SeaModel sea_model_at(ivec2 pixel, vec3 d)
 {
     float z = texelFetch(u_sea_model_depth, pixel, 0).x;
@@ -32,7 +33,7 @@ SeaModel sea_model_at(ivec2 pixel, vec3 d)
     return SeaModel(texelFetch(u_sea_model, pixel, 0), d * (is_far ? 0.0 : depth));
 }
 
-/* From clip space to a texture's pixels. */
+/* From clip space to pixels of a texture. */
 ivec2 sea_pixel_of(vec4 clip, ivec2 size, bool is_top_down)
 {
     vec2 at = clip.xy / max(clip.w, 1e-6);
@@ -44,7 +45,8 @@ bool sea_is_within(ivec2 pixel, ivec2 size)
     return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, size));
 }
 
-/* Where a ray passes the ball around the model: first way, and that of one of so many steps; 0: it does not. */
+/* Where a ray passes the bounding sphere of the model: first distance, and length of one of count steps; 0: it
+ * misses. */
 vec2 sea_ball_steps(vec3 P, vec3 R, int count)
 {
     vec3 to = sea_model_ball.xyz - P;
@@ -54,7 +56,7 @@ vec2 sea_ball_steps(vec3 P, vec3 R, int count)
     return vec2(first, reach2 > 0.0 ? max(middle + sqrt(max(reach2, 0.0)) - first, 0.0) / float(count) : 0.0);
 }
 
-/* What the eye's picture shows in the direction of Q; color.w 0: nothing that is below the height y. */
+/* What the eye's image shows in the direction of Q; color.w 0: nothing below the height y. */
 SeaModel sea_model_towards(vec3 Q, float y)
 {
     ivec2 size = textureSize(u_sea_model, 0);
@@ -65,7 +67,7 @@ SeaModel sea_model_towards(vec3 Q, float y)
     return m;
 }
 
-/* Along the unit direction `down` from P in the surface, from the eye; color.w 0: nothing. */
+/* Along the unit direction `down` from P in the surface, relative to the eye; color.w 0: nothing. */
 SeaModel sea_model_below(vec3 P, vec3 down)
 {
     vec2 steps = sea_ball_steps(P, down, SEA_MODEL_STEPS);
@@ -112,7 +114,7 @@ vec4 sea_cut_texel(int cut, vec4 clip, out float z)
     return at == pixel ? texelFetch(u_sea_mirrored, pixel, 0) : vec4(0.0);
 }
 
-/* What a cut shows in the direction of Q, from where it is seen from; *far: distance of that along Q, m. */
+/* What a cut shows in the direction of Q from its viewpoint; *far: distance of that along Q, m. */
 vec4 sea_cut_at(int cut, vec3 Q, out float far)
 {
     float z;
@@ -125,8 +127,9 @@ vec4 sea_cut_at(int cut, vec3 Q, out float far)
     return closing > 0.0 ? color : vec4(0.0);
 }
 
-/* Premultiplied, along the unit direction R from P: steps through the ball around the model until the ray is behind what is
- * shown, then to the place itself, which *way m of it lead to. From within the ball the first are short, as what floats begins beside P. */
+/* Premultiplied, along the unit direction R from P: steps through the bounding sphere of the model until the ray
+ * is behind the image's depth, then to the exact distance, which is *way (m). Inside the sphere the first steps
+ * are short, as floating models begin close to P. */
 vec4 sea_model_in_cut(int cut, vec3 P, vec3 R, int count, out float way)
 {
     vec2 ball = sea_ball_steps(P, R, 1);
@@ -161,8 +164,8 @@ vec4 sea_model_in_cut(int cut, vec3 P, vec3 R, int count, out float way)
     return color;
 }
 
-/* Of all light that is reflected, whatever it brings, the share of facets that show the model: .w; and its radiance. water_find() of
- * water_find.c. */
+/* Of all reflected light, independent of its radiance, the share of microfacets that reflect the model: .w; and
+ * its radiance. water_find() of water_find.c. */
 vec4 sea_model_reflected(vec3 P, vec3 V, WaterPoint point, Water w, uint seed)
 {
     float way;
@@ -185,7 +188,7 @@ vec4 sea_model_reflected(vec3 P, vec3 V, WaterPoint point, Water w, uint seed)
 }
 
 #ifdef IS_BELOW
-/* water_findings_below of water_shade.h; water: what the facets mirror of it. */
+/* water_findings_below of water_shade.h; water: what the microfacets mirror of it. */
 struct SeaFound
 {
     float covered;
@@ -194,7 +197,7 @@ struct SeaFound
     vec3 hidden;
 };
 
-/* A model's color, met in the water `way` m along d from the place `at`: water_model_behind_water(). */
+/* A model's color seen through `way` m of water along d from the point `at`: water_model_behind_water(). */
 vec3 sea_model_behind_water(vec3 color, vec3 at, vec3 d, float way)
 {
     Water w = sea_water();
@@ -266,7 +269,7 @@ SeaFound sea_find_below(SeaPlace p, uint seed)
 }
 #endif
 
-/* Whether a hull keeps the sea out of a place; share of the sun's light there. */
+/* Whether a hull displaces the sea at a place; share of the sun's light there. */
 vec2 sea_touched(vec2 at)
 {
     vec2 place = (at - sea_touch.xy) * sea_touch.zw;
@@ -275,7 +278,7 @@ vec2 sea_touched(vec2 at)
     return is_within ? touch : vec2(0.0, 1.0);
 }
 
-/* Light that comes up through the surface from the model below P: find_refracted() of water_find.c. */
+/* Light of the model below P refracted up through the surface: find_refracted() of water_find.c. */
 vec3 sea_model_through_water(SeaModel m, vec3 P, Water w, WaterLight light)
 {
     float way = length(m.at - P);

@@ -1,30 +1,30 @@
-/* sea_place.glsl - the place of the surface that a fragment shows, as water_shade.c has it. */
-uniform highp sampler2DArray u_sea_foam; /* one number a texel: amount of foam, patterns */
+/* sea_place.glsl - the place of the surface that a fragment shows, as in water_shade.c. */
+uniform highp sampler2DArray u_sea_foam; /* one value per texel: amount of foam, patterns */
 
 struct SeaPlace
 {
     vec3 d;           /* unit, from the eye */
-    vec2 rest;        /* of the water, from the eye, m */
+    vec2 rest;        /* resting position of the water, from the eye, m */
     float t;          /* m */
     vec3 V;           /* unit, to the eye, against the level of the sea there */
     vec3 at;          /* x, z from the eye; y over still water; m */
     float width;      /* of the footprint across the ray, m */
     float cosine;     /* water_seen_cosine() */
     float height;     /* of waves, m */
-    vec3 resolved;    /* slopes that the footprint resolves */
-    vec2 moments;     /* k4, omega of the others */
+    vec3 resolved;    /* slope variances that the footprint resolves */
+    vec2 moments;     /* k4, omega of the unresolved ones */
     WaterPoint point;
 };
 
 /* ---- slopes ---- */
 
-/* Entry of a footprint, with fraction: from 1 mm to 100 km, 63 steps. */
+/* Index of a footprint, with fraction: from 1 mm to 100 km, 63 steps. */
 float sea_footprint_place(float footprint)
 {
     return clamp(log2(max(footprint * 1000.0, 1.0)) * (63.0 / 26.575425), 0.0, 63.0);
 }
 
-/* Slopes that a footprint does not resolve; those of all others. */
+/* Slope variances that a footprint does not resolve, and those that it does. */
 vec3 sea_slopes(float footprint, out vec3 resolved, out vec2 moments)
 {
     float place = sea_footprint_place(footprint);
@@ -54,7 +54,7 @@ float sea_plane_mean(int layer, vec2 at, float level)
     return textureLod(u_sea_foam, vec3((at + 0.5) / float(sea_counts.z), layer), level).x;
 }
 
-/* read_pattern(): mean, and the variance that is hidden. */
+/* read_pattern(): mean, and the unresolved variance. */
 vec2 sea_pattern(int reading, int layer, vec2 rest, float octave)
 {
     vec4 axes = sea_foam_axes[reading];
@@ -79,7 +79,7 @@ vec2 sea_foam(vec2 rest, float footprint)
     bool is_even = share <= 1e-4 || share >= 0.999;
     vec2 field = vec2(0.0);
     int i = 0;
-    do { /* most of the sea needs none, and pays for one */
+    do { /* most of the sea needs no iteration, and does one */
         float weight = sea_foam_places[i].w;
         field += sea_pattern(i, i > 0 ? 1 : 2, rest, octave) * vec2(weight, weight * weight);
         i++;
@@ -90,8 +90,8 @@ vec2 sea_foam(vec2 rest, float footprint)
 
 /* ---- all ---- */
 
-/* The mesh's place (sea_surface.frag) corrected by the surface as it is, by no more than a cell: t, then where the water there
- * rests. */
+/* The mesh's place (sea_surface.frag) corrected to the exact surface, by at most a cell: t, then the resting
+ * position of the water there. */
 vec3 sea_corrected(vec3 d, vec4 seen, float side)
 {
     float t = seen.z;
@@ -109,7 +109,7 @@ vec3 sea_corrected(vec3 d, vec4 seen, float side)
     return vec3(t + more, d.xz * (t + more) - there.xz);
 }
 
-/* Seen along d. */
+/* The place seen along d. */
 SeaPlace sea_place(vec3 d, vec4 seen)
 {
     SeaPlace p;

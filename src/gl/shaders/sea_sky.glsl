@@ -1,5 +1,5 @@
-/* sea_sky.glsl - the sky over a sea, the air before it, and what lies beyond the water: pictures that were drawn of it, and light that
- * was filtered. Radiance in cd/m^2. */
+/* sea_sky.glsl - the sky over a sea, the air in front of it, and what is beyond the water: prerendered images of
+ * the sky, and filtered light. Radiance in cd/m^2. */
 #define SEA_SKY_SEEN 0
 #define SEA_SKY_AIR 1
 #define SEA_SKY_CLEARNESS 2
@@ -11,7 +11,7 @@ uniform highp sampler2DArray u_sea_sky;
 uniform highp sampler3D u_sea_lobes; /* layers: perceptual roughness */
 #endif
 
-/* A picture at a direction, up (1) or down (-1) from the horizon. */
+/* An image at a direction, up (1) or down (-1) from the horizon. */
 vec4 sea_sky_at_side(int layer, vec3 d, float side)
 {
     float h = (d.y - sea_sky_at.x) / (side - sea_sky_at.x);
@@ -52,7 +52,7 @@ vec3 sea_sky_reflected(vec3 R, float perceptual_roughness)
 #endif
 }
 
-/* Share of light left after a way at the height of the eye. */
+/* Transmittance of the air over a distance at the height of the eye. */
 vec3 sea_clearness(float way_km)
 {
     float edge = 0.5 / float(textureSize(u_sea_sky, 0).x);
@@ -71,7 +71,7 @@ vec3 sea_through_air(vec3 radiance, vec3 d, float t)
 /* ---- the ground ---- */
 
 #ifdef HAS_BED
-/* m from the eye to ground that the water leaves dry; -1: there is none. */
+/* Distance from the eye to ground above the water, m; -1: there is none. */
 float sea_land(vec3 d)
 {
     float closing = dot(sea_bed_slope.xy, d.xz) - d.y;
@@ -87,7 +87,7 @@ vec3 sea_land_seen(vec3 d, float land)
 }
 #endif
 
-/* m to the bed along d from a place at x, z from the eye and y over still water; 1e4: it is not met. */
+/* Distance to the bed along d from a point at x, z from the eye and y over still water, m; 1e4: it is not hit. */
 float sea_distance_to_bed(vec3 at, vec3 d)
 {
 #ifdef HAS_BED
@@ -101,7 +101,8 @@ float sea_distance_to_bed(vec3 at, vec3 d)
 #endif
 }
 
-/* Water, and the bed behind it, seen from a place in the water along d by a ray that is so wide, and wider by `spread` per m. */
+/* Water, and the bed behind it, seen from a point in the water along d by a ray of that width, which grows by
+ * `spread` per m. */
 vec3 sea_seen_through_water(vec3 at, vec3 d, float width, float spread)
 {
     Water w = sea_water();
@@ -126,7 +127,7 @@ vec3 sea_seen_through_water(vec3 at, vec3 d, float width, float spread)
     return ground + water_through(w, sea_downwelling.xyz, sea_beam.xyz, sea_sunward.xyz, vec3(0.0), z, d, reach);
 }
 
-/* ---- out ---- */
+/* ---- output ---- */
 
 vec4 sea_exposed(vec3 radiance)
 {
@@ -134,7 +135,7 @@ vec4 sea_exposed(vec3 radiance)
     return vec4(sea_bed_slope.w > 0.0 ? min(c, vec3(sea_bed_slope.w)) : c, 1.0);
 }
 
-/* Displays were given c^0.95 as it is; the numbers here are encoded later. */
+/* Displays got c^0.95 without encoding; the output here is encoded later. */
 vec4 sea_shown(vec3 c)
 {
     return vec4(linear_from_srgb(before_display(c)), 1.0);

@@ -1,4 +1,5 @@
-/* sea_surface.frag - which water a pixel shows. Triangles are small: what takes long is done once for a pixel, by sea.frag. */
+/* sea_surface.frag - which water a pixel shows. Triangles are small: expensive work is done once per pixel, by
+ * sea.frag. */
 in highp vec3 v_at;
 in highp vec2 v_rest;
 in highp float v_closing;

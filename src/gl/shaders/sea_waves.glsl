@@ -1,9 +1,13 @@
-/* sea_waves.glsl - waves at a place of the water at rest: sums of tiles, read as waves_query.c reads them. Loops end where nothing is left to be read,
- * for all pixels that are shaded at once: drivers that draw on the CPU go through both branches of an if. */
+/* sea_waves.glsl - waves at a resting position of the water: sums of tiles, read as in waves_query.c. Loops end
+ * where nothing is left to read, for all pixels shaded together: software rasterizers execute both branches of an
+ * if. */
 uniform highp sampler2DArray u_sea_low;  /* DX, ETA, DZ, ETA_X; levels are means of 2 x 2 */
 uniform highp sampler2DArray u_sea_high; /* ETA_Z, DXX, DZZ, DXZ */
-uniform highp sampler2D u_sea_patches;   /* where in its tile each patch comes from, samples; 128 x 128 around the eye, a tile behind the other */
-uniform highp ivec3 u_sea_reading; /* of the pixels that are drawn: tiles that may be read by cubics end, those that may be read linearly begin, and end */
+/* origin of each patch in its tile, samples; 128 x 128 around the eye, one tile after the other */
+uniform highp sampler2D u_sea_patches;
+/* for the pixels drawn: end of the tiles that may be read with cubic filtering; begin and end of those that may be
+ * read linearly */
+uniform highp ivec3 u_sea_reading;
 
 struct SeaWaves
 {
@@ -16,8 +20,8 @@ struct SeaWaves
 struct SeaLevel
 {
     float level; /* with fraction */
-    float cubic; /* share of cubics */
-    float share; /* 0: the footprint hides the tile; 1 */
+    float cubic; /* share of the cubic filter */
+    float share; /* 0: the footprint is wider than the tile resolves; 1 */
 };
 
 SeaLevel sea_level(int tile, float footprint)
@@ -25,7 +29,7 @@ SeaLevel sea_level(int tile, float footprint)
     float texels = footprint * sea_axes[tile].z;
     float whole = floor(log2(max(texels, 1.0)));
     float rest = texels * exp2(-whole);
-    if (rest >= 2.0) { /* what log2() rounded */
+    if (rest >= 2.0) { /* log2() was rounded */
         whole += 1.0;
         rest *= 0.5;
     }
@@ -33,8 +37,8 @@ SeaLevel sea_level(int tile, float footprint)
                     int(whole) + 1 < sea_counts.y ? 1.0 : 0.0);
 }
 
-/* The place in samples of a tile, and the patches that are seen there: weights and corners, in order; a weight of 0 is that of none. A
- * tile without them has one. */
+/* The position in samples of a tile, and the patches visible there: weights and corners, sorted; a weight of 0
+ * means none. A tile without patches has one. */
 struct SeaPatches
 {
     vec2 place;
@@ -121,7 +125,7 @@ void sea_add(int tile, vec4 low, vec4 high, inout SeaWaves w)
 }
 
 #ifdef HAS_CUBIC
-/* Of level 0, by cubics. */
+/* Of level 0, with the cubic filter. */
 void sea_add_cubic(int tile, vec2 at, float share, inout vec4 low, inout vec4 high)
 {
     vec2 whole = floor(at);

@@ -1,4 +1,4 @@
-/* shadow.frag - what casts a shadow: its depth, and of masked materials the texels that are there. */
+/* shadow.frag - shadow casters: their depth, and for masked materials the alpha test. */
 void main()
 {
 #ifdef HAS_ALPHA_MASK

@@ -1,17 +1,17 @@
-/* shadow.glsl - how much of a light's radiance arrives at a point: the shadow maps of gl_shadow.h. */
+/* shadow.glsl - the share of a light's radiance that arrives at a point: the shadow maps of gl_shadow.h. */
 #ifdef HAS_SHADOWS
 uniform highp sampler2DShadow u_shadows;
 
-/* As gl_shadow_record has it. */
+/* As gl_shadow_record. */
 struct ShadowRecord {
     vec4 origin;  /* relative to the eye, m; w: kind */
-    vec4 right;   /* w: edge of a texel, m (at depth 1 m) */
+    vec4 right;   /* w: size of a texel, m (at depth 1 m) */
     vec4 up;      /* w: first tile */
     vec4 forward; /* w: scale of s and t */
     vec2 depth;   /* a, b */
 };
 
-/* A point as a tile sees it. */
+/* A point in the coordinates of a tile. */
 struct ShadowPlace {
     vec2 at; /* [-1, 1] */
     float depth; /* along the axis, m (parallel: of the range) */
@@ -41,8 +41,8 @@ ShadowPlace shadow_place(ShadowRecord r, vec3 d)
     return p;
 }
 
-/* Share of the texels around a place that are not nearer to the light: a kernel of 6 by 6 texels in 9 lookups of 2 by 2
- * (Castano 2013, "Shadow mapping summary"). texel: in the texture. */
+/* Share of the texels around a point that are not nearer to the light: a kernel of 6 by 6 texels in 9 lookups of 2
+ * by 2 (Castano 2013, "Shadow mapping summary"). texel: in the texture. */
 float shadow_filter(vec2 texel, float depth)
 {
     vec2 base = floor(texel + 0.5);
@@ -60,9 +60,9 @@ float shadow_filter(vec2 texel, float depth)
     return sum / 144.0;
 }
 
-/* P: relative to the eye; N: unit, of the face, either way. The filter reaches three texels to each side: a point is raised
- * above its face by so much that the face is nowhere there nearer to the light; and moved towards the light by a texel and a
- * half, or the floor before a wall would darken the wall's foot. */
+/* P: relative to the eye; N: unit, normal of the face, on either side. The filter reaches three texels to each
+ * side: a point is offset along its normal until the face is nowhere nearer to the light within the kernel; and
+ * towards the light by a texel and a half, or the floor in front of a wall would darken the foot of the wall. */
 float shadow_share(ShadowRecord r, vec3 P, vec3 N)
 {
     vec3 d = P - r.origin.xyz;

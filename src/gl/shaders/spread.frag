@@ -1,7 +1,7 @@
-/* spread.frag - a level of a picture in twice its size: a tent over 3 x 3 of its texels. With halve.frag on the way down the
- * two are as smooth as a wide Gaussian filter (Jimenez 2014). */
+/* spread.frag - a level of an image upsampled to twice its size: a tent filter over 3 x 3 of its texels. With
+ * halve.frag on the way down the two are as smooth as a wide Gaussian filter (Jimenez 2014). */
 uniform highp sampler2D u_level;
-uniform vec2 u_pixel; /* 1 / size of what is drawn */
+uniform vec2 u_pixel; /* 1 / size of the viewport */
 
 out vec4 fragment;
 

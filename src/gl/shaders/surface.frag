@@ -12,7 +12,7 @@ void main()
     put_aovs(N, color.xyz, occlusion, coverage(color.w));
 }
 #else
-/* Without light: what has no normals, or is KHR_materials_unlit. glTF 2.0, 3.7.2.1. */
+/* Without lighting: surfaces without normals, or with KHR_materials_unlit. glTF 2.0, 3.7.2.1. */
 vec3 unlit_radiance(vec3 color)
 {
 #ifdef IS_UNLIT
@@ -50,7 +50,7 @@ vec3 lit_radiance(Surface s, vec3 V)
 }
 #endif
 
-/* What is drawn: light, or what takes its place. */
+/* The output: light, or the channel in its place. */
 vec3 shaded(vec3 color, float opacity)
 {
 #if defined(IS_LIT) || defined(HAS_CHANNEL)
@@ -73,7 +73,7 @@ vec3 shaded(vec3 color, float opacity)
 }
 
 #ifdef HAS_ALPHA_MASK
-/* How much of the pixel a mask leaves, where alpha grows evenly across it; OpenGL makes samples of it. */
+/* The coverage of the pixel by a mask whose alpha varies linearly across it; OpenGL turns it into samples. */
 float mask_share(float alpha)
 {
     float change = fwidth(alpha);
@@ -93,7 +93,7 @@ void main()
         opacity = mask_share(color.w);
     if (opacity < (has_coverage != 0 ? 1.0 / 512.0 : 0.5))
         discard;
-    radiance /= opacity; /* which put_fragment() multiplies with: samples are there or not */
+    radiance /= opacity; /* put_fragment() multiplies by it: coverage is by samples */
 #endif
 #ifdef HAS_CHANNEL
     if (channel == CHANNEL_OPACITY)

@@ -7,9 +7,9 @@ in vec2 texcoord1;
 in vec4 world0; /* rows of the instance's matrix */
 in vec4 world1;
 in vec4 world2;
-in vec4 instance; /* scale, sign of bitangents, number of the geometry, radius of sprites in pixels */
+in vec4 instance; /* scale, sign of bitangents, index of the geometry, radius of sprites in pixels */
 #ifdef IS_SPRITE
-in vec3 position_end; /* of a line; that of a point is where it begins */
+in vec3 position_end; /* of a line; that of a point equals its start */
 in vec3 normal_end;
 in vec4 color_end;
 in vec2 texcoord0_end;
@@ -39,8 +39,8 @@ vec3 turn(vec3 v)
     return vec3(dot(world0.xyz, v), dot(world1.xyz, v), dot(world2.xyz, v));
 }
 
-/* The instance is moved to the eye before the point is added, which is what keeps a model steady that is far away from the
- * origin. */
+/* The instance's origin is made relative to the eye before the point is added, which keeps models far from the
+ * origin steady. */
 vec3 place(vec3 p)
 {
     vec3 origin = vec3(world0.w - eye.x, world1.w - eye.y, world2.w - eye.z);
@@ -55,16 +55,17 @@ vec3 unit_or(vec3 v, vec3 otherwise)
     return length2 > 0.0 ? v * inversesqrt(length2) : otherwise;
 }
 
-/* The instance's matrix of normals: the cofactors, such that those of mirrored ones stay outward. */
+/* The instance's matrix of normals: the cofactors, with the sign that keeps the normals of mirrored instances
+ * outward. */
 vec3 turn_normal(vec3 n)
 {
     mat3 cofactors = mat3(cross(world1.xyz, world2.xyz), cross(world2.xyz, world0.xyz), cross(world0.xyz, world1.xyz));
     return vec3(dot(cofactors[0], n), dot(cofactors[1], n), dot(cofactors[2], n)) * instance.y;
 }
 
-/* Place of a vertex on the outline of a sprite: what rays meet that pass within a radius of the line between A and B, as
- * wide as a pixel at either end. Vertices run along the line, two by two, from the round end at A to that at B, in steps
- * of 30 degrees; the outline shows its front. */
+/* Position of a vertex on the outline of a sprite: the set of rays that pass within a radius of the line between A
+ * and B, as wide as a pixel at either end. Vertices run along the line, two by two, from the round end at A to
+ * that at B, in steps of 30 degrees; the outline shows its front. */
 vec3 outline(vec3 A, vec3 B, bool is_end)
 {
     bool is_orthographic = eye.w > 0.5;

@@ -1,5 +1,6 @@
-/* surface_in.glsl - what surface.vert hands on; and where the eye is. All of it is that of the pixel's middle, on the plane of
- * the triangle, also where the triangle covers another part of the pixel: triangles that share a pixel then agree. */
+/* surface_in.glsl - the outputs of surface.vert; and the position of the eye. All are evaluated at the pixel's
+ * middle, on the plane of the triangle, even where the triangle covers another part of the pixel: triangles that
+ * share a pixel then agree. */
 in vec3 v_position; /* m, relative to the eye */
 in vec3 v_normal;   /* in world space, not unit */
 in vec4 v_color;
@@ -9,9 +10,9 @@ in vec4 v_texcoord23;
 in vec3 v_tangent;
 flat in float v_handedness;
 #endif
-flat in vec4 v_instance; /* scale, sign of bitangents, number of the geometry */
+flat in vec4 v_instance; /* scale, sign of bitangents, index of the geometry */
 
-/* 1: the side with counter-clockwise vertices is seen, -1: the other one. */
+/* 1: the side with counter-clockwise vertices is visible, -1: the other one. */
 float seen_side()
 {
     return gl_FrontFacing ? 1.0 : -1.0;
@@ -31,7 +32,7 @@ vec2 texcoord_of_set(int set)
 
 /* ---- textures, filtered as the CPU does (draw/texture_sample.c) ---- */
 
-/* The mean of the probes that cover the pixel, as the CPU takes it: anisotropic filters of drivers are all different. */
+/* The mean of the probes that cover the pixel, as the CPU takes it: drivers' anisotropic filters differ. */
 vec4 probed_texel(sampler2D image, vec2 uv)
 {
     vec2 size = vec2(textureSize(image, 0));

@@ -1,15 +1,15 @@
-/* transmission.glsl - light that comes through a surface: what is opaque behind it, from the picture of it, blurred by its
- * levels; beyond, the environment. The CPU follows rays (src/cpu/refraction.c); here a ray is a line from where light
- * enters a body to where it leaves it, and a place in the picture. */
+/* transmission.glsl - light transmitted through a surface: the opaque image behind it, blurred by its mip levels;
+ * beyond, the environment. The CPU traces rays (src/cpu/refraction.c); here a ray is a line from where light
+ * enters a closed volume to where it leaves it, and a position in the image. */
 #ifdef HAS_TRANSMISSION
 uniform highp sampler2D u_opaque; /* premultiplied, with exposure */
 
-/* Squared GGX width of lobes that are seen in the sharp environment. */
+/* Squared GGX width below which lobes use the sharp environment. */
 #define SHARP2 1e-5
 
-/* ---- the picture of what is opaque ---- */
+/* ---- the opaque image ---- */
 
-/* Where a point (m, relative to the eye) is seen, [0, 1] in the picture. What is behind the eye is far outside. */
+/* Where a point (m, relative to the eye) is seen, [0, 1] in the image. What is behind the eye is far outside. */
 vec2 place_in_image(vec3 P)
 {
     vec2 at = vec2(dot(P, right.xyz) / dot(right.xyz, right.xyz), dot(P, up.xyz) / dot(up.xyz, up.xyz));
@@ -18,8 +18,8 @@ vec2 place_in_image(vec3 P)
     return (at + 0.5 * frame_size.xy - frame_size.zw) / vec2(textureSize(u_opaque, 0));
 }
 
-/* Uniform cubic B-spline over the texels of a level by four bilinear lookups: levels of few texels show no squares.
- * Sigg and Hadwiger 2005. */
+/* Uniform cubic B-spline over the texels of a level by four bilinear lookups: coarse levels show no blocks. Sigg
+ * and Hadwiger 2005. */
 vec4 smooth_texel(vec2 at, int level)
 {
     vec2 size = vec2(textureSize(u_opaque, level));
@@ -38,8 +38,8 @@ vec4 smooth_texel(vec2 at, int level)
                mix(textureLod(u_opaque, vec2(b.x, a.y), lod), textureLod(u_opaque, a, lod), low.x), low.y);
 }
 
-/* Radiance (premultiplied) and coverage of what is opaque. Beyond the border the picture's edge goes on for a while, then
- * nothing is there. */
+/* Radiance (premultiplied) and coverage of opaque surfaces. Beyond the border the image's edge is repeated for a
+ * short distance, then there is nothing. */
 vec4 opaque_at(vec2 at, float lod)
 {
     vec2 beyond = max(max(-at, at - 1.0), 0.0);
@@ -51,16 +51,16 @@ vec4 opaque_at(vec2 at, float lod)
     return vec4(c.xyz / exposure, c.w) * share;
 }
 
-/* Level of the picture, as Khronos' renderer has it: log2(width) r clamp(2 ior - 2, 0, 1). */
+/* Level of the image, as in Khronos' renderer: log2(width) r clamp(2 ior - 2, 0, 1). */
 float opaque_lod(Layers m)
 {
     float blur = m.base.perceptual_roughness * (m.ior < 1.0 ? 1.0 : clamp(2.0 * m.ior - 2.0, 0.0, 1.0));
     return blur * log2(float(textureSize(u_opaque, 0).x));
 }
 
-/* ---- beyond ---- */
+/* ---- environment ---- */
 
-/* The environment in a direction. A background that is drawn blurred is seen blurred. */
+/* The environment in a direction. A blurred background stays blurred behind glass. */
 vec3 environment_seen(vec3 D, float alpha2)
 {
     if (alpha2 <= SHARP2 && light_atlas.z > 0.0 && !(background_blur > 0.0))
@@ -82,17 +82,17 @@ vec3 light_through_wall(Layers m, vec3 V)
     return light_behind(gl_FragCoord.xy / vec2(textureSize(u_opaque, 0)), -V, opaque_lod(m), alpha * alpha);
 }
 
-/* ---- a body ---- */
+/* ---- a closed volume ---- */
 
-/* Light that a scattering body sends along a ray: that of the surroundings ahead of it and behind it. */
+/* Light that a scattering medium sends along a ray: that of the environment ahead of it and behind it. */
 vec3 scattered_light(Layers m, vec3 D)
 {
     return m.multiscatter_color * mix(light_irradiance_over_pi(-D), light_irradiance_over_pi(D),
                                       0.5 + 0.5 * m.scatter_anisotropy);
 }
 
-/* Through the far side too, which tints as the near one does. What is reflected inside leaves elsewhere and is made up for by
- * what comes from there: nothing is lost. */
+/* Through the far side too, which tints as the near one does. What is reflected inside leaves elsewhere and is
+ * replaced by what arrives from there: no energy is lost. */
 vec3 light_through_body(Layers m, vec3 V, float eta)
 {
     vec3 D = refract_or_zero(-V, m.base.N, eta);
@@ -106,7 +106,7 @@ vec3 light_through_body(Layers m, vec3 V, float eta)
     return light;
 }
 
-/* Out of a body that the eye is in, or whose near side is missing. */
+/* Out of a volume that the eye is in, or whose near side is missing. */
 vec3 light_out_of_body(Layers m, vec3 V, float eta)
 {
     vec3 D = refract_or_zero(-V, m.base.N, eta);
