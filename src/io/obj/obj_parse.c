@@ -47,7 +47,7 @@ static void note(obj_chunk *c, obj_remark remark, const char *p)
 
 /* ---- vertices ---- */
 
-/* Numbers of a statement, at most that many; *got: how many there are. What is none counts as one that is not finite. */
+/* Reads at most that many numbers of a statement; *got: their count. An invalid one counts as not finite. */
 static inline const char *read_numbers(obj_chunk *c, const char *p, float *out, unsigned most, unsigned *got)
 {
     unsigned count = 0;
@@ -69,7 +69,7 @@ static inline const char *read_numbers(obj_chunk *c, const char *p, float *out, 
     return p;
 }
 
-/* Colors, of which the positions before had none. */
+/* Adds colors to the positions before, which had none. */
 static void start_colors(obj_chunk *c, const facet_allocator *allocator)
 {
     while (c->colors.count < c->positions.count) {
@@ -81,7 +81,7 @@ static void start_colors(obj_chunk *c, const facet_allocator *allocator)
     }
 }
 
-/* Of the last position: numbers 4 to 6, with opacity at 7; behind a weight where there are 8. */
+/* Colors of the last position: numbers 4 to 6, with opacity as 7th; after a weight if there are 8. */
 static void store_color(obj_chunk *c, const float *numbers, unsigned count, const facet_allocator *allocator)
 {
     bool has_color = count >= 6;
@@ -131,7 +131,7 @@ static const char *read_position(obj_chunk *c, const char *p, const facet_alloca
     float *out = list->data + 3 * list->count++;
     for (unsigned k = 0; k < 3; k++)
         out[k] = numbers[k];
-    /* Not the largest float: what is farther out than all that facet draws is of no use. */
+    /* Below the largest float: what lies beyond SCENE_FARTHEST is not drawn. */
     if (!(fabsf(out[0]) <= SCENE_FARTHEST && fabsf(out[1]) <= SCENE_FARTHEST &&
           fabsf(out[2]) <= SCENE_FARTHEST)) {
         note(c, OBJ_VERTEX_NOT_FINITE, p);
@@ -160,7 +160,7 @@ static const char *read_texcoord(obj_chunk *c, const char *p, const facet_alloca
     return end;
 }
 
-/* One without direction is kept as zeros: faces that use it count as without. */
+/* A normal without direction is stored as zeros; faces that use it count as without normals. */
 static const char *read_normal(obj_chunk *c, const char *p, const facet_allocator *allocator)
 {
     obj_floats *list = &c->normals;
@@ -180,7 +180,7 @@ static const char *read_normal(obj_chunk *c, const char *p, const facet_allocato
 
 /* ---- elements ---- */
 
-/* An index as it stands; count: of the chunk's list so far. */
+/* A stored index; count: elements of the chunk's list so far. */
 static inline const char *read_index(const char *p, size_t count, uint32_t *out)
 {
     bool is_negative = *p == '-';
@@ -199,7 +199,7 @@ static inline const char *read_index(const char *p, size_t count, uint32_t *out)
     return q;
 }
 
-/* The list of an attribute that corners before had not. */
+/* Fills the list of an attribute that earlier corners lack. */
 static bool start_indices(obj_chunk *c, obj_indices *list, const facet_allocator *allocator)
 {
     while (list->capacity < c->v.capacity)
@@ -307,7 +307,7 @@ void obj_add_event(obj_chunk *c, obj_event event, const facet_allocator *allocat
     c->events[c->event_count++] = event;
 }
 
-/* The statements that most lines are, as they are mostly written. */
+/* The fast path for the most common statements. */
 static inline const char *parse_line(obj_chunk *c, const char *p, const facet_allocator *allocator)
 {
     if (p[0] == 'v') {

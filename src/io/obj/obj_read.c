@@ -30,10 +30,10 @@ static size_t line_number(const char *bytes, size_t offset)
 
 typedef enum place { AT_BYTE, AT_ELEMENT, NOWHERE } place;
 
-/* The sentence behind "FILE: line N: ". */
+/* The sentence of each remark, after "FILE: line N: ". */
 static const struct {
     const char *sentence;
-    place place; /* of remarks.first */
+    place place; /* meaning of remarks.first */
 } REMARKS[OBJ_REMARK_COUNT] = {
     [OBJ_VERTEX_NOT_FINITE] = {"a vertex is not finite, or farther out than 1e17; it is not drawn", AT_BYTE},
     [OBJ_VERTEX_SHORT] = {"a vertex has fewer than 3 coordinates; the others are 0", AT_BYTE},
@@ -88,7 +88,7 @@ static void warn_remark(obj_reader *r, obj_remark remark, const char *bytes)
     scene_warn(r->scene, &r->desc->log, "%s: %s%s%s", r->scene->source, line, REMARKS[remark].sentence, more);
 }
 
-/* One warning for all statements of a kind that there are. */
+/* One warning for all unsupported statements of a kind. */
 static void warn_statements(obj_reader *r, bool is_geometry, const char *sentence)
 {
     uint64_t all = 0;
@@ -147,7 +147,7 @@ static void parse_chunks(void *context, size_t begin, size_t end)
     }
 }
 
-/* A few positions of all chunks, of which the origin is found. */
+/* Samples positions of all chunks to find the origin. */
 static bool find_origin(obj_reader *r)
 {
     enum { MAX = 1024 };
@@ -167,7 +167,7 @@ static bool find_origin(obj_reader *r)
     return few ? is_far : obj_fail_memory(r, "positions", MAX * 3 * sizeof *few);
 }
 
-/* Numbers of a model that is far from the origin are read once more, as floats have not held them. */
+/* The numbers of a model that is far from the origin are parsed again, since floats have lost their digits. */
 static void parse(obj_reader *r)
 {
     parallel_for(r->thread_count, r->chunk_count, 1, parse_chunks, r);
@@ -193,7 +193,7 @@ static void check_chunks(void *context, size_t begin, size_t end)
         obj_check_chunk(r, &r->chunks[i]);
 }
 
-/* Comments before the first statement: the first one that says something names the program that wrote the file. */
+/* Comments before the first statement: the first one that is recognized names the program that wrote the file. */
 static void read_head(obj_reader *r)
 {
     enum { MAX_COMMENTS = 8, MAX_LENGTH = 200 };
@@ -221,7 +221,7 @@ static void read_head(obj_reader *r)
     }
 }
 
-/* Whether there is anything of an OBJ file in it, and elements. */
+/* Whether the text contains OBJ statements and elements. */
 static bool look_at_statements(obj_reader *r, bool *has_elements)
 {
     bool has_statement = false;
@@ -250,7 +250,7 @@ static void make_geometry(obj_reader *r, bool has_elements)
         obj_make_corners(r);
     else if (obj_is_ok(r))
         obj_make_cloud(r);
-    if (obj_is_ok(r)) { /* not before the chunks have given back theirs */
+    if (obj_is_ok(r)) { /* not before the chunks have released their names */
         r->indices = arena_alloc(r->scene->arena, r->corner_count, sizeof *r->indices);
         if (!r->indices)
             obj_fail_memory(r, "indices", r->corner_count * sizeof *r->indices);
@@ -261,7 +261,7 @@ static void make_geometry(obj_reader *r, bool has_elements)
         obj_make_vertices(r);
 }
 
-/* What was left out of all that there was, and what was made up. */
+/* Reports what was left out and replaced. */
 static void warn_all(obj_reader *r, bool has_elements, const char *bytes)
 {
     for (uint32_t i = 0; i < r->primitive_count; i++)

@@ -53,7 +53,7 @@ void obj_names_release(obj_names *names)
 
 /* ---- runs ---- */
 
-/* What the statements so far have set. Names are looked up when an element needs them. */
+/* The state that statements set. Names are looked up when an element needs them. */
 typedef struct state {
     obj_event object, group, material; /* text NULL: none */
     uint32_t smoothing;
@@ -62,8 +62,7 @@ typedef struct state {
     bool is_object_known, is_material_known;
 } state;
 
-/* The arguments as one line: without backslashes that join lines, in place of which a blank stands. A block of
- * mem_alloc(). */
+/* The arguments as one line, with blanks in place of line continuations. A block of mem_alloc(). */
 static char *join_lines(const obj_event *e, const facet_allocator *allocator, size_t *length)
 {
     char *joined = mem_alloc(allocator, (size_t)e->length + 1, 1);
@@ -95,7 +94,7 @@ static bool number_name(obj_reader *r, obj_names *names, const obj_event *e, uin
     return *number != UINT32_MAX || obj_fail_memory(r, "names", e->length);
 }
 
-/* Looks up what the next element belongs to. */
+/* Looks up object and material of the next element. */
 static bool know_names(obj_reader *r, state *s)
 {
     if (!s->is_object_known) {
@@ -120,7 +119,7 @@ static void apply(state *s, const obj_event *e)
         break;
     case OBJ_GROUP:
         s->group = *e;
-        if (e->length == 0) { /* as the format has it */
+        if (e->length == 0) { /* the default of the format */
             s->group.text = "default";
             s->group.length = 7;
         }
@@ -148,7 +147,7 @@ static size_t corners_per(scene_mode mode)
 
 /* ---- primitives ---- */
 
-/* Primitives by what they are made of. */
+/* Primitives by object, material and mode. */
 typedef struct primitive_key {
     uint32_t object, material, mode;
 } primitive_key;
@@ -190,7 +189,7 @@ static bool add_run(listing *l, state *s, const obj_event *from, const obj_event
         return obj_fail_memory(r, "groups", (r->run_count + 1) * sizeof *r->runs);
     obj_primitive *p = &r->primitives[run.primitive];
     run.smoothing = s->smoothing;
-    run.out = p->count; /* until primitives have their places */
+    run.out = p->count; /* until the order of primitives is known */
     p->count += corners_per(p->mode) * (size_t)(to->triangle_count - from->triangle_count);
     r->runs[r->run_count++] = run;
     return true;
@@ -213,7 +212,7 @@ static bool list_chunk(listing *l, obj_chunk *c, state *s)
     return true;
 }
 
-/* Triangles stand before lines, and those before points; in each the primitives as they come. */
+/* Orders primitives: triangles, lines, points; each in order of appearance. */
 static bool place_primitives(obj_reader *r)
 {
     static const scene_mode modes[] = {SCENE_TRIANGLES, SCENE_LINES, SCENE_POINTS};
@@ -241,7 +240,7 @@ static bool has_named_material(const obj_reader *r)
     return length > 0;
 }
 
-/* Libraries first: usemtl may stand before mtllib. */
+/* Libraries first, since usemtl may precede mtllib. */
 static bool load_libraries(obj_reader *r)
 {
     for (size_t i = 0; i < r->chunk_count; i++)
@@ -264,8 +263,8 @@ static bool load_libraries(obj_reader *r)
     return obj_is_ok(r);
 }
 
-/* Elements before any usemtl have the material without a name: default values as well, since OBJ draws all surfaces from
- * both sides, which a primitive without a material would not be in glTF. */
+/* Elements before any usemtl have the material without a name, which has default values as well: OBJ draws all
+ * surfaces two-sided, unlike a glTF primitive without a material. */
 static bool find_materials(obj_reader *r)
 {
     size_t count = r->material_names.count;
@@ -354,7 +353,7 @@ static scene_primitive make_primitive(const obj_reader *r, const obj_primitive *
     return out;
 }
 
-/* Which mesh an object becomes, in the order of their first primitives; SCENE_NONE: it has none. */
+/* The mesh of an object, in the order of first primitives; SCENE_NONE: it has none. */
 static uint32_t *number_meshes(obj_reader *r)
 {
     uint32_t *meshes = mem_alloc(r->allocator, r->objects.count, sizeof *meshes);
@@ -371,7 +370,7 @@ static uint32_t *number_meshes(obj_reader *r)
     return meshes;
 }
 
-/* Primitives of each mesh behind one another, in each as they come. */
+/* Groups the primitives by mesh, each group in order of appearance. */
 static void make_meshes(obj_reader *r, const uint32_t *numbers)
 {
     facet_scene *scene = r->scene;

@@ -34,7 +34,7 @@ static bool is_near(const float *p)
     return fabsf(p[0]) <= SCENE_FARTHEST && fabsf(p[1]) <= SCENE_FARTHEST && fabsf(p[2]) <= SCENE_FARTHEST;
 }
 
-/* Whether a triangle, or a point, is kept; *lost counts those that are not because they cannot be anywhere. */
+/* Whether a triangle or point is kept; *lost counts those with invalid positions. */
 static bool is_kept(const obj_reader *r, const uint32_t *v, size_t count, size_t *lost)
 {
     for (size_t i = 0; i < count; i++)
@@ -51,7 +51,7 @@ static bool has_direction(const float *n)
     return sum > 0.0f && sum <= 1e37f;
 }
 
-/* The file's normals count where all corners of a triangle have one. */
+/* The file's normals are used if all corners of a triangle have one. */
 static void set_normals(obj_reader *r, size_t corner)
 {
     bool has_all = r->normals != NULL;
@@ -61,7 +61,7 @@ static void set_normals(obj_reader *r, size_t corner)
         r->n[i] = has_all ? r->v[i] : OBJ_ABSENT;
 }
 
-/* Moves the corners that are kept to the front, part by part. */
+/* Moves the kept corners to the front, part by part. */
 static void keep_corners(obj_reader *r, obj_soup *soup)
 {
     size_t step = soup->is_cloud ? 1 : 3;
@@ -88,7 +88,7 @@ static void keep_corners(obj_reader *r, obj_soup *soup)
                    r->scene->source, lost, soup->is_cloud ? "points have" : "triangles have");
 }
 
-/* The parts that have corners, as primitives. */
+/* The non-empty parts become primitives. */
 static bool fill_primitives(obj_reader *r, const obj_soup *soup)
 {
     size_t count = 0;
@@ -115,7 +115,7 @@ static bool fill_primitives(obj_reader *r, const obj_soup *soup)
 
 /* ---- the scene ---- */
 
-/* A surface of no particular material, seen from both sides; vertex colors and a texture show as they are. */
+/* A neutral two-sided surface; vertex colors and a texture appear unchanged. */
 static bool make_material(obj_reader *r, const obj_soup *soup)
 {
     facet_scene *scene = r->scene;
@@ -148,7 +148,7 @@ static void round_places(obj_reader *r, const obj_soup *soup)
         r->positions[i] = (float)(soup->places[i] - r->origin[i % 3]);
 }
 
-/* Places as floats, relative to an origin near them where they are far from that of the file. */
+/* Positions as floats, relative to an origin near them if they are far from that of the file. */
 static bool set_positions(obj_reader *r, const obj_soup *soup)
 {
     r->position_count = soup->place_count;
@@ -207,7 +207,7 @@ facet_result obj_soup_finish(obj_soup *soup, facet_error *error)
                     .v = soup->v,
                     .t = soup->texcoord_count ? soup->t ? soup->t : soup->v : NULL};
     bool owns_t = r.t != r.v;
-    if (!owns_t && r.t) { /* corners move both */
+    if (!owns_t && r.t) { /* corner indices and texture coordinates move together */
         r.t = mem_alloc(r.allocator, soup->corner_count, sizeof *r.t);
         if (r.t && soup->corner_count)
             memcpy(r.t, soup->v, soup->corner_count * sizeof *r.t);

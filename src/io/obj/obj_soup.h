@@ -1,5 +1,5 @@
-/* obj_soup.h - triangles or points of formats without objects and materials, made a scene by the last steps of the OBJ
- * reader: normals where there are none, vertices that corners share, one neutral material. */
+/* obj_soup.h - triangles or points of formats without objects and materials, made a scene by the last steps of the
+ * OBJ reader: normals if there are none, shared vertices, one neutral material. */
 #ifndef IO_OBJ_SOUP_H
 #define IO_OBJ_SOUP_H
 
@@ -9,7 +9,7 @@
 
 /* Corners from begin on, up to those of the next part. */
 typedef struct obj_soup_part {
-    const char *name; /* need not end with 0 */
+    const char *name; /* not terminated */
     size_t name_size, begin;
 } obj_soup_part;
 
@@ -25,7 +25,7 @@ typedef struct obj_soup {
     size_t texcoord_count, texcoord_capacity;
     bool is_cloud; /* points, not triangles */
     uint32_t *v;   /* per corner, below place_count */
-    uint32_t *t;   /* per corner; NULL: as v where there are texture coordinates */
+    uint32_t *t;   /* per corner; NULL: as v, if there are texture coordinates */
     size_t corner_count, corner_capacity, t_capacity;
     obj_soup_part *parts; /* at least one */
     size_t part_count, part_capacity;
@@ -33,8 +33,8 @@ typedef struct obj_soup {
 } obj_soup;
 
 obj_soup obj_soup_begin(facet_scene *scene, const facet_scene_desc *desc);
-/* Fills the scene but for its images and textures. Triangles without area and those of places that are not finite are
- * left out, the latter with a warning. */
+/* Fills the scene except for its images and textures. Triangles without area and those with positions that are not
+ * finite are left out, the latter with a warning. */
 facet_result obj_soup_finish(obj_soup *soup, facet_error *error);
 void obj_soup_release(obj_soup *soup);
 

@@ -1,5 +1,5 @@
-/* obj_statements.c - the names of statements: objects, groups, materials, points and lines, what is not read. Also tells
- * OBJ files by their first statement. */
+/* obj_statements.c - statements by name: objects, groups, materials, points and lines, and unsupported ones. Also
+ * detects OBJ files by their first statement. */
 #include <string.h>
 
 #include "io/obj/obj_parse.h"
@@ -17,7 +17,7 @@ typedef enum statement_kind {
     MATERIAL,
     LIBRARY,
     CURVED, /* free-form curves and surfaces */
-    OTHER   /* how something is shown, and the like */
+    OTHER   /* display settings and the like */
 } statement_kind;
 
 static const struct {
@@ -42,7 +42,7 @@ static char to_lower(char c)
     return c >= 'A' && c <= 'Z' ? (char)(c + ('a' - 'A')) : c;
 }
 
-/* The row of the statement whose name is length bytes at p, in any case; -1: none. */
+/* The row of the statement whose name is length bytes at p, in any case; -1: unknown. */
 static int find_statement(const char *p, size_t length)
 {
     for (int i = 0; i < STATEMENT_COUNT; i++) {
@@ -82,7 +82,7 @@ bool obj_detect(const void *bytes, size_t size)
     return length > 0 && find_statement(start + i, length) >= 0;
 }
 
-/* Whether a line is a statement of that name, with a number behind it. */
+/* Whether a line is a statement of that name with a number after it. */
 static bool is_numbers(const char *line, const char *end, char name)
 {
     if (end - line < 3 || line[0] != name || !obj_is_blank(line[1]))
@@ -161,7 +161,7 @@ static int hex_digit(char c)
     return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
 }
 
-/* A comment; those of ZBrush hold colors, MMRRGGBB per position. */
+/* A comment; those of ZBrush contain colors, MMRRGGBB per position. */
 static const char *read_comment(obj_chunk *c, const char *p, const facet_allocator *allocator)
 {
     if (strncmp(p, "#MRGB ", 6) == 0) {
@@ -177,7 +177,7 @@ static const char *read_comment(obj_chunk *c, const char *p, const facet_allocat
             p += 8;
         }
     }
-    while (!obj_is_line_end(*p)) /* a backslash joins nothing here: paths of Windows end with one */
+    while (!obj_is_line_end(*p)) /* no continuation here: Windows paths may end with a backslash */
         p++;
     return p;
 }

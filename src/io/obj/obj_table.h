@@ -1,4 +1,4 @@
-/* obj_table.h - a hash table of vertices by the numbers that make them. */
+/* obj_table.h - a hash table of vertices by their indices of position, texture coordinate and normal. */
 #ifndef IO_OBJ_TABLE_H
 #define IO_OBJ_TABLE_H
 
@@ -8,12 +8,12 @@
 
 typedef struct obj_key {
     uint32_t v, t, n;
-    uint32_t vertex; /* what is looked up; no part of the key */
+    uint32_t vertex; /* the value; not part of the key */
 } obj_key;
 
-/* Slots hold numbers of keys; UINT32_MAX: none. The first slot that is looked at goes with the position, since mostly a
- * position has one vertex, and corners that follow each other have positions that are near in memory; the next ones are
- * spread by all three numbers, so that a position of a million vertices costs no more. */
+/* Slots hold indices of keys; UINT32_MAX: none. The first slot follows the position, since most positions have one
+ * vertex, and consecutive corners have positions that are near in memory; further slots are spread by all three
+ * indices, so that a position with a million vertices is not slower. */
 typedef struct obj_table {
     const facet_allocator *allocator;
     uint32_t *slots;
@@ -26,7 +26,7 @@ static inline uint32_t obj_key_step(const obj_key *k)
     uint64_t h = k->v * 0x9e3779b97f4a7c15u ^ k->t * 0xbf58476d1ce4e5b9u ^ k->n * 0x94d049bb133111ebu;
     h ^= h >> 32;
     h *= 0xd6e8feb86659fd93u;
-    return (uint32_t)(h >> 32) | 1u; /* odd: all slots come by */
+    return (uint32_t)(h >> 32) | 1u; /* odd: visits all slots */
 }
 
 static inline bool obj_table_resize(obj_table *t, size_t size)
@@ -39,7 +39,7 @@ static inline bool obj_table_resize(obj_table *t, size_t size)
     return true;
 }
 
-/* Empty, for about that many lookups. */
+/* Clears the table for about that many lookups. */
 static inline bool obj_table_reset(obj_table *t, size_t lookups)
 {
     size_t size = 16;
@@ -58,7 +58,7 @@ static inline void obj_table_place(obj_table *t, uint32_t number)
     t->slots[slot] = number;
 }
 
-/* What k.vertex was when the key was looked up first. UINT32_MAX: no memory. */
+/* The value of the first lookup of the key, which k.vertex becomes if it is new. UINT32_MAX: no memory. */
 static inline uint32_t obj_table_find(obj_table *t, obj_key k)
 {
     size_t slot = k.v & (t->size - 1);

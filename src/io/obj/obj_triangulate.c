@@ -35,7 +35,7 @@ const uint32_t *obj_split_quad(const float *a, const float *b, const float *c, c
     double ad[3];
     double bc[3];
     double bd[3];
-    double normal[3]; /* Newell's, times 2: the cross product of the diagonals */
+    double normal[3]; /* Newell's normal, times 2: the cross product of the diagonals */
     edge(a, b, ab);
     edge(a, c, ac);
     edge(a, d, ad);
@@ -51,20 +51,19 @@ const uint32_t *obj_split_quad(const float *a, const float *b, const float *c, c
 
 enum { IS_CONVEX = 1, IS_NO_EAR = 2, IS_CUT = 4, IS_SPIKE = 8 };
 
-/* What one triangulation knows. */
+/* The state of one triangulation. */
 typedef struct cutting {
     obj_polygon *p;
     uint32_t left; /* corners */
     uint32_t *out;
-    size_t budget;         /* corners that may still be looked at */
-    double low[2], extent; /* the square around it */
+    size_t budget;         /* remaining work, in corners examined */
+    double low[2], extent; /* the bounding square */
     double scale;          /* of the grid: cells per unit of length */
-    double cells[2];       /* of the grid; 0: there is none, all are looked at */
+    double cells[2];       /* of the grid; 0: no grid, all corners are examined */
     uint32_t row;
 } cutting;
 
-/* Sums of the projections of an area, by Newell's formula around the first point, so that far away from the origin
- * nothing cancels. */
+/* Projected areas by Newell's formula around the first point, so that nothing cancels far from the origin. */
 static void newell(const float *points, uint32_t count, double normal[3])
 {
     normal[0] = normal[1] = normal[2] = 0.0;
@@ -82,8 +81,8 @@ static void newell(const float *points, uint32_t count, double normal[3])
     }
 }
 
-/* Drops the axis along which the polygon is seen best, such that it turns to the left: coordinates stay as they are, and
- * with them the signs of areas. */
+/* Drops the axis of the largest projection, oriented counterclockwise: coordinates stay unchanged, and with them the
+ * signs of areas. */
 static void project(obj_polygon *p, uint32_t count)
 {
     double normal[3];
@@ -105,7 +104,7 @@ static void project(obj_polygon *p, uint32_t count)
     }
 }
 
-/* Twice the area of the triangle; > 0: it turns to the left. */
+/* Twice the signed area of the triangle; > 0: counterclockwise. */
 static double area(const double *a, const double *b, const double *c)
 {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
@@ -126,7 +125,7 @@ static double corner_area(const cutting *c, uint32_t i)
     return area(at(c, c->p->previous[i]), at(c, i), at(c, c->p->next[i]));
 }
 
-/* Whether all corners turn to the left, and x goes forth and back once: a spiral turns on and on. */
+/* Whether the polygon is convex: all corners turn left, and x has one minimum and one maximum (a spiral has more). */
 static bool is_convex(const cutting *c)
 {
     int turns = 0;
@@ -203,13 +202,13 @@ static void make_grid(cutting *c, uint32_t count)
 
 /* ---- ears ---- */
 
-/* The triangle at corner tip, whose sides turn to the left. */
+/* The triangle at corner tip, with counterclockwise sides. */
 typedef struct ear {
     const double *a, *b, *c;
     bool is_strict; /* points on its sides count as inside */
 } ear;
 
-/* Points at the place of a corner of the ear never block it: they are the other side of a bridge, or touch it. */
+/* Points that coincide with a corner of the ear never block it: they are the other side of a bridge, or touch it. */
 static bool is_blocked_by(const ear *e, const double *q)
 {
     double ab = area(e->a, e->b, q);
@@ -225,7 +224,7 @@ static void spend(cutting *c, size_t count)
     c->budget = c->budget > count ? c->budget - count : 0;
 }
 
-/* Corners that were cut, or have become convex, leave the grid on the way. */
+/* Corners that were cut or became convex are removed from the grid on the way. */
 static bool is_blocked_in_cell(cutting *c, const ear *e, uint32_t cell)
 {
     const obj_polygon *p = c->p;
@@ -244,7 +243,7 @@ static bool is_blocked_in_cell(cutting *c, const ear *e, uint32_t cell)
     return false;
 }
 
-/* Whether a corner that is not convex lies in the ear. If any corner does, such a one does too. */
+/* Whether a reflex corner lies in the ear. If any corner does, a reflex one does, too. */
 static bool is_blocked(cutting *c, const ear *e)
 {
     const obj_polygon *p = c->p;
@@ -279,7 +278,7 @@ static bool is_ear(cutting *c, uint32_t i, bool is_strict)
     return !is_blocked(c, &e);
 }
 
-/* A corner whose triangle is a line there and back, or a point twice, can go at once: nothing is in it. */
+/* A degenerate corner can be cut at once, as nothing is inside. */
 static void look_at_corner(cutting *c, uint32_t i)
 {
     const double *a = at(c, c->p->previous[i]);
@@ -289,7 +288,7 @@ static void look_at_corner(cutting *c, uint32_t i)
     c->p->states[i] = is_spike ? IS_SPIKE : area(a, b, d) > 0.0 ? IS_CONVEX : 0;
 }
 
-/* Emits the triangle at corner i; returns the corner behind it. */
+/* Emits the triangle at corner i; returns the next corner. */
 static uint32_t cut(cutting *c, uint32_t i)
 {
     obj_polygon *p = c->p;
@@ -314,8 +313,8 @@ static bool is_short(const cutting *c, uint32_t i, double limit)
     return (b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1]) <= limit;
 }
 
-/* Whether corner i is to be cut now. One that is no ear is remembered: it stays none until a neighbour goes, since what
- * blocks it cannot be cut before. */
+/* Whether to cut corner i now. A corner that is not an ear is marked: it stays one until a neighbor is cut, since its
+ * blocking corner cannot be cut before. */
 static bool is_next(cutting *c, uint32_t i, double limit)
 {
     uint8_t *state = &c->p->states[i];
@@ -329,7 +328,7 @@ static bool is_next(cutting *c, uint32_t i, double limit)
     return false;
 }
 
-/* Cuts ears whose new side has a square of at most limit, until there is none; returns a corner that is left. */
+/* Cuts ears whose new side has a squared length of at most limit until there are none; returns a remaining corner. */
 static uint32_t cut_short_ears(cutting *c, uint32_t i, double limit)
 {
     for (uint32_t without = 0; c->left > 3 && without < c->left && c->budget > 0;) {
@@ -345,7 +344,7 @@ static uint32_t cut_short_ears(cutting *c, uint32_t i, double limit)
     return i;
 }
 
-/* Cuts ears, short ones first: triangles are fuller, and fewer corners are near to each. */
+/* Cuts ears, short ones first, for better triangles and fewer corners near each. */
 static uint32_t cut_ears(cutting *c, uint32_t i)
 {
     double side = 2.0 * c->extent / (double)c->left;
@@ -373,8 +372,8 @@ static bool is_convex_corner(cutting *c, uint32_t i)
     return (c->p->states[i] & IS_CONVEX) != 0;
 }
 
-/* Cuts one corner where no ear is known, the least bad one: an ear that was overlooked, one whose sides are touched, a
- * corner without area, one that turns to the left (the polygon crosses itself). */
+/* Cuts one corner where no ear is known, the least bad one: an ear that was overlooked, one with touched sides, a
+ * degenerate corner, a convex one (the polygon crosses itself). */
 static uint32_t cut_something(cutting *c, uint32_t start)
 {
     bool (*const choices[])(cutting *, uint32_t) = {is_any_ear, is_touched_ear, is_straight,
@@ -396,8 +395,8 @@ static void cut_fan(cutting *c, uint32_t i)
         i = c->p->previous[cut(c, c->p->next[i])];
 }
 
-/* How many corners may be looked at: all by all up to 1000 corners; up to some 60 000, 1000 for each; beyond, 64. With the
- * grid, polygons that do not cross themselves take fewer than 10, combs of many teeth 300. */
+/* The number of corners to examine: all pairs up to 1000 corners; up to some 60 000, 1000 per corner; beyond, 64.
+ * With the grid, simple polygons take fewer than 10, combs of many teeth 300. */
 static size_t find_budget(uint32_t count)
 {
     size_t all = (size_t)1024 * count + ((size_t)1 << 16);
@@ -453,7 +452,7 @@ bool obj_polygon_reserve(obj_polygon *p, uint32_t count)
     p->previous = mem_alloc(&p->allocator, room, sizeof *p->previous);
     p->next = mem_alloc(&p->allocator, room, sizeof *p->next);
     p->states = mem_alloc(&p->allocator, room, sizeof *p->states);
-    size_t across = (size_t)sqrt((double)room) + 1; /* cells, at most */
+    size_t across = (size_t)sqrt((double)room) + 1; /* maximal number of cells */
     p->cell_begins = mem_alloc(&p->allocator, across * across, sizeof *p->cell_begins);
     p->cell_ends = mem_alloc(&p->allocator, across * across, sizeof *p->cell_ends);
     p->cell_corners = mem_alloc(&p->allocator, room, sizeof *p->cell_corners);

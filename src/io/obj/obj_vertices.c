@@ -1,7 +1,7 @@
-/* obj_vertices.c - corners of a primitive that have position, texture coordinate and normal in common share a vertex.
+/* obj_vertices.c - merges corners of a primitive that share position, texture coordinate and normal.
  *
- * Large primitives are looked at in blocks of positions, so that the table of one stays in a core's cache; vertices are in
- * the order of the blocks, in each as the file uses them first. Flat triangles share nothing. */
+ * Large primitives are processed in blocks of positions, so that the table of a block stays in a core's cache;
+ * vertices are in the order of the blocks, within each in order of first use. Flat triangles share no vertices. */
 #include <string.h>
 
 #include "base/parallel.h"
@@ -11,17 +11,17 @@
 #include "scene/unit.h"
 
 enum {
-    LARGE = 1 << 17, /* corners of a primitive that is looked at in parts */
+    LARGE = 1 << 17, /* corners of a primitive that is processed in parts */
     PART_CORNERS =
-        3 << 14 /* so many make a part, where they are not sorted; parts that make so many a task */
+        3 << 14 /* corners per part, if they are not sorted; parts with so few corners share a task */
 };
 
-/* Corners among which vertices are shared. */
+/* A set of corners among which vertices are shared. */
 typedef struct part {
     size_t begin, end; /* of order */
     uint32_t primitive;
-    uint32_t vertex, vertex_count; /* of the primitive's */
-    bool is_sorted;                /* order holds the corners; else they are begin .. end */
+    uint32_t vertex, vertex_count; /* index of the first vertex in the primitive */
+    bool is_sorted;                /* order holds the corners; otherwise they are begin .. end */
     bool has_texcoords, has_colors, is_flat;
     size_t missing_texcoords;
     box bounds;
@@ -31,9 +31,9 @@ typedef struct sharing {
     obj_reader *r;
     part *parts;
     size_t part_count, part_capacity;
-    size_t *tasks; /* parts with which the tasks begin, and their end */
+    size_t *tasks; /* the first part of each task, and the end */
     size_t task_count;
-    uint32_t *order; /* corners by part; then, per part, a corner for each vertex */
+    uint32_t *order; /* corners by part; then, per part, one corner per vertex */
 } sharing;
 
 /* ---- parts ---- */
@@ -47,7 +47,7 @@ static bool add_part(sharing *s, part p)
     return true;
 }
 
-/* Blocks of a large primitive: corners sorted by position. */
+/* Blocks of a large primitive: its corners sorted by position. */
 static bool add_sorted_parts(sharing *s, uint32_t number)
 {
     obj_reader *r = s->r;
@@ -71,7 +71,7 @@ static bool add_sorted_parts(sharing *s, uint32_t number)
     return is_ok;
 }
 
-/* Where all triangles are flat nothing is shared, and nothing is sorted. */
+/* Flat triangles share nothing, so that nothing is sorted. */
 static bool add_parts(sharing *s, uint32_t number)
 {
     const obj_primitive *p = &s->r->primitives[number];
@@ -88,7 +88,7 @@ static bool add_parts(sharing *s, uint32_t number)
     return true;
 }
 
-/* Small parts make a task together: millions of tiny ones must not cost a table each. */
+/* Small parts share a task, so that millions of tiny ones do not cost a table each. */
 static bool make_tasks(sharing *s)
 {
     s->tasks = mem_alloc(s->r->allocator, s->part_count + 1, sizeof *s->tasks);
@@ -108,7 +108,7 @@ static bool make_tasks(sharing *s)
 
 /* ---- sharing ---- */
 
-/* Gives the corners of a part numbers of vertices, and order a corner for each of those. */
+/* Assigns vertices to the corners of a part, and sets order to one corner per vertex. */
 static bool share_part(const sharing *s, obj_table *t, part *p)
 {
     const obj_reader *r = s->r;
@@ -130,7 +130,7 @@ static bool share_part(const sharing *s, obj_table *t, part *p)
             if (vertex == UINT32_MAX)
                 return false;
         }
-        if (vertex == count) { /* a place that the loop has passed */
+        if (vertex == count) { /* already processed by the loop */
             s->order[p->begin + count++] = c;
             p->has_colors |= r->colors && r->colors[4 * (size_t)k.v] >= 0.0f;
         }
@@ -153,7 +153,7 @@ static void share_tasks(void *context, size_t begin, size_t end)
     obj_table_release(&t);
 }
 
-/* Vertices of the parts behind one another, and what they all have. */
+/* Concatenates the vertices of the parts, and combines their properties. */
 static void sum_up(sharing *s)
 {
     obj_reader *r = s->r;
@@ -189,7 +189,7 @@ static void shift_corners(void *context, size_t begin, size_t end)
         r->indices[c] += k->s->parts[p->part + ((r->v[c] - p->v_minimum) >> p->shift)].vertex;
 }
 
-/* From vertices of the part to vertices of the primitive, for corners that are sorted; fill_part() does the others. */
+/* From vertices of a part to vertices of the primitive, for sorted corners; fill_part() does the others. */
 static void shift_sorted(const sharing *s)
 {
     const obj_reader *r = s->r;
@@ -202,7 +202,7 @@ static void shift_sorted(const sharing *s)
 
 /* ---- arrays ---- */
 
-/* Of the triangle that a corner belongs to; +Y where it has no area: nobody sees it. */
+/* The normal of a corner's triangle; +Y if it has no area and is invisible. */
 static void flat_normal(const obj_reader *r, uint32_t corner, float out[3])
 {
     const uint32_t *v = r->v + (corner - corner % 3);
@@ -277,7 +277,7 @@ static void fill_tasks(void *context, size_t begin, size_t end)
         fill_part(s, &s->parts[i]);
 }
 
-/* One block per attribute for all primitives: there may be millions of small ones. */
+/* One block per attribute for all primitives, which may be millions of small ones. */
 static float *take(obj_reader *r, const char *what, size_t count, size_t width)
 {
     if (count == 0)

@@ -22,7 +22,7 @@ static void use_texture(const facet_scene *scene, uint32_t texture, bool *is_use
         is_used[scene->textures[texture].image] = true;
 }
 
-/* Those of the maps, and of the glTF materials that are written as comments. */
+/* Marks the images of maps, and of glTF materials that are written as comments. */
 static void find_used(const facet_scene *scene, const facet_scene_save_desc *desc, bool *is_used)
 {
     const scene_legacy *legacy = scene->legacy;
@@ -39,7 +39,7 @@ static void find_used(const facet_scene *scene, const facet_scene_save_desc *des
 
 /* ---- names ---- */
 
-/* Names that every program reads, on every system, with the end that their kind has. */
+/* Whether a name is portable and has the extension of its format. */
 static bool is_plain(const char *name, const image_kind *kind)
 {
     const char *extension = path_extension(name);
@@ -51,8 +51,8 @@ static bool is_plain(const char *name, const image_kind *kind)
 
 typedef enum presence { NOT_THERE, SAME, OTHER, NO_MEMORY } presence;
 
-/* Whether the file at path holds the image. Only a regular file of its size is opened: a pipe would keep the reader waiting,
- * a device might never end. */
+/* Whether the file at path holds the image. Only a regular file of the same size is opened: a pipe could block, a
+ * device might never end. */
 static presence look_at(const char *path, const scene_image *source, const facet_allocator *allocator)
 {
     struct stat status;
@@ -68,7 +68,7 @@ static presence look_at(const char *path, const scene_image *source, const facet
     return result == FACET_ERROR_MEMORY ? NO_MEMORY : is_same ? SAME : OTHER;
 }
 
-/* The same, by its name beside path. */
+/* The same, for a file beside path. */
 static presence look_beside(const char *path, const char *name, const scene_image *source,
                             const facet_allocator *allocator)
 {
@@ -80,16 +80,16 @@ static presence look_beside(const char *path, const char *name, const scene_imag
     return found;
 }
 
-/* What names are found with. */
+/* The state of naming. */
 typedef struct image_namer {
     const facet_scene *scene;
     const char *path, *stem;
     const facet_allocator *allocator;
     name_table taken;
-    uint32_t next; /* numbers from that of the images on and below it are taken */
+    uint32_t next; /* suffixes from that of the images on and below it are taken */
 } image_namer;
 
-/* Adds the name of an image to *at, which has room for it. False: no memory. */
+/* Writes the name of an image to *at, which has room for it. False: no memory. */
 static bool name_image(image_namer *namer, uint32_t index, obj_images *out, char *at)
 {
     const scene_image *source = &namer->scene->images[index];
@@ -152,14 +152,14 @@ void obj_images_destroy(obj_images *images)
     *images = (obj_images){0};
 }
 
-/* What is written, and what it is made of. */
+/* The state of the writer. */
 typedef struct obj_writer {
     const facet_scene *scene;
     const facet_scene_save_desc *desc;
     const char *path, *generator;
-    char *stem; /* of the OBJ file's name */
+    char *stem; /* of the OBJ file's name, without extension */
     scene_pose pose;
-    obj_piece *pieces;       /* one per instance of the pose; those without a material come first */
+    obj_piece *pieces;       /* one per instance of the pose; instances without a material come first */
     text *headings;          /* the same: "o ..", "usemtl .." */
     const char **names;      /* of materials */
     name_table object_names; /* those written */
@@ -169,7 +169,7 @@ typedef struct obj_writer {
 
 /* ---- names ---- */
 
-/* A name that no object has yet, of one line; NULL: no memory. */
+/* A unique object name on one line; NULL: no memory. */
 static const char *object_name(obj_writer *w, const char *wanted, size_t number)
 {
     size_t length = strlen(wanted);
@@ -186,7 +186,7 @@ static const char *object_name(obj_writer *w, const char *wanted, size_t number)
 
 /* ---- pieces ---- */
 
-/* The set of texture coordinates that a material's maps use. OBJ has one: that of the first map counts. */
+/* The set of texture coordinates of a material's maps. OBJ has one set: the first map decides. */
 static uint32_t find_texcoord_set(const obj_writer *w, const scene_instance *instance)
 {
     const scene_primitive *p = instance->primitive;
@@ -210,7 +210,7 @@ static uint32_t find_texcoord_set(const obj_writer *w, const scene_instance *ins
     return set != SCENE_NONE ? set : p->texcoord_count > 0 ? 0 : SCENE_NONE;
 }
 
-/* "usemtl" cannot be taken back: what has no material comes first. */
+/* Instances without a material come first, since "usemtl" cannot be undone. */
 static void order_pieces(obj_writer *w)
 {
     size_t count = 0;
@@ -222,8 +222,8 @@ static void order_pieces(obj_writer *w)
             }
 }
 
-/* The node of an instance begins an object, and so does each of its copies. One without a name that comes first has none,
- * as in files without "o". */
+/* The node of an instance begins an object, and so does each of its copies. A first one without a name has no
+ * heading, as in files without "o". */
 static bool write_heading(obj_writer *w, size_t index)
 {
     const scene_instance *now = w->pieces[index].instance;
@@ -312,8 +312,8 @@ static char *print_obj(const obj_writer *w, const char *mtl_name, size_t *size)
     return obj;
 }
 
-/* The OBJ file is printed before any file is begun, as it takes long, and is the last to be in its place: where it is, all
- * that it names is. */
+/* The OBJ file is printed before any file is created, as it takes long, and is committed last, so that its presence
+ * implies that of all files that it names. */
 static facet_result save(const obj_writer *w, facet_error *error)
 {
     char *mtl_name = mem_alloc(&w->desc->allocator, strlen(w->stem) + sizeof ".mtl", 1);
@@ -337,8 +337,8 @@ static facet_result save(const obj_writer *w, facet_error *error)
     return result;
 }
 
-/* The file's name without its end, as a statement can name it: on one line, and without blanks at its front, where a
- * reader skips them, or quotes. */
+/* The file's name without its extension, as a statement can refer to it: on one line, without leading blanks, which
+ * readers skip, and without quotes. */
 static char *make_stem(const char *path, const facet_allocator *allocator)
 {
     const char *base = path_base_name(path);

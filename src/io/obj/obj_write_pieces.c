@@ -1,6 +1,6 @@
-/* obj_write_pieces.c - the statements of an OBJ file: positions, texture coordinates and normals of a pose in world space,
- * each value once per piece, without unused vertices; and their text, which all threads print: it is cut into blocks of
- * lines, each block is printed on its own and then copied to its place. */
+/* obj_write_pieces.c - the statements of an OBJ file: positions, texture coordinates and normals of a pose in world
+ * space, each value once per piece, without unused vertices; and their text, which is printed in parallel: in blocks
+ * of lines that are then copied to their place. */
 #include <math.h>
 #include <string.h>
 
@@ -17,7 +17,7 @@ static void put_position(const obj_piece *piece, const facet_scene *scene, size_
     mat4_transform_point(&i->world, i->positions + 3 * vertex, out);
     if (piece->lists[OBJ_POSITIONS].width < 6)
         return;
-    /* Colors of the file are those of its materials. */
+    /* Vertex colors in the encoding of the file's materials. */
     bool is_srgb = scene->legacy->colors != FACET_LEGACY_COLORS_LINEAR;
     for (int k = 0; k < 3; k++) {
         float linear = i->primitive->colors[4 * vertex + (size_t)k];
@@ -36,7 +36,8 @@ static void put_normal(const obj_piece *piece, size_t vertex, float *out)
                     (double)m[3 * k + 2] * (double)n[2];
         square += turned[k] * turned[k];
     }
-    /* What is unit to a float's precision stays to the bit, so that files read and written again do not drift. */
+    /* Vectors that are unit to float precision are kept to the bit, so that repeated reading and writing does not
+     * drift. */
     double scale = fabs(square - 1.0) < 1e-6 || !(square > 0.0) ? 1.0 : 1.0 / sqrt(square);
     for (int k = 0; k < 3; k++)
         out[k] = (float)(turned[k] * scale);
@@ -72,7 +73,7 @@ static uint32_t hash_bits(const float *values, uint32_t width)
     return (uint32_t)(hash >> 32);
 }
 
-/* What is being done for all lists. */
+/* The context of all lists. */
 typedef struct fill_job {
     obj_piece *pieces;
     const facet_scene *scene;
@@ -124,7 +125,7 @@ static void fill_range(void *context, size_t begin, size_t end)
         obj_piece *piece = &job->pieces[i / OBJ_LIST_COUNT];
         obj_list list = (obj_list)(i % OBJ_LIST_COUNT);
         if (piece->lists[list].width > 0 && !fill_list(job, piece, list))
-            piece->lists[list].width = UINT32_MAX; /* told below: no two items write the same member */
+            piece->lists[list].width = UINT32_MAX; /* reported below: items write separate members */
     }
 }
 
@@ -164,7 +165,7 @@ void obj_pieces_destroy(obj_piece *pieces, size_t count)
 /* Lines of one list of one piece, or (list OBJ_LIST_COUNT) its elements. */
 typedef struct block {
     const obj_piece *piece;
-    const text *heading; /* that comes before; NULL: none */
+    const text *heading; /* text before it; NULL: none */
     uint32_t list;
     size_t begin, end; /* values, or elements */
     char *data;        /* block of mem_alloc(); NULL: no memory */
@@ -195,7 +196,7 @@ static char *put_index(char *out, size_t index)
     return out;
 }
 
-/* origin: of the first three values; NULL: they are no place. */
+/* origin: added to the first three values; NULL: they are not a position. */
 static char *put_values(char *out, const char *keyword, const float *values, uint32_t width,
                         const double *origin)
 {

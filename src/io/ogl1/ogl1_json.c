@@ -22,7 +22,7 @@ static const unsigned char *skip_space(const unsigned char *at, const unsigned c
     return at;
 }
 
-/* Behind the string that begins at at with its quote; end where it has no end. */
+/* The position behind the string that begins at at with its quote; end if it is not closed. */
 static const unsigned char *skip_string(const unsigned char *at, const unsigned char *end)
 {
     for (at++; at < end && *at != '"'; at++)
@@ -30,7 +30,7 @@ static const unsigned char *skip_string(const unsigned char *at, const unsigned 
     return at < end ? at + 1 : end;
 }
 
-/* Behind the value that begins at at, at the comma or bracket that ends it. */
+/* The comma or bracket that ends the value at at. */
 static const unsigned char *skip_value(const unsigned char *at, const unsigned char *end)
 {
     size_t depth = 0;
@@ -131,7 +131,7 @@ static void read_header(ogl1_document *d, const json_place *root)
         io_fail_memory(r, "generator", strlen(generator));
 }
 
-/* What toJSON() makes of a bare material3d(): the root itself is the material. */
+/* toJSON() of a bare material3d(): the root itself is the material. */
 static bool is_bare(const json_place *root)
 {
     return !io_has_member(root, "materials") && !io_has_member(root, "material3d") &&
@@ -223,7 +223,7 @@ void ogl1_document_read(ogl1_document *d, facet_scene *scene, const char *bytes,
 enum { SEGMENTS = 64, RINGS = 32 };
 static const float SPACING = 2.5f; /* m, of balls of radius 1 */
 
-/* The entry's name, else that of its first object, else a number. */
+/* The entry's name, or that of its first object, or a number. */
 static const char *name_of(io_reader *r, const ogl1_entry *entry, uint32_t number)
 {
     char name[32];
@@ -238,7 +238,7 @@ static const char *name_of(io_reader *r, const ogl1_entry *entry, uint32_t numbe
     return copy ? copy : "";
 }
 
-/* Mesh and node number i, at its place in the grid: rows from the top, filled from the left. */
+/* Sets mesh and node i, in row-major order from the top left. */
 static void place(io_reader *r, const scene_primitive *sphere, uint32_t i, uint32_t columns, uint32_t rows)
 {
     facet_scene *scene = r->scene;
@@ -279,7 +279,7 @@ static void make_balls(ogl1_document *d)
     io_reader *r = &d->r;
     facet_scene *scene = r->scene;
     uint32_t count = d->entry_count;
-    uint32_t columns = (uint32_t)ceil(sqrt((double)count * 4.0 / 3.0)); /* as wide as most pictures are */
+    uint32_t columns = (uint32_t)ceil(sqrt((double)count * 4.0 / 3.0)); /* the aspect of common images */
     uint32_t rows = (count + columns - 1) / columns;
     scene_primitive sphere;
     scene->materials = io_alloc(r, "materials", count, sizeof *scene->materials);

@@ -1,4 +1,4 @@
-/* ogl1_lights.c - lights as light3d() takes them and as scene3d() lists them, and the fog of bg3d(). */
+/* ogl1_lights.c - reads lights as arguments of light3d() or as listed by scene3d(), and the fog of bg3d(). */
 #include <math.h>
 #include <string.h>
 
@@ -14,7 +14,7 @@ static bool is_among(const char *key, const char *const *names, size_t count)
     return false;
 }
 
-/* Tells, once per name, which members nothing reads. */
+/* Reports unknown members, once per name. */
 static void report_unknown(io_reader *r, const json_place *at, const char *what, const char *const *known,
                            size_t count)
 {
@@ -36,7 +36,7 @@ static const char *const FOG_KEYS[] = {"fogtype",  "fogScale", "fogscale", "colo
 
 /* ---- lights ---- */
 
-/* A unit vector as it is, to the last bit, so that what was written reads back equal; others made unit. */
+/* Unit vectors are kept to the bit, so that written files read back equal; others are normalized. */
 static bool set_direction(io_reader *r, const json_place *at, const char *key, const float v[3],
                           legacy_light *out)
 {
@@ -50,7 +50,7 @@ static bool set_direction(io_reader *r, const json_place *at, const char *key, c
     return true;
 }
 
-/* theta and phi in degrees; (0, 15) where neither is stated. */
+/* theta and phi in degrees; (0, 15) if both are absent. */
 static void read_angles(io_reader *r, const json_place *at, legacy_light *out)
 {
     const double to_rad = 3.14159265358979323846 / 180.0;
@@ -58,14 +58,14 @@ static void read_angles(io_reader *r, const json_place *at, legacy_light *out)
     double phi = 15.0;
     ogl1_number(r, at, "theta", &theta);
     ogl1_number(r, at, "phi", &phi);
-    /* Angles of many turns would lose their digits as floats. */
+    /* Angles of many turns would lose precision as floats. */
     legacy_light_direction((float)(fmod(theta, 360.0) * to_rad), (float)(fmod(phi, 360.0) * to_rad),
                            out->position);
     for (int k = 0; k < 3; k++)
         out->position[k] += 0.0f; /* 0 times a negative cosine is -0, which JSON does not keep */
 }
 
-/* x alone may hold all three, as for xyz.coords(). False: there is no x. */
+/* x alone may hold all three coordinates, as for xyz.coords(). False: there is no x. */
 static bool read_point(io_reader *r, const json_place *at, legacy_light *out)
 {
     json_place x = ogl1_member(at, "x");
@@ -127,7 +127,7 @@ static void read_light(io_reader *r, const json_place *at, legacy_light *out)
         report_unknown(r, at, "light3d()", LIGHT_KEYS, sizeof LIGHT_KEYS / sizeof *LIGHT_KEYS);
 }
 
-/* Whether value is one light, not a list of named ones. */
+/* Whether value is a single light, not a list of named ones. */
 static bool is_light(const json_t *value)
 {
     for (size_t i = 0; i < sizeof LIGHT_KEYS / sizeof *LIGHT_KEYS; i++) {
@@ -188,7 +188,7 @@ static void read_one_fog(ogl1_document *d, const json_place *root, const char *k
         report_unknown(r, &at, "bg3d()", FOG_KEYS, sizeof FOG_KEYS / sizeof *FOG_KEYS);
 }
 
-/* What "fog" states takes the place of what "background" does. */
+/* "fog" takes precedence over "background". */
 void ogl1_read_fog(ogl1_document *d, const json_place *root)
 {
     read_one_fog(d, root, "background");

@@ -79,7 +79,7 @@ static bool is_kept(const char *key)
     return is_among(key, kept, sizeof kept / sizeof *kept);
 }
 
-/* rgl's, where they are not those of legacy_material_default(). */
+/* rgl's defaults where they differ from legacy_material_default(). */
 static legacy_material default_material(void)
 {
     legacy_material m = legacy_material_default();
@@ -98,7 +98,7 @@ static void read_color(io_reader *r, const json_place *at, legacy_material *m)
     float rgba[4] = {1, 1, 1, 1};
     if (ogl1_color(r, at, io_has_member(at, "color") ? "color" : "col", rgba))
         memcpy(m->diffuse, rgba, sizeof m->diffuse);
-    /* rgl itself drops the alpha of a color. Who writes one by hand means it. */
+    /* rgl itself drops the alpha of a color; a hand-written one is respected. */
     if (!ogl1_number_in(r, at, "alpha", 0.0, 1.0, &m->opacity))
         m->opacity = rgba[3];
 }
@@ -180,8 +180,8 @@ static void read_statements(io_reader *r, const json_place *at, legacy_material 
         m->fields |= LEGACY_TRANSMISSION_FILTER;
 }
 
-/* Whether this file reads the member, so that it is not to be kept as text. Of front and back the modes that a
- * legacy_material cannot hold are kept. */
+/* Whether this file reads the member, so that it is not kept as text. Modes of front and back that a legacy_material
+ * cannot express are kept. */
 static bool is_read(const char *key, const json_t *value)
 {
     if (strcmp(key, "front") == 0 || strcmp(key, "back") == 0) {
@@ -193,7 +193,7 @@ static bool is_read(const char *key, const json_t *value)
            ogl1_is_parameter(key);
 }
 
-/* A word of its own, as the lines of legacy_material.unknown begin with. */
+/* A word as the lines of legacy_material.unknown begin with. */
 static bool is_word(const char *key)
 {
     for (const char *c = key; *c; c++)
@@ -213,7 +213,7 @@ static void add_line(const char *key, const json_t *value, text *lines)
     free(json);
 }
 
-/* The lines of both, what is foreign to rgl first. */
+/* The lines of both; those unknown to rgl come first. */
 static void join_unknown(io_reader *r, const text *foreign, const text *kept, legacy_material *m)
 {
     size_t at = foreign->length + (foreign->length && kept->length);
@@ -235,7 +235,7 @@ static void join_unknown(io_reader *r, const text *foreign, const text *kept, le
     m->kept = kept->length ? all + at : NULL;
 }
 
-/* Keeps what nothing here reads. */
+/* Keeps members without a counterpart. */
 static void keep_unknown(io_reader *r, const json_place *at, legacy_material *m)
 {
     const char *key;
@@ -298,7 +298,7 @@ void ogl1_read_material(io_reader *r, const json_place *at, ogl1_entry *out)
 
 /* ---- textures ---- */
 
-/* What is appended to the scene. */
+/* Images and textures to append to the scene. */
 typedef struct findings {
     mtl_files files; /* for its scope */
     scene_image *images;
@@ -313,7 +313,7 @@ static void warn(io_reader *r, const char *path, const char *what)
     io_warn(r, NULL, NULL, "texture \"%.200s\": %.400s; it is left out", path, what);
 }
 
-/* Number of the image among those found, SCENE_NONE: there is none; a warning says so. */
+/* The index of the image among those found; SCENE_NONE: not available, which is reported. */
 static uint32_t find_image(io_reader *r, findings *f, const char *path)
 {
     uri_bytes bytes;
@@ -359,7 +359,7 @@ static uint32_t find_image(io_reader *r, findings *f, const char *path)
     return (uint32_t)f->image_count++;
 }
 
-/* Number of the texture among those found. */
+/* The index of the texture among those found. */
 static uint32_t find_texture(io_reader *r, findings *f, const scene_texture *like)
 {
     uint32_t hash = mtl_hash_texture(like);
@@ -378,7 +378,7 @@ static uint32_t find_texture(io_reader *r, findings *f, const scene_texture *lik
     return (uint32_t)f->texture_count++;
 }
 
-/* old and, behind it, more, in the arena. */
+/* Concatenates old and more in the arena. */
 static void *joined(io_reader *r, const void *old, size_t old_count, const void *more, size_t count,
                     size_t size)
 {

@@ -1,5 +1,5 @@
-/* ogl1_overlay.c - parameters laid over a scene that was read. The more specific wins: objects before names of materials
- * before all; of equals the last. */
+/* ogl1_overlay.c - applies a document of parameters to a scene. Objects take precedence over names of materials, and
+ * names over entries for everything; among equals the last is used. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,12 +12,12 @@
 typedef struct entry_name {
     const char *name;
     uint32_t entry;
-    bool is_used; /* was looked up */
+    bool is_used; /* was found in the scene */
 } entry_name;
 
 typedef struct entry_names {
     size_t count;
-    entry_name *names; /* sorted; each once, with the last entry that has it */
+    entry_name *names; /* sorted and unique, each with the last entry that has it */
 } entry_names;
 
 static int compare(const void *a, const void *b)
@@ -28,7 +28,7 @@ static int compare(const void *a, const void *b)
     return order ? order : (x->entry > y->entry) - (x->entry < y->entry);
 }
 
-/* Of a sorted list the last one of each name. */
+/* Keeps the last one of each name in a sorted list. */
 static void keep_last(ogl1_document *d, bool of_objects, entry_names *n)
 {
     size_t kept = 0;
@@ -63,15 +63,14 @@ static bool names_create(ogl1_document *d, bool of_objects, entry_names *out)
     return true;
 }
 
-/* The names of the materials, or of the objects, of all entries. Warns about those that several entries have. False: no
- * memory. */
+/* The names of the materials, or of the objects, of all entries. Reports those of several entries. False: no memory. */
 static void names_destroy(entry_names *n)
 {
     mem_free(n->names);
     *n = (entry_names){0};
 }
 
-/* The entry that speaks of name; SCENE_NONE: none. */
+/* The entry of a name; SCENE_NONE: none. */
 static uint32_t names_find(entry_names *n, const char *name)
 {
     size_t begin = 0;
@@ -94,17 +93,17 @@ static uint32_t names_find(entry_names *n, const char *name)
 /* A node with a mesh, and the entry of its objects. */
 typedef struct use {
     uint32_t node, mesh;
-    uint32_t entry; /* 0: none; else its number plus 1, so that none sorts first */
+    uint32_t entry; /* 0: none; otherwise its number plus 1, so that none sorts first */
 } use;
 
 typedef struct overlay {
     ogl1_document d;
     entry_names materials, objects;
-    uint32_t all;             /* the entry for all; SCENE_NONE: none */
-    bool *is_set;             /* per material: an entry took its place */
+    uint32_t all;             /* the entry for everything; SCENE_NONE: none */
+    bool *is_set;             /* per material: replaced by an entry */
     uint32_t *numbers;        /* per entry: its material in the scene; SCENE_NONE: none yet */
     bool *is_used, *is_named; /* per entry */
-    uint32_t *node_entries;   /* per node: as in use; UINT32_MAX: not known yet */
+    uint32_t *node_entries;   /* per node: as in use; UINT32_MAX: unknown yet */
     uint32_t *path;           /* node_count, for find_entry() */
     size_t use_count;
     use *uses;
@@ -148,7 +147,8 @@ static void release(overlay *o)
 
 /* ---- materials ---- */
 
-/* Room for those to come, in both models. A scene of glTF materials gets legacy ones: what is not met stays glTF's. */
+/* Grows the material arrays of both models. A glTF scene gets legacy materials; those that no entry replaces stay
+ * glTF's. */
 static void make_room(overlay *o)
 {
     io_reader *r = &o->d.r;
@@ -225,7 +225,7 @@ static uint32_t material_of(overlay *o, uint32_t entry)
 
 /* ---- objects ---- */
 
-/* The entry of a node: of its own name, its mesh's, or that of the nearest node above it that has one. */
+/* The entry of a node: of its own name, its mesh's, or that of the nearest ancestor with one. */
 static uint32_t find_entry(overlay *o, uint32_t node)
 {
     const facet_scene *scene = o->d.r.scene;
@@ -265,7 +265,7 @@ static void find_uses(overlay *o)
 {
     const facet_scene *scene = o->d.r.scene;
     for (uint32_t i = 0; i < scene->node_count; i++) {
-        uint32_t entry = find_entry(o, i); /* also where it has no mesh: its name is met */
+        uint32_t entry = find_entry(o, i); /* also nodes without a mesh, whose names count as used */
         if (scene->nodes[i].mesh != SCENE_NONE)
             o->uses[o->use_count++] = (use){.node = i, .mesh = scene->nodes[i].mesh, .entry = entry};
     }
@@ -282,7 +282,7 @@ static bool begins_mesh(const overlay *o, size_t i)
     return i == 0 || o->uses[i].mesh != o->uses[i - 1].mesh;
 }
 
-/* Room for the copies of meshes that several entries share, or an entry and none. */
+/* Allocates copies of meshes that several entries share, or an entry and none. */
 static void make_mesh_room(overlay *o)
 {
     facet_scene *scene = o->d.r.scene;
@@ -312,7 +312,7 @@ static uint32_t copy_mesh(overlay *o, uint32_t mesh)
     return scene->mesh_count++;
 }
 
-/* The first group of a mesh has it, which is that of no entry where there is one; the others get copies. */
+/* The first group of a mesh keeps it, preferably the one without an entry; the others get copies. */
 static void assign_objects(overlay *o)
 {
     facet_scene *scene = o->d.r.scene;
@@ -330,7 +330,7 @@ static void assign_objects(overlay *o)
     }
 }
 
-/* Primitives without a material get that of the entry for all. */
+/* Primitives without a material get that of the entry for everything. */
 static void assign_rest(overlay *o)
 {
     facet_scene *scene = o->d.r.scene;
@@ -349,8 +349,8 @@ static bool is_used(const facet_scene *scene, uint32_t material)
     return false;
 }
 
-/* The material without a name, which OBJ's reader gives to faces before any usemtl, goes where objects of the file took
- * all of its faces. */
+/* Removes the material without a name, which the OBJ reader gives to faces before any usemtl, if entries for objects
+ * replaced it everywhere. */
 static void drop_unnamed(overlay *o)
 {
     facet_scene *scene = o->d.r.scene;
@@ -372,7 +372,7 @@ static void drop_unnamed(overlay *o)
         }
 }
 
-/* rgl's rules for vertex colors and textures hold where all that is drawn has parameters of rgl. */
+/* rgl's rules for vertex colors and textures apply if everything drawn has parameters of rgl. */
 static void decide_rules(overlay *o)
 {
     facet_scene *scene = o->d.r.scene;
@@ -433,7 +433,7 @@ facet_result ogl1_json_overlay(facet_scene *scene, const char *path, const facet
     const char *source = scene->source;
     char *folder = path_folder(&desc->allocator, path);
     if (folder) {
-        scene->source = path; /* in messages: they are about this file */
+        scene->source = path; /* for messages, which are about this file */
         ogl1_document_read(&o.d, scene, (const char *)file.data, file.size, folder, desc, error);
         if (io_is_ok(&o.d.r))
             lay(&o, desc);

@@ -4,7 +4,7 @@
 
 #include "scene/legacy.h"
 
-/* Parameters that are one member of legacy_material: 3 floats, a float, a bool. */
+/* Parameters stored in one member of legacy_material: 3 floats, a float, a bool. */
 typedef enum ogl1_kind { OGL1_COLOR, OGL1_NUMBER, OGL1_BOOLEAN } ogl1_kind;
 typedef struct ogl1_parameter {
     const char *name;
@@ -15,7 +15,7 @@ typedef struct ogl1_parameter {
 enum { OGL1_PARAMETER_COUNT = 7 };
 extern const ogl1_parameter OGL1_PARAMETERS[OGL1_PARAMETER_COUNT];
 
-/* Numbers that MTL files state and rgl does not know: in the member "mtl", by the names of the statements. */
+/* Numbers of MTL files without a counterpart in rgl: in the member "mtl", by the names of the statements. */
 typedef struct ogl1_statement {
     const char *name;
     uint32_t field; /* LEGACY_IOR, .. */
@@ -35,13 +35,12 @@ enum { OGL1_FILLED, OGL1_LINES, OGL1_POINTS, OGL1_CULLED };
 typedef struct ogl1_min_filter {
     const char *name;
     scene_filter filter;
-    scene_mip_filter mip_filter; /* with texmipmap; SCENE_MIP_NONE without */
+    scene_mip_filter mip_filter; /* SCENE_MIP_NONE without texmipmap */
 } ogl1_min_filter;
 enum { OGL1_MIN_FILTER_COUNT = 6 };
 extern const ogl1_min_filter OGL1_MIN_FILTERS[OGL1_MIN_FILTER_COUNT];
 
-/* Whether key is a parameter with a meaning here; and one that means nothing to a surface under light, which is kept and
- * written again. */
+/* Whether key is a parameter that is used. */
 bool ogl1_is_parameter(const char *key);
 
 #endif

@@ -1,26 +1,25 @@
-/* ogl1_reader.h - what the files of the reader of rgl's parameters share. Messages, places and memory are those of
- * gltf_reader.h; the parameters of a document are first read into an ogl1_document, which then becomes a scene or is laid
- * over one. */
+/* ogl1_reader.h - what the files of the reader of rgl's parameters share, on top of json_reader.h. The parameters are
+ * first read into an ogl1_document, which then becomes a scene or is applied to one. */
 #ifndef IO_OGL1_READER_H
 #define IO_OGL1_READER_H
 
 #include "io/json_reader.h"
 #include "scene/legacy.h"
 
-/* One of "materials". The texture of its map is not found yet: ogl1_find_textures(). */
+/* An element of "materials". ogl1_find_textures() sets the texture of its map. */
 typedef struct ogl1_entry {
     const char *name; /* NULL: not stated */
     uint32_t object_count;
     const char **objects;
     legacy_material material;
-    scene_texture sampler; /* of the texture; wraps around, as rgl's do */
+    scene_texture sampler; /* of the texture; repeats, as rgl's do */
 } ogl1_entry;
 
 typedef struct ogl1_document {
     io_reader r;
     uint32_t entry_count;
     ogl1_entry *entries;
-    bool has_lights, has_fog; /* false: the document does not speak of them */
+    bool has_lights, has_fog; /* false: absent from the document */
     uint32_t light_count;
     legacy_light *lights;
     legacy_fog fog;
@@ -29,9 +28,10 @@ typedef struct ogl1_document {
 } ogl1_document;
 
 /* ---- values as R's toJSON() writes them (ogl1_values.c) ----
- * A value may stand in an array of its own. Absent, so that the fallback counts: no such member, null, [] and {} (R's
- * empty vectors and NULL), "NA". Of longer vectors the first value counts, with a warning. Where a getter returns false,
- * *out stays: the value is absent, or an error is recorded. */
+ *
+ * A value may be wrapped in an array. It counts as absent if there is no such member, or null, [] and {} (R's empty
+ * vectors and NULL), or "NA". The first value of a longer vector is used, with a warning. Where a getter returns
+ * false, *out is unchanged: the value is absent, or an error is recorded. */
 json_place ogl1_member(const json_place *object, const char *key);               /* value NULL: absent */
 json_place ogl1_object(io_reader *r, const json_place *object, const char *key); /* the same, or an error */
 bool ogl1_number(io_reader *r, const json_place *object, const char *key, double *out);
@@ -39,19 +39,20 @@ bool ogl1_number(io_reader *r, const json_place *object, const char *key, double
 bool ogl1_number_in(io_reader *r, const json_place *object, const char *key, double minimum, double maximum,
                     float *out);
 bool ogl1_bool(io_reader *r, const json_place *object, const char *key,
-               bool *out); /* 0 and 1 are taken too */
-bool ogl1_string(io_reader *r, const json_place *object, const char *key, const char **out); /* the JSON's */
+               bool *out); /* 0 and 1 are accepted, too */
+bool ogl1_string(io_reader *r, const json_place *object, const char *key,
+                 const char **out); /* owned by the JSON */
 bool ogl1_string_value(io_reader *r, const json_place *at, const char **out);
 /* Three numbers, at most SCENE_FARTHEST: an array, or a matrix of one row. */
 bool ogl1_vector(io_reader *r, const json_place *object, const char *key, float out[3]);
-/* A name of R, "#rrggbb", a number of R's palette, or 3 to 4 numbers >= 0. */
+/* A name of R, "#rrggbb", an index of R's palette, or 3 to 4 numbers >= 0. */
 bool ogl1_color(io_reader *r, const json_place *object, const char *key, float rgba[4]);
 bool ogl1_color_value(io_reader *r, const json_place *at, float rgba[4]);
-/* The number of one of names, which end with NULL. */
+/* The index of one of names, which end with NULL. */
 bool ogl1_choice(io_reader *r, const json_place *object, const char *key, const char *const *names, int *out);
 
-/* What R writes for a list of lists: an array of objects, an object of objects where they had names, or the one object
- * itself where the list was forgotten (is_element() tells). */
+/* R writes a list of lists as an array of objects, as an object of objects if they had names, or as the bare object
+ * if there was no list (is_element() decides). */
 typedef struct ogl1_list {
     json_place at;
     size_t count, next;
@@ -73,16 +74,16 @@ void ogl1_read_material(io_reader *r, const json_place *at, ogl1_entry *out);
 void ogl1_read_lights(ogl1_document *d, const json_place *root);
 void ogl1_read_fog(ogl1_document *d, const json_place *root);
 
-/* ogl1_json.c: parses the bytes and reads all of it into the arena of scene; d->r.result says how it went. folder: of the
- * document; NULL: it came from memory. */
+/* ogl1_json.c: parses the bytes and reads the document into the arena of scene; d->r.result is the result. folder: of
+ * the document; NULL: from memory. */
 void ogl1_document_read(ogl1_document *d, facet_scene *scene, const char *bytes, size_t size,
                         const char *folder, const facet_scene_desc *desc, facet_error *error);
 
-/* ogl1_materials.c: finds the images that the entries name, appends them and their textures to the scene and sets the
- * maps of the entries. What cannot be had is a warning. */
+/* ogl1_materials.c: locates the images of the entries, appends them and their textures to the scene and sets the maps
+ * of the entries. Missing images are reported. */
 void ogl1_find_textures(ogl1_document *d);
 
-/* ogl1_json.c: lights, fog and the meaning of colors, into scene->legacy, which is there. */
+/* ogl1_json.c: copies lights, fog and the encoding of colors to scene->legacy, which must exist. */
 void ogl1_set_surroundings(const ogl1_document *d, const facet_legacy_desc *desc);
 
 #endif

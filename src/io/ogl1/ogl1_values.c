@@ -1,5 +1,5 @@
-/* ogl1_values.c - values as R's toJSON() writes them: scalars also as arrays of one, NULL as {}, colors as R has them; see
- * ogl1_reader.h. */
+/* ogl1_values.c - values as R's toJSON() writes them: scalars also as arrays of one, NULL as {}, colors in R's
+ * notations; see ogl1_reader.h. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -42,7 +42,7 @@ json_place ogl1_member(const json_place *object, const char *key)
     return at;
 }
 
-/* A vector's first value, with a warning where others differ. */
+/* The first value of a vector, with a warning if others differ. */
 static json_place first_of(io_reader *r, const json_place *object, const char *key)
 {
     json_place at = ogl1_member(object, key);
@@ -75,7 +75,7 @@ bool ogl1_number(io_reader *r, const json_place *object, const char *key, double
         return false;
     if (!json_is_number(at.value))
         return fail_type(r, &at, "a number");
-    *out = json_number_value(at.value) + 0.0; /* no -0: written, it is an integer, which has none */
+    *out = json_number_value(at.value) + 0.0; /* no -0, which JSON integers cannot represent */
     return true;
 }
 

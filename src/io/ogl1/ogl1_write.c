@@ -15,13 +15,14 @@
 
 /* ---- objects that name their material ---- */
 
-/* An object that is made of one material. */
+/* An object with a single material. */
 typedef struct ogl1_object {
     const char *name;
     uint32_t material, node;
 } ogl1_object;
 
-/* The one material of a node's mesh; SCENE_NONE: several, or none, or what is below the node would get it too. */
+/* The single material of a node's mesh; SCENE_NONE: several or none, or the node has descendants, which would get it,
+ * too. */
 static uint32_t material_of(const facet_scene *scene, const scene_node *node)
 {
     const scene_mesh *mesh = &scene->meshes[node->mesh];
@@ -49,7 +50,7 @@ static int by_material(const void *a, const void *b)
     return (x->node > y->node) - (x->node < y->node);
 }
 
-/* Of objects sorted by name: one of each name, and none where they differ. */
+/* Removes from objects sorted by name all but one of each name, and all of a name that differ in material. */
 static size_t keep_clear(ogl1_object *objects, size_t count)
 {
     size_t kept = 0;
@@ -65,9 +66,8 @@ static size_t keep_clear(ogl1_object *objects, size_t count)
     return kept;
 }
 
-/* The objects that say of which material they are when they are named: nodes without nodes below them
- * whose name no other material's object has; of nodes without name their meshes. Sorted by material, then node. *out is
- * one block of mem_alloc(). False: no memory. */
+/* The objects whose name identifies their material: leaf nodes with a name that no object of another material has;
+ * for unnamed nodes, their meshes. Sorted by material, then node. *out is one block of mem_alloc(). False: no memory. */
 static bool create_objects(const facet_scene *scene, const facet_allocator *allocator, ogl1_object **out,
                            size_t *count)
 {
@@ -93,14 +93,14 @@ static bool create_objects(const facet_scene *scene, const facet_allocator *allo
 
 /* ---- lights and fog ---- */
 
-/* A new line in front of the next value. */
+/* Begins a new line before the next value. */
 static void write_line(text *out)
 {
     text_add(out, out->needs_comma ? ",\n" : "\n");
     out->needs_comma = false;
 }
 
-/* "#rrggbb" where the color has 8 bits, else three numbers; key as for text_json_string(). */
+/* "#rrggbb" if the color has 8 bits, otherwise three numbers; key as for text_json_string(). */
 static void write_color(text *out, const char *key, const float rgb[3])
 {
     int bytes[3];
@@ -120,7 +120,7 @@ static void write_color(text *out, const char *key, const float rgb[3])
     }
 }
 
-/* Degrees in as few digits as give the direction to the last bit; false: 9 digits do not. */
+/* Degrees in the fewest digits that reproduce the direction to the bit; false: 9 digits are not enough. */
 static bool find_angles(const float direction[3], char theta[32], char phi[32])
 {
     const double to_rad = 3.14159265358979323846 / 180.0;
@@ -153,7 +153,7 @@ static void write_light(const legacy_light *light, text *out)
         bool is_exact = find_angles(light->position, theta, phi);
         text_json_raw(out, "theta", theta);
         text_json_raw(out, "phi", phi);
-        if (!is_exact) /* rgl does not know it; here it counts more than the angles */
+        if (!is_exact) /* unknown to rgl; facet prefers it to the angles */
             text_json_floats(out, "direction", light->position, 3);
     }
     text_json_bool(out, "viewpoint.rel", light->is_viewpoint_relative);
@@ -211,7 +211,7 @@ static const char *min_filter_name(const scene_texture *t)
     return OGL1_MIN_FILTERS[0].name;
 }
 
-/* The file that is written, else the path that was read. */
+/* The image file that is written, or the path that was read. */
 static const char *texture_path(const facet_scene *scene, const legacy_map *map,
                                 const char *const *image_names)
 {
@@ -229,7 +229,7 @@ static void write_texture(const facet_scene *scene, const legacy_material *m, co
         text_json_string(out, "texture", path);
     if (path || m->texture_type != LEGACY_RGB)
         text_json_string(out, "textype", OGL1_TEXTYPES[m->texture_type]);
-    if (m->texture_mode != LEGACY_MODULATE) /* rgl knows it since 1.1 only */
+    if (m->texture_mode != LEGACY_MODULATE) /* since rgl 1.1 only */
         text_json_string(out, "texmode", OGL1_TEXMODES[m->texture_mode]);
     if (path && map->ref.texture != SCENE_NONE) {
         const scene_texture *t = &scene->textures[map->ref.texture];
@@ -249,7 +249,8 @@ static bool is_json(const char *value, size_t length)
     return json != NULL;
 }
 
-/* A line "KEY VALUE" of legacy_material.unknown: of a document the value is JSON, of an MTL file any text. */
+/* A line "KEY VALUE" of legacy_material.unknown; the value is JSON if it comes from a document, any text if from an
+ * MTL file. */
 static void write_unknown_line(const char *line, size_t length, json_t *seen, text *out)
 {
     char key[64];
@@ -308,7 +309,7 @@ static void write_statements(const legacy_material *m, text *out)
     text_json_end_object(out);
 }
 
-/* An entry without name and objects would go to all, so one without either gets a number. */
+/* An entry without name and objects would apply to everything, so that one without either gets a number. */
 static void write_names(const legacy_material *m, uint32_t number, const ogl1_object *objects, size_t count,
                         text *out)
 {
@@ -370,7 +371,7 @@ void ogl1_json_write(const facet_scene *scene, const char *generator, const char
     text_add(out, "\n");
 }
 
-/* What is written. */
+/* The state of saving. */
 typedef struct saving {
     const facet_scene *scene;
     const char *path;

@@ -1,10 +1,10 @@
-/* r_colors.c - colors as R names them; see ogl1_json.h. The table is that of colors() in R 4, which goes back to the
- * rgb.txt of X11. What follows a rule is not in it: gray0 to gray100, and grey for gray. */
+/* r_colors.c - R's color names; see ogl1_json.h. The table is that of colors() in R 4, which derives from the rgb.txt
+ * of X11, without names that follow a rule: gray0 to gray100, and grey for gray. */
 #include <string.h>
 
 #include "io/ogl1/ogl1_json.h"
 
-/* A name, and the same with 1 to 4 behind it. */
+/* A name, and the same with suffixes 1 to 4. */
 static const struct {
     const char *name;
     uint32_t rgb[5];
@@ -153,7 +153,7 @@ static const struct {
     {"yellowgreen", 0x9ACD32},
 };
 
-/* palette.colors() "R4", R's default since 4.0.0: colors 1 to 8, then from the start again. */
+/* palette.colors() "R4", R's default since 4.0.0: colors 1 to 8, repeated. */
 static const uint32_t PALETTE[8] = {0x000000, 0xDF536B, 0x61D04F, 0x2297E6,
                                     0x28E2E5, 0xCD0BBC, 0xF5C710, 0x9E9E9E};
 
@@ -193,7 +193,7 @@ static bool find_hex(const char *digits, float out[4])
     return true;
 }
 
-/* R does not mind capitals and blanks. False: the name is longer than all that there are. */
+/* R ignores case and blanks. False: longer than any name. */
 static bool normalise(const char *name, char out[MAX_LENGTH + 1])
 {
     size_t length = 0;
@@ -211,7 +211,7 @@ static bool normalise(const char *name, char out[MAX_LENGTH + 1])
     return true;
 }
 
-/* The number that digits are, without sign and leading zeros, up to three digits; -1: it is none. */
+/* The value of up to three digits without leading zeros; -1: anything else. */
 static int whole_number(const char *digits)
 {
     size_t length = strlen(digits);
@@ -232,7 +232,7 @@ static bool find_gray(const char *name, float out[4])
     if (percent < 0 || percent > 100)
         return false;
     uint32_t value =
-        (uint32_t)((double)percent * 2.55 + 0.5); /* so gray50 is 127: 127.4999.. as doubles have it */
+        (uint32_t)((double)percent * 2.55 + 0.5); /* gray50 is 127, since doubles give 127.4999.. */
     set_rgb(value << 16 | value << 8 | value, out);
     return true;
 }
@@ -265,7 +265,7 @@ bool ogl1_find_r_color(const char *name, float rgba[4])
     int number = whole_number(plain);
     if (strcmp(name, "NA") == 0 || strcmp(plain, "transparent") == 0 || number == 0) {
         for (int k = 0; k < 4; k++)
-            rgba[k] = k < 3 ? 1.0f : 0.0f; /* as col2rgb() has it; color 0 is the background */
+            rgba[k] = k < 3 ? 1.0f : 0.0f; /* as in col2rgb(); color 0 is the background */
         return true;
     }
     if (number > 0)
