@@ -9,8 +9,8 @@
 
 enum { MAX_LIGHT_WEIGHTS = 16 };
 
-/* The item that *u in [0, 1) falls on, of count <= MAX_LIGHT_WEIGHTS with weights of at least 0, some above; never one of 0.
- * *u becomes where in its share it fell, in [0, 1). Without branches on weights, which are as random as u. */
+/* The item that *u in [0, 1) selects, of count <= MAX_LIGHT_WEIGHTS with weights >= 0, some positive; never one of
+ * weight 0. *u becomes the position within its share, in [0, 1). No branches on weights: they are as random as u. */
 static inline int light_choose(const float *weights, int count, double *u)
 {
     double ends[MAX_LIGHT_WEIGHTS];
@@ -23,7 +23,7 @@ static inline int light_choose(const float *weights, int count, double *u)
     int found = 0;
     for (int i = 0; i < count; i++)
         found += ends[i] <= target;
-    if (found == count) /* u * sum was rounded up to it */
+    if (found == count) /* u * sum was rounded up to sum */
         found--;
     while (!(weights[found] > 0.0f))
         found--;
@@ -41,16 +41,16 @@ static inline int light_choose(const float *weights, int count, double *u)
 #define LIGHT_COUNTS_TOTAL 4294967295u
 #define LIGHT_COUNTS_SHARE (1.0 / 4294967295.0)
 
-/* From the sum `before` of the weights in front of an item, its weight and the sum `all`: the sum of counts up to its end.
- * Every item with a weight gets a count: positive_end of them up to here, positive_all in all. */
+/* The end of an item's counts, for `end`, the sum of the weights up to and including it, and `all`, the sum of all
+ * weights. Every item of positive weight gets a count: positive_end of them up to here, positive_all in all. */
 static inline uint32_t light_counts_end(double end, double all, size_t positive_end, size_t positive_all)
 {
     double share = end < all ? end / all : 1.0;
     return (uint32_t)(share * (double)(LIGHT_COUNTS_TOTAL - positive_all)) + (uint32_t)positive_end;
 }
 
-/* The item that u in [0, 1) falls on: the first of ends[0 .. count - 1] above u. *probability: of that item; *rest: where in
- * it u falls, in [0, 1). */
+/* The item that u in [0, 1) selects: the first of ends[0 .. count - 1] above u. *probability: of that item; *rest:
+ * the position of u within it, in [0, 1). */
 static inline size_t light_counts_find(const uint32_t *ends, size_t count, double u, double *probability,
                                        double *rest)
 {

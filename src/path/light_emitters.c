@@ -16,10 +16,10 @@
 /* Spherical triangles are computed in double: their angles are close to those of plane ones, from which their area is the
  * difference. */
 
-/* From this area on, in squares of the distance to the middle. Below, distances and angles to its points differ by a tenth
- * at most, and points cost a fifth of directions. */
+/* Area of a triangle, relative to the squared distance to its middle, from which directions are sampled. Below it
+ * distances and angles to its points differ by a tenth at most, and points cost a fifth of directions. */
 static const float NEAR_AREA = 0.01f;
-static const double MIN_SOLID_ANGLE = 1e-6; /* sr; below it is seen edge on */
+static const double MIN_SOLID_ANGLE = 1e-6; /* sr; below it the triangle is seen edge on */
 
 typedef struct direction {
     double x, y, z;
@@ -65,8 +65,8 @@ typedef struct spherical_triangle {
     double solid_angle; /* sr */
 } spherical_triangle;
 
-/* False: it is too small for P to bother, or degenerate. The solid angle: Van Oosterom and Strackee 1983, "The Solid Angle of
- * a Plane Triangle". */
+/* False: the triangle is too small as seen from P, or degenerate. The solid angle: Van Oosterom and Strackee 1983,
+ * "The Solid Angle of a Plane Triangle". */
 static bool is_near(const light_triangle *t, vec3 P, spherical_triangle *s)
 {
     vec3 to = t->corner - P;
@@ -82,8 +82,8 @@ static bool is_near(const light_triangle *t, vec3 P, spherical_triangle *s)
     return s->solid_angle > MIN_SOLID_ANGLE;
 }
 
-/* A uniform direction: the triangle is cut from b so that the part at a has the share u[0] of its area, and the cut is gone
- * along by u[1]. Arvo 1995. */
+/* A uniform direction: an arc from b cuts the triangle such that the part at a has the share u[0] of its area; u[1]
+ * is the position along the arc. Arvo 1995. */
 static direction sample_spherical(const spherical_triangle *s, vec2 u)
 {
     direction normal_ab = unit(outer(s->a, s->b));
@@ -122,7 +122,8 @@ static float area_pdf(const light_triangle *t, vec3 d, float distance_m)
     return 2.0f * distance_m * distance_m / abs(dot(cross(t->edge1, t->edge2), d));
 }
 
-/* Where the ray from P along w meets the plane of the triangle, kept inside of it. Moeller and Trumbore 1997. */
+/* Intersection of the ray from P along w with the plane of the triangle, clamped to the triangle. Moeller and
+ * Trumbore 1997. */
 static bool intersect_plane(const light_triangle *t, vec3 P, direction w, light_triangle_point *out)
 {
     direction e1 = {(double)t->edge1[0], (double)t->edge1[1], (double)t->edge1[2]};
@@ -154,7 +155,7 @@ bool light_triangle_sample(const light_triangle *t, vec3 P, vec2 u, light_triang
     out->u = weights[0];
     out->v = weights[1];
     out->distance_m = length(to);
-    if (!(out->distance_m > 1e-15f)) /* its square has no digits */
+    if (!(out->distance_m > 1e-15f)) /* its square would underflow */
         return false;
     out->L = to * (1.0f / out->distance_m);
     out->pdf = area_pdf(t, out->L, out->distance_m);
@@ -172,11 +173,11 @@ float light_triangle_pdf(const light_triangle *t, vec3 P, vec3 d, float distance
 
 /* ==== all that emit ==== */
 
-/* Of what a geometry emits on average, its triangles together keep this share by their area alone: that texels were read
- * here and there does not prove that nothing shines between them. */
+/* The share of a geometry's mean emission that its triangles get by area alone: a few texels that are black do not
+ * prove that all between them are. */
 static const float DEFENSIVE_SHARE = 0.01f;
 
-/* Radiance above this times the largest areas would not be finite. */
+/* Radiance above this, times the largest areas, would not be finite. */
 static const float MAX_RADIANCE = 1e15f;
 
 /* ---- geometry ---- */
@@ -216,7 +217,7 @@ static bool is_finite(vec3 v)
     return isfinite(v[0] + v[1] + v[2]);
 }
 
-/* What all texels scale. */
+/* The factor of all texels. */
 static vec3 emission_factor(const scene_material *m)
 {
     return load3(m->emissive) * m->emissive_strength;
@@ -254,8 +255,8 @@ vec3 light_emitters_radiance(const light_emitters *e, uint32_t item, float u, fl
 
 /* ---- power ---- */
 
-/* Mean radiance over a triangle, mean of the channels: texels under the middles of its four similar quarters, each
- * filtered over the quarter. Coverage counts; the coat's share does not. */
+/* Mean radiance over a triangle, mean of the channels: texels at the centers of its four similar quarters, each
+ * filtered over the quarter. Coverage counts; clearcoat does not. */
 static float mean_radiance(const shading_scene *scene, uint32_t geometry, uint32_t primitive)
 {
     static const float middles[4][2] = {{1.0f / 3.0f, 1.0f / 3.0f},

@@ -1,8 +1,9 @@
-/* light_emitters.h - the triangles that shine, as points are chosen on them.
+/* light_emitters.h - emissive triangles, and the sampling of points on them. Holds shared shading text: include it
+ * last.
  *
- * A light is a triangle of a lit geometry whose material emits. What has no light on it (KHR_materials_unlit, points,
- * lines, triangles without normals) emits as well, but is only met: a path that does so counts all of it, as
- * light_emitters_find() knows none. */
+ * A light is a triangle of a lit geometry whose material emits. Emission without a light (KHR_materials_unlit,
+ * points, lines, triangles without normals) is found by BSDF sampling only, with weight 1: light_emitters_find()
+ * knows none of it. */
 #ifndef PATH_LIGHT_EMITTERS_H
 #define PATH_LIGHT_EMITTERS_H
 
@@ -10,7 +11,7 @@
 
 /* ---- a triangle ---- */
 
-/* Corners in world space, m: one and the edges from it to the next ones. */
+/* In world space, m: a corner, and the edges from it to the other two. */
 typedef struct light_triangle {
     vec3 corner, edge1, edge2;
 } light_triangle;
@@ -20,7 +21,7 @@ static inline float light_triangle_area(const light_triangle *t)
     return 0.5f * length(cross(t->edge1, t->edge2));
 }
 
-/* A point of a triangle and the way to it. */
+/* A point of a triangle as seen from P. */
 typedef struct light_triangle_point {
     float u, v; /* weights of the second and the third corner */
     vec3 L;     /* unit, from P */
@@ -28,10 +29,11 @@ typedef struct light_triangle_point {
     float pdf; /* of L, per sr */
 } light_triangle_point;
 
-/* A point for P; u: uniform in [0, 1)^2. Directions to triangles that are large for P are uniform (Arvo 1995, "Stratified
- * Sampling of Spherical Triangles"), points on small ones are. False: seen edge on, or from one of its points. */
+/* Samples a point for P; u: uniform in [0, 1)^2. Triangles of large solid angle are sampled uniformly in direction
+ * (Arvo 1995, "Stratified Sampling of Spherical Triangles"), small ones uniformly in area. False: seen edge on, or
+ * from one of its points. */
 bool light_triangle_sample(const light_triangle *t, vec3 P, vec2 u, light_triangle_point *out);
-/* The pdf that light_triangle_sample() has for the unit direction d, along which the triangle is distance_m away. */
+/* The pdf (per sr) of light_triangle_sample() in the unit direction d, in which the triangle is distance_m away. */
 float light_triangle_pdf(const light_triangle *t, vec3 P, vec3 d, float distance_m);
 
 /* ---- all that emit ---- */
@@ -48,12 +50,12 @@ typedef struct light_emitters {
     const shading_scene *scene;
     light_emitter *items;
     uint32_t count;
-    uint64_t ignored;  /* triangles of emitting materials that are none: not finite, without area */
-    uint32_t *first;   /* per geometry: of the numbers below; LIGHT_EMITTERS_NONE: nothing of it emits */
-    uint32_t *numbers; /* per triangle of the geometries that emit: its item, LIGHT_EMITTERS_NONE: none */
+    uint64_t ignored;  /* emissive triangles that are ignored: not finite, without area */
+    uint32_t *first;   /* per geometry: its first entry in numbers; LIGHT_EMITTERS_NONE: it has no emission */
+    uint32_t *numbers; /* per triangle of the geometries that emit: its item; LIGHT_EMITTERS_NONE: none */
 } light_emitters;
 
-/* Those of scene, which outlives them. Fails with FACET_ERROR_MEMORY. */
+/* All of a scene that outlives them. Fails with FACET_ERROR_MEMORY. */
 facet_result light_emitters_create(const shading_scene *scene, const facet_allocator *allocator,
                                    uint32_t thread_count, light_emitters *out, facet_error *error);
 void light_emitters_destroy(light_emitters *e); /* {0} is allowed */
@@ -68,13 +70,13 @@ static inline uint32_t light_emitters_find(const light_emitters *e, uint32_t geo
 /* In world space; the cross product of its edges is outward for counter-clockwise triangles of geometries that are not
  * mirrored. */
 light_triangle light_emitters_triangle(const light_emitters *e, uint32_t item);
-/* Whether it shines on both sides; else on that of normal_sign times the cross product of its edges. */
+/* Whether it emits on both sides; else on that of normal_sign times the cross product of its edges. */
 bool light_emitters_shines_both_ways(const light_emitters *e, uint32_t item);
 float light_emitters_normal_sign(const light_emitters *e, uint32_t item);
 
-/* Radiance (cd/m^2), times the share of the point that is there (alpha mask and blend), that a ray from P along the unit
- * direction d sees of the point with the weights u, v of the second and third corner: what surface_point_make() and
- * layers_emission() say with textures at full size. 0: from the side that does not shine; not finite counts as 0. */
+/* Radiance (cd/m^2), times coverage (alpha mask and blend), seen by a ray from P in the unit direction d at the point
+ * with the weights u, v of the second and third corner: that of surface_point_make() and layers_emission() with
+ * textures at full resolution. 0 from the side that does not emit, and where it is not finite. */
 vec3 light_emitters_radiance(const light_emitters *e, uint32_t item, float u, float v, vec3 P, vec3 d,
                              float distance_m);
 

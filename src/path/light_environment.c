@@ -14,20 +14,20 @@
 
 enum { BANDS = LIGHT_ENVIRONMENT_BANDS, BLOCKS = LIGHT_ENVIRONMENT_BLOCKS, CELLS = LIGHT_ENVIRONMENT_CELLS };
 
-/* The grid's points are the middles of texels, and in small pictures points between them; what is between four points is a
- * patch, in which radiance is bilinear. Patch (x, y) has points x and x + 1 of rows y - 1 and y; beyond the first and the last
- * row there is the pole, up to which radiance is that of the row. */
+/* Grid points are texel centers, and in small images points between them; four points bound a patch, in which
+ * radiance is bilinear. Patch (x, y) has points x and x + 1 of rows y - 1 and y; beyond the first and the last row is
+ * the pole, up to which radiance is that of the row. */
 struct light_environment {
     const image *map;
     float scale, rotation_cos, rotation_sin;
-    uint32_t width, height; /* patches: as many columns as points, one row more */
-    bool is_finer;          /* than the picture */
+    uint32_t width, height; /* patches: as many columns as points, one more row */
+    bool is_finer;          /* than the image */
     uint32_t *columns;      /* per row, per block: ends of counts, in proportion to the patches' radiance */
     uint32_t *rows;         /* per block, per band: ends of counts, in proportion to the light of the rows */
     float *half_sine2; /* sin^2 (theta / 2) of the upper edges of rows, down to the one below the middle */
     float *per_sr;     /* 1 / solid angle of a patch, by row */
-    /* By cell: sum of radiance times solid angle, and its mean direction, which is shorter the more it spreads; how far it
-     * spreads, and the farthest that a direction of the cell is from the mean one, as sines. */
+    /* By cell: the sum of radiance times solid angle; its mean direction, which is the shorter the wider the cell is;
+     * its spread and largest deviation from the mean direction, as sines. */
     float power[CELLS], mean_x[CELLS], mean_y[CELLS], mean_z[CELLS], spread[CELLS], reach[CELLS];
 };
 
@@ -60,7 +60,7 @@ static inline float radiance_at(const light_environment *e, uint32_t x, uint32_t
 
 enum {
     FINEST_WIDTH =
-        64, /* the grid of smaller pictures is finer than their texels, so that cells have whole columns */
+        64, /* smaller images get a grid finer than their texels, so that cells have whole columns */
     FINEST_HEIGHT = 32
 };
 
@@ -77,7 +77,7 @@ static double patch_solid_angle(const light_environment *e, uint32_t y)
     return 4.0 * pi / (double)e->width * sin(0.5 * pi * (a + b)) * sin(0.5 * pi * (b - a));
 }
 
-/* What building needs beside: directions of the columns, and sums over each row's part of a block. */
+/* Temporaries of the construction: directions of the columns, and sums over each row's part of a block. */
 typedef struct building {
     light_environment *e;
     float *column_cos, *column_sin; /* of azimuth, per column */
@@ -151,7 +151,7 @@ static void make_rows(void *context, size_t first, size_t last)
         }
 }
 
-/* The farthest that a direction of the cell is from the unit vector axis, as a sine; 1: a right angle or more. */
+/* The largest deviation of a direction of the cell from the unit vector axis, as a sine; 1: a right angle or more. */
 static float reach_of_cell(const light_environment *e, uint32_t band, uint32_t block, vec3 axis)
 {
     enum { STEPS = 8 };
@@ -167,11 +167,11 @@ static float reach_of_cell(const light_environment *e, uint32_t band, uint32_t b
             least = min(least, dot(axis, vec3(d[0], d[1], d[2])));
         }
     float angle =
-        acos(clamp(least, -1.0f, 1.0f)) + 0.01f; /* between the steps it is less than that farther */
+        acos(clamp(least, -1.0f, 1.0f)) + 0.01f; /* an upper bound of the deviation between the steps */
     return angle < 0.5f * PI ? sin(angle) : 1.0f;
 }
 
-/* Counts of the rows of a cell and what is known of the cell. */
+/* Fills the counts of the rows of a cell, and its moments. */
 static void make_cell(const building *b, uint32_t band, uint32_t block)
 {
     light_environment *e = b->e;
@@ -300,12 +300,12 @@ void light_environment_destroy(light_environment *e)
     mem_free(e);
 }
 
-/* What a cell that reaches above the horizon counts at least, as a cosine. Of a sun in the map just below the horizon much
- * more would be too much (deviation of the estimated irradiance of 96 x 48 texels with one of 1e5, worst of 24 normals: .03:
- * 3.8; .01: 2.3; .003: 1.4), and much less too little for what else its cell holds. */
+/* The cosine that a cell which reaches above the horizon gets at least. With a sun in the map just below the horizon
+ * a larger value would be too much (deviation of the estimated irradiance of 96 x 48 texels with one of 1e5, worst of
+ * 24 normals: .03: 3.8; .01: 2.3; .003: 1.4); a much smaller one would be too little for the rest of its cell. */
 static const float DEFENSIVE_SHARE = 0.003f;
 
-/* The last division whose begin, as above, is not behind index. */
+/* The last division that begins at or before index. */
 static uint32_t division_of(uint32_t index, uint32_t size, uint32_t divisions)
 {
     return (uint32_t)((((uint64_t)index + 1) * divisions - 1) / size);
@@ -335,7 +335,7 @@ static float patch_density(const patch *p, float s, float t)
     return 4.0f * mix(upper, lower, t) / (p->upper_left + p->upper_right + p->lower_left + p->lower_right);
 }
 
-/* A number in [0, 1) with the density 2 mix(a, b, x) / (a + b). */
+/* A sample in [0, 1) of the density 2 mix(a, b, x) / (a + b). */
 static float sample_linear(float u, float a, float b)
 {
     float most = max(a, b); /* keeps the squares finite and above 0 */
@@ -360,14 +360,14 @@ static vec3 from_map(const light_environment *e, vec3 d)
                 d[2] * e->rotation_cos - d[0] * e->rotation_sin);
 }
 
-/* Rows are mirrored into the upper half: the angle from the nearer pole comes from its half, of which cos would leave
- * nothing. */
+/* Rows are mirrored into the upper half: the angle from the nearer pole is computed from its half, since cos would
+ * lose its digits. */
 static bool is_lower(const light_environment *e, uint32_t y)
 {
     return 2 * y > e->height - 1;
 }
 
-/* The direction at (s, t) of patch (x, y): uniform numbers give uniform directions in it. */
+/* The direction at (s, t) of patch (x, y): uniform random numbers give uniform directions in it. */
 static vec3 direction_in_patch(const light_environment *e, uint32_t x, uint32_t y, float s, float t)
 {
     bool mirrored = is_lower(e, y);
@@ -384,7 +384,7 @@ typedef struct patch_point {
     float s, t;
 } patch_point;
 
-/* Where the unit direction d of the picture is. */
+/* The patch of the unit direction d of the map, and the point in it. */
 static patch_point locate(const light_environment *e, vec3 d)
 {
     equirect_point p = equirect_locate((float[3]){d[0], d[1], d[2]});
@@ -412,8 +412,8 @@ vec3 light_environment_radiance(const light_environment *e, vec3 d)
 
 /* ---- sampling ---- */
 
-/* Clamped cosine of a cell whose mean direction is at x and that spreads to both sides of it: the line from 0 at -spread to
- * the cosine itself, and not less than the defensive share wherever the cell reaches above the horizon. */
+/* Clamped cosine of a cell, for x, the cosine to its mean direction, and its spread to both sides: linear from 0 at
+ * -spread to the cosine itself, and at least the defensive share wherever the cell reaches above the horizon. */
 DISPATCH_AVX2 static void weigh_cells(const light_environment *restrict e, const float *restrict N,
                                       float *restrict cells)
 {

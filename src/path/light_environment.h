@@ -1,12 +1,12 @@
-/* light_environment.h - directions towards the light of an equirectangular picture, in proportion to what each of its
- * texels gives a surface.
+/* light_environment.h - importance sampling of an equirectangular image, in proportion to the irradiance that each
+ * texel gives a surface. Holds shared shading text: include it last.
  *
- * The density is bilinear between the middles of texels, as radiance is (the mean of its three channels), and differs from
- * it only by how solid angle bends rows near the poles: it is above 0 wherever radiance is, and uniform where radiance
- * is. On the way to a patch of four texels stand LIGHT_ENVIRONMENT_CELLS parts of the sphere, each weighted by its light and by the cosine that the
- * surface sees it at (product sampling on the coarse levels: Clarberg et al. 2005, "Wavelet Importance Sampling"; Cline
- * et al. 2006, "Two Stage Importance Sampling for Direct Lighting"). Nearby numbers give nearby directions, so that
- * stratified numbers stay stratified. */
+ * The density is bilinear between texel centers, as radiance is (the mean of its three channels), and differs from it
+ * only by the change of solid angle within a row near the poles: it is positive wherever radiance is, and uniform
+ * where radiance is. Above the patches of four texels there are LIGHT_ENVIRONMENT_CELLS parts of the sphere, each
+ * weighted by its light and by the cosine at the surface (product sampling on the coarse levels: Clarberg et al.
+ * 2005, "Wavelet Importance Sampling"; Cline et al. 2006, "Two Stage Importance Sampling for Direct Lighting").
+ * Nearby random numbers give nearby directions, so that stratification is preserved. */
 #ifndef PATH_LIGHT_ENVIRONMENT_H
 #define PATH_LIGHT_ENVIRONMENT_H
 
@@ -23,8 +23,8 @@ enum {
 
 typedef struct light_environment light_environment;
 
-/* Of a picture (F32 RGB, finite, not negative) that outlives it, placed as light has it: turned and scaled. *out: NULL
- * where it is black. Takes 4 bytes per texel. Fails with FACET_ERROR_MEMORY. */
+/* For an image (F32 RGB, finite, not negative) that outlives it, rotated and scaled as in light. *out: NULL where it
+ * is black. Takes 4 bytes per texel. Fails with FACET_ERROR_MEMORY. */
 facet_result light_environment_create(const image *picture, const light_setup *light,
                                       const facet_allocator *allocator, uint32_t thread_count,
                                       light_environment **out, facet_error *error);
@@ -33,9 +33,9 @@ void light_environment_destroy(light_environment *e); /* NULL is allowed */
 /* Radiance from the unit direction d, cd/m^2: bilinear. */
 vec3 light_environment_radiance(const light_environment *e, vec3 d);
 
-/* The environment as a surface with one normal sees it. */
+/* The environment as seen by a surface with one normal. */
 typedef struct light_environment_view {
-    /* About the irradiance that each gives, lx, mean of the channels; by block and, within it, by band. */
+    /* Approximate irradiance from each cell, lx, mean of the channels; by block and, within it, by band. */
     float cells[LIGHT_ENVIRONMENT_CELLS];
     float bands[LIGHT_ENVIRONMENT_BANDS]; /* their sums by band */
     float irradiance;                     /* the sum of all */
@@ -43,11 +43,11 @@ typedef struct light_environment_view {
 
 /* N: unit, only directions above its horizon count; {0}: all count alike (irradiance is then the integral of radiance). */
 void light_environment_see(const light_environment *e, vec3 N, light_environment_view *view);
-/* A unit direction for uniform numbers in [0, 1); view->irradiance is above 0. Returns its pdf per sr; 0,
- * for the very last numbers, where floats cannot tell it from 0. */
+/* Samples a unit direction by uniform random numbers in [0, 1); view->irradiance is positive. Returns its pdf per sr;
+ * 0 for the very last numbers, where it underflows. */
 float light_environment_sample(const light_environment *e, const light_environment_view *view,
                                const double u[2], vec3 *d);
-/* The pdf that light_environment_sample() has at the unit direction d. */
+/* The pdf of light_environment_sample() in the unit direction d. */
 float light_environment_pdf(const light_environment *e, const light_environment_view *view, vec3 d);
 
 #endif

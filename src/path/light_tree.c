@@ -1,4 +1,4 @@
-/* light_tree.c - see light_tree.h. Making the tree: light_tree_build.c. */
+/* light_tree.c - see light_tree.h. light_tree_build.c builds the tree. */
 #include <math.h>
 #include <string.h>
 
@@ -8,15 +8,14 @@
 #include "path/light_distribution.h"
 #include "path/light_tree_nodes.h"
 
-/* The weights of eight children at P; returns their sum. With d to the middle of a child and its radius r:
- *     intensity f(theta) g(theta_N) / max(d, r)^2
- * where theta is the angle from its axis, theta_N that from N. The bounds of f and g (Conty Estevez and Kulla 2018,
- * equation 3) take the angles less the spread of its normals and less the angle that its sphere is seen under, both at least
- * 0. They are certain where they are 0, but far too large for what is beside P, which takes all choices from what is in
- * front of it. So they count for BOUND_SHARE only, and the means for the rest: of g the cosine to the middle, of f that with
- * normals whose mean is R long and which therefore spread by about (1 - R^2) / 3: the mean of a clamped normal distribution,
- * (m + sqrt(m^2 + (1 - R^2) / 4)) / 2 within 10 %. Where P is inside the sphere the middle says nothing, and the bounds
- * count alone. */
+/* The weights of eight children at P; returns their sum. With d to the center of a child and its radius r: intensity
+ * f(theta) g(theta_N) / max(d, r)^2, where theta is the angle from its axis, theta_N that from N. The bounds of f and
+ * g (Conty Estevez and Kulla 2018, equation 3) reduce the angles by the spread of its normals and by the angle that
+ * its sphere subtends, to at least 0. They are exact where they are 0, but far too large for clusters beside P, which
+ * would take all samples from those in front of it. So they count for BOUND_SHARE only, and the means for the rest:
+ * of g the cosine to the center; of f that of normals whose mean has the length R and which therefore spread by about
+ * (1 - R^2) / 3: the mean of a clamped normal distribution, (m + sqrt(m^2 + (1 - R^2) / 4)) / 2 within 10 %. Where P
+ * is inside the sphere the center says nothing, and the bounds count alone. */
 DISPATCH_AVX2 static float weigh(const light_tree_node *restrict n, const float *restrict P,
                                  const float *restrict N, float facing, float *restrict weights)
 {
@@ -36,7 +35,7 @@ DISPATCH_AVX2 static float weigh(const light_tree_node *restrict n, const float 
         float sin_u = n->radius[i] * per_d;
         float outside = 1.0f - sin_u * sin_u;
         float cos_outside = sqrtf(outside > 0.0f ? outside : 0.0f);
-        float cos_u = outside > 0.0f ? cos_outside : -1.0f; /* inside: it is seen all around */
+        float cos_u = outside > 0.0f ? cos_outside : -1.0f; /* inside: it surrounds P */
 
         float front = -(n->axis_x[i] * x + n->axis_y[i] * y + n->axis_z[i] * z);
         float ahead = front * per_d;
@@ -84,7 +83,7 @@ DISPATCH_AVX2 static float weigh(const light_tree_node *restrict n, const float 
     return sum;
 }
 
-/* As the view has it; returns the sum. */
+/* For a view; returns the sum. */
 static float weigh_for(const light_tree_view *view, const light_tree_node *node, float weights[WIDTH])
 {
     const float P[3] = {view->P[0], view->P[1], view->P[2]};

@@ -1,9 +1,9 @@
-/* light_tree.h - a choice among many lights by what each may give a point: a tree of their bounds, drawn from the root
- * down.
+/* light_tree.h - importance sampling of many lights by their estimated irradiance at a point: a tree of bounds,
+ * traversed from the root. Holds shared shading text: include it last.
  *
- * Conty Estevez and Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree Splitting", with eight children a
- * node, weighed together: up to eight lights are all compared with one another, and 100 000 are six steps down. Each
- * weight bounds the irradiance that any light below can give from above, so that 0 is certain. */
+ * Conty Estevez and Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree Splitting", with eight
+ * children per node, weighted together: up to eight lights are all compared with one another, and 100 000 are six
+ * levels deep. Each weight is an upper bound of the irradiance from any light below, so that 0 is exact. */
 #ifndef PATH_LIGHT_TREE_H
 #define PATH_LIGHT_TREE_H
 
@@ -13,20 +13,20 @@
 enum { LIGHT_TREE_WIDTH = 8 };
 #define LIGHT_TREE_NONE 0xffffffffu
 
-/* Where a light is and where it shines. */
+/* Bounds of the positions and directions of a light. */
 typedef struct light_bounds {
     vec3 center; /* m */
     float radius;
-    vec3 axis;        /* unit: all its normals are within a cone around it; {0}: they go all ways */
+    vec3 axis;        /* unit: axis of a cone around all its normals; {0}: all directions */
     float cos_spread; /* of that cone's half-angle */
     float dark,
-        full; /* cosines of angles from a normal: nothing from dark on, all up to full, in between linear */
-    /* m that it stands out behind the plane through center that axis is normal to, beyond which it does not shine;
+        full; /* cosines of angles from a normal: no emission from dark on, all up to full, linear between */
+    /* m by which it extends behind the plane through center with normal axis, beyond which it does not emit;
      * INFINITY: it may */
     float slack;
-    float reach;       /* m from center, from where on there is nothing; INFINITY */
-    float intensity;   /* cd along a normal, above 0; finite, as are the others but where INFINITY is said */
-    bool is_two_sided; /* shines against its normals as well */
+    float reach;       /* range in m from center; INFINITY: none */
+    float intensity;   /* cd along a normal, positive; finite, as are the others unless INFINITY is allowed */
+    bool is_two_sided; /* emits against its normals as well */
 } light_bounds;
 
 typedef struct light_tree light_tree;
@@ -36,20 +36,21 @@ facet_result light_tree_create(const light_bounds *lights, uint32_t count, const
                                light_tree **out, facet_error *error);
 void light_tree_destroy(light_tree *tree); /* NULL is allowed */
 
-/* The lights as a surface with one normal at one place sees them. */
+/* The lights as seen by a surface with one normal at one place. */
 typedef struct light_tree_view {
     vec3 P, N;
     float root[LIGHT_TREE_WIDTH];
-    float irradiance; /* lx, about that of all of them; 0: none reaches P. With N {0} as if P faced each. */
+    float
+        irradiance; /* lx, approximately that of all of them; 0: none reaches P. With N {0} as if P faced each. */
 } light_tree_view;
 
-/* N: unit, only what is above its horizon counts; {0}: all counts alike. */
+/* N: unit, only lights above its horizon count; {0}: all count alike. */
 void light_tree_see(const light_tree *tree, vec3 P, vec3 N, light_tree_view *view);
-/* A light for u, uniform in [0, 1), and its probability; view->irradiance is above 0. *rest: where in its share u fell, as good
- * as u. LIGHT_TREE_NONE: what u led to does not reach P after all. */
+/* Samples a light by u, uniform in [0, 1); view->irradiance is positive. *rest: the position of u within its share,
+ * again uniform. LIGHT_TREE_NONE: the subtree that was chosen does not reach P after all. */
 uint32_t light_tree_sample(const light_tree *tree, const light_tree_view *view, double u, float *probability,
                            double *rest);
-/* The probability that light_tree_sample() chooses that light with, to the bit. */
+/* The probability with which light_tree_sample() chooses that light, bit for bit. */
 float light_tree_probability(const light_tree *tree, const light_tree_view *view, uint32_t light);
 
 #endif

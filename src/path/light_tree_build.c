@@ -1,4 +1,4 @@
-/* light_tree_build.c - makes a light tree from the top: see light_tree.h. */
+/* light_tree_build.c - builds a light tree top down: see light_tree.h. */
 #include <math.h>
 #include <string.h>
 
@@ -12,10 +12,10 @@ enum {
     MAX_UNEVEN_DEPTH = 40 /* binary splits by cost down a branch; halves from there on, at most 32 */
 };
 
-/* A light while the tree is made. */
+/* A light during the construction. */
 typedef struct item {
     float center[3], radius;
-    float normal[3]; /* axis times intensity; 0 where it shines all ways, or both */
+    float normal[3]; /* axis times intensity; 0 for lights without one direction */
     float intensity;
     uint32_t light;
 } item;
@@ -30,7 +30,7 @@ typedef struct cluster {
 static const cluster EMPTY = {
     {INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, {0.0f, 0.0f, 0.0f}, 0.0f, 0};
 
-/* Items begin .. end - 1, and what they cost. */
+/* Items begin .. end - 1, and their cost. */
 typedef struct range {
     uint32_t begin, end;
     uint32_t depth; /* binary splits above */
@@ -69,10 +69,10 @@ static void add_cluster(cluster *c, const cluster *other)
     c->count += other->count;
 }
 
-/* The surface area orientation heuristic: intensity times area of the box times measure of the directions that it shines
- * into (Conty Estevez and Kulla 2018, section 4.4). The latter, from pi for one direction to 4 pi for all, comes from how
- * long the mean of the normals is: a cap of half-angle t has R = (1 + cos t) / 2, and pi (4 - 3 R^2) is within 9 % of
- * their integral. */
+/* The surface area orientation heuristic: intensity times area of the box times a measure of the directions of
+ * emission (Conty Estevez and Kulla 2018, section 4.4). The latter, from pi for one direction to 4 pi for all,
+ * follows from the length of the mean normal: a cap of half-angle t has R = (1 + cos t) / 2, and pi (4 - 3 R^2) is
+ * within 9 % of their integral. */
 static float cost_of(const cluster *c)
 {
     if (!(c->intensity > 0.0f))
@@ -88,7 +88,7 @@ static float cost_of(const cluster *c)
 /* ---- splitting ---- */
 
 typedef struct split {
-    int axis; /* -1: in halves as they lie */
+    int axis; /* -1: in halves of their order */
     float origin, bins_per_m;
     int bin; /* the first of the right side */
     float cost, left_cost, right_cost;
@@ -100,8 +100,7 @@ static int bin_of(const item *it, int axis, float origin, float bins_per_m)
     return bin < 0 ? 0 : bin < BINS ? bin : BINS - 1;
 }
 
-/* The best split between the bins of one axis, where it is better than *best. thinness: how many times as long the longest
- * axis is. */
+/* Updates *best by the splits between the bins of one axis. thinness: ratio of the longest axis to this one. */
 static void try_axis(int axis, const cluster bins[BINS], float thinness, split *best)
 {
     float right_cost[BINS];
@@ -127,7 +126,7 @@ static void try_axis(int axis, const cluster bins[BINS], float thinness, split *
     }
 }
 
-/* Where the bins of an axis are; false: it has no extent. */
+/* The bins of an axis; false: it has no extent. */
 static bool place_bins(float low, float high, float *bins_per_m)
 {
     *bins_per_m = (float)BINS / (high - low);
@@ -169,7 +168,7 @@ static cluster cluster_of(const builder *b, uint32_t begin, uint32_t end)
     return all;
 }
 
-/* Parts the items of r; both sides get some. */
+/* Partitions the items of r; neither side is empty. */
 static void split_range(builder *b, const range *r, range *left, range *right)
 {
     float low[3] = {INFINITY, INFINITY, INFINITY};
@@ -203,7 +202,7 @@ static void split_range(builder *b, const range *r, range *left, range *right)
     *right = (range){middle, r->end, r->depth + 1, best.right_cost};
 }
 
-/* Splits r until there are eight parts: what costs most first. */
+/* Splits r into up to eight parts: the most expensive first. */
 static int split_into_children(builder *b, const range *r, range children[WIDTH])
 {
     int count = 1;
@@ -227,8 +226,8 @@ static int split_into_children(builder *b, const range *r, range children[WIDTH]
 
 /* ---- bounds ---- */
 
-/* The cone of all normals: around their mean, as wide as the farthest; those of lights that shine to both sides count on the
- * side of the first one's. Returns the length of the mean. */
+/* The cone of all normals: around their mean, as wide as the farthest; normals of two-sided lights count on the side
+ * of the first one's. Returns the length of the mean. */
 static float bound_directions(const builder *b, const range *r, light_bounds *out)
 {
     vec3 reference = b->lights[b->items[r->begin].light].axis;
@@ -255,7 +254,7 @@ static float bound_directions(const builder *b, const range *r, light_bounds *ou
         float cosine = dot(out->axis, l->axis);
         least = min(least, l->is_two_sided ? abs(cosine) : cosine);
     }
-    float widest = acos(max(least, -1.0f)) + 1e-3f; /* acos of nearly 1 has few digits */
+    float widest = acos(max(least, -1.0f)) + 1e-3f; /* acos is inaccurate near 1 */
     out->cos_spread = widest < PI ? cos(widest) : -1.0f;
     return mean;
 }
@@ -309,7 +308,7 @@ static void store_bounds(light_tree_node *node, int i, const light_bounds *l, fl
     node->intensity[i] = l->intensity;
 }
 
-/* A new node, dark all over; NULL: no memory. */
+/* A new node without emission; NULL: no memory. */
 static light_tree_node *new_node(builder *b, uint32_t place)
 {
     void *nodes = b->tree->nodes;

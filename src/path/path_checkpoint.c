@@ -175,7 +175,7 @@ enum {
 _Static_assert(sizeof(path_pixel) == PIXEL_CHANNELS * sizeof(float), "a pixel is its channels");
 _Static_assert(sizeof(path_ground) == GROUND_CHANNELS * sizeof(float), "and so is its ground");
 
-/* Where the channels of a film are in memory; their number. */
+/* Lists the channels of a film in memory; returns their number. */
 static uint32_t list_channels(const path_film *f, image_channel channels[CHANNELS])
 {
     uint32_t count = 0;
@@ -291,7 +291,7 @@ static facet_result check_image(const checkpoint *c, const path_film *f, const c
 
 static bool are_finite(const float *numbers, size_t count)
 {
-    float sum = 0.0f; /* 0 times anything finite stays 0 */
+    float sum = 0.0f; /* 0 times a finite value stays 0 */
     for (size_t i = 0; i < count; i++)
         sum += 0.0f * numbers[i];
     return sum == 0.0f;
@@ -302,7 +302,7 @@ static bool is_count(float samples)
     return samples >= 0.0f && samples <= (float)PATH_FILM_MAX_SAMPLES && floorf(samples) == samples;
 }
 
-/* Whether the numbers are those of a film, so that nothing that reads them has to doubt them. */
+/* Whether the values are valid for a film. */
 static bool is_sound(const path_film *f)
 {
     size_t count = (size_t)f->width * f->height;

@@ -73,8 +73,8 @@ static bool is_finite(const path_sample *s)
     return is;
 }
 
-/* The mean square distance after one more sample, by how far it is from the mean before it and from the one with it
- * (Welford 1962): nothing cancels, however bright what hardly changes is. share: 1 / n. */
+/* The mean squared deviation after one more sample, from its distances to the means before and after it (Welford
+ * 1962): no cancellation, however bright and constant the values are. share: 1 / n. */
 static float spread_with(float spread, double from_before, double from_after, double share)
 {
     double square = from_before * from_after;
@@ -159,7 +159,7 @@ uint64_t path_film_dropped(const path_film *f)
 float path_pixel_scale(const path_pixel *p)
 {
     float weight = 1.0f + p->filter_excess;
-    return fabsf(weight) > 0.25f ? 1.0f / weight : 1.0f; /* a few samples may all but cancel */
+    return fabsf(weight) > 0.25f ? 1.0f / weight : 1.0f; /* the weights of a few samples may nearly cancel */
 }
 
 float path_film_share(const path_film *f, size_t pixel)
@@ -171,7 +171,7 @@ float path_film_share(const path_film *f, size_t pixel)
 typedef struct resolving {
     const path_film *film;
     float scale;
-    float *color, *albedo, *normal, *variance, *samples; /* NULL: not asked for */
+    float *color, *albedo, *normal, *variance, *samples; /* NULL: not requested */
 } resolving;
 
 static float *pixels_of(film *target, const char *name)
@@ -187,15 +187,15 @@ static void resolve_color(const resolving *r, size_t i, float out[4])
     for (int c = 0; c < 3; c++)
         out[c] = shade_f_clamp(p->mean[c] * (r->scale * scale), -FLT_MAX, FLT_MAX);
     out[3] = shade_f_clamp(p->mean[3] * scale, 0.0f, 1.0f);
-    if (r->film->ground) { /* black under the model, so its premultiplied color is none */
+    if (r->film->ground) { /* black below the model: no premultiplied color */
         const path_ground *g = &r->film->ground[i];
         out[3] += path_ground_share(g, p) * path_ground_opacity(g);
         out[3] = out[3] < 1.0f ? out[3] : 1.0f;
     }
 }
 
-/* The variance of the mean: of one sample, estimated without bias (n / (n - 1)), by their number. Samples that fill the
- * pixel evenly make better means than this says. One sample alone is assumed to be as far off as it is large. */
+/* The variance of the mean: that of one sample, estimated without bias (n / (n - 1)), divided by their number.
+ * Stratified samples have better means. The error of a single sample is taken to be its value. */
 static float resolve_variance(const path_pixel *p, int c, float scale)
 {
     double square = p->samples > 1.0f ? (double)p->spread[c] / ((double)p->samples - 1.0)
@@ -209,7 +209,7 @@ static void resolve_normal(const path_pixel *p, float out[3])
     double square = 0.0;
     for (int c = 0; c < 3; c++)
         square += (double)p->normal[c] * (double)p->normal[c];
-    double scale = square > 1e-12 ? 1.0 / sqrt(square) : 0.0; /* opposite normals: none */
+    double scale = square > 1e-12 ? 1.0 / (sqrt)(square) : 0.0; /* opposite normals cancel */
     for (int c = 0; c < 3; c++)
         out[c] = (float)((double)p->normal[c] * scale);
 }
@@ -248,21 +248,21 @@ void path_film_resolve(const path_film *f, float scale, film *target, uint32_t t
 
 /* ---- adaptive sampling: the noise of a pixel ---- */
 
-/* Nothing is kept from one judgement to the next: it depends on the samples alone, so that an interrupted render continues as one that
- * was not. */
+/* Depends on the samples alone, not on earlier decisions, so that an interrupted render continues as one that was
+ * not. */
 
-/* What a standard error becomes on a display. A display shows roughly the square root v^(1/2) of linear light v, 1 being
- * white, whose slope is 1 / (2 v^(1/2)): the normalisation of Dammertz et al. 2010 ("A Hierarchical Automatic Stopping
- * Condition for Monte Carlo Global Illumination", equation 1). The floor keeps black from asking for infinitely many
- * samples; with it the slope ends at 10, near the 12.9 of the sRGB curve's foot. */
+/* The displayed size of a standard error. A display shows roughly the square root v^(1/2) of linear light v, 1 being
+ * white, whose slope is 1 / (2 v^(1/2)): the normalisation of Dammertz et al. 2010 ("A Hierarchical Automatic
+ * Stopping Condition for Monte Carlo Global Illumination", equation 1). The offset keeps black from requiring
+ * infinitely many samples; with it the slope ends at 10, near the 12.9 of the sRGB curve at 0. */
 static double displayed(double error, double value)
 {
     return error / (2.0 * sqrt((value > 0.0 ? value : 0.0) + 0.0025));
 }
 
-/* The square of the standard error of what a display shows, where 1 is all that it can show. The errors of the channels
- * are added up with the weights of luminance as if they went together, as those of light mostly do, so that colored noise
- * of even luminance is noise as well. The shadow on the ground is judged as over white. */
+/* The square of the standard error as displayed, where 1 is the range of the display. The errors of the channels are
+ * added with the weights of luminance as if fully correlated, as those of light mostly are, so that colored noise of
+ * even luminance counts. The shadow on the ground is judged over white. */
 static double pixel_noise_square(const path_film *f, size_t i)
 {
     static const double weights[3] = {0.2126, 0.7152, 0.0722};
@@ -291,7 +291,7 @@ typedef struct judging {
     float noise;
 } judging;
 
-/* The mean square over a block; infinite while a pixel of it has too few samples to be judged. */
+/* The mean square over a block; infinite while a pixel of it has too few samples. */
 static float block_noise_square(const path_film *f, uint32_t column, uint32_t row)
 {
     uint32_t x_end = (column + 1) * PATH_FILM_BLOCK, y_end = (row + 1) * PATH_FILM_BLOCK;
@@ -318,7 +318,8 @@ static void measure_blocks(void *context, size_t begin, size_t end)
             block_noise_square(j->film, (uint32_t)(b % columns), (uint32_t)(b / columns));
 }
 
-/* The mean square over a block and those around it: what few samples of one block have not met yet, a neighbor may have. */
+/* The mean square over a block and its neighbors: rare light that few samples of one block have missed may be found
+ * by a neighbor. */
 static float region_noise_square(const path_film *f, uint32_t column, uint32_t row)
 {
     uint32_t left = column ? column - 1 : 0, right = column + 1 < f->block_columns ? column + 1 : column;

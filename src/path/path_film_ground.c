@@ -12,7 +12,7 @@
 
 /* ---- opacity ---- */
 
-/* The standard error of what is blocked. One sample says nothing of it. */
+/* The standard error of the blocked light; 0 for a single sample. */
 static double blocked_error(const path_ground *g)
 {
     return g->samples > 1.0f ? sqrt((double)g->spread / ((double)g->samples - 1.0)) : 0.0;
@@ -24,10 +24,10 @@ float path_ground_error(const path_ground *g)
     return (float)(error < 1.0 ? error : 1.0);
 }
 
-/* The share of the light that is blocked: one minus the ratio of the means (not the mean of ratios) of lit and open. Where
- * nothing is blocked but for noise, clamping at 0 would darken by 0.4 standard errors in the mean; so what is blocked is
- * first drawn towards 0 by the gain d^2 / (d^2 + e^2) of Wiener's filter, estimated as max(0, 1 - e^2 / d^2) for an
- * observed d with the standard error e, which leaves 0.1 of them and a real shadow as it is: e^2 / d less. */
+/* The blocked share of the light: one minus the ratio of the means (not the mean of ratios) of lit and open. Clamping
+ * pure noise at 0 would darken by 0.4 standard errors on average; so the blocked light is first shrunk by the Wiener
+ * gain d^2 / (d^2 + e^2), estimated as max(0, 1 - e^2 / d^2) for an observed d with the standard error e, which
+ * leaves 0.1 of them, and reduces a real shadow by e^2 / d only. */
 float path_ground_opacity(const path_ground *g)
 {
     double blocked = (double)g->blocked, error = blocked_error(g);
@@ -48,11 +48,11 @@ float path_ground_share(const path_ground *g, const path_pixel *p)
 
 enum { LEVELS = 4, GRAIN_ROWS = 8 };
 
-/* What is known of the shadow in a pixel. */
+/* The shadow in a pixel. */
 typedef struct shadow {
-    float blocked;  /* share of the light, not limited to [0, 1]: its noise is to average out */
+    float blocked;  /* share of the light, not clamped to [0, 1], so that its noise averages out */
     float variance; /* of that */
-    float weight;   /* samples of the ground; 0: none is seen */
+    float weight;   /* samples of the ground; 0: not visible */
 } shadow;
 
 typedef struct filtering {
@@ -66,8 +66,8 @@ static float square(float x)
     return x * x;
 }
 
-/* One level of the a-trous wavelet: 5 x 5 taps, step pixels apart, of a B3 spline; less of what differs by more than its noise.
- * Dammertz et al. 2010; the range weight by variance after Schied et al. 2017. */
+/* One level of the a-trous wavelet: 5 x 5 taps of a B3 spline, step pixels apart; taps that differ by more than the
+ * noise weigh less. Dammertz et al. 2010; range weight by variance after Schied et al. 2017. */
 static shadow filter_pixel(const filtering *f, uint32_t x, uint32_t y)
 {
     static const float spline[3] = {0.375f, 0.25f, 0.0625f};
@@ -105,7 +105,7 @@ static void filter_rows(void *context, size_t begin, size_t end)
         }
 }
 
-/* A single sample has no variance of its own: it is as far off as a shadow can be. */
+/* A single sample has no variance estimate: it gets the largest that a shadow can have. */
 static shadow shadow_of(const path_ground *g)
 {
     if (!(g->samples > 0.0f && g->open > 0.0f))

@@ -1,5 +1,6 @@
-/* path_film_state.h - what a path_film keeps of each pixel: for the files that fill, judge and store it. All of it is means,
- * which neither grow with the samples nor lose digits to them, and floats, which an OpenEXR file holds bit for bit. */
+/* path_film_state.h - the state of a path_film per pixel, for the files that implement it. All values are means,
+ * which neither grow with the samples nor lose precision to them, and floats, which an OpenEXR file stores bit for
+ * bit. */
 #ifndef PATH_FILM_STATE_H
 #define PATH_FILM_STATE_H
 
@@ -8,26 +9,26 @@
 #include "path/path_film.h"
 
 enum {
-    PATH_FILM_MAX_SAMPLES = 1 << 24, /* of a pixel: up to here a float counts */
-    PATH_FILM_MIN_SAMPLES = 32,      /* that noise is judged by */
-    PATH_FILM_BLOCK = 8              /* pixels along the side of what is judged together */
+    PATH_FILM_MAX_SAMPLES = 1 << 24, /* of a pixel: a float counts exactly up to here */
+    PATH_FILM_MIN_SAMPLES = 32,      /* before noise is judged */
+    PATH_FILM_BLOCK = 8              /* side of a block, pixels */
 };
 
-/* Means over samples. The color's are mean + rest, 48 bits: after n samples their rounding is about 2^-49 sqrt(n / 3) of
- * them (each step rounds by up to 2^-49, and later ones shrink it), also where n is 2^24. */
+/* Means over samples. The color's are mean + rest, 48 bits: after n samples their rounding error is about 2^-49
+ * sqrt(n / 3) of them (each step rounds by up to 2^-49, and later ones shrink it), also where n is 2^24. */
 typedef struct path_pixel {
     float mean[4], rest[4]; /* red, green, blue, opacity */
-    float spread[3]; /* mean square distance of the colors from their mean: the variance of one sample */
+    float spread[3];        /* mean squared deviation of the colors: the variance of one sample */
     float albedo[3], normal[3];
-    float filter_excess; /* of the filter's weights over 1 */
-    float samples;       /* whole: a file has it as it has the others */
+    float filter_excess; /* mean of the filter weights over 1 */
+    float samples;       /* an integer; a float as the other channels of a file */
 } path_pixel;
 
-/* Means over those samples of a pixel that met the ground, of luminance. */
+/* Means over those samples of a pixel that hit the ground, of luminance. */
 typedef struct path_ground {
-    float open;    /* that comes without the model */
-    float blocked; /* of it, by the model; negative: it reflects more than it takes */
-    float spread;  /* mean square distance of what is taken from its mean */
+    float open;    /* light without the model */
+    float blocked; /* part of it that the model blocks; negative: it reflects more than it blocks */
+    float spread;  /* mean squared deviation of the blocked light */
     float samples;
 } path_ground;
 
@@ -40,19 +41,19 @@ struct path_film {
     float scale;
     /* adaptive sampling, of the last path_film_update() */
     uint32_t block_columns, block_rows;
-    float *block_noise; /* NULL: not asked for yet */
+    float *block_noise; /* NULL: not requested yet */
     bool *block_is_done;
     float share_done;
 };
 
-/* What the colors and the opacity of a pixel are to be multiplied with: one by the mean of its samples' weights, so that
- * what is constant stays so however the samples fell into a filter's negative lobes. It is 1 for filters without. */
+/* The factor for colors and opacity of a pixel: 1 / the mean filter weight, so that constants are preserved whichever
+ * negative lobes the samples fell into. 1 for filters without. */
 float path_pixel_scale(const path_pixel *p);
 
-/* How dark the ground is in a pixel, [0, 1], and the standard error of that. */
+/* The opacity of the shadow on the ground in a pixel, [0, 1], and its standard error. */
 float path_ground_opacity(const path_ground *g);
 float path_ground_error(const path_ground *g);
-/* The share of a pixel that the ground is seen in: what it can be laid under. */
+/* The share of a pixel in which the ground is visible. */
 float path_ground_share(const path_ground *g, const path_pixel *p);
 
 #endif

@@ -1,8 +1,8 @@
-/* path_lights.c - see path_lights.h: which of the kinds of light is aimed at, and with which density in all.
+/* path_lights.c - see path_lights.h: which kind of light is sampled, and the resulting pdf.
  *
- * Environment, sun, directional lights and all that has a place (the tree) each say about which irradiance they give P
- * when nothing is in between, and are chosen in proportion to that; but a quarter of the choices is shared evenly by those
- * that give any, because something may be in between: a lamp in a room must be found though the sun shines on the roof. */
+ * Environment, sun, directional lights and all that has a place (the tree) each estimate their unoccluded irradiance
+ * at P, and are chosen in proportion to it; but a quarter of the samples is shared evenly by those with any, because
+ * of occlusion: a light in a room must be found although the sun shines on the roof. */
 #include "path/path_lights.h"
 
 #include "base/memory.h"
@@ -30,7 +30,7 @@ typedef struct light_sun {
 
 static bool sun_contains(const light_sun *sun, vec3 d)
 {
-    vec3 difference = d - sun->direction; /* the cosine of so small an angle would have no digits */
+    vec3 difference = d - sun->direction; /* the cosine of so small an angle would lose its digits */
     return dot(difference, difference) < sun->chord2;
 }
 
@@ -102,7 +102,7 @@ struct path_lights {
     light_environment *environment; /* NULL: black */
     light_sun sun;
     light_emitters emitters;
-    light_tree *tree; /* over emitters and, behind them, placed; NULL: there are none */
+    light_tree *tree; /* over emitters and, after them, placed; NULL: there are none */
     Light *placed;    /* punctual lights with a position */
     Light *directional;
     uint32_t placed_count, directional_count;
@@ -121,7 +121,7 @@ static float mean_of(vec3 channels)
     return (channels[0] + channels[1] + channels[2]) * (1.0f / 3.0f);
 }
 
-/* Whether it shines; channels below 0 are 0 from here on. */
+/* Whether the light is valid and positive. Clamps negative channels to 0. */
 static bool is_light(const path_lights *lights, Light *l)
 {
     (void)lights;
@@ -264,7 +264,7 @@ uint64_t path_lights_ignored(const path_lights *lights)
 
 enum { ENVIRONMENT, SUN, DIRECTIONAL, PLACED, KIND_COUNT };
 
-/* What lights give P, and with which probability each kind is aimed at. */
+/* The irradiance from each kind of light at P, and the probability with which it is sampled. */
 typedef struct choice {
     light_environment_view environment;
     light_tree_view tree;
@@ -309,7 +309,7 @@ static void see(const path_lights *lights, vec3 P, vec3 N, choice *c)
 
 /* ---- each kind ---- */
 
-/* Density per sr of a direction of the surroundings; environment_pdf: what the environment alone gives it. */
+/* The pdf per sr of a direction to environment or sun; environment_pdf: that of the environment alone. */
 static float mixed_pdf(const path_lights *lights, const choice *c, float environment_pdf, bool is_in_sun)
 {
     return c->probabilities[ENVIRONMENT] * environment_pdf +
@@ -406,7 +406,7 @@ bool path_lights_sample(const path_lights *lights, vec3 P, vec3 N, float u_light
         .distance_m = INFINITY, .geometry = VISIBILITY_NONE, .primitive = VISIBILITY_NONE};
     choice c;
     see(lights, P, N, &c);
-    /* 24 bits are few where a choice among 100 000 goes on from what the one before has left. */
+    /* 24 bits are few where a choice among 100 000 continues with the rest of the choice before. */
     uint hash = hash_uint(floatBitsToUint(u_light) ^
                           hash_uint(floatBitsToUint(u[0]) ^ hash_uint(floatBitsToUint(u[1]))));
     double fine = (double)u_light + (double)hash * 0x1p-56;

@@ -21,7 +21,7 @@
 
 enum {
     TILE = 16,          /* pixels along a side */
-    LARGEST_PASS = 16,  /* samples per pixel */
+    MAX_PASS = 16,      /* samples per pixel */
     SHUTTER_SAMPLES = 4 /* per pixel and instant: preparing one costs about as much as these */
 };
 
@@ -38,14 +38,14 @@ typedef struct path_job {
     double saved_s; /* when the checkpoint was written, or rendering begun */
     float ground_y;
     matte_layers mattes; /* of target; sums until develop() */
-    /* of one instant */
+    /* of one instant of the shutter */
     facet_render_desc instant; /* desc at its time */
     render_setup setup;
     path_lights *lights;
     path_scene scene;
     /* of one pass */
     uint32_t goal; /* samples per pixel after the pass */
-    /* samples of the pixels that are drawn; 0: those that path_film_needs_more() names */
+    /* sample count of the pixels that are drawn; 0: those of path_film_needs_more() */
     uint32_t cut_off_at;
     uint32_t tile_columns;
     render_watch watch;
@@ -152,14 +152,14 @@ static double shutter_share(uint32_t i)
     return share;
 }
 
-/* The number of samples at which the pass ends that a pixel with `goal` is in: 1, 2, 4, .. LARGEST_PASS, and its
- * multiples, whatever number an image was begun or interrupted at. */
+/* The sample count at which the current pass of a pixel with `goal` samples ends: 1, 2, 4, .. MAX_PASS, and its
+ * multiples, independent of where an image was begun or interrupted. */
 static uint32_t next_goal(const path_job *p, uint32_t goal)
 {
-    uint32_t step = LARGEST_PASS;
+    uint32_t step = MAX_PASS;
     if (p->desc->path.shutter_s > 0.0f)
         step = SHUTTER_SAMPLES;
-    else if (goal < LARGEST_PASS)
+    else if (goal < MAX_PASS)
         for (step = 1; step <= goal;)
             step *= 2;
     uint64_t next = ((uint64_t)goal / step + 1) * step;
@@ -229,9 +229,9 @@ static sample_range count_samples(const path_job *p)
     return range;
 }
 
-/* Where the passes of a checkpoint resume. Adaptive ones where the last of them ended, so that regions are judged at the
- * same numbers as without the interruption; others at the fewest, since the samples of an open shutter belong to their
- * instant. */
+/* The sample count at which the passes of a checkpoint resume. Adaptive ones where the last one ended, so that
+ * regions are judged at the same counts as without the interruption; others at the smallest, since the samples of an
+ * open shutter belong to their instant. */
 static uint32_t first_goal(const path_job *p)
 {
     sample_range range = count_samples(p);
@@ -245,7 +245,7 @@ static bool judges_at(const path_job *p, uint32_t goal)
 {
     if (p->desc->path.shutter_s > 0.0f)
         return goal % SHUTTER_SAMPLES == 0;
-    return goal % LARGEST_PASS == 0 || (goal < LARGEST_PASS && (goal & (goal - 1)) == 0);
+    return goal % MAX_PASS == 0 || (goal < MAX_PASS && (goal & (goal - 1)) == 0);
 }
 
 /* Selects the pixels of the next pass: those that are still noisy, or those that an interrupted pass left out. True: none is noisy. */
@@ -296,7 +296,7 @@ static void report_pass(path_job *p, uint32_t goal)
     path->pass(path->pass_user, NULL, goal);
 }
 
-/* Pass after pass until all is done, or the watch stops it. */
+/* Draws pass after pass until all is done, or the watch stops. */
 static facet_result draw_passes(path_job *p, facet_error *error)
 {
     uint32_t goal = first_goal(p);
@@ -350,7 +350,7 @@ static facet_result draw(path_job *p, facet_error *error)
 
 /* ---- from sums to the film ---- */
 
-/* Layers that are not means over samples are those of the first instant. */
+/* Draws the layers that are not means over samples: those of the first instant. */
 static facet_result draw_aovs(path_job *p, facet_error *error)
 {
     facet_render_desc desc = *p->desc;
@@ -361,7 +361,7 @@ static facet_result draw_aovs(path_job *p, facet_error *error)
     return tiles_draw_aovs(&tiles, p->target, p->stats, error);
 }
 
-/* From sums over a pixel's samples to shares of it. */
+/* Normalizes sums over a pixel's samples to shares of it. */
 static void finish_mattes(path_job *p)
 {
     size_t pixel_count = (size_t)p->target->width * p->target->height;

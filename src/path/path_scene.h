@@ -7,32 +7,32 @@
 struct path_lights;  /* path_lights.h */
 struct path_surface; /* path_surface.h */
 
-/* What paths go through; nothing of it changes while a pass is drawn. */
+/* The scene of paths; constant during a pass. */
 typedef struct path_scene {
-    const render_setup *setup; /* its desc says what is wanted */
+    const render_setup *setup; /* its desc has the options */
     const struct path_lights *lights;
     bool has_ground;
     float ground_y; /* m: the plane of FACET_GROUND_SHADOW (along the up axis of the scene: +Y) */
     bool draws_background;
     const struct path_surface *surface; /* NULL: meshes' materials only */
-    bool finds_first;                   /* path_sample.first_geometry is wanted where it costs a ray, too */
+    bool finds_first;                   /* path_sample.first_geometry is needed, even where it costs a ray */
 } path_scene;
 
 /* One sample of a pixel. */
 typedef struct path_sample {
     float radiance[3]; /* cd/m^2, premultiplied with opacity; not yet checked for being finite */
     float opacity;     /* [0, 1]: 0: the background, where it is not drawn */
-    /* of the filter's weight, which is in radiance and opacity, over 1; 0 but for filters with negative lobes */
+    /* excess of the filter's weight, which is in radiance and opacity, over 1; 0 unless the filter has negative lobes */
     float filter_excess;
-    float albedo[3]; /* of the first surface that is no mirror and no clear glass, [0, 1]; 0: there is none */
+    float albedo[3]; /* of the first surface that is neither specular nor clear glass, [0, 1]; 0: none */
     float normal[3]; /* its unit shading normal, world space */
-    /* On the shadow-catching ground: illuminance / pi that comes, and that would come without the model. 0: not there */
+    /* On the shadow-catching ground: illuminance / pi with and without the model. 0: not hit */
     float ground_lit[3], ground_open[3];
-    /* What the camera's ray sees first, and the opacity of all surfaces that it sees there in a row, times the filter's
-     * weight; 0: it sees none */
+    /* The first surface that the camera's ray hits, and the opacity of all alpha-blended ones there in a row, times
+     * the filter's weight; 0: none */
     uint32_t first_geometry;
     float first_share;
-    uint64_t rays; /* traced for it */
+    uint64_t rays; /* traced for the sample */
 } path_sample;
 
 /* Sample number `index` of pixel (x, y) of the whole image. Thread-safe. */

@@ -28,7 +28,7 @@ static vec3 faced_normal(vec3 N, vec3 V)
 
 /* ---- boundaries of closed volumes ---- */
 
-/* Sets N for refraction (boundary_normal.h): smooth normals of a mesh may lean away from the surface that they approximate. */
+/* Sets N for refraction (boundary.h): smooth normals of a mesh may lean away from the surface that they approximate. */
 static void set_boundary_normal(const visibility_hit *hit, surface_point *s)
 {
     Layers *m = &s->m;
@@ -101,7 +101,7 @@ static bool is_specular_only(const Layers *m, const LayersLobes *lobes)
 
 /* ---- a boundary that is no mesh's material ---- */
 
-/* False: the hit is none of it. */
+/* False: the hit is not on the surface. */
 static bool intersect_surface(const path_surface *surface, const visibility_hit *hit, path_vertex *v)
 {
     surface_point *s = &v->s;

@@ -1,11 +1,12 @@
-/* sampler.h - the random numbers of one sample of one pixel: pair after pair, each from an Owen-scrambled Sobol sequence
- * over the pixel's samples. Numbers depend on seed, pixel, sample and dimension alone, so a picture does not depend on
- * threads, tiles or where it was interrupted.
+/* sampler.h - the random numbers of one sample of one pixel, in pairs, each from an Owen-scrambled Sobol sequence
+ * over the pixel's samples. They depend on seed, pixel, sample and dimension alone, so an image does not depend on
+ * threads, tiles or interruptions. Holds shared shading text: include it last.
  *
- * Sequences in one order would put all samples of a pixel on lines through its dimensions; in orders shuffled at random,
- * pairs do not know of each other, and their product is as noisy as chance makes it, or more. So pairs that belong together,
- * the four of each of four vertices, run through the sequence in 16 orders that were chosen to make points of 32 dimensions
- * that are even: those of the first vertices most, each two of them, for 16 samples and more. Beyond that they are shuffled. */
+ * Sequences in one order would put all samples of a pixel on lines through its dimensions; in orders shuffled at
+ * random, pairs are independent, and their product is as noisy as random numbers or worse. So related pairs, the four
+ * of each of four vertices, traverse the sequence in 16 orders that were chosen to make well distributed points of 32
+ * dimensions: those of the first vertices most, each two of them, for 16 samples and more. Further pairs are
+ * shuffled. */
 #ifndef PATH_SAMPLER_H
 #define PATH_SAMPLER_H
 
@@ -21,11 +22,11 @@ enum {
     PATH_SAMPLER_ORDERS = PATH_SAMPLER_PAIRS * PATH_SAMPLER_VERTICES
 };
 
-/* The numbers t of sobol_order(). Found by search over all with t < 10: for each two orders the variance of products of
- * functions of the four dimensions, each 1 and half a linear one, summed over 16, 32, .. 1024 samples with a penalty on large
- * ones; pairs weighted 4, 1, 1, 0.3 for the first vertex (pixel, lens, ..), 4, 4, 4, 1 for the second, half and a quarter of
- * that for the next. As random points = 4.06 / n, shuffled ones have 2.0 / n and these, in the mean over all two of
- * 16, 1.9 / n for 16 samples, 0.8 / n for 64, 0.24 / n for 256. */
+/* The parameters t of sobol_order(). Found by search over all with t < 10: for each two orders the variance of
+ * products of functions of the four dimensions, each 1 and half a linear one, summed over 16, 32, .. 1024 samples
+ * with a penalty on large ones; pairs weighted 4, 1, 1, 0.3 for the first vertex (pixel, lens, ..), 4, 4, 4, 1 for
+ * the second, half and a quarter of that for the next. Where random points have 4.06 / n, shuffled ones have 2.0 / n
+ * and these, averaged over all pairs of the 16, 1.9 / n for 16 samples, 0.8 / n for 64, 0.24 / n for 256. */
 static const uint32_t path_sampler_orders[PATH_SAMPLER_ORDERS] = {
     0x1f040302u, 0x07060401u, 0x05040201u, 0x09050301u, 0x1f1f1f09u, 0x1f1f0503u, 0x1f090402u, 0x05030201u,
     0x08050403u, 0x09060302u, 0x1f070602u, 0x07060201u, 0x1f1f0704u, 0x08040301u, 0x07060501u, 0x04030201u};
@@ -33,21 +34,21 @@ static const uint32_t path_sampler_orders[PATH_SAMPLER_ORDERS] = {
 typedef struct path_sampler {
     uint32_t index;     /* of the sample in its pixel */
     uint32_t pixel;     /* hash of seed and place */
-    uint32_t vertex;    /* that numbers are drawn for */
+    uint32_t vertex;    /* of the path */
     uint32_t dimension; /* of its next pair */
     uint32_t group;     /* hash of the pixel and of the dimensions that share a shuffle */
     uint32_t shuffled;  /* index in the order of the group */
 } path_sampler;
 
-/* Goes to dimensions that are independent of those of any other number. */
+/* Switches to dimensions that are independent of those of any other number. */
 static inline void path_sampler_shuffle(path_sampler *s, uint32_t number)
 {
     s->group = hash_uint(s->pixel + number);
     s->shuffled = sobol_shuffle(s->index, s->group);
 }
 
-/* Goes to the first dimension of vertex number `vertex` of the path, so that what an earlier vertex drew or did not
- * draw leaves its numbers the same. Vertex 0: filter, lens, time. A vertex has as many pairs as it asks for. */
+/* Goes to the first dimension of vertex number `vertex` of the path, so that its random numbers do not depend on how
+ * many an earlier vertex took. Vertex 0: filter, lens, time. A vertex may take any number of pairs. */
 static inline void path_sampler_begin(path_sampler *s, uint32_t vertex)
 {
     if (vertex / PATH_SAMPLER_VERTICES != s->vertex / PATH_SAMPLER_VERTICES ||
@@ -57,7 +58,7 @@ static inline void path_sampler_begin(path_sampler *s, uint32_t vertex)
     s->dimension = 0;
 }
 
-/* Of sample number index of pixel (x, y) of the whole picture, at vertex 0. */
+/* For sample number index of pixel (x, y) of the whole image, at vertex 0. */
 static inline path_sampler path_sampler_start(uint32_t seed, uint32_t x, uint32_t y, uint32_t index)
 {
     path_sampler s = {.index = index, .pixel = hash_uint(x + hash_uint(y + hash_uint(seed)))};
@@ -65,7 +66,7 @@ static inline path_sampler path_sampler_start(uint32_t seed, uint32_t x, uint32_
     return s;
 }
 
-/* A pair in [0, 1)^2, stratified with those of the pixel's other samples at this vertex and place. */
+/* A pair in [0, 1)^2, stratified with those of the pixel's other samples at this vertex and dimension. */
 static inline vec2 path_sampler_pair(path_sampler *s)
 {
     uint32_t order =
@@ -77,7 +78,7 @@ static inline vec2 path_sampler_pair(path_sampler *s)
                            hash_uint(s->group + order + 1));
 }
 
-/* One number in [0, 1); uses up a pair. */
+/* One random number in [0, 1); uses up a pair. */
 static inline float path_sampler_number(path_sampler *s)
 {
     return path_sampler_pair(s)[0];
