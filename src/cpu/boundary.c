@@ -4,12 +4,12 @@
 
 /* ---- the normal ---- */
 
-/* On an arc from a to b the normals lean apart by the same angle at both ends. So along each edge the slopes of the two
- * normals against the triangle are replaced by one, of opposite sign at the ends: the smaller of the two, or 0 where they
- * disagree in sign (the minmod limiter, Roe 1986). What meshes of a smooth surface have stays as it is; a normal that
- * leans towards a sharp edge leans no more. */
+/* On an arc from a to b the normals lean by the same angle at both ends. So along each edge the slopes of the two
+ * normals against the triangle are replaced by one, of opposite sign at the ends: the smaller of the two, or 0 where
+ * they disagree in sign (the minmod limiter, Roe 1986). Normals of smooth surfaces are unchanged; those that lean
+ * towards a sharp edge are straightened. */
 
-/* Normals that lean farther from the triangle count as this far. */
+/* Cosine at which the lean of a normal from the triangle is clamped. */
 static const float MIN_COS = 0.2f;
 
 typedef struct corner_normals {
@@ -99,7 +99,7 @@ boundary_normal boundary_normal_at(const surface_point *s, const visibility_hit 
                            .tolerance = media_tolerance(max3(c.farthest)),
                            .dN_dx = change(&c, h->dx, n, N) * side,
                            .dN_dy = change(&c, h->dy, n, N) * side};
-    /* What a normal texture adds is kept. */
+    /* The offset of the normal texture is kept. */
     vec3 smooth = normalize_or(shading_frame_normal(h, s->is_front), out.Ng);
     out.N = normalize_or(N * side + (s->m.base.N - smooth), out.Ng);
     if (!(dot(out.N, s->V) > 1e-3f))
@@ -109,8 +109,8 @@ boundary_normal boundary_normal_at(const surface_point *s, const visibility_hit 
 
 /* ---- bundles of rays: Igehy 1999, "Tracing Ray Differentials" ---- */
 
-/* A bundle does not open wider than this, in rad per footprint: beyond it (at the rim of a sphere) the linear changes
- * mean nothing. */
+/* Largest opening of a bundle, rad per footprint: beyond it (at the silhouette of a sphere) linear differentials are
+ * meaningless. */
 static const float MAX_SPREAD = 0.5f;
 
 static vec3 bounded(vec3 v)
@@ -121,7 +121,7 @@ static vec3 bounded(vec3 v)
     return v;
 }
 
-/* Where a neighbour of the ray meets the plane of the surface, as seen from the ray's hit. */
+/* The offset at which a neighbor of the ray hits the plane of the surface. */
 static vec3 change_of_position(vec3 dO, vec3 dD, float t, vec3 D, vec3 Ng)
 {
     vec3 off = dO + dD * t;

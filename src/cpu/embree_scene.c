@@ -7,7 +7,7 @@
 #include "base/parallel.h"
 #include "base/result.h"
 
-/* Embree frees more than it told of when an allocation was refused: what is given back is bounded. */
+/* Embree may report more freed than allocated bytes after a refused allocation: the sum is kept from underflow. */
 static bool count_memory(void *user, ssize_t bytes, bool post)
 {
     (void)post;
@@ -39,7 +39,7 @@ static facet_result fail_embree(enum RTCError code, facet_error *error)
     return fail(error, FACET_ERROR_BUG, "Embree: error %d while building the hierarchy", (int)code);
 }
 
-/* The number of the first vertex of each line; the vertices of a line are neighbours. */
+/* The first vertex of each line; the vertices of a line are consecutive. */
 static void set_lines(RTCGeometry geometry, const render_geometry *g)
 {
     uint32_t count = g->primitive->index_count / 2;
@@ -51,11 +51,10 @@ static void set_lines(RTCGeometry geometry, const render_geometry *g)
         starts[i] = 2 * i;
 }
 
-/* How well to build one hierarchy of triangles for ray_count rays. One by the surface area heuristic takes 250 to
- * 400 ns more for each triangle than one by Morton codes, whose rays take up to 30 ns longer (heavy.glb of
- * bench/make_models: 5 ns). What they hit is the same, but for which of two triangles it is where a ray meets their edge.
- * Of several geometries the latter is a tree of trees that grows in any order, so that what is hit first of surfaces in
- * one place would depend on the threads. */
+/* The build quality of a BVH of triangles for ray_count rays. The surface area heuristic takes 250 to 400 ns more per
+ * triangle than Morton codes, whose rays take up to 30 ns longer (heavy.glb of bench/make_models: 5 ns). Hits are the
+ * same, except which of two triangles is hit at their common edge. With several geometries Morton codes build a tree
+ * of trees in any order, so that the first hit of coincident surfaces would depend on the threads. */
 static enum RTCBuildQuality choose_quality(const scene_primitive *only, uint64_t ray_count)
 {
     enum { RAYS_PER_TRIANGLE = 8 };
@@ -65,7 +64,7 @@ static enum RTCBuildQuality choose_quality(const scene_primitive *only, uint64_t
     return triangle_count * RAYS_PER_TRIANGLE > ray_count ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM;
 }
 
-/* A hierarchy that is kept for the frames of an animation is built well: its rays are many. */
+/* A BVH that is kept for the frames of an animation gets the high quality: it traces many rays. */
 static enum RTCBuildQuality choose_scene_quality(const render_geometry_set *set, uint64_t ray_count)
 {
     if (set->count != 1 || set->items[0].role != RENDER_FLAT)
@@ -114,7 +113,7 @@ static RTCGeometry new_geometry(RTCDevice device, const render_geometry *g)
 static RTCScene new_scene(RTCDevice device, enum RTCBuildQuality quality)
 {
     RTCScene scene = rtcNewScene(device);
-    /* Robust: no ray slips through between two triangles that share an edge. */
+    /* Robust: no ray passes between two triangles that share an edge. */
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | EMBREE_SCENE_FLAG_FILTER);
     rtcSetSceneBuildQuality(scene, quality);
     return scene;
@@ -136,7 +135,7 @@ static void attach_instance(const embree_scene *e, RTCScene shape, const float w
     attach(e->scene, geometry, number, RTC_BUILD_QUALITY_MEDIUM);
 }
 
-/* All geometries of a role under their numbers. */
+/* Attaches all geometries of a role under their indices. */
 static void attach_role(const embree_scene *e, RTCScene scene, render_role role, enum RTCBuildQuality quality)
 {
     const render_geometry_set *set = e->geometries;
@@ -202,9 +201,9 @@ static uint32_t native_packet_width(RTCDevice device)
     return rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) ? 8 : 4;
 }
 
-/* The number of threads that Embree may use; 0: it cannot be used. TBB, which it builds with, ends the process where
- * it is refused a thread: where few processes are allowed it is found out before whether that could happen, with
- * room for the threads that decode textures meanwhile. */
+/* The number of threads that Embree may use; 0: it cannot be used. TBB, with which it builds, aborts the process
+ * where it is refused a thread: where the process limit is low, this is checked first, with room for the threads that
+ * decode textures meanwhile. */
 static uint32_t choose_threads(uint32_t thread_count)
 {
     enum { PLENTY = 4096, LEAST = 4 };
@@ -216,7 +215,7 @@ static uint32_t choose_threads(uint32_t thread_count)
     return startable >= wanted ? thread_count : startable >= LEAST ? 1 : 0;
 }
 
-/* Embree's configuration of a device: "max_isa" leaves the choice up to it, "isa" is that one or none. */
+/* Embree's device configuration: "max_isa" is an upper limit, "isa" is exactly that one. */
 static void write_config(uint32_t thread_count, facet_isa isa, char *config, size_t size)
 {
 #if defined(__x86_64__)
@@ -239,7 +238,7 @@ static void release_shapes(embree_scene *e)
     e->shape_count = 0;
 }
 
-/* Lets go of the parts that have to be built anew. */
+/* Releases the parts that have to be rebuilt. */
 static void drop(embree_scene *e, render_likeness likeness, uint64_t ray_count)
 {
     const render_geometry_set *set = e->geometries;
@@ -268,8 +267,8 @@ static bool is_up_to_date(const embree_scene *e, uint64_t ray_count)
     return true;
 }
 
-/* Embree's own objects of geometries and instances, against the budget: Embree does not report them. Measured with 3.13.5:
- * 290 bytes for an instance, 465 for triangles, 450 for points, 740 for lines. */
+/* Counts Embree's own objects of geometries and instances against the budget: Embree does not report them. Measured
+ * with 3.13.5: 290 bytes for an instance, 465 for triangles, 450 for points, 740 for lines. */
 static bool account_objects(embree_scene *e)
 {
     enum { INSTANCE_SIZE = 320, GEOMETRY_SIZE = 512, LINES_SIZE = 768 };

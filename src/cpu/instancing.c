@@ -1,8 +1,8 @@
 /* instancing.c - see instancing.h.
  *
- * Flat triangles take 160 to 290 ns each to build with two threads and 80 bytes; an instance 0.6 us and 0.4 kB, however
- * large its shape is. A ray takes 3 ns more through instances that do not overlap, up to 60 ns where many do. So
- * instancing pays from one triangle saved for 5 to 90 rays on; with less, and in every model whose meshes are drawn
+ * Flat triangles take 160 to 290 ns each to build with two threads and 80 bytes; an instance 0.6 us and 0.4 kB,
+ * however large its shape is. A ray takes 3 ns more through instances that do not overlap, up to 60 ns where many do.
+ * So instancing pays if it saves a triangle per 5 to 90 rays; below that, and in every model whose meshes are drawn
  * once, all stays flat. (Packets of 16 rays, 30 to 60 ns each; spheres of 484 and 4900 triangles in a grid.) */
 #include "cpu/instancing.h"
 
@@ -14,11 +14,11 @@
 enum {
     RAYS_PER_TRIANGLE = 16,
     MIN_SAVED = 1 << 15, /* triangles: 8 ms */
-    MAX_SAVED = 1 << 20, /* from here on it is memory that is saved: 80 MB */
+    MAX_SAVED = 1 << 20, /* from here on instancing saves memory: 80 MB */
     MIN_TRIANGLES = 16   /* of a shape; an instance costs as much as 5 triangles */
 };
 
-/* Coordinates of rays stay within 1e10 * 1e7. */
+/* Limits of coordinates, m, and scale: rays stay within 1e10 * 1e7. */
 static const double MAX_COORDINATE = 1e10;
 static const double MAX_SCALE = 1e7;
 
@@ -65,8 +65,8 @@ static bool is_moderate(const mat4 *world)
     return largest <= MAX_SCALE && largest_cofactor <= MAX_SCALE * fabs(determinant);
 }
 
-/* Whether a mesh is near its own origin: far from it, the rounding of where rays meet it would be large beside it, and
- * other than that of flat vertices, from which reflected rays start. */
+/* Whether a mesh is near its own origin: far from it, the rounding of hits would be large relative to its size, and
+ * differ from that of flat vertices, from which reflected rays start. */
 static bool is_centered(const scene_primitive *primitive)
 {
     const float most = 256.0f; /* times its size: an error of 3e-5 of it */
@@ -95,8 +95,8 @@ static void mark_channels(const facet_scene *scene, const facet_pose_desc *desc,
     }
 }
 
-/* What is below a node that moves, moves with it. Each node is visited once: upwards to one that is known, then again
- * to write down what was found. */
+/* Nodes below a moving node move with it. Each node is visited once: upwards to one that is known, then again to
+ * record the result. */
 static void mark_descendants(const facet_scene *scene, uint8_t *moves)
 {
     for (uint32_t i = 0; i < scene->node_count; i++) {
@@ -127,7 +127,7 @@ static uint64_t triangle_count(const render_geometry *g)
     return g->primitive->mode == SCENE_TRIANGLES ? g->primitive->index_count / 3 : 0;
 }
 
-/* Whether frames may show other vertices; at the moment they may be those at rest. */
+/* Whether the vertices may differ between frames, although those of this pose may be at rest. */
 static bool is_soft(const chooser *c, uint32_t i)
 {
     const scene_instance *instance = &c->pose->instances[i];
@@ -141,8 +141,8 @@ static bool is_moved(const chooser *c, uint32_t i)
     return c->moves && c->moves[c->pose->instances[i].node] == MOVES;
 }
 
-/* Gives every geometry that could be instanced a shape. Those that share vertices share it; deformed ones do where one
- * follows the other. */
+/* Assigns a shape to every geometry that could be instanced. Geometries with the same vertices share it; deformed
+ * ones do where they are consecutive. */
 static void find_shapes(chooser *c)
 {
     render_geometry_set *set = c->set;
@@ -162,7 +162,7 @@ static void find_shapes(chooser *c)
     }
 }
 
-/* Whether the pose is a frame, and enough of it stays as it is in the others. */
+/* Whether the pose is a frame of an animation, and enough triangles are the same in the others. */
 static bool pays_to_keep(const chooser *c)
 {
     uint64_t kept = 0;
@@ -199,7 +199,7 @@ static render_role choose_role(const chooser *c, uint32_t i, bool is_animated, b
     return RENDER_STILL;
 }
 
-/* Leaves the shapes that are used. numbers: room for one per shape. */
+/* Removes unused shapes. numbers: room for one per shape. */
 static void compact_shapes(render_geometry_set *set, uint32_t *numbers)
 {
     for (uint32_t i = 0; i < set->shape_count; i++)
@@ -220,7 +220,7 @@ static void compact_shapes(render_geometry_set *set, uint32_t *numbers)
     }
 }
 
-/* The most that instancing could save; most models are done with here. */
+/* An upper bound of the savings; it excludes most models early. */
 static bool is_worth_a_look(const chooser *c)
 {
     uint64_t triangles = 0;
@@ -229,7 +229,7 @@ static bool is_worth_a_look(const chooser *c)
     return triangles >= c->needed && (c->set->count > 1 || c->desc->pose->animation_count);
 }
 
-/* Number of the first primitive of each mesh; returns that of all primitives. */
+/* Fills the index of each mesh's first primitive; returns the count of all. */
 static size_t number_primitives(const facet_scene *scene, uint32_t *first_slots)
 {
     uint32_t count = 0;
@@ -315,7 +315,7 @@ static sphere bounding_sphere(const render_geometry *g)
     return s;
 }
 
-/* Size of a pixel at the nearest point of the copy, in the units of its mesh; infinity: it is not in the picture. */
+/* Size of a pixel at the nearest point of the copy, in the units of its mesh; infinity: outside of the image. */
 static float pixel_size(const render_geometry *g, const camera_rays *camera, uint32_t width, uint32_t height)
 {
     const float *dx = camera->is_orthographic ? camera->origin_dx : camera->direction_dx;
@@ -330,7 +330,7 @@ static float pixel_size(const render_geometry *g, const camera_rays *camera, uin
     float nearest = fmaxf(depth - s.radius, camera->near_m);
     float pixel = camera_rays_pixel_size(camera, nearest);
     if (!(pixel > 0.0f))
-        return 0.0f; /* around the camera */
+        return 0.0f; /* it encloses the camera */
     float pixel2 = camera->pixel_size * camera->pixel_size * (camera->is_orthographic ? 1.0f : depth);
     float x = dot3(d, dx) / pixel2 + camera->middle[0];
     float y = dot3(d, dy) / pixel2 + camera->middle[1];
@@ -385,7 +385,7 @@ facet_result nearest_copies_choose(render_geometry_set *set, const camera_rays *
             continue;
         float *of_shape = smallest + (size_t)g->shape * NEAREST_COPIES;
         g->is_far_copy = !(sizes[i] <= of_shape[NEAREST_COPIES - 1] && sizes[i] < INFINITY);
-        if (of_shape[0] == INFINITY) { /* none is in the picture: the first stands for all */
+        if (of_shape[0] == INFINITY) { /* none is visible: the first represents all */
             g->is_far_copy = false;
             of_shape[0] = 0.0f;
         }

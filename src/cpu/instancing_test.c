@@ -12,7 +12,7 @@
 #include "cpu/instancing.h"
 #include "cpu/preview_fixture.h"
 
-/* 64 * 32 * 2 = 4096 triangles: 9 of them save as many as the smallest picture asks for. */
+/* 64 * 32 * 2 = 4096 triangles: 9 of them save as many as the smallest image asks for. */
 enum { COLUMNS = 64, SPHERE_TRIANGLES = 4096, ENOUGH = 9 };
 
 typedef struct chosen {
@@ -156,7 +156,7 @@ static void beyond_reach_all_is_flat(void **state)
     fixture_destroy(&f);
 }
 
-/* ---- pictures ---- */
+/* ---- images ---- */
 
 /* A quaternion that turns by angle around an axis that is none of the coordinates'. */
 static void set_turn(scene_node *node, float angle)
@@ -266,7 +266,7 @@ static void instances_are_seen_as_flat_ones(void **state)
     }
 }
 
-/* Beside the flat picture, which might be as wrong: the normals of a stretched, mirrored, turned sphere in closed form.
+/* Beside the flat image, which might be as wrong: the normals of a stretched, mirrored, turned sphere in closed form.
  * A point p = M q with |q| = 1 has the normal M^-T q. */
 static void normals_of_instances_are_those_of_ellipsoids(void **state)
 {
@@ -391,7 +391,7 @@ static void many_copies_are_cheap(void **state)
     fixture_destroy(&f);
 }
 
-/* The copies whose textures count are those that are nearest in the picture, as a sort of all tells. */
+/* The copies whose textures count are those that are nearest in the image, as a sort of all tells. */
 static void near_copies_are_those_that_are_seen_largest(void **state)
 {
     (void)state;
@@ -422,7 +422,7 @@ static void near_copies_are_those_that_are_seen_largest(void **state)
     }
     assert_true(near_count >= NEAREST_COPIES && near_count < NEAREST_COPIES + 20); /* rows are equally far */
     assert_true(nearest_far >= farthest_near - 0.01f);
-    /* Where none is in the picture, one still tells which textures there are. */
+    /* Where none is in the image, one still tells which textures there are. */
     f.camera.target[2] = 1.0f;
     f.camera.target[1] = f.camera.eye[1] = 100.0f;
     assert_int_equal(camera_rays_create(&f.camera, 64, 64, &camera, NULL), FACET_OK);

@@ -517,7 +517,7 @@ static void normal_textures_count(void **state)
 
 /* ---- limits ---- */
 
-/* The deadline is looked at within a tile: this picture is one, and takes much longer. */
+/* The deadline is looked at within a tile: this image is one, and takes much longer. */
 static void the_time_limit_holds_within_a_tile(void **state)
 {
     (void)state;
@@ -541,7 +541,7 @@ static void the_time_limit_holds_within_a_tile(void **state)
     fixture_destroy(&f);
 }
 
-/* Lets the picture begin, and asks to stop when it is told of it again. */
+/* Lets the image begin, and asks to stop when it is told of it again. */
 static bool stop_soon(void *user, const char *stage, double fraction)
 {
     double *last = user;

@@ -14,8 +14,8 @@ typedef struct search {
     embree_context context; /* first: what Embree hands to the filter */
     const shading_scene *scene;
     vec3 direction;
-    const scene_material *material;   /* of the boundaries that are looked for, */
-    const render_geometry *elsewhere; /* or NULL: all of other geometries than this */
+    const scene_material *material;   /* of the boundaries that are searched */
+    const render_geometry *elsewhere; /* or, not NULL: boundaries of all other geometries than this */
     bool has_exit;
     float exit_t;
     float exit_normal[3];
@@ -54,7 +54,7 @@ static void trace(search *s, vec3 origin, vec3 direction, float near_t, float fa
 
 /* ---- the far side ---- */
 
-/* Takes back faces of the material, nearest first; everything else is passed. */
+/* Accepts back faces of the material, nearest first. */
 static void take_exit(const struct RTCFilterFunctionNArguments *arguments)
 {
     if (arguments->valid[0] != -1)
@@ -95,7 +95,7 @@ bool media_find_exit(const shading_scene *scene, const surface_point *s, vec3 di
 
 /* ---- boundaries in one place ---- */
 
-/* Notes each body's boundary, and goes on. */
+/* Records the boundary of each volume. */
 static void note_boundary(const struct RTCFilterFunctionNArguments *arguments)
 {
     if (arguments->valid[0] != -1)
@@ -112,7 +112,7 @@ static void note_boundary(const struct RTCFilterFunctionNArguments *arguments)
     while (place > 0 && s->boundaries[place - 1].geometry > hit.geometry)
         place--;
     if ((place > 0 && s->boundaries[place - 1].geometry == hit.geometry) || s->count == COINCIDENT)
-        return; /* an edge meets two triangles of one boundary */
+        return; /* a ray through an edge hits two triangles of one boundary */
     memmove(&s->boundaries[place + 1], &s->boundaries[place], (s->count - place) * sizeof *s->boundaries);
     s->boundaries[place] = (boundary){
         .geometry = hit.geometry, .t = hit.t, .is_front = surface_sees_front(g, &hit, s->direction)};
@@ -141,7 +141,7 @@ void media_cross(const shading_scene *scene, const visibility_hit *hit, const su
         cross_one(&scene->geometries->items[w.boundaries[i].geometry], w.boundaries[i].is_front, m);
 }
 
-/* ---- the bodies around a point ---- */
+/* ---- the closed volumes around a point ---- */
 
 typedef struct survey {
     embree_context context; /* first: what Embree hands to the filter */
@@ -150,8 +150,8 @@ typedef struct survey {
     uint32_t count;
     struct {
         const render_geometry *geometry;
-        int excess;         /* sides met from inside, less those from outside */
-    } volumes[MEDIA_DEPTH]; /* by material, in the order in which they are met */
+        int excess;         /* back faces hit, minus front faces */
+    } volumes[MEDIA_DEPTH]; /* by material, in the order of hits */
 } survey;
 
 static void count_side(survey *s, const visibility_hit *hit)
@@ -208,7 +208,7 @@ static bool is_within_bounds(const shading_scene *scene, const float P[3])
            P[2] >= b.lower_z && P[2] <= b.upper_z;
 }
 
-/* Three directions out that no model is aligned to: an open mesh has its back turned to one of them at most by chance. */
+/* Three directions that are not aligned to any model: an open mesh shows its back to one of them at most by chance. */
 uint32_t media_at(const shading_scene *scene, const float P[3], media *m)
 {
     enum { DIRECTIONS = 3 };

@@ -12,17 +12,17 @@
 
 enum { MEDIA_DEPTH = 8 };
 
-/* A body is known by its material: several meshes may bound it together. The one entered last is what the ray goes
- * through, so that a liquid whose surface reaches into the glass around it displaces the glass, as modelling tools
- * recommend. {0}: air. */
+/* A closed volume is identified by its material: several meshes may bound it together. The one entered last is the
+ * current medium, so that a liquid whose surface reaches into the glass around it displaces the glass, as modeling
+ * tools recommend. {0}: air. */
 typedef struct medium {
     const scene_material *material;
-    float thickness_m; /* nominal: thicknessFactor, with the scale of the node */
+    float thickness_m; /* nominal: thicknessFactor times the scale of the node */
 } medium;
 
 typedef struct media {
     uint32_t count;
-    medium volumes[MEDIA_DEPTH]; /* the last is what is here */
+    medium volumes[MEDIA_DEPTH]; /* the last is the current one */
 } media;
 
 /* NULL: air. */
@@ -39,7 +39,7 @@ static inline void media_enter(media *m, const scene_material *material, float t
     m->volumes[m->count++] = (medium){.material = material, .thickness_m = thickness_m};
 }
 
-/* A ray that leaves what it has not entered (a mesh with a hole, a camera inside) stays where it is. */
+/* Leaving a volume that was not entered (a mesh with a hole, a camera inside) changes nothing. */
 static inline void media_leave(media *m, const scene_material *material)
 {
     for (uint32_t i = m->count; i > 0; i--)
@@ -52,31 +52,31 @@ static inline void media_leave(media *m, const scene_material *material)
 
 /* ---- boundaries ---- */
 
-/* Lengths, m, below which positions on a triangle are the same: several times what rounding of the intersection is, which
- * goes with the largest of its corners' coordinates. */
+/* Lengths, m, below which positions on a triangle are equal: several times the rounding error of the intersection,
+ * which is proportional to the largest of its corners' coordinates. */
 static inline float media_tolerance(float coordinate_m)
 {
     return 1e-6f * coordinate_m + 1e-12f;
 }
 
-/* That of a point. */
+/* The same at a point. */
 float media_tolerance_at(const surface_point *s);
 
 typedef struct media_exit {
     float distance_m;
-    vec3 normal; /* unit, geometric, out of the body */
+    vec3 normal; /* unit, geometric, outward */
 } media_exit;
 
-/* Where the body behind s, which is a boundary of it, ends along a unit direction into it. False: nowhere. */
+/* Where the volume behind s, which bounds it, ends along a unit direction into it. False: nowhere. */
 bool media_find_exit(const shading_scene *scene, const surface_point *s, vec3 direction, media_exit *out);
 
-/* Takes the ray that meets s across the boundary there, and across those of other bodies in the same place (a liquid
+/* Updates the media of a ray that crosses the boundary at s, and coincident boundaries of other volumes (a liquid
  * that touches its glass): within tolerance, m. */
 void media_cross(const shading_scene *scene, const visibility_hit *hit, const surface_point *s,
                  float tolerance, media *m);
 
-/* Enters the bodies that P is in, the outermost first as far as that can be told: those that are left more often than
- * entered on the way out, whichever way that is. Returns the number of rays. */
+/* Enters the volumes that P is in, the outermost first as far as can be determined: those that rays to the outside
+ * leave more often than enter, in every direction. Returns the number of rays. */
 uint32_t media_at(const shading_scene *scene, const float P[3], media *m);
 
 #endif

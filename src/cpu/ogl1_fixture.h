@@ -18,7 +18,7 @@ fixture ogl1_fixture_head_on(scene_legacy **legacy);
 typedef struct ogl1_quad {
     facet_ogl1_variant variant;
     facet_camera camera;
-    uint32_t size; /* of the picture, pixels */
+    uint32_t size; /* of the image, pixels */
     double ambient[3], diffuse[3], specular[3], emission[3], shininess;
     double normals[4][3]; /* unit, per vertex */
     double colors[4][3];  /* vertex colors; take part where has_colors */

@@ -121,7 +121,7 @@ static void variants_lights_and_sides(void **state)
             }
 }
 
-/* The rules differ where they should: the same scene in two variants is not the same picture. */
+/* The rules differ where they should: the same scene in two variants is not the same image. */
 static void variants_differ(void **state)
 {
     (void)state;
@@ -130,7 +130,7 @@ static void variants_differ(void **state)
         ogl1_quad q = make_quad((facet_ogl1_variant)variant);
         add_lights(&q, 4);
         fixture f = show(&q);
-        f.camera.eye[0] = 4.0f; /* normals turn away within the picture */
+        f.camera.eye[0] = 4.0f; /* normals turn away within the image */
         f.camera.fov_y_rad = 1.0f;
         pictures[variant] = fixture_render(&f);
         fixture_destroy(&f);
@@ -270,7 +270,7 @@ static void directional_lamps_of_gltf(void **state)
     }
 }
 
-/* Points and spots have their inverse square and cones: irradiance / pi, at the middle of the picture. */
+/* Points and spots have their inverse square and cones: irradiance / pi, at the middle of the image. */
 static void lamps_with_falloff(void **state)
 {
     (void)state;

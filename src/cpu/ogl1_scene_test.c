@@ -1,4 +1,4 @@
-/* Tests of FACET_SHADING_OGL1: what stays the same from picture to picture, what is not touched, what cannot be drawn. */
+/* Tests of FACET_SHADING_OGL1: what stays the same from image to image, what is not touched, what cannot be drawn. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -81,7 +81,7 @@ static void pictures_do_not_depend_on_threads(void **state)
     }
 }
 
-/* One prepared scene drawn in both models by turns gives the pictures of fresh ones. */
+/* One prepared scene drawn in both models by turns gives the images of fresh ones. */
 static void models_take_turns(void **state)
 {
     (void)state;

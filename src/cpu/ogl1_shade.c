@@ -62,14 +62,14 @@ static vec3 ogl1_point_normal(const ogl1_point *p, const float weight[3])
 
 /* ---- colors ---- */
 
-/* Diffuse color and opacity before any map: the material's with the vertices', in numbers that are computed with. */
+/* Diffuse color and opacity before any map: the material's with the vertices', in the values that lighting uses. */
 static PhongColor ogl1_point_color(const ogl1_point *p, const float weight[3])
 {
     PhongColor c = {p->material->phong.diffuse, p->material->legacy->opacity};
     const float *colors = p->hit.geometry->primitive->colors;
     if (!colors)
         return c;
-    /* Each corner's color is encoded before it is interpolated, as a program handed it to OpenGL. */
+    /* Each corner's color is encoded before it is interpolated, as programs passed it to OpenGL. */
     vec3 rgb = vec3(0.0f);
     float opacity = 0.0f;
     for (int i = 0; i < 3; i++) {
@@ -84,7 +84,7 @@ static PhongColor ogl1_point_color(const ogl1_point *p, const float weight[3])
 
 /* ---- maps ---- */
 
-/* Where the reflected view points on the picture of a sphere map, v downwards. */
+/* Texture coordinates of the reflected view in a sphere map, v downwards. */
 static vec2 sphere_map_at(const ogl1_point *p, const float weight[3], bool is_orthographic)
 {
     vec3 world = vec3(0.0f);
@@ -166,7 +166,7 @@ static vec3 ogl1_point_mapped_normal(const shading_scene *scene, const ogl1_poin
 
 /* ---- light at a point ---- */
 
-/* A lamp of glTF as a light that shines on P only: legacy light 1 is the irradiance pi. */
+/* A punctual light of glTF as a legacy light for P only: legacy light 1 is the irradiance pi. */
 static PhongLight punctual_at(const ogl1_setup *s, Light light, vec3 P_world)
 {
     LightSample l = light_illuminate(light, P_world);
@@ -203,7 +203,7 @@ static PhongLit with_highlight(PhongLit lit)
     return lit;
 }
 
-/* Maps of the light's terms, each times its constant. */
+/* Applies the maps of the lighting terms to their constants. */
 static PhongMaterial mapped_material(const shading_scene *scene, const ogl1_point *p, vec3 diffuse)
 {
     PhongMaterial m = p->material->phong;
@@ -230,7 +230,7 @@ static PhongLit light_fragment(const shading_scene *scene, const ogl1_point *p, 
     return with_highlight(light_at(scene, &m, p->hit.position, p->P, N, p->V));
 }
 
-/* One corner of the triangle, as it is interpolated: clamped to what a color register holds. */
+/* One corner of the triangle, clamped to the range of a color register for interpolation. */
 static PhongLit light_corner(const shading_scene *scene, const ogl1_point *p, int corner, bool is_separate)
 {
     const ogl1_setup *s = p->setup;
@@ -280,7 +280,7 @@ static PhongColor with_texture(const shading_scene *scene, const ogl1_point *p, 
                          ogl1_point_map(scene, p, LEGACY_DIFFUSE_MAP));
 }
 
-/* Diffuse color and opacity, vertex colors and the map of opacity counted in, without the diffuse map. */
+/* Diffuse color and opacity with vertex colors and the opacity map, without the diffuse map. */
 static PhongColor base_color(const shading_scene *scene, const ogl1_point *p)
 {
     static const float last[3] = {0.0f, 0.0f, 1.0f};

@@ -247,7 +247,7 @@ static void normal_maps(void **state)
     }
 }
 
-/* A sphere under a sphere map whose red grows to the right and green to the top shows the picture itself: uv = n.xy / 2 +
+/* A sphere under a sphere map whose red grows to the right and green to the top shows the image itself: uv = n.xy / 2 +
  * 1/2 where V is +Z. */
 static void sphere_maps(void **state)
 {
@@ -324,7 +324,7 @@ static void alpha_over_alpha(void **state)
         over[c] = 0.5 * (double)front->diffuse[c] + 0.5 * behind;
         straight[c] = (0.5 * (double)front->diffuse[c] + 0.125 * (double)back->diffuse[c]) / coverage;
     }
-    assert_numbers(&picture, 4, 2, straight, coverage); /* what a transparent picture holds */
+    assert_numbers(&picture, 4, 2, straight, coverage); /* what a transparent image holds */
     const float linear = (float)ogl1_decode(background);
     const float color[3] = {linear, linear, linear};
     unsigned char codes[3];

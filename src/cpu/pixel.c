@@ -9,8 +9,8 @@
 
 #include "shade/shade.h"
 
-/* Two hits on one mesh are one surface when their faces differ by less than 14 degrees and lie in one plane, within
- * a pixel: a shade in between differs from both by less than can be seen. */
+/* Two hits on one mesh are one surface if their faces differ by less than 14 degrees and lie in one plane, within a
+ * pixel: a shade in between is visually the same. */
 static const float SAME_FACE_COS = 0.97f;
 
 /* ---- fragments ---- */
@@ -24,7 +24,7 @@ static bool add_fragment(pixel_resolver *r, const visibility_hit *hit, uint32_t 
     return true;
 }
 
-/* Whether the nearest hit is all that the ray sees. */
+/* Whether the ray ends at its nearest hit. */
 static bool is_simple(const pixel_resolver *r, const visibility_hit *hit, float x, float y)
 {
     const render_geometry *g = &r->scene->geometries->items[hit->geometry];
@@ -85,7 +85,7 @@ static uint32_t quarter_of(const pixel_resolver *r, uint32_t sample)
     return (uint32_t)(point[0] >= 0.5f) + 2 * (uint32_t)(point[1] >= 0.5f);
 }
 
-/* Surfaces that rays go through are shaded for each sample: what is behind them has edges too. */
+/* Transmissive surfaces are shaded for each sample: the objects behind them have edges too. */
 static bool is_glass(const pixel_resolver *r, const visibility_hit *hit)
 {
     return r->scene->plans->items[hit->geometry].lets_rays_through;
@@ -155,8 +155,8 @@ static const pixel_fragment *middle_fragment(const pixel_resolver *r, uint32_t n
     return nearest;
 }
 
-/* Shades a surface at the centroid of its samples on one triangle, the one in the middle: inside what is covered,
- * so that no texture is read beyond the mesh's edge. */
+/* Shades a surface at the centroid of its samples on one triangle, the one in the middle: inside the covered area, so
+ * that no texture is read beyond the mesh's edge. */
 static void shade_surface(pixel_resolver *r, uint32_t x, uint32_t y, uint32_t number)
 {
     pixel_surface *s = &r->surfaces[number];
@@ -195,7 +195,7 @@ static void shade_surface(pixel_resolver *r, uint32_t x, uint32_t y, uint32_t nu
     r->rays += result.rays;
     for (int i = 0; i < 3; i++)
         s->radiance[i] = result.radiance[i];
-    /* Whether a masked texel is there was decided for each sample. */
+    /* Masking was decided for each sample. */
     bool is_blended =
         r->scene->ogl1 || r->scene->geometries->items[hit.geometry].material->alpha_mode == SCENE_ALPHA_BLEND;
     s->opacity = is_blended ? result.opacity : 1.0f;
@@ -203,11 +203,11 @@ static void shade_surface(pixel_resolver *r, uint32_t x, uint32_t y, uint32_t nu
 
 /* ---- composition ---- */
 
-/* Puts the samples' layers over each other ("over", Porter and Duff 1984) and averages. */
+/* Composites the samples' layers ("over", Porter and Duff 1984) and averages. */
 static void composite(const pixel_resolver *r, float rgba[4])
 {
     float sum[3] = {0.0f};
-    float passed_sum = 0.0f; /* what passes all layers, over the samples that hit */
+    float passed_sum = 0.0f; /* transmittance of all layers, over the samples that hit */
     uint32_t hit_samples = 0;
     for (size_t i = 0; i < r->fragment_count;) {
         uint32_t sample = r->fragments[i].sample;
@@ -270,7 +270,7 @@ bool pixel_resolve(pixel_resolver *r, uint32_t x, uint32_t y, const visibility_h
     return true;
 }
 
-/* The weights are those of composite(): shares add up to the picture's opacity. */
+/* The weights are those of composite(): shares add up to the image's opacity. */
 void pixel_add_mattes(const pixel_resolver *r, const scene_identity *identities, const matte_layers *mattes,
                       size_t number)
 {

@@ -40,7 +40,7 @@ typedef struct pixel_resolver {
     uint64_t rays, shades;
 } pixel_resolver;
 
-/* Radiance times scale, premultiplied, and coverage of pixel (x, y) of the whole picture, whose samples hit hits.
+/* Radiance times scale, premultiplied, and coverage of pixel (x, y) of the whole image, whose samples hit hits.
  * False: no memory. */
 bool pixel_resolve(pixel_resolver *resolver, uint32_t x, uint32_t y, const visibility_hit *hits,
                    float rgba[4]);

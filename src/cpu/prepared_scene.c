@@ -101,7 +101,7 @@ static bool is_same_place(const camera_rays *a, const camera_rays *b)
 facet_result prepared_scene_geometry(prepared_scene *p, const facet_render_desc *desc,
                                      const camera_rays *camera, facet_error *error)
 {
-    /* Of the whole picture: a crop sees what the whole sees. */
+    /* Of the whole image: a crop sees what the whole sees. */
     uint64_t ray_count = (uint64_t)desc->width * desc->height * desc->samples;
     bool is_within_reach = instancing_is_within_reach(&p->pose, camera);
     bool is_same = p->has_geometry && !p->geometry_pose.instances && p->ray_count == ray_count &&

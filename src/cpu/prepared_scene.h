@@ -1,4 +1,4 @@
-/* prepared_scene.h - what is made of a scene before rays are traced, kept from one picture to the next: the pose,
+/* prepared_scene.h - what is made of a scene before rays are traced, kept from one image to the next: the pose,
  * geometry, bounding volume hierarchy, tangents and decoded textures. Each stage makes anew what the desc asks for and
  * what is there is not. What comes out does not depend on what was there. (Prepared light is kept by the environment.)
  *
@@ -6,7 +6,7 @@
  * hierarchy over instances for rigid parts, and a hierarchy of those triangles that a skin or morph targets deform. The
  * latter is not refitted, which would take 9 to 18 ns a triangle where building takes 30 to 400: a refitted tree keeps
  * the shape that an earlier frame gave it, and of two triangles it finds another one where a ray meets their edge (3 to
- * 26 % of rays through the vertices of a grid), so that a picture would depend on those before it. */
+ * 26 % of rays through the vertices of a grid), so that an image would depend on those before it. */
 #ifndef CPU_PREPARED_SCENE_H
 #define CPU_PREPARED_SCENE_H
 
@@ -45,7 +45,7 @@ void prepared_scene_init(prepared_scene *p, const facet_scene *scene, const face
 void prepared_scene_clear(prepared_scene *p); /* as after init; that of {0} is {0} */
 
 /* The stages, in this order; hierarchy, tangents and textures touch different members and may run at the same time.
- * desc: resolved, as for preview_render(). camera: the picture's. A stage other than the pose's that fails leaves what
+ * desc: resolved, as for preview_render(). camera: the image's. A stage other than the pose's that fails leaves what
  * has to be cleared. Fail with FACET_ERROR_MEMORY, with what scene_pose_create(), embree_scene_create() fail with. */
 facet_result prepared_scene_pose(prepared_scene *p, const facet_render_desc *desc, facet_error *error);
 facet_result prepared_scene_geometry(prepared_scene *p, const facet_render_desc *desc,

@@ -1,4 +1,4 @@
-/* Tests of what is kept from picture to picture: each picture is that of a render on its own, to the last bit, and what
+/* Tests of what is kept from image to image: each image is that of a render on its own, to the last bit, and what
  * does not change is not made again. */
 #include <math.h>
 #include <setjmp.h>
@@ -347,7 +347,7 @@ static void rigid_parts_move_in_a_hierarchy_that_stays(void **state)
     fixture_destroy(&f);
 }
 
-/* A picture of frames is that of flat vertices, but for rounding: animated and, at the same place, not. */
+/* An image of frames is that of flat vertices, but for rounding: animated and, at the same place, not. */
 static void frames_show_what_stands_there(void **state)
 {
     (void)state;
@@ -545,7 +545,7 @@ static void running_out_of_memory_starts_again(void **state)
     fixture_destroy(&f);
 }
 
-/* Every budget is kept: pictures fail or are right, and a renderer that failed draws when there is more. */
+/* Every budget is kept: images fail or are right, and a renderer that failed draws when there is more. */
 static void budgets_are_kept(void **state)
 {
     (void)state;

@@ -11,7 +11,7 @@
  * nowhere); a texture that cannot be decoded is a warning and sampled as white. */
 facet_result preview_render(const facet_scene *scene, const facet_render_desc *desc, film *film,
                             facet_render_stats *stats, facet_error *error);
-/* The same with what is prepared already; what this picture needs beside is added. Where memory runs out it starts
+/* The same with what is prepared already; what this image needs beside is added. Where memory runs out it starts
  * again with nothing prepared. Whatever comes back, p can be used on. Of textures that cannot be decoded it warns once. */
 facet_result preview_render_prepared(prepared_scene *p, const facet_render_desc *desc, film *film,
                                      facet_render_stats *stats, facet_error *error);

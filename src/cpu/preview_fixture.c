@@ -204,7 +204,7 @@ void fixture_add_light(fixture *f, scene_light light, float x, float y, float z)
     fixture_place(f, SCENE_NONE, x, y, z, 1.0f)->light = f->scene->light_count++;
 }
 
-/* ---- pictures ---- */
+/* ---- images ---- */
 
 facet_result fixture_try_render(fixture *f, film *out, facet_render_stats *stats, facet_error *error)
 {

@@ -53,7 +53,7 @@ static void depth_is_along_the_axis(void **state)
                 assert_true(fabsf(*fixture_pixel(&picture, "depth", x, y) - 10.0f) < 1e-5f);
                 const float *N = fixture_pixel(&picture, "normal", x, y);
                 assert_true(fabsf(N[0]) < 1e-6f && fabsf(N[1]) < 1e-6f && fabsf(N[2] - 1.0f) < 1e-6f);
-                /* The picture is as wide as 2 m or 20 tan(0.5) m of a quad of 40 m. */
+                /* The image is as wide as 2 m or 20 tan(0.5) m of a quad of 40 m. */
                 float width = is_perspective ? 20.0f * tanf(0.5f) : 2.0f;
                 const float *uv = fixture_pixel(&picture, "uv", x, y);
                 assert_true(fabsf(uv[0] - 0.5f - ((float)x + 0.5f - 32.0f) / 64.0f * width / 40.0f) < 1e-5f);
@@ -104,7 +104,7 @@ static void clipping_planes_clip(void **state)
     fixture_destroy(&f);
 }
 
-/* A camera made for a square shows the whole square in wide and in tall pictures. */
+/* A camera made for a square shows the whole square in wide and in tall images. */
 static void pictures_show_what_the_camera_was_made_for(void **state)
 {
     (void)state;

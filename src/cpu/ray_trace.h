@@ -38,7 +38,7 @@ float ray_trace_transmittance(const shading_scene *scene, const shading_ray *ray
 
 /* ---- all surfaces along a ray ---- */
 
-/* More than RAY_TRACE_LAYERS surfaces that let light pass lie one behind the other in no picture worth drawing;
+/* More than RAY_TRACE_LAYERS surfaces that let light pass lie one behind the other in no image worth drawing;
  * what is farther is left out. */
 enum { RAY_TRACE_LAYERS = 64 };
 

@@ -6,8 +6,8 @@
  * internal reflection; what is left reads the environment, prefiltered for the lobe of directions that the ray stands
  * for. All shares add up to 1, so that in a constant environment glass has exactly its color.
  *
- * Rays that meet nothing see the environment, also where the picture's background is transparent or a color: glass is
- * opaque in the picture (glTF's alpha is coverage). Light sources without size are not seen through bodies by way of
+ * Rays that meet nothing see the environment, also where the image's background is transparent or a color: glass is
+ * opaque in the image (glTF's alpha is coverage). Light sources without size are not seen through bodies by way of
  * rays; they shine on what is behind unshadowed. */
 #ifndef CPU_REFRACTION_H
 #define CPU_REFRACTION_H

@@ -42,7 +42,7 @@ static scene_material glass_body(float ior)
     return m;
 }
 
-/* Emits (x, y, 1) mapped from [-scale, scale] m to [0, 1]: a picture of it tells where its rays went. */
+/* Emits (x, y, 1) mapped from [-scale, scale] m to [0, 1]: an image of it tells where its rays went. */
 static void add_ruler(fixture *f, float z, float scale)
 {
     static const float colors[16] = {0, 0, 1, 1, 1, 0, 1, 1, 0, 1, 1, 1, 1, 1, 1, 1};
@@ -389,7 +389,7 @@ static void all_is_seen_through_glass(void **state)
         film_destroy(&pictures[kind]);
 }
 
-/* Glass is opaque in the picture, whatever is seen through it. */
+/* Glass is opaque in the image, whatever is seen through it. */
 static void alpha_is_coverage(void **state)
 {
     (void)state;

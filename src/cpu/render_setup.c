@@ -120,7 +120,7 @@ static bool lacks_red(const texture_set *textures, uint32_t texture)
     return data && data->lacks_red;
 }
 
-/* Leaves out occlusion textures that are black throughout, with a warning for each material: once for all pictures of a
+/* Leaves out occlusion textures that are black throughout, with a warning for each material: once for all images of a
  * scene, and not where paths are traced, which need no occlusion. */
 static facet_result drop_black_occlusion(render_setup *p, facet_error *error)
 {

@@ -1,5 +1,5 @@
-/* render_setup.h - all that is made for one picture before light is computed: geometry, its hierarchy, textures,
- * lights. What is kept from picture to picture is in prepared_scene.h. */
+/* render_setup.h - all that is made for one image before light is computed: geometry, its hierarchy, textures,
+ * lights. What is kept from image to image is in prepared_scene.h. */
 #ifndef CPU_RENDER_SETUP_H
 #define CPU_RENDER_SETUP_H
 
@@ -12,7 +12,7 @@ typedef struct render_setup {
     prepared_scene *prepared;
     const facet_render_desc *desc;
     facet_render_stats *stats;
-    bool reads_everywhere; /* textures are read at full size and off the picture as well: rays go anywhere */
+    bool reads_everywhere; /* textures are read at full size and off the image as well: rays go anywhere */
     camera_rays camera;
     texture_use *uses;
     texture_set *textures;

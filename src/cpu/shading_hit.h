@@ -16,7 +16,7 @@ typedef struct shading_hit {
     vec3 position;      /* world, m */
 } shading_hit;
 
-/* TEXCOORD_n, and its change over the footprint along the picture's x and y. */
+/* TEXCOORD_n, and its change over the footprint along the image's x and y. */
 typedef struct shading_texcoord {
     float uv[2], dx[2], dy[2];
 } shading_texcoord;

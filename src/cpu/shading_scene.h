@@ -10,7 +10,7 @@
 
 /* ---- rays ---- */
 
-/* How a ray changes over what it stands for, along two axes (a camera ray's: the picture's x and y), after Igehy 1999,
+/* How a ray changes over what it stands for, along two axes (a camera ray's: the image's x and y), after Igehy 1999,
  * "Tracing Ray Differentials". */
 typedef struct ray_spread {
     float origin_dx[3], origin_dy[3];       /* m; not read unless moves */
@@ -39,7 +39,7 @@ static inline ray_spread ray_spread_of_camera(const camera_rays *camera)
     return spread;
 }
 
-/* The ray through (x, y) of the picture for a square of footprint pixels. */
+/* The ray through (x, y) of the image for a square of footprint pixels. */
 static inline shading_ray shading_ray_of_camera(const camera_rays *camera, const ray_spread *spread, float x,
                                                 float y, float footprint)
 {
@@ -53,7 +53,7 @@ static inline shading_ray shading_ray_of_camera(const camera_rays *camera, const
 
 struct ogl1_setup; /* draw/ogl1_setup.h */
 
-/* All that shading reads; nothing of it changes while a picture is drawn. */
+/* All that shading reads; nothing of it changes while an image is drawn. */
 typedef struct shading_scene {
     const render_geometry_set *geometries;
     const embree_scene *embree;

@@ -23,7 +23,7 @@ static void set_environment(fixture *f, float r, float g, float b)
     assert_int_equal(facet_environment_create_constant(radiance, NULL, &f->environment, NULL), FACET_OK);
 }
 
-/* A quad that fills the picture. */
+/* A quad that fills the image. */
 static film render_quad(fixture *f, scene_material material)
 {
     fixture_place(f, fixture_add_quad(f, fixture_add_material(f, material)), 0, 0, 0, 1.0f);
@@ -291,7 +291,7 @@ static void normal_maps_tilt_the_normal(void **state)
     assert_color(N, d, 0, d, 6e-3f);
     mapped_normal(up, false, false, N);
     assert_color(N, 0, d, d, 6e-3f);
-    /* Mirrored at x: the picture's right points to -X, its top still to +Y. */
+    /* Mirrored at x: the image's right points to -X, its top still to +Y. */
     mapped_normal(right, true, false, N);
     assert_color(N, -d, 0, d, 6e-3f);
     mapped_normal(up, true, false, N);

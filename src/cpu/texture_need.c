@@ -25,7 +25,7 @@ enum {
 /* Glass may show what is behind it this much larger, in mip levels. */
 static const float MAGNIFIED_LODS = 1.0f;
 
-/* Area in the picture (pixels times AREA_UNIT) of the triangles that read a texture at a lod. */
+/* Area in the image (pixels times AREA_UNIT) of the triangles that read a texture at a lod. */
 typedef struct lod_histogram {
     _Atomic uint64_t bins[BIN_COUNT];
 } lod_histogram;
@@ -47,7 +47,7 @@ typedef struct need_job {
     lod_histogram *histograms; /* per texture */
 } need_job;
 
-/* ---- a triangle in the picture ---- */
+/* ---- a triangle in the image ---- */
 
 typedef struct projection {
     float x[3], y[3]; /* pixels */
@@ -81,7 +81,7 @@ static bool is_outside(const float v[3], float extent)
     return (v[0] < 0.0f && v[1] < 0.0f && v[2] < 0.0f) || (v[0] > extent && v[1] > extent && v[2] > extent);
 }
 
-/* Area in pixels; 0: not in the picture, or its back is culled. */
+/* Area in pixels; 0: not in the image, or its back is culled. */
 static float visible_area(const need_job *job, const projection *p)
 {
     float area =

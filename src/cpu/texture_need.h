@@ -1,20 +1,20 @@
-/* texture_need.h - which textures a picture reads, and how finely. */
+/* texture_need.h - which textures an image reads, and how finely. */
 #ifndef CPU_TEXTURE_NEED_H
 #define CPU_TEXTURE_NEED_H
 
 #include "draw/render_geometry.h"
 #include "draw/texture.h"
 
-/* How a picture is drawn, as far as it matters to texture footprints. */
+/* How an image is drawn, as far as it matters to texture footprints. */
 typedef struct texture_need_desc {
-    uint32_t width, height;      /* of the whole picture: a crop reads the same mips */
+    uint32_t width, height;      /* of the whole image: a crop reads the same mips */
     float footprint;             /* side of the square that a shade stands for, pixels */
     const facet_ogl1_desc *ogl1; /* how legacy materials are drawn; NULL: there are none */
     float opacity_footprint;     /* of what is read to find whether a surface is there */
     uint32_t thread_count;
 } texture_need_desc;
 
-/* Writes one use per texture of the scene. min_lod is a bound: over the triangles in the picture, the mip at which a
+/* Writes one use per texture of the scene. min_lod is a bound: over the triangles in the image, the mip at which a
  * texel is as large as the smaller extent of a pixel's footprint at the triangle's nearest vertex. Triangles that
  * add up to a few pixels are not counted. Needs the vertices of set. Fails with FACET_ERROR_MEMORY. */
 facet_result texture_need(const facet_scene *scene, const render_geometry_set *set, const camera_rays *camera,

@@ -23,7 +23,7 @@ typedef struct layers {
 
 typedef struct picture {
     const tiles_desc *desc;
-    uint32_t crop[4]; /* x, y, width, height in the whole picture */
+    uint32_t crop[4]; /* x, y, width, height in the whole image */
     uint32_t tile_columns, tile_count;
     visibility_pattern pattern, middle;
     layers layers;

@@ -1,4 +1,4 @@
-/* tiles.h - draws a picture tile by tile on several threads. */
+/* tiles.h - draws an image tile by tile on several threads. */
 #ifndef CPU_TILES_H
 #define CPU_TILES_H
 
@@ -16,7 +16,7 @@ typedef struct tiles_desc {
 /* Fills every layer of film. Adds to stats->rays and ->shades. Fails with FACET_ERROR_MEMORY, FACET_ERROR_LIMIT past
  * the deadline, FACET_ERROR_CANCELLED. */
 facet_result tiles_draw(const tiles_desc *desc, film *film, facet_render_stats *stats, facet_error *error);
-/* All layers of one sample: neither the picture, layer "", nor Cryptomatte's. */
+/* All layers of one sample: neither the image, layer "", nor Cryptomatte's. */
 facet_result tiles_draw_aovs(const tiles_desc *desc, film *film, facet_render_stats *stats,
                              facet_error *error);
 

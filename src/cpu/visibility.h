@@ -1,11 +1,11 @@
-/* visibility.h - which surfaces the rays of a picture meet. */
+/* visibility.h - which surfaces the rays of an image meet. */
 #ifndef CPU_VISIBILITY_H
 #define CPU_VISIBILITY_H
 
 #include "cpu/embree_scene.h"
 
 /* Side of the squares of pixels whose rays are traced together, aligned to multiples of itself in the whole
- * picture: a crop traces the same packets. */
+ * image: a crop traces the same packets. */
 enum { VISIBILITY_BLOCK = 4, VISIBILITY_BLOCK_PIXELS = VISIBILITY_BLOCK * VISIBILITY_BLOCK };
 
 #define VISIBILITY_NONE RTC_INVALID_GEOMETRY_ID
@@ -51,7 +51,7 @@ static inline visibility_hit visibility_hit_read(const render_geometry_set *geom
     return hit;
 }
 
-/* Where the rays of a block go through the picture. */
+/* Where the rays of a block go through the image. */
 typedef struct visibility_pattern {
     uint32_t sample_count;
     float *points;              /* 2 per sample, in pixels from the pixel's top left; block of mem_alloc() */
@@ -63,7 +63,7 @@ bool visibility_pattern_create(const facet_allocator *allocator, uint32_t sample
                                visibility_pattern *out);
 void visibility_pattern_destroy(visibility_pattern *pattern); /* {0} is allowed */
 
-/* Traces the rays of the block whose top left pixel is (x, y) of the whole picture, VISIBILITY_BLOCK_PIXELS *
+/* Traces the rays of the block whose top left pixel is (x, y) of the whole image, VISIBILITY_BLOCK_PIXELS *
  * sample_count hits. The other members of a hit of VISIBILITY_NONE are undefined. */
 void visibility_trace_block(const embree_scene *scene, const camera_rays *camera, uint32_t x, uint32_t y,
                             const visibility_pattern *pattern, visibility_hit *hits);

@@ -1,6 +1,6 @@
 /* Truth tests of what goes through surfaces, and of mirrors: slabs with all their internal reflections, absorption, bodies
  * in bodies, thin walls, leaves, facing mirrors, caustics. The sky is red above, green below and blue all around, so that one
- * picture shows what is reflected, what is transmitted and both. References are closed forms in double. */
+ * image shows what is reflected, what is transmitted and both. References are closed forms in double. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

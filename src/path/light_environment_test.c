@@ -22,7 +22,7 @@ static double random_number(void)
     return lcg64_double(&random_state);
 }
 
-/* ---- pictures ---- */
+/* ---- images ---- */
 
 static image make_picture(uint32_t width, uint32_t height)
 {
@@ -247,7 +247,7 @@ static estimate irradiance(const light_environment *e, vec3 N, int count)
     return (estimate){mean, sqrt(fmax(sum2 / count - mean * mean, 0.0) / count)};
 }
 
-/* By a sum over 64 points of each texel of a picture of 96 x 48. */
+/* By a sum over 64 points of each texel of an image of 96 x 48. */
 static double irradiance_by_sum(const light_environment *e, vec3 N)
 {
     enum { WIDTH = 96, HEIGHT = 48, FINE = 8 };
@@ -376,7 +376,7 @@ static void memory_is_a_third_of_the_picture(void **state)
     image_destroy(&picture);
 }
 
-/* Numbers at the very ends, and pictures of extremes. */
+/* Numbers at the very ends, and images of extremes. */
 static void extremes_are_finite(void **state)
 {
     (void)state;

@@ -72,7 +72,7 @@ static void tilted_surfaces_under_skies_of_the_height(void **state)
 /* ---- glossy surfaces ---- */
 
 /* GGX with the height-correlated Smith term and reflectance 1 for light from the whole upper hemisphere of a panel that faces
- * +Z: the sum over all texels of the picture at 2048 x 1024, in double. V in the plane of x and z. */
+ * +Z: the sum over all texels of the image at 2048 x 1024, in double. V in the plane of x and z. */
 static double reflected_by_quadrature(const image *picture, double angle, double alpha)
 {
     enum { WIDTH = 2048, HEIGHT = 1024 };

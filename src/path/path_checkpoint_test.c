@@ -1,4 +1,4 @@
-/* path_checkpoint_test.c - a picture that was interrupted goes on as one that was not; no other file is taken for it. */
+/* path_checkpoint_test.c - an image that was interrupted goes on as one that was not; no other file is taken for it. */
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <setjmp.h>
@@ -50,7 +50,7 @@ static path_film *create(uint32_t width, uint32_t height, bool has_ground)
     return f;
 }
 
-/* ---- a picture ---- */
+/* ---- an image ---- */
 
 static float random_number(uint32_t pixel, uint32_t sample, uint32_t dimension)
 {

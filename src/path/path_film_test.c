@@ -389,7 +389,7 @@ static void noise_does_not_darken_the_ground(void **state)
 
 enum { WIDTH = 101, HEIGHT = 75, LARGEST = 4096 };
 
-/* A picture whose light and noise are known: dark to the left, noisy to the bottom. */
+/* An image whose light and noise are known: dark to the left, noisy to the bottom. */
 static double true_mean(size_t i)
 {
     return 0.02 + 1.5 * (double)(i % WIDTH) / WIDTH;
@@ -440,7 +440,7 @@ static path_film *draw(float noise, float scale, uint32_t threads, uint32_t *pas
 }
 
 /* The error of what a display shows, against the truth: the share of blocks whose root mean square is below noise, the
- * largest one over noise, and the mean over the picture in its standard errors. */
+ * largest one over noise, and the mean over the image in its standard errors. */
 static double share_below(const path_film *f, float noise, float scale, double *worst, double *bias)
 {
     *worst = 0.0;

@@ -272,7 +272,7 @@ void truth_look(fixture *f, double polar_deg, float x, float y, float height)
                                .ortho_height = height};
 }
 
-/* ---- pictures ---- */
+/* ---- images ---- */
 
 static facet_render_desc resolved(fixture *f)
 {

@@ -1,5 +1,5 @@
-/* path_fixture.h - scenes whose light is known in closed form, and means of pictures with the error that they have:
- * for the tests that prove that the path tracer's pictures may be called ground truth. Built on preview_fixture.h.
+/* path_fixture.h - scenes whose light is known in closed form, and means of images with the error that they have:
+ * for the tests that prove that the path tracer's images may be called ground truth. Built on preview_fixture.h.
  *
  * World: +Y up, floors and slabs lie in planes of constant y, lengths in m. Functions abort the test where they fail. */
 #ifndef PATH_FIXTURE_H
@@ -43,7 +43,7 @@ uint32_t truth_add_flat_sphere(fixture *f, uint32_t material, uint32_t columns, 
  * degrees from +Y, towards +X. */
 void truth_look(fixture *f, double polar_deg, float x, float y, float height);
 
-/* ---- pictures ---- */
+/* ---- images ---- */
 
 film truth_render(fixture *f, facet_render_stats *stats /* NULL: not wanted */);
 facet_result truth_try_render(fixture *f, film *out, facet_render_stats *stats, facet_error *error);
@@ -54,12 +54,12 @@ typedef struct truth_value {
     uint32_t count;
 } truth_value;
 
-/* One picture whose pixels all stand for the same number: each is a value. */
+/* One image whose pixels all stand for the same number: each is a value. */
 truth_value truth_measure_pixels(fixture *f);
 /* Pictures of seeds 1 to `count`; the mean of each over all its pixels is a value. */
 truth_value truth_measure(fixture *f, uint32_t count);
 
-/* Float paths multiply a few dozen rounded numbers, and float pictures have 24 bits: errors below this part of a value
+/* Float paths multiply a few dozen rounded numbers, and float images have 24 bits: errors below this part of a value
  * are none of sampling. */
 #define TRUTH_ROUNDING 2e-5
 /* By how many standard errors a mean may be off. With 16 values (Student's t, 15 degrees of freedom) more comes by chance

@@ -1,5 +1,5 @@
 /* What is no number stays out of the film: vertices, normals, texture coordinates, material parameters, lights, surroundings
- * with NaN, infinities and huge numbers. The picture comes, in time, is finite everywhere, and what had to be dropped is
+ * with NaN, infinities and huge numbers. The image comes, in time, is finite everywhere, and what had to be dropped is
  * counted. */
 #include <float.h>
 #include <math.h>
@@ -37,7 +37,7 @@ static fixture healthy(void)
     return f;
 }
 
-/* Draws it; every number is finite, the picture is not black, the samples add up. The number dropped. */
+/* Draws it; every number is finite, the image is not black, the samples add up. The number dropped. */
 static uint64_t check_picture(fixture *f, const char *what, int poison)
 {
     film picture;

@@ -1,4 +1,4 @@
-/* Truth tests of the preview: on what it can know, it is the path tracer's picture. Lights without size on a convex body
+/* Truth tests of the preview: on what it can know, it is the path tracer's image. Lights without size on a convex body
  * leave it nothing to approximate; of the surroundings its prefiltered light is off by what splitting the sum costs. */
 #include <math.h>
 #include <setjmp.h>
@@ -76,7 +76,7 @@ static fixture body(int material, facet_energy energy)
     return f;
 }
 
-/* The two pictures of f, both the means over pixels. */
+/* The two images of f, both the means over pixels. */
 static void draw_both(fixture *f, film *preview, film *path)
 {
     f->desc.renderer = FACET_RENDERER_KIND_PATH;

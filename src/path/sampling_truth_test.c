@@ -1,5 +1,5 @@
-/* Truth tests of how samples become a picture: what an estimate's mean and error do with more of them, coverage, shutter
- * and lens, filters; and that a picture depends neither on threads, nor on the part that is drawn, nor on being
+/* Truth tests of how samples become an image: what an estimate's mean and error do with more of them, coverage, shutter
+ * and lens, filters; and that an image depends neither on threads, nor on the part that is drawn, nor on being
  * interrupted. */
 #define _POSIX_C_SOURCE 200809L /* mkdtemp */
 #include <math.h>
@@ -97,7 +97,7 @@ static void many_short_pictures_are_a_long_one(void **state)
     assert_true(fabs(bias) < TRUTH_SIGMAS * sqrt(3.0 * bias_error2));
 }
 
-/* Root mean square error against a picture of 64 times the samples: it falls with the root of the samples, or faster.
+/* Root mean square error against an image of 64 times the samples: it falls with the root of the samples, or faster.
  * Without the glass, whose rare caustics make the errors themselves noisy. */
 static void errors_fall_with_the_root(void **state)
 {
@@ -132,7 +132,7 @@ static void errors_fall_with_the_root(void **state)
     assert_true(slope < -0.5 + 0.02); /* the noise of the numbers, and of the reference: 1/64 of the last */
 }
 
-/* The variance that the film tells is the variance that pictures have: not less than half of it, and not more than that of
+/* The variance that the film tells is the variance that images have: not less than half of it, and not more than that of
  * independent samples, which stratified ones stay below. */
 static void the_film_knows_its_error(void **state)
 {
@@ -330,7 +330,7 @@ static void filters_blur_a_line_as_they_say(void **state)
     }
 }
 
-/* A shining square that crosses the picture while the shutter is open. */
+/* A shining square that crosses the image while the shutter is open. */
 static void a_moving_square_is_blurred_by_a_box(void **state)
 {
     (void)state;
@@ -432,7 +432,7 @@ static void a_lens_blurs_a_point_into_a_disc(void **state)
     assert_true(fabs(flux[0] - flux[1]) < TRUTH_SIGMAS * 0.01 * flux[1]);
 }
 
-/* ---- what a picture does not depend on ---- */
+/* ---- what an image does not depend on ---- */
 
 static void pictures_do_not_depend_on_threads(void **state)
 {

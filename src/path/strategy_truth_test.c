@@ -10,7 +10,7 @@
 
 #include "path/path_fixture.h"
 
-/* Independent pictures of a mean. With 24 values each, Student's t exceeds 3 once in 250 comparisons. */
+/* Independent images of a mean. With 24 values each, Student's t exceeds 3 once in 250 comparisons. */
 enum { PICTURES = 24 };
 
 static void check_strategies(fixture *f, const char *what)
