@@ -1,5 +1,5 @@
 /* boundary.h - a refracting surface: the normal by which it refracts, and the ray differentials of a bundle that
- * passes it. Holds shared shading text: include it last. */
+ * passes it. */
 #ifndef CPU_BOUNDARY_H
 #define CPU_BOUNDARY_H
 

@@ -1,5 +1,4 @@
-/* light_emitters.h - emissive triangles, and the sampling of points on them. Holds shared shading text: include it
- * last.
+/* light_emitters.h - emissive triangles, and the sampling of points on them.
  *
  * A light is a triangle of a lit geometry whose material emits. Emission without a light (KHR_materials_unlit,
  * points, lines, triangles without normals) is found by BSDF sampling only, with weight 1: light_emitters_find()

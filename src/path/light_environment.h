@@ -1,5 +1,5 @@
 /* light_environment.h - importance sampling of an equirectangular image, in proportion to the irradiance that each
- * texel gives a surface. Holds shared shading text: include it last.
+ * texel gives a surface.
  *
  * The density is bilinear between texel centers, as radiance is (the mean of its three channels), and differs from it
  * only by the change of solid angle within a row near the poles: it is positive wherever radiance is, and uniform

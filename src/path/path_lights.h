@@ -1,5 +1,5 @@
 /* path_lights.h - all lights of a scene, for light sampling and for BSDF-sampled rays that hit them: environment,
- * sun, punctual lights, emissive triangles. Holds shared shading text: include it last. */
+ * sun, punctual lights, emissive triangles. */
 #ifndef PATH_LIGHTS_H
 #define PATH_LIGHTS_H
 

@@ -1,6 +1,6 @@
 /* sampler.h - the random numbers of one sample of one pixel, in pairs, each from an Owen-scrambled Sobol sequence
  * over the pixel's samples. They depend on seed, pixel, sample and dimension alone, so an image does not depend on
- * threads, tiles or interruptions. Holds shared shading text: include it last.
+ * threads, tiles or interruptions.
  *
  * Sequences in one order would put all samples of a pixel on lines through its dimensions; in orders shuffled at
  * random, pairs are independent, and their product is as noisy as random numbers or worse. So related pairs, the four
