@@ -209,7 +209,7 @@ static void resolve_normal(const path_pixel *p, float out[3])
     double square = 0.0;
     for (int c = 0; c < 3; c++)
         square += (double)p->normal[c] * (double)p->normal[c];
-    double scale = square > 1e-12 ? 1.0 / (sqrt)(square) : 0.0; /* opposite normals cancel */
+    double scale = square > 1e-12 ? 1.0 / sqrt(square) : 0.0; /* opposite normals cancel */
     for (int c = 0; c < 3; c++)
         out[c] = (float)((double)p->normal[c] * scale);
 }
