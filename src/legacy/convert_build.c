@@ -131,7 +131,7 @@ static facet_result build_normals(conversion *c, uint32_t material, const legacy
         out->normal_scale = normal->bump_multiplier;
         if (bump->ref.texture != SCENE_NONE)
             note_add(&c->notes, material, NOTE_MAP_DROPPED,
-                     "bump stands beside norm, which wins; it is kept in extras");
+                     "bump is ignored, since there is a norm map; extras keep it");
         return FACET_OK;
     }
     if (bump->ref.texture == SCENE_NONE)

@@ -247,7 +247,7 @@ static void note_spread(const pbr_job *job, float shininess)
     }
     if (fabsf(found[1] - found[0]) > 0.1f * shininess)
         note_add(&job->c->notes, job->material, NOTE_SHININESS_SPREAD,
-                 "one shininess, %.3g, stands for %.3g to %.3g", (double)shininess, (double)found[0],
+                 "one shininess, %.3g, replaces those from %.3g to %.3g", (double)shininess, (double)found[0],
                  (double)found[1]);
 }
 

@@ -34,7 +34,7 @@ static void check_maps(conversion *c, uint32_t material, legacy_material *m)
         bool is_stated = map->path || map->ref.texture != SCENE_NONE;
         if (is_stated && !texture_bench_statistics(c->bench, map->ref.texture)) {
             note_add(&c->notes, material, NOTE_TEXTURE_MISSING,
-                     "the picture of %s, %s, cannot be read; the material is converted without it", statement,
+                     "the image of %s, %s, cannot be read; the material is converted without it", statement,
                      map->path ? map->path : "of a texture");
             remove_map(map);
         }
@@ -54,7 +54,7 @@ static void note_losses(conversion *c, uint32_t material, const legacy_material 
     size_t length = m->kept ? (size_t)(m->kept - m->unknown) : m->unknown ? strlen(m->unknown) : 0;
     if (length > 0) {
         size_t first = strcspn(m->unknown, "\n");
-        note_add(&c->notes, material, NOTE_UNKNOWN_KEY, "statements that facet does not know: %.*s%s",
+        note_add(&c->notes, material, NOTE_UNKNOWN_KEY, "unknown statements: %.*s%s",
                  (int)(first < 400 ? first : 400), m->unknown, first + 1 < length ? ", .." : "");
     }
     if (m->is_halo)
@@ -206,7 +206,7 @@ static void read_illum(conversion *c, uint32_t material, legacy_reading *r, face
         if (has_highlight || m->illum == 0)
             note_add(&c->notes, material, NOTE_ILLUM_IGNORED, "illum %d would %s, but %s: it is ignored",
                      m->illum, m->illum == 0 ? "switch light off" : "switch the highlight off",
-                     has_highlight ? "Ks is not black" : "that was asked for");
+                     has_highlight ? "Ks is not black" : "the options say so");
         return;
     }
     if (m->illum == 0) {
@@ -451,11 +451,11 @@ static void note_mirror(conversion *c, uint32_t material, const legacy_material 
 {
     bool is_bright = legacy_has(m, LEGACY_SPECULAR) ? highest_of(m->specular) > 0.5f : true;
     /* illum 7 is primarily glass, whose mirror is dim. */
-    note_add(&c->notes, material,
-             is_bright && m->illum != 7 ? NOTE_MIRROR_IGNORED : NOTE_MIRROR_IGNORED_QUIETLY,
-             "illum %d has Ks reflect the surroundings like a mirror; that was not asked for, and only the "
-             "highlight is converted",
-             m->illum);
+    note_add(
+        &c->notes, material, is_bright && m->illum != 7 ? NOTE_MIRROR_IGNORED : NOTE_MIRROR_IGNORED_QUIETLY,
+        "illum %d makes Ks a mirror of the environment; mirrors are not enabled, and only the highlight is "
+        "converted",
+        m->illum);
 }
 
 /* Ray tracers reflect the environment sharply whatever Ns, which belongs to the highlight; for large Ns that is

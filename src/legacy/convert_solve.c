@@ -195,9 +195,8 @@ void solve_note(conversion *c, uint32_t material, const solve_item *item)
                  most);
     }
     if (item->remarks & FIT_METAL_WITH_DIFFUSE)
-        note_add(
-            notes, material, NOTE_METAL_WITHOUT_DIFFUSE,
-            "a metal has no diffuse part; it is given one, which stands for the wide part of its highlight");
+        note_add(notes, material, NOTE_METAL_WITHOUT_DIFFUSE,
+                 "a metal has no diffuse part; it gets one that represents the wide part of its highlight");
 }
 
 facet_conversion_grade grade_of(double error)

@@ -170,13 +170,12 @@ static const furnace_subject *subjects_of(plot *p, uint32_t *count)
 
 static void add_panel(plot *p, const furnace_subject *subject, const double *x, const double *albedo)
 {
-    static const char *const names[MODES][WAYS] = {{"glTF, lamps", "glTF, environment"},
-                                                   {"conserving, lamps", "conserving, environment"}};
+    static const char *const names[MODES][WAYS] = {{"glTF, punctual", "glTF, environment"},
+                                                   {"conserving, punctual", "conserving, environment"}};
     bool is_pbr = subject->parameters.model == FACET_PLOT_MODEL_PBR;
-    plot_panel *panel =
-        plot_add_panel(p, CHART_XY, subject->title,
-                       is_pbr ? "perceptual roughness" : "perceptual roughness that its shininess stands for",
-                       "light returned of 1");
+    plot_panel *panel = plot_add_panel(
+        p, CHART_XY, subject->title, is_pbr ? "perceptual roughness" : "perceptual roughness of equal width",
+        "light returned of 1");
     if (!panel)
         return;
     for (uint32_t a = 0; a < p->angle_count; a++)

@@ -350,7 +350,7 @@ static void furnace_conserves_where_it_says_so(void **state)
     assert_int_equal(f.drawing.panel_count, 4);
     for (uint32_t i = 0; i < 4; i++) {
         const chart_panel *panel = &f.drawing.panels[i];
-        static const char *const conserving[] = {"conserving, lamps, 30", "conserving, lamps, 75",
+        static const char *const conserving[] = {"conserving, punctual, 30", "conserving, punctual, 75",
                                                  "conserving, environment, 30"};
         for (int k = 0; k < 3; k++) {
             const chart_curve *c = find_curve(panel, conserving[k]);
@@ -359,7 +359,7 @@ static void furnace_conserves_where_it_says_so(void **state)
         }
     }
     /* smooth metal loses nothing, rough metal two thirds */
-    const chart_curve *metal = find_curve(&f.drawing.panels[0], "glTF, lamps, 30");
+    const chart_curve *metal = find_curve(&f.drawing.panels[0], "glTF, punctual, 30");
     assert_near(metal->y[0], 1.0, 1e-3);
     assert_true(metal->y[metal->count - 1] < 0.45);
     free_plot(&f);

@@ -31,12 +31,12 @@ static facet_result plan(const film *const *pictures, uint32_t count, const face
                          layout *l, facet_error *error)
 {
     if (!count)
-        return fail(error, FACET_ERROR_ARGUMENT, "sheet: there are no pictures");
+        return fail(error, FACET_ERROR_ARGUMENT, "sheet: there are no images");
     *l = (layout){.width = pictures[0]->width, .height = pictures[0]->height, .columns = d->column_count};
     for (uint32_t i = 1; i < count; i++)
         if (pictures[i]->width != l->width || pictures[i]->height != l->height)
             return fail(error, FACET_ERROR_ARGUMENT,
-                        "sheet: picture %u has %u x %u pixels; the first has %u x %u", i, pictures[i]->width,
+                        "sheet: image %u has %u x %u pixels; the first has %u x %u", i, pictures[i]->width,
                         pictures[i]->height, l->width, l->height);
     if (!l->columns)
         l->columns = (uint32_t)ceil(sqrt((double)count));
@@ -50,9 +50,8 @@ static facet_result plan(const film *const *pictures, uint32_t count, const face
     uint64_t width = (uint64_t)l->columns * ((uint64_t)l->width + l->gap) - l->gap;
     uint64_t height = (uint64_t)l->rows * ((uint64_t)l->height + l->band + l->gap) - l->gap;
     if (width > MAX_SIZE || height > MAX_SIZE)
-        return fail(error, FACET_ERROR_ARGUMENT,
-                    "sheet: %u pictures of %u x %u make one larger than %d pixels", count, l->width,
-                    l->height, MAX_SIZE);
+        return fail(error, FACET_ERROR_ARGUMENT, "sheet: %u images of %u x %u make one larger than %d pixels",
+                    count, l->width, l->height, MAX_SIZE);
     return FACET_OK;
 }
 

@@ -163,12 +163,12 @@ static void add_summary(const page *p)
         "source (root mean square over lights from the hemisphere and views at 0&deg;, 30&deg; and 60&deg;). "
         "E on a screen is the same with both clamped to what a screen shows. E as drawn is the same with "
         "OpenGL "
-        "1 as its programs draw it: they add a screen's numbers, not light, which darkens the shadow side. "
+        "1 as its programs draw it: they add display values, not light, which darkens the shadow side. "
         "The "
         "grade is of E as drawn where the conversion aims at such a program, else of E on a screen: below "
         "0.05 "
-        "good, 0.12 fair, 0.30 poor. \"Without extensions\" is what a viewer shows that does not know them, "
-        "\"usual formula\" what most converters write.</p>\n");
+        "good, 0.12 fair, 0.30 poor. \"Without extensions\" is the error in viewers that lack them, "
+        "\"usual formula\" that of what most converters write.</p>\n");
 }
 
 static void add_warnings(text *out, const conversion_warning *warnings, uint32_t count)
@@ -427,7 +427,7 @@ static facet_result add_materials(page *p, facet_error *error)
     facet_result result = FACET_OK;
     for (uint32_t i = 0; i < count && result == FACET_OK && !p->out->has_failed; i++) {
         if (i == REPORT_PICTURES)
-            text_addf(p->out, "<p class=\"dim\">The remaining %u are without pictures.</p>\n", count - i);
+            text_addf(p->out, "<p class=\"dim\">The remaining %u have no images.</p>\n", count - i);
         result = add_material(p, ranks[i].material, i < REPORT_PICTURES, error);
     }
     mem_free(ranks);

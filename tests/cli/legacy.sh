@@ -162,7 +162,7 @@ cmp -s h.png i.png || failed "a kept picture is not drawn in OpenGL 1"
 sed 's/^illum 2/illum 5/' old.mtl >shiny.mtl
 sed 's/old.mtl/shiny.mtl/' old.obj >shiny.obj
 expect 0 convert shiny.obj shiny.glb
-says "illum 5 has Ks reflect the surroundings"
+says "illum 5 makes Ks a mirror of the environment"
 expect 0 convert shiny.obj mirror.glb --mirrors
 grep -q "illum 5" err && failed "--mirrors is not heard"
 cmp -s shiny.glb mirror.glb && failed "--mirrors changes nothing"
