@@ -1,5 +1,9 @@
 /* image_api.c - images of facet.h: looking at layers, encoding, saving. */
 #include "api/api.h"
+
+#include <string.h>
+#include <strings.h>
+
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/result.h"
@@ -7,9 +11,6 @@
 #include "image/image.h"
 #include "image/srgb.h"
 #include "report/contact_sheet.h"
-
-#include <string.h>
-#include <strings.h>
 
 uint32_t facet_image_get_layer_count(const facet_image *picture)
 {
@@ -220,4 +221,58 @@ facet_result facet_image_save(const facet_image *picture, const char *path, cons
         result = file_write(path, bytes, size, error);
     facet_bytes_destroy(bytes);
     return result;
+}
+
+/* ---- IDs as colors ---- */
+
+/* Odd, so that no two numbers below 2^24 have one color; and far from them where they follow each other. */
+static const uint32_t STRIDE = 0x3779b1;
+
+static bool is_id_layer(const char *name)
+{
+    return strcmp(name, "object") == 0 || strcmp(name, "material") == 0 || strcmp(name, "instance") == 0;
+}
+
+static void color_pixel(float number, float out[4])
+{
+    uint32_t color = (uint32_t)number * STRIDE & 0xffffff;
+    for (int c = 0; c < 3; c++)
+        out[c] = (float)srgb_decode((double)(color >> (16 - 8 * c) & 255) / 255.0);
+    out[3] = 1.0f;
+}
+
+static const film_layer *find_layer(const film *f, const char *name)
+{
+    for (uint32_t i = 0; i < f->layer_count; i++)
+        if (strcmp(f->layers[i].name, name) == 0)
+            return &f->layers[i];
+    return NULL;
+}
+
+facet_result facet_image_create_id_colors(const facet_image *picture, const char *layer,
+                                          const facet_allocator *allocator, facet_image **out,
+                                          facet_error *error)
+{
+    const film *from = &picture->film;
+    const film_layer *ids = is_id_layer(layer) ? find_layer(from, layer) : NULL,
+                     *instances = find_layer(from, "instance");
+    *out = NULL;
+    if (!ids || !instances)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "image: \"%s\" and instance must be layers of it, and one of object, material, instance",
+                    layer);
+    facet_image *made = mem_zalloc(allocator, 1, sizeof *made);
+    if (!made)
+        return fail_memory(error, "image", sizeof *made);
+    facet_result result = film_create(allocator, from->width, from->height, 0, &made->film, error);
+    if (result != FACET_OK) {
+        mem_free(made);
+        return result;
+    }
+    for (size_t i = 0; i < (size_t)from->width * from->height; i++)
+        if (instances->pixels[i] > 0.0f)
+            color_pixel(ids->pixels[i], made->film.layers[0].pixels + 4 * i);
+    made->stats = picture->stats;
+    *out = made;
+    return FACET_OK;
 }

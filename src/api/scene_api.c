@@ -1,15 +1,19 @@
 /* scene_api.c - the scene part of facet.h: reading, counting, finding, describing. */
 #include "base/result.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
 #include "base/text.h"
 #include "io/model_file.h"
 #include "io/ogl1/ogl1_json.h"
 #include "legacy/convert.h"
 #include "scene/origin.h"
-
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <strings.h>
+#include "scene/scene.h"
+#include "report/report.h"
 
 static const facet_scene_desc default_desc = {0};
 
@@ -213,4 +217,113 @@ bool facet_scene_get_bounds(const facet_scene *scene, const facet_pose_desc *des
         scene_pose_destroy(&pose);
     }
     return has_bounds;
+}
+
+/* ---- cameras ---- */
+
+facet_orbit facet_orbit_default(void)
+{
+    return scene_orbit_default();
+}
+
+facet_result facet_camera_from_orbit(const facet_scene *scene, const facet_pose_desc *pose_desc,
+                                     const facet_orbit *orbit, float aspect, facet_camera *camera,
+                                     facet_error *error)
+{
+    return scene_fit_orbit(scene, pose_desc, orbit, aspect, camera, error);
+}
+
+facet_result facet_camera_from_scene(const facet_scene *scene, const facet_pose_desc *pose_desc,
+                                     uint32_t index, facet_camera *camera, facet_error *error)
+{
+    *camera = (facet_camera){0};
+    if (index >= scene->camera_count)
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: there is no camera %u; the file has %u", scene->source,
+                    index, scene->camera_count);
+    scene_pose pose;
+    facet_result result =
+        scene_pose_create(scene, pose_desc, &scene->allocator, scene->thread_count, &pose, error);
+    if (result != FACET_OK)
+        return result;
+    const scene_posed_camera *found = NULL;
+    for (uint32_t i = 0; i < pose.camera_count && !found; i++)
+        if (pose.cameras[i].index == index)
+            found = &pose.cameras[i];
+    if (found) {
+        const scene_camera *c = &found->camera;
+        const float *m = found->world.m;
+        *camera = (facet_camera){.fov_y_rad = c->is_orthographic ? 0.0f : c->fov_y_rad,
+                                 .ortho_height = c->ortho_height,
+                                 .aspect = c->is_orthographic ? c->ortho_width / c->ortho_height : c->aspect,
+                                 .near_m = c->near_m,
+                                 .far_m = c->far_m};
+        double length =
+            sqrt((double)m[8] * (double)m[8] + (double)m[9] * (double)m[9] + (double)m[10] * (double)m[10]);
+        /* far from the origin a target 1 m away would be the eye, rounded */
+        double distance =
+            fmax(1.0, fmax(fabs((double)m[12]), fmax(fabs((double)m[13]), fabs((double)m[14]))));
+        for (int k = 0; k < 3; k++) {
+            camera->eye[k] = m[12 + k];
+            camera->target[k] = (float)((double)m[12 + k] - distance * (double)m[8 + k] / length);
+            camera->up[k] = m[4 + k];
+        }
+        if (!(length > 0.0))
+            result = fail(error, FACET_ERROR_INVALID,
+                          "%s: camera %u \"%s\": the matrix of its node gives it no direction", scene->source,
+                          index, c->name);
+    } else {
+        result =
+            fail(error, FACET_ERROR_ARGUMENT, "%s: camera %u \"%s\" is not attached to a node of the scene",
+                 scene->source, index, scene->cameras[index].name);
+    }
+    scene_pose_destroy(&pose);
+    return result;
+}
+
+/* ---- legacy materials ---- */
+
+facet_result facet_scene_convert_materials(facet_scene *scene, facet_material_model to,
+                                           const facet_legacy_desc *desc, const facet_log *log,
+                                           facet_error *error)
+{
+    const facet_legacy_desc defaults = {0};
+    const facet_log silent = {0};
+    return legacy_convert(scene, to, desc ? desc : &defaults, log ? log : &silent, error);
+}
+
+bool facet_scene_has_legacy_materials(const facet_scene *scene)
+{
+    return scene_has_legacy_materials(scene);
+}
+
+uint32_t facet_scene_get_conversion_count(const facet_scene *scene)
+{
+    return scene->conversion ? scene->conversion->material_count : 0;
+}
+
+facet_conversion facet_scene_get_conversion(const facet_scene *scene, uint32_t index)
+{
+    if (index >= facet_scene_get_conversion_count(scene))
+        return (facet_conversion){0};
+    return scene->conversion->materials[index].summary;
+}
+
+facet_result facet_scene_report_conversion(const facet_scene *scene, facet_report_format format, char **out,
+                                           facet_error *error)
+{
+    *out = NULL;
+    text t = {.allocator = scene->allocator};
+    facet_result result = FACET_OK;
+    if (format == FACET_REPORT_FORMAT_HTML)
+        result = report_html(scene, &t, error);
+    else
+        legacy_report_json(scene, &t);
+    if (result == FACET_OK && t.has_failed)
+        result = fail_memory(error, "report", t.capacity);
+    if (result != FACET_OK) {
+        text_destroy(&t);
+        return result;
+    }
+    *out = t.data;
+    return FACET_OK;
 }
