@@ -1,4 +1,4 @@
-/* anisotropy_test.c - stretched highlights: parameters, reflection, and the isotropic lobe that stands in for tables. */
+/* anisotropy_test.c - stretched highlights: parameters, reflection, and the isotropic lobe of LUT lookups. */
 #include "testing/test_support.h"
 
 static const vec3 up = {0.0f, 0.0f, 1.0f};
@@ -23,8 +23,8 @@ static void test_parameters(void **state)
                 "no direction, but no NaN");
 }
 
-/* Strength 0 bends nothing but what the specification's last line does to all; smooth and full, R lies in the cone of
- * directions that a grain along T reflects to. */
+/* Strength 0 bends only by the specification's last line, which applies to all; for a smooth surface of full
+ * strength, R lies in the cone of reflections of a groove along T. */
 static void test_reflection(void **state)
 {
     (void)state;
@@ -44,14 +44,14 @@ static void test_reflection(void **state)
         R = anisotropic_reflection(up, B, V, 1.0f, 0.0f);
         vec3 grain = V - B * dot(V, B);
         if (length(grain) >
-            1e-2f) /* the normal is V without its part along B: R leaves V's angle to B mirrored */
+            1e-2f) /* the normal is V without its component along B: R has the mirrored angle to B */
             expect_near((double)dot(R, B), (double)-dot(V, B), 1e-4, "cone around B");
     }
     vec3 R = anisotropic_reflection(up, B, B, 1.0f, 0.0f);
     expect_near((double)length(R), 1.0, 1e-5, "V along B");
 }
 
-/* ---- the table's substitute ---- */
+/* ---- the equivalent isotropic lobe ---- */
 
 typedef struct split_sum {
     double A, B, E;
@@ -93,7 +93,7 @@ static void test_isotropic_is_its_own_substitute(void **state)
     }
 }
 
-/* The albedos of section 16.12, and a grid of them: the substitute within 0.04, the bounds nowhere below. */
+/* The albedos of section 16.12, and a grid of them: the equivalent lobe within 0.04, the bounds never below. */
 static void test_substitute_albedo(void **state)
 {
     (void)state;

@@ -13,7 +13,7 @@ static void test_sphere_irradiance(void **state)
         expect_near((double)sphere_irradiance((float)cos(at[i][0] * pi / 180.0), 0.25f), at[i][1], 2e-6,
                     "%g degrees", at[i][0]);
     assert_true(sphere_irradiance(-0.5f, 0.25f) == 0.0f && sphere_irradiance(-1.0f, 0.9f) == 0.0f);
-    /* continuous through the horizon, falling, and a hemisphere of light gives pi */
+    /* continuous and decreasing through the horizon, and pi for a hemisphere of light */
     for (float a = 0.05f; a < 1.0f; a += 0.1f)
         for (float c = 1.0f; c > -1.0f; c -= 0.001f) {
             float here = sphere_irradiance(c, a), next = sphere_irradiance(c - 0.001f, a);
@@ -47,8 +47,9 @@ static void test_line_irradiance(void **state)
                     "far");
 }
 
-/* Section 16.10: radiance 1, F = 1, V at 45 degrees, centre on the mirror direction or 10 degrees farther from the
- * normal; exact integral, and Karis' approximation with alpha + a / 3d and alpha + a / 2d in the normalisation. */
+/* Section 16.10: radiance 1, F = 1, V at 45 degrees, center in the mirror direction or 10 degrees farther from
+ * the normal; exact integral, and Karis' approximation with alpha + a / 3d and alpha + a / 2d in the
+ * normalisation. */
 static const double highlight[][6] = {{0, 0.05, 0.20, 0.351061787793, 0.275037888, 0.209036028},
                                       {0, 0.05, 0.35, 0.055116407781, 0.045299166, 0.040325208},
                                       {0, 0.05, 0.50, 0.013536935316, 0.012058494, 0.011338749},
@@ -92,19 +93,19 @@ static void test_representative_point(void **state)
                         highlight[i][1], highlight[i][2]);
         double ratio = (double)(alpha / widened_alpha(alpha, 2.0f * a, 2.0f, 2.0f));
         expect_relative(lobe * E * ratio * ratio, highlight[i][5], 2e-5, "with a / 2d");
-        /* how good that is: never above 2.2 times, within 30 % while the light is narrower than the lobe */
+        /* its error: at most 2.2 times, within 30 % while the light is narrower than the lobe */
         assert_true(karis < 2.2 * highlight[i][3] && karis > 0.7 * highlight[i][3]);
         if (a < alpha && offset == 0.0)
             expect_relative(karis, highlight[i][3], 0.3, "against the exact integral");
 
-        /* shade_sphere is that, for a metal: intensity = radiance pi a^2 */
+        /* shade_sphere() equals it for a metal: intensity = radiance pi a^2 */
         vec3 radiance = shade_sphere(s, vec3(0.0f), V, center, 2.0f * a, vec3((float)(pi * 4.0) * a * a),
                                      ENERGY_GLTF, vec2(0.0f));
         expect_relative(radiance[0], highlight[i][4], 3e-5, "shade_sphere");
     }
 }
 
-/* As the radius goes to 0 every form is the point light. */
+/* For a radius of 0 every form is the point light. */
 static void test_point_limit(void **state)
 {
     (void)state;
@@ -135,7 +136,7 @@ static void test_tube(void **state)
     vec3 R = normalize(vec3(0.1f, 0.2f, 1.0f));
     vec3 end0 = vec3(-1.0f, 0.5f, 2.0f), end1 = vec3(2.0f, 0.3f, 2.5f);
     RepresentativePoint p = representative_point_tube(end0, end1, R, 0.05f, 0.2f);
-    /* no other point of the capsule is nearer to the ray */
+    /* no other point of the capsule is closer to the ray */
     float best = dot(p.L, R);
     for (float t = 0.0f; t <= 1.0f; t += 0.01f) {
         RepresentativePoint q = representative_point_sphere(end0 + (end1 - end0) * t, R, 0.05f, 0.2f);
@@ -147,7 +148,7 @@ static void test_tube(void **state)
     RepresentativePoint sphere = representative_point_sphere(end0, R, 0.1f, 0.3f);
     expect_near((double)dot(tube.L, sphere.L), 1.0, 1e-6, "same point");
     expect_relative(tube.normalisation, sphere.normalisation, 1e-5, "same factor");
-    /* a light on the ray is hit where the ray hits it */
+    /* a light on the ray is hit at the intersection */
     p = representative_point_sphere(R * 4.0f, R, 0.3f, 0.2f);
     expect_near((double)dot(p.L, R), 1.0, 1e-6, "on the ray");
 }

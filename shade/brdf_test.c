@@ -99,7 +99,7 @@ static void test_forms_agree(void **state)
         expect_relative(V_SmithGGX_anisotropic(L, V, alpha, alpha), Vis, 1e-5, "V_SmithGGX_anisotropic");
         expect_relative(G1_SmithGGX_anisotropic(V, alpha, alpha), G1_SmithGGX(V[2], alpha), 1e-5,
                         "G1 anisotropic");
-        /* what visibility stands for: G2 / (4 N.L N.V) with G2 = 1 / (1 + Lambda + Lambda) */
+        /* the definition of visibility: G2 / (4 N.L N.V) with G2 = 1 / (1 + Lambda + Lambda) */
         float lambda_L = Lambda_SmithGGX(L[2], alpha), lambda_V = Lambda_SmithGGX(V[2], alpha);
         float cosines = 4.0f * L[2] * V[2];
         expect_relative(Vis * cosines, 1.0f / (1.0f + lambda_L + lambda_V), 2e-4, "height-correlated G2");
@@ -135,7 +135,7 @@ static void test_values(void **state)
     }
     expect_near((double)V_SmithGGX(0.0f, 0.0f, 0.5f) * 0.0, 0.0, 0.0, "V is finite at the horizon");
     assert_true(isfinite(D_GGX(0.0f, ALPHA_MIRROR)) && isfinite(D_GGX(1.0f, ALPHA_MIRROR)));
-    assert_true(k_direct(1.0f) == 0.5f && k_ibl(1.0f) == 0.5f); /* where the two meet */
+    assert_true(k_direct(1.0f) == 0.5f && k_ibl(1.0f) == 0.5f); /* equal at roughness 1 */
 }
 
 typedef struct albedo_case {
@@ -161,7 +161,7 @@ static double albedo_integrand(vec3 H, const void *data)
     return (double)(4.0f * Vis * NdotL * VdotH / H[2]);
 }
 
-/* Heitz 2014: with masking only, light that leaves in all directions, also into the surface, is all of it. */
+/* Heitz 2014: with masking only, the light leaving in all directions, also into the surface, sums to 1. */
 static void test_weak_white_furnace(void **state)
 {
     (void)state;
@@ -205,13 +205,13 @@ static void test_albedo(void **state)
             expect_near(integrate_normals(alpha, 800, albedo_integrand, &f), direct[r][c], 1e-4,
                         "E with the k of analytic lights at %g, %g", at[0], at[1]);
         }
-    /* exactly 1 - ln 2 for alpha 1, head on */
+    /* exactly 1 - ln 2 for alpha 1 at normal incidence */
     albedo_case head_on = {1.0f, 1.0f, -1.0f, false};
     expect_near(integrate_normals(1.0f, 1000, albedo_integrand, &head_on), 1.0 - log(2.0), 3e-5, "1 - ln 2");
 }
 
-/* Total specular albedo at N.V .5, roughness .75 for metals of four F0: single scattering and five ways to give
- * back the rest (section 16.7 of the reference). */
+/* Total specular albedo at N.V .5, roughness .75 for metals of four F0: single scattering and five
+ * compensations (section 16.7 of the reference). */
 static void test_multiscatter(void **state)
 {
     (void)state;

@@ -4,7 +4,7 @@
 static void test_srgb_round_trip(void **state)
 {
     (void)state;
-    for (int code = 0; code < 256; ++code) { /* all 8-bit codes come back, and 16-bit ones */
+    for (int code = 0; code < 256; ++code) { /* all 8-bit and 16-bit codes round trip */
         float linear = linear_from_srgb1((float)code / 255.0f);
         assert_int_equal((int)(srgb_from_linear1(linear) * 255.0f + 0.5f), code);
     }
@@ -32,7 +32,7 @@ static void test_srgb_values(void **state)
     expect_near((double)srgb_from_linear1(1.0f), 1.0, 1e-7, "white");
     expect_near((double)linear_from_srgb1(1.0f), 1.0, 1e-7, "white");
     float previous = -1.0f;
-    for (int i = 0; i <= 100000; ++i) { /* monotone through the joint, and no NaN below 0 */
+    for (int i = 0; i <= 100000; ++i) { /* monotonic through the joint, and no NaN below 0 */
         float v = srgb_from_linear1((float)i * 1e-5f - 0.001f);
         assert_true(v > previous);
         previous = v;

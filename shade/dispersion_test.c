@@ -38,8 +38,8 @@ static void test_limits(void **state)
     assert_true(dispersed_ior_at(1.05f, 100.0f, 780.0f) == 1.0f);
 }
 
-/* One wavelength at a time: no weight is negative, their mean is 1; each band has its middle as mean, covers what lies
- * between it and its neighbours, and is 0 at its ends. */
+/* Single wavelengths: no weight is negative, their mean is 1; each band has its center as mean, overlaps its
+ * neighbors, and is 0 at its ends. */
 static void test_wavelengths(void **state)
 {
     (void)state;
@@ -71,7 +71,7 @@ static void test_wavelengths(void **state)
     assert_true(last.channel == 2 && isfinite(last.wavelength_nm));
 }
 
-/* A surface for one wavelength: Cauchy's ior on the denser side, whichever side is seen; and none changes without
+/* A surface at one wavelength: Cauchy's ior on the denser side, seen from either side; unchanged without
  * dispersion. */
 static void test_surface_of_one_wavelength(void **state)
 {

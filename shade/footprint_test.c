@@ -1,7 +1,7 @@
 /* footprint_test.c - ellipses of known axes, and the second moment of the probes that cover them. */
 #include "testing/test_support.h"
 
-/* Axes p >= q of an ellipse that is turned: derivatives along the picture's x and y are any pair of conjugate radii. */
+/* Axes p >= q of a rotated ellipse: derivatives along the image's x and y are any pair of conjugate radii. */
 static Footprint turned(double p, double q, double turn, double phase, vec2 size)
 {
     double c = cos(turn), s = sin(turn), cp = cos(phase), sp = sin(phase);
@@ -32,8 +32,8 @@ static void test_axes(void **state)
     assert_false(footprint_is_finite(footprint_from_derivatives(size, none, none)));
 }
 
-/* n probes of width w, s apart, have the second moment (w^2 + (n^2 - 1) s^2) / 12: that of the major axis. None is narrower
- * than the minor axis or the finest texel, nor narrower than a sixteenth of the major one. */
+/* n probes of width w, s apart, have the second moment (w^2 + (n^2 - 1) s^2) / 12: that of the major axis. None
+ * is narrower than the minor axis, the finest texel, or a sixteenth of the major axis. */
 static void test_probes_cover_it(void **state)
 {
     (void)state;

@@ -28,7 +28,7 @@ static void test_dielectric(void **state)
         }
 }
 
-/* Reflection from inside: its own values, Snell's reversibility, the critical angle, Brewster's angle. */
+/* From the denser side: golden values, reversibility, the critical angle, Brewster's angle. */
 static void test_inside(void **state)
 {
     (void)state;

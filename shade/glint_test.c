@@ -1,4 +1,4 @@
-/* glint_test.c - chance has the moments that it is said to have, in cells and over time, and nothing is lost or won. */
+/* glint_test.c - the variates have their stated moments, in cells and over time, and the mean is preserved. */
 #include "testing/test_support.h"
 
 static const double PI_DOUBLE = 3.14159265358979324;
@@ -7,7 +7,7 @@ typedef struct moments {
     double mean, variance;
 } moments;
 
-/* A cell of one footprint, seen where `key` says. */
+/* A cell of one footprint, seen at a position given by `key`. */
 static GlintCell cell_of(uint key)
 {
     GlintCell c;
@@ -18,7 +18,7 @@ static GlintCell cell_of(uint key)
     return c;
 }
 
-/* Of the variate of many cells at a time. */
+/* Moments of the variate of many cells at a time. */
 static moments moments_of(float count, float time_s, int cells)
 {
     double sum = 0.0, squares = 0.0;
@@ -32,7 +32,8 @@ static moments moments_of(float count, float time_s, int cells)
     return (moments){mean, squares / cells - mean * mean};
 }
 
-/* Of two slots with the shares s and 1 - s, 2 / 3 = E(s^2 + (1 - s)^2): many are seen evenly, few as images of the second moment M. */
+/* For two slots with the weights s and 1 - s, 2 / 3 = E(s^2 + (1 - s)^2): many glints are uniform, few are
+ * splats of the second moment M. */
 static void test_moments(void **state)
 {
     (void)state;
@@ -47,14 +48,15 @@ static void test_moments(void **state)
         expect_near(m.mean, 1.0, 3.0 * deviation, "mean of %g glints", n);
         expect_relative(m.variance, variance, n < 0.3 ? 0.05 : 0.1, "variance of %g glints", n);
     }
-    /* none where they are many, and no step in between */
+    /* none where glints are many, and no step in between */
     assert_true(glint_seen(vec2(1.0f, 2.0f), 0.1f, 0.5f, GLINT_COUNT_MAX * 1.01f, 0.0f, 0.02f) == 1.0f);
     moments fading = moments_of(0.999f * GLINT_COUNT_MAX, 0.0f, 10000);
     assert_true(fading.variance < 1e-6);
 }
 
-/* Compound Poisson variates, however few: the mean stays, which 1 - e^-n of small n would lose. Their fourth cumulant is 24 / n^3, so
- * that a measured variance of N has the relative deviation sqrt((6 / n + 2) / N). */
+/* Compound Poisson variates, however few: the mean is preserved, which 1 - e^-n of small n would lose. Their
+ * fourth cumulant is 24 / n^3, so that a measured variance of N has the relative deviation sqrt((6 / n + 2) /
+ * N). */
 static void test_sum(void **state)
 {
     (void)state;
@@ -76,8 +78,8 @@ static void test_sum(void **state)
     }
 }
 
-/* Pixels of a picture from 2 m above the water, each with its own expected number: the mean stays in every part, be glints few or many,
- * and whether a pixel is seen by one sample or by sixteen. */
+/* Pixels of an image from 2 m above the water, each with its own expected number: the mean is preserved in
+ * every part, for few or many glints, and for one or sixteen samples a pixel. */
 static double lit_by(int x, int y, int samples, float density)
 {
     double X = 0.0;
@@ -114,7 +116,7 @@ static void test_energy(void **state)
         }
 }
 
-/* An image is seen alike wherever it lies between pixels, and whole. */
+/* A splat has the same sum wherever it lies between pixels. */
 static void test_image(void **state)
 {
     (void)state;
@@ -137,7 +139,7 @@ static void test_image(void **state)
     }
 }
 
-/* From frame to frame a cell is alike while glints live and another after. */
+/* From frame to frame a cell is constant during the lifetime of its glints, and changes afterwards. */
 static void test_time(void **state)
 {
     (void)state;
@@ -159,8 +161,8 @@ static void test_time(void **state)
     assert_true(fabs(product[2] / squares) < 0.05);
 }
 
-/* Cells: a footprint sees one, twice as wide one has half of the cells, where glints are few they are wider, and they stay where the
- * water is. */
+/* Cells: a footprint has one, a footprint twice as wide has half of the cells, cells are wider where glints are
+ * few, and they stay with the water. */
 static void test_cells(void **state)
 {
     (void)state;
@@ -188,7 +190,7 @@ static void test_cells(void **state)
                 glint_cell(vec2(0.1f, 0.1f), width, 1.0f).key);
 }
 
-/* A pixel straight ahead, and one below the eye, where there is no azimuth. */
+/* A pixel straight ahead, and one below the eye, where the azimuth is undefined. */
 static void test_places(void **state)
 {
     (void)state;
@@ -215,7 +217,7 @@ static void test_density(void **state)
                               (float)rows[i][1], 1.0f, 0.0f);
         expect_relative(n, rows[i][2], 0.012, "glints per m^2 at %g m/s", rows[i][0]);
     }
-    /* 10 m away, pixels of 1 mrad at 80 degrees: some 6; in twice the time that one lives three times as many */
+    /* at 10 m, pixels of 1 mrad at 80 degrees: about 6; an exposure of two lifetimes has three times as many */
     float area = (float)(100.0 * 1e-6 / cos(1.3962634));
     float n = glint_count(WATER_BECKMANN, vec3(0.0271f, 0.0271f, 0.0f), point, up, up, 6540.0f, area, 0.0f);
     expect_near((double)n, 6.4, 0.2, "glints in a pixel");
@@ -224,8 +226,9 @@ static void test_density(void **state)
         3.0 * (double)n, 1e-5, "exposure");
 }
 
-/* Of still water, and of any that hardly curves, a pixel sees the disc, and no chance; glints as large as a pixel have a quarter of the variance
- * that one has which shows all of the disc or nothing; more of them have less, as one over their number. */
+/* Still water, and any of small curvature, resolves the disc, without randomness; glints as large as a pixel
+ * have a quarter of the variance of one that shows all of the disc or nothing; with more of them it falls as
+ * one over their number. */
 static void test_disc(void **state)
 {
     (void)state;

@@ -3,7 +3,7 @@
 
 static const vec3 up = {0.0f, 0.0f, 1.0f};
 
-/* Sums in double, so that many samples are worth it. */
+/* Sums in double, to benefit from many samples. */
 typedef vec2 dfg_sampler(uint i, uint n, float perceptual_roughness, float NdotV);
 static void mean_dfg(dfg_sampler *sample_of, float r, float NdotV, uint n, double out[2])
 {
@@ -39,22 +39,22 @@ static void test_split_sum(void **state)
             mean_dfg(dfg_sample_karis, golden_roughness[r], golden_NdotV[c], 1u << 20u, dfg);
             expect_near(dfg[0], karis_A[r][c], 2.5e-4, "A Karis at %g, %g", at[0], at[1]);
             expect_near(dfg[1], karis_B[r][c], 2.5e-4, "B Karis at %g, %g", at[0], at[1]);
-            /* the loops of the text, with the 1024 samples of the notes: good to a few per mille */
+            /* the loops of the shader library, with the 1024 samples of the notes: accurate to a few per mille */
             vec2 loop = integrate_dfg(golden_roughness[r], golden_NdotV[c], 1024u);
             expect_near((double)loop[0], golden_A[r][c], 1.2e-2, "integrate_dfg at %g, %g", at[0], at[1]);
             loop = integrate_dfg_karis(golden_roughness[r], golden_NdotV[c], 1024u);
             expect_near((double)loop[1], karis_B[r][c], 1.2e-2, "integrate_dfg_karis at %g, %g", at[0],
                         at[1]);
         }
-    /* what the notes divide by 0 for */
+    /* a division by 0 in the notes */
     for (float r = 0.0f; r <= 1.0f; r += 0.25f) {
         vec2 edge = integrate_dfg(r, 0.0f, 64u);
         assert_true(isfinite(edge[0]) && isfinite(edge[1]) && edge[0] >= 0.0f && edge[0] + edge[1] <= 1.1f);
     }
 }
 
-/* A band-limited environment P_l(L.R), l = 0 to 4, is scaled by k_l(alpha) (reference, section 16.4); the constant
- * comes back as it is. */
+/* A band-limited environment P_l(L.R), l = 0 to 4, is scaled by k_l(alpha) (reference, section 16.4); a
+ * constant is preserved. */
 static void test_prefilter_bands(void **state)
 {
     (void)state;
@@ -137,8 +137,8 @@ static void test_reference_integrator(void **state)
         }
 }
 
-/* How far the split sum is off under light that is not uniform: N = V = R turns the stretched highlight of a grazing
- * view into a round one. A gradient, L = 1 + L.z, both ways. */
+/* Error of the split sum in non-uniform light: N = V = R replaces the stretched highlight of a grazing view by
+ * a round one. A gradient, L = 1 + L.z, both ways. */
 static void test_split_sum_error(void **state)
 {
     (void)state;
@@ -206,7 +206,7 @@ static void test_surface_furnace(void **state)
     }
 }
 
-/* What Khronos' renderer writes (its own order of terms), for a gray specular color, where the two agree. */
+/* Khronos' renderer (with its own order of terms) for a gray specular color, where both agree. */
 static vec3 khronos_fresnel(vec3 F0, float specular_weight, float roughness, float NdotV, vec2 dfg)
 {
     vec3 k_S = F0 + (max(vec3(1.0f - roughness), F0) - F0) * schlick_weight(NdotV);
@@ -239,7 +239,8 @@ static void test_khronos(void **state)
     }
 }
 
-/* A uniform light and a great many lights around give the same in conserving mode: one surface, not two. */
+/* A uniform environment and a great many punctual lights give the same in conserving mode: one surface, not
+ * two. */
 static void test_direct_equals_image_based(void **state)
 {
     (void)state;

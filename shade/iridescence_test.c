@@ -1,4 +1,4 @@
-/* iridescence_test.c - the thin film: published numbers, limits, and the sum worked out again in double. */
+/* iridescence_test.c - the thin film: published numbers, limits, and an independent evaluation in double. */
 #include "testing/test_support.h"
 
 /* Section 16.11 of the reference: film of ior 1.3; it uses a matrix rounded to fewer digits. */
@@ -118,7 +118,7 @@ static void test_against_double(void **state)
 
 /* ---- limits ---- */
 
-/* Without thickness there is no film; nor, head on, with the index of air or of the base. */
+/* No film without thickness; nor, at normal incidence, with the index of air or of the base. */
 static void test_no_film(void **state)
 {
     (void)state;
@@ -137,7 +137,7 @@ static void test_no_film(void **state)
                 "film of the base's glass");
 }
 
-/* The film appears without a step, and a thick one has no color: its orders overlap. */
+/* The film fades in without a step, and a thick one is colorless: its orders overlap. */
 static void test_thickness(void **state)
 {
     (void)state;

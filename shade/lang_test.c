@@ -41,7 +41,7 @@ static void test_scalars(void **state)
     assert_true(sel(1.0f > 0.0f, 2.0f, 3.0f) == 2.0f);
     assert_true(uintBitsToFloat(floatBitsToUint(-1.5f)) == -1.5f && floatBitsToUint(1.0f) == 0x3f800000u);
     expect_near((double)atan(1.0f, -1.0f), 2.35619449, 1e-6, "atan of two");
-    assert_true(clamp(NAN, 0.0f, 1.0f) == 0.0f); /* not promised by GLSL; films rely on it here */
+    assert_true(clamp(NAN, 0.0f, 1.0f) == 0.0f); /* not guaranteed by GLSL; films rely on it here */
 }
 
 static void test_vectors(void **state)
@@ -92,7 +92,7 @@ static void test_matrices(void **state)
     near3(COL(transpose(m), 0), 1.0f, 4.0f, 7.0f);
 }
 
-/* Behind the shader text, the C library's functions take a double at its own precision. */
+/* After the shader text, the C library's functions keep the precision of double. */
 static void test_type_generic(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* layers_chi_square_test.c - layers_sample() against layers_pdf(), for every lobe alone and for all of them together. */
+/* layers_chi_square_test.c - layers_sample() against layers_pdf(), for every lobe alone and for all together. */
 #include "testing/chi_square.h"
 #include "testing/layer_albedo.h"
 
@@ -43,7 +43,7 @@ static vec3 seen_at(float NdotV, float phi)
     return mul(tilted(), vec3(across * cosf(phi), across * sinf(phi), NdotV));
 }
 
-/* Nothing but what the caller adds: black, without a reflecting boundary. */
+/* Only the lobes added by the caller: black, without a reflecting boundary. */
 static Layers black(uint layers, float roughness)
 {
     mat3 frame = tilted();
@@ -196,7 +196,7 @@ static void test_mixtures(void **state)
     }
 }
 
-/* The test has teeth: 3 % of alpha, of the ior, or one lobe for another. */
+/* The test detects errors: 3 % of alpha, of the ior, or one lobe for another. */
 static void test_slips_are_seen(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* layers_furnace_test.c - the layered surface in a uniform light of 1, lamps from all sides: every combination of layers
- * with random parameters. */
+/* layers_furnace_test.c - the layered surface in a uniform light of 1, by punctual lights from all sides: every
+ * combination of layers with random parameters. */
 #include "testing/layer_albedo.h"
 
 enum { ALL_LAYERS = 512, DRAWS = 1024 };
@@ -9,7 +9,7 @@ static double largest(const double rgb[3])
     return fmax(rgb[0], fmax(rgb[1], rgb[2]));
 }
 
-/* No combination returns more than it received. 0.4 % for tables and sums of this size. */
+/* No combination gains energy. 0.4 % for LUTs and sums of this size. */
 static void test_conserving_never_gains(void **state)
 {
     (void)state;
@@ -31,7 +31,7 @@ static void test_conserving_never_gains(void **state)
     print_message("largest albedo %.5f\n", worst);
 }
 
-/* Nor as image based light: a uniform surrounding of 1. */
+/* Nor in image-based lighting: a uniform environment of 1. */
 static LayerLight uniform_light(void)
 {
     vec3 one = vec3(1.0f);
@@ -56,8 +56,9 @@ static void test_conserving_ibl_never_gains(void **state)
     assert_true(worst <= 1.0 + 1e-5);
 }
 
-/* Lamps from everywhere and surroundings add up to the same where all that differs is the order of summing: not for
- * grain, whose tables are bounds, nor for rough boundaries of volumes, which lose what scatters twice in them. */
+/* Punctual lights from everywhere and an environment add up to the same if only the order of summation differs:
+ * not for anisotropy, whose LUT values are bounds, nor for rough boundaries of volumes, which lose multiple
+ * scattering. */
 static void test_direct_equals_image_based(void **state)
 {
     (void)state;
@@ -69,7 +70,7 @@ static void test_direct_equals_image_based(void **state)
             test_rng rng = {layers + 5u};
             vec3 V = view_at(NdotV[v]);
             Layers m = random_layers(&rng, layers, V, false);
-            m.clearcoat_N = vec3(0.0f, 0.0f, 1.0f); /* else the coat's lobe is partly below the base */
+            m.clearcoat_N = vec3(0.0f, 0.0f, 1.0f); /* otherwise the coat's lobe is partly below the base */
             double rgb[3];
             layered_albedo(m, V, ENERGY_CONSERVING, DRAWS, rgb);
             vec3 L =
@@ -80,7 +81,7 @@ static void test_direct_equals_image_based(void **state)
         }
 }
 
-/* White in every layer, a white surface returns everything: nothing is lost either. */
+/* With white in every layer, a white surface returns everything: nothing is lost. */
 static void test_conserving_is_white(void **state)
 {
     (void)state;
@@ -90,7 +91,7 @@ static void test_conserving_is_white(void **state)
     for (int i = 0; i < 2000; ++i) {
         vec3 V = view_at(0.05f + 0.95f * rng_float(&rng));
         Layers m = random_layers(&rng, rng_uint(&rng) & whole, V, true);
-        m.iridescence = 0.0f; /* a colored film leaves max3's rest */
+        m.iridescence = 0.0f; /* a colored film loses the difference to max3 */
         vec3 L = layers_ibl(m, V, exact_tables(m, V, ENERGY_CONSERVING), uniform_light(), ENERGY_CONSERVING);
         if (m.base.metallic == 0.0f)
             for (int c = 0; c < 3; ++c)
@@ -120,10 +121,10 @@ static double gltf_albedo(Layers m, float NdotV)
     return largest(rgb);
 }
 
-/* The specification's mixes exceed 1 where its base does (1.68 at grazing views, see surface_test.c): the layer below the
- * dielectric's interface is weighted with 1 - F(V.H), on either side of the surface. Sheen exceeds it by its own albedo,
- * 1.033. A coat and a thin wall do not: the one is weighted with N.V, the other with the V.H of the lobe itself, so that
- * all glass returns E. Pinned so that a change shows. */
+/* The specification's mixes exceed 1 where its base does (1.68 at grazing views, see surface_test.c): the layer
+ * below the dielectric's interface is weighted with 1 - F(V.H), on either side of the surface. Sheen exceeds it
+ * by its own albedo, 1.033. A coat and a thin wall do not: the coat is weighted with N.V, the wall with the V.H
+ * of the lobe itself, so that glass returns E. Pinned so that a change shows. */
 static void test_gltf_gains_where_its_mix_does(void **state)
 {
     (void)state;

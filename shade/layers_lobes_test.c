@@ -1,5 +1,5 @@
-/* layers_lobes_test.c - lobes alone add up to the whole, for lamps and for surroundings, and each is nothing where its layer
- * is not. */
+/* layers_lobes_test.c - single lobes add up to the whole, for punctual lights and for environments, and each is
+ * 0 without its layer. */
 #include "testing/layer_albedo.h"
 #include "testing/nasty_layers.h"
 
@@ -67,7 +67,7 @@ static void expect_nothing(vec3 v)
     assert_true(v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f);
 }
 
-/* What is not there has no light; a black base has no diffuse light, and the same highlight. */
+/* Missing layers contribute nothing; a black base has no diffuse light, and the same highlight. */
 static void test_absent_lobes_are_black(void **state)
 {
     (void)state;
@@ -91,7 +91,8 @@ static void test_absent_lobes_are_black(void **state)
     }
 }
 
-/* Smooth surfaces mask nothing, by either formula; Schlick's with k = alpha / 2 masks more where light grazes a rough one. */
+/* Smooth surfaces mask nothing in either formula; Schlick's with k = alpha / 2 masks more at grazing angles of
+ * rough ones. */
 static void test_schlick_GGX(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* layers_sample_test.c - the layered surface as paths use it: weights against albedos, glass that loses nothing, mirrors
- * beside narrow lobes, both ways of a path. That draws follow their density is in layers_chi_square_test.c. */
+/* layers_sample_test.c - sampling of the layered surface: weights against albedos, lossless glass, specular
+ * beside narrow lobes, reciprocity. That samples follow their density is tested in layers_chi_square_test.c. */
 #include "testing/layer_albedo.h"
 #include "testing/nasty_layers.h"
 
@@ -27,7 +27,7 @@ static seen seen_from(Layers m, vec3 V, int energy)
     return seen_by(m, V, energy, 8192u);
 }
 
-/* One sample; its weight, 0 where there is none. */
+/* One sample; its weight, 0 if there is none. */
 static LayersSample sample_of(const seen *s, test_rng *rng, vec3 *weight)
 {
     float u_lobe = rng_float(rng);
@@ -42,10 +42,10 @@ static LayersSample sample_of(const seen *s, test_rng *rng, vec3 *weight)
     return d;
 }
 
-/* Of n samples: mean, its standard error, and the largest weight. */
+/* Mean of n samples, its standard error, and the largest weight. */
 typedef struct moments {
     double mean[3], error[3];
-    double through; /* mean of the green of what goes through */
+    double through; /* mean transmittance, green */
     float largest;
 } moments;
 
@@ -79,8 +79,8 @@ static vec3 random_view(test_rng *rng, float least)
 
 /* ---- means ---- */
 
-/* The mean of weights is the albedo that layered_albedo() integrates with other densities, and conserving surfaces never
- * return more than 1. 0.4 % for tables and sums of this size. */
+/* The mean of weights is the albedo that layered_albedo() integrates with other densities, and conserving
+ * surfaces never exceed 1. 0.4 % for LUTs and sums of this size. */
 static void test_mean_weight_is_albedo(void **state)
 {
     (void)state;
@@ -117,8 +117,8 @@ static Layers glass(float roughness, float eta)
     return m;
 }
 
-/* R + T = 1 at every roughness, from either side; at the most grazing views from inside, where a rough boundary scatters
- * once less than a third, some is lost. */
+/* R + T = 1 at every roughness, from either side; at the most grazing views from inside, where single
+ * scattering of a rough boundary is below a third, some energy is lost. */
 static void test_glass_loses_nothing(void **state)
 {
     (void)state;
@@ -198,9 +198,9 @@ static void test_specular_factor(void **state)
     expect_near(w.mean[1], 1.0, 4.0 * w.error[1] + 2e-3, "half the reflection, all the energy");
 }
 
-/* ---- mirrors ---- */
+/* ---- specular lobes ---- */
 
-/* Where a lobe becomes a mirror, nothing jumps: albedo, what goes through, and the direction. */
+/* Where a lobe becomes specular, nothing jumps: albedo, transmittance, and direction. */
 static void expect_continuous(Layers wide, Layers narrow, double step, const char *what)
 {
     const float views[] = {0.1f, 0.5f, 0.95f};
@@ -265,8 +265,8 @@ static void test_mirrors_continue_lobes(void **state)
     expect_continuous(coated, smooth, 2e-3, "coat");
 }
 
-/* What scatters is all of a surface without mirrors, bit for bit; of one with mirrors it is all but for the directions of
- * those, where the lobes that stand for them are hundreds high and what scatters is not. */
+/* The non-specular lobes are the whole surface if there is no specular lobe, bit for bit; otherwise they differ
+ * from it only near the specular directions, where the narrow lobes are hundreds high. */
 static void test_scatter_leaves_out_mirrors(void **state)
 {
     (void)state;
@@ -306,7 +306,7 @@ static void test_scatter_leaves_out_mirrors(void **state)
     assert_true(rough > 4000 && high > 5000);
 }
 
-/* ---- both ways ---- */
+/* ---- reciprocity ---- */
 
 /* f(V, L) / n_V^2 = f(L, V) / n_L^2 for a rough boundary under glTF's weights: radiance is counted as L / n^2, so that
  * f(V, L) = f(L, V) eta^2. In ENERGY_CONSERVING the compensation is of V. */
@@ -357,9 +357,9 @@ static void test_lobes_are_reciprocal(void **state)
 
 /* ---- weights ---- */
 
-/* Over random materials, smooth and grazing ones too, no weight is a firefly. The mean of weights is at most 1 where
- * energy is conserved; what exceeds it is the spread of a lobe's Fresnel term over its narrow part, or of sheen over its
- * rim. */
+/* Over random materials, smooth and grazing ones included, no weight is a firefly. The mean of weights is at
+ * most 1 where energy is conserved; the excess is the variation of a lobe's Fresnel term over its narrow part,
+ * or of sheen over its rim. */
 static void test_weights_are_bounded(void **state)
 {
     (void)state;

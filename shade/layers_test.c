@@ -1,5 +1,5 @@
-/* layers_test.c - the layered surface: a layer whose factor is 0 is not there, and each layer against what its extension
- * says. */
+/* layers_test.c - the layered surface: a layer of factor 0 has no effect, and each layer agrees with the text
+ * of its extension. */
 #include "testing/layer_albedo.h"
 #include "testing/nasty_layers.h"
 
@@ -39,7 +39,7 @@ static void expect_bits(vec3 a, vec3 b)
     assert_true(a[0] == b[0] && a[1] == b[1] && a[2] == b[2]);
 }
 
-/* ---- nothing there ---- */
+/* ---- no layers ---- */
 
 /* Without layers: the functions of surface.h, light.h and ibl.h, bit for bit. */
 static void test_no_layers_is_the_surface(void **state)
@@ -68,8 +68,9 @@ static void test_no_layers_is_the_surface(void **state)
     }
 }
 
-/* Every set of layers with factors of 0 is the base, for lamps on either side and for surroundings. But for transmission
- * in ENERGY_CONSERVING: a dielectric that lets light through has the reflectance of Fresnel's equations, not Schlick's. */
+/* Every set of layers with factors of 0 is the base, for punctual lights on either side and for environments.
+ * Except for transmission in ENERGY_CONSERVING: a transmissive dielectric reflects by Fresnel's equations, not
+ * Schlick's. */
 static void test_factor_zero_is_the_base(void **state)
 {
     (void)state;
@@ -96,7 +97,7 @@ static void test_factor_zero_is_the_base(void **state)
     }
 }
 
-/* Limits that are no factor of 0: a film without thickness, dispersion 0 in a volume, medium without absorption. */
+/* Limits other than a factor of 0: a film without thickness, dispersion 0 in a volume, no absorption. */
 static void test_limits_of_parameters(void **state)
 {
     (void)state;
@@ -132,8 +133,8 @@ static void test_limits_of_parameters(void **state)
 
 /* ---- coat ---- */
 
-/* Over black: what the coat reflects and nothing else; mix(black, coat, w F). The lobe's total is w F(N.V) E, of which
- * conserving mode leaves out E. */
+/* Over black: only the coat's reflection; mix(black, coat, w F). The lobe's albedo is w F(N.V) E, of which the
+ * conserving mode omits E. */
 static void test_clearcoat_over_black(void **state)
 {
     (void)state;
@@ -156,7 +157,8 @@ static void test_clearcoat_over_black(void **state)
         }
 }
 
-/* The base, its emission and everything else are dimmed by one minus the coat's share, whatever the coat's normal. */
+/* The base, its emission and everything else are dimmed by one minus the weight of the coat, for any normal of
+ * the coat. */
 static void test_clearcoat_dims_what_is_below(void **state)
 {
     (void)state;
@@ -220,7 +222,7 @@ static void test_sheen_furnace(void **state)
     }
 }
 
-/* At grazing views of low roughness the lobe's own albedo is above 1; conserving mode divides it away. */
+/* At grazing views of low roughness the lobe's own albedo is above 1; the conserving mode normalises it. */
 static void test_sheen_above_one(void **state)
 {
     (void)state;
@@ -231,7 +233,7 @@ static void test_sheen_above_one(void **state)
     double rgb[3];
     assert_true(integrate_sheen_albedo(0.14f, 0.02f, 4096u) > 1.3f);
     layered_albedo(m, view_at(0.02f), ENERGY_GLTF, 1u << 15u, rgb);
-    assert_true(rgb[0] > 1.25); /* glTF's lobe is not touched */
+    assert_true(rgb[0] > 1.25); /* glTF's lobe is unchanged */
     layered_albedo(m, view_at(0.02f), ENERGY_CONSERVING, 1u << 15u, rgb);
     expect_near(rgb[0], 1.0, 1e-2, "conserving");
     assert_true(rgb[1] < 1.0 && rgb[2] < 1.0);
@@ -239,7 +241,7 @@ static void test_sheen_above_one(void **state)
 
 /* ---- film ---- */
 
-/* Reflection and what passes to the base by the film's reflectance at N.V: mix(plain, film, factor). */
+/* Reflection, and transmission to the base, by the film's reflectance at N.V: mix(plain, film, factor). */
 static void test_iridescence_formula(void **state)
 {
     (void)state;
@@ -279,8 +281,8 @@ static void test_opaque(void **state)
     }
 }
 
-/* transmission takes the diffuse light's place: none of it is left at 1; diffuse transmission moves it to the other side;
- * metals transmit nothing. */
+/* transmission replaces diffuse light, entirely at 1; diffuse transmission moves it to the other side; metals
+ * transmit nothing. */
 static void test_shares(void **state)
 {
     (void)state;
@@ -309,8 +311,8 @@ static void test_shares(void **state)
     }
 }
 
-/* Thin wall and volume are one limit: with ior 1 both let light straight on, whatever the roughness; with ior 1.5 the wall
- * still does and the volume bends. */
+/* Thin wall and volume agree in a limit: with ior 1 both transmit straight on at any roughness; with ior 1.5
+ * the wall still does and the volume refracts. */
 static void test_thin_wall_and_volume(void **state)
 {
     (void)state;
@@ -333,7 +335,7 @@ static void test_thin_wall_and_volume(void **state)
     expect_near((double)bent.L[0], (double)(-V[0] / 1.5f), 1e-3, "Snell");
     TransmissionSample straight = sample_thin_wall(vec2(0.0f, 0.0f), V, 1e-4f, 1e-4f);
     expect_near((double)straight.L[0], (double)-V[0], 1e-3, "straight on");
-    /* in a uniform light both are the same glass: all that is not reflected comes through */
+    /* in a uniform light both are the same glass: all that is not reflected is transmitted */
     LayerLight light = {.transmitted = vec3(1.0f)};
     Layers body = m;
     body.layers |= LAYER_VOLUME;
@@ -342,7 +344,7 @@ static void test_thin_wall_and_volume(void **state)
                     layers_ibl(body, V, exact_tables(body, V, energy), light, energy));
 }
 
-/* From inside a volume, beyond the critical angle, everything is reflected and nothing comes through. */
+/* From inside a volume, beyond the critical angle, reflection is total. */
 static void test_total_reflection(void **state)
 {
     (void)state;
@@ -366,7 +368,7 @@ static void test_total_reflection(void **state)
     assert_true(f[0] < 1e-3f);
 }
 
-/* Blue bends more: each channel of a dispersive boundary has its own lobe. */
+/* Blue is refracted more: each channel of a dispersive boundary has its own lobe. */
 static void test_dispersion(void **state)
 {
     (void)state;
@@ -394,7 +396,7 @@ static void test_dispersion(void **state)
     }
 }
 
-/* Light that enters diffusely crosses the thickness; occlusion is for the side of the eye. */
+/* Diffusely transmitted light crosses the thickness; occlusion applies on the side of the eye. */
 static void test_volume_and_occlusion(void **state)
 {
     (void)state;
@@ -419,10 +421,10 @@ static void test_volume_and_occlusion(void **state)
     assert_true(layers_ibl(m, V, t, light, ENERGY_GLTF)[0] == 0.0f);
 }
 
-/* ---- both ways ---- */
+/* ---- reciprocity ---- */
 
-/* f(V, L) = f(L, V) in glTF's mode for what is reciprocal: base, sheen, grain, thin walls and leaves. Not the coat (N.V),
- * the film (N.V), nor anything in conserving mode (albedo at V). */
+/* f(V, L) = f(L, V) in glTF's mode for the reciprocal layers: base, sheen, anisotropy, thin walls and leaves.
+ * Not the coat (N.V), the film (N.V), nor anything in conserving mode (albedo at V). */
 static void test_reciprocity(void **state)
 {
     (void)state;
@@ -438,7 +440,7 @@ static void test_reciprocity(void **state)
         vec3 back = layers_brdf_cos(m, L, V, ENERGY_GLTF, at_L, at_V.sheen_E) / V[2];
         expect_same(there, back, 2e-5, "reflection");
         if (has_layer(m, LAYER_SHEEN))
-            continue; /* which side has the fibres is no symmetry */
+            continue; /* fibers are on one side only: no symmetry */
         /* the other side's N is -N; a leaf's color is the same from there */
         Layers turned = m;
         turned.base.N = -m.base.N;

@@ -1,4 +1,4 @@
-/* light_test.c - punctual lights: units, falloff, cones, and what a lit surface sends out. */
+/* light_test.c - punctual lights: units, falloff, cones, and reflected radiance. */
 #include "testing/test_support.h"
 
 static const vec3 up = {0.0f, 0.0f, 1.0f};
@@ -91,7 +91,7 @@ static void test_units(void **state)
     assert_true(shade_punctual(lambert(), vec3(0.0f), V, below, ENERGY_GLTF, vec2(0.0f))[1] == 0.0f);
 }
 
-/* A mirror shows a light without size as a small bright spot, never as inf. */
+/* A perfect mirror shows a delta light as a small bright spot, never as inf. */
 static void test_mirror_is_finite(void **state)
 {
     (void)state;

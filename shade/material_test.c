@@ -1,5 +1,5 @@
-/* material_test.c - what glTF says of factors and texels: neutral texels change nothing, each channel is the right one, frames
- * follow their side. */
+/* material_test.c - glTF's rules for factors and texels: neutral texels change nothing, channels are correct,
+ * frames follow their side. */
 #include "testing/test_support.h"
 
 static const vec3 white = {1.0f, 1.0f, 1.0f};
@@ -63,7 +63,7 @@ static void test_surface_channels(void **state)
     assert_true(s.metallic == 0.0f && s.occlusion == 1.0f);
 }
 
-/* Factors of 0 turn no layer on, whatever the texel; texels of 0 neither. Metals let nothing through. */
+/* Factors of 0 enable no layer, whatever the texel; nor do texels of 0. Metals do not transmit. */
 static void test_layers_are_there_or_not(void **state)
 {
     (void)state;
@@ -83,7 +83,7 @@ static void test_layers_are_there_or_not(void **state)
         assert_int_equal(with_diffuse_transmission(plain(1.0f), factor, white, 1.0f, white).layers, 0);
     }
     Layers opaque = with_volume(plain(0.0f), 1.0f, white, white, 1.0f, 0.5f);
-    assert_int_equal(opaque.layers, 0); /* nothing gets in */
+    assert_int_equal(opaque.layers, 0); /* no transmission */
     Layers glass = with_ior(with_transmission(plain(0.0f), 1.0f, white), 1.5f, true);
     expect_near((double)glass.eta, 1.0 / 1.5, 1e-6, "seen from inside");
     glass = with_volume(glass, 0.2f, vec3(0.0f, 0.5f, 0.0f), vec3(0.9f), 2.0f, 0.5f);
@@ -115,7 +115,7 @@ static void test_layer_channels(void **state)
     assert_true(d[0] == 1.0f && d[1] == 0.0f);
 }
 
-/* u to the right, v down in a picture that stands upright and faces +Z: T right, B up, and mirrored with the side. */
+/* u to the right, v down in an upright image facing +Z: T right, B up, and mirrored with the side. */
 static void test_frames(void **state)
 {
     (void)state;

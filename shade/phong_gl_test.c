@@ -1,6 +1,6 @@
-/* phong_gl_test.c - phong.h against the pipeline that it describes: fixed-function OpenGL (Mesa's, without a window), with
- * lights, both sides, texture environments, separate highlights, fog and sphere maps set by chance. Exits with 77 where
- * there is no context of OpenGL with fixed functions. */
+/* phong_gl_test.c - phong.h against the pipeline that it describes: fixed-function OpenGL (Mesa's, without a
+ * window), with random lights, sides, texture environments, separate highlights, fog and sphere maps. Exits
+ * with 77 without a context of fixed-function OpenGL. */
 #define GL_GLEXT_PROTOTYPES
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -11,15 +11,15 @@
 
 enum { SAMPLE_COUNT = 2000, MAP_SIZE = 256, LIGHT_COUNT = 2 };
 
-/* Half the height of what is drawn around a point, m: small against all that light depends on. */
+/* Half the height of the triangle around a point, m: small against the distances of lighting. */
 static const double EXTENT = 1e-5;
 
-/* Drivers take cos^s by log2 near 1, exact to some 1e-7 times s. */
+/* Drivers compute cos^s by log2 near 1, exact to some 1e-7 times s. */
 static const double TOLERANCE = 5e-5;
 
 /* ---- one sample ---- */
 
-/* All that a fragment depends on. */
+/* All inputs of a fragment. */
 typedef struct setting {
     int variant;
     bool is_front;
@@ -77,7 +77,7 @@ static setting random_setting(test_rng *rng)
         s.lights[i] = random_light(rng);
     s.texture_type = (int)(rng_uint(rng) % 6u) - 1;
     s.texture_mode = (int)(rng_uint(rng) % 5u);
-    if (s.texture_mode == PHONG_DECAL && s.texture_type > PHONG_RGBA) /* OpenGL leaves it open */
+    if (s.texture_mode == PHONG_DECAL && s.texture_type > PHONG_RGBA) /* undefined in OpenGL */
         s.texture_mode = PHONG_MODULATE;
     float grey = code(rng);
     s.texel.rgb = s.texture_type > PHONG_RGBA ? vec3(grey) : vec3(grey, code(rng), code(rng));
@@ -112,8 +112,8 @@ static PhongColor color_sum(const setting *s)
     return c;
 }
 
-/* Where exponent 0 is not compared: 0^0 OpenGL leaves open (Mesa: 0, phong_power(): 1), and Mesa's short cut for it has
- * other attenuations. */
+/* Cases where exponent 0 is not compared: 0^0 is undefined in OpenGL (Mesa: 0, phong_power(): 1), and Mesa's
+ * special case for it has other attenuations. */
 static bool is_exponent_0_open(const setting *s)
 {
     PhongRules r = phong_rules(s->variant);
@@ -189,7 +189,7 @@ static void set_texture(const setting *s)
         glDisable(GL_TEXTURE_2D);
         return;
     }
-    bool is_alpha = s->texture_type == PHONG_ALPHA; /* rgl puts the mean of the colors there */
+    bool is_alpha = s->texture_type == PHONG_ALPHA; /* rgl stores the mean of the colors there */
     const GLfloat texel[4] = {s->texel.rgb[0], s->texel.rgb[1], s->texel.rgb[2],
                               is_alpha ? s->texel.rgb[0] : s->texel.opacity};
     glEnable(GL_TEXTURE_2D);
@@ -199,7 +199,7 @@ static void set_texture(const setting *s)
     glTexEnvfv(GL_TEXTURE_ENV, GL_TEXTURE_ENV_COLOR, black);
 }
 
-/* As rgl's Background.cpp does. */
+/* As in rgl's Background.cpp. */
 static void set_fog(const PhongFog *f)
 {
     static const GLint modes[4] = {0, GL_LINEAR, GL_EXP, GL_EXP2};
@@ -216,7 +216,7 @@ static void set_fog(const PhongFog *f)
     glFogf(GL_FOG_DENSITY, f->scale / f->far_m);
 }
 
-/* A triangle around P that covers the picture's one pixel. */
+/* A triangle around P that covers the image's one pixel. */
 static void draw_at(vec3 P, vec3 N, bool is_front, float pixel[4])
 {
     const double x = (double)P[0], y = (double)P[1];

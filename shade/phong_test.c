@@ -1,5 +1,5 @@
-/* Tests of phong.h: the vignette's numbers, the properties of the old model, each variant's rule, every cell of the table of
- * textures, fog at its ends and in both forms, sphere maps, normalised Blinn-Phong. */
+/* phong_test.c - the vignette's numbers, the properties of the legacy model, the rules of each variant, every
+ * cell of the texture table, fog at its ends and in both forms, sphere maps, normalised Blinn-Phong. */
 #include "testing/test_support.h"
 
 static const vec3 up = {0.0f, 0.0f, 1.0f};
@@ -61,7 +61,7 @@ static void test_several_lights(void **state)
         expect_relative(lit.color[c] + lit.highlight[c], expected[c], 1e-5, "channel %d", c);
 }
 
-/* The peak of the highlight is Cs for every exponent; a larger one is only narrower. */
+/* The peak of the highlight is Cs for every exponent; a larger one is narrower. */
 static void test_highlight_is_not_normalised(void **state)
 {
     (void)state;
@@ -75,7 +75,7 @@ static void test_highlight_is_not_normalised(void **state)
     expect_near((double)phong_reflection(up, up, L, vec3(0.0f), vec3(1.0f), 50.0f)[0], 0.5, 1e-5, "half");
 }
 
-/* Exponent 0 is a constant, also where N.H is 0 or the half vector is none: 0^0 = 1. */
+/* Exponent 0 is a constant, also where N.H is 0 or the half vector is undefined: 0^0 = 1. */
 static void test_exponent_0(void **state)
 {
     (void)state;
@@ -107,7 +107,7 @@ static void test_highlight_without_light(void **state)
     }
 }
 
-/* Which normal is lit: by the eye, by the view plane, by the face, not at all. */
+/* The lit normal: towards the eye, the view plane, the face, or unchanged. */
 static void test_sides(void **state)
 {
     (void)state;
@@ -122,7 +122,7 @@ static void test_sides(void **state)
         expect_color(phong_normal(phong_rules(PHONG_RGL_DESKTOP), N, V, is_front), N * sign, 0.0, "face");
         expect_color(phong_normal(phong_rules(PHONG_FIXED), N, V, is_front), N, 0.0, "as given");
     }
-    /* Whatever comes in, the vignette's normal faces the eye: its vertex shader's -aNorm makes no difference. */
+    /* The vignette's normal always faces the eye: -aNorm in its vertex shader has no effect. */
     test_rng rng = {7};
     for (int i = 0; i < 1000; ++i) {
         vec3 n = rng_direction(&rng), v = rng_direction(&rng);
@@ -190,7 +190,7 @@ static void test_attenuation_and_spots(void **state)
     assert_true(phong_light_share(l, vec3(5.0f, 0.0f, 0.0f)) == 1.0f);
 }
 
-/* A position moves with the eye, a direction does not; with w 1, as the vignette prints it, it does. */
+/* Positions transform with the eye, directions do not; with w 1, as printed in the vignette, they do. */
 static void test_w_of_directions(void **state)
 {
     (void)state;
@@ -207,7 +207,7 @@ static void test_w_of_directions(void **state)
 
 /* ---- textures ---- */
 
-/* The table of rgl, cell by cell, with E = (E, Ea), T = (T, Ta), m the mean of T: written down a second time. */
+/* rgl's table, cell by cell, with E = (E, Ea), T = (T, Ta), m the mean of T: an independent transcription. */
 static PhongColor cell(int type, int mode, PhongColor e, PhongColor t)
 {
     float m = (t.rgb[0] + t.rgb[1] + t.rgb[2]) / 3.0f;
@@ -238,7 +238,8 @@ static void test_every_texture_type_and_mode(void **state)
         }
 }
 
-/* The reflected direction of the middle, of the rim, and half way: at 45 degrees the normal mirrors +Z to the side. */
+/* The reflected direction of the center, of the rim, and half way: at 45 degrees the normal reflects +Z to the
+ * side. */
 static void test_sphere_map(void **state)
 {
     (void)state;
@@ -248,7 +249,7 @@ static void test_sphere_map(void **state)
     uv = phong_sphere_map(normalize(vec3(1.0f, 0.0f, 1.0f)), up); /* r = +X, m = 2 sqrt 2 */
     expect_near((double)uv[0], 0.5 + 0.35355339, 1e-6, "side u");
     expect_near((double)uv[1], 0.5, 1e-6, "side v");
-    /* For V = +Z the map is the picture of the normals: uv = n.xy / 2 + 1/2. */
+    /* For V = +Z the map is an image of the normals: uv = n.xy / 2 + 1/2. */
     test_rng rng = {3};
     for (int i = 0; i < 500; ++i) {
         vec3 n = rng_direction(&rng);
@@ -292,8 +293,8 @@ static void test_fog_between_its_ends(void **state)
     assert_true(phong_fog_share(f, 9.0f) == 0.0f && phong_fog_share_fixed(f, 9.0f) == 0.0f);
 }
 
-/* glFog's linear fog is the shaders' for every frustum; its exponential ones are where w = near / far, which is so for
- * a frustum that holds a sphere closely: distance r / sin(FOV / 2), near and far r before and behind. */
+/* glFog's linear fog equals the shaders' for every frustum; its exponential ones do if w = near / far, as for a
+ * frustum that tightly encloses a sphere: distance r / sin(FOV / 2), near and far r before and behind. */
 static void test_fog_of_both_pipelines(void **state)
 {
     (void)state;
@@ -307,7 +308,7 @@ static void test_fog_of_both_pipelines(void **state)
             expect_near((double)phong_fog_share_fixed(f, d), (double)phong_fog_share(f, d), 2e-6, "mode %d",
                         mode);
         }
-    /* Elsewhere they differ: that is what has_fixed_fog is for. */
+    /* Otherwise they differ, hence has_fixed_fog. */
     f.near_m *= 0.5f;
     f.mode = PHONG_FOG_EXP;
     assert_true(fabsf(phong_fog_share_fixed(f, distance) - phong_fog_share(f, distance)) > 0.01f);

@@ -1,4 +1,4 @@
-/* pixel_filter_test.c - filters against their papers' formulas, draws against filters. */
+/* pixel_filter_test.c - filters against the formulas of their papers, samples against filters. */
 #include "testing/chi_square.h"
 
 static const double pi = 3.14159265358979323846;
@@ -72,7 +72,7 @@ static void test_curves(void **state)
     for (int kind = 0; kind < 3; ++kind)
         expect_near(integral(kind, -2.0, 2.0, 0, false), 1.0, 1e-9, "integral of %s", names[kind]);
     expect_near(integral(PIXEL_FILTER_MITCHELL, -2.0, 2.0, 0, true), 367.0 / 343.0, 1e-9, "of |Mitchell|");
-    /* Mitchell's curves at whole distances add up to 1 everywhere */
+    /* Mitchell's filters at integer distances add up to 1 everywhere */
     for (int i = 0; i <= 100; ++i) {
         float x = (float)i / 100.0f;
         expect_near((double)(mitchell(x - 2.0f) + mitchell(x - 1.0f) + mitchell(x) + mitchell(x + 1.0f)), 1.0,
@@ -80,7 +80,7 @@ static void test_curves(void **state)
     }
 }
 
-/* ---- draws ---- */
+/* ---- samples ---- */
 
 static void test_inversion(void **state)
 {
@@ -88,13 +88,13 @@ static void test_inversion(void **state)
     for (int kind = 0; kind < 3; ++kind) {
         double whole = integral(kind, -2.0, 2.0, 0, true), last = -3.0;
         for (uint32_t i = 0; i <= 8192u; ++i) {
-            /* both ends as near as a uniform number comes to them */
+            /* both ends as close as a uniform number can get */
             uint32_t n = i < 512u ? i : i > 7680u ? 16777215u - (8192u - i) : 2048u * i;
             float u = (float)n / 16777216.0f;
             FilterSample s = sample_pixel_filter(kind, vec2(u, 0.5f));
             double x = (double)s.offset[0];
             assert_true((fabs)(x) <= radius[kind]);
-            /* Newton's method for two neighbours differs by its rounding, seen where the curve is nearly 0 */
+            /* Newton's method for neighboring u differs by rounding, visible where the filter is nearly 0 */
             if (x < last - 2e-4)
                 fail_msg("%s: falls at u = %.9g", names[kind], (double)u);
             last = x;
@@ -112,8 +112,8 @@ static void test_inversion(void **state)
 enum { CELLS = 48, DRAWS = 1000000 };
 static double seen[CELLS * CELLS];
 
-/* Chi-square of draws over a grid that is as wide as the filter against |k(x) k(y)|, which also says that x and y are
- * independent; one fit in 1e4 would be worse by chance. */
+/* Chi-square of samples over a grid as wide as the filter against |k(x) k(y)|, which also tests that x and y
+ * are independent; one fit in 1e4 would be worse by chance. */
 static void test_histogram(void **state)
 {
     (void)state;
@@ -155,7 +155,8 @@ static void test_histogram(void **state)
     }
 }
 
-/* A mean over draws is the filtered picture: constants, ramps, and squares, whose means are the filter's moments. */
+/* A mean over samples is the filtered image: constants, ramps, and squares, whose means are the moments of the
+ * filter. */
 static void test_expectation(void **state)
 {
     (void)state;
@@ -164,7 +165,7 @@ static void test_expectation(void **state)
         double sum[4] = {0.0}, whole = integral(kind, -2.0, 2.0, 0, true);
         for (int i = 0; i < COUNT; ++i) {
             float u = ((float)i + 0.5f) / (float)COUNT;
-            /* the other axis' middle: its weight is positive */
+            /* the center of the other axis: its weight is positive */
             FilterSample s = sample_pixel_filter(kind, vec2(u, 0.5f)),
                          t = sample_pixel_filter(kind, vec2(0.5f, u));
             double w = (double)s.weight / whole;

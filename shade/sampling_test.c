@@ -79,8 +79,9 @@ static void test_vectors(void **state)
 
 /* ---- chi-square ---- */
 
-/* A lobe on the hemisphere: draws and density. Normals are histogrammed after stretching by 1 / alpha, where GGX of
- * any width is smooth: h' = normalize(h.x / ax, h.y / ay, h.z), dh = ax ay / |(ax h'.x, ay h'.y, h'.z)|^3 dh'. */
+/* A lobe on the hemisphere: sampler and density. Normals are histogrammed after stretching by 1 / alpha, where
+ * GGX of any width is smooth: h' = normalize(h.x / ax, h.y / ay, h.z), dh = ax ay / |(ax h'.x, ay h'.y,
+ * h'.z)|^3 dh'. */
 typedef enum lobe_kind { COSINE, NORMALS, VISIBLE_NORMALS, REFLECTED } lobe_kind;
 typedef struct lobe {
     lobe_kind kind;
@@ -112,9 +113,9 @@ static float lobe_pdf(const lobe *l, vec3 d)
     return H[2] <= 0.0f ? 0.0f : pdf_VNDF_GGX(l->V, H, l->alpha_x, l->alpha_y) / (4.0f * dot(l->V, H));
 }
 
-/* p-value of draws from one lobe against the density of another, which should be the same: histogram over phi x z
- * against the integral of the density in each cell (Gauss-Legendre, 5 x 5); cells that expect fewer than 5 are
- * pooled. */
+/* p-value of samples of one lobe against the density of another, which should be the same: histogram over phi x
+ * z against the integral of the density in each cell (Gauss-Legendre, 5 x 5); cells that expect fewer than 5
+ * samples are pooled. */
 enum { CELLS_PHI = 50, CELLS_Z = 50, DRAWS = 1000000, CHI2_TESTS = 48 };
 static double expected[CELLS_PHI * CELLS_Z], observed[CELLS_PHI * CELLS_Z];
 
@@ -225,7 +226,7 @@ static void test_chi_square(void **state)
     assert_true(seed - 100 <= CHI2_TESTS);
 }
 
-/* The test has teeth: 2 % of alpha, or the two axes exchanged, or all normals taken for visible ones. */
+/* The test detects errors: 2 % of alpha, exchanged axes, or all normals in place of visible ones. */
 static void test_chi_square_sees_slips(void **state)
 {
     (void)state;
@@ -263,7 +264,8 @@ static void test_albedo_by_visible_normals(void **state)
         }
 }
 
-/* Anisotropic albedo, roughness .5: strength .5 and 1; head on and 60 degrees in either plane (16.12). */
+/* Anisotropic albedo, roughness .5: strength .5 and 1; at normal incidence and 60 degrees in either plane
+ * (16.12). */
 static void test_anisotropic_albedo(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* seeds_test.c - formulas as circulating notes and summaries have them, failing a property that the right form
- * passes: so that nobody brings them back. docs/seeds.md lists them. */
+/* seeds_test.c - errors of formulas in circulating notes and summaries: each fails a property that the correct
+ * form passes, so that none returns. docs/seeds.md lists them. */
 #include "testing/test_support.h"
 
 static const vec3 up = {0.0f, 0.0f, 1.0f};
@@ -45,7 +45,8 @@ static void test_k_of_analytic_lights_in_image_based_light(void **state)
     expect_near(albedo(with_k_direct, 0.1f, 0.25f), 0.4731160964, 1e-3, "k = (r + 1)^2 / 8");
 }
 
-/* "/ (4 N.L N.V + 0.001)": an epsilon on a denominator that does not vanish alone takes energy at grazing views. */
+/* "/ (4 N.L N.V + 0.001)": an epsilon on a denominator that does not vanish alone loses energy at grazing
+ * views. */
 static void test_epsilon_in_the_denominator(void **state)
 {
     (void)state;
@@ -54,7 +55,7 @@ static void test_epsilon_in_the_denominator(void **state)
     assert_true(biased < 0.95 * whole);
 }
 
-/* The spherical Gaussian without its power, as the exponent was lost in copying: not even in [0, 1]. */
+/* The spherical Gaussian without its power, its exponent lost in copying: not even in [0, 1]. */
 static void test_gaussian_without_power(void **state)
 {
     (void)state;
@@ -65,7 +66,7 @@ static void test_gaussian_without_power(void **state)
     assert_true(F >= F0 && F <= 1.0f);
 }
 
-/* alpha squared again inside D: the lobe is normalised, but it is that of another material. */
+/* alpha squared again inside D: the lobe is normalised, but belongs to another material. */
 static void test_alpha_squared_twice(void **state)
 {
     (void)state;
@@ -90,7 +91,8 @@ static void test_heaviside_as_cosine(void **state)
     expect_near(cosine_sum, 2.0 / 3.0, 1e-3, "cosine");
 }
 
-/* PrefilterEnvMap divided by the number of samples in place of the sum of weights: a uniform light darkens. */
+/* PrefilterEnvMap divided by the number of samples in place of the sum of weights darkens a uniform
+ * environment. */
 static void test_prefilter_by_count(void **state)
 {
     (void)state;
@@ -105,7 +107,7 @@ static void test_prefilter_by_count(void **state)
     expect_near(sum / n, 0.25, 2e-3, "by count, roughness 1"); /* m0 of the golden table */
 }
 
-/* PrefilterEnvMap read from mip 0: with a sun of one texel in 256^2 x 6 a finite number of samples hits it or not.
+/* PrefilterEnvMap reading mip 0: a finite number of samples may hit or miss a sun of one texel in 256^2 x 6.
  * Here: a spot of that solid angle 20 degrees off the axis, roughness .5. */
 static void test_prefilter_from_mip_0(void **state)
 {
@@ -134,7 +136,7 @@ static void test_prefilter_from_mip_0(void **state)
         worst_plain = error_plain > worst_plain ? error_plain : worst_plain;
         worst_filtered = error_filtered > worst_filtered ? error_filtered : worst_filtered;
     }
-    assert_true(worst_plain >= 1.0);    /* missed altogether, or many times too bright */
+    assert_true(worst_plain >= 1.0);    /* missed entirely, or many times too bright */
     assert_true(worst_filtered < 0.75); /* a box of one mip level */
 }
 
@@ -147,7 +149,7 @@ static void test_division_at_the_horizon(void **state)
     assert_true(isfinite(dfg_sample(3u, 16u, 0.5f, 0.0f)[0]));
 }
 
-/* The falloff with d^2 + 1 is for centimetres: in metres a lamp 1 m away has half its light. */
+/* The falloff with d^2 + 1 is for centimeters: in meters it halves a light at 1 m. */
 static void test_falloff_in_metres(void **state)
 {
     (void)state;
@@ -156,8 +158,8 @@ static void test_falloff_in_metres(void **state)
     assert_true(attenuation_range(1.0f, 0.0f) == 1.0f);
 }
 
-/* Widened alpha used alone makes glossy surfaces look rough: the highlight of a lamp of 0.1 rad on roughness .2 is
- * the lamp at nearly full brightness; the widened lobe shows a fraction, the representative point all but. */
+/* Widened alpha alone makes glossy surfaces look rough: the highlight of a light of 0.1 rad on roughness .2 has
+ * nearly the light's full radiance; the widened lobe shows a fraction, the representative point nearly all. */
 static void test_widened_lobe_alone(void **state)
 {
     (void)state;
@@ -171,8 +173,8 @@ static void test_widened_lobe_alone(void **state)
     assert_true(wide < 0.7 * exact);
 }
 
-/* "BRDF = (1 - F) diffuse + F Vis D" with F0 mixed by metallic: not glTF's, which mixes two BRDFs; and no radiance
- * either before N.L and the light. */
+/* "BRDF = (1 - F) diffuse + F Vis D" with F0 mixed by metallic differs from glTF, which mixes two BRDFs; nor is
+ * it a radiance before N.L and the light. */
 static void test_parameters_mixed(void **state)
 {
     (void)state;
@@ -183,15 +185,15 @@ static void test_parameters_mixed(void **state)
     float mixed = (F * DV + (1.0f - F) * base * (1.0f - metallic) * INV_PI) * L[2];
     Surface s = surface_from_metallic_roughness(up, vec3(base), metallic, 0.5f);
     float f = surface_brdf_cos(s, V, L)[0];
-    assert_true(mixed < 0.95f * f); /* the diffuse part is weighted with the metal's Fresnel as well */
+    assert_true(mixed < 0.95f * f); /* the diffuse part is weighted with the Fresnel of the metal as well */
     SurfaceLobes lobes = surface_lobes_cos(s, V, L, ENERGY_GLTF, vec2(0.0f));
     expect_relative(lobes.specular[0], F * DV * L[2], 1e-5, "the specular part is the same");
 }
 
 /* ---- "Shininess in OpenGL 1 versus glTF PBR" ---- */
 
-/* The sum that the vignette plots, phi in degrees, for roughness and metallic 1 and white, separable masking: with the
- * step that glTF's chi is, and with max(x, 0), which is what its R code has. */
+/* The sum plotted in the vignette, phi in degrees, for roughness and metallic 1 and white, separable masking:
+ * with the step chi of glTF, and with max(x, 0), as in its R code. */
 static double vignette_pbr(double phi, bool is_ramp)
 {
     const double to_rad = 3.14159265358979323846 / 180.0;
@@ -218,7 +220,7 @@ static void test_ramp_for_step(void **state)
     assert_true(vignette_pbr(-80.0, false) > 3.3 * vignette_pbr(-80.0, true));
 }
 
-/* A light of 1 in both models: the white surface that OpenGL 1 shows as 1 is 1 / pi. */
+/* A light of 1 in both models: a white surface is 1 in OpenGL 1 and 1 / pi in glTF. */
 static void test_light_without_pi(void **state)
 {
     (void)state;
@@ -229,8 +231,8 @@ static void test_light_without_pi(void **state)
     expect_relative(lambert * PI, old, 1e-6, "pi times the light");
 }
 
-/* "mvMatrix * vec4(lightdir, 1.)" for a direction: the light from +Y on a floor that faces it goes out as the eye goes
- * away, though neither floor nor light moved. */
+/* "mvMatrix * vec4(lightdir, 1.)" for a direction: a light from +Y on a floor facing it vanishes as the eye
+ * moves away, though neither floor nor light moved. */
 static void test_direction_with_w_1(void **state)
 {
     (void)state;
@@ -252,8 +254,8 @@ static void test_direction_with_w_1(void **state)
     }
 }
 
-/* "lighteffect + vec4(col, colDiff.a)" in the loop over lights, as rgl's WebGL shader has it: 0.4 is opaque under three
- * lights. phong_texture() takes the opacity once. */
+/* "lighteffect + vec4(col, colDiff.a)" in the loop over lights, as in rgl's WebGL shader: 0.4 is opaque under
+ * three lights. phong_texture() counts the opacity once. */
 static void test_alpha_per_light(void **state)
 {
     (void)state;

@@ -113,7 +113,7 @@ static void test_reciprocity(void **state)
     }
 }
 
-/* E may exceed 1; what is left below may not be negative. */
+/* E may exceed 1; the transmittance must not be negative. */
 static void test_scaling_stays_in_range(void **state)
 {
     (void)state;
@@ -128,7 +128,7 @@ static void test_scaling_stays_in_range(void **state)
     }
 }
 
-/* Band 1 of prefiltered light, 16.4: an environment (1 + z) / 2 becomes (1 + k1 R.z) / 2. */
+/* Band 1 of prefiltering, 16.4: an environment (1 + z) / 2 becomes (1 + k1 R.z) / 2. */
 static void test_prefilter_band(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* sky_test.c - Preetham's formula beside the reference, and the parts of the atmosphere beside integrals in double. What
- * they give together: src/ibl/sky_test.c. */
+/* sky_test.c - Preetham's model against the reference, and the parts of the atmosphere against integrals in
+ * double. Their result as a whole: src/ibl/sky_test.c. */
 #include "testing/test_support.h"
 
 static const double degree = 0.017453292519943295;
@@ -43,7 +43,7 @@ static void test_preetham_color(void **state)
             }
 }
 
-/* The formulas of the paper, in double by another program. */
+/* The formulas of the paper, evaluated in double by another program. */
 static void test_preetham_sun(void **state)
 {
     (void)state;
@@ -59,7 +59,7 @@ static void test_preetham_sun(void **state)
     }
 }
 
-/* ---- what air does ---- */
+/* ---- optical properties of air ---- */
 
 /* Constants of Bruneton and Hillaire: 5.802, 13.558, 33.1 e-3 / km at 680, 550, 440 nm. */
 static void test_constants(void **state)
@@ -155,7 +155,7 @@ static void test_rays(void **state)
                 "sr");
 }
 
-/* Places in tables lead back to where they came from, and texels reach the ends. */
+/* LUT coordinates are inverted exactly, and texels reach the ends. */
 static void test_tables(void **state)
 {
     (void)state;
@@ -183,7 +183,8 @@ static void test_tables(void **state)
 
 /* ---- light along a ray ---- */
 
-/* A step through air of any density takes and gives what the integral says; many thin steps are one thick one. */
+/* A step through air of any density attenuates and scatters like the integral; many thin steps equal one thick
+ * one. */
 static void test_steps(void **state)
 {
     (void)state;
@@ -207,7 +208,7 @@ static void test_steps(void **state)
     }
 }
 
-/* Columns and rows of pictures are those of their directions; both grow all the way, and angles between neighbours stay small. */
+/* Columns and rows of maps are inverted exactly; both are monotonic, and angles between neighbors stay small. */
 static void test_pictures(void **state)
 {
     (void)state;
@@ -241,7 +242,7 @@ static void test_pictures(void **state)
     assert_true(sky_turn(0.0f, 0.0f) >= 0.0f && sky_turn(0.0f, 0.0f) <= 1.0f);
 }
 
-/* Where nothing absorbs and light comes equally from everywhere, the sky is as bright as that light. */
+/* Without absorption and in uniform light, the sky has the radiance of that light. */
 static void test_closed_box(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* sobol_test.c - whether the points are a (0, 2)-sequence, the scrambling Owen's, and what both are good for. */
+/* sobol_test.c - whether the points are a (0, 2)-sequence, the scrambling is Owen's, and the effect on
+ * integration. */
 #include "testing/chi_square.h"
 
 /* ---- the sequence ---- */
@@ -29,8 +30,8 @@ static void test_sequence(void **state)
     }
 }
 
-/* Every box of area 2^-m that halving leads to holds one of points first to first + 2^m - 1 in the order of taps; 0: in that
- * of sobol_point(). */
+/* Every elementary interval of area 2^-m contains one of the points first to first + 2^m - 1 in the order of
+ * taps; 0: in that of sobol_point(). */
 static void expect_net(uint seed, uint first, int m, uint taps)
 {
     static unsigned char hits[1 << 14];
@@ -60,7 +61,7 @@ static void test_nets(void **state)
             uint taps = 0x01010101u + (rng_uint(&rng) & 0x1e0f0f07u); /* four from 1 to 31 */
             expect_net(rng_uint(&rng), block << m, m, taps);
         }
-    /* the largest number that there is */
+    /* the largest number */
     float largest = 0.0f;
     for (uint i = 0; i < 1u << 22; ++i) {
         vec2 p = sobol_point(i, 4u);
@@ -80,7 +81,7 @@ static void test_order(void **state)
                 expected ^= (i >> (j + (int)(taps >> 8 * t & 255u)) & 1u) << j;
         assert_int_equal(sobol_order(i, taps), expected);
         assert_int_equal(sobol_order(i, 0x1f1f1f1fu), i);
-        /* shuffling keeps blocks, and is no copy */
+        /* shuffling preserves blocks, and is not the identity */
         uint a = i & 0xffffff00u, seed = hash_uint(rng_uint(&rng));
         for (uint b = 0; b < 256; b += 15)
             assert_int_equal(sobol_shuffle(a | b, seed) >> 8, sobol_shuffle(a, seed) >> 8);
@@ -89,7 +90,7 @@ static void test_order(void **state)
 
 /* ---- the scrambling ---- */
 
-/* What seed does to digit `depth` of the digits p before it. */
+/* The flip of digit `depth` by the seed, given the digits p before it. */
 static bool is_flipped(uint p, int depth, uint seed)
 {
     return ((owen_scramble(p, seed) ^ p) >> depth & 1u) != 0;
@@ -105,7 +106,7 @@ static void test_digits_depend_on_earlier_ones(void **state)
         uint mask = same == 32 ? 0xffffffffu : (1u << same) - 1u;
         uint other = (a & mask) | (b & ~mask);
         assert_int_equal((owen_scramble(a, seed) ^ owen_scramble(other, seed)) & mask, 0);
-        if (same < 32) /* and each digit counts: another one stays another */
+        if (same < 32) /* and no two digits coincide */
             assert_true(((owen_scramble(a, seed) ^ owen_scramble(a ^ (1u << same), seed)) >> same & 1u) ==
                         1u);
     }
@@ -146,8 +147,8 @@ static double worst_flips(const uint prefixes[PREFIXES], int count, int depth)
     return worst / sqrt((double)SEEDS);
 }
 
-/* Which is all that the variance of Owen's estimate needs. 2080 numbers for each of 57 sets: chance takes one of all of them
- * beyond 5.3 standard errors once in 70 changes of the hash. */
+/* These conditions determine the variance of Owen's estimate. 2080 numbers for each of 57 sets: chance takes
+ * one of all of them beyond 5.3 standard errors once in 70 changes of the hash. */
 static void test_flips_are_independent(void **state)
 {
     (void)state;
@@ -185,8 +186,8 @@ static double uniform_p(const int *counts, int cells, double mean)
 
 enum { SIDE = 32, DRAWS = SIDE * SIDE * 100 };
 
-/* Each point alone is uniform in the square over seeds, wherever it stands in the sequence, and so are a number of one
- * sequence and one of another whose seed follows. */
+/* Each point alone is uniform in the square over seeds, at any position of the sequence, and so are a number of
+ * one sequence and one of the sequence of the next seed. */
 static void test_points_are_uniform(void **state)
 {
     (void)state;
@@ -288,7 +289,7 @@ static void test_errors(void **state)
                   s1024, random_smooth, slope_smooth, d1024, random_disc, slope_disc);
     assert_true(slope_smooth < -1.35 && slope_disc < -0.7);
     assert_true(s1024 < random_smooth / 100.0 && d1024 < random_disc / 4.0);
-    /* counts between powers of two are better than random ones too */
+    /* counts between powers of two are better than random as well */
     assert_true(error_of(DISC, 900, disc, true) < 0.5 * error_of(DISC, 900, disc, false));
     assert_true(error_of(SMOOTH, 900, smooth, true) < 0.2 * error_of(SMOOTH, 900, smooth, false));
 }

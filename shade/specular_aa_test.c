@@ -27,8 +27,8 @@ static void test_limits(void **state)
     }
 }
 
-/* What it is for: a row of mirrors whose normals vary over a pixel shines, averaged, like one surface of the wider
- * alpha: slopes of variance s^2 added to a GGX of alpha^2 / 2 per axis. */
+/* Its purpose: a row of mirrors whose normals vary over a pixel reflects, on average, like one surface of the
+ * wider alpha: slopes of variance s^2 added to a GGX of alpha^2 / 2 per axis. */
 static void test_variance_is_that_of_the_normals(void **state)
 {
     (void)state;

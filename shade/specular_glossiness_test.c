@@ -3,8 +3,8 @@
 
 static const vec3 up = {0.0f, 0.0f, 1.0f};
 
-/* KHR_materials_pbrSpecularGlossiness, appendix: F0 = specular, alpha = (1 - glossiness)^2, diffuse weighted with
- * 1 - max3 of the reflectance; head on that is its c_diff = diffuse (1 - max3(specular)). */
+/* KHR_materials_pbrSpecularGlossiness, appendix: F0 = specular, alpha = (1 - glossiness)^2, diffuse weighted
+ * with 1 - max3 of the reflectance; at normal incidence that is its c_diff = diffuse (1 - max3(specular)). */
 static void test_formulas(void **state)
 {
     (void)state;

@@ -64,7 +64,7 @@ static void test_specular_extension(void **state)
 {
     (void)state;
     vec3 V = normalize(vec3(0.9f, 0.0f, 0.3f)), L = normalize(vec3(-0.7f, 0.4f, 0.3f));
-    /* specular 0: Lambert and nothing else */
+    /* specular 0: Lambert only */
     Surface s = surface_from_gltf(up, vec3(0.8f), 0.0f, 0.3f, 1.5f, 0.0f, vec3(1.0f), 1.0f, vec3(0.0f));
     expect_relative(surface_brdf_cos(s, V, L)[0], 0.8 / 3.14159265358979 * (double)L[2], 2e-6, "Lambert");
     /* a colored F0 weights the base by its largest channel: no complementary color in the diffuse light */
@@ -74,7 +74,7 @@ static void test_specular_extension(void **state)
     vec3 H = normalize(V + L);
     double F = (double)F_Schlick1(0.8f, 1.0f, dot(V, H));
     expect_relative(lobes.diffuse[2], 0.8 / 3.14159265358979 * (double)L[2] * (1.0 - F), 1e-5, "base weight");
-    /* the metal does not know it */
+    /* independent of the metal */
     Surface metal = s, plain = white(1.0f, 0.3f);
     metal.metallic = 1.0f;
     metal.base_color = vec3(1.0f);
@@ -100,7 +100,7 @@ static void test_reciprocity(void **state)
     }
 }
 
-/* What a surface returns of a uniform light of 1: specular part by visible normals, diffuse part by the cosine. */
+/* Albedo in a uniform light of 1: specular part by visible normals, diffuse part by the cosine. */
 typedef struct furnace {
     double specular[3], diffuse[3], total[3];
 } furnace;
@@ -129,9 +129,9 @@ static furnace white_furnace(Surface s, float NdotV, int energy, vec2 dfg, uint 
     return f;
 }
 
-/* A property of glTF's mix, not of this code: the base is weighted with 1 - F(V.H), and at a grazing view V.H can be
- * large although most light was already reflected at the interface; so a white dielectric returns up to 1.68 of
- * what it gets. What Khronos' renderer does; pinned so that a change shows. */
+/* A property of glTF's mix, not of this code: the base is weighted with 1 - F(V.H), and at a grazing view V.H
+ * can be large although most light was already reflected at the interface; so a white dielectric returns up to
+ * 1.68 of the incident light. Khronos' renderer does the same; pinned so that a change shows. */
 static void test_furnace_gltf_dielectric(void **state)
 {
     (void)state;
@@ -157,7 +157,7 @@ static void test_furnace_gltf_dielectric(void **state)
     assert_true(largest > 1.67 && largest < 1.69);
 }
 
-/* A metal in glTF mode never gains; what it loses is multiple scattering: E of the golden table. */
+/* A metal in glTF mode never gains energy; it loses multiple scattering: E of the golden table. */
 static void test_furnace_gltf_metal(void **state)
 {
     (void)state;
@@ -171,7 +171,7 @@ static void test_furnace_gltf_metal(void **state)
         }
 }
 
-/* A white surface returns exactly what it gets, whatever its metallic, specular and ior. */
+/* A white surface returns exactly the incident light, for any metallic, specular and ior. */
 static void test_furnace_conserving_is_white(void **state)
 {
     (void)state;
@@ -187,7 +187,7 @@ static void test_furnace_conserving_is_white(void **state)
             }
 }
 
-/* And no surface of any color returns more; the specular part is specular_albedo(). */
+/* And no surface of any color exceeds it; the specular part is specular_albedo(). */
 static void test_furnace_conserving_never_gains(void **state)
 {
     (void)state;

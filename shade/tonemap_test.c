@@ -1,4 +1,4 @@
-/* tonemap_test.c - operators against vectors, and what every operator promises. */
+/* tonemap_test.c - operators against test vectors, and the properties of every operator. */
 #include "testing/test_support.h"
 
 static const float inputs[7][3] = {{0.18f, 0.18f, 0.18f}, {1.0f, 1.0f, 1.0f},  {2.0f, 1.0f, 0.25f},
@@ -99,7 +99,7 @@ static void test_promises(void **state)
         for (int k = 0; k < 3; ++k)
             expect_near((double)black[k], 0.0, 1e-5, "black, operator %d", op);
         float previous = -1.0f;
-        for (float x = 1e-5f; x < 1e6f; x *= 1.02f) { /* grey: monotone, and it stays grey */
+        for (float x = 1e-5f; x < 1e6f; x *= 1.02f) { /* gray: monotonic, and it stays gray */
             vec3 out = tonemap(op, vec3(x));
             assert_true(out[0] >= previous - 1e-6f);
             previous = out[0];
@@ -118,7 +118,7 @@ static void test_promises(void **state)
     }
 }
 
-/* PBR Neutral keeps base colors: what is below 0.8 changes by the toe only, hue included. */
+/* PBR Neutral preserves base colors: below 0.8 only the toe changes them, hue included. */
 static void test_neutral_keeps_base_colors(void **state)
 {
     (void)state;

@@ -29,12 +29,13 @@ static void test_snell(void **state)
         expect_near((double)length(cross(T, N)), sin_t, 1e-5, "Snell");
         expect_near((double)dot(cross(I, N), T), 0.0, 1e-5, "in the plane of incidence");
         assert_true(dot(T, N) < 0.0f);
-        vec3 back = refract_or_zero(-T, -N, 1.0f / eta); /* the way back is the way there */
+        vec3 back = refract_or_zero(-T, -N, 1.0f / eta); /* refraction is reversible */
         expect_near((double)length(back + I), 0.0, 2e-3, "reversible");
     }
 }
 
-/* F_Schlick_boundary: the two sides of one angle pair reflect alike, beyond the critical angle everything. */
+/* F_Schlick_boundary: both sides of one pair of angles reflect equally; total reflection beyond the critical
+ * angle. */
 static void test_fresnel_from_both_sides(void **state)
 {
     (void)state;
@@ -130,7 +131,7 @@ static void test_energy_by_quadrature(void **state)
     }
 }
 
-/* Without Fresnel no boundary, seen from either side, passes more than it receives. */
+/* Without Fresnel no boundary, seen from either side, transmits more than the incident light. */
 static void test_never_gains(void **state)
 {
     (void)state;
@@ -189,7 +190,7 @@ static void test_chi_square(void **state)
     }
 }
 
-/* The test has teeth: another ior, or alpha off by 3 %. */
+/* The test detects errors: another ior, or alpha off by 3 %. */
 static bool draw_other(const void *context, vec2 u, vec3 *d)
 {
     wall w = *(const wall *)context;
@@ -204,7 +205,7 @@ static void test_chi_square_sees_slips(void **state)
     assert_true(chi2_over_sphere(&(sphere_sampler){draw_other, pdf_wall, &w}, 3) < 1e-4);
 }
 
-/* weight pdf = BTDF |N.L|, and the densities agree with the functions that take a direction. */
+/* weight pdf = BTDF |N.L|, and the densities agree with the functions of a direction. */
 static void test_weight_is_btdf_over_pdf(void **state)
 {
     (void)state;
@@ -226,8 +227,8 @@ static void test_weight_is_btdf_over_pdf(void **state)
     }
 }
 
-/* Light may go either way: f(V, L) / n_V^2 = f(L, V) / n_L^2 with the 1 / eta^2 of plain radiance, which is
- * f(V, L) = f(L, V) eta^2 in the form here. L's side is the other, so the frame is turned over. */
+/* Reciprocity: f(V, L) / n_V^2 = f(L, V) / n_L^2 with the 1 / eta^2 of plain radiance, which is f(V, L) = f(L,
+ * V) eta^2 in this form. L is on the other side, so the frame is flipped. */
 static void test_reciprocity(void **state)
 {
     (void)state;
@@ -256,7 +257,7 @@ static void test_reciprocity(void **state)
 
 /* ---- the thin wall ---- */
 
-/* It is the reflection, mirrored; ior 1 blurs nothing, from 1.5 on everything. */
+/* It is the mirrored reflection; ior 1 does not blur, from 1.5 on the blur is full. */
 static void test_thin_wall(void **state)
 {
     (void)state;

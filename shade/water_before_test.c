@@ -1,8 +1,8 @@
-/* water_before_test.c - the look before: its formulas' values, computed in double beside the text that they are from (reference of this
- * project, "The before mode"). */
+/* water_before_test.c - the legacy shading style: values of its formulas, computed in double beside the source
+ * text (reference of this project, "The before mode"). */
 #include "testing/test_support.h"
 
-/* Powers of 256 make 2e-5 of the rounding of a cosine near 1. */
+/* A power of 256 amplifies the rounding of a cosine near 1 to 2e-5. */
 static void expect_color(vec3 c, double r, double g, double b, const char *what)
 {
     expect_near((double)c[0], r, 1e-5 * (1.0 + r), "%s, red", what);
@@ -40,8 +40,8 @@ static void test_vectors(void **state)
                  0.80805, 0.84224, "B, foam");
 }
 
-/* Steps on the way: the Fresnel term is 0.02 facing and 1 at the horizon; the highlight of Cook and Torrance conserves energy and is
- * brighter and narrower. As written, nothing but the sky was ever seen. */
+/* Intermediate stages: the Fresnel term is 0.02 facing and 1 at the horizon; the Cook-Torrance highlight
+ * conserves energy and is brighter and narrower. As originally written, only the sky was visible. */
 static void test_stages(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* water_caustic_test.c - sunlight on a bed: shares and their limits, how wide a bed is seen, where layers are read. */
+/* water_caustic_test.c - sunlight on a bed: fractions and their limits, footprints on the bed, lookups in
+ * layers. */
 #include "testing/test_support.h"
 
 static Water some_water(void)
@@ -9,7 +10,7 @@ static Water some_water(void)
                    .backscattering = vec3(0.002f, 0.003f, 0.005f)};
 }
 
-/* The share is the beam's light over all light, as each is weakened alone; it only falls with depth. */
+/* The fraction is the beam's light over all light, each attenuated by itself; it decreases with depth. */
 static void test_share(void **state)
 {
     (void)state;
@@ -40,7 +41,7 @@ static void test_share(void **state)
     expect_near((double)pure[0], 1.0, 1e-6, "nothing but sun, just below the surface");
 }
 
-/* Light that is not focused stays; none is lost on average. */
+/* Unfocused light is unchanged; none is lost on average. */
 static void test_lit(void **state)
 {
     (void)state;
@@ -54,7 +55,7 @@ static void test_lit(void **state)
                     1e-6, "mean");
 }
 
-/* Beside refracted rays of tilted surfaces, by finite differences. */
+/* Against refracted rays of tilted surfaces, by finite differences. */
 static void test_footprint(void **state)
 {
     (void)state;

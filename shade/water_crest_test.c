@@ -1,12 +1,12 @@
-/* water_crest_test.c - sunlight through waves: beside photons that are followed one by one through a sine, from the sun to an eye against
- * it, by nothing but Snell, Fresnel, absorption and the phase function; and where there must be none. */
+/* water_crest_test.c - sunlight through waves: against photons traced through a sine, from the sun to an eye
+ * opposite it, by Snell, Fresnel, absorption and the phase function only; and conditions without such light. */
 #include "testing/test_support.h"
 
 #include <stdint.h>
 
 static const double TURN = 6.28318530717958648;
 
-/* Water of a gale, chlorophyll 0.5 mg/m^3: channel 1 is what photons meet. */
+/* Water of a gale, chlorophyll 0.5 mg/m^3; photons use channel 1. */
 static Water gale(void)
 {
     Water w;
@@ -28,10 +28,10 @@ static Water gale(void)
 
 enum { PHASES = 16 };
 
-/* A sine y = amplitude cos kx that is level along z, and the sun over -x. */
+/* A sine y = amplitude cos kx, constant along z, and the sun over -x. */
 typedef struct count {
     double length, amplitude, k, sun; /* m, m, 1/m, rad */
-    double horizontal;                /* irradiance that enters, over that of the sun */
+    double horizontal;                /* transmitted irradiance over that of the sun */
     /* below the surface, towards eyes 4 to 12 degrees high, within 20 degrees of +x */
     double radiance[PHASES];
 } count;
@@ -51,7 +51,7 @@ static void move(photon *a, double t)
         a->p[i] += a->d[i] * t;
 }
 
-/* Where it meets the surface before `most`, on the side that it is on (1: above); below 0: nowhere. */
+/* Distance to the surface before `most`, on the current side (1: above); below 0: no hit. */
 static double meets(const count *c, const photon *a, double most, double side)
 {
     double step = c->length / 64.0, trough = -c->amplitude, next;
@@ -60,7 +60,7 @@ static double meets(const count *c, const photon *a, double most, double side)
         double y = a->p[1] + a->d[1] * next;
         if (side < 0.0 && y < trough && a->d[1] < 0.0)
             return -1.0;
-        if (side < 0.0 && y < trough) { /* on its way up: to the troughs at once */
+        if (side < 0.0 && y < trough) { /* rising: directly to the troughs */
             next = fmin((trough - a->p[1]) / a->d[1] + 1e-9, most);
             continue;
         }
@@ -96,7 +96,7 @@ static double normal_at(const count *c, const photon *a, double n[2])
     return a->d[0] * n[0] + a->d[1] * n[1];
 }
 
-/* Refracts d; n: of where it goes over where it is. Not beyond the critical angle. */
+/* Refracts d; n: index of the far over that of the near side. Not beyond the critical angle. */
 static void bend(double d[3], const double N[2], double cosine, double n)
 {
     double c = fabs(cosine), t = sqrt(1.0 - (1.0 - c * c) / (n * n)), way = cosine < 0.0 ? 1.0 : -1.0;
@@ -115,7 +115,7 @@ static void turn(double d[3], double cosine, double around)
         d[i] = cosine * d[i] + s * (cos(around) * u[i] + sin(around) * v[i]);
 }
 
-/* By Henyey and Greenstein, or 1 + 0.835 cos^2. */
+/* Henyey-Greenstein, or 1 + 0.835 cos^2. */
 static double turned_by(const Water *w, uint64_t *s)
 {
     if (lcg64_double(s) >= (double)w->pure_share[1]) {
@@ -195,7 +195,7 @@ static count count_photons(const Water *w, double length, double steepness, doub
     return c;
 }
 
-/* What the shading has for the phases of the count, over what it has on level water. */
+/* Radiance of the shading at the phases of the count, relative to level water. */
 static double shaded(const Water *w, const count *c, int phase)
 {
     WaterLight light;
@@ -213,7 +213,7 @@ static double shaded(const Water *w, const count *c, int phase)
                                (float)c->amplitude * cos(place))[1];
 }
 
-/* Of the first phases: half of them are the side that the eyes see. */
+/* Mean of the first phases: half of them, on the visible side. */
 static double mean_of(const count *c, int phases)
 {
     double sum = 0.0;
@@ -235,8 +235,9 @@ static double own_of_side(const Water *w, const count *c)
     return sum;
 }
 
-/* In waves that are not much wider than light goes in water (14 m here) as much is seen again as on level water, and never more than was
- * counted; less, as light that is turned by several scatterings is not in it. Waves of 257 m do not shine. */
+/* In waves not much wider than the path of light in water (14 m here) the excess equals the radiance of level
+ * water, and never exceeds the count; it is lower, as multiple scattering is not included. Waves of 257 m do
+ * not glow. */
 static void test_photons(void **state)
 {
     (void)state;
@@ -264,7 +265,7 @@ static void test_photons(void **state)
     }
 }
 
-/* ---- where there is none ---- */
+/* ---- conditions without it ---- */
 
 static WaterLight sun_at(const Water *w, float elevation_deg, float azimuth_deg)
 {
@@ -300,7 +301,7 @@ static void test_nothing(void **state)
     assert_true(crest_of(&w, sun_at(&w, 6.0f, 0.0f), 0.5f, 1.0f, 0.3f, V)[1] == 0.0f);
 }
 
-/* Slopes that the sun shines on, by the integral of s max(tilt + s, 0) over that of max(tilt + s, 0). */
+/* Mean of sunlit slopes, by the integral of s max(tilt + s, 0) over that of max(tilt + s, 0). */
 static void test_sunlit_slope(void **state)
 {
     (void)state;

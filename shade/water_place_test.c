@@ -1,4 +1,5 @@
-/* water_place_test.c - places of the sea: sums of weights, limits of footprints, foam against its integral, the bed's limits. */
+/* water_place_test.c - local properties of the sea: sums of weights, limits of footprints, foam against its
+ * integral, limits of the bed. */
 #include "testing/test_support.h"
 
 static void test_weights(void **state)
@@ -18,7 +19,7 @@ static void test_weights(void **state)
     expect_near((double)wave_patch_weights(vec2(0.9999f, 0.9999f))[0], 1.0, 1e-6, "at the upper corner");
 }
 
-/* The normal beside the cross product of derivatives, in double. */
+/* The normal against the cross product of derivatives, in double. */
 static void test_normal(void **state)
 {
     (void)state;
@@ -35,7 +36,7 @@ static void test_normal(void **state)
     expect_near((double)dot(same, tilted), 1.0, 1e-6, "seen as it is");
 }
 
-/* The mean slope of facets by the area of them that is seen, by a lattice of slopes in double. */
+/* The mean slope of facets weighted by visible area, over a grid of slopes in double. */
 static void test_seen_normal(void **state)
 {
     (void)state;
@@ -81,7 +82,7 @@ static void test_footprint(void **state)
     expect_near((double)water_seen_cosine(vec3(0.6f, 0.8f, 0.0f), C), 0.8, 1e-6, "flat water");
 }
 
-/* Share of the area seen from above whose q is beyond the threshold, by the sum over q. */
+/* Fraction of the area seen from above whose q exceeds the threshold, by a sum over q. */
 static double foam_integral(double mean, double sigma, double threshold)
 {
     double sum = 0.0, all = fmax(1.0 - mean, 0.02);
@@ -109,7 +110,7 @@ static void test_foam(void **state)
                     "thin foam"); /* reflects 0.22 of its area */
 }
 
-/* Lace covers its share where nothing of the field is seen; where some is, its mean over what is seen is that share. */
+/* Lace covers its fraction if the field is unresolved; otherwise its mean over the field is that fraction. */
 static void test_lace(void **state)
 {
     (void)state;
@@ -142,8 +143,9 @@ static void test_passing(void **state)
                 0.0f); /* behind the wave itself */
 }
 
-/* A lobe past waves: what stands high is all there, where it was; of one on the horizon half is left, whose elevations have the mean
- * of half a normal distribution; nothing comes from below. In between, what a thousand directions of the lobe leave. */
+/* A lobe past waves: high elevations are unoccluded; of a lobe on the horizon half remains, with the mean
+ * elevation of half a normal distribution; nothing comes from below. In between, against a thousand directions
+ * of the lobe. */
 static void test_mirror_passing(void **state)
 {
     (void)state;
@@ -177,8 +179,8 @@ static void test_mirror_passing(void **state)
     expect_near((double)length(below.R), 1.0, 1e-6, "unit");
 }
 
-/* A walk in three dimensions, of which N is one: the root mean square of tilts is exact where N faces the eye at a grazing angle; what is
- * tilted much more than slopes vary stays. */
+/* A three-dimensional walk with N as one component: the root mean square of tilts is exact if N faces the eye
+ * at a grazing angle; tilts far above the slope deviation stay. */
 static void test_tilted(void **state)
 {
     (void)state;

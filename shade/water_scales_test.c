@@ -1,9 +1,9 @@
-/* water_scales_test.c - what is seen of waves of all lengths on each other (slopes_seen()): the area is that of the surface, a walk through
- * three dimensions has the same slopes, and a surface that is divided into long and short waves shows what it shows at once; and surfaces of
- * eleven octaves, and of one, whose hidden facets rays have found. */
+/* water_scales_test.c - masking of superposed waves (slopes_seen()): the projected area is that of the surface,
+ * a three-dimensional walk has the same slopes, and a surface split into long and short waves shows the same;
+ * and ray-marched surfaces of eleven octaves and of one. */
 #include "testing/test_support.h"
 
-#include <complex.h> /* its I is a name in the shader library */
+#include <complex.h> /* its I is an identifier in the shader library */
 
 static const double PI_DOUBLE = 3.14159265358979324;
 
@@ -15,7 +15,8 @@ static vec3 direction(double elevation_deg, double azimuth_deg)
     return vec3(cos(e) * cos(a), sin(e), cos(e) * sin(a));
 }
 
-/* Density of slopes along X times what is seen of them, by tilt: D m.X G1 over N.X, integrated across. c0, c: tilts; variance: X_h^T C X_h. */
+/* Visible density of slopes along X, by tilt: D m.X G1 over N.X, integrated across. c0, c: tilts; variance:
+ * X_h^T C X_h. */
 static double seen_density(double c0, double c, double variance)
 {
     double density = exp(-0.5 * (c - c0) * (c - c0) / variance) / sqrt(2.0 * PI_DOUBLE * variance);
@@ -24,7 +25,7 @@ static double seen_density(double c0, double c, double variance)
     return density * c / c0 * (double)slopes_seen(vec3((float)variance, 0.02f, 0.0f), N, m, X);
 }
 
-/* On flanks and askew: the area of all facets that X sees is that of the surface. */
+/* On slopes and at an azimuth: the projected area of all visible facets is that of the surface. */
 static void test_area(void **state)
 {
     (void)state;
@@ -50,8 +51,8 @@ static void test_area(void **state)
     }
 }
 
-/* Tilts of what is seen are lengths of (c0, 0, 0) + sigma times a vector of three normal numbers: moments, for eyes near the surface and
- * far above it. From the surface they are 1.6 standard deviations, where Smith's are 1.25. */
+/* Visible tilts are lengths of (c0, 0, 0) + sigma times a vector of three normal numbers: moments, for eyes
+ * near the surface and far above it. Near the surface they are 1.6 standard deviations, where Smith's are 1.25. */
 static void test_walk(void **state)
 {
     (void)state;
@@ -73,8 +74,8 @@ static void test_walk(void **state)
     }
 }
 
-/* Long waves that hide, and short waves on what is seen of them, are all waves at once, however they are divided: the same distribution of
- * tilts. */
+/* Masking by long waves, then by short waves on them, is masking by all, for any split: the same distribution
+ * of tilts. */
 static void test_division(void **state)
 {
     (void)state;
@@ -95,7 +96,7 @@ static void test_division(void **state)
             }
 }
 
-/* The share of tilts below one, from their density; and its inverse, which facets are drawn by. */
+/* The cumulative distribution of tilts, from their density; and its inverse, used to sample facets. */
 static void test_tilts(void **state)
 {
     (void)state;
@@ -112,8 +113,8 @@ static void test_tilts(void **state)
     }
 }
 
-/* What a sea of 5, 10 and 15 m/s reflects at a level eye, by facets that are drawn as lengths of three normal numbers and a slope across:
- * independent of quadrature and of densities. */
+/* Reflectance of a sea of 5, 10 and 15 m/s for a horizontal view, by facets sampled as lengths of three normal
+ * numbers and a slope across: independent of quadrature and of densities. */
 static void test_mean_reflectance(void **state)
 {
     (void)state;
@@ -144,7 +145,7 @@ static void test_mean_reflectance(void **state)
         }
 }
 
-/* Where slopes are small, nothing is hidden; what faces away is for callers to leave out. */
+/* Small slopes hide nothing; callers exclude facets that face away. */
 static void test_calm(void **state)
 {
     (void)state;
@@ -187,7 +188,8 @@ static void transform(double complex *a, size_t n)
         }
 }
 
-/* Heights, a unit apart, of a cut through a periodic Gaussian sea whose slopes have the variance 1 and as much of it in each of its octaves: k^-3. */
+/* Heights, a unit apart, of a section of a periodic Gaussian sea whose slopes have the variance 1, equally in
+ * each octave: k^-3. */
 static void make_cut(double octaves, test_rng *rng, double complex *a, double *heights)
 {
     size_t last = HEIGHTS / SHORTEST, first = (size_t)((double)last * exp2(-octaves));
@@ -203,7 +205,7 @@ static void make_cut(double octaves, test_rng *rng, double complex *a, double *h
         heights[i] = creal(a[i]);
 }
 
-/* Whether a ray of the slope `rise` leaves for the right (step 1) or the left (-1) from each height. */
+/* Whether a ray of the slope `rise` escapes to the right (step 1) or the left (-1) from each height. */
 static void find_seen(const double *heights, double rise, int step, bool *is_seen)
 {
     double highest = -1e300;
@@ -216,8 +218,8 @@ static void find_seen(const double *heights, double rise, int step, bool *is_see
 }
 
 typedef struct marched {
-    double mean_tilt; /* of the area seen, in deviations */
-    double both;      /* share of facets that mirror light from as low to the eye which both see */
+    double mean_tilt; /* of the visible area, in deviations */
+    double both;      /* fraction of the facets reflecting equally low light to the eye that both see */
 } marched;
 
 static marched march(double octaves, double rise, int cuts)
@@ -248,7 +250,7 @@ static marched march(double octaves, double rise, int cuts)
     return (marched){tilts / area, both / mirrors};
 }
 
-/* Mean tilt of what is seen, of a sea; of one octave, Smith's. */
+/* Mean visible tilt, of a sea; of one octave, Smith's. */
 static void test_marched(void **state)
 {
     (void)state;

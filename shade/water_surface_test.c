@@ -1,5 +1,5 @@
-/* water_surface_test.c - facets of a rough sea: their distribution, masking and energy, the image of the sun, means over what is
- * seen. Golden numbers were computed in double (reference of this project, "Surface optics" and "Validation"). */
+/* water_surface_test.c - facets of a rough sea: distribution, masking and energy, the image of the sun, visible
+ * means. Golden numbers were computed in double (reference of this project, "Surface optics" and "Validation"). */
 #include "testing/test_support.h"
 
 static const double PI_DOUBLE = 3.14159265358979324;
@@ -29,7 +29,7 @@ static const double cox_munk[3] = {0.0286, 0.0542, 0.0798};
 
 /* ---- distribution ---- */
 
-/* The integral of D m over all directions, in polar coordinates about N, closer near it. */
+/* The integral of D m over all directions, in polar coordinates around N, denser near it. */
 static vec3 integral_of_normals(int normals, vec3 C, vec3 N, double width)
 {
     enum { RINGS = 600, SECTORS = 96 };
@@ -96,7 +96,7 @@ static void test_slopes(void **state)
                 0.4 * 0.36 + 0.1 * 0.64 + 0.4 * 0.48, 1e-6, "variance along a direction");
     expect_near((double)roughness_from_slopes(isotropic(0.0542)), 0.4825, 1e-4, "roughness at 10 m/s");
     expect_near((double)roughness_from_slopes(slopes_from_roughness(0.3f)), 0.3, 1e-6, "there and back");
-    /* flat water is as rough as its variance towards any eye; a slope is seen foreshortened */
+    /* flat water has its slope variance towards any eye; a slope is foreshortened */
     expect_near((double)sigma_towards(isotropic(0.02), UP, direction(20.0, 70.0)), 0.1, 1e-6, "sigma, flat");
     expect_near((double)sigma_towards(vec3(0.04f, 0.01f, 0.0f), UP, direction(20.0, 90.0)), 0.1, 1e-6,
                 "sigma across");
@@ -120,7 +120,7 @@ static void test_masking(void **state)
         expect_relative(Lambda_slopes(WATER_GGX, smith_a(slopes_from_roughness(0.6f), UP, X)),
                         Lambda_SmithGGX((float)mu, 0.36f), 1e-4, "Lambda of GGX at %g", mu);
     }
-    /* Schlick's form darkens calm water: G1 at roughness 0.02, where 0.9996 and more is true */
+    /* Schlick's form darkens calm water: G1 at roughness 0.02, where it should be 0.9996 or more */
     const double cosines[3] = {0.2, 0.05, 0.01}, karis[3] = {0.66, 0.29, 0.072};
     for (int i = 0; i < 3; ++i) {
         float k = k_direct(0.02f), c = (float)cosines[i];
@@ -158,7 +158,8 @@ static void test_reciprocity(void **state)
 
 /* ---- energy ---- */
 
-/* Directional albedo of facets that reflect all light, over directions L in polar coordinates about that which the wave mirrors. */
+/* Directional albedo of perfectly reflecting facets, over directions L in polar coordinates around the mirror
+ * direction. */
 static double albedo(int normals, int masking, vec3 C, vec3 N, vec3 V, float sun)
 {
     enum { RINGS = 160, SECTORS = 128 };
@@ -177,7 +178,7 @@ static double albedo(int normals, int masking, vec3 C, vec3 N, vec3 V, float sun
     return sum;
 }
 
-/* What single scattering loses at 10 m/s: golden numbers. */
+/* Energy lost by single scattering at 10 m/s: golden numbers. */
 static void test_furnace(void **state)
 {
     (void)state;
@@ -212,8 +213,8 @@ static void test_furnace(void **state)
     }
 }
 
-/* What is seen of the sun's disc in slopes from none to many: its integral is 1, it is nowhere brighter than the disc, and its covariance is that of
- * slopes and disc; on still water it is 1 within the ellipse, and 0 beyond. */
+/* The sun's disc in slopes from zero to large: its integral is 1, it is nowhere brighter than the disc, and its
+ * covariance is that of slopes and disc; on still water it is 1 within the ellipse, and 0 beyond. */
 static void test_disc(void **state)
 {
     (void)state;
@@ -249,7 +250,8 @@ static void test_disc(void **state)
     }
 }
 
-/* On flat water the sun is F times its disc, whatever the angle; nowhere is it brighter. Its flux is the same as that of a mirror. */
+/* On flat water the sun is F times its disc, at any angle; nowhere is it brighter. Its flux is that of a
+ * mirror. */
 static void test_sun(void **state)
 {
     (void)state;
@@ -267,7 +269,7 @@ static void test_sun(void **state)
     expect_relative(sun_slopes(UP, UP)[0], SUN_RADIUS * SUN_RADIUS / 8.0f, 1e-5, "alpha^2 = radius^2 / 4");
     assert_true(glitter(WATER_BECKMANN, WATER_SMITH, flat, UP, L, -V, 1.0f) == 0.0f);
     assert_true(glitter(WATER_BECKMANN, WATER_SMITH, flat, UP, -L, V, 1.0f) == 0.0f);
-    /* reflected flux of a real sea, over all eyes: mean reflectance seen from the sun times what comes in */
+    /* reflected flux of a real sea, over all eyes: mean reflectance from the sun times the incident flux */
     double sum = 0.0;
     const double e = 50.0;
     L = direction(e, 0.0);
@@ -391,12 +393,11 @@ static void test_means(void **state)
     }
 }
 
-/* Where to look the sky up. */
+/* The sky lookup. */
 static void test_lookup(void **state)
 {
     (void)state;
-    for (double e = 3.0; e < 90.0;
-         e += 12.0) { /* without a lift it is the mirror's direction, on flanks too */
+    for (double e = 3.0; e < 90.0; e += 12.0) { /* without a lift it is the mirror direction, on slopes too */
         vec3 V = direction(e, 33.0), N = normal_from_slope(vec2(0.03f, -0.02f)), R = reflect(-V, N);
         expect_near((double)dot(raised_reflection(N, V, 0.0f), R), 1.0, 1e-6, "no lift, elevation %g", e);
         for (double lift = -2.0; lift < 1.0; lift += 0.4)
@@ -422,7 +423,7 @@ static void test_lookup(void **state)
     }
 }
 
-/* A sky that is six times as bright at the horizon as above, in facets drawn one by one and as it is looked up by the means. */
+/* A sky six times as bright at the horizon as at the zenith, by sampled facets and by the lookup of the means. */
 static double bright_horizon(vec3 d)
 {
     return d[1] > 0.0f ? 1.0 + 6.0 * exp(-7.0 * (double)d[1]) : 0.0;
@@ -460,9 +461,10 @@ static void test_sky(void **state)
     }
 }
 
-/* ---- facets by chance ---- */
+/* ---- sampled facets ---- */
 
-/* The normal distribution's inverse against its function; drawn facets against the means by quadrature, on a flank and askew. */
+/* The inverse normal distribution against the function; sampled facets against the means by quadrature, on a
+ * slope and at an azimuth. */
 static void test_sampling(void **state)
 {
     (void)state;
@@ -506,8 +508,8 @@ static void test_sampling(void **state)
     }
 }
 
-/* The sun from below: n^2 times its disc in flat water; its flux through a rough surface is what the sun brought, less what masking
- * loses. */
+/* The sun from below: n^2 times its disc in flat water; its flux through a rough surface is the incident flux
+ * less masking. */
 static void test_sun_below(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
-/* water_test.c - the interface, light in the water, and all of it together: Fresnel's table, Snell's window, a closed box, a bed under more and
- * less water. Golden numbers are in double (reference of this project, sections 9 and 10). */
+/* water_test.c - the interface, light in the water, and both together: Fresnel's table, Snell's window, a
+ * closed box, a bed at several depths. Golden numbers are in double (reference of this project, sections 9 and
+ * 10). */
 #include "testing/test_support.h"
 
 static const double PI_DOUBLE = 3.14159265358979324;
@@ -56,7 +57,7 @@ static WaterLight light_of(vec3 L, float sun, float sky, Water w)
     return l;
 }
 
-/* What the renderer reads from its table. */
+/* The LUT values read by the renderer. */
 static WaterMirror mirror_of(Water w, WaterPoint p, vec3 V)
 {
     WaterMeans m = integrate_water_means(w.normals, w.masking, dot(p.N, V),
@@ -126,7 +127,7 @@ static void test_fresnel(void **state)
     }
 }
 
-/* Snell's law on both sides, and the window through which the sky is seen. */
+/* Snell's law on both sides, and the window to the sky. */
 static void test_refraction(void **state)
 {
     (void)state;
@@ -158,7 +159,8 @@ static void test_refraction(void **state)
 
 /* ---- energy ---- */
 
-/* Sky and water shine as each other: a surface between them cannot be seen. And black water reflects its mean reflectance. */
+/* If sky and water have the same radiance (over n^2), the surface is invisible. And black water reflects its
+ * mean reflectance. */
 static void test_closed_box(void **state)
 {
     (void)state;
@@ -180,7 +182,7 @@ static void test_closed_box(void **state)
             vec3 black = water_radiance(water_parts(w, p, night, m, vec3(1.0f), vec3(0.0f), vec3(0.0f)));
             assert_true(black[1] <= m.fresnel * (1.0f + 1e-6f) && black[1] > 0.7f * m.fresnel);
         }
-    vec3 V = towards(70.0, 0.0); /* no light, nothing seen: there is no ambient */
+    vec3 V = towards(70.0, 0.0); /* no light, no radiance: there is no ambient term */
     WaterPoint p = point(0.02f);
     p.foam = 0.5f;
     vec3 dark = water_radiance(water_parts(w, p, night, mirror_of(w, p, V), vec3(0.0f),
@@ -188,7 +190,7 @@ static void test_closed_box(void **state)
     assert_true(dark[0] == 0.0f && dark[1] == 0.0f && dark[2] == 0.0f);
 }
 
-/* Flat water: the mirror's direction and F of it, the rest from below over n^2; the sun is F times its disc. */
+/* Flat water: the mirror direction and its F, the rest from below over n^2; the sun is F times its disc. */
 static void test_flat(void **state)
 {
     (void)state;
@@ -209,7 +211,7 @@ static void test_flat(void **state)
     }
 }
 
-/* No light is made: for any waves, eye and sun, what is seen of the sun is at most F times its disc. */
+/* No energy gain: for any waves, eye and sun, the reflected sun is at most F times its disc. */
 static void test_bound(void **state)
 {
     (void)state;
@@ -246,7 +248,7 @@ static void test_volume(void **state)
     expect_near(sum, 1.0, 1e-4, "phase function of water");
     expect_near(forward, 1.0, 1e-3, "of water with particles");
     /* single scattering, eye and sun above: 0.0796 u E, 11 % below Gordon's 0.0895 u */
-    w.scattering = w.backscattering; /* quasi-single scattering: what goes forward counts as not scattered */
+    w.scattering = w.backscattering; /* quasi-single scattering: forward scattering counts as unscattered */
     w.pure_share = vec3(1.0f);
     vec3 L = water_single_scattering(w, vec3(1.0f), -1.0f, 1.0f, 1.0f, 1e4f);
     vec3 u = w.backscattering / (w.absorption + w.backscattering);
@@ -264,7 +266,7 @@ static void test_volume(void **state)
                     3.0 * (1.0 - 0.00495 + 0.0099 * 0.0099 / 6.0), 1e-6, "path, nearly without");
 }
 
-/* Deep water just above the surface shines with pi R_rs, for the factors that R_rs was made with. */
+/* Deep water has the radiance pi R_rs just above the surface, for the factors that define R_rs. */
 static void test_deep(void **state)
 {
     (void)state;
@@ -290,7 +292,7 @@ static void test_bed(void **state)
                               0.989}; /* the spectrum's, which exponentials miss by up to 0.02 */
     for (int k = 0; k < 3; ++k)
         expect_near((double)T[k], golden[k], 0.02, "5 m of pure water, channel %d", k);
-    vec3 seed = water_transmittance(vec3(0.1f, 0.2f, 0.3f), 5.0f); /* which takes water to be red */
+    vec3 seed = water_transmittance(vec3(0.1f, 0.2f, 0.3f), 5.0f); /* a version with red water */
     assert_true(fabs((double)seed[0] - golden[0]) > 0.4 && fabs((double)seed[2] - golden[2]) > 0.7);
 
     vec3 E = vec3(PI), R = water_deep_reflectance(w);
@@ -324,7 +326,7 @@ static void test_bed(void **state)
     assert_true(is_finite3(water_from_bed(w, E, bed)));
 }
 
-/* Reflectance from either side in double: of light from everywhere. */
+/* Reflectance of diffuse light from either side in double. */
 static double fresnel_from_air(double mu, double n)
 {
     double inside = sqrt(1.0 - (1.0 - mu * mu) / (n * n));
@@ -337,7 +339,7 @@ static double fresnel_from_water(double mu, double n)
     return outside2 > 0.0 ? fresnel_from_air(sqrt(outside2), n) : 1.0;
 }
 
-/* 2 int f(mu) mu dmu over what passes a layer of the optical thickness t once. */
+/* 2 int f(mu) mu dmu over the transmittance of a layer of the optical thickness t. */
 static double hemisphere(double (*reflectance)(double, double), double n, double t)
 {
     const int count = 20000;
@@ -372,7 +374,8 @@ static void test_internal_reflectance(void **state)
     }
 }
 
-/* Nothing absorbs: n^2 below a sky of 1, in deep water and over a white bed, from anywhere to anywhere, whatever the index. */
+/* Without absorption: n^2 below a sky of 1, in deep water and over a white bed, from and to any point, for any
+ * index. */
 static void test_furnace(void **state)
 {
     (void)state;
@@ -399,7 +402,8 @@ static void test_furnace(void **state)
             expect_relative(through[k], n2, 1e-4, "after %g m of water", (double)bed.way);
         }
     }
-    /* and a skin of water on grey ground darkens it, as rain does: (1 - R) (1 - R_int) / (1 - R_int albedo) */
+    /* and a thin film of water on gray ground darkens it, as rain does: (1 - R) (1 - R_int) / (1 - R_int
+     * albedo) */
     Water w = ocean(1.34f);
     WaterLight sky = light_of(UP, 0.0f, PI, w);
     vec3 grey = vec3(0.3f);
@@ -411,7 +415,7 @@ static void test_furnace(void **state)
     assert_true(is_finite3(water_beam_below(none, light_of(vec3(1.0f, 0.0f, 0.0f), 0.0f, 1.0f, none))));
 }
 
-/* Light of diffuse light on a way, by Simpson's rule; through water that is as good as black it fades to 0. */
+/* In-scattering of diffuse light along a path, by Simpson's rule; in nearly black water it fades to 0. */
 static void test_inscatter(void **state)
 {
     (void)state;
@@ -439,7 +443,7 @@ static void test_inscatter(void **state)
         assert_true(black[k] >= 0.0f && black[k] < 1e-20f);
 }
 
-/* The eye below: looking down it sees what one sees from above, less the surface; the glow is around the sun. */
+/* The eye below: looking down it sees the same as from above, without the surface; the glow is around the sun. */
 static void test_below(void **state)
 {
     (void)state;
@@ -482,8 +486,8 @@ static double ring_mean(Water w, float z, double from_deg, double to_deg)
     return sum / STEPS;
 }
 
-/* Light around a sun in the zenith, of 1 lx below the surface: photons that were followed through a = 0.062, b = 0.114 1/m and Henyey and
- * Greenstein's function of 0.92 (6 million, by a program of its own); and what is left in the beam and in the glow together. */
+/* Light around a sun at the zenith, of 1 lx below the surface: photons traced with a = 0.062, b = 0.114 1/m and
+ * Henyey-Greenstein of 0.92 (6 million, by a separate program); and the sum of beam and glow. */
 static void test_glow(void **state)
 {
     (void)state;
@@ -502,7 +506,7 @@ static void test_glow(void **state)
                             counted[k].radiance[i], counted[k].tolerance, "%g m, from %g degrees",
                             counted[k].depth, edges[i]);
     for (float z = 0.1f; z < 40.0f;
-         z *= 3.0f) { /* by way of lengths that all are z: 2 pi of the zenith's, its phase integrated */
+         z *= 3.0f) { /* path lengths that all are z: 2 pi of the zenith's, its phase integrated */
         enum { STEPS = 4000 };
         double phase = 0.0, t = (double)(w.scattering[1] * z);
         for (int i = 0; i < STEPS; ++i)
@@ -517,12 +521,12 @@ static void test_glow(void **state)
                         (double)water_transmittance(water_beam(w), z)[1], 1e-4, "the beam after %g m",
                         (double)z);
     }
-    w.absorption = vec3(3.0f); /* in murky water far below nothing is left, and no number fails */
+    w.absorption = vec3(3.0f); /* in murky water far below everything is absorbed, and no number fails */
     assert_true(water_sun_glow(w, vec3(1e5f), UP, 500.0f, UP, 500.0f)[1] == 0.0f);
     assert_true(is_finite3(water_sun_glow(w, vec3(1e5f), UP, 0.0f, vec3(1.0f, 0.0f, 0.0f), 1e4f)));
 }
 
-/* Foam covers: at 1 only foam is seen, as bright as its albedo allows. */
+/* Foam is opaque: at 1 only foam is visible, as bright as its albedo. */
 static void test_foam(void **state)
 {
     (void)state;
@@ -540,8 +544,8 @@ static void test_foam(void **state)
                     "a quarter of foam");
 }
 
-/* Nothing is seen of a surface without a step of the ior; and no number fails at the edges: eyes at the horizon, a sun at it or below,
- * no waves or a hurricane's. */
+/* A surface without a step of the ior is invisible; and no number fails at the edges: eyes at the horizon, a
+ * sun at or below it, no waves or a hurricane's. */
 static void test_edges(void **state)
 {
     (void)state;

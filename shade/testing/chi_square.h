@@ -1,4 +1,4 @@
-/* chi_square.h - whether draws follow a density on the sphere. Includes test_support.h. */
+/* chi_square.h - chi-square test of samples against a density on the sphere. Includes test_support.h. */
 #ifndef SHADE_CHI_SQUARE_H
 #define SHADE_CHI_SQUARE_H
 
@@ -44,7 +44,7 @@ static inline __attribute__((unused)) double sidak_level(int n)
     return 1.0 - pow(1.0 - 0.01, 1.0 / n);
 }
 
-/* A sampler: draw() gives a unit direction, or false where it gave none; pdf() its density per sr. */
+/* A sampler: draw() returns a unit direction, or false if there is none; pdf() its density per sr. */
 typedef struct sphere_sampler {
     bool (*draw)(const void *context, vec2 u, vec3 *direction);
     float (*pdf)(const void *context, vec3 direction);
@@ -53,7 +53,7 @@ typedef struct sphere_sampler {
 
 enum { SPHERE_CELLS_PHI = 32, SPHERE_CELLS_Z = 64, SPHERE_DRAWS = 300000 };
 
-/* A patch of the sphere: z and phi from, to. */
+/* A patch of the sphere: ranges of z and phi. */
 typedef struct sphere_patch {
     double z[2], phi[2];
 } sphere_patch;
@@ -109,8 +109,8 @@ static inline __attribute__((unused)) double sphere_cell_mass(const sphere_sampl
     return sphere_patch_mass(s, patch, 5);
 }
 
-/* p-value of SPHERE_DRAWS draws against the density over the whole sphere. What the density lacks to 1 is the share
- * of draws that give no direction. Cells that expect fewer than 5 draws are pooled. */
+/* p-value of SPHERE_DRAWS samples against the density over the whole sphere. One minus the integral of the
+ * density is the fraction of samples without a direction. Cells that expect fewer than 5 samples are pooled. */
 static inline __attribute__((unused)) double chi2_over_sphere(const sphere_sampler *s, uint64_t seed)
 {
     static double expected[SPHERE_CELLS_PHI * SPHERE_CELLS_Z], observed[SPHERE_CELLS_PHI * SPHERE_CELLS_Z];

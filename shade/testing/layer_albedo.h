@@ -1,5 +1,5 @@
-/* layer_albedo.h - what the layered surface returns of a uniform light of 1, integrated over the whole sphere, and the
- * tables that it needs, integrated on the spot. Includes test_support.h. */
+/* layer_albedo.h - the albedo of the layered surface in a uniform light of 1, integrated over the whole sphere,
+ * and its LUT values, integrated on the spot. Includes test_support.h. */
 #ifndef SHADE_LAYER_ALBEDO_H
 #define SHADE_LAYER_ALBEDO_H
 
@@ -9,7 +9,7 @@ static inline vec2 table_dfg(vec2 point, uint n)
 {
     return integrate_dfg(point[1], point[0], n);
 }
-/* By n terms each; sheen and glass, which are smoother, by half of them and a quarter. */
+/* By n terms each; sheen and glass, which are smoother, by half and a quarter of them. */
 static inline LayerTables tables_by(Layers m, vec3 V, int energy, uint n)
 {
     vec2 dfg = table_dfg(layers_dfg_point(m, V, energy), n);
@@ -53,8 +53,8 @@ static inline float sheen_curve_at(const sheen_curve *curve, float NdotL)
     return mix(curve->E[i], curve->E[i + 1], x - (float)i);
 }
 
-/* Six ways to draw L for one view (the zero vector: no direction); N is +z, T is +x. Their mean density is that of all
- * draws together. */
+/* Six strategies to sample L for one view (the zero vector: no direction); N is +z, T is +x. Their mean density
+ * is that of all samples together. */
 enum { STRATEGIES = 6 };
 typedef struct layer_sampler {
     Layers m;
@@ -115,7 +115,7 @@ static inline float layer_pdf(const layer_sampler *s, vec3 L)
            (float)STRATEGIES;
 }
 
-/* The integral of layers_brdf_cos over the sphere, per channel, by n draws of each strategy. */
+/* The integral of layers_brdf_cos over the sphere, per channel, by n samples of each strategy. */
 static inline void layered_albedo_of(Layers m, vec3 V, int energy, LayerTables t, uint n, double out[3])
 {
     layer_sampler s = layer_sampler_make(m, V);
