@@ -1,4 +1,4 @@
-/* color.c - colors as CSS writes them: CSS Color Module Level 4, sections 5.2 and 6.1. */
+/* color.c - CSS colors: CSS Color Module Level 4, sections 5.2 and 6.1. */
 #include "cli/shared/color.h"
 
 #include "facet/facet.h"
@@ -13,7 +13,7 @@ typedef struct color_name {
     uint32_t rgb; /* 0xrrggbb, sRGB */
 } color_name;
 
-/* In alphabetical order. */
+/* Sorted by name, for a binary search. */
 static const color_name color_names[] = {{"aliceblue", 0xf0f8ff},
                                          {"antiquewhite", 0xfaebd7},
                                          {"aqua", 0x00ffff},

@@ -1,4 +1,4 @@
-/* command_line.c - parses options; what is mistyped gets one suggestion. */
+/* command_line.c - parses options; a mistyped option gets one suggestion. */
 #include "cli/shared/command_line.h"
 
 #include "cli/shared/failure.h"
@@ -13,7 +13,7 @@
 
 /* ---- values ---- */
 
-/* Position of the first length characters of text among choices; -1: none. */
+/* Index of the first length characters of text in the choices; -1: none. */
 static int find_choice(const option *o, const char *text, size_t length)
 {
     for (int i = 0; o->choices[i]; i++)
@@ -61,7 +61,7 @@ static facet_result check_number(const char *label, const option *o, const char 
                 o->minimum, o->maximum);
 }
 
-/* "--size", or "thumb.json: size" for what a config file says. */
+/* The subject of a message: "--size", or "thumb.json: size" for a value of a configuration file. */
 static void label_of(const command_line *c, const option *o, option_source source, char *label, size_t size)
 {
     if (source == SOURCE_CONFIG)
@@ -70,7 +70,7 @@ static void label_of(const command_line *c, const option *o, option_source sourc
         snprintf(label, size, "--%s", o->name);
 }
 
-/* Sets an option, replacing what the same source said before. */
+/* Sets an option and replaces an earlier value of the same source. */
 static facet_result set(command_line *c, const option *o, const char *text, option_source source,
                         facet_error *error)
 {
@@ -104,7 +104,7 @@ facet_result command_line_set(command_line *c, const option *o, const char *text
 
 /* ---- options ---- */
 
-/* Whether a word after an option that takes a value is rather the next option: "-o --size". */
+/* Whether the word after an option that takes a value is the next option instead: "-o --size". */
 static bool looks_like_option(const char *word)
 {
     if (word[0] != '-' || word[1] == 0)
@@ -112,7 +112,7 @@ static bool looks_like_option(const char *word)
     return !((word[1] >= '0' && word[1] <= '9') || word[1] == '.');
 }
 
-/* Reads the value of o, which may be the next word. given: "--size", "-s", for messages. */
+/* Reads the value of o, which may be the next word. given is the option as typed, for messages. */
 static facet_result parse_value(command_line *c, const option *o, const char *given, const char *value,
                                 int argc, char **argv, int *at, facet_error *error)
 {
@@ -155,10 +155,10 @@ static facet_result parse_letters(command_line *c, int argc, char **argv, int *a
 {
     const char *word = argv[*at];
     size_t length = strcspn(word + 1, "=");
-    if (length >= 3 && option_find(c->verb, word + 1, length)) /* -size is no -s with the value "ize" */
+    if (length >= 3 && option_find(c->verb, word + 1, length)) /* -size is not -s with the value "ize" */
         return fail(error, FACET_ERROR_ARGUMENT, "unknown option %s; did you mean -%s?", word, word);
     const char *foreign = length >= 4 ? suggest_foreign(c->verb, word + 1, length) : NULL;
-    if (foreign) /* -outCubeMap is no -o with the value "utCubeMap" */
+    if (foreign) /* -outCubeMap is not -o with the value "utCubeMap" */
         return fail(error, FACET_ERROR_ARGUMENT, "unknown option %s; did you mean %s?", word, foreign);
     for (const char *letter = word + 1; *letter; letter++) {
         const option *o = option_find_letter(c->verb, *letter);
@@ -178,8 +178,8 @@ static facet_result parse_letters(command_line *c, int argc, char **argv, int *a
 
 /* ---- arguments ---- */
 
-/* Whether an argument is rather the name of an output: "render in.glb out.png". Where inputs and outputs have the same
- * extensions only the one argument too many tells. */
+/* Whether an argument names an output: "render in.glb out.png". Where inputs and outputs share extensions, only a
+ * surplus argument is taken for an output. */
 static bool is_output(const command_line *c, size_t index)
 {
     const verb *v = c->verb;
@@ -227,7 +227,7 @@ facet_result command_line_parse(const verb *v, int argc, char **argv, command_li
         if (result != FACET_OK)
             return result;
         if (is_given(out, OPT_HELP) || (is_given(out, OPT_HELP_ALL) && strcmp(v->name, "help") != 0))
-            return FACET_OK; /* whatever else there is: the user wants to read */
+            return FACET_OK; /* help wins over the rest of the line */
     }
     return check_arguments(out, error);
 }

@@ -35,7 +35,7 @@ void config_destroy(config *storage)
     *storage = (config){0};
 }
 
-/* Appends a string or number to text as it would stand on the command line. False: it is neither, or too long. */
+/* Appends a string or number to text in command line notation. False: another type, or too long. */
 static bool append_scalar(const json_t *value, char *text, size_t size)
 {
     size_t used = strlen(text);
@@ -49,7 +49,7 @@ static bool append_scalar(const json_t *value, char *text, size_t size)
     return n >= 0 && (size_t)n < size - used;
 }
 
-/* A string, number, or array of these as text. */
+/* Text of a string, a number, or an array of these. */
 static bool to_text(const json_t *value, char *text, size_t size)
 {
     text[0] = 0;
@@ -68,7 +68,7 @@ static bool to_text(const json_t *value, char *text, size_t size)
     return true;
 }
 
-/* How often a flag is meant: true once, a number for those that count. Negative: neither. */
+/* Count of a flag: 1 for true, the number for options that count. Negative: neither. */
 static long flag_count(const option *o, const json_t *value)
 {
     if (json_is_boolean(value))
@@ -179,7 +179,7 @@ typedef struct setting {
     const char *text; /* NULL for flags */
 } setting;
 
-/* For file managers: small, bounded, silent. */
+/* Settings for file managers: small, bounded, silent. */
 static const setting thumbnail[] = {
     {OPT_SIZE, "256"}, {OPT_BACKGROUND, "transparent"}, {OPT_MAX_MEMORY, "1G"}};
 
@@ -196,7 +196,7 @@ facet_result preset_apply(command_line *c, facet_error *error)
     for (size_t i = 0; i < sizeof thumbnail / sizeof *thumbnail && result == FACET_OK; i++)
         result = command_line_set(c, option_find_id(c->verb, thumbnail[i].id), thumbnail[i].text,
                                   SOURCE_PRESET, error);
-    /* several thumbnailers at once must not take every core (f3d issue 300) */
+    /* concurrent thumbnailers must not occupy every core (f3d issue 300) */
     if (result == FACET_OK && getpriority(PRIO_PROCESS, 0) > 0)
         result = command_line_set(c, option_find_id(c->verb, OPT_THREADS), "1", SOURCE_PRESET, error);
     return result;

@@ -1,5 +1,5 @@
-/* environment_input.c - the words that name an environment. The table of words is all_words; what each takes is read from
- * fields between commas. */
+/* environment_input.c - names of environments. all_words is the table of keywords; their parameters are
+ * comma-separated fields. */
 #include "cli/shared/environment_input.h"
 
 #include <math.h>
@@ -20,7 +20,7 @@ enum { MAX_FIELDS = 16, FIELD_SIZE = 64, MAX_PATH = 4096 };
 static const float default_albedo = 0.2f; /* dry grass, soil */
 static const float white_illuminance = 3.14159265f;
 
-/* Text between commas. */
+/* Comma-separated fields. */
 typedef struct field_list {
     char fields[MAX_FIELDS][FIELD_SIZE];
     size_t count;
@@ -45,7 +45,7 @@ static bool split(const char *text, field_list *out)
 
 /* ---- colors ---- */
 
-/* A CSS color, "R/G/B", or one number for grey; radiance, at least 0. */
+/* Parses a CSS color, "R/G/B", or one number for grey: radiance, at least 0. */
 static bool parse_radiance(const char *text, float out[3])
 {
     double numbers[3];
@@ -88,7 +88,7 @@ static bool read_gradient(const char *text, environment_input *out)
     out->kind = ENVIRONMENT_GRADIENT;
     if (!split(text, &list) || list.count < 2 || list.count > 3)
         return false;
-    for (size_t i = 0; i < 3; i++) /* the nadir is the horizon's where it is not given */
+    for (size_t i = 0; i < 3; i++) /* the nadir defaults to the horizon */
         if (!parse_radiance(list.fields[i < list.count ? i : list.count - 1], out->radiance[i]))
             return false;
     return true;
@@ -117,7 +117,7 @@ static bool read_albedo(const char *text, float albedo[3])
     return albedo[0] <= 1.0f && albedo[1] <= 1.0f && albedo[2] <= 1.0f;
 }
 
-/* A word behind the numbers of a sky. */
+/* Parses a keyword after the numbers of a sky. */
 static bool read_sky_word(const char *word, facet_sky_desc *sky)
 {
     float height;
@@ -205,7 +205,7 @@ static bool expand_face(const char *pattern, const char *face, char name[MAX_PAT
     return length >= 0 && length < MAX_PATH;
 }
 
-/* Names of the list or the pattern into names. naming: which, of a pattern. */
+/* Writes the file names of the list, or of the pattern with that naming, to names. */
 static bool list_faces(const char *text, int naming, char names[6][MAX_PATH])
 {
     bool is_pattern = strstr(text, face_mark) != NULL;
@@ -233,7 +233,7 @@ static facet_result load_faces(const environment_input *input, const facet_envir
         return fail(error, FACET_ERROR_MEMORY, "%s: out of memory", input->path);
     int naming = 0;
     bool fits = list_faces(input->path, 0, names);
-    if (strstr(input->path, face_mark)) /* the first naming of which a file is there; else the first */
+    if (strstr(input->path, face_mark)) /* the first naming with an existing file; else the first */
         for (int n = NAMING_COUNT - 1; fits && n >= 0; n--)
             if (list_faces(input->path, n, names) && input_is_same_file(names[0], names[0]))
                 naming = n;
@@ -276,7 +276,7 @@ static facet_result fail_expected(const char *place, const char *text, const cha
     return fail(error, FACET_ERROR_ARGUMENT, "%s: \"%s\" is not %s", place, text, expected);
 }
 
-/* Words that stand alone. False: text is none of them. */
+/* Parses a keyword without parameters. False: text is none. */
 static bool read_plain_word(const char *text, environment_input *out)
 {
     if (strcmp(text, "neutral") == 0 || strcmp(text, "studio") == 0)

@@ -27,7 +27,7 @@ typedef enum environment_kind {
     ENVIRONMENT_FACES
 } environment_kind;
 
-/* What a caller takes beside files, skies and colors; or them. */
+/* Flags of the other inputs that a caller accepts. */
 enum { ENVIRONMENT_TAKES_STDIN = 1 << 0, ENVIRONMENT_TAKES_NONE = 1 << 1 };
 
 typedef struct environment_input {
@@ -37,19 +37,20 @@ typedef struct environment_input {
     facet_sky_desc sky;
 } environment_input;
 
-/* What text says; it stays with the caller. place: what begins a message, such as "--env" or "INPUT". Nothing is read.
+/* Parses text, which stays with the caller; no file is read. place begins messages: "--env", "INPUT". Fails with
  * FACET_ERROR_ARGUMENT. */
 facet_result environment_input_parse(const char *place, const char *text, unsigned takes,
                                      environment_input *out, facet_error *error);
 
-/* Reads or makes it; a signal or the time limit ends the process meanwhile (interrupt.h). desc->allocator must be one where standard input is read. *environment is NULL for ENVIRONMENT_NONE. */
+/* Loads or creates the environment; a signal or the time limit ends the process meanwhile (interrupt.h).
+ * desc->allocator must be set for standard input. *environment is NULL for ENVIRONMENT_NONE. */
 facet_result environment_input_load(const environment_input *input, const facet_environment_desc *desc,
                                     facet_environment **environment, facet_error *error);
 
-/* What messages and names of outputs call it: the path, "stdin", or the kind: "studio", "sky" .. */
+/* Name in messages and names of outputs: the path, "stdin", or the kind, as "studio" and "sky". */
 const char *environment_input_name(const environment_input *input);
 
-/* Whether it is read from the file that path names. */
+/* Whether the environment is read from the file path. */
 bool environment_input_is_file(const environment_input *input, const char *path);
 
 #endif

@@ -1,4 +1,4 @@
-/* failure.c - results become sentences and exit codes. */
+/* failure.c - sentences, exit codes and JSON of failures. */
 #include "cli/shared/failure.h"
 
 #include <stdio.h>
@@ -59,7 +59,7 @@ void failure_complete(facet_error *error, const char *name, uint64_t limit)
     int n = snprintf(sentence, sizeof sentence, "%s%s%s", is_general && !is_named ? name : "",
                      is_general && !is_named ? ": " : "", error->message);
     if (strstr(sentence, "(--max-memory)"))
-        return; /* it is complete */
+        return; /* complete already */
     if (error->result == FACET_ERROR_MEMORY && limit && n > 0 && (size_t)n < sizeof sentence)
         snprintf(sentence + n, sizeof sentence - (size_t)n, "; the limit is %.6g MiB (--max-memory)",
                  (double)limit / 1048576.0);
@@ -68,7 +68,7 @@ void failure_complete(facet_error *error, const char *name, uint64_t limit)
 
 /* ---- JSON ---- */
 
-/* text with U+FFFD for each byte that is no UTF-8; jansson tells what is. */
+/* text with U+FFFD for each byte that is not UTF-8 by jansson's check. */
 static json_t *replace_others(const char *text)
 {
     const char replacement[] = "\xef\xbf\xbd";

@@ -1,4 +1,4 @@
-/* failure.h - how functions of the command fail, and what the process then returns. */
+/* failure.h - failures of the command: exit codes, sentences, JSON. */
 #ifndef CLI_FAILURE_H
 #define CLI_FAILURE_H
 
@@ -6,7 +6,7 @@
 
 #include <jansson.h>
 
-/* Exit codes; failure.c has what each means, docs/cli.md why. */
+/* Exit codes; exit_meanings describes them, docs/cli.md gives reasons. */
 enum {
     EXIT_DONE = 0,
     EXIT_NEGATIVE = 1,
@@ -28,11 +28,11 @@ typedef struct exit_meaning {
 } exit_meaning;
 extern const exit_meaning exit_meanings[]; /* ends with {NULL} */
 
-/* The exit code for a result; of FACET_ERROR_CANCELLED EXIT_AGAIN, unless a signal says another (interrupt.h). */
+/* The exit code of a result. FACET_ERROR_CANCELLED gives EXIT_AGAIN; interrupt_exit_code() has that of the signal. */
 int exit_code_of(facet_result result);
 
-/* Puts the name of the input before what went wrong with it unless the sentence begins with a name, and behind a lack
- * of memory what --max-memory, limit bytes (0: none), has to do with it. */
+/* Prepends the name of the input to a general failure (memory, limit) unless the sentence begins with it, and appends
+ * --max-memory, limit bytes (0: none), to a lack of memory. */
 void failure_complete(facet_error *error, const char *name, uint64_t limit);
 
 /* A JSON string; null where text is NULL. Bytes that are not UTF-8, as names of files may have, become U+FFFD. */
@@ -41,7 +41,7 @@ json_t *report_error_json(const facet_error *error, const char *model /* NULL: n
 
 /* Prints root as one line on standard output. */
 void report_print_json(const json_t *root);
-/* Prints the object of a command that did nothing but fail: facet, failures, exit_code. */
+/* Prints the JSON object of a command that failed before its work: facet, failures, exit_code. */
 void report_print_failure_json(const facet_error *error, int exit_code);
 
 #endif

@@ -1,4 +1,4 @@
-/* input.c - models from files, standard input, or built in. */
+/* input.c - see input.h. */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/shared/input.h"
 
@@ -17,7 +17,7 @@ const char *input_name(const char *path)
     return !path ? "built-in scene" : strcmp(path, "-") == 0 ? "stdin" : path;
 }
 
-/* Bytes that grow in memory of allocator. */
+/* A growing buffer in memory of allocator. */
 typedef struct growing {
     const facet_allocator *allocator;
     unsigned char *data;
@@ -45,7 +45,7 @@ static bool grow(growing *g)
     return true;
 }
 
-/* As the library reads of a file where max_file_bytes is 0. */
+/* The library's default of max_file_bytes. */
 static const uint64_t MAX_STDIN_BYTES = (uint64_t)4 << 30;
 
 /* All of standard input. Fails with FACET_ERROR_READ, _LIMIT, _MEMORY, and _ARGUMENT where it is a terminal. */
@@ -72,7 +72,7 @@ static facet_result read_stdin(const char *expected, growing *out, facet_error *
                      : fail(error, FACET_ERROR_READ, "stdin: it is empty; a %s was expected", expected);
 }
 
-/* Reads of addresses fail as usage errors. */
+/* An address as input is a usage error. */
 static facet_result check_address(const char *path, facet_error *error)
 {
     struct stat info;
@@ -86,7 +86,7 @@ static facet_result check_address(const char *path, facet_error *error)
         path, path);
 }
 
-/* What can be known to be wrong before anything is read. */
+/* Checks that need no reading. */
 static facet_result check(const char *path, const char *root, facet_error *error)
 {
     struct stat info;
@@ -94,7 +94,8 @@ static facet_result check(const char *path, const char *root, facet_error *error
         return fail(error, FACET_ERROR_ARGUMENT, "facet: the name of a model is empty");
     if (path)
         TRY(check_address(path, error));
-    if (path && stat(path, &info) == 0 && S_ISDIR(info.st_mode)) /* others were replaced by what is in them */
+    if (path && stat(path, &info) == 0 &&
+        S_ISDIR(info.st_mode)) /* folders with models were replaced by these */
         return fail(error, FACET_ERROR_READ, "%s: there is no model in or below this folder", path);
     if (root && (stat(root, &info) != 0 || !S_ISDIR(info.st_mode)))
         return fail(error, FACET_ERROR_READ, "%s: there is no such folder (--root)", root);

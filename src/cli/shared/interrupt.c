@@ -14,17 +14,17 @@
 #include <time.h>
 #include <unistd.h>
 
-static const char OVER_BAR[] = "\r\033[K"; /* what sentences over a bar of progress begin with */
+static const char OVER_BAR[] = "\r\033[K"; /* clears a progress bar */
 
-/* What a signal handler shares with the process: the one place for state that is not passed along. */
-static atomic_int pending_signal;          /* lock-free: the handler writes it, all threads ask for it */
-static _Atomic(const char *) safe_message; /* NULL: no section is open; threads of a renderer close it, too */
+/* State shared with the signal handlers, the only global state. */
+static atomic_int pending_signal;          /* lock-free: written by the handler, read by all threads */
+static _Atomic(const char *) safe_message; /* NULL: no section is open; renderer threads close it, too */
 static int open_file_count;
-static volatile double deadline;      /* on interrupt_clock(); 0: none */
-static volatile double signal_time;   /* on interrupt_clock(), of pending_signal */
-static volatile double section_grace; /* s that the open section has to end by itself */
-static bool is_installed;             /* the process ends by interrupt_install()'s handlers */
-static bool has_json;                 /* standard output tells of the end, too */
+static volatile double deadline;      /* in interrupt_clock() time; 0: none */
+static volatile double signal_time;   /* of pending_signal, in interrupt_clock() time */
+static volatile double section_grace; /* time for the open section to end by itself, s */
+static bool is_installed;             /* the handlers are installed */
+static bool has_json;                 /* the end is reported as JSON, too */
 static char json_at_deadline[4096];
 
 double interrupt_clock(void)
@@ -45,7 +45,7 @@ static void end_by(int number)
     _exit(128 + number);
 }
 
-/* Ends the process where a section is open, by the signal or at the time limit. */
+/* Ends the process if a section is open: by the signal, or at the time limit. */
 static void end_section(void)
 {
     const char *message = safe_message;
@@ -71,7 +71,7 @@ static void on_tick(int number)
     end_section();
 }
 
-/* Has on_tick() called in delay_s and then every 50 ms: the first may come while it is not safe to end. */
+/* Schedules on_tick() after delay_s and then every 50 ms: the first tick may come outside of a section. */
 static void start_ticks(double delay_s)
 {
     struct itimerval timer = {{0, 50000}, {0, 0}};
@@ -97,7 +97,7 @@ static void install(int number, void (*handler)(int))
     sigaction(number, &action, NULL);
 }
 
-/* Installs on_stop() unless the parent asked to ignore the signal, as nohup does. */
+/* Installs on_stop() unless the signal is ignored, as under nohup. */
 static void install_stop(int number)
 {
     struct sigaction before;
@@ -114,7 +114,7 @@ void interrupt_install(bool tells_json)
     install_stop(SIGINT);
     install_stop(SIGTERM);
     install_stop(SIGHUP);
-    install_stop(SIGPIPE);    /* who reads the messages may go while a file is being written */
+    install_stop(SIGPIPE);    /* the reader of the messages may exit while a file is being written */
     signal(SIGXFSZ, SIG_IGN); /* a file beyond the user's limit is then a failed write, which cleans up */
 }
 
@@ -141,7 +141,7 @@ double interrupt_seconds_left(void)
     return deadline > 0.0 ? deadline - interrupt_clock() : 1e30;
 }
 
-/* The report of an end at the time limit, as a handler cannot make it. */
+/* Prepares the report of an end at the time limit, since a signal handler cannot format it. */
 static void prepare_json(const char *message)
 {
     facet_error error = {.result = FACET_ERROR_LIMIT};
@@ -177,7 +177,7 @@ void interrupt_file_end(void)
 static void begin(const char *name, const char *doing, bool has_bar, double grace)
 {
     static char sentence[512];
-    interrupt_end(); /* the handler must not print a sentence that is half written */
+    interrupt_end(); /* the handler must not print a half-written sentence */
     if (open_file_count)
         return;
     snprintf(sentence, sizeof sentence, "%s%.400s: the time limit (--time-limit) was reached while %s\n",
@@ -186,7 +186,7 @@ static void begin(const char *name, const char *doing, bool has_bar, double grac
         prepare_json(sentence);
     section_grace = grace;
     safe_message = sentence;
-    if (pending_signal) /* it came before the section, whose work is then not begun */
+    if (pending_signal) /* the signal came before the section: its work is not started */
         exit(interrupt_exit());
 }
 

@@ -1,4 +1,4 @@
-/* limits.c - what a command may use, and how much memory this machine or container gives it. */
+/* limits.c - limits of a command, and the memory of this machine or container. */
 #define _DEFAULT_SOURCE
 #include "cli/shared/limits.h"
 
@@ -11,7 +11,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-/* The number in a file of one line; 0: there is none, or it says "max". */
+/* The number in a one-line file; 0: none, or "max". */
 static uint64_t read_number(const char *path)
 {
     FILE *file = fopen(path, "re");
@@ -52,7 +52,7 @@ static uint64_t memory_limit_default(void)
     if (pages <= 0 || page <= 0)
         return 0;
     uint64_t limit = (uint64_t)pages * (uint64_t)page;
-    /* every group above this one limits it too */
+    /* parent groups limit this one, too */
     char group[1024], path[1100];
     group_path(group, sizeof group);
     for (;;) {
@@ -75,7 +75,7 @@ uint64_t memory_peak(void)
     return (uint64_t)usage.ru_maxrss * 1024; /* Linux counts in KiB */
 }
 
-/* *seconds stays where no limit is given. */
+/* *seconds is unchanged without a limit. */
 static facet_result read_time_limit(const command_line *c, double *seconds, facet_error *error)
 {
     if (is_given(c, OPT_TIME_LIMIT) && !value_seconds(option_text(c, OPT_TIME_LIMIT, ""), seconds))

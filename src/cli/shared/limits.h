@@ -1,4 +1,4 @@
-/* limits.h - what a command may use: threads, memory, time, sizes. */
+/* limits.h - limits of a command: threads, memory, time, sizes. */
 #ifndef CLI_LIMITS_H
 #define CLI_LIMITS_H
 
@@ -12,11 +12,11 @@ typedef struct limits {
 
 /* Reads --threads, --max-memory, --max-texture, --time-limit. Fails with FACET_ERROR_ARGUMENT. */
 facet_result limits_read(const command_line *c, limits *out, facet_error *error);
-/* Starts the clock of --time-limit, where it is given, for what is read before the other options: configurations and
- * lists of models may be pipes that nothing is written to. Fails with FACET_ERROR_ARGUMENT. */
+/* Starts --time-limit, if given, before the other options are read: configurations and lists of models may be pipes
+ * without a writer. Fails with FACET_ERROR_ARGUMENT. */
 facet_result limits_start_clock(const command_line *c, facet_error *error);
 
-/* The most that the process had resident so far, bytes. */
+/* Peak resident memory of the process, bytes. */
 uint64_t memory_peak(void);
 
 #endif

@@ -1,4 +1,4 @@
-/* messages.c - what the command says to people: one sentence a line, file and place first. */
+/* messages.c - messages, one sentence per line, and progress. */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/shared/messages.h"
 
@@ -15,9 +15,9 @@
 
 enum { BAR_WIDTH = 24 };
 
-/* Whether the bar is on the terminal now; there is one terminal. */
+/* Whether the terminal shows a bar; there is one terminal. */
 static atomic_bool is_bar_shown;
-/* Reports come from several threads: one shows, the others go on with their work. */
+/* Reports come from several threads; one of them prints, the others continue. */
 static atomic_flag is_showing = ATOMIC_FLAG_INIT;
 
 progress_mode progress_choose(int mode_index, bool is_quiet)
@@ -67,7 +67,7 @@ static void show_bar(progress *p, const char *stage, double fraction, double now
     p->last_shown = now;
 }
 
-/* A line when the stage changes and every 10 %. */
+/* Prints a line per stage and per 10 %. */
 static void show_line(progress *p, const char *stage, double fraction, double now)
 {
     int percent = (int)(100.0 * fraction);
@@ -86,7 +86,7 @@ static void show_line(progress *p, const char *stage, double fraction, double no
 static bool report(void *user, const char *stage, double fraction)
 {
     progress *p = user;
-    if (fraction > 0.0 && strcmp(stage, "sample") == 0) /* there is something to keep */
+    if (fraction > 0.0 && strcmp(stage, "sample") == 0) /* there are samples to keep */
         interrupt_end();
     if (p->mode != PROGRESS_NONE && !atomic_flag_test_and_set(&is_showing)) {
         fraction = fraction < 0.0 ? 0.0 : fraction > 1.0 ? 1.0 : fraction;

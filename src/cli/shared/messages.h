@@ -1,4 +1,4 @@
-/* messages.h - what the command says to people, on standard error. */
+/* messages.h - messages and progress on standard error. */
 #ifndef CLI_MESSAGES_H
 #define CLI_MESSAGES_H
 
@@ -13,25 +13,25 @@ typedef struct warning {
     bool is_printed;
 } warning;
 
-/* Where messages of the library go. {.verbosity} starts it. */
+/* Receiver of the library's messages. {.verbosity} initially. */
 typedef struct messages {
     verbosity verbosity;
-    warning *warnings; /* each cause once, in the order they came */
+    warning *warnings; /* each text once, in order of occurrence */
     size_t warning_count, warning_capacity;
 } messages;
 
-/* What --quiet and --verbose ask for. */
+/* The verbosity of --quiet and --verbose. */
 verbosity messages_verbosity(const command_line *c);
-/* A log that keeps warnings and prints details as the verbosity says. */
+/* A log that collects warnings, and prints details by verbosity. */
 facet_log messages_log(messages *m);
-/* Prints the warnings that were not yet, each with how often it came. */
+/* Prints the warnings that have not been printed, each with its count. */
 void messages_flush(messages *m);
-/* Forgets the warnings: another model begins. */
+/* Clears the warnings, for the next model. */
 void messages_clear(messages *m);
 
-/* One line on standard error; what stands before the first ": " is the subject, in color on a terminal. */
+/* Prints a line on standard error; the text before the first ": " is the subject, in color on a terminal. */
 void message_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
-/* The same where at least that much is wanted. */
+/* The same, at that verbosity or above. */
 void message_at(const messages *m, verbosity least, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
@@ -39,25 +39,24 @@ void message_at(const messages *m, verbosity least, const char *format, ...)
 
 typedef enum progress_mode { PROGRESS_NONE, PROGRESS_BAR, PROGRESS_PLAIN, PROGRESS_JSON } progress_mode;
 
-/* mode_index is the position in the table's list: auto, plain, json, none. A bar is shown on a terminal, after
- * 0.3 s: what is done sooner needs none. */
+/* mode_index is the index in --progress' choices: auto, plain, json, none. A bar is shown on a terminal, after 0.3 s. */
 progress_mode progress_choose(int mode_index, bool is_quiet);
 
-/* One operation, perhaps one of several pictures. */
+/* Progress of an operation, which may be one of several images. */
 typedef struct progress {
     progress_mode mode;
-    const char *subject;       /* the file that it is about */
+    const char *subject;       /* name of the file */
     double start;              /* interrupt_clock() */
-    double done_before, share; /* what this operation is of the whole: fraction = done_before + share * f */
+    double done_before, share; /* part of the whole: fraction = done_before + share * f */
     double last_shown;         /* interrupt_clock() */
     int last_percent;
     const char *last_stage;
 } progress;
 
-/* A callback that shows p and cancels when a signal has come. */
+/* A callback that shows progress and cancels after a signal. */
 facet_progress progress_callback(progress *p);
 
-/* Takes the bar off the terminal, if one is shown; for whoever writes to it. */
+/* Clears the bar, if one is shown, before other output. */
 void progress_clear(void);
 
 #endif

@@ -51,7 +51,7 @@ static int compare_texts(const void *a, const void *b)
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-/* Names in a folder, sorted; NULL at the end. */
+/* Sorted names in a folder, NULL-terminated. */
 static facet_result read_names(const char *path, char ***names, facet_error *error)
 {
     size_t count = 0;
@@ -86,7 +86,7 @@ static void destroy_names(char **names)
     free(names);
 }
 
-/* What in a folder is a model by its name. */
+/* Whether a name in a folder is a model's. */
 static bool is_model(const command_line *c, const char *name)
 {
     return output_name_has_type(name, c->verb->file_types) && !output_name_has_type(name, "json");
@@ -98,7 +98,7 @@ typedef struct folder_walk {
     unsigned depth;
 } folder_walk;
 
-/* Adds the models below path; below: path without the folder that was named. */
+/* Adds the models below path. below is path relative to the named folder. */
 static facet_result add_folder(folder_walk *w, const char *path, const char *below, facet_error *error)
 {
     char **names;
@@ -135,7 +135,7 @@ static facet_result add_folder(folder_walk *w, const char *path, const char *bel
     return result;
 }
 
-/* The folder of a file as {dir} has it: below the output's place, so without ".." and the root. */
+/* The folder of a file for {dir}: without ".." and the root, so that outputs stay below their place. */
 static facet_result add_file(model_list *list, const char *path, facet_error *error)
 {
     size_t size = strlen(path) + 1, used = 0;
@@ -164,14 +164,14 @@ static facet_result add_argument(const command_line *c, const char *path, model_
         return add_file(list, path, error);
     folder_walk walk = {.c = c, .list = list};
     facet_result result = add_folder(&walk, path, "", error);
-    if (result == FACET_OK && list->count == before) /* reading it says that there is none */
+    if (result == FACET_OK && list->count == before) /* reading it then fails */
         result = add(list, path, "", error);
     return result;
 }
 
 /* ---- lists ---- */
 
-/* Lines, or, where the list holds a zero byte as find -print0 writes it, what these separate. */
+/* Adds the lines of the list, or the names between zero bytes (find -print0). */
 static facet_result add_lines(const command_line *c, char *text, size_t size, model_list *list,
                               facet_error *error)
 {
@@ -227,7 +227,7 @@ static facet_result add_files_from(const command_line *c, model_list *list, face
 
 /* ---- all ---- */
 
-/* The paths in the place of the arguments that they came from. */
+/* Replaces the arguments by the expanded paths. */
 static facet_result replace_arguments(command_line *c, size_t argument_count, const model_list *list,
                                       facet_error *error)
 {

@@ -1,4 +1,4 @@
-/* options.c - the tables of options and verbs, and how options are found. */
+/* options.c - the tables of options and verbs, and searches in them. */
 #include "cli/shared/options.h"
 
 #include <string.h>
@@ -13,7 +13,7 @@
 #undef OPTION
 #undef IN
 
-/* Choices of several options. */
+/* Choices that several options share. */
 #define IMAGE_FORMATS "png", "png16", "jpg", "webp", "exr", "exr32", "hdr", "pfm"
 #define TONE_MAPPINGS /* in the order of facet_tonemap */                                                    \
     "none", "neutral", "aces", "aces-narkowicz", "agx", "reinhard", "reinhard-extended", "hable"
@@ -101,7 +101,7 @@ bool option_is_planned(const char *name)
 
 /* ---- options of a verb ---- */
 
-/* Whether a list of words separated by blanks has that one. */
+/* Whether a blank-separated list contains word. */
 static bool has_word(const char *list, const char *word)
 {
     size_t length = strlen(word);
@@ -114,7 +114,7 @@ static bool has_word(const char *list, const char *word)
     return false;
 }
 
-/* The row of an option that describes it for v: the one that names v, else the general one. */
+/* The row of an option for v: that of the verb if there is one, else the general one. */
 static const option *find_row(const verb *v, option_id id)
 {
     const option *found = NULL;
@@ -159,7 +159,7 @@ const option *option_find_letter(const verb *v, char letter)
     return NULL;
 }
 
-/* Attributes of <model-viewer> whose values are those of an option here. */
+/* Attributes of <model-viewer> with the same values as an option. */
 static const struct {
     const char *name;
     option_id id;

@@ -1,6 +1,5 @@
-/* options.h - the option table: every verb and every option, described once.
- *
- * Parsing, --help, man pages, completions and suggestions all read it; what an option does is in cmd_NAME.c. */
+/* options.h - the tables of verbs and options (verbs.def, options.def), which parsing, help, man pages, completions
+ * and suggestions read. */
 #ifndef CLI_OPTIONS_H
 #define CLI_OPTIONS_H
 
@@ -8,15 +7,15 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* What an option takes. */
+/* Type of an option's value. */
 typedef enum option_kind {
-    OPTION_FLAG,    /* nothing */
-    OPTION_COUNT,   /* nothing, and counts: -vv */
-    OPTION_TEXT,    /* text that the verb understands */
-    OPTION_FILE,    /* text; completed with file names */
-    OPTION_FOLDER,  /* text; completed with folders */
+    OPTION_FLAG,    /* none */
+    OPTION_COUNT,   /* none; occurrences count: -vv */
+    OPTION_TEXT,    /* parsed by the verb */
+    OPTION_FILE,    /* completed with file names */
+    OPTION_FOLDER,  /* completed with folders */
     OPTION_CHOICE,  /* one of choices */
-    OPTION_CHOICES, /* some of choices, separated by commas */
+    OPTION_CHOICES, /* comma-separated choices */
     OPTION_NUMBER,  /* a real number in [minimum, maximum] */
     OPTION_INTEGER  /* a whole number in [minimum, maximum] */
 } option_kind;
@@ -32,11 +31,11 @@ typedef enum option_id {
 
 typedef struct option {
     option_id id;
-    const char *verbs;        /* the verbs that it is described for, separated by blanks; NULL: all others */
+    const char *verbs;        /* blank-separated verbs of this description; NULL: all others */
     const char *name;         /* long, without the dashes */
     char letter;              /* short, 0: none */
     const char *argument;     /* "WxH"; NULL for flags */
-    const char *default_text; /* NULL: none to tell */
+    const char *default_text; /* NULL: none */
     const char *help;         /* one line, without full stop */
     option_kind kind;
     const char *const *choices; /* ends with NULL; for OPTION_TEXT and _FILE words to complete with */
@@ -60,7 +59,7 @@ typedef struct option_group {
     {                                                                                                        \
         title, OPTION_IDS(__VA_ARGS__)                                                                       \
     }
-/* What --renderer path alone reads, in render and view. */
+/* Options of --renderer path in render and view. */
 #define PATH_OPTIONS                                                                                         \
     OPT_BOUNCES, OPT_NOISE, OPT_SEED, OPT_FILTER, OPT_DENOISE, OPT_CLAMP, OPT_GLASS_SHADOWS,                 \
         OPT_LIGHT_SAMPLING, OPT_APERTURE, OPT_FOCUS, OPT_SHUTTER
@@ -76,7 +75,7 @@ typedef struct option_group {
 extern const option_group limits_group, messages_group, environment_group, light_group, color_group,
     quality_group, gl_group, shading_group, scene_group, files_group, legacy_group;
 
-/* A command line that shows something, and what it does. */
+/* An example command line, and what it does. */
 typedef struct example {
     const char *command;
     const char *what;
@@ -87,18 +86,18 @@ typedef struct verb {
     const char *summary;   /* one line */
     const char *arguments; /* "[MODEL...]"; "" none */
     size_t max_arguments;
-    const char *file_types;   /* extensions of the arguments: "glb gltf"; NULL: no files */
-    const char *output_types; /* extensions of what it writes: "png jpg"; NULL: it writes no files */
-    const char *output_hint;  /* what goes before the name of an output; NULL: -o */
-    const char *const *words; /* words that an argument may be, for completion; NULL: none */
-    const char *description;  /* paragraphs, separated by empty lines; for the man page and --help */
-    const example *examples;  /* ends with {NULL} */
-    const option_id *basics;  /* what its help shows first, ends with OPTION_ID_COUNT; NULL: everything */
+    const char *file_types;            /* extensions of the arguments: "glb gltf"; NULL: no files */
+    const char *output_types;          /* extensions of the outputs: "png jpg"; NULL: none */
+    const char *output_hint;           /* shown before the name of an output; NULL: -o */
+    const char *const *words;          /* words that an argument may be, for completion; NULL: none */
+    const char *description;           /* paragraphs, separated by empty lines; for the man page and --help */
+    const example *examples;           /* ends with {NULL} */
+    const option_id *basics;           /* main options, ends with OPTION_ID_COUNT; NULL: all */
     const option_group *const *groups; /* ends with NULL */
 } verb;
 
-/* What each verb of verbs.def defines in NAME/cmd_NAME.c: NAME_verb, its arguments, options and help, and cmd_NAME(), which
- * runs it. It returns the exit code and has reported what went wrong. */
+/* NAME/cmd_NAME.c of each verb in verbs.def defines NAME_verb, its arguments, options and help, and cmd_NAME(), which
+ * runs it: it reports failures and returns the exit code. */
 struct command_line;
 #define VERB(name)                                                                                           \
     extern const verb name##_verb;                                                                           \
@@ -108,14 +107,14 @@ struct command_line;
 
 extern const verb *const verbs[];        /* in the order of verbs.def; ends with NULL */
 const verb *verb_find(const char *name); /* NULL: no such verb in this version */
-/* Whether a later version is meant to have that verb, that option. */
+/* Whether that verb or option is planned for a later version. */
 bool verb_is_planned(const char *name);
 bool option_is_planned(const char *name);
 
-/* An option of a verb, with that verb's words; NULL: it has none such. */
+/* An option of a verb, in that verb's description; NULL: none. */
 const option *option_at(const verb *v, size_t index); /* in the order of its groups */
 const option *option_find(const verb *v, const char *name, size_t length);
-/* The option that an attribute of <model-viewer> is another name for, as camera-orbit of orbit. */
+/* The option for an attribute of <model-viewer>: orbit for camera-orbit. */
 const option *option_find_attribute(const verb *v, const char *name, size_t length);
 const option *option_find_letter(const verb *v, char letter);
 const option *option_find_id(const verb *v, option_id id);

@@ -17,8 +17,8 @@ bool output_exists(const char *path)
     return access(path, F_OK) == 0;
 }
 
-/* Writes to folder the nearest folder above path that is there, without a slash at its end; returns what of path is below
- * it. NULL: it does not fit. */
+/* Writes the nearest existing folder above path to folder, without a trailing slash, and returns the rest of path.
+ * NULL: too long. */
 static const char *find_folder(const char *path, char *folder, size_t size)
 {
     struct stat info;
@@ -67,7 +67,7 @@ facet_result output_make_folders(const char *path, facet_error *error)
     return FACET_OK;
 }
 
-/* From the first report on there are files that the library removes when it fails. */
+/* From the first progress report on there are files, which the library removes on failure. */
 static bool may_go_on(void *user, const char *stage, double fraction)
 {
     (void)user, (void)stage, (void)fraction;
@@ -114,7 +114,8 @@ facet_result output_check(const char *path, facet_error *error)
     return FACET_OK;
 }
 
-/* A stream, whose reader may never come, needs no cleaning up; a file does. Returns whether it is a file. */
+/* Opens the bracket of interrupt.h for a regular file; a stream needs no cleanup, and its reader may never come.
+ * Returns whether path is a file. */
 static bool begin_writing(const char *path)
 {
     struct stat info;

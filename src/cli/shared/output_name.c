@@ -10,8 +10,8 @@
 enum { MARK_STEM, MARK_NAME, MARK_DIR, MARK_INDEX, MARK_COUNT };
 static const char *const marks[] = {"{stem}", "{name}", "{dir}", "{index}"};
 
-/* Length of the place for a frame number that begins at text, 0: none; *width is how many digits it asks for. A
- * single # is part of a name: people call files "part#2.png". */
+/* Length of the frame number placeholder at text, 0: none; *width is its number of digits. A single # belongs to the
+ * name, as in "part#2.png". */
 static size_t frame_mark(const char *text, int *width)
 {
     size_t run = strspn(text, "#");
@@ -45,7 +45,7 @@ bool output_name_has_model(const char *pattern)
     return false;
 }
 
-/* Whether a list of words separated by blanks has the first length characters of word. */
+/* Whether a blank-separated list contains the first length characters of word. */
 static bool has_word(const char *words, const char *word, size_t length)
 {
     for (; *words; words += strspn(words, " ")) {
@@ -80,7 +80,7 @@ facet_result output_name_check(const char *place, const char *pattern, const cha
 
 /* ---- filling in ---- */
 
-/* Text that grows in a block of fixed size. */
+/* A name being composed in a buffer of fixed size. */
 typedef struct filling {
     char *name;
     size_t used, size;
@@ -96,7 +96,7 @@ static void put(filling *f, const char *text, size_t length)
     f->used += length;
 }
 
-/* The number of the model, as wide as the last one. */
+/* Appends the number of the model, as wide as the last one. */
 static void put_index(filling *f, const model_name *model)
 {
     char number[32], last[32];
@@ -105,7 +105,7 @@ static void put_index(filling *f, const model_name *model)
     put(f, number, (size_t)length);
 }
 
-/* Puts in what mark stands for. */
+/* Appends the text of a placeholder. */
 static void put_model(filling *f, int mark, const model_name *model)
 {
     const char *path = !model->path ? "facet" : strcmp(model->path, "-") == 0 ? "stdin" : model->path;
@@ -129,7 +129,7 @@ static void put_model(filling *f, int mark, const model_name *model)
     }
 }
 
-/* The number of the mark that text begins with; MARK_COUNT: none. */
+/* The placeholder that text begins with; MARK_COUNT: none. */
 static int find_mark(const char *text)
 {
     for (int i = 0; i < MARK_COUNT; i++)
@@ -153,7 +153,7 @@ bool output_name_expand(const char *pattern, const model_name *model, const uint
             size_t before = f.used;
             put_model(&f, mark, model);
             pattern += strlen(marks[mark]);
-            /* no folder and no slash: '{dir}/{stem}.png' stays below the current one */
+            /* without a folder no slash: '{dir}/{stem}.png' stays below the current folder */
             pattern += mark == MARK_DIR && f.used == before && *pattern == '/';
         } else {
             put(&f, pattern++, 1);

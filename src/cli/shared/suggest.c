@@ -1,4 +1,4 @@
-/* suggest.c - what the user may have meant: near names, and the names that other tools have for the same. */
+/* suggest.c - suggestions for unknown words: similar names, and other tools' names. */
 #include "cli/shared/suggest.h"
 
 #include "cli/shared/failure.h"
@@ -9,11 +9,11 @@
 
 enum { MAX_WORD = 63 };
 
-/* Names in f3d, blender, <model-viewer>, screenshot-glb, cmgen, glTF-IBL-Sampler, cmft, ktx, gltf-transform, ImageMagick, and
- * what to write here. The first of a name that the verb has an option for counts. */
+/* Options of f3d, blender, <model-viewer>, screenshot-glb, cmgen, glTF-IBL-Sampler, cmft, ktx, gltf-transform and
+ * ImageMagick, and their counterparts here. Of several rows with one name the first counts whose option the verb has. */
 static const struct {
     const char *theirs;
-    option_id id; /* offered only where the verb has it */
+    option_id id; /* suggested only if the verb has it */
     const char *ours;
 } foreign_names[] = {
     /* facet bake */
@@ -174,7 +174,7 @@ static const struct {
     {"src", OPT_HELP, "nothing: the model is given without an option"},
 };
 
-/* Words that stand for a command elsewhere, or sound like one. */
+/* Names of commands in other tools, and words that users may try. */
 static const struct {
     const char *theirs, *ours;
 } foreign_verbs[] = {
@@ -222,7 +222,7 @@ static unsigned minimum(unsigned a, unsigned b)
     return a < b ? a : b;
 }
 
-/* Optimal string alignment: Levenshtein 1966 with swaps of neighbours, three rows of the table at a time. */
+/* Optimal string alignment distance: Levenshtein 1966 with transpositions, in three rows. */
 unsigned edit_distance(const char *a, const char *b)
 {
     char x[MAX_WORD + 1], y[MAX_WORD + 1];
@@ -246,7 +246,7 @@ unsigned edit_distance(const char *a, const char *b)
     return last[ny];
 }
 
-/* Whether text, mistyped, may be word, and how badly: smaller is nearer. A beginning of 3 letters or more is near. */
+/* Whether text may be a mistyped word, or a prefix of at least 3 letters; a smaller badness is nearer. */
 static bool is_near(const char *text, const char *word, unsigned *badness)
 {
     size_t length = strlen(text);
@@ -259,7 +259,7 @@ static bool is_near(const char *text, const char *word, unsigned *badness)
     return distance <= (length <= 3 ? 1u : length <= 7 ? 2u : 3u) && distance < length;
 }
 
-/* Values that other programs give to an option; ours counts only where it is a choice. */
+/* Option values of other programs, for options that have ours as a choice. */
 static const struct {
     const char *theirs, *ours;
 } foreign_words[] = {{"commerce", "neutral"}, /* model-viewer */
@@ -303,7 +303,7 @@ const char *suggest_verb(const char *text)
 
 /* ---- options ---- */
 
-/* What v has for an option of another tool (folded); NULL: no such name. */
+/* The counterpart in v of another tool's option (folded); NULL: none. */
 static const char *find_foreign(const verb *v, const char *folded)
 {
     for (size_t i = 0; i < sizeof foreign_names / sizeof *foreign_names; i++)

@@ -1,4 +1,4 @@
-/* terminal.c - what the standard streams are attached to, and text in columns. */
+/* terminal.c - see terminal.h. */
 #define _DEFAULT_SOURCE
 #include "cli/shared/terminal.h"
 
@@ -21,7 +21,7 @@ bool terminal_has_color(FILE *stream)
     return terminal_is(stream) && !(no_color && *no_color) && term && strcmp(term, "dumb") != 0;
 }
 
-/* Bytes of the UTF-8 sequence that begins at c; 1 for ASCII and for what begins none. */
+/* Length of the UTF-8 sequence at c; 1 for ASCII and invalid bytes. */
 static size_t sequence_length(const unsigned char *c)
 {
     size_t length = *c >= 0xf0 && *c < 0xf8 ? 4 : *c >= 0xe0 ? 3 : *c >= 0xc2 ? 2 : 1;
@@ -62,7 +62,7 @@ int terminal_width(FILE *stream)
     return width < NARROWEST ? NARROWEST : width;
 }
 
-/* Columns that length bytes of UTF-8 take, one per code point. */
+/* Columns of length bytes of UTF-8, one per code point. */
 static int columns_of(const char *text, size_t length)
 {
     int columns = 0;
@@ -122,7 +122,7 @@ void table_add(table *t, const char *format, ...)
         t->cells[t->cell_count++] = memcpy(cell, text, size);
 }
 
-/* Code points of UTF-8 text: as wide as it looks, nearly always. */
+/* Code points of UTF-8 text, which is nearly always its width. */
 static int width_of(const char *text)
 {
     int width = 0;
@@ -139,7 +139,7 @@ void table_print(table *t, FILE *stream, int indent)
         if (width > *widest)
             *widest = width < WIDEST_COLUMN ? width : WIDEST_COLUMN;
     }
-    int missing = indent; /* blanks that stand before the next text: none at the end of a line */
+    int missing = indent; /* blanks before the next text: none at the end of a line */
     for (size_t i = 0; i < t->cell_count; i++) {
         size_t column = i % t->column_count;
         int width = width_of(t->cells[i]);

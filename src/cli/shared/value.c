@@ -1,4 +1,4 @@
-/* value.c - the notations of option values. */
+/* value.c - see value.h. */
 #include "cli/shared/value.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 
 #define DEGREE 0.017453292519943295 /* pi / 180 */
 
-/* More turns than anybody means; floats still tell a tenth of a degree apart. */
+/* degrees or radians; floats still resolve a tenth of a degree */
 static const double MAX_ANGLE = 1e4;
 
 static const char *skip_blanks(const char *text)
@@ -21,7 +21,7 @@ bool scan_number(const char **text, double *number)
     const char *start = skip_blanks(*text);
     const char *digits = start + (*start == '+' || *start == '-');
     size_t length = strspn(digits, "0123456789.");
-    /* strtod() also takes hexadecimal, inf and nan, which nobody means here */
+    /* strtod() would also accept hexadecimal, inf and nan */
     if (strcspn(digits, "0123456789") >= length ||
         (digits[0] == '0' && (digits[1] == 'x' || digits[1] == 'X') && strspn(digits + 2, "0123456789") == 0))
         return false;
@@ -66,7 +66,7 @@ bool value_numbers(const char *text, size_t count, double *numbers)
     return true;
 }
 
-/* A number as a whole one from minimum to maximum. */
+/* Converts an integral number from minimum to maximum. */
 static bool whole(double number, double minimum, double maximum, uint32_t *out)
 {
     if (!(number >= minimum && number <= maximum) || number != floor(number))
@@ -115,7 +115,7 @@ bool value_rectangle(const char *text, uint32_t rectangle[4])
     return true;
 }
 
-/* Multiplies *number by the factor of the unit that text is; "" is the first one. */
+/* Multiplies *number by the factor of the unit text; the first unit is "". */
 typedef struct unit {
     const char *name;
     double factor;

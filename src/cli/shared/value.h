@@ -1,5 +1,4 @@
-/* value.h - the notations of option values. Each returns false where text is not such a value; outputs are then
- * untouched. */
+/* value.h - parsers of option values. Each returns false, with its outputs untouched, if text is not such a value. */
 #ifndef CLI_VALUE_H
 #define CLI_VALUE_H
 
@@ -7,7 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A finite decimal number at the start of *text, blanks before it skipped; *text moves behind it. */
+/* A finite decimal number at the start of *text, after blanks; *text advances past it. */
 bool scan_number(const char **text, double *number);
 
 bool value_number(const char *text, double *number);

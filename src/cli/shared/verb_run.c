@@ -12,7 +12,7 @@
 
 /* ---- failures ---- */
 
-/* Prints the sentence; one about the command line names no file, and begins with "facet: ". */
+/* Prints the sentence, after "facet: " if its subject is an option or the verb instead of a file. */
 static void print_error(const verb_run *run, const facet_error *error)
 {
     const char *name = run->line->verb->name;
@@ -22,13 +22,13 @@ static void print_error(const verb_run *run, const facet_error *error)
     message_error("%s%s", is_of_words ? "facet: " : "", error->message);
 }
 
-/* After a signal that of the signal. */
+/* The exit code; after a signal that of the signal. */
 static int code_of(const facet_error *error)
 {
     return error->result == FACET_ERROR_CANCELLED ? interrupt_exit_code() : exit_code_of(error->result);
 }
 
-/* Takes note of a failure; model NULL: of no model. */
+/* Records a failure; model NULL: none. */
 static void add_failure(verb_run *run, const facet_error *error, const char *model)
 {
     run->failure_count++;
@@ -47,7 +47,7 @@ static json_t *warnings_json(const messages *m)
     return list;
 }
 
-/* Prints the warnings that were not yet, takes note of all, and forgets them. */
+/* Prints, records and clears the warnings. */
 static void end_messages(verb_run *run)
 {
     messages_flush(&run->messages);
@@ -108,7 +108,7 @@ facet_scene_desc verb_run_scene_desc(verb_run *run)
                              .thread_count = run->limits.thread_count,
                              .root = option_text(c, OPT_ROOT, NULL),
                              .max_texture_size = run->limits.max_texture_size};
-    facet_legacy_desc *l = &desc.legacy; /* choices stand in the order of the enumerations */
+    facet_legacy_desc *l = &desc.legacy; /* choices are in the order of the enumerations */
     l->method = (facet_legacy_method)option_choice(c, OPT_METHOD, FACET_LEGACY_METHOD_CLOSED);
     l->profile = (facet_legacy_profile)option_choice(c, OPT_PROFILE, FACET_LEGACY_PROFILE_SPECULAR_IOR);
     l->target = (facet_legacy_target)option_choice(c, OPT_FIT_TARGET, FACET_LEGACY_TARGET_AUTO);
@@ -145,7 +145,7 @@ static int exit_code_of_run(const verb_run *run)
 {
     if (run->is_interrupted)
         return interrupt_exit_code();
-    if (run->failure_count) /* some of several models failed, or the one */
+    if (run->failure_count) /* of some models, or of the only one */
         return run->input_count > 1 && !run->has_failed ? EXIT_NEGATIVE : run->failure_code;
     bool is_strict = is_given(run->line, OPT_STRICT);
     return run->is_negative || (run->warning_count && is_strict) ? EXIT_NEGATIVE : EXIT_DONE;
@@ -180,7 +180,7 @@ static int work(verb_run *run, facet_error *error)
     facet_result result = run->work->work(run, error);
     interrupt_end();
     end_messages(run);
-    if (result == FACET_ERROR_ARGUMENT) /* the command line was wrong: what was done is nothing */
+    if (result == FACET_ERROR_ARGUMENT) /* a wrong command line: nothing was done */
         return end_failed(run, error);
     if (result != FACET_OK) {
         run->has_failed = true;

@@ -1,5 +1,5 @@
-/* verb_run.h - what verbs have in common around their work: --config, limits, memory budget, messages, the object of --json
- * and the exit code. A verb embeds a verb_run as the first member of its own state and brings a verb_work. */
+/* verb_run.h - the common frame of verbs: --config, limits, memory budget, messages, the object of --json and the
+ * exit code. A verb embeds a verb_run as the first member of its state and provides a verb_work. */
 #ifndef CLI_VERB_RUN_H
 #define CLI_VERB_RUN_H
 
@@ -12,7 +12,7 @@
 
 typedef struct verb_run verb_run;
 
-/* The functions of a verb, in the order they are called. */
+/* The functions of a verb, in calling order. */
 typedef struct verb_work {
     /* Reads the command line, limits included: nothing is loaded, made or written yet. */
     facet_result (*read)(verb_run *run, facet_error *error);
@@ -39,19 +39,19 @@ struct verb_run {
     int failure_code;    /* exit code of the last failure */
     bool has_failed;     /* verb_work.work did */
     bool is_negative;    /* the answer is exit code 1 */
-    bool is_interrupted; /* by a signal, and what was done until then is good */
+    bool is_interrupted; /* by a signal; the outputs so far are valid */
 };
 
 /* Runs the verb of c: everything from --config to the exit code, which it returns. */
 int verb_run_all(verb_run *run, command_line *c, const verb_work *parts);
 
-/* Calls each() for all models, one after the other. A failure, which has to name its file, is reported and the next model
- * follows; warnings are printed per model. Stops after a signal and where standard output is closed. */
+/* Calls each() for all models in order. Failures, which must name their file, are reported, and the next model
+ * follows; warnings are printed per model. Stops after a signal and if standard output is closed. */
 void verb_run_models(verb_run *run, const model_list *models,
                      facet_result (*each)(verb_run *run, size_t index, facet_error *error));
 
-/* How a run loads environments and models: with its budget, messages and limits, and for models --root and the options
- * about OBJ files and materials of OpenGL 1. Text stays with the command line. */
+/* Descs for environments and models with the run's budget, messages and limits; for models also with --root and the
+ * options of OBJ files and OpenGL 1 materials. Text stays with the command line. */
 facet_environment_desc verb_run_environment_desc(verb_run *run, const char *cache_folder);
 facet_scene_desc verb_run_scene_desc(verb_run *run);
 
