@@ -37,7 +37,7 @@ typedef struct bake_file {
     facet_texel_format texels;
     facet_dfg_kind table;
     int table_channel; /* the one that has the table's first, the others being 0; -1: as they are */
-    bool is_kept;      /* --no-clobber: it was there */
+    bool is_kept;      /* by --no-clobber */
     /* once it is made */
     unsigned char *bytes;
     size_t size;

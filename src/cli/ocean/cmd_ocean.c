@@ -1,4 +1,4 @@
-/* cmd_ocean.c - facet ocean: pictures, maps and meshes of a sea. */
+/* cmd_ocean.c - facet ocean: images, maps and meshes of a sea. */
 #include "cli/shared/options.h"
 
 #include "cli/ocean/ocean_run.h"
@@ -17,7 +17,7 @@
 
 /* ---- names ---- */
 
-/* Their pattern, whose only place for a number is the tile's. */
+/* The pattern of maps; its only number is the tile's. */
 static bool find_pattern(const ocean_options *o, uint32_t frame, char *pattern, size_t size)
 {
     const char *maps = o->maps;
@@ -114,7 +114,7 @@ const verb ocean_verb = {
             OPTION_GROUP("Running", OPT_PROGRESS, OPT_CONFIG), NULL},
 };
 
-/* Of a file that is no picture, of which there is nothing else to say. */
+/* Reports an output that is not an image: its name only. */
 static void report_file(ocean_run *run, const char *name)
 {
     if (run->outputs)
@@ -129,7 +129,7 @@ static void report_output(ocean_run *run, const picture_report *report)
                                                             : ocean_report_picture_json(run, report));
 }
 
-/* Whether a file is to be left as it is, which is then said. */
+/* Whether --no-clobber keeps the file name, which is then reported. */
 static bool is_kept(ocean_run *run, const char *name)
 {
     const render_options *p = &run->options.picture;
@@ -187,7 +187,7 @@ static facet_result make_picture(ocean_run *run, uint32_t index, const char *nam
 
 /* ---- meshes ---- */
 
-/* Else its materials are those of OpenGL 1. */
+/* Whether the mesh has glTF materials; else those of OpenGL 1. */
 static bool is_gltf(const char *name)
 {
     const char *dot = strrchr(name, '.');
@@ -286,7 +286,7 @@ static facet_result make_frame(ocean_run *run, uint32_t index, uint32_t number, 
     return run->options.has_mesh ? make_mesh(run, name, error) : make_picture(run, index, name, error);
 }
 
-/* Those of which there is a picture or mesh already may be left. */
+/* --no-clobber skips frames whose output exists. */
 static facet_result make_frames(ocean_run *run, facet_error *error)
 {
     const render_options *p = &run->options.picture;
@@ -309,7 +309,8 @@ static facet_result make_frames(ocean_run *run, facet_error *error)
     return result;
 }
 
-/* Waves that a loop is too short for run faster, and frames that do not fill it make a jump. */
+/* Warns of a --loop shorter than the peak period, which speeds waves up, and of one that is not a whole number of
+ * frames, which jumps. */
 static void warn_of_loop(ocean_run *run)
 {
     const render_options *p = &run->options.picture;
@@ -328,7 +329,7 @@ static void warn_of_loop(ocean_run *run)
         log_warning(&log, "%s", text);
 }
 
-/* What is known is that of the first moment. */
+/* Writes all outputs. --info describes the sea at the first frame's time. */
 static facet_result make_all(ocean_run *run, facet_error *error)
 {
     const ocean_options *options = &run->options;
@@ -357,13 +358,13 @@ static facet_result load_environment(ocean_run *run, facet_error *error)
     environment_input input = p->environment;
     if (!p->has_environment)
         return FACET_OK;
-    if (input.kind == ENVIRONMENT_NONE) /* no environment would be the sky */
+    if (input.kind == ENVIRONMENT_NONE) /* a NULL environment would be the sky */
         TRY(environment_input_parse("--env", "constant:0", 0, &input, error));
     const facet_environment_desc desc = verb_run_environment_desc(&run->base, p->environment_cache);
     return environment_input_load(&input, &desc, &run->environment, error);
 }
 
-/* A picture without units beside a sun in lux is black. */
+/* Warns of an environment that the sun outshines: an image without units is black beside a sun in lux. */
 static void warn_of_sun(ocean_run *run)
 {
     const facet_render_desc *d = &run->options.picture.desc;

@@ -1,4 +1,4 @@
-/* ocean_run.c - see ocean_run.h. */
+/* ocean_draw.c - images of a sea, and sheets over options (--sweep). */
 #include "cli/ocean/ocean_run.h"
 
 #include "cli/shared/failure.h"
@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const float BLACK_EV = -200.0f; /* 2 to this power is 0 */
+static const float BLACK_EV = -200.0f; /* stops; a factor of 0 in float */
 
 facet_result ocean_run_set_sea(ocean_run *run, const ocean_options *options, facet_error *error)
 {
@@ -36,7 +36,7 @@ facet_camera ocean_run_camera(const ocean_run *run, const ocean_options *o)
     return camera;
 }
 
-/* But for exposure and camera. */
+/* The desc of an image, without exposure and camera. */
 static facet_render_desc desc_of(ocean_run *run, const ocean_options *o, const facet_sea_shading *shading)
 {
     facet_render_desc d = o->picture.desc;
@@ -46,12 +46,12 @@ static facet_render_desc desc_of(ocean_run *run, const ocean_options *o, const f
     d.allocator = run->base.allocator;
     d.log = messages_log(&run->base.messages);
     d.environment = run->environment;
-    if (o->picture.environment.kind == ENVIRONMENT_NONE) /* a cell of --sweep without the others' light */
+    if (o->picture.environment.kind == ENVIRONMENT_NONE) /* a cell of --sweep without light */
         d.environment_ev = BLACK_EV;
     return d;
 }
 
-/* The renderer of all images, which keeps the sky and OpenGL's programs. */
+/* Creates the renderer of all images, which caches the sky and OpenGL programs. */
 static facet_result make_renderer(ocean_run *run, facet_error *error)
 {
     return run->renderer ? FACET_OK
@@ -71,7 +71,7 @@ facet_result ocean_run_meter(ocean_run *run, const ocean_options *o, facet_error
     return result;
 }
 
-/* images_left: with this one; path tracing takes all the time that it gets, so they share it evenly. */
+/* images_left includes this one; path tracing uses all of its time, so that images share the rest evenly. */
 static facet_result draw(ocean_run *run, const ocean_options *o, const facet_sea_shading *look,
                          facet_tonemap tonemap, uint32_t images_left, progress *shown, facet_image **image,
                          facet_error *error)
@@ -98,7 +98,7 @@ static facet_result draw(ocean_run *run, const ocean_options *o, const facet_sea
     return result;
 }
 
-/* Both halves, side by side; the look of before is for a display as it is. */
+/* Legacy style and now side by side. Legacy style is in display values already. */
 static facet_result draw_both(ocean_run *run, const ocean_options *o, progress *shown, facet_image **image,
                               facet_error *error)
 {
@@ -145,7 +145,7 @@ facet_result ocean_run_draw(ocean_run *run, const ocean_options *o, ocean_step s
 
 enum { MAX_STEPS = 64, AXES = 2, LABEL_SIZE = 96, MAX_EDGE = 65536 };
 
-static const double MAX_NUMBER = 1e15; /* of numbers: whole ones are exact */
+static const double MAX_NUMBER = 1e15; /* largest number, up to which integers are exact */
 
 typedef struct axis {
     const option *option;
@@ -206,7 +206,7 @@ static facet_result read_axes(const ocean_run *run, axis axes[AXES], facet_error
     if (result == FACET_OK && *at)
         result = option_fail(c, OPT_SWEEP, expected, error);
     const render_options *p = &run->options.picture;
-    uint64_t columns = axes[0].count, rows = axes[1].count; /* 0: the columns are as many as look well */
+    uint64_t columns = axes[0].count, rows = axes[1].count; /* 0: the number of columns is free */
     if (result == FACET_OK && (columns * p->desc.width > MAX_EDGE || rows * p->desc.height > MAX_EDGE))
         result = fail(error, FACET_ERROR_ARGUMENT,
                       "--sweep: %u x %u pictures of %u x %u pixels are more than a sheet of %d x %d holds",
@@ -224,10 +224,10 @@ static void put_number(const axis *a, uint32_t i, char *text, size_t size)
     if (a->option->kind == OPTION_INTEGER)
         snprintf(text, size, "%.0f", round(number));
     else
-        snprintf(text, size, "%.6g", number); /* the picture is of the number that its label shows */
+        snprintf(text, size, "%.6g", number); /* the image is rendered with the number in its label */
 }
 
-/* One picture: the command line with both numbers. */
+/* Renders a cell: the command line with both numbers. */
 static facet_result draw_cell(ocean_run *run, const axis *axes, uint32_t cell, ocean_step step, char *label,
                               facet_image **image, facet_error *error)
 {

@@ -1,4 +1,4 @@
-/* ocean_float.c - a model that floats: it follows the plane that fits the water below it best. */
+/* ocean_float.c - a floating model (--with), which follows the best-fit plane of the water below it. */
 #include "cli/ocean/ocean_run.h"
 
 #include <math.h>
@@ -13,11 +13,11 @@
 
 #define DEGREE 0.017453292519943295 /* pi / 180 */
 
-/* Of a berth: where it may be, m; how far away in sizes of the model that would fill the picture's height; how much farther than the nearest
- * water in the picture. */
+/* Placement: farthest position, m; distance in units of that at which the model fills the image height; distance in
+ * units of that of the nearest visible water. */
 static const double FARTHEST = 1e6, SIZE_AWAY = 1.2, NEAREST = 1.15;
 
-/* When a size is a warning: m; in lengths of the highest waves; pixels. The longest ship has 458 m. */
+/* Sizes that cause a warning: m; peak wavelengths; pixels. The longest ship has 458 m. */
 static const double MAX_SIZE = 1000.0, MAX_WAVES = 30.0, MIN_PIXELS = 2.0;
 
 enum { GRID = 9 }; /* points along an edge of the footprint */
@@ -42,7 +42,7 @@ static facet_result read_berth(const ocean_run *run, char *path, size_t size, oc
     return FACET_OK;
 }
 
-/* Waves are around the origin of the sea. */
+/* Warns of a position far from the origin of the sea. */
 static void warn_of_origin(ocean_run *run, const char *path)
 {
     double origin[3];
@@ -73,7 +73,7 @@ facet_result ocean_float_load(ocean_run *run, facet_error *error)
     interrupt_end();
     if (result != FACET_OK)
         return result;
-    /* where it is, before it is put elsewhere */
+    /* before it is moved */
     if (!facet_scene_get_bounds(run->model, NULL, run->model_low, run->model_high))
         return fail(error, FACET_ERROR_ARGUMENT, "%s: there is nothing in it that floats", path);
     warn_of_origin(run, path);
@@ -99,14 +99,14 @@ static plane fit_plane(const double (*places)[2], const facet_sea_point *points,
         xx += x * x, zz += z * z, xz += x * z, xy += x * y, zy += z * y;
     }
     double determinant = xx * zz - xz * xz;
-    if (!(determinant > 1e-12 * xx * zz)) /* it has no width */
+    if (!(determinant > 1e-12 * xx * zz)) /* zero width */
         return (plane){.height = sum};
     plane p = {.slope_x = (xy * zz - zy * xz) / determinant, .slope_z = (zy * xx - xy * xz) / determinant};
     p.height = sum - p.slope_x * x_sum - p.slope_z * z_sum;
     return p;
 }
 
-/* Columns: heading about +Y, then what takes +Y to the plane's normal, then to its place. */
+/* Columns of the pose: rotation by the heading about +Y, then of +Y to the plane's normal, then the translation. */
 static void matrix_of(const plane *p, const ocean_berth *b, float m[16])
 {
     double c = cos(b->numbers[2] * DEGREE), s = sin(b->numbers[2] * DEGREE);
@@ -131,7 +131,7 @@ static void matrix_of(const plane *p, const ocean_berth *b, float m[16])
     m[15] = 1.0f;
 }
 
-/* Ahead, as far away as it takes to see all of it, and water before it. */
+/* Places the model ahead of the camera, all of it visible, with water in front. */
 static void find_berth(ocean_run *run)
 {
     const facet_camera camera = ocean_run_camera(run, &run->options);
@@ -157,8 +157,8 @@ static double azimuth_of(double x, double z)
     return degrees < -0.5 ? degrees + 360.0 : fabs(degrees);
 }
 
-/* A place that somebody gave may be where the camera does not look: by default it turns with the sun. All of the model, as a ball, is
- * to be outside of the cone around the picture. */
+/* Warns if a given position is out of view, since the default heading follows the sun: if the bounding sphere is
+ * outside of the cone around the image. */
 static void warn_of_view(ocean_run *run)
 {
     const facet_camera camera = ocean_run_camera(run, &run->options);
@@ -190,7 +190,7 @@ static void warn_of_view(ocean_run *run)
     log_warning(&log, "%s", text);
 }
 
-/* Height in the image, in pixels, of a ball around the model; it may stand around the camera. */
+/* Height in the image of the bounding sphere, pixels; the camera may be inside. */
 static double pixels_of(const ocean_run *run, double size)
 {
     const facet_camera camera = ocean_run_camera(run, &run->options);
@@ -200,7 +200,7 @@ static double pixels_of(const ocean_run *run, double size)
     return size / away / (2.0 * tan(0.5 * (double)camera.fov_y_rad)) * run->options.picture.desc.height;
 }
 
-/* A model in millimetres is a thousand times too large, one in kilometres cannot be seen, and either is a surprise. */
+/* Warns of implausible sizes: a model in millimetres is a thousand times too large, one in kilometres invisible. */
 static void warn_of_size(ocean_run *run)
 {
     const float *low = run->model_low, *high = run->model_high;

@@ -1,4 +1,4 @@
-/* ocean_options.c - the options of facet ocean become descs. */
+/* ocean_options.c - converts the options of facet ocean to descs. */
 #include "cli/ocean/ocean_options.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@
 #define DEGREE 0.017453292519943295 /* pi / 180 */
 
 static const double DEFAULT_SUN_EL = 22.0, BESIDE_SUN = 36.0;
-/* Of what the options take: of a length, a place, an azimuth (degrees), light (lx), a coefficient (1/m). */
+/* Upper limits of option values: length and position, m; azimuth, degrees; illuminance, lx; coefficient, 1/m. */
 static const double MAX_LENGTH = 1e7, MAX_DISTANCE = 1e6, MAX_TURN = 1e6, MAX_BRIGHTNESS = 1e9,
                     MAX_ABSORPTION = 1e3;
 static const float SAND[3] = {0.42f, 0.36f, 0.27f};
@@ -39,7 +39,7 @@ bool value_length(const char *text, double *metres)
     return number <= MAX_LENGTH;
 }
 
-/* Between least and most numbers separated by commas; how many, 0: it is no such list. */
+/* Parses between least and most comma-separated numbers. Returns their count, 0: not such a list. */
 static size_t scan_list(const char *text, size_t least, size_t most, double *numbers)
 {
     for (size_t count = least; count <= most; count++)
@@ -61,7 +61,7 @@ static bool is_azimuth(double degrees)
     return fabs(degrees) <= MAX_TURN;
 }
 
-/* The command line's directions are azimuths from +Z towards +X, the sea's angles from +X towards +Z. */
+/* Options have azimuths from +Z towards +X, descs angles from +X towards +Z. */
 static float plane_angle(double azimuth)
 {
     return (float)((90.0 - azimuth) * DEGREE);
@@ -129,7 +129,7 @@ static facet_result read_waves(const command_line *c, ocean_options *out, facet_
 
 /* ---- water, bed ---- */
 
-/* --absorption replaces one of three coefficients; the others stay what the water has. */
+/* --absorption replaces one of three coefficients; the water type's others stay. */
 static facet_result read_absorption(const command_line *c, facet_sea_desc *d, facet_error *error)
 {
     double numbers[3];
@@ -239,7 +239,7 @@ static facet_result read_sky(const command_line *c, ocean_options *out, facet_er
 
 /* ---- look ---- */
 
-/* The first of the options that somebody gave, up to the last of option_source that counts; NULL: none is. */
+/* The first option that is given by a source up to last; NULL: none. */
 static const option *first_given(const command_line *c, const option_id *ids, size_t count,
                                  option_source last)
 {
@@ -292,7 +292,7 @@ static facet_result read_camera(const command_line *c, ocean_options *out, facet
     double numbers[3], angle = (double)out->sky.sun_azimuth_rad + BESIDE_SUN * DEGREE;
     out->eye_height_m = (float)option_number(c, OPT_EYE_HEIGHT, 0.0);
     if (is_given(c, OPT_EYE_HEIGHT) && out->eye_height_m == 0.0f)
-        out->eye_height_m = 1e-6f; /* 0 would be the height that one has where none is given */
+        out->eye_height_m = 1e-6f; /* 0 would select the default height */
     if (is_given(c, OPT_HEADING) && !value_angle(option_text(c, OPT_HEADING, ""), &angle))
         return option_fail(c, OPT_HEADING, "an angle in degrees", error);
     out->heading_rad = (float)angle;
@@ -396,7 +396,7 @@ static facet_result check_maps(const command_line *c, const ocean_options *out, 
     return FACET_OK;
 }
 
-/* What has no meaning for a mesh, and would be dropped without a word. */
+/* Refuses options without effect on a mesh. */
 static facet_result check_mesh(const command_line *c, const ocean_options *out, facet_error *error)
 {
     static const option_id of_pictures[] = {
@@ -413,7 +413,7 @@ static facet_result check_mesh(const command_line *c, const ocean_options *out, 
     return FACET_OK;
 }
 
-/* Sequences of pictures or of meshes have a number in their names; a sheet is one picture. */
+/* Requires a frame number in the names of sequences; a sheet is one image. */
 static facet_result check_output(const command_line *c, const ocean_options *out, facet_error *error)
 {
     facet_result result = check_maps(c, out, error);

@@ -1,11 +1,11 @@
-/* ocean_options.h - what the options of facet ocean ask for, checked, before anything is made. */
+/* ocean_options.h - the checked options of facet ocean. */
 #ifndef CLI_OCEAN_OPTIONS_H
 #define CLI_OCEAN_OPTIONS_H
 
 #include "cli/render/render_options.h"
 
 typedef struct ocean_options {
-    /* output, format, size, environment, frames, limits; desc.exposure_ev: beside the meter */
+    /* output, format, size, environment, frames, limits; desc.exposure_ev is relative to the meter */
     render_options picture;
     facet_sea_desc sea;
     facet_sky_desc sky;
@@ -24,15 +24,16 @@ typedef struct ocean_options {
     bool has_picture, has_mesh, has_info;
     bool is_before_after;
     const char *maps;  /* folder or pattern; NULL: none */
-    const char *model; /* of --with; NULL: none. Its name is longer by what stands behind @ */
+    const char *model; /* of --with, including @ and what follows; NULL: none */
     const char *sweep; /* NULL: none */
     facet_sea_mesh_desc mesh;
 } ocean_options;
 
-/* Fails with FACET_ERROR_ARGUMENT, and as facet_sea_create() where the water's numbers are asked for. Text stays with c. */
+/* Fails with FACET_ERROR_ARGUMENT, and as facet_sea_create() where the water's coefficients are needed. Text stays
+ * with c. */
 facet_result ocean_options_read(const command_line *c, ocean_options *out, facet_error *error);
 
-/* "1500", "1.5km", "inf"; m. False: it is no such. */
+/* Parses "1500", "1.5km", "inf" to m. False: not a length. */
 bool value_length(const char *text, double *metres);
 
 #endif

@@ -11,7 +11,7 @@ static void print_rgb(const char *what, const double rgb[3], const char *unit)
     printf("%-18s %.4g %.4g %.4g%s\n", what, rgb[0], rgb[1], rgb[2], unit);
 }
 
-/* As --wind has it: degrees from +Z towards +X. */
+/* As in --wind: degrees from +Z towards +X. */
 static double wind_azimuth(const facet_sea_desc *d)
 {
     return remainder(90.0 - round((double)d->wind_direction_rad / DEGREE * 1e4) * 1e-4, 360.0);
@@ -83,7 +83,7 @@ json_t *ocean_report_picture_json(const ocean_run *run, const picture_report *p)
 {
     json_t *all = report_picture_json(p);
     const facet_camera camera = ocean_run_camera(run, &run->options);
-    if (!all || run->options.sweep) /* of whose pictures each has its own */
+    if (!all || run->options.sweep) /* whose images have their own values each */
         return all;
     json_object_set_new(all, "ev100", json_real(run->ev100));
     json_object_set_new(all, "exposure", json_real((double)facet_exposure_from_ev100(run->ev100)));

@@ -1,4 +1,4 @@
-/* camera_options.c - the camera that the options ask for: orbit, eye, matrix, lens apart. */
+/* camera_options.c - the camera of the options: orbit, eye, matrix, without the lens. */
 #include "cli/render/render_options.h"
 #include "cli/shared/failure.h"
 #include "cli/shared/value.h"
@@ -11,14 +11,14 @@
 
 typedef enum part_kind { PART_AUTO, PART_NUMBER } part_kind;
 
-/* One part of the list: a number with its unit, or auto. */
+/* A field of the list: a number with its unit, or auto. */
 typedef struct part {
     part_kind kind;
     double number;
     char unit[4];
 } part;
 
-/* Scans the part at *text and what separates it from the next one. False: no such thing. */
+/* Scans the field at *text and its separator. False: not a field. */
 static bool scan_part(const char **text, part *out)
 {
     const char *at = *text + strspn(*text, " \t");
@@ -40,14 +40,14 @@ static bool scan_part(const char **text, part *out)
     at += strspn(at, " \t");
     if (*at == ',') {
         at++;
-        if (!at[strspn(at, " \t")]) /* nothing behind the comma */
+        if (!at[strspn(at, " \t")]) /* nothing after the comma */
             return false;
     }
     *text = at;
     return true;
 }
 
-/* Turns number into rad or m by its unit; a missing one is the first. False: unknown unit. */
+/* Converts number to rad or m by its unit; the first unit is the default. False: unknown unit. */
 static bool to_si(part *p, const char *const *names, const double *factors)
 {
     for (int i = 0; names[i]; i++)
@@ -95,7 +95,8 @@ bool orbit_parse(const char *text, facet_orbit *orbit)
         if (i < 2 && !to_radians(&p))
             return false;
         if (i == 0)
-            parsed.azimuth_rad = (float)remainder(p.number, 360.0 * DEGREE); /* 390deg is 30deg, to the bit */
+            parsed.azimuth_rad =
+                (float)remainder(p.number, 360.0 * DEGREE); /* 390deg equals 30deg bit by bit */
         else if (i == 1 && p.number >= 0.0 && p.number <= 180.0 * DEGREE)
             parsed.polar_rad = (float)p.number;
         else if (i == 1 || !set_radius(&p, &parsed))
@@ -127,7 +128,7 @@ bool target_parse(const char *text, double target[3], bool is_given[3])
     return true;
 }
 
-static const double SKEWEST = 1e-3; /* cosine between axes, of matrices that were printed with few digits */
+static const double SKEWEST = 1e-3; /* cosine between axes, for matrices printed with few digits */
 
 static double dot(const double a[3], const double b[3])
 {
@@ -140,7 +141,7 @@ static void cross(const double a[3], const double b[3], double out[3])
         out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
-/* The inverse of an affine matrix, by cofactors. False: there is none. */
+/* Inverts an affine matrix by cofactors. False: singular. */
 static bool invert(const double m[16], double out[16])
 {
     double rows[3][3];
@@ -159,7 +160,7 @@ static bool invert(const double m[16], double out[16])
     return true;
 }
 
-/* What the numbers are read as: 16 of them, with or without the brackets of JSON. */
+/* Parses 16 numbers, with or without the brackets of JSON. */
 static bool read_numbers(const char *text, double m[16])
 {
     char plain[1024];
@@ -172,7 +173,7 @@ static bool read_numbers(const char *text, double m[16])
     return value_numbers(plain, 16, m);
 }
 
-/* Unit axes of the camera, and whether they are a rotation. */
+/* Normalizes the axes of the camera. False: not a rotation. */
 static const char *find_axes(const double m[16], double axes[3][3])
 {
     for (int i = 0; i < 3; i++) {
@@ -197,7 +198,7 @@ static facet_result set_camera(const command_line *c, option_id id, const double
     const char *expected = find_axes(m, axes);
     if (expected)
         return option_fail(c, id, expected, error);
-    double away = fmax(1.0, sqrt(dot(m + 12, m + 12))); /* far enough for the digits of a float */
+    double away = fmax(1.0, sqrt(dot(m + 12, m + 12))); /* within the digits of a float */
     for (int i = 0; i < 3; i++) {
         out->eye[i] = m[12 + i];
         out->target[i] = m[12 + i] - away * axes[2][i];

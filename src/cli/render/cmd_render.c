@@ -1,4 +1,4 @@
-/* cmd_render.c - facet render: models to pictures, one after the other. */
+/* cmd_render.c - facet render: renders models to images, in order. */
 #include "cli/shared/options.h"
 
 #include "cli/render/render_options.h"
@@ -108,19 +108,19 @@ static facet_result load_model(render_run *run, const char *model, facet_scene *
 
 /* ---- pictures ---- */
 
-/* One model on its way to its pictures. */
+/* The state of one model. */
 typedef struct model_run {
     render_run *run;
-    render_options options; /* the framing of a sequence is found with its first picture */
+    render_options options; /* the first image sets the framing of a sequence */
     const model_name *model;
     facet_scene *scene;
     facet_renderer *renderer;
-    facet_environment *environment, *own_environment; /* what lights it; NULL, or the one that it brings */
+    facet_environment *environment, *own_environment; /* of the render; the model's own, or NULL */
     sequence sequence;
     video *video; /* NULL: files */
     double load_s;
     bool has_lost_checkpoint;
-    bool is_framed; /* a camera was found, and what framing had to say was said */
+    bool is_framed; /* the camera is framed, and its warnings are reported */
 } model_run;
 
 static facet_result write_picture(model_run *m, const facet_image *image, const char *name,
@@ -161,7 +161,8 @@ static facet_result frame_camera(model_run *m, uint32_t index, const sequence_fr
     return result;
 }
 
-/* helmet.gltf with a texture helmet.png beside it is common, and helmet.png is what the picture would be called. */
+/* Refuses an output that is a file of the model: helmet.gltf often has a texture helmet.png, the default name of the
+ * image. */
 static facet_result check_inputs(const model_run *m, const char *name, facet_error *error)
 {
     const render_options *o = &m->options;
@@ -171,8 +172,7 @@ static facet_result check_inputs(const model_run *m, const char *name, facet_err
                 "%s: this input would be overwritten; name another output with -o", name);
 }
 
-/* Seconds that a picture may take; 0: as long as it wants. Path tracing takes all that it gets: its pictures share evenly
- * what is left. */
+/* Time limit of an image, s; 0: none. Path tracing uses all of its time, so that images share the rest evenly. */
 static double time_for_frame(const model_run *m, uint32_t index, double left)
 {
     if (!(left < 1e29))
@@ -183,7 +183,7 @@ static double time_for_frame(const model_run *m, uint32_t index, double left)
     return left / (frames_left * (double)m->run->models_left);
 }
 
-/* The image of a frame; checkpoint gets the name of its checkpoint, RENDER_NAME_SIZE characters, "" for none. */
+/* Renders a frame. checkpoint receives the name of its checkpoint (RENDER_NAME_SIZE bytes), "" for none. */
 static facet_result draw_frame(model_run *m, uint32_t index, const sequence_frame *frame, const char *output,
                                char *checkpoint, facet_image **image, facet_error *error)
 {
@@ -218,7 +218,7 @@ static facet_result draw_frame(model_run *m, uint32_t index, const sequence_fram
     desc.path.checkpoint_path = o->checkpoint ? checkpoint : NULL;
     desc.path.keeps_cancelled = true;
     bool has_bar = shown.mode == PROGRESS_BAR;
-    /* A driver compiles, and draws a part, without looking at the time, for half a minute at worst. */
+    /* an OpenGL driver may compile and render for half a minute without polling */
     if (desc.renderer == FACET_RENDERER_KIND_GL)
         interrupt_begin(output, "OpenGL drew", has_bar);
     else
@@ -297,13 +297,13 @@ static facet_result render_frames(model_run *m, facet_error *error)
     return result;
 }
 
-/* What lights the model: what was asked for, else what it brings, else the studio. */
+/* Chooses the environment: that of --env, else the model's own, else the studio. */
 static facet_result choose_environment(model_run *m, facet_error *error)
 {
     render_run *run = m->run;
     const render_options *o = &m->options;
     facet_result result = FACET_OK;
-    if (o->desc.shading == FACET_SHADING_OGL1) /* it knew none */
+    if (o->desc.shading == FACET_SHADING_OGL1) /* OpenGL 1 has no environment */
         return FACET_OK;
     if (render_is_lit_by_scene(o, m->scene, &m->sequence.pose)) {
         const facet_environment_desc desc = verb_run_environment_desc(&run->base, o->environment_cache);
@@ -318,7 +318,7 @@ static facet_result choose_environment(model_run *m, facet_error *error)
     return result;
 }
 
-/* What is after the last key is its pose again and again, and hardly meant. */
+/* Frames past the last keyframe repeat its pose; warns, since that is rarely intended. */
 static void warn_of_late_frames(const model_run *m)
 {
     const sequence *s = &m->sequence;
@@ -339,8 +339,8 @@ static facet_result open_video(model_run *m, facet_error *error)
     return video_open(name, m->options.video, m->options.fps, &m->video, error);
 }
 
-/* --exposure auto: one for all frames, so that they do not flicker, by the first one of the whole sequence, so that it does not
- * depend on which of them are drawn. */
+/* Meters --exposure auto: one exposure for all frames, against flicker, by the first frame of the whole sequence, so
+ * that it does not depend on --frames. */
 static facet_result meter(model_run *m, facet_error *error)
 {
     render_run *run = m->run;
@@ -365,7 +365,7 @@ static facet_result meter(model_run *m, facet_error *error)
     return result;
 }
 
-/* All pictures of a model that is loaded. */
+/* Renders all images of a loaded model. */
 static facet_result render_scene(render_run *run, const model_name *model, facet_scene *scene, double start,
                                  facet_error *error)
 {
@@ -394,7 +394,7 @@ static facet_result render_scene(render_run *run, const model_name *model, facet
     return result == FACET_OK ? closed : result;
 }
 
-/* --no-clobber for a file of its own: nothing need be read. True: the picture was there, and that is reported. */
+/* Whether --no-clobber keeps the only output of model, which is then reported; the model need not be loaded. */
 static bool is_kept(render_run *run, const model_name *model)
 {
     char name[RENDER_NAME_SIZE];
@@ -423,7 +423,7 @@ static facet_result render_model(render_run *run, const model_name *model, facet
 
 /* ---- the run ---- */
 
-/* Whether another model has the same output: neither is drawn, and the others are. */
+/* Fails if another model has the same output: neither is rendered. */
 static facet_result check_clash(const render_run *run, size_t i, facet_error *error)
 {
     char name[RENDER_NAME_SIZE];

@@ -1,4 +1,4 @@
-/* frame_list.h - numbers of frames as people write them: "1-10", "1-100x4,120", Blender's "1,3,5..10". */
+/* frame_list.h - lists of frame numbers: "1-10", "1-100x4,120", Blender's "1,3,5..10". */
 #ifndef CLI_FRAME_LIST_H
 #define CLI_FRAME_LIST_H
 
@@ -18,7 +18,7 @@ typedef struct frame_list {
     frame_range ranges[FRAME_LIST_RANGES];
 } frame_list;
 
-/* False: text is no such list, of numbers from 1, or has more than FRAME_LIST_FRAMES; *out is then untouched. */
+/* False, with *out untouched: not a list of numbers from 1, or more than FRAME_LIST_FRAMES. */
 bool frame_list_parse(const char *text, frame_list *out);
 /* The frames first to last. */
 frame_list frame_list_all(uint32_t first, uint32_t last);

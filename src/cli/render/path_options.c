@@ -1,4 +1,4 @@
-/* path_options.c - see path_options.h. */
+/* path_options.c - --renderer, and the options of the renderers. */
 #include "cli/render/render_options.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 
 #define DEGREE 0.017453292519943295 /* pi / 180 */
 
-/* Samples per pixel of draft, normal, final, as facet_render() has them; told in reports. */
+/* Samples per pixel of draft, normal, final, as in facet_render(), for reports. */
 static const uint32_t preview_samples[] = {1, 4, 16};
 static const uint32_t path_samples[] = {16, 64, 512};
 
@@ -63,7 +63,7 @@ static facet_result check_renderer(const command_line *c, const render_options *
 
 /* ---- light ---- */
 
-/* AZ,EL[,LUX[,DIAMETER]]. A sun that is not told otherwise lights a facing surface as a white sky of radiance 1 does. */
+/* Parses AZ,EL[,LUX[,DIAMETER]]. By default the sun lights a facing surface as a white sky of radiance 1 does. */
 static facet_result read_sun(const command_line *c, render_options *out, facet_error *error)
 {
     if (!is_given(c, OPT_SUN))
@@ -129,7 +129,7 @@ static facet_result read_shutter(const command_line *c, render_options *out, fac
     return FACET_OK;
 }
 
-/* The distance along the axis to the middle of the model, for cameras of the file, which look at no point. */
+/* Distance along the optical axis to the center of the model, for cameras of the file, which have no target. */
 static float distance_to_middle(const facet_scene *scene, const facet_pose_desc *pose, const facet_camera *c)
 {
     float low[3];
@@ -212,7 +212,7 @@ static void read_gl(const command_line *c, render_options *out)
     gl->brdf = (facet_brdf)option_choice(c, OPT_BRDF, FACET_BRDF_ENERGY);
 }
 
-/* What has another default with each renderer. */
+/* Defaults that depend on the renderer. */
 static void read_defaults(const command_line *c, render_options *out)
 {
     bool is_path = out->desc.renderer == FACET_RENDERER_KIND_PATH;

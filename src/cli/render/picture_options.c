@@ -1,4 +1,4 @@
-/* picture_options.c - see picture_options.h. */
+/* picture_options.c - options of images that facet render and facet ocean share. */
 #include "cli/render/render_options.h"
 
 #include <math.h>
@@ -36,7 +36,7 @@ facet_result picture_options_output(const command_line *c, render_options *out, 
     return FACET_OK;
 }
 
-/* In the order of --format's choices; then other names of the same. */
+/* In the order of --format's choices, then synonyms. */
 static const struct {
     const char *extension;
     facet_image_format format;
@@ -46,7 +46,7 @@ static const struct {
                {"hdr", FACET_IMAGE_FORMAT_HDR},  {"pfm", FACET_IMAGE_FORMAT_PFM},
                {"y4m", FACET_IMAGE_FORMAT_RAW},  {"raw", FACET_IMAGE_FORMAT_RAW},
                {"jpeg", FACET_IMAGE_FORMAT_JPEG}};
-enum { Y4M = 8, RAW = 9 }; /* in formats */
+enum { Y4M = 8, RAW = 9 }; /* indices in formats */
 
 const char *render_extension(facet_image_format format)
 {

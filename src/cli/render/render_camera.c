@@ -1,4 +1,4 @@
-/* render_camera.c - the camera that the options ask for, given the model. */
+/* render_camera.c - see render_camera.h. */
 #include "cli/render/render_camera.h"
 
 #include "cli/shared/failure.h"
@@ -12,7 +12,7 @@ static float aspect_of(const render_options *options)
     return (float)options->desc.width / (float)options->desc.height;
 }
 
-/* The target in full, relative to the origin of the scene: what is not given is the middle of what is framed. */
+/* The target relative to the origin of the scene; coordinates that are not given are those of the framing's center. */
 static void resolve_target(const facet_scene *scene, const facet_pose_desc *pose,
                            const render_options *options, float target[3])
 {
@@ -21,7 +21,7 @@ static void resolve_target(const facet_scene *scene, const facet_pose_desc *pose
     double origin[3];
     orbit.has_target = false;
     orbit.is_orthographic = false;
-    orbit.radius = 1.0f; /* only the middle is asked for */
+    orbit.radius = 1.0f; /* only the center is needed */
     facet_camera_from_orbit(scene, pose, &orbit, aspect_of(options), &camera, NULL);
     facet_scene_get_origin(scene, origin);
     for (int i = 0; i < 3; i++)

@@ -1,4 +1,4 @@
-/* render_options.c - the options of facet render become descs. */
+/* render_options.c - converts the options of facet render to descs. */
 #include "cli/render/render_options.h"
 
 #include "cli/shared/color.h"
@@ -43,7 +43,7 @@ static bool has_word(const char *list, const char *word)
     return false;
 }
 
-/* All that the renderer has, except for what a continued picture cannot have. */
+/* All layers of the renderer, without those that --resume excludes. */
 static uint32_t all_aovs(const render_options *o)
 {
     uint32_t all = 0;
@@ -56,7 +56,7 @@ static uint32_t all_aovs(const render_options *o)
     return all;
 }
 
-/* "depth, normal and uv" of what a renderer has. */
+/* Writes "depth, normal and uv" for the layers of a renderer. */
 static void list_names(uint32_t aovs, char *list, size_t size)
 {
     size_t used = 0;
@@ -85,7 +85,7 @@ static facet_result check_renderer(const char *text, const render_options *o, fa
     return FACET_OK;
 }
 
-/* A .png holds one layer of IDs: false colors, which are lossless, in place of the image. */
+/* A .png holds one layer of IDs in false color, which is lossless, instead of the image. */
 static facet_result read_id_layer(const char *text, render_options *out, facet_error *error)
 {
     static const uint32_t ids = FACET_AOV_OBJECT_ID | FACET_AOV_MATERIAL_ID | FACET_AOV_INSTANCE_ID;

@@ -1,4 +1,4 @@
-/* render_options.h - what the options of facet render ask for, checked, before any model is read. */
+/* render_options.h - the checked options of facet render. */
 #ifndef CLI_RENDER_OPTIONS_H
 #define CLI_RENDER_OPTIONS_H
 
@@ -10,17 +10,17 @@
 #include "facet/facet.h"
 
 typedef struct render_options {
-    bool meters_exposure; /* --exposure auto: desc.exposure_ev is added to what is metered */
-    char note[256];       /* how an option was read that might mean something else; "": nothing to say */
-    /* picture */
+    bool meters_exposure; /* --exposure auto: desc.exposure_ev is relative to the meter */
+    char note[256];       /* reading of an ambiguous option, for a message; "": none */
+    /* image */
     const char *output;   /* pattern; NULL: named after the model */
-    const char *id_layer; /* IDs that are written in false color in place of the image; NULL: none */
+    const char *id_layer; /* layer of IDs to write in false color; NULL: none */
     bool is_stdout;
-    bool is_sequence;           /* several pictures of a model, as far as the options tell */
+    bool is_sequence;           /* several images of a model, by the options */
     video_format video;         /* all of them in one file */
     bool keeps_existing;        /* --no-clobber */
     const char *checkpoint;     /* pattern; NULL: none */
-    facet_image_save_desc save; /* format is always named */
+    facet_image_save_desc save; /* with a format */
     facet_render_desc desc;     /* without allocator, log, progress, pose, camera, environment */
 
     /* camera */
@@ -30,11 +30,11 @@ typedef struct render_options {
     double target[3]; /* target and eye are in the file's coordinates: facet_scene_get_origin() */
     bool has_eye;
     double eye[3];
-    float up[3];        /* of a camera given as a matrix; {0}: by orbit.is_z_up */
+    float up[3];        /* of a camera matrix; {0}: by orbit.is_z_up */
     uint32_t turntable; /* frames; 0: none */
-    float aperture;     /* diameter of the lens: m, or a share of the focus distance; 0: a pinhole */
+    float aperture;     /* lens diameter: m, or a share of the focus distance; 0: pinhole */
     bool aperture_is_relative;
-    float focus_m; /* 0: the point looked at */
+    float focus_m; /* 0: the target */
 
     /* motion */
     const char *animation; /* NULL: see choose_animations() */
@@ -43,7 +43,7 @@ typedef struct render_options {
     frame_list frames;
 
     /* light */
-    bool has_environment; /* false: nobody asked for one, and a model may bring its own */
+    bool has_environment; /* --env is given; else a model's own is used */
     environment_input environment;
     const char *environment_cache;
 
@@ -56,29 +56,29 @@ typedef struct render_options {
 /* Fails with FACET_ERROR_ARGUMENT. Text stays with c. */
 facet_result render_options_read(const command_line *c, render_options *out, facet_error *error);
 
-/* Whether the environment that a scene brings lights it: --env names no other, and lights of files are wanted. */
+/* Whether a scene is lit by its own environment: without --env, and with lights of the file. */
 bool render_is_lit_by_scene(const render_options *o, const facet_scene *scene, const facet_pose_desc *pose);
 
-/* The extension, without point, that files of a format have. */
+/* The extension of a format, without the dot. */
 const char *render_extension(facet_image_format format);
 
 /* ---- parts, in files of their own ---- */
 
 facet_result picture_options_output(const command_line *c, render_options *out, facet_error *error);
 facet_result picture_options_format(const command_line *c, render_options *out, facet_error *error);
-/* --size (otherwise: where it is not given), --crop. */
+/* --size (default: otherwise), --crop. */
 facet_result picture_options_size(const command_line *c, const char *otherwise, render_options *out,
                                   facet_error *error);
 /* --exposure, as stops. */
 facet_result picture_options_exposure(const command_line *c, render_options *out, facet_error *error);
-/* --tone-mapping (otherwise: where nothing is given and the file is for a display), --quality, --jpeg-quality, --png-compression. */
+/* --tone-mapping (default: otherwise, none for linear files), --quality, --jpeg-quality, --png-compression. */
 void picture_options_look(const command_line *c, facet_tonemap otherwise, render_options *out);
 /* --time, --frames, --fps. */
 facet_result picture_options_frames(const command_line *c, render_options *out, facet_error *error);
-/* --env and what belongs to it. */
+/* --env and the options of the environment. */
 facet_result picture_options_environment(const command_line *c, render_options *out, facet_error *error);
 
-/* Whether all pictures have a place to go, is_sequence being known. */
+/* Checks that all images have a name; needs is_sequence. */
 facet_result picture_options_check_sequence(const command_line *c, const render_options *o,
                                             facet_error *error);
 
@@ -92,11 +92,11 @@ bool orbit_parse(const char *text, facet_orbit *orbit);
 /* "X,Y,Z" in m (the default), cm, mm; "auto" for all or for one keeps target[i] and clears is_given[i]. */
 bool target_parse(const char *text, double target[3], bool is_given[3]);
 
-/* Reads --renderer and what depends on it, after all that is not about it. Fails with FACET_ERROR_ARGUMENT, also where an
- * option says nothing to the renderer. */
+/* Reads --renderer and the options that depend on it, after all others. Fails with FACET_ERROR_ARGUMENT, also for an
+ * option without effect on the renderer. */
 facet_result path_options_read(const command_line *c, render_options *out, facet_error *error);
 
-/* Gives the camera its lens. */
+/* Sets the lens of the camera. */
 void path_options_set_lens(const render_options *o, const facet_scene *scene, const facet_pose_desc *pose,
                            facet_camera *camera);
 

@@ -52,7 +52,7 @@ bool render_name_is_input(const command_line *c, const render_options *o, const 
            (config_path && input_is_same_file(name, config_path));
 }
 
-/* A checkpoint takes the place of nothing but an earlier one; that it is one is found when it is read. */
+/* A checkpoint replaces an earlier checkpoint only, which is checked when that is read. */
 static facet_result check_checkpoint(const command_line *c, const render_options *o, const model_name *model,
                                      const char *picture, facet_error *error)
 {
@@ -69,7 +69,7 @@ static facet_result check_checkpoint(const command_line *c, const render_options
     return result;
 }
 
-/* The first picture of a model, or, of a clash, nothing more than its name. */
+/* Checks the first image of a model. */
 static facet_result check_model(const command_line *c, const render_options *o, const model_name *model,
                                 output_claim *claim, facet_error *error)
 {
@@ -104,7 +104,7 @@ facet_result render_names_check(const command_line *c, const render_options *o, 
 
 /* ---- reports ---- */
 
-/* Per pixel, the mean. */
+/* Mean samples per pixel. */
 static double samples_taken(const picture_report *p)
 {
     double pixels = (double)p->width * p->height;

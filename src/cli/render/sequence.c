@@ -1,7 +1,5 @@
-/* sequence.c - see sequence.h.
- *
- * Frames count from 1: frame n shows the animation (n - 1) / fps after its begin. All frames of an animation are those
- * before its end, so that one that loops does not show its first pose twice. */
+/* sequence.c - see sequence.h. Frames count from 1: frame n is (n - 1) / fps after the start of the animation. An
+ * animation's frames are those before its end, so that a loop does not repeat its first pose. */
 #include "cli/render/sequence.h"
 
 #include "cli/shared/failure.h"
@@ -10,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Which animations are played: what is named, else the first one where a moment is asked for. */
+/* Chooses the animations: the named one, else the first one if a time or frames are given. */
 static facet_result choose_animations(const facet_scene *scene, const char *name, const render_options *o,
                                       sequence *out, facet_error *error)
 {
@@ -111,7 +109,7 @@ static sequence_frame frame_of(sequence *s, uint32_t number)
     uint32_t passed = frame.number - 1;
     if (s->moves) {
         double time = passed * s->frame_s;
-        /* once around takes as long as it takes: the animation begins anew */
+        /* the turntable sets the length: the animation repeats */
         if (s->turns && s->duration_s > 0.0)
             time = fmod(time, s->duration_s);
         s->pose.time_s = s->begin_s + time;

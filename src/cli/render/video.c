@@ -20,7 +20,7 @@ struct video {
     double fps;
     uint32_t width, height; /* 0: no frame yet */
     unsigned char *planes;  /* Y, Cb, Cr of one frame */
-    char *path, *temporary; /* NULL: standard output, or a stream that is written directly */
+    char *path, *temporary; /* NULL: a stream, which is written directly */
 };
 
 static facet_result fail_write(const video *v, facet_error *error)
@@ -29,10 +29,10 @@ static facet_result fail_write(const video *v, facet_error *error)
                 errno ? strerror(errno) : "it is closed");
 }
 
-/* A file of its own beside path, with the modes that a new file has. */
+/* Creates a temporary file beside path, with the mode of a new file. */
 static FILE *open_beside(video *v)
 {
-    enum { MAX_NAME = 240 }; /* of the 255 bytes that names may have */
+    enum { MAX_NAME = 240 }; /* of the 255 bytes of a name */
     const char *slash = strrchr(v->path, '/');
     const char *base = slash ? slash + 1 : v->path;
     size_t size = strlen(v->path) + 16;
@@ -118,7 +118,7 @@ static void convert(const video *v, const unsigned char *rgba)
     }
 }
 
-/* Frames per second as a ratio: 24 is 24:1, 29.97 is 2997:100. */
+/* Frame rate as a ratio: 24 is 24:1, 29.97 is 2997:100. */
 static void begin_y4m(video *v)
 {
     unsigned long denominator = 1;
@@ -160,7 +160,7 @@ facet_result video_add(video *v, const facet_image *image, const facet_allocator
     if (result != FACET_OK)
         return result;
     errno = 0;
-    if (!v->temporary) /* who reads a pipe may never come */
+    if (!v->temporary) /* a pipe may never get a reader */
         interrupt_begin("facet", "writing", false);
     bool is_written;
     if (v->format == VIDEO_Y4M) {

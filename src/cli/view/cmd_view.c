@@ -140,7 +140,7 @@ static facet_result load_environment(void *user, const char *name, const facet_v
     const facet_environment_desc desc = verb_run_environment_desc(&run->base, o->environment_cache);
     environment_input input = o->environment;
     *environment = NULL;
-    if (o->desc.shading == FACET_SHADING_OGL1) /* it knew none */
+    if (o->desc.shading == FACET_SHADING_OGL1) /* OpenGL 1 has no environment */
         return FACET_OK;
     facet_result result = FACET_OK;
     if (name)
