@@ -24,7 +24,7 @@ typedef struct gl_phong_view {
     const facet_render_desc *render;
 } gl_phong_view;
 
-/* Uploads the blocks of the picture and of its materials, and the textures that they read. Fails with FACET_ERROR_MEMORY,
+/* Uploads the blocks of the image and of its materials, and the textures that they read. Fails with FACET_ERROR_MEMORY,
  * FACET_ERROR_LIMIT. */
 facet_result gl_phong_update(gl_phong *phong, const gl_phong_view *view, facet_error *error);
 /* Features of GL_MAIN_PHONG that follow from a batch's material. */
