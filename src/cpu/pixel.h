@@ -8,23 +8,23 @@
 
 struct scene_identity; /* scene/identity.h */
 
-/* One surface of one sample; those of a sample follow each other from front to back. */
+/* One surface hit by one sample; those of a sample are consecutive, front to back. */
 typedef struct pixel_fragment {
     visibility_hit hit;
     uint32_t sample;
-    uint32_t surface; /* number of its pixel_surface */
+    uint32_t surface; /* index of its pixel_surface */
 } pixel_fragment;
 
 /* Fragments that are shaded once. */
 typedef struct pixel_surface {
-    uint32_t first; /* fragment */
+    uint32_t first;
     uint32_t fragment_count;
     float middle[2]; /* of its samples, pixels from the pixel's top left */
     float radiance[3];
     float opacity;
 } pixel_surface;
 
-/* What one thread needs to resolve pixels one after the other. */
+/* The state of one thread that resolves pixels one after the other. */
 typedef struct pixel_resolver {
     const facet_allocator *allocator;
     const shading_scene *scene;
@@ -44,11 +44,11 @@ typedef struct pixel_resolver {
  * False: no memory. */
 bool pixel_resolve(pixel_resolver *resolver, uint32_t x, uint32_t y, const visibility_hit *hits,
                    float rgba[4]);
-/* Adds the shares of that pixel, which pixel_resolve() has just resolved without failing, to Cryptomatte's layers. identities:
- * per geometry. number: of the pixel in the layers. */
+/* Adds the coverage of that pixel, which pixel_resolve() has just resolved successfully, to Cryptomatte's layers.
+ * identities: per geometry. number: of the pixel in the layers. */
 void pixel_add_mattes(const pixel_resolver *resolver, const struct scene_identity *identities,
                       const matte_layers *mattes, size_t number);
-/* The nearest surface under the middle of the pixel; false: there is none. depth_m along the camera's axis. */
+/* The nearest surface at the center of the pixel; false: none. depth_m along the camera's axis. */
 bool pixel_nearest_surface(pixel_resolver *resolver, uint32_t x, uint32_t y, const visibility_hit *hit,
                            shading_description *result, float *depth_m, uint32_t *geometry);
 void pixel_resolver_destroy(pixel_resolver *resolver);

@@ -45,7 +45,7 @@ facet_result prepared_scene_pose(prepared_scene *p, const facet_render_desc *des
         scene_pose_destroy(&pose);
         return fail_memory(error, "animations", desc->pose.animation_count * sizeof *p->key.animations);
     }
-    /* The geometries point into their pose until there are others. */
+    /* The geometries point into their pose until they are replaced. */
     if (p->has_geometry && !p->geometry_pose.instances)
         p->geometry_pose = p->pose;
     else
@@ -56,7 +56,7 @@ facet_result prepared_scene_pose(prepared_scene *p, const facet_render_desc *des
 
 /* ---- geometry ---- */
 
-/* Puts the geometries of the pose into the place of those that are there, with their vertices where they are the same. */
+/* Replaces the geometries by those of the pose, keeping vertices that are the same. */
 static facet_result make_geometry(prepared_scene *p, const facet_render_desc *desc, const camera_rays *camera,
                                   facet_error *error)
 {
@@ -72,7 +72,7 @@ static facet_result make_geometry(prepared_scene *p, const facet_render_desc *de
         if (p->has_geometry)
             p->likeness = render_geometry_compare(&set, &p->pose, &p->geometries, old_pose);
         render_geometry_adopt(&set, &p->geometries, p->likeness);
-        /* What is left of the old ones goes before the new ones are made: they need not fit beside each other. */
+        /* The old geometries are freed before the new ones are made: both may not fit into memory. */
         render_geometry_destroy(&p->geometries);
         scene_pose_destroy(&p->geometry_pose);
         tangent_store_forget_deformed(&p->tangents);
@@ -89,7 +89,7 @@ static facet_result make_geometry(prepared_scene *p, const facet_render_desc *de
     return FACET_OK;
 }
 
-/* Whether points and lines are as wide for one camera as for the other. */
+/* Whether points and lines have the same width for both cameras. */
 static bool is_same_place(const camera_rays *a, const camera_rays *b)
 {
     return memcmp(a->origin, b->origin, sizeof a->origin) == 0 &&
@@ -101,7 +101,7 @@ static bool is_same_place(const camera_rays *a, const camera_rays *b)
 facet_result prepared_scene_geometry(prepared_scene *p, const facet_render_desc *desc,
                                      const camera_rays *camera, facet_error *error)
 {
-    /* Of the whole image: a crop sees what the whole sees. */
+    /* Of the whole image: a crop has the same geometry. */
     uint64_t ray_count = (uint64_t)desc->width * desc->height * desc->samples;
     bool is_within_reach = instancing_is_within_reach(&p->pose, camera);
     bool is_same = p->has_geometry && !p->geometry_pose.instances && p->ray_count == ray_count &&

@@ -1,5 +1,5 @@
-/* ray_trace.c - see ray_trace.h. Embree's own nearest hit is taken where it is opaque, which is nearly always; only where
- * it is not, a filter looks at every candidate. */
+/* ray_trace.c - see ray_trace.h. Embree's nearest hit is used where it is opaque, which is the usual case; otherwise
+ * a filter function looks at every candidate. */
 #include <math.h>
 #include <string.h>
 
@@ -31,12 +31,12 @@ float ray_trace_opacity(const shading_scene *scene, const shading_point *point)
 
 /* ---- all surfaces along a ray ---- */
 
-/* One traversal per ray: Embree calls a filter for every candidate. A transparent one is noted and refused, so that Embree goes on;
- * an opaque one is taken, so that Embree looks no farther. */
+/* One traversal per ray: Embree calls a filter for every candidate. A transparent one is recorded and rejected, so
+ * that Embree continues; an opaque one is accepted, so that Embree looks no farther. */
 
-/* From this opacity on nothing behind can be seen in 8 bits of color. */
+/* From this opacity on, nothing behind is visible in 8 bits of color. */
 static const float OPAQUE = 0.999f;
-/* Distances that differ by less, relatively, are the same: rounding of the intersection. */
+/* Distances that differ by less, relatively, are equal: rounding of the intersection. */
 static const float SAME_DISTANCE = 2e-6f;
 /* Weights below this are on an edge of the triangle. */
 static const float ON_EDGE = 1e-4f;
@@ -85,7 +85,7 @@ static bool have_common_edge(const render_geometry *g, const visibility_hit *a, 
     return common == 2;
 }
 
-/* A ray through an edge meets both triangles, which are one surface there. */
+/* A ray through an edge hits both triangles, which are one surface there. */
 static bool is_same_surface(const layer_search *w, const visibility_hit *a, const visibility_hit *b)
 {
     const render_geometry *g = &w->scene->geometries->items[a->geometry];
@@ -94,7 +94,7 @@ static bool is_same_surface(const layer_search *w, const visibility_hit *a, cons
            is_on_edge(b) && have_common_edge(g, a, b);
 }
 
-/* Notes a layer; when there are too many, the farthest goes, and nothing behind it is of interest. */
+/* Records a layer; the farthest is dropped when there are too many, and nothing behind it matters. */
 static void insert(layer_search *w, const visibility_hit *hit)
 {
     uint32_t place = w->count;
@@ -138,7 +138,7 @@ static void collect_layers(const struct RTCFilterFunctionNArguments *arguments)
         arguments->valid[0] = 0;
 }
 
-/* Layers at the same distance by number, twins once. */
+/* Sorts layers at equal distances by index, and removes duplicates at edges. */
 static void tidy(layer_search *w)
 {
     for (uint32_t i = 1; i < w->count; i++)
@@ -163,7 +163,7 @@ static void tidy(layer_search *w)
 uint32_t ray_trace_layers(const shading_scene *scene, const shading_ray *ray,
                           visibility_hit hits[RAY_TRACE_LAYERS + 1])
 {
-    layer_search w; /* 2 kB of layers that need no zeros */
+    layer_search w; /* 2 kB of layers that need no initialisation */
     w.scene = scene;
     w.ray = ray;
     w.has_opaque = false;
@@ -206,8 +206,8 @@ static float opacity_of(const shading_scene *scene, const shading_ray *ray, cons
     return is_see_through(scene, hit) ? ray_trace_opacity(scene, &point) : 1.0f;
 }
 
-/* Takes the next of several things, of the given weight, in place of the one that was drawn among those before it, whose
- * weights add up to sum; what is left of u serves the next draw. */
+/* Reservoir sampling: whether the next item, of the given weight, replaces the sample of those before it, whose
+ * weights add up to sum; u is rescaled for the next item. */
 static bool reservoir_takes(float weight, float sum, float *u)
 {
     float share = weight / (sum + weight);
@@ -219,7 +219,7 @@ static bool reservoir_takes(float weight, float sum, float *u)
     return false;
 }
 
-/* ray_trace_layers() gives up after many layers, and where hardly any light passes: the rest of the ray is a ray again. */
+/* ray_trace_layers() stops after many layers, and at nearly opaque ones: the rest of the ray is traced again. */
 static void gather_layers(const shading_scene *scene, const shading_ray *ray, float u, ray_first *first)
 {
     visibility_hit hits[RAY_TRACE_LAYERS + 1];
@@ -315,7 +315,7 @@ bool ray_trace_nearest(const shading_scene *scene, const shading_ray *ray, uint3
     return true;
 }
 
-/* Notes a surface by its distance; when there are too many, the farthest goes. */
+/* Records a surface by distance; the farthest is dropped when there are too many. */
 static void note(ray_crossings *c, const visibility_hit *hit)
 {
     uint32_t place = c->count;

@@ -1,45 +1,44 @@
-/* ray_trace.h - single rays that go anywhere: what they meet, and whether something is in between. */
+/* ray_trace.h - single rays: nearest hits, transmittance, all surfaces along a ray. */
 #ifndef CPU_RAY_TRACE_H
 #define CPU_RAY_TRACE_H
 
 #include "cpu/surface_point.h"
 
-/* Rays of the camera do not meet the culled sides of single-sided surfaces (ray_trace_is_visible_side()); all others meet
- * both sides of everything: a wall that the camera looks through still keeps light out, from either side. */
+/* Camera rays skip the culled sides of single-sided surfaces (ray_trace_is_visible_side()); all others hit both
+ * sides: a wall that the camera looks through still blocks light, from either side. */
 
-/* The surface that a ray of the camera meets, or one of those in a row that alpha lets it see. */
+/* The first surface that a camera ray hits, or one of several alpha-blended ones in a row. */
 typedef struct ray_first {
-    float opacity;      /* [0, 1]: of all of them together, by alpha alone; 0: none */
-    visibility_hit hit; /* one of them, drawn with the probability of its share of that opacity */
+    float opacity;      /* [0, 1]: of all of them together, by alpha alone; 0: no hit */
+    visibility_hit hit; /* one of them, sampled in proportion to its share of that opacity */
     uint32_t rays;
 } ray_first;
 
 /* u: uniform in [0, 1). */
 ray_first ray_trace_first(const shading_scene *scene, const shading_ray *ray, float u);
 
-/* The nearest surface, of either side. One with opacity a is there with the probability a: random decides, other bits for
- * every triangle. Alpha is read at its finest. */
+/* The nearest surface, of either side. A surface of opacity a is hit with probability a, decided by `random` and the
+ * triangle. Alpha is read at full resolution. */
 bool ray_trace_nearest(const shading_scene *scene, const shading_ray *ray, uint32_t random,
                        visibility_hit *hit);
 
 enum { RAY_CROSSINGS = 32 };
 
-/* Surfaces on a ray whose say in what passes is the caller's. */
+/* Transmissive surfaces along a ray, left to the caller. */
 typedef struct ray_crossings {
-    bool takes_all; /* all that transmit; else those of which the plan says that light may go straight on */
+    bool takes_all; /* all transmissive ones; else those that the plan lets light pass straight */
     bool is_cut;    /* there are more, farther away */
     uint32_t count;
     visibility_hit hits[RAY_CROSSINGS]; /* nearest first */
 } ray_crossings;
 
-/* The share of light that alpha lets pass along the ray, [0, 1]. crossings: comes with takes_all set, and gets the
- * surfaces that are left out of that share; NULL: none are. */
+/* Transmittance of alpha along the ray, [0, 1]. crossings: takes_all is set by the caller; gets the surfaces that are
+ * not part of the result. NULL: none are left out. */
 float ray_trace_transmittance(const shading_scene *scene, const shading_ray *ray, ray_crossings *crossings);
 
 /* ---- all surfaces along a ray ---- */
 
-/* More than RAY_TRACE_LAYERS surfaces that let light pass lie one behind the other in no image worth drawing;
- * what is farther is left out. */
+/* More than RAY_TRACE_LAYERS transparent surfaces in a row are of no practical use; the farther ones are ignored. */
 enum { RAY_TRACE_LAYERS = 64 };
 
 /* Writes the hits of the ray, nearest first, and returns their number: surfaces with opacity between 0 and 1, and
@@ -50,10 +49,10 @@ uint32_t ray_trace_layers(const shading_scene *scene, const shading_ray *ray,
 
 /* ---- a hit ---- */
 
-/* Whether the hit shows a side that is drawn: the front, or any of a double-sided surface. direction is the ray's. */
+/* Whether the side that was hit is drawn: the front, or any of a double-sided surface. direction is the ray's. */
 bool ray_trace_is_visible_side(const shading_scene *scene, const visibility_hit *hit,
                                const float direction[3]);
-/* Whether light passes the surface: 0 not there, 1 opaque. MASK gives 0 or 1. Cheaper than a shade. */
+/* Coverage of the surface at the hit, [0, 1]; MASK gives 0 or 1. Cheaper than a shade. */
 float ray_trace_opacity(const shading_scene *scene, const shading_point *point);
 
 /* ---- for Embree ---- */
@@ -71,7 +70,7 @@ static inline struct RTCRay ray_trace_embree(const shading_ray *ray)
                            .mask = UINT32_MAX};
 }
 
-/* The same with room for a hit: none yet. */
+/* The same with room for a hit. */
 static inline struct RTCRayHit ray_trace_embree_hit(const shading_ray *ray)
 {
     return (struct RTCRayHit){

@@ -8,30 +8,30 @@
 #include "cpu/surface_light.h"
 
 enum {
-    MAX_PENDING = 24, /* rays that branched off and were not followed yet */
-    DEPTH = 16,       /* surfaces on a ray's way */
-    COLORS = 3        /* rays of a white one that meets a dispersive body behind another surface */
+    MAX_PENDING = 24, /* secondary rays that are not traced yet */
+    DEPTH = 16,       /* surfaces along a ray */
+    COLORS = 3        /* rays into which a white one splits at a dispersive volume behind another surface */
 };
 
-/* What carries less of a shade is not followed. */
+/* Rays that carry less of a shade are not traced. */
 static const float MIN_WEIGHT[] = {
     [FACET_QUALITY_NORMAL] = 0.01f, [FACET_QUALITY_DRAFT] = 0.02f, [FACET_QUALITY_FINAL] = 0.003f};
-/* Factor on it where what is seen is blurred: no inner reflection of one boundary, but total ones. */
+/* Factor on it where the view is blurred: excludes the inner reflection of one boundary, but not total reflection. */
 static const float BLURRED = 6.0f;
-/* GGX width up to which one ray in the middle of the lobe does: what it meets is filtered for the lobe, which blurs
+/* GGX width up to which one ray in the middle of the lobe suffices: its hit is filtered for the lobe, which blurs
  * textures and the environment but no edges. */
 static const float SMOOTH = 0.0125f;
-/* Squared GGX width of lobes that are seen in the sharp environment: about a degree. */
+/* Squared GGX width of lobes that see the sharp environment: about a degree. */
 static const float SHARP2 = 1e-5f;
 
-/* A ray that is to be followed, and what it stands for. */
+/* A ray to be traced, and its weight and lobe. */
 typedef struct branch {
-    shading_ray ray; /* its spread is another's where it is the camera's, else spread */
+    shading_ray ray; /* its spread is the camera's, or the one below */
     ray_spread spread;
-    vec3 weight;  /* of the radiance that it brings */
-    media media;  /* where it starts */
+    vec3 weight;  /* of its radiance */
+    media media;  /* at its origin */
     float alpha2; /* squared GGX width of the lobe of directions around it */
-    /* of the indices of refraction: -1 red, 0 green, 1 blue (dispersion.h), and between and beyond */
+    /* shift of the ior: -1 red, 0 green, 1 blue (dispersion.h), and between and beyond */
     float shift;
     bool is_white;
     uint32_t depth; /* surfaces before it */
@@ -39,8 +39,8 @@ typedef struct branch {
 
 typedef struct tracer {
     const shading_scene *scene;
-    uint32_t sample; /* number of ray_samples.h */
-    float share;     /* of a lobe that one of the samples stands for; 1: lobes are not sampled */
+    uint32_t sample; /* index for ray_samples.h */
+    float share;     /* share of a lobe per sample; 1: lobes are not sampled */
     float least_weight;
     uint32_t budget;
     uint64_t rays;
@@ -59,8 +59,8 @@ static vec3 lookup(void (*light)(const light_setup *, const float[3], float, flo
     return load3(out);
 }
 
-/* Squared GGX width whose lobe is about as wide as the bundle: where glass spreads a pixel over much of the surroundings,
- * their mean is what it shows. */
+/* Squared GGX width of a lobe about as wide as the bundle: where glass spreads a pixel over much of the environment,
+ * it shows the mean. */
 static float bundle_alpha2(const shading_ray *ray)
 {
     const ray_spread *spread = ray->spread;
@@ -70,7 +70,7 @@ static float bundle_alpha2(const shading_ray *ray)
     return width * width;
 }
 
-/* What the ray sees of the environment. A background that is drawn blurred is seen blurred. */
+/* Environment radiance along the ray. A blurred background is seen blurred. */
 static vec3 environment_seen(const shading_scene *scene, const branch *b)
 {
     if (!scene->light->ibl)
@@ -82,7 +82,7 @@ static vec3 environment_seen(const shading_scene *scene, const branch *b)
     return lookup(light_specular, scene->light, b->ray.direction, min(roughness, 1.0f));
 }
 
-/* Light that a scattering body sends along a ray: that of the surroundings ahead of it and behind it. */
+/* In-scattered radiance of a volume along a ray: that of the environment ahead of it and behind it. */
 static vec3 ambient(const shading_scene *scene, vec3 D, float anisotropy)
 {
     float ahead[3];
@@ -98,8 +98,8 @@ static vec3 ambient(const shading_scene *scene, vec3 D, float anisotropy)
     return mix(load3(b), load3(a), 0.5f + 0.5f * anisotropy);
 }
 
-/* Attenuates the ray over a length of the body that it is in. What a scattering body takes it gives back as far as its
- * color says, evenly lit by the surroundings: a white one loses nothing. */
+/* Attenuates the ray over a length of its volume. Scattered light is replaced as far as the volume's color says,
+ * under uniform light of the environment: a white volume loses nothing. */
 static void travel(tracer *t, branch *b, float length_m)
 {
     const scene_material *m = media_here(&b->media);
@@ -112,7 +112,7 @@ static void travel(tracer *t, branch *b, float length_m)
     b->weight *= T;
 }
 
-/* Ends the ray. In a body it has found no way out: as thick as its material says. */
+/* Ends the ray. In a volume without exit, at the material's thickness. */
 static void end(tracer *t, branch *b)
 {
     if (b->media.count)
@@ -133,12 +133,12 @@ static void follow_later(tracer *t, const branch *b)
 
 /* ---- the boundary ---- */
 
-/* A surface that lets rays through, as one of them meets it. */
+/* A transmissive surface at the hit of a ray. */
 typedef struct boundary {
     const surface_point *s;
     boundary_normal normal;
-    float alpha;       /* what blurs the rays */
-    media behind;      /* what is on the other side */
+    float alpha;       /* roughness of transmission */
+    media behind;      /* on the other side */
     vec3 H;            /* the microfacet of this sample */
     bundle_hit bundle; /* with the normal's change for that of H */
 } boundary;
@@ -162,7 +162,7 @@ static vec3 microfacet(const tracer *t, const branch *b, const boundary *y)
     return normalize(mul(frame, sample_VNDF_GGX(u, mul(transpose(frame), y->s->V), widths[0], widths[1])));
 }
 
-/* All that samples and colors have in common. */
+/* The part that samples and colors share. */
 static boundary boundary_of(const shading_scene *scene, const branch *b, const visibility_hit *hit,
                             const surface_point *s)
 {
@@ -176,8 +176,8 @@ static boundary boundary_of(const shading_scene *scene, const branch *b, const v
     return y;
 }
 
-/* Puts a ray onto its side of the surface (1: where it came from, -1 behind): a direction that a normal which is not the
- * geometry's turned to the other is mirrored, and it starts where rounding does not make it meet the surface again. */
+/* Moves a ray to its side of the surface (1: where it came from, -1 behind): directions on the wrong side of the
+ * geometric normal are mirrored, and the origin is offset by the tolerance. */
 static void keep_side(shading_ray *ray, const boundary *y, float side)
 {
     vec3 Ng = y->normal.Ng;
@@ -188,7 +188,7 @@ static void keep_side(shading_ray *ray, const boundary *y, float side)
     store3(y->s->P + Ng * (side * y->normal.tolerance), ray->origin);
 }
 
-/* Goes on from b's surface on a side of it. */
+/* A ray that continues from b's surface on a side of it. */
 static branch child_of(const branch *b, const boundary *y, float side, bundle_ray bundle, vec3 weight,
                        float alpha2)
 {
@@ -204,14 +204,13 @@ static branch child_of(const branch *b, const boundary *y, float side, bundle_ra
     return c;
 }
 
-/* Share of the lobe of b's surface that one ray stands for: samples cover the ways through the first two surfaces; what
- * comes after them they do not. */
+/* Share of the lobe of b's surface per ray: samples cover the first two surfaces only. */
 static float share_of(const tracer *t, const branch *b)
 {
     return b->depth < 2 ? t->share : 1.0f;
 }
 
-/* Straight on through a thin wall; roughness mirrors what it does to the reflection. */
+/* Straight through a thin wall; roughness scatters as it does for the reflection. */
 static void pass_wall(tracer *t, const branch *b, const boundary *y, vec3 weight)
 {
     bundle_ray bundle = ray_bundle_pass(&y->bundle);
@@ -221,8 +220,8 @@ static void pass_wall(tracer *t, const branch *b, const boundary *y, vec3 weight
     follow_later(t, &c);
 }
 
-/* A microfacet that is turned by d turns a refracted direction by |1 - eta| d and a reflected one by 2 d, which is what
- * a GGX width means to the prefiltered environment; what the ray stood for before turns with eta. */
+/* A microfacet rotated by d deflects a refracted direction by |1 - eta| d and a reflected one by 2 d, which is what a
+ * GGX width means to the prefiltered environment; the earlier width scales with eta. */
 static void refract_into(tracer *t, const branch *b, const boundary *y, float eta, vec3 weight)
 {
     bundle_ray bundle;
@@ -263,8 +262,8 @@ static float ior_of(const scene_material *m, float shift)
 
 /* ---- what a ray meets ---- */
 
-/* The boundary between two bodies, or of one as seen from inside: Fresnel's equations, the reflection followed as well.
- * What goes neither way is scattered by the base color, lit by the surroundings. */
+/* The boundary between two volumes, or of one seen from inside: Fresnel's equations, with the reflection traced as
+ * well. The rest is scattered by the base color under the environment. */
 static void cross_inside(tracer *t, const branch *b, const boundary *y, vec3 weight)
 {
     const Layers *m = &y->s->m;
@@ -291,13 +290,13 @@ static void cross_inside(tracer *t, const branch *b, const boundary *y, vec3 wei
         refract_into(t, b, y, eta, weight * passed * transmission);
 }
 
-/* A body in air as seen from outside, or a thin wall: a surface like others, but for what comes through it. */
+/* A volume in air seen from outside, or a thin wall: shaded as other surfaces, except for transmission. */
 static bool is_outer_surface(const branch *b, const surface_point *s)
 {
     return !s->plan->is_volume || (b->media.count == 0 && s->is_front);
 }
 
-/* Goes on behind the surface with weight; that of an outer surface is without what the surface reflects. */
+/* Continues behind the surface with weight; that of an outer surface excludes its reflection. */
 static void let_through(tracer *t, const branch *b, boundary *y, vec3 weight)
 {
     y->H = microfacet(t, b, y);
@@ -315,8 +314,8 @@ static bool is_dispersed_by(const branch *b, const surface_point *s)
            (is_dispersive(s->hit.geometry->material) || is_dispersive(media_here(&b->media)));
 }
 
-/* A surface on the way of a ray, which brings `weight` of what it sends. A white ray that meets a dispersive body goes
- * on as one of each color. */
+/* Shades a surface that a ray hits with `weight`. A white ray that hits a dispersive volume splits into one per
+ * channel. */
 static void shade_hit(tracer *t, const branch *b, const visibility_hit *hit, const surface_point *s,
                       vec3 weight)
 {
@@ -344,7 +343,7 @@ static void shade_hit(tracer *t, const branch *b, const visibility_hit *hit, con
     }
 }
 
-/* Along a ray to what is opaque, or lets it through to become another. */
+/* Traces a ray to the first opaque or transmissive surface. */
 static void follow(tracer *t, branch *b)
 {
     visibility_hit hits[RAY_TRACE_LAYERS + 1];
@@ -358,7 +357,7 @@ static void follow(tracer *t, branch *b)
         surface_point s;
         surface_point_make(t->scene, &point, &s);
         const scene_material *material = s.hit.geometry->material;
-        /* Whether a masked texel is there has been decided. */
+        /* Masking was decided by the hit. */
         float opacity =
             material->alpha_mode == SCENE_ALPHA_BLEND ? surface_opacity(material, s.base_color[3]) : 1.0f;
         shade_hit(t, b, &hits[i], &s, b->weight * opacity);
@@ -390,11 +389,11 @@ static void follow_all(tracer *t)
 
 /* ---- the first surface ---- */
 
-/* How a shade is split. */
+/* How a shade is split into rays. */
 typedef struct split {
     uint32_t count;  /* rays of this shade */
     uint32_t total;  /* of all of the pixel */
-    uint32_t budget; /* of each, with those that branch off */
+    uint32_t budget; /* per ray, with its secondary rays */
     bool is_rough, is_dispersed;
 } split;
 
@@ -426,15 +425,15 @@ static float color_shift(uint32_t k, uint32_t n)
     return n == 3 ? (float)k - 1.0f : 4.0f * ((float)k + 0.5f) / (float)n - 2.0f;
 }
 
-/* The shift of a ray. Each shade has every shade_count-th color. They are in another order than rays, and another one for
- * each pixel: what is drawn for a ray's direction goes with its number. */
+/* The shift of a ray. Each shade has every shade_count-th color, in an order other than that of the rays, and
+ * different per pixel: the ray's index determines its direction. */
 static float shift_of_ray(const split *p, const shading_point *point, uint32_t place, uint32_t ray)
 {
     uint32_t k = p->total == 3 ? ray : (ray * 5 + ray_samples_hash(place)) % p->count;
     return color_shift(k * point->shade_count + point->shade, p->total);
 }
 
-/* Unscaled weights: tents of half width 1 around red, green and blue, so that neighbouring colors run into each other. */
+/* Unscaled weights: tents of half width 1 around red, green and blue, so that neighboring colors overlap. */
 static vec3 color_weight(float shift)
 {
     return max(1.0f - abs(vec3(shift + 1.0f, shift, shift - 1.0f)), 0.0f);
@@ -460,12 +459,12 @@ uint64_t refraction_shade(const shading_scene *scene, const shading_point *point
         t.radiance = light.radiance;
         t.rays = light.rays;
         weight = light.through;
-    } else { /* the eye is in the body */
+    } else { /* the camera is in the volume */
         media_enter(&first.media, s->hit.geometry->material, 0.0f);
     }
     boundary y = boundary_of(scene, &first, point->hit, s);
     vec3 colors = p.is_dispersed ? color_sum(&p, point) : vec3((float)p.count);
-    /* Four times its part of the lobe, which that widens by a tenth: bright lamps leave no specks. */
+    /* Four times its part of the lobe, which that widens by a tenth: bright lights leave no fireflies. */
     t.share = p.is_rough ? min(4.0f / (float)p.total, 1.0f) : 1.0f;
     t.least_weight = MIN_WEIGHT[scene->quality] * (p.is_rough ? BLURRED : 1.0f) / (float)p.count;
     uint32_t place = ray_samples_place(point->x, point->y);

@@ -1,4 +1,4 @@
-/* render_setup.c - see render_setup.h: the stages and which of them run at the same time. */
+/* render_setup.c - see render_setup.h: the stages, and which of them run concurrently. */
 #include "cpu/render_setup.h"
 
 #include "base/clock.h"
@@ -80,7 +80,7 @@ static facet_result prepare_light(render_setup *p, facet_error *error)
     return result;
 }
 
-/* The longest first, so that the others fill the threads beside it. */
+/* The longest first, so that the others fill the other threads. */
 enum { STAGE_COUNT = 4 };
 static facet_result (*const STAGES[STAGE_COUNT])(render_setup *p, facet_error *error) = {
     prepare_textures, prepare_light, prepare_tangents, prepare_hierarchy};
@@ -120,8 +120,8 @@ static bool lacks_red(const texture_set *textures, uint32_t texture)
     return data && data->lacks_red;
 }
 
-/* Leaves out occlusion textures that are black throughout, with a warning for each material: once for all images of a
- * scene, and not where paths are traced, which need no occlusion. */
+/* Removes occlusion textures that are black throughout, with a warning per material: once for all images of a scene,
+ * and not for path tracing, which needs no occlusion. */
 static facet_result drop_black_occlusion(render_setup *p, facet_error *error)
 {
     const uint32_t bit = 1u << SCENE_OCCLUSION_TEXTURE;

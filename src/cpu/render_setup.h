@@ -1,5 +1,5 @@
-/* render_setup.h - all that is made for one image before light is computed: geometry, its hierarchy, textures,
- * lights. What is kept from image to image is in prepared_scene.h. */
+/* render_setup.h - the prepared data of one image: geometry, BVH, textures, lights. prepared_scene.h has what is kept
+ * from image to image. */
 #ifndef CPU_RENDER_SETUP_H
 #define CPU_RENDER_SETUP_H
 
@@ -12,25 +12,26 @@ typedef struct render_setup {
     prepared_scene *prepared;
     const facet_render_desc *desc;
     facet_render_stats *stats;
-    bool reads_everywhere; /* textures are read at full size and off the image as well: rays go anywhere */
+    bool reads_everywhere; /* textures are read at full size and outside of the view as well: for paths */
     camera_rays camera;
     texture_use *uses;
     texture_set *textures;
     light_setup light;
     material_plan_set plans;
-    struct scene_identity *identities; /* per geometry; NULL: no layer asks for them */
+    struct scene_identity *identities; /* per geometry; NULL: not needed by any layer */
     shading_scene shading;             /* without ogl1 */
     double hierarchy_s, tangents_s;
 } render_setup;
 
-/* Makes it for desc (resolved, as for preview_render()); the stages run at the same time where they can. Fills the
- * times of stats. *setup comes with prepared, desc, stats and reads_everywhere set and the rest {0}; whatever comes
- * back, release it with render_setup_destroy(). Fails as preview_render(). */
+/* Prepares for desc (resolved, as for preview_render()); stages run concurrently where they can. Adds times to stats.
+ * *setup comes with prepared, desc, stats and reads_everywhere set and the rest {0}; release it with
+ * render_setup_destroy(), also after a failure. Fails as preview_render(). */
 facet_result render_setup_create(render_setup *setup, facet_error *error);
 void render_setup_destroy(render_setup *setup);
 
-/* Draws once with what is prepared; where memory runs out it starts again with nothing prepared. draw: as
- * preview_render_prepared(); context is passed on to it; *has_setup tells whether all was prepared. Whatever comes back, p can be used on. */
+/* Calls attempt with the prepared scene; out of memory, it retries with nothing prepared. attempt: as
+ * preview_render_prepared(), with context passed on; *has_setup: preparation was complete. p is valid after success
+ * and failure. */
 typedef facet_result render_attempt(const void *context, prepared_scene *p, const facet_render_desc *desc,
                                     double deadline_s, film *target, facet_render_stats *stats,
                                     bool *has_setup, facet_error *error);

@@ -1,4 +1,4 @@
-/* shading.h - from a hit to light, or to what is known of the surface without light: as glTF or as OpenGL 1. */
+/* shading.h - shading of a hit, and its description without light: as glTF or as OpenGL 1. */
 #ifndef CPU_SHADING_H
 #define CPU_SHADING_H
 

@@ -5,11 +5,11 @@
 #include "cpu/shading_scene.h"
 #include "shade/shade.h"
 
-/* Corners of the triangle, weights at the hit, and how the weights change from pixel to pixel. */
+/* Corners of the triangle, weights at the hit, and their derivatives over the footprint. */
 typedef struct shading_hit {
     const render_geometry *geometry;
     size_t first_index;
-    size_t corner[3]; /* vertex numbers */
+    size_t corner[3]; /* vertex indices */
     float weight[3];
     float dx[2], dy[2]; /* of weight[1], weight[2] over the ray's footprint */
     vec3 direction;     /* of the ray */
@@ -42,11 +42,11 @@ shading_texcoord shading_hit_texcoord(const shading_hit *h, uint32_t set);
 
 /* ---- normals and tangents ---- */
 
-/* With the tangents of the geometry, which has some. */
+/* With the geometry's tangents, which exist. */
 ShadingFrame shading_frame_of_tangents(const shading_hit *h, bool is_front);
-/* With the directions in which TEXCOORD_set grows on the triangle; no tangent where it does not grow. */
+/* With the gradients of TEXCOORD_set on the triangle as tangents; none where it is constant. */
 ShadingFrame shading_frame_of_texcoord(const shading_hit *h, bool is_front, uint32_t set);
-/* The interpolated normal, not unit; the geometry has some. */
+/* The interpolated normal, not unit; the geometry has normals. */
 static inline vec3 shading_frame_normal(const shading_hit *h, bool is_front)
 {
     const float *m = h->geometry->normal_matrix;
@@ -59,7 +59,7 @@ static inline vec3 shading_frame_normal(const shading_hit *h, bool is_front)
 /* RGBA by scene_texture_slot, white where there is no texture. */
 typedef float material_texels[SCENE_TEXTURE_SLOT_COUNT][4];
 
-/* Where a texture is read at a hit. */
+/* Texture coordinates at a hit. */
 shading_texcoord material_texture_coordinates(const shading_hit *h, const scene_texture_ref *ref);
 /* Reads the textures whose bits are set in wanted, all of which the hit's material has; the
  * others of the first slot_count are white. */

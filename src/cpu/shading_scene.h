@@ -1,4 +1,4 @@
-/* shading_scene.h - what shading reads and returns: the scene, a ray with its footprint, a hit. */
+/* shading_scene.h - input and output of shading: the scene, a ray with its footprint, a hit. */
 #ifndef CPU_SHADING_SCENE_H
 #define CPU_SHADING_SCENE_H
 
@@ -10,7 +10,7 @@
 
 /* ---- rays ---- */
 
-/* How a ray changes over what it stands for, along two axes (a camera ray's: the image's x and y), after Igehy 1999,
+/* Derivatives of a ray over its footprint, along two axes (a camera ray's: the image's x and y), after Igehy 1999,
  * "Tracing Ray Differentials". */
 typedef struct ray_spread {
     float origin_dx[3], origin_dy[3];       /* m; not read unless moves */
@@ -20,10 +20,10 @@ typedef struct ray_spread {
 
 /* origin + t direction. */
 typedef struct shading_ray {
-    float origin[3], direction[3]; /* m; direction of any length, t counts in it */
+    float origin[3], direction[3]; /* m; direction of any length, the unit of t */
     float near_t, far_t;
     const ray_spread *spread;
-    float footprint; /* of the spread that the ray stands for */
+    float footprint; /* scale of the spread */
 } shading_ray;
 
 /* The spread of a camera's rays for a pixel. */
@@ -53,7 +53,7 @@ static inline shading_ray shading_ray_of_camera(const camera_rays *camera, const
 
 struct ogl1_setup; /* draw/ogl1_setup.h */
 
-/* All that shading reads; nothing of it changes while an image is drawn. */
+/* The scene as shading reads it; constant while an image is rendered. */
 typedef struct shading_scene {
     const render_geometry_set *geometries;
     const embree_scene *embree;
@@ -70,22 +70,22 @@ typedef struct shading_scene {
     float background_blur;
 } shading_scene;
 
-/* A hit and the ray that made it. */
+/* A hit and its ray. */
 typedef struct shading_point {
     const visibility_hit *hit;
     const shading_ray *ray;
     uint32_t x, y; /* pixel */
-    /* Of glass: which of how many shades of the pixel. What is drawn at random depends on these and the pixel. */
+    /* Which of how many shades of the pixel; with the pixel, the seed of random numbers for glass. */
     uint32_t shade, shade_count;
 } shading_point;
 
 typedef struct shading_result {
-    float radiance[3]; /* cd/m^2 towards the camera; with ogl1 what it computes with */
+    float radiance[3]; /* cd/m^2 towards the camera; with ogl1 its color values */
     float opacity;     /* [0, 1] */
-    uint64_t rays;     /* that were traced for it */
+    uint64_t rays;     /* traced for it */
 } shading_result;
 
-/* What is known of a surface without light. */
+/* A surface without light. */
 typedef struct shading_description {
     float normal[3]; /* unit shading normal, world space, on the side of the camera */
     float base_color[3];

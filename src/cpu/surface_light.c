@@ -1,4 +1,4 @@
-/* surface_light.c - see surface_light.h. What is looked up for which layer; the formulas are in shade/. */
+/* surface_light.c - see surface_light.h. The look-ups of each layer; the formulas are in shade/. */
 #include "cpu/media.h"
 
 #include "cpu/surface_light.h"
@@ -65,8 +65,8 @@ static vec3 plain_radiance(const shading_scene *scene, const surface_point *poin
 
 /* ---- layers ---- */
 
-/* Light on the back of a diffusely transmitting surface, as it arrives there. That on a body comes in on the far side,
- * straight behind the surface, through the real distance; a body without far side is as thick as its material says. */
+/* Irradiance on the back of a diffusely transmitting surface. Into a closed volume light enters at the far side,
+ * straight behind the surface, through the actual distance; without a far side, through the material's thickness. */
 static vec3 light_from_behind(const shading_scene *scene, const surface_point *s, Layers *m, uint64_t *rays)
 {
     vec3 N = m->base.N;
@@ -113,7 +113,7 @@ static vec3 punctual_radiance(const shading_scene *scene, const Layers *m, vec3 
     return radiance;
 }
 
-/* What rays bring enters linearly: its share is what comes of radiance 1 without any other light. */
+/* Transmitted radiance enters linearly: its factor is the result for radiance 1 without other light. */
 static surface_light layered_light(const shading_scene *scene, const surface_point *s)
 {
     surface_light out = {.through = vec3(0.0f)};

@@ -1,4 +1,4 @@
-/* surface_point.c - see surface_point.h. What is looked up at a hit; what it means is in shade/material.h. */
+/* surface_point.c - see surface_point.h. Look-ups at a hit; shade/material.h defines their meaning. */
 #include "cpu/shading_hit.h"
 #include "cpu/surface_point.h"
 
@@ -32,7 +32,7 @@ float surface_opacity(const scene_material *material, float alpha)
 
 /* ---- normals ---- */
 
-/* Unit shading normal on the side that is seen. */
+/* Unit shading normal on the visible side. */
 static vec3 shading_normal(const shading_hit *h, const material_plan *plan, const float normal_texel[4],
                            bool is_front)
 {
@@ -58,7 +58,7 @@ static vec3 normal_beside(const shading_scene *scene, const surface_point *s, in
     return shading_normal(&h, s->plan, texel, s->is_front);
 }
 
-/* How the shading normal changes from one side of the footprint to the other. */
+/* The change of the shading normal across the footprint. */
 static vec3 normal_change(const shading_scene *scene, const surface_point *s, int axis)
 {
     return normal_beside(scene, s, axis, 0.5f) - normal_beside(scene, s, axis, -0.5f);
@@ -98,7 +98,7 @@ static vec3 clearcoat_normal(const surface_point *s, const float texel[4])
     if (ref->texture == SCENE_NONE)
         return N;
     vec3 n = normal_from_texel(load3(texel), material->clearcoat_normal_scale);
-    /* The tangents are those of the base's normal texture. */
+    /* The geometry's tangents are those of the base's normal texture. */
     const scene_texture_ref *base = &material->textures[SCENE_NORMAL_TEXTURE];
     if (s->hit.geometry->tangents && (base->texture == SCENE_NONE || base->texcoord == ref->texcoord))
         return frame_normal(shading_frame_of_tangents(&s->hit, s->is_front), n, N);
@@ -106,7 +106,7 @@ static vec3 clearcoat_normal(const surface_point *s, const float texel[4])
     return frame_has_tangent(f) ? frame_normal(f, n, N) : N;
 }
 
-/* Layers go through these by value: they are inlined, and nothing is copied. */
+/* These take and return layers by value: they are inlined without copies. */
 
 static inline Layers add_clearcoat(const surface_point *s, material_texels texels, Layers m)
 {
@@ -136,7 +136,7 @@ static inline Layers add_anisotropy(const surface_point *s, material_texels texe
     return with_anisotropy(m, strength, material->anisotropy_rotation, texel, f);
 }
 
-/* What goes on below the interface of a dielectric. */
+/* Layers below the interface of a dielectric. */
 static inline Layers add_transmission(const surface_point *s, material_texels texels, Layers m)
 {
     const scene_material *material = s->hit.geometry->material;
@@ -181,8 +181,8 @@ static inline Layers make_layers(const surface_point *s, material_texels texels)
 
 /* ---- specular anti-aliasing ---- */
 
-/* The coat has a normal of its own; where no texture bends it, its change is that of the smooth normal, which that of
- * the base is not far from. */
+/* The coat has its own normal; without a normal texture its derivative is that of the smooth normal, which is close
+ * to the base's. */
 static void antialias(surface_point *s)
 {
     s->m.base = surface_specular_aa(s->m.base, s->dN_dx, s->dN_dy);

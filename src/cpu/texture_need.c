@@ -22,7 +22,7 @@ enum {
     IGNORED_PIXELS = 4
 };
 
-/* Glass may show what is behind it this much larger, in mip levels. */
+/* Magnification by glass that is provided for, in mip levels. */
 static const float MAGNIFIED_LODS = 1.0f;
 
 /* Area in the image (pixels times AREA_UNIT) of the triangles that read a texture at a lod. */
@@ -41,7 +41,7 @@ typedef struct need_job {
     const camera_rays *camera;
     const texture_need_desc *desc;
     const render_geometry *geometry;
-    bool is_seen_anywhere; /* by rays that other surfaces bend */
+    bool is_seen_anywhere; /* by refracted or reflected rays */
     texture_reader readers[SCENE_TEXTURE_SLOT_COUNT];
     uint32_t reader_count;
     lod_histogram *histograms; /* per texture */
@@ -81,7 +81,7 @@ static bool is_outside(const float v[3], float extent)
     return (v[0] < 0.0f && v[1] < 0.0f && v[2] < 0.0f) || (v[0] > extent && v[1] > extent && v[2] > extent);
 }
 
-/* Area in pixels; 0: not in the image, or its back is culled. */
+/* Area in pixels; 0: outside of the image, or back-face culled. */
 static float visible_area(const need_job *job, const projection *p)
 {
     float area =
@@ -109,7 +109,7 @@ static void texel_edge(const texture_reader *reader, const float *uvs, uint32_t 
 }
 
 /* Square of the smaller stretch of the map from the triangle (m) to texels, but at least a 16th of the larger one,
- * as anisotropic lookup has it. The stretches squared are the eigenvalues of G^-1 T, where G and T hold the dot
+ * the limit of anisotropic filtering. The squared stretches are the eigenvalues of G^-1 T, where G and T hold the dot
  * products of the triangle's edges in space and in texels. */
 static float least_density2(const float G[3], const float t1[2], const float t2[2])
 {
@@ -201,7 +201,7 @@ static void add_reader(reader_list *list, const scene_texture_ref *ref, bool as_
         return;
     }
     if (texture->mip_filter == SCENE_MIP_NEAREST)
-        reader.lod_bias -= 0.5f; /* rounds to the finer one of two mips */
+        reader.lod_bias -= 0.5f; /* rounded to the finer of two mips */
     list->job->readers[list->job->reader_count++] = reader;
 }
 
@@ -239,7 +239,7 @@ static void add_readers(reader_list *list, const texture_need_desc *desc)
                                                                              : desc->footprint);
 }
 
-/* The finest lod that matters. */
+/* The finest relevant lod. */
 static float min_lod(const lod_histogram *h)
 {
     uint64_t area = 0;
@@ -269,7 +269,7 @@ facet_result texture_need(const facet_scene *scene, const render_geometry_set *s
             is_seen_anywhere ||
             (!set->items[i].legacy && (material_plan_layers(set->items[i].material) & LAYER_TRANSMISSION));
     for (uint32_t i = 0; i < set->count; i++) {
-        if (set->items[i].is_far_copy) /* there are nearer ones with the same material */
+        if (set->items[i].is_far_copy) /* nearer copies have the same material */
             continue;
         need_job job = {.camera = camera,
                         .desc = desc,

@@ -1,5 +1,5 @@
-/* tiles.c - see tiles.h. Tiles are handed out one by one, because some cost a hundred times what others do; what a
- * pixel shows depends on nothing but itself. */
+/* tiles.c - see tiles.h. Tiles are scheduled one by one, because some cost a hundred times more than others; pixels
+ * are independent of each other. */
 #include "cpu/tiles.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@
 enum { TILE = 32 };
 _Static_assert(TILE % VISIBILITY_BLOCK == 0, "tiles are made of whole blocks");
 
-/* The layers of the film; NULL: not asked for. */
+/* The layers of the film; NULL: not requested. */
 typedef struct layers {
     film_layer *color, *depth, *normal, *albedo, *material, *object, *instance, *uv, *occlusion;
 } layers;
@@ -36,7 +36,7 @@ typedef struct picture {
 
 /* ---- one block ---- */
 
-/* What a thread works with while it draws a tile. */
+/* Buffers of a thread for a tile. */
 typedef struct workspace {
     pixel_resolver resolver;
     visibility_hit *hits; /* VISIBILITY_BLOCK_PIXELS * sample_count */
@@ -56,7 +56,7 @@ static void write_aovs(const picture *p, workspace *w, uint32_t x, uint32_t y, c
     float depth_m;
     uint32_t geometry;
     if (!pixel_nearest_surface(&w->resolver, x, y, hit, &surface, &depth_m, &geometry))
-        return; /* the film starts with what stands for nothing */
+        return; /* the film starts with background values */
     store(p->layers.depth, pixel, &depth_m);
     store(p->layers.normal, pixel, surface.normal);
     store(p->layers.albedo, pixel, surface.base_color);
@@ -128,7 +128,7 @@ static void draw_tile(picture *p, uint32_t tile)
         if (render_watch_is_stopped(&p->watch))
             break;
         has_memory = draw_block(p, &w, x, y);
-        render_watch_look(&p->watch); /* a block of glass may take a hundred times what others do */
+        render_watch_look(&p->watch); /* a block of glass may cost a hundred times more than others */
     }
     if (!has_memory)
         render_watch_stop(&p->watch, FACET_ERROR_MEMORY);
@@ -166,7 +166,8 @@ static facet_result draw(const tiles_desc *desc, bool has_picture, film *target,
                  .has_picture = has_picture,
                  .wants_aovs = (render->aovs & ~(uint32_t)FACET_AOV_CRYPTOMATTE) != 0};
     if (has_picture)
-        matte_clear(&p.mattes, (size_t)target->width * target->height); /* an attempt may have failed */
+        matte_clear(&p.mattes,
+                    (size_t)target->width * target->height); /* a failed attempt may have filled it */
     p.tile_count = p.tile_columns * ((crop[1] + target->height - 1) / TILE - crop[1] / TILE + 1);
     render_watch_init(&p.watch, &render->progress, "shade", desc->deadline_s, p.tile_count);
     bool has_memory =

@@ -1,22 +1,22 @@
-/* tiles.h - draws an image tile by tile on several threads. */
+/* tiles.h - renders an image tile by tile on several threads. */
 #ifndef CPU_TILES_H
 #define CPU_TILES_H
 
 #include "cpu/shading_scene.h"
 #include "film/film.h"
 
-/* What is drawn; {0} members as in facet_render_desc. */
+/* The image; {0} members as in facet_render_desc. */
 typedef struct tiles_desc {
     const facet_render_desc *render;
     const shading_scene *scene;
-    const struct scene_identity *identities; /* per geometry; NULL: no layer asks for them */
+    const struct scene_identity *identities; /* per geometry; NULL: not needed by any layer */
     double deadline_s;                       /* of clock_seconds(); 0: none */
 } tiles_desc;
 
 /* Fills every layer of film. Adds to stats->rays and ->shades. Fails with FACET_ERROR_MEMORY, FACET_ERROR_LIMIT past
  * the deadline, FACET_ERROR_CANCELLED. */
 facet_result tiles_draw(const tiles_desc *desc, film *film, facet_render_stats *stats, facet_error *error);
-/* All layers of one sample: neither the image, layer "", nor Cryptomatte's. */
+/* All layers of one sample: neither color (layer "") nor Cryptomatte. */
 facet_result tiles_draw_aovs(const tiles_desc *desc, film *film, facet_render_stats *stats,
                              facet_error *error);
 

@@ -1,13 +1,13 @@
 /* visibility.c - see visibility.h. Rays go to Embree in packets as wide as the machine's vectors. Consecutive rays
  * are the samples of a pixel, then the pixels of a 2 x 2 square, then the squares of the block: with four samples a
- * packet of 16 is one square, as narrow a bundle as can be. */
+ * packet of 16 is one square, the most coherent bundle. */
 #include "cpu/visibility.h"
 
 #include <stddef.h>
 
 #include "draw/camera_rays.h"
 
-/* What an RTCRayHitN is made of: arrays of N values of 4 bytes each, in this order. */
+/* The layout of RTCRayHitN: arrays of N values of 4 bytes each, in this order. */
 enum ray_field {
     ORG_X,
     ORG_Y,

@@ -1,4 +1,4 @@
-/* visibility.h - which surfaces the rays of an image meet. */
+/* visibility.h - camera visibility: the surfaces that the rays of an image hit. */
 #ifndef CPU_VISIBILITY_H
 #define CPU_VISIBILITY_H
 
@@ -14,14 +14,13 @@ enum { VISIBILITY_BLOCK = 4, VISIBILITY_BLOCK_PIXELS = VISIBILITY_BLOCK * VISIBI
 typedef struct visibility_hit {
     float t;           /* of the ray */
     float u, v;        /* weights of the triangle's second and third vertex; along a line: u */
-    uint32_t geometry; /* VISIBILITY_NONE: nothing was hit */
+    uint32_t geometry; /* VISIBILITY_NONE: no hit */
     uint32_t primitive;
     float normal[3]; /* geometric, of any length, outward for counter-clockwise triangles */
 } visibility_hit;
 
-/* Makes the number and the normal of a hit inside of an instance those of its geometry: Embree gives the normal before
- * world. The matrix of normals keeps them outward; that of a mirrored instance has to be turned back to follow the
- * winding. */
+/* Converts index and normal of a hit inside of an instance to those of its geometry: Embree's normal is in the
+ * instance's space. The normal matrix keeps it outward; a mirrored instance's is negated to follow the winding. */
 static inline void visibility_leave_instance(const render_geometry_set *geometries, uint32_t instance,
                                              visibility_hit *hit)
 {
@@ -36,7 +35,7 @@ static inline void visibility_leave_instance(const render_geometry_set *geometri
         hit->normal[i] = m[3 * i] * n[0] + m[3 * i + 1] * n[1] + m[3 * i + 2] * n[2];
 }
 
-/* A hit of a single ray at distance t, as a filter or rtcIntersect1() gives it; not RTC_INVALID_GEOMETRY_ID. */
+/* Reads a hit of a single ray at distance t from a filter or rtcIntersect1(); not RTC_INVALID_GEOMETRY_ID. */
 static inline visibility_hit visibility_hit_read(const render_geometry_set *geometries, float t,
                                                  const struct RTCHit *h)
 {
@@ -51,7 +50,7 @@ static inline visibility_hit visibility_hit_read(const render_geometry_set *geom
     return hit;
 }
 
-/* Where the rays of a block go through the image. */
+/* Sample positions of a block. */
 typedef struct visibility_pattern {
     uint32_t sample_count;
     float *points;              /* 2 per sample, in pixels from the pixel's top left; block of mem_alloc() */
@@ -67,8 +66,8 @@ void visibility_pattern_destroy(visibility_pattern *pattern); /* {0} is allowed 
  * sample_count hits. The other members of a hit of VISIBILITY_NONE are undefined. */
 void visibility_trace_block(const embree_scene *scene, const camera_rays *camera, uint32_t x, uint32_t y,
                             const visibility_pattern *pattern, visibility_hit *hits);
-/* Number of the first of the sample_count hits of a pixel of the block, pixels counted in rows. They are traced in
- * squares of 2 x 2: bits 1 and 2 of the number change places. */
+/* Index of the first of the sample_count hits of a pixel of the block, pixels counted in rows. They are traced in
+ * squares of 2 x 2: bits 1 and 2 of the index are swapped. */
 static inline size_t visibility_first_hit(const visibility_pattern *pattern, uint32_t pixel)
 {
     return (size_t)((pixel & 9) | (pixel & 2) << 1 | (pixel & 4) >> 1) * pattern->sample_count;
