@@ -1,4 +1,4 @@
-/* convert_back_test.c - glTF materials to those of OpenGL 1, and round trips. */
+/* convert_back_test.c - glTF materials to OpenGL 1, and round trips. */
 #include "legacy/convert_test_support.h"
 
 static const facet_legacy_desc PLAIN = {0};
@@ -34,7 +34,7 @@ static void a_dielectric_is_fitted(void **state)
     const legacy_material *m = &scene->legacy->materials[0];
     const facet_conversion *c = &scene->conversion->materials[0].summary;
     assert_false(scene->legacy->is_source);
-    /* reference, 6.1: roughness .5, grey */
+    /* an independent fit: roughness .5, grey */
     assert_near(m->shininess, 39.1, 2);
     assert_near(m->diffuse[0], .486, .005);
     assert_near(m->specular[0], .184, .01);
@@ -65,7 +65,7 @@ static void remarks_of_metals(void **state)
     scene->materials[0].perceptual_roughness = .8f;
     to_ogl1(scene, &LINEAR);
     assert_true(has_warning(scene, 0, "metal-without-diffuse"));
-    assert_near(scene->legacy->materials[0].shininess, 6.7, .5); /* reference, 6.1 */
+    assert_near(scene->legacy->materials[0].shininess, 6.7, .5); /* an independent fit */
     scene_destroy(scene);
 }
 
@@ -79,11 +79,8 @@ static void colors_are_encoded(void **state)
     to_ogl1(scene, &LINEAR);
     float diffuse = scene->legacy->materials[0].diffuse[0];
     assert_color(scene->legacy->materials[0].emission, 1, .5f, 0, 1e-6);
-    to_ogl1(
-        scene,
-        &(facet_legacy_desc){
-            .target =
-                FACET_LEGACY_TARGET_LINEAR}); /* what was made so before is made anew: the colors that are there stay */
+    to_ogl1(scene, &(facet_legacy_desc){
+                       .target = FACET_LEGACY_TARGET_LINEAR}); /* fitted again: the existing colors stay */
     assert_int_equal(scene->legacy->colors, FACET_LEGACY_COLORS_LINEAR);
     to_ogl1(scene,
             &(facet_legacy_desc){.colors = FACET_LEGACY_COLORS_SRGB, .target = FACET_LEGACY_TARGET_LINEAR});
@@ -288,7 +285,7 @@ static legacy_material teapot(void)
     return m;
 }
 
-/* As the glTF reader leaves a scene whose extras say what it was made of. */
+/* A scene as read from glTF, whose extras state the originals. */
 static void as_read_again(facet_scene *scene)
 {
     scene->legacy->is_source = false;
@@ -317,14 +314,14 @@ static void known_values_come_back_exactly(void **state)
         assert_string_equal(scene->conversion->materials[i].summary.method, "source");
     }
     assert_true(scene->conversion->materials[0].summary.error < .3);
-    /* Twice: the values are still the known ones. */
+    /* Twice: the values are still the originals. */
     to_ogl1(scene, &PLAIN);
     assert_string_equal(scene->conversion->materials[0].summary.method, "source");
     scene_destroy(scene);
 }
 
-/* Lobes of the two models differ in shape, so that values fitted anew are others; nearer to the glTF material than those
- * that it was made of. */
+/* Lobes of the two models differ in shape, so values that are fitted again differ from the originals and
+ * approximate the glTF material better. */
 static void known_values_lose_nothing_and_a_fit_little(void **state)
 {
     (void)state;
@@ -349,13 +346,13 @@ static void known_values_lose_nothing_and_a_fit_little(void **state)
     scene_destroy(scene);
 }
 
-/* A file of legacy materials stays one: what it says is what is written again. */
+/* A file of legacy materials is written as it was read. */
 static void read_values_stay(void **state)
 {
     (void)state;
     facet_scene *scene = legacy_scene(2);
     scene->legacy->materials[0] = teapot();
-    scene->legacy->materials[1].is_gltf_restored = true; /* of a glTF model that parameters were laid over */
+    scene->legacy->materials[1].is_gltf_restored = true; /* of a glTF model with parameters applied */
     scene->materials[1] = plastic();
     convert(scene, &PLAIN);
     to_ogl1(scene, &PLAIN);

@@ -1,6 +1,6 @@
 #define _POSIX_C_SOURCE 200809L /* stat(), getpid() */
-/* convert_corpus_test.c - every model of the test data is converted in every direction: numbers stay in their ranges,
- * textures are there, errors are finite, and values that were read come back as they were. */
+/* convert_corpus_test.c - converts every model of the test data in every direction: values are in range, textures
+ * exist, errors are finite, and originals are restored. */
 #include "tests/support/support.h"
 #include "legacy/convert_test_support.h"
 
@@ -17,7 +17,7 @@ static void check_pbr(const facet_scene *scene, const char *path)
 {
     for (uint32_t i = 0; i < scene->material_count; i++) {
         const scene_material *m = &scene->materials[i];
-        /* What is not converted is as the file has it. */
+        /* Unconverted parameters are as in the file. */
         const char *method = scene->conversion->materials[i].summary.method;
         bool is_made = strcmp(method, "none") != 0 && strcmp(method, "source") != 0;
         for (int row = 0; row < MATERIAL_PARAMETER_COUNT && is_made; row++) {
@@ -69,7 +69,7 @@ static void check_report(const facet_scene *scene, const char *path)
     text_destroy(&t);
 }
 
-/* Written as glTF and read again: materials that are still what they were made of are known. */
+/* Written as glTF and read again: the originals are known. */
 static void check_round_trip(const facet_scene *scene, const char *path)
 {
     const char *folder = getenv("TMPDIR");
@@ -131,10 +131,10 @@ static void check_model(const char *path)
     scene_destroy(scene);
 }
 
-/* Larger models show nothing new, but for what a sanitizer takes for their texels. */
+/* Larger models add only the texels that a sanitizer is slow on. */
 enum { MAX_BYTES = IS_SLOW ? 50000 : 300000 };
 
-/* Models below a folder that end so. */
+/* Models below a folder with that extension. */
 static int check_folder(const char *folder, const char *const *ends)
 {
     int count = 0;

@@ -1,4 +1,4 @@
-/* convert_drop_test.c - pictures that only the old materials read leave the scene, and what is known without them. */
+/* convert_drop_test.c - images that only legacy materials use are dropped; conversions without them. */
 #include "tests/support/support.h"
 #include "legacy/convert_test_support.h"
 
@@ -10,7 +10,7 @@ static const uint8_t FADE[] = {255, 128, 64, 0};
 
 enum { PLAIN_MAP, BAKED, UNTEXTURED, ONLY_DISPLACED, MATERIALS };
 
-/* A picture that stays, two that are baked, none, and one that has no counterpart. False: no memory. */
+/* An image that stays, two that are baked, none, and one without counterpart. False: out of memory. */
 static bool fill(facet_scene *scene)
 {
     legacy_material *m = scene->legacy->materials;
@@ -43,7 +43,7 @@ static facet_scene *dropped(void)
     return scene;
 }
 
-/* Every texture is read by some glTF material, every picture by some texture; numbers are in range. */
+/* Every texture is used by a glTF material, every image by a texture; indices are in range. */
 static void assert_all_used(const facet_scene *scene)
 {
     bool textures[TEST_MAX] = {false};
@@ -89,19 +89,19 @@ static void what_only_old_materials_read_leaves(void **state)
     assert_true(size_of_images(scene) < size_of_images(kept));
     assert_null(kept->conversion->before);
     assert_all_used(scene);
-    /* The picture that serves as it is, for two materials. */
+    /* The image that is used unchanged, by two materials. */
     const legacy_material *m = scene->legacy->materials;
     uint32_t color = scene->materials[PLAIN_MAP].textures[SCENE_BASE_COLOR_TEXTURE].texture;
     assert_string_equal(scene->images[scene->textures[color].image].uri, "color.png");
     assert_int_equal(m[PLAIN_MAP].maps[LEGACY_DIFFUSE_MAP].ref.texture, color);
     assert_false(legacy_lacks_images(&m[PLAIN_MAP]));
-    /* Those that became texels. */
+    /* The baked ones. */
     assert_int_equal(m[BAKED].maps[LEGACY_SPECULAR_MAP].ref.texture, SCENE_NONE);
     assert_string_equal(m[BAKED].maps[LEGACY_SPECULAR_MAP].path, "picture.png");
     assert_true(m[BAKED].maps[LEGACY_SPECULAR_MAP].is_left_out);
     assert_true(legacy_lacks_images(&m[BAKED]));
     assert_false(legacy_lacks_images(&m[UNTEXTURED]));
-    /* One without a counterpart says nothing of the surface. */
+    /* The one without a counterpart. */
     assert_true(m[ONLY_DISPLACED].maps[LEGACY_DISPLACEMENT_MAP].is_left_out);
     assert_false(legacy_lacks_images(&m[ONLY_DISPLACED]));
     assert_non_null(strstr(scene->materials[BAKED].meta.extras, "left_out"));
@@ -116,7 +116,7 @@ static void what_only_old_materials_read_leaves(void **state)
     scene_destroy(scene);
 }
 
-/* The report draws the old materials with what was there. */
+/* The report renders the source materials with the dropped images. */
 static void the_report_has_what_was_there(void **state)
 {
     (void)state;
@@ -139,7 +139,7 @@ static void what_is_not_known_whole_is_fitted(void **state)
     (void)state;
     facet_scene *scene = dropped();
     const uint32_t images = scene->image_count;
-    convert_to(scene, FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS, &DROPS); /* once is enough */
+    convert_to(scene, FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS, &DROPS); /* no second conversion */
     assert_int_equal(scene->image_count, images);
     assert_string_equal(scene->conversion->materials[BAKED].summary.method, "closed");
     assert_true(scene_material_has(&scene->materials[BAKED], SCENE_SPECULAR_TEXTURE));
@@ -173,7 +173,7 @@ static void nothing_leaves_where_all_is_read(void **state)
     scene_destroy(scene);
 }
 
-/* A scene that was glTF, with rgl's parameters laid over it: its light is numbered in pictures, too. */
+/* A glTF scene with rgl's parameters applied: its image-based light refers to images, too. */
 static void pictures_of_light_stay(void **state)
 {
     (void)state;

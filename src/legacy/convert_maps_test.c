@@ -1,5 +1,4 @@
-/* convert_maps_test.c - textures of legacy materials: which pictures stay what they are, and what the texels of those that
- * are made say. */
+/* convert_maps_test.c - textures of legacy materials: images that stay unchanged, and the texels of converted ones. */
 #include "legacy/convert_test_support.h"
 
 static const facet_legacy_desc PLAIN = {0};
@@ -14,7 +13,7 @@ static legacy_material shiny(void)
     return m;
 }
 
-/* Reference 7.2 for one texel: sf = max(Cs) g(s), base = Cd / (1 - sf). */
+/* The closed form for one texel: sf = max(Cs) g(s), base = Cd / (1 - sf). */
 static pbr_surface closed(const float diffuse[3], const float specular[3], float shininess)
 {
     pbr_surface out = pbr_surface_default();
@@ -29,7 +28,7 @@ static pbr_surface closed(const float diffuse[3], const float specular[3], float
     return out;
 }
 
-/* A picture that stays is scaled, which cannot follow what the fit adds to the darkest and takes off the brightest. */
+/* An unchanged image is only scaled, which cannot follow the fit at the darkest and brightest texels. */
 static void assert_scaled(const facet_scene *scene, size_t i, const float diffuse[3], const float specular[3],
                           float shininess)
 {
@@ -200,7 +199,7 @@ static void the_core_profile_packs_metallic_and_roughness(void **state)
         in.shininess = m.shininess;
         ogl1_to_pbr_core_closed(&in, &wanted);
         pbr_surface found = surface_at(scene, 0, i);
-        /* Between the nodes of a grid of greys, and in 8 bits: nearly as near as a search for this texel. */
+        /* Between the nodes of a grid of greys, in 8 bits: nearly as good as a fit of this texel. */
         double least = fit_compare(metric, &in, &wanted, FIT_FROM_OGL1).E;
         double E = fit_compare(metric, &in, &found, FIT_FROM_OGL1).E;
         assert_near(E, least, .02);
@@ -326,7 +325,7 @@ static void opacity_maps_go_into_the_base_color(void **state)
     set_map(&m, LEGACY_OPACITY_MAP, add_texels(scene, 2, 2, 1, FADE));
     m.opacity = .5f;
     scene->legacy->materials[0] = m;
-    m.opacity = 0; /* would hide the picture: an exporter's mistake */
+    m.opacity = 0; /* would hide the image: a mistake of exporters */
     set_map(&m, LEGACY_OPACITY_MAP, add_texels(scene, 2, 2, 1, CUT));
     scene->legacy->materials[1] = m;
     m.maps[LEGACY_DIFFUSE_MAP] = legacy_map_default(); /* opacity alone */
@@ -364,7 +363,7 @@ static void one_picture_of_color_and_opacity_stays(void **state)
     uint32_t picture = add_texels(scene, 2, 2, 4, leaf);
     legacy_material m = shiny();
     set_map(&m, LEGACY_DIFFUSE_MAP, picture);
-    scene->legacy->materials[1] = m; /* without map_d alpha says nothing */
+    scene->legacy->materials[1] = m; /* without map_d alpha is ignored */
     set_map(&m, LEGACY_OPACITY_MAP, picture);
     scene->legacy->materials[0] = m;
     convert(scene, &PLAIN);
@@ -418,7 +417,7 @@ static void normals_under_bump_are_found(void **state)
     set_map(&m, LEGACY_BUMP_MAP, texture);
     m.maps[LEGACY_BUMP_MAP].bump_multiplier = .5f;
     scene->legacy->materials[0] = m;
-    set_map(&m, LEGACY_NORMAL_MAP, texture); /* norm wins over bump */
+    set_map(&m, LEGACY_NORMAL_MAP, texture); /* norm overrides bump */
     scene->legacy->materials[1] = m;
     convert(scene, &PLAIN);
     assert_true(has_warning(scene, 0, "bump-as-normal"));

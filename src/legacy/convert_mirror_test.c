@@ -1,5 +1,4 @@
-/* convert_mirror_test.c - illum 3, 5, 7 and 8: Ks as a reflectance where that is asked for, and what is said where it is
- * not. */
+/* convert_mirror_test.c - illum 3, 5, 7 and 8: Ks as a reflectance if mirrors are enabled, and the notes if not. */
 #include "legacy/convert_test_support.h"
 
 #include <math.h>
@@ -7,7 +6,7 @@
 static const facet_legacy_desc PLAIN = {0};
 static const facet_legacy_desc MIRRORS = {.has_mirrors = true};
 
-/* The ball of CornellBox-Sphere, in linear light. */
+/* The sphere of CornellBox-Sphere, in linear light. */
 static legacy_material mirror(void)
 {
     legacy_material m = legacy_material_default();
@@ -33,14 +32,14 @@ static void a_mirror_without_color_is_a_metal(void **state)
     facet_scene *scene = one(mirror(), &MIRRORS);
     const scene_material *m = &scene->materials[0];
     const facet_conversion *c = &scene->conversion->materials[0].summary;
-    assert_int_equal(m->extensions, 0); /* viewers without extensions see it */
+    assert_int_equal(m->extensions, 0); /* visible in viewers without extensions */
     assert_near(m->metallic, 1, 0);
     assert_color(m->base_color, .95f, .94f, .9f, 1e-6);
     assert_near(m->perceptual_roughness, 0, 0);
     assert_true(isnan(c->error) && isnan(c->error_display));
     assert_string_equal(c->method, "closed");
     assert_false(has_warning(scene, 0, "mirror-ignored"));
-    /* The way back: the values are known, and a mirror is nothing that a highlight could be compared with. */
+    /* The reverse: the originals are known, and a mirror has no highlight to compare. */
     convert_to(scene, FACET_MATERIAL_MODEL_OGL1, &PLAIN);
     assert_string_equal(scene->conversion->materials[0].summary.method, "source");
     assert_true(!(scene->conversion->materials[0].summary.error > 0));
@@ -75,14 +74,14 @@ static void what_a_mirror_leaves_is_diffuse(void **state)
             /* glTF weights the base color with 1 - max(F0). */
             assert_near(m->base_color[k] * (1 - .5f), in.diffuse[k], 1e-6);
         }
-        /* Fresnel belongs to 5 and 7. */
+        /* Fresnel applies to 5 and 7. */
         assert_near(m->specular, in.illum == 5 || in.illum == 7 ? 1 : .5, 1e-6);
         assert_false(has_warning(scene, 0, "energy-gain"));
         scene_destroy(scene);
     }
 }
 
-/* Nothing returns more light than it gets: the color gives way, and keeps its hue. */
+/* No surface reflects more than it receives: the color is reduced, its hue kept. */
 static void more_than_all_light_is_not_reflected(void **state)
 {
     (void)state;
@@ -163,7 +162,7 @@ static void maps_of_mirrors(void **state)
     scene_destroy(scene);
 }
 
-/* In the report always; on standard error where it is to be seen. */
+/* Always in the report; logged if it is visible. */
 static void ignored_mirrors_are_told(void **state)
 {
     (void)state;
@@ -189,7 +188,7 @@ static void ignored_mirrors_are_told(void **state)
         assert_int_equal(log.count, cases[i].is_told);
         scene_destroy(scene);
     }
-    /* Blender's illum 3 is a metal's, which has a metallic. */
+    /* Blender's illum 3 is a metal with a metallic. */
     legacy_material m = mirror();
     m.illum = 3;
     facet_scene *scene =

@@ -1,4 +1,4 @@
-/* convert_read_test.c - every row of the reference's mapping (section 9) and every warning of one material. */
+/* convert_read_test.c - every row of the mapping in docs/legacy.md, and every warning of one material. */
 #include "legacy/convert_test_support.h"
 
 static const facet_legacy_desc PLAIN = {0};
@@ -16,7 +16,7 @@ static legacy_material gold(void)
     return m;
 }
 
-/* One material converted; the scene stays for a look at the rest. */
+/* Converts one material; the caller inspects the scene. */
 static facet_scene *one(legacy_material m, const facet_legacy_desc *desc)
 {
     facet_scene *scene = legacy_scene(1);
@@ -42,13 +42,13 @@ static void blinn_phong_becomes_specular_and_ior(void **state)
     assert_near(m->perceptual_roughness, wanted.perceptual_roughness, 0);
     assert_near(m->ior, 0, 0);
     assert_near(m->specular, wanted.specular, 0);
-    assert_true(m->is_double_sided); /* OpenGL 1 lights both sides */
+    assert_true(m->is_double_sided); /* OpenGL 1 is two-sided */
     assert_int_equal(m->alpha_mode, SCENE_ALPHA_OPAQUE);
     const facet_conversion *c = &scene->conversion->materials[0].summary;
     assert_string_equal(c->method, "closed");
     assert_string_equal(c->profile, "specular+ior");
     assert_string_equal(c->source, "mtl");
-    assert_near(c->error, .070, .0075); /* reference, section 11 */
+    assert_near(c->error, .070, .0075); /* of an independent fit */
     assert_near(c->error_naive, .160, .005);
     assert_true(c->error_core > c->error && c->error_core < 1);
     assert_int_equal(c->grade,
@@ -57,7 +57,7 @@ static void blinn_phong_becomes_specular_and_ior(void **state)
     scene_destroy(scene);
 }
 
-/* Vertex colors stand for a Kd that no statement gives, and multiply one that is stated. */
+/* Vertex colors replace a Kd that is not stated, and multiply one that is. */
 static void vertex_colors_replace_a_default(void **state)
 {
     (void)state;
@@ -95,7 +95,7 @@ static void fit_and_core_are_options(void **state)
     scene_destroy(core);
 }
 
-/* Without extensions nothing is black: what is left is the darkest that the core can say, a rough black metal. */
+/* Without extensions black becomes the darkest that core glTF has, a rough black metal. */
 static void black_becomes_the_darkest_of_the_core(void **state)
 {
     (void)state;
@@ -196,7 +196,7 @@ static void ambient_is_dropped_or_emitted(void **state)
     facet_scene *emitted = one(m, &(facet_legacy_desc){.ambient = FACET_LEGACY_AMBIENT_EMISSIVE});
     assert_false(has_warning(emitted, 0, "ambient-dropped"));
     assert_color(emitted->materials[0].emissive, .2f, .1f, 0, 1e-6);
-    /* Ka of 0, or equal to Kd, is what exporters write who mean nothing by it. */
+    /* Exporters write Ka of 0 or equal to Kd without meaning. */
     memcpy(m.ambient, m.diffuse, sizeof m.ambient);
     facet_scene *equal = one(m, &PLAIN);
     assert_false(has_warning(equal, 0, "ambient-dropped"));
@@ -217,7 +217,7 @@ static void opacity_becomes_alpha(void **state)
     assert_int_equal(scene->materials[0].alpha_mode, SCENE_ALPHA_BLEND);
     assert_near(scene->materials[0].base_color[3], .25, 1e-6);
     scene_destroy(scene);
-    m.opacity = 0; /* nothing to see, and nothing says that this is a mistake */
+    m.opacity = 0; /* invisible, and not known to be a mistake */
     scene = one(m, &PLAIN);
     assert_near(scene->materials[0].base_color[3], 0, 0);
     assert_false(has_warning(scene, 0, "zero-alpha"));
@@ -279,11 +279,11 @@ static void glass_becomes_transmission_where_asked_for(void **state)
     assert_near(out->base_color[3], 1, 0);
     assert_int_equal(out->alpha_mode, SCENE_ALPHA_OPAQUE);
     scene_destroy(scene);
-    scene = one(m, &PLAIN); /* not asked for */
+    scene = one(m, &PLAIN); /* not enabled */
     assert_false(scene->materials[0].extensions & SCENE_TRANSMISSION);
     assert_near(scene->materials[0].base_color[3], .2, 1e-6);
     scene_destroy(scene);
-    /* illum 7: refraction, its strength and tint from Tf; a volume needs a thing with a size. */
+    /* illum 7: refraction, strength and tint from Tf; a volume needs geometry with an extent. */
     m.opacity = 1;
     m.illum = 7;
     set_color(m.transmission_filter, .5f, 1, .5f);
@@ -327,7 +327,8 @@ static void illum_counts_where_nothing_speaks_against_it(void **state)
     assert_true(has_warning(scene, 0, "illum-honoured"));
     assert_near(scene->materials[0].specular, 0, 0);
     scene_destroy(scene);
-    scene = one(m, &(facet_legacy_desc){.dialect = FACET_MTL_DIALECT_BLENDER27}); /* known to mean it */
+    /* known to write it on purpose */
+    scene = one(m, &(facet_legacy_desc){.dialect = FACET_MTL_DIALECT_BLENDER27});
     assert_true(has_warning(scene, 0, "illum-honoured"));
     scene_destroy(scene);
     set_color(m.specular, 0, 0, 0);
@@ -445,8 +446,8 @@ static void dialects_put_roughness_elsewhere(void **state)
     scene_destroy(scene);
 }
 
-/* A highlight over the whole surface is left out, whatever program wrote it, but where the format is asked for to the
- * letter; Blender's newer exporters and obj2gltf have a roughness there. */
+/* A highlight over the whole surface is ignored in every dialect, except with the literal format; Blender's newer
+ * exporters and obj2gltf have a roughness there. */
 static void widest_highlights_are_left_out(void **state)
 {
     (void)state;
@@ -490,7 +491,7 @@ static void guessed_dialects_are_told(void **state)
     convert(scene, &PLAIN);
     assert_true(has_warning(scene, SCENE_NONE, "dialect-guessed"));
     scene_destroy(scene);
-    scene = legacy_scene(1); /* as the format has it: nothing to tell */
+    scene = legacy_scene(1); /* as in the format: no warning */
     scene->legacy->is_dialect_guessed = true;
     convert(scene, &PLAIN);
     assert_false(has_warning(scene, SCENE_NONE, "dialect-guessed"));
@@ -514,7 +515,7 @@ static void losses_are_told_and_kept(void **state)
     assert_non_null(strstr(scene->materials[0].meta.extras, "facet_legacy"));
     assert_non_null(strstr(scene->materials[0].meta.extras, "alpha_test"));
     scene_destroy(scene);
-    m = gold(); /* rgl's own: kept, but known */
+    m = gold(); /* known to rgl: kept */
     m.unknown = m.kept = "size 3\nlwd 2";
     scene = one(m, &PLAIN);
     assert_false(has_warning(scene, 0, "unknown-key"));
@@ -563,7 +564,7 @@ static void restored_materials_are_left_alone(void **state)
     scene_destroy(scene);
 }
 
-/* What every conversion has is in the report only; a loss is reported once for all materials. */
+/* Notes of every conversion are in the report only; a loss is reported once for all materials. */
 static void the_log_is_short(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* convert_robust_test.c - conversions of whole scenes: the same for every number of threads, whole or not at all where
+/* convert_robust_test.c - conversions of whole scenes: equal for any number of threads, complete or not at all if
  * memory runs out, each distinct material solved once. */
 #include "tests/support/support.h"
 #include "legacy/convert_test_support.h"
@@ -74,7 +74,7 @@ static void threads_do_not_change_a_bit(void **state)
     scene_destroy(scenes[1]);
 }
 
-/* Every allocation fails once: the call fails with FACET_ERROR_MEMORY, nothing leaks, the materials are as before. */
+/* Every allocation fails once: the call fails with FACET_ERROR_MEMORY, nothing leaks, the materials are unchanged. */
 static void run_out(facet_material_model to, bool is_legacy, const facet_legacy_desc *desc)
 {
     for (long at = 0;; at = next_failure(at)) {
@@ -96,7 +96,7 @@ static void run_out(facet_material_model to, bool is_legacy, const facet_legacy_
         failing.fail_at = atomic_load(&failing.calls) + at;
         facet_result result = legacy_convert(scene, to, desc, &(facet_log){0}, NULL);
         bool has_failed = atomic_load(&failing.calls) > failing.fail_at;
-        /* A warning that cannot be kept does not stop a conversion. */
+        /* A warning without memory does not stop a conversion. */
         if (result == FACET_ERROR_MEMORY) {
             assert_true(has_failed);
             assert_ptr_equal(scene->materials, before);
@@ -127,7 +127,7 @@ static void memory_runs_out(void **state)
     run_out(FACET_MATERIAL_MODEL_SPECULAR_GLOSSINESS, false, &(facet_legacy_desc){0});
 }
 
-/* Equal materials cost one search: ten thousand of five kinds are fitted in the time of five, not of an hour. */
+/* Equal materials need one fit: ten thousand of five kinds take the time of five. */
 static void equal_materials_are_solved_once(void **state)
 {
     (void)state;
@@ -144,7 +144,7 @@ static void equal_materials_are_solved_once(void **state)
     convert(scene, &(facet_legacy_desc){.method = FACET_LEGACY_METHOD_FIT});
     double seconds = clock_seconds() - begin;
     print_message("%d materials of 5 kinds fitted in %.3f s\n", COUNT, seconds);
-    /* One search takes milliseconds, which is half a minute for all. */
+    /* A fit takes milliseconds, which would be half a minute for all. */
     assert_true(seconds < 15);
     for (uint32_t i = 5; i < COUNT; i++)
         assert_near(scene->materials[i].perceptual_roughness, scene->materials[i % 5].perceptual_roughness,

@@ -1,4 +1,4 @@
-/* convert_test_support.h - scenes with legacy materials and pictures of a few texels, for tests. */
+/* convert_test_support.h - scenes with legacy materials and images of a few texels, for tests. */
 #ifndef LEGACY_CONVERT_TEST_SUPPORT_H
 #define LEGACY_CONVERT_TEST_SUPPORT_H
 
@@ -20,7 +20,7 @@
 
 enum { TEST_MAX = 32 };
 
-/* A scene with one ball-less primitive per material; room for TEST_MAX images. */
+/* A scene with one primitive per material; room for TEST_MAX images. */
 static inline facet_scene *legacy_scene_in(const facet_allocator *allocator, uint32_t count)
 {
     facet_scene *scene = NULL;
@@ -66,7 +66,7 @@ static inline facet_scene *gltf_scene(uint32_t count)
     return scene;
 }
 
-/* A PNG of those texels as a texture. SCENE_NONE: no memory. */
+/* A texture of those texels as a PNG. SCENE_NONE: out of memory. */
 static inline uint32_t add_picture(facet_scene *scene, uint32_t width, uint32_t height, uint32_t channels,
                                    const void *texels, image_type type)
 {

@@ -95,7 +95,7 @@ static void note_losses(conversion *c, uint32_t material, const scene_material *
     }
 }
 
-/* MTL's extension, for programs that know it. */
+/* MTL's PBR extension, for programs that support it. */
 static void set_pbr_statements(const scene_material *m, legacy_material *out)
 {
     if (!(m->extensions & SCENE_SPECULAR_GLOSSINESS)) {

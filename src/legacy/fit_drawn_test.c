@@ -1,6 +1,7 @@
-/* fit_drawn_test.c - OpenGL 1 as its programs draw it, with sums of display numbers: the error against a plain grid of
- * directions in Python (numpy, 420 x 420 light directions per view, IEC 61966-2-1 in double), fits against a general
- * optimizer there (scipy.optimize.least_squares), the grid for texels, default targets, and the hue of broad highlights. */
+/* fit_drawn_test.c - OpenGL 1 as its programs display it, with sums of display values: the error against a plain
+ * grid of directions in Python (numpy, 420 x 420 light directions per view, IEC 61966-2-1 in double), fits against
+ * a general optimizer (scipy.optimize.least_squares), the grid for texels, default targets, and the hue of broad
+ * highlights. */
 #include <math.h>
 
 #include "tests/support/support.h"
@@ -27,7 +28,7 @@ static float light(double number)
     return (float)srgb_decode(number);
 }
 
-/* Colors as display numbers. */
+/* Colors as display values. */
 static ogl1_surface ogl1_of(const double Cd[3], const double Cs[3], double shininess)
 {
     ogl1_surface s = {.shininess = (float)shininess};
@@ -141,7 +142,7 @@ static double drawn_fit(const double Cd[3], const double Cs[3], double s, pbr_su
     return fit_compare(metric, &in, out, FIT_FROM_OGL1).E_drawn;
 }
 
-/* No worse than the general optimizer, and better than what makes the error of light small. */
+/* No worse than the general optimizer, and better than the fit of linear light. */
 static void test_fit_to_pbr(void **state)
 {
     (void)state;
@@ -169,7 +170,7 @@ static void test_fit_to_pbr(void **state)
     }
 }
 
-/* The numbers are display numbers. Exponents end at 2. */
+/* The values are display values. Exponents end at 2. */
 static void test_fit_to_ogl1(void **state)
 {
     (void)state;
@@ -199,7 +200,7 @@ static void test_fit_to_ogl1(void **state)
 
 /* ---- texels ---- */
 
-/* Between the nodes of the grid, colors are nearly as good as those fitted for the texel itself. */
+/* Between nodes of the grid colors are nearly as good as fits of the texel. */
 static void test_grid(void **state)
 {
     (void)state;
@@ -275,7 +276,7 @@ static void test_textured_metal(void **state)
 
 /* ---- defaults ---- */
 
-/* White metal of roughness .4: the error of light alone (E_display .913) was the default once. */
+/* White metal of roughness .4: the error of linear light alone (E_display .913) was the default once. */
 static void test_default_to_ogl1(void **state)
 {
     (void)state;
@@ -297,7 +298,7 @@ static void test_default_to_ogl1(void **state)
     scene_destroy(scene);
 }
 
-/* MTL is read as programs read it today, which add light; rgl's programs add display numbers. */
+/* MTL is read as present programs do, which add light; rgl's programs add display values. */
 static void test_default_from_ogl1(void **state)
 {
     (void)state;
@@ -352,7 +353,7 @@ static void test_hue(void **state)
     assert_false(fit_keep_hue(metric, &narrow, FACET_LEGACY_TARGET_LINEAR, &out));
     assert_memory_equal(&before, &out, sizeof out);
     ogl1_to_pbr_closed(&gray, &out);
-    assert_false(fit_keep_hue(metric, &gray, FACET_LEGACY_TARGET_LINEAR, &out)); /* no hue to keep */
+    assert_false(fit_keep_hue(metric, &gray, FACET_LEGACY_TARGET_LINEAR, &out)); /* no hue */
 }
 
 static void test_hue_is_reported(void **state)

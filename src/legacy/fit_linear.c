@@ -132,7 +132,7 @@ DISPATCH_AVX2 static void display_moments_of(const fit_problem *p, int k, const 
     sum_lanes(lane, out, square);
 }
 
-/* ---- sums of display numbers ---- */
+/* ---- sums of display values ---- */
 
 /* The same with the model as a program displays it: a sum of display values whose light is linearized at factor
  * (Gauss-Newton). Nodes where both model and source exceed white contribute nothing. *square is that of light. */

@@ -1,5 +1,5 @@
-/* fit_metric_test.c - the error of materials: its quadrature against integrals known otherwise, and against a plain grid of
- * directions that knows nothing of half vectors. */
+/* fit_metric_test.c - the error of materials: its quadrature against known integrals and against a plain grid of
+ * directions. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -37,7 +37,7 @@ static int teardown(void **state)
 
 /* ---- integrals ---- */
 
-/* The weights add up to the integral of the cosine, pi, and with powers of it to 2 pi / (n + 2). */
+/* The weights sum to the integral of the cosine, pi, and with its powers to 2 pi / (n + 2). */
 static void test_weights(void **state)
 {
     (void)state;
@@ -50,8 +50,8 @@ static void test_weights(void **state)
         }
 }
 
-/* Head on, N.H is the cosine of half the light's angle; with u = (N.H)^2 the integral of (N.H)^(2 s) N.L dL is
- * 4 pi int u^s (2 u - 1) du from 1/2 to 1. */
+/* At normal incidence N.H is the cosine of half the light angle; with u = (N.H)^2 the integral of (N.H)^(2 s) N.L
+ * dL is 4 pi int u^s (2 u - 1) du from 1/2 to 1. */
 static void test_highlights(void **state)
 {
     (void)state;
@@ -69,7 +69,7 @@ static void test_highlights(void **state)
     }
 }
 
-/* The lobe without Fresnel returns the split sum's A + B of the light, whatever its width, and never more than all. */
+/* The lobe without Fresnel integrates to A + B of the split sum for any width, and never above 1. */
 static void test_lobes(void **state)
 {
     (void)state;
@@ -170,7 +170,7 @@ static void compare_with_grid(const ogl1_surface *ogl1, const pbr_surface *pbr, 
     assert_near(e.E_display, sqrt(sums.difference_display / sums.source_display), 1e-3);
 }
 
-/* Every second of the classics as the naive formulas and a strong colored lobe have them: the grid resolves these. */
+/* Half of the classic materials by the naive formulas, and a strong colored lobe: the grid resolves these. */
 static void test_plain_grid(void **state)
 {
     (void)state;
@@ -227,7 +227,7 @@ static void test_scale(void **state)
     assert_near(half.views[2], one.views[2], 1e-6);
 }
 
-/* Of black there is no relative error: it counts as a thousandth of white. */
+/* Black has no relative error: it counts as a thousandth of white. */
 static void test_black(void **state)
 {
     (void)state;

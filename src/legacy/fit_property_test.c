@@ -1,6 +1,6 @@
-/* fit_property_test.c - what holds of every material: conversions are finite and in range at the ends of it, searches are never
- * worse than tables and tables never worse than the usual formulas, nothing nearby is better, and what is permuted or
- * scaled comes out so. */
+/* fit_property_test.c - properties of all materials: conversions are finite and in range at the limits, fits are
+ * never worse than LUTs and LUTs never worse than the usual formulas, fits are local minima, and permuted or scaled
+ * inputs give permuted or scaled results. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -197,7 +197,7 @@ static void test_order_to_pbr(void **state)
         assert_true(E_core <= fit_compare(metric, &s, &core_closed, FIT_FROM_OGL1).E + 1e-5);
         /* Metal is the only thing that the extensions' side leaves out: up to 1e-4 for exponents below 5. */
         assert_true(e.E <= E_core + 1e-4);
-        /* 1e-4: the simplex's tolerance */
+        /* 1e-4: tolerance of the simplex */
         assert_true(fit_compare(metric, &s, &display, FIT_FROM_OGL1).E_display <= e.E_display + 1e-4);
     }
 }
@@ -272,7 +272,8 @@ static int residuals(void *context, int count, int n, const double *u, double *o
     return 0;
 }
 
-/* Levenberg and Marquardt's method over nine numbers, metallic one of them, from the fit on, a little inside the bounds. */
+/* The Levenberg-Marquardt method in nine variables, metallic among them, starting from the fit, a little inside the
+ * bounds. */
 static double polished_error(const ogl1_surface *source, const pbr_surface *fit)
 {
     static polish p;
@@ -339,8 +340,8 @@ static void test_monotonic(void **state)
     }
 }
 
-/* Both ways are least squares, each with its own weights: a broad highlight comes back narrower (6.1: roughness .6 wants s 19;
- * 6.2: s 16 wants .596). From 50 on s is kept within 7 %, and Cs to a tenth. */
+/* Both directions are least squares with their own weights: a broad highlight returns narrower (roughness .6 gives
+ * s 19; s 16 gives .596). From 50 on s is kept within 7 %, and Cs within a tenth. */
 static void test_round_trip(void **state)
 {
     (void)state;
@@ -361,7 +362,7 @@ static void test_round_trip(void **state)
     }
 }
 
-/* Colors that are the same stay the same, and channels that change places change places. */
+/* Equal colors stay equal, and permuted channels are permuted. */
 static void test_channels(void **state)
 {
     (void)state;
@@ -386,7 +387,7 @@ static void test_channels(void **state)
     }
 }
 
-/* What PBR is scaled with OpenGL 1 is scaled with, where it has no limits: ior 0 and a flat Fresnel make radiance linear. */
+/* Scaling PBR scales OpenGL 1 unless it is clamped: ior 0 and a constant Fresnel make radiance linear. */
 static void test_scaling(void **state)
 {
     (void)state;
@@ -413,9 +414,9 @@ static void test_scaling(void **state)
     }
 }
 
-/* New materials return no more light than they get, but for what glTF's own formulas do at grazing views: with F90 = 1 the
- * base is dimmed by Fresnel at the half vector, and 2.5 % too much comes back at 60 degrees. Flat Fresnel, all that the
- * closed form makes, never does. */
+/* Results reflect no more than they receive, except by the formulas of glTF at grazing angles: with F90 = 1 the
+ * base is dimmed by Fresnel at the half vector, and 2.5 % too much is reflected at 60 degrees. A constant Fresnel,
+ * all that the closed form makes, never does. */
 static void test_white_furnace(void **state)
 {
     (void)state;

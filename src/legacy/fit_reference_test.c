@@ -1,6 +1,6 @@
-/* fit_reference_test.c - every number of reference/legacy-materials.md that these fits can reproduce: sections 4, 6.1, 6.2
- * and 11. They were computed with separable masking and independently of this program. What facet draws is
- * height-correlated: these errors are held to the limits of acceptance, and differ mostly at high roughness. */
+/* fit_reference_test.c - the fits against an independent computation (numpy and scipy in double, separable
+ * masking), whose tables are below. facet renders height-correlated masking: those errors are held to limits of
+ * acceptance, and differ mostly at high roughness. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -34,14 +34,14 @@ static int teardown(void **state)
     return 0;
 }
 
-/* As printed: three digits, at most three decimals; 1e-4 more is the two quadratures'. */
+/* Three digits, at most three decimals; 1e-4 more for the two quadratures. */
 static double printed_to(double printed)
 {
     return (printed >= 10.0 ? 0.05 : printed >= 1.0 ? 0.005 : 0.0005) + 1e-4 * (1.0 + printed);
 }
 #define assert_printed(value, printed) assert_near(value, printed, printed_to(printed))
 
-/* A fit passes within 5 % + .003 of the printed one. */
+/* A fit passes within 5 % + .003 of the tabulated one. */
 static double passing(double printed)
 {
     return 1.05 * printed + 0.003;
@@ -73,8 +73,8 @@ static const vignette_row vignette[] = {
     {30.0, 0.068560865, 0.079167267, 0.866777947},  {60.0, 0.037513180, 0.056860585, 0.500000030},
     {80.0, 0.011890705, 0.025238578, 0.173648178}};
 
-/* White metal of roughness 1 seen at 30 degrees, light in the same plane. ramp: as the vignette codes it, D times N.H and G
- * times (H.L) (H.V). */
+/* White metal of roughness 1 at a view angle of 30 degrees, light in the same plane. ramp: as in the vignette, D
+ * times N.H and G times (H.L) (H.V). */
 static void vignette_at(double phi, double *step, double *ramp, double *ogl1, double shape[2], double s)
 {
     pbr_surface pbr = pbr_surface_default();
@@ -208,7 +208,7 @@ static double E_of(const fit_metric *metric, const ogl1_surface *ogl1, const pbr
     return fit_compare(metric, ogl1, pbr, FIT_FROM_PBR).E;
 }
 
-/* Light that is not multiplied by pi is an old material that is pi times too bright. */
+/* Without the factor pi the legacy material is pi times too bright. */
 static void test_pbr_columns(void **state)
 {
     (void)state;
@@ -244,15 +244,15 @@ static void test_pbr_fits(void **state)
         assert_near(box.shininess, row->shininess, 0.01 * row->shininess + 0.05);
         assert_near(box.diffuse[0], row->Cd, 0.0011);
         assert_near(box.specular[0], row->Cs, 0.0011);
-        /* Kinks again; and the white metal of roughness 0.2 is .008 better here: its best simplex was not the printed one. */
+        /* Kinks again; the white metal of roughness 0.2 is .008 better here than the tabulated simplex. */
         double E_display = fit_compare(separable, &display, &pbr, FIT_FROM_PBR).E_display;
         assert_true(E_display <= row->display + 0.0016);
         assert_true(E_display >= row->display - 0.0085);
     }
 }
 
-/* With the masking that facet draws the same materials are fitted as well, but for white metal of roughness 1: GGX with
- * height-correlated masking is flatter there, and further from any cosine lobe: .158 instead of .132, the best there is. */
+/* With height-correlated masking the same materials are fitted as well, except white metal of roughness 1: GGX is
+ * flatter there, and further from a cosine lobe: .158 instead of .132, the optimum. */
 static void test_pbr_fits_correlated(void **state)
 {
     (void)state;
@@ -282,7 +282,7 @@ static void test_pbr_fits_correlated(void **state)
 typedef struct ogl1_row {
     float Cs, shininess;
     double dim, naive, core, fit, emissive;
-    double roughness, base, specular; /* 0: not printed */
+    double roughness, base, specular; /* 0: not tabulated */
 } ogl1_row;
 static const ogl1_row ogl1_rows[] = {{.1f, 8, .711, .098, .035, .030, .030, .668, .545, .073},
                                      {.1f, 32, .682, .089, .038, .020, .020, .515, .511, .026},
@@ -307,7 +307,7 @@ static double E_to(const fit_metric *metric, const ogl1_surface *ogl1, const pbr
     return fit_compare(metric, ogl1, pbr, FIT_FROM_OGL1).E;
 }
 
-/* Naive: the light of OpenGL 1 as it is, and pi times that. */
+/* Naive: the light of OpenGL 1 unchanged, and times pi. */
 static void test_ogl1_naive(void **state)
 {
     (void)state;
@@ -322,8 +322,8 @@ static void test_ogl1_naive(void **state)
     }
 }
 
-/* The best are as good to the last digit, with the same parameters. At Cs .5, s 4 a specular factor of .5 is printed and .354
- * is found: E hardly changes between F90 = F0 and F90 = .5 with an F0 of .33. */
+/* The optima agree to the last digit, with the same parameters. At Cs .5, s 4 the table has a specular factor of
+ * .5, the fit .354: E hardly changes between F90 = F0 and F90 = .5 with an F0 of .33. */
 static void test_ogl1_fits(void **state)
 {
     (void)state;
@@ -357,8 +357,8 @@ static void test_ogl1_fits(void **state)
     assert_printed(E_to(separable, &ogl1, &printed), 0.114);
 }
 
-/* A constant beside both: base (1 - F) n + F S + emission, F flat, for grey. x: roughness, F, twice the
- * emission: the printed errors are those of at most .5 (without that limit Cs 1, s 1 has .073, not .088). */
+/* A constant beside both: base (1 - F) n + F S + emission, constant F, for grey. x: roughness, F, twice the
+ * emission: the tabulated errors are for at most .5 (without that limit Cs 1, s 1 has .073, not .088). */
 typedef struct emissive_fit {
     float source[FIT_MAX_NODES], lobe[FIT_MAX_NODES];
     double square;
@@ -382,7 +382,7 @@ static double emissive_error(void *context, const double *x)
     return sqrt(fmax(fit_box(&m, &base, factor), 0.0) / f->square);
 }
 
-/* Column "+em"; converters do not add light of their own, so this is here only. */
+/* With emission; conversions add no emission, so this is in the test only. */
 static void test_ogl1_emissive(void **state)
 {
     (void)state;
@@ -407,10 +407,10 @@ static void test_ogl1_emissive(void **state)
     }
 }
 
-/* Best roughness and share of Cs that becomes F0, of the exponent alone. */
+/* Optimal roughness, and share of Cs that becomes F0, by the exponent alone. */
 typedef struct exponent_row {
     float shininess;
-    double roughness, share; /* 0: not printed */
+    double roughness, share; /* 0: not tabulated */
 } exponent_row;
 static const exponent_row exponent_rows[] = {
     {2, .816, 0},      {3, .764, 0},      {4, .734, .951},   {6, .696, .833},   {8, .668, .733},
@@ -418,7 +418,7 @@ static const exponent_row exponent_rows[] = {
     {32, .514, .259},  {40, .488, .209},  {50, .464, .169},  {64, .436, .131},  {80, .412, .105},
     {100, .390, .084}, {128, .366, .065}, {200, .328, .042}, {400, .276, .021}, {1000, .218, .0082}};
 
-/* What is left of (N.H)^s beside n and S; x: roughness. */
+/* The residual of (N.H)^s with n and S; x: roughness. */
 typedef struct nearest_fit {
     float highlight[FIT_MAX_NODES], lobe[FIT_MAX_NODES];
     double factor[2];
@@ -445,8 +445,8 @@ static double nearest_error(void *context, const double *x)
     return fit_box(&m, &unbounded, f->factor);
 }
 
-/* The closed forms' table has the masking that facet draws: within 2 % in roughness, and from s = 10 on within 3 % in
- * strength; below that up to 7 % less, because the lobe is brighter. */
+/* The LUT of the closed forms has height-correlated masking: within 2 % in roughness, and from s = 10 on within 3 %
+ * in strength; below that up to 7 % less, since the lobe is brighter. */
 static void test_exponents(void **state)
 {
     (void)state;
@@ -470,7 +470,7 @@ static void test_exponents(void **state)
 
 /* ---- section 11: the classics ---- */
 
-/* 7.2 with formulas, as the column "closed" was made. */
+/* The closed form by formulas instead of the LUT. */
 static void closed_by_formulas(const ogl1_surface *in, pbr_surface *out)
 {
     float brightest = fmaxf(in->specular[0], fmaxf(in->specular[1], in->specular[2]));
@@ -484,7 +484,7 @@ static void closed_by_formulas(const ogl1_surface *in, pbr_surface *out)
     }
 }
 
-/* Of MTL's matte material .001 is printed for formulas that are exact there: Cs of 0 leaves base, which is Cd. */
+/* MTL's matte material is tabulated with .001 for formulas that are exact there: Cs of 0 leaves base = Cd. */
 static void test_classics_formulas(void **state)
 {
     (void)state;
@@ -509,7 +509,7 @@ static void test_classics_formulas(void **state)
     assert_printed(closed / CLASSIC_USUAL, 0.100);
 }
 
-/* The best there is to the last digit with separable masking; the best with facet's own passes too. */
+/* The optimum with separable masking to the last digit; with that of facet within the limits. */
 static void test_classics_fits(void **state)
 {
     (void)state;
@@ -539,7 +539,8 @@ static void test_classics_fits(void **state)
     assert_near(mean[1][1], 0.1282, 0.0001);
 }
 
-/* Facet's closed forms, with the limit of 10 % + .005, and better on average than the formulas and the table (.099). */
+/* facet's closed forms, within the limit of 10 % + .005, and better on average than the formulas and the table
+ * (.099). */
 static void test_classics_closed(void **state)
 {
     (void)state;
@@ -563,7 +564,7 @@ static void test_classics_closed(void **state)
     assert_true(mean_core < 0.1285);
 }
 
-/* The table's lookup loses nothing: E_box of 6.1 again. */
+/* The LUT adds no error: E of the box fits again. */
 static void test_pbr_closed(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* lights_test.c - lights of OpenGL 1 in a glTF scene, and back. */
+/* lights_test.c - lights of OpenGL 1 in a glTF scene, and the reverse. */
 #include "legacy/convert_test_support.h"
 
 static const facet_legacy_desc PLAIN = {0};
@@ -75,7 +75,7 @@ static void directional_lights_are_pi_times_their_color(void **state)
     assert_false(has_warning(scene, SCENE_NONE, "point-light-attenuation"));
     assert_true(has_warning(scene, SCENE_NONE, "legacy-light-pi"));
     scene_pose_destroy(&pose);
-    /* Again, with their numbers: in place of those that are there. */
+    /* Again, with the same indices: replaced. */
     convert(scene, &(facet_legacy_desc){.keeps_light = true});
     assert_int_equal(scene->light_count, 2);
     assert_int_equal(scene->node_count, 3);
@@ -91,7 +91,7 @@ static void point_lights_are_right_at_the_middle(void **state)
     facet_scene *scene = stage(1);
     legacy_light *light = &scene->legacy->lights[0];
     light->is_point = true;
-    set_color(light->position, 0, 12, 0); /* 10 m from the middle */
+    set_color(light->position, 0, 12, 0); /* 10 m from the center */
     set_color(light->specular, 1, 0, 0);
     convert(scene, &PLAIN);
     assert_true(has_warning(scene, SCENE_NONE, "point-light-attenuation"));

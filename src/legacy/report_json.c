@@ -1,21 +1,21 @@
-/* report_json.c - the report of a conversion as JSON (reference, section 10).
+/* report_json.c - the report of a conversion as JSON; docs/legacy.md, "The report".
  *
  * {"to": "metallic-roughness" | "specular-glossiness" | "ogl1", "light_scale": 3.14..,
- *  "materials": [ worst first: by the error that is graded, those without an error last, then in the order of the scene
+ *  "materials": [ worst first: by the graded error, those without an error last, then in the order of the scene
  *    {"material": name, "index": of the scene, "source", "method", "profile": as in facet_conversion,
- *     "in": the source's values, "out": what they became (see below),
+ *     "in": the values of the source, "out": those of the result (see below),
  *     "error": {"E", "E_disp", "E_drawn", "naive_E", "core_E": number or null, "views": [0, 30, 60 degrees]},
- *     "graded": "E_disp" | "E_drawn", "grade": "good" | "fair" | "poor" | "bad" | null where nothing was compared,
- *     "grade_drawn": the same of E_drawn, whatever is graded,
+ *     "graded": "E_disp" | "E_drawn", "grade": "good" | "fair" | "poor" | "bad" | null if nothing was compared,
+ *     "grade_drawn": that of E_drawn, whichever is graded,
  *     "light_scale": as above, "warnings": [{"code", "text"}]}],
  *  "warnings": of the scene, the same,
  *  "summary": {"materials": count, "grades": {"good", "fair", "poor", "bad", "none"}, "mean_E": null or number,
  *    "worst": {"material", "index", "E", "E_disp", "E_drawn"} or null}}
  *
- * Values of OpenGL 1: Kd Ks Ke as the file has them, Ns, d, illum, and the maps by their statements; "colors" and
- * "dialect" where they are the source. Of glTF: baseColor metallic roughness, ior specularFactor specularColor where the
- * extensions are there, emissive, alphaMode, extensions, and the textures by their slots. Of specular-glossiness: diffuse
- * specular glossiness. Members that say nothing are left out. */
+ * Values of OpenGL 1: Kd Ks Ke as in the file, Ns, d, illum, and the maps by their statements; "colors" and "dialect" if they
+ * are the source. Of glTF: baseColor metallic roughness, ior specularFactor specularColor with those extensions, emissive,
+ * alphaMode, extensions, and the textures by their slots. Of specular-glossiness: diffuse specular glossiness. Members with
+ * default values are omitted. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -138,7 +138,7 @@ static void add_error(const facet_conversion *s, text *t)
     text_json_end_object(t);
 }
 
-/* What a material was before the conversion; the report keeps one of each model. */
+/* The source material; the report keeps one of each model. */
 static void add_values(const facet_scene *scene, const material_conversion *m, text *t)
 {
     const scene_conversion *c = scene->conversion;

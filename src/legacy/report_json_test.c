@@ -1,4 +1,4 @@
-/* report_json_test.c - the report's members, its order and its summary. */
+/* report_json_test.c - members, order and summary of the report. */
 #include "legacy/convert_test_support.h"
 
 static char *report_of(const facet_scene *scene)
@@ -12,7 +12,7 @@ static char *report_of(const facet_scene *scene)
     return copy;
 }
 
-/* A report that has all of those, in that order. */
+/* A report with all of those members, in that order. */
 static void assert_in_order(const char *report, const char *const *parts)
 {
     const char *at = report;

@@ -1,4 +1,4 @@
-/* specular_glossiness_test.c - nothing is lost to specular and ior; what the core loses is told; and the way back. */
+/* specular_glossiness_test.c - specular and ior are lossless; the loss of core glTF is reported; and the reverse. */
 #include "legacy/convert_test_support.h"
 #include "legacy/specular_glossiness.h"
 
@@ -30,7 +30,7 @@ static void specular_and_ior_lose_nothing(void **state)
     assert_string_equal(c->profile, "specular+ior");
     assert_near(c->error, 0, 0);
     assert_near(scene->conversion->light_scale, 1, 0);
-    /* shade/specular_glossiness.h makes this very surface of the one before. */
+    /* shade/specular_glossiness.h makes this surface from the former. */
     assert_near(m->metallic, 0, 0);
     assert_near(m->ior, 0, 0);
     assert_near(m->specular, 1, 0);
@@ -87,7 +87,7 @@ static void the_core_follows_the_sample_code(void **state)
         double from_specular = ((double)specular[k] - .04 * (1 - m)) / m;
         assert_near(base[k], from_diffuse + m * m * (from_specular - from_diffuse), 1e-5);
     }
-    /* A dielectric and a metal are themselves. */
+    /* A dielectric and a metal are unchanged. */
     core_from_glossiness(diffuse, (const float[3]){.04f, .04f, .04f}, base, &metallic);
     assert_near(metallic, 0, 1e-5);
     assert_color(base, .6f, .3f, .2f, 1e-5);
@@ -171,7 +171,7 @@ static void what_is_not_exact_is_told(void **state)
     scene->materials[0].metallic = 0;
     scene->materials[1].metallic = 0;
     scene->materials[1].extensions = SCENE_SPECULAR | SCENE_CLEARCOAT;
-    scene->materials[1].specular = .5f; /* F90 of 1/2 cannot be said */
+    scene->materials[1].specular = .5f; /* F90 of 1/2 has no counterpart */
     scene->materials[1].perceptual_roughness = .3f;
     scene->materials[2].extensions = SCENE_UNLIT;
     convert_to(scene, FACET_MATERIAL_MODEL_SPECULAR_GLOSSINESS, &PLAIN);

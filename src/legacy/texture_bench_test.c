@@ -1,4 +1,4 @@
-/* texture_bench_test.c - statistics of pictures, bakes and what they share. */
+/* texture_bench_test.c - statistics of images, bakes and shared results. */
 #include "legacy/convert_test_support.h"
 #include "legacy/texture_bench.h"
 
@@ -20,7 +20,7 @@ static void count_line(void *user, facet_log_level level, const char *message)
     count_lines++;
 }
 
-/* What cannot be read is one warning; what is larger than allowed is a failure, not a white texture. */
+/* An unreadable image is one warning; one above the size limit is a failure, not a white texture. */
 static void unreadable_images_are_reported(void **state)
 {
     (void)state;
@@ -77,7 +77,7 @@ static void statistics_count_codes(void **state)
     scene_destroy(scene);
 }
 
-/* Pictures are counted row by row, the same whatever their layout, without memory for all their texels. */
+/* Images are counted row by row, with equal results for any layout, without memory for all texels. */
 static void large_images_are_counted_in_little_memory(void **state)
 {
     (void)state;
@@ -115,7 +115,7 @@ static void large_images_are_counted_in_little_memory(void **state)
         }
 }
 
-/* Inputs side by side, plus what the parameter says. */
+/* Sums of the inputs and the parameter. */
 static void add_row(const void *parameters, uint32_t width, const uint8_t *const *in, uint8_t *out)
 {
     int plus = *(const int *)parameters;
@@ -160,7 +160,7 @@ static void bakes_are_shared_and_sized(void **state)
     assert_int_equal(texture_bench_made(bench), 3);
     assert_int_equal(texture_bench_shared(bench), 1);
     assert_int_equal(bake(bench, SCENE_NONE, SCENE_NONE, 3), SCENE_NONE);
-    assert_int_equal(scene->texture_count, 2); /* not before the end */
+    assert_int_equal(scene->texture_count, 2); /* only at the end */
     assert_int_equal(texture_bench_finish(bench, NULL), FACET_OK);
     assert_int_equal(scene->texture_count, 5);
     assert_int_equal(scene->image_count, 5);

@@ -1,4 +1,4 @@
-/* chart_layout_test.c - where things stand: inside, aligned, not over one another; and what of the data is seen. */
+/* chart_layout_test.c - layout: elements are inside, aligned, and do not overlap; data are visible. */
 #include "plot/chart_test_scene.h"
 #include "tests/support/support.h"
 
@@ -62,7 +62,7 @@ static void axes_of_a_grid_are_aligned(void **state)
     free(v);
 }
 
-/* Wherever the curves are, the legend is in the plot and on none of them, or outside. */
+/* For any curves the legend is inside the plot without covering one, or outside. */
 static void legends_cover_no_curve(void **state)
 {
     (void)state;
@@ -161,8 +161,7 @@ static void curves_that_coincide_are_all_seen(void **state)
         curves[k].style = (chart_style){.color = -1, .width = 3.0f};
         curves[k].style.rgb[k] = 0.75f;
     }
-    for (int dash = 0; dash < 2;
-         dash++) { /* all solid; then the first dashed, under the others by its place */
+    for (int dash = 0; dash < 2; dash++) { /* all solid; then the first dashed, below the others by order */
         curves[0].style.dash = dash;
         chart_panel panel = data.panels[CHART_XY];
         panel.curves = curves;
@@ -221,7 +220,7 @@ static void discs_end_at_the_horizon(void **state)
     free(v);
 }
 
-/* In the middle there is the surface, in the colors of its values but for the light; beside it there is none. */
+/* The center shows the surface in the colors of its values, apart from shading; beside it is the background. */
 static void surfaces_are_drawn_in_their_colors(void **state)
 {
     (void)state;
@@ -229,7 +228,7 @@ static void surfaces_are_drawn_in_their_colors(void **state)
     static double ones[SCENE_GRID * SCENE_GRID];
     chart_surface surface = data.surface;
     for (int i = 0; i < SCENE_GRID * SCENE_GRID; i++)
-        ones[i] = i < 3 ? 0.0 : 1.0; /* yellow, but for the pole */
+        ones[i] = i < 3 ? 0.0 : 1.0; /* yellow, except for the pole */
     surface.values = ones;
     panel.surface = &surface;
     chart c = scene_chart(&panel);
@@ -268,8 +267,7 @@ static void polar_angles_are_from_above(void **state)
     assert_true(fabs(t->x[1] - (x + 0.5 * radius)) < 1e-6);
     assert_true(fabs(t->x[2] - (x - radius)) < 1e-6);
     assert_true(fabs(t->x[3] - (x + 0.5 * radius)) < 1e-6 && t->y[3] < y);
-    assert_true(fabs(t->x[4] - x) < 1e-6 &&
-                fabs(t->y[4] - y) < 1e-6); /* too small for the axis: the middle */
+    assert_true(fabs(t->x[4] - x) < 1e-6 && fabs(t->y[4] - y) < 1e-6); /* below the axis: the center */
     trace_list_destroy(&v->traces);
     free(v);
 }

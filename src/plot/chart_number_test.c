@@ -21,7 +21,7 @@ static void expect_shortest(double value, const char *expected)
     assert_string_equal(digits, expected);
 }
 
-/* The expected ones are what Python's repr() and Steele and White 1990 have. */
+/* Expected values from Python's repr() and Steele and White 1990. */
 static void known_numbers_are_shortest(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* chart_solid_test.c - triangles in the z-buffer: what they cover, and what is before what. */
+/* chart_solid_test.c - triangles in the z-buffer: coverage and depth order. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -59,7 +59,7 @@ static void a_sheet_covers_its_pixels(void **state)
     solid_destroy(&s);
 }
 
-/* Two sheets that cross, in whichever order: each is seen where it is nearer. */
+/* Two intersecting sheets, in both orders: the nearer one is visible. */
 static void the_nearer_one_is_seen(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* chart_space_test.c - how a surface in space is seen and lit. */
+/* chart_space_test.c - view and shading of a surface in space. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,7 +15,7 @@ static const double DEGREE = 0.017453292519943295;
 static double x[ROWS * COLUMNS], y[ROWS * COLUMNS], z[ROWS * COLUMNS];
 static chart_surface sphere = {.width = COLUMNS, .height = ROWS, .x = x, .y = y, .z = z};
 
-/* Rows from pole to pole, columns once around: seams and poles as lobes have them. */
+/* Rows from pole to pole, columns once around: with the seams and poles of lobes. */
 static int set_up(void **state)
 {
     (void)state;
@@ -78,7 +78,7 @@ static void all_points_are_inside_the_plot(void **state)
     assert_true(at[1] < origin[1] - 10.0 && fabs(at[0] - origin[0]) < 1e-9);
 }
 
-/* Those of a sphere point away from its middle, also at the seam and the poles. */
+/* Normals of a sphere point outwards, also at the seam and the poles. */
 static void normals_of_a_sphere_are_radial(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* chart_test.c - charts as files: SVG that is well-formed, the same bytes each time, whatever the data and the labels;
- * what happens without cairo and without memory. */
+/* chart_test.c - charts as files: well-formed SVG and repeatable bytes for any data and labels; errors without
+ * cairo and without memory. */
 #include "tests/support/support.h"
 #include "plot/chart_test_scene.h"
 
@@ -69,7 +69,7 @@ static void *draw_in_thread(void *result)
     return NULL;
 }
 
-/* cairo counts pictures through all threads of a process. */
+/* cairo numbers images across all threads of a process. */
 static void threads_draw_the_same_bytes(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* chart_test_scene.h - for tests of drawing: charts of every kind, and what was drawn. */
+/* chart_test_scene.h - for tests of drawing: charts of every kind, and their pixels. */
 #ifndef PLOT_CHART_TEST_SCENE_H
 #define PLOT_CHART_TEST_SCENE_H
 
@@ -18,7 +18,7 @@
 
 enum { SCENE_POINTS = 91, SCENE_CELLS = 33, SCENE_GRID = 25, SCENE_KINDS = 5 };
 
-/* Numbers that look like reflectance, shared by all tests of a program. */
+/* Values like those of reflectance, shared by all tests of a program. */
 typedef struct scene_data {
     double angles[SCENE_POINTS], radians[SCENE_POINTS], values[3][SCENE_POINTS];
     double cells[SCENE_CELLS * SCENE_CELLS];
@@ -162,7 +162,7 @@ static inline bool is_color(const uint8_t *pixel, canvas_color c, int near)
            abs(pixel[2] - (int)(c.b * 255.0 + 0.5)) <= near;
 }
 
-/* The views of a chart as they are drawn; free(). */
+/* The laid out views of a chart; free(). */
 static inline panel_view *lay_out(const chart *c)
 {
     drawing d = {.chart = c, .theme = palette_get_theme(c->is_dark), .scale = layout_scale(c)};

@@ -1,5 +1,5 @@
-/* chart_test_xml.h - for tests: a scanner of XML. Elements nest, attributes are quoted, characters are XML's, references
- * lead somewhere. */
+/* chart_test_xml.h - for tests: an XML scanner. Checks that elements nest, attributes are quoted, characters are
+ * valid and references resolve. */
 #ifndef PLOT_CHART_TEST_XML_H
 #define PLOT_CHART_TEST_XML_H
 
@@ -20,7 +20,7 @@ static inline size_t name_length(const char *p)
     return strcspn(p, " \t\r\n/>=");
 }
 
-/* Fails where an ampersand begins no entity, or a character is none of XML's. */
+/* Fails if an ampersand begins no entity or a character is not valid in XML. */
 static inline void scan_characters(const char *from, const char *end)
 {
     for (const char *p = from; p < end; p++) {
@@ -31,7 +31,7 @@ static inline void scan_characters(const char *from, const char *end)
     }
 }
 
-/* Attributes from p up to the end of the tag; whether it closes itself. */
+/* Scans attributes from p to the end of the tag; returns whether it is self-closing. */
 static inline const char *scan_attributes(const char *p, bool *is_empty)
 {
     for (;;) {
@@ -87,7 +87,7 @@ static inline void expect_well_formed(const char *p)
     assert_int_equal(root_count, 1);
 }
 
-/* Every "#name" is the id of one element. */
+/* Every "#name" refers to the id of one element. */
 static inline void expect_references(const char *svg)
 {
     int count = 0;

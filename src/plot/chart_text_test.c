@@ -62,7 +62,7 @@ static void clean_text_is_utf8(void **state)
     assert_int_equal(strlen(out), (LABEL_SIZE - 1) / 3 * 3);
 }
 
-/* Whether all of s is characters that are whole. */
+/* Whether s consists of complete characters. */
 static bool is_whole(const char *s)
 {
     char again[LABEL_SIZE];
@@ -82,7 +82,7 @@ static void lines_fit_and_are_as_long_as_can_be(void **state)
     for (double width = 0.0; width < whole.width + 10.0; width += 0.7) {
         label_fit(page, FONT, TEXT, width, &l);
         assert_true(l.width <= width && l.width >= last - 4.0 &&
-                    is_whole(l.text)); /* a space at the end goes */
+                    is_whole(l.text)); /* trailing spaces are removed */
         last = l.width;
         if (width >= whole.width) {
             assert_string_equal(l.text, TEXT);

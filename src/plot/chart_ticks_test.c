@@ -1,4 +1,4 @@
-/* chart_ticks_test.c - ticks rise, lie in their range, are round, and are as many as was asked for. */
+/* chart_ticks_test.c - ticks increase, lie in their range, are round, and have the requested density. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -30,7 +30,7 @@ static void expect_order(const ticks *t, double minimum, double maximum, bool is
         assert_true(t->minor[i] >= t->minimum && t->minor[i] <= t->maximum);
 }
 
-/* The label, with its power of ten, is the tick. */
+/* The label with its power of ten equals the tick. */
 static void expect_labels_are_values(const ticks *t)
 {
     for (int i = 0; i < t->count; i++) {
@@ -48,7 +48,7 @@ static void expect_labels_are_values(const ticks *t)
     }
 }
 
-/* Step is 1, 2, 2.5, 3 or 5 times a power of ten, and every tick a multiple of it. */
+/* Steps are 1, 2, 2.5, 3 or 5 times a power of ten, and ticks are multiples of them. */
 static void expect_round(const ticks *t)
 {
     const double step = (t->values[t->count - 1] - t->values[0]) / (t->count - 1);
@@ -87,7 +87,7 @@ static void linear_ticks_hold_their_properties(void **state)
     }
 }
 
-/* What a reader would choose. */
+/* Hand-picked ticks. */
 static void known_ranges_have_known_ticks(void **state)
 {
     (void)state;
@@ -204,7 +204,7 @@ static void ranges_are_never_empty(void **state)
                 assert_true(t.count >= 1);
                 expect_order(&t, low, high, false);
             }
-    /* heights are seen from 0, unless they are far from it */
+    /* ranges include 0 unless the values are far from it */
     double low = 0.2, high = 1.0;
     ticks_range(CHART_LINEAR, &low, &high);
     assert_true(low == 0.0 && high == 1.0);

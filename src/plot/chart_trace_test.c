@@ -1,4 +1,4 @@
-/* chart_trace_test.c - lines are clipped where they leave a box. */
+/* chart_trace_test.c - lines are clipped to a box. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,7 +18,7 @@ static bool is_inside(double x, double y, double slack)
            y <= BOX.y + BOX.height + slack;
 }
 
-/* Against the line taken in 1000 steps: the same part of it is inside. */
+/* Compared with 1000 points of the line: the same part is inside. */
 static void clipping_keeps_what_is_inside(void **state)
 {
     (void)state;
@@ -46,7 +46,7 @@ static void clipping_keeps_what_is_inside(void **state)
             assert_true(fabs((cx[k] - x[0]) * (y[1] - y[0]) - (cy[k] - y[0]) * (x[1] - x[0])) <
                         1e-8 * (1.0 + length));
         }
-        if (is_inside(x[0], y[0], 0.0)) /* to the bit: lines go on where they are */
+        if (is_inside(x[0], y[0], 0.0)) /* bit-equal: points inside stay */
             assert_true(cx[0] == x[0] && cy[0] == y[0]);
     }
 }

@@ -70,7 +70,7 @@ static void light_from_below_is_black(void **state)
     assert_near(brdf_cos(&b, 0.3, 91 * PLOT_DEGREE, 0.0), 0.0, 0.0);
 }
 
-/* Both models' radiance as the fits have it: times pi. */
+/* Radiance of both models as in the fits: times pi. */
 static void radiance_is_the_fits(void **state)
 {
     (void)state;
@@ -131,7 +131,7 @@ static void conserving_surfaces_return_all(void **state)
         }
 }
 
-/* Sheen alone over black: the table of its albedo. */
+/* Sheen over black: the LUT of its albedo. */
 static void sheen_is_its_table(void **state)
 {
     (void)state;
@@ -146,7 +146,7 @@ static void sheen_is_its_table(void **state)
     }
 }
 
-/* Brushed: a plain grid over the hemisphere agrees with sampling the lobes. */
+/* Anisotropic: a plain grid over the hemisphere agrees with lobe sampling. */
 static void grain_is_sampled_where_it_is(void **state)
 {
     (void)state;
@@ -196,7 +196,7 @@ static void labels_say_what_matters(void **state)
     m.metallic = 0.75f;
     assert_string_equal(material_describe(&m, &malloc_, memory),
                         "metal (1, 1, 0.25), metallic 0.75, roughness 0.5");
-    /* what a fit finds: F0 is free, and says whether it is one */
+    /* results of fits: free F0 distinguishes metals */
     m.metallic = m.ior = 0.0f;
     m.base_color[0] = m.base_color[1] = m.base_color[2] = 0.0625f;
     m.specular_color[2] = 0.25f;

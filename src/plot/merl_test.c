@@ -1,5 +1,5 @@
-/* merl_test.c - measured BRDFs: files written from known materials are read, interpolated and fitted. No file of the
- * database is at hand: that its middles of cells are where merl.h says is the format's description, not a finding here. */
+/* merl_test.c - measured BRDFs: files generated from known materials are read, interpolated and fitted. They follow
+ * the description of the format; files of the database are not part of the tests. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdio.h>
 #include <stdlib.h>
@@ -60,7 +60,7 @@ static int tear_down(void **state)
     return 0;
 }
 
-/* The middles of cells as that material has them; -1 where light or eye would be below the horizon. */
+/* Values at the cell centers; -1 where light or eye would be below the horizon. */
 static void write_material(fixture *f, const facet_plot_material *parameters)
 {
     material m = {.parameters = *parameters, .label = ""};
@@ -128,7 +128,7 @@ static void cells_and_places_between_them(void **state)
             assert_near(swapped[c] / measured[c], 1.0, 1e-4); /* reciprocal */
         }
     }
-    for (int i = 1; i < 12; i++) { /* turned about the normal it is the same: isotropic */
+    for (int i = 1; i < 12; i++) { /* isotropic: rotation about the normal changes nothing */
         float V[2][3], L[2][3];
         double out[2][3];
         for (int k = 0; k < 2; k++) {
@@ -143,7 +143,7 @@ static void cells_and_places_between_them(void **state)
     merl_close(file);
 }
 
-/* One cell without a value is filled from those around it; a region without has none. */
+/* A cell without a value is interpolated from its neighbors; a region without values has none. */
 static void unmeasured_cells_do_not_count(void **state)
 {
     fixture *f = *state;
@@ -169,7 +169,7 @@ static void unmeasured_cells_do_not_count(void **state)
     merl_close(file);
 }
 
-/* Parameters are found again: interpolation between cells is what is left of error. */
+/* Fitting recovers the parameters up to the error of interpolation. */
 static void parameters_are_recovered(void **state)
 {
     fixture *f = *state;
@@ -215,7 +215,7 @@ static void metals_are_recovered(void **state)
     merl_close(file);
 }
 
-/* A legacy material through the file, and the albedo that both have. */
+/* A legacy material through the file, and the albedo of both. */
 static void legacy_materials_are_recovered(void **state)
 {
     fixture *f = *state;
@@ -274,7 +274,7 @@ static void broken_files_are_errors(void **state)
     expect_failure(f->path, FACET_ERROR_INVALID, "no cell");
 }
 
-/* Through a plot: curve and fit, with channels. */
+/* In a plot: curve and fit, with channels. */
 static void plots_show_measured_beside_fit(void **state)
 {
     fixture *f = *state;

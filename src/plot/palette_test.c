@@ -1,4 +1,4 @@
-/* palette_test.c - colors that are seen and told apart. */
+/* palette_test.c - colors are visible and distinguishable. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -10,7 +10,7 @@
 
 #include "plot/palette.h"
 
-/* Some rows of the published table, most of them between those that are kept. */
+/* Rows of the published table, most of them between stored ones. */
 static void viridis_is_the_published_one(void **state)
 {
     (void)state;
@@ -51,7 +51,7 @@ static void colors_are_seen_on_both_grounds(void **state)
         const palette_theme *theme = palette_get_theme(is_dark);
         assert_true(palette_contrast(theme->text, theme->background) >= 7.0);
         assert_true(palette_contrast(theme->muted_text, theme->background) >= 4.5); /* WCAG 2.1, 1.4.3 */
-        assert_true(palette_contrast(theme->grid, theme->background) < 2.0);        /* stays behind */
+        assert_true(palette_contrast(theme->grid, theme->background) < 2.0);        /* weaker than the data */
         for (int i = 0; i < PALETTE_COUNT; i++)
             assert_true(palette_contrast(palette_color(&(chart_style){.color = i}, is_dark),
                                          theme->background) >= (is_dark ? 4.5 : PALETTE_MIN_CONTRAST));
@@ -63,7 +63,7 @@ static void colors_are_seen_on_both_grounds(void **state)
         }
     }
     const canvas_color red = palette_color(&(chart_style){.color = -1, .rgb = {0.8f, 0.1f, 0.0f}}, false);
-    assert_true(fabs(red.r - 0.8) < 1e-6 && fabs(red.g - 0.1) < 1e-6 && red.b == 0.0); /* seen as it is */
+    assert_true(fabs(red.r - 0.8) < 1e-6 && fabs(red.g - 0.1) < 1e-6 && red.b == 0.0); /* unchanged */
 }
 
 static void numbers_wrap_around(void **state)

@@ -1,5 +1,5 @@
-/* plot_test.c - the charts of all kinds: their numbers against closed forms and the functions that they come from, and
- * what is refused. */
+/* plot_test.c - charts of all kinds: values against closed forms and the functions that they come from, and
+ * refusals. */
 #include "tests/support/support.h"
 #include "plot/plot_test_support.h"
 
@@ -55,7 +55,7 @@ static void check_panel(const chart_panel *panel)
                         panel->surface->z[k] >= 0.0 && isfinite(panel->surface->values[k]));
 }
 
-/* Kinds that integrate or search, for which logarithms are an axis alone. */
+/* Slow kinds, for which a logarithmic axis changes the axis only. */
 static bool makes_much(facet_plot_kind kind)
 {
     return kind == FACET_PLOT_KIND_LEGACY || kind == FACET_PLOT_KIND_ALBEDO ||
@@ -77,7 +77,7 @@ static void every_kind_is_drawn_from_nothing(void **state)
         }
 }
 
-/* Two of each model over one another, two angles, fits beside them. */
+/* Two materials of each model, two angles, with fits. */
 static void every_kind_shows_several_materials(void **state)
 {
     (void)state;
@@ -201,7 +201,7 @@ static void peaks_are_not_cut(void **state)
             above_half += c->y[k] > 0.5 * peak;
         }
         assert_near(highest / peak, 1.0, 1e-3);
-        assert_true(above_half >= 20); /* and it is drawn round */
+        assert_true(above_half >= 20); /* and smooth */
         free_plot(&f);
     }
 }
@@ -224,7 +224,7 @@ static void polar_lobes_reach_one(void **state)
     free_plot(&f);
 }
 
-/* Coloured alone: its channels; with others: luminance. OpenGL 1 brings the cosine with it. */
+/* A single colored material has a curve per channel; several have luminance. OpenGL 1 adds the cosine. */
 static void curves_per_channel_or_luminance(void **state)
 {
     (void)state;
@@ -358,7 +358,7 @@ static void furnace_conserves_where_it_says_so(void **state)
                 assert_near(c->y[j], 1.0, 3e-3);
         }
     }
-    /* smooth metal loses nothing, rough metal two thirds */
+    /* smooth metal is lossless, rough metal loses two thirds */
     const chart_curve *metal = find_curve(&f.drawing.panels[0], "glTF, punctual, 30");
     assert_near(metal->y[0], 1.0, 1e-3);
     assert_true(metal->y[metal->count - 1] < 0.45);
@@ -419,7 +419,7 @@ static void fresnel_has_its_ends(void **state)
             assert_near(value_at(c, 0.0, 0.0), r * r, 1e-6);
             assert_near(value_at(c, 90.0, 1e-9), 1.0, 1e-5);
         }
-        /* Brewster's angle: s alone, ((1 - n^2) / (1 + n^2))^2 / 2 */
+        /* Brewster's angle: s polarization only, ((1 - n^2) / (1 + n^2))^2 / 2 */
         double n2 = media[k].ior * media[k].ior, s = (1.0 - n2) / (1.0 + n2);
         double brewster = atan(media[k].ior) / PLOT_DEGREE;
         assert_near(value_at(find_curve(&p[0], media[k].name), brewster, 0.13), 0.5 * s * s, 2e-3);
@@ -447,7 +447,7 @@ static void fresnel_has_its_ends(void **state)
     free_plot(&f);
 }
 
-/* The same numbers as fit.h finds for one material, and the order that methods must have. */
+/* The errors of fit.h for one material, and the order of the methods. */
 static void errors_are_the_fits(void **state)
 {
     (void)state;
@@ -465,7 +465,7 @@ static void errors_are_the_fits(void **state)
     assert_near(value_at(find_curve(gray, "fit, displayable"), 0.5, 1e-9),
                 fit_compare(metric, &s, &pbr, FIT_FROM_PBR).E, 1e-6);
     fit_metric_destroy(metric);
-    /* where the reference computation stands for gray dielectrics and white metals: naive, box, free */
+    /* values of an independent computation for gray dielectrics and white metals: naive, box, free */
     static const struct {
         int panel;
         double roughness, naive, box, unlimited;
@@ -481,7 +481,7 @@ static void errors_are_the_fits(void **state)
         assert_near(box, table[i].box, 0.05 * table[i].box + 0.003);
         assert_near(unlimited, table[i].unlimited, 0.05 * table[i].unlimited + 0.003);
     }
-    for (int k = 2; k < 4; k++) { /* a search is never worse than a formula */
+    for (int k = 2; k < 4; k++) { /* a fit is never worse than a formula */
         const chart_panel *panel = &f.drawing.panels[k];
         const chart_curve *closed = find_curve(panel, "closed, specular"),
                           *fit = find_curve(panel, "fit, specular");

@@ -1,4 +1,4 @@
-/* plot_test_support.h - for tests of plots: a chart of a desc, and its parts by name. */
+/* plot_test_support.h - for tests of plots: the chart of a desc, and its parts by name. */
 #ifndef PLOT_PLOT_TEST_SUPPORT_H
 #define PLOT_PLOT_TEST_SUPPORT_H
 
@@ -35,7 +35,7 @@ static inline void free_plot(plot_fixture *f)
     arena_destroy(f->memory);
 }
 
-/* The curve whose name begins so. */
+/* The curve whose name begins with a prefix. */
 static inline const chart_curve *find_curve(const chart_panel *panel, const char *name)
 {
     for (size_t i = 0; i < panel->curve_count; i++)
@@ -45,7 +45,7 @@ static inline const chart_curve *find_curve(const chart_panel *panel, const char
     return NULL;
 }
 
-/* y at the point nearest to x, which must be that near. */
+/* y at the point nearest to x, which must be within a tolerance. */
 static inline double value_at(const chart_curve *c, double x, double tolerance)
 {
     size_t best = 0;

@@ -1,10 +1,10 @@
-/* plot_vignette_test.c - the vignette's numbers, all digits, and its formula against shade's. */
+/* plot_vignette_test.c - the values of the vignette to all digits, and its formula against shade/. */
 #include "plot/plot_test_support.h"
 #include "plot/plot_vignette.h"
 
 static const double theta = 30.0 * PLOT_DEGREE;
 
-/* Values of the vignette's R program at seven angles, computed in R's double precision; nine decimals were noted. */
+/* Values of the vignette's R program at seven angles in double precision, to nine decimals. */
 static const struct {
     double degrees, ramp, step, ogl1;
 } table[] = {{-80, 0.007525289, 0.025238578, 0.180955960}, {-60, 0.027461554, 0.056860585, 0.676680616},
@@ -24,7 +24,7 @@ static void values_are_the_vignettes(void **state)
     }
 }
 
-/* The first two panels are the vignette's two plots: 33 points, phi in rad, three curves, blue last. */
+/* The first two panels are the plots of the vignette: 33 points, phi in rad, three curves, blue last. */
 static void panels_are_the_vignettes(void **state)
 {
     (void)state;
@@ -54,7 +54,7 @@ static void panels_are_the_vignettes(void **state)
     }
 }
 
-/* With the step it is what shade computes with separable masking, for any material. */
+/* With the step it equals shade/ with separable masking for any material. */
 static void step_is_shades(void **state)
 {
     (void)state;
@@ -78,7 +78,7 @@ static void step_is_shades(void **state)
             }
 }
 
-/* "This looks pretty hopeless": as drawn, and with the light times pi and the best parameters. */
+/* "This looks pretty hopeless": as plotted, and with the light times pi and the optimal parameters. */
 static void hopeless_case_is_a_fit_of_four_percent(void **state)
 {
     (void)state;
@@ -96,7 +96,7 @@ static void hopeless_case_is_a_fit_of_four_percent(void **state)
         vignette_parameters best = vignette_fit(theta, times_pi);
         assert_near(best.error, cases[k].fitted, 0.0005);
         assert_true(best.shininess >= 0 && best.shininess <= 128 && best.diffuse <= 1 && best.specular <= 1);
-        /* nothing near it is better */
+        /* a local minimum */
         for (int c = 0; c < 3; c++)
             for (int sign = -1; sign < 2; sign += 2) {
                 double d = best.diffuse + (c == 0 ? sign * 1e-3 : 0),
@@ -108,7 +108,7 @@ static void hopeless_case_is_a_fit_of_four_percent(void **state)
     }
 }
 
-/* An OpenGL 1 curve is found again, those with a color at its bound too. */
+/* An OpenGL 1 curve is recovered, also with a color at its bound. */
 static void fit_finds_what_was_put_in(void **state)
 {
     (void)state;

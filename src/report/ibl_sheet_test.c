@@ -1,4 +1,4 @@
-/* ibl_sheet_test.c - sheets of baked cube maps: what is where on them, and that it is what it says. */
+/* ibl_sheet_test.c - sheets of baked cube maps: positions and values of their elements. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -63,7 +63,7 @@ static const float *pixel(const image *i, uint32_t x, uint32_t y)
     return (const float *)i->pixels + 4 * ((size_t)y * i->width + x);
 }
 
-/* In uniform light crosses and balls, by whatever they are lit, are of that light: they cover what they should. */
+/* In uniform light crosses and spheres have its color, however they are lit, and cover the expected area. */
 static void test_uniform_light(void **state)
 {
     (void)state;
@@ -71,7 +71,7 @@ static void test_uniform_light(void **state)
     static const struct {
         facet_lobe lobe;
         uint32_t levels;
-        double least, most; /* share of the sheet that is of the light's color */
+        double least, most; /* share of the sheet with the color of the light */
     } kinds[] = {{FACET_LOBE_LAMBERT, 1, 0.13, 0.17},
                  {FACET_LOBE_NONE, 3, 0.24, 0.28},
                  {FACET_LOBE_GGX, 3, 0.26, 0.3}};
@@ -97,11 +97,11 @@ static void test_uniform_light(void **state)
     facet_environment_destroy(e);
 }
 
-/* The cross has the faces where crosses have them, upright. */
+/* The faces of the cross are in place and upright. */
 static void test_cross(void **state)
 {
     (void)state;
-    enum { EDGE = 42 }; /* pixels have their middles where texels have */
+    enum { EDGE = 42 }; /* pixel centers coincide with texel centers */
     static const struct {
         uint32_t face, column, row;
     } places[6] = {{0, 2, 1}, {1, 0, 1}, {2, 1, 0}, {3, 1, 2}, {4, 1, 1}, {5, 3, 1}};
@@ -134,7 +134,7 @@ static void test_cross(void **state)
     cube_destroy(&c);
 }
 
-/* In the middle a ball mirrors +Z, beside it what is there, on the rim -Z; a diffuse one faces +Z. */
+/* The center of a sphere mirrors +Z, the rim -Z; the center of a diffuse one faces +Z. */
 static void test_ball_directions(void **state)
 {
     (void)state;
@@ -161,7 +161,7 @@ static void test_ball_directions(void **state)
         assert_near(cube_values[3 * (y * WIDTH + x)], p[0], 0.02);
     }
     assert_true(values[0] == 0.0f && values[2] == 0.0f); /* outside */
-    /* a turn of the environment by a quarter brings what was at +Z to +X */
+    /* rotating the environment by a quarter turn moves +Z to +X */
     exact.rotation_cos = 0.0f;
     exact.rotation_sin = 1.0f;
     sheet_shade_ball(&exact, WIDTH, 1, values);
@@ -203,7 +203,7 @@ static void test_difference(void **state)
     }
     assert_near(sheet_compare_balls(a, b, 10), 0.1, 1e-6);
     assert_true(sheet_compare_balls(b, b, 10) == 0.0);
-    a[0] = 1e9f; /* a corner is not of the ball */
+    a[0] = 1e9f; /* corners are not part of the sphere */
     assert_near(sheet_compare_balls(a, b, 10), 0.1, 1e-6);
 }
 
@@ -226,7 +226,7 @@ static void test_threads_do_not_matter(void **state)
     facet_environment_destroy(e);
 }
 
-/* Words are written where they belong, over what is there. */
+/* Text is drawn in place, over the image. */
 static void test_words(void **state)
 {
     (void)state;

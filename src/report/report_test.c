@@ -1,4 +1,4 @@
-/* Tests of report.h: the page holds what it should, and its spheres show what they say. */
+/* Tests of report.h: the contents of the page, and its spheres. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,7 +15,7 @@
 #include "report/report.h"
 #include "report/spheres.h"
 
-/* rgl's parameters: a matte, a shiny and a hostile name. */
+/* rgl's parameters: a matte and a shiny material, and a hostile name. */
 static const char PARAMETERS[] =
     "{\"facet\":\"ogl1\",\"version\":1,\"materials\":["
     "{\"name\":\"matte\",\"color\":[0.8,0.4,0.2],\"specular\":\"black\",\"shininess\":10},"
@@ -67,7 +67,7 @@ static void every_material_is_there(void **state)
     assert_int_equal(count(page, "<div"), count(page, "</div>"));
     assert_int_equal(count(page, "<tr"), count(page, "</tr>"));
     assert_non_null(strstr(page, "<h2>matte"));
-    assert_int_equal(count(page, "<script"), 0); /* nor from a name */
+    assert_int_equal(count(page, "<script"), 0); /* not from a name either */
     assert_non_null(strstr(page, "&lt;script&gt;"));
     /* worst first: the shiny one before the matte one, which is exact */
     assert_true(strstr(page, "<h2>shiny") < strstr(page, "<h2>matte"));
@@ -100,7 +100,7 @@ static void draw(sphere_stage *stage, uint32_t material, sphere_style look, imag
     mem_free(bytes);
 }
 
-/* Largest difference of two pictures, in codes. */
+/* Largest difference of two images, in codes. */
 static int difference(const image *a, const image *b)
 {
     const unsigned char *x = a->pixels;
@@ -111,7 +111,7 @@ static int difference(const image *a, const image *b)
     return most;
 }
 
-/* Without a highlight both models are Lambert's, so the balls are equal; a highlight tells them apart. */
+/* Without a highlight both models are Lambert's and the spheres are equal; with one they differ. */
 static void matte_balls_are_equal(void **state)
 {
     (void)state;
