@@ -17,7 +17,7 @@
 #include "base/memory.h"
 #include "base/result.h"
 
-/* Reads what fd still has; for pipes and devices, whose size is not known before. */
+/* Reads the rest of fd; for pipes and devices, whose size is unknown. */
 static facet_result read_stream(int fd, const char *path, uint64_t max_bytes,
                                 const facet_allocator *allocator, file_bytes *file, facet_error *error)
 {
@@ -50,11 +50,12 @@ static facet_result read_stream(int fd, const char *path, uint64_t max_bytes,
     return FACET_OK;
 }
 
-/* Larger files are mapped: most of what is hostile shows in the first bytes, and the rest is never read. Others are read, so
- * that they may be cut or written anew while what was read is in use, which would end the process on a mapping. */
+/* Larger files are mapped: malformed ones are usually rejected after the first bytes, and the rest is never read.
+ * Smaller ones are read, so that they may be truncated or rewritten while in use, which would crash a process with a
+ * mapping. */
 static const size_t MAPPED_FROM = (size_t)256 << 20;
 
-/* A file that is known to have size bytes. */
+/* Reads a file of size bytes. */
 static facet_result read_sized(int fd, const char *path, size_t size, const facet_allocator *allocator,
                                file_bytes *file, facet_error *error)
 {
@@ -94,7 +95,7 @@ facet_result file_open_descriptor(int fd, const char *path, uint64_t max_bytes,
         result = fail(error, FACET_ERROR_LIMIT, "%s: %llu bytes is larger than the limit of %llu", path,
                       (unsigned long long)status.st_size, (unsigned long long)max_bytes);
     } else {
-        /* The page behind the end must hold a 0: a size that fills its last page exactly is read instead. */
+        /* The byte behind the end must be 0: a file that fills its last page exactly is read, not mapped. */
         size_t size = (size_t)status.st_size;
         size_t page = (size_t)sysconf(_SC_PAGESIZE);
         bool is_mapped = size >= MAPPED_FROM && size % page;
@@ -104,7 +105,7 @@ facet_result file_open_descriptor(int fd, const char *path, uint64_t max_bytes,
             result = FACET_OK;
         } else if (size) {
             result = read_sized(fd, path, size, allocator, file, error);
-        } else { /* as those of /proc say of themselves */
+        } else { /* as files in /proc report */
             result = read_stream(fd, path, max_bytes, allocator, file, error);
         }
     }
@@ -172,8 +173,7 @@ static facet_result write_directly(const char *path, const void *data, size_t si
                    : fail(error, FACET_ERROR_WRITE, "%s: cannot be written: %s", path, strerror(code));
 }
 
-/* Whether path is a name of an open descriptor of this process: such as /dev/stdout, which is a link that root could
- * replace. */
+/* Whether path names an open descriptor of this process, such as /dev/stdout, a link that root could replace. */
 static bool is_descriptor(const char *path)
 {
     static const char *const folders[] = {"/dev/fd/", "/proc/self/fd/"};
@@ -187,7 +187,7 @@ static bool is_descriptor(const char *path)
     return strcmp(path, "/dev/stdout") == 0 || strcmp(path, "/dev/stderr") == 0;
 }
 
-/* Whether path is that, or a link to it. */
+/* Whether path is such a name, or a link to it. */
 static bool leads_to_descriptor(const char *path)
 {
     char target[64];
@@ -196,11 +196,10 @@ static bool leads_to_descriptor(const char *path)
     return is_descriptor(path) || is_descriptor(target);
 }
 
-/* Creates a file of its own beside path, with what the umask leaves of mode 666. *name, for free(), is what it is
- * called. Negative: errno says why. */
+/* Creates a unique file beside path, with mode 666 less the umask. *name: its path, for free(). Negative: see errno. */
 static int create_temporary(const char *path, char **name)
 {
-    enum { MAX_LENGTH = 240, ATTEMPTS = 100 }; /* of the 255 bytes that names may have */
+    enum { MAX_LENGTH = 240, ATTEMPTS = 100 }; /* of the 255 bytes of a file name */
     const char *base = path_base_name(path);
     int fd = -1;
     *name = NULL;
@@ -222,7 +221,7 @@ static int create_temporary(const char *path, char **name)
     return fd;
 }
 
-/* Writes the temporary of a stage; what it will replace is no folder. */
+/* Writes the temporary of a stage; its destination is not a folder. */
 static facet_result stage_regular(const char *path, const void *data, size_t size, file_stage *stage,
                                   facet_error *error)
 {
@@ -267,7 +266,7 @@ facet_result file_stage_commit(file_stage *stage, facet_error *error)
     facet_result result = FACET_OK;
     if (stage->temporary && rename(stage->temporary, stage->path) != 0)
         result = fail(error, FACET_ERROR_WRITE, "%s: cannot be written: %s", stage->path, strerror(errno));
-    if (result == FACET_OK) { /* there is no temporary any longer */
+    if (result == FACET_OK) { /* the temporary was renamed */
         free(stage->temporary);
         stage->temporary = NULL;
     }
@@ -340,7 +339,7 @@ const char *path_extension(const char *path)
     return point ? point + 1 : "";
 }
 
-/* The part of real_path behind real_folder, both without links; NULL: it is not below. */
+/* The part of real_path below real_folder, both without links; NULL: it is not below. */
 static const char *path_below(const char *real_path, const char *real_folder)
 {
     size_t length = strlen(real_folder);
@@ -350,7 +349,7 @@ static const char *path_below(const char *real_path, const char *real_folder)
     return is_below ? real_path + length + (real_path[length] == '/') : NULL;
 }
 
-/* Opens a path below a folder, which has no links, and follows none: there is one now where it was put meanwhile. */
+/* Opens a path without links below a folder, and follows none: a link there was put in meanwhile. */
 static int open_without_links(const char *real_folder, const char *below)
 {
     int at = open(real_folder, O_PATH | O_DIRECTORY | O_CLOEXEC);

@@ -1,4 +1,4 @@
-/* file.h - whole files in and out, and names of files. */
+/* file.h - reads and writes whole files, and handles file names. */
 #ifndef BASE_FILE_H
 #define BASE_FILE_H
 
@@ -6,11 +6,11 @@
 
 /* The bytes of a file: read, or mapped where it has 256 MiB or more. */
 typedef struct file_bytes {
-    const unsigned char *data; /* at least one readable byte of 0 stands behind the last one */
+    const unsigned char *data; /* followed by at least one readable byte of 0 */
     size_t size;
-    void *mapping; /* what file_close() needs */
+    void *mapping; /* for file_close() */
     size_t mapping_size;
-    uint64_t device, number; /* of a regular file: what it is known by under any name; number 0: none */
+    uint64_t device, number; /* identify a regular file under any name; number 0: none */
 } file_bytes;
 
 /* The limit that the max_file_bytes of a desc stands for, of which 0 is the default. */
@@ -27,24 +27,24 @@ facet_result file_open(const char *path, uint64_t max_bytes, const facet_allocat
 facet_result file_open_descriptor(int fd, const char *path, uint64_t max_bytes,
                                   const facet_allocator *allocator, file_bytes *file, facet_error *error);
 void file_close(file_bytes *file); /* {0} is allowed; leaves {0} */
-/* Whether the file at path is the one that file was opened from: path may be another name of it. */
+/* Whether path refers to the file that was opened, possibly by another name. */
 bool file_is_at(const file_bytes *file, const char *path);
 
-/* Writes size bytes to path: a temporary beside it, flushed to the disk, then renamed; on failure
- * (FACET_ERROR_WRITE) path is as it was and no temporary stays. A path that exists and is no regular file (a
- * device, a pipe) is written to directly, and so is /dev/stdout. Any other link is replaced, not followed: who can
- * put links into a folder must not choose what is overwritten. */
+/* Writes size bytes to path: to a temporary file beside it, which is flushed to disk and renamed; after a failure
+ * (FACET_ERROR_WRITE) path is unchanged and no temporary remains. An existing path that is not a regular file (a
+ * device, a pipe) is written directly, and so is /dev/stdout. Any other link is replaced, not followed: a user who
+ * can create links in a folder must not choose which file is overwritten. */
 facet_result file_write(const char *path, const void *data, size_t size, facet_error *error);
-/* The same, but whatever stands at path and is no folder is replaced: for files of our own. */
+/* The same, but replaces whatever is at path except a folder: for files of facet's own. */
 facet_result file_replace(const char *path, const void *data, size_t size, facet_error *error);
 
-/* A file that is written and on the disk, but not yet in its place. {0}: none. */
+/* A file that is written to disk but not yet in place. {0}: none. */
 typedef struct file_stage {
-    char *path, *temporary; /* temporary NULL: a device or pipe, which was written directly */
+    char *path, *temporary; /* temporary NULL: a device or pipe, already written */
 } file_stage;
 
-/* The two halves of file_write(), so that several files appear together or not at all: stage them all, then commit
- * them. A commit can hardly fail, and leaves {0}; so does a discard, after which path is as it was. */
+/* The two halves of file_write(), for several files that must appear together: stage them all, then commit them. A
+ * commit rarely fails, and leaves {0}; so does a discard, after which path is unchanged. */
 facet_result file_stage_write(const char *path, const void *data, size_t size, file_stage *stage,
                               facet_error *error);
 facet_result file_stage_commit(file_stage *stage, facet_error *error);
@@ -54,13 +54,13 @@ void file_stage_discard(file_stage *stage); /* {0} is allowed */
 char *path_join(const facet_allocator *allocator, const char *folder, const char *name);
 /* The folder of path without trailing slash, "." where it has none; a block of mem_alloc(). */
 char *path_folder(const facet_allocator *allocator, const char *path);
-/* Behind the last slash. */
+/* The part behind the last slash. */
 const char *path_base_name(const char *path);
-/* From the last point of the base name on, without it, or "". */
+/* The part behind the last dot of the base name, or "". */
 const char *path_extension(const char *path);
-/* Opens path for reading (a pipe without waiting for a writer) if it is folder or below it once links are resolved. What
- * is opened is what was checked: a link that is exchanged in between makes it fail. Returns a file descriptor, or -1 with
- * errno, which is EXDEV where path leads out of folder. */
+/* Opens path for reading (a pipe without waiting for a writer) if it is folder or below it after links are resolved.
+ * The opened file is the one that was checked: if a link is replaced in between, the call fails. Returns a file
+ * descriptor, or -1 with errno, which is EXDEV if path leads out of folder. */
 int path_open_inside(const char *path, const char *folder);
 
 #endif

@@ -6,7 +6,7 @@ static uint32_t rotate_left(uint32_t x, int bits)
     return x << bits | x >> (32 - bits);
 }
 
-/* Spreads the bits of one block of four bytes before it is mixed in. */
+/* Scrambles one block of four bytes. */
 static uint32_t scramble(uint32_t block)
 {
     return rotate_left(block * 0xcc9e2d51u, 15) * 0x1b873593u;
@@ -24,7 +24,7 @@ uint32_t murmur3(const void *bytes, size_t size, uint32_t seed)
     uint32_t rest = 0;
     for (size_t i = size; i > whole; i--)
         rest = rest << 8 | b[i - 1];
-    hash ^= scramble(rest); /* 0 where there is no rest */
+    hash ^= scramble(rest); /* 0 if there is no rest */
     hash ^= (uint32_t)size;
     hash = (hash ^ hash >> 16) * 0x85ebca6bu;
     hash = (hash ^ hash >> 13) * 0xc2b2ae35u;

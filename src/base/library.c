@@ -6,7 +6,7 @@
 
 #include "base/result.h"
 
-/* Whether a message of dlerror() is about memory; glibc has no code for it. */
+/* Whether a message of dlerror() reports a lack of memory; glibc has no code for that. */
 static bool is_about_memory(const char *reason)
 {
     static const char *const words[] = {"llocate", "failed to map segment", "out of memory"};
@@ -37,7 +37,8 @@ facet_result library_open(const char *name, const library_desc *desc, void **han
     reason = reason ? reason : "";
     if (is_about_memory(reason))
         return fail(error, FACET_ERROR_MEMORY, "%s: out of memory: opening %s", desc->subject, name);
-    /* "libX.so.2: cannot open shared object file: No such file or directory": it, not another one that it needs */
+    /* "libX.so.2: cannot open shared object file: No such file or directory": this library, not one of its
+     * dependencies */
     bool is_missing = strncmp(reason, name, strlen(name)) == 0 && strstr(reason, "No such file");
     if (is_missing)
         return fail(error, desc->missing, "%s: %s%s", desc->subject, name, desc->advice);

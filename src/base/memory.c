@@ -13,12 +13,12 @@
 enum { ALIGNMENT = 64 };
 static const size_t HUGE_PAGE = (size_t)2 << 20;
 
-/* Stands right before each block. */
+/* Precedes each block. */
 typedef struct header {
     facet_allocator allocator;
     void *base;        /* what the allocator returned */
-    size_t base_size;  /* what it was asked for */
-    size_t block_size; /* what our caller asked for */
+    size_t base_size;  /* its size */
+    size_t block_size; /* size of the caller's block */
 } header;
 
 _Static_assert(sizeof(header) <= ALIGNMENT, "the header stands in one alignment unit before the block");
@@ -30,8 +30,8 @@ static header *header_of(const void *block)
     return (header *)((uintptr_t)block - sizeof(header));
 }
 
-/* Memory for free(). A fault per 4 KiB is what most of a large block's first use costs: those of two huge pages or
- * more are asked for in huge pages, which the system gives where it has them. */
+/* Memory for free(). Page faults of 4 KiB dominate the first use of a large block: blocks of two huge pages or more
+ * are requested in huge pages where the system has them. */
 static void *allocate(size_t size)
 {
     if (size < 2 * HUGE_PAGE)
@@ -127,7 +127,7 @@ enum { CHUNK_HEADER = 64, CHUNK_SIZE = 64 * 1024 - 256, ARENA_ALIGNMENT = 16 };
 
 struct arena {
     facet_allocator allocator;
-    chunk *chunks; /* the first one has room */
+    chunk *chunks; /* the first chunk has room */
 };
 
 arena *arena_create(const facet_allocator *allocator)
@@ -163,7 +163,8 @@ void *arena_alloc(arena *a, size_t count, size_t size)
             return NULL;
         c->used = 0;
         c->capacity = capacity;
-        if (a->chunks && capacity == wanted) { /* a large block of its own goes behind the one with room */
+        if (a->chunks &&
+            capacity == wanted) { /* a large block gets its own chunk, behind the one with room */
             c->next = a->chunks->next;
             a->chunks->next = c;
         } else {
@@ -215,7 +216,7 @@ void facet_budget_destroy(facet_budget *budget)
     free(budget);
 }
 
-/* False: size more would be over the limit. */
+/* False: size more bytes would exceed the limit. */
 static bool budget_take(facet_budget *budget, uint64_t size)
 {
     uint64_t used = atomic_fetch_add(&budget->used, size) + size;

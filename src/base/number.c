@@ -1,30 +1,30 @@
 /* number.c - see number.h.
  *
- * A decimal is made a double with an error of a few units in its last place, which decides about the float unless the
- * double is that near to the middle between two floats: once in 2^26 numbers. Those, and what is not a normal float, are
- * compared with the middle in integers of many digits (as in Clinger 1990, "How to read floating point numbers
- * accurately", algorithm R, with the neighbours in place of a search). */
+ * A decimal is converted to a double with an error of a few units in the last place, which determines the float
+ * unless the double is that close to the midpoint of two floats: once in 2^26 numbers. Those, and results that are
+ * not normal floats, are compared with the midpoint in big integers (as in Clinger 1990, "How to read floating point
+ * numbers accurately", algorithm R, with the neighbors in place of a search). */
 #include "base/number.h"
 
 #include <float.h>
 #include <math.h>
 #include <strings.h>
 
-/* Powers of ten that a double holds exactly. */
+/* Powers of ten that a double represents exactly. */
 static const double TENS[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                               1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 enum { MAX_TENS = 22 };
 
 /* ---- integers of many digits ---- */
 
-/* Significant digits that are kept. The middle between two floats has at most 112 of them; what comes behind is a 1 where
- * it is not all zeros. */
+/* Significant digits that are kept. The midpoint of two floats has at most 112; further digits are replaced by a 1
+ * unless all are zeros. */
 enum { MAX_DIGITS = 128 };
 /* The larger side of a comparison is below 2^25 10^(46 + MAX_DIGITS + 1), which has 607 bits. */
 enum { BIG_WORDS = 24 };
 
 typedef struct big {
-    uint32_t words[BIG_WORDS]; /* the lowest first */
+    uint32_t words[BIG_WORDS]; /* little-endian */
 } big;
 
 static void big_multiply_add(big *b, uint32_t factor, uint32_t addend)
@@ -69,13 +69,13 @@ typedef struct decimal {
     unsigned char digits[MAX_DIGITS + 1];
 } decimal;
 
-/* Its sign against the middle between the positive float of these bits and the next one. */
+/* The sign of a decimal minus the midpoint of the positive float with these bits and the next one. */
 static int compare_with_middle(const decimal *d, uint32_t bits)
 {
     uint32_t fraction = bits & 0x7fffffu;
     int exponent = (int)(bits >> 23);
     uint32_t significand = exponent ? fraction | 0x800000u : fraction;
-    int power = (exponent ? exponent : 1) - 150 - 1; /* of the middle, 2 significand + 1 */
+    int power = (exponent ? exponent : 1) - 150 - 1; /* of the midpoint, 2 significand + 1 */
     big left = {{0}};
     big right = {{2 * significand + 1}};
     for (int i = 0; i < d->count; i++)
@@ -98,7 +98,7 @@ static double scale(double value, long power)
     return value;
 }
 
-/* The nearest float of a decimal that is not 0. */
+/* The nearest float of a nonzero decimal. */
 static float round_exactly(const decimal *d)
 {
     if (d->count + d->exponent > 40)
@@ -115,7 +115,7 @@ static float round_exactly(const decimal *d)
     memcpy(&bits, &value, sizeof bits);
     int sign = compare_with_middle(d, bits);
     if (sign > 0 || (sign == 0 && (bits & 1u))) {
-        bits++; /* of the largest float: infinity */
+        bits++; /* above the largest float: infinity */
     } else if (bits > 0) {
         sign = compare_with_middle(d, bits - 1);
         if (sign < 0 || (sign == 0 && (bits & 1u)))
@@ -125,7 +125,7 @@ static float round_exactly(const decimal *d)
     return value;
 }
 
-/* Collects a number that is known to be there, from its first digit or point on. */
+/* Parses a number that is known to be valid, from its first digit or point on. */
 static decimal collect(const char *p, long exponent)
 {
     decimal d = {.exponent = exponent};
@@ -156,7 +156,7 @@ static decimal collect(const char *p, long exponent)
 
 /* ---- what is quick ---- */
 
-/* m 10^power as a float; false: it takes round_exactly(). */
+/* m 10^power as a float; false: round_exactly() is needed. */
 static bool round_quickly(uint64_t m, long power, float *value)
 {
     if (m == 0) {
@@ -168,7 +168,7 @@ static bool round_quickly(uint64_t m, long power, float *value)
     double d = power < 0 ? (double)m / TENS[-power] : (double)m * TENS[power];
     if (!(d >= (double)FLT_MIN && d <= (double)FLT_MAX))
         return false;
-    /* Two roundings, and the digits behind the 19th: d is off by less than 2 units in its last place. */
+    /* Two roundings, and the digits after the 19th: d is off by less than 2 units in its last place. */
     uint64_t bits;
     memcpy(&bits, &d, sizeof bits);
     uint64_t from_middle = (bits & 0x1fffffffu) - 0x10000000u + 4;
@@ -197,7 +197,7 @@ static const char *read_word(const char *p, float *value)
     return NULL;
 }
 
-/* #INF, #IND, #QNAN, #SNAN behind "1.", and the zeros that may follow. */
+/* #INF, #IND, #QNAN, #SNAN after "1.", and zeros that may follow. */
 static const char *read_windows_word(const char *p, float *value)
 {
     *value = strncasecmp(p, "#inf", 4) == 0 ? INFINITY : NAN;
@@ -206,7 +206,7 @@ static const char *read_windows_word(const char *p, float *value)
     return p;
 }
 
-/* The exponent behind a number; none where no digit follows. Those beyond a million stay there. */
+/* The exponent of a number; 0 if no digit follows. Exponents beyond a million are clamped. */
 static const char *read_exponent(const char *p, long *exponent)
 {
     const char *q = p + 1;
@@ -221,7 +221,7 @@ static const char *read_exponent(const char *p, long *exponent)
     return q;
 }
 
-/* Digits onto *m, however many; *count grows by them. Beyond 19 in all *m means nothing. */
+/* Appends any number of digits to *m; *count grows by them. Beyond 19 in all *m is meaningless. */
 static inline const char *read_run(const char *p, uint64_t *m, size_t *count)
 {
     static const uint32_t tens[] = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
@@ -269,7 +269,7 @@ const char *number_read_float(const char *text, float *value)
     return p;
 }
 
-/* Digits, point and exponent of a number that number_read_float() has read. */
+/* Digits, point and exponent of a number that number_read_float() has accepted. */
 static double read_finite(const char *digits)
 {
     const char *p = digits;

@@ -1,5 +1,5 @@
-/* parallel.c - see parallel.h. Threads are POSIX ones that live for one loop: starting one takes about 20 us,
- * no pool stands around, and ThreadSanitizer sees every hand-over. */
+/* parallel.c - see parallel.h. Threads are POSIX threads that live for one loop: starting one takes about 20 us,
+ * there is no pool to maintain, and ThreadSanitizer sees every hand-over. */
 #define _GNU_SOURCE
 #include "base/parallel.h"
 
@@ -38,7 +38,7 @@ void parallel_for(uint32_t thread_count, size_t count, size_t grain,
     if (grain == 0)
         grain = 1;
     size_t ranges = (count + grain - 1) / grain;
-    if (ranges == 1) { /* often: to ask the system how many CPUs there are would take longer */
+    if (ranges == 1) { /* cached, since asking the system for the number of CPUs takes longer */
         body(context, 0, count);
         return;
     }
@@ -88,7 +88,7 @@ uint32_t parallel_startable(uint32_t wanted)
     return count;
 }
 
-/* CPUs' worth of time that the cgroup (version 2, then 1) allows, rounded up; 0: no limit. */
+/* The CPU quota of the cgroup (version 2, then 1), rounded up; 0: no limit. */
 static uint32_t cgroup_cpus(void)
 {
     double quota = 0.0;

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Whatever a hostile file put into a name, a sentence stays one line. */
+/* A name in a malicious file must not break a message into lines. */
 static void make_one_line(char *text)
 {
     for (char *c = text; *c; c++)

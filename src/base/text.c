@@ -67,7 +67,7 @@ size_t utf8_from_latin1(const char *bytes, size_t size, char *out)
 
 __extension__ typedef unsigned __int128 wide;
 
-/* Within these the numbers above fit; others are rare. */
+/* In this range the numbers above fit; others are rare. */
 static const float SMALLEST = 1e-10f;
 static const float LARGEST = 1e6f;
 
@@ -113,7 +113,7 @@ static bool round_digits(uint32_t m, int s, int p, uint64_t *digits)
     wide half = (wide)1 << (s - 1);
     wide n = exact >> s;
     wide rest = exact - (n << s);
-    n += rest > half || (rest == half && (n & 1)); /* ties to even, as printf() */
+    n += rest > half || (rest == half && (n & 1)); /* ties to even, as in printf() */
     *digits = (uint64_t)n;
     wide back = n << s;
     wide error = back > exact ? back - exact : exact - back;
@@ -132,7 +132,7 @@ static char *put_digits(char *out, uint64_t n, int count)
     return out + count;
 }
 
-/* As %g: digits (count of them, without zeros at the end) with the point behind the first one times 10^exponent. */
+/* As %g: count digits, without trailing zeros, with the point after the first one, times 10^exponent. */
 static void put_decimal(char *out, uint64_t digits, int count, int exponent)
 {
     if (exponent < -4) {
@@ -157,7 +157,7 @@ static void put_decimal(char *out, uint64_t digits, int count, int exponent)
     *out = 0;
 }
 
-/* Any float, slowly. */
+/* The slow path for any float. */
 static void print_shortest(float value, char digits[TEXT_FLOAT_SIZE])
 {
     for (int precision = 6; precision <= 9; precision++) {
@@ -182,7 +182,7 @@ void text_shortest_float(float value, char digits[TEXT_FLOAT_SIZE])
     }
     if (value < 0.0f)
         *digits++ = '-';
-    uint32_t m = (bits & 0x7fffff) | 1u << 23; /* no denormals here */
+    uint32_t m = (bits & 0x7fffff) | 1u << 23; /* not denormal */
     int s = 150 - (int)(bits >> 23 & 0xff);
     int exponent = decimal_exponent((double)size);
     uint64_t n = 0;

@@ -79,7 +79,7 @@ static axis3 perpendicular(axis3 a)
     return dot3(a, a) > 0.0 ? unit3(cross3(a, b)) : (axis3){{1, 0, 0}};
 }
 
-/* Fills in unit axes of length 0 such that they go with the others. */
+/* Replaces unit axes of length 0 to complete a basis. */
 static void complete_axes(axis3 axes[3])
 {
     for (int i = 0; i < 3; i++) {

@@ -10,14 +10,14 @@ typedef struct wide_box {
 } wide_box;
 wide_box box_enclose(const scene_instance *instance, const float local_min[3], const float local_max[3]);
 
-/* Whether an instance counts for what is framed. */
+/* Whether an instance is included in framing. */
 static inline bool bounds_count(const scene_pose *pose, const scene_instance *instance)
 {
     return !instance->is_unseen || pose->is_unseen;
 }
 
-/* Finds which instances are unseen, and the bounds of the pose, and drops instances that leave the space where floats can be
- * squared. The pose has its materials. Fails with FACET_ERROR_MEMORY. */
+/* Finds unseen instances and the bounds of the pose, and removes instances beyond SCENE_FARTHEST. The pose has its
+ * materials. Fails with FACET_ERROR_MEMORY. */
 facet_result bound_instances(const facet_scene *scene, scene_pose *pose, const facet_allocator *allocator,
                              uint32_t thread_count, facet_error *error);
 

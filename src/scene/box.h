@@ -11,7 +11,7 @@ typedef struct box {
     float minimum[3], maximum[3];
 } box;
 
-/* Minimum above maximum: what is added is the box. */
+/* Minimum above maximum, so that adding a point yields that point. */
 static inline box box_empty(void)
 {
     return (box){{FLT_MAX, FLT_MAX, FLT_MAX}, {-FLT_MAX, -FLT_MAX, -FLT_MAX}};
@@ -34,7 +34,7 @@ static inline void box_join(box *b, const box *other)
     box_add(b, other->minimum);
     box_add(b, other->maximum);
 }
-/* Whether all of it is within SCENE_FARTHEST; an empty one is not. */
+/* Whether all of it is within SCENE_FARTHEST; an empty box is not. */
 static inline bool box_is_near(const box *b)
 {
     for (int axis = 0; axis < 3; axis++)
@@ -43,7 +43,7 @@ static inline bool box_is_near(const box *b)
     return true;
 }
 
-/* Whether p is in it, its surface included. */
+/* Whether p is inside or on the surface. */
 static inline bool box_holds(const box *b, const float p[3])
 {
     for (int axis = 0; axis < 3; axis++)

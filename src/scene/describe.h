@@ -6,10 +6,10 @@
 #include "scene/scene.h"
 
 void describe_index(text *t, const char *key, uint32_t index); /* SCENE_NONE: null */
-/* "extras" and "metadata", where there are any. */
+/* "extras" and "metadata", if any. */
 void describe_meta(text *t, const scene_meta *meta);
 
 void describe_materials(text *t, const facet_scene *scene); /* "materials" */
-void describe_legacy(text *t, const facet_scene *scene);    /* "legacy", where there is one */
+void describe_legacy(text *t, const facet_scene *scene);    /* "legacy", if any */
 
 #endif

@@ -1,18 +1,18 @@
-/* legacy.h - materials, lights and fog as OpenGL 1 programs and MTL files state them, kept beside a scene's glTF
- * materials: what was read, or what they were converted to.
+/* legacy.h - materials, lights and fog of OpenGL 1 programs and MTL files, kept beside a scene's glTF materials: as
+ * they were read, or as conversions of those.
  *
- * Colors are as the file has them: numbers that a legacy program shows on an 8-bit screen without further ado.
- * scene_legacy.colors says whether they count as sRGB-encoded or as linear light where they become physical. */
+ * Colors are in the encoding of the file: numbers that a legacy program displays on an 8-bit screen unchanged.
+ * scene_legacy.colors says whether they are sRGB-encoded or linear when they become physical quantities. */
 #ifndef SCENE_LEGACY_H
 #define SCENE_LEGACY_H
 
 #include "scene/scene.h"
 
-/* The largest number that counts as light, as a color or as an offset in any file of legacy materials: far brighter than
- * what a screen shows, and its square is still a float. */
+/* The largest light, color or offset in any file of legacy materials: far brighter than a screen, and its square is a
+ * finite float. */
 #define LEGACY_LARGEST 1e9f
 
-/* What a file states; or-ed. What is not stated has the value of legacy_material_default(). */
+/* Values that a file states; or-ed. Others have the value of legacy_material_default(). */
 typedef enum legacy_field {
     LEGACY_AMBIENT = 1 << 0,
     LEGACY_DIFFUSE = 1 << 1,
@@ -57,14 +57,14 @@ typedef enum legacy_map_slot {
 typedef struct legacy_map {
     /* texture SCENE_NONE: no map. Offset and scale (-o, -s) are those of glTF's uv, whose v points down */
     scene_texture_ref ref;
-    /* as written; NULL: no such statement. Stated without ref.texture: the file is missing */
+    /* as written; NULL: no such statement. With a path but no ref.texture the file is missing */
     const char *path;
     float base, gain;      /* -mm: value' = base + gain value; 0, 1 */
     char channel;          /* -imfchan: r g b m l z; 0: the default of the statement */
     float bump_multiplier; /* -bm; 1 */
-    const char *dropped; /* options that nothing here holds, as written: "-t 1 1 1 -texres 512"; NULL: none */
-    const char *options; /* all options as written, to write them again; NULL: none */
-    bool is_left_out;    /* its picture was there, and left the scene: facet_legacy_desc.drops_sources */
+    const char *dropped;   /* options without a counterpart, as written: "-t 1 1 1 -texres 512"; NULL: none */
+    const char *options;   /* all options as written, for writing them again; NULL: none */
+    bool is_left_out;      /* its image was dropped from the scene: facet_legacy_desc.drops_sources */
 } legacy_map;
 
 /* rgl's textype and texmode (glTexEnv). */
@@ -87,18 +87,18 @@ typedef struct legacy_material {
     const char *name;
     uint32_t fields;   /* LEGACY_AMBIENT .. */
     float ambient[3];  /* 0 */
-    float diffuse[3];  /* 0.8; rgl's color, which vertex colors take the place of */
+    float diffuse[3];  /* 0.8; rgl's color, which vertex colors replace */
     float specular[3]; /* 0 */
     float emission[3]; /* 0 */
-    float shininess;   /* 0; exponent of Blinn-Phong, [0, 128] in OpenGL, to 1000 and beyond in MTL */
+    float shininess;   /* 0; Blinn-Phong exponent, [0, 128] in OpenGL, to 1000 and beyond in MTL */
     float opacity;     /* 1: d, 1 - Tr, alpha */
     bool is_halo;      /* d -halo */
     bool is_transparency_ambiguous; /* only Tr was stated, or it contradicts d */
     int illum;                      /* -1: not stated */
-    bool is_lit;                    /* true; false: diffuse is shown as it is */
+    bool is_lit;                    /* true; false: diffuse is displayed unlit */
     bool is_smooth;                 /* true; false: one normal per face */
     bool has_fog;                   /* true */
-    bool is_culled;                 /* false: both sides are shown */
+    bool is_culled;                 /* false: two-sided */
     bool has_environment_map;       /* rgl's texenvmap: the texture is a sphere map */
     float ior;                      /* 1 */
     float transmission_filter[3];   /* 1 */
@@ -109,12 +109,12 @@ typedef struct legacy_material {
     legacy_texture_mode texture_mode;
     legacy_map maps[LEGACY_MAP_COUNT];
     bool is_rma;         /* LEGACY_ORM_MAP: red holds roughness, green metallic, blue occlusion (map_RMA) */
-    const char *unknown; /* statements that mean nothing to facet, as lines; NULL: none */
-    /* where in unknown those begin that the format knows: rgl's size, lwd, ..; NULL: none */
+    const char *unknown; /* statements without a counterpart, as lines; NULL: none */
+    /* where in unknown the statements begin that the format defines: rgl's size, lwd, ..; NULL: none */
     const char *kept;
-    /* of a comment "#facet-gltf": the glTF material that these values were made of; NULL */
+    /* of a comment "#facet-gltf": the glTF material from which these values were converted; NULL */
     const char *gltf_json;
-    bool is_gltf_restored; /* the scene's glTF material is that one, exactly: there is nothing to convert */
+    bool is_gltf_restored; /* the scene's glTF material is exactly that one and needs no conversion */
 } legacy_material;
 
 legacy_material legacy_material_default(void);
@@ -128,20 +128,20 @@ static inline bool legacy_has_map(const legacy_material *m, legacy_map_slot slot
     return m->maps[slot].ref.texture != SCENE_NONE;
 }
 
-/* Whether the picture of a map that becomes something in glTF left the scene: what the material was is not known whole. */
+/* Whether the image of a map with a glTF counterpart was dropped, so that the material is not completely known. */
 bool legacy_lacks_images(const legacy_material *m);
 
-/* A light of OpenGL 1 as rgl has them: without attenuation, without spots. */
+/* A light of OpenGL 1 with rgl's features: no attenuation, no spots. */
 typedef struct legacy_light {
     bool is_point;
-    bool is_viewpoint_relative; /* position is in the camera's space: moves with it */
+    bool is_viewpoint_relative; /* position is in camera space */
     float position[3];          /* m; of a directional light: unit, from the surface to the light */
-    float ambient[3], diffuse[3], specular[3]; /* as materials' colors; 1 */
+    float ambient[3], diffuse[3], specular[3]; /* in the encoding of material colors; 1 */
 } legacy_light;
 
 /* rgl's default: directional, viewpoint-relative, theta 0, phi 15 degrees, all white. */
 legacy_light legacy_light_default(void);
-/* The direction of angles as rgl gives them: (0, 0, 1), turned by -phi about x, then by theta about y. */
+/* The direction of rgl's angles: (0, 0, 1), rotated by -phi about x, then by theta about y. */
 void legacy_light_direction(float theta_rad, float phi_rad, float out[3]);
 
 typedef enum legacy_fog_mode {
@@ -156,30 +156,30 @@ typedef struct legacy_fog {
     float scale; /* 1 */
 } legacy_fog;
 
-/* All that a scene knows of the old model. */
+/* The OpenGL 1 materials, lights and fog of a scene. */
 typedef struct scene_legacy {
     legacy_material *materials; /* one per material of the scene */
-    uint32_t light_count;       /* 0: legacy_light_default() shines where the scene has no lights either */
+    uint32_t light_count;       /* 0: legacy_light_default() is used if the scene has no lights either */
     legacy_light *lights;
     legacy_fog fog;
-    facet_legacy_colors colors; /* how they were read; never FACET_LEGACY_COLORS_DEFAULT */
+    facet_legacy_colors colors; /* encoding; never FACET_LEGACY_COLORS_DEFAULT */
     facet_mtl_dialect dialect;  /* never FACET_MTL_DIALECT_AUTO */
-    bool is_dialect_guessed;    /* by the file's first comment */
-    bool is_source;             /* read from a file; false: made from the glTF materials */
-    /* rgl's rules: vertex colors take the place of diffuse ones, the texture is laid over all of the light. False: those
-     * of MTL and glTF: vertex colors and the diffuse map multiply the diffuse color. */
+    bool is_dialect_guessed;    /* from the file's first comment */
+    bool is_source;             /* read from a file; false: converted from the glTF materials */
+    /* rgl's rules: vertex colors replace diffuse ones, the texture applies to all of the light. False: MTL's and
+     * glTF's rules: vertex colors and the diffuse map multiply the diffuse color. */
     bool is_rgl;
 } scene_legacy;
 
-/* Whether every material of the scene has its legacy one: read, or made by a conversion. Extras of a glTF file alone
- * have those of some. */
+/* Whether every material of the scene has a legacy one, read or converted. Extras of a glTF file alone may have some
+ * only. */
 bool scene_has_legacy_materials(const facet_scene *scene);
 
 /* ---- surfaces as numbers: no textures, linear colors ---- */
 
-/* Blinn-Phong as OpenGL 1 has it: not normalised, its highlight not multiplied with N.L. */
+/* Blinn-Phong as in OpenGL 1: not normalized, its highlight not multiplied by N.L. */
 typedef struct ogl1_surface {
-    float diffuse[3], specular[3]; /* [0, 1] to be displayable; more is allowed */
+    float diffuse[3], specular[3]; /* [0, 1] to be displayable; larger values are allowed */
     float shininess;               /* >= 0; OpenGL allows up to 128 */
 } ogl1_surface;
 
@@ -199,20 +199,20 @@ typedef struct conversion_warning {
     const char *text; /* a sentence */
 } conversion_warning;
 
-/* How one material was converted. Both sides with the numbers that the error was found with. */
+/* How one material was converted, with the values on both sides for which the error was computed. */
 typedef struct material_conversion {
     facet_conversion summary; /* facet.h; its strings live in the scene */
     legacy_material legacy;
     scene_material pbr;
-    const scene_material *before; /* between glTF's own models: what pbr was made of; NULL */
-    bool has_surfaces;            /* the numbers that the error was found with, textures at their means */
+    const scene_material *before; /* conversions between glTF's own models: the source of pbr; NULL */
+    bool has_surfaces;            /* values for which the error was computed, textures at their means */
     ogl1_surface ogl1_surface;
     pbr_surface pbr_surface;
     uint32_t warning_count;
     const conversion_warning *warnings;
 } material_conversion;
 
-/* A scene's materials and pictures before some left it: facet_legacy_desc.drops_sources. */
+/* A scene's materials and images before some were dropped: facet_legacy_desc.drops_sources. */
 typedef struct scene_conversion_source {
     scene_material *materials;
     legacy_material *legacy;
@@ -227,8 +227,8 @@ typedef struct scene_conversion {
     material_conversion *materials;
     uint32_t warning_count; /* of the whole scene: lights, fog */
     const conversion_warning *warnings;
-    const scene_conversion_source *before; /* NULL: no picture left */
-    /* what legacy lights were, or are to be, multiplied with: pi, or 1 where not asked for */
+    const scene_conversion_source *before; /* NULL: no image was dropped */
+    /* factor of legacy lights: pi, or 1 unless requested */
     double light_scale;
 } scene_conversion;
 

@@ -1,5 +1,5 @@
-/* material_table.h - the parameters of a material by their glTF names: the one table that the reader, the writer, the
- * description and animation pointers go by. */
+/* material_table.h - the parameters of a material by their glTF names: the table that reader, writer, description and
+ * animation pointers share. */
 #ifndef SCENE_MATERIAL_TABLE_H
 #define SCENE_MATERIAL_TABLE_H
 
@@ -7,15 +7,15 @@
 
 #include "scene/scene.h"
 
-/* Numbers of a scene_material: members named by object, texture and key of the JSON. */
+/* Numbers of a scene_material: members given by object, texture and key of the JSON. */
 typedef struct material_parameter {
-    uint32_t extension;  /* SCENE_CLEARCOAT ..; 0: of the core */
-    const char *object;  /* "": the material itself; "pbrMetallicRoughness"; else an extension's name */
-    const char *texture; /* textureInfo of object that holds the key ("normalTexture"); NULL: object itself */
-    const char *key;     /* "metallicFactor" */
-    size_t offset;       /* of the first float */
-    uint32_t count;      /* floats */
-    float minimum, maximum; /* what the specification allows */
+    uint32_t extension;     /* SCENE_CLEARCOAT ..; 0: of the core */
+    const char *object;     /* "": the material itself; "pbrMetallicRoughness"; else an extension's name */
+    const char *texture;    /* textureInfo in object that has the key ("normalTexture"); NULL: object */
+    const char *key;        /* "metallicFactor" */
+    size_t offset;          /* of the first float */
+    uint32_t count;         /* floats */
+    float minimum, maximum; /* range of the specification */
 } material_parameter;
 
 /* A texture of a scene_material. */
@@ -37,7 +37,7 @@ extern const material_parameter material_parameters[MATERIAL_PARAMETER_COUNT];
 extern const material_texture material_textures[SCENE_TEXTURE_SLOT_COUNT]; /* by slot */
 extern const material_extension material_extensions[MATERIAL_EXTENSION_COUNT];
 
-/* The numbers that a row names. */
+/* The numbers of a row. */
 static inline float *material_floats(scene_material *m, const material_parameter *row)
 {
     return (float *)(void *)((char *)m + row->offset);

@@ -1,22 +1,22 @@
-/* sampler.h - what an animation's keys say at a time. */
+/* sampler.h - the value of an animation's keys at a point in time. */
 #ifndef SCENE_SAMPLER_H
 #define SCENE_SAMPLER_H
 
 #include "scene/scene.h"
 
-/* The value at one time is the sum of factors times values of keys (pointers to sampler->width floats). */
+/* The value is the sum of factors times values of keys (pointers to sampler->width floats). */
 typedef struct sampler_blend {
-    uint32_t count; /* 1 to 4; 1: a key's value as it is, its factor is 1 */
+    uint32_t count; /* 1 to 4; 1: the value of a key, with factor 1 */
     const float *values[4];
     double factors[4];
 } sampler_blend;
 
 /* At time_s, finite: the first key's value before it, the last one's after it. is_rotation: values are unit
- * quaternions (width 4), and linear keys are joined along the shorter great circle; the blend of cubic ones is not
+ * quaternions (width 4), linear keys are interpolated along the shorter great circle; the blend of cubic keys is not
  * unit. */
 sampler_blend sampler_at(const scene_sampler *sampler, double time_s, bool is_rotation);
 
-/* Number i of the value, [0, sampler->width). */
+/* Component i of the value, [0, sampler->width). */
 static inline double sampler_blend_value(const sampler_blend *blend, size_t i)
 {
     double value = blend->factors[0] * (double)blend->values[0][i];
@@ -25,7 +25,7 @@ static inline double sampler_blend_value(const sampler_blend *blend, size_t i)
     return value;
 }
 
-/* A rotation at time_s: a unit quaternion x y z w. False: the keys cancel, no rotation. */
+/* A rotation at time_s: a unit quaternion x y z w. False: the keys cancel. */
 bool sampler_rotation_at(const scene_sampler *sampler, double time_s, float out[4]);
 
 #endif

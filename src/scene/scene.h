@@ -1,8 +1,7 @@
-/* scene.h - a model as plain arrays: what every renderer reads, and nothing that only one needs.
+/* scene.h - a model as plain arrays: the data that all renderers share.
  *
- * Everything in a scene lives in its arena and does not change after it was loaded, but for the conversion of its
- * materials (legacy/convert.h), which puts new arrays in the place of old ones. Indices are into the arrays
- * of the scene; SCENE_NONE: absent. */
+ * Everything in a scene lives in its arena and does not change after loading, except by the conversion of its
+ * materials (legacy/convert.h), which replaces arrays. Indices are into the arrays of the scene; SCENE_NONE: absent. */
 #ifndef SCENE_SCENE_H
 #define SCENE_SCENE_H
 
@@ -13,23 +12,24 @@
 
 #define SCENE_NONE UINT32_MAX
 
-/* Coordinates beyond this, m, are not drawn. A camera that frames what lies within stands within 1e18 m, and the
+/* Coordinates beyond this, m, are not drawn. A camera that frames everything within it stands within 1e18 m, and the
  * squares of all these lengths are finite floats. */
 #define SCENE_FARTHEST 1e17f
 
 struct text; /* base/text.h */
 
-/* What a file says beside what is drawn: JSON text as it stands there, NULL: nothing. */
+/* Metadata of a file: JSON text as it was written, NULL: none. */
 typedef struct scene_meta {
     const char *extras;     /* the value of "extras" */
-    const char *extensions; /* an object of those extensions that are metadata (KHR_xmp_json_ld, ..) */
+    const char *extensions; /* an object of the metadata extensions (KHR_xmp_json_ld, ..) */
 } scene_meta;
 
 /* ---- geometry ---- */
 
 typedef enum scene_mode { SCENE_POINTS, SCENE_LINES, SCENE_TRIANGLES } scene_mode;
 
-/* Changes of a primitive's vertices at weight 1; NULL: none of that attribute. Normals and tangents are not unit. */
+/* Displacements of a primitive's vertices at weight 1; NULL: none of that attribute. Normals and tangents are not
+ * unit. */
 typedef struct scene_morph_target {
     const float *positions, *normals, *tangents; /* 3 per vertex, m, finite */
 } scene_morph_target;
@@ -38,14 +38,14 @@ typedef struct scene_morph_target {
  * foam hides. */
 enum { SCENE_WATER_VALUES = 4 };
 
-/* Vertices of one material. Strips, fans and loops are lists here. */
+/* Vertices of one material. Strips, fans and loops are unrolled to lists. */
 typedef struct scene_primitive {
     scene_mode mode;
     uint32_t vertex_count;
     uint32_t index_count;    /* a multiple of 1, 2 or 3 */
     const uint32_t *indices; /* always there; each < vertex_count */
     const float *positions;  /* 3 per vertex, m, finite */
-    const float *normals;    /* 3 per vertex, unit; NULL only for points and lines without (then unlit) */
+    const float *normals;    /* 3 per vertex, unit; NULL for points and lines without normals only (unlit) */
     const float *tangents;   /* 4 per vertex, xyz unit, w +-1; NULL: none */
     uint32_t texcoord_count; /* sets */
     const float *const *texcoords; /* per set 2 per vertex; (0, 0) is the top left of an image */
@@ -53,14 +53,13 @@ typedef struct scene_primitive {
     /* SCENE_WATER_VALUES per vertex, of the surface of a sea; NULL: none. No file has it */
     const float *water;
     uint32_t material; /* SCENE_NONE: the default material */
-    /* of the positions that indices use, without triangles that have no area (unseen_tighten_bounds()); 0 where there are
-     * none */
+    /* of positions in use, without triangles that have no area (unseen_tighten_bounds()); 0 if there are none */
     float bounds_min[3], bounds_max[3];
-    bool has_flat_triangles;  /* some that have no area lie outside of the bounds */
+    bool has_flat_triangles;  /* some without area lie outside of the bounds */
     bool is_flat;             /* none of its triangles has an area */
-    bool has_flat_normals;    /* the file had none: vertices are not shared between triangles */
-    uint32_t influence_count; /* joints that move a vertex: a multiple of 4; 0: no skin */
-    const uint16_t *joints;   /* influence_count per vertex: numbers in the node's skin */
+    bool has_flat_normals;    /* the file had no normals: vertices are not shared between triangles */
+    uint32_t influence_count; /* joints per vertex: a multiple of 4; 0: no skin */
+    const uint16_t *joints;   /* influence_count per vertex: indices into the node's skin */
     const float *weights;     /* the same; >= 0, finite, their sum 1 */
     uint32_t target_count;
     const scene_morph_target *targets;
@@ -73,9 +72,9 @@ typedef struct scene_mesh {
     const char *name; /* never NULL, may be "" (as all names here); UTF-8 */
     uint32_t primitive_count;
     scene_primitive *primitives;
-    uint32_t weight_count; /* of morph targets: that of the primitive that has the most */
-    const float *weights;  /* as the file stores them, 0 where it does not; NULL: there are none */
-    double origin[3];      /* of the positions of its primitives, m: scene/origin.h */
+    uint32_t weight_count; /* of morph targets: the maximum of its primitives */
+    const float *weights;  /* 0 if the file does not store them; NULL: none */
+    double origin[3];      /* subtracted from the positions of its primitives, m: scene/origin.h */
     scene_meta meta;
 } scene_mesh;
 
@@ -85,41 +84,40 @@ typedef enum scene_wrap { SCENE_WRAP_REPEAT, SCENE_WRAP_CLAMP, SCENE_WRAP_MIRROR
 typedef enum scene_filter { SCENE_FILTER_LINEAR, SCENE_FILTER_NEAREST } scene_filter;
 typedef enum scene_mip_filter { SCENE_MIP_LINEAR, SCENE_MIP_NEAREST, SCENE_MIP_NONE } scene_mip_filter;
 
-/* An image as the file has it; decoded when a renderer asks. */
+/* An image of the file; renderers decode it when they need it. */
 typedef struct scene_image {
     const char *name;           /* name, or URI, or "" */
-    const char *mime_type;      /* by content, "image/png"; "" unknown */
-    const unsigned char *bytes; /* NULL: it could not be read; a warning said so */
+    const char *mime_type;      /* detected, "image/png"; "" unknown */
+    const unsigned char *bytes; /* NULL: it could not be read, which was reported */
     size_t size;
     uint32_t width, height; /* 0: unknown */
-    const char *uri;        /* as in the file; NULL: from a buffer or a data URI */
+    const char *uri;        /* in the file's spelling; NULL: from a buffer or a data URI */
     scene_meta meta;
 } scene_image;
 
 typedef struct scene_texture {
     const char *name;
-    uint32_t image; /* SCENE_NONE: none that facet can read; sampled as white */
+    uint32_t image; /* SCENE_NONE: not readable; sampled as white */
     scene_wrap wrap_u, wrap_v;
     scene_filter mag_filter, min_filter;
     scene_mip_filter mip_filter;
     scene_meta meta;
 } scene_texture;
 
-/* Where a parameter reads a texture (glTF textureInfo, KHR_texture_transform). */
+/* A reference to a texture (glTF textureInfo, KHR_texture_transform). */
 typedef struct scene_texture_ref {
     uint32_t texture;  /* SCENE_NONE: no texture, the parameter is its factor */
     uint32_t texcoord; /* set */
     float offset[2], rotation_rad, scale[2];
-    bool has_transform; /* by scene_texture_ref_update(): not the identity */
+    bool has_transform; /* set by scene_texture_ref_update(): not the identity */
     float transform[6]; /* u' = t0 u + t1 v + t2, v' = t3 u + t4 v + t5 */
 } scene_texture_ref;
 
 /* Sets has_transform and transform from offset, rotation and scale: uv' = translation rotation scale uv. A positive
- * angle turns counter-clockwise on the screen, where v points down. What is not finite is left out. */
+ * angle turns counter-clockwise on the screen, where v points down. Values that are not finite are ignored. */
 void scene_texture_ref_update(scene_texture_ref *ref);
 
-/* What the textures of a material are for. scene/material_table.h says what each is called, and in which channels it
- * holds what. */
+/* Uses of a material's textures. scene/material_table.h has their names and channels. */
 typedef enum scene_texture_slot {
     SCENE_BASE_COLOR_TEXTURE, /* of pbrSpecularGlossiness: the diffuse color */
     SCENE_METALLIC_ROUGHNESS_TEXTURE,
@@ -144,7 +142,7 @@ typedef enum scene_texture_slot {
     SCENE_TEXTURE_SLOT_COUNT
 } scene_texture_slot;
 
-/* Extensions that a material has, whatever their values; or-ed. */
+/* Extensions present in a material, whatever their values; or-ed. */
 typedef enum scene_material_extension {
     SCENE_UNLIT = 1 << 0,                 /* KHR_materials_unlit */
     SCENE_EMISSIVE_STRENGTH = 1 << 1,     /* KHR_materials_emissive_strength */
@@ -210,7 +208,7 @@ static inline bool scene_material_has(const scene_material *m, scene_texture_slo
 typedef struct scene_camera {
     const char *name;
     bool is_orthographic;
-    float fov_y_rad, aspect;         /* perspective; aspect 0: the picture's */
+    float fov_y_rad, aspect;         /* perspective; aspect 0: the image's */
     float ortho_height, ortho_width; /* full extent (twice ymag, xmag) */
     float near_m, far_m;             /* far 0: infinite */
     scene_meta meta;
@@ -222,7 +220,7 @@ typedef enum scene_light_type {
     SCENE_LIGHT_SPOT
 } scene_light_type;
 
-/* KHR_lights_punctual; shines along the node's -Z. */
+/* KHR_lights_punctual; emits along the node's -Z. */
 typedef struct scene_light {
     const char *name;
     scene_light_type type;
@@ -238,14 +236,14 @@ typedef struct scene_image_light {
     const char *name;
     float rotation[4]; /* unit quaternion x y z w */
     float intensity;
-    float irradiance[9][3]; /* l = 0 .. 2, as the file has them */
+    float irradiance[9][3]; /* l = 0 .. 2, in the file's order */
     uint32_t specular_size; /* texels along an edge of a face of mip 0 */
     uint32_t mip_count;
     const uint32_t *images; /* 6 per mip, +X -X +Y -Y +Z -Z: indices of scene images */
     scene_meta meta;
 } scene_image_light;
 
-/* EXT_mesh_gpu_instancing: where a node's mesh is drawn, in the node's space. NULL: 0, identity, 1. */
+/* EXT_mesh_gpu_instancing: transforms of a node's instances, in the node's space. NULL: 0, identity, 1. */
 typedef struct scene_instancing {
     uint32_t count;
     const float *translations, *rotations, *scales; /* 3, 4 (unit x y z w), 3 per instance */
@@ -256,7 +254,7 @@ typedef struct scene_node {
     uint32_t parent; /* SCENE_NONE: a root */
     uint32_t child_count;
     const uint32_t *children;
-    bool is_hidden;  /* KHR_node_visibility; with all below it */
+    bool is_hidden;  /* KHR_node_visibility; applies to descendants */
     bool has_matrix; /* matrix instead of translation, rotation, scale */
     dmat4 matrix;
     double translation[3];       /* m; in double, as a model may be far from the origin (scene/origin.h) */
@@ -283,7 +281,7 @@ typedef struct scene_skin {
     uint32_t joint_count;
     const uint32_t *joints;   /* nodes */
     const mat4 *inverse_bind; /* per joint; NULL: identities */
-    uint32_t skeleton;        /* a node, or SCENE_NONE; moves nothing */
+    uint32_t skeleton;        /* a node, or SCENE_NONE; has no effect */
     scene_meta meta;
 } scene_skin;
 
@@ -298,22 +296,22 @@ typedef struct scene_sampler {
     const float *values; /* width per key, three times as many where SCENE_CUBIC_SPLINE; finite */
 } scene_sampler;
 
-/* What of a scene a channel moves. */
+/* The target of a channel. */
 typedef enum scene_target_kind {
     SCENE_TARGET_NODE,     /* floats of a scene_node: translation, rotation, scale */
     SCENE_TARGET_VISIBLE,  /* is_hidden of a node: hidden where the value is below 0.5 */
-    SCENE_TARGET_WEIGHTS,  /* weights of a node's mesh, from weight number offset on */
-    SCENE_TARGET_MATERIAL, /* floats of a scene_material, of its texture refs too */
+    SCENE_TARGET_WEIGHTS,  /* weights of a node's mesh, from weight `offset` on */
+    SCENE_TARGET_MATERIAL, /* floats of a scene_material or its texture refs */
     SCENE_TARGET_LIGHT,    /* floats of a scene_light */
     SCENE_TARGET_CAMERA    /* floats of a scene_camera */
 } scene_target_kind;
 
 typedef struct scene_channel {
     scene_target_kind kind;
-    uint32_t index; /* of the node, material, light, camera */
-    size_t offset;  /* bytes from the start of the struct to the first float; WEIGHTS: a number of a weight */
-    float scale;    /* the values are multiplied with it (a camera's ymag is half the height); 1 */
-    bool is_rotation;    /* a unit quaternion: linear keys go along the great circle */
+    uint32_t index;      /* of the node, material, light, camera */
+    size_t offset;       /* bytes to the first float in the struct; WEIGHTS: index of the first weight */
+    float scale;         /* factor of the values (a camera's ymag is half the height); 1 */
+    bool is_rotation;    /* a unit quaternion: linear keys are interpolated along the great circle */
     uint32_t sampler;    /* of the animation */
     const char *pointer; /* JSON pointer of KHR_animation_pointer; NULL: a target of the core */
 } scene_channel;
@@ -321,7 +319,7 @@ typedef struct scene_channel {
 typedef struct scene_animation {
     const char *name;
     uint32_t channel_count, sampler_count;
-    const scene_channel *channels; /* later ones win where two move the same */
+    const scene_channel *channels; /* later ones take precedence for the same target */
     const scene_sampler *samplers;
     float begin_s, end_s; /* first and last key of all */
     scene_meta meta;
@@ -331,14 +329,14 @@ typedef enum scene_support { SCENE_SUPPORTED, SCENE_APPROXIMATED, SCENE_IGNORED 
 
 typedef struct scene_extension {
     const char *name;
-    bool is_required, is_present; /* present: some object of the file has it */
+    bool is_required, is_present; /* present: used by some object of the file */
     scene_support support;
 } scene_extension;
 
 typedef struct facet_scene {
     facet_allocator allocator;
     arena *arena;
-    const char *source;    /* the path or name it was read from, for messages */
+    const char *source;    /* the path or name of the file, for messages */
     const char *generator; /* asset.generator, asset.version, asset.copyright; "" */
     const char *version;
     const char *copyright;
@@ -359,44 +357,44 @@ typedef struct facet_scene {
     const char **variants; /* KHR_materials_variants: names */
     scene_root *scenes;
     scene_meta meta, asset_meta; /* of the root object: xmp packets; of "asset" */
-    /* scene/origin.h: the place in the file's world that everything posed is relative to, m; 0 unless the model is far
-     * from it. is_far: worlds of nodes are composed in double. */
+    /* scene/origin.h: the point of the file's world to which everything posed is relative, m; 0 unless the model is
+     * far from it. is_far: worlds of nodes are composed in double. */
     double origin[3];
     bool is_far;
     bool is_placed; /* the default scene has one root, the last node, which facet_scene_place() made */
-    double placed_origin[3]; /* then: what origin was before */
+    double placed_origin[3]; /* if so: the previous origin */
     uint32_t default_scene;  /* 0 where the file names none; SCENE_NONE: the file has no scene */
     scene_extension *extensions;
-    const char **warnings; /* what log got while reading */
-    const char **notes;    /* where the file breaks a rule of its format and nothing comes of it */
+    const char **warnings; /* warnings sent to log during reading */
+    const char **notes;    /* violations of the file format without effect */
 
     struct scene_legacy *legacy;         /* scene/legacy.h; NULL: materials of glTF only */
-    struct scene_conversion *conversion; /* the last one; NULL: none */
+    struct scene_conversion *conversion; /* the last conversion; NULL: none */
 
-    uint32_t max_texture_size; /* from the desc, for the decoding to come */
-    uint32_t thread_count;     /* from the desc, for questions about the scene; 0: facet_thread_count() */
+    uint32_t max_texture_size; /* from the desc, for decoding later */
+    uint32_t thread_count;     /* from the desc, for queries; 0: facet_thread_count() */
     uint32_t file_count;       /* files that arrays and images point into */
     file_bytes *files;
-    size_t
-        search_budget; /* entries of folders that may still be looked at for files that are named otherwise */
+    size_t search_budget; /* limit of folder entries to examine in searches for files with alike names */
 } facet_scene;
 
 /* An empty scene with its arena. */
 facet_result scene_create(const facet_allocator *allocator, const char *source, facet_scene **out,
                           facet_error *error);
 void scene_destroy(facet_scene *scene); /* NULL is allowed */
-/* Takes over an open file (leaves {0} in *file): closed with the scene. False: no memory, *file is as it was. */
+/* Takes ownership of an open file (leaves {0} in *file), which is closed with the scene. False: no memory, *file is
+ * unchanged. */
 bool scene_keep_file(facet_scene *scene, file_bytes *file);
-/* Index in scene->files of a file that is kept, by what the system knows it by; SCENE_NONE: it is not there. */
+/* Index in scene->files of an open file by device and inode; SCENE_NONE: none. */
 uint32_t scene_find_file(const facet_scene *scene, uint64_t device, uint64_t number);
-/* Remembers a file that will be closed, for scene_has_file(). False: no memory. */
+/* Records a file that will be closed, for scene_has_file(). False: no memory. */
 bool scene_note_file(facet_scene *scene, const file_bytes *file);
 /* facet_scene_has_file(): one of scene->files. */
 bool scene_has_file(const facet_scene *scene, const char *path);
-/* Appends to scene->warnings and tells log; the same text is kept once. */
+/* Appends to scene->warnings and sends the message to log; equal messages are kept once. */
 void scene_warn(facet_scene *scene, const facet_log *log, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-/* The same of scene->notes; log gets a detail. */
+/* The same for scene->notes; log gets FACET_LOG_LEVEL_DETAIL. */
 void scene_note(facet_scene *scene, const facet_log *log, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 /* Looks up scene->materials[index], or the default material for SCENE_NONE. */
@@ -409,33 +407,33 @@ facet_result scene_create_builtin(const facet_scene_desc *desc, facet_scene **ou
 facet_scene_counts scene_count(const facet_scene *scene);
 void scene_describe_json(const facet_scene *scene, struct text *out);
 
-/* ---- a scene at one moment, in world space: relative to the scene's origin ---- */
+/* ---- a scene at one point in time, in world space relative to the scene's origin ---- */
 
-/* One primitive where it is drawn. */
+/* One drawn primitive. */
 typedef struct scene_instance {
     const scene_primitive *primitive;
-    /* Before world: the primitive's, or the pose's own where is_deformed. */
+    /* In local space: the primitive's, or the pose's own if is_deformed. */
     const float *positions, *normals, *tangents;
-    float bounds_min[3], bounds_max[3]; /* of the positions that indices use */
-    /* By morph targets or a skin. A skin's vertices are in world space, and world is the identity, or a mirror in x
-     * where most of the joints mirror. */
+    float bounds_min[3], bounds_max[3]; /* of positions in use */
+    /* By morph targets or a skin. A skin's vertices are in world space, and world is the identity, or a reflection in
+     * x if most of the joints reflect. */
     bool is_deformed;
-    /* EXT_mesh_gpu_instancing: of the instance before it, which has the same node and primitive. */
+    /* EXT_mesh_gpu_instancing: a copy of the previous instance, with the same node and primitive. */
     bool is_copy;
-    uint32_t copy;     /* its number among the copies of the node, those that are not drawn included */
-    uint32_t material; /* with the variant; SCENE_NONE: the default material */
+    uint32_t copy;     /* its index among the copies of the node, including those that are not drawn */
+    uint32_t material; /* in the selected variant; SCENE_NONE: the default material */
     mat4 world;
     float normal_matrix[9]; /* cofactor matrix, rows; normalise after use; sign already such that a mirrored
                                 instance keeps outward normals */
     bool is_mirrored;       /* determinant < 0: winding is reversed */
-    bool is_unseen;         /* no camera sees anything of it: scene/unseen.h */
+    bool is_unseen;         /* invisible to every camera: scene/unseen.h */
     uint32_t node, mesh, primitive_index;
 } scene_instance;
 
 typedef struct scene_posed_light {
     scene_light light;
     float position[3];  /* m */
-    float direction[3]; /* unit, the way it shines */
+    float direction[3]; /* unit, the direction of emission */
     uint32_t node;
 } scene_posed_light;
 
@@ -446,32 +444,32 @@ typedef struct scene_posed_camera {
     uint32_t node;
 } scene_posed_camera;
 
-/* What one scene of the file shows at one moment. */
+/* The visible contents of one scene of the file at one point in time. */
 typedef struct scene_pose {
     uint32_t instance_count, light_count, camera_count;
     scene_instance *instances;
     scene_posed_light *lights;
     scene_posed_camera *cameras;
-    const scene_material *materials; /* the scene's, or copies where an animation changes some */
-    /* of all instances that can be seen (of all where none can), world space, exactly; 0: none */
+    const scene_material *materials; /* the scene's, or copies if an animation changes some */
+    /* of all visible instances (of all if none is visible), world space, exact; 0: none */
     float bounds_min[3], bounds_max[3];
     bool has_bounds;
-    bool is_unseen;                   /* all of it is */
-    void *deformed, *material_copies; /* what the pose owns */
+    bool is_unseen;                   /* all instances are unseen */
+    void *deformed, *material_copies; /* memory of the pose */
 } scene_pose;
 
-/* Evaluates what desc asks for (NULL: {0}). A file without scenes has one, number 0, of all its roots. Singular node
- * matrices draw nothing, and what they would put farther out than SCENE_FARTHEST. Fails with FACET_ERROR_ARGUMENT for
- * a scene, variant or animation that is not there and a time that is not finite, FACET_ERROR_LIMIT above 2^22
- * instances or 2^27 vertices that are deformed, FACET_ERROR_MEMORY. */
+/* Evaluates desc (NULL: {0}). A file without scenes has one, number 0, of all its roots. Instances with singular
+ * matrices, or beyond SCENE_FARTHEST, are left out. Fails with FACET_ERROR_ARGUMENT for an unknown scene, variant or
+ * animation and a time that is not finite, FACET_ERROR_LIMIT above 2^22 instances or 2^27 deformed vertices,
+ * FACET_ERROR_MEMORY. */
 facet_result scene_pose_create(const facet_scene *scene, const facet_pose_desc *desc,
                                const facet_allocator *allocator, uint32_t thread_count, scene_pose *pose,
                                facet_error *error);
 void scene_pose_destroy(scene_pose *pose); /* {0} is allowed */
-/* Which of the file's scenes desc asks for; FACET_ERROR_ARGUMENT where that or the variant is not there. */
+/* The scene that desc selects; FACET_ERROR_ARGUMENT if that or the variant does not exist. */
 facet_result scene_pose_check(const facet_scene *scene, const facet_pose_desc *desc, uint32_t *index,
                               facet_error *error);
-/* The material of an instance, as it is at that moment. */
+/* The material of an instance at that time. */
 const scene_material *scene_pose_material(const facet_scene *scene, const scene_pose *pose,
                                           const scene_instance *instance);
 
@@ -480,21 +478,21 @@ const scene_material *scene_pose_material(const facet_scene *scene, const scene_
 /* facet_orbit_default(). */
 facet_orbit scene_orbit_default(void);
 
-/* facet_camera_from_orbit() for a pose that is there (it may draw nothing): for that one, whatever fits_all_times says.
- * The distance is exact: at radius_scale 1 the outermost vertex is on the border of the picture. Fails with
- * FACET_ERROR_ARGUMENT for numbers that are no camera. */
+/* facet_camera_from_orbit() for an existing pose, which may be empty; fits_all_times is ignored. The distance is
+ * exact: at radius_scale 1 the outermost vertex is on the border of the image. Fails with FACET_ERROR_ARGUMENT for
+ * invalid values. */
 facet_result scene_fit_pose(const facet_scene *scene, const scene_pose *pose, const facet_orbit *orbit,
                             float aspect, uint32_t thread_count, facet_camera *camera, facet_error *error);
-/* facet_camera_from_orbit(). Where the orbit fits all times, the motion is looked at at every key of the animations
- * and 24 times per second, or at SCENE_FIT_TIMES even steps where that would be more. */
+/* facet_camera_from_orbit(). If the orbit fits all times, the motion is sampled at every key of the animations and 24
+ * times per second, or at SCENE_FIT_TIMES even steps if there would be more. */
 enum { SCENE_FIT_TIMES = 256 };
 facet_result scene_fit_orbit(const facet_scene *scene, const facet_pose_desc *desc, const facet_orbit *orbit,
                              float aspect, facet_camera *camera, facet_error *error);
 
 /* ---- derived attributes ---- */
 
-/* Tangents for a triangle primitive that has normals and texcoord set uv_set, compatible with MikkTSpace
- * (Mikkelsen 2008): one per index, so out has 4 * index_count floats, corner by corner. */
+/* Tangents for a triangle primitive with normals and texcoord set uv_set, compatible with MikkTSpace (Mikkelsen
+ * 2008): one per index, so that out has 4 * index_count floats, corner by corner. */
 facet_result scene_generate_tangents(const scene_primitive *primitive, uint32_t uv_set,
                                      const facet_allocator *allocator, float *out, facet_error *error);
 

@@ -1,4 +1,4 @@
-/* sphere.h - a ball to show a material on. */
+/* sphere.h - a sphere that shows a material. */
 #ifndef SCENE_SPHERE_H
 #define SCENE_SPHERE_H
 

@@ -1,11 +1,12 @@
-/* unit.h - directions made unit again. */
+/* unit.h - normalization of directions. */
 #ifndef SCENE_UNIT_H
 #define SCENE_UNIT_H
 
 #include <math.h>
 #include <stdbool.h>
 
-/* v over its length, in double: tiny and huge vectors keep their direction. False: it has none; out is as it was. */
+/* v over its length, in double, so that tiny and huge vectors keep their direction. False: length 0, out is
+ * unchanged. */
 static inline bool unit_from_double(const double v[3], float out[3])
 {
     double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
@@ -16,7 +17,7 @@ static inline bool unit_from_double(const double v[3], float out[3])
     return true;
 }
 
-/* v over its length; otherwise where it has no direction. */
+/* v over its length; `otherwise` for length 0. */
 static inline void unit_or(const float v[3], const float otherwise[3], float out[3])
 {
     float length2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];

@@ -1,5 +1,5 @@
-/* vertex_tree.h - the vertices of a primitive in nested boxes, to find by branch and bound those that are the farthest in
- * some sense: many instances of one primitive cost a few vertices each instead of all of them. */
+/* vertex_tree.h - a bounding volume hierarchy of a primitive's vertices, to find the extreme ones by branch and
+ * bound: many instances of one primitive cost a few vertices each instead of all of them. */
 #ifndef SCENE_VERTEX_TREE_H
 #define SCENE_VERTEX_TREE_H
 
@@ -11,7 +11,7 @@ typedef struct vertex_node {
     uint32_t right;      /* the second child, the first one is the next node; 0: a leaf */
 } vertex_node;
 
-/* Vertices of a leaf, four beside each other for loops over whole vectors; the last block repeats its last vertex. */
+/* Vertices of a leaf, transposed in groups of four for vectorized loops; the last block repeats its last vertex. */
 enum { VERTEX_LANES = 4 };
 typedef struct vertex_block {
     float xyz[3][VERTEX_LANES];
@@ -23,12 +23,12 @@ typedef struct vertex_tree {
     vertex_block *blocks;
 } vertex_tree;
 
-/* Of the positions that the indices of p use, without triangles that have no area. False: no memory, or no vertices. */
+/* The positions that the indices of p use, without degenerate triangles. False: no memory, or no vertices. */
 bool vertex_tree_create(const scene_primitive *p, const facet_allocator *allocator, vertex_tree *out);
 void vertex_tree_destroy(vertex_tree *tree); /* {0} is allowed; leaves {0} */
 
-/* What is looked for. gain() is the most that a vertex in a box (of the primitive, before world) could bring beyond what was
- * found; not above 0: nothing. */
+/* A search. gain(): an upper bound of what the vertices in a box (of the primitive, before world) can add to the
+ * result; <= 0: nothing. */
 typedef struct vertex_visitor {
     void *context;
     double (*gain)(void *context, const box *bounds);
@@ -36,8 +36,8 @@ typedef struct vertex_visitor {
 } vertex_visitor;
 void vertex_tree_visit(const vertex_tree *tree, const vertex_visitor *visitor);
 
-/* The trees of primitives that several instances of a pose share: made when so many of them were looked at in full that it
- * pays. {0}: none yet. */
+/* Trees of the primitives of a pose, built once enough instances of a primitive were examined in full for it to pay.
+ * {0}: none yet. */
 typedef struct vertex_trees {
     const facet_scene *scene;
     const facet_allocator *allocator;
@@ -51,8 +51,7 @@ typedef struct vertex_trees {
 } vertex_trees;
 
 void vertex_trees_destroy(vertex_trees *trees);
-/* The tree to look for vertices of an instance in; NULL: its vertices are to be gone through one by one. Call it once for an
- * instance that is looked at. */
+/* The tree for an instance; NULL: examine all vertices. Call it once per examined instance. */
 const vertex_tree *vertex_trees_get(vertex_trees *trees, const scene_instance *instance);
 
 #endif
