@@ -1,4 +1,4 @@
-/* main.c - facet VERB ...: finds the verb, parses its options, runs it. */
+/* main.c - finds the verb, parses its options, runs it. */
 #include "cli/help/generate.h"
 #include "cli/help/help.h"
 #include "cli/shared/command_line.h"
@@ -23,13 +23,13 @@ static const struct {
 #undef VERB
 };
 
-/* Whether a word in the place of the verb is rather a file. */
+/* Whether the word in place of the verb is a file. */
 static bool looks_like_file(const char *word)
 {
     return strchr(word, '.') || strchr(word, '/') || output_exists(word);
 }
 
-/* Whether it is a picture of light rather than a model. */
+/* Whether the word is an environment instead of a model. */
 static bool looks_like_light(const char *word)
 {
     static const char *const extensions[] = {"hdr", "exr", "ktx2", "pfm"};
@@ -40,7 +40,7 @@ static bool looks_like_light(const char *word)
     return false;
 }
 
-/* Whether the words ask for JSON, as far as they can be understood. */
+/* Whether the words contain --json, before they are parsed. */
 static bool wants_json(int argc, char **argv)
 {
     for (int i = 0; i < argc && strcmp(argv[i], "--") != 0; i++)
@@ -49,7 +49,7 @@ static bool wants_json(int argc, char **argv)
     return false;
 }
 
-/* Reports a command line that cannot be run, on standard output, too, where JSON was asked for. Returns the exit code. */
+/* Reports a wrong command line, with --json also on standard output. Returns the exit code. */
 static int refuse(int argc, char **argv, const facet_error *error)
 {
     int exit_code = exit_code_of(error->result);
@@ -59,7 +59,7 @@ static int refuse(int argc, char **argv, const facet_error *error)
     return exit_code;
 }
 
-/* One sentence, or two lines, for a first word that is no verb. */
+/* Explains a first word that is not a verb. */
 static int explain_verb(const char *word, int argc, char **argv)
 {
     const char *near = suggest_verb(word);
@@ -91,7 +91,7 @@ static int explain_verb(const char *word, int argc, char **argv)
     return refuse(argc, argv, &error);
 }
 
-/* Hidden: what the build makes from the option table. */
+/* Hidden options of the build: man pages and completions. */
 static int generate(const char *what, const char *name)
 {
     const verb *v = verb_find(name);
@@ -118,7 +118,7 @@ static int run_verb(const verb *v, int argc, char **argv)
         help_print_verb(stdout, v, is_given(&line, OPT_HELP_ALL));
         exit_code = EXIT_DONE;
     } else {
-        if (strcmp(v->name, "view") != 0) /* a window is closed by its own means */
+        if (strcmp(v->name, "view") != 0) /* the window handles signals itself */
             interrupt_install(is_given(&line, OPT_JSON));
         for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
             if (strcmp(commands[i].name, v->name) == 0)
@@ -153,9 +153,9 @@ int main(int argc, char **argv)
     int exit_code = run(argc, argv);
     facet_error error;
     bool is_written = output_close_stdout(&error) == FACET_OK;
-    if (!is_written && interrupt_signal()) /* nobody reads it any longer */
+    if (!is_written && interrupt_signal()) /* the reader has gone */
         return interrupt_exit();
-    if (!is_written && exit_code != EXIT_WRITE) { /* which was told already */
+    if (!is_written && exit_code != EXIT_WRITE) { /* already reported */
         message_error("%s", error.message);
         if (exit_code == EXIT_DONE)
             exit_code = EXIT_WRITE;

@@ -18,7 +18,7 @@
 
 #define HALF_PI 1.57079632679489662f
 
-/* A layout being added: the first failure is kept. */
+/* State of a layout being added, with the first failure. */
 typedef struct adding {
     const bake_options *options;
     const char *folder;
@@ -56,7 +56,7 @@ static uint32_t add_cube(adding *a, facet_lobe lobe, uint32_t size, uint32_t lev
     return bake_plan_add_cube(a->plan, &desc, a->options->is_verified && lobe != FACET_LOBE_NONE);
 }
 
-/* Six faces of a level: m3_px.hdr, or px.hdr where the level has no number. */
+/* Adds the six faces of a level: m3_px.hdr, or px.hdr without a level number. */
 static void add_faces(adding *a, uint32_t cube_index, uint32_t level, bool has_number,
                       bake_container container, bool is_mirrored)
 {

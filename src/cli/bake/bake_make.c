@@ -22,7 +22,7 @@ float bake_file_limit(const bake_file *file)
                                     [FACET_TEXEL_FORMAT_RGBA32F] = 0.0f};
     if (file->container == CONTAINER_KTX2)
         return file->texels < sizeof largest / sizeof *largest ? largest[file->texels]
-                                                               : 0.0f; /* r, rg: tables */
+                                                               : 0.0f; /* r, rg: of tables */
     return file->container == CONTAINER_KTX1 ? 64512.0f : file->container == CONTAINER_EXR ? 65504.0f : 0.0f;
 }
 
@@ -49,7 +49,7 @@ double bake_cut_share(const facet_cube *cube, uint32_t level, float limit)
 
 /* ---- text ---- */
 
-/* Text that grows; free(data) releases it. {0} starts it. */
+/* A growing text; release it with free(data). {0} initially. */
 typedef struct bake_text {
     char *data;
     size_t size, capacity;
@@ -210,7 +210,7 @@ static facet_image_save_desc save_desc(const bake_making *m, facet_image_format 
         .allocator = m->allocator, .thread_count = m->options->limits.thread_count, .format = format};
 }
 
-/* A picture as its container has it; with --rgbm PNG is RGBM. */
+/* Encodes an image in its container; with --rgbm PNG is RGBM. */
 static facet_result encode_picture(const bake_making *m, const facet_image *picture, bake_file *file,
                                    facet_error *error)
 {
@@ -316,7 +316,7 @@ static const char *table_meaning(facet_dfg_kind kind)
     return meanings[kind];
 }
 
-/* What PNG's sRGB encoding turns into the table's numbers, in the channels where they are wanted. */
+/* Inverts PNG's sRGB encoding, so that the file holds the table's values, in the channels that it has. */
 static void linear_row(int channel, const float *from, float *to, uint32_t width)
 {
     for (size_t i = 0; i < (size_t)width * 4; i += 4)

@@ -1,4 +1,4 @@
-/* bake_options.c - what facet bake is asked for. Names of outputs are bake_plan.c's. */
+/* bake_options.c - see bake_options.h. bake_plan.c checks the names of outputs. */
 #include "cli/bake/bake_options.h"
 
 #include "cli/shared/failure.h"
@@ -10,8 +10,8 @@
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
-/* Levels down to least texels, at least one. */
-/* Levels down to the size least, but five where there are as many. */
+/* Number of mip levels down to least texels, at least one. */
+/* Number of mip levels down to size least, but five if there are as many. */
 static uint32_t count_levels(uint32_t size, uint32_t least)
 {
     uint32_t count = 1;
@@ -30,7 +30,7 @@ static const char *name_of(const command_line *c, option_id id)
     return option_find_id(c->verb, id)->name;
 }
 
-/* FACET_ERROR_ARGUMENT for the first of ids that is given: "--lobe: it says nothing WHY". */
+/* FACET_ERROR_ARGUMENT for the first given option of ids: "--lobe: it has no effect WHY". */
 static facet_result refuse(const command_line *c, const option_id *ids, size_t count, const char *why,
                            facet_error *error)
 {
@@ -248,7 +248,7 @@ static facet_result check_layout(const command_line *c, const bake_options *o, f
     return refuse(c, idle, COUNT(idle), why[o->layout], error);
 }
 
-/* Standard output takes one file, of which --format says what it is. */
+/* Standard output takes one file, in the format of --format. */
 static facet_result check_stdout(const command_line *c, const bake_options *o, facet_error *error)
 {
     const char *const side[] = {o->diffuse, o->sheen, o->sh, o->preview};

@@ -1,4 +1,4 @@
-/* bake_options.h - what facet bake is asked for. */
+/* bake_options.h - the checked options of facet bake. */
 #ifndef CLI_BAKE_OPTIONS_H
 #define CLI_BAKE_OPTIONS_H
 
@@ -13,7 +13,7 @@ typedef enum bake_layout {
     BAKE_LAYOUT_THREE
 } bake_layout;
 
-/* What a file is; FROM_NAME: as its extension says. */
+/* Type of a file; FROM_NAME: by its extension. */
 typedef enum bake_container {
     CONTAINER_FROM_NAME,
     CONTAINER_KTX2,
@@ -33,12 +33,12 @@ typedef enum bake_container {
 typedef struct bake_options {
     /* environment; nothing with --dfg */
     environment_input environment;
-    const char *word; /* that environment is, as it was given */
+    const char *word; /* the environment as given */
     const char *faces[6];
     bool has_faces; /* six INPUTs */
     facet_layout input_layout;
 
-    /* outputs; NULL: not wanted. No output at all: one with a name of its own */
+    /* outputs; NULL: none. Without any, one with a default name is written */
     const char *output, *diffuse, *sheen, *sh, *preview;
     bake_layout layout;
     bake_container container; /* of output */
@@ -69,7 +69,7 @@ typedef struct bake_options {
 /* Reads and checks the command line; strings stay with it. FACET_ERROR_ARGUMENT. */
 facet_result bake_options_read(const command_line *c, bake_options *out, facet_error *error);
 
-/* How messages call the environment; "dfg" for a table. */
+/* Name of the environment in messages; "dfg" for a table. */
 const char *bake_input_name(const bake_options *o);
 
 #endif

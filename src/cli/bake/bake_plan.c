@@ -1,4 +1,4 @@
-/* bake_plan.c - which cube maps facet bake makes and which files become of them. */
+/* bake_plan.c - the cube maps and files of facet bake. */
 #define _DEFAULT_SOURCE
 #include "cli/bake/bake_plan.h"
 
@@ -78,7 +78,7 @@ static facet_result add(bake_plan *plan, const char *path, const bake_file *what
                                                 : fail(error, FACET_ERROR_MEMORY, "out of memory: names");
 }
 
-/* The pictures of a cube map: one per level, or six. */
+/* Adds the images of a cube map: one per level, or six. */
 static facet_result add_pictures(const bake_options *o, bake_plan *plan, const char *pattern,
                                  const char *stem, bake_file what, facet_error *error)
 {
@@ -86,7 +86,7 @@ static facet_result add_pictures(const bake_options *o, bake_plan *plan, const c
     const bool has_faces =
         o->has_projection ? o->projection == FACET_LAYOUT_FACES : bake_name_has_face(pattern);
     const bool is_stdout = strcmp(pattern, "-") == 0;
-    const bool is_one_level = level_count > 1 && o->level >= 0; /* --level; irradiance has one anyway */
+    const bool is_one_level = level_count > 1 && o->level >= 0; /* --level; irradiance has one level anyway */
     const bool has_levels = level_count > 1 && !is_one_level;
     facet_result result = FACET_OK;
     if (is_stdout && (has_levels || has_faces))
@@ -114,12 +114,12 @@ static facet_result add_pictures(const bake_options *o, bake_plan *plan, const c
     return result;
 }
 
-/* A cube map that is to be written to pattern. */
+/* Adds a cube map and its files by pattern. */
 typedef struct wanted_cube {
     const char *option; /* "--diffuse" */
     const char *pattern;
     facet_bake_desc desc;
-    bool is_main; /* --format says what it is */
+    bool is_main; /* the format is that of --format */
 } wanted_cube;
 
 static facet_result check_container(const bake_options *o, const wanted_cube *w, bake_container container,
@@ -168,7 +168,7 @@ static facet_result add_cube_files(const bake_options *o, bake_plan *plan, const
     return add(plan, name, &what, error);
 }
 
-/* --sh and --preview. */
+/* Adds the files of --sh and --preview. */
 static facet_result add_one(bake_plan *plan, const char *place, const char *pattern, const char *stem,
                             const char *expected, bake_container first, bake_container last, bake_file what,
                             facet_error *error)
@@ -247,7 +247,7 @@ static facet_result add_table(const bake_options *o, bake_plan *plan, const char
     return add(plan, path, &what, error);
 }
 
-/* What outputs are called after. */
+/* The stem of default names. */
 static bool find_stem(const bake_options *o, char *stem, size_t size)
 {
     const char *name = o->is_table ? "dfg" : o->has_faces ? "cube" : bake_input_name(o);
@@ -256,7 +256,7 @@ static bool find_stem(const bake_options *o, char *stem, size_t size)
     return output_name_stem(name, stem, size);
 }
 
-/* Refuses names with {words} that stand for nothing, and the name of a file where a folder is filled. */
+/* Refuses names with unknown placeholders, and the name of a file for --layout. */
 static facet_result check_patterns(const bake_options *o, facet_error *error)
 {
     const struct {
@@ -317,7 +317,7 @@ const char *bake_plan_subject(const bake_plan *plan)
 
 /* ---- checks ---- */
 
-/* A folder that is there and open, or one above it in which it can be made. */
+/* Checks that a folder exists and is writable, or can be created. */
 static facet_result check_folder(const char *folder, facet_error *error)
 {
     struct stat info;
@@ -334,7 +334,7 @@ static facet_result check_folder(const char *folder, facet_error *error)
     size_t length = strlen(above);
     while (length > 1 && above[length - 1] == '/')
         above[--length] = 0;
-    return output_check(above, error); /* as if it were a file */
+    return output_check(above, error); /* checked like a file */
 }
 
 static bool is_read(const command_line *c, const bake_options *o, const char *path)
@@ -353,7 +353,7 @@ static int compare_identities(const void *a, const void *b)
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-/* No file under two names. */
+/* Refuses two outputs that are the same file. */
 static facet_result check_twice(const bake_plan *plan, facet_error *error)
 {
     char **identities = calloc(plan->file_count + 1, sizeof *identities);
@@ -375,7 +375,7 @@ static facet_result check_twice(const bake_plan *plan, facet_error *error)
     return result;
 }
 
-/* Cube maps of which all files are kept need not be baked. */
+/* Drops cube maps whose files are all kept. */
 static void drop_idle_cubes(bake_plan *plan)
 {
     for (uint32_t i = 0; i < plan->cube_count; i++) {
@@ -390,7 +390,7 @@ static void drop_idle_cubes(bake_plan *plan)
     }
 }
 
-/* Options of a kind of file of which there is none. */
+/* Refuses options of a file type that is not written. */
 static facet_result check_idle_options(const command_line *c, const bake_plan *plan, facet_error *error)
 {
     bool has_picture = false, has_png = false, has_ktx2 = false, has_sh = false;

@@ -78,7 +78,7 @@ typedef struct bake_run {
     bake_options options;
     bake_plan plan;
     facet_environment *environment;
-    facet_environment_info info; /* .width 0: nothing was read */
+    facet_environment_info info; /* .width 0: none was read */
     progress shown;
     bool is_written;
 } bake_run;
@@ -119,7 +119,7 @@ static facet_result load(bake_run *run, facet_error *error)
 
 /* ---- baking ---- */
 
-/* Seconds that steps take, roughly and in relation to each other, for the bar. */
+/* Approximate relative times of the steps, for the progress bar. */
 typedef enum bake_step { STEP_BAKE, STEP_VERIFY, STEP_TABLE, STEP_SHEET } bake_step;
 
 static double cost_of(bake_step step, const facet_bake_desc *desc)
@@ -147,7 +147,7 @@ static double whole_cost(const bake_plan *plan)
     return sum > 0.0 ? sum : 1.0;
 }
 
-/* The part of the bar that the next step fills. */
+/* Advances the progress to the next step. */
 static facet_progress next_step(bake_run *run, bake_step step, const facet_bake_desc *desc)
 {
     run->shown.done_before += run->shown.share;
@@ -163,7 +163,7 @@ static void report_clamped(bake_run *run, const bake_cube *baked)
                    bake_input_name(&run->options), (double)baked->desc.clamp, 100.0 * stats.clamped_share);
 }
 
-/* Light that a file cannot hold is lost; a sun in its own unit is most of the light there is. */
+/* Warns of light that exceeds a file's format: a sun in physical units is most of the light. */
 static void warn_of_cut(bake_run *run, const bake_file *file)
 {
     const float limit = bake_file_limit(file);
@@ -247,7 +247,7 @@ static facet_result make_files(bake_run *run, facet_error *error)
     return result;
 }
 
-/* All that is to be written, in memory: nothing is on the disk until all of it is there. */
+/* Bakes and encodes all files in memory; nothing is written until all are complete. */
 static facet_result bake(bake_run *run, facet_error *error)
 {
     const bool has_bar = run->shown.mode == PROGRESS_BAR;
@@ -304,7 +304,7 @@ static void add_json(const verb_run *base, json_t *root)
     json_decref(report);
 }
 
-/* The table of --verify, and whether --max-error holds. */
+/* Prints the table of --verify and checks --max-error. */
 static bool report_errors(const bake_run *run)
 {
     const bake_options *o = &run->options;

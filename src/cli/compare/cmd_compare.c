@@ -1,4 +1,4 @@
-/* cmd_compare.c - facet compare: how far two pictures are apart. */
+/* cmd_compare.c - facet compare: metrics of two images. */
 #include "cli/shared/options.h"
 
 #include "cli/compare/compare_metrics.h"
@@ -173,7 +173,7 @@ static facet_image_view picture(const facet_image *image)
     return facet_image_get_layer(image, 0);
 }
 
-/* Loads a picture; where it is not the first one it has to be as large. */
+/* Loads an image, which must have the size of the first one. */
 static facet_result load(compare_run *run, const char *path, const char *layer, facet_image **image,
                          facet_error *error)
 {
@@ -210,7 +210,7 @@ static facet_result load_all(compare_run *run, facet_error *error)
     return FACET_OK;
 }
 
-/* What a reader of the numbers should know. */
+/* Warns of mixed color spaces and non-finite pixels. */
 static void warn(compare_run *run)
 {
     const facet_comparison *c = &run->comparison;
@@ -281,7 +281,7 @@ static void add_json(const verb_run *base, json_t *root)
     json_object_set_new(root, "output", report_string_json(run->is_written ? run->output : NULL));
 }
 
-/* Numbers for people: asked for, or there is nothing else to say. */
+/* Prints the numbers if they are requested, or if there are no limits. */
 static void print_table(const compare_run *run)
 {
     const command_line *c = run->base.line;
@@ -294,7 +294,7 @@ static void print_table(const compare_run *run)
     fflush(stdout);
 }
 
-/* One sentence where a limit does not hold. */
+/* Reports limits that do not hold in one sentence. */
 static void check_limits(compare_run *run)
 {
     const char *const *names = run->base.line->arguments;

@@ -72,7 +72,7 @@ static facet_result set_limit(compare_wish *w, int metric, bool is_max, double l
     return FACET_OK;
 }
 
-/* The metric that a bare number limits: the only one that is asked for. */
+/* The metric of a limit without a name: the only one of --metric. */
 static facet_result only_metric(const compare_wish *w, const char *label, const char *text, int *metric,
                                 facet_error *error)
 {
@@ -128,7 +128,7 @@ facet_result compare_wish_read(const command_line *c, compare_wish *out, facet_e
     for (const char *at = option_text(c, OPT_METRIC, NULL); at && *at; at += *at == ',') {
         const size_t length = strcspn(at, ",");
         const int metric = find_metric(at, length);
-        if (metric >= 0) /* the option table has checked it */
+        if (metric >= 0) /* checked by the option table */
             out->is_chosen[metric] = out->has_choice = true;
         at += length;
     }
@@ -157,12 +157,12 @@ bool compare_limit_holds(const compare_wish *w, int metric, double value)
     const compare_limit *l = &w->limits[metric];
     if (compare_metrics[metric].is_similarity)
         return !l->has_min || value >= l->min;
-    return !l->has_max || fabs(value) <= l->max; /* of a bias, either way */
+    return !l->has_max || fabs(value) <= l->max; /* the magnitude of a bias */
 }
 
 /* ---- reports ---- */
 
-/* A value with six digits; counts to the last one. */
+/* Formats a value with six digits; counts in full. */
 static void format_value(const facet_comparison *c, int metric, char text[32])
 {
     const double value = compare_metric_value(c, metric);

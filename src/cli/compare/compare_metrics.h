@@ -1,4 +1,4 @@
-/* compare_metrics.h - the metrics of facet compare by name, and limits on them. */
+/* compare_metrics.h - the metrics of facet compare, limits on them, and their report. */
 #ifndef CLI_COMPARE_METRICS_H
 #define CLI_COMPARE_METRICS_H
 
@@ -10,9 +10,9 @@ enum { COMPARE_METRIC_COUNT = 20 };
 
 typedef struct compare_metric {
     const char *name;
-    bool is_similarity;  /* the larger, the more alike */
-    unsigned skip;       /* FACET_METRIC_* that it needs; 0: it is always measured */
-    bool is_in_table;    /* is printed where no --metric is given */
+    bool is_similarity;  /* grows with similarity */
+    unsigned skip;       /* FACET_METRIC_* that it needs; 0: always measured */
+    bool is_in_table;    /* printed without --metric */
     const char *meaning; /* for people */
 } compare_metric;
 
@@ -26,7 +26,7 @@ typedef struct compare_limit {
     double max, min;
 } compare_limit;
 
-/* What is printed, and what is not to be exceeded. */
+/* Metrics to print, and limits. */
 typedef struct compare_wish {
     bool is_chosen[COMPARE_METRIC_COUNT]; /* by --metric */
     bool has_choice, has_limits;
@@ -35,20 +35,20 @@ typedef struct compare_wish {
 
 /* Reads --metric, --max and --min. Fails with FACET_ERROR_ARGUMENT. */
 facet_result compare_wish_read(const command_line *c, compare_wish *out, facet_error *error);
-/* The metrics that need not be measured, for facet_compare_desc. */
+/* The metrics to skip, for facet_compare_desc. */
 uint32_t compare_wish_skipped(const compare_wish *w);
 
-/* Whether the limits on a metric hold; those on what was not measured do not. */
+/* Whether the limits of a metric hold; those of unmeasured metrics do not. */
 bool compare_limit_holds(const compare_wish *w, int metric, double value);
 
-/* Prints the metrics that are wished for, or the main ones. */
+/* Prints the chosen metrics, or the main ones. */
 void compare_report_table(FILE *stream, const compare_wish *wish, const facet_comparison *c,
                           bool has_percentile);
 
-/* "flip 0.051 is more than 0.02, .." of the limits that do not hold; "" where all do. */
+/* Writes "flip 0.051 is more than 0.02, .." for the limits that do not hold; "" if all hold. */
 void compare_report_failures(const compare_wish *wish, const facet_comparison *c, char *text, size_t size);
 
-/* Members of the result: space, size, metrics, limits; NULL: no memory. Numbers that JSON lacks are null. */
+/* Members of the JSON object: space, size, metrics, limits; NULL: no memory. NaN and infinity are null. */
 json_t *compare_report_json(const compare_wish *wish, const facet_comparison *c);
 
 #endif

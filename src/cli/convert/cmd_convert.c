@@ -1,4 +1,4 @@
-/* cmd_convert.c - facet convert: models in another form, one after the other. */
+/* cmd_convert.c - facet convert: converts models, in order. */
 #include "cli/shared/options.h"
 
 #include "cli/convert/convert_names.h"
@@ -14,10 +14,10 @@
 
 /* ---- reports ---- */
 
-/* The last conversion of a scene. */
+/* Totals of the last conversion of a scene. */
 typedef struct conversion_totals {
     uint32_t count, grades[FACET_CONVERSION_GRADE_BAD + 1];
-    uint32_t measured; /* materials that have an error */
+    uint32_t measured; /* materials with an error */
     double mean_error, mean_display, mean_drawn;
     facet_conversion worst; /* by the graded error */
 } conversion_totals;
@@ -206,7 +206,7 @@ typedef struct convert_run {
 
 /* ---- one model ---- */
 
-/* Materials in the form that the output has, or that was asked for. */
+/* Converts the materials to those of the output format, or of --materials. */
 static facet_result convert_materials(convert_run *run, facet_scene *scene, const facet_legacy_desc *desc,
                                       facet_error *error)
 {
@@ -250,7 +250,7 @@ static facet_result save(convert_run *run, const model_name *model, const facet_
     return result;
 }
 
-/* Materials whose error on a screen is larger than --max-error. */
+/* Number of materials with a graded error above --max-error. */
 static uint32_t count_large_errors(const convert_run *run, const facet_scene *scene)
 {
     uint32_t count = 0;
@@ -320,7 +320,7 @@ static facet_result convert_model(convert_run *run, const model_name *model, fac
 
 /* ---- the run ---- */
 
-/* Whether another model has the same output: neither is converted, and the others are. */
+/* Fails if another model has the same output: neither is converted. */
 static facet_result check_clash(const convert_run *run, size_t i, facet_error *error)
 {
     char name[CONVERT_NAME_SIZE];

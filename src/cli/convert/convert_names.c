@@ -32,7 +32,7 @@ static bool find_format(const char *name, model_format *format)
 
 static facet_result read_format(const command_line *c, convert_names *out, facet_error *error)
 {
-    /* the order of the choices of --to */
+    /* in the order of --to's choices */
     static const model_format choices[] = {MODEL_GLB, MODEL_GLTF, MODEL_OBJ, MODEL_OBJ, MODEL_OGL1};
     static const char *const files[] = {
         "a .glb file", "a .gltf file", "an .obj file", "an .obj file, the .mtl beside it",

@@ -1,4 +1,4 @@
-/* convert_names.h - what facet convert reads and what it writes. */
+/* convert_names.h - inputs and outputs of facet convert. */
 #ifndef CLI_CONVERT_NAMES_H
 #define CLI_CONVERT_NAMES_H
 
@@ -11,24 +11,23 @@ typedef enum model_format { MODEL_GLB, MODEL_GLTF, MODEL_OBJ, MODEL_OGL1 } model
 
 typedef struct convert_names {
     model_list models;
-    const char *output; /* pattern with {stem} or the like, or a name */
+    const char *output; /* a name, or a pattern with placeholders */
     const char *report; /* the same; NULL: none */
     model_format format;
     bool is_html; /* of the report */
     bool keeps_existing;
 } convert_names;
 
-/* MODEL NEW, or MODEL... with --output. Checks before any work that the outputs can be written and replace nothing that
- * is read, and finds models whose outputs would have one name. Fails as model_list_create(), and with
- * FACET_ERROR_ARGUMENT, _WRITE. */
+/* Reads MODEL NEW, or MODEL... with --output. Checks before any work that the outputs can be written and overwrite no
+ * input, and finds models with the same output. Fails as model_list_create(), and with FACET_ERROR_ARGUMENT, _WRITE. */
 facet_result convert_names_read(command_line *c, convert_names *out, facet_error *error);
 void convert_names_destroy(convert_names *n); /* {0} is allowed */
 
-/* The output for a model; report: the report for it. Fails with FACET_ERROR_ARGUMENT where it is too long. */
+/* The output of a model, or its report. Fails with FACET_ERROR_ARGUMENT if it is too long. */
 facet_result convert_name(const convert_names *n, const model_name *model, bool report,
                           char name[CONVERT_NAME_SIZE], facet_error *error);
 
-/* Whether that format has materials of OpenGL 1. */
+/* Whether the format has OpenGL 1 materials. */
 static inline bool format_is_legacy(model_format format)
 {
     return format == MODEL_OBJ || format == MODEL_OGL1;

@@ -46,7 +46,7 @@ static const struct {
 };
 enum { DOCUMENT_COUNT = sizeof documents / sizeof *documents };
 
-/* Whether a word of text begins with that one: "ground" is not in "background". */
+/* Whether a word in text begins with word: "ground" is not in "background". */
 static bool has_word(const char *text, const char *word)
 {
     for (const char *at = text; (at = strcasestr(at, word)); at++)
@@ -57,7 +57,7 @@ static bool has_word(const char *text, const char *word)
 
 /* ---- documents ---- */
 
-/* The folder of installed documents, found from where the command is; "": they are not there. */
+/* The folder of the installed documents, relative to the command; "": not installed. */
 static void find_documents(char *folder, size_t size)
 {
     char command[3072];
@@ -103,7 +103,7 @@ static void help_print_documents(FILE *stream)
 
 /* ---- options ---- */
 
-/* The verbs whose table has o, or an option of the same name and text. */
+/* The verbs with o, or with an option of the same name and help. */
 static size_t find_verbs(const option *o, const verb *found[MAX_VERBS])
 {
     size_t count = 0;
@@ -132,7 +132,7 @@ static void print_option_of(FILE *stream, const option *o)
 
 typedef bool option_test(const option *o, const char *word);
 
-/* Prints the options that pass, each text once. */
+/* Prints the options that pass, each description once. */
 static size_t print_options(FILE *stream, option_test *passes, const char *word)
 {
     size_t printed = 0;
@@ -243,7 +243,7 @@ static int search(const char *word)
     return EXIT_USAGE;
 }
 
-/* Of a word that is neither a command nor a topic. */
+/* Explains a word that is neither a command nor a topic. */
 static int explain_word(const char *word)
 {
     if (help_print_option(stdout, word))

@@ -8,8 +8,8 @@
 #include <ctype.h>
 #include <string.h>
 
-/* Text as roff: backslashes and dashes are escaped (a plain - may become a typographic hyphen, which cannot be
- * copied into a shell), and a line does not begin with a request. */
+/* Prints text as roff: with escaped backslashes and dashes (a plain - may become a typographic hyphen, which shells
+ * do not accept), and without a request at the start of a line. */
 static void print_inline(FILE *stream, const char *text)
 {
     bool is_line_start = true;
@@ -52,7 +52,7 @@ static void print_upper(FILE *stream, const char *text)
         fputc(toupper((unsigned char)*text), stream);
 }
 
-/* Text in bold, within a line. */
+/* Prints bold text within a line. */
 static void print_bold(FILE *stream, const char *text)
 {
     fputs("\\fB", stream);
@@ -284,7 +284,7 @@ static void print_bash(FILE *stream)
 
 /* ---- zsh: _arguments with a specification per option ---- */
 
-/* Text inside [..] of a specification in single quotes: brackets and colons mean something there. */
+/* Prints text inside [..] of a single-quoted specification, where brackets and colons are special. */
 static void zsh_text(FILE *stream, const char *text)
 {
     for (; *text; text++) {

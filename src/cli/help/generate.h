@@ -1,4 +1,4 @@
-/* generate.h - what the build makes of the table of options: man pages and completions. */
+/* generate.h - man pages and completions from the table of options, for the build. */
 #ifndef CLI_GENERATE_H
 #define CLI_GENERATE_H
 
@@ -6,10 +6,10 @@
 #include <stdio.h>
 #include <stdbool.h>
 
-/* facet-VERB(1); v NULL: facet(1). version is "0.2.0". */
+/* Prints facet-VERB(1); v NULL: facet(1). version is "0.2.0". */
 void man_page_print(FILE *stream, const verb *v, const char *version);
 
-/* A script for "bash", "zsh" or "fish". False: another shell; nothing is printed. */
+/* Prints a script for "bash", "zsh" or "fish". False, without output: another shell. */
 bool completion_print(FILE *stream, const char *shell);
 
 #endif

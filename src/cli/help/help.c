@@ -1,4 +1,4 @@
-/* help.c - the option table as text for people: examples first, then the options by group. */
+/* help.c - help text: examples first, then the options by group. */
 #include "cli/help/help.h"
 
 #include "cli/shared/failure.h"
@@ -12,7 +12,7 @@ enum { OPTION_COLUMN = 2, VERB_COLUMN = 12, SHORT_EXAMPLES = 5 };
 const char help_summary[] = "physically based images of models on any CPU, conversions, plots";
 const char help_first_use[] = "facet render helmet.glb -o helmet.png";
 
-/* A paragraph, or several, each wrapped. */
+/* Prints wrapped paragraphs. */
 static void print_paragraphs(FILE *stream, const char *text, int indent, int width)
 {
     while (*text) {
@@ -66,7 +66,7 @@ static void print_examples(FILE *stream, const verb *v, size_t most)
     print_heading(stream, "Examples");
     for (size_t i = 0; v->examples[i].command && i < most; i++) {
         int column = 0;
-        terminal_wrap(stream, v->examples[i].command, 2, 1 << 20, &column); /* not wrapped: to be copied */
+        terminal_wrap(stream, v->examples[i].command, 2, 1 << 20, &column); /* not wrapped, for copying */
         fputc('\n', stream);
         column = 0;
         terminal_wrap(stream, v->examples[i].what, 6, terminal_width(stream), &column);

@@ -1,4 +1,4 @@
-/* help.h - the option table as text for people. */
+/* help.h - help text from the table of options. */
 #ifndef CLI_HELP_H
 #define CLI_HELP_H
 
@@ -6,15 +6,15 @@
 
 #include <stdio.h>
 
-extern const char help_summary[];   /* what facet is, in one line */
-extern const char help_first_use[]; /* how it begins, for the overview and facet(1) */
+extern const char help_summary[];   /* facet in one line */
+extern const char help_first_use[]; /* the first example, for the overview and facet(1) */
 
-enum { HELP_TEXT_COLUMN = 31 }; /* where the text of an option stands */
+enum { HELP_TEXT_COLUMN = 31 }; /* column of the description of an option */
 
 void help_print_overview(FILE *stream);
-/* The first examples and the options that matter most; all: everything. */
+/* Prints the first examples and the main options; all: everything. */
 void help_print_verb(FILE *stream, const verb *v, bool all);
-/* One option with its text. */
+/* Prints an option and its description. */
 void help_print_option_line(FILE *stream, const option *o);
 void help_print_exit_codes(FILE *stream);
 

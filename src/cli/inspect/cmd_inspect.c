@@ -1,4 +1,4 @@
-/* cmd_inspect.c - facet inspect: what is in a model. */
+/* cmd_inspect.c - facet inspect: the contents of models. */
 #include "cli/shared/options.h"
 
 #include "cli/inspect/inspect_text.h"
@@ -40,7 +40,7 @@ typedef struct inspect_run {
     model_list models;
 } inspect_run;
 
-/* Prints the description text of a scene that was loaded. */
+/* Prints the description of a loaded scene, JSON text. */
 static facet_result print_description(const inspect_run *run, const char *model, const char *text,
                                       facet_error *error)
 {
@@ -111,7 +111,7 @@ static void destroy(verb_run *base)
 
 int cmd_inspect(command_line *c)
 {
-    static const verb_work work = {read_line, inspect, NULL, destroy}; /* an object per model */
+    static const verb_work work = {read_line, inspect, NULL, destroy}; /* it prints an object per model */
     inspect_run run = {.models = {.count = 0}};
     return verb_run_all(&run.base, c, &work);
 }

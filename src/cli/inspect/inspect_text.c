@@ -1,4 +1,4 @@
-/* inspect_text.c - the description of a model, laid out for reading. */
+/* inspect_text.c - see inspect_text.h. */
 #include "cli/inspect/inspect_text.h"
 
 #include "cli/shared/terminal.h"
@@ -93,7 +93,7 @@ static void print_bounds(FILE *stream, const json_t *bounds)
         size = fmax(size, b[i] - a[i]);
         farthest = fmax(farthest, fmax(fabs(a[i]), fabs(b[i])));
     }
-    /* four digits of the model, however far from the origin it is */
+    /* four significant digits relative to the size of the model */
     int digits = size > 0.0 && farthest > 100.0 * size ? 4 + (int)ceil(log10(farthest / size)) : 4;
     digits = digits < 15 ? digits : 15;
     fprintf(stream, "  size       %.4g x %.4g x %.4g m, from (%.*g, %.*g, %.*g) to (%.*g, %.*g, %.*g)\n",
@@ -101,7 +101,7 @@ static void print_bounds(FILE *stream, const json_t *bounds)
             digits, b[1], digits, b[2]);
 }
 
-/* "base_color 0, normal 2": the members that are texture infos, with the number of the texture. */
+/* Writes "base_color 0, normal 2": the texture members with their texture numbers. */
 static void list_textures(const json_t *object, char *text, size_t size)
 {
     const char *key;
@@ -122,7 +122,7 @@ static void list_textures(const json_t *object, char *text, size_t size)
     }
 }
 
-/* ", clearcoat, sheen": what the material has beyond the core. */
+/* Writes ", clearcoat, sheen": the extensions of the material. */
 static void list_extensions(const json_t *material, char *text, size_t size)
 {
     static const char prefix[] = "KHR_materials_";
@@ -171,7 +171,7 @@ static void print_materials(FILE *stream, const json_t *materials, bool all)
     print_rest(stream, count, all);
 }
 
-/* "0.8 0.8 0.8"; "-" where it is not stated. */
+/* Writes "0.8 0.8 0.8"; "-" if it is not given. */
 static void add_legacy_color(table *t, const json_t *m, const char *key)
 {
     const json_t *color = json_object_get(m, key);
@@ -189,7 +189,7 @@ static void add_legacy_number(table *t, const json_t *m, const char *key)
         table_add(t, "-");
 }
 
-/* Materials of OpenGL 1 and MTL, as the file has them. */
+/* Prints the OpenGL 1 and MTL materials of the file. */
 static void print_legacy(FILE *stream, const json_t *legacy, bool all)
 {
     const json_t *materials = json_object_get(legacy, "materials");
@@ -258,7 +258,7 @@ static void print_images(FILE *stream, const json_t *images, bool all)
     print_rest(stream, count, all);
 }
 
-/* Which image a texture shows, where that is not simply the one of the same number. */
+/* Prints the image of each texture, unless all have the same number as their texture. */
 static void print_textures(FILE *stream, const json_t *textures, bool all)
 {
     size_t count = json_array_size(textures);
@@ -280,7 +280,7 @@ static void print_textures(FILE *stream, const json_t *textures, bool all)
     print_rest(stream, count, all);
 }
 
-/* Cameras, lights, scenes: what can be named in options. */
+/* Prints cameras, lights and scenes, which options refer to. */
 static void print_named(FILE *stream, const json_t *list, const char *title, bool all)
 {
     size_t count = json_array_size(list);
@@ -342,7 +342,7 @@ static void print_memory(FILE *stream, const json_t *memory)
     fputc('\n', stream);
 }
 
-/* Whether key ("extras", "metadata") stands anywhere in value. */
+/* Whether value contains key ("extras", "metadata") at any depth. */
 static bool has_metadata(const json_t *value, const char *wanted)
 {
     const char *key;

@@ -1,4 +1,4 @@
-/* inspect_text.h - the description of a model, laid out for reading. */
+/* inspect_text.h - the description of a model as text. */
 #ifndef CLI_INSPECT_TEXT_H
 #define CLI_INSPECT_TEXT_H
 
@@ -6,8 +6,8 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Prints what facet_scene_describe_json() said of the model name (docs/inspect.md has the members). Lists end after
- * 20 rows unless all. Members that are missing are left out. */
+/* Prints the result of facet_scene_describe_json() for the model name (docs/inspect.md has the members). Lists end
+ * after 20 rows unless all. Missing members are skipped. */
 void inspect_print_text(FILE *stream, const char *name, const json_t *model, bool all);
 
 #endif

@@ -42,7 +42,7 @@ static facet_result read_berth(const ocean_run *run, char *path, size_t size, oc
     return FACET_OK;
 }
 
-/* Warns of a position far from the origin of the sea. */
+/* Warns of a model far from its file's origin: it floats near the origin of the sea. */
 static void warn_of_origin(ocean_run *run, const char *path)
 {
     double origin[3];

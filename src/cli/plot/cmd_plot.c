@@ -67,7 +67,7 @@ const verb plot_verb = {
                                             &limits_group, &messages_group, NULL},
 };
 
-/* In the order of facet_plot_kind; so are the words of the option table. */
+/* In the order of facet_plot_kind, as the words of the verb. */
 static const char *const kind_names[] = {"legacy", "brdf",    "slice", "hemisphere", "lobe",    "terms",
                                          "albedo", "furnace", "dfg",   "tone",       "fresnel", "error"};
 enum { KIND_COUNT = sizeof kind_names / sizeof *kind_names };
@@ -80,7 +80,7 @@ typedef struct plot_run {
     float angles[FACET_PLOT_MAX_ANGLES];
     facet_plot_fit fits[FACET_PLOT_MAX_MATERIALS];
     facet_plot_format format;
-    char output[64]; /* where none is named */
+    char output[64]; /* the default name */
     const char *path;
     bool is_written;
 } plot_run;
@@ -190,7 +190,7 @@ static facet_result read_desc(plot_run *run, facet_error *error)
 
 /* ---- the run ---- */
 
-/* Whether the plot would replace what it is made of. */
+/* Whether the plot would overwrite one of its inputs. */
 static bool is_an_input(const plot_run *run)
 {
     const plot_materials *m = &run->materials;
@@ -205,7 +205,7 @@ static bool is_an_input(const plot_run *run)
 
 enum { MATERIAL_TEXT = 512 };
 
-/* What was fitted, how near it is, and the parameters as a MATERIAL. */
+/* Prints the fits: model, error, and the parameters as a MATERIAL. */
 static void print_fits(const plot_run *run)
 {
     for (int i = 0; i < FACET_PLOT_MAX_MATERIALS; i++) {

@@ -12,7 +12,7 @@
 
 /* ---- parameters as text ---- */
 
-/* A parameter of a facet_plot_material by its name. */
+/* A named parameter of a facet_plot_material. */
 typedef struct parameter {
     const char *name;
     facet_plot_model model;
@@ -44,7 +44,7 @@ static const parameter parameters[] = {
     {"shininess", FACET_PLOT_MODEL_OGL1, AT(shininess), .maximum = 1e6},
 };
 
-/* "#808080", "gold"; one linear number for a grey, three with slashes. */
+/* Parses "#808080", "gold"; one linear number for a grey, three with slashes. */
 static bool read_color(const char *text, float out[3])
 {
     double numbers[3];

@@ -173,7 +173,7 @@ static bool read_numbers(const char *text, double m[16])
     return value_numbers(plain, 16, m);
 }
 
-/* Normalizes the axes of the camera. False: not a rotation. */
+/* Normalizes the axes of the camera. Returns what was expected if they are not a rotation, else NULL. */
 static const char *find_axes(const double m[16], double axes[3][3])
 {
     for (int i = 0; i < 3; i++) {

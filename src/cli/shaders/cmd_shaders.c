@@ -43,11 +43,11 @@ const verb shaders_verb = {
                                       NULL},
 };
 
-/* In the order of the option table's words. */
+/* In the order of --glsl's choices. */
 static const char *const versions[] = {"300 es",   "310 es",   "320 es",   "330 core",
                                        "410 core", "450 core", "460 core", NULL};
 
-/* Names of parts may be given as file names: fresnel, fresnel.h, shade/fresnel.h. */
+/* Accepts file names as names of parts: fresnel, fresnel.h, shade/fresnel.h. */
 static void trim(const char *argument, char name[64])
 {
     const char *slash = strrchr(argument, '/');

@@ -114,8 +114,8 @@ facet_result output_check(const char *path, facet_error *error)
     return FACET_OK;
 }
 
-/* Opens the bracket of interrupt.h for a regular file; a stream needs no cleanup, and its reader may never come.
- * Returns whether path is a file. */
+/* Begins the writing of a regular file (interrupt.h), or of a stream, which needs no cleanup and whose reader may
+ * never come. Returns whether path is a file. */
 static bool begin_writing(const char *path)
 {
     struct stat info;

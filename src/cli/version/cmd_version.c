@@ -19,7 +19,7 @@ const verb version_verb = {
                                       NULL},
 };
 
-/* The text of the report, which asks a driver of OpenGL who it is: once, and only where somebody reads it. */
+/* Builds the report. It queries the OpenGL driver, which is slow: once, and only if it is printed. */
 static char *read_report(void)
 {
     size_t size = 4096;

@@ -1,4 +1,4 @@
-/* cmd_view.c - facet view: a window that reads models and environments as facet render does. */
+/* cmd_view.c - facet view: a window for models and environments, with the options of facet render. */
 #include "cli/shared/options.h"
 
 #include "cli/render/render_camera.h"
@@ -55,8 +55,8 @@ typedef struct view_run {
 
 /* ---- models ---- */
 
-/* What of the file is shown, and how it moves. What was asked for by name the first model must have; others of the folder
- * are shown without it. */
+/* Chooses scene, variant and animation. Names must exist in the first model; other models of the folder are shown
+ * without them. */
 static facet_result choose_pose(view_run *run, const char *path, facet_view_model *model, facet_error *error)
 {
     const render_options *o = &run->options;
@@ -92,13 +92,13 @@ static facet_result choose_camera(view_run *run, facet_view_model *model, facet_
     } else if (o.has_eye) {
         result = render_camera(model->scene, &view, &o, &model->eye, error);
         model->has_eye = true;
-    } else if (aims && !aims_fully) { /* one coordinate is given, the others are the model's */
+    } else if (aims && !aims_fully) { /* the coordinates that are not given are the model's */
         result = render_camera(model->scene, &view, &o, &camera, error);
         if (result == FACET_OK)
             render_keep_framing(&o, model->scene, &camera);
     }
     model->orbit = render_orbit(model->scene, &model->pose, &o);
-    /* who gave no view will turn the model first: the distance is one that holds all around */
+    /* without --orbit the user will turn the model first: the distance fits all azimuths */
     model->orbit.fits_all_azimuths = !is_given(run->base.line, OPT_ORBIT);
     return result;
 }
@@ -221,7 +221,7 @@ static facet_result show(verb_run *base, facet_error *error)
 
 static void destroy(verb_run *base)
 {
-    (void)base; /* the window has closed what it opened */
+    (void)base; /* the window has released its models */
 }
 
 int cmd_view(command_line *c)

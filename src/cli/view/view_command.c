@@ -1,4 +1,4 @@
-/* view_command.c - see view_command.h. What is as facet render has it anyway is left out, so that the line can be read. */
+/* view_command.c - see view_command.h. Defaults of facet render are left out, for a readable line. */
 #include "cli/view/view_command.h"
 
 #include "cli/shared/output_name.h"
@@ -11,7 +11,7 @@
 
 #define DEGREE 0.017453292519943295 /* pi / 180 */
 
-/* Text that grows in memory of malloc(). */
+/* A growing text in malloc() memory. */
 typedef struct line {
     char *text;
     size_t length, capacity;
@@ -34,7 +34,7 @@ static void add_bytes(line *l, const char *bytes, size_t size)
     l->text[l->length] = 0;
 }
 
-/* A word for the shell: in quotes where it needs them. */
+/* Appends a word, quoted for the shell if necessary. */
 static void add_word(line *l, const char *word)
 {
     static const char harmless[] =
@@ -54,7 +54,7 @@ static void add_word(line *l, const char *word)
     add_bytes(l, "'", 1);
 }
 
-/* --name=value where the value could be taken for an option, else --name value. */
+/* Appends --name=value if the value could be taken for an option, else --name value. */
 static void add_to(line *l, const option *o, const char *value)
 {
     char word[4300];
@@ -76,7 +76,7 @@ static void add_option(line *l, option_id id, const char *format, ...)
     add_to(l, option_find_id(verb_find("render"), id), value);
 }
 
-/* A choice by its place in the table, unless it is the first. */
+/* Appends a choice by index, unless it is the first. */
 static void add_choice(line *l, option_id id, int choice)
 {
     const option *o = option_find_id(verb_find("render"), id);
@@ -84,7 +84,7 @@ static void add_choice(line *l, option_id id, int choice)
         add_to(l, o, o->choices[choice]);
 }
 
-/* How an option makes of what is written what the renderer gets. */
+/* The conversion of an option's number to the renderer's. */
 typedef double reading(double written);
 
 static double read_float(double x)
@@ -107,7 +107,7 @@ static double read_factor(double x)
     return (double)(float)log2(x);
 }
 
-/* Decimals as people write them; exponents for what is tiny or huge. */
+/* Writes decimals, with an exponent for tiny and huge values. */
 static void write_digits(double value, int digits, char out[48])
 {
     int exponent = value != 0.0 ? (int)floor(log10(fabs(value))) : 0;
@@ -118,7 +118,7 @@ static void write_digits(double value, int digits, char out[48])
         snprintf(out, 48, "%.*f", decimals > 0 ? decimals : 0, value);
 }
 
-/* The fewest digits that are read as the same number. about: what was written, nearly. */
+/* Writes the fewest digits near about that are read as wanted. */
 static void write_number(double about, double wanted, reading *read, char out[48])
 {
     if (wanted == read(0.0))
@@ -140,7 +140,7 @@ static void write_degrees(float radians, char out[48])
     write_number((double)radians / DEGREE, (double)radians, read_degrees, out);
 }
 
-/* In the file's coordinates: the fewest digits that are the same place relative to the origin. */
+/* Writes a coordinate of the file with the fewest digits that give the same position relative to the origin. */
 static void write_coordinate(float x, double origin, char out[48])
 {
     double place = origin + (double)x;
@@ -217,7 +217,7 @@ static void add_background(line *l, const command_line *c, const facet_render_de
         add_option(l, OPT_BACKGROUND, "transparent");
     else if (d->background == FACET_BACKGROUND_ENVIRONMENT)
         add_option(l, OPT_BACKGROUND, "env");
-    else if (is_given(c, OPT_BACKGROUND)) /* the color is that which was given, or white */
+    else if (is_given(c, OPT_BACKGROUND)) /* the color is the given one, or white */
         add_option(l, OPT_BACKGROUND, "%s", option_text(c, OPT_BACKGROUND, "white"));
     if (d->background == FACET_BACKGROUND_ENVIRONMENT && d->background_blur > 0.0f)
         add_float(l, OPT_BACKGROUND_BLUR, d->background_blur);
@@ -278,7 +278,7 @@ static void add_pose(line *l, const command_line *c, const facet_pose_desc *p)
 
 /* ---- what no key changes ---- */
 
-/* Those above, and those that are about the window. */
+/* Whether an option is written above, or concerns the window only. */
 static bool is_known(option_id id)
 {
     static const option_id ids[] = {OPT_SIZE,
@@ -328,7 +328,7 @@ static bool is_known(option_id id)
     return false;
 }
 
-/* Options that path tracing alone reads are refused elsewhere. */
+/* Whether only path tracing accepts the option. */
 static bool is_of_paths(option_id id)
 {
     static const option_id ids[] = {PATH_OPTIONS};
