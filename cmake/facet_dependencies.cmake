@@ -1,4 +1,4 @@
-# What facet is built from. Packages are those of Debian 12.
+# Dependencies. Package names are those of Debian 12.
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 pkg_check_modules(JANSSON REQUIRED IMPORTED_TARGET jansson)

@@ -10,7 +10,7 @@ endif()
 if(FACET_SANITIZE)
     target_compile_options(facet_flags INTERFACE -fsanitize=${FACET_SANITIZE} -fno-sanitize-recover=all
         -fno-omit-frame-pointer)
-    # C programs link the one C++ file as well: what checks types at run time stays out of it.
+    # C programs link the one C++ file as well, so run-time type checks are off.
     target_compile_options(facet_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-fno-sanitize=vptr>)
     target_link_options(facet_flags INTERFACE -fsanitize=${FACET_SANITIZE})
 endif()
@@ -44,7 +44,7 @@ endfunction()
 set(FACET_TEST_PREFIX "" CACHE STRING "Stands before the names of tests: several builds in one ctest")
 set(FACET_TEST_LABEL "" CACHE STRING "Declare only the tests with this label; empty: all")
 
-# The folder of real models, environments and pictures that some tests read.
+# The folder of real models, environments and images for some tests.
 if(DEFINED ENV{FACET_TEST_DATA})
     set(data $ENV{FACET_TEST_DATA})
 else()
@@ -52,7 +52,7 @@ else()
 endif()
 set(FACET_TEST_DATA ${data} CACHE PATH "Test data; tests that need it skip where it is not there")
 
-# A test asks only whether the variable is there.
+# Tests check only whether the variable is set.
 if(FACET_TEST_DATA AND IS_DIRECTORY ${FACET_TEST_DATA})
     set(data_setting "set:${FACET_TEST_DATA}")
 else()
@@ -60,18 +60,18 @@ else()
     message(STATUS "There is no folder \"${FACET_TEST_DATA}\": tests on real models are skipped")
 endif()
 
-# Whether tests do all of their cases: one build of a run does, the optimised one (tests/support/support.h).
+# Whether tests run all of their cases: only the optimised build of a run does (tests/support/support.h).
 set(FACET_QUICK_TESTS OFF)
 if(FACET_SANITIZE OR NOT FACET_TRUTH)
     set(FACET_QUICK_TESTS ON)
 endif()
 
-# What tests run: the target to build where nothing else is wanted. Tests that run the command add it themselves.
+# Builds what tests run. Tests of the command add it themselves.
 add_custom_target(facet_tested)
 
-# facet_add_test(NAME [NUMBERS] [LABELS threads] [TIMEOUT s] COMMAND ...): declares a test; NUMBERS: one that is about
-# numbers rather than about memory or threads, and long, in the build that does all cases only. It finds shared test data through
-# the environment variable FACET_TEST_DATA and skips (exit code 77) where it needs it and has none.
+# facet_add_test(NAME [NUMBERS] [LABELS threads] [TIMEOUT s] COMMAND ...): declares a test; NUMBERS: a long test of
+# numbers rather than of memory or threads, only in the build that runs all cases. The environment variable FACET_TEST_DATA
+# names the test data; tests that need it skip without (exit code 77).
 function(facet_add_test name)
     cmake_parse_arguments(T "NUMBERS" "TIMEOUT" "COMMAND;LABELS" ${ARGN})
     if(T_NUMBERS AND FACET_QUICK_TESTS)

@@ -1,7 +1,7 @@
 #!/bin/sh
 # boundary_test.sh: the installed shade.h in programs that are not of its dialect: C11, C23, C++17 and C++20, gcc and clang,
-# before and after other headers, with warnings as errors; what programs and their headers define stays as it was; and the
-# functions return the same numbers as in the dialect. Compilers that are missing are skipped.
+# before and after other headers, with warnings as errors; definitions of programs and their headers are preserved; and the functions
+# return the same numbers as in the dialect. Missing compilers are skipped.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 tmp=$(mktemp -d)
@@ -42,7 +42,7 @@ END
 cc -std=c11 -O2 -ffp-contract=off -DFACET_SHADE_DIALECT -I"$tmp" "$tmp/dialect.c" -lm -o "$tmp/dialect" 2>"$tmp/log" || fail "the dialect"
 "$tmp/dialect" >"$tmp/wanted"
 
-# ---- programs of their own: what they define and what their headers define is as it was ----
+# ---- definitions of programs and of their headers are preserved ----
 
 {
     cat <<'END'

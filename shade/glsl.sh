@@ -1,7 +1,7 @@
 #!/bin/sh
 # glsl.sh VERSION [MAIN...] > shader: one complete shader: a line "#version VERSION" (VERSION "none": no such line),
-# the GLSL dialect, the headers of shade/ in the order of shade.h, and the files MAIN. #include lines exist for C
-# only and are dropped.
+# the GLSL dialect, the headers of shade/ in the order of shade.h, and the files MAIN. #include lines are for C
+# only and dropped.
 set -eu
 here=$(dirname "$0")
 [ $# -ge 1 ] || { echo "usage: glsl.sh VERSION [MAIN...]" >&2; exit 2; }

@@ -1,7 +1,7 @@
 #!/bin/sh
-# names.sh begin|end > header: what shade.h includes before and after the shader library, for programs that are not of its
-# dialect. Macros of the same names, the program's or the standard library's, are put aside and come back; in C every
-# function and type of the text gets the prefix shade_, and the constants stay as SHADE_ macros.
+# names.sh begin|end > header: what shade.h includes before and after the shader library for programs outside of its
+# dialect. Macros of the same names, of the program or the standard library, are saved and restored; in C every function
+# and type of the library gets the prefix shade_, and the constants remain as SHADE_ macros.
 set -eu
 here=$(dirname "$0")
 part=${1:?begin or end}
@@ -12,7 +12,7 @@ words=$(sed -n 's/^#define \([A-Za-z_0-9]*\).*/\1/p' "$here/lang/lang_c.h" "$her
 constants=$(text | sed -n 's/^#define \([A-Z_0-9]*\) ..*/\1/p')
 functions=$(text | sed -n 's/^FN [A-Za-z0-9]* \([A-Za-z_0-9]*\)(.*/\1/p' | sort -u)
 types=$(text | sed -n 's/^STRUCT(\([A-Za-z0-9]*\)).*/\1/p')
-# macros of system headers that are ordinary names in the text
+# macros of system headers that are identifiers in the library
 system="I complex near far major minor unix linux"
 all="$words $constants $functions $types $system"
 

@@ -1,7 +1,7 @@
 #!/bin/sh
-# text_test.sh c COMPILER | glsl: what the compilers say about the shader library. C: every header compiles with those
-# before it, in the one order and in no other; the GLSL side the same in each version; slips of the dialect that one
-# side alone would let through are rejected. Exits with 77 where glslangValidator is missing.
+# text_test.sh c COMPILER | glsl: the shader library by its compilers. C: every header compiles after those before it, in
+# that order and in no other; GLSL: the same in each version; violations of the dialect that one language alone would
+# accept are rejected. Exits with 77 where glslangValidator is missing.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 tmp=$(mktemp -d)

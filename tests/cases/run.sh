@@ -1,7 +1,7 @@
 #!/bin/sh
-# run.sh FACET [CASE...] - small inputs that once went wrong, each beside what is right. A case is a folder here with its
-# inputs and a check.sh, which is sourced in an empty folder with the functions of tests/cli/lib.sh and $case_dir, the
-# case's own folder. Prints a line per case.
+# run.sh FACET [CASE...] - regression tests of small inputs. A case is a folder with its inputs and a check.sh, which is
+# sourced in an empty folder with the functions of tests/cli/lib.sh and $case_dir, the case's own folder. Prints a line per
+# case.
 set -eu
 cases=$(CDPATH= cd -- "$(dirname -- "$0")" && pwd)
 program=$(readlink -f -- "$1")

@@ -1,5 +1,5 @@
 #!/bin/sh
-# bake.sh - environments filtered: files and their names, conventions of engines, errors, and that a failure leaves no file.
+# bake.sh - baked environments: files and their names, conventions of engines, errors, and that a failure leaves no file.
 set -eu
 . "$(dirname "$0")/lib.sh"
 tiny="--size 16 --mips 2"
@@ -19,7 +19,7 @@ pfm() {
         esac
     done >>"$name"
 }
-# same A B LIMIT: no number of two pictures is farther apart than LIMIT.
+# same A B LIMIT: the largest difference between two images is at most LIMIT.
 same() {
     "$facet" compare "$1" "$2" --metric max --max "max=$3" >cmp 2>&1 || failed "$1 is not $2: $(cat cmp)"
     rm -f cmp
@@ -41,7 +41,7 @@ clean() {
     rm -rf ./*
 }
 
-# ---- what cannot be ----
+# ---- impossible options ----
 expect 2 bake
 says "which environment?"
 expect 2 bake a.hdr b.hdr
@@ -78,7 +78,7 @@ expect 2 bake -inputPath a.hdr
 says "the environment is given without an option"
 only
 
-# ---- inputs that are none ----
+# ---- invalid inputs ----
 expect 3 bake missing.hdr -o x.ktx2
 says "missing.hdr: "
 mkdir folder.hdr
@@ -166,7 +166,7 @@ expect 0 bake neutral --config c.json
 clean
 
 # ---- directions: each face of the input is that face of the output ----
-# Colors are 0 and 1, and a wrong place is wrong by 1; what is resampled on the way is softened at its edges.
+# Colors are 0 and 1, and a misplaced texel is wrong by 1; resampling blurs edges.
 soft=0.3
 i=0
 for color in r g b y c m; do
@@ -192,7 +192,7 @@ done
 expect 0 bake $faces --lobe none --size 4 --mips 1 --rotation 90 -o 'turned_{face}.pfm'
 same in_pz.pfm turned_px.pfm $soft
 same in_nx.pfm turned_pz.pfm $soft
-# three.js looks up -x: px and nx change places, and all faces are mirrored
+# three.js looks up -x: px and nx are swapped, and all faces are mirrored
 expect 0 bake $faces --size 4 --layout three -o t --mips 1
 pfm mirrored.pfm 4 w w k k w w k k k k r r k k r r
 same mirrored.pfm t/nx.hdr $soft
@@ -201,7 +201,7 @@ same mirrored.pfm t/pz.hdr $soft
 [ "$(ls t 2>&1 | tr '\n' ' ')" = "environment.hdr nx.hdr ny.hdr nz.hdr pmrem.ktx2 px.hdr py.hdr pz.hdr sh.json " ] || failed "files for three.js: $(ls t)"
 clean
 
-# ---- a constant stays what it is ----
+# ---- a constant is preserved ----
 pfm white.pfm 4 w w w w w w w w w w w w w w w w
 for lobe in ggx charlie lambert none; do
     expect 0 bake white --lobe $lobe --size 4 --mips 1 -o 'w_{face}.pfm' --projection faces
@@ -245,7 +245,7 @@ touch file
 expect 6 bake neutral --layout khronos -o file
 says "file: it is not a folder"
 clean
-# Filament has the middle of an equirectangular picture at +Z, facet at +X.
+# The center of an equirectangular panorama is at +Z in Filament, at +X in facet.
 expect 0 bake neutral --lobe none --size 64 --mips 1 -o e.pfm
 expect 0 bake e.pfm --lobe none --size 16 --mips 1 -o 'plain_{face}.hdr'
 expect 0 bake e.pfm --layout filament --format hdr --size 16 --mips 1 -o f
@@ -278,7 +278,7 @@ fi
 clean
 
 # ---- numbers ----
-# A small panorama: the reference looks at all of it for each texel.
+# A small panorama: the reference integrates all of it for each texel.
 expect 0 bake neutral --lobe none --size 16 --mips 1 -o small.pfm
 if command -v jq >/dev/null; then
     json() {
@@ -325,7 +325,7 @@ if ! is_quick; then
 fi
 clean
 
-# ---- what a file cannot hold ----
+# ---- limits of file formats ----
 pfm bright.pfm 4 w w w w w w w w w w w w w w w w
 expect 0 bake bright.pfm bright.pfm bright.pfm bright.pfm bright.pfm bright.pfm $tiny --exposure 20 -o x.ktx2
 says "which removes"
@@ -341,7 +341,7 @@ expect 0 bake white --size 4 -o x.ktx2
 [ "$(u32 x.ktx2 40)" = 3 ] || failed "4 texels have not three levels"
 clean
 
-# ---- outputs that cannot be ----
+# ---- impossible outputs ----
 expect 2 bake white -o 'x_{lvl}.exr'
 says "{lvl} is not a placeholder"
 expect 2 bake white --layout khronos -o x.ktx2

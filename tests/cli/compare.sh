@@ -1,6 +1,5 @@
 #!/bin/sh
-# compare.sh - pictures compared: numbers, limits with their exit codes, pictures of differences, and what is wrong with
-# inputs.
+# compare.sh - comparison of images: metrics, limits with their exit codes, difference images, and errors of inputs.
 set -eu
 . "$(dirname "$0")/lib.sh"
 
@@ -25,7 +24,7 @@ pfm() {
 value() {
     tr ',{}' '\n\n\n' <out | sed -n "s/^ *\"$1\": *//p" | head -1
 }
-# is MEMBER VALUE: it begins so
+# is MEMBER VALUE: the member starts with VALUE
 is() {
     case $(value "$1") in
     "$2"*) ;;
@@ -129,7 +128,7 @@ says "did you mean flip?"
 expect 2 compare half.pfm ones.pfm --metric percentile
 says "needs --percentile"
 
-# ---- what is no number ----
+# ---- NaN and infinity ----
 expect 0 compare half.pfm nan.pfm --json
 grep -q '"nonfinite": {"a": 0, "b": 1, "invalid": 1}' out || failed "what is not finite is not counted: $(cat out)"
 is max null
@@ -144,7 +143,7 @@ says "1 pixel is not finite in one image"
 expect 0 compare inf.pfm inf.pfm --max max=0 -q
 expect 1 compare inf.pfm nan.pfm --max max=9 -q
 
-# ---- pictures with opacity, masks ----
+# ---- opacity, masks ----
 expect 0 render $small -o a.png --background transparent
 expect 0 render $small -o b.png
 expect 0 compare a.png b.png --json
@@ -192,7 +191,7 @@ says 'there is no layer "albodo"; it has A, B, G, R, Z, albedo, normal, uv'
 expect 4 compare a.png a.png --layer albedo
 says "a.png: only OpenEXR files have layers"
 
-# ---- pictures of the difference ----
+# ---- difference images ----
 expect 0 compare half.pfm spot.pfm -o d.pfm -q
 expect 0 compare none.pfm d.pfm --json
 is max 0.5

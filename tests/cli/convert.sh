@@ -1,5 +1,5 @@
 #!/bin/sh
-# convert.sh - models written anew.
+# convert.sh - conversion of models.
 set -eu
 . "$(dirname "$0")/lib.sh"
 
@@ -22,7 +22,7 @@ grep -qF '"output": "out.glb"' out || grep -qF '"output":"out.glb"' out || faile
 "$facet" convert - piped.glb <out.glb || failed "standard input is not read"
 cmp -s piped.glb fourth.glb || failed "standard input gives another file"
 
-# What cannot be done leaves nothing behind.
+# A failure leaves no file behind.
 rm -f *.glb *.png again.*
 expect 2 convert in.gltf
 says "a model and the name of the new one were expected"
@@ -56,7 +56,7 @@ only in.gltf
 expect 7 inspect in.gltf --max-memory 1K
 says "in.gltf: out of memory"
 
-# The files beside the new one, and those that a model without the name of one is made of, are inputs as well.
+# The files beside the output, and those found for a model by its name, are inputs as well.
 cp in.gltf data.gltf
 expect 0 convert data.gltf shoe.gltf
 mv shoe.gltf old.gltf

@@ -1,5 +1,5 @@
 #!/bin/sh
-# documents.sh - man pages and completions that the command makes of its option table.
+# documents.sh - man pages and completions generated from the option table.
 set -eu
 . "$(dirname "$0")/lib.sh"
 
@@ -33,7 +33,7 @@ for shell in bash zsh fish; do
     $check completion.$shell || failed "$shell does not parse its completion"
 done
 
-# complete WORD...: what bash offers for the last word
+# complete WORD...: the completions of bash for the last word
 complete() {
     bash -c '. ./completion.bash; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _facet; printf "%s\n" "${COMPREPLY[@]}"' \
         bash "$@" | sort | tr '\n' ' '

@@ -1,5 +1,5 @@
 #!/bin/sh
-# environment.sh - the words that name environments: what each lights, what goes together, what is refused and how.
+# environment.sh - names of environments: the light of each, combinations, errors and their messages.
 set -eu
 . "$(dirname "$0")/lib.sh"
 
@@ -47,14 +47,14 @@ for word in sun:30,135 sun:40,180 sun:40,135,5 sun:40,135,albedo=#808080 sun:40,
     pixels other "$word"
     differ sun other
 done
-# turning the light is turning the sun: one of 45 degrees is 64 whole columns of 512
+# rotating the environment rotates the sun: 45 degrees are 64 of 512 columns
 pixels a sun:40,45,nodisc,height=256
 pixels b sun:40,0,nodisc,height=256 --env-rotation 45
 expect 0 compare a.pfm b.pfm --space linear --max max=1e-3
 pixels b sun:40,0,nodisc,height=256 --env-rotation -45
 expect 1 compare a.pfm b.pfm --space linear --max max=1e-3
 
-# a sky is exposed: a sheet that the sun shines on is about white, neither black nor lost; lux keeps the numbers
+# skies are exposed: a sunlit sheet is about white, neither black nor clipped; lux keeps absolute values
 mean() { # mean of the picture's first layer
     tail -c 3072 "$1" | od -An -v -t f4 | awk '{for (i = 1; i <= NF; i++) {s += $i; n++}} END {printf "%.9g", s / n}'
 }
@@ -83,12 +83,12 @@ rm sky_nz.pfm
 expect 3 render tri.gltf $small -o x.png --env "sky_{face}.pfm"
 says "sky_nz.pfm"
 
-# a picture does not replace what lights it
+# an output does not replace its environment
 expect 2 render tri.gltf --size 8 -o room-top.pfm --env "room-{face}.pfm"
 says "room-top.pfm"
 cmp -s room-top.pfm side.pfm || failed "room-top.pfm was replaced"
 
-# ---- what is refused: each names the option, the text and what was expected ----
+# ---- errors: each names the option, the value and the expectation ----
 refused() { # refused ENV TEXT
     expect 2 render tri.gltf $small -o x.png --env "$1"
     says "--env"

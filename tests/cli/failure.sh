@@ -122,7 +122,7 @@ expect 4 inspect copies.gltf
 expect 4 render $small copies.gltf
 says "attributes.TRANSLATION: accessor 9 does not exist"
 [ "$(wc -l <err)" = 1 ] || failed "more than one sentence about one cause"
-# A model that never comes
+# A model that never arrives
 for words in "convert - late.glb" "render - $small -o late.png" "inspect -"; do
     code=0
     sleep 3 | "$facet" $words --time-limit 200ms >out 2>err || code=$?

@@ -4,7 +4,7 @@
 set -eu
 . "$(dirname "$0")/lib.sh"
 
-# write_bowl FILE X Y Z: a bowl of 2 m in width around there; six decimals say all of it.
+# write_bowl FILE X Y Z: a bowl 2 m wide around that point, exact in six decimals.
 write_bowl() {
     awk -v x="$2" -v y="$3" -v z="$4" 'BEGIN {
         n = 8
@@ -63,13 +63,13 @@ done
 expect 0 inspect far.obj
 grep -qF 'from (-100000001, 99999999.9688, 4526330) to' out || failed "inspect: the digits of bounds do not show a place"
 
-# A few parts that are elsewhere move neither the frame nor the origin.
+# A few distant parts affect neither the framing nor the origin.
 { cat far.obj; printf 'o stray\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n'; } >stray.obj
 expect 0 render stray.obj -o stray.png $small
 cmp -s near.png stray.png || failed "one triangle elsewhere changes the image"
 grep -q "32-bit" err && failed "one triangle elsewhere is what a warning is about"
 
-# Vertices that a file has as floats have lost what lies between: one warning says how much.
+# Vertices stored as floats have lost precision: one warning gives the amount.
 cat >coarse.gltf <<'END'
 {"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
 "meshes":[{"name":"roof","primitives":[{"attributes":{"POSITION":0}}]}],

@@ -1,5 +1,5 @@
 #!/bin/sh
-# folders.sh - folders and lists of models as input, and what {dir}, {name}, {stem} and {index} in an output become.
+# folders.sh - folders and lists of models as input, and the placeholders {dir}, {name}, {stem} and {index} of outputs.
 set -eu
 . "$(dirname "$0")/lib.sh"
 tiny="--size 16 --quality draft -q"
@@ -18,7 +18,7 @@ tree() {
     (cd "$1" && find . -type f | sed 's|^\./||' | LC_ALL=C sort | tr '\n' ';')
 }
 
-# All models below a folder, in an order that does not depend on the file system, in folders that are made.
+# All models below a folder, in an order independent of the file system, into new folders.
 expect 0 render models -o 'img/{dir}/{stem}.png' $tiny
 [ "$(tree img)" = "a b/Cup.png;sub/chair.png;sub/deeper/chair.png;zebra.png;" ] || failed "the names are $(tree img)"
 rm -r img
@@ -34,7 +34,7 @@ expect 0 render models/zebra.gltf ./models/../models/sub/chair.gltf "$work/model
     failed "the names are $(tree img)"
 rm -r img
 
-# A clash stops nothing but the two models.
+# A clash of names fails those two models only.
 expect 1 render models -o 'img/{stem}.png' $tiny
 says "models/sub/chair.gltf: it and models/sub/deeper/chair.gltf have the same output img/chair.png; put {dir}"
 says "models/sub/deeper/chair.gltf: it and models/sub/chair.gltf have the same output img/chair.png"
@@ -72,7 +72,7 @@ says "missing.glb: "
 [ "$(tree img)" = "2.png;3.png;" ] || failed "the names are $(tree img)"
 rm -r img
 
-# A folder without models; outputs in folders that cannot be made
+# A folder without models; outputs in folders that cannot be created
 mkdir none
 expect 3 render none -o x.png $tiny
 says "none: there is no model in or below this folder"

@@ -1,11 +1,11 @@
 #!/bin/sh
-# gl.sh - --renderer gl: what it draws beside the preview, its options, how it fails. Skips where there is no OpenGL.
+# gl.sh - --renderer gl: its images against the preview, its options, its failures. Skips without OpenGL.
 set -eu
 . "$(dirname "$0")/lib.sh"
 
 # ---- without OpenGL ----
 
-# The command alone, in a folder without its module, and with modules that are none.
+# The command in a folder without its module, and with invalid modules.
 mkdir -p bin
 cp "$facet" bin/facet
 alone="$work/bin/facet"
@@ -31,7 +31,7 @@ if [ ! -e /usr/lib/*/facet/facet_gl.so ] 2>/dev/null && [ ! -e /usr/local/lib/fa
         fails "it belongs to another build of facet"
     fi
     rm bin/facet_gl.so
-    # The folder that somebody stands in is not searched.
+    # The current folder is not searched.
     echo 'not a library' >facet_gl.so
     (PATH="$work/bin:$PATH" && facet version -v >out)
     grep -q 'cannot be opened (' out && failed "a module of the current folder was opened"
@@ -40,7 +40,7 @@ fi
 rm -r bin
 rm -f none.png
 
-# The preview does not load a driver: it draws where there is none.
+# The preview does not load a driver, and works without one.
 code=0
 __EGL_VENDOR_LIBRARY_FILENAMES=/none "$facet" render model.gltf -o cpu.png $small >out 2>err || code=$?
 [ "$code" = 0 ] || failed "the preview needs OpenGL"
@@ -57,7 +57,7 @@ LD_LIBRARY_PATH="$work/shadow${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" "$facet" ren
 says "OpenGL: "
 [ ! -e none.png ] || failed "a picture without libGL"
 
-# What belongs to it says so with another renderer, and the other way round.
+# Its options are refused with another renderer, and vice versa.
 for option in --shadows '--transparency peeled' '--bloom 0.1' '--channel normal' '--brdf schlick-ggx'; do
     expect 2 render model.gltf -o no.png $small $option
     says "it needs --renderer gl"
@@ -91,7 +91,7 @@ near() {
     "$facet" compare "$1" "$2" --max mae=0.002 >out 2>err || failed "$1 and $2 differ: $(grep -m1 mae out)"
 }
 
-# The same picture as the preview's, where both shade in the middle of a pixel; and the same edges.
+# The same image as the preview's, where both shade pixel centers; and the same edges.
 for how in '' '--crop 30,25,60,50' '--background transparent' '--background env' '--sun 30,45' \
     '--ortho --exposure 1' '--energy conserving'; do
     expect 0 render -o cpu.exr --size 120x90 --quality draft $how
@@ -124,7 +124,7 @@ expect 0 render model.gltf -o turn.y4m $small --renderer gl --turntable 4
 expect 0 render model.gltf - -o '{stem}.webp' $small --renderer gl <model.gltf
 rm -f ./*.png ./*.webp ./*.exr turn.y4m
 
-# Options draw something else than what is drawn without them.
+# Each option changes the image.
 expect 0 render -o plain.png $small --renderer gl --sun 30,45
 for option in --shadows '--bloom 0.5' '--channel normal' '--channel furnace'; do
     expect 0 render -o other.png $small --renderer gl --sun 30,45 $option
@@ -134,7 +134,7 @@ for how in sorted peeled weighted; do
     expect 0 render -o other.png $small --renderer gl --transparency $how
 done
 
-# Limits, and what a report says.
+# Limits, and the report.
 expect 7 render model.gltf -o late.png --size 2000 --renderer gl --time-limit 0.000001s
 says "the time limit (--time-limit) was reached"
 [ ! -e late.png ] || failed "a picture of no time"
@@ -150,7 +150,7 @@ grep -q '"width": 48' out || failed "no report"
 expect 0 render model.gltf -o dark.png $small --renderer gl --env none
 says "the image is black"
 
-# OpenGL ES, where the driver is Mesa's and can be told to have no more.
+# OpenGL ES, where the driver is Mesa's and can be limited to it.
 if MESA_GL_VERSION_OVERRIDE=3.0 "$facet" version -v | grep -q '^opengl .*OpenGL ES'; then
     expect 0 render -o gl.exr --size 96x64 --renderer gl
     code=0

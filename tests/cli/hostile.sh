@@ -1,10 +1,10 @@
 #!/bin/sh
-# hostile.sh - names, links, pipes and numbers that are meant to hang, crash or mislead the command.
+# hostile.sh - names, links, pipes and numbers that could hang, crash or mislead the command.
 set -eu
 . "$(dirname "$0")/lib.sh"
 write_triangle tri.gltf
 
-# within SECONDS CODE WORD...: expect, and an end by itself in that time.
+# within SECONDS CODE WORD...: expect, and the command ends by itself in that time.
 within() {
     seconds=$1
     wanted=$2
@@ -19,7 +19,7 @@ one_sentence() {
     [ "$(wc -l <err)" = 1 ] || failed "not one sentence but $(wc -l <err): $1"
 }
 
-# what a model names: only regular files in its folder
+# a model may name only regular files in its folder
 mkdir models
 sed 's/"uri":"[^"]*"/"uri":"NAME"/' tri.gltf >models/pattern
 head -c 36 /dev/zero >secret.bin
@@ -45,7 +45,7 @@ within 10 3 render $small models/m.gltf --root nowhere -o x.png
 says "nowhere: there is no such folder"
 rm -r models secret.bin
 
-# inputs that are no files, or have no end
+# inputs that are not regular files, or endless
 within 10 2 render $small '' -o x.png
 one_sentence "an empty name"
 mkdir nothing
@@ -67,14 +67,14 @@ if command -v jq >/dev/null; then
     [ "$(jq '.peak_memory_bytes < 256000000' out)" = true ] || failed "--max-memory does not hold for standard input"
 fi
 
-# cameras beyond all measure, pictures as narrow as they can be
+# extreme cameras, extremely narrow images
 within 10 2 render $small tri.gltf --eye 1e38,0,0 -o x.png
 one_sentence "--eye 1e38"
 within 10 0 render $small tri.gltf --eye 1e18,0,0 -o x.png
 within 60 0 render tri.gltf --quality draft --size 65536x1 -o x.png
 within 60 0 render tri.gltf --quality draft --size 1x65536 -o x.png
 rm x.png
-# models beyond all measure: framed, or left out
+# extremely large models: framed, or left out
 for size in 9e16 6e17 2e18; do
     sed "s/{\"mesh\":0}/{\"mesh\":0,\"scale\":[$size,$size,1]}/" tri.gltf >far.gltf
     grep -q "$size" far.gltf || failed "far.gltf is not what it should be"
@@ -97,7 +97,7 @@ camera 2 '"type":"perspective","perspective":{"yfov":0.6,"znear":0.1,"aspectRati
 camera 2 '"type":"orthographic","orthographic":{"xmag":1e30,"ymag":1e30,"znear":0,"zfar":9}' '"translation":[0,0,3]'
 rm camera.gltf
 
-# few processes: threads cannot be started, which must not end the process. Only for who is not root and may enter.
+# a process limit: failing to start threads must not end the process. Not as root, and only with access to the folder.
 for limit in 1 2 4 16; do
     code=0
     (ulimit -u $limit 2>/dev/null || exit 0
@@ -106,7 +106,7 @@ for limit in 1 2 4 16; do
 done
 rm -f few.png
 
-# links as outputs are replaced, never followed; but those to descriptors, as /dev/stdout is one
+# links as outputs are replaced, never followed, except links to descriptors such as /dev/stdout
 echo kept >target.png
 ln -s target.png link.png
 expect 0 render $small tri.gltf -o link.png
@@ -126,7 +126,7 @@ long=$(printf '%0251d' 0)
 expect 0 render $small tri.gltf -o "$long.png"
 rm "$long.png"
 
-# who reads a pipe may never come: the time limit and SIGTERM end that
+# a pipe may never get a reader: the time limit and SIGTERM end the wait
 mkfifo pipe.png
 within 10 7 render $small tri.gltf -o pipe.png --time-limit 300ms
 says "time limit"
@@ -138,7 +138,7 @@ code=0
 wait $process || code=$?
 [ $code = 75 ] || failed "exit code $code, not 75, after SIGTERM while waiting for a reader"
 rm pipe.png
-# nor who writes a list of models or a configuration
+# nor a writer, as a list of models or a configuration
 mkfifo pipe
 for verb in "render $small -o {stem}.png" 'convert -o {stem}.glb' inspect; do
     within 10 7 $verb --files-from pipe --time-limit 300ms
@@ -147,7 +147,7 @@ done
 within 10 7 render $small --config pipe --time-limit 300ms
 rm pipe
 
-# what stands in the cache of lights in the place of an entry is neither followed nor waited for
+# links and pipes in the place of an entry of the environment cache are neither followed nor waited for
 printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n' >sky.hdr
 head -c 32 tri.gltf >>sky.hdr
 expect 0 render $small tri.gltf --env sky.hdr --env-cache cache -o a.png
@@ -166,7 +166,7 @@ within 10 0 render $small tri.gltf --env sky.hdr --env-cache cache -o b.png
 cmp -s a.png b.png || failed "the picture depends on what is in the cache"
 rm -r cache sky.hdr victim a.png b.png
 
-# control characters of C1 act on terminals as those of ASCII do
+# C1 control characters act on terminals like those of ASCII
 csi=$(printf '\302\233')
 expect 3 render "a${csi}31m.glb"
 ! grep -qF "$csi" err || failed "U+009B reaches the terminal"

@@ -1,5 +1,5 @@
 #!/bin/sh
-# interrupt.sh - commands that are interrupted, at every stage of their work: no part of a file stays, nor a temporary one.
+# interrupt.sh - commands interrupted at every stage of their work leave neither partial nor temporary files.
 set -eu
 . "$(dirname "$0")/lib.sh"
 write_triangle tri.gltf
@@ -8,7 +8,7 @@ write_triangle tri.gltf
 tries=40
 is_quick && tries=10
 
-# run_milliseconds WORD...: how long facet WORD... takes.
+# run_milliseconds WORD...: the time of facet WORD...
 run_milliseconds() {
     began=$(date +%s%N)
     "$facet" "$@" >out 2>err
@@ -16,8 +16,8 @@ run_milliseconds() {
     echo $(((ended - began) / 1000000 + 1))
 }
 
-# interrupt OUTPUT WORD...: interrupts facet WORD... again and again, at moments spread over its run. What is there
-# afterwards is the whole output or none. Exit code 143 is a signal before the first line of main().
+# interrupt OUTPUT WORD...: interrupts facet WORD... repeatedly, at moments spread over its run. The output is complete
+# or absent. Exit code 143 is a signal before the first line of main().
 interrupt() {
     output=$1
     shift

@@ -54,7 +54,7 @@ for how in "--method fit" "--profile core" "--mtl-colors linear" "--method fit -
     cmp -s new.glb other.glb && failed "$how changes nothing"
 done
 
-# What OpenGL 1 programs draw: a metal is converted for it by default, and the report has its figure both ways.
+# The drawn figure: a metal is converted for OpenGL 1 display by default, and the report has both figures.
 cat >metal.gltf <<'END'
 {"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
 "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
@@ -80,7 +80,7 @@ expect 0 convert hue.obj hue.glb --keep-hue --report hue.json
 grep -q '"code":"hue-kept"' hue.json || failed "the report does not say what keeping the hue costs"
 grep -q '"baseColor":\[0.13' hue.json || failed "--keep-hue loses the hue"
 
-# There and back: what was known is known.
+# Round trips preserve parameters.
 expect 0 convert new.glb back.obj
 grep -q '^Ns 51.2$' back.mtl || failed "shininess did not come back"
 grep -q '^Ks 0.628281 0.555802 0.366065$' back.mtl || failed "the highlight did not come back"
@@ -108,7 +108,7 @@ expect 0 convert old.obj over.glb --parameters over.json
 cmp -s over.glb new.glb && failed "--parameters changes nothing"
 expect 3 convert old.obj over.glb --parameters missing.json
 
-# Pictures
+# Images
 expect 0 render old.obj -o a.png $small
 expect 0 render new.glb -o b.png $small
 cmp -s a.png b.png || failed "OBJ and the glTF that was made of it look different"
@@ -124,7 +124,7 @@ done
 "$facet" render - -o g.png $small --root . <old.obj 2>err || failed "OBJ from standard input"
 cmp -s a.png g.png || failed "OBJ from standard input looks different"
 
-# Pictures that only old materials read
+# Images read by legacy materials only
 cp a.png map.png
 cat >mapped.mtl <<'END'
 newmtl mapped
@@ -212,7 +212,7 @@ expect 1 convert in/b.obj --strict -o 'made/{stem}.gltf'
 expect 1 convert in/a.obj in/missing.obj -o 'made/{stem}.glb'
 rm -rf in made
 
-# Nothing that is read is overwritten.
+# Inputs are not overwritten.
 cp old.mtl keep.mtl
 expect 2 convert old.obj old.obj
 says "this input would be overwritten"
@@ -251,7 +251,7 @@ grep -q pbrSpecularGlossiness sg2.gltf || failed "the old extension was not writ
 expect 0 convert sg.gltf core.gltf --materials metallic-roughness --profile core
 grep -q KHR_materials_specular core.gltf && failed "the core profile has an extension"
 
-# What is broken is told in one sentence, and nothing is written.
+# Broken inputs are reported in one sentence, and nothing is written.
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 1000000000\n' >bad.obj
 code=0
 "$facet" convert bad.obj bad.glb 2>err >out || code=$?
@@ -261,7 +261,7 @@ printf 'v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >nan.obj
 code=0
 "$facet" convert nan.obj nan.glb 2>err >out || code=$?
 says "line 1"
-# Parameters that name each object leave no material behind for faces that had none.
+# Parameters for every object leave no default material behind.
 printf 'o ball\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >unnamed.obj
 printf '{"materials":[{"name":"red","objects":["ball"],"color":"#FF0000"}]}' >unnamed.json
 expect 0 inspect --json --parameters unnamed.json unnamed.obj

@@ -1,4 +1,4 @@
-# lib.sh - for the tests of the command: sourced with the path of facet as $1. They run in an empty folder of their own.
+# lib.sh - for the tests of the command: sourced with the path of facet as $1. Each runs in its own empty folder.
 facet=$1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -28,7 +28,7 @@ says() {
     grep -qF -- "$1" err || failed "no message says: $1"
 }
 
-# is_type FILE TEXT: file(1) calls it so; nothing is checked where there is no file(1).
+# is_type FILE TEXT: the type by file(1); not checked without file(1).
 is_type() {
     [ -s "$1" ] || { failed "$1 is missing or empty"; return; }
     command -v file >/dev/null || return 0
@@ -42,12 +42,12 @@ only() {
     [ "$found" = "$wanted" ] || failed "the folder holds: $found; expected: $wanted"
 }
 
-# is_quick: whether long tests are to leave out what another build of the same run does (tests/support/support.h).
+# is_quick: whether long tests run a part of their cases, as another build of the same run does all (tests/support/support.h).
 is_quick() {
     [ "${FACET_QUICK_TESTS:-0}" = 1 ]
 }
 
-# needs_data: ends the test as skipped where the shared models are not there.
+# needs_data: skips the test without the shared models.
 needs_data() {
     [ -n "$data" ] && [ -d "$data/models" ] || {
         echo "skipped: FACET_TEST_DATA names no folder with models"
@@ -55,7 +55,7 @@ needs_data() {
     }
 }
 
-# A glTF file of one triangle, in itself: write_triangle FILE.
+# write_triangle FILE: a self-contained glTF file of one triangle.
 write_triangle() {
     cat >"$1" <<'END'
 {"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],

@@ -1,6 +1,6 @@
 #!/bin/sh
-# limits.sh - files whose numbers ask for more work than their bytes: a time limit of 1 s ends each, whatever the stage, and
-# SIGTERM as well. The bounds are wide, for machines that are busy; without limits each takes 5 s to minutes.
+# limits.sh - files whose numbers ask for more work than their bytes: a time limit of 1 s ends each at any stage, and so does
+# SIGTERM. The bounds are wide, for busy machines; without limits each takes 5 s to minutes.
 set -eu
 . "$(dirname "$0")/lib.sh"
 
@@ -20,7 +20,7 @@ awk 'BEGIN {
     for (i = 0; i < 100000; i++) printf "%s{\"mesh\":0,\"translation\":[%d,%d,%d]}", i ? "," : "", i % 300, i / 300, i % 7
     printf "]}"
 }' >nodes.gltf
-# 3000 primitives that share those vertices, and need normals of their own each.
+# 3000 primitives that share those vertices and each need normals.
 awk 'BEGIN {
     printf "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"buffers\":[{\"byteLength\":360000,\"uri\":\"mesh.bin\"}],"
     printf "\"bufferViews\":[{\"buffer\":0,\"byteLength\":360000}],\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
@@ -40,7 +40,7 @@ awk -v triangle="$triangle" 'BEGIN {
     for (i = 1; i <= 20000; i++) printf ",%d", i
     printf "]}]}"
 }' >lights.gltf
-# 20,000 materials to be fitted.
+# 20,000 materials to fit.
 awk 'BEGIN { for (i = 0; i < 20000; i++) printf "newmtl m%d\nKd %g .5 .2\nKs %g .3 .1\nNs %d\n", i, i % 97 / 97, i % 89 / 89, i % 997 + 1 }' >many.mtl
 awk 'BEGIN {
     print "mtllib many.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0"
@@ -71,7 +71,7 @@ for model in $models; do
 done
 within 5 "0 7" ocean --time-limit 1 --size 4000x4000 -o x.png
 
-# SIGTERM ends it as soon, with the exit code that asks for another try.
+# SIGTERM ends it as fast, with the exit code for a retry.
 begin=$(date +%s)
 code=0
 timeout --preserve-status -s TERM 1 "$facet" render --size 4096 nodes.gltf -o z.png >out 2>err || code=$?

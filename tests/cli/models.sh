@@ -1,6 +1,6 @@
 #!/bin/sh
-# models.sh - every model of the test data (quick: every third): a picture, or exit 5 with the extension's name; broken ones
-# refused.
+# models.sh - every model of the test data (quick: every third): an image, or exit 5 with the extension's name; broken ones
+# are refused.
 set -eu
 . "$(dirname "$0")/lib.sh"
 needs_data

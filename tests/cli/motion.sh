@@ -1,9 +1,9 @@
 #!/bin/sh
-# motion.sh - what moves: animations, frames, variants, videos.
+# motion.sh - animations, frames, variants, videos.
 set -eu
 . "$(dirname "$0")/lib.sh"
 
-# A triangle that moves 4 m to the right within 2 s (key times 0 and 2), with a still twin: write_moving FILE.
+# A triangle that moves 4 m to the right within 2 s (key times 0 and 2), with a static twin: write_moving FILE.
 write_moving() {
     cat >"$1" <<'END'
 {"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
@@ -26,7 +26,7 @@ END
 write_moving walk.gltf
 view="$small --target 2.5,0.5,0 --orbit 0,90,20m"
 
-# One picture at a time; frames of all of it; some of them.
+# A single image; all frames; some of them.
 expect 0 render walk.gltf -o rest.png $view
 expect 0 render walk.gltf -o begin.png $view --time 0
 expect 0 render walk.gltf -o middle.png $view --animation Walk --time 1
@@ -48,14 +48,14 @@ expect 0 render walk.gltf $small --animation all --frames 2
 only walk.gltf rest.png begin.png middle.png late.png walk_0002.png
 rm walk_0002.png
 
-# The whole motion is in every picture: the first and the last frame have the model at opposite borders, and in one
-# size. A still frames what it shows.
+# A sequence frames the whole motion: in the first and the last frame the model is at opposite borders, in the same size.
+# A still frames its own pose.
 expect 0 render walk.gltf -o 'f_##.png' $small --animation Walk --fps 1 --background transparent --json
 expect 0 render walk.gltf -o still.png $small --time 2 --background transparent
 cmp -s f_02.png still.png && failed "a frame is framed as a still"
 rm f_* still.png
 
-# Turntables: the model moves while the camera turns, or stands at a moment.
+# Turntables: the model moves while the camera turns, or is at a fixed time.
 expect 0 render walk.gltf -o 'turn_##.png' $small --turntable 4 --animation Walk --fps 2
 expect 0 render walk.gltf -o 'hold_##.png' $small --turntable 4 --time 1
 cmp -s turn_01.png hold_01.png && failed "a turntable with an animation does not move"
@@ -77,7 +77,7 @@ expect 0 render walk.gltf -o - --format y4m $view --animation Walk --fps 2
 cmp -s out walk.y4m || failed "standard output gets another video than a file"
 expect 0 render walk.gltf -o - --format raw $view --frames 1-3
 [ "$(wc -c <out)" = $((3 * 4 * 48 * 32)) ] || failed "3 raw frames are $(wc -c <out) bytes"
-# Who reads the messages goes: the video is given up, and nothing of it stays.
+# The reader of the messages exits: the video is aborted without remains.
 mkdir gone
 { "$facet" render walk.gltf -o gone/w.y4m $view --animation Walk --fps 50 -v 2>&1 || echo $? >code; } | head -c 1 >/dev/null
 [ "$(cat code)" = 141 ] || failed "exit code $(cat code) without a reader of messages"
@@ -86,7 +86,7 @@ rm -r gone code
 expect 0 render walk.gltf -o w.y4m --format raw $view --frames 1 --fps 29.97
 expect 6 render walk.gltf -o /dev/null/is/no.y4m $view --animation Walk
 
-# What does not go together.
+# Conflicting options.
 expect 2 render walk.gltf -o a.png --animation Walk
 says 'one name for the frames of an animation'
 expect 2 render walk.gltf -o a.png --frames 1-3

@@ -1,5 +1,5 @@
 #!/bin/sh
-# ocean.sh - the sea: pictures, sequences, meshes, maps, sweeps, looks, what floats, and what is wrong.
+# ocean.sh - the sea: images, sequences, meshes, maps, sweeps, styles, floating models, and errors.
 set -eu
 . "$(dirname "$0")/lib.sh"
 
@@ -21,7 +21,7 @@ for option in preset wind chl before-after sweep with maps; do
     grep -q -- "--$option" out || failed "the help does not tell of --$option"
 done
 
-# Numbers that the reference has.
+# Numbers of the reference.
 value() { # value NAME: a number of the JSON of ./out
     sed -n "s/.*\"$1\": *\\(-\\{0,1\\}[0-9.e+-]*\\).*/\\1/p" out
 }
@@ -43,7 +43,7 @@ near wind_mps 5 0
 expect 0 ocean --preset trade-wind --info
 grep -q '^significant height *2.24 m' out || failed "--info does not tell the height"
 
-# Pictures
+# Images
 expect 0 ocean $small -o sky.png
 is_type sky.png "PNG image data, 48 x 32"
 for words in "--sun 10" "--turbidity 6" "-e white" "--env none"; do
@@ -135,7 +135,7 @@ says "the time limit (--time-limit) was reached"
 expect 7 ocean -o large.glb --time-limit 1ms
 rm -rf maps ./*.exr ./*.glb ./*.obj ./*.mtl ./*.png
 
-# Nothing that is read is replaced.
+# Inputs are not replaced.
 mkdir maps
 expect 0 ocean $small -s 64x32 --cascades 1 --resolution 32 -o maps/tile_00.exr
 cp maps/tile_00.exr saved
@@ -171,7 +171,7 @@ expect 0 ocean $small -s 32x24 --before-after -o both.png
 is_type both.png "PNG image data, 66 x"
 rm -f ./*.png
 
-# What floats
+# Floating models
 write_triangle boat.gltf
 expect 0 ocean $small --with boat.gltf -o a.png
 expect 0 ocean $small --with boat.gltf@0,-20 -o a.png
@@ -201,7 +201,7 @@ expect 2 ocean $small --with boat.gltf -o boat.gltf
 cmp -s boat.gltf saved.gltf || failed "an input was overwritten"
 rm -f ./*.png ./*.gltf
 
-# What is asked for
+# Invalid requests
 for words in "--sun 22,1e300" "--depth 1e39" "--bed-slope 1,1e300 --depth 3" "--wind 10,1e300" "--swell 2,0.01" \
     "--absorption 1e300,0,0" "--eye 1e39,0,0" "--target 0,1e39,0" "--heading 1e300" "--env-rotation 1e300 -e white"; do
     expect 2 ocean $words -o a.png

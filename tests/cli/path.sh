@@ -5,7 +5,7 @@ set -eu
 
 path="render --renderer path --size 48x32 --samples 8"
 
-# The same bytes for any number of threads; another seed is another picture.
+# The same bytes for any number of threads; another seed gives another image.
 for options in "" "--filter mitchell --ground shadow --background transparent" "--aperture 4% --sun 30,40" \
     "--noise 0.05 --samples 64 --format exr32 --aov all"; do
     is_quick && [ -n "$options" ] && [ "$options" != "--aperture 4% --sun 30,40" ] && continue
@@ -22,7 +22,7 @@ expect 0 $path --seed 1 -o c.png
 cmp -s a.png b.png || failed "seed 0 is not the default"
 cmp -s a.png c.png && failed "another seed gives the same noise"
 
-# What one renderer knows is told to the other.
+# Options of one renderer are refused by the other.
 expect 2 render --noise 0.1 -o x.png
 says "it needs --renderer path"
 expect 2 render --ground shadow -o x.png
@@ -46,7 +46,7 @@ expect 2 render --renderer path --checkpoint x.exr --turntable 3 -o 'x_##.png'
 expect 2 render --renderer path --ground shadow --up z -o x.png
 [ ! -e x.png ] || failed "x.png is there"
 
-# The time limit leaves a picture of what there is, and says so.
+# The time limit writes the samples so far, with a message.
 expect 0 render --renderer path --size 64 --samples 10000000 --time-limit 2s -o late.png
 says "the time limit was reached after"
 expect 0 render --renderer path --size 64 --samples 10000000 --time-limit 2s --json -o late.png
@@ -68,7 +68,7 @@ for words in "render --turntable 3" "ocean --frames 1-3"; do
     rm -f frame_*.png
 done
 
-# What a signal cuts off is written, too: exit code 75 after SIGTERM, and by the signal after others.
+# An interrupted image is written, too: exit code 75 after SIGTERM, the signal's own after others.
 cut_off() {
     signal=$1
     wanted=$2
@@ -100,7 +100,7 @@ is_type cut_01.png "PNG image data, 24 x 24"
 cut_off TERM 75 ocean -o cut.png
 is_type cut.png "PNG image data, 24 x 24"
 
-# Resumed is as if it had never stopped; more samples; another picture.
+# A resumed render equals an uninterrupted one; more samples; another image.
 if "$facet" version -v | grep -q 'OpenEXR [0-9]'; then
     expect 0 $path --format exr32 -o whole.exr
     expect 0 render --renderer path --size 48x32 --samples 3 --checkpoint state.exr -o part.exr
@@ -144,7 +144,7 @@ if "$facet" version -v | grep -q 'OpenEXR [0-9]'; then
         cmp -s whole_noise.exr resumed_noise.exr || failed "an adaptive picture that a pass was cut off of differs"
     fi
 
-    # What was drawn before an interruption is there afterwards.
+    # Samples before an interruption are kept.
     "$facet" render --renderer path --size 48x32 --samples 10000000 --checkpoint cut_off.exr -o cut_off.png 2>err &
     sleep 1
     kill -TERM $!

@@ -1,11 +1,11 @@
 #!/bin/sh
-# plot.sh - plots: kinds, formats, materials, and what is wrong with them.
+# plot.sh - plots: kinds, formats, materials, and errors.
 set -eu
 . "$(dirname "$0")/lib.sh"
 
 kinds="legacy brdf slice hemisphere lobe terms albedo furnace dfg tone fresnel error"
 
-# Numbers need no graphics library.
+# CSV needs no graphics library.
 for kind in $kinds; do
     expect 0 plot "$kind" -o "$kind.csv"
     [ -s "$kind.csv" ] || failed "$kind.csv is empty"
@@ -21,7 +21,7 @@ expect 0 plot legacy -o ramp.csv --heaviside ramp
 cmp -s ramp.csv legacy.csv && failed "--heaviside ramp changes nothing"
 rm -f ./*.csv
 
-# Pictures, where cairo is there.
+# Graphics, if cairo is installed.
 if "$facet" plot tone -o tone.svg 2>err; then
     head -c 5 tone.svg | grep -q '<?xml' || failed "tone.svg is no SVG file"
     expect 0 plot tone -o tone.pdf
@@ -46,7 +46,7 @@ rm -f ./*.svg ./*.pdf ./*.png
 write_triangle in.gltf
 expect 0 plot slice roughness=0.3,metallic=1,color=gold ogl1,diffuse=0.5,specular=1,shininess=20 -o a.csv
 expect 0 plot slice ogl1,diffuse=#808080,specular=0.1/0.2/0.3 --fit -o b.csv
-# Fits say what they are and how near, in text, as JSON and in the chart; their parameters are a MATERIAL.
+# Fits report their parameters and error in text, in JSON and in the chart; the parameters are a MATERIAL.
 expect 0 plot slice ogl1,diffuse=0.05,specular=gold,shininess=20 --fit -o fit.csv
 says "fit: metal ("
 says "E_display "
@@ -97,7 +97,7 @@ expect 2 plot slice mat.gltf roughness=0.5 -o mat.gltf --format csv
 says "this input would be overwritten"
 cmp -s mat.gltf saved.gltf || failed "an input was overwritten"
 
-# What is asked for
+# Invalid requests
 expect 2 plot
 says "which plot? One of legacy, brdf"
 expect 2 plot pie -o a.svg

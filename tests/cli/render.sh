@@ -1,5 +1,5 @@
 #!/bin/sh
-# render.sh - pictures: every format, names, sizes, cameras, turntables.
+# render.sh - images: every format, names, sizes, cameras, turntables.
 set -eu
 . "$(dirname "$0")/lib.sh"
 
@@ -29,7 +29,7 @@ says "b.png: 16x12"
 is_type b.png "16 x 12"
 rm a.* b.*
 
-# one picture differs from the other, or does not: differ|same OPTIONS -- OPTIONS
+# differ|same OPTIONS -- OPTIONS: whether both images differ
 compare() {
     relation=$1
     left=$2
@@ -56,7 +56,7 @@ compare differ "" "--eye 1,1,5"
 compare differ "" "--exposure 1"
 compare same "--exposure 1" "--exposure 2x"
 
-# Attributes of model-viewer; its exposure is a factor, which is said once and only where it may be meant.
+# Attributes of model-viewer; its exposure is a factor, noted once, and only if it may be meant.
 expect 0 render $small -o a.png --camera-orbit "45deg 55deg 4m" --camera-target "0m 0m auto" --field-of-view 30deg
 expect 0 render $small -o b.png --orbit 45,55,4m --target 0,0,auto --fov 30
 cmp -s a.png b.png || failed "attributes of model-viewer are other options"

@@ -1,6 +1,6 @@
 #!/bin/sh
-# same_bytes.sh - the bytes of an image do not depend on the number of threads, on the run, nor on how wide the vectors
-# are that the processor has for rays.
+# same_bytes.sh - the bytes of an image do not depend on the number of threads, on the run, nor on the vector width of the
+# processor.
 set -eu
 . "$(dirname "$0")/lib.sh"
 

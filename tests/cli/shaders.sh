@@ -41,7 +41,7 @@ compiles() {
     printf 'out vec4 color;\nvoid main() { color = vec4(1.0); }\n' >>shader.frag
     glslangValidator shader.frag >log || failed "$version $*: $(head -5 log)"
 }
-# A viewer's calls, which take the text as it is.
+# The calls of a viewer that includes the text unchanged.
 expect 0 shaders --names khronos --glsl none
 grep -q 'vec3 BRDF_lambertian(' out || failed "--names khronos lacks BRDF_lambertian"
 ! grep -q 'tonemap' out || failed "--names khronos brings parts that its names do not use"

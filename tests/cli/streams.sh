@@ -82,7 +82,7 @@ if command -v script >/dev/null; then
     grep -q "standard output is a terminal" out || failed "no refusal to write to a terminal"
 fi
 
-# inspect for people
+# inspect as text
 expect 0 inspect tri.gltf
 grep -q "1 triangle" out || failed "inspect does not count"
 grep -q "Hero" out || failed "inspect does not name the camera"

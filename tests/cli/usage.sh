@@ -1,5 +1,5 @@
 #!/bin/sh
-# usage.sh - what the command says before it works: help, suggestions, exit code 2.
+# usage.sh - help, suggestions, and wrong command lines (exit code 2).
 set -eu
 . "$(dirname "$0")/lib.sh"
 
@@ -83,7 +83,7 @@ expect 2 render -o - --format png --json
 expect 2 version word
 expect 2 inspect
 
-# A plural finds what a singular does.
+# A plural finds the same topics as its singular.
 expect 0 help thumbnails
 grep -q "preset thumbnail" out || failed "help thumbnails does not find the preset"
 
@@ -138,7 +138,7 @@ fails_json 3 inspect --json missing.glb
 expect 2 render --no-such-option -- --json
 [ ! -s out ] || failed "--json behind -- is an argument"
 
-# An output without -o is refused before any work, and not taken for an input.
+# An output without -o is refused before any work, rather than taken for an input.
 write_triangle tri.gltf
 misplaced() {
     hint=$1
@@ -165,7 +165,7 @@ only tri.gltf out.exr
 rm tri.gltf out.exr
 only
 
-# Help by word: an option in all commands that have it, another tool's name for one, whatever mentions a word.
+# Help by word: an option in all commands that have it, another tool's name for it, and any mention of a word.
 expect 0 help orbit
 grep -q -- '--orbit AZ,POLAR,RADIUS' out && grep -q 'in facet render, facet view' out || failed "help orbit: $(cat out)"
 expect 0 help --orbit
@@ -185,7 +185,7 @@ grep -q 'not installed beside this command' out || failed "help documents names 
 expect 0 bake --help
 grep -q "HDRLoader().load('studio/environment.hdr'" out || failed "bake --help does not say how three.js loads its files"
 
-# The first help is short, and --help-all has everything.
+# --help is short, --help-all is complete.
 for verb in render ocean bake convert compare plot view inspect; do
     expect 0 help $verb
     [ "$(wc -l <out)" -le 80 ] || failed "help $verb has $(wc -l <out) lines"

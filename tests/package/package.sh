@@ -1,5 +1,5 @@
 #!/bin/sh
-# package.sh BUILD - installs BUILD into a prefix and uses it as somebody else would: through CMake, through
+# package.sh BUILD - installs BUILD into a prefix and uses it from other projects: through CMake, through
 # pkg-config with the shared library, and through pkg-config with the static one.
 set -eu
 build=$1
@@ -25,7 +25,7 @@ if grep -rl "$PWD/src\|$build" "$pc" "$lib/cmake" >"$prefix/leaks" 2>/dev/null; 
     exit 1
 fi
 
-# The build tool that built facet is there; another may not be.
+# Uses the build tool of this build; others may be missing.
 CMAKE_GENERATOR=$(sed -n 's/^CMAKE_GENERATOR:INTERNAL=//p' "$build/CMakeCache.txt")
 export CMAKE_GENERATOR
 
@@ -45,8 +45,8 @@ for document in $(grep -oE '[^ ]*/share/doc/facet/[a-z-]*\.md' documents); do
     [ -r "$document" ] || { echo "help names $document, which is not installed"; exit 1; }
 done
 [ "$(grep -c '/share/doc/facet/[a-z0-9-]*\.md' documents)" -ge 20 ] || { echo "help documents: $(cat documents)"; exit 1; }
-# The module that draws with OpenGL: found beside the installed library and command, and beside a program that has the
-# library inside. Nothing but its entry is to be seen of it.
+# The OpenGL module: found beside the installed library and command, and beside a program with the static library. It
+# exports its entry only.
 if grep -q 'FACET_HAS_GL 1' "$build/generated/build_config.h"; then
     module=$lib/facet/facet_gl.so
     [ -e "$module" ] || { echo "not installed: lib/facet/facet_gl.so"; exit 1; }

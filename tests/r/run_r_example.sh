@@ -1,6 +1,6 @@
 #!/bin/sh
-# run_r_example.sh FACET - the worked example of docs/r.md, as it stands there: an rgl scene to facet, to glTF, back to R;
-# and the vignette's curves. Where a picture can be drawn without a screen, rgl's own is compared with facet's.
+# run_r_example.sh FACET - the example of docs/r.md, verbatim: an rgl scene to facet, to glTF, back to R; and the vignette's
+# curves. If rgl can render without a screen, its image is compared with facet's.
 # Needs Rscript with rgl and jsonlite; skips (77) without.
 set -eu
 facet=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
@@ -40,7 +40,7 @@ if ! xvfb-run -a -s "-screen 0 1024x768x24" sh -c "Rscript '$examples/snapshot.R
     exit 0
 fi
 
-# differ FOLDER SIZE MOST: draws what rgl drew; no more than MOST pixels may differ by more than one of 255 levels.
+# differ FOLDER SIZE MOST: renders rgl's scene; at most MOST pixels may differ by more than one of 255 levels.
 is_good=true
 differ() {
     # shellcheck disable=SC2046

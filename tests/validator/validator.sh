@@ -1,6 +1,6 @@
 #!/bin/sh
-# validator.sh - what facet convert writes has no error by Khronos' glTF validator: the built-in scene is not a file, so
-# the models of the shared data, OBJ files among them, as .glb and some as .gltf. Skipped without Node.js, the validator or the data.
+# validator.sh - files written by facet convert have no errors in Khronos' glTF validator: the models of the shared data, OBJ
+# files included, as .glb and some as .gltf. Skipped without Node.js, the validator or the data.
 set -eu
 facet=$1
 here=$(cd "$(dirname "$0")" && pwd)
