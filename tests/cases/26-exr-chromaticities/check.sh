@@ -8,4 +8,4 @@ expect 0 compare red.pfm xyz.hdr --max max=0.01
 # What is no color space is one warning, and the colors stay.
 printf '#?RADIANCE\nPRIMARIES=0 0 0 0 0 0 0 0\n\n-Y 1 +X 1\n\200\000\000\201' >none.hdr
 expect 0 compare red.pfm none.hdr --max differing=0
-says "no color space"
+says "do not form a color space"
