@@ -1,4 +1,5 @@
-/* bake.c - cube maps of an environment for a lobe: which levels there are and what makes each of them. */
+/* bake.c - cube maps of an environment filtered with a lobe: the method of each level, and the objects of
+ * facet.h. */
 #include "bake/bake.h"
 
 #include <assert.h>
@@ -18,12 +19,12 @@
 enum {
     DEFAULT_SIZE = 256,
     LAMBERT_SIZE = 64,
-    MIN_LEVELS = 5, /* where the size has them: fewer steps of roughness are too coarse */
+    MIN_LEVELS = 5, /* if the size allows: fewer steps of roughness are too coarse */
     MAX_SIZE = 8192,
     DEFAULT_SAMPLES = 1024,
     MAX_SAMPLES = 1 << 20,
-    MAX_PYRAMID = 1024, /* 134 MB; larger only beside larger results */
-    MIN_DEGREE = 256    /* of the analysis of a fine image */
+    MAX_PYRAMID = 1024, /* 134 MB; larger only for larger results */
+    MIN_DEGREE = 256    /* of the analysis of a fine panorama */
 };
 
 static const facet_bake_desc default_desc;
@@ -82,19 +83,19 @@ typedef struct level_plan {
     uint32_t degree;
     float *kernel; /* of plans.kernels */
     bake_lobe lobe;
-    double work; /* about ns */
+    double work; /* estimate in ns */
 } level_plan;
 
 typedef struct bake_plans {
     level_plan levels[FACET_CUBE_MAX_LEVELS];
     float *kernels;
-    uint32_t degree;       /* of the analysis; 0: none */
+    uint32_t degree;       /* of the harmonic analysis; 0: none */
     uint32_t pyramid_size; /* 0: none */
     bool needs_reference;
     double analysis_work, pyramid_work;
 } bake_plans;
 
-/* How a level is made that is no mirror. */
+/* Chooses the method of a level with a lobe. */
 static void plan_lobe(const facet_bake_desc *desc, const bake_source *source, float roughness,
                       bake_plans *plans, level_plan *plan)
 {
@@ -132,7 +133,7 @@ static double make_plans(const facet_bake_desc *desc, const facet_cube *c, const
                                                      : 6.0 * size * size * texels;
         total += plan->work;
     }
-    /* analyses of low degrees would take fine images as coarser than they are */
+    /* analyses of low degrees would average texels of fine panoramas */
     while (plans->degree > 0 && plans->degree < MIN_DEGREE &&
            (16 * plans->degree < source->panorama.width || 8 * plans->degree < source->panorama.height))
         plans->degree += 32;
@@ -143,7 +144,7 @@ static double make_plans(const facet_bake_desc *desc, const facet_cube *c, const
 
 /* ---- levels ---- */
 
-/* What levels are made of, as far as they need it. */
+/* Inputs of the levels, as far as they are needed. */
 typedef struct bake_materials {
     bake_source source;
     bake_plans plans;
@@ -327,13 +328,14 @@ facet_bake_stats facet_cube_get_stats(const facet_cube *c)
 
 static const facet_allocator default_allocator;
 
-/* (1, -t, -s) becomes (-1, -t, -s), which is position (-s, t) of -X; of the others s changes its sign, too. */
+/* Mirrors x: direction (1, -t, -s) of +X becomes (-1, -t, -s), which is (-s, t) on -X; on the other faces s
+ * changes sign. */
 static void mirror_level(const cube *from, cube *to)
 {
     static const uint32_t others[6] = {1, 0, 2, 3, 4, 5};
     const int n = (int)from->size;
     for (uint32_t face = 0; face < 6; face++)
-        for (int y = -1; y <= n; y++) /* the borders with it */
+        for (int y = -1; y <= n; y++) /* including the borders */
             for (int x = -1; x <= n; x++)
                 *cube_texel(to, others[face], n - 1 - x, y) = *cube_texel(from, face, x, y);
 }

@@ -1,17 +1,19 @@
-/* bake.h - a facet_cube: an environment filtered for real-time renderers, and what is made of it.
+/* bake.h - a facet_cube: an environment filtered for real-time renderers.
  *
- * What a texel is, the same for every method:
- * - A texel of the source is of one radiance all over its solid angle; the whole sphere is covered once.
- * - A texel of a level with a lobe is the lobe's mean of that light around the direction of the texel's middle (cube.h says
- *   where): a function of direction alone, so faces continue one another over edges and corners, and no texel is copied from
- *   a neighbour or moved to an edge. Lookups across edges are the reader's part (seamless cube maps).
- * - A texel of a mirror (GGX of roughness 0, no lobe) is the mean of the light over the texel's solid angle. Where the texels
- *   are smaller than those of an equirectangular source, the light between the middles of these is interpolated, and
- *   scaled by what the interpolation changes of the mean. A source that was a cube map is copied where its faces have the
- *   size and are not turned, and averaged, weighted with solid angles, where they have a multiple of it.
- * - No light is lost: the mean over the sphere, texels weighted with solid angles, is that of the source at every level, as
- *   near as sums over few texels come to it.
- * - Charlie's ring of a roughness below BAKE_CHARLIE_MIN is that one's, as in the renderer: at 0 it would be a circle. */
+ * Definition of a texel, the same for every method:
+ * - A texel of the source has one radiance over its solid angle; the whole sphere is covered once.
+ * - A texel of a level with a lobe is the mean of that radiance, weighted with the lobe around the direction
+ *   of the texel's center (cube.h): a function of direction alone, so faces are continuous across edges and
+ *   corners without copying or moving texels. Readers interpolate across edges (seamless cube maps).
+ * - A texel of a mirror (GGX of roughness 0, or no lobe) is the mean of the radiance over its solid angle.
+ *   Where texels are smaller than those of an equirectangular source, radiance is interpolated between the
+ *   centers of the source's texels and scaled so that the mean stays the same. A source that was a cube map
+ *   is copied if its faces have the same size and are not rotated, and averaged by solid angle if their size
+ *   is a multiple.
+ * - Energy is preserved: at every level the mean over the sphere, weighted by solid angle, is that of the
+ *   source, within the accuracy of a sum over few texels.
+ * - For Charlie, roughness below BAKE_CHARLIE_MIN is clamped to it, as in the renderer: at 0 the lobe would
+ *   be a circle. */
 #ifndef BAKE_BAKE_H
 #define BAKE_BAKE_H
 
@@ -31,10 +33,11 @@ struct facet_cube {
 /* Fills in the defaults. FACET_ERROR_ARGUMENT. */
 facet_result bake_complete(facet_bake_desc *desc, facet_error *error);
 
-/* A mirror's level: what bake.h calls one. */
+/* Whether the level is a mirror, see above. */
 bool bake_level_is_sharp(const facet_cube *c, uint32_t level);
 
-/* A table of reflectance: F32, facet_dfg_get_channel_count() channels. FACET_ERROR_ARGUMENT, _MEMORY, _CANCELLED. */
+/* A LUT of directional albedo: F32, facet_dfg_get_channel_count() channels. FACET_ERROR_ARGUMENT, _MEMORY,
+ * _CANCELLED. */
 facet_result bake_dfg(const facet_dfg_desc *desc, image *out, facet_error *error);
 
 /* An image (F32, 1 to 4 channels) as a KTX2 file of one level. */

@@ -12,9 +12,9 @@
 static const double pi = 3.14159265358979323846;
 
 enum {
-    MAX_SUMS = 1 << 21, /* of columns, all rows together: 48 MiB */
+    MAX_SUMS = 1 << 21, /* column sums: 48 MiB */
     TILE_WIDTH = 128,
-    TILE_HEIGHT = 32 /* texels that a thread takes at a time */
+    TILE_HEIGHT = 32 /* texels per work item */
 };
 
 /* ---- sums ---- */
@@ -65,7 +65,7 @@ facet_result bake_area_create(const image *panorama, double rotation_rad, const 
     for (size_t y = 0; y <= height; y++) {
         double theta = pi * (double)y / (double)height;
         a.heights[y] = y == height ? -1.0 : cos(theta);
-        a.tangents[y] = cos(theta) / sin(theta); /* not looked at at the poles */
+        a.tangents[y] = cos(theta) / sin(theta); /* not used at the poles */
     }
     for (size_t x = 0; x <= width; x++) {
         double phi = 2.0 * pi * (double)x / (double)width - pi;
@@ -90,17 +90,17 @@ void bake_area_destroy(bake_area *a)
 
 /* ---- integrals along edges ---- */
 
-/* A line of a face, which is part of a great circle: the points base + tau along, phi = phi0 + sign psi, where psi runs over
+/* A line on a face, part of a great circle: the points base + tau along, phi = phi0 + sign psi, with psi in
  * (-pi / 2, pi / 2) and tan(psi) = tau / radius. */
 typedef struct area_line {
-    double radius; /* of base from the axis; 0: a meridian, along which there is nothing to integrate */
-    double slope;  /* T: of base, height over radius */
-    double factor; /* T / (1 + T^2) */
-    double phi0, cosine, sine; /* of base, in the image */
+    double radius;             /* distance of base from the axis; 0: a meridian, whose integral is 0 */
+    double slope;              /* T: of base, height over radius */
+    double factor;             /* T / (1 + T^2) */
+    double phi0, cosine, sine; /* of base, in the panorama */
     int sign;
 } area_line;
 
-/* A point of a line and the texel of the image that it is in. */
+/* A point on a line and the texel of the panorama that contains it. */
 typedef struct area_point {
     double c, s; /* cos, sin of psi */
     double q;    /* sqrt(1 + T^2 c^2) */
@@ -112,7 +112,7 @@ typedef struct area_cursor {
     uint32_t column, row;
 } area_cursor;
 
-/* Of radiance and, last, of 1. */
+/* Integrals of radiance and, last, of 1. */
 typedef struct area_sum {
     double of[4];
 } area_sum;
@@ -170,8 +170,8 @@ static inline double arc_sine(double x)
     return x * (1.0 + x2 * (1.0 / 6.0 + x2 * (3.0 / 40.0 + x2 * (15.0 / 336.0 + x2 * (105.0 / 3456.0)))));
 }
 
-/* Adds the integral from the cursor to a point within its texel of the image, and goes there. With G for the meridian above
- * (is_above) or, less the same, below. */
+/* Adds the integral from the cursor to a point within the same texel of the panorama and moves the cursor
+ * there. G is the integral over the meridian above (is_above) or minus that below. */
 static inline void add_piece(const bake_area *a, const area_line *l, bool is_above, const area_point *to,
                              area_cursor *c, area_sum *sum)
 {
@@ -198,7 +198,7 @@ static inline void add_piece(const bake_area *a, const area_line *l, bool is_abo
     sum->of[3] += is_above ? turn - height : -turn - height;
 }
 
-/* Goes to a point within the column, up or down all the way. */
+/* Moves to a point within the column, across rows. */
 static inline void cross_rows(const bake_area *a, const area_line *l, bool is_above, const area_point *to,
                               area_cursor *c, area_sum *sum)
 {
@@ -222,7 +222,7 @@ static inline void cross_rows(const bake_area *a, const area_line *l, bool is_ab
     add_piece(a, l, is_above, to, c, sum);
 }
 
-/* Integral of G dphi from the cursor to tau, where it is left. */
+/* Integral of G dphi from the cursor to tau, where the cursor stays. */
 static area_sum integrate(const bake_area *a, const area_line *l, bool is_above, double tau, area_cursor *c)
 {
     area_sum sum = {{0.0}};
@@ -237,7 +237,7 @@ static area_sum integrate(const bake_area *a, const area_line *l, bool is_above,
         area_point next = end;
         if (is_crossed)
             place(l, cosine, sine, &next);
-        if (c->at.s < 0.0 && next.s > 0.0) { /* heights turn back there */
+        if (c->at.s < 0.0 && next.s > 0.0) { /* the height has its extremum there */
             area_point top;
             place(l, 1.0, 0.0, &top);
             cross_rows(a, l, is_above, &top, c, &sum);
@@ -262,11 +262,11 @@ typedef struct area_job {
 
 typedef struct area_face {
     double middle[3], right[3], down[3];
-    bool is_above;  /* sums above, which is nothing at the north pole; below, for the face around the other */
-    bool has_poles; /* its vertical lines are no meridians */
+    bool is_above;  /* sums above, 0 at the north pole; the face around the south pole sums below */
+    bool has_poles; /* its vertical lines are not meridians */
 } area_face;
 
-/* Where the edge before texel i is. */
+/* Position of the edge before texel i. */
 static double edge_at(const area_job *job, uint32_t i)
 {
     double at = 2.0 * i / job->out->size - 1.0;
@@ -424,7 +424,7 @@ typedef struct interpolating {
     cube *out;
 } interpolating;
 
-enum { POINTS = 4 }; /* along a texel's edge; it is at most as large as the image's */
+enum { POINTS = 4 }; /* along a texel's edge, which is no longer than that of the panorama's texels */
 
 DISPATCH_AVX2 static void interpolate_rows(void *context, size_t begin, size_t end)
 {
@@ -445,7 +445,7 @@ DISPATCH_AVX2 static void interpolate_rows(void *context, size_t begin, size_t e
                 float r = (float)(1.0 / sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]));
                 const float e[3] = {((float)d[0] * c - (float)d[2] * s) * r, (float)d[1] * r,
                                     ((float)d[0] * s + (float)d[2] * c) * r};
-                float w = r * r * r; /* of solid angle */
+                float w = r * r * r; /* weight: solid angle */
                 sum += equirect_fetch(&job->source->panorama, equirect_locate(e)) * w;
                 whole += w;
             }
@@ -454,8 +454,8 @@ DISPATCH_AVX2 static void interpolate_rows(void *context, size_t begin, size_t e
     }
 }
 
-/* Points hit a small sun a little more or less often than its solid angle says, and tents around texels' middles are not quite
- * these. */
+/* Restores the mean: points sample a small sun slightly more or less often than its solid angle, and bilinear
+ * weights do not integrate to exactly 1. */
 static void scale_to_mean(const bake_source *source, float scale, cube *out)
 {
     double mean[3];

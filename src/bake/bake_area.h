@@ -1,10 +1,11 @@
-/* bake_area.h - means of an equirectangular image over the texels of a cube map, exact.
+/* bake_area.h - exact means of a panorama over the texels of a cube map, and mirrors made of them.
  *
- * The integral of radiance over a texel is, by Green's theorem, one along its border: of G(phi, h) dphi, where h = cos(theta)
- * (solid angle is dphi dh) and G is the radiance above h on that meridian, summed beforehand down each column of the image.
- * Edges of texels are parts of great circles, tan(latitude) = T cos(phi - phi0), along which the integral has a closed form
- * between crossings with the edges of the image's texels. Neighbours share edges, so what one texel lacks the next one has:
- * no light is lost, whatever the sizes (as first-order conservative remapping, Jones 1999, on grids that fit). */
+ * By Green's theorem the integral of radiance over a texel is one along its border: of G(phi, h) dphi, where
+ * h = cos(theta) (solid angle is dphi dh) and G is the integral of radiance above h on that meridian,
+ * precomputed down each column of the panorama. Edges of texels are arcs of great circles, tan(latitude) = T
+ * cos(phi - phi0), along which the integral has a closed form between crossings with the edges of the
+ * panorama's texels. Neighbours share edges, so no energy is lost at any size (as in first-order conservative
+ * remapping, Jones 1999, on grids that fit). */
 #ifndef BAKE_BAKE_AREA_H
 #define BAKE_BAKE_AREA_H
 
@@ -13,18 +14,18 @@
 #include "ibl/cube.h"
 #include "image/image.h"
 
-/* What is summed of an image (F32 RGB). */
+/* Column sums of a panorama (F32 RGB). */
 typedef struct bake_area {
     const image *panorama;
     uint32_t step;              /* rows between sums */
-    double (*sums)[3];          /* [row / step][column]: of radiance times height in h of the texels above */
+    double (*sums)[3];          /* [row / step][column]: radiance times height in h of the texels above */
     double (*totals)[3];        /* [column]: of whole columns */
     double *heights, *tangents; /* [row]: h and tan(latitude) of its upper edge; one more than rows */
     double *cosines, *sines;    /* [column]: of phi of its left edge; one more than columns */
-    double rotation_rad;        /* of the cube map's directions to the image's */
+    double rotation_rad;        /* from directions of the cube map to those of the panorama */
 } bake_area;
 
-/* FACET_ERROR_MEMORY. image is used, not copied. */
+/* FACET_ERROR_MEMORY. panorama is referenced, not copied. */
 facet_result bake_area_create(const image *panorama, double rotation_rad, const facet_allocator *allocator,
                               uint32_t thread_count, bake_area *out, facet_error *error);
 void bake_area_destroy(bake_area *a); /* {0} is allowed; leaves {0} */
@@ -35,11 +36,11 @@ void bake_area_fill(const bake_area *a, bool is_equiangular, float scale, uint32
 
 /* ---- mirrors ---- */
 
-/* Fills out (its size is set), borders included: bake.h says how. FACET_ERROR_MEMORY. */
+/* Fills out, whose size is set, and its borders as bake.h defines mirrors. FACET_ERROR_MEMORY. */
 facet_result bake_sharp(const bake_source *source, float scale, const facet_allocator *allocator,
                         uint32_t thread_count, cube *out, facet_error *error);
 
-/* Texels are smaller than the image's, and are interpolated. */
+/* Whether texels are smaller than those of the panorama, so that radiance is interpolated. */
 bool bake_sharp_is_interpolated(const bake_source *source, uint32_t size);
 
 #endif

@@ -1,5 +1,5 @@
-/* bake_dfg.c - tables of reflectance over view and roughness: one row of quadratures (ibl/dfg_integrate.h) for each
- * roughness. */
+/* bake_dfg.c - LUTs of directional albedo over N.V and roughness: a row of quadratures (ibl/dfg_integrate.h)
+ * for each roughness. */
 #include "bake/bake.h"
 
 #include <assert.h>
@@ -11,7 +11,7 @@
 
 enum { DEFAULT_SIZE = 128, MIN_SIZE = 16, MAX_SIZE = 1024, MAX_CHANNELS = 3 };
 
-/* Of each kind. */
+/* Properties of each kind. */
 static const struct kind {
     uint32_t channel_count;
     bool has_split_sum, has_sheen;
@@ -41,7 +41,7 @@ typedef struct table_job {
     atomic_bool is_cancelled;
 } table_job;
 
-/* One thread tells at a time; the others go on. */
+/* One thread reports at a time; the others do not wait. */
 static void report_row(table_job *job)
 {
     uint32_t done = atomic_fetch_add(&job->done, 1) + 1;
@@ -52,7 +52,7 @@ static void report_row(table_job *job)
     atomic_flag_clear(&job->is_reporting);
 }
 
-/* The channels of one node. */
+/* Channels of one texel. */
 static void fill_node(facet_dfg_kind kind, float roughness, const sheen_nodes *nodes, double NdotV,
                       float out[MAX_CHANNELS])
 {

@@ -1,4 +1,4 @@
-/* bake_ktx.c - cube maps and tables as KTX 2 files, and cube maps with harmonics as KTX 1 files for Filament. */
+/* bake_ktx.c - cube maps and LUTs as KTX 2 files, and cube maps with harmonics as KTX 1 files for Filament. */
 #include "bake/bake.h"
 
 #include "base/result.h"
@@ -26,7 +26,7 @@ facet_result facet_cube_encode_ktx2(const facet_cube *c, const facet_ktx2_desc *
     d.level_count = c->level_count;
     d.face_count = 6;
     d.images = faces;
-    d.is_opaque = true; /* the lane behind RGB is undefined */
+    d.is_opaque = true; /* the fourth lane is undefined */
     return ktx2_write(&d, bytes, size, error);
 }
 
@@ -50,7 +50,7 @@ facet_result bake_image_ktx2(const image *panorama, const facet_ktx2_desc *desc,
 
 static const facet_ktx1_desc default_ktx1_desc;
 
-/* As cmgen writes them, a line for each. */
+/* In the format of cmgen, a line for each coefficient. */
 static void add_harmonics(text *t, const float (*c)[3])
 {
     for (int i = 0; i < 9; i++) {

@@ -28,8 +28,9 @@ double bake_lobe_weight(const bake_lobe *lobe, double s2)
     return x / (d * d);
 }
 
-/* Shares of a lobe's root mean square that harmonics may cut off. Twice as much is still better than sampling. A sun alone in
- * the dark is off by so much; the edge of a ring takes twice the degrees for every third of it. */
+/* Share of a lobe's root mean square that truncated harmonics may lose; twice as much is still more accurate
+ * than sampling. It is the error of a sun alone in the dark. The edge of a ring needs twice the degrees for a
+ * third of the error. */
 static const double aimed_cut = 2e-3;
 static const double aimed_cut_of_ring = 6e-3;
 
@@ -48,16 +49,16 @@ bool bake_lobe_kernel(const bake_lobe *lobe, float *kernel, uint32_t *degree)
 
 /* ---- shares ---- */
 
-/* Where panel i begins: s^2 in [0, 1/2], narrow where the lobe is. */
+/* Start of panel i: s^2 in [0, 1/2], panels narrow where the lobe is concentrated. */
 static double panel_start(const bake_lobe *lobe, uint32_t i)
 {
     double u = (double)i / BAKE_LOBE_PANELS;
     double a2 = lobe->alpha * lobe->alpha;
     if (lobe->kind == FACET_LOBE_CHARLIE)
-        return 0.5 * (1.0 - pow(1.0 - u, 3.0)); /* towards the horizon */
+        return 0.5 * (1.0 - pow(1.0 - u, 3.0)); /* concentrated towards the horizon */
     if (a2 > 0.5)
         return 0.5 * u;
-    /* as the weight without its cosine is: shares of s^2 / (a^2 + (1 - a^2) s^2) */
+    /* equal shares of the weight without its cosine: s^2 / (a^2 + (1 - a^2) s^2) */
     double share = u * 0.5 / (a2 + (1.0 - a2) * 0.5);
     return a2 * share / (1.0 - (1.0 - a2) * share);
 }

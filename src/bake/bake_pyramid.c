@@ -47,23 +47,23 @@ void bake_halve(const cube *from, uint32_t thread_count, cube *out)
 
 /* ---- tents ---- */
 
-/* s of so many texels from the edge. */
+/* s of a position in texels from the edge. */
 static double position(uint32_t size, double texels)
 {
     return tan(0.25 * pi * (2.0 * texels / size - 1.0));
 }
 
-/* Integrals of solid angle against the bilinear weights of the four texels around, over the squares between texel middles or
- * what of these is on the face, into the bordered array of a face. */
+/* Adds the solid angle of the squares between texel centers, weighted bilinearly, to the four texels around
+ * each; squares are clipped at the face. tents is the bordered array of a face. */
 static void add_row_of_squares(uint32_t size, int y, const double nodes[][2], double *tents)
 {
-    static const double node = 0.28867513459481287; /* Gauss and Legendre's, of two in [-1/2, 1/2] */
+    static const double node = 0.28867513459481287; /* Gauss-Legendre, two nodes in [-1/2, 1/2] */
     double stretch = 0.5 * pi / size;               /* ds / (1 + s^2) of a texel */
     int n = (int)size;
     size_t stride = (size_t)size + 2;
     for (int x = -1; x < n; x++) {
         double *to = tents + (size_t)(y + 1) * stride + (size_t)(x + 1);
-        /* halves at edges, which begin or end half-way between texels */
+        /* half squares at the edges, which lie half-way between texels */
         double width = x < 0 || x + 1 == n ? 0.5 : 1.0;
         double height = y < 0 || y + 1 == n ? 0.5 : 1.0;
         double left = x < 0 ? 0.75 : x + 1 == n ? 0.25 : 0.5;
@@ -84,7 +84,7 @@ static void add_row_of_squares(uint32_t size, int y, const double nodes[][2], do
     }
 }
 
-/* Positions of the two nodes in each square of a row. */
+/* Positions of the two quadrature nodes of each square in a row. */
 static void place_nodes(uint32_t size, double nodes[][2])
 {
     static const double node = 0.28867513459481287;
@@ -96,8 +96,9 @@ static void place_nodes(uint32_t size, double nodes[][2])
     }
 }
 
-/* All faces are alike, and what a face's lookups take of its border is what those of the face across take of the texels at its
- * own edge. scratch: the tents of a face with its border, and two nodes for each row. */
+/* All faces are alike: the share of a face's lookups in its border equals that of the adjacent faces in the
+ * texels along this face's edge. scratch holds the tents of a face with its border and two nodes for each
+ * row. */
 static void divide_by_tents(cube *c, double *scratch)
 {
     int n = (int)c->size;
@@ -111,7 +112,7 @@ static void divide_by_tents(cube *c, double *scratch)
         add_row_of_squares(c->size, y, (const double(*)[2])nodes, tents);
     for (int y = 0; y < n; y++)
         for (int x = 0; x < n; x++) {
-            /* borders left, right, above, below, and those at corners, which are means of three texels */
+            /* borders left, right, above, below; those at corners are means of three texels */
             const double *own = tents + (size_t)(y + 1) * stride + (size_t)(x + 1);
             double tent = *own;
             for (int side = 0; side < 4; side++) {
@@ -137,7 +138,7 @@ static double corner_angle(double s, double t)
     return atan2(s * t, sqrt(s * s + t * t + 1.0));
 }
 
-/* Radiance to sums, not yet over tents: times solid angles, as cube_texel_solid_angle() has them. */
+/* Multiplies radiance by the solid angles of cube_texel_solid_angle(); division by the tents follows. */
 static void weigh_base(void *context, size_t begin, size_t end)
 {
     const cube *c = context;

@@ -15,8 +15,8 @@ static const double pi = 3.14159265358979323846;
 
 enum {
     SPAN = 64, /* texels that are summed in float */
-    NEAR = 24, /* texels around R that are integrated over, */
-    CLOSE = 6, /* and those of them that take more points */
+    NEAR = 24, /* texels around R whose weight is integrated, */
+    CLOSE = 6, /* and those with more quadrature points */
     TABLE = 4096
 };
 
@@ -67,13 +67,13 @@ void bake_reference_set_lobe(const bake_lobe *lobe, bake_reference_lobe *out)
 typedef struct gathering {
     const bake_reference *r;
     const bake_reference_lobe *lobe;
-    double d[3];            /* unit, in the image */
-    double from, to, close; /* rad from R: texels are integrated over, and up to where with more points */
-    uint32_t parts, points; /* of a texel's edge there, and in each of its parts */
+    double d[3];            /* unit, in the panorama */
+    double from, to, close; /* rad from R: zone of integration, and radius of that with more points */
+    uint32_t parts, points; /* parts of a texel's edge, points in each part */
     double sum[3], weight;
 } gathering;
 
-/* A row's texels from x on, up to SPAN of them, by their middles. Their middle row is at sine, cosine of theta. */
+/* Adds up to SPAN texels of a row from x on, weighted at their centers. sine, cosine: of the row's theta. */
 static inline __attribute__((always_inline)) void add_span(gathering *g, uint32_t y, size_t x, float sine,
                                                            float cosine, double solid_angle)
 {
@@ -126,7 +126,7 @@ static inline __attribute__((always_inline)) void add_span(gathering *g, uint32_
     }
 }
 
-/* Point i of an edge of a texel: where and with what weight; they add up to 1. Gauss and Legendre's rule of 8 or 2. */
+/* Position and weight (they add up to 1) of point i on a texel's edge: Gauss-Legendre with 8 or 2 points. */
 static inline double edge_point(const gathering *g, uint32_t i, double *weight)
 {
     uint32_t part = i / g->points;
@@ -136,7 +136,7 @@ static inline double edge_point(const gathering *g, uint32_t i, double *weight)
     return (part + (i % 2 ? 0.78867513459481287 : 0.21132486540518713)) / g->parts;
 }
 
-/* Weight by the table where there is one, in which a step is small beside the ring. */
+/* Weight, for Charlie from a table whose steps are small compared to the ring. */
 static inline double weigh(const bake_reference_lobe *lobe, double s2)
 {
     if (s2 >= 0.5)
@@ -149,7 +149,7 @@ static inline double weigh(const bake_reference_lobe *lobe, double s2)
     return (1.0 - 2.0 * s2) * (low + ((double)lobe->table[k + 1] - low) * (at - k));
 }
 
-/* One texel, integrated over. */
+/* Adds one texel with its integrated weight. */
 static void add_texel(gathering *g, uint32_t y, size_t x)
 {
     const image *panorama = &g->r->source->panorama;
@@ -189,7 +189,7 @@ static double cosine_at(const gathering *g, double theta, double x)
     return sin(theta) * (g->d[0] * cos(phi) + g->d[2] * sin(phi)) + g->d[1] * cos(theta);
 }
 
-/* True: some of the row's texels from x to x + SPAN - 1 may be in the zone. */
+/* Whether some texels of the row from x to x + SPAN - 1 may be in the zone of integration. */
 static bool is_near(const gathering *g, double theta, size_t x)
 {
     double angle = acos(fmax(-1.0, fmin(1.0, cosine_at(g, theta, (double)x + 0.5 * SPAN))));
@@ -202,7 +202,7 @@ static double angle_to(const gathering *g, double theta, size_t x)
     return acos(fmax(-1.0, fmin(1.0, cosine_at(g, theta, (double)x + 0.5))));
 }
 
-/* The texels of a span of which some are near: these integrated over, the others by their middles. */
+/* Adds a span with texels in the zone: these integrated, the others weighted at their centers. */
 static void add_near_span(gathering *g, uint32_t y, size_t x, double theta, double solid_angle)
 {
     const bake_reference *r = g->r;
@@ -233,7 +233,7 @@ DISPATCH_AVX2 static void gather_rows(gathering *g)
         double theta = pi * (y + 0.5) / panorama->height;
         double sine = sin(theta);
         double cosine = cos(theta);
-        if (across * sine + g->d[1] * cosine < -pi / panorama->height) /* all of it below the horizon */
+        if (across * sine + g->d[1] * cosine < -pi / panorama->height) /* the row is below the horizon */
             continue;
         double solid_angle = equirect_texel_solid_angle(panorama->width, panorama->height, y);
         for (size_t x = 0; x < panorama->width; x += SPAN)
@@ -258,7 +258,7 @@ void bake_reference_gather(const bake_reference *r, const bake_reference_lobe *l
     g.from = -1.0;
     g.to = NEAR * texel;
     g.close = CLOSE * texel;
-    if (lobe->lobe.kind == FACET_LOBE_CHARLIE) { /* the ring, 8 of its widths high */
+    if (lobe->lobe.kind == FACET_LOBE_CHARLIE) { /* the ring with 8 times its width */
         g.close = 0.0;
         g.from = 0.5 * pi - 8.0 * lobe->lobe.width - texel;
         g.to = 0.5 * pi + texel;
@@ -270,7 +270,7 @@ void bake_reference_gather(const bake_reference *r, const bake_reference_lobe *l
 
 /* ---- a mirror's texel ---- */
 
-/* Radiance at (u, v) in texels from the corner: of the texel, or between the middles of texels. */
+/* Adds the radiance at (u, v), in texels from the corner, nearest or bilinear. */
 static void look_up(const bake_reference *r, bool is_interpolated, double u, double v, double weight,
                     double sum[3])
 {
@@ -293,7 +293,7 @@ void bake_reference_average(const bake_reference *r, bool is_interpolated, uint3
                             uint32_t x, uint32_t y, double out[3])
 {
     const image *panorama = &r->source->panorama;
-    uint32_t across = panorama->height / (2 * size) + 1; /* texels of the image */
+    uint32_t across = panorama->height / (2 * size) + 1; /* texels of the panorama */
     uint32_t points = across < 8 ? 64 : across < 32 ? 8 * across : 256;
     double whole = 0.0;
     out[0] = out[1] = out[2] = 0.0;

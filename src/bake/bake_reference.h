@@ -1,9 +1,10 @@
-/* bake_reference.h - what cube maps are measured against: for one direction, every texel of the image weighed with the lobe.
+/* bake_reference.h - the reference for cube maps: for one direction, all texels of the panorama weighted with
+ * the lobe.
  *
- * A texel counts with its radiance times the integral of the weight over its solid angle: the weight in its middle or, within
- * 24 texels of R and on the ring of Charlie, Gauss and Legendre's rule of 2 x 2 points, within 6 texels 8 x 8, in each
- * texel or width of the lobe, whichever is smaller. Weights are summed as light is, and divided by. Sums of up to 64 texels
- * are in float, of these in double. */
+ * A texel contributes its radiance times the integral of the weight over its solid angle: the weight at its
+ * center or, within 24 texels of R and on the ring of Charlie, a Gauss-Legendre rule of 2 x 2 points, within
+ * 6 texels 8 x 8, per texel or per width of the lobe, whichever is smaller. The sum is divided by the sum of
+ * weights. Up to 64 texels are summed in float, these sums in double. */
 #ifndef BAKE_BAKE_REFERENCE_H
 #define BAKE_BAKE_REFERENCE_H
 
@@ -12,32 +13,33 @@
 
 typedef struct bake_reference {
     const bake_source *source;
-    float *planes; /* the image as [row][R G B][column], rows filled up with 0 */
+    float *planes; /* the panorama as [row][R G B][column], rows padded with 0 */
     float *waves;  /* [cos sin][column] */
     size_t stride; /* columns in a row of planes and waves */
 } bake_reference;
 
-/* FACET_ERROR_MEMORY. source is used, not copied. */
+/* FACET_ERROR_MEMORY. source is referenced, not copied. */
 facet_result bake_reference_create(const bake_source *source, const facet_allocator *allocator,
                                    bake_reference *out, facet_error *error);
 void bake_reference_destroy(bake_reference *r); /* {0} is allowed; leaves {0} */
 
-/* A lobe's weight where it is looked up per texel of the image. */
+/* A lobe with the table of its weights. */
 typedef struct bake_reference_lobe {
     bake_lobe lobe;
     float table[4097 + 7]; /* Charlie's, over 2 s^2 */
 } bake_reference_lobe;
 void bake_reference_set_lobe(const bake_lobe *lobe, bake_reference_lobe *out);
 
-/* Light of the lobe around a direction (any length) of the cube map, scaled. */
+/* Radiance filtered with the lobe around a direction (any length) of the cube map, scaled. */
 void bake_reference_gather(const bake_reference *r, const bake_reference_lobe *lobe, const double d[3],
                            double out[3]);
-/* The mean over a texel of a cube map of size texels, from 64 x 64 points of it and more, 8 for each texel of the image along an
- * edge: what a mirror's texel is, within 1 % of what is small in it and bright. is_interpolated: bake_area.h. */
+/* Mean over a texel of a cube map of size texels, by at least 64 x 64 points, 8 per texel of the panorama
+ * along an edge: the value of a mirror's texel, within 1 % for small bright features. is_interpolated:
+ * bake_sharp_is_interpolated(). */
 void bake_reference_average(const bake_reference *r, bool is_interpolated, uint32_t size, uint32_t face,
                             uint32_t x, uint32_t y, double out[3]);
 
-/* Fills out with the lobe's light. */
+/* Fills out with radiance filtered with the lobe. */
 void bake_reference_fill(const bake_reference *r, const bake_lobe *lobe, uint32_t thread_count,
                          bake_watch *watch, cube *out);
 

@@ -13,7 +13,7 @@ static const double pi = 3.14159265358979323846;
 enum { LANES = 8 };
 typedef int32_t int8 __attribute__((vector_size(32), may_alias));
 
-/* Samples that are looked up in the same level, LANES at a time; the last ones may have no weight. */
+/* Samples that are looked up in the same level, LANES at a time; the last ones may have weight 0. */
 typedef struct sample_group {
     uint32_t first, block_count; /* blocks of LANES */
 } sample_group;
@@ -32,7 +32,7 @@ typedef struct sampling {
     cube *out;
 } sampling;
 
-/* The level, with fraction, whose texels have the solid angle that a sample of density pdf stands for. */
+/* The lod at which texels have the solid angle of a sample of density pdf. */
 static double lod_of(const bake_pyramid *p, uint32_t count, double pdf)
 {
     double solid_angle = BAKE_OVERLAP / (count * fmax(pdf, 1e-6));
@@ -42,7 +42,8 @@ static double lod_of(const bake_pyramid *p, uint32_t count, double pdf)
     return lod < 0.0 ? 0.0 : lod < last ? lod : last;
 }
 
-/* Samples in a ring from the inner angle and the share of the lobe within it: as many as make a cell as wide as it is high. */
+/* Number of samples in the ring that begins at angle inner, where done of count samples lie inside: as many
+ * as make cells as wide as high. */
 static uint32_t ring_count(const bake_lobe_shares *shares, uint32_t count, uint32_t done, double inner)
 {
     uint32_t few = 0;
@@ -58,7 +59,7 @@ static uint32_t ring_count(const bake_lobe_shares *shares, uint32_t count, uint3
     return many;
 }
 
-/* Directions at equal angles around R, and the level they are looked up in. */
+/* Directions at equal angles around R, and the lod at which they are looked up. */
 typedef struct ring {
     uint32_t count;
     double lod;
@@ -83,15 +84,15 @@ static uint32_t make_rings(const bake_pyramid *p, const bake_lobe_shares *shares
     return ring_number;
 }
 
-/* Share of a level in what is looked up at a lod: all of it near its own, linear between, in a half of the way to the next. */
+/* Weight of a level in a lookup at a lod: 1 near the level, then linear over half a level. */
 static double share_of(double lod, uint32_t level)
 {
     double distance = fabs(lod - level);
     return distance <= 0.25 ? 1.0 : distance < 0.75 ? 1.5 - 2.0 * distance : 0.0;
 }
 
-/* Samples by level: some are in two, so that what they blur changes gradually from ring to ring. A step would leave a ring that
- * counts too much beside one that counts too little. */
+/* Sorts samples by level. Some are in two levels, so that their blur changes gradually from ring to ring; a
+ * step would weight one ring too much and the next too little. */
 static void place_samples(const bake_pyramid *p, const ring *rings, uint32_t ring_total, sample_set *set)
 {
     float *x = (float *)set->x;
@@ -149,7 +150,8 @@ static inline __attribute__((always_inline)) void choose(const int8 *mask, const
     *out = (float8)(((int8)*a & *mask) | ((int8)*b & ~*mask));
 }
 
-/* Where LANES directions are in a level: numbers of texels, and how far towards the next right and below. */
+/* Positions of LANES directions in a level: indices of texels and bilinear weights towards the next ones
+ * right and below. */
 typedef struct sample_places {
     int8 texel;
     float8 right, down;
@@ -205,12 +207,12 @@ static inline __attribute__((always_inline)) void locate(const float8 *x, const 
     out->texel = (face * stride + y0) * stride + x0;
 }
 
-/* Sum over the samples of a level, turned to the axes right, up, out. */
+/* Sum over the samples of a level, rotated to the given axes. */
 static inline __attribute__((always_inline)) void
 add_group(const sampling *job, const cube *level, const sample_group *g, float axes[3][3], rgbx *sum)
 {
     size_t stride = (size_t)level->size + 2;
-    float8 part = {0}; /* of the texels on the left and of those on the right */
+    float8 part = {0}; /* sums of the left and of the right texels */
     for (uint32_t i = 0; i < g->block_count; i++) {
         float8 x = job->set.x[g->first + i];
         float8 y = job->set.y[g->first + i];
@@ -253,7 +255,7 @@ DISPATCH_AVX2 static void sample_rows(void *context, size_t begin, size_t end)
             cube_direction(face, (2.0 * x + 1.0) / size - 1.0, (2.0 * y + 1.0) / size - 1.0, d);
             double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
             double across = sqrt(d[0] * d[0] + d[2] * d[2]);
-            /* east, south and R; at a pole, where there is no east, X */
+            /* east, south and R; X for east at a pole */
             double e[2] = {across > 1e-9 ? -d[2] / across : 1.0, across > 1e-9 ? d[0] / across : 0.0};
             float axes[3][3] = {{(float)e[0], 0.0f, (float)e[1]},
                                 {(float)(-e[1] * d[1] / length),

@@ -12,7 +12,7 @@
 
 typedef struct cutting {
     const image *from;
-    image *to; /* NULL: only looks whether there is anything to cut off */
+    image *to; /* NULL: only tests whether any radiance exceeds the limit */
     float limit;
     atomic_bool is_over;
 } cutting;
@@ -103,7 +103,7 @@ void bake_watch_init(bake_watch *w, const facet_progress *progress, const char *
     w->reported = -1.0;
 }
 
-/* A thread that finds another one telling goes on with its work. */
+/* A thread does not wait for another one that reports. */
 bool bake_watch_add(bake_watch *w, double done)
 {
     atomic_fetch_add(&w->done, (uint64_t)done);

@@ -1,5 +1,5 @@
-/* bake_verify.c - how far a cube map is from the reference (bake_reference.h): all texels of small levels, of large ones a
- * choice that is the same for every run. */
+/* bake_verify.c - errors of a cube map against the reference (bake_reference.h): all texels of small levels,
+ * a fixed selection of large ones. */
 #include <assert.h>
 #include <math.h>
 
@@ -16,12 +16,12 @@ enum {
     MIN_TEXELS = 96
 };
 
-/* Texels of the image that are weighed for a level: 0.5 to 1 s of one core. */
+/* Texels of the panorama to weight per level: 0.5 to 1 s of one core. */
 static const double image_texels = 8e8;
 
 static const facet_bake_desc default_desc;
 
-/* Sums over one texel and its channels. */
+/* Errors of one texel over its channels. */
 typedef struct texel_error {
     double square, reference_square, max;
 } texel_error;
@@ -36,13 +36,13 @@ typedef struct verifying {
     bake_watch *watch;
 } verifying;
 
-/* Texel number i of the choice. */
+/* Index of selected texel i. */
 static uint32_t choose_texel(const verifying *job, uint32_t i)
 {
     uint32_t texels = 6 * job->level->size * job->level->size;
     if (job->count == texels)
         return i;
-    /* one in each of count parts of the faces' rows, where in it by a multiplicative hash (Knuth 1973) */
+    /* one in each of count equal parts, at a position given by a multiplicative hash (Knuth 1973) */
     uint64_t first = (uint64_t)texels * i / job->count;
     uint64_t next = (uint64_t)texels * (i + 1) / job->count;
     return (uint32_t)(first + (uint64_t)(i * 2654435761u) * (next - first) / 0x100000000ull);

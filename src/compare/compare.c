@@ -14,7 +14,7 @@ enum { BLOCK = 256, GRAIN = 16 };
 
 /* ---- colors ---- */
 
-/* Every 16th of magma's 256 colors, and the last. */
+/* Every 16th of magma's 256 colors, and the last one. */
 static const float magma[17][3] = {
     {0.001f, 0.000f, 0.014f}, {0.040f, 0.031f, 0.134f}, {0.113f, 0.065f, 0.277f}, {0.212f, 0.062f, 0.419f},
     {0.317f, 0.072f, 0.485f}, {0.415f, 0.110f, 0.505f}, {0.513f, 0.148f, 0.508f}, {0.614f, 0.182f, 0.499f},
@@ -25,7 +25,7 @@ static const float magma[17][3] = {
 void compare_magma(float error, float color[3])
 {
     const float at =
-        compare_clamp(error, 0.0f, 1.0f) * 255.0f / 16.0f; /* the last one stands at 255, not at 256 */
+        compare_clamp(error, 0.0f, 1.0f) * 255.0f / 16.0f; /* the last color is that of 255, not of 256 */
     const int i = at < 15.0f ? (int)at : 15;
     const float t = i < 15 ? at - (float)i : (at - 15.0f) * (16.0f / 15.0f);
     for (int k = 0; k < 3; k++)
@@ -51,7 +51,7 @@ static void put(float *pixel, float r, float g, float b)
     pixel[3] = 1.0f;
 }
 
-/* What the map shows of a difference: in display space the number itself is to stand in the file. */
+/* The value that stands for a difference; in display space the file is to hold the number itself. */
 static float shown(const map_job *job, float difference)
 {
     const float x = difference < 0.0f ? -difference * job->gain : difference * job->gain;
@@ -67,7 +67,7 @@ static void put_difference(const map_job *job, const compare_row *row, uint32_t 
         const float e = row->b[k][i] - row->a[k][i];
         d[k] = shown(job, (e < 0.0f ? -e : e) + opacity);
     }
-    if (row->flags[i] & COMPARE_INVALID) /* as bright as it gets */
+    if (row->flags[i] & COMPARE_INVALID) /* the brightest value */
         put(pixel, 1.0f, 1.0f, 1.0f);
     else
         put(pixel, d[0], d[1], d[2]);
@@ -91,7 +91,7 @@ static void map_rows(void *context, size_t begin, size_t end)
         row.a[k] = planes[k];
         row.b[k] = planes[4 + k];
     }
-    const uint32_t place = job->desc->is_sheet ? 2 * s->width : 0; /* of the difference */
+    const uint32_t place = job->desc->is_sheet ? 2 * s->width : 0; /* first column of the difference */
     for (size_t y = begin; y < end; y++) {
         float *line = (float *)job->out->pixels + 4 * (size_t)job->out->width * y;
         for (uint32_t x = 0; x < s->width; x += BLOCK) {
@@ -198,11 +198,12 @@ static void begin(const compare_source *s, const compare_survey *survey, const f
                            .flip = (double)NAN,
                            .flip_max = (double)NAN};
     const double largest =
-        survey->largest > 0.0f ? (double)survey->largest : 1.0; /* of black: anything serves */
+        survey->largest > 0.0f ? (double)survey->largest : 1.0; /* a black image: any peak will do */
     out->peak = desc->peak > 0.0f ? (double)desc->peak : s->is_display ? 1.0 : largest;
 }
 
-/* The numbers of out; map (a float per pixel) holds one thing after the other, in the end the errors of a heat map. */
+/* Computes all metrics. map, a float per pixel, is scratch memory that holds the errors of a heat map in the
+ * end. */
 static facet_result measure(compare_source *s, const facet_compare_desc *desc, float *map, bool is_flip_shown,
                             facet_comparison *out, facet_error *error)
 {

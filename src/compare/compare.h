@@ -1,4 +1,4 @@
-/* compare.h - how far two images are from each other: errors per pixel, structure, and what an eye sees. */
+/* compare.h - image metrics: errors per pixel, structural similarity (SSIM), perceived difference (FLIP). */
 #ifndef COMPARE_COMPARE_H
 #define COMPARE_COMPARE_H
 
@@ -18,8 +18,8 @@ facet_result compare_images(const compare_image *a, const compare_image *b, cons
                             const facet_compare_desc *desc, facet_comparison *out, image *difference,
                             facet_error *error);
 
-/* The colors of errors from 0 to 1, sRGB-encoded: magma (Smith and van der Walt 2015), from black over purple, red and
- * orange to light yellow, evenly perceived. What lies outside is clamped. */
+/* Magma (Smith and van der Walt 2015), a perceptually uniform color map from black over purple, red and
+ * orange to light yellow: sRGB-encoded color of an error, which is clamped to [0, 1]. */
 void compare_magma(float error, float color[3]);
 
 #endif

@@ -1,5 +1,5 @@
-/* compare_errors.c - see compare_errors.h. Each row has sums of its own, which are then added from top to bottom: the same
- * for every number of threads. */
+/* compare_errors.c - see compare_metrics.h. Each row has its own sums, which are added from top to bottom, so
+ * that the result does not depend on the number of threads. */
 #include "compare/compare_metrics.h"
 
 #include <math.h>
@@ -50,7 +50,7 @@ static bool is_finite_pixel(const float *p)
     return count == 4;
 }
 
-/* What the pixels are before anything is done to them. */
+/* Properties of the source texels, before tone mapping and compositing. */
 static void survey_raw(const compare_source *s, uint32_t y, compare_survey *row)
 {
     compare_texels t;
@@ -152,8 +152,9 @@ DISPATCH_AVX2 static void compare_largest_errors(const block *k, uint32_t count,
         }
 }
 
-/* Sums of a channel, in double, eight beside one another so that they vectorise; which sum a pixel goes into depends on its
- * place alone. Pixels that do not count are equal in both and 0 in the reference sums by their weight. */
+/* Sums of a channel, in double, in eight lanes so that the loop vectorises; the lane of a pixel depends on
+ * its position only. Pixels that do not count are equal in both images and have weight 0 in the reference
+ * sums. */
 DISPATCH_AVX2 static void compare_add_channel(const float *a, const float *b, const float *weight,
                                               uint32_t count, double epsilon, error_sums *sums)
 {
@@ -218,10 +219,10 @@ static void error_rows(void *context, size_t begin, size_t end)
     }
 }
 
-/* Sums to what they are of. */
+/* Means and roots from the sums. */
 static void conclude(const error_sums *sums, uint32_t channel_count, facet_comparison *out)
 {
-    const double count = (double)sums->finite * channel_count; /* 0: all means are NAN */
+    const double count = (double)sums->finite * channel_count; /* 0 makes all means NAN */
     out->mse = sums->squares / count;
     out->rmse = sqrt(out->mse);
     out->mse_relative = sums->relative / count;
@@ -271,7 +272,7 @@ facet_result compare_errors_make(const compare_source *s, const facet_compare_de
 
 enum { BINS = 1 << 16 };
 
-/* The bin in which the rank falls, from 1; *rank becomes the rank within it. */
+/* The bin that holds the value of a rank (from 1); *rank becomes the rank within that bin. */
 static uint32_t find_bin(const uint64_t *bins, uint64_t *rank)
 {
     uint32_t bin = 0;
@@ -294,14 +295,14 @@ facet_result compare_select(const float *values, size_t value_count, const doubl
     uint64_t total = 0;
     for (size_t i = 0; i < value_count; i++)
         if (is_value(values[i])) {
-            bins[float_bits(values[i] + 0.0f) >> 16]++; /* + 0: of -0 there is none */
+            bins[float_bits(values[i] + 0.0f) >> 16]++; /* + 0 turns -0 into 0 */
             total++;
         }
     uint64_t ranks[COMPARE_SELECT_MAX];
     uint32_t upper[COMPARE_SELECT_MAX];
     for (uint32_t k = 0; k < count; k++) {
         const double rank =
-            ceil(shares[k] / 100.0 * (double)total - 1e-9); /* 95 % of 100 is 95, whatever 0.95 is */
+            ceil(shares[k] / 100.0 * (double)total - 1e-9); /* 95 % of 100 is 95 although 0.95 is not exact */
         ranks[k] = rank < 1.0 ? 1 : rank > (double)total ? total : (uint64_t)rank;
         upper[k] = find_bin(bins, &ranks[k]);
     }

@@ -1,5 +1,7 @@
-/* compare_filter.h - convolution of planes of floats with symmetric kernels, in one direction. The results are multiples of
- * 32 floats, the rest of which is whatever lies behind. */
+/* compare_filter.h - tiles of an image with the pixels around them, and convolution of planes of floats with
+ * symmetric kernels along one axis. Filters work on an image in tiles, so that memory does not grow with the
+ * image and a tile stays in a core's cache. Results are written in multiples of 32 floats; those behind the
+ * last pixel are undefined. */
 #ifndef COMPARE_COMPARE_FILTER_H
 #define COMPARE_COMPARE_FILTER_H
 
@@ -12,9 +14,9 @@
 /* ---- tiles ---- */
 
 enum {
-    TILE_WIDTH = 128, /* a multiple of 32, see compare_filter.h */
+    TILE_WIDTH = 128, /* a multiple of FILTER_LANES */
     TILE_HEIGHT = 64,
-    TILE_GRAIN = 4 /* tiles that share their memory */
+    TILE_GRAIN = 4 /* tiles per block of scratch memory */
 };
 
 typedef struct compare_tile {
@@ -42,8 +44,8 @@ enum { FILTER_LANES = 32 };
 
 typedef float filter_vector __attribute__((vector_size(32), may_alias, aligned(4)));
 
-/* out[i] = k[0] in[i] + sum over j from 1 to radius of k[j] (in[i + j step] + in[i - j step]), is_odd: the difference of
- * these two. The four vectors stay in registers. */
+/* out[i] = k[0] in[i] + sum over j from 1 to radius of k[j] (in[i + j step] + in[i - j step]); is_odd: of the
+ * difference of these two. The four vectors stay in registers. */
 static inline __attribute__((always_inline)) void filter_line(const float *in, ptrdiff_t step, const float *k,
                                                               int radius, bool is_odd, float *out,
                                                               uint32_t count)
@@ -71,7 +73,7 @@ static inline __attribute__((always_inline)) void filter_line(const float *in, p
 
 typedef double filter_pair __attribute__((vector_size(32), may_alias, aligned(8)));
 
-/* The same with doubles and an even kernel; multiples of 16. */
+/* The same in double for an even kernel, in multiples of 16. */
 static inline __attribute__((always_inline)) void
 filter_line_double(const double *in, ptrdiff_t step, const double *k, int radius, double *out, uint32_t count)
 {

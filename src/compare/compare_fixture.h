@@ -46,7 +46,7 @@ static inline void fixture_fill(fixture *f, float r, float g, float b, float opa
         }
 }
 
-/* Stripes, a disc, a ramp and noise: something for every filter. seed 0: without noise; amount: of it. */
+/* Stripes, a disc, a ramp and noise of an amplitude (seed 0: none): features for every filter. */
 static inline void fixture_draw(fixture *f, uint32_t seed, float amount)
 {
     uint32_t state = seed;
@@ -64,7 +64,7 @@ static inline void fixture_draw(fixture *f, uint32_t seed, float amount)
         }
 }
 
-/* A comparison that has to succeed. */
+/* Fails the test unless the comparison succeeds. */
 static inline facet_comparison fixture_compare(const fixture *a, const fixture *b,
                                                const facet_compare_desc *desc)
 {

@@ -1,5 +1,5 @@
-/* compare_flip.c - see compare_flip.h. Works on tiles; both images go through the filters one after the other, and what an
- * eye makes of them is then compared. */
+/* compare_flip.c - FLIP, see compare_metrics.h. Works on tiles: both images are filtered by the eye's
+ * contrast sensitivity and by edge and point detectors, then compared. */
 #include "compare/compare_metrics.h"
 
 #include <math.h>
@@ -19,7 +19,7 @@ enum {
     FLIP_MAX_RADIUS = 136 /* at 1000 pixels per degree */
 };
 
-/* The upper halves of symmetric kernels, weights from the middle to radius. */
+/* Half of a symmetric kernel: weights from the center to radius. */
 typedef struct flip_kernel {
     int radius;
     float weights[FLIP_MAX_RADIUS + 1];
@@ -27,10 +27,10 @@ typedef struct flip_kernel {
 
 typedef struct flip_kernels {
     int halo; /* the largest radius */
-    /* Contrast sensitivity of the achromatic, red-green and blue-yellow channels, the last a sum of two. Each is applied along
-     * rows and then along columns. */
+    /* Contrast sensitivity of the achromatic, red-green and blue-yellow channels, the last a sum of two
+     * terms. All filters are separable: rows, then columns. */
     flip_kernel achromatic, red_green, blue_yellow[2];
-    /* A Gaussian, its first derivative (odd: the weights are those on the right), and its second. */
+    /* A Gaussian, its first derivative (odd: weights of the right half) and its second. */
     flip_kernel gaussian, first, second;
 } flip_kernels;
 
@@ -42,9 +42,9 @@ typedef struct gauss_term {
 } gauss_term;
 static const gauss_term achromatic = {1.0, 0.0047}, red_green = {1.0, 0.0053},
                         blue_yellow[2] = {{34.1, 0.04}, {13.5, 0.025}};
-static const double widest = 0.04;         /* the largest b: all have the radius of this one */
+static const double widest = 0.04;         /* the largest b, which sets the radius of all kernels */
 static const double feature_width = 0.082; /* degrees: peak to trough of the eye's edge detector */
-static const double negligible = 1e-9;     /* of a kernel's sum: weights that no float notices */
+static const double negligible = 1e-9;     /* weights below this share of a kernel's sum are cut off */
 
 static double gauss(gauss_term t, double pixels_per_degree, int x)
 {
@@ -52,7 +52,7 @@ static double gauss(gauss_term t, double pixels_per_degree, int x)
     return exp(-PI * PI * r * r / t.b);
 }
 
-/* Sum over a row of the filter. */
+/* Sum of the weights along one axis. */
 static double row_sum(gauss_term t, double pixels_per_degree, int radius)
 {
     double sum = 0.0;
@@ -61,7 +61,8 @@ static double row_sum(gauss_term t, double pixels_per_degree, int radius)
     return sum;
 }
 
-/* The terms of one filter in two dimensions add up to 1: what each has of it is split evenly between rows and columns. */
+/* The terms of a filter add up to 1 in two dimensions; the scale of each is split evenly between rows and
+ * columns. */
 static void make_sensitivity(const gauss_term *terms, int count, double pixels_per_degree, int radius,
                              flip_kernel *out)
 {
@@ -83,7 +84,7 @@ static void make_sensitivity(const gauss_term *terms, int count, double pixels_p
     }
 }
 
-/* Positive weights add up to 1, negative ones to -1, in one dimension, which makes it so in two. */
+/* Positive weights add up to 1 and negative ones to -1 along one axis, hence in two dimensions as well. */
 static void make_features(double pixels_per_degree, flip_kernels *out)
 {
     const double sigma = 0.5 * feature_width * pixels_per_degree;
@@ -129,7 +130,7 @@ typedef struct flip_sums {
 typedef struct flip_job {
     const compare_source *source;
     flip_kernels kernels;
-    size_t stride, rows; /* of planes with their surroundings */
+    size_t stride, rows; /* of planes, including the margins */
     bool is_hdr, has_opacity;
     uint32_t exposure_count;
     float gains[MAX_EXPOSURES];
@@ -139,18 +140,18 @@ typedef struct flip_job {
     atomic_bool has_no_memory;
 } flip_job;
 
-/* What an eye makes of the tile. */
+/* What the filters make of a tile: perceived colors, strength of edges and points. */
 typedef struct flip_view {
     float l[TILE_HEIGHT][TILE_WIDTH], a[TILE_HEIGHT][TILE_WIDTH], b[TILE_HEIGHT][TILE_WIDTH];
     float edges[TILE_HEIGHT][TILE_WIDTH], points[TILE_HEIGHT][TILE_WIDTH];
 } flip_view;
 
-/* What a tile is worked on in. */
+/* Scratch memory for a tile. */
 typedef struct flip_work {
     float *light[2][3];  /* of both images, stride x rows */
     float *opponent[3];  /* y, cx, cz of one of them */
     float *lines[LINES]; /* TILE_WIDTH x rows */
-    float *opacity[2];   /* a row that nobody reads */
+    float *opacity[2];   /* opacities of a row, not used */
     unsigned char *flags;
     flip_view views[2];
     float errors[TILE_HEIGHT][TILE_WIDTH];
@@ -176,7 +177,7 @@ static flip_work *create_work(const flip_job *job)
     for (int k = 0; k < 2; k++, next += job->stride)
         w->opacity[k] = next;
     w->flags = (unsigned char *)next;
-    /* lanes behind the last pixel are read, and then not used */
+    /* lanes behind the last pixel are read but not used */
     for (size_t i = 0; i < floats; i++)
         w->memory[i] = 0.0f;
     return w;
@@ -208,7 +209,7 @@ opponent_row(const float *restrict red, const float *restrict green, const float
 {
     for (uint32_t i = 0; i < count; i++) {
         float r = red[i], g = green[i], b = blue[i];
-        if (is_hdr) { /* a constant at each call */
+        if (is_hdr) { /* a constant at each call site */
             r = flip_tonemap(r, gain);
             g = flip_tonemap(g, gain);
             b = flip_tonemap(b, gain);
@@ -220,7 +221,7 @@ opponent_row(const float *restrict red, const float *restrict green, const float
     }
 }
 
-/* The opponent colors of an image as a display shows it: at an exposure, or as they are. */
+/* Opponent colors of one image, tone-mapped at an exposure if it is linear. */
 DISPATCH_AVX2 static void flip_fill_opponent(const flip_job *job, flip_work *w, int side, float gain,
                                              uint32_t width, size_t height)
 {
@@ -236,7 +237,7 @@ DISPATCH_AVX2 static void flip_fill_opponent(const flip_job *job, flip_work *w, 
     }
 }
 
-/* Along rows: the opponent channels by what is resolved of them, and Y by what finds edges and points. */
+/* Along rows: contrast sensitivity of the opponent channels, feature detectors of Y. */
 DISPATCH_AVX2 static void flip_filter_rows(const flip_job *job, flip_work *w, uint32_t width, size_t height)
 {
     const flip_kernels *k = &job->kernels;
@@ -260,8 +261,7 @@ static inline __attribute__((always_inline)) void along_column(const float *line
     filter_line(line, TILE_WIDTH, kernel->weights, kernel->radius, is_odd, out, width);
 }
 
-/* Along columns; then what is seen of one row: colors as differences are perceived, and the strength of edges and
- * points. */
+/* Along columns, for one row of results: Lab colors with the Hunt effect, strength of edges and points. */
 DISPATCH_AVX2 static void flip_filter_columns(const flip_job *job, const flip_work *w, uint32_t row,
                                               uint32_t width, flip_view *view)
 {
@@ -286,7 +286,7 @@ DISPATCH_AVX2 static void flip_filter_columns(const flip_job *job, const flip_wo
     }
 }
 
-/* The larger of what is there and the error between the views. */
+/* Raises the errors of a row to those between the two views. */
 DISPATCH_AVX2 static void flip_combine(flip_work *w, uint32_t row, uint32_t width)
 {
     const flip_view *a = &w->views[0], *b = &w->views[1];
@@ -357,7 +357,7 @@ static void flip_tiles(void *context, size_t begin, size_t end)
 
 /* ---- exposures ---- */
 
-/* The median luminance and the largest. Where more than half is black, the median of what is not. */
+/* Median and largest luminance. If at least half of the pixels are black, the median is that of the others. */
 static facet_result find_levels(const float *luminance, size_t count, const facet_allocator *allocator,
                                 double levels[2], facet_error *error)
 {
@@ -372,8 +372,8 @@ static facet_result find_levels(const float *luminance, size_t count, const face
     return compare_select(luminance, count, shares, 2, allocator, levels, error);
 }
 
-/* From the shortest, at which nothing is too bright, to the longest, at which half of the image is. Andersson et al. 2021,
- * section 4.2. */
+/* From the shortest exposure, at which nothing saturates, to the longest, at which half of the image does.
+ * Andersson et al. 2021, section 4.2. */
 static facet_result choose_exposures(flip_job *job, const facet_compare_desc *desc, const float *luminance,
                                      facet_comparison *out, facet_error *error)
 {

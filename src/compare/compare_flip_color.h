@@ -6,12 +6,13 @@
 
 #include "compare/compare_math.h"
 
-/* YCxCz without its scale and offset, which filters do not notice: Y, X - Y, Y - Z, with XYZ over that of white. */
+/* YCxCz without its scale and offset, to which the filters are invariant: Y, X - Y, Y - Z, with XYZ relative
+ * to white. */
 typedef struct flip_opponent {
     float y, cx, cz;
 } flip_opponent;
 
-/* Of linear sRGB with white D65; the rows of the matrix add up to 1. */
+/* From linear sRGB, white D65; the rows of the matrix add up to 1. */
 static inline __attribute__((always_inline)) flip_opponent flip_opponent_from_rgb(float r, float g, float b)
 {
     float x = 0.433895389f * r + 0.376242373f * g + 0.189862239f * b;
@@ -20,7 +21,7 @@ static inline __attribute__((always_inline)) flip_opponent flip_opponent_from_rg
     return (flip_opponent){y, x - y, y - z};
 }
 
-/* CIE L*a*b* with a* and b* times L* / 100: colors count for less in the dark (Hunt 1952). */
+/* CIE L*a*b* with a* and b* times L* / 100: chroma counts for less in the dark (Hunt 1952). */
 typedef struct flip_lab {
     float l, a, b;
 } flip_lab;
@@ -31,7 +32,7 @@ static inline __attribute__((always_inline)) float flip_lab_curve(float t)
     return compare_pick(t > 216.0f / 24389.0f, root, t * (841.0f / 108.0f) + 4.0f / 29.0f);
 }
 
-/* Of what a display can show of the filtered color: clamped as linear sRGB. */
+/* From the filtered color, clamped to the gamut of linear sRGB. */
 static inline __attribute__((always_inline)) flip_lab flip_lab_from_opponent(flip_opponent o)
 {
     float x = o.y + o.cx, z = o.y - o.cz;
@@ -44,10 +45,10 @@ static inline __attribute__((always_inline)) flip_lab flip_lab_from_opponent(fli
     return (flip_lab){l, hunt * 500.0f * (fx - fy), hunt * 200.0f * (fy - fz)};
 }
 
-/* HyAB^0.7 of the two colors that are farthest from each other, green and blue: 203.30165^0.7. */
+/* HyAB^0.7 of the most distant colors, green and blue: 203.30165^0.7. */
 #define FLIP_LARGEST 41.2760984f
 
-/* The color difference, [0, 1]: HyAB^0.7, of which the first 40 % are spread over [0, 0.95]. Equations 5 to 7. */
+/* Color difference in [0, 1]: HyAB^0.7, of which the first 40 % map to [0, 0.95]. Equations 5 to 7. */
 static inline __attribute__((always_inline)) float flip_color_difference(float dl, float da, float db)
 {
     const float knee = 0.4f * FLIP_LARGEST;
@@ -57,21 +58,22 @@ static inline __attribute__((always_inline)) float flip_color_difference(float d
     return compare_pick(power < knee, power * (0.95f / knee), far_);
 }
 
-/* Color and feature differences to the error. Equations 10 to 12. */
+/* The error from color and feature differences. Equations 10 to 12. */
 static inline __attribute__((always_inline)) float flip_error(float color, float edges, float points)
 {
     float feature = sqrtf(compare_pick(edges > points, edges, points) * 0.70710678f);
     return compare_pow(color, 1.0f - compare_clamp(feature, 0.0f, 1.0f));
 }
 
-/* Narkowicz's fit of ACES without its pre-exposure, of light times gain; [0, 1]. Andersson et al. 2021, section 4.1. */
+/* Narkowicz's fit of ACES without its pre-exposure, of radiance times gain; in [0, 1]. Andersson et al. 2021,
+ * section 4.1. */
 static inline __attribute__((always_inline)) float flip_tonemap(float light, float gain)
 {
     float x = compare_clamp(light * gain, 0.0f, 1e9f);
     float shown = (0.9036f * x + 0.018f) * x / ((0.8748f * x + 0.354f) * x + 0.14f);
     return compare_clamp(shown, 0.0f, 1.0f);
 }
-/* The light that it makes 0.85: (0.9036 - 0.85 0.8748) x^2 + (0.018 - 0.85 0.354) x - 0.85 0.14 = 0. */
+/* The radiance that it maps to 0.85: (0.9036 - 0.85 0.8748) x^2 + (0.018 - 0.85 0.354) x - 0.85 0.14 = 0. */
 #define FLIP_BRIGHT 2.118872323987314
 
 #endif

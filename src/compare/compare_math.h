@@ -1,5 +1,5 @@
-/* compare_math.h - powers and roots for loops over pixels: without branches and library calls, so that the loops
- * vectorise, and with the same bits on every machine, which a libm does not promise. */
+/* compare_math.h - powers for loops over pixels, free of branches and library calls so that the loops
+ * vectorise, with the same bits on every machine, which libm does not guarantee. */
 #ifndef COMPARE_MATH_H
 #define COMPARE_MATH_H
 
@@ -7,7 +7,8 @@
 
 #include "image/half.h"
 
-/* is_first ? first : second, as a mask: of the operator, compilers make branches, which loops with them cannot be without. */
+/* is_first ? first : second by a mask; compilers turn the operator into branches, which keep loops from
+ * vectorising. */
 static inline float compare_pick(bool is_first, float first, float second)
 {
     uint32_t mask = 0u - (uint32_t)is_first;
@@ -16,7 +17,7 @@ static inline float compare_pick(bool is_first, float first, float second)
 
 static inline float compare_clamp(float x, float least, float most)
 {
-    x = compare_pick(x > least, x, least); /* not a number: least */
+    x = compare_pick(x > least, x, least); /* NaN becomes least */
     return compare_pick(x < most, x, most);
 }
 
@@ -40,7 +41,7 @@ static inline float compare_log2(float x)
 static inline float compare_exp2(float x)
 {
     x = compare_clamp(x, -126.0f, 127.0f);
-    int32_t whole = (int32_t)(x + 126.5f) - 126; /* to nearest: what is cast is not negative */
+    int32_t whole = (int32_t)(x + 126.5f) - 126; /* to nearest; the operand of the cast is not negative */
     float f = x - (float)whole;
     float series = 1.5403530e-4f + f * 1.5252734e-5f; /* ln(2)^k / k! for k = 6, 7 */
     series = 1.3333558e-3f + f * series;

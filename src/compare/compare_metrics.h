@@ -4,20 +4,22 @@
 
 #include "compare/compare_source.h"
 
-/* What has to be known before errors can be measured. */
+/* Facts about both images that the metrics depend on. */
 typedef struct compare_survey {
-    bool is_equal;    /* all bits of the pixels that count */
+    bool is_equal;    /* all bits of the pixels that count are equal */
     bool has_opacity; /* some pixel that counts is not opaque */
     uint64_t pixel_count, nonfinite_a, nonfinite_b, invalid_count;
-    float largest; /* channel of a, linear, at least 0 */
+    float largest; /* largest linear channel of a, at least 0 */
 } compare_survey;
 
-/* luminance (NULL: not wanted; width * height): of a, linear and not below 0, -1 where a pixel does not count. */
+/* luminance (width * height; may be NULL) receives the linear luminance of a, at least 0, or -1 where a pixel
+ * does not count. */
 facet_result compare_survey_make(const compare_source *s, const facet_compare_desc *desc, float *luminance,
                                  compare_survey *out, facet_error *error);
 
-/* Fills mse to differing_share of out, except percentiles, from pixel_count and channel_count, which are there. errors (width
- * * height): the largest |b - a| of each pixel's channels; infinity where it is invalid, -1 where it does not count. */
+/* Fills mse to differing_share of out, except the percentiles; pixel_count and channel_count are set before.
+ * errors (width * height) receives the largest |b - a| over the channels: infinity for invalid pixels, -1 for
+ * those that do not count. */
 facet_result compare_errors_make(const compare_source *s, const facet_compare_desc *desc, float *errors,
                                  facet_comparison *out, facet_error *error);
 
@@ -41,9 +43,9 @@ facet_result compare_flip_make(const compare_source *s, const facet_compare_desc
 
 enum { COMPARE_SELECT_MAX = 8 };
 
-/* For each share (0 to 100, count of them) the least of values that at least that share of them does not exceed: the
- * nearest-rank percentile. Negative values and NaN are no values; infinity is one. 0 where there are none. Fails with
- * FACET_ERROR_MEMORY. */
+/* Nearest-rank percentiles: for each of count shares (0 to 100) the smallest value that at least that share
+ * of the values does not exceed. Negative values and NaN are skipped, infinity counts. 0 if there are no
+ * values. FACET_ERROR_MEMORY. */
 facet_result compare_select(const float *values, size_t value_count, const double *shares, uint32_t count,
                             const facet_allocator *allocator, double *out, facet_error *error);
 

@@ -89,13 +89,14 @@ static bool is_finite(float x)
     return (float_bits(x) & 0x7f800000u) != 0x7f800000u;
 }
 
-/* Both NaN, or both the same infinity. */
+/* Equal, or both NaN. */
 static bool is_same(float a, float b)
 {
     return a == b || (isnan(a) && isnan(b));
 }
 
-/* Texels from number first on: where they are if they are floats already, else converted into memory. */
+/* Texels from index first on: in place if they are linear, premultiplied RGBA floats already, else converted
+ * into memory. */
 static const float *read_side(const compare_side *s, size_t first, uint32_t count, float *memory)
 {
     const image *i = s->image.texels;
@@ -115,14 +116,15 @@ void compare_source_read(const compare_source *s, uint32_t x, uint32_t y, uint32
         out->counts[i] = true;
     if (s->has_mask) {
         const float *c = read_side(&s->mask, first, count, out->memory[0]);
-        for (uint32_t i = 0; i < count; i++, c += 4) /* 0.214: the light of sRGB 0.5 */
+        for (uint32_t i = 0; i < count; i++, c += 4) /* 0.214 is linear for sRGB 0.5 */
             out->counts[i] = 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2] >= 0.21404114f;
     }
     out->a = read_side(&s->a, first, count, out->memory[0]);
     out->b = read_side(&s->b, first, count, out->memory[1]);
 }
 
-/* A pixel of which a channel is not finite: what of it is the same in both, or finite in both, can be compared. */
+/* Replaces the channels of a pixel that are not finite by 0 in both images; the pixel is invalid unless they
+ * are the same in both. */
 static unsigned take_out(const float *a, const float *b, float pa[4], float pb[4])
 {
     bool is_invalid = false;
@@ -141,7 +143,7 @@ static uint32_t clamp_index(int64_t i, uint32_t count)
     return i < 0 ? 0 : i >= (int64_t)count ? count - 1 : (uint32_t)i;
 }
 
-/* Pixels from (x, y) on, up to COMPARE_TEXELS, to position at in out. */
+/* Stores up to COMPARE_TEXELS pixels from (x, y) on at position at of out. */
 static void gather(const compare_source *s, int64_t x, int64_t y, uint32_t count, uint32_t at,
                    const compare_row *out)
 {
@@ -175,8 +177,7 @@ static void gather(const compare_source *s, int64_t x, int64_t y, uint32_t count
     }
 }
 
-/* Linear images to what a display shows of them. The operator works on the color of what is there, not on what is left of
- * it before black. */
+/* Exposure and tone mapping of linear pixels. The operator is applied to the unpremultiplied color. */
 static void develop(const compare_source *s, float *const c[4], uint32_t count)
 {
     for (int k = 0; k < 3 && s->scale != 1.0f; k++)
@@ -184,7 +185,7 @@ static void develop(const compare_source *s, float *const c[4], uint32_t count)
             c[k][i] *= s->scale;
     for (uint32_t i = 0; i < count && s->is_display && s->tonemap != FACET_TONEMAP_NONE; i++) {
         const float opacity = clamp(c[3][i], 0.0f, 1.0f);
-        vec3 shown = vec3(0.0f); /* as film_develop() has it where nothing is covered */
+        vec3 shown = vec3(0.0f); /* as film_develop() where nothing is covered */
         if (opacity > 0.0f)
             shown = tonemap((int)s->tonemap, vec3(c[0][i], c[1][i], c[2][i]) / opacity) * opacity;
         for (int k = 0; k < 3; k++)

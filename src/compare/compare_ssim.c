@@ -1,5 +1,5 @@
-/* compare_ssim.c - see compare_ssim.h. The Gaussian is separable: rows, then columns. In double, because variances are small
- * differences of large numbers. */
+/* compare_ssim.c - SSIM, see compare_metrics.h. The Gaussian is separable: rows, then columns. In double,
+ * because variances are small differences of large numbers. */
 #include "compare/compare_metrics.h"
 
 #include <math.h>
@@ -35,7 +35,7 @@ typedef struct ssim_job {
     atomic_bool has_no_memory;
 } ssim_job;
 
-/* What a tile is worked on in. */
+/* Scratch memory for a tile. */
 typedef struct ssim_work {
     float a[5][TILE_ROWS][TILE_STRIDE],
         b[5][TILE_ROWS][TILE_STRIDE]; /* R, G, B, opacity, luminance over white */
@@ -71,7 +71,7 @@ static void load_tile(const ssim_job *job, const compare_tile *t, ssim_work *w)
     }
 }
 
-/* Row of plane p as doubles: luminance, that over white, then the channels. */
+/* Values and products of a row of plane p in double: luminance, luminance over white, then the channels. */
 static inline __attribute__((always_inline)) void take_products(const ssim_job *job, ssim_work *w, uint32_t p,
                                                                 uint32_t row, uint32_t width)
 {
@@ -104,7 +104,7 @@ DISPATCH_AVX2 static void ssim_filter_rows(const ssim_job *job, ssim_work *w, ui
     }
 }
 
-/* The index of a row of windows. */
+/* SSIM of a row of windows. */
 DISPATCH_AVX2 static void ssim_filter_columns(const ssim_job *job, const ssim_work *w, uint32_t row,
                                               uint32_t width, double *restrict index)
 {
@@ -195,13 +195,13 @@ facet_result compare_ssim_make(const compare_source *s, const facet_compare_desc
         sums.count += job.tiles[i].count;
     }
     mem_free(job.tiles);
-    if (sums.count == 0) /* out has NAN */
+    if (sums.count == 0) /* out keeps NAN */
         return FACET_OK;
     const uint32_t first = job.has_opacity ? 2 : 1;
     double channels = 0.0;
     for (uint32_t p = first; p < job.plane_count; p++)
         channels += sums.planes[p];
-    double least = sums.planes[0]; /* what is hidden over black shows over white */
+    double least = sums.planes[0]; /* differences that black hides show over white */
     least = job.has_opacity && sums.planes[1] < least ? sums.planes[1] : least;
     out->ssim = least / (double)sums.count;
     out->ssim_channels = channels / ((double)sums.count * (job.plane_count - first));

@@ -1,4 +1,5 @@
-/* denoise.c - windows over the whole image, each pixel the mean of what they say; see denoise.h. */
+/* denoise.c - see denoise.h. Fits are made for overlapping windows; a pixel is the weighted mean of the fits
+ * that cover it. Regions then get the energy back that the filter lost. */
 #include "film/denoise.h"
 
 #include <math.h>
@@ -58,8 +59,8 @@ static void sum_blocks(void *context, size_t begin, size_t end)
         sum_block(e, (uint32_t)(i % e->blocks_x), (uint32_t)(i / e->blocks_x), &e->blocks[i]);
 }
 
-/* What light has to be multiplied with: 1 + d where the region lacks a share d of its light, shrunk by how likely d is
- * chance (its variance against its square: one bright sample is). */
+/* Factor that restores the energy of a region: 1 + d where it lacks a share d of its light, shrunk by the
+ * probability that d is chance (its variance against its square: a single bright sample is). */
 static float factor_of(double before, double after, double variance)
 {
     const double most = 0.5;
@@ -96,7 +97,7 @@ static void find_factors(void *context, size_t begin, size_t end)
     }
 }
 
-/* Between the middles of blocks factors are interpolated. */
+/* Factors are interpolated between the centers of blocks. */
 static void scale_rows(void *context, size_t begin, size_t end)
 {
     const energy *e = context;
@@ -124,7 +125,7 @@ static facet_result restore_energy(const film *f, float *filtered, const facet_a
                                    uint32_t thread_count, facet_error *error)
 {
     energy e = {.film = f,
-                .variance = film_find((film *)f, "variance")->pixels, /* film_find() changes nothing */
+                .variance = film_find((film *)f, "variance")->pixels, /* film_find() does not write */
                 .filtered = filtered,
                 .blocks_x = (f->width + BLOCK - 1) / BLOCK,
                 .blocks_y = (f->height + BLOCK - 1) / BLOCK};
@@ -142,7 +143,7 @@ static facet_result restore_energy(const film *f, float *filtered, const facet_a
 }
 
 enum {
-    TILE = 32,  /* px; two windows' reach apart and more: tiles that are not neighbours share no pixel */
+    TILE = 32,  /* px; more than the reach of two windows: tiles that are not neighbours share no pixel */
     STRIDE = 4, /* px from center to center */
     PHASES = 8  /* four sets of tiles of which no two are neighbours, twice */
 };
@@ -174,14 +175,14 @@ static void add_window(const denoising *d, uint32_t x, uint32_t y)
         }
 }
 
-/* No noise: nothing to do there. */
+/* Pixels without noise stay as they are. */
 static bool is_clean(const denoise_planes *p, uint32_t x, uint32_t y)
 {
     size_t o = denoise_index(p, (ptrdiff_t)x, (ptrdiff_t)y);
     return p->noise[0][o] == 0.0f && p->noise[1][o] == 0.0f && p->noise[2][o] == 0.0f;
 }
 
-/* First a window at every STRIDE-th pixel; then one at each pixel that has little in common with those. */
+/* First a window at every STRIDE-th pixel, then one at each pixel that those windows weigh little. */
 static void filter_tile(const denoising *d, uint32_t tile_x, uint32_t tile_y)
 {
     const float enough = 1.0f;
@@ -196,8 +197,8 @@ static void filter_tile(const denoising *d, uint32_t tile_x, uint32_t tile_y)
         }
 }
 
-/* Tiles of which no two are neighbours: what their windows add to meets nobody else's, and each pixel gets its sums in
- * the same order whatever thread takes which tile. */
+/* Tiles of which no two are neighbours: their windows write different pixels, and each pixel receives its
+ * sums in the same order whichever thread takes a tile. */
 static void filter_tiles(void *context, size_t begin, size_t end)
 {
     const denoising *d = context;
@@ -210,8 +211,8 @@ static void filter_tiles(void *context, size_t begin, size_t end)
     }
 }
 
-/* value, no further from what the pixel was than noise explains, so that the filter fades out as samples come in; and
- * not darker than black, unless the pixel was (filters of pixels may have negative lobes). */
+/* Limits value to a distance from the pixel that noise explains, so that the filter fades out as samples
+ * accumulate, and to at least black, unless the pixel was darker (pixel filters may have negative lobes). */
 static float within_noise(float value, float before, float standard_error)
 {
     const float most = 8.0f; /* standard deviations; the estimate of one pixel may be far too small */
@@ -222,7 +223,7 @@ static float within_noise(float value, float before, float standard_error)
     return value < least ? least : value > before + range ? before + range : value;
 }
 
-/* Turns the sums of a pixel into what they say of it; a weight of 0 where it stays as it is. */
+/* Resolves the sums of a pixel; weight 0 leaves it as it is. */
 static void settle_rows(void *context, size_t begin, size_t end)
 {
     const denoising *d = context;

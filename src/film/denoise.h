@@ -1,14 +1,13 @@
-/* denoise.h - an image of few samples per pixel, made calm. */
+/* denoise.h - denoising of Monte Carlo renderings with few samples per pixel. */
 #ifndef FILM_DENOISE_H
 #define FILM_DENOISE_H
 
 #include "film/film.h"
 
-/* Filters layer "" of f in place, guided by its layers "albedo", "normal" and "variance", which it has (see facet_aov):
- * light is averaged where surface and color are the same, as widely as the variance asks for. Opacity
- * is a guide as well, and stays.
- * Biased: detail of light below the noise is lost. Does not depend on thread_count. Fails with FACET_ERROR_MEMORY,
- * FACET_ERROR_ARGUMENT where a layer is missing. */
+/* Filters layer "" of f in place, guided by the layers "albedo", "normal" and "variance" and by opacity,
+ * which stays as it is: radiance is averaged where surface and color agree, as widely as the variance asks
+ * for. Biased: detail below the noise is lost. The result does not depend on thread_count.
+ * FACET_ERROR_MEMORY; FACET_ERROR_ARGUMENT if a layer is missing. */
 facet_result film_denoise(film *f, const facet_allocator *allocator, uint32_t thread_count,
                           facet_error *error);
 

@@ -1,10 +1,11 @@
-/* denoise_fit.c - a window of pixels, first as weights, then as a function of surface and place; see denoise_fit.h.
+/* denoise_fit.c - see denoise_planes.h: a weighted least squares fit of radiance in a window of pixels.
  *
- * Weights are those of non-local means with the noise's own contribution to a distance taken off (Rousselle, Knaus,
- * Zwicker 2012, "Adaptive Rendering with Non-Local Means Filtering", section 4.1). With them radiance is fitted as a linear
- * function of albedo, normal, opacity and place (Bitterli et al. 2016, "Nonlinearly Weighted First-order Regression for
- * Denoising Monte Carlo Renderings"). How narrow the weights are is decided per window by Stein's unbiased estimate of
- * the error (Li, Wu, Chuang 2012, "SURE-based Optimization for Adaptive Sampling and Reconstruction"). */
+ * Weights are those of non-local means with the noise's own contribution to a distance removed (Rousselle,
+ * Knaus, Zwicker 2012, "Adaptive Rendering with Non-Local Means Filtering", section 4.1). With them radiance
+ * is fitted as a linear function of albedo, normal, opacity and position (Bitterli et al. 2016, "Nonlinearly
+ * Weighted First-order Regression for Denoising Monte Carlo Renderings"). The bandwidth of the weights is
+ * chosen per window by Stein's unbiased risk estimate (Li, Wu, Chuang 2012, "SURE-based Optimization for
+ * Adaptive Sampling and Reconstruction"). */
 #include "film/denoise_planes.h"
 
 #include <math.h>
@@ -13,8 +14,8 @@
 #include "base/simd.h"
 
 enum {
-    TERMS = 10,     /* 1, normal, albedo, place, opacity */
-    CANDIDATES = 2, /* widths of the weights */
+    TERMS = 10,     /* 1, normal, albedo, position, opacity */
+    CANDIDATES = 2, /* candidate bandwidths of the weights */
     JUDGED = 4      /* radius of the part of the window in which a candidate's error is estimated */
 };
 
@@ -34,11 +35,11 @@ static const float far_away = 1e30f;
 
 /* ---- distances ---- */
 
-/* Adds the distance of a row of pixels to the center, as one offset of the patch and one channel see it. */
+/* Adds to the patch distances of a row of pixels from the center: one offset in the patch, one channel. */
 INLINE void add_row_distance(const float *light, const float *noise, float light_c, float noise_c,
                              float sum[DENOISE_ROW])
 {
-    const float least = 2.5e-5f; /* (0.5 %)^2: differences that nobody sees are none */
+    const float least = 2.5e-5f; /* (0.5 %)^2: smaller differences are invisible */
     for (int i = 0; i < DENOISE_ROW; i++) {
         float difference = light[i] - light_c;
         float both = noise[i] + noise_c;
@@ -82,7 +83,7 @@ INLINE void measure_distances(const denoise_planes *p, ptrdiff_t x, ptrdiff_t y,
     }
 }
 
-/* exp(-x) for x >= 0, to 1 %: smooth and falling is all that weights need. */
+/* exp(-x) for x >= 0, to 1 %: smooth and monotonic, which is all that weights need. */
 INLINE float falloff(float x)
 {
     float e = 1.0f + x * (1.0f / 8.0f) + x * x * (1.0f / 128.0f);
@@ -117,7 +118,7 @@ INLINE void read_window(const denoise_planes *p, ptrdiff_t x, ptrdiff_t y, fit_w
     }
 }
 
-/* The sum of a[i] b[i], always added in the same order. */
+/* Dot product, always summed in the same order. */
 INLINE float product(const float a[DENOISE_WINDOW], const float b[DENOISE_WINDOW])
 {
     float part[16] = {0};
@@ -144,8 +145,9 @@ INLINE float sum_of(const float a[DENOISE_WINDOW])
 
 /* ---- the fit ---- */
 
-/* How much a coefficient may be without proof: that of a normal turns light off over its unit, that of the albedo is
- * the light, that of place doubles light over two windows, that of opacity is the light again. Their variance, for a ridge that is the noise over it. */
+/* Prior scale of a coefficient: a normal turns the light off over its unit, albedo is the light, position
+ * doubles the light over two windows, opacity is the light again. Their variance gives the ridge, which is
+ * the noise over it. */
 INLINE float prior(const fit_work *work, int term)
 {
     const float trust = 3.0f;
@@ -207,11 +209,11 @@ INLINE void predict(fit_work *work)
         }
 }
 
-/* Stein's estimate of the squared error, in units of the noise: the residual less the noise, plus twice the noise
- * times the share that a pixel has in its own value, weight |L^-1 term|^2. */
+/* Stein's estimate of the squared error, in units of the noise: the residual minus the noise plus twice the
+ * noise times the weight of a pixel in its own value, weight |L^-1 term|^2. */
 INLINE float estimate_error(const fit_work *work)
 {
-    const float most = 10.0f; /* one outlier does not decide */
+    const float most = 10.0f; /* limits the influence of a single outlier */
     float error[DENOISE_ROW] = {0}, count[DENOISE_ROW] = {0};
     for (int j = DENOISE_RADIUS - JUDGED; j <= DENOISE_RADIUS + JUDGED; j++) {
         int first = j * DENOISE_ROW;
@@ -293,7 +295,7 @@ DISPATCH_AVX2 static void denoise_fit_dispatched(const denoise_planes *p, ptrdif
     }
 }
 
-/* Other files see no dispatched function: clang gives it another name. */
+/* Dispatched functions stay in their file: clang gives them another name. */
 void denoise_fit_window(const denoise_planes *p, ptrdiff_t x, ptrdiff_t y, denoise_fit *out)
 {
     denoise_fit_dispatched(p, x, y, out);

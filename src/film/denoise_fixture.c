@@ -20,8 +20,8 @@ typedef struct sphere {
     float radius;
     sphere_kind kind;
     vec3 albedo, emission;
-    float checks; /* per metre: the albedo alternates with a quarter of it; 0: plain */
-    float grain;  /* share of the albedo that a fine noise takes away */
+    float checks; /* per metre: the albedo alternates with a quarter of it; 0: uniform */
+    float grain;  /* share of the albedo that a fine texture removes */
 } sphere;
 
 typedef struct scene {
@@ -95,7 +95,7 @@ static vec3 around(vec3 N, float x, float y, float z)
     return T * x + cross(N, T) * y + N * z;
 }
 
-/* A direction around N with a cosine to the power of n: 1 is Lambert's. */
+/* Cosine-power direction around N; n = 1 is Lambert's. */
 static vec3 lobe(vec3 N, float n, random_state *r)
 {
     float z = powf(random_number(r), 1.0f / (n + 1.0f));
@@ -132,7 +132,8 @@ static vec3 sky_radiance(const scene *s, vec3 D)
     return s->sky * (0.3f + 0.7f * fmaxf(D[1], 0.0f));
 }
 
-/* Light that matte P with normal N sends back directly, over its albedo: a lamp chosen at random, and the sun. */
+/* Direct light reflected by a diffuse point P with normal N, over its albedo: a light chosen at random, and
+ * the sun. */
 static vec3 direct_light(const scene *s, vec3 P, vec3 N, random_state *r)
 {
     vec3 sum = vec3(0.0f);

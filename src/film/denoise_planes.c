@@ -1,4 +1,4 @@
-/* denoise_planes.c - from a film to planes of light and its noise; see denoise_planes.h. */
+/* denoise_planes.c - see denoise_planes.h: planes from the layers of a film, and the estimate of their noise. */
 #include "film/denoise_planes.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 #include "base/parallel.h"
 #include "base/result.h"
 
-/* Repeats the border of a plane in its margins. */
+/* Extends the border of a plane into its margins. */
 static void repeat_border(const denoise_planes *p, float *plane)
 {
     for (ptrdiff_t y = 0; y < (ptrdiff_t)p->height; y++) {
@@ -30,7 +30,7 @@ static void repeat_border(const denoise_planes *p, float *plane)
 
 /* ---- noise ---- */
 
-/* A loop over the rows of a plane, whose margins are made afterwards. */
+/* A pass over the rows of a plane; its margins are filled afterwards. */
 typedef struct noise_pass {
     denoise_planes *planes;
     uint32_t thread_count;
@@ -52,9 +52,9 @@ static void run_pass(noise_pass *s, void (*body)(void *, size_t, size_t), const 
 
 /* ---- outliers ---- */
 
-/* The share of a pixel that is left of it. An outlier owes what it has to few of its samples, and is above what is
- * around it: such a pixel is taken down to the brightest of its eight neighbours. Light gets lost by that; it would else be a
- * bright spot, or be smeared over a window. */
+/* Factor that reduces an outlier. An outlier owes its value to few of its samples and is brighter than its
+ * surroundings; it is reduced to the brightest of its eight neighbours. That loses energy, but the
+ * alternative is a bright spot or its smear over a window. */
 static float share_kept(const denoise_planes *p, ptrdiff_t x, ptrdiff_t y)
 {
     const float few = 0.4f; /* standard error over mean; 16 samples of which 5 have all the light have 0.38 */
@@ -128,8 +128,9 @@ static void smooth_plane(noise_pass *s, float *plane, float *other, int radius)
     run_pass(s, smooth, other, plane);
 }
 
-/* Variance of the noise of `from` as each pixel alone tells it: the square of a second difference in both directions,
- * which no slope answers, over the sum of its squared coefficients. Immerkaer 1996, "Fast noise variance estimation". */
+/* Noise variance of `from` estimated per pixel: the square of a second difference in both directions, to
+ * which slopes do not contribute, over the sum of its squared coefficients. Immerkaer 1996, "Fast noise
+ * variance estimation". */
 static void measure_detail(void *context, size_t begin, size_t end)
 {
     const noise_pass *s = context;
@@ -157,9 +158,10 @@ static void take_smaller(void *context, size_t begin, size_t end)
     }
 }
 
-/* The variance that samples have in a pixel is itself noisy, and too large where samples are stratified (all that
- * varies smoothly within a pixel, a sky for one, is integrated far better than by independent ones). So it is averaged
- * over neighbours, and then bounded by what differs between pixels: noise does not hide there, only more than noise. */
+/* The sample variance of a pixel is itself noisy, and too large where samples are stratified: whatever varies
+ * smoothly within a pixel, such as a sky, is integrated far better than by independent samples. So it is
+ * averaged over neighbours and then bounded by the differences between pixels, which noise cannot exceed by
+ * much. */
 static void estimate_noise(noise_pass *s, float *detail, float *other)
 {
     for (int c = 0; c < 3; c++) {
@@ -184,7 +186,7 @@ typedef struct preparation {
 
 /* ---- the layers, as they are read ---- */
 
-/* x in [least, most], which not a number is not: 0. */
+/* x clamped to [least, most]; NaN becomes 0. */
 static float bounded(float x, float least, float most)
 {
     return x >= most ? most : x > least ? x : x <= least ? least : 0.0f;
@@ -195,7 +197,7 @@ static bool is_known(const float rgba[4])
     return isfinite(rgba[0]) && isfinite(rgba[1]) && isfinite(rgba[2]) && isfinite(rgba[3]);
 }
 
-/* The mean of the known pixels around (x, y), 0 where there is none. */
+/* Mean of the finite pixels around (x, y); 0 if there are none. */
 static void mean_around(const preparation *s, uint32_t x, uint32_t y, float out[4])
 {
     float count = 0.0f;
@@ -207,14 +209,14 @@ static void mean_around(const preparation *s, uint32_t x, uint32_t y, float out[
                 continue;
             count += 1.0f;
             for (int c = 0; c < 4; c++)
-                out[c] += (pixel[c] - out[c]) / count; /* no sum that could overflow */
+                out[c] += (pixel[c] - out[c]) / count; /* keeps sums from overflowing */
         }
 }
 
-/* Color relative to scale over albedo; the variance follows. */
+/* Demodulates radiance by albedo and scale, and its variance accordingly. */
 static void read_pixel(const preparation *s, uint32_t x, uint32_t y)
 {
-    const float most = 1e12f; /* times the mean: there are not so many pixels; its square is a number still */
+    const float most = 1e12f; /* times the mean: more than the pixels of any image, with a finite square */
     denoise_planes *p = s->planes;
     size_t i = (size_t)y * p->width + x;
     size_t o = denoise_index(p, (ptrdiff_t)x, (ptrdiff_t)y);
@@ -244,7 +246,8 @@ static void read_rows(void *context, size_t begin, size_t end)
             read_pixel(s, x, (uint32_t)y);
 }
 
-/* The power of two next to the mean of what is finite: nothing that follows sees the unit of the image. */
+/* The power of two next to the mean of the finite pixels: it removes the unit of the image from all that
+ * follows. */
 static float image_scale(const film *f)
 {
     double sum = 0.0;
@@ -276,7 +279,7 @@ facet_result denoise_planes_create(const film *f, const facet_allocator *allocat
         p.normal[c] = p.block + (9 + c) * plane_size;
     }
     p.opacity = p.block + 12 * plane_size;
-    film *layers = (film *)f; /* film_find() changes nothing */
+    film *layers = (film *)f; /* film_find() does not write */
     preparation s = {.planes = &p,
                      .radiance = f->layers[0].pixels,
                      .albedo = film_find(layers, "albedo")->pixels,

@@ -1,4 +1,4 @@
-/* film.c - layers of a film, and its development: from light to what a display shows. See film.h. */
+/* film.c - see film.h: the layers of a film and its development, from radiance to display values. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -12,7 +12,7 @@
 
 /* ---- layers ---- */
 
-/* What a film can hold beside the image. */
+/* The layers that a film can have beside the image. */
 typedef struct layer_kind {
     uint32_t aov; /* 0: always there */
     const char *name;
@@ -115,7 +115,7 @@ static char *copy_text(const char *from, const facet_allocator *allocator)
 facet_result film_add_text(film *f, const char *name, const char *value, const facet_allocator *allocator,
                            facet_error *error)
 {
-    film_text *text = &f->texts[f->text_count++]; /* film_destroy() releases what there is of it */
+    film_text *text = &f->texts[f->text_count++]; /* film_destroy() releases a partly created film */
     text->name = copy_text(name, allocator);
     text->value = copy_text(value, allocator);
     return text->name && text->value ? FACET_OK : fail_memory(error, "metadata", strlen(value));
@@ -137,8 +137,8 @@ typedef struct development {
     facet_tonemap operator_;
 } development;
 
-/* Develops pixels begin to end - 1. Not a number is black; what lies outside of a pixel's coverage does not
- * count. operator_ is a constant at each call, which leaves one operator's text in each loop. */
+/* Develops pixels begin to end - 1. NaN is black; uncovered parts of a pixel do not contribute. operator_ is
+ * a constant at each call site, so that each operator is inlined in a loop of its own. */
 static inline __attribute__((always_inline)) void develop_pixels(const development *d, size_t begin,
                                                                  size_t end, facet_tonemap operator_)
 {

@@ -1,4 +1,4 @@
-/* film.h - what a renderer draws into: float RGBA, premultiplied, and one layer per AOV. */
+/* film.h - the framebuffer of renderers: float RGBA, premultiplied, and one layer per AOV. */
 #ifndef FILM_FILM_H
 #define FILM_FILM_H
 
@@ -14,7 +14,7 @@ typedef struct film_layer {
     float *pixels;    /* interleaved, width * height * channel_count; block of mem_alloc() */
 } film_layer;
 
-/* What a file says of layers: an attribute of an EXR file. */
+/* Text about the layers: an attribute of an EXR file. */
 typedef struct film_text {
     char *name, *value; /* blocks of mem_alloc() */
 } film_text;
@@ -32,16 +32,16 @@ typedef struct film {
 facet_result film_create(const facet_allocator *allocator, uint32_t width, uint32_t height, uint32_t aovs,
                          film *out, facet_error *error);
 void film_destroy(film *f);                       /* {0} is allowed */
-film_layer *film_find(film *f, const char *name); /* NULL: not asked for */
+film_layer *film_find(film *f, const char *name); /* NULL: the film has no such layer */
 /* Adds copies. FACET_ERROR_MEMORY. */
 facet_result film_add_text(film *f, const char *name, const char *value, const facet_allocator *allocator,
                            facet_error *error);
 
-/* Tone-maps the image in place: un-premultiplies, applies operator, clamps negative values to 0, premultiplies
- * again, and lays it over color (display-linear RGB; NULL: stays transparent). */
+/* Tone-maps the image in place: unpremultiplies, applies operator_, clamps negative values to 0,
+ * premultiplies again, and composites it over color (display-linear RGB; NULL: it stays transparent). */
 void film_develop(film *f, facet_tonemap operator_, const float color[3], uint32_t thread_count);
-/* Lays a developed image over color (display-linear RGB) as programs did that knew nothing of light: by mixing the
- * display's sRGB-encoded numbers. */
+/* Composites a developed image over color (display-linear RGB) as programs without linear light do: by
+ * blending the sRGB-encoded values. */
 void film_blend_encoded(film *f, const float color[3], uint32_t thread_count);
 
 #endif

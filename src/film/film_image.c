@@ -16,7 +16,7 @@ typedef struct conversion {
     srgb_tables tables;
 } conversion;
 
-static float clamp_unit(float x) /* not a number: 0 */
+static float clamp_unit(float x) /* NaN becomes 0 */
 {
     return x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f;
 }
@@ -26,7 +26,7 @@ static uint16_t encode_u16(float linear)
     return (uint16_t)(srgb_encode((double)clamp_unit(linear)) * 65535.0 + 0.5);
 }
 
-/* The code of an opacity, 0 to largest. */
+/* Integer code of an opacity, 0 to largest. */
 static uint32_t quantize(float opacity, float largest)
 {
     return (uint32_t)(clamp_unit(opacity) * largest + 0.5f);
@@ -45,7 +45,7 @@ static void find_transparent(void *context, size_t begin, size_t end)
         }
 }
 
-/* Straight alpha: the color is divided by the exact opacity, and 0 where none of it can be seen. */
+/* Straight alpha: the color over the exact opacity, 0 where opacity is 0. */
 static void convert_straight(void *context, size_t begin, size_t end)
 {
     conversion *c = context;

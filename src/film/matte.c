@@ -39,7 +39,7 @@ void matte_clear(const matte_layers *m, size_t pixel_count)
 
 /* ---- a pixel ---- */
 
-/* ID and share of a rank. */
+/* ID and coverage of a rank. */
 static float *get_rank(const matte_layers *m, uint32_t kind, size_t pixel, uint32_t rank)
 {
     return m->pixels[kind][rank / 2] + 4 * pixel + 2 * (rank % 2);
@@ -50,7 +50,7 @@ static void add_to(const matte_layers *m, uint32_t kind, size_t pixel, float id,
     float *smallest = get_rank(m, kind, pixel, 0);
     for (uint32_t rank = 0; rank < MATTE_RANKS; rank++) {
         float *r = get_rank(m, kind, pixel, rank);
-        if (r[0] == 0.0f || r[0] == id) { /* no ID is 0 */
+        if (r[0] == 0.0f || r[0] == id) { /* 0 is not an ID */
             r[0] = id;
             r[1] += weight;
             return;
@@ -71,7 +71,7 @@ void matte_add(const matte_layers *m, size_t pixel, const float ids[MATTE_KINDS]
             add_to(m, kind, pixel, ids[kind], weight);
 }
 
-/* Equal shares are in the order of their IDs, so that none depends on the order of samples. */
+/* Equal coverages are ordered by ID, so that nothing depends on the order of samples. */
 static bool is_before(const float a[2], const float b[2])
 {
     return a[1] > b[1] || (a[1] == b[1] && a[0] > b[0]);
@@ -120,7 +120,7 @@ facet_result matte_describe(film *f, uint32_t kind, const char *manifest, const 
                    {"manifest", manifest}};
     facet_result result = FACET_OK;
     for (size_t i = 0; i < sizeof entries / sizeof *entries && result == FACET_OK; i++) {
-        char name[64]; /* of a layer's entries: the first 7 digits of its name's hash */
+        char name[64]; /* prefix of the attributes: the first 7 digits of the hash of the layer's name */
         snprintf(name, sizeof name, "cryptomatte/%.7x/%s", murmur3(layer, strlen(layer), 0) >> 4,
                  entries[i].key);
         result = film_add_text(f, name, entries[i].value, allocator, error);

@@ -1,5 +1,5 @@
-/* matte.h - Cryptomatte's layers of a film: the IDs that cover most of each pixel, with the share of the pixel that each
- * covers. Specification 1.2.0 (Friedman and Jones 2015). What the IDs are: scene/identity.h. */
+/* matte.h - the Cryptomatte layers of a film: the IDs that cover most of each pixel, each with its coverage.
+ * Specification 1.2.0 (Friedman and Jones 2015). scene/identity.h defines the IDs. */
 #ifndef FILM_MATTE_H
 #define FILM_MATTE_H
 
@@ -13,16 +13,16 @@ typedef struct matte_layers {
 } matte_layers;
 
 matte_layers matte_find(film *f);
-/* All shares 0. */
+/* Sets all coverages to 0. */
 void matte_clear(const matte_layers *m, size_t pixel_count);
-/* Adds weight to the share of ids[kind] in each layer that is there. A seventh ID of a pixel takes the place of the one with
- * the smallest share, if its own is larger; either way the smaller share is lost. Different pixels may be added to at the
- * same time. */
+/* Adds weight to the coverage of ids[kind] in each layer that the film has. A seventh ID of a pixel replaces
+ * the one with the smallest coverage if its own is larger; the smaller coverage is lost either way. Different
+ * pixels may be added to concurrently. */
 void matte_add(const matte_layers *m, size_t pixel, const float ids[MATTE_KINDS], float weight);
-/* Multiplies the shares of a pixel by scale, clamps them to [0, 1] and sorts them, the largest first. */
+/* Multiplies the coverages of a pixel by scale, clamps them to [0, 1] and sorts them, the largest first. */
 void matte_finish(const matte_layers *m, size_t pixel, float scale);
 
-/* Adds the metadata by which programs find a layer and the names of its IDs. kind: 0 to MATTE_KINDS - 1. FACET_ERROR_MEMORY. */
+/* Adds the metadata that names a layer and its IDs. kind: 0 to MATTE_KINDS - 1. FACET_ERROR_MEMORY. */
 facet_result matte_describe(film *f, uint32_t kind, const char *manifest, const facet_allocator *allocator,
                             facet_error *error);
 
