@@ -20,7 +20,7 @@ static const char prefix[] = "facet-";
 static const char suffix[] = ".light";
 enum { NAME_SIZE = 96 };
 
-/* In front of an entry's data. Numbers are the machine's own: a cache is not carried about. */
+/* Header of an entry, in the machine's byte order: caches are not portable. */
 typedef struct entry_header {
     char magic[8];
     uint64_t size;
@@ -46,7 +46,7 @@ uint64_t cache_hash(uint64_t seed, const void *bytes, size_t size)
     return hash;
 }
 
-/* To be raised whenever the same file is read to other texels than before: what a cache holds of it is then not used. */
+/* Raise this whenever the same file is decoded to different texels, which invalidates the cache. */
 enum { READER_VERSION = 1 };
 
 void cache_identify(facet_environment *environment, const void *bytes, size_t size)
@@ -67,7 +67,7 @@ facet_result cache_finish(facet_result result, facet_environment *made, facet_en
     return FACET_OK;
 }
 
-/* Path of an entry, a block of mem_alloc(); NULL: no memory. */
+/* Path of an entry, a block of mem_alloc(); NULL: out of memory. */
 static char *entry_path(const facet_environment *e, const char *part, uint64_t key)
 {
     char name[NAME_SIZE];
@@ -89,7 +89,7 @@ bool cache_read(const facet_environment *environment, const char *part, uint64_t
     char *path = entry_path(environment, part, key);
     file_bytes file = {0};
     bool is_good = false;
-    struct stat status; /* of a pipe nobody may write to, a read would not return */
+    struct stat status; /* reading a pipe without a writer would block */
     if (path && stat(path, &status) == 0 && S_ISREG(status.st_mode) &&
         file_open(path, sizeof(entry_header) + size, &environment->allocator, &file, NULL) == FACET_OK &&
         file.size == sizeof(entry_header) + size) {
@@ -100,7 +100,8 @@ bool cache_read(const facet_environment *environment, const char *part, uint64_t
                   header.hash == cache_hash(key, from, size);
         if (is_good) {
             memcpy(data, from, size);
-            utimensat(AT_FDCWD, path, NULL, 0); /* used now; where that is not allowed it counts as old */
+            utimensat(AT_FDCWD, path, NULL,
+                      0); /* marks the entry as used; if that is not permitted it stays old */
         }
     }
     file_close(&file);
@@ -118,7 +119,7 @@ static bool is_entry(const char *name)
            strcmp(name + length - (sizeof suffix - 1), suffix) == 0;
 }
 
-/* Bytes of all entries, and the one that was not used for longest. */
+/* Size of all entries, and the least recently used one. */
 static uint64_t survey(DIR *folder, char oldest[NAME_SIZE])
 {
     uint64_t bytes = 0;

@@ -33,7 +33,7 @@ void cube_direction(uint32_t face, double s, double t, double d[3])
         d[i] = middle[face][i] + s * right[face][i] + t * down[face][i];
 }
 
-/* The texel nearest to (s, t), which lies just outside a face: on the face across the edge. */
+/* The texel nearest to (s, t), just outside of a face, on the adjacent face. */
 static rgbx across(const cube *c, uint32_t face, double s, double t)
 {
     double d[3];
@@ -57,7 +57,7 @@ void cube_fill_borders(cube *c)
             *cube_texel(c, face, i, -1) = across(c, face, along, -outside);
             *cube_texel(c, face, i, n) = across(c, face, along, outside);
         }
-        /* Three texels meet at a corner. Their mean as the fourth gives the corner the mean of the three, from
+        /* Three texels meet at a corner. Their mean as the fourth makes the lookup at the corner that mean on
          * every face. */
         for (int corner = 0; corner < 4; corner++) {
             int x = corner & 1 ? n : -1;

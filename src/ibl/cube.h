@@ -1,9 +1,9 @@
-/* cube.h - cube maps of radiance: where directions are, seamless lookup.
+/* cube.h - cube maps of radiance: mapping of directions, seamless lookup.
  *
  * Faces are +X -X +Y -Y +Z -Z. Position (s, t) on a face, both in [-1, 1], t downwards, is the direction of
  *   +X (1, -t, -s)   -X (-1, -t, s)   +Y (s, 1, t)   -Y (s, -1, -t)   +Z (s, -t, 1)   -Z (-s, -t, -1)
- * normalised, as Direct3D and OpenGL have it. Texel (x, y) of a face of size n has its middle at
- * s = (2 x + 1) / n - 1, t = (2 y + 1) / n - 1. */
+ * normalised, as in Direct3D and OpenGL. Texel (x, y) of a face of size n has its center at s = (2 x + 1) / n
+ * - 1, t = (2 y + 1) / n - 1. */
 #ifndef IBL_CUBE_H
 #define IBL_CUBE_H
 
@@ -12,8 +12,8 @@
 #include "facet/facet.h"
 #include "ibl/rgbx.h"
 
-/* Six faces of size x size texels, each with a border of one texel that repeats what is across the edge: bilinear
- * lookup needs no care at edges and is continuous there. */
+/* Six faces of size x size texels, each with a border of one texel that repeats the adjacent faces, so that
+ * bilinear lookup is continuous across edges without special cases. */
 typedef struct cube {
     uint32_t size;
     rgbx *texels; /* 6 (size + 2)^2; a block of mem_alloc() */
@@ -40,7 +40,7 @@ static inline rgbx *cube_texel(const cube *c, uint32_t face, int x, int y)
 /* The direction of (s, t) on a face, not normalised: its largest component is 1 or -1. */
 void cube_direction(uint32_t face, double s, double t, double d[3]);
 
-/* Where direction d (any length but 0) is. */
+/* Position of the direction (x, y, z) of any length but 0. */
 static inline cube_point cube_locate(float x, float y, float z)
 {
     float ax = fabsf(x);
@@ -79,9 +79,9 @@ static inline rgbx cube_fetch(const cube *c, cube_point p)
 /* Solid angle of a texel, sr; those of six faces add up to 4 pi. Exact: differences of
  * atan2(s t, sqrt(s^2 + t^2 + 1)) at the corners (Driscoll 2012, "Cubemap Texel Solid Angle"). */
 double cube_texel_solid_angle(uint32_t size, uint32_t x, uint32_t y);
-/* Solid angle of the face from its middle to (s, t); texels are differences of these. */
+/* Solid angle of the face from its center to (s, t); those of texels are differences of these. */
 double cube_corner_angle(double s, double t);
-/* Mean radiance over the sphere, texels weighted with their solid angle. */
+/* Mean radiance over the sphere, weighted by solid angle. */
 void cube_mean(const cube *c, double mean[3]);
 
 #endif

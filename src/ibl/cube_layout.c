@@ -6,7 +6,8 @@
 #include "base/result.h"
 #include "ibl/sphere.h"
 
-/* A layout of six faces: where each is in a grid of columns x rows, and whether it is turned by half a turn. */
+/* A layout of six faces: the cell of each in a grid of columns x rows, and whether it is rotated by 180
+ * degrees. */
 typedef struct unfolding {
     uint32_t columns, rows;
     struct {
@@ -69,7 +70,7 @@ facet_result layout_check(facet_layout layout, uint32_t width, uint32_t height, 
                 u ? u->name : "an octahedral image (1:1)");
 }
 
-/* The place of texel (x, y) of a face in the image. */
+/* Position in the image of texel (x, y) of a face. */
 static size_t unfolded_texel(const unfolding *u, uint32_t size, uint32_t face, uint32_t x, uint32_t y)
 {
     if (u->faces[face].is_turned) {
@@ -133,8 +134,8 @@ static void swap_texels(image *i, size_t a, size_t b)
     memcpy(second, kept, size);
 }
 
-/* ImfEnvmap.h: +X is to the right where +Y and -Y are seen, up and down are the other way round than in OpenGL; the other
- * faces are mirrored. */
+/* ImfEnvmap.h: +Y and -Y have +X to the right and are flipped vertically compared to OpenGL; the other faces
+ * are mirrored. */
 void layout_flip_inside_faces(image *strip)
 {
     const size_t n = strip->width;

@@ -1,5 +1,4 @@
-/* dfg.c - tables of directional albedo and their lookup. The numbers are computed by tables_generate.c when
- * facet is built. */
+/* dfg.c - LUTs of directional albedo and their lookup. tables_generate.c computes them when facet is built. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -36,7 +35,7 @@ const uint16_t *ibl_glass_nodes(void)
     return glass_table;
 }
 
-/* Between which nodes of a table of size nodes x in [0, 1] lies: the first one, and how far it is from there. */
+/* Index of the node of a LUT of size nodes at or before x in [0, 1], and the fraction to the next one. */
 typedef struct table_place {
     int first;
     float weight;
@@ -74,7 +73,7 @@ float ibl_sheen_albedo(float NdotV, float sheen_roughness)
     return a + (b - a) * y.weight;
 }
 
-/* Bilinear in one layer of the glass table. */
+/* Bilinear in one layer of the glass LUT. */
 static void glass_layer(int layer, table_place x, table_place y, float out[3])
 {
     const uint16_t *low = glass_table + (size_t)(((layer * GLASS_SIZE + y.first) * GLASS_SIZE + x.first) * 3);

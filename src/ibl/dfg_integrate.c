@@ -33,7 +33,7 @@ typedef struct lobe {
     float A[RING], B[RING];           /* sums */
 } lobe;
 
-/* What is the same all around a ring of half vectors. */
+/* Constants of a ring of half vectors. */
 typedef struct ring {
     float cos_t, sin_t;
     float level, swing; /* N.L = level + swing cos p */
@@ -41,8 +41,8 @@ typedef struct ring {
     float weight;
 } ring;
 
-/* cos x for x in [0, pi], within 2e-7: 1 - 2 sin^2(x / 2), the sine by Taylor's series around 0. No call, so that loops
- * over it are done in vectors. */
+/* cos x for x in [0, pi], within 2e-7: 1 - 2 sin^2(x / 2), the sine by its Taylor series. Without calls, so
+ * that loops vectorise. */
 static inline float ring_cosine(float x)
 {
     float h = 0.5f * x;
@@ -54,7 +54,7 @@ static inline float ring_cosine(float x)
     return 1.0f - 2.0f * s * s;
 }
 
-/* Vis of the masking, one loop each below so that none has a branch inside. */
+/* Vis of each masking function; each has a loop of its own below, without branches. */
 #define ADD_RING(VISIBILITY)                                                                                 \
     for (int i = 0; i < RING; i++) {                                                                         \
         float cos_p = ring_cosine(r.opening * o->nodes[i]);                                                  \
@@ -84,7 +84,7 @@ DISPATCH_AVX2 static void dfg_add_ring(lobe *o, ring r)
     }
 }
 
-/* The integral over p at one s, times weight, added to the sums. */
+/* Adds the integral over p at one s, times weight, to the sums. */
 static void add_node(lobe *o, double s, double weight)
 {
     double tangent = (double)o->alpha * exp(s);
@@ -122,8 +122,8 @@ static void add_panel(lobe *o, double a, double b, bool has_root_at_a, bool has_
     }
 }
 
-/* Where in s the bell is cut: it has e^2s of its mass below -8, and that above, times what a grazing view adds, min(1,
- * alpha / N.V) e^-s, is below 1e-6. */
+/* Limits of s: below -8 the bell has e^2s of its mass; above, times the factor min(1, alpha / N.V) e^-s of
+ * grazing views, less than 1e-6 is cut off. */
 static const double LOWEST = -8.0;
 static double highest(const lobe *o)
 {
@@ -132,7 +132,7 @@ static double highest(const lobe *o)
 
 static const double PANEL = 1.5;
 
-/* The last panel always closes in on its end: there N.L comes near 0 and Vis changes fastest. */
+/* The last panel is always refined towards its end, where N.L approaches 0 and Vis changes fastest. */
 static void add_interval(lobe *o, double a, double b, bool has_root_at_a)
 {
     int count = (int)ceil((b - a) / PANEL);
@@ -145,7 +145,7 @@ static void add_interval(lobe *o, double a, double b, bool has_root_at_a)
 
 dfg_terms dfg_integrate(dfg_masking masking, float perceptual_roughness, double NdotV)
 {
-    if (perceptual_roughness == 0.0f) { /* a mirror: H = N, and all of V reflected */
+    if (perceptual_roughness == 0.0f) { /* a mirror: H = N, everything is reflected */
         double Fc = (double)schlick_weight((float)NdotV);
         return (dfg_terms){1.0 - Fc, Fc};
     }
@@ -161,8 +161,8 @@ dfg_terms dfg_integrate(dfg_masking masking, float perceptual_roughness, double 
         o.nodes[i] = (float)gauss_16(i, 0.0, 1.0, &w);
         o.weights[i] = (float)w;
     }
-    double open = log(tan(0.5 * (half_pi - o.v)) / (double)o.alpha);  /* all of the ring is lit up to here */
-    double close = log(tan(0.5 * (half_pi + o.v)) / (double)o.alpha); /* none of it is from here */
+    double open = log(tan(0.5 * (half_pi - o.v)) / (double)o.alpha);  /* the whole ring is lit up to here */
+    double close = log(tan(0.5 * (half_pi + o.v)) / (double)o.alpha); /* none of it is lit from here on */
     close = fmin(close, highest(&o));
     if (open > LOWEST)
         add_interval(&o, LOWEST, fmin(open, close), false);
@@ -178,7 +178,7 @@ dfg_terms dfg_integrate(dfg_masking masking, float perceptual_roughness, double 
 
 double dfg_integrate_average(dfg_masking masking, float perceptual_roughness)
 {
-    /* E changes where N.V comes down to alpha: panels halve towards 0 */
+    /* E changes where N.V approaches alpha: panels halve towards 0 */
     double sum = 0.0;
     double to = 1.0;
     for (int panel = 0; panel < 6; panel++) {
@@ -203,8 +203,9 @@ enum { PANELS = SHEEN_NODES / 8, LONGITUDES = 16 };
 /* Of y; the last one ends at the root of 1/2. */
 static const double panel_ends[PANELS] = {0.0, 0.06, 0.12, 0.18, 0.23, 0.28, 0.35, 0.5, 0.79370052598409974};
 
-/* D is as sin(N, H)^(1 / alpha), which has fallen to 1e-10 at exp(-23 alpha). A step is a 178th of what it falls by e over, or
- * less, and what is read linearly between two entries is 4e-6 off at most. Over (N.H)^2 it would have a root at 1. */
+/* D is proportional to sin(N, H)^(1 / alpha), which is 1e-10 at exp(-23 alpha). A step is at most 1/178 of
+ * the distance over which it falls by e, so linear interpolation is off by at most 4e-6. A table over (N.H)^2
+ * would have a root at 1. */
 static void make_table(sheen_nodes *out)
 {
     out->least_sine = exp(-23.0f * out->alpha);
@@ -265,7 +266,7 @@ sheen_albedos sheen_integrate(const sheen_nodes *nodes, double NdotV)
         float swing = 2.0f * sin_v * sqrt((1.0f - NdotL) * (1.0f + NdotL));
         float square = (mu + NdotL) * (mu + NdotL);
         if (square / (level + swing) >= (1.0f - nodes->least_sine) * (1.0f + nodes->least_sine))
-            break; /* nothing here, where the ring has most, nor on the next ones */
+            break; /* 0 here, where the ring is strongest, hence on the following ones */
         float places[LONGITUDES];
         for (int k = 0; k < LONGITUDES; k++) {
             float sine = sqrt(max(1.0f - square / (level + swing * cosines[k]), 0.0f));

@@ -1,4 +1,4 @@
-/* environment.c - reading and making environments. Preparing lights of them: light.c. */
+/* environment.c - the object facet_environment. environment_source.c reads files, light.c prepares lights. */
 #include "ibl/environment.h"
 
 #include <assert.h>
@@ -96,7 +96,7 @@ void environment_limit(facet_environment *environment, uint32_t thread_count)
 
 /* ---- figures ---- */
 
-/* Of a row of texels: radiance times solid angle, the solid angle, the largest channel. */
+/* Sums of a row of texels: radiance times solid angle, solid angle, largest channel. */
 typedef struct row_sum {
     double flux[3], solid_angle;
     float largest;
@@ -116,8 +116,8 @@ static void add_texel(row_sum *r, const float *c, double solid_angle)
     r->solid_angle += solid_angle;
 }
 
-/* Row y of all six faces, whose texels have the same solid angles: as cube_texel_solid_angle() has them, each corner
- * computed once in a row. */
+/* Row y of all six faces, whose texels have the same solid angles: as in cube_texel_solid_angle(), each
+ * corner computed once per row. */
 static void measure_face_rows(void *context, size_t begin, size_t end)
 {
     const measuring *m = context;
@@ -168,7 +168,7 @@ facet_result facet_environment_get_info(const facet_environment *environment, fa
     measuring m = {e, mem_alloc(&e->allocator, count, sizeof(row_sum))};
     if (!m.rows)
         return fail_memory(error, "environment", count * sizeof(row_sum));
-    if (e->faces.texels) /* else the image */
+    if (e->faces.texels) /* else the panorama */
         parallel_for(0, e->faces.size, 16, measure_face_rows, &m);
     else
         parallel_for(0, count, 16, measure_image_rows, &m);

@@ -17,7 +17,8 @@
 static const facet_environment_desc default_desc;
 enum { DEFAULT_MAX_SIZE = 32768 };
 
-/* How sources are decoded: what is not finite stays, to be counted. *largest: image_decode_desc.largest. */
+/* Decoding of sources: values that are not finite are kept, to be counted. *largest:
+ * image_decode_desc.largest. */
 static image_decode_desc decode_desc(const facet_environment_desc *desc, float *largest)
 {
     return (image_decode_desc){.allocator = desc->allocator,
@@ -37,7 +38,7 @@ typedef struct repairing {
     _Atomic uint64_t count, first;
 } repairing;
 
-/* Into [0, ENVIRONMENT_MAX_RADIANCE]; false: it was no radiance. */
+/* Clamps to [0, ENVIRONMENT_MAX_RADIANCE]; false: the value was negative or not finite. */
 static inline bool repair(float *x, float largest)
 {
     bool is_good = *x >= 0.0f && *x <= 0x1.fffffep127f;
@@ -65,8 +66,9 @@ static void repair_rows(void *context, size_t begin, size_t end)
         ;
 }
 
-/* The decoded image as F32 RGB in [0, ENVIRONMENT_MAX_RADIANCE], with what is no radiance repaired and counted; decoded
- * is released. largest: what infinity becomes. first_place: the place of its first texel. FACET_ERROR_MEMORY. */
+/* Converts decoded, which is released, to F32 RGB in [0, ENVIRONMENT_MAX_RADIANCE]; repairs and counts texels
+ * that are negative or not finite. largest replaces infinity; first_place is the position of the first texel.
+ * FACET_ERROR_MEMORY. */
 static facet_result repair_image(image *decoded, float largest, uint64_t first_place,
                                  const facet_allocator *allocator, uint32_t thread_count, image *out,
                                  environment_repairs *repairs, facet_error *error)
@@ -106,12 +108,12 @@ void environment_report(facet_environment *e, const environment_repairs *repairs
 
 /* ---- layouts ---- */
 
-/* Of images that are made of others. */
+/* Rows of resampled panoramas. */
 enum { MIN_ROWS = 64, MAX_ROWS = 8192 };
 
-/* A row for 1.57 / n, where a texel of a cube is 2 / n wide in the middle of a face, 1.45 / n on average and 0.94 / n at its
- * corners: 8 n^2 texels for 6 n^2, two lookups a texel in each direction. Small cubes get more rows: between their texels
- * radiance changes linearly in the cube, not in the image. */
+/* Rows of 1.57 / n rad: texels of a cube are 2 / n wide in the center of a face, 1.45 / n on average and 0.94
+ * / n at its corners. That makes 8 n^2 texels from 6 n^2, two lookups per texel in each direction. Small
+ * cubes get more rows, since radiance between their texels is linear in the cube, not in the panorama. */
 facet_result environment_unroll(facet_environment *e, const cube *c, const sphere_turn *turn,
                                 uint32_t thread_count, facet_error *error)
 {
@@ -128,7 +130,7 @@ facet_result environment_unroll(facet_environment *e, const cube *c, const spher
     return result;
 }
 
-/* As many rows as the octahedral image, whose texels are no smaller. */
+/* As many rows as the octahedral image, whose texels are not smaller. */
 static facet_result take_octahedron(facet_environment *e, const image *panorama, uint32_t thread_count,
                                     facet_error *error)
 {
@@ -141,7 +143,7 @@ static facet_result take_octahedron(facet_environment *e, const image *panorama,
     return result;
 }
 
-/* Makes the environment of a repaired image (released) in any layout but AUTO and FACES, which fits. */
+/* Takes a repaired image, which is released, in any layout but AUTO and FACES; its size fits the layout. */
 static facet_result take_image(facet_environment *e, image *panorama, facet_layout layout, const char *name,
                                uint32_t thread_count, facet_error *error)
 {
@@ -201,7 +203,7 @@ facet_result cube_faces_decode(cube_face faces[6], const facet_environment_desc 
             result = fail(error, FACET_ERROR_INVALID, "%s has %u texels along an edge, face +X has %u",
                           faces[i].name, faces[i].image.width, faces[0].image.width);
         else if (i == 0 || strcmp(faces[i].note.text, faces[0].note.text) != 0)
-            image_note_log(&faces[i].note, faces[i].name, &desc->log); /* alike ones once */
+            image_note_log(&faces[i].note, faces[i].name, &desc->log); /* identical notes once */
     }
     if (result != FACET_OK)
         cube_faces_destroy(faces);
@@ -248,7 +250,7 @@ void cube_faces_place(const cube *c, uint64_t place, uint32_t *face, uint32_t *x
 
 /* ---- cube maps ---- */
 
-/* The environment of faces that were decoded. */
+/* Takes six decoded faces. */
 static facet_result take_faces(facet_environment *e, cube_face faces[6], const char *name,
                                const char *const places[6], uint32_t thread_count, facet_error *error)
 {
@@ -265,7 +267,7 @@ static facet_result take_faces(facet_environment *e, cube_face faces[6], const c
 
 /* ---- KTX2 ---- */
 
-/* Makes the environment of a cube map, level 0. FACET_ERROR_LIMIT, and how ktx2_load_level() and ktx2_decode() fail. */
+/* Takes level 0 of a KTX2 cube map. FACET_ERROR_LIMIT, and the errors of ktx2_load_level() and ktx2_decode(). */
 static facet_result load_cube_ktx2(facet_environment *e, const ktx2 *k, const facet_environment_desc *desc,
                                    facet_error *error)
 {
@@ -332,7 +334,7 @@ facet_result facet_environment_load_faces(const char *const paths[6], const face
 
 /* ---- one file ---- */
 
-/* The layout of an image: as desc says, as an OpenEXR file says, or by its edges. */
+/* The layout of an image: by desc, by the attribute of an OpenEXR file, or by its size. */
 static facet_result choose_layout(const facet_environment_desc *desc, image_envmap envmap,
                                   const image *panorama, const char *name, facet_layout *layout,
                                   facet_error *error)
@@ -340,7 +342,7 @@ static facet_result choose_layout(const facet_environment_desc *desc, image_envm
     uint32_t width = panorama->width, height = panorama->height;
     *layout = desc->layout                     ? desc->layout
               : envmap == IMAGE_ENVMAP_LATLONG ? FACET_LAYOUT_EQUIRECTANGULAR
-                                               : layout_detect(width, height); /* of a cube, too: 1:6 */
+                                               : layout_detect(width, height); /* also for a cube: 1:6 */
     if (*layout == FACET_LAYOUT_FACES)
         return fail(error, FACET_ERROR_ARGUMENT, "%s: the layout of six faces needs six images; this is one",
                     name);
@@ -363,7 +365,7 @@ static facet_result choose_layout(const facet_environment_desc *desc, image_envm
     return layout_check(*layout, width, height, name, error);
 }
 
-/* An image of any layout. */
+/* Loads an image of any layout. */
 static facet_result load_image(facet_environment *e, const void *bytes, size_t size, const char *name,
                                const facet_environment_desc *desc, facet_error *error)
 {
@@ -376,7 +378,7 @@ static facet_result load_image(facet_environment *e, const void *bytes, size_t s
     image_decode_desc how = decode_desc(desc, &largest);
     how.note = &note;
     facet_result result = image_probe(bytes, size, name, &header, NULL, error);
-    if (result == FACET_OK) /* before memory is taken */
+    if (result == FACET_OK) /* before memory is allocated */
         result = choose_layout(desc, envmap, &header, name, &layout, error);
     if (result == FACET_OK)
         result = image_decode(bytes, size, name, &how, &decoded, error);
@@ -395,7 +397,7 @@ static facet_result load_image(facet_environment *e, const void *bytes, size_t s
     return result;
 }
 
-/* KTX2: a cube map, or an image. */
+/* Loads KTX2: a cube map or an image. */
 static facet_result load_ktx2(facet_environment *e, const void *bytes, size_t size, const char *name,
                               const facet_environment_desc *desc, facet_error *error)
 {

@@ -80,13 +80,14 @@ facet_result equirect_mean(const image *panorama, const facet_allocator *allocat
 
 /* ---- resampling ---- */
 
-/* Which input samples make an output sample, and how much of each. */
+/* The input samples of an output sample and their weights. */
 typedef struct equirect_span {
     uint32_t first, count; /* samples first .. first + count - 1, wrapped at the end of the axis */
     size_t weight;         /* index of the first weight; they add up to 1 */
 } equirect_span;
 
-/* Measure of the axis between a and b, in samples of in: length, or for latitudes the height of the zone. */
+/* Measure of the axis between a and b, in samples of in: length, or for latitudes the height of the zone on
+ * the unit sphere. */
 static double axis_measure(double a, double b, uint32_t in, bool is_latitude)
 {
     return is_latitude ? cos(pi * a / in) - cos(pi * b / in) : b - a;
@@ -115,7 +116,7 @@ static bool axis_create(uint32_t in, uint32_t out, bool is_latitude, bool is_smo
             w[1] = (float)(x - x0);
             continue;
         }
-        double a = (double)o * in / out; /* whole numbers stay whole */
+        double a = (double)o * in / out; /* integers stay exact */
         double b = (double)(o + 1) * in / out;
         double whole = axis_measure(a, b, in, is_latitude);
         span->first = (uint32_t)a;
@@ -153,13 +154,13 @@ void equirect_view_destroy(equirect_view *view)
     *view = (equirect_view){0};
 }
 
-/* Columns x0 .. x0 + count - 1 of a row of the image, resampled, times weight added to out. */
+/* Adds resampled columns x0 .. x0 + count - 1 of a row, times weight, to out. */
 static inline void add_row(const equirect_view *view, uint32_t y, uint32_t x0, uint32_t count, float weight,
                            rgbx *out)
 {
     uint32_t in_width = view->panorama->width;
     const float *row = (const float *)view->panorama->pixels + (size_t)y * in_width * 3;
-    if (in_width == view->width) { /* the common cases, without the table */
+    if (in_width == view->width) { /* the common cases need no table */
         const float *p = row + 3 * (size_t)x0;
         for (uint32_t x = 0; x < count; x++, p += 3)
             out[x] += (rgbx){p[0], p[1], p[2], 0.0f} * weight;

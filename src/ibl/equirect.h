@@ -1,7 +1,8 @@
-/* equirect.h - equirectangular images: where directions are in them, lookup, resampling.
+/* equirect.h - equirectangular images: mapping of directions, lookup, resampling.
  *
- * u = 0.5 + atan2(d.z, d.x) / 2pi from the left, v = acos(d.y) / pi from the top: facet.h, facet_environment_load().
- * Texel (x, y) has its middle at u = (x + 0.5) / width, v = (y + 0.5) / height. Images are F32 RGB, linear. */
+ * u = 0.5 + atan2(d.z, d.x) / 2pi from the left, v = acos(d.y) / pi from the top; see
+ * facet_environment_load(). Texel (x, y) has its center at u = (x + 0.5) / width, v = (y + 0.5) / height.
+ * Images are F32 RGB, linear. */
 #ifndef IBL_EQUIRECT_H
 #define IBL_EQUIRECT_H
 
@@ -14,11 +15,11 @@
 /* Solid angle of a texel of row y, sr: (2 pi / width) (cos(top) - cos(bottom)). All of them add up to 4 pi. */
 double equirect_texel_solid_angle(uint32_t width, uint32_t height, uint32_t y);
 
-/* The unit direction of the middle of texel (x, y); x and y may lie between texels. */
+/* Unit direction of the center of texel (x, y); x and y may be fractional. */
 void equirect_direction(uint32_t width, uint32_t height, double x, double y, float d[3]);
 
-/* Angle of (x, y), rad, error below 3e-7; 0 for (0, 0). Without branches, for loops that vectorise.
- * Abramowitz and Stegun 1964, equation 4.4.49. */
+/* atan2(y, x) in rad, error below 3e-7; 0 for (0, 0). Branch-free, so that loops vectorise. Abramowitz and
+ * Stegun 1964, equation 4.4.49. */
 static inline float equirect_atan2(float y, float x)
 {
     float ax = x < 0.0f ? -x : x;
@@ -41,12 +42,12 @@ static inline float equirect_atan2(float y, float x)
     return y < 0.0f ? -p : p;
 }
 
-/* Where a direction is in any image: turns from the middle column, half turns from the top. */
+/* Position in an image of any size: turns from the middle column, half turns from the top. */
 typedef struct equirect_point {
     float turns, half_turns;
 } equirect_point;
 
-/* Of the unit direction d. */
+/* Position of the unit direction d. */
 static inline equirect_point equirect_locate(const float d[3])
 {
     return (equirect_point){equirect_atan2(d[2], d[0]) * 0.159154943f,
@@ -86,20 +87,20 @@ static inline rgbx equirect_fetch(const image *panorama, equirect_point p)
 /* Radiance from the unit direction d, bilinear. */
 void equirect_lookup(const image *panorama, const float d[3], float out[3]);
 
-/* Mean radiance over the sphere. Deterministic for every thread count. FACET_ERROR_MEMORY. */
+/* Mean radiance over the sphere. Does not depend on thread_count. FACET_ERROR_MEMORY. */
 facet_result equirect_mean(const image *panorama, const facet_allocator *allocator, uint32_t thread_count,
                            double mean[3], facet_error *error);
 
 /* ---- resampling ---- */
 
-/* How samples along an axis of an image make those of another. */
+/* Resampling of one axis. */
 typedef struct equirect_axis {
     struct equirect_span *spans;
     float *weights;
 } equirect_axis;
 
-/* An image seen at another resolution: the mean over each texel's solid angle where that is coarser; where it is finer,
- * linear interpolation along an axis (smooth), or the mean there as well, which repeats texels. */
+/* A resampled view of an image: area-weighted means where it is coarser; where it is finer, linear
+ * interpolation along the axis (smooth) or repeated texels. */
 typedef struct equirect_view {
     const image *panorama;
     uint32_t width, height;
@@ -107,7 +108,7 @@ typedef struct equirect_view {
     equirect_axis columns, rows;
 } equirect_view;
 
-/* False: no memory. */
+/* False: out of memory. */
 bool equirect_view_create(const image *panorama, uint32_t width, uint32_t height, bool is_smooth,
                           const facet_allocator *allocator, equirect_view *view);
 void equirect_view_destroy(equirect_view *view); /* {0} is allowed */

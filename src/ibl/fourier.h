@@ -13,12 +13,12 @@ enum { FOURIER_MAX = 4096 }; /* samples in a row */
 typedef struct fourier {
     uint32_t size;
     float cosine[FOURIER_MAX / 2], sine[FOURIER_MAX / 2]; /* of 2 pi k / size */
-    uint16_t mirrored[FOURIER_MAX / 2];                   /* the bits of an index in the other order */
+    uint16_t mirrored[FOURIER_MAX / 2];                   /* bit-reversed index */
 } fourier;
 
 static inline void fourier_init(fourier *f, uint32_t size)
 {
-    uint32_t bits = 30u - (uint32_t)__builtin_clz(size); /* of an index below size / 2 */
+    uint32_t bits = 30u - (uint32_t)__builtin_clz(size); /* bits of an index below size / 2 */
     f->size = size;
     for (uint32_t k = 0; k < size / 2; k++) {
         double angle = 2.0 * 3.14159265358979323846 * k / size;
@@ -31,16 +31,16 @@ static inline void fourier_init(fourier *f, uint32_t size)
     }
 }
 
-/* X[m] = sum of x[j] e^(-2 pi i j m / size) for m < size / 2, lane by lane. Always inlined: into loops that are
- * compiled for several machines. */
+/* X[m] = sum of x[j] e^(-2 pi i j m / size) for m < size / 2, lane by lane. Always inlined, into loops that
+ * are compiled for several instruction sets. */
 static inline void fourier_forward(const fourier *f, const float8 *x, float8 *re, float8 *im);
 /* x[j] = sum over -size / 2 < m < size / 2 of X[m] e^(2 pi i j m / size), X[-m] the conjugate of X[m]. */
 static inline void fourier_backward(const fourier *f, const float8 *re, const float8 *im, float8 *x);
 
-/* Rows are real: even and odd samples become real and imaginary parts of a transform of half the size (Cooley and
- * Tukey 1965, radix 2), of which the lanes of two texels are the inner loop. */
+/* Rows are real: even and odd samples become the real and imaginary parts of a transform of half the size
+ * (Cooley and Tukey 1965, radix 2); its inner loop runs over the lanes of two texels. */
 
-/* Forward transform in place of size / 2 complex values that are in mirrored order. */
+/* Forward transform in place of size / 2 complex values in bit-reversed order. */
 static inline __attribute__((always_inline)) void fourier_butterflies(const fourier *f, float8 *re,
                                                                       float8 *im)
 {
@@ -64,7 +64,7 @@ static inline __attribute__((always_inline)) void fourier_butterflies(const four
         im[a + 3] = d_im + e_re;
     }
     for (uint32_t half = 4; half < n; half *= 2) {
-        uint32_t stride = n / half; /* in the roots of size */
+        uint32_t stride = n / half; /* among the roots of size */
         for (uint32_t base = 0; base < n; base += 2 * half)
             for (uint32_t k = 0; k < half; k++) {
                 float c = f->cosine[k * stride];
@@ -121,7 +121,7 @@ static inline __attribute__((always_inline)) void fourier_backward(const fourier
         float s = f->sine[m];
         float8 odd_re = d_re * c - d_im * s;
         float8 odd_im = d_re * s + d_im * c;
-        /* backward is forward with real and imaginary part swapped, before and after */
+        /* the backward transform is the forward one with real and imaginary parts swapped before and after */
         uint32_t to = f->mirrored[m];
         z_im[to] = re[m] + far_re - odd_im;
         z_re[to] = im[m] + far_im + odd_re;

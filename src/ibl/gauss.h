@@ -1,9 +1,9 @@
-/* gauss.h - Gauss and Legendre's rules: exact for polynomials of degree 15 and 31 (Abramowitz and Stegun 1964, table
- * 25.4). */
+/* gauss.h - Gauss-Legendre quadrature, exact for polynomials of degree 15 and 31 (Abramowitz and Stegun 1964,
+ * table 25.4). */
 #ifndef IBL_GAUSS_H
 #define IBL_GAUSS_H
 
-/* Node i of 8 in (from, to), rising, and its weight. */
+/* Node i of 8 in (from, to), in ascending order, and its weight. */
 static inline double gauss_8(int i, double from, double to, double *weight)
 {
     static const double nodes[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,

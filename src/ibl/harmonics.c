@@ -1,10 +1,10 @@
-/* harmonics.c - analysis: from an image to coefficients. Fourier transform of each row, then for each order m sums over
- * rows against the associated Legendre functions.
+/* harmonics.c - analysis: coefficients of a panorama, by a Fourier transform of each row and, for each order
+ * m, sums over rows against associated Legendre functions.
  *
- * The image is what its texels say: each of one radiance. Along a row the integrals of e^(-i m phi) over texels are those of
- * the middles times sinc(m width / 2), exactly. Along a column f = P_lm sin(theta) obeys f'' = -k^2 f to first order, with
- * k^2 = l (l + 1) - m^2 / sin(theta)^2 by Legendre's equation, which makes the integral over a texel of height d its middle
- * times 1 - k^2 d^2 / 24. */
+ * Texels have constant radiance. Along a row the integrals of e^(-i m phi) over texels are those at the
+ * centers times sinc(m width / 2), exactly. Along a column f = P_lm sin(theta) obeys f'' = -k^2 f to first
+ * order, with k^2 = l (l + 1) - m^2 / sin(theta)^2 by Legendre's equation, so the integral over a texel of
+ * height d is its center value times 1 - k^2 d^2 / 24. */
 #include "ibl/harmonics.h"
 
 #include <float.h>
@@ -23,7 +23,7 @@ static const double pi = 3.14159265358979323846;
 enum {
     PARTS = HARMONICS_PARTS,
     LANES = LEGENDRE_LANES,
-    BAND_ROWS = 256, /* pairs of rows at a time: the waves of an order fit a core's first cache */
+    BAND_ROWS = 256, /* pairs of rows at a time: the spectra of an order fit the L1 cache */
     BAND_BLOCKS = BAND_ROWS / LANES,
     CHUNK = 256 /* texels on the stack */
 };
@@ -32,17 +32,16 @@ typedef struct analysis {
     const equirect_view *view;
     harmonics *out;
     fourier transform;
-    uint32_t splits; /* transforms that together are that of a row */
-    bool is_wider,
-        is_higher; /* texels of the view hold several of the image, or parts: not whole parts of one */
-    uint32_t first, count; /* pairs of rows of the band */
-    uint32_t capacity;     /* of pairs in the spectra: a multiple of LANES */
+    uint32_t splits;          /* transforms that make up that of a row */
+    bool is_wider, is_higher; /* texels of the view cover several texels of the panorama, or parts of them */
+    uint32_t first, count;    /* pairs of rows of the band */
+    uint32_t capacity;        /* of pairs in the spectra: a multiple of LANES */
     legendre_rows rows;
 } analysis;
 
 /* ---- rows ---- */
 
-/* Columns part, part + splits, .. of row y and its mirror, less the mean, weighted. */
+/* Columns part, part + splits, .. of row y and its mirror row, minus the mean, weighted. */
 static inline void read_split(const analysis *job, uint32_t y, uint32_t part, float8 *row)
 {
     uint32_t width = job->view->width;
@@ -111,7 +110,7 @@ DISPATCH_AVX2 static void analyse_rows(void *context, size_t begin, size_t end)
     }
 }
 
-/* Rows that only fill the last block. */
+/* Rows that pad the last block. */
 static void clear_fill(const analysis *job)
 {
     for (uint32_t wave = 0; wave < 2 * PARTS * (job->out->degree + 1); wave++)
@@ -121,7 +120,7 @@ static void clear_fill(const analysis *job)
 
 /* ---- orders ---- */
 
-/* The band's share of the coefficients of each order. */
+/* Adds the band's contribution to the coefficients of each order. */
 DISPATCH_AVX2 static void analyse_orders(void *context, size_t begin, size_t end)
 {
     const analysis *job = context;
@@ -135,7 +134,7 @@ DISPATCH_AVX2 static void analyse_orders(void *context, size_t begin, size_t end
         legendre p;
         legendre_init(&p, m, h->degree, &job->rows);
         double8 x[BAND_BLOCKS];
-        float8 share[BAND_BLOCKS]; /* of the row in its texel, what does not depend on l */
+        float8 share[BAND_BLOCKS]; /* the part that does not depend on l */
         for (uint32_t k = 0; k < block_count; k++) {
             x[k] = job->rows.x[k];
             float8 s;
@@ -182,8 +181,8 @@ static uint32_t power_of_two_from(uint32_t x)
     return x <= 1 ? 1u : 2u << (31 - __builtin_clz(x - 1));
 }
 
-/* Columns: those of the image where they are a power of two, or else so many that what a texel straddles is small beside it.
- * More than 16 for a degree only blur nothing. */
+/* Columns: those of the panorama if they are a power of two, otherwise so many that texels straddling two
+ * columns hardly matter. More than 16 per degree are not needed. */
 static void choose_columns(const image *panorama, uint32_t degree, analysis *job, uint32_t *width)
 {
     uint32_t own = power_of_two_from(panorama->width);
@@ -197,7 +196,7 @@ static void choose_columns(const image *panorama, uint32_t degree, analysis *job
     *width = columns;
 }
 
-/* Rows: those of the image or each cut into as many as k d < 2 asks for; no more than 8 for a degree. */
+/* Rows: those of the panorama, each split until k d < 2; at most 8 per degree. */
 static void choose_rows(const image *panorama, uint32_t degree, analysis *job, uint32_t *height)
 {
     uint32_t least = degree + degree / 2 + degree / 8;
@@ -210,7 +209,7 @@ static void choose_rows(const image *panorama, uint32_t degree, analysis *job, u
 
 /* ---- the least radiance ---- */
 
-enum { MIN_PARTS = 64 }; /* of the image's rows */
+enum { MIN_PARTS = 64 }; /* parts of the panorama's rows */
 
 typedef struct least_search {
     const image *panorama;

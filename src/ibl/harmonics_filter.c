@@ -1,6 +1,6 @@
-/* harmonics_filter.c - synthesis: from coefficients to a cube map, through a grid of 2 L rows and at least 3 L columns for
- * degree L. Sums over degrees, then a Fourier transform of each row, then cubic interpolation, which at the grid's
- * spacing is off by 0.1 % of a sun's lobe and less. */
+/* harmonics_filter.c - synthesis: from coefficients to a cube map, through a grid of 2 L rows and at least 3
+ * L columns for degree L: sums over degrees, a Fourier transform of each row, then cubic interpolation, whose
+ * error at the grid's spacing is at most 0.1 % of a sun's lobe. */
 #include <math.h>
 #include <string.h>
 
@@ -23,13 +23,13 @@ enum {
 typedef struct synthesis {
     const harmonics *in;
     const harmonics_filter_desc *desc;
-    uint32_t width, height; /* of the grid, which has PAD more texels on all sides */
+    uint32_t width, height; /* of the grid without its padding of PAD texels on all sides */
     fourier transform;
     legendre_rows rows;
     cube *out;
 } synthesis;
 
-/* A power of two that keeps degree away from half of it. */
+/* A power of two with degree well below its half. */
 static uint32_t column_count(uint32_t degree)
 {
     uint32_t count = 16;
@@ -43,11 +43,11 @@ static rgbx *grid_texel(const synthesis *job, int x, int y)
     return job->in->grid + (size_t)(y + PAD) * (job->width + 2 * PAD) + (size_t)(x + PAD);
 }
 
-/* Coefficients of an order, scaled and turned. */
+/* Coefficients of an order, scaled and rotated. */
 static inline void scale_order(const synthesis *job, uint32_t m, float scaled[][PARTS])
 {
     const harmonics *h = job->in;
-    /* middles of columns of the grid of the analysis and of this one lie half a column off phi = 0 */
+    /* the column centers of both grids lie half a column off phi = 0 */
     double turn = m * (job->desc->rotation_rad + pi * (1.0 / job->width - 1.0 / h->column_count));
     float c = (float)cos(turn);
     float s = (float)sin(turn);
@@ -138,7 +138,7 @@ DISPATCH_AVX2 static void synthesise_rows(void *context, size_t begin, size_t en
     }
 }
 
-/* Behind a pole comes the same row half a turn on. */
+/* Rows continue beyond a pole, shifted by half a turn. */
 static void fill_poles(const synthesis *job)
 {
     int width = (int)job->width;
@@ -151,7 +151,7 @@ static void fill_poles(const synthesis *job)
         }
 }
 
-/* Weights of four samples around a point at fraction f between the middle two (Catmull and Rom 1974). */
+/* Weights of four samples at fraction f between the middle two (Catmull and Rom 1974). */
 static inline void cubic_weights(float f, float w[4])
 {
     w[0] = f * (-0.5f + f * (1.0f - 0.5f * f));
@@ -160,7 +160,7 @@ static inline void cubic_weights(float f, float w[4])
     w[3] = f * f * (0.5f * f - 0.5f);
 }
 
-/* The grid at (u, v) from its padded corner. */
+/* Bicubic lookup at (u, v) from the padded corner of the grid. */
 static inline __attribute__((always_inline)) rgbx interpolate(const synthesis *job, float u, float v)
 {
     size_t stride = (size_t)job->width + 2 * PAD;
@@ -213,7 +213,7 @@ DISPATCH_AVX2 static void fill_cube_rows(void *context, size_t begin, size_t end
     }
 }
 
-/* The arrays of h->spectra and h->grid, as large as is needed. */
+/* Allocates h->spectra and h->grid as needed. */
 static facet_result create_scratch(harmonics *h, size_t spectrum_count, size_t grid_count, facet_error *error)
 {
     if (h->spectrum_count >= spectrum_count && h->grid_count >= grid_count)

@@ -21,12 +21,12 @@ enum {
 typedef double double4 __attribute__((vector_size(32), may_alias));
 typedef float float4 __attribute__((vector_size(16)));
 
-/* A block: compilers keep two vectors in registers, one of twice the size they do not. */
+/* A block of two vectors: compilers keep those in registers, but not one of twice the size. */
 typedef struct double8 {
     double4 low, high;
 } double8;
 
-/* By pointers: returned by value, vectors would depend on the instructions a function is compiled for. */
+/* By pointer: the calling convention of vectors returned by value depends on the instruction set. */
 static inline __attribute__((always_inline)) void legendre_floats(const double8 *d, float8 *out)
 {
     float4 low = __builtin_convertvector(d->low, float4);
@@ -34,7 +34,7 @@ static inline __attribute__((always_inline)) void legendre_floats(const double8 
     *out = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
-/* before = (x now - before b) a: the degree after now's. */
+/* before = (x now - before b) a, the next degree. */
 static inline __attribute__((always_inline)) void legendre_step(const double8 *x, const double8 *now,
                                                                 double8 *before, double b, double a)
 {
@@ -48,20 +48,21 @@ typedef struct legendre_rows {
     double8 x[LEGENDRE_MAX_BLOCKS], sine[LEGENDRE_MAX_BLOCKS]; /* cos and sin of theta */
 } legendre_rows;
 
-/* Of one order m, for blocks of LEGENDRE_LANES rows. Far towards a pole P_lm is next to nothing: it falls off like an Airy
- * function where l sin(theta) < m. A block counts from a degree on; its functions are kept as they are there. */
+/* Functions of one order m for blocks of LEGENDRE_LANES rows. Towards a pole P_lm vanishes like an Airy
+ * function where l sin(theta) < m, so a block contributes only from some degree on; its functions are stored
+ * at that degree. */
 typedef struct legendre {
     double a[LEGENDRE_MAX_DEGREE + 3], b[LEGENDRE_MAX_DEGREE + 3];
-    double8 now[LEGENDRE_MAX_BLOCKS];    /* P of degree from[], */
-    double8 before[LEGENDRE_MAX_BLOCKS]; /* and of the one before */
+    double8 now[LEGENDRE_MAX_BLOCKS];    /* P at degree from[] */
+    double8 before[LEGENDRE_MAX_BLOCKS]; /* and at the one before */
     uint32_t from[LEGENDRE_MAX_BLOCKS];  /* m + an even number; above degree: never */
 } legendre;
 
-/* What P_mm, which may be far below any double, is kept larger by until the block counts. */
+/* Scale of P_mm, which may underflow a double, until the block contributes. */
 #define LEGENDRE_LARGER 1e300
 
-/* Rows first_row .. first_row + row_count - 1 of a grid that has grid_rows from pole to pole, middles at (j + 0.5) pi /
- * grid_rows; rows that fill the last block are of no account. */
+/* Rows first_row .. first_row + row_count - 1 of a grid of grid_rows from pole to pole, with centers at (j +
+ * 0.5) pi / grid_rows; rows that pad the last block are ignored. */
 static inline void legendre_place(legendre_rows *rows, uint32_t first_row, uint32_t row_count,
                                   uint32_t grid_rows)
 {
@@ -78,7 +79,7 @@ static inline __attribute__((always_inline)) void legendre_start(double norm, ui
                                                                  const double8 *sine, double8 *out)
 {
     double8 half = {sine->low * 0.0 + 1e150,
-                    sine->high * 0.0 + 1e150}; /* the half power stays a double for longer */
+                    sine->high * 0.0 + 1e150}; /* the square root of the power underflows later */
     double8 power = *sine;
     for (uint32_t n = order / 2; n; n >>= 1) {
         if (n & 1) {
@@ -96,7 +97,7 @@ static inline __attribute__((always_inline)) void legendre_start(double norm, ui
     }
 }
 
-/* Always inlined: into loops that are compiled for several machines. */
+/* Always inlined, into loops that are compiled for several instruction sets. */
 static inline __attribute__((always_inline)) void legendre_init(legendre *p, uint32_t order, uint32_t degree,
                                                                 const legendre_rows *rows)
 {
@@ -111,7 +112,7 @@ static inline __attribute__((always_inline)) void legendre_init(legendre *p, uin
     for (uint32_t k = 1; k <= order; k++)
         norm *= (2.0 * k + 1.0) / (2.0 * k);
     norm = sqrt(norm);
-    /* 6 m^(1/3) before the turning point l sin(theta) = m, P_lm is below 1e-6 of its top */
+    /* 6 m^(1/3) before the turning point l sin(theta) = m, P_lm is below 1e-6 of its maximum */
     double turning = m - 6.0 * cbrt(m);
     for (uint32_t block = 0; block < rows->block_count; block++) {
         double last = rows->sine[block].high[3];

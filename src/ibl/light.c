@@ -1,4 +1,5 @@
-/* light.c - lights: which parts of an environment one needs, preparing them once, looking up in them. */
+/* light.c - see ibl.h: selects the parts of an environment that a light needs, prepares them once, looks them
+ * up. */
 #include <assert.h>
 #include <math.h>
 #include <stdio.h>
@@ -11,15 +12,15 @@
 #include "ibl/equirect.h"
 #include "ibl/light.h"
 
-/* Counts the changes to how parts are prepared: what a cache kept of another version is not used. */
+/* Version of the preparation; entries of other versions in a cache are ignored. */
 static const uint64_t recipe_version = 3;
 
-/* Rows of the image that mirrors show: at 0.35 degrees each, finer than most reflections of it can be seen. */
+/* Rows of the image for mirrors: at 0.35 degrees each, finer than most reflections can show. */
 static const double sharp_rows = 512.0;
 
 /* ---- preparing; the environment's mutex is held ---- */
 
-/* Reads a level from the cache; false: not there, or no memory. */
+/* Reads a level from the cache; false: not cached, or out of memory. */
 static bool read_level(const facet_environment *e, const char *part, uint64_t recipe, uint32_t size,
                        cube *out)
 {
@@ -55,7 +56,7 @@ static facet_result prepare_level(facet_environment *e, prefilter_lobe lobe, uin
     return result;
 }
 
-/* The image, halved as often as leaves at least rows rows (0: never). */
+/* The panorama, halved as long as at least rows rows remain (0: not halved). */
 static facet_result prepare_image(facet_environment *e, double rows, uint32_t thread_count, image *panorama,
                                   facet_error *error)
 {
@@ -74,7 +75,7 @@ static facet_result prepare_image(facet_environment *e, double rows, uint32_t th
     return FACET_OK;
 }
 
-/* Blurred images are made in less time than a cache takes to read them. */
+/* Blurred images are not cached: making them is faster than reading them. */
 static facet_result prepare_narrow(facet_environment *e, uint32_t thread_count, ibl_light *light,
                                    facet_error *error)
 {
@@ -87,7 +88,7 @@ static facet_result prepare_narrow(facet_environment *e, uint32_t thread_count, 
     return result;
 }
 
-/* Fills light with the parts that desc asks for. */
+/* Fills light with the parts that desc needs. */
 static facet_result prepare_parts(facet_environment *e, const ibl_light_desc *desc, ibl_light *light,
                                   facet_error *error)
 {
@@ -95,8 +96,8 @@ static facet_result prepare_parts(facet_environment *e, const ibl_light_desc *de
     if (desc->needs_irradiance && e->irradiance_over_pi.texels) {
         light->irradiance_over_pi = e->irradiance_over_pi;
     } else if (desc->needs_irradiance) {
-        /* At roughness 1, D is constant and the lobe is the cosine: what a white Lambertian surface sends out, and
-         * without the darkness that nine harmonics leave on the far side of a sun. */
+        /* At roughness 1, D is constant and the lobe is the cosine: this is the radiance of a white
+         * Lambertian surface, without the dark far side of a sun that nine harmonics have. */
         uint32_t lambert = prefilter_level_count(PREFILTER_GGX) - 1;
         result = prepare_level(e, PREFILTER_GGX, lambert, desc->thread_count, error);
         if (result != FACET_OK)
@@ -129,10 +130,10 @@ static facet_result prepare_parts(facet_environment *e, const ibl_light_desc *de
 
 static float clamp01(float x)
 {
-    return x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f; /* NaN is 0 */
+    return x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f; /* NaN becomes 0 */
 }
 
-/* Levels between which all of the roughness from a to b lies. */
+/* Levels that cover roughness from a to b. */
 static ibl_level_range find_range(prefilter_lobe lobe, float a, float b)
 {
     float low = prefilter_lod_of(lobe, clamp01(a));
@@ -173,7 +174,7 @@ void ibl_light_release(const ibl_light *light)
     if (!light)
         return;
     facet_environment *environment = light->environment;
-    ibl_light *own = (ibl_light *)(uintptr_t)light; /* const is for the readers */
+    ibl_light *own = (ibl_light *)(uintptr_t)light; /* only readers see it as const */
     mem_free(own);
     environment_release(environment);
 }
@@ -188,7 +189,7 @@ void ibl_irradiance_over_pi(const ibl_light *light, const float N[3], float out[
         out[i] = c[i];
 }
 
-/* The level, with fraction, limited to those that were prepared. */
+/* The lod, clamped to the prepared levels. */
 static float find_lod(const ibl_light *light, prefilter_lobe lobe, float perceptual_roughness)
 {
     assert(light->ranges[lobe].first <= light->ranges[lobe].last);
@@ -198,7 +199,7 @@ static float find_lod(const ibl_light *light, prefilter_lobe lobe, float percept
     return lod < first ? first : lod > last ? last : lod;
 }
 
-/* From a mirror up to level 1 of GGX. */
+/* Lookup between a mirror and level 1 of GGX. */
 static rgbx fetch_narrow(const ibl_light *light, const float R[3], float perceptual_roughness)
 {
     equirect_point p = equirect_locate(R);

@@ -1,5 +1,5 @@
-/* light.h - what a prepared light holds, for those who copy it: to a GPU, which then looks up as light.c does. Who only
- * looks up needs ibl.h. */
+/* light.h - the contents of a prepared light, for renderers that copy it to a GPU and look up as light.c
+ * does. ibl.h is enough for lookups. */
 #ifndef IBL_LIGHT_H
 #define IBL_LIGHT_H
 
@@ -14,15 +14,15 @@ typedef struct ibl_level_range {
     uint32_t first, last;
 } ibl_level_range;
 
-/* What a light looks up in, shared with the environment, which it keeps. Parts never change, and stay where they are as
- * long as the environment lives: the same pointer is the same part. */
+/* The parts of a light, owned by the environment, of which the light holds a reference. Parts never change or
+ * move while the environment lives, so equal pointers mean equal parts. */
 struct ibl_light {
     facet_environment *environment;
-    cube irradiance_over_pi; /* not owned; {0}: not asked for */
+    cube irradiance_over_pi; /* not owned; {0}: not needed */
     ibl_level_range ranges[PREFILTER_LOBE_COUNT];
     cube levels[PREFILTER_LOBE_COUNT][PREFILTER_LEVEL_COUNT]; /* not owned; [][0] is not used */
-    image sharp, background;                                  /* not owned; {0}: not asked for */
-    const narrow *narrow; /* of the environment; NULL where nothing is between a mirror and level 1 */
+    image sharp, background;                                  /* not owned; {0}: not needed */
+    const narrow *narrow; /* of the environment; NULL if nothing lies between a mirror and level 1 */
 };
 
 #endif

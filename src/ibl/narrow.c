@@ -1,8 +1,8 @@
 /* narrow.c - see narrow.h: the blurred images and the fit of their weights.
  *
- * A Gaussian on the sphere is blurred along rows, where its variance is 1 / sin(theta)^2 times as large in columns, and
- * then along columns. Columns exchange radiance through the edges between their texels, in proportion to the length of
- * the edge: what leaves a texel arrives in the next, and nothing passes a pole, around which rows are uniform anyway. */
+ * A Gaussian on the sphere is separable: rows are blurred with its variance times 1 / sin(theta)^2 in
+ * columns, then columns. Columns exchange radiance across the edges of texels in proportion to the edge's
+ * length, so energy is conserved and nothing crosses a pole, around which rows are uniform anyway. */
 #include "ibl/narrow.h"
 
 #include <math.h>
@@ -19,13 +19,13 @@ static const double pi = 3.14159265358979323846;
 
 enum { DEGREES = 64 };
 
-/* Of the mixture's mass around an image's variance, what its weight is at least. */
+/* Least weight of an image, as a share of the mixture's mass around its variance. */
 static const double least_share = 0.5;
 
-/* Transfer functions, and how much a degree counts. */
+/* Transfer functions, and the weight of each degree. */
 typedef struct spectrum {
     uint32_t blurred_count;
-    double variance[NARROW_COUNT]; /* of the images, rad^2 */
+    double variance[NARROW_COUNT]; /* variances of the images, rad^2 */
     double degree[DEGREES], importance[DEGREES];
     double part[NARROW_PARTS][DEGREES];
     double product[NARROW_PARTS][NARROW_PARTS];
@@ -56,21 +56,22 @@ static double x_bessel_k1(double x)
     return x * log(0.5 * x) * (x * bessel_i1) + sum;
 }
 
-/* Of a GGX lobe as its reflection has it: twice as wide as the lobe of half vectors, whose transform in the plane is
- * alpha l K_1(alpha l). */
+/* Transfer function of a reflected GGX lobe: twice as wide as the lobe of half vectors, whose transform in
+ * the plane is alpha l K_1(alpha l). */
 static double lobe_transfer(double perceptual_roughness, double degree)
 {
     return x_bessel_k1(2.0 * perceptual_roughness * perceptual_roughness * degree);
 }
 
-/* Of bilinear interpolation; x: radians from one sample to the next. */
+/* Transfer function of bilinear interpolation; x: radians per sample. */
 static double tent(double x)
 {
     double s = x > 0.0 ? sin(0.5 * x) / (0.5 * x) : 1.0;
     return s * s;
 }
 
-/* Of what narrow.c makes, relative to the mirror, of waves that run x radians a column and y a row. */
+/* Transfer function of blurred image index relative to the mirror, for waves of x radians per column and y
+ * per row. */
 static double blur_transfer(uint32_t index, double x, double y)
 {
     double result = 1.0 / (tent(x) * tent(y));
@@ -87,7 +88,7 @@ static double blur_transfer(uint32_t index, double x, double y)
 static void spectrum_init(spectrum *s, uint32_t blurred_count, double row_rad)
 {
     double row2 = row_rad * row_rad;
-    double variance = 0.0; /* of what an image holds; bilinear lookup adds a sixth of a squared texel */
+    double variance = 0.0; /* total variance; bilinear lookup adds a sixth of a squared texel */
     s->blurred_count = blurred_count;
     for (uint32_t k = 0; k < NARROW_COUNT; k++, row2 *= 4.0) {
         variance += k ? 0.1875 * row2 : 0.0;
@@ -101,7 +102,7 @@ static void spectrum_init(spectrum *s, uint32_t blurred_count, double row_rad)
         double l = lowest * pow(highest / lowest, i / (DEGREES - 1.0));
         double x = l * row_rad * cos(pi / 8.0); /* neither along the grid nor diagonal */
         double y = l * row_rad * sin(pi / 8.0);
-        /* Images hold about as much in each octave, 1 / l^2 in a degree; suns as much in each degree. */
+        /* Natural images have equal energy per octave, 1 / l^2 per degree; suns have equal energy per degree. */
         double mirror = tent(x) * tent(y);
         s->degree[i] = l;
         s->importance[i] = (1.0 + l * l / (120.0 * 120.0)) * mirror * mirror;
@@ -118,7 +119,7 @@ static void spectrum_init(spectrum *s, uint32_t blurred_count, double row_rad)
         }
 }
 
-/* Solves a x = b in place by Gaussian elimination, a symmetric and positive definite; false: it is not. */
+/* Solves a x = b in place by Gaussian elimination for symmetric, positive definite a; false: it is not. */
 static bool solve(uint32_t n, double a[NARROW_PARTS][NARROW_PARTS], double b[NARROW_PARTS])
 {
     for (uint32_t i = 0; i < n; i++) {
@@ -139,8 +140,8 @@ static bool solve(uint32_t n, double a[NARROW_PARTS][NARROW_PARTS], double b[NAR
     return true;
 }
 
-/* The weights of the parts in set, which add up to total, that come nearest to the target with the products b; false:
- * one of them would be negative. */
+/* Least-squares weights of the parts in set, which add up to total, for the products b; false: one of them
+ * would be negative. */
 static bool fit_set(const spectrum *s, uint32_t set, const double b[NARROW_PARTS], double total,
                     double weights[NARROW_PARTS])
 {
@@ -150,7 +151,7 @@ static bool fit_set(const spectrum *s, uint32_t set, const double b[NARROW_PARTS
     for (uint32_t k = 0; k < NARROW_PARTS; k++)
         if (set >> k & 1)
             parts[count++] = k;
-    /* the first is what the others leave of the total */
+    /* the first one is the total minus the others */
     const double *first = s->product[parts[0]];
     for (uint32_t i = 1; i < count; i++) {
         for (uint32_t j = 1; j < count; j++)
@@ -171,7 +172,7 @@ static bool fit_set(const spectrum *s, uint32_t set, const double b[NARROW_PARTS
     return left >= 0.0;
 }
 
-/* Half the squared error of weights, but for what does not depend on them. */
+/* Half the squared error of weights, up to a constant. */
 static double error_of(const spectrum *s, const double b[NARROW_PARTS], const double weights[NARROW_PARTS])
 {
     double sum = 0.0;
@@ -184,9 +185,9 @@ static double error_of(const spectrum *s, const double b[NARROW_PARTS], const do
     return sum;
 }
 
-/* Weights that the parts have at least: of the lobe of NARROW_END what makes its tail this lobe's, of the wider images
- * some of the mixture's mass around their variance. Next to what a sun sends to the middle, the squared error knows
- * nothing of the glow around it, and would leave gaps there. */
+/* Lower bounds of the weights: for the lobe of NARROW_END, the weight that gives its tail; for the wider
+ * images, a share of the mixture's mass around their variance. The squared error of a sun's peak hides the
+ * glow around it, and without bounds the fit would leave gaps there. */
 static void find_least(const spectrum *s, double perceptual_roughness, double least[NARROW_PARTS])
 {
     double end = pow((double)NARROW_END, 4.0);
@@ -196,14 +197,14 @@ static void find_least(const spectrum *s, double perceptual_roughness, double le
     least[NARROW_LOBE] = alpha2 / end;
     for (uint32_t k = s->blurred_count; k > 1; k--) {
         double limit =
-            sqrt(s->variance[k - 1] * s->variance[k - 2]); /* between an image and the narrower one */
+            sqrt(s->variance[k - 1] * s->variance[k - 2]); /* between an image and the next narrower one */
         double mass = (1.0 - exp(-2.0 * alpha2 / limit)) - alpha2 / end * (1.0 - exp(-2.0 * end / limit));
         least[k] = least_share * (mass - before);
         before = mass;
     }
 }
 
-/* The best set of parts: the error is convex, so that the best of those without negative weights is the best there is. */
+/* Tries all sets of parts. The error is convex, so the best set without negative weights is the optimum. */
 static void fit_lobe(const spectrum *s, double perceptual_roughness, float weights[NARROW_PARTS])
 {
     uint32_t available = 1u << NARROW_MIRROR | 1u << NARROW_LOBE | ((1u << s->blurred_count) - 1) << 1;
@@ -254,16 +255,17 @@ enum {
     MAX_WIDTH = 1024,
     MIN_SIZE = 16,
     ROW_FLOATS = 3 * MAX_WIDTH,
-    GRAIN = 32 /* rows a thread takes at a time; it filters two more */
+    GRAIN = 32 /* rows per work item, which filters two more */
 };
 
-/* Wider than that, rad, a Gaussian is none that a lobe of NARROW_END holds. */
+/* rad: wider Gaussians are not part of a lobe of NARROW_END */
 static const double max_sigma = 0.05;
 
 /* ---- along rows ---- */
 
-/* Adds variance to a row, in squared texels. Three taps further and further apart, each pass as wide as it stays smooth
- * ("a trous", Holschneider et al. 1989). scratch is as long as the row; returns the one that has the result. */
+/* Adds variance, in squared texels, to a row: passes of three taps at growing distances, each as wide as it
+ * stays smooth ("a trous", Holschneider et al. 1989). scratch is as long as the row; returns the buffer with
+ * the result. */
 static inline float *blur_row(float *row, float *scratch, uint32_t width, double variance)
 {
     for (uint32_t stride = 1; variance > 0.0 && 2 * stride <= width; stride *= 2) {
@@ -286,7 +288,7 @@ static inline float *blur_row(float *row, float *scratch, uint32_t width, double
     return row;
 }
 
-/* Pairs of texels of a row, with a share of their neighbours: 1 3 3 1, which keeps the place of what is between texels. */
+/* Halves a row with weights 1 3 3 1, which keeps positions between texels. */
 static inline void halve_row(const float *row, uint32_t width, float *out)
 {
     size_t last = width / 2 - 1;
@@ -308,14 +310,14 @@ typedef struct blurring {
     double variance; /* along columns, squared texels */
 } blurring;
 
-/* Share of what a texel of row y exchanges with its neighbour through the edge, whose latitude is y / height. */
+/* Share that a texel of row y exchanges with its neighbour across the edge at latitude y / height. */
 static double edge_share(double variance, uint32_t height, uint32_t y, uint32_t edge)
 {
     return 0.5 * variance * sin(pi * edge / height) / sin(pi * (y + 0.5) / height);
 }
 
-/* Variance in columns that row y lacks: sin(theta)^-2 times that of the columns, those of bilinear lookup (a sixth of a
- * texel squared, less that of the mirrored image) included, less what halving and lookup bring themselves. */
+/* Variance in columns that row y lacks: sin(theta)^-2 times that of the columns, including bilinear lookup (a
+ * sixth of a squared texel), minus those of halving and lookup. */
 static double row_variance(const blurring *job, uint32_t y)
 {
     double s = sin(pi * (y + 0.5) / job->out->height);
@@ -326,7 +328,7 @@ static double row_variance(const blurring *job, uint32_t y)
     return (0.1875 + job->variance + 0.125) * goal - 0.1875 - 0.125;
 }
 
-/* Row y of the size of out: two rows of from, with a share of their neighbours as in halve_row(). */
+/* Row y of out from two rows of from and their neighbours, weighted as in halve_row(). */
 static inline void read_row(const blurring *job, uint32_t y, float *row)
 {
     const float *pixels = job->from->pixels;
@@ -336,7 +338,7 @@ static inline void read_row(const blurring *job, uint32_t y, float *row)
         return;
     }
     uint32_t height = job->from->height;
-    double north = sin(pi * (2.0 * y + 0.5) / height); /* in proportion to solid angles */
+    double north = sin(pi * (2.0 * y + 0.5) / height); /* weighted by solid angle */
     double south = sin(pi * (2.0 * y + 1.5) / height);
     float own = (float)(north / (north + south));
     float up = own * (float)edge_share(0.5, height, 2 * y, 2 * y);
@@ -397,7 +399,7 @@ static facet_result blur(const image *from, bool is_halved, double variance, con
     return FACET_OK;
 }
 
-/* How many images a lobe of NARROW_END can hold, if the first is as large as base. */
+/* Number of blurred images within a lobe of NARROW_END if the first one has the size of base. */
 static uint32_t count_blurred(uint32_t width, uint32_t height)
 {
     uint32_t count = 0;
@@ -422,7 +424,7 @@ facet_result narrow_create(const image *mirror, const facet_allocator *allocator
 {
     *out = (narrow){0};
     narrow n = {0};
-    image base = {0}; /* where the mirror's size is not one that can be halved twice */
+    image base = {0}; /* if the mirror's size cannot be halved twice */
     uint32_t width = (mirror->width < MAX_WIDTH ? mirror->width : MAX_WIDTH) & ~3u;
     uint32_t height = (mirror->height < MAX_HEIGHT ? mirror->height : MAX_HEIGHT) & ~3u;
     facet_result result = FACET_OK;

@@ -16,19 +16,20 @@
 static inline void octahedron_direction(float u, float v, float p[3])
 {
     float y = 1.0f - fabsf(u) - fabsf(v);
-    float fold = y < 0.0f ? -y : 0.0f; /* of the lower half: as far inside the diagonal as it is outside */
+    float fold =
+        y < 0.0f ? -y : 0.0f; /* lower half: folded inside by as much as it is outside of the diagonal */
     p[0] = u - copysignf(fold, u);
     p[1] = y;
     p[2] = v - copysignf(fold, v);
 }
 
-/* Solid angle, sr, of the square of edge step with its middle in (u, v), to the second order of step. The folds of the
- * image must not cut it, but from corner to corner: it is halved there. */
+/* Solid angle, sr, of the square of edge step centered at (u, v), to second order in step. The folds may cut
+ * it only from corner to corner, where it is split in two. */
 static inline float octahedron_solid_angle(float u, float v, float step)
 {
     float sum = 0.0f;
     for (int i = 0; i < 2; i++) {
-        float aside = i ? step / 6.0f : step / -6.0f; /* of a half's centre of mass */
+        float aside = i ? step / 6.0f : step / -6.0f; /* offset of a half's centroid */
         float p[3];
         octahedron_direction(u + copysignf(aside, u * aside), v + copysignf(aside, v * aside), p);
         float q = p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
@@ -37,7 +38,7 @@ static inline float octahedron_solid_angle(float u, float v, float step)
     return sum;
 }
 
-/* Where direction d (any length but 0) is. */
+/* Position of direction d (any length but 0). */
 static inline void octahedron_locate(const float d[3], float uv[2])
 {
     float scale = 1.0f / (fabsf(d[0]) + fabsf(d[1]) + fabsf(d[2]));
@@ -48,7 +49,8 @@ static inline void octahedron_locate(const float d[3], float uv[2])
     uv[1] = is_lower ? copysignf(1.0f - fabsf(u), v) : v;
 }
 
-/* The texel of an image of n x n that (x, y) in [-1, n] is: across an edge is the same edge turned around its middle. */
+/* Index of texel (x, y), both in [-1, n], of an image of n x n: outside of an edge lies the same edge,
+ * rotated around its center. */
 static inline size_t octahedron_texel(uint32_t n, int x, int y)
 {
     int last = (int)n - 1;

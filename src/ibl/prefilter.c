@@ -9,9 +9,9 @@
 
 #include "shade/shade.h"
 
-/* How a level is made. Sizes give the half width of a lobe four texels and more, so that bilinear lookup keeps its
- * shape; degrees are such that what is cut off of a lobe is below 0.3 % of its peak for GGX. Charlie's ring has a sharp
- * outer edge, which 160 degrees round off over 0.02 rad. */
+/* Recipe of a level. Sizes give at least four texels to the half width of a lobe, so that bilinear lookup
+ * preserves its shape; degrees truncate less than 0.3 % of the peak for GGX. 160 degrees round off the sharp
+ * outer edge of Charlie's ring over 0.02 rad. */
 typedef struct level_recipe {
     float roughness;
     uint16_t size, degree;
@@ -20,7 +20,8 @@ typedef struct level_recipe {
 static const level_recipe ggx_levels[] = {{0.0f, 0, 0},    {NARROW_END, 128, 160}, {0.22f, 80, 160},
                                           {0.3f, 64, 128}, {0.4f, 48, 64},         {0.52f, 40, 64},
                                           {0.68f, 32, 64}, {0.84f, 32, 64},        {1.0f, 32, 64}};
-/* Closer than those of GGX: two thin rings are less like the one between them than two spots are. */
+/* Denser than for GGX: blending two thin rings approximates the one between them less well than blending two
+ * spots. */
 static const level_recipe charlie_levels[] = {
     {0.0f, 0, 0},      {0.1f, 128, 160},  {0.115f, 112, 160}, {0.132f, 96, 160},
     {0.152f, 88, 160}, {0.175f, 80, 160}, {0.2f, 64, 128},    {0.23f, 64, 128},
@@ -67,19 +68,20 @@ float prefilter_lod_of(prefilter_lobe lobe, float perceptual_roughness)
     return (float)level + (fraction > 0.0f ? fraction : 0.0f);
 }
 
-/* D at half angle t, times any constant. */
+/* D at half angle t, up to a constant. */
 static double distribution(prefilter_lobe lobe, double t, float alpha)
 {
     if (lobe == PREFILTER_GGX)
         return (double)D_GGX_stable((float)cos(t), vec3((float)sin(t), 0.0f, 0.0f), alpha);
-    /* D_Charlie over its value on the horizon, t = pi / 4: both are below any float at low roughness */
+    /* D_Charlie relative to the horizon, t = pi / 4: both underflow a float at low roughness */
     return exp(0.5 / (double)alpha * log(2.0 * sin(t) * sin(t)));
 }
 
 enum { NODES = 8 };
 
-/* Gauss and Legendre's nodes of panels of the half angle t, which runs to pi / 4, where l reaches the horizon: panels double
- * in width from alpha / 8 on, from where the lobe is, until P_degree(cos 2 t) swings once and a half in 8 points. */
+/* Gauss-Legendre nodes in panels of the half angle t in [0, pi / 4], at whose end l is on the horizon: panels
+ * double in width from alpha / 8 on, where the lobe is concentrated, up to one and a half periods of
+ * P_degree(cos 2 t) in 8 points. */
 static void add_panel(prefilter_lobe lobe, float alpha, double from, double to, uint32_t degree, double *sum)
 {
     const double end = 0.7853981633974483;
@@ -123,7 +125,7 @@ void prefilter_kernel(prefilter_lobe lobe, float perceptual_roughness, uint32_t 
         kernel[l] = (float)(sum[l] / sum[0]);
 }
 
-/* Squares of a kernel from degree first to last: of the lobe's, by Parseval's theorem. */
+/* Energy of a kernel in degrees first to last, by Parseval's theorem. */
 static double square(const float *kernel, uint32_t first, uint32_t last)
 {
     double sum = 0.0;
@@ -139,7 +141,8 @@ uint32_t prefilter_choose_degree(prefilter_lobe lobe, float perceptual_roughness
     for (;; known = known < HARMONICS_MAX_DEGREE / 2 ? 2 * known : HARMONICS_MAX_DEGREE) {
         prefilter_kernel(lobe, perceptual_roughness, known, kernel);
         double whole = square(kernel, 0, known);
-        /* Those of a ring fall off with the third power of the degree: twice what the last eighth has is still to come. */
+        /* A ring's energy falls off with the third power of the degree: the rest is twice that of the last
+         * eighth. */
         double beyond = 2.0 * square(kernel, known - known / 8 + 1, known);
         double allowed = tolerance * tolerance * (whole + beyond);
         uint32_t degree = 32;

@@ -16,11 +16,11 @@
 
 typedef enum prefilter_lobe { PREFILTER_GGX, PREFILTER_CHARLIE, PREFILTER_LOBE_COUNT } prefilter_lobe;
 
-/* Levels of a lobe, from smooth to rough. Level 0 is no cube map: for GGX it is a mirror, the image itself, and what
- * is between it and level 1 is made by narrow.h. */
+/* Levels of a lobe, from smooth to rough. Level 0 is not a cube map: for GGX it is a mirror, the panorama
+ * itself, and narrow.h makes what lies between it and level 1. */
 enum {
-    PREFILTER_LEVEL_COUNT = 16, /* of the lobe that has the most */
-    PREFILTER_DEGREE = 160      /* the highest that a level takes */
+    PREFILTER_LEVEL_COUNT = 16, /* of the lobe with the most levels */
+    PREFILTER_DEGREE = 160      /* highest degree of a level */
 };
 uint32_t prefilter_level_count(prefilter_lobe lobe);
 
@@ -29,26 +29,26 @@ uint32_t prefilter_level_count(prefilter_lobe lobe);
 float prefilter_roughness(prefilter_lobe lobe, uint32_t level);
 /* Texels along an edge of its faces. */
 uint32_t prefilter_size(prefilter_lobe lobe, uint32_t level);
-/* Differs between levels that are made differently. */
+/* Identifies how a level is made. */
 uint64_t prefilter_recipe(prefilter_lobe lobe, uint32_t level);
-/* The level, with fraction, of a roughness in [0, 1]: linear in roughness between levels. Charlie's are from 1 on: a
- * ring narrower than that of level 1 is taken for that one, where it reflects next to nothing but at grazing angles. */
+/* The lod of a roughness in [0, 1], linear in roughness between levels. Charlie begins at 1: narrower rings
+ * are clamped to level 1, where they reflect almost nothing except at grazing angles. */
 float prefilter_lod_of(prefilter_lobe lobe, float perceptual_roughness);
 
-/* Scale of degree l of the environment's harmonics, k_l = integral of D N.l P_l(N.l) / integral of D N.l, for l up to
- * degree (at most HARMONICS_MAX_DEGREE); kernel[0] is 1. Roughness above 0. By Gauss-Legendre quadrature over the half vector,
- * in double. */
+/* Kernel of a lobe: the scale of degree l, k_l = integral of D N.l P_l(N.l) / integral of D N.l, for l up to
+ * degree (at most HARMONICS_MAX_DEGREE); kernel[0] is 1. Roughness above 0. By Gauss-Legendre quadrature over
+ * the half vector, in double. */
 void prefilter_kernel(prefilter_lobe lobe, float perceptual_roughness, uint32_t degree, float *kernel);
-/* The least degree (a multiple of 32) such that what is cut off of the lobe has tolerance of its root mean square, or
- * HARMONICS_MAX_DEGREE; fills the kernel, which has HARMONICS_MAX_DEGREE + 1 places, up to there. *cut: the share that is cut
- * off, which at the maximum may be more. */
+/* The smallest degree (a multiple of 32, at most HARMONICS_MAX_DEGREE) whose truncation error is tolerance of
+ * the lobe's root mean square; fills the kernel, which has HARMONICS_MAX_DEGREE + 1 elements, up to it. *cut
+ * receives the error, which may exceed tolerance at the maximum. */
 uint32_t prefilter_choose_degree(prefilter_lobe lobe, float perceptual_roughness, double tolerance,
                                  float *kernel, double *cut);
-/* Fades the last quarter of the degrees out, so that what is cut off a narrow lobe does not ring: around a sun, 3 % of
- * relative error in the sky become 0.4 %. */
+/* Fades out the last quarter of the degrees, so that a truncated narrow lobe does not ring: around a sun, the
+ * error of the sky falls from 3 % to 0.4 %. */
 void prefilter_taper(uint32_t degree, float *kernel);
 
-/* Cube map of a level from 1 on; h has PREFILTER_DEGREE and more. FACET_ERROR_MEMORY. */
+/* Cube map of a level from 1 on; h has at least degree PREFILTER_DEGREE. FACET_ERROR_MEMORY. */
 facet_result prefilter_level(harmonics *h, prefilter_lobe lobe, uint32_t level,
                              const facet_allocator *allocator, uint32_t thread_count, cube *out,
                              facet_error *error);

@@ -4,7 +4,7 @@
 
 #include "base/simd.h"
 
-/* Radiance of a texel: R, G, B (cd/m^2) and a lane that nobody reads. Aligned to 16 bytes. */
+/* Radiance of a texel: R, G, B (cd/m^2) and an unused lane. Aligned to 16 bytes. */
 typedef float rgbx __attribute__((vector_size(16)));
 
 static inline rgbx rgbx_splat(float x)

@@ -1,9 +1,10 @@
-/* scene_light.c - environments that a model brings along: EXT_lights_image_based.
+/* scene_light.c - image-based lights of models: EXT_lights_image_based.
  *
- * The image is mip 0 of the file's cube map. The lower mips, which hold it filtered for GGX, are not used: facet's
- * own filter (prefilter.h) is exact where a chain of 8-bit images has few and small levels, and background, reflections
- * of any roughness, refraction, sheen and a path tracer then see one and the same surroundings. Diffuse light is what
- * the file's coefficients of irradiance say, also where they come from brighter surroundings than 8 bits hold. */
+ * The panorama comes from mip 0 of the file's cube map. The lower mips, filtered for GGX, are not used:
+ * facet's own filter (prefilter.h) is exact, while a chain of 8-bit images has few and small levels; and
+ * background, reflections of any roughness, refraction, sheen and the path tracer all see the same
+ * environment. Diffuse light comes from the file's irradiance coefficients, even if they stem from brighter
+ * radiance than 8 bits can hold. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -17,25 +18,23 @@
 
 /* ---- the cube map ---- */
 
-/* What the file holds: six images of mip 0, +X -X +Y -Y +Z -Z, "standard orientations", "each saved image must be
- * flipped about its vertical axis". Taken by the letter, texel (x, y) of face i is the radiance from the direction of
- * (n - 1 - x, y) on face i of cube.h. Babylon.js, for which the extension was made, looks the images up as they are
- * with the model's X mirrored: but for +X and -X, which change places, the same. Only one of the two is without seams
- * along the edges of a given file's cube, which tells them apart.
+/* The file holds six images of mip 0, +X -X +Y -Y +Z -Z, "standard orientations", "each saved image must be
+ * flipped about its vertical axis". Taken literally, texel (x, y) of face i is the radiance from the
+ * direction of (n - 1 - x, y) on face i of cube.h. Babylon.js, for which the extension was made, looks up the
+ * images unflipped with the model's X mirrored, which is the same except that +X and -X are swapped. Only one
+ * of the two readings is without seams along the edges of the cube, which identifies it.
  *
- * Texels: JPEG and PNG without alpha carry the sRGB transfer function, as all colors that glTF keeps in such files.
- * PNG with alpha is RGBD: linear color is the decoded one (same transfer function) over alpha. Formats that hold
- * floats are linear as they are. */
+ * Texels: JPEG and PNG without alpha are sRGB, like all colors in such files in glTF. PNG with alpha is RGBD:
+ * linear color is the decoded one over alpha. Formats of floats are linear. */
 typedef struct scene_cube {
-    cube texels;                 /* faces of cube.h, in the frame of the file's light, intensity not in it */
-    environment_repairs repairs; /* places as in the files */
-    bool is_mirrored;            /* its X is the model's -X: Babylon.js' reading */
+    cube texels;                 /* faces as in cube.h, in the light's frame, without intensity */
+    environment_repairs repairs; /* positions as in the files */
+    bool is_mirrored;            /* its X is the model's -X, as in Babylon.js */
 } scene_cube;
 
 enum { FACE_COUNT = 6 };
 
-/* Linear RGBD to RGB: RGBA becomes color over alpha. Alpha 0, of which no packer knows a color, is taken for the least alpha
- * of 8 bits. */
+/* RGBD to linear RGB: color over alpha, with alpha at least 1 / 255. */
 static facet_result unpack_rgbd(image *i, const facet_allocator *allocator, facet_error *error)
 {
     image linear = {0};
@@ -83,7 +82,7 @@ static facet_result decode_faces(cube_face faces[FACE_COUNT], const facet_enviro
     return result;
 }
 
-/* x runs the other way in all faces. */
+/* Flips all faces horizontally. */
 static void flip(cube *c)
 {
     int last = (int)c->size - 1;
@@ -158,12 +157,12 @@ static void scene_cube_destroy(scene_cube *c)
     *c = (scene_cube){0};
 }
 
-/* Where a direction of the model is in the frame of the light: d_light = rows d. */
+/* Rotation from the model to the light's frame: d_light = rows d. */
 typedef struct light_frame {
     float rows[3][3];
 } light_frame;
 
-/* The rotation (a unit quaternion) turns the light in the model, so directions are turned back. */
+/* q (a unit quaternion) rotates the light in the model; directions need the inverse. */
 static light_frame make_frame(const float q[4], bool is_mirrored)
 {
     float x = q[0];
@@ -188,7 +187,7 @@ static void to_light(const light_frame *f, const float d[3], float out[3])
 
 enum { IRRADIANCE_SIZE = 32, PROBE_COUNT = 6 * 8 * 8 };
 
-/* Coefficients of irradiance / pi in the frame of the light. */
+/* Coefficients of irradiance / pi in the light's frame. */
 typedef struct light_irradiance {
     light_frame frame;
     float c[SH_COUNT][3];
@@ -201,8 +200,8 @@ static void evaluate(const light_irradiance *i, const float N[3], float out[3])
     sh_evaluate(i->c, d, out);
 }
 
-/* has_phase: the basis functions of odd m have the sign (-1)^m of Condon and Shortley, as Babylon.js takes them;
- * those of the papers that the extension refers to (Ramamoorthi and Hanrahan 2001) do not. */
+/* has_phase: basis functions of odd m include the Condon-Shortley phase (-1)^m, as in Babylon.js; in the
+ * extension's reference (Ramamoorthi and Hanrahan 2001) they do not. */
 static light_irradiance read_irradiance(const scene_image_light *light, bool is_mirrored, bool has_phase)
 {
     light_irradiance out = {.frame = make_frame(light->rotation, is_mirrored)};
@@ -227,8 +226,8 @@ static void probe_direction(uint32_t i, uint32_t size, float N[3])
         N[k] = (float)(d[k] * scale);
 }
 
-/* Correlation over directions, in [-1, 1], of what the file says with the irradiance of its image: 0 where one of
- * them is uniform. Sizes do not count: the image may hold less than there was. */
+/* Correlation over directions, in [-1, 1], between the stated irradiance and that of the image; 0 if one of
+ * them is uniform. Scale does not matter: the image may hold less than the original radiance. */
 static double correlate(const light_irradiance *said, const float panorama[SH_COUNT][3])
 {
     double a1 = 0.0, b1 = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
@@ -249,9 +248,9 @@ static double correlate(const light_irradiance *said, const float panorama[SH_CO
     return variance > 1e-12 * aa * bb ? (ab - a1 * b1) / sqrt(variance) : 0.0;
 }
 
-/* The file's irradiance as its writer meant it: of the four readings (mirrored or not, signs with or without phase)
- * the first, which is the extension's own and in the frame of the cube, unless another is clearly more like the
- * image's own irradiance. */
+/* The most plausible of four readings of the file's irradiance (mirrored or not, with or without phase): the
+ * first, which is the extension's own in the frame of the cube, unless another correlates clearly better with
+ * the irradiance of the image. */
 static light_irradiance choose_irradiance(const scene_image_light *light, bool is_mirrored,
                                           const float panorama[SH_COUNT][3])
 {
@@ -268,7 +267,7 @@ static light_irradiance choose_irradiance(const scene_image_light *light, bool i
     return best;
 }
 
-/* Lookup in a cube map as everywhere else, rather than sums of polynomials. */
+/* Stores irradiance as a cube map, the form of all other lookups. */
 static facet_result keep_irradiance(facet_environment *e, const scene_cube *c, const scene_image_light *light,
                                     uint32_t thread_count, facet_error *error)
 {
@@ -294,7 +293,7 @@ static facet_result keep_irradiance(facet_environment *e, const scene_cube *c, c
 
 /* ---- the image ---- */
 
-/* Its faces are not kept: they are turned and mirrored. */
+/* The faces are not kept, since they are rotated and mirrored. */
 static facet_result take_cube(facet_environment *e, const scene_cube *c, const scene_image_light *light,
                               const char *name, uint32_t thread_count, facet_error *error)
 {
@@ -313,7 +312,7 @@ static facet_result take_cube(facet_environment *e, const scene_cube *c, const s
 
 /* ---- the functions of facet.h ---- */
 
-/* SCENE_NONE: the pose's scene has none. */
+/* SCENE_NONE: the pose's scene has no image-based light. */
 static uint32_t find_light(const facet_scene *scene, const facet_pose_desc *pose)
 {
     uint32_t index = scene->default_scene == SCENE_NONE ? 0 : scene->default_scene;

@@ -1,6 +1,6 @@
-/* sh.c - see sh.h. The integral of a texel is that of a product of a function of longitude and one of latitude, so
- * each row is summed against five functions of longitude, and the sums against functions of latitude. Rows are
- * summed in float over SPAN texels and from there on in double. */
+/* sh.c - see sh.h. The integral over a texel is a product of a function of longitude and one of latitude, so
+ * each row is summed against five functions of longitude, and these sums against functions of latitude. Rows
+ * are summed in float over SPAN texels, beyond that in double. */
 #include "ibl/sh.h"
 
 #include <math.h>
@@ -101,8 +101,8 @@ static void latitude_integrals(double a, double b, double out[6])
     out[5] = out[0] - out[2];
 }
 
-/* Adds the texels of one row to the coefficients, the constants of the basis left out.
- * x = sin cos(phi), y = cos, z = sin sin(phi). */
+/* Adds the texels of one row to the coefficients, without the constants of the basis. x = sin cos(phi), y =
+ * cos, z = sin sin(phi). */
 static void add_row(double sums[WAVE_COUNT][3], const double latitude[6], double c[SH_COUNT][3])
 {
     for (int i = 0; i < 3; i++) {
@@ -152,7 +152,7 @@ facet_result sh_project_limited(const image *panorama, float limit, const facet_
     }
     parallel_for(thread_count, height, 16, sum_rows, &p);
 
-    /* the integral of cos(k phi) over a texel is its value in the middle times 2 sin(k step / 2) / k */
+    /* the integral of cos(k phi) over a texel is its value at the center times 2 sin(k step / 2) / k */
     double texel[WAVE_COUNT] = {step, 2.0 * sin(0.5 * step), 2.0 * sin(0.5 * step), sin(step), sin(step)};
     for (int k = 0; k < SH_COUNT; k++)
         radiance[k][0] = radiance[k][1] = radiance[k][2] = 0.0;
@@ -264,7 +264,8 @@ void sh_rotate(double c[SH_COUNT][3], double rotation_rad)
 
 /* ---- the least value ---- */
 
-/* Turns columns p and q of M, and b with them, so that M[p][q] becomes 0. Golub and Van Loan 2013, section 8.5.2. */
+/* Jacobi rotation of columns p and q of M, and of b, that makes M[p][q] 0. Golub and Van Loan 2013, section
+ * 8.5.2. */
 static void jacobi_turn(quadric *f, int p, int q)
 {
     if (f->M[p][q] == 0.0)
@@ -291,15 +292,15 @@ static void jacobi_turn(quadric *f, int p, int q)
     f->b[q] = sine * a + cosine * b;
 }
 
-/* Along the axes of M, m_i, the function is c + sum of m_i n_i^2 + b_i n_i, and its least value on the unit sphere the
- * largest over s <= min m of
+/* In the eigenbasis of M the function is c + sum of m_i n_i^2 + b_i n_i, and its minimum on the unit sphere
+ * is the maximum over s <= min m of
  *   g(s) = c + s - sum of b_i^2 / (4 (m_i - s)),
- * which is concave (Lagrange's multiplier; there is no gap, More and Sorensen 1983). Its slope 1 - sum (b_i / (2 (m_i -
- * s)))^2 changes sign between min m - |b| / 2 and min m. */
+ * which is concave (Lagrange multiplier; there is no duality gap, More and Sorensen 1983). Its slope 1 - sum
+ * (b_i / (2 (m_i - s)))^2 changes sign between min m - |b| / 2 and min m. */
 double sh_minimum(const double c[SH_COUNT])
 {
     quadric f = quadric_from(c);
-    for (int sweep = 0; sweep < 8; sweep++) { /* converges quadratically: 4 do */
+    for (int sweep = 0; sweep < 8; sweep++) { /* converges quadratically: 4 suffice */
         jacobi_turn(&f, 0, 1);
         jacobi_turn(&f, 0, 2);
         jacobi_turn(&f, 1, 2);
@@ -346,7 +347,7 @@ static void apply_window(const double from[SH_COUNT][3], double narrowness, doub
             to[k][i] = from[k][i] * (k == 0 ? 1.0 : k < 4 ? factors[0] : factors[1]);
 }
 
-/* Whether irradiance is nowhere negative, also when it is rounded to float. */
+/* Whether irradiance is nowhere negative, even after rounding to float. */
 static bool is_lit_everywhere(const double radiance[SH_COUNT][3])
 {
     double irradiance[SH_COUNT][3];

@@ -12,42 +12,41 @@
 
 enum { SH_COUNT = 9 };
 
-/* The basis functions at the unit direction d. */
+/* Basis functions at the unit direction d. */
 void sh_basis(const double d[3], double y[SH_COUNT]);
 
-/* Coefficients of radiance, L_lm = integral of L Y_lm over the sphere, for an image (F32 RGB) whose texels are
- * each of one radiance: integrals over texels are exact. Deterministic for every thread count.
- * FACET_ERROR_MEMORY. */
+/* Coefficients of radiance, L_lm = integral of L Y_lm over the sphere, of a panorama (F32 RGB) with constant
+ * radiance per texel; the integrals are exact. Does not depend on thread_count. FACET_ERROR_MEMORY. */
 facet_result sh_project(const image *panorama, const facet_allocator *allocator, uint32_t thread_count,
                         double radiance[SH_COUNT][3], facet_error *error);
-/* The same of an image whose channels are cut off at limit. */
+/* The same with channels clamped to limit. */
 facet_result sh_project_limited(const image *panorama, float limit, const facet_allocator *allocator,
                                 uint32_t thread_count, double radiance[SH_COUNT][3], facet_error *error);
 
 /* Coefficients of irradiance, E_lm = A_l L_lm: A_l = pi, 2 pi / 3, pi / 4 are those of the clamped cosine. */
 void sh_irradiance(const double radiance[SH_COUNT][3], double irradiance[SH_COUNT][3]);
-/* Coefficients c of irradiance / pi in the order 1, y, z, x, xy, yz, 3z^2 - 1, xz, x^2 - y^2: basis and 1 / pi folded
- * in. */
+/* Coefficients of irradiance / pi in the order 1, y, z, x, xy, yz, 3z^2 - 1, xz, x^2 - y^2, with the basis
+ * constants and 1 / pi folded in. */
 void sh_fold_over_pi(const double irradiance[SH_COUNT][3], float c[SH_COUNT][3]);
-/* Their sum at the unit direction N, at least 0: nine bands ring around a small sun. */
+/* Irradiance / pi at the unit direction N, clamped to 0: nine coefficients ring around a small sun. */
 void sh_evaluate(const float c[SH_COUNT][3], const float N[3], float out[3]);
 
 /* ---- windows ---- */
 
-/* Harmonics of the same function seen in a frame that is turned around +Y: an environment that rotation_rad turns from +Z
- * towards +X. Exact. */
+/* Rotates harmonics around +Y by rotation_rad from +Z towards +X. Exact. */
 void sh_rotate(double c[SH_COUNT][3], double rotation_rad);
 
-/* The least value of the sum of c times sh_basis() over the sphere, exact but for rounding. */
+/* Minimum over the sphere of the sum of c times sh_basis(), exact up to rounding. */
 double sh_minimum(const double c[SH_COUNT]);
 
-/* The factors of bands 1 and 2 in a window that ends at band 1 / narrowness, narrowness in [0, 1/3]; 0: 1 and 1. Four times the
- * Lanczos window: (sin x / x)^4, x = pi l narrowness (Sloan 2017, "Deringing Spherical Harmonics"). */
+/* Factors of bands 1 and 2 of a window that ends at band 1 / narrowness, narrowness in [0, 1/3] (0: both are
+ * 1): the fourth power of the Lanczos window, (sin x / x)^4, x = pi l narrowness (Sloan 2017, "Deringing
+ * Spherical Harmonics"). */
 void sh_window(double narrowness, double factors[2]);
 
-/* The widest such window, one for all channels, that leaves the irradiance of radiance nowhere negative, applied to
- * radiance. Returns its narrowness, 0 where nothing was negative. Filament's cmgen does the same but never less than a
- * narrowness of 1 / 13. For light that is nowhere negative 1 / 3 does. */
+/* Applies the widest such window, the same for all channels, that makes irradiance nowhere negative, and
+ * returns its narrowness, 0 if nothing was negative. Filament's cmgen does the same with a narrowness of at
+ * least 1 / 13. 1 / 3 suffices for radiance that is nowhere negative. */
 double sh_dering(double radiance[SH_COUNT][3]);
 
 #endif

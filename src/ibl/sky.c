@@ -1,4 +1,5 @@
-/* sky.c - clear skies as environments: what is asked for, and to what it is exposed. The skies themselves: sky_image.c. */
+/* sky.c - clear skies as environments: checks of the description, and scaling to an illuminance. sky_image.c
+ * draws them. */
 #include <assert.h>
 #include <math.h>
 
@@ -12,7 +13,8 @@ enum { DEFAULT_HEIGHT = 512, DEFAULT_MAX_SIZE = 32768 };
 static const float default_turbidity = 2.5f, max_turbidity = 10.0f, min_preetham_turbidity = 1.7f;
 static const float max_altitude_m = 50000.0f;
 static const float right_angle = 1.57079637f;
-static const double darkest_lux = 1.0; /* as bright as a full moon's light twice; not to be made day of */
+static const double darkest_lux =
+    1.0; /* twice the light of a full moon; darker skies are not scaled to daylight */
 
 /* ---- arguments ---- */
 
@@ -92,7 +94,7 @@ static facet_result draw_preetham(const facet_sky_desc *sky, const facet_environ
     return result;
 }
 
-/* Scales the image so that the surface that gets most light gets lux. */
+/* Scales the panorama so that the most illuminated orientation receives the requested illuminance. */
 typedef struct scaling {
     image *panorama;
     float factor;

@@ -44,13 +44,13 @@ sky_sun_light sky_sun_preetham(float turbidity, float elevation_rad, float azimu
     return sun;
 }
 
-/* One part of the disc: where it is seen, and its share of the illuminance. */
+/* A sample of the disc: its direction and its share of the illuminance. */
 typedef struct disc_part {
     double direction[3];
     vec3 illuminance;
 } disc_part;
 
-/* The disc's middle and two directions across it, upwards and to the side. */
+/* The disc's center and two directions across it, upwards and sideways. */
 typedef struct disc_frame {
     double middle[3], up[3], side[3];
 } disc_frame;
@@ -62,7 +62,7 @@ static disc_frame make_frame(const sky_sun_light *sun)
     return (disc_frame){{sa * ce, se, ca * ce}, {-sa * se, ce, -ca * se}, {ca, 0.0, -sa}};
 }
 
-/* Part number part of count. The mean over the disc of what darkens its limb is 1 - u / 3. */
+/* Sample part of count. The mean of the limb darkening over the disc is 1 - u / 3. */
 static disc_part make_part(const sky_sun_light *sun, const disc_frame *frame, int part, int count)
 {
     const double golden_angle = 2.399963229728653;
@@ -101,7 +101,7 @@ void sky_sun_draw(const sky_sun_light *sun, image *panorama)
     disc_frame frame = make_frame(sun);
     uint32_t width = panorama->width, height = panorama->height;
     int finer = 1 + (int)(height / 2048);
-    int count = PARTS * finer * finer; /* hundreds of parts per texel */
+    int count = PARTS * finer * finer; /* hundreds of samples per texel */
     for (int k = 0; k < count; k++) {
         disc_part part = make_part(sun, &frame, k, count);
         const double *d = part.direction;
@@ -120,10 +120,10 @@ enum { FINE_SUB_ROWS = 16, BLOCK_ROWS = 32, BLOCK_COLUMNS = 64, CANDIDATES = 360
 
 static const double half_turn = 3.14159265358979323846;
 
-/* An image, and one of the two skies. */
+/* A panorama, and one of the two sky models. */
 typedef struct image_job {
     image *panorama;
-    sky_azimuth *columns; /* from the sun */
+    sky_azimuth *columns; /* azimuths from the sun */
     double horizon;       /* angle from the zenith */
     float mu_sun, across_sun;
     const sky_view *view; /* NULL: Preetham's */
@@ -133,7 +133,7 @@ typedef struct image_job {
 
 /* ---- rows ---- */
 
-/* Adds the sky at an angle from the zenith to a row of the image. */
+/* Adds the sky at a zenith angle to a row of the panorama. */
 static void add_view_row(const image_job *job, double angle, float weight, float *texels)
 {
     sky_light row[SKY_VIEW_AZIMUTHS];
@@ -158,7 +158,7 @@ static void add_preetham_row(const image_job *job, double angle, float weight, f
     }
 }
 
-/* Rows are means over rows within them where the sky changes fast: at the horizon, and where there are few. */
+/* Rows are supersampled where the sky changes fast: at the horizon, and in coarse panoramas. */
 static void draw_rows(void *context, size_t begin, size_t end)
 {
     const image_job *job = context;
@@ -211,7 +211,7 @@ facet_result sky_image_atmosphere(const sky_view *view, float sun_azimuth_rad,
 
 /* ---- Preetham's ground ---- */
 
-/* Illuminance of level ground by the upper half of the image. */
+/* Illuminance of horizontal ground by the upper half of the panorama. */
 static void sum_ground(const image *panorama, double out[3])
 {
     out[0] = out[1] = out[2] = 0.0;
@@ -243,7 +243,7 @@ facet_result sky_image_preetham(float turbidity, const sky_sun_light *sun, const
     vec3 direct = sky_sun_illuminance(sun);
     float *texels = panorama->pixels;
     for (uint32_t y = panorama->height / 2; y < panorama->height; y++) {
-        bool is_half = 2 * y + 1 == panorama->height; /* the horizon goes through its middle */
+        bool is_half = 2 * y + 1 == panorama->height; /* the horizon crosses the middle of the row */
         for (uint32_t x = 0; x < panorama->width; x++)
             for (uint32_t i = 0; i < 3; i++) {
                 double light = illuminance[i] + (double)direct[i] * (double)job.mu_sun;
@@ -256,7 +256,7 @@ facet_result sky_image_preetham(float turbidity, const sky_sun_light *sun, const
 
 /* ---- exposure ---- */
 
-/* Luminous flux per area that comes through blocks of texels, as vectors to where it comes from. */
+/* Illuminance vectors of blocks of texels: sums of luminance times solid angle times direction. */
 typedef struct flux_blocks {
     const image *panorama;
     double vectors[BLOCK_ROWS][BLOCK_COLUMNS][3];

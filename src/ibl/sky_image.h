@@ -1,4 +1,4 @@
-/* sky_image.h - skies as equirectangular images. */
+/* sky_image.h - skies and the sun's disc as panoramas. */
 #ifndef IBL_SKY_IMAGE_H
 #define IBL_SKY_IMAGE_H
 
@@ -8,43 +8,43 @@
 
 /* ---- the sun ---- */
 
-/* What light of the sun an eye gets, over the height of the disc; linear Rec.709 illuminance in lx that the whole disc would have
- * if all of it stood there. Below the horizon 0. */
+/* Sunlight over the height of the disc: linear Rec.709 illuminance in lx as if the whole disc stood at that
+ * height; 0 below the horizon. */
 enum { SKY_SUN_NODES = 17 };
 typedef struct sky_sun_light {
-    float elevation_rad, azimuth_rad; /* of the middle; from +Z towards +X */
+    float elevation_rad, azimuth_rad; /* of the center; azimuth from +Z towards +X */
     vec3 nodes[SKY_SUN_NODES];        /* from the lower to the upper edge */
-    float horizon_rad;                /* below which nothing is seen */
+    float horizon_rad;                /* elevation of the horizon */
 } sky_sun_light;
 
-/* Through the atmosphere, by columns of its own, seen from a height. */
+/* Through the atmosphere, seen from a height. */
 sky_sun_light sky_sun_through_air(const Atmosphere air[SKY_HALVES], float height_km, float elevation_rad,
                                   float azimuth_rad);
 /* Under Preetham's sky. */
 sky_sun_light sky_sun_preetham(float turbidity, float elevation_rad, float azimuth_rad);
 
-/* Illuminance of a surface that faces the middle of the disc, lx: sum of what sky_sun_draw() adds. */
+/* Illuminance in lx of a surface that faces the center of the disc: the sum of what sky_sun_draw() adds. */
 vec3 sky_sun_illuminance(const sky_sun_light *sun);
 
-/* Adds the disc to an image in cd/m^2 (F32 RGB), limb darkening included: every part of it goes to the texel that it is in, so
- * that no image loses light. */
+/* Adds the disc with limb darkening to a panorama in cd/m^2 (F32 RGB). Each sample goes to the texel that
+ * contains it, so that energy is preserved at any resolution. */
 void sky_sun_draw(const sky_sun_light *sun, image *panorama);
 
 /* ---- skies ---- */
 
-/* Draws the sky and the ground that view sees, without the sun's disc, into an image (F32 RGB). The sun's azimuth is from +Z
- * towards +X. FACET_ERROR_MEMORY. */
+/* Draws sky and ground of view, without the sun's disc, into a panorama (F32 RGB). The sun's azimuth is from
+ * +Z towards +X. FACET_ERROR_MEMORY. */
 facet_result sky_image_atmosphere(const sky_view *view, float sun_azimuth_rad,
                                   const facet_allocator *allocator, uint32_t thread_count, image *panorama,
                                   facet_error *error);
 
-/* The same by Preetham's formula; below the horizon a matt ground, lit by that sky and by sun. */
+/* The same by Preetham's formula, with a diffuse ground lit by that sky and sun. */
 facet_result sky_image_preetham(float turbidity, const sky_sun_light *sun, const float ground_albedo[3],
                                 const facet_allocator *allocator, uint32_t thread_count, image *panorama,
                                 facet_error *error);
 
-/* Illuminance in lx of the surface that gets most of the light of an image that is symmetric about the vertical plane of an
- * azimuth. To 0.1 %. FACET_ERROR_MEMORY. */
+/* Largest illuminance in lx of any orientation, for a panorama that is symmetric about the vertical plane of
+ * an azimuth. To 0.1 %. FACET_ERROR_MEMORY. */
 facet_result sky_image_illuminance(const image *panorama, float azimuth_rad, const facet_allocator *allocator,
                                    uint32_t thread_count, double *out, facet_error *error);
 

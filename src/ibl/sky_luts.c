@@ -1,4 +1,4 @@
-/* sky_luts.c - the loops around shade/sky.h: tables, and rays marched with them. */
+/* sky_luts.c - see sky_luts.h: the loops around shade/sky.h. */
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
@@ -8,14 +8,15 @@
 enum {
     COLUMN_STEPS = 64,
     BOUNCE_STEPS = 12,
-    BOUNCE_POLAR = 10,  /* directions from straight up down, closest at the horizon: mu = x |x| .. */
-    BOUNCE_AZIMUTH = 4, /* .. and in the half circle from the sun, closest there; the other half mirrors it */
+    BOUNCE_POLAR = 10, /* directions from zenith to nadir, densest at the horizon: mu = x |x| */
+    BOUNCE_AZIMUTH =
+        4, /* azimuths in the half circle from the sun, densest there; the other half mirrors it */
     IRRADIANCE_POLAR = 24,
     IRRADIANCE_AZIMUTH = 12,
     IRRADIANCE_STEPS = 32
 };
 
-/* Bilinear; texels as a GPU reads them, stride vectors apart. */
+/* Bilinear with texel centers as on a GPU; texels are stride vectors apart. */
 static inline vec3 fetch(const vec3 *table, int stride, int width, int height, vec2 place)
 {
     float x = place[0] * (float)width - 0.5f;
@@ -53,7 +54,7 @@ static AirField fetch_field(const AirField *table, vec2 place)
         fetch(&table->up, stride, size, size, place), fetch(&table->sunward, stride, size, size, place));
 }
 
-/* bounces NULL: light that is scattered again comes with radiance 1 from everywhere. */
+/* bounces NULL: multiply scattered light is isotropic with radiance 1. */
 static void march(const sky_luts *t, AirField *const *bounces, const sky_ray *ray, float length_km, int steps,
                   AirLight out[SKY_HALVES])
 {
@@ -96,15 +97,15 @@ static void fill_columns(void *context, size_t begin, size_t end)
         }
 }
 
-/* The ray from a height, polar angle and azimuth from the sun by their cosines. */
+/* A ray from a height; polar angle and azimuth from the sun are given by their cosines. */
 static sky_ray make_ray(float height_km, float mu, float mu_sun, float cos_azimuth)
 {
     float across = sqrt(max(1.0f - mu * mu, 0.0f) * max(1.0f - mu_sun * mu_sun, 0.0f));
     return (sky_ray){height_km, mu, mu_sun, clamp(mu * mu_sun + across * cos_azimuth, -1.0f, 1.0f)};
 }
 
-/* Light that the sky sends to the ground where the sun is as in column x of the table of bounces: scattered once, and more by
- * a share that is right to a tenth of all light on the ground. */
+/* Irradiance of the ground by the sky for the sun of column x of the bounce LUT: single scattering plus an
+ * estimate of the rest, within a tenth of the total. */
 static void fill_sky(sky_luts *t, int x)
 {
     const float scattered_again = 0.4f;

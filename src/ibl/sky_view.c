@@ -10,7 +10,7 @@
 
 enum { STEPS = 48, GROUND_NODES = 17 };
 
-/* Irradiance of the ground by the sky, for the angles of the sun from the zenith that are found within sight. */
+/* Irradiance of the ground by the sky for the sun's zenith angles within view. */
 typedef struct ground_light {
     float first, step; /* rad */
     vec3 sky[GROUND_NODES][SKY_HALVES];
@@ -38,14 +38,14 @@ static void light_ground(view_job *job, uint32_t thread_count)
     ground_light *g = &job->ground;
     float reach = acosf(EARTH_RADIUS_KM / (EARTH_RADIUS_KM + job->view->height_km));
     float zenith = acosf(job->view->mu_sun);
-    bool is_one = reach < 1e-4f; /* all ground in sight has the same sun */
+    bool is_one = reach < 1e-4f; /* all visible ground has the same sun */
     g->first = is_one ? zenith : max(zenith - reach, 0.0f);
     g->count = is_one ? 1 : GROUND_NODES;
     g->step = is_one ? 1.0f : (min(zenith + reach, PI) - g->first) / (float)(GROUND_NODES - 1);
     parallel_for(thread_count, (size_t)g->count, 1, fill_ground, job);
 }
 
-/* Light that the ground sends up where the sun has mu_sun, per half. */
+/* Radiance of the ground where the sun has mu_sun, per half. */
 static void ground_radiance(const sky_luts *t, const ground_light *g, float mu_sun, vec3 out[SKY_HALVES])
 {
     float x = clamp((acosf(mu_sun) - g->first) / g->step, 0.0f, (float)(g->count - 1));
@@ -67,8 +67,8 @@ static sky_light light_along(const view_job *job, const sky_ray *ray, bool is_gr
     const sky_luts *t = job->tables;
     AirLight light[SKY_HALVES];
     float to_ground = ray_to_ground(ray->height_km, ray->mu);
-    to_ground =
-        to_ground < 0.0f ? sqrtf(height_square(ray->height_km)) : to_ground; /* it just misses the horizon */
+    to_ground = to_ground < 0.0f ? sqrtf(height_square(ray->height_km))
+                                 : to_ground; /* the ray just misses the horizon */
     float length_km = is_ground ? to_ground : ray_to_top(ray->height_km, ray->mu);
     sky_march(t, ray, length_km, length_km > 1e-6f ? STEPS : 0, light);
     vec3 ground[SKY_HALVES] = {vec3(0.0f), vec3(0.0f)};
@@ -130,7 +130,7 @@ void sky_view_destroy(sky_view *v)
 
 /* ---- lookup ---- */
 
-/* Weights of the nodes -1, 0, 1, 2 at x in [0, 1]. Catmull and Rom 1974. */
+/* Weights of nodes -1, 0, 1, 2 at x in [0, 1]. Catmull and Rom 1974. */
 static void cubic_weights(float x, float weights[4])
 {
     weights[0] = x * (-0.5f + x * (1.0f - 0.5f * x));

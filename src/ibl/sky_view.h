@@ -1,5 +1,6 @@
-/* sky_view.h - the sky around an eye as a table: light of the atmosphere without the phase functions of single scattering, which
- * are sharp, and without the sun's disc. What is left is smooth, but for the horizon, where rows come closest. */
+/* sky_view.h - the sky-view LUT of an eye point: radiance of the atmosphere without the phase functions of
+ * single scattering, which are sharp, and without the sun's disc. The rest is smooth except at the horizon,
+ * where rows are densest. */
 #ifndef IBL_SKY_VIEW_H
 #define IBL_SKY_VIEW_H
 
@@ -7,8 +8,8 @@
 
 enum {
     SKY_VIEW_UP = 128,     /* rows from the horizon to the zenith */
-    SKY_VIEW_DOWN = 48,    /* and to the nadir */
-    SKY_VIEW_AZIMUTHS = 33 /* from that of the sun to its opposite */
+    SKY_VIEW_DOWN = 48,    /* rows from the horizon to the nadir */
+    SKY_VIEW_AZIMUTHS = 33 /* from the sun's azimuth to the opposite one */
 };
 
 /* Linear Rec.709: cd/m^2, the first two per phase function. */
@@ -28,21 +29,21 @@ facet_result sky_view_create(const sky_luts *tables, float altitude_km, float su
                              facet_error *error);
 void sky_view_destroy(sky_view *v); /* {0} is allowed */
 
-/* The lights at an angle from the zenith, for all azimuths. Interpolated by Catmull and Rom's cubic; never below 0. */
+/* A row at a zenith angle, for all azimuths. Interpolated by Catmull and Rom's cubic, never below 0. */
 void sky_view_fetch_row(const sky_view *v, float zenith_angle, sky_light out[SKY_VIEW_AZIMUTHS]);
 
-/* Where an azimuth lies in a row. */
+/* Position of an azimuth in a row. */
 typedef struct sky_azimuth {
     int nodes[4];
     float weights[4];
     float cosine;
 } sky_azimuth;
-sky_azimuth sky_view_azimuth(double radians); /* from that of the sun, any */
+sky_azimuth sky_view_azimuth(double radians); /* from the sun's azimuth, any angle */
 
 /* Radiance; cos_angle: between direction and sun. */
 vec3 sky_view_radiance(const sky_view *v, const sky_light row[SKY_VIEW_AZIMUTHS], const sky_azimuth *azimuth,
                        float cos_angle);
-/* The same of one direction, without its row: some tenth of what a row takes. */
+/* The same for one direction without its row, at about a tenth of the cost of a row. */
 vec3 sky_view_at(const sky_view *v, float zenith_angle, const sky_azimuth *azimuth, float cos_angle);
 
 #endif

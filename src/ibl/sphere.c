@@ -48,7 +48,7 @@ void sphere_direction(const sphere *s, size_t texel, float d[3])
 
 static double octahedron_texel_solid_angle(uint32_t size, uint32_t x, uint32_t y)
 {
-    uint32_t parts = 2 + 2 * (512 / size); /* even: then folds go through corners */
+    uint32_t parts = 2 + 2 * (512 / size); /* even, so that folds go through corners */
     double step = 2.0 / size / parts;
     double sum = 0.0;
     for (uint32_t i = 0; i < parts * parts; i++)
@@ -71,13 +71,14 @@ double sphere_solid_angle(const sphere *s, size_t texel)
 
 /* ---- lookup ---- */
 
-/* Where a lookup is between texels: the first of four by column and row, which may be -1, and weights of the second. */
+/* Bilinear footprint: column and row of the first of four texels, which may be -1, and the weights of the
+ * second ones. */
 typedef struct between {
     int face, x, y;
     float wx, wy;
 } between;
 
-/* Of position (u, v) on a face, both in [-1, 1]. */
+/* Footprint of position (u, v), both in [-1, 1], on a face. */
 static inline between find_between(float width, float height, int face, float u, float v)
 {
     float x = 0.5f * width * (u + 1.0f) + 0.5f; /* one more than the column, and positive */
@@ -118,7 +119,8 @@ static inline between find_in_image(const sphere *s, float x, float y, float z)
     return find_between((float)s->width, (float)s->height, 0, uv[0], uv[1]);
 }
 
-/* The texel at column x in [-1, width], row y in [-1, height] of an image: around the circle, at the pole the last row. */
+/* Index of the texel at column x in [-1, width], row y in [-1, height] of an image: columns wrap around, rows
+ * are clamped at the poles. */
 static size_t wrap(const sphere *s, int x, int y)
 {
     if (s->kind == SPHERE_OCTAHEDRON)
@@ -140,7 +142,7 @@ typedef int32_t rgbx_mask __attribute__((vector_size(16)));
 
 typedef int64_t rgbx_halves __attribute__((vector_size(16)));
 
-/* Cuts four texels off at limit, whose fourth lane is infinite; whether there was need. */
+/* Clamps four texels to limit, whose fourth lane is infinite; true if any was above. */
 static inline bool cut_off(rgbx c[4], rgbx limit)
 {
     const rgbx_halves is_above =
@@ -154,7 +156,7 @@ static inline bool cut_off(rgbx c[4], rgbx limit)
     return true;
 }
 
-/* The four texels of each lookup of a batch. */
+/* Bilinear lookups of a batch. */
 typedef struct places {
     int face[SPHERE_BATCH], x[SPHERE_BATCH], y[SPHERE_BATCH];
     float wx[SPHERE_BATCH], wy[SPHERE_BATCH];
@@ -184,7 +186,7 @@ DISPATCH_AVX2 static void sphere_look_up_places(const sphere *s, const places *p
         const rgbx *row = first + ((ptrdiff_t)((size_t)p->face[i] * pitch) + y) * (ptrdiff_t)pitch + x;
         const rgbx *next = row + pitch;
         rgbx c[4] = {row[0], row[1], next[0], next[1]};
-        /* the border's corner is a mean, which may be below the limit where one of three texels is not */
+        /* the border's corner is a mean, which may be below the limit although one of the three texels is not */
         batch->is_cut[i] =
             is_limited && (cut_off(c, limit) | (((x < 0) | (x == last)) & ((y < 0) | (y == last))));
         batch->radiance[i] = interpolate(c, p->wx[i], p->wy[i]);
@@ -228,7 +230,7 @@ static void add_texel(sphere_footprint *f, size_t texel, float weight)
     f->weights[f->count++] = weight;
 }
 
-/* The texel of a cube at (x, y) of a face or across one of its edges. */
+/* Index of the texel of a cube at (x, y) of a face or across one of its edges. */
 static size_t across(const sphere *s, uint32_t face, int x, int y)
 {
     int last = (int)s->width - 1;
@@ -243,7 +245,7 @@ static size_t across(const sphere *s, uint32_t face, int x, int y)
     return sphere_locate(s, d);
 }
 
-/* A texel of a face or its border, as cube_fill_borders() makes it: at a corner the mean of three. */
+/* Adds a texel of a face or its border as cube_fill_borders() defines it: a mean of three at corners. */
 static void add_bordered(const sphere *s, uint32_t face, int x, int y, float weight, sphere_footprint *f)
 {
     int last = (int)s->width - 1;

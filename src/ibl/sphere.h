@@ -1,4 +1,5 @@
-/* sphere.h - radiance over the sphere, kept in one of three ways, and its texels by number. */
+/* sphere.h - radiance over the sphere in one of three representations, its texels by index, and resampling
+ * between them. */
 #ifndef IBL_SPHERE_H
 #define IBL_SPHERE_H
 
@@ -15,7 +16,7 @@ typedef struct sphere {
     sphere_kind kind;
     uint32_t width, height; /* of a face or the image */
     cube *cube;             /* SPHERE_CUBE; borders filled where it is a source */
-    float *pixels;          /* else: channel_count (3 or 4) a texel, a fourth is not looked at */
+    float *pixels;          /* else: channel_count (3 or 4) per texel, the fourth is ignored */
     uint32_t channel_count;
 } sphere;
 
@@ -28,12 +29,12 @@ static inline size_t sphere_texel_count(const sphere *s)
 }
 
 rgbx sphere_texel(const sphere *s, size_t texel);
-/* Of the middle of a texel, any length. */
+/* Direction of the center of a texel, any length. */
 void sphere_direction(const sphere *s, size_t texel, float d[3]);
-/* Sr, relative error below 1e-5. */
+/* Solid angle in sr, relative error below 1e-5. */
 double sphere_solid_angle(const sphere *s, size_t texel);
 
-/* The number of the texel that direction d (any length but 0) is in. */
+/* Index of the texel that contains direction d (any length but 0). */
 static inline size_t sphere_locate(const sphere *s, const float d[3])
 {
     float x, y;
@@ -60,19 +61,20 @@ static inline size_t sphere_locate(const sphere *s, const float d[3])
     return ((size_t)face * s->height + (size_t)row) * s->width + (size_t)column;
 }
 
-/* Many lookups at a time. */
+/* A batch of lookups. */
 enum { SPHERE_BATCH = 256 };
 typedef struct sphere_batch {
     float x[SPHERE_BATCH], y[SPHERE_BATCH], z[SPHERE_BATCH]; /* directions, any length but 0 */
     float weight[SPHERE_BATCH];                              /* for the caller */
     rgbx radiance[SPHERE_BATCH];
-    bool is_cut[SPHERE_BATCH]; /* a texel was cut off, or may have been */
+    bool is_cut[SPHERE_BATCH]; /* a texel was clamped, or may have been */
 } sphere_batch;
 
-/* Radiance from the first count directions, bilinear, seamless, of texels cut off at limit (INFINITY: none is). */
+/* Radiance from the first count directions, bilinear and seamless, of texels clamped to limit (INFINITY: not
+ * clamped). */
 void sphere_look_up(const sphere *s, sphere_batch *batch, uint32_t count, float limit);
 
-/* The texels that a bilinear lookup takes, with weights that add up to 1. */
+/* The texels of a bilinear lookup, with weights that add up to 1. */
 typedef struct sphere_footprint {
     size_t texels[8];
     float weights[8];
@@ -82,22 +84,22 @@ void sphere_find(const sphere *s, const float d[3], sphere_footprint *out);
 
 /* ---- resampling ----
  *
- * A texel is the mean over its solid angle: of so many lookups, bilinear and seamless, that they are closer than the texels
- * of the source. That is a filter where the target is coarser and interpolation where it is finer; a constant stays
- * that, but for rounding. What is brighter than 16 times the mean, a sun of one texel maybe, would lose or gain some
- * thousandths, as few lookups weigh it: that part is scaled such that the solid angles which lookups take of it add up to
- * what it has in the source. So the mean over the sphere stays what it was, to 5e-5. */
+ * A texel is the mean over its solid angle of bilinear, seamless lookups that are denser than the texels of
+ * the source: a filter where the target is coarser, interpolation where it is finer. Constants are preserved
+ * up to rounding. Texels brighter than 16 times the mean, such as a sun, would gain or lose some thousandths
+ * of their energy because few lookups hit them; their excess is scaled so that the solid angles of the
+ * lookups add up to that of the texel. The mean over the sphere is preserved to 5e-5. */
 typedef struct sphere_turn {
     bool is_turned;
     float rows[3][3]; /* of a rotation or reflection: direction d of the target is rows d of the source */
-    float scale;      /* of radiance */
+    float scale;      /* factor of radiance */
     uint32_t
         parts; /* lookups per texel of the target in each direction; 0: closer than the texels of the source */
 } sphere_turn;
 
 /* Fills the texels of target (of a cube: not the borders; of images: the first three channels, a fourth becomes 1).
  * FACET_ERROR_MEMORY. */
-facet_result sphere_resample(const sphere *source, const sphere_turn *turn /* NULL: as it is */,
+facet_result sphere_resample(const sphere *source, const sphere_turn *turn /* NULL: not rotated */,
                              const facet_allocator *allocator, uint32_t thread_count, const sphere *target,
                              facet_error *error);
 

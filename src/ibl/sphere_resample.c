@@ -9,17 +9,18 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* What is brighter than so many times the mean is hot. */
+/* A texel is hot if it is brighter than this many times the mean. */
 static const double hot_contrast = 16.0;
 
-/* Solid angles are counted in whole parts of so many to the steradian, so that sums of threads do not depend on order. */
+/* Solid angles are counted in integer units per steradian, so that sums do not depend on the order of
+ * threads. */
 static const double parts_per_sr = 0x1p50;
 
-/* A texel of the source that is hot. */
+/* A hot texel of the source. */
 typedef struct hot_texel {
     size_t texel;
-    _Atomic uint64_t covered; /* solid angle that lookups take of it */
-    rgbx excess;              /* over the limit; once covered is known: as every lookup takes it */
+    _Atomic uint64_t covered; /* solid angle covered by lookups */
+    rgbx excess;              /* excess over the limit; scaled to lookups once covered is known */
 } hot_texel;
 
 typedef struct resampling {
@@ -27,24 +28,24 @@ typedef struct resampling {
     const sphere_turn *turn;
     uint32_t parts;      /* a texel of the target is looked up parts x parts times */
     float (*columns)[2]; /* equirectangular target: cosine and sine of the longitude of each part of a row */
-    float limit;         /* of what is not hot */
-    uint32_t *bright_numbers; /* of the source's texels, from 1 on; NULL: none is hot */
+    float limit;         /* limit of texels that are not hot */
+    uint32_t *bright_numbers; /* indices of the hot texels by source texel, from 1 on; NULL: none is hot */
     hot_texel *hot;
     size_t hot_count;
-    uint32_t span;       /* texels of a row that are resampled at a time */
-    uint32_t span_count; /* of a row */
-    bool *is_near_hot; /* per row and span of the target: a lookup of it takes something hot, or may do so */
-    bool has_hot_excesses; /* they are known, and only what is near them is resampled, a second time */
+    uint32_t span;         /* texels of a row that are resampled at a time */
+    uint32_t span_count;   /* of a row */
+    bool *is_near_hot;     /* per row and span of the target: lookups hit hot texels, or may do so */
+    bool has_hot_excesses; /* second pass: covered is known, and only spans near hot texels are resampled */
 } resampling;
 
 /* ---- the parts of a target's texels ---- */
 
-/* A row of parts: what their directions have in common. */
+/* Constants of the directions in a row of parts. */
 typedef struct part_row {
     float base[3], right[3]; /* of a cube: d = base + s right */
     float v, step;           /* of an octahedron */
     float radius, height;    /* of latitudes */
-    float weight;            /* of a latitude, sr; of a cube: of 1 / |d|^3 */
+    float weight;            /* solid angle at a latitude, sr; for a cube the factor of 1 / |d|^3 */
 } part_row;
 
 static part_row start_row(const resampling *r, uint32_t face, uint32_t row)
@@ -130,7 +131,8 @@ static void turn_back(const sphere_turn *turn, uint32_t count, sphere_batch *b)
     }
 }
 
-/* Looks up count parts of a row from column first on: directions of the source, solid angles, radiance below the limit. */
+/* Looks up count parts of a row from column first on: directions in the source, solid angles, radiance
+ * clamped to the limit. */
 static void look_up_parts(const resampling *r, const part_row *p, uint32_t first, uint32_t count,
                           sphere_batch *out)
 {
@@ -164,7 +166,7 @@ static bool make_columns(resampling *r, const facet_allocator *allocator)
     return r->columns != NULL;
 }
 
-/* The least angle that a texel is wide, rad, about. */
+/* Approximate least width of a texel, rad. */
 static double finest_angle(const sphere *s)
 {
     return s->kind == SPHERE_EQUIRECT ? pi / s->height
@@ -179,8 +181,8 @@ static double coarsest_angle(const sphere *s)
                                       : 3.5 / s->width;
 }
 
-/* Lookups 1.8 to a texel of the source, at least 2 in each direction; more in small targets, whose solid angles are sums
- * over them. */
+/* 1.8 lookups per texel of the source and at least 2 in each direction; more in small targets, whose solid
+ * angles are sums over lookups. */
 static uint32_t choose_parts(const sphere *source, const sphere *target)
 {
     double ratio = coarsest_angle(target) / finest_angle(source);
@@ -194,10 +196,10 @@ static uint32_t choose_parts(const sphere *source, const sphere *target)
 
 /* ---- what is hot ---- */
 
-/* What a row of the source holds. */
+/* Sums of a row of the source. */
 typedef struct row_survey {
-    double sum;         /* of all numbers, each cut off at the limit */
-    uint32_t hot_count; /* texels above it */
+    double sum;         /* sum of all channels, clamped to the limit */
+    uint32_t hot_count; /* texels above the limit */
 } row_survey;
 
 typedef struct survey {
@@ -206,7 +208,7 @@ typedef struct survey {
     row_survey *rows;
 } survey;
 
-/* The first texel of a row, and how many floats are from one to the next. */
+/* The first texel of a row, and the floats from one texel to the next. */
 static const float *get_row(const sphere *s, size_t row, size_t *step)
 {
     if (s->kind == SPHERE_CUBE) {
@@ -245,9 +247,10 @@ static size_t count_rows(const sphere *s)
     return (size_t)s->height * (s->kind == SPHERE_CUBE ? 6 : 1);
 }
 
-/* The limit: hot_contrast times the mean of what is not hot, nearly: a sun that is most of the light counts little;
- * infinite in the dark. No more than a part in hot_contrast of all texels is above. The mean is not weighted with solid
- * angles: it decides nothing but how exact the sum is. Leaves the hot texels of each row counted in v->rows. */
+/* The limit: about hot_contrast times the mean of the texels that are not hot, so that a dominant sun hardly
+ * raises it; infinite in the dark. At most 1 / hot_contrast of all texels are above it. The mean is not
+ * weighted by solid angle, since it affects accuracy only. Leaves the number of hot texels of each row in
+ * v->rows. */
 static void choose_limit(survey *v, uint32_t thread_count)
 {
     enum { ROUNDS = 4 };
@@ -264,7 +267,7 @@ static void choose_limit(survey *v, uint32_t thread_count)
     }
 }
 
-/* Lists what is hot of the rows that have some. */
+/* Lists the hot texels. */
 static void list_hot(resampling *r, const row_survey *rows)
 {
     uint32_t number = 0;
@@ -283,7 +286,7 @@ static void list_hot(resampling *r, const row_survey *rows)
     }
 }
 
-/* Numbers what is hot. False: no memory. */
+/* Indexes the hot texels. False: out of memory. */
 static bool find_hot(resampling *r, const facet_allocator *allocator, uint32_t thread_count)
 {
     const size_t rows = count_rows(r->source);
@@ -304,7 +307,7 @@ static bool find_hot(resampling *r, const facet_allocator *allocator, uint32_t t
     return r->hot_count == 0 || (r->bright_numbers && r->hot);
 }
 
-/* The hot texel of a number of the source; NULL: it is not hot. */
+/* The hot texel at an index of the source; NULL: it is not hot. */
 static hot_texel *get_hot(const resampling *r, size_t texel)
 {
     uint32_t number = r->bright_numbers[texel];
@@ -316,7 +319,7 @@ static void find_part(const resampling *r, const sphere_batch *b, uint32_t i, sp
     sphere_find(r->source, (const float[3]){b->x[i], b->y[i], b->z[i]}, out);
 }
 
-/* Adds what a part covers of hot texels. */
+/* Adds the solid angle of hot texels covered by a lookup. */
 static void cover(const resampling *r, const sphere_footprint *f, double solid_angle)
 {
     for (uint32_t k = 0; k < f->count; k++) {
@@ -328,7 +331,7 @@ static void cover(const resampling *r, const sphere_footprint *f, double solid_a
     }
 }
 
-/* What the parts of a span of texels in a row cover of hot texels. */
+/* Adds the solid angles of hot texels covered by the lookups of a span. */
 static void cover_span(const resampling *r, uint32_t face, uint32_t y, uint32_t x, uint32_t count)
 {
     const uint32_t end = (x + count) * r->parts;
@@ -360,7 +363,7 @@ static void cover_rows(void *context, size_t begin, size_t end)
                            t->width - x < r->span ? t->width - x : r->span);
 }
 
-/* From excess radiance to what a lookup takes: all of them together the texel's energy. */
+/* Scales excess radiance so that all lookups together have the texel's energy. */
 static void scale_hot(resampling *r)
 {
     for (size_t i = 0; i < r->hot_count; i++) {
@@ -386,7 +389,7 @@ static void store_texel(const sphere *t, uint32_t face, uint32_t x, uint32_t y, 
         to[3] = 1.0f;
 }
 
-/* Radiance where something hot is near. */
+/* Radiance of a lookup near hot texels. */
 static rgbx look_up_bright(const resampling *r, const sphere_footprint *f)
 {
     rgbx sum = {0};
@@ -400,14 +403,14 @@ static rgbx look_up_bright(const resampling *r, const sphere_footprint *f)
     return sum;
 }
 
-/* Radiance times solid angle, and solid angle, of a texel. */
+/* Sums of a texel: radiance times solid angle, and solid angle. */
 typedef struct texel_sum {
     rgbx flux;
     float solid_angle;
 } texel_sum;
 
-/* Adds a row of parts, from column first on, to the sums of their texels: a row by itself first, which keeps rounding
- * small. Whether something hot was cut off. */
+/* Adds a row of lookups, from column first on, to the sums of their texels; each row is summed separately
+ * first, which keeps rounding errors small. True: a hot texel was clamped. */
 static bool add_parts(const resampling *r, const part_row *p, uint32_t first, uint32_t count, texel_sum *sums)
 {
     sphere_batch b;
@@ -436,8 +439,8 @@ static bool add_parts(const resampling *r, const part_row *p, uint32_t first, ui
     return is_any_cut;
 }
 
-/* Texels x .. x + count - 1 of a row; all of their parts in a row are a batch, or one texel's are several. Whether
- * something hot was cut off. */
+/* Texels x .. x + count - 1 of a row, in one batch per row of lookups, or several per texel. True: a hot
+ * texel was clamped. */
 static bool resample_span(const resampling *r, uint32_t face, uint32_t y, uint32_t x, uint32_t count)
 {
     texel_sum sums[SPHERE_BATCH];
@@ -487,7 +490,7 @@ facet_result sphere_resample(const sphere *source, const sphere_turn *turn, cons
         result = fail_memory(error, "resampling", sphere_texel_count(source) * sizeof *r.bright_numbers);
     } else {
         parallel_for(thread_count, rows, 2, resample_rows, &r);
-        if (r.hot) { /* where it is near, once more */
+        if (r.hot) { /* spans near hot texels, once more */
             parallel_for(thread_count, rows, 2, cover_rows, &r);
             scale_hot(&r);
             r.has_hot_excesses = true;

@@ -1,9 +1,10 @@
-/* studio.c - the built-in light: soft boxes in a grey room, as an environment of mean radiance 1 cd/m^2.
+/* studio.c - environments that are computed from a few numbers: the built-in studio of mean radiance 1
+ * cd/m^2, uniform ones, gradients.
  *
- * A photographer's set for a product that stands at the origin and faces +Z: a large key light from the front, above
- * and to the left, a dimmer fill from the right, two narrow strips behind for the rim, a broad ceiling, all white, and
- * between them a grey room, lighter above than below, so that metals have both something bright and something dark
- * to show. A soft box is a rectangle as seen from the origin whose edges fade over its softness. */
+ * The studio is a photographer's set for a product that stands at the origin and faces +Z: a large key light
+ * from the front, above and to the left, a dimmer fill from the right, two narrow strips behind for the rim,
+ * a broad ceiling, all white, in a grey room, lighter above than below, so that metals reflect both bright
+ * and dark parts. A soft box is a rectangle as seen from the origin whose edges fade over its softness. */
 #include "base/parallel.h"
 
 #include <assert.h>
@@ -21,7 +22,7 @@ typedef struct soft_box {
     float azimuth_deg;                       /* around +Y, 0: +Z, positive: towards +X */
     float elevation_deg;                     /* above the horizon */
     float half_width, half_height, softness; /* tangents of angles from the axis */
-    float radiance;                          /* cd/m^2 before the whole is scaled to a mean of 1 */
+    float radiance;                          /* cd/m^2 before scaling to a mean of 1 */
 } soft_box;
 
 static const soft_box boxes[] = {
@@ -35,7 +36,7 @@ static const soft_box boxes[] = {
 };
 enum { BOX_COUNT = sizeof boxes / sizeof boxes[0] };
 
-/* Mean of what room() and the boxes give over the sphere; the test of this file holds the product to 1. */
+/* Mean radiance of room() and the boxes over the sphere; a test checks that the result is 1. */
 #define STUDIO_MEAN 1.56775f
 
 typedef struct placed_box {
@@ -44,7 +45,7 @@ typedef struct placed_box {
 
 typedef struct studio {
     placed_box placed[BOX_COUNT];
-    float cosine[WIDTH], sine[WIDTH]; /* of the longitude */
+    float cosine[WIDTH], sine[WIDTH]; /* cosine and sine of the longitude */
     float *pixels;
 } studio;
 
@@ -68,7 +69,7 @@ static inline float fade(float low, float high, float x)
     return t * t * (3.0f - 2.0f * t);
 }
 
-/* Walls: light grey overhead, darkest just below the horizon, a floor that is a little lit. y is that of the
+/* Walls: light grey overhead, darkest just below the horizon, a slightly lit floor. y is that of the
  * direction. */
 static inline float room(float y)
 {
@@ -179,7 +180,7 @@ facet_result facet_environment_create_gradient(const float zenith[3], const floa
     }
     float *p = e->panorama.pixels;
     for (int y = 0; y < GRADIENT_HEIGHT; y++) {
-        /* equal steps of d.y hold equal parts of the sphere: a row's mean is its middle's */
+        /* radiance is linear in d.y, which is uniform in area: a row's mean is the value at its middle */
         double top = cos(3.14159265358979323846 * y / GRADIENT_HEIGHT);
         double bottom = cos(3.14159265358979323846 * (y + 1) / GRADIENT_HEIGHT);
         double height = 0.5 * (top + bottom);
