@@ -1,10 +1,10 @@
-/* water_around.h - what a model sees around it: the sky, and the sea on average. */
+/* water_around.h - the environment that a model sees: the sky, and the mean radiance of the sea. */
 #ifndef WATER_WATER_AROUND_H
 #define WATER_WATER_AROUND_H
 
 #include "water/water_setup.h"
 
-/* Makes s->cache->light->around, once for a light. FACET_ERROR_MEMORY. */
+/* Makes s->cache->light->around, once per light. FACET_ERROR_MEMORY. */
 facet_result water_around_prepare(water_setup *s, facet_error *error);
 
 #endif

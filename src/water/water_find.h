@@ -1,10 +1,11 @@
-/* water_find.h - what a place of the surface shows of a model in the sea, to an eye over the water and to one in it. */
+/* water_find.h - reflections and refractions of a model at a point of the surface, seen from above the water
+ * and from below. */
 #ifndef WATER_WATER_FIND_H
 #define WATER_WATER_FIND_H
 
 #include "water/water_shade.h"
 
-/* footprint: of a sample, over that of its pixel; random: which facets are looked into. */
+/* footprint: of a sample, relative to its pixel; random: selects the sampled microfacets. */
 water_findings water_find(const water_setup *s, const water_place *place, float footprint, uint32_t random);
 
 /* d: unit, from the eye. */

@@ -1,5 +1,5 @@
-/* water_frame.h - all that an image of a sea is made of, as plain data for a renderer on the GPU: what the CPU renderer prepares once per
- * image, too. */
+/* water_frame.h - the inputs of one image of a sea as plain data for a renderer on the GPU; the CPU renderer
+ * prepares the same once per image. */
 #ifndef WATER_WATER_FRAME_H
 #define WATER_WATER_FRAME_H
 
@@ -10,30 +10,30 @@
 
 struct ibl_light;
 
-/* Pictures of the sky, one behind the other, RGBA. Columns of the first two are sky_turn() of shade/sky.h, rows sky_row(), from the
- * horizon that the eye sees; texel middles at their places. */
+/* Layers of images of the sky, RGBA. Columns of the first two are sky_turn() of shade/sky.h, rows sky_row()
+ * from the horizon that the eye sees; sampled at texel centers. */
 enum {
     SEA_SKY_WIDTH = 512,
     SEA_SKY_HEIGHT = 128,
-    SEA_SKY_SEEN = 0, /* by the eye without the sun's disc, up to the zenith; cd/m^2 */
-    SEA_SKY_AIR, /* down to the nadir: light of the air before the sea over the share of light that is lost there, cd/m^2 */
-    SEA_SKY_CLEARNESS, /* share of light left after a way of x / (1 - x) SEA_SKY_WAY_KM, x along the columns, [0, 1) */
+    SEA_SKY_SEEN = 0, /* radiance seen by the eye without the sun's disc, up to the zenith; cd/m^2 */
+    SEA_SKY_AIR, /* down to the nadir: in-scattered radiance between eye and sea over (1 - transmittance), cd/m^2 */
+    SEA_SKY_CLEARNESS, /* transmittance over a distance of x / (1 - x) SEA_SKY_WAY_KM, x along the columns, [0, 1) */
     SEA_SKY_DISC, /* the sun's disc over 2 x 2 radii, x to its right, y upwards; cd/m^2 */
     SEA_SKY_LAYERS
 };
 #define SEA_SKY_WAY_KM 20.0f
 
-/* What the surface mirrors of that sky, cd/m^2: layer by layer filtered for a perceptual roughness from 0 to 1, in equal steps. Columns
- * and rows as above, from the level up to the zenith. */
+/* The sky prefiltered for reflection, cd/m^2: perceptual roughness from 0 to 1 in equal steps, one per layer.
+ * Columns and rows as above, from the horizontal up to the zenith. */
 enum { SEA_LOBE_WIDTH = 256, SEA_LOBE_HEIGHT = 128, SEA_LOBE_LAYERS = 17 };
 
-/* What a model does to the water around it, and to the light on the bed: over a rectangle of the plane each, rows along z, texel middles
- * at their places. */
+/* Effect of a model on the water around it, and on the light on the bed: over one rectangle of the plane each,
+ * rows along z, sampled at texel centers. */
 enum { SEA_TOUCH_EDGE = 192 };
 typedef struct sea_touch {
-    float dry;               /* 1: a hull keeps the sea out */
-    float open;              /* share of the sun's light that passes the model */
-    float bed_sun, bed_rest; /* of the beam's light on the bed, and of all other: bed_shadow.h */
+    float dry;               /* 1: inside of a hull that keeps the sea out */
+    float open;              /* the sun's visibility past the model */
+    float bed_sun, bed_rest; /* visibility on the bed, of the beam and of all other light: bed_shadow.h */
 } sea_touch;
 
 typedef struct water_frame {
@@ -43,10 +43,10 @@ typedef struct water_frame {
     const water_table *table;
     const caustic_map *caustics; /* NULL: the bed is lit evenly, or there is none */
     bool is_below;               /* the eye is in the water */
-    double fall; /* 1/m, by which the sea falls away with the square of distance; 0: a plane */
+    double fall;                 /* 1/m, curvature of the Earth: drop over the squared distance; 0: a plane */
     float deviation_m, shutter_s, exposure;
     float roughness
-        [3]; /* covariance of slopes that stands for waves finer than all tiles; [0] < 0: by their slopes */
+        [3]; /* slope covariance in place of the waves finer than all tiles; [0] < 0: by their spectrum */
     /* WaterLight, and the sun below the surface (shade/water.h) */
     float L[3], sun_irradiance[3], sky_irradiance[3], downwelling[3], sun_fresnel, sky_reflectance;
     float beam[3], sunward[3];
@@ -55,14 +55,15 @@ typedef struct water_frame {
     const float *sky; /* SEA_SKY_LAYERS x SEA_SKY_HEIGHT x SEA_SKY_WIDTH x 4 */
     /* SEA_LOBE_LAYERS x SEA_LOBE_HEIGHT x SEA_LOBE_WIDTH x 4; NULL: the picture's light is mirrored */
     const float *lobes;
-    float horizon_mu, disc_radius; /* cosine from the zenith of the horizon; disc_radius 0: no disc is seen */
-    const struct ibl_light *reflected, *background; /* filtered; background: of a picture, else NULL */
-    float light_scale, rotation_cos, rotation_sin;  /* of both */
-    /* what floats */
+    float horizon_mu, disc_radius; /* cosine of the horizon's zenith angle; disc_radius 0: no visible disc */
+    const struct ibl_light *reflected,
+        *background; /* prefiltered; background: of an image as environment, else NULL */
+    float light_scale, rotation_cos, rotation_sin; /* of both */
+    /* the model */
     const facet_scene *model;            /* NULL: nothing */
-    const facet_render_desc *model_desc; /* its light: the sky over the sea around it, the sun */
+    const facet_render_desc *model_desc; /* lit by the sky and the sea around it, and by the sun */
     float model_low[3], model_high[3];   /* m */
-    float model_water_m;                 /* mean height of the water there */
+    float model_water_m;                 /* mean water level there */
     float model_water_low_m, model_water_high_m;
     const sea_touch *touch;              /* SEA_TOUCH_EDGE^2 */
     float touch_low[2], touch_high[2];   /* x, z of its rectangle, m */
@@ -70,8 +71,8 @@ typedef struct water_frame {
     float shadow_low[2], shadow_high[2]; /* x, z of that rectangle, m */
 } water_frame;
 
-/* desc: resolved, as of water_render(); it, its sea and scene (NULL: water only) outlive the frame, and the cache, which nothing else uses
- * meanwhile. *out NULL where it fails, as water_render() does. */
+/* desc: resolved, as for water_render(); it, its sea and scene (NULL: water only) outlive the frame, and so
+ * does the cache, which nothing else may use meanwhile. On failure *out is NULL; fails as water_render(). */
 facet_result water_frame_create(water_cache *cache, const facet_scene *scene, const facet_render_desc *desc,
                                 water_frame **out, facet_render_stats *stats, facet_error *error);
 void water_frame_destroy(water_frame *frame); /* NULL is allowed */

@@ -1,28 +1,29 @@
-/* water_model.h - a model that stands or floats in the sea: what rays of the sea's picture meet of it, lit by the sky, by what the sea
- * reflects, and by the sun where the model itself is not in between. */
+/* water_model.h - a model that stands or floats in the sea: ray queries against it, and its shading by the sky,
+ * by light from the sea, and by the sun with its own shadow. */
 #ifndef WATER_WATER_MODEL_H
 #define WATER_WATER_MODEL_H
 
 #include "cpu/render_setup.h"
 #include "water/water_sky.h"
 
-/* Stays where it is between create and destroy. */
+/* Not to be moved between create and destroy. */
 typedef struct water_model {
     bool is_there;
     prepared_scene prepared;
     render_setup setup;
     facet_render_desc desc;   /* of setup */
-    light_setup shaded_light; /* setup's, where the sun does not reach: its own are the lamps only */
+    light_setup shaded_light; /* setup's lights without the sun: punctual lights only */
     shading_scene shaded;
 } water_model;
 
-/* around: the sky, whose lower half shows the sea; it stays as long. Fails as preview_render(). */
+/* around: the environment of the model, sky above and sea below; it outlives the model. Fails as
+ * preview_render(). */
 facet_result water_model_create(const facet_scene *scene, const facet_render_desc *desc, const water_sky *sky,
                                 facet_environment *around, facet_render_stats *stats, water_model *out,
                                 facet_error *error);
 void water_model_destroy(water_model *m); /* {0} is allowed */
 
-/* The nearest surface of the model, of either side. */
+/* The nearest surface, front or back. */
 typedef struct model_hit {
     shading_ray ray;
     visibility_hit hit;
@@ -30,20 +31,20 @@ typedef struct model_hit {
     vec3 P;
 } model_hit;
 
-/* Along the unit direction d from P, nearer than far_m. random: decides whether surfaces of some opacity are there. */
+/* Along the unit direction d from P, nearer than far_m. random: for stochastic opacity. */
 bool water_model_find(const water_model *m, const double P[3], vec3 d, double far_m, uint32_t random,
                       model_hit *hit);
-/* Of the ray of the camera through (x, y) of the picture; footprint in pixels. */
+/* Along the camera ray through (x, y) of the image; footprint in pixels. */
 bool water_model_find_seen(const water_model *m, float x, float y, float footprint, double far_m,
                            uint32_t random, model_hit *hit);
 
-/* Radiance (cd/m^2) towards where the ray came from. */
+/* Radiance (cd/m^2) towards the ray's origin. */
 vec3 water_model_radiance(const water_model *m, const model_hit *hit, vec3 sun);
 
-/* Share of light that passes the model from P along d for far_m (HUGE_VAL: for ever), [0, 1]. */
+/* Visibility through the model from P along d over far_m (HUGE_VAL: infinity), [0, 1]. */
 float water_model_opening(const water_model *m, const double P[3], vec3 d, double far_m);
 
-/* Whether P is inside of a hull, which keeps the sea out: the model is met below and to all sides. */
+/* Whether P is inside of a hull that keeps the sea out: the model is below it and on all sides. */
 bool water_model_is_dry(const water_model *m, const double P[3]);
 
 #endif

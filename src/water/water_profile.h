@@ -11,7 +11,7 @@
 #include "draw/camera_rays.h"
 #include "water/water_march.h"
 
-/* A sample of the surface. */
+/* A surface sample. */
 typedef struct profile_sample {
     float height_m, displacement[2];
 } profile_sample;
@@ -23,33 +23,35 @@ typedef struct water_profile {
     double first_azimuth, columns_per_rad;
     uint32_t column_count, row_count; /* 0: there is none */
     double first_m, rows_per_log;     /* distance of row 0; rows per natural logarithm of distance */
-    /* column_count columns of row_count: greatest e so far (from below: of -e); block of mem_alloc() */
+    /* column_count columns of row_count: running maximum of e (seen from below: of -e); allocated by
+     * mem_alloc() */
     float *tangents;
     uint32_t finer;          /* columns per column of samples */
     profile_sample *samples; /* column_count / finer + 1 columns of row_count */
 } water_profile;
 
-/* For the part of a picture (x, y, width, height in pixels) that rays show. None is made, and none needed, for parallel rays and still
+/* For the part (x, y, width, height in pixels) of an image. Empty, as not needed, for parallel rays and still
  * water. FACET_ERROR_MEMORY. */
 facet_result water_profile_create(const water_march *m, const camera_rays *rays, const uint32_t part[4],
                                   bool is_below, uint32_t thread_count, const facet_allocator *allocator,
                                   water_profile *out, facet_error *error);
-/* Azimuths that rays of the part have, of those that are not too steep: the middle, +X towards +Z, and half their range. False: none. */
+/* Azimuth range of the part's rays that are not too steep: center, from +X towards +Z, and half width. False:
+ * none. */
 bool water_profile_azimuths(const camera_rays *rays, const uint32_t part[4], double *middle, double *half);
 void water_profile_destroy(water_profile *p); /* {0} is allowed */
 
-/* As water_march_find(), of a ray from the eye. */
+/* As water_march_find(), for a ray from the eye. */
 bool water_profile_find(const water_profile *p, const march_ray *ray, march_hit *hit);
 
-/* The same in two steps, of which the first takes a tenth of the time: about where; and there as exactly as the surface is known. A place may also be
- * one between those of several rays, all near by. */
+/* The same in two steps. The first, in a tenth of the time, finds an approximate place; the second refines it
+ * on the exact surface. A place may also be interpolated between those of several nearby rays. */
 typedef struct profile_place {
     double t;
-    double closing;        /* how fast the ray comes down to the surface there, m over m of distance */
-    double slack_m;        /* by which the distance may be wrong; 0: it is exact */
+    double closing;        /* rate at which the ray approaches the surface there, m per m */
+    double slack_m;        /* error bound of the distance; 0: exact */
     float displacement[2]; /* of the water nearby */
 } profile_place;
-/* Where the last ray of the same pixel was looked for; {0}: there was none. It saves time, and changes nothing but roundings. */
+/* Search state of the previous ray of the pixel; {0}: none. It saves time and changes results only by rounding. */
 typedef struct profile_nearby {
     uint32_t row;
     double azimuth, x, z;

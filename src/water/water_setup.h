@@ -1,4 +1,4 @@
-/* water_setup.h - all that is made for one picture of a sea before its rays are. */
+/* water_setup.h - everything that is prepared for one image of a sea before rays are traced. */
 #ifndef WATER_WATER_SETUP_H
 #define WATER_WATER_SETUP_H
 
@@ -15,35 +15,36 @@ typedef struct water_setup {
     const facet_sea *sea;
     const facet_render_desc *desc;
     camera_rays camera;
-    float footprint;    /* of a sample, over that of its pixel */
+    float footprint;    /* of a sample, relative to its pixel */
     bool is_below;      /* the eye is in the water */
     water_cache *cache; /* owns what sky points to */
     water_march march;
     water_profile profile;
     waves_foam foam; /* of crests that broke */
-    water_sky sky;   /* its */
+    water_sky sky;   /* the cache's */
     water_model model;
-    water_table table; /* of means over facets; its */
+    water_table table; /* of means over microfacets; the cache's */
     Water water;
     WaterLight light;
     vec3 beam;            /* irradiance across the sun's beam just below the surface, lx */
     vec3 sunward;         /* unit direction to the sun, below the surface */
     caustic_map caustics; /* of the bed */
-    bed_shadow shadow;    /* of the model, on it */
-    /* covariance of slopes that stands for waves finer than all tiles; xx < 0: by their slopes */
+    bed_shadow shadow;    /* of the model on the bed */
+    /* slope covariance in place of the waves finer than all tiles; xx < 0: by their spectrum */
     vec3 roughness;
     WaterCrest crest; /* sunlight through waves */
     float exposure;   /* 2^exposure_ev */
-    float shutter_s;  /* for which glints are seen */
+    float shutter_s;  /* exposure time of glints */
 } water_setup;
 
-/* Stays where it is between create and destroy; scene NULL: nothing but water. cache: not used by others until destroy. Adds to stats what
- * a model took. Fails as water_render(). To be destroyed even after a failure. */
+/* Not to be moved between create and destroy, which is due even after a failure. scene NULL: water only.
+ * Nothing else may use the cache meanwhile. Adds the model's preparation to stats. Fails as water_render(). */
 facet_result water_setup_create(water_cache *cache, const facet_scene *scene, const facet_render_desc *desc,
                                 water_setup *out, facet_render_stats *stats, facet_error *error);
 void water_setup_destroy(water_setup *s);
 
-/* Slopes that a footprint (m) does not resolve, with SLOPE_VARIANCE_MIN; *curvature, *rate: of their waves (slope_filter). */
+/* Slopes that a footprint (m) does not resolve, with SLOPE_VARIANCE_MIN; curvature, rate: of their waves
+ * (slope_filter). */
 typedef struct water_slopes {
     vec3 covariance; /* xx, zz, xz */
     vec3 resolved;   /* of all others */
@@ -54,24 +55,24 @@ static inline vec3 water_slopes_of(const slope_covariance *c)
 {
     return vec3(c->xx, c->zz, c->xz);
 }
-/* Deviation of one slope, as water_table_at() asks for it. */
+/* Standard deviation of the slope along one axis, the parameter of water_table_at(). */
 static inline float water_sigma_of(vec3 covariance)
 {
     return sqrt(max(0.5f * (covariance[0] + covariance[1]), 0.0f));
 }
 
-/* ---- the ground below ---- */
+/* ---- the bed ---- */
 
 static inline bool water_has_bed(const water_setup *s)
 {
     return sea_has_bed(&s->sea->desc.bed);
 }
-/* Whether light on it differs from place to place. */
+/* Whether the light on it varies. */
 static inline bool water_has_light_on_bed(const water_setup *s)
 {
     return s->caustics.is_there || s->shadow.is_there;
 }
-/* Height of it at (X, Z), and how much it rises along d. */
+/* Its height at (X, Z), and its rise along d. */
 static inline double water_bed_height(const facet_sea_bed *bed, double X, double Z)
 {
     double along = X * (double)cos(bed->direction_rad) + Z * (double)sin(bed->direction_rad);

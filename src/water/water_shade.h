@@ -1,67 +1,69 @@
-/* water_shade.h - light that comes from a place of the surface to an eye over the water. */
+/* water_shade.h - radiance of the sea: of the surface from above and from below, of the bed, and in the legacy
+ * style. */
 #ifndef WATER_WATER_SHADE_H
 #define WATER_WATER_SHADE_H
 
 #include "water/water_place.h"
 
-/* What others find along rays that leave the place; {0}: nothing but sky and water. */
+/* Results of rays that leave the surface above the water; {0}: nothing but sky and water. */
 typedef struct water_findings {
     bool has_below, has_shadow;
     float sun; /* share of the sun's light that arrives */
-    /* share of all light that is reflected, whatever it brings, by facets that show something else than sky and sea
-     * */
+    /* share of the reflection, whatever its radiance, by microfacets that show something other than sky and sea */
     float covered;
-    vec3 mirrored; /* radiance of that */
+    vec3 mirrored; /* its radiance */
     vec3 below;    /* radiance just below the surface, along the refracted ray */
 } water_findings;
 
 /* Radiance (cd/m^2) towards the eye over the water. */
 vec3 water_shade(const water_setup *s, const water_place *p, const water_findings *found);
 
-/* The same of still water that is depth_m deep and evenly lit, along the refracted ray `down`. */
+/* Radiance (cd/m^2) just below still, evenly lit water that is depth_m deep, along the refracted ray `down`. */
 vec3 water_from_still(const water_setup *s, float depth_m, vec3 down);
 
-/* Light just below the surface where the bed lies depth_m below, lx on a horizontal plane, with what goes to and fro between both. */
+/* Irradiance (lx, horizontal) just below the surface, depth_m above the bed, including interreflection between
+ * both. */
 vec3 water_light_over_bed(const water_setup *s, float depth_m);
 
-/* Light on the bed over its mean, per channel, where the ray from P along the unit direction d meets it after `way` m, as wide as
- * width_m. */
+/* Irradiance of the bed relative to its mean, per channel, where the ray from P along the unit direction d hits
+ * it after `way` m with a width of width_m. */
 vec3 water_bed_lit_at(const water_setup *s, const double P[3], vec3 d, float way, float width_m);
 
-/* Of ground that the water does not cover, where it is seen from the air. */
+/* Radiance of ground above the water. */
 vec3 water_shade_land(const water_setup *s);
 
-/* What others find along rays that facets send on, as a share of all light that these show. */
+/* Results of rays from below that microfacets reflect and refract, as shares of all light. */
 typedef struct water_findings_below {
-    float covered; /* by facets that mirror something else than water */
-    vec3 mirrored; /* radiance of that */
-    vec3 through;  /* radiance of what is seen through facets in the place of the sky */
+    float covered; /* reflection of something other than water */
+    vec3 mirrored; /* its radiance */
+    vec3 through;  /* transmitted radiance of what replaces the sky */
     vec3 hidden;   /* of the sky there */
     float sun;     /* share of the sun's light that arrives */
 } water_findings_below;
 
-/* Radiance (cd/m^2) of the model, met in the water along the unit direction d from P. */
+/* Radiance (cd/m^2) of the model, hit in the water along the unit direction d from P. */
 vec3 water_model_behind_water(const water_setup *s, const model_hit *hit, const double P[3], vec3 d);
 
-/* m from P to the bed along the unit direction d; 1e4: it is not met. */
+/* Distance from P to the bed along the unit direction d, m; 1e4: no hit. */
 float water_way_to_bed_below(const water_setup *s, const double P[3], vec3 d);
 
-/* Radiance (cd/m^2) that comes to a point at the height y (m) from the unit direction d through water that ends at the bed, if there is
- * one, and nowhere else. The ray is width_m wide there, and by `spread` m more per m. */
+/* Radiance (cd/m^2) at P from the unit direction d through water that ends only at the bed, if there is one.
+ * The ray is width_m wide at P and widens by `spread` m per m. */
 vec3 water_seen_through_water(const water_setup *s, const double P[3], vec3 d, float width_m, float spread);
 
-/* Radiance of the surface from the eye E in the water, x m away along the unit direction d. */
+/* Radiance of the surface at a distance of x m along the unit direction d from the eye E in the water. */
 vec3 water_shade_from_below(const water_setup *s, const water_place *p, const water_findings_below *found,
                             const double E[3], vec3 d, float x);
 
-/* Stages of facet_sea_shading: 1 Schlick's formula with water's ior, 2 a microfacet highlight, 3 light of the sky and the sun in place of
- * constants, 4 refraction and absorption in place of a base color, 5 foam and glints: all of it. */
+/* Stages of facet_sea_shading: 1 Schlick's Fresnel with water's ior; 2 a microfacet highlight; 3 light of sky
+ * and sun instead of constants; 4 refraction and absorption instead of a base color; 5 foam and glints, that is
+ * everything. */
 
-/* As linear numbers that a display's sRGB encoding takes to what the look had shown. */
+/* Linear values whose sRGB encoding is the legacy program's display output. */
 vec3 water_look_sky(vec3 d);
 vec3 water_look_shade(const water_setup *s, const water_place *p, vec3 d);
 
-/* Stage 3: radiance (cd/m^2) of a surface that reflects and has a base color, in the light of the sky. */
+/* Stage 3: radiance (cd/m^2) of an opaque reflecting surface with a base color under the sky. */
 vec3 water_look_painted(const water_setup *s, const water_place *p);
 
 #endif
