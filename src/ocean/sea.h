@@ -1,4 +1,4 @@
-/* sea.h - what a facet_sea holds; its presets; what other renderers take of it: maps of its tiles and a mesh. */
+/* sea.h - a facet_sea, its presets, and its export to other renderers as maps and as a mesh. */
 #ifndef OCEAN_SEA_H
 #define OCEAN_SEA_H
 
@@ -15,12 +15,13 @@ struct facet_sea {
     uint64_t serial; /* unique in the process, from 1: caches recognize the sea by it */
 };
 
-/* Legacy styles, and the first steps from there: what they shade is for a display as it is, whatever the exposure. */
+/* Whether it is a legacy style or one of the first steps from there, whose result is display-referred and
+ * ignores the exposure. */
 static inline bool sea_shading_is_legacy(const facet_sea_shading *s)
 {
     return s->style != FACET_SEA_STYLE_PHYSICAL || s->stage == 1 || s->stage == 2;
 }
-/* All steps: with foam, glints and caustics. */
+/* Whether all steps are taken: with foam, glints and caustics. */
 static inline bool sea_shading_is_complete(const facet_sea_shading *s)
 {
     return s->style == FACET_SEA_STYLE_PHYSICAL && (s->stage == 0 || s->stage == 5);
@@ -37,10 +38,10 @@ facet_sea_desc sea_default(void);
 
 uint32_t sea_preset_count(void);
 const char *sea_preset_name(uint32_t index); /* NULL: there is none */
-/* FACET_ERROR_ARGUMENT: no such name; the sentence lists those there are. */
+/* FACET_ERROR_ARGUMENT: no such name; the message lists the names. */
 facet_result sea_preset(const char *name, facet_sea_desc *desc, facet_error *error);
 
-/* Of one texel; see facet_sea_create_maps(). */
+/* A texel; see facet_sea_create_maps(). */
 typedef struct sea_texel {
     float displacement[3]; /* m: along the tile's x, upwards, along its z */
     float normal[3];
@@ -49,9 +50,10 @@ typedef struct sea_texel {
     float foam; /* [0, 1] */
 } sea_texel;
 
-/* Variance of the convergence that the other tiles have. */
+/* Variance of the convergence of all other tiles. */
 float sea_others_variance(const facet_sea *sea, uint32_t tile);
-/* Texel number (column, row) of a tile that is there, by its waves alone; foam by what the others, with that variance, may add. */
+/* Texel (column, row) of a tile, by its own waves; foam also by what the other tiles may add, given their
+ * variance. */
 sea_texel sea_texel_of(const facet_sea *sea, uint32_t tile, float others_variance, uint32_t column,
                        uint32_t row);
 

@@ -1,5 +1,5 @@
-/* water_spectrum.h - what water does to each wavelength, and what an eye makes of that. Spectra go from 380 to 720 nm in steps of 5;
- * what is tabulated every 10 or 25 nm is linear in between. */
+/* water_spectrum.h - optical properties of water per wavelength, and their color. Spectra span 380 to 720 nm in
+ * steps of 5; data tabulated every 10 or 25 nm are interpolated linearly. */
 #ifndef OCEAN_WATER_SPECTRUM_H
 #define OCEAN_WATER_SPECTRUM_H
 
@@ -8,7 +8,7 @@ enum { SPECTRUM_FIRST_NM = 380, SPECTRUM_STEP_NM = 5, SPECTRUM_COUNT = 69 };
 /* Absorption, scattering and backscattering, 1/m. */
 typedef struct water_spectrum {
     double a[SPECTRUM_COUNT], b[SPECTRUM_COUNT], b_b[SPECTRUM_COUNT];
-    double b_pure[SPECTRUM_COUNT]; /* the part of b that is the water's own */
+    double b_pure[SPECTRUM_COUNT]; /* molecular part of b */
 } water_spectrum;
 
 /* Of the open ocean ("case 1"), by its chlorophyll (mg/m^3), from pure sea water at 0:
@@ -23,8 +23,8 @@ water_spectrum water_spectrum_case1(double chlorophyll, double salinity);
 enum { JERLOV_COUNT = 10 };
 void jerlov_attenuation(int type, double K_d[SPECTRUM_COUNT]);
 
-/* And what absorbs and scatters so: a = 0.86 K_d - b_b, not below pure water's, with the scattering of the open ocean whose K_d is
- * nearest in green and blue. */
+/* Coefficients with that attenuation: a = 0.86 K_d - b_b, at least pure water's, with the scattering of the
+ * open ocean whose K_d is nearest in green and blue. */
 water_spectrum water_spectrum_jerlov(int type, double salinity);
 
 /* Diffuse reflectance pi R_rs just above deep water, per wavelength, [0, 1]: u = b_b / (a + b_b), r_rs = (0.0895 + 0.1247 u) u,
@@ -36,11 +36,12 @@ double water_reflectance(double a, double b_b);
 
 /* ---- linear Rec.709 ---- */
 
-/* Of a spectrum that daylight (D65) is multiplied with: 1 everywhere is (1, 1, 1). What no screen can show is below 0. */
+/* Color of daylight (D65) multiplied by a spectrum: 1 everywhere is (1, 1, 1). Out-of-gamut values are below 0. */
 void spectrum_color(const double spectrum[SPECTRUM_COUNT], double rgb[3]);
-/* Of daylight after a way (m) through what attenuates so (1/m). */
+/* Color of daylight after a distance (m) in a medium with this attenuation (1/m). */
 void spectrum_transmittance(const double attenuation[SPECTRUM_COUNT], double way_m, double rgb[3]);
-/* Coefficients (1/m) whose exponentials are nearest to it, by least squares over ways of 0.5 to 20 m, or to 50 m; colors below 0 are 0. */
+/* RGB coefficients (1/m) whose exponentials fit it best, by least squares over distances from 0.5 to 20 m, or
+ * to 50 m; negative colors count as 0. */
 void spectrum_attenuation(const double attenuation[SPECTRUM_COUNT], double longest_m, double rgb[3]);
 
 #endif

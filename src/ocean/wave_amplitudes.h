@@ -1,4 +1,4 @@
-/* wave_amplitudes.h - the waves of one tile: their vectors, frequencies and random amplitudes. */
+/* wave_amplitudes.h - the waves of one tile: wave vectors, frequencies and random amplitudes. */
 #ifndef OCEAN_WAVE_AMPLITUDES_H
 #define OCEAN_WAVE_AMPLITUDES_H
 
@@ -8,7 +8,7 @@
 typedef struct wave_mode {
     int32_t n_x, n_z;
     float stretch;  /* choppiness coth(k depth) / k */
-    double omega;   /* rad/s, such that it fits into a loop */
+    double omega;   /* rad/s, rounded so that the loop is periodic */
     float there[2]; /* h0(k), complex */
     float back[2];  /* h0(-k) */
 } wave_mode;
@@ -20,18 +20,19 @@ typedef struct wave_amplitudes {
     wave_mode *modes; /* by rows of n_z */
     float (*now)[2];  /* h(k, t) of each, complex */
     float (*rate)[2]; /* its derivative by time */
-    double level_m;   /* what choppiness takes off the mean level: choppiness sum k coth(k depth) |h|^2 */
+    double level_m;   /* by which choppiness lowers the mean level: choppiness sum k coth(k depth) |h|^2 */
 } wave_amplitudes;
 
-/* NULL: no memory. The random numbers depend on seed, tile and n alone, so that a finer tile has the same long waves. */
+/* NULL: out of memory. The random numbers depend on seed, tile and n alone, so that a finer tile has the same
+ * long waves. */
 wave_amplitudes *wave_amplitudes_create(const waves *w, uint32_t tile);
 void wave_amplitudes_destroy(wave_amplitudes *a); /* NULL is allowed */
 
 /* h(k, t) = h0(k) e^-i omega t + conj(h0(-k)) e^i omega t, and its derivative by time (NULL: not wanted); complex. */
 void wave_mode_at(const wave_mode *m, double phase_time_s, float h[2], float rate[2]);
-/* Of modes [begin, end), into now and rate. */
+/* Evaluates modes [begin, end) into now and rate. */
 void wave_amplitudes_evolve(wave_amplitudes *a, double time_s, size_t begin, size_t end);
-/* The time as phases need it: within a loop, and small enough for their precision. */
+/* The time for phases: within a loop, and small enough for their precision. */
 double wave_phase_time(const waves *w, double time_s);
 
 #endif

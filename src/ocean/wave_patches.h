@@ -1,11 +1,12 @@
-/* wave_patches.h - a tile without its repetition: the plane is laid out with patches of it, each from a random place, that blend
- * into each other. Of Gaussian fields a blend whose squared weights sum to 1 is again one, with the same variance and the same
- * spectrum (Heitz and Neyret 2018). The longest tile and those that have a peak of the spectrum are read so: they have nearly all of the
- * height. Others have a twentieth, and repeat.
+/* wave_patches.h - a tile without visible repetition: the plane is covered with blended patches from random
+ * places of the tile. For Gaussian fields, a blend whose squared weights sum to 1 is again Gaussian, with the
+ * same variance and spectrum (Heitz and Neyret 2018). The longest tile and those with a spectral peak are read
+ * this way: they have nearly all of the elevation. The others have a twentieth, and repeat.
  *
- * Patches lie around the corners of equilateral triangles with edges of one tile; a corner's weight is the square of what its
- * barycentric coordinate has over a quarter: half of the plane sees two patches, a twentieth three. The weights' own slopes, up
- * to 0.01 of the height over a metre where waves have 0.15, are left out of slopes and derivatives. */
+ * Patches lie around the vertices of equilateral triangles with edges of one tile length; the weight of a
+ * vertex is the square of its barycentric coordinate above a quarter: half of the plane blends two patches, a
+ * twentieth three. The gradients of the weights, up to 0.01 of the elevation per metre where waves have 0.15,
+ * are left out of slopes and derivatives. */
 #ifndef OCEAN_WAVE_PATCHES_H
 #define OCEAN_WAVE_PATCHES_H
 
@@ -18,16 +19,16 @@ enum { WAVES_MAX_PATCHES = 3 };
 
 typedef struct wave_patch {
     float weight;
-    uint32_t u, v; /* where it comes from, in samples of the tile */
+    uint32_t u, v; /* source position in samples of the tile */
 } wave_patch;
 
-/* Of the corner (i, j). Lower and upper half: u, v of a patch, modulo the tile's size. */
+/* For vertex (i, j). Lower and upper half: u, v of a patch, modulo the tile's size. */
 static inline uint64_t wave_patch_hash(uint64_t seed, int64_t i, int64_t j)
 {
     return mix64(seed ^ ((uint64_t)i * MIX64_STEP) ^ ((uint64_t)j * 0xc2b2ae3d27d4eb4fu));
 }
 
-/* A place in the axes of the triangles: the corner of its rhombus, and the rest, [0, 1)^2. */
+/* A position in triangle axes: the vertex of its rhombus, and the fraction, [0, 1)^2. */
 typedef struct wave_rhombus {
     int64_t i, j;
     float a, b;
@@ -43,7 +44,7 @@ static inline wave_rhombus wave_rhombus_at(const wave_tile *t, double x, double 
     return (wave_rhombus){i, j, (float)(a - (double)i), (float)(b - (double)j)};
 }
 
-/* Those that are seen at (x, z); how many. Squares of the weights sum to 1. */
+/* Patches at (x, z); returns the count. Squares of the weights sum to 1. */
 uint32_t wave_patches_at(const waves *w, uint32_t tile, double x, double z,
                          wave_patch out[WAVES_MAX_PATCHES]);
 

@@ -22,8 +22,8 @@ typedef struct renderer_row {
     uint32_t samples[3]; /* per pixel, by facet_quality */
     uint32_t max_samples;
     uint32_t aovs, sea_aovs; /* that it draws: of scenes, of scenes in a sea */
-    bool
-        poses_scene; /* by itself: outside of a sea, draw() fits the camera where desc has none, and leaves set->prepared alone */
+    /* Poses the scene by itself: outside of a sea, draw() fits the camera where desc has none, and set->prepared is not used. */
+    bool poses_scene;
     /* Refuses what it cannot draw (FACET_ERROR_ARGUMENT), and fills in its own defaults. */
     facet_result (*resolve)(facet_render_desc *desc, facet_error *error);
     facet_result (*create)(renderer_set *set, void **state, facet_error *error);

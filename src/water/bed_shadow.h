@@ -13,8 +13,8 @@ enum { BED_SHADOW_EDGE = SEA_TOUCH_EDGE };
 /* Shares, [0, 1]. */
 typedef struct bed_shadow_texel {
     float sun; /* of the unscattered beam */
-    float
-        rest; /* of skylight, scattered sunlight, and light that the bed and the surface have interreflected */
+    /* of skylight, scattered sunlight, and light that the bed and the surface have interreflected */
+    float rest;
 } bed_shadow_texel;
 
 typedef struct bed_shadow {

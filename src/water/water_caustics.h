@@ -25,8 +25,8 @@ typedef struct caustic_source {
 typedef struct caustic_plan {
     double middle[2];
     float texel_m;
-    float sigma_m
-        [2]; /* along the map's axes: by how much the sun's disc, and slopes that the grid does not resolve, spread light */
+    /* along the map's axes: standard deviation of the blur by the sun's disc and by slopes that the grid does not resolve */
+    float sigma_m[2];
     float margin_m; /* width of the border outside of the layer from which light may enter */
 } caustic_plan;
 

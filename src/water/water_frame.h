@@ -45,8 +45,8 @@ typedef struct water_frame {
     bool is_below;               /* the eye is in the water */
     double fall;                 /* 1/m, curvature of the Earth: drop over the squared distance; 0: a plane */
     float deviation_m, shutter_s, exposure;
-    float roughness
-        [3]; /* slope covariance in place of the waves finer than all tiles; [0] < 0: by their spectrum */
+    /* slope covariance in place of the waves finer than all tiles; [0] < 0: by their spectrum */
+    float roughness[3];
     /* WaterLight, and the sun below the surface (shade/water.h) */
     float L[3], sun_irradiance[3], sky_irradiance[3], downwelling[3], sun_fresnel, sky_reflectance;
     float beam[3], sunward[3];
@@ -56,8 +56,8 @@ typedef struct water_frame {
     /* SEA_LOBE_LAYERS x SEA_LOBE_HEIGHT x SEA_LOBE_WIDTH x 4; NULL: the picture's light is mirrored */
     const float *lobes;
     float horizon_mu, disc_radius; /* cosine of the horizon's zenith angle; disc_radius 0: no visible disc */
-    const struct ibl_light *reflected,
-        *background; /* prefiltered; background: of an image as environment, else NULL */
+    /* prefiltered; background: of an image as environment, else NULL */
+    const struct ibl_light *reflected, *background;
     float light_scale, rotation_cos, rotation_sin; /* of both */
     /* the model */
     const facet_scene *model;            /* NULL: nothing */
