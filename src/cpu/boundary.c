@@ -4,10 +4,10 @@
 
 /* ---- the normal ---- */
 
-/* On an arc from a to b the normals lean by the same angle at both ends. So along each edge the slopes of the two
- * normals against the triangle are replaced by one, of opposite sign at the ends: the smaller of the two, or 0 where
- * they disagree in sign (the minmod limiter, Roe 1986). Normals of smooth surfaces are unchanged; those that lean
- * towards a sharp edge are straightened. */
+/* On an arc from a to b the normals lean by the same angle at both ends. So along each edge the slopes of
+ * the two normals against the triangle are replaced by one, of opposite sign at the ends: the smaller of
+ * the two, or 0 where they disagree in sign (the minmod limiter, Roe 1986). Normals of smooth surfaces are
+ * unchanged; those that lean towards a sharp edge are straightened. */
 
 /* Cosine at which the lean of a normal from the triangle is clamped. */
 static const float MIN_COS = 0.2f;
@@ -109,8 +109,8 @@ boundary_normal boundary_normal_at(const surface_point *s, const visibility_hit 
 
 /* ---- bundles of rays: Igehy 1999, "Tracing Ray Differentials" ---- */
 
-/* Largest opening of a bundle, rad per footprint: beyond it (at the silhouette of a sphere) linear differentials are
- * meaningless. */
+/* Largest opening of a bundle, rad per footprint: beyond it (at the silhouette of a sphere) linear
+ * differentials are meaningless. */
 static const float MAX_SPREAD = 0.5f;
 
 static vec3 bounded(vec3 v)

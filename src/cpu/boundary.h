@@ -1,5 +1,5 @@
-/* boundary.h - a refracting surface: the normal by which it refracts, and the ray differentials of a bundle that
- * passes it. */
+/* boundary.h - a refracting surface: the normal by which it refracts, and the ray differentials of a
+ * bundle that passes it. */
 #ifndef CPU_BOUNDARY_H
 #define CPU_BOUNDARY_H
 
@@ -7,8 +7,9 @@
 
 /* ---- the normal ---- */
 
-/* Smooth normals are often wrong: a modeled rim averages them over its sharp edge, which turns the wall below it into
- * a prism with total reflection. Here the vertices' normals are limited to those of a curved surface through them. */
+/* Smooth normals are often wrong: a modeled rim averages them over its sharp edge, which turns the wall
+ * below it into a prism with total reflection. Here the vertices' normals are limited to those of a curved
+ * surface through them. */
 typedef struct boundary_normal {
     vec3 N;            /* unit, on the side of V; with what the normal texture adds */
     vec3 dN_dx, dN_dy; /* its change over the ray's footprint */

@@ -15,7 +15,8 @@
 typedef struct RTCRayQueryContext embree_context;
 #define EMBREE_SCENE_FLAG_FILTER RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS
 
-/* Nearest hits of the lanes with valid[i] == -1 of a packet of coherent rays; tfar shortens, geomID is set. */
+/* Nearest hits of the lanes with valid[i] == -1 of a packet of coherent rays; tfar shortens, geomID is
+ * set. */
 #define EMBREE_DEFINE_INTERSECT(N)                                                                           \
     static inline void embree_intersect##N(const int *valid, RTCScene scene, struct RTCRayHit##N *rays)      \
     {                                                                                                        \
@@ -70,7 +71,8 @@ static inline void embree_intersect1(RTCScene scene, struct RTCRayHit *ray)
 typedef struct RTCIntersectContext embree_context;
 #define EMBREE_SCENE_FLAG_FILTER RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION
 
-/* Nearest hits of the lanes with valid[i] == -1 of a packet of coherent rays; tfar shortens, geomID is set. */
+/* Nearest hits of the lanes with valid[i] == -1 of a packet of coherent rays; tfar shortens, geomID is
+ * set. */
 #define EMBREE_DEFINE_INTERSECT(N)                                                                           \
     static inline void embree_intersect##N(const int *valid, RTCScene scene, struct RTCRayHit##N *rays)      \
     {                                                                                                        \

@@ -7,7 +7,8 @@
 #include "base/parallel.h"
 #include "base/result.h"
 
-/* Embree may report more freed than allocated bytes after a refused allocation: the sum is kept from underflow. */
+/* Embree may report more freed than allocated bytes after a refused allocation: the sum is kept from
+ * underflow. */
 static bool count_memory(void *user, ssize_t bytes, bool post)
 {
     (void)post;
@@ -51,10 +52,11 @@ static void set_lines(RTCGeometry geometry, const render_geometry *g)
         starts[i] = 2 * i;
 }
 
-/* The build quality of a BVH of triangles for ray_count rays. The surface area heuristic takes 250 to 400 ns more per
- * triangle than Morton codes, whose rays take up to 30 ns longer (heavy.glb of bench/make_models: 5 ns). Hits are the
- * same, except which of two triangles is hit at their common edge. With several geometries Morton codes build a tree
- * of trees in any order, so that the first hit of coincident surfaces would depend on the threads. */
+/* The build quality of a BVH of triangles for ray_count rays. The surface area heuristic takes 250 to 400
+ * ns more per triangle than Morton codes, whose rays take up to 30 ns longer (heavy.glb of
+ * bench/make_models: 5 ns). Hits are the same, except which of two triangles is hit at their common edge.
+ * With several geometries Morton codes build a tree of trees in any order, so that the first hit of
+ * coincident surfaces would depend on the threads. */
 static enum RTCBuildQuality choose_quality(const scene_primitive *only, uint64_t ray_count)
 {
     enum { RAYS_PER_TRIANGLE = 8 };
@@ -201,9 +203,9 @@ static uint32_t native_packet_width(RTCDevice device)
     return rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) ? 8 : 4;
 }
 
-/* The number of threads that Embree may use; 0: it cannot be used. TBB, with which it builds, aborts the process
- * where it is refused a thread: where the process limit is low, this is checked first, with room for the threads that
- * decode textures meanwhile. */
+/* The number of threads that Embree may use; 0: it cannot be used. TBB, with which it builds, aborts the
+ * process where it is refused a thread: where the process limit is low, this is checked first, with room
+ * for the threads that decode textures meanwhile. */
 static uint32_t choose_threads(uint32_t thread_count)
 {
     enum { PLENTY = 4096, LEAST = 4 };
@@ -267,8 +269,8 @@ static bool is_up_to_date(const embree_scene *e, uint64_t ray_count)
     return true;
 }
 
-/* Counts Embree's own objects of geometries and instances against the budget: Embree does not report them. Measured
- * with 3.13.5: 290 bytes for an instance, 465 for triangles, 450 for points, 740 for lines. */
+/* Counts Embree's own objects of geometries and instances against the budget: Embree does not report them.
+ * Measured with 3.13.5: 290 bytes for an instance, 465 for triangles, 450 for points, 740 for lines. */
 static bool account_objects(embree_scene *e)
 {
     enum { INSTANCE_SIZE = 320, GEOMETRY_SIZE = 512, LINES_SIZE = 768 };

@@ -39,15 +39,15 @@ static inline uint32_t embree_still_number(const render_geometry_set *set)
     return set->count;
 }
 
-/* Builds the BVH of the geometries, which have their vertices and outlive it, with the quality that ray_count rays
- * are worth. It does not depend on thread_count. Fails with FACET_ERROR_MEMORY, FACET_ERROR_SYSTEM where Embree, or
- * that instruction set of it, does not run. */
+/* Builds the BVH of the geometries, which have their vertices and outlive it, with the quality that
+ * ray_count rays are worth. It does not depend on thread_count. Fails with FACET_ERROR_MEMORY,
+ * FACET_ERROR_SYSTEM where Embree, or that instruction set of it, does not run. */
 facet_result embree_scene_create(const render_geometry_set *set, const facet_allocator *allocator,
                                  uint64_t ray_count, uint32_t thread_count, facet_isa isa, embree_scene *out,
                                  facet_error *error);
-/* Rebuilds what has changed in the set, which has replaced the last one at the same address. likeness: RENDER_SAME
- * with has_moved_sprites where only points and lines have moved. The result is that of embree_scene_create(). On
- * failure the scene is empty: as after embree_scene_destroy(). */
+/* Rebuilds what has changed in the set, which has replaced the last one at the same address. likeness:
+ * RENDER_SAME with has_moved_sprites where only points and lines have moved. The result is that of
+ * embree_scene_create(). On failure the scene is empty: as after embree_scene_destroy(). */
 facet_result embree_scene_update(embree_scene *scene, render_likeness likeness, bool has_moved_sprites,
                                  uint64_t ray_count, facet_error *error);
 void embree_scene_destroy(embree_scene *scene); /* {0} is allowed */

@@ -1,9 +1,10 @@
 /* instancing.c - see instancing.h.
  *
- * Flat triangles take 160 to 290 ns each to build with two threads and 80 bytes; an instance 0.6 us and 0.4 kB,
- * however large its shape is. A ray takes 3 ns more through instances that do not overlap, up to 60 ns where many do.
- * So instancing pays if it saves a triangle per 5 to 90 rays; below that, and in every model whose meshes are drawn
- * once, all stays flat. (Packets of 16 rays, 30 to 60 ns each; spheres of 484 and 4900 triangles in a grid.) */
+ * * Flat triangles take 160 to 290 ns each to build with two threads and 80 bytes; an instance 0.6 us and
+ * 0.4 kB, however large its shape is. A ray takes 3 ns more through instances that do not overlap, up to
+ * 60 ns where many do. So instancing pays if it saves a triangle per 5 to 90 rays; below that, and in
+ * every model whose meshes are drawn once, all stays flat. (Packets of 16 rays, 30 to 60 ns each; spheres
+ * of 484 and 4900 triangles in a grid.) */
 #include "cpu/instancing.h"
 
 #include <math.h>
@@ -65,8 +66,8 @@ static bool is_moderate(const mat4 *world)
     return largest <= MAX_SCALE && largest_cofactor <= MAX_SCALE * fabs(determinant);
 }
 
-/* Whether a mesh is near its own origin: far from it, the rounding of hits would be large relative to its size, and
- * differ from that of flat vertices, from which reflected rays start. */
+/* Whether a mesh is near its own origin: far from it, the rounding of hits would be large relative to its
+ * size, and differ from that of flat vertices, from which reflected rays start. */
 static bool is_centered(const scene_primitive *primitive)
 {
     const float most = 256.0f; /* times its size: an error of 3e-5 of it */
@@ -95,8 +96,8 @@ static void mark_channels(const facet_scene *scene, const facet_pose_desc *desc,
     }
 }
 
-/* Nodes below a moving node move with it. Each node is visited once: upwards to one that is known, then again to
- * record the result. */
+/* Nodes below a moving node move with it. Each node is visited once: upwards to one that is known, then
+ * again to record the result. */
 static void mark_descendants(const facet_scene *scene, uint8_t *moves)
 {
     for (uint32_t i = 0; i < scene->node_count; i++) {
@@ -141,8 +142,8 @@ static bool is_moved(const chooser *c, uint32_t i)
     return c->moves && c->moves[c->pose->instances[i].node] == MOVES;
 }
 
-/* Assigns a shape to every geometry that could be instanced. Geometries with the same vertices share it; deformed
- * ones do where they are consecutive. */
+/* Assigns a shape to every geometry that could be instanced. Geometries with the same vertices share it;
+ * deformed ones do where they are consecutive. */
 static void find_shapes(chooser *c)
 {
     render_geometry_set *set = c->set;
@@ -315,7 +316,8 @@ static sphere bounding_sphere(const render_geometry *g)
     return s;
 }
 
-/* Size of a pixel at the nearest point of the copy, in the units of its mesh; infinity: outside of the image. */
+/* Size of a pixel at the nearest point of the copy, in the units of its mesh; infinity: outside of the
+ * image. */
 static float pixel_size(const render_geometry *g, const camera_rays *camera, uint32_t width, uint32_t height)
 {
     const float *dx = camera->is_orthographic ? camera->origin_dx : camera->direction_dx;

@@ -10,12 +10,12 @@ typedef struct instancing_desc {
     bool is_within_reach; /* instancing_is_within_reach() */
 } instancing_desc;
 
-/* Whether rays of that camera, and from any surface of the pose, can be transformed into the space of instances:
- * Embree aborts the process for coordinates beyond 1.8e18. */
+/* Whether rays of that camera, and from any surface of the pose, can be transformed into the space of
+ * instances: Embree aborts the process for coordinates beyond 1.8e18. */
 bool instancing_is_within_reach(const scene_pose *pose, const camera_rays *camera);
 
-/* Chooses the roles of the set's geometries, and creates the shapes of those that are instanced. Depends on the
- * arguments alone: images are the same whether data was kept from the last image or not. Fails with
+/* Chooses the roles of the set's geometries, and creates the shapes of those that are instanced. Depends
+ * on the arguments alone: images are the same whether data was kept from the last image or not. Fails with
  * FACET_ERROR_MEMORY. */
 facet_result instancing_choose(const facet_scene *scene, const scene_pose *pose, const instancing_desc *desc,
                                const facet_allocator *allocator, render_geometry_set *set,
@@ -24,9 +24,9 @@ facet_result instancing_choose(const facet_scene *scene, const scene_pose *pose,
 /* Enough to cover the relevant pixels, also where some are occluded or face away. */
 enum { NEAREST_COPIES = 64 };
 
-/* Sets is_far_copy of instances of shapes that more than NEAREST_COPIES share: of those in the image of width x
- * height pixels, the NEAREST_COPIES that are seen largest keep it unset, at least one. Counting the triangles of 100
- * 000 copies would take seconds for the same result. Fails with FACET_ERROR_MEMORY. */
+/* Sets is_far_copy of instances of shapes that more than NEAREST_COPIES share: of those in the image of
+ * width x height pixels, the NEAREST_COPIES that are seen largest keep it unset, at least one. Counting
+ * the triangles of 100 000 copies would take seconds for the same result. Fails with FACET_ERROR_MEMORY. */
 facet_result nearest_copies_choose(render_geometry_set *set, const camera_rays *camera, uint32_t width,
                                    uint32_t height, const facet_allocator *allocator, facet_error *error);
 

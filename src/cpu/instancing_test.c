@@ -1,4 +1,5 @@
-/* Tests of instances in the hierarchy: which geometries become some, and that they are seen as flat ones are. */
+/* Tests of instances in the hierarchy: which geometries become some, and that they are seen as flat ones
+ * are. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -222,8 +223,9 @@ static void render_both(fixture *f, film pictures[2])
     pictures[1] = fixture_render(f);
 }
 
-/* Rays meet an instance in its own space, so weights and distances differ by rounding, and where the silhouette passes
- * within rounding of a sample it may fall on the other side: 2 pixels of a layer at most. */
+/* Rays meet an instance in its own space, so weights and distances differ by rounding, and where the
+ * silhouette passes within rounding of a sample it may fall on the other side: 2 pixels of a layer at
+ * most. */
 static void assert_alike(const film *a, const film *b, const char *layer, float tolerance)
 {
     uint32_t others = 0;
@@ -266,8 +268,8 @@ static void instances_are_seen_as_flat_ones(void **state)
     }
 }
 
-/* Beside the flat image, which might be as wrong: the normals of a stretched, mirrored, turned sphere in closed form.
- * A point p = M q with |q| = 1 has the normal M^-T q. */
+/* Beside the flat image, which might be as wrong: the normals of a stretched, mirrored, turned sphere in
+ * closed form. A point p = M q with |q| = 1 has the normal M^-T q. */
 static void normals_of_instances_are_those_of_ellipsoids(void **state)
 {
     (void)state;
@@ -290,7 +292,8 @@ static void normals_of_instances_are_those_of_ellipsoids(void **state)
             double best = 1e9;
             double normal[3] = {0, 0, 0};
             for (uint32_t i = 0; i < c.set.count; i++) {
-                /* columns of M are turned axes a_k times s_k: q_k = a_k.(p - T) / s_k, normal = sum a_k q_k / s_k */
+                /* columns of M are turned axes a_k times s_k: q_k = a_k.(p - T) / s_k, normal = sum a_k
+                 * q_k / s_k */
                 const mat4 *m = &c.pose.instances[i].world;
                 double q[3];
                 double s2[3];

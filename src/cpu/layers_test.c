@@ -1,4 +1,5 @@
-/* Tests of materials with extensions: which channel of which texture is what, factors of 0, frames, anti-aliasing. */
+/* Tests of materials with extensions: which channel of which texture is what, factors of 0, frames,
+ * anti-aliasing. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -28,7 +29,8 @@ static scene_material base(void)
     return m;
 }
 
-/* A ball and a wall behind it, two lamps, a constant environment; u1 is the ball's second set of coordinates. */
+/* A ball and a wall behind it, two lamps, a constant environment; u1 is the ball's second set of
+ * coordinates. */
 static film render_ball(scene_material material, fixture *f, bool is_antialiased)
 {
     f->desc.width = f->desc.height = SIZE;
@@ -281,7 +283,8 @@ static void glossiness_is_lossless(void **state)
 
 static const float TANGENTS[16] = {1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1};
 
-/* Light that comes from tan(30 degrees) to the right (or above) onto a quad with a tilted coat; how bright it is. */
+/* Light that comes from tan(30 degrees) to the right (or above) onto a quad with a tilted coat; how bright
+ * it is. */
 static float coat_towards(bool from_above, uint32_t set, bool has_tangents)
 {
     static const unsigned char right[4] = {192, 128, 238, 255}; /* tilted by 30 degrees towards +u */

@@ -208,7 +208,8 @@ static bool is_within_bounds(const shading_scene *scene, const float P[3])
            P[2] >= b.lower_z && P[2] <= b.upper_z;
 }
 
-/* Three directions that are not aligned to any model: an open mesh shows its back to one of them at most by chance. */
+/* Three directions that are not aligned to any model: an open mesh shows its back to one of them at most
+ * by chance. */
 uint32_t media_at(const shading_scene *scene, const float P[3], media *m)
 {
     enum { DIRECTIONS = 3 };

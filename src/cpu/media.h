@@ -1,5 +1,5 @@
-/* media.h - the closed volumes that a ray is in, glass in liquid in glass: a small stack of their materials, and where a ray crosses
- * their boundaries. */
+/* media.h - the closed volumes that a ray is in, glass in liquid in glass: a small stack of their
+ * materials, and where a ray crosses their boundaries. */
 #ifndef CPU_MEDIA_H
 #define CPU_MEDIA_H
 
@@ -12,9 +12,9 @@
 
 enum { MEDIA_DEPTH = 8 };
 
-/* A closed volume is identified by its material: several meshes may bound it together. The one entered last is the
- * current medium, so that a liquid whose surface reaches into the glass around it displaces the glass, as modeling
- * tools recommend. {0}: air. */
+/* A closed volume is identified by its material: several meshes may bound it together. The one entered
+ * last is the current medium, so that a liquid whose surface reaches into the glass around it displaces
+ * the glass, as modeling tools recommend. {0}: air. */
 typedef struct medium {
     const scene_material *material;
     float thickness_m; /* nominal: thicknessFactor times the scale of the node */
@@ -52,8 +52,8 @@ static inline void media_leave(media *m, const scene_material *material)
 
 /* ---- boundaries ---- */
 
-/* Lengths, m, below which positions on a triangle are equal: several times the rounding error of the intersection,
- * which is proportional to the largest of its corners' coordinates. */
+/* Lengths, m, below which positions on a triangle are equal: several times the rounding error of the
+ * intersection, which is proportional to the largest of its corners' coordinates. */
 static inline float media_tolerance(float coordinate_m)
 {
     return 1e-6f * coordinate_m + 1e-12f;
@@ -70,13 +70,13 @@ typedef struct media_exit {
 /* Where the volume behind s, which bounds it, ends along a unit direction into it. False: nowhere. */
 bool media_find_exit(const shading_scene *scene, const surface_point *s, vec3 direction, media_exit *out);
 
-/* Updates the media of a ray that crosses the boundary at s, and coincident boundaries of other volumes (a liquid
- * that touches its glass): within tolerance, m. */
+/* Updates the media of a ray that crosses the boundary at s, and coincident boundaries of other volumes (a
+ * liquid that touches its glass): within tolerance, m. */
 void media_cross(const shading_scene *scene, const visibility_hit *hit, const surface_point *s,
                  float tolerance, media *m);
 
-/* Enters the volumes that P is in, the outermost first as far as can be determined: those that rays to the outside
- * leave more often than enter, in every direction. Returns the number of rays. */
+/* Enters the volumes that P is in, the outermost first as far as can be determined: those that rays to the
+ * outside leave more often than enter, in every direction. Returns the number of rays. */
 uint32_t media_at(const shading_scene *scene, const float P[3], media *m);
 
 #endif

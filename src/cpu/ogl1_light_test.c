@@ -1,5 +1,5 @@
-/* Tests of FACET_SHADING_OGL1: light. Pixels against double evaluations of each pipeline, for every variant, kind of light,
- * side and fog; lamps of glTF; linear light. */
+/* Tests of FACET_SHADING_OGL1: light. Pixels against double evaluations of each pipeline, for every
+ * variant, kind of light, side and fog; lamps of glTF; linear light. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -181,7 +181,8 @@ static void lights_that_move_with_the_camera(void **state)
             float middle = fixture_pixel(&picture, "", 32, 32)[0];
             if (i == 0)
                 first = middle;
-            /* N.L is cos(angle) for a light at the eye, 1 for one of the world; equal at -30 and 30 degrees */
+            /* N.L is cos(angle) for a light at the eye, 1 for one of the world; equal at -30 and 30
+             * degrees */
             bool is_equal = fabsf(middle - first) < 1e-4f;
             assert_true(is_equal == (!relative || i == 0 || i == 4));
             film_destroy(&picture);
@@ -190,7 +191,8 @@ static void lights_that_move_with_the_camera(void **state)
     }
 }
 
-/* w = 1 as printed: the camera's position gets into the light's direction, which is not of unit length then. */
+/* w = 1 as printed: the camera's position gets into the light's direction, which is not of unit length
+ * then. */
 static void directions_as_the_vignette_prints_them(void **state)
 {
     (void)state;
@@ -206,7 +208,8 @@ static void directions_as_the_vignette_prints_them(void **state)
 
 /* ---- which lights ---- */
 
-/* Its ambient part is 1 for rgl's materials; for others it is OpenGL's global ambient light, which FIXED has anyway. */
+/* Its ambient part is 1 for rgl's materials; for others it is OpenGL's global ambient light, which FIXED
+ * has anyway. */
 static void without_lights_there_is_rgls_default(void **state)
 {
     (void)state;
@@ -364,7 +367,8 @@ static void encoded_numbers_have_no_color_space(void **state)
 
 /* ---- fog ---- */
 
-/* With the camera's clipping distances, and with those of the sphere around the quad: radius sqrt 2, 3.5 m away. */
+/* With the camera's clipping distances, and with those of the sphere around the quad: radius sqrt 2, 3.5 m
+ * away. */
 static void fog(void **state)
 {
     (void)state;
@@ -399,7 +403,8 @@ static void fog(void **state)
 
 /* ---- vertex colors ---- */
 
-/* Encoded per vertex and interpolated then; in place of the diffuse color by rgl's rules, times it by MTL's. */
+/* Encoded per vertex and interpolated then; in place of the diffuse color by rgl's rules, times it by
+ * MTL's. */
 static void vertex_colors(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* Tests of FACET_SHADING_OGL1: what stays the same from image to image, what is not touched, what cannot be drawn. */
+/* Tests of FACET_SHADING_OGL1: what stays the same from image to image, what is not touched, what cannot
+ * be drawn. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
-/* ogl1_shade.c - see ogl1_shade.h. The order of OpenGL: light, texture, the highlight where it is separate, fog, clamp.
- * Every formula is in shade/phong.h. */
+/* ogl1_shade.c - see ogl1_shade.h. The order of OpenGL: light, texture, the highlight where it is
+ * separate, fog, clamp. Every formula is in shade/phong.h. */
 #include "draw/ogl1_setup.h"
 #include "cpu/ogl1_shade.h"
 #include "cpu/surface_point.h"
@@ -47,8 +47,8 @@ static ogl1_point ogl1_point_make(const shading_scene *scene, const shading_poin
 
 /* ---- normals ---- */
 
-/* The unit normal as the mesh has it (on its front), eye space: of the vertices, or of the face where the material is not
- * smooth. weight: of the corners. */
+/* The unit normal as the mesh has it (on its front), eye space: of the vertices, or of the face where the
+ * material is not smooth. weight: of the corners. */
 static vec3 ogl1_point_normal(const ogl1_point *p, const float weight[3])
 {
     const render_geometry *g = p->hit.geometry;
@@ -62,7 +62,8 @@ static vec3 ogl1_point_normal(const ogl1_point *p, const float weight[3])
 
 /* ---- colors ---- */
 
-/* Diffuse color and opacity before any map: the material's with the vertices', in the values that lighting uses. */
+/* Diffuse color and opacity before any map: the material's with the vertices', in the values that lighting
+ * uses. */
 static PhongColor ogl1_point_color(const ogl1_point *p, const float weight[3])
 {
     PhongColor c = {p->material->phong.diffuse, p->material->legacy->opacity};

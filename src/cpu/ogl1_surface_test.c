@@ -88,7 +88,8 @@ static void environment(int type, int mode, const double E[4], const double T[4]
         out[3] = E[3];
 }
 
-/* The texture is laid over all of the light, the highlight too; but for fixed functions, which add that later. */
+/* The texture is laid over all of the light, the highlight too; but for fixed functions, which add that
+ * later. */
 static void every_texture_type_and_mode(void **state)
 {
     (void)state;
@@ -126,7 +127,8 @@ static void every_texture_type_and_mode(void **state)
             }
 }
 
-/* MTL's rule: the diffuse map multiplies the diffuse color only; a black one, or none stated, counts as white. */
+/* MTL's rule: the diffuse map multiplies the diffuse color only; a black one, or none stated, counts as
+ * white. */
 static void the_diffuse_map_of_mtl(void **state)
 {
     (void)state;
@@ -235,7 +237,8 @@ static void normal_maps(void **state)
         double n[3] = {0.5 * (2.0 * 218.0 / 255.0 - 1.0), 0.5 * (2.0 * 128.0 / 255.0 - 1.0),
                        2.0 * 218.0 / 255.0 - 1.0};
         double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-        /* From behind the eye's right is -X: the normal turned to the eye is (-x, -y, -z), which is (x, -y, z) there. */
+        /* From behind the eye's right is -X: the normal turned to the eye is (-x, -y, -z), which is (x,
+         * -y, z) there. */
         double NL = (0.6 * n[0] + 0.8 * n[2]) / length;
         const double expected[3] = {0.75 * NL, 0.75 * NL, 0.75 * NL};
         assert_numbers(&picture, 4, 2, expected, 1.0);
@@ -247,8 +250,8 @@ static void normal_maps(void **state)
     }
 }
 
-/* A sphere under a sphere map whose red grows to the right and green to the top shows the image itself: uv = n.xy / 2 +
- * 1/2 where V is +Z. */
+/* A sphere under a sphere map whose red grows to the right and green to the top shows the image itself: uv
+ * = n.xy / 2 + 1/2 where V is +Z. */
 static void sphere_maps(void **state)
 {
     (void)state;
@@ -305,7 +308,8 @@ static void codes_over(film *picture, const float *color, unsigned char rgb[3])
     image_destroy(&codes);
 }
 
-/* Front over back over background in the display's numbers, as glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA) did. */
+/* Front over back over background in the display's numbers, as glBlendFunc(GL_SRC_ALPHA,
+ * GL_ONE_MINUS_SRC_ALPHA) did. */
 static void alpha_over_alpha(void **state)
 {
     (void)state;
@@ -443,7 +447,8 @@ static void lines_show_their_color(void **state)
     fixture_destroy(&f);
 }
 
-/* Backs are shown unless culled, whatever glTF's doubleSided says; a primitive without material has the defaults. */
+/* Backs are shown unless culled, whatever glTF's doubleSided says; a primitive without material has the
+ * defaults. */
 static void sides_and_defaults(void **state)
 {
     (void)state;

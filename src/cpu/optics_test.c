@@ -76,7 +76,8 @@ static void normals_of_a_ball_stay(void **state)
     }
 }
 
-/* A wall below a rim: the upper corners' normals lean up by 45 degrees, because they were averaged with the rim's. */
+/* A wall below a rim: the upper corners' normals lean up by 45 degrees, because they were averaged with
+ * the rim's. */
 static void normals_towards_a_rim_do_not_lean(void **state)
 {
     (void)state;
@@ -167,8 +168,8 @@ static void bundles_follow_their_neighbours(void **state)
 
 /* ---- sample numbers ---- */
 
-/* 16 rays are one in each cell of every grid of 16 cells, for every bounce, in every pixel; so are those of a square of
- * pixels, in finer grids. */
+/* 16 rays are one in each cell of every grid of 16 cells, for every bounce, in every pixel; so are those
+ * of a square of pixels, in finer grids. */
 static void rays_are_spread_evenly(void **state)
 {
     (void)state;
@@ -206,7 +207,8 @@ static void every_pixel_has_its_place(void **state)
     }
 }
 
-/* What is drawn at one surface tells nothing of what is drawn at the next: their products average to a quarter. */
+/* What is drawn at one surface tells nothing of what is drawn at the next: their products average to a
+ * quarter. */
 static void bounces_are_independent(void **state)
 {
     (void)state;

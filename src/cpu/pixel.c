@@ -1,5 +1,6 @@
-/* pixel.c - see pixel.h. Visibility is sampled several times in a pixel, light is computed once for each surface
- * that the samples see there, as multisampling does: an edge is smooth and the inside costs one shade. */
+/* pixel.c - see pixel.h. Visibility is sampled several times in a pixel, light is computed once for each
+ * surface that the samples see there, as multisampling does: an edge is smooth and the inside costs one
+ * shade. */
 #include "cpu/pixel.h"
 
 #include <math.h>
@@ -9,8 +10,8 @@
 
 #include "shade/shade.h"
 
-/* Two hits on one mesh are one surface if their faces differ by less than 14 degrees and lie in one plane, within a
- * pixel: a shade in between is visually the same. */
+/* Two hits on one mesh are one surface if their faces differ by less than 14 degrees and lie in one plane,
+ * within a pixel: a shade in between is visually the same. */
 static const float SAME_FACE_COS = 0.97f;
 
 /* ---- fragments ---- */
@@ -155,8 +156,8 @@ static const pixel_fragment *middle_fragment(const pixel_resolver *r, uint32_t n
     return nearest;
 }
 
-/* Shades a surface at the centroid of its samples on one triangle, the one in the middle: inside the covered area, so
- * that no texture is read beyond the mesh's edge. */
+/* Shades a surface at the centroid of its samples on one triangle, the one in the middle: inside the
+ * covered area, so that no texture is read beyond the mesh's edge. */
 static void shade_surface(pixel_resolver *r, uint32_t x, uint32_t y, uint32_t number)
 {
     pixel_surface *s = &r->surfaces[number];

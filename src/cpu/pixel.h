@@ -40,12 +40,12 @@ typedef struct pixel_resolver {
     uint64_t rays, shades;
 } pixel_resolver;
 
-/* Radiance times scale, premultiplied, and coverage of pixel (x, y) of the whole image, whose samples hit hits.
- * False: no memory. */
+/* Radiance times scale, premultiplied, and coverage of pixel (x, y) of the whole image, whose samples hit
+ * hits. False: no memory. */
 bool pixel_resolve(pixel_resolver *resolver, uint32_t x, uint32_t y, const visibility_hit *hits,
                    float rgba[4]);
-/* Adds the coverage of that pixel, which pixel_resolve() has just resolved successfully, to Cryptomatte's layers.
- * identities: per geometry. number: of the pixel in the layers. */
+/* Adds the coverage of that pixel, which pixel_resolve() has just resolved successfully, to Cryptomatte's
+ * layers. identities: per geometry. number: of the pixel in the layers. */
 void pixel_add_mattes(const pixel_resolver *resolver, const struct scene_identity *identities,
                       const matte_layers *mattes, size_t number);
 /* The nearest surface at the center of the pixel; false: none. depth_m along the camera's axis. */

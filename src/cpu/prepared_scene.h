@@ -1,12 +1,13 @@
-/* prepared_scene.h - the prepared data of a scene that are kept from one image to the next: pose, geometry, BVH,
- * tangents and decoded textures. Each stage makes what the desc needs and what is missing. The result does not depend
- * on what was there. (The environment keeps prepared light.)
+/* prepared_scene.h - the prepared data of a scene that are kept from one image to the next: pose, geometry,
+ * BVH, tangents and decoded textures. Each stage makes what the desc needs and what is missing. The result
+ * does not depend on what was there. (The environment keeps prepared light.)
  *
- * What a frame of an animation redoes follows from instancing.h: nothing for triangles that do not move, a BVH over
- * instances for rigid parts, and a BVH of the triangles that a skin or morph targets deform. The latter is not
- * refitted, which would take 9 to 18 ns per triangle where building takes 30 to 400: a refitted tree keeps the shape
- * of an earlier frame, and where a ray hits the common edge of two triangles it may find the other one (3 to 26 % of
- * rays through the vertices of a grid), so that an image would depend on those before it. */
+ * * What a frame of an animation redoes follows from instancing.h: nothing for triangles that do not move,
+ * a BVH over instances for rigid parts, and a BVH of the triangles that a skin or morph targets deform.
+ * The latter is not refitted, which would take 9 to 18 ns per triangle where building takes 30 to 400: a
+ * refitted tree keeps the shape of an earlier frame, and where a ray hits the common edge of two triangles
+ * it may find the other one (3 to 26 % of rays through the vertices of a grid), so that an image would
+ * depend on those before it. */
 #ifndef CPU_PREPARED_SCENE_H
 #define CPU_PREPARED_SCENE_H
 
@@ -44,9 +45,9 @@ typedef struct prepared_scene {
 void prepared_scene_init(prepared_scene *p, const facet_scene *scene, const facet_allocator *allocator);
 void prepared_scene_clear(prepared_scene *p); /* as after init; that of {0} is {0} */
 
-/* The stages, in this order; BVH, tangents and textures touch different members and may run concurrently. desc:
- * resolved, as for preview_render(). camera: the image's. After a failed stage other than the pose's, clear. Fail
- * with FACET_ERROR_MEMORY, and as scene_pose_create(), embree_scene_create(). */
+/* The stages, in this order; BVH, tangents and textures touch different members and may run concurrently.
+ * desc: resolved, as for preview_render(). camera: the image's. After a failed stage other than the
+ * pose's, clear. Fail with FACET_ERROR_MEMORY, and as scene_pose_create(), embree_scene_create(). */
 facet_result prepared_scene_pose(prepared_scene *p, const facet_render_desc *desc, facet_error *error);
 facet_result prepared_scene_geometry(prepared_scene *p, const facet_render_desc *desc,
                                      const camera_rays *camera, facet_error *error);

@@ -1,5 +1,5 @@
-/* Tests of what is kept from image to image: each image is that of a render on its own, to the last bit, and what
- * does not change is not made again. */
+/* Tests of what is kept from image to image: each image is that of a render on its own, to the last bit,
+ * and what does not change is not made again. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -195,8 +195,8 @@ static void settings_may_change_between_pictures(void **state)
     fixture_destroy(&f);
 }
 
-/* A plain of squares, each seen by a ray that meets its diagonal: which triangle it hits depends on how well the
- * hierarchy is built, and that on the number of rays. */
+/* A plain of squares, each seen by a ray that meets its diagonal: which triangle it hits depends on how
+ * well the hierarchy is built, and that on the number of rays. */
 static void hierarchies_are_as_good_as_each_picture_wants_them(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* Tests of the preview renderer's geometry: silhouettes, depth, cameras, culling, sprites, crops, threads, limits. */
+/* Tests of the preview renderer's geometry: silhouettes, depth, cameras, culling, sprites, crops, threads,
+ * limits. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -315,8 +316,8 @@ static void pictures_do_not_depend_on_threads(void **state)
     fixture_destroy(&f);
 }
 
-/* Built another way: see choose_quality() of embree_scene.c. Thirty triangles in each place, that shade alike but
- * for rounding. */
+/* Built another way: see choose_quality() of embree_scene.c. Thirty triangles in each place, that shade
+ * alike but for rounding. */
 static void large_meshes_do_not_depend_on_threads(void **state)
 {
     (void)state;

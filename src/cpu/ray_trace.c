@@ -1,5 +1,5 @@
-/* ray_trace.c - see ray_trace.h. Embree's nearest hit is used where it is opaque, which is the usual case; otherwise
- * a filter function looks at every candidate. */
+/* ray_trace.c - see ray_trace.h. Embree's nearest hit is used where it is opaque, which is the usual case;
+ * otherwise a filter function looks at every candidate. */
 #include <math.h>
 #include <string.h>
 
@@ -31,8 +31,8 @@ float ray_trace_opacity(const shading_scene *scene, const shading_point *point)
 
 /* ---- all surfaces along a ray ---- */
 
-/* One traversal per ray: Embree calls a filter for every candidate. A transparent one is recorded and rejected, so
- * that Embree continues; an opaque one is accepted, so that Embree looks no farther. */
+/* One traversal per ray: Embree calls a filter for every candidate. A transparent one is recorded and
+ * rejected, so that Embree continues; an opaque one is accepted, so that Embree looks no farther. */
 
 /* From this opacity on, nothing behind is visible in 8 bits of color. */
 static const float OPAQUE = 0.999f;
@@ -206,8 +206,8 @@ static float opacity_of(const shading_scene *scene, const shading_ray *ray, cons
     return is_see_through(scene, hit) ? ray_trace_opacity(scene, &point) : 1.0f;
 }
 
-/* Reservoir sampling: whether the next item, of the given weight, replaces the sample of those before it, whose
- * weights add up to sum; u is rescaled for the next item. */
+/* Reservoir sampling: whether the next item, of the given weight, replaces the sample of those before it,
+ * whose weights add up to sum; u is rescaled for the next item. */
 static bool reservoir_takes(float weight, float sum, float *u)
 {
     float share = weight / (sum + weight);
@@ -219,7 +219,8 @@ static bool reservoir_takes(float weight, float sum, float *u)
     return false;
 }
 
-/* ray_trace_layers() stops after many layers, and at nearly opaque ones: the rest of the ray is traced again. */
+/* ray_trace_layers() stops after many layers, and at nearly opaque ones: the rest of the ray is traced
+ * again. */
 static void gather_layers(const shading_scene *scene, const shading_ray *ray, float u, ray_first *first)
 {
     visibility_hit hits[RAY_TRACE_LAYERS + 1];

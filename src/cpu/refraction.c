@@ -16,10 +16,11 @@ enum {
 /* Rays that carry less of a shade are not traced. */
 static const float MIN_WEIGHT[] = {
     [FACET_QUALITY_NORMAL] = 0.01f, [FACET_QUALITY_DRAFT] = 0.02f, [FACET_QUALITY_FINAL] = 0.003f};
-/* Factor on it where the view is blurred: excludes the inner reflection of one boundary, but not total reflection. */
+/* Factor on it where the view is blurred: excludes the inner reflection of one boundary, but not total
+ * reflection. */
 static const float BLURRED = 6.0f;
-/* GGX width up to which one ray in the middle of the lobe suffices: its hit is filtered for the lobe, which blurs
- * textures and the environment but no edges. */
+/* GGX width up to which one ray in the middle of the lobe suffices: its hit is filtered for the lobe,
+ * which blurs textures and the environment but no edges. */
 static const float SMOOTH = 0.0125f;
 /* Squared GGX width of lobes that see the sharp environment: about a degree. */
 static const float SHARP2 = 1e-5f;
@@ -59,8 +60,8 @@ static vec3 lookup(void (*light)(const light_setup *, const float[3], float, flo
     return load3(out);
 }
 
-/* Squared GGX width of a lobe about as wide as the bundle: where glass spreads a pixel over much of the environment,
- * it shows the mean. */
+/* Squared GGX width of a lobe about as wide as the bundle: where glass spreads a pixel over much of the
+ * environment, it shows the mean. */
 static float bundle_alpha2(const shading_ray *ray)
 {
     const ray_spread *spread = ray->spread;
@@ -98,8 +99,8 @@ static vec3 ambient(const shading_scene *scene, vec3 D, float anisotropy)
     return mix(load3(b), load3(a), 0.5f + 0.5f * anisotropy);
 }
 
-/* Attenuates the ray over a length of its volume. Scattered light is replaced as far as the volume's color says,
- * under uniform light of the environment: a white volume loses nothing. */
+/* Attenuates the ray over a length of its volume. Scattered light is replaced as far as the volume's color
+ * says, under uniform light of the environment: a white volume loses nothing. */
 static void travel(tracer *t, branch *b, float length_m)
 {
     const scene_material *m = media_here(&b->media);
@@ -176,8 +177,8 @@ static boundary boundary_of(const shading_scene *scene, const branch *b, const v
     return y;
 }
 
-/* Moves a ray to its side of the surface (1: where it came from, -1 behind): directions on the wrong side of the
- * geometric normal are mirrored, and the origin is offset by the tolerance. */
+/* Moves a ray to its side of the surface (1: where it came from, -1 behind): directions on the wrong side
+ * of the geometric normal are mirrored, and the origin is offset by the tolerance. */
 static void keep_side(shading_ray *ray, const boundary *y, float side)
 {
     vec3 Ng = y->normal.Ng;
@@ -220,8 +221,8 @@ static void pass_wall(tracer *t, const branch *b, const boundary *y, vec3 weight
     follow_later(t, &c);
 }
 
-/* A microfacet rotated by d deflects a refracted direction by |1 - eta| d and a reflected one by 2 d, which is what a
- * GGX width means to the prefiltered environment; the earlier width scales with eta. */
+/* A microfacet rotated by d deflects a refracted direction by |1 - eta| d and a reflected one by 2 d,
+ * which is what a GGX width means to the prefiltered environment; the earlier width scales with eta. */
 static void refract_into(tracer *t, const branch *b, const boundary *y, float eta, vec3 weight)
 {
     bundle_ray bundle;
@@ -262,8 +263,8 @@ static float ior_of(const scene_material *m, float shift)
 
 /* ---- what a ray meets ---- */
 
-/* The boundary between two volumes, or of one seen from inside: Fresnel's equations, with the reflection traced as
- * well. The rest is scattered by the base color under the environment. */
+/* The boundary between two volumes, or of one seen from inside: Fresnel's equations, with the reflection
+ * traced as well. The rest is scattered by the base color under the environment. */
 static void cross_inside(tracer *t, const branch *b, const boundary *y, vec3 weight)
 {
     const Layers *m = &y->s->m;
@@ -314,8 +315,8 @@ static bool is_dispersed_by(const branch *b, const surface_point *s)
            (is_dispersive(s->hit.geometry->material) || is_dispersive(media_here(&b->media)));
 }
 
-/* Shades a surface that a ray hits with `weight`. A white ray that hits a dispersive volume splits into one per
- * channel. */
+/* Shades a surface that a ray hits with `weight`. A white ray that hits a dispersive volume splits into
+ * one per channel. */
 static void shade_hit(tracer *t, const branch *b, const visibility_hit *hit, const surface_point *s,
                       vec3 weight)
 {
@@ -419,7 +420,8 @@ static split choose_split(const shading_scene *scene, const surface_point *s, ui
     return p;
 }
 
-/* Shift of color k of n: evenly over twice the distance from red to blue; three are the channels themselves. */
+/* Shift of color k of n: evenly over twice the distance from red to blue; three are the channels
+ * themselves. */
 static float color_shift(uint32_t k, uint32_t n)
 {
     return n == 3 ? (float)k - 1.0f : 4.0f * ((float)k + 0.5f) / (float)n - 2.0f;

@@ -422,8 +422,8 @@ static void an_open_body_shows_the_environment(void **state)
     fixture_destroy(&f);
 }
 
-/* A liquid whose surface lies in that of its glass, and one that reaches into it, both look like one that is met
- * between: glass, liquid, glass. */
+/* A liquid whose surface lies in that of its glass, and one that reaches into it, both look like one that
+ * is met between: glass, liquid, glass. */
 static void liquids_touch_their_glass(void **state)
 {
     (void)state;
@@ -433,7 +433,8 @@ static void liquids_touch_their_glass(void **state)
         no_environment(&f);
         f.desc.width = f.desc.height = 33;
         add_ruler(&f, -3.0f, 2.0f);
-        /* The liquid alone, or with walls of the same ior in the same places, or reaching into them by 0.05. */
+        /* The liquid alone, or with walls of the same ior in the same places, or reaching into them by
+         * 0.05. */
         double angle = 30.0 * DEGREE;
         scene_material liquid = glass_body(1.4f);
         scene_material wall = glass_body(1.4f);

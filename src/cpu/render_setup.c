@@ -120,8 +120,8 @@ static bool lacks_red(const texture_set *textures, uint32_t texture)
     return data && data->lacks_red;
 }
 
-/* Removes occlusion textures that are black throughout, with a warning per material: once for all images of a scene,
- * and not for path tracing, which needs no occlusion. */
+/* Removes occlusion textures that are black throughout, with a warning per material: once for all images
+ * of a scene, and not for path tracing, which needs no occlusion. */
 static facet_result drop_black_occlusion(render_setup *p, facet_error *error)
 {
     const uint32_t bit = 1u << SCENE_OCCLUSION_TEXTURE;

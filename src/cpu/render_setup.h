@@ -1,5 +1,5 @@
-/* render_setup.h - the prepared data of one image: geometry, BVH, textures, lights. prepared_scene.h has what is kept
- * from image to image. */
+/* render_setup.h - the prepared data of one image: geometry, BVH, textures, lights. prepared_scene.h has
+ * what is kept from image to image. */
 #ifndef CPU_RENDER_SETUP_H
 #define CPU_RENDER_SETUP_H
 
@@ -23,15 +23,15 @@ typedef struct render_setup {
     double hierarchy_s, tangents_s;
 } render_setup;
 
-/* Prepares for desc (resolved, as for preview_render()); stages run concurrently where they can. Adds times to stats.
- * *setup comes with prepared, desc, stats and reads_everywhere set and the rest {0}; release it with
- * render_setup_destroy(), also after a failure. Fails as preview_render(). */
+/* Prepares for desc (resolved, as for preview_render()); stages run concurrently where they can. Adds
+ * times to stats. *setup comes with prepared, desc, stats and reads_everywhere set and the rest {0};
+ * release it with render_setup_destroy(), also after a failure. Fails as preview_render(). */
 facet_result render_setup_create(render_setup *setup, facet_error *error);
 void render_setup_destroy(render_setup *setup);
 
 /* Calls attempt with the prepared scene; out of memory, it retries with nothing prepared. attempt: as
- * preview_render_prepared(), with context passed on; *has_setup: preparation was complete. p is valid after success
- * and failure. */
+ * preview_render_prepared(), with context passed on; *has_setup: preparation was complete. p is valid
+ * after success and failure. */
 typedef facet_result render_attempt(const void *context, prepared_scene *p, const facet_render_desc *desc,
                                     double deadline_s, film *target, facet_render_stats *stats,
                                     bool *has_setup, facet_error *error);

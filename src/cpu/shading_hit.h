@@ -1,4 +1,5 @@
-/* shading_hit.h - where on its triangle, line or point a ray hit; the vertex attributes, frames and texels there. */
+/* shading_hit.h - where on its triangle, line or point a ray hit; the vertex attributes, frames and texels
+ * there. */
 #ifndef CPU_SHADING_HIT_H
 #define CPU_SHADING_HIT_H
 

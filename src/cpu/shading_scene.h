@@ -10,8 +10,8 @@
 
 /* ---- rays ---- */
 
-/* Derivatives of a ray over its footprint, along two axes (a camera ray's: the image's x and y), after Igehy 1999,
- * "Tracing Ray Differentials". */
+/* Derivatives of a ray over its footprint, along two axes (a camera ray's: the image's x and y), after
+ * Igehy 1999, "Tracing Ray Differentials". */
 typedef struct ray_spread {
     float origin_dx[3], origin_dy[3];       /* m; not read unless moves */
     float direction_dx[3], direction_dy[3]; /* not read unless turns */

@@ -65,8 +65,9 @@ static vec3 plain_radiance(const shading_scene *scene, const surface_point *poin
 
 /* ---- layers ---- */
 
-/* Irradiance on the back of a diffusely transmitting surface. Into a closed volume light enters at the far side,
- * straight behind the surface, through the actual distance; without a far side, through the material's thickness. */
+/* Irradiance on the back of a diffusely transmitting surface. Into a closed volume light enters at the far
+ * side, straight behind the surface, through the actual distance; without a far side, through the
+ * material's thickness. */
 static vec3 light_from_behind(const shading_scene *scene, const surface_point *s, Layers *m, uint64_t *rays)
 {
     vec3 N = m->base.N;

@@ -6,8 +6,8 @@
 
 typedef struct surface_light {
     vec3 radiance; /* cd/m^2 towards the camera, without transmitted radiance */
-    /* factor of the radiance behind the surface: tint of the boundary and transmittance of its layers; 0 for opaque
-     * surfaces */
+    /* factor of the radiance behind the surface: tint of the boundary and transmittance of its layers; 0
+     * for opaque surfaces */
     vec3 through;
     uint64_t rays; /* traced for it */
 } surface_light;

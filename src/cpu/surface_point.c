@@ -181,8 +181,8 @@ static inline Layers make_layers(const surface_point *s, material_texels texels)
 
 /* ---- specular anti-aliasing ---- */
 
-/* The coat has its own normal; without a normal texture its derivative is that of the smooth normal, which is close
- * to the base's. */
+/* The coat has its own normal; without a normal texture its derivative is that of the smooth normal, which
+ * is close to the base's. */
 static void antialias(surface_point *s)
 {
     s->m.base = surface_specular_aa(s->m.base, s->dN_dx, s->dN_dy);

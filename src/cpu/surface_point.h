@@ -11,14 +11,16 @@ typedef struct surface_point {
     bool is_front; /* the side with counter-clockwise vertices; lines and points have no other */
     vec3 P;        /* m */
     vec3 V;        /* unit, against the ray */
-    vec3 dN_dx,
-        dN_dy; /* change of the shading normal over the ray's footprint; undefined where it is not needed: without anti-aliasing, on opaque surfaces */
+    /* change of the shading normal over the ray's footprint; undefined where it is not needed: without
+     * anti-aliasing, on opaque surfaces */
+    vec3 dN_dx, dN_dy;
     float base_color[4]; /* linear, with the alpha before alphaMode */
     bool is_lit;         /* false: only base_color, m.base.emissive and .N are set */
     Layers m;            /* m.layers 0: only base is set */
 } surface_point;
 
-/* Whether the ray hits the front of a triangle: counter-clockwise vertices, unless the instance is mirrored. */
+/* Whether the ray hits the front of a triangle: counter-clockwise vertices, unless the instance is
+ * mirrored. */
 static inline bool surface_sees_front(const render_geometry *g, const visibility_hit *hit, vec3 direction)
 {
     float facing = dot(load3(hit->normal), direction);

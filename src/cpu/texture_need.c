@@ -108,9 +108,9 @@ static void texel_edge(const texture_reader *reader, const float *uvs, uint32_t 
     out[1] = (is_transformed ? m[3] * du + m[4] * dv : dv) * reader->size[1];
 }
 
-/* Square of the smaller stretch of the map from the triangle (m) to texels, but at least a 16th of the larger one,
- * the limit of anisotropic filtering. The squared stretches are the eigenvalues of G^-1 T, where G and T hold the dot
- * products of the triangle's edges in space and in texels. */
+/* Square of the smaller stretch of the map from the triangle (m) to texels, but at least a 16th of the
+ * larger one, the limit of anisotropic filtering. The squared stretches are the eigenvalues of G^-1 T,
+ * where G and T hold the dot products of the triangle's edges in space and in texels. */
 static float least_density2(const float G[3], const float t1[2], const float t2[2])
 {
     float T[3] = {t1[0] * t1[0] + t1[1] * t1[1], t1[0] * t2[0] + t1[1] * t2[1],

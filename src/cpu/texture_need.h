@@ -14,9 +14,10 @@ typedef struct texture_need_desc {
     uint32_t thread_count;
 } texture_need_desc;
 
-/* Writes one use per texture of the scene. min_lod is a bound: over the triangles in the image, the mip at which a
- * texel is as large as the smaller extent of a pixel's footprint at the triangle's nearest vertex. Triangles that add
- * up to a few pixels are ignored. Needs the vertices of set. Fails with FACET_ERROR_MEMORY. */
+/* Writes one use per texture of the scene. min_lod is a bound: over the triangles in the image, the mip at
+ * which a texel is as large as the smaller extent of a pixel's footprint at the triangle's nearest vertex.
+ * Triangles that add up to a few pixels are ignored. Needs the vertices of set. Fails with
+ * FACET_ERROR_MEMORY. */
 facet_result texture_need(const facet_scene *scene, const render_geometry_set *set, const camera_rays *camera,
                           const texture_need_desc *desc, const facet_allocator *allocator, texture_use *uses,
                           facet_error *error);

@@ -1,4 +1,5 @@
-/* Tests of texture_need.h: a texture of 256 x 256 texels on a quad of 2 x 2 m, in an image of 64 x 64 pixels. */
+/* Tests of texture_need.h: a texture of 256 x 256 texels on a quad of 2 x 2 m, in an image of 64 x 64
+ * pixels. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,5 @@
-/* tiles.c - see tiles.h. Tiles are scheduled one by one, because some cost a hundred times more than others; pixels
- * are independent of each other. */
+/* tiles.c - see tiles.h. Tiles are scheduled one by one, because some cost a hundred times more than
+ * others; pixels are independent of each other. */
 #include "cpu/tiles.h"
 
 #include <math.h>

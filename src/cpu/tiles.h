@@ -13,8 +13,8 @@ typedef struct tiles_desc {
     double deadline_s;                       /* of clock_seconds(); 0: none */
 } tiles_desc;
 
-/* Fills every layer of film. Adds to stats->rays and ->shades. Fails with FACET_ERROR_MEMORY, FACET_ERROR_LIMIT past
- * the deadline, FACET_ERROR_CANCELLED. */
+/* Fills every layer of film. Adds to stats->rays and ->shades. Fails with FACET_ERROR_MEMORY,
+ * FACET_ERROR_LIMIT past the deadline, FACET_ERROR_CANCELLED. */
 facet_result tiles_draw(const tiles_desc *desc, film *film, facet_render_stats *stats, facet_error *error);
 /* All layers of one sample: neither color (layer "") nor Cryptomatte. */
 facet_result tiles_draw_aovs(const tiles_desc *desc, film *film, facet_render_stats *stats,

@@ -1,6 +1,6 @@
-/* visibility.c - see visibility.h. Rays go to Embree in packets as wide as the machine's vectors. Consecutive rays
- * are the samples of a pixel, then the pixels of a 2 x 2 square, then the squares of the block: with four samples a
- * packet of 16 is one square, the most coherent bundle. */
+/* visibility.c - see visibility.h. Rays go to Embree in packets as wide as the machine's vectors.
+ * Consecutive rays are the samples of a pixel, then the pixels of a 2 x 2 square, then the squares of the
+ * block: with four samples a packet of 16 is one square, the most coherent bundle. */
 #include "cpu/visibility.h"
 
 #include <stddef.h>

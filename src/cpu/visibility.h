@@ -19,8 +19,9 @@ typedef struct visibility_hit {
     float normal[3]; /* geometric, of any length, outward for counter-clockwise triangles */
 } visibility_hit;
 
-/* Converts index and normal of a hit inside of an instance to those of its geometry: Embree's normal is in the
- * instance's space. The normal matrix keeps it outward; a mirrored instance's is negated to follow the winding. */
+/* Converts index and normal of a hit inside of an instance to those of its geometry: Embree's normal is in
+ * the instance's space. The normal matrix keeps it outward; a mirrored instance's is negated to follow the
+ * winding. */
 static inline void visibility_leave_instance(const render_geometry_set *geometries, uint32_t instance,
                                              visibility_hit *hit)
 {
@@ -66,8 +67,8 @@ void visibility_pattern_destroy(visibility_pattern *pattern); /* {0} is allowed 
  * sample_count hits. The other members of a hit of VISIBILITY_NONE are undefined. */
 void visibility_trace_block(const embree_scene *scene, const camera_rays *camera, uint32_t x, uint32_t y,
                             const visibility_pattern *pattern, visibility_hit *hits);
-/* Index of the first of the sample_count hits of a pixel of the block, pixels counted in rows. They are traced in
- * squares of 2 x 2: bits 1 and 2 of the index are swapped. */
+/* Index of the first of the sample_count hits of a pixel of the block, pixels counted in rows. They are
+ * traced in squares of 2 x 2: bits 1 and 2 of the index are swapped. */
 static inline size_t visibility_first_hit(const visibility_pattern *pattern, uint32_t pixel)
 {
     return (size_t)((pixel & 9) | (pixel & 2) << 1 | (pixel & 4) >> 1) * pattern->sample_count;

@@ -1,5 +1,5 @@
-/* The white furnace for combinations of layers: no set of one to three returns more than it got, and those whose mixes
- * lose nothing return all of it. 4096 samples for each of 16 pixels. */
+/* The white furnace for combinations of layers: no set of one to three returns more than it got, and those
+ * whose mixes lose nothing return all of it. 4096 samples for each of 16 pixels. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -71,8 +71,9 @@ static void add_layer(scene_material *m, layer_kind kind, float amount)
     }
 }
 
-/* Whether the white material with these layers returns all: grain has tables that are bounds, films color what is below
- * by the largest of their channels, sheen of color takes its largest channel from all, rough bodies lose. */
+/* Whether the white material with these layers loses no light: grain has tables that are bounds, thin
+ * films scale the layers below by the largest of their channels, colored sheen takes its largest channel
+ * from all, rough closed volumes lose energy. */
 static bool is_lossless(uint32_t layers)
 {
     return (layers & (1u << GRAIN | 1u << FILM | 1u << SHEEN | 1u << BODY)) == 0;

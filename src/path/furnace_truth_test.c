@@ -1,6 +1,6 @@
-/* The white furnace: surfaces of every lobe in light of 1 from everywhere, 4096 samples for each of 16 pixels. What returns
- * 1 vanishes; nothing may return more; what a lobe is known to lose is lost, to the digits that quadrature gives.
- * Combinations of lobes: furnace_layers_truth_test.c. */
+/* The white furnace: surfaces of every lobe under a uniform environment of 1, 4096 samples for each of 16
+ * pixels. Surfaces that return 1 vanish; none may return more; the known energy loss of a lobe is exactly
+ * that of quadrature. Combinations of lobes: furnace_layers_truth_test.c. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -48,8 +48,8 @@ static void dielectric_is_white_at_every_roughness(void **state)
         }
 }
 
-/* The mixes of glTF's text lose with roughness and gain at grazing views; by how much is known from quadrature to 9
- * digits: reference 16.7 (white dielectric), and 16.2 (A + B: metal of reflectance 1). */
+/* The mixes of glTF's text lose with roughness and gain at grazing views; by how much is known from
+ * quadrature to 9 digits: reference 16.7 (white dielectric), and 16.2 (A + B: metal of reflectance 1). */
 static void gltf_mode_returns_what_quadrature_says(void **state)
 {
     (void)state;
@@ -94,7 +94,7 @@ static void thin_walls_and_leaves_are_white(void **state)
     }
 }
 
-/* ---- bodies ---- */
+/* ---- closed volumes ---- */
 
 static void smooth_bodies_are_white(void **state)
 {
@@ -106,8 +106,8 @@ static void smooth_bodies_are_white(void **state)
                                (double)iors[n], VIEWS[i]);
 }
 
-/* A rough boundary gives to both sides what its microfacets scatter more than once: the body returns all, by tables at each of
- * the boundaries that light crosses, two at least. */
+/* A rough boundary returns the energy of multiple microfacet scattering to both sides: the volume loses
+ * none, by tables at each of the boundaries that light crosses, two at least. */
 static void rough_bodies_are_white(void **state)
 {
     (void)state;
@@ -120,7 +120,8 @@ static void rough_bodies_are_white(void **state)
             print_message("ior %g, roughness %g, %g degrees: %.6f +- %.2g\n", (double)iors[n],
                           (double)roughness[r], polar, v.mean[0], v.error[0]);
             if (n == 2 && r == 2) {
-                /* Long paths of rare large weights; glass_compensation() has a limit at grazing angles inside. */
+                /* Long paths of rare large weights; glass_compensation() has a limit at grazing angles
+                 * inside. */
                 truth_assert_at_most(&v, 1.0 + 2.0 * TRUTH_TABLES, "rough diamond");
                 assert_true(v.mean[0] > 0.9);
                 continue;

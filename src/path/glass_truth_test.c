@@ -1,6 +1,7 @@
-/* Truth tests of what goes through surfaces, and of mirrors: slabs with all their internal reflections, absorption, bodies
- * in bodies, thin walls, leaves, facing mirrors, caustics. The sky is red above, green below and blue all around, so that one
- * image shows what is reflected, what is transmitted and both. References are closed forms in double. */
+/* Truth tests of transmission and specular reflection: slabs with all their internal reflections,
+ * absorption, nested volumes, thin walls, leaves, facing mirrors, caustics. The sky is red above, green
+ * below and blue all around, so that one image shows reflection, transmission and both. References are
+ * closed forms in double. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,7 +16,7 @@ typedef struct stack {
     double R, T, R_below, T_below;
 } stack;
 
-/* Puts b below a; light goes to and fro between them, incoherently: the geometric series of Stokes 1862. */
+/* Puts b below a; light is reflected between them, incoherently: the geometric series of Stokes 1862. */
 static stack stack_add(stack a, stack b)
 {
     double loop = 1.0 / (1.0 - a.R_below * b.R);
@@ -32,7 +33,7 @@ static stack boundary(double cosine, double m)
     return (stack){F, 1.0 - F, F, 1.0 - F};
 }
 
-/* A layer that lets through that part. */
+/* A layer of that transmittance. */
 static stack layer(double through)
 {
     return (stack){0.0, through, 0.0, through};
@@ -49,7 +50,7 @@ static fixture slab_of(scene_material material, double polar, float s)
     return f;
 }
 
-/* So wide that what leaves by its sides has been reflected too often to count. */
+/* So wide that light which leaves by its sides has been reflected too often to matter. */
 static fixture slab(scene_material material, double polar)
 {
     return slab_of(material, polar, 10.0f);
@@ -160,8 +161,8 @@ static void a_glass_ball_in_a_furnace(void **state)
             truth_look(&f, 60.0, 0.0f, 0.0f, 2.2f);
             f.desc.width = f.desc.height = 16;
             f.desc.samples = 16;
-            /* Total reflection keeps some light in a ball of flat triangles for long: of ior 2.42, 1.3 % for more than 30
-             * events, 0.03 % for more than 1000. */
+            /* Total reflection keeps some light in a ball of flat triangles for long: of ior 2.42, 1.3 %
+             * for more than 30 events, 0.03 % for more than 1000. */
             f.desc.path.max_depth = 4000;
             truth_value v = truth_measure(&f, 8);
             truth_assert_grey(&v, 1.0, "ior %g, %s", (double)iors[i], is_smooth ? "smooth normals" : "flat");
@@ -190,7 +191,7 @@ static void a_slab_in_a_slab(void **state)
     }
 }
 
-/* A body of the same index inside changes nothing, nor does one that overlaps. */
+/* A volume of the same index inside changes nothing, nor does one that overlaps. */
 static void bodies_of_one_index_are_one(void **state)
 {
     (void)state;
@@ -204,8 +205,8 @@ static void bodies_of_one_index_are_one(void **state)
     }
 }
 
-/* Where two bodies of different index overlap, light has to see one order of bodies from both sides: what goes down
- * through them is what goes up (Stokes), and nothing is lost. */
+/* Where two volumes of different index overlap, light has to find the same order of volumes from both
+ * sides: what goes down through them is what goes up (Stokes), and nothing is lost. */
 static void overlap_is_the_same_from_both_sides(void **state)
 {
     (void)state;
@@ -223,9 +224,9 @@ static void overlap_is_the_same_from_both_sides(void **state)
 
 /* ---- rough boundaries ---- */
 
-/* Reflection at one boundary alone: what goes in is absorbed at once. By one event it is R and T of reference 16.6b
- * (quadrature of exact Fresnel, D and the correlated G2); what is scattered more often is shared out in proportion, so
- * that R / (R + T) comes back, as far as tables know it: TRUTH_TABLES of it. */
+/* Reflection at one boundary alone: what goes in is absorbed at once. By one event it is R and T of
+ * reference 16.6b (quadrature of exact Fresnel, D and the correlated G2); what is scattered more often is
+ * shared out in proportion, so that R / (R + T) comes back, as far as tables know it: TRUTH_TABLES of it. */
 static void a_rough_boundary_reflects(void **state)
 {
     (void)state;
@@ -266,7 +267,7 @@ static void a_rough_boundary_reflects(void **state)
 
 /* ---- thin walls and leaves ---- */
 
-/* A thin wall reflects F and lets the rest straight on, tinted. */
+/* A thin wall reflects F and transmits the rest straight on, tinted. */
 static void a_thin_wall(void **state)
 {
     (void)state;
@@ -341,7 +342,7 @@ static void a_mirror_shows_a_light(void **state)
         truth_add_floor(&f, fixture_add_material(&f, truth_metal(0.8f, 0.8f, 0.8f, 0.0f)), 0.0f, 10.0f);
         truth_add_ceiling(&f, fixture_add_material(&f, truth_emitter(50.0f)), 2.0f, 6.0f);
         truth_look(&f, 60.0, 0.0f, 0.0f, 0.1f);
-        /* Nearer, below the lamp. */
+        /* Nearer, below the light. */
         f.camera.eye[0] = 1.5f;
         f.camera.eye[1] = (float)(1.5 / tan(truth_radians(60.0)));
         truth_value v = truth_measure_pixels(&f);
@@ -350,7 +351,7 @@ static void a_mirror_shows_a_light(void **state)
     }
 }
 
-/* Two mirrors face each other: light that came in between them has met F once per reflection. */
+/* Two mirrors face each other: light between them has been multiplied by F once per reflection. */
 static void facing_mirrors(void **state)
 {
     (void)state;
@@ -377,9 +378,9 @@ static void facing_mirrors(void **state)
 
 /* ---- caustics ---- */
 
-/* In a room whose walls shine with 1 - rho and reflect rho the light is 1 everywhere; glass and mirrors, which lose
- * nothing, do not change that: all that they take from one place they bring to another, by paths that only find light
- * when they meet it. */
+/* In a room whose walls emit 1 - rho and reflect rho the radiance is 1 everywhere; glass and mirrors,
+ * which absorb nothing, do not change that: the light that they remove from one place arrives at another,
+ * by paths that only BSDF sampling finds. */
 static void lossless_bodies_in_a_closed_room(void **state)
 {
     (void)state;
@@ -404,8 +405,9 @@ static void lossless_bodies_in_a_closed_room(void **state)
     }
 }
 
-/* A square lamp over a floor, with a slab of glass between that is wider than both: the floor gets, from each direction
- * whose ray, moved aside by the slab, meets the lamp, L T(cos). Quadrature in double over the hemisphere. */
+/* A square light over a floor, with a slab of glass between that is wider than both: the floor gets, from
+ * each direction whose ray, moved aside by the slab, hits the light, L T(cos). Quadrature in double over
+ * the hemisphere. */
 static double irradiance_through_slab(double x, double half, double height, double thickness, double n)
 {
     enum { STEPS = 1500 };
@@ -435,7 +437,7 @@ static void light_through_a_slab_on_a_floor(void **state)
     (void)state;
     double E = irradiance_through_slab(0.3, 0.5, 1.0, 0.4, 1.5);
     fixture f = truth_create();
-    /* A patch so small that what it reflects does not come back to it. */
+    /* A patch so small that light which it reflects does not return to it. */
     truth_add_panel(&f, fixture_add_material(&f, truth_lambert(0.5f)), (float[3]){0.3f, 0.0f, 0.0f},
                     (float[3]){0.005f, 0.0f, 0.0f}, (float[3]){0.0f, 0.0f, -0.005f});
     truth_add_ceiling(&f, fixture_add_material(&f, truth_emitter(10.0f)), 1.0f, 0.5f);

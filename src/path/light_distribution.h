@@ -1,4 +1,5 @@
-/* light_distribution.h - sampling of discrete distributions: of a few float weights, and of tables of whole counts. */
+/* light_distribution.h - sampling of discrete distributions: of a few float weights, and of tables of
+ * whole counts. */
 #ifndef PATH_LIGHT_DISTRIBUTION_H
 #define PATH_LIGHT_DISTRIBUTION_H
 
@@ -9,8 +10,9 @@
 
 enum { MAX_LIGHT_WEIGHTS = 16 };
 
-/* The item that *u in [0, 1) selects, of count <= MAX_LIGHT_WEIGHTS with weights >= 0, some positive; never one of
- * weight 0. *u becomes the position within its share, in [0, 1). No branches on weights: they are as random as u. */
+/* The item that *u in [0, 1) selects, of count <= MAX_LIGHT_WEIGHTS with weights >= 0, some positive;
+ * never one of weight 0. *u becomes the position within its share, in [0, 1). No branches on weights: they
+ * are as random as u. */
 static inline int light_choose(const float *weights, int count, double *u)
 {
     double ends[MAX_LIGHT_WEIGHTS];
@@ -34,23 +36,24 @@ static inline int light_choose(const float *weights, int count, double *u)
 
 /* ---- tables ---- */
 
-/* Probabilities as whole numbers: exact differences of the stored ends, the same for sampling and pdf, and no positive weight is
- * rounded to 0. */
+/* Probabilities as whole numbers: exact differences of the stored ends, the same for sampling and pdf, and
+ * no positive weight is rounded to 0. */
 
 /* The sum of all counts of a distribution. */
 #define LIGHT_COUNTS_TOTAL 4294967295u
 #define LIGHT_COUNTS_SHARE (1.0 / 4294967295.0)
 
-/* The end of an item's counts, for `end`, the sum of the weights up to and including it, and `all`, the sum of all
- * weights. Every item of positive weight gets a count: positive_end of them up to here, positive_all in all. */
+/* The end of an item's counts, for `end`, the sum of the weights up to and including it, and `all`, the
+ * sum of all weights. Every item of positive weight gets a count: positive_end of them up to here,
+ * positive_all in all. */
 static inline uint32_t light_counts_end(double end, double all, size_t positive_end, size_t positive_all)
 {
     double share = end < all ? end / all : 1.0;
     return (uint32_t)(share * (double)(LIGHT_COUNTS_TOTAL - positive_all)) + (uint32_t)positive_end;
 }
 
-/* The item that u in [0, 1) selects: the first of ends[0 .. count - 1] above u. *probability: of that item; *rest:
- * the position of u within it, in [0, 1). */
+/* The item that u in [0, 1) selects: the first of ends[0 .. count - 1] above u. *probability: of that
+ * item; *rest: the position of u within it, in [0, 1). */
 static inline size_t light_counts_find(const uint32_t *ends, size_t count, double u, double *probability,
                                        double *rest)
 {

@@ -13,11 +13,12 @@
 
 /* ==== a triangle ==== */
 
-/* Spherical triangles are computed in double: their angles are close to those of plane ones, from which their area is the
- * difference. */
+/* Spherical triangles are computed in double: their angles are close to those of plane ones, from which
+ * their area is the difference. */
 
-/* Area of a triangle, relative to the squared distance to its middle, from which directions are sampled. Below it
- * distances and angles to its points differ by a tenth at most, and points cost a fifth of directions. */
+/* Area of a triangle, relative to the squared distance to its middle, from which directions are sampled.
+ * Below it distances and angles to its points differ by a tenth at most, and points cost a fifth of
+ * directions. */
 static const float NEAR_AREA = 0.01f;
 static const double MIN_SOLID_ANGLE = 1e-6; /* sr; below it the triangle is seen edge on */
 
@@ -65,8 +66,8 @@ typedef struct spherical_triangle {
     double solid_angle; /* sr */
 } spherical_triangle;
 
-/* False: the triangle is too small as seen from P, or degenerate. The solid angle: Van Oosterom and Strackee 1983,
- * "The Solid Angle of a Plane Triangle". */
+/* False: the triangle is too small as seen from P, or degenerate. The solid angle: Van Oosterom and
+ * Strackee 1983, "The Solid Angle of a Plane Triangle". */
 static bool is_near(const light_triangle *t, vec3 P, spherical_triangle *s)
 {
     vec3 to = t->corner - P;
@@ -82,8 +83,8 @@ static bool is_near(const light_triangle *t, vec3 P, spherical_triangle *s)
     return s->solid_angle > MIN_SOLID_ANGLE;
 }
 
-/* A uniform direction: an arc from b cuts the triangle such that the part at a has the share u[0] of its area; u[1]
- * is the position along the arc. Arvo 1995. */
+/* A uniform direction: an arc from b cuts the triangle such that the part at a has the share u[0] of its
+ * area; u[1] is the position along the arc. Arvo 1995. */
 static direction sample_spherical(const spherical_triangle *s, vec2 u)
 {
     direction normal_ab = unit(outer(s->a, s->b));
@@ -173,8 +174,8 @@ float light_triangle_pdf(const light_triangle *t, vec3 P, vec3 d, float distance
 
 /* ==== all that emit ==== */
 
-/* The share of a geometry's mean emission that its triangles get by area alone: a few texels that are black do not
- * prove that all between them are. */
+/* The share of a geometry's mean emission that its triangles get by area alone: a few texels that are
+ * black do not prove that all between them are. */
 static const float DEFENSIVE_SHARE = 0.01f;
 
 /* Radiance above this, times the largest areas, would not be finite. */
@@ -255,8 +256,8 @@ vec3 light_emitters_radiance(const light_emitters *e, uint32_t item, float u, fl
 
 /* ---- power ---- */
 
-/* Mean radiance over a triangle, mean of the channels: texels at the centers of its four similar quarters, each
- * filtered over the quarter. Coverage counts; clearcoat does not. */
+/* Mean radiance over a triangle, mean of the channels: texels at the centers of its four similar quarters,
+ * each filtered over the quarter. Coverage counts; clearcoat does not. */
 static float mean_radiance(const shading_scene *scene, uint32_t geometry, uint32_t primitive)
 {
     static const float middles[4][2] = {{1.0f / 3.0f, 1.0f / 3.0f},

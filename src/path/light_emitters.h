@@ -1,8 +1,8 @@
 /* light_emitters.h - emissive triangles, and the sampling of points on them.
  *
- * A light is a triangle of a lit geometry whose material emits. Emission without a light (KHR_materials_unlit,
- * points, lines, triangles without normals) is found by BSDF sampling only, with weight 1: light_emitters_find()
- * knows none of it. */
+ * * A light is a triangle of a lit geometry whose material emits. Emission without a light
+ * (KHR_materials_unlit, points, lines, triangles without normals) is found by BSDF sampling only, with
+ * weight 1: light_emitters_find() knows none of it. */
 #ifndef PATH_LIGHT_EMITTERS_H
 #define PATH_LIGHT_EMITTERS_H
 
@@ -28,11 +28,12 @@ typedef struct light_triangle_point {
     float pdf; /* of L, per sr */
 } light_triangle_point;
 
-/* Samples a point for P; u: uniform in [0, 1)^2. Triangles of large solid angle are sampled uniformly in direction
- * (Arvo 1995, "Stratified Sampling of Spherical Triangles"), small ones uniformly in area. False: seen edge on, or
- * from one of its points. */
+/* Samples a point for P; u: uniform in [0, 1)^2. Triangles of large solid angle are sampled uniformly in
+ * direction (Arvo 1995, "Stratified Sampling of Spherical Triangles"), small ones uniformly in area.
+ * False: seen edge on, or from one of its points. */
 bool light_triangle_sample(const light_triangle *t, vec3 P, vec2 u, light_triangle_point *out);
-/* The pdf (per sr) of light_triangle_sample() in the unit direction d, in which the triangle is distance_m away. */
+/* The pdf (per sr) of light_triangle_sample() in the unit direction d, in which the triangle is distance_m
+ * away. */
 float light_triangle_pdf(const light_triangle *t, vec3 P, vec3 d, float distance_m);
 
 /* ---- all that emit ---- */
@@ -66,16 +67,17 @@ static inline uint32_t light_emitters_find(const light_emitters *e, uint32_t geo
                                                                  : LIGHT_EMITTERS_NONE;
 }
 
-/* In world space; the cross product of its edges is outward for counter-clockwise triangles of geometries that are not
- * mirrored. */
+/* In world space; the cross product of its edges is outward for counter-clockwise triangles of geometries
+ * that are not mirrored. */
 light_triangle light_emitters_triangle(const light_emitters *e, uint32_t item);
 /* Whether it emits on both sides; else on that of normal_sign times the cross product of its edges. */
 bool light_emitters_shines_both_ways(const light_emitters *e, uint32_t item);
 float light_emitters_normal_sign(const light_emitters *e, uint32_t item);
 
-/* Radiance (cd/m^2), times coverage (alpha mask and blend), seen by a ray from P in the unit direction d at the point
- * with the weights u, v of the second and third corner: that of surface_point_make() and layers_emission() with
- * textures at full resolution. 0 from the side that does not emit, and where it is not finite. */
+/* Radiance (cd/m^2), times coverage (alpha mask and blend), seen by a ray from P in the unit direction d
+ * at the point with the weights u, v of the second and third corner: that of surface_point_make() and
+ * layers_emission() with textures at full resolution. 0 from the side that does not emit, and where it is
+ * not finite. */
 vec3 light_emitters_radiance(const light_emitters *e, uint32_t item, float u, float v, vec3 P, vec3 d,
                              float distance_m);
 

@@ -14,9 +14,9 @@
 
 enum { BANDS = LIGHT_ENVIRONMENT_BANDS, BLOCKS = LIGHT_ENVIRONMENT_BLOCKS, CELLS = LIGHT_ENVIRONMENT_CELLS };
 
-/* Grid points are texel centers, and in small images points between them; four points bound a patch, in which
- * radiance is bilinear. Patch (x, y) has points x and x + 1 of rows y - 1 and y; beyond the first and the last row is
- * the pole, up to which radiance is that of the row. */
+/* Grid points are texel centers, and in small images points between them; four points bound a patch, in
+ * which radiance is bilinear. Patch (x, y) has points x and x + 1 of rows y - 1 and y; beyond the first
+ * and the last row is the pole, up to which radiance is that of the row. */
 struct light_environment {
     const image *map;
     float scale, rotation_cos, rotation_sin;
@@ -26,8 +26,8 @@ struct light_environment {
     uint32_t *rows;         /* per block, per band: ends of counts, in proportion to the light of the rows */
     float *half_sine2; /* sin^2 (theta / 2) of the upper edges of rows, down to the one below the middle */
     float *per_sr;     /* 1 / solid angle of a patch, by row */
-    /* By cell: the sum of radiance times solid angle; its mean direction, which is the shorter the wider the cell is;
-     * its spread and largest deviation from the mean direction, as sines. */
+    /* By cell: the sum of radiance times solid angle; its mean direction, which is the shorter the wider
+     * the cell is; its spread and largest deviation from the mean direction, as sines. */
     float power[CELLS], mean_x[CELLS], mean_y[CELLS], mean_z[CELLS], spread[CELLS], reach[CELLS];
 };
 
@@ -68,7 +68,8 @@ static const double pi = 3.14159265358979323846;
 
 /* ---- densities ---- */
 
-/* From colatitude a to b: cos a - cos b = 2 sin((a + b) / 2) sin((b - a) / 2), without cancellation at the poles. */
+/* From colatitude a to b: cos a - cos b = 2 sin((a + b) / 2) sin((b - a) / 2), without cancellation at the
+ * poles. */
 static double patch_solid_angle(const light_environment *e, uint32_t y)
 {
     double rows = (double)(e->height - 1);
@@ -95,8 +96,8 @@ static float middle_of_row(const light_environment *e, uint32_t x, uint32_t y)
     return 0.5f * (radiance_at(e, x, upper) + radiance_at(e, x, lower));
 }
 
-/* Writes the weights of a block's part of a row, which are the means of its patches, into ends, as floats, and returns their
- * sums. */
+/* Writes the weights of a block's part of a row, which are the means of its patches, into ends, as floats,
+ * and returns their sums. */
 static struct row_part weigh_columns(const building *b, uint32_t y, uint32_t begin, uint32_t end,
                                      uint32_t *ends, size_t *positive)
 {
@@ -151,7 +152,8 @@ static void make_rows(void *context, size_t first, size_t last)
         }
 }
 
-/* The largest deviation of a direction of the cell from the unit vector axis, as a sine; 1: a right angle or more. */
+/* The largest deviation of a direction of the cell from the unit vector axis, as a sine; 1: a right angle
+ * or more. */
 static float reach_of_cell(const light_environment *e, uint32_t band, uint32_t block, vec3 axis)
 {
     enum { STEPS = 8 };
@@ -300,9 +302,10 @@ void light_environment_destroy(light_environment *e)
     mem_free(e);
 }
 
-/* The cosine that a cell which reaches above the horizon gets at least. With a sun in the map just below the horizon
- * a larger value would be too much (deviation of the estimated irradiance of 96 x 48 texels with one of 1e5, worst of
- * 24 normals: .03: 3.8; .01: 2.3; .003: 1.4); a much smaller one would be too little for the rest of its cell. */
+/* The cosine that a cell which reaches above the horizon gets at least. With a sun in the map just below
+ * the horizon a larger value would be too much (deviation of the estimated irradiance of 96 x 48 texels
+ * with one of 1e5, worst of 24 normals: .03: 3.8; .01: 2.3; .003: 1.4); a much smaller one would be too
+ * little for the rest of its cell. */
 static const float DEFENSIVE_SHARE = 0.003f;
 
 /* The last division that begins at or before index. */
@@ -360,8 +363,8 @@ static vec3 from_map(const light_environment *e, vec3 d)
                 d[2] * e->rotation_cos - d[0] * e->rotation_sin);
 }
 
-/* Rows are mirrored into the upper half: the angle from the nearer pole is computed from its half, since cos would
- * lose its digits. */
+/* Rows are mirrored into the upper half: the angle from the nearer pole is computed from its half, since
+ * cos would lose its digits. */
 static bool is_lower(const light_environment *e, uint32_t y)
 {
     return 2 * y > e->height - 1;
@@ -412,8 +415,9 @@ vec3 light_environment_radiance(const light_environment *e, vec3 d)
 
 /* ---- sampling ---- */
 
-/* Clamped cosine of a cell, for x, the cosine to its mean direction, and its spread to both sides: linear from 0 at
- * -spread to the cosine itself, and at least the defensive share wherever the cell reaches above the horizon. */
+/* Clamped cosine of a cell, for x, the cosine to its mean direction, and its spread to both sides: linear
+ * from 0 at -spread to the cosine itself, and at least the defensive share wherever the cell reaches above
+ * the horizon. */
 DISPATCH_AVX2 static void weigh_cells(const light_environment *restrict e, const float *restrict N,
                                       float *restrict cells)
 {

@@ -1,12 +1,13 @@
-/* light_environment.h - importance sampling of an equirectangular image, in proportion to the irradiance that each
- * texel gives a surface.
+/* light_environment.h - importance sampling of an equirectangular image, in proportion to the irradiance that
+ * each texel gives a surface.
  *
- * The density is bilinear between texel centers, as radiance is (the mean of its three channels), and differs from it
- * only by the change of solid angle within a row near the poles: it is positive wherever radiance is, and uniform
- * where radiance is. Above the patches of four texels there are LIGHT_ENVIRONMENT_CELLS parts of the sphere, each
- * weighted by its light and by the cosine at the surface (product sampling on the coarse levels: Clarberg et al.
- * 2005, "Wavelet Importance Sampling"; Cline et al. 2006, "Two Stage Importance Sampling for Direct Lighting").
- * Nearby random numbers give nearby directions, so that stratification is preserved. */
+ * * The density is bilinear between texel centers, as radiance is (the mean of its three channels), and
+ * differs from it only by the change of solid angle within a row near the poles: it is positive wherever
+ * radiance is, and uniform where radiance is. Above the patches of four texels there are
+ * LIGHT_ENVIRONMENT_CELLS parts of the sphere, each weighted by its light and by the cosine at the surface
+ * (product sampling on the coarse levels: Clarberg et al. 2005, "Wavelet Importance Sampling"; Cline et
+ * al. 2006, "Two Stage Importance Sampling for Direct Lighting"). Nearby random numbers give nearby
+ * directions, so that stratification is preserved. */
 #ifndef PATH_LIGHT_ENVIRONMENT_H
 #define PATH_LIGHT_ENVIRONMENT_H
 
@@ -23,8 +24,8 @@ enum {
 
 typedef struct light_environment light_environment;
 
-/* For an image (F32 RGB, finite, not negative) that outlives it, rotated and scaled as in light. *out: NULL where it
- * is black. Takes 4 bytes per texel. Fails with FACET_ERROR_MEMORY. */
+/* For an image (F32 RGB, finite, not negative) that outlives it, rotated and scaled as in light. *out:
+ * NULL where it is black. Takes 4 bytes per texel. Fails with FACET_ERROR_MEMORY. */
 facet_result light_environment_create(const image *picture, const light_setup *light,
                                       const facet_allocator *allocator, uint32_t thread_count,
                                       light_environment **out, facet_error *error);
@@ -41,10 +42,11 @@ typedef struct light_environment_view {
     float irradiance;                     /* the sum of all */
 } light_environment_view;
 
-/* N: unit, only directions above its horizon count; {0}: all count alike (irradiance is then the integral of radiance). */
+/* N: unit, only directions above its horizon count; {0}: all count alike (irradiance is then the integral
+ * of radiance). */
 void light_environment_see(const light_environment *e, vec3 N, light_environment_view *view);
-/* Samples a unit direction by uniform random numbers in [0, 1); view->irradiance is positive. Returns its pdf per sr;
- * 0 for the very last numbers, where it underflows. */
+/* Samples a unit direction by uniform random numbers in [0, 1); view->irradiance is positive. Returns its
+ * pdf per sr; 0 for the very last numbers, where it underflows. */
 float light_environment_sample(const light_environment *e, const light_environment_view *view,
                                const double u[2], vec3 *d);
 /* The pdf of light_environment_sample() in the unit direction d. */

@@ -126,8 +126,8 @@ static void black_is_none(void **state)
 
 /* ---- densities ---- */
 
-/* Where radiance is above 0 above the horizon, so is the density, and it integrates to 1; so does that of one lit texel at the
- * seam, at a pole, anywhere. */
+/* Where radiance is above 0 above the horizon, so is the density, and it integrates to 1; so does that of
+ * one lit texel at the seam, at a pole, anywhere. */
 static void densities_integrate_to_one(void **state)
 {
     (void)state;
@@ -159,7 +159,7 @@ static void densities_integrate_to_one(void **state)
                     assert_true(pdf > 0.0f);
             }
             double integral = sum * 4.0 * pi / (SIDE * SIDE);
-            if (fabs(integral - 1.0) > (picture_number < 5 ? 3e-2 : 3e-3)) /* few points meet one texel */
+            if (fabs(integral - 1.0) > (picture_number < 5 ? 3e-2 : 3e-3)) /* few points hit one texel */
                 fail_msg("picture %d, normal %d: %.6f", picture_number, i, integral);
         }
         light_environment_destroy(e);
@@ -167,7 +167,7 @@ static void densities_integrate_to_one(void **state)
     }
 }
 
-/* Samples have the density that is told, as light_environment_pdf() gives it: chi-square over a grid of the sphere, whose
+/* Samples have the returned pdf, that of light_environment_pdf(): chi-square over a grid of the sphere, whose
  * cells' expectations are integrals of the density. */
 static void samples_have_their_density(void **state)
 {
@@ -263,8 +263,8 @@ static double irradiance_by_sum(const light_environment *e, vec3 N)
     return sum;
 }
 
-/* A sun of 1e5 in the map costs no noise, and little where it is behind the surface: sampling the map alone would have
- * deviations of hundreds there. */
+/* A sun of 1e5 in the map costs no noise, and little where it is behind the surface: sampling the map
+ * alone would have deviations of hundreds there. */
 static void irradiance_is_right(void **state)
 {
     (void)state;
@@ -291,7 +291,8 @@ static void irradiance_is_right(void **state)
     }
 }
 
-/* Nearby numbers, nearby directions: 32 x 32 stratified numbers leave much less noise than random ones. */
+/* Nearby random numbers, nearby directions: 32 x 32 stratified ones leave much less noise than random
+ * ones. */
 static void strata_stay_strata(void **state)
 {
     (void)state;

@@ -8,14 +8,15 @@
 #include "path/light_distribution.h"
 #include "path/light_tree_nodes.h"
 
-/* The weights of eight children at P; returns their sum. With d to the center of a child and its radius r: intensity
- * f(theta) g(theta_N) / max(d, r)^2, where theta is the angle from its axis, theta_N that from N. The bounds of f and
- * g (Conty Estevez and Kulla 2018, equation 3) reduce the angles by the spread of its normals and by the angle that
- * its sphere subtends, to at least 0. They are exact where they are 0, but far too large for clusters beside P, which
- * would take all samples from those in front of it. So they count for BOUND_SHARE only, and the means for the rest:
- * of g the cosine to the center; of f that of normals whose mean has the length R and which therefore spread by about
- * (1 - R^2) / 3: the mean of a clamped normal distribution, (m + sqrt(m^2 + (1 - R^2) / 4)) / 2 within 10 %. Where P
- * is inside the sphere the center says nothing, and the bounds count alone. */
+/* The weights of eight children at P; returns their sum. With d to the center of a child and its radius r:
+ * intensity f(theta) g(theta_N) / max(d, r)^2, where theta is the angle from its axis, theta_N that from
+ * N. The bounds of f and g (Conty Estevez and Kulla 2018, equation 3) reduce the angles by the spread of
+ * its normals and by the angle that its sphere subtends, to at least 0. They are exact where they are 0,
+ * but far too large for clusters beside P, which would take all samples from those in front of it. So they
+ * count for BOUND_SHARE only, and the means for the rest: of g the cosine to the center; of f that of
+ * normals whose mean has the length R and which therefore spread by about (1 - R^2) / 3: the mean of a
+ * clamped normal distribution, (m + sqrt(m^2 + (1 - R^2) / 4)) / 2 within 10 %. Where P is inside the
+ * sphere the center says nothing, and the bounds count alone. */
 DISPATCH_AVX2 static float weigh(const light_tree_node *restrict n, const float *restrict P,
                                  const float *restrict N, float facing, float *restrict weights)
 {

@@ -69,10 +69,10 @@ static void add_cluster(cluster *c, const cluster *other)
     c->count += other->count;
 }
 
-/* The surface area orientation heuristic: intensity times area of the box times a measure of the directions of
- * emission (Conty Estevez and Kulla 2018, section 4.4). The latter, from pi for one direction to 4 pi for all,
- * follows from the length of the mean normal: a cap of half-angle t has R = (1 + cos t) / 2, and pi (4 - 3 R^2) is
- * within 9 % of their integral. */
+/* The surface area orientation heuristic: intensity times area of the box times a measure of the
+ * directions of emission (Conty Estevez and Kulla 2018, section 4.4). The latter, from pi for one
+ * direction to 4 pi for all, follows from the length of the mean normal: a cap of half-angle t has R = (1
+ * + cos t) / 2, and pi (4 - 3 R^2) is within 9 % of their integral. */
 static float cost_of(const cluster *c)
 {
     if (!(c->intensity > 0.0f))
@@ -100,7 +100,8 @@ static int bin_of(const item *it, int axis, float origin, float bins_per_m)
     return bin < 0 ? 0 : bin < BINS ? bin : BINS - 1;
 }
 
-/* Updates *best by the splits between the bins of one axis. thinness: ratio of the longest axis to this one. */
+/* Updates *best by the splits between the bins of one axis. thinness: ratio of the longest axis to this
+ * one. */
 static void try_axis(int axis, const cluster bins[BINS], float thinness, split *best)
 {
     float right_cost[BINS];
@@ -226,8 +227,8 @@ static int split_into_children(builder *b, const range *r, range children[WIDTH]
 
 /* ---- bounds ---- */
 
-/* The cone of all normals: around their mean, as wide as the farthest; normals of two-sided lights count on the side
- * of the first one's. Returns the length of the mean. */
+/* The cone of all normals: around their mean, as wide as the farthest; normals of two-sided lights count
+ * on the side of the first one's. Returns the length of the mean. */
 static float bound_directions(const builder *b, const range *r, light_bounds *out)
 {
     vec3 reference = b->lights[b->items[r->begin].light].axis;

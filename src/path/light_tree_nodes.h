@@ -10,9 +10,9 @@ enum {
 };
 #define LEAF 0x80000000u
 
-/* The share of the bound in the weight of a child. Variances of the estimated irradiance with 1, .25, .1: 2 cm below
- * a ball of 100 000 triangles 15.8, 1.8, 1.2; a floor under 2000 bulbs 1.7, .42, .61; among 30 000 random triangles
- * 1.7, 1.5, 2.4; an office's ceiling of 36 panels .99, .82, .88. */
+/* The share of the bound in the weight of a child. Variances of the estimated irradiance with 1, .25, .1:
+ * 2 cm below a ball of 100 000 triangles 15.8, 1.8, 1.2; a floor under 2000 bulbs 1.7, .42, .61; among 30
+ * 000 random triangles 1.7, 1.5, 2.4; an office's ceiling of 36 panels .99, .82, .88. */
 #define BOUND_SHARE 0.25f
 
 /* Bounds of eight children, member by member; missing children have intensity 0. */

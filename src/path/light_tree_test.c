@@ -41,7 +41,7 @@ static vec3 random_direction(void)
     }
 }
 
-/* Small discs that shine on one side, on both, points, spots, points with a range, in turn. */
+/* Small discs that emit on one side, on both, points, spots, points with a range, in turn. */
 static light_bounds make_light(uint32_t i, float extent, float size)
 {
     light_bounds l = {.center = random_point(extent),
@@ -110,8 +110,8 @@ static float irradiance_of(const light_bounds *l, vec3 P, vec3 N)
 
 /* ---- choices ---- */
 
-/* All probabilities add up to 1, less what leads to nothing; who gives light has one; samples tell the same, to the bit, and
- * are as frequent. */
+/* All probabilities add up to 1, less that of subtrees without light; every light with irradiance has one;
+ * samples return the same, bit for bit, and have that frequency. */
 static void probabilities_are_those_of_samples(void **state)
 {
     (void)state;
@@ -167,7 +167,7 @@ static void probabilities_are_those_of_samples(void **state)
     }
 }
 
-/* What is left of the number is as good as new. */
+/* The rest of the random number is uniform again. */
 static void the_rest_is_uniform(void **state)
 {
     (void)state;
@@ -196,8 +196,8 @@ static void the_rest_is_uniform(void **state)
 
 /* ---- noise ---- */
 
-/* Deviation of the estimate from one sample, over the mean; weights by intensity alone for comparison. The true value is the
- * sum over all. */
+/* Deviation of the estimate from one sample, over the mean; weights by intensity alone for comparison. The
+ * true value is the sum over all. */
 static void compare_noise(uint32_t count, float extent, float size, double *by_tree, double *by_intensity)
 {
     light_bounds *lights = make_lights(count, extent, size);

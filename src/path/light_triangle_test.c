@@ -1,4 +1,4 @@
-/* Tests of light_triangle.h: directions against solid angles and closed forms. */
+/* Tests of the triangles of light_emitters.h: directions against solid angles and closed forms. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -62,7 +62,7 @@ static double solid_angle(vec3 a, vec3 b, vec3 c, vec3 P)
     return 2.0 * atan2(fabs(volume), sum);
 }
 
-/* Near triangles get uniform directions: parts of one are met as often as their solid angles say. */
+/* Near triangles are sampled uniformly in direction: parts of one in proportion to their solid angles. */
 static void near_directions_are_uniform(void **state)
 {
     (void)state;
@@ -111,8 +111,8 @@ static void near_directions_are_uniform(void **state)
     assert_true(tested > 30);
 }
 
-/* The estimate of a solid angle, 1 / pdf, is right in the mean for far and for near triangles, and density and sample tell the
- * same. */
+/* The estimate of a solid angle, 1 / pdf, is right on average for far and for near triangles, and sample
+ * and pdf agree. */
 static void densities_are_right(void **state)
 {
     (void)state;

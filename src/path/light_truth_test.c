@@ -1,5 +1,6 @@
-/* Truth tests of light on diffuse surfaces: skies, emitters of known form factor, lights without size, the sun's disc and
- * its penumbra, light that goes round in a closed room. References are closed forms or quadrature in double. */
+/* Truth tests of light on diffuse surfaces: skies, emitters of known form factor, delta lights, the sun's
+ * disc and its penumbra, interreflection in a closed room. References are closed forms or quadrature in
+ * double. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -43,9 +44,10 @@ static void sky_that_brightens_upwards(const double d[3], float rgb[3])
     rgb[2] = d[1] > 0.0 ? 1.0f : 0.0f;
 }
 
-/* On a surface tilted by t: sky (1 + y) / 2 gives E / pi = 1/2 + cos t / 3, the upper half (1 + cos t) / 2, and max(y, 0)
- * gives [sin t + (pi - t) cos t] 2 / (3 pi), the kernel of irradiance of a clamped cosine (linear in solid angle: Ramamoorthi
- * and Hanrahan 2001 have its harmonics; the sum is the arc-cosine kernel of order 1, Cho and Saul 2009, over 3 / 2). */
+/* On a surface tilted by t: sky (1 + y) / 2 gives E / pi = 1/2 + cos t / 3, the upper half (1 + cos t) /
+ * 2, and max(y, 0) gives [sin t + (pi - t) cos t] 2 / (3 pi), the kernel of irradiance of a clamped cosine
+ * (linear in solid angle: Ramamoorthi and Hanrahan 2001 have its harmonics; the sum is the arc-cosine
+ * kernel of order 1, Cho and Saul 2009, over 3 / 2). */
 static void tilted_surfaces_under_skies_of_the_height(void **state)
 {
     (void)state;
@@ -71,8 +73,9 @@ static void tilted_surfaces_under_skies_of_the_height(void **state)
 
 /* ---- glossy surfaces ---- */
 
-/* GGX with the height-correlated Smith term and reflectance 1 for light from the whole upper hemisphere of a panel that faces
- * +Z: the sum over all texels of the image at 2048 x 1024, in double. V in the plane of x and z. */
+/* GGX with the height-correlated Smith term and reflectance 1 for light from the whole upper hemisphere of
+ * a panel that faces +Z: the sum over all texels of the image at 2048 x 1024, in double. V in the plane of
+ * x and z. */
 static double reflected_by_quadrature(const image *picture, double angle, double alpha)
 {
     enum { WIDTH = 2048, HEIGHT = 1024 };
@@ -170,8 +173,8 @@ static void a_square_light_beside_a_wall(void **state)
     fixture_destroy(&f);
 }
 
-/* E = pi L (R / d)^2 below a sphere: the square of the sine under which it is seen. Its triangles are seen as a polygon of
- * 256 corners on the circle, whose area is sin(2 pi / 256) / (2 pi / 256) of the disc's. */
+/* E = pi L (R / d)^2 below a sphere: the square of the sine under which it is seen. Its triangles are seen
+ * as a polygon of 256 corners on the circle, whose area is sin(2 pi / 256) / (2 pi / 256) of the disc's. */
 static void a_shining_sphere_over_a_plane(void **state)
 {
     (void)state;
@@ -315,8 +318,9 @@ static void the_sun_is_seen_as_a_disc(void **state)
     }
 }
 
-/* The share of the disc of a sun of that radius in the zenith that is left of a line x = s h, y free, z = h: by the
- * projected solid angle, where the line is the half of an ellipse x = sin(atan s) sqrt(1 - y^2) (Nusselt 1928). */
+/* The share of the disc of a sun of that radius in the zenith that is left of a line x = s h, y free, z =
+ * h: by the projected solid angle, where the line is the half of an ellipse x = sin(atan s) sqrt(1 - y^2)
+ * (Nusselt 1928). */
 static double share_of_disc(double s, double radius)
 {
     enum { STEPS = 20000 };
@@ -356,8 +360,8 @@ static void the_penumbra_of_an_edge(void **state)
 
 /* ---- light that goes round ---- */
 
-/* Walls that shine with L and reflect rho send out L (1 + rho + rho^2 ..) = L / (1 - rho); a path of D events finds
- * the first D + 1 terms. */
+/* Walls that emit L and reflect rho have the radiance L (1 + rho + rho^2 ..) = L / (1 - rho); a path of D
+ * events finds the first D + 1 terms. */
 static void a_closed_room_sums_the_geometric_series(void **state)
 {
     (void)state;
@@ -379,7 +383,7 @@ static void a_closed_room_sums_the_geometric_series(void **state)
         }
 }
 
-/* A lamp in a closed room: what it sends out, pi L A, is what the walls and itself absorb. */
+/* A light in a closed room: its power, pi L A, is absorbed by the walls and by itself. */
 static void a_room_absorbs_what_its_lamp_sends(void **state)
 {
     (void)state;
@@ -390,14 +394,15 @@ static void a_room_absorbs_what_its_lamp_sends(void **state)
         f.desc.width = f.desc.height = 8;
         uint32_t white = fixture_add_material(&f, truth_lambert((float)rho));
         truth_add_box(&f, white, 0.0f, -1.0f, -1.0f, -1.0f);
-        /* A plate that shines on both sides, with the walls' albedo 0: it absorbs what falls on it. */
+        /* A plate that emits on both sides, with the walls' albedo 0: it absorbs all incident light. */
         scene_material lamp = truth_emitter(1.0f);
         lamp.is_double_sided = true;
         truth_add_panel(&f, fixture_add_material(&f, lamp), (float[3]){0.2f, 0.1f, 0.0f},
                         (float[3]){0.3f, 0.0f, 0.0f}, (float[3]){0.0f, 0.2f, 0.0f});
         float axis[3] = {0};
         axis[wall / 2] = wall & 1 ? -1.0f : 1.0f;
-        /* From just before the wall, so that nothing is in between: radiance of a Lambertian wall is that of every direction. */
+        /* From just before the wall, so that nothing is in between: radiance of a Lambertian wall is that
+         * of every direction. */
         for (int i = 0; i < 3; i++) {
             f.camera.eye[i] = 0.9999f * axis[i];
             f.camera.target[i] = axis[i];
@@ -410,7 +415,7 @@ static void a_room_absorbs_what_its_lamp_sends(void **state)
         error2 += pow(4.0 * (1.0 - rho) / rho * TRUTH_PI * v.error[0], 2.0);
         fixture_destroy(&f);
     }
-    /* What falls back on the lamp's two sides: seen by giving them an albedo that hardly disturbs, less their own light. */
+    /* Irradiance on the light's two sides: measured by a negligible albedo, less their emission. */
     double caught = 0.0;
     for (int side = 0; side < 2; side++) {
         fixture f = truth_create();

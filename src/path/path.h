@@ -1,5 +1,5 @@
-/* path.h - the state of one light path, its walk through the scene and its shadow rays. Names are those of pbrt (Pharr, Jakob and
- * Humphreys 2023, "Physically Based Rendering", 4th edition, chapters 13 and 14). */
+/* path.h - the state of one light path, its walk through the scene and its shadow rays. Names are those of
+ * pbrt (Pharr, Jakob and Humphreys 2023, "Physically Based Rendering", 4th edition, chapters 13 and 14). */
 #ifndef PATH_PATH_H
 #define PATH_PATH_H
 
@@ -8,7 +8,8 @@
 #include "path/path_scene.h"
 #include "path/sampler.h"
 
-/* The vertex at which the direction of the ray was sampled: a light that it hits could have been sampled there as well. */
+/* The vertex at which the direction of the ray was sampled: a light that it hits could have been sampled
+ * there as well. */
 typedef struct path_previous {
     vec3 P, N;    /* m; N: as path_lights_sample() was given */
     float p_bsdf; /* per sr, of the direction */
@@ -36,18 +37,18 @@ typedef struct path {
     /* multiple importance sampling of the light that the ray hits */
     path_previous previous;
     float previous_m; /* from there to P, where null interfaces or straight transmission lie between */
-    bool
-        specular_bounce; /* no light could have been sampled for the ray: specular lobe, or from the camera */
-    bool is_shadow_lit;  /* the ray passed transmissive surfaces whose light the straight shadow rays found */
-    bool excludes_sun;   /* bsdf_sample.excludes_sun */
+    /* no light could have been sampled for the ray: specular lobe, or from the camera */
+    bool specular_bounce;
+    bool is_shadow_lit; /* the ray passed transmissive surfaces whose light the straight shadow rays found */
+    bool excludes_sun;  /* bsdf_sample.excludes_sun */
 
     /* the medium below scene->surface */
     bool is_in_medium;    /* P is in it */
     bool is_indirect;     /* the path has left another surface in it */
     float seen_through_m; /* its length between camera and P, through specular lobes of the surface only */
 
-    bool
-        seeks_features; /* specular surfaces only so far: albedo and normal for the denoiser are still to come */
+    /* specular surfaces only so far: albedo and normal for the denoiser are still to come */
+    bool seeks_features;
 } path;
 
 /* A ray of the camera: a point of the pixel's filter, a point of the lens. */
@@ -61,33 +62,36 @@ typedef struct path_camera_ray {
 void path_sample_camera_ray(const path_scene *scene, path_sampler *sampler, uint32_t x, uint32_t y,
                             path_camera_ray *out);
 
-/* Follows p from p->P in direction p->D until it ends; adds the radiance that it finds to p->L. hit and ray: the first
- * intersection where it is known, else NULL. */
+/* Follows p from p->P in direction p->D until it ends; adds the radiance that it finds to p->L. hit and
+ * ray: the first intersection where it is known, else NULL. */
 void path_walk(path *p, const visibility_hit *hit, const shading_ray *ray);
 
-/* The transmittance (share of radiance) towards a light that was sampled for the point `at`. P (m) is where the ray starts: beside
- * `at`, free of the surface that it lies on, and in the media `in`. Alpha lets its share pass, and so do null interfaces and straight
- * transmission; other transmissive surfaces block it, unless facet_path_desc.has_straight_shadows is set. *rays counts it. */
+/* The transmittance (share of radiance) towards a light that was sampled for the point `at`. P (m) is
+ * where the ray starts: beside `at`, free of the surface that it lies on, and in the media `in`. Alpha
+ * lets its share pass, and so do null interfaces and straight transmission; other transmissive surfaces
+ * block it, unless facet_path_desc.has_straight_shadows is set. *rays counts it. */
 vec3 path_shadow(const path_scene *scene, vec3 at, vec3 P, const path_light_sample *light, const media *in,
                  float wavelength_nm, uint64_t *rays);
 
 /* ---- decisions at a vertex ---- */
 
-/* Length of the ray in direction D (unit) that a start offset along the normal skips. Absorption counts it. */
+/* Length of the ray in direction D (unit) that a start offset along the normal skips. Absorption counts
+ * it. */
 static inline float path_skipped(vec3 offset, vec3 D)
 {
     float length_m = length(offset);
     return length_m > 0.0f ? length_m * length_m / max(abs(dot(offset, D)), 0.05f * length_m) : 0.0f;
 }
 
-/* Half-angle of the cone that a direction with pdf (per sr) stands for: that of 1/32 of a sample's solid angle, so that the
- * cones of a pixel's samples overlap little. */
+/* Half-angle of the cone that a direction with pdf (per sr) stands for: that of 1/32 of a sample's solid
+ * angle, so that the cones of a pixel's samples overlap little. */
 static inline float path_cone_angle(float pdf)
 {
     return 0.1f * inversesqrt(max(pdf, 1e-3f));
 }
 
-/* The power heuristic (Veach 1997) for a sample of density pdf that the other strategy finds with other_pdf. */
+/* The power heuristic (Veach 1997) for a sample of density pdf that the other strategy finds with
+ * other_pdf. */
 static inline float path_power_heuristic(float pdf, float other_pdf)
 {
     float q = other_pdf / pdf;

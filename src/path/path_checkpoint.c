@@ -1,6 +1,7 @@
-/* path_checkpoint.c - see path_checkpoint.h. A pixel is floats, and each of them is a channel of an OpenEXR file, so nothing is
- * converted: the first are the means as R, G, B, A, which any viewer shows. Attributes are texts: the file's kind, the key of its
- * image, and a digest of its values, since stored channels have no checksums. */
+/* path_checkpoint.c - see path_checkpoint.h. A pixel is floats, and each of them is a channel of an
+ * OpenEXR file, so nothing is converted: the first are the means as R, G, B, A, which any viewer shows.
+ * Attributes are texts: the file's kind, the key of its image, and a digest of its values, since stored
+ * channels have no checksums. */
 #include "path/path_checkpoint.h"
 
 #include <inttypes.h>

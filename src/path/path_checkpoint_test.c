@@ -1,4 +1,4 @@
-/* path_checkpoint_test.c - an image that was interrupted goes on as one that was not; no other file is taken for it. */
+/* path_checkpoint_test.c - an interrupted image continues as one that was not; other files are refused. */
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <setjmp.h>
@@ -274,8 +274,8 @@ static void truncated_files_are_refused(void **state)
     path_film_destroy(back);
 }
 
-/* A changed byte is found, or changes nothing: it is in a header's remark, or in the table of where rows are. From NUMBERS on
- * there are none of these. */
+/* A changed byte is found, or changes nothing: it is in a header's remark, or in the table of where rows
+ * are. From NUMBERS on there are none of these. */
 enum { NUMBERS = 1500 };
 static void damaged_files_are_refused(void **state)
 {

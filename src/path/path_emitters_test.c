@@ -1,5 +1,5 @@
-/* Tests of path_lights.h: surfaces that shine, every kind and very many. Each way to aim at them against its density, and against what is
- * met there by chance. */
+/* Tests of path_lights.h: emissive surfaces, every kind and very many. Each sampling strategy against its
+ * pdf, and against BSDF sampling. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,8 +15,8 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* From everywhere around: what is aimed at is what is met there, in place, radiance and density. Returns the share of what
- * was aimed at that was visible. */
+/* From everywhere around: a light sample agrees with a ray that hits its point, in place, radiance and
+ * pdf. Returns the visible share of the samples. */
 static double assert_aimed_is_met(const stage *s, float extent)
 {
     enum { TRIALS = IS_SLOW ? 1000 : 4000 };
@@ -73,7 +73,7 @@ static void assert_same(estimate a, estimate b)
         fail_msg("%.6g +- %.2g against %.6g +- %.2g", a.mean, a.error, b.mean, b.error);
 }
 
-/* All ways to find the light agree. */
+/* All strategies agree. */
 static void assert_ways_agree(const stage *s, vec3 P, vec3 N, int count)
 {
     estimate chance = irradiance_by_chance(s, P, N, count);
@@ -149,7 +149,7 @@ static void what_is_aimed_at_is_met(void **state)
     }
 }
 
-/* Light from all ways is the same where it may be in between. */
+/* All strategies agree where the light may be occluded. */
 static void ways_agree_on_emitters(void **state)
 {
     (void)state;
@@ -167,7 +167,7 @@ static void ways_agree_on_emitters(void **state)
     }
 }
 
-/* What is not lit is met only, and counts fully then. */
+/* Unlit surfaces are found by BSDF sampling only, with weight 1. */
 static void flat_colors_are_not_aimed_at(void **state)
 {
     (void)state;
@@ -208,7 +208,8 @@ static void only_emitters_are_aimed_at(void **state)
 
 /* ---- many ---- */
 
-/* Irradiance of a triangle of radiance 1 above the horizon; corners relative to P. Lambert: shading-model.md, 6.3. */
+/* Irradiance of a triangle of radiance 1 above the horizon; corners relative to P. Lambert:
+ * shading-model.md, 6.3. */
 static double triangle_irradiance(vec3 a, vec3 b, vec3 c, vec3 N)
 {
     vec3 corners[3] = {a, b, c};
@@ -231,7 +232,8 @@ static double triangle_irradiance(vec3 a, vec3 b, vec3 c, vec3 N)
     return 0.5 * fabs(sum);
 }
 
-/* A ball of 102 080 triangles over a floor: what reaches the floor is the sum over those that face it. */
+/* A ball of 102 080 triangles over a floor: the irradiance of the floor is the sum over those that face
+ * it. */
 static void a_hundred_thousand_emitters(void **state)
 {
     (void)state;

@@ -73,8 +73,8 @@ static bool is_finite(const path_sample *s)
     return is;
 }
 
-/* The mean squared deviation after one more sample, from its distances to the means before and after it (Welford
- * 1962): no cancellation, however bright and constant the values are. share: 1 / n. */
+/* The mean squared deviation after one more sample, from its distances to the means before and after it
+ * (Welford 1962): no cancellation, however bright and constant the values are. share: 1 / n. */
 static float spread_with(float spread, double from_before, double from_after, double share)
 {
     double square = from_before * from_after;
@@ -194,8 +194,8 @@ static void resolve_color(const resolving *r, size_t i, float out[4])
     }
 }
 
-/* The variance of the mean: that of one sample, estimated without bias (n / (n - 1)), divided by their number.
- * Stratified samples have better means. The error of a single sample is taken to be its value. */
+/* The variance of the mean: that of one sample, estimated without bias (n / (n - 1)), divided by their
+ * number. Stratified samples have better means. The error of a single sample is taken to be its value. */
 static float resolve_variance(const path_pixel *p, int c, float scale)
 {
     double square = p->samples > 1.0f ? (double)p->spread[c] / ((double)p->samples - 1.0)
@@ -248,21 +248,22 @@ void path_film_resolve(const path_film *f, float scale, film *target, uint32_t t
 
 /* ---- adaptive sampling: the noise of a pixel ---- */
 
-/* Depends on the samples alone, not on earlier decisions, so that an interrupted render continues as one that was
- * not. */
+/* Depends on the samples alone, not on earlier decisions, so that an interrupted render continues as one
+ * that was not. */
 
-/* The displayed size of a standard error. A display shows roughly the square root v^(1/2) of linear light v, 1 being
- * white, whose slope is 1 / (2 v^(1/2)): the normalisation of Dammertz et al. 2010 ("A Hierarchical Automatic
- * Stopping Condition for Monte Carlo Global Illumination", equation 1). The offset keeps black from requiring
- * infinitely many samples; with it the slope ends at 10, near the 12.9 of the sRGB curve at 0. */
+/* The displayed size of a standard error. A display shows roughly the square root v^(1/2) of linear light
+ * v, 1 being white, whose slope is 1 / (2 v^(1/2)): the normalisation of Dammertz et al. 2010 ("A
+ * Hierarchical Automatic Stopping Condition for Monte Carlo Global Illumination", equation 1). The offset
+ * keeps black from requiring infinitely many samples; with it the slope ends at 10, near the 12.9 of the
+ * sRGB curve at 0. */
 static double displayed(double error, double value)
 {
     return error / (2.0 * sqrt((value > 0.0 ? value : 0.0) + 0.0025));
 }
 
-/* The square of the standard error as displayed, where 1 is the range of the display. The errors of the channels are
- * added with the weights of luminance as if fully correlated, as those of light mostly are, so that colored noise of
- * even luminance counts. The shadow on the ground is judged over white. */
+/* The square of the standard error as displayed, where 1 is the range of the display. The errors of the
+ * channels are added with the weights of luminance as if fully correlated, as those of light mostly are,
+ * so that colored noise of even luminance counts. The shadow on the ground is judged over white. */
 static double pixel_noise_square(const path_film *f, size_t i)
 {
     static const double weights[3] = {0.2126, 0.7152, 0.0722};
@@ -318,8 +319,8 @@ static void measure_blocks(void *context, size_t begin, size_t end)
             block_noise_square(j->film, (uint32_t)(b % columns), (uint32_t)(b / columns));
 }
 
-/* The mean square over a block and its neighbors: rare light that few samples of one block have missed may be found
- * by a neighbor. */
+/* The mean square over a block and its neighbors: rare light that few samples of one block have missed may
+ * be found by a neighbor. */
 static float region_noise_square(const path_film *f, uint32_t column, uint32_t row)
 {
     uint32_t left = column ? column - 1 : 0, right = column + 1 < f->block_columns ? column + 1 : column;

@@ -1,5 +1,5 @@
-/* path_film.h - the accumulation of a path traced image: means that keep their precision over millions of samples,
- * their noise, which pixels need more. */
+/* path_film.h - the accumulation of a path traced image: means that keep their precision over millions of
+ * samples, their noise, which pixels need more. */
 #ifndef PATH_FILM_H
 #define PATH_FILM_H
 
@@ -8,14 +8,15 @@
 
 typedef struct path_film path_film;
 
-/* An empty film of the crop's size. has_ground: keeps the two sums of the ground as well. FACET_ERROR_MEMORY. */
+/* An empty film of the crop's size. has_ground: keeps the two sums of the ground as well.
+ * FACET_ERROR_MEMORY. */
 facet_result path_film_create(const facet_allocator *allocator, uint32_t width, uint32_t height,
                               bool has_ground, path_film **out, facet_error *error);
 void path_film_destroy(path_film *f); /* NULL is allowed */
 
-/* Adds a sample to pixel number `pixel` (rows from the top left). A sample that is not finite counts as black, and in
- * path_film_dropped(). A pixel has at most 2^24 samples; later ones are ignored. Threads may add to different pixels;
- * the order of a pixel's samples affects the last bits. */
+/* Adds a sample to pixel number `pixel` (rows from the top left). A sample that is not finite counts as
+ * black, and in path_film_dropped(). A pixel has at most 2^24 samples; later ones are ignored. Threads may
+ * add to different pixels; the order of a pixel's samples affects the last bits. */
 void path_film_add(path_film *f, size_t pixel, const path_sample *sample);
 uint32_t path_film_samples(const path_film *f, size_t pixel);
 /* The factor from a sum over the samples of a pixel, each with its filter weight, to the mean that
@@ -26,22 +27,24 @@ uint64_t path_film_dropped(const path_film *f);
 
 /* The factor from radiance to display-linear values, 1 being white: 2^exposure_ev. Default 1. */
 void path_film_set_scale(path_film *f, float scale);
-/* Adaptive sampling: path_film_needs_more() is whether the region of a pixel was noisier than noise (facet_path_desc)
- * at the last path_film_update(). Noise is the standard error as displayed, se(v) / (2 (v + 1/400)^(1/2)) for a
- * luminance v of 1 for white, as root mean square over a block of 8 x 8 pixels, and also over the block with its
- * neighbors. A block is never done before it has 32 samples per pixel. Call path_film_update() between passes; noise
- * 0: nothing is done. The result depends on the samples alone: a neighbor's later samples may reactivate a block. */
+/* Adaptive sampling: path_film_needs_more() is whether the region of a pixel was noisier than noise
+ * (facet_path_desc) at the last path_film_update(). Noise is the standard error as displayed, se(v) / (2
+ * (v + 1/400)^(1/2)) for a luminance v of 1 for white, as root mean square over a block of 8 x 8 pixels,
+ * and also over the block with its neighbors. A block is never done before it has 32 samples per pixel.
+ * Call path_film_update() between passes; noise 0: nothing is done. The result depends on the samples
+ * alone: a neighbor's later samples may reactivate a block. */
 void path_film_update(path_film *f, float noise, uint32_t thread_count);
 bool path_film_needs_more(const path_film *f, size_t pixel);
 /* The share of pixels that are done. */
 float path_film_share_done(const path_film *f);
 
-/* Fills the layers that target has, of: color (means times scale, premultiplied, opacity clamped to [0, 1]; the
- * ground composited below as black with the opacity of its shadow), albedo, normal (unit, or 0), variance (of the
- * mean, as of independent samples: an upper bound), samples. */
+/* Fills the layers that target has, of: color (means times scale, premultiplied, opacity clamped to [0,
+ * 1]; the ground composited below as black with the opacity of its shadow), albedo, normal (unit, or 0),
+ * variance (of the mean, as of independent samples: an upper bound), samples. */
 void path_film_resolve(const path_film *f, float scale, film *target, uint32_t thread_count);
 
-/* Denoises the shadow on the ground, in place: biased, for a film that gets no more samples. FACET_ERROR_MEMORY. */
+/* Denoises the shadow on the ground, in place: biased, for a film that gets no more samples.
+ * FACET_ERROR_MEMORY. */
 facet_result path_film_denoise_ground(path_film *f, uint32_t thread_count, facet_error *error);
 
 #endif

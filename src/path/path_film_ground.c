@@ -1,4 +1,5 @@
-/* path_film_ground.c - the shadow on the ground in a film (path_film.h): its opacity and error, and the filter that denoises it. */
+/* path_film_ground.c - the shadow on the ground in a film (path_film.h): its opacity and error, and the
+ * filter that denoises it. */
 #include "path/path_film_state.h"
 
 #include <math.h>
@@ -24,10 +25,10 @@ float path_ground_error(const path_ground *g)
     return (float)(error < 1.0 ? error : 1.0);
 }
 
-/* The blocked share of the light: one minus the ratio of the means (not the mean of ratios) of lit and open. Clamping
- * pure noise at 0 would darken by 0.4 standard errors on average; so the blocked light is first shrunk by the Wiener
- * gain d^2 / (d^2 + e^2), estimated as max(0, 1 - e^2 / d^2) for an observed d with the standard error e, which
- * leaves 0.1 of them, and reduces a real shadow by e^2 / d only. */
+/* The blocked share of the light: one minus the ratio of the means (not the mean of ratios) of lit and
+ * open. Clamping pure noise at 0 would darken by 0.4 standard errors on average; so the blocked light is
+ * first shrunk by the Wiener gain d^2 / (d^2 + e^2), estimated as max(0, 1 - e^2 / d^2) for an observed d
+ * with the standard error e, which leaves 0.1 of them, and reduces a real shadow by e^2 / d only. */
 float path_ground_opacity(const path_ground *g)
 {
     double blocked = (double)g->blocked, error = blocked_error(g);
@@ -66,8 +67,8 @@ static float square(float x)
     return x * x;
 }
 
-/* One level of the a-trous wavelet: 5 x 5 taps of a B3 spline, step pixels apart; taps that differ by more than the
- * noise weigh less. Dammertz et al. 2010; range weight by variance after Schied et al. 2017. */
+/* One level of the a-trous wavelet: 5 x 5 taps of a B3 spline, step pixels apart; taps that differ by more
+ * than the noise weigh less. Dammertz et al. 2010; range weight by variance after Schied et al. 2017. */
 static shadow filter_pixel(const filtering *f, uint32_t x, uint32_t y)
 {
     static const float spline[3] = {0.375f, 0.25f, 0.0625f};

@@ -1,6 +1,6 @@
-/* path_film_state.h - the state of a path_film per pixel, for the files that implement it. All values are means,
- * which neither grow with the samples nor lose precision to them, and floats, which an OpenEXR file stores bit for
- * bit. */
+/* path_film_state.h - the state of a path_film per pixel, for the files that implement it. All values are
+ * means, which neither grow with the samples nor lose precision to them, and floats, which an OpenEXR file
+ * stores bit for bit. */
 #ifndef PATH_FILM_STATE_H
 #define PATH_FILM_STATE_H
 
@@ -14,8 +14,9 @@ enum {
     PATH_FILM_BLOCK = 8              /* side of a block, pixels */
 };
 
-/* Means over samples. The color's are mean + rest, 48 bits: after n samples their rounding error is about 2^-49
- * sqrt(n / 3) of them (each step rounds by up to 2^-49, and later ones shrink it), also where n is 2^24. */
+/* Means over samples. The color's are mean + rest, 48 bits: after n samples their rounding error is about
+ * 2^-49 sqrt(n / 3) of them (each step rounds by up to 2^-49, and later ones shrink it), also where n is
+ * 2^24. */
 typedef struct path_pixel {
     float mean[4], rest[4]; /* red, green, blue, opacity */
     float spread[3];        /* mean squared deviation of the colors: the variance of one sample */
@@ -46,8 +47,8 @@ struct path_film {
     float share_done;
 };
 
-/* The factor for colors and opacity of a pixel: 1 / the mean filter weight, so that constants are preserved whichever
- * negative lobes the samples fell into. 1 for filters without. */
+/* The factor for colors and opacity of a pixel: 1 / the mean filter weight, so that constants are
+ * preserved whichever negative lobes the samples fell into. 1 for filters without. */
 float path_pixel_scale(const path_pixel *p);
 
 /* The opacity of the shadow on the ground in a pixel, [0, 1], and its standard error. */

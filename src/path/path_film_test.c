@@ -1,4 +1,4 @@
-/* path_film_test.c - means that keep their digits, noise that is what it says, the ground, adaptive sampling. */
+/* path_film_test.c - precision of the means, noise estimates, the ground, adaptive sampling. */
 #include <float.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -76,7 +76,7 @@ static void means_keep_their_digits(void **state)
     const path_pixel *p = &f->pixels[0];
     assert_near((double)p->mean[0] + (double)p->rest[0], (double)(sum / COUNT), 1e-9);
     assert_near(p->albedo[1], (double)(albedo / COUNT), 2e-5);
-    /* a constant is what it was, to the last bit, and calm */
+    /* a constant is preserved bit for bit, without noise */
     p = &f->pixels[1];
     for (int c = 0; c < 3; c++) {
         assert_true(p->mean[c] == 0.1f && p->rest[c] == 0.0f && p->spread[c] == 0.0f);
@@ -88,7 +88,7 @@ static void means_keep_their_digits(void **state)
     path_film_destroy(f);
 }
 
-/* Against two passes in long double, for light that hardly changes and light that is rare. */
+/* Against two passes in long double, for nearly constant and for rare light. */
 static void variance_does_not_cancel(void **state)
 {
     (void)state;
@@ -250,7 +250,8 @@ static void weights_divided_out(void **state)
     path_film_destroy(f);
 }
 
-/* A shadow with an edge down the middle, of 16 noisy samples a pixel: calm on both sides, and still an edge. */
+/* A shadow with an edge down the middle, of 16 noisy samples a pixel: denoised on both sides, with the
+ * edge preserved. */
 static void a_shadow_becomes_calm(void **state)
 {
     (void)state;
@@ -361,8 +362,8 @@ static void shadows_lie_under_the_picture(void **state)
     path_film_destroy(f);
 }
 
-/* Ground where nothing is taken but for noise: a mean opacity of 0.4 standard errors if noise were only clamped. A real
- * shadow stays. */
+/* Ground where nothing is taken but for noise: a mean opacity of 0.4 standard errors if noise were only
+ * clamped. A real shadow stays. */
 static void noise_does_not_darken_the_ground(void **state)
 {
     (void)state;
@@ -439,8 +440,8 @@ static path_film *draw(float noise, float scale, uint32_t threads, uint32_t *pas
     return f;
 }
 
-/* The error of what a display shows, against the truth: the share of blocks whose root mean square is below noise, the
- * largest one over noise, and the mean over the image in its standard errors. */
+/* The error of what a display shows, against the truth: the share of blocks whose root mean square is
+ * below noise, the largest one over noise, and the mean over the image in its standard errors. */
 static double share_below(const path_film *f, float noise, float scale, double *worst, double *bias)
 {
     *worst = 0.0;
@@ -481,7 +482,8 @@ static void adaptive_sampling_reaches_the_noise(void **state)
                       "mean off by %.1f errors\n",
                       (double)noise[k], (double)total[k] / (WIDTH * HEIGHT), 100.0 * share, worst, bias);
         assert_true(path_film_share_done(f) == 1.0f && passes < LARGEST / 16);
-        /* A block ends about where it is as noisy as asked for; over its 64 pixels that scatters by a tenth. */
+        /* A block ends about where it is as noisy as asked for; over its 64 pixels that scatters by a
+         * tenth. */
         assert_true(share > 0.75 && worst < 1.5);
         /* dark samples end a block early: the bias that stopping rules have is small */
         assert_true(fabs(bias) < 4.0);
@@ -494,9 +496,9 @@ static void adaptive_sampling_reaches_the_noise(void **state)
         assert_true(most > 150);
         path_film_destroy(f);
     }
-    /* half the noise: four times the samples, less what the fewest are */
+    /* half the noise: four times the samples, minus the minimum */
     assert_true(2 * total[1] > 5 * total[0] && 5 * total[1] < 21 * total[0]);
-    /* darkened, it is calm sooner */
+    /* darker, its noise is below the limit sooner */
     path_film *f = draw(0.01f, 0.1f, 2, NULL);
     assert_true(path_film_total_samples(f) < total[1] / 2);
     path_film_destroy(f);
@@ -531,14 +533,15 @@ static void regions(void **state)
     (void)state;
     path_film *f = create(40, 24, false);
     fill(f, 31, 0.5f, 0.5f);
-    path_film_update(f, 0.01f, 1); /* too few, however calm */
+    path_film_update(f, 0.01f, 1); /* too few, however little noise */
     assert_true(path_film_share_done(f) == 0.0f && path_film_needs_more(f, 0));
     fill(f, 1, 0.5f, 0.5f);
     path_film_update(f, 0.01f, 1);
     assert_true(path_film_share_done(f) == 1.0f && !path_film_needs_more(f, 0));
     path_film_update(f, 0.0f, 1); /* nothing asked for: all get as many */
     assert_true(path_film_share_done(f) == 0.0f && path_film_needs_more(f, 0));
-    /* one wild pixel in the middle of the left edge's block: it and its five neighbors go on, the others do not */
+    /* one wild pixel in the middle of the left edge's block: it and its five neighbors go on, the others
+     * do not */
     for (int k = 0; k < 32; k++) {
         path_sample s = grey(k % 2 ? 1000.0f : 0.0f);
         path_film_add(f, 12 * 40 + 3, &s);

@@ -316,7 +316,7 @@ film truth_render(fixture *f, facet_render_stats *stats)
     return out;
 }
 
-/* Sums of values and their squares, around the first value: what varies little keeps its digits. */
+/* Sums of values and their squares, around the first value: small variations keep their precision. */
 typedef struct tally {
     double origin[4], sum[4], square[4];
     uint32_t count;

@@ -1,8 +1,9 @@
 /* path_lights.c - see path_lights.h: which kind of light is sampled, and the resulting pdf.
  *
- * Environment, sun, directional lights and all that has a place (the tree) each estimate their unoccluded irradiance
- * at P, and are chosen in proportion to it; but a quarter of the samples is shared evenly by those with any, because
- * of occlusion: a light in a room must be found although the sun shines on the roof. */
+ * * Environment, sun, directional lights and all that has a place (the tree) each estimate their
+ * unoccluded irradiance at P, and are chosen in proportion to it; but a quarter of the samples is shared
+ * evenly by those with any, because of occlusion: a light in a room must be found although the sun shines
+ * on the roof. */
 #include "path/path_lights.h"
 
 #include "base/memory.h"
@@ -48,8 +49,8 @@ static bool is_sunlight(const float channels[3])
     return is_any;
 }
 
-/* Without an illuminance above 0 in any channel, or with one, or a direction, that is not finite: no sun. Its radius is clamped to
- * [5e-5 rad (the resolution of floats), a right angle]. */
+/* Without an illuminance above 0 in any channel, or with one, or a direction, that is not finite: no sun.
+ * Its radius is clamped to [5e-5 rad (the resolution of floats), a right angle]. */
 static light_sun sun_create(const facet_sun *desc)
 {
     light_sun sun = {.pdf = 0.0f};
@@ -76,8 +77,8 @@ static light_sun sun_create(const facet_sun *desc)
     return sun;
 }
 
-/* About the illuminance (lx, mean of the channels) of a surface with unit normal N, {0}: one that faces it. 0 only where
- * all of it is below the horizon. */
+/* About the illuminance (lx, mean of the channels) of a surface with unit normal N, {0}: one that faces
+ * it. 0 only where all of it is below the horizon. */
 static float sun_irradiance(const light_sun *sun, vec3 N)
 {
     float all = (sun->illuminance[0] + sun->illuminance[1] + sun->illuminance[2]) * (1.0f / 3.0f);
@@ -87,8 +88,8 @@ static float sun_irradiance(const light_sun *sun, vec3 N)
     return all * max(max(x, 0.5f * (x + sun->sin_radius)), 0.0f);
 }
 
-/* A uniform direction in the disc; density sun->pdf. Shirley and Wang 1994, "Direct Lighting Calculation by Monte Carlo
- * Integration": uniform height in the cap. */
+/* A uniform direction in the disc; density sun->pdf. Shirley and Wang 1994, "Direct Lighting Calculation
+ * by Monte Carlo Integration": uniform height in the cap. */
 static vec3 sun_sample(const light_sun *sun, vec2 u)
 {
     float height = sun->height * u[0];

@@ -1,5 +1,5 @@
-/* path_lights.h - all lights of a scene, for light sampling and for BSDF-sampled rays that hit them: environment,
- * sun, punctual lights, emissive triangles. */
+/* path_lights.h - all lights of a scene, for light sampling and for BSDF-sampled rays that hit them:
+ * environment, sun, punctual lights, emissive triangles. */
 #ifndef PATH_LIGHTS_H
 #define PATH_LIGHTS_H
 
@@ -8,9 +8,9 @@
 
 typedef struct path_lights path_lights;
 
-/* All lights of the image of setup, which outlives them: the environment of desc with rotation and scale, desc->sun,
- * setup's punctual lights, every visible emissive triangle (with textures, strength, double-sidedness). Invalid
- * values (not finite, negative) are 0. Fails with FACET_ERROR_MEMORY. */
+/* All lights of the image of setup, which outlives them: the environment of desc with rotation and scale,
+ * desc->sun, setup's punctual lights, every visible emissive triangle (with textures, strength,
+ * double-sidedness). Invalid values (not finite, negative) are 0. Fails with FACET_ERROR_MEMORY. */
 facet_result path_lights_create(const render_setup *setup, path_lights **out, facet_error *error);
 void path_lights_destroy(path_lights *lights); /* NULL is allowed */
 bool path_lights_has_any(const path_lights *lights);
@@ -26,13 +26,13 @@ typedef struct path_light_sample {
     float pdf;
     bool is_delta;    /* a delta light: rays never hit it */
     bool is_infinite; /* environment or sun */
-    uint32_t geometry,
-        primitive; /* of an emissive triangle; VISIBILITY_NONE: none. A shadow ray towards it ends before it */
+    /* of an emissive triangle; VISIBILITY_NONE: none. A shadow ray towards it ends before it */
+    uint32_t geometry, primitive;
 } path_light_sample;
 
-/* Samples a light for point P and a direction to it. N: the unit normal of a surface that scatters on its side only;
- * {0}: all directions count (volumes, transmissive surfaces). u_light, u: uniform. False: no light, or none that
- * reaches P; the estimate is then 0. */
+/* Samples a light for point P and a direction to it. N: the unit normal of a surface that scatters on its
+ * side only; {0}: all directions count (volumes, transmissive surfaces). u_light, u: uniform. False: no
+ * light, or none that reaches P; the estimate is then 0. */
 bool path_lights_sample(const path_lights *lights, vec3 P, vec3 N, float u_light, vec2 u,
                         path_light_sample *out);
 
@@ -42,7 +42,8 @@ vec3 path_lights_infinite(const path_lights *lights, vec3 d);
 vec3 path_lights_environment(const path_lights *lights, vec3 d);
 /* The pdf per sr of path_lights_sample(P, N) for environment or sun in direction d. */
 float path_lights_infinite_pdf(const path_lights *lights, vec3 P, vec3 N, vec3 d);
-/* The same for the point of an emissive triangle that the ray from P in the unit direction d hit at distance_m. */
+/* The same for the point of an emissive triangle that the ray from P in the unit direction d hit at
+ * distance_m. */
 float path_lights_emitter_pdf(const path_lights *lights, vec3 P, vec3 N, const visibility_hit *hit, vec3 d,
                               float distance_m);
 

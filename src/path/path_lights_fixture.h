@@ -1,4 +1,4 @@
-/* path_lights_fixture.h - for tests: scenes with lights to aim at, and how much of them arrives. Include it last. */
+/* path_lights_fixture.h - for tests: scenes with lights, and their irradiance. Include it last. */
 #ifndef PATH_PATH_LIGHTS_FIXTURE_H
 #define PATH_PATH_LIGHTS_FIXTURE_H
 
@@ -15,7 +15,7 @@
 
 #include "path/path_lights.h"
 
-enum { EFFORT = IS_SLOW ? 10 : 1 }; /* what numbers of samples are divided by */
+enum { EFFORT = IS_SLOW ? 10 : 1 }; /* divisor of sample counts */
 
 /* ---- scenes ---- */
 
@@ -150,7 +150,7 @@ static inline estimate irradiance_at(const stage *s, vec3 P, vec3 N, int count)
     return estimate_of(sum, sum2, count);
 }
 
-/* A surface that a ray meets, with its emission as a path counts it. */
+/* A surface that a ray hits, with its emission as a path counts it. */
 typedef struct meeting {
     bool is_met;
     visibility_hit hit;
@@ -179,7 +179,7 @@ static inline meeting meet(const stage *s, vec3 P, vec3 d)
     return m;
 }
 
-/* The two ways together, by the power heuristic, in a scene where nothing is in between. */
+/* Both strategies, weighted by the power heuristic, in a scene without occlusion. */
 static inline estimate irradiance_by_both(const stage *s, vec3 P, vec3 N, int count)
 {
     double sum = 0.0;

@@ -1,4 +1,5 @@
-/* Tests of path_lights.h: what lights give against closed forms; limits. What shines of itself: path_emitters_test.c. */
+/* Tests of path_lights.h: irradiance of lights against closed forms; limits. Emissive surfaces:
+ * path_emitters_test.c. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -30,7 +31,7 @@ static void a_quad_light_gives_what_it_should(void **state)
         vec3 up = vec3(0.0f, 0.0f, 1.0f);
         assert_estimate(irradiance_at(&s, vec3(0.0f), up, 200000 / EFFORT), 5.0 * expected[i]);
         assert_estimate(irradiance_by_both(&s, vec3(0.0f), up, 100000 / EFFORT), 5.0 * expected[i]);
-        /* Behind it there is nothing to aim at. */
+        /* Behind it there is nothing to sample. */
         path_light_sample l;
         for (int k = 0; k < 100; k++) {
             float u = random_number();
@@ -107,7 +108,8 @@ static void punctual_lights_give_what_they_should(void **state)
     }
 }
 
-/* Inner 20 deg, outer 40 deg, at 30 deg: 0.331508104841 of the intensity; nothing outside, of any kind of choice. */
+/* Inner 20 deg, outer 40 deg, at 30 deg: 0.331508104841 of the intensity; nothing outside, of any kind of
+ * choice. */
 static void spots_shine_in_their_cone(void **state)
 {
     (void)state;
@@ -116,7 +118,7 @@ static void spots_shine_in_their_cone(void **state)
     spot.type = SCENE_LIGHT_SPOT;
     spot.inner_cone_rad = 0.349065850399f;
     spot.outer_cone_rad = 0.698131700798f;
-    fixture_add_light(&s.f, spot, 0.0f, 0.0f, 1.0f); /* shines along -Z */
+    fixture_add_light(&s.f, spot, 0.0f, 0.0f, 1.0f); /* emits along -Z */
     fixture_add_light(&s.f, spot, 100.0f, 0.0f, 1.0f);
     stage_ready(&s);
     path_light_sample l;
@@ -128,7 +130,8 @@ static void spots_shine_in_their_cone(void **state)
     stage_destroy(&s);
 }
 
-/* Everything at once adds up: sky 2, sun 3 at 60 deg, a directional light of 1.5 at 60 deg, 100 cd at 2 m and .8, a quad. */
+/* Everything at once adds up: sky 2, sun 3 at 60 deg, a directional light of 1.5 at 60 deg, 100 cd at 2 m
+ * and .8, a quad. */
 static void kinds_add_up(void **state)
 {
     (void)state;
@@ -149,7 +152,7 @@ static void kinds_add_up(void **state)
     assert_estimate(irradiance_at(&s, vec3(0.0f), up, 300000 / EFFORT), expected);
     assert_estimate(irradiance_by_both(&s, vec3(0.0f), up, 100000 / EFFORT), expected);
 
-    /* The density of the surroundings integrates to the probability of aiming at them. */
+    /* The pdf of environment and sun integrates to the probability of sampling them. */
     int aimed = 0;
     enum { SAMPLES = 200000 / EFFORT, SIDE = 1500 };
     for (int i = 0; i < SAMPLES; i++) {
@@ -203,7 +206,7 @@ static float odd_number(void)
     return odd[(int)(random_number() * 8.0f)];
 }
 
-/* Whatever is in vertices, materials, textures and lights: what comes out is finite. */
+/* For any values in vertices, materials, textures and lights the samples are finite. */
 static void odd_input_does_no_harm(void **state)
 {
     (void)state;

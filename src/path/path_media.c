@@ -103,8 +103,8 @@ static int choose_channel(vec3 weights, float u, vec3 *shares)
     return u < (*shares)[0] + (*shares)[1] || !((*shares)[2] > 0.0f) ? 1 : 2;
 }
 
-/* The extinction differs by channel: the distance is sampled from one channel, chosen in proportion to beta, and weighted by the mean
- * density of all (one-sample multiple importance sampling). */
+/* The extinction differs by channel: the distance is sampled from one channel, chosen in proportion to
+ * beta, and weighted by the mean density of all (one-sample multiple importance sampling). */
 path_flight path_media_sample_flight(const media *m, vec3 beta, float distance_m, float u_channel,
                                      float u_distance)
 {

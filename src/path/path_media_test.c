@@ -1,4 +1,4 @@
-/* Tests of media: which of several nested volumes is here, what a free flight leaves. */
+/* Tests of media: the current one of several nested volumes, free flights. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -89,7 +89,8 @@ static void equal_bodies_have_an_order(void **state)
     assert_ptr_equal(here(entered, 2), &materials[0]);
 }
 
-/* KHR_materials_dispersion's example: ior 1.5168 with 20 / 64.17 (BK7) has 1.5143 at 656.27 nm, 1.5224 at 486.13 nm. */
+/* KHR_materials_dispersion's example: ior 1.5168 with 20 / 64.17 (BK7) has 1.5143 at 656.27 nm, 1.5224 at
+ * 486.13 nm. */
 static void index_goes_with_the_wavelength(void **state)
 {
     (void)state;
@@ -155,7 +156,7 @@ static void flight_keeps_the_balance(void **state)
     }
 }
 
-/* Where no boundary follows, a body is as thick as its material says. */
+/* Without a far boundary a volume has the thickness of its material. */
 static void open_bodies_end(void **state)
 {
     (void)state;

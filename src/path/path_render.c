@@ -1,5 +1,5 @@
-/* path_render.c - see path_render.h. Pixels are independent of each other: a pixel's samples are numbered, and a pass draws all
- * pixels up to one number. The image depends on these numbers alone. */
+/* path_render.c - see path_render.h. Pixels are independent of each other: a pixel's samples are numbered,
+ * and a pass draws all pixels up to one number. The image depends on these numbers alone. */
 #include "path/path_render.h"
 
 #include <math.h>
@@ -141,8 +141,8 @@ static facet_result begin_instant(path_job *p, facet_error *error)
     return FACET_OK;
 }
 
-/* The time of instant i as a share of the shutter's: the sequence 0.5, 0.25, 0.75, .. covers it evenly for any number of
- * instants. */
+/* The time of instant i as a share of the shutter's: the sequence 0.5, 0.25, 0.75, .. covers it evenly for
+ * any number of instants. */
 static double shutter_share(uint32_t i)
 {
     double share = 0.0;
@@ -152,8 +152,8 @@ static double shutter_share(uint32_t i)
     return share;
 }
 
-/* The sample count at which the current pass of a pixel with `goal` samples ends: 1, 2, 4, .. MAX_PASS, and its
- * multiples, independent of where an image was begun or interrupted. */
+/* The sample count at which the current pass of a pixel with `goal` samples ends: 1, 2, 4, .. MAX_PASS,
+ * and its multiples, independent of where an image was begun or interrupted. */
 static uint32_t next_goal(const path_job *p, uint32_t goal)
 {
     uint32_t step = MAX_PASS;
@@ -229,9 +229,9 @@ static sample_range count_samples(const path_job *p)
     return range;
 }
 
-/* The sample count at which the passes of a checkpoint resume. Adaptive ones where the last one ended, so that
- * regions are judged at the same counts as without the interruption; others at the smallest, since the samples of an
- * open shutter belong to their instant. */
+/* The sample count at which the passes of a checkpoint resume. Adaptive ones where the last one ended, so
+ * that regions are judged at the same counts as without the interruption; others at the smallest, since
+ * the samples of an open shutter belong to their instant. */
 static uint32_t first_goal(const path_job *p)
 {
     sample_range range = count_samples(p);
@@ -239,8 +239,8 @@ static uint32_t first_goal(const path_job *p)
     return is_adaptive ? range.most : range.fewest;
 }
 
-/* Whether regions are judged before the pass that begins at goal. A pass in which an earlier, shorter render ended is first
- * completed. */
+/* Whether regions are judged before the pass that begins at goal. A pass in which an earlier, shorter
+ * render ended is first completed. */
 static bool judges_at(const path_job *p, uint32_t goal)
 {
     if (p->desc->path.shutter_s > 0.0f)
@@ -248,7 +248,8 @@ static bool judges_at(const path_job *p, uint32_t goal)
     return goal % MAX_PASS == 0 || (goal < MAX_PASS && (goal & (goal - 1)) == 0);
 }
 
-/* Selects the pixels of the next pass: those that are still noisy, or those that an interrupted pass left out. True: none is noisy. */
+/* Selects the pixels of the next pass: those that are still noisy, or those that an interrupted pass left
+ * out. True: none is noisy. */
 static bool judge(path_job *p, uint32_t goal)
 {
     p->cut_off_at = 0;
@@ -281,8 +282,9 @@ static facet_result denoise(path_job *p, float scale, facet_error *error)
     return result;
 }
 
-/* Calls desc->path.pass, without an image: the caller has the film. Denoising takes its time and is not worth it before the noise has
- * halved; the shadow on the ground stays noisy, since its filter is for films that get no more samples. */
+/* Calls desc->path.pass, without an image: the caller has the film. Denoising takes its time and is not
+ * worth it before the noise has halved; the shadow on the ground stays noisy, since its filter is for
+ * films that get no more samples. */
 static void report_pass(path_job *p, uint32_t goal)
 {
     const facet_path_desc *path = &p->desc->path;
@@ -314,8 +316,8 @@ static facet_result draw_passes(path_job *p, facet_error *error)
     return FACET_OK;
 }
 
-/* Maps the reason that ended the passes to a result. The time limit, and a cancellation with keeps_cancelled, leave an image where
- * each pixel has a sample. */
+/* Maps the reason that ended the passes to a result. The time limit, and a cancellation with
+ * keeps_cancelled, leave an image where each pixel has a sample. */
 static facet_result conclude(path_job *p, facet_error *error)
 {
     facet_result ended = (facet_result)atomic_load(&p->watch.result);

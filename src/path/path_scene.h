@@ -22,14 +22,15 @@ typedef struct path_scene {
 typedef struct path_sample {
     float radiance[3]; /* cd/m^2, premultiplied with opacity; not yet checked for being finite */
     float opacity;     /* [0, 1]: 0: the background, where it is not drawn */
-    /* excess of the filter's weight, which is in radiance and opacity, over 1; 0 unless the filter has negative lobes */
+    /* excess of the filter's weight, which is in radiance and opacity, over 1; 0 unless the filter has
+     * negative lobes */
     float filter_excess;
     float albedo[3]; /* of the first surface that is neither specular nor clear glass, [0, 1]; 0: none */
     float normal[3]; /* its unit shading normal, world space */
     /* On the shadow-catching ground: illuminance / pi with and without the model. 0: not hit */
     float ground_lit[3], ground_open[3];
-    /* The first surface that the camera's ray hits, and the opacity of all alpha-blended ones there in a row, times
-     * the filter's weight; 0: none */
+    /* The first surface that the camera's ray hits, and the opacity of all alpha-blended ones there in a
+     * row, times the filter's weight; 0: none */
     uint32_t first_geometry;
     float first_share;
     uint64_t rays; /* traced for the sample */

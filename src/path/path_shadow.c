@@ -39,7 +39,8 @@ static shading_ray shadow_ray(const shading_scene *shading, vec3 at, vec3 P, con
     return ray;
 }
 
-/* Transmittance of one surface. Straight shadows ignore refraction, and take the surface as seen at normal incidence. */
+/* Transmittance of one surface. Straight shadows ignore refraction, and take the surface as seen at normal
+ * incidence. */
 static vec3 surface_transmittance(const path_scene *scene, const path_vertex *v)
 {
     const surface_point *s = &v->s;

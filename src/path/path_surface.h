@@ -1,7 +1,9 @@
-/* path_surface.h - the interface of a boundary that is no mesh's material, and of the medium below it: the path tracer calls these
- * functions wherever a ray hits a primitive of the boundary or travels through its medium. Water implements it (water/water_path.h).
+/* path_surface.h - the interface of a boundary that is no mesh's material, and of the medium below it: the
+ * path tracer calls these functions wherever a ray hits a primitive of the boundary or travels through its
+ * medium. Water implements it (water/water_path.h).
  *
- * V: unit, towards where the path comes from; L: unit, where it goes on. All functions are thread-safe and only read `self`. */
+ * * V: unit, towards where the path comes from; L: unit, where it goes on. All functions are thread-safe
+ * and only read `self`. */
 #ifndef PATH_SURFACE_H
 #define PATH_SURFACE_H
 
@@ -16,8 +18,8 @@ typedef struct path_surface_point {
     vec3 N, Ng;   /* unit, towards +Y: shading normal, bent to where V sees it; of the triangle */
     float side;   /* 1: V is above the boundary; -1: in its medium */
     float albedo; /* what the denoiser takes as its albedo, [0, 1] */
-    float
-        values[PATH_SURFACE_VALUES]; /* interpolated parameters, which the implementation alone interprets */
+    /* interpolated parameters, which the implementation alone interprets */
+    float values[PATH_SURFACE_VALUES];
 } path_surface_point;
 
 /* A sampled direction of a BSDF. */
@@ -27,7 +29,8 @@ typedef struct bsdf_sample {
     float pdf;        /* per sr; undefined for a specular lobe */
     bool is_specular; /* a delta lobe, or one that eval() leaves out: no light was sampled for it */
     bool is_transmission;
-    /* is_specular: scattered by a second microfacet. The sun is seldom hit that way, and would be a bright outlier. */
+    /* is_specular: scattered by a second microfacet. The sun is seldom hit that way, and would be a bright
+     * outlier. */
     bool excludes_sun;
 } bsdf_sample;
 
@@ -37,8 +40,9 @@ typedef struct path_surface {
     /* False: the hit is none of the boundary. */
     bool (*intersect)(const void *self, const shading_hit *hit, const float triangle_normal[3], vec3 V,
                       path_surface_point *out);
-    /* BSDF |N.L| in 1/sr for light from L, and the pdf (per sr) of sample(); both without is_specular. Radiance is
-     * carried as it is on either side: through the boundary it changes by the square of the relative ior. */
+    /* BSDF |N.L| in 1/sr for light from L, and the pdf (per sr) of sample(); both without is_specular.
+     * Radiance is carried as it is on either side: through the boundary it changes by the square of the
+     * relative ior. */
     path_vec3 (*eval)(const void *self, const path_surface_point *p, vec3 V, vec3 L, float *pdf);
     /* False: the path ends. */
     bool (*sample)(const void *self, const path_surface_point *p, vec3 V, float u_lobe, vec2 u,
@@ -50,11 +54,12 @@ typedef struct path_surface {
     path_vec3 (*transmittance)(const void *self, float distance_m);
     /* The share of the sun's radiance in it that has not been scattered either: the rest is in emission(). */
     path_vec3 (*sun_transmittance)(const void *self, float distance_m);
-    /* In-scattered radiance (cd/m^2) along distance_m from P in direction D (unit). is_indirect: the path has left a surface in the
-     * medium, whose lighting includes the scattered light already; only what comes from below is new there. */
+    /* In-scattered radiance (cd/m^2) along distance_m from P in direction D (unit). is_indirect: the path
+     * has left a surface in the medium, whose lighting includes the scattered light already; only what
+     * comes from below is new there. */
     path_vec3 (*emission)(const void *self, vec3 P, vec3 D, float distance_m, bool is_indirect);
-    /* Directions from inside of the medium to where the sun is refracted to, and their pdf per sr: surfaces in it mix them
-     * with their own samples. */
+    /* Directions from inside of the medium to where the sun is refracted to, and their pdf per sr:
+     * surfaces in it mix them with their own samples. */
     bool has_sun;
     path_vec3 (*sun_sample)(const void *self, vec2 u);
     float (*sun_pdf)(const void *self, vec3 L);

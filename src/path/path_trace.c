@@ -1,4 +1,5 @@
-/* path_trace.c - path_trace(): one sample of a pixel, from the camera's ray to the radiance that it contributes. */
+/* path_trace.c - path_trace(): one sample of a pixel, from the camera's ray to the radiance that it
+ * contributes. */
 #include <string.h>
 
 #include "cpu/ray_trace.h"
@@ -32,8 +33,8 @@ static float focus_of(const facet_camera *camera)
     return length(to_target);
 }
 
-/* Moves the origin of the ray to a point of the lens, such that points at the focus distance stay where they are.
- * direction has the length 1 along the axis. */
+/* Moves the origin of the ray to a point of the lens, such that points at the focus distance stay where
+ * they are. direction has the length 1 along the axis. */
 static void put_on_lens(const camera_rays *rays, const facet_camera *camera, vec2 u, shading_ray *ray)
 {
     float focus = focus_of(camera);
@@ -83,8 +84,9 @@ void path_sample_camera_ray(const path_scene *scene, path_sampler *sampler, uint
 
 /* ---- the shadow-catching ground ---- */
 
-/* The ground is visible to the camera only, from above, and lit as a white diffuser. It is the first vertex of a path of its own, so
- * that light which arrives by way of the model, through its glass or off its walls, counts as well. */
+/* The ground is visible to the camera only, from above, and lit as a white diffuser. It is the first
+ * vertex of a path of its own, so that light which arrives by way of the model, through its glass or off
+ * its walls, counts as well. */
 
 static const float UP[3] = {0.0f, 1.0f, 0.0f};
 
@@ -143,8 +145,9 @@ static void add3(vec3 light, float share, float out[3])
         out[i] += light[i] * share;
 }
 
-/* Adds share times the light on the ground at P to out: ground_lit, and ground_open as it would be if the environment, the sun and
- * punctual lights were all there is. Both use the same directions, so that they are equal where no model is near. */
+/* Adds share times the light on the ground at P to out: ground_lit, and ground_open as it would be if the
+ * environment, the sun and punctual lights were all there is. Both use the same directions, so that they
+ * are equal where no model is near. */
 static void light_ground(const path_scene *scene, path_sampler sampler, vec3 P, float share, path_sample *out)
 {
     path p = {.scene = scene,

@@ -1,4 +1,4 @@
-/* Tests of single paths: what they pass, what stops them, what they tell. Pictures of known light are in *_truth_test.c. */
+/* Tests of single paths: transmission, termination, features. Images of known light are in *_truth_test.c. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -24,7 +24,7 @@ typedef struct stage {
     path_scene scene;
 } stage;
 
-/* Nothing shines; glTF's energy, box filter, 8 x 8 pixels. */
+/* Nothing emits; glTF's energy, box filter, 8 x 8 pixels. */
 static void stage_begin(stage *s)
 {
     memset(s, 0, sizeof *s);
@@ -172,7 +172,7 @@ static void add_lamp(stage *s)
         0.0f, 0.0f, 0.0f);
 }
 
-/* What a white floor that faces the lamp sends. */
+/* Radiance of a white floor that faces the light. */
 static const double LIT = 3.0 / PI_DOUBLE;
 
 static void add_floor(stage *s, float z)
@@ -254,7 +254,7 @@ static mean below_wall(scene_material material, float turn, float width)
     return m;
 }
 
-/* A wall of which the camera sees one side only stops light that meets either. */
+/* A wall of which the camera sees one side only blocks light from either side. */
 static void culled_sides_throw_shadows(void **state)
 {
     (void)state;
@@ -309,7 +309,7 @@ static void shadow_rays_pass_clear_walls(void **state)
     fixture_destroy(&s.f);
 }
 
-/* An area light behind a window: found once, whichever way it is found. */
+/* An area light behind a window is counted once by every strategy. */
 static void windows_are_counted_once(void **state)
 {
     (void)state;
@@ -344,7 +344,7 @@ static void windows_are_counted_once(void **state)
     assert_near(means[2], means[0], 0.03 * means[0]);
 }
 
-/* 2 m of glass of transmittance 0.25 per m between lamp and floor, as if it did not refract. */
+/* 2 m of glass of transmittance 0.25 per m between light and floor, as if it did not refract. */
 static void straight_shadows_are_tinted(void **state)
 {
     (void)state;
@@ -412,7 +412,8 @@ static void cameras_may_be_in_a_body(void **state)
     fixture_destroy(&s.f);
 }
 
-/* A ball inside another one of the same material is none, and light that is met behind it counts whole. */
+/* A ball inside another one of the same material is a null interface, and BSDF-sampled light behind it has
+ * weight 1. */
 static void overlapping_bodies_are_one(void **state)
 {
     (void)state;
@@ -572,7 +573,7 @@ static void ground_is_seen_from_above_only(void **state)
 
 /* ---- the camera ---- */
 
-/* Rays of all points of the lens meet where it is in focus. */
+/* Rays from all points of the lens meet in the plane of focus. */
 static void lens_rays_meet_in_focus(void **state)
 {
     (void)state;

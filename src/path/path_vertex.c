@@ -28,7 +28,8 @@ static vec3 faced_normal(vec3 N, vec3 V)
 
 /* ---- boundaries of closed volumes ---- */
 
-/* Sets N for refraction (boundary.h): smooth normals of a mesh may lean away from the surface that they approximate. */
+/* Sets N for refraction (boundary.h): smooth normals of a mesh may lean away from the surface that they
+ * approximate. */
 static void set_boundary_normal(const visibility_hit *hit, surface_point *s)
 {
     Layers *m = &s->m;
@@ -40,7 +41,8 @@ static void set_boundary_normal(const visibility_hit *hit, surface_point *s)
     m->anisotropy_B = cross(m->base.N, m->anisotropy_T);
 }
 
-/* Converts F0 and F90 from those against air to those for the ior of both sides. Equal indices reflect nothing. */
+/* Converts F0 and F90 from those against air to those for the ior of both sides. Equal indices reflect
+ * nothing. */
 static void set_reflectance(float ior, Layers *m)
 {
     float F0 = F0_from_ior(max(ior, 1.0f));
@@ -55,7 +57,8 @@ static float relative_ior(const media *behind, const media *in, float wavelength
     return path_media_ior(behind, wavelength_nm) / path_media_ior(in, wavelength_nm);
 }
 
-/* Makes the surface a boundary between two media. Paths handle absorption and scattering in them: the surface has none. */
+/* Makes the surface a boundary between two media. Paths handle absorption and scattering in them: the
+ * surface has none. */
 static void set_boundary(const shading_scene *shading, const visibility_hit *hit, media *in,
                          float wavelength_nm, path_vertex *v)
 {
@@ -174,7 +177,8 @@ static float sheen_E(const Layers *m, vec3 L)
                : 0.0f;
 }
 
-/* Whether L is on the same side of the shading normal and of the triangle; light leaks through it otherwise. */
+/* Whether L is on the same side of the shading normal and of the triangle; light leaks through it
+ * otherwise. */
 static bool is_on_one_side(const path_vertex *v, vec3 L)
 {
     return dot(v->s.m.base.N, L) * dot(v->Ng, L) > 0.0f;
@@ -205,8 +209,9 @@ vec3 path_vertex_eval_delta(const path_vertex *v, vec3 L)
     return layers_brdf_cos(m, v->s.V, L, v->energy, v->tables, sheen_E(&m, L));
 }
 
-/* A specular lobe follows the shading normal; where its direction is on the wrong side of the triangle it is mirrored back, at
- * grazing angle at least: a mesh that approximates a round shape reflects at its silhouette as well. */
+/* A specular lobe follows the shading normal; where its direction is on the wrong side of the triangle it
+ * is mirrored back, at grazing angle at least: a mesh that approximates a round shape reflects at its
+ * silhouette as well. */
 static vec3 keep_side(vec3 L, vec3 Ng, float side)
 {
     float c = dot(L, Ng);

@@ -1,7 +1,7 @@
-/* path_walk.c - path_walk(): unidirectional path tracing. At each vertex a light is sampled (next event estimation) and the path goes
- * on in a direction sampled from the BSDF, which may hit a light as well; multiple importance sampling weighs both (Veach and
- * Guibas 1995). Null interfaces and straight transmission are no vertices: they count for neither depth nor weights, and
- * shadow rays pass them too. */
+/* path_walk.c - path_walk(): unidirectional path tracing. At each vertex a light is sampled (next event
+ * estimation) and the path goes on in a direction sampled from the BSDF, which may hit a light as well;
+ * multiple importance sampling weighs both (Veach and Guibas 1995). Null interfaces and straight
+ * transmission are no vertices: they count for neither depth nor weights, and shadow rays pass them too. */
 #include "cpu/ray_trace.h"
 
 #include "path/path.h"
@@ -63,7 +63,8 @@ static void cross_surface_medium(path *p, float distance_m)
     p->seen_through_m += p->is_indirect ? 0.0f : length_m;
 }
 
-/* Traces the ray to the next surface, or to a scattering event in the closed volume that it is in, where P is then. */
+/* Traces the ray to the next surface, or to a scattering event in the closed volume that it is in, where P
+ * is then. */
 static ray_end trace(path *p, visibility_hit *hit)
 {
     const shading_scene *shading = &p->scene->setup->shading;
@@ -95,8 +96,9 @@ static ray_end trace(path *p, visibility_hit *hit)
     return is_hit ? AT_SURFACE : AT_INFINITY;
 }
 
-/* The ray with the footprint by which the surface that it hits filters its textures: a cone. Textures of emission are read at full
- * resolution, as light sampling does. Normals are smoothed only for what the camera and specular lobes see. */
+/* The ray with the footprint by which the surface that it hits filters its textures: a cone. Textures of
+ * emission are read at full resolution, as light sampling does. Normals are smoothed only for what the
+ * camera and specular lobes see. */
 static shading_ray ray_with_footprint(const path *p, const visibility_hit *hit, ray_spread *spread)
 {
     const shading_scene *shading = &p->scene->setup->shading;
@@ -116,8 +118,8 @@ static shading_ray ray_with_footprint(const path *p, const visibility_hit *hit, 
 
 /* ---- light ---- */
 
-/* Infinite light as seen through the medium below a surface; `sunless`: without the sun, of which only the part is seen that the
- * medium neither absorbs nor scatters: the rest is in its emission. */
+/* Infinite light as seen through the medium below a surface; `sunless`: without the sun, of which only the
+ * part is seen that the medium neither absorbs nor scatters: the rest is in its emission. */
 static vec3 seen_through_medium(const path *p, vec3 radiance, vec3 sunless)
 {
     const path_surface *surface = p->scene->surface;
@@ -152,8 +154,8 @@ static vec3 light_emitted(const path *p, const path_vertex *v, const visibility_
     return p->beta * radiance * path_weight_of_bsdf(p, p_light);
 }
 
-/* BSDF |N.L| and its pdf for a light sample. Delta lights show as highlights in specular lobes; but light that straight transmission
- * lets pass was found by the shadow ray of the previous surface already. */
+/* BSDF |N.L| and its pdf for a light sample. Delta lights show as highlights in specular lobes; but light
+ * that straight transmission lets pass was found by the shadow ray of the previous surface already. */
 static vec3 eval_for_light(const path *p, const path_vertex *v, const path_light_sample *light, float *p_bsdf)
 {
     bool is_transmission = dot(v->Ng, light->L) < 0.0f;
@@ -220,8 +222,8 @@ static vec3 light_sampled_at_particle(path *p, float g, const vertex_random *u)
 
 /* ---- the next direction ---- */
 
-/* In the medium below a surface half of the BSDF samples go towards the refracted sun. The two halves are one strategy: each
- * direction's pdf is the mean of both. */
+/* In the medium below a surface half of the BSDF samples go towards the refracted sun. The two halves are
+ * one strategy: each direction's pdf is the mean of both. */
 static bool samples_sun(const path *p, const path_vertex *v)
 {
     return p->is_in_medium && !v->surface && p->scene->surface->has_sun && !v->is_specular;
@@ -247,8 +249,8 @@ static bool sample_with_sun(const path *p, const path_vertex *v, float u_lobe, v
     return max3(out->weight) > 0.0f;
 }
 
-/* Light that enters a dispersive volume goes on at one wavelength, weighted by the probabilities of all: reflected light keeps
- * its color. False: the path ends. */
+/* Light that enters a dispersive volume goes on at one wavelength, weighted by the probabilities of all:
+ * reflected light keeps its color. False: the path ends. */
 static bool disperse(path *p, path_vertex *v, const vertex_random *u, bsdf_sample *out)
 {
     WavelengthSample w = sample_wavelength(u->wavelength);
@@ -277,8 +279,8 @@ static void start_ray(path *p, const path_vertex *v, vec3 L, bool is_transmissio
         p->media = v->behind;
 }
 
-/* Goes straight on through a surface that is no vertex. Where shadow rays are blocked (overlapping volumes of one material), only BSDF
- * sampling finds the light behind. False: the path ends. */
+/* Goes straight on through a surface that is no vertex. Where shadow rays are blocked (overlapping volumes
+ * of one material), only BSDF sampling finds the light behind. False: the path ends. */
 static bool pass_straight(path *p, const path_vertex *v, float distance_m, vec3 transmittance)
 {
     p->beta *= transmittance;
@@ -323,10 +325,11 @@ static void scatter_at_particle(path *p, float g, vec2 u)
     p->previous_m = 0.0f;
 }
 
-/* Russian roulette. The survival probability is the fourth root of beta beside that after the first surface: noise on a dark first
- * surface is as visible as on a bright one, and the root waits a few surfaces more, since light found behind glass is much brighter than
- * beta suggests; in the long run as many paths end at a surface as it absorbs of light. Relative MSE times seconds beside
- * beta itself: .45 (glass), .68 (a glossy room); the square root: .51, .69. */
+/* Russian roulette. The survival probability is the fourth root of beta beside that after the first
+ * surface: noise on a dark first surface is as visible as on a bright one, and the root waits a few
+ * surfaces more, since light found behind glass is much brighter than beta suggests; in the long run as
+ * many paths end at a surface as it absorbs of light. Relative MSE times seconds beside beta itself: .45
+ * (glass), .68 (a glossy room); the square root: .51, .69. */
 static bool survives(path *p, float u)
 {
     float beta = max3(p->beta);

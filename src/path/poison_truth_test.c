@@ -1,6 +1,6 @@
-/* What is no number stays out of the film: vertices, normals, texture coordinates, material parameters, lights, surroundings
- * with NaN, infinities and huge numbers. The image comes, in time, is finite everywhere, and what had to be dropped is
- * counted. */
+/* Invalid numbers stay out of the film: vertices, normals, texture coordinates, material parameters,
+ * lights, environments with NaN, infinities and huge numbers. The image is complete, in time, finite
+ * everywhere, and dropped samples are counted. */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -17,7 +17,8 @@
 static const float POISONS[] = {NAN, INFINITY, -INFINITY, FLT_MAX, -FLT_MAX, 1e30f, -1.0f, 1e-45f};
 enum { POISON_COUNT = sizeof POISONS / sizeof *POISONS };
 
-/* A floor under a lamp, a sphere, sky and a light; the last mesh and material are the ones to be poisoned. */
+/* A floor under an area light, a sphere, sky and a light; the last mesh and material are the ones to be
+ * poisoned. */
 static fixture healthy(void)
 {
     fixture f = truth_create();
@@ -82,7 +83,7 @@ static void poisoned_vertices(void **state)
             float *values = (float *)(uintptr_t)(kind == 0   ? p->positions
                                                  : kind == 1 ? p->normals
                                                              : p->texcoords[0]);
-            /* Positions: those of finite numbers only (scene.h: "finite"; the pose leaves out what is too far). */
+            /* Positions: finite numbers only (scene.h: "finite"; the pose leaves out what is too far). */
             if (kind == 0 && !isfinite(POISONS[poison])) {
                 fixture_destroy(&f);
                 continue;
@@ -178,7 +179,8 @@ static void poisoned_lights(void **state)
             }
 }
 
-/* Files of environments are limited when they are read; what is in memory behind that is not believed either. */
+/* Files of environments are limited when they are read; what is in memory behind that is not believed
+ * either. */
 static void poisoned_surroundings(void **state)
 {
     (void)state;
@@ -196,11 +198,11 @@ static void poisoned_surroundings(void **state)
     }
 }
 
-/* A film that is handed what is no number counts it: a light of the largest float in a mirror that doubles. */
+/* A film counts samples that are not finite: a light of the largest float in a mirror that doubles. */
 static void paths_end(void **state)
 {
     (void)state;
-    /* Two mirrors that lose nothing, and nothing to leave by: ends at the depth asked for, whatever it is. */
+    /* Two lossless mirrors without an exit: the path ends at any requested depth. */
     fixture f = truth_create();
     f.desc.width = f.desc.height = 4;
     f.desc.samples = 4;

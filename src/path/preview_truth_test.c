@@ -1,5 +1,5 @@
-/* Truth tests of the preview: on what it can know, it is the path tracer's image. Lights without size on a convex body
- * leave it nothing to approximate; of the surroundings its prefiltered light is off by what splitting the sum costs. */
+/* Truth tests of the preview: without approximations it has the path tracer's image. Delta lights on a
+ * convex mesh need none; under an environment its prefiltered light has the error of the split sum. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -63,7 +63,7 @@ static void place_light(fixture *f, int number)
     fixture_add_light(f, light, -0.5f, 0.5f, 4.0f);
 }
 
-/* A body so finely divided that shading and geometric normals part by less than 0.01 rad. */
+/* A mesh so finely divided that shading and geometric normals part by less than 0.01 rad. */
 static fixture body(int material, facet_energy energy)
 {
     fixture f = truth_create();
@@ -138,7 +138,7 @@ static void smooth_sky(const double d[3], float rgb[3])
     rgb[2] = (float)(1.0 - 0.4 * d[1] - 0.4 * d[0]);
 }
 
-/* Means over the body: preview over path. */
+/* Means over the mesh: preview over path. */
 static void compare_means(fixture *f, int material, const char *what, double bound)
 {
     f->desc.samples = 256;
@@ -160,11 +160,12 @@ static void compare_means(fixture *f, int material, const char *what, double bou
     fixture_destroy(f);
 }
 
-/* Reference 15.16 asks for a mean over the body within 2 %. In a sky of first harmonics that does not change along the view
- * the split sum is right on average; in the studio, whose soft boxes are wider apart than the lobe, metals are off by up to
- * 2.4 %. (Light that comes from behind the body, which grazing views alone reflect, costs it more: there the lobe leans
- * towards the normal.) Both compensate what scatters twice: in glTF mode the preview does so for surroundings only, as
- * Khronos' renderer, and is brighter by that. */
+/* Reference 15.16 asks for a mean over the body within 2 %. In a sky of first harmonics that does not
+ * change along the view the split sum is right on average; in the studio, whose soft boxes are wider apart
+ * than the lobe, metals are off by up to 2.4 %. (Light that comes from behind the body, which grazing
+ * views alone reflect, costs it more: there the lobe leans towards the normal.) Both compensate what
+ * scatters twice: in glTF mode the preview does so for surroundings only, as Khronos' renderer, and is
+ * brighter by that. */
 static void surroundings_are_nearly_the_same(void **state)
 {
     (void)state;

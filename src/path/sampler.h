@@ -1,12 +1,12 @@
-/* sampler.h - the random numbers of one sample of one pixel, in pairs, each from an Owen-scrambled Sobol sequence
- * over the pixel's samples. They depend on seed, pixel, sample and dimension alone, so an image does not depend on
- * threads, tiles or interruptions.
+/* sampler.h - the random numbers of one sample of one pixel, in pairs, each from an Owen-scrambled Sobol
+ * sequence over the pixel's samples. They depend on seed, pixel, sample and dimension alone, so an image does
+ * not depend on threads, tiles or interruptions.
  *
- * Sequences in one order would put all samples of a pixel on lines through its dimensions; in orders shuffled at
- * random, pairs are independent, and their product is as noisy as random numbers or worse. So related pairs, the four
- * of each of four vertices, traverse the sequence in 16 orders that were chosen to make well distributed points of 32
- * dimensions: those of the first vertices most, each two of them, for 16 samples and more. Further pairs are
- * shuffled. */
+ * * Sequences in one order would put all samples of a pixel on lines through its dimensions; in orders
+ * shuffled at random, pairs are independent, and their product is as noisy as random numbers or worse. So
+ * related pairs, the four of each of four vertices, traverse the sequence in 16 orders that were chosen to
+ * make well distributed points of 32 dimensions: those of the first vertices most, each two of them, for
+ * 16 samples and more. Further pairs are shuffled. */
 #ifndef PATH_SAMPLER_H
 #define PATH_SAMPLER_H
 
@@ -22,11 +22,12 @@ enum {
     PATH_SAMPLER_ORDERS = PATH_SAMPLER_PAIRS * PATH_SAMPLER_VERTICES
 };
 
-/* The parameters t of sobol_order(). Found by search over all with t < 10: for each two orders the variance of
- * products of functions of the four dimensions, each 1 and half a linear one, summed over 16, 32, .. 1024 samples
- * with a penalty on large ones; pairs weighted 4, 1, 1, 0.3 for the first vertex (pixel, lens, ..), 4, 4, 4, 1 for
- * the second, half and a quarter of that for the next. Where random points have 4.06 / n, shuffled ones have 2.0 / n
- * and these, averaged over all pairs of the 16, 1.9 / n for 16 samples, 0.8 / n for 64, 0.24 / n for 256. */
+/* The parameters t of sobol_order(). Found by search over all with t < 10: for each two orders the
+ * variance of products of functions of the four dimensions, each 1 and half a linear one, summed over 16,
+ * 32, .. 1024 samples with a penalty on large ones; pairs weighted 4, 1, 1, 0.3 for the first vertex
+ * (pixel, lens, ..), 4, 4, 4, 1 for the second, half and a quarter of that for the next. Where random
+ * points have 4.06 / n, shuffled ones have 2.0 / n and these, averaged over all pairs of the 16, 1.9 / n
+ * for 16 samples, 0.8 / n for 64, 0.24 / n for 256. */
 static const uint32_t path_sampler_orders[PATH_SAMPLER_ORDERS] = {
     0x1f040302u, 0x07060401u, 0x05040201u, 0x09050301u, 0x1f1f1f09u, 0x1f1f0503u, 0x1f090402u, 0x05030201u,
     0x08050403u, 0x09060302u, 0x1f070602u, 0x07060201u, 0x1f1f0704u, 0x08040301u, 0x07060501u, 0x04030201u};
@@ -47,8 +48,9 @@ static inline void path_sampler_shuffle(path_sampler *s, uint32_t number)
     s->shuffled = sobol_shuffle(s->index, s->group);
 }
 
-/* Goes to the first dimension of vertex number `vertex` of the path, so that its random numbers do not depend on how
- * many an earlier vertex took. Vertex 0: filter, lens, time. A vertex may take any number of pairs. */
+/* Goes to the first dimension of vertex number `vertex` of the path, so that its random numbers do not
+ * depend on how many an earlier vertex took. Vertex 0: filter, lens, time. A vertex may take any number of
+ * pairs. */
 static inline void path_sampler_begin(path_sampler *s, uint32_t vertex)
 {
     if (vertex / PATH_SAMPLER_VERTICES != s->vertex / PATH_SAMPLER_VERTICES ||

@@ -1,5 +1,5 @@
-/* sampler_test.c - what a path's random numbers owe: even over a pixel's samples, also several pairs together; independent
- * from pixel to pixel; the same whatever was drawn before. */
+/* sampler_test.c - a path's random numbers: stratified over a pixel's samples, also several pairs
+ * together; independent between pixels; independent of what was drawn before. */
 #include "shade/testing/chi_square.h"
 
 #include "path/sampler.h"
@@ -18,7 +18,8 @@ static vec2 pair_of(uint32_t x, uint32_t y, uint32_t index, uint32_t pair)
 
 /* ---- one pair ---- */
 
-/* Each pair of a pixel's first 2^m samples is a net, further vertices' and further pairs' of a vertex as well. */
+/* Each pair of a pixel's first 2^m samples is a net, further vertices' and further pairs' of a vertex as
+ * well. */
 static void every_pair_is_even(void **state)
 {
     (void)state;
@@ -71,9 +72,10 @@ static int first_digit(uint32_t e, int dimension)
     return d ? __builtin_ctz(d) : 32;
 }
 
-/* n times the variance of a mean of n points of the product over `count` dimensions of 1 + 12^(1/2) g (x - 1/2), scrambled as
- * Owen does: points whose digits differ first in number k have a covariance of 1 - (7/4) 4^-k of the variance in that
- * dimension, and differences are those of all indices to 0. Random points: (1 + g^2)^count - 1. */
+/* n times the variance of a mean of n points of the product over `count` dimensions of 1 + 12^(1/2) g (x -
+ * 1/2), scrambled as Owen does: points whose digits differ first in number k have a covariance of 1 -
+ * (7/4) 4^-k of the variance in that dimension, and differences are those of all indices to 0. Random
+ * points: (1 + g^2)^count - 1. */
 static double variance_of(const int dimensions[], int count, double g, uint32_t n)
 {
     double sum = 0.0;
@@ -108,8 +110,8 @@ static double measured_variance(const int dimensions[], int count, double g, uin
     return square * n;
 }
 
-/* Means over all two of the 16 pairs, as the comment in sampler.h says; shuffled at random they have 2.0 whatever n is, and
- * random points 4.06. No two are much worse than that. */
+/* Means over all two of the 16 pairs, as the comment in sampler.h says; shuffled at random they have 2.0
+ * whatever n is, and random points 4.06. No two are much worse than that. */
 static void pairs_are_even_together(void **state)
 {
     (void)state;
@@ -161,8 +163,8 @@ static double uniform_p(const int *counts, int cells, double mean)
     return chi2_p_value(chi2, cells - 1.0);
 }
 
-/* A number of one pixel and the same of its neighbor fill the square evenly and at random, for neighbors on all sides, and
- * so do a pixel's number in two vertices that share no shuffle. */
+/* A number of one pixel and the same of its neighbor fill the square evenly and at random, for neighbors
+ * on all sides, and so do a pixel's number in two vertices that share no shuffle. */
 static void neighbors_are_independent(void **state)
 {
     (void)state;
@@ -213,7 +215,7 @@ static void patterns_do_not_repeat(void **state)
     int same = 0;
     for (uint32_t i = 1; i < COUNT; i++)
         same += words[i] == words[i - 1];
-    /* keys of 32 bits: 8 of 2^18 pixels' are expected to meet another's */
+    /* keys of 32 bits: 8 of 2^18 pixels' are expected to coincide with another's */
     assert_true(same < 24);
 }
 

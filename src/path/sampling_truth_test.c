@@ -1,6 +1,6 @@
-/* Truth tests of how samples become an image: what an estimate's mean and error do with more of them, coverage, shutter
- * and lens, filters; and that an image depends neither on threads, nor on the part that is drawn, nor on being
- * interrupted. */
+/* Truth tests of how samples become an image: mean and error of an estimate with more of them, coverage,
+ * shutter and lens, filters; and that an image depends neither on threads, nor on the part that is drawn,
+ * nor on being interrupted. */
 #define _POSIX_C_SOURCE 200809L /* mkdtemp */
 #include <math.h>
 #include <setjmp.h>
@@ -15,7 +15,7 @@
 
 #include "path/path_fixture.h"
 
-/* Glossy and diffuse bodies, a lamp, a sky, glass, fog: something of everything. */
+/* Glossy and diffuse meshes, an area light, a sky, glass, fog. */
 static fixture busy_scene(uint32_t size)
 {
     fixture f = truth_create();
@@ -45,8 +45,8 @@ static void assert_same_picture(const film *a, const film *b, const char *what)
 
 /* ---- more samples ---- */
 
-/* Pixel by pixel: the mean of 64 seeds of 16 samples each, and 2048 samples of another seed. The differences are those of
- * normal numbers with the errors that both have. */
+/* Pixel by pixel: the mean of 64 seeds of 16 samples each, and 2048 samples of another seed. The
+ * differences are those of normal numbers with the errors that both have. */
 static void many_short_pictures_are_a_long_one(void **state)
 {
     (void)state;
@@ -97,8 +97,8 @@ static void many_short_pictures_are_a_long_one(void **state)
     assert_true(fabs(bias) < TRUTH_SIGMAS * sqrt(3.0 * bias_error2));
 }
 
-/* Root mean square error against an image of 64 times the samples: it falls with the root of the samples, or faster.
- * Without the glass, whose rare caustics make the errors themselves noisy. */
+/* Root mean square error against an image of 64 times the samples: it falls with the root of the samples,
+ * or faster. Without the glass, whose rare caustics make the errors themselves noisy. */
 static void errors_fall_with_the_root(void **state)
 {
     (void)state;
@@ -132,8 +132,8 @@ static void errors_fall_with_the_root(void **state)
     assert_true(slope < -0.5 + 0.02); /* the noise of the numbers, and of the reference: 1/64 of the last */
 }
 
-/* The variance that the film tells is the variance that images have: not less than half of it, and not more than that of
- * independent samples, which stratified ones stay below. */
+/* The variance of the film is that of images: not less than half of it, and not more than that of
+ * independent samples, which is an upper bound for stratified ones. */
 static void the_film_knows_its_error(void **state)
 {
     (void)state;
@@ -208,7 +208,7 @@ static void blending_and_masks_cover_their_share(void **state)
     }
 }
 
-/* Shadows of what is half there: a lamp's light through it. */
+/* Shadows of half transparent surfaces: light through them. */
 static void blending_casts_half_a_shadow(void **state)
 {
     (void)state;
@@ -245,7 +245,7 @@ static void edges_cover_their_area(void **state)
         for (uint32_t x = 0; x < 4; x++) {
             double cx = x % 3 ? 1.0 : 0.625;
             double cy = y % 3 ? 1.0 : 0.625;
-            /* Owen-scrambled: an edge is met to about N^-3/4. */
+            /* Owen-scrambled: the error at an edge is about N^-3/4. */
             assert_true(fabs((double)fixture_pixel(&picture, "", x, y)[3] - cx * cy) < 4e-3);
         }
     film_destroy(&picture);
@@ -382,9 +382,9 @@ static void a_moving_square_is_blurred_by_a_box(void **state)
     fixture_destroy(&f);
 }
 
-/* A small shining square at 4 m, lens of radius 0.1 m, in focus at 2 m: in the plane of focus its circle of confusion has
- * the radius 0.1 |2 - 4| / 4 = 0.05 m, as much as 0.1 m at 4 m. Its light is the same, and its mean square distance from
- * the middle is that of a disc, R^2 / 2. */
+/* A small shining square at 4 m, lens of radius 0.1 m, in focus at 2 m: in the plane of focus its circle
+ * of confusion has the radius 0.1 |2 - 4| / 4 = 0.05 m, as much as 0.1 m at 4 m. Its light is the same,
+ * and its mean square distance from the middle is that of a disc, R^2 / 2. */
 static void a_lens_blurs_a_point_into_a_disc(void **state)
 {
     (void)state;
@@ -422,7 +422,8 @@ static void a_lens_blurs_a_point_into_a_disc(void **state)
         double expected = (is_sharp ? 0.0 : 0.1 * 0.1 / 2.0) + 2e-4 / 3.0 + pixel * pixel / 6.0;
         print_message("flux %.5g, mean square distance %.5g of %.5g, middle %.5f %.5f\n", sum, moment / sum,
                       expected, middle[0] / sum, middle[1] / sum);
-        /* 10 000 of the samples meet the square: of a disc, r^2 has a deviation of 0.58 of its mean, x one of R / 2. */
+        /* 10 000 of the samples hit the square: of a disc, r^2 has a deviation of 0.58 of its mean, x one
+         * of R / 2. */
         assert_true(is_sharp || fabs(moment / sum - expected) < TRUTH_SIGMAS * 0.0058 * expected);
         assert_true(hypot(middle[0], middle[1]) / sum < TRUTH_SIGMAS * 0.0005);
         assert_true(farthest < (is_sharp ? 0.0 : 0.1) + 0.01 * sqrt(2.0) + 1.5 * pixel);
@@ -541,7 +542,8 @@ static void interrupted_pictures_are_resumed_to_the_bit(void **state)
     rmdir(folder);
 }
 
-/* Adaptive sampling stops where it is calm; its mean is that of all samples within 1 %, and it took fewer. */
+/* Adaptive sampling stops where the noise is low; its mean is that of all samples within 1 %, and it took
+ * fewer. */
 static void adaptive_pictures_have_the_same_mean(void **state)
 {
     (void)state;
@@ -565,8 +567,9 @@ static void adaptive_pictures_have_the_same_mean(void **state)
                      adaptive.error[c], all.mean[c], all.error[c]);
 }
 
-/* A path of at most 64 events and one of at most 4000: what is longer is worth less than the noise, in a scene without
- * white rooms; and roulette, which ends nearly all of these paths before, does not change the mean. */
+/* A path of at most 64 events and one of at most 4000: longer paths contribute less than the noise, in a
+ * scene without white rooms; and roulette, which ends nearly all of these paths before, does not change
+ * the mean. */
 static void roulette_changes_no_mean(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
-/* Truth tests of the two ways to find light. Aiming at it and meeting it are independent estimators that share no pdf; if
- * either, or their weights, were wrong, their means would differ. They agree within three standard errors of the
- * difference, for each scene and channel. */
+/* Truth tests of the two sampling strategies. Light sampling and BSDF sampling are independent estimators
+ * that share no pdf; if either, or their weights, were wrong, their means would differ. They agree within
+ * three standard errors of the difference, for each scene and channel. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

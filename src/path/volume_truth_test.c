@@ -1,5 +1,5 @@
-/* Truth tests of volumes that scatter: single scattering against quadrature, all orders against a random walk in double
- * that shares nothing with the path tracer, and media that absorb nothing in a furnace. */
+/* Truth tests of volumes that scatter: single scattering against quadrature, all orders against a random
+ * walk in double that shares nothing with the path tracer, and media that absorb nothing in a furnace. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -10,7 +10,7 @@
 
 #include "path/path_fixture.h"
 
-/* KHR_materials_volume_scatter: of what a deep layer returns, what one event does. Reference 5.15. */
+/* KHR_materials_volume_scatter: the single-scattering part of a deep layer's albedo. Reference 5.15. */
 static double single_albedo(double multi)
 {
     double s = 4.09712 + 4.20863 * multi - sqrt(9.59217 + 41.6808 * multi + 17.7126 * multi * multi);
@@ -43,7 +43,7 @@ static fixture slab(scene_material m, double polar, float s)
     return f;
 }
 
-/* Henyey and Greenstein 1941; c: cosine between the ways light goes before and after. */
+/* Henyey and Greenstein 1941; c: cosine between the directions before and after. */
 static double phase(double c, double g)
 {
     return (1.0 - g * g) / (4.0 * TRUTH_PI * pow(1.0 + g * g - 2.0 * g * c, 1.5));
@@ -51,8 +51,8 @@ static double phase(double c, double g)
 
 /* ---- one event ---- */
 
-/* Scattered once on the way to an eye at cosine mu above, of light 1 from above (R) or below (T): the integral over depth
- * and direction. */
+/* Single scattering towards a camera at cosine mu above, of light 1 from above (R) or below (T): the
+ * integral over depth and direction. */
 static double scattered_once(double sigma, double albedo, double g, double mu, bool from_above)
 {
     enum { DEPTHS = 100, COSINES = 200, TURNS = 32 };
@@ -138,8 +138,8 @@ static double random_number(uint64_t *state)
     return (double)((*state * 0x2545f4914f6cdd1dULL) >> 11) * 0x1p-53;
 }
 
-/* Where walks that enter from above at cosine mu end: above, below. Analog: a walk is absorbed, or it is not; a boundary
- * reflects it, or it does not. */
+/* Where walks that enter from above at cosine mu end: above, below. Analog: a walk is absorbed, or it is
+ * not; a boundary reflects it, or it does not. */
 static void walk(double n, double sigma, double albedo, double g, double mu, uint32_t count, double share[2])
 {
     uint64_t rng = 0x9e3779b97f4a7c15ULL;
@@ -177,7 +177,7 @@ static void walk(double n, double sigma, double albedo, double g, double mu, uin
     share[1] = (double)ends[1] / count;
 }
 
-/* What the eye gets of a sky of 1 is what a walk from it ends in (reciprocity). */
+/* Radiance under a sky of 1, by a random walk from the camera (reciprocity). */
 static void multiple_scattering_is_that_of_random_walks(void **state)
 {
     (void)state;

@@ -1,13 +1,14 @@
-/* water_path.c - see water_path.h. Reflection is F D G / (4 N.V), transmission Walter et al. 2007, equation 21, with D of Gaussian
- * slopes about those of N, and G of waves of all lengths (slopes_seen()). Seen from below all is the same with both directions
- * negated, so that the formulas see them above.
+/* water_path.c - see water_path.h. Reflection is F D G / (4 N.V), transmission Walter et al. 2007, equation
+ * 21, with D of Gaussian slopes about those of N, and G of waves of all lengths (slopes_seen()). Seen from
+ * below all is the same with both directions negated, so that the formulas see them above.
  *
- * Sampling draws a microfacet from those visible from V, chooses reflection or refraction by Fresnel's equations, and tests whether
- * other microfacets block the light: weights are then 1 or ratios of the indices squared. Blocked light scatters at a second
- * microfacet, so that no energy is lost. */
+ * * Sampling draws a microfacet from those visible from V, chooses reflection or refraction by Fresnel's
+ * equations, and tests whether other microfacets block the light: weights are then 1 or ratios of the
+ * indices squared. Blocked light scatters at a second microfacet, so that no energy is lost. */
 #include "water/water_path.h"
 
-/* Refraction turns light by 1 - 1 / n of a slope; waves are a little steeper than Gaussian ones, and the sun has a size. */
+/* Refraction turns light by 1 - 1 / n of a slope; waves are a little steeper than Gaussian ones, and the
+ * sun has a size. */
 static const float SUN_SPREAD = 1.5f, MIN_SUN_SPREAD = 0.01f;
 
 static const float MAX_DISTANCE_M = 1e4f; /* farther than one sees in any water */
@@ -69,8 +70,9 @@ static float radiance_gain(const water_path *w, const path_surface_point *p)
     return ratio * ratio;
 }
 
-/* Foam is a diffuser that absorbs nothing: what it does not reflect it transmits, as diffusely. Of light in the water,
- * 1 - (1 - albedo) / n^2 is reflected, so that in a closed box, with radiance n^2 below, it shows 1. */
+/* Foam is a diffuser that absorbs nothing: what it does not reflect it transmits, as diffusely. Of light
+ * in the water, 1 - (1 - albedo) / n^2 is reflected, so that in a closed box, with radiance n^2 below, it
+ * shows 1. */
 static float foam_reflectance(const water_path *w, const path_surface_point *p)
 {
     float n = w->water.ior;
@@ -185,7 +187,8 @@ static vec3 kept_on(const path_surface_point *p, vec3 L, float side)
     return c * side > 0.0f ? L : normalize(L - p->Ng * (2.0f * c - side * 1e-4f));
 }
 
-/* Scattering of light that leaves a microfacet along L and is blocked by others: one of those visible from there is sampled. */
+/* Scattering of light that leaves a microfacet along L and is blocked by others: one of those visible from
+ * there is sampled. */
 static bsdf_sample sample_second_facet(const water_path *w, const path_surface_point *p, vec3 L,
                                        bool is_transmission, vec2 u)
 {
@@ -260,9 +263,10 @@ static vec3 sun_transmittance(const void *self, float distance_m)
     return water_unscattered(w->water, min(distance_m, MAX_DISTANCE_M));
 }
 
-/* Deep water seen from above emits alike in all directions, as R_rs has it: water_inscatter() times (K |d.y| + a + b_b) over what it is
- * straight down. A camera in the water sees the preview's radiance. Above the level nothing is emitted. Indirectly, light on its way
- * back to the bed was scattered out of light that goes up, R times as much as goes down. */
+/* Deep water seen from above emits alike in all directions, as R_rs has it: water_inscatter() times (K
+ * |d.y| + a + b_b) over what it is straight down. A camera in the water sees the preview's radiance. Above
+ * the level nothing is emitted. Indirectly, light on its way back to the bed was scattered out of light
+ * that goes up, R times as much as goes down. */
 static vec3 emission(const void *self, vec3 P, vec3 D, float distance_m, bool is_indirect)
 {
     const water_path *path = self;

@@ -1,6 +1,6 @@
-/* water_path.h - water as the path tracer sees it (path/path_surface.h): waves are vertices down to their spacing, finer ones are
- * microfacets with Gaussian slopes (shade/water_surface.h), with foam between them; the water below absorbs and scatters as
- * shade/water.h describes. */
+/* water_path.h - water as the path tracer sees it (path/path_surface.h): waves are vertices down to their
+ * spacing, finer ones are microfacets with Gaussian slopes (shade/water_surface.h), with foam between
+ * them; the water below absorbs and scatters as shade/water.h describes. */
 #ifndef WATER_WATER_PATH_H
 #define WATER_WATER_PATH_H
 

@@ -1,5 +1,6 @@
-/* water_path_test.c - the surface of water as paths hit it: energy is conserved in a closed box, from above and below; the pdf is that of
- * the samples; the BSDF is reciprocal; the water below attenuates and emits as it should. */
+/* water_path_test.c - the surface of water as paths hit it: energy is conserved in a closed box, from
+ * above and below; the pdf is that of the samples; the BSDF is reciprocal; the water below attenuates and
+ * emits as it should. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -140,8 +141,8 @@ static void equal_indices_let_through(void **state)
     }
 }
 
-/* Means of a function of the direction, by sampling and by quadrature over directions: both agree, but for second facets, whose share
- * is counted. */
+/* Means of a function of the direction, by sampling and by quadrature over directions: both agree, but for
+ * second facets, whose share is counted. */
 static void sampling_finds_what_is_scattered(void **state)
 {
     (void)state;
@@ -200,7 +201,8 @@ static void light_goes_both_ways(void **state)
     assert_true(compared > 400);
 }
 
-/* Water that is endless shines as water_from_deep() has it, whatever the direction; what is at its end takes the place of the rest. */
+/* Water that is endless shines as water_from_deep() has it, whatever the direction; what is at its end
+ * takes the place of the rest. */
 static void deep_water_shines(void **state)
 {
     (void)state;
