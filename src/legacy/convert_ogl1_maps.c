@@ -1,5 +1,5 @@
-/* convert_ogl1_maps.c - textures of glTF materials as maps of legacy ones. A legacy material has one exponent, that of its mean;
- * each texel takes the colors that approximate it best with that exponent. */
+/* convert_ogl1_maps.c - textures of glTF materials as maps of legacy ones. A legacy material has one exponent, that
+ * of its mean; each texel takes the colors that approximate it best with that exponent. */
 #include "legacy/convert_state.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
-/* fit_closed.c - conversions without quadrature: the roughness whose lobe is nearest to Blinn's, and linear least squares with
- * integrals from the LUT of fit_table_generate.c; and the usual formulas, which the others are measured against. */
+/* fit_closed.c - conversions without quadrature: the roughness whose lobe is nearest to Blinn's, and linear least
+ * squares with integrals from the LUT of fit_table_generate.c; and the usual formulas, which the others are measured
+ * against. */
 #include <math.h>
 #include <string.h>
 

@@ -1,4 +1,5 @@
-/* plot_brdf.c - BRDFs: polar slices and curves in the plane of incidence, false-color discs and surfaces over the hemisphere. */
+/* plot_brdf.c - BRDFs: polar slices and curves in the plane of incidence, false-color discs and surfaces over the
+ * hemisphere. */
 #include <math.h>
 
 #include "plot/plot_build.h"

@@ -1,4 +1,5 @@
-/* plot_build.c - panels, curves, text, light directions and conversions of a plot under construction. See plot_build.h. */
+/* plot_build.c - panels, curves, text, light directions and conversions of a plot under construction. See
+ * plot_build.h. */
 #include "plot/plot_build.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* plot_functions.c - plots that need no material: tone mapping curves (shade/tonemap.h), Fresnel reflectance of water and
- * other media (shade/fresnel.h), split-sum LUTs (ibl/dfg.h). */
+/* plot_functions.c - plots that need no material: tone mapping curves (shade/tonemap.h), Fresnel reflectance of water
+ * and other media (shade/fresnel.h), split-sum LUTs (ibl/dfg.h). */
 #include <math.h>
 
 #include "base/result.h"

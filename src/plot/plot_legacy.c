@@ -1,6 +1,7 @@
-/* plot_legacy.c - PBR and OpenGL 1 over the light angle: Murdoch's vignette "Shininess in OpenGL 1 versus glTF PBR" extended by
- * the factor pi, the fit and the difference; the same for any material and its conversion; and the errors of all methods
- * (legacy/fit.h) over roughness or shininess. Radiance under light of OpenGL 1 intensity 1: PBR times pi. */
+/* plot_legacy.c - PBR and OpenGL 1 over the light angle: Murdoch's vignette "Shininess in OpenGL 1 versus glTF PBR"
+ * extended by the factor pi, the fit and the difference; the same for any material and its conversion; and the errors
+ * of all methods (legacy/fit.h) over roughness or shininess. Radiance under light of OpenGL 1 intensity 1: PBR times
+ * pi. */
 #include <math.h>
 
 #include "base/parallel.h"

@@ -1,6 +1,6 @@
-/* ibl_sheet.c - see ibl_sheet.h. From the top: the title; the levels as crosses; spheres lit by the cube map above the same
- * spheres lit by the environment filtered for exactly their roughness, and the difference; diffuse spheres lit by nine
- * harmonics. */
+/* ibl_sheet.c - see ibl_sheet.h. From the top: the title; the levels as crosses; spheres lit by the cube map above
+ * the same spheres lit by the environment filtered for exactly their roughness, and the difference; diffuse spheres
+ * lit by nine harmonics. */
 #include "report/ibl_sheet.h"
 
 #include <math.h>
