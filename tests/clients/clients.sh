@@ -1,6 +1,6 @@
 #!/bin/sh
-# clients.sh - what facet bake writes, read by somebody else. usage: clients.sh FACET ktx_parse|three|khronos|filament
-#     ktx_parse   ktx-parse and a strict reader of ours, in node alone
+# clients.sh - output of facet bake, read by other programs. usage: clients.sh FACET ktx_parse|three|khronos|filament
+#     ktx_parse   ktx-parse and our own strict reader, in Node.js only
 #     three       three.js' KTX2Loader, PMREMGenerator and LightProbe  } in headless Chromium, where it is installed
 #     khronos     Khronos' glTF Sample Renderer and its libktx         } (CHROMIUM names another one)
 #     filament    Filament's web build                                 }

@@ -1,5 +1,5 @@
 #!/bin/sh
-# trace.sh - facet view: path tracing converges to what facet render --renderer path draws; the divider has both sides.
+# trace.sh - facet view: path tracing converges to the image of facet render --renderer path; the divider shows both sides.
 set -eu
 . "$(dirname "$0")/lib.sh"
 write_triangle triangle.gltf
@@ -25,7 +25,7 @@ rendered path.png triangle.png
 differ path.png turned.png
 differ turned.png gl.png
 
-# both sides of the divider, each as it is alone: energy as glTF has it, and conserving
+# both sides of the divider equal their own images: energy of glTF, and conserving
 cat >script <<'END'
 load
 picture left.png
@@ -47,8 +47,8 @@ for side in left:0,0,46,72:both left:0,0,90,72:dragged right:50,0,46,72:both; do
         failed "the $side side is another picture: $(cat compared)"
 done
 
-# The divider does not stop path tracing: both sides are traced, each is what it is alone, and moving the border begins nothing
-# anew. (Holding it: window.sh.)
+# The divider does not stop path tracing: both sides are traced like their own images, and moving the border does not restart
+# them. (Holding it: window.sh.)
 cat >script <<'END'
 load
 key Tab
@@ -90,7 +90,7 @@ printf 'load\nwait 20\nwindow later.png\n' >script
 view triangle.gltf
 same later.png none.png 0
 
-# what does not come in time ends the script, and so does what cannot be written
+# a timeout ends the script, and so does a failure to write
 cat >script <<'END'
 load
 key r

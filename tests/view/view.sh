@@ -1,10 +1,10 @@
 #!/bin/sh
-# view.sh - facet view: what a window shows is what the copied command line renders, whatever is done to it.
+# view.sh - facet view: the window shows the image that the copied command line renders, after any input.
 set -eu
 . "$(dirname "$0")/lib.sh"
 write_triangle triangle.gltf
 
-# ---- the same picture as the copied command's ----
+# ---- the same image as the copied command's ----
 cat >script <<'END'
 load
 picture first.png
@@ -39,7 +39,7 @@ grep -q -- '--ortho' command || failed "the parallel view is not in $(cat comman
 grep -q -- '--env white' command || failed "the next environment is not in $(cat command)"
 grep -q -- '--tone-mapping' command || failed "the tone mapping is not in $(cat command)"
 
-# far from the origin: the window is as it is there, and the command says coordinates of the file
+# far from the origin: the window is the same, and the command has the coordinates of the file
 sed 's/"mesh":0/"translation":[1e8,-4526331.25,1000000],"mesh":0/; s/\[0.3,0.3,3\]/[100000000.3,-4526330.95,1000003]/' triangle.gltf >far.gltf
 cat >script <<'END'
 load
@@ -58,7 +58,7 @@ view triangle.gltf
 rendered near_moved.png triangle.png
 same near_moved.png far_moved.png 0.01
 
-# what OpenGL alone knows
+# options of OpenGL only
 cat >script <<'END'
 load
 key n
@@ -87,7 +87,7 @@ head -1 out >channel
 mv channel out
 rendered base_color.png facet.png
 
-# options that no key changes go along; names need quotes
+# options without a key are copied as well; names need quotes
 cp triangle.gltf "it's a triangle.gltf"
 cat >script <<'END'
 load
@@ -99,7 +99,7 @@ rendered sun.png "it's a triangle.png"
 grep -q -- "--sun 30,45" command || failed "the sun is not in $(cat command)"
 grep -q -- "--camera 0" command || failed "the camera is not in $(cat command)"
 
-# ---- what is laid over it ----
+# ---- overlays ----
 cat >script <<'END'
 load
 window hint.png
@@ -133,7 +133,7 @@ fi
 same bare.png under.png
 same bare.png again.png
 
-# the environments go around, and each says its name; where there is none the window says what is missing, nobody else
+# environments cycle, each with its name; a missing one is reported in the window only
 cat >script <<'END'
 load
 wait 20
@@ -192,7 +192,7 @@ grep -o '^facet render [^ ]*' out | sed 's/.* //' | tr '\n' ' ' >order
     failed "models in another order: $(cat order)"
 same before.png after.png
 
-# read again when its file changes; the view stays
+# reloaded when its file changes, with the same view
 cp triangle.gltf changing.gltf
 cat >script <<'END'
 load
@@ -251,7 +251,7 @@ view triangle.gltf
 rendered wide.png triangle.png
 same wide.png same.png
 
-# ---- what moves is framed in all of its motion, whether it is asked for at the start or later ----
+# ---- animations are framed in their whole motion, chosen at the start or later ----
 sed 's/"scene":0,/"scene":0,"animations":[{"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}],"samplers":[{"input":1,"output":2}]}],/
     s/"max":.1,1,0.}\],/"max":[1,1,0]},{"bufferView":1,"componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[1]},{"bufferView":2,"componentType":5126,"count":2,"type":"VEC3"}],/
     s/"byteLength":36}\],/"byteLength":36},{"buffer":1,"byteLength":8},{"buffer":1,"byteOffset":8,"byteLength":24}],/
@@ -280,7 +280,7 @@ printf 'load\nprint\n' >script
 view moving.gltf --animation 0
 grep -q -- "--orbit $(cat moving) " out || failed "another distance with --animation than with a key: $(cat out)"
 
-# A picture never takes the place of what it shows; a script without a step is one.
+# An image never replaces its model; an empty script is valid.
 cp triangle.gltf shown.gltf
 printf 'load\npicture shown.gltf\n' >script
 code=0
@@ -292,7 +292,7 @@ code=0
 timeout 60 "$program" view shown.gltf $size --script script >out 2>err || code=$?
 [ "$code" = 0 ] || failed "exit code $code of a script without steps"
 
-# ---- what models bring: motion, variants, their own light ----
+# ---- animations, variants and lights of models ----
 if [ -d "$data/models" ]; then
     cat >script <<'END'
 load

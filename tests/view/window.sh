@@ -1,6 +1,5 @@
 #!/bin/sh
-# window.sh - facet view as a person has it: keys and the pointer through the X server, sleep, the end; and machines without
-# a display.
+# window.sh - facet view in use: keys and the pointer through the X server, idling, exit; and machines without a display.
 set -eu
 . "$(dirname "$0")/lib.sh"
 write_triangle triangle.gltf
@@ -19,7 +18,7 @@ command -v xdotool >/dev/null || {
     finish
 }
 
-# until_it COMMAND: it succeeds at last.
+# until_it COMMAND: repeats it until it succeeds.
 until_it() {
     tries=0
     until eval "$1"; do
@@ -32,7 +31,7 @@ until_it() {
     done
 }
 
-# Keys are pressed until they have done what they do: what waits behind the first picture comes in its order, at some time.
+# Keys are pressed until they have an effect: work after the first image arrives in order, at some time.
 last_has() {
     xdotool key question
     sleep 0.2
@@ -50,7 +49,7 @@ tail -n 1 shown >last
 grep -q -- '--exposure 0.33' last || failed "a key did nothing: $(cat last)"
 grep -q -- '--orbit 0,' last && failed "the pointer turned nothing: $(cat last)"
 
-# who waits for events takes no time: hundredths of a second in one second, once messages are gone
+# idling takes no CPU time: hundredths of a second in one second, once messages have faded
 ticks() {
     sed 's/.*) //' /proc/$viewer/stat | awk '{print $12 + $13}'
 }
@@ -76,8 +75,8 @@ code=0
 wait $viewer || code=$?
 [ $code = 0 ] || failed "exit code $code at the end: $(cat err)"
 
-# Whoever holds the border of a divider does not stop path tracing: the printed command has the samples that are there, which go
-# on, while without any it would have those that were asked for.
+# Holding the border of a divider does not stop path tracing: the printed command has the current number of samples, which
+# increases, while without any it would have the requested number.
 "$program" view triangle.gltf $size --renderer path --samples 16000000 >shown 2>err &
 viewer=$!
 until_it 'xdotool search --onlyvisible --name "^triangle.gltf - facet" >/dev/null 2>&1'
