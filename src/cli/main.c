@@ -76,8 +76,8 @@ static int explain_verb(const char *word, int argc, char **argv)
             memcpy(stem, "model", 6);
         if (looks_like_light(word))
             fail(&error, FACET_ERROR_ARGUMENT,
-                 "which command? To filter it for real-time renderers: facet bake %.300s -o %s.ktx2; as "
-                 "light for a model: facet render model.glb --env %.300s",
+                 "which command? To filter it for real-time renderers: facet bake %.300s -o %s.ktx2; to "
+                 "light a model with it: facet render model.glb --env %.300s",
                  word, stem, word);
         else
             fail(&error, FACET_ERROR_ARGUMENT,
@@ -101,7 +101,7 @@ static int generate(const char *what, const char *name)
         man_page_print(stdout, v, facet_version());
         return EXIT_DONE;
     }
-    message_error("facet: %s: \"%s\" is not known", what, name);
+    message_error("facet: %s: \"%s\" is unknown", what, name);
     return EXIT_USAGE;
 }
 

@@ -149,7 +149,7 @@ kept sky_01.exr
 expect 2 ocean $small -e maps/tile_00.exr --maps maps -o a.png
 kept maps/tile_00.exr
 expect 2 ocean $small --maps maps -o maps/tile_00.exr
-says "one of the files of --maps"
+says "is also a file of --maps"
 rm -rf maps ./*.exr saved
 
 # Sheets
@@ -163,7 +163,7 @@ expect 2 ocean $small --sweep output=1:2:2 -o sheet.png
 says "is not one number"
 expect 2 ocean $small --sweep wind=3:5:2, -o sheet.png
 expect 2 ocean $small --sweep wind=3:5:2,wind=1:2:2 -o sheet.png
-says "both of its axes"
+says "both axes"
 expect 2 ocean $small --sweep seed=1e300:1e300:1 -o sheet.png
 expect 0 ocean $small -s 32x24 --sweep seed=4294967295:4294967295:1 -o sheet.png
 expect 2 ocean $small --sweep roughness=0:9:2 -o sheet.png
@@ -177,7 +177,7 @@ expect 0 ocean $small --with boat.gltf -o a.png
 expect 0 ocean $small --with boat.gltf@0,-20 -o a.png
 says "towards 180 degrees, and the camera looks towards 36"
 expect 0 ocean $small --with boat.gltf@3,5,90 -o a.png
-grep -q "in the picture" err && failed "a model in view is said to be out of it"
+grep -q "out of view" err && failed "a model in view is said to be out of it"
 # A model of another unit is reported with its size; a boat is not.
 expect 0 ocean $small --with boat.gltf -o a.png --strict
 for scale in 5000 0.002; do
@@ -208,7 +208,7 @@ for words in "--sun 22,1e300" "--depth 1e39" "--bed-slope 1,1e300 --depth 3" "--
     says "${words%% *}:"
 done
 expect 2 ocean --stage 2 -o a.glb
-says "of pictures"
+says "an option of images"
 expect 2 ocean --with a.glb --with b.glb -o a.png
 says "more than once"
 expect 2 ocean --wind 50 -o a.png
@@ -236,10 +236,10 @@ expect 2 ocean --eye 0,1,0 --height-of-eye 2 -o a.png
 expect 2 ocean --target 0,1,0 --heading 2 -o a.png
 expect 2 ocean --before A --stage 2 -o a.png
 expect 2 ocean --denoise -o a.png
-says "only --renderer path has noise"
+says "it needs --renderer path"
 expect 2 ocean --renderer path --no-caustics -o a.png
 expect 2 ocean --renderer path --no-glints -o a.png
-says "says nothing to --renderer path"
+says "no effect with --renderer path"
 expect 2 ocean -o a.gif
 expect 2 ocean extra -o a.png
 expect 0 ocean -s 48x32 -o a.png -e white --sun 30,0,100000

@@ -70,7 +70,7 @@ void bake_plan_destroy(bake_plan *plan)
     *plan = (bake_plan){0};
 }
 
-/* ---- what is asked for ---- */
+/* ---- cube maps and files ---- */
 
 static facet_result add(bake_plan *plan, const char *path, const bake_file *what, facet_error *error)
 {
@@ -406,8 +406,8 @@ static facet_result check_idle_options(const command_line *c, const bake_plan *p
         option_id id;
         bool is_of_use;
         const char *what;
-    } rules[] = {{OPT_PROJECTION, has_picture, "a picture (.exr .hdr .pfm .png)"},
-                 {OPT_LEVEL, has_picture, "a picture (.exr .hdr .pfm .png)"},
+    } rules[] = {{OPT_PROJECTION, has_picture, "an image (.exr .hdr .pfm .png)"},
+                 {OPT_LEVEL, has_picture, "an image (.exr .hdr .pfm .png)"},
                  {OPT_RGBM, has_png, "a .png file"},
                  {OPT_ZSTD, has_ktx2, "a .ktx2 file"},
                  {OPT_SH_WINDOW, has_sh, "--sh"}};

@@ -67,7 +67,7 @@ typedef struct compare_run {
     bool is_measured, is_kept, is_written;
 } compare_run;
 
-/* ---- what is asked for ---- */
+/* ---- options ---- */
 
 static facet_result read_pictures(compare_run *run, facet_error *error)
 {

@@ -42,7 +42,7 @@ static const struct {
     {"c-api.md", "the library, by example"},
     {"comparison.md", "facet compared with other renderers"},
     {"performance.md", "times and memory"},
-    {"gallery.md", "pictures"},
+    {"gallery.md", "example images"},
 };
 enum { DOCUMENT_COUNT = sizeof documents / sizeof *documents };
 

@@ -61,7 +61,7 @@ static facet_result ocean_check_maps(const ocean_run *run, const char *name, uin
             return result;
         if (input_is_same_file(name, map))
             return fail(error, FACET_ERROR_ARGUMENT,
-                        "--output: %s is one of the files of --maps; name another", name);
+                        "--output: %s is also a file of --maps; name another output", name);
     }
     return FACET_OK;
 }
@@ -320,10 +320,10 @@ static void warn_of_loop(ocean_run *run)
     char text[256] = "";
     if (loop > 0.0 && loop < longest)
         snprintf(text, sizeof text,
-                 "--loop: %g s are less than the %.3g s that the highest waves take, which go faster for it",
-                 loop, longest);
+                 "--loop: %g s are less than the peak period of %.3g s; the highest waves run faster", loop,
+                 longest);
     else if (loop > 0.0 && p->is_sequence && fabs(frames - round(frames)) > 1e-6 * frames)
-        snprintf(text, sizeof text, "--loop: %g s are %g frames; the last one does not join the first", loop,
+        snprintf(text, sizeof text, "--loop: %g s are %g frames, not a whole number; the loop jumps", loop,
                  frames);
     if (*text)
         log_warning(&log, "%s", text);
@@ -378,8 +378,8 @@ static void warn_of_sun(ocean_run *run)
         return;
     facet_log log = messages_log(&run->base.messages);
     log_warning(&log,
-                "--sun: it has %.2g times the light of the environment, %.2g lx, which will be black; "
-                "--env-intensity scales that",
+                "--sun: it has %.2g times the illuminance of the environment, %.2g lx, which will look "
+                "black; --env-intensity scales the environment",
                 times, lux);
 }
 
@@ -407,7 +407,7 @@ static facet_result make(ocean_run *run, facet_error *error)
     warn_of_sun(run);
     if (o->model)
         TRY(ocean_float_load(run, error));
-    interrupt_begin("sea", "making its waves and metering its light", false);
+    interrupt_begin("sea", "creating its waves and metering its light", false);
     TRY(ocean_run_set_sea(run, o, error));
     if (o->has_picture && !o->sweep)
         TRY(ocean_run_meter(run, o, error));

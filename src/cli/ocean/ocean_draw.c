@@ -181,7 +181,7 @@ static facet_result read_axis(const command_line *c, const char **at, axis *out,
     if (!out->option)
         return suggest_option(c->verb, *at, length, error);
     if (!takes_number(out->option))
-        return fail(error, FACET_ERROR_ARGUMENT, "--sweep: --%s is not one number that changes the picture",
+        return fail(error, FACET_ERROR_ARGUMENT, "--sweep: --%s is not one number that changes the image",
                     out->option->name);
     *at += length + 1;
     double count = 0.0;
@@ -209,11 +209,10 @@ static facet_result read_axes(const ocean_run *run, axis axes[AXES], facet_error
     uint64_t columns = axes[0].count, rows = axes[1].count; /* 0: the number of columns is free */
     if (result == FACET_OK && (columns * p->desc.width > MAX_EDGE || rows * p->desc.height > MAX_EDGE))
         result = fail(error, FACET_ERROR_ARGUMENT,
-                      "--sweep: %u x %u pictures of %u x %u pixels are more than a sheet of %d x %d holds",
-                      axes[0].count, (unsigned)rows, p->desc.width, p->desc.height, MAX_EDGE, MAX_EDGE);
+                      "--sweep: %u x %u images of %u x %u pixels exceed a sheet of %d x %d", axes[0].count,
+                      (unsigned)rows, p->desc.width, p->desc.height, MAX_EDGE, MAX_EDGE);
     if (result == FACET_OK && axes[0].option == axes[1].option)
-        result =
-            fail(error, FACET_ERROR_ARGUMENT, "--sweep: both of its axes are --%s", axes[0].option->name);
+        result = fail(error, FACET_ERROR_ARGUMENT, "--sweep: both axes are --%s", axes[0].option->name);
     return result;
 }
 

@@ -50,10 +50,10 @@ static void warn_of_origin(ocean_run *run, const char *path)
     if (origin[0] == 0.0 && origin[1] == 0.0 && origin[2] == 0.0)
         return;
     char text[4400];
-    snprintf(
-        text, sizeof text,
-        "--with: %s is far from the origin of its file; it floats as if that were at %.15g, %.15g, %.15g",
-        path, origin[0], origin[1], origin[2]);
+    snprintf(text, sizeof text,
+             "--with: %s is far from the origin of its file; it floats as if the origin were at %.15g, "
+             "%.15g, %.15g",
+             path, origin[0], origin[1], origin[2]);
     facet_log log = messages_log(&run->base.messages);
     log_warning(&log, "%s", text);
 }
@@ -75,7 +75,7 @@ facet_result ocean_float_load(ocean_run *run, facet_error *error)
         return result;
     /* before it is moved */
     if (!facet_scene_get_bounds(run->model, NULL, run->model_low, run->model_high))
-        return fail(error, FACET_ERROR_ARGUMENT, "%s: there is nothing in it that floats", path);
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: it has no geometry to float", path);
     warn_of_origin(run, path);
     return FACET_OK;
 }
@@ -183,8 +183,8 @@ static void warn_of_view(ocean_run *run)
         return;
     char text[256];
     snprintf(text, sizeof text,
-             "--with: the model at %g, %g is not in the picture; it lies towards %.0f degrees, and the "
-             "camera looks towards %.0f (--heading, --target)",
+             "--with: the model at %g, %g is out of view: it lies towards %.0f degrees, and the camera looks "
+             "towards %.0f (--heading, --target)",
              at[0], at[2], azimuth_of(to[0], to[2]), azimuth_of(along[0], along[2]));
     facet_log log = messages_log(&run->base.messages);
     log_warning(&log, "%s", text);
@@ -213,14 +213,12 @@ static void warn_of_size(ocean_run *run)
     if (size > MAX_SIZE || (sea.peak_length_m > 0.0 && size > MAX_WAVES * sea.peak_length_m))
         snprintf(text, sizeof text,
                  "--with: the model is %.3g m large, and the highest waves are %.2g m high and %.3g m long; "
-                 "a model "
-                 "is in metres",
+                 "models are in metres",
                  size, sea.height_m, sea.peak_length_m);
     else if (pixels < MIN_PIXELS)
         snprintf(text, sizeof text,
-                 "--with: the model is %.3g m large, which is %.2g pixels of the image where it floats; a "
-                 "model is in "
-                 "metres, and MODEL@X,Z puts it nearer",
+                 "--with: the model is %.3g m large, which is %.2g pixels of the image; models are in "
+                 "metres, and MODEL@X,Z moves it nearer",
                  size, pixels);
     else if (high[1] < 0.0f)
         snprintf(

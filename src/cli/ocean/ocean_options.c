@@ -160,8 +160,7 @@ static facet_result read_water(const command_line *c, ocean_options *out, facet_
     facet_water *w = &out->sea.water;
     int type = option_choice(c, OPT_WATER, -1);
     if (type >= 0 && is_given(c, OPT_CHLOROPHYLL))
-        return fail(error, FACET_ERROR_ARGUMENT,
-                    "--water: a type of Jerlov's does not go together with --chl; give one of them");
+        return fail(error, FACET_ERROR_ARGUMENT, "--water: a Jerlov type excludes --chl; give one of them");
     if (type >= 0)
         w->kind = (facet_water_kind)(FACET_WATER_KIND_JERLOV_I + type);
     if (is_given(c, OPT_CHLOROPHYLL)) {
@@ -196,7 +195,7 @@ static facet_result read_bed(const command_line *c, ocean_options *out, facet_er
     if (is_given(c, OPT_BED_COLOR) && !color_parse(option_text(c, OPT_BED_COLOR, ""), bed->albedo))
         return option_fail(c, OPT_BED_COLOR, "#rgb, #rrggbb or a CSS color name", error);
     if (bed->depth_m <= 0.0f && (is_given(c, OPT_BED_SLOPE) || is_given(c, OPT_BED_COLOR)))
-        return fail(error, FACET_ERROR_ARGUMENT, "--bed-%s: there is no bed; say how deep with --depth",
+        return fail(error, FACET_ERROR_ARGUMENT, "--bed-%s: it needs a bed, as --depth 5",
                     is_given(c, OPT_BED_SLOPE) ? "slope" : "color");
     return FACET_OK;
 }
@@ -213,17 +212,16 @@ static facet_result read_sky(const command_line *c, ocean_options *out, facet_er
         count = scan_list(option_text(c, OPT_SUN, ""), 1, 3, numbers);
     if (!count || !are_within(numbers, 1, -90.0, 90.0) || !is_azimuth(numbers[1]) ||
         !are_within(numbers + 2, 1, 0.0, MAX_BRIGHTNESS))
-        return option_fail(
-            c, OPT_SUN,
-            "ELEVATION or ELEVATION,AZIMUTH in degrees such as 30,15, from -90 to 90; beside --env "
-            "with the lux that the sun has, to 1e9",
-            error);
+        return option_fail(c, OPT_SUN,
+                           "ELEVATION or ELEVATION,AZIMUTH in degrees such as 30,15, from -90 to 90; with "
+                           "--env also the illuminance of the sun, up to 1e9 lux",
+                           error);
     if (count == 3 && !o->has_environment)
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "--sun: lux, the third number, go together with --env; the sky's sun has its own");
+                    "--sun: the third number, lux, needs --env; the sky's sun has its own illuminance");
     if (count < 3 && is_given(c, OPT_SUN) && o->has_environment)
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "--sun: beside --env it needs the light of the sun in lux, as 30,15,100000");
+                    "--sun: with --env it needs the illuminance of the sun in lux, as 30,15,100000");
     out->sky = (facet_sky_desc){.sun_elevation_rad = (float)(numbers[0] * DEGREE),
                                 .sun_azimuth_rad = (float)(numbers[1] * DEGREE),
                                 .turbidity = (float)option_number(c, OPT_TURBIDITY, 0.0)};
@@ -268,7 +266,7 @@ static facet_result read_look(const command_line *c, ocean_options *out, facet_e
     };
     if (out->shading.style && is_given(c, OPT_STAGE))
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "--before: it is the look before all stages; give it or --stage");
+                    "--before: it is the style before all stages and excludes --stage");
     o->desc.samples = (uint32_t)option_number(c, OPT_SAMPLES, 0.0);
     static const facet_renderer_kind renderers[] = {FACET_RENDERER_KIND_PREVIEW, FACET_RENDERER_KIND_PATH,
                                                     FACET_RENDERER_KIND_GL};
@@ -277,11 +275,11 @@ static facet_result read_look(const command_line *c, ocean_options *out, facet_e
                                              OPT_MASKING, OPT_NO_GLINTS,    OPT_NO_CAUSTICS, OPT_CLAMP};
     o->desc.path.denoises = is_given(c, OPT_DENOISE);
     if (o->desc.path.denoises && o->desc.renderer != FACET_RENDERER_KIND_PATH)
-        return fail(error, FACET_ERROR_ARGUMENT, "--denoise: only --renderer path has noise");
+        return fail(error, FACET_ERROR_ARGUMENT, "--denoise: it needs --renderer path");
     const option *other =
         first_given(c, preview_only, sizeof preview_only / sizeof *preview_only, SOURCE_PRESET);
     if (other && o->desc.renderer == FACET_RENDERER_KIND_PATH)
-        return fail(error, FACET_ERROR_ARGUMENT, "--%s: it says nothing to --renderer path", other->name);
+        return fail(error, FACET_ERROR_ARGUMENT, "--%s: it has no effect with --renderer path", other->name);
     return FACET_OK;
 }
 
@@ -299,8 +297,7 @@ static facet_result read_camera(const command_line *c, ocean_options *out, facet
     out->picture.has_eye = is_given(c, OPT_EYE);
     if (out->picture.has_eye) {
         if (is_given(c, OPT_EYE_HEIGHT))
-            return fail(error, FACET_ERROR_ARGUMENT,
-                        "--eye: it does not go together with --height-of-eye; give one of them");
+            return fail(error, FACET_ERROR_ARGUMENT, "--eye: it excludes --height-of-eye; give one of them");
         if (!value_numbers(option_text(c, OPT_EYE, ""), 3, numbers) ||
             !are_within(numbers, 3, -MAX_DISTANCE, MAX_DISTANCE))
             return option_fail(c, OPT_EYE, "X,Y,Z in metres, each from -1e6 to 1e6", error);
@@ -310,8 +307,7 @@ static facet_result read_camera(const command_line *c, ocean_options *out, facet
     out->has_target = is_given(c, OPT_TARGET);
     if (out->has_target) {
         if (is_given(c, OPT_HEADING))
-            return fail(error, FACET_ERROR_ARGUMENT,
-                        "--target: it does not go together with --heading; give one of them");
+            return fail(error, FACET_ERROR_ARGUMENT, "--target: it excludes --heading; give one of them");
         if (!value_numbers(option_text(c, OPT_TARGET, ""), 3, numbers) ||
             !are_within(numbers, 3, -2.0 * MAX_DISTANCE, 2.0 * MAX_DISTANCE))
             return option_fail(c, OPT_TARGET, "X,Y,Z in metres, each from -2e6 to 2e6", error);
@@ -348,11 +344,11 @@ static facet_result read_sequence(const command_line *c, ocean_options *out, fac
         o->frames = frame_list_all(1, 1);
     if (!o->has_frames && o->is_sequence && loop <= 0.0)
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "--fps: a sea has no end; say which --frames, or after how long it is to --loop");
+                    "--fps: a sea has no end; give --frames, or a period with --loop");
     double count = round(loop * o->fps);
     if (!o->has_frames && o->is_sequence && count > FRAME_LIST_FRAMES)
-        return fail(error, FACET_ERROR_ARGUMENT, "--loop: it has more than a million frames at %g a second",
-                    o->fps);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--loop: it has more than a million frames at %g frames per second", o->fps);
     if (!o->has_frames && o->is_sequence && count >= 1.0)
         o->frames = frame_list_all(1, (uint32_t)count);
     o->has_frames = o->has_frames || o->is_sequence;
@@ -367,7 +363,7 @@ static facet_result read_output(const command_line *c, ocean_options *out, facet
     out->sweep = option_text(c, OPT_SWEEP, NULL);
     out->model = option_text(c, OPT_WITH, NULL);
     if (c->values[OPT_WITH].count > 1)
-        return option_fail(c, OPT_WITH, "one model; it was given more than once", error);
+        return option_fail(c, OPT_WITH, "one model; it is given more than once", error);
     out->has_mesh = is_mesh_name(o->output);
     out->has_picture = o->output && !out->has_mesh;
     out->has_info = is_given(c, OPT_INFO);
@@ -375,13 +371,13 @@ static facet_result read_output(const command_line *c, ocean_options *out, facet
                                       .samples = (uint32_t)option_number(c, OPT_MESH_SAMPLES, 0.0)};
     if (o->is_stdout && out->has_info)
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "--info: it writes to standard output, and so does --output -; give one of them");
+                    "--info: it writes to standard output, as --output - does; give one of them");
     if (!o->output && !out->maps && !out->has_info && !is_given(c, OPT_JSON))
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "ocean: what shall it make? For a picture: facet ocean -o sea.png");
+                    "ocean: no output is named; for an image: facet ocean -o sea.png");
     if (out->sweep && (!out->has_picture || out->is_before_after))
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "--sweep: it makes one picture of many, named by --output, without --before-after");
+                    "--sweep: it makes one sheet, named by --output, and excludes --before-after");
     return out->has_picture ? picture_options_format(c, o, error) : FACET_OK;
 }
 
@@ -408,7 +404,7 @@ static facet_result check_mesh(const command_line *c, const ocean_options *out, 
         first_given(c, of_pictures, sizeof of_pictures / sizeof *of_pictures, SOURCE_COMMAND_LINE);
     if (other && out->has_mesh)
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "--%s: it is of pictures, and %s is a mesh of the water alone", other->name,
+                    "--%s: it is an option of images, but %s is a mesh of the water", other->name,
                     out->picture.output);
     return FACET_OK;
 }
@@ -421,7 +417,7 @@ static facet_result check_output(const command_line *c, const ocean_options *out
         return result;
     if (out->sweep && out->picture.frames.frame_count > 1)
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "--sweep: it is of one moment and does not go together with --frames or --loop");
+                    "--sweep: it has one moment and excludes --frames and --loop");
     result = check_mesh(c, out, error);
     return result == FACET_OK ? picture_options_check_sequence(c, &out->picture, error) : result;
 }

@@ -17,7 +17,7 @@ typedef struct ocean_options {
     float eye_height_m; /* 0: facet_sea_camera()'s */
     float heading_rad;  /* from +Z towards +X */
     bool has_target;
-    float target[3]; /* eye and has_eye are picture's */
+    float target[3]; /* eye and has_eye are in picture */
     float fov_y_rad; /* 0: facet_sea_camera()'s */
 
     /* what is made */

@@ -85,7 +85,7 @@ typedef struct plot_run {
     bool is_written;
 } plot_run;
 
-/* ---- what is asked for ---- */
+/* ---- options ---- */
 
 static facet_result read_kind(plot_run *run, facet_error *error)
 {

@@ -121,7 +121,7 @@ static facet_result aov_options_read(const command_line *c, render_options *out,
 
 #define DEGREE 0.017453292519943295 /* pi / 180 */
 
-/* ---- picture ---- */
+/* ---- image ---- */
 
 static facet_result read_size(const command_line *c, render_options *out, facet_error *error)
 {

@@ -69,7 +69,7 @@ static facet_result read_stdin(const char *expected, growing *out, facet_error *
                         (unsigned long long)MAX_STDIN_BYTES);
     }
     return out->used ? FACET_OK
-                     : fail(error, FACET_ERROR_READ, "stdin: it is empty; a %s was expected", expected);
+                     : fail(error, FACET_ERROR_READ, "stdin: it is empty; %s was expected", expected);
 }
 
 /* An address as input is a usage error. */
@@ -113,7 +113,7 @@ facet_result input_load(const char *path, const facet_scene_desc *desc, facet_sc
     if (strcmp(path, "-") != 0)
         return facet_scene_load(path, desc, scene, error);
     growing bytes = {.allocator = &desc->allocator};
-    facet_result result = read_stdin("model", &bytes, error);
+    facet_result result = read_stdin("a model", &bytes, error);
     if (result == FACET_OK)
         result = facet_scene_load_memory(bytes.data, bytes.used, input_name(path), desc, scene, error);
     release(&bytes);
@@ -130,7 +130,7 @@ facet_result input_load_image(const char *path, const facet_image_load_desc *des
     if (strcmp(path, "-") != 0)
         return facet_image_load(path, desc, image, error);
     growing bytes = {.allocator = &desc->allocator};
-    facet_result result = read_stdin("picture", &bytes, error);
+    facet_result result = read_stdin("an image", &bytes, error);
     if (result == FACET_OK)
         result = facet_image_load_memory(bytes.data, bytes.used, input_name(path), desc, image, error);
     release(&bytes);
@@ -147,7 +147,7 @@ facet_result input_load_environment(const char *path, const facet_environment_de
     if (strcmp(path, "-") != 0)
         return facet_environment_load(path, desc, environment, error);
     growing bytes = {.allocator = &desc->allocator};
-    facet_result result = read_stdin("picture", &bytes, error);
+    facet_result result = read_stdin("an image", &bytes, error);
     if (result == FACET_OK)
         result =
             facet_environment_load_memory(bytes.data, bytes.used, input_name(path), desc, environment, error);

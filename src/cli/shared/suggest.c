@@ -53,7 +53,7 @@ static const struct {
     {"width", OPT_LOBE, "--size N"},
     {"height", OPT_LOBE, "--size N"},
     {"samplecount", OPT_LOBE, "--samples N"},
-    {"no-mirror", OPT_PROJECTION, "--input-layout for how the picture is laid out; nothing is mirrored"},
+    {"no-mirror", OPT_PROJECTION, "--input-layout for the layout of the image; nothing is mirrored"},
     {"ibl-min-lod-size", OPT_MIPS, "--mips N"},
     {"miplevelcount", OPT_MIPS, "--mips N"},
     {"mip-count", OPT_MIPS, "--mips N"},

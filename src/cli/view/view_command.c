@@ -153,7 +153,7 @@ static void write_coordinate(float x, double origin, char out[48])
     }
 }
 
-/* ---- parts of a picture ---- */
+/* ---- parts of an image ---- */
 
 static void add_float(line *l, option_id id, float x)
 {
