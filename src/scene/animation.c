@@ -22,8 +22,8 @@ static bool overlaps(size_t offset, size_t size, size_t other, size_t other_size
     return offset < other + other_size && other < offset + size;
 }
 
-/* What bytes [offset, offset + size) of the material hold: parameters keep to what the specification allows, texture
- * refs get their transform. */
+/* Clamps parameters in bytes [offset, offset + size) of the material to the ranges of the specification, and updates
+ * the transforms of texture refs there. */
 static void settle_material(scene_material *material, size_t offset, size_t size)
 {
     for (int i = 0; i < MATERIAL_PARAMETER_COUNT; i++) {
@@ -41,7 +41,7 @@ static void settle_material(scene_material *material, size_t offset, size_t size
             scene_texture_ref_update(&material->textures[i]);
 }
 
-/* Nothing is negative, cones are at most right angles, the inner one is inside. */
+/* Clamps to values >= 0, cones of at most a right angle, the inner one inside the outer one. */
 static void settle_light(scene_light *light)
 {
     const float right_angle = 1.57079633f;
@@ -53,7 +53,7 @@ static void settle_light(scene_light *light)
     light->inner_cone_rad = clamp_to(light->inner_cone_rad, 0.0f, light->outer_cone_rad);
 }
 
-/* A lens that cannot be is the one that the camera rests with. */
+/* An invalid lens falls back to the camera's own. */
 static void settle_camera(scene_camera *camera, const scene_camera *rest)
 {
     if (!(camera->fov_y_rad > 0.0f && camera->fov_y_rad < 3.14f))
@@ -73,7 +73,7 @@ static void settle_camera(scene_camera *camera, const scene_camera *rest)
 
 /* ---- floats of a struct ---- */
 
-/* Writes the channel's value into object, where all of it lies inside; components that are not finite stay. */
+/* Writes the channel's value into object, if all of it fits; components that are not finite are skipped. */
 static void store_value(const scene_channel *channel, const scene_sampler *sampler, double time_s,
                         void *object, size_t object_size)
 {
@@ -97,7 +97,7 @@ static void store_value(const scene_channel *channel, const scene_sampler *sampl
 
 /* ---- nodes ---- */
 
-/* The specification forbids to animate a node with a matrix; one that is moves from where its matrix puts it. */
+/* The specification forbids animating a node with a matrix; such a node moves from its matrix' decomposition. */
 static void leave_matrix(scene_node *node)
 {
     if (node->has_matrix) {
@@ -154,7 +154,7 @@ static void store_visibility(const scene_sampler *sampler, double time_s, scene_
 
 /* ---- channels ---- */
 
-/* How many objects there are of what a channel moves. */
+/* The number of objects of a channel's kind. */
 static uint32_t object_count(const facet_scene *scene, scene_target_kind kind)
 {
     switch (kind) {
@@ -198,7 +198,7 @@ static void apply_channel(const facet_scene *scene, scene_state *state, const sc
     }
 }
 
-/* After all channels: the order of a light's two cones does not matter then. */
+/* After all channels, so that the order of a light's two cones does not matter. */
 static void settle_channel(const facet_scene *scene, scene_state *state, const scene_channel *channel,
                            const scene_sampler *sampler)
 {
@@ -213,12 +213,12 @@ static void settle_channel(const facet_scene *scene, scene_state *state, const s
 
 /* ---- copies ---- */
 
-/* Goes through the channels of all of desc's animations in their order; false ends it. */
+/* Iterates over the channels of all of desc's animations in order; false: no more. */
 typedef struct channel_walk {
     const facet_scene *scene;
     const facet_pose_desc *desc;
     uint32_t animation, next;
-    const scene_channel *channel; /* the current one, and its sampler */
+    const scene_channel *channel; /* current channel and its sampler */
     const scene_sampler *sampler;
 } channel_walk;
 
@@ -241,7 +241,7 @@ static bool next_channel(channel_walk *walk)
     return false;
 }
 
-/* A copy of count elements, once. False: no memory. */
+/* Copies count elements, once. False: no memory. */
 static bool copy_array(const facet_allocator *allocator, const void *array, uint32_t count, size_t size,
                        void **copy)
 {
@@ -274,11 +274,11 @@ static bool copy_moved(const facet_scene *scene, const facet_pose_desc *desc,
     return is_ok;
 }
 
-/* Gives each node whose weights move its own in one block. False: no memory. */
+/* Gives each node with animated weights its own copy, all in one block. False: no memory. */
 static bool copy_weights(const facet_scene *scene, const facet_pose_desc *desc,
                          const facet_allocator *allocator, scene_state *state)
 {
-    static const float mark = 0.0f; /* stands for weights that are counted and not copied yet */
+    static const float mark = 0.0f; /* marks weights that are counted and not copied yet */
     size_t total = 0;
     for (channel_walk w = walk_channels(scene, desc); next_channel(&w);) {
         if (w.channel->kind != SCENE_TARGET_WEIGHTS)

@@ -10,12 +10,12 @@
 #include "scene/vertex_tree.h"
 
 enum {
-    BOUNDS_GRAIN = 1 << 15, /* indices that one thread takes at once */
-    FEW_INDICES = 24        /* as quick to go through as the box around them */
+    BOUNDS_GRAIN = 1 << 15, /* indices per work item */
+    FEW_INDICES = 24        /* examining them is as fast as the box around them */
 };
 
-/* Whether each world axis depends on one local axis only. Then the transform is monotone along each axis, and the
- * box of the transformed vertices is the transformed box, to the last bit. */
+/* Whether each world axis depends on one local axis only. Then the transform is monotone along each axis, and the box
+ * of the transformed vertices equals the transformed box, to the last bit. */
 static bool keeps_boxes(const mat4 *m)
 {
     for (int row = 0; row < 3; row++) {
@@ -51,7 +51,7 @@ wide_box box_enclose(const scene_instance *instance, const float local_min[3], c
     return out;
 }
 
-/* How far what is in a box of an instance may reach out of b. Most instances of a scene of many are inside. */
+/* How far the contents of a box of an instance may reach out of b. In scenes of many instances most are inside. */
 static double excess(const scene_instance *instance, const box *local, const box *b)
 {
     wide_box w = box_enclose(instance, local->minimum, local->maximum);
@@ -73,7 +73,7 @@ static box local_box(const scene_instance *instance)
     return b;
 }
 
-/* Whether it is clear without a look at the vertices that all of an instance is near. */
+/* Whether all of an instance is within SCENE_FARTHEST by its box alone. */
 static bool is_clearly_near(const scene_instance *instance)
 {
     wide_box w = box_enclose(instance, instance->bounds_min, instance->bounds_max);
@@ -88,7 +88,7 @@ static bool is_clearly_near(const scene_instance *instance)
 
 typedef struct bounds_job {
     const scene_instance *instance;
-    box *boxes; /* one per BOUNDS_GRAIN indices */
+    box *boxes; /* one per work item */
 } bounds_job;
 
 static void bounds_body(void *context, size_t begin, size_t end)
@@ -108,7 +108,7 @@ static void bounds_body(void *context, size_t begin, size_t end)
     job->boxes[begin / BOUNDS_GRAIN] = b;
 }
 
-/* World bounds of one instance; exact. boxes has room for the largest primitive. */
+/* World bounds of one instance, exact. boxes has room for the largest primitive. */
 static box instance_bounds(const scene_instance *instance, box *boxes, uint32_t thread_count)
 {
     box b = box_empty();
@@ -144,7 +144,7 @@ static double gain(void *context, const box *local)
 typedef float float4 __attribute__((vector_size(16)));
 typedef int32_t mask4 __attribute__((vector_size(16)));
 
-/* Widens b by a row of mat4_transform_point(), to the last bit, of each vertex. */
+/* Widens row `row` of b by all vertices, to the last bit as mat4_transform_point() computes it. */
 static void widen_row(const float *m, int row, const vertex_block *blocks, uint32_t count, box *b)
 {
     const float4 zero = {0.0f};
@@ -179,7 +179,7 @@ typedef struct bounds_run {
     uint32_t thread_count;
 } bounds_run;
 
-/* Widens all by an instance that counts. False: it is to be dropped. */
+/* Widens all by an instance. False: the instance is out of range. */
 static bool add_instance(bounds_run *run, const scene_instance *instance, box *all)
 {
     const box local = local_box(instance);
@@ -213,7 +213,7 @@ static box *make_boxes(const scene_pose *pose, const facet_allocator *allocator,
     return boxes;
 }
 
-/* The box around the instances that can be seen, or around the others. Drops what is too far away. */
+/* The box around the visible instances, or around all if none is visible. Removes instances out of range. */
 static box bound(bounds_run *run, scene_pose *pose, bool of_unseen)
 {
     box all = box_empty();

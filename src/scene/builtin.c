@@ -1,5 +1,5 @@
-/* builtin.c - the scene that facet draws when it is given no model: spheres over roughness and metallic, and in front
- * of them a few materials by name, on a checkered plate. All of it is made here, no file is needed. */
+/* builtin.c - the scene that facet renders without a model: spheres over roughness and metallic, and in front of them
+ * a few materials by name, on a checkered plate. It is computed and needs no file. */
 #include "scene/scene.h"
 #include "scene/sphere.h"
 
@@ -10,8 +10,8 @@
 #include "base/result.h"
 
 enum {
-    /* Around the axis: where a radius of r pixels is seen, chords leave the circle by r pi^2 / (2 SEGMENTS^2), 0.13
-     * pixels in a picture of 1024 x 768, 0.25 in one of twice that. */
+    /* Around the axis: for a radius of r pixels, chords deviate from the circle by r pi^2 / (2 SEGMENTS^2), 0.13
+     * pixels in an image of 1024 x 768, 0.25 at twice that size. */
     SEGMENTS = 48,
     RINGS = 24,
     COLUMNS = 6, /* of the grid: perceptual roughness 0 to 1 */
@@ -99,7 +99,7 @@ static vertices allocate_vertices(builder *b, uint32_t vertex_count, uint32_t in
                       .indices = take(b, index_count, sizeof(uint32_t))};
 }
 
-/* A quad with corners a, a + s, a + s + t, a + t, facing s x t, of one grey. */
+/* A gray quad with corners a, a + s, a + s + t, a + t, facing s x t. */
 static void add_quad(vertices *v, const float a[3], const float s[3], const float t[3], float grey)
 {
     const float normal[3] = {s[1] * t[2] - s[2] * t[1], s[2] * t[0] - s[0] * t[2], s[0] * t[1] - s[1] * t[0]};
@@ -185,7 +185,7 @@ static void make_materials(builder *b)
     plate->perceptual_roughness = 0.45f;
 }
 
-/* Mesh and node number i: primitive at (x, y, z), scaled by radius. */
+/* Mesh and node i: primitive at (x, y, z), scaled by radius. */
 static void place(builder *b, scene_primitive primitive, uint32_t material, float x, float y, float z,
                   float radius)
 {

@@ -1,5 +1,6 @@
-/* deform.c - vertices moved by morph targets and skins: which primitives move, what they share and the memory for them; and
- * the work, two loops over parts of all primitives, one by vertices, one by indices for what needs whole triangles. */
+/* deform.c - vertices moved by morph targets and skins: which primitives are deformed, what they share and the memory
+ * for them; and the computation, two loops over parts of all primitives, one by vertices, one by indices for whole
+ * triangles. */
 #include "scene/deform.h"
 
 #include <math.h>
@@ -12,8 +13,8 @@
 /* ---- the work ---- */
 
 enum {
-    GRAIN = 1 << 12,            /* vertices that one thread takes at once */
-    INDEX_GRAIN = 3 * (1 << 12) /* indices: whole triangles and lines */
+    GRAIN = 1 << 12,            /* vertices per work item */
+    INDEX_GRAIN = 3 * (1 << 12) /* indices per work item: whole triangles and lines */
 };
 
 /* A range of vertices or of indices of one item. */
@@ -68,7 +69,7 @@ static void move_body(void *context, size_t begin, size_t end)
         move_part(&parts[i]);
 }
 
-/* The normal of a triangle whose corners nobody shares; one without area keeps what it has. */
+/* The normal of a triangle with unshared corners; one without area keeps its normals. */
 static void flatten(const float *positions, const uint32_t corners[3], float *normals)
 {
     const float *a = positions + 3 * (size_t)corners[0];
@@ -118,7 +119,7 @@ static size_t part_count(const deformed *item, bool is_indices)
                       : (item->primitive->vertex_count + (size_t)GRAIN - 1) / GRAIN;
 }
 
-/* All items in parts, by vertices or by indices; returns how many. */
+/* Splits all items into parts, by vertices or by indices; returns their number. */
 static size_t divide(const deform_set *set, bool is_indices, part *parts)
 {
     size_t count = 0;
@@ -134,7 +135,7 @@ static size_t divide(const deform_set *set, bool is_indices, part *parts)
     return count;
 }
 
-/* Second half of deform_create(): fills the arrays, bounds and is_unbounded. */
+/* The second half of deform_create(): fills the arrays, bounds and is_unbounded. */
 static facet_result run(deform_set *set, const facet_allocator *allocator, uint32_t thread_count,
                         facet_error *error)
 {
@@ -164,7 +165,7 @@ enum { MAX_VERTICES = 1 << 27, MAX_ITEMS = 1 << 22 };
 
 /* ---- what moves ---- */
 
-/* Whether anything in the scene could: most scenes are done with this question. */
+/* Whether anything in the scene can be deformed, false for most scenes. */
 static bool can_move(const facet_scene *scene)
 {
     for (uint32_t i = 0; i < scene->mesh_count && scene->skin_count == 0; i++)
@@ -188,7 +189,7 @@ static bool moves(const facet_scene *scene, const scene_state *state, uint32_t i
     return false;
 }
 
-/* What the nodes of one mesh have in common with the last one of them that moves. */
+/* State shared by the nodes of one mesh: the last deformed one. */
 typedef struct last_user {
     uint32_t node; /* SCENE_NONE: none yet */
     uint32_t first;
@@ -222,7 +223,7 @@ static void add_items(deform_set *set, const facet_scene *scene, const scene_sta
     }
 }
 
-/* Lists what moves; false: no memory, or (is_limit) more than instances may be. */
+/* Lists deformed primitives; false: no memory, or (is_limit) more than allowed. */
 static bool plan(deform_set *set, const facet_scene *scene, const scene_state *state, const hierarchy *h,
                  const facet_allocator *allocator, bool *is_limit)
 {
@@ -259,7 +260,7 @@ static bool plan(deform_set *set, const facet_scene *scene, const scene_state *s
 
 /* ---- memory ---- */
 
-/* Points arrays of an item at floats from *next on; next NULL: only counts them. */
+/* Points the arrays of an item at floats from *next on; next NULL: counts floats only. */
 static size_t place(deformed *item, float *next)
 {
     const scene_primitive *p = item->primitive;

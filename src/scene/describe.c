@@ -1,4 +1,4 @@
-/* describe.c - a scene in numbers and as JSON; docs/inspect.md lists the members. */
+/* describe.c - counts of a scene, and its description as JSON; docs/inspect.md lists the members. */
 #include "scene/describe.h"
 
 #include <stddef.h>
@@ -7,8 +7,8 @@
 
 /* ---- values ---- */
 
-/* Levels of extras and metadata that a description shows. System.Text.Json reads 64 levels, other programs 100 to 1000; a
- * description adds at most 8 around them. */
+/* Nesting depth of extras and metadata in a description. System.Text.Json reads 64 levels, other programs 100 to
+ * 1000; a description adds at most 8 around them. */
 enum { MAX_DEPTH = 32 };
 
 void describe_index(text *t, const char *key, uint32_t index)
@@ -27,7 +27,7 @@ static void describe_indices(text *t, const char *key, const uint32_t *indices, 
     text_json_end_array(t);
 }
 
-/* Behind the string that begins at json. */
+/* The position behind the string that begins at json. */
 static const char *skip_string(const char *json)
 {
     for (json++; *json && *json != '"'; json++)
@@ -36,7 +36,7 @@ static const char *skip_string(const char *json)
     return *json ? json + 1 : json;
 }
 
-/* Behind the value at json, an array or object. */
+/* The position behind the array or object at json. */
 static const char *skip_nested(const char *json)
 {
     size_t depth = 0;
@@ -52,7 +52,7 @@ static const char *skip_nested(const char *json)
     return json;
 }
 
-/* A valid value as it stands, but for what is nested deeper than MAX_DEPTH: a string takes its place. */
+/* A valid value unchanged, except that strings replace parts nested deeper than MAX_DEPTH. */
 static void describe_json(text *t, const char *key, const char *json)
 {
     text_json_raw(t, key, "");
@@ -240,7 +240,7 @@ static void write_box(text *t, const float low[3], const float high[3], const do
     text_json_end_object(t);
 }
 
-/* Of what one scene draws; null for nothing. */
+/* Bounds of the contents of one scene; null if it is empty. */
 static void write_bounds(text *t, const facet_scene *scene, const facet_pose_desc *desc)
 {
     scene_pose pose;
@@ -296,7 +296,7 @@ static void write_node(text *t, const scene_node *node)
     text_json_end_object(t);
 }
 
-/* Those that the file gave, by glTF's names. */
+/* The factors that the file states, by glTF's names. */
 static void write_attributes(text *t, const scene_primitive *p)
 {
     text_json_begin_array(t, "attributes");
@@ -464,7 +464,7 @@ static void write_variants(text *t, const facet_scene *scene)
 
 /* ---- memory ---- */
 
-/* Bytes of a primitive's arrays as the renderer reads them. */
+/* Bytes of a primitive's arrays in the renderer's form. */
 static uint64_t primitive_bytes(const scene_primitive *p)
 {
     uint64_t floats = 3u + (p->normals ? 3u : 0u) + (p->tangents ? 4u : 0u) + (p->colors ? 4u : 0u) +

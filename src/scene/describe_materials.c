@@ -17,7 +17,7 @@ static void write_texture_ref(text *t, const char *key, const scene_texture_ref 
     text_json_end_object(t);
 }
 
-/* All numbers and textures of one extension. */
+/* All parameters and textures of one extension. */
 static void write_extension(text *t, const scene_material *m, const material_extension *extension)
 {
     text_json_begin_object(t, extension->name);

@@ -14,13 +14,13 @@ facet_orbit scene_orbit_default(void)
     return (facet_orbit){.polar_rad = 75.0f * degree, .radius_scale = 1.05f, .fov_y_rad = 30.0f * degree};
 }
 
-/* Where an orbit looks from: unit vectors in world space, and the tangents of half the angles of view. */
+/* The view of an orbit: unit vectors in world space, and the tangents of the half angles of view. */
 typedef struct view {
     double target[3];
     double right[3], up[3], back[3]; /* back: from the target to the eye */
     double vertical[3];              /* the axis of the orbit */
     double sin_polar, cos_polar;
-    double tan_x, tan_y; /* orthographic: the proportion aspect : 1 */
+    double tan_x, tan_y; /* orthographic: the aspect, and 1 */
     bool is_orthographic;
     bool fits_all_azimuths;
 } view;
@@ -30,7 +30,7 @@ static double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* +Y up to +Z up, a quarter turn around X: what faced +Z faces -Y, the front in tools with +Z up. */
+/* From +Y up to +Z up, a quarter turn around X: +Z, the front, becomes -Y, the front in tools with +Z up. */
 static void orient(const double y_up[3], bool is_z_up, double out[3])
 {
     out[0] = y_up[0];
@@ -45,7 +45,7 @@ static void aim(view *v, const facet_orbit *orbit, float aspect)
     v->sin_polar = sin((double)orbit->polar_rad);
     v->cos_polar = cos((double)orbit->polar_rad);
     const double back[3] = {v->sin_polar * sin_azimuth, v->cos_polar, v->sin_polar * cos_azimuth};
-    /* Against the derivative of back by polar, so that looking straight down keeps an up. */
+    /* The negative derivative of back by the polar angle, so that looking straight down has an up vector. */
     const double up[3] = {-v->cos_polar * sin_azimuth, v->sin_polar, -v->cos_polar * cos_azimuth};
     const double right[3] = {cos_azimuth, 0.0, -sin_azimuth};
     const double vertical[3] = {0.0, 1.0, 0.0};
@@ -60,8 +60,8 @@ static void aim(view *v, const facet_orbit *orbit, float aspect)
 
 /* ---- how far ---- */
 
-/* What must be kept clear of. Perspective: extent is the distance eye to target at which all vertices are in the
- * picture. Orthographic: half the height that shows them. nearest: how far vertices come towards the eye. */
+/* The result of measuring vertices. Perspective: extent is the distance from eye to target at which all vertices are
+ * in the image. Orthographic: half the height that shows them. nearest: the largest coordinate towards the eye. */
 typedef struct extent {
     double extent, nearest;
 } extent;
@@ -72,7 +72,7 @@ static void extent_add(extent *e, double value, double nearest)
     e->nearest = nearest > e->nearest ? nearest : e->nearest;
 }
 
-/* A vertex at (x, y, z) right, up and back of the target is in the picture from distance d when |x| <= (d - z)
+/* A vertex at (x, y, z) right, up and back of the target is in the image from distance d on when |x| <= (d - z) /
  * tan_x and |y| <= (d - z) tan_y. */
 static void add_point(const view *v, const double p[3], extent *e)
 {
@@ -117,11 +117,11 @@ static void add_vertex(const view *v, const float world[3], extent *e)
         add_point(v, p, e);
 }
 
-/* What vertices of an instance are looked for. */
+/* A search over the vertices of an instance. */
 typedef struct search {
     const view *view;
     const scene_instance *instance;
-    const box *kept; /* NULL: all count */
+    const box *kept; /* NULL: all vertices */
     extent *extent;
 } search;
 
@@ -142,7 +142,7 @@ static void search_blocks(void *context, const vertex_block *blocks, uint32_t co
                           (const float[3]){blocks[k].xyz[0][i], blocks[k].xyz[1][i], blocks[k].xyz[2][i]});
 }
 
-/* How far a vertex in float may be from where it is: four roundings of the products and their sum. */
+/* How far a transformed vertex in float may deviate: four roundings of the products and their sum. */
 static double rounding(const mat4 *world, const float low[3], const float high[3])
 {
     double largest = 0.0;
@@ -155,9 +155,9 @@ static double rounding(const mat4 *world, const float low[3], const float high[3
     return 4.0 * 0x1p-24 * largest;
 }
 
-/* How much vertices in a box may widen e: all bounds are convex, so they are largest at a corner. The margin covers the
- * rounding of vertices and corners: bounds change at most sqrt(2) (1 + 1 / tan) times as fast as a point moves, which is up
- * to sqrt(3) from its place. Most instances of a scene of many are inside. */
+/* An upper bound of how much the vertices in a box can widen e: all bounds are convex, and so largest at a corner.
+ * The margin covers the rounding of vertices and corners: bounds change at most sqrt(2) (1 + 1 / tan) times as fast
+ * as a point moves, which deviates by up to sqrt(3). In scenes of many instances most are inside. */
 static double excess(const search *s, const float low[3], const float high[3], const extent *e)
 {
     extent corners = {-HUGE_VAL, -HUGE_VAL};
@@ -173,8 +173,9 @@ static double excess(const search *s, const float low[3], const float high[3], c
     double narrow = fmin(s->view->tan_x, s->view->tan_y);
     double wider = corners.extent + margin * (1.0 + 1.0 / narrow) - e->extent;
     double nearer = corners.nearest + margin - e->nearest;
-    return s->view->is_orthographic && nearer > wider ? nearer
-                                                      : wider; /* else nothing asks for what is nearest */
+    return s->view->is_orthographic && nearer > wider
+               ? nearer
+               : wider; /* nearest is needed for orthographic cameras only */
 }
 
 static double gain(void *context, const box *local)
@@ -187,7 +188,7 @@ enum { GRAIN = 1 << 14 };
 
 typedef struct fit_job {
     search search;
-    extent *extents; /* one per GRAIN indices */
+    extent *extents; /* one per work item */
 } fit_job;
 
 static void fit_body(void *context, size_t begin, size_t end)
@@ -222,7 +223,7 @@ static void measure_instance(const search *s, vertex_trees *trees, extent *exten
         extent_add(s->extent, extents[k].extent, extents[k].nearest);
 }
 
-/* Widens *out by what the pose shows in kept (NULL: anywhere). False: no memory. */
+/* Widens *out by the visible vertices of the pose within kept (NULL: everywhere). False: no memory. */
 static bool measure(const facet_scene *scene, const scene_pose *pose, const view *v, const box *kept,
                     uint32_t thread_count, extent *out)
 {
@@ -275,7 +276,7 @@ static facet_result check(const facet_orbit *orbit, float aspect, facet_error *e
 
 /* ---- the camera ---- */
 
-/* What is to be framed: at one time or at several. */
+/* The subject of a frame, at one time or at several. */
 typedef struct subject {
     box bounds;
     bool has_bounds;
@@ -288,7 +289,7 @@ static subject empty_subject(void)
     return (subject){.bounds = box_empty(), .extent = {-HUGE_VAL, -HUGE_VAL}};
 }
 
-/* Which part of a pose is framed: in *kept, or where that is NULL all. */
+/* Adds the bounds of a pose to s, of its kept part if it has stray ones; *kept: that part, or NULL. */
 static void add_bounds(subject *s, const scene_pose *pose, const facet_orbit *orbit, stray_parts *stray,
                        const box **kept)
 {
@@ -334,7 +335,7 @@ static view make_view(const facet_orbit *orbit, float aspect, const subject *s)
 static facet_result stand(const view *v, const subject *s, const facet_orbit *orbit, float aspect,
                           facet_camera *camera, facet_error *error)
 {
-    /* Nothing to see is framed as a ball of 1 m would be, a single point (extent 0) as well. */
+    /* An empty subject is framed like a sphere of radius 1 m, and so is a single point (extent 0). */
     extent e = s->extent;
     double narrow = fmin(1.0, (double)aspect);
     double smallest = v->is_orthographic ? 1.0 / narrow : 1.0 / sin(atan(v->tan_y * narrow));
@@ -353,7 +354,7 @@ static facet_result stand(const view *v, const subject *s, const facet_orbit *or
                         "orbit: an orthographic camera with a radius needs a field of view");
         camera->ortho_height = (float)(2.0 * half);
         distance = orbit->radius > 0.0f ? (double)orbit->radius : 2.0 * half;
-        /* In front of everything: for parallel rays the distance is free. */
+        /* In front of everything, as the distance is arbitrary for parallel rays. */
         distance = fmax(distance, e.nearest + fmax(diagonal, half));
     } else {
         camera->fov_y_rad = orbit->fov_y_rad;
@@ -369,7 +370,7 @@ static facet_result stand(const view *v, const subject *s, const facet_orbit *or
     return FACET_OK;
 }
 
-/* A camera that stands at a given distance needs no look at the model. Parallel rays begin in front of all of it. */
+/* A perspective camera at a given distance needs no measurement. Parallel rays begin in front of everything. */
 static bool is_measured(const facet_orbit *orbit)
 {
     return orbit->is_orthographic || !(orbit->radius > 0.0f);
@@ -394,7 +395,7 @@ facet_result scene_fit_pose(const facet_scene *scene, const scene_pose *pose, co
 
 /* ---- all times ---- */
 
-/* Bounds of the scene at all times, and with a view what it takes to frame them. */
+/* Bounds of the scene at all times, and with a view the extent that frames them. */
 static facet_result look_at_times(const facet_scene *scene, const facet_pose_desc *desc,
                                   const fit_times *list, const facet_orbit *orbit, const view *v, subject *s,
                                   facet_error *error)

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Adds a time unless one is there that is not more than nearest away. False: the list is full. */
+/* Adds a time unless one within `nearest` exists. False: the list is full. */
 static bool add_time(fit_times *list, double time_s, double nearest)
 {
     uint32_t low = 0;
@@ -43,7 +43,7 @@ static bool add_keys(fit_times *list, const scene_animation *animation)
 void fit_times_list(const facet_scene *scene, const facet_pose_desc *desc, fit_times *list)
 {
     const double steps_per_second = 24.0;
-    const double same = 1e-4; /* s; a grid of 24 per second in float is as near to one in double */
+    const double same = 1e-4; /* s; a grid of 24 per second in float deviates less from one in double */
     double begin = HUGE_VAL;
     double end = -HUGE_VAL;
     bool is_ok = true;

@@ -29,7 +29,7 @@ static void set_world(hierarchy *h, uint32_t node, uint32_t parent)
     }
 }
 
-/* A node that is named twice is shown once. */
+/* A node that is listed twice is shown once. */
 static void show(hierarchy *h, uint32_t node, uint32_t parent)
 {
     if (h->has_world[node] || h->nodes[node].is_hidden)
@@ -38,7 +38,7 @@ static void show(hierarchy *h, uint32_t node, uint32_t parent)
     h->shown[h->count++] = node;
 }
 
-/* Breadth first: what was shown is the queue. */
+/* Breadth first; the list of shown nodes is the queue. */
 static void show_scene(hierarchy *h, const facet_scene *scene, uint32_t index)
 {
     if (scene->scene_count == 0) {
@@ -97,7 +97,7 @@ dmat4 hierarchy_shown_world(const hierarchy *h, uint32_t node)
 
 dmat4 hierarchy_world(hierarchy *h, uint32_t node)
 {
-    /* The way up to a node whose world is known; none of it is shown, so there is room behind those that are. */
+    /* The path up to a node whose world is known; none of it is shown, so that there is room behind the shown nodes. */
     uint32_t *path = h->shown + h->count;
     size_t length = 0;
     for (uint32_t up = node; up != SCENE_NONE && !h->has_world[up]; up = h->nodes[up].parent)

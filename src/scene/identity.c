@@ -64,7 +64,7 @@ static void add_instance_name(const facet_scene *scene, uint32_t node, uint32_t 
 
 /* ---- of a pose ---- */
 
-/* The text's hash; the text is empty again. */
+/* Returns the text's hash and clears the text. */
 static float take_hash(text *name)
 {
     float id = name->has_failed ? 0.0f : scene_identity_hash(name->data);
@@ -94,8 +94,7 @@ facet_result scene_identities_create(const facet_scene *scene, const scene_pose 
 {
     text name = {.allocator = allocator ? *allocator : (facet_allocator){0}};
     scene_identity *made = mem_alloc(allocator, pose->instance_count, sizeof *made);
-    uint32_t *first =
-        mem_alloc(allocator, scene->node_count, sizeof *first); /* instances before each node's */
+    uint32_t *first = mem_alloc(allocator, scene->node_count, sizeof *first); /* instances of earlier nodes */
     *out = NULL;
     bool has_memory = made && first;
     for (uint32_t i = 0, count = 0; has_memory && i < scene->node_count; i++) {
@@ -117,7 +116,7 @@ facet_result scene_identities_create(const facet_scene *scene, const scene_pose 
 
 /* ---- manifests ---- */
 
-/* Names, each with its closing 0, and where they begin. */
+/* Names, each with its terminating 0, and their offsets. */
 typedef struct name_list {
     text text;
     size_t *starts;
@@ -131,7 +130,7 @@ static void end_name(name_list *list)
     list->count++;
 }
 
-/* Where the next name begins. False: no memory. */
+/* The buffer of the next name. False: no memory. */
 static bool begin_name(name_list *list)
 {
     if (list->text.has_failed || !mem_reserve(&list->text.allocator, (void **)&list->starts, &list->capacity,
@@ -186,7 +185,7 @@ static int compare_names(const void *a, const void *b)
     return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
-/* Names that several share are one entry, as their ID is one. */
+/* Equal names are one entry, as their ID is the same. */
 static void write_names(name_list *list, text *manifest)
 {
     for (size_t i = 0; i < list->count; i++)

@@ -11,7 +11,7 @@
         key, #member, field, offsetof(legacy_material, member), count, minimum, maximum                      \
     }
 
-/* Ns to 1000 by the letter of MTL; larger ones are written and mean what they say. Colors are light as well. */
+/* MTL limits Ns to 1000; larger values are common and are kept. Color limits apply to light as well. */
 const legacy_parameter legacy_parameters[LEGACY_PARAMETER_COUNT] = {
     ROW("Ka", LEGACY_AMBIENT, ambient, 3, 0, LEGACY_LARGEST),
     ROW("Kd", LEGACY_DIFFUSE, diffuse, 3, 0, LEGACY_LARGEST),
@@ -65,7 +65,7 @@ const legacy_pbr_factor legacy_pbr_factors[LEGACY_PBR_FACTOR_COUNT] = {
     {"specularFactor", 1},
     {"specularColorFactor", 3},
     {"ior", 1},
-    {"emissiveFactor", 3}, /* with its strength */
+    {"emissiveFactor", 3}, /* times its strength */
 };
 
 void legacy_pbr_factor_get(const scene_material *m, int factor, float out[3])
@@ -204,14 +204,14 @@ void legacy_extras_write_scene(const scene_legacy *legacy, text *out)
     text_json_end_object(out);
 }
 
-/* ---- merging: extras are well-formed JSON as io keeps it ---- */
+/* ---- merging: extras are well-formed JSON, as io keeps them ---- */
 
 static const char *skip_space(const char *s)
 {
     return s + strspn(s, " \t\r\n");
 }
 
-/* Behind the string that starts at s. */
+/* The position behind the string at s. */
 static const char *skip_string(const char *s)
 {
     for (s++; *s && *s != '"'; s++)
@@ -219,7 +219,7 @@ static const char *skip_string(const char *s)
     return *s ? s + 1 : s;
 }
 
-/* Behind the value that starts at s: up to a comma or bracket that is not within it. */
+/* The position behind the value at s: a comma or bracket outside of it. */
 static const char *skip_value(const char *s)
 {
     size_t depth = 0;
@@ -238,7 +238,7 @@ static const char *skip_value(const char *s)
 
 static const char MEMBER[] = "\"facet_legacy\"";
 
-/* Copies the members of an object but for the one. True: there were some. */
+/* Copies the members of an object except MEMBER. True: there were some. */
 static bool copy_members(const char *extras, text *out)
 {
     bool has_any = false;

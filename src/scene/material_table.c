@@ -1,5 +1,5 @@
 /* material_table.c - see material_table.h. Ranges are those of the glTF 2.0 specification (section 3.9) and of each
- * extension; factors above 1 of emissiveFactor were common before KHR_materials_emissive_strength. */
+ * extension, except that factors of emissiveFactor above 1 were common before KHR_materials_emissive_strength. */
 #include "scene/material_table.h"
 
 #include <float.h>

@@ -10,21 +10,21 @@
 #include "scene/hierarchy.h"
 
 enum {
-    SAMPLES = 1024,    /* vertices by which a scene is judged */
-    MAX_ANCESTORS = 64 /* of a node that are looked at */
+    SAMPLES = 1024,    /* vertices sampled in a scene */
+    MAX_ANCESTORS = 64 /* vertices sampled in a node */
 };
 
-/* Beyond so many times its size from the origin a model is far. Positions of a mesh are cheaper to move, and hurt
- * earlier: normals and tangents are found between neighbours. */
+/* A model is far beyond this multiple of its size from the origin. Positions of a mesh are moved earlier, since that
+ * is cheaper and errors show earlier, in normals and tangents between neighbors. */
 static const double FAR_RATIO = 16.0, MESH_RATIO = 4.0;
-/* Steps of floats above this share of a mesh can be seen in its shading. */
+/* Steps of floats above this fraction of a mesh are visible in its shading. */
 static const double COARSE = 0x1p-15;
 
 /* ---- where points lie ---- */
 
 typedef struct samples {
     double axes[3][SAMPLES];
-    double reach[SAMPLES]; /* the farthest that anything was from its origin on the way to the point */
+    double reach[SAMPLES]; /* the largest coordinate along the chain of transforms to the point */
     size_t count;
 } samples;
 
@@ -34,8 +34,8 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The middle of a cloud per axis, and its size, but for a twentieth of the points at either end of each axis. A point
- * without size counts as 1 m, as it is framed. Sorts. */
+/* The center of a point cloud per axis, and its size, without a twentieth of the points at either end of each axis. A
+ * single point counts as 1 m, as in framing. Sorts. */
 static double measure(samples *s, double middle[3])
 {
     double square = 0.0;
@@ -51,8 +51,8 @@ static double measure(samples *s, double middle[3])
     return size > 0.0 ? size : 1.0;
 }
 
-/* 0 for what is near. Else a multiple of a power of two of about the size: what is subtracted leaves no rounding, and
- * people can read it. */
+/* 0 for near models. Otherwise a multiple of a power of two of about the size, so that the subtraction is exact and
+ * the number readable. */
 static double choose(double middle, double size, double ratio)
 {
     if (!(fabs(middle) > ratio * size && fabs(middle) < (double)SCENE_FARTHEST))
@@ -99,7 +99,7 @@ static uint64_t drawn_indices(const scene_node *node, const scene_primitive *p)
     return copies * p->index_count;
 }
 
-/* From the mesh to the file's world: of vertex number vertex of copy number copy. */
+/* From the mesh to the file's world, for a vertex of a copy. */
 static dmat4 vertex_matrix(const facet_scene *scene, hierarchy *h, uint32_t node, const scene_primitive *p,
                            uint32_t vertex, uint32_t copy)
 {
@@ -131,7 +131,7 @@ static void add_sample(samples *s, const dmat4 *world, const double local[3], do
     double p[3];
     dmat4_transform_point(world, local, p);
     for (int axis = 0; axis < 3; axis++)
-        if (!(fabs(p[axis]) <= (double)SCENE_FARTHEST)) /* nor a number */
+        if (!(fabs(p[axis]) <= (double)SCENE_FARTHEST)) /* nor NaN */
             return;
     if (s->count == SAMPLES)
         return;
@@ -141,7 +141,7 @@ static void add_sample(samples *s, const dmat4 *world, const double local[3], do
     s->reach[s->count++] = fmax(fmax(farthest(world->m + 12), farthest(inner)), ancestors);
 }
 
-/* Where the worlds of the nodes above are. */
+/* Worlds of the parents of all nodes. */
 static double reach_of_ancestors(hierarchy *h, uint32_t node)
 {
     double reach = 0.0;
@@ -157,8 +157,8 @@ typedef struct sampling {
     const facet_scene *scene;
     hierarchy *h;
     samples *out;
-    uint64_t step, next; /* of the indices of all that is drawn, behind one another */
-    uint64_t begin;      /* where the primitive's are */
+    uint64_t step, next; /* of the indices of everything drawn, in order */
+    uint64_t begin;      /* position of the primitive in that order */
 } sampling;
 
 static void sample_primitive(sampling *g, uint32_t node, const scene_mesh *mesh, const scene_primitive *p)
@@ -194,7 +194,7 @@ static void sample_scene(const facet_scene *scene, hierarchy *h, samples *out)
     }
 }
 
-/* What the samples say. They are in double, whatever the scene does otherwise. */
+/* Computes the origin from the samples, in double even if the scene uses float. */
 static facet_result find_scene_origin(facet_scene *scene, uint32_t index, const facet_pose_desc *desc,
                                       samples *s, facet_error *error)
 {
@@ -228,14 +228,14 @@ static facet_result find_scene_origin(facet_scene *scene, uint32_t index, const 
 
 /* ---- meshes ---- */
 
-/* What has lost most detail: vertices of a mesh, or copies of a node. */
+/* The object with the largest loss of detail: vertices of a mesh, or copies of a node. */
 typedef struct coarseness {
-    const char *owner, *name, *parts; /* "mesh", its name, "vertices"; NULL: nothing has */
+    const char *owner, *name, *parts; /* "mesh", its name, "vertices"; NULL: no loss */
     double distance, step, share;
-    uint64_t indices; /* of all that have; a few parts far from the others do not matter */
+    uint64_t indices; /* of all affected; a few distant parts are ignored */
 } coarseness;
 
-/* Bounds of what is drawn of a mesh. */
+/* Bounds of the drawn part of a mesh. */
 static box bound_mesh(const scene_mesh *mesh)
 {
     box b = box_empty();
@@ -265,7 +265,7 @@ static double size_of(const box *b)
     return size;
 }
 
-/* size: of what stands in b, which may be more than b. */
+/* size: of the contents of b, which may be larger than b. */
 static void note_steps(coarseness *worst, const box *b, double size, const scene_mesh *mesh,
                        const char *owner, const char *name, const char *parts)
 {
@@ -294,7 +294,7 @@ static void note_copies(const facet_scene *scene, const scene_node *node, coarse
                    "instances");
 }
 
-/* Primitives that share positions still do then. */
+/* Primitives that share positions still do afterwards. */
 static bool subtract(facet_scene *scene, scene_mesh *mesh, const double origin[3])
 {
     const float *before = NULL, *after = NULL;
@@ -338,7 +338,7 @@ static bool move_mesh(facet_scene *scene, scene_mesh *mesh, coarseness *worst)
     return subtract(scene, mesh, origin);
 }
 
-/* Vertices of skins stay: the matrices of several meshes' joints are the same. */
+/* Vertices of skins stay, since several meshes share the matrices of joints. */
 static facet_result move_meshes(facet_scene *scene, const facet_log *log, facet_error *error)
 {
     coarseness worst = {.share = 0.0};

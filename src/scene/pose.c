@@ -1,5 +1,5 @@
-/* pose.c - one scene of the file at one time: instances, lights and cameras in world space. Keys, hierarchy, vertices
- * and bounds have their own files. */
+/* pose.c - one scene of the file at one time: instances, lights and cameras in world space. Animation, hierarchy,
+ * deformation and bounds have their own files. */
 #include <math.h>
 #include <string.h>
 
@@ -18,7 +18,7 @@ static bool is_finite_matrix(const mat4 *m)
     return true;
 }
 
-/* Whether the world's basis vectors span space, judged relative to their lengths: a scale of 1e-10 is fine. */
+/* Whether the world's basis vectors are independent relative to their lengths: a scale of 1e-10 is fine. */
 static bool is_regular(const mat4 *world)
 {
     double a[9];
@@ -36,10 +36,10 @@ static bool is_regular(const mat4 *world)
     return lengths > 0.0 && fabs(determinant) > 1e-9 * lengths;
 }
 
-/* What a pose is made from. */
+/* The inputs of a pose. */
 typedef struct pose_parts {
     const facet_scene *scene;
-    uint32_t variant; /* SCENE_NONE: the materials that the file gives */
+    uint32_t variant; /* SCENE_NONE: the file's materials */
     scene_state state;
     hierarchy nodes;
     deform_set deformed;
@@ -47,8 +47,7 @@ typedef struct pose_parts {
 
 /* ---- instances ---- */
 
-/* The cofactor matrix of world scaled to about 1 first: the cofactors of a scale of 1e-15 are below the smallest
- * float. */
+/* The cofactor matrix, of world scaled to about 1: the cofactors of a scale of 1e-15 are below the smallest float. */
 static void set_normal_matrix(scene_instance *instance)
 {
     float largest = 0.0f;
@@ -64,7 +63,7 @@ static void set_normal_matrix(scene_instance *instance)
         instance->normal_matrix[i] = -instance->normal_matrix[i];
 }
 
-/* Draws a primitive at world, if it can be drawn there. moved: its vertices, NULL: the file's. */
+/* Adds a primitive at world unless world is singular. moved: its deformed vertices, NULL: the file's. */
 static void add_instance(scene_pose *pose, const pose_parts *parts, uint32_t shown, uint32_t index,
                          const deformed *moved, const mat4 *world)
 {
@@ -114,8 +113,8 @@ static mat4 instance_world(const dmat4 *node, const copy_place *copy, bool is_fa
     return mat4_from_double(&world);
 }
 
-/* How many times a primitive of the mesh of a shown node is drawn. allocate() and fill() both go by it. The vertices of
- * a skin do not follow the node that has it (glTF 2.0 section 3.7.3.3), so all of its instances are the same one. */
+/* How often a primitive of the mesh of a shown node is drawn; used by allocate() and fill(). The vertices of a skin
+ * do not follow the node that has it (glTF 2.0 section 3.7.3.3), so that all of its instances coincide. */
 static uint32_t count_copies(const pose_parts *parts, uint32_t shown, uint32_t index)
 {
     const deformed *moved = deform_get(&parts->deformed, shown, index);
@@ -151,7 +150,7 @@ static void add_primitive(scene_pose *pose, const pose_parts *parts, uint32_t sh
     }
 }
 
-/* Once some of them may be gone. */
+/* After instances were removed. */
 static void mark_copies(scene_pose *pose)
 {
     for (uint32_t i = 1; i < pose->instance_count; i++)

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-/* The last key that is not later than time_s; 0 if all are. */
+/* The last key not after time_s; 0 if there is none. */
 static uint32_t find_key(const scene_sampler *sampler, double time_s)
 {
     uint32_t low = 0;
@@ -18,7 +18,7 @@ static uint32_t find_key(const scene_sampler *sampler, double time_s)
     return low;
 }
 
-/* Of a key; part 0, 1, 2: the in-tangent, the value, the out-tangent of a cubic spline. */
+/* Values of a key; part 0, 1, 2: in-tangent, value, out-tangent of a cubic spline. */
 static const float *key_value(const scene_sampler *sampler, uint32_t key, size_t part)
 {
     size_t width = sampler->width;
@@ -41,9 +41,9 @@ static sampler_blend cubic(const scene_sampler *sampler, uint32_t key, double t,
     };
 }
 
-/* Shoemake 1985: sin((1 - t) a) / sin a and sin(t a) / sin a, a the angle between the quaternions; by the sign of the
- * second factor the shorter way. The angle comes from sum and difference, which is as precise for small angles and for
- * those near 180 degrees. */
+/* Shoemake 1985: sin((1 - t) a) / sin a and sin(t a) / sin a, with a the angle between the quaternions; the sign of
+ * the second factor selects the shorter path. The angle comes from sum and difference, which is equally precise near
+ * 0 and near 180 degrees. */
 static void slerp_factors(const float *a, const float *b, double t, double factors[2])
 {
     double dot = 0.0;
@@ -59,7 +59,7 @@ static void slerp_factors(const float *a, const float *b, double t, double facto
         difference += minus * minus;
     }
     double angle = 2.0 * atan2(sqrt(difference), sqrt(sum));
-    bool is_line = angle < 1e-7; /* sin a is a, to the last bit of what matters */
+    bool is_line = angle < 1e-7; /* sin a equals a to float precision */
     factors[0] = is_line ? 1.0 - t : sin((1.0 - t) * angle) / sin(angle);
     factors[1] = sign * (is_line ? t : sin(t * angle) / sin(angle));
 }
@@ -94,7 +94,7 @@ bool sampler_rotation_at(const scene_sampler *sampler, double time_s, float out[
     length = sqrt(length);
     if (!(length > 1e-30 && length < 1e30))
         return false;
-    /* A key that is unit as well as floats can say it stays as it is. */
+    /* A key that is unit to float precision is kept unchanged. */
     if (blend.count == 1 && fabs(length - 1.0) < 4e-7)
         length = 1.0;
     for (int i = 0; i < 4; i++)

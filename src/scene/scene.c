@@ -1,4 +1,4 @@
-/* scene.c - a scene as an object: making, warnings, lookups. What it draws is in pose.c. */
+/* scene.c - the scene as an object: creation, warnings, lookups, placement. pose.c evaluates it. */
 #include "scene/scene.h"
 
 #include <float.h>
@@ -53,16 +53,16 @@ void scene_texture_ref_update(scene_texture_ref *ref)
     }
 }
 
-/* The scene and what must not move while it grows: lists of warnings and files, and the default material. */
+/* The scene with its growing lists of warnings and files, and the default material, at fixed addresses. */
 typedef struct scene_store {
-    facet_scene scene; /* first: the public pointer is this one */
+    facet_scene scene; /* first, as the public pointer refers to it */
     scene_material default_material;
     size_t warning_capacity, note_capacity;
     size_t file_capacity;
-    index_table kept_files; /* those of scene.files whose bytes are there, by device and number */
+    index_table kept_files; /* scene.files with open bytes, by device and inode */
 } scene_store;
 
-/* A second or two. */
+/* The directory entries examined in a second or two. */
 enum { SEARCH_BUDGET = 1 << 20 };
 
 facet_result scene_create(const facet_allocator *allocator, const char *source, facet_scene **out,
@@ -148,17 +148,17 @@ bool scene_has_file(const facet_scene *scene, const char *path)
     return false;
 }
 
-/* A list of messages of the scene; the same text is kept once. */
+/* A list of messages without duplicates. */
 typedef struct message_list {
     const char ***texts;
     uint32_t *count;
     size_t *capacity;
 } message_list;
 
-/* Adds a message unless it is there. False: it is, or the list is full. */
+/* Adds a message. False: it is a duplicate, or the list is full. */
 static bool keep_message(facet_scene *scene, const message_list *list, char *message, size_t size)
 {
-    /* A broken file can say the same thing for each of a million elements: such a list has an end. */
+    /* A limit, since a broken file can repeat a message for each of a million elements. */
     enum { MAX_MESSAGES = 1000 };
     if (*list->count >= MAX_MESSAGES)
         return false;
@@ -216,7 +216,7 @@ static bool is_affine(const float m[16])
     return m[3] == 0.0f && m[7] == 0.0f && m[11] == 0.0f && m[15] == 1.0f;
 }
 
-/* A file without scenes shows all that has no parent. False: no memory. */
+/* The roots of the default scene; a file without scenes shows all nodes without a parent. False: no memory. */
 static bool find_roots(facet_scene *s, scene_root *out)
 {
     if (s->scene_count) {

@@ -11,7 +11,7 @@
 
 /* ---- morph targets ---- */
 
-enum { BLOCK = 512 /* vertices whose sums stay in the first cache */ };
+enum { BLOCK = 512 /* vertices whose sums stay in the L1 cache */ };
 
 static uint32_t used_targets(const scene_primitive *primitive, uint32_t weight_count)
 {
@@ -39,7 +39,7 @@ DISPATCH_AVX2 static void add_scaled(float *restrict out, const float *restrict 
         out[i] += weight * change[i];
 }
 
-/* Tangents have a fourth number, their changes do not. */
+/* Tangents have a fourth number, their displacements do not. */
 static void add_scaled_tangents(float *restrict out, const float *restrict change, float weight, size_t count)
 {
     for (size_t i = 0; i < count; i++)
@@ -79,8 +79,8 @@ void morph_vertices(const scene_primitive *primitive, const float *weights, uint
 
 /* ---- joints ---- */
 
-/* a b; what is not finite is the largest float, which moves a vertex that listens to it out of the scene, and times a
- * weight of 0 is 0. */
+/* The product a b; components that are not finite become the largest float, which moves vertices with that joint out
+ * of the scene, and times a weight of 0 is 0. */
 static mat4 multiply_finite(const dmat4 *a, const mat4 *b)
 {
     const dmat4 wide = dmat4_from_float(b);
@@ -137,7 +137,7 @@ void skin_pose_destroy(skin_pose *pose)
 
 typedef float float4 __attribute__((vector_size(16), may_alias));
 
-/* The columns of a matrix, x y z and something. */
+/* The columns of a matrix as vectors of four. */
 typedef struct blended {
     float4 column[4];
 } blended;
@@ -156,8 +156,8 @@ static inline float4 cross4(float4 a, float4 b)
     return a_yzx * b_zxy - a_zxy * b_yzx;
 }
 
-/* The weighted mean of the joints' matrices. Weights sum to 1 but for rounding; divided by that sum, joints that agree
- * give what they agree about. */
+/* The weighted mean of the joints' matrices, divided by the sum of weights, which is 1 up to rounding, so that joints
+ * with equal matrices yield that matrix. */
 static inline blended blend_matrices(const skin_pose *pose, const uint16_t *joints, const float *weights,
                                      uint32_t influence_count)
 {
@@ -182,7 +182,7 @@ static inline blended blend_matrices(const skin_pose *pose, const uint16_t *join
     return b;
 }
 
-/* The cofactor matrix times n, in double, for matrices whose products are no floats. */
+/* The cofactor matrix times n, in double, for matrices whose products overflow or underflow float. */
 static void turn_normal_slowly(const blended *b, const float n[3], const float otherwise[3], float out[3])
 {
     double sum[3] = {0, 0, 0};
@@ -199,9 +199,9 @@ static void turn_normal_slowly(const blended *b, const float n[3], const float o
             out[k] = fallback[k];
 }
 
-/* Normals go with the cofactor matrix, which is the inverse transpose times the determinant and exists where that is
- * 0: its columns are the cross products of the matrix' columns. Where the determinant is below 0 it follows the
- * winding of the triangles, as the tangent's w does. */
+/* Normals are transformed by the cofactor matrix, the inverse transpose times the determinant, which exists for
+ * singular matrices as well: its columns are the cross products of the matrix' columns. For a negative determinant it
+ * follows the winding of the triangles, as the tangent's w does. */
 static inline void turn_normal(const blended *b, const float n[3], const float otherwise[3], float out[3])
 {
     float4 v = cross4(b->column[1], b->column[2]) * n[0] + cross4(b->column[2], b->column[0]) * n[1] +

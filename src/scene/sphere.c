@@ -46,7 +46,7 @@ static uint32_t fill_indices(uint32_t *indices, uint32_t segments, uint32_t ring
     return count;
 }
 
-/* The sphere is not as wide as 1 where no segment points along an axis. */
+/* Bounds narrower than 1 where no segment points along an axis. */
 static void find_bounds(scene_primitive *p)
 {
     for (int k = 0; k < 3; k++) {

@@ -1,4 +1,4 @@
-/* stray.c - see stray.h. A scene without strays costs a few hundred samples. */
+/* stray.c - see stray.h. A scene without stray parts costs a few hundred samples. */
 #include "scene/stray.h"
 
 #include <stdlib.h>
@@ -21,7 +21,7 @@ static uint64_t element_count(const scene_instance *instance)
     return instance->primitive->index_count / corner_count(instance->primitive);
 }
 
-/* The box around element number i, in world space. False: it has no area. */
+/* The box around an element, in world space. False: it has no area. */
 static bool element_box(const scene_instance *instance, uint64_t i, box *out)
 {
     const scene_primitive *p = instance->primitive;
@@ -56,7 +56,7 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The middles of up to SAMPLES elements, evenly over all. */
+/* The centers of up to SAMPLES elements, evenly spaced. */
 static uint32_t sample(const scene_pose *pose, uint64_t whole, double middles[3][SAMPLES])
 {
     uint64_t wanted = whole < SAMPLES ? whole : SAMPLES;
@@ -101,7 +101,7 @@ static core find_core(double middles[3][SAMPLES], uint32_t count)
 
 /* ---- the kept box ---- */
 
-/* How far boxes are from each other; 0: they touch. */
+/* The distance of two boxes; 0: they touch. */
 static double distance(const wide_box *a, const box *b)
 {
     double sum = 0.0;
@@ -152,7 +152,7 @@ static box core_box(const scene_pose *pose, const core *c)
     return kept;
 }
 
-/* Joins what is within reach of `kept` to *grown, and counts what is and what is not. */
+/* Joins elements within reach of `kept` to *grown, and counts both kinds. */
 static void add_instance(const scene_instance *instance, const box *kept, double reach, box *grown,
                          stray_parts *out)
 {
@@ -181,7 +181,7 @@ static void add_instance(const scene_instance *instance, const box *kept, double
     }
 }
 
-/* Whether b is in a. */
+/* Whether a contains b. */
 static bool contains(const box *a, const box *b)
 {
     for (int axis = 0; axis < 3; axis++)
@@ -190,7 +190,7 @@ static bool contains(const box *a, const box *b)
     return true;
 }
 
-/* Grows the kept box until nothing is within reach. False: it takes too many rounds, as chains of parts do. */
+/* Grows the kept box until nothing is within reach. False: too many rounds, as for chains of parts. */
 static bool grow(const scene_pose *pose, stray_parts *out)
 {
     for (int round = 0; round < MAX_ROUNDS; round++) {

@@ -1,17 +1,17 @@
-/* tangents.c - tangent space per corner, as MikkTSpace makes it (Mikkelsen 2008, "Simulation of Wrinkled Surfaces
- * Revisited", chapter 3), so that normal maps baked elsewhere look as they were meant.
+/* tangents.c - tangent space per corner, as in MikkTSpace (Mikkelsen 2008, "Simulation of Wrinkled Surfaces
+ * Revisited", chapter 3), so that normal maps baked elsewhere appear as intended.
  *
  * 1. Corners with equal position, normal and texture coordinates are one vertex.
  * 2. Each triangle gets the direction of increasing u, and an orientation: whether (u, v) is mirrored on it.
- * 3. Around each vertex, triangles that hang together by edges and agree in orientation are a group.
- * 4. A group's tangent is the sum of its triangles' directions, each made perpendicular to the vertex' normal and
+ * 3. Around each vertex, triangles connected by edges with equal orientation are a group.
+ * 4. A group's tangent is the sum of its triangles' directions, each made perpendicular to the vertex normal and
  *    weighted by the triangle's angle there.
  *
- * Not taken over: the splitting of groups by an angle between tangents, whose default of 180 degrees never splits;
- * and the tangent (1, 0, 0) for corners that have none, for which a perpendicular one serves better.
+ * Omitted: the splitting of groups by an angle between tangents, whose default of 180 degrees never splits; and the
+ * tangent (1, 0, 0) for corners without one, for which a perpendicular one is better.
  *
- * The sign: B = w cross(N, T) must point up in the image, that is towards smaller v, because glTF's v grows
- * downwards and its normal maps have +Y up. MikkTSpace run on (u, 1 - v) gives exactly that. */
+ * The sign: B = w cross(N, T) must point up in the image, that is towards smaller v, because glTF's v grows downwards
+ * and its normal maps have +Y up. MikkTSpace run on (u, 1 - v) gives exactly that. */
 #include "scene/scene.h"
 
 #include <float.h>
@@ -21,7 +21,7 @@
 #include "base/parallel.h"
 #include "base/result.h"
 
-enum { GRAIN = 1 << 12 }; /* triangles that one thread takes at once */
+enum { GRAIN = 1 << 12 }; /* triangles per work item */
 
 typedef struct triangle {
     uint32_t vertices[3];  /* welded */
@@ -29,7 +29,7 @@ typedef struct triangle {
     uint32_t groups[3];    /* of the corners; SCENE_NONE: none yet */
     float direction[3];    /* unit, along increasing u */
     bool is_mirrored;
-    bool is_degenerate; /* two corners share their position */
+    bool is_degenerate; /* two corners share a position */
     bool is_unclear;    /* no area in the texture: joins any group */
 } triangle;
 
@@ -37,7 +37,7 @@ typedef struct tangent_space {
     const scene_primitive *primitive;
     const float *uvs;
     uint32_t triangle_count, group_count;
-    uint32_t *welded; /* per vertex: the first one equal to it */
+    uint32_t *welded; /* per vertex: the first equal one */
     triangle *triangles;
     float *tangents; /* 4 per group */
     float *out;      /* 4 per corner */
@@ -50,7 +50,7 @@ static float dot3(const float a[3], const float b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Makes v unit; the way over double only for lengths whose square a float cannot hold well. */
+/* Normalizes v, in double only if the square of the length is out of float's comfortable range. */
 static bool normalise(float v[3])
 {
     float square = dot3(v, v);
@@ -69,7 +69,7 @@ static bool normalise(float v[3])
     return true;
 }
 
-/* Makes v perpendicular to the unit vector n, and unit. False: it was parallel. */
+/* Makes v perpendicular to the unit vector n, and normalizes it. False: they were parallel. */
 static bool project(float v[3], const float n[3])
 {
     float along = dot3(v, n);
@@ -188,15 +188,15 @@ static void set_up_triangles(void *context, size_t begin, size_t end)
 
 /* ---- neighbors ---- */
 
-/* A half edge, filed under its smaller vertex. */
+/* A half edge, stored at its smaller vertex. */
 typedef struct edge {
     uint32_t other;   /* the larger vertex */
-    uint32_t corner;  /* 3 * triangle + where it begins */
-    bool is_backward; /* it runs from the larger to the smaller */
+    uint32_t corner;  /* 3 * triangle + its first corner */
+    bool is_backward; /* from the larger to the smaller vertex */
 } edge;
 
-/* By (other, corner), the second order being that of the input. A heap sort, since a vertex may have any number of
- * edges and those of most have six. */
+/* Sorts by (other, corner), the latter being the order of input. Heap sort, since a vertex may have any number of
+ * edges, although most have six. */
 static bool is_before(const edge *a, const edge *b)
 {
     return a->other != b->other ? a->other < b->other : a->corner < b->corner;
@@ -238,15 +238,15 @@ static void sort_edges(edge *edges, size_t count)
     }
 }
 
-/* Pairs edges between the same two vertices that run in opposite directions: the first waiting one with the next
- * that fits. With more than two triangles at an edge the order of the input decides. */
+/* Pairs edges between the same two vertices with opposite directions: the first unpaired one with the next match.
+ * With more than two triangles at an edge the order of input decides. */
 static void pair_edges(tangent_space *space, edge *edges, size_t count)
 {
     sort_edges(edges, count);
     for (size_t begin = 0, end; begin < count; begin = end) {
         for (end = begin; end < count && edges[end].other == edges[begin].other;)
             end++;
-        size_t waiting = begin; /* those from here to i that run like edges[waiting] wait */
+        size_t waiting = begin; /* unpaired edges from here to i run like edges[waiting] */
         for (size_t i = begin; i < end; i++) {
             if (waiting == i || edges[i].is_backward == edges[waiting].is_backward)
                 continue;
@@ -254,7 +254,7 @@ static void pair_edges(tangent_space *space, edge *edges, size_t count)
             uint32_t b = edges[i].corner;
             space->triangles[a / 3].neighbors[a % 3] = b / 3;
             space->triangles[b / 3].neighbors[b % 3] = a / 3;
-            edges[i].other = SCENE_NONE; /* taken; its direction no longer counts */
+            edges[i].other = SCENE_NONE; /* paired; its direction is no longer used */
             do
                 waiting++;
             while (waiting <= i && edges[waiting].other == SCENE_NONE);
@@ -268,7 +268,7 @@ static bool connect(tangent_space *space, const facet_allocator *allocator)
     size_t *begins = mem_zalloc(allocator, (size_t)vertex_count + 2, sizeof *begins);
     edge *edges = mem_alloc(allocator, 3 * (size_t)space->triangle_count, sizeof *edges);
     bool is_done = begins && edges;
-    /* Counts, sums, then places edges: begins[v + 1] walks from where v begins to where it ends. */
+    /* Counts, sums, then places edges: begins[v + 1] advances from the begin of v to its end. */
     for (int pass = 0; pass < 2 && is_done; pass++) {
         for (uint32_t i = 0; i < space->triangle_count; i++) {
             const triangle *t = &space->triangles[i];
@@ -295,8 +295,8 @@ static bool connect(tangent_space *space, const facet_allocator *allocator)
 
 /* ---- 3. groups ---- */
 
-/* Takes triangle i into a group at vertex, if it may. An unclear one takes the orientation of the first group that
- * reaches any of its corners. Gives its corner, or -1. */
+/* Adds triangle i to a group at vertex, if it is allowed. A triangle without orientation takes that of the first
+ * group that reaches any of its corners. Returns its corner, or -1. */
 static int join(tangent_space *space, uint32_t i, uint32_t vertex, uint32_t group, bool is_mirrored)
 {
     triangle *t = &space->triangles[i];
@@ -322,7 +322,7 @@ static void group_corners(tangent_space *space)
             uint32_t vertex = t->vertices[corner];
             uint32_t group = space->group_count++;
             join(space, i, vertex, group, t->is_mirrored);
-            /* Triangles around a vertex are a fan: go one way to its end, then the other. */
+            /* Triangles around a vertex are a fan: walk to one end, then to the other. */
             for (int side = 0; side < 2; side++) {
                 uint32_t at = i;
                 int at_corner = corner;
@@ -337,7 +337,7 @@ static void group_corners(tangent_space *space)
 
 /* ---- 4. tangents ---- */
 
-/* The angle of a triangle at a corner, seen along the normal there. */
+/* The angle of a triangle at a corner, projected along the normal there. */
 static float corner_angle(const tangent_space *space, const triangle *t, int corner, const float normal[3])
 {
     const float *positions = space->primitive->positions;
@@ -356,11 +356,11 @@ static float corner_angle(const tangent_space *space, const triangle *t, int cor
     return acosf(cosine < -1.0f ? -1.0f : cosine > 1.0f ? 1.0f : cosine);
 }
 
-/* Stands for 1 in the sign of a group's tangent while that is a sum. */
+/* Marks a group's tangent as an unfinished sum, in place of the sign. */
 static const float UNFINISHED = 2.0f;
 
-/* What each corner adds to its group, into out: the triangle's direction, perpendicular to the normal there, times
- * its angle. */
+/* Writes each corner's contribution to its group to out: the triangle's direction, perpendicular to the normal there,
+ * times its angle. */
 static void weigh_corners(void *context, size_t begin, size_t end)
 {
     const tangent_space *space = context;
@@ -378,7 +378,7 @@ static void weigh_corners(void *context, size_t begin, size_t end)
     }
 }
 
-/* In the order of triangles, on one thread: sums must not depend on threads. */
+/* In the order of triangles, on one thread, so that sums do not depend on the number of threads. */
 static void sum_tangents(tangent_space *space)
 {
     for (size_t i = 0; i < space->triangle_count; i++) {
@@ -395,8 +395,7 @@ static void sum_tangents(tangent_space *space)
     }
 }
 
-/* Makes the sum of a group its tangent, the first time it is asked for. Made perpendicular once more: a long sum
- * drifts. */
+/* Finishes the sum of a group on first use. It is made perpendicular once more, since a long sum drifts. */
 static void finish(float *tangent, const float normal[3])
 {
     if (fabsf(tangent[3]) != UNFINISHED)
@@ -406,8 +405,7 @@ static void finish(float *tangent, const float normal[3])
         any_perpendicular(normal, tangent);
 }
 
-/* Corners of degenerate triangles take the group of another corner at the same vertex; any_group is one per
- * vertex. */
+/* Corners of degenerate triangles take the group of another corner at the same vertex; any_group is one per vertex. */
 static void write_tangents(tangent_space *space, const uint32_t *any_group, float *out)
 {
     for (uint32_t i = 0; i < space->triangle_count; i++) {

@@ -8,7 +8,7 @@
 
 /* ---- opacity ---- */
 
-/* The largest opacity at a vertex that is drawn. */
+/* The largest opacity at the vertices in use. */
 static float largest_alpha(const scene_primitive *p)
 {
     float most = 0.0f;
@@ -29,7 +29,7 @@ bool unseen_is_transparent(const scene_primitive *primitive, const scene_materia
 
 /* ---- area ---- */
 
-static const double FLAT = 1e-7; /* height of a triangle by its longest edge */
+static const double FLAT = 1e-7; /* ratio of a triangle's height to its longest edge */
 
 static double edge(const float *a, const float *b, double out[3])
 {
@@ -53,11 +53,11 @@ bool unseen_is_flat(const float *positions, const uint32_t corners[3])
     return !(x * x + y * y + z * z > FLAT * FLAT * longest2 * longest2);
 }
 
-enum { GRAIN = 1 << 14 }; /* triangles that one thread takes at once */
+enum { GRAIN = 1 << 14 }; /* triangles per work item */
 
 typedef struct tighten_job {
     const scene_primitive *primitive;
-    box *boxes; /* one per GRAIN triangles */
+    box *boxes; /* one per work item */
 } tighten_job;
 
 static void tighten_body(void *context, size_t begin, size_t end)
@@ -107,7 +107,7 @@ void unseen_tighten_bounds(facet_scene *scene)
         }
     box *boxes = mem_alloc(&scene->allocator, most / 3 / GRAIN + 1, sizeof *boxes);
     if (!boxes)
-        return; /* the bounds that are there hold all of it, too */
+        return; /* the existing bounds contain everything as well */
     for (uint32_t i = 0; i < scene->mesh_count; i++)
         for (uint32_t k = 0; k < scene->meshes[i].primitive_count; k++)
             if (is_fixed(&scene->meshes[i].primitives[k]))

@@ -6,17 +6,17 @@
 #include "scene/unseen.h"
 
 enum {
-    LEAF = 256,     /* vertices that are not split further */
-    MAX_DEPTH = 64, /* halves of 2^32 vertices are leaves far before */
-    USES = 32,      /* instances looked at in full before a tree is made, which costs about as much */
-    FEW = 24        /* indices that are as quick to go through */
+    LEAF = 256,     /* vertices of a leaf */
+    MAX_DEPTH = 64, /* halves of 2^32 vertices are leaves long before */
+    USES = 32,      /* instances examined in full before a tree is built, which costs about as much */
+    FEW = 24        /* indices that are as fast to examine directly */
 };
 
 /* ---- one tree ---- */
 
 typedef struct builder {
     const float *positions;
-    uint32_t *vertices; /* those that are drawn, each once */
+    uint32_t *vertices; /* vertices in use, each once */
     vertex_tree *tree;
     uint32_t node_count, block_count;
 } builder;
@@ -29,7 +29,7 @@ static box bounds_of(const builder *b, uint32_t begin, uint32_t end)
     return out;
 }
 
-/* By coordinate, then by number, so that all orders are the same one. */
+/* By coordinate, then by index, so that the order is unique. */
 static bool is_before(const builder *b, uint32_t u, uint32_t v, int axis)
 {
     float x = b->positions[3 * (size_t)u + (size_t)axis];
@@ -44,8 +44,8 @@ static void swap(uint32_t *a, uint32_t *b)
     *b = kept;
 }
 
-/* Puts the vertex that belongs to place `middle` there, smaller ones before it (Hoare 1961, algorithm 65). The pivot's place
- * is hashed, so that no order of vertices that occurs is a slow one. */
+/* Quickselect (Hoare 1961, algorithm 65): puts the vertex of rank `middle` there, smaller ones before it. The pivot
+ * is chosen by a hash, so that no order of vertices in practice is slow. */
 static void select_middle(builder *b, uint32_t begin, uint32_t end, uint32_t middle, int axis)
 {
     uint32_t *v = b->vertices;
@@ -85,7 +85,7 @@ static void fill_blocks(builder *b, vertex_node *node, uint32_t begin, uint32_t 
     node->end = b->block_count;
 }
 
-/* Depth is bounded, as each child has half of the vertices. */
+/* The depth is bounded, as each child has half of the vertices. */
 static void build(builder *b, uint32_t begin, uint32_t end)
 {
     uint32_t number = b->node_count++;
@@ -130,8 +130,8 @@ bool vertex_tree_create(const scene_primitive *p, const facet_allocator *allocat
     uint32_t count;
     builder b = {.positions = p->positions, .vertices = list_vertices(p, allocator, &count), .tree = out};
     *out = (vertex_tree){.nodes = NULL};
-    /* Halves of more than LEAF vertices have at least LEAF / 2, a tree has one node less than twice its leaves, and one block
-     * of a leaf is not full. */
+    /* Halves of more than LEAF vertices have at least LEAF / 2, a tree has one node less than twice its leaves, and
+     * one block per leaf is not full. */
     size_t leaf_count = count / (LEAF / 2) + 1;
     if (count) {
         out->nodes = mem_alloc(allocator, 2 * leaf_count, sizeof *out->nodes);
@@ -153,7 +153,7 @@ void vertex_tree_destroy(vertex_tree *tree)
     *tree = (vertex_tree){0};
 }
 
-/* What promises more goes first: it leaves the least of the rest to be looked at. */
+/* The child with the larger bound goes first: it leaves less of the other to examine. */
 void vertex_tree_visit(const vertex_tree *tree, const vertex_visitor *visitor)
 {
     uint32_t stack[MAX_DEPTH];
@@ -182,7 +182,7 @@ static bool begin(vertex_trees *t)
 {
     uint32_t count = 0;
     if (t->first)
-        return false; /* there was no memory before */
+        return false; /* an earlier allocation failed */
     t->first = mem_alloc(t->allocator, t->scene->mesh_count, sizeof *t->first);
     for (uint32_t i = 0; t->first && i < t->scene->mesh_count; i++) {
         t->first[i] = count;
