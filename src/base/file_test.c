@@ -62,7 +62,7 @@ static void what_is_written_is_read(void **state)
     mem_free(path);
 }
 
-/* Who shows a model while somebody exports it again. */
+/* A model is displayed while another program exports it again. */
 static void a_file_may_be_cut_while_it_is_open(void **state)
 {
     (void)state;

@@ -18,7 +18,7 @@ static void blocks_are_aligned_and_keep_their_size(void **state)
         assert_int_equal((uintptr_t)block % 64, 0);
         assert_int_equal(mem_size(block), 3 * size);
         memset(block, 0xa5, 3 * size);
-        unsigned char tail[MEM_TAIL]; /* the address sanitizer would tell */
+        unsigned char tail[MEM_TAIL]; /* the address sanitizer would report it */
         memcpy(tail, block + 3 * size, sizeof tail);
         block = mem_resize(block, 2 * size, 3);
         for (size_t i = 0; i < 3 * size; i++)
@@ -88,7 +88,7 @@ static void what_libraries_take_counts_against_a_budget(void **state)
     assert_int_equal(facet_budget_used_bytes(budget), 0);
     assert_int_equal(facet_budget_peak_bytes(budget), 900);
     facet_budget_destroy(budget);
-    assert_true(mem_account(NULL, 1 << 30)); /* nobody counts */
+    assert_true(mem_account(NULL, 1 << 30)); /* no budget */
 }
 
 static void arena_blocks_do_not_overlap(void **state)

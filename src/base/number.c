@@ -154,7 +154,7 @@ static decimal collect(const char *p, long exponent)
     return d;
 }
 
-/* ---- what is quick ---- */
+/* ---- the fast path ---- */
 
 /* m 10^power as a float; false: round_exactly() is needed. */
 static bool round_quickly(uint64_t m, long power, float *value)

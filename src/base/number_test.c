@@ -14,7 +14,7 @@
 
 #include "base/hash.h"
 
-/* Reads text, which may be followed by anything, and tells how many characters were the number; -1: none. */
+/* Reads text, which may be followed by anything, and returns the length of the number; -1: none. */
 static long read_text(const char *text, float *value)
 {
     char padded[1024] = {0};

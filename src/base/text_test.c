@@ -109,7 +109,7 @@ static void shortest_floats_are_those_of_printf(void **state)
         assert_shortest((uint32_t)(random >> 32));
         assert_shortest((uint32_t)(random >> 32) % 0x1a000000 + 0x2f000000);
     }
-    for (uint32_t exponent = 0; exponent < 256; exponent++) /* powers of two and what is beside them */
+    for (uint32_t exponent = 0; exponent < 256; exponent++) /* powers of two and their neighbors */
         for (uint32_t k = 0; k < 5; k++)
             assert_shortest((exponent << 23) + k - 2);
     for (int digits = 1; digits < 100000; digits++) { /* short decimals, ties and carries among them */

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-/* RFC 3629, section 4: the first and the last of each range, and what is just outside. */
+/* RFC 3629, section 4: the first and the last of each range, and their neighbors outside. */
 static void lengths_are_those_of_the_standard(void **state)
 {
     (void)state;

@@ -70,7 +70,7 @@ static void what_is_not_committed_is_gone(void **state)
     assert_false(is_there("b.mtl"));
 }
 
-/* Asked before each file and before the end: what is there at the nth no is nothing. */
+/* Progress is reported before each file and before the end; cancelling at any of them leaves no file. */
 static bool until(void *user, const char *stage, double fraction)
 {
     int *left = user;

@@ -1,4 +1,4 @@
-/* Tests of model_kind.h: kinds by content and by name, and what is said of those that are not read. */
+/* Tests of model_kind.h: formats by content and by name, and the messages about unsupported ones. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -9,7 +9,7 @@
 
 #include "io/model_kind.h"
 
-static void kinds_are_told_by_content(void **state)
+static void kinds_are_detected_by_content(void **state)
 {
     (void)state;
     static const struct {
@@ -78,7 +78,7 @@ static void other_formats_come_with_advice(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(kinds_are_told_by_content),
+        cmocka_unit_test(kinds_are_detected_by_content),
         cmocka_unit_test(other_formats_come_with_advice),
     };
     return cmocka_run_group_tests_name("model_kind", tests, NULL, NULL);

@@ -5,7 +5,7 @@
 
 enum { JOINTS = 5, VERTICES = 9000 /* several parts of the loop over vertices */ };
 
-/* ---- the independent computation: matrices as rows of double, nothing shared with what is tested ---- */
+/* ---- the independent computation: matrices as rows of double, nothing shared with the tested code ---- */
 
 typedef struct matrix {
     double a[4][4]; /* row, column */

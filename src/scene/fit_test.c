@@ -1,4 +1,4 @@
-/* fit_test.c - framing: everything is in the picture, and something touches its border, also of what moves. */
+/* fit_test.c - framing: everything is in the image, and something touches its border, also in motion. */
 #include "scene/fit_times.h"
 #include "scene/motion_test_support.h"
 #include "tests/support/support.h"
@@ -41,7 +41,7 @@ static facet_scene *make_scene(void)
     return scene;
 }
 
-/* How far a vertex is from the middle of the picture, 1: on its border; behind the camera it is infinite. */
+/* How far a vertex is from the center of the image, 1: on its border; behind the camera it is infinite. */
 static double reach(const facet_camera *camera, double aspect, const float point[3])
 {
     double axis[3], up[3], right[3], v[3];

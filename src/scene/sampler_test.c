@@ -131,7 +131,7 @@ static void rotations_turn_evenly_along_the_shorter_way(void **state)
         float values[8];
         turn(axis, 0.3, values);
         turn(axis, 0.3 + angle, values + 4);
-        if (i / 21) /* the same rotation, the other way round the sphere */
+        if (i / 21) /* the same rotation, by the opposite quaternion */
             for (int k = 4; k < 8; k++)
                 values[k] = -values[k];
         scene_sampler s = {SCENE_LINEAR, 2, times, 4, values};
@@ -154,7 +154,7 @@ static void rotations_turn_evenly_along_the_shorter_way(void **state)
 static void opposite_rotations_take_some_way(void **state)
 {
     (void)state;
-    /* 180 degrees apart: both ways are as long, the result is a rotation all the same. */
+    /* 180 degrees apart: both paths are equally long, and the result is a rotation. */
     static const float times[2] = {0, 1};
     static const float values[8] = {0, 0, 0, 1, 0, 1, 0, 0};
     scene_sampler s = {SCENE_LINEAR, 2, times, 4, values};

@@ -287,7 +287,7 @@ void draco_shim_destroy(draco_mesh *mesh)
     delete mesh;
 }
 
-/* ---- what is in a mesh ---- */
+/* ---- access to a mesh ---- */
 
 uint32_t draco_shim_face_count(const draco_mesh *mesh)
 {

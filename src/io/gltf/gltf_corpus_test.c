@@ -1,4 +1,4 @@
-/* gltf_corpus_test.c - real models and broken ones from the shared test data: what loads, what is refused; cut off
+/* gltf_corpus_test.c - real models and broken ones from the shared test data: which load, which are refused; cut off
  * anywhere; out of memory anywhere. Skips where there is no test data. */
 #define _XOPEN_SOURCE 700
 #include "io/gltf/gltf_test_support.h"

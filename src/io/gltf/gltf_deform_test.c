@@ -154,7 +154,7 @@ static void influences_of_all_sets_lie_side_by_side(void **state)
     const scene_primitive *p = first_primitive(scene);
     static const uint16_t joints[24] = {1, 0, 0, 0, 3, 0, 0, 0, 0, 1, 0, 0, 300, 0, 0, 0, 2, 0, 0, 0};
     assert_int_equal(p->influence_count, 8);
-    assert_memory_equal(p->joints, joints, sizeof joints); /* the 9 has no weight: it is nobody's */
+    assert_memory_equal(p->joints, joints, sizeof joints); /* the 9 has no weight and is dropped */
     for (int vertex = 0; vertex < 3; vertex++) {
         double sum = 0;
         for (int i = 0; i < 8; i++)

@@ -196,7 +196,7 @@ static void lights_and_fog_come_back(void **state)
     scene_destroy(scene);
 }
 
-/* Extras belong to everybody: what is not as expected is no error. */
+/* Any program may use extras: unexpected content is no error. */
 static void strange_extras_are_left_alone(void **state)
 {
     (void)state;

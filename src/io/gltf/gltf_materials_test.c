@@ -412,7 +412,7 @@ static void pictures_that_cannot_be_had_are_white(void **state)
     assert_true(has_warning(scene, "images[0].uri: \"missing.png\" cannot be found"));
     assert_true(has_warning(scene, "images[1]: is no PNG, JPEG, WebP, "));
     assert_true(has_warning(scene, "images[2]: has neither a uri nor a bufferView; white is used"));
-    assert_true(has_warning(scene, "images[3]: the picture: KTX2: the file ends in its header"));
+    assert_true(has_warning(scene, "images[3]: the image: KTX2: the file ends in its header"));
     assert_true(has_warning(scene, "textures[4]: has no source"));
     scene_destroy(scene);
 }

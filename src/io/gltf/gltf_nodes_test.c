@@ -69,9 +69,9 @@ static void shared_nodes_are_copied(void **state)
     (void)state;
     test_model m = {0};
     const float times[2] = {0, 1};
-    const float ways[6] = {0, 0, 0, 0, 5, 0};
+    const float moves[6] = {0, 0, 0, 0, 5, 0};
     model_add_floats(&m, times, 2, "SCALAR");
-    model_add_floats(&m, ways, 2, "VEC3");
+    model_add_floats(&m, moves, 2, "VEC3");
     facet_scene *scene = model_load(
         &m, "'meshes':[{'primitives':[{'attributes':{}}]}],'cameras':[{'type':'perspective','perspective':{"
             "'yfov':1,'znear':1}}],'nodes':[{'children':[1,2]},{'translation':[1,0,0],'children':[3]},"
@@ -97,7 +97,7 @@ static void shared_nodes_are_copied(void **state)
     scene_destroy(scene);
 }
 
-/* Each of a chain has two ways to the next: 2^20 of them to the last. */
+/* Each node of a chain has two paths to the next: 2^20 to the last. */
 static void copies_of_copies_have_a_limit(void **state)
 {
     (void)state;

@@ -80,7 +80,7 @@ static void read_size(io_reader *r, const json_place *at, const image_kind *kind
 {
     image header;
     facet_error error;
-    facet_result result = image_probe(out->bytes, out->size, "the picture", &header, NULL, &error);
+    facet_result result = image_probe(out->bytes, out->size, "the image", &header, NULL, &error);
     if (result == FACET_OK) {
         out->width = header.width;
         out->height = header.height;

@@ -66,7 +66,7 @@ static void the_first_source_that_can_be_read_wins(void **state)
     (void)state;
     image_files m = {0};
     unsigned char dds[128] = "DDS |", block[136] = {0};
-    dds[76 + 4] = 4; /* letters, which are none that facet knows */
+    dds[76 + 4] = 4; /* an unknown four-character code */
     memcpy(block, dds, 128);
     memcpy(block + 84, "DXT1", 4);
     block[12] = block[16] = 4;
@@ -110,8 +110,8 @@ static void the_first_source_that_can_be_read_wins(void **state)
     assert_string_equal(scene->images[3].mime_type, "image/avif");
     assert_string_equal(scene->images[5].mime_type, "image/vnd-ms.dds");
     assert_int_equal(scene->images[5].width, 4);
-    assert_true(has_warning(scene, "images[2]: the picture: KTX2: the file ends in its header"));
-    assert_true(has_warning(scene, "images[4]: the picture: DDS: texels of the kind"));
+    assert_true(has_warning(scene, "images[2]: the image: KTX2: the file ends in its header"));
+    assert_true(has_warning(scene, "images[4]: the image: DDS: texels of the kind"));
     assert_false(has_warning(scene, "images[1]"));
     assert_false(has_warning(scene, "textures[4]"));
     scene_destroy(scene);

@@ -1,4 +1,4 @@
-/* gltf_write_test.c - what is written reads back equal. */
+/* gltf_write_test.c - written files read back equal. */
 #define _DEFAULT_SOURCE
 #include "io/gltf/gltf.h"
 #include "io/gltf/gltf_test_support.h"
@@ -539,12 +539,12 @@ static void what_cannot_be_written_is_said(void **state)
     scene_destroy(scene);
 }
 
-/* Of both kinds of file: whatever block is refused, one that glTF asked for is told with its size, and nothing is kept. */
-static void memory_that_runs_out_is_told(void **state)
+/* For both kinds of file: if any allocation fails, the error has its size if it is known, and no memory leaks. */
+static void memory_that_runs_out_is_reported(void **state)
 {
     (void)state;
     facet_scene *scene = NULL;
-    size_t told = 0;
+    size_t sized = 0;
     assert_int_equal(scene_create_builtin(&(facet_scene_desc){0}, &scene, NULL), FACET_OK);
     for (int kind = 0; kind < 2; kind++) {
         char path[256];
@@ -564,10 +564,10 @@ static void memory_that_runs_out_is_told(void **state)
                     ? size == 0
                     : !strstr(error.message, path))
                 fail_msg("call %ld: %s", at, error.message);
-            told += size > 0;
+            sized += size > 0;
         }
     }
-    assert_true(told >= 8);
+    assert_true(sized >= 8);
     empty_folder();
     scene_destroy(scene);
 }
@@ -632,7 +632,7 @@ int main(void)
         cmocka_unit_test(all_files_or_none),
         cmocka_unit_test(the_builtin_scene_survives),
         cmocka_unit_test(what_cannot_be_written_is_said),
-        cmocka_unit_test(memory_that_runs_out_is_told),
+        cmocka_unit_test(memory_that_runs_out_is_reported),
         cmocka_unit_test(real_models_survive),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

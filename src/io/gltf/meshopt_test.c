@@ -308,7 +308,7 @@ static void filters_take_any_bytes(void **state)
     free(bytes);
 }
 
-/* ---- what is refused ---- */
+/* ---- invalid streams ---- */
 
 /* A copy without room behind it, so that a sanitizer sees what is read there. */
 static const char *decode_copy(const meshopt_stream *stream, size_t size, size_t changed, uint8_t value,

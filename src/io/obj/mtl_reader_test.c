@@ -1,4 +1,4 @@
-/* mtl_reader_test.c - what MTL files say, in all the ways that programs write them. */
+/* mtl_reader_test.c - MTL files as different programs write them. */
 #define _XOPEN_SOURCE 700
 #include "io/obj/mtl_test_support.h"
 
@@ -225,7 +225,7 @@ static void colors_may_be_spectra(void **state)
 
 /* ---- maps ---- */
 
-/* -o and -s in MTL's coordinates are the map's offset and scale in glTF's: checked by looking a point up both ways. */
+/* -o and -s in MTL's coordinates are the map's offset and scale in glTF's: checked by transforming a point both ways. */
 static void offset_and_scale_are_converted(void **state)
 {
     (void)state;
@@ -539,7 +539,7 @@ static void files_are_opened_once(void **state)
         text_addf(&spectrum, "%.2f 0.5\n", 380.0 + 0.02 * i);
     test_put(&folder, "a.mtl", library.data, library.length);
     test_put(&folder, "s.rfl", spectrum.data, spectrum.length);
-    test_put_text(&folder, "c.png", "no picture");
+    test_put_text(&folder, "c.png", "no image");
     test_put_png(&folder, "a.png");
     assert_int_equal(link(test_path(&folder, "a.png"), test_path(&folder, "b.png")), 0);
     assert_int_equal(symlink("a.mtl", test_path(&folder, "link.mtl")), 0);

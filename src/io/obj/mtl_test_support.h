@@ -23,7 +23,7 @@ void test_folder_remove(const test_folder *folder);
 const char *test_path(const test_folder *folder, const char *name);
 void test_put(const test_folder *folder, const char *name, const void *bytes, size_t size);
 void test_put_text(const test_folder *folder, const char *name, const char *string);
-/* A PNG picture of one texel. */
+/* A PNG image of one texel. */
 void test_put_png(const test_folder *folder, const char *name);
 /* The text of a file with 0 behind it; free() it. */
 char *test_get(const test_folder *folder, const char *name);

@@ -1,4 +1,4 @@
-/* mtl_write_test.c - what is written of materials comes back; glTF materials to the bit. */
+/* mtl_write_test.c - written materials read back equal; glTF materials to the bit. */
 #define _POSIX_C_SOURCE 200809L
 #include "tests/support/support.h"
 #include "io/obj/mtl_test_support.h"

@@ -102,7 +102,7 @@ static void test_counts(void **state)
     }
 }
 
-/* "Load or refuse, never crash": all of these load, with warnings about what is wrong. */
+/* "Load or refuse, never crash": all of these load, with warnings about their flaws. */
 static void test_malformed(void **state)
 {
     (void)state;

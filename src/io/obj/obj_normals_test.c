@@ -178,7 +178,7 @@ static size_t write_sheet(char *out, size_t room, const char *group, int sides)
     return length;
 }
 
-/* A sheet that is there twice, once each way round, has the normals of the one that faces us, to the last bit. */
+/* A sheet that exists twice, with opposite windings, has the normals of the front one, to the last bit. */
 static void test_sheets_with_two_sides(void **state)
 {
     (void)state;

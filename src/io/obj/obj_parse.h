@@ -1,5 +1,5 @@
-/* obj_parse.h - the text of one chunk: words and lines, and what is added to its lists. All text ends with a line end,
- * behind which NUMBER_TAIL bytes can be read. */
+/* obj_parse.h - parses the text of one chunk, words and lines, into its lists. All text ends with a line end, followed
+ * by NUMBER_TAIL readable bytes. */
 #ifndef IO_OBJ_PARSE_H
 #define IO_OBJ_PARSE_H
 
@@ -45,7 +45,7 @@ const char *obj_read_element(obj_chunk *c, const char *p, scene_mode mode, const
 
 /* Sets element and corner. */
 void obj_add_event(obj_chunk *c, obj_event event, const facet_allocator *allocator);
-/* Room for at least one more. False: no memory, which the chunk knows. */
+/* Room for at least one more. False: no memory, recorded in the chunk. */
 bool obj_indices_grow(obj_chunk *c, obj_indices *list, const facet_allocator *allocator);
 
 #endif

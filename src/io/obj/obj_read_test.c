@@ -1,4 +1,4 @@
-/* Statements of OBJ files: numbers, indices, objects, materials, what is wrong. Normals: obj_normals_test.c. */
+/* Statements of OBJ files: numbers, indices, objects, materials, flaws. Normals: obj_normals_test.c. */
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stdio.h>
@@ -96,7 +96,7 @@ static void test_texcoords_as_they_are(void **state)
     scene_destroy(scene);
 }
 
-/* Each way to write the same square gives the same scene. */
+/* Every notation of the same square gives the same scene. */
 static void test_ways_to_write(void **state)
 {
     (void)state;

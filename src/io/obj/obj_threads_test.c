@@ -206,7 +206,7 @@ static void test_memory_is_bounded(void **state)
     double kept = (double)facet_budget_used_bytes(budget);
     double peak = (double)facet_budget_peak_bytes(budget);
     if (peak > 3.5 * kept)
-        fail_msg("the peak is %.2f times what is kept", peak / kept);
+        fail_msg("the peak is %.2f times the memory of the scene", peak / kept);
     scene_destroy(scene);
     facet_budget_destroy(budget);
     free(g.bytes);

@@ -186,7 +186,7 @@ static void objects_follow_one_another(void **state)
     test_folder_remove(&folder);
 }
 
-/* Those in use, by their own names where they are plain; what is there already stays, what others own is not touched. */
+/* Those in use, by their own names where they are plain; existing files stay, files of others are not touched. */
 static void images_are_beside(void **state)
 {
     (void)state;
@@ -194,7 +194,7 @@ static void images_are_beside(void **state)
     test_put_png(&folder, "in/plain.png");
     test_put_png(&folder, "in/not plain.png");
     test_put_png(&folder, "in/taken.png");
-    test_put_text(&folder, "taken.png", "of somebody else");
+    test_put_text(&folder, "taken.png", "another program's");
     test_put_text(
         &folder, "in/a.mtl",
         "newmtl m0\nmap_Kd plain.png\nmap_Ks not plain.png\nmap_Ke taken.png\nnewmtl m1\nmap_Kd gone.png\n");
@@ -209,7 +209,7 @@ static void images_are_beside(void **state)
     assert_non_null(strstr(mtl, "map_Kd gone.png\n"));
     free(mtl);
     char *taken = test_get(&folder, "taken.png");
-    assert_string_equal(taken, "of somebody else");
+    assert_string_equal(taken, "another program's");
     free(taken);
     /* Found again, in spite of the spaces; the image that is there already is no input that would be replaced. */
     facet_scene *again = NULL;

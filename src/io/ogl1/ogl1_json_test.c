@@ -152,7 +152,7 @@ static void test_colors(void **state)
         scene_destroy(scene);
     }
     facet_scene *scene = ogl1_load("{'materials':[{'color':'#33669980','alpha':0.75}]}");
-    assert_true(scene->legacy->materials[0].opacity == 0.75f); /* what is stated counts */
+    assert_true(scene->legacy->materials[0].opacity == 0.75f); /* as stated */
     scene_destroy(scene);
 }
 
@@ -223,7 +223,7 @@ static void test_out_of_range(void **state)
     scene_destroy(scene);
 }
 
-static void test_unknown_is_told_once(void **state)
+static void test_unknown_is_reported_once(void **state)
 {
     (void)state;
     facet_scene *scene =
@@ -496,7 +496,7 @@ int main(void)
         cmocka_unit_test(test_wrong_colors),
         cmocka_unit_test(test_parameters),
         cmocka_unit_test(test_out_of_range),
-        cmocka_unit_test(test_unknown_is_told_once),
+        cmocka_unit_test(test_unknown_is_reported_once),
         cmocka_unit_test(test_lights),
         cmocka_unit_test(test_fog),
         cmocka_unit_test(test_wrong_documents),

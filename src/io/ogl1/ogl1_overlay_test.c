@@ -67,7 +67,7 @@ static void test_by_material(void **state)
     assert_true(shininess(scene, 0, 0) == 7.0f);
     assert_string_equal(scene->legacy->materials[0].name, "red");
     assert_string_equal(scene->materials[0].name, "red");
-    /* Its glTF material is to be made anew; what is not met keeps its own. */
+    /* Its glTF material is converted anew; the others keep theirs. */
     assert_true(scene->materials[0].metallic == 1.0f);
     assert_string_equal(scene->materials[0].meta.extras, "{\"k\":1}");
     assert_false(scene->legacy->materials[0].is_gltf_restored);

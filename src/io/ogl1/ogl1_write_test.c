@@ -1,4 +1,4 @@
-/* ogl1_write_test.c - what is written reads back equal, and looks as R can take it. */
+/* ogl1_write_test.c - written documents read back equal, and have a form that R accepts. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -194,7 +194,7 @@ static void test_as_r_takes_it(void **state)
     scene_destroy(scene);
 }
 
-/* Statements of an MTL file that nothing knows are any text, even the names of parameters. */
+/* Unknown statements of an MTL file may be any text, even the names of parameters. */
 static void test_unknown_of_mtl(void **state)
 {
     (void)state;
@@ -222,7 +222,7 @@ static void test_objects(void **state)
     facet_scene *scene = ogl1_load("{'materials':[{'name':'a'},{'name':'b'},{'name':'c'},{'name':'d'},{}]}");
     scene->nodes[1].name = "";       /* its mesh is called b */
     scene->nodes[3].name = "c";      /* as that of another material */
-    scene->nodes[4].child_count = 1; /* what is below would get it too */
+    scene->nodes[4].child_count = 1; /* its descendants would get it, too */
     scene->legacy->materials[4].name = "";
     char *json = write(scene);
     facet_scene *back = NULL;
@@ -278,7 +278,7 @@ static void test_save_with_images(void **state)
     assert_string_equal(back->legacy->materials[2].maps[LEGACY_DIFFUSE_MAP].path, "gone.png");
     scene_destroy(back);
 
-    /* What rgl has no place for is told. */
+    /* Values without a counterpart in rgl are reported. */
     scene->legacy->materials[0].maps[LEGACY_SPECULAR_MAP].ref.texture = 0;
     scene->legacy->materials[0].maps[LEGACY_DIFFUSE_MAP].gain = 0.5f;
     assert_int_equal(ogl1_json_save(scene, out, "test", &desc, &error), FACET_OK);

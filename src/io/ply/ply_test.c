@@ -272,7 +272,7 @@ static void vertices_alone_are_points(void **state)
 
 /* ---- damage ---- */
 
-static void damage_is_told(void **state)
+static void damage_is_reported(void **state)
 {
     (void)state;
     static const struct {
@@ -336,7 +336,7 @@ int main(void)
         cmocka_unit_test(texture_coordinates_of_faces_and_an_image_are_read),
         cmocka_unit_test(polygons_and_strips_are_triangles),
         cmocka_unit_test(vertices_alone_are_points),
-        cmocka_unit_test(damage_is_told),
+        cmocka_unit_test(damage_is_reported),
     };
     return cmocka_run_group_tests_name("ply", tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* Tests of stl.h: both forms, what tells them apart, welding, damage. */
+/* Tests of stl.h: both forms, their detection, welding, damage. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -163,7 +163,7 @@ static void far_places_are_exact(void **state)
     scene_destroy(scene);
 }
 
-static void damage_is_told(void **state)
+static void damage_is_reported(void **state)
 {
     (void)state;
     unsigned char binary[BINARY_SIZE];
@@ -202,7 +202,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(both_forms_are_read),  cmocka_unit_test(other_files_are_not),
         cmocka_unit_test(solids_are_objects),   cmocka_unit_test(a_solid_ends_a_loop),
-        cmocka_unit_test(far_places_are_exact), cmocka_unit_test(damage_is_told),
+        cmocka_unit_test(far_places_are_exact), cmocka_unit_test(damage_is_reported),
     };
     return cmocka_run_group_tests_name("stl", tests, NULL, NULL);
 }
