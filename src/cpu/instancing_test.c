@@ -1,5 +1,4 @@
-/* Tests of instances in the hierarchy: which geometries become some, and that they are seen as flat ones
- * are. */
+/* Tests of instances in the BVH: which geometries are instanced, and that the image is that of flat ones. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,7 +12,7 @@
 #include "cpu/instancing.h"
 #include "cpu/preview_fixture.h"
 
-/* 64 * 32 * 2 = 4096 triangles: 9 of them save as many as the smallest image asks for. */
+/* 64 * 32 * 2 = 4096 triangles: 9 of them save as many as the smallest image requires. */
 enum { COLUMNS = 64, SPHERE_TRIANGLES = 4096, ENOUGH = 9 };
 
 typedef struct chosen {
@@ -71,7 +70,7 @@ static void few_uses_stay_flat(void **state)
     fixture_destroy(&f);
 }
 
-/* Each shape once, in the order of first use; what is used once stays flat. */
+/* Each shape once, in the order of first use; shapes with one use stay flat. */
 static void uses_share_a_shape(void **state)
 {
     (void)state;
@@ -102,7 +101,7 @@ static void uses_share_a_shape(void **state)
     fixture_destroy(&f);
 }
 
-/* What an instance cannot hold, or would hold with too much rounding. */
+/* Geometries that cannot be instanced, or with too large rounding errors. */
 static void wild_instances_stay_flat(void **state)
 {
     (void)state;
@@ -135,7 +134,7 @@ static void a_mesh_far_from_its_origin_stays_flat(void **state)
     fixture_destroy(&f);
 }
 
-/* A thing far away, or a camera there, makes rays that do not fit into the space of instances. */
+/* A distant mesh, or a distant camera, makes rays that do not fit into the space of instances. */
 static void add_far_thing(fixture *f)
 {
     fixture_place(f, fixture_add_quad(f, SCENE_NONE), 2e10f, 0.0f, 2e10f, 1.0f);
@@ -159,7 +158,7 @@ static void beyond_reach_all_is_flat(void **state)
 
 /* ---- images ---- */
 
-/* A quaternion that turns by angle around an axis that is none of the coordinates'. */
+/* A quaternion that rotates by angle around an axis that is not a coordinate axis. */
 static void set_turn(scene_node *node, float angle)
 {
     const float axis[3] = {0.48f, 0.6f, 0.64f};
@@ -192,7 +191,7 @@ static uint32_t add_textured_material(fixture *f, scene_alpha_mode alpha_mode)
     return fixture_add_material(f, m);
 }
 
-/* Spheres that turn, some mirrored, all stretched by another amount along each axis. */
+/* Rotating spheres, some mirrored, all scaled differently along each axis. */
 static fixture grid_scene(scene_alpha_mode alpha_mode)
 {
     fixture f = fixture_create();
@@ -213,7 +212,7 @@ static fixture grid_scene(scene_alpha_mode alpha_mode)
     return f;
 }
 
-/* Renders instanced and, with a thing far away, flat. */
+/* Renders instanced and, with a distant mesh, flat. */
 static void render_both(fixture *f, film pictures[2])
 {
     assert_true(count_role(f, 64 * 64 * 4, RENDER_INSTANCED) > 0);
@@ -223,9 +222,8 @@ static void render_both(fixture *f, film pictures[2])
     pictures[1] = fixture_render(f);
 }
 
-/* Rays meet an instance in its own space, so weights and distances differ by rounding, and where the
- * silhouette passes within rounding of a sample it may fall on the other side: 2 pixels of a layer at
- * most. */
+/* Rays intersect an instance in its own space, so weights and distances differ by rounding, and at the
+ * silhouette a sample may differ: 2 pixels of a layer at most. */
 static void assert_alike(const film *a, const film *b, const char *layer, float tolerance)
 {
     uint32_t others = 0;
@@ -268,8 +266,8 @@ static void instances_are_seen_as_flat_ones(void **state)
     }
 }
 
-/* Beside the flat image, which might be as wrong: the normals of a stretched, mirrored, turned sphere in
- * closed form. A point p = M q with |q| = 1 has the normal M^-T q. */
+/* Independently of the flat image, which might be as wrong: the normals of a scaled, mirrored, rotated
+ * sphere in closed form. A point p = M q with |q| = 1 has the normal M^-T q. */
 static void normals_of_instances_are_those_of_ellipsoids(void **state)
 {
     (void)state;
@@ -321,7 +319,8 @@ static void normals_of_instances_are_those_of_ellipsoids(void **state)
                 for (int r = 0; r < 3; r++)
                     normal[r] /= sqrt(length);
             }
-            if (best > 0.01 || normal[2] < 0.2) /* where facets of the rim stand off the ellipsoid */
+            if (best > 0.01 ||
+                normal[2] < 0.2) /* where triangles at the silhouette deviate from the ellipsoid */
                 continue;
             checked++;
             double cosine = 0.0;
@@ -339,7 +338,7 @@ static void instances_do_not_depend_on_threads(void **state)
 {
     (void)state;
     fixture f = grid_scene(SCENE_ALPHA_BLEND);
-    /* Copies in one place: which of them is hit must not depend on the threads. */
+    /* Coincident copies: which of them is hit must not depend on the threads. */
     for (int i = 0; i < 16; i++)
         *fixture_place(&f, f.scene->nodes[i].mesh, 0, 0, 0, 1.0f) = f.scene->nodes[i];
     f.desc.width = f.desc.height = 100;
@@ -371,7 +370,7 @@ static void set_copies(fixture *f, scene_node *node, uint32_t side, float spacin
     node->instancing = instancing;
 }
 
-/* 10 000 spheres of 1152 triangles would be 1 GB of hierarchy. */
+/* 10 000 spheres of 1152 triangles would be 1 GB of BVH. */
 static void many_copies_are_cheap(void **state)
 {
     (void)state;
@@ -394,7 +393,7 @@ static void many_copies_are_cheap(void **state)
     fixture_destroy(&f);
 }
 
-/* The copies whose textures count are those that are nearest in the image, as a sort of all tells. */
+/* The copies that determine mips are the nearest in the image, as a full sort finds them. */
 static void near_copies_are_those_that_are_seen_largest(void **state)
 {
     (void)state;
@@ -425,7 +424,7 @@ static void near_copies_are_those_that_are_seen_largest(void **state)
     }
     assert_true(near_count >= NEAREST_COPIES && near_count < NEAREST_COPIES + 20); /* rows are equally far */
     assert_true(nearest_far >= farthest_near - 0.01f);
-    /* Where none is in the image, one still tells which textures there are. */
+    /* Where none is in the image, one still determines the textures. */
     f.camera.target[2] = 1.0f;
     f.camera.target[1] = f.camera.eye[1] = 100.0f;
     assert_int_equal(camera_rays_create(&f.camera, 64, 64, &camera, NULL), FACET_OK);

@@ -1,5 +1,4 @@
-/* Tests of materials with extensions: which channel of which texture is what, factors of 0, frames,
- * anti-aliasing. */
+/* Tests of materials with extensions: texture channels, factors of 0, frames, anti-aliasing. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -29,7 +28,7 @@ static scene_material base(void)
     return m;
 }
 
-/* A ball and a wall behind it, two lamps, a constant environment; u1 is the ball's second set of
+/* A ball and a wall behind it, two lights, a constant environment; u1 is the ball's second set of
  * coordinates. */
 static film render_ball(scene_material material, fixture *f, bool is_antialiased)
 {
@@ -68,7 +67,7 @@ static const uint32_t EXTENSIONS = SCENE_CLEARCOAT | SCENE_SHEEN | SCENE_TRANSMI
                                    SCENE_IRIDESCENCE | SCENE_ANISOTROPY | SCENE_DISPERSION |
                                    SCENE_DIFFUSE_TRANSMISSION | SCENE_VOLUME_SCATTER;
 
-/* Every layer, with values that show. */
+/* Every layer, with visible values. */
 static scene_material with_all(float factor)
 {
     scene_material m = base();
@@ -104,7 +103,7 @@ static void a_factor_of_0_is_the_base(void **state)
     film_destroy(&all);
 }
 
-/* Also a factor that a texel makes 0; with one sample, because what may be glass is shaded for each. */
+/* Also a factor that a texel makes 0; with one sample, because transmissive materials are shaded for each. */
 static void a_texel_of_0_is_the_base(void **state)
 {
     (void)state;
@@ -148,7 +147,7 @@ static void multiply_color(float color[3])
     color[2] *= decoded(B);
 }
 
-/* What a texture of that texel does to the numbers of a material. */
+/* The effect of a texture of that texel on the parameters of a material. */
 static void apply_texel(scene_material *m, scene_texture_slot slot)
 {
     const float r = R / 255.0f;
@@ -283,8 +282,7 @@ static void glossiness_is_lossless(void **state)
 
 static const float TANGENTS[16] = {1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1};
 
-/* Light that comes from tan(30 degrees) to the right (or above) onto a quad with a tilted coat; how bright
- * it is. */
+/* Brightness under light from tan(30 degrees) to the right (or above) on a quad with a tilted coat. */
 static float coat_towards(bool from_above, uint32_t set, bool has_tangents)
 {
     static const unsigned char right[4] = {192, 128, 238, 255}; /* tilted by 30 degrees towards +u */
@@ -431,8 +429,8 @@ static void layers_return_no_more_than_they_got(void **state)
 
 /* ---- specular anti-aliasing ---- */
 
-/* A ball of radius R pixels turns its normal by 1 / R from pixel to pixel, in the middle: alpha^2 grows by
- * 1/2 (1 / R^2 + 1 / R^2). */
+/* The normal of a ball of radius R pixels changes by 1 / R per pixel in the middle: alpha^2 grows by 1/2
+ * (1 / R^2 + 1 / R^2). */
 static float highlight(float perceptual_roughness, bool is_antialiased)
 {
     fixture f = fixture_create();
@@ -482,7 +480,7 @@ static void flat_surfaces_stay_as_they_are(void **state)
     film_destroy(&pictures[1]);
 }
 
-/* Bumps narrower than a pixel make a mirror dull. */
+/* Bumps narrower than a pixel roughen a mirror. */
 static void normal_textures_count(void **state)
 {
     (void)state;
@@ -520,7 +518,7 @@ static void normal_textures_count(void **state)
 
 /* ---- limits ---- */
 
-/* The deadline is looked at within a tile: this image is one, and takes much longer. */
+/* The deadline is checked within a tile: this image is one, and takes much longer. */
 static void the_time_limit_holds_within_a_tile(void **state)
 {
     (void)state;
@@ -544,7 +542,7 @@ static void the_time_limit_holds_within_a_tile(void **state)
     fixture_destroy(&f);
 }
 
-/* Lets the image begin, and asks to stop when it is told of it again. */
+/* Cancels at the second call of the progress callback. */
 static bool stop_soon(void *user, const char *stage, double fraction)
 {
     double *last = user;

@@ -109,7 +109,7 @@ static void to_eye(const view *v, const double p[3], double w, double out[3])
 
 /* ---- light ---- */
 
-/* Color of a point in eye space with its normal, as one of the pipelines has it. */
+/* Color of a point in eye space with its normal, by one of the pipelines. */
 static void light_point(const ogl1_quad *q, const view *v, const double P[3], const double normal[3],
                         const double diffuse[3], bool is_front, double rgb[3])
 {
@@ -170,7 +170,7 @@ static double fog_share(const ogl1_quad *q, double d)
 
 static const double corners[4][3] = {{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}, {1, 1, 0}};
 
-/* Where the ray of a pixel meets z = 0: vertices of the triangle, and weights. */
+/* Intersection of a pixel's ray with z = 0: vertices of the triangle, and weights. */
 static bool hit(const ogl1_quad *q, const view *v, uint32_t x, uint32_t y, int vertex[3], double weight[3])
 {
     double pixel = 2.0 * tan(0.5 * (double)q->camera.fov_y_rad) / q->size;
@@ -257,7 +257,7 @@ bool ogl1_quad_color(const ogl1_quad *q, uint32_t x, uint32_t y, double rgb[3])
 
 /* ---- comparison ---- */
 
-/* Whether the nearest of 255 codes is open within the error of floats. */
+/* Whether the nearest of 255 codes is ambiguous within the error of floats. */
 static bool is_between_codes(double value)
 {
     double part = value * 255.0 - floor(value * 255.0);

@@ -1,4 +1,4 @@
-/* ogl1_fixture.h - scenes with legacy materials for tests, and what OpenGL 1 makes of a quad in double,
+/* ogl1_fixture.h - scenes with legacy materials for tests, and OpenGL 1's shading of a quad in double,
  * written without shade/phong.h. */
 #ifndef CPU_OGL1_FIXTURE_H
 #define CPU_OGL1_FIXTURE_H
@@ -12,12 +12,12 @@ scene_legacy *ogl1_fixture_legacy(fixture *f);
  * origin. */
 void ogl1_fixture_camera(fixture *f);
 
-/* 8 x 8 pixels of 2 m, seen head on from afar, under a white light at the eye: N = V = L for what faces
- * +Z. */
+/* 8 x 8 pixels of 2 m, seen head on from afar, under a white light at the camera: N = V = L for surfaces
+ * that face +Z. */
 fixture ogl1_fixture_head_on(scene_legacy **legacy);
 
-/* The fixture's quad with one material: everything that its color depends on. Numbers are those computed
- * with. */
+/* The fixture's quad with one material: everything that its color depends on, in the values that lighting
+ * uses. */
 typedef struct ogl1_quad {
     facet_ogl1_variant variant;
     facet_camera camera;
@@ -34,10 +34,10 @@ typedef struct ogl1_quad {
     double global_ambient;
 } ogl1_quad;
 
-/* Color of the middle of pixel (x, y), clamped where is_linear is false; false: the quad is not there. */
+/* Color at the center of pixel (x, y), clamped where is_linear is false; false: the quad is not there. */
 bool ogl1_quad_color(const ogl1_quad *q, uint32_t x, uint32_t y, double rgb[3]);
-/* Renders and compares every pixel: numbers to 2e-5, 8-bit codes exactly, but for values within 2e-5 of
- * where two codes meet. At least least pixels must show the quad. */
+/* Renders and compares every pixel: values to 2e-5, 8-bit codes exactly, except within 2e-5 of the
+ * threshold between two codes. At least `least` pixels must show the quad. */
 void ogl1_quad_check(fixture *f, const ogl1_quad *q, uint32_t least, const char *what);
 /* The sRGB transfer function, in double. */
 double ogl1_decode(double encoded);

@@ -1,5 +1,5 @@
 /* Tests of FACET_SHADING_OGL1: light. Pixels against double evaluations of each pipeline, for every
- * variant, kind of light, side and fog; lamps of glTF; linear light. */
+ * variant, kind of light, side and fog; punctual lights of glTF; linear light. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -21,7 +21,7 @@ static void copy3(const double in[3], float out[3])
         out[i] = (float)in[i];
 }
 
-/* A quad with normals that turn through the view, in colors that stay below 1 for the most part. */
+/* A quad with rotating normals, in colors that stay below 1 for the most part. */
 static ogl1_quad make_quad(facet_ogl1_variant variant)
 {
     ogl1_quad q = {.variant = variant,
@@ -159,7 +159,7 @@ static void flat_faces(void **state)
     }
 }
 
-/* A light of the viewpoint goes with a camera that turns around the quad, one of the world stays. */
+/* A light at the viewpoint follows a camera that orbits the quad, one of the world does not. */
 static void lights_that_move_with_the_camera(void **state)
 {
     (void)state;
@@ -181,7 +181,7 @@ static void lights_that_move_with_the_camera(void **state)
             float middle = fixture_pixel(&picture, "", 32, 32)[0];
             if (i == 0)
                 first = middle;
-            /* N.L is cos(angle) for a light at the eye, 1 for one of the world; equal at -30 and 30
+            /* N.L is cos(angle) for a light at the camera, 1 for one of the world; equal at -30 and 30
              * degrees */
             bool is_equal = fabsf(middle - first) < 1e-4f;
             assert_true(is_equal == (!relative || i == 0 || i == 4));
@@ -233,7 +233,7 @@ static void without_lights_there_is_rgls_default(void **state)
     }
 }
 
-/* A lamp of glTF of pi lx is a legacy light of 1; others are encoded like colors. */
+/* A punctual light of pi lx is a legacy light of 1; others are encoded like colors. */
 static void directional_lamps_of_gltf(void **state)
 {
     (void)state;
@@ -249,7 +249,7 @@ static void directional_lamps_of_gltf(void **state)
                 q.emission[c] = ogl1_decode(q.emission[c]);
             }
         fixture f = show(&q);
-        if (is_linear) { /* the file's numbers are those of make_quad() */
+        if (is_linear) { /* the values of make_quad() */
             ogl1_quad file = make_quad(FACET_OGL1_VARIANT_WEBGL);
             copy3(file.ambient, f.scene->legacy->materials[0].ambient);
             copy3(file.diffuse, f.scene->legacy->materials[0].diffuse);
@@ -260,7 +260,7 @@ static void directional_lamps_of_gltf(void **state)
                             .type = SCENE_LIGHT_DIRECTIONAL,
                             .color = {1.0f, 0.5f, 0.25f},
                             .intensity = 3.14159265f * factor};
-        fixture_add_light(&f, lamp, 0, 0, 0); /* shines along -Z */
+        fixture_add_light(&f, lamp, 0, 0, 0); /* emits along -Z */
         q.light_count = 1;
         q.lights[0] = (legacy_light){.position = {0, 0, 1}};
         for (int c = 0; c < 3; c++) {
@@ -353,7 +353,7 @@ static void linear_light(void **state)
         }
 }
 
-/* The display's numbers do not depend on what they would mean as light. */
+/* Display values do not depend on their meaning as light. */
 static void encoded_numbers_have_no_color_space(void **state)
 {
     (void)state;

@@ -1,5 +1,4 @@
-/* Tests of FACET_SHADING_OGL1: what stays the same from image to image, what is not touched, what cannot
- * be drawn. */
+/* Tests of FACET_SHADING_OGL1: reuse between images, independence of glTF, unsupported scenes. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,7 +11,7 @@
 
 /* ---- sameness ---- */
 
-/* Transparent, textured, mapped, foggy, under all kinds of light. */
+/* Transparent, textured, mapped, fogged, under all kinds of light. */
 static fixture busy_scene(void)
 {
     scene_legacy *legacy;
@@ -82,7 +81,7 @@ static void pictures_do_not_depend_on_threads(void **state)
     }
 }
 
-/* One prepared scene drawn in both models by turns gives the images of fresh ones. */
+/* One prepared scene rendered alternately in both models gives the images of new ones. */
 static void models_take_turns(void **state)
 {
     (void)state;

@@ -88,8 +88,7 @@ static void environment(int type, int mode, const double E[4], const double T[4]
         out[3] = E[3];
 }
 
-/* The texture is laid over all of the light, the highlight too; but for fixed functions, which add that
- * later. */
+/* The texture multiplies all of the light, the highlight too; fixed functions add the highlight later. */
 static void every_texture_type_and_mode(void **state)
 {
     (void)state;
@@ -152,7 +151,7 @@ static void the_diffuse_map_of_mtl(void **state)
     }
 }
 
-/* In linear light a texture is decoded, and laid over decoded colors. */
+/* In linear light a texture is decoded, and combined with decoded colors. */
 static void textures_in_linear_light(void **state)
 {
     (void)state;
@@ -237,8 +236,8 @@ static void normal_maps(void **state)
         double n[3] = {0.5 * (2.0 * 218.0 / 255.0 - 1.0), 0.5 * (2.0 * 128.0 / 255.0 - 1.0),
                        2.0 * 218.0 / 255.0 - 1.0};
         double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-        /* From behind the eye's right is -X: the normal turned to the eye is (-x, -y, -z), which is (x,
-         * -y, z) there. */
+        /* From behind, the camera's right is -X: the normal turned to the camera is (-x, -y, -z), which is
+         * (x, -y, z) there. */
         double NL = (0.6 * n[0] + 0.8 * n[2]) / length;
         const double expected[3] = {0.75 * NL, 0.75 * NL, 0.75 * NL};
         assert_numbers(&picture, 4, 2, expected, 1.0);
@@ -328,7 +327,7 @@ static void alpha_over_alpha(void **state)
         over[c] = 0.5 * (double)front->diffuse[c] + 0.5 * behind;
         straight[c] = (0.5 * (double)front->diffuse[c] + 0.125 * (double)back->diffuse[c]) / coverage;
     }
-    assert_numbers(&picture, 4, 2, straight, coverage); /* what a transparent image holds */
+    assert_numbers(&picture, 4, 2, straight, coverage); /* content of a transparent image */
     const float linear = (float)ogl1_decode(background);
     const float color[3] = {linear, linear, linear};
     unsigned char codes[3];
@@ -349,7 +348,7 @@ static void alpha_over_alpha(void **state)
     fixture_destroy(&f);
 }
 
-/* Opacity 0 is not there; vertex alpha and a map multiply; a halo is thinnest where it faces the eye. */
+/* Opacity 0 is absent; vertex alpha and a map multiply; a halo is thinnest where it faces the camera. */
 static void opacities(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Tests of the parts that glass is made of: normals of boundaries, bundles of rays, sample numbers, media. */
+/* Tests of the parts of refraction: normals of boundaries, ray bundles, random numbers, media. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -57,7 +57,7 @@ static void set_triangle(triangle *t, const vec3 p[3], const vec3 n[3], float u,
     t->point.m.base.N = normalize(N) * (t->point.is_front ? 1.0f : -1.0f);
 }
 
-/* The normals of a ball's mesh are such that a ball can have them. */
+/* The normals of a tessellated ball stay unchanged. */
 static void normals_of_a_ball_stay(void **state)
 {
     (void)state;
@@ -106,7 +106,7 @@ static void flat_normals_stay(void **state)
 
 /* ---- bundles ---- */
 
-/* A surface that turns: N(P) = normalize(N0 + curvature P) around P = 0. */
+/* A curved surface: N(P) = normalize(N0 + curvature P) around P = 0. */
 static vec3 normal_at(vec3 P, float curvature)
 {
     return normalize(vec3(0.0f, 0.0f, 1.0f) + vec3(P[0], P[1], 0.0f) * curvature);
@@ -117,7 +117,7 @@ static vec3 refracted(vec3 D, vec3 N, float eta)
     return refract(normalize(D), N, eta);
 }
 
-/* The changes agree with those of neighbouring rays that are followed one by one. */
+/* The differentials agree with neighboring rays that are traced one by one. */
 static void bundles_follow_their_neighbours(void **state)
 {
     (void)state;
@@ -207,8 +207,7 @@ static void every_pixel_has_its_place(void **state)
     }
 }
 
-/* What is drawn at one surface tells nothing of what is drawn at the next: their products average to a
- * quarter. */
+/* Random numbers at one surface are independent of those at the next: their products average to a quarter. */
 static void bounces_are_independent(void **state)
 {
     (void)state;
@@ -230,7 +229,7 @@ static void media_are_left_in_any_order(void **state)
     scene_material m[MEDIA_DEPTH + 2];
     media in = {0};
     assert_null(media_here(&in));
-    media_leave(&in, &m[0]); /* what was not entered */
+    media_leave(&in, &m[0]); /* a volume that was not entered */
     assert_null(media_here(&in));
     media_enter(&in, &m[0], 1.0f);
     media_enter(&in, &m[1], 1.0f);
@@ -238,7 +237,7 @@ static void media_are_left_in_any_order(void **state)
     media_leave(&in, &m[0]); /* the glass before the liquid that reaches into it */
     assert_ptr_equal(media_here(&in), &m[1]);
     media_enter(&in, &m[1], 1.0f);
-    media_leave(&in, &m[1]); /* two bodies of one material */
+    media_leave(&in, &m[1]); /* two volumes of one material */
     assert_ptr_equal(media_here(&in), &m[1]);
     media_leave(&in, &m[1]);
     assert_null(media_here(&in));

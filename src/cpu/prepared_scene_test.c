@@ -1,5 +1,5 @@
-/* Tests of what is kept from image to image: each image is that of a render on its own, to the last bit,
- * and what does not change is not made again. */
+/* Tests of data kept from image to image: each image is bit for bit that of a separate render, and
+ * unchanged data are not rebuilt. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -43,7 +43,7 @@ static void assert_same_film(const film *a, const film *b)
                             (size_t)a->width * a->height * a->layers[i].channel_count * sizeof(float));
 }
 
-/* Draws with what is prepared, and on its own. */
+/* Renders with the prepared scene, and separately. */
 static facet_render_stats compare(fixture *f, prepared_scene *p)
 {
     film kept;
@@ -83,7 +83,7 @@ static uint32_t add_material(fixture *f, bool is_unlit, uint32_t seed)
     return fixture_add_material(f, m);
 }
 
-/* Textured spheres, lines, points, something seen through. */
+/* Textured spheres, lines, points, transparency. */
 static fixture still_scene(void)
 {
     static const float places[12] = {-1, -1, 0.5f, 1, 1, 0.3f, -1, 1, 0.2f, 1, -1, 0.1f};
@@ -139,7 +139,7 @@ static void turntables_keep_all_but_the_camera(void **state)
     }
 }
 
-/* Coming nearer decodes finer mips; going back looks at the coarser ones again. */
+/* Moving closer decodes finer mips; moving back reads the coarser ones again. */
 static void textures_are_as_fine_as_each_picture_wants_them(void **state)
 {
     (void)state;
@@ -195,8 +195,8 @@ static void settings_may_change_between_pictures(void **state)
     fixture_destroy(&f);
 }
 
-/* A plain of squares, each seen by a ray that meets its diagonal: which triangle it hits depends on how
- * well the hierarchy is built, and that on the number of rays. */
+/* A plane of squares, each hit by a ray on its diagonal: which triangle it hits depends on the quality of
+ * the BVH, and that on the number of rays. */
 static void hierarchies_are_as_good_as_each_picture_wants_them(void **state)
 {
     (void)state;
@@ -264,7 +264,7 @@ static const float key_weights[3] = {0.0f, 1.0f, 0.3f};
 static const float key_colors[12] = {1, 0, 0, 1, 0, 1, 0, 1, 0, 0, 1, 1};
 static const uint32_t first_animation = 0;
 
-/* Turns a node (or changes its weight, or the color of a material) by keys. */
+/* Rotates a node (or animates its weight, or the color of a material) by keys. */
 static void animate(fixture *f, scene_channel channel)
 {
     scene_sampler *sampler = arena_zalloc(f->scene->arena, 1, sizeof *sampler);
@@ -298,7 +298,7 @@ static scene_channel rotation_of(uint32_t node)
                            .is_rotation = true};
 }
 
-/* Big enough that it pays to keep what does not move: a child turns with its parent. */
+/* Large enough that keeping the static part pays: a child rotates with its parent. */
 static fixture moving_scene(void)
 {
     fixture f = fixture_create();
@@ -383,7 +383,7 @@ static void small_animations_are_flat(void **state)
     fixture_destroy(&f);
 }
 
-/* Morph targets: the sphere becomes pointed; tangents follow, what stands beside stays. */
+/* Morph targets: the sphere becomes pointed; tangents follow, other meshes stay. */
 static void deformed_meshes_are_made_anew(void **state)
 {
     (void)state;
@@ -421,7 +421,7 @@ static void deformed_meshes_are_made_anew(void **state)
     }
 }
 
-/* Only a color moves: the geometry is that of the frame before. */
+/* Only a color changes: the geometry is that of the frame before. */
 static void animated_materials_keep_the_geometry(void **state)
 {
     (void)state;
@@ -506,7 +506,8 @@ static void wrong_arguments_harm_nothing(void **state)
     fixture_destroy(&f);
 }
 
-/* Refuses each allocation of the second frame in turn. With what was kept let go there is enough for it. */
+/* Refuses each allocation of the second frame in turn. After releasing the kept data there is enough
+ * memory. */
 static void running_out_of_memory_starts_again(void **state)
 {
     (void)state;
@@ -545,7 +546,8 @@ static void running_out_of_memory_starts_again(void **state)
     fixture_destroy(&f);
 }
 
-/* Every budget is kept: images fail or are right, and a renderer that failed draws when there is more. */
+/* Every budget is respected: images fail or are correct, and a renderer that failed works with more
+ * memory. */
 static void budgets_are_kept(void **state)
 {
     (void)state;

@@ -17,7 +17,7 @@ typedef struct fixture {
 /* camera: at (0, 0, 10), looks at the origin, orthographic, 2 m high. */
 fixture fixture_create(void);
 void fixture_destroy(fixture *f);
-/* Number of the new material, image and texture (RGBA, 8 bits), mesh. */
+/* Index of the new material, image and texture (RGBA, 8 bits), mesh. */
 uint32_t fixture_add_material(fixture *f, scene_material material);
 uint32_t fixture_add_texture(fixture *f, uint32_t width, uint32_t height, const unsigned char *rgba);
 /* From (-1, -1, 0) to (1, 1, 0), facing +Z; texture coordinates (0, 0) at the top left. */
@@ -28,13 +28,13 @@ uint32_t fixture_add_sphere(fixture *f, uint32_t columns, uint32_t material);
 uint32_t fixture_add_sprites(fixture *f, scene_mode mode, const float *positions, uint32_t count,
                              uint32_t material);
 scene_primitive *fixture_primitive(fixture *f, uint32_t mesh);
-/* Puts the mesh into the scene. */
+/* Adds a node with the mesh to the scene. */
 scene_node *fixture_place(fixture *f, uint32_t mesh, float x, float y, float z, float scale);
 void fixture_add_light(fixture *f, scene_light light, float x, float y, float z);
 
 /* Renders; the film is released with film_destroy(). */
 film fixture_render(fixture *f);
-/* The same, and what became of it. */
+/* The same; returns the result. */
 facet_result fixture_try_render(fixture *f, film *out, facet_render_stats *stats, facet_error *error);
 const float *fixture_pixel(const film *picture, const char *layer, uint32_t x, uint32_t y);
 

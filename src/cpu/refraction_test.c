@@ -1,4 +1,4 @@
-/* Tests of what is seen through glass: furnaces, Snell's law, absorption, bodies in bodies, colors. */
+/* Tests of transmission: furnaces, Snell's law, absorption, nested volumes, colors. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -42,7 +42,7 @@ static scene_material glass_body(float ior)
     return m;
 }
 
-/* Emits (x, y, 1) mapped from [-scale, scale] m to [0, 1]: an image of it tells where its rays went. */
+/* Emits (x, y, 1) mapped from [-scale, scale] m to [0, 1]: its image shows where rays went. */
 static void add_ruler(fixture *f, float z, float scale)
 {
     static const float colors[16] = {0, 0, 1, 1, 1, 0, 1, 1, 0, 1, 1, 1, 1, 1, 1, 1};
@@ -72,7 +72,8 @@ static float *pixel(film *picture, uint32_t x, uint32_t y)
     return picture->layers[0].pixels + 4 * ((size_t)y * picture->width + x);
 }
 
-/* Where on the ruler, m, the middle pixel looks; per channel of a white ruler position that is red. */
+/* The position on the ruler, m, that the middle pixel sees; per channel of a white ruler the position that
+ * is red. */
 static double ruler_x(const float *rgba, double scale)
 {
     return ((double)rgba[0] / (double)rgba[2] * 2.0 - 1.0) * scale;
@@ -134,7 +135,7 @@ static void an_eye_in_glass_sees_out(void **state)
     fixture_destroy(&f);
 }
 
-/* A white scattering body gives back what it takes. */
+/* A white scattering volume loses no energy. */
 static void white_scattering_loses_nothing(void **state)
 {
     (void)state;
@@ -158,7 +159,7 @@ static void white_scattering_loses_nothing(void **state)
 
 /* ---- directions ---- */
 
-/* Sideways, as the eye sees it, of a ray that comes out behind a slab: t sin(a - b) / cos b. */
+/* Lateral offset, as the camera sees it, of a ray behind a slab: t sin(a - b) / cos b. */
 static double slab_shift(double thickness, double angle, double ior)
 {
     double b = asin(sin(angle) / ior);
@@ -179,7 +180,7 @@ static void a_slab_shifts_what_is_behind_it(void **state)
             add_ruler(&f, -3.0f, 2.0f);
             add_slab(&f, glass_body(iors[k]), 0.4f, angles[i] * DEGREE, 4.0f);
             film picture = fixture_render(&f);
-            /* Turned to +X, the front face sends the ray to -X; what is reflected inside adds a little. */
+            /* Turned to +X, the front face sends the ray to -X; internal reflection adds a little. */
             double expected = -slab_shift(0.4, angles[i] * DEGREE, (double)iors[k]);
             assert_near((float)ruler_x(pixel(&picture, 16, 16), 2.0), expected,
                         1e-4 + 0.08 * fabs(expected) * (iors[k] > 1.0f));
@@ -188,7 +189,7 @@ static void a_slab_shifts_what_is_behind_it(void **state)
         }
 }
 
-/* Of a ball the ray through (x, 0) leaves so that it crosses the axis; Snell's law twice. */
+/* The ray through (x, 0) of a ball leaves across the axis; Snell's law twice. */
 static double ball_x(double x, double ior, double z)
 {
     double a = asin(x);
@@ -261,7 +262,8 @@ static void absorption_follows_the_real_path(void **state)
             double path = thicknesses[i] / cos(asin(sin(angle) / (double)m.ior));
             for (int c = 0; c < 2; c++) {
                 double T = pow((double)m.attenuation_color[c], path / 0.5);
-                /* blue is not absorbed: it has the boundaries' share; twice through F is 0.2 % */
+                /* blue is not absorbed: it has the transmittance of the boundaries; twice through F is 0.2
+                 * % */
                 assert_near(p[c] / p[2], T, is_bent ? 4e-3 : 2e-4);
             }
             film_destroy(&picture);
@@ -269,7 +271,7 @@ static void absorption_follows_the_real_path(void **state)
         }
 }
 
-/* The base color is met at each boundary. */
+/* The base color applies at each boundary. */
 static void boundaries_tint(void **state)
 {
     (void)state;
@@ -362,7 +364,8 @@ static void add_leaves(fixture *f)
     add_ruler(f, -3.0f, 2.0f);
 }
 
-/* Glass of ior 1 facing the eye is not there: what is masked, blended, culled behind it looks as without. */
+/* Glass of ior 1 facing the camera is invisible: masked, blended, culled surfaces behind it look as
+ * without. */
 static void all_is_seen_through_glass(void **state)
 {
     (void)state;
@@ -389,7 +392,7 @@ static void all_is_seen_through_glass(void **state)
         film_destroy(&pictures[kind]);
 }
 
-/* Glass is opaque in the image, whatever is seen through it. */
+/* Glass is opaque in the image, whatever is behind it. */
 static void alpha_is_coverage(void **state)
 {
     (void)state;
@@ -402,7 +405,7 @@ static void alpha_is_coverage(void **state)
     fixture_destroy(&f);
 }
 
-/* A body without far side: rays end in it, absorbed as over the thickness that its material says. */
+/* A volume without far side: rays end in it, absorbed over the thickness of its material. */
 static void an_open_body_shows_the_environment(void **state)
 {
     (void)state;
@@ -413,7 +416,7 @@ static void an_open_body_shows_the_environment(void **state)
     m.attenuation_distance = 0.2f;
     m.attenuation_color[0] = 0.5f;
     m.specular = 0.0f;
-    /* 0.4 m, with the scale of the node 0.2 m of the distance at which half is left */
+    /* 0.4 m, with the scale of the node 0.2 m of the distance of transmittance one half */
     fixture_place(&f, fixture_add_quad(&f, fixture_add_material(&f, m)), 0, 0, 0, 0.5f);
     film picture = fixture_render(&f);
     assert_near(pixel(&picture, 32, 32)[0], 0.5, 1e-3);
@@ -422,8 +425,8 @@ static void an_open_body_shows_the_environment(void **state)
     fixture_destroy(&f);
 }
 
-/* A liquid whose surface lies in that of its glass, and one that reaches into it, both look like one that
- * is met between: glass, liquid, glass. */
+/* A liquid whose surface coincides with that of its glass, and one that overlaps it, both look like an
+ * exact nesting: glass, liquid, glass. */
 static void liquids_touch_their_glass(void **state)
 {
     (void)state;

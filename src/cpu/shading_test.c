@@ -50,7 +50,7 @@ static void a_white_mirror_shows_its_surroundings(void **state)
     }
 }
 
-/* In the conserving mode a white sphere vanishes in a white room, whatever it is made of. */
+/* In the conserving mode a white sphere vanishes in a white room, for every material. */
 static void white_vanishes_in_white(void **state)
 {
     (void)state;
@@ -70,7 +70,7 @@ static void white_vanishes_in_white(void **state)
     }
 }
 
-/* A gltf surface may return more than it got, but not without bound. */
+/* A gltf surface may return more than its irradiance, but boundedly. */
 static void the_gltf_mode_stays_near_white(void **state)
 {
     (void)state;
@@ -109,7 +109,7 @@ static void a_directional_light_on_lambert(void **state)
     no_environment(&f);
     scene_light light = {
         .name = "", .type = SCENE_LIGHT_DIRECTIONAL, .color = {1.0f, 0.5f, 0.25f}, .intensity = 2.0f};
-    fixture_add_light(&f, light, 0, 0, 0); /* shines along -Z */
+    fixture_add_light(&f, light, 0, 0, 0); /* emits along -Z */
     f.scene->nodes[0].rotation[1] = sinf(0.5f);
     f.scene->nodes[0].rotation[3] = cosf(0.5f); /* 1 rad off */
     film picture = render_quad(&f, lambert());
@@ -200,7 +200,7 @@ static void vertex_colors_multiply(void **state)
     fixture_destroy(&f);
 }
 
-/* A texture far away is its mean: what has been decoded reduced must not show. */
+/* A texture far away is its mean: reduced decoding must not be visible. */
 static void distant_textures_are_averaged(void **state)
 {
     (void)state;
@@ -342,7 +342,7 @@ static void layers_blend_in_any_order(void **state)
             fixture_place(&f, meshes[orders[i][k]], 0, 0, (float)orders[i][k], 1.0f);
         film picture = fixture_render(&f);
         /* front to back: blue 0.75, green 0.5 of 0.25, red 0.25 of 0.125 */
-        for (uint32_t p = 0; p < 64; p++) { /* with the diagonal, where two triangles meet */
+        for (uint32_t p = 0; p < 64; p++) { /* including the diagonal, where two triangles meet */
             const float *pixel = fixture_pixel(&picture, "", p, p);
             assert_color(pixel, 0.03125f, 0.125f, 0.75f, 1e-6f);
             assert_true(fabsf(pixel[3] - 0.90625f) < 1e-6f);
@@ -401,7 +401,7 @@ static void an_opaque_surface_hides_layers_behind_it(void **state)
     }
 }
 
-/* Alpha runs from 0 to 1 over the width: what is left of the cutoff is not there. */
+/* Alpha grows from 0 to 1 over the width: left of the cutoff there is no surface. */
 static void masks_cut_at_the_cutoff(void **state)
 {
     (void)state;

@@ -72,7 +72,7 @@ static void the_lod_is_that_of_the_pixel(void **state)
     fixture_destroy(&s.f);
 }
 
-/* Foreshortening makes a footprint longer, not shorter: anisotropic lookup reads as finely as head on. */
+/* Foreshortening lengthens a footprint: anisotropic filtering reads as finely as head on. */
 static void slanted_surfaces_are_read_as_finely(void **state)
 {
     (void)state;
