@@ -1,4 +1,4 @@
-/* image_api.c - images of facet.h: looking at layers, encoding, saving. */
+/* image_api.c - images of facet/image.h: layers, encoding, saving. */
 #include "api/api.h"
 
 #include <string.h>
@@ -138,7 +138,7 @@ static facet_result encode_raw(const film *f, const image_encode_desc *desc, uns
     image rgba = {0};
     facet_result result =
         film_to_display_image(f, IMAGE_U8, true, &desc->allocator, desc->thread_count, &converted, error);
-    if (result == FACET_OK) /* without alpha where all of it is opaque */
+    if (result == FACET_OK) /* no alpha channel where all pixels are opaque */
         result =
             image_convert(&converted, &desc->allocator, desc->thread_count, 4, IMAGE_U8, true, &rgba, error);
     image_destroy(&converted);
@@ -225,7 +225,7 @@ facet_result facet_image_save(const facet_image *picture, const char *path, cons
 
 /* ---- IDs as colors ---- */
 
-/* Odd, so that no two numbers below 2^24 have one color; and far from them where they follow each other. */
+/* Odd, so that numbers below 2^24 have distinct colors, and far apart for successive ones. */
 static const uint32_t STRIDE = 0x3779b1;
 
 static bool is_id_layer(const char *name)

@@ -1,4 +1,4 @@
-/* ocean_api.c - the part of facet.h about the sea. */
+/* ocean_api.c - the functions of facet/sea.h. */
 #include "api/api.h"
 
 #include <math.h>
@@ -47,18 +47,18 @@ facet_result facet_sea_set_time(facet_sea *sea, double time_s, facet_error *erro
 {
     if (!isfinite(time_s))
         return fail(error, FACET_ERROR_ARGUMENT, "sea: its time is not a finite number");
-    double loop = sea->waves.loop_s; /* to the last bit, and with it all that depends on time beside waves */
-    if (loop > 0.0 && fabs(time_s) >= 0x1p52 * loop) /* farther away than whole loops can be counted */
+    double loop = sea->waves.loop_s; /* exactly periodic, and with it everything else that depends on time */
+    if (loop > 0.0 && fabs(time_s) >= 0x1p52 * loop) /* too far away to count whole loops */
         time_s = fmod(time_s, loop);
     time_s = loop > 0.0 ? time_s - loop * floor(time_s / loop) : time_s;
-    if (time_s != sea->waves.time_s) /* else they are there */
+    if (time_s != sea->waves.time_s) /* else nothing changes */
         waves_set_time(&sea->waves, time_s);
     return FACET_OK;
 }
 
 /* ---- what is known of them ---- */
 
-/* Along the wind and across. */
+/* Slope variance along and across the wind. */
 static void turn_slopes(slope_covariance c, double direction, double out[2])
 {
     double x = cos(direction), z = sin(direction);

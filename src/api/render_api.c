@@ -1,4 +1,5 @@
-/* render_api.c - facet_render() and facet_renderer: resolves the desc, has a renderer draw the film, develops it. */
+/* render_api.c - facet_render() and facet_renderer: resolves the desc, lets a renderer fill the film, and
+ * develops it. */
 #include "api/api.h"
 
 #include "base/clock.h"
@@ -9,11 +10,12 @@
 #include "render/render_gl.h"
 
 struct facet_renderer {
-    renderer_set set; /* without a scene: draws by a window's renderer, for what the user already sees */
+    renderer_set set; /* without a scene: borrows a window's renderer */
     render_check check;
 };
 
-/* Puts the background behind the picture: as light, or, where the model was drawn with the display's numbers, as such. */
+/* Tone-maps the film and blends the background in: linearly, or, where the shading wrote display values, in
+ * those. */
 static void develop(const facet_render_desc *desc, film *picture)
 {
     const float *behind = desc->background == FACET_BACKGROUND_COLOR ? desc->background_color : NULL;
@@ -29,7 +31,7 @@ typedef struct watched_image {
     facet_image *image;
 } watched_image;
 
-/* The next pass fills the film anew. */
+/* The next pass overwrites the film. */
 static void show_pass(void *user, const facet_image *unknown, uint32_t samples)
 {
     const watched_image *w = user;

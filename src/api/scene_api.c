@@ -17,7 +17,7 @@
 
 static const facet_scene_desc default_desc = {0};
 
-/* Parameters of the caller over those of the file, and glTF materials for those that came as OpenGL 1 has them. */
+/* Applies the caller's parameters over those of the file, and converts OpenGL 1 materials to glTF. */
 static facet_result complete(facet_scene **scene, const facet_scene_desc *desc, facet_error *error)
 {
     facet_result result = FACET_OK;
@@ -91,7 +91,7 @@ void facet_text_destroy(char *description)
     mem_free(description);
 }
 
-/* Finds name among count names that name_at() gives; else reads it as a number. what is "scene", "camera". */
+/* Finds a name among count names by name_at(), or parses it as an index. what: "scene", "camera". */
 static facet_result find(const facet_scene *scene, const char *what, const char *name, uint32_t count,
                          const char *(*name_at)(const facet_scene *, uint32_t), uint32_t *index,
                          facet_error *error)
@@ -259,7 +259,7 @@ facet_result facet_camera_from_scene(const facet_scene *scene, const facet_pose_
                                  .far_m = c->far_m};
         double length =
             sqrt((double)m[8] * (double)m[8] + (double)m[9] * (double)m[9] + (double)m[10] * (double)m[10]);
-        /* far from the origin a target 1 m away would be the eye, rounded */
+        /* far from the origin, a target 1 m away would round to the eye */
         double distance =
             fmax(1.0, fmax(fabs((double)m[12]), fmax(fabs((double)m[13]), fabs((double)m[14]))));
         for (int k = 0; k < 3; k++) {

@@ -23,7 +23,7 @@ static bool explain(const facet_scene *scene, const scene_pose *pose, const face
            empty_view_explain(scene, pose, desc, &rays, why, size);
 }
 
-/* The environment behind the model covers all of the image: then only what no pixel can show counts. */
+/* An environment as background covers the whole image: then only a certain reason counts. */
 static void check_nothing(render_check *check, const facet_scene *scene, const scene_pose *pose,
                           const facet_render_desc *desc, const film *drawn)
 {
@@ -48,10 +48,10 @@ static void check_nothing(render_check *check, const facet_scene *scene, const s
 static void check_white(render_check *check, const facet_scene *scene, const facet_render_desc *desc,
                         const film *drawn)
 {
-    /* White surfaces reach 1.8 in the built-in studio, and so do glowing ones that are meant to. Environments that are seen
-     * themselves may be brighter. */
+    /* White surfaces reach 1.8 in the built-in studio, and so do intended emitters. A visible environment may
+     * be brighter. */
     float most = desc->background == FACET_BACKGROUND_ENVIRONMENT ? 8.0f : 2.0f;
-    /* Without tone mapping the image may be for a file that keeps what is beyond white. */
+    /* Without tone mapping the image may be meant for a file that keeps values above white. */
     if (check->has_warned_of_white || desc->tonemap == FACET_TONEMAP_NONE ||
         desc->shading == FACET_SHADING_OGL1 || !film_is_beyond(drawn, most))
         return;

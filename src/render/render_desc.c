@@ -1,4 +1,4 @@
-/* render_desc.c - facet_render_desc checked, with its defaults filled in: see renderer.h. */
+/* render_desc.c - checks a facet_render_desc and fills in its defaults: see renderer.h. */
 #include <math.h>
 
 #include "base/result.h"
@@ -55,7 +55,7 @@ static facet_result check_sea_shading(const facet_sea_shading *s, facet_error *e
     return FACET_OK;
 }
 
-/* What no renderer draws in a sea; the sky is behind all of it. */
+/* Refuses what no renderer draws in a sea. The sky is the background. */
 static facet_result resolve_sea(const renderer_row *r, facet_render_desc *d, facet_error *error)
 {
     TRY(check_sea_shading(&d->sea_shading, error));

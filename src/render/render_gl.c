@@ -18,15 +18,17 @@ static const char name[] = "facet_gl.so";
 
 /* ---- the module ---- */
 
-/* Beside what holds this code (libfacet.so, or a program that has it inside): installed, and where facet was built. */
+/* Folders searched, relative to the binary that holds this code (libfacet.so, or a program linked statically):
+ * installed, and in the build tree. */
 static const char *const folders[] = {"facet", "../" FACET_LIBDIR_NAME "/facet", "../gl", "../src/gl", "."};
 
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 static const gl_entry *opened;
-static char why[256]; /* it could not be opened */
+static char why[256]; /* reason why it could not be opened */
 
-/* The folder of what holds this code, with a / behind; "": it cannot be told for sure. A program's own name is what its
- * caller says, and may be relative to a folder that is another one by now: what is found there is nobody's module. */
+/* The folder of the binary that holds this code, with a trailing /; "": unknown. A program's name as its caller
+ * gives it may be relative to a former working directory; a module found there could be anybody's, so it is not
+ * searched. */
 static void find_own_folder(char *folder, size_t size)
 {
     Dl_info self, program;
@@ -45,7 +47,7 @@ static void find_own_folder(char *folder, size_t size)
     folder[slash ? slash + 1 - folder : 0] = 0;
 }
 
-/* NULL: it is not there. Where it is and cannot be opened, why says so. */
+/* NULL: not found, or why is set to the reason why it could not be opened. */
 static void *open_at(const char *path)
 {
     if (access(path, F_OK) != 0)
@@ -95,7 +97,7 @@ facet_result gl_library_open(const gl_entry **entry, facet_error *error)
 
 /* ---- the renderer ---- */
 
-/* Channels that are not light are drawn as they are, over black. */
+/* Channels other than light are shown without exposure and tone mapping, over black. */
 facet_result render_gl_resolve(facet_render_desc *d, facet_error *error)
 {
     const facet_gl_desc *gl = &d->gl;

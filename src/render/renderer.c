@@ -15,7 +15,7 @@
 #include "scene/identity.h"
 #include "water/water_scene.h"
 
-/* Cryptomatte's metadata: the names of all that scene may draw. */
+/* Cryptomatte's metadata: the names of everything in the scene. */
 static facet_result describe_mattes(const facet_scene *scene, const facet_render_desc *desc, film *target,
                                     facet_error *error)
 {
@@ -34,7 +34,7 @@ static facet_result describe_mattes(const facet_scene *scene, const facet_render
     return result;
 }
 
-/* The renderers on the CPU keep nothing but what is shared. */
+/* The renderers on the CPU have no state beyond the set. */
 static facet_result create_nothing(renderer_set *set, void **state, facet_error *error)
 {
     (void)error;
@@ -70,7 +70,7 @@ static facet_result draw_preview(void *state, const facet_render_desc *desc, fil
 
 enum { DEFAULT_DEPTH = 64 };
 
-/* Whether the sea's surface is as path tracing has it, with nothing left out. */
+/* Whether the shading is the one that path tracing implements, with nothing left out. */
 static bool is_physical(const facet_sea_shading *s)
 {
     return s->style == FACET_SEA_STYLE_PHYSICAL && s->stage == 0 &&
@@ -225,7 +225,7 @@ facet_result renderer_set_draw(renderer_set *set, const facet_render_desc *desc,
 
 enum { METER_SIZE = 128 }; /* pixels along the longer edge */
 
-/* The same view, small, by the preview. Warnings are those of the image itself. */
+/* The same view at a small size by the preview. Warnings are left to the image itself. */
 static facet_render_desc meter_desc(const facet_render_desc *desc)
 {
     facet_render_desc d = *desc;
@@ -277,7 +277,7 @@ facet_result renderer_set_meter(renderer_set *set, const facet_render_desc *desc
     if (desc->shading == FACET_SHADING_OGL1)
         return fail(error, FACET_ERROR_ARGUMENT,
                     "exposure: the numbers of OpenGL 1 are a display's, and no light that can be metered");
-    if (!desc->camera) { /* that of the image, to the last bit of its proportions */
+    if (!desc->camera) { /* with the exact proportions of the image */
         d.log = (facet_log){0};
         TRY(renderer_set_camera(set, &d, &camera, error));
         d.log = desc->log;

@@ -1,7 +1,8 @@
-/* bed_shadow.c - see bed_shadow.h. Rays from each texel of the bed to the still surface and on to where the light comes from: the sun
- * through slopes of all waves, from all of its disc, over what a texel stands for; the sky through Snell's window, as bright as it is in each
- * direction: where the sun is hidden, the bright sky around it is, too; and the sun's light that was scattered on its way. They are the same rays
- * for all texels; the steps that scattered light would show are smoothed. Light that went up from the bed before comes from around. */
+/* bed_shadow.c - see bed_shadow.h. Rays from each texel of the bed go to the still surface and on to the light:
+ * to the whole disc of the sun, through the slopes of all waves and over the texel's area; to the sky through
+ * Snell's window, weighted by its radiance, since the bright sky around the sun is hidden with it; and to
+ * sunlight scattered in the water. All texels share the same rays; the steps of scattered light are smoothed.
+ * Interreflected light is gathered from the neighborhood. */
 #include "water/bed_shadow.h"
 
 #include <math.h>
@@ -14,27 +15,28 @@
 
 #include "water/shadow_points.h"
 
-static const float LEAST_SEEN = 0.002f; /* of the light above, that comes back from the bed */
+static const float LEAST_SEEN = 0.002f; /* share of the light above the water that returns from the bed */
 static const float WIDEST = 1.13f;      /* tangent of the angle of total reflection: half of Snell's window */
-static const float SKY_ROUGHNESS = 0.4f;  /* perceptual, of a lobe as wide as what a way stands for */
-static const float RETURNED_WIDTH = 2.2f; /* of what the surface sends back to the bed, over the depth */
-static const float LONGEST = 8.0f;        /* a shadow on the water, in sizes of what casts it */
+static const float SKY_ROUGHNESS = 0.4f; /* perceptual, of a lobe as wide as a ray's solid angle */
+/* Spread of light that the surface reflects back to the bed, relative to the depth. */
+static const float RETURNED_WIDTH = 2.2f;
+static const float LONGEST = 8.0f; /* length of a shadow on the water, in sizes of the model */
 
 enum { SUN_RAYS_FIRST = 8, SUN_RAYS = SHADOW_POINTS, SKY_RAYS = 24, SCATTERED_RAYS = 32 };
 enum { SMOOTHED = 3 }; /* texels */
 
-/* A way that light takes. */
+/* A light path. */
 typedef struct light_way {
-    vec3 below, above; /* unit, towards where it comes from */
-    float weight;      /* but of the sun's, which count alike */
-    float aside[2];    /* of the sun's: where they end, in texels from the middle of one */
+    vec3 below, above; /* unit, towards the light */
+    float weight;      /* not of sun rays, which have equal weights */
+    float aside[2];    /* of sun rays: end point, in texels from the texel's center */
 } light_way;
 
 typedef struct making {
     const water_setup *s;
     bed_shadow *out;
     double texel_m[2];
-    float *finer; /* of each texel, the beam's share */
+    float *finer; /* per texel, the beam's share */
     light_way sun[SUN_RAYS], sky[SKY_RAYS], scattered[SCATTERED_RAYS];
 } making;
 
@@ -45,7 +47,7 @@ static vec3 sun_above(const water_setup *s)
     return normalize(vec3(s->light.L[0], max(s->light.L[1], 1e-3f), s->light.L[2]));
 }
 
-/* From all of the disc, over a texel and half of its neighbours. */
+/* From the whole disc, over a texel and half of its neighbors. */
 static void choose_sun(making *m)
 {
     const water_setup *s = m->s;
@@ -80,8 +82,9 @@ static void choose_sky(making *m)
         m->sky[i].weight *= 1.0f / max(sum, 1e-20f);
 }
 
-/* Scattered once, by particles, anywhere on its way: what is left of the way, over all of it, times the tangent of the angle is how far aside it
- * falls. Half of it falls within 0.065 of the depth, a twentieth beyond half of it. */
+/* Single scattering by particles anywhere along the path: lateral offset is the remaining path length times the
+ * tangent of the scattering angle. Half of the light falls within 0.065 of the depth, a twentieth beyond half
+ * of it. */
 static void choose_scattered(making *m)
 {
     const water_setup *s = m->s;
@@ -89,7 +92,8 @@ static void choose_scattered(making *m)
     for (uint i = 0; i < SCATTERED_RAYS; i++) {
         vec2 u = hammersley(i, SCATTERED_RAYS) + vec2(0.5f / (float)SCATTERED_RAYS, 0.0f);
         vec3 turned = sample_phase_HG(vec2(u[1], u[0]), vec3(0.0f, 0.0f, 1.0f), WATER_PARTICLE_G);
-        float left = fract(0.5f + 0.618034f * (float)i) / max(turned[2], 0.1f); /* as even as u */
+        /* as evenly distributed as u */
+        float left = fract(0.5f + 0.618034f * (float)i) / max(turned[2], 0.1f);
         vec3 d = normalize(mul(frame, vec3(turned[0] * left, turned[1] * left, 1.0f)));
         d[1] = max(d[1], 0.1f);
         m->scattered[i] =
@@ -119,7 +123,7 @@ static float share_of(const making *m, const double P[3], const light_way *ways,
     return min(sum, 1.0f);
 }
 
-/* Of the beam, by the first `count` rays to around (X, Z). */
+/* Visibility of the beam by the first `count` rays around (X, Z). */
 static float sun_share(const making *m, double X, double Z, uint32_t count)
 {
     float sum = 0.0f;
@@ -132,7 +136,8 @@ static float sun_share(const making *m, double X, double Z, uint32_t count)
     return sum / (float)count;
 }
 
-/* How the light of open water is made up, at the depth of one texel; shares sum to 1 with what is returned. */
+/* Composition of the light of open water at the depth of one texel; shares, including interreflected light, sum
+ * to 1. */
 typedef struct light_shares {
     float focused, sky, scattered, returned;
 } light_shares;
@@ -148,7 +153,7 @@ static light_shares shares_at(const water_setup *s, float depth)
     return l;
 }
 
-/* rest: of what comes down for the first time. */
+/* rest: of all light except interreflected light. */
 static bed_shadow_texel texel_at(const making *m, double X, double Z)
 {
     const water_setup *s = m->s;
@@ -165,7 +170,7 @@ static bed_shadow_texel texel_at(const making *m, double X, double Z)
     return t;
 }
 
-/* X or Z of a texel's middle. */
+/* X or Z of a texel's center. */
 static double middle_of(const making *m, int axis, size_t i)
 {
     return m->out->low[axis] + ((double)i + 0.5) * m->texel_m[axis];
@@ -179,7 +184,7 @@ static void fill_rows(void *context, size_t begin, size_t end)
             m->out->texels[z * BED_SHADOW_EDGE + x] = texel_at(m, middle_of(m, 0, x), middle_of(m, 1, z));
 }
 
-/* Whether a texel or a neighbour differs from another. */
+/* Whether a texel or one of its neighbors differs from another value. */
 static bool is_at_edge(const bed_shadow *b, size_t x, size_t z)
 {
     const size_t edge = BED_SHADOW_EDGE;
@@ -193,7 +198,7 @@ static bool is_at_edge(const bed_shadow *b, size_t x, size_t z)
     return false;
 }
 
-/* To m->finer: the beam's share, by all rays where its shadow has an edge. */
+/* Writes the beam's visibility to m->finer, by all rays where its shadow has an edge. */
 static void refine_rows(void *context, size_t begin, size_t end)
 {
     const making *m = context;
@@ -216,7 +221,7 @@ static void fill_texels(making *m)
         m->out->texels[i].sun = m->finer[i];
 }
 
-/* Over a texel and `radius` more to each side, along rows (step 1) or columns; beyond all there is no shadow. */
+/* Mean over a texel and `radius` more on each side, along rows (step 1) or columns; no shadow outside. */
 static void smooth_line(float *line, size_t step, int radius)
 {
     float values[BED_SHADOW_EDGE];
@@ -240,14 +245,15 @@ static void smooth_rest(bed_shadow *b)
         smooth_line(&b->texels[i].rest, row, SMOOTHED);
 }
 
-/* Depth over a texel, m; 0: it is dry. */
+/* Water depth at a texel, m; 0: dry. */
 static float depth_over(const making *m, size_t x, size_t z)
 {
     double X = middle_of(m, 0, x), Z = middle_of(m, 1, z);
     return (float)fmax(-water_bed_height(&m->s->sea->desc.bed, X, Z), 0.0);
 }
 
-/* All that comes down for the first time, around each texel as far as light comes back from the surface, with the rest. around: BED_SHADOW_EDGE^2. */
+/* Light except interreflected light, averaged over the distance that light travels back from the surface.
+ * around: BED_SHADOW_EDGE^2. */
 static void add_returned(making *m, float depth, float *around)
 {
     bed_shadow *b = m->out;
@@ -287,7 +293,7 @@ void bed_shadow_of_beam(const struct water_setup *s, float depth, double low[2],
     }
 }
 
-/* The beam's shadow, and what of the sky the model hides. */
+/* The beam's shadow, and the sky that the model occludes. */
 static void choose_rectangle(const water_setup *s, float depth, bed_shadow *b)
 {
     bed_shadow_of_beam(s, depth, b->low, b->high);
@@ -297,7 +303,7 @@ static void choose_rectangle(const water_setup *s, float depth, bed_shadow *b)
     }
 }
 
-/* Whether the bed is seen through the water over it. */
+/* Whether the bed is visible through the water. */
 static bool is_worth_it(const water_setup *s, float depth)
 {
     vec3 left = water_transmittance(water_K_d(s->water) + water_diffuse(s->water), depth);

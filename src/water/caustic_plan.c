@@ -1,5 +1,5 @@
-/* caustic_plan.c - see caustic_plan.h. Rays through the whole picture, whatever part of it is drawn, tell where the bed is seen; below still
- * water, where a model may shade it. */
+/* caustic_plan.c - see caustic_plan.h. Rays through the whole image, even if only a crop is rendered, find the
+ * visible part of the bed, and below still water the part that a model may shade. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -8,14 +8,14 @@
 
 enum { RAYS = 24, MOST_SEEN = RAYS * RAYS };
 
-static const float LEAST_SEEN =
-    0.002f; /* of the bed's light, below which waves on it are not to be told from grey */
+/* Contrast of the bed's light below which caustics on it are invisible. */
+static const float LEAST_SEEN = 0.002f;
 
-/* A place of the bed. */
+/* A point of the bed. */
 typedef struct seen_place {
     double distance_m, X, Z;
     float depth_m;
-    float width_m; /* of what a pixel shows of it */
+    float width_m; /* footprint of a pixel */
 } seen_place;
 
 typedef struct view {
@@ -35,7 +35,7 @@ static float width_at(const water_setup *s, double distance_m)
     return s->camera.is_orthographic ? pixel : pixel * (float)distance_m;
 }
 
-/* How far a ray has come where it is in the water, as if that were still. */
+/* Distance at which a ray enters the water, taken as still. */
 typedef struct entered {
     double at[3], above_m;
     vec3 down;
@@ -93,7 +93,7 @@ static bool has_waves(const water_setup *s)
     return s->sea->waves.tile_count > 0;
 }
 
-/* Whether sunlight there may differ from the light of open, still water. */
+/* Whether sunlight there may differ from that of open, still water. */
 static bool has_structure(const water_setup *s, const seen_place *place)
 {
     double low[2], high[2];
@@ -103,7 +103,7 @@ static bool has_structure(const water_setup *s, const seen_place *place)
     return place->X > low[0] && place->X < high[0] && place->Z > low[1] && place->Z < high[1];
 }
 
-/* What is below the eye stands for a bed that is not seen but mirrored. */
+/* The point below the eye stands in for a bed that is only seen in reflections. */
 static void look_around(view *v)
 {
     const water_setup *s = v->s;
@@ -127,7 +127,7 @@ static void look_around(view *v)
     v->depth_m = v->count > 0 ? v->places[0].depth_m : 0.0f;
 }
 
-/* Whether the sun's beam, and what the bed sends back of it, come through the water at the shallowest place. */
+/* Whether the sun's beam, and its reflection from the bed, pass through the water at the shallowest place. */
 static bool is_worth_it(const view *v)
 {
     const water_setup *s = v->s;
@@ -142,7 +142,7 @@ static bool is_worth_it(const view *v)
 
 /* ---- layers ---- */
 
-/* Variance (m^2, along the axes) of where light falls if slopes vary by C. */
+/* Variance (m^2, along the axes) of the light's position for slopes of covariance C. */
 static vec2 variance_by_slopes(const view *v, vec3 C, float depth)
 {
     const float step = 0.01f;
@@ -153,7 +153,7 @@ static vec2 variance_by_slopes(const view *v, vec3 C, float depth)
     return x * x * C[0] + z * z * C[1] + x * z * (2.0f * C[2]);
 }
 
-/* Of light from all of the sun's disc: a quarter of its radius squared, through still water. */
+/* Of light from the whole disc of the sun: a quarter of its radius squared, through still water. */
 static vec2 variance_by_disc(const view *v, float depth)
 {
     vec3 L = v->source.L, across = vec3(-v->axis[1], 0.0f, v->axis[0]), up = cross(across, L);
@@ -165,7 +165,7 @@ static vec2 variance_by_disc(const view *v, float depth)
     return (a * a + b * b) * 0.25f;
 }
 
-/* All but the middle. */
+/* All except the center. */
 static caustic_plan plan_for(const view *v, float texel_m, float depth)
 {
     const vec3 least = vec3(SLOPE_VARIANCE_MIN, SLOPE_VARIANCE_MIN, 0.0f);
@@ -174,14 +174,14 @@ static caustic_plan plan_for(const view *v, float texel_m, float depth)
     vec2 moved = variance_by_slopes(v, slopes.resolved, depth);
     const float *axis = v->axis;
     vec2 still = water_caustics_shift(&v->source, axis, v->source.L, vec2(0.0f), 1.0f);
-    float heave = 1.0f + length(still); /* m that light moves with a wave of 1 m */
+    float heave = 1.0f + length(still); /* displacement of light by a wave of 1 m, m */
     return (caustic_plan){
         .texel_m = texel_m,
         .sigma_m = {sqrt(max(spread[0], 0.0f)), sqrt(max(spread[1], 0.0f))},
         .margin_m = 3.0f * (sqrt(max(moved[0] + moved[1], 0.0f)) + heave * v->s->march.deviation_m)};
 }
 
-/* Around as much of what is seen as it covers, from the nearest place on. */
+/* Centers the layer on as many visible points as it covers, from the nearest one on. */
 static void place_layer(const view *v, caustic_plan *p)
 {
     double least[2] = {HUGE_VAL, HUGE_VAL}, most[2] = {-HUGE_VAL, -HUGE_VAL};
@@ -201,15 +201,16 @@ static void place_layer(const view *v, caustic_plan *p)
             most[k] = high[k];
         }
     }
-    const double step = 2.0 * (double)p->texel_m; /* so that an eye that moves sees the same points */
+    const double step = 2.0 * (double)p->texel_m; /* keeps the points fixed for a moving eye */
     double u = step * floor(0.5 * (least[0] + most[0]) / step),
            w = step * floor(0.5 * (least[1] + most[1]) / step);
     p->middle[0] = u * a - w * b;
     p->middle[1] = u * b + w * a;
 }
 
-/* Of the finest layer: a power of 2 that shows what pixels do, and no finer than light is focused, or than waves let see the bed;
- * not mostly margin. Below still water a quarter of that: an edge of a shadow is as wide as four texels, and nothing else is there to see. */
+/* Texel size of the finest layer: a power of 2 as fine as pixels, and no finer than light is focused or than
+ * waves let the bed be seen; not mostly margin. Below still water a quarter of that: a shadow's edge is as wide
+ * as four texels, and there is no other detail. */
 static float finest_texel(const view *v)
 {
     int power = (int)ceilf(log2(clamp(v->places[0].width_m, 1e-4f, 1e4f))) - (has_waves(v->s) ? 0 : 2);
@@ -261,7 +262,7 @@ facet_result caustic_map_of_picture(const water_setup *s, caustic_map *map, face
     const caustic_source *source = &v.source;
     double closing = source->bed_rise[0] * -(double)s->sunward[0] +
                      source->bed_rise[1] * -(double)s->sunward[2] + (double)s->sunward[1];
-    if (v.count == 0 || closing < 0.1 || !is_worth_it(&v)) /* less: light goes along the bed */
+    if (v.count == 0 || closing < 0.1 || !is_worth_it(&v)) /* below this, light travels along the bed */
         return FACET_OK;
     caustic_plan plans[CAUSTIC_LAYERS];
     float texel = finest_texel(&v);

@@ -6,20 +6,21 @@
 #include "base/result.h"
 #include "water/water_sky.h"
 
-/* Rows from the horizon to the nadir, close at the horizon (sky_row()); columns from the sun's azimuth to its opposite, by the sine of half
- * the angle: no more than a square root, and light is smooth in it at both ends. */
+/* Rows from the horizon to the nadir, dense at the horizon (sky_row()); columns from the sun's azimuth to the
+ * opposite one, by the sine of half the angle: it takes only a square root, and radiance is smooth in it at
+ * both ends. */
 enum { ROWS = 64, COLUMNS = 64 };
 
 /* ---- what is lost ---- */
 
-/* Mean of e^(-h / scale) between two heights (km); (1 - e^(-x)) / x is what a decay leaves of 1 on average. */
+/* Mean of e^(-h / scale) between two heights (km); (1 - e^(-x)) / x is the mean of e^-x over [0, x]. */
 static float mean_density(float a_km, float b_km, float scale_km)
 {
     float low = min(a_km, b_km), high = max(a_km, b_km);
     return exp(-low / scale_km) * air_path1((high - low) / scale_km, 1.0f);
 }
 
-/* Of air and of haze, over those at the sea. */
+/* Mean density of air and haze relative to sea level. */
 static vec2 mean_densities(float a_km, float b_km)
 {
     return vec2(mean_density(a_km, b_km, 8.0f), mean_density(a_km, b_km, 1.2f));
@@ -36,7 +37,7 @@ static vec3 transmittance_over(const water_sky *s, float length_km, float height
     return clamp(color / s->white, 0.0f, 1.0f);
 }
 
-/* Ways of x / (1 - x) WAY_KM, x from 0 to 1 in even steps. */
+/* Distances of x / (1 - x) WAY_KM, x from 0 to 1 in equal steps. */
 static const float WAY_KM = 20.0f;
 enum { LAST_WAY = WATER_SKY_WAYS - 1 };
 
@@ -53,7 +54,7 @@ static vec3 transmittance_to_sea(const water_sky *s, float length_km)
     return mix(s->left[i], s->left[i + 1], x - (float)i);
 }
 
-/* On the whole way to the level of the sea, or to the horizon. */
+/* Over the whole distance to sea level, or to the horizon. */
 static vec3 lost_to_sea(const water_sky *s, float mu)
 {
     float whole_km = ray_to_ground(s->eye_km, mu);
@@ -64,8 +65,8 @@ static vec3 lost_to_sea(const water_sky *s, float mu)
 
 /* ---- what is added ---- */
 
-/* The rows of the eye's view below the horizon, over what is lost there. The way gets longer towards the horizon faster than rows get
- * closer: between them light is no line, but this is. */
+/* Rows of the eye view below the horizon, over (1 - transmittance). Distance grows towards the horizon faster
+ * than rows get denser: between rows radiance is not linear, but this ratio is. */
 static void divide_view(const water_sky *s)
 {
     for (int i = 0; i < SKY_VIEW_DOWN; i++) {
@@ -117,7 +118,7 @@ vec3 water_sky_air_light(const water_sky *s, vec3 d)
     return mix(mix(at[0], at[1], along), mix(at[COLUMNS], at[COLUMNS + 1], along), y - (float)row);
 }
 
-/* Air shines evenly along a way, so that light goes with what is lost. */
+/* In-scattering is uniform along a ray, so that it is proportional to (1 - transmittance). */
 water_air water_sky_air(const water_sky *s, vec3 d, float distance_m, float height_m)
 {
     float km = clamp(distance_m * 0.001f, 0.0f, 1e12f);

@@ -14,13 +14,15 @@ static bool has_foam(const water_setup *s)
     return s->foam.share.level_count > 0;
 }
 
-/* What foam hides of all water. Foam's amount is a quarter where there is any: of a share of 0.105 at 20 m/s, the mean square is 0.025. */
+/* Mean coverage by foam. Where there is foam, its amount is a quarter: of a coverage of 0.105 at 20 m/s, the
+ * mean square is 0.025. */
 static float foam_on_average(const water_setup *s)
 {
     return water_foam_cover(s->sea->foam.coverage, 0.25f);
 }
 
-/* Radiance from a direction: the sky, or the whole sea on average; over a bed, as deep as it is at the origin. */
+/* Radiance from a direction: of the sky, or the mean over the whole sea; over a bed, with the depth at the
+ * origin. */
 static vec3 surroundings(const water_setup *s, vec3 d)
 {
     if (d[1] >= 0.0f)

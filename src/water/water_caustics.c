@@ -1,7 +1,8 @@
-/* water_caustics.c - see water_caustics.h. Points of still water whose light would fall on a regular grid of the bed are moved by the waves,
- * with the light that falls on the water there; what lies between is interpolated, and each point is laid onto the four
- * texels around it. Watt 1990 has the beams, Yuksel and Keyser 2009 the grid. A model takes of each point's light what rays to a few places around it
- * say; many, where the points around differ. */
+/* water_caustics.c - see water_caustics.h. Points of still water whose light would fall on a regular grid of
+ * the bed are displaced by the waves, weighted by the light on the water there; positions in between are
+ * interpolated, and each point is splatted onto the four texels around it. Watt 1990 has the beams, Yuksel and
+ * Keyser 2009 the grid. A model occludes each point by rays to a few places around it; by many, where
+ * neighboring points differ. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -21,16 +22,17 @@ enum {
     MOST_REACH = 8 /* nodes */
 };
 
-/* Where light of each node lies, in texels from the layer's corner, and how much: planes of count x count. */
+/* Landing position of each node's light, in texels from the layer's corner, and its weight: planes of count x
+ * count. */
 typedef struct nodes {
     int32_t margin; /* nodes before the layer begins */
     size_t count;   /* along an edge; one before the first that counts, two behind the last */
     float *u, *v, *weight;
     float *lowest, *highest; /* v of each row */
-    double *sums;            /* of each row's light, without a model */
-    /* With a model: what it lets pass at each node, and the least and most of that along the row, as far as an edge reaches. */
+    double *sums;            /* weight of each row's light without a model */
+    /* With a model: visibility at each node, and its minimum and maximum along the row within an edge's reach. */
     float *open, *least, *most;
-    int32_t reach; /* nodes from where the sun's middle is hidden to where all of its disc is seen */
+    int32_t reach; /* nodes from where the sun's center is hidden to where the whole disc is visible */
 } nodes;
 
 typedef struct making {
@@ -39,7 +41,7 @@ typedef struct making {
     caustic_map *map;
     nodes nodes[CAUSTIC_LAYERS];
     float *scratch[CAUSTIC_LAYERS]; /* CAUSTIC_SIZE^2 */
-    float per_point;                /* what a point of mean weight adds to a texel */
+    float per_point;                /* contribution of a point of mean weight to a texel */
     vec3 still;                     /* direction of light below still water */
     shadow_point points[SHADOW_POINTS];
 } making;
@@ -51,14 +53,14 @@ static double bed_at(const caustic_source *s, double X, double Z)
     return s->bed_height + s->bed_rise[0] * X + s->bed_rise[1] * Z;
 }
 
-/* m along d to the bed from a point `above` m over it. */
+/* Distance along d to the bed from a point `above` m above it. */
 static double way_to_bed(const caustic_source *s, vec3 d, double above)
 {
     double closing = s->bed_rise[0] * (double)d[0] + s->bed_rise[1] * (double)d[2] - (double)d[1];
     return fmax(above, 0.0) / fmax(closing, 1e-3);
 }
 
-/* Light that falls on a piece of the surface, over that on as much still water were nothing reflected: (1 - F) L.A / L.y of the
+/* Light incident on a piece of the surface relative to still, non-reflecting water: (1 - F) L.A / L.y of the
  * area vector A. The mean of A over the sea is upright. */
 static float light_on(const caustic_source *s, const wave_point *p, vec3 N)
 {
@@ -68,14 +70,14 @@ static float light_on(const caustic_source *s, const wave_point *p, vec3 N)
     return facing > 0.0f ? facing * (1.0f - water_fresnel(s->water, clamp(dot(N, s->L), 0.0f, 1.0f))) : 0.0f;
 }
 
-/* How light goes from a node: through the surface, and to the bed. */
+/* The path of light from a node through the surface to the bed. */
 typedef struct node_ray {
     double from[3], way; /* m */
     vec3 d;
     float light; /* without a model */
 } node_ray;
 
-/* Of the node whose light falls on (X, Z) where the water is still. */
+/* The node whose light falls on (X, Z) through still water. */
 static node_ray trace_node(const making *m, double X, double Z, float footprint_m)
 {
     const caustic_source *s = m->source;
@@ -105,7 +107,7 @@ static node_ray trace_at(const making *m, uint32_t l, size_t i, size_t row)
 
 /* ---- a model's shadow ---- */
 
-/* Share of light from L that passes the model on its way to a point (u, v) m beside a node, and from there to the bed. */
+/* Visibility of L past the model for a point (u, v) m beside a node, and from there to the bed. */
 static float passing_model(const making *m, const node_ray *r, double u, double v, vec3 L)
 {
     const caustic_source *s = m->source;
@@ -115,8 +117,8 @@ static float passing_model(const making *m, const node_ray *r, double u, double 
     return open > 0.0f ? open * water_model_opening(s->model, P, r->d, r->way) : 0.0f;
 }
 
-/* From the sun's middle to four points of a node's share, one in each quarter of it; others for each node, so that what is
- * thinner than they lie apart is not missed by a whole row of them. */
+/* From the sun's center to four points of a node's area, one in each quadrant; different ones for each node, so
+ * that a whole row of nodes cannot miss a thin occluder. */
 static float passing_few(const making *m, const node_ray *r, size_t i, size_t row, double spacing_m)
 {
     const float shift[2] = {fract(0.7548777f * (float)i + 0.5698403f * (float)row),
@@ -138,7 +140,7 @@ static float passing_many(const making *m, const node_ray *r, double spacing_m)
     return sum / SHADOW_POINTS;
 }
 
-/* The least and most along a row, from as far to each side as an edge reaches. */
+/* Minimum and maximum along a row, within an edge's reach on each side. */
 static void range_along(const nodes *n, size_t row)
 {
     const float *open = n->open + row * n->count;
@@ -166,7 +168,7 @@ static bool is_at_edge(const nodes *n, size_t i, size_t row)
     return low < high;
 }
 
-/* A node's light is less by what the model takes; near its shadow's edges, by the mean over the node's share and the sun's disc. */
+/* The model occludes a node's light; near shadow edges, by the mean over the node's area and the sun's disc. */
 static void shade_row(const making *m, uint32_t l, size_t row)
 {
     const nodes *n = &m->nodes[l];
@@ -189,7 +191,7 @@ static void shade_rows(void *context, size_t begin, size_t end)
             shade_row(m, (uint32_t)(i % CAUSTIC_LAYERS), i / CAUSTIC_LAYERS);
 }
 
-/* How far, in nodes, the disc moves the shadow of the model's top over the water. */
+/* How far, in nodes, the size of the disc moves the shadow of the model's top on the water. */
 static int32_t reach_of(const caustic_source *s, float spacing_m)
 {
     float above = max(s->model->prepared.pose.bounds_max[1], 0.0f), sine = max(s->L[1], 0.01f);
@@ -198,7 +200,7 @@ static int32_t reach_of(const caustic_source *s, float spacing_m)
 
 /* ---- all nodes ---- */
 
-/* Where light falls, in texels. */
+/* Landing position of light, in texels. */
 static void place_on_layer(const making *m, const caustic_layer *layer, const node_ray *r, float *u, float *v)
 {
     float x = (float)(r->from[0] + r->way * (double)r->d[0] - layer->middle[0]);
@@ -241,7 +243,7 @@ static void trace_rows(void *context, size_t begin, size_t end)
 
 /* ---- light on the bed ---- */
 
-/* Places are interpolated by cubics; light linearly, so that it is nowhere below 0. */
+/* Positions are interpolated by cubics; weights linearly, so that none is negative. */
 static void weights_at(float f, float w[4], float linear[4])
 {
     linear[0] = linear[3] = 0.0f;
@@ -253,7 +255,7 @@ static void weights_at(float f, float w[4], float linear[4])
     w[3] = 1.0f - first[0] - first[1] - first[2];
 }
 
-/* A row between four others, count long, stride apart. */
+/* Interpolates a row between four others, count long, stride apart. */
 static void between_rows(const float *rows, size_t count, const float w[4], float *out)
 {
     for (size_t i = 0; i < count; i++)
@@ -309,7 +311,8 @@ static void lay_row(const making *m, const nodes *n, size_t row, float *texels, 
     }
 }
 
-/* Whether light between those rows may reach the band: cubics go beyond their samples by no more than a quarter of their range. */
+/* Whether light between those rows may reach the band: cubics exceed the range of their samples by at most a
+ * quarter. */
 static bool may_reach(const nodes *n, size_t row, int first)
 {
     float low = INFINITY, high = -INFINITY;
@@ -341,7 +344,7 @@ static void fill_bands(void *context, size_t begin, size_t end)
 
 enum { MOST_RADIUS = 16 };
 
-/* Gaussian weights of a standard deviation (texels) beside the middle's; their number. */
+/* Gaussian weights of a standard deviation (texels) beside the center's; returns their number. */
 static int gaussian(float sigma, float w[MOST_RADIUS + 1])
 {
     if (sigma < 0.05f) {
@@ -434,7 +437,7 @@ static facet_result take_memory(making *m, facet_error *error)
     return FACET_OK;
 }
 
-/* Light of the widest layer, which has seen most of the sea, stands for all. */
+/* Normalizes by the widest layer, which covers most of the sea. */
 static double mean_light(const nodes *n)
 {
     double sum = 0.0;

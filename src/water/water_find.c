@@ -4,16 +4,16 @@
 #include "water/water_find.h"
 
 static const float FACETS_PER_PIXEL = 64.0f;
-static const float LEAST_FACETS = 1e-3f; /* a share of them that is not worth a ray */
-static const float SMOOTH = 1e-3f;       /* slopes that turn a reflection by less than a pixel */
+static const float LEAST_FACETS = 1e-3f; /* a share of microfacets that is not worth a ray */
+static const float SMOOTH = 1e-3f;       /* slopes that deflect a reflection by less than a pixel */
 
-/* A place of the surface that is looked at. */
+/* The shaded point of the surface. */
 typedef struct looking {
     const water_setup *s;
     const water_place *place;
     float footprint;
     uint32_t random;
-    vec3 low, high; /* of the model, from the place, m */
+    vec3 low, high; /* distance of the model, m */
 } looking;
 
 static looking looking_at(const water_setup *s, const water_place *place, float footprint, uint32_t random)
@@ -28,7 +28,7 @@ static looking looking_at(const water_setup *s, const water_place *place, float 
                      .high = vec3(high[0], high[1], high[2]) - from};
 }
 
-/* The place, off the surface so that rays that leave it do not meet what floats there from the wrong side. */
+/* The point, offset from the surface so that rays from it do not hit floating parts from the wrong side. */
 static void start_of(const water_place *p, float up_m, double out[3])
 {
     for (int i = 0; i < 3; i++)
@@ -43,11 +43,11 @@ static float share_of_sun(const looking *l)
     return water_model_opening(&l->s->model, P, l->s->light.L, HUGE_VAL);
 }
 
-/* What one facet shows, which is looked into from P. */
+/* Traces the ray of one microfacet from P. */
 typedef void (*look_into)(const looking *l, Facet f, const double P[3], void *found);
 
-/* Looks into as many facets of a pixel, whatever its number of samples. N: what r is about; smooth: normal of water without waves that are
- * not seen. */
+/* Samples a fixed number of microfacets per pixel, whatever its number of samples. N: mean normal; smooth:
+ * normal without the unresolved waves. */
 static void look_into_facets(const looking *l, FacetRange r, vec3 N, vec3 smooth, float up_m, look_into look,
                              void *found)
 {
@@ -69,7 +69,8 @@ static void look_into_facets(const looking *l, FacetRange r, vec3 N, vec3 smooth
 
 /* ---- from above ---- */
 
-/* The model below the surface, seen along the refracted ray: lit by what of the light comes down to it, and weakened on its way. */
+/* The model below the surface along the refracted ray: lit by the light that reaches it, and attenuated by the
+ * water. */
 static bool find_refracted(const looking *l, water_findings *found)
 {
     const water_setup *s = l->s;
@@ -90,7 +91,7 @@ static bool find_refracted(const looking *l, water_findings *found)
     return true;
 }
 
-/* What a facet sends down meets another wave and goes up. */
+/* Light that a microfacet reflects downwards hits another wave and is reflected upwards. */
 static void look_up(const looking *l, Facet f, const double P[3], void *out)
 {
     const water_setup *s = l->s;
@@ -124,14 +125,14 @@ water_findings water_find(const water_setup *s, const water_place *place, float 
 
 /* ---- from below ---- */
 
-/* An eye in the water, which looks along d, and what it finds. */
+/* An eye in the water that looks along d, and its results. */
 typedef struct below {
     vec3 d;
-    float roughness; /* of the sky, as facets show it */
+    float roughness; /* of the sky, as microfacets refract it */
     water_findings_below found;
 } below;
 
-/* What a facet sends up meets another wave and goes down. */
+/* Light that a microfacet reflects upwards hits another wave and is reflected downwards. */
 static void look_down(const looking *l, Facet f, const double P[3], void *out)
 {
     const water_setup *s = l->s;
@@ -146,7 +147,7 @@ static void look_down(const looking *l, Facet f, const double P[3], void *out)
     b->found.mirrored = b->found.mirrored + water_model_behind_water(s, &hit, P, R) * weight;
 }
 
-/* In the place of the sky, past waves. */
+/* Instead of the sky, past waves. */
 static void look_through(const looking *l, Facet f, const double P[3], void *out)
 {
     const water_setup *s = l->s;
@@ -162,7 +163,7 @@ static void look_through(const looking *l, Facet f, const double P[3], void *out
     b->found.hidden = b->found.hidden + water_sky_reflected(&s->sky, window.outside, b->roughness) * weight;
 }
 
-/* The part of a box over the surface, or below it, if there is one. */
+/* The part of a box above the surface, or below it; false: none. */
 static void find_mirrored_below(const looking *l, vec3 N, vec3 smooth, below *b)
 {
     if (l->low[1] >= 0.0f)

@@ -1,4 +1,5 @@
-/* water_frame.c - see water_frame.h. The sky is drawn by the functions that rays of the CPU look it up with. */
+/* water_frame.c - see water_frame.h. The images of the sky come from the functions that the CPU renderer looks
+ * it up with. */
 #include "water/water_frame.h"
 
 #include <math.h>
@@ -11,7 +12,7 @@
 
 #include "water/water_setup.h"
 
-/* What a frame refers to. */
+/* A frame and the data that it points to. */
 typedef struct frame_parts {
     water_frame frame; /* first */
     water_setup setup;
@@ -96,7 +97,7 @@ static void draw_lobes(void *context, size_t begin, size_t end)
     }
 }
 
-/* Pictures of so many rows, unless they are there already. */
+/* Images of row_count rows, unless they exist already. */
 static facet_result draw_once(const water_setup *setup, size_t row_count, size_t width,
                               void (*draw)(void *, size_t, size_t), float **texels, facet_error *error)
 {
@@ -156,8 +157,8 @@ static void touch_rows(void *context, size_t begin, size_t end)
         }
 }
 
-/* The model's bounds and the shadow that they cast on the water, no longer than eight times as they are wide; with an edge where nothing
- * is touched. */
+/* The model's bounds and its shadow on the water, at most eight times as long as the model; with an unaffected
+ * border. */
 static void choose_rectangle(const vec3 L, water_frame *p)
 {
     float above = max(p->model_high[1] - p->model_water_m, 0.0f);
@@ -172,7 +173,7 @@ static void choose_rectangle(const vec3 L, water_frame *p)
 
 enum { LEVELS_EDGE = 24 };
 
-/* Between which heights the water is that the model stands in, read as wide as width_m. */
+/* Minimum and maximum water level around the model, with a footprint of width_m. */
 static void find_water_around(const water_setup *s, float width_m, water_frame *p)
 {
     p->model_water_low_m = p->model_water_high_m = p->model_water_m;

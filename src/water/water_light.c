@@ -1,4 +1,4 @@
-/* water_light.c - see water_light.h; and the cache of water_render.h. */
+/* water_light.c - see water_light.h, and for the cache water_render.h. */
 #include <string.h>
 
 #include "base/memory.h"
@@ -74,7 +74,7 @@ static bool is_same_sun(const facet_sun *a, const facet_sun *b)
            memcmp(a->illuminance_lux, b->illuminance_lux, sizeof a->illuminance_lux) == 0;
 }
 
-/* Of all that water_sky_create() and water_table_create() read. */
+/* Compares everything that water_sky_create() and water_table_create() read. */
 static bool is_made_for(const water_light *l, const facet_render_desc *desc, float eye_height_m,
                         float rows_per_rad)
 {

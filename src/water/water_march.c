@@ -63,14 +63,14 @@ double water_march_reach(const water_march *m, const march_ray *ray, double heig
 
 /* ---- one ray ---- */
 
-/* A ray on its way, and what is known of the waves as its footprint there sees them. */
+/* State of a ray, and bounds of the waves for its current footprint. */
 typedef struct march {
     const water_march *m;
     const march_ray *ray;
-    double level;       /* length of the level part of the direction */
-    float looked_m;     /* footprint for which the following were found */
-    wave_bounds bounds; /* of this footprint, and all wider ones */
-    /* slope that no wave exceeds: five standard deviations where tiles at once could have more */
+    double level;       /* length of the direction's horizontal part */
+    float looked_m;     /* footprint of the following bounds */
+    wave_bounds bounds; /* valid for this footprint and all wider ones */
+    /* maximum slope: five standard deviations where the sum over tiles could exceed that */
     double steepest;
     march_hit last;
 } march;
@@ -86,7 +86,7 @@ static double resolved_deviation(const slope_filter *f, float footprint_m)
     return sqrt(fmax(mean + sqrt(half * half + xz * xz), 0.0));
 }
 
-/* What was found serves until the footprint has doubled. */
+/* The bounds are reused until the footprint has doubled. */
 static void look_around(march *s, double t)
 {
     float footprint = water_march_footprint(s->m, width_at(s->ray, t), march_rise(s->m, s->ray, t));
@@ -104,8 +104,8 @@ static double clearance(march *s, double t)
     return f;
 }
 
-/* Where within [a, b] the ray goes through, which is clear at a: false position; the end that stays has half the say each time (the
- * Illinois method). */
+/* Root within [a, b], above the surface at a, by false position; the retained end has its weight halved each
+ * time (the Illinois method). */
 static void refine(march *s, double a, double fa, double b, double fb)
 {
     for (int i = 0, side = 0; i < REFINEMENTS; i++) {
@@ -127,7 +127,7 @@ static void refine(march *s, double a, double fa, double b, double fb)
     }
 }
 
-/* Whether the ray has left the waves for good: it goes up above all of them, or down below. */
+/* Whether the ray has left the waves for good: upwards above all of them, or downwards below. */
 static bool is_away(const march *s, double t)
 {
     double y = march_height(s->m, s->ray, t), rise = march_rise(s->m, s->ray, t);
@@ -136,16 +136,15 @@ static bool is_away(const march *s, double t)
     return rise >= 0.0 && y > (double)s->bounds.highest;
 }
 
-/* Steps are longer than is sure by a factor; one that may have gone past a wave is taken again. What is shorter than 0.7 of the width, the
- * footprint has filtered away. */
+/* Steps exceed the safe length by a factor; one that may have passed a wave is repeated. Waves shorter than 0.7
+ * of the width are filtered out. */
 static bool march_waves(march *s)
 {
     const march_ray *r = s->ray;
     const double relaxation = 1.6, sign = r->is_below ? -1.0 : 1.0;
     wave_bounds all = waves_bounds(s->m->waves, width_at(r, r->near_m));
     double t = water_march_reach(s->m, r, (double)(r->is_below ? all.lowest : all.highest), r->near_m);
-    double before = t, f_before = 0.0,
-           reach = 0.0; /* the last place, its clearance, how far that surely goes */
+    double before = t, f_before = 0.0, reach = 0.0; /* previous position, its clearance, its safe step */
     for (int step = 0; step < MOST_STEPS && t <= r->far_m && t < HUGE_VAL; step++) {
         look_around(s, t);
         if (is_away(s, t))

@@ -1,4 +1,5 @@
-/* water_mesh.c - see water_mesh.h: vertices of the surface, its triangles, and those that a hull cuts. */
+/* water_mesh.c - see water_mesh.h: the lattice, vertices and triangles of the surface, and triangles that a
+ * hull cuts. */
 #include "base/memory.h"
 
 #include <math.h>
@@ -8,14 +9,14 @@
 #include "water/water_mesh.h"
 #include "water/water_place.h"
 
-/* Waves are read twice as wide as vertices are apart: what lies between them is nearly linear then. */
+/* The footprint is twice the vertex spacing: the surface between vertices is nearly linear then. */
 static const double WIDTH_OF_SPACING = 1.0;
 enum { HALVINGS = 14 };
 
 typedef struct surface {
     const water_setup *s;
     const water_mesh_lattice *l;
-    render_watch *watch; /* NULL: nothing ends it early */
+    render_watch *watch; /* NULL: never stopped */
     float *positions, *normals, *water;
     unsigned char *is_dry;
     uint32_t *indices;
@@ -103,7 +104,7 @@ static void mix_values(float *values, uint32_t width, uint32_t a, uint32_t b, fl
     }
 }
 
-/* A new vertex on the edge from a wet to a dry one, where it becomes dry. */
+/* A new vertex on an edge from a wet to a dry vertex, at the waterline. */
 static uint32_t cut(surface *f, uint32_t wet, uint32_t dry)
 {
     float low = 0.0f, high = 1.0f;
@@ -141,7 +142,7 @@ static void put_wet(surface *f, const uint32_t corners[3])
         put(f, corners[0], corners[1], corners[2]);
         return;
     }
-    while (f->is_dry[corners[first]] != (count == 2)) /* the one that is unlike the others */
+    while (f->is_dry[corners[first]] != (count == 2)) /* the vertex that differs from the two others */
         first++;
     uint32_t a = corners[first], b = corners[(first + 1) % 3], c = corners[(first + 2) % 3];
     if (count == 1) {
@@ -156,7 +157,7 @@ static void put_wet(surface *f, const uint32_t corners[3])
 
 /* ---- triangles ---- */
 
-/* Those of one square, facing up; of the innermost, which has no inner edge, one. */
+/* Triangles of one quad, facing up; one at the innermost ring, which has no inner edge. */
 static uint32_t corners_of(const water_mesh_lattice *l, size_t square, uint32_t out[2][3])
 {
     uint32_t columns = l->column_count, row = (uint32_t)(square / (columns - 1));
@@ -166,7 +167,7 @@ static uint32_t corners_of(const water_mesh_lattice *l, size_t square, uint32_t 
     return row ? 2 : 1;
 }
 
-/* Triangles that a hull cuts. */
+/* Clips triangles at a hull. */
 static size_t count_cut(const surface *f)
 {
     const water_mesh_lattice *l = f->l;
@@ -205,7 +206,7 @@ static void bound(scene_primitive *p)
     }
 }
 
-/* Room for vertices that a hull adds is not known before its triangles are: they are moved. */
+/* The number of vertices that a hull adds is only known with its triangles: arrays are reallocated. */
 static bool grow(surface *f, arena *memory, size_t cuts)
 {
     size_t count = (size_t)f->vertex_count + 2 * cuts;
@@ -271,7 +272,7 @@ bool water_mesh_surface(const water_setup *s, const water_mesh_lattice *l, rende
 enum { BED_COLUMNS = 129, BED_ROWS = 96 };
 static const double BED_NEAREST_M = 0.5;
 
-/* Rings, each farther by the same factor: between two of them the plane falls away less than one would see. */
+/* Rings whose radii grow by a constant factor: between two of them the plane drops by less than is visible. */
 bool water_mesh_bed(const water_setup *s, const water_mesh_lattice *l, arena *memory, scene_primitive *out)
 {
     const facet_sea_bed *bed = &s->sea->desc.bed;
@@ -306,17 +307,17 @@ bool water_mesh_bed(const water_setup *s, const water_mesh_lattice *l, arena *me
 /* ---- the lattice ---- */
 
 static const double TURN = 6.283185307179586;
-static const double NEAREST_M = 0.2;  /* of the eye to the water, as far as spacing is concerned */
+static const double NEAREST_M = 0.2;  /* minimum height of the eye above the water, for the spacing */
 static const double WIDEST_RAD = 0.1; /* between columns behind the eye */
-static const double GROWTH = 1.15;    /* from column to column beside the picture */
-static const double BEYOND_M = 20e3;  /* past the horizon, or across where there is none */
-static const double LONGEST = 0.05;   /* of the distance, from row to row */
+static const double GROWTH = 1.15;    /* ratio of successive columns beside the image */
+static const double BEYOND_M = 20e3;  /* beyond the horizon, or of the extent where there is none */
+static const double LONGEST = 0.05;   /* relative to the distance, between rows */
 static const double FINEST = 0.5;     /* of a pixel: samples are finer than pixels */
 static const double PARALLEL = 0.004; /* rad between columns, where rays are parallel */
 
-/* What spacing follows from. */
+/* Parameters of the spacing. */
 typedef struct lattice_view {
-    double middle, half; /* azimuths of the picture */
+    double middle, half; /* azimuth range of the image */
     double step_rad;     /* between its columns */
     double width_m;      /* of a sample, where rays are parallel */
     double height_m, far_m;
@@ -329,7 +330,7 @@ static lattice_view view_of(const water_setup *s, water_mesh_lattice *l)
     lattice_view v = {.step_rad = (double)c->pixel_size, .far_m = BEYOND_M};
     l->center[0] = (double)c->origin[0];
     l->center[1] = (double)c->origin[2];
-    if (c->is_orthographic) { /* around what is in the middle */
+    if (c->is_orthographic) { /* around the image center */
         float o[3], d[3];
         camera_rays_at(c, 0.5f * (float)whole[2], 0.5f * (float)whole[3], o, d);
         double t = fabsf(d[1]) > 1e-3f ? -(double)o[1] / (double)d[1] : 0.0;
@@ -349,7 +350,7 @@ static lattice_view view_of(const water_setup *s, water_mesh_lattice *l)
     return v;
 }
 
-/* Columns of one half of the circle, from the middle of the picture on; out NULL: counted only. */
+/* Columns of one half of the circle, from the image center on; out NULL: counts only. */
 static uint32_t fill_half(const lattice_view *v, double scale, double *out)
 {
     double step = v->step_rad * scale, angle = 0.0;
@@ -382,7 +383,7 @@ static uint32_t fill_radii(const water_setup *s, const lattice_view *v, double s
     }
 }
 
-/* The larger of both neighbors' distances. */
+/* The larger of the distances to both neighbors. */
 static void fill_steps(const double *at, uint32_t count, double *steps)
 {
     for (uint32_t i = 0; i < count; i++) {
@@ -391,7 +392,7 @@ static void fill_steps(const double *at, uint32_t count, double *steps)
     }
 }
 
-/* The half is mirrored; where both ends meet there is a column twice. */
+/* The half is mirrored; where both ends meet, a column is doubled. */
 static void fill_columns(const lattice_view *v, double scale, water_mesh_lattice *l)
 {
     uint32_t half = (l->column_count + 1) / 2;

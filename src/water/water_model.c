@@ -35,7 +35,7 @@ static void fill_desc(const facet_render_desc *desc, const water_sky *sky, facet
                               .illuminance_lux = {E[0], E[1], E[2]}};
 }
 
-/* The sun is the last of the lights, where it shines. */
+/* Lights without the sun, which is the last one, where it shines. */
 static facet_result make_shade(const facet_allocator *allocator, bool has_sun, water_model *m,
                                facet_error *error)
 {
@@ -85,8 +85,8 @@ void water_model_destroy(water_model *m)
 
 /* ---- rays ---- */
 
-/* Slabs; a ray within a plane of them is neither in nor out, which keeps it (0 / 0 compares false). */
-/* Whether a ray from P along d comes near the model: within its bounds. Much faster than what is asked along rays. */
+/* Slab test; a ray within a slab plane gives 0 / 0, compares false, and is kept. */
+/* Whether a ray from P along d hits the model's bounds: a fast rejection test. */
 static bool may_meet(const water_model *m, const double P[3], vec3 d, double far_m)
 {
     if (!m->is_there)
@@ -153,7 +153,7 @@ float water_model_opening(const water_model *m, const double P[3], vec3 d, doubl
     return ray_trace_transmittance(&m->setup.shading, &ray, NULL);
 }
 
-/* The sun's shadow begins off the surface, on the side that the sun is on. */
+/* Shadow rays start off the surface, on the sun's side. */
 vec3 water_model_radiance(const water_model *m, const model_hit *hit, vec3 sun)
 {
     const shading_point point = {.hit = &hit->hit, .ray = &hit->ray, .shade_count = 1};

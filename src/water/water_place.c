@@ -1,4 +1,5 @@
-/* water_place.c - see water_place.h. The order is: footprint, slopes that it hides, waves as the samples see them, their normal, foam. */
+/* water_place.c - see water_place.h. In order: footprint, unresolved slopes, waves at the samples, their
+ * normal, foam. */
 #include "water/water_place.h"
 
 #include <math.h>
@@ -18,8 +19,8 @@ float water_foam_at(const water_setup *s, const double rest[2], float footprint_
 
 /* ---- slopes that samples see ---- */
 
-/* Sums over samples. What counts is water, not how much of the picture it fills: a slope that is turned away from the eye has more
- * of it in a pixel than one that faces the eye, by N.y V.y / (V.N). */
+/* Sums over samples, weighted by water area rather than by image area: a slope that is turned away from the eye
+ * has more water per pixel than one that faces it, by N.y V.y / (V.N). */
 typedef struct sums {
     float weight;
     vec2 slope;
@@ -35,7 +36,7 @@ static vec3 normal_of(const wave_point *at)
 
 static void add(sums *sum, const wave_point *at, vec3 facing)
 {
-    const float most = 4.0f; /* what is seen of a crest is not all of its water */
+    const float most = 4.0f; /* the visible part of a crest is not all of its water */
     vec3 N = water_faced(normal_of(at), facing);
     float weight = clamp(N[1] * abs(facing[1]) / max(dot(N, facing), 1e-6f), 1e-3f, most);
     vec2 slope = slope_from_normal(N);
@@ -54,8 +55,8 @@ static sums mean_of(sums sum)
                   .height_m = sum.height_m * share};
 }
 
-/* Their spread is roughness for the place as a whole, beside that of waves that no sample resolves (LEAN mapping, Olano and Baker
- * 2010; Dupuy et al. 2013). */
+/* Their variance adds to the roughness of the whole place, beside that of waves that no sample resolves (LEAN
+ * mapping, Olano and Baker 2010; Dupuy et al. 2013). */
 static void spread(water_slopes *slopes, const sums *mean)
 {
     vec2 m = mean->slope;
@@ -65,8 +66,8 @@ static void spread(water_slopes *slopes, const sums *mean)
 
 /* ---- a place ---- */
 
-/* Where it is seen from and how wide; each of `count` samples reads waves as wide as the footprint that comes back. They lie
- * 1 / count of the place apart along either axis and are 1 / sqrt(count) as wide across the ray: between the two. */
+/* View vector and width; returns the footprint of each of `count` samples. They are 1 / count of the place
+ * apart along either axis and 1 / sqrt(count) as wide across the ray: a value in between. */
 static float begin(const water_setup *s, const march_ray *ray, double t, float width_m, uint32_t count,
                    water_place *p)
 {
@@ -80,7 +81,7 @@ static float begin(const water_setup *s, const march_ray *ray, double t, float w
     return max(seen, width * inversesqrt(p->cosine));
 }
 
-/* Where the ray is at a hit, and where the water that is there rests. */
+/* Position of the ray at a hit, and rest position of the water there. */
 static void locate(const water_setup *s, const march_ray *ray, const march_hit *hit, water_place *p)
 {
     p->P[0] = hit->X;
@@ -98,7 +99,7 @@ static void finish(const water_setup *s, vec3 N, float height_m, float footprint
     p->point.foam = water_foam_at(s, p->rest, footprint_m);
 }
 
-/* A profile finds places as well as it sees waves, a pixel wide: slopes of finer ones are those of water nearby. */
+/* A profile resolves waves of a pixel and more: finer slopes are those of nearby water. */
 static vec3 faced(const water_setup *s, const water_place *p, vec3 N, float footprint_m)
 {
     float pixel_m = p->footprint_m / s->footprint;
@@ -121,7 +122,7 @@ water_place water_place_of(const water_setup *s, const march_ray *ray, const mar
 
 /* ---- of samples ---- */
 
-/* Where samples are read from: the mean of where they may meet the water. */
+/* Origin of the lookups: mean of the estimated hits. */
 static march_hit middle_of(const march_ray *ray, const water_sight *const *sights, uint32_t count)
 {
     march_hit m = {.t = 0.0};
@@ -135,7 +136,7 @@ static march_hit middle_of(const march_ray *ray, const water_sight *const *sight
     return m;
 }
 
-/* One sample: where its ray meets the surface, as far as one step takes it, and the water there. */
+/* One sample: refines its hit by one step, and reads the water there. */
 static wave_point find(const water_setup *s, const waves_reading *r, const march_ray *from,
                        const water_sight *one, const march_hit *middle, double place[3],
                        float displacement[2])
@@ -188,7 +189,7 @@ water_place water_place_of_samples(const water_setup *s, const march_ray *ray,
     if (count > 1)
         spread(&p.slopes, &sum);
     locate(s, ray, hit, &p);
-    float n = (float)count; /* foam is read once, as wide as they are together: see begin() */
+    float n = (float)count; /* foam is read once for all of them: see begin() */
     finish(s, water_faced(normal_from_slope(sum.slope), p.V), sum.height_m, footprint * sqrt(n * sqrt(n)),
            &p);
     return p;

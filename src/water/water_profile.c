@@ -7,8 +7,8 @@
 #include "base/parallel.h"
 #include "base/result.h"
 
-static const double STEEPEST_LEVEL =
-    0.2; /* level part of the steepest rays that are found here: 78 degrees */
+/* Horizontal part of the steepest rays that use the profile: 78 degrees. */
+static const double STEEPEST_LEVEL = 0.2;
 static const double FINE_PIXELS = 1.0, COARSE_PIXELS = 4.0; /* between columns; between samples */
 static const double LONGEST_M = 1e5, SHORTEST_M = 0.02;
 static const double MOST_SAMPLES = 4e6;
@@ -58,7 +58,7 @@ bool water_profile_azimuths(const camera_rays *rays, const uint32_t part[4], dou
     return is_any;
 }
 
-/* From where rays can meet waves to where waves are seen no more. */
+/* From the first possible hit to where waves are no longer visible. */
 static void distances_of(const water_march *m, double eye_y, double pixel_rad, bool is_below, double out[2])
 {
     wave_bounds all = waves_bounds(m->waves, 0.0f);
@@ -120,7 +120,7 @@ static void fill_columns(void *context, size_t begin, size_t end)
 
 /* ---- making ---- */
 
-/* Chooses numbers of columns and rows, fewer of them where a picture is so large that its samples would be. */
+/* Chooses the numbers of columns and rows, fewer where a large image would need too many samples. */
 static void lay_out(filling *f, double half, const double distances[2])
 {
     water_profile *p = f->p;
@@ -175,7 +175,7 @@ void water_profile_destroy(water_profile *p)
 
 /* ---- asking ---- */
 
-/* First row between low and high whose tangent is not less; high: none. */
+/* First row between low and high with at least that tangent; high: none. */
 static uint32_t first_row(const float *tangents, uint32_t low, uint32_t high, float tangent)
 {
     uint32_t count = high - low;
@@ -188,7 +188,7 @@ static uint32_t first_row(const float *tangents, uint32_t low, uint32_t high, fl
     return low;
 }
 
-/* The same of all rows, by steps that double from one that is about right. */
+/* The same over all rows, by doubling steps from an estimate. */
 static uint32_t first_row_near(const float *tangents, uint32_t row_count, uint32_t near_row, float tangent)
 {
     uint32_t low = near_row < row_count ? near_row : row_count - 1, high = low, step = 4;
@@ -208,16 +208,16 @@ static uint32_t first_row_near(const float *tangents, uint32_t row_count, uint32
     return first_row(tangents, low, high, tangent);
 }
 
-/* Of a direction near the one that was asked for last. */
+/* Azimuth of a direction near the previous one. */
 static double azimuth_of(const double d[3], const profile_nearby *last)
 {
     double dot = d[0] * last->x + d[2] * last->z, cross = d[2] * last->x - d[0] * last->z;
-    if (!(fabs(cross) < 0.01 * dot)) /* beyond, a third of the cube would be seen */
+    if (!(fabs(cross) < 0.01 * dot)) /* beyond, a third power would be visible */
         return atan2(d[2], d[0]);
     return last->azimuth + cross / dot;
 }
 
-/* How fast a ray comes down to the level of still water, over the level. */
+/* Rate at which a ray approaches still water. */
 static double level_closing(const water_profile *p, const march_ray *ray, double t)
 {
     double level = sqrt(ray->direction[0] * ray->direction[0] + ray->direction[2] * ray->direction[2]);
@@ -234,7 +234,7 @@ static bool march_there(const water_profile *p, const march_ray *ray, profile_pl
     return is_met;
 }
 
-/* Beyond the last row there are no waves any more. */
+/* There are no waves beyond the last row. */
 static bool look_flat(const water_profile *p, const march_ray *ray, double from, profile_place *out)
 {
     *out =

@@ -1,4 +1,4 @@
-/* water_render.c - see water_render.h: tiles, pixels, samples. What a pixel shows depends on nothing but itself. */
+/* water_render.c - see water_render.h: tiles, pixels, samples. Pixels are independent of each other. */
 #include "water/water_render.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ enum { TILE = 32 };
 
 typedef struct picture {
     const water_setup *setup;
-    uint32_t crop[4]; /* x, y, width, height in the whole picture */
+    uint32_t crop[4]; /* x, y, width, height in the whole image */
     uint32_t tile_columns, tile_count, sample_count;
     float *pattern; /* x, y of each sample in a pixel */
     float *pixels;  /* RGBA */

@@ -13,7 +13,7 @@
 
 /* ---- triangles beside a model ---- */
 
-/* 70 bytes each, with their two triangles, and about as much again for the rays' hierarchy. */
+/* 70 bytes each with their two triangles, and about as much again for the BVH. */
 enum { MAX_VERTICES = 2000000 };
 
 static scene_material water_material(void)
@@ -31,7 +31,7 @@ static scene_material bed_material(const facet_sea_bed *bed)
     m.name = "bed";
     m.metallic = 0.0f;
     m.perceptual_roughness = 1.0f;
-    m.extensions = SCENE_SPECULAR; /* the ground is Lambert's */
+    m.extensions = SCENE_SPECULAR; /* the bed is Lambertian */
     m.specular = 0.0f;
     m.is_double_sided = true;
     for (int i = 0; i < 3; i++)
@@ -39,7 +39,7 @@ static scene_material bed_material(const facet_sea_bed *bed)
     return m;
 }
 
-/* An array of `count` items with room for `more`. NULL: no memory. */
+/* A copy of `count` items with room for `more`. NULL: out of memory. */
 static void *extended(arena *memory, const void *items, uint32_t count, uint32_t more, size_t size)
 {
     unsigned char *out = arena_zalloc(memory, (size_t)count + more, size);
@@ -48,7 +48,7 @@ static void *extended(arena *memory, const void *items, uint32_t count, uint32_t
     return out;
 }
 
-/* All of `with` that is drawn; room for `more` meshes with a node and a material each. */
+/* Everything visible in `with`, with room for `more` meshes with a node and a material each. */
 static bool borrow(facet_scene *scene, const facet_scene *with, uint32_t more)
 {
     facet_scene own = *scene;
@@ -70,7 +70,7 @@ static bool borrow(facet_scene *scene, const facet_scene *with, uint32_t more)
     return scene->materials && scene->meshes && scene->nodes && scene->scenes;
 }
 
-/* Names the nodes from `first` on in all scenes; a file without any shows what has no parent as it is. */
+/* Adds the nodes from `first` on to all scenes; a file without scenes shows its root nodes. */
 static bool show(facet_scene *scene, uint32_t first)
 {
     uint32_t more = scene->node_count - first;
@@ -152,7 +152,7 @@ struct water_scene {
     path_surface surface; /* of water */
 };
 
-/* The preview's light: the sky without its lower half and without the sun, which is a disc beside it. */
+/* The preview's lighting: the sky without its lower half and its sun, and a directional sun. */
 static facet_render_desc desc_of(const water_setup *s, double deadline_s)
 {
     facet_render_desc r = *s->desc;

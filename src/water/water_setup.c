@@ -50,7 +50,7 @@ static void fill_light(water_setup *s)
     s->sunward = -water_refracted(*w, -normalize(L), vec3(0.0f, 1.0f, 0.0f));
 }
 
-/* A sine as high as the sea, as long as its highest waves. */
+/* A sine wave with the height of the sea and the length of its highest waves. */
 static void fill_crest(water_setup *s)
 {
     vec3 L = s->light.L, slopes = water_slopes_of(&s->sea->slopes.total);
@@ -103,7 +103,7 @@ facet_result water_setup_create(water_cache *cache, const facet_scene *scene, co
     s->footprint = inversesqrt((float)(r->samples ? r->samples : 1));
     s->is_below = is_under_water(sea, s->camera.origin);
     s->march = water_march_of(&sea->waves, &sea->slopes, !s->camera.is_orthographic);
-    const uint32_t whole[4] = {0, 0, r->width, r->height}; /* so that a part shows the same */
+    const uint32_t whole[4] = {0, 0, r->width, r->height}; /* so that a crop shows the same */
     if (r->renderer == FACET_RENDERER_KIND_PREVIEW)
         result = water_profile_create(&s->march, &s->camera, whole, s->is_below, r->thread_count,
                                       &r->allocator, &s->profile, error);
@@ -125,7 +125,7 @@ facet_result water_setup_create(water_cache *cache, const facet_scene *scene, co
     s->roughness = perceptual_roughness > 0.0f ? slopes_from_roughness(perceptual_roughness) : vec3(-1.0f);
     if (scene)
         result = add_model(s, scene, stats, error);
-    if (r->renderer == FACET_RENDERER_KIND_PATH) /* which finds light on the bed by itself */
+    if (r->renderer == FACET_RENDERER_KIND_PATH) /* path tracing finds light on the bed by itself */
         return result;
     if (result == FACET_OK)
         result = caustic_map_of_picture(s, &s->caustics, error);

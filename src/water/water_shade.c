@@ -1,5 +1,5 @@
-/* water_shade.c - see water_shade.h. The order is: the sky in the slopes, the sun in them with its glints, what comes from below;
- * all composed, foam over it. */
+/* water_shade.c - see water_shade.h. In order: reflected sky, sun with its glints, light from below; composed,
+ * then foam on top. */
 #include "water/water_shade.h"
 
 #include <math.h>
@@ -24,7 +24,7 @@ vec3 water_bed_lit_at(const water_setup *s, const double P[3], vec3 d, float way
     return water_bed_lit(focused, factor + beyond * open.sun, open.rest);
 }
 
-/* lit, mean_lit: light on the bed over its mean where the ray meets it, and around. */
+/* lit, mean_lit: relative irradiance of the bed where the ray hits it, and around. */
 static vec3 over_bed(const water_setup *s, float depth, vec3 down, vec3 lit, vec3 mean_lit)
 {
     const facet_sea_bed *bed = &s->sea->desc.bed;
@@ -39,7 +39,7 @@ vec3 water_from_still(const water_setup *s, float depth_m, vec3 down)
                             : water_from_deep(s->water, s->light.downwelling);
 }
 
-/* Radiance (cd/m^2) that goes up just below the place, towards the eye: of deep water, or of the bed through it. */
+/* Upward radiance (cd/m^2) just below the surface, towards the eye: of deep water, or of the bed through it. */
 static vec3 from_below(const water_setup *s, const water_place *p)
 {
     vec3 down = water_refracted(s->water, -p->V, p->point.N), lit = vec3(1.0f), mean_lit = lit;
@@ -88,7 +88,7 @@ static vec3 sun_in_water(const water_setup *s, const water_place *p, WaterLight 
 
 vec3 water_shade(const water_setup *s, const water_place *p, const water_findings *found)
 {
-    float means[4] = {1.0f, 1.0f, 0.0f, 0.0f}; /* of flat water; the table's first row has slopes of 1e-4 */
+    float means[4] = {1.0f, 1.0f, 0.0f, 0.0f}; /* of flat water; the LUT's first row has slopes of 1e-4 */
     float NdotV = clamp(dot(p->point.N, p->V), 1e-4f, 1.0f);
     const vec3 least = vec3(SLOPE_VARIANCE_MIN, SLOPE_VARIANCE_MIN, 0.0f);
     float sigma = sigma_towards(p->point.covariance - least, p->point.N, p->V);
@@ -118,7 +118,7 @@ vec3 water_shade_land(const water_setup *s)
 
 /* ---- seen from below ---- */
 
-static const float FAR_M = 1e4f; /* farther than any water lets see */
+static const float FAR_M = 1e4f; /* beyond the visibility in any water */
 
 static float depth_of(const double P[3])
 {
@@ -161,13 +161,13 @@ vec3 water_seen_through_water(const water_setup *s, const double P[3], vec3 d, f
         }
         ground = water_bed_through(s->water, bed, mean, x);
     }
-    /* a ray that goes up for ever leaves water that would shine as it does near the surface */
+    /* an endless upward ray leaves water as bright as near the surface */
     float reach = d[1] > 1e-4f ? min(x, z / d[1]) : x;
     return ground +
            water_through(s->water, s->light.downwelling, s->beam, s->sunward, vec3(0.0f), z, d, reach);
 }
 
-/* lx on a horizontal plane that looks down, just below the surface. */
+/* Upward irradiance just below the surface, lx. */
 static vec3 upwelling(const water_setup *s, const double P[3])
 {
     const facet_sea_bed *bed = &s->sea->desc.bed;
@@ -177,7 +177,7 @@ static vec3 upwelling(const water_setup *s, const double P[3])
     return R * water_interreflected(s->water, s->light.downwelling, R);
 }
 
-/* Water as it is mirrored by facets of the mean normal m. */
+/* Reflected water radiance for microfacets with the mean normal m. */
 static vec3 mirrored_from_below(const water_setup *s, const water_place *p, vec3 d, vec3 m)
 {
     vec3 mirrored = reflect(d, m);
@@ -188,15 +188,15 @@ static vec3 mirrored_from_below(const water_setup *s, const water_place *p, vec3
                                     water_mirrored_spread(p->point.covariance));
 }
 
-/* What the facets show. */
+/* Radiance by way of the microfacets. */
 typedef struct facets_light {
     vec3 window;   /* radiance of the sky, through Snell's window */
-    float fresnel; /* share of light that they mirror */
-    vec3 mirrored; /* radiance of the water where they do */
+    float fresnel; /* reflectance */
+    vec3 mirrored; /* radiance of the reflected water */
 } facets_light;
 
-/* upwards: radiance of what goes up below the surface. The window has a rim, and so each facet its own sky; water is much the same in
- * all mirrors. */
+/* upwards: upward radiance below the surface. Snell's window has an edge, so each microfacet has its own sky;
+ * reflected water varies little. */
 static facets_light facets_from_below(const water_setup *s, const water_place *p, vec3 d, vec3 upwards)
 {
     vec3 C = p->point.covariance, N = p->point.N, mirrors = vec3(0.0f);
@@ -225,10 +225,11 @@ static facets_light facets_from_below(const water_setup *s, const water_place *p
     return L;
 }
 
-/* Radiance of something else than sky and water, which is seen as sharply as it is without a surface; *wide: what is left of both. */
+/* Radiance of something other than sky and water, as sharp as without a surface; *wide: remaining share of
+ * both. */
 static vec3 found_in(const facets_light *L, const water_findings_below *found, vec3 *wide)
 {
-    float share = found->covered > L->fresnel ? L->fresnel / found->covered : 1.0f; /* both are by chance */
+    float share = found->covered > L->fresnel ? L->fresnel / found->covered : 1.0f; /* both are random */
     *wide = max(L->window - found->hidden, 0.0f) + L->mirrored * (L->fresnel - share * found->covered);
     return found->through + found->mirrored * share;
 }
@@ -251,7 +252,7 @@ vec3 water_shade_from_below(const water_setup *s, const water_place *p, const wa
 
 /* ---- the legacy style, and painted water ---- */
 
-/* Displays were given c^0.95 as it is; the numbers here are encoded later. */
+/* The legacy program displayed c^0.95 directly; values here are encoded later. */
 static vec3 shown(vec3 c)
 {
     return linear_from_srgb(before_display(c));
@@ -273,7 +274,7 @@ vec3 water_look_shade(const water_setup *s, const water_place *p, vec3 d)
         look->perceptual_roughness > 0.0f ? look->perceptual_roughness : BEFORE_ROUGHNESS;
     vec2 slope = slope_from_normal(p->point.N);
     float sparkle = 0.0f;
-    if (!look->omits_glints) { /* noise in the water, about one cell in ten */
+    if (!look->omits_glints) { /* sparkle noise, about one cell in ten */
         GlintCell cell = glint_cell(vec2((float)p->rest[0], (float)p->rest[1]), vec2(p->footprint_m), 1.0f);
         sparkle = glint_uniform(cell.key) > 0.9f ? 1.0f : 0.0f;
     }

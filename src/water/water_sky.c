@@ -1,4 +1,4 @@
-/* water_sky.c - makes what water_sky.h has; water_sky_look.c looks it up. */
+/* water_sky.c - see water_sky.h. */
 #include "base/memory.h"
 
 #include <math.h>
@@ -12,12 +12,12 @@
 
 enum { PICTURE_HEIGHT = 256 };
 
-/* Clear air over a sea, haze of depth 0.06, and what a sea sends up of the light that falls on it. */
+/* Clear air over a sea, haze of optical depth 0.06, and the albedo of a sea. */
 static const float MARITIME_TURBIDITY = 1.55f, SEA_ALBEDO = 0.06f;
-static const float LEAST_EYE_KM = 0.001f; /* lower eyes see no farther in a table of floats */
-static const float MOST_EYE_KM = 50.0f;   /* as of facet_sky_desc.altitude_m */
-static const float SAME_VIEW_KM =
-    0.05f; /* up to which the eye's sky is that of the sea, but for the horizon */
+static const float LEAST_EYE_KM = 0.001f; /* below this, a LUT of floats resolves no difference */
+static const float MOST_EYE_KM = 50.0f;   /* as for facet_sky_desc.altitude_m */
+/* Up to this height the eye's sky is that of the sea, except for the horizon. */
+static const float SAME_VIEW_KM = 0.05f;
 
 static inline float luminance_of(vec3 c)
 {
@@ -33,7 +33,7 @@ static void place_sun(water_sky *s, float elevation_rad, float azimuth_rad)
     s->sun_longitude = 1.5707963267948966 - a;
 }
 
-/* facet_sun beside a picture: a disc of uniform radiance. */
+/* facet_sun with an image as environment: a disc of uniform radiance. */
 static void take_sun(water_sky *s, const facet_sun *sun)
 {
     float radius = sun->diameter_rad > 0.0f ? 0.5f * sun->diameter_rad : SUN_RADIUS;
@@ -88,7 +88,7 @@ static void fill_air(const facet_sky_desc *sky, water_sky *s)
     s->white = atmosphere_color(s->air[0], vec3(1.0f)) + atmosphere_color(s->air[1], vec3(1.0f));
 }
 
-/* The same air over black ground: what a view shows below the horizon then is the air's own light. */
+/* The same air over black ground: a view below the horizon is in-scattering alone. */
 static sky_luts over_black(const sky_luts *t)
 {
     sky_luts dark = *t;
@@ -137,7 +137,7 @@ static void mirror_at_horizon(image *picture)
         memcpy(pixels + y * row, pixels + (picture->height - 1 - y) * row, row * sizeof *pixels);
 }
 
-/* Everything that is looked up in a picture; mirrored is drawn already. */
+/* Prefilters the environment, whose pixels are filled already. */
 static facet_result prepare_reflections(const facet_render_desc *desc, water_sky *s, facet_error *error)
 {
     mirror_at_horizon(&s->mirrored->panorama);
@@ -192,7 +192,7 @@ static facet_result use_picture(const facet_render_desc *desc, facet_environment
     return FACET_OK;
 }
 
-/* Preetham's sky is a picture like any other, with a sun. */
+/* Preetham's sky is an image like any other, with a sun. */
 static facet_result use_preetham(const facet_render_desc *desc, float rows_per_rad, water_sky *s,
                                  facet_error *error)
 {
@@ -220,7 +220,8 @@ static facet_result use_preetham(const facet_render_desc *desc, float rows_per_r
     return result;
 }
 
-/* Scales the sky's light so that the surface that gets most has desc's illuminance: about the one that faces the sun. */
+/* Scales the sky so that the most strongly lit surface, about the one that faces the sun, has desc's
+ * illuminance. */
 static void scale_light(const facet_sky_desc *sky, water_sky *s)
 {
     float lux = luminance_of(s->sun_irradiance + s->sky_irradiance);
@@ -324,7 +325,7 @@ vec3 water_sky_picture(const water_sky *s, vec3 d, float perceptual_roughness)
     return vec3(out[0], out[1], out[2]) * s->scale;
 }
 
-/* Limb darkening: 1 - u (1 - sqrt(1 - r^2)), over its mean 1 - u / 3; and the color that the air leaves at this height. */
+/* Limb darkening: 1 - u (1 - sqrt(1 - r^2)), over its mean 1 - u / 3; and the transmitted color at this height. */
 static vec3 disc_through_air(const water_sky *s, vec3 d, float r2)
 {
     float elevation = asin(clamp(d[1], -1.0f, 1.0f));
@@ -360,7 +361,8 @@ vec3 water_sky_seen(const water_sky *s, vec3 d)
 
 vec3 water_sky_reflected(const water_sky *s, vec3 R, float perceptual_roughness)
 {
-    /* Lobes narrower than 0.02 in alpha are as good as mirrors under a sky without a disc; a picture's texels would show. */
+    /* Lobes narrower than 0.02 in alpha count as mirrors under a sky without a disc; texels of an image would
+     * show. */
     const float as_mirror = 0.14f;
     vec3 up = vec3(R[0], abs(R[1]), R[2]);
     float share = s->has_views ? clamp(perceptual_roughness / as_mirror, 0.0f, 1.0f) : 1.0f;

@@ -13,11 +13,11 @@ static const double FAR_M = 1e7;
 typedef struct water_sample {
     const water_setup *s;
     float x, y;      /* pixels */
-    float footprint; /* over that of a pixel */
+    float footprint; /* relative to a pixel */
     uint32_t random;
     march_ray ray;
-    vec3 d;                   /* its direction */
-    const water_place *place; /* that it shows of the sea; NULL: yet to be known */
+    vec3 d;                   /* direction of ray */
+    const water_place *place; /* the visible point of the sea; NULL: not known yet */
 } water_sample;
 
 static water_sample begin_sample(const water_setup *s, float x, float y, float footprint, uint32_t random)
@@ -42,7 +42,7 @@ static water_sample begin_sample(const water_setup *s, float x, float y, float f
     return p;
 }
 
-/* Where a ray from above meets ground that the water leaves dry; HUGE_VAL: nowhere before t. */
+/* Distance at which a ray from above hits ground that the water leaves dry; HUGE_VAL: not before t. */
 static double land_before(const water_setup *s, const march_ray *ray, vec3 d, double t)
 {
     const facet_sea_bed *bed = &s->sea->desc.bed;
@@ -123,7 +123,7 @@ static vec3 exposed(const water_setup *s, vec3 L)
     return most > 0.0f ? min(L, most) : L;
 }
 
-/* Radiance (cd/m^2) times the exposure, or the legacy style; sea: where the ray meets the water, if it does. */
+/* Radiance (cd/m^2) times the exposure, or the legacy style's value; sea: the hit on the water, if any. */
 static vec3 shade_sample(const water_sample *p, bool is_met, const march_hit *sea)
 {
     const water_setup *s = p->s;
@@ -149,12 +149,12 @@ static vec3 trace(const water_setup *s, float x, float y, float footprint, uint3
 
 enum { MOST_GROUPED = 16 };
 
-/* Samples of a pixel that meet one piece of water, or nothing. */
+/* Samples of a pixel that hit one patch of water, or nothing. */
 typedef struct group {
     bool is_met;
     float x, y;        /* sums over the samples */
     double distance_m; /* sum */
-    double closing;    /* of the first */
+    double closing;    /* of the first sample */
     uint32_t count;
     const water_sight *sights[MOST_GROUPED];
 } group;
@@ -167,7 +167,7 @@ typedef struct grouping {
     group groups[MOST_GROUPED];
 } grouping;
 
-/* Whether t is in the piece of water that a pixel shows at the place of a group: within what it covers of a slope. */
+/* Whether t lies within the patch of water that a pixel covers around a group. */
 static bool is_one_piece(const group *g, const profile_place *place, float pixel_size)
 {
     double t = g->distance_m / g->count, closing = fmin(g->closing, place->closing);
@@ -215,7 +215,7 @@ static vec3 shade_group(const grouping *p, const group *g)
     return shade_sample(&one, g->is_met, &sea);
 }
 
-/* A disc has an edge that a sample may show. */
+/* The disc has an edge that a sample may hit. */
 static bool is_near_sun(const water_setup *s, vec3 d)
 {
     vec3 off = d - s->sky.L;
