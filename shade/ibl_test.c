@@ -53,7 +53,7 @@ static void test_split_sum(void **state)
     }
 }
 
-/* A band-limited environment P_l(L.R), l = 0 to 4, is scaled by k_l(alpha) (reference, section 16.4); a
+/* A band-limited environment P_l(L.R), l = 0 to 4, is scaled by k_l(alpha); a
  * constant is preserved. */
 static void test_prefilter_bands(void **state)
 {

@@ -147,7 +147,7 @@ static void test_glass_loses_nothing(void **state)
     assert_true(largest < 10.0f);
 }
 
-/* A smooth boundary is Fresnel's equations: reference 16.6, from outside and from inside. */
+/* A smooth boundary is Fresnel's equations, from outside and from inside. */
 static void test_smooth_glass_is_fresnel(void **state)
 {
     (void)state;

@@ -5,7 +5,7 @@ static const float inputs[7][3] = {{0.18f, 0.18f, 0.18f}, {1.0f, 1.0f, 1.0f},  {
                                    {0.9f, 0.2f, 0.05f},   {10.0f, 0.5f, 0.1f}, {0.0f, 1.0f, 0.0f},
                                    {16.0f, 16.0f, 16.0f}};
 
-/* Display-linear values (reference, section 16.12), before the clamp to 1. */
+/* Display-linear values, computed independently in double, before the clamp to 1. */
 static const struct {
     int op;
     const char *name;

@@ -1,5 +1,4 @@
-/* water_before_test.c - the legacy shading style: values of its formulas, computed in double beside the source
- * text (reference of this project, "The before mode"). */
+/* water_before_test.c - the legacy shading style: values of its formulas, computed independently in double. */
 #include "testing/test_support.h"
 
 /* A power of 256 amplifies the rounding of a cosine near 1 to 2e-5. */

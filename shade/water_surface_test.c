@@ -1,5 +1,5 @@
-/* water_surface_test.c - facets of a rough sea: distribution, masking and energy, the image of the sun, visible
- * means. Golden numbers were computed in double (reference of this project, "Surface optics" and "Validation"). */
+/* water_surface_test.c - microfacets of a rough sea: distribution, masking and energy, the sun's reflection, means over
+ * visible microfacets. Golden numbers were computed independently in double. */
 #include "testing/test_support.h"
 
 static const double PI_DOUBLE = 3.14159265358979324;

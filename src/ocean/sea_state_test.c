@@ -397,7 +397,7 @@ static void measured_laws_have_their_numbers(void **state)
     for (int i = 0; i < 6; i++)
         assert_near(whitecap_coverage(coverage[i][0]), coverage[i][1], 0.02 * coverage[i][1]);
     assert_true(whitecap_coverage(3.7) == 0.0 &&
-                whitecap_coverage(3.8) > 0.0); /* begins there: reference, 12 */
+                whitecap_coverage(3.8) > 0.0); /* onset: Callaghan et al. 2008 */
     assert_true(whitecap_coverage(3.8) < whitecap_coverage(4.0) && whitecap_coverage(4.0) < 1e-4);
     assert_true(whitecap_coverage(0.0) == 0.0 && whitecap_coverage(40.0) == 0.9);
 }

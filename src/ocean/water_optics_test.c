@@ -1,5 +1,4 @@
-/* water_optics_test.c - colors of water against tables that were computed apart (reference of this project, sections 9.1 and 10.3), and what
- * must hold whatever the numbers. */
+/* water_optics_test.c - colors of water against independently computed tables, and invariants. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>

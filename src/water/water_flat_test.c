@@ -12,7 +12,7 @@ static facet_sea_desc still_sea(void)
     return d;
 }
 
-/* Unpolarised, in double; reference 9.2. */
+/* Fresnel reflectance of unpolarised light, in double. */
 static double fresnel(double c, double n)
 {
     double g = sqrt(n * n + c * c - 1.0), a = (g - c) / (g + c),

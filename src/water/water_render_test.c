@@ -206,7 +206,7 @@ static void test_profile(void **state)
 
 /* ---- exposure ---- */
 
-/* Light on level water by a sun 20 degrees high in a clear sky; reference 13.3: E = 75 730 sin 20 + 9 500 = 35 400 lx. */
+/* Light on level water by a sun 20 degrees high in a clear sky: E = 75 730 sin 20 + 9 500 = 35 400 lx. */
 static void test_light(void **state)
 {
     (void)state;
