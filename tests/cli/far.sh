@@ -87,6 +87,6 @@ cmp -s coarse.png coarse_again.png || failed "the model looks different after it
 # A sea has an origin of its own.
 if "$facet" --help | grep -q ' ocean '; then
     expect 0 ocean --with far.obj -o sea.png --size 48x32 --quality draft
-    says "--with: far.obj is far from the origin of its file; it floats as if that were at -100000000, 100000000, 452633"
+    says "--with: far.obj is far from the origin of its file; it floats as if the origin were at -100000000, 100000000, 452633"
 fi
 finish
