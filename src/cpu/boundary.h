@@ -11,7 +11,7 @@
  * below it into a prism with total reflection. Here the vertices' normals are limited to those of a curved
  * surface through them. */
 typedef struct boundary_normal {
-    vec3 N;            /* unit, on the side of V; with what the normal texture adds */
+    vec3 N;            /* unit, on the side of V; with the offset of the normal texture */
     vec3 dN_dx, dN_dy; /* its change over the ray's footprint */
     vec3 Ng;           /* unit, geometric, on the side of V */
     float tolerance;   /* media_tolerance_at(), m */

@@ -1,4 +1,4 @@
-/* embree.h - Embree 3.13 and Embree 4 behind one face: what the two call differently, and nothing else. */
+/* embree.h - one interface to Embree 3.13 and Embree 4, for the calls that differ. */
 #ifndef CPU_EMBREE_H
 #define CPU_EMBREE_H
 
@@ -26,7 +26,7 @@ typedef struct RTCRayQueryContext embree_context;
         rtcIntersect##N(valid, scene, rays, &arguments);                                                     \
     }
 
-/* One ray; filter is asked about every candidate and gets context, which starts with an embree_context. */
+/* One ray; Embree calls filter for every candidate with context, which starts with an embree_context. */
 static inline void embree_intersect1_filtered(RTCScene scene, struct RTCRayHit *ray, embree_context *context,
                                               RTCFilterFunctionN filter)
 {
@@ -39,14 +39,14 @@ static inline void embree_intersect1_filtered(RTCScene scene, struct RTCRayHit *
     rtcIntersect1(scene, ray, &arguments);
 }
 
-/* Whether anything opaque is on one ray. */
+/* Whether one ray is occluded. */
 static inline bool embree_occluded1(RTCScene scene, struct RTCRay *ray)
 {
     rtcOccluded1(scene, ray, NULL);
     return ray->tfar < 0.0f;
 }
 
-/* The same, with a filter as above: what it refuses lets the ray pass. */
+/* The same, with a filter as above: the ray passes candidates that it rejects. */
 static inline bool embree_occluded1_filtered(RTCScene scene, struct RTCRay *ray, embree_context *context,
                                              RTCFilterFunctionN filter)
 {
@@ -82,7 +82,7 @@ typedef struct RTCIntersectContext embree_context;
         rtcIntersect##N(valid, scene, &context, rays);                                                       \
     }
 
-/* One ray; filter is asked about every candidate and gets context, which starts with an embree_context. */
+/* One ray; Embree calls filter for every candidate with context, which starts with an embree_context. */
 static inline void embree_intersect1_filtered(RTCScene scene, struct RTCRayHit *ray, embree_context *context,
                                               RTCFilterFunctionN filter)
 {
@@ -91,7 +91,7 @@ static inline void embree_intersect1_filtered(RTCScene scene, struct RTCRayHit *
     rtcIntersect1(scene, context, ray);
 }
 
-/* Whether anything opaque is on one ray. */
+/* Whether one ray is occluded. */
 static inline bool embree_occluded1(RTCScene scene, struct RTCRay *ray)
 {
     struct RTCIntersectContext context;
@@ -100,7 +100,7 @@ static inline bool embree_occluded1(RTCScene scene, struct RTCRay *ray)
     return ray->tfar < 0.0f;
 }
 
-/* The same, with a filter as above: what it refuses lets the ray pass. */
+/* The same, with a filter as above: the ray passes candidates that it rejects. */
 static inline bool embree_occluded1_filtered(RTCScene scene, struct RTCRay *ray, embree_context *context,
                                              RTCFilterFunctionN filter)
 {

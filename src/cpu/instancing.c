@@ -80,7 +80,7 @@ static bool is_centered(const scene_primitive *primitive)
     return farthest <= most * size;
 }
 
-/* ---- what moves ---- */
+/* ---- animated nodes ---- */
 
 enum { UNKNOWN, AT_REST, MOVES };
 

@@ -52,7 +52,7 @@ static uint32_t count_role(fixture *f, uint64_t ray_count, render_role role)
     return count;
 }
 
-/* ---- what is instanced ---- */
+/* ---- instanced geometries ---- */
 
 static void few_uses_stay_flat(void **state)
 {

@@ -137,7 +137,7 @@ static void environments_are_left_alone(void **state)
     facet_budget_destroy(budget);
 }
 
-/* ---- what cannot be drawn ---- */
+/* ---- unsupported scenes ---- */
 
 static void errors_say_what_to_do(void **state)
 {

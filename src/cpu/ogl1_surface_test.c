@@ -399,7 +399,7 @@ static void opacity_does_not_count_lights(void **state)
     }
 }
 
-/* ---- what is shown ---- */
+/* ---- images ---- */
 
 /* lit = FALSE: the color as it is, and with a texture; no emission, no light. */
 static void unlit_surfaces(void **state)

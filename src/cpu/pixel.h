@@ -1,4 +1,4 @@
-/* pixel.h - the color of a pixel from what its samples see. */
+/* pixel.h - the color of a pixel from the hits of its samples. */
 #ifndef CPU_PIXEL_H
 #define CPU_PIXEL_H
 

@@ -131,7 +131,7 @@ facet_result prepared_scene_geometry(prepared_scene *p, const facet_render_desc 
     return nearest_copies_choose(&p->geometries, camera, desc->width, desc->height, &p->allocator, error);
 }
 
-/* ---- what is made of the geometry ---- */
+/* ---- BVH, tangents, textures ---- */
 
 facet_result prepared_scene_hierarchy(prepared_scene *p, const facet_render_desc *desc, facet_error *error)
 {

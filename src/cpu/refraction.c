@@ -261,7 +261,7 @@ static float ior_of(const scene_material *m, float shift)
     return max(m->ior + spread * shift, 1.0f);
 }
 
-/* ---- what a ray meets ---- */
+/* ---- hits ---- */
 
 /* The boundary between two volumes, or of one seen from inside: Fresnel's equations, with the reflection
  * traced as well. The rest is scattered by the base color under the environment. */

@@ -343,7 +343,7 @@ static void colors_part_by_their_ior(void **state)
     }
 }
 
-/* ---- what is behind ---- */
+/* ---- surfaces behind ---- */
 
 /* A masked and a blended quad before a ruler. */
 static void add_leaves(fixture *f)

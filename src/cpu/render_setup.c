@@ -112,7 +112,7 @@ static facet_result run_all_stages(render_setup *p, facet_error *error)
     return FACET_OK;
 }
 
-/* ---- what is known of textures only when they are decoded ---- */
+/* ---- decoded textures ---- */
 
 static bool lacks_red(const texture_set *textures, uint32_t texture)
 {

@@ -170,7 +170,7 @@ static void a_glass_ball_in_a_furnace(void **state)
         }
 }
 
-/* ---- bodies in bodies ---- */
+/* ---- nested volumes ---- */
 
 /* A box of another index inside, not touching: four boundaries. */
 static void a_slab_in_a_slab(void **state)

@@ -11,7 +11,7 @@
 
 #include "path/path_lights_fixture.h"
 
-/* ---- what is met ---- */
+/* ---- BSDF sampling ---- */
 
 static const double pi = 3.14159265358979323846;
 

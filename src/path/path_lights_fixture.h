@@ -69,7 +69,7 @@ static inline stage stage_create(void)
     return s;
 }
 
-/* ---- what shines ---- */
+/* ---- emitters ---- */
 
 static inline scene_material emitting(float emissive, bool is_double_sided)
 {

@@ -30,7 +30,7 @@ static const scene_material *here(const scene_material *const *entered, uint32_t
     return found ? found->material : NULL;
 }
 
-/* ---- nested bodies ---- */
+/* ---- nested dielectrics ---- */
 
 static void air_is_where_nothing_is(void **state)
 {

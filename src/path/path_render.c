@@ -350,7 +350,7 @@ static facet_result draw(path_job *p, facet_error *error)
     return result;
 }
 
-/* ---- from sums to the film ---- */
+/* ---- the result ---- */
 
 /* Draws the layers that are not means over samples: those of the first instant. */
 static facet_result draw_aovs(path_job *p, facet_error *error)

@@ -17,7 +17,7 @@ enum { PATH_SURFACE_VALUES = 4 };
 typedef struct path_surface_point {
     vec3 N, Ng;   /* unit, towards +Y: shading normal, bent to where V sees it; of the triangle */
     float side;   /* 1: V is above the boundary; -1: in its medium */
-    float albedo; /* what the denoiser takes as its albedo, [0, 1] */
+    float albedo; /* for the denoiser, [0, 1] */
     /* interpolated parameters, which the implementation alone interprets */
     float values[PATH_SURFACE_VALUES];
 } path_surface_point;

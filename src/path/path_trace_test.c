@@ -237,7 +237,7 @@ static void layers_are_drawn_by_their_share(void **state)
     fixture_destroy(&s.f);
 }
 
-/* ---- what stops light ---- */
+/* ---- occlusion ---- */
 
 static mean below_wall(scene_material material, float turn, float width)
 {
@@ -609,7 +609,7 @@ static void lens_rays_meet_in_focus(void **state)
     }
 }
 
-/* ---- what is told beside the light ---- */
+/* ---- features for the denoiser ---- */
 
 /* A mirror at 45 degrees shows a red wall. */
 static void guides_follow_mirrors(void **state)

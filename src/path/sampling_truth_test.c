@@ -433,7 +433,7 @@ static void a_lens_blurs_a_point_into_a_disc(void **state)
     assert_true(fabs(flux[0] - flux[1]) < TRUTH_SIGMAS * 0.01 * flux[1]);
 }
 
-/* ---- what an image does not depend on ---- */
+/* ---- independence of threads, crops, interruptions ---- */
 
 static void pictures_do_not_depend_on_threads(void **state)
 {

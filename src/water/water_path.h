@@ -7,7 +7,7 @@
 #include "path/path_surface.h"
 #include "water/water_setup.h"
 
-/* The water of one image; scene_primitive.water has what differs from vertex to vertex. */
+/* The water of one image; scene_primitive.water has its parameters per vertex. */
 typedef struct water_path {
     Water water;
     vec3 downwelling;   /* lx on a horizontal plane just below the surface */
