@@ -1,4 +1,4 @@
-/* caustic_map.c - see caustic_map.h. The widest layer fades to 1, the mean; each other one to the next. */
+/* caustic_map.c - see caustic_map.h. The widest layer fades to the mean, 1; each other one to the next. */
 #include "ocean/caustic_map.h"
 
 #include <math.h>
@@ -45,7 +45,7 @@ void caustic_layer_reduce(caustic_layer *layer)
     }
 }
 
-/* Between texels, whose middles are at their places; place in [-1, 1]^2. */
+/* Interpolated between texel centers; place in [-1, 1]^2. */
 static float read_mip(const caustic_layer *layer, uint32_t mip, vec2 place)
 {
     int edge = CAUSTIC_SIZE >> mip;

@@ -12,18 +12,19 @@
 #include "ocean/wave_transform.h"
 
 static const double TWO_PI = 6.28318530717958647693;
-static const double DECAYS = 5.0;         /* e^-5 is below what is seen */
-static const double STEPS_PER_WAVE = 8.0; /* of the shortest in the longest tile */
+static const double DECAYS = 5.0;         /* e^-5 is invisible */
+static const double STEPS_PER_WAVE = 8.0; /* per period of the shortest wave in the longest tile */
 static const size_t MOST_KEPT = 64u << 20;
 enum { MOST_STEPS = 96, CHANCES = 1024 };
 
-/* Probability that all waves together converge by more than the threshold where those of the longest tile do by q: a table over
- * [-threshold, 2 threshold]. */
+/* Probability that the convergence of all waves exceeds the threshold, given the convergence q of the longest
+ * tile: a LUT over [-threshold, 2 threshold]. */
 struct foam_chances {
     float table[CHANCES + 1], from, scale;
 };
 
-/* Chances at the multiples 2 number and 2 number + 1 of the step: one transform, and the same numbers whoever asks. */
+/* Probabilities at the multiples 2 number and 2 number + 1 of the step: from one transform, and the same for
+ * every caller. */
 struct foam_pair {
     bool is_there;
     int64_t number;
@@ -70,7 +71,7 @@ static void look_up(void *context, size_t begin, size_t end)
 
 /* ---- times ---- */
 
-/* Convergence of the longest tile at two times to the fields. */
+/* Writes the convergence of the longest tile at two times to the fields. */
 static void converge(foam_history *h, const waves *w, const double times_s[2])
 {
     const wave_amplitudes *a = w->amplitudes[0];
@@ -95,7 +96,7 @@ static bool allocate_pair(foam_history *h, foam_pair *p)
     return p->planes[0] && p->planes[1];
 }
 
-/* NULL: no memory. */
+/* NULL: out of memory. */
 static const foam_pair *find_pair(foam_history *h, const waves *w, int64_t number)
 {
     uint32_t at = (uint32_t)(((number % h->pair_count) + h->pair_count) % h->pair_count);
@@ -117,7 +118,7 @@ static const foam_pair *find_pair(foam_history *h, const waves *w, int64_t numbe
 
 /* ---- gathering ---- */
 
-/* Planes and how much of each is left. */
+/* Planes and their fade factors. */
 typedef struct gathering {
     const float *planes[MOST_STEPS];
     float fades[MOST_STEPS];
@@ -135,7 +136,7 @@ static void gather(void *context, size_t begin, size_t end)
         }
 }
 
-/* Into h->past, as of the last multiple: what fades from there on fades all by the same. */
+/* Accumulates into h->past, as of the last multiple: from there on everything fades by the same factor. */
 static facet_result gather_past(foam_history *h, const waves *w, int64_t last, facet_error *error)
 {
     size_t texels = (size_t)h->size * h->size;
@@ -152,7 +153,7 @@ static facet_result gather_past(foam_history *h, const waves *w, int64_t last, f
         g.planes[g.count] = p->planes[multiple & 1];
         g.fades[g.count++] = (float)exp(-(double)i * h->step_s / h->decay_s);
         bool is_last = i + 2 == h->count;
-        if (is_last || h->pair_count == 1) { /* the next pair may lie in the place of this one */
+        if (is_last || h->pair_count == 1) { /* the next pair may replace this one */
             parallel_for(w->thread_count, texels, 4096, gather, &g);
             g.count = 0;
         }
@@ -162,7 +163,7 @@ static facet_result gather_past(foam_history *h, const waves *w, int64_t last, f
     return FACET_OK;
 }
 
-/* Crests that break now, over what is left of the past. */
+/* Combines crests that break now with the faded past. */
 typedef struct breaking {
     const foam_history *history;
     float fade;
@@ -183,7 +184,7 @@ facet_result foam_history_gather(foam_history *h, const waves *w, float *share, 
 {
     double now_s = wave_phase_time(w, w->time_s);
     double last = floor(now_s / h->step_s);
-    if (!(fabs(last) < 0x1p50)) /* such times are no more apart than the steps */
+    if (!(fabs(last) < 0x1p50)) /* times inside the loop are no farther apart than the steps */
         last = 0.0;
     facet_result result = gather_past(h, w, (int64_t)last, error);
     if (result != FACET_OK)
@@ -220,12 +221,12 @@ static bool allocate(foam_history *h, const waves *w)
     return is_there;
 }
 
-/* Times at which crests are looked at: now, and multiples of step_s before, so that the next frame looks at the same. */
+/* Evaluated times: now, and earlier multiples of step_s, so that the next frame shares them. */
 static void choose_times(foam_history *h, const waves *w)
 {
     double omega = wave_omega(w->tiles[0].k_to, w->state.depth_m);
     h->step_s = fmax(TWO_PI / (omega * STEPS_PER_WAVE), DECAYS * h->decay_s / MOST_STEPS);
-    if (w->loop_s > 0.0) /* a loop has a whole number of them */
+    if (w->loop_s > 0.0) /* a whole number of steps per loop */
         h->step_s = (double)w->loop_s / ceil((double)w->loop_s / h->step_s);
     h->count = (uint32_t)ceil(DECAYS * h->decay_s / h->step_s);
     h->count = h->count < MOST_STEPS ? h->count : MOST_STEPS;

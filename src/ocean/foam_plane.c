@@ -1,5 +1,5 @@
-/* foam_plane.c - see foam_plane.h. Fields are made by what they look like; then each value gives way to the number of the normal
- * distribution that as large a share is below. */
+/* foam_plane.c - see foam_plane.h. Fields are shaped for their look, then mapped to normally distributed values
+ * by rank. */
 
 #include <math.h>
 
@@ -12,7 +12,7 @@ enum { RANKS = 4096, OCTAVES = 6 };
 
 /* ---- noise ---- */
 
-/* Of a place of a lattice, [0, 1). */
+/* Random value of a lattice point, [0, 1). */
 static float random_at(uint32_t x, uint32_t z, uint32_t stream)
 {
     uint64_t h = mix64(((uint64_t)x << 32 | z) + (uint64_t)(stream + 1) * MIX64_STEP);
@@ -24,7 +24,7 @@ static float smooth(float f)
     return f * f * f * (f * (6.0f * f - 15.0f) + 10.0f);
 }
 
-/* Over [0, 1)^2, which it repeats: random numbers on `cells` squared places, smooth between. Mean 0. */
+/* Tiling value noise over [0, 1)^2 on cells^2 lattice points. Mean 0. */
 static float noise(float u, float v, uint32_t cells, uint32_t stream)
 {
     float x = u * (float)cells, z = v * (float)cells;
@@ -35,7 +35,7 @@ static float noise(float u, float v, uint32_t cells, uint32_t stream)
     return a + fx * (b - a) + fz * (c - a + fx * (a - b - c + d)) - 0.5f;
 }
 
-/* Octaves from `cells` on, each of `fall` times the amplitude of the one before. */
+/* Octaves from `cells` on, each with `fall` times the amplitude of the previous one. */
 static float clouds(float u, float v, uint32_t cells, uint32_t octaves, float fall, uint32_t stream)
 {
     float sum = 0.0f, amplitude = 1.0f;
@@ -46,7 +46,7 @@ static float clouds(float u, float v, uint32_t cells, uint32_t octaves, float fa
 
 /* ---- fields ---- */
 
-/* Middles of cells: places in their square of the lattice, and by how much each counts as nearer. */
+/* Cell centers: positions in their lattice square, and an offset by which each counts as nearer. */
 enum { MOST_CELLS = (1 << (WAVES_MAX_LEVELS - 1)) / FOAM_CELL_SAMPLES };
 typedef struct middle {
     float x, z, nearer;
@@ -69,8 +69,8 @@ static void place_middles(drawing *d)
         }
 }
 
-/* By how much the second nearest middle is farther than the nearest, in cells: 0 on borders. What is larger counts as nearer: cells of many
- * sizes with round borders, as bubbles in a raft have. */
+/* Distance to the second nearest center minus that to the nearest, in cells: 0 on borders. The offset makes
+ * cells of many sizes with round borders, as of bubbles in a raft. */
 static float cell_border(const drawing *d, float x, float z)
 {
     int32_t ix = (int32_t)floorf(x), iz = (int32_t)floorf(z), n = (int32_t)d->cells;
@@ -98,7 +98,7 @@ static void draw(void *context, size_t begin, size_t end)
                 *out = clouds(u, v, 4, OCTAVES, 0.72f, 0);
                 continue;
             }
-            /* Borders are no straight lines, and of no one width. */
+            /* Distorts borders, and varies their width. */
             float x = u * (float)cells + 1.1f * clouds(u, v, cells, 3, 0.55f, 10),
                   z = v * (float)cells + 1.1f * clouds(u, v, cells, 3, 0.55f, 20);
             *out = 0.7f * clouds(u, v, cells / 2, 4, 0.7f, 30) - cell_border(d, x, z);
@@ -191,7 +191,7 @@ static double mean_square(const float *values, size_t count)
     return sum / (double)count;
 }
 
-/* Of what lies between texels, interpolated linearly: products of neighbours are in it. */
+/* Variance between texels under linear interpolation: contains products of neighbors. */
 static double mean_square_between(const float *values, size_t edge)
 {
     double same = 0.0, beside = 0.0, across = 0.0;

@@ -1,4 +1,4 @@
-/* sea.c - a sea is made of its parts, and given up. */
+/* sea.c - creation of a sea, its default camera, presets and maps. */
 #include "ocean/sea.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 #include "base/memory.h"
 #include "base/result.h"
 
-/* 0 stands for the default where it is no number of a sea. */
+/* Replaces 0 by the default where it is not a valid value. */
 static facet_sea_desc complete(const facet_sea_desc *desc)
 {
     facet_sea_desc d = *desc, otherwise = sea_default();
@@ -93,7 +93,7 @@ facet_sea_desc sea_default(void)
             .chlorophyll_mg_m3 = 0.2f, .salinity = 35.0f, .temperature_C = 20.0f, .foam_albedo = 0.55f}};
 }
 
-/* No wind: a mirror that bends with what is left of a swell. */
+/* No wind: a mirror bent by the remains of a swell. */
 static void glass(facet_sea_desc *d)
 {
     d->wind_mps = 0.0f;
@@ -109,7 +109,7 @@ static void breeze(facet_sea_desc *d)
     d->water.chlorophyll_mg_m3 = 0.3f;
 }
 
-/* Fully developed at 10 m/s, 2.24 m, 6.4 s; blue, poor water of the tropics. */
+/* Fully developed at 10 m/s, 2.24 m, 6.4 s; blue, oligotrophic water of the tropics. */
 static void trade_wind(facet_sea_desc *d)
 {
     d->water.chlorophyll_mg_m3 = 0.08f;
@@ -182,7 +182,7 @@ facet_result sea_preset(const char *name, facet_sea_desc *desc, facet_error *err
 
 /* ---- maps ---- */
 
-/* That of everything, less this one's share by its spectrum. */
+/* The total minus this tile's share by the spectrum. */
 float sea_others_variance(const facet_sea *sea, uint32_t tile)
 {
     const waves *w = &sea->waves;

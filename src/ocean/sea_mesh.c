@@ -10,20 +10,21 @@
 
 enum { DEFAULT_SAMPLES = 512, MAX_SAMPLES = 4096 };
 static const double FLAT_SIZE_M = 100.0;
-static const float DEEP_THICKNESS_M = 10.0f;     /* for viewers that do not follow light to the floor */
+static const float DEEP_THICKNESS_M = 10.0f;     /* for viewers that do not trace light to the bed */
 static const double DIFFUSE_REFLECTANCE = 0.067; /* of the surface, from above: ocean reference, n = 1.34 */
 
 typedef struct sheet {
     const facet_sea *sea;
     uint32_t samples;
     double half_m, center[2];
-    double bend; /* vertices lie at half_m sinh(bend u) / sinh(bend), u evenly from -1 to 1; 0: evenly */
+    /* vertices lie at half_m sinh(bend u) / sinh(bend), u in equal steps from -1 to 1; 0: equidistant */
+    double bend;
     float *positions, *normals, *uvs;
 } sheet;
 
 /* ---- where vertices are ---- */
 
-/* sinh(a) / a = refinement: how much closer than evenly they are at the center. */
+/* sinh(a) / a = refinement: density at the center relative to equidistant vertices. */
 static double bend_of(double refinement)
 {
     double low = 0.0, high = 12.0;
@@ -45,7 +46,7 @@ static double place_of(const sheet *s, uint32_t i)
     return s->half_m * (s->bend > 0.0 ? sinh(s->bend * u) / sinh(s->bend) : u);
 }
 
-/* From vertex i to the next, or from the one before. */
+/* Distance from vertex i to the next or the previous one. */
 static double step_of(const sheet *s, uint32_t i)
 {
     return i + 1 < s->samples ? place_of(s, i + 1) - place_of(s, i) : place_of(s, i) - place_of(s, i - 1);
@@ -74,7 +75,7 @@ static void fill_rows(void *context, size_t begin, size_t end)
         fill_row(context, (uint32_t)row);
 }
 
-/* Two triangles per square, facing up. */
+/* Two triangles per quad, facing up. */
 static void fill_indices(uint32_t columns, uint32_t rows, uint32_t *indices)
 {
     for (uint32_t row = 0; row + 1 < rows; row++)
@@ -98,7 +99,7 @@ static void bound(scene_primitive *p)
     }
 }
 
-/* Room for columns x rows vertices and their triangles; false: no memory. */
+/* Allocates columns x rows vertices and their triangles; false: out of memory. */
 static bool allocate(arena *memory, uint32_t samples, scene_primitive *p, float **positions, float **normals,
                      float **uvs)
 {
@@ -132,7 +133,7 @@ static bool make_surface(sheet *s, arena *memory, scene_primitive *p)
     return true;
 }
 
-/* A plane as wide as the surface: the bed, or where there is none one below the deepest trough. */
+/* A plane of the surface's extent: the bed, or, without one, a plane below the deepest trough. */
 static bool make_floor(const sheet *s, arena *memory, float depth_m, scene_primitive *p)
 {
     const facet_sea_bed *bed = &s->sea->desc.bed;
@@ -158,13 +159,13 @@ static bool make_floor(const sheet *s, arena *memory, float depth_m, scene_primi
 
 /* ---- materials ---- */
 
-/* What is lost of light that keeps its way, or nearly so: scattering goes forward, apart from backscattering. */
+/* Attenuation of nearly straight light: forward scattering does not count, only backscattering. */
 static float attenuation(const facet_sea *sea, int channel)
 {
     return sea->optics.absorption[channel] + sea->optics.backscattering[channel];
 }
 
-/* Of slopes that vertices step_m apart do not show: alpha^2 is their variance. */
+/* Roughness of slopes that vertices step_m apart do not resolve: alpha^2 is their variance. */
 static float roughness_below(const facet_sea *sea, double step_m)
 {
     const slope_filter *f = &sea->slopes;
@@ -189,7 +190,7 @@ static scene_material water_material(const facet_sea *sea, double step_m)
     return m;
 }
 
-/* The bed's, or one that looks through the water above it as deep water does. */
+/* Color of the bed, or one that looks like deep water through the water above it. */
 static scene_material floor_material(const facet_sea *sea, float depth_m)
 {
     scene_material m = scene_material_default();
@@ -197,14 +198,15 @@ static scene_material floor_material(const facet_sea *sea, float depth_m)
     m.name = is_bed ? "bed" : "deep water";
     m.metallic = 0.0f;
     double n = (double)sea->optics.ior, F0 = (n - 1.0) * (n - 1.0) / ((n + 1.0) * (n + 1.0));
-    double below = n * n / ((1.0 - F0) * (1.0 - DIFFUSE_REFLECTANCE)); /* from just above to just below */
+    /* from just above the surface to just below */
+    double below = n * n / ((1.0 - F0) * (1.0 - DIFFUSE_REFLECTANCE));
     for (int i = 0; i < 3; i++) {
         double way = exp(2.0 * (double)attenuation(sea, i) * (double)depth_m);
         double deep = fmin((double)sea->optics.reflectance[i] * below * way, 1.0);
         m.base_color[i] = is_bed ? sea->desc.bed.albedo[i] : (float)fmax(deep, 0.0);
     }
     m.perceptual_roughness = 1.0f;
-    if (!is_bed) { /* light is to come from all of it */
+    if (!is_bed) { /* transmits light everywhere */
         m.extensions |= SCENE_SPECULAR;
         m.specular = 0.0f;
     }

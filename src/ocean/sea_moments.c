@@ -1,4 +1,4 @@
-/* sea_moments.c - integrals over the spectrum, and what was measured of seas. */
+/* sea_moments.c - moments of the spectrum, measured statistics of seas, and the bands of the tiles. */
 #include "ocean/sea_state.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@ static const double PI_D = 3.14159265358979323846;
 static const double STEP = 0.02;
 enum { DIRECTIONS = 90 };
 
-/* The same integral of one ring, with the step of k in weight. */
+/* Adds the integral over one ring, with its width in k as weight. */
 static void add_ring(sea_moments *m, const sea_state *s, const sea_ring *ring, double k, double weight)
 {
     double mean = 0.0, xx = 0.0, xz = 0.0; /* of 1, cos^2, cos sin */
@@ -31,7 +31,7 @@ static void add_ring(sea_moments *m, const sea_state *s, const sea_ring *ring, d
     m->convergence += k2 * stretch * stretch * mean * area;
 }
 
-/* Where nothing is cut within. */
+/* Cutoff that loses nothing. */
 static void add_range(sea_moments *m, const sea_state *s, double from, double to)
 {
     if (!(to > from))
@@ -86,7 +86,7 @@ void cox_munk_slopes(double wind_mps, double out[2])
 double whitecap_coverage(double wind_mps)
 {
     const double onset_mps = 3.7, full_mps = 5.0;
-    const double most = 0.9; /* Beaufort 12: white with foam, and streaks are seen in it */
+    const double most = 0.9; /* Beaufort 12: white with foam, with streaks in it */
     double t = fmin(fmax((wind_mps - onset_mps) / (full_mps - onset_mps), 0.0), 1.0);
     return fmin(3.84e-6 * pow(wind_mps, 3.41), most) * t * t * (3.0 - 2.0 * t);
 }
@@ -106,12 +106,12 @@ double sea_state_peak_k(const sea_state *s)
 
 /* ---- bands of the tiles ---- */
 
-/* How wave numbers are shared among tiles.
+/* Partition of wavenumbers among tiles.
  *
- * Eight waves of the peak lie along the first tile: fewer show how few directions a tile has. Each next one is
- * 0.9137 N / 24 times shorter, N its samples: it takes over where it holds six waves, and the one before has 4.4 samples for
- * each. The factor is no ratio of small numbers, so that the tiles do not repeat together. The last ends at four samples per
- * wave: with less, interpolation shows. */
+ * Eight peak wavelengths span the first tile: fewer would show how few directions a tile has. Each next one is
+ * 0.9137 N / 24 times shorter, with N its samples: it takes over where it holds six waves and the previous tile
+ * has 4.4 samples per wave. The factor is not a ratio of small integers, so that the tiles do not repeat
+ * together. The last tile ends at four samples per wave: fewer would show the interpolation. */
 
 static const double TWO_PI = 6.28318530717958647693;
 enum { PEAK_WAVES = 8, FIRST_WAVES = 6, SAMPLES_PER_WAVE = 4 };

@@ -1,4 +1,5 @@
-/* sea_spectrum.c - how the variance of height is spread over frequencies, and with directions over wave vectors. */
+/* sea_spectrum.c - variance density of elevation over frequency, over direction, and over wave vectors;
+ * dispersion. */
 #define _DEFAULT_SOURCE
 #include "ocean/sea_state.h"
 
@@ -15,8 +16,9 @@ static double jonswap(const wave_system *w, double omega)
     return w->alpha * GRAVITY * GRAVITY * pow(omega, -5.0) * exp(-1.25 * x * x * x * x) * peak;
 }
 
-/* What depth leaves of a spectrum: tanh^2(kH) / (1 + 2kH / sinh 2kH), k from omega^2 = g k tanh kH. Kitaigorodskii et al. 1975;
- * Bouws et al. 1985. Surface tension is left out of k here as there: it acts where the factor is 1. */
+/* Depth attenuation of a spectrum: tanh^2(kH) / (1 + 2kH / sinh 2kH), k from omega^2 = g k tanh kH.
+ * Kitaigorodskii et al. 1975; Bouws et al. 1985. As there, k ignores surface tension, which matters only where
+ * the factor is 1. */
 static double kitaigorodskii(double omega, double depth_m)
 {
     double omega_h = omega * sqrt(depth_m / GRAVITY);
@@ -59,7 +61,7 @@ static double elfouhaily(const wave_system *w, double k)
     return (B_l + B_h) / (k * k * k);
 }
 
-/* A swell has left its short waves behind: exp(-(omega / 3 omega_p)^4) takes them off. */
+/* A swell has lost its short waves: exp(-(omega / 3 omega_p)^4). */
 static double swell_cut(const wave_system *w, double omega)
 {
     double x = omega / (3.0 * w->peak_omega);
@@ -126,7 +128,7 @@ static wave_directions hasselmann(const wave_system *w, double omega)
     double x = omega / w->peak_omega;
     double s = x <= 1.0 ? 6.97 * pow(x, 4.06) : 9.77 * pow(x, -2.33 - 1.45 * (w->inverse_age - 1.17));
     s += 16.0 * tanh(1.0 / x) * w->elongation * w->elongation;
-    int sign; /* lgamma() would put it where all threads see it */
+    int sign; /* lgamma() would write the sign to a global */
     double norm = exp(lgamma_r(s + 1.0, &sign) - lgamma_r(s + 0.5, &sign)) / (2.0 * sqrt(PI_D));
     return (wave_directions){FACET_SEA_SPREADING_HASSELMANN, norm, s};
 }
@@ -207,13 +209,13 @@ double wave_domega_dk(double k, double depth_m)
     return d / (2.0 * omega);
 }
 
-/* omega(k) falls behind its tangent and runs ahead of it by turns, so a step may not go below half of k. */
+/* omega(k) is concave, then convex, so a step of Newton's method may not go below half of k. */
 double wave_k(double omega, double depth_m)
 {
     if (!(omega > 0.0))
         return 0.0;
     double deep = omega * omega / GRAVITY;
-    double shallow = omega / sqrt(GRAVITY * depth_m); /* 0 without a bed */
+    double shallow = omega / sqrt(GRAVITY * depth_m); /* 0 in deep water */
     double k = fmax(deep, shallow);
     double capillary = cbrt(omega * omega / SURFACE_TENSION_OVER_DENSITY);
     if (capillary < k)

@@ -1,22 +1,23 @@
-/* sea_state.c - from wind, fetch, depth and swell to spectra. */
+/* sea_state.c - from wind, fetch, depth and swell to wave systems. */
 #include "ocean/sea_state.h"
 
 #include <math.h>
 
 #include "base/result.h"
 
-/* Where JONSWAP's variance is that of a sea that Pierson and Moskowitz call fully developed: growth ends there. */
+/* Fetch at which JONSWAP's variance equals that of Pierson and Moskowitz's fully developed sea: growth ends
+ * there. */
 static const double LARGEST_FETCH = 1.07e4; /* g F / U^2 */
-/* Waves of all heights break where the significant one is 0.594 of the depth: H_rms = 0.42 H, Thornton and Guza 1982. */
+/* Waves break where the significant height is 0.594 of the depth: H_rms = 0.42 H, Thornton and Guza 1982. */
 static const double HEIGHT_OVER_DEPTH = 0.594;
-/* How much of the slopes that Cox and Munk saw waves in tiles may have; the rest is shorter still. */
+/* Share of Cox and Munk's slope variance that waves in tiles may have; the rest belongs to shorter waves. */
 static const double RESOLVED_SHARE = 0.9;
 
 /* ---- what is asked for ---- */
 
 static bool is_within(float value, float from, float to)
 {
-    return value >= from && value <= to; /* NaN is not */
+    return value >= from && value <= to; /* false for NaN */
 }
 
 static facet_result check_wind(const facet_sea_desc *d, facet_error *error)
@@ -37,10 +38,10 @@ static facet_result check_wind(const facet_sea_desc *d, facet_error *error)
     return FACET_OK;
 }
 
-/* Height over length of the steepest waves: Michell 1893. */
+/* Steepness (height over length) limit of waves: Michell 1893. */
 static const double STEEPEST = 0.142;
 
-/* m, of waves over deep water. */
+/* Wavelength in deep water, m. */
 static double length_of(float period_s)
 {
     return GRAVITY * (double)period_s * (double)period_s / 6.28318530717958647693;
@@ -145,13 +146,13 @@ static wave_system wind_sea(const facet_sea_desc *d)
         break;
     }
     w.peak_omega = w.inverse_age * GRAVITY / U;
-    /* No wave is slower than 0.23 m/s, and wind that is slower than its waves raises none. */
+    /* No wave is slower than 0.23 m/s, and a wind slower than that raises none. */
     if (U < pow(4.0 * GRAVITY * SURFACE_TENSION_OVER_DENSITY, 0.25))
         w.peak_omega = 0.0;
     return w;
 }
 
-/* alpha: such that the height is what was asked for, depth and all. */
+/* alpha such that the height is the requested one, including the depth's effect. */
 static wave_system swell_sea(const facet_swell *d, double depth_m)
 {
     wave_system w = {.spectrum = FACET_SEA_SPECTRUM_JONSWAP,
@@ -191,8 +192,9 @@ static double wind_slopes(const sea_state *s, double from, double to)
     return m.slope[0] + m.slope[1];
 }
 
-/* Light airs: what lies beyond ten peaks is scaled by one factor such that the slopes of all tiles are a share of those that
- * were seen; where even 0 leaves too much (below 2.5 m/s), the cut moves towards the peak. */
+/* Light airs: the density beyond ten peak wavenumbers is scaled by one factor so that the slopes of all tiles
+ * are a share of the measured ones; where even 0 is too much (below 2.5 m/s), the cutoff moves towards the
+ * peak. */
 static void limit_slopes(sea_state *s)
 {
     const wave_system *w = &s->systems[0];
@@ -208,7 +210,7 @@ static void limit_slopes(sea_state *s)
     if (below + beyond <= share)
         return;
     double low = 0.1 * k_peak, high = cut;
-    for (int i = 0; below > share && i < 30; i++) { /* by halves of ln k */
+    for (int i = 0; below > share && i < 30; i++) { /* by bisection in ln k */
         cut = sqrt(low * high);
         if (wind_slopes(s, 0.0, cut) > share)
             high = cut;

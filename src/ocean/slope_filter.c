@@ -39,7 +39,7 @@ typedef struct axis_gain {
     double cubic, linear_and_cubic; /* of level 0 */
 } axis_gain;
 
-static axis_gain axis_gain_of(double K, uint32_t level_count) /* K: k times the distance of samples */
+static axis_gain axis_gain_of(double K, uint32_t level_count) /* K: k times the sample spacing */
 {
     axis_gain g = {.cubic = (228.0 + 71.0 * cos(K) - 20.0 * cos(2.0 * K) + cos(3.0 * K)) / 280.0,
                    .linear_and_cubic = (22.0 + 9.0 * cos(K) - cos(2.0 * K)) / 30.0};
@@ -53,7 +53,7 @@ static axis_gain axis_gain_of(double K, uint32_t level_count) /* K: k times the 
     return g;
 }
 
-/* Mean of the square, as waves_query.c mixes levels. */
+/* Mean square, with the blending of levels in waves_query.c. */
 static double gain_of(const axis_gain *x, const axis_gain *z, uint32_t level_count, double texels)
 {
     uint32_t l = 0;
@@ -75,7 +75,7 @@ static double gain_of(const axis_gain *x, const axis_gain *z, uint32_t level_cou
 
 /* ---- sums over waves ---- */
 
-/* Of what is resolved, or of what is not. */
+/* Of the resolved waves, or of the unresolved ones. */
 typedef struct sums {
     double slope[SEA_SYSTEMS][3]; /* xx, zz, xz */
     double slopes, k4, omega2_k2, convergence;
@@ -83,7 +83,7 @@ typedef struct sums {
 
 /* Waves along one direction and against it. */
 typedef struct wave_node {
-    double density[SEA_SYSTEMS]; /* times the area of the plane that it stands for */
+    double density[SEA_SYSTEMS]; /* times the area in the wave vector plane that it represents */
     double k, c, s, omega, stretch;
 } wave_node;
 
@@ -150,8 +150,8 @@ static void add_tile(tables *all, const waves *w, const wave_tile *t, double low
 
 /* ---- the rest ---- */
 
-/* Waves that are in no tile. Their curvature is not that of the wave's own spectrum, which knows no capillary waves, but that
- * of Elfouhaily's at the same wind. */
+/* Waves in no tile. Their curvature is not that of the wave system's own spectrum, which has no capillary
+ * waves, but that of Elfouhaily's at the same wind. */
 static sea_moments beyond_tiles(const sea_state *s, double k_from)
 {
     sea_state capillary = *s;
@@ -166,7 +166,7 @@ static sea_moments beyond_tiles(const sea_state *s, double k_from)
     return sea_state_moments(&capillary, k_from, SHORTEST_WAVE_K);
 }
 
-/* Along the wind and across, less what is resolved. Where one would fall below 0 the other makes up for it. */
+/* Along and across the wind, minus the resolved part. Where one would be negative, the other compensates. */
 static void wind_residual(const sea_state *s, const double seen[2], const double resolved[3], double out[2])
 {
     double c = cos(s->wind_direction), z = sin(s->wind_direction);
@@ -188,9 +188,9 @@ static slope_covariance covariance_of(const sea_state *s, const double wind[2], 
                               .xz = (float)(c * z * (wind[0] - wind[1]) + swell[2])};
 }
 
-/* Curvature of slopes that Cox and Munk saw and no spectrum has: those of light winds know no capillary waves. Where a footprint
- * hides them, they are shorter than twice the footprint and than all waves in tiles, with k^2 times the slope each; for no shorter are
- * they taken than waves that run slowest. */
+/* Curvature of slopes that Cox and Munk measured but no spectrum has: those of light winds have no capillary
+ * waves. The unresolved ones are shorter than twice the footprint and than all waves in tiles, with curvature
+ * k^2 times slope; at most as short as the slowest waves. */
 static double curvature_unknown(double slopes, double footprint_m, double k_end)
 {
     const double slowest = 370.0; /* rad/m; sqrt(g / 7.2e-5) */
@@ -228,7 +228,7 @@ void slope_filter_create(const waves *w, slope_filter *out)
         double unknown = (double)out->residual[i].xx + (double)out->residual[i].zz - slopes;
         out->curvature[i] =
             (float)(hidden->k4 + beyond.k4 + curvature_unknown(unknown, all.footprints_m[i], k_end));
-        if (i) /* what a narrower one hides, it hides */
+        if (i) /* a wider footprint resolves no more than a narrower one */
             out->curvature[i] = fmaxf(out->curvature[i], out->curvature[i - 1]);
         out->rate[i] = slopes > 0.0 ? (float)sqrt((hidden->omega2_k2 + beyond.omega2_k2) / slopes) : 0.0f;
         out->convergence_variance[i] = (float)(w->choppiness * w->choppiness * hidden->convergence);

@@ -1,4 +1,4 @@
-/* water_optics.c - a water of facet.h as the numbers that it is shaded with. */
+/* water_optics.c - from facet_water to shading coefficients. */
 #include "ocean/water_optics.h"
 
 #include <math.h>
@@ -19,7 +19,8 @@ void pure_water_transmittance(double way_m, double out[3])
     spectrum_transmittance(s.a, way_m, out);
 }
 
-/* Colors of scattering are means over daylight; those of absorption are of exponentials over ways in water. */
+/* Scattering colors are means over daylight; absorption colors are fitted to exponentials over distances in
+ * water. */
 static void from_spectrum(const water_spectrum *s, double longest_m, water_optics *out)
 {
     double a[3], b[3], b_b[3], b_pure[3], deep[3], reflectance[SPECTRUM_COUNT];
@@ -45,7 +46,7 @@ static void from_coefficients(const facet_water *water, water_optics *out)
         out->absorption[k] = water->absorption[k];
         out->scattering[k] = water->scattering[k];
         out->backscattering[k] = water->backscattering[k];
-        /* The water's own scattering goes backwards by half, that of particles hardly. */
+        /* Half of molecular scattering goes backwards, hardly any of that by particles. */
         out->pure_share[k] = water->scattering[k] > 0.0f
                                  ? fminf(2.0f * water->backscattering[k] / water->scattering[k], 1.0f)
                                  : 0.0f;
@@ -113,6 +114,6 @@ facet_result water_optics_create(const facet_water *water, water_optics *out, fa
     water_spectrum s =
         is_jerlov ? water_spectrum_jerlov((int)water->kind - (int)FACET_WATER_KIND_JERLOV_I, salinity)
                   : water_spectrum_case1((double)water->chlorophyll_mg_m3, salinity);
-    from_spectrum(&s, is_pure ? 50.0 : 20.0, out); /* one sees farther through pure water */
+    from_spectrum(&s, is_pure ? 50.0 : 20.0, out); /* visibility is higher in pure water */
     return FACET_OK;
 }

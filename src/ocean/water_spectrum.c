@@ -1,4 +1,4 @@
-/* water_spectrum.c - tables of water, and their way to colors. */
+/* water_spectrum.c - tabulated optical properties of water, and conversion of spectra to colors. */
 #include "ocean/water_spectrum.h"
 
 #include <math.h>
@@ -37,7 +37,7 @@ static const double jerlov[JERLOV_COUNT][JERLOV_SAMPLES] = {
     {1.6, 1.2, 0.89, 0.71, 0.58, 0.49, 0.46, 0.46, 0.48, 0.54, 0.63, 0.78, 0.92},
     {2.4, 1.9, 1.6, 1.23, 0.99, 0.78, 0.63, 0.58, 0.6, 0.65, 0.76, 0.92, 1.1}};
 
-/* Linear between samples, beyond them that of the nearest. */
+/* Linear between samples, constant outside. */
 static double table_at(const double *table, int count, double first_nm, double step_nm, double nm)
 {
     double x = fmin(fmax((nm - first_nm) / step_nm, 0.0), count - 1);
@@ -84,7 +84,7 @@ void jerlov_attenuation(int type, double K_d[SPECTRUM_COUNT])
         K_d[i] = table_at(jerlov[type], JERLOV_SAMPLES, JERLOV_FIRST_NM, JERLOV_STEP_NM, wavelength(i));
 }
 
-/* Mean cosine of light that goes down: K_d = (a + b_b) / this. */
+/* Mean cosine of downward light: K_d = (a + b_b) / this. */
 static const double mean_cosine = 0.86;
 
 /* Squared distance of logarithms from 440 to 560 nm, where types differ. */
@@ -165,7 +165,7 @@ static double misfit(const double *truth, int count, double k)
     return sum;
 }
 
-/* The least misfit over k, which has one minimum: by thirds of an interval. */
+/* Minimizes the misfit over k, which has one minimum, by ternary search. */
 static double fit_exponential(const double *truth, int count)
 {
     double low = 0.0, high = 20.0;

@@ -1,4 +1,4 @@
-/* water_table.c - the table is filled with integrals of the shader library. */
+/* water_table.c - fills the LUT with integrals of the shader library. */
 #include "ocean/water_table.h"
 
 #include "base/parallel.h"
@@ -59,7 +59,7 @@ float water_table_fresnel(const water_table *t, float mu, float sigma)
     return texel[0] * F_dielectric(clamp(mu, 1e-4f, 1.0f), t->ior);
 }
 
-/* With mu = x^3, whose points are close where F is steep. */
+/* With mu = x^3, which is dense where F is steep. */
 float water_table_sky_reflectance(const water_table *t, float sigma)
 {
     float sum = 0.0f;

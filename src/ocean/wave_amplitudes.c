@@ -1,5 +1,6 @@
-/* wave_amplitudes.c - draws the waves of a tile from the spectrum, and turns their phases. Tessendorf 2001, with the factor that
- * makes the variance of the field that of the spectrum: h0(k) = 1/2 sqrt(Psi(k)) dk (xi_r + i xi_i). */
+/* wave_amplitudes.c - samples the waves of a tile from the spectrum, and advances their phases. Tessendorf
+ * 2001, with the factor that gives the field the variance of the spectrum: h0(k) = 1/2 sqrt(Psi(k)) dk (xi_r +
+ * i xi_i). */
 #include "ocean/wave_amplitudes.h"
 
 #include <math.h>
@@ -12,7 +13,7 @@ static const double TWO_PI = 6.28318530717958647693;
 
 /* ---- random numbers ---- */
 
-/* Two independent normal numbers of one wave, by Box and Muller. */
+/* Two independent normal random numbers of one wave, by Box and Muller. */
 static void normal_pair(uint64_t seed, uint32_t tile, int32_t n_x, int32_t n_z, double out[2])
 {
     uint64_t key = mix64(seed + MIX64_STEP * (tile + 1u));
@@ -31,7 +32,7 @@ static bool is_in_band(const wave_tile *t, double k)
     return k >= t->k_from && k < t->k_to && k > 0.0;
 }
 
-/* Of n_z = row; modes NULL: counts. */
+/* Modes with n_z = row; modes NULL: counts only. */
 static size_t list_row(const wave_tile *t, double k_step, int32_t reach, int32_t row, wave_mode *modes)
 {
     size_t count = 0;
@@ -89,7 +90,7 @@ static double squared(const float a[2])
     return (double)a[0] * (double)a[0] + (double)a[1] * (double)a[1];
 }
 
-/* Over k and -k, and over time, in which the two beat. */
+/* Over k and -k, and over time, since the two beat. */
 static double level_of(const wave_amplitudes *a)
 {
     double sum = 0.0;
@@ -142,7 +143,7 @@ void wave_amplitudes_destroy(wave_amplitudes *a)
 
 double wave_phase_time(const waves *w, double time_s)
 {
-    /* 2^24 s are half a year, with phases to 1e-7 of a turn for the quickest waves. */
+    /* 2^24 s are half a year, with phases to 1e-7 of a cycle for the fastest waves. */
     return fmod(time_s, w->loop_s > 0.0 ? w->loop_s : 0x1p24);
 }
 

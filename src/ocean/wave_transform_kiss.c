@@ -23,7 +23,7 @@ typedef struct tile_rows {
 } tile_rows;
 
 struct wave_transform {
-    kiss_fft_cfg plan; /* e^+i, without a factor; only read */
+    kiss_fft_cfg plan; /* e^+i, unscaled; only read */
     tile_rows tiles[WAVES_MAX_TILES];
 };
 
@@ -63,8 +63,8 @@ void wave_transform_destroy(wave_transform *t)
 
 /* ---- coefficients ---- */
 
-/* What h is multiplied with for a field: real, or imaginary. With h = a e^ikx the displacement is i k/|k| h: water goes towards
- * crests. */
+/* Factor of h for a field: real, or imaginary. With h = a e^ikx the displacement is i k/|k| h: water moves
+ * towards crests. */
 typedef struct factor {
     float value;
     bool is_imaginary;
@@ -101,7 +101,7 @@ static kiss_fft_cpx scaled(const float h[2], factor f)
     return (kiss_fft_cpx){f.value * h[0], f.value * h[1]};
 }
 
-/* Into the buffer's rows, whose first is n_z = -reach. */
+/* Writes the buffer's rows, the first of which is n_z = -reach. */
 static void put_mode(kiss_fft_cpx *rows, int32_t reach, int32_t size, const wave_mode *m, kiss_fft_cpx a,
                      kiss_fft_cpx b)
 {
@@ -145,7 +145,7 @@ static void transform_rows(void *context, size_t begin, size_t end)
 
 /* ---- along z ---- */
 
-/* The pair of fields j of a few columns, into the texels. */
+/* Writes the pair of fields j of a few columns to the texels. */
 static void transform_columns(const run *r, size_t tile, size_t j, size_t first)
 {
     int32_t reach = r->w->amplitudes[tile]->reach;

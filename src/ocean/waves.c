@@ -1,4 +1,4 @@
-/* waves.c - tiles of waves: made, set to a time, with the means of their texels and their bounds. */
+/* waves.c - creates tiles of waves, sets their time, and computes mip levels and bounds. */
 #include "ocean/waves.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 #include "ocean/wave_amplitudes.h"
 #include "ocean/wave_transform.h"
 
-/* Folded water has no slope; below this share of its area it counts as this. */
+/* Folded water has no slope; a smaller share of its area is clamped to this. */
 static const float LEAST_JACOBIAN = 0.02f;
 
 /* ---- memory ---- */
@@ -38,7 +38,7 @@ static bool has_peak(const sea_state *s, const wave_tile *t)
 static wave_tile tile_of(const sea_state *s, uint32_t index, uint32_t size)
 {
     const sea_bands *b = &s->bands;
-    /* No two tiles have axes that are parallel or at right angles. */
+    /* No two tiles have parallel or perpendicular axes. */
     static const double turns_degrees[WAVES_MAX_TILES] = {0.0, 37.0, -71.0, 62.0};
     wave_tile t = {.length_m = b->length_m[index],
                    .turn = turns_degrees[index] * (3.14159265358979323846 / 180.0),
@@ -74,7 +74,7 @@ typedef struct reduction {
     uint32_t level;
 } reduction;
 
-/* Rows of all tiles at a level, from the level below. */
+/* Rows of one level of all tiles, from the level below. */
 static void reduce_rows(void *context, size_t begin, size_t end)
 {
     const reduction *r = context;

@@ -14,14 +14,12 @@ double foam_decay_s(double salinity)
     return 2.5 + 1.2 * fmin(salinity / 35.0, 1.0);
 }
 
-/* Such that the mean is the one that is wanted: all shares times a factor, those above 1 cut. Newton's steps from below: the sum is
- * concave in the factor, so none goes too far, and made of straight pieces, so few are left. count: of eights. */
+/* Scales all shares by a factor, clamped to 1, such that the mean is the requested one. Newton's method from
+ * below: the sum is concave in the factor, so no step overshoots, and piecewise linear, so few steps are
+ * needed. count: of groups of eight. */
 static void scale_share(float *share, size_t count, double mean)
 {
-    enum {
-        MOST_STEPS = 50,
-        LANES = 8
-    }; /* sums side by side, in an order that does not depend on the machine */
+    enum { MOST_STEPS = 50, LANES = 8 }; /* parallel sums in a machine-independent order */
     double factor = 0.0, wanted = mean * (double)count;
     for (int step = 0; step < MOST_STEPS; step++) {
         double sums[LANES] = {0.0}, slopes[LANES] = {0.0}, sum = 0.0, slope = 0.0;
@@ -44,8 +42,8 @@ static void scale_share(float *share, size_t count, double mean)
         share[i] = (float)fmin(factor * (double)share[i], 1.0);
 }
 
-/* How patterns lie on the water: wide ones grow with the waves, the finest cells hardly. They are drawn out along the wind, the more it
- * blows: foam gathers in windrows. */
+/* Mapping of patterns to the water: wide ones scale with the waves, the finest cells hardly. They are stretched
+ * along the wind, with its speed: foam gathers in windrows. */
 static void place_readings(const waves *w, foam_reading *readings)
 {
     double size = (double)w->tiles[0].size, wind = w->state.wind_mps;
@@ -154,7 +152,7 @@ foam_seen waves_foam_at(const waves_foam *f, double x, double z, float footprint
  * whose mean at a given q is 1 - q + (q^2 - sigma^2) / 4 for waves from all sides:
  *     W(z) = Q(z) - sigma phi(z) (1 - sigma z / 4),  q = z sigma. */
 
-static const double ACTIVE_SHARE = 0.1; /* crests that break now, of all foam */
+static const double ACTIVE_SHARE = 0.1; /* active crests, as a share of all foam */
 
 static double upper_tail(double z)
 {
@@ -171,7 +169,7 @@ static double area_beyond(double z, double sigma)
     return upper_tail(z) - sigma * normal_density(z) * (1.0 - 0.25 * sigma * z);
 }
 
-/* Beyond z = 2 / sigma - 1 the mean Jacobian is below 0, and the area would grow again. */
+/* Beyond z = 2 / sigma - 1 the mean Jacobian is negative, and the area would grow again. */
 static double threshold_of(double coverage, double sigma)
 {
     if (!(coverage > 0.0) || !(sigma > 0.0))

@@ -1,9 +1,10 @@
-/* waves_query.c - reads tiles: sums of all at a place at rest, and which water is above or below a place of the world.
+/* waves_query.c - lookups of tiles: sums over all of them at a rest position, and the water above or below a
+ * world position; patches, the shape of the surface, velocity.
  *
- * A tile is read as a square of the footprint's width sees it: from two neighbouring levels of means, mixed, each interpolated
- * linearly between four texels. Level l is as it is where a texel is as wide as the footprint. Where samples are wider than
- * the footprint, cubics of Catmull and Rom through sixteen of them take over: slopes without kinks. Marching reads linearly
- * there, too. slope_filter.c knows the variance that all this leaves. */
+ * A tile is filtered to the square of the footprint: two adjacent mip levels are blended, each interpolated
+ * linearly between four texels. Level l is used alone where a texel is as wide as the footprint. Where samples
+ * are wider than the footprint, Catmull-Rom cubics through sixteen of them take over: slopes without kinks.
+ * Marching reads linearly there, too. slope_filter.c models the resulting variance. */
 #include "ocean/waves_reading.h"
 
 #include <math.h>
@@ -28,7 +29,8 @@ static inline float wrapped(double samples, uint32_t size)
     return (float)(whole & (int64_t)(size - 1)) + (float)(samples - (double)whole);
 }
 
-/* The share of the next level is linear in the footprint: no logarithm, and no jump. False: the footprint hides the tile. */
+/* The blend factor is linear in the footprint: without a logarithm and continuous. False: the tile is filtered
+ * out. */
 static inline bool read_at(wave_tile_reading *r, const wave_tile *t, double x, double z, float footprint_m)
 {
     float texels = footprint_m * (float)t->samples_per_m;
@@ -111,7 +113,7 @@ static inline float4 weighted(const taps *p, size_t first)
            p->weights[3] * *(const float4 *)(p->texels[3] + first);
 }
 
-/* Half of a texel, or all of it. */
+/* Half of a texel's fields, or all. */
 typedef struct half_texels {
     float4 low, high;
 } half_texels;
@@ -147,7 +149,7 @@ static half_texels read_cubic(const wave_tile *t, float u, float v)
     return sum;
 }
 
-/* Where water comes from that is at the place of r with this displacement (m, in the world): in samples. */
+/* Rest position of the water at the place of r with this displacement (m, world), in samples. */
 static inline void place_before(const wave_tile_reading *r, const float displacement[2], float *u, float *v)
 {
     const wave_tile *t = r->tile;
@@ -156,7 +158,7 @@ static inline void place_before(const wave_tile_reading *r, const float displace
     *v = r->v - per_m * (t->cos_turn * displacement[1] - t->sin_turn * displacement[0]);
 }
 
-/* DX, ETA, DZ, ETA_X of one tile, linearly. */
+/* DX, ETA, DZ, ETA_X of one tile, linearly interpolated. */
 static inline float4 read_low(const wave_tile_reading *r, const float displacement[2])
 {
     float u, v;
@@ -227,7 +229,7 @@ wave_point waves_at(const waves *w, double x, double z, float footprint_m)
 
 /* ---- above a place ---- */
 
-/* Displacement in the world and height. */
+/* Displacement in world axes, and height. */
 typedef struct heave {
     float x, z, height;
 } heave;
@@ -258,7 +260,7 @@ float waves_reading_height(const waves_reading *r, const float offset[2], float 
     return h.height + r->w->level_m;
 }
 
-/* Where nothing is known, the long waves come first: they move water farthest, and are read quickest. */
+/* Without an estimate, the long waves come first: they move water farthest, and are the fastest to read. */
 static inline void guess_rest(const waves_reading *r, float displacement[2])
 {
     for (uint32_t i = 0; i + 1 < r->tile_count; i++) {
@@ -268,8 +270,9 @@ static inline void guess_rest(const waves_reading *r, float displacement[2])
     }
 }
 
-/* x <- X - D(x): the error shrinks by about the root of the slope variance with each step, by less in steep places. It ends where
- * water moves by less than a fiftieth of the footprint or 0.2 mm. Folded water goes round in circles; halved steps end that. */
+/* Fixed-point iteration x <- X - D(x): each step reduces the error by about the root of the slope variance, by
+ * less in steep places. It ends where water moves by less than a fiftieth of the footprint or 0.2 mm. In folded
+ * water it cycles; halved steps end that. */
 static inline float find_rest(const waves_reading *r, float footprint_m, float displacement[2])
 {
     enum { FULL_STEPS = 6, MOST_STEPS = 12 };
@@ -308,7 +311,7 @@ wave_point waves_above(const waves *w, double X, double Z, float footprint_m, do
     guess_rest(&r, displacement);
     find_rest(&r, footprint_m, displacement);
     wave_point p = waves_reading_point(&r, displacement);
-    for (int i = 0; i < 8 && r.count && r.tiles[0].cubic > 0.0f; i++) { /* what cubics change */
+    for (int i = 0; i < 8 && r.count && r.tiles[0].cubic > 0.0f; i++) { /* the difference that cubics make */
         float dx = p.displacement[0] - displacement[0], dz = p.displacement[1] - displacement[1];
         if (dx * dx + dz * dz < 1e-8f)
             break;
@@ -331,7 +334,8 @@ static void add_bounds(wave_bounds *sum, const wave_bounds *b, float scale)
     sum->farthest += scale * b->farthest;
 }
 
-/* A mix of two levels lies within the finer; a blend of patches, whose squared weights sum to 1, within sqrt(3) times the tile. */
+/* A blend of two levels is bounded by the finer one; one of patches, whose squared weights sum to 1, by sqrt(3)
+ * times the tile. */
 wave_bounds waves_bounds(const waves *w, float footprint_m)
 {
     wave_bounds sum = {w->level_m, w->level_m, 0.0f, 0.0f};
@@ -407,7 +411,7 @@ static void powers_of(double phase, int32_t reach, double out[][2])
     }
 }
 
-/* Twice the real part of the sum over half of the plane; (u, v): the place in lengths of the tile. */
+/* Twice the real part of the sum over half of the plane; (u, v): position in tile lengths. */
 static double tile_velocity(const wave_amplitudes *a, double u, double v)
 {
     double x[MAX_REACH + 1][2], z[MAX_REACH + 1][2], sum = 0.0;
