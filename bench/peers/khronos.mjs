@@ -6,7 +6,7 @@
 // over N frames of which each is waited for.
 //
 // The renderer turns an environment by 90 degrees of its own and encodes with a power of 1/2.2 in place of the sRGB
-// function; facet is told the turn (--env-rotation -90), and its codes are re-encoded before they are compared. Glass
+// function; facet gets the rotation (--env-rotation -90), and its codes are re-encoded before they are compared. Glass
 // shows the environment in both, what is beside the model is white in both.
 import { execFileSync } from 'node:child_process';
 import { readFile, writeFile } from 'node:fs/promises';

@@ -100,7 +100,7 @@ expect 0 bake neutral $tiny
 says "studio.ktx2: ggx, 16 x 16 texels, 2 levels, rgba16f"
 expect 0 bake sun:40,135 $tiny
 expect 0 bake white $tiny -o w.ktx2
-[ ! -s err ] || failed "an output that was named is told of"
+[ ! -s err ] || failed "a named output is reported"
 expect 0 bake white $tiny -o '{stem}.hdr'
 expect 0 bake white $tiny -o '{face}{level}.hdr' --lobe none
 expect 0 bake white $tiny --level 1 -o one.exr
@@ -332,7 +332,7 @@ says "which removes"
 expect 1 bake bright.pfm bright.pfm bright.pfm bright.pfm bright.pfm bright.pfm $tiny --exposure 20 -o x.ktx2 --strict
 expect 0 bake bright.pfm bright.pfm bright.pfm bright.pfm bright.pfm bright.pfm $tiny --exposure 20 -o x.ktx2 --format rgba32f --strict
 expect 7 bake bright.pfm bright.pfm bright.pfm bright.pfm bright.pfm bright.pfm -o x.ktx2 --max-memory 1K
-[ "$(grep -o max-memory err | wc -l)" = 1 ] || failed "the limit is told twice"
+[ "$(grep -o max-memory err | wc -l)" = 1 ] || failed "the limit is reported twice"
 
 # ---- levels ----
 expect 0 bake white --size 32 -o x.ktx2

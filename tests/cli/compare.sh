@@ -48,8 +48,8 @@ grep -q 'as light, equal' out || failed "equal pictures are not called equal"
 grep -qE '^  psnr +inf ' out || failed "psnr of equal pictures is not inf"
 expect 0 compare half.pfm ones.pfm
 grep -qE '^  rmse +0\.5 ' out || failed "rmse is not 0.5"
-grep -q '^psnr and ssim: for a peak of 0.5$' out || failed "the peak is not told"
-grep -q '^flip: the largest of 2 exposures from +2.08 to +2.08 stops$' out || failed "exposures are not told: $(cat out)"
+grep -q '^psnr and ssim: for a peak of 0.5$' out || failed "the peak is not reported"
+grep -q '^flip: the largest of 2 exposures from +2.08 to +2.08 stops$' out || failed "exposures are not reported: $(cat out)"
 grep -q 'different' out || failed "different pictures are not called so"
 expect 0 compare half.pfm ones.pfm --metric mse,max
 [ "$(tr -s ' ' <out | tr '\n' '|')" = "mse 0.25|max 0.5|" ] || failed "--metric mse,max prints $(cat out)"
@@ -254,5 +254,5 @@ expect 2 compare half.pfm ones.pfm --pixels-per-degree 0
 expect 7 compare a.png b.png --max-texture 40
 expect 7 compare a.png b.png --max-memory 20K
 says "--max-memory"
-[ "$(grep -o 'max-memory' err | wc -l)" = 1 ] || failed "the limit is told twice"
+[ "$(grep -o 'max-memory' err | wc -l)" = 1 ] || failed "the limit is reported twice"
 finish

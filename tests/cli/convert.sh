@@ -5,7 +5,7 @@ set -eu
 
 write_triangle in.gltf
 expect 0 convert in.gltf out.glb
-[ ! -s err ] || failed "messages though nobody asked"
+[ ! -s err ] || failed "unrequested messages"
 [ "$(head -c 4 out.glb)" = glTF ] || failed "out.glb is no .glb file"
 expect 0 convert out.glb again.gltf
 only in.gltf out.glb again.gltf again.bin

@@ -58,7 +58,7 @@ if [ -c /dev/full ]; then
     "$facet" render $small -o - --format png >/dev/full 2>err || code=$?
     [ $code = 6 ] || failed "exit code $code, not 6, on a full standard output"
     says "stdout: "
-    [ "$(wc -l <err)" = 1 ] || failed "a full standard output is told of twice"
+    [ "$(wc -l <err)" = 1 ] || failed "a full standard output is reported twice"
     code=0
     "$facet" help >/dev/full 2>err || code=$?
     [ $code = 6 ] || failed "exit code $code, not 6, for help on a full standard output"

@@ -96,7 +96,7 @@ expect 0 ocean $small -o second.png --time 0.5
 cmp -s second.png f_02.png || failed "frame 2 of 2 a second is not at 0.5 s"
 expect 0 ocean $small -o 'l_##.png' --loop 2 --frames 1,5,6 --fps 2
 cmp -s l_01.png l_05.png || failed "a loop of 2 s does not repeat after 4 frames of 2 a second"
-cmp -s l_02.png l_06.png && failed "there is a frame that nobody asked for"
+cmp -s l_02.png l_06.png && failed "there is an unrequested frame"
 expect 2 ocean $small -o one.png --frames 1-3
 says "put #### in it"
 expect 2 ocean $small -o 'a_##.png' --fps 12

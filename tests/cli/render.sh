@@ -11,7 +11,7 @@ for case in "a.png:PNG image data, 48 x 32" "a.jpg:JPEG image data" "a.JPEG:JPEG
     "a.exr:OpenEXR image data" "a.hdr:Radiance" "a.pfm:"; do
     name=${case%%:*}
     expect 0 render $small -o $name
-    [ ! -s err ] || failed "messages though nobody asked, with $name"
+    [ ! -s err ] || failed "unrequested messages, with $name"
     is_type $name "${case#*:}"
     rm $name
 done

@@ -1,4 +1,4 @@
-/* consumer.c - a program of somebody else: draws the built-in scene with the installed library.
+/* consumer.c - an external program: renders the built-in scene with the installed library.
  *     consumer [FILE [gl]]    gl: with OpenGL; exit code 77: there is none */
 #include <facet/facet.h>
 
