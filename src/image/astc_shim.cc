@@ -1,4 +1,4 @@
-/* astc_shim.cc - see astc_shim.h. Only built where libastcenc is. */
+/* astc_shim.cc - see astc_shim.h. Built only with libastcenc. */
 #include "image/astc_shim.h"
 
 #include <new>

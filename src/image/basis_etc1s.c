@@ -12,23 +12,23 @@
 
 enum { END_PREDICTION, END_DELTA, SELECTOR, SELECTOR_RUN }; /* tables of the codebook */
 enum {
-    PREDICTIONS_REPEAT = 256, /* the symbol behind those of four predictions of 2 bits */
+    PREDICTIONS_REPEAT = 256, /* the symbol after those of four 2-bit predictions */
     PREDICTIONS_MIN_RUN = 3,
     SELECTOR_MIN_RUN = 3,
     SELECTOR_LONG_RUN = 63,
     MAX_HISTORY = 8191
 };
 
-/* What of a slice is known while its blocks are read. */
+/* State of reading the blocks of a slice. */
 typedef struct slice {
     const etc1s_codebook *c;
     bit_reader bits;
-    huffman tables[ETC1S_TABLE_COUNT]; /* copies: reading notes damage in them */
+    huffman tables[ETC1S_TABLE_COUNT]; /* copies, because reading records damage in them */
     uint32_t columns;
     uint32_t last_end;
     uint32_t predictions, prediction_run; /* of the last 2 x 2 blocks */
     uint32_t selector_run;
-    uint32_t rover; /* where the history takes the next selector */
+    uint32_t rover; /* position of the next selector in the history */
     uint16_t history[MAX_HISTORY];
 } slice;
 
@@ -47,7 +47,7 @@ static uint32_t read_predictions(slice *s)
     return s->predictions;
 }
 
-/* block: where it will stand; the blocks before it are there. */
+/* Reads the block at block; the blocks before it have been read. */
 static bool read_end(slice *s, uint32_t prediction, uint32_t x, uint32_t y, etc1s_block *block)
 {
     uint32_t end = s->last_end;
@@ -79,8 +79,8 @@ static bool read_end(slice *s, uint32_t prediction, uint32_t x, uint32_t y, etc1
     return true;
 }
 
-/* The history is moved to the front approximately: what is used changes places with what stands at half its index; new
- * entries replace those of the back half in turn. */
+/* Approximate move-to-front: a used entry is swapped with the one at half its index; new entries replace
+ * those of the back half in turn. */
 static uint16_t use_history(slice *s, uint32_t index)
 {
     uint16_t selector = s->history[index];
@@ -175,7 +175,7 @@ facet_result etc1s_decode_slice(const etc1s_codebook *c, const unsigned char *by
 
 /* ---- global data ---- */
 
-/* Its four parts behind the records of images. */
+/* The four parts after the records of images. */
 typedef struct parts {
     bit_reader ends, selectors, tables;
     uint32_t end_count, selector_count;
@@ -220,7 +220,7 @@ facet_result etc1s_read_image(const unsigned char *global, size_t size, uint64_t
 
 /* ---- codebooks ---- */
 
-/* Colors and tables, each as a difference to the one before; which code of the three depends on the last value. */
+/* Colors and tables, each as a difference from the one before; the last value selects one of three codes. */
 static bool read_ends(bit_reader *b, huffman models[4], etc1s_codebook *c)
 {
     for (int i = 0; i < 4; i++)
@@ -242,7 +242,7 @@ static bool read_ends(bit_reader *b, huffman models[4], etc1s_codebook *c)
            !models[3].is_damaged;
 }
 
-/* Rows of four texels are bytes, raw or as difference (exclusive or) to those of the entry before. */
+/* Rows of four texels are bytes, raw or XORed with those of the entry before. */
 static bool read_selectors(bit_reader *b, huffman *model, etc1s_codebook *c)
 {
     if (bits_read(b, 2) != 0)
@@ -285,7 +285,7 @@ facet_result etc1s_codebook_create(const unsigned char *global, size_t size, uin
     c.tables = mem_alloc(allocator, ETC1S_TABLE_COUNT, sizeof *c.tables);
     if (!c.ends || !c.selectors || !c.tables)
         result = fail_memory(error, "BasisLZ codebooks", ETC1S_TABLE_COUNT * sizeof *c.tables);
-    else if (!read_ends(&p.ends, c.tables, &c)) /* the tables are free until their own part is read */
+    else if (!read_ends(&p.ends, c.tables, &c)) /* the tables are unused until their own part is read */
         result = fail_global(error, name, "the endpoints are damaged");
     else if (!read_selectors(&p.selectors, c.tables, &c))
         result = fail_global(error, name, "the selectors are damaged");

@@ -10,7 +10,7 @@ bit_reader bits_open(const unsigned char *bytes, size_t size)
     return (bit_reader){.next = bytes, .end = bytes + size};
 }
 
-/* At least 32 bits, zeros behind the end. */
+/* At least 32 bits, zeros past the end. */
 static void refill(bit_reader *b)
 {
     while (b->count <= 56 && b->next < b->end) {
@@ -62,7 +62,8 @@ static uint32_t reverse_bits(uint32_t code, unsigned length)
     return reversed;
 }
 
-/* Codes from their lengths. False: there are more than fit, or codes are left over (but for a single one). */
+/* Canonical codes from their lengths. False: the code is oversubscribed or incomplete (a single code is
+ * allowed). */
 static bool build(huffman *h, const unsigned char *lengths, uint32_t count)
 {
     memset(h->counts, 0, sizeof h->counts);
@@ -99,7 +100,7 @@ static bool build(huffman *h, const unsigned char *lengths, uint32_t count)
     return true;
 }
 
-/* Bit by bit, as the numbers of codes of each length have it. */
+/* Decodes bit by bit by the number of codes of each length. */
 static uint32_t read_slowly(bit_reader *b, huffman *h)
 {
     int32_t code = 0, first = 0, index = 0;
@@ -134,7 +135,7 @@ uint32_t huffman_read(bit_reader *b, huffman *h)
 
 enum { LENGTH_SYMBOLS = 21 };
 
-/* The run that a symbol of the code of lengths stands for: zeros, or the last length again. */
+/* The run of a symbol of the code lengths: zeros, or repeats of the last length. */
 static uint32_t read_run(bit_reader *b, uint32_t symbol)
 {
     switch (symbol) {

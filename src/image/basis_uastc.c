@@ -5,7 +5,7 @@
 
 enum { MODE_SOLID = 8, MODE_RESERVED = 19, MAX_ENDS = 18 };
 
-/* One mode: see below for ranges. */
+/* A mode; ranges are below. */
 typedef struct uastc_mode {
     unsigned char code_bits, hint_bits;
     unsigned char range, weight_bits;
@@ -13,7 +13,7 @@ typedef struct uastc_mode {
     unsigned char pattern_bits;
 } uastc_mode;
 
-/* How end values of a range are stored: so many whole bits below a trit or a quint (or none). */
+/* Encoding of end values of a range: whole bits below a trit, a quint, or neither. */
 typedef struct uastc_range {
     unsigned char bits, base; /* base: 3, 5 or 1 */
 } uastc_range;
@@ -32,7 +32,7 @@ static const uastc_mode modes[20] = {
     {4, 15, Q32, 5, 1, 1, 3, 0},  {0, 0, 0, 0, 0, 0, 0, 0},
 };
 
-/* Mode by the lowest seven bits of a block: its code is a prefix of them. */
+/* Mode by the lowest seven bits of a block, of which its code is a prefix. */
 static const unsigned char mode_by_code[128] = {
     11, 0,  10, 3, 11, 15, 12, 7,  11, 18, 10, 5,  11, 14, 12, 9,  11, 0,  10, 4,  11, 16, 12, 8,  11, 18,
     10, 6,  11, 2, 12, 13, 11, 0,  10, 3,  11, 17, 12, 7,  11, 18, 10, 5,  11, 14, 12, 9,  11, 0,  10, 4,
@@ -40,8 +40,8 @@ static const unsigned char mode_by_code[128] = {
     12, 9,  11, 0, 10, 4,  11, 16, 12, 8,  11, 18, 10, 6,  11, 2,  12, 13, 11, 0,  10, 3,  11, 17, 12, 7,
     11, 18, 10, 5, 11, 14, 12, 9,  11, 0,  10, 4,  11, 1,  12, 8,  11, 18, 10, 6,  11, 2,  12, 13};
 
-/* Subset of each texel, two bits each, texel 0 lowest. patterns2: what ASTC and BC7 have in common, patterns3: the
- * same of three subsets, patterns2_of_3 (mode 7): two of ASTC that join two of BC7's three. */
+/* Subset of each texel, two bits each, texel 0 lowest. patterns2 are common to ASTC and BC7, patterns3 are
+ * those of three subsets, patterns2_of_3 (mode 7) are two subsets of ASTC that merge two of BC7's three. */
 static const uint32_t patterns2[30] = {
     0x50505050, 0x40404040, 0x01010101, 0x54505040, 0x05151555, 0x55545450, 0x00010515, 0x01051555,
     0x50400000, 0x00000105, 0x55544000, 0x01155555, 0x00000115, 0x00005555, 0x55555500, 0x00555555,
@@ -54,7 +54,7 @@ static const uint32_t patterns2_of_3[19] = {0x00005500, 0x10101010, 0x00010505, 
                                             0x15150000, 0x05000005, 0x00005054, 0x55554000, 0x14555555,
                                             0x01050505, 0x01015555, 0x01051450, 0x00005455};
 
-/* False: there is no pattern of that number. */
+/* False: the pattern does not exist. */
 static bool get_pattern(unsigned mode, unsigned number, uint32_t *subsets)
 {
     *subsets = 0;
@@ -66,7 +66,7 @@ static bool get_pattern(unsigned mode, unsigned number, uint32_t *subsets)
     return number < count;
 }
 
-/* The texels whose weight lacks its highest bit: the first of each subset. */
+/* Anchor texels, whose weight lacks its highest bit: the first of each subset. */
 static uint32_t get_anchors(uint32_t subsets, unsigned subset_count)
 {
     uint32_t anchors = 0;
@@ -78,7 +78,7 @@ static uint32_t get_anchors(uint32_t subsets, unsigned subset_count)
     return anchors;
 }
 
-/* Spreads the bits that the specification writes as "dcb000dcb" and the like. */
+/* Spreads bits as in the patterns of the specification, such as "dcb000dcb". */
 static unsigned spread_bits(unsigned value, unsigned base, unsigned bits)
 {
     const unsigned x = value >> 1; /* without the lowest bit */
@@ -111,7 +111,7 @@ static unsigned spread_bits(unsigned value, unsigned base, unsigned bits)
     }
 }
 
-/* The end value of 8 bits that bits and a trit or quint stand for (KDF, "ASTC endpoint unquantization"). */
+/* Unquantizes bits and a trit or quint to 8 bits (KDF, "ASTC endpoint unquantization"). */
 static unsigned unquantize(unsigned value, unsigned digit, const uastc_range *r)
 {
     static const unsigned char factors3[7] = {0, 204, 93, 44, 22, 11, 5};
@@ -142,7 +142,7 @@ static void read_ends(block_bits *b, const uastc_range *r, unsigned count, unsig
         ends[i] = (unsigned char)unquantize(take_bits(b, r->bits), digits[i], r);
 }
 
-/* A weight of 64. */
+/* Unquantizes a weight to [0, 64]. */
 static unsigned get_weight(unsigned index, unsigned bits)
 {
     switch (bits) {
@@ -166,7 +166,7 @@ static unsigned char mix(unsigned a, unsigned b, unsigned weight, bool is_srgb)
     return (unsigned char)((a * (64 - weight) + b * weight + 32) >> 14);
 }
 
-/* The colors that the weights of a subset stand for. ends: low and high of each channel. */
+/* Colors of the weights of a subset. ends: low and high of each channel. */
 static void make_palette(const unsigned char *ends, const uastc_mode *m, bool is_srgb,
                          unsigned char palette[32][4])
 {
@@ -193,7 +193,7 @@ static void fill(unsigned char *texels, const unsigned char color[4])
 
 static void decode(const unsigned char *block, bool is_srgb, unsigned char *texels)
 {
-    static const unsigned char magenta[4] = {255, 0, 255, 255}; /* what ASTC has for errors */
+    static const unsigned char magenta[4] = {255, 0, 255, 255}; /* the error color of ASTC */
     const unsigned mode = mode_by_code[block[0] & 127];
     const uastc_mode *m = &modes[mode];
     block_bits b = block_bits_load(block);

@@ -1,7 +1,7 @@
-/* block.h - texels in blocks, as graphics processors read them: what the decoders of blocks share. A decoder
- * turns a block into a tile of 4 x 4 texels of four channels each, RGBA, rows first, of the type that its
- * comment names. Channels that the format does not have are 0, alpha 1. Every pattern of bits has a meaning, so
- * no decoder can fail. Khronos Data Format Specification 1.4 (KDF), where each format has its chapter. */
+/* block.h - block-compressed textures: the interface of the decoders and what they share. A decoder turns a
+ * block into a tile of 4 x 4 texels of four channels each, RGBA, row-major, of the type that its comment
+ * names. Channels that the format lacks are 0, alpha 1. Every bit pattern is valid, so decoding cannot fail.
+ * Khronos Data Format Specification 1.4 (KDF), which has a chapter for each format. */
 #ifndef IMAGE_BLOCK_H
 #define IMAGE_BLOCK_H
 
@@ -23,7 +23,7 @@ block_decode bc6h_decode, bc6h_signed_decode, bc7_decode;
 /* block_etc.c. ETC2: U8, ETC1 is part of it; EAC: U16, signed ones F32 */
 block_decode etc2_rgb_decode, etc2_rgb_a1_decode, etc2_rgba_decode;
 block_decode eac_r11_decode, eac_r11_signed_decode, eac_rg11_decode, eac_rg11_signed_decode;
-/* basis_uastc.c: U8. srgb: as a sampler reads it that decodes sRGB afterwards */
+/* basis_uastc.c: U8. srgb: for samplers that convert from sRGB afterwards */
 block_decode uastc_decode, uastc_srgb_decode;
 
 /* ---- what they share ---- */

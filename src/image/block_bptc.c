@@ -42,15 +42,15 @@ static const unsigned char bptc_anchors3_third[64] = {
 
 /* ---- BC6H ---- */
 
-/* Where bits of a block go: channel of an end (end * 3 + channel), or the partition. */
+/* Targets of the bits of a block: channel of an end (end * 3 + channel), or the partition. */
 enum { R0, G0, B0, R1, G1, B1, R2, G2, B2, R3, G3, B3, PB, VALUE_COUNT };
 
 typedef struct field {
     unsigned char value, shift, count;
 } field;
 
-/* One of the 14 bc6h_modes: bits of the first end, bits of the differences that the others are stored as (or, not
- * transformed, of themselves), and how they lie in the block behind the mode. */
+/* One of the 14 modes: bits of the first end, bits of the differences of the others (if not transformed, of
+ * the ends themselves), and their layout in the block after the mode. */
 typedef struct bc6h_mode {
     unsigned char code_bits, end_bits, delta_bits[3];
     bool is_transformed;
@@ -60,7 +60,7 @@ typedef struct bc6h_mode {
 
 enum { MODE_COUNT = 14 };
 
-/* In the order of the specification's table of bc6h_modes; their codes are 0, 1, 2, 6, 10, 14, 18, 22, 26, 30, 3, 7, 11,
+/* In the order of the specification's table; their codes are 0, 1, 2, 6, 10, 14, 18, 22, 26, 30, 3, 7, 11,
  * 15. */
 static const bc6h_mode bc6h_modes[MODE_COUNT] = {
     {2, 10, {5, 5, 5}, true, 2, {{G2, 4, 1},  {B2, 4, 1}, {B3, 4, 1}, {R0, 0, 10}, {G0, 0, 10},
@@ -201,7 +201,7 @@ static int extend_sign(unsigned value, unsigned bits)
     return (int)((value & (2 * sign - 1)) ^ sign) - (int)sign;
 }
 
-/* All ends as numbers of end_bits bits. */
+/* Decodes all ends as numbers of end_bits bits. */
 static void compute_ends(const bc6h_mode *m, bool is_signed, const unsigned values[VALUE_COUNT],
                          int ends[4][3])
 {
@@ -215,7 +215,7 @@ static void compute_ends(const bc6h_mode *m, bool is_signed, const unsigned valu
         }
 }
 
-/* From end_bits to the 16 bits in which ends are interpolated. */
+/* Unquantizes from end_bits to the 16 bits of interpolation. */
 static int unquantize(int value, unsigned bits, bool is_signed)
 {
     if (!is_signed) {
@@ -230,7 +230,7 @@ static int unquantize(int value, unsigned bits, bool is_signed)
     return value < 0 ? -magnitude : magnitude;
 }
 
-/* From 16 bits to the half float: scaled such that the largest is the largest finite one. */
+/* Converts 16 bits to a half, scaled so that the largest value is the largest finite half. */
 static uint16_t finish(int value, bool is_signed)
 {
     if (!is_signed)
@@ -286,7 +286,7 @@ void bc6h_signed_decode(const unsigned char *block, void *tile)
 
 /* ---- BC7 ---- */
 
-/* Bits that a mode spends, in the order of the block. */
+/* Bit counts of a mode, in the order of the block. */
 typedef struct bc7_mode {
     unsigned char subset_count, partition, rotation, selection, color, alpha;
     unsigned char end_p, subset_p; /* low bits of a color, for each end or shared by both */
@@ -304,14 +304,14 @@ static const unsigned char *get_weights(unsigned bits)
     return bits == 2 ? bptc_weights2 : bits == 3 ? bptc_weights3 : bptc_weights4;
 }
 
-/* A value of that many bits, at most 8, repeated downwards to fill 8. */
+/* Extends a value of bits <= 8 to 8 bits by replication. */
 static unsigned char widen(unsigned value, unsigned bits)
 {
     value <<= 8 - bits;
     return (unsigned char)(value | value >> bits);
 }
 
-/* The colors at both ends of each subset. */
+/* Colors of both ends of each subset. */
 static void read_ends(block_bits *b, const bc7_mode *m, unsigned char ends[6][4])
 {
     const unsigned count = 2u * m->subset_count;
@@ -350,7 +350,7 @@ static void swap_channels(unsigned char *texel, unsigned rotation)
     texel[rotation - 1] = alpha;
 }
 
-/* The subset of each texel, two bits each; *anchors: the texels that lack a bit. */
+/* Subset of each texel, two bits each; *anchors: the texels whose index lacks a bit. */
 static uint32_t get_subsets(unsigned subset_count, unsigned partition, uint32_t *anchors)
 {
     *anchors = 1;

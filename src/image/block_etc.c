@@ -1,5 +1,6 @@
-/* block_etc.c - ETC1 and ETC2 colors, with and without alpha (KDF, "ETC2 compressed texture image formats"). Bits
- * are numbered as there: 63 is the first of byte 0. Texels stand in columns: number x * 4 + y. */
+/* block_etc.c - ETC2 with and without alpha, of which ETC1 is a part, and EAC (KDF, "ETC2 compressed texture
+ * image formats"). Bits are numbered as there: 63 is the first of byte 0. Texels are column-major: number x *
+ * 4 + y. */
 #include "image/block.h"
 
 /* ---- EAC ---- */
@@ -18,7 +19,7 @@ static int get_modifier(uint64_t block, int texel)
     return eac_modifiers[block >> 48 & 15][block >> (45 - 3 * texel) & 7];
 }
 
-/* Where a texel stands in a tile, in texels. */
+/* Position of a texel in a tile, in texels. */
 static size_t get_place(int texel)
 {
     return (size_t)(texel % 4 * 4 + texel / 4);
@@ -32,7 +33,7 @@ static void eac_decode_alpha(const unsigned char bytes[8], unsigned char *channe
         channel[4 * get_place(i)] = clamp_u8(base + get_modifier(block, i) * multiplier);
 }
 
-/* In [0, 2047]; here, and only here, a multiplier of 0 stands for 1/8. */
+/* In [0, 2047]; only here does a multiplier of 0 mean 1/8. */
 static int decode_unsigned(uint64_t block, int texel)
 {
     const int base = (int)(block >> 56) * 8 + 4, multiplier = (int)(block >> 52 & 15);
@@ -136,21 +137,21 @@ static void set_color(unsigned char color[4], const int base[3], int offset)
     color[3] = 255;
 }
 
-/* The index of a texel: its high bit stands 16 above its low bit. */
+/* Index of a texel; its high bit is 16 above its low bit. */
 static int get_index(uint64_t block, int texel)
 {
     return (int)(block >> (texel + 15) & 2) | (int)(block >> texel & 1);
 }
 
-/* Each texel has one of four colors. */
+/* T and H modes: each texel has one of four colors. */
 static void paint(uint64_t block, unsigned char colors[4][4], unsigned char *tile)
 {
     for (int i = 0; i < TILE_TEXELS; i++)
         memcpy(tile + (i % 4 * 4 + i / 4) * 4, colors[get_index(block, i)], 4);
 }
 
-/* Two halves, each with a color and etc1_modifiers of its brightness. is_punched: the format's alpha says that this
- * block has transparent texels. */
+/* Individual and differential modes: two halves, each with a color and modifiers of its brightness.
+ * is_punched: the block has transparent texels (punch-through alpha). */
 static void decode_halves(uint64_t block, int base[2][3], bool is_punched, unsigned char *tile)
 {
     const bool is_flipped = get_bits(block, 32, 1) != 0;
@@ -206,7 +207,7 @@ static void decode_h(uint64_t block, bool is_punched, unsigned char *tile)
     paint(block, colors, tile);
 }
 
-/* A plane through three colors: at texel (0, 0), at (4, 0) and at (0, 4). */
+/* Planar mode: a plane through the colors at texels (0, 0), (4, 0) and (0, 4). */
 static void decode_planar(uint64_t block, unsigned char *tile)
 {
     const int origin[3] = {
@@ -225,7 +226,7 @@ static void decode_planar(uint64_t block, unsigned char *tile)
         }
 }
 
-/* has_punch: bit 33 does not tell ETC1's two modes apart, but whether texels may be transparent. */
+/* has_punch: bit 33 selects punch-through alpha instead of one of ETC1's two modes. */
 static void decode(uint64_t block, bool has_punch, unsigned char *tile)
 {
     const bool bit33 = get_bits(block, 33, 1) != 0;

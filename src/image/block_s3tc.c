@@ -1,11 +1,11 @@
-/* block_s3tc.c - BC1, BC2 and BC3, once DXT1 to DXT5 (KDF, "S3TC compressed texture image formats"). The
- * specification interpolates in real numbers; here the result is the nearest code. */
+/* block_s3tc.c - BC1 to BC3, once DXT1 to DXT5 (KDF, "S3TC compressed texture image formats"), BC4 and BC5
+ * ("RGTC"). The specification interpolates real numbers; results are rounded to the nearest code. */
 #include "image/block.h"
 #include "image/codec.h"
 
 /* ---- RGTC ---- */
 
-/* The values of unsigned blocks, to the nearest code. */
+/* Values of unsigned blocks, rounded to the nearest code. */
 static void make_values(unsigned first, unsigned second, unsigned char values[8])
 {
     values[0] = (unsigned char)first;
@@ -30,7 +30,7 @@ static void rgtc_decode_channel(const unsigned char block[8], unsigned char *cha
         channel[4 * i] = values[indices & 7];
 }
 
-/* The same with ends in [-1, 1]; -128 and -127 both are -1, but compare as the numbers that they are. */
+/* Values of signed blocks, with ends in [-1, 1]; -128 and -127 are both -1 but are compared as integers. */
 static void decode_signed_channel(const unsigned char block[8], float *channel)
 {
     int first = (signed char)block[0] < -127 ? -127 : (signed char)block[0];
@@ -101,8 +101,8 @@ static void unpack_565(unsigned code, unsigned char rgba[4])
     rgba[3] = 255;
 }
 
-/* The four colors of a block. A first code not above the second means three colors and black, where the format
- * has that (has_three). */
+/* The four colors of a block. If the format has a three-color mode (has_three), a first code not above the
+ * second selects three colors and black. */
 static void make_colors(const unsigned char block[8], bool has_three, unsigned char fourth_alpha,
                         unsigned char colors[4][4])
 {

@@ -1,4 +1,4 @@
-/* codec.c - which codec a file needs, and the way to it. */
+/* codec.c - selects the codec of a file by its first bytes and calls it; checks that all codecs share. */
 #include "image/codec.h"
 
 #include <float.h>
@@ -11,10 +11,10 @@
 
 typedef struct codec {
     const char *name;
-    codec_probe *probe; /* NULL: this build has none */
+    codec_probe *probe; /* NULL: not in this build */
     codec_decode *decode;
-    codec_encode *encode; /* NULL: facet does not write it */
-    const char *library;  /* that this build lacks, where probe is NULL */
+    codec_encode *encode; /* NULL: facet does not write this format */
+    const char *library;  /* library that is missing if probe is NULL */
 } codec;
 
 static const codec codecs[] = {
@@ -53,7 +53,7 @@ image_codec image_codec_detect(const void *bytes, size_t size)
         const char *bytes;
     } magics[] = {
         {IMAGE_CODEC_PNG, 0, 8, "\x89PNG\r\n\x1a\n"},
-        {IMAGE_CODEC_JPEG, 0, 2, "\xff\xd8"}, /* stray bytes may stand before the next marker */
+        {IMAGE_CODEC_JPEG, 0, 2, "\xff\xd8"}, /* stray bytes may precede the next marker */
         {IMAGE_CODEC_WEBP, 8, 4, "WEBP"},
         {IMAGE_CODEC_HDR, 0, 11, "#?RADIANCE\n"},
         {IMAGE_CODEC_HDR, 0, 11, "#?RADIANCE\r"},
@@ -200,7 +200,7 @@ double codec_parse_number(const char *text, const char *end, const char **after)
     return digits ? sign * x * pow(10.0, scale) : (double)NAN;
 }
 
-/* The codec of a file, or why there is none. */
+/* Finds the codec of a file, or fails with the reason. */
 static facet_result find_codec(const void *bytes, size_t size, const char *name, image_codec *id,
                                facet_error *error)
 {

@@ -1,5 +1,5 @@
-/* codec.h - what a codec offers to codec.c, and what codecs share. Each lives in the file that bears its
- * name. */
+/* codec.h - the interface between codec.c and the codecs, each in the file of its name, and their shared
+ * helpers. */
 #ifndef IMAGE_CODEC_H
 #define IMAGE_CODEC_H
 
@@ -7,9 +7,8 @@
 
 enum { CODEC_MAX_SIZE = 16384 }; /* the default of image_decode_desc.max_size */
 
-/* bytes begin with the codec's magic, size counts them; desc has no zeros in max_size and thread_count, and its largest is
- * that of floats.
- * out and header come as {0}. On failure nothing is left in them. */
+/* bytes, of which there are size, begin with the codec's magic number; max_size and thread_count of desc are
+ * resolved, largest is that of floats. out and header are {0} on entry and after a failure. */
 typedef facet_result codec_probe(const unsigned char *bytes, size_t size, const char *name, image *header,
                                  facet_error *error);
 typedef facet_result codec_decode(const unsigned char *bytes, size_t size, const char *name,
@@ -24,32 +23,31 @@ codec_decode png_decode, jpeg_decode, webp_decode, hdr_decode, exr_decode, pfm_d
     avif_decode, tga_decode, bmp_decode, gif_decode, dds_decode;
 codec_encode png_encode, jpeg_encode, webp_encode, hdr_encode, pfm_encode;
 
-/* Whether the bytes begin like a file of a format that a short magic does not tell, or none: by its whole header. */
+/* Whether the bytes begin with the header of a format without a distinctive magic number. */
 bool tga_detect(const unsigned char *bytes, size_t size);
 bool bmp_detect(const unsigned char *bytes, size_t size);
 bool dds_detect(const unsigned char *bytes, size_t size);
 
-/* FACET_ERROR_LIMIT where an edge is longer than max_size, FACET_ERROR_INVALID where one is 0. */
+/* FACET_ERROR_LIMIT if an edge exceeds max_size, FACET_ERROR_INVALID if one is 0. */
 facet_result codec_check_size(const char *name, uint64_t width, uint64_t height, uint32_t max_size,
                               facet_error *error);
-/* The same, and FACET_ERROR_INVALID where width x height texels of format need more than the size bytes that are there. */
+/* The same, and FACET_ERROR_INVALID if width x height texels of format need more than size bytes. */
 facet_result codec_check_texels(const char *name, const char *format, uint32_t width, uint32_t height,
                                 uint32_t max_size, uint64_t needed, size_t size, facet_error *error);
-/* FACET_ERROR_ARGUMENT where i is not of the type and channel counts (a bit each: 1 << count) that codec
- * takes. */
+/* FACET_ERROR_ARGUMENT unless i has the type and one of the channel counts (bits 1 << count) of the codec. */
 facet_result codec_check_input(const image *i, const char *codec, bool is_type_right, const char *types,
                                uint32_t channel_counts, facet_error *error);
 
-/* Mirrors an image in place: columns, rows. */
+/* Flips columns and rows of an image in place. */
 void codec_flip(image *i, bool has_flipped_columns, bool has_flipped_rows);
-/* Brings an image of 8 bits to desc->channel_count. On failure nothing is left in it. */
+/* Converts an 8-bit image to desc->channel_count channels. On failure it becomes {0}. */
 facet_result codec_set_channels(image *i, const image_decode_desc *desc, facet_error *error);
 
-/* The decimal number at the start of [text, end), whatever the locale: sign, digits, point, exponent; NaN:
- * there is none. Right to 1e-15. *after (NULL: not wanted) is behind it. */
+/* Parses the decimal number at the start of [text, end) independently of the locale: sign, digits, point,
+ * exponent; NaN on failure. Error below 1e-15. *after (may be NULL) receives the position after it. */
 double codec_parse_number(const char *text, const char *end, const char **after);
 
-/* NaN and negative infinity become 0, infinity the largest finite value: what light may be made of. */
+/* Makes radiance finite: NaN and negative infinity become 0, infinity the largest finite value. */
 static inline float codec_finite(float x)
 {
     return x <= 3.402823466e38f ? (x >= -3.402823466e38f ? x : 0.0f) : (x > 0.0f ? 3.402823466e38f : 0.0f);

@@ -1,8 +1,8 @@
-/* codec_avif.c - AVIF through libavif, whose own memory comes from malloc; only built where libavif is. The first
- * image of a sequence counts. libavif leaves clean aperture, rotation and mirroring to the caller: oriented here.
+/* codec_avif.c - AVIF through libavif, whose own memory comes from malloc; built only with libavif. Reads the
+ * first image of a sequence. libavif leaves clean aperture, rotation and mirroring to the caller.
  *
- * libavif is opened when a file needs it: it brings 23 libraries along, which would cost every start of a program
- * that is linked with them 1.5 ms. */
+ * libavif is opened when a file needs it: it depends on 23 libraries, and linking it would add 1.5 ms to
+ * every start. */
 #include "image/codec.h"
 
 #include <avif/avif.h>
@@ -23,13 +23,13 @@
     F(out, avifRGBImageSetDefaults, rgb_defaults) F(out, avifImageYUVToRGB, to_rgb)
 /* clang-format on */
 
-/* The functions of libavif that are called. */
+/* Functions of libavif. */
 typedef struct avif_library {
     void *handle;
     AVIF_FUNCTIONS(LIBRARY_MEMBER, )
 } avif_library;
 
-/* A decoder and the library that it is of. {0}. */
+/* A decoder and its library. {0}: none. */
 typedef struct avif_file {
     avif_library library;
     avifDecoder *decoder;
@@ -71,7 +71,7 @@ static facet_result fail_avif(const avif_library *l, facet_error *error, const c
     }
 }
 
-/* Reads all but the image itself. *out: to be closed, also after a failure. */
+/* Reads everything but the image itself. *out must be closed, also after a failure. */
 static facet_result open_file(const unsigned char *bytes, size_t size, const char *name, avif_file *out,
                               facet_error *error)
 {
@@ -81,9 +81,9 @@ static facet_result open_file(const unsigned char *bytes, size_t size, const cha
     if (!decoder)
         return fail_memory(error, "AVIF decoder", sizeof *decoder);
     decoder->ignoreExif = decoder->ignoreXMP = AVIF_TRUE;
-    decoder->strictFlags = AVIF_STRICT_DISABLED; /* boxes that only describe the image may be missing */
-    decoder->imageDimensionLimit = 0;            /* sizes are checked here */
-    decoder->imageSizeLimit = (uint32_t)CODEC_MAX_SIZE * CODEC_MAX_SIZE; /* the most that it takes */
+    decoder->strictFlags = AVIF_STRICT_DISABLED; /* descriptive boxes may be missing */
+    decoder->imageDimensionLimit = 0;            /* sizes are checked by the caller */
+    decoder->imageSizeLimit = (uint32_t)CODEC_MAX_SIZE * CODEC_MAX_SIZE; /* its maximum */
     avifResult status = out->library.set_memory(decoder, bytes, size);
     if (status == AVIF_RESULT_OK)
         status = out->library.parse(decoder);
@@ -115,7 +115,7 @@ static bool find_aperture(uint32_t count, uint32_t size_n, uint32_t size_d, uint
     return true;
 }
 
-/* False: there is an aperture that does not fit, and *out is the whole image. */
+/* False: the aperture does not fit, and *out is the whole image. */
 static bool find_crop(const avifImage *i, crop *out)
 {
     *out = (crop){0, 0, i->width, i->height};
@@ -148,7 +148,7 @@ static mirroring get_mirroring(const avifImage *i)
     return !(i->transformFlags & AVIF_TRANSFORM_IMIR) ? MIRROR_NONE : axis ? MIRROR_COLUMNS : MIRROR_ROWS;
 }
 
-/* The decoded image as the file's properties have it shown; in is released. */
+/* Applies the file's crop, rotation and mirroring; in is released. */
 static facet_result orient(image *in, const avifImage *properties, const facet_allocator *allocator,
                            image *out, facet_error *error)
 {
@@ -210,7 +210,7 @@ facet_result avif_probe(const unsigned char *bytes, size_t size, const char *nam
     return result;
 }
 
-/* Color as libavif cannot convert it: the reason; NULL: it can. */
+/* The reason why libavif cannot convert the colors; NULL: it can. */
 static const char *get_unread_matrix(const avifImage *i)
 {
     switch (i->matrixCoefficients) {
@@ -227,20 +227,20 @@ static const char *get_unread_matrix(const avifImage *i)
     }
 }
 
-/* The decoded planes as RGB or RGBA of all bits that out has. */
+/* Converts the decoded planes to RGB or RGBA at the depth of out. */
 static avifResult convert(const avif_library *l, const avifImage *from, image *out)
 {
     avifRGBImage rgb;
     l->rgb_defaults(&rgb, from);
     rgb.depth = out->type == IMAGE_U16 ? 16 : 8;
     rgb.format =
-        out->channel_count == 4 ? AVIF_RGB_FORMAT_RGBA : AVIF_RGB_FORMAT_RGB; /* as the file has it */
+        out->channel_count == 4 ? AVIF_RGB_FORMAT_RGBA : AVIF_RGB_FORMAT_RGB; /* straight alpha, as stored */
     rgb.pixels = out->pixels;
     rgb.rowBytes = (uint32_t)image_row_size(out);
     return l->to_rgb(from, &rgb);
 }
 
-/* The image as it is stored, in its own channels. */
+/* Decodes the image as it is stored, with its own channels. */
 static facet_result decode_stored(const avif_file *file, const char *name, const image_decode_desc *desc,
                                   image *out, facet_error *error)
 {
@@ -280,7 +280,7 @@ static facet_result decode(const avif_file *file, const char *name, const image_
     if (result == FACET_OK)
         result = orient(&stored, file->decoder->image, &desc->allocator, out, error);
     image_destroy(&stored);
-    /* libavif would multiply colors by an alpha that it leaves out */
+    /* libavif would premultiply colors by an alpha that is dropped */
     return result == FACET_OK ? codec_set_channels(out, desc, error) : result;
 }
 

@@ -1,4 +1,4 @@
-/* codec_bmp.c - Windows and OS/2 bitmaps of 1, 4, 8, 16, 24 and 32 bits, with palettes, bit fields and the runs of RLE4 and
+/* codec_bmp.c - Windows and OS/2 bitmaps of 1, 4, 8, 16, 24 and 32 bits with palettes, bit fields, RLE4 and
  * RLE8. Microsoft, "Bitmap Storage" (BITMAPFILEHEADER, BITMAPCOREHEADER, BITMAPINFOHEADER, BITMAPV5HEADER). */
 #include "image/codec.h"
 
@@ -14,7 +14,7 @@ enum { PLAIN = 0, RLE8 = 1, RLE4 = 2, BIT_FIELDS = 3, ALPHA_BIT_FIELDS = 6 };
 typedef struct bmp_header {
     uint32_t width, height, bits, compression, channel_count;
     bool is_top_down;
-    texel_masks masks;            /* of texels of 16 bits and more, or of the palette */
+    texel_masks masks;            /* for texels of at least 16 bits, or for the palette */
     const unsigned char *palette; /* NULL: texels are colors */
     uint32_t palette_count;
     const unsigned char *data;
@@ -37,7 +37,7 @@ bool bmp_detect(const unsigned char *bytes, size_t size)
     return false;
 }
 
-/* The masks of texels of 16, 24 or 32 bits; they may stand behind a header of 40 bytes. */
+/* Masks of texels of 16, 24 or 32 bits, which may follow a header of 40 bytes. */
 static bool choose_masks(const unsigned char *info, size_t size, uint32_t header_size, bmp_header *h)
 {
     h->masks = h->bits == 16 ? texel_masks_555 : h->bits == 24 ? texel_masks_bgr : texel_masks_bgrx;
@@ -53,7 +53,7 @@ static bool choose_masks(const unsigned char *info, size_t size, uint32_t header
     return true;
 }
 
-/* The palette, behind the header; its colors count as many as the header says, at most 2^bits. */
+/* The palette after the header, with the number of colors that the header states, at most 2^bits. */
 static bool find_palette(const unsigned char *info, size_t size, uint32_t header_size, bmp_header *h)
 {
     const uint32_t said = header_size == CORE_HEADER ? 0 : load_u32_le(info + 32);
@@ -64,7 +64,7 @@ static bool find_palette(const unsigned char *info, size_t size, uint32_t header
     if (size <= header_size)
         return false;
     const size_t room =
-        (size - header_size) / h->masks.byte_count; /* a shorter one: up to the end of the file */
+        (size - header_size) / h->masks.byte_count; /* a truncated palette ends with the file */
     h->palette_count = h->palette_count < room ? h->palette_count : (uint32_t)room;
     h->palette = info + header_size;
     return h->palette_count > 0;
@@ -112,7 +112,7 @@ static facet_result parse_header(const unsigned char *bytes, size_t size, const 
     return FACET_OK;
 }
 
-/* Whether the bytes can hold the texels. A pair of bytes of RLE makes 255 texels at most. */
+/* Whether the bytes can hold the texels; two bytes of RLE encode at most 255 texels. */
 static facet_result check(const bmp_header *h, const char *name, uint32_t max_size, facet_error *error)
 {
     const bool has_runs = h->compression == RLE8 || h->compression == RLE4;
@@ -142,7 +142,7 @@ facet_result bmp_probe(const unsigned char *bytes, size_t size, const char *name
 
 /* ---- texels ---- */
 
-/* False: there is no such color. */
+/* False: the palette has no such color. */
 static bool put_color(const bmp_header *h, uint32_t index, unsigned char *texel)
 {
     if (index >= h->palette_count)
@@ -161,7 +161,7 @@ static bool read_mapped_row(const bmp_header *h, const unsigned char *row, unsig
     return true;
 }
 
-/* Where runs write: texels beyond a row are left out, as readers do. */
+/* Target of runs; texels beyond the end of a row are dropped, as in other readers. */
 typedef struct run_place {
     uint32_t x, y;
 } run_place;
@@ -182,8 +182,9 @@ static bool put_run(const bmp_header *h, unsigned char *texels, run_place *at, u
 
 static const char no_color[] = "a texel is no color of the palette", cut_off[] = "the texels are cut off";
 
-/* Pairs: a count and a color; or 0 and 0: the row ends, 1: the image ends, 2: two bytes to go right and up, else so many
- * colors follow, padded to an even number of bytes. What is skipped has the first color. NULL, or what is wrong. */
+/* Pairs of bytes: a count and a color; or 0 and an escape: 0 ends the row, 1 ends the image, 2 is followed by
+ * two bytes to skip right and up, otherwise that many colors follow, padded to an even number of bytes.
+ * Skipped texels have the first color. Returns NULL or what is wrong. */
 static const char *read_runs(const bmp_header *h, unsigned char *texels)
 {
     const unsigned char *p = h->data, *end = h->data + h->data_size;

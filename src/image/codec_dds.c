@@ -1,6 +1,6 @@
-/* codec_dds.c - DirectDraw surfaces: blocks of BC1 to BC5 and BC7 by the decoders of block.h, and texels of 8 to 32 bits by
- * their masks. The largest level of the first texture (of a cube: of its face +X) counts. Microsoft, "Programming Guide
- * for DDS" (DDS_HEADER, DDS_PIXELFORMAT, DDS_HEADER_DXT10). */
+/* codec_dds.c - DirectDraw surfaces: BC1 to BC5 and BC7 by the decoders of block.h, and texels of 8 to 32
+ * bits by bit masks. Reads the largest level of the first texture (of a cube: of its face +X). Microsoft,
+ * "Programming Guide for DDS" (DDS_HEADER, DDS_PIXELFORMAT, DDS_HEADER_DXT10). */
 #include "image/codec.h"
 
 #include <math.h>
@@ -26,7 +26,7 @@ typedef struct dds_format {
     uint32_t block_size;  /* bytes of 4 x 4 texels; 0: texels by masks */
     block_decode *decode; /* U8 */
     texel_masks masks;
-    bool is_normal; /* two channels: x and y of a direction */
+    bool is_normal; /* two channels: x and y of a normal */
 } dds_format;
 
 typedef struct dds_header {
@@ -48,7 +48,7 @@ static const dds_format bc4 = {1, 8, bc4_decode, {0}, false};
 static const dds_format bc5 = {3, 16, bc5_decode, {0}, true};
 static const dds_format bc7 = {4, 16, bc7_decode, {0}, false};
 
-/* By the four letters; NULL: unknown. DXT2 and DXT4 are multiplied by alpha, which is let be. */
+/* Format of a FourCC; NULL: unknown. DXT2 and DXT4 are premultiplied, which is left as it is. */
 static const dds_format *find_letters(const unsigned char *letters)
 {
     static const struct {
@@ -62,7 +62,7 @@ static const dds_format *find_letters(const unsigned char *letters)
     return NULL;
 }
 
-/* By the number of DXGI_FORMAT: typeless, linear and sRGB ones are the same codes. */
+/* Format of a DXGI_FORMAT; typeless, linear and sRGB variants have the same codes. */
 static const dds_format *find_dxgi(uint32_t number)
 {
     static const dds_format rgba8 = {4, 0, NULL, {4, {0xff, 0xff00, 0xff0000, 0xff000000}}, false};
@@ -86,7 +86,7 @@ static const dds_format *find_dxgi(uint32_t number)
     return NULL;
 }
 
-/* Texels by the masks of the header. False: they say nothing. */
+/* Reads texels by the masks of the header. False: there are no masks. */
 static bool read_masks(const unsigned char *pixel_format, uint32_t flags, dds_format *out)
 {
     const uint32_t bits = load_u32_le(pixel_format + 12);
@@ -175,8 +175,8 @@ facet_result dds_probe(const unsigned char *bytes, size_t size, const char *name
 
 /* ---- texels ---- */
 
-/* The third component of a unit direction, of codes of [-1, 1]: what shaders make of textures of two channels, which are
- * normal maps nearly always. */
+/* Third component of a unit vector from codes in [-1, 1]: textures of two channels are almost always normal
+ * maps, and shaders reconstruct them this way. */
 static void complete_normals(unsigned char *texels, size_t count)
 {
     for (size_t i = 0; i < count; i++, texels += 3) {

@@ -1,5 +1,5 @@
-/* codec_exr.c - OpenEXR images through their library (exr_shim.h): rows to texels, in parallel, and layers to channels.
- * Read are the first part of a file, its scanlines or its tiles of the finest level; deep data is refused. */
+/* codec_exr.c - OpenEXR through its library (exr_shim.h): rows to texels in parallel, layers to channels.
+ * Reads the first part of a file, its scanlines or the finest level of its tiles; deep data is refused. */
 #include "image/codec.h"
 
 #include <float.h>
@@ -16,7 +16,7 @@
 
 enum {
     STRIP_ROWS = 16,        /* of a ZIP chunk */
-    PARALLEL_TEXELS = 65536 /* a thread for fewer is not worth it */
+    PARALLEL_TEXELS = 65536 /* fewer are not worth another thread */
 };
 
 facet_result exr_probe(const unsigned char *bytes, size_t size, const char *name, image *header,
@@ -44,8 +44,8 @@ typedef struct reading {
     _Atomic uint64_t failure; /* row << 8 | facet_result of the first strip that failed; UINT64_MAX: none */
 } reading;
 
-/* Samples of one channel, stride apart, to texels. NaN and negative infinity become 0, infinity the greatest number
- * of the channel's type: 65504 of half, so that sums of such light stay finite. */
+/* Copies samples of one channel to texels. NaN and negative infinity become 0, infinity the largest number of
+ * the channel's type, 65504 for half, so that sums stay finite. */
 static void store_samples(const float *from, bool is_half, size_t count, size_t stride, float *to)
 {
     for (size_t x = 0; x < count * stride; x += stride) {
@@ -58,12 +58,13 @@ static void store_samples(const float *from, bool is_half, size_t count, size_t 
     }
 }
 
-/* What of rows [row, row_end) of the data window is inside the display window. */
+/* Copies the part of rows [row, row_end) of the data window that is inside the display window. */
 static void store_rows(const reading *r, uint32_t row, uint32_t row_end, const float *texels)
 {
     const exr_info *info = r->info;
     const size_t channels = info->channel_count;
-    const int64_t x = (int64_t)info->data.min_x - info->display.min_x; /* of the data window in the image */
+    const int64_t x =
+        (int64_t)info->data.min_x - info->display.min_x; /* position of the data window in the image */
     const int64_t y = (int64_t)info->data.min_y - info->display.min_y;
     const int64_t width = r->sizes->data_width;
     const int64_t first = x < 0 ? -x : 0; /* column of the data window */
@@ -115,7 +116,7 @@ static void read_strips(void *context, size_t begin, size_t end)
     mem_free(texels);
 }
 
-/* Opens the file, so that damage to its tables is found before memory is taken for the image. */
+/* Opens the file, which detects damaged tables before memory is allocated for the image. */
 static facet_result check_open(const reading *r, const char *name, facet_error *error)
 {
     char message[EXR_MESSAGE] = "";
@@ -136,11 +137,11 @@ static facet_result decode(reading *r, const char *name, const image_decode_desc
     TRY(image_create(&desc->allocator, s->width, s->height, info->channel_count, IMAGE_F32, r->image, error));
     if (info->data.min_x > info->display.min_x || info->data.min_y > info->display.min_y ||
         info->data.max_x < info->display.max_x || info->data.max_y < info->display.max_y)
-        memset(r->image->pixels, 0,
-               image_row_size(r->image) * s->height); /* outside the data window: nothing */
+        memset(r->image->pixels, 0, image_row_size(r->image) * s->height); /* 0 outside of the data window */
     const size_t strip_count = (s->data_height - 1) / s->strip_rows + 1;
     const size_t strip_texels = (size_t)s->strip_rows * s->data_width;
-    size_t grain = (strip_count + desc->thread_count - 1) / desc->thread_count; /* each opens the file once */
+    size_t grain =
+        (strip_count + desc->thread_count - 1) / desc->thread_count; /* each thread opens the file once */
     const size_t worth = PARALLEL_TEXELS / strip_texels + 1;
     parallel_for(desc->thread_count, strip_count, grain > worth ? grain : worth, read_strips, r);
     const uint64_t failure = atomic_load(&r->failure);
@@ -163,7 +164,7 @@ image_envmap image_get_envmap(const void *bytes, size_t size)
                : IMAGE_ENVMAP_NONE;
 }
 
-/* Whether the first three channels are R, G and B, of whatever layer: not numbers of another kind, not one for all. */
+/* Whether the first three channels are R, G and B of any layer, not other quantities or one channel for all. */
 static bool is_rgb(const exr_info *info)
 {
     for (uint32_t k = 0; k < 3; k++) {

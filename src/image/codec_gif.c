@@ -7,9 +7,9 @@
 #include "base/result.h"
 
 enum {
-    SCREEN_END = 13, /* behind the logical screen descriptor */
+    SCREEN_END = 13, /* after the logical screen descriptor */
     MAX_CODES = 4096,
-    MAX_TEXELS_PER_BYTE = 2732 /* a code of 12 bits stands for at most 4096 texels */
+    MAX_TEXELS_PER_BYTE = 2732 /* a 12-bit code encodes at most 4096 texels */
 };
 
 /* A reader over the bytes of a file. */
@@ -22,7 +22,7 @@ typedef struct gif_header {
     uint32_t left, top, frame_width, frame_height;
     const unsigned char *colors; /* of the frame, 3 bytes each */
     uint32_t color_count;
-    int transparent; /* a color's number; -1: none */
+    int transparent; /* color index; -1: none */
     bool is_interlaced;
     uint32_t code_bits;
     cursor data; /* sub-blocks of codes */
@@ -33,7 +33,7 @@ static uint32_t load_u16(const unsigned char *p)
     return p[0] | (uint32_t)p[1] << 8;
 }
 
-/* The next count bytes; NULL: they are not there. */
+/* The next count bytes; NULL: past the end. */
 static const unsigned char *take(cursor *c, size_t count)
 {
     if ((size_t)(c->end - c->next) < count)
@@ -43,7 +43,7 @@ static const unsigned char *take(cursor *c, size_t count)
     return at;
 }
 
-/* Behind sub-blocks up to the empty one; false: they are cut off. */
+/* Skips sub-blocks up to the empty one; false: truncated. */
 static bool skip_blocks(cursor *c)
 {
     const unsigned char *length;
@@ -55,7 +55,7 @@ static bool skip_blocks(cursor *c)
     return true;
 }
 
-/* A table of colors whose size stands in packed; *count 0: there is none. False: it is cut off. */
+/* Reads a color table whose size is in packed; *count 0: none. False: truncated. */
 static bool take_colors(cursor *c, unsigned packed, const unsigned char **colors, uint32_t *count)
 {
     if (!(packed & 0x80))
@@ -65,7 +65,7 @@ static bool take_colors(cursor *c, unsigned packed, const unsigned char **colors
     return *colors != NULL;
 }
 
-/* The image descriptor and what is before its codes. False: cut off. */
+/* Reads the image descriptor up to its codes. False: truncated. */
 static bool take_frame(cursor *c, gif_header *h)
 {
     const unsigned char *d = take(c, 9);
@@ -82,7 +82,7 @@ static bool take_frame(cursor *c, gif_header *h)
     return code_bits != NULL;
 }
 
-/* Finds the first frame. NULL, or what is wrong. */
+/* Finds the first frame. Returns NULL or what is wrong. */
 static const char *find_frame(const unsigned char *bytes, size_t size, gif_header *h)
 {
     static const char cut_off[] = "the file is cut off";
@@ -125,7 +125,7 @@ static facet_result parse_header(const unsigned char *bytes, size_t size, const 
         fault = "codes of a texel have 2 to 8 bits";
     if (fault)
         return fail(error, FACET_ERROR_INVALID, "%s: GIF: %s", name, fault);
-    /* a canvas that is too small grows, as in browsers */
+    /* a canvas that is too small is enlarged, as in browsers */
     const uint32_t right = h->left + h->frame_width, bottom = h->top + h->frame_height;
     h->width = h->width > right ? h->width : right;
     h->height = h->height > bottom ? h->height : bottom;
@@ -166,7 +166,7 @@ typedef struct lzw {
     cursor blocks;
     uint32_t block_left; /* bytes of the sub-block that is being read */
     uint32_t bits, bit_count;
-    uint32_t clear, code_size, code_count; /* codes below code_count are known */
+    uint32_t clear, code_size, code_count; /* codes below code_count are defined */
     uint16_t prefix[MAX_CODES];
     uint16_t length[MAX_CODES];
     unsigned char last[MAX_CODES], first[MAX_CODES];
@@ -180,7 +180,7 @@ static void clear_codes(lzw *z)
         z->code_size++;
 }
 
-/* The next code; UINT32_MAX: there is none. */
+/* The next code; UINT32_MAX: past the end. */
 static uint32_t next_code(lzw *z)
 {
     while (z->bit_count < z->code_size) {
@@ -205,7 +205,7 @@ static uint32_t next_code(lzw *z)
 
 static void add_code(lzw *z, uint32_t prefix, unsigned char last)
 {
-    if (z->code_count == MAX_CODES) /* codes stay 12 bits long until they are cleared */
+    if (z->code_count == MAX_CODES) /* codes stay at 12 bits until cleared */
         return;
     const uint32_t code = z->code_count++;
     z->prefix[code] = (uint16_t)prefix;
@@ -216,7 +216,7 @@ static void add_code(lzw *z, uint32_t prefix, unsigned char last)
         z->code_size++;
 }
 
-/* Numbers of colors, frame_width x frame_height. NULL, or what is wrong. */
+/* Decodes frame_width x frame_height color indices. Returns NULL or what is wrong. */
 static const char *read_indices(const gif_header *h, lzw *z, unsigned char *out)
 {
     const size_t count = (size_t)h->frame_width * h->frame_height;
@@ -238,7 +238,7 @@ static const char *read_indices(const gif_header *h, lzw *z, unsigned char *out)
             before = none;
             continue;
         }
-        /* the code that comes into being now: the one before and its first color */
+        /* the code being defined: the previous one plus its first color */
         const bool is_new = code == z->code_count && before != none;
         if (!is_new && code >= z->code_count)
             return "a code is not known";
@@ -257,7 +257,8 @@ static const char *read_indices(const gif_header *h, lzw *z, unsigned char *out)
 
 /* ---- texels ---- */
 
-/* The row of the frame in which row i of the file is: every eighth from 0, from 4, every fourth from 2, every second. */
+/* Row of the frame for row i of an interlaced file: every eighth from 0, every eighth from 4, every fourth
+ * from 2, every second from 1. */
 static uint32_t find_row(const gif_header *h, uint32_t i)
 {
     static const uint32_t firsts[] = {0, 4, 2, 1}, steps[] = {8, 8, 4, 2};
@@ -271,7 +272,7 @@ static uint32_t find_row(const gif_header *h, uint32_t i)
     return i;
 }
 
-/* Transparent texels keep their color. NULL, or what is wrong. */
+/* Transparent texels keep their color. Returns NULL or what is wrong. */
 static const char *put_colors(const gif_header *h, const unsigned char *indices, image *out)
 {
     const size_t channels = out->channel_count;

@@ -14,26 +14,25 @@
 #include "image/half.h"
 #include "image/primaries.h"
 
-enum { MIN_CODED_LENGTH = 8, MAX_CODED_LENGTH = 0x7fff }; /* scanlines that may have the four-run coding */
+enum { MIN_CODED_LENGTH = 8, MAX_CODED_LENGTH = 0x7fff }; /* scanlines that may be coded by component */
 
-/* What stands before the texels. Scanline s, texel t is at (x, y) = origin + s * scan_step + t *
- * texel_step. */
+/* The header. Texel t of scanline s is at (x, y) = origin + s * scan_step + t * texel_step. */
 typedef struct hdr_header {
     uint32_t width, height;
     uint32_t scan_count, scan_length;
     bool is_x_first;            /* scanlines are columns */
-    bool is_x_falling, is_y_up; /* against the usual: left to right, top to bottom */
+    bool is_x_falling, is_y_up; /* relative to left to right, top to bottom */
     bool is_plain;              /* exactly four bytes per texel, without runs */
-    double exposure[3]; /* product of all EXPOSURE and COLORCORR lines; texels were multiplied by it */
+    double exposure[3]; /* product of all EXPOSURE and COLORCORR lines, by which texels were multiplied */
     bool has_primaries;
-    primaries primaries; /* NaN where the line is no eight numbers */
+    primaries primaries; /* NaN if the line does not hold eight numbers */
     const unsigned char *data;
     size_t data_size;
 } hdr_header;
 
 /* ---- header ---- */
 
-/* The next line without its end, CR included; false: there is no further newline. */
+/* The next line without its end (LF or CR LF); false: no further newline. */
 static bool next_line(const unsigned char **p, const unsigned char *end, const char **line, size_t *length)
 {
     const unsigned char *newline = memchr(*p, '\n', (size_t)(end - *p));
@@ -53,7 +52,7 @@ static bool starts_with(const char *line, size_t length, const char *prefix)
     return length >= n && memcmp(line, prefix, n) == 0;
 }
 
-/* One axis of the resolution line, as "-Y 512": moves *line behind it. Numbers have 1 to 9 digits. */
+/* Parses one axis of the resolution line, such as "-Y 512", and advances *line. Numbers have 1 to 9 digits. */
 static bool parse_axis(const char **line, const char *end, char *sign, char *axis, uint32_t *count)
 {
     const char *p = *line;
@@ -96,7 +95,7 @@ static bool parse_resolution(const char *line, size_t length, hdr_header *h)
     return true;
 }
 
-/* Multiplies h->exposure by what stands behind the key of a line: one number, or three for COLORCORR. */
+/* Multiplies h->exposure by the value of a line: one number, or three for COLORCORR. */
 static facet_result parse_exposure(const char *line, size_t length, bool is_color, const char *name,
                                    hdr_header *h, facet_error *error)
 {
@@ -180,8 +179,8 @@ facet_result hdr_probe(const unsigned char *bytes, size_t size, const char *name
 
 /* ---- scanlines ---- */
 
-/* Scanlines begin with 2, 2 and their length where each component is coded by itself; a normalised RGBE texel
- * never begins so, its largest component is 128 or more. */
+/* Scanlines coded by component begin with 2, 2 and their length; normalised RGBE texels cannot, since their
+ * largest component is at least 128. */
 static bool is_coded(const hdr_header *h, const unsigned char *p)
 {
     return !h->is_plain && p[0] == 2 && p[1] == 2 && p[2] < 128 && h->scan_length >= MIN_CODED_LENGTH &&
@@ -193,8 +192,8 @@ static bool is_repeat(const hdr_header *h, const unsigned char *p)
     return !h->is_plain && p[0] == 1 && p[1] == 1 && p[2] == 1;
 }
 
-/* Behind the coded scanline at p, NULL: it is damaged. Codes: 1 to 128 bytes that follow, or 129 to 255: one
- * byte, 1 to 127 times. */
+/* Position after the coded scanline at p; NULL: damaged. Codes: 1 to 128 literal bytes follow, or 129 to 255:
+ * one byte is repeated 1 to 127 times. */
 static const unsigned char *skip_coded(const hdr_header *h, const unsigned char *p, const unsigned char *end)
 {
     if (((uint32_t)p[2] << 8 | p[3]) != h->scan_length)
@@ -215,8 +214,8 @@ static const unsigned char *skip_coded(const hdr_header *h, const unsigned char 
     return p;
 }
 
-/* The same for texels of four bytes, of which (1, 1, 1, n) repeats the one before n times; repeats that
- * follow each other are the bytes of one count, the low ones first. */
+/* The same for texels of four bytes, of which (1, 1, 1, n) repeats the previous one n times; consecutive
+ * repeats are the bytes of one count, low ones first. */
 static const unsigned char *skip_flat(const hdr_header *h, const unsigned char *p, const unsigned char *end)
 {
     uint32_t shift = 0;
@@ -240,14 +239,14 @@ static const unsigned char *skip_flat(const hdr_header *h, const unsigned char *
 typedef struct hdr_reading {
     const hdr_header *header;
     const facet_allocator *allocator;
-    const size_t *offsets; /* of the scanlines in the data */
+    const size_t *offsets; /* positions of the scanlines in the data */
     float scales[3][256];  /* radiance of one unit of the mantissa, per channel and exponent */
     float *texels;         /* of scanline 0, texel 0 */
     ptrdiff_t scan_step, texel_step;
     _Atomic bool has_no_memory;
 } hdr_reading;
 
-/* A checked scanline to components: planes[component * scan_length + t]. */
+/* Decodes a checked scanline to components: planes[component * scan_length + t]. */
 static void read_coded(const hdr_header *h, const unsigned char *p, unsigned char *planes)
 {
     unsigned char *to = planes;
@@ -286,8 +285,8 @@ static void read_flat(const hdr_header *h, const unsigned char *p, unsigned char
     }
 }
 
-/* Radiance of a component m under exponent e: m / 256 * 2^(e - 128); 0 where e is 0. Radiance itself takes m + 0.5, the
- * middle of what a writer that truncates may have meant; most other programs take m, which keeps 0 and 1 exact. */
+/* Radiance of component m with exponent e: m / 256 * 2^(e - 128); 0 if e is 0. Radiance itself uses m + 0.5,
+ * the center of the range of a writer that truncates; most other programs use m, which keeps 0 and 1 exact. */
 static void read_scans(void *context, size_t begin, size_t end)
 {
     hdr_reading *r = context;
@@ -314,7 +313,7 @@ static void read_scans(void *context, size_t begin, size_t end)
     mem_free(planes);
 }
 
-/* Whether scanlines of component runs fill the data to its last byte. */
+/* Whether scanlines coded by component fill the data exactly. */
 static bool is_coded_throughout(const hdr_header *h)
 {
     const unsigned char *p = h->data;
@@ -324,8 +323,8 @@ static bool is_coded_throughout(const hdr_header *h)
     return p == end;
 }
 
-/* Where each scanline begins; every one is complete afterwards. Data of exactly four bytes per texel are texels, though
- * one may look like a run where a writer does not normalize mantissas: (1, 1, 1, 128). */
+/* Finds and checks each scanline. Data of exactly four bytes per texel are flat texels, although one may look
+ * like a run if the writer does not normalise mantissas: (1, 1, 1, 128). */
 static facet_result find_scans(hdr_header *h, const char *name, size_t *offsets, facet_error *error)
 {
     h->is_plain = h->data_size == 4 * (uint64_t)h->width * h->height && !is_coded_throughout(h);
@@ -397,7 +396,8 @@ done:
 
 /* ---- writing ---- */
 
-/* The nearest components; what is not positive (NaN too) is 0, what is too bright for the format is its brightest. */
+/* Encodes to the nearest components; values that are not positive (or NaN) become 0, those above the range of
+ * the format its maximum. */
 static void texel_to_rgbe(const float rgb[3], unsigned char rgbe[4])
 {
     const float brightest = 0x1.fep126f; /* 255 / 256 2^127 */
@@ -412,7 +412,7 @@ static void texel_to_rgbe(const float rgb[3], unsigned char rgbe[4])
         return;
     int exponent = (int)(float_bits(largest) >> 23) - 126; /* largest = f 2^exponent, f in [0.5, 1) */
     float scale = float_from_bits((uint32_t)(127 + 7 - exponent) << 23) * 2.0f; /* 2^(8 - exponent) */
-    if (largest * scale >= 255.5f) { /* rounds to 256, which is 128 of the next exponent */
+    if (largest * scale >= 255.5f) { /* rounds to 256, which is 128 at the next exponent */
         scale *= 0.5f;
         exponent++;
     }
@@ -421,12 +421,12 @@ static void texel_to_rgbe(const float rgb[3], unsigned char rgbe[4])
     rgbe[3] = (unsigned char)(exponent + 128);
 }
 
-/* Codes length bytes to out, behind which it returns: runs of 4 and more, the rest as they are. */
+/* Encodes length bytes to out and returns its end: runs of at least 4, the rest as literals. */
 static unsigned char *code_component(const unsigned char *plane, uint32_t length, unsigned char *out)
 {
     uint32_t t = 0;
     while (t < length) {
-        uint32_t literal = t; /* [literal, t) goes as it is, then comes a run */
+        uint32_t literal = t; /* [literal, t) is literal, a run follows */
         uint32_t run = 0;
         while (t < length) {
             for (run = 1; run < 127 && t + run < length && plane[t + run] == plane[t];)

@@ -10,7 +10,7 @@
 #include "base/memory.h"
 #include "base/result.h"
 
-/* TurboJPEG's message for what did not work. */
+/* Fails with TurboJPEG's message. */
 static facet_result fail_jpeg(facet_error *error, const char *name, tjhandle handle)
 {
     const char *message = tjGetErrorStr2(handle);
@@ -19,9 +19,9 @@ static facet_result fail_jpeg(facet_error *error, const char *name, tjhandle han
     return fail(error, FACET_ERROR_INVALID, "%s: JPEG: %s", name, message);
 }
 
-/* Whether the call that just failed only warned, and of something that leaves the image whole: stray bytes before a
- * marker, parameters that a decoder ignores. Damage to the image is an error. TurboJPEG tells warnings from errors by the
- * first of them only, so the text of the last one decides. */
+/* Whether the last failure is only a warning that leaves the image intact: stray bytes before a marker,
+ * parameters that decoders ignore. Damage to the image is an error. TurboJPEG classifies by the first warning
+ * only, so the text of the last one decides. */
 static bool is_harmless(tjhandle handle)
 {
     static const char *const harmless[] = {"extraneous bytes", "unknown JFIF revision", "Unknown Adobe color",
@@ -42,7 +42,7 @@ static facet_result read_header(tjhandle handle, const unsigned char *bytes, siz
                              !is_harmless(handle)))
         return fail_jpeg(error, name, handle);
     if (*width <= 0 ||
-        *height <= 0) /* libjpeg accepts files of tables alone, and leaves the sizes as they were */
+        *height <= 0) /* libjpeg accepts files with tables only and leaves the sizes unchanged */
         return fail(error, FACET_ERROR_INVALID, "%s: JPEG: holds no image", name);
     return FACET_OK;
 }
@@ -65,8 +65,8 @@ facet_result jpeg_probe(const unsigned char *bytes, size_t size, const char *nam
     return result;
 }
 
-/* Whether an APP14 segment of Adobe stands before the first scan: its four-component files hold inks
- * inverted, 255 for none. Bytes before a marker are skipped, as libjpeg does. */
+/* Whether an APP14 segment of Adobe precedes the first scan: its four-component files store inverted inks,
+ * 255 for none. Bytes before a marker are skipped, as in libjpeg. */
 static bool is_adobe(const unsigned char *bytes, size_t size)
 {
     size_t at = 2;
@@ -86,7 +86,8 @@ static bool is_adobe(const unsigned char *bytes, size_t size)
     return false;
 }
 
-/* Inks to light, each ink a filter over white: R = (1 - C)(1 - K). channel_count 3 or 4 may share memory. */
+/* Converts CMYK to RGB, each ink a filter over white: R = (1 - C)(1 - K). Works in place for channel_count 3
+ * or 4. */
 static void convert_cmyk(const unsigned char *cmyk, bool is_inverted, size_t texel_count,
                          uint32_t channel_count, unsigned char *out)
 {
@@ -122,7 +123,7 @@ static facet_result decode(tjhandle handle, const unsigned char *bytes, size_t s
     uint32_t height = (uint32_t)full_height;
     reduce(desc->max_reduction < 3 ? desc->max_reduction : 3, &width, &height);
 
-    image inks = {0}; /* CMYK needs a fourth channel on the way */
+    image inks = {0}; /* CMYK is decoded to four channels */
     image *target = is_cmyk && channel_count == 3 ? &inks : out;
     facet_result result = image_create(&desc->allocator, width, height, channel_count, IMAGE_U8, out, error);
     if (result == FACET_OK && target == &inks)

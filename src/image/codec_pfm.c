@@ -1,5 +1,4 @@
-/* codec_pfm.c - portable float maps: three lines of header, then floats from the bottom row to the top
- * one. */
+/* codec_pfm.c - portable float maps: three lines of header, then floats, bottom row first. */
 #include "image/codec.h"
 
 #include <math.h>
@@ -23,7 +22,7 @@ static bool is_space(unsigned char c)
     return c == ' ' || c == '\n' || c == '\r' || c == '\t';
 }
 
-/* The next number behind white space; NaN: there is none. */
+/* The next number after white space; NaN: none. */
 static double next_number(const unsigned char **p, const unsigned char *end)
 {
     while (*p < end && is_space(**p))
@@ -34,7 +33,7 @@ static double next_number(const unsigned char **p, const unsigned char *end)
     return *p < end && is_space(**p) ? x : (double)NAN;
 }
 
-/* The third number is negative for little-endian data; its size is the unit of the samples. */
+/* The third number is negative for little-endian data; its magnitude scales the samples. */
 static facet_result parse_header(const unsigned char *bytes, size_t size, const char *name, pfm_header *h,
                                  facet_error *error)
 {

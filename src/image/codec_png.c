@@ -1,5 +1,5 @@
-/* codec_png.c - reading PNG through libspng. Writing: png_write.c. Gamma, profiles and texts are passed over.
- * Specification: Portable Network Graphics, third edition (W3C). */
+/* codec_png.c - reading PNG through libspng; png_write.c writes. Gamma, profiles and texts are ignored.
+ * Portable Network Graphics, third edition (W3C). */
 #include "image/codec.h"
 
 #include <string.h>
@@ -13,14 +13,14 @@ enum {
     SIGNATURE_SIZE = 8,
     CHUNK_FRAME = 12, /* length, type, CRC */
     IHDR_SIZE = 13,
-    LIBRARY_MEMORY = 64 * 1024 /* that libspng and zlib take besides rows: state, window, buffers */
+    LIBRARY_MEMORY = 64 * 1024 /* memory of libspng and zlib besides rows: state, window, buffers */
 };
 
-/* What the chunks say. */
+/* Facts from the chunks. */
 typedef struct png_header {
     uint32_t width, height;
     uint32_t bit_depth, color_type;
-    bool has_transparency; /* tRNS that counts */
+    bool has_transparency; /* a tRNS chunk that applies */
     size_t data_size;      /* of all IDAT chunks */
 } png_header;
 
@@ -36,7 +36,7 @@ static bool is_type(const chunk *c, const char type[4])
     return memcmp(c->type, type, 4) == 0;
 }
 
-/* The chunk at *p, which moves behind it; false: the file ends before that. */
+/* Reads the chunk at *p and advances *p; false: truncated. */
 static bool next_chunk(const unsigned char **p, const unsigned char *end, chunk *c)
 {
     if (end - *p < CHUNK_FRAME)
@@ -49,20 +49,20 @@ static bool next_chunk(const unsigned char **p, const unsigned char *end, chunk 
     return true;
 }
 
-/* Whether libspng gets to see the chunk: the critical ones, a palette and transparency where they count. What it
- * does not see can neither take memory nor be damaged. */
+/* Whether the chunk is passed to libspng: the critical ones, and palette and transparency where they apply.
+ * Other chunks can then neither take memory nor be damaged. */
 static bool is_wanted(const chunk *c, uint32_t color_type)
 {
     const bool has_alpha = color_type & 4;
     if (is_type(c, "PLTE"))
-        return color_type == SPNG_COLOR_TYPE_INDEXED; /* else a suggestion */
+        return color_type == SPNG_COLOR_TYPE_INDEXED; /* otherwise only a suggestion */
     if (is_type(c, "tRNS"))
         return !has_alpha;
-    return !(c->type[0] & 0x20); /* ancillary ones are lower case */
+    return !(c->type[0] & 0x20); /* ancillary chunks are lower case */
 }
 
-/* Finds all chunks, those before IDAT only where to_end is false: no CRC is looked at but that of IEND, which
- * libspng passes over. */
+/* Finds all chunks (only those before IDAT unless to_end). Checks only the CRC of IEND, which libspng
+ * ignores. */
 static facet_result read_chunks(const unsigned char *bytes, size_t size, const char *name, bool to_end,
                                 png_header *h, facet_error *error)
 {
@@ -98,7 +98,7 @@ static facet_result read_chunks(const unsigned char *bytes, size_t size, const c
             h->has_transparency = is_wanted(&c, h->color_type);
         is_in_data = is_data;
     }
-#ifndef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION /* else no change would come further than this */
+#ifndef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION /* otherwise changes would not be detected beyond this point */
     if (c.end - c.start != CHUNK_FRAME || memcmp(c.data, "\xae\x42\x60\x82", 4) != 0)
         return fail(error, FACET_ERROR_INVALID, "%s: PNG: the CRC of IEND does not fit", name);
 #endif
@@ -121,10 +121,10 @@ static uint32_t own_channel_count(const png_header *h)
 
 /* ---- libspng ---- */
 
-/* Where libspng reads: the file without the chunks that are not wanted. */
+/* Stream for libspng: the file without the chunks that are not passed on. */
 typedef struct source {
-    const unsigned char *next, *part_end; /* of what it gets */
-    const unsigned char *rest, *end;      /* chunks that were not looked at yet */
+    const unsigned char *next, *part_end; /* of the current chunk */
+    const unsigned char *rest, *end;      /* remaining chunks */
     uint32_t color_type;
 } source;
 
@@ -168,7 +168,7 @@ static int open_png(spng_ctx *context, source *s, struct spng_ihdr *ihdr)
     int code = spng_set_crc_action(context, SPNG_CRC_ERROR, SPNG_CRC_ERROR);
 #endif
     if (code == 0)
-        code = spng_set_image_limits(context, INT32_MAX, INT32_MAX); /* ours are told better */
+        code = spng_set_image_limits(context, INT32_MAX, INT32_MAX); /* our own messages are clearer */
     if (code == 0)
         code = spng_set_png_stream(context, read_source, s);
     return code == 0 ? spng_get_ihdr(context, ihdr) : code;
@@ -195,8 +195,8 @@ facet_result png_probe(const unsigned char *bytes, size_t size, const char *name
     return FACET_OK;
 }
 
-/* Deflate makes at most 1032 bytes of one: refuses images that the data cannot fill, before memory is taken for
- * them. Rows are counted a little too small, never too large. */
+/* Refuses images that the data cannot fill before memory is allocated: deflate expands at most 1032 times.
+ * Rows are counted slightly too small, never too large. */
 static facet_result check_data_size(const png_header *h, const char *name, facet_error *error)
 {
     static const uint32_t samples[] = {1, 0, 3, 1, 2, 0, 4};
@@ -207,7 +207,7 @@ static facet_result check_data_size(const png_header *h, const char *name, facet
     return FACET_OK;
 }
 
-/* The layout that libspng is to write for channel_count channels. 16 bits come with the file's own. */
+/* The format to request from libspng for channel_count channels; 16 bits keep the file's own channels. */
 static int choose_format(const png_header *h, uint32_t channel_count)
 {
     const bool is_grey = h->color_type == SPNG_COLOR_TYPE_GRAYSCALE;
@@ -227,7 +227,7 @@ static int choose_format(const png_header *h, uint32_t channel_count)
     }
 }
 
-/* Hands the rows to sink one by one, so that the image is never held whole. */
+/* Passes rows to the sink one by one, so that the whole image is never in memory. */
 static facet_result decode_rows(spng_ctx *context, const image *header, int format, int flags,
                                 const char *name, const image_decode_desc *desc, facet_error *error)
 {
@@ -242,7 +242,7 @@ static facet_result decode_rows(spng_ctx *context, const image *header, int form
     for (uint32_t y = 0; y < header->height && result == FACET_OK && code == 0; y++) {
         code = spng_decode_row(context, row, row_size);
         if (code == SPNG_EOI && y + 1 == header->height)
-            code = 0; /* this is how the last row comes */
+            code = 0; /* returned with the last row */
         if (code == 0)
             result = desc->sink->add_row(desc->sink->user, row, error);
     }
@@ -289,11 +289,11 @@ static facet_result decode(spng_ctx *context, const png_header *h, source *s, co
     if (code == 0 && !in_rows)
         code = spng_decode_image(context, out->pixels, decoded_size, format, flags);
     if (code == 0)
-        code = spng_decode_chunks(context); /* to the end, so that the last CRCs count */
+        code = spng_decode_chunks(context); /* to the end, so that the last CRCs are checked */
     return code == 0 ? FACET_OK : fail_png(error, name, code);
 }
 
-/* 16 bits with the file's own channels to those that were asked for. */
+/* Converts 16-bit channels of the file to the requested ones. */
 static facet_result convert(const image_decode_desc *desc, image *i, facet_error *error)
 {
     image made;
@@ -315,7 +315,7 @@ facet_result png_decode(const unsigned char *bytes, size_t size, const char *nam
     image made = {0};
     TRY(read_chunks(bytes, size, name, true, &h, error));
     TRY(codec_check_size(name, h.width, h.height, desc->max_size, error));
-    /* libspng takes what it needs from malloc(): two filtered rows and one of 16-bit RGBA at most */
+    /* libspng allocates with malloc(): at most two filtered rows and one of 16-bit RGBA */
     const ptrdiff_t library_memory = LIBRARY_MEMORY + (ptrdiff_t)h.width * 3 * 8;
     source s = {bytes, bytes + SIGNATURE_SIZE, bytes + SIGNATURE_SIZE, bytes + size, h.color_type};
     if (!mem_account(&desc->allocator, library_memory))

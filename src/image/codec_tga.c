@@ -1,6 +1,6 @@
-/* codec_tga.c - Truevision TGA: color-mapped, true-color and grey images, with and without runs, in each order of rows and
- * columns. The format has no magic number, so the whole header is looked at. Truevision TGA File Format
- * Specification, version 2.0, 1991. */
+/* codec_tga.c - Truevision TGA: color-mapped, true-color and grey images, raw or run-length coded, in any
+ * order of rows and columns. The format has no magic number, so the whole header is checked. Truevision TGA
+ * File Format Specification, version 2.0, 1991. */
 #include "image/codec.h"
 
 #include <string.h>
@@ -14,7 +14,7 @@ typedef struct tga_header {
     uint32_t width, height, channel_count;
     uint32_t word_size; /* bytes of a texel in the file */
     bool has_runs, is_top_down, is_right_to_left;
-    texel_masks masks;        /* of a texel, or of an entry of the palette */
+    texel_masks masks;        /* bits of a texel or of a palette entry */
     const unsigned char *map; /* NULL: texels are colors */
     uint32_t map_first, map_count;
     const unsigned char *data;
@@ -26,7 +26,7 @@ static uint32_t load_u16(const unsigned char *p)
     return p[0] | (uint32_t)p[1] << 8;
 }
 
-/* False: there are no colors of so many bits. */
+/* False: not a valid depth. */
 static bool choose_masks(uint32_t bits, uint32_t alpha_bits, tga_header *h)
 {
     const texel_masks *m = bits == 15                      ? &texel_masks_555
@@ -42,7 +42,7 @@ static bool choose_masks(uint32_t bits, uint32_t alpha_bits, tga_header *h)
     return true;
 }
 
-/* False: it is no header of such a file. Everything that it says is checked, since there is no other sign. */
+/* False: not a TGA header. All fields are checked, since there is no magic number. */
 static bool parse_header(const unsigned char *bytes, size_t size, tga_header *h)
 {
     *h = (tga_header){0};
@@ -94,7 +94,7 @@ bool tga_detect(const unsigned char *bytes, size_t size)
     return parse_header(bytes, size, &h);
 }
 
-/* Whether the bytes can hold the texels; FACET_ERROR_LIMIT where an edge is too long. */
+/* Checks whether the bytes can hold the texels; FACET_ERROR_LIMIT if an edge is too long. */
 static facet_result check(const tga_header *h, const char *name, uint32_t max_size, facet_error *error)
 {
     const uint64_t texels = (uint64_t)h->width * h->height;
@@ -118,7 +118,7 @@ facet_result tga_probe(const unsigned char *bytes, size_t size, const char *name
     return result;
 }
 
-/* count words as texels. False: one is no color of the map. */
+/* Converts count words to texels. False: an index is outside of the color map. */
 static bool unpack(const tga_header *h, const unsigned char *words, size_t count, unsigned char *texels)
 {
     if (!h->map) {
@@ -135,7 +135,7 @@ static bool unpack(const tga_header *h, const unsigned char *words, size_t count
     return true;
 }
 
-/* All texels in the order of the file. NULL, or what is wrong. */
+/* Reads all texels in the order of the file. Returns NULL or what is wrong. */
 static const char *read_texels(const tga_header *h, image *out)
 {
     static const char no_color[] = "a texel is no color of the palette", cut_off[] = "the texels are cut off";

@@ -1,4 +1,4 @@
-/* codec_webp.c - WebP through libwebp, whose own memory comes from malloc; only built where libwebp is. */
+/* codec_webp.c - WebP through libwebp, whose own memory comes from malloc; built only with libwebp. */
 #include "image/codec.h"
 
 #include <string.h>
@@ -84,7 +84,7 @@ facet_result webp_decode(const unsigned char *bytes, size_t size, const char *na
 /* ---- writing ---- */
 
 typedef struct growing {
-    unsigned char *data; /* the first block is there before libwebp writes */
+    unsigned char *data; /* the first block exists before libwebp writes */
     size_t size, capacity;
     bool has_no_memory;
 } growing;

@@ -21,7 +21,7 @@ size_t deflate_bound(size_t size)
     return size + size / 1024 + 64; /* stored blocks hold at least 16383 bytes and add 5 each */
 }
 
-/* All pieces but the last end with an empty stored block (Z_SYNC_FLUSH), which aligns them to bytes. */
+/* All pieces but the last end with an empty stored block (Z_SYNC_FLUSH) for byte alignment. */
 size_t deflate_piece(const facet_allocator *allocator, uint32_t level, const unsigned char *bytes,
                      size_t size, size_t history_size, bool is_last, unsigned char *out)
 {

@@ -6,19 +6,19 @@
 
 enum { DEFLATE_WINDOW = 32768, ZLIB_FRAME = 6 /* bytes that a zlib stream (RFC 1950) adds */ };
 
-/* The most bytes that deflate_piece() writes for size bytes. */
+/* Upper bound of the bytes that deflate_piece() writes for size bytes. */
 size_t deflate_bound(size_t size);
 
-/* Compresses bytes as zlib does at level (1 to 9), for a stream in which the history_size bytes right before
- * them (at most DEFLATE_WINDOW) came first. Pieces but the last end at a byte and may be put behind each other.
- * Returns the bytes written to out, which has deflate_bound(size); 0: there is no memory. */
+/* Compresses bytes like zlib at level (1 to 9), for a stream in which the history_size bytes before them (at
+ * most DEFLATE_WINDOW) came first. Pieces but the last end at a byte boundary and can be concatenated.
+ * Returns the bytes written to out, which has deflate_bound(size); 0: out of memory. */
 size_t deflate_piece(const facet_allocator *allocator, uint32_t level, const unsigned char *bytes,
                      size_t size, size_t history_size, bool is_last, unsigned char *out);
 
 /* Writes the two bytes that begin a zlib stream. */
 void zlib_begin(unsigned char out[2]);
 uint32_t zlib_checksum(const unsigned char *bytes, size_t size); /* Adler-32 */
-/* That of first and then second_size bytes with checksum second. */
+/* Checksum of a concatenation, from those of both parts and the size of the second. */
 uint32_t zlib_checksum_join(uint32_t first, uint32_t second, size_t second_size);
 
 #endif

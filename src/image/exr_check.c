@@ -22,14 +22,14 @@ facet_result exr_fail(facet_error *error, facet_result result, const char *name,
     return fail(error, result, "%s: OpenEXR: %s", name, message);
 }
 
-/* ---- what the library must not see ---- */
+/* ---- checks before the library reads the file ---- */
 
-/* A place in the file. */
+/* A position in the file. */
 typedef struct cursor {
     const unsigned char *next, *end;
 } cursor;
 
-/* A string with its closing 0, which the cursor moves behind; NULL: there is none that short. */
+/* Reads a zero-terminated string; NULL: unterminated or too long. */
 static const char *read_string(cursor *c)
 {
     const size_t left = (size_t)(c->end - c->next);
@@ -40,7 +40,7 @@ static const char *read_string(cursor *c)
     return zero ? string : NULL;
 }
 
-/* Whether the channel list ends where its attribute does. */
+/* Whether the channel list ends with its attribute. */
 static bool is_channel_list(const unsigned char *value, size_t size)
 {
     cursor c = {value, value + size};
@@ -56,7 +56,7 @@ static bool is_channel_list(const unsigned char *value, size_t size)
     }
 }
 
-/* Whether a value of the type may have this size. The library reads the types it knows without looking at it. */
+/* Whether a value of a type may have this size; the library does not check that for known types. */
 static bool is_right_size(const char *type, const unsigned char *value, size_t size)
 {
     static const struct {
@@ -96,7 +96,7 @@ static bool is_right_size(const char *type, const unsigned char *value, size_t s
     return size <= INT32_MAX;
 }
 
-/* Walks over one header up to the 0 that ends it. *is_empty: it had no attributes. */
+/* Walks one header up to its terminating 0. *is_empty: no attributes. */
 static facet_result check_header(cursor *c, const char *name, bool *is_empty, facet_error *error)
 {
     static const char *const needed[] = {"channels", "compression", "dataWindow", "displayWindow"};
@@ -126,7 +126,7 @@ static facet_result check_header(cursor *c, const char *name, bool *is_empty, fa
     return FACET_OK;
 }
 
-/* OpenEXR 3.1 takes memory for attributes before it finds that the file ends: all headers are walked over first. */
+/* Walks all headers first: OpenEXR 3.1 allocates memory for attributes before it detects the end of the file. */
 static facet_result check_headers(const unsigned char *bytes, size_t size, const char *name,
                                   facet_error *error)
 {
@@ -153,8 +153,8 @@ static uint64_t edge(int32_t min, int32_t max)
     return max < min ? 0 : (uint64_t)((int64_t)max - min + 1);
 }
 
-/* Refuses what is too large or cannot be in a file of size bytes, before memory is taken for it. Deflate, the
- * densest of the codings but DWA, makes at most 1032 bytes of one, PXR24 4 of 3 of these. */
+/* Refuses images that are too large or cannot be in a file of size bytes, before memory is allocated.
+ * Deflate, the densest coding but DWA, expands at most 1032 times, PXR24 stores 3 of 4 bytes of that. */
 static facet_result check_sizes(const exr_info *info, size_t size, const char *name, uint32_t max_size,
                                 exr_sizes *s, facet_error *error)
 {

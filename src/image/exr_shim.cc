@@ -1,5 +1,5 @@
-/* exr_shim.cc - see exr_shim.h: the one file in C++, since OpenEXR's C interface cannot decode DWA. The library's
- * global settings (threads, largest sizes) are the program's and left alone. */
+/* exr_shim.cc - see exr_shim.h. In C++, since OpenEXR's C interface cannot decode DWA. The library's global
+ * settings (threads, largest sizes) belong to the program and are not changed. */
 #include "image/exr_shim.h"
 
 #include <cstdio>
@@ -117,7 +117,7 @@ facet_result say(char *message, facet_result result, const char *text)
     return result;
 }
 
-/* What the exception that is being handled comes to. Must be called in a catch block. */
+/* Result of the exception being handled. Must be called in a catch block. */
 facet_result say_exception(char *message, facet_result result)
 {
     try {
@@ -125,7 +125,7 @@ facet_result say_exception(char *message, facet_result result)
     } catch (const std::bad_alloc &) {
         return say(message, FACET_ERROR_MEMORY, "out of memory");
     } catch (const std::exception &e) {
-        /* "Cannot read image file "memory". What is wrong": the first half says nothing here */
+        /* of "Cannot read image file "memory". REASON" only the reason is useful */
         const std::string prefix = std::string("file \"") + STREAM_NAME + "\". ";
         const char *text = e.what();
         const char *found = std::strstr(text, prefix.c_str());
@@ -135,11 +135,11 @@ facet_result say_exception(char *message, facet_result result)
     }
 }
 
-/* ---- which channels make the image ---- */
+/* ---- channels of the image ---- */
 
 using channel_iterator = Imf::ChannelList::ConstIterator;
 
-/* The channel named prefix and then suffix, whatever the case of suffix. */
+/* The channel named prefix + suffix, ignoring the case of suffix. */
 channel_iterator find_channel(const Imf::ChannelList &list, const std::string &prefix, const char *suffix)
 {
     channel_iterator c = list.begin();
@@ -159,7 +159,7 @@ facet_result set_source(const channel_iterator &c, exr_source *source, char *mes
     return FACET_ERROR_UNSUPPORTED;
 }
 
-/* R, G, B and perhaps A of the layer prefix. *is_there: whether it has the three. */
+/* R, G, B and optionally A of the layer prefix. *is_there: R, G and B exist. */
 facet_result choose_rgb(const Imf::ChannelList &list, const std::string &prefix, exr_info *info,
                         bool *is_there, char *message)
 {
@@ -217,7 +217,7 @@ facet_result choose_channels(const Imf::ChannelList &list, exr_info *info, char 
     return FACET_ERROR_UNSUPPORTED;
 }
 
-/* Place of a channel in its layer by what stands behind the point; what has no known place comes behind. */
+/* Order of a channel in its layer by its suffix; unknown suffixes come last. */
 int place_of(const char *suffix)
 {
     static const char places[] = "RGBAXYZUV";
@@ -225,7 +225,7 @@ int place_of(const char *suffix)
     return found ? static_cast<int>(found - places) : static_cast<int>(sizeof places);
 }
 
-/* "albedo, normal, Z": the names that layers can be asked for by. */
+/* Names of the layers, such as "albedo, normal, Z". */
 facet_result say_layers(const Imf::ChannelList &list, const char *layer, char *message)
 {
     std::string names, last;
@@ -299,7 +299,7 @@ uint32_t rows_of(Imf::Compression compression)
     }
 }
 
-/* The first header; returns the version and the flags of the file. */
+/* Reads the first header; returns the version and the flags of the file. */
 int read_header(const unsigned char *bytes, size_t size, Imf::Header &header)
 {
     memory_input stream(bytes, size);
@@ -327,8 +327,8 @@ facet_result find_named(const Imf::ChannelList &list, const exr_channel *named, 
     return FACET_OK;
 }
 
-/* The attribute of this name and type; NULL: there is none. Not findTypedAttribute(), whose instance would be a name that
- * the library exports. */
+/* The attribute of a name and type; NULL: none. Avoids findTypedAttribute(), whose instantiation would be an
+ * exported symbol of the library. */
 template <class type> const type *find_attribute(const Imf::Header &header, const char *name)
 {
     const auto place = header.find(name);
@@ -437,7 +437,7 @@ struct exr_reader {
     Imf::InputPart part;
 
     exr_reader(const unsigned char *bytes, size_t size)
-        : stream(bytes, size), file(stream, 0, false /* a table with holes is not mended */), part(file, 0)
+        : stream(bytes, size), file(stream, 0, false /* an incomplete table is not reconstructed */), part(file, 0)
     {
     }
 };
@@ -463,7 +463,7 @@ facet_result exr_shim_read(exr_reader *reader, const exr_info *info, uint32_t ro
                            float *texels, char message[EXR_MESSAGE])
 {
     try {
-        /* The library adds x and y of the file to the base, which need not be inside the block. */
+        /* The library adds the file's x and y to the base pointer, which may lie outside of the block. */
         const size_t texel_size = info->channel_count * sizeof(float);
         const size_t width = static_cast<size_t>(int64_t{info->data.max_x} - info->data.min_x + 1);
         const int64_t first = int64_t{info->data.min_y} + row;

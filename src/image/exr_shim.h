@@ -1,5 +1,5 @@
-/* exr_shim.h - the OpenEXR library, which is C++, behind C functions: no exception leaves them. They fail with
- * FACET_ERROR_MEMORY where the library has none, else as they say, and then fill message. */
+/* exr_shim.h - C interface of the OpenEXR library, which is C++; exceptions do not leave it. Functions fail
+ * with FACET_ERROR_MEMORY or as documented, and fill message. */
 #ifndef IMAGE_EXR_SHIM_H
 #define IMAGE_EXR_SHIM_H
 
@@ -12,7 +12,7 @@ extern "C" {
 enum { EXR_NAME = 256 /* bytes of a channel's name with its closing 0 */, EXR_MESSAGE = 512 };
 
 typedef struct exr_window {
-    int32_t min_x, min_y, max_x, max_y; /* both ends belong to it */
+    int32_t min_x, min_y, max_x, max_y; /* inclusive bounds */
 } exr_window;
 
 /* A channel that the image is made of. */
@@ -24,12 +24,12 @@ typedef struct exr_source {
 /* A channel in memory: the sample at (x, y) is first[y * row_stride + x * texel_stride], in bytes. */
 typedef struct exr_channel {
     const char *name;
-    float *first; /* what is written from is left alone */
+    float *first; /* not modified when writing */
     size_t texel_stride, row_stride;
-    bool needs_float; /* written as floats in a file of halves, too */
+    bool needs_float; /* written as floats even in a file of halves */
 } exr_channel;
 
-/* What the header of the first part says. Nothing of it has been checked. */
+/* Contents of the header of the first part, unchecked. */
 typedef struct exr_info {
     exr_window data, display;
     bool is_tiled, is_dwa;
@@ -37,36 +37,37 @@ typedef struct exr_info {
     uint32_t chunk_rows;              /* rows that are coded together */
     uint32_t texel_size;              /* bytes of the samples of all channels */
     bool has_chromaticities;          /* the attribute of that name */
-    float chromaticities[8]; /* x, y of red, green, blue and white; NaN where it is of another type */
+    float chromaticities[8];          /* x, y of red, green, blue and white; NaN if it has another type */
     image_envmap envmap;
     uint32_t channel_count; /* of the image: 3 or 4; of those that were named */
-    exr_source sources[4];  /* of an image: R, G, B, A; the same one three times where it is grey */
+    exr_source sources[4];  /* of an image: R, G, B, A; the same one three times if grey */
 } exr_info;
 
-/* Reads the first header of a file whose headers are whole (see exr_check()). named: the channels that are wanted; NULL:
- * those that the image is made of. Fails with FACET_ERROR_INVALID, also where one of named is missing or does not hold
- * floats, and, where the image is of a kind that is not read, FACET_ERROR_UNSUPPORTED. */
+/* Reads the first header of a file with valid headers (see exr_check()). named: the required channels; NULL:
+ * those of the image. FACET_ERROR_INVALID, also if one of named is missing or does not hold floats;
+ * FACET_ERROR_UNSUPPORTED. */
 facet_result exr_shim_info(const unsigned char *bytes, size_t size, const exr_channel *named,
                            uint32_t named_count, exr_info *out, char message[EXR_MESSAGE]);
-/* Makes the sources of info, which exr_shim_info() has filled, those of a layer: the channels LAYER.R .G .B .A, or .X .Y .Z,
- * or .U .V, or whatever other names there are behind the point, at most 4; one is taken three times. Or the channel of that
- * very name; "depth" is the channel Z. FACET_ERROR_INVALID: there is no such layer; message then names those there are. */
+/* Selects a layer as the sources of info, which exr_shim_info() has filled: the channels LAYER.R .G .B .A, or
+ * .X .Y .Z, or .U .V, or any other suffixes, at most 4; a single one is used three times. Or the channel of
+ * exactly that name; "depth" is the channel Z. FACET_ERROR_INVALID: no such layer; message names the existing
+ * ones. */
 facet_result exr_shim_layer(const unsigned char *bytes, size_t size, const char *layer, exr_info *info,
                             char message[EXR_MESSAGE]);
-/* The text of an attribute of the type "string" of such a file. FACET_ERROR_INVALID: missing, or longer than value. */
+/* Reads an attribute of the type "string" of such a file. FACET_ERROR_INVALID: missing, or longer than value. */
 facet_result exr_shim_text(const unsigned char *bytes, size_t size, const char *attribute, char *value,
                            size_t value_size, char message[EXR_MESSAGE]);
 
-/* A file that is open; used by one thread at a time. Several may read the same bytes, which stay. */
+/* An open file, for one thread at a time. Several may share the same bytes, which must outlive them. */
 typedef struct exr_reader exr_reader;
 facet_result exr_shim_open(const unsigned char *bytes, size_t size, exr_reader **out,
                            char message[EXR_MESSAGE]);
 void exr_shim_close(exr_reader *reader); /* NULL is allowed */
-/* Rows [row, row_end) of the data window as floats, channels interleaved. FACET_ERROR_INVALID: damaged. */
+/* Reads rows [row, row_end) of the data window as floats, channels interleaved. FACET_ERROR_INVALID: damaged. */
 facet_result exr_shim_read(exr_reader *reader, const exr_info *info, uint32_t row, uint32_t row_end,
                            float *texels, char message[EXR_MESSAGE]);
 
-/* All rows of named channels, into their memory. FACET_ERROR_INVALID: damaged. */
+/* Reads all rows of named channels into their memory. FACET_ERROR_INVALID: damaged. */
 facet_result exr_shim_read_named(exr_reader *reader, const exr_info *info, const exr_channel *channels,
                                  uint32_t channel_count, char message[EXR_MESSAGE]);
 

@@ -1,4 +1,4 @@
-/* half.h - IEEE 754 binary16 numbers, as texels and EXR files hold them. */
+/* half.h - conversion of IEEE 754 binary16 numbers, as in textures and EXR files. */
 #ifndef IMAGE_HALF_H
 #define IMAGE_HALF_H
 
@@ -19,8 +19,8 @@ static inline float float_from_bits(uint32_t bits)
     return x;
 }
 
-/* Exact for all 65536 codes; NaN keeps its payload. The exponent is rebased from 15 to 127 by a
- * multiplication with 2^112, which also normalises subnormals. Without branches, so that loops vectorise. */
+/* Exact for all 65536 codes; NaN keeps its payload. Multiplication by 2^112 rebases the exponent from 15 to
+ * 127 and normalises subnormals. Branch-free, so that loops vectorise. */
 static inline float half_to_float(uint16_t half)
 {
     uint32_t magnitude = (uint32_t)(half & 0x7fffu) << 13;
@@ -31,10 +31,10 @@ static inline float half_to_float(uint16_t half)
     return float_from_bits(bits | (uint32_t)(half & 0x8000u) << 16);
 }
 
-/* Rounds to nearest, ties to even, as IEEE 754 has it: what is 65520 or more becomes infinity, what is
- * 2^-25 or less becomes 0; NaN becomes the quiet NaN. The two cases: normal results, where the carry of
- * the rounding may run into the exponent, as it should; and subnormal ones, where adding 0.5 puts the unit
- * of 2^-24 at the end of the float's significand, so that the addition itself rounds. */
+/* Rounds to nearest, ties to even, as in IEEE 754: values of at least 65520 become infinity, of at most 2^-25
+ * zero; NaN becomes the quiet NaN. For normal results the carry of rounding may propagate into the exponent,
+ * as it should; for subnormal ones, adding 0.5 moves the unit of 2^-24 to the end of the float's significand,
+ * so that the addition rounds. */
 static inline uint16_t half_from_float(float x)
 {
     uint32_t bits = float_bits(x);

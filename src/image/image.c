@@ -1,4 +1,5 @@
-/* image.c - images in memory: making them and changing their type. Files: codec.c. */
+/* image.c - images in memory: creation, conversion, reading as linear floats, RGBM. codec.c reads and writes
+ * files. */
 #include "image/image.h"
 
 #include <math.h>
@@ -43,7 +44,7 @@ void image_destroy(image *i)
 
 enum { BLOCK_TEXELS = 256 }; /* converted at a time, through floats on the stack */
 
-/* What happens to the color channels between reading and writing. */
+/* Transfer function applied to the color channels between loading and storing. */
 typedef enum transfer { TRANSFER_NONE, TRANSFER_DECODE, TRANSFER_ENCODE } transfer;
 
 typedef struct conversion {
@@ -63,7 +64,8 @@ static float clamp_unit(float x) /* NaN becomes 0 */
     return x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f;
 }
 
-/* One channel of count texels to floats. light: that of each code where 8 bits are decoded; of 16 bits it may be NULL. */
+/* Loads one channel of count texels as floats. light: linear value of each code, required to decode 8 bits,
+ * optional for 16 bits. */
 static void load_channel(const image *in, const float *light, bool is_decoded, uint32_t channel, size_t first,
                          size_t count, float *to)
 {
@@ -110,7 +112,7 @@ static void load_channel(const image *in, const float *light, bool is_decoded, u
             to[i] = (float)srgb_decode((double)clamp_unit(to[i]));
 }
 
-/* The way back. */
+/* Stores one channel of count texels. */
 static void store_channel(const conversion *c, uint32_t channel, size_t first, size_t count, float *from)
 {
     const uint32_t stride = c->out->channel_count;
@@ -153,7 +155,7 @@ static void store_channel(const conversion *c, uint32_t channel, size_t first, s
     }
 }
 
-/* The channel of the input that output channel c shows; -1: there is none, it is 1. */
+/* Input channel for output channel c; -1: none, the value is 1. */
 static int source_channel(uint32_t c, uint32_t out_count, uint32_t in_count)
 {
     if (is_alpha(c, out_count))
@@ -181,7 +183,7 @@ static void convert_texels(const conversion *c, size_t first, size_t count)
     }
 }
 
-/* 8 bits to 8 bits without a transfer: the copy that textures ask for. */
+/* 8 bits to 8 bits without a transfer function, the common case for textures. */
 static void copy_texels_u8(const conversion *c, size_t first, size_t count)
 {
     const uint32_t in_count = c->in->channel_count;
@@ -240,7 +242,7 @@ facet_result image_convert(const image *in, const facet_allocator *allocator, ui
         c.transfer = to_srgb ? TRANSFER_ENCODE : TRANSFER_DECODE;
         srgb_tables_prepare(&c.tables);
     }
-    size_t rows = 32768 / in->width + 1; /* enough that a thread is worth its start */
+    size_t rows = 32768 / in->width + 1; /* enough to amortise the start of a thread */
     parallel_for(thread_count, in->height, rows, convert_rows, &c);
     *out = made;
     return FACET_OK;

@@ -1,7 +1,8 @@
 /* ktx1_write.c - see ktx_write.h.
  *
- * glType should be GL_UNSIGNED_INT_10F_11F_11F_REV (0x8C3B); Filament's cmgen writes GL_R11F_G11F_B10F (0x8C3A), and its
- * reader takes nothing else, so that is what is written. As glFormat it takes GL_RGB, as the specification wants it. */
+ * glType should be GL_UNSIGNED_INT_10F_11F_11F_REV (0x8C3B), but Filament's cmgen writes GL_R11F_G11F_B10F
+ * (0x8C3A) and its reader accepts nothing else, so that is written. glFormat is GL_RGB, as in the
+ * specification. */
 #include "image/ktx_write.h"
 
 #include <string.h>
@@ -25,8 +26,8 @@ enum {
 
 typedef struct writing {
     const ktx1_write_desc *desc;
-    uint32_t edge;     /* of the level that is packed */
-    uint32_t level;    /* which one that is */
+    uint32_t edge;     /* of the level being packed */
+    uint32_t level;    /* its index */
     unsigned char *to; /* its texels */
 } writing;
 
@@ -65,7 +66,7 @@ static facet_result check(const ktx1_write_desc *d, facet_error *error)
     return FACET_OK;
 }
 
-/* Bytes of a face. False: more than the format can tell, or than can be counted. */
+/* Bytes of a face. False: more than the format or size_t can express. */
 static bool face_size(uint32_t edge, size_t *size)
 {
     return checked_mul(edge, edge, size) && checked_mul(*size, TEXEL_SIZE, size) && *size <= UINT32_MAX;
@@ -133,8 +134,7 @@ facet_result ktx1_write_cube(const ktx1_write_desc *desc, unsigned char **bytes,
     for (uint32_t level = 0; level < desc->level_count; level++) {
         writing w = {.desc = desc, .level = level, .edge = desc->images[0].width >> level};
         const size_t face = (size_t)w.edge * w.edge * TEXEL_SIZE;
-        store_u32_le(file + at,
-                     (uint32_t)face); /* of a cube map that is no array the size is that of a face */
+        store_u32_le(file + at, (uint32_t)face); /* for cube maps that are not arrays, the size of one face */
         w.to = file + at + 4;
         parallel_for(desc->thread_count, (size_t)FACES * w.edge, 1 + GRAIN_TEXELS / w.edge, pack_rows, &w);
         at += 4 + FACES * face;

@@ -1,4 +1,5 @@
-/* ktx2.c - opening a file: header, index of levels, format descriptor, metadata. See ktx2.h; images: ktx2_read.c. */
+/* ktx2.c - see ktx2.h: opens a file (header, index of levels, format descriptor, metadata) and reads it as an
+ * image file. ktx2_read.c decodes. */
 #include "image/ktx2.h"
 #include "base/result.h"
 #include "image/codec.h"
@@ -40,7 +41,7 @@ typedef struct span {
     size_t size;
 } span;
 
-/* A part of the file; false: it is not inside. */
+/* A part of the file; false: outside of the file. */
 static bool get_span(span file, uint64_t offset, uint64_t size, span *out)
 {
     if (size > file.size || offset > file.size - size)
@@ -155,7 +156,7 @@ static facet_result read_format(span file, ktx2 *k, facet_error *error)
 
 /* ---- metadata ---- */
 
-/* A value of two or four characters; anything else means nothing. */
+/* A value of two or four characters; others are ignored. */
 static void read_value(ktx2 *k, span key, span value)
 {
     if (key.size == 15 && memcmp(key.bytes, "KTXorientation", 15) == 0 && value.size >= 2) {
@@ -196,7 +197,7 @@ static facet_result read_metadata(span file, ktx2 *k, facet_error *error)
 
 /* ---- levels ---- */
 
-/* The bytes of a level without supercompression; false: more than can be counted. */
+/* Bytes of a level without supercompression; false: overflow. */
 static bool get_level_size(const ktx2 *k, uint32_t level, uint64_t *size)
 {
     const ktx2_format *f = k->format;
@@ -209,8 +210,8 @@ static bool get_level_size(const ktx2 *k, uint32_t level, uint64_t *size)
            !__builtin_mul_overflow(*size, (uint64_t)k->layer_count, size);
 }
 
-/* So much can a byte of compressed data become at most: a block of Zstandard repeats 128 KiB for 4 bytes; Deflate packs
- * a run of 258 into 2 bits. */
+/* Largest expansion of a byte: a Zstandard block repeats 128 KiB for 4 bytes; Deflate packs a run of 258 into
+ * 2 bits. */
 static uint64_t get_expansion(ktx2_scheme scheme)
 {
     return scheme == KTX2_ZSTD ? 1 << 15 : scheme == KTX2_ZLIB ? 1032 : 1;
@@ -291,13 +292,13 @@ facet_result ktx2_probe(const unsigned char *bytes, size_t size, const char *nam
     return result;
 }
 
-/* An edge reduced by 2^k as image_decode_desc has it, rounded up. */
+/* An edge reduced by 2^k, rounded up as in image_decode_desc. */
 static uint32_t get_reduced_edge(uint32_t edge, uint32_t k)
 {
     return (uint32_t)(((uint64_t)edge + (UINT64_C(1) << k) - 1) >> k);
 }
 
-/* The smallest level that is the reduced image: levels round down, which for odd edges is another size. */
+/* The smallest level with the size of the reduced image; levels round down, so odd edges differ. */
 static uint32_t choose_level(const ktx2 *k, uint32_t max_reduction)
 {
     uint32_t level = 0;
@@ -313,7 +314,7 @@ facet_result ktx2_decode_file(const unsigned char *bytes, size_t size, const cha
 {
     ktx2 k;
     facet_result result = ktx2_open(bytes, size, name, &k, error);
-    if (result == FACET_OK) /* of the whole image, whatever is decoded of it */
+    if (result == FACET_OK) /* of the whole image, also if a smaller level is decoded */
         result = codec_check_size(name, k.width, k.height, desc->max_size, error);
     if (result == FACET_OK)
         result = ktx2_read(&k, choose_level(&k, desc->max_reduction), 0, 0, desc, out, error);

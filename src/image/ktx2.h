@@ -1,6 +1,5 @@
-/* ktx2.h - KTX 2.0 texture containers: what a file holds, checked against its bytes, and its images, one by one:
- * levels (0: the full size), layers of arrays, faces of cubes (+X -X +Y -Y +Z -Z). ktx2.c shows the first of them
- * as an image file. Khronos, "KTX File Format Specification 2.0". */
+/* ktx2.h - KTX 2.0 texture containers: contents, validated against the bytes, and images: levels (0: full
+ * size), layers of arrays, faces of cubes (+X -X +Y -Y +Z -Z). Khronos, "KTX File Format Specification 2.0". */
 #ifndef IMAGE_KTX2_H
 #define IMAGE_KTX2_H
 
@@ -10,16 +9,16 @@ enum { KTX2_MAX_LEVELS = 32 };
 
 typedef enum ktx2_scheme { KTX2_NONE, KTX2_BASISLZ, KTX2_ZSTD, KTX2_ZLIB } ktx2_scheme; /* as in files */
 
-/* An open file: points into its bytes, holds no memory. */
+/* An open file; points into its bytes and owns no memory. */
 typedef struct ktx2 {
     const char *name; /* for messages */
     const ktx2_format *format;
     uint32_t width, height;
     uint32_t level_count, layer_count, face_count; /* 1 or more */
-    bool is_array, is_cube, has_all_mips; /* has_all_mips: the file wants mips to be made of level 0 */
+    bool is_array, is_cube, has_all_mips;          /* has_all_mips: mips are to be generated from level 0 */
     bool is_srgb, is_premultiplied;
     bool is_right_to_left, is_bottom_up; /* order of texels, rows; decoded images are from top left */
-    char swizzle[4]; /* of "rgba01": where the channels of an image come from; decoded ones are so */
+    char swizzle[4]; /* of "rgba01": sources of the channels; decoded images are swizzled */
     ktx2_scheme scheme;
     const unsigned char *global; /* of BasisLZ */
     size_t global_size;
@@ -29,12 +28,12 @@ typedef struct ktx2 {
     } levels[KTX2_MAX_LEVELS];
 } ktx2;
 
-/* Reads header, descriptors and metadata. bytes and name must live as long as out is used. Fails with
- * FACET_ERROR_INVALID for what is no such file or larger than its bytes, FACET_ERROR_UNSUPPORTED for formats, 3D
- * textures and compression that this build does not read. */
+/* Reads header, descriptors and metadata. bytes and name must outlive out. FACET_ERROR_INVALID for files that
+ * are malformed or larger than their bytes, FACET_ERROR_UNSUPPORTED for formats, 3D textures and compression
+ * that this build does not read. */
 facet_result ktx2_open(const void *bytes, size_t size, const char *name, ktx2 *out, facet_error *error);
 
-/* Edges of a level: those of the file halved, rounded down, at least 1. */
+/* Edge of a level: halved per level, rounded down, at least 1. */
 uint32_t ktx2_level_edge(uint32_t edge, uint32_t level);
 
 /* The bytes of a level without supercompression (BasisLZ: as they are). */
@@ -44,17 +43,17 @@ typedef struct ktx2_data {
     void *block; /* of mem_alloc(), NULL: bytes are the file's */
 } ktx2_data;
 
-/* Fails with FACET_ERROR_INVALID for damaged data, FACET_ERROR_MEMORY. */
+/* FACET_ERROR_INVALID for damaged data, FACET_ERROR_MEMORY. */
 facet_result ktx2_load_level(const ktx2 *k, uint32_t level, const facet_allocator *allocator, ktx2_data *out,
                              facet_error *error);
 void ktx2_data_destroy(ktx2_data *d); /* {0} is allowed */
 
-/* Decodes one image of a loaded level: the type and channels of k->format (RGBA where a swizzle asks for alpha), or
- * desc->channel_count of them for U8. Blocks are decoded in parallel on desc->thread_count threads. Only allocator,
- * thread_count, max_size, channel_count, keeps_nonfinite and largest of desc count. */
+/* Decodes one image of a loaded level: type and channels of k->format (RGBA if a swizzle needs alpha), or
+ * desc->channel_count channels for U8. Blocks are decoded in parallel. Of desc only allocator, thread_count,
+ * max_size, channel_count, keeps_nonfinite and largest are used. */
 facet_result ktx2_decode(const ktx2 *k, const ktx2_data *data, uint32_t level, uint32_t layer, uint32_t face,
                          const image_decode_desc *desc, image *out, facet_error *error);
-/* Both. */
+/* Loads a level and decodes one image of it. */
 facet_result ktx2_read(const ktx2 *k, uint32_t level, uint32_t layer, uint32_t face,
                        const image_decode_desc *desc, image *out, facet_error *error);
 

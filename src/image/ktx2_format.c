@@ -25,7 +25,7 @@ static uint16_t half_finite(unsigned half)
     return half == 0x7c00 ? 0x7bff : 0;
 }
 
-/* The component that channel c of RGBA comes from; bgr: of BGRA. */
+/* Component of channel c of RGBA in BGRA. */
 static unsigned reverse_rgb(unsigned c)
 {
     return c < 3 ? 2 - c : c;
@@ -115,7 +115,7 @@ static void unpack_f32(const unsigned char *bytes, size_t count, unsigned compon
         to[i] = codec_finite(to[i]);
 }
 
-/* Three numbers of 9 bits with one exponent: value * 2^(exponent - 24). */
+/* Three 9-bit mantissas with a shared exponent: value * 2^(exponent - 24). */
 static void unpack_e5b9g9r9(const unsigned char *bytes, size_t count, unsigned component_count, void *rgba)
 {
     (void)component_count;
@@ -129,7 +129,7 @@ static void unpack_e5b9g9r9(const unsigned char *bytes, size_t count, unsigned c
     }
 }
 
-/* Unsigned floats of 11, 11 and 10 bits with the exponents of halfs. */
+/* Unsigned floats of 11, 11 and 10 bits with the exponent of half. */
 static inline void unpack_111110(const unsigned char *bytes, size_t count, half_take *take, uint16_t *to)
 {
     for (size_t i = 0; i < count; i++, bytes += 4, to += 4) {
@@ -189,9 +189,9 @@ texel_unpack *unpack_nonfinite(texel_unpack *unpack)
         0, 1, 2, 3                                                                                           \
     }
 
-/* Formats in the order of their numbers, those in sRGB with the ones that differ in nothing else. */
+/* Formats in the order of their numbers; sRGB variants share an entry with their linear ones. */
 typedef struct vk_format {
-    uint16_t linear, srgb; /* VkFormat; 0: there is none */
+    uint16_t linear, srgb; /* VkFormat; 0: none */
     ktx2_format format;
 } vk_format;
 
@@ -284,7 +284,7 @@ const ktx2_format *ktx2_find_format(uint32_t number, bool *is_srgb, bool *is_mis
     return NULL;
 }
 
-/* Formats that are told by color model and channels. second: any where two samples are no rule of the model. */
+/* Formats identified by color model and channels. second: any, unless the model requires two samples. */
 typedef struct basis_format {
     unsigned char model;
     signed char first, second;

@@ -16,7 +16,7 @@ const ktx2_texel *ktx2_find_texel(facet_texel_format format)
     return &texels_of_formats[format];
 }
 
-/* Into [low, high]; NaN is 0, and so is -0 where low is. */
+/* Clamps to [low, high]; NaN becomes 0, and so does -0 if low is 0. */
 static float limit(float x, float low, float high)
 {
     x = x > low ? x : x <= low ? low : 0.0f;
@@ -33,9 +33,9 @@ static uint16_t pack_f16(float x)
     return half_from_float(limit(x, -65504.0f, 65504.0f));
 }
 
-/* An unsigned float with the exponent of halfs (5 bits, bias 15) and fewer digits. As half_from_float(): in normal
- * numbers the carry of the rounding may run into the exponent; subnormal ones are rounded by an addition of the power
- * of two whose last digit is theirs. */
+/* Packs an unsigned float with the exponent of half (5 bits, bias 15) and fewer digits. As in
+ * half_from_float(), the carry of rounding may propagate into the exponent of normal numbers; subnormal ones
+ * are rounded by adding the power of two whose last digit is theirs. */
 static uint32_t pack_small(float x, unsigned digits)
 {
     const uint32_t largest = 0x477fffffu & ~((1u << (23 - digits)) - 1u); /* 2^15 (2 - 2^-digits) */
@@ -48,8 +48,8 @@ static uint32_t pack_small(float x, unsigned digits)
     return float_bits(float_from_bits(bits) + float_from_bits(unit)) - unit;
 }
 
-/* Three numbers of 9 bits with the exponent of the largest: number 2^(exponent - 24). OpenGL, EXT_texture_shared_exponent,
- * but for ties. */
+/* Packs three 9-bit mantissas with the exponent of the largest: mantissa 2^(exponent - 24). OpenGL,
+ * EXT_texture_shared_exponent, except for ties. */
 static uint32_t pack_shared(const float rgb[3])
 {
     float c[3];
@@ -60,7 +60,7 @@ static uint32_t pack_shared(const float rgb[3])
     }
     const uint32_t octave = float_bits(largest) >> 23;                   /* with its bias of 127 */
     uint32_t exponent = octave > 127u - 16u ? octave - (127u - 16u) : 0; /* 1 at 2^-15 */
-    const float round = 0x1p23f;                                         /* has no digits behind the point */
+    const float round = 0x1p23f;                                         /* its unit is 1 */
     const float scale = float_from_bits((127u + 24u - exponent) << 23);
     const bool is_carried = largest * scale + round == round + 512.0f;
     exponent += is_carried;

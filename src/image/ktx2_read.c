@@ -1,5 +1,5 @@
-/* ktx2_read.c - from the bytes of a level to an image: supercompression, then blocks or texels, row by row in
- * parallel, with their channels in order. See ktx2.h. */
+/* ktx2_read.c - see ktx2.h: decodes the bytes of a level: supercompression, blocks or texels row by row in
+ * parallel, swizzle. */
 #include "image/ktx2.h"
 
 #include <float.h>
@@ -28,7 +28,7 @@
 
 enum { THREAD_TEXELS = 65536 }; /* fewer are not worth another thread */
 
-/* What the threads share; the library shares out the blocks. */
+/* Shared by the threads; the library distributes the blocks. */
 typedef struct astc_job {
     astc_shim *shim;
     const unsigned char *bytes;
@@ -76,7 +76,7 @@ static facet_result decode_astc_blocks(const ktx2 *k, const unsigned char *bytes
 {
     (void)bytes, (void)size, (void)thread_count, (void)out;
     return fail(error, FACET_ERROR_UNSUPPORTED, "%s: KTX2: this build of facet does not read %s", k->name,
-                k->format->name); /* ktx2_open() has refused before */
+                k->format->name); /* refused by ktx2_open() */
 }
 
 #endif
@@ -96,7 +96,7 @@ static bool inflate_zstd(const unsigned char *in, size_t in_size, unsigned char 
     return ZSTD_decompress(out, out_size, in, in_size) == out_size;
 #else
     (void)in, (void)in_size, (void)out, (void)out_size;
-    return false; /* ktx2_open() has refused */
+    return false; /* refused by ktx2_open() */
 #endif
 }
 
@@ -106,7 +106,7 @@ static size_t get_image_size(const ktx2 *k, uint32_t level)
     const ktx2_format *f = k->format;
     const size_t columns = ((size_t)ktx2_level_edge(k->width, level) + f->block_width - 1) / f->block_width;
     const size_t rows = ((size_t)ktx2_level_edge(k->height, level) + f->block_height - 1) / f->block_height;
-    return columns * rows * f->block_size; /* ktx2_open() has found it to fit */
+    return columns * rows * f->block_size; /* checked by ktx2_open() */
 }
 
 facet_result ktx2_load_level(const ktx2 *k, uint32_t level, const facet_allocator *allocator, ktx2_data *out,
@@ -139,9 +139,9 @@ void ktx2_data_destroy(ktx2_data *d)
 
 /* ---- channels ---- */
 
-/* Where RGBA of the image come from: numbers of decoded channels; 4: 0, 5: 1. Transcoders put the second channel of red
- * and green into alpha, and toktx writes "ra01" of what they give: there, a is that channel, and not the 1 of a format
- * without opacity. */
+/* Sources of RGBA: indices of decoded channels; 4: 0, 5: 1. Transcoders put the second channel of red-green
+ * textures into alpha, and toktx writes the swizzle "ra01" for them: there a is that channel and not the
+ * constant 1 of formats without alpha. */
 static void compose_channels(const ktx2 *k, unsigned char from[4])
 {
     static const char letters[] = "rgba01";
@@ -170,12 +170,12 @@ image ktx2_header(const ktx2 *k)
     return header;
 }
 
-/* What a run of decoded RGBA becomes. */
+/* How decoded RGBA is stored. */
 typedef struct store {
     image_type type;
     uint32_t channel_count;
     unsigned char from[4];
-    bool is_identity; /* RGBA in order */
+    bool is_identity; /* RGBA unchanged */
 } store;
 
 static store make_store(const ktx2 *k, const image *out)
@@ -244,7 +244,7 @@ typedef struct job {
     store store;
     image *out;
     const etc1s_codebook *codebook;
-    const etc1s_block *color, *alpha; /* ETC1S; alpha NULL: there is none */
+    const etc1s_block *color, *alpha; /* ETC1S; alpha NULL: none */
 } job;
 
 static unsigned char *get_texel(const image *i, uint32_t x, uint32_t y)
@@ -271,7 +271,7 @@ static void unpack_rows(void *context, size_t begin, size_t end)
         }
 }
 
-/* The part of a tile that is inside the image. */
+/* Stores the part of a tile that is inside of the image. */
 static void store_tile(const job *j, const void *tile, uint32_t x, uint32_t y)
 {
     const image *out = j->out;
@@ -302,7 +302,7 @@ static void decode_rows(void *context, size_t begin, size_t end)
         }
 }
 
-/* Rows are few enough together to be worth a thread. */
+/* Processes rows in parallel, in groups large enough for a thread. */
 static void run_rows(job *j, uint32_t thread_count, void (*body)(void *, size_t, size_t), uint32_t row_height)
 {
     const size_t row_texels = (size_t)j->out->width * row_height;
@@ -336,7 +336,7 @@ static void decode_slices(void *context, size_t begin, size_t end)
                                s->k->name, s->allocator, s->parts[i].blocks, &s->parts[i].error);
 }
 
-/* The record of an image, with slices that are inside of the level. */
+/* Reads the record of an image and checks that its slices are inside of the level. */
 static facet_result find_slices(const ktx2 *k, const ktx2_data *data, uint64_t index, etc1s_image *out,
                                 facet_error *error)
 {
@@ -404,7 +404,7 @@ static facet_result decode_etc1s(const ktx2 *k, const ktx2_data *data, uint64_t 
 
 /* ---- ASTC ---- */
 
-/* Channels in order of what was decoded as RGBA8. */
+/* Swizzles an image that was decoded as RGBA8. */
 static void store_rows(void *context, size_t begin, size_t end)
 {
     const job *j = context;
@@ -473,7 +473,7 @@ facet_result ktx2_decode(const ktx2 *k, const ktx2_data *data, uint32_t level, u
         return result;
     }
     codec_flip(&made, k->is_right_to_left,
-               k->is_bottom_up); /* from the order of the file to top left first */
+               k->is_bottom_up); /* from the file's orientation to top left first */
     *out = made;
     return FACET_OK;
 }

@@ -1,5 +1,5 @@
-/* ktx2_write.c - see ktx_write.h. In the file: header, index of levels, format descriptor, metadata, then the levels,
- * the smallest first. */
+/* ktx2_write.c - see ktx_write.h. Order of the file: header, index of levels, format descriptor, metadata,
+ * levels from smallest to largest. */
 #include "image/ktx_write.h"
 
 #include <string.h>
@@ -17,7 +17,7 @@
 
 enum { HEADER_SIZE = 80, LEVEL_RECORD = 24, GRAIN_TEXELS = 16384, MAX_ZSTD_LEVEL = 19 };
 
-/* A file that grows at its end; memory for all of it is there. */
+/* Output position in preallocated memory. */
 typedef struct output {
     unsigned char *bytes;
     size_t at;
@@ -71,9 +71,9 @@ static void put_sample(output *o, uint32_t first_bit, uint32_t bit_count, uint32
     put_u32(o, upper);
 }
 
-/* lower and upper are the codes of the least and the largest number of a nominal range: of floats -1 and 1, or 0 and 1
- * where there is no sign. RGB9E5 has a sample of digits and one of the exponent for each channel; 1 is the digits
- * 256 with the exponent 16 before them, and an exponent's lower is its bias (KDF section 5, "R9G9B9E5"). */
+/* lower and upper are the codes of the nominal range: -1 and 1 for floats, or 0 and 1 without a sign. RGB9E5
+ * has a sample of digits and one of the exponent for each channel; 1 is the digits 256 with the exponent 16,
+ * and the lower of an exponent is its bias (KDF section 5, "R9G9B9E5"). */
 static void put_samples(output *o, facet_texel_format format)
 {
     const ktx2_texel *t = ktx2_find_texel(format);
@@ -115,7 +115,7 @@ static void put_descriptor(output *o, facet_texel_format format)
 
 /* ---- metadata ---- */
 
-/* Sorted by their keys, as the format wants them. */
+/* Sorted by key, as required. */
 typedef struct metadata {
     const char *keys[2], *values[2];
 } metadata;
@@ -150,7 +150,7 @@ static void put_metadata(output *o, const metadata *m)
 /* ---- levels ---- */
 
 typedef struct level {
-    size_t offset, whole_size; /* of its texels, packed, one level behind the other */
+    size_t offset, whole_size; /* offset of its packed texels */
     unsigned char *compressed; /* NULL: none */
     size_t size, file_offset;  /* in the file */
 } level;
@@ -159,13 +159,13 @@ typedef struct writing {
     const ktx2_write_desc *desc;
     const ktx2_texel *texel;
     uint32_t width, height;
-    size_t start;     /* of the first level in the file */
-    size_t alignment; /* of levels in the file */
+    size_t start;     /* offset of the first level in the file */
+    size_t alignment; /* alignment of levels in the file */
     level levels[KTX2_MAX_LEVELS];
-    /* of all levels: the file itself, or a buffer of its own where they are compressed */
+    /* packed texels of all levels: the file itself, or a separate buffer if they are compressed */
     unsigned char *packed;
     bool has_failed[KTX2_MAX_LEVELS];
-    uint32_t packing; /* the level that pack_rows() is at */
+    uint32_t packing; /* the level being packed by pack_rows() */
 } writing;
 
 /* Rows of all faces of a level. */
@@ -192,7 +192,7 @@ static void pack_levels(writing *w)
     }
 }
 
-/* Sizes and places of the packed levels, from first on; false: more than can be counted. */
+/* Sizes and offsets of the packed levels from first on; false: overflow. */
 static bool place_levels(writing *w, size_t first, size_t alignment, size_t *end)
 {
     size_t at = first;
@@ -212,8 +212,8 @@ static bool place_levels(writing *w, size_t first, size_t alignment, size_t *end
 }
 
 #ifdef HAVE_ZSTD
-/* More than Zstandard takes from malloc to compress size bytes at a level (measured: 1.5.5; at most 27 times the size for
- * 100 kB, and what its window and tables are limited to). */
+/* Upper bound of the memory that Zstandard allocates with malloc to compress size bytes at a level (measured
+ * with 1.5.5: at most 27 times the size for 100 kB, and the limits of its window and tables). */
 static ptrdiff_t zstd_memory(size_t size, uint32_t zstd_level)
 {
     const size_t limit_mib = zstd_level <= 6 ? 4 : zstd_level <= 8 ? 8 : zstd_level <= 11 ? 28 : 96;
@@ -242,7 +242,7 @@ static bool compress_level(const writing *w, level *l)
 static bool compress_level(const writing *w, level *l)
 {
     (void)w, (void)l;
-    return false; /* check() has refused */
+    return false; /* refused by check() */
 }
 #endif
 
@@ -293,7 +293,7 @@ static facet_result check(const ktx2_write_desc *d, facet_error *error)
     return FACET_OK;
 }
 
-/* Everything before the levels, whose places are known. */
+/* Writes everything before the levels, whose offsets are known. */
 static void put_front(const writing *w, const metadata *m, unsigned char *bytes)
 {
     const ktx2_write_desc *d = w->desc;
@@ -327,7 +327,7 @@ static void put_front(const writing *w, const metadata *m, unsigned char *bytes)
     memset(bytes + o.at, 0, w->start - o.at);
 }
 
-/* The levels as they are, packed where they belong. */
+/* Writes uncompressed levels, packed in place. */
 static facet_result write_plain(writing *w, unsigned char **bytes, size_t *size, facet_error *error)
 {
     if (!place_levels(w, w->start, w->alignment, size))

@@ -15,15 +15,15 @@ typedef struct ktx2_write_desc {
     uint32_t zstd_level; /* each level a frame of Zstandard: 1 to 19; 0: none */
     uint32_t level_count;
     uint32_t face_count; /* 1, or 6: +X -X +Y -Y +Z -Z */
-    /* level_count * face_count images of 1 to 4 channels, the faces of level 0 first; the edges of a level are those of
-     * the one before halved, rounded down, at least 1. */
+    /* level_count * face_count images of 1 to 4 channels, faces of level 0 first; edges are halved per level,
+     * rounded down, at least 1. */
     const facet_image_view *images;
-    bool is_opaque;     /* alpha is 1, whatever a fourth channel says */
+    bool is_opaque;     /* alpha is 1 in any case */
     const char *writer; /* KTXwriter: name and version of the program */
 } ktx2_write_desc;
 
-/* The bytes are a block of mem_alloc(). FACET_ERROR_ARGUMENT: sizes and counts that are no texture; _UNSUPPORTED: a build
- * without Zstandard; _MEMORY. */
+/* The bytes are a block of mem_alloc(). FACET_ERROR_ARGUMENT: sizes and counts that are not a texture;
+ * _UNSUPPORTED: a build without Zstandard; _MEMORY. */
 facet_result ktx2_write(const ktx2_write_desc *desc, unsigned char **bytes, size_t *size, facet_error *error);
 
 /* ---- KTX 1: cube maps of light for programs that do not read KTX 2 (Filament's loaders of light) ----
@@ -34,13 +34,14 @@ typedef struct ktx1_write_desc {
     facet_allocator allocator;
     uint32_t thread_count; /* 0: facet_thread_count(); the bytes do not depend on it */
     uint32_t level_count;
-    /* Six square images of 1 to 4 channels per level, +X -X +Y -Y +Z -Z, the faces of level 0 first; the edges of a level
-     * are half as long as those of the one before. */
+    /* Six square images of 1 to 4 channels per level, +X -X +Y -Y +Z -Z, faces of level 0 first; edges are
+     * halved per level. */
     const facet_image_view *images;
-    const char *key, *value; /* one entry of metadata; the value is written without a final 0. NULL: none */
+    const char *key, *value; /* one metadata entry; the value is written without a final 0. NULL: none */
 } ktx1_write_desc;
 
-/* Texels are R11F_G11F_B10F. The bytes are a block of mem_alloc(). FACET_ERROR_ARGUMENT: sizes that are no cube map; _MEMORY. */
+/* Texels are R11F_G11F_B10F. The bytes are a block of mem_alloc(). FACET_ERROR_ARGUMENT: sizes that are not a
+ * cube map; _MEMORY. */
 facet_result ktx1_write_cube(const ktx1_write_desc *desc, unsigned char **bytes, size_t *size,
                              facet_error *error);
 

@@ -1,7 +1,7 @@
-/* png_write.c - writing PNG, in parallel: rows are filtered each by itself, then blocks of them deflated
- * each by itself, with the 32 KiB before it as dictionary, and put behind each other. Block size and all
- * choices depend on the image alone, so the bytes do not depend on threads. Specification: PNG third
- * edition (W3C 2023); RFC 1950, 1951. */
+/* png_write.c - writes PNG in parallel: rows are filtered independently, then blocks of them are deflated
+ * independently, with the preceding 32 KiB as dictionary, and concatenated. Block size and all choices depend
+ * on the image alone, so the bytes do not depend on the number of threads. PNG third edition (W3C 2023); RFC
+ * 1950, 1951. */
 #include "image/codec.h"
 
 #include <stdatomic.h>
@@ -16,11 +16,11 @@
 
 /* ---- filters ---- */
 
-/* What PNG puts before deflate: each byte less a prediction of it (PNG third edition, section 9). */
+/* Filters: each byte minus its prediction (PNG third edition, section 9). */
 typedef enum png_filter { PNG_NONE, PNG_LEFT, PNG_UP, PNG_AVERAGE, PNG_PAETH } png_filter;
 enum { PNG_FILTER_COUNT = 5 };
 
-/* The predictor of Paeth: of left, up and their corner what is nearest to left + up - corner. */
+/* Paeth predictor: whichever of left, up and corner is nearest to left + up - corner. */
 static inline int paeth(int left, int up, int corner)
 {
     int to_left = abs(up - corner);
@@ -30,8 +30,8 @@ static inline int paeth(int left, int up, int corner)
     return to_left <= to_up && to_left <= to_corner ? left : nearest;
 }
 
-/* row less the prediction into out. above is the row before, zeros at the top; texel (1 to 8) zeros stand
- * before row and above. */
+/* Stores row minus its prediction in out. above is the previous row, zeros at the top; both are preceded by
+ * texel (1 to 8) zeros. */
 static void filter_row(png_filter filter, const unsigned char *row, const unsigned char *above, size_t size,
                        size_t texel, unsigned char *restrict out)
 {
@@ -61,7 +61,7 @@ static void filter_row(png_filter filter, const unsigned char *row, const unsign
 }
 
 enum {
-    BLOCK_SIZE = 128 * 1024, /* filtered bytes that are deflated by one thread at a time */
+    BLOCK_SIZE = 128 * 1024, /* filtered bytes per work item */
     CHUNK_FRAME = 12
 };
 
@@ -69,7 +69,7 @@ enum {
 typedef struct block {
     unsigned char *deflated;
     size_t size, in_size;
-    uint32_t checksum; /* of what went in */
+    uint32_t checksum; /* of the uncompressed bytes */
 } block;
 
 typedef struct writing {
@@ -85,7 +85,7 @@ typedef struct writing {
 
 /* ---- filters ---- */
 
-/* One row in file order: 16 bits with the high byte first. */
+/* Stores one row in file order: 16 bits with the high byte first. */
 static void load_row(const image *i, uint32_t y, size_t row_size, unsigned char *row)
 {
     if (i->type == IMAGE_U8) {
@@ -99,7 +99,7 @@ static void load_row(const image *i, uint32_t y, size_t row_size, unsigned char 
     }
 }
 
-/* The sum of the filtered bytes taken as signed, which the PNG specification (12.7) advises to make small. */
+/* Sum of absolute filtered bytes as signed numbers, which the PNG specification (12.7) advises to minimise. */
 static uint32_t weight(const unsigned char *filtered, size_t size)
 {
     uint32_t sum = 0;
@@ -170,7 +170,7 @@ static void deflate_blocks(void *context, size_t begin, size_t end)
 
 /* ---- the file ---- */
 
-/* Writes length and type of a chunk; its data is to follow, then end_chunk(). */
+/* Writes length and type of a chunk; its data must follow, then end_chunk(). */
 static unsigned char *begin_chunk(unsigned char *p, const char type[4], size_t length)
 {
     store_u32_be(p, (uint32_t)length);

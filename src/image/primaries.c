@@ -21,7 +21,7 @@ static const struct {
     {"Radiance's standard primaries", {{{0.640, 0.330}, {0.290, 0.600}, {0.150, 0.060}, {1.0 / 3, 1.0 / 3}}}},
 };
 
-/* To the digits that writers give. */
+/* Equal to the precision that writers use. */
 static bool is_same(const primaries *a, const primaries *b)
 {
     for (int i = 0; i < 4; i++)
@@ -48,7 +48,7 @@ static void multiply_vector(double m[3][3], const double v[3], double out[3])
         out[i] = m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2];
 }
 
-/* False: there is none, or it says nothing. */
+/* False: missing or meaningless. */
 static bool invert(double m[3][3], double out[3][3])
 {
     for (int i = 0; i < 3; i++)
@@ -66,7 +66,7 @@ static bool invert(double m[3][3], double out[3][3])
 
 /* ---- color spaces ---- */
 
-/* XYZ of white, Y = 1. False: it is no color. */
+/* XYZ of white, Y = 1. False: not a color. */
 static bool get_white(const primaries *p, double white[3])
 {
     const double x = p->xy[3][0], y = p->xy[3][1];

@@ -1,4 +1,4 @@
-/* primaries.h - colors of other RGB spaces as linear Rec.709. */
+/* primaries.h - conversion of other RGB spaces to linear Rec.709, and the CIE's color matching functions. */
 #ifndef IMAGE_PRIMARIES_H
 #define IMAGE_PRIMARIES_H
 
@@ -9,20 +9,21 @@ typedef struct primaries {
     double xy[4][2];
 } primaries;
 
-/* The matrix from linear RGB of these primaries to linear Rec.709: to XYZ (SMPTE RP 177), white adapted to D65 by
- * Bradford's transform (as ICC v4 and OpenColorIO's configurations for ACES have it), to Rec.709. XYZ themselves, which
- * is what red (1, 0), green (0, 1), blue (0, 0) with the white of equal energy stand for, are not adapted: their white is
- * a unit, not a light. False: they do not form a color space (not finite, on one line, white outside). */
+/* The matrix from linear RGB of these primaries to linear Rec.709: to XYZ (SMPTE RP 177), white adapted to
+ * D65 by Bradford's transform (as in ICC v4 and OpenColorIO's configurations for ACES), to Rec.709. XYZ
+ * itself, which red (1, 0), green (0, 1), blue (0, 0) with equal-energy white stand for, is not adapted: its
+ * white is a unit, not an illuminant. False: the primaries do not form a color space (not finite, collinear,
+ * white outside of the triangle). */
 bool primaries_to_rec709(const primaries *p, double matrix[3][3]);
 
-/* Converts the first three channels of an F32 image in place, unless the primaries are those of Rec.709, and sets
- * desc->note: a detail that names the space; a warning where there is none, and the colors stay. Texels that are not
- * finite stay. */
+/* Converts the first three channels of an F32 image in place, unless the primaries are those of Rec.709, and
+ * sets desc->note: a detail that names the color space, or a warning if the primaries do not form one and
+ * colors stay as they are. Texels that are not finite are kept. */
 void primaries_convert(image *i, const primaries *p, const image_decode_desc *desc);
 
 /* ---- spectra ---- */
 
-/* Relative power of daylight D65 (CIE 15), CIE_D65_FIRST nm and on in steps of 10. */
+/* Relative spectral power of D65 (CIE 15), from CIE_D65_FIRST nm in steps of 10. */
 enum { CIE_D65_FIRST = 380, CIE_D65_STEP = 10, CIE_D65_COUNT = 41 };
 extern const double cie_d65[CIE_D65_COUNT];
 

@@ -1,16 +1,15 @@
-/* texel_masks.h - texels whose channels are bits of a little-endian word, as BMP, TGA and DDS files have them. */
+/* texel_masks.h - texels with channels as bit fields of a little-endian word, as in BMP, TGA and DDS files. */
 #ifndef IMAGE_TEXEL_MASKS_H
 #define IMAGE_TEXEL_MASKS_H
 
 #include "image/codec.h"
 
 typedef struct texel_masks {
-    uint32_t byte_count; /* of a word, 1 to 4 */
-    uint32_t channels
-        [4]; /* which bits are R, G, B, A; of grey: R. 0: there are none, the channel is 0, alpha 255 */
+    uint32_t byte_count;  /* of a word, 1 to 4 */
+    uint32_t channels[4]; /* bits of R, G, B, A; grey: R. 0: none, the channel is 0, alpha 255 */
 } texel_masks;
 
-/* Words of 15 and 16 bits, 24, 32 without and with alpha, in the order of Windows and Truevision. */
+/* Words of 15, 16, 24 and 32 bits, the last without and with alpha, in the order of Windows and Truevision. */
 static const texel_masks texel_masks_555 = {2, {0x7c00, 0x3e0, 0x1f, 0}};
 static const texel_masks texel_masks_1555 = {2, {0x7c00, 0x3e0, 0x1f, 0x8000}};
 static const texel_masks texel_masks_bgr = {3, {0xff0000, 0xff00, 0xff, 0}};
@@ -19,7 +18,7 @@ static const texel_masks texel_masks_bgra = {4, {0xff0000, 0xff00, 0xff, 0xff000
 static const texel_masks texel_masks_grey = {1, {0xff, 0, 0, 0}};
 static const texel_masks texel_masks_grey_alpha = {2, {0xff, 0, 0, 0xff00}};
 
-/* The bits of mask as a number of [0, 255], to the nearest. */
+/* The bits of a mask scaled to [0, 255], rounded. */
 static inline unsigned char texel_masks_channel(uint32_t word, uint32_t mask)
 {
     const uint32_t lowest = mask & (~mask + 1u);
@@ -43,7 +42,7 @@ static inline void texel_masks_unpack(const texel_masks *m, const unsigned char 
     }
 }
 
-/* Makes an image opaque whose alpha is 0 everywhere: writers that do not use alpha leave it so. */
+/* Makes an image opaque if its alpha is 0 everywhere, as left by writers that do not use alpha. */
 static inline void texel_masks_fill_unused_alpha(image *i)
 {
     const size_t count = (size_t)i->width * i->height, step = i->channel_count;
