@@ -30,8 +30,8 @@ facet_result bake_area_create(const image *panorama, double rotation_rad, const 
                               uint32_t thread_count, bake_area *out, facet_error *error);
 void bake_area_destroy(bake_area *a); /* {0} is allowed; leaves {0} */
 
-/* Fills the faces of out and their borders. is_equiangular: edges of texels are at s = tan(pi / 4 (2 i / size - 1)), equal angles
- * apart, rather than at s = 2 i / size - 1. */
+/* Fills the faces of out and their borders. is_equiangular: edges of texels are at equal angles,
+ * s = tan(pi / 4 (2 i / size - 1)), rather than at s = 2 i / size - 1. */
 void bake_area_fill(const bake_area *a, bool is_equiangular, float scale, uint32_t thread_count, cube *out);
 
 /* ---- mirrors ---- */

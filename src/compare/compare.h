@@ -12,8 +12,8 @@ typedef struct compare_image {
     bool is_display;  /* display-referred: neither tone mapping nor exposure applies */
 } compare_image;
 
-/* facet_compare() of bare images. desc->mask is not read: mask (NULL: all pixels count) is given as an image. difference (NULL: not
- * wanted) becomes F32 RGBA, linear Rec.709. */
+/* facet_compare() of bare images. desc->mask is ignored: mask (NULL: all pixels count) is given as an image.
+ * difference (may be NULL) receives F32 RGBA, linear Rec.709. */
 facet_result compare_images(const compare_image *a, const compare_image *b, const compare_image *mask,
                             const facet_compare_desc *desc, facet_comparison *out, image *difference,
                             facet_error *error);

@@ -1,4 +1,5 @@
-/* compare_metrics.h - the numbers of a comparison: a survey of both images, errors per pixel and their percentiles, SSIM, FLIP. */
+/* compare_metrics.h - the metrics of a comparison: survey of both images, errors per pixel and their
+ * percentiles, SSIM, FLIP. */
 #ifndef COMPARE_COMPARE_METRICS_H
 #define COMPARE_COMPARE_METRICS_H
 

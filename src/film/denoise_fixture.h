@@ -6,10 +6,12 @@
 #include "film/film.h"
 
 typedef enum fixture_scene {
-    FIXTURE_BOX, /* closed room with a small bright light: a diffuse, a glossy, a glass sphere; checkered floor */
+    /* Closed room with a small bright light: a diffuse, a glossy, a glass sphere; checkered floor */
+    FIXTURE_BOX,
     FIXTURE_SKY,    /* textured spheres on a textured floor under sun and sky: hard and contact shadows */
     FIXTURE_LIGHTS, /* many small lights of all colors, one sampled at a time: heavy tails */
-    FIXTURE_CUTOUT, /* spheres over an empty background, one of them half transparent by random choice: partial opacity */
+    /* Spheres over an empty background, one of them half transparent by random choice: partial opacity */
+    FIXTURE_CUTOUT,
     FIXTURE_SCENE_COUNT
 } fixture_scene;
 

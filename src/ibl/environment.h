@@ -31,8 +31,9 @@ struct facet_environment {
     facet_layout layout;     /* of the source; {0}: equirectangular */
     uint32_t source_width, source_height; /* for facet_environment_info; 0: those of the panorama */
     uint64_t repaired_texels;
-    cube
-        faces; /* the cube map that the panorama was resampled from, in the same range; {0}: the source was not a cube map */
+    /* The cube map that the panorama was resampled from, in the same range; {0}: the source was not a cube
+     * map */
+    cube faces;
     uint64_t hash;      /* of the source, if there is a cache_folder */
     char *cache_folder; /* NULL: none */
     uint64_t cache_bytes;

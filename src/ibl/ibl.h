@@ -18,8 +18,8 @@ typedef struct ibl_light_desc {
     bool needs_sheen;  /* ibl_sheen() */
     float min_sheen_roughness, max_sheen_roughness;
     bool needs_background; /* sharp environment, ibl_background() */
-    uint32_t
-        background_size; /* resolution of the background: image height in pixels over field of view in rad; 0: that of the source */
+    /* Resolution of the background: image height in pixels over field of view in rad; 0: that of the source */
+    uint32_t background_size;
 } ibl_light_desc;
 
 /* Prepared light. Lookups take unit directions in the environment's frame; rotate them first. */

@@ -12,9 +12,8 @@ enum { SKY_HALVES = 2 };
 typedef struct sky_luts {
     Atmosphere air[SKY_HALVES];
     vec3 *columns; /* COLUMN_TABLE_HEIGHT rows of COLUMN_TABLE_WIDTH: air_column() */
-    vec3 skies
-        [SKY_HALVES]
-        [BOUNCE_TABLE_SIZE]; /* approximate illuminance of the ground by the sky, by the sun's angle as in bounces */
+    /* Approximate illuminance of the ground by the sky, by the sun's angle as in bounces */
+    vec3 skies[SKY_HALVES][BOUNCE_TABLE_SIZE];
     AirField *bounces[SKY_HALVES]; /* BOUNCE_TABLE_SIZE rows of as many: air_bounce_field() */
 } sky_luts;
 

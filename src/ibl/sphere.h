@@ -93,8 +93,8 @@ typedef struct sphere_turn {
     bool is_turned;
     float rows[3][3]; /* of a rotation or reflection: direction d of the target is rows d of the source */
     float scale;      /* factor of radiance */
-    uint32_t
-        parts; /* lookups per texel of the target in each direction; 0: closer than the texels of the source */
+    /* Lookups per texel of the target in each direction; 0: closer than the texels of the source */
+    uint32_t parts;
 } sphere_turn;
 
 /* Fills the texels of target (of a cube: not the borders; of images: the first three channels, a fourth becomes 1).

@@ -437,7 +437,8 @@ struct exr_reader {
     Imf::InputPart part;
 
     exr_reader(const unsigned char *bytes, size_t size)
-        : stream(bytes, size), file(stream, 0, false /* an incomplete table is not reconstructed */), part(file, 0)
+        : stream(bytes, size), file(stream, 0, false /* an incomplete table is not reconstructed */),
+          part(file, 0)
     {
     }
 };

@@ -111,10 +111,11 @@ typedef struct image_row_sink {
 typedef struct image_decode_desc {
     facet_allocator allocator;
     uint32_t thread_count; /* for codecs that use threads; 0: 1 */
-    uint32_t
-        max_size; /* texels along an edge, 0: 16384; larger images fail with FACET_ERROR_LIMIT before allocation */
-    uint32_t
-        max_reduction; /* The image may be reduced by 2^k, k <= max_reduction, in both directions (rounded up) if the codec does that cheaply (JPEG: k <= 3; KTX2: levels of that size). 0: not reduced */
+    /* Texels along an edge, 0: 16384; larger images fail with FACET_ERROR_LIMIT before allocation */
+    uint32_t max_size;
+    /* The image may be reduced by 2^k, k <= max_reduction, in both directions (rounded up) if the codec does
+     * that cheaply (JPEG: k <= 3; KTX2: levels of that size). 0: not reduced */
+    uint32_t max_reduction;
     uint32_t channel_count; /* 0: the file's own; 3 or 4: 8-bit formats only */
     /* EXR: a layer by name, see exr_shim_layer(), of 2, 3 or 4 channels (one becomes 3); NULL: the image */
     const char *layer;
