@@ -1,4 +1,4 @@
-/* Tests of file.h: whole files or nothing, and names. */
+/* Tests of file.h: files are written completely or not at all; names. */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <fcntl.h>

@@ -27,7 +27,7 @@ static void blocks_are_aligned_and_keep_their_size(void **state)
     }
 }
 
-/* What stands on huge pages where there are any. */
+/* Blocks on huge pages, if the system has them. */
 static void large_blocks_are_like_others(void **state)
 {
     (void)state;

@@ -41,7 +41,7 @@ static uint64_t next_random(uint64_t *state)
     return mix64(*state += MIX64_STEP);
 }
 
-/* Within a unit of the last place of what the C library reads. */
+/* Within a unit of the last place of the C library's result. */
 static void check_double(const char *text)
 {
     char room[128] = {0};
@@ -181,7 +181,7 @@ static void test_random_decimals(void **state)
     }
 }
 
-/* Floats of all sizes, and the middles between them, to the last digit and beside it. */
+/* Floats of all sizes, and their midpoints, exact and off by one in the last digit. */
 static void test_every_size_of_float(void **state)
 {
     (void)state;
@@ -205,7 +205,7 @@ static void test_every_size_of_float(void **state)
         assert_as_strtof(text);
         text[length] = 0;
         for (char *p = text + length - 1; p > text;
-             p--) { /* a little less: the last digit that is not 0 goes down */
+             p--) { /* a little less: decrements the last nonzero digit */
             if (*p > '0' && *p <= '9') {
                 *p = (char)(*p - 1);
                 break;
@@ -230,7 +230,7 @@ static void test_digits(void **state)
     assert_int_equal(value, 0);
     assert_int_equal(number_read_digits(text + 12, &value), 2);
     assert_int_equal(value, 12);
-    for (int c = 0; c < 256; c++) { /* no other byte is a digit, whatever stands behind it */
+    for (int c = 0; c < 256; c++) { /* no other byte is a digit, whatever follows */
         char bytes[8];
         memset(bytes, c, sizeof bytes);
         bytes[0] = '7';

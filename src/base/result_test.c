@@ -1,4 +1,4 @@
-/* Tests of result.h: one sentence, one line, whatever goes in. */
+/* Tests of result.h: any input yields one sentence on one line. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -133,7 +133,7 @@ static void shortest_doubles_keep_what_floats_lose(void **state)
         const char *digits;
     } cases[] = {{0.0, "0"},
                  {0.1, "0.1"},
-                 {(double)0.1f, "0.1"}, /* what was a float is one again */
+                 {(double)0.1f, "0.1"}, /* doubles that equal floats print as floats */
                  {-2.5, "-2.5"},
                  {1000000.0625, "1000000.0625"},
                  {1e8 + 0.001, "100000000.001"},

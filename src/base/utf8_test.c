@@ -1,4 +1,4 @@
-/* utf8_test.c - sequences of UTF-8 and what only looks like them. */
+/* utf8_test.c - valid UTF-8 sequences and invalid lookalikes. */
 #include "base/utf8.h"
 
 #include <setjmp.h>

@@ -1,4 +1,4 @@
-/* animation_test.c - channels reach what they move, copies of it only, and within what can be. */
+/* animation_test.c - channels change their targets, in copies of those only, and within valid ranges. */
 #include "scene/animation.h"
 #include "scene/motion_test_support.h"
 
@@ -64,7 +64,7 @@ static void nodes_move_and_the_scene_stays(void **state)
     }
     assert_near(n->rotation[2], sqrt(0.5), 1e-6);
     assert_near(n->rotation[3], sqrt(0.5), 1e-6);
-    assert_ptr_equal(s.materials, scene->materials); /* nothing of those moves */
+    assert_ptr_equal(s.materials, scene->materials); /* none of those is animated */
     assert_null(s.light_copies);
     scene_state_destroy(&s);
     scene_destroy(scene);
@@ -197,7 +197,7 @@ static void lights_and_cameras_stay_possible(void **state)
     s = state_at(scene, 1.0);
     assert_near(s.lights[0].intensity, 30, 0);
     assert_near(s.lights[0].inner_cone_rad, 0.8f, 0); /* not outside of the outer one */
-    assert_near(s.cameras[0].fov_y_rad, 0.7f, 0);     /* 5 rad is no lens */
+    assert_near(s.cameras[0].fov_y_rad, 0.7f, 0);     /* 5 rad is not a field of view */
     assert_near(s.cameras[0].ortho_height, 6, 0);
     scene_state_destroy(&s);
     scene_destroy(scene);

@@ -263,7 +263,7 @@ static void the_bind_pose_gives_the_mesh(void **state)
     }
     scene_pose_destroy(&pose);
 
-    /* Joints that stand still give it to the last bit, whatever the weights' sum is rounded to. */
+    /* Joints at rest keep vertices to the last bit, however the sum of weights is rounded. */
     for (uint32_t i = 0; i <= JOINTS; i++)
         scene->nodes[i] = (scene_node){.name = "",
                                        .parent = scene->nodes[i].parent,
@@ -290,7 +290,7 @@ static void the_node_of_a_skinned_mesh_does_not_matter(void **state)
     facet_scene *scene = make_skinned(30, 4);
     scene_pose before = rest(scene);
     scene->nodes[0].translation[0] = 100;
-    scene->nodes[0].scale[1] = 0; /* singular: it would draw nothing */
+    scene->nodes[0].scale[1] = 0; /* singular: not drawn */
     scene_pose after = rest(scene);
     assert_int_equal(after.instance_count, 1);
     assert_memory_equal(before.instances[0].positions, after.instances[0].positions, 90 * sizeof(float));
@@ -413,7 +413,7 @@ static void joints_far_out_take_their_primitive_with_them(void **state)
         assert_int_equal(pose.instance_count, 0);
         assert_false(pose.has_bounds);
         scene_pose_destroy(&pose);
-        /* Node 5 is joint 0. Nobody listens to it: nothing is lost. */
+        /* Node 5 is joint 0 and moves no vertex, so that nothing is lost. */
         float *weights = (float *)(uintptr_t)scene->meshes[0].primitives[0].weights;
         const uint16_t *joints = scene->meshes[0].primitives[0].joints;
         for (uint32_t k = 0; k < 120; k++)
@@ -528,7 +528,7 @@ static void huge_weights_draw_nothing(void **state)
         assert_int_equal(pose.instance_count, 0);
         scene_pose_destroy(&pose);
     }
-    /* The same normals, but positions that stay: directions are unit whatever happens. */
+    /* The same normals with unchanged positions: directions are unit in any case. */
     memset(weights, 0, sizeof weights);
     weights[7] = FLT_MAX;
     weights[3] = -FLT_MAX;
@@ -543,7 +543,7 @@ static void huge_weights_draw_nothing(void **state)
 static void one_vertex_without_a_place_draws_nothing(void **state)
 {
     (void)state;
-    /* Both changes are infinite at one vertex, and their sum is no number, which no comparison of bounds would see. */
+    /* Both displacements are infinite at one vertex, and their sum is NaN, which a comparison of bounds would miss. */
     enum { COUNT = 9 };
     static float up[3 * COUNT], down[3 * COUNT];
     static const float weights[2] = {FLT_MAX, FLT_MAX};
@@ -563,7 +563,7 @@ static void one_vertex_without_a_place_draws_nothing(void **state)
     scene = make_skinned(30, 4);
     float *w = (float *)(uintptr_t)scene->meshes[0].primitives[0].weights;
     float *x = (float *)(uintptr_t)scene->meshes[0].primitives[0].positions;
-    w[0] = w[1] = INFINITY; /* nothing that a reader lets through */
+    w[0] = w[1] = INFINITY; /* readers reject such values */
     x[0] = 1;
     pose = rest(scene);
     assert_int_equal(pose.instance_count, 0);

@@ -306,7 +306,7 @@ static void a_whole_motion_touches_the_border(void **state)
 static void the_target_is_the_middle_of_the_motion(void **state)
 {
     (void)state;
-    /* One point that goes from (0, 0, 0) over (8, 2, 0) to (4, 0, -6). */
+    /* One point that moves from (0, 0, 0) over (8, 2, 0) to (4, 0, -6). */
     static const float times[3] = {1, 2, 4};
     static const float translations[9] = {0, 0, 0, 8, 2, 0, 4, 0, -6};
     static const float origin[3] = {0, 0, 0};

@@ -1,5 +1,5 @@
-/* framing_test.c - what counts for bounds and framing: nothing that no camera sees, no few parts far away, and of many
- * instances the same vertices as of one. */
+/* framing_test.c - bounds and framing exclude geometry that no camera sees and few distant parts; many instances give
+ * the same vertices as one. */
 #include "scene/bounds.h"
 #include "scene/motion_test_support.h"
 #include "scene/stray.h"
@@ -43,7 +43,7 @@ static void count_warning(void *user, facet_log_level level, const char *text)
     ++*(int *)user;
 }
 
-/* What is framed is what the scene without its last node shows. */
+/* The frame equals that of the scene without its last node. */
 static void expect_without_last(facet_scene *scene, int wanted_warnings)
 {
     int warnings = 0;
@@ -93,7 +93,7 @@ static void transparent_parts_do_not_count(void **state)
     }
 }
 
-/* A scene of which nothing can be seen has the bounds of all of it. */
+/* A scene without visible geometry has the bounds of all of it. */
 static void a_scene_that_is_unseen_has_bounds(void **state)
 {
     (void)state;
@@ -201,8 +201,8 @@ static void a_stray_may_be_of_the_same_mesh(void **state)
     scene_destroy(scene);
 }
 
-/* What people mean to show whole: a thing and its surroundings, equal things far apart, a thin wall with something before
- * it, a line of things. */
+/* Subjects that are meant to be shown whole: an object with its context, equal objects far apart, a thin wall with
+ * something before it, a row of objects. */
 static void ordinary_scenes_have_no_strays(void **state)
 {
     (void)state;
@@ -250,7 +250,7 @@ static void a_ground_is_not_stray(void **state)
 
 /* ---- many instances ---- */
 
-/* Nodes that share a mesh are bounded to the last bit as if each had vertices of its own. */
+/* Nodes that share a mesh have the same bounds, to the last bit, as nodes with separate vertices. */
 static void shared_vertices_are_bounded_exactly(void **state)
 {
     (void)state;

@@ -111,7 +111,7 @@ static void translated_nodes_keep_every_bit(void **state)
             }
 }
 
-/* Vertices that the file has far out, with what its floats hold, and one warning that says how much that is. */
+/* Vertices that are far out in the file keep the values of its floats, with one warning that gives their precision. */
 static void vertices_are_moved_to_their_mesh(void **state)
 {
     (void)state;
@@ -137,7 +137,7 @@ static void vertices_are_moved_to_their_mesh(void **state)
     scene_destroy(scene);
 }
 
-/* A model that is near although its parts are far: nodes take back what vertices have. */
+/* A near model with far parts: nodes cancel the offset of vertices. */
 static void distances_that_cancel_are_exact(void **state)
 {
     (void)state;
@@ -209,7 +209,7 @@ static void lights_and_cameras_go_along(void **state)
     scene_destroy(scene);
 }
 
-/* A model that rests at the origin and is elsewhere where it moves: the origin goes along, and comes back. */
+/* A model at the origin at rest, and elsewhere in motion: the origin follows, and returns. */
 static void the_origin_follows_what_is_shown(void **state)
 {
     (void)state;
@@ -239,7 +239,7 @@ static void the_origin_follows_what_is_shown(void **state)
     scene_destroy(scene);
 }
 
-/* A matrix for the world that one sees goes on meaning that. */
+/* A matrix in world coordinates keeps its meaning. */
 static void a_placed_model_has_the_origin_of_its_place(void **state)
 {
     (void)state;

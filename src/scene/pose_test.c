@@ -5,7 +5,7 @@
 #include <math.h>
 #include "tests/support/support.h"
 
-/* Corners of a triangle and a vertex that nothing uses, far out. */
+/* Corners of a triangle and an unused vertex, far out. */
 static const float POSITIONS[12] = {0, 0, 0, 1, 0, 0, 0, 2, 0, 100, 100, 100};
 static const float NORMALS[12] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
 static const uint32_t INDICES[3] = {0, 1, 2};
@@ -237,7 +237,7 @@ static void copies_stand_where_node_and_instance_put_them(void **state)
                     low[k] = fminf(low[k], corner[k]);
             }
         }
-        /* Exact, though most copies are inside of the bounds of others and are not looked at closely. */
+        /* Exact, although most copies are inside of the bounds of others and are not examined. */
         for (int k = 0; k < 3; k++)
             assert_true(pose.bounds_min[k] == low[k]);
         scene_pose_destroy(&pose);
@@ -318,7 +318,7 @@ static void what_is_below_something_hidden_is_hidden(void **state)
         assert_int_equal(pose.instances[0].node, 3); /* roots come first */
         scene_pose_destroy(&pose);
     }
-    /* An animation shows again what the file hides. */
+    /* An animation shows a node that the file hides. */
     scene->nodes[1].is_hidden = true;
     for (uint32_t i = 0; i < 2; i++) {
         scene_pose pose = test_pose_at(scene, i, 0.0, 1);

@@ -1,5 +1,5 @@
-/* tangents_test.c - tangents: unit, perpendicular, signed, independent of order; equal to those of surfaces that have a
- * formula, and to what MikkTSpace gave other tools. */
+/* tangents_test.c - tangents: unit, perpendicular, signed, independent of order; equal to those of surfaces with a
+ * formula, and to MikkTSpace in other tools. */
 #include "scene/scene_test_support.h"
 
 #include <math.h>
@@ -60,7 +60,7 @@ static void generate(grid *g)
     }
 }
 
-/* The plane z = 0; its image stands upright: v grows downwards. */
+/* The plane z = 0 with an upright image: v grows downwards. */
 static void plane(float s, float t, float position[3], float normal[3], float uv[2])
 {
     memcpy(position, (const float[3]){3 * s, 2 * t, 0}, 3 * sizeof *position);

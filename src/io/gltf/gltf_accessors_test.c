@@ -181,7 +181,7 @@ static void claims_without_data_are_bounded(void **state)
     static const char sparse[] = ",'sparse':{'count':1,'indices':{'bufferView':1,'componentType':5121},"
                                  "'values':{'bufferView':0}}";
     char body[1024];
-    /* Vertices that are all at 0, however many: nothing to draw, nothing to store. */
+    /* Any number of vertices at 0 draws nothing and takes no memory. */
     snprintf(body, sizeof body, format, 30000000u, "");
     facet_scene *scene = load(body, &bin);
     assert_int_equal(first_primitive(scene)->index_count, 0);

@@ -1,4 +1,4 @@
-/* gltf_animations_test.c - animations: keys, channels of the core, and what pointers of KHR_animation_pointer move. */
+/* gltf_animations_test.c - animations: keys, core channels, and targets of KHR_animation_pointer. */
 #include "io/gltf/gltf_test_support.h"
 
 #include <math.h>
@@ -37,7 +37,7 @@ static void channels_of_the_core_arrive(void **state)
     assert_string_equal(a->name, "a");
     assert_string_equal(a->meta.extras, "{\"k\":1}");
     assert_int_equal(a->channel_count, 4); /* the last one has no node */
-    assert_int_equal(a->sampler_count, 3); /* the last one moves nothing */
+    assert_int_equal(a->sampler_count, 3); /* the last one has no effect */
     assert_near(a->begin_s, 0, 0);
     assert_near(a->end_s, 2.5, 0);
     const scene_channel *c = a->channels;
@@ -136,7 +136,7 @@ static void keys_are_put_in_order(void **state)
     scene_destroy(scene);
 }
 
-/* What a file says that cannot move is named, and nothing moves by it. */
+/* Invalid targets are reported and not animated. */
 static void what_cannot_move_is_named(void **state)
 {
     (void)state;
@@ -348,7 +348,7 @@ static void truth_values_step(void **state)
     scene_destroy(scene);
 }
 
-/* A mesh has no pose of its own: its weights are those of each node that has none. */
+/* A mesh has no pose of its own: its weights apply to each node without weights. */
 static void weights_of_a_mesh_move_its_nodes(void **state)
 {
     (void)state;

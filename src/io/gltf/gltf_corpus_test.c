@@ -66,7 +66,7 @@ static void free_files(file_list *files)
 
 /* ---- using a scene ---- */
 
-/* Reads what a renderer would read. */
+/* Reads all data that a renderer reads. */
 static void use(const facet_scene *scene)
 {
     double sum = 0.0;

@@ -1,4 +1,4 @@
-/* gltf_deform_test.c - what deforms meshes: morph targets and their weights, joints and their weights, skins. */
+/* gltf_deform_test.c - deformation of meshes: morph targets and their weights, joints and their weights, skins. */
 #include "io/gltf/gltf_test_support.h"
 
 #include <math.h>
@@ -51,7 +51,7 @@ static void morph_targets_arrive(void **state)
     scene_destroy(scene);
 }
 
-/* Sparse changes over nothing: what most exporters write. */
+/* Sparse displacements without a base: the common form of exporters. */
 static void sparse_changes_are_zero_elsewhere(void **state)
 {
     (void)state;

@@ -1,5 +1,4 @@
-/* gltf_draco_test.c - primitives whose geometry is in a Draco bitstream: what their JSON may say, and bitstreams that
- * lie. */
+/* gltf_draco_test.c - primitives with geometry in a Draco bitstream: their JSON, and malformed bitstreams. */
 #include "io/gltf/gltf_test_support.h"
 
 #include <math.h>
@@ -117,7 +116,7 @@ static void what_does_not_fit_is_refused(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         assert_refused(make_body(bin.size, cases[i].text, cases[i].other), &bin, FACET_ERROR_INVALID,
                        cases[i].message);
-    /* both counts are less than what the bitstream has: it is not even decoded */
+    /* both counts are less than the bitstream's, which is not even decoded */
     char body[4096];
     snprintf(body, sizeof body, "%s",
              make_body(bin.size, "'count':4,'type':'VEC3'", "'count':3,'type':'VEC3'"));
@@ -128,7 +127,7 @@ static void what_does_not_fit_is_refused(void **state)
                    "has a bitstream that has 4 vertices where 3 are expected");
 }
 
-/* An attribute may be read as floats though it is stored as bytes; beside others, uncompressed. */
+/* Attributes stored as bytes may be read as floats, and may be mixed with uncompressed ones. */
 static void integers_become_floats(void **state)
 {
     (void)state;
@@ -206,7 +205,7 @@ static void other_attributes_are_read_as_usual(void **state)
                    "POSITION: accessor 0 has 3 elements, but the bitstream in buffer view 0 has 4 vertices");
 }
 
-/* Accessors are what the bitstream of the primitive makes of them, also where primitives of different ones share them. */
+/* Accessors hold the bitstream of the current primitive, even if primitives of different bitstreams share them. */
 static void accessors_may_be_shared(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* gltf_extras_test.c - what comes beside meshes and materials: variants, instances, lights that are images, metadata. */
+/* gltf_extras_test.c - variants, instances, image-based lights, metadata. */
 #include "io/gltf/gltf_test_support.h"
 
 #include <math.h>
@@ -85,7 +85,7 @@ static void instances_arrive(void **state)
         1);
 }
 
-/* A few bytes of JSON that claim a million instances take nothing: without data, all of them are the same. */
+/* A few bytes of JSON that declare a million instances take no memory: without data, all of them coincide. */
 static void instances_without_data_are_one(void **state)
 {
     (void)state;

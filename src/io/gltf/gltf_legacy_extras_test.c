@@ -1,4 +1,4 @@
-/* gltf_legacy_extras_test.c - what materials were converted from survives in the extras of a glTF file. */
+/* gltf_legacy_extras_test.c - the sources of converted materials survive in the extras of a glTF file. */
 #include "io/gltf/gltf_test_support.h"
 
 #include <stdio.h>
@@ -120,13 +120,13 @@ static void edited_materials_do_not_count(void **state)
     assert_null(scene->legacy);
     assert_true(has_warning(scene, "has no source; white is used (2 times in all)"));
     scene_destroy(scene);
-    scene = load_with(&m, "0.37000003", ""); /* one float beside */
+    scene = load_with(&m, "0.37000003", ""); /* one float off */
     assert_non_null(scene->legacy);
     scene_destroy(scene);
 }
 
-/* A picture that is not there, by the mark of who left it out or by its number, leaves the glTF material as the truth. One
- * that never was there is the old material's own affair, and so is one that no surface shows. */
+/* If an image is missing, by its mark or by its index, the glTF material is used. An image that was missing from the
+ * start, or that no surface shows, does not matter. */
 static void materials_without_their_pictures_do_not_count(void **state)
 {
     (void)state;
@@ -172,7 +172,7 @@ static void lights_and_fog_come_back(void **state)
     legacy_extras_merge("{\"a\":[1,{\"facet_legacy\":2}]}", object.data, &extras);
     const legacy_material m = make_material();
     facet_scene *scene =
-        load_with(&m, "0.1", extras.data); /* the lights count, whatever became of the materials */
+        load_with(&m, "0.1", extras.data); /* lights are restored independently of materials */
     const scene_legacy *read = scene->legacy;
     assert_non_null(read);
     assert_int_equal(read->light_count, 2);

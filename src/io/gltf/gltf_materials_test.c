@@ -72,7 +72,7 @@ static void all_members_arrive(void **state)
     scene_destroy(scene);
 }
 
-/* Every number and texture of every extension, beside one that each can stand with. */
+/* Every parameter and texture of every extension, with a compatible one. */
 static void extensions_arrive(void **state)
 {
     (void)state;
@@ -187,7 +187,7 @@ static void empty_extensions_have_their_defaults(void **state)
     scene_destroy(scene);
 }
 
-/* It replaces metallic-roughness, of which nothing is left. */
+/* It replaces metallic-roughness completely. */
 static void specular_glossiness_takes_the_place_of_the_fallback(void **state)
 {
     (void)state;

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A mesh over the vertices (i, i^2, 0) and what attributes and members are given; accessor 0 is POSITION, then come
+/* A mesh over the vertices (i, i^2, 0) with the given attributes and members; accessor 0 is POSITION, followed by
  * those of rest, over the views 1.. . */
 static facet_result try_mesh(uint32_t vertex_count, const char *attributes, const char *members,
                              test_bin *bin, const char *views, const char *rest, facet_scene **scene,
@@ -142,7 +142,7 @@ static void the_last_index_is_a_vertex_where_there_is_one(void **state)
     }
 }
 
-/* Each strip begins anew with the first triangle's winding, each fan with its own center. */
+/* Each strip restarts with the first triangle's winding, each fan with its own center. */
 static void the_last_index_restarts_where_there_is_no_vertex(void **state)
 {
     (void)state;

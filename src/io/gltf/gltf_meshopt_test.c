@@ -1,4 +1,4 @@
-/* gltf_meshopt_test.c - buffer views that meshopt compressed: what their JSON may say, and where bytes come from. */
+/* gltf_meshopt_test.c - buffer views compressed with meshopt: their JSON, and the source of their bytes. */
 #include "io/gltf/gltf_test_support.h"
 
 #include <stdio.h>
@@ -7,7 +7,8 @@
 
 static const float POSITIONS[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0.5f};
 
-/* Appends a stream of mode ATTRIBUTES, version 0, in which each group of 16 bytes is stored as it is; returns where. */
+/* Appends a stream of mode ATTRIBUTES, version 0, with each group of 16 bytes stored uncompressed; returns its
+ * offset. */
 static size_t add_attributes(test_bin *bin, const void *elements, size_t count, size_t stride, size_t *size)
 {
     uint8_t stream[2048] = {0xa0};
@@ -119,7 +120,7 @@ static void what_does_not_fit_is_refused(void **state)
                        cases[i].message);
 }
 
-/* A count that no stream of that size can have is seen before memory is taken. */
+/* A count that is impossible for the stream's size is detected before memory is allocated. */
 static void large_counts_take_no_memory(void **state)
 {
     (void)state;
@@ -161,7 +162,7 @@ static void buffers_without_bytes_are_not_drawn(void **state)
     scene_destroy(scene);
 }
 
-/* Fallbacks are for others: they are neither read nor looked for. */
+/* Fallbacks are for other readers: they are neither read nor searched for. */
 static void fallbacks_are_left_alone(void **state)
 {
     (void)state;

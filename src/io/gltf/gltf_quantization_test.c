@@ -10,7 +10,7 @@ enum { BYTE = 5120, UBYTE = 5121, SHORT = 5122, USHORT = 5123, FLOAT = 5126 };
 
 /* ---- values ---- */
 
-/* Four numbers for each of three vertices, in what every type can hold. */
+/* Four numbers for each of three vertices, representable in every type. */
 static const int NUMBERS[3][4] = {{0, 1, 2, 127}, {127, 0, 64, 127}, {3, 100, 50, 127}};
 
 static size_t component_size(int component)
@@ -118,7 +118,7 @@ static const float *find_array(const facet_scene *scene, const question *q, int 
                                : p->texcoords[0];
 }
 
-/* Whether the array holds the values of the question; normals and tangents have unit length, whatever they were. */
+/* Whether the array holds the given values; normals and tangents are normalized. */
 static void assert_values(const float *array, const question *q, int count)
 {
     const bool is_unit = !q->is_target && (q->name[0] == 'N' || q->name[1] == 'A');

@@ -72,7 +72,7 @@ facet_scene *load(const char *body, const test_bin *bin)
     return scene;
 }
 
-/* What uses the first mesh, or the first material, of a body that says nothing of nodes. */
+/* Nodes that use the first mesh, or the first material, for a body without nodes. */
 static const char *use_of(const char *body)
 {
     if (strstr(body, "'nodes'"))

@@ -35,12 +35,12 @@ bool has_warning(const facet_scene *scene, const char *text);
 bool has_note(const facet_scene *scene, const char *text);
 /* The first primitive. */
 const scene_primitive *first_primitive(const facet_scene *scene);
-/* Loads JSON text as it is, ' for ", as a .gltf. */
+/* Loads JSON text unchanged, with ' for ", as a .gltf. */
 facet_result try_load_text(const char *json, facet_scene **scene, facet_error *error);
 
 /* ---- models with arrays ---- */
 
-/* Arrays that become accessors, each with a buffer view of its own. */
+/* Arrays that become accessors, each in its own buffer view. */
 typedef struct test_model {
     test_bin bin;
     char views[4096], accessors[4096];

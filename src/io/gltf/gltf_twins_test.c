@@ -150,7 +150,7 @@ static void assert_same_meshes(const facet_scene *a, const facet_scene *b)
 
 /* ---- twins ---- */
 
-/* has_targets: morph targets are beside the bitstream, and vertices in their order. */
+/* has_targets: morph targets are outside of the bitstream, and vertices in their order. */
 static void check_sail(const char *kind, bool has_targets)
 {
     facet_scene *plain = load_sail("");

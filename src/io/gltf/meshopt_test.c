@@ -190,7 +190,7 @@ static meshopt_stream triangles(const uint8_t *bytes, size_t size, size_t count)
         .bytes = bytes, .size = size, .mode = MESHOPT_TRIANGLES, .count = 3 * count, .stride = 2};
 }
 
-/* Appendix A, mode 1: a free triangle, one on its last edge, and what refers to edges that never were. */
+/* Appendix A, mode 1: a separate triangle, one on its last edge, and references to edges that do not exist. */
 static void triangles_share_edges(void **state)
 {
     (void)state;
@@ -286,7 +286,7 @@ static void colors_of_all_precisions(void **state)
     }
 }
 
-/* No element makes a filter do what C leaves undefined, and unit vectors stay so. */
+/* No element leads to undefined behavior in C, and unit vectors stay unit. */
 static void filters_take_any_bytes(void **state)
 {
     (void)state;
@@ -310,7 +310,7 @@ static void filters_take_any_bytes(void **state)
 
 /* ---- invalid streams ---- */
 
-/* A copy without room behind it, so that a sanitizer sees what is read there. */
+/* A copy without padding, so that a sanitizer detects reads behind it. */
 static const char *decode_copy(const meshopt_stream *stream, size_t size, size_t changed, uint8_t value,
                                uint8_t *out)
 {

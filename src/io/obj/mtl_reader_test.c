@@ -294,7 +294,7 @@ static void options_are_read(void **state)
     scene_destroy(scene);
 }
 
-/* What differs from the names on the disk as people's files do; each is read, with one warning per file. */
+/* Common differences between written names and names on disk; each file is read, with one warning. */
 static void names_are_read_as_they_are_meant(void **state)
 {
     (void)state;
@@ -321,7 +321,7 @@ static void names_are_read_as_they_are_meant(void **state)
         assert_int_equal(scene->image_count, found[i] != NULL);
         if (found[i])
             assert_string_equal(scene->images[0].uri, found[i]);
-        /* A name of a web page means nothing else; any other file may be another one. */
+        /* A name with a query is unambiguous; other differences might mean another file. */
         assert_int_equal(scene->warning_count, i == 6 ? 1 : found[i] ? 2 : 3);
         scene_destroy(scene);
     }
@@ -396,7 +396,7 @@ static void textures_are_found_and_shared(void **state)
 
 /* ---- comments ---- */
 
-/* Members that no material has are not looked at, whatever they hold. */
+/* Members outside of materials are ignored, whatever they contain. */
 static void unknown_textures_stay_alone(void **state)
 {
     (void)state;
@@ -420,7 +420,8 @@ static void unknown_textures_stay_alone(void **state)
     test_folder_remove(&folder);
 }
 
-/* OBJ has one set of coordinates: what reads another one is left out, and the one that is written is called 0. */
+/* OBJ has one set of coordinates: textures that read another one are left out, and the one that is written is called
+ * 0. */
 static void one_set_of_coordinates_comes_back(void **state)
 {
     (void)state;
@@ -649,7 +650,7 @@ static void dialects_are_known_by_comments(void **state)
 
 /* ---- memory ---- */
 
-/* Whichever allocation fails, the result says so and nothing leaks. */
+/* If any allocation fails, the result reports it and nothing leaks. */
 static void memory_may_run_out(void **state)
 {
     (void)state;

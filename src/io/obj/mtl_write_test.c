@@ -278,7 +278,7 @@ static facet_scene *load_rich(test_folder *folder)
     legacy->materials = arena_alloc(scene->arena, scene->material_count, sizeof *legacy->materials);
     legacy->colors = FACET_LEGACY_COLORS_SRGB;
     legacy->dialect = FACET_MTL_DIALECT_SPEC;
-    for (uint32_t i = 0; i < scene->material_count; i++) { /* what a conversion would put there */
+    for (uint32_t i = 0; i < scene->material_count; i++) { /* as a conversion sets it */
         legacy_material *m = &legacy->materials[i];
         *m = legacy_material_default();
         m->name = scene->materials[i].name;
@@ -355,7 +355,7 @@ static void gltf_materials_come_back(void **state)
     test_folder_remove(&folder);
 }
 
-/* Once a statement says something else, the comment is no longer true. White space, and a new name, change nothing. */
+/* The comment is void once a statement differs. White space and a new name do not matter. */
 static void changed_statements_count(void **state)
 {
     (void)state;

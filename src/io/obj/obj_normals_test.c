@@ -255,7 +255,7 @@ static void test_nothing_is_poisoned(void **state)
     scene_destroy(scene);
 }
 
-/* A cone of many triangles around one point, flat enough to be smooth, and each a group of its own in turn. */
+/* A cone of many triangles around one point, flat enough to be smooth, then with a group per triangle. */
 static void test_many_at_one_position(void **state)
 {
     (void)state;

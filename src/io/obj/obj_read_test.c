@@ -111,7 +111,7 @@ static void test_ways_to_write(void **state)
         "\xef\xbb\xbfG a b  \nV 0 0 0\nV\t1\t0\t0\t\n  v +1 1. .0 \nv 0 1e0 0 # end\nF 1 2 3 4 # end",
         "g a b\nv 0 0\\\n 0\nv 1 0 0\nv 1 1 0\nv 0 1 \\\r\n0\nf 1 \\\n2 \\\n 3 4\\\n",
         "g a b\n" SQUARE "fo 1 2 3 4\nvp 0 1\n#f 1 2 3\n\n   \n",
-        "g a b\nf 1 2 3 4\n" SQUARE, /* before what it uses */
+        "g a b\nf 1 2 3 4\n" SQUARE, /* before its use */
         "g a b\n" SQUARE "f 1 1 2 3 3 4 4 1\n",
         "g a b\nv 0 0 0 1\nv 1 0 0 1\nv 1 1 0 1\nv 0 1 0 1\nf 1// 2/ 3 4\n",
         "g b\ng a b\n" SQUARE "f 1 2 3 4\ng\n",
@@ -143,7 +143,7 @@ static void test_vertices_are_shared(void **state)
     scene_destroy(scene);
 }
 
-/* A million corners at one position, each with its own texture coordinate: a table that goes by position only would take
+/* A million corners at one position, each with its own texture coordinate: a table keyed by position alone would take
  * minutes. */
 static void test_many_vertices_at_one_position(void **state)
 {
@@ -234,7 +234,7 @@ static void test_colors(void **state)
     scene_destroy(scene);
 
     scene = obj_load_text("v 0 0 0 inf 1e9 -1 1e30\nv 1 0 0 nan 0 0 -1\nv 0 1 0\nf 1 2 3\n",
-                          &linear); /* of nothing */
+                          &linear); /* a vertex that does not exist */
     assert_true(obj_only_primitive(scene)->colors[3] == 1.0f && obj_only_primitive(scene)->colors[7] == 0.0f);
     scene_destroy(scene);
 
@@ -434,7 +434,7 @@ static void test_root_and_limit(void **state)
     remove(path);
 }
 
-/* Memory that runs out at each of all calls: a result, and nothing stays. */
+/* If any allocation fails, that is the result, and nothing leaks. */
 static void test_memory_runs_out(void **state)
 {
     (void)state;

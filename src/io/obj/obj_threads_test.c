@@ -118,8 +118,8 @@ static void test_any_cuts(void **state)
     scene_destroy(expected);
 }
 
-/* One primitive that is looked at in blocks: each corner has the position, texture coordinate and normal that the file
- * gives it, and none is there twice. */
+/* One primitive that is processed in blocks: each corner has the position, texture coordinate and normal of the file,
+ * and no vertex exists twice. */
 static void test_large_primitive(void **state)
 {
     (void)state;
@@ -187,7 +187,7 @@ static void test_memory_runs_out(void **state)
     free(bytes);
 }
 
-/* Three times what the scene keeps, for a file of one large mesh. */
+/* At most three times the memory of the scene, for a file of one large mesh. */
 static void test_memory_is_bounded(void **state)
 {
     (void)state;

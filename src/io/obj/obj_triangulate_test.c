@@ -120,7 +120,7 @@ static void test_stars(void **state)
     }
 }
 
-/* There along a spiral, back beside it. */
+/* Along a spiral, and back beside it. */
 static void make_spiral(uint32_t count, double turns)
 {
     s.count = 0;
@@ -162,7 +162,7 @@ static void test_spirals_and_combs(void **state)
     }
 }
 
-/* Of so many corners that looking at each for each would take minutes. */
+/* With so many corners that examining all pairs would take minutes. */
 static void test_large_polygons(void **state)
 {
     (void)state;

@@ -140,8 +140,8 @@ static void far_scenes_are_written_in_doubles(void **state)
     test_folder_remove(&folder);
 }
 
-/* Names, transforms, mirrors, lists of every mode, numbers that go on from object to object, values that are shared,
- * vertices that nothing uses, what has no material. */
+/* Names, transforms, reflections, lists of every mode, indices that continue from object to object, shared values,
+ * unused vertices, primitives without a material. */
 static void objects_follow_one_another(void **state)
 {
     (void)state;
@@ -211,7 +211,7 @@ static void images_are_beside(void **state)
     char *taken = test_get(&folder, "taken.png");
     assert_string_equal(taken, "another program's");
     free(taken);
-    /* Found again, in spite of the spaces; the image that is there already is no input that would be replaced. */
+    /* Found again, in spite of the spaces; the existing image is not an input that would be replaced. */
     facet_scene *again = NULL;
     assert_int_equal(obj_load(path, NULL, &again, NULL), FACET_OK);
     assert_int_equal(again->image_count, 3);
@@ -381,7 +381,8 @@ static void nothing_stays_of_what_fails(void **state)
 
 /* ---- round trips ---- */
 
-/* v that came from an OBJ file, as 1 - v, comes back to the bit; others lose what 1 - v cannot hold: v_tolerance. */
+/* A v that came from an OBJ file, as 1 - v, is restored to the bit; others lose what 1 - v cannot represent:
+ * v_tolerance. */
 static void assert_same_primitive(const scene_primitive *a, const scene_primitive *b, double v_tolerance)
 {
     assert_int_equal(a->mode, b->mode);
@@ -390,7 +391,7 @@ static void assert_same_primitive(const scene_primitive *a, const scene_primitiv
     assert_int_equal(a->texcoord_count, b->texcoord_count);
     assert_int_equal(a->normals != NULL, b->normals != NULL);
     assert_int_equal(a->colors != NULL, b->colors != NULL);
-    /* Vertices may have other numbers: what counts is what the corners have. */
+    /* Vertices may be numbered differently: the values at the corners are compared. */
     for (uint32_t i = 0; i < a->index_count; i++) {
         size_t m = a->indices[i];
         size_t n = b->indices[i];

@@ -1,4 +1,4 @@
-/* ogl1_json_test.c - what rgl's parameters become: as toJSON() writes them, as people write them, and broken. */
+/* ogl1_json_test.c - rgl's parameters as toJSON() writes them, as users write them, and malformed. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -103,7 +103,7 @@ static void test_bare_parameters(void **state)
     facet_scene *scene = ogl1_load("{'material3d':{'col':'steelblue','shininess':7}}");
     ogl1_assert_color(scene->legacy->materials[0].diffuse, 0x4682B4);
     scene_destroy(scene);
-    /* toJSON(material3d()) alone, and one material where a list was meant */
+    /* toJSON(material3d()) alone, and one material in place of a list */
     scene = ogl1_load("{'color':'tomato','alpha':1,'fog':false,'size':3}");
     ogl1_assert_color(scene->legacy->materials[0].diffuse, 0xFF6347);
     assert_false(scene->legacy->materials[0].has_fog);
@@ -478,7 +478,7 @@ static void test_out_of_memory(void **state)
         assert_int_equal(failing.blocks, 0);
         if (failing.calls <= failing.fail_at) /* it was not reached */
             break;
-        if (result != FACET_OK) /* a warning may be lost for want of memory, nothing else */
+        if (result != FACET_OK) /* a warning may be lost for lack of memory, nothing else */
             assert_int_equal(result, FACET_ERROR_MEMORY);
     }
     assert_int_equal(result, FACET_OK);

@@ -34,7 +34,7 @@ static void assert_string_or_null_equal(const char *a, const char *b)
         assert_string_equal(a, b);
 }
 
-/* All that is no pointer, bit by bit. */
+/* All members except pointers, bit by bit. */
 static void assert_materials_equal(const legacy_material *a, const legacy_material *b)
 {
     legacy_material x = *a;
