@@ -31,9 +31,10 @@ static facet_result check_numbers(const facet_render_desc *d, facet_error *error
     if (!renderer_get(d->renderer) || (unsigned)d->ground > FACET_GROUND_SHADOW ||
         (unsigned)d->path.filter > FACET_FILTER_MITCHELL ||
         (unsigned)d->path.light_sampling > FACET_LIGHT_SAMPLING_LIGHTS)
-        return fail(error, FACET_ERROR_ARGUMENT,
-                    "renderer %d, ground %d, filter %d, light sampling %d; there is no such",
-                    (int)d->renderer, (int)d->ground, (int)d->path.filter, (int)d->path.light_sampling);
+        return fail(
+            error, FACET_ERROR_ARGUMENT,
+            "renderer %d, ground %d, filter %d, light sampling %d: at least one is no constant of its type",
+            (int)d->renderer, (int)d->ground, (int)d->path.filter, (int)d->path.light_sampling);
     return FACET_OK;
 }
 
@@ -44,14 +45,15 @@ static facet_result check_sea_shading(const facet_sea_shading *s, facet_error *e
     if ((unsigned)s->style > FACET_SEA_STYLE_LEGACY_INTENDED ||
         (unsigned)s->normals > FACET_SEA_NORMALS_GGX ||
         (unsigned)s->masking > FACET_SEA_MASKING_SCHLICK_KARIS || s->stage > 5)
-        return fail(error, FACET_ERROR_ARGUMENT, "look: style %d, normals %d, masking %d, stage %u; no such",
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "sea_shading: style %d, normals %d, masking %d, stage %u: at least one is out of range",
                     (int)s->style, (int)s->normals, (int)s->masking, s->stage);
     float r = s->perceptual_roughness;
     if (r != 0.0f && !(r >= 0.001f && r <= 1.0f))
-        return fail(error, FACET_ERROR_ARGUMENT, "look: a roughness of %g is not within [0.001, 1]",
+        return fail(error, FACET_ERROR_ARGUMENT, "sea_shading: a roughness of %g is not within [0.001, 1]",
                     (double)r);
     if (!(s->clamp >= 0.0f && s->clamp < INFINITY))
-        return fail(error, FACET_ERROR_ARGUMENT, "look: a clamp of %g is not 0 or more", (double)s->clamp);
+        return fail(error, FACET_ERROR_ARGUMENT, "sea_shading: clamp is %g, not 0 or more", (double)s->clamp);
     return FACET_OK;
 }
 
@@ -66,8 +68,7 @@ static facet_result resolve_sea(const renderer_row *r, facet_render_desc *d, fac
         return fail(error, FACET_ERROR_ARGUMENT,
                     "shading: OpenGL 1 has display colors, which the light of a sea cannot be added to");
     if (d->aovs & ~r->sea_aovs)
-        return fail(error, FACET_ERROR_ARGUMENT, "layers: %s draws none in a sea; path tracing does",
-                    r->name);
+        return fail(error, FACET_ERROR_ARGUMENT, "layers: %s has none in a sea; path tracing has", r->name);
     d->background = FACET_BACKGROUND_ENVIRONMENT;
     return FACET_OK;
 }
@@ -80,11 +81,10 @@ static facet_result resolve_renderer(facet_render_desc *d, facet_error *error)
     if (!d->samples)
         d->samples = r->samples[(unsigned)d->quality <= FACET_QUALITY_FINAL ? d->quality : 0];
     if (d->samples > r->max_samples)
-        return fail(error, FACET_ERROR_ARGUMENT, "samples: %u per pixel; the most are %u", d->samples,
+        return fail(error, FACET_ERROR_ARGUMENT, "samples: %u per pixel; the maximum is %u", d->samples,
                     r->max_samples);
     if (d->aovs & ~r->aovs)
-        return fail(error, FACET_ERROR_ARGUMENT,
-                    "layers: variance and samples are known to path tracing only");
+        return fail(error, FACET_ERROR_ARGUMENT, "layers: only path tracing has variance and samples");
     if (d->sea)
         TRY(resolve_sea(r, d, error));
     return r->resolve(d, error);
@@ -98,14 +98,14 @@ facet_result render_desc_resolve(const facet_render_desc *desc, facet_render_des
         out->height = 768;
     }
     if (!out->width || !out->height || out->width > MAX_IMAGE_SIZE || out->height > MAX_IMAGE_SIZE)
-        return fail(error, FACET_ERROR_ARGUMENT, "picture: %u x %u pixels; each side must be 1 to %d",
+        return fail(error, FACET_ERROR_ARGUMENT, "image: %u x %u pixels; each side must be 1 to %d",
                     out->width, out->height, MAX_IMAGE_SIZE);
     const uint32_t *crop = out->crop;
     if (crop[0] || crop[1] || crop[2] || crop[3]) {
         if (!crop[2] || !crop[3] || crop[0] >= out->width || crop[1] >= out->height ||
             crop[2] > out->width - crop[0] || crop[3] > out->height - crop[1])
             return fail(error, FACET_ERROR_ARGUMENT,
-                        "crop: %u,%u,%u,%u is not inside the picture of %u x %u pixels", crop[0], crop[1],
+                        "crop: %u,%u,%u,%u is not inside the image of %u x %u pixels", crop[0], crop[1],
                         crop[2], crop[3], out->width, out->height);
     } else {
         out->crop[2] = out->width;
@@ -113,7 +113,7 @@ facet_result render_desc_resolve(const facet_render_desc *desc, facet_render_des
     }
     if ((unsigned)out->shading > FACET_SHADING_OGL1 ||
         (unsigned)out->ogl1.variant > FACET_OGL1_VARIANT_RGL_DESKTOP)
-        return fail(error, FACET_ERROR_ARGUMENT, "shading: %d, variant %d; there is no such",
+        return fail(error, FACET_ERROR_ARGUMENT, "shading: %d, variant %d: no constants of their types",
                     (int)out->shading, (int)out->ogl1.variant);
     if ((unsigned)out->isa > FACET_ISA_AVX512)
         return fail(error, FACET_ERROR_ARGUMENT, "isa: %d is no instruction set", (int)out->isa);

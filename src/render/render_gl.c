@@ -103,7 +103,8 @@ facet_result render_gl_resolve(facet_render_desc *d, facet_error *error)
     const facet_gl_desc *gl = &d->gl;
     if ((unsigned)gl->channel >= FACET_CHANNEL_COUNT || (unsigned)gl->brdf > FACET_BRDF_MULTISCATTER ||
         (unsigned)gl->transparency > FACET_TRANSPARENCY_WEIGHTED)
-        return fail(error, FACET_ERROR_ARGUMENT, "channel %d, brdf %d, transparency %d; there is no such",
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "channel %d, brdf %d, transparency %d: at least one is no constant of its type",
                     (int)gl->channel, (int)gl->brdf, (int)gl->transparency);
     if (!(gl->bloom >= 0.0f && gl->bloom <= 1.0f))
         return fail(error, FACET_ERROR_ARGUMENT, "bloom: %g; it is a share of the light, 0 to 1",
