@@ -216,7 +216,7 @@ static void of_light_it_is_the_largest_over_exposures(void **state)
     fixture *a = fixture_create(WIDTH, HEIGHT, false), *b = fixture_create(WIDTH, HEIGHT, false);
     fixture_draw(a, 0, 0.0f);
     fixture_draw(b, 3, 0.2f);
-    for (uint32_t x = 0; x < 10; x++) { /* lamps, one of them dimmer in b */
+    for (uint32_t x = 0; x < 10; x++) { /* small lights, one of them dimmer in b */
         for (int k = 0; k < 3; k++) {
             fixture_at(a, 5 + x, 20)[k] = 40.0f;
             fixture_at(b, 5 + x, 20)[k] = 20.0f;
@@ -336,7 +336,7 @@ static void follows_the_eye(void **state)
     free(b);
 }
 
-/* Of black before nothing and nothing, only what lies behind tells. */
+/* Opaque black and full transparency differ over a bright background only. */
 static void opacity_shows_over_white(void **state)
 {
     (void)state;

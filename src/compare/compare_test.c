@@ -96,7 +96,7 @@ static void equal_images_have_no_error(void **state)
     free(b);
 }
 
-/* Percentiles against sorting, of pixels in an order that tells nothing. */
+/* Percentiles against sorting, of pixels in random order. */
 static int order(const void *a, const void *b)
 {
     const float x = *(const float *)a, y = *(const float *)b;

@@ -78,7 +78,7 @@ static void alpha_is_straight_in_files(void **state)
     }
 }
 
-/* One transparent pixel among opaque ones asks for alpha; what is transparent has no color. */
+/* A single transparent pixel makes the image RGBA; fully transparent pixels have no color. */
 static void alpha_is_there_where_it_says_something(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* meter_test.c - what is read of a film, against numbers by hand. */
+/* meter_test.c - metering of films against values computed independently. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

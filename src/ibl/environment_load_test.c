@@ -497,7 +497,7 @@ static void set_texel(image *i, uint32_t x, uint32_t y, float r, float g, float 
     p[2] = b;
 }
 
-/* What is wrong is counted by texel, told once, and replaced. */
+/* Invalid texels are counted, reported once, and replaced. */
 static void what_is_no_radiance(void **state)
 {
     (void)state;

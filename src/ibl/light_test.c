@@ -420,7 +420,7 @@ static void test_parts_are_lazy(void **state)
     ibl_light_release(light);
 }
 
-/* A level does not depend on what else was asked for, nor on the number of threads. */
+/* A level depends neither on the other parts that are prepared nor on the number of threads. */
 static void test_levels_are_equal(void **state)
 {
     (void)state;

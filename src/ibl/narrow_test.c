@@ -289,7 +289,7 @@ static void test_sizes(void **state)
 
 static float blob_middle[3];
 
-/* A Gaussian lamp of 1.2 degrees in a dim sky. */
+/* A Gaussian light of 1.2 degrees in a dim sky. */
 static void blob(const float d[3], float out[3])
 {
     float x = d[0] - blob_middle[0];
@@ -298,7 +298,7 @@ static void blob(const float d[3], float out[3])
     out[0] = out[1] = out[2] = 0.2f + 100.0f * expf((x * x + y * y + z * z) * -1100.0f);
 }
 
-/* The lobe itself around a lamp: the same at the poles, where texels are narrow, on the image's seam and elsewhere. */
+/* The lobe itself around a small light: the same at the poles, where texels are narrow, on the image's seam and elsewhere. */
 static void test_light_anywhere(void **state)
 {
     (void)state;

@@ -251,7 +251,7 @@ static void test_parts_are_lazy(void **state)
     }
     float d[3] = {0.0f, 0.6f, 0.8f};
     float inside[3], outside[3];
-    ibl_sheen(light, d, 0.36f, inside); /* past what was asked for: the nearest that there is */
+    ibl_sheen(light, d, 0.36f, inside); /* beyond the prepared levels: the nearest one */
     ibl_sheen(light, d, 1.0f, outside);
     assert_memory_equal(inside, outside, sizeof inside);
     ibl_light_release(light);

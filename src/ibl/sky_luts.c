@@ -201,7 +201,7 @@ void sky_luts_destroy(sky_luts *t)
     *t = (sky_luts){.columns = NULL};
 }
 
-/* ---- what they are asked for ---- */
+/* ---- queries ---- */
 
 void sky_atmosphere(float turbidity, const float ground_albedo[3], Atmosphere air[SKY_HALVES])
 {

@@ -89,7 +89,7 @@ static const double reference[7][14] = {
     {60, 105980, 1.151, 0.973, 0.824, 12610, 0.78, 1.00, 1.62, 3203, 2240, 2730, 6410, 6840},
     {90, 109190, 1.143, 0.974, 0.841, 13260, 0.82, 0.99, 1.60, 17500, 2980, 2970, 6600, 7050}};
 
-/* E_n to 0.5 %, as the reference asks, and its color to 0.004. */
+/* E_n to 0.5 %, as the reference requires, and its color to 0.004. */
 static void test_sun(void **state)
 {
     (void)state;
@@ -112,7 +112,7 @@ static void test_sun(void **state)
     }
 }
 
-/* E_sky and luminances to 10 %, as the reference asks: measured, 7 % at most. Colors of E_sky per Y: the reference's own
+/* E_sky and luminances to 10 %, as the reference requires: measured, 7 % at most. Colors of E_sky per Y: the reference's own
  * are good to 3 % each, and differ by up to 5 % from a smooth curve over the sun's elevation: 7 %. */
 static void test_sky(void **state)
 {

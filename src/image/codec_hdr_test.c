@@ -30,7 +30,7 @@ static const float *texel(const image *i, uint32_t x, uint32_t y)
     return (const float *)i->pixels + 3 * ((size_t)y * i->width + x);
 }
 
-/* m / 256 2^(e - 128) by hand. */
+/* m / 256 2^(e - 128), computed independently. */
 static void flat_texels(void **state)
 {
     (void)state;

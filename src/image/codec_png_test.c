@@ -109,7 +109,7 @@ static void bytes_do_not_depend_on_threads(void **state)
     image_destroy(&i);
 }
 
-/* 8 bits as asked: alpha from tRNS or 255, grey spread. */
+/* 8 bits with requested channels: alpha from tRNS or 255, grey spread to RGB. */
 static void channel_counts_as_asked(void **state)
 {
     (void)state;

@@ -109,7 +109,7 @@ static void texels_without_compression(void **state)
     }
 }
 
-/* What is no number, for who asks for it; and what infinity stands for otherwise. */
+/* NaN and infinity are kept on request; otherwise infinity is replaced. */
 static void what_is_not_finite_can_stay(void **state)
 {
     (void)state;
@@ -421,7 +421,7 @@ static void what_is_refused(void **state)
         unsigned char saved[4];
         memcpy(saved, bytes + cases[k].offset, 4);
         store_u32_le(bytes + cases[k].offset, cases[k].value);
-        failing_allocator counter = {.fail_at = 0}; /* refused before memory is asked for */
+        failing_allocator counter = {.fail_at = 0}; /* refused before memory is allocated */
         image_decode_desc desc = {.allocator = failing_allocator_get(&counter)};
         image i;
         facet_error error = {0};
