@@ -1,4 +1,4 @@
-/* ocean_report.c - see ocean_report.h. */
+/* ocean_report.c - see ocean_run.h: the sea as text and as JSON. */
 #include "cli/ocean/ocean_run.h"
 
 #include <math.h>
