@@ -28,7 +28,7 @@ empty "it is seen from behind" tri.gltf --orbit 180 --ortho
 empty "it is flat and seen edge-on" tri.gltf --orbit 90,90
 empty "it is behind the camera" tri.gltf --eye 0.3,0.3,3 --target 0.3,0.3,9
 empty "it is outside the image" tri.gltf --eye 0.3,0.3,3 --target 9,0.3,1
-empty "it is outside of the part of the image that --crop names" tri.gltf --crop 28,0,4,4
+empty "it is outside the part of the image that --crop names" tri.gltf --crop 28,0,4,4
 empty "it is smaller than a pixel" tri.gltf --orbit 0,90,50000m
 empty "the nodes that have a mesh are scaled to 0" scale.gltf
 empty "its opacity is 0" clear.gltf
