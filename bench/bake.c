@@ -20,7 +20,7 @@
 #include "facet/facet.h"
 #include "median.h"
 
-enum { MOST_RUNS = 101, SAMPLES = 1024 };
+enum { MAX_RUNS = 101, SAMPLES = 1024 };
 
 static const double pi = 3.14159265358979323846;
 
@@ -35,7 +35,7 @@ static void check(facet_result result, const facet_error *error)
 /* ---- runs ---- */
 
 typedef struct timing {
-    double wall[MOST_RUNS], cpu[MOST_RUNS], bytes[MOST_RUNS];
+    double wall[MAX_RUNS], cpu[MAX_RUNS], bytes[MAX_RUNS];
     int count;
 } timing;
 
@@ -428,7 +428,7 @@ int main(int argc, char **argv)
         else
             return 2;
     }
-    runs = runs < 1 ? 1 : runs < MOST_RUNS ? runs : MOST_RUNS;
+    runs = runs < 1 ? 1 : runs < MAX_RUNS ? runs : MAX_RUNS;
     const char *path = optind < argc ? argv[optind] : NULL;
     facet_environment *environment = NULL;
     facet_error error;

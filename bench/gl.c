@@ -23,7 +23,7 @@
 #include "gl/scene/gl_renderer.h"
 #include "median.h"
 
-enum { MOST_FRAMES = 10000, UNTIMED_FRAMES = 5 };
+enum { MAX_FRAMES = 10000, UNTIMED_FRAMES = 5 };
 
 static struct {
     uint32_t frames, width, height, samples;
@@ -31,7 +31,7 @@ static struct {
     const char *model;
 } options = {.frames = 50, .width = 1920, .height = 1080, .samples = 4};
 
-static double passes[GL_TIMER_COUNT][MOST_FRAMES];
+static double passes[GL_TIMER_COUNT][MAX_FRAMES];
 
 static void check(facet_result result, const facet_error *error)
 {
@@ -48,7 +48,7 @@ static void read_options(int argc, char **argv)
         switch (option) {
         case 'n':
             options.frames = (uint32_t)atoi(optarg);
-            is_good = options.frames >= 1 && options.frames <= MOST_FRAMES;
+            is_good = options.frames >= 1 && options.frames <= MAX_FRAMES;
             break;
         case 's':
             is_good = sscanf(optarg, "%ux%u", &options.width, &options.height) == 2;

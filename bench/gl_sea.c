@@ -23,7 +23,7 @@
 #include "ocean/sea.h"
 #include "water/water_frame.h"
 
-enum { MOST_FRAMES = 1000, UNTIMED_FRAMES = 2, LOOKS = 2 };
+enum { MAX_FRAMES = 1000, UNTIMED_FRAMES = 2, LOOKS = 2 };
 typedef enum part { WAVES, LIGHT, UPLOAD, DRAW, FRAME, DRAW_PROCESSOR, PROCESSOR, PART_COUNT } part;
 
 static struct {
@@ -32,7 +32,7 @@ static struct {
     bool is_es;
 } options = {.frames = 20, .width = 640, .height = 360, .preset = "trade-wind"};
 
-static double times[LOOKS][PART_COUNT][MOST_FRAMES];
+static double times[LOOKS][PART_COUNT][MAX_FRAMES];
 
 static void check(facet_result result, const facet_error *error)
 {
@@ -49,7 +49,7 @@ static void read_options(int argc, char **argv)
         switch (option) {
         case 'n':
             options.frames = (uint32_t)atoi(optarg);
-            is_good = options.frames >= 1 && options.frames <= MOST_FRAMES;
+            is_good = options.frames >= 1 && options.frames <= MAX_FRAMES;
             break;
         case 's':
             is_good = sscanf(optarg, "%ux%u", &options.width, &options.height) == 2;

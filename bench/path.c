@@ -21,7 +21,7 @@
 #include "path/path_scene.h"
 #include "path_rays.h"
 
-enum { MOST_RUNS = 100, SAMPLES = 4, TILE = 16, DEPTH = 64 };
+enum { MAX_RUNS = 100, SAMPLES = 4, TILE = 16, DEPTH = 64 };
 
 /* An image ready to be sampled. */
 typedef struct picture {
@@ -124,7 +124,7 @@ static double draw(picture *p, uint32_t thread_count)
 static void time_rays(const picture *p, rays_kind kind, int runs, uint32_t threads, double seconds[3],
                       uint64_t hits[3])
 {
-    static double times[3][MOST_RUNS];
+    static double times[3][MAX_RUNS];
     for (int i = 0; i < runs; i++) {
         const shading_scene *scene = &p->setup.shading;
         rays_result results[3] = {rays_trace_facet(scene, kind, threads),
@@ -176,8 +176,8 @@ static void measure(const char *model, const char *light, uint32_t size, int run
     picture p = {.counts_processors = counts_processors};
     rays_count_processors(counts_processors);
     prepare(&p, model, light, size);
-    double one[MOST_RUNS];
-    double two[MOST_RUNS];
+    double one[MAX_RUNS];
+    double two[MAX_RUNS];
     double paths = (double)size * size * SAMPLES;
     rays_record((size_t)paths * 8);
     draw(&p, 1);
@@ -218,7 +218,7 @@ int main(int argc, char **argv)
         else
             size = (uint32_t)atoi(argv[first + 1]) / TILE * TILE;
     }
-    if (first >= argc || runs < 1 || runs > MOST_RUNS || size == 0) {
+    if (first >= argc || runs < 1 || runs > MAX_RUNS || size == 0) {
         fprintf(stderr, "usage: path [-c 1] [-n RUNS] [-s SIZE] MODEL[,LIGHT.hdr] ...\n");
         return 2;
     }

@@ -211,7 +211,7 @@ static void test_albedo(void **state)
 }
 
 /* Total specular albedo at N.V .5, roughness .75 for metals of four F0: single scattering and five
- * compensations (section 16.7 of the reference). */
+ * compensations. */
 static void test_multiscatter(void **state)
 {
     (void)state;

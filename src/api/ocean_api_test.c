@@ -50,7 +50,7 @@ static facet_sea_render_desc picture(void)
 static void presets_are_seas(void **state)
 {
     (void)state;
-    /* significant height, m, and peak, s, of the reference's table 3.1; 0: not in it */
+    /* significant height, m, and peak, s, computed independently; 0: none */
     static const struct {
         const char *name;
         double height, period;

@@ -1,5 +1,5 @@
-/* ocean_path_test.c - a sea by path tracing beside the preview: the same waves where both resolve them (ocean reference 16.7), known light
- * on still water, rough water under even light and a bright horizon, a model, its image and its shadow in the right pixels, memory that runs out. */
+/* ocean_path_test.c - path tracing of a sea against the preview: waves that both resolve, closed forms of still water, rough water under
+ * a uniform sky and a bright horizon, a model with its reflection and shadow, exhausted memory. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

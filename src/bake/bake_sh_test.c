@@ -74,7 +74,7 @@ static void test_constant(void **state)
     facet_environment_destroy(e);
 }
 
-/* Golden numbers: reference/shading-model.md 16.9, by quadrature. */
+/* Golden numbers by independent quadrature. */
 static void test_cosine_lobe(void **state)
 {
     (void)state;

@@ -13,7 +13,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* The table of reference/shading-model.md 7.2. */
+/* Face directions of cube maps (OpenGL 4.6, table 8.19). */
 static void test_directions(void **state)
 {
     (void)state;

@@ -12,7 +12,7 @@
 
 #include "shade/shade.h"
 
-/* reference/shading-model.md 16.2 to 16.5: tanh-sinh quadrature in long double, 10 digits. Rows of roughness, columns of
+/* Tanh-sinh quadrature in long double, 10 digits. Rows of roughness, columns of
  * N.V. */
 static const double roughness[5] = {0.1, 0.25, 0.5, 0.75, 1.0};
 static const double cosine[5] = {0.05, 0.25, 0.5, 0.75, 1.0};

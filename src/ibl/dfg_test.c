@@ -14,7 +14,7 @@
 
 #include "shade/shade.h"
 
-/* reference/shading-model.md 16.2: A and B by tanh-sinh quadrature in long double. */
+/* A and B by tanh-sinh quadrature in long double. */
 static const double roughness[5] = {0.1, 0.25, 0.5, 0.75, 1.0};
 static const double NdotV[5] = {0.05, 0.25, 0.5, 0.75, 1.0};
 static const double golden_A[5][5] = {{0.2425478450, 0.7629295323, 0.9683388499, 0.9988543917, 0.9998984689},
@@ -159,7 +159,7 @@ static void test_sheen_average(void **state)
     }
 }
 
-/* Rough glass against reference 16.6b: R and T by quadrature, R + T the node-free number of the table. */
+/* Rough glass: R and T by quadrature, R + T the node-free number of the table. */
 static void test_glass_golden_numbers(void **state)
 {
     (void)state;

@@ -56,7 +56,7 @@ static void test_constant_is_pi(void **state)
     image_destroy(&i);
 }
 
-/* Clamped cosine around z: reference/shading-model.md 16.9, independent quadrature. */
+/* Clamped cosine around z, by independent quadrature. */
 static void test_golden_numbers(void **state)
 {
     (void)state;

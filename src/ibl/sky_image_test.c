@@ -137,8 +137,7 @@ static void test_disc_in_sky(void **state)
         sky.omits_disc = true;
         facet_environment *without = create(sky);
         double sun = illuminance(&with->panorama, n) - illuminance(&without->panorama, n);
-        assert_true(sun > 80000.0 &&
-                    sun < 96000.0); /* 90 to 100 klx above a sea (section 13.3), and more haze here */
+        assert_true(sun > 80000.0 && sun < 96000.0); /* 90 to 100 klx above a sea; this sky is hazier */
         facet_environment_destroy(with);
         facet_environment_destroy(without);
     }

@@ -1,5 +1,5 @@
-/* sky_test.c - the atmosphere beside the reference (shared/reference/ocean.md, section 13.3), a spectrum of 10 nm steps, and photons
- * followed one by one. */
+/* sky_test.c - the atmosphere against illuminances at sea level, a spectral computation in 10 nm steps, and Monte Carlo photon
+ * tracing. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

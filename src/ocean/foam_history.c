@@ -14,8 +14,8 @@
 static const double TWO_PI = 6.28318530717958647693;
 static const double DECAYS = 5.0;         /* e^-5 is invisible */
 static const double STEPS_PER_WAVE = 8.0; /* per period of the shortest wave in the longest tile */
-static const size_t MOST_KEPT = 64u << 20;
-enum { MOST_STEPS = 96, CHANCES = 1024 };
+static const size_t MAX_KEPT = 64u << 20;
+enum { MAX_STEPS = 96, CHANCES = 1024 };
 
 /* Probability that the convergence of all waves exceeds the threshold, given the convergence q of the longest
  * tile: a LUT over [-threshold, 2 threshold]. */
@@ -120,8 +120,8 @@ static const foam_pair *find_pair(foam_history *h, const waves *w, int64_t numbe
 
 /* Planes and their fade factors. */
 typedef struct gathering {
-    const float *planes[MOST_STEPS];
-    float fades[MOST_STEPS];
+    const float *planes[MAX_STEPS];
+    float fades[MAX_STEPS];
     uint32_t count;
     float *past;
 } gathering;
@@ -225,14 +225,14 @@ static bool allocate(foam_history *h, const waves *w)
 static void choose_times(foam_history *h, const waves *w)
 {
     double omega = wave_omega(w->tiles[0].k_to, w->state.depth_m);
-    h->step_s = fmax(TWO_PI / (omega * STEPS_PER_WAVE), DECAYS * h->decay_s / MOST_STEPS);
+    h->step_s = fmax(TWO_PI / (omega * STEPS_PER_WAVE), DECAYS * h->decay_s / MAX_STEPS);
     if (w->loop_s > 0.0) /* a whole number of steps per loop */
         h->step_s = (double)w->loop_s / ceil((double)w->loop_s / h->step_s);
     h->count = (uint32_t)ceil(DECAYS * h->decay_s / h->step_s);
-    h->count = h->count < MOST_STEPS ? h->count : MOST_STEPS;
+    h->count = h->count < MAX_STEPS ? h->count : MAX_STEPS;
     size_t pair_bytes = 2 * (size_t)h->size * h->size * sizeof(float);
     h->pair_count = h->count / 2 + 1;
-    if (h->pair_count > MOST_KEPT / pair_bytes)
+    if (h->pair_count > MAX_KEPT / pair_bytes)
         h->pair_count = 1;
 }
 

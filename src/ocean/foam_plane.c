@@ -47,7 +47,7 @@ static float clouds(float u, float v, uint32_t cells, uint32_t octaves, float fa
 /* ---- fields ---- */
 
 /* Cell centers: positions in their lattice square, and an offset by which each counts as nearer. */
-enum { MOST_CELLS = (1 << (WAVES_MAX_LEVELS - 1)) / FOAM_CELL_SAMPLES };
+enum { MAX_CELLS = (1 << (WAVES_MAX_LEVELS - 1)) / FOAM_CELL_SAMPLES };
 typedef struct middle {
     float x, z, nearer;
 } middle;
@@ -56,7 +56,7 @@ typedef struct drawing {
     foam_plane *plane;
     bool is_cells;
     uint32_t cells; /* along an edge */
-    middle middles[MOST_CELLS * MOST_CELLS];
+    middle middles[MAX_CELLS * MAX_CELLS];
 } drawing;
 
 static void place_middles(drawing *d)

@@ -11,7 +11,7 @@
 enum { DEFAULT_SAMPLES = 512, MAX_SAMPLES = 4096 };
 static const double FLAT_SIZE_M = 100.0;
 static const float DEEP_THICKNESS_M = 10.0f;     /* for viewers that do not trace light to the bed */
-static const double DIFFUSE_REFLECTANCE = 0.067; /* of the surface, from above: ocean reference, n = 1.34 */
+static const double DIFFUSE_REFLECTANCE = 0.067; /* of the surface, from above, n = 1.34 */
 
 typedef struct sheet {
     const facet_sea *sea;

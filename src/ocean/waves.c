@@ -10,7 +10,7 @@
 #include "ocean/wave_transform.h"
 
 /* Folded water has no slope; a smaller share of its area is clamped to this. */
-static const float LEAST_JACOBIAN = 0.02f;
+static const float MIN_JACOBIAN = 0.02f;
 
 /* ---- memory ---- */
 
@@ -102,7 +102,7 @@ static inline float larger(float a, float b) /* NaN does not occur, and fmaxf() 
 static inline float texel_slope(const float *t)
 {
     float a = t[WAVE_DXZ], b = 1.0f + t[WAVE_DZZ], c = 1.0f + t[WAVE_DXX];
-    float J = larger(b * c - a * a, LEAST_JACOBIAN);
+    float J = larger(b * c - a * a, MIN_JACOBIAN);
     float x = b * t[WAVE_ETA_X] - a * t[WAVE_ETA_Z], z = c * t[WAVE_ETA_Z] - a * t[WAVE_ETA_X];
     return (x * x + z * z) / (J * J);
 }

@@ -19,9 +19,9 @@ double foam_decay_s(double salinity)
  * needed. count: of groups of eight. */
 static void scale_share(float *share, size_t count, double mean)
 {
-    enum { MOST_STEPS = 50, LANES = 8 }; /* parallel sums in a machine-independent order */
+    enum { MAX_STEPS = 50, LANES = 8 }; /* parallel sums in a machine-independent order */
     double factor = 0.0, wanted = mean * (double)count;
-    for (int step = 0; step < MOST_STEPS; step++) {
+    for (int step = 0; step < MAX_STEPS; step++) {
         double sums[LANES] = {0.0}, slopes[LANES] = {0.0}, sum = 0.0, slope = 0.0;
         for (size_t i = 0; i + LANES <= count; i += LANES)
             for (size_t k = 0; k < LANES; k++) {

@@ -275,10 +275,10 @@ static inline void guess_rest(const waves_reading *r, float displacement[2])
  * water it cycles; halved steps end that. */
 static inline float find_rest(const waves_reading *r, float footprint_m, float displacement[2])
 {
-    enum { FULL_STEPS = 6, MOST_STEPS = 12 };
+    enum { FULL_STEPS = 6, MAX_STEPS = 12 };
     float close = fmaxf(0.02f * footprint_m, 2e-4f);
     heave h = {0.0f, 0.0f, 0.0f};
-    for (int i = 0; i < MOST_STEPS; i++) {
+    for (int i = 0; i < MAX_STEPS; i++) {
         h = heave_from(r, r->count, displacement);
         float dx = h.x - displacement[0], dz = h.z - displacement[1];
         float share = i < FULL_STEPS ? 1.0f : 0.5f;

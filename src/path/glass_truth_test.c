@@ -224,8 +224,8 @@ static void overlap_is_the_same_from_both_sides(void **state)
 
 /* ---- rough boundaries ---- */
 
-/* Reflection at one boundary alone: what goes in is absorbed at once. By one event it is R and T of
- * reference 16.6b (quadrature of exact Fresnel, D and the correlated G2); what is scattered more often is
+/* Reflection at one boundary alone: what goes in is absorbed at once. By one event it is R and T by
+ * quadrature of exact Fresnel, D and the correlated G2; what is scattered more often is
  * shared out in proportion, so that R / (R + T) comes back, as far as tables know it: TRUTH_TABLES of it. */
 static void a_rough_boundary_reflects(void **state)
 {

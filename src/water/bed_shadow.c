@@ -15,8 +15,8 @@
 
 #include "water/shadow_points.h"
 
-static const float LEAST_SEEN = 0.002f; /* share of the light above the water that returns from the bed */
-static const float WIDEST = 1.13f;      /* tangent of the angle of total reflection: half of Snell's window */
+static const float MIN_SEEN = 0.002f; /* share of the light above the water that returns from the bed */
+static const float WIDEST = 1.13f;    /* tangent of the angle of total reflection: half of Snell's window */
 static const float SKY_ROUGHNESS = 0.4f; /* perceptual, of a lobe as wide as a ray's solid angle */
 /* Spread of light that the surface reflects back to the bed, relative to the depth. */
 static const float RETURNED_WIDTH = 2.2f;
@@ -307,7 +307,7 @@ static void choose_rectangle(const water_setup *s, float depth, bed_shadow *b)
 static bool is_worth_it(const water_setup *s, float depth)
 {
     vec3 left = water_transmittance(water_K_d(s->water) + water_diffuse(s->water), depth);
-    return max(max(left[0], left[1]), left[2]) > LEAST_SEEN;
+    return max(max(left[0], left[1]), left[2]) > MIN_SEEN;
 }
 
 facet_result bed_shadow_of_picture(const struct water_setup *s, bed_shadow *out, facet_error *error)

@@ -6,10 +6,10 @@
 #include "water/caustic_plan.h"
 #include "water/water_caustics.h"
 
-enum { RAYS = 24, MOST_SEEN = RAYS * RAYS };
+enum { RAYS = 24, MAX_SEEN = RAYS * RAYS };
 
 /* Contrast of the bed's light below which caustics on it are invisible. */
-static const float LEAST_SEEN = 0.002f;
+static const float MIN_SEEN = 0.002f;
 
 /* A point of the bed. */
 typedef struct seen_place {
@@ -22,7 +22,7 @@ typedef struct view {
     const water_setup *s;
     caustic_source source;
     float axis[2];
-    seen_place places[MOST_SEEN]; /* the nearest first */
+    seen_place places[MAX_SEEN]; /* the nearest first */
     uint32_t count;
     float depth_m; /* at the first */
 } view;
@@ -108,7 +108,7 @@ static void look_around(view *v)
 {
     const water_setup *s = v->s;
     const facet_render_desc *r = s->desc;
-    for (uint32_t i = 0; i < MOST_SEEN; i++) {
+    for (uint32_t i = 0; i < MAX_SEEN; i++) {
         float x = (float)(i % RAYS) / (RAYS - 1) * (float)r->width;
         float y = (float)(i / RAYS) / (RAYS - 1) * (float)r->height;
         seen_place *place = &v->places[v->count];
@@ -137,7 +137,7 @@ static bool is_worth_it(const view *v)
     vec3 left = water_focused(s->water, water_bed_albedo(&s->sea->desc.bed), s->light.downwelling, s->beam,
                               s->sunward[1], depth) *
                 water_transmittance(water_beam(s->water), depth);
-    return max(max(left[0], left[1]), left[2]) > LEAST_SEEN;
+    return max(max(left[0], left[1]), left[2]) > MIN_SEEN;
 }
 
 /* ---- layers ---- */

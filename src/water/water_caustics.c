@@ -17,9 +17,9 @@ enum {
     POINTS_PER_NODE = 4, /* along each axis */
     BAND = 64,           /* rows of a layer that are filled together */
     BANDS = CAUSTIC_SIZE / BAND,
-    MOST_MARGIN = CAUSTIC_SIZE / TEXELS_PER_NODE / 2, /* nodes */
-    MOST_NODES = CAUSTIC_SIZE / TEXELS_PER_NODE + 2 * MOST_MARGIN + 3,
-    MOST_REACH = 8 /* nodes */
+    MAX_MARGIN = CAUSTIC_SIZE / TEXELS_PER_NODE / 2, /* nodes */
+    MAX_NODES = CAUSTIC_SIZE / TEXELS_PER_NODE + 2 * MAX_MARGIN + 3,
+    MAX_REACH = 8 /* nodes */
 };
 
 /* Landing position of each node's light, in texels from the layer's corner, and its weight: planes of count x
@@ -195,7 +195,7 @@ static void shade_rows(void *context, size_t begin, size_t end)
 static int32_t reach_of(const caustic_source *s, float spacing_m)
 {
     float above = max(s->model->prepared.pose.bounds_max[1], 0.0f), sine = max(s->L[1], 0.01f);
-    return 1 + (int32_t)fminf(ceilf(SUN_RADIUS * above / (sine * sine * spacing_m)), MOST_REACH - 1);
+    return 1 + (int32_t)fminf(ceilf(SUN_RADIUS * above / (sine * sine * spacing_m)), MAX_REACH - 1);
 }
 
 /* ---- all nodes ---- */
@@ -295,7 +295,7 @@ static void lay_points(float *texels, int first, const float *u, const float *v,
 /* All points between the nodes' rows row + 1 and row + 2. */
 static void lay_row(const making *m, const nodes *n, size_t row, float *texels, int first)
 {
-    float between[3][MOST_NODES], points[3][MOST_NODES], cubic[4], linear[4];
+    float between[3][MAX_NODES], points[3][MAX_NODES], cubic[4], linear[4];
     const float *planes[3] = {n->u, n->v, n->weight};
     const float *weights[3] = {cubic, cubic, linear};
     for (int j = 0; j < POINTS_PER_NODE; j++) {
@@ -342,16 +342,16 @@ static void fill_bands(void *context, size_t begin, size_t end)
 
 /* ---- blur ---- */
 
-enum { MOST_RADIUS = 16 };
+enum { MAX_RADIUS = 16 };
 
 /* Gaussian weights of a standard deviation (texels) beside the center's; returns their number. */
-static int gaussian(float sigma, float w[MOST_RADIUS + 1])
+static int gaussian(float sigma, float w[MAX_RADIUS + 1])
 {
     if (sigma < 0.05f) {
         w[0] = 1.0f;
         return 0;
     }
-    int radius = (int)fminf(ceilf(3.0f * sigma), MOST_RADIUS);
+    int radius = (int)fminf(ceilf(3.0f * sigma), MAX_RADIUS);
     double sum = 0.0;
     for (int i = 0; i <= radius; i++) {
         w[i] = (expf)(-0.5f * (float)(i * i) / (sigma * sigma));
@@ -374,16 +374,16 @@ static void blur_rows(void *context, size_t begin, size_t end)
     for (size_t item = begin; item < end; item++) {
         size_t l = item / CAUSTIC_SIZE, row = item % CAUSTIC_SIZE;
         const float *from = m->map->layers[l].mips[0] + row * CAUSTIC_SIZE;
-        float *to = m->scratch[l] + row * CAUSTIC_SIZE, w[MOST_RADIUS + 1];
+        float *to = m->scratch[l] + row * CAUSTIC_SIZE, w[MAX_RADIUS + 1];
         int radius = gaussian(m->plans[l].sigma_m[0] / m->plans[l].texel_m, w);
-        float padded[CAUSTIC_SIZE + 2 * MOST_RADIUS];
+        float padded[CAUSTIC_SIZE + 2 * MAX_RADIUS];
         for (int i = -radius; i < CAUSTIC_SIZE + radius; i++)
-            padded[MOST_RADIUS + i] = from[inside(i)];
+            padded[MAX_RADIUS + i] = from[inside(i)];
         for (int i = 0; i < CAUSTIC_SIZE; i++)
-            to[i] = w[0] * padded[MOST_RADIUS + i];
+            to[i] = w[0] * padded[MAX_RADIUS + i];
         for (int k = 1; k <= radius; k++)
             for (int i = 0; i < CAUSTIC_SIZE; i++)
-                to[i] += w[k] * (padded[MOST_RADIUS + i - k] + padded[MOST_RADIUS + i + k]);
+                to[i] += w[k] * (padded[MAX_RADIUS + i - k] + padded[MAX_RADIUS + i + k]);
     }
 }
 
@@ -394,7 +394,7 @@ static void blur_columns(void *context, size_t begin, size_t end)
     for (size_t item = begin; item < end; item++) {
         size_t l = item / CAUSTIC_SIZE;
         int row = (int)(item % CAUSTIC_SIZE);
-        float *to = m->map->layers[l].mips[0] + (ptrdiff_t)row * CAUSTIC_SIZE, w[MOST_RADIUS + 1];
+        float *to = m->map->layers[l].mips[0] + (ptrdiff_t)row * CAUSTIC_SIZE, w[MAX_RADIUS + 1];
         int radius = gaussian(m->plans[l].sigma_m[1] / m->plans[l].texel_m, w);
         for (int i = 0; i < CAUSTIC_SIZE; i++)
             to[i] = w[0] * m->scratch[l][row * CAUSTIC_SIZE + i];
@@ -415,7 +415,7 @@ static facet_result take_memory(making *m, facet_error *error)
     for (uint32_t l = 0; l < CAUSTIC_LAYERS; l++) {
         nodes *n = &m->nodes[l];
         float spacing = TEXELS_PER_NODE * m->plans[l].texel_m;
-        n->margin = (int32_t)fminf(ceilf(m->plans[l].margin_m / spacing) + 1.0f, MOST_MARGIN);
+        n->margin = (int32_t)fminf(ceilf(m->plans[l].margin_m / spacing) + 1.0f, MAX_MARGIN);
         n->count = CAUSTIC_SIZE / TEXELS_PER_NODE + 2 * (size_t)n->margin + 3;
         size_t plane = n->count * n->count, floats = (m->source->model ? 6 : 3) * plane + 2 * n->count;
         n->u = mem_alloc(allocator, floats, sizeof(float));
@@ -449,12 +449,12 @@ static double mean_light(const nodes *n)
 static void fill(making *m)
 {
     uint32_t threads = m->source->thread_count;
-    parallel_for(threads, (size_t)MOST_NODES * CAUSTIC_LAYERS, 8, trace_rows, m);
+    parallel_for(threads, (size_t)MAX_NODES * CAUSTIC_LAYERS, 8, trace_rows, m);
     double mean = mean_light(&m->nodes[CAUSTIC_LAYERS - 1]);
     if (!(mean > 0.0))
         return;
     if (m->source->model)
-        parallel_for(threads, (size_t)MOST_NODES * CAUSTIC_LAYERS, 8, shade_rows, m);
+        parallel_for(threads, (size_t)MAX_NODES * CAUSTIC_LAYERS, 8, shade_rows, m);
     const float points = (float)POINTS_PER_NODE / TEXELS_PER_NODE; /* per texel, along each axis */
     m->per_point = (float)(1.0 / (mean * (double)(points * points)));
     parallel_for(threads, (size_t)CAUSTIC_LAYERS * BANDS, 1, fill_bands, m);

@@ -4,8 +4,8 @@
 #include "water/water_find.h"
 
 static const float FACETS_PER_PIXEL = 64.0f;
-static const float LEAST_FACETS = 1e-3f; /* a share of microfacets that is not worth a ray */
-static const float SMOOTH = 1e-3f;       /* slopes that deflect a reflection by less than a pixel */
+static const float MIN_FACETS = 1e-3f; /* a share of microfacets that is not worth a ray */
+static const float SMOOTH = 1e-3f;     /* slopes that deflect a reflection by less than a pixel */
 
 /* The shaded point of the surface. */
 typedef struct looking {
@@ -53,7 +53,7 @@ static void look_into_facets(const looking *l, FacetRange r, vec3 N, vec3 smooth
 {
     double P[3];
     start_of(l->place, up_m, P);
-    if (facets_share(r) < LEAST_FACETS)
+    if (facets_share(r) < MIN_FACETS)
         return;
     if (max(r.along, r.across) < SMOOTH) {
         look(l, (Facet){smooth, 1.0f}, P, found);

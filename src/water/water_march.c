@@ -4,7 +4,7 @@
 #include <math.h>
 
 static const double EARTH_RADIUS_M = 6360000.0;
-enum { MOST_STEPS = 1000, REFINEMENTS = 24 };
+enum { MAX_STEPS = 1000, REFINEMENTS = 24 };
 
 water_march water_march_of(const waves *w, const slope_filter *slopes, bool is_round)
 {
@@ -145,7 +145,7 @@ static bool march_waves(march *s)
     wave_bounds all = waves_bounds(s->m->waves, width_at(r, r->near_m));
     double t = water_march_reach(s->m, r, (double)(r->is_below ? all.lowest : all.highest), r->near_m);
     double before = t, f_before = 0.0, reach = 0.0; /* previous position, its clearance, its safe step */
-    for (int step = 0; step < MOST_STEPS && t <= r->far_m && t < HUGE_VAL; step++) {
+    for (int step = 0; step < MAX_STEPS && t <= r->far_m && t < HUGE_VAL; step++) {
         look_around(s, t);
         if (is_away(s, t))
             return false;

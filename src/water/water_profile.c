@@ -11,7 +11,7 @@
 static const double STEEPEST_LEVEL = 0.2;
 static const double FINE_PIXELS = 1.0, COARSE_PIXELS = 4.0; /* between columns; between samples */
 static const double LONGEST_M = 1e5, SHORTEST_M = 0.02;
-static const double MOST_SAMPLES = 4e6;
+static const double MAX_SAMPLES = 4e6;
 static const double PI_D = 3.14159265358979323846;
 enum { PROBES = 33 };
 
@@ -126,7 +126,7 @@ static void lay_out(filling *f, double half, const double distances[2])
     water_profile *p = f->p;
     double ratio = log(distances[1] / distances[0]), coarse = COARSE_PIXELS * f->pixel_rad;
     double samples = 2.0 * half / coarse * ratio / coarse;
-    coarse *= samples > MOST_SAMPLES ? sqrt(samples / MOST_SAMPLES) : 1.0;
+    coarse *= samples > MAX_SAMPLES ? sqrt(samples / MAX_SAMPLES) : 1.0;
     coarse = fmin(coarse, 0.05);
     f->coarse_count = (uint32_t)(2.0 * half / coarse) + 3;
     f->coarse_per_rad = (f->coarse_count - 2) / (2.0 * half);

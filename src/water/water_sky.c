@@ -14,8 +14,8 @@ enum { PICTURE_HEIGHT = 256 };
 
 /* Clear air over a sea, haze of optical depth 0.06, and the albedo of a sea. */
 static const float MARITIME_TURBIDITY = 1.55f, SEA_ALBEDO = 0.06f;
-static const float LEAST_EYE_KM = 0.001f; /* below this, a LUT of floats resolves no difference */
-static const float MOST_EYE_KM = 50.0f;   /* as for facet_sky_desc.altitude_m */
+static const float MIN_EYE_KM = 0.001f; /* below this, a LUT of floats resolves no difference */
+static const float MAX_EYE_KM = 50.0f;  /* as for facet_sky_desc.altitude_m */
 /* Up to this height the eye's sky is that of the sea, except for the horizon. */
 static const float SAME_VIEW_KM = 0.05f;
 
@@ -67,10 +67,10 @@ static facet_result check(const facet_sky_desc *sky, float eye_height_m, facet_e
     if (!(sky->illuminance_lux >= 0.0f) || !isfinite(sky->illuminance_lux))
         return fail(error, FACET_ERROR_ARGUMENT, "sky: the illuminance is %g lx; 0 or more is possible",
                     (double)sky->illuminance_lux);
-    if (sky->model != FACET_SKY_MODEL_PREETHAM && eye_height_m > 1000.0f * MOST_EYE_KM)
+    if (sky->model != FACET_SKY_MODEL_PREETHAM && eye_height_m > 1000.0f * MAX_EYE_KM)
         return fail(error, FACET_ERROR_ARGUMENT,
                     "sky: the eye is %g km high; %g are possible, as the air is not seen from outside",
-                    (double)eye_height_m * 0.001, (double)MOST_EYE_KM);
+                    (double)eye_height_m * 0.001, (double)MAX_EYE_KM);
     return FACET_OK;
 }
 
@@ -262,7 +262,7 @@ facet_result water_sky_create(const facet_render_desc *desc, float eye_height_m,
     facet_result result = begin(desc, eye_height_m, s, error);
     if (result != FACET_OK)
         return result;
-    s->eye_km = clamp(eye_height_m * 0.001f, LEAST_EYE_KM, MOST_EYE_KM);
+    s->eye_km = clamp(eye_height_m * 0.001f, MIN_EYE_KM, MAX_EYE_KM);
     s->horizon_mu = horizon_mu(s->eye_km);
     s->horizon_rad = acos(s->horizon_mu);
     water_sky_fill_ways(s);

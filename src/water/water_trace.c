@@ -147,7 +147,7 @@ static vec3 trace(const water_setup *s, float x, float y, float footprint, uint3
 
 /* ---- groups of samples ---- */
 
-enum { MOST_GROUPED = 16 };
+enum { MAX_GROUPED = 16 };
 
 /* Samples of a pixel that hit one patch of water, or nothing. */
 typedef struct group {
@@ -156,15 +156,15 @@ typedef struct group {
     double distance_m; /* sum */
     double closing;    /* of the first sample */
     uint32_t count;
-    const water_sight *sights[MOST_GROUPED];
+    const water_sight *sights[MAX_GROUPED];
 } group;
 
 /* Groups of a pixel. */
 typedef struct grouping {
     const water_setup *s;
     uint32_t sample_count, group_count;
-    water_sight sights[MOST_GROUPED];
-    group groups[MOST_GROUPED];
+    water_sight sights[MAX_GROUPED];
+    group groups[MAX_GROUPED];
 } grouping;
 
 /* Whether t lies within the patch of water that a pixel covers around a group. */
@@ -226,7 +226,7 @@ static bool is_near_sun(const water_setup *s, vec3 d)
 static bool can_group(const water_setup *s, uint32_t count)
 {
     bool has_land = water_has_bed(s) && s->sea->desc.bed.slope > 0.0f;
-    return count > 1 && count <= MOST_GROUPED && s->desc->quality != FACET_QUALITY_FINAL && !s->is_below &&
+    return count > 1 && count <= MAX_GROUPED && s->desc->quality != FACET_QUALITY_FINAL && !s->is_below &&
            !s->model.is_there && !has_land && !s->camera.is_orthographic;
 }
 

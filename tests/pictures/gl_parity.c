@@ -20,9 +20,9 @@
 enum { WIDTH = 256, HEIGHT = 192, COUNT = WIDTH * HEIGHT, MAX_MODELS = 1024 };
 
 /* In 8-bit codes. */
-static const double MOST_MEAN = 1.0, MOST_PERCENTILE = 4.0;
+static const double MAX_MEAN = 1.0, MAX_PERCENTILE = 4.0;
 /* Allowed excess over the other error: factor and offset. */
-static const double MOST_TIMES = 1.5, MOST_MORE = 0.25;
+static const double MAX_TIMES = 1.5, MAX_MORE = 0.25;
 
 static char *models[MAX_MODELS];
 static int model_count;
@@ -228,8 +228,8 @@ static bool has_fine_mirrors(const char *name)
 static bool is_same(const comparison *c, const char *name)
 {
     const distance *d = &c->pixels;
-    return d->mean < MOST_MEAN && (d->percentile < MOST_PERCENTILE || has_fine_mirrors(name)) &&
-           d->count > COUNT / 20 && c->gl_error < MOST_TIMES * c->cpu_error + MOST_MORE;
+    return d->mean < MAX_MEAN && (d->percentile < MAX_PERCENTILE || has_fine_mirrors(name)) &&
+           d->count > COUNT / 20 && c->gl_error < MAX_TIMES * c->cpu_error + MAX_MORE;
 }
 
 static verdict check(const char *path, facet_environment *environment, bool is_verbose)

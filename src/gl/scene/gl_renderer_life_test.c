@@ -25,7 +25,7 @@ static void on_each(void (*check)(fixture *f, gl_context *context))
 
 /* ---- leaks ---- */
 
-enum { KINDS = 8, MOST_NAMES = 20000 };
+enum { KINDS = 8, MAX_NAMES = 20000 };
 
 /* Number of objects of each kind; released names may not be reused at once. */
 static void count_objects(int counts[KINDS])
@@ -35,7 +35,7 @@ static void count_objects(int counts[KINDS])
                                                   glIsProgram,      glIsShader};
     for (int kind = 0; kind < KINDS; kind++) {
         counts[kind] = 0;
-        for (GLuint name = 1; name < MOST_NAMES; name++)
+        for (GLuint name = 1; name < MAX_NAMES; name++)
             counts[kind] += is_there[kind](name) == GL_TRUE;
     }
 }
@@ -68,7 +68,7 @@ static void check_leaks(fixture *f, gl_context *context)
     count_objects(after);
     GLuint name; /* the test detects a leak */
     glGenTextures(1, &name);
-    assert_true(name < MOST_NAMES);
+    assert_true(name < MAX_NAMES);
     glDeleteTextures(1, &name);
     for (int kind = 0; kind < KINDS; kind++)
         if (after[kind] != before[kind])
