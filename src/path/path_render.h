@@ -5,6 +5,8 @@
 
 #include "cpu/render_setup.h"
 
+enum { PATH_DEFAULT_DEPTH = 64 }; /* of facet_path_desc.max_depth */
+
 struct path_surface; /* path_surface.h */
 
 /* As preview_render_prepared(), for desc->renderer FACET_RENDERER_KIND_PATH. surface: of the scene's

@@ -6,10 +6,10 @@
 
 #include "path/path.h"
 #include "path/path_media.h"
+#include "path/path_render.h"
 #include "path/path_vertex.h"
 
 enum {
-    DEFAULT_DEPTH = 64,       /* of facet_path_desc.max_depth */
     ROULETTE_DEPTH = 3,       /* surfaces before Russian roulette */
     MAX_FEATURE_VERTICES = 8, /* specular surfaces in a row, behind which albedo and normal are looked for */
     MAX_VERTICES = 2048       /* with null interfaces */
@@ -45,7 +45,7 @@ static bool is_finite(vec3 v)
 static bool has_depth_left(const path *p)
 {
     uint32_t limit = p->scene->setup->desc->path.max_depth;
-    return p->depth < (limit ? limit : DEFAULT_DEPTH);
+    return p->depth < (limit ? limit : PATH_DEFAULT_DEPTH);
 }
 
 /* ---- between vertices ---- */

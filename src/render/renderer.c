@@ -68,8 +68,6 @@ static facet_result draw_preview(void *state, const facet_render_desc *desc, fil
 
 /* ---- path tracing ---- */
 
-enum { DEFAULT_DEPTH = 64 };
-
 /* Whether the shading is the one that path tracing implements, with nothing left out. */
 static bool is_physical(const facet_sea_shading *s)
 {
@@ -90,7 +88,7 @@ static facet_result resolve_path(facet_render_desc *desc, facet_error *error)
                     "look: path tracing knows no stages, no legacy style, no other normals or masking, no "
                     "glints or caustics to leave out and no clamp");
     if (!desc->path.max_depth)
-        desc->path.max_depth = DEFAULT_DEPTH;
+        desc->path.max_depth = PATH_DEFAULT_DEPTH;
     return FACET_OK;
 }
 
