@@ -12,7 +12,7 @@ fail() { echo "FAILED: $1"; exit 1; }
 
 # ---- the page ----
 awk -v tmp="$tmp" '
-    match($0, /examples\/c\/[a-z]+\.c/) { program = substr($0, RSTART + 11, RLENGTH - 11) }
+    match($0, /examples\/c\/[a-z_]+\.c/) { program = substr($0, RSTART + 11, RLENGTH - 11) }
     /^```$/ && inside { inside = 0; close(file); next }
     /^```c$/ { inside = 1; file = tmp "/" ++count "." program; next }
     inside { sub(/^ +/, ""); print > file }' $page
@@ -57,6 +57,7 @@ run plot metal.svg
 run shaders brdf.glsl
 if [ -x "$build/example_sea" ]; then
     run sea sea.png
+    run sea_model "$spin" && [ -s sea_model.exr ]
     "$build/example_buoy" >buoy.log || fail buoy
     ran=$((ran + 2))
 fi

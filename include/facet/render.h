@@ -273,7 +273,7 @@ typedef struct facet_render_desc {
  * under the atmosphere's sky. _PREVIEW renders the endless sea; _GL the same image, for perspective cameras; _PATH traces
  * paths through the waves as triangles out to the horizon: of sea_shading it reads omits_foam, has_schlick_fresnel and
  * perceptual_roughness. The punctual lights of the scene light the scene; with _PATH the water, too. background is the sky.
- * FACET_ERROR_ARGUMENT: a ground, FACET_SHADING_OGL1, layers of aovs but with _PATH. */
+ * Fails with FACET_ERROR_ARGUMENT in a sea for a ground, for FACET_SHADING_OGL1, and for aovs unless the renderer is _PATH. */
 FACET_API facet_result facet_render(const facet_scene *scene, const facet_render_desc *desc,
                                     facet_image **image, facet_error *error);
 
@@ -307,7 +307,7 @@ FACET_API facet_render_stats facet_image_get_render_stats(const facet_image *ima
 /* Measures a small preview, without shadows and interreflection, so that all renderers get the same exposure: EV at
  * ISO 100 that brings the log-average luminance of the model, and of the environment where it is the background, to
  * 0.22 of white (Reinhard et al. 2002). With a sea, the sea without the scene and without glints is measured. Meter
- * sequences once; their frames would flicker otherwise. Where nothing is seen or all is black, the exposure is 0 and
+ * sequences once; their frames would flicker otherwise. Where nothing is visible or all is black, the exposure is 0 and
  * log gets a warning. desc NULL: {0}. Fails as facet_render(), and with FACET_ERROR_ARGUMENT for FACET_SHADING_OGL1,
  * which has display values. */
 FACET_API facet_result facet_renderer_meter(facet_renderer *renderer, const facet_render_desc *desc,
