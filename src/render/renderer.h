@@ -1,5 +1,6 @@
-/* renderer.h - one door to all renderers. Each is a row of the table in renderer.c: a few limits and three functions, create, draw and
- * destroy. A new renderer is a new row; nothing above this folder knows which there are. */
+/* renderer.h - one interface to all renderers. Each is a row of the table in renderer.c: its limits and four functions, resolve,
+ * create, draw and destroy. All drawing goes through the table. What depends on the kind elsewhere compares desc.renderer: light_setup
+ * and render_setup (what path tracing finds by itself), src/water (the same for the bed), and the options of src/cli and src/view. */
 #ifndef RENDER_RENDERER_H
 #define RENDER_RENDERER_H
 
