@@ -156,7 +156,9 @@ rm -rf maps ./*.exr saved
 expect 0 ocean $small -s 32x24 --sweep heading=5:60:2,wind=2:12:3 -o sheet.png
 is_type sheet.png "PNG image data, 68 x"
 expect 2 ocean $small --sweep rouhgness=0.1:0.2:2 -o sheet.png
-says "roughness"
+says "--sweep: unknown option --rouhgness; did you mean --roughness?"
+expect 2 ocean $small --sweep aov=1:2:3 -o sheet.png
+says "--sweep: --aov is an option of facet render, not of facet ocean"
 expect 2 ocean $small --sweep roughness=0.1:0.2 -o sheet.png
 says "NAME=FROM:TO:COUNT"
 expect 2 ocean $small --sweep output=1:2:2 -o sheet.png

@@ -178,8 +178,11 @@ static facet_result read_axis(const command_line *c, const char **at, axis *out,
     out->option = option_find(c->verb, *at, length);
     if (length == 0 || !(*at)[length])
         return option_fail(c, OPT_SWEEP, expected, error);
-    if (!out->option)
-        return suggest_option(c->verb, *at, length, error);
+    if (!out->option) {
+        facet_error unknown;
+        facet_result result = suggest_option(c->verb, *at, length, &unknown);
+        return fail(error, result, "--sweep: %.400s", unknown.message);
+    }
     if (!takes_number(out->option))
         return fail(error, FACET_ERROR_ARGUMENT, "--sweep: --%s is not one number that changes the image",
                     out->option->name);

@@ -155,6 +155,9 @@ static facet_result read_look(const command_line *c, render_options *out, facet_
         if (is_given(c, ogl1_only[i]) && d->shading != FACET_SHADING_OGL1)
             return fail(error, FACET_ERROR_ARGUMENT, "--%s: it needs --shading ogl1",
                         option_find_id(c->verb, ogl1_only[i])->name);
+    if (out->meters_exposure && d->shading == FACET_SHADING_OGL1)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--exposure: --shading ogl1 produces display values, which auto cannot meter");
     picture_options_look(c, d->shading == FACET_SHADING_OGL1 ? FACET_TONEMAP_NONE : FACET_TONEMAP_NEUTRAL,
                          out);
     d->ogl1 = (facet_ogl1_desc){.variant = (facet_ogl1_variant)option_choice(c, OPT_OGL1_VARIANT, 0),

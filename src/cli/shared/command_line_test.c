@@ -126,6 +126,7 @@ static void test_mistakes(void **state)
     expect_sentence(PARSE("--out", "x"), "--output");
     expect_sentence(PARSE("--ouptut", "x"), "unknown option --ouptut; did you mean --output?");
     expect_sentence(PARSE("--expos", "1"), "did you mean --exposure?");
+    expect_sentence(PARSE("--wind", "5"), "--wind is an option of facet ocean, not of facet render");
     expect_sentence(PARSE("--zzzzzz"), "facet help render");
     expect_sentence(PARSE("--shard"), "does not have it yet");
     expect_sentence(PARSE("-w640"), "--size 640x480");

@@ -320,6 +320,15 @@ const char *suggest_foreign(const verb *v, const char *name, size_t length)
     return find_foreign(v, folded);
 }
 
+/* The first verb that has an option of that exact name; NULL: none. */
+static const verb *find_owner(const char *name)
+{
+    for (size_t i = 0; verbs[i]; i++)
+        if (option_find(verbs[i], name, strlen(name)))
+            return verbs[i];
+    return NULL;
+}
+
 facet_result suggest_option(const verb *v, const char *name, size_t length, facet_error *error)
 {
     char text[MAX_WORD + 1], folded[MAX_WORD + 1];
@@ -330,6 +339,10 @@ facet_result suggest_option(const verb *v, const char *name, size_t length, face
         return fail(error, FACET_ERROR_ARGUMENT, "unknown option --%s; did you mean %s?", text, ours);
     if (option_is_planned(folded))
         return fail(error, FACET_ERROR_ARGUMENT, "--%s: this version of facet does not have it yet", text);
+    const verb *owner = find_owner(folded);
+    if (owner)
+        return fail(error, FACET_ERROR_ARGUMENT, "--%s is an option of facet %s, not of facet %s", folded,
+                    owner->name, v->name);
     const char *best = NULL;
     unsigned best_badness = ~0u, badness;
     const option *o;

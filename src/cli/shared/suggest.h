@@ -15,7 +15,7 @@ const char *suggest_word(const char *text, const char *const *words);
 const char *suggest_verb(const char *text);
 
 /* FACET_ERROR_ARGUMENT for an unknown option name (without the dashes, length characters) of v, with a suggestion:
- * the counterpart of another tool's option, a planned option, or a similar name. */
+ * the counterpart of another tool's option, a planned option, the verb that has the option, or a similar name. */
 facet_result suggest_option(const verb *v, const char *name, size_t length, facet_error *error);
 /* The same for a letter. */
 facet_result suggest_letter(const verb *v, char letter, facet_error *error);
