@@ -209,11 +209,8 @@ facet_result facet_image_save(const facet_image *picture, const char *path, cons
     if (resolved.format == FACET_IMAGE_FORMAT_FROM_NAME)
         resolved.format = format_from_name(path);
     if (resolved.format == FACET_IMAGE_FORMAT_FROM_NAME)
-        return fail(
-            error, FACET_ERROR_ARGUMENT,
-            "%s: the name does not end in a picture format that facet writes: .png, .jpg, .webp, .exr, .hdr, "
-            ".pfm",
-            path);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "%s: unknown image extension; expected .png, .jpg, .webp, .exr, .hdr or .pfm", path);
     unsigned char *bytes;
     size_t size;
     facet_result result = facet_image_encode(picture, &resolved, &bytes, &size, error);

@@ -131,11 +131,11 @@ static facet_result read_format(span file, ktx2 *k, facet_error *error)
     k->is_premultiplied = (dfd.bytes[DFD_FLAGS] & FLAG_PREMULTIPLIED) != 0;
 #ifndef HAVE_ZSTD
     if (k->scheme == KTX2_ZSTD)
-        return fail(error, FACET_ERROR_UNSUPPORTED,
-                    "%s: this build of facet does not read KTX2 files compressed with Zstandard: libzstd was "
-                    "not there "
-                    "when it was made",
-                    k->name);
+        return fail(
+            error, FACET_ERROR_UNSUPPORTED,
+            "%s: this build of facet does not read KTX2 files compressed with Zstandard: it was built "
+            "without libzstd",
+            k->name);
 #endif
     if (number == 0)
         return find_basis_format(k, dfd, &k->format, error);

@@ -287,8 +287,8 @@ static facet_result check(const ktx2_write_desc *d, facet_error *error)
     if (d->zstd_level)
         return fail(
             error, FACET_ERROR_UNSUPPORTED,
-            "this build of facet does not write KTX2 files compressed with Zstandard: libzstd was not "
-            "there when it was made");
+            "this build of facet does not write KTX2 files compressed with Zstandard: it was built without "
+            "libzstd");
 #endif
     return FACET_OK;
 }

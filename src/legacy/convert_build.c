@@ -140,7 +140,7 @@ static facet_result build_normals(conversion *c, uint32_t material, const legacy
     if (is_normal_map(texture_bench_statistics(c->bench, bump->ref.texture))) {
         out->normal_scale = bump->bump_multiplier;
         note_add(&c->notes, material, NOTE_BUMP_AS_NORMAL,
-                 "the map of bump holds normals, not heights, and is taken as such");
+                 "map_bump contains normals, not heights, and is used as a normal map");
         return FACET_OK;
     }
     texture_relief relief = {.name = made_name(c, bump->ref.texture, "normal"),

@@ -99,7 +99,7 @@ static void read_specular(conversion *c, uint32_t material, legacy_reading *r, f
         memcpy(r->surface.specular, WHITE, sizeof WHITE);
     if (!c->scene->legacy->is_rgl)
         note_add(&c->notes, material, NOTE_KS_MAP_USED_AS_SPECULAR,
-                 "map_Ks is taken as the specular color that it is, not as metallic");
+                 "map_Ks is read as specular color, not as metallic");
 }
 
 static void read_emission(conversion *c, uint32_t material, legacy_reading *r, facet_legacy_colors colors)
@@ -206,7 +206,7 @@ static void read_illum(conversion *c, uint32_t material, legacy_reading *r, face
         if (has_highlight || m->illum == 0)
             note_add(&c->notes, material, NOTE_ILLUM_IGNORED, "illum %d would %s, but %s: it is ignored",
                      m->illum, m->illum == 0 ? "switch light off" : "switch the highlight off",
-                     has_highlight ? "Ks is not black" : "the options say so");
+                     has_highlight ? "Ks is not black" : "the setting of illum is to ignore it");
         return;
     }
     if (m->illum == 0) {

@@ -25,13 +25,15 @@ static facet_result check_wind(const facet_sea_desc *d, facet_error *error)
     if (!is_within(d->wind_mps, 0.0f, 40.0f))
         return fail(error, FACET_ERROR_ARGUMENT, "wind: %g m/s is not within [0, 40]", (double)d->wind_mps);
     if (!isfinite(d->wind_direction_rad))
-        return fail(error, FACET_ERROR_ARGUMENT, "wind: its direction is no finite number");
+        return fail(error, FACET_ERROR_ARGUMENT, "wind: its direction is not finite");
     if (!(d->fetch_m >= 100.0f))
         return fail(error, FACET_ERROR_ARGUMENT, "fetch: %g m is not 100 m or more", (double)d->fetch_m);
     if ((unsigned)d->spectrum > FACET_SEA_SPECTRUM_ELFOUHAILY)
-        return fail(error, FACET_ERROR_ARGUMENT, "spectrum: there is no number %d", (int)d->spectrum);
+        return fail(error, FACET_ERROR_ARGUMENT, "spectrum: %d is not a facet_sea_spectrum",
+                    (int)d->spectrum);
     if ((unsigned)d->spreading > FACET_SEA_SPREADING_COSINE)
-        return fail(error, FACET_ERROR_ARGUMENT, "spreading: there is no number %d", (int)d->spreading);
+        return fail(error, FACET_ERROR_ARGUMENT, "spreading: %d is not a facet_sea_spreading",
+                    (int)d->spreading);
     if (!is_within(d->peakedness, 1.0f, 20.0f))
         return fail(error, FACET_ERROR_ARGUMENT, "peakedness: %g is not within [1, 20]",
                     (double)d->peakedness);
@@ -64,7 +66,7 @@ static facet_result check_swell(const facet_swell *s, facet_error *error)
             "swell: with a period of %g s it breaks before it is %g m high; at most %.3g m are possible",
             (double)s->period_s, (double)s->height_m, (double)highest);
     if (!isfinite(s->direction_rad))
-        return fail(error, FACET_ERROR_ARGUMENT, "swell: its direction is no finite number");
+        return fail(error, FACET_ERROR_ARGUMENT, "swell: its direction is not finite");
     if (s->peakedness != 0.0f && !is_within(s->peakedness, 1.0f, 20.0f))
         return fail(error, FACET_ERROR_ARGUMENT, "swell: a peakedness of %g is not within [1, 20]",
                     (double)s->peakedness);

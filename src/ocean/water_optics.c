@@ -89,7 +89,8 @@ static facet_result check(const facet_water *water, facet_error *error)
     if (!result)
         result = check_range("foam albedo", (double)water->foam_albedo, 0.0, 1.0, error);
     if (!result && (unsigned)water->kind > FACET_WATER_KIND_COEFFICIENTS)
-        result = fail(error, FACET_ERROR_ARGUMENT, "water: there is no kind %d", (int)water->kind);
+        result =
+            fail(error, FACET_ERROR_ARGUMENT, "water: kind %d is not a facet_water_kind", (int)water->kind);
     if (!result && water->kind == FACET_WATER_KIND_COEFFICIENTS)
         result = check_coefficients(water, error);
     return result;

@@ -260,10 +260,11 @@ static facet_result check_kind(const checkpoint *c, facet_error *error)
     char version[VERSION_SIZE] = "";
     image header;
     if (image_codec_detect(c->file.data, c->file.size) != IMAGE_CODEC_EXR)
-        return fail(error, FACET_ERROR_INVALID, "%s: is no checkpoint, which is an OpenEXR file", c->path);
+        return fail(error, FACET_ERROR_INVALID, "%s: not a checkpoint: an OpenEXR file was expected",
+                    c->path);
     TRY(image_probe(c->file.data, c->file.size, c->path, &header, NULL, error));
     if (read_text(c, "facetCheckpoint", version, sizeof version, NULL) != FACET_OK)
-        return fail(error, FACET_ERROR_INVALID, "%s: is an image, but no checkpoint of one", c->path);
+        return fail(error, FACET_ERROR_INVALID, "%s: is an OpenEXR image, but not a checkpoint", c->path);
     if (strcmp(version, VERSION) != 0)
         return fail(error, FACET_ERROR_INVALID,
                     "%s: is a checkpoint of version %s; this build of facet resumes version %s", c->path,

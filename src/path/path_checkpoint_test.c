@@ -197,9 +197,9 @@ static void other_files_are_refused(void **state)
     assert_false(exists);
 
     write_bytes(other_path, "", 0);
-    expect_refusal(other_path, KEY, WIDTH, false, FACET_ERROR_INVALID, "is no checkpoint, which");
+    expect_refusal(other_path, KEY, WIDTH, false, FACET_ERROR_INVALID, "not a checkpoint: an OpenEXR file");
     write_bytes(other_path, "Dear diary, today", 17);
-    expect_refusal(other_path, KEY, WIDTH, false, FACET_ERROR_INVALID, "is no checkpoint, which");
+    expect_refusal(other_path, KEY, WIDTH, false, FACET_ERROR_INVALID, "not a checkpoint: an OpenEXR file");
     static const char *const names[] = {"R", "G", "B"};
     static const float texels[WIDTH * HEIGHT * 3];
     const image_layer layer = {names, 3, texels, WIDTH * 3 * sizeof(float), false};
@@ -208,7 +208,8 @@ static void other_files_are_refused(void **state)
     assert_int_equal(image_encode_exr(WIDTH, HEIGHT, &layer, 1, false, NULL, &bytes, &size, NULL), FACET_OK);
     write_bytes(other_path, bytes, size);
     mem_free(bytes);
-    expect_refusal(other_path, KEY, WIDTH, false, FACET_ERROR_INVALID, "no checkpoint of one");
+    expect_refusal(other_path, KEY, WIDTH, false, FACET_ERROR_INVALID,
+                   "is an OpenEXR image, but not a checkpoint");
     expect_refusal(folder.path, KEY, WIDTH, false, FACET_ERROR_READ, "");
     path_film_destroy(f);
 }

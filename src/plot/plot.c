@@ -76,7 +76,7 @@ static facet_result check_material(const facet_plot_material *m, uint32_t number
         return fail(error, FACET_ERROR_ARGUMENT,
                     "plot: material %u has no path; that of a measured BRDF expected", number);
     }
-    return fail(error, FACET_ERROR_ARGUMENT, "plot: material %u is of model %d, which there is not", number,
+    return fail(error, FACET_ERROR_ARGUMENT, "plot: material %u: model %d is not a facet_plot_model", number,
                 (int)m->model);
 }
 
@@ -104,7 +104,7 @@ static facet_result check_kind(facet_plot_kind kind, const facet_plot_material *
 static facet_result check_desc(const facet_plot_desc *desc, facet_error *error)
 {
     if ((int)desc->kind < 0 || desc->kind > FACET_PLOT_KIND_ERROR)
-        return fail(error, FACET_ERROR_ARGUMENT, "plot: there is no kind %d; 0 to %d expected",
+        return fail(error, FACET_ERROR_ARGUMENT, "plot: kind %d is not a facet_plot_kind; 0 to %d expected",
                     (int)desc->kind, (int)FACET_PLOT_KIND_ERROR);
     if (desc->material_count > FACET_PLOT_MAX_MATERIALS)
         return fail(error, FACET_ERROR_ARGUMENT, "plot: %u materials; at most %d expected",

@@ -59,9 +59,8 @@ static void check_white(render_check *check, const facet_scene *scene, const fac
     bool has_lights = scene->light_count && !desc->ignores_scene_lights;
     log_warning(
         &desc->log,
-        "%s: most of what is seen is far beyond white: --exposure %+.1f shows it, and --exposure auto "
-        "meters "
-        "the light%s",
+        "%s: most of the visible image is overexposed: --exposure %+.1f shows it, and --exposure auto "
+        "meters the light%s",
         scene->source, stops,
         has_lights ? "; the file's lights may be in real units (lx, cd), --lights none leaves them out" : "");
     check->has_warned_of_white = true;

@@ -65,8 +65,9 @@ static facet_result resolve_sea(const renderer_row *r, facet_render_desc *d, fac
         return fail(error, FACET_ERROR_ARGUMENT,
                     "ground: in a sea the water and its bed (facet_sea_bed) take its place");
     if (d->shading != FACET_SHADING_GLTF)
-        return fail(error, FACET_ERROR_ARGUMENT,
-                    "shading: OpenGL 1 has display colors, which the light of a sea cannot be added to");
+        return fail(
+            error, FACET_ERROR_ARGUMENT,
+            "shading: a sea cannot be combined with OpenGL 1 shading, whose colors are display values");
     if (d->aovs & ~r->sea_aovs)
         return fail(error, FACET_ERROR_ARGUMENT, "layers: %s has none in a sea; path tracing has", r->name);
     d->background = FACET_BACKGROUND_ENVIRONMENT;
@@ -113,10 +114,11 @@ facet_result render_desc_resolve(const facet_render_desc *desc, facet_render_des
     }
     if ((unsigned)out->shading > FACET_SHADING_OGL1 ||
         (unsigned)out->ogl1.variant > FACET_OGL1_VARIANT_RGL_DESKTOP)
-        return fail(error, FACET_ERROR_ARGUMENT, "shading: %d, variant %d: no constants of their types",
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "shading: %d is not a facet_shading, or variant %d not a facet_ogl1_variant",
                     (int)out->shading, (int)out->ogl1.variant);
     if ((unsigned)out->isa > FACET_ISA_AVX512)
-        return fail(error, FACET_ERROR_ARGUMENT, "isa: %d is no instruction set", (int)out->isa);
+        return fail(error, FACET_ERROR_ARGUMENT, "isa: %d is not a facet_isa", (int)out->isa);
     facet_result result = check_numbers(out, error);
     if (result == FACET_OK)
         result = resolve_renderer(out, error);

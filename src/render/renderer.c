@@ -53,7 +53,7 @@ static facet_result resolve_preview(facet_render_desc *desc, facet_error *error)
 {
     if (desc->ground != FACET_GROUND_NONE)
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "ground: the preview finds no shadow; path tracing does, and OpenGL");
+                    "ground: the preview has no ground shadow; use path tracing or OpenGL");
     return FACET_OK;
 }
 
@@ -82,11 +82,12 @@ static facet_result resolve_path(facet_render_desc *desc, facet_error *error)
         return fail(error, FACET_ERROR_ARGUMENT,
                     "layers: a checkpoint does not keep Cryptomatte's; render them without resuming");
     if (desc->shading != FACET_SHADING_GLTF)
-        return fail(error, FACET_ERROR_ARGUMENT, "shading: path tracing knows that of glTF only");
+        return fail(error, FACET_ERROR_ARGUMENT, "shading: path tracing supports FACET_SHADING_GLTF only");
     if (desc->sea && !is_physical(&desc->sea_shading))
-        return fail(error, FACET_ERROR_ARGUMENT,
-                    "look: path tracing knows no stages, no legacy style, no other normals or masking, no "
-                    "glints or caustics to leave out and no clamp");
+        return fail(
+            error, FACET_ERROR_ARGUMENT,
+            "sea_shading: path tracing supports the physical style only: no stage, GGX normals, other "
+            "masking, omits_glints, omits_caustics or clamp");
     if (!desc->path.max_depth)
         desc->path.max_depth = PATH_DEFAULT_DEPTH;
     return FACET_OK;
@@ -260,8 +261,7 @@ static facet_result meter_scene(renderer_set *set, const facet_render_desc *desc
         if (average > 0.0)
             *ev100 = meter_ev100(average);
         else
-            log_warning(&desc->log, "%s: nothing is seen that could be metered: the exposure is 0",
-                        set->scene->source);
+            log_warning(&desc->log, "%s: nothing visible to meter; exposure is 0 stops", set->scene->source);
     }
     film_destroy(&metered);
     return result;
@@ -274,7 +274,7 @@ facet_result renderer_set_meter(renderer_set *set, const facet_render_desc *desc
     facet_render_desc d = *desc;
     if (desc->shading == FACET_SHADING_OGL1)
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "exposure: the numbers of OpenGL 1 are a display's, and no light that can be metered");
+                    "exposure: FACET_SHADING_OGL1 produces display values, which cannot be metered");
     if (!desc->camera) { /* with the exact proportions of the image */
         d.log = (facet_log){0};
         TRY(renderer_set_camera(set, &d, &camera, error));

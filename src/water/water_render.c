@@ -143,9 +143,7 @@ facet_result water_meter(water_cache *cache, const facet_render_desc *desc, doub
     if (result == FACET_OK) {
         double L = film_log_average(&f, 1e-6);
         if (L < DARKEST)
-            log_warning(
-                &d.log,
-                "sea: there is hardly any light, and the picture dark: say what the exposure is to be");
+            log_warning(&d.log, "sea: the scene is nearly dark; set the exposure");
         *ev100 = meter_ev100(fmax(L, DARKEST));
     }
     film_destroy(&f);

@@ -168,8 +168,7 @@ void water_warn_of_eye(const facet_render_desc *d)
     double below = water_bed_height(bed, (double)eye[0], (double)eye[2]) - (double)eye[1];
     bool is_below = is_under_water(sea, eye);
     if (sea_has_bed(bed) && below > 0.0)
-        log_warning(&d->log, "sea: the camera stands %.3g m below the bed, from where nothing is seen",
-                    below);
+        log_warning(&d->log, "sea: the camera is %.3g m below the bed; the image will be dark", below);
     else if (is_below != (eye[1] < 0.0f))
         log_warning(&d->log, "sea: the camera, %.3g m %s still water, is %s", fabs((double)eye[1]),
                     is_below ? "above" : "below",

@@ -191,7 +191,8 @@ facet_result picture_options_check_sequence(const command_line *c, const render_
     bool has_mark = o->output && output_name_has_frame(o->output);
     if (o->video && has_mark)
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "--output: \"%s\" has a place for a number, but a video holds all frames", o->output);
+                    "--output: \"%s\" contains a frame number (####), but a video holds all frames",
+                    o->output);
     if (o->video && o->keeps_existing)
         return FACET_OK;
     if (o->video && o->is_stdout && c->argument_count > 1)

@@ -2,7 +2,7 @@
 lit=$case_dir/sun-1W-blender.gltf
 for renderer in preview path; do
     expect 0 render "$lit" -o burnt.png --size 64 --samples 4 --renderer $renderer
-    says "far beyond white: --exposure -6."
+    says "most of the visible image is overexposed: --exposure -6."
     says "--lights none"
     expect 0 render "$lit" -o auto.png --size 64 --samples 4 --renderer $renderer --exposure auto --strict -v
     says "metered: --exposure -6.6"
