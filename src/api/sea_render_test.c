@@ -136,7 +136,7 @@ static void what_is_not_drawn_is_refused_by_name(void **state)
     facet_sea *sea = make_sea(5.0f);
     for (int kind = 0; kind <= FACET_RENDERER_KIND_GL; kind++) {
         facet_render_desc cases[4];
-        const char *words[] = {"ground", "shading", names[kind], "look"};
+        const char *words[] = {"ground", "shading", names[kind], "sea_shading"};
         for (int i = 0; i < 4; i++)
             cases[i] = desc_of(sea, (facet_renderer_kind)kind);
         cases[0].ground = FACET_GROUND_SHADOW;
