@@ -1,6 +1,7 @@
 /* renderer.h - one interface to all renderers. Each is a row of the table in renderer.c: its limits and four functions, resolve,
- * create, draw and destroy. All drawing goes through the table. What depends on the kind elsewhere compares desc.renderer: light_setup
- * and render_setup (what path tracing finds by itself), src/water (the same for the bed), and the options of src/cli and src/view. */
+ * create, draw and destroy. All drawing goes through the table. Other code that depends on the kind compares
+ * desc.renderer: draw/light_setup.c and cpu/render_setup.c (what path tracing finds by itself), src/water (the same for the bed), the
+ * window (src/view, api/view_api.c, which has OpenGL's state) and the options of src/cli. */
 #ifndef RENDER_RENDERER_H
 #define RENDER_RENDERER_H
 
