@@ -1,5 +1,5 @@
-/* denoise.c - milliseconds per megapixel of denoising, on one thread and on two: of a pure noise image, of one
- * with edges everywhere, which needs a window per pixel, and of one almost without noise.
+/* denoise.c - milliseconds per megapixel of denoising, on one thread and on two: of a pure noise image, of
+ * one with edges everywhere, which needs a window per pixel, and of one almost without noise.
  *     build/release/bench/denoise [WIDTH HEIGHT] */
 #include <math.h>
 #include <stdio.h>
@@ -16,7 +16,8 @@ static float uniform(uint32_t *state)
     return (float)(*state >> 8) * 0x1p-24f;
 }
 
-/* Radiance 1 with normal noise of standard deviation noise; tiles of block pixels differ in albedo and normal. */
+/* Radiance 1 with normal noise of standard deviation noise; tiles of block pixels differ in albedo and
+ * normal. */
 static void fill(film *f, float noise, uint32_t block)
 {
     uint32_t random = 1;

@@ -1,6 +1,6 @@
 /* layers.c - nanoseconds per shade of each material layer: a sphere in the studio, one thread, 512 x 512
- * pixels, one sample. The cost of the plain sphere's image without shading is in the first line, and subtracted
- * from the others.
+ * pixels, one sample. The cost of the plain sphere's image without shading is in the first line, and
+ * subtracted from the others.
  *
  *     layers [RUNS]     default: 9; prints minima */
 #include <math.h>

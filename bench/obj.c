@@ -1,7 +1,8 @@
-/* obj.c - time of reading OBJ files, from the open file to the finished scene, beside a scan of the same bytes
- * for line ends by memchr(). Usage: bench/obj [MEGABYTES (300)] [FILE..]; without files it writes a temporary
- * one per kind: a wavy sheet of positions, texture coordinates, normals and triangles; the same with positions
- * only, where normals are computed; quadrilaterals with negative (relative) indices. Medians. */
+/* obj.c - time of reading OBJ files, from the open file to the finished scene, beside a scan of the same
+ * bytes for line ends by memchr(). Usage: bench/obj [MEGABYTES (300)] [FILE..]; without files it writes a
+ * temporary one per kind: a wavy sheet of positions, texture coordinates, normals and triangles; the same
+ * with positions only, where normals are computed; quadrilaterals with negative (relative) indices.
+ * Medians. */
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
-/* path_rays.h - records the rays of an image while they are traced, and replays them: by facet's functions and
- * by bare Embree. facet itself is unchanged: the linker inserts the recorder between path_trace() and
+/* path_rays.h - records the rays of an image while they are traced, and replays them: by facet's functions
+ * and by bare Embree. facet itself is unchanged: the linker inserts the recorder between path_trace() and
  * src/cpu/ray_trace.h (--wrap in bench/CMakeLists.txt). */
 #ifndef BENCH_PATH_RAYS_H
 #define BENCH_PATH_RAYS_H

@@ -2,9 +2,9 @@
  *
  *     rays [MODEL.glb] [SIZE]     default: a wavy sphere of 15 360 triangles, 1024 x 1024 pixels, 4 samples
  *
- * Bare Embree is the time inside rtcIntersect16 only (or 8, 4 by the machine's width), with packets prepared
- * beforehand; facet's time includes generating the rays and storing the hits. Prints the medians of RUNS runs that
- * alternate. */
+ * Bare Embree is the time inside rtcIntersect16 only (or 8, 4 by the machine's width), with packets
+ * prepared beforehand; facet's time includes generating the rays and storing the hits. Prints the medians
+ * of RUNS runs that alternate. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* water.c - nanoseconds per shade of a sea's surface: the legacy style, the physical model, and its parts.
- * Waves, sky and bed are looked up beforehand. Each line is the median of RUNS runs and its ratio to the first
- * line. */
+ * Waves, sky and bed are looked up beforehand. Each line is the median of RUNS runs and its ratio to the
+ * first line. */
 #include <stdio.h>
 
 #include "base/clock.h"

@@ -10,8 +10,8 @@ FN vec2 anisotropic_alpha(float alpha, float strength)
     return vec2(mix(alpha, 1.0f, strength * strength), alpha);
 }
 
-/* Unit direction of stretching in tangent space: the texture's direction, or (1, 0), rotated counter-clockwise
- * by rotation (rad). direction is the texel's (2 r - 1, 2 g - 1), not 0. */
+/* Unit direction of stretching in tangent space: the texture's direction, or (1, 0), rotated
+ * counter-clockwise by rotation (rad). direction is the texel's (2 r - 1, 2 g - 1), not 0. */
 FN vec2 anisotropy_direction(vec2 direction, float rotation)
 {
     float c = cos(rotation);
@@ -26,10 +26,10 @@ FN vec3 to_frame(vec3 v, vec3 T, vec3 B, vec3 N)
     return vec3(dot(T, v), dot(B, v), dot(N, v));
 }
 
-/* Lookup direction for light prefiltered with an isotropic lobe: the normal is bent in the plane of B and V,
- * the more so the more anisotropic and smooth the surface is, and the reflection is bent back for rough ones. B
- * is the bitangent, across the stretching. KHR_materials_anisotropy, "Image based lighting", with its last
- * line, which Khronos' renderer omits:
+/* Lookup direction for light prefiltered with an isotropic lobe: the normal is bent in the plane of B and
+ * V, the more so the more anisotropic and smooth the surface is, and the reflection is bent back for rough
+ * ones. B is the bitangent, across the stretching. KHR_materials_anisotropy, "Image based lighting", with
+ * its last line, which Khronos' renderer omits:
  *   a = (1 - strength (1 - r))^4,  N' = mix((B x V) x B, N, a),  R = mix(reflect(-V, N'), N', r^2) */
 FN vec3 anisotropic_reflection(vec3 N, vec3 B, vec3 V, float strength, float perceptual_roughness)
 {
@@ -47,8 +47,9 @@ FN vec3 anisotropic_reflection(vec3 N, vec3 B, vec3 V, float strength, float per
  * lookup in a LUT of split-sum terms. Its width is the root mean square of both, and V is tilted until slopes
  * appear as steep as they do here:
  *   a^2 = (ax^2 + ay^2) / 2,   a tan' = |(ax V.x, ay V.y)| / V.z
- * V in the frame of the lobe. Found by comparing quadratures: within 0.04 of E over all strengths, azimuths and
- * elevations down to N.V = 0.05, 0.012 on average; a lookup at (N.V, r) itself has errors of up to 0.35. */
+ * V in the frame of the lobe. Found by comparing quadratures: within 0.04 of E over all strengths,
+ * azimuths and elevations down to N.V = 0.05, 0.012 on average; a lookup at (N.V, r) itself has errors of
+ * up to 0.35. */
 FN vec2 anisotropic_table_point(vec3 V, vec2 alpha)
 {
     float a2 = 0.5f * dot(alpha, alpha);
@@ -59,8 +60,8 @@ FN vec2 anisotropic_table_point(vec3 V, vec2 alpha)
     return vec2(clamp(z * inversesqrt(z * z + slope2), NDOTV_MIN, 1.0f), sqrt(sqrt(a2)));
 }
 
-/* Mean of Schlick's weight (1 - V.H)^5 over an anisotropic lobe, B / (A + B) of the split sum, in [0, 1]: unlike E, it
- * depends on the width in the plane of V, a = |(ax V.x, ay V.y)| / |(V.x, V.y)|:
+/* Mean of Schlick's weight (1 - V.H)^5 over an anisotropic lobe, B / (A + B) of the split sum, in [0, 1]:
+ * unlike E, it depends on the width in the plane of V, a = |(ax V.x, ay V.y)| / |(V.x, V.y)|:
  *   (1 - N.V)^(2.7 + 2.3 exp(-8.5 a)) / (1 + 22.7 a^1.36)
  * A fit to quadrature, within 0.07, 0.01 in the mean. V in the frame of the lobe. */
 FN float anisotropic_grazing_share(vec3 V, vec2 alpha)

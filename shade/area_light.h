@@ -1,9 +1,9 @@
 /* area_light.h - sphere and tube lights without sampling: exact diffuse irradiance, and highlights by the
  * representative point of Karis 2013 or by a widened lobe.
  *
- * The representative point is an approximation: 5 to 11 % too dark on axis while the light is narrow compared
- * with the lobe, mostly within 30 %, and up to twice too bright where radius / distance exceeds alpha (compared
- * with the exact integral in area_light_test.c). */
+ * The representative point is an approximation: 5 to 11 % too dark on axis while the light is narrow
+ * compared with the lobe, mostly within 30 %, and up to twice too bright where radius / distance exceeds
+ * alpha (compared with the exact integral in area_light_test.c). */
 #ifndef SHADE_AREA_LIGHT_H
 #define SHADE_AREA_LIGHT_H
 
@@ -14,8 +14,8 @@ STRUCT(RepresentativePoint)
     float normalisation; /* factor on the specular lobe at L, in (0, 1] */
 };
 
-/* Alpha of a lobe convolved with a light: saturate(alpha + radius / (spread distance)), lengths in m. spread 3:
- * Karis 2013 (v2), equation 10; 2: the form of the slides and of older code. */
+/* Alpha of a lobe convolved with a light: saturate(alpha + radius / (spread distance)), lengths in m.
+ * spread 3: Karis 2013 (v2), equation 10; 2: the form of the slides and of older code. */
 FN float widened_alpha(float alpha, float radius, float distance_m, float spread)
 {
     return clamp(alpha + radius / (spread * distance_m), 0.0f, 1.0f);
@@ -67,8 +67,9 @@ FN RepresentativePoint representative_point_sphere(vec3 center, vec3 R, float ra
     return p;
 }
 
-/* Tube (capsule) between end0 and end1 (from the shaded point, m): the point of the segment closest to the ray,
- * then the sphere step. A line widens the lobe along one axis only: alpha / alpha'. Karis 2013, tube lights. */
+/* Tube (capsule) between end0 and end1 (from the shaded point, m): the point of the segment closest to the
+ * ray, then the sphere step. A line widens the lobe along one axis only: alpha / alpha'. Karis 2013, tube
+ * lights. */
 FN RepresentativePoint representative_point_tube(vec3 end0, vec3 end1, vec3 R, float radius, float alpha)
 {
     vec3 axis = end1 - end0;
@@ -107,8 +108,8 @@ FN vec3 shade_sphere(Surface s, vec3 P, vec3 V, vec3 center, float radius, vec3 
     return (specular + diffuse) * (intensity * (1.0f / d2));
 }
 
-/* The same with the lobe itself widened to alpha': normalised without a factor, but glossy surfaces look rough,
- * for which Karis abandoned it ("Specular D modification"). Diffuse as a point light. */
+/* The same with the lobe itself widened to alpha': normalised without a factor, but glossy surfaces look
+ * rough, for which Karis abandoned it ("Specular D modification"). Diffuse as a point light. */
 FN vec3 shade_sphere_widened(Surface s, vec3 P, vec3 V, vec3 center, float radius, vec3 intensity, int energy,
                              vec2 dfg)
 {

@@ -1,8 +1,8 @@
 /* brdf_test.c - distribution and visibility: properties, then golden numbers. */
 #include "testing/test_support.h"
 
-/* Integral of D N.H g(H) over the hemisphere: midpoints in phi and in x = ln(tan theta / alpha), where D N.H is the
- * density 2 u (1 - u) / 2pi with u = 1 / (1 + e^-2x). n by n points; even in phi. */
+/* Integral of D N.H g(H) over the hemisphere: midpoints in phi and in x = ln(tan theta / alpha), where D
+ * N.H is the density 2 u (1 - u) / 2pi with u = 1 / (1 + e^-2x). n by n points; even in phi. */
 typedef double (*over_normals)(vec3 H, const void *data);
 static double integrate_normals(float alpha, int n, over_normals g, const void *data)
 {
@@ -22,7 +22,8 @@ static double integrate_normals(float alpha, int n, over_normals g, const void *
     return sum * (high - low) / ((double)n * n);
 }
 
-/* Integral of D (N.H) over the hemisphere with tan(theta) = scale e^x, midpoint rule in x; smooth for any alpha. */
+/* Integral of D (N.H) over the hemisphere with tan(theta) = scale e^x, midpoint rule in x; smooth for any
+ * alpha. */
 static double projected_area(double (*D)(double theta, float alpha), float alpha)
 {
     const int steps = 4000;

@@ -1,5 +1,5 @@
-/* clearcoat.h - a clear lacquer over all other layers (KHR_materials_clearcoat): ior 1.5, its own roughness and
- * normal. */
+/* clearcoat.h - a clear lacquer over all other layers (KHR_materials_clearcoat): ior 1.5, its own
+ * roughness and normal. */
 #ifndef SHADE_CLEARCOAT_H
 #define SHADE_CLEARCOAT_H
 
@@ -10,8 +10,8 @@ FN float F_clearcoat(float NdotV)
     return F_Schlick1(0.04f, 1.0f, NdotV);
 }
 
-/* The coat's lobe D V times N.L, in 1/sr, without Fresnel; N is the coat's normal, NdotV clamped by the caller.
- * 0 for light from below it. */
+/* The coat's lobe D V times N.L, in 1/sr, without Fresnel; N is the coat's normal, NdotV clamped by the
+ * caller. 0 for light from below it. */
 FN float clearcoat_lobe_cos(vec3 N, float NdotV, vec3 V, vec3 L, float alpha)
 {
     float NdotL = min(dot(N, L), 1.0f);

@@ -1,6 +1,6 @@
-/* color.h - transfer functions and color spaces. Linear values have Rec.709 primaries and a D65 white unless a
- * name says otherwise. Matrices are derived from the primaries to ten digits (ITU-R BT.709, BT.2020, SMPTE RP
- * 431, D65 = (0.3127, 0.3290)); mat3() takes columns. */
+/* color.h - transfer functions and color spaces. Linear values have Rec.709 primaries and a D65 white
+ * unless a name says otherwise. Matrices are derived from the primaries to ten digits (ITU-R BT.709,
+ * BT.2020, SMPTE RP 431, D65 = (0.3127, 0.3290)); mat3() takes columns. */
 #ifndef SHADE_COLOR_H
 #define SHADE_COLOR_H
 

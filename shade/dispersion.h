@@ -21,7 +21,8 @@ FN float dispersed_ior_at(float ior, float dispersion, float wavelength_nm)
 
 /* ---- one wavelength at a time ---- */
 
-/* A wavelength and the weight of its path: 3 in its channel, 0 in the others, so that the mean over channels is
+/* A wavelength and the weight of its path: 3 in its channel, 0 in the others, so that the mean over
+ * channels is
  * 1. */
 STRUCT(WavelengthSample)
 {
@@ -37,9 +38,9 @@ STRUCT(WavelengthSample)
 /* Half width of a band: neighbours overlap, so that a rainbow has no gaps and no steps. */
 #define BAND_NM 75.0f
 
-/* Samples a channel and a wavelength in its band, a tent around RED_NM, GREEN_NM or BLUE_NM, from u in [0, 1).
- * No weight is negative, unlike those of color matching functions: a rainbow is less saturated than the
- * spectrum, and less noisy. */
+/* Samples a channel and a wavelength in its band, a tent around RED_NM, GREEN_NM or BLUE_NM, from u in [0,
+ * 1). No weight is negative, unlike those of color matching functions: a rainbow is less saturated than
+ * the spectrum, and less noisy. */
 FN WavelengthSample sample_wavelength(float u)
 {
     WavelengthSample s;

@@ -56,11 +56,11 @@ FN bool footprint_is_finite(Footprint f)
 /* Covers the footprint with probes (after McCormack et al. 1999, "Feline"). finest: texel width of the finest
  * mip that is resident, in texels of mip 0, whose size is 1 / texel_size.
  *
- * There are as many probes as the ratio of the axes requires, up to 16, each as wide as the minor axis. Up to a
- * ratio of 1.5 one probe as wide as the major axis suffices; from there to 2 two probes move apart while their
- * width shrinks to the minor axis. n probes of width w at a distance s have the second moment (w^2 + (n^2 - 1)
- * s^2) / 12; s makes it major^2 / 12, that of the footprint, so that the result hardly jumps where the count
- * changes. */
+ * There are as many probes as the ratio of the axes requires, up to 16, each as wide as the minor axis. Up
+ * to a ratio of 1.5 one probe as wide as the major axis suffices; from there to 2 two probes move apart
+ * while their width shrinks to the minor axis. n probes of width w at a distance s have the second moment
+ * (w^2 + (n^2 - 1) s^2) / 12; s makes it major^2 / 12, that of the footprint, so that the result hardly
+ * jumps where the count changes. */
 FN ProbeRow footprint_probes(Footprint f, float finest, vec2 texel_size)
 {
     ProbeRow p;

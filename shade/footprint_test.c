@@ -32,8 +32,8 @@ static void test_axes(void **state)
     assert_false(footprint_is_finite(footprint_from_derivatives(size, none, none)));
 }
 
-/* n probes of width w, s apart, have the second moment (w^2 + (n^2 - 1) s^2) / 12: that of the major axis. None
- * is narrower than the minor axis, the finest texel, or a sixteenth of the major axis. */
+/* n probes of width w, s apart, have the second moment (w^2 + (n^2 - 1) s^2) / 12: that of the major axis.
+ * None is narrower than the minor axis, the finest texel, or a sixteenth of the major axis. */
 static void test_probes_cover_it(void **state)
 {
     (void)state;

@@ -80,10 +80,10 @@ FN float ior_from_F0(float F0)
 
 /* ---- Fresnel's equations, unpolarised light ---- */
 
-/* Reflectance of a dielectric. cos_i in [0, 1] against the normal on the side of incidence; eta = ior of the
- * far side / ior of the near side; below 1 there is total internal reflection (1) beyond the critical angle.
- * Fresnel 1823 in the form of r_s and r_p with the refracted cosine, eta cos_t = sqrt(g2) with g2 = eta^2 - 1 +
- * cos_i^2, which does not cancel where eta is near 1. */
+/* Reflectance of a dielectric. cos_i in [0, 1] against the normal on the side of incidence; eta = ior of
+ * the far side / ior of the near side; below 1 there is total internal reflection (1) beyond the critical
+ * angle. Fresnel 1823 in the form of r_s and r_p with the refracted cosine, eta cos_t = sqrt(g2) with g2 =
+ * eta^2 - 1 + cos_i^2, which does not cancel where eta is near 1. */
 FN float F_dielectric(float cos_i, float eta)
 {
     float g2 = (eta - 1.0f) * (eta + 1.0f) + cos_i * cos_i;

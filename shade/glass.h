@@ -96,8 +96,9 @@ FN vec3 integrate_glass(float perceptual_roughness, float NdotV, float eta, uint
 
 /* ---- compensation ---- */
 
-/* Albedos of a boundary whose F is F_boundary() of F0 and F90, from E of the split sum and (w, R + T, through)
- * of integrate_glass(). Where total internal reflection is possible F90 is taken as 1: an upper bound of R. */
+/* Albedos of a boundary whose F is F_boundary() of F0 and F90, from E of the split sum and (w, R + T,
+ * through) of integrate_glass(). Where total internal reflection is possible F90 is taken as 1: an upper
+ * bound of R. */
 FN GlassAlbedo glass_albedo(float F0, float F90, float eta, float E, vec3 glass)
 {
     float f0 = F0_from_ior(eta);
@@ -112,9 +113,9 @@ FN GlassAlbedo glass_albedo(float F0, float F90, float eta, float E, vec3 glass)
     return a;
 }
 
-/* Factor on both lobes with which they add up to 1: multiply scattered light is assumed to be distributed like
- * singly scattered light. At most 3: seen from inside at grazing angles, boundaries of nearly equal ior scatter
- * up to six times more than their single scattering. */
+/* Factor on both lobes with which they add up to 1: multiply scattered light is assumed to be distributed
+ * like singly scattered light. At most 3: seen from inside at grazing angles, boundaries of nearly equal
+ * ior scatter up to six times more than their single scattering. */
 FN float glass_compensation(GlassAlbedo a)
 {
     return clamp(1.0f / max(a.R + a.T, 1e-3f), 1.0f, 3.0f);

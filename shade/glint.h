@@ -1,13 +1,14 @@
 /* glint.h - sun glints: few of the facets in a pixel reflect the sun, and their number is random. Its
- * expectation follows from the spectrum of the unresolved waves; the reflected sun is multiplied by a variate X
- * of mean 1 and of the variance of the reflection, which moves with the water and changes as fast as its waves
- * do.
+ * expectation follows from the spectrum of the unresolved waves; the reflected sun is multiplied by a
+ * variate X of mean 1 and of the variance of the reflection, which moves with the water and changes as
+ * fast as its waves do.
  *
  *   density = p(s) m4 / (2 sqrt 3),  m4 = int k^4 of the spectrum   glints per m^2; Longuet-Higgins 1960
  *   X = sum of Poisson(n) marks, each exponential, over n           mean 1, variance 2 / n
  *
- * The sun is a disc: a fraction c of the facets reflects it, and a glint is as large as the area over which
- * facets stay within it. A smaller patch of water is either entirely within or not at all, with the variance (1
+ * The sun is a disc: a fraction c of the facets reflects it, and a glint is as large as the area over
+ * which facets stay within it. A smaller patch of water is either entirely within or not at all, with the
+ * variance (1
  * - c) / c, 0 where the disc is resolved. */
 #ifndef SHADE_GLINT_H
 #define SHADE_GLINT_H
@@ -29,10 +30,10 @@
  * exposure: shutter time over the lifetime of a glint.
  *   c = 2 pi sqrt |S| p,  2 / n = (1 - c) / c t / (1 + t)^2,  t = area (1 + exposure) / a
  *   a = 4 pi 2 sqrt 3 / m4 / (1 / sqrt |S| + 2 / (C_xx + C_zz))
- * a is twice the area over which facets reflect the disc, but no larger than waves are. For many glints, t > 1,
- * and a point sun n is the number of glints, p m4 / (2 sqrt 3) area. Glints larger than a pixel, t < 1, are
- * equal in neighboring pixels and not random: such smooth water reflects the disc itself, blurred by its
- * slopes. */
+ * a is twice the area over which facets reflect the disc, but no larger than waves are. For many glints, t
+ * > 1, and a point sun n is the number of glints, p m4 / (2 sqrt 3) area. Glints larger than a pixel, t <
+ * 1, are equal in neighboring pixels and not random: such smooth water reflects the disc itself, blurred
+ * by its slopes. */
 FN float glint_count(int normals, vec3 C, vec3 S, vec3 N, vec3 H, float m4, float area, float exposure)
 {
     vec2 d = slope_from_normal(vec3(H[0], max(H[1], 1e-4f), H[2])) - slope_from_normal(N);
@@ -99,8 +100,8 @@ FN float glint_sum(uint key, float n)
 /* Maximum width of a cell in footprints, where glints are few. */
 #define GLINT_CELL_MAX 4.0f
 
-/* Area of a glint's splat in footprints: the integral of its square is the inverse, and so is the variance of a
- * sum. */
+/* Area of a glint's splat in footprints: the integral of its square is the inverse, and so is the variance
+ * of a sum. */
 #define GLINT_IMAGE 1.75f
 
 /* A patch of water whose glints are computed together. */
@@ -167,9 +168,10 @@ FN float glint_image(GlintCell cell, uint key)
     return inside * inside * 0.954929659f / (cell.radius[0] * cell.radius[1]);
 }
 
-/* X in a cell at a time, for the expected number `count` in a footprint; lifetime (s) of a glint. Glints of one
- * of two overlapping time slots fade out as those of the next fade in, so X consists of Poisson variates at any
- * time. The glints of a slot have positions in the cell; where they are many, the cell is uniform. */
+/* X in a cell at a time, for the expected number `count` in a footprint; lifetime (s) of a glint. Glints
+ * of one of two overlapping time slots fade out as those of the next fade in, so X consists of Poisson
+ * variates at any time. The glints of a slot have positions in the cell; where they are many, the cell is
+ * uniform. */
 FN float glint_variate(GlintCell cell, float count, float time_s, float lifetime_s)
 {
     float t = time_s / (2.0f * lifetime_s) + glint_uniform(glint_hash(cell.key ^ 3144134277u));

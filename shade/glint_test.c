@@ -161,8 +161,8 @@ static void test_time(void **state)
     assert_true(fabs(product[2] / squares) < 0.05);
 }
 
-/* Cells: a footprint has one, a footprint twice as wide has half of the cells, cells are wider where glints are
- * few, and they stay with the water. */
+/* Cells: a footprint has one, a footprint twice as wide has half of the cells, cells are wider where
+ * glints are few, and they stay with the water. */
 static void test_cells(void **state)
 {
     (void)state;

@@ -48,9 +48,9 @@ STRUCT(PrefilterSample)
     float pdf;    /* of L, per sr */
 };
 
-/* Sample i of n for the lobe around R, with N = V = R (a surface seen head-on). Prefiltered radiance is the sum
- * of weight times radiance(L, prefilter_lod()) over the sum of weight. alpha 0 copies the environment: every
- * sample is R. Karis 2013, "PrefilterEnvMap". */
+/* Sample i of n for the lobe around R, with N = V = R (a surface seen head-on). Prefiltered radiance is
+ * the sum of weight times radiance(L, prefilter_lod()) over the sum of weight. alpha 0 copies the
+ * environment: every sample is R. Karis 2013, "PrefilterEnvMap". */
 FN PrefilterSample prefilter_sample(uint i, uint n, float alpha, vec3 R)
 {
     float a = max(alpha, ALPHA_MIRROR);
@@ -63,10 +63,10 @@ FN PrefilterSample prefilter_sample(uint i, uint n, float alpha, vec3 R)
     return r;
 }
 
-/* Mip at which the texels match a sample of density pdf, one of n: 1/2 log2(omega_s / omega_p) + 1, at least 0.
- * omega_s = 1 / (n pdf); texel_solid_angle = omega_p, 4 pi / (6 size^2) for a cube. The 1 makes the footprints
- * overlap. Krivanek and Colbert 2008, "Real-time Shading with Filtered Importance Sampling"; GPU Gems 3,
- * chapter 20. */
+/* Mip at which the texels match a sample of density pdf, one of n: 1/2 log2(omega_s / omega_p) + 1, at
+ * least 0. omega_s = 1 / (n pdf); texel_solid_angle = omega_p, 4 pi / (6 size^2) for a cube. The 1 makes
+ * the footprints overlap. Krivanek and Colbert 2008, "Real-time Shading with Filtered Importance
+ * Sampling"; GPU Gems 3, chapter 20. */
 FN float prefilter_lod(float pdf, uint n, float texel_solid_angle)
 {
     float sample_solid_angle = 1.0f / max(float(n) * pdf, 1e-20f);
@@ -122,8 +122,8 @@ FN vec2 integrate_dfg_karis(float perceptual_roughness, float NdotV, uint n)
 
 /* ---- lighting ---- */
 
-/* Reflected radiance by the split sum: prefiltered (F0 A + F90 B); prefiltered in the direction reflect(-V, N).
- * Karis 2013, "ApproximateSpecularIBL". */
+/* Reflected radiance by the split sum: prefiltered (F0 A + F90 B); prefiltered in the direction
+ * reflect(-V, N). Karis 2013, "ApproximateSpecularIBL". */
 FN vec3 approximate_specular_ibl(vec3 F0, vec3 F90, vec3 prefiltered, vec2 dfg)
 {
     return prefiltered * (F0 * dfg[0] + F90 * dfg[1]);
@@ -139,8 +139,8 @@ STRUCT(MultiScatter)
 /* Single and multiple scattering from the split sum:
  *   FssEss = k_S A + F90 B,  Ems = 1 - A - B,  FmsEms = Ems FssEss Favg / (1 - Favg Ems)
  * k_S is F0, or F_Schlick_roughness(). With k_S = F0 = F90 = 1 the two add up to 1; with k_S = F0 to
- * specular_albedo(). Fdez-Aguera 2019, "A Multiple-Scattering Microfacet Model for Real-Time Image-based Lighting".
- */
+ * specular_albedo(). Fdez-Aguera 2019, "A Multiple-Scattering Microfacet Model for Real-Time Image-based
+ * Lighting". */
 FN MultiScatter multiscatter_ibl(vec3 k_S, vec3 F0, vec3 F90, vec2 dfg)
 {
     MultiScatter r;
@@ -154,11 +154,12 @@ FN MultiScatter multiscatter_ibl(vec3 k_S, vec3 F0, vec3 F90, vec2 dfg)
 /* Radiance (cd/m^2) of the environment reflected by a surface, with occlusion, without emission.
  * specular_radiance is prefiltered for the surface's roughness along reflect(-V, N); dfg is (A, B) at NdotV.
  *
- * ENERGY_GLTF is Khronos' renderer: k_S by F_Schlick_roughness, the sum of single and multiple scattering times
- * the specular radiance, the base under a dielectric weighted with one minus that sum (its largest channel, as
- * required by KHR_materials_specular; Khronos' renderer does it per channel, which differs for a colored F0
- * only), and the whole sum times occlusion. ENERGY_CONSERVING: k_S = F0, and multiple scattering takes the
- * irradiance, as in Fdez-Aguera. In either mode a white surface in a uniform environment returns its radiance. */
+ * ENERGY_GLTF is Khronos' renderer: k_S by F_Schlick_roughness, the sum of single and multiple scattering
+ * times the specular radiance, the base under a dielectric weighted with one minus that sum (its largest
+ * channel, as required by KHR_materials_specular; Khronos' renderer does it per channel, which differs for
+ * a colored F0 only), and the whole sum times occlusion. ENERGY_CONSERVING: k_S = F0, and multiple
+ * scattering takes the irradiance, as in Fdez-Aguera. In either mode a white surface in a uniform
+ * environment returns its radiance. */
 FN vec3 surface_ibl(Surface s, float NdotV, vec2 dfg, vec3 specular_radiance, vec3 irradiance_over_pi,
                     int energy)
 {

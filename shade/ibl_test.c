@@ -39,7 +39,8 @@ static void test_split_sum(void **state)
             mean_dfg(dfg_sample_karis, golden_roughness[r], golden_NdotV[c], 1u << 20u, dfg);
             expect_near(dfg[0], karis_A[r][c], 2.5e-4, "A Karis at %g, %g", at[0], at[1]);
             expect_near(dfg[1], karis_B[r][c], 2.5e-4, "B Karis at %g, %g", at[0], at[1]);
-            /* the loops of the shader library, with the 1024 samples of the notes: accurate to a few per mille */
+            /* the loops of the shader library, with the 1024 samples of the notes: accurate to a few per
+             * mille */
             vec2 loop = integrate_dfg(golden_roughness[r], golden_NdotV[c], 1024u);
             expect_near((double)loop[0], golden_A[r][c], 1.2e-2, "integrate_dfg at %g, %g", at[0], at[1]);
             loop = integrate_dfg_karis(golden_roughness[r], golden_NdotV[c], 1024u);
@@ -137,8 +138,8 @@ static void test_reference_integrator(void **state)
         }
 }
 
-/* Error of the split sum in non-uniform light: N = V = R replaces the stretched highlight of a grazing view by
- * a round one. A gradient, L = 1 + L.z, both ways. */
+/* Error of the split sum in non-uniform light: N = V = R replaces the stretched highlight of a grazing
+ * view by a round one. A gradient, L = 1 + L.z, both ways. */
 static void test_split_sum_error(void **state)
 {
     (void)state;
@@ -164,7 +165,8 @@ static void test_split_sum_error(void **state)
     assert_true(worst > 0.2 && worst < 0.3); /* 27 %, at grazing views of rough surfaces */
 }
 
-/* Section 16.7: Fdez-Aguera's total for four F0 at roughness .75, N.V .5, with k_S = F0 and roughness-dependent. */
+/* Section 16.7: Fdez-Aguera's total for four F0 at roughness .75, N.V .5, with k_S = F0 and
+ * roughness-dependent. */
 static void test_multiscatter(void **state)
 {
     (void)state;

@@ -1,9 +1,10 @@
-/* iridescence.h - Fresnel reflectance of a surface under a thin film (KHR_materials_iridescence): soap bubbles, oil,
- * beetles. Light reflected at the film's two sides interferes; for each of Rec.709's primaries the series of
- * interreflections is integrated over the spectrum in closed form.
+/* iridescence.h - Fresnel reflectance of a surface under a thin film (KHR_materials_iridescence): soap
+ * bubbles, oil, beetles. Light reflected at the film's two sides interferes; for each of Rec.709's
+ * primaries the series of interreflections is integrated over the spectrum in closed form.
  *
- * Belcour and Barla 2017, "A Practical Extension to Microfacet Theory for the Modeling of Varying Iridescence", with
- * the simplifications of the extension's text: Schlick's Fresnel, no polarisation, two terms of the series. */
+ * Belcour and Barla 2017, "A Practical Extension to Microfacet Theory for the Modeling of Varying
+ * Iridescence", with the simplifications of the extension's text: Schlick's Fresnel, no polarisation, two
+ * terms of the series. */
 #ifndef SHADE_IRIDESCENCE_H
 #define SHADE_IRIDESCENCE_H
 
@@ -15,8 +16,8 @@ FN float film_gaussian(float amplitude, float position, float variance, float ph
            exp(-variance * phase * phase);
 }
 
-/* Sensitivity to interference at an optical path difference in nm and a phase shift per channel in rad, linear
- * Rec.709. Belcour and Barla 2017, equation 12; x has a second lobe in the blue. */
+/* Sensitivity to interference at an optical path difference in nm and a phase shift per channel in rad,
+ * linear Rec.709. Belcour and Barla 2017, equation 12; x has a second lobe in the blue. */
 FN vec3 film_sensitivity(float path_nm, vec3 shift)
 {
     float phase = 2.0f * PI * path_nm * 1e-9f;
@@ -41,8 +42,8 @@ FN vec3 film_base_reflectance(float film_ior, vec3 base_ior, float cos_film)
     return F_Schlick(r * r, vec3(1.0f), cos_film);
 }
 
-/* The sum over interreflections: R12 is the reflectance of the film's near side (T121 = 1 - R12, passed twice),
- * R23 that of its far side. */
+/* The sum over interreflections: R12 is the reflectance of the film's near side (T121 = 1 - R12, passed
+ * twice), R23 that of its far side. */
 FN vec3 film_series(float R12, vec3 R23, float path_nm, vec3 shift)
 {
     float T121 = 1.0f - R12;
@@ -62,14 +63,14 @@ FN float film_fade(float thickness_nm)
     return smoothstep(0.0f, 0.03f, thickness_nm);
 }
 
-/* Reflectance in [0, 1] of a film of the given index and thickness (nm) over a base of reflectance F0, in air,
- * for light at cos_air to the normal. Below 0.03 nm the film fades into F_Schlick(F0, 1, cos_air); at normal
- * incidence, so does a film with the index of air or of the base. (At other angles Schlick's curve reflects
- * without an interface.)
+/* Reflectance in [0, 1] of a film of the given index and thickness (nm) over a base of reflectance F0, in
+ * air, for light at cos_air to the normal. Below 0.03 nm the film fades into F_Schlick(F0, 1, cos_air); at
+ * normal incidence, so does a film with the index of air or of the base. (At other angles Schlick's curve
+ * reflects without an interface.)
  *
  * This differs from the extension's text for vanishing films: the text fades the index only and keeps the
- * product of both reflectances above 1e-5, with which a thickness of 0 would still add 0.006 and more. Its sum
- * also exceeds 1 by 3e-5 in places; this one does not. */
+ * product of both reflectances above 1e-5, with which a thickness of 0 would still add 0.006 and more. Its
+ * sum also exceeds 1 by 3e-5 in places; this one does not. */
 FN vec3 F_iridescent(float film_ior, float thickness_nm, vec3 F0, float cos_air)
 {
     float fade = film_fade(thickness_nm);

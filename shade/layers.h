@@ -7,8 +7,8 @@
  *       specular transmission                             a thin wall, or the boundary of a volume
  *       mix(diffuse transmission) of diffuse reflection and diffuse transmission
  *
- * Values are passed in; no texture is read here. Both energy modes are those of surface.h: ENERGY_GLTF mixes as
- * specified by the extensions, ENERGY_CONSERVING never gains energy. */
+ * Values are passed in; no texture is read here. Both energy modes are those of surface.h: ENERGY_GLTF
+ * mixes as specified by the extensions, ENERGY_CONSERVING never gains energy. */
 #ifndef SHADE_LAYERS_H
 #define SHADE_LAYERS_H
 
@@ -225,9 +225,10 @@ FN vec3 layers_clearcoat_reflection(Layers m, vec3 V)
     return normalize(reflect(-V, m.clearcoat_N));
 }
 
-/* Terms of a boundary for an anisotropic lobe, from those of the isotropic one and the split sums of both: the
- * mean weight scales with that of Schlick's, losses are underestimated as those of E are. Seen from inside,
- * where total internal reflection depends on the width, both are bounds found by comparing quadratures. */
+/* Terms of a boundary for an anisotropic lobe, from those of the isotropic one and the split sums of both:
+ * the mean weight scales with that of Schlick's, losses are underestimated as those of E are. Seen from
+ * inside, where total internal reflection depends on the width, both are bounds found by comparing
+ * quadratures. */
 FN vec3 layers_glass_bound(vec3 glass, vec2 dfg, vec2 bound, vec2 alpha, float eta)
 {
     float share = dfg[1] * (bound[0] + bound[1]);

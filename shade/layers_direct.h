@@ -9,8 +9,8 @@
 #define LOBE_TRANSMISSION 4u
 #define LOBES_ALL 7u
 
-/* Weights of a boundary: of the lobe D V with metallic mixed in, of the layers below the dielectric, and of the
- * lobe transmitted through it. */
+/* Weights of a boundary: of the lobe D V with metallic mixed in, of the layers below the dielectric, and
+ * of the lobe transmitted through it. */
 STRUCT(BoundaryWeights)
 {
     vec3 specular;
@@ -27,8 +27,9 @@ FN vec3 layers_F_base(Layers m, float VdotH)
     return F_Schlick(m.base.F0, F90, VdotH);
 }
 
-/* glTF's weights: the base receives 1 - F of the microfacet at V.H. The film's reflectance is that of N.V, as
- * in Khronos' renderer, and is mixed with the plain one rather than its thickness (KHR_materials_iridescence). */
+/* glTF's weights: the base receives 1 - F of the microfacet at V.H. The film's reflectance is that of N.V,
+ * as in Khronos' renderer, and is mixed with the plain one rather than its thickness
+ * (KHR_materials_iridescence). */
 FN BoundaryWeights boundary_weights_gltf(Layers m, float VdotH, LayerTables t)
 {
     vec3 F_base = layers_F_base(m, VdotH);
@@ -66,8 +67,8 @@ FN vec3 layers_F_exact(Layers m, float VdotH)
     return F_boundary(m.base.F0, vec3(m.base.F90), VdotH, layers_fresnel_eta(m));
 }
 
-/* Both lobes of a volume's boundary share one compensation. A thin wall transmits 1 - R, and its reflection is
- * compensated as for opaque surfaces. */
+/* Both lobes of a volume's boundary share one compensation. A thin wall transmits 1 - R, and its
+ * reflection is compensated as for opaque surfaces. */
 FN ExactBoundary exact_boundary(Layers m, LayerTables t)
 {
     float eta = layers_fresnel_eta(m);
@@ -88,10 +89,10 @@ FN ExactBoundary exact_boundary(Layers m, LayerTables t)
     return b;
 }
 
-/* Energy-conserving weights: the base receives one minus the albedo of the specular lobe towards V, so the sum
- * over all L is at most 1. Transmissive surfaces use Fresnel's equations, and each microfacet of a volume's
- * boundary transmits what it does not reflect. Inside an opaque volume the LUTs do not apply, as F is that of
- * the rarer side; there F(N.V) replaces the albedo, and the lobe is scaled to it. */
+/* Energy-conserving weights: the base receives one minus the albedo of the specular lobe towards V, so the
+ * sum over all L is at most 1. Transmissive surfaces use Fresnel's equations, and each microfacet of a
+ * volume's boundary transmits what it does not reflect. Inside an opaque volume the LUTs do not apply, as
+ * F is that of the rarer side; there F(N.V) replaces the albedo, and the lobe is scaled to it. */
 FN BoundaryWeights boundary_weights_conserving(Layers m, float NdotV, float VdotH, LayerTables t)
 {
     vec3 F90 = vec3(m.base.F90);
@@ -288,8 +289,8 @@ FN vec3 layers_base_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t, uin
 }
 
 /* Sheen over f, the layers below. glTF dims by the larger albedo of both directions, which is reciprocal;
- * ENERGY_CONSERVING by that at V, with which lobe and base add up, and limits the lobe's own albedo to 1. Light
- * from behind has no direction on the fibers' side. KHR_materials_sheen. */
+ * ENERGY_CONSERVING by that at V, with which lobe and base add up, and limits the lobe's own albedo to 1.
+ * Light from behind has no direction on the fibers' side. KHR_materials_sheen. */
 FN vec3 layers_sheen_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t, float sheen_E_L, vec3 f)
 {
     float NdotL = min(dot(m.base.N, L), 1.0f);
@@ -321,8 +322,8 @@ FN vec3 layers_clearcoat_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t
     return mix(f, vec3(coat), m.clearcoat * F_clearcoat(NdotV));
 }
 
-/* BSDF times |N.L|, in 1/sr, of light from either side. energy is one of ENERGY_*; sheen_E_L is the directional albedo
- * of the sheen at N.L, read by LAYER_SHEEN for light from the eye's side. */
+/* BSDF times |N.L|, in 1/sr, of light from either side. energy is one of ENERGY_*; sheen_E_L is the
+ * directional albedo of the sheen at N.L, read by LAYER_SHEEN for light from the eye's side. */
 FN vec3 layers_brdf_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables t, float sheen_E_L)
 {
     vec3 f = layers_base_cos(m, V, L, energy, t, LOBES_ALL);

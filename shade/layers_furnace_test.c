@@ -1,5 +1,5 @@
-/* layers_furnace_test.c - the layered surface in a uniform light of 1, by punctual lights from all sides: every
- * combination of layers with random parameters. */
+/* layers_furnace_test.c - the layered surface in a uniform light of 1, by punctual lights from all sides:
+ * every combination of layers with random parameters. */
 #include "testing/layer_albedo.h"
 
 enum { ALL_LAYERS = 512, DRAWS = 1024 };
@@ -56,9 +56,9 @@ static void test_conserving_ibl_never_gains(void **state)
     assert_true(worst <= 1.0 + 1e-5);
 }
 
-/* Punctual lights from everywhere and an environment add up to the same if only the order of summation differs:
- * not for anisotropy, whose LUT values are bounds, nor for rough boundaries of volumes, which lose multiple
- * scattering. */
+/* Punctual lights from everywhere and an environment add up to the same if only the order of summation
+ * differs: not for anisotropy, whose LUT values are bounds, nor for rough boundaries of volumes, which
+ * lose multiple scattering. */
 static void test_direct_equals_image_based(void **state)
 {
     (void)state;
@@ -121,10 +121,10 @@ static double gltf_albedo(Layers m, float NdotV)
     return largest(rgb);
 }
 
-/* The specification's mixes exceed 1 where its base does (1.68 at grazing views, see surface_test.c): the layer
- * below the dielectric's interface is weighted with 1 - F(V.H), on either side of the surface. Sheen exceeds it
- * by its own albedo, 1.033. A coat and a thin wall do not: the coat is weighted with N.V, the wall with the V.H
- * of the lobe itself, so that glass returns E. Pinned so that a change shows. */
+/* The specification's mixes exceed 1 where its base does (1.68 at grazing views, see surface_test.c): the
+ * layer below the dielectric's interface is weighted with 1 - F(V.H), on either side of the surface. Sheen
+ * exceeds it by its own albedo, 1.033. A coat and a thin wall do not: the coat is weighted with N.V, the
+ * wall with the V.H of the lobe itself, so that glass returns E. Pinned so that a change shows. */
 static void test_gltf_gains_where_its_mix_does(void **state)
 {
     (void)state;

@@ -10,8 +10,8 @@ STRUCT(BoundaryIbl)
     float below;
 };
 
-/* The dielectric. Unless it is exact, a rough boundary seen from inside a volume takes F(N.V): there is no LUT
- * for it. */
+/* The dielectric. Unless it is exact, a rough boundary seen from inside a volume takes F(N.V): there is no
+ * LUT for it. */
 FN BoundaryIbl boundary_ibl_base(Layers m, float NdotV, LayerTables t, int energy)
 {
     vec3 F90 = vec3(m.base.F90);
@@ -49,8 +49,8 @@ FN BoundaryIbl boundary_ibl_metal(Layers m, float NdotV, LayerTables t, int ener
     return b;
 }
 
-/* A film of reflectance F: glTF's, as in Khronos' renderer, multiplies the radiance; the conserving one has the
- * lobe's albedo and multiple scattering. */
+/* A film of reflectance F: glTF's, as in Khronos' renderer, multiplies the radiance; the conserving one
+ * has the lobe's albedo and multiple scattering. */
 FN BoundaryIbl boundary_ibl_film(vec3 F, LayerTables t, int energy)
 {
     BoundaryIbl b;
@@ -112,8 +112,8 @@ FN LayeredRadiance layers_base_ibl(Layers m, float NdotV, LayerTables t, LayerLi
 }
 
 /* The sheen lobe returns color E of uniform light and transmits sheen_scaling(). Where E exceeds 1, light
- * blurred over the rim no longer separates the rim's part: E is clamped to 1, as in the 8 bits of Khronos' LUT;
- * in the conserving mode color E is. */
+ * blurred over the rim no longer separates the rim's part: E is clamped to 1, as in the 8 bits of Khronos'
+ * LUT; in the conserving mode color E is. */
 FN LayeredRadiance layers_sheen_ibl(Layers m, LayerTables t, vec3 sheen, int energy, LayeredRadiance r)
 {
     float E = t.sheen_E;
@@ -137,8 +137,8 @@ FN LayeredRadiance layers_clearcoat_ibl(Layers m, vec3 V, vec3 coat, LayeredRadi
 
 /* Radiance (cd/m^2) of the environment towards V, with occlusion, without emission.
  *
- * Occlusion dims light from the hemisphere above, sheen and coat included, as in Khronos' renderer; light from
- * behind is not dimmed, since refracted rays have already been traced. */
+ * Occlusion dims light from the hemisphere above, sheen and coat included, as in Khronos' renderer; light
+ * from behind is not dimmed, since refracted rays have already been traced. */
 FN vec3 layers_ibl(Layers m, vec3 V, LayerTables t, LayerLight light, int energy)
 {
     float NdotV = surface_NdotV(m.base, V);

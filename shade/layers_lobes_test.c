@@ -1,5 +1,5 @@
-/* layers_lobes_test.c - single lobes add up to the whole, for punctual lights and for environments, and each is
- * 0 without its layer. */
+/* layers_lobes_test.c - single lobes add up to the whole, for punctual lights and for environments, and
+ * each is 0 without its layer. */
 #include "testing/layer_albedo.h"
 #include "testing/nasty_layers.h"
 
@@ -91,8 +91,8 @@ static void test_absent_lobes_are_black(void **state)
     }
 }
 
-/* Smooth surfaces mask nothing in either formula; Schlick's with k = alpha / 2 masks more at grazing angles of
- * rough ones. */
+/* Smooth surfaces mask nothing in either formula; Schlick's with k = alpha / 2 masks more at grazing
+ * angles of rough ones. */
 static void test_schlick_GGX(void **state)
 {
     (void)state;

@@ -4,12 +4,12 @@
  *   f |N.L| / pdf
  * is unbiased for any probabilities that are not 0 where the lobe is not.
  *
- * Specular (delta) lobes, too narrow to evaluate in single precision, are separate: they have a direction and a
- * weight but no density. Whether a lobe is specular depends on the surface only.
+ * Specular (delta) lobes, too narrow to evaluate in single precision, are separate: they have a direction
+ * and a weight but no density. Whether a lobe is specular depends on the surface only.
  *
- * A mapped normal may face away from the eye. Lobes then use the nearest V above the surface (view_above()) for
- * sampling, densities and evaluation alike; otherwise they would be sampled in one place and evaluated in
- * another. */
+ * A mapped normal may face away from the eye. Lobes then use the nearest V above the surface
+ * (view_above()) for sampling, densities and evaluation alike; otherwise they would be sampled in one
+ * place and evaluated in another. */
 #ifndef SHADE_LAYERS_SAMPLE_H
 #define SHADE_LAYERS_SAMPLE_H
 
@@ -305,7 +305,8 @@ FN float pdf_reflection_anisotropic(vec3 V, vec3 L, vec2 alpha)
 }
 
 /* Probability of reflection, rather than transmission, at a microfacet of a coupled boundary at V.H:
- * proportional to their albedos, by Fresnel's equations in either energy mode. A film may reflect any fraction. */
+ * proportional to their albedos, by Fresnel's equations in either energy mode. A film may reflect any
+ * fraction. */
 FN float layers_reflection_share(Layers m, float VdotH)
 {
     vec3 F = layers_F_base(m, VdotH);

@@ -241,7 +241,8 @@ static void test_mirrors_continue_lobes(void **state)
         assert_true(!layers_transmission_is_mirror(a) && layers_transmission_is_mirror(b));
         expect_continuous(a, b, 2e-3, "refraction");
     }
-    /* rough, and the ior of both sides nearly equal: straight on. glTF's term there is an estimate, 0.02 too large. */
+    /* rough, and the ior of both sides nearly equal: straight on. glTF's term there is an estimate, 0.02
+     * too large. */
     Layers a = glass(0.5f, 1.0f + 0.82e-3f), b = glass(0.5f, 1.0f + 0.78e-3f);
     assert_true(!layers_transmission_is_mirror(a) && layers_transmission_is_mirror(b));
     expect_continuous(a, b, 0.025, "nearly air");
@@ -265,8 +266,8 @@ static void test_mirrors_continue_lobes(void **state)
     expect_continuous(coated, smooth, 2e-3, "coat");
 }
 
-/* The non-specular lobes are the whole surface if there is no specular lobe, bit for bit; otherwise they differ
- * from it only near the specular directions, where the narrow lobes are hundreds high. */
+/* The non-specular lobes are the whole surface if there is no specular lobe, bit for bit; otherwise they
+ * differ from it only near the specular directions, where the narrow lobes are hundreds high. */
 static void test_scatter_leaves_out_mirrors(void **state)
 {
     (void)state;
@@ -308,8 +309,8 @@ static void test_scatter_leaves_out_mirrors(void **state)
 
 /* ---- reciprocity ---- */
 
-/* f(V, L) / n_V^2 = f(L, V) / n_L^2 for a rough boundary under glTF's weights: radiance is counted as L / n^2, so that
- * f(V, L) = f(L, V) eta^2. In ENERGY_CONSERVING the compensation is of V. */
+/* f(V, L) / n_V^2 = f(L, V) / n_L^2 for a rough boundary under glTF's weights: radiance is counted as L /
+ * n^2, so that f(V, L) = f(L, V) eta^2. In ENERGY_CONSERVING the compensation is of V. */
 static void test_boundary_is_reciprocal(void **state)
 {
     (void)state;
@@ -332,9 +333,9 @@ static void test_boundary_is_reciprocal(void **state)
     assert_true(compared > 5000);
 }
 
-/* Lobes that are reciprocal by themselves, F or tables given: coat, film, compensated reflection. As layers they are not:
- * the coat is weighted with F(N.V), the film with that of N.V, compensation with E(N.V); neither is the transformed cosine
- * of sheen.h. */
+/* Lobes that are reciprocal by themselves, F or tables given: coat, film, compensated reflection. As
+ * layers they are not: the coat is weighted with F(N.V), the film with that of N.V, compensation with
+ * E(N.V); neither is the transformed cosine of sheen.h. */
 static void test_lobes_are_reciprocal(void **state)
 {
     (void)state;
@@ -357,9 +358,9 @@ static void test_lobes_are_reciprocal(void **state)
 
 /* ---- weights ---- */
 
-/* Over random materials, smooth and grazing ones included, no weight is a firefly. The mean of weights is at
- * most 1 where energy is conserved; the excess is the variation of a lobe's Fresnel term over its narrow part,
- * or of sheen over its rim. */
+/* Over random materials, smooth and grazing ones included, no weight is a firefly. The mean of weights is
+ * at most 1 where energy is conserved; the excess is the variation of a lobe's Fresnel term over its
+ * narrow part, or of sheen over its rim. */
 static void test_weights_are_bounded(void **state)
 {
     (void)state;

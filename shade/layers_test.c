@@ -68,9 +68,9 @@ static void test_no_layers_is_the_surface(void **state)
     }
 }
 
-/* Every set of layers with factors of 0 is the base, for punctual lights on either side and for environments.
- * Except for transmission in ENERGY_CONSERVING: a transmissive dielectric reflects by Fresnel's equations, not
- * Schlick's. */
+/* Every set of layers with factors of 0 is the base, for punctual lights on either side and for
+ * environments. Except for transmission in ENERGY_CONSERVING: a transmissive dielectric reflects by
+ * Fresnel's equations, not Schlick's. */
 static void test_factor_zero_is_the_base(void **state)
 {
     (void)state;
@@ -133,8 +133,8 @@ static void test_limits_of_parameters(void **state)
 
 /* ---- coat ---- */
 
-/* Over black: only the coat's reflection; mix(black, coat, w F). The lobe's albedo is w F(N.V) E, of which the
- * conserving mode omits E. */
+/* Over black: only the coat's reflection; mix(black, coat, w F). The lobe's albedo is w F(N.V) E, of which
+ * the conserving mode omits E. */
 static void test_clearcoat_over_black(void **state)
 {
     (void)state;
@@ -157,8 +157,8 @@ static void test_clearcoat_over_black(void **state)
         }
 }
 
-/* The base, its emission and everything else are dimmed by one minus the weight of the coat, for any normal of
- * the coat. */
+/* The base, its emission and everything else are dimmed by one minus the weight of the coat, for any
+ * normal of the coat. */
 static void test_clearcoat_dims_what_is_below(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
 /* material.h - the semantics of glTF material parameters: from factors and texels to the surface and its
- * layers. Which channel of which texture scales which factor, as specified by each KHR_materials_*, is defined
- * here only.
+ * layers. Which channel of which texture scales which factor, as specified by each KHR_materials_*, is
+ * defined here only.
  *
  * Texels are linear, and 1 in every channel without a texture. A layered surface starts with
  * layers_from_surface(); each with_...() adds a layer and sets its bit if its factor is above 0. */
@@ -69,8 +69,8 @@ FN vec3 normalize_or(vec3 v, vec3 otherwise)
     return otherwise;
 }
 
-/* From the interpolated normal on the visible side (side 1: the front, -1: the back), the tangent of the front
- * and its handedness, -1 or 1, negated for mirrored instances. glTF 2.0, 3.7.2.1. */
+/* From the interpolated normal on the visible side (side 1: the front, -1: the back), the tangent of the
+ * front and its handedness, -1 or 1, negated for mirrored instances. glTF 2.0, 3.7.2.1. */
 FN ShadingFrame frame_from_tangent(vec3 N, vec3 T, float handedness, float side)
 {
     ShadingFrame f;
@@ -80,9 +80,9 @@ FN ShadingFrame frame_from_tangent(vec3 N, vec3 T, float handedness, float side)
     return f;
 }
 
-/* From texture coordinates: T is dP/du of P(u, v) = p0 + e1 s + e2 t from the changes uv1 and uv2 along e1 and
- * e2. B points to decreasing v, up in an image (glTF 2.0, 3.9.3: green is +Y). T is unit, or 0 where (u, v) is
- * degenerate. */
+/* From texture coordinates: T is dP/du of P(u, v) = p0 + e1 s + e2 t from the changes uv1 and uv2 along e1
+ * and e2. B points to decreasing v, up in an image (glTF 2.0, 3.9.3: green is +Y). T is unit, or 0 where
+ * (u, v) is degenerate. */
 FN ShadingFrame frame_from_texcoord(vec3 N, vec3 e1, vec3 e2, vec2 uv1, vec2 uv2, float side)
 {
     ShadingFrame f;
@@ -108,8 +108,8 @@ FN bool frame_has_tangent(ShadingFrame f)
     return dot(f.T, f.T) > 0.0f;
 }
 
-/* The vector of a normal-map texel, with its scale; 0 if the texel is no normal (no texture, or one that could
- * not be decoded and reads as white). glTF 2.0, 3.9.3. */
+/* The vector of a normal-map texel, with its scale; 0 if the texel is no normal (no texture, or one that
+ * could not be decoded and reads as white). glTF 2.0, 3.9.3. */
 FN vec3 normal_from_texel(vec3 texel, float scale)
 {
     if (texel[0] >= 1.0f && texel[1] >= 1.0f && texel[2] >= 1.0f)

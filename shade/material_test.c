@@ -36,7 +36,8 @@ static void test_texcoords(void **state)
     expect_near((double)uv[1], -0.3, 1e-6, "v");
 }
 
-/* Green roughness, blue metallic, red occlusion with its strength, alpha specular, RGB specular color and emissive. */
+/* Green roughness, blue metallic, red occlusion with its strength, alpha specular, RGB specular color and
+ * emissive. */
 static void test_surface_channels(void **state)
 {
     (void)state;

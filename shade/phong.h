@@ -2,10 +2,10 @@
  * environments, fog; in the variants found in programs. Colors are display values, as in those programs; the
  * functions do not depend on whether they are encoded.
  *
- * Eye space: the eye at the origin, +X right, +Y up, +Z towards the viewer; visible points have a negative z.
- * Sources: OpenGL 2.1 specification, 2.14 (lighting), 2.11.4 (sphere maps), 3.8.13 (texture environments), 3.9
- * (color sum), 3.10 (fog); the shaders of rgl 0.111 to 1.3 (D. Adler, D. Murdoch), one of which is printed in
- * the vignette "Shininess in OpenGL 1 versus glTF PBR" of rgl2gltf. */
+ * Eye space: the eye at the origin, +X right, +Y up, +Z towards the viewer; visible points have a negative
+ * z. Sources: OpenGL 2.1 specification, 2.14 (lighting), 2.11.4 (sphere maps), 3.8.13 (texture
+ * environments), 3.9 (color sum), 3.10 (fog); the shaders of rgl 0.111 to 1.3 (D. Adler, D. Murdoch), one
+ * of which is printed in the vignette "Shininess in OpenGL 1 versus glTF PBR" of rgl2gltf. */
 #ifndef SHADE_PHONG_H
 #define SHADE_PHONG_H
 
@@ -114,8 +114,8 @@ FN float phong_NdotH(vec3 N, vec3 V, vec3 L)
     return max(dot(N, H) * inversesqrt(max(dot(H, H), 1e-20f)), 0.0f);
 }
 
-/* max(N.L, 0) Cd + max(N.H, 0)^s Cs under one white light. N, V, L unit. The highlight is neither multiplied by
- * N.L nor normalised: its peak is Cs for every s, and it is visible where N.L <= 0. */
+/* max(N.L, 0) Cd + max(N.H, 0)^s Cs under one white light. N, V, L unit. The highlight is neither
+ * multiplied by N.L nor normalised: its peak is Cs for every s, and it is visible where N.L <= 0. */
 FN vec3 phong_reflection(vec3 N, vec3 V, vec3 L, vec3 diffuse, vec3 specular, float shininess)
 {
     return diffuse * max(dot(N, L), 0.0f) + specular * phong_power(phong_NdotH(N, V, L), shininess);
@@ -200,9 +200,9 @@ FN PhongLit phong_unlit_part(PhongRules r, PhongMaterial m)
     return lit;
 }
 
-/* Contribution of one light at P. N: of phong_normal(); V: unit, to the eye. Opacity is the material's for any
- * number of lights: rgl's WebGL shader adds it once per light, so that two lights make 0.5 opaque; facet does
- * not. */
+/* Contribution of one light at P. N: of phong_normal(); V: unit, to the eye. Opacity is the material's for
+ * any number of lights: rgl's WebGL shader adds it once per light, so that two lights make 0.5 opaque;
+ * facet does not. */
 FN PhongLit phong_light_part(PhongRules r, PhongMaterial m, PhongLight l, vec3 P, vec3 N, vec3 V)
 {
     vec3 L = phong_light_vector(l, P);
@@ -251,10 +251,10 @@ FN PhongColor phong_texel(int type, PhongColor t)
     return t;
 }
 
-/* A lit color combined with a texel (0: no texture coverage, 1: full): rgl's table after glTexEnv, which OpenGL
- * leaves undefined for DECAL of types other than RGB and RGBA (rgl: REPLACE) and defines with a constant color
- * of 0 for BLEND. ALPHA keeps the color; REPLACE with luminance and alpha takes the texel's alpha, with RGB and
- * luminance it keeps the color's. */
+/* A lit color combined with a texel (0: no texture coverage, 1: full): rgl's table after glTexEnv, which
+ * OpenGL leaves undefined for DECAL of types other than RGB and RGBA (rgl: REPLACE) and defines with a
+ * constant color of 0 for BLEND. ALPHA keeps the color; REPLACE with luminance and alpha takes the texel's
+ * alpha, with RGB and luminance it keeps the color's. */
 FN PhongColor phong_texture(int type, int mode, PhongColor e, PhongColor texel)
 {
     PhongColor t = phong_texel(type, texel);
@@ -279,9 +279,9 @@ FN PhongColor phong_texture(int type, int mode, PhongColor e, PhongColor texel)
     return c;
 }
 
-/* Texture coordinates of a sphere map, (0, 0) at its bottom left: r.xy / m + 1/2 with m = 2 sqrt(r.x^2 + r.y^2
- * + (r.z + 1)^2) and r the reflected view direction. N unit, V the unit vector to the eye, eye space. N = V =
- * +Z maps to the center; the rim is the direction straight behind. OpenGL 2.1, 2.11.4. */
+/* Texture coordinates of a sphere map, (0, 0) at its bottom left: r.xy / m + 1/2 with m = 2 sqrt(r.x^2 +
+ * r.y^2 + (r.z + 1)^2) and r the reflected view direction. N unit, V the unit vector to the eye, eye
+ * space. N = V = +Z maps to the center; the rim is the direction straight behind. OpenGL 2.1, 2.11.4. */
 FN vec2 phong_sphere_map(vec3 N, vec3 V)
 {
     vec3 r = reflect(-V, N);
@@ -315,9 +315,9 @@ FN float phong_fog_w(float fov_rad)
     return sel(fov_rad > 0.0f, (1.0f - s) / (1.0f + s), 1.0f / 3.0f);
 }
 
-/* Fog density at distance_m along the axis, [0, 1], by rgl's shaders: with c from 0 at near to 1 at far and c'
- * = mix(w, 1, c), scale c; 1 - exp(-scale c'); 1 - exp(-(scale c')^2). If w is near / far, c' is distance /
- * far. (The shaders write c as (y - z) / (y - x) with z < 0: x is -far, y is -near.) */
+/* Fog density at distance_m along the axis, [0, 1], by rgl's shaders: with c from 0 at near to 1 at far
+ * and c' = mix(w, 1, c), scale c; 1 - exp(-scale c'); 1 - exp(-(scale c')^2). If w is near / far, c' is
+ * distance / far. (The shaders write c as (y - z) / (y - x) with z < 0: x is -far, y is -near.) */
 FN float phong_fog_share(PhongFog f, float distance_m)
 {
     float c = (distance_m - f.near_m) / max(f.far_m - f.near_m, 1e-20f);
@@ -358,8 +358,9 @@ FN float phong_halo(float dissolve, float NdotV)
 
 /* ---- the exponent as a microfacet distribution ---- */
 
-/* Width of Beckmann's distribution with the slopes of cos^s: sqrt(2 / (s + 2)). Walter et al. 2007, section 5.2
- * (s = 2 / alpha^2 - 2). glTF's alpha is perceptual_roughness^2: take another square root for the latter. */
+/* Width of Beckmann's distribution with the slopes of cos^s: sqrt(2 / (s + 2)). Walter et al. 2007,
+ * section 5.2 (s = 2 / alpha^2 - 2). glTF's alpha is perceptual_roughness^2: take another square root for
+ * the latter. */
 FN float alpha_from_shininess(float shininess)
 {
     return sqrt(2.0f / (shininess + 2.0f));
@@ -369,8 +370,8 @@ FN float shininess_from_alpha(float alpha)
     return 2.0f / (alpha * alpha) - 2.0f;
 }
 
-/* Blinn-Phong's distribution of microfacet normals, in 1/sr: D = (s + 2) / (2 pi) (N.H)^s, = (N.H)^s / (pi alpha^2). The
- * integral of D (N.H) over the hemisphere is 1. Blinn 1977; Walter et al. 2007, equation 30. */
+/* Blinn-Phong's distribution of microfacet normals, in 1/sr: D = (s + 2) / (2 pi) (N.H)^s, = (N.H)^s / (pi
+ * alpha^2). The integral of D (N.H) over the hemisphere is 1. Blinn 1977; Walter et al. 2007, equation 30. */
 FN float D_BlinnPhong(float NdotH, float shininess)
 {
     return (shininess + 2.0f) * (0.5f * INV_PI) * phong_power(NdotH, shininess);
@@ -382,9 +383,9 @@ FN vec3 brdf_blinn_phong(vec3 F0, float NdotH, float shininess)
     return F0 * (0.25f * D_BlinnPhong(NdotH, shininess));
 }
 
-/* Normalisation of c (N.H)^s, in 1/sr: with it a surface seen head-on reflects the fraction c of its incident
- * light, (s + 2) (s + 4) / (8 pi (2^(-s/2) + s)). The usual (s + 8) / (8 pi) is up to 7.5 % more (s = 9), 2.7 %
- * at s = 64. Giesen 2009, "Phong and Blinn-Phong Normalization Factors". */
+/* Normalisation of c (N.H)^s, in 1/sr: with it a surface seen head-on reflects the fraction c of its
+ * incident light, (s + 2) (s + 4) / (8 pi (2^(-s/2) + s)). The usual (s + 8) / (8 pi) is up to 7.5 % more
+ * (s = 9), 2.7 % at s = 64. Giesen 2009, "Phong and Blinn-Phong Normalization Factors". */
 FN float blinn_phong_normalisation(float shininess)
 {
     return (shininess + 2.0f) * (shininess + 4.0f) * (0.125f * INV_PI) /
@@ -395,8 +396,8 @@ FN float blinn_phong_normalisation_linear(float shininess)
     return (shininess + 8.0f) * (0.125f * INV_PI);
 }
 
-/* Cs of OpenGL 1 with the peak of brdf_blinn_phong() under a light of irradiance pi: F0 (s + 2) / 8, which the
- * legacy model shows for every N.L. */
+/* Cs of OpenGL 1 with the peak of brdf_blinn_phong() under a light of irradiance pi: F0 (s + 2) / 8, which
+ * the legacy model shows for every N.L. */
 FN vec3 phong_specular_from_F0(vec3 F0, float shininess)
 {
     return F0 * (0.125f * (shininess + 2.0f));

@@ -162,7 +162,8 @@ static void test_ambient_light(void **state)
                     others[i]);
 }
 
-/* 1 / (a0 + a1 d + a2 d^2) and cos^e within the cone, for the ambient color too; in fixed-function OpenGL only. */
+/* 1 / (a0 + a1 d + a2 d^2) and cos^e within the cone, for the ambient color too; in fixed-function OpenGL
+ * only. */
 static void test_attenuation_and_spots(void **state)
 {
     (void)state;
@@ -238,8 +239,8 @@ static void test_every_texture_type_and_mode(void **state)
         }
 }
 
-/* The reflected direction of the center, of the rim, and half way: at 45 degrees the normal reflects +Z to the
- * side. */
+/* The reflected direction of the center, of the rim, and half way: at 45 degrees the normal reflects +Z to
+ * the side. */
 static void test_sphere_map(void **state)
 {
     (void)state;
@@ -293,8 +294,9 @@ static void test_fog_between_its_ends(void **state)
     assert_true(phong_fog_share(f, 9.0f) == 0.0f && phong_fog_share_fixed(f, 9.0f) == 0.0f);
 }
 
-/* glFog's linear fog equals the shaders' for every frustum; its exponential ones do if w = near / far, as for a
- * frustum that tightly encloses a sphere: distance r / sin(FOV / 2), near and far r before and behind. */
+/* glFog's linear fog equals the shaders' for every frustum; its exponential ones do if w = near / far, as
+ * for a frustum that tightly encloses a sphere: distance r / sin(FOV / 2), near and far r before and
+ * behind. */
 static void test_fog_of_both_pipelines(void **state)
 {
     (void)state;

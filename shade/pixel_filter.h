@@ -75,9 +75,9 @@ FN float mitchell(float x)
     return sel(a < 1.0f, inner, sel(a < 2.0f, outer, 0.0f));
 }
 
-/* One side of |k| has the positive mass 355/686 and the negative mass 12/686. Inverts the positive one: the x
- * in [0, 8/7] beyond which lies its fraction q, by f = 8/7 - x: a cubic in sqrt(q) with an error of at most 10
- * % of f, then three Newton steps to rounding. */
+/* One side of |k| has the positive mass 355/686 and the negative mass 12/686. Inverts the positive one:
+ * the x in [0, 8/7] beyond which lies its fraction q, by f = 8/7 - x: a cubic in sqrt(q) with an error of
+ * at most 10 % of f, then three Newton steps to rounding. */
 FN float sample_mitchell_positive(float q)
 {
     float s = sqrt(q);

@@ -155,8 +155,8 @@ static void test_histogram(void **state)
     }
 }
 
-/* A mean over samples is the filtered image: constants, ramps, and squares, whose means are the moments of the
- * filter. */
+/* A mean over samples is the filtered image: constants, ramps, and squares, whose means are the moments of
+ * the filter. */
 static void test_expectation(void **state)
 {
     (void)state;

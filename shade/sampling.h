@@ -30,8 +30,8 @@ FN vec2 hammersley(uint i, uint n)
 
 /* ---- frames ---- */
 
-/* Orthonormal, right-handed basis whose third column is the unit vector N: mul(basis, v) brings v from tangent
- * space to N's. Duff et al. 2017, "Building an Orthonormal Basis, Revisited". */
+/* Orthonormal, right-handed basis whose third column is the unit vector N: mul(basis, v) brings v from
+ * tangent space to N's. Duff et al. 2017, "Building an Orthonormal Basis, Revisited". */
 FN mat3 basis_from_normal(vec3 N)
 {
     float s = sel(N[2] < 0.0f, -1.0f, 1.0f);
@@ -56,8 +56,8 @@ FN float pdf_cosine(float NdotL)
 
 /* ---- GGX normals ---- */
 
-/* Microfacet normal H with density D_GGX(z, alpha) z. Walter et al. 2007, equation 35, as sin^2 = a^2 u / (1 -
- * u + a^2 u), which does not cancel. */
+/* Microfacet normal H with density D_GGX(z, alpha) z. Walter et al. 2007, equation 35, as sin^2 = a^2 u /
+ * (1 - u + a^2 u), which does not cancel. */
 FN vec3 sample_D_GGX(vec2 u, float alpha)
 {
     float phi = 2.0f * PI * u[0];
@@ -94,8 +94,8 @@ FN float pdf_VNDF_GGX(vec3 V, vec3 H, float alpha_x, float alpha_y)
 }
 
 /* The same for reflection only: a smaller cap leaves out most normals that reflect V below the surface, so
- * fewer samples are lost and the variance is lower. The cap of the stretched hemisphere, z > -V.z, is cut at -k
- * V.z:
+ * fewer samples are lost and the variance is lower. The cap of the stretched hemisphere, z > -V.z, is cut
+ * at -k V.z:
  *   k = (1 - a^2) s^2 / (s^2 + a^2 V.z^2),  s = 1 + sqrt(1 - V.z^2),  a = min(alpha_x, alpha_y)
  * Eto and Tokuyoshi 2023, "Bounded VNDF Sampling for Smith-GGX Reflections". V.z > 0. */
 FN float bounded_VNDF_k(float NdotV, float alpha_x, float alpha_y)

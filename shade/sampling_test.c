@@ -79,9 +79,9 @@ static void test_vectors(void **state)
 
 /* ---- chi-square ---- */
 
-/* A lobe on the hemisphere: sampler and density. Normals are histogrammed after stretching by 1 / alpha, where
- * GGX of any width is smooth: h' = normalize(h.x / ax, h.y / ay, h.z), dh = ax ay / |(ax h'.x, ay h'.y,
- * h'.z)|^3 dh'. */
+/* A lobe on the hemisphere: sampler and density. Normals are histogrammed after stretching by 1 / alpha,
+ * where GGX of any width is smooth: h' = normalize(h.x / ax, h.y / ay, h.z), dh = ax ay / |(ax h'.x, ay
+ * h'.y, h'.z)|^3 dh'. */
 typedef enum lobe_kind { COSINE, NORMALS, VISIBLE_NORMALS, REFLECTED } lobe_kind;
 typedef struct lobe {
     lobe_kind kind;
@@ -113,9 +113,9 @@ static float lobe_pdf(const lobe *l, vec3 d)
     return H[2] <= 0.0f ? 0.0f : pdf_VNDF_GGX(l->V, H, l->alpha_x, l->alpha_y) / (4.0f * dot(l->V, H));
 }
 
-/* p-value of samples of one lobe against the density of another, which should be the same: histogram over phi x
- * z against the integral of the density in each cell (Gauss-Legendre, 5 x 5); cells that expect fewer than 5
- * samples are pooled. */
+/* p-value of samples of one lobe against the density of another, which should be the same: histogram over
+ * phi x z against the integral of the density in each cell (Gauss-Legendre, 5 x 5); cells that expect
+ * fewer than 5 samples are pooled. */
 enum { CELLS_PHI = 50, CELLS_Z = 50, DRAWS = 1000000, CHI2_TESTS = 48 };
 static double expected[CELLS_PHI * CELLS_Z], observed[CELLS_PHI * CELLS_Z];
 

@@ -1,5 +1,5 @@
-/* seeds_test.c - errors of formulas in circulating notes and summaries: each fails a property that the correct
- * form passes, so that none returns. docs/seeds.md lists them. */
+/* seeds_test.c - errors of formulas in circulating notes and summaries: each fails a property that the
+ * correct form passes, so that none returns. docs/seeds.md lists them. */
 #include "testing/test_support.h"
 
 static const vec3 up = {0.0f, 0.0f, 1.0f};
@@ -158,8 +158,9 @@ static void test_falloff_in_metres(void **state)
     assert_true(attenuation_range(1.0f, 0.0f) == 1.0f);
 }
 
-/* Widened alpha alone makes glossy surfaces look rough: the highlight of a light of 0.1 rad on roughness .2 has
- * nearly the light's full radiance; the widened lobe shows a fraction, the representative point nearly all. */
+/* Widened alpha alone makes glossy surfaces look rough: the highlight of a light of 0.1 rad on roughness
+ * .2 has nearly the light's full radiance; the widened lobe shows a fraction, the representative point
+ * nearly all. */
 static void test_widened_lobe_alone(void **state)
 {
     (void)state;
@@ -173,8 +174,8 @@ static void test_widened_lobe_alone(void **state)
     assert_true(wide < 0.7 * exact);
 }
 
-/* "BRDF = (1 - F) diffuse + F Vis D" with F0 mixed by metallic differs from glTF, which mixes two BRDFs; nor is
- * it a radiance before N.L and the light. */
+/* "BRDF = (1 - F) diffuse + F Vis D" with F0 mixed by metallic differs from glTF, which mixes two BRDFs;
+ * nor is it a radiance before N.L and the light. */
 static void test_parameters_mixed(void **state)
 {
     (void)state;
@@ -267,8 +268,8 @@ static void test_alpha_per_light(void **state)
     assert_true(phong_texture(PHONG_RGB, PHONG_MODULATE, e, white).opacity == alpha);
 }
 
-/* alpha = sqrt(2 / (s + 2)) is glTF's alpha, the square of its roughness: taken as roughness, the highlight of s = 50
- * is that of s = 1350. */
+/* alpha = sqrt(2 / (s + 2)) is glTF's alpha, the square of its roughness: taken as roughness, the
+ * highlight of s = 50 is that of s = 1350. */
 static void test_one_square_root(void **state)
 {
     (void)state;

@@ -1,8 +1,8 @@
 /* sheen.h - the soft rim of cloth (KHR_materials_sheen): fibers that stand up from the surface.
  *
  * Two models. Charlie is glTF's; its directional albedo E has no closed form, so a LUT is made from
- * sheen_albedo_sample(). The linearly transformed cosine has a fitted albedo and is sampled exactly. Names are
- * those of brdf.h; alpha here is sheen roughness squared. */
+ * sheen_albedo_sample(). The linearly transformed cosine has a fitted albedo and is sampled exactly. Names
+ * are those of brdf.h; alpha here is sheen roughness squared. */
 #ifndef SHADE_SHEEN_H
 #define SHADE_SHEEN_H
 
@@ -39,9 +39,9 @@ FN float sheen_lambda_curve(float x, float alpha)
     return a / (1.0f + b * pow(max(x, 1e-20f), c)) + d * x + e;
 }
 
-/* Smith's auxiliary function of Charlie, in [0, inf): exp(L(x)) below x = 1/2, above it exp(2 L(1/2) - L(1 - x)),
- * so that the logarithm is odd around 1/2. NdotX is the cosine of either direction. Estevez and Kulla 2017,
- * equation 3; glTF takes it without their softening of the terminator. */
+/* Smith's auxiliary function of Charlie, in [0, inf): exp(L(x)) below x = 1/2, above it exp(2 L(1/2) - L(1
+ * - x)), so that the logarithm is odd around 1/2. NdotX is the cosine of either direction. Estevez and
+ * Kulla 2017, equation 3; glTF takes it without their softening of the terminator. */
 FN float Lambda_Charlie(float NdotX, float alpha)
 {
     if (NdotX < 0.5f)
@@ -57,8 +57,9 @@ FN float V_Charlie(float NdotL, float NdotV, float alpha)
     return 1.0f / max(shadowing * 4.0f * NdotL * NdotV, 1e-20f);
 }
 
-/* The cheaper V = 1 / (4 (N.L + N.V - (N.L) (N.V))): Filament's. Its albedo is up to twice Charlie's and above
- * 1 at grazing views of low roughness: a LUT of E holds for one visibility only. Neubelt and Pettineo 2013. */
+/* The cheaper V = 1 / (4 (N.L + N.V - (N.L) (N.V))): Filament's. Its albedo is up to twice Charlie's and
+ * above 1 at grazing views of low roughness: a LUT of E holds for one visibility only. Neubelt and
+ * Pettineo 2013. */
 FN float V_Neubelt(float NdotL, float NdotV)
 {
     return 0.25f / max(NdotL + NdotV - NdotL * NdotV, 1e-20f);
@@ -70,8 +71,8 @@ FN float brdf_sheen(float NdotL, float NdotV, float NdotH, float alpha)
     return D_Charlie(NdotH, alpha) * V_Charlie(NdotL, NdotV, alpha);
 }
 
-/* Fiber normal H with density D_Charlie (N.H): sin = u^(a / (2 a + 1)). For prefiltering; few of these normals
- * are visible from one view, so a path tracer should use sample_sheen_rim(). */
+/* Fiber normal H with density D_Charlie (N.H): sin = u^(a / (2 a + 1)). For prefiltering; few of these
+ * normals are visible from one view, so a path tracer should use sample_sheen_rim(). */
 FN vec3 sample_D_Charlie(vec2 u, float alpha)
 {
     float phi = 2.0f * PI * u[0];
@@ -86,8 +87,8 @@ FN float pdf_D_Charlie(float NdotH, float alpha)
 
 /* Direction L for the lobe, denser towards the horizon the narrower the rim is, azimuth uniform: N.L = z with
  *   p(z) = (1 + s) s / (s + z)^2 in [0, 1],   s = 1 / (N.V / (4 a) + 1 / sqrt(8 a))
- * after D = exp(-(N.H)^2 / (2 a)) with N.H from (N.V + z) / 2 on: s is where that has fallen by a factor e, by
- * either the linear or the square term. Covers the hemisphere; uniform in the limit of large s. */
+ * after D = exp(-(N.H)^2 / (2 a)) with N.H from (N.V + z) / 2 on: s is where that has fallen by a factor
+ * e, by either the linear or the square term. Covers the hemisphere; uniform in the limit of large s. */
 FN float sheen_rim_width(float NdotV, float alpha)
 {
     return 1.0f / (0.25f * NdotV / alpha + inversesqrt(8.0f * alpha));
@@ -107,9 +108,9 @@ FN float pdf_sheen_rim(float NdotL, float NdotV, float alpha)
     return sel(NdotL > 0.0f, (1.0f + s) * s / (d * d) * (0.5f * INV_PI), 0.0f);
 }
 
-/* Term i of n of Charlie's directional albedo E(N.V) = int D V N.L dL; the mean of all n is E, accurate to 1e-3
- * from about n = 4096 on. E exceeds 1 at grazing views of low roughness (1.033 at roughness 0.1, N.V 0.05): a
- * LUT stores it as is, its reader clamps.
+/* Term i of n of Charlie's directional albedo E(N.V) = int D V N.L dL; the mean of all n is E, accurate to
+ * 1e-3 from about n = 4096 on. E exceeds 1 at grazing views of low roughness (1.033 at roughness 0.1, N.V
+ * 0.05): a LUT stores it as is, its reader clamps.
  *
  * Normals of density D N.H leave a factor 1 / N.H of unbounded variance. Their random number is therefore w^2
  * of a uniform w, which moves normals to the horizon, N.H ~ w, and weights them with 2 w:
@@ -195,8 +196,8 @@ FN float sheen_ltc_albedo(float NdotV, float perceptual_roughness)
     return clamp(exp(-0.5f * t * t) / (s * 2.50662827f) + o, 0.0f, 1.0f);
 }
 
-/* Density per sr of L, which is also the lobe times N.L over R: the integral over the hemisphere is 1. V in the
- * plane y = 0, x >= 0. */
+/* Density per sr of L, which is also the lobe times N.L over R: the integral over the hemisphere is 1. V
+ * in the plane y = 0, x >= 0. */
 FN float pdf_sheen_ltc(vec3 V, vec3 L, float perceptual_roughness)
 {
     vec2 t = sheen_ltc_transform(V[2], perceptual_roughness);

@@ -95,11 +95,11 @@ FN vec3 preetham_radiance(PreethamSky s, float cos_theta, float cos_gamma)
 
 /* ---- the atmosphere ---- */
 
-/* Wavelengths of an Atmosphere. Six in two halves, whose colors are added, are as good as a spectrum of 10 nm
- * steps: 0.01 % of luminance, for suns from 1 degree up, haze up to a depth of 0.5, direct and scattered light.
- * Three alone have an error of 0.9 % (rms; 5 % at most, for a sun 1 degree high). Found by least squares over
- * such light (solar spectrum ASTM G-173 from 380 to 720 nm, color matching functions of Wyman, Sloan and
- * Shirley 2013). */
+/* Wavelengths of an Atmosphere. Six in two halves, whose colors are added, are as good as a spectrum of 10
+ * nm steps: 0.01 % of luminance, for suns from 1 degree up, haze up to a depth of 0.5, direct and
+ * scattered light. Three alone have an error of 0.9 % (rms; 5 % at most, for a sun 1 degree high). Found
+ * by least squares over such light (solar spectrum ASTM G-173 from 380 to 720 nm, color matching functions
+ * of Wyman, Sloan and Shirley 2013). */
 #define SKY_BANDS_THREE 0  /* 624, 541, 448 nm */
 #define SKY_BANDS_FIRST 1  /* 656, 574, 465 nm */
 #define SKY_BANDS_SECOND 2 /* 612, 521, 427 nm */
@@ -126,9 +126,9 @@ FN Atmosphere atmosphere_with_haze(Atmosphere a, float depth_550nm, float angstr
     return a;
 }
 
-/* Turbidity is the vertical optical depth of molecules and haze over that of molecules alone, which is 0.10846
- * at 550 nm: 1 for pure air, 1.55 for clear air over the sea, 2.5 for a clear day inland, 6 for a hazy one
- * (McCartney 1976). */
+/* Turbidity is the vertical optical depth of molecules and haze over that of molecules alone, which is
+ * 0.10846 at 550 nm: 1 for pure air, 1.55 for clear air over the sea, 2.5 for a clear day inland, 6 for a
+ * hazy one (McCartney 1976). */
 FN float haze_depth_from_turbidity(float turbidity)
 {
     return (turbidity - 1.0f) * 0.10846f;
@@ -188,8 +188,8 @@ FN float phase_rayleigh(float cos_angle)
     return 3.0f / (16.0f * PI) * (1.0f + cos_angle * cos_angle);
 }
 
-/* Densities of molecules, haze and ozone at a height, relative to their maxima: e^(-h / 8 km), e^(-h / 1.2 km),
- * and a tent from 10 over 25 to 40 km. */
+/* Densities of molecules, haze and ozone at a height, relative to their maxima: e^(-h / 8 km), e^(-h / 1.2
+ * km), and a tent from 10 over 25 to 40 km. */
 FN vec3 air_density(float height_km)
 {
     return vec3(exp(height_km * (-1.0f / 8.0f)), exp(height_km * (-1.0f / 1.2f)),
@@ -338,8 +338,8 @@ FN vec3 table_sun(Atmosphere a, vec3 column_km, float height_km, float mu_sun)
 
 /* ---- light along a ray ---- */
 
-/* Light scattered towards the eye along a ray: single scattering by molecules and by haze, without their phase
- * functions; multiple scattering; and the transmittance of the ray. */
+/* Light scattered towards the eye along a ray: single scattering by molecules and by haze, without their
+ * phase functions; multiple scattering; and the transmittance of the ray. */
 STRUCT(AirLight)
 {
     vec3 rayleigh;
@@ -408,11 +408,11 @@ FN float sunward_part(float mu, float mu_sun, float cos_angle)
     return clamp((cos_angle - mu * mu_sun) / level, -1.0f, 1.0f);
 }
 
-/* In-scattered radiance, per albedo, by molecules and by haze, for a view direction of mu. A phase function of
- * moments w1, w2 turns the field into mean + 3 w1 (up, sunward) . direction + 5 w2 P2(mu) P2 .. (Chandrasekhar
- * 1960, chapter 6). Rayleigh has 0 and 1 / 10: more at the horizon, from where most light comes, and less at
- * the zenith. Haze has g: more on the sun's side, and less from the ground. Half of both is taken, since light
- * loses its direction with each scattering. Hillaire 2020 has the mean only. */
+/* In-scattered radiance, per albedo, by molecules and by haze, for a view direction of mu. A phase
+ * function of moments w1, w2 turns the field into mean + 3 w1 (up, sunward) . direction + 5 w2 P2(mu) P2
+ * .. (Chandrasekhar 1960, chapter 6). Rayleigh has 0 and 1 / 10: more at the horizon, from where most
+ * light comes, and less at the zenith. Haze has g: more on the sun's side, and less from the ground. Half
+ * of both is taken, since light loses its direction with each scattering. Hillaire 2020 has the mean only. */
 FN vec3 air_field_rayleigh(AirField f, float mu)
 {
     return max(f.mean + f.P2 * (0.5f * legendre_P2(mu)), 0.0f);
@@ -423,20 +423,20 @@ FN vec3 air_field_haze(AirField f, float mu, float sunward, float g)
                0.0f);
 }
 
-/* Fraction of haze scattering that counts as unscattered along the view ray: most of it is nearly forward, and
- * the neighboring sky replaces the loss. g^2 would be the fraction of Joseph, Wiscombe and Weinman 1976
- * (delta-Eddington) for a sky without edges; the horizon is one. The 0.15 is fitted. With it and the moments
- * above all luminances of the reference (all orders by Monte Carlo, src/ibl/sky_test.c) are met to 7 %, with
- * the mean alone to 12 %; for haze of a depth of 0.16 to 20 % by day, and in twilight the glow at the horizon
- * is a third too dark. */
+/* Fraction of haze scattering that counts as unscattered along the view ray: most of it is nearly forward,
+ * and the neighboring sky replaces the loss. g^2 would be the fraction of Joseph, Wiscombe and Weinman
+ * 1976 (delta-Eddington) for a sky without edges; the horizon is one. The 0.15 is fitted. With it and the
+ * moments above all luminances of the reference (all orders by Monte Carlo, src/ibl/sky_test.c) are met to
+ * 7 %, with the mean alone to 12 %; for haze of a depth of 0.16 to 20 % by day, and in twilight the glow
+ * at the horizon is a third too dark. */
 FN float haze_forward_share(Atmosphere a)
 {
     return 0.15f * a.haze_g * a.haze_g;
 }
 
-/* One step of length_km through air of a density, away from the eye. sun: table_sun() at the step; field: its
- * air_bounce_field(); mu, sunward: components of the ray there. Hillaire 2020, section 4; the integral over the
- * step as in Hillaire 2015. */
+/* One step of length_km through air of a density, away from the eye. sun: table_sun() at the step; field:
+ * its air_bounce_field(); mu, sunward: components of the ray there. Hillaire 2020, section 4; the integral
+ * over the step as in Hillaire 2015. */
 FN AirLight air_light_step(Atmosphere a, AirLight s, vec3 density, float length_km, vec3 sun, AirField field,
                            float mu, float sunward)
 {
@@ -478,8 +478,8 @@ FN vec2 bounce_table_ray(vec2 place)
     return vec2(y * y * ATMOSPHERE_HEIGHT_KM, x * abs(x));
 }
 
-/* Incident singly scattered light (1/sr), and the fraction of isotropic incident light that is scattered again;
- * means over directions. */
+/* Incident singly scattered light (1/sr), and the fraction of isotropic incident light that is scattered
+ * again; means over directions. */
 STRUCT(AirBounce)
 {
     AirField once;
@@ -517,8 +517,8 @@ FN AirField air_bounce_field(AirBounce b)
 
 /* ---- rows of a sky-view LUT ---- */
 
-/* Zenith angle, rad, of a row v in [-1, 1]: -1 nadir, 0 the horizon, 1 zenith; rows are densest at the horizon.
- * The square is that of Hillaire 2020, section 5.3. */
+/* Zenith angle, rad, of a row v in [-1, 1]: -1 nadir, 0 the horizon, 1 zenith; rows are densest at the
+ * horizon. The square is that of Hillaire 2020, section 5.3. */
 FN float sky_view_zenith_angle(float height_km, float v)
 {
     float horizon = acos(horizon_mu(height_km));
@@ -534,9 +534,9 @@ FN float sky_view_row(float height_km, float zenith_angle)
 
 /* ---- maps of half of the sky, for the GPU ---- */
 
-/* Column of a direction in [0, 1], once around from +X towards +Z: the fraction of the perimeter of a square
- * standing on a corner. It needs one division, and its resolution is never below 0.8 of that of equal angles. x
- * = z = 0: any. */
+/* Column of a direction in [0, 1], once around from +X towards +Z: the fraction of the perimeter of a
+ * square standing on a corner. It needs one division, and its resolution is never below 0.8 of that of
+ * equal angles. x = z = 0: any. */
 FN float sky_turn(float x, float z)
 {
     float along = x / max(abs(x) + abs(z), 1e-30f);
@@ -551,9 +551,9 @@ FN vec2 sky_turned(float turn)
     return vec2(along, aside) * inversesqrt(along * along + aside * aside);
 }
 
-/* Row in [0, 1] of a direction whose sine of elevation is at the fraction h between that of the horizon, 0, and
- * of the zenith (or nadir), 1: the square of the row is proportional to the angle at both ends, so that rows
- * are densest at the horizon. And its inverse. */
+/* Row in [0, 1] of a direction whose sine of elevation is at the fraction h between that of the horizon,
+ * 0, and of the zenith (or nadir), 1: the square of the row is proportional to the angle at both ends, so
+ * that rows are densest at the horizon. And its inverse. */
 FN float sky_row(float h)
 {
     float share = clamp(h, 0.0f, 1.0f);

@@ -183,8 +183,8 @@ static void test_tables(void **state)
 
 /* ---- light along a ray ---- */
 
-/* A step through air of any density attenuates and scatters like the integral; many thin steps equal one thick
- * one. */
+/* A step through air of any density attenuates and scatters like the integral; many thin steps equal one
+ * thick one. */
 static void test_steps(void **state)
 {
     (void)state;

@@ -21,11 +21,12 @@ FN uint hash_uint(uint x)
     return h;
 }
 
-/* Owen scrambling of the digits of x: each is flipped or not by a hash of the seed and of the digits before it.
- * The seed must be a hash (hash_uint()). The form is that of Laine and Karras (2011, section 3.1): additions,
- * products and x ^= x * even propagate to later digits only. Their flips are correlated; here the seed enters
- * six times, and over all seeds each flip is unbiased and every two are independent, on which the variance of
- * an estimate rests (Owen 1997). Any constants of the form 4n + 2 did equally well in the test. */
+/* Owen scrambling of the digits of x: each is flipped or not by a hash of the seed and of the digits
+ * before it. The seed must be a hash (hash_uint()). The form is that of Laine and Karras (2011, section
+ * 3.1): additions, products and x ^= x * even propagate to later digits only. Their flips are correlated;
+ * here the seed enters six times, and over all seeds each flip is unbiased and every two are independent,
+ * on which the variance of an estimate rests (Owen 1997). Any constants of the form 4n + 2 did equally
+ * well in the test. */
 FN uint owen_scramble(uint x, uint seed)
 {
     uint d = x + seed;
@@ -36,9 +37,9 @@ FN uint owen_scramble(uint x, uint seed)
     return d;
 }
 
-/* Digits of Sobol's second dimension from the digits i of the first: Pascal's triangle modulo 2 as a matrix,
- * digit j = sum over k of binomial(k, j) digit k. The matrix is a Kronecker power of its 2 x 2 case, hence five
- * shifts (Ahmed 2024). */
+/* Digits of Sobol's second dimension from the digits i of the first: Pascal's triangle modulo 2 as a
+ * matrix, digit j = sum over k of binomial(k, j) digit k. The matrix is a Kronecker power of its 2 x 2
+ * case, hence five shifts (Ahmed 2024). */
 FN uint sobol_second(uint i)
 {
     uint d = i ^ ((i >> 1u) & 0x55555555u);
@@ -48,12 +49,12 @@ FN uint sobol_second(uint i)
     return d ^ (d >> 16u);
 }
 
-/* Another order of a sequence: digit j of index i becomes the sum, modulo 2, of the digits j, j + t1, .. j + t4
- * (binary digits of i from the last one on), with the four numbers t from 1 to 31 as bytes of taps; 31 is none
- * for i below 2^31. A multiplication by the polynomial 1 + z^t1 + .. + z^t4. Blocks of 2^m indices stay blocks
- * of 2^m, so each order runs through nets as the plain one does; two orders side by side give points of four
- * dimensions, which are as well distributed as the quotient of their polynomials is irregular (Niederreiter
- * 1987). */
+/* Another order of a sequence: digit j of index i becomes the sum, modulo 2, of the digits j, j + t1, .. j
+ * + t4 (binary digits of i from the last one on), with the four numbers t from 1 to 31 as bytes of taps;
+ * 31 is none for i below 2^31. A multiplication by the polynomial 1 + z^t1 + .. + z^t4. Blocks of 2^m
+ * indices stay blocks of 2^m, so each order runs through nets as the plain one does; two orders side by
+ * side give points of four dimensions, which are as well distributed as the quotient of their polynomials
+ * is irregular (Niederreiter 1987). */
 FN uint sobol_order(uint i, uint taps)
 {
     return i ^ (i >> (taps & 31u)) ^ (i >> ((taps >> 8u) & 31u)) ^ (i >> ((taps >> 16u) & 31u)) ^
@@ -77,9 +78,9 @@ FN vec2 sobol_scrambled(uint i, uint seed)
     return vec2(float(x >> 8u), float(y >> 8u)) * (1.0f / 16777216.0f); /* 24 bits: exact, never 1 */
 }
 
-/* Point `index` of the sequence of a seed (any number). Sequences of different seeds are independent, in their
- * order as well, and may be combined to points of more dimensions. Burley 2020, "Practical Hash-based Owen
- * Scrambling". */
+/* Point `index` of the sequence of a seed (any number). Sequences of different seeds are independent, in
+ * their order as well, and may be combined to points of more dimensions. Burley 2020, "Practical
+ * Hash-based Owen Scrambling". */
 FN vec2 sobol_point(uint index, uint seed)
 {
     uint h = hash_uint(seed);

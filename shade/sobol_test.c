@@ -119,8 +119,8 @@ static int abs_int(int x)
     return x < 0 ? -x : x;
 }
 
-/* Over seeds, the flips of a digit behind each of PREFIXES rows of earlier digits: the largest deviation, in standard
- * errors, of a flip's mean from 1/2 and of two flips' agreement from 1/2. */
+/* Over seeds, the flips of a digit behind each of PREFIXES rows of earlier digits: the largest deviation,
+ * in standard errors, of a flip's mean from 1/2 and of two flips' agreement from 1/2. */
 static double worst_flips(const uint prefixes[PREFIXES], int count, int depth)
 {
     static int together[PREFIXES][PREFIXES], sums[PREFIXES];
@@ -186,8 +186,8 @@ static double uniform_p(const int *counts, int cells, double mean)
 
 enum { SIDE = 32, DRAWS = SIDE * SIDE * 100 };
 
-/* Each point alone is uniform in the square over seeds, at any position of the sequence, and so are a number of
- * one sequence and one of the sequence of the next seed. */
+/* Each point alone is uniform in the square over seeds, at any position of the sequence, and so are a
+ * number of one sequence and one of the sequence of the next seed. */
 static void test_points_are_uniform(void **state)
 {
     (void)state;
@@ -210,11 +210,11 @@ static void test_points_are_uniform(void **state)
     }
 }
 
-/* Sums of (a - 1/2)(b - 1/2) over n = 2^m points of two sequences, whose orders must not go together: over seeds their mean
- * is 0. Their variance: a - 1/2 is the sum over digits k of D_k 2^-(k + 2), D_k = +-1. Owen's flips leave E[D_k(i) D_k(j)] = 1
- * for i = j, -2^-k where k is the largest digit in which indices i and j differ, else 0. So with Q the sum of 16^-(k + 2) 2^-k
- * over k < m it is n ((1/12)^2 + Q): more than n (1/12)^2 of random numbers, the price for an order that is even at each
- * power of two. */
+/* Sums of (a - 1/2)(b - 1/2) over n = 2^m points of two sequences, whose orders must not go together: over
+ * seeds their mean is 0. Their variance: a - 1/2 is the sum over digits k of D_k 2^-(k + 2), D_k = +-1.
+ * Owen's flips leave E[D_k(i) D_k(j)] = 1 for i = j, -2^-k where k is the largest digit in which indices i
+ * and j differ, else 0. So with Q the sum of 16^-(k + 2) 2^-k over k < m it is n ((1/12)^2 + Q): more than
+ * n (1/12)^2 of random numbers, the price for an order that is even at each power of two. */
 static void test_orders_are_independent(void **state)
 {
     (void)state;
@@ -270,7 +270,8 @@ static double error_of(integrand kind, uint n, double exact, bool is_sobol)
     return sqrt(square);
 }
 
-/* Owen 1997: n^-1.5, times a logarithm, where derivatives exist; n^-0.75 for an edge, where random points have n^-0.5. */
+/* Owen 1997: n^-1.5, times a logarithm, where derivatives exist; n^-0.75 for an edge, where random points
+ * have n^-0.5. */
 static void test_errors(void **state)
 {
     (void)state;

@@ -2,8 +2,8 @@
 #ifndef SHADE_SPECULAR_AA_H
 #define SHADE_SPECULAR_AA_H
 
-/* GGX width that includes the normals within a pixel: their variance, from the difference of the unit normal to
- * the next pixel right and down, is added to alpha^2:
+/* GGX width that includes the normals within a pixel: their variance, from the difference of the unit
+ * normal to the next pixel right and down, is added to alpha^2:
  *   alpha'^2 = min(alpha^2 + min(2 s^2 (|dN/dx|^2 + |dN/dy|^2), 0.18), 1),  s = 1/2 pixel
  * Kaplanyan et al. 2016; Tokuyoshi and Kaplanyan 2019, "Improved Geometric Specular Antialiasing". Not for
  * renderers that integrate over the pixel. */

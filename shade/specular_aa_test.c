@@ -32,7 +32,8 @@ static void test_limits(void **state)
 static void test_variance_is_that_of_the_normals(void **state)
 {
     (void)state;
-    /* normals over a pixel of Gaussian footprint 1/2: N(x) = z + x dN/dx, slope variance |dN/dx|^2 / 4 per axis */
+    /* normals over a pixel of Gaussian footprint 1/2: N(x) = z + x dN/dx, slope variance |dN/dx|^2 / 4 per
+     * axis */
     double sum = 0.0, weight = 0.0;
     float slope = 0.2f;
     for (int i = -400; i <= 400; ++i) {

@@ -129,8 +129,9 @@ static furnace white_furnace(Surface s, float NdotV, int energy, vec2 dfg, uint 
     return f;
 }
 
-/* A property of glTF's mix, not of this code: the base is weighted with 1 - F(V.H), and at a grazing view V.H
- * can be large although most light was already reflected at the interface; so a white dielectric returns up to
+/* A property of glTF's mix, not of this code: the base is weighted with 1 - F(V.H), and at a grazing view
+ * V.H can be large although most light was already reflected at the interface; so a white dielectric
+ * returns up to
  * 1.68 of the incident light. Khronos' renderer does the same; pinned so that a change shows. */
 static void test_furnace_gltf_dielectric(void **state)
 {

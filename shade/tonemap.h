@@ -1,6 +1,6 @@
-/* tonemap.h - tone mapping from scene-linear to display-linear color. Every operator takes linear Rec.709 in
- * [0, inf), already exposed, and returns display-linear Rec.709 in [0, 1]; the sRGB transfer function (color.h)
- * comes after. Each is monotonic for grays and keeps black. */
+/* tonemap.h - tone mapping from scene-linear to display-linear color. Every operator takes linear Rec.709
+ * in [0, inf), already exposed, and returns display-linear Rec.709 in [0, 1]; the sRGB transfer function
+ * (color.h) comes after. Each is monotonic for grays and keeps black. */
 #ifndef SHADE_TONEMAP_H
 #define SHADE_TONEMAP_H
 
@@ -33,14 +33,15 @@ FN vec3 hable_curve(vec3 c)
     return (c * (c * 0.15f + 0.05f) + 0.004f) / (c * (c * 0.15f + 0.5f) + 0.06f) - 0.02f / 0.3f;
 }
 
-/* Hable's filmic curve with exposure bias 2 and linear white 11.2. Hable 2010, "Filmic Tonemapping Operators". */
+/* Hable's filmic curve with exposure bias 2 and linear white 11.2. Hable 2010, "Filmic Tonemapping
+ * Operators". */
 FN vec3 tonemap_hable(vec3 c)
 {
     return clamp(hable_curve(c * 2.0f) / hable_curve(vec3(11.2f)), 0.0f, 1.0f);
 }
 
-/* Narkowicz's fit of ACES, per channel, without the pre-scale of 0.6, as in Khronos' renderer. Narkowicz 2015,
- * "ACES Filmic Tone Mapping Curve". */
+/* Narkowicz's fit of ACES, per channel, without the pre-scale of 0.6, as in Khronos' renderer. Narkowicz
+ * 2015, "ACES Filmic Tone Mapping Curve". */
 FN vec3 tonemap_aces_narkowicz(vec3 c)
 {
     return clamp(c * (c * 2.51f + 0.03f) / (c * (c * 2.43f + 0.59f) + 0.14f), 0.0f, 1.0f);
@@ -59,8 +60,9 @@ FN vec3 tonemap_aces(vec3 color)
     return clamp(mul(out_of_odt, c), 0.0f, 1.0f);
 }
 
-/* Khronos PBR Neutral: keeps base colors up to 0.8 (less the 0.04 that a dielectric reflects), compresses only
- * highlights, and desaturates these towards the compressed peak. Khronos PBR Neutral Tone Mapper specification. */
+/* Khronos PBR Neutral: keeps base colors up to 0.8 (less the 0.04 that a dielectric reflects), compresses
+ * only highlights, and desaturates these towards the compressed peak. Khronos PBR Neutral Tone Mapper
+ * specification. */
 FN vec3 tonemap_pbr_neutral(vec3 color)
 {
     float darkest = min(color[0], min(color[1], color[2]));
@@ -102,8 +104,8 @@ FN vec3 tonemap_agx(vec3 color)
     return clamp(rec709_from_rec2020(c), 0.0f, 1.0f);
 }
 
-/* The operator op, one of TONEMAP_*, for any color: negative values count as 0, and values are bounded so that
- * no operator computes inf / inf. */
+/* The operator op, one of TONEMAP_*, for any color: negative values count as 0, and values are bounded so
+ * that no operator computes inf / inf. */
 FN vec3 tonemap(int op, vec3 color)
 {
     vec3 c = clamp(color, 0.0f, 1e9f);

@@ -1,13 +1,13 @@
 /* transmission.h - specular transmission (KHR_materials_transmission, KHR_materials_volume).
  *
- * Two cases. A thin wall (no volume) refracts at both of its sides, so light goes straight on, blurred by the
- * roughness; the lobe is that of the reflection, mirrored to the other side. The boundary of a volume refracts
- * once.
+ * Two cases. A thin wall (no volume) refracts at both of its sides, so light goes straight on, blurred by
+ * the roughness; the lobe is that of the reflection, mirrored to the other side. The boundary of a volume
+ * refracts once.
  *
- * eta is the ior beyond the boundary over that on the side of V. Tangent space: z is the normal on V's side, so
- * V.z > 0 and transmitted L.z < 0. These functions contain neither Fresnel's 1 - F nor the tint by base_color:
- * the caller chooses cosines and colors. Radiance is L / n^2, which refraction preserves; for plain radiance
- * divide by eta^2. */
+ * eta is the ior beyond the boundary over that on the side of V. Tangent space: z is the normal on V's
+ * side, so V.z > 0 and transmitted L.z < 0. These functions contain neither Fresnel's 1 - F nor the tint
+ * by base_color: the caller chooses cosines and colors. Radiance is L / n^2, which refraction preserves;
+ * for plain radiance divide by eta^2. */
 #ifndef SHADE_TRANSMISSION_H
 #define SHADE_TRANSMISSION_H
 
@@ -57,8 +57,8 @@ FN float transmission_jacobian(float VdotH, float LdotH, float eta)
 
 /* BTDF times |N.L| in 1/sr:
  *   |L.H| |V.H| / |N.V| * eta^2 G2 D / (V.H + eta L.H)^2
- * with G2 the height-correlated Smith term of both sides' angles. Its integral over the far side is at most 1. Walter
- * et al. 2007, equation 21; KHR_materials_volume. */
+ * with G2 the height-correlated Smith term of both sides' angles. Its integral over the far side is at
+ * most 1. Walter et al. 2007, equation 21; KHR_materials_volume. */
 FN float btdf_GGX_cos(vec3 V, vec3 L, float alpha_x, float alpha_y, float eta)
 {
     vec3 H = half_vector_transmission(V, L, eta);
@@ -120,9 +120,9 @@ FN TransmissionSample sample_transmission(vec2 u, vec3 V, float alpha_x, float a
 
 /* ---- a thin wall ---- */
 
-/* The lobe times |N.L| in 1/sr: D V of the reflection, L mirrored to V's side. KHR_materials_transmission; its
- * text has the separable Smith term, facet the height-correlated one, like Khronos' renderer and like its own
- * reflection. */
+/* The lobe times |N.L| in 1/sr: D V of the reflection, L mirrored to V's side. KHR_materials_transmission;
+ * its text has the separable Smith term, facet the height-correlated one, like Khronos' renderer and like
+ * its own reflection. */
 FN float thin_wall_cos(vec3 V, vec3 L, float alpha_x, float alpha_y)
 {
     vec3 above = vec3(L[0], L[1], -L[2]);

@@ -1,5 +1,5 @@
-/* transmission_test.c - refraction, rough boundaries and thin walls: Snell, published albedos, samplers over the whole
- * sphere, reciprocity. */
+/* transmission_test.c - refraction, rough boundaries and thin walls: Snell, published albedos, samplers
+ * over the whole sphere, reciprocity. */
 #include "testing/chi_square.h"
 
 static const vec3 up = {0.0f, 0.0f, 1.0f};
@@ -227,8 +227,8 @@ static void test_weight_is_btdf_over_pdf(void **state)
     }
 }
 
-/* Reciprocity: f(V, L) / n_V^2 = f(L, V) / n_L^2 with the 1 / eta^2 of plain radiance, which is f(V, L) = f(L,
- * V) eta^2 in this form. L is on the other side, so the frame is flipped. */
+/* Reciprocity: f(V, L) / n_V^2 = f(L, V) / n_L^2 with the 1 / eta^2 of plain radiance, which is f(V, L) =
+ * f(L, V) eta^2 in this form. L is on the other side, so the frame is flipped. */
 static void test_reciprocity(void **state)
 {
     (void)state;

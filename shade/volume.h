@@ -16,7 +16,8 @@ FN vec3 volume_transmittance(vec3 attenuation_color, float attenuation_distance,
                 sel(attenuation_color[2] > 0.0f, T[2], opaque[2]));
 }
 
-/* Extinction coefficient in 1/m of the same: -ln(color) / attenuation_distance; 0 for a distance of infinity or
+/* Extinction coefficient in 1/m of the same: -ln(color) / attenuation_distance; 0 for a distance of
+ * infinity or
  * 0. An opaque channel counts as a color of 1e-30. */
 FN vec3 volume_extinction(vec3 attenuation_color, float attenuation_distance)
 {

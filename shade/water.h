@@ -1,10 +1,10 @@
-/* water.h - the optics of a sea: reflection and refraction at its surface, light from the depth or from a bed,
- * the view from below, and foam. The caller supplies the normal of the resolved waves and the slope covariance
- * of the unresolved ones (water_surface.h); sun glints on the latter are in glint.h.
+/* water.h - the optics of a sea: reflection and refraction at its surface, light from the depth or from a
+ * bed, the view from below, and foam. The caller supplies the normal of the resolved waves and the slope
+ * covariance of the unresolved ones (water_surface.h); sun glints on the latter are in glint.h.
  *
- * SI units; radiance in cd/m^2, linear Rec.709. V: from the surface to the eye, L: to the sun, both unit; still
- * water lies in the plane y = 0. No color is painted: light is reflected, or enters the water and is absorbed
- * and scattered there.
+ * SI units; radiance in cd/m^2, linear Rec.709. V: from the surface to the eye, L: to the sun, both unit;
+ * still water lies in the plane y = 0. No color is painted: light is reflected, or enters the water and is
+ * absorbed and scattered there.
  *
  * Order of use. Once per image: water_downwelling(). At a point of the surface: sigma_towards() and
  * water_table_place() give the coordinates in the LUT of means, water_mirror() the lookup in the sky;
@@ -143,9 +143,9 @@ FN vec3 water_deep_reflectance(Water w)
 }
 
 /* Attenuation in 1/m: of the image of an object, c = a + b; of diffuse light along a ray, a + b_b, as most
- * scattering is nearly forward (Gordon 1973); and of irradiance with depth, K_d = (a + b_b (1 - R)) / 0.86, as
- * upwelling light is scattered down again (Schuster 1905): water without absorption is equally bright at any
- * depth. In seas the last term is below 0.5 %. */
+ * scattering is nearly forward (Gordon 1973); and of irradiance with depth, K_d = (a + b_b (1 - R)) /
+ * 0.86, as upwelling light is scattered down again (Schuster 1905): water without absorption is equally
+ * bright at any depth. In seas the last term is below 0.5 %. */
 FN vec3 water_beam(Water w)
 {
     return w.absorption + w.scattering;
@@ -166,8 +166,8 @@ FN vec3 water_transmittance(vec3 attenuation, float x)
     return exp(-attenuation * x);
 }
 
-/* Phase function in 1/sr: of pure sea water, 1 + 0.835 cos^2 (Morel 1974), and of particles, Henyey-Greenstein.
- * cos_angle between the directions of propagation. */
+/* Phase function in 1/sr: of pure sea water, 1 + 0.835 cos^2 (Morel 1974), and of particles,
+ * Henyey-Greenstein. cos_angle between the directions of propagation. */
 FN float water_phase_pure(float cos_angle)
 {
     return (1.0f + 0.835f * cos_angle * cos_angle) * (0.25f * INV_PI / (1.0f + 0.835f / 3.0f));
@@ -210,8 +210,8 @@ FN vec3 water_bed_reflectance(Water w, vec3 albedo, float depth)
 /* Irradiance (lx) on a horizontal plane just below the surface: `downwelling`, the transmitted light, and all
  * interreflections between the surface and a reflectance R below.
  *   E_d(0-) / (1 - R_int R)
- * A white bed below clear water is as bright as the sky. Lee et al. 1998, equation 2; for wet ground Lekner and
- * Dorf 1988. */
+ * A white bed below clear water is as bright as the sky. Lee et al. 1998, equation 2; for wet ground
+ * Lekner and Dorf 1988. */
 FN vec3 water_interreflected(Water w, vec3 downwelling, vec3 R)
 {
     return downwelling / (1.0f - water_internal_reflectance(w) * R);
@@ -234,8 +234,9 @@ STRUCT(WaterBed)
     float way;        /* path length (m) of the ray in the water, >= depth */
 };
 
-/* Upwelling radiance (cd/m^2) below the surface: the bed, sharp by unscattered and blurred by forward scattered
- * light, and the water in front of it. light: water_interreflected() with water_bed_reflectance(), E.
+/* Upwelling radiance (cd/m^2) below the surface: the bed, sharp by unscattered and blurred by forward
+ * scattered light, and the water in front of it. light: water_interreflected() with
+ * water_bed_reflectance(), E.
  *   E_bed = E e^(-K_d H)
  *   E_bed / pi (albedo e^(-c l) + mean (e^(-(a + b_b) l) - e^(-c l))) + R E / pi (1 - e^(-K_d H - (a + b_b) l))
  * Approaches water_from_deep() with increasing depth, and the bed itself with decreasing depth. Lee et al.
@@ -249,8 +250,8 @@ FN vec3 water_from_bed(Water w, vec3 light, WaterBed bed)
     return light * INV_PI * (ground + water_deep_reflectance(w) * (1.0f - down * blurred));
 }
 
-/* Radiance (cd/m^2) of singly scattered sunlight below the surface, in water of the depth H: eye and sun at the
- * cosines mu_v, mu_s below the surface, beam: irradiance (lx) across the sun's beam there.
+/* Radiance (cd/m^2) of singly scattered sunlight below the surface, in water of the depth H: eye and sun
+ * at the cosines mu_v, mu_s below the surface, beam: irradiance (lx) across the sun's beam there.
  *   E b p / (c (1 + mu_v / mu_s)) (1 - e^(-c H (1 / mu_s + 1 / mu_v)))
  * Chandrasekhar 1960, section 68. */
 FN vec3 water_single_scattering(Water w, vec3 beam, float cos_angle, float mu_s, float mu_v, float depth)
@@ -304,10 +305,10 @@ FN vec3 water_mean_left(vec3 first, vec3 last)
                 water_mean_left1(first[2], last[2]));
 }
 
-/* In-scattered radiance (cd/m^2) along a ray of x m below the surface, from an eye at the depth z (m) in the
- * unit direction d. The diffuse source is such that deep water seen from above has its radiance: at the depth h
- * L_deep (K_d + a + b_b) e^(-K_d h). Looking up, it increases faster than the ray attenuates it; so both form
- * one exponent, never above 0. */
+/* In-scattered radiance (cd/m^2) along a ray of x m below the surface, from an eye at the depth z (m) in
+ * the unit direction d. The diffuse source is such that deep water seen from above has its radiance: at
+ * the depth h L_deep (K_d + a + b_b) e^(-K_d h). Looking up, it increases faster than the ray attenuates
+ * it; so both form one exponent, never above 0. */
 FN vec3 water_inscatter(Water w, vec3 downwelling, float z, vec3 d, float x)
 {
     vec3 K = water_K_d(w);
@@ -332,9 +333,9 @@ FN float water_glow_phase1(float t, float pure_share, float cos_angle)
     return mix(particles, water_phase_pure(cos_angle), pure_share);
 }
 
-/* In-scattered radiance of the sun's beam, by forward scattering: the glow around it. Light leaves the beam by
- * c on the way down, turned slightly, and is attenuated by a + b_b from there on like all diffuse light; beam
- * and glow add up to Gordon's quasi-single scattering,
+/* In-scattered radiance of the sun's beam, by forward scattering: the glow around it. Light leaves the
+ * beam by c on the way down, turned slightly, and is attenuated by a + b_b from there on like all diffuse
+ * light; beam and glow add up to Gordon's quasi-single scattering,
  *   beam e^(-c x) + glow = beam e^(-(a + b_b) x) along the beam
  * Within 4 % of a photon count up to 1.1 scatterings, 11 % up to 2.3; 7 to 35 degrees from the sun 27 % up to
  * 4.6, where single scattering alone has 0.1 to 0.01. Sideways and backward scattering belong to the diffuse
@@ -364,7 +365,8 @@ FN vec3 water_unscattered(Water w, float x)
     return exp((w.backscattering - w.scattering) * x);
 }
 
-/* Irradiance (lx) across the beam of the sun just below flat water: E (1 - F) L.y / mu', mu' its cosine there. */
+/* Irradiance (lx) across the beam of the sun just below flat water: E (1 - F) L.y / mu', mu' its cosine
+ * there. */
 FN vec3 water_beam_below(Water w, WaterLight light)
 {
     float c = clamp(light.L[1], 0.0f, 1.0f);

@@ -1,5 +1,6 @@
-/* water_before.h - the legacy shading style of water, kept for comparison: Blinn-Phong highlights on a mix of
- * hand-picked colors. It exceeds 1 at reflections of the sun and glows in the dark; nothing else depends on it.
+/* water_before.h - the legacy shading style of water, kept for comparison: Blinn-Phong highlights on a mix
+ * of hand-picked colors. It exceeds 1 at reflections of the sun and glows in the dark; nothing else
+ * depends on it.
  *
  *   f = (1 - max(w.N, 0))^5,  W = shallow to deep by the height of the surface,  c = mix(W, sky(R), f)
  *   c = 0.5 c + 0.3 ambient + 0.1 s N.L + 1.5 s (N.H)^64 + sparkle (N.H)^256,  c = mix(c, 1, 0.7 foam)
@@ -87,8 +88,8 @@ FN vec3 painted_mirror(vec3 N, vec3 V)
     return normalize(vec3(R[0], max(R[1], 0.0f), R[2]));
 }
 
-/* The sky (radiance in the mirror direction) by Schlick's reflectance, the sun by GGX of one roughness, over a
- * diffuse base color:
+/* The sky (radiance in the mirror direction) by Schlick's reflectance, the sun by GGX of one roughness,
+ * over a diffuse base color:
  *   F L_sky + F D V N.L E + (1 - F) albedo / pi (E N.L + E_sky) */
 FN vec3 painted_water(WaterLight light, vec3 N, vec3 V, float ior, float perceptual_roughness, vec3 sky)
 {

@@ -1,7 +1,7 @@
-/* water_caustic.h - caustics on the bed below waves: the fraction of light focused by waves, the footprint of
- * the bed seen through waves, and lookups in caustic maps. The maps, made by the caller, hold the irradiance of
- * the sun's beam relative to its mean. Light scattered on its way down, and sky light, come from too many
- * directions to be focused.
+/* water_caustic.h - caustics on the bed below waves: the fraction of light focused by waves, the footprint
+ * of the bed seen through waves, and lookups in caustic maps. The maps, made by the caller, hold the
+ * irradiance of the sun's beam relative to its mean. Light scattered on its way down, and sky light, come
+ * from too many directions to be focused.
  *
  * Watt 1990, "Light-water interaction using backward beam tracing"; Yuksel and Keyser 2009, "Fast real-time
  * caustics from height fields". */
@@ -18,10 +18,10 @@ FN vec3 water_bed_returned(Water w, vec3 albedo, float depth)
 
 /* Fraction of the light on the bed in the unscattered sunbeam, [0, 1]:
  *   (1 - R_int R) E_beam mu e^(-c H / mu) / (E_d e^(-K_d H))
- * beam: lx across it just below the surface, at the cosine mu; downwelling: the transmitted light. Scattering
- * by particles turns light by 23 degrees on average, over a metre of depth farther than waves focus it: singly
- * scattered light counts as diffuse, as in water_from_bed() (Mobley 1994, section 3.9). Bounded by the fraction
- * at the surface, as K_d is that of all directions together. */
+ * beam: lx across it just below the surface, at the cosine mu; downwelling: the transmitted light.
+ * Scattering by particles turns light by 23 degrees on average, over a metre of depth farther than waves
+ * focus it: singly scattered light counts as diffuse, as in water_from_bed() (Mobley 1994, section 3.9).
+ * Bounded by the fraction at the surface, as K_d is that of all directions together. */
 FN vec3 water_focused(Water w, vec3 albedo, vec3 downwelling, vec3 beam, float mu, float depth)
 {
     vec3 faster = max(water_beam(w) * (1.0f / mu) - water_K_d(w), 0.0f);
@@ -38,11 +38,11 @@ FN vec3 water_bed_lit(vec3 focused, float factor, float rest)
 }
 
 /* Footprint (m) on the bed of a ray `width` m wide at the surface, after `way` m along `down`: unresolved
- * slopes C turn the refracted ray by gamma times their angle across the plane of incidence, and by gamma / cos'
- * within it, where
+ * slopes C turn the refracted ray by gamma times their angle across the plane of incidence, and by gamma /
+ * cos' within it, where
  *   gamma = cos' - cos / n
- * and the ray meets the bed at the cosine -down.y. The width of a box with the same variance, of the geometric
- * mean of both axes. */
+ * and the ray meets the bed at the cosine -down.y. The width of a box with the same variance, of the
+ * geometric mean of both axes. */
 FN float water_bed_footprint(Water w, vec3 N, vec3 V, vec3 down, vec3 C, float width, float way)
 {
     float inside = max(-dot(N, down), 0.1f);

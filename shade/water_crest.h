@@ -1,6 +1,6 @@
-/* water_crest.h - sunlight that enters the sunlit sides of waves and is scattered out of the sides seen against
- * the sun. The wave at a point is unknown: it is taken as a sine with the amplitude of the sea and the
- * wavelength of its highest waves, at the phase given by the height of the point.
+/* water_crest.h - sunlight that enters the sunlit sides of waves and is scattered out of the sides seen
+ * against the sun. The wave at a point is unknown: it is taken as a sine with the amplitude of the sea and
+ * the wavelength of its highest waves, at the phase given by the height of the point.
  *
  * Both sun and view are refracted downwards, so that light is scattered by some 50 to 90 degrees, and the sun
  * is never visible unscattered: that would require a prism with slopes over 41 degrees on either side, while
@@ -29,8 +29,8 @@ FN float water_sunlit_slope(float tilt, float variance)
            (max(tilt, 0.0f) * share + 0.398942280f * above * sqrt(max(variance, SLOPE_VARIANCE_MIN)));
 }
 
-/* variance: of all slopes along the sun's azimuth. The beam enters through water tilted like the average sunlit
- * point, and carries the irradiance transmitted by level water: E (1 - F) L.y = beam sunward.y. */
+/* variance: of all slopes along the sun's azimuth. The beam enters through water tilted like the average
+ * sunlit point, and carries the irradiance transmitted by level water: E (1 - F) L.y = beam sunward.y. */
 FN WaterCrest water_crest_beam(Water w, WaterLight light, float variance, float wavenumber, float amplitude)
 {
     float level = max(sqrt(light.L[0] * light.L[0] + light.L[2] * light.L[2]), 1e-4f);
@@ -44,9 +44,9 @@ FN WaterCrest water_crest_beam(Water w, WaterLight light, float variance, float 
     return c;
 }
 
-/* Path length (m) in water from a point of that phase (rad, [0, pi]: from the crest on, away from the sun) to
- * the sunbeam that enters at `entry` before it, along the refracted ray `down`, and back along that beam. sun:
- * unit and horizontal, towards it. 0 from a point to itself. */
+/* Path length (m) in water from a point of that phase (rad, [0, pi]: from the crest on, away from the sun)
+ * to the sunbeam that enters at `entry` before it, along the refracted ray `down`, and back along that
+ * beam. sun: unit and horizontal, towards it. 0 from a point to itself. */
 FN float water_crest_way(WaterCrest c, vec2 sun, vec3 down, float phase, float entry)
 {
     float across = max(phase - entry, 0.0f) / c.wavenumber; /* to its entry, towards the sun */
@@ -58,10 +58,10 @@ FN float water_crest_way(WaterCrest c, vec2 sun, vec3 down, float phase, float e
     return before + max(across - before * along, 0.0f) / level;
 }
 
-/* Fraction, per channel, of the light of water lit everywhere as at its crest, at a point `height` m above the
- * level. tilt: tangent of the sun's elevation. Behind the crest sunlight fades with the slope and ends where
- * that equals the sun's elevation. A ray that first meets light at the path length x and all of it at x + d,
- * increasing linearly between, gathers
+/* Fraction, per channel, of the light of water lit everywhere as at its crest, at a point `height` m above
+ * the level. tilt: tangent of the sun's elevation. Behind the crest sunlight fades with the slope and ends
+ * where that equals the sun's elevation. A ray that first meets light at the path length x and all of it
+ * at x + d, increasing linearly between, gathers
  *   e^(-K x) (r + (1 - r) (1 - e^(-K d)) / (K d)),  K = a + b_b
  * where the point itself has the fraction r, or has x > 0. */
 FN vec3 water_crest_lit(Water w, WaterCrest c, vec2 sun, float tilt, vec3 down, float height)
@@ -82,17 +82,17 @@ FN vec3 water_crest_lit(Water w, WaterCrest c, vec2 sun, float tilt, vec3 down, 
 /* Radiance (1/sr) of a singly scattered beam for an irradiance of 1 on level water and cosines of sun and eye
  * in the water,
  *   b p / ((a + b_b) (mu_s + mu_v))
- * as near-forward scattering counts as unscattered (Gordon 1973). p for angles up to 90 degrees: backscattered
- * light is in the reflectance of deep water. */
+ * as near-forward scattering counts as unscattered (Gordon 1973). p for angles up to 90 degrees:
+ * backscattered light is in the reflectance of deep water. */
 FN vec3 water_forward(Water w, float cos_angle, float mu_s, float mu_v)
 {
     return w.scattering * water_phase(w, max(cos_angle, 0.0f)) /
            (max(water_diffuse(w), 1e-9f) * max(mu_s + mu_v, 1e-3f));
 }
 
-/* Radiance (cd/m^2) below the surface, beside the reflectance of deep water, of forward scattered sunlight in
- * excess of that of level water. N: of the resolved waves; down: refracted from the eye; height: over the mean
- * level, m. Zero for level water and with the sun behind the eye. */
+/* Radiance (cd/m^2) below the surface, beside the reflectance of deep water, of forward scattered sunlight
+ * in excess of that of level water. N: of the resolved waves; down: refracted from the eye; height: over
+ * the mean level, m. Zero for level water and with the sun behind the eye. */
 FN vec3 water_crest(Water w, WaterLight light, WaterCrest c, vec3 N, vec3 V, vec3 down, float height)
 {
     float level = sqrt(light.L[0] * light.L[0] + light.L[2] * light.L[2]);

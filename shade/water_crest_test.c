@@ -222,7 +222,8 @@ static double mean_of(const count *c, int phases)
     return sum;
 }
 
-/* m, greatest slope, degrees; of the radiance that was counted, the share that level water and the wave's own light are. */
+/* m, greatest slope, degrees; of the radiance that was counted, the share that level water and the wave's
+ * own light are. */
 typedef struct wave {
     double length, steepness, sun_deg, least, most;
 } wave;

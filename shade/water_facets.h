@@ -1,11 +1,11 @@
-/* water_facets.h - facets of water that may show a given object: the range of visible facets that may reflect a
- * box or refract it through Snell's window, and random samples of them. Small objects, shown by few facets of a
- * rough surface, take as many rays as large ones. And a fixed set of facets that represents all facets visible
- * from below, inside and outside of Snell's window.
+/* water_facets.h - facets of water that may show a given object: the range of visible facets that may
+ * reflect a box or refract it through Snell's window, and random samples of them. Small objects, shown by
+ * few facets of a rough surface, take as many rays as large ones. And a fixed set of facets that
+ * represents all facets visible from below, inside and outside of Snell's window.
  *
- * Facets have Gaussian slopes (water_surface.h). Their coordinates are in standard deviations from the mean:
- * z.x along the azimuth of the eye, z.y across, around the regression on z.x, so that both are independent and
- * normal. */
+ * Facets have Gaussian slopes (water_surface.h). Their coordinates are in standard deviations from the
+ * mean: z.x along the azimuth of the eye, z.y across, around the regression on z.x, so that both are
+ * independent and normal. */
 #ifndef SHADE_WATER_FACETS_H
 #define SHADE_WATER_FACETS_H
 
@@ -140,8 +140,8 @@ STRUCT(Facet)
     float weight;
 };
 
-/* u: uniform in [0, 1)^2. Density phi(z.x) phi(z.y) in the rectangle; that of visible facets (slopes_seen()) is
- * (1 - z.x / n) (1 - exp(-2 n (n - z.x))) phi(z.x) phi(z.y), as in sample_slopes(). */
+/* u: uniform in [0, 1)^2. Density phi(z.x) phi(z.y) in the rectangle; that of visible facets
+ * (slopes_seen()) is (1 - z.x / n) (1 - exp(-2 n (n - z.x))) phi(z.x) phi(z.y), as in sample_slopes(). */
 FN Facet facet_drawn(FacetRange r, vec3 N, vec2 u)
 {
     float x = mix(normal_below(r.low[0]), normal_below(r.high[0]), u[0]);
@@ -166,9 +166,9 @@ FN Facet facet_drawn(FacetRange r, vec3 N, vec2 u)
 /* Fraction of the slope variance within a cell: below 1.4^2 / 12, plus the part not divided by the rim. */
 #define WINDOW_BETWEEN 0.12f
 
-/* Tilt towards d, in deviations, from which on facets transmit; 1e9: none does. d unit, up; critical: cosine of
- * the critical angle. c = x along |d_h| is compared with critical sqrt(1 + s_along^2 + s_across^2), side:
- * deviations across. */
+/* Tilt towards d, in deviations, from which on facets transmit; 1e9: none does. d unit, up; critical:
+ * cosine of the critical angle. c = x along |d_h| is compared with critical sqrt(1 + s_along^2 +
+ * s_across^2), side: deviations across. */
 FN float window_rim(FacetRange r, vec3 N, vec3 d, float critical, float side)
 {
     vec2 t = r.towards;
@@ -220,9 +220,9 @@ FN float window_roughness(FacetRange r, vec3 C)
 }
 
 /* Facet k of WINDOW_FACETS; r: facets_seen(). Their weights sum to 1 within 0.0015. Tilts towards d are in
- * WINDOW_CELLS cells, one of which is divided by the rim of Snell's window: the weight of each part is exactly
- * its visible fraction, so that light changes smoothly with the tilt of a wave. Across, one deviation to either
- * side has the moments of all (Gauss-Hermite). */
+ * WINDOW_CELLS cells, one of which is divided by the rim of Snell's window: the weight of each part is
+ * exactly its visible fraction, so that light changes smoothly with the tilt of a wave. Across, one
+ * deviation to either side has the moments of all (Gauss-Hermite). */
 FN Facet facet_of_window(FacetRange r, vec3 N, vec3 d, float critical, int k)
 {
     float side = sel(k % 2 == 0, -1.0f, 1.0f);
@@ -247,9 +247,9 @@ FN Facet facet_of_window(FacetRange r, vec3 N, vec3 d, float critical, int k)
     return f;
 }
 
-/* Radiance (cd/m^2) through the window: the sky, and where waves of the slopes C, which include N, occlude it,
- * these as seen from the air: reflections of the sky, and `upwards`, the upwelling radiance just below the
- * surface, through them. */
+/* Radiance (cd/m^2) through the window: the sky, and where waves of the slopes C, which include N, occlude
+ * it, these as seen from the air: reflections of the sky, and `upwards`, the upwelling radiance just below
+ * the surface, through them. */
 FN vec3 window_light(Water w, WaterWindow window, vec3 C, vec3 N, vec3 sky, vec3 upwards)
 {
     float F = water_fresnel(w, water_seen_cosine(window.outside, C));

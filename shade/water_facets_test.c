@@ -1,5 +1,6 @@
-/* water_facets_test.c - facets that mirror a box, or show it through Snell's window, beside all facets by chance: none that does is left out,
- * and their shares are those of sample_slopes(); and facets that stand for all that an eye in the water sees. */
+/* water_facets_test.c - facets that mirror a box, or show it through Snell's window, beside all facets by
+ * chance: none that does is left out, and their shares are those of sample_slopes(); and facets that stand
+ * for all that an eye in the water sees. */
 #include "testing/test_support.h"
 
 enum { DRAWN = 1 << 14, POINTS = 1 << 12 };
@@ -57,7 +58,8 @@ typedef struct tally {
     int seen, narrow;
 } tally;
 
-/* Of an eye along s->V: no facet is out of the range that shows the box, and the shares of those that do are those of all. */
+/* Of an eye along s->V: no facet is out of the range that shows the box, and the shares of those that do
+ * are those of all. */
 static void expect_range(const scene *s, FacetRange r, bool (*shown)(vec3 m, vec3 V, vec3 low, vec3 high),
                          uint k, tally *t)
 {
@@ -130,8 +132,9 @@ static void test_all(void **state)
     expect_near((double)facets_share(beside), 0.0, 1e-6, "beside it");
 }
 
-/* What an eye in the water sees through the window, and how high the light comes from, beside all facets by chance: inside of the
- * window, at its rim and outside of it, of rough water and of calm, on flanks, and askew. */
+/* What an eye in the water sees through the window, and how high the light comes from, beside all facets
+ * by chance: inside of the window, at its rim and outside of it, of rough water and of calm, on flanks,
+ * and askew. */
 static void test_window(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* water_means.h - mean reflection of the sky by a rough sea: means over all visible facets, kept as a LUT, and
- * the lookup direction and lobe they imply. Slopes and masking are those of water_surface.h.
+/* water_means.h - mean reflection of the sky by a rough sea: means over all visible facets, kept as a LUT,
+ * and the lookup direction and lobe they imply. Slopes and masking are those of water_surface.h.
  *
  * A pixel with several samples may sample facets instead (sample_slopes()), which is exact; one direction and
  * one round lobe are within 2 % where the sea is seen from above, and up to 15 % too dark near the horizon
@@ -12,8 +12,8 @@
 #define WATER_TABLE_COLUMNS 32
 #define WATER_TABLE_ROWS 16
 
-/* Means for a sea with Gaussian slopes of variance sigma^2 along each axis; N up, V at the cosine mu. Reflected
- * light is weighted by visible area and Fresnel reflectance. */
+/* Means for a sea with Gaussian slopes of variance sigma^2 along each axis; N up, V at the cosine mu.
+ * Reflected light is weighted by visible area and Fresnel reflectance. */
 STRUCT(WaterMeans)
 {
     float fresnel; /* mean reflectance relative to flat water */
@@ -87,8 +87,8 @@ FN WaterMeans integrate_water_means(int normals, int masking, float mu, float si
     return r;
 }
 
-/* Bruneton, Neyret and Holzschuch 2010, equation 15, an approximation of the mean reflectance (not relative to
- * flat water):
+/* Bruneton, Neyret and Holzschuch 2010, equation 15, an approximation of the mean reflectance (not
+ * relative to flat water):
  *   R0 + (1 - R0) (1 - mu)^(5 exp(-2.69 sigma)) / (1 + 22.7 sigma^1.5)
  * Within 0.009 of the integral up to 80 degrees from the vertical, 0.07 too large at the horizon. */
 FN float water_mean_fresnel_fit(float mu, float sigma, float ior)
@@ -114,8 +114,8 @@ FN vec2 water_table_pair(vec2 place)
     return vec2(x * x, WATER_TABLE_SIGMA * y * y);
 }
 
-/* Standard deviation of slopes relative to N in the plane of N and V: the sigma of a surface of any normal. For
- * V = N, of the mean of both axes. */
+/* Standard deviation of slopes relative to N in the plane of N and V: the sigma of a surface of any
+ * normal. For V = N, of the mean of both axes. */
 FN float sigma_towards(vec3 C, vec3 N, vec3 V)
 {
     vec3 t = V - N * dot(N, V);

@@ -1,5 +1,5 @@
-/* water_place.h - local properties of the sea for one view ray: footprint, normal, foam cover, self-shadowing,
- * and the bed below. The caller evaluates the waves, by summing tiles.
+/* water_place.h - local properties of the sea for one view ray: footprint, normal, foam cover,
+ * self-shadowing, and the bed below. The caller evaluates the waves, by summing tiles.
  *
  * V to the eye, unit; C: xx, zz, xz of a slope covariance (water_surface.h). */
 #ifndef SHADE_WATER_PLACE_H
@@ -21,17 +21,17 @@ FN vec3 wave_patch_weights(vec2 place)
     return squares * (1.0f / length(squares));
 }
 
-/* Weights of four samples in a row for a position between the middle two, f in [0, 1): the first three; all sum
- * to 1. Catmull and Rom 1974. */
+/* Weights of four samples in a row for a position between the middle two, f in [0, 1): the first three;
+ * all sum to 1. Catmull and Rom 1974. */
 FN vec3 wave_cubic_weights(float f)
 {
     return vec3(f * (-0.5f + f * (1.0f - 0.5f * f)), 1.0f + f * f * (-2.5f + 1.5f * f),
                 f * (0.5f + f * (2.0f - 1.5f * f)));
 }
 
-/* The displaced surface is (x + D_x, eta, z + D_z) over (x, z); D: xx, zz, xz of D's derivatives. Its Jacobian,
- * and its unit normal: the cross product of its derivatives. Where it folds or nearly so, its Jacobian is
- * clamped to 0.02: the normal points up. */
+/* The displaced surface is (x + D_x, eta, z + D_z) over (x, z); D: xx, zz, xz of D's derivatives. Its
+ * Jacobian, and its unit normal: the cross product of its derivatives. Where it folds or nearly so, its
+ * Jacobian is clamped to 0.02: the normal points up. */
 FN float wave_jacobian(vec3 D)
 {
     return (1.0f + D[1]) * (1.0f + D[0]) - D[2] * D[2];
@@ -108,14 +108,14 @@ FN WaterMirror water_mirror_passing(WaterMirror m, vec3 C, vec3 N)
     return r;
 }
 
-/* Normal of the mean slope of the facets visible from V (unit, V.y > 0; slopes_seen()), whose slopes have the
- * covariance C around that of N. Tilts to the eye, in deviations sigma = sqrt(u^T C u), u along V's horizontal
- * part of the length l, start at
+/* Normal of the mean slope of the facets visible from V (unit, V.y > 0; slopes_seen()), whose slopes have
+ * the covariance C around that of N. Tilts to the eye, in deviations sigma = sqrt(u^T C u), u along V's
+ * horizontal part of the length l, start at
  *   a = (V.y / l - s_N.u) / sigma
  * and are lengths of a three-dimensional vector, longer by
  *   (2 Phi(a) - 1) / a - 2 a Phi(-a) + 2 phi(a)
- * on average; across u slopes follow by C u / sigma^2. A grazing ray sees tilts of 1.6 sigma, and never a back
- * side. */
+ * on average; across u slopes follow by C u / sigma^2. A grazing ray sees tilts of 1.6 sigma, and never a
+ * back side. */
 FN vec3 water_seen_normal(vec3 C, vec3 N, vec3 V)
 {
     float level = max(sqrt(V[0] * V[0] + V[2] * V[2]), 1e-4f);
@@ -148,9 +148,9 @@ FN float foam_share(float mean, float variance, float threshold)
 }
 
 /* Foam of the fraction `share`, (0, 1), covers the points where a Gaussian field of variance 1 exceeds its
- * quantile. Returns the covered fraction of a footprint with that mean and variance of the field. Most foam has
- * sharp edges; the rest is a veil that thins out around them: a field of larger variance, thresholded at its
- * own quantile, has the same mean. */
+ * quantile. Returns the covered fraction of a footprint with that mean and variance of the field. Most
+ * foam has sharp edges; the rest is a veil that thins out around them: a field of larger variance,
+ * thresholded at its own quantile, has the same mean. */
 FN float foam_lace(float share, float mean, float variance)
 {
     float sharp = 0.015f; /* added variances */
@@ -162,7 +162,8 @@ FN float foam_lace(float share, float mean, float variance)
 }
 
 /* Opaque fraction of a footprint of which `share` is foam. Foam thins out: water is visible between its
- * bubbles, so that a patch reflects 0.22 over its life and 0.55 in the beginning, when its amount is 1. Koepke
+ * bubbles, so that a patch reflects 0.22 over its life and 0.55 in the beginning, when its amount is 1.
+ * Koepke
  * 1984. */
 FN float water_foam_cover(float share, float amount)
 {
@@ -184,8 +185,8 @@ FN float water_bed_depth(float depth, float rise, float way)
     return clamp(depth - way * rise, 0.0f, way);
 }
 
-/* That bed seen through the water: of the albedo `albedo`, and `mean_albedo` around, both with their lighting;
- * light: water_interreflected(). See water_from_bed(). */
+/* That bed seen through the water: of the albedo `albedo`, and `mean_albedo` around, both with their
+ * lighting; light: water_interreflected(). See water_from_bed(). */
 FN vec3 water_over_bed(Water w, vec3 light, vec3 albedo, vec3 mean_albedo, float depth, float rise, vec3 down)
 {
     WaterBed b;

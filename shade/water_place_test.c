@@ -144,8 +144,8 @@ static void test_passing(void **state)
 }
 
 /* A lobe past waves: high elevations are unoccluded; of a lobe on the horizon half remains, with the mean
- * elevation of half a normal distribution; nothing comes from below. In between, against a thousand directions
- * of the lobe. */
+ * elevation of half a normal distribution; nothing comes from below. In between, against a thousand
+ * directions of the lobe. */
 static void test_mirror_passing(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
-/* water_scales_test.c - masking of superposed waves (slopes_seen()): the projected area is that of the surface,
- * a three-dimensional walk has the same slopes, and a surface split into long and short waves shows the same;
- * and ray-marched surfaces of eleven octaves and of one. */
+/* water_scales_test.c - masking of superposed waves (slopes_seen()): the projected area is that of the
+ * surface, a three-dimensional walk has the same slopes, and a surface split into long and short waves
+ * shows the same; and ray-marched surfaces of eleven octaves and of one. */
 #include "testing/test_support.h"
 
 #include <complex.h> /* its I is an identifier in the shader library */
@@ -51,8 +51,9 @@ static void test_area(void **state)
     }
 }
 
-/* Visible tilts are lengths of (c0, 0, 0) + sigma times a vector of three normal numbers: moments, for eyes
- * near the surface and far above it. Near the surface they are 1.6 standard deviations, where Smith's are 1.25. */
+/* Visible tilts are lengths of (c0, 0, 0) + sigma times a vector of three normal numbers: moments, for
+ * eyes near the surface and far above it. Near the surface they are 1.6 standard deviations, where Smith's
+ * are 1.25. */
 static void test_walk(void **state)
 {
     (void)state;
@@ -113,8 +114,8 @@ static void test_tilts(void **state)
     }
 }
 
-/* Reflectance of a sea of 5, 10 and 15 m/s for a horizontal view, by facets sampled as lengths of three normal
- * numbers and a slope across: independent of quadrature and of densities. */
+/* Reflectance of a sea of 5, 10 and 15 m/s for a horizontal view, by facets sampled as lengths of three
+ * normal numbers and a slope across: independent of quadrature and of densities. */
 static void test_mean_reflectance(void **state)
 {
     (void)state;

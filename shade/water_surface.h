@@ -75,15 +75,16 @@ FN float smith_a(vec3 C, vec3 N, vec3 X)
 /* Masking of superposed waves: the fraction of the microfacets of normal m, on a surface of normal N, visible
  * from X; X.m, X.N > 0:
  *   G1 = 1 - exp(-2 c0 c / (X_h^T C X_h)),  c0 = N.X / N.y,  c = m.X / m.y
- * c is the tilt of a slope towards X. Waves are added from the longest to the shortest: c goes from that of N
- * to that of m in small independent Gaussian steps, since every octave of a sea adds about as much to the
- * variance. Water that faces away from X with the waves so far is hidden and stays hidden: of all walks from c0
- * to c only those that never reach 0 are visible. The others correspond to walks from -c0 to c (reflection
- * principle), p(c + c0) of p(c - c0).
+ * c is the tilt of a slope towards X. Waves are added from the longest to the shortest: c goes from that
+ * of N to that of m in small independent Gaussian steps, since every octave of a sea adds about as much to
+ * the variance. Water that faces away from X with the waves so far is hidden and stays hidden: of all
+ * walks from c0 to c only those that never reach 0 are visible. The others correspond to walks from -c0 to
+ * c (reflection principle), p(c + c0) of p(c - c0).
  *
- * The projected visible area, D m.X G1, has the integral N.X, as required. Along X its slopes are distributed
- * as c / c0 (p(c - c0) - p(c + c0)): a walk conditioned to stay positive, or the length of a three-dimensional
- * random vector (Williams 1974; Pitman 1975). At grazing angles that is c^2 p(c), steeper than Smith's c p(c):
+ * The projected visible area, D m.X G1, has the integral N.X, as required. Along X its slopes are
+ * distributed as c / c0 (p(c - c0) - p(c + c0)): a walk conditioned to stay positive, or the length of a
+ * three-dimensional random vector (Williams 1974; Pitman 1975). At grazing angles that is c^2 p(c),
+ * steeper than Smith's c p(c):
  * 1.6 standard deviations towards the eye on average instead of 1.25, and a sea of 10 m/s reflects a quarter
  * less.
  *
@@ -91,12 +92,12 @@ FN float smith_a(vec3 C, vec3 N, vec3 X)
  * masking of short waves on them, is masking of all. So a pixel shows the same light whichever waves it
  * resolves.
  *
- * It is a limit: heights are Gaussian, waves of different lengths are independent, and there are many octaves.
- * For surfaces equally steep in every octave, ray marching (test_marched) finds tilts of 1.51 deviations at
- * grazing angles with 14 octaves, as many as a sea of 10 m/s has, 1.47 with 11, 1.37 with 6, and 1.15 for a
- * single one, for which Smith is right. Visibility from V and L is assumed independent, which is exact for
- * perpendicular azimuths; for equal azimuths at half a deviation the product is 0.155 where 0.12 (14) to 0.16
- * (11) are found. */
+ * It is a limit: heights are Gaussian, waves of different lengths are independent, and there are many
+ * octaves. For surfaces equally steep in every octave, ray marching (test_marched) finds tilts of 1.51
+ * deviations at grazing angles with 14 octaves, as many as a sea of 10 m/s has, 1.47 with 11, 1.37 with 6,
+ * and 1.15 for a single one, for which Smith is right. Visibility from V and L is assumed independent,
+ * which is exact for perpendicular azimuths; for equal azimuths at half a deviation the product is 0.155
+ * where 0.12 (14) to 0.16 (11) are found. */
 FN float slopes_seen(vec3 C, vec3 N, vec3 m, vec3 X)
 {
     float variance = max(slope_variance(C, vec2(X[0], X[2])), 1e-14f);
@@ -149,8 +150,8 @@ FN vec3 slopes_from_roughness(float perceptual_roughness)
 
 /* Visibility G / (4 N.L N.V), both cosines > 0. WATER_SMITH: 1 / (1 + Lambda(V) + Lambda(L)), Heitz 2014,
  * equation 99. WATER_SCALES: slopes_seen() for both; Smith for GGX, whose slopes have no variance.
- * WATER_SCHLICK_KARIS: V_SchlickGGX with k_direct, which darkens calm water at grazing angles (G1 = 0.29 at N.V
- * = 0.05 and roughness 0.02, where 1 is right). */
+ * WATER_SCHLICK_KARIS: V_SchlickGGX with k_direct, which darkens calm water at grazing angles (G1 = 0.29
+ * at N.V = 0.05 and roughness 0.02, where 1 is right). */
 FN float V_slopes(int normals, int masking, vec3 C, vec3 N, vec3 L, vec3 V)
 {
     float NdotL = max(dot(N, L), 1e-6f);
@@ -168,11 +169,12 @@ FN float V_slopes(int normals, int masking, vec3 C, vec3 N, vec3 L, vec3 V)
 
 /* ---- the sun ---- */
 
-/* Slopes that reflect the disc of the sun (angular radius SUN_RADIUS) to the eye, around the slope of the half
- * vector h (L plus a term of the eye): twice their covariance, of a Gaussian with the same peak and flux, whose
- * variance is radius^2 / 2 along each axis of directions; s = -h_xz / h.y, so ds = -(dL_xz + s dL.y) / h.y. On
- * flat water the image of the sun is F times as bright as its disc at any angle; facing it, alpha^2 is radius^2
- * / 4. */
+/* Slopes that reflect the disc of the sun (angular radius SUN_RADIUS) to the eye, around the slope of the
+ * half vector h (L plus a term of the eye): twice their covariance, of a Gaussian with the same peak and
+ * flux, whose variance is radius^2 / 2 along each axis of directions; s = -h_xz / h.y, so ds = -(dL_xz + s
+ * dL.y) / h.y. On flat water the image of the sun is F times as bright as its disc at any angle; facing
+ * it, alpha^2 is radius^2
+ *  / 4. */
 FN vec3 sun_slopes_about(vec3 L, vec3 h)
 {
     bool is_wall =
@@ -191,9 +193,10 @@ FN vec3 sun_slopes(vec3 L, vec3 V)
     return sun_slopes_about(L, V + L);
 }
 
-/* Density of slopes C around their mean, convolved with the disc of the sun whose slopes are S (sun_slopes();
- * 0: a point): of those that reflect the sun to the eye at a distance d. The disc is an ellipse of the area 2
- * pi sqrt |S| and the covariance S / 2. With its radius as unit, the slopes have the variance v = tr(S^-1 C) /
+/* Density of slopes C around their mean, convolved with the disc of the sun whose slopes are S
+ * (sun_slopes(); 0: a point): of those that reflect the sun to the eye at a distance d. The disc is an
+ * ellipse of the area 2 pi sqrt |S| and the covariance S / 2. With its radius as unit, the slopes have the
+ * variance v = tr(S^-1 C) /
  * 4. For small v the disc is resolved, its edge blurred by the slopes and, to conserve flux, at sqrt(1 - v);
  * from 3/8 on a Gaussian is as good; in between it is a mixture with one wide enough not to exceed the disc.
  * The integral is 1, the covariance C + S / 2 within a fifth, and the maximum 1 / (2 pi sqrt |S|). */
@@ -223,9 +226,9 @@ FN float D_sun(int normals, vec3 C, vec3 S, vec3 N, vec3 m)
     return sel(m[1] > 0.0f, N[1] * sun_density(normals, C, S, d) / (y * y * y * y), 0.0f);
 }
 
-/* BRDF times N.L of perfectly reflecting facets, in 1/sr: D G / (4 N.V), D of slopes and sun together (sun: 1;
- * 0: a point). Times F(V.H) and the sun's irradiance it is the reflected radiance, at most F times that of the
- * disc. 0 for N.L <= 0 or L below the horizon. */
+/* BRDF times N.L of perfectly reflecting facets, in 1/sr: D G / (4 N.V), D of slopes and sun together
+ * (sun: 1; 0: a point). Times F(V.H) and the sun's irradiance it is the reflected radiance, at most F
+ * times that of the disc. 0 for N.L <= 0 or L below the horizon. */
 FN float glitter(int normals, int masking, vec3 C, vec3 N, vec3 L, vec3 V, float sun)
 {
     float NdotL = dot(N, L);
@@ -261,7 +264,8 @@ FN float glitter_below(int normals, vec3 C, vec3 N, vec3 L, vec3 d, float n)
 
 /* ---- sampling of a facet ---- */
 
-/* The inverse of the normal distribution function, u in (0, 1). Giles 2010, "Approximating the erfinv function", single precision. */
+/* The inverse of the normal distribution function, u in (0, 1). Giles 2010, "Approximating the erfinv
+ * function", single precision. */
 FN float inverse_normal(float u)
 {
     float x = 2.0f * u - 1.0f;
@@ -296,9 +300,9 @@ FN float normal_below(float z)
     return sel(z < 0.0f, tail, 1.0f - tail);
 }
 
-/* Cumulative distribution of the tilts of visible area (slopes_seen()), for an eye a standard deviations above
- * the surface, c0 = a: the fraction tilted towards it by less than x. The integral of x / a (phi(x - a) - phi(x
- * + a)):
+/* Cumulative distribution of the tilts of visible area (slopes_seen()), for an eye a standard deviations
+ * above the surface, c0 = a: the fraction tilted towards it by less than x. The integral of x / a (phi(x -
+ * a) - phi(x + a)):
  *   Phi(x - a) - Phi(-x - a) - (phi(x - a) - phi(x + a)) / a
  * a, x >= 0, within 1e-6. */
 FN float tilts_seen(float a, float x)

@@ -1,5 +1,5 @@
-/* water_surface_test.c - microfacets of a rough sea: distribution, masking and energy, the sun's reflection, means over
- * visible microfacets. Golden numbers were computed independently in double. */
+/* water_surface_test.c - microfacets of a rough sea: distribution, masking and energy, the sun's
+ * reflection, means over visible microfacets. Golden numbers were computed independently in double. */
 #include "testing/test_support.h"
 
 static const double PI_DOUBLE = 3.14159265358979324;
@@ -213,8 +213,8 @@ static void test_furnace(void **state)
     }
 }
 
-/* The sun's disc in slopes from zero to large: its integral is 1, it is nowhere brighter than the disc, and its
- * covariance is that of slopes and disc; on still water it is 1 within the ellipse, and 0 beyond. */
+/* The sun's disc in slopes from zero to large: its integral is 1, it is nowhere brighter than the disc,
+ * and its covariance is that of slopes and disc; on still water it is 1 within the ellipse, and 0 beyond. */
 static void test_disc(void **state)
 {
     (void)state;
@@ -315,7 +315,8 @@ static double half_width(double mss, double sun, double depression)
     return low;
 }
 
-/* Half widths in degrees of azimuth at the mirror point and 1 degree below the horizon, and radiance over the sun's irradiance. */
+/* Half widths in degrees of azimuth at the mirror point and 1 degree below the horizon, and radiance over
+ * the sun's irradiance. */
 static const struct glitter_row {
     double sun, cases[4][3]; /* at 2, 5, 10, 15 m/s */
 } glitter_rows[] = {
@@ -423,7 +424,8 @@ static void test_lookup(void **state)
     }
 }
 
-/* A sky six times as bright at the horizon as at the zenith, by sampled facets and by the lookup of the means. */
+/* A sky six times as bright at the horizon as at the zenith, by sampled facets and by the lookup of the
+ * means. */
 static double bright_horizon(vec3 d)
 {
     return d[1] > 0.0f ? 1.0 + 6.0 * exp(-7.0 * (double)d[1]) : 0.0;

@@ -274,7 +274,8 @@ static void test_deep(void **state)
     double E = 80000.0 * (1.0 - (double)day.sun_fresnel) * cos(30.0 * 0.017453292519943295) + 0.94 * 12000.0;
     expect_relative(day.downwelling[1], E, 1e-6, "downwelling");
     vec3 L = water_from_deep(w, day.downwelling);
-    /* out through the surface, against pi R_rs of the irradiance above: 0.98 0.96 / n^2 is 0.52 of the published factor */
+    /* out through the surface, against pi R_rs of the irradiance above: 0.98 0.96 / n^2 is 0.52 of the
+     * published factor */
     double above = 80000.0 * cos(30.0 * 0.017453292519943295) + 12000.0;
     double leaving = PI_DOUBLE * (double)L[2] * (1.0 - 0.0211) / (1.34 * 1.34);
     expect_relative(leaving / above, 0.0242, 0.025, "reflectance of the deep");
@@ -373,8 +374,8 @@ static void test_internal_reflectance(void **state)
     }
 }
 
-/* Without absorption: n^2 below a sky of 1, in deep water and over a white bed, from and to any point, for any
- * index. */
+/* Without absorption: n^2 below a sky of 1, in deep water and over a white bed, from and to any point, for
+ * any index. */
 static void test_furnace(void **state)
 {
     (void)state;
@@ -442,7 +443,8 @@ static void test_inscatter(void **state)
         assert_true(black[k] >= 0.0f && black[k] < 1e-20f);
 }
 
-/* The eye below: looking down it sees the same as from above, without the surface; the glow is around the sun. */
+/* The eye below: looking down it sees the same as from above, without the surface; the glow is around the
+ * sun. */
 static void test_below(void **state)
 {
     (void)state;
@@ -485,8 +487,8 @@ static double ring_mean(Water w, float z, double from_deg, double to_deg)
     return sum / STEPS;
 }
 
-/* Light around a sun at the zenith, of 1 lx below the surface: photons traced with a = 0.062, b = 0.114 1/m and
- * Henyey-Greenstein of 0.92 (6 million, by a separate program); and the sum of beam and glow. */
+/* Light around a sun at the zenith, of 1 lx below the surface: photons traced with a = 0.062, b = 0.114
+ * 1/m and Henyey-Greenstein of 0.92 (6 million, by a separate program); and the sum of beam and glow. */
 static void test_glow(void **state)
 {
     (void)state;

@@ -69,8 +69,8 @@ FACET_API float facet_cube_get_roughness(const facet_cube *cube, uint32_t level)
 FACET_API facet_image_view facet_cube_get_face(const facet_cube *cube, uint32_t level, uint32_t face);
 FACET_API facet_bake_stats facet_cube_get_stats(const facet_cube *cube);
 
-/* The same cube with x mirrored: texels of (x, y, z) are at (-x, y, z), where three.js looks up cube maps that it
- * did not render itself. allocator NULL: {0}. */
+/* The same cube with x mirrored: texels of (x, y, z) are at (-x, y, z), where three.js looks up cube maps
+ * that it did not render itself. allocator NULL: {0}. */
 FACET_API facet_result facet_cube_create_mirrored(const facet_cube *cube, const facet_allocator *allocator,
                                                   facet_cube **mirrored, facet_error *error);
 
@@ -88,8 +88,9 @@ FACET_API facet_result facet_cube_verify(const facet_cube *cube, facet_environme
 
 /* ---- cube maps as images and files ---- */
 
-/* A level as one RGBA image, transparent where a cross has no face; any layout but FACET_LAYOUT_FACES. height is
- * that of equirectangular and octahedral images; 0: twice the size of the level. allocator NULL: {0}. */
+/* A level as one RGBA image, transparent where a cross has no face; any layout but FACET_LAYOUT_FACES.
+ * height is that of equirectangular and octahedral images; 0: twice the size of the level. allocator NULL:
+ * {0}. */
 FACET_API facet_result facet_cube_unfold(const facet_cube *cube, uint32_t level, facet_layout layout,
                                          uint32_t height, const facet_allocator *allocator,
                                          facet_image **image, facet_error *error);
@@ -97,8 +98,9 @@ FACET_API facet_result facet_cube_copy_face(const facet_cube *cube, uint32_t lev
                                             const facet_allocator *allocator, facet_image **image,
                                             facet_error *error);
 
-/* A sheet for inspection: unfolded levels; spheres of eight roughnesses lit by the cube beside those lit by the
- * reference; the diffuse sphere by nine spherical harmonics beside the exact one. Tone-mapped, opaque. */
+/* A sheet for inspection: unfolded levels; spheres of eight roughnesses lit by the cube beside those lit
+ * by the reference; the diffuse sphere by nine spherical harmonics beside the exact one. Tone-mapped,
+ * opaque. */
 typedef struct facet_sheet_desc {
     facet_allocator allocator;
     facet_progress progress;
@@ -149,9 +151,10 @@ typedef struct facet_ktx1_desc {
 FACET_API facet_result facet_cube_encode_ktx1(const facet_cube *cube, const facet_ktx1_desc *desc,
                                               unsigned char **bytes, size_t *size, facet_error *error);
 
-/* A PNG file of radiance in 8 bits, RGBM (Karis 2009; RGBMToLinear() of three.js): RGB = value / (M range), M =
- * alpha = ceil(255 max / range) / 255, straight, without transfer function, which facet_image_save() would apply.
- * range: the largest value, above 0; larger ones become range. FACET_ERROR_ARGUMENT, _MEMORY. */
+/* A PNG file of radiance in 8 bits, RGBM (Karis 2009; RGBMToLinear() of three.js): RGB = value / (M
+ * range), M = alpha = ceil(255 max / range) / 255, straight, without transfer function, which
+ * facet_image_save() would apply. range: the largest value, above 0; larger ones become range.
+ * FACET_ERROR_ARGUMENT, _MEMORY. */
 FACET_API facet_result facet_image_encode_rgbm(const facet_image *image, float range,
                                                const facet_image_save_desc *desc, unsigned char **bytes,
                                                size_t *size, facet_error *error);
@@ -185,8 +188,8 @@ typedef struct facet_dfg_desc {
     uint32_t size; /* [16, 1024]; 0: 128 */
 } facet_dfg_desc;
 
-/* Layer "": RGBA, missing channels 0, alpha 1. By quadrature: errors below 1e-5, and below 1e-4 of values above 4,
- * which smooth sheen has at grazing angles. */
+/* Layer "": RGBA, missing channels 0, alpha 1. By quadrature: errors below 1e-5, and below 1e-4 of values
+ * above 4, which smooth sheen has at grazing angles. */
 FACET_API facet_result facet_dfg_bake(const facet_dfg_desc *desc, facet_image **image, facet_error *error);
 /* 1, 2 or 3. */
 FACET_API uint32_t facet_dfg_get_channel_count(facet_dfg_kind kind);
@@ -209,8 +212,8 @@ FACET_API uint32_t facet_dfg_get_channel_count(facet_dfg_kind kind);
 typedef enum facet_sh_form {
     FACET_SH_FORM_RADIANCE,   /* L_lm = integral of L Y_lm */
     FACET_SH_FORM_IRRADIANCE, /* E_lm = A_l L_lm, A = pi, 2 pi / 3, pi / 4 (Ramamoorthi and Hanrahan 2001) */
-    /* irradiance / pi with the constants of the basis folded in: sum of c times 1, y, z, x, xy, yz, 3z^2 - 1, zx,
-     * x^2 - y^2; "pre-scaled" in Filament */
+    /* irradiance / pi with the constants of the basis folded in: sum of c times 1, y, z, x, xy, yz, 3z^2 -
+     * 1, zx, x^2 - y^2; "pre-scaled" in Filament */
     FACET_SH_FORM_FOLDED
 } facet_sh_form;
 
@@ -219,8 +222,8 @@ typedef struct facet_sh_desc {
     uint32_t thread_count; /* 0: facet_thread_count() */
     facet_sh_form form;
     float rotation_rad, ev, clamp; /* as facet_bake_desc */
-    /* Reduces bands 1 and 2 of all channels alike, as little as keeps the irradiance non-negative (Sloan 2017):
-     * removes ringing around a sun. */
+    /* Reduces bands 1 and 2 of all channels alike, as little as keeps the irradiance non-negative (Sloan
+     * 2017): removes ringing around a sun. */
     bool is_windowed;
 } facet_sh_desc;
 

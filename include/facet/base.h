@@ -52,16 +52,16 @@ typedef struct facet_error {
 
 /* ---- memory ---- */
 
-/* The source of memory; {0}: malloc. allocate returns NULL when out of memory; release receives the size that was
- * requested. Both are called from several threads at once. */
+/* The source of memory; {0}: malloc. allocate returns NULL when out of memory; release receives the size
+ * that was requested. Both are called from several threads at once. */
 typedef struct facet_allocator {
     void *user;
     void *(*allocate)(void *user, size_t size);
     void (*release)(void *user, void *memory, size_t size);
 } facet_allocator;
 
-/* A counting allocator with a limit (limit_bytes 0: none) that several calls share. Destroy it after everything
- * that was allocated from it is released. */
+/* A counting allocator with a limit (limit_bytes 0: none) that several calls share. Destroy it after
+ * everything that was allocated from it is released. */
 FACET_API facet_result facet_budget_create(uint64_t limit_bytes, facet_budget **budget, facet_error *error);
 FACET_API void facet_budget_destroy(facet_budget *budget);
 FACET_API facet_allocator facet_budget_allocator(facet_budget *budget);
@@ -92,8 +92,8 @@ typedef struct facet_log {
     void (*message)(void *user, facet_log_level level, const char *text);
 } facet_log;
 
-/* Progress callback; it returns false to cancel the operation. {0}: none. stage is a static string, fraction lies in
- * [0, 1]. */
+/* Progress callback; it returns false to cancel the operation. {0}: none. stage is a static string,
+ * fraction lies in [0, 1]. */
 typedef struct facet_progress {
     void *user;
     bool (*report)(void *user, const char *stage, double fraction);
@@ -104,8 +104,8 @@ typedef struct facet_progress {
 /* "MAJOR.MINOR.PATCH" of the library that runs. */
 FACET_API const char *facet_version(void);
 
-/* Version, compiler, libraries with their versions, CPU and thread count, one line each. Writes at most size bytes
- * with the closing 0 and returns the length of the whole text. */
+/* Version, compiler, libraries with their versions, CPU and thread count, one line each. Writes at most
+ * size bytes with the closing 0 and returns the length of the whole text. */
 FACET_API size_t facet_build_report(char *text, size_t size);
 
 /* The number of CPUs that this process may use under its affinity and cgroup quota; at least 1. */

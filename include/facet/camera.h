@@ -23,7 +23,8 @@ typedef struct facet_camera {
     float focus_m; /* focus distance along the axis; 0: that of target */
 } facet_camera;
 
-/* A camera on a sphere around a target, in the convention of <model-viewer>. Start from facet_orbit_default(). */
+/* A camera on a sphere around a target, in the convention of <model-viewer>. Start from
+ * facet_orbit_default(). */
 typedef struct facet_orbit {
     float azimuth_rad;  /* around +Y; 0: from +Z, positive: towards +X */
     float polar_rad;    /* from +Y; 0: looks straight down, pi/2: level */
@@ -38,8 +39,8 @@ typedef struct facet_orbit {
     bool fits_all_azimuths;
     /* frames (and targets the center of) the whole motion of the pose's animations, not only time_s */
     bool fits_all_times;
-    /* counts parts so far away that they would shrink the rest to a dot; false: they are left out of center and
-     * distance, and log gets a warning */
+    /* counts parts so far away that they would shrink the rest to a dot; false: they are left out of
+     * center and distance, and log gets a warning */
     bool includes_far_parts;
     facet_log log;
 } facet_orbit;
@@ -47,9 +48,9 @@ typedef struct facet_orbit {
 /* Azimuth 0, polar angle 75 degrees, radius_scale 1.05, field of view 30 degrees. */
 FACET_API facet_orbit facet_orbit_default(void);
 
-/* The camera of an orbit around what pose shows (NULL: {0}), for an image of that aspect (width / height). Framing
- * counts every vertex, not only the corners of the bounds, except invisible ones (of triangles without area or of
- * opacity 0). */
+/* The camera of an orbit around what pose shows (NULL: {0}), for an image of that aspect (width / height).
+ * Framing counts every vertex, not only the corners of the bounds, except invisible ones (of triangles
+ * without area or of opacity 0). */
 FACET_API facet_result facet_camera_from_orbit(const facet_scene *scene, const facet_pose_desc *pose,
                                                const facet_orbit *orbit, float aspect, facet_camera *camera,
                                                facet_error *error);

@@ -1,5 +1,5 @@
-/* facet/compare.h - metrics of the difference between two images. docs/compare.md has the formulas and when to use
- * which. */
+/* facet/compare.h - metrics of the difference between two images. docs/compare.md has the formulas and
+ * when to use which. */
 #ifndef FACET_COMPARE_H
 #define FACET_COMPARE_H
 
@@ -29,7 +29,8 @@ typedef enum facet_metric { FACET_METRIC_SSIM = 1 << 0, FACET_METRIC_FLIP = 1 <<
 
 typedef enum facet_difference {
     FACET_DIFFERENCE_ABSOLUTE, /* |b - a| times gain, per channel; that of opacity is added to all three */
-    /* FLIP, or, where it is skipped, the largest |b - a| times gain, as a color from black over red to light yellow */
+    /* FLIP, or, where it is skipped, the largest |b - a| times gain, as a color from black over red to
+     * light yellow */
     FACET_DIFFERENCE_HEAT_MAP
 } facet_difference;
 
@@ -57,8 +58,8 @@ typedef struct facet_compare_desc {
     bool is_sheet; /* the difference image shows a, b and the difference side by side */
 } facet_compare_desc;
 
-/* The difference of b from the reference a. NAN: not measured. Errors are per channel in units of the space; means
- * are over the channels of all finite pixels that count. */
+/* The difference of b from the reference a. NAN: not measured. Errors are per channel in units of the
+ * space; means are over the channels of all finite pixels that count. */
 typedef struct facet_comparison {
     uint32_t width, height;            /* of the compared part */
     facet_compare_space space;         /* LINEAR or DISPLAY */
@@ -66,7 +67,8 @@ typedef struct facet_comparison {
     uint64_t pixel_count;              /* inside of the mask */
     bool is_equal;                     /* bit-equal as linear premultiplied floats */
     uint64_t nonfinite_a, nonfinite_b; /* pixels with NaN or infinity */
-    /* pixels whose NaN or infinity differs: in no mean, but counted as differing, with infinite error and FLIP 1 */
+    /* pixels whose NaN or infinity differs: in no mean, but counted as differing, with infinite error and
+     * FLIP 1 */
     uint64_t invalid_count;
     double mse, rmse;
     double mse_relative, rmse_relative; /* mean of (b - a)^2 / (a^2 + relative_epsilon), and its root */
@@ -87,8 +89,8 @@ typedef struct facet_comparison {
     uint32_t flip_exposure_count;
 } facet_comparison;
 
-/* Compares layer 0 of b with the reference a. *difference (NULL: not wanted) is an image of the error; in display
- * space facet_image_save() writes its values unchanged to display-referred files. desc NULL: {0}.
+/* Compares layer 0 of b with the reference a. *difference (NULL: not wanted) is an image of the error; in
+ * display space facet_image_save() writes its values unchanged to display-referred files. desc NULL: {0}.
  * FACET_ERROR_ARGUMENT: the sizes differ, the crop lies outside, or the mask excludes every pixel. */
 FACET_API facet_result facet_compare(const facet_image *a, const facet_image *b,
                                      const facet_compare_desc *desc, facet_comparison *out,

@@ -11,8 +11,8 @@ extern "C" {
 
 /* ---- images of the sphere of directions ---- */
 
-/* Faces are those of cube maps in Direct3D and OpenGL, in the order +X -X +Y -Y +Z -Z, seen from inside with +Y up
- * unless said otherwise. */
+/* Faces are those of cube maps in Direct3D and OpenGL, in the order +X -X +Y -Y +Z -Z, seen from inside
+ * with +Y up unless said otherwise. */
 typedef enum facet_layout {
     FACET_LAYOUT_AUTO,             /* by the ratio of the edges: 2:1, 4:3, 3:4, 6:1, 1:6 */
     FACET_LAYOUT_EQUIRECTANGULAR,  /* 2:1, see facet_environment_load() */
@@ -36,10 +36,10 @@ typedef struct facet_environment_desc {
     facet_layout layout;      /* of the image; ignored for cube map files (KTX2), which state it */
 } facet_environment_desc;
 
-/* Reads an image (.hdr, .exr, or an 8-bit format, decoded from sRGB) in any of the layouts, or a cube map (.ktx2,
- * level 0). Equirectangular: direction d (unit, +Y up) is at u = 0.5 + atan2(d.z, d.x) / 2pi from the left and v =
- * acos(d.y) / pi from the top, before rotation. Texels are cd/m^2. FACET_ERROR_INVALID: the ratio of the edges fits
- * no layout; within 5 % of 2:1 the image is stretched, with a warning. */
+/* Reads an image (.hdr, .exr, or an 8-bit format, decoded from sRGB) in any of the layouts, or a cube map
+ * (.ktx2, level 0). Equirectangular: direction d (unit, +Y up) is at u = 0.5 + atan2(d.z, d.x) / 2pi from
+ * the left and v = acos(d.y) / pi from the top, before rotation. Texels are cd/m^2. FACET_ERROR_INVALID:
+ * the ratio of the edges fits no layout; within 5 % of 2:1 the image is stretched, with a warning. */
 FACET_API facet_result facet_environment_load(const char *path, const facet_environment_desc *desc,
                                               facet_environment **environment, facet_error *error);
 FACET_API facet_result facet_environment_load_memory(const void *bytes, size_t size, const char *name,
@@ -56,14 +56,14 @@ FACET_API facet_result facet_environment_create_studio(const facet_environment_d
 FACET_API facet_result facet_environment_create_constant(const float radiance[3],
                                                          const facet_environment_desc *desc,
                                                          facet_environment **environment, facet_error *error);
-/* Radiance (cd/m^2, linear Rec.709) of zenith, horizon and nadir, interpolated linearly in the height d.y of a
- * direction. */
+/* Radiance (cd/m^2, linear Rec.709) of zenith, horizon and nadir, interpolated linearly in the height d.y
+ * of a direction. */
 FACET_API facet_result facet_environment_create_gradient(const float zenith[3], const float horizon[3],
                                                          const float nadir[3],
                                                          const facet_environment_desc *desc,
                                                          facet_environment **environment, facet_error *error);
-/* The image-based light of the model for the pose's scene (EXT_lights_image_based). FACET_ERROR_ARGUMENT: it has
- * none; see facet_scene_has_environment(). */
+/* The image-based light of the model for the pose's scene (EXT_lights_image_based). FACET_ERROR_ARGUMENT:
+ * it has none; see facet_scene_has_environment(). */
 FACET_API facet_result facet_environment_create_from_scene(const facet_scene *scene,
                                                            const facet_pose_desc *pose,
                                                            const facet_environment_desc *desc,
@@ -101,13 +101,13 @@ typedef struct facet_sky_desc {
     float altitude_m;       /* of the eye above the ground, [0, 50 000]; atmosphere only */
     bool omits_disc;        /* leaves out the sun's disc, not its light scattered in the air */
     uint32_t height;        /* texels; 0: 512 */
-    /* The sky is scaled to this illuminance of the surface that receives most; illuminances below 1 lx count as 1.
-     * pi: a white surface in this light has 1 cd/m^2. 0: physical units. */
+    /* The sky is scaled to this illuminance of the surface that receives most; illuminances below 1 lx
+     * count as 1. pi: a white surface in this light has 1 cd/m^2. 0: physical units. */
     float illuminance_lux;
 } facet_sky_desc;
 
-/* Texels are cd/m^2: some 10^4 for a blue sky, 10^9 for the sun, whose energy is spread over the texels that it
- * covers. */
+/* Texels are cd/m^2: some 10^4 for a blue sky, 10^9 for the sun, whose energy is spread over the texels
+ * that it covers. */
 FACET_API facet_result facet_environment_create_sky(const facet_sky_desc *sky,
                                                     const facet_environment_desc *desc,
                                                     facet_environment **environment, facet_error *error);

@@ -23,15 +23,15 @@ FACET_API uint32_t facet_image_get_layer_count(const facet_image *image);
 FACET_API facet_image_view facet_image_get_layer(const facet_image *image, uint32_t layer);
 FACET_API void facet_image_destroy(facet_image *image);
 
-/* An image from a copy of pixels: linear Rec.709, RGBA premultiplied, or RGB, or grey. row_stride_bytes 0: rows
- * without padding. The view's name is ignored. allocator NULL: {0}. */
+/* An image from a copy of pixels: linear Rec.709, RGBA premultiplied, or RGB, or grey. row_stride_bytes 0:
+ * rows without padding. The view's name is ignored. allocator NULL: {0}. */
 FACET_API facet_result facet_image_create(const facet_image_view *pixels, const facet_allocator *allocator,
                                           facet_image **image, facet_error *error);
 
-/* A layer of IDs ("object", "material" or "instance") of a rendered image in false color: in an 8-bit RGB file the
- * color is 0x3779b1 times the ID, modulo 2^24, as 0xRRGGBB, which differs for every ID. Transparent where nothing
- * is hit. allocator NULL: {0}. FACET_ERROR_ARGUMENT: the image lacks that layer, or "instance", which marks the
- * pixels that are hit. */
+/* A layer of IDs ("object", "material" or "instance") of a rendered image in false color: in an 8-bit RGB
+ * file the color is 0x3779b1 times the ID, modulo 2^24, as 0xRRGGBB, which differs for every ID.
+ * Transparent where nothing is hit. allocator NULL: {0}. FACET_ERROR_ARGUMENT: the image lacks that layer,
+ * or "instance", which marks the pixels that are hit. */
 FACET_API facet_result facet_image_create_id_colors(const facet_image *image, const char *layer,
                                                     const facet_allocator *allocator, facet_image **colors,
                                                     facet_error *error);
@@ -59,27 +59,27 @@ typedef struct facet_image_load_desc {
     uint32_t thread_count;   /* 0: facet_thread_count() */
     uint64_t max_file_bytes; /* larger files are refused; 0: 4 GiB */
     uint32_t max_size;       /* pixels along an edge; larger images are refused; 0: 16384 */
-    /* Layer of an OpenEXR file: "albedo", "normal", "depth" ..; its channels become R, G, B, opacity; a single
-     * channel fills all three, the third of two is 0. NULL: the image. */
+    /* Layer of an OpenEXR file: "albedo", "normal", "depth" ..; its channels become R, G, B, opacity; a
+     * single channel fills all three, the third of two is 0. NULL: the image. */
     const char *layer;
     facet_log log; /* features of the file that are ignored, color conversions */
-    /* Keep the file's texels as they are, for facet_compare() alone: 1 or 2 bytes a channel instead of 16 a pixel for 8
-     * and 16-bit formats. Layer 0 has no pixels (NULL), and the image cannot be saved. */
+    /* Keep the file's texels as they are, for facet_compare() alone: 1 or 2 bytes a channel instead of 16
+     * a pixel for 8 and 16-bit formats. Layer 0 has no pixels (NULL), and the image cannot be saved. */
     bool is_compact;
 } facet_image_load_desc;
 
-/* Reads a PNG, JPEG, WebP, AVIF, KTX2, TGA, BMP, GIF, DDS, Radiance HDR, OpenEXR or PFM file, recognized by
- * content, into layer "". Display-referred formats are decoded from sRGB (profiles are ignored) and multiplied by
- * alpha. Values of HDR, EXR, PFM and float KTX2 files stay, NaN and infinity included; other primaries of EXR and
- * HDR files are converted to Rec.709. A missing alpha channel is 1. desc NULL: {0}. */
+/* Reads a PNG, JPEG, WebP, AVIF, KTX2, TGA, BMP, GIF, DDS, Radiance HDR, OpenEXR or PFM file, recognized
+ * by content, into layer "". Display-referred formats are decoded from sRGB (profiles are ignored) and
+ * multiplied by alpha. Values of HDR, EXR, PFM and float KTX2 files stay, NaN and infinity included; other
+ * primaries of EXR and HDR files are converted to Rec.709. A missing alpha channel is 1. desc NULL: {0}. */
 FACET_API facet_result facet_image_load(const char *path, const facet_image_load_desc *desc,
                                         facet_image **image, facet_error *error);
 /* The same from memory, which may be released afterwards. Messages use name for the file. */
 FACET_API facet_result facet_image_load_memory(const void *bytes, size_t size, const char *name,
                                                const facet_image_load_desc *desc, facet_image **image,
                                                facet_error *error);
-/* Whether the image was read from a display-referred file (integers, sRGB): its colors lie in [0, 1] and are those
- * of a screen rather than light. */
+/* Whether the image was read from a display-referred file (integers, sRGB): its colors lie in [0, 1] and
+ * are those of a screen rather than light. */
 FACET_API bool facet_image_is_for_display(const facet_image *image);
 
 /* ---- saving ---- */
@@ -109,7 +109,8 @@ typedef struct facet_image_save_desc {
 /* Writes the file whole or not at all. desc NULL: {0}. */
 FACET_API facet_result facet_image_save(const facet_image *image, const char *path,
                                         const facet_image_save_desc *desc, facet_error *error);
-/* The bytes that facet_image_save() would write; desc->format is not FROM_NAME. Release with facet_bytes_destroy(). */
+/* The bytes that facet_image_save() would write; desc->format is not FROM_NAME. Release with
+ * facet_bytes_destroy(). */
 FACET_API facet_result facet_image_encode(const facet_image *image, const facet_image_save_desc *desc,
                                           unsigned char **bytes, size_t *size, facet_error *error);
 
@@ -125,8 +126,8 @@ typedef struct facet_contact_sheet_desc {
     const char *const *labels;
 } facet_contact_sheet_desc;
 
-/* Tone-mapped images of one size in rows. desc NULL: {0}. FACET_ERROR_ARGUMENT: the sizes differ, or the sheet
- * exceeds 65536 pixels; FACET_ERROR_MEMORY. */
+/* Tone-mapped images of one size in rows. desc NULL: {0}. FACET_ERROR_ARGUMENT: the sizes differ, or the
+ * sheet exceeds 65536 pixels; FACET_ERROR_MEMORY. */
 FACET_API facet_result facet_image_create_sheet(const facet_image *const *images, uint32_t count,
                                                 const facet_contact_sheet_desc *desc, facet_image **sheet,
                                                 facet_error *error);

@@ -1,5 +1,5 @@
-/* facet/legacy.h - materials of OpenGL 1 (MTL files, rgl) and of glTF, converted into each other. docs/legacy.md
- * has the formulas and the definition of the errors. */
+/* facet/legacy.h - materials of OpenGL 1 (MTL files, rgl) and of glTF, converted into each other.
+ * docs/legacy.md has the formulas and the definition of the errors. */
 #ifndef FACET_LEGACY_H
 #define FACET_LEGACY_H
 
@@ -31,8 +31,8 @@ typedef enum facet_legacy_profile {
 
 /* The quantity of which a conversion minimizes the error (docs/legacy.md, "The error"). */
 typedef enum facet_legacy_target {
-    /* _DRAWN to OpenGL 1 and from rgl's parameters, whose programs add light in display values; _LINEAR from MTL,
-     * whose readers today add linear light */
+    /* _DRAWN to OpenGL 1 and from rgl's parameters, whose programs add light in display values; _LINEAR
+     * from MTL, whose readers today add linear light */
     FACET_LEGACY_TARGET_AUTO,
     FACET_LEGACY_TARGET_LINEAR,  /* radiance */
     FACET_LEGACY_TARGET_DISPLAY, /* radiance clamped to [0, 1] */
@@ -80,8 +80,8 @@ typedef struct facet_legacy_desc {
     facet_mtl_dialect dialect;
     facet_mtl_illum illum;
     facet_legacy_ambient ambient;
-    /* From OGL1: keep the hue of the diffuse color where a broad white highlight would turn the base color white. The
-     * report states the larger error. */
+    /* From OGL1: keep the hue of the diffuse color where a broad white highlight would turn the base color
+     * white. The report states the larger error. */
     bool keeps_hue;
     /* Reading: do not convert; the glTF materials are defaults. For rendering as OpenGL 1 only. */
     bool keeps_materials;
@@ -89,8 +89,8 @@ typedef struct facet_legacy_desc {
     bool has_glass;
     /* illum 3, 5, 7, 8: Ks is a reflectance, and the environment is reflected; false: Ks is a highlight. */
     bool has_mirrors;
-    /* Textures that only the source materials use are removed from the scene; the reverse conversion is then fitted.
-     * After that, converting to METALLIC_ROUGHNESS leaves the materials unchanged. */
+    /* Textures that only the source materials use are removed from the scene; the reverse conversion is
+     * then fitted. After that, converting to METALLIC_ROUGHNESS leaves the materials unchanged. */
     bool drops_sources;
     /* Intensities of legacy lights stay; false: they are multiplied by pi, which makes the two models agree. */
     bool keeps_light;
@@ -110,9 +110,9 @@ typedef enum facet_conversion_grade {
     FACET_CONVERSION_GRADE_BAD
 } facet_conversion_grade;
 
-/* The conversion of one material. Errors are relative RMS differences of radiance over light directions of the
- * hemisphere and view angles of 0, 30 and 60 degrees (docs/legacy.md, "The error"); NAN where there is none. Texts
- * live as long as the scene. */
+/* The conversion of one material. Errors are relative RMS differences of radiance over light directions of
+ * the hemisphere and view angles of 0, 30 and 60 degrees (docs/legacy.md, "The error"); NAN where there is
+ * none. Texts live as long as the scene. */
 typedef struct facet_conversion {
     const char *name;      /* of the material */
     const char *source;    /* "mtl", "ogl1", "metallic-roughness", "specular-glossiness" */
@@ -131,15 +131,17 @@ typedef struct facet_conversion {
     uint32_t warning_count;
 } facet_conversion;
 
-/* Converts all materials of a scene; no other thread may use the scene meanwhile. FACET_MATERIAL_MODEL_OGL1 keeps
- * the glTF materials and adds their counterparts, for facet_scene_save() and FACET_SHADING_OGL1. desc, log NULL:
- * {0}. What is lost goes to log and into the report. Fails with FACET_ERROR_MEMORY. */
+/* Converts all materials of a scene; no other thread may use the scene meanwhile.
+ * FACET_MATERIAL_MODEL_OGL1 keeps the glTF materials and adds their counterparts, for facet_scene_save()
+ * and FACET_SHADING_OGL1. desc, log NULL: {0}. What is lost goes to log and into the report. Fails with
+ * FACET_ERROR_MEMORY. */
 FACET_API facet_result facet_scene_convert_materials(facet_scene *scene, facet_material_model to,
                                                      const facet_legacy_desc *desc, const facet_log *log,
                                                      facet_error *error);
 FACET_API bool facet_scene_has_legacy_materials(const facet_scene *scene);
 
-/* The last conversion, which may be that of loading: one entry per material in their order; 0: there was none. */
+/* The last conversion, which may be that of loading: one entry per material in their order; 0: there was
+ * none. */
 FACET_API uint32_t facet_scene_get_conversion_count(const facet_scene *scene);
 /* {0} past the end. */
 FACET_API facet_conversion facet_scene_get_conversion(const facet_scene *scene, uint32_t index);
@@ -149,7 +151,8 @@ typedef enum facet_report_format {
     FACET_REPORT_FORMAT_HTML /* one self-contained file with a pair of spheres and curves for each material */
 } facet_report_format;
 
-/* The last conversion as text: values before and after, errors, warnings. Release *text with facet_text_destroy(). */
+/* The last conversion as text: values before and after, errors, warnings. Release *text with
+ * facet_text_destroy(). */
 FACET_API facet_result facet_scene_report_conversion(const facet_scene *scene, facet_report_format format,
                                                      char **text, facet_error *error);
 

@@ -1,4 +1,5 @@
-/* facet/plot.h - charts of BRDFs, their terms, LUTs, tone mapping and conversion errors as SVG, PDF, PNG or CSV. */
+/* facet/plot.h - charts of BRDFs, their terms, LUTs, tone mapping and conversion errors as SVG, PDF, PNG
+ * or CSV. */
 #ifndef FACET_PLOT_H
 #define FACET_PLOT_H
 
@@ -105,8 +106,8 @@ typedef struct facet_plot_desc {
     bool is_dark;           /* light lines on a dark background */
 } facet_plot_desc;
 
-/* The bytes of a file; release with facet_bytes_destroy(). FACET_ERROR_SYSTEM: cairo is missing (CSV works without);
- * FACET_ERROR_READ, _INVALID: of a measured BRDF. */
+/* The bytes of a file; release with facet_bytes_destroy(). FACET_ERROR_SYSTEM: cairo is missing (CSV works
+ * without); FACET_ERROR_READ, _INVALID: of a measured BRDF. */
 FACET_API facet_result facet_plot_encode(const facet_plot_desc *desc, facet_plot_format format,
                                          unsigned char **bytes, size_t *size, facet_error *error);
 

@@ -1,4 +1,5 @@
-/* facet/render.h - rendering: ray-cast preview, path tracing, OpenGL; shading as in glTF or OpenGL 1; exposure. */
+/* facet/render.h - rendering: ray-cast preview, path tracing, OpenGL; shading as in glTF or OpenGL 1;
+ * exposure. */
 #ifndef FACET_RENDER_H
 #define FACET_RENDER_H
 
@@ -40,7 +41,8 @@ typedef enum facet_ogl1_variant {
     FACET_OGL1_VARIANT_VIGNETTE, /* per pixel, normals flipped towards the eye, highlights not gated by N.L */
     /* rgl's WebGL shader: normals flipped where they face away from the view plane */
     FACET_OGL1_VARIANT_WEBGL,
-    /* fixed-function OpenGL 1: per vertex, one-sided, infinite viewer, highlights gated by N.L, global ambient 0.2 */
+    /* fixed-function OpenGL 1: per vertex, one-sided, infinite viewer, highlights gated by N.L, global
+     * ambient 0.2 */
     FACET_OGL1_VARIANT_FIXED,
     /* the same with the state of rgl's windows: two-sided, local viewer, no global ambient */
     FACET_OGL1_VARIANT_RGL_DESKTOP
@@ -52,8 +54,8 @@ typedef struct facet_ogl1_desc {
     /* adds and blends linear light without clamping; false: sRGB-encoded display values, as OpenGL 1 did */
     bool is_linear;
     bool ignores_fog;
-    /* FACET_OGL1_VARIANT_VIGNETTE: directions of directional lights are transformed with w = 1, which adds the
-     * position of the camera, as the vignette's formula is printed; false: as it is meant */
+    /* FACET_OGL1_VARIANT_VIGNETTE: directions of directional lights are transformed with w = 1, which adds
+     * the position of the camera, as the vignette's formula is printed; false: as it is meant */
     bool translates_directions;
 } facet_ogl1_desc;
 
@@ -80,31 +82,33 @@ typedef struct facet_path_desc {
     uint32_t seed;
     facet_filter filter;
     facet_light_sampling light_sampling;
-    /* Adaptive sampling: a region is finished when its standard error, relative to its display value, is below this;
-     * samples is then the maximum. 0: every pixel gets all samples. */
+    /* Adaptive sampling: a region is finished when its standard error, relative to its display value, is
+     * below this; samples is then the maximum. 0: every pixel gets all samples. */
     float noise;
     /* Biased: indirect contributions to a sample are clamped to this, cd/m^2; 0: not. */
     float clamp;
-    /* Biased: shadow rays pass transmissive surfaces without refraction, tinted; false: only BSDF samples find light
-     * through them. */
+    /* Biased: shadow rays pass transmissive surfaces without refraction, tinted; false: only BSDF samples
+     * find light through them. */
     bool has_straight_shadows;
     /* Biased: filters noise, guided by albedo and normal. */
     bool denoises;
     /* Motion blur: the image is the mean over pose.time_s to time_s + shutter_s; 0: an instant. */
     float shutter_s;
-    /* An .exr file that keeps the state: written every checkpoint_interval_s, at the time limit, when cancelled and
-     * at the end. If it cannot be written, log gets a warning and facet_render_stats.has_lost_checkpoint is set.
-     * NULL: none. FACET_ERROR_ARGUMENT: the file exists and resumes is false. */
+    /* An .exr file that keeps the state: written every checkpoint_interval_s, at the time limit, when
+     * cancelled and at the end. If it cannot be written, log gets a warning and
+     * facet_render_stats.has_lost_checkpoint is set. NULL: none. FACET_ERROR_ARGUMENT: the file exists and
+     * resumes is false. */
     const char *checkpoint_path;
     double checkpoint_interval_s; /* 0: 60 */
-    /* Continues from the checkpoint, which must be of the same image (FACET_ERROR_ARGUMENT); starts if there is
-     * none. */
+    /* Continues from the checkpoint, which must be of the same image (FACET_ERROR_ARGUMENT); starts if
+     * there is none. */
     bool resumes;
-    /* A cancelled render returns the image so far if each pixel has a sample (facet_render_stats.is_partial), as at
-     * the time limit; false: FACET_ERROR_CANCELLED. */
+    /* A cancelled render returns the image so far if each pixel has a sample
+     * (facet_render_stats.is_partial), as at the time limit; false: FACET_ERROR_CANCELLED. */
     bool keeps_cancelled;
-    /* Called from a thread of the renderer after passes, except the last, with the image so far, valid during the
-     * call. Denoised images, apart from the shadow on the ground, come at 2, 4, 8 .. samples. NULL: none. */
+    /* Called from a thread of the renderer after passes, except the last, with the image so far, valid
+     * during the call. Denoised images, apart from the shadow on the ground, come at 2, 4, 8 .. samples.
+     * NULL: none. */
     void (*pass)(void *pass_user, const facet_image *image, uint32_t samples);
     void *pass_user;
 } facet_path_desc;
@@ -165,16 +169,16 @@ typedef enum facet_background {
 
 typedef enum facet_ground {
     FACET_GROUND_NONE,
-    /* Shadow catcher: an invisible plane below the lowest point of the model; only the light that the model blocks
-     * is drawn, as dark opacity. Not for FACET_RENDERER_KIND_PREVIEW; FACET_RENDERER_KIND_GL draws a soft contact
-     * shadow. */
+    /* Shadow catcher: an invisible plane below the lowest point of the model; only the light that the
+     * model blocks is drawn, as dark opacity. Not for FACET_RENDERER_KIND_PREVIEW; FACET_RENDERER_KIND_GL
+     * draws a soft contact shadow. */
     FACET_GROUND_SHADOW
 } facet_ground;
 
-/* Arbitrary output variables: further layers of the image; combine them by or. Each is of the nearest surface at
- * the center of the pixel, unfiltered; 0 where nothing is hit (depth: infinity). FACET_RENDERER_KIND_PATH: normal
- * and albedo are means over the samples of a pixel, for denoisers: seen through specular reflection and clear
- * glass. */
+/* Arbitrary output variables: further layers of the image; combine them by or. Each is of the nearest
+ * surface at the center of the pixel, unfiltered; 0 where nothing is hit (depth: infinity).
+ * FACET_RENDERER_KIND_PATH: normal and albedo are means over the samples of a pixel, for denoisers: seen
+ * through specular reflection and clear glass. */
 typedef enum facet_aov {
     FACET_AOV_DEPTH = 1u << 0,       /* m along the axis of the camera; channel "Z" */
     FACET_AOV_NORMAL = 1u << 1,      /* unit shading normal in world space; channels "normal.X" .. */
@@ -187,22 +191,23 @@ typedef enum facet_aov {
     /* FACET_RENDERER_KIND_PATH: samples of the pixel; channel "samples.N" */
     FACET_AOV_SAMPLES = 1u << 7,
     FACET_AOV_OBJECT_ID = 1u << 8, /* index of the node plus 1; channel "object.id" */
-    /* number, from 1, among all instances of all nodes with a mesh (EXT_mesh_gpu_instancing has several per node);
-     * channel "instance.id" */
+    /* number, from 1, among all instances of all nodes with a mesh (EXT_mesh_gpu_instancing has several
+     * per node); channel "instance.id" */
     FACET_AOV_INSTANCE_ID = 1u << 9,
-    /* Cryptomatte 1.2.0 by names of nodes, of materials, of instances ("NODE#NUMBER"): the six IDs of the largest
-     * coverage with their coverage, in 3 layers "CryptoObject00" .. "02" of 4 channels (ID, coverage, ID,
-     * coverage). Coverage sums to the opacity (OpenGL: of the nearest surfaces of 16 samples). Manifests are in the
-     * metadata of an .exr. FACET_RENDERER_KIND_PATH: not with path.resumes, and complete in the final image only. */
+    /* Cryptomatte 1.2.0 by names of nodes, of materials, of instances ("NODE#NUMBER"): the six IDs of the
+     * largest coverage with their coverage, in 3 layers "CryptoObject00" .. "02" of 4 channels (ID,
+     * coverage, ID, coverage). Coverage sums to the opacity (OpenGL: of the nearest surfaces of 16
+     * samples). Manifests are in the metadata of an .exr. FACET_RENDERER_KIND_PATH: not with path.resumes,
+     * and complete in the final image only. */
     FACET_AOV_CRYPTO_OBJECT = 1u << 10,
     FACET_AOV_CRYPTO_MATERIAL = 1u << 11,
     FACET_AOV_CRYPTO_INSTANCE = 1u << 12,
     FACET_AOV_CRYPTOMATTE = FACET_AOV_CRYPTO_OBJECT | FACET_AOV_CRYPTO_MATERIAL | FACET_AOV_CRYPTO_INSTANCE
 } facet_aov;
 
-/* Instruction set of the ray-triangle kernels on x86-64; elsewhere there is one. AVX2 and AVX-512 use fused
- * multiply-adds, which round differently: a few pixels of an image differ by one code value. FACET_ERROR_SYSTEM:
- * the CPU lacks the set that is named. */
+/* Instruction set of the ray-triangle kernels on x86-64; elsewhere there is one. AVX2 and AVX-512 use
+ * fused multiply-adds, which round differently: a few pixels of an image differ by one code value.
+ * FACET_ERROR_SYSTEM: the CPU lacks the set that is named. */
 typedef enum facet_isa {
     FACET_ISA_PORTABLE, /* the widest without fused multiply-adds: SSE2, SSE4.2 and AVX give the same bytes */
     FACET_ISA_NATIVE,   /* the widest of this CPU; previews take 7 to 19 % less time */
@@ -239,19 +244,19 @@ typedef struct facet_render_desc {
     facet_path_desc path;
     facet_gl_desc gl;
     facet_quality quality;
-    /* Per pixel; 0: by quality. Preview: coverage samples, draft 1, normal 4, final 16, at most 4096. Path: draft 16,
-     * normal 64, final 512, at most 2^24. */
+    /* Per pixel; 0: by quality. Preview: coverage samples, draft 1, normal 4, final 16, at most 4096.
+     * Path: draft 16, normal 64, final 512, at most 2^24. */
     uint32_t samples;
     facet_energy energy;
-    /* FACET_SHADING_OGL1 is meant for FACET_TONEMAP_NONE. FACET_ERROR_ARGUMENT without legacy materials, and for the
-     * environment as background. */
+    /* FACET_SHADING_OGL1 is meant for FACET_TONEMAP_NONE. FACET_ERROR_ARGUMENT without legacy materials,
+     * and for the environment as background. */
     facet_shading shading;
     facet_ogl1_desc ogl1;
-    /* Widens highlights by the variance of normals within a pixel (Kaplanyan and Tokuyoshi 2019): fewer sparkles,
-     * but not what real-time viewers show. */
+    /* Widens highlights by the variance of normals within a pixel (Kaplanyan and Tokuyoshi 2019): fewer
+     * sparkles, but not what real-time viewers show. */
     bool has_specular_antialiasing;
-    /* Preview: decodes textures in full where a reduced size would do, since the mips of a JPEG that is decoded at
-     * half size differ slightly. Slower. Path tracing and OpenGL always do. */
+    /* Preview: decodes textures in full where a reduced size would do, since the mips of a JPEG that is
+     * decoded at half size differ slightly. Slower. Path tracing and OpenGL always do. */
     bool decodes_whole_textures;
     facet_isa isa;
     float exposure_ev; /* stops; radiance is scaled by 2^exposure_ev before tone mapping */
@@ -259,8 +264,8 @@ typedef struct facet_render_desc {
     bool meters_exposure;
     facet_tonemap tonemap;
     uint32_t aovs; /* facet_aov, combined by or */
-    /* 0: none; past it FACET_ERROR_LIMIT. FACET_RENDERER_KIND_PATH returns the image so far if each pixel has a
-     * sample. */
+    /* 0: none; past it FACET_ERROR_LIMIT. FACET_RENDERER_KIND_PATH returns the image so far if each pixel
+     * has a sample. */
     double time_limit_s;
 } facet_render_desc;
 
@@ -269,18 +274,21 @@ typedef struct facet_render_desc {
 /* Renders one image with the renderer that desc names. The image has the layer "" (RGBA, float, linear,
  * premultiplied) and the layers of desc->aovs.
  *
- * In a sea (desc->sea) scene NULL renders water only. camera NULL: of facet_sea_camera(); cameras are at most 50 km high
- * under the atmosphere's sky. _PREVIEW renders the endless sea; _GL the same image, for perspective cameras; _PATH traces
- * paths through the waves as triangles out to the horizon: of sea_shading it reads omits_foam, has_schlick_fresnel and
- * perceptual_roughness. The punctual lights of the scene light the scene; with _PATH the water, too. background is the sky.
- * Fails with FACET_ERROR_ARGUMENT in a sea for a ground, for FACET_SHADING_OGL1, and for aovs unless the renderer is _PATH. */
+ * In a sea (desc->sea) scene NULL renders water only. camera NULL: of facet_sea_camera(); cameras are at
+ * most 50 km high under the atmosphere's sky. _PREVIEW renders the endless sea; _GL the same image, for
+ * perspective cameras; _PATH traces paths through the waves as triangles out to the horizon: of
+ * sea_shading it reads omits_foam, has_schlick_fresnel and perceptual_roughness. The punctual lights of
+ * the scene light the scene; with _PATH the water, too. background is the sky. Fails with
+ * FACET_ERROR_ARGUMENT in a sea for a ground, for FACET_SHADING_OGL1, and for aovs unless the renderer is
+ * _PATH. */
 FACET_API facet_result facet_render(const facet_scene *scene, const facet_render_desc *desc,
                                     facet_image **image, facet_error *error);
 
-/* Renders several images of one scene, such as frames and views. What they share (textures, tangents, BVHs of what
- * does not move, OpenGL objects) is kept. Each image equals that of facet_render() to the last bit. The scene must
- * outlive the renderer; one image at a time. allocator NULL: {0}; that of a desc serves its image only. scene NULL: for
- * descs with a sea, whose sky and foam are kept; a scene in a sea may be placed anew between images. */
+/* Renders several images of one scene, such as frames and views. What they share (textures, tangents, BVHs
+ * of what does not move, OpenGL objects) is kept. Each image equals that of facet_render() to the last
+ * bit. The scene must outlive the renderer; one image at a time. allocator NULL: {0}; that of a desc
+ * serves its image only. scene NULL: for descs with a sea, whose sky and foam are kept; a scene in a sea
+ * may be placed anew between images. */
 FACET_API facet_result facet_renderer_create(const facet_scene *scene, const facet_allocator *allocator,
                                              facet_renderer **renderer, facet_error *error);
 FACET_API facet_result facet_renderer_render(facet_renderer *renderer, const facet_render_desc *desc,
@@ -304,12 +312,13 @@ FACET_API facet_render_stats facet_image_get_render_stats(const facet_image *ima
 
 /* ---- exposure ---- */
 
-/* Measures a small preview, without shadows and interreflection, so that all renderers get the same exposure: EV at
- * ISO 100 that brings the log-average luminance of the model, and of the environment where it is the background, to
+/* Measures a small preview, without shadows and interreflection, so that all renderers get the same
+ * exposure: EV at ISO 100 that brings the log-average luminance of the model, and of the environment where
+ * it is the background, to
  * 0.22 of white (Reinhard et al. 2002). With a sea, the sea without the scene and without glints is measured. Meter
- * sequences once; their frames would flicker otherwise. Where nothing is visible or all is black, the exposure is 0 and
- * log gets a warning. desc NULL: {0}. Fails as facet_render(), and with FACET_ERROR_ARGUMENT for FACET_SHADING_OGL1,
- * which has display values. */
+ * sequences once; their frames would flicker otherwise. Where nothing is visible or all is black, the
+ * exposure is 0 and log gets a warning. desc NULL: {0}. Fails as facet_render(), and with
+ * FACET_ERROR_ARGUMENT for FACET_SHADING_OGL1, which has display values. */
 FACET_API facet_result facet_renderer_meter(facet_renderer *renderer, const facet_render_desc *desc,
                                             double *ev100, facet_error *error);
 
@@ -325,8 +334,8 @@ typedef struct facet_sea_render_desc {
     facet_sea_shading shading;
 } facet_sea_render_desc;
 
-/* facet_render() and facet_renderer_meter() for a single image of a sea; sequences are faster with a facet_renderer.
- * desc NULL: {0}. */
+/* facet_render() and facet_renderer_meter() for a single image of a sea; sequences are faster with a
+ * facet_renderer. desc NULL: {0}. */
 FACET_API facet_result facet_sea_render(const facet_sea *sea, const facet_scene *scene,
                                         const facet_sea_render_desc *desc, facet_image **image,
                                         facet_error *error);

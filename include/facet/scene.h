@@ -1,4 +1,5 @@
-/* facet/scene.h - models: loading (glTF; OBJ with MTL, STL, PLY, rgl's parameters), inspecting, posing, saving. */
+/* facet/scene.h - models: loading (glTF; OBJ with MTL, STL, PLY, rgl's parameters), inspecting, posing,
+ * saving. */
 #ifndef FACET_SCENE_H
 #define FACET_SCENE_H
 
@@ -34,9 +35,10 @@ typedef struct facet_scene_desc {
     const char *parameters;
 } facet_scene_desc;
 
-/* Reads a .glb, .gltf, .obj (with its .mtl files), .stl or .ply file, or a .json file of rgl's material and light
- * parameters (one sphere per material); the content decides, not the name. Legacy materials are converted as
- * desc->legacy says and kept beside the result. Textures are decoded when a renderer needs them. */
+/* Reads a .glb, .gltf, .obj (with its .mtl files), .stl or .ply file, or a .json file of rgl's material
+ * and light parameters (one sphere per material); the content decides, not the name. Legacy materials are
+ * converted as desc->legacy says and kept beside the result. Textures are decoded when a renderer needs
+ * them. */
 FACET_API facet_result facet_scene_load(const char *path, const facet_scene_desc *desc, facet_scene **scene,
                                         facet_error *error);
 /* The same from memory, which may be released afterwards. Messages use name for the file; external files need
@@ -64,9 +66,9 @@ typedef struct facet_scene_counts {
 } facet_scene_counts;
 FACET_API facet_scene_counts facet_scene_get_counts(const facet_scene *scene);
 
-/* Describes the model as a JSON object (UTF-8): asset, counts, bounds, scenes, nodes, meshes, materials with their
- * parameters, textures, images, cameras, lights, extensions with their state, warnings of reading. docs/inspect.md
- * lists the members. Release *text with facet_text_destroy(). */
+/* Describes the model as a JSON object (UTF-8): asset, counts, bounds, scenes, nodes, meshes, materials
+ * with their parameters, textures, images, cameras, lights, extensions with their state, warnings of
+ * reading. docs/inspect.md lists the members. Release *text with facet_text_destroy(). */
 FACET_API facet_result facet_scene_describe_json(const facet_scene *scene, char **text, facet_error *error);
 
 /* The index of the first scene, camera, animation or material variant (KHR_materials_variants) of that name.
@@ -90,8 +92,8 @@ FACET_API facet_animation facet_scene_get_animation(const facet_scene *scene, ui
 
 /* ---- poses and places ---- */
 
-/* What of a scene is shown, and at what time. {0}: the default scene with the file's materials, at rest (nodes as
- * they are stored). */
+/* What of a scene is shown, and at what time. {0}: the default scene with the file's materials, at rest
+ * (nodes as they are stored). */
 typedef struct facet_pose_desc {
     bool has_scene_index; /* false: the default scene of the file */
     uint32_t scene_index;
@@ -102,28 +104,28 @@ typedef struct facet_pose_desc {
     double time_s; /* of the animations, which hold their first and last keyframe outside of their range */
 } facet_pose_desc;
 
-/* The origin of world space, m, in the coordinates of the file. It is {0, 0, 0}, or a point near a model that is so
- * far from the file's origin (as in map coordinates) that floats would not resolve its shape. All positions that
- * the library takes and returns as floats (cameras, orbits, bounds) are relative to it; add it, or subtract it, in
- * double. Loading the same file gives the same origin. */
+/* The origin of world space, m, in the coordinates of the file. It is {0, 0, 0}, or a point near a model
+ * that is so far from the file's origin (as in map coordinates) that floats would not resolve its shape.
+ * All positions that the library takes and returns as floats (cameras, orbits, bounds) are relative to it;
+ * add it, or subtract it, in double. Loading the same file gives the same origin. */
 FACET_API void facet_scene_get_origin(const facet_scene *scene, double origin[3]);
 
-/* Chooses the origin by another pose than that of loading (the default scene at rest): for animations or scenes of
- * the file that take the model elsewhere. No other thread may use the scene meanwhile. FACET_ERROR_ARGUMENT: there
- * is no such pose; FACET_ERROR_MEMORY. */
+/* Chooses the origin by another pose than that of loading (the default scene at rest): for animations or
+ * scenes of the file that take the model elsewhere. No other thread may use the scene meanwhile.
+ * FACET_ERROR_ARGUMENT: there is no such pose; FACET_ERROR_MEMORY. */
 FACET_API facet_result facet_scene_choose_origin(facet_scene *scene, const facet_pose_desc *pose,
                                                  facet_error *error);
 
-/* Axis-aligned bounds in world space, m, of what is drawn and can be seen; pose NULL: {0}. False: there is nothing,
- * and both are 0. */
+/* Axis-aligned bounds in world space, m, of what is drawn and can be seen; pose NULL: {0}. False: there is
+ * nothing, and both are 0. */
 FACET_API bool facet_scene_get_bounds(const facet_scene *scene, const facet_pose_desc *pose, float minimum[3],
                                       float maximum[3]);
 
-/* Moves the default scene, skins included: puts a node with that matrix above its roots, or changes the matrix of
- * the node that an earlier call has put there. Columns as in glTF; the last row is 0 0 0 1. The matrix maps from
- * the world space before the first call; from then on the origin of that space is the origin of the file, and
- * facet_scene_get_origin() is 0. No other thread may use the scene meanwhile. FACET_ERROR_ARGUMENT: no such matrix;
- * FACET_ERROR_MEMORY: the scene is unchanged. */
+/* Moves the default scene, skins included: puts a node with that matrix above its roots, or changes the
+ * matrix of the node that an earlier call has put there. Columns as in glTF; the last row is 0 0 0 1. The
+ * matrix maps from the world space before the first call; from then on the origin of that space is the
+ * origin of the file, and facet_scene_get_origin() is 0. No other thread may use the scene meanwhile.
+ * FACET_ERROR_ARGUMENT: no such matrix; FACET_ERROR_MEMORY: the scene is unchanged. */
 FACET_API facet_result facet_scene_place(facet_scene *scene, const float matrix[16], facet_error *error);
 
 /* ---- saving ---- */
@@ -131,8 +133,8 @@ FACET_API facet_result facet_scene_place(facet_scene *scene, const float matrix[
 typedef struct facet_scene_save_desc {
     facet_allocator allocator;
     facet_log log;
-    /* Stage "write": called before a file is begun and before all files are renamed into place. Nothing is on the
-     * disk before the first call. */
+    /* Stage "write": called before a file is begun and before all files are renamed into place. Nothing is
+     * on the disk before the first call. */
     facet_progress progress;
     uint32_t thread_count; /* 0: facet_thread_count() */
     bool is_glb;           /* writes .glb whatever the name: for /dev/stdout */
@@ -150,8 +152,8 @@ typedef struct facet_scene_save_desc {
  *          equal scene
  *   .obj   the scene at rest, with a .mtl and the images beside it
  *   .json  rgl's parameters of materials and lights
- * .obj and .json need legacy materials (facet_scene_convert_materials()), else FACET_ERROR_ARGUMENT. All files are
- * written or none. desc NULL: {0}. */
+ * .obj and .json need legacy materials (facet_scene_convert_materials()), else FACET_ERROR_ARGUMENT. All
+ * files are written or none. desc NULL: {0}. */
 FACET_API facet_result facet_scene_save(const facet_scene *scene, const char *path,
                                         const facet_scene_save_desc *desc, facet_error *error);
 

@@ -1,7 +1,8 @@
 /* facet/sea.h - the ocean: spectra of waves, water optics, rendering, maps and meshes. docs/ocean.md has the
  * formulas and their sources.
  *
- * Still water is at y = 0. Directions in the plane are angles from +X towards +Z of where wind and waves go to. */
+ * Still water is at y = 0. Directions in the plane are angles from +X towards +Z of where wind and waves
+ * go to. */
 #ifndef FACET_SEA_H
 #define FACET_SEA_H
 
@@ -18,8 +19,8 @@ extern "C" {
 /* ---- waves and water ---- */
 
 typedef enum facet_sea_spectrum {
-    /* Hasselmann et al. 1973, limited to the fully developed sea; in shallow water times the factor of Bouws et al.
-     * 1985 (TMA) */
+    /* Hasselmann et al. 1973, limited to the fully developed sea; in shallow water times the factor of
+     * Bouws et al. 1985 (TMA) */
     FACET_SEA_SPECTRUM_JONSWAP,
     FACET_SEA_SPECTRUM_PIERSON_MOSKOWITZ, /* fully developed, independent of fetch (1964) */
     FACET_SEA_SPECTRUM_ELFOUHAILY         /* et al. 1997: one spectrum down to capillary waves */
@@ -105,13 +106,13 @@ FACET_API const char *facet_sea_get_preset_name(uint32_t index);
 /* FACET_ERROR_ARGUMENT: no such name. */
 FACET_API facet_result facet_sea_preset(const char *name, facet_sea_desc *desc, facet_error *error);
 
-/* The sea at time 0. FACET_ERROR_ARGUMENT: a value is out of range, or the bed rises above the water at the origin;
- * FACET_ERROR_MEMORY. */
+/* The sea at time 0. FACET_ERROR_ARGUMENT: a value is out of range, or the bed rises above the water at
+ * the origin; FACET_ERROR_MEMORY. */
 FACET_API facet_result facet_sea_create(const facet_sea_desc *desc, facet_sea **sea, facet_error *error);
 FACET_API void facet_sea_destroy(facet_sea *sea);
 
-/* Any finite time, forwards or backwards. No other thread may use the sea meanwhile. FACET_ERROR_ARGUMENT: not
- * finite. */
+/* Any finite time, forwards or backwards. No other thread may use the sea meanwhile. FACET_ERROR_ARGUMENT:
+ * not finite. */
 FACET_API facet_result facet_sea_set_time(facet_sea *sea, double time_s, facet_error *error);
 
 /* ---- what is known of a sea ---- */
@@ -144,11 +145,12 @@ typedef struct facet_sea_point {
 FACET_API void facet_sea_get_points(const facet_sea *sea, const double *positions, size_t count,
                                     facet_sea_point *points);
 
-/* A tile of waves for real-time renderers that sum tiles themselves. Tiles repeat every tile_length_m in axes
- * rotated by tile_turn_rad. Layers: "" RGBA, displacement along the tile's x, upwards and along its z, m, and 1;
- * "normal" (3, unit, of the displaced surface of this tile alone); "slope" (2, of the height); "jacobian" (1);
- * "foam" (1, expected foam coverage, [0, 1]). Rows follow the tile's z from its origin; texel i is at i length /
- * size. allocator NULL: {0}. FACET_ERROR_ARGUMENT: no such tile; FACET_ERROR_MEMORY. */
+/* A tile of waves for real-time renderers that sum tiles themselves. Tiles repeat every tile_length_m in
+ * axes rotated by tile_turn_rad. Layers: "" RGBA, displacement along the tile's x, upwards and along its
+ * z, m, and 1; "normal" (3, unit, of the displaced surface of this tile alone); "slope" (2, of the
+ * height); "jacobian" (1); "foam" (1, expected foam coverage, [0, 1]). Rows follow the tile's z from its
+ * origin; texel i is at i length / size. allocator NULL: {0}. FACET_ERROR_ARGUMENT: no such tile;
+ * FACET_ERROR_MEMORY. */
 FACET_API facet_result facet_sea_create_maps(const facet_sea *sea, uint32_t tile,
                                              const facet_allocator *allocator, facet_image **image,
                                              facet_error *error);
@@ -162,9 +164,9 @@ typedef struct facet_sea_mesh_desc {
     bool omits_bed;
 } facet_sea_mesh_desc;
 
-/* A square of the surface and, if there is one, of the bed as a scene. The material of the water has the sea's
- * coefficients: KHR_materials_ior, _transmission and _volume (absorption and backscattering). desc NULL: {0}.
- * FACET_ERROR_ARGUMENT, _MEMORY. */
+/* A square of the surface and, if there is one, of the bed as a scene. The material of the water has the
+ * sea's coefficients: KHR_materials_ior, _transmission and _volume (absorption and backscattering). desc
+ * NULL: {0}. FACET_ERROR_ARGUMENT, _MEMORY. */
 FACET_API facet_result facet_sea_create_mesh(const facet_sea *sea, const facet_sea_mesh_desc *desc,
                                              facet_scene **scene, facet_error *error);
 
@@ -203,9 +205,9 @@ typedef struct facet_sea_shading {
     float clamp;         /* maximum of radiance times exposure; 0: none */
 } facet_sea_shading;
 
-/* A view from above the origin: height_m above the still water (0: 3 m, more in high seas; negative: under water)
- * and at least a metre above the waves there, towards azimuth_rad (from +Z towards +X, as the sun of a sky), just
- * below the horizon. */
+/* A view from above the origin: height_m above the still water (0: 3 m, more in high seas; negative: under
+ * water) and at least a metre above the waves there, towards azimuth_rad (from +Z towards +X, as the sun
+ * of a sky), just below the horizon. */
 FACET_API facet_camera facet_sea_camera(const facet_sea *sea, float height_m, float azimuth_rad);
 
 #ifdef __cplusplus

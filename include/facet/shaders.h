@@ -1,4 +1,5 @@
-/* facet/shaders.h - facet's shader library (shade/) as GLSL for other renderers. docs/shaders.md is the guide. */
+/* facet/shaders.h - facet's shader library (shade/) as GLSL for other renderers. docs/shaders.md is the
+ * guide. */
 #ifndef FACET_SHADERS_H
 #define FACET_SHADERS_H
 
@@ -11,8 +12,8 @@ extern "C" {
 /* Names of the functions in GLSL. */
 typedef enum facet_shader_names {
     FACET_SHADER_NAMES_FACET,
-    /* facet's, and those of the Khronos Sample Viewer with its arguments: V_GGX, BRDF_lambertian, Schlick_to_F0,
-     * ..; they bring the parts that they use. D_Charlie is then the viewer's. */
+    /* facet's, and those of the Khronos Sample Viewer with its arguments: V_GGX, BRDF_lambertian,
+     * Schlick_to_F0, ..; they bring the parts that they use. D_Charlie is then the viewer's. */
     FACET_SHADER_NAMES_KHRONOS
 } facet_shader_names;
 
@@ -27,8 +28,9 @@ typedef struct facet_shader_desc {
     facet_shader_names names;
 } facet_shader_desc;
 
-/* Functions, structures and macros without main(), to be put before the text of any shader stage. Release with
- * facet_bytes_destroy(); a 0 follows the bytes and is not counted. desc NULL: {0}. FACET_ERROR_ARGUMENT, _MEMORY. */
+/* Functions, structures and macros without main(), to be put before the text of any shader stage. Release
+ * with facet_bytes_destroy(); a 0 follows the bytes and is not counted. desc NULL: {0}.
+ * FACET_ERROR_ARGUMENT, _MEMORY. */
 FACET_API facet_result facet_shader_text(const facet_shader_desc *desc, unsigned char **bytes, size_t *size,
                                          facet_error *error);
 

@@ -35,8 +35,8 @@ typedef struct facet_view_image {
     double origin[3];                /* facet_scene_get_origin() of the model */
 } facet_view_image;
 
-/* Callbacks of a window; NULL: the library's own behavior. load_model and load_environment are called from a separate
- * thread, one at a time, the others from the thread of facet_view(). */
+/* Callbacks of a window; NULL: the library's own behavior. load_model and load_environment are called from
+ * a separate thread, one at a time, the others from the thread of facet_view(). */
 typedef struct facet_view_source {
     void *user;
     /* Loads a model; path NULL: the built-in scene. */
@@ -61,17 +61,17 @@ typedef struct facet_view_desc {
     const char *const *environments;
     uint32_t environment_count;
     const char *environment; /* the initial one; NULL: load_environment() decides */
-    /* Initial size (0: 1024 x 768), background, exposure, ..; the renderer is GL or PATH. allocator, log, progress,
-     * pose, camera, environment and crop are not read. */
+    /* Initial size (0: 1024 x 768), background, exposure, ..; the renderer is GL or PATH. allocator, log,
+     * progress, pose, camera, environment and crop are not read. */
     facet_render_desc render;
     uint32_t path_samples; /* per pixel, after which path tracing stops; 0: 4096 */
     /* file of input events that is played with a clock of its own (docs/view.md); NULL: none */
     const char *script;
 } facet_view_desc;
 
-/* Opens a window and returns when it is closed. Call it on the first thread of the process. desc NULL: {0}.
- * FACET_ERROR_SYSTEM: display, GLFW or OpenGL is missing; FACET_ERROR_ARGUMENT: of the script; or as loading the
- * first model fails. */
+/* Opens a window and returns when it is closed. Call it on the first thread of the process. desc NULL:
+ * {0}. FACET_ERROR_SYSTEM: display, GLFW or OpenGL is missing; FACET_ERROR_ARGUMENT: of the script; or as
+ * loading the first model fails. */
 FACET_API facet_result facet_view(const facet_view_desc *desc, facet_error *error);
 
 #ifdef __cplusplus

@@ -1,6 +1,6 @@
-/* lang_c_types.h - the vectors of the shader library in C and GLSL's functions on them, under names that start
- * with shade_ or SHADE_ (C11 + GNU vector extensions; gcc >= 12, clang >= 14). lang_c.h gives them GLSL's names
- * while shader text is read.
+/* lang_c_types.h - the vectors of the shader library in C and GLSL's functions on them, under names that
+ * start with shade_ or SHADE_ (C11 + GNU vector extensions; gcc >= 12, clang >= 14). lang_c.h gives them
+ * GLSL's names while shader text is read.
  *
  * A vec3 is four lanes wide; lane 3 is undefined and never read. A vec3 and a four-component vector would be
  * the same C type, so there is no vec4. Every selection on the first argument lists float and the vectors and

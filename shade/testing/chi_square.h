@@ -4,8 +4,8 @@
 
 #include "test_support.h"
 
-/* Upper incomplete gamma function Q(a, x) = Gamma(a, x) / Gamma(a): below a + 1 by the series of its complement, above
- * by Legendre's continued fraction (Press et al., "Numerical Recipes", section 6.2). */
+/* Upper incomplete gamma function Q(a, x) = Gamma(a, x) / Gamma(a): below a + 1 by the series of its
+ * complement, above by Legendre's continued fraction (Press et al., "Numerical Recipes", section 6.2). */
 static inline double incomplete_gamma(double a, double x)
 {
     if (x <= 0.0)

@@ -1,5 +1,5 @@
-/* layer_albedo.h - the albedo of the layered surface in a uniform light of 1, integrated over the whole sphere,
- * and its LUT values, integrated on the spot. Includes test_support.h. */
+/* layer_albedo.h - the albedo of the layered surface in a uniform light of 1, integrated over the whole
+ * sphere, and its LUT values, integrated on the spot. Includes test_support.h. */
 #ifndef SHADE_LAYER_ALBEDO_H
 #define SHADE_LAYER_ALBEDO_H
 
@@ -53,8 +53,8 @@ static inline float sheen_curve_at(const sheen_curve *curve, float NdotL)
     return mix(curve->E[i], curve->E[i + 1], x - (float)i);
 }
 
-/* Six strategies to sample L for one view (the zero vector: no direction); N is +z, T is +x. Their mean density
- * is that of all samples together. */
+/* Six strategies to sample L for one view (the zero vector: no direction); N is +z, T is +x. Their mean
+ * density is that of all samples together. */
 enum { STRATEGIES = 6 };
 typedef struct layer_sampler {
     Layers m;
@@ -141,7 +141,8 @@ static inline __attribute__((unused)) void layered_albedo(Layers m, vec3 V, int 
     layered_albedo_of(m, V, energy, exact_tables(m, V, energy), n, out);
 }
 
-/* A surface of random parameters with these layers, seen from V; N is +z, and V is above the coat too. Roughness from 0.15 on, so that the draws above suffice. */
+/* A surface of random parameters with these layers, seen from V; N is +z, and V is above the coat too.
+ * Roughness from 0.15 on, so that the draws above suffice. */
 static inline __attribute__((unused)) Layers random_layers(test_rng *rng, uint layers, vec3 V, bool is_white)
 {
     vec3 up = vec3(0.0f, 0.0f, 1.0f);

@@ -1,5 +1,5 @@
-/* nasty_layers.h - surfaces and directions at the limits of their domains: zeros, ones, numbers that underflow
- * when squared, normals that face away. Includes test_support.h. */
+/* nasty_layers.h - surfaces and directions at the limits of their domains: zeros, ones, numbers that
+ * underflow when squared, normals that face away. Includes test_support.h. */
 #ifndef SHADE_NASTY_LAYERS_H
 #define SHADE_NASTY_LAYERS_H
 

@@ -63,8 +63,8 @@ static inline __attribute__((unused)) bool is_finite3(vec3 v)
     return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
 }
 
-/* The grid of the golden tables; rows are roughness, columns N.V. Computed by nested tanh-sinh quadrature in 80-bit
- * floats over the half vector, two refinement levels agreeing to 1e-17. */
+/* The grid of the golden tables; rows are roughness, columns N.V. Computed by nested tanh-sinh quadrature
+ * in 80-bit floats over the half vector, two refinement levels agreeing to 1e-17. */
 enum { GOLDEN_ROUGHNESS_COUNT = 5, GOLDEN_NDOTV_COUNT = 5 };
 static const float golden_roughness[GOLDEN_ROUGHNESS_COUNT] = {0.10f, 0.25f, 0.50f, 0.75f, 1.00f};
 static const float golden_NdotV[GOLDEN_NDOTV_COUNT] = {0.05f, 0.25f, 0.50f, 0.75f, 1.00f};

@@ -1,4 +1,5 @@
-/* Tests of layers as a program of somebody else uses them: IDs and Cryptomatte of all renderers beside each other. */
+/* Tests of layers as a program of somebody else uses them: IDs and Cryptomatte of all renderers beside
+ * each other. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,7 +12,8 @@
 
 #include "facet/facet.h"
 
-/* A blended square before an opaque one that is wider, both in the plane of the picture; no other node has a mesh. */
+/* A blended square before an opaque one that is wider, both in the plane of the picture; no other node has
+ * a mesh. */
 static const char two_squares[] =
     "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[1,2]}],\"nodes\":[{\"name\":"
     "\"empty\"},{\"name\":\"wall\",\"mesh\":0,\"scale\":[2,2,1]},{\"name\":\"glass\",\"mesh\":1,"
@@ -94,7 +96,8 @@ static facet_scene *load_squares(void)
     return scene;
 }
 
-/* Of the CPU's renderers for every pixel; OpenGL has other samples, and sees no further than the nearest surface. */
+/* Of the CPU's renderers for every pixel; OpenGL has other samples, and sees no further than the nearest
+ * surface. */
 static void shares_add_up_to_the_opacity(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* bake_api_test.c - what is baked, through facet.h alone: files of cube maps that are read as environments again, RGBM. */
+/* bake_api_test.c - what is baked, through facet.h alone: files of cube maps that are read as environments
+ * again, RGBM. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

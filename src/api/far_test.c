@@ -1,5 +1,5 @@
-/* Tests of models far from the origin of their file: the same picture by every renderer wherever the model is, as far as
- * the file can say what it is (scene/origin.h). */
+/* Tests of models far from the origin of their file: the same picture by every renderer wherever the model
+ * is, as far as the file can say what it is (scene/origin.h). */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,7 +17,8 @@ enum { SIZE = 48, SIDES = 16, RINGS = 9, VERTICES = SIDES * RINGS, INDICES = 6 *
 
 static const float PI = 3.14159265f;
 
-/* A ball with dents, per vertex position, normal, texture coordinate; then weights and a morph target's changes. */
+/* A ball with dents, per vertex position, normal, texture coordinate; then weights and a morph target's
+ * changes. */
 typedef struct ball {
     float positions[VERTICES][3], normals[VERTICES][3], texcoords[VERTICES][2], weights[VERTICES][4],
         changes[VERTICES][3];
@@ -93,7 +94,8 @@ static void add_base64(model *m, const void *bytes, size_t size)
 /* What moves a model. */
 typedef enum how { BY_TRANSLATION, BY_MATRIX, BY_ANIMATION, BY_VERTICES } how;
 
-/* Four balls: with a normal map and a morph target, of glass, on a joint, hung upside down; a light and a camera. */
+/* Four balls: with a normal map and a morph target, of glass, on a joint, hung upside down; a light and a
+ * camera. */
 static const char NODES[] =
     "\"scenes\":[{\"nodes\":[%s]}],\"nodes\":[{\"children\":[%s]%s},"
     "{\"mesh\":0,\"weights\":[0.5]},"
@@ -250,8 +252,8 @@ static facet_image *draw(const facet_scene *scene, facet_renderer_kind renderer,
     return image;
 }
 
-/* Rounding decides about few pixels: which of two triangles an edge's ray meets, which way a path goes; and glass with
- * dents makes much of little. */
+/* Rounding decides about few pixels: which of two triangles an edge's ray meets, which way a path goes;
+ * and glass with dents makes much of little. */
 static void assert_alike(const facet_image *a, const facet_image *b, const double move[3], int renderer)
 {
     facet_image_view x = facet_image_get_layer(a, 0), y = facet_image_get_layer(b, 0);

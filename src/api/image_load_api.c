@@ -14,7 +14,8 @@ enum { GRAIN = 16384 }; /* pixels */
 
 /* ---- pixels to images ---- */
 
-/* Makes an image of rgba (F32, 4 channels) or, compact, of texels of any type; they are taken, also on failure. */
+/* Makes an image of rgba (F32, 4 channels) or, compact, of texels of any type; they are taken, also on
+ * failure. */
 static facet_result take_pixels(image *rgba, bool is_compact, const facet_allocator *allocator,
                                 bool is_for_display, facet_image **out, facet_error *error)
 {

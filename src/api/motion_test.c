@@ -1,5 +1,5 @@
-/* motion_test.c - animations through the public interface: models at several times against another implementation's
- * vertices, names and lengths of animations, cameras that move. */
+/* motion_test.c - animations through the public interface: models at several times against another
+ * implementation's vertices, names and lengths of animations, cameras that move. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -44,9 +44,9 @@ static scene_pose pose_at(const facet_scene *scene, int animation, double time_s
     return pose;
 }
 
-/* World positions of all corners: bounds, mean, and the last corner of the last mesh; m. From three.js r187 in Node: its
- * GLTFLoader, AnimationMixer.setTime() and Mesh.getVertexPosition() with matrixWorld, seven digits; quaternions of keys
- * were made unit before, which the files are to three digits only. */
+/* World positions of all corners: bounds, mean, and the last corner of the last mesh; m. From three.js
+ * r187 in Node: its GLTFLoader, AnimationMixer.setTime() and Mesh.getVertexPosition() with matrixWorld,
+ * seven digits; quaternions of keys were made unit before, which the files are to three digits only. */
 typedef struct golden {
     const char *model;
     int animation; /* -1: at rest */
@@ -339,7 +339,8 @@ static void bounds_and_cameras_follow_the_pose(void **state)
     facet_scene_destroy(scene);
 }
 
-/* A camera on a node that goes from (0, 0, 0) to (1, 2, 3) in a second while its angle grows from 0.5 to 1 rad. */
+/* A camera on a node that goes from (0, 0, 0) to (1, 2, 3) in a second while its angle grows from 0.5 to 1
+ * rad. */
 static const char MOVING_CAMERA[] =
     "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_animation_pointer\"],\"scenes\":[{\"nodes\":["
     "0]}],"

@@ -114,7 +114,8 @@ static void info_follows_wind_and_swell(void **state)
     assert_true(flat.height_m == 0.0 && flat.peak_period_s == 0.0 && flat.tile_count == 0);
 }
 
-/* A wave of one length: height, velocity and normal as the formula has them, and all points at once as one by one. */
+/* A wave of one length: height, velocity and normal as the formula has them, and all points at once as one
+ * by one. */
 static void points_move_as_waves_do(void **state)
 {
     (void)state;

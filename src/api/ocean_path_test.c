@@ -1,5 +1,6 @@
-/* ocean_path_test.c - path tracing of a sea against the preview: waves that both resolve, closed forms of still water, rough water under
- * a uniform sky and a bright horizon, a model with its reflection and shadow, exhausted memory. */
+/* ocean_path_test.c - path tracing of a sea against the preview: waves that both resolve, closed forms of
+ * still water, rough water under a uniform sky and a bright horizon, a model with its reflection and
+ * shadow, exhausted memory. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -123,7 +124,8 @@ static void still_water_is_the_same(void **state)
     }
 }
 
-/* Where nothing absorbs, water and a white bed show as much as an even sky does, n^2 as much below; with an index of 1, too. */
+/* Where nothing absorbs, water and a white bed show as much as an even sky does, n^2 as much below; with
+ * an index of 1, too. */
 static void a_furnace_is_even(void **state)
 {
     (void)state;
@@ -175,7 +177,8 @@ static void below_it_is_the_same(void **state)
     }
 }
 
-/* The sun through waves, 5 and 15 m below them: its beam has what was not scattered, its glow the rest, which counts once. */
+/* The sun through waves, 5 and 15 m below them: its beam has what was not scattered, its glow the rest,
+ * which counts once. */
 static void the_sun_below_is_the_same(void **state)
 {
     (void)state;
@@ -195,9 +198,9 @@ static void the_sun_below_is_the_same(void **state)
     }
 }
 
-/* In even light, seen from 10 m below, waves wash out the rim of Snell's window: in bands of 5 degrees, from 65 degrees over the horizon down;
- * those beyond the rim are as dark as the steepest waves are few, of which paths' triangles have some more: 17 % of light at most, where 200
- * samples are 2 % off. */
+/* In even light, seen from 10 m below, waves wash out the rim of Snell's window: in bands of 5 degrees,
+ * from 65 degrees over the horizon down; those beyond the rim are as dark as the steepest waves are few,
+ * of which paths' triangles have some more: 17 % of light at most, where 200 samples are 2 % off. */
 static void the_window_is_the_same(void **state)
 {
     (void)state;
@@ -213,8 +216,8 @@ static void the_window_is_the_same(void **state)
     end(&p);
 }
 
-/* A swell without wind hides no slopes and mirrors itself hardly ever: mean difference below 1 %, 95 of 100 pixels within 5 %,
- * noise included. */
+/* A swell without wind hides no slopes and mirrors itself hardly ever: mean difference below 1 %, 95 of
+ * 100 pixels within 5 %, noise included. */
 static void swell_is_where_it_is(void **state)
 {
     (void)state;
@@ -251,8 +254,9 @@ static void rough_water_is_the_same(void **state)
     }
 }
 
-/* The horizon is six times as bright as what stands high: what of it rough water mirrors depends on which slopes are seen. In bands from the
- * horizon down, and whatever the size of the picture, which decides how many waves are slopes. */
+/* The horizon is six times as bright as what stands high: what of it rough water mirrors depends on which
+ * slopes are seen. In bands from the horizon down, and whatever the size of the picture, which decides how
+ * many waves are slopes. */
 static void a_bright_horizon_is_mirrored_alike(void **state)
 {
     (void)state;
@@ -282,8 +286,8 @@ static void a_bright_horizon_is_mirrored_alike(void **state)
     end(&p);
 }
 
-/* From above, where slopes are all that is hidden and little is mirrored twice: with sun, sky and depth. Foam lies in troughs, too, which see
- * less of the sky than an open plane. */
+/* From above, where slopes are all that is hidden and little is mirrored twice: with sun, sky and depth.
+ * Foam lies in troughs, too, which see less of the sky than an open plane. */
 static void a_gale_from_above_is_the_same(void **state)
 {
     (void)state;
@@ -320,7 +324,8 @@ static double hue_of(const facet_image *image, uint32_t x, uint32_t y)
     return green / red;
 }
 
-/* Towards a low sun, no wave that it shines through is greener than by paths; where it glitters more it is redder. */
+/* Towards a low sun, no wave that it shines through is greener than by paths; where it glitters more it is
+ * redder. */
 static void no_crest_glows_against_the_sun(void **state)
 {
     (void)state;
@@ -431,8 +436,8 @@ static double speckle(const facet_image *image, uint32_t from, uint32_t to)
     return sum / ((double)(to - from) * (width - 1)) / rows_mean(image, from, to);
 }
 
-/* In rough water it is drawn out towards the eye, as bright as paths find it and as smooth, though slopes of what a pixel shows would
- * mirror either it or the dark. */
+/* In rough water it is drawn out towards the eye, as bright as paths find it and as smooth, though slopes
+ * of what a pixel shows would mirror either it or the dark. */
 static void a_model_is_blurred_in_rough_water(void **state)
 {
     (void)state;
@@ -451,7 +456,8 @@ static void a_model_is_blurred_in_rough_water(void **state)
     facet_scene_destroy(scene);
 }
 
-/* Water that takes little of the light and scatters hardly any, where paths and preview differ in what is scattered forward. */
+/* Water that takes little of the light and scatters hardly any, where paths and preview differ in what is
+ * scattered forward. */
 static facet_water clear_water(float red, float green, float blue)
 {
     return (facet_water){.kind = FACET_WATER_KIND_COEFFICIENTS,
@@ -460,8 +466,9 @@ static facet_water clear_water(float red, float green, float blue)
                          .backscattering = {5e-5f, 5e-5f, 5e-5f}};
 }
 
-/* An eye 3 m deep sees the square in the surface: mirrored, if it is as deep, beyond the critical angle by all of it, and through Snell's
- * window, n^2 (1 - F) times as bright, if it hangs over the water. Waves blur both; of the square in still water a pixel knows how bright. */
+/* An eye 3 m deep sees the square in the surface: mirrored, if it is as deep, beyond the critical angle by
+ * all of it, and through Snell's window, n^2 (1 - F) times as bright, if it hangs over the water. Waves
+ * blur both; of the square in still water a pixel knows how bright. */
 static void a_model_is_seen_in_the_surface_from_below(void **state)
 {
     (void)state;
@@ -499,8 +506,9 @@ static void a_model_is_seen_in_the_surface_from_below(void **state)
 }
 
 /* A square lies 30 cm over a lagoon of 2 m: its shadow on the bed is 1.4 m away from the sun. Seen from
- * the air and from the water, a fifth of the light is left: what paths find, and what the preview has. In clear water, as paths know no
- * light that is scattered into shadows; the sky around the sun is hidden with it, and a twentieth of the light comes back from the surface. */
+ * the air and from the water, a fifth of the light is left: what paths find, and what the preview has. In
+ * clear water, as paths know no light that is scattered into shadows; the sky around the sun is hidden
+ * with it, and a twentieth of the light comes back from the surface. */
 static void a_model_shades_the_bed(void **state)
 {
     (void)state;
@@ -535,8 +543,8 @@ static void a_model_shades_the_bed(void **state)
     facet_scene_destroy(scene);
 }
 
-/* A wall over a bright bed, in even light: half of what it sees is the sea. Paths have 0.93 of it, as the wall shades the bed;
- * over deep water it would have a fifth less. */
+/* A wall over a bright bed, in even light: half of what it sees is the sea. Paths have 0.93 of it, as the
+ * wall shades the bed; over deep water it would have a fifth less. */
 static void a_bed_lights_a_model(void **state)
 {
     (void)state;
@@ -553,7 +561,8 @@ static void a_bed_lights_a_model(void **state)
     facet_scene_destroy(scene);
 }
 
-/* Where a look has no meaning it is refused; foam, Fresnel's formula and the roughness of what no tile has are in both. */
+/* Where a look has no meaning it is refused; foam, Fresnel's formula and the roughness of what no tile has
+ * are in both. */
 static void looks_are_refused_or_followed(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* Tests of FACET_SHADING_OGL1 through facet.h: the bytes of a file, backgrounds, one renderer for both models, errors. */
+/* Tests of FACET_SHADING_OGL1 through facet.h: the bytes of a file, backgrounds, one renderer for both
+ * models, errors. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -91,8 +92,8 @@ static void colors_come_back_as_codes(void **state)
     facet_scene_destroy(scene);
 }
 
-/* Half of a color over a background: half of both codes, as OpenGL blended them; as light it would be brighter. A
- * transparent picture holds the color itself. */
+/* Half of a color over a background: half of both codes, as OpenGL blended them; as light it would be
+ * brighter. A transparent picture holds the color itself. */
 static void layers_are_blended_as_codes(void **state)
 {
     (void)state;

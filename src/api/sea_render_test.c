@@ -1,5 +1,5 @@
-/* sea_render_test.c - a sea in facet_render_desc: what a facet_renderer keeps changes no image, and what holds of a scene holds in a
- * sea for each renderer, or is refused by name. */
+/* sea_render_test.c - a sea in facet_render_desc: what a facet_renderer keeps changes no image, and what
+ * holds of a scene holds in a sea for each renderer, or is refused by name. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -45,7 +45,8 @@ static facet_render_desc desc_of(const facet_sea *sea, facet_renderer_kind rende
                                .renderer = renderer};
 }
 
-/* A white square of 2 x 2 m, 8 m before the eye and 2 to 4 m over the water, and a point light of 10^6 cd 2 m before it. */
+/* A white square of 2 x 2 m, 8 m before the eye and 2 to 4 m over the water, and a point light of 10^6 cd
+ * 2 m before it. */
 static facet_scene *lit_square(void)
 {
     static const char file[] =
@@ -202,7 +203,8 @@ static double middle_of(const facet_scene *scene, const facet_render_desc *desc)
     return L;
 }
 
-/* The square, 2 m behind a light of 10^6 cd, sends back E / pi = 10^6 / 4 / pi cd/m^2 in the night, nearly all of it. */
+/* The square, 2 m behind a light of 10^6 cd, sends back E / pi = 10^6 / 4 / pi cd/m^2 in the night, nearly
+ * all of it. */
 static void punctual_lights_light_the_model(void **state)
 {
     (void)state;

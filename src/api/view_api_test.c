@@ -1,4 +1,5 @@
-/* view_api_test.c - facet_view() refuses what cannot be before it opens a window; path tracing shows its passes. */
+/* view_api_test.c - facet_view() refuses what cannot be before it opens a window; path tracing shows its
+ * passes. */
 #include "facet/facet.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* bake_dfg_test.c - tables of reflectance: nodes, layouts, threads, what is refused. The integrals themselves:
- * ibl/dfg_integrate_test.c. */
+/* bake_dfg_test.c - tables of reflectance: nodes, layouts, threads, what is refused. The integrals
+ * themselves: ibl/dfg_integrate_test.c. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -101,7 +101,8 @@ static void test_kinds_agree(void **state)
     image_destroy(&filament);
 }
 
-/* Averages are those of the table of albedos over the cosine, by its own midpoints, and the same in each column. */
+/* Averages are those of the table of albedos over the cosine, by its own midpoints, and the same in each
+ * column. */
 static void test_average_of_table(void **state)
 {
     (void)state;

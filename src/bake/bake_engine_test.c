@@ -1,4 +1,5 @@
-/* bake_engine_test.c - cube maps as engines want them: mirrored for three.js, KTX 1 with harmonics for Filament. */
+/* bake_engine_test.c - cube maps as engines want them: mirrored for three.js, KTX 1 with harmonics for
+ * Filament. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -24,7 +24,8 @@ bake_lobe bake_lobe_create(facet_lobe kind, float perceptual_roughness);
 double bake_lobe_weight(const bake_lobe *lobe, double s2);
 
 /* The kernel of the lobe over the degrees of harmonics (prefilter.h), as far as it differs from 0; it has
- * HARMONICS_MAX_DEGREE + 1 places. False: the lobe is too narrow for HARMONICS_MAX_DEGREE, and the kernel is not usable. */
+ * HARMONICS_MAX_DEGREE + 1 places. False: the lobe is too narrow for HARMONICS_MAX_DEGREE, and the kernel
+ * is not usable. */
 bool bake_lobe_kernel(const bake_lobe *lobe, float *kernel, uint32_t *degree);
 
 /* Cumulative weight of the lobe from R outwards, for inversion. */

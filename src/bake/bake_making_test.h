@@ -1,4 +1,5 @@
-/* bake_making_test.h - for tests: environments of formulas, baked cube maps, their texels. Include after cmocka.h. */
+/* bake_making_test.h - for tests: environments of formulas, baked cube maps, their texels. Include after
+ * cmocka.h. */
 #ifndef BAKE_BAKE_MAKING_TEST_H
 #define BAKE_BAKE_MAKING_TEST_H
 
@@ -8,7 +9,8 @@
 #include "tests/support/support.h"
 #include "ibl/making_test.h"
 
-/* Rings take harmonics of a high degree, seconds where nothing is optimised: the tests of rings are enough there. */
+/* Rings take harmonics of a high degree, seconds where nothing is optimised: the tests of rings are enough
+ * there. */
 static inline bool is_slow_ring(int lobe, int method)
 {
     return IS_SLOW && lobe == FACET_LOBE_CHARLIE && method == FACET_BAKE_METHOD_AUTO;

@@ -1,4 +1,5 @@
-/* bake_sh_test.c - environments as nine harmonics: what each form adds up to, rotation, exposure, clamp, window. */
+/* bake_sh_test.c - environments as nine harmonics: what each form adds up to, rotation, exposure, clamp,
+ * window. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

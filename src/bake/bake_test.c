@@ -111,7 +111,8 @@ static double worst_of_bands(facet_environment *e, facet_lobe lobe, facet_bake_m
 static void test_bands(void **state)
 {
     (void)state;
-    /* an image of texels 0.025 rad wide has l (l + 1) width^2 / 24 = 5e-4 less of band 4; samples blur a little more */
+    /* an image of texels 0.025 rad wide has l (l + 1) width^2 / 24 = 5e-4 less of band 4; samples blur a
+     * little more */
     static const double tolerance[2] = {6e-4, 2e-2};
     facet_environment *low = make_environment(256, 128, low_bands);
     facet_environment *high = make_environment(256, 128, high_bands);
@@ -205,8 +206,8 @@ static double density(const bake_lobe *lobe, double s2)
     return s2 < 0.5 ? bake_lobe_weight(lobe, s2) / whole : 0.0;
 }
 
-/* Each level is the lobe, and none of the light is lost. Tolerances: of the largest value that a texel has, and of the root mean
- * square. */
+/* Each level is the lobe, and none of the light is lost. Tolerances: of the largest value that a texel
+ * has, and of the root mean square. */
 static void check_sun(facet_lobe kind, facet_bake_method method, uint32_t x, uint32_t y, double tolerance,
                       double rms_tolerance)
 {
@@ -347,7 +348,8 @@ static void test_quarter_turn(void **state)
     facet_environment_destroy(e);
 }
 
-/* Texels on both sides of an edge are half a texel from it: they differ by no more than neighbours on a face do. */
+/* Texels on both sides of an edge are half a texel from it: they differ by no more than neighbours on a
+ * face do. */
 static void test_no_seams(void **state)
 {
     (void)state;

@@ -78,7 +78,8 @@ static void test_sampling_converges(void **state)
     facet_environment_destroy(e);
 }
 
-/* The reference itself is the lobe's: of bands 1 and 2 (shading-model.md 16.4), and of the method that fills whole levels. */
+/* The reference itself is the lobe's: of bands 1 and 2 (shading-model.md 16.4), and of the method that
+ * fills whole levels. */
 static void test_method(void **state)
 {
     (void)state;

@@ -50,9 +50,9 @@ static facet_result read_stream(int fd, const char *path, uint64_t max_bytes,
     return FACET_OK;
 }
 
-/* Larger files are mapped: malformed ones are usually rejected after the first bytes, and the rest is never read.
- * Smaller ones are read, so that they may be truncated or rewritten while in use, which would crash a process with a
- * mapping. */
+/* Larger files are mapped: malformed ones are usually rejected after the first bytes, and the rest is
+ * never read. Smaller ones are read, so that they may be truncated or rewritten while in use, which would
+ * crash a process with a mapping. */
 static const size_t MAPPED_FROM = (size_t)256 << 20;
 
 /* Reads a file of size bytes. */
@@ -196,7 +196,8 @@ static bool leads_to_descriptor(const char *path)
     return is_descriptor(path) || is_descriptor(target);
 }
 
-/* Creates a unique file beside path, with mode 666 less the umask. *name: its path, for free(). Negative: see errno. */
+/* Creates a unique file beside path, with mode 666 less the umask. *name: its path, for free(). Negative:
+ * see errno. */
 static int create_temporary(const char *path, char **name)
 {
     enum { MAX_LENGTH = 240, ATTEMPTS = 100 }; /* of the 255 bytes of a file name */

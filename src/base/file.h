@@ -30,10 +30,10 @@ void file_close(file_bytes *file); /* {0} is allowed; leaves {0} */
 /* Whether path refers to the file that was opened, possibly by another name. */
 bool file_is_at(const file_bytes *file, const char *path);
 
-/* Writes size bytes to path: to a temporary file beside it, which is flushed to disk and renamed; after a failure
- * (FACET_ERROR_WRITE) path is unchanged and no temporary remains. An existing path that is not a regular file (a
- * device, a pipe) is written directly, and so is /dev/stdout. Any other link is replaced, not followed: a user who
- * can create links in a folder must not choose which file is overwritten. */
+/* Writes size bytes to path: to a temporary file beside it, which is flushed to disk and renamed; after a
+ * failure (FACET_ERROR_WRITE) path is unchanged and no temporary remains. An existing path that is not a
+ * regular file (a device, a pipe) is written directly, and so is /dev/stdout. Any other link is replaced,
+ * not followed: a user who can create links in a folder must not choose which file is overwritten. */
 facet_result file_write(const char *path, const void *data, size_t size, facet_error *error);
 /* The same, but replaces whatever is at path except a folder: for files of facet's own. */
 facet_result file_replace(const char *path, const void *data, size_t size, facet_error *error);
@@ -43,8 +43,8 @@ typedef struct file_stage {
     char *path, *temporary; /* temporary NULL: a device or pipe, already written */
 } file_stage;
 
-/* The two halves of file_write(), for several files that must appear together: stage them all, then commit them. A
- * commit rarely fails, and leaves {0}; so does a discard, after which path is unchanged. */
+/* The two halves of file_write(), for several files that must appear together: stage them all, then commit
+ * them. A commit rarely fails, and leaves {0}; so does a discard, after which path is unchanged. */
 facet_result file_stage_write(const char *path, const void *data, size_t size, file_stage *stage,
                               facet_error *error);
 facet_result file_stage_commit(file_stage *stage, facet_error *error);
@@ -58,9 +58,9 @@ char *path_folder(const facet_allocator *allocator, const char *path);
 const char *path_base_name(const char *path);
 /* The part behind the last dot of the base name, or "". */
 const char *path_extension(const char *path);
-/* Opens path for reading (a pipe without waiting for a writer) if it is folder or below it after links are resolved.
- * The opened file is the one that was checked: if a link is replaced in between, the call fails. Returns a file
- * descriptor, or -1 with errno, which is EXDEV if path leads out of folder. */
+/* Opens path for reading (a pipe without waiting for a writer) if it is folder or below it after links are
+ * resolved. The opened file is the one that was checked: if a link is replaced in between, the call fails.
+ * Returns a file descriptor, or -1 with errno, which is EXDEV if path leads out of folder. */
 int path_open_inside(const char *path, const char *folder);
 
 #endif

@@ -277,7 +277,8 @@ static void links_do_not_lead_out(void **state)
         mem_free(all[i]);
 }
 
-/* A folder that is a link in turn to one with a file of one byte, 'i', and to one outside of the root with 'o'. */
+/* A folder that is a link in turn to one with a file of one byte, 'i', and to one outside of the root with
+ * 'o'. */
 typedef struct swap {
     char *link, *spare, *targets[2];
     atomic_bool is_done;

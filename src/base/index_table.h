@@ -1,5 +1,5 @@
-/* index_table.h - a hash table of indices by 32-bit keys, for arrays that are searched by content: the key is a hash of
- * it, and the caller compares the elements that index_table_next() gives. */
+/* index_table.h - a hash table of indices by 32-bit keys, for arrays that are searched by content: the key
+ * is a hash of it, and the caller compares the elements that index_table_next() gives. */
 #ifndef BASE_INDEX_TABLE_H
 #define BASE_INDEX_TABLE_H
 
@@ -20,7 +20,8 @@ typedef struct index_table {
     size_t count;
 } index_table;
 
-/* Fibonacci hashing: the multiplier is 2^64 over the golden ratio, made odd, so that consecutive keys are spread. */
+/* Fibonacci hashing: the multiplier is 2^64 over the golden ratio, made odd, so that consecutive keys are
+ * spread. */
 static inline size_t index_table_place(const index_table *t, uint32_t key)
 {
     return (size_t)(key * UINT64_C(0x9e3779b97f4a7c15) >> 32) & (t->size - 1);

@@ -30,8 +30,8 @@ static header *header_of(const void *block)
     return (header *)((uintptr_t)block - sizeof(header));
 }
 
-/* Memory for free(). Page faults of 4 KiB dominate the first use of a large block: blocks of two huge pages or more
- * are requested in huge pages where the system has them. */
+/* Memory for free(). Page faults of 4 KiB dominate the first use of a large block: blocks of two huge
+ * pages or more are requested in huge pages where the system has them. */
 static void *allocate(size_t size)
 {
     if (size < 2 * HUGE_PAGE)

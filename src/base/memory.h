@@ -6,18 +6,19 @@
 
 enum { MEM_TAIL = 16 };
 
-/* count * size bytes, aligned to 64 (a cache line, and every vector type), followed by MEM_TAIL readable bytes, so
- * that loops can load whole words; contents undefined, mem_zalloc: zero. NULL: no memory, or the product overflows. A
- * block of 0 bytes is not NULL. Every block stores its allocator (NULL and {0}: malloc). */
+/* count * size bytes, aligned to 64 (a cache line, and every vector type), followed by MEM_TAIL readable
+ * bytes, so that loops can load whole words; contents undefined, mem_zalloc: zero. NULL: no memory, or the
+ * product overflows. A block of 0 bytes is not NULL. Every block stores its allocator (NULL and {0}:
+ * malloc). */
 void *mem_alloc(const facet_allocator *allocator, size_t count, size_t size);
 void *mem_zalloc(const facet_allocator *allocator, size_t count, size_t size);
-/* Resizes a block (never NULL) with its allocator; the common first bytes are kept and the old block is released. On
- * NULL block is unchanged. */
+/* Resizes a block (never NULL) with its allocator; the common first bytes are kept and the old block is
+ * released. On NULL block is unchanged. */
 void *mem_resize(void *block, size_t count, size_t size);
 void mem_free(void *block);         /* NULL is allowed */
 size_t mem_size(const void *block); /* requested bytes */
-/* Counts bytes that a library allocated by itself (negative: released) against the limit of allocator, if that is a
- * facet_budget's. False: over the limit; nothing is counted. */
+/* Counts bytes that a library allocated by itself (negative: released) against the limit of allocator, if
+ * that is a facet_budget's. False: over the limit; nothing is counted. */
 bool mem_account(const facet_allocator *allocator, ptrdiff_t bytes);
 
 /* Grows the array *items (NULL at first; *capacity elements of item_size bytes) to hold at least count. */

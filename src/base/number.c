@@ -1,9 +1,9 @@
 /* number.c - see number.h.
  *
- * A decimal is converted to a double with an error of a few units in the last place, which determines the float
- * unless the double is that close to the midpoint of two floats: once in 2^26 numbers. Those, and results that are
- * not normal floats, are compared with the midpoint in big integers (as in Clinger 1990, "How to read floating point
- * numbers accurately", algorithm R, with the neighbors in place of a search). */
+ * A decimal is converted to a double with an error of a few units in the last place, which determines the
+ * float unless the double is that close to the midpoint of two floats: once in 2^26 numbers. Those, and
+ * results that are not normal floats, are compared with the midpoint in big integers (as in Clinger 1990,
+ * "How to read floating point numbers accurately", algorithm R, with the neighbors in place of a search). */
 #include "base/number.h"
 
 #include <float.h>
@@ -17,8 +17,8 @@ enum { MAX_TENS = 22 };
 
 /* ---- integers of many digits ---- */
 
-/* Significant digits that are kept. The midpoint of two floats has at most 112; further digits are replaced by a 1
- * unless all are zeros. */
+/* Significant digits that are kept. The midpoint of two floats has at most 112; further digits are
+ * replaced by a 1 unless all are zeros. */
 enum { MAX_DIGITS = 128 };
 /* The larger side of a comparison is below 2^25 10^(46 + MAX_DIGITS + 1), which has 607 bits. */
 enum { BIG_WORDS = 24 };

@@ -33,10 +33,10 @@ static inline unsigned number_read_digits(const char *text, uint32_t *value)
     return count;
 }
 
-/* Parses the number at the start of text: sign, digits, point, exponent (e or d); nan and inf in any case, also as
- * Windows writes them (1.#QNAN, 1.#INF). *value is the nearest float, ties to even; beyond the largest it is
- * infinite. Returns the position behind the number; NULL: no number, *value is unchanged. A character that is not
- * part of a number must follow somewhere. */
+/* Parses the number at the start of text: sign, digits, point, exponent (e or d); nan and inf in any case,
+ * also as Windows writes them (1.#QNAN, 1.#INF). *value is the nearest float, ties to even; beyond the
+ * largest it is infinite. Returns the position behind the number; NULL: no number, *value is unchanged. A
+ * character that is not part of a number must follow somewhere. */
 const char *number_read_float(const char *text, float *value);
 /* The same in double, within a unit of its last place; infinite or NaN as the float is. */
 const char *number_read_double(const char *text, double *value);

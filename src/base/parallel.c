@@ -1,5 +1,5 @@
-/* parallel.c - see parallel.h. Threads are POSIX threads that live for one loop: starting one takes about 20 us,
- * there is no pool to maintain, and ThreadSanitizer sees every hand-over. */
+/* parallel.c - see parallel.h. Threads are POSIX threads that live for one loop: starting one takes about
+ * 20 us, there is no pool to maintain, and ThreadSanitizer sees every hand-over. */
 #define _GNU_SOURCE
 #include "base/parallel.h"
 

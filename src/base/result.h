@@ -11,11 +11,12 @@
 facet_result fail(facet_error *error, facet_result result, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* fail() for a failed allocation: "out of memory: WHAT (SIZE bytes)", without the bytes where size is 0 (unknown). */
+/* fail() for a failed allocation: "out of memory: WHAT (SIZE bytes)", without the bytes where size is 0
+ * (unknown). */
 facet_result fail_memory(facet_error *error, const char *what, size_t size);
 
-/* Returns from the calling function with call's result unless that is FACET_OK. For functions of type facet_result
- * that have nothing to release at that point; the others use goto done. */
+/* Returns from the calling function with call's result unless that is FACET_OK. For functions of type
+ * facet_result that have nothing to release at that point; the others use goto done. */
 #define TRY(call)                                                                                            \
     do {                                                                                                     \
         facet_result try_result = (call);                                                                    \

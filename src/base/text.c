@@ -1,9 +1,10 @@
 /* text.c - text that grows, JSON written into it, UTF-8 (utf8.h), and the shortest decimals of floats.
  *
- * A float is m 2^-s with whole m < 2^24. Its first k digits are n = round(m 10^p / 2^s), where p is chosen so that n has k
- * digits; they are a decimal that reads back as the float where n 2^s is within half a unit of m, 10^p / 2, from m 10^p.
- * All of these are whole numbers below 2^100, so that nothing is rounded but what should be; the result is that of
- * printf("%.*g") with the least precision from 6 on that reads back, 20 times as fast. */
+ * A float is m 2^-s with whole m < 2^24. Its first k digits are n = round(m 10^p / 2^s), where p is chosen
+ * so that n has k digits; they are a decimal that reads back as the float where n 2^s is within half a
+ * unit of m, 10^p / 2, from m 10^p. All of these are whole numbers below 2^100, so that nothing is rounded
+ * but what should be; the result is that of printf("%.*g") with the least precision from 6 on that reads
+ * back, 20 times as fast. */
 #include "base/text.h"
 
 #include <math.h>

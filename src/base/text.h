@@ -4,8 +4,8 @@
 
 #include "facet/facet.h"
 
-/* Growing text. {.allocator} starts it; data is NULL or ends with 0. Running out of memory sets has_failed, after
- * which calls have no effect: check once, at the end. */
+/* Growing text. {.allocator} starts it; data is NULL or ends with 0. Running out of memory sets
+ * has_failed, after which calls have no effect: check once, at the end. */
 typedef struct text {
     facet_allocator allocator;
     char *data;
@@ -22,15 +22,17 @@ void text_destroy(text *t); /* {0} is allowed */
 enum { TEXT_FLOAT_SIZE = 40 };
 /* The shortest decimal that reads back as the same finite float. */
 void text_shortest_float(float value, char digits[TEXT_FLOAT_SIZE]);
-/* The same for doubles, from 15 digits on. A double below 4096 that equals a float is printed as that float: 0.1f is
+/* The same for doubles, from 15 digits on. A double below 4096 that equals a float is printed as that
+ * float: 0.1f is
  * 0.1, not 0.10000000149011612. */
 void text_shortest_double(double value, char digits[TEXT_FLOAT_SIZE]);
-/* A short decimal of origin + value, from which the same float results when the origin is subtracted, within the
- * precision of a double. */
+/* A short decimal of origin + value, from which the same float results when the origin is subtracted,
+ * within the precision of a double. */
 void text_shortest_place(float value, double origin, char digits[TEXT_FLOAT_SIZE]);
 
-/* JSON: keys are NULL inside arrays and at the top. Numbers print as the shortest decimal that reads back as the same
- * float; NaN and infinities, which JSON lacks, become null. Strings are UTF-8; invalid bytes become U+FFFD. */
+/* JSON: keys are NULL inside arrays and at the top. Numbers print as the shortest decimal that reads back
+ * as the same float; NaN and infinities, which JSON lacks, become null. Strings are UTF-8; invalid bytes
+ * become U+FFFD. */
 void text_json_begin_object(text *t, const char *key);
 void text_json_end_object(text *t);
 void text_json_begin_array(text *t, const char *key);

@@ -10,8 +10,8 @@ mat4 mat4_identity(void);
 mat4 mat4_multiply(mat4 a, mat4 b); /* a b: first b, then a */
 /* Translation, then rotation (unit quaternion x y z w), then scale, as glTF: T R S. */
 mat4 mat4_from_trs(const float translation[3], const float rotation[4], const float scale[3]);
-/* Translation, rotation and scale whose mat4_from_trs() is a, if a has no shear (otherwise the axes keep their
- * lengths and X its direction). A reflection is in the scale of X. */
+/* Translation, rotation and scale whose mat4_from_trs() is a, if a has no shear (otherwise the axes keep
+ * their lengths and X its direction). A reflection is in the scale of X. */
 void mat4_to_trs(const mat4 *a, float translation[3], float rotation[4], float scale[3]);
 /* Determinant of the upper left 3x3: negative if handedness flips. */
 float mat4_determinant3(mat4 a);

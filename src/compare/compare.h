@@ -5,7 +5,8 @@
 #include "facet/facet.h"
 #include "image/image.h"
 
-/* An image to compare, as its file has it: a row is converted to linear, premultiplied RGBA where it is needed. */
+/* An image to compare, as its file has it: a row is converted to linear, premultiplied RGBA where it is
+ * needed. */
 typedef struct compare_image {
     const image *texels;
     bool is_straight; /* the colors are not multiplied by alpha yet */

@@ -1,5 +1,5 @@
-/* compare_flip_test.c - FLIP: its properties, and the same written down again as the papers have it: in double, with filters
- * in two dimensions, without tiles. */
+/* compare_flip_test.c - FLIP: its properties, and the same written down again as the papers have it: in
+ * double, with filters in two dimensions, without tiles. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -259,9 +259,9 @@ static void of_light_it_is_the_largest_over_exposures(void **state)
     free(b);
 }
 
-/* Where nothing varies there are no features, and the error is that of the colors. Black and white: HyAB 100; green and
- * blue: the largest there is. The second derivative of a constant is 1e-7, that of weights rounded to float, of which the
- * root of features makes 3e-4: hence 1e-5. */
+/* Where nothing varies there are no features, and the error is that of the colors. Black and white: HyAB
+ * 100; green and blue: the largest there is. The second derivative of a constant is 1e-7, that of weights
+ * rounded to float, of which the root of features makes 3e-4: hence 1e-5. */
 static void large_areas_differ_by_their_colors(void **state)
 {
     (void)state;

@@ -21,7 +21,8 @@ static inline float compare_clamp(float x, float least, float most)
     return compare_pick(x < most, x, most);
 }
 
-/* log2(x) of a normal x > 0 to 2e-7 absolute, by log(m) = 2 artanh((m - 1) / (m + 1)) with m in [sqrt(1/2), sqrt(2)). */
+/* log2(x) of a normal x > 0 to 2e-7 absolute, by log(m) = 2 artanh((m - 1) / (m + 1)) with m in
+ * [sqrt(1/2), sqrt(2)). */
 static inline float compare_log2(float x)
 {
     uint32_t bits = float_bits(x);

@@ -24,17 +24,18 @@ facet_result compare_survey_make(const compare_source *s, const facet_compare_de
 facet_result compare_errors_make(const compare_source *s, const facet_compare_desc *desc, float *errors,
                                  facet_comparison *out, facet_error *error);
 
-/* Fills ssim and ssim_channels of out by its channel_count and peak: the mean over all windows of 11 x 11 pixels, weighted
- * by a Gaussian of 1.5 pixels, that lie in the image and whose middle counts, of
+/* Fills ssim and ssim_channels of out by its channel_count and peak: the mean over all windows of 11 x 11
+ * pixels, weighted by a Gaussian of 1.5 pixels, that lie in the image and whose middle counts, of
  *   ((2 ma mb + C1) (2 sab + C2)) / ((ma^2 + mb^2 + C1) (sa^2 + sb^2 + C2)),  C1 = (0.01 peak)^2, C2 = (0.03 peak)^2
- * Wang, Bovik, Sheikh, Simoncelli 2004, equation 13; without the reduction of large images that came later. NAN where
- * there is no such window. Fails with FACET_ERROR_MEMORY. */
+ * Wang, Bovik, Sheikh, Simoncelli 2004, equation 13; without the reduction of large images that came
+ * later. NAN where there is no such window. Fails with FACET_ERROR_MEMORY. */
 facet_result compare_ssim_make(const compare_source *s, const facet_compare_desc *desc, facet_comparison *out,
                                facet_error *error);
 
-/* Fills flip to flip_exposure_count of out. In display space FLIP of Andersson et al. 2020, in linear space the largest over
- * exposures of Andersson et al. 2021, with the curve of Narkowicz, from the exposure at which the brightest pixel of a to
- * that at which the median one reaches 0.85. Where opacity is compared, the larger of those over black and over white.
+/* Fills flip to flip_exposure_count of out. In display space FLIP of Andersson et al. 2020, in linear
+ * space the largest over exposures of Andersson et al. 2021, with the curve of Narkowicz, from the
+ * exposure at which the brightest pixel of a to that at which the median one reaches 0.85. Where opacity
+ * is compared, the larger of those over black and over white.
  *
  * luminance  of a, as compare_survey_make() makes it; read in linear space only
  * map        (width * height) gets the error of each pixel: [0, 1], 1 where it is invalid, 0 where it does not count;

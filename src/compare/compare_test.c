@@ -1,5 +1,5 @@
-/* compare_test.c - errors of pixels, percentiles, SSIM, crops, masks, alpha, what is no number, memory that runs out. FLIP is
- * in compare_flip_test.c. */
+/* compare_test.c - errors of pixels, percentiles, SSIM, crops, masks, alpha, what is no number, memory
+ * that runs out. FLIP is in compare_flip_test.c. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -21,8 +21,8 @@ static const facet_compare_desc errors_only = {.skipped_metrics = FACET_METRIC_S
 
 /* ---- closed forms ---- */
 
-/* An offset d everywhere: MSE d^2, MAE and bias d, PSNR -20 log10 d, every percentile d. In linear space PSNR's peak is the
- * largest value of a. */
+/* An offset d everywhere: MSE d^2, MAE and bias d, PSNR -20 log10 d, every percentile d. In linear space
+ * PSNR's peak is the largest value of a. */
 static void of_an_offset_everything_is_known(void **state)
 {
     (void)state;
@@ -239,7 +239,8 @@ static void only_the_crop_counts(void **state)
     free(b);
 }
 
-/* What the mask hides is seen by no metric, not through filters either; what it lets count is divided by what counts. */
+/* What the mask hides is seen by no metric, not through filters either; what it lets count is divided by
+ * what counts. */
 static void only_what_the_mask_shows_counts(void **state)
 {
     (void)state;
@@ -370,7 +371,8 @@ static void assert_same_numbers(const facet_comparison *a, const facet_compariso
     assert_int_equal(a->flip_exposure_count, b->flip_exposure_count);
 }
 
-/* Images that are compared as their files have them give the bits that they give as linear, premultiplied floats. */
+/* Images that are compared as their files have them give the bits that they give as linear, premultiplied
+ * floats. */
 static void integers_are_compared_as_floats_are(void **state)
 {
     (void)state;

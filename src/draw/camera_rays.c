@@ -1,5 +1,5 @@
-/* camera_rays.c - see camera_rays.h. The basis is computed in double: that costs nothing, and keeps the rays of a
- * telephoto camera far from the origin exact to the last bits. */
+/* camera_rays.c - see camera_rays.h. The basis is computed in double: that costs nothing, and keeps the
+ * rays of a telephoto camera far from the origin exact to the last bits. */
 #include "draw/camera_rays.h"
 
 #include <math.h>
@@ -108,8 +108,8 @@ facet_result camera_rays_create(const facet_camera *camera, uint32_t width, uint
 
 /* ---- samples in a pixel ---- */
 
-/* Rank-1 lattices (Korobov 1959) with the generator that keeps the points farthest apart on a torus; for 4 points
- * the rotated grid, which is not such a lattice. */
+/* Rank-1 lattices (Korobov 1959) with the generator that keeps the points farthest apart on a torus; for 4
+ * points the rotated grid, which is not such a lattice. */
 
 /* Smallest squared distance of point i to point 0, in units of (1 / count)^2. */
 static uint64_t lattice_distance2(uint32_t count, uint32_t generator)

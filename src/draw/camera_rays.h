@@ -7,8 +7,8 @@
 /* The ray through image position (x, y) (pixels; (0, 0) is the top left corner, the middle of a pixel is at
  * 0.5) is
  *     origin + X origin_dx + Y origin_dy + t (direction + X direction_dx + Y direction_dy)
- * with X = x - middle[0], Y = y - middle[1]. Directions are not of unit length: t is the depth along the camera's
- * axis in m. A perspective camera has origin_d* = 0, an orthographic one direction_d* = 0. */
+ * with X = x - middle[0], Y = y - middle[1]. Directions are not of unit length: t is the depth along the
+ * camera's axis in m. A perspective camera has origin_d* = 0, an orthographic one direction_d* = 0. */
 typedef struct camera_rays {
     float origin[3], origin_dx[3], origin_dy[3];
     float direction[3], direction_dx[3], direction_dy[3];
@@ -18,8 +18,8 @@ typedef struct camera_rays {
     bool is_orthographic;
 } camera_rays;
 
-/* For the whole image of width x height pixels. A camera made for another aspect ratio shows its whole view, and
- * more on two sides. Fails with FACET_ERROR_ARGUMENT for a camera without a view direction. */
+/* For the whole image of width x height pixels. A camera made for another aspect ratio shows its whole
+ * view, and more on two sides. Fails with FACET_ERROR_ARGUMENT for a camera without a view direction. */
 facet_result camera_rays_create(const facet_camera *camera, uint32_t width, uint32_t height,
                                 camera_rays *rays, facet_error *error);
 
@@ -41,8 +41,8 @@ static inline float camera_rays_pixel_size(const camera_rays *rays, float depth_
     return rays->is_orthographic ? rays->pixel_size : rays->pixel_size * (depth_m > 0.0f ? depth_m : 0.0f);
 }
 
-/* Writes count points in (0, 1)^2, x and y interleaved; the same in every pixel. Each of count columns and each of
- * count rows holds one point, so that edges near the axes show count + 1 shades; 1: the middle. */
+/* Writes count points in (0, 1)^2, x and y interleaved; the same in every pixel. Each of count columns and
+ * each of count rows holds one point, so that edges near the axes show count + 1 shades; 1: the middle. */
 void sample_pattern(uint32_t count, float *points);
 
 #endif

@@ -1,5 +1,5 @@
-/* empty_view.c - see empty_view.h. Each triangle, line and point is counted under the first reason that keeps it
- * from being seen; the most frequent reason is reported. */
+/* empty_view.c - see empty_view.h. Each triangle, line and point is counted under the first reason that
+ * keeps it from being seen; the most frequent reason is reported. */
 #include "draw/empty_view.h"
 
 #include <math.h>
@@ -57,7 +57,8 @@ static view make_view(const facet_render_desc *desc, const camera_rays *camera)
 
 /* ---- one element ---- */
 
-/* Its corners in camera space: pixels from the middle, times the depth for a perspective camera, and the depth. */
+/* Its corners in camera space: pixels from the middle, times the depth for a perspective camera, and the
+ * depth. */
 typedef struct element {
     uint32_t count;
     double world[3][3], seen[3][3];

@@ -23,8 +23,8 @@ facet_result light_grid_create(const struct Light *lights, uint32_t count, const
                                light_grid *out, facet_error *error);
 void light_grid_destroy(light_grid *grid); /* {0} is allowed */
 
-/* Iterates over the indices of the lights that may reach a point, ascending: all that do are among them, so that a
- * sum over them has the nonzero terms of the sum over all, in the same order. */
+/* Iterates over the indices of the lights that may reach a point, ascending: all that do are among them,
+ * so that a sum over them has the nonzero terms of the sum over all, in the same order. */
 typedef struct light_cursor {
     const uint32_t *near, *near_end, *everywhere, *everywhere_end;
 } light_cursor;

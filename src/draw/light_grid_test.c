@@ -50,7 +50,8 @@ static vec3 shaded(const Light *light, vec3 P)
     return shade_punctual(s, P, normalize(vec3(0.3f, 1.0f, 0.2f)), *light, ENERGY_GLTF, vec2(0.0f));
 }
 
-/* The sum over the grid's lights equals that over all, to the last bit; returns the mean number of lights visited. */
+/* The sum over the grid's lights equals that over all, to the last bit; returns the mean number of lights
+ * visited. */
 static double compare_with_loop(uint32_t count, float extent, float range, float share_without)
 {
     enum { POINTS = 300 };
@@ -100,8 +101,8 @@ static void ten_thousand_lights_cost_what_reaches(void **state)
 {
     (void)state;
     double looked_at = compare_with_loop(10000, 50.0f, 5.0f, 0.0f);
-    /* Of spheres of radius 0.5 to 5 in a cube of 100 m, 1.5 reach a point on average; their boxes are twice as
-     * large. */
+    /* Of spheres of radius 0.5 to 5 in a cube of 100 m, 1.5 reach a point on average; their boxes are
+     * twice as large. */
     assert_true(looked_at < 10.0);
 }
 

@@ -39,8 +39,8 @@ static void add_lobe(ibl_light_desc *needs, float roughness, bool is_textured, b
     add_range(needs, is_textured ? 0.0f : roughness, most);
 }
 
-/* Layers look up with their own roughness; refracted rays with anything up to the combination of several lobes,
- * and they see what a camera sees. */
+/* Layers look up with their own roughness; refracted rays with anything up to the combination of several
+ * lobes, and they see what a camera sees. */
 static void add_layers(ibl_light_desc *needs, const scene_material *m, const facet_render_desc *desc)
 {
     uint32_t layers = material_plan_layers(m);

@@ -18,7 +18,8 @@ typedef struct light_setup {
     light_grid grid; /* which of them reach a point */
 } light_setup;
 
-/* The energy mode of a render's surfaces: FACET_BRDF_MULTISCATTER conserves energy whatever desc->energy says. */
+/* The energy mode of a render's surfaces: FACET_BRDF_MULTISCATTER conserves energy whatever desc->energy
+ * says. */
 facet_energy light_energy(const facet_render_desc *desc);
 
 /* Prepares what the materials of the drawn geometries and the background read; with FACET_SHADING_OGL1 the
@@ -32,8 +33,8 @@ void light_setup_destroy(light_setup *light); /* {0} is allowed */
 void light_setup_warn_dark(const light_setup *light, const render_geometry_set *set,
                            const facet_render_desc *desc);
 
-/* As the ibl_* lookups (radiance in cd/m^2), for unit directions in world space. 0 where there is no light, or
- * none was prepared because no material reads it. */
+/* As the ibl_* lookups (radiance in cd/m^2), for unit directions in world space. 0 where there is no
+ * light, or none was prepared because no material reads it. */
 void light_irradiance_over_pi(const light_setup *light, const float N[3], float out[3]);
 void light_specular(const light_setup *light, const float R[3], float perceptual_roughness, float out[3]);
 void light_sheen(const light_setup *light, const float R[3], float sheen_roughness, float out[3]);

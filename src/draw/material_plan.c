@@ -22,8 +22,8 @@ static bool is_black(const float color[3])
 
 /* ---- layers ---- */
 
-/* Layers below the surface of a dielectric. ior 0 means a surface that reflects everything: no light gets below
- * it. */
+/* Layers below the surface of a dielectric. ior 0 means a surface that reflects everything: no light gets
+ * below it. */
 static uint32_t layers_below(const scene_material *m)
 {
     uint32_t layers = 0;
@@ -107,8 +107,8 @@ uint32_t material_plan_textures(const render_geometry *g)
 
 /* ---- all ---- */
 
-/* A thin wall without blur, or the boundary of a volume with the same ior on both sides: of a volume of ior 1, or
- * where volumes overlap. */
+/* A thin wall without blur, or the boundary of a volume with the same ior on both sides: of a volume of
+ * ior 1, or where volumes overlap. */
 static bool may_pass_straight(const render_geometry *g, const material_plan *plan, bool has_several_volumes)
 {
     const scene_material *m = g->material;

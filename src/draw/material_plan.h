@@ -36,8 +36,8 @@ uint32_t material_plan_layers(const scene_material *m);
  * FACET_ERROR_MEMORY. */
 facet_result material_plans_create(const render_geometry_set *set, const facet_allocator *allocator,
                                    material_plan_set *out, facet_error *error);
-/* Whether the occlusion texture of a material is ignored: exporters name a roughness texture whose red is empty,
- * and without environment light the model would be black. lacks_red: of the texture's texels. */
+/* Whether the occlusion texture of a material is ignored: exporters name a roughness texture whose red is
+ * empty, and without environment light the model would be black. lacks_red: of the texture's texels. */
 bool material_plan_drops_occlusion(const scene_material *m, bool lacks_red);
 /* Warns of that for material number material. */
 void material_plan_warn_occlusion(const facet_scene *scene, uint32_t material, const facet_log *log);

@@ -110,8 +110,8 @@ static vec3 computed(const ogl1_setup *s, const float color[3])
     return !s->is_encoded && s->are_colors_srgb ? linear_from_srgb(c) : c;
 }
 
-/* A color with a map: an unspecified one counts as 1, so that the map is visible; so does a black diffuse color,
- * which most programs write for fully textured materials. */
+/* A color with a map: an unspecified one counts as 1, so that the map is visible; so does a black diffuse
+ * color, which most programs write for fully textured materials. */
 static vec3 color_beside_map(const ogl1_setup *s, const legacy_material *m, legacy_map_slot slot,
                              uint32_t field, const float color[3])
 {
@@ -165,8 +165,9 @@ static PhongLight make_light(const ogl1_setup *s, const legacy_light *l, const d
                        : phong_light_directional(position, ambient, diffuse, specular);
 }
 
-/* Where there are no lights: rgl's light. Its ambient part of 1 is meant for rgl's materials, whose ambient color
- * is black; exporters of MTL write a Ka of 1 or equal to Kd, for OpenGL's default ambient light of 0.2. */
+/* Where there are no lights: rgl's light. Its ambient part of 1 is meant for rgl's materials, whose
+ * ambient color is black; exporters of MTL write a Ka of 1 or equal to Kd, for OpenGL's default ambient
+ * light of 0.2. */
 static legacy_light fallback_light(const ogl1_setup *s)
 {
     legacy_light light = legacy_light_default();

@@ -12,8 +12,8 @@
 typedef struct ogl1_material {
     const legacy_material *legacy;
     PhongMaterial phong;
-    /* The diffuse map is multiplied with all of the light, as by glTexEnv; false: it multiplies the diffuse color,
-     * as in MTL and glTF. */
+    /* The diffuse map is multiplied with all of the light, as by glTexEnv; false: it multiplies the
+     * diffuse color, as in MTL and glTF. */
     bool has_texture_over_light;
 } ogl1_material;
 
@@ -74,8 +74,8 @@ uint32_t ogl1_drawn_maps(const render_geometry *g, facet_ogl1_variant variant);
 bool ogl1_map_is_color(const legacy_material *m, legacy_map_slot slot, bool is_linear);
 /* Whether a map is looked up by the reflection vector instead of texture coordinates. */
 bool ogl1_map_is_spherical(const legacy_material *m, legacy_map_slot slot);
-/* The value of a scalar map at a texel: the channel that -imfchan names (luminance where it names none), then base
- * + gain value. */
+/* The value of a scalar map at a texel: the channel that -imfchan names (luminance where it names none),
+ * then base + gain value. */
 float ogl1_map_scalar(const legacy_map *map, const float texel[4]);
 
 #endif

@@ -10,8 +10,8 @@
 
 enum { VERTEX_GRAIN = 1 << 15 };
 
-/* Half the width of lines and the radius of points in pixels: with these, one sample in the middle of each pixel
- * misses no line in the columns (or rows) that it crosses, and no point. */
+/* Half the width of lines and the radius of points in pixels: with these, one sample in the middle of each
+ * pixel misses no line in the columns (or rows) that it crosses, and no point. */
 static const float LINE_RADIUS = 0.5f;
 static const float POINT_RADIUS = 0.70710678f;
 
@@ -70,8 +70,8 @@ static float unit_volume(float determinant)
     return scale > 0.0f ? 1.0f / scale : 1.0f;
 }
 
-/* Normals and tangents are scaled alike, so that a normal map has the same depth on small and large nodes; the
- * normal matrix has a scale of its own. */
+/* Normals and tangents are scaled alike, so that a normal map has the same depth on small and large nodes;
+ * the normal matrix has a scale of its own. */
 static void set_transform(render_geometry *g, const scene_instance *instance)
 {
     float vector_scale = unit_volume(mat4_determinant3(instance->world));

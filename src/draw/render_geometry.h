@@ -19,8 +19,8 @@ typedef struct render_geometry {
     const scene_primitive *primitive;
     const scene_material *material;
     const legacy_material *legacy; /* drawn instead of material; NULL: material */
-    /* m. Triangles: 3 per vertex, in world space, or in object space where world is not NULL. Points, lines: in
-     * world space, 4 per index, x y z radius, such that they are a pixel wide at their depth. */
+    /* m. Triangles: 3 per vertex, in world space, or in object space where world is not NULL. Points,
+     * lines: in world space, 4 per index, x y z radius, such that they are a pixel wide at their depth. */
     float *vertices;
     const mat4 *world; /* RENDER_INSTANCED: of the pose. NULL: vertices are in world space */
     /* object space (of the pose), 3 per vertex; not the primitive's where it is deformed */
@@ -66,7 +66,8 @@ typedef struct render_geometry_set {
     bool is_animated; /* an animation moves some, and building the rest once for all frames is worthwhile */
 } render_geometry_set;
 
-/* The instances of pose, all RENDER_FLAT, without vertices. They point into pose. Fails with FACET_ERROR_MEMORY. */
+/* The instances of pose, all RENDER_FLAT, without vertices. They point into pose. Fails with
+ * FACET_ERROR_MEMORY. */
 facet_result render_geometry_create(const facet_scene *scene, const scene_pose *pose,
                                     const facet_allocator *allocator, render_geometry_set *set,
                                     facet_error *error);
@@ -81,9 +82,9 @@ void render_geometry_place_sprites(render_geometry_set *set, const scene_pose *p
                                    const camera_rays *camera, uint32_t thread_count);
 void render_geometry_destroy(render_geometry_set *set); /* {0} is allowed */
 
-/* Makes the set draw with the scene's legacy materials, which it must have (fallback: where a primitive has no
- * material), or, where fallback is NULL, with those of glTF, as after render_geometry_create(). Tangents are those
- * of the pose again. */
+/* Makes the set draw with the scene's legacy materials, which it must have (fallback: where a primitive
+ * has no material), or, where fallback is NULL, with those of glTF, as after render_geometry_create().
+ * Tangents are those of the pose again. */
 void render_geometry_choose_materials(render_geometry_set *set, const facet_scene *scene,
                                       const scene_pose *pose, const legacy_material *fallback);
 

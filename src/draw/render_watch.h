@@ -37,8 +37,8 @@ double render_watch_share(render_watch *w);
 /* The result, with a message. */
 facet_result render_watch_explain(render_watch *w, facet_error *error);
 
-/* Between stages of one thread: FACET_ERROR_CANCELLED where the caller's progress says so, FACET_ERROR_LIMIT past the
- * deadline (of clock_seconds(), 0: none). */
+/* Between stages of one thread: FACET_ERROR_CANCELLED where the caller's progress says so,
+ * FACET_ERROR_LIMIT past the deadline (of clock_seconds(), 0: none). */
 facet_result render_check_limits(const facet_render_desc *desc, const char *stage, double fraction,
                                  double deadline_s, facet_error *error);
 

@@ -7,8 +7,9 @@
 #include "base/parallel.h"
 #include "base/result.h"
 
-/* The set of texture coordinates that tangents follow; SCENE_NONE: none are needed. That of the normal texture
- * counts for all (KHR_materials_anisotropy, KHR_materials_clearcoat: one tangent space for a material). */
+/* The set of texture coordinates that tangents follow; SCENE_NONE: none are needed. That of the normal
+ * texture counts for all (KHR_materials_anisotropy, KHR_materials_clearcoat: one tangent space for a
+ * material). */
 static uint32_t tangent_texcoord(const render_geometry *g)
 {
     if (g->legacy)

@@ -8,17 +8,17 @@
 typedef struct texture_use {
     bool is_read_as_color; /* decoded from sRGB (base color, emissive, specular color) */
     bool is_read_as_data;  /* linear; both may be set: the texture is then kept twice */
-    /* finest mip level that will be read, in levels of the full image; finer ones need not be decoded. Negative or
-     * 0: all */
+    /* finest mip level that will be read, in levels of the full image; finer ones need not be decoded.
+     * Negative or 0: all */
     float min_lod;
 } texture_use;
 
 typedef struct texture_set texture_set;
 
-/* Decodes, in parallel, the images of those scene->textures that uses[i] marks as read, and builds their mips:
- * colors averaged in linear light (alpha not premultiplied, as in other viewers). An image that cannot be decoded
- * is a warning to log and reads as white. Fails with FACET_ERROR_LIMIT (an image larger than
- * scene->max_texture_size), _MEMORY. */
+/* Decodes, in parallel, the images of those scene->textures that uses[i] marks as read, and builds their
+ * mips: colors averaged in linear light (alpha not premultiplied, as in other viewers). An image that
+ * cannot be decoded is a warning to log and reads as white. Fails with FACET_ERROR_LIMIT (an image larger
+ * than scene->max_texture_size), _MEMORY. */
 facet_result texture_set_create(const facet_scene *scene, const texture_use *uses,
                                 const facet_allocator *allocator, const facet_log *log, uint32_t thread_count,
                                 texture_set **out, facet_error *error);
@@ -38,9 +38,10 @@ typedef struct texture_request {
 
 enum { TEXTURE_GROUP = 8 };
 
-/* Samples up to TEXTURE_GROUP textures at uv with the derivatives of uv along the pixel's x and y (per pixel).
- * Wrap, magnification, minification and mip filter are the sampler's; trilinear minification is anisotropic, up to
- * 16 probes along the longer axis. Textures of one size and sampler cost little more than one of them. */
+/* Samples up to TEXTURE_GROUP textures at uv with the derivatives of uv along the pixel's x and y (per
+ * pixel). Wrap, magnification, minification and mip filter are the sampler's; trilinear minification is
+ * anisotropic, up to 16 probes along the longer axis. Textures of one size and sampler cost little more
+ * than one of them. */
 void texture_sample_group(const texture_set *set, texture_request *requests, uint32_t count,
                           const float uv[2], const float duv_dx[2], const float duv_dy[2]);
 /* The same for one texture. */

@@ -92,8 +92,8 @@ typedef struct growing_level {
     unsigned char *out;          /* where its texels are stored; NULL: nowhere */
 } growing_level;
 
-/* All levels are made row by row at the same time: a row is made as soon as the rows it covers are there. So only
- * the result leaves the cache, and the source need not be held as a whole. */
+/* All levels are made row by row at the same time: a row is made as soon as the rows it covers are there.
+ * So only the result leaves the cache, and the source need not be held as a whole. */
 struct texture_growth {
     texture_pyramid *pyramid;
     uint32_t source_level;
@@ -202,8 +202,8 @@ static void grow(growth *g, uint32_t row_count)
     }
 }
 
-/* Allocates what growing p from source_level on needs, where there is a further level. On failure growth_end()
- * releases it. */
+/* Allocates what growing p from source_level on needs, where there is a further level. On failure
+ * growth_end() releases it. */
 static facet_result growth_begin(growth *g, texture_pyramid *p, uint32_t source_level, bool as_color,
                                  const texture_tables *tables, const facet_allocator *allocator,
                                  facet_error *error)

@@ -23,8 +23,8 @@ typedef struct texture_level {
     float size[2]; /* the same as floats, for sampling */
 } texture_level;
 
-/* Level n has max(1, size >> n) texels along an axis of size texels, as in OpenGL. 8-bit images keep their codes
- * (colors in sRGB); 16-bit ones are always linear. */
+/* Level n has max(1, size >> n) texels along an axis of size texels, as in OpenGL. 8-bit images keep their
+ * codes (colors in sRGB); 16-bit ones are always linear. */
 typedef struct texture_pyramid {
     uint32_t width, height;            /* of the full image, level 0 */
     float texel_size[2];               /* 1 / width, 1 / height */
@@ -56,8 +56,8 @@ facet_result texture_pyramid_create(image *source, uint32_t source_level, uint32
                                     const facet_allocator *allocator, texture_pyramid *out,
                                     facet_error *error);
 
-/* The same pyramid from an image that arrives row by row, as from a decoder: only a few rows are held besides the
- * result. */
+/* The same pyramid from an image that arrives row by row, as from a decoder: only a few rows are held
+ * besides the result. */
 typedef struct texture_growth texture_growth;
 
 /* header: the whole image (level 0), U8 or U16; its pixels are not read. first_level: at least 1, less than

@@ -1,5 +1,5 @@
-/* texture_reduce.c - see texture_reduce.h. Loops run over adjacent values, in 16 bits where that is exact, so that
- * every x86-64 has vector instructions for them. */
+/* texture_reduce.c - see texture_reduce.h. Loops run over adjacent values, in 16 bits where that is exact,
+ * so that every x86-64 has vector instructions for them. */
 #include "draw/texture_reduce.h"
 
 #include <string.h>
@@ -52,7 +52,8 @@ void texture_row_from_8(const texture_tables *tables, bool as_color, const unsig
 #undef FROM_8
 }
 
-/* (v + 128) / 257, the nearest code. With q = (v + 128) / 256 it is (v + 128 - q) / 256, which does not overflow. */
+/* (v + 128) / 257, the nearest code. With q = (v + 128) / 256 it is (v + 128 - q) / 256, which does not
+ * overflow. */
 INLINE unsigned char data_to_8(uint16_t v)
 {
     uint16_t q = (uint16_t)((v >> 8) + (v >> 7 & 1));
@@ -155,8 +156,8 @@ void texture_halve_codes(const texture_tables *tables, bool as_color, const unsi
 
 /* ---- sizes of any parity ---- */
 
-/* An odd size = 2 n + 1 gives n texels, each of which covers 2 + 1 / n: (n - i) / n of the first one, all of the
- * second and (i + 1) / n of the third. */
+/* An odd size = 2 n + 1 gives n texels, each of which covers 2 + 1 / n: (n - i) / n of the first one, all
+ * of the second and (i + 1) / n of the third. */
 texture_coverage texture_cover(uint32_t size, uint32_t i)
 {
     if (size == 1)

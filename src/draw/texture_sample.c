@@ -1,6 +1,6 @@
-/* texture_sample.c - filtered lookups; see texture.h. Trilinear lookups with anisotropic probes, the common case,
- * sample several textures together, on both levels at the same time, in eight lanes; the rarer filters sample one
- * texture at a time. */
+/* texture_sample.c - filtered lookups; see texture.h. Trilinear lookups with anisotropic probes, the
+ * common case, sample several textures together, on both levels at the same time, in eight lanes; the
+ * rarer filters sample one texture at a time. */
 #include "draw/texture_set.h"
 
 #include <math.h>
@@ -24,9 +24,9 @@ typedef struct level_pair {
 
 /* The lod log2(sqrt(width_2)) as existing levels; width_2 > 0 and normal.
  *
- * The level numbers depend on the exponent of width_2 alone, so that fetching need not wait for the logarithm,
- * which is accurate to 6e-5: far below what is visible. With the mantissa 1 + t it is t and a correction that
- * vanishes at both ends, so that octaves join. */
+ * The level numbers depend on the exponent of width_2 alone, so that fetching need not wait for the
+ * logarithm, which is accurate to 6e-5: far below what is visible. With the mantissa 1 + t it is t and a
+ * correction that vanishes at both ends, so that octaves join. */
 INLINE level_pair get_levels(const texture_pyramid *p, float width_2)
 {
     uint32_t bits;
@@ -65,8 +65,8 @@ typedef int32_t int4 __attribute__((vector_size(16)));
 
 /* ---- coordinates ---- */
 
-/* Maps a texture coordinate u of any value, including NaN and infinity, to [0, 1] of the image by the wrap mode.
- * Beyond 2^23 floats have no fraction. */
+/* Maps a texture coordinate u of any value, including NaN and infinity, to [0, 1] of the image by the wrap
+ * mode. Beyond 2^23 floats have no fraction. */
 INLINE float wrap_coordinate(float u, scene_wrap wrap)
 {
     if (wrap == SCENE_WRAP_CLAMP)
@@ -173,8 +173,8 @@ INLINE probe_taps place_taps(const level_pair_view *view, float u, float v)
 
 /* Two texels of three or four 8-bit channels, one of each level.
  *
- * Colors are linear. Data stays in its place in the four bytes, so channel c is 256^c times its code, which is
- * exact in a float; data_scale() undoes that after blending, with identical bits. */
+ * Colors are linear. Data stays in its place in the four bytes, so channel c is 256^c times its code,
+ * which is exact in a float; data_scale() undoes that after blending, with identical bits. */
 INLINE void fetch_two(const texture_pyramid *p, const unsigned char *a, const unsigned char *b,
                       uint32_t channel_count, bool is_data, float8 *out)
 {
@@ -325,8 +325,8 @@ static inline bool is_alike(const texture_binding *a, const texture_pyramid *p, 
            p->first_level == q->first_level;
 }
 
-/* The two adjacent texels whose centers enclose a coordinate in [0, 1], and the weight of the second. Clamped and
- * mirrored edges repeat their last texel. */
+/* The two adjacent texels whose centers enclose a coordinate in [0, 1], and the weight of the second.
+ * Clamped and mirrored edges repeat their last texel. */
 typedef struct taps {
     int32_t first, second;
     float fraction;

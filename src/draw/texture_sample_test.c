@@ -430,7 +430,8 @@ static float integrate(const fixture *f, const float uv[2], const float dx[2], c
     return (float)(sum / 4096.0);
 }
 
-/* Against the true mean over the pixel, stretched and skewed lookups are better than isotropic ones, and accurate. */
+/* Against the true mean over the pixel, stretched and skewed lookups are better than isotropic ones, and
+ * accurate. */
 static void footprints_are_covered(void **state)
 {
     (void)state;

@@ -111,8 +111,8 @@ static bool find_reduction(const image *header, const image *decoded, uint32_t *
     return false;
 }
 
-/* The largest reduction up to wanted that divides both sizes: only then the reduced image covers the same area as
- * the full one, with texels aligned to those of the mips. */
+/* The largest reduction up to wanted that divides both sizes: only then the reduced image covers the same
+ * area as the full one, with texels aligned to those of the mips. */
 static uint32_t get_exact_reduction(const image_record *record, uint32_t wanted)
 {
     uint32_t edges = record->header.width | record->header.height;
@@ -220,8 +220,8 @@ static facet_result build(const texture_store *store, job *j, const bool is_read
     return result;
 }
 
-/* What is stored under that reduction; NULL: nothing. A decoder that used less than it was allowed does not use
- * more when allowed more. */
+/* What is stored under that reduction; NULL: nothing. A decoder that used less than it was allowed does
+ * not use more when allowed more. */
 static stored_image *find_stored(const image_record *record, uint32_t reduction)
 {
     for (stored_image *s = record->stored; s; s = s->next)
@@ -362,8 +362,8 @@ static void keep(image_record *record, stored_image *made)
     destroy_stored(old);
 }
 
-/* Reports the notes of images, and warns of those that cannot be decoded; fails for errors of the machine rather
- * than of the image. */
+/* Reports the notes of images, and warns of those that cannot be decoded; fails for errors of the machine
+ * rather than of the image. */
 static facet_result report_jobs(texture_store *store, const job *jobs, size_t count, const facet_log *log,
                                 facet_error *error)
 {

@@ -22,8 +22,8 @@ typedef struct pixel_truth {
     float light, albedo, normal[3];
 } pixel_truth;
 
-/* A film of the mean of 16 samples per pixel, each light * albedo * a factor of mean 1: 1 - amount + amount times what
- * is exponentially distributed. Keeps the truth in its own film. */
+/* A film of the mean of 16 samples per pixel, each light * albedo * a factor of mean 1: 1 - amount +
+ * amount times what is exponentially distributed. Keeps the truth in its own film. */
 static film noisy_film(uint32_t width, uint32_t height, pixel_truth (*at)(uint32_t x, uint32_t y),
                        float amount, uint32_t seed, film *truth)
 {
@@ -116,8 +116,9 @@ static pixel_truth highlight(uint32_t x, uint32_t y)
 
 enum { WIDTH = 64, HEIGHT = 48 };
 
-/* Noise of 7 to 25 % of the light. A fit of nine terms to 225 pixels leaves no less than sqrt(9 / 225) = 0.2 where all of
- * them belong together, less what windows that overlap have in common. A highlight of five pixels has few of its kind. */
+/* Noise of 7 to 25 % of the light. A fit of nine terms to 225 pixels leaves no less than sqrt(9 / 225) =
+ * 0.2 where all of them belong together, less what windows that overlap have in common. A highlight of
+ * five pixels has few of its kind. */
 static void known_light_comes_out_of_noise(void **state)
 {
     (void)state;
@@ -149,7 +150,8 @@ static double column_mean(const film *f, uint32_t x)
     return sum / (double)f->height;
 }
 
-/* The pixels on both sides of an edge keep their light, within 3 standard errors of a column of the noisy image. */
+/* The pixels on both sides of an edge keep their light, within 3 standard errors of a column of the noisy
+ * image. */
 static void edges_stay_where_they_are(void **state)
 {
     (void)state;
@@ -167,8 +169,8 @@ static void edges_stay_where_they_are(void **state)
     }
 }
 
-/* Each texel's light, image over albedo, is that of its neighbours, to a third of the noise of 12.5 %: the texture is as
- * sharp as it was. */
+/* Each texel's light, image over albedo, is that of its neighbours, to a third of the noise of 12.5 %: the
+ * texture is as sharp as it was. */
 static void textures_stay_sharp(void **state)
 {
     (void)state;
@@ -187,9 +189,9 @@ static void textures_stay_sharp(void **state)
 
 /* ---- images of real noise ---- */
 
-/* Relative to the light (Rousselle et al. 2011) and absolute; what is left of the absolute error is mostly that of edges,
- * which are as rough as 16 samples make them: color and guides come of the same samples. In the last one surfaces come and
- * go by chance, which the guides say too, and the noise of that stays. */
+/* Relative to the light (Rousselle et al. 2011) and absolute; what is left of the absolute error is mostly
+ * that of edges, which are as rough as 16 samples make them: color and guides come of the same samples. In
+ * the last one surfaces come and go by chance, which the guides say too, and the noise of that stays. */
 static void errors_of_traced_images_fall(void **state)
 {
     (void)state;
@@ -217,7 +219,8 @@ static void errors_of_traced_images_fall(void **state)
     }
 }
 
-/* Weights that go by likeness and outliers that are taken down would leave images too dark: here by 4 % and more. */
+/* Weights that go by likeness and outliers that are taken down would leave images too dark: here by 4 %
+ * and more. */
 static void light_is_not_lost(void **state)
 {
     (void)state;
@@ -289,8 +292,8 @@ static void the_filter_fades_out(void **state)
     film_destroy(&before);
 }
 
-/* Opacity keeps its bits, nothing comes of nothing, and at the edges, where the image may be laid over anything, color
- * over opacity gets no noisier: there are no fringes. */
+/* Opacity keeps its bits, nothing comes of nothing, and at the edges, where the image may be laid over
+ * anything, color over opacity gets no noisier: there are no fringes. */
 static void opacity_is_kept(void **state)
 {
     (void)state;

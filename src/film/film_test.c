@@ -225,7 +225,8 @@ static void threads_change_nothing(void **state)
 
 /* ---- blending of encoded numbers ---- */
 
-/* Half of 0.8 over 0.2 is 0.5 on the display; blended as light it would be 0.6. Opaque pixels keep their bits. */
+/* Half of 0.8 over 0.2 is 0.5 on the display; blended as light it would be 0.6. Opaque pixels keep their
+ * bits. */
 static void encoded_numbers_are_mixed_as_they_are(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* gl_entry.h - the interface between libfacet and its OpenGL module, which is loaded when an image is rendered
- * with OpenGL. Programs that render on the CPU load no driver. */
+/* gl_entry.h - the interface between libfacet and its OpenGL module, which is loaded when an image is
+ * rendered with OpenGL. Programs that render on the CPU load no driver. */
 #ifndef GL_GL_ENTRY_H
 #define GL_GL_ENTRY_H
 
@@ -33,7 +33,8 @@ typedef struct gl_host {
                                       facet_camera *camera, facet_error *error);
 } gl_host;
 
-/* Whether a channel is radiance, which is exposed and tone-mapped. The other channels are data, drawn over black. */
+/* Whether a channel is radiance, which is exposed and tone-mapped. The other channels are data, drawn over
+ * black. */
 static inline bool gl_channel_is_light(facet_channel channel)
 {
     return channel == FACET_CHANNEL_LIGHT ||
@@ -45,13 +46,13 @@ typedef struct gl_entry {
      * FACET_ERROR_SYSTEM where there is no OpenGL, FACET_ERROR_MEMORY. */
     facet_result (*create)(const facet_scene *scene, const facet_allocator *allocator, gl_renderer **out,
                            facet_error *error);
-    /* As preview_render_prepared(): desc is resolved, except for its camera, which may be NULL. Calls may come
-     * from different threads, one at a time. */
+    /* As preview_render_prepared(): desc is resolved, except for its camera, which may be NULL. Calls may
+     * come from different threads, one at a time. */
     facet_result (*render)(gl_renderer *renderer, const facet_render_desc *desc, film *target,
                            facet_render_stats *stats, facet_error *error);
     void (*destroy)(gl_renderer *renderer); /* NULL is allowed */
-    /* Creates the renderer of seas, with a context of its own. It keeps programs and textures from image to image:
-     * gl_sea.h. */
+    /* Creates the renderer of seas, with a context of its own. It keeps programs and textures from image
+     * to image: gl_sea.h. */
     facet_result (*create_sea)(const facet_allocator *allocator, gl_sea **out, facet_error *error);
     facet_result (*draw_sea)(gl_sea *sea, const struct water_frame *frame, film *target,
                              facet_render_stats *stats, facet_error *error);

@@ -2,8 +2,8 @@
  * usage: glsl_generate OUTPUT SHADE_FOLDER       the shader library
  *        glsl_generate OUTPUT FOLDER NAME...     files of a folder, as the array `parts`
  *
- * OUTPUT gets the dialect of GLSL and, in the order of shade.h, the parts of the text as arrays of bytes: a string literal
- * is limited to 4095. */
+ * OUTPUT gets the dialect of GLSL and, in the order of shade.h, the parts of the text as arrays of bytes:
+ * a string literal is limited to 4095. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -21,8 +21,8 @@ void cache_write(const facet_environment *environment, const char *part, uint64_
 
 /* Distinguishes the entries of an environment by these bytes of its source and by the source's layout. */
 void cache_identify(facet_environment *environment, const void *bytes, size_t size);
-/* Ends the creation of an environment: with result FACET_OK *environment is `made`, identified by its texels; with another
- * one `made` is released. Returns result. */
+/* Ends the creation of an environment: with result FACET_OK *environment is `made`, identified by its
+ * texels; with another one `made` is released. Returns result. */
 facet_result cache_finish(facet_result result, facet_environment *made, facet_environment **environment);
 
 /* 64-bit hash of the bytes, starting from seed. */

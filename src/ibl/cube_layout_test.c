@@ -91,7 +91,8 @@ static void faces_come_back_as_they_were(void **state)
     }
 }
 
-/* Faces of facet.h's description, cell by cell: a letter for the axis, lower case for its negative side; v: -Z turned. */
+/* Faces of facet.h's description, cell by cell: a letter for the axis, lower case for its negative side;
+ * v: -Z turned. */
 static void faces_are_where_facet_h_says(void **state)
 {
     (void)state;
@@ -263,9 +264,9 @@ static sphere make_target(sphere_kind kind, uint32_t height, cube *c, image *pan
     return sphere_of_image(kind, panorama);
 }
 
-/* From each kind to each, finer, as fine and coarser. A smooth function stays what it is, to the second order of the
- * sources' texels, which are bilinear (most at the folds of octahedra), also across edges. A shift by a twentieth of a
- * texel would be 1.5e-3. */
+/* From each kind to each, finer, as fine and coarser. A smooth function stays what it is, to the second
+ * order of the sources' texels, which are bilinear (most at the folds of octahedra), also across edges. A
+ * shift by a twentieth of a texel would be 1.5e-3. */
 static void smooth_functions_stay(void **state)
 {
     (void)state;
@@ -308,8 +309,8 @@ static void get_mean(const sphere *s, double mean[3])
         mean[k] /= whole;
 }
 
-/* Suns of one texel, a million times as bright as the sky: in the middle of a face, at an edge, in a corner, and where
- * nothing is special; noise everywhere. */
+/* Suns of one texel, a million times as bright as the sky: in the middle of a face, at an edge, in a
+ * corner, and where nothing is special; noise everywhere. */
 static void no_light_is_lost(void **state)
 {
     (void)state;

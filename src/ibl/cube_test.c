@@ -73,7 +73,8 @@ static cube make_noise(uint32_t size)
     return c;
 }
 
-/* Over each of the twelve edges and at the corners, lookups a hair's breadth apart agree although the texels are noise. */
+/* Over each of the twelve edges and at the corners, lookups a hair's breadth apart agree although the
+ * texels are noise. */
 static void test_no_seams(void **state)
 {
     (void)state;

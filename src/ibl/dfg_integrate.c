@@ -2,15 +2,16 @@
  *
  *   A = integral of (1 - Fc) D Vis N.L 4 V.H dH,  B = integral of Fc D Vis N.L 4 V.H dH,  Fc = (1 - V.H)^5
  *
- * over half vectors H = (sin t cos p, sin t sin p, cos t) with the light above the horizon. With V at angle v from N,
- * N.L = cos v cos 2t + sin v sin 2t cos p is positive for all p where 2 t < pi / 2 - v, for none where 2 t > pi / 2 + v,
- * and between for cos p > -cot v cot 2t.
+ * over half vectors H = (sin t cos p, sin t sin p, cos t) with the light above the horizon. With V at
+ * angle v from N, N.L = cos v cos 2t + sin v sin 2t cos p is positive for all p where 2 t < pi / 2 - v,
+ * for none where 2 t > pi / 2 + v, and between for cos p > -cot v cot 2t.
  *
- * The variable is s = ln(tan t / alpha): D cos t sin t dt is e^2s / (1 + e^2s)^2 ds times a constant, the same bell for
- * every alpha, whose nearest poles are pi / 2 from the axis. Panels of s no longer than PANEL, where that is one and a
- * half times half a panel's length, lose nothing to Gauss and Legendre's rule of 8 points. Where the range of p opens or
- * closes, s is substituted by a square, which takes away the root there. 16 points of p are done at a time. Sampling
- * (integrate_dfg() of shade/ibl.h) would need 10^6 samples for what 1000 points give. */
+ * The variable is s = ln(tan t / alpha): D cos t sin t dt is e^2s / (1 + e^2s)^2 ds times a constant, the
+ * same bell for every alpha, whose nearest poles are pi / 2 from the axis. Panels of s no longer than
+ * PANEL, where that is one and a half times half a panel's length, lose nothing to Gauss and Legendre's
+ * rule of 8 points. Where the range of p opens or closes, s is substituted by a square, which takes away
+ * the root there. 16 points of p are done at a time. Sampling (integrate_dfg() of shade/ibl.h) would need
+ * 10^6 samples for what 1000 points give. */
 #include "ibl/dfg_integrate.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
-/* dfg_integrate_test.c - albedos by quadrature against those of others: golden numbers, sums over samples, exact limits. */
+/* dfg_integrate_test.c - albedos by quadrature against those of others: golden numbers, sums over samples,
+ * exact limits. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -177,8 +178,8 @@ static void test_mirror(void **state)
     assert_true(E.charlie == 0.0 && E.neubelt == 0.0);
 }
 
-/* Facts: E = 1 - ln 2 for alpha = 1 seen from above, whichever the masking; separable and Schlick with k = 1/2 are the
- * same there; below NDOTV_MIN nothing changes. */
+/* Facts: E = 1 - ln 2 for alpha = 1 seen from above, whichever the masking; separable and Schlick with k =
+ * 1/2 are the same there; below NDOTV_MIN nothing changes. */
 static void test_facts(void **state)
 {
     (void)state;
@@ -221,9 +222,9 @@ static uint32_t reverse(uint32_t bits)
     return (bits & 0x55555555u) << 1 | (bits >> 1 & 0x55555555u);
 }
 
-/* "IntegrateBRDF" as the notes on Karis 2013 have it, in double and with what they leave out (N, and Hammersley's points,
- * here shifted by half a step): H of density D N.H, G by Schlick's terms with k = alpha / 2. Farther from the quadrature
- * where fewer samples see the lobe: at grazing angles. */
+/* "IntegrateBRDF" as the notes on Karis 2013 have it, in double and with what they leave out (N, and
+ * Hammersley's points, here shifted by half a step): H of density D N.H, G by Schlick's terms with k =
+ * alpha / 2. Farther from the quadrature where fewer samples see the lobe: at grazing angles. */
 static void integrate_brdf(double r, double NoV, uint32_t samples, double *A, double *B)
 {
     double a = r * r;

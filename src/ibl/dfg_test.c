@@ -124,8 +124,8 @@ static void test_sheen_is_that_of_the_shared_text(void **state)
     assert_true(worst < 5e-3);
 }
 
-/* Falling with N.V from its peak on, which is nearer to the horizon than 0.03; above 1 only at the rim of smooth sheen,
- * and 0 where the rim has no width. */
+/* Falling with N.V from its peak on, which is nearer to the horizon than 0.03; above 1 only at the rim of
+ * smooth sheen, and 0 where the rim has no width. */
 static void test_sheen_range(void **state)
 {
     (void)state;
@@ -187,8 +187,8 @@ static void test_glass_golden_numbers(void **state)
     }
 }
 
-/* Interpolated, what scatters once is known to 1 %, from either side, for the glasses that there are; and a node is
- * integrate_glass() to the last of its 16 bits. */
+/* Interpolated, what scatters once is known to 1 %, from either side, for the glasses that there are; and
+ * a node is integrate_glass() to the last of its 16 bits. */
 static void test_glass_interpolation(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* environment_load_test.c - environments from every layout, cube maps of KTX2 and six files, what is repaired in them, what
- * is refused, and what they say of themselves. */
+/* environment_load_test.c - environments from every layout, cube maps of KTX2 and six files, what is
+ * repaired in them, what is refused, and what they say of themselves. */
 #define _DEFAULT_SOURCE
 #include <math.h>
 #include <setjmp.h>
@@ -194,8 +194,9 @@ static bytes encode_exr(const image *rgb, unsigned char envmap)
     return b;
 }
 
-/* CubeMap::direction() and CubeMap::pixelPosition() of OpenEXR's ImfEnvmap.cpp: column and row of a face grow with these
- * axes, 1 to 3 for x to z, negative against them; texels at their centres, as everywhere in facet. */
+/* CubeMap::direction() and CubeMap::pixelPosition() of OpenEXR's ImfEnvmap.cpp: column and row of a face
+ * grow with these axes, 1 to 3 for x to z, negative against them; texels at their centres, as everywhere
+ * in facet. */
 static void openexr_cubes_are_not_mirrored(void **state)
 {
     (void)state;

@@ -92,7 +92,8 @@ static inline __attribute__((always_inline)) void fourier_forward(const fourier 
     }
     fourier_butterflies(f, z_re, z_im);
     for (uint32_t m = 0; m < n; m++) {
-        /* even = (Z[m] + conj Z[n - m]) / 2, odd = (Z[m] - conj Z[n - m]) / 2i, X = even + e^(-2 pi i m / size) odd */
+        /* even = (Z[m] + conj Z[n - m]) / 2, odd = (Z[m] - conj Z[n - m]) / 2i, X = even + e^(-2 pi i m /
+         * size) odd */
         uint32_t o = m ? n - m : 0;
         float8 even_re = (z_re[m] + z_re[o]) * 0.5f;
         float8 even_im = (z_im[m] - z_im[o]) * 0.5f;
@@ -111,7 +112,8 @@ static inline __attribute__((always_inline)) void fourier_backward(const fourier
     uint32_t n = f->size / 2;
     float8 z_re[FOURIER_MAX / 2], z_im[FOURIER_MAX / 2];
     for (uint32_t m = 0; m < n; m++) {
-        /* X[m + n] = conj X[n - m], 0 for m = 0; Z = X[m] + X[m + n] + i e^(2 pi i m / size) (X[m] - X[m + n]) */
+        /* X[m + n] = conj X[n - m], 0 for m = 0; Z = X[m] + X[m + n] + i e^(2 pi i m / size) (X[m] - X[m +
+         * n]) */
         float far = m ? 1.0f : 0.0f;
         float8 far_re = re[m ? n - m : 0] * far;
         float8 far_im = im[m ? n - m : 0] * -far;

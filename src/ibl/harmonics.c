@@ -62,7 +62,8 @@ static inline void read_split(const analysis *job, uint32_t y, uint32_t part, fl
     }
 }
 
-/* Adds the transform of one part: X[m] = sum over parts of e^(-2 pi i m part / width) X_part[m] (Cooley and Tukey 1965). */
+/* Adds the transform of one part: X[m] = sum over parts of e^(-2 pi i m part / width) X_part[m] (Cooley
+ * and Tukey 1965). */
 static inline void add_split(const analysis *job, uint32_t part, const float8 *re, const float8 *im,
                              float8 *sum_re, float8 *sum_im)
 {

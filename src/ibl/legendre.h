@@ -1,8 +1,9 @@
-/* legendre.h - associated Legendre functions, orthonormal: integral of (P_lm(x))^2 dx over [-1, 1] = 1 / 2 pi.
+/* legendre.h - associated Legendre functions, orthonormal: integral of (P_lm(x))^2 dx over [-1, 1] = 1 / 2
+ * pi.
  *
- * By degree, P_lm = a_l (x P_(l-1)m - b_l P_(l-2)m) from P_mm on, for rows of a grid between the north pole and the equator,
- * LANES of them at a time. In double: near the poles each step forward takes a small difference, and in float one degree of
- * latitude from a pole would be 3 % off at degree 1000. */
+ * By degree, P_lm = a_l (x P_(l-1)m - b_l P_(l-2)m) from P_mm on, for rows of a grid between the north
+ * pole and the equator, LANES of them at a time. In double: near the poles each step forward takes a small
+ * difference, and in float one degree of latitude from a pole would be 3 % off at degree 1000. */
 #ifndef IBL_LEGENDRE_H
 #define IBL_LEGENDRE_H
 

@@ -94,8 +94,8 @@ static void test_kernel_golden_numbers(void **state)
     }
 }
 
-/* Each level scales each band by k_l: in its texels, and with a little more deviation in what is looked up between
- * them. */
+/* Each level scales each band by k_l: in its texels, and with a little more deviation in what is looked up
+ * between them. */
 static void check_bands(facet_environment *e, int first_band, int band_step)
 {
     const ibl_light *light = prepare(e, everything);
@@ -181,8 +181,8 @@ static void sky(const float d[3], float out[3])
     out[2] = 0.4f;
 }
 
-/* No fireflies: nothing is brighter than the sun's energy times the lobe's peak, nor darker than the darkest sky less
- * what ringing is left. No energy is lost. */
+/* No fireflies: nothing is brighter than the sun's energy times the lobe's peak, nor darker than the
+ * darkest sky less what ringing is left. No energy is lost. */
 static void check_sun(uint32_t sun_x, uint32_t sun_y)
 {
     const uint32_t width = 1024;
@@ -284,7 +284,8 @@ static void test_rotation(void **state)
     check_rotation(0.7f, 0.15); /* of radiance up to 20: edges of the pattern fall on other texels */
 }
 
-/* Along each edge of the cube, lookups on both sides of it differ by no more than lookups as far apart elsewhere. */
+/* Along each edge of the cube, lookups on both sides of it differ by no more than lookups as far apart
+ * elsewhere. */
 static void test_seams(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* narrow_test.c - nearly mirrors: what is looked up between a mirror and roughness 0.16, against the lobe itself. */
+/* narrow_test.c - nearly mirrors: what is looked up between a mirror and roughness 0.16, against the lobe
+ * itself. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -27,7 +28,8 @@ enum { ROUGHNESS_COUNT = sizeof some_roughness / sizeof *some_roughness };
 
 /* ---- the lobe itself ---- */
 
-/* D N.l at a squared distance from R of directions of length 1, times any constant: 2 (1 - N.l) = 4 (1 - (N.h)^2). */
+/* D N.l at a squared distance from R of directions of length 1, times any constant: 2 (1 - N.l) = 4 (1 -
+ * (N.h)^2). */
 static inline float lobe_weight(float distance2, float a2)
 {
     float t = a2 * (1.0f - 0.25f * distance2) + 0.25f * distance2;
@@ -49,8 +51,8 @@ static void add_sample(double sum[4], double weight, const float L[3])
     sum[3] += weight;
 }
 
-/* The part of the lobe up to rad from R, by quadrature: half vectors with density D N.h, tan^2(t) = a^2 u / (1 - u), of
- * which dl = 4 N.h dh makes 4 N.l each. */
+/* The part of the lobe up to rad from R, by quadrature: half vectors with density D N.h, tan^2(t) = a^2 u
+ * / (1 - u), of which dl = 4 N.h dh makes 4 N.l each. */
 static void add_core(const image *panorama, const float R[3], float a2, double rad, double sum[4])
 {
     enum { RINGS = 96, SECTORS = 96 };
@@ -93,8 +95,8 @@ static void add_pieces(const image *panorama, uint32_t x, uint32_t y, int parts,
     }
 }
 
-/* Mean of the mirrored image over the lobe: integral of D N.l L dl over that of D N.l. The middle by quadrature over
- * the lobe, texels near it in pieces, the rest as they are. */
+/* Mean of the mirrored image over the lobe: integral of D N.l L dl over that of D N.l. The middle by
+ * quadrature over the lobe, texels near it in pieces, the rest as they are. */
 static void lobe_mean(const image *panorama, const float R[3], float perceptual_roughness, double mean[3])
 {
     enum { MAX_WIDTH = 1024 };
@@ -162,8 +164,8 @@ static double error_over_sphere(const ibl_light *light, const image *panorama, f
 
 /* ---- weights ---- */
 
-/* Never negative, together 1, a mirror at one end and the rough lobe at the other, smooth in between; and the lobe of
- * NARROW_END has at least what makes the tail. */
+/* Never negative, together 1, a mirror at one end and the rough lobe at the other, smooth in between; and
+ * the lobe of NARROW_END has at least what makes the tail. */
 static void test_weights(void **state)
 {
     (void)state;
@@ -298,7 +300,8 @@ static void blob(const float d[3], float out[3])
     out[0] = out[1] = out[2] = 0.2f + 100.0f * expf((x * x + y * y + z * z) * -1100.0f);
 }
 
-/* The lobe itself around a small light: the same at the poles, where texels are narrow, on the image's seam and elsewhere. */
+/* The lobe itself around a small light: the same at the poles, where texels are narrow, on the image's
+ * seam and elsewhere. */
 static void test_light_anywhere(void **state)
 {
     (void)state;

@@ -1,10 +1,10 @@
-/* octahedron.h - octahedral images: the sphere on the faces of an octahedron, unfolded into a square (Cigolle et al. 2014,
- * "A Survey of Efficient Representations for Independent Unit Vectors").
+/* octahedron.h - octahedral images: the sphere on the faces of an octahedron, unfolded into a square
+ * (Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors").
  *
- * Position (u, v), both in [-1, 1], v downwards. Where |u| + |v| <= 1 it is the direction of (u, 1 - |u| - |v|, v), the
- * upper half with +X to the right and +Z below, as the face +Y of a cube map has it; the lower half is folded outwards
- * over the diagonals, -Y in the corners. A small area du dv is seen under the solid angle du dv / |p|^3, p the point of
- * the octahedron. */
+ * Position (u, v), both in [-1, 1], v downwards. Where |u| + |v| <= 1 it is the direction of (u, 1 - |u| -
+ * |v|, v), the upper half with +X to the right and +Z below, as the face +Y of a cube map has it; the
+ * lower half is folded outwards over the diagonals, -Y in the corners. A small area du dv is seen under
+ * the solid angle du dv / |p|^3, p the point of the octahedron. */
 #ifndef IBL_OCTAHEDRON_H
 #define IBL_OCTAHEDRON_H
 

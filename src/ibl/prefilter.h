@@ -2,11 +2,11 @@
  *
  * For N = V = R (Karis 2013) the filter is
  *   P(R) = integral of L(l) D(h) N.l dl / integral of D(h) N.l dl,  h half-way between l and R
- * which, as N.l = 2 (N.h)^2 - 1, is a convolution of the environment with a lobe that looks the same all around R:
- * harmonics.h. Importance sampling would leave 10 % error around a sun with 64 samples a texel.
+ * which, as N.l = 2 (N.h)^2 - 1, is a convolution of the environment with a lobe that looks the same all
+ * around R: harmonics.h. Importance sampling would leave 10 % error around a sun with 64 samples a texel.
  *
- * GGX's lobe is a spot around R. Charlie's (sheen) is a ring around the horizon of R, as D is 0 in the middle: with
- * x = N.l its weight is (1 - x)^(1 / (2 alpha)) x, the mean of x is 2 / (3 + 1 / (2 alpha)). */
+ * GGX's lobe is a spot around R. Charlie's (sheen) is a ring around the horizon of R, as D is 0 in the
+ * middle: with x = N.l its weight is (1 - x)^(1 / (2 alpha)) x, the mean of x is 2 / (3 + 1 / (2 alpha)). */
 #ifndef IBL_PREFILTER_H
 #define IBL_PREFILTER_H
 
@@ -24,8 +24,9 @@ enum {
 };
 uint32_t prefilter_level_count(prefilter_lobe lobe);
 
-/* Perceptual roughness of a level. Each lobe is 1.3 to 1.9 times as wide as the one before, so that the mean of two
- * stays near the lobe between them; equal steps of roughness would make it 4 times at the smooth end. */
+/* Perceptual roughness of a level. Each lobe is 1.3 to 1.9 times as wide as the one before, so that the
+ * mean of two stays near the lobe between them; equal steps of roughness would make it 4 times at the
+ * smooth end. */
 float prefilter_roughness(prefilter_lobe lobe, uint32_t level);
 /* Texels along an edge of its faces. */
 uint32_t prefilter_size(prefilter_lobe lobe, uint32_t level);

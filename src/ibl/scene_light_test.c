@@ -1,4 +1,5 @@
-/* scene_light_test.c - lights that a model brings: cubes of known radiance, written as the extension has them. */
+/* scene_light_test.c - lights that a model brings: cubes of known radiance, written as the extension has
+ * them. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -217,8 +218,8 @@ static void one_face(const double d[3], double out[3])
     out[0] = out[1] = out[2] = p.face == bright_face ? 4.0 : 0.0;
 }
 
-/* One face of radiance 4, seen along each axis; a white surface that faces it sends out 4 times the form factor of a
- * square from one side length's half: (4 / 2 pi) 2 atan(1 / sqrt 2) / sqrt 2. */
+/* One face of radiance 4, seen along each axis; a white surface that faces it sends out 4 times the form
+ * factor of a square from one side length's half: (4 / 2 pi) 2 atan(1 / sqrt 2) / sqrt 2. */
 static void test_one_face(void **state)
 {
     (void)state;

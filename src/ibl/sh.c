@@ -203,7 +203,8 @@ void sh_evaluate(const float c[SH_COUNT][3], const float N[3], float out[3])
 
 /* ---- windows ---- */
 
-/* sh.h has them to ten digits: sqrt(1 / 4 pi), sqrt(3 / 4 pi), sqrt(15 / 4 pi); sqrt(5 / 16 pi) is K2 / sqrt 12. */
+/* sh.h has them to ten digits: sqrt(1 / 4 pi), sqrt(3 / 4 pi), sqrt(15 / 4 pi); sqrt(5 / 16 pi) is K2 /
+ * sqrt 12. */
 static const double K0 = 0.28209479177387814;
 static const double K1 = 0.48860251190291992;
 static const double K2 = 1.0925484305920792;

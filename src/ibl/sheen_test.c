@@ -16,8 +16,8 @@ static const double pi = 3.14159265358979323846;
 
 static const ibl_light_desc all_sheen = {.needs_sheen = true, .max_sheen_roughness = 1.0f};
 
-/* The lobe at x = N.L, of integral 1 over the hemisphere: (1 - x)^q x with q = 1 / (2 alpha), as D is a power of
- * sin(h) = sqrt((1 - x) / 2) and the integral of (1 - x)^q x over x is 1 / ((q + 1)(q + 2)). */
+/* The lobe at x = N.L, of integral 1 over the hemisphere: (1 - x)^q x with q = 1 / (2 alpha), as D is a
+ * power of sin(h) = sqrt((1 - x) / 2) and the integral of (1 - x)^q x over x is 1 / ((q + 1)(q + 2)). */
 static double lobe(double x, double roughness)
 {
     double q = 0.5 / (roughness * roughness);

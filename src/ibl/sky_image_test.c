@@ -1,5 +1,5 @@
-/* sky_image_test.c - images of skies: the sun's energy in any of them, symmetry, seams, numbers that stay numbers, exposure,
- * arguments; and gradients. */
+/* sky_image_test.c - images of skies: the sun's energy in any of them, symmetry, seams, numbers that stay
+ * numbers, exposure, arguments; and gradients. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -210,7 +210,8 @@ static void test_smooth(void **state)
             double after = luminance_of(texel(p, (x + 2) % p->width, y));
             assert_near(next / here, 1.0,
                         5.4 * pi / SIZE); /* haze's phase function falls by that per rad at most */
-            /* no kinks: haze's phase function, the sharpest thing there, bends by 3 g / (1 - g)^2 per rad^2 at most */
+            /* no kinks: haze's phase function, the sharpest thing there, bends by 3 g / (1 - g)^2 per
+             * rad^2 at most */
             assert_near((here - 2.0 * next + after) / here, 0.0, 39.6 * row * row);
             if (y + 2 < SIZE && (y + 2 < SIZE / 2 || y >= SIZE / 2)) {
                 double below = luminance_of(texel(p, x, y + 1)), under = luminance_of(texel(p, x, y + 2));
@@ -249,8 +250,8 @@ static void test_numbers(void **state)
         }
 }
 
-/* Twilight fades as it does: 3.4 lx where civil twilight ends (-6 degrees), 0.008 lx at -12 (Explanatory Supplement to the
- * Astronomical Almanac 1992); to a factor of 3 and of 5. Light of stars is not in it. */
+/* Twilight fades as it does: 3.4 lx where civil twilight ends (-6 degrees), 0.008 lx at -12 (Explanatory
+ * Supplement to the Astronomical Almanac 1992); to a factor of 3 and of 5. Light of stars is not in it. */
 static void test_twilight(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
-/* sky_monte_carlo_test.h - for tests: light of the atmosphere at one wavelength, in double, by other means than the renderer's:
- * scattered once by direct integration, all orders by tracking photons from the eye (Woodcock), with the sun's light taken at
- * each collision. */
+/* sky_monte_carlo_test.h - for tests: light of the atmosphere at one wavelength, in double, by other means
+ * than the renderer's: scattered once by direct integration, all orders by tracking photons from the eye
+ * (Woodcock), with the sun's light taken at each collision. */
 #ifndef IBL_SKY_MONTE_CARLO_TEST_H
 #define IBL_SKY_MONTE_CARLO_TEST_H
 

@@ -1,5 +1,5 @@
-/* sky_test.c - the atmosphere against illuminances at sea level, a spectral computation in 10 nm steps, and Monte Carlo photon
- * tracing. */
+/* sky_test.c - the atmosphere against illuminances at sea level, a spectral computation in 10 nm steps,
+ * and Monte Carlo photon tracing. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -78,8 +78,8 @@ static double relative(double value, double expected)
     return value / expected - 1.0;
 }
 
-/* The table's sun: elevation, E_n and its color, E_sky and its color, luminances at the zenith, 30 degrees opposite and aside,
- * 5 and 2 degrees aside. */
+/* The table's sun: elevation, E_n and its color, E_sky and its color, luminances at the zenith, 30 degrees
+ * opposite and aside, 5 and 2 degrees aside. */
 static const double reference[7][14] = {
     {5, 19130, 1.707, 0.870, 0.210, 4130, 0.88, 1.00, 1.30, 544, 1430, 1040, 2460, 2240},
     {10, 45640, 1.402, 0.936, 0.449, 6650, 0.85, 1.00, 1.40, 799, 1990, 1540, 3850, 3790},
@@ -112,8 +112,9 @@ static void test_sun(void **state)
     }
 }
 
-/* E_sky and luminances to 10 %, as the reference requires: measured, 7 % at most. Colors of E_sky per Y: the reference's own
- * are good to 3 % each, and differ by up to 5 % from a smooth curve over the sun's elevation: 7 %. */
+/* E_sky and luminances to 10 %, as the reference requires: measured, 7 % at most. Colors of E_sky per Y:
+ * the reference's own are good to 3 % each, and differ by up to 5 % from a smooth curve over the sun's
+ * elevation: 7 %. */
 static void test_sky(void **state)
 {
     (void)state;
@@ -175,7 +176,8 @@ static void march(const scene *s, const double d[3], const double sun[3], AirLig
     sky_march(&s->tables, &ray, ray_to_top(0.0f, ray.mu), 48, light);
 }
 
-/* Scattered once: the same but for steps and haze_forward_share(), which is taken out here by an air without it. 2 %. */
+/* Scattered once: the same but for steps and haze_forward_share(), which is taken out here by an air
+ * without it. 2 %. */
 static void test_single_scattering(void **state)
 {
     (void)state;
@@ -197,8 +199,9 @@ static void test_single_scattering(void **state)
     destroy(&s);
 }
 
-/* All orders at 574 and 465 nm, over a bright ground: 12 % and four standard deviations of the photons (1 to 2 % each). What the
- * approximation leaves out is largest where single wavelengths are looked at; luminance is better, see above. */
+/* All orders at 574 and 465 nm, over a bright ground: 12 % and four standard deviations of the photons (1
+ * to 2 % each). What the approximation leaves out is largest where single wavelengths are looked at;
+ * luminance is better, see above. */
 static void test_all_orders(void **state)
 {
     (void)state;
@@ -222,8 +225,8 @@ static void test_all_orders(void **state)
     sky_luts_destroy(&s.tables);
 }
 
-/* Light that the ground sends up comes back from the sky: E_sky over grounds from black to snow at 574 and 465 nm, 12 % of what
- * photons find. */
+/* Light that the ground sends up comes back from the sky: E_sky over grounds from black to snow at 574 and
+ * 465 nm, 12 % of what photons find. */
 static void test_bright_ground(void **state)
 {
     (void)state;
@@ -269,7 +272,8 @@ static void test_irradiance(void **state)
     destroy(&s);
 }
 
-/* Seen from above, what the air in front of the ground shines with grows towards the horizon and goes over into the sky there. */
+/* Seen from above, what the air in front of the ground shines with grows towards the horizon and goes over
+ * into the sky there. */
 static void test_horizon(void **state)
 {
     (void)state;

@@ -97,8 +97,8 @@ typedef struct sphere_turn {
     uint32_t parts;
 } sphere_turn;
 
-/* Fills the texels of target (of a cube: not the borders; of images: the first three channels, a fourth becomes 1).
- * FACET_ERROR_MEMORY. */
+/* Fills the texels of target (of a cube: not the borders; of images: the first three channels, a fourth
+ * becomes 1). FACET_ERROR_MEMORY. */
 facet_result sphere_resample(const sphere *source, const sphere_turn *turn /* NULL: not rotated */,
                              const facet_allocator *allocator, uint32_t thread_count, const sphere *target,
                              facet_error *error);

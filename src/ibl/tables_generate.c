@@ -37,8 +37,9 @@ static void write_sheen(FILE *file)
     }
 }
 
-/* integrate_glass() of shade/glass.h: means over visible normals, first seen from the rarer side, then from the denser one. The
- * integrands jump at the horizon and at the critical angle, so points of low discrepancy do as well as a quadrature rule. */
+/* integrate_glass() of shade/glass.h: means over visible normals, first seen from the rarer side, then
+ * from the denser one. The integrands jump at the horizon and at the critical angle, so points of low
+ * discrepancy do as well as a quadrature rule. */
 static void write_glass(FILE *file)
 {
     enum { TERMS = 4096 };

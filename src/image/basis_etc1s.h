@@ -1,6 +1,6 @@
-/* basis_etc1s.h - images of ETC1S blocks in BasisLZ supercompression: codebooks that a file's images share, and
- * slices of blocks that refer to them (KTX 2.0 appendices "BasisLZ Global Data" and "BasisLZ/ETC1S Bitstream
- * Specification"). */
+/* basis_etc1s.h - images of ETC1S blocks in BasisLZ supercompression: codebooks that a file's images
+ * share, and slices of blocks that refer to them (KTX 2.0 appendices "BasisLZ Global Data" and
+ * "BasisLZ/ETC1S Bitstream Specification"). */
 #ifndef IMAGE_BASIS_ETC1S_H
 #define IMAGE_BASIS_ETC1S_H
 

@@ -1,5 +1,5 @@
-/* basis_huffman.h - bits, variable length numbers and Huffman codes of BasisLZ streams (KTX 2.0 appendix "BasisLZ/ETC1S
- * Bitstream Specification"). */
+/* basis_huffman.h - bits, variable length numbers and Huffman codes of BasisLZ streams (KTX 2.0 appendix
+ * "BasisLZ/ETC1S Bitstream Specification"). */
 #ifndef IMAGE_BASIS_HUFFMAN_H
 #define IMAGE_BASIS_HUFFMAN_H
 

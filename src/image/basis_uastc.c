@@ -1,6 +1,7 @@
-/* basis_uastc.c - blocks of UASTC LDR 4 x 4, a subset of ASTC in another packing (Binomial, "UASTC LDR 4x4 Texture
- * Specification", 2020, placed in the public domain; modes, patterns and bit layout are from there; numbers become
- * colors as in KDF, "ASTC compressed texture image formats"). Hints for other formats are skipped. */
+/* basis_uastc.c - blocks of UASTC LDR 4 x 4, a subset of ASTC in another packing (Binomial, "UASTC LDR 4x4
+ * Texture Specification", 2020, placed in the public domain; modes, patterns and bit layout are from
+ * there; numbers become colors as in KDF, "ASTC compressed texture image formats"). Hints for other
+ * formats are skipped. */
 #include "image/block.h"
 
 enum { MODE_SOLID = 8, MODE_RESERVED = 19, MAX_ENDS = 18 };

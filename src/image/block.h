@@ -14,7 +14,8 @@ enum { TILE_EDGE = 4, TILE_TEXELS = 16, TILE_CHANNELS = 4 };
 
 typedef void block_decode(const unsigned char *block, void *tile);
 
-/* block_s3tc.c. S3TC: U8; bc1_rgb: the fourth color of the three-color mode is black, bc1_rgba: and transparent */
+/* block_s3tc.c. S3TC: U8; bc1_rgb: the fourth color of the three-color mode is black, bc1_rgba: and
+ * transparent */
 block_decode bc1_rgb_decode, bc1_rgba_decode, bc2_decode, bc3_decode;
 /* RGTC: U8, signed ones F32 */
 block_decode bc4_decode, bc4_signed_decode, bc5_decode, bc5_signed_decode;
@@ -70,7 +71,8 @@ static inline uint32_t take_bits(block_bits *b, unsigned count)
     return value;
 }
 
-/* Interpolation weights of BC6H and BC7, of 64, by an index of 2 and 3 bits (KDF 20.1); ASTC and UASTC have the same. */
+/* Interpolation weights of BC6H and BC7, of 64, by an index of 2 and 3 bits (KDF 20.1); ASTC and UASTC
+ * have the same. */
 extern const unsigned char bptc_weights2[4], bptc_weights3[8];
 
 #endif

@@ -5,8 +5,8 @@ const unsigned char bptc_weights2[4] = {0, 21, 43, 64};
 const unsigned char bptc_weights3[8] = {0, 9, 18, 27, 37, 46, 55, 64};
 static const unsigned char bptc_weights4[16] = {0, 4, 9, 13, 17, 21, 26, 30, 34, 38, 43, 47, 51, 55, 60, 64};
 
-/* The subset of a texel: of two, bit i for texel i; of three, bits 2 i and 2 i + 1 (KDF tables "partition table for 2-subset"
- * and "3-subset BPTC"). */
+/* The subset of a texel: of two, bit i for texel i; of three, bits 2 i and 2 i + 1 (KDF tables "partition
+ * table for 2-subset" and "3-subset BPTC"). */
 static const uint16_t bptc_partitions2[64] = {
     0xcccc, 0x8888, 0xeeee, 0xecc8, 0xc880, 0xfeec, 0xfec8, 0xec80, 0xc800, 0xffec, 0xfe80, 0xe800, 0xffe8,
     0xff00, 0xfff0, 0xf000, 0xf710, 0x008e, 0x7100, 0x08ce, 0x008c, 0x7310, 0x3100, 0x8cce, 0x088c, 0x3110,

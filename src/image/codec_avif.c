@@ -98,8 +98,8 @@ typedef struct crop {
     uint32_t x, y, width, height;
 } crop;
 
-/* One axis of a clean aperture: size and centre offset from the middle of count texels, as fractions, rounded to whole
- * texels. False: not inside the image, or nothing. */
+/* One axis of a clean aperture: size and centre offset from the middle of count texels, as fractions,
+ * rounded to whole texels. False: not inside the image, or nothing. */
 static bool find_aperture(uint32_t count, uint32_t size_n, uint32_t size_d, uint32_t offset_n,
                           uint32_t offset_d, uint32_t *first, uint32_t *size)
 {

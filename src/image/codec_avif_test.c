@@ -79,8 +79,8 @@ static void add_to_size(unsigned char *at, uint32_t added)
         at[i] = (unsigned char)(n >> (24 - 8 * i));
 }
 
-/* The file with its property irot replaced by one of type with size bytes in it. *out_size: bytes of the result, which is
- * to be freed. */
+/* The file with its property irot replaced by one of type with size bytes in it. *out_size: bytes of the
+ * result, which is to be freed. */
 static unsigned char *with_property(const char *type, const unsigned char *property, uint32_t size,
                                     size_t *out_size)
 {
@@ -103,7 +103,8 @@ static unsigned char *with_property(const char *type, const unsigned char *prope
     return bytes;
 }
 
-/* Decodes; the texel (x, y) has to be texel (columns[0] + columns[1] x + columns[2] y, rows[..] ..) of the stored image. */
+/* Decodes; the texel (x, y) has to be texel (columns[0] + columns[1] x + columns[2] y, rows[..] ..) of the
+ * stored image. */
 static void expect_places(const unsigned char *bytes, size_t size, uint32_t width, uint32_t height,
                           const int columns[3], const int rows[3], image_note *note)
 {
@@ -157,7 +158,8 @@ static void put_u32(unsigned char *at, uint32_t value)
         at[i] = (unsigned char)(value >> (24 - 8 * i));
 }
 
-/* An aperture of 40 x 20 with its centre 4 texels right of and 3 above the middle; one that leaves the image is reported. */
+/* An aperture of 40 x 20 with its centre 4 texels right of and 3 above the middle; one that leaves the
+ * image is reported. */
 static void clean_apertures_are_cut_out(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* codec_gif.c - the first image of a GIF file, on its canvas. CompuServe, "Graphics Interchange Format, Version 89a", 1990. */
+/* codec_gif.c - the first image of a GIF file, on its canvas. CompuServe, "Graphics Interchange Format,
+ * Version 89a", 1990. */
 #include "image/codec.h"
 
 #include <string.h>

@@ -106,8 +106,8 @@ static void primaries_are_converted(void **state)
     }
 }
 
-/* Four bytes per texel, exactly: what looks like a run, or like the beginning of a coded scanline, is a texel; coded
- * scanlines that happen to be as long stay coded. */
+/* Four bytes per texel, exactly: what looks like a run, or like the beginning of a coded scanline, is a
+ * texel; coded scanlines that happen to be as long stay coded. */
 static void plain_texels_are_no_runs(void **state)
 {
     (void)state;
@@ -233,8 +233,8 @@ static image through(const image *i, image_codec codec)
     return back;
 }
 
-/* A unit of the mantissa is 2^-7 to 2^-8 of the largest component, 1 / 127.75 where that rounds up to the next exponent;
- * texels come back within half of it, without a bias, and a second time unchanged. */
+/* A unit of the mantissa is 2^-7 to 2^-8 of the largest component, 1 / 127.75 where that rounds up to the
+ * next exponent; texels come back within half of it, without a bias, and a second time unchanged. */
 static void hdr_round_trip(void **state)
 {
     (void)state;

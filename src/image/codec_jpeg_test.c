@@ -177,7 +177,8 @@ static void jpeg_without_a_image_is_refused(void **state)
     }
 }
 
-/* Stray bytes before a marker, wherever it stands, leave the image as it is: zeros, and FF 00, which libjpeg skips too. */
+/* Stray bytes before a marker, wherever it stands, leave the image as it is: zeros, and FF 00, which
+ * libjpeg skips too. */
 static void jpeg_skips_stray_bytes(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* codec_ktx2_test.c - files of Basis Universal against the bytes of its own transcoder, files of other makers against
- * what they show. */
+/* codec_ktx2_test.c - files of Basis Universal against the bytes of its own transcoder, files of other
+ * makers against what they show. */
 #include "image/image_test.h"
 
 #include "image/ktx2.h"

@@ -1,5 +1,5 @@
-/* codec_texture_test.c - TGA, BMP, GIF and DDS: files that are made here, with every order, depth and kind of runs; files
- * cut off anywhere. */
+/* codec_texture_test.c - TGA, BMP, GIF and DDS: files that are made here, with every order, depth and kind
+ * of runs; files cut off anywhere. */
 #include "image/image_test.h"
 
 #include <math.h>
@@ -285,7 +285,8 @@ static void bmp_of_palettes(void **state)
     }
 }
 
-/* Runs, literals, a jump, ends of rows: numbers of the 7 x 5 texels from the top, as digits; files begin at the bottom. */
+/* Runs, literals, a jump, ends of rows: numbers of the 7 x 5 texels from the top, as digits; files begin
+ * at the bottom. */
 static void bmp_runs(void **state)
 {
     (void)state;

@@ -37,7 +37,8 @@ facet_result image_convert(const image *in, const facet_allocator *allocator, ui
                            uint32_t channel_count, image_type type, bool to_srgb, image *out,
                            facet_error *error);
 
-/* Reads texels of an image of any type as linear RGBA floats, with the values of image_convert(), a few at a time. */
+/* Reads texels of an image of any type as linear RGBA floats, with the values of image_convert(), a few at
+ * a time. */
 typedef struct image_reader {
     const image *source; /* not owned */
     float *
@@ -195,7 +196,8 @@ facet_result image_encode_exr(uint32_t width, uint32_t height, const image_layer
 
 /* ---- EXR files as data, for checkpoints ---- */
 
-/* A channel in memory: the sample at (x, y) is first[y * row_stride_bytes + x * texel_stride_bytes], in bytes. */
+/* A channel in memory: the sample at (x, y) is first[y * row_stride_bytes + x * texel_stride_bytes], in
+ * bytes. */
 typedef struct image_channel {
     const char *name; /* full name in the file */
     float *first;

@@ -22,8 +22,8 @@
 
 /* ---- ASTC ---- */
 
-/* Decodes size bytes of blocks of k->format into out, RGBA U8 of its size. The memory of the library comes from malloc.
- * FACET_ERROR_MEMORY; _UNSUPPORTED where this build has no libastcenc. */
+/* Decodes size bytes of blocks of k->format into out, RGBA U8 of its size. The memory of the library comes
+ * from malloc. FACET_ERROR_MEMORY; _UNSUPPORTED where this build has no libastcenc. */
 #ifdef HAVE_ASTC
 
 enum { THREAD_TEXELS = 65536 }; /* fewer are not worth another thread */

@@ -1,5 +1,5 @@
-/* ktx2_test_file.h - KTX2 files made in memory, for tests and benchmarks: header, levels, descriptor and metadata as a
- * spec has them, right or wrong. */
+/* ktx2_test_file.h - KTX2 files made in memory, for tests and benchmarks: header, levels, descriptor and
+ * metadata as a spec has them, right or wrong. */
 #ifndef IMAGE_KTX2_TEST_FILE_H
 #define IMAGE_KTX2_TEST_FILE_H
 

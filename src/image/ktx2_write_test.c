@@ -1,4 +1,5 @@
-/* ktx2_write_test.c - KTX2 files of floats: rounding, descriptors, the places of things, and that ktx2.h reads them back. */
+/* ktx2_write_test.c - KTX2 files of floats: rounding, descriptors, the places of things, and that ktx2.h
+ * reads them back. */
 #include "tests/support/support.h"
 #include "image/image_test.h"
 
@@ -74,7 +75,8 @@ static void small_floats_are_nearest(void **state)
     }
 }
 
-/* The best that the format can do: over all exponents that hold the largest channel, the smallest is the finest. */
+/* The best that the format can do: over all exponents that hold the largest channel, the smallest is the
+ * finest. */
 static uint32_t pack_shared_slowly(const float rgb[3])
 {
     for (int exponent = 0;; exponent++) {
@@ -257,7 +259,8 @@ static void what_is_written_is_read(void **state)
 
 /* ---- the rules of the file format, as Khronos' validator has them ---- */
 
-/* Expected samples: bit offset, length - 1, channel and qualifiers, lower, upper. KDF 1.3, sections 5.6 and 10. */
+/* Expected samples: bit offset, length - 1, channel and qualifiers, lower, upper. KDF 1.3, sections 5.6
+ * and 10. */
 typedef struct sample {
     uint32_t first_bit, last_bit, channel, lower, upper;
 } sample;

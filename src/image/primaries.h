@@ -27,8 +27,9 @@ void primaries_convert(image *i, const primaries *p, const image_decode_desc *de
 enum { CIE_D65_FIRST = 380, CIE_D65_STEP = 10, CIE_D65_COUNT = 41 };
 extern const double cie_d65[CIE_D65_COUNT];
 
-/* The CIE 1931 color matching functions at a wavelength in nm, as Wyman, Sloan and Shirley fit them ("Simple Analytic
- * Approximations to the CIE XYZ Color Matching Functions", JCGT 2013, table 1; at most 1.4 % off). */
+/* The CIE 1931 color matching functions at a wavelength in nm, as Wyman, Sloan and Shirley fit them
+ * ("Simple Analytic Approximations to the CIE XYZ Color Matching Functions", JCGT 2013, table 1; at most
+ * 1.4 % off). */
 void cie_match_color(double nm, double xyz[3]);
 
 /* Linear Rec.709 (D65) of XYZ, IEC 61966-2-1. */

@@ -22,8 +22,9 @@ static void expect_matrix(const primaries *p, double expected[3][3], double tole
                      expected[i / 3][i % 3]);
 }
 
-/* AP0 and AP1: the matrices of the ACES configurations of OpenColorIO, to their digits. Rec.2020: Recommendation ITU-R
- * BT.2407-0, section 2. XYZ: IEC 61966-2-1, whose rounded matrix is 2e-3 off the exact one. */
+/* AP0 and AP1: the matrices of the ACES configurations of OpenColorIO, to their digits. Rec.2020:
+ * Recommendation ITU-R BT.2407-0, section 2. XYZ: IEC 61966-2-1, whose rounded matrix is 2e-3 off the
+ * exact one. */
 static void matrices_are_those_of_others(void **state)
 {
     (void)state;

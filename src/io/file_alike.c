@@ -1,5 +1,5 @@
-/* file_alike.c - see file_alike.h. Names are compared as lower-case base letters and combining marks (Unicode's
- * canonical decomposition). */
+/* file_alike.c - see file_alike.h. Names are compared as lower-case base letters and combining marks
+ * (Unicode's canonical decomposition). */
 #define _POSIX_C_SOURCE 200809L
 #include "io/file_alike.h"
 
@@ -64,8 +64,8 @@ static uint32_t mark_of(char letter)
     return at ? marks[at - letters] : 0;
 }
 
-/* Base letters and marks of the lower-case letters from U+00C0, U+01CE and U+1EA1 on; blanks: none. The first table
- * has both letters of a case pair, the others one of two. */
+/* Base letters and marks of the lower-case letters from U+00C0, U+01CE and U+1EA1 on; blanks: none. The
+ * first table has both letters of a case pair, the others one of two. */
 static const char LATIN[] =
     "a`a'a^a~a:ao  c,e`e'e^e:i`i'i^i:  n~o`o'o^o~o:    u`u'u^u:y'    a`a'a^a~a:ao  c,e`e'"
     "e^e:i`i'i^i:  n~o`o'o^o~o:    u`u'u^u:y'  y:a-a-auaua;a;c'c'c^c^c.c.cvcvdvdv    e-e-"
@@ -195,8 +195,8 @@ typedef struct search {
     size_t *budget;
 } search;
 
-/* Whether the path with that part appended exists, as a folder or, for the last part, as a file; if so it stays
- * appended. */
+/* Whether the path with that part appended exists, as a folder or, for the last part, as a file; if so it
+ * stays appended. */
 static bool append_part(search *s, const char *part, size_t length, bool is_last)
 {
     struct stat status;

@@ -17,9 +17,9 @@ typedef struct file_set {
 /* Begins a set for the model path of a scene by desc; nothing is written yet. */
 file_set file_set_begin(const facet_scene *scene, const char *path, const facet_scene_save_desc *desc);
 
-/* Stages a file beside main (name NULL: main itself, which should come last, so that its presence implies the
- * others). Fails as file_stage_write(), with FACET_ERROR_MEMORY, with _ARGUMENT where an input would be replaced, and
- * with _CANCELLED. */
+/* Stages a file beside main (name NULL: main itself, which should come last, so that its presence implies
+ * the others). Fails as file_stage_write(), with FACET_ERROR_MEMORY, with _ARGUMENT where an input would
+ * be replaced, and with _CANCELLED. */
 facet_result file_set_add(file_set *set, const char *name, const void *bytes, size_t size,
                           facet_error *error);
 /* Moves all files into place, in the order in which they were added. */

@@ -16,8 +16,8 @@ typedef struct image_kind {
 const image_kind *image_kind_of_bytes(const void *bytes, size_t size);
 /* By MIME type; NULL: unknown. */
 const image_kind *image_kind_of_mime_type(const char *mime_type);
-/* The format of an image file that facet does not read, "TIFF" or "PSD"; NULL: unknown. file_name helps where the
- * bytes are ambiguous. */
+/* The format of an image file that facet does not read, "TIFF" or "PSD"; NULL: unknown. file_name helps
+ * where the bytes are ambiguous. */
 const char *image_foreign_kind(const void *bytes, size_t size, const char *file_name);
 
 /* For messages. */

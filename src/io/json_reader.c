@@ -1,5 +1,5 @@
-/* json_reader.c - parses JSON text, also in other encodings than UTF-8, and gives typed access to its members; see
- * json_reader.h. */
+/* json_reader.c - parses JSON text, also in other encodings than UTF-8, and gives typed access to its
+ * members; see json_reader.h. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -39,8 +39,8 @@ static bool is_surrogate(long unit, long first)
     return unit >= first && unit < first + 0x400;
 }
 
-/* Copies an escape. An unpaired surrogate becomes U+FFFD; a backslash that begins no escape is escaped. Returns the
- * number of bytes read; *mends counts changes. */
+/* Copies an escape. An unpaired surrogate becomes U+FFFD; a backslash that begins no escape is escaped.
+ * Returns the number of bytes read; *mends counts changes. */
 static size_t mend_escape(const char *text, size_t size, char *out, size_t *used, size_t *mends)
 {
     long unit = escaped_unit(text, size);
@@ -59,8 +59,9 @@ static size_t mend_escape(const char *text, size_t size, char *out, size_t *used
     return length;
 }
 
-/* Converts text of another encoding, taken as Latin-1, to valid JSON. has_pairs: GBK or Shift-JIS, where the second
- * byte of a character may be a backslash. out has 2 * size bytes. Returns the length; *mends counts changes. */
+/* Converts text of another encoding, taken as Latin-1, to valid JSON. has_pairs: GBK or Shift-JIS, where
+ * the second byte of a character may be a backslash. out has 2 * size bytes. Returns the length; *mends
+ * counts changes. */
 static size_t mend(const char *text, size_t size, bool has_pairs, char *out, size_t *mends)
 {
     size_t used = 0;
@@ -260,8 +261,8 @@ json_place io_get_element_object(io_reader *r, const json_place *array, size_t i
 
 json_place io_get_extension(io_reader *r, const json_place *object, const char *name)
 {
-    /* The chain must outlive this call, so that "extensions" and the name are one link in messages. A value that is
-     * not an object extends nothing; gltf_extensions.c reports it. */
+    /* The chain must outlive this call, so that "extensions" and the name are one link in messages. A
+     * value that is not an object extends nothing; gltf_extensions.c reports it. */
     json_place extensions = get_member(object, "extensions");
     json_place at = get_member(&extensions, name);
     at.parent = object;

@@ -1,8 +1,9 @@
-/* json_reader.h - what the readers of JSON formats (glTF, rgl's parameters) share: typed access to the document whose
- * messages name the place, and memory for the scene.
+/* json_reader.h - what the readers of JSON formats (glTF, rgl's parameters) share: typed access to the
+ * document whose messages name the place, and memory for the scene.
  *
- * Errors are sticky: the first one stays in io_reader.result and getters then return their fallback, so that parsing code
- * reads like the tables of a specification. Code that loops or allocates tests io_is_ok(). */
+ * Errors are sticky: the first one stays in io_reader.result and getters then return their fallback, so
+ * that parsing code reads like the tables of a specification. Code that loops or allocates tests
+ * io_is_ok(). */
 #ifndef IO_JSON_READER_H
 #define IO_JSON_READER_H
 
@@ -29,8 +30,8 @@ typedef struct io_reader {
 
 /* ---- places ---- */
 
-/* A value in the JSON and its path. Lives on the caller's stack; value NULL: absent, for which every getter returns
- * its fallback. */
+/* A value in the JSON and its path. Lives on the caller's stack; value NULL: absent, for which every
+ * getter returns its fallback. */
 typedef struct json_place {
     const struct json_place *parent;
     const char *key; /* NULL: element index of an array, or the root */
@@ -39,15 +40,16 @@ typedef struct json_place {
 } json_place;
 
 bool io_is_ok(const io_reader *r);
-/* Records an error "SOURCE: PLACE.key: ..." (key NULL: about the place itself) unless there is one. Returns false. */
+/* Records an error "SOURCE: PLACE.key: ..." (key NULL: about the place itself) unless there is one.
+ * Returns false. */
 bool io_fail(io_reader *r, const json_place *at, const char *key, facet_result result, const char *format,
              ...) __attribute__((format(printf, 5, 6)));
 bool io_fail_memory(io_reader *r, const char *what, size_t size);
 
-/* Remarks in the same form. Between io_begin_remarks() and io_end_remarks(), which passes them on, those of one call
- * about the same key become one line with the first place and a count; format must be a literal. A warning means that
- * the image may differ from what the file intends; a note, that the file breaks a rule without effect. See
- * scene_warn(), scene_note(). */
+/* Remarks in the same form. Between io_begin_remarks() and io_end_remarks(), which passes them on, those
+ * of one call about the same key become one line with the first place and a count; format must be a
+ * literal. A warning means that the image may differ from what the file intends; a note, that the file
+ * breaks a rule without effect. See scene_warn(), scene_note(). */
 void io_warn(io_reader *r, const json_place *at, const char *key, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 void io_note(io_reader *r, const json_place *at, const char *key, const char *format, ...)
@@ -71,8 +73,8 @@ typedef struct io_problem {
  *
  * An error in such a part is withdrawn; lack of memory or an exceeded limit remains an error. */
 
-/* Turns a recorded error into a warning "..; CONSEQUENCE"; those of one consequence, a literal, become one line with
- * a count. True: there was an error, and the caller leaves out the part. */
+/* Turns a recorded error into a warning "..; CONSEQUENCE"; those of one consequence, a literal, become one
+ * line with a count. True: there was an error, and the caller leaves out the part. */
 bool io_leave_out(io_reader *r, const char *consequence);
 /* Stores a recorded error as the problem of a part that may not be needed. True: there was one. */
 bool io_defer(io_reader *r, io_problem *problem);
@@ -85,22 +87,23 @@ void io_warn_deferred(io_reader *r, io_problem *problem);
 void *io_alloc(io_reader *r, const char *what, size_t count, size_t size);
 /* The same without clearing. */
 void *io_alloc_raw(io_reader *r, const char *what, size_t count, size_t size);
-/* Accounts for elements to be read. A file can refer to the same bytes any number of times; this limits time and
- * memory. False, with FACET_ERROR_LIMIT recorded, beyond 2^28. */
+/* Accounts for elements to be read. A file can refer to the same bytes any number of times; this limits
+ * time and memory. False, with FACET_ERROR_LIMIT recorded, beyond 2^28. */
 bool io_spend(io_reader *r, const json_place *at, uint64_t elements);
 
-/* An estimate of jansson's memory for a document. jansson uses malloc; to make that memory subject to the caller's
- * allocator, the readers allocate a block of this size for the lifetime of the document. It stays untouched and costs
- * address space only. Bytes per kind of token measured with jansson 2.14 on x86-64, rounded up. */
+/* An estimate of jansson's memory for a document. jansson uses malloc; to make that memory subject to the
+ * caller's allocator, the readers allocate a block of this size for the lifetime of the document. It stays
+ * untouched and costs address space only. Bytes per kind of token measured with jansson 2.14 on x86-64,
+ * rounded up. */
 size_t io_json_memory_estimate(const char *text, size_t size);
-/* Parses JSON; NULL: an error is recorded. Bytes that are not UTF-8, as from exporters in Latin-1, GBK and Shift-JIS,
- * are taken as Latin-1, with one warning: such strings are misspelled but stay distinct. */
+/* Parses JSON; NULL: an error is recorded. Bytes that are not UTF-8, as from exporters in Latin-1, GBK and
+ * Shift-JIS, are taken as Latin-1, with one warning: such strings are misspelled but stay distinct. */
 json_t *io_parse_json(io_reader *r, const char *text, size_t size);
 
 /* ---- typed members ---- */
 
-/* An object or array member; value NULL if it is absent or (recorded) something else. An empty array, which glTF
- * forbids, is noted. */
+/* An object or array member; value NULL if it is absent or (recorded) something else. An empty array,
+ * which glTF forbids, is noted. */
 json_place io_get_object(io_reader *r, const json_place *object, const char *key);
 json_place io_get_array(io_reader *r, const json_place *object, const char *key);
 size_t io_get_count(const json_place *array);                                          /* 0 without value */

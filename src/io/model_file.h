@@ -4,8 +4,8 @@
 
 #include "scene/scene.h"
 
-/* facet_scene_load() except for desc->parameters and the conversion of materials: reads a glTF, OBJ, STL, PLY or rgl
- * parameter file, which is recognized by content (model_kind.h). */
+/* facet_scene_load() except for desc->parameters and the conversion of materials: reads a glTF, OBJ, STL,
+ * PLY or rgl parameter file, which is recognized by content (model_kind.h). */
 facet_result model_file_load(const char *path, const facet_scene_desc *desc, facet_scene **scene,
                              facet_error *error);
 facet_result model_file_load_memory(const void *bytes, size_t size, const char *name,

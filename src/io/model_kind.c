@@ -109,8 +109,8 @@ static bool names_root(const char *bytes, size_t size, const char *magic)
     return false;
 }
 
-/* By extension and content, by magic bytes, by extension; NULL: unknown. A magic of two letters also needs the
- * extension. */
+/* By extension and content, by magic bytes, by extension; NULL: unknown. A magic of two letters also needs
+ * the extension. */
 static const foreign_kind *find_foreign(const char *bytes, size_t size, const char *name)
 {
     const foreign_kind *found = NULL;

@@ -17,8 +17,8 @@ typedef enum model_kind {
 /* name: of the file; its extension decides where the content is ambiguous. */
 model_kind model_kind_detect(const void *bytes, size_t size, const char *name);
 
-/* Fails with the name of a format that facet does not read and the usual way to convert it: FACET_ERROR_UNSUPPORTED;
- * FACET_ERROR_INVALID of MODEL_UNKNOWN. */
+/* Fails with the name of a format that facet does not read and the usual way to convert it:
+ * FACET_ERROR_UNSUPPORTED; FACET_ERROR_INVALID of MODEL_UNKNOWN. */
 facet_result model_kind_refuse(const void *bytes, size_t size, const char *name, facet_error *error);
 
 #endif

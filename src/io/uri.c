@@ -1,5 +1,5 @@
-/* uri.c - resolves URIs and names in a model: base64 data inside it, or a file below the model's folder. No other
- * file is opened. */
+/* uri.c - resolves URIs and names in a model: base64 data inside it, or a file below the model's folder.
+ * No other file is opened. */
 #define _POSIX_C_SOURCE 200809L
 #include <errno.h>
 #include <stdarg.h>
@@ -106,7 +106,8 @@ static int hex_value(char c)
                                   : -1;
 }
 
-/* Decodes %XX; a % without two hexadecimal digits stays. out has strlen(uri) + 1 bytes. False: the result contains a
+/* Decodes %XX; a % without two hexadecimal digits stays. out has strlen(uri) + 1 bytes. False: the result
+ * contains a
  * 0. */
 static bool decode_percent(const char *uri, char *out)
 {
@@ -266,8 +267,8 @@ static bool read_name(const char *name, name_reading reading, char *out)
     return differs;
 }
 
-/* Tries the other interpretations of a name, exactly and then, unless the scope is literal, by alike names. *out: the
- * failure of the first. */
+/* Tries the other interpretations of a name, exactly and then, unless the scope is literal, by alike
+ * names. *out: the failure of the first. */
 static bool open_otherwise(const file_scope *scope, const char *name, const char *shown, uri_bytes *out)
 {
     char *text = mem_alloc(scope->allocator, strlen(name) + 1, 1);

@@ -19,7 +19,8 @@ typedef struct file_scope {
 /* Reads a model from bytes; folder: of its file, NULL: none. */
 typedef facet_result io_loader(const char *bytes, size_t size, const char *source, const char *folder,
                                const facet_scene_desc *desc, facet_scene **scene, facet_error *error);
-/* Opens a file, calls load with its bytes and folder, and notes the file in the scene. *scene is NULL on failure. */
+/* Opens a file, calls load with its bytes and folder, and notes the file in the scene. *scene is NULL on
+ * failure. */
 facet_result io_load_file(io_loader *load, const char *path, const facet_scene_desc *desc,
                           facet_scene **scene, facet_error *error);
 
@@ -30,22 +31,23 @@ facet_result io_check_size(size_t size, const char *name, const facet_scene_desc
 typedef struct uri_bytes {
     const unsigned char *data;
     size_t size;
-    /* Set by file_scope_open(): the path of the file below the folder, in the scene's arena, and its index in the
-     * scene's files, the same for all names of a file. */
+    /* Set by file_scope_open(): the path of the file below the folder, in the scene's arena, and its index
+     * in the scene's files, the same for all names of a file. */
     const char *name;
     uint32_t file;
     facet_result result;
     char message[512]; /* without the place in the model */
 } uri_bytes;
 
-/* Maps a regular file below the root; all names of a file share one mapping, which is closed with the scene. The name
- * is tried as written; then with Windows separators, with an escaped space, without "?.." or "#..", and with %20
- * decoded; then as the only name in its folder that differs in case or in Unicode normalization. A warning reports
- * when another name than the written one is read, separators aside. shown: the name for messages. False: *message and
+/* Maps a regular file below the root; all names of a file share one mapping, which is closed with the
+ * scene. The name is tried as written; then with Windows separators, with an escaped space, without "?.."
+ * or "#..", and with %20 decoded; then as the only name in its folder that differs in case or in Unicode
+ * normalization. A warning reports when another name than the written one is read, separators aside.
+ * shown: the name for messages. False: *message and
  * *result give the reason. */
 bool file_scope_open(const file_scope *scope, const char *name, const char *shown, uri_bytes *out);
-/* The bytes of a URI: data: decoded into the arena of the scene, or a file by file_scope_open(). Never uses the
- * network. False: *message and *result give the reason. */
+/* The bytes of a URI: data: decoded into the arena of the scene, or a file by file_scope_open(). Never
+ * uses the network. False: *message and *result give the reason. */
 bool uri_load(const file_scope *scope, const char *uri, uri_bytes *out);
 
 #endif

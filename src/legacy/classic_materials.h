@@ -1,6 +1,6 @@
-/* classic_materials.h - public materials of OpenGL 1 and MTL for tests and benchmarks: the teapots of the OpenGL
- * Programming Guide ("red book"; shininess is 128 times the number listed there), rgl's defaults, and typical
- * output of MTL exporters; with the errors of four conversions. */
+/* classic_materials.h - public materials of OpenGL 1 and MTL for tests and benchmarks: the teapots of the
+ * OpenGL Programming Guide ("red book"; shininess is 128 times the number listed there), rgl's defaults,
+ * and typical output of MTL exporters; with the errors of four conversions. */
 #ifndef LEGACY_CLASSIC_MATERIALS_H
 #define LEGACY_CLASSIC_MATERIALS_H
 

@@ -1,5 +1,5 @@
-/* convert_build.c - a glTF material from an interpreted legacy one: factors, opacity, emission and extensions.
- * Textures of the surface are made by convert_build_maps.c. */
+/* convert_build.c - a glTF material from an interpreted legacy one: factors, opacity, emission and
+ * extensions. Textures of the surface are made by convert_build_maps.c. */
 #include "legacy/convert_state.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
-/* convert_build_maps.c - textures of the surface of a glTF material: base color with opacity, specular, roughness.
- * An image that needs a factor only stays the same file; others are converted texel by texel. Maps of one material
- * with different lookups cannot be combined into one texture: the first of diffuse, specular, shininess, opacity
- * keeps its texels, the others are replaced by their means. */
+/* convert_build_maps.c - textures of the surface of a glTF material: base color with opacity, specular,
+ * roughness. An image that needs a factor only stays the same file; others are converted texel by texel.
+ * Maps of one material with different lookups cannot be combined into one texture: the first of diffuse,
+ * specular, shininess, opacity keeps its texels, the others are replaced by their means. */
 #include <string.h>
 
 #include "base/result.h"
@@ -83,8 +83,8 @@ static bool is_varying(const surface_job *job)
     return job->specular.ref.texture != SCENE_NONE || job->shininess.ref.texture != SCENE_NONE;
 }
 
-/* Base color over diffuse color if specular color and shininess are constant: that of the fit of the mean, or, if
- * that is nearly black or clamped, of the closed form. */
+/* Base color over diffuse color if specular color and shininess are constant: that of the fit of the mean,
+ * or, if that is nearly black or clamped, of the closed form. */
 static void base_factors(const surface_job *job, float out[3])
 {
     const solve_item *item = job->item;

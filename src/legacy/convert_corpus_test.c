@@ -1,6 +1,6 @@
 #define _POSIX_C_SOURCE 200809L /* stat(), getpid() */
-/* convert_corpus_test.c - converts every model of the test data in every direction: values are in range, textures
- * exist, errors are finite, and originals are restored. */
+/* convert_corpus_test.c - converts every model of the test data in every direction: values are in range,
+ * textures exist, errors are finite, and originals are restored. */
 #include "tests/support/support.h"
 #include "legacy/convert_test_support.h"
 

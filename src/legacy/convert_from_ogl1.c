@@ -1,5 +1,5 @@
-/* convert_from_ogl1.c - glTF materials for all legacy ones of a scene: interpreted one by one, solved together,
- * built one by one. */
+/* convert_from_ogl1.c - glTF materials for all legacy ones of a scene: interpreted one by one, solved
+ * together, built one by one. */
 #include <math.h>
 #include <string.h>
 

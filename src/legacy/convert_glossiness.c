@@ -1,5 +1,5 @@
-/* convert_glossiness.c - all materials of a scene from specular-glossiness to metallic-roughness and back, with their
- * textures; specular_glossiness.c has the formulas. */
+/* convert_glossiness.c - all materials of a scene from specular-glossiness to metallic-roughness and back,
+ * with their textures; specular_glossiness.c has the formulas. */
 #include <math.h>
 #include <string.h>
 

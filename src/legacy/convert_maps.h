@@ -5,8 +5,8 @@
 #include "legacy/texture_bench.h"
 #include "scene/legacy.h"
 
-/* A color by texel: component k is values[k][code of channel channels[k]]. Without padding, since it is part of the
- * key of a bake. */
+/* A color by texel: component k is values[k][code of channel channels[k]]. Without padding, since it is
+ * part of the key of a bake. */
 typedef struct color_lut {
     int channels[3]; /* TEXTURE_RED .. TEXTURE_GREY */
     float values[3][256];

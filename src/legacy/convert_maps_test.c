@@ -1,4 +1,5 @@
-/* convert_maps_test.c - textures of legacy materials: images that stay unchanged, and the texels of converted ones. */
+/* convert_maps_test.c - textures of legacy materials: images that stay unchanged, and the texels of
+ * converted ones. */
 #include "legacy/convert_test_support.h"
 
 static const facet_legacy_desc PLAIN = {0};

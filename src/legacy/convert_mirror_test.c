@@ -1,4 +1,5 @@
-/* convert_mirror_test.c - illum 3, 5, 7 and 8: Ks as a reflectance if mirrors are enabled, and the notes if not. */
+/* convert_mirror_test.c - illum 3, 5, 7 and 8: Ks as a reflectance if mirrors are enabled, and the notes
+ * if not. */
 #include "legacy/convert_test_support.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* convert_notes.h - notes of a conversion about materials and the scene: codes, sentences, and which of them are
- * logged as warnings. */
+/* convert_notes.h - notes of a conversion about materials and the scene: codes, sentences, and which of
+ * them are logged as warnings. */
 #ifndef LEGACY_CONVERT_NOTES_H
 #define LEGACY_CONVERT_NOTES_H
 
@@ -60,14 +60,14 @@ typedef struct note_list {
     bool has_failed; /* out of memory */
 } note_list;
 
-/* Adds a sentence without the name of the material and without a full stop. Only the first per material and code is
- * kept. */
+/* Adds a sentence without the name of the material and without a full stop. Only the first per material
+ * and code is kept. */
 void note_add(note_list *list, uint32_t material, note_code code, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 void note_list_destroy(note_list *list);
 
-/* Moves the notes into out, whose materials exist, and logs those that report a loss as warnings, one line per
- * code. False: out of memory. */
+/* Moves the notes into out, whose materials exist, and logs those that report a loss as warnings, one line
+ * per code. False: out of memory. */
 bool note_list_finish(note_list *list, const facet_log *log, scene_conversion *out);
 
 #endif

@@ -1,5 +1,5 @@
-/* convert_ogl1_maps.c - textures of glTF materials as maps of legacy ones. A legacy material has one exponent, that
- * of its mean; each texel takes the colors that approximate it best with that exponent. */
+/* convert_ogl1_maps.c - textures of glTF materials as maps of legacy ones. A legacy material has one
+ * exponent, that of its mean; each texel takes the colors that approximate it best with that exponent. */
 #include "legacy/convert_state.h"
 
 #include <math.h>
@@ -251,7 +251,8 @@ static void note_spread(const pbr_job *job, float shininess)
                  (double)found[1]);
 }
 
-/* An image that is only scaled stays the same: the diffuse color is proportional to the base color of a dielectric. */
+/* An image that is only scaled stays the same: the diffuse color is proportional to the base color of a
+ * dielectric. */
 static void reuse_base(const conversion *c, const scene_material *m, const solve_item *item,
                        legacy_material *out)
 {

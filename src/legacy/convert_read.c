@@ -1,5 +1,6 @@
-/* convert_read.c - interprets a legacy material: its dialect, its illum, switches of rgl, mistakes of exporters.
- * docs/legacy.md, "What becomes of each statement". Values and textures are converted elsewhere. */
+/* convert_read.c - interprets a legacy material: its dialect, its illum, switches of rgl, mistakes of
+ * exporters. docs/legacy.md, "What becomes of each statement". Values and textures are converted
+ * elsewhere. */
 #include "legacy/convert_state.h"
 #include "legacy/specular_glossiness.h"
 #include "scene/legacy_extras.h"
@@ -190,7 +191,8 @@ static bool is_known_good(facet_mtl_dialect dialect)
            dialect == FACET_MTL_DIALECT_BLENDER3;
 }
 
-/* Exporters write illum 0 and 1 for shiny materials too, so these are honored only if nothing contradicts them. */
+/* Exporters write illum 0 and 1 for shiny materials too, so these are honored only if nothing contradicts
+ * them. */
 static void read_illum(conversion *c, uint32_t material, legacy_reading *r, facet_mtl_dialect dialect)
 {
     legacy_material *m = &r->m;
@@ -222,10 +224,10 @@ static void read_illum(conversion *c, uint32_t material, legacy_reading *r, face
 
 /* ---- highlights as wide as the surface ---- */
 
-/* At an exponent of 0 the highlight adds Ks to the whole surface. The format says so, also for a missing Ns, but no
- * author has seen it: exporters without highlights write 0, those with a range of [0, 1] write fractions, and
- * present readers take both as matte. With a mirror, Ks is its reflectance. rgl's parameters were displayed as they
- * are. */
+/* At an exponent of 0 the highlight adds Ks to the whole surface. The format says so, also for a missing
+ * Ns, but no author has seen it: exporters without highlights write 0, those with a range of [0, 1] write
+ * fractions, and present readers take both as matte. With a mirror, Ks is its reflectance. rgl's
+ * parameters were displayed as they are. */
 #define MIN_EXPONENT 1.0f
 
 static void read_widest_highlight(conversion *c, uint32_t material, legacy_reading *r)
@@ -443,8 +445,8 @@ static void read_glass(conversion *c, legacy_reading *r, facet_legacy_colors col
 
 /* ---- mirrors ---- */
 
-/* A diffuse color (linear) that is invisible beside a mirror: the mirror is then a metal, also in viewers without
- * extensions. */
+/* A diffuse color (linear) that is invisible beside a mirror: the mirror is then a metal, also in viewers
+ * without extensions. */
 #define MIRROR_BLACK 0.02f
 
 static void note_mirror(conversion *c, uint32_t material, const legacy_material *m)
@@ -458,8 +460,8 @@ static void note_mirror(conversion *c, uint32_t material, const legacy_material 
         m->illum);
 }
 
-/* Ray tracers reflect the environment sharply whatever Ns, which belongs to the highlight; for large Ns that is
- * followed. Between 100, the highlight width of brushed metal, and 500 the two are interpolated. */
+/* Ray tracers reflect the environment sharply whatever Ns, which belongs to the highlight; for large Ns
+ * that is followed. Between 100, the highlight width of brushed metal, and 500 the two are interpolated. */
 static float mirror_roughness(const legacy_material *m, float shininess)
 {
     if (!legacy_has(m, LEGACY_SHININESS) || m->shininess <= MIN_EXPONENT)
@@ -477,8 +479,8 @@ static void read_metal_mirror(legacy_reading *r)
     r->has_diffuse_alpha = false;
 }
 
-/* Without extensions: a base color and a metallic whose mix approximates both colors; maps are replaced by their
- * means. */
+/* Without extensions: a base color and a metallic whose mix approximates both colors; maps are replaced by
+ * their means. */
 static void read_core_mirror(conversion *c, uint32_t material, legacy_reading *r)
 {
     ogl1_surface mean = build_representative(c, r);

@@ -446,8 +446,8 @@ static void dialects_put_roughness_elsewhere(void **state)
     scene_destroy(scene);
 }
 
-/* A highlight over the whole surface is ignored in every dialect, except with the literal format; Blender's newer
- * exporters and obj2gltf have a roughness there. */
+/* A highlight over the whole surface is ignored in every dialect, except with the literal format;
+ * Blender's newer exporters and obj2gltf have a roughness there. */
 static void widest_highlights_are_left_out(void **state)
 {
     (void)state;

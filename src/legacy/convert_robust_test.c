@@ -1,5 +1,5 @@
-/* convert_robust_test.c - conversions of whole scenes: equal for any number of threads, complete or not at all if
- * memory runs out, each distinct material solved once. */
+/* convert_robust_test.c - conversions of whole scenes: equal for any number of threads, complete or not at
+ * all if memory runs out, each distinct material solved once. */
 #include "tests/support/support.h"
 #include "legacy/convert_test_support.h"
 
@@ -74,7 +74,8 @@ static void threads_do_not_change_a_bit(void **state)
     scene_destroy(scenes[1]);
 }
 
-/* Every allocation fails once: the call fails with FACET_ERROR_MEMORY, nothing leaks, the materials are unchanged. */
+/* Every allocation fails once: the call fails with FACET_ERROR_MEMORY, nothing leaks, the materials are
+ * unchanged. */
 static void run_out(facet_material_model to, bool is_legacy, const facet_legacy_desc *desc)
 {
     for (long at = 0;; at = next_failure(at)) {

@@ -1,5 +1,5 @@
-/* convert_solve.c - converts the values of all materials: distinct inputs in parallel, their results copied to
- * equal ones. */
+/* convert_solve.c - converts the values of all materials: distinct inputs in parallel, their results
+ * copied to equal ones. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -131,9 +131,10 @@ facet_result ogl1_build_maps(conversion *c, uint32_t material, const scene_mater
  * A white surface that faces a white light of 1 shows 1 in OpenGL 1 and 1 / pi in glTF: illuminances are pi times legacy
  * colors. */
 
-/* Makes punctual lights, each with a node in the default scene, of scene->legacy; those of an earlier conversion
- * are replaced. Lights relative to the viewer are placed for the default camera; point lights get the intensity
- * that is right at the center of the scene. Fails with FACET_ERROR_MEMORY and then leaves the scene unchanged. */
+/* Makes punctual lights, each with a node in the default scene, of scene->legacy; those of an earlier
+ * conversion are replaced. Lights relative to the viewer are placed for the default camera; point lights
+ * get the intensity that is right at the center of the scene. Fails with FACET_ERROR_MEMORY and then
+ * leaves the scene unchanged. */
 facet_result lights_from_legacy(conversion *c, facet_error *error);
 
 /* Sets the lights of c->legacy from the punctual lights of the default scene at rest. */

@@ -1,4 +1,5 @@
-/* convert_surface.h - colors of legacy files in linear light and back, and materials as the surfaces of fit.h. */
+/* convert_surface.h - colors of legacy files in linear light and back, and materials as the surfaces of
+ * fit.h. */
 #ifndef LEGACY_CONVERT_SURFACE_H
 #define LEGACY_CONVERT_SURFACE_H
 

@@ -1,5 +1,5 @@
-/* convert_texels.c - what bakes do with one texel: closed forms, and grids of fits that are too slow per texel. See
- * convert_texels.h. Closed form (docs/legacy.md):
+/* convert_texels.c - what bakes do with one texel: closed forms, and grids of fits that are too slow per
+ * texel. See convert_texels.h. Closed form (docs/legacy.md):
  *   sf = min(1, max(Cs) g(s)),  color of F0 = Cs / max(Cs),  base = min(1, Cd / (1 - sf)),  r(s) */
 #include "legacy/convert_texels.h"
 
@@ -301,8 +301,8 @@ static grid_place place_even(float at, int count)
     return (grid_place){.low = low, .t = x - (float)low};
 }
 
-/* Colors are nearly proportional to the base color, and so are their square roots to its root, in which nodes are
- * even. */
+/* Colors are nearly proportional to the base color, and so are their square roots to its root, in which
+ * nodes are even. */
 static float blend(const float grid[OGL1_GRID_ROUGHNESS][OGL1_GRID_SECOND][OGL1_GRID_BASE], grid_place r,
                    grid_place second, grid_place base)
 {

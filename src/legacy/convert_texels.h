@@ -1,5 +1,5 @@
-/* convert_texels.h - conversion of single texels of diffuse, specular, shininess and opacity maps, and grids of
- * fits for them. */
+/* convert_texels.h - conversion of single texels of diffuse, specular, shininess and opacity maps, and
+ * grids of fits for them. */
 #ifndef LEGACY_CONVERT_TEXELS_H
 #define LEGACY_CONVERT_TEXELS_H
 
@@ -12,8 +12,8 @@ enum { TEXEL_DIFFUSE, TEXEL_SPECULAR, TEXEL_SHININESS, TEXEL_OPACITY, TEXEL_INPU
 /* Specular and ior of one texel: a fast approximation of ogl1_to_pbr_closed(). */
 pbr_surface texel_surface(const ogl1_surface *in);
 
-/* The core profile, whose search for metallic is slow, on a grid over Cd, Cs and s for grey materials. Nodes of Cd
- * and Cs are at (i / last)^2, those of s even in log(1 + s). */
+/* The core profile, whose search for metallic is slow, on a grid over Cd, Cs and s for grey materials.
+ * Nodes of Cd and Cs are at (i / last)^2, those of s even in log(1 + s). */
 enum { CORE_COLORS = 17, CORE_EXPONENTS = 9 };
 typedef struct core_grid {
     float exponents[2];                                   /* log(1 + s) of the first and last */
@@ -54,8 +54,9 @@ uint8_t texel_code(float value); /* nearest code of a value in [0, 1] */
 
 /* ---- the fit to OpenGL 1 at one shininess, on a grid for the texels of a material ---- */
 
-/* Nodes of the base color are at (i / last)^2, of roughness even; those of the second axis even for metallic, at (i
- * / last)^2 for the specular color of a specular-glossiness material. */
+/* Nodes of the base color are at (i / last)^2, of roughness even; those of the second axis even for
+ * metallic, at (i
+ *  / last)^2 for the specular color of a specular-glossiness material. */
 enum { OGL1_GRID_BASE = 9, OGL1_GRID_SECOND = 7, OGL1_GRID_ROUGHNESS = 13 };
 
 typedef struct ogl1_grid {

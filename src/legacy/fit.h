@@ -1,4 +1,5 @@
-/* fit.h - conversion of one surface between OpenGL 1 and PBR, and the error between the models. No scene, no textures.
+/* fit.h - conversion of one surface between OpenGL 1 and PBR, and the error between the models. No scene,
+ * no textures.
  *
  * Colors are linear here. Both models are lit by OpenGL 1 intensity 1, PBR times pi:
  * T = max(N.L, 0) Cd + max(N.H, 0)^s Cs, M = pi f (N.L). */
@@ -25,8 +26,8 @@ void fit_metric_destroy(fit_metric *metric); /* NULL is allowed */
 typedef struct fit_error {
     double E;         /* relative to the source's RMS; to 1e-4 */
     double E_display; /* the same with both clamped to [0, 1]; to 1e-3 */
-    /* the same with OpenGL 1 as its programs display it: Cd and Cs encoded as sRGB, summed and clamped as display
-     * values, and decoded; to 1e-3 */
+    /* the same with OpenGL 1 as its programs display it: Cd and Cs encoded as sRGB, summed and clamped as
+     * display values, and decoded; to 1e-3 */
     double E_drawn;
     double views[3]; /* E of 0, 30, 60 degrees alone */
 } fit_error;         /* finite: the RMS of the source is at least a thousandth of white */
@@ -55,15 +56,17 @@ uint32_t ogl1_to_pbr_fit(const fit_metric *metric, const ogl1_surface *in, facet
 uint32_t ogl1_to_pbr_core_fit(const fit_metric *metric, const ogl1_surface *in, facet_legacy_target target,
                               pbr_surface *out);
 
-/* The share of the hue of Cd that remains in the reflection of a white environment: 0 white, 1 all; 1 for grays. */
+/* The share of the hue of Cd that remains in the reflection of a white environment: 0 white, 1 all; 1 for
+ * grays. */
 double fit_hue_share(const ogl1_surface *in, const pbr_surface *out);
 #define FIT_HUE_KEPT 0.5
-/* If less than FIT_HUE_KEPT remains, replaces out by the material of least error that keeps it, with a base color
- * proportional to Cd, and returns true. */
+/* If less than FIT_HUE_KEPT remains, replaces out by the material of least error that keeps it, with a
+ * base color proportional to Cd, and returns true. */
 bool fit_keep_hue(const fit_metric *metric, const ogl1_surface *in, facet_legacy_target target,
                   pbr_surface *out);
 
-/* Closed-form roughness of an exponent, and the share of Cs that becomes F0, for textures: monotonic, any s >= 0. */
+/* Closed-form roughness of an exponent, and the share of Cs that becomes F0, for textures: monotonic, any
+ * s >= 0. */
 float perceptual_roughness_from_shininess(float shininess);
 float shininess_from_perceptual_roughness(float perceptual_roughness); /* its inverse, [0, 1e5] */
 float reflectance_share_from_shininess(float shininess);               /* F0 / Cs */
@@ -78,8 +81,8 @@ uint32_t pbr_to_ogl1_fit(const fit_metric *metric, const pbr_surface *in, facet_
 /* The optimal colors within the box for a given exponent. */
 void pbr_to_ogl1_fit_at(const fit_metric *metric, const pbr_surface *in, facet_legacy_target target,
                         float shininess, ogl1_surface *out);
-/* The same within the box by a LUT of integrals; and for textures, whose texels share one exponent: the optimal
- * colors for it. Linear target; within a few percent of the fit. */
+/* The same within the box by a LUT of integrals; and for textures, whose texels share one exponent: the
+ * optimal colors for it. Linear target; within a few percent of the fit. */
 uint32_t pbr_to_ogl1_closed(const pbr_surface *in, ogl1_surface *out);
 uint32_t pbr_to_ogl1_closed_at(const pbr_surface *in, float shininess, ogl1_surface *out);
 

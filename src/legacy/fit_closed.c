@@ -1,6 +1,6 @@
-/* fit_closed.c - conversions without quadrature: the roughness whose lobe is nearest to Blinn's, and linear least
- * squares with integrals from the LUT of fit_table_generate.c; and the usual formulas, which the others are measured
- * against. */
+/* fit_closed.c - conversions without quadrature: the roughness whose lobe is nearest to Blinn's, and
+ * linear least squares with integrals from the LUT of fit_table_generate.c; and the usual formulas, which
+ * the others are measured against. */
 #include <math.h>
 #include <string.h>
 
@@ -14,8 +14,9 @@
 
 /* ---- integrals of the shapes, by a LUT ---- */
 
-/* Products of the shapes that both models are made of: n = N.L, S = pi D V N.L of a roughness, P = (N.H)^s. The index is the
- * power of w, Schlick's weight. Integrals over all views and lights of fit_metric, with height-correlated masking. */
+/* Products of the shapes that both models are made of: n = N.L, S = pi D V N.L of a roughness, P =
+ * (N.H)^s. The index is the power of w, Schlick's weight. Integrals over all views and lights of
+ * fit_metric, with height-correlated masking. */
 typedef struct fit_gram {
     double nn[3];
     double nS[3], SS[3];
@@ -54,7 +55,8 @@ static double gram_value(const float *logs, const gram_place *p)
     return exp(gram_mean_log(logs + p->first, p->weight));
 }
 
-/* Each fills the products that depend on its argument, in any order, but _both last. Roughness in [0, 1], s >= 0. */
+/* Each fills the products that depend on its argument, in any order, but _both last. Roughness in [0, 1],
+ * s >= 0. */
 static gram_place gram_roughness(fit_gram *gram, double perceptual_roughness)
 {
     gram_place p = gram_find((log(fmax(perceptual_roughness, 1e-9)) - GRAM_LOG_R) / GRAM_STEP_R, GRAM_R);
@@ -134,8 +136,8 @@ static double gram_nearest_shininess(double perceptual_roughness)
 
 /* ---- OpenGL 1 to PBR ---- */
 
-/* The optimal roughness for exponents from 0 to 10^8 is near alpha = 1.5 / sqrt(s), the optimal strength near 8.5 /
- * (s + 2); neither depends on the colors unless these are clamped. */
+/* The optimal roughness for exponents from 0 to 10^8 is near alpha = 1.5 / sqrt(s), the optimal strength
+ * near 8.5 / (s + 2); neither depends on the colors unless these are clamped. */
 float perceptual_roughness_from_shininess(float shininess)
 {
     return (float)gram_nearest((double)shininess).perceptual_roughness;
@@ -184,8 +186,9 @@ static void wanted_of(const fit_gram *g, const ogl1_surface *in, int k, double w
     wanted[1] = Cd * g->nS[0] + Cs * g->SP[0];
 }
 
-/* The strength of the lobe: F = F90 at all angles, share[k] F90 for channel k, beside A n with the optimal A in [0,
- * 1 - F90], where base is 1. The square is convex in F90: the root of its derivative is found by bisection. */
+/* The strength of the lobe: F = F90 at all angles, share[k] F90 for channel k, beside A n with the optimal
+ * A in [0, 1 - F90], where base is 1. The square is convex in F90: the root of its derivative is found by
+ * bisection. */
 static double flat_reflectance(const fit_gram *g, const ogl1_surface *in, const double share[3])
 {
     double low = 0.0;
@@ -258,8 +261,8 @@ typedef struct core_search {
     double base[3];
 } core_search;
 
-/* Square of the difference minus the constant of the source; x: roughness, metallic. The Fresnel term of the lobe
- * is mix(F0 + (1 - F0) w, base (1 - w) + w, metallic). */
+/* Square of the difference minus the constant of the source; x: roughness, metallic. The Fresnel term of
+ * the lobe is mix(F0 + (1 - F0) w, base (1 - w) + w, metallic). */
 static double core_square(void *context, const double *x)
 {
     core_search *s = context;

@@ -1,7 +1,7 @@
-/* fit_drawn_test.c - OpenGL 1 as its programs display it, with sums of display values: the error against a plain
- * grid of directions in Python (numpy, 420 x 420 light directions per view, IEC 61966-2-1 in double), fits against
- * a general optimizer (scipy.optimize.least_squares), the grid for texels, default targets, and the hue of broad
- * highlights. */
+/* fit_drawn_test.c - OpenGL 1 as its programs display it, with sums of display values: the error against a
+ * plain grid of directions in Python (numpy, 420 x 420 light directions per view, IEC 61966-2-1 in
+ * double), fits against a general optimizer (scipy.optimize.least_squares), the grid for texels, default
+ * targets, and the hue of broad highlights. */
 #include <math.h>
 
 #include "tests/support/support.h"

@@ -1,5 +1,6 @@
-/* fit_gram.h - the nodes of the LUT that fit_table_generate.c computes when facet is built and fit_closed.c reads:
- * roughness by equal factors from that of ALPHA_MIRROR to 1, shininess by equal steps of log(1 + s). */
+/* fit_gram.h - the nodes of the LUT that fit_table_generate.c computes when facet is built and
+ * fit_closed.c reads: roughness by equal factors from that of ALPHA_MIRROR to 1, shininess by equal steps
+ * of log(1 + s). */
 #ifndef LEGACY_FIT_GRAM_H
 #define LEGACY_FIT_GRAM_H
 

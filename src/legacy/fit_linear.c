@@ -56,7 +56,8 @@ double fit_box(const fit_moments *m, const fit_bounds *bounds, double factor[2])
 
 /* ---- sums ---- */
 
-/* Adds an equation w (u a + v b - t)^2 to lane j of the six sums; inlined, so that the loops over j vectorise. */
+/* Adds an equation w (u a + v b - t)^2 to lane j of the six sums; inlined, so that the loops over j
+ * vectorise. */
 static inline __attribute__((always_inline)) void add_moments(double lane[][FIT_LANES], size_t j, double w,
                                                               double a, double b, double t)
 {
@@ -100,9 +101,9 @@ DISPATCH_AVX2 static void moments_of(const fit_problem *p, int k, fit_moments *o
     sum_lanes(lane, out, NULL);
 }
 
-/* The same for clamped radiance, linearized at factor: nodes where both the model and the source exceed white
- * contribute nothing. Without is_strict a model that is too bright counts with its excess, which keeps the square
- * convex. *square is that of clamped radiance. */
+/* The same for clamped radiance, linearized at factor: nodes where both the model and the source exceed
+ * white contribute nothing. Without is_strict a model that is too bright counts with its excess, which
+ * keeps the square convex. *square is that of clamped radiance. */
 DISPATCH_AVX2 static void display_moments_of(const fit_problem *p, int k, const double factor[2],
                                              bool is_strict, fit_moments *out, double *square)
 {
@@ -134,8 +135,9 @@ DISPATCH_AVX2 static void display_moments_of(const fit_problem *p, int k, const 
 
 /* ---- sums of display values ---- */
 
-/* The same with the model as a program displays it: a sum of display values whose light is linearized at factor
- * (Gauss-Newton). Nodes where both model and source exceed white contribute nothing. *square is that of light. */
+/* The same with the model as a program displays it: a sum of display values whose light is linearized at
+ * factor (Gauss-Newton). Nodes where both model and source exceed white contribute nothing. *square is
+ * that of light. */
 DISPATCH_AVX2 static void drawn_moments_of(const fit_problem *p, int k, const double factor[2],
                                            fit_moments *out, double *square)
 {

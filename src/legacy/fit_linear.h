@@ -1,8 +1,9 @@
-/* fit_linear.h - the linear part of a fit: for given roughness or shininess both models are sums of shapes whose
- * factors are the colors. For fit*.c only.
+/* fit_linear.h - the linear part of a fit: for given roughness or shininess both models are sums of shapes
+ * whose factors are the colors. For fit*.c only.
  *
  * * Channel k is M = factor[0] shape[0] + factor[1] shape[1] + rest, with factors within bounds. The search for the
- * nonlinear parameters sees only the minimum over the linear ones (Golub and Pereyra 1973, "variable projection"). */
+ * nonlinear parameters sees only the minimum over the linear ones (Golub and Pereyra 1973, "variable
+ * projection"). */
 #ifndef LEGACY_FIT_LINEAR_H
 #define LEGACY_FIT_LINEAR_H
 
@@ -40,8 +41,8 @@ void fit_problem_from_ogl1(fit_problem *p, const fit_metric *metric, facet_legac
 void fit_problem_from_pbr(fit_problem *p, const fit_metric *metric, facet_legacy_target target,
                           const pbr_surface *source);
 
-/* Finds the optimal factors of all channels for the present shapes; returns E^2. Equal channels with equal bounds
- * get equal factors. */
+/* Finds the optimal factors of all channels for the present shapes; returns E^2. Equal channels with equal
+ * bounds get equal factors. */
 double fit_factors(const fit_problem *p, const fit_bounds bounds[3], double factor[3][2]);
 
 #endif

@@ -1,5 +1,5 @@
-/* fit_metric.c - the difference between two models: the directions over which errors are integrated, radiance there,
- * and its error.
+/* fit_metric.c - the difference between two models: the directions over which errors are integrated,
+ * radiance there, and its error.
  *
  * * The formulas are shade/'s; here they are arranged as loops over arrays, which the compiler vectorises. Sums have
  * FIT_LANES partial sums, so their order does not depend on the width of the instructions. */
@@ -208,7 +208,8 @@ void fit_specular_lobe(const fit_metric *metric, float perceptual_roughness, flo
     }
 }
 
-/* (N.H)^s as exp(s log N.H) with log N.H from double: powf() of a rounded cosine would be off by 6 % at s = 10^6. */
+/* (N.H)^s as exp(s log N.H) with log N.H from double: powf() of a rounded cosine would be off by 6 % at s
+ * = 10^6. */
 void fit_highlight(const fit_metric *metric, float shininess, float *out)
 {
     float power[FIT_MAX_RINGS];
@@ -315,8 +316,8 @@ static inline double sum_of(size_t count, const float *values)
     return sum;
 }
 
-/* Products in float, sums in double: products are not differences, so each keeps its relative rounding of 6e-8. By
- * blocks, since a loop that does both does not vectorize well. */
+/* Products in float, sums in double: products are not differences, so each keeps its relative rounding of
+ * 6e-8. By blocks, since a loop that does both does not vectorize well. */
 DISPATCH_AVX2 static void add_squares(size_t count, const float *weight, const float *source,
                                       const float *model, squares *sum)
 {

@@ -12,8 +12,8 @@ enum {
     DISPLAY_STEPS = 1024
 };
 
-/* Nodes of a quadrature over half vectors, view by view. A ring is one angle between N and H; D and the highlight of
- * OpenGL 1 depend on nothing else. */
+/* Nodes of a quadrature over half vectors, view by view. A ring is one angle between N and H; D and the
+ * highlight of OpenGL 1 depend on nothing else. */
 struct fit_metric {
     pbr_masking masking;
     size_t ring_begin[FIT_VIEWS + 1];
@@ -36,8 +36,8 @@ void fit_quadrature(fit_metric *metric);
 void fit_specular_lobe(const fit_metric *metric, float perceptual_roughness, float *out);
 void fit_highlight(const fit_metric *metric, float shininess, float *out);
 
-/* The two lobes of a surface: pi f N.L = N.L diffuse[k] (1 - mix(shade[0], shade[1], w)) + lobe mix(F0[k], F90[k],
- * w) with Schlick's weight w. */
+/* The two lobes of a surface: pi f N.L = N.L diffuse[k] (1 - mix(shade[0], shade[1], w)) + lobe mix(F0[k],
+ * F90[k], w) with Schlick's weight w. */
 typedef struct fit_lobes {
     float diffuse[3], shade[2];
     float F0[3], F90[3];

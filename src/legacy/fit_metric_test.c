@@ -1,5 +1,5 @@
-/* fit_metric_test.c - the error of materials: its quadrature against known integrals and against a plain grid of
- * directions. */
+/* fit_metric_test.c - the error of materials: its quadrature against known integrals and against a plain
+ * grid of directions. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -50,8 +50,8 @@ static void test_weights(void **state)
         }
 }
 
-/* At normal incidence N.H is the cosine of half the light angle; with u = (N.H)^2 the integral of (N.H)^(2 s) N.L
- * dL is 4 pi int u^s (2 u - 1) du from 1/2 to 1. */
+/* At normal incidence N.H is the cosine of half the light angle; with u = (N.H)^2 the integral of (N.H)^(2
+ * s) N.L dL is 4 pi int u^s (2 u - 1) du from 1/2 to 1. */
 static void test_highlights(void **state)
 {
     (void)state;
@@ -166,7 +166,8 @@ static void compare_with_grid(const ogl1_surface *ogl1, const pbr_surface *pbr, 
         source += sums.source[v];
     }
     assert_near(e.E, sqrt(difference / source), 1e-4);
-    /* where radiance reaches 1 it has a kink, which Gauss's rule resolves to a part of a panel: up to 6e-4 here */
+    /* where radiance reaches 1 it has a kink, which Gauss's rule resolves to a part of a panel: up to 6e-4
+     * here */
     assert_near(e.E_display, sqrt(sums.difference_display / sums.source_display), 1e-3);
 }
 
@@ -203,8 +204,8 @@ static void test_equal(void **state)
     assert_near(e.E_display, 0.0, 1e-7);
 }
 
-/* Errors are relative: both radiances halved leave E as it is. Half the light is half of Cd and Cs, and of base and F where
- * base (1 - F) is linear in what is halved. */
+/* Errors are relative: both radiances halved leave E as it is. Half the light is half of Cd and Cs, and of
+ * base and F where base (1 - F) is linear in what is halved. */
 static void test_scale(void **state)
 {
     (void)state;

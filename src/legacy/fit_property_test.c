@@ -1,6 +1,6 @@
-/* fit_property_test.c - properties of all materials: conversions are finite and in range at the limits, fits are
- * never worse than LUTs and LUTs never worse than the usual formulas, fits are local minima, and permuted or scaled
- * inputs give permuted or scaled results. */
+/* fit_property_test.c - properties of all materials: conversions are finite and in range at the limits,
+ * fits are never worse than LUTs and LUTs never worse than the usual formulas, fits are local minima, and
+ * permuted or scaled inputs give permuted or scaled results. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -272,8 +272,8 @@ static int residuals(void *context, int count, int n, const double *u, double *o
     return 0;
 }
 
-/* The Levenberg-Marquardt method in nine variables, metallic among them, starting from the fit, a little inside the
- * bounds. */
+/* The Levenberg-Marquardt method in nine variables, metallic among them, starting from the fit, a little
+ * inside the bounds. */
 static double polished_error(const ogl1_surface *source, const pbr_surface *fit)
 {
     static polish p;
@@ -340,8 +340,8 @@ static void test_monotonic(void **state)
     }
 }
 
-/* Both directions are least squares with their own weights: a broad highlight returns narrower (roughness .6 gives
- * s 19; s 16 gives .596). From 50 on s is kept within 7 %, and Cs within a tenth. */
+/* Both directions are least squares with their own weights: a broad highlight returns narrower (roughness
+ * .6 gives s 19; s 16 gives .596). From 50 on s is kept within 7 %, and Cs within a tenth. */
 static void test_round_trip(void **state)
 {
     (void)state;
@@ -414,9 +414,9 @@ static void test_scaling(void **state)
     }
 }
 
-/* Results reflect no more than they receive, except by the formulas of glTF at grazing angles: with F90 = 1 the
- * base is dimmed by Fresnel at the half vector, and 2.5 % too much is reflected at 60 degrees. A constant Fresnel,
- * all that the closed form makes, never does. */
+/* Results reflect no more than they receive, except by the formulas of glTF at grazing angles: with F90 =
+ * 1 the base is dimmed by Fresnel at the half vector, and 2.5 % too much is reflected at 60 degrees. A
+ * constant Fresnel, all that the closed form makes, never does. */
 static void test_white_furnace(void **state)
 {
     (void)state;

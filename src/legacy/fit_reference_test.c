@@ -1,6 +1,6 @@
 /* fit_reference_test.c - the fits against an independent computation (numpy and scipy in double, separable
- * masking), whose tables are below. facet renders height-correlated masking: those errors are held to limits of
- * acceptance, and differ mostly at high roughness. */
+ * masking), whose tables are below. facet renders height-correlated masking: those errors are held to
+ * limits of acceptance, and differ mostly at high roughness. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -73,8 +73,8 @@ static const vignette_row vignette[] = {
     {30.0, 0.068560865, 0.079167267, 0.866777947},  {60.0, 0.037513180, 0.056860585, 0.500000030},
     {80.0, 0.011890705, 0.025238578, 0.173648178}};
 
-/* White metal of roughness 1 at a view angle of 30 degrees, light in the same plane. ramp: as in the vignette, D
- * times N.H and G times (H.L) (H.V). */
+/* White metal of roughness 1 at a view angle of 30 degrees, light in the same plane. ramp: as in the
+ * vignette, D times N.H and G times (H.L) (H.V). */
 static void vignette_at(double phi, double *step, double *ramp, double *ogl1, double shape[2], double s)
 {
     pbr_surface pbr = pbr_surface_default();
@@ -183,8 +183,9 @@ static const pbr_row pbr_rows[] = {
     {.8f, 1, {.8f, .1f}, 6.64, 4.32, .751, .171, 6.7, .270, .269, .171, .171}};
 enum { PBR_ROWS = sizeof pbr_rows / sizeof *pbr_rows };
 
-/* The rows of metallic 0.5 follow the vignette, which mixes the parameters (F0 of .04 and base, diffuse (1 - m) base (1 -
- * F)), not glTF, which mixes the reflectances. The former is a dielectric with that F0, which ior 0 can state. */
+/* The rows of metallic 0.5 follow the vignette, which mixes the parameters (F0 of .04 and base, diffuse (1
+ * - m) base (1 - F)), not glTF, which mixes the reflectances. The former is a dielectric with that F0,
+ * which ior 0 can state. */
 static pbr_surface row_surface(const pbr_row *row)
 {
     pbr_surface s = pbr_surface_default();
@@ -251,8 +252,8 @@ static void test_pbr_fits(void **state)
     }
 }
 
-/* With height-correlated masking the same materials are fitted as well, except white metal of roughness 1: GGX is
- * flatter there, and further from a cosine lobe: .158 instead of .132, the optimum. */
+/* With height-correlated masking the same materials are fitted as well, except white metal of roughness 1:
+ * GGX is flatter there, and further from a cosine lobe: .158 instead of .132, the optimum. */
 static void test_pbr_fits_correlated(void **state)
 {
     (void)state;
@@ -322,8 +323,8 @@ static void test_ogl1_naive(void **state)
     }
 }
 
-/* The optima agree to the last digit, with the same parameters. At Cs .5, s 4 the table has a specular factor of
- * .5, the fit .354: E hardly changes between F90 = F0 and F90 = .5 with an F0 of .33. */
+/* The optima agree to the last digit, with the same parameters. At Cs .5, s 4 the table has a specular
+ * factor of .5, the fit .354: E hardly changes between F90 = F0 and F90 = .5 with an F0 of .33. */
 static void test_ogl1_fits(void **state)
 {
     (void)state;
@@ -445,8 +446,8 @@ static double nearest_error(void *context, const double *x)
     return fit_box(&m, &unbounded, f->factor);
 }
 
-/* The LUT of the closed forms has height-correlated masking: within 2 % in roughness, and from s = 10 on within 3 %
- * in strength; below that up to 7 % less, since the lobe is brighter. */
+/* The LUT of the closed forms has height-correlated masking: within 2 % in roughness, and from s = 10 on
+ * within 3 % in strength; below that up to 7 % less, since the lobe is brighter. */
 static void test_exponents(void **state)
 {
     (void)state;
@@ -539,8 +540,8 @@ static void test_classics_fits(void **state)
     assert_near(mean[1][1], 0.1282, 0.0001);
 }
 
-/* facet's closed forms, within the limit of 10 % + .005, and better on average than the formulas and the table
- * (.099). */
+/* facet's closed forms, within the limit of 10 % + .005, and better on average than the formulas and the
+ * table (.099). */
 static void test_classics_closed(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* fit_to_ogl1.c - PBR to OpenGL 1 by fitting. For a given exponent OpenGL 1 is linear in Cd and Cs; the search is
- * along the exponent. */
+/* fit_to_ogl1.c - PBR to OpenGL 1 by fitting. For a given exponent OpenGL 1 is linear in Cd and Cs; the
+ * search is along the exponent. */
 #include <math.h>
 #include <string.h>
 
@@ -10,8 +10,9 @@
 
 static const double unlimited_shininess = 1e9; /* above that of the smoothest GGX lobe of the renderer */
 
-/* The smallest exponent for display values. A broader highlight would imitate the brighter shadow side of linear
- * light, but programs that do not gate highlights by N.L show it on unlit sides, and others as white. */
+/* The smallest exponent for display values. A broader highlight would imitate the brighter shadow side of
+ * linear light, but programs that do not gate highlights by N.L show it on unlit sides, and others as
+ * white. */
 static const double least_drawn_shininess = 2.0;
 
 typedef struct search {

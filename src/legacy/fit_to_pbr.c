@@ -1,9 +1,9 @@
 /* fit_to_pbr.c - OpenGL 1 to PBR by fitting, with KHR_materials_specular and KHR_materials_ior and without.
  *
  * * With ior 0, F0 is the specular color times specular and F90 is specular: Fresnel is constant for a white one, as
- * Blinn's highlight is. For given roughness, F90 and largest F0, radiance is linear in base color and the other F0;
- * the search is along those three, starting from the best constant Fresnel along roughness. Without the extensions it
- * is along roughness and metallic, and linear in base color. */
+ * Blinn's highlight is. For given roughness, F90 and largest F0, radiance is linear in base color and the
+ * other F0; the search is along those three, starting from the best constant Fresnel along roughness.
+ * Without the extensions it is along roughness and metallic, and linear in base color. */
 #include <math.h>
 #include <string.h>
 
@@ -41,8 +41,8 @@ static void specular_shapes(fit_problem *p, float F0, float F90)
     }
 }
 
-/* x: roughness, largest F0, position of F90 between it and 1. (These rather than F90: the error changes little
- * along the last, and a simplex takes many steps along diagonal valleys.) */
+/* x: roughness, largest F0, position of F90 between it and 1. (These rather than F90: the error changes
+ * little along the last, and a simplex takes many steps along diagonal valleys.) */
 static double specular_error(void *context, const double *x)
 {
     search *s = context;
@@ -102,9 +102,9 @@ static void begin_linear(search *s, const fit_metric *metric, const ogl1_surface
     s->problem.target = FACET_LEGACY_TARGET_LINEAR;
 }
 
-/* From x, from an ordinary dielectric and from the closed form: a broad highlight resembles a second diffuse term,
- * for which the first search may have lost its lobe, or kept one where grazing sheen is better. Narrow highlights
- * have a single valley. */
+/* From x, from an ordinary dielectric and from the closed form: a broad highlight resembles a second
+ * diffuse term, for which the first search may have lost its lobe, or kept one where grazing sheen is
+ * better. Narrow highlights have a single valley. */
 static void search_specular(search *s, const ogl1_surface *in, facet_legacy_target target, double x[3])
 {
     static const double step[3] = {0.05, 0.05, 0.1};

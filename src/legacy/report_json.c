@@ -12,10 +12,10 @@
  *  "summary": {"materials": count, "grades": {"good", "fair", "poor", "bad", "none"}, "mean_E": null or number,
  *    "worst": {"material", "index", "E", "E_disp", "E_drawn"} or null}}
  *
- * Values of OpenGL 1: Kd Ks Ke as in the file, Ns, d, illum, and the maps by their statements; "colors" and "dialect" if they
- * are the source. Of glTF: baseColor metallic roughness, ior specularFactor specularColor with those extensions, emissive,
- * alphaMode, extensions, and the textures by their slots. Of specular-glossiness: diffuse specular glossiness. Members with
- * default values are omitted. */
+ * Values of OpenGL 1: Kd Ks Ke as in the file, Ns, d, illum, and the maps by their statements; "colors"
+ * and "dialect" if they are the source. Of glTF: baseColor metallic roughness, ior specularFactor
+ * specularColor with those extensions, emissive, alphaMode, extensions, and the textures by their slots.
+ * Of specular-glossiness: diffuse specular glossiness. Members with default values are omitted. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
-/* specular_glossiness_shading_test.c - a specular-glossiness material and its conversion are shaded equally, to the
- * last bit. */
+/* specular_glossiness_shading_test.c - a specular-glossiness material and its conversion are shaded
+ * equally, to the last bit. */
 #include "legacy/convert_test_support.h"
 
 #include "shade/shade.h"

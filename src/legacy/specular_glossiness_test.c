@@ -1,4 +1,5 @@
-/* specular_glossiness_test.c - specular and ior are lossless; the loss of core glTF is reported; and the reverse. */
+/* specular_glossiness_test.c - specular and ior are lossless; the loss of core glTF is reported; and the
+ * reverse. */
 #include "legacy/convert_test_support.h"
 #include "legacy/specular_glossiness.h"
 

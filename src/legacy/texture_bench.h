@@ -1,5 +1,6 @@
-/* texture_bench.h - reads and makes textures for conversions: statistics of images, texels of one size, bakes of
- * rows in parallel, and the resulting PNG files, each made once. The meaning of the values is up to the caller. */
+/* texture_bench.h - reads and makes textures for conversions: statistics of images, texels of one size,
+ * bakes of rows in parallel, and the resulting PNG files, each made once. The meaning of the values is up
+ * to the caller. */
 #ifndef LEGACY_TEXTURE_BENCH_H
 #define LEGACY_TEXTURE_BENCH_H
 
@@ -35,16 +36,16 @@ void texture_bench_destroy(texture_bench *bench); /* NULL is allowed */
 
 const srgb_tables *texture_bench_srgb(const texture_bench *bench);
 
-/* Reads all images of the marked textures (one flag per texture of the scene), several at once; large JPEG files at
- * an eighth of their size. An image that cannot be read is a warning; fails with FACET_ERROR_MEMORY, and with
- * _LIMIT if one exceeds the size limit of the scene. */
+/* Reads all images of the marked textures (one flag per texture of the scene), several at once; large JPEG
+ * files at an eighth of their size. An image that cannot be read is a warning; fails with
+ * FACET_ERROR_MEMORY, and with _LIMIT if one exceeds the size limit of the scene. */
 facet_result texture_bench_survey(texture_bench *bench, const bool *is_wanted, const facet_log *log,
                                   facet_error *error);
 /* NULL: the texture was not surveyed, or its image cannot be read. */
 const texture_statistics *texture_bench_statistics(const texture_bench *bench, uint32_t texture);
 
-/* One row of a bake. in: RGBA texels of each input, as wide as the bake; NULL where the input is SCENE_NONE. out:
- * channel_count values per texel. */
+/* One row of a bake. in: RGBA texels of each input, as wide as the bake; NULL where the input is
+ * SCENE_NONE. out: channel_count values per texel. */
 typedef void texture_row(const void *parameters, uint32_t width, const uint8_t *const *in, uint8_t *out);
 
 enum { TEXTURE_INPUTS = 4 };
@@ -59,14 +60,15 @@ typedef struct texture_bake {
     size_t parameter_size;
 } texture_bake;
 
-/* Makes a texture of the size of the largest input with the sampler of the first, or finds an equal one. *texture:
- * its index in the scene after texture_bench_finish(); SCENE_NONE: an input cannot be decoded. Fails with
- * FACET_ERROR_MEMORY. */
+/* Makes a texture of the size of the largest input with the sampler of the first, or finds an equal one.
+ * *texture: its index in the scene after texture_bench_finish(); SCENE_NONE: an input cannot be decoded.
+ * Fails with FACET_ERROR_MEMORY. */
 facet_result texture_bench_bake(texture_bench *bench, const texture_bake *bake, uint32_t *texture,
                                 facet_error *error);
 
-/* A normal map of the heights in a texture. weights: of red, green, blue, alpha, whose sum is the height in [0, 1];
- * slope: rise of the whole range over the width of the image. 16-bit heights keep their precision. */
+/* A normal map of the heights in a texture. weights: of red, green, blue, alpha, whose sum is the height
+ * in [0, 1]; slope: rise of the whole range over the width of the image. 16-bit heights keep their
+ * precision. */
 typedef struct texture_relief {
     const char *name;
     uint32_t texture;
@@ -77,7 +79,8 @@ typedef struct texture_relief {
 facet_result texture_bench_relief(texture_bench *bench, const texture_relief *relief, uint32_t *texture,
                                   facet_error *error);
 
-/* Appends the new images and textures to the scene. Fails with FACET_ERROR_MEMORY; the scene is then unchanged. */
+/* Appends the new images and textures to the scene. Fails with FACET_ERROR_MEMORY; the scene is then
+ * unchanged. */
 facet_result texture_bench_finish(texture_bench *bench, facet_error *error);
 
 /* The number of new textures, and of requests that found an equal one. */

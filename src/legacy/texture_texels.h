@@ -14,8 +14,8 @@ facet_result texels_resize(const struct image *in, const scene_texture *texture,
                            uint32_t height, uint32_t thread_count, const facet_allocator *allocator,
                            struct image *out, facet_error *error);
 
-/* Counts the codes of an image as RGBA of 8 bits (texels_cache_get()), without decoding it whole where its codec can do
- * that. out is {0} on failure. */
+/* Counts the codes of an image as RGBA of 8 bits (texels_cache_get()), without decoding it whole where its
+ * codec can do that. out is {0} on failure. */
 facet_result texels_count(const facet_scene *scene, uint32_t image, uint32_t max_reduction,
                           uint32_t thread_count, texture_statistics *out, facet_error *error);
 

@@ -1,5 +1,5 @@
-/* caustic_map.h - sunlight that waves focus on the bed: irradiance of the beam relative to its mean, in nested
- * layers, each wider and coarser than the previous one. water/water_caustics.h fills them. */
+/* caustic_map.h - sunlight that waves focus on the bed: irradiance of the beam relative to its mean, in
+ * nested layers, each wider and coarser than the previous one. water/water_caustics.h fills them. */
 #ifndef OCEAN_CAUSTIC_MAP_H
 #define OCEAN_CAUSTIC_MAP_H
 

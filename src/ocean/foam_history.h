@@ -1,5 +1,6 @@
-/* foam_history.h - breaking of the longest tile in the last seconds, and the patterns of old foam: the inputs
- * of foam at a time. They are cached, since the next frame needs nearly the same ones; that changes no result. */
+/* foam_history.h - breaking of the longest tile in the last seconds, and the patterns of old foam: the
+ * inputs of foam at a time. They are cached, since the next frame needs nearly the same ones; that changes
+ * no result. */
 #ifndef OCEAN_FOAM_HISTORY_H
 #define OCEAN_FOAM_HISTORY_H
 

@@ -1,4 +1,5 @@
-/* Tests of foam_plane.h: normal distributions whatever the size and at all scales, the same for all threads, without seams. */
+/* Tests of foam_plane.h: normal distributions whatever the size and at all scales, the same for all
+ * threads, without seams. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

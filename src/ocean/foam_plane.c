@@ -1,5 +1,5 @@
-/* foam_plane.c - see foam_plane.h. Fields are shaped for their look, then mapped to normally distributed values
- * by rank. */
+/* foam_plane.c - see foam_plane.h. Fields are shaped for their look, then mapped to normally distributed
+ * values by rank. */
 
 #include <math.h>
 

@@ -21,17 +21,17 @@ void foam_plane_reduce(foam_plane *p);
 typedef struct foam_plane_value {
     float mean, hidden; /* variance within the footprint */
 } foam_plane_value;
-/* (u, v) in samples; texels: width of the footprint in samples. The level with the nearest texel size is read
- * without blending: since foam depends on mean and hidden variance, its coverage is the same on both sides of a
- * level change and no seam shows. */
+/* (u, v) in samples; texels: width of the footprint in samples. The level with the nearest texel size is
+ * read without blending: since foam depends on mean and hidden variance, its coverage is the same on both
+ * sides of a level change and no seam shows. */
 foam_plane_value foam_plane_read(const foam_plane *p, double u, double v, float texels);
 
 /* foam_lace() and inverse_normal() of the shader library. */
 float wave_foam_lace(float share, float mean, float variance);
 float wave_inverse_normal(float u);
 
-/* Highest on the borders of cells of many sizes and lowest in their centers: holes open in the centers, borders
- * get thin and break last. A cell is about FOAM_CELL_SAMPLES wide. */
+/* Highest on the borders of cells of many sizes and lowest in their centers: holes open in the centers,
+ * borders get thin and break last. A cell is about FOAM_CELL_SAMPLES wide. */
 enum { FOAM_CELL_SAMPLES = 16 };
 void foam_pattern_cells(foam_plane *p, uint32_t thread_count);
 /* Clouds of all sizes up to a quarter of the plane. */

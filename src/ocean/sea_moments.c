@@ -4,7 +4,8 @@
 #include <math.h>
 
 static const double PI_D = 3.14159265358979323846;
-/* The peak is 0.14 wide in ln k, directions of the narrowest swell 0.4 rad: the midpoint rule is exact to 1e-6 with these. */
+/* The peak is 0.14 wide in ln k, directions of the narrowest swell 0.4 rad: the midpoint rule is exact to
+ * 1e-6 with these. */
 static const double STEP = 0.02;
 enum { DIRECTIONS = 90 };
 
@@ -108,7 +109,8 @@ double sea_state_peak_k(const sea_state *s)
 
 /* Partition of wavenumbers among tiles.
  *
- * Eight peak wavelengths span the first tile: fewer would show how few directions a tile has. Each next one is
+ * Eight peak wavelengths span the first tile: fewer would show how few directions a tile has. Each next
+ * one is
  * 0.9137 N / 24 times shorter, with N its samples: it takes over where it holds six waves and the previous tile
  * has 4.4 samples per wave. The factor is not a ratio of small integers, so that the tiles do not repeat
  * together. The last tile ends at four samples per wave: fewer would show the interpolation. */

@@ -5,8 +5,8 @@
 
 #include <math.h>
 
-/* S = alpha g^2 omega^-5 exp(-1.25 (omega_p / omega)^4) gamma^r, r = exp(-(omega - omega_p)^2 / (2 sigma^2 omega_p^2)).
- * Hasselmann et al. 1973; with gamma 1 that of Pierson and Moskowitz 1964. */
+/* S = alpha g^2 omega^-5 exp(-1.25 (omega_p / omega)^4) gamma^r, r = exp(-(omega - omega_p)^2 / (2 sigma^2
+ * omega_p^2)). Hasselmann et al. 1973; with gamma 1 that of Pierson and Moskowitz 1964. */
 static double jonswap(const wave_system *w, double omega)
 {
     double x = w->peak_omega / omega;
@@ -17,8 +17,8 @@ static double jonswap(const wave_system *w, double omega)
 }
 
 /* Depth attenuation of a spectrum: tanh^2(kH) / (1 + 2kH / sinh 2kH), k from omega^2 = g k tanh kH.
- * Kitaigorodskii et al. 1975; Bouws et al. 1985. As there, k ignores surface tension, which matters only where
- * the factor is 1. */
+ * Kitaigorodskii et al. 1975; Bouws et al. 1985. As there, k ignores surface tension, which matters only
+ * where the factor is 1. */
 static double kitaigorodskii(double omega, double depth_m)
 {
     double omega_h = omega * sqrt(depth_m / GRAVITY);
@@ -121,8 +121,9 @@ double sea_density(const sea_state *s, double kx, double kz)
 
 static const double PI_D = 3.14159265358979323846;
 
-/* D = Q(s) |cos(theta / 2)|^2s, Q = Gamma(s + 1) / (2 sqrt(pi) Gamma(s + 1/2)). Hasselmann et al. 1980, with the elongation
- * that Horvath 2015 adds: 16 tanh(omega_p / omega) xi^2, which makes the long waves long-crested. */
+/* D = Q(s) |cos(theta / 2)|^2s, Q = Gamma(s + 1) / (2 sqrt(pi) Gamma(s + 1/2)). Hasselmann et al. 1980,
+ * with the elongation that Horvath 2015 adds: 16 tanh(omega_p / omega) xi^2, which makes the long waves
+ * long-crested. */
 static wave_directions hasselmann(const wave_system *w, double omega)
 {
     double x = omega / w->peak_omega;
@@ -133,7 +134,8 @@ static wave_directions hasselmann(const wave_system *w, double omega)
     return (wave_directions){FACET_SEA_SPREADING_HASSELMANN, norm, s};
 }
 
-/* D = beta sech^2(beta theta) / (2 tanh(beta pi)). Donelan, Hamilton and Hui 1985; beyond 1.6 omega_p Banner 1990. */
+/* D = beta sech^2(beta theta) / (2 tanh(beta pi)). Donelan, Hamilton and Hui 1985; beyond 1.6 omega_p
+ * Banner 1990. */
 static wave_directions donelan_banner(const wave_system *w, double omega)
 {
     double x = fmax(omega / w->peak_omega, 0.56);

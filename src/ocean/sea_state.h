@@ -42,8 +42,8 @@ typedef struct sea_state {
     wave_system systems[SEA_SYSTEMS]; /* wind sea, swell */
     double depth_m;                   /* INFINITY: deep */
     double wind_mps, wind_direction;
-    /* Beyond taper_k the wind sea's density is multiplied by taper, [0, 1]: in light airs, where the formulas give steeper
-     * tails than Cox and Munk measured. */
+    /* Beyond taper_k the wind sea's density is multiplied by taper, [0, 1]: in light airs, where the
+     * formulas give steeper tails than Cox and Munk measured. */
     double taper_k, taper;
     sea_bands bands;
 } sea_state;
@@ -110,12 +110,12 @@ double sea_state_peak_k(const sea_state *s);
 
 /* ---- measured seas ---- */
 
-/* Slope variance of a clean sea along and across the wind, whose sum is 0.003 + 0.00512 U (Cox and Munk 1954).
- * Below 1 m/s, where they have no data, the 0.003 falls to 0: without wind the sea is a mirror. */
+/* Slope variance of a clean sea along and across the wind, whose sum is 0.003 + 0.00512 U (Cox and Munk
+ * 1954). Below 1 m/s, where they have no data, the 0.003 falls to 0: without wind the sea is a mirror. */
 void cox_munk_slopes(double wind_mps, double out[2]);
 /* Whitecap coverage, [0, 0.9], as some water is visible in any wind: 3.84e-6 U^3.41 (Monahan and
- * O'Muircheartaigh 1980) from 5 m/s on. Below 3.7 m/s no crest breaks (Callaghan et al. 2008, whose law begins
- * there); smooth in between. */
+ * O'Muircheartaigh 1980) from 5 m/s on. Below 3.7 m/s no crest breaks (Callaghan et al. 2008, whose law
+ * begins there); smooth in between. */
 double whitecap_coverage(double wind_mps);
 
 /* Whether there is a bed; one that is infinitely deep is none. */

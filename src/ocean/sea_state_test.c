@@ -1,5 +1,5 @@
-/* Tests of sea_state.h: heights and periods, slopes and curvatures against tables that were computed independently from the same
- * papers; norms of directions; dispersion; limits. */
+/* Tests of sea_state.h: heights and periods, slopes and curvatures against tables that were computed
+ * independently from the same papers; norms of directions; dispersion; limits. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,8 +1,9 @@
-/* slope_filter.c - what a footprint hides of the waves: total less resolved, for each component of the slopes' covariance
- * (Bruneton, Neyret and Holzschuch 2010).
+/* slope_filter.c - what a footprint hides of the waves: total less resolved, for each component of the
+ * slopes' covariance (Bruneton, Neyret and Holzschuch 2010).
  *
- * The total is Cox and Munk's along the wind, with the swell's own. The resolved part is what waves_query.c leaves of each wave
- * on average, squared. Along one axis, with texels of width b and K = k b:
+ * The total is Cox and Munk's along the wind, with the swell's own. The resolved part is what
+ * waves_query.c leaves of each wave on average, squared. Along one axis, with texels of width b and K = k
+ * b:
  *     level l, between texels    A_l^2 (2 + cos K) / 3,              A_l: mean of 2^l samples
  *     level l times level l + 1  A_l A_(l+1) (70 cos K/2 + 25 cos 3K/2 + cos 5K/2) / 96
  *     level 0, cubics            (228 + 71 cos K - 20 cos 2K + cos 3K) / 280

@@ -1,5 +1,5 @@
-/* Tests of slope_filter.c and foam_rule_create(): what is read of waves and what is said to be hidden is all there is; foam covers what
- * it should at every footprint. */
+/* Tests of slope_filter.c and foam_rule_create(): what is read of waves and what is said to be hidden is
+ * all there is; foam covers what it should at every footprint. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -35,8 +35,8 @@ static void footprints_are_geometric(void **state)
     assert_true(slope_filter_place(0.0f) == 0.0f && slope_filter_place(1e9f) == 63.0f);
 }
 
-/* Total less residual is what waves_at() reads, mean over seeds and places, for footprints from a fraction of a sample to more
- * than the longest waves. Directions of tiles and wind are all different. */
+/* Total less residual is what waves_at() reads, mean over seeds and places, for footprints from a fraction
+ * of a sample to more than the longest waves. Directions of tiles and wind are all different. */
 static void hidden_and_read_slopes_are_all_there_are(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* water_optics.h - optical properties of water, from spectra to linear Rec.709: absorption, scattering, diffuse
- * reflectance. Reference: docs/ocean.md, "Water". */
+/* water_optics.h - optical properties of water, from spectra to linear Rec.709: absorption, scattering,
+ * diffuse reflectance. Reference: docs/ocean.md, "Water". */
 #ifndef OCEAN_WATER_OPTICS_H
 #define OCEAN_WATER_OPTICS_H
 
@@ -22,8 +22,8 @@ facet_result water_optics_create(const facet_water *water, water_optics *out, fa
 /* Quan and Fry 1995, equation 3; lambda in [400, 700] nm. */
 double water_ior(double lambda_nm, double salinity, double temperature_C);
 
-/* Transmittance of white light (D65) through pure water, per channel, from the full spectrum; it may leave the
- * gamut: below 0. */
+/* Transmittance of white light (D65) through pure water, per channel, from the full spectrum; it may leave
+ * the gamut: below 0. */
 void pure_water_transmittance(double way_m, double out[3]);
 
 #endif

@@ -16,8 +16,8 @@ static const double pure_absorption[TABLE_COUNT] = {
     0.06190, 0.06950, 0.08960, 0.13510, 0.22240, 0.26440, 0.27550, 0.29160, 0.31080,
     0.34000, 0.41000, 0.43900, 0.46500, 0.51600, 0.62400, 0.82700, 1.23100};
 
-/* Absorption of chlorophyll over that at 440 nm. Prieur and Sathyendranath 1981, table 3; beyond 400 and 700 nm the value
- * there. */
+/* Absorption of chlorophyll over that at 440 nm. Prieur and Sathyendranath 1981, table 3; beyond 400 and
+ * 700 nm the value there. */
 static const double chlorophyll_absorption[TABLE_COUNT] = {
     0.687, 0.687, 0.687, 0.828, 0.913, 0.973, 1.000, 0.944, 0.917, 0.870, 0.798, 0.750,
     0.668, 0.618, 0.528, 0.474, 0.416, 0.357, 0.294, 0.276, 0.291, 0.282, 0.236, 0.252,

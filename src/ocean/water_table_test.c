@@ -1,4 +1,5 @@
-/* water_table_test.c - the table against the integrals that it is made of, between its places; and what a sea reflects of all of the sky. */
+/* water_table_test.c - the table against the integrals that it is made of, between its places; and what a
+ * sea reflects of all of the sky. */
 #include "shade/testing/test_support.h"
 
 #include "ocean/water_table.h"
@@ -55,8 +56,8 @@ static void test_flat(void **state)
     }
 }
 
-/* Reflectance for light from all of the sky: golden numbers of Smith's masking, as oceanography's 0.06. Waves of all lengths reflect a little
- * less at grazing angles. */
+/* Reflectance for light from all of the sky: golden numbers of Smith's masking, as oceanography's 0.06.
+ * Waves of all lengths reflect a little less at grazing angles. */
 static void test_sky(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
 /* wave_amplitudes.c - samples the waves of a tile from the spectrum, and advances their phases. Tessendorf
- * 2001, with the factor that gives the field the variance of the spectrum: h0(k) = 1/2 sqrt(Psi(k)) dk (xi_r +
- * i xi_i). */
+ * 2001, with the factor that gives the field the variance of the spectrum: h0(k) = 1/2 sqrt(Psi(k)) dk
+ * (xi_r + i xi_i). */
 #include "ocean/wave_amplitudes.h"
 
 #include <math.h>

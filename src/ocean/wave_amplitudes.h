@@ -4,7 +4,8 @@
 
 #include "ocean/waves.h"
 
-/* A wave vector k = n 2 pi / length and its opposite, whose field is the conjugate: n_z > 0, or n_z = 0 and n_x > 0. */
+/* A wave vector k = n 2 pi / length and its opposite, whose field is the conjugate: n_z > 0, or n_z = 0
+ * and n_x > 0. */
 typedef struct wave_mode {
     int32_t n_x, n_z;
     float stretch;  /* choppiness coth(k depth) / k */
@@ -28,7 +29,8 @@ typedef struct wave_amplitudes {
 wave_amplitudes *wave_amplitudes_create(const waves *w, uint32_t tile);
 void wave_amplitudes_destroy(wave_amplitudes *a); /* NULL is allowed */
 
-/* h(k, t) = h0(k) e^-i omega t + conj(h0(-k)) e^i omega t, and its derivative by time (NULL: not wanted); complex. */
+/* h(k, t) = h0(k) e^-i omega t + conj(h0(-k)) e^i omega t, and its derivative by time (NULL: not wanted);
+ * complex. */
 void wave_mode_at(const wave_mode *m, double phase_time_s, float h[2], float rate[2]);
 /* Evaluates modes [begin, end) into now and rate. */
 void wave_amplitudes_evolve(wave_amplitudes *a, double time_s, size_t begin, size_t end);

@@ -1,7 +1,8 @@
-/* wave_patches.h - a tile without visible repetition: the plane is covered with blended patches from random
- * places of the tile. For Gaussian fields, a blend whose squared weights sum to 1 is again Gaussian, with the
- * same variance and spectrum (Heitz and Neyret 2018). The longest tile and those with a spectral peak are read
- * this way: they have nearly all of the elevation. The others have a twentieth, and repeat.
+/* wave_patches.h - a tile without visible repetition: the plane is covered with blended patches from
+ * random places of the tile. For Gaussian fields, a blend whose squared weights sum to 1 is again
+ * Gaussian, with the same variance and spectrum (Heitz and Neyret 2018). The longest tile and those with a
+ * spectral peak are read this way: they have nearly all of the elevation. The others have a twentieth, and
+ * repeat.
  *
  * Patches lie around the vertices of equilateral triangles with edges of one tile length; the weight of a
  * vertex is the square of its barycentric coordinate above a quarter: half of the plane blends two patches, a

@@ -1,8 +1,8 @@
-/* wave_transform_kiss.c - see wave_transform.h. One-dimensional transforms are kissfft's; rows without waves, at least half of
- * them, are left out.
+/* wave_transform_kiss.c - see wave_transform.h. One-dimensional transforms are kissfft's; rows without
+ * waves, at least half of them, are left out.
  *
- * Two real fields share a complex transform: A + iB is read back as its real and imaginary part, and its coefficient is
- * Â + iB̂ at k and conj(Â) + i conj(B̂) at -k. */
+ * Two real fields share a complex transform: A + iB is read back as its real and imaginary part, and its
+ * coefficient is Â + iB̂ at k and conj(Â) + i conj(B̂) at -k. */
 #include "ocean/wave_transform.h"
 
 #include <math.h>

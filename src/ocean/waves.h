@@ -1,5 +1,5 @@
-/* waves.h - a sea sampled from its spectrum: the sum of periodic tiles of different length, each with its band
- * of wavenumbers. Everything is a function of seed and time, independent of resolution and threads.
+/* waves.h - a sea sampled from its spectrum: the sum of periodic tiles of different length, each with its
+ * band of wavenumbers. Everything is a function of seed and time, independent of resolution and threads.
  *
  * The longest tile, and those with the peak of the wind sea or the swell, are read without repetition: see
  * wave_patches.h. */
@@ -59,8 +59,8 @@ typedef struct waves {
     uint32_t thread_count;
 } waves;
 
-/* At time 0. sea_state_create() has checked desc. FACET_ERROR_MEMORY; FACET_ERROR_UNSUPPORTED: facet was built
- * without kissfft, and there are waves. */
+/* At time 0. sea_state_create() has checked desc. FACET_ERROR_MEMORY; FACET_ERROR_UNSUPPORTED: facet was
+ * built without kissfft, and there are waves. */
 facet_result waves_create(const facet_sea_desc *desc, const sea_state *state, waves *out, facet_error *error);
 /* The time of glints, with a resolution of 1 ms in float: it wraps every 4.5 hours. */
 static inline float waves_glint_time(const waves *w)
@@ -89,16 +89,17 @@ typedef struct wave_point {
 wave_point waves_at(const waves *w, double x, double z, float footprint_m);
 /* The surface at the world position (X, Z), found by iteration. rest: rest position of the water there. */
 wave_point waves_above(const waves *w, double X, double Z, float footprint_m, double rest[2]);
-/* Height alone, for marching. Linear between samples, where the others are cubic: they differ by a hundredth of
- * the height. */
+/* Height alone, for marching. Linear between samples, where the others are cubic: they differ by a
+ * hundredth of the height. */
 float waves_height(const waves *w, double X, double Z, float footprint_m);
-/* The same, starting from a displacement estimate, such as that of a nearby place, and returning the one found:
- * half the time for short steps. {0, 0}: no estimate. */
+/* The same, starting from a displacement estimate, such as that of a nearby place, and returning the one
+ * found: half the time for short steps. {0, 0}: no estimate. */
 float waves_height_near(const waves *w, double X, double Z, float footprint_m, float displacement[2]);
 /* Vertical velocity of the water at rest position (x, z), m/s: a sum over all waves, about 50 us. */
 double waves_velocity(const waves *w, double x, double z);
 
-/* The geometry of a wave_point: exact normal of the displaced surface (Y > 0), Jacobian, convergence q = -(Dxx + Dzz). */
+/* The geometry of a wave_point: exact normal of the displaced surface (Y > 0), Jacobian, convergence q =
+ * -(Dxx + Dzz). */
 typedef struct wave_shape {
     float normal[3];
     float jacobian;

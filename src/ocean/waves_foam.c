@@ -42,8 +42,8 @@ static void scale_share(float *share, size_t count, double mean)
         share[i] = (float)fmin(factor * (double)share[i], 1.0);
 }
 
-/* Mapping of patterns to the water: wide ones scale with the waves, the finest cells hardly. They are stretched
- * along the wind, with its speed: foam gathers in windrows. */
+/* Mapping of patterns to the water: wide ones scale with the waves, the finest cells hardly. They are
+ * stretched along the wind, with its speed: foam gathers in windrows. */
 static void place_readings(const waves *w, foam_reading *readings)
 {
     double size = (double)w->tiles[0].size, wind = w->state.wind_mps;
@@ -148,8 +148,8 @@ foam_seen waves_foam_at(const waves_foam *f, double x, double z, float footprint
 /* Where crests break: thresholds of the convergence q = -(D_xx + D_zz), which is Gaussian as the waves are,
  * calibrated such that foam covers what Monahan and O'Muircheartaigh saw.
  *
- * Coverage is an area seen from above, and where water converges there is less of it: the tail is weighted with the Jacobian,
- * whose mean at a given q is 1 - q + (q^2 - sigma^2) / 4 for waves from all sides:
+ * Coverage is an area seen from above, and where water converges there is less of it: the tail is weighted
+ * with the Jacobian, whose mean at a given q is 1 - q + (q^2 - sigma^2) / 4 for waves from all sides:
  *     W(z) = Q(z) - sigma phi(z) (1 - sigma z / 4),  q = z sigma. */
 
 static const double ACTIVE_SHARE = 0.1; /* active crests, as a share of all foam */

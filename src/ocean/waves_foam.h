@@ -1,13 +1,13 @@
 /* waves_foam.h - foam of breaking crests and of what they leave behind, at the time of the waves.
  *
- * Foam rests in the water and fades as e^(-age / decay) after a crest has broken: the amount at a rest position
- * is the maximum of past activity, faded by its age. It is evaluated for each time from five decay times back,
- * so that no frame depends on another.
+ * Foam rests in the water and fades as e^(-age / decay) after a crest has broken: the amount at a rest
+ * position is the maximum of past activity, faded by its age. It is evaluated for each time from five
+ * decay times back, so that no frame depends on another.
  *
- * Whether a place of the longest tile breaks follows from its own convergence and, for the shorter waves, from
- * a probability; the amount is a coverage of the area around. Within that area, foam lies where a sum of clouds
- * and cells of three sizes exceeds the quantile of the coverage: much foam is a patch with ragged edges, less
- * has holes of many sizes, little is thin threads.
+ * Whether a place of the longest tile breaks follows from its own convergence and, for the shorter waves,
+ * from a probability; the amount is a coverage of the area around. Within that area, foam lies where a sum
+ * of clouds and cells of three sizes exceeds the quantile of the coverage: much foam is a patch with
+ * ragged edges, less has holes of many sizes, little is thin threads.
  *
  * The convergence of a ripple alone makes no foam: ripples curl over without air in them, and would dot all
  * crests. Waves shorter than those of the longest tile enter only through the probability. */
@@ -34,9 +34,9 @@ typedef struct waves_foam {
     foam_reading readings[FOAM_READINGS];
 } waves_foam;
 
-/* At the current time of w, which outlives the foam. The mean coverage is rule->coverage. decay_s: about 3.7 s
- * in sea water, 2.5 s in fresh. *history: of the same waves, NULL: is created; the caller destroys it, after
- * the foam. FACET_ERROR_MEMORY. */
+/* At the current time of w, which outlives the foam. The mean coverage is rule->coverage. decay_s: about
+ * 3.7 s in sea water, 2.5 s in fresh. *history: of the same waves, NULL: is created; the caller destroys
+ * it, after the foam. FACET_ERROR_MEMORY. */
 facet_result waves_foam_create(const waves *w, const foam_rule *rule, double decay_s,
                                const facet_allocator *allocator, foam_history **history, waves_foam *out,
                                facet_error *error);

@@ -1,10 +1,11 @@
 /* waves_query.c - lookups of tiles: sums over all of them at a rest position, and the water above or below a
  * world position; patches, the shape of the surface, velocity.
  *
- * A tile is filtered to the square of the footprint: two adjacent mip levels are blended, each interpolated
- * linearly between four texels. Level l is used alone where a texel is as wide as the footprint. Where samples
- * are wider than the footprint, Catmull-Rom cubics through sixteen of them take over: slopes without kinks.
- * Marching reads linearly there, too. slope_filter.c models the resulting variance. */
+ * A tile is filtered to the square of the footprint: two adjacent mip levels are blended, each
+ * interpolated linearly between four texels. Level l is used alone where a texel is as wide as the
+ * footprint. Where samples are wider than the footprint, Catmull-Rom cubics through sixteen of them take
+ * over: slopes without kinks. Marching reads linearly there, too. slope_filter.c models the resulting
+ * variance. */
 #include "ocean/waves_reading.h"
 
 #include <math.h>
@@ -29,8 +30,8 @@ static inline float wrapped(double samples, uint32_t size)
     return (float)(whole & (int64_t)(size - 1)) + (float)(samples - (double)whole);
 }
 
-/* The blend factor is linear in the footprint: without a logarithm and continuous. False: the tile is filtered
- * out. */
+/* The blend factor is linear in the footprint: without a logarithm and continuous. False: the tile is
+ * filtered out. */
 static inline bool read_at(wave_tile_reading *r, const wave_tile *t, double x, double z, float footprint_m)
 {
     float texels = footprint_m * (float)t->samples_per_m;
@@ -76,7 +77,8 @@ waves_reading waves_reading_of(const waves *w, double x, double z, float footpri
     return r;
 }
 
-/* Four texels of a level and their weights. Texel i of level l is the mean of samples 2^l i to 2^l (i + 1) - 1. */
+/* Four texels of a level and their weights. Texel i of level l is the mean of samples 2^l i to 2^l (i + 1)
+ * - 1. */
 typedef struct taps {
     const float *texels[4];
     float weights[4];
@@ -270,9 +272,9 @@ static inline void guess_rest(const waves_reading *r, float displacement[2])
     }
 }
 
-/* Fixed-point iteration x <- X - D(x): each step reduces the error by about the root of the slope variance, by
- * less in steep places. It ends where water moves by less than a fiftieth of the footprint or 0.2 mm. In folded
- * water it cycles; halved steps end that. */
+/* Fixed-point iteration x <- X - D(x): each step reduces the error by about the root of the slope
+ * variance, by less in steep places. It ends where water moves by less than a fiftieth of the footprint or
+ * 0.2 mm. In folded water it cycles; halved steps end that. */
 static inline float find_rest(const waves_reading *r, float footprint_m, float displacement[2])
 {
     enum { FULL_STEPS = 6, MAX_STEPS = 12 };
@@ -334,8 +336,8 @@ static void add_bounds(wave_bounds *sum, const wave_bounds *b, float scale)
     sum->farthest += scale * b->farthest;
 }
 
-/* A blend of two levels is bounded by the finer one; one of patches, whose squared weights sum to 1, by sqrt(3)
- * times the tile. */
+/* A blend of two levels is bounded by the finer one; one of patches, whose squared weights sum to 1, by
+ * sqrt(3) times the tile. */
 wave_bounds waves_bounds(const waves *w, float footprint_m)
 {
     wave_bounds sum = {w->level_m, w->level_m, 0.0f, 0.0f};

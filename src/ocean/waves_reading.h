@@ -30,8 +30,8 @@ waves_reading waves_reading_of(const waves *w, double x, double z, float footpri
  * twentyfold. */
 float waves_reading_height(const waves_reading *r, const float offset[2], float displacement[2]);
 
-/* As waves_at() for water at rest `back` m before the place: -offset, or the displacement of the water that is
- * there. */
+/* As waves_at() for water at rest `back` m before the place: -offset, or the displacement of the water
+ * that is there. */
 wave_point waves_reading_point(const waves_reading *r, const float back[2]);
 
 #endif

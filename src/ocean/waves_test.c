@@ -1,4 +1,5 @@
-/* Tests of waves.h: that a sea drawn from a spectrum has its statistics, moves as waves do, and is read as it was drawn. */
+/* Tests of waves.h: that a sea drawn from a spectrum has its statistics, moves as waves do, and is read as
+ * it was drawn. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -87,9 +87,9 @@ static void add_title(text *out, const char *title)
     text_add(out, "</title>");
 }
 
-/* Renumbers the ids of images and groups from 1, since cairo counts on from file to file and the same drawing would have
- * different bytes, and adds <title> (UTF-8; NULL, "": none) for screen readers and tooltips, since cairo writes text as
- * outlines. False: out of memory; svg is unchanged. */
+/* Renumbers the ids of images and groups from 1, since cairo counts on from file to file and the same
+ * drawing would have different bytes, and adds <title> (UTF-8; NULL, "": none) for screen readers and
+ * tooltips, since cairo writes text as outlines. False: out of memory; svg is unchanged. */
 static bool tidy_svg(text *svg, const char *title)
 {
     if (!svg->data)

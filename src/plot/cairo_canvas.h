@@ -1,5 +1,5 @@
-/* cairo_canvas.h - the canvas of a chart: paths, text and images in pixels, y down, as SVG, PDF or PNG. Only this
- * file and cairo_library.c use cairo.
+/* cairo_canvas.h - the canvas of a chart: paths, text and images in pixels, y down, as SVG, PDF or PNG.
+ * Only this file and cairo_library.c use cairo.
  *
  * * Drawing errors are kept and returned by canvas_finish(). Coordinates beyond 1e6 px overflow in cairo: clip first. */
 #ifndef PLOT_CAIRO_CANVAS_H
@@ -62,8 +62,8 @@ void canvas_clip(canvas *c);
 void canvas_fill(canvas *c, canvas_color color);
 void canvas_draw(canvas *c, const canvas_stroke *stroke);
 
-/* text is valid UTF-8 without control characters (see label_clean()), drawn from (x, y) along the baseline, rotated
- * clockwise by angle_rad. */
+/* text is valid UTF-8 without control characters (see label_clean()), drawn from (x, y) along the
+ * baseline, rotated clockwise by angle_rad. */
 double canvas_text_width(canvas *c, canvas_font font, const char *text);
 void canvas_text(canvas *c, double x, double y, double angle_rad, canvas_font font, canvas_color color,
                  const char *text);

@@ -1,5 +1,5 @@
-/* cairo_library.h - the functions of libcairo, loaded when something is drawn: linking it with its X11 and font
- * libraries would delay every start of a program by milliseconds. */
+/* cairo_library.h - the functions of libcairo, loaded when something is drawn: linking it with its X11 and
+ * font libraries would delay every start of a program by milliseconds. */
 #ifndef PLOT_CAIRO_LIBRARY_H
 #define PLOT_CAIRO_LIBRARY_H
 

@@ -1,5 +1,5 @@
-/* chart.h - charts as data: curves and fields that plots make, to be drawn by cairo or written as CSV. Independent of
- * shading.
+/* chart.h - charts as data: curves and fields that plots make, to be drawn by cairo or written as CSV.
+ * Independent of shading.
  *
  * * A chart is a grid of panels. All memory is in an arena; strings are UTF-8. */
 #ifndef PLOT_CHART_H
@@ -59,8 +59,8 @@ typedef enum chart_panel_kind {
     CHART_XY,
     CHART_POLAR, /* a half disc: angles -90 to 90 degrees */
     CHART_FIELD, /* of field, with axes */
-    /* of field, seen from above the hemisphere: rings at 30, 60, 90 degrees, no axes. x and y are those of the
-     * direction, so that the horizon is at radius 1; azimuth 0 is at the right */
+    /* of field, seen from above the hemisphere: rings at 30, 60, 90 degrees, no axes. x and y are those of
+     * the direction, so that the horizon is at radius 1; azimuth 0 is at the right */
     CHART_DISC,
     CHART_SURFACE
 } chart_panel_kind;
@@ -87,12 +87,12 @@ typedef struct chart {
     const chart_panel *panels; /* row by row */
 } chart;
 
-/* Draws a chart as SVG, PDF or PNG. Fails with FACET_ERROR_SYSTEM if cairo is missing. Equal charts give equal
- * bytes. */
+/* Draws a chart as SVG, PDF or PNG. Fails with FACET_ERROR_SYSTEM if cairo is missing. Equal charts give
+ * equal bytes. */
 facet_result chart_draw(const chart *c, facet_plot_format format, const facet_allocator *allocator,
                         unsigned char **bytes, size_t *size, facet_error *error);
-/* Writes the numbers of a chart: a block per panel after a comment line, with a header line and one row per x;
- * curves of a panel share the column of x if it is the same. */
+/* Writes the numbers of a chart: a block per panel after a comment line, with a header line and one row
+ * per x; curves of a panel share the column of x if it is the same. */
 facet_result chart_write_csv(const chart *c, const facet_allocator *allocator, unsigned char **bytes,
                              size_t *size, facet_error *error);
 

@@ -23,11 +23,12 @@ typedef struct axis_view {
     double from, to; /* px of the ticks' minimum and maximum */
 } axis_view;
 
-/* Chooses range and ticks for a length in px; labels stand upright beside a vertical axis, in a row below others. */
+/* Chooses range and ticks for a length in px; labels stand upright beside a vertical axis, in a row below
+ * others. */
 void axis_create(canvas *c, canvas_font font, const chart_axis *axis, axis_extent data, double length,
                  bool is_vertical, axis_view *out);
-/* The position of value, 0 to 1 inside the range, limited to +-1e6; NaN: none (not a number, or not positive on a
- * logarithmic axis). */
+/* The position of value, 0 to 1 inside the range, limited to +-1e6; NaN: none (not a number, or not
+ * positive on a logarithmic axis). */
 double axis_fraction(const axis_view *a, double value);
 /* The same in px. */
 double axis_place(const axis_view *a, double value);

@@ -1,5 +1,5 @@
-/* chart_csv.c - the numbers of a chart as CSV (RFC 4180, lines end with LF): a block for each panel, after a line
- * "# title"; numbers are the shortest that read back as the same double, NaN is empty. */
+/* chart_csv.c - the numbers of a chart as CSV (RFC 4180, lines end with LF): a block for each panel, after
+ * a line "# title"; numbers are the shortest that read back as the same double, NaN is empty. */
 #include "plot/chart.h"
 
 #include <string.h>

@@ -88,7 +88,8 @@ static void find_fractions(const chart_field *field, const axis_view *bar, float
     }
 }
 
-/* The position of a pixel center between cell centers: the lower cell, the upper one, the weight of the upper. */
+/* The position of a pixel center between cell centers: the lower cell, the upper one, the weight of the
+ * upper. */
 static double between(uint32_t pixel, uint32_t pixel_count, uint32_t cell_count, uint32_t *low,
                       uint32_t *high)
 {

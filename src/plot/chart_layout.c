@@ -146,7 +146,8 @@ static void align_columns(panel_view *a, panel_view *b)
     a->margins.right = b->margins.right = fmax(a->margins.right, b->margins.right);
 }
 
-/* Axes in a column, and axes in a row, are aligned; discs, half discs and surfaces of a chart are of equal size. */
+/* Axes in a column, and axes in a row, are aligned; discs, half discs and surfaces of a chart are of equal
+ * size. */
 static void align(const chart *c, panel_view *views)
 {
     const uint32_t columns = column_count(c);

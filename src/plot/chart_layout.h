@@ -4,8 +4,8 @@
 
 #include "plot/chart_view.h"
 
-/* The scale of text and lines: they grow with the size of the chart, and stay readable in small charts and in many
- * panels. */
+/* The scale of text and lines: they grow with the size of the chart, and stay readable in small charts and
+ * in many panels. */
 double layout_scale(const chart *c);
 
 /* Draws the title and fills views (c->panel_count, {0} with panel set): positions, axes, legends.

@@ -1,4 +1,5 @@
-/* chart_legend.h - the legend: names of curves beside samples of their lines, placed where it covers the least. */
+/* chart_legend.h - the legend: names of curves beside samples of their lines, placed where it covers the
+ * least. */
 #ifndef PLOT_CHART_LEGEND_H
 #define PLOT_CHART_LEGEND_H
 
@@ -25,8 +26,8 @@ typedef struct legend {
 /* The entries for a panel, names cut to max_width; place is LEGEND_NONE if there are none. */
 void legend_create(canvas *c, const chart_panel *panel, canvas_font font, double scale, double max_width,
                    legend *out);
-/* The position inside plot that covers the least of traces and does not touch a disc (radius 0: none). Returns the
- * px of covered lines; infinity: there is no space. Sets box. */
+/* The position inside plot that covers the least of traces and does not touch a disc (radius 0: none).
+ * Returns the px of covered lines; infinity: there is no space. Sets box. */
 double legend_fit_inside(legend *l, const chart_box *plot, const trace_list *traces, double disc_x,
                          double disc_y, double disc_radius);
 /* Height in px of entries in rows of that width. */

@@ -40,8 +40,8 @@ static bool add_one(char *text)
     return false;
 }
 
-/* A decimal of that many digits that reads back as value. The nearest decimal may not: below a power of two doubles
- * are twice as dense, so the next one above may read back where the nearest, below, does not. */
+/* A decimal of that many digits that reads back as value. The nearest decimal may not: below a power of
+ * two doubles are twice as dense, so the next one above may read back where the nearest, below, does not. */
 static bool find_digits(double value, int digits, char out[NUMBER_SIZE])
 {
     snprintf(out, NUMBER_SIZE, "%.*g", digits, value);

@@ -1,5 +1,6 @@
-/* chart_polar.c - round panels: half discs with curves over an angle (0 up, -90 degrees at the left), and discs with
- * a field over the hemisphere of directions (rings of the angle from the normal, azimuths around). */
+/* chart_polar.c - round panels: half discs with curves over an angle (0 up, -90 degrees at the left), and
+ * discs with a field over the hemisphere of directions (rings of the angle from the normal, azimuths
+ * around). */
 #include <math.h>
 #include <stdio.h>
 

@@ -1,5 +1,5 @@
-/* chart_space.h - surfaces in space: the orthographic view, the shading, and a z-buffer with several samples per
- * pixel. */
+/* chart_space.h - surfaces in space: the orthographic view, the shading, and a z-buffer with several
+ * samples per pixel. */
 #ifndef PLOT_CHART_SPACE_H
 #define PLOT_CHART_SPACE_H
 

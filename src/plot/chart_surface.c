@@ -1,5 +1,5 @@
-/* chart_surface.c - panels of a surface in space: orthographic, lightly shaded, in false color, over a disc with the
- * directions of x and y. */
+/* chart_surface.c - panels of a surface in space: orthographic, lightly shaded, in false color, over a
+ * disc with the directions of x and y. */
 #include "plot/chart_view.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* chart_test.c - charts as files: well-formed SVG and repeatable bytes for any data and labels; errors without
- * cairo and without memory. */
+/* chart_test.c - charts as files: well-formed SVG and repeatable bytes for any data and labels; errors
+ * without cairo and without memory. */
 #include "tests/support/support.h"
 #include "plot/chart_test_scene.h"
 

@@ -1,5 +1,5 @@
-/* chart_test_xml.h - for tests: an XML scanner. Checks that elements nest, attributes are quoted, characters are
- * valid and references resolve. */
+/* chart_test_xml.h - for tests: an XML scanner. Checks that elements nest, attributes are quoted,
+ * characters are valid and references resolve. */
 #ifndef PLOT_CHART_TEST_XML_H
 #define PLOT_CHART_TEST_XML_H
 

@@ -47,8 +47,8 @@ static void set_label(canvas *c, canvas_font font, const char *text, size_t leng
     out->width = canvas_text_width(c, font, out->text);
 }
 
-/* The longest prefix of text (clean, length bytes) that fits with an ellipsis; empty if even the ellipsis is too
- * wide. */
+/* The longest prefix of text (clean, length bytes) that fits with an ellipsis; empty if even the ellipsis
+ * is too wide. */
 static void cut(canvas *c, canvas_font font, const char *text, size_t length, double max_width,
                 label_line *out)
 {
@@ -86,8 +86,8 @@ void label_fit(canvas *c, canvas_font font, const char *text, double max_width, 
         cut(c, font, clean, strlen(clean), max_width, out);
 }
 
-/* The bytes of text in one line: up to a line feed, or the last space before max_width; a word that is too wide
- * makes a line of its own. */
+/* The bytes of text in one line: up to a line feed, or the last space before max_width; a word that is too
+ * wide makes a line of its own. */
 static size_t line_length(canvas *c, canvas_font font, const char *text, double max_width)
 {
     size_t best = 0;

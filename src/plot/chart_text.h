@@ -13,8 +13,8 @@ typedef struct label_line {
     double width; /* px */
 } label_line;
 
-/* text (NULL: "") as valid UTF-8, at most LABEL_SIZE - 1 bytes: invalid bytes become U+FFFD, control characters
- * spaces; line feeds stay. */
+/* text (NULL: "") as valid UTF-8, at most LABEL_SIZE - 1 bytes: invalid bytes become U+FFFD, control
+ * characters spaces; line feeds stay. */
 void label_clean(const char *text, char out[LABEL_SIZE]);
 /* One line, cut to max_width with an ellipsis. */
 void label_fit(canvas *c, canvas_font font, const char *text, double max_width, label_line *out);

@@ -74,9 +74,9 @@ static candidate make_candidate(const ticks_desc *d, double digit, int power)
     return c;
 }
 
-/* The score of ticks by Talbot, Lin and Hanrahan 2010, "An extension of Wilkinson's algorithm for positioning tick
- * labels on axes", with their weights for the roundness of the step (1: best), the coverage of the range, and the
- * density. */
+/* The score of ticks by Talbot, Lin and Hanrahan 2010, "An extension of Wilkinson's algorithm for
+ * positioning tick labels on axes", with their weights for the roundness of the step (1: best), the
+ * coverage of the range, and the density. */
 static double score(const ticks_desc *d, const candidate *c, double roundness)
 {
     const double range = d->maximum - d->minimum, first = tick_at(c, c->first), last = tick_at(c, c->last);

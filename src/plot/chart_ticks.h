@@ -33,8 +33,8 @@ typedef struct ticks_desc {
 
 void ticks_create(const ticks_desc *desc, ticks *out);
 
-/* The range for values from minimum to maximum as ticks_create() needs it: not empty, including 0 if that is near,
- * within +-1e300; without values (minimum > maximum) 0 to 1, logarithmic 0.1 to 1. */
+/* The range for values from minimum to maximum as ticks_create() needs it: not empty, including 0 if that
+ * is near, within +-1e300; without values (minimum > maximum) 0 to 1, logarithmic 0.1 to 1. */
 void ticks_range(chart_scale scale, double *minimum, double *maximum);
 
 #endif

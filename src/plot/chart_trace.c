@@ -119,8 +119,8 @@ static bool runs_along(const trace *t, const trace *other, size_t i, double near
     return true;
 }
 
-/* The number of earlier traces with the same dash that coincide with the segment from point i. Only the nearest few
- * are compared, as a crowd cannot be distinguished anyway. */
+/* The number of earlier traces with the same dash that coincide with the segment from point i. Only the
+ * nearest few are compared, as a crowd cannot be distinguished anyway. */
 static size_t covered_at(const trace_list *list, size_t index, size_t i, double near)
 {
     enum { NEAREST = 32 };

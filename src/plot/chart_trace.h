@@ -26,7 +26,8 @@ typedef struct trace_list {
 bool trace_list_create(const facet_allocator *allocator, const chart_panel *panel, trace_list *out);
 void trace_list_destroy(trace_list *list); /* {0} is allowed; leaves {0} */
 
-/* Clips the line from (x[0], y[0]) to (x[1], y[1]) to box, in place; false: nothing is inside. Liang and Barsky
+/* Clips the line from (x[0], y[0]) to (x[1], y[1]) to box, in place; false: nothing is inside. Liang and
+ * Barsky
  * 1984. */
 bool trace_clip(const chart_box *box, double x[2], double y[2]);
 /* Length in px of all traces inside box; a point alone counts 1. */

@@ -345,7 +345,8 @@ static float pdf_lobes(const lobe_set *set, vec3 V, vec3 L)
     return sum;
 }
 
-/* Adds samples begin to begin + BATCH of n of one lobe, weighted by the balance heuristic (Veach and Guibas 1995). */
+/* Adds samples begin to begin + BATCH of n of one lobe, weighted by the balance heuristic (Veach and
+ * Guibas 1995). */
 static void add_batch(const material *m, const lobe_set *set, const lobe *l, const float V_[3],
                       uint32_t begin, uint32_t n, double sum[3])
 {
@@ -415,8 +416,8 @@ static void add_color(text *t, const char *before, const float c[3])
 /* F0 of diamond, the largest of a dielectric. */
 static const float MAX_DIELECTRIC_F0 = 0.17f;
 
-/* A surface with free F0 (ior 0), as the fits make: a metal if its F0 is above any dielectric's and most of its
- * albedo. Linear luminance of Rec.709. */
+/* A surface with free F0 (ior 0), as the fits make: a metal if its F0 is above any dielectric's and most
+ * of its albedo. Linear luminance of Rec.709. */
 static void describe_free_F0(const facet_plot_material *p, text *t)
 {
     static const double weights[3] = {0.2126, 0.7152, 0.0722};

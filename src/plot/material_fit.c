@@ -1,4 +1,5 @@
-/* material_fit.c - parameters of a measured BRDF by the Levenberg-Marquardt method within [0, 1]. See material.h. */
+/* material_fit.c - parameters of a measured BRDF by the Levenberg-Marquardt method within [0, 1]. See
+ * material.h. */
 #include <math.h>
 #include <string.h>
 

@@ -1,4 +1,5 @@
-/* material_test.c - reflectance and albedo of materials against closed forms, tables and shade's own functions. */
+/* material_test.c - reflectance and albedo of materials against closed forms, tables and shade's own
+ * functions. */
 #include "plot/plot_test_support.h"
 
 #include "ibl/ibl.h"
@@ -166,8 +167,8 @@ static void grain_is_sampled_where_it_is(void **state)
     }
 }
 
-/* OpenGL 1's highlight facing the eye: 2 pi / pi of the integral of cos^s(theta / 2) over the hemisphere, which is
- * int_0^1 ((1 + z) / 2)^(s / 2) dz = (2 - 2^(-s / 2)) / (s / 2 + 1). */
+/* OpenGL 1's highlight facing the eye: 2 pi / pi of the integral of cos^s(theta / 2) over the hemisphere,
+ * which is int_0^1 ((1 + z) / 2)^(s / 2) dz = (2 - 2^(-s / 2)) / (s / 2 + 1). */
 static void highlight_has_its_integral(void **state)
 {
     (void)state;

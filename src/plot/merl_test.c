@@ -1,5 +1,5 @@
-/* merl_test.c - measured BRDFs: files generated from known materials are read, interpolated and fitted. They follow
- * the description of the format; files of the database are not part of the tests. */
+/* merl_test.c - measured BRDFs: files generated from known materials are read, interpolated and fitted.
+ * They follow the description of the format; files of the database are not part of the tests. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdio.h>
 #include <stdlib.h>

@@ -26,8 +26,8 @@ const palette_theme *palette_get_theme(bool is_dark)
     return is_dark ? &DARK : &LIGHT;
 }
 
-/* Okabe and Ito 2008, "Color universal design", in an order in which neighbors differ in hue and lightness; yellow,
- * which is hard to see on white, is last and darker there. */
+/* Okabe and Ito 2008, "Color universal design", in an order in which neighbors differ in hue and
+ * lightness; yellow, which is hard to see on white, is last and darker there. */
 static const canvas_color ON_LIGHT[PALETTE_COUNT] = {RGB(0x0072b2), RGB(0xd55e00), RGB(0x009e73),
                                                      RGB(0xcc79a7), RGB(0x000000), RGB(0xe69f00),
                                                      RGB(0x56b4e9), RGB(0x8f8a00)};

@@ -1,5 +1,5 @@
-/* plot.c - from a desc to a chart: checks the desc, prepares the materials, calls the function of the kind. See
- * plot.h. */
+/* plot.c - from a desc to a chart: checks the desc, prepares the materials, calls the function of the
+ * kind. See plot.h. */
 #include "plot/plot.h"
 
 #include <math.h>

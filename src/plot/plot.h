@@ -1,4 +1,5 @@
-/* plot.h - the charts of reflectance: one file per family of kinds, all numbers from shade/, legacy/ and ibl/. */
+/* plot.h - the charts of reflectance: one file per family of kinds, all numbers from shade/, legacy/ and
+ * ibl/. */
 #ifndef PLOT_PLOT_H
 #define PLOT_PLOT_H
 

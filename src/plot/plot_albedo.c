@@ -1,5 +1,6 @@
-/* plot_albedo.c - directional albedo over the view angle, and the white furnace test over roughness in both energy
- * modes, under punctual lights and under an environment (docs/shading-model.md, "The two energy modes"). */
+/* plot_albedo.c - directional albedo over the view angle, and the white furnace test over roughness in
+ * both energy modes, under punctual lights and under an environment (docs/shading-model.md, "The two
+ * energy modes"). */
 #include <math.h>
 
 #include "base/parallel.h"

@@ -1,5 +1,5 @@
-/* plot_brdf.c - BRDFs: polar slices and curves in the plane of incidence, false-color discs and surfaces over the
- * hemisphere. */
+/* plot_brdf.c - BRDFs: polar slices and curves in the plane of incidence, false-color discs and surfaces
+ * over the hemisphere. */
 #include <math.h>
 
 #include "plot/plot_build.h"
@@ -234,8 +234,8 @@ static void add_disc(plot *p, const plot_subject *subject, double view)
     }
 }
 
-/* count positions in [first, last]: half of them even, half distributed as a Lorentzian of that width around peak,
- * by inverting its distribution function with bisection. */
+/* count positions in [first, last]: half of them even, half distributed as a Lorentzian of that width
+ * around peak, by inverting its distribution function with bisection. */
 static void places(size_t count, double first, double last, double peak, double width, double *out)
 {
     double low_tail = atan((first - peak) / width);
@@ -256,8 +256,8 @@ static void places(size_t count, double first, double last, double peak, double 
     }
 }
 
-/* Radius of a value: its square root over that of the peak, which shows a diffuse base beside a highlight; or its
- * decades above 1e-5 of the peak. */
+/* Radius of a value: its square root over that of the peak, which shows a diffuse base beside a highlight;
+ * or its decades above 1e-5 of the peak. */
 static double radius_of(const plot *p, double value, double peak)
 {
     double share = value > 0.0 && peak > 0.0 ? value / peak : 0.0;

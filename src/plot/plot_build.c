@@ -241,8 +241,8 @@ static size_t widths_of(const plot *p, double *widths)
     return count;
 }
 
-/* The half vector rotates by half the angle of the light, and D falls to a quarter at tan theta_h = alpha: angles
- * that are even in atan(tan theta_h / alpha) resolve D from its peak to its tail. */
+/* The half vector rotates by half the angle of the light, and D falls to a quarter at tan theta_h = alpha:
+ * angles that are even in atan(tan theta_h / alpha) resolve D from its peak to its tail. */
 double *plot_light_angles(plot *p, double view_rad, size_t *count)
 {
     const double limit = 89.9 * PLOT_DEGREE;

@@ -1,5 +1,5 @@
-/* plot_build.h - a plot under construction: its materials, panels and curves, and the functions that the kinds
- * share. */
+/* plot_build.h - a plot under construction: its materials, panels and curves, and the functions that the
+ * kinds share. */
 #ifndef PLOT_PLOT_BUILD_H
 #define PLOT_PLOT_BUILD_H
 
@@ -25,8 +25,8 @@ typedef struct plot_panel {
     size_t capacity;
 } plot_panel;
 
-/* A plot under construction. Out of memory sets has_failed: then functions that add return NULL or do nothing, and
- * plot_finish(), whose result the function of a kind returns, reports it. */
+/* A plot under construction. Out of memory sets has_failed: then functions that add return NULL or do
+ * nothing, and plot_finish(), whose result the function of a kind returns, reports it. */
 typedef struct plot {
     const facet_plot_desc *desc;
     arena *memory;
@@ -69,22 +69,22 @@ double *plot_add_curve(plot *p, plot_panel *panel, const char *name, chart_style
 /* The same with y given; panel NULL is allowed after a failure. */
 void plot_add_line(plot *p, plot_panel *panel, const char *name, chart_style style, size_t count,
                    const double *x, const double *y);
-/* Adds a field over [-1, 1] in both axes to a panel, its range that of the data; *values are to be filled. NULL:
- * has_failed. */
+/* Adds a field over [-1, 1] in both axes to a panel, its range that of the data; *values are to be filled.
+ * NULL: has_failed. */
 chart_field *plot_add_field(plot *p, plot_panel *panel, uint32_t width, uint32_t height, chart_scale scale,
                             const char *label, double **values);
 
-/* Fills out: title (unless the desc has one), columns, size (unless the desc has one), panels. FACET_ERROR_MEMORY where
- * something failed. */
+/* Fills out: title (unless the desc has one), columns, size (unless the desc has one), panels.
+ * FACET_ERROR_MEMORY where something failed. */
 facet_result plot_finish(plot *p, const char *title, uint32_t columns, uint32_t width, uint32_t height);
 
 /* ---- styles ---- */
 
 chart_style plot_color(uint32_t number, int dash); /* of the palette */
 chart_style plot_channel(int channel, int dash);   /* red, green, blue; 3: gray */
-/* The name of a curve of a subject with a remark ("": none); channel -1: all. With a single material its fit is
- * named "fit", and the note describes it, since it has more room: plot_fit_note() is the beginning of the note, ""
- * with several materials. */
+/* The name of a curve of a subject with a remark ("": none); channel -1: all. With a single material its
+ * fit is named "fit", and the note describes it, since it has more room: plot_fit_note() is the beginning
+ * of the note, "" with several materials. */
 const char *plot_curve_name(plot *p, const plot_subject *subject, const char *remark, int channel);
 const char *plot_fit_note(plot *p);
 /* The style of a material or of its fit, which is dashed and has a color of its own; channel as above. */
@@ -98,11 +98,11 @@ chart_scale plot_scale(const plot *p); /* of the values, by desc->is_logarithmic
 double *plot_steps(plot *p, size_t count, double first, double last);
 /* Unit direction at an angle from +Z in the plane rotated by azimuth from +X. */
 void plot_direction(double angle_rad, double azimuth_rad, float out[3]);
-/* Light angles in the plane of incidence, rad, positive towards the eye: even steps, and more around the highlight
- * of each subject for that view. The ends are 0.1 degrees above the horizon. */
+/* Light angles in the plane of incidence, rad, positive towards the eye: even steps, and more around the
+ * highlight of each subject for that view. The ends are 0.1 degrees above the horizon. */
 double *plot_light_angles(plot *p, double view_rad, size_t *count);
-/* BRDF (times the cosine if has_cosine) of a material for one view and the light angles in the plane of incidence:
- * count values per channel. NULL: has_failed. */
+/* BRDF (times the cosine if has_cosine) of a material for one view and the light angles in the plane of
+ * incidence: count values per channel. NULL: has_failed. */
 double (*plot_slice(plot *p, const material *m, double view_rad, size_t count, const double *angles,
                     bool has_cosine))[3];
 /* A view angle as text in degrees: "30". */
@@ -121,8 +121,8 @@ typedef struct plot_conversion {
     fit_error error;
     double rms; /* measured BRDFs: of material_fit() */
 } plot_conversion;
-/* PBR to OpenGL 1, OpenGL 1 to PBR (specular and ior), measured to model `to`; by fitting (is_fit) or in closed
- * form. Fails with FACET_ERROR_MEMORY. */
+/* PBR to OpenGL 1, OpenGL 1 to PBR (specular and ior), measured to model `to`; by fitting (is_fit) or in
+ * closed form. Fails with FACET_ERROR_MEMORY. */
 facet_result plot_convert(plot *p, const material *source, facet_plot_model to, bool is_fit,
                           plot_conversion *out);
 

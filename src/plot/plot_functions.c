@@ -1,5 +1,5 @@
-/* plot_functions.c - plots that need no material: tone mapping curves (shade/tonemap.h), Fresnel reflectance of water
- * and other media (shade/fresnel.h), split-sum LUTs (ibl/dfg.h). */
+/* plot_functions.c - plots that need no material: tone mapping curves (shade/tonemap.h), Fresnel
+ * reflectance of water and other media (shade/fresnel.h), split-sum LUTs (ibl/dfg.h). */
 #include <math.h>
 
 #include "base/result.h"
@@ -82,8 +82,9 @@ typedef struct dielectric {
     float ior;
 } dielectric;
 
-/* Complex indices at a wavelength for red, green and blue each. Gold and copper: Johnson and Christy 1972, "Optical
- * Constants of the Noble Metals", at 617, 549 and 451 nm; aluminium: Rakic 1995, at 620, 564 and 443 nm. */
+/* Complex indices at a wavelength for red, green and blue each. Gold and copper: Johnson and Christy 1972,
+ * "Optical Constants of the Noble Metals", at 617, 549 and 451 nm; aluminium: Rakic 1995, at 620, 564 and
+ * 443 nm. */
 typedef struct conductor {
     const char *name, *source;
     float eta[3], k[3];

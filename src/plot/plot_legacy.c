@@ -1,7 +1,7 @@
-/* plot_legacy.c - PBR and OpenGL 1 over the light angle: Murdoch's vignette "Shininess in OpenGL 1 versus glTF PBR"
- * extended by the factor pi, the fit and the difference; the same for any material and its conversion; and the errors
- * of all methods (legacy/fit.h) over roughness or shininess. Radiance under light of OpenGL 1 intensity 1: PBR times
- * pi. */
+/* plot_legacy.c - PBR and OpenGL 1 over the light angle: Murdoch's vignette "Shininess in OpenGL 1 versus
+ * glTF PBR" extended by the factor pi, the fit and the difference; the same for any material and its
+ * conversion; and the errors of all methods (legacy/fit.h) over roughness or shininess. Radiance under
+ * light of OpenGL 1 intensity 1: PBR times pi. */
 #include <math.h>
 
 #include "base/parallel.h"
@@ -75,8 +75,8 @@ static void convert_points(void *context, size_t begin, size_t end)
             to_pbr(work, (uint32_t)i);
 }
 
-/* Adds the panel of errors of all methods over roughness (PBR) or shininess (OpenGL 1) of a material whose other parameters
- * stay; point_count points. */
+/* Adds the panel of errors of all methods over roughness (PBR) or shininess (OpenGL 1) of a material whose
+ * other parameters stay; point_count points. */
 static plot_panel *add_errors(plot *p, const facet_plot_material *m, const char *title, uint32_t point_count)
 {
     bool is_pbr = m->model == FACET_PLOT_MODEL_PBR;

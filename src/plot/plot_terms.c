@@ -1,5 +1,5 @@
-/* plot_terms.c - the factors of microfacet reflection over their cosines: D, G, V, F of shade/brdf.h, sheen.h,
- * fresnel.h. */
+/* plot_terms.c - the factors of microfacet reflection over their cosines: D, G, V, F of shade/brdf.h,
+ * sheen.h, fresnel.h. */
 #include <math.h>
 
 #include "plot/plot_build.h"

@@ -62,7 +62,8 @@ static double clamp01(double x)
     return fmin(fmax(x, 0.0), 1.0);
 }
 
-/* Least squares of target = Cd a + Cs b with both in [0, 1]: the interior solution, or the best on the four edges. */
+/* Least squares of target = Cd a + Cs b with both in [0, 1]: the interior solution, or the best on the
+ * four edges. */
 static vignette_parameters solve_colors(double theta, const double target[VIGNETTE_POINTS], double shininess)
 {
     double aa = 0.0, ab = 0.0, bb = 0.0, at = 0.0, bt = 0.0;

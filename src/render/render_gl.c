@@ -18,17 +18,17 @@ static const char name[] = "facet_gl.so";
 
 /* ---- the module ---- */
 
-/* Folders searched, relative to the binary that holds this code (libfacet.so, or a program linked statically):
- * installed, and in the build tree. */
+/* Folders searched, relative to the binary that holds this code (libfacet.so, or a program linked
+ * statically): installed, and in the build tree. */
 static const char *const folders[] = {"facet", "../" FACET_LIBDIR_NAME "/facet", "../gl", "../src/gl", "."};
 
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 static const gl_entry *opened;
 static char why[256]; /* reason why it could not be opened */
 
-/* The folder of the binary that holds this code, with a trailing /; "": unknown. A program's name as its caller
- * gives it may be relative to a former working directory; a module found there could be anybody's, so it is not
- * searched. */
+/* The folder of the binary that holds this code, with a trailing /; "": unknown. A program's name as its
+ * caller gives it may be relative to a former working directory; a module found there could be anybody's,
+ * so it is not searched. */
 static void find_own_folder(char *folder, size_t size)
 {
     Dl_info self, program;

@@ -1,13 +1,13 @@
-/* render_gl.h - the renderer of OpenGL: a module that is opened when it is first used, so that processes that render on the CPU load no
- * driver. */
+/* render_gl.h - the renderer of OpenGL: a module that is opened when it is first used, so that processes
+ * that render on the CPU load no driver. */
 #ifndef RENDER_RENDER_GL_H
 #define RENDER_RENDER_GL_H
 
 #include "gl/gl_entry.h"
 #include "render/renderer.h"
 
-/* The module's functions; it stays open until the process ends. Safe from several threads. FACET_ERROR_SYSTEM: the module is not
- * there, or belongs to another build. */
+/* The module's functions; it stays open until the process ends. Safe from several threads.
+ * FACET_ERROR_SYSTEM: the module is not there, or belongs to another build. */
 facet_result gl_library_open(const gl_entry **entry, facet_error *error);
 
 /* State of the row in renderer.c. */

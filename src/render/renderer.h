@@ -1,7 +1,8 @@
-/* renderer.h - one interface to all renderers. Each is a row of the table in renderer.c: its limits and four functions, resolve,
- * create, draw and destroy. All drawing goes through the table. Other code that depends on the kind compares
- * desc.renderer: draw/light_setup.c and cpu/render_setup.c (what path tracing finds by itself), src/water (the same for the bed), the
- * window (src/view, api/view_api.c, which has OpenGL's state) and the options of src/cli. */
+/* renderer.h - one interface to all renderers. Each is a row of the table in renderer.c: its limits and
+ * four functions, resolve, create, draw and destroy. All drawing goes through the table. Other code that
+ * depends on the kind compares desc.renderer: draw/light_setup.c and cpu/render_setup.c (what path tracing
+ * finds by itself), src/water (the same for the bed), the window (src/view, api/view_api.c, which has
+ * OpenGL's state) and the options of src/cli. */
 #ifndef RENDER_RENDERER_H
 #define RENDER_RENDERER_H
 
@@ -9,7 +10,8 @@
 #include "film/film.h"
 #include "water/water_render.h"
 
-/* The renderers of one facet_renderer, and what they share and keep from image to image. It stays where it is between init and clear. */
+/* The renderers of one facet_renderer, and what they share and keep from image to image. It stays where it
+ * is between init and clear. */
 enum { RENDERER_COUNT = FACET_RENDERER_KIND_GL + 1 };
 typedef struct renderer_set {
     const facet_scene *scene; /* NULL: none, or not at hand (a window's) */
@@ -24,13 +26,14 @@ typedef struct renderer_row {
     uint32_t samples[3]; /* per pixel, by facet_quality */
     uint32_t max_samples;
     uint32_t aovs, sea_aovs; /* that it draws: of scenes, of scenes in a sea */
-    /* Poses the scene by itself: outside of a sea, draw() fits the camera where desc has none, and set->prepared is not used. */
+    /* Poses the scene by itself: outside of a sea, draw() fits the camera where desc has none, and
+     * set->prepared is not used. */
     bool poses_scene;
     /* Refuses what it cannot draw (FACET_ERROR_ARGUMENT), and fills in its own defaults. */
     facet_result (*resolve)(facet_render_desc *desc, facet_error *error);
     facet_result (*create)(renderer_set *set, void **state, facet_error *error);
-    /* Draws what desc (resolved, with a camera) describes into target: linear radiance times 2^exposure_ev, premultiplied, and the
-     * AOVs. state stays usable whatever comes back. */
+    /* Draws what desc (resolved, with a camera) describes into target: linear radiance times
+     * 2^exposure_ev, premultiplied, and the AOVs. state stays usable whatever comes back. */
     facet_result (*draw)(void *state, const facet_render_desc *desc, film *target, facet_render_stats *stats,
                          facet_error *error);
     void (*destroy)(void *state);

@@ -1,6 +1,6 @@
-/* ibl_sheet.c - see ibl_sheet.h. From the top: the title; the levels as crosses; spheres lit by the cube map above
- * the same spheres lit by the environment filtered for exactly their roughness, and the difference; diffuse spheres
- * lit by nine harmonics. */
+/* ibl_sheet.c - see ibl_sheet.h. From the top: the title; the levels as crosses; spheres lit by the cube
+ * map above the same spheres lit by the environment filtered for exactly their roughness, and the
+ * difference; diffuse spheres lit by nine harmonics. */
 #include "report/ibl_sheet.h"
 
 #include <math.h>
@@ -153,7 +153,8 @@ static float ball_roughness(facet_lobe lobe, uint32_t i)
     return lobe == FACET_LOBE_GGX ? (float)i / 7.0f : 0.3f + 0.1f * (float)i;
 }
 
-/* Whether there is a sphere for each of several roughnesses; otherwise the only one is beside those of harmonics. */
+/* Whether there is a sphere for each of several roughnesses; otherwise the only one is beside those of
+ * harmonics. */
 static bool has_row(const facet_cube *c)
 {
     return c->lobe == FACET_LOBE_GGX || c->lobe == FACET_LOBE_CHARLIE;
@@ -367,8 +368,8 @@ static facet_result draw_harmonics(sheet *s, facet_error *error)
     return FACET_OK;
 }
 
-/* Spheres lit by the cube map above the same spheres lit by the environment, and diffuse ones lit by nine harmonics; they start
- * at s->y and advance it. FACET_ERROR_CANCELLED, _MEMORY. */
+/* Spheres lit by the cube map above the same spheres lit by the environment, and diffuse ones lit by nine
+ * harmonics; they start at s->y and advance it. FACET_ERROR_CANCELLED, _MEMORY. */
 static facet_result sheet_draw_balls(sheet *s, facet_error *error)
 {
     if (has_row(s->cube_map))
@@ -416,8 +417,8 @@ typedef struct level_grid {
     uint32_t height;       /* of all */
 } level_grid;
 
-/* With r rows of c columns, first * 3/4 + CAPTION = r (width * 3/4 + CAPTION) and first + c width + gaps = room are
- * two linear equations; c is chosen such that level 0 takes about half of the sheet. */
+/* With r rows of c columns, first * 3/4 + CAPTION = r (width * 3/4 + CAPTION) and first + c width + gaps =
+ * room are two linear equations; c is chosen such that level 0 takes about half of the sheet. */
 static level_grid plan_levels(const facet_cube *c)
 {
     const double room = WIDTH - 2 * MARGIN;

@@ -1,5 +1,5 @@
-/* ibl_sheet_draw.h - images on a sheet: unfolded cube maps, and spheres lit by a cube map or by the reference,
- * drawn into a film of radiance. Rows are independent. */
+/* ibl_sheet_draw.h - images on a sheet: unfolded cube maps, and spheres lit by a cube map or by the
+ * reference, drawn into a film of radiance. Rows are independent. */
 #ifndef REPORT_IBL_SHEET_DRAW_H
 #define REPORT_IBL_SHEET_DRAW_H
 

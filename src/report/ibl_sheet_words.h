@@ -18,8 +18,8 @@ typedef struct sheet_word {
     char text[160]; /* UTF-8 */
 } sheet_word;
 
-/* Draws them into an image (F32 RGBA, display-referred linear). FACET_ERROR_SYSTEM, _UNSUPPORTED: cairo is missing,
- * and the image is unchanged; _MEMORY. */
+/* Draws them into an image (F32 RGBA, display-referred linear). FACET_ERROR_SYSTEM, _UNSUPPORTED: cairo is
+ * missing, and the image is unchanged; _MEMORY. */
 facet_result sheet_write_words(const sheet_word *words, uint32_t count, const facet_allocator *allocator,
                                image *picture, facet_error *error);
 

@@ -80,8 +80,8 @@ static bool make_panel(const pair *p, int view, arena *memory, chart_panel *pane
     return true;
 }
 
-/* An SVG file: luminance under light of 1 at view angles of 0, 30 and 60 degrees, the source solid, the result dashed. For
- * materials with has_surfaces. A block of mem_alloc(). Fails as chart_draw(). */
+/* An SVG file: luminance under light of 1 at view angles of 0, 30 and 60 degrees, the source solid, the
+ * result dashed. For materials with has_surfaces. A block of mem_alloc(). Fails as chart_draw(). */
 static facet_result draw_curves(const facet_scene *scene, uint32_t material, unsigned char **bytes,
                                 size_t *size, facet_error *error)
 {

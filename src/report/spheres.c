@@ -1,5 +1,5 @@
-/* spheres.c - see spheres.h. The stage is a scene of its own that shares materials, textures and images with the
- * converted scene, so that spheres look as in a render of it. */
+/* spheres.c - see spheres.h. The stage is a scene of its own that shares materials, textures and images
+ * with the converted scene, so that spheres look as in a render of it. */
 #include "report/spheres.h"
 
 #include <math.h>

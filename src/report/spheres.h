@@ -11,7 +11,8 @@ typedef enum sphere_style {
     SPHERE_STYLE_COUNT
 } sphere_style;
 
-/* A scene of one sphere under one light from the upper left, with the materials and textures of another scene. */
+/* A scene of one sphere under one light from the upper left, with the materials and textures of another
+ * scene. */
 typedef struct sphere_stage sphere_stage;
 facet_result sphere_stage_create(const facet_scene *scene, sphere_stage **out, facet_error *error);
 void sphere_stage_destroy(sphere_stage *stage); /* NULL is allowed */

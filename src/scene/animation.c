@@ -1,5 +1,5 @@
-/* animation.c - applies the channels of animations to copies of what they move, and clamps the results to the ranges of the
- * file format, since splines overshoot. */
+/* animation.c - applies the channels of animations to copies of what they move, and clamps the results to
+ * the ranges of the file format, since splines overshoot. */
 #include "scene/animation.h"
 
 #include <float.h>
@@ -22,8 +22,8 @@ static bool overlaps(size_t offset, size_t size, size_t other, size_t other_size
     return offset < other + other_size && other < offset + size;
 }
 
-/* Clamps parameters in bytes [offset, offset + size) of the material to the ranges of the specification, and updates
- * the transforms of texture refs there. */
+/* Clamps parameters in bytes [offset, offset + size) of the material to the ranges of the specification,
+ * and updates the transforms of texture refs there. */
 static void settle_material(scene_material *material, size_t offset, size_t size)
 {
     for (int i = 0; i < MATERIAL_PARAMETER_COUNT; i++) {

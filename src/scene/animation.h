@@ -18,9 +18,9 @@ typedef struct scene_state {
     float *weights; /* those of animated node copies */
 } scene_state;
 
-/* Evaluates desc's animations (NULL: none) at desc->time_s and clamps the values to the ranges of the reader; values
- * that are not finite are not applied. Fails with FACET_ERROR_ARGUMENT for an unknown animation or a time that is not
- * finite, FACET_ERROR_MEMORY. */
+/* Evaluates desc's animations (NULL: none) at desc->time_s and clamps the values to the ranges of the
+ * reader; values that are not finite are not applied. Fails with FACET_ERROR_ARGUMENT for an unknown
+ * animation or a time that is not finite, FACET_ERROR_MEMORY. */
 facet_result scene_state_create(const facet_scene *scene, const facet_pose_desc *desc,
                                 const facet_allocator *allocator, scene_state *state, facet_error *error);
 void scene_state_destroy(scene_state *state); /* {0} is allowed */

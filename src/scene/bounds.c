@@ -14,8 +14,8 @@ enum {
     FEW_INDICES = 24        /* examining them is as fast as the box around them */
 };
 
-/* Whether each world axis depends on one local axis only. Then the transform is monotone along each axis, and the box
- * of the transformed vertices equals the transformed box, to the last bit. */
+/* Whether each world axis depends on one local axis only. Then the transform is monotone along each axis,
+ * and the box of the transformed vertices equals the transformed box, to the last bit. */
 static bool keeps_boxes(const mat4 *m)
 {
     for (int row = 0; row < 3; row++) {
@@ -51,7 +51,8 @@ wide_box box_enclose(const scene_instance *instance, const float local_min[3], c
     return out;
 }
 
-/* How far the contents of a box of an instance may reach out of b. In scenes of many instances most are inside. */
+/* How far the contents of a box of an instance may reach out of b. In scenes of many instances most are
+ * inside. */
 static double excess(const scene_instance *instance, const box *local, const box *b)
 {
     wide_box w = box_enclose(instance, local->minimum, local->maximum);

@@ -16,8 +16,8 @@ static inline bool bounds_count(const scene_pose *pose, const scene_instance *in
     return !instance->is_unseen || pose->is_unseen;
 }
 
-/* Finds unseen instances and the bounds of the pose, and removes instances beyond SCENE_FARTHEST. The pose has its
- * materials. Fails with FACET_ERROR_MEMORY. */
+/* Finds unseen instances and the bounds of the pose, and removes instances beyond SCENE_FARTHEST. The pose
+ * has its materials. Fails with FACET_ERROR_MEMORY. */
 facet_result bound_instances(const facet_scene *scene, scene_pose *pose, const facet_allocator *allocator,
                              uint32_t thread_count, facet_error *error);
 

@@ -1,5 +1,5 @@
-/* builtin.c - the scene that facet renders without a model: spheres over roughness and metallic, and in front of them
- * a few materials by name, on a checkered plate. It is computed and needs no file. */
+/* builtin.c - the scene that facet renders without a model: spheres over roughness and metallic, and in
+ * front of them a few materials by name, on a checkered plate. It is computed and needs no file. */
 #include "scene/scene.h"
 #include "scene/sphere.h"
 
@@ -10,8 +10,8 @@
 #include "base/result.h"
 
 enum {
-    /* Around the axis: for a radius of r pixels, chords deviate from the circle by r pi^2 / (2 SEGMENTS^2), 0.13
-     * pixels in an image of 1024 x 768, 0.25 at twice that size. */
+    /* Around the axis: for a radius of r pixels, chords deviate from the circle by r pi^2 / (2
+     * SEGMENTS^2), 0.13 pixels in an image of 1024 x 768, 0.25 at twice that size. */
     SEGMENTS = 48,
     RINGS = 24,
     COLUMNS = 6, /* of the grid: perceptual roughness 0 to 1 */
@@ -23,8 +23,8 @@ enum {
     MATERIALS = GRID + NAMED + 1
 };
 
-/* Base colors of metals: reflectance facing, linear Rec.709 (Lagarde 2011, "Feeding a physically based shading
- * model"). */
+/* Base colors of metals: reflectance facing, linear Rec.709 (Lagarde 2011, "Feeding a physically based
+ * shading model"). */
 static const struct {
     const char *name;
     float base_color[3];

@@ -1,6 +1,6 @@
-/* deform.c - vertices moved by morph targets and skins: which primitives are deformed, what they share and the memory
- * for them; and the computation, two loops over parts of all primitives, one by vertices, one by indices for whole
- * triangles. */
+/* deform.c - vertices moved by morph targets and skins: which primitives are deformed, what they share and
+ * the memory for them; and the computation, two loops over parts of all primitives, one by vertices, one
+ * by indices for whole triangles. */
 #include "scene/deform.h"
 
 #include <math.h>

@@ -20,8 +20,8 @@ typedef struct deformed {
 typedef struct deform_set {
     size_t count;
     deformed *items;
-    /* per shown node of the hierarchy: its mesh's first primitive in items, SCENE_NONE: not deformed; NULL: no node
-     * is deformed */
+    /* per shown node of the hierarchy: its mesh's first primitive in items, SCENE_NONE: not deformed;
+     * NULL: no node is deformed */
     uint32_t *first;
     float *block;     /* memory of the arrays */
     skin_pose *skins; /* per skin of the scene, those in use */

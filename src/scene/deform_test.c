@@ -136,8 +136,8 @@ static void expect_vertex(const facet_scene *scene, const scene_primitive *p, ui
 
 /* ---- scenes ---- */
 
-/* Node 0 has the mesh, 1 .. JOINTS are joints in a tree that hangs below node 1. Rotations, scales and weights at
- * random; inverse bind matrices of some other pose. */
+/* Node 0 has the mesh, 1 .. JOINTS are joints in a tree that hangs below node 1. Rotations, scales and
+ * weights at random; inverse bind matrices of some other pose. */
 static facet_scene *make_skinned(uint32_t vertex_count, uint32_t influence_count)
 {
     static const uint32_t parents[JOINTS + 1] = {SCENE_NONE, SCENE_NONE, 1, 1, 3, 4};
@@ -543,7 +543,8 @@ static void huge_weights_draw_nothing(void **state)
 static void one_vertex_without_a_place_draws_nothing(void **state)
 {
     (void)state;
-    /* Both displacements are infinite at one vertex, and their sum is NaN, which a comparison of bounds would miss. */
+    /* Both displacements are infinite at one vertex, and their sum is NaN, which a comparison of bounds
+     * would miss. */
     enum { COUNT = 9 };
     static float up[3 * COUNT], down[3 * COUNT];
     static const float weights[2] = {FLT_MAX, FLT_MAX};

@@ -7,8 +7,8 @@
 
 /* ---- values ---- */
 
-/* Nesting depth of extras and metadata in a description. System.Text.Json reads 64 levels, other programs 100 to
- * 1000; a description adds at most 8 around them. */
+/* Nesting depth of extras and metadata in a description. System.Text.Json reads 64 levels, other programs
+ * 100 to 1000; a description adds at most 8 around them. */
 enum { MAX_DEPTH = 32 };
 
 void describe_index(text *t, const char *key, uint32_t index)

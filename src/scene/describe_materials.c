@@ -1,5 +1,5 @@
-/* describe_materials.c - materials as JSON: the core by facet's names, extensions by glTF's; and materials, lights and fog of
- * OpenGL 1, only what is stated. */
+/* describe_materials.c - materials as JSON: the core by facet's names, extensions by glTF's; and
+ * materials, lights and fog of OpenGL 1, only what is stated. */
 #include "scene/describe.h"
 
 #include "scene/legacy_extras.h"

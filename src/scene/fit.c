@@ -60,8 +60,9 @@ static void aim(view *v, const facet_orbit *orbit, float aspect)
 
 /* ---- how far ---- */
 
-/* The result of measuring vertices. Perspective: extent is the distance from eye to target at which all vertices are
- * in the image. Orthographic: half the height that shows them. nearest: the largest coordinate towards the eye. */
+/* The result of measuring vertices. Perspective: extent is the distance from eye to target at which all
+ * vertices are in the image. Orthographic: half the height that shows them. nearest: the largest
+ * coordinate towards the eye. */
 typedef struct extent {
     double extent, nearest;
 } extent;
@@ -72,8 +73,8 @@ static void extent_add(extent *e, double value, double nearest)
     e->nearest = nearest > e->nearest ? nearest : e->nearest;
 }
 
-/* A vertex at (x, y, z) right, up and back of the target is in the image from distance d on when |x| <= (d - z) /
- * tan_x and |y| <= (d - z) tan_y. */
+/* A vertex at (x, y, z) right, up and back of the target is in the image from distance d on when |x| <= (d
+ * - z) / tan_x and |y| <= (d - z) tan_y. */
 static void add_point(const view *v, const double p[3], extent *e)
 {
     double x = dot(p, v->right);
@@ -85,9 +86,9 @@ static void add_point(const view *v, const double p[3], extent *e)
     extent_add(e, v->is_orthographic ? sideways : z + sideways, z);
 }
 
-/* The same for all azimuths. With height h and distance r from the vertical, and phi the angle between the vertex
- * and the eye, x = r sin phi, y = h sin p - r cos phi cos p, z = h cos p + r cos phi sin p. Each bound above is
- * a sum A + B cos phi + C |sin phi|, largest at A + sqrt(B^2 + C^2). */
+/* The same for all azimuths. With height h and distance r from the vertical, and phi the angle between the
+ * vertex and the eye, x = r sin phi, y = h sin p - r cos phi cos p, z = h cos p + r cos phi sin p. Each
+ * bound above is a sum A + B cos phi + C |sin phi|, largest at A + sqrt(B^2 + C^2). */
 static void add_circle(const view *v, const double p[3], extent *e)
 {
     double h = dot(p, v->vertical);
@@ -155,9 +156,10 @@ static double rounding(const mat4 *world, const float low[3], const float high[3
     return 4.0 * 0x1p-24 * largest;
 }
 
-/* An upper bound of how much the vertices in a box can widen e: all bounds are convex, and so largest at a corner.
- * The margin covers the rounding of vertices and corners: bounds change at most sqrt(2) (1 + 1 / tan) times as fast
- * as a point moves, which deviates by up to sqrt(3). In scenes of many instances most are inside. */
+/* An upper bound of how much the vertices in a box can widen e: all bounds are convex, and so largest at a
+ * corner. The margin covers the rounding of vertices and corners: bounds change at most sqrt(2) (1 + 1 /
+ * tan) times as fast as a point moves, which deviates by up to sqrt(3). In scenes of many instances most
+ * are inside. */
 static double excess(const search *s, const float low[3], const float high[3], const extent *e)
 {
     extent corners = {-HUGE_VAL, -HUGE_VAL};

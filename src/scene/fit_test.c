@@ -329,7 +329,8 @@ static void the_target_is_the_middle_of_the_motion(void **state)
     const float middle[3] = {4, 1, -3};
     for (int k = 0; k < 3; k++)
         assert_near(camera.target[k], middle[k], 1e-6);
-    /* The nearest that frames x in [-4, 4] at z = 0 is 4 / tan(0.25) from the point there, 3 m before the target. */
+    /* The nearest that frames x in [-4, 4] at z = 0 is 4 / tan(0.25) from the point there, 3 m before the
+     * target. */
     assert_near(camera.eye[2] - camera.target[2], 3.0 + 4.0 / tan(0.25), 1e-4);
     scene_destroy(scene);
 }

@@ -10,8 +10,8 @@ typedef struct fit_times {
     double times[SCENE_FIT_TIMES];
 } fit_times;
 
-/* Every key of desc's animations (at least one, all valid) and 24 even steps per second; SCENE_FIT_TIMES even steps
- * from the first to the last key if there would be more. */
+/* Every key of desc's animations (at least one, all valid) and 24 even steps per second; SCENE_FIT_TIMES
+ * even steps from the first to the last key if there would be more. */
 void fit_times_list(const facet_scene *scene, const facet_pose_desc *desc, fit_times *list);
 
 #endif

@@ -97,7 +97,8 @@ dmat4 hierarchy_shown_world(const hierarchy *h, uint32_t node)
 
 dmat4 hierarchy_world(hierarchy *h, uint32_t node)
 {
-    /* The path up to a node whose world is known; none of it is shown, so that there is room behind the shown nodes. */
+    /* The path up to a node whose world is known; none of it is shown, so that there is room behind the
+     * shown nodes. */
     uint32_t *path = h->shown + h->count;
     size_t length = 0;
     for (uint32_t up = node; up != SCENE_NONE && !h->has_world[up]; up = h->nodes[up].parent)

@@ -8,8 +8,8 @@ typedef struct hierarchy {
     const scene_node *nodes; /* the state's */
     uint32_t count;          /* shown nodes, parents before children */
     uint32_t *shown;
-    /* Per node of the file; for nodes that are not shown, computed on request. Composed in float, or (scene->is_far)
-     * in double and relative to the file's origin; the other pointer is NULL. */
+    /* Per node of the file; for nodes that are not shown, computed on request. Composed in float, or
+     * (scene->is_far) in double and relative to the file's origin; the other pointer is NULL. */
     mat4 *worlds;
     dmat4 *far_worlds;
     const double *origin;     /* the scene's */

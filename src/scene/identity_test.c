@@ -60,7 +60,8 @@ static void numbers_do_not_depend_on_what_is_drawn(void **state)
     scene_destroy(scene);
 }
 
-/* Names that several nodes share are one ID; names of instances are their own. 248bfa47 is MurmurHash3 of "hello". */
+/* Names that several nodes share are one ID; names of instances are their own. 248bfa47 is MurmurHash3 of
+ * "hello". */
 static void manifests_have_every_name_once(void **state)
 {
     (void)state;

@@ -1,15 +1,16 @@
-/* legacy.h - materials, lights and fog of OpenGL 1 programs and MTL files, kept beside a scene's glTF materials: as
- * they were read, or as conversions of those.
+/* legacy.h - materials, lights and fog of OpenGL 1 programs and MTL files, kept beside a scene's glTF
+ * materials: as they were read, or as conversions of those.
  *
- * Colors are in the encoding of the file: numbers that a legacy program displays on an 8-bit screen unchanged.
- * scene_legacy.colors says whether they are sRGB-encoded or linear when they become physical quantities. */
+ * Colors are in the encoding of the file: numbers that a legacy program displays on an 8-bit screen
+ * unchanged. scene_legacy.colors says whether they are sRGB-encoded or linear when they become physical
+ * quantities. */
 #ifndef SCENE_LEGACY_H
 #define SCENE_LEGACY_H
 
 #include "scene/scene.h"
 
-/* The largest light, color or offset in any file of legacy materials: far brighter than a screen, and its square is a
- * finite float. */
+/* The largest light, color or offset in any file of legacy materials: far brighter than a screen, and its
+ * square is a finite float. */
 #define LEGACY_LARGEST 1e9f
 
 /* Values that a file states; or-ed. Others have the value of legacy_material_default(). */
@@ -128,7 +129,8 @@ static inline bool legacy_has_map(const legacy_material *m, legacy_map_slot slot
     return m->maps[slot].ref.texture != SCENE_NONE;
 }
 
-/* Whether the image of a map with a glTF counterpart was dropped, so that the material is not completely known. */
+/* Whether the image of a map with a glTF counterpart was dropped, so that the material is not completely
+ * known. */
 bool legacy_lacks_images(const legacy_material *m);
 
 /* A light of OpenGL 1 with rgl's features: no attenuation, no spots. */
@@ -166,13 +168,13 @@ typedef struct scene_legacy {
     facet_mtl_dialect dialect;  /* never FACET_MTL_DIALECT_AUTO */
     bool is_dialect_guessed;    /* from the file's first comment */
     bool is_source;             /* read from a file; false: converted from the glTF materials */
-    /* rgl's rules: vertex colors replace diffuse ones, the texture applies to all of the light. False: MTL's and
-     * glTF's rules: vertex colors and the diffuse map multiply the diffuse color. */
+    /* rgl's rules: vertex colors replace diffuse ones, the texture applies to all of the light. False:
+     * MTL's and glTF's rules: vertex colors and the diffuse map multiply the diffuse color. */
     bool is_rgl;
 } scene_legacy;
 
-/* Whether every material of the scene has a legacy one, read or converted. Extras of a glTF file alone may have some
- * only. */
+/* Whether every material of the scene has a legacy one, read or converted. Extras of a glTF file alone may
+ * have some only. */
 bool scene_has_legacy_materials(const facet_scene *scene);
 
 /* ---- surfaces as numbers: no textures, linear colors ---- */

@@ -1,5 +1,5 @@
-/* legacy_extras.h - materials of OpenGL 1 as JSON, by MTL's names: "extras.facet_legacy" of materials and of the root
- * of a glTF file. The reader is io/gltf/gltf_extras.c. */
+/* legacy_extras.h - materials of OpenGL 1 as JSON, by MTL's names: "extras.facet_legacy" of materials and
+ * of the root of a glTF file. The reader is io/gltf/gltf_extras.c. */
 #ifndef SCENE_LEGACY_EXTRAS_H
 #define SCENE_LEGACY_EXTRAS_H
 
@@ -57,16 +57,16 @@ void legacy_pbr_factor_get(const scene_material *m, int factor, float out[3]);
 
 /* ---- text ---- */
 
-/* A material as an object. pbr: the glTF material converted from it, whose factors become the member "pbr"; NULL:
- * without. Textures are given by index in the scene. */
+/* A material as an object. pbr: the glTF material converted from it, whose factors become the member
+ * "pbr"; NULL: without. Textures are given by index in the scene. */
 void legacy_extras_write_material(const legacy_material *m, const scene_material *pbr, text *out);
 /* The same for material `material`: the member "facet_legacy" of a glTF material's extras. */
 void legacy_extras_write(const scene_legacy *legacy, uint32_t material, const scene_material *pbr, text *out);
 /* Lights, fog, colors and dialect: "facet_legacy" of the root object's extras. */
 void legacy_extras_write_scene(const scene_legacy *legacy, text *out);
-/* Sets the member "facet_legacy" of extras (JSON text of any kind, NULL: none) to object; all else stays. Extras that
- * are not an object become its member "extras". object NULL: removes the member; nothing is added if nothing else is
- * left. */
+/* Sets the member "facet_legacy" of extras (JSON text of any kind, NULL: none) to object; all else stays.
+ * Extras that are not an object become its member "extras". object NULL: removes the member; nothing is
+ * added if nothing else is left. */
 void legacy_extras_merge(const char *extras, const char *object, text *out);
 
 #endif

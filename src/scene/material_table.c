@@ -1,5 +1,6 @@
-/* material_table.c - see material_table.h. Ranges are those of the glTF 2.0 specification (section 3.9) and of each
- * extension, except that factors of emissiveFactor above 1 were common before KHR_materials_emissive_strength. */
+/* material_table.c - see material_table.h. Ranges are those of the glTF 2.0 specification (section 3.9)
+ * and of each extension, except that factors of emissiveFactor above 1 were common before
+ * KHR_materials_emissive_strength. */
 #include "scene/material_table.h"
 
 #include <float.h>
@@ -24,8 +25,8 @@ static const char UNLIT[] = "KHR_materials_unlit";
 static const char VOLUME[] = "KHR_materials_volume";
 static const char VOLUME_SCATTER[] = "KHR_materials_volume_scatter";
 
-/* base_color and specular_color have a row for metallic-roughness and one for specular-glossiness: a material has one
- * of the two. */
+/* base_color and specular_color have a row for metallic-roughness and one for specular-glossiness: a
+ * material has one of the two. */
 const material_parameter material_parameters[MATERIAL_PARAMETER_COUNT] = {
     {0, CORE, NULL, "baseColorFactor", AT(base_color), 4, 0, 1},
     {0, CORE, NULL, "metallicFactor", AT(metallic), 1, 0, 1},

@@ -1,5 +1,5 @@
-/* material_table.h - the parameters of a material by their glTF names: the table that reader, writer, description and
- * animation pointers share. */
+/* material_table.h - the parameters of a material by their glTF names: the table that reader, writer,
+ * description and animation pointers share. */
 #ifndef SCENE_MATERIAL_TABLE_H
 #define SCENE_MATERIAL_TABLE_H
 

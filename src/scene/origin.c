@@ -14,8 +14,8 @@ enum {
     MAX_ANCESTORS = 64 /* vertices sampled in a node */
 };
 
-/* A model is far beyond this multiple of its size from the origin. Positions of a mesh are moved earlier, since that
- * is cheaper and errors show earlier, in normals and tangents between neighbors. */
+/* A model is far beyond this multiple of its size from the origin. Positions of a mesh are moved earlier,
+ * since that is cheaper and errors show earlier, in normals and tangents between neighbors. */
 static const double FAR_RATIO = 16.0, MESH_RATIO = 4.0;
 /* Steps of floats above this fraction of a mesh are visible in its shading. */
 static const double COARSE = 0x1p-15;
@@ -34,8 +34,8 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The center of a point cloud per axis, and its size, without a twentieth of the points at either end of each axis. A
- * single point counts as 1 m, as in framing. Sorts. */
+/* The center of a point cloud per axis, and its size, without a twentieth of the points at either end of
+ * each axis. A single point counts as 1 m, as in framing. Sorts. */
 static double measure(samples *s, double middle[3])
 {
     double square = 0.0;
@@ -51,8 +51,8 @@ static double measure(samples *s, double middle[3])
     return size > 0.0 ? size : 1.0;
 }
 
-/* 0 for near models. Otherwise a multiple of a power of two of about the size, so that the subtraction is exact and
- * the number readable. */
+/* 0 for near models. Otherwise a multiple of a power of two of about the size, so that the subtraction is
+ * exact and the number readable. */
 static double choose(double middle, double size, double ratio)
 {
     if (!(fabs(middle) > ratio * size && fabs(middle) < (double)SCENE_FARTHEST))

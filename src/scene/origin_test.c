@@ -111,7 +111,8 @@ static void translated_nodes_keep_every_bit(void **state)
             }
 }
 
-/* Vertices that are far out in the file keep the values of its floats, with one warning that gives their precision. */
+/* Vertices that are far out in the file keep the values of its floats, with one warning that gives their
+ * precision. */
 static void vertices_are_moved_to_their_mesh(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* pose.c - one scene of the file at one time: instances, lights and cameras in world space. Animation, hierarchy,
- * deformation and bounds have their own files. */
+/* pose.c - one scene of the file at one time: instances, lights and cameras in world space. Animation,
+ * hierarchy, deformation and bounds have their own files. */
 #include <math.h>
 #include <string.h>
 
@@ -47,7 +47,8 @@ typedef struct pose_parts {
 
 /* ---- instances ---- */
 
-/* The cofactor matrix, of world scaled to about 1: the cofactors of a scale of 1e-15 are below the smallest float. */
+/* The cofactor matrix, of world scaled to about 1: the cofactors of a scale of 1e-15 are below the
+ * smallest float. */
 static void set_normal_matrix(scene_instance *instance)
 {
     float largest = 0.0f;
@@ -113,8 +114,9 @@ static mat4 instance_world(const dmat4 *node, const copy_place *copy, bool is_fa
     return mat4_from_double(&world);
 }
 
-/* How often a primitive of the mesh of a shown node is drawn; used by allocate() and fill(). The vertices of a skin
- * do not follow the node that has it (glTF 2.0 section 3.7.3.3), so that all of its instances coincide. */
+/* How often a primitive of the mesh of a shown node is drawn; used by allocate() and fill(). The vertices
+ * of a skin do not follow the node that has it (glTF 2.0 section 3.7.3.3), so that all of its instances
+ * coincide. */
 static uint32_t count_copies(const pose_parts *parts, uint32_t shown, uint32_t index)
 {
     const deformed *moved = deform_get(&parts->deformed, shown, index);

@@ -451,7 +451,8 @@ static void memory_that_runs_out_leaks_nothing(void **state)
     scene_destroy(scene);
 }
 
-/* A skin's vertices do not follow the node: all instances are at one place, and as many as fit the memory are written. */
+/* A skin's vertices do not follow the node: all instances are at one place, and as many as fit the memory
+ * are written. */
 static void instances_of_a_skin_are_one(void **state)
 {
     (void)state;

@@ -41,9 +41,9 @@ static sampler_blend cubic(const scene_sampler *sampler, uint32_t key, double t,
     };
 }
 
-/* Shoemake 1985: sin((1 - t) a) / sin a and sin(t a) / sin a, with a the angle between the quaternions; the sign of
- * the second factor selects the shorter path. The angle comes from sum and difference, which is equally precise near
- * 0 and near 180 degrees. */
+/* Shoemake 1985: sin((1 - t) a) / sin a and sin(t a) / sin a, with a the angle between the quaternions;
+ * the sign of the second factor selects the shorter path. The angle comes from sum and difference, which
+ * is equally precise near 0 and near 180 degrees. */
 static void slerp_factors(const float *a, const float *b, double t, double factors[2])
 {
     double dot = 0.0;

@@ -11,9 +11,9 @@ typedef struct sampler_blend {
     double factors[4];
 } sampler_blend;
 
-/* At time_s, finite: the first key's value before it, the last one's after it. is_rotation: values are unit
- * quaternions (width 4), linear keys are interpolated along the shorter great circle; the blend of cubic keys is not
- * unit. */
+/* At time_s, finite: the first key's value before it, the last one's after it. is_rotation: values are
+ * unit quaternions (width 4), linear keys are interpolated along the shorter great circle; the blend of
+ * cubic keys is not unit. */
 sampler_blend sampler_at(const scene_sampler *sampler, double time_s, bool is_rotation);
 
 /* Component i of the value, [0, sampler->width). */

@@ -1,7 +1,8 @@
 /* scene.h - a model as plain arrays: the data that all renderers share.
  *
- * Everything in a scene lives in its arena and does not change after loading, except by the conversion of its
- * materials (legacy/convert.h), which replaces arrays. Indices are into the arrays of the scene; SCENE_NONE: absent. */
+ * Everything in a scene lives in its arena and does not change after loading, except by the conversion of
+ * its materials (legacy/convert.h), which replaces arrays. Indices are into the arrays of the scene;
+ * SCENE_NONE: absent. */
 #ifndef SCENE_SCENE_H
 #define SCENE_SCENE_H
 
@@ -12,8 +13,8 @@
 
 #define SCENE_NONE UINT32_MAX
 
-/* Coordinates beyond this, m, are not drawn. A camera that frames everything within it stands within 1e18 m, and the
- * squares of all these lengths are finite floats. */
+/* Coordinates beyond this, m, are not drawn. A camera that frames everything within it stands within 1e18
+ * m, and the squares of all these lengths are finite floats. */
 #define SCENE_FARTHEST 1e17f
 
 struct text; /* base/text.h */
@@ -28,14 +29,14 @@ typedef struct scene_meta {
 
 typedef enum scene_mode { SCENE_POINTS, SCENE_LINES, SCENE_TRIANGLES } scene_mode;
 
-/* Displacements of a primitive's vertices at weight 1; NULL: none of that attribute. Normals and tangents are not
- * unit. */
+/* Displacements of a primitive's vertices at weight 1; NULL: none of that attribute. Normals and tangents
+ * are not unit. */
 typedef struct scene_morph_target {
     const float *positions, *normals, *tangents; /* 3 per vertex, m, finite */
 } scene_morph_target;
 
-/* What vertices of a sea know beside their normals: xx, zz, xz of the covariance of slopes that vertices do not show; the share that
- * foam hides. */
+/* What vertices of a sea know beside their normals: xx, zz, xz of the covariance of slopes that vertices
+ * do not show; the share that foam hides. */
 enum { SCENE_WATER_VALUES = 4 };
 
 /* Vertices of one material. Strips, fans and loops are unrolled to lists. */
@@ -113,8 +114,9 @@ typedef struct scene_texture_ref {
     float transform[6]; /* u' = t0 u + t1 v + t2, v' = t3 u + t4 v + t5 */
 } scene_texture_ref;
 
-/* Sets has_transform and transform from offset, rotation and scale: uv' = translation rotation scale uv. A positive
- * angle turns counter-clockwise on the screen, where v points down. Values that are not finite are ignored. */
+/* Sets has_transform and transform from offset, rotation and scale: uv' = translation rotation scale uv. A
+ * positive angle turns counter-clockwise on the screen, where v points down. Values that are not finite
+ * are ignored. */
 void scene_texture_ref_update(scene_texture_ref *ref);
 
 /* Uses of a material's textures. scene/material_table.h has their names and channels. */
@@ -163,8 +165,9 @@ typedef enum scene_material_extension {
 
 typedef enum scene_alpha_mode { SCENE_ALPHA_OPAQUE, SCENE_ALPHA_MASK, SCENE_ALPHA_BLEND } scene_alpha_mode;
 
-/* glTF 2.0 material with every extension. Colors linear Rec.709; units those of the extensions: thickness and
- * attenuation distance in m, film thickness in nm, angles in rad. scene_material_default() gives the defaults. */
+/* glTF 2.0 material with every extension. Colors linear Rec.709; units those of the extensions: thickness
+ * and attenuation distance in m, film thickness in nm, angles in rad. scene_material_default() gives the
+ * defaults. */
 typedef struct scene_material {
     const char *name;
     uint32_t extensions; /* SCENE_UNLIT .. */
@@ -357,8 +360,8 @@ typedef struct facet_scene {
     const char **variants; /* KHR_materials_variants: names */
     scene_root *scenes;
     scene_meta meta, asset_meta; /* of the root object: xmp packets; of "asset" */
-    /* scene/origin.h: the point of the file's world to which everything posed is relative, m; 0 unless the model is
-     * far from it. is_far: worlds of nodes are composed in double. */
+    /* scene/origin.h: the point of the file's world to which everything posed is relative, m; 0 unless the
+     * model is far from it. is_far: worlds of nodes are composed in double. */
     double origin[3];
     bool is_far;
     bool is_placed; /* the default scene has one root, the last node, which facet_scene_place() made */
@@ -382,8 +385,8 @@ typedef struct facet_scene {
 facet_result scene_create(const facet_allocator *allocator, const char *source, facet_scene **out,
                           facet_error *error);
 void scene_destroy(facet_scene *scene); /* NULL is allowed */
-/* Takes ownership of an open file (leaves {0} in *file), which is closed with the scene. False: no memory, *file is
- * unchanged. */
+/* Takes ownership of an open file (leaves {0} in *file), which is closed with the scene. False: no memory,
+ * *file is unchanged. */
 bool scene_keep_file(facet_scene *scene, file_bytes *file);
 /* Index in scene->files of an open file by device and inode; SCENE_NONE: none. */
 uint32_t scene_find_file(const facet_scene *scene, uint64_t device, uint64_t number);
@@ -415,8 +418,8 @@ typedef struct scene_instance {
     /* In local space: the primitive's, or the pose's own if is_deformed. */
     const float *positions, *normals, *tangents;
     float bounds_min[3], bounds_max[3]; /* of positions in use */
-    /* By morph targets or a skin. A skin's vertices are in world space, and world is the identity, or a reflection in
-     * x if most of the joints reflect. */
+    /* By morph targets or a skin. A skin's vertices are in world space, and world is the identity, or a
+     * reflection in x if most of the joints reflect. */
     bool is_deformed;
     /* EXT_mesh_gpu_instancing: a copy of the previous instance, with the same node and primitive. */
     bool is_copy;
@@ -458,10 +461,10 @@ typedef struct scene_pose {
     void *deformed, *material_copies; /* memory of the pose */
 } scene_pose;
 
-/* Evaluates desc (NULL: {0}). A file without scenes has one, number 0, of all its roots. Instances with singular
- * matrices, or beyond SCENE_FARTHEST, are left out. Fails with FACET_ERROR_ARGUMENT for an unknown scene, variant or
- * animation and a time that is not finite, FACET_ERROR_LIMIT above 2^22 instances or 2^27 deformed vertices,
- * FACET_ERROR_MEMORY. */
+/* Evaluates desc (NULL: {0}). A file without scenes has one, number 0, of all its roots. Instances with
+ * singular matrices, or beyond SCENE_FARTHEST, are left out. Fails with FACET_ERROR_ARGUMENT for an
+ * unknown scene, variant or animation and a time that is not finite, FACET_ERROR_LIMIT above 2^22
+ * instances or 2^27 deformed vertices, FACET_ERROR_MEMORY. */
 facet_result scene_pose_create(const facet_scene *scene, const facet_pose_desc *desc,
                                const facet_allocator *allocator, uint32_t thread_count, scene_pose *pose,
                                facet_error *error);
@@ -478,21 +481,21 @@ const scene_material *scene_pose_material(const facet_scene *scene, const scene_
 /* facet_orbit_default(). */
 facet_orbit scene_orbit_default(void);
 
-/* facet_camera_from_orbit() for an existing pose, which may be empty; fits_all_times is ignored. The distance is
- * exact: at radius_scale 1 the outermost vertex is on the border of the image. Fails with FACET_ERROR_ARGUMENT for
- * invalid values. */
+/* facet_camera_from_orbit() for an existing pose, which may be empty; fits_all_times is ignored. The
+ * distance is exact: at radius_scale 1 the outermost vertex is on the border of the image. Fails with
+ * FACET_ERROR_ARGUMENT for invalid values. */
 facet_result scene_fit_pose(const facet_scene *scene, const scene_pose *pose, const facet_orbit *orbit,
                             float aspect, uint32_t thread_count, facet_camera *camera, facet_error *error);
-/* facet_camera_from_orbit(). If the orbit fits all times, the motion is sampled at every key of the animations and 24
- * times per second, or at SCENE_FIT_TIMES even steps if there would be more. */
+/* facet_camera_from_orbit(). If the orbit fits all times, the motion is sampled at every key of the
+ * animations and 24 times per second, or at SCENE_FIT_TIMES even steps if there would be more. */
 enum { SCENE_FIT_TIMES = 256 };
 facet_result scene_fit_orbit(const facet_scene *scene, const facet_pose_desc *desc, const facet_orbit *orbit,
                              float aspect, facet_camera *camera, facet_error *error);
 
 /* ---- derived attributes ---- */
 
-/* Tangents for a triangle primitive with normals and texcoord set uv_set, compatible with MikkTSpace (Mikkelsen
- * 2008): one per index, so that out has 4 * index_count floats, corner by corner. */
+/* Tangents for a triangle primitive with normals and texcoord set uv_set, compatible with MikkTSpace
+ * (Mikkelsen 2008): one per index, so that out has 4 * index_count floats, corner by corner. */
 facet_result scene_generate_tangents(const scene_primitive *primitive, uint32_t uv_set,
                                      const facet_allocator *allocator, float *out, facet_error *error);
 

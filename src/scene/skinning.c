@@ -1,5 +1,5 @@
-/* skinning.c - morph targets (glTF 2.0 section 3.7.2.2: attributes plus the weighted sum of displacements) and linear blend
- * skinning (section 3.7.3; the transform of the node that has the mesh is ignored). */
+/* skinning.c - morph targets (glTF 2.0 section 3.7.2.2: attributes plus the weighted sum of displacements)
+ * and linear blend skinning (section 3.7.3; the transform of the node that has the mesh is ignored). */
 #include "scene/skinning.h"
 
 #include <float.h>
@@ -79,8 +79,8 @@ void morph_vertices(const scene_primitive *primitive, const float *weights, uint
 
 /* ---- joints ---- */
 
-/* The product a b; components that are not finite become the largest float, which moves vertices with that joint out
- * of the scene, and times a weight of 0 is 0. */
+/* The product a b; components that are not finite become the largest float, which moves vertices with that
+ * joint out of the scene, and times a weight of 0 is 0. */
 static mat4 multiply_finite(const dmat4 *a, const mat4 *b)
 {
     const dmat4 wide = dmat4_from_float(b);
@@ -156,8 +156,8 @@ static inline float4 cross4(float4 a, float4 b)
     return a_yzx * b_zxy - a_zxy * b_yzx;
 }
 
-/* The weighted mean of the joints' matrices, divided by the sum of weights, which is 1 up to rounding, so that joints
- * with equal matrices yield that matrix. */
+/* The weighted mean of the joints' matrices, divided by the sum of weights, which is 1 up to rounding, so
+ * that joints with equal matrices yield that matrix. */
 static inline blended blend_matrices(const skin_pose *pose, const uint16_t *joints, const float *weights,
                                      uint32_t influence_count)
 {
@@ -199,9 +199,9 @@ static void turn_normal_slowly(const blended *b, const float n[3], const float o
             out[k] = fallback[k];
 }
 
-/* Normals are transformed by the cofactor matrix, the inverse transpose times the determinant, which exists for
- * singular matrices as well: its columns are the cross products of the matrix' columns. For a negative determinant it
- * follows the winding of the triangles, as the tangent's w does. */
+/* Normals are transformed by the cofactor matrix, the inverse transpose times the determinant, which
+ * exists for singular matrices as well: its columns are the cross products of the matrix' columns. For a
+ * negative determinant it follows the winding of the triangles, as the tangent's w does. */
 static inline void turn_normal(const blended *b, const float n[3], const float otherwise[3], float out[3])
 {
     float4 v = cross4(b->column[1], b->column[2]) * n[0] + cross4(b->column[2], b->column[0]) * n[1] +

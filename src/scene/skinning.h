@@ -20,8 +20,9 @@ typedef struct vertex_source {
     const float *positions, *normals, *tangents;
 } vertex_source;
 
-/* Writes vertices [begin, end): the primitive's plus weights times displacements. Directions are not unit afterwards;
- * w of tangents stays. weights: at least target_count, or weight_count, beyond which they are 0. */
+/* Writes vertices [begin, end): the primitive's plus weights times displacements. Directions are not unit
+ * afterwards; w of tangents stays. weights: at least target_count, or weight_count, beyond which they are
+ * 0. */
 void morph_vertices(const scene_primitive *primitive, const float *weights, uint32_t weight_count,
                     size_t begin, size_t end, const vertex_arrays *out);
 
@@ -36,9 +37,9 @@ typedef struct skin_pose {
 bool skin_pose_create(const scene_skin *skin, hierarchy *h, const facet_allocator *allocator, skin_pose *out);
 void skin_pose_destroy(skin_pose *pose); /* {0} is allowed */
 
-/* Moves vertices [begin, end) of in (the primitive's, or morphed) to out; NULL arrays of out are skipped, out may be
- * in. Normals and tangents are unit; one that loses its direction is the primitive's. False: some position is beyond
- * SCENE_FARTHEST or not finite. A joint index beyond the skin has no effect. */
+/* Moves vertices [begin, end) of in (the primitive's, or morphed) to out; NULL arrays of out are skipped,
+ * out may be in. Normals and tangents are unit; one that loses its direction is the primitive's. False:
+ * some position is beyond SCENE_FARTHEST or not finite. A joint index beyond the skin has no effect. */
 bool skin_vertices(const skin_pose *pose, const scene_primitive *primitive, const vertex_source *in,
                    size_t begin, size_t end, const vertex_arrays *out);
 

@@ -7,11 +7,11 @@
  * 4. A group's tangent is the sum of its triangles' directions, each made perpendicular to the vertex normal and
  *    weighted by the triangle's angle there.
  *
- * Omitted: the splitting of groups by an angle between tangents, whose default of 180 degrees never splits; and the
- * tangent (1, 0, 0) for corners without one, for which a perpendicular one is better.
+ * Omitted: the splitting of groups by an angle between tangents, whose default of 180 degrees never
+ * splits; and the tangent (1, 0, 0) for corners without one, for which a perpendicular one is better.
  *
- * The sign: B = w cross(N, T) must point up in the image, that is towards smaller v, because glTF's v grows downwards
- * and its normal maps have +Y up. MikkTSpace run on (u, 1 - v) gives exactly that. */
+ * The sign: B = w cross(N, T) must point up in the image, that is towards smaller v, because glTF's v
+ * grows downwards and its normal maps have +Y up. MikkTSpace run on (u, 1 - v) gives exactly that. */
 #include "scene/scene.h"
 
 #include <float.h>
@@ -145,8 +145,8 @@ static bool weld(tangent_space *space, const facet_allocator *allocator)
 
 /* ---- 2. triangles ---- */
 
-/* The gradient of position by u over a triangle, up to a positive factor: with edges d1, d2 in space and (u1, v1),
- * (u2, v2) in the texture, (v2 d1 - v1 d2) times the sign of the texture's area. */
+/* The gradient of position by u over a triangle, up to a positive factor: with edges d1, d2 in space and
+ * (u1, v1), (u2, v2) in the texture, (v2 d1 - v1 d2) times the sign of the texture's area. */
 static void set_up_triangle(const tangent_space *space, const uint32_t *indices, triangle *t)
 {
     const scene_primitive *p = space->primitive;
@@ -195,8 +195,8 @@ typedef struct edge {
     bool is_backward; /* from the larger to the smaller vertex */
 } edge;
 
-/* Sorts by (other, corner), the latter being the order of input. Heap sort, since a vertex may have any number of
- * edges, although most have six. */
+/* Sorts by (other, corner), the latter being the order of input. Heap sort, since a vertex may have any
+ * number of edges, although most have six. */
 static bool is_before(const edge *a, const edge *b)
 {
     return a->other != b->other ? a->other < b->other : a->corner < b->corner;
@@ -238,8 +238,8 @@ static void sort_edges(edge *edges, size_t count)
     }
 }
 
-/* Pairs edges between the same two vertices with opposite directions: the first unpaired one with the next match.
- * With more than two triangles at an edge the order of input decides. */
+/* Pairs edges between the same two vertices with opposite directions: the first unpaired one with the next
+ * match. With more than two triangles at an edge the order of input decides. */
 static void pair_edges(tangent_space *space, edge *edges, size_t count)
 {
     sort_edges(edges, count);
@@ -295,8 +295,8 @@ static bool connect(tangent_space *space, const facet_allocator *allocator)
 
 /* ---- 3. groups ---- */
 
-/* Adds triangle i to a group at vertex, if it is allowed. A triangle without orientation takes that of the first
- * group that reaches any of its corners. Returns its corner, or -1. */
+/* Adds triangle i to a group at vertex, if it is allowed. A triangle without orientation takes that of the
+ * first group that reaches any of its corners. Returns its corner, or -1. */
 static int join(tangent_space *space, uint32_t i, uint32_t vertex, uint32_t group, bool is_mirrored)
 {
     triangle *t = &space->triangles[i];
@@ -359,8 +359,8 @@ static float corner_angle(const tangent_space *space, const triangle *t, int cor
 /* Marks a group's tangent as an unfinished sum, in place of the sign. */
 static const float UNFINISHED = 2.0f;
 
-/* Writes each corner's contribution to its group to out: the triangle's direction, perpendicular to the normal there,
- * times its angle. */
+/* Writes each corner's contribution to its group to out: the triangle's direction, perpendicular to the
+ * normal there, times its angle. */
 static void weigh_corners(void *context, size_t begin, size_t end)
 {
     const tangent_space *space = context;
@@ -405,7 +405,8 @@ static void finish(float *tangent, const float normal[3])
         any_perpendicular(normal, tangent);
 }
 
-/* Corners of degenerate triangles take the group of another corner at the same vertex; any_group is one per vertex. */
+/* Corners of degenerate triangles take the group of another corner at the same vertex; any_group is one
+ * per vertex. */
 static void write_tangents(tangent_space *space, const uint32_t *any_group, float *out)
 {
     for (uint32_t i = 0; i < space->triangle_count; i++) {

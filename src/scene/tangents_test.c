@@ -1,5 +1,5 @@
-/* tangents_test.c - tangents: unit, perpendicular, signed, independent of order; equal to those of surfaces with a
- * formula, and to MikkTSpace in other tools. */
+/* tangents_test.c - tangents: unit, perpendicular, signed, independent of order; equal to those of
+ * surfaces with a formula, and to MikkTSpace in other tools. */
 #include "scene/scene_test_support.h"
 
 #include <math.h>

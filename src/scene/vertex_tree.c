@@ -44,8 +44,8 @@ static void swap(uint32_t *a, uint32_t *b)
     *b = kept;
 }
 
-/* Quickselect (Hoare 1961, algorithm 65): puts the vertex of rank `middle` there, smaller ones before it. The pivot
- * is chosen by a hash, so that no order of vertices in practice is slow. */
+/* Quickselect (Hoare 1961, algorithm 65): puts the vertex of rank `middle` there, smaller ones before it.
+ * The pivot is chosen by a hash, so that no order of vertices in practice is slow. */
 static void select_middle(builder *b, uint32_t begin, uint32_t end, uint32_t middle, int axis)
 {
     uint32_t *v = b->vertices;
@@ -130,8 +130,8 @@ bool vertex_tree_create(const scene_primitive *p, const facet_allocator *allocat
     uint32_t count;
     builder b = {.positions = p->positions, .vertices = list_vertices(p, allocator, &count), .tree = out};
     *out = (vertex_tree){.nodes = NULL};
-    /* Halves of more than LEAF vertices have at least LEAF / 2, a tree has one node less than twice its leaves, and
-     * one block per leaf is not full. */
+    /* Halves of more than LEAF vertices have at least LEAF / 2, a tree has one node less than twice its
+     * leaves, and one block per leaf is not full. */
     size_t leaf_count = count / (LEAF / 2) + 1;
     if (count) {
         out->nodes = mem_alloc(allocator, 2 * leaf_count, sizeof *out->nodes);

@@ -1,5 +1,5 @@
-/* vertex_tree.h - a bounding volume hierarchy of a primitive's vertices, to find the extreme ones by branch and
- * bound: many instances of one primitive cost a few vertices each instead of all of them. */
+/* vertex_tree.h - a bounding volume hierarchy of a primitive's vertices, to find the extreme ones by
+ * branch and bound: many instances of one primitive cost a few vertices each instead of all of them. */
 #ifndef SCENE_VERTEX_TREE_H
 #define SCENE_VERTEX_TREE_H
 
@@ -11,7 +11,8 @@ typedef struct vertex_node {
     uint32_t right;      /* the second child, the first one is the next node; 0: a leaf */
 } vertex_node;
 
-/* Vertices of a leaf, transposed in groups of four for vectorized loops; the last block repeats its last vertex. */
+/* Vertices of a leaf, transposed in groups of four for vectorized loops; the last block repeats its last
+ * vertex. */
 enum { VERTEX_LANES = 4 };
 typedef struct vertex_block {
     float xyz[3][VERTEX_LANES];
@@ -27,8 +28,8 @@ typedef struct vertex_tree {
 bool vertex_tree_create(const scene_primitive *p, const facet_allocator *allocator, vertex_tree *out);
 void vertex_tree_destroy(vertex_tree *tree); /* {0} is allowed; leaves {0} */
 
-/* A search. gain(): an upper bound of what the vertices in a box (of the primitive, before world) can add to the
- * result; <= 0: nothing. */
+/* A search. gain(): an upper bound of what the vertices in a box (of the primitive, before world) can add
+ * to the result; <= 0: nothing. */
 typedef struct vertex_visitor {
     void *context;
     double (*gain)(void *context, const box *bounds);
@@ -36,8 +37,8 @@ typedef struct vertex_visitor {
 } vertex_visitor;
 void vertex_tree_visit(const vertex_tree *tree, const vertex_visitor *visitor);
 
-/* Trees of the primitives of a pose, built once enough instances of a primitive were examined in full for it to pay.
- * {0}: none yet. */
+/* Trees of the primitives of a pose, built once enough instances of a primitive were examined in full for
+ * it to pay. {0}: none yet. */
 typedef struct vertex_trees {
     const facet_scene *scene;
     const facet_allocator *allocator;

@@ -1,5 +1,5 @@
-/* view.c - the viewer: facet_view(). The loop sleeps until an event, applies it to the state, and redraws what
- * changed. */
+/* view.c - the viewer: facet_view(). The loop sleeps until an event, applies it to the state, and redraws
+ * what changed. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -312,8 +312,8 @@ static bool apply_motion(view_state *s, view_action action, int amount)
     return true;
 }
 
-/* Rounds to short decimals: degrees to thousandths, as options are read; stops to ten thousandths; factors to five
- * digits. */
+/* Rounds to short decimals: degrees to thousandths, as options are read; stops to ten thousandths; factors
+ * to five digits. */
 static float turn(float radians, double degrees)
 {
     double turned = round(((double)radians / degree + degrees) * 1e3) / 1e3;

@@ -1,5 +1,5 @@
-/* view_app.h - the state that the viewer's files share: view.c (the loop), view_files.c (reading), view_show.c
- * (drawing), view_shot.c (saving), view_play.c (scripts). */
+/* view_app.h - the state that the viewer's files share: view.c (the loop), view_files.c (reading),
+ * view_show.c (drawing), view_shot.c (saving), view_play.c (scripts). */
 #ifndef VIEW_VIEW_APP_H
 #define VIEW_VIEW_APP_H
 

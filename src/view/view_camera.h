@@ -1,5 +1,5 @@
-/* view_camera.h - an orbit that is turned, panned and zoomed by hand: arithmetic on facet_orbit, whose radius and
- * target are given. */
+/* view_camera.h - an orbit that is turned, panned and zoomed by hand: arithmetic on facet_orbit, whose
+ * radius and target are given. */
 #ifndef VIEW_VIEW_CAMERA_H
 #define VIEW_VIEW_CAMERA_H
 
@@ -7,13 +7,13 @@
 
 #include "facet/facet.h"
 
-/* By pixels of the pointer, x to the right and y down, in an image of that height. A drag over the whole height is
- * a full turn, as in <model-viewer>; it stops straight above and below. */
+/* By pixels of the pointer, x to the right and y down, in an image of that height. A drag over the whole
+ * height is a full turn, as in <model-viewer>; it stops straight above and below. */
 void view_camera_turn(facet_orbit *orbit, double dx, double dy, uint32_t height);
 /* Points at the target's depth stay under the pointer. */
 void view_camera_pan(facet_orbit *orbit, double dx, double dy, uint32_t height);
-/* Towards the target; positive: nearer. A step of a wheel is a tenth of the distance. size: of the model, m, which
- * limits near and far. */
+/* Towards the target; positive: nearer. A step of a wheel is a tenth of the distance. size: of the model,
+ * m, which limits near and far. */
 void view_camera_dolly(facet_orbit *orbit, double steps, double size);
 void view_camera_look(facet_orbit *orbit, view_direction direction);
 

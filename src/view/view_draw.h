@@ -30,10 +30,11 @@ facet_result view_draw_create(gl_context *context, const facet_allocator *alloca
                               facet_error *error);
 void view_draw_destroy(view_draw *d); /* NULL is allowed */
 
-/* Draws into that framebuffer (0: the window's) of that size from now on. square: of the checkerboard, pixels. */
+/* Draws into that framebuffer (0: the window's) of that size from now on. square: of the checkerboard,
+ * pixels. */
 void view_draw_begin(view_draw *d, uint32_t framebuffer, uint32_t width, uint32_t height, float square);
-/* x, y: of the top left corner, pixels from the top left. left, right: columns of the window; the rectangle is
- * clipped to them. */
+/* x, y: of the top left corner, pixels from the top left. left, right: columns of the window; the
+ * rectangle is clipped to them. */
 void view_draw_surface(view_draw *d, const view_surface *s, view_laying laying, int x, int y, uint32_t width,
                        uint32_t height, int left, int right);
 /* A vertical line, width pixels around x, of one color. */

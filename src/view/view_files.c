@@ -1,5 +1,5 @@
-/* view_files.c - models and environments of a window: stepping, dropping, reloading, and updating the state when
- * they are read. */
+/* view_files.c - models and environments of a window: stepping, dropping, reloading, and updating the
+ * state when they are read. */
 #include "view/view_app.h"
 
 #include <stdio.h>
@@ -16,8 +16,8 @@ static void request(view_app *a, const view_request *r)
         view_app_say(a, "There is no memory", 4.0);
 }
 
-/* The environment is read together with a model, as the model may have its own: without a name it is that, or the
- * default one. */
+/* The environment is read together with a model, as the model may have its own: without a name it is that,
+ * or the default one. */
 static void request_model(view_app *a, const char *path)
 {
     bool may_have_light = !a->environment_name;

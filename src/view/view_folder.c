@@ -111,8 +111,8 @@ bool view_path_is_folder(const char *path)
     return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
 }
 
-/* Appends the matching files of a folder, by name. depth: how many folders further down it looks where it has none
- * itself. */
+/* Appends the matching files of a folder, by name. depth: how many folders further down it looks where it
+ * has none itself. */
 static bool add_folder(view_list *l, const char *folder, bool (*is_wanted)(const char *), int depth)
 {
     DIR *directory = opendir(folder);

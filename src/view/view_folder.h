@@ -15,9 +15,9 @@ bool view_path_is_model(const char *path); /* by its extension: .glb .gltf .obj 
 bool view_path_is_folder(const char *path);
 bool view_path_is_environment(const char *path); /* .hdr .exr .pfm .ktx2 and other images */
 
-/* From the given paths: models as they are; of folders the models in them, or where there are none those one or
- * two folders below, by name. For a single model: those of its folder, with it as the current one. False: out of
- * memory. */
+/* From the given paths: models as they are; of folders the models in them, or where there are none those
+ * one or two folders below, by name. For a single model: those of its folder, with it as the current one.
+ * False: out of memory. */
 bool view_list_models(view_list *list, const char *const *paths, uint32_t path_count);
 /* The names, followed by the environments in the folder of path (NULL: none), which is the current one. */
 bool view_list_environments(view_list *list, const char *const *names, uint32_t name_count, const char *path);

@@ -13,8 +13,8 @@ typedef struct view_image {
 facet_result view_image_create(const facet_image_view *linear, const facet_allocator *allocator,
                                view_image *out, facet_error *error);
 void view_image_destroy(view_image *p); /* {0} is allowed */
-/* The inverse, a block of mem_alloc(): linear, premultiplied RGBA, from which facet_image_save() writes the same
- * values again. NULL: out of memory. */
+/* The inverse, a block of mem_alloc(): linear, premultiplied RGBA, from which facet_image_save() writes
+ * the same values again. NULL: out of memory. */
 float *view_image_to_linear(const view_image *p, const facet_allocator *allocator);
 
 #endif

@@ -10,7 +10,8 @@ typedef struct view_request {
     const char *path; /* NULL: the built-in scene */
     bool wants_environment;
     const char *environment; /* NULL: the first one, or the model's own */
-    /* The environment is read for this model, where the request names none to read: it may have its own light. */
+    /* The environment is read for this model, where the request names none to read: it may have its own
+     * light. */
     const facet_view_model *model;
 } view_request;
 

@@ -1,4 +1,5 @@
-/* view_overlay.c - see view_overlay.h. Light text on a dark translucent panel, which is legible over any image. */
+/* view_overlay.c - see view_overlay.h. Light text on a dark translucent panel, which is legible over any
+ * image. */
 #include "view/view_overlay.h"
 
 #include <math.h>
@@ -320,8 +321,8 @@ static int fill_column(const overlay_rows *rows, int first, overlay_metrics m, d
     return count > 0 ? count : 1;
 }
 
-/* The columns, side by side, of the page that begins with row first; at least one. Returns their number; *next:
- * first row of the next page. */
+/* The columns, side by side, of the page that begins with row first; at least one. Returns their number;
+ * *next: first row of the next page. */
 static int fill_page(canvas *c, const overlay_rows *rows, int first, overlay_metrics m, double width,
                      double height, overlay_block *blocks, int *next)
 {

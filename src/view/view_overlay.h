@@ -1,5 +1,5 @@
-/* view_overlay.h - text over the image: panels rendered to images, which the window composes. Text is drawn by
- * cairo, through plot/; without cairo there are no panels. */
+/* view_overlay.h - text over the image: panels rendered to images, which the window composes. Text is
+ * drawn by cairo, through plot/; without cairo there are no panels. */
 #ifndef VIEW_VIEW_OVERLAY_H
 #define VIEW_VIEW_OVERLAY_H
 
@@ -15,8 +15,8 @@ typedef struct view_panel {
  * where wider than max_width. FACET_ERROR_UNSUPPORTED, _ENVIRONMENT: there is no cairo; _MEMORY. */
 facet_result view_overlay_text(const char *lines, float scale, uint32_t max_width,
                                const facet_allocator *allocator, view_panel *out, facet_error *error);
-/* The table of keys, in as many columns as fit, with text no smaller than legible; otherwise on several pages,
- * with a footer that says so. page: which, from 1. *page_count: their number. */
+/* The table of keys, in as many columns as fit, with text no smaller than legible; otherwise on several
+ * pages, with a footer that says so. page: which, from 1. *page_count: their number. */
 facet_result view_overlay_help(float scale, uint32_t max_width, uint32_t max_height, uint32_t page,
                                uint32_t *page_count, const facet_allocator *allocator, view_panel *out,
                                facet_error *error);

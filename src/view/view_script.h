@@ -1,5 +1,5 @@
-/* view_script.h - input from a file instead of a user, for tests and screen recordings. docs/view.md lists the
- * words. */
+/* view_script.h - input from a file instead of a user, for tests and screen recordings. docs/view.md lists
+ * the words. */
 #ifndef VIEW_VIEW_SCRIPT_H
 #define VIEW_VIEW_SCRIPT_H
 

@@ -1,5 +1,5 @@
-/* view_show.c - what the window shows: the model by OpenGL or path tracing, one image or two side by side, with
- * the overlay. */
+/* view_show.c - what the window shows: the model by OpenGL or path tracing, one image or two side by side,
+ * with the overlay. */
 #include "view/view_app.h"
 
 #include <math.h>
@@ -37,9 +37,9 @@ facet_render_desc view_show_desc(view_app *a, uint32_t width, uint32_t height, f
     return sides[1];
 }
 
-/* Path traces still images, and draws moving ones by OpenGL: an image of one sample says less than one that is up
- * to date. Changes by a held pointer that do not affect the image, such as the divider's, do not interrupt
- * tracing. */
+/* Path traces still images, and draws moving ones by OpenGL: an image of one sample says less than one
+ * that is up to date. Changes by a held pointer that do not affect the image, such as the divider's, do
+ * not interrupt tracing. */
 static bool trace(view_app *a, int side, const facet_render_desc *wanted)
 {
     facet_render_desc desc = *wanted;
@@ -232,8 +232,8 @@ static void draw_panel(view_app *a, view_panel_id id, int x, int y, int left, in
                           left, right);
 }
 
-/* Next to the border, or, where a side is narrower than its label, the right label a line below. Returns the y
- * below them. */
+/* Next to the border, or, where a side is narrower than its label, the right label a line below. Returns
+ * the y below them. */
 static int draw_labels(view_app *a, int width, int border, int margin)
 {
     const view_surface *left = &a->panels[VIEW_PANEL_LEFT].surface;

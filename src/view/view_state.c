@@ -257,8 +257,8 @@ bool view_divider_labels(int border, int width, int margin, const int widths[2],
 
 /* ---- the pointer ---- */
 
-/* Habits from model-viewer and Blender: left and middle button orbit; right, or either with Shift, pans; with Ctrl
- * zooms. */
+/* Habits from model-viewer and Blender: left and middle button orbit; right, or either with Shift, pans;
+ * with Ctrl zooms. */
 static void drag(view_state *s, double dx, double dy, unsigned modifiers)
 {
     view_state_leave_file_camera(s);

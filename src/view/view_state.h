@@ -34,8 +34,8 @@ void view_divider_sides(const view_divider *d, const facet_render_desc *base, fa
 /* Whether the pointer at x can grab it. reach: px to either side. */
 bool view_divider_is_at(const view_divider *d, double x, uint32_t width, double reach);
 void view_divider_drag(view_divider *d, double x, uint32_t width);
-/* The next comparison, in either direction; variants only where there are some, masking only without path tracing,
- * which has no separable one. */
+/* The next comparison, in either direction; variants only where there are some, masking only without path
+ * tracing, which has no separable one. */
 void view_divider_step(view_divider *d, int steps, bool has_variants, bool traces_paths);
 /* Where labels of those widths begin (x): next to the border where they fit there, else as near as the window
  * allows. True: one of them does not fit on its own side, and they need separate lines. */
@@ -95,19 +95,19 @@ bool view_state_advance(view_state *s, double seconds);
 
 /* Whether there is a light that could cast shadows. */
 bool view_state_has_casters(const view_state *s);
-/* For other files: which animations of the scene run; the model's longest side in m, 1 where it has none; and an
- * orbit equal to the file's camera, before it is moved by hand. */
+/* For other files: which animations of the scene run; the model's longest side in m, 1 where it has none;
+ * and an orbit equal to the file's camera, before it is moved by hand. */
 void view_state_set_animations(view_state *s, const uint32_t *animations, uint32_t count);
 float view_state_size(const view_state *s);
 void view_state_leave_file_camera(view_state *s);
 
-/* Finds the radius and the target of an orbit that needs_framing, as facet render does: for all times, where there
- * is motion. Fails as scene_fit_orbit(). */
+/* Finds the radius and the target of an orbit that needs_framing, as facet render does: for all times,
+ * where there is motion. Fails as scene_fit_orbit(). */
 facet_result view_state_frame(view_state *s, float aspect, facet_error *error);
 /* From now on the whole model is in view, from the direction that the orbit has. */
 void view_state_show_whole(view_state *s);
-/* After a change of the running animations: an orbit that was found for others, and that was not moved by hand, is
- * found again. */
+/* After a change of the running animations: an orbit that was found for others, and that was not moved by
+ * hand, is found again. */
 void view_state_follow_motion(view_state *s);
 
 /* The whole desc of an image of that size, except for the environment. camera: where it is stored. */

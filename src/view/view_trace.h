@@ -1,5 +1,5 @@
-/* view_trace.h - path tracing of what a window shows, on a thread of its own: the image is delivered repeatedly,
- * with less noise each time. */
+/* view_trace.h - path tracing of what a window shows, on a thread of its own: the image is delivered
+ * repeatedly, with less noise each time. */
 #ifndef VIEW_VIEW_TRACE_H
 #define VIEW_VIEW_TRACE_H
 
@@ -13,8 +13,8 @@ facet_result view_trace_create(const gl_host *host, const facet_allocator *alloc
                                void (*wake)(void *user), void *user, view_tracer **out, facet_error *error);
 void view_trace_destroy(view_tracer *t); /* NULL is allowed */
 
-/* Restarts, unless desc is already being traced. scene, environment must live until view_trace_stop(); camera and
- * animations are copied. True: it restarted, and images taken before show something else. */
+/* Restarts, unless desc is already being traced. scene, environment must live until view_trace_stop();
+ * camera and animations are copied. True: it restarted, and images taken before show something else. */
 bool view_trace_start(view_tracer *t, const facet_scene *scene, const facet_render_desc *desc);
 /* Whether that is being traced, so that view_trace_start() would not restart. */
 bool view_trace_is_of(view_tracer *t, const facet_scene *scene, const facet_render_desc *desc);

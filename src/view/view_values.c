@@ -1,5 +1,5 @@
-/* view_values.c - the panel of current settings, rendering and frame time. Default settings are omitted, so that
- * the panel stays small. */
+/* view_values.c - the panel of current settings, rendering and frame time. Default settings are omitted,
+ * so that the panel stays small. */
 #include "view/view_app.h"
 
 #include <stdarg.h>

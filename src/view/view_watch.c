@@ -1,5 +1,5 @@
-/* view_watch.c - see view_watch.h. Programs replace files rather than write into them, so names in folders are
- * watched; the names of the scene's files are found while they are still the ones that were read. */
+/* view_watch.c - see view_watch.h. Programs replace files rather than write into them, so names in folders
+ * are watched; the names of the scene's files are found while they are still the ones that were read. */
 #define _GNU_SOURCE /* NAME_MAX, strdup */
 #include "view/view_watch.h"
 

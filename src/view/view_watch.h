@@ -14,7 +14,8 @@ void view_watch_destroy(view_watcher *w); /* NULL is allowed */
 
 /* Watches from now on the files of scene in the folder of path and in its subfolders; path NULL: none. */
 void view_watch_set(view_watcher *w, const facet_scene *scene, const char *path);
-/* Whether one of them changed since the last call, and none did for a short while: programs write several files. */
+/* Whether one of them changed since the last call, and none did for a short while: programs write several
+ * files. */
 bool view_watch_take(view_watcher *w);
 
 #endif

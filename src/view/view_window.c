@@ -59,8 +59,8 @@ struct view_window {
     int old_x, old_y, old_width, old_height; /* before full screen */
 };
 
-/* GLFW's callbacks get only a handle; its user data is read through the library, whose functions are found at run
- * time. GLFW has one instance per process, on its first thread: so has this. */
+/* GLFW's callbacks get only a handle; its user data is read through the library, whose functions are found
+ * at run time. GLFW has one instance per process, on its first thread: so has this. */
 static void *(*get_user_pointer)(GLFWwindow *handle);
 
 static view_window *of(GLFWwindow *handle)

@@ -8,8 +8,8 @@
 
 typedef struct view_window view_window;
 
-/* Hidden until view_window_show(); its context is current. width, height: of the framebuffer as far as the desktop
- * allows. queue: where events go. Fails with FACET_ERROR_SYSTEM: no GLFW, no display, no OpenGL. */
+/* Hidden until view_window_show(); its context is current. width, height: of the framebuffer as far as the
+ * desktop allows. queue: where events go. Fails with FACET_ERROR_SYSTEM: no GLFW, no display, no OpenGL. */
 facet_result view_window_create(const facet_allocator *allocator, uint32_t width, uint32_t height,
                                 view_queue *queue, view_window **out, facet_error *error);
 void view_window_destroy(view_window *w); /* NULL is allowed */

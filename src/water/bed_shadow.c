@@ -1,8 +1,8 @@
-/* bed_shadow.c - see bed_shadow.h. Rays from each texel of the bed go to the still surface and on to the light:
- * to the whole disc of the sun, through the slopes of all waves and over the texel's area; to the sky through
- * Snell's window, weighted by its radiance, since the bright sky around the sun is hidden with it; and to
- * sunlight scattered in the water. All texels share the same rays; the steps of scattered light are smoothed.
- * Interreflected light is gathered from the neighborhood. */
+/* bed_shadow.c - see bed_shadow.h. Rays from each texel of the bed go to the still surface and on to the
+ * light: to the whole disc of the sun, through the slopes of all waves and over the texel's area; to the
+ * sky through Snell's window, weighted by its radiance, since the bright sky around the sun is hidden with
+ * it; and to sunlight scattered in the water. All texels share the same rays; the steps of scattered light
+ * are smoothed. Interreflected light is gathered from the neighborhood. */
 #include "water/bed_shadow.h"
 
 #include <math.h>
@@ -82,9 +82,9 @@ static void choose_sky(making *m)
         m->sky[i].weight *= 1.0f / max(sum, 1e-20f);
 }
 
-/* Single scattering by particles anywhere along the path: lateral offset is the remaining path length times the
- * tangent of the scattering angle. Half of the light falls within 0.065 of the depth, a twentieth beyond half
- * of it. */
+/* Single scattering by particles anywhere along the path: lateral offset is the remaining path length
+ * times the tangent of the scattering angle. Half of the light falls within 0.065 of the depth, a
+ * twentieth beyond half of it. */
 static void choose_scattered(making *m)
 {
     const water_setup *s = m->s;
@@ -136,8 +136,8 @@ static float sun_share(const making *m, double X, double Z, uint32_t count)
     return sum / (float)count;
 }
 
-/* Composition of the light of open water at the depth of one texel; shares, including interreflected light, sum
- * to 1. */
+/* Composition of the light of open water at the depth of one texel; shares, including interreflected
+ * light, sum to 1. */
 typedef struct light_shares {
     float focused, sky, scattered, returned;
 } light_shares;

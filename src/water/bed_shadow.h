@@ -1,6 +1,6 @@
-/* bed_shadow.h - a model's shadow on the bed: the transmitted shares of the sun's beam and of all other light.
- * Inside of caustic layers the beam's shadow is part of the caustics, as waves refract it; this map holds
- * beyond them. */
+/* bed_shadow.h - a model's shadow on the bed: the transmitted shares of the sun's beam and of all other
+ * light. Inside of caustic layers the beam's shadow is part of the caustics, as waves refract it; this map
+ * holds beyond them. */
 #ifndef WATER_BED_SHADOW_H
 #define WATER_BED_SHADOW_H
 
@@ -28,8 +28,8 @@ typedef struct bed_shadow {
 facet_result bed_shadow_of_picture(const struct water_setup *s, bed_shadow *out, facet_error *error);
 void bed_shadow_destroy(bed_shadow *b); /* {0} is allowed */
 
-/* Rectangle in X, Z (m) of the beam's shadow on a bed `depth` m below the surface; on the surface it is at most
- * eight times as long as the model. */
+/* Rectangle in X, Z (m) of the beam's shadow on a bed `depth` m below the surface; on the surface it is at
+ * most eight times as long as the model. */
 void bed_shadow_of_beam(const struct water_setup *s, float depth, double low[2], double high[2]);
 
 /* Interpolated at (X, Z); 1 outside of the rectangle. */

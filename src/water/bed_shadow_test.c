@@ -1,5 +1,6 @@
-/* bed_shadow_test.c - edges of a model's shadow on the bed below still water: straight where what casts them is, where rays say, from light to
- * dark without a step back, and as wide as the sun's disc makes them where maps are finer; and the light in the middle, beside photons. */
+/* bed_shadow_test.c - edges of a model's shadow on the bed below still water: straight where what casts
+ * them is, where rays say, from light to dark without a step back, and as wide as the sun's disc makes
+ * them where maps are finer; and the light in the middle, beside photons. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -205,7 +206,8 @@ static void test_grid(void **state)
     end(&l);
 }
 
-/* Near the bed, a picture's edge is little wider than the sun's penumbra, 2.7 cm from 0.1 to 0.9 of the light. */
+/* Near the bed, a picture's edge is little wider than the sun's penumbra, 2.7 cm from 0.1 to 0.9 of the
+ * light. */
 static void test_picture(void **state)
 {
     (void)state;
@@ -221,7 +223,8 @@ static void test_picture(void **state)
 
 /* ---- photons ---- */
 
-/* Light on the bed by walks back from it: through water that absorbs and scatters, to and fro between the bed and the surface. */
+/* Light on the bed by walks back from it: through water that absorbs and scatters, to and fro between the
+ * bed and the surface. */
 typedef struct photons {
     const water_setup *s;
     int channel;
@@ -333,8 +336,8 @@ static void follow(photons *w, const double start[3], pair *sum)
     }
 }
 
-/* Of green light 0.22 are left in the middle of the shadow, of blue 0.26, and without scattering 0.19 and 0.22. Red has green's shares
- * of what comes from where, and too much. */
+/* Of green light 0.22 are left in the middle of the shadow, of blue 0.26, and without scattering 0.19 and
+ * 0.22. Red has green's shares of what comes from where, and too much. */
 static void test_core(void **state)
 {
     (void)state;

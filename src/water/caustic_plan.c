@@ -1,5 +1,5 @@
-/* caustic_plan.c - see caustic_plan.h. Rays through the whole image, even if only a crop is rendered, find the
- * visible part of the bed, and below still water the part that a model may shade. */
+/* caustic_plan.c - see caustic_plan.h. Rays through the whole image, even if only a crop is rendered, find
+ * the visible part of the bed, and below still water the part that a model may shade. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -208,9 +208,9 @@ static void place_layer(const view *v, caustic_plan *p)
     p->middle[1] = u * b + w * a;
 }
 
-/* Texel size of the finest layer: a power of 2 as fine as pixels, and no finer than light is focused or than
- * waves let the bed be seen; not mostly margin. Below still water a quarter of that: a shadow's edge is as wide
- * as four texels, and there is no other detail. */
+/* Texel size of the finest layer: a power of 2 as fine as pixels, and no finer than light is focused or
+ * than waves let the bed be seen; not mostly margin. Below still water a quarter of that: a shadow's edge
+ * is as wide as four texels, and there is no other detail. */
 static float finest_texel(const view *v)
 {
     int power = (int)ceilf(log2(clamp(v->places[0].width_m, 1e-4f, 1e4f))) - (has_waves(v->s) ? 0 : 2);

@@ -1,6 +1,6 @@
-/* shadow_points.h - sample points for a model's shadow: over the area of a grid point, and over the sun's disc.
- * All points of a grid share them, so that the shadow of a straight edge depends only on the distance from the
- * edge: neither the grid nor noise shows. */
+/* shadow_points.h - sample points for a model's shadow: over the area of a grid point, and over the sun's
+ * disc. All points of a grid share them, so that the shadow of a straight edge depends only on the
+ * distance from the edge: neither the grid nor noise shows. */
 #ifndef WATER_SHADOW_POINTS_H
 #define WATER_SHADOW_POINTS_H
 
@@ -14,8 +14,8 @@ typedef struct shadow_point {
     vec3 L;         /* towards a point of the sun's disc, unit */
 } shadow_point;
 
-/* Coordinate `axis` < 4 of point i beside the two of `aside`, in (0, 1): the last four of six powers of the root of x^7 = x + 1. Roberts
- * 2018, "The unreasonable effectiveness of quasirandom sequences". */
+/* Coordinate `axis` < 4 of point i beside the two of `aside`, in (0, 1): the last four of six powers of
+ * the root of x^7 = x + 1. Roberts 2018, "The unreasonable effectiveness of quasirandom sequences". */
 static inline float shadow_point_coordinate(uint i, uint axis)
 {
     static const float steps[4] = {0.725735f, 0.652185f, 0.586090f, 0.526694f};

@@ -1,4 +1,5 @@
-/* water_air_test.c - the air before the sea: what is looked up in few numbers beside the view that they are made of. */
+/* water_air_test.c - the air before the sea: what is looked up in few numbers beside the view that they
+ * are made of. */
 #include "water/water_fixture.h"
 
 #include "water/water_sky.h"
@@ -29,8 +30,9 @@ static void march_view(const water_sky *sky, float elevation_rad, sky_view *view
     assert_int_equal(sky_view_create(&dark, sky->eye_km, elevation_rad, &allocator, 2, view, NULL), FACET_OK);
 }
 
-/* On the whole way to the level of the sea it is what marching has, within 1 %: from the waves' height to that of airliners, sun from the
- * horizon to the zenith. The first row is the horizon itself, whose length floats do not know. */
+/* On the whole way to the level of the sea it is what marching has, within 1 %: from the waves' height to
+ * that of airliners, sun from the horizon to the zenith. The first row is the horizon itself, whose length
+ * floats do not know. */
 static void test_light(void **state)
 {
     (void)state;

@@ -1,8 +1,8 @@
-/* water_caustics.c - see water_caustics.h. Points of still water whose light would fall on a regular grid of
- * the bed are displaced by the waves, weighted by the light on the water there; positions in between are
- * interpolated, and each point is splatted onto the four texels around it. Watt 1990 has the beams, Yuksel and
- * Keyser 2009 the grid. A model occludes each point by rays to a few places around it; by many, where
- * neighboring points differ. */
+/* water_caustics.c - see water_caustics.h. Points of still water whose light would fall on a regular grid
+ * of the bed are displaced by the waves, weighted by the light on the water there; positions in between
+ * are interpolated, and each point is splatted onto the four texels around it. Watt 1990 has the beams,
+ * Yuksel and Keyser 2009 the grid. A model occludes each point by rays to a few places around it; by many,
+ * where neighboring points differ. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -30,7 +30,8 @@ typedef struct nodes {
     float *u, *v, *weight;
     float *lowest, *highest; /* v of each row */
     double *sums;            /* weight of each row's light without a model */
-    /* With a model: visibility at each node, and its minimum and maximum along the row within an edge's reach. */
+    /* With a model: visibility at each node, and its minimum and maximum along the row within an edge's
+     * reach. */
     float *open, *least, *most;
     int32_t reach; /* nodes from where the sun's center is hidden to where the whole disc is visible */
 } nodes;
@@ -117,8 +118,8 @@ static float passing_model(const making *m, const node_ray *r, double u, double 
     return open > 0.0f ? open * water_model_opening(s->model, P, r->d, r->way) : 0.0f;
 }
 
-/* From the sun's center to four points of a node's area, one in each quadrant; different ones for each node, so
- * that a whole row of nodes cannot miss a thin occluder. */
+/* From the sun's center to four points of a node's area, one in each quadrant; different ones for each
+ * node, so that a whole row of nodes cannot miss a thin occluder. */
 static float passing_few(const making *m, const node_ray *r, size_t i, size_t row, double spacing_m)
 {
     const float shift[2] = {fract(0.7548777f * (float)i + 0.5698403f * (float)row),

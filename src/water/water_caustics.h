@@ -25,14 +25,15 @@ typedef struct caustic_source {
 typedef struct caustic_plan {
     double middle[2];
     float texel_m;
-    /* along the map's axes: standard deviation of the blur by the sun's disc and by slopes that the grid does not resolve */
+    /* along the map's axes: standard deviation of the blur by the sun's disc and by slopes that the grid
+     * does not resolve */
     float sigma_m[2];
     float margin_m; /* width of the border outside of the layer from which light may enter */
 } caustic_plan;
 
-/* Fills a map along `axis` (unit) by its plans, the finest first. The mean over a wide layer is 1, and on still
- * water the factor is 1 everywhere, except for the light that the model blocks. Same bytes for any thread
- * count. FACET_ERROR_MEMORY. */
+/* Fills a map along `axis` (unit) by its plans, the finest first. The mean over a wide layer is 1, and on
+ * still water the factor is 1 everywhere, except for the light that the model blocks. Same bytes for any
+ * thread count. FACET_ERROR_MEMORY. */
 facet_result water_caustics_fill(const caustic_source *source, const float axis[2],
                                  const caustic_plan plans[CAUSTIC_LAYERS], caustic_map *map,
                                  facet_error *error);

@@ -1,5 +1,5 @@
-/* water_caustics_test.c - sunlight on the bed: a sine against its analytic irradiance and focus, still water, means under seas and
- * low suns, threads; what a picture makes of it, and where it has none. */
+/* water_caustics_test.c - sunlight on the bed: a sine against its analytic irradiance and focus, still
+ * water, means under seas and low suns, threads; what a picture makes of it, and where it has none. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -87,7 +87,8 @@ static void fill_plain(const waves *w, vec3 L, double depth_m, float texel_m, fl
     assert_true(map->is_there);
 }
 
-/* Before the focus, where rays are still in order, light at x + h (n - 1) / n eta_x is 1 / (1 - C cos kx), C = h a k^2 (n - 1) / n. */
+/* Before the focus, where rays are still in order, light at x + h (n - 1) / n eta_x is 1 / (1 - C cos kx),
+ * C = h a k^2 (n - 1) / n. */
 static void test_sine(void **state)
 {
     (void)state;
@@ -109,7 +110,8 @@ static void test_sine(void **state)
     free_sine(&s);
 }
 
-/* Light below a crest: 1 / |1 - C cos kx| of each x with kx = C sin kx, which are one before the focus and three behind it. */
+/* Light below a crest: 1 / |1 - C cos kx| of each x with kx = C sin kx, which are one before the focus and
+ * three behind it. */
 static double below_crest(double C)
 {
     double sum = 1.0 / fabs(1.0 - C), low = 0.0, high = 3.14159265;
@@ -177,7 +179,8 @@ static facet_sea_desc lagoon(void)
     return d;
 }
 
-/* Over a wide map none is lost, at all heights of the sun; it is bright and dark there. Threads make no difference. */
+/* Over a wide map none is lost, at all heights of the sun; it is bright and dark there. Threads make no
+ * difference. */
 static void test_mean(void **state)
 {
     (void)state;
@@ -266,7 +269,8 @@ static void test_picture_mean(void **state)
     sea_destroy(sea);
 }
 
-/* Whether a picture of a sea has a map, of which every number is one. The sun of a picture stands for the sky's. */
+/* Whether a picture of a sea has a map, of which every number is one. The sun of a picture stands for the
+ * sky's. */
 static bool has_map(const facet_sea_desc *d, float elevation_rad, float eye_m, float down_rad)
 {
     facet_sea *sea = make_sea(d);

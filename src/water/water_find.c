@@ -69,8 +69,8 @@ static void look_into_facets(const looking *l, FacetRange r, vec3 N, vec3 smooth
 
 /* ---- from above ---- */
 
-/* The model below the surface along the refracted ray: lit by the light that reaches it, and attenuated by the
- * water. */
+/* The model below the surface along the refracted ray: lit by the light that reaches it, and attenuated by
+ * the water. */
 static bool find_refracted(const looking *l, water_findings *found)
 {
     const water_setup *s = l->s;

@@ -1,5 +1,5 @@
-/* water_flat_test.c - still water, whose pictures have a formula: F L_sky(mirror) + (1 - F) / n^2 L_u, the sun as its own disc times F. And a closed
- * box, in which rough water is as bright as all around it. */
+/* water_flat_test.c - still water, whose pictures have a formula: F L_sky(mirror) + (1 - F) / n^2 L_u, the
+ * sun as its own disc times F. And a closed box, in which rough water is as bright as all around it. */
 #include "water/water_fixture.h"
 
 #include "water/water_setup.h"
@@ -152,7 +152,8 @@ static void test_closed_box(void **state)
     }
 }
 
-/* A sky of 1 over water that absorbs nothing: 1 above it and n^2 below, over the depth and over a white bed, whatever the index. */
+/* A sky of 1 over water that absorbs nothing: 1 above it and n^2 below, over the depth and over a white
+ * bed, whatever the index. */
 static void test_furnace(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* water_frame.c - see water_frame.h. The images of the sky come from the functions that the CPU renderer looks
- * it up with. */
+/* water_frame.c - see water_frame.h. The images of the sky come from the functions that the CPU renderer
+ * looks it up with. */
 #include "water/water_frame.h"
 
 #include <math.h>
@@ -157,8 +157,8 @@ static void touch_rows(void *context, size_t begin, size_t end)
         }
 }
 
-/* The model's bounds and its shadow on the water, at most eight times as long as the model; with an unaffected
- * border. */
+/* The model's bounds and its shadow on the water, at most eight times as long as the model; with an
+ * unaffected border. */
 static void choose_rectangle(const vec3 L, water_frame *p)
 {
     float above = max(p->model_high[1] - p->model_water_m, 0.0f);

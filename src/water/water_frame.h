@@ -27,8 +27,8 @@ enum {
  * Columns and rows as above, from the horizontal up to the zenith. */
 enum { SEA_LOBE_WIDTH = 256, SEA_LOBE_HEIGHT = 128, SEA_LOBE_LAYERS = 17 };
 
-/* Effect of a model on the water around it, and on the light on the bed: over one rectangle of the plane each,
- * rows along z, sampled at texel centers. */
+/* Effect of a model on the water around it, and on the light on the bed: over one rectangle of the plane
+ * each, rows along z, sampled at texel centers. */
 enum { SEA_TOUCH_EDGE = 192 };
 typedef struct sea_touch {
     float dry;               /* 1: inside of a hull that keeps the sea out */

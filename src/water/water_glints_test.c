@@ -1,5 +1,5 @@
-/* water_glints_test.c - glints are chance, and no light is lost or won by it: pictures that look into the sun have the same mean with and
- * without them. */
+/* water_glints_test.c - glints are chance, and no light is lost or won by it: pictures that look into the
+ * sun have the same mean with and without them. */
 #include "water/water_fixture.h"
 
 enum { WIDTH = 72, HEIGHT = 54, BLOCKS = 3 };
@@ -7,7 +7,8 @@ enum { WIDTH = 72, HEIGHT = 54, BLOCKS = 3 };
 static const char *const names[] = {"glass", "breeze", "trade-wind", "gale", "lagoon", "harbour"};
 static const float heights_deg[] = {2.0f, 6.0f, 20.0f, 60.0f};
 
-/* Towards the sun, from the horizon to steeply down; where there is no wind, its image alone is seen, close up. */
+/* Towards the sun, from the horizon to steeply down; where there is no wind, its image alone is seen,
+ * close up. */
 static void make_view(shot *s, const facet_sea_desc *desc, facet_environment *sky, float height_deg,
                       uint32_t samples)
 {
@@ -38,7 +39,8 @@ static void sum_blocks(const shot *s, block blocks[BLOCKS])
         }
 }
 
-/* The fewer pixels have the light, the more is chance; X of a cell, of four pixels, has a variance of at most some 1. */
+/* The fewer pixels have the light, the more is chance; X of a cell, of four pixels, has a variance of at
+ * most some 1. */
 static void compare(const facet_sea *sea, const facet_sea_desc *desc, facet_environment *sky,
                     const char *name, float height_deg, uint32_t samples)
 {

@@ -1,5 +1,5 @@
-/* water_handover_test.c - what is not seen as a wave any more goes on as roughness: from far away a sea of waves looks, on average, as a plane
- * with all of their slopes (Cox and Munk's). */
+/* water_handover_test.c - what is not seen as a wave any more goes on as roughness: from far away a sea of
+ * waves looks, on average, as a plane with all of their slopes (Cox and Munk's). */
 #include "water/water_fixture.h"
 
 enum { WIDTH = 192, HEIGHT = 128, BLOCK = 64 };

@@ -1,5 +1,6 @@
-/* water_light.h - what lights a sea and does not move: the sky with its filtered light, means over microfacets, and images of the sky for
- * the GPU. A water_cache keeps it from image to image, so that frames from one place pay only for the waves. */
+/* water_light.h - what lights a sea and does not move: the sky with its filtered light, means over
+ * microfacets, and images of the sky for the GPU. A water_cache keeps it from image to image, so that
+ * frames from one place pay only for the waves. */
 #ifndef WATER_WATER_LIGHT_H
 #define WATER_WATER_LIGHT_H
 
@@ -20,7 +21,8 @@ typedef struct water_light {
 /* Drops from the cache what was made for a sea other than desc's. */
 void water_cache_begin(water_cache *cache, const facet_render_desc *desc);
 
-/* Makes cache->light, unless the one there was made for the same sky: the same to the last bit. Fails as water_sky_create(). */
+/* Makes cache->light, unless the one there was made for the same sky: the same to the last bit. Fails as
+ * water_sky_create(). */
 facet_result water_light_update(water_cache *cache, const facet_render_desc *desc, float eye_height_m,
                                 float rows_per_rad, facet_error *error);
 

@@ -136,8 +136,8 @@ static bool is_away(const march *s, double t)
     return rise >= 0.0 && y > (double)s->bounds.highest;
 }
 
-/* Steps exceed the safe length by a factor; one that may have passed a wave is repeated. Waves shorter than 0.7
- * of the width are filtered out. */
+/* Steps exceed the safe length by a factor; one that may have passed a wave is repeated. Waves shorter
+ * than 0.7 of the width are filtered out. */
 static bool march_waves(march *s)
 {
     const march_ray *r = s->ray;

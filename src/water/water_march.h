@@ -1,8 +1,9 @@
 /* water_march.h - intersection of rays with the sea.
  *
- * A ray advances in steps that no wave is steep enough to be hit within: the height above the surface, divided
- * by the rate at which the ray and the steepest wave approach. The surface is filtered to the ray's width, so
- * that it gets smooth and finally flat with distance. water_profile.h is faster for many rays from one eye.
+ * A ray advances in steps that no wave is steep enough to be hit within: the height above the surface,
+ * divided by the rate at which the ray and the steepest wave approach. The surface is filtered to the
+ * ray's width, so that it gets smooth and finally flat with distance. water_profile.h is faster for many
+ * rays from one eye.
  *
  * The Earth is round: seen from the eye, the sea drops by r^2 / (2 R) at the distance r; instead of the sea,
  * the ray is bent, upwards. */
@@ -45,8 +46,8 @@ bool water_march_find(const water_march *m, const march_ray *ray, march_hit *hit
  * for grazing rays, up to the ray's projected length on still water. */
 float water_march_footprint(const water_march *m, float width_m, double rise);
 
-/* The hit at t; displacement: an estimate of that of the water there, {0, 0} if unknown. *clearance: height of
- * the ray above the surface at t, positive on the side that it comes from. */
+/* The hit at t; displacement: an estimate of that of the water there, {0, 0} if unknown. *clearance:
+ * height of the ray above the surface at t, positive on the side that it comes from. */
 march_hit water_march_hit_at(const water_march *m, const march_ray *ray, double t,
                              const float displacement[2], double *clearance);
 

@@ -1,7 +1,7 @@
-/* water_mesh.h - the sea around an eye as triangles, for the path tracer. Vertices lie on rays from the point
- * below the eye, about a pixel apart in view and farther apart beside and behind it, out to beyond the horizon,
- * following the Earth's curvature. A vertex resolves the waves longer than twice the vertex spacing, and stores
- * the slope covariance of all others (scene_primitive.water). */
+/* water_mesh.h - the sea around an eye as triangles, for the path tracer. Vertices lie on rays from the
+ * point below the eye, about a pixel apart in view and farther apart beside and behind it, out to beyond
+ * the horizon, following the Earth's curvature. A vertex resolves the waves longer than twice the vertex
+ * spacing, and stores the slope covariance of all others (scene_primitive.water). */
 #ifndef WATER_WATER_MESH_H
 #define WATER_WATER_MESH_H
 
@@ -19,8 +19,8 @@ typedef struct water_mesh_lattice {
 /* For the eye of s, with at most `most` vertices, in blocks of the arena. False: out of memory. */
 bool water_mesh_lattice_create(const water_setup *s, uint32_t most, arena *memory, water_mesh_lattice *out);
 
-/* The surface, with holes inside of hulls that keep the sea out (s->model). Empty where the watch (NULL: none)
- * stops it. False: out of memory. */
+/* The surface, with holes inside of hulls that keep the sea out (s->model). Empty where the watch (NULL:
+ * none) stops it. False: out of memory. */
 bool water_mesh_surface(const water_setup *s, const water_mesh_lattice *l, render_watch *watch, arena *memory,
                         scene_primitive *out);
 /* The bed, of the same extent. */

@@ -1,5 +1,6 @@
-/* water_mesh_test.c - the sea as triangles: slopes that they show and those that they say they hide are Cox and Munk's at all
- * distances, foam covers what the wind says, the horizon falls away, a hull keeps the water out. */
+/* water_mesh_test.c - the sea as triangles: slopes that they show and those that they say they hide are
+ * Cox and Munk's at all distances, foam covers what the wind says, the horizon falls away, a hull keeps
+ * the water out. */
 #include "water/water_fixture.h"
 
 #include "base/clock.h"

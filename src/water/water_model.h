@@ -1,5 +1,5 @@
-/* water_model.h - a model that stands or floats in the sea: ray queries against it, and its shading by the sky,
- * by light from the sea, and by the sun with its own shadow. */
+/* water_model.h - a model that stands or floats in the sea: ray queries against it, and its shading by the
+ * sky, by light from the sea, and by the sun with its own shadow. */
 #ifndef WATER_WATER_MODEL_H
 #define WATER_WATER_MODEL_H
 

@@ -1,5 +1,5 @@
-/* water_model_test.c - a sphere in and over still water: its mirror image, its shadow, what it looks like below, where it keeps water out; and memory
- * that runs out. */
+/* water_model_test.c - a sphere in and over still water: its mirror image, its shadow, what it looks like
+ * below, where it keeps water out; and memory that runs out. */
 #include "water/water_fixture.h"
 
 #include "tests/support/support.h"
@@ -50,7 +50,8 @@ static double fresnel(double c, double n)
     return 0.5 * a * a * (1.0 + b * b);
 }
 
-/* Half-way between the eye and the sphere, both 3 m over the water, it is mirrored at 45 degrees; straight on it is as bright as it is. */
+/* Half-way between the eye and the sphere, both 3 m over the water, it is mirrored at 45 degrees; straight
+ * on it is as bright as it is. */
 static void test_mirror(void **state)
 {
     (void)state;

@@ -8,7 +8,8 @@
 
 enum { WIDTH = 40, HEIGHT = 32, FEW = 4, MANY = 64 };
 
-/* As the command draws a picture of 960 x 540, a part of it: pixels of 1.3 mrad, and the sun beside. Glints are chance, which differs. */
+/* As the command draws a picture of 960 x 540, a part of it: pixels of 1.3 mrad, and the sun beside.
+ * Glints are chance, which differs. */
 static void make_view(shot *s, float down_rad)
 {
     static const float zenith[3] = {1000.0f, 2000.0f, 4000.0f}, horizon[3] = {5000.0f, 5500.0f, 6000.0f};
@@ -58,8 +59,8 @@ static double error_of_few(const char *name, float down_rad)
     return error;
 }
 
-/* Together they are to be as near as one by one, within a quarter. With the mean of their slopes alone, and not what these differ by,
- * four are as far away as a single sample is. */
+/* Together they are to be as near as one by one, within a quarter. With the mean of their slopes alone,
+ * and not what these differ by, four are as far away as a single sample is. */
 static void test_few(void **state)
 {
     (void)state;

@@ -19,8 +19,8 @@ float water_foam_at(const water_setup *s, const double rest[2], float footprint_
 
 /* ---- slopes that samples see ---- */
 
-/* Sums over samples, weighted by water area rather than by image area: a slope that is turned away from the eye
- * has more water per pixel than one that faces it, by N.y V.y / (V.N). */
+/* Sums over samples, weighted by water area rather than by image area: a slope that is turned away from
+ * the eye has more water per pixel than one that faces it, by N.y V.y / (V.N). */
 typedef struct sums {
     float weight;
     vec2 slope;

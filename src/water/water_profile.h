@@ -1,10 +1,11 @@
 /* water_profile.h - the sea as one eye sees it, for all rays of a picture at once.
  *
- * Every ray from an eye keeps its azimuth. Along an azimuth the surface at the distance r is seen under the elevation whose tangent is
+ * Every ray from an eye keeps its azimuth. Along an azimuth the surface at the distance r is seen under
+ * the elevation whose tangent is
  *   e(r) = (eta(r) - y_eye - r^2 / (2 R)) / r
- * and a ray of tangent e meets the first r that has as much: the greatest e so far grows with r, so it is found by bisection. The surface is
- * sampled 4 pixels apart along and across, where waves that are shorter are less than a tenth of a pixel high; the place that is found is
- * corrected by the surface as it is. */
+ * and a ray of tangent e meets the first r that has as much: the greatest e so far grows with r, so it is
+ * found by bisection. The surface is sampled 4 pixels apart along and across, where waves that are shorter
+ * are less than a tenth of a pixel high; the place that is found is corrected by the surface as it is. */
 #ifndef WATER_WATER_PROFILE_H
 #define WATER_WATER_PROFILE_H
 
@@ -51,7 +52,8 @@ typedef struct profile_place {
     double slack_m;        /* error bound of the distance; 0: exact */
     float displacement[2]; /* of the water nearby */
 } profile_place;
-/* Search state of the previous ray of the pixel; {0}: none. It saves time and changes results only by rounding. */
+/* Search state of the previous ray of the pixel; {0}: none. It saves time and changes results only by
+ * rounding. */
 typedef struct profile_nearby {
     uint32_t row;
     double azimuth, x, z;

@@ -1,5 +1,5 @@
-/* water_render_test.c - pictures of rough seas: every number is one whatever the camera, water and weather; threads and parts make no
- * difference; limits; the profile finds what marching finds. */
+/* water_render_test.c - pictures of rough seas: every number is one whatever the camera, water and
+ * weather; threads and parts make no difference; limits; the profile finds what marching finds. */
 #include "water/water_fixture.h"
 
 #include "film/meter.h"
@@ -167,8 +167,8 @@ static march_ray ray_of(const camera_rays *c, float x, float y)
     return ray;
 }
 
-/* Rays that are found by bisection of a profile end where rays end that march, but for those that pass a crest by less than a pixel; and
- * nowhere under water or over it by more than some of a pixel. */
+/* Rays that are found by bisection of a profile end where rays end that march, but for those that pass a
+ * crest by less than a pixel; and nowhere under water or over it by more than some of a pixel. */
 static void test_profile(void **state)
 {
     (void)state;
@@ -239,7 +239,8 @@ static double metered(const facet_sea *sea, const facet_render_desc *desc)
     return ev100;
 }
 
-/* As metered, the log-average of a picture is 0.22; light, not the picture's size, part or samples, is what a meter reads. */
+/* As metered, the log-average of a picture is 0.22; light, not the picture's size, part or samples, is
+ * what a meter reads. */
 static void test_exposure(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* water_shade.c - see water_shade.h. In order: reflected sky, sun with its glints, light from below; composed,
- * then foam on top. */
+/* water_shade.c - see water_shade.h. In order: reflected sky, sun with its glints, light from below;
+ * composed, then foam on top. */
 #include "water/water_shade.h"
 
 #include <math.h>

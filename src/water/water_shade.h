@@ -1,5 +1,5 @@
-/* water_shade.h - radiance of the sea: of the surface from above and from below, of the bed, and in the legacy
- * style. */
+/* water_shade.h - radiance of the sea: of the surface from above and from below, of the bed, and in the
+ * legacy style. */
 #ifndef WATER_WATER_SHADE_H
 #define WATER_WATER_SHADE_H
 
@@ -9,7 +9,8 @@
 typedef struct water_findings {
     bool has_below, has_shadow;
     float sun; /* share of the sun's light that arrives */
-    /* share of the reflection, whatever its radiance, by microfacets that show something other than sky and sea */
+    /* share of the reflection, whatever its radiance, by microfacets that show something other than sky
+     * and sea */
     float covered;
     vec3 mirrored; /* its radiance */
     vec3 below;    /* radiance just below the surface, along the refracted ray */
@@ -21,12 +22,12 @@ vec3 water_shade(const water_setup *s, const water_place *p, const water_finding
 /* Radiance (cd/m^2) just below still, evenly lit water that is depth_m deep, along the refracted ray `down`. */
 vec3 water_from_still(const water_setup *s, float depth_m, vec3 down);
 
-/* Irradiance (lx, horizontal) just below the surface, depth_m above the bed, including interreflection between
- * both. */
+/* Irradiance (lx, horizontal) just below the surface, depth_m above the bed, including interreflection
+ * between both. */
 vec3 water_light_over_bed(const water_setup *s, float depth_m);
 
-/* Irradiance of the bed relative to its mean, per channel, where the ray from P along the unit direction d hits
- * it after `way` m with a width of width_m. */
+/* Irradiance of the bed relative to its mean, per channel, where the ray from P along the unit direction d
+ * hits it after `way` m with a width of width_m. */
 vec3 water_bed_lit_at(const water_setup *s, const double P[3], vec3 d, float way, float width_m);
 
 /* Radiance of ground above the water. */
@@ -55,9 +56,9 @@ vec3 water_seen_through_water(const water_setup *s, const double P[3], vec3 d, f
 vec3 water_shade_from_below(const water_setup *s, const water_place *p, const water_findings_below *found,
                             const double E[3], vec3 d, float x);
 
-/* Stages of facet_sea_shading: 1 Schlick's Fresnel with water's ior; 2 a microfacet highlight; 3 light of sky
- * and sun instead of constants; 4 refraction and absorption instead of a base color; 5 foam and glints, that is
- * everything. */
+/* Stages of facet_sea_shading: 1 Schlick's Fresnel with water's ior; 2 a microfacet highlight; 3 light of
+ * sky and sun instead of constants; 4 refraction and absorption instead of a base color; 5 foam and
+ * glints, that is everything. */
 
 /* Linear values whose sRGB encoding is the legacy program's display output. */
 vec3 water_look_sky(vec3 d);

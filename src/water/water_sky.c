@@ -325,7 +325,8 @@ vec3 water_sky_picture(const water_sky *s, vec3 d, float perceptual_roughness)
     return vec3(out[0], out[1], out[2]) * s->scale;
 }
 
-/* Limb darkening: 1 - u (1 - sqrt(1 - r^2)), over its mean 1 - u / 3; and the transmitted color at this height. */
+/* Limb darkening: 1 - u (1 - sqrt(1 - r^2)), over its mean 1 - u / 3; and the transmitted color at this
+ * height. */
 static vec3 disc_through_air(const water_sky *s, vec3 d, float r2)
 {
     float elevation = asin(clamp(d[1], -1.0f, 1.0f));

@@ -1,5 +1,6 @@
-/* water_trace.h - the samples of a pixel: the nearest of sea, land, model and sky, and what is seen in them. Samples that meet one piece of
- * water are shaded as one, with the slopes that each of them sees, unless the quality is the best. */
+/* water_trace.h - the samples of a pixel: the nearest of sea, land, model and sky, and what is seen in
+ * them. Samples that meet one piece of water are shaded as one, with the slopes that each of them sees,
+ * unless the quality is the best. */
 #ifndef WATER_WATER_TRACE_H
 #define WATER_WATER_TRACE_H
 

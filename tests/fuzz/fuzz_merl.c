@@ -1,6 +1,6 @@
-/* fuzz_merl.c - measured BRDFs of the MERL database: the header from the input, then changes of single cells,
- * 12 bytes each. The file has its full size, which the reader checks first; it is truncated if the last byte of
- * the input is odd. */
+/* fuzz_merl.c - measured BRDFs of the MERL database: the header from the input, then changes of single
+ * cells, 12 bytes each. The file has its full size, which the reader checks first; it is truncated if the
+ * last byte of the input is odd. */
 #include "fuzz_support.h"
 
 #include <string.h>

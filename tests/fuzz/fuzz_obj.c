@@ -1,4 +1,5 @@
-/* fuzz_obj.c - the OBJ reader on arbitrary bytes; the first byte chooses the normals and the number of threads. */
+/* fuzz_obj.c - the OBJ reader on arbitrary bytes; the first byte chooses the normals and the number of
+ * threads. */
 #include "fuzz_support.h"
 
 #include "fuzz_scene.h"

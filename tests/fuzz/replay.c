@@ -1,5 +1,5 @@
-/* replay.c - runs a fuzz target on each file of the given folders, in the order of their names: the corpus as a
- * test, without libFuzzer. */
+/* replay.c - runs a fuzz target on each file of the given folders, in the order of their names: the corpus
+ * as a test, without libFuzzer. */
 #define _POSIX_C_SOURCE 200809L
 #include <dirent.h>
 #include <stdint.h>

@@ -1,8 +1,9 @@
 /* golden_test.c - the built-in scene against reference images that were inspected: any change of an image,
  * intended or not, shows here. Linear floats, 64 x 48.
  *
- * An image may differ by 0.2 % of its own root mean square: far above the difference between compilers (1e-5),
- * far below the visible (FLIP, which is limited to 0.005 as well). To replace the references, after inspection:
+ * An image may differ by 0.2 % of its own root mean square: far above the difference between compilers
+ * (1e-5), far below the visible (FLIP, which is limited to 0.005 as well). To replace the references,
+ * after inspection:
  *     facet render -s 64x48 --background transparent --tone-mapping none -o tests/golden/builtin_gltf.pfm
  *     facet render -s 64x48 --background env --energy conserving --orbit 40,60,105% --env-rotation 30 \
  *         --tone-mapping none -o tests/golden/builtin_conserving.pfm

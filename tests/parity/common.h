@@ -1,5 +1,6 @@
-/* common.h - what the parity cases share. A case is a function "FN vec3 case_NAME(vec2 u)" of u in (0, 1)^2 that returns results of
- * shader functions; the section heading names the header that it is about. parity_test.c runs every case in C and on the GPU. */
+/* common.h - what the parity cases share. A case is a function "FN vec3 case_NAME(vec2 u)" of u in (0,
+ * 1)^2 that returns results of shader functions; the section heading names the header that it is about.
+ * parity_test.c runs every case in C and on the GPU. */
 
 /* Two directions above the horizon, in tangent space, away from the poles of the functions. */
 FN vec3 parity_V(vec2 u)

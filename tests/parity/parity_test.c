@@ -1,5 +1,6 @@
-/* parity_test.c - runs the parity cases as GLSL ES 3.00 (EGL without a window; Mesa's software driver will do) and in C, and
- * compares. Argument: the GLSL text of the shader library and of the cases. Exits with 77 where there is no GLES 3 context. */
+/* parity_test.c - runs the parity cases as GLSL ES 3.00 (EGL without a window; Mesa's software driver will
+ * do) and in C, and compares. Argument: the GLSL text of the shader library and of the cases. Exits with
+ * 77 where there is no GLES 3 context. */
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <GLES3/gl3.h>
@@ -111,7 +112,8 @@ static const char *main_text(int first, int end)
     return text;
 }
 
-/* One program per header: drivers inline every function that a program calls, and take minutes for all of them. */
+/* One program per header: drivers inline every function that a program calls, and take minutes for all of
+ * them. */
 static GLuint link_cases(const char *library, int first, int end)
 {
     static const char *const vertex = "#version 300 es\n"

@@ -1,7 +1,7 @@
-/* compare_test.c - the Compare* models of Khronos' sample assets about surfaces: two or three objects side by
- * side that differ by one material property. Each test states the physics of that property and checks for it.
- * Images are orthographic, so that the pixels of both sides correspond; where the sides differ by more than the
- * property, the one that has it is compared with itself without it. */
+/* compare_test.c - the Compare* models of Khronos' sample assets about surfaces: two or three objects side
+ * by side that differ by one material property. Each test states the physics of that property and checks
+ * for it. Images are orthographic, so that the pixels of both sides correspond; where the sides differ by
+ * more than the property, the one that has it is compared with itself without it. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -53,8 +53,8 @@ static void metal_mirrors_its_surroundings(void **state)
     picture_destroy(&metal);
 }
 
-/* Roughness spreads highlights: their peak decreases and their edges blur. In uniform light there is nothing to
- * spread: only the rim, where a smooth surface reflects all, is darker. */
+/* Roughness spreads highlights: their peak decreases and their edges blur. In uniform light there is
+ * nothing to spread: only the rim, where a smooth surface reflects all, is darker. */
 static void roughness_spreads_highlights(void **state)
 {
     (void)state;
@@ -73,8 +73,8 @@ static void roughness_spreads_highlights(void **state)
     picture_destroy(&rough);
 }
 
-/* A factor, a texture, and that texture times vertex colors around the circle of hues. In white light a surface
- * shows its albedo. */
+/* A factor, a texture, and that texture times vertex colors around the circle of hues. In white light a
+ * surface shows its albedo. */
 static void vertex_colors_tint_the_texture(void **state)
 {
     (void)state;
@@ -118,8 +118,9 @@ static void normals_make_relief(void **state)
     picture_destroy(&relief);
 }
 
-/* A coat of index 1.5 reflects Fc = 0.04 + 0.96 (1 - NdotV)^5 specularly and transmits 1 - Fc. In uniform light
- * of 1 that is all: coated = Fc + (1 - Fc) bare, pixel by pixel; near the rim a pixel covers too many angles. */
+/* A coat of index 1.5 reflects Fc = 0.04 + 0.96 (1 - NdotV)^5 specularly and transmits 1 - Fc. In uniform
+ * light of 1 that is all: coated = Fc + (1 - Fc) bare, pixel by pixel; near the rim a pixel covers too
+ * many angles. */
 static void a_clearcoat_takes_its_fresnel_share(void **state)
 {
     (void)state;
@@ -156,8 +157,8 @@ static void a_clearcoat_has_sharp_highlights(void **state)
     picture_destroy(&coated);
 }
 
-/* Sheen of color (1, 0, 0) over a base attenuated by 1 - E(NdotV): green and blue decrease by the same factor,
- * most at the rim, where fibers scatter most; red returns there. */
+/* Sheen of color (1, 0, 0) over a base attenuated by 1 - E(NdotV): green and blue decrease by the same
+ * factor, most at the rim, where fibers scatter most; red returns there. */
 static void sheen_glows_at_the_rim(void **state)
 {
     (void)state;
@@ -184,8 +185,8 @@ static void sheen_glows_at_the_rim(void **state)
     picture_destroy(&plain);
 }
 
-/* A color factor of 10 raises F0 from 0.04 to 0.4 where the texture of small specks is white: highlights there
- * are stronger; without specular there are none. */
+/* A color factor of 10 raises F0 from 0.04 to 0.4 where the texture of small specks is white: highlights
+ * there are stronger; without specular there are none. */
 static void a_specular_color_strengthens_reflections(void **state)
 {
     (void)state;
@@ -259,8 +260,8 @@ static double across(const picture *p)
     return x / y;
 }
 
-/* Anisotropy stretches highlights along the tangent, here around the sphere's axis: half of the variation along
- * x of a sphere's image disappears, and the variation along y remains. */
+/* Anisotropy stretches highlights along the tangent, here around the sphere's axis: half of the variation
+ * along x of a sphere's image disappears, and the variation along y remains. */
 static void anisotropy_draws_highlights_out(void **state)
 {
     (void)state;
@@ -279,8 +280,8 @@ static void anisotropy_draws_highlights_out(void **state)
     facet_scene_destroy(scene);
 }
 
-/* The half without anisotropy equals the other one with a strength of 0. The brushed lid reflects the lights as
- * radial streaks instead of spots: more of it is bright. */
+/* The half without anisotropy equals the other one with a strength of 0. The brushed lid reflects the
+ * lights as radial streaks instead of spots: more of it is bright. */
 static void anisotropy_makes_streaks(void **state)
 {
     (void)state;
@@ -295,7 +296,8 @@ static void anisotropy_makes_streaks(void **state)
     picture_destroy(&off);
 }
 
-/* The occlusion texture dims ambient light, so nothing is brighter, and the gaps between the fruit are darker. */
+/* The occlusion texture dims ambient light, so nothing is brighter, and the gaps between the fruit are
+ * darker. */
 static void occlusion_only_darkens(void **state)
 {
     (void)state;

@@ -2,12 +2,12 @@
  * for each; transmissive models are listed apart, because OpenGL does not trace rays to any depth.
  *     gl_parity [-v] [MODEL...]      -v: a line for every model, not only for large differences, and more on transmissive ones
  *
- * Display values (8-bit sRGB, not rounded) are compared twice: with one sample a pixel, where both shade the
- * same points, in pixels away from edges, where neighboring pixels differ in material, in depth by more than a
- * plane would, or in normal by more than 25 degrees; and with four, edges included, both against the preview's
- * image of 64 samples, shaded four times a pixel. The preview shades once per surface in a pixel; OpenGL shades
- * each triangle, so that pixels of small triangles with sharp reflections differ: neither may be much farther
- * from the reference than the other. */
+ * Display values (8-bit sRGB, not rounded) are compared twice: with one sample a pixel, where both shade
+ * the same points, in pixels away from edges, where neighboring pixels differ in material, in depth by
+ * more than a plane would, or in normal by more than 25 degrees; and with four, edges included, both
+ * against the preview's image of 64 samples, shaded four times a pixel. The preview shades once per
+ * surface in a pixel; OpenGL shades each triangle, so that pixels of small triangles with sharp
+ * reflections differ: neither may be much farther from the reference than the other. */
 #define _XOPEN_SOURCE 700 /* nftw */
 #include <ftw.h>
 #include <math.h>

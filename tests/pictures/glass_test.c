@@ -35,8 +35,8 @@ static picture take(const char *path, float x, const char *text, const char *by,
     return p;
 }
 
-/* Alpha fades the whole surface, reflections included; transmission replaces diffuse light only, so that fully
- * transmissive glass keeps its highlights. */
+/* Alpha fades the whole surface, reflections included; transmission replaces diffuse light only, so that
+ * fully transmissive glass keeps its highlights. */
 static void glass_keeps_its_reflections(void **state)
 {
     (void)state;
@@ -51,10 +51,10 @@ static void glass_keeps_its_reflections(void **state)
     picture_destroy(&glass);
 }
 
-/* Transmittance is c^(x / d) per channel over a path length x (Beer-Lambert): green is not absorbed where c is
- * (0.15, 1, 0.5), and red is absorbed most. Small losses of two channels are proportional to their logarithms
- * for any mix of path lengths in a pixel. Glass without a volume, the other half, is as colorless as its
- * environment. */
+/* Transmittance is c^(x / d) per channel over a path length x (Beer-Lambert): green is not absorbed where
+ * c is (0.15, 1, 0.5), and red is absorbed most. Small losses of two channels are proportional to their
+ * logarithms for any mix of path lengths in a pixel. Glass without a volume, the other half, is as
+ * colorless as its environment. */
 static void a_volume_absorbs_by_beer_and_lambert(void **state)
 {
     (void)state;
@@ -109,8 +109,8 @@ static void dispersion_splits_colors(void **state)
     picture_destroy(&little);
 }
 
-/* A larger index reflects more: F0 is 0.04 for 1.5, 0.17 for diamond's 2.42; and it refracts more, so that the
- * object gathers light from all around. */
+/* A larger index reflects more: F0 is 0.04 for 1.5, 0.17 for diamond's 2.42; and it refracts more, so that
+ * the object gathers light from all around. */
 static void a_larger_index_reflects_and_bends_more(void **state)
 {
     (void)state;
@@ -127,8 +127,8 @@ static void a_larger_index_reflects_and_bends_more(void **state)
     picture_destroy(&glass);
 }
 
-/* Fur in three alpha modes: opaque shows the hidden texels, which are red; mask cuts them off; blend shows the
- * floor through nearly transparent ones, so that the fur's edges are softer than the mask's. */
+/* Fur in three alpha modes: opaque shows the hidden texels, which are red; mask cuts them off; blend shows
+ * the floor through nearly transparent ones, so that the fur's edges are softer than the mask's. */
 static void alpha_covers_by_its_mode(void **state)
 {
     (void)state;

@@ -53,10 +53,12 @@ double picture_radius(const picture *p, uint32_t i);
 double picture_cosine(const picture *p, uint32_t i);
 /* Mean of a channel over a ring of the sphere, within that material. */
 double picture_ring(const picture *p, int material, int channel, double from, double to);
-/* Number of hues, of 12 sectors, with at least 2 % of the material's pixels; chroma below 0.05 does not count. */
+/* Number of hues, of 12 sectors, with at least 2 % of the material's pixels; chroma below 0.05 does not
+ * count. */
 uint32_t picture_hues(const picture *p, int material);
 
-/* Root mean square of the difference over that of a; any material, all channels of RGBA (facet_comparison's nrmse). */
+/* Root mean square of the difference over that of a; any material, all channels of RGBA
+ * (facet_comparison's nrmse). */
 double picture_distance(const picture *a, const picture *b);
 
 #endif

@@ -59,7 +59,8 @@ static void embedded_models_are_the_packed(void **state)
 }
 
 /* Rows of cubes, 4 m apart: the first is uncompressed, the others are compressed in four ways. In an
- * orthographic view the cubes of a column look equal; filters quantise colors and normals to 8 bits and fewer. */
+ * orthographic view the cubes of a column look equal; filters quantise colors and normals to 8 bits and
+ * fewer. */
 static void cubes_of_a_column_look_alike(void **state)
 {
     (void)state;
@@ -111,7 +112,8 @@ static void scaled_nodes_look_the_same(void **state)
 
 /* ---- instances ---- */
 
-/* SimpleInstancing's 125 instances as nodes: translations, rotations and scales at these offsets of its buffer. */
+/* SimpleInstancing's 125 instances as nodes: translations, rotations and scales at these offsets of its
+ * buffer. */
 static char *write_nodes(const unsigned char *glb)
 {
     enum { COUNT = 125, ROOM = COUNT * 256 };
@@ -170,7 +172,8 @@ static void instances_are_nodes(void **state)
 
 /* ---- materials ---- */
 
-/* The same avocado in two material models. Its textures were authored separately (the reflectance of one is not
+/* The same avocado in two material models. Its textures were authored separately (the reflectance of one
+ * is not
  * 0.04 everywhere), so that the images are similar, not equal. */
 static void an_avocado_is_an_avocado(void **state)
 {

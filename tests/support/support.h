@@ -1,5 +1,6 @@
-/* support.h - what the tests of all modules share: how many cases to run, random numbers, comparison with a tolerance, memory
- * that runs out, captured messages, temporary folders, sRGB in double. Include after cmocka.h. */
+/* support.h - what the tests of all modules share: how many cases to run, random numbers, comparison with
+ * a tolerance, memory that runs out, captured messages, temporary folders, sRGB in double. Include after
+ * cmocka.h. */
 #ifndef TESTS_SUPPORT_H
 #define TESTS_SUPPORT_H
 
@@ -14,15 +15,17 @@
 
 /* ---- how many cases ---- */
 
-/* Long tests run a part of their cases in builds without optimisation, under sanitizers, and where another build of the same
- * run does all of them (FACET_TRUTH is off): every third where a test steps by CASE_STEP. */
+/* Long tests run a part of their cases in builds without optimisation, under sanitizers, and where another
+ * build of the same run does all of them (FACET_TRUTH is off): every third where a test steps by
+ * CASE_STEP. */
 #if defined(FACET_QUICK_TESTS) || !defined(__OPTIMIZE__)
 enum { IS_SLOW = 1, CASE_STEP = 3 };
 #else
 enum { IS_SLOW = 0, CASE_STEP = 1 };
 #endif
 
-/* The allocation to fail after the nth, in tests that let one after the other fail: the next, or a later one where IS_SLOW. */
+/* The allocation to fail after the nth, in tests that let one after the other fail: the next, or a later
+ * one where IS_SLOW. */
 static inline long next_failure(long n)
 {
     return n + 1 + (IS_SLOW ? n / 8 : 0);
@@ -47,7 +50,8 @@ static inline float rng_float(test_rng *rng) /* [0, 1) */
     return (float)(rng_uint(rng) >> 8u) * 0x1p-24f;
 }
 
-/* Linear congruential generators (Knuth; Numerical Recipes), of which the high bits are random; both return the new state. */
+/* Linear congruential generators (Knuth; Numerical Recipes), of which the high bits are random; both
+ * return the new state. */
 static inline uint32_t lcg_next(uint32_t *state)
 {
     return *state = *state * 1664525u + 1013904223u;
@@ -97,7 +101,8 @@ facet_log capture_log(captured_messages *messages);
 
 /* ---- files ---- */
 
-/* A new temporary folder; its path stays until temporary_folder_remove(), which removes what is in it as well. */
+/* A new temporary folder; its path stays until temporary_folder_remove(), which removes what is in it as
+ * well. */
 typedef struct temporary_folder {
     char path[64];
 } temporary_folder;

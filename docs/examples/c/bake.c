@@ -1,4 +1,5 @@
-/* bake.c - an environment as a prefiltered cube map in KTX2, and its spherical harmonics: bake CUBE.ktx2 [ENVIRONMENT] */
+/* bake.c - an environment as a prefiltered cube map in KTX2, and its spherical harmonics: bake CUBE.ktx2
+ * [ENVIRONMENT] */
 #include <facet/facet.h>
 #include <stdio.h>
 

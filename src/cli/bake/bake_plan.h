@@ -59,8 +59,8 @@ typedef struct bake_plan {
 facet_result bake_plan_make(const bake_options *o, bake_plan *out, facet_error *error);
 void bake_plan_destroy(bake_plan *plan); /* {0} is allowed */
 
-/* Checks that all files can be written: in existing or creatable folders, no file twice, no input. Marks those that
- * are kept and drops cube maps without a file. FACET_ERROR_ARGUMENT, _WRITE. */
+/* Checks that all files can be written: in existing or creatable folders, no file twice, no input. Marks
+ * those that are kept and drops cube maps without a file. FACET_ERROR_ARGUMENT, _WRITE. */
 facet_result bake_plan_check(const command_line *c, const bake_options *o, bake_plan *plan,
                              facet_error *error);
 

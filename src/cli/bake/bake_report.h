@@ -15,8 +15,8 @@ void bake_report_files(const messages *m, const bake_plan *plan, bool is_news, d
 
 /* Prints the errors of --verify as a table. */
 void bake_report_errors(FILE *stream, const bake_plan *plan);
-/* Writes "level 3 of ggx: RMS error 0.02" for the worst level with an RMS error above limit, or NaN; "" if there is
- * none. */
+/* Writes "level 3 of ggx: RMS error 0.02" for the worst level with an RMS error above limit, or NaN; "" if
+ * there is none. */
 void bake_report_worst(const bake_plan *plan, double limit, char *text, size_t size);
 
 /* The verb's members of the JSON object; NULL: no memory. */

@@ -18,8 +18,9 @@ typedef struct convert_names {
     bool keeps_existing;
 } convert_names;
 
-/* Reads MODEL NEW, or MODEL... with --output. Checks before any work that the outputs can be written and overwrite no
- * input, and finds models with the same output. Fails as model_list_create(), and with FACET_ERROR_ARGUMENT, _WRITE. */
+/* Reads MODEL NEW, or MODEL... with --output. Checks before any work that the outputs can be written and
+ * overwrite no input, and finds models with the same output. Fails as model_list_create(), and with
+ * FACET_ERROR_ARGUMENT, _WRITE. */
 facet_result convert_names_read(command_line *c, convert_names *out, facet_error *error);
 void convert_names_destroy(convert_names *n); /* {0} is allowed */
 

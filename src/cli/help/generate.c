@@ -8,8 +8,8 @@
 #include <ctype.h>
 #include <string.h>
 
-/* Prints text as roff: with escaped backslashes and dashes (a plain - may become a typographic hyphen, which shells
- * do not accept), and without a request at the start of a line. */
+/* Prints text as roff: with escaped backslashes and dashes (a plain - may become a typographic hyphen,
+ * which shells do not accept), and without a request at the start of a line. */
 static void print_inline(FILE *stream, const char *text)
 {
     bool is_line_start = true;

@@ -309,8 +309,8 @@ static facet_result make_frames(ocean_run *run, facet_error *error)
     return result;
 }
 
-/* Warns of a --loop shorter than the peak period, which speeds waves up, and of one that is not a whole number of
- * frames, which jumps. */
+/* Warns of a --loop shorter than the peak period, which speeds waves up, and of one that is not a whole
+ * number of frames, which jumps. */
 static void warn_of_loop(ocean_run *run)
 {
     const render_options *p = &run->options.picture;

@@ -13,8 +13,8 @@
 
 #define DEGREE 0.017453292519943295 /* pi / 180 */
 
-/* Placement: farthest position, m; distance in units of that at which the model fills the image height; distance in
- * units of that of the nearest visible water. */
+/* Placement: farthest position, m; distance in units of that at which the model fills the image height;
+ * distance in units of that of the nearest visible water. */
 static const double FARTHEST = 1e6, SIZE_AWAY = 1.2, NEAREST = 1.15;
 
 /* Sizes that cause a warning: m; peak wavelengths; pixels. The longest ship has 458 m. */
@@ -106,7 +106,8 @@ static plane fit_plane(const double (*places)[2], const facet_sea_point *points,
     return p;
 }
 
-/* Columns of the pose: rotation by the heading about +Y, then of +Y to the plane's normal, then the translation. */
+/* Columns of the pose: rotation by the heading about +Y, then of +Y to the plane's normal, then the
+ * translation. */
 static void matrix_of(const plane *p, const ocean_berth *b, float m[16])
 {
     double c = cos(b->numbers[2] * DEGREE), s = sin(b->numbers[2] * DEGREE);
@@ -157,8 +158,8 @@ static double azimuth_of(double x, double z)
     return degrees < -0.5 ? degrees + 360.0 : fabs(degrees);
 }
 
-/* Warns if a given position is out of view, since the default heading follows the sun: if the bounding sphere is
- * outside of the cone around the image. */
+/* Warns if a given position is out of view, since the default heading follows the sun: if the bounding
+ * sphere is outside of the cone around the image. */
 static void warn_of_view(ocean_run *run)
 {
     const facet_camera camera = ocean_run_camera(run, &run->options);
@@ -200,7 +201,8 @@ static double pixels_of(const ocean_run *run, double size)
     return size / away / (2.0 * tan(0.5 * (double)camera.fov_y_rad)) * run->options.picture.desc.height;
 }
 
-/* Warns of implausible sizes: a model in millimetres is a thousand times too large, one in kilometres invisible. */
+/* Warns of implausible sizes: a model in millimetres is a thousand times too large, one in kilometres
+ * invisible. */
 static void warn_of_size(ocean_run *run)
 {
     const float *low = run->model_low, *high = run->model_high;

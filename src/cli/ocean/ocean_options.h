@@ -29,8 +29,8 @@ typedef struct ocean_options {
     facet_sea_mesh_desc mesh;
 } ocean_options;
 
-/* Fails with FACET_ERROR_ARGUMENT, and as facet_sea_create() where the water's coefficients are needed. Text stays
- * with c. */
+/* Fails with FACET_ERROR_ARGUMENT, and as facet_sea_create() where the water's coefficients are needed.
+ * Text stays with c. */
 facet_result ocean_options_read(const command_line *c, ocean_options *out, facet_error *error);
 
 /* Parses "1500", "1.5km", "inf" to m. False: not a length. */

@@ -54,8 +54,8 @@ facet_result ocean_run_draw(ocean_run *run, const ocean_options *options, ocean_
 /* Renders the sheet of --sweep over one or two options. Leaves another sea in run. */
 facet_result ocean_sweep(ocean_run *run, const char *output, facet_image **image, facet_error *error);
 
-/* Load the model of --with, and place it on the sea at its current time. Without a position it lies in view of the
- * first frame's camera. */
+/* Load the model of --with, and place it on the sea at its current time. Without a position it lies in
+ * view of the first frame's camera. */
 facet_result ocean_float_load(ocean_run *run, facet_error *error);
 facet_result ocean_float_place(ocean_run *run, facet_error *error);
 
@@ -66,8 +66,8 @@ void ocean_report_print(const ocean_run *run);
 /* The same as JSON; NULL: no memory. */
 json_t *ocean_report_json(const ocean_run *run);
 
-/* report_picture_json() with what another renderer needs for the same image: exposure, time, camera, pose of the
- * model. */
+/* report_picture_json() with what another renderer needs for the same image: exposure, time, camera, pose
+ * of the model. */
 json_t *ocean_report_picture_json(const ocean_run *run, const picture_report *p);
 
 #endif

@@ -210,8 +210,9 @@ static facet_result set_camera(const command_line *c, option_id id, const double
 }
 
 /* --camera-matrix (from the camera's space to the world, as the matrix of a glTF node) or --view-matrix (its inverse): 16
- * numbers, column by column. Writes eye, target and up of out, if one is given. Fails with FACET_ERROR_ARGUMENT, also for
- * a matrix that is not a rotation with a translation, is mirrored, or is written row by row. */
+ * numbers, column by column. Writes eye, target and up of out, if one is given. Fails with
+ * FACET_ERROR_ARGUMENT, also for a matrix that is not a rotation with a translation, is mirrored, or is
+ * written row by row. */
 static facet_result camera_matrix_read(const command_line *c, render_options *out, facet_error *error)
 {
     static const option_id others[] = {OPT_CAMERA, OPT_ORBIT, OPT_EYE,     OPT_TARGET,

@@ -161,8 +161,8 @@ static facet_result frame_camera(model_run *m, uint32_t index, const sequence_fr
     return result;
 }
 
-/* Refuses an output that is a file of the model: helmet.gltf often has a texture helmet.png, the default name of the
- * image. */
+/* Refuses an output that is a file of the model: helmet.gltf often has a texture helmet.png, the default
+ * name of the image. */
 static facet_result check_inputs(const model_run *m, const char *name, facet_error *error)
 {
     const render_options *o = &m->options;
@@ -172,7 +172,8 @@ static facet_result check_inputs(const model_run *m, const char *name, facet_err
                 "%s: this input would be overwritten; name another output with -o", name);
 }
 
-/* Time limit of an image, s; 0: none. Path tracing uses all of its time, so that images share the rest evenly. */
+/* Time limit of an image, s; 0: none. Path tracing uses all of its time, so that images share the rest
+ * evenly. */
 static double time_for_frame(const model_run *m, uint32_t index, double left)
 {
     if (!(left < 1e29))
@@ -339,8 +340,8 @@ static facet_result open_video(model_run *m, facet_error *error)
     return video_open(name, m->options.video, m->options.fps, &m->video, error);
 }
 
-/* Meters --exposure auto: one exposure for all frames, against flicker, by the first frame of the whole sequence, so
- * that it does not depend on --frames. */
+/* Meters --exposure auto: one exposure for all frames, against flicker, by the first frame of the whole
+ * sequence, so that it does not depend on --frames. */
 static facet_result meter(model_run *m, facet_error *error)
 {
     render_run *run = m->run;

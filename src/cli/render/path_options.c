@@ -63,7 +63,8 @@ static facet_result check_renderer(const command_line *c, const render_options *
 
 /* ---- light ---- */
 
-/* Parses AZ,EL[,LUX[,DIAMETER]]. By default the sun lights a facing surface as a white sky of radiance 1 does. */
+/* Parses AZ,EL[,LUX[,DIAMETER]]. By default the sun lights a facing surface as a white sky of radiance 1
+ * does. */
 static facet_result read_sun(const command_line *c, render_options *out, facet_error *error)
 {
     if (!is_given(c, OPT_SUN))

@@ -12,7 +12,8 @@ static float aspect_of(const render_options *options)
     return (float)options->desc.width / (float)options->desc.height;
 }
 
-/* The target relative to the origin of the scene; coordinates that are not given are those of the framing's center. */
+/* The target relative to the origin of the scene; coordinates that are not given are those of the
+ * framing's center. */
 static void resolve_target(const facet_scene *scene, const facet_pose_desc *pose,
                            const render_options *options, float target[3])
 {

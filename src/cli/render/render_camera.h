@@ -4,8 +4,8 @@
 
 #include "cli/render/render_options.h"
 
-/* The camera of an image at a pose, rotated around the model by turn, a fraction of a full turn. moves: the same
- * camera frames the whole motion. */
+/* The camera of an image at a pose, rotated around the model by turn, a fraction of a full turn. moves:
+ * the same camera frames the whole motion. */
 typedef struct render_view {
     const facet_pose_desc *pose;
     double turn;

@@ -101,8 +101,8 @@ static facet_result read_id_layer(const char *text, render_options *out, facet_e
                 "instance alone, in false color");
 }
 
-/* Sets desc.aovs; the format and the renderer are read before. FACET_ERROR_ARGUMENT: the renderer lacks a layer, or the file
- * has no room for one. */
+/* Sets desc.aovs; the format and the renderer are read before. FACET_ERROR_ARGUMENT: the renderer lacks a
+ * layer, or the file has no room for one. */
 static facet_result aov_options_read(const command_line *c, render_options *out, facet_error *error)
 {
     const char *text = option_text(c, OPT_AOV, "");

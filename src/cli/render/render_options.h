@@ -84,16 +84,16 @@ facet_result picture_options_check_sequence(const command_line *c, const render_
 
 /* The camera, without its lens. */
 facet_result camera_options_read(const command_line *c, render_options *out, facet_error *error);
-/* "AZIMUTH,POLAR,RADIUS", separated by commas or blanks; later parts may be left out, and a part may be "auto", which
- * keeps that of orbit. Angles are in deg (the default) or rad, the radius in % of the framing distance, m (the default),
- * cm or mm. False, with orbit untouched, where text is none of these, polar is not in [0 deg, 180 deg] or the radius is
- * not above 0. */
+/* "AZIMUTH,POLAR,RADIUS", separated by commas or blanks; later parts may be left out, and a part may be
+ * "auto", which keeps that of orbit. Angles are in deg (the default) or rad, the radius in % of the
+ * framing distance, m (the default), cm or mm. False, with orbit untouched, where text is none of these,
+ * polar is not in [0 deg, 180 deg] or the radius is not above 0. */
 bool orbit_parse(const char *text, facet_orbit *orbit);
 /* "X,Y,Z" in m (the default), cm, mm; "auto" for all or for one keeps target[i] and clears is_given[i]. */
 bool target_parse(const char *text, double target[3], bool is_given[3]);
 
-/* Reads --renderer and the options that depend on it, after all others. Fails with FACET_ERROR_ARGUMENT, also for an
- * option without effect on the renderer. */
+/* Reads --renderer and the options that depend on it, after all others. Fails with FACET_ERROR_ARGUMENT,
+ * also for an option without effect on the renderer. */
 facet_result path_options_read(const command_line *c, render_options *out, facet_error *error);
 
 /* Sets the lens of the camera. */

@@ -9,8 +9,8 @@
 
 enum { RENDER_NAME_SIZE = 4096 };
 
-/* Name of an image of model, with its number in a sequence; "-" for standard output. Fails with FACET_ERROR_ARGUMENT
- * if it exceeds size bytes. */
+/* Name of an image of model, with its number in a sequence; "-" for standard output. Fails with
+ * FACET_ERROR_ARGUMENT if it exceeds size bytes. */
 facet_result render_name(const render_options *o, const model_name *model, uint32_t number, char *name,
                          size_t size, facet_error *error);
 
@@ -18,13 +18,14 @@ facet_result render_name(const render_options *o, const model_name *model, uint3
 facet_result render_checkpoint_name(const render_options *o, const model_name *model, uint32_t number,
                                     char *name, size_t size, facet_error *error);
 
-/* Whether the image name would overwrite an input: the model (NULL: none), the environment, the file of --config.
- * False with --no-clobber. */
+/* Whether the image name would overwrite an input: the model (NULL: none), the environment, the file of
+ * --config. False with --no-clobber. */
 bool render_name_is_input(const command_line *c, const render_options *o, const char *model,
                           const char *name);
 
-/* Checks before any work that the first images of all models can be written and overwrite no model, environment or
- * file of --config, and finds models with the same output. Further files of a model are known after loading. */
+/* Checks before any work that the first images of all models can be written and overwrite no model,
+ * environment or file of --config, and finds models with the same output. Further files of a model are
+ * known after loading. */
 facet_result render_names_check(const command_line *c, const render_options *o, model_list *models,
                                 facet_error *error);
 
@@ -40,8 +41,8 @@ typedef struct picture_report {
     double load_s, save_s, total_s;
 } picture_report;
 
-/* Prints lines on standard error by verbosity. is_news: also without -v and off a terminal, since the user did not
- * name the output. */
+/* Prints lines on standard error by verbosity. is_news: also without -v and off a terminal, since the user
+ * did not name the output. */
 void report_picture(const messages *m, const picture_report *p, bool is_news);
 
 /* The same as JSON; NULL: no memory. */

@@ -1,5 +1,6 @@
-/* sequence.c - see sequence.h. Frames count from 1: frame n is (n - 1) / fps after the start of the animation. An
- * animation's frames are those before its end, so that a loop does not repeat its first pose. */
+/* sequence.c - see sequence.h. Frames count from 1: frame n is (n - 1) / fps after the start of the
+ * animation. An animation's frames are those before its end, so that a loop does not repeat its first
+ * pose. */
 #include "cli/render/sequence.h"
 
 #include "cli/shared/failure.h"

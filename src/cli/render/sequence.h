@@ -22,8 +22,8 @@ typedef struct sequence_frame {
     double turn;     /* of the camera, [0, 1) */
 } sequence_frame;
 
-/* Resolves scene, variant and animations by name, and chooses the origin for them; name is the model's, for messages.
- * Fails with FACET_ERROR_ARGUMENT for names that the model lacks. */
+/* Resolves scene, variant and animations by name, and chooses the origin for them; name is the model's,
+ * for messages. Fails with FACET_ERROR_ARGUMENT for names that the model lacks. */
 facet_result sequence_create(facet_scene *scene, const char *name, const render_options *options,
                              sequence *out, facet_error *error);
 void sequence_destroy(sequence *s); /* {0} is allowed */

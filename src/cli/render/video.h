@@ -13,7 +13,8 @@ typedef enum video_format {
 /* An open video. */
 typedef struct video video;
 
-/* Opens path ("-": standard output); a file appears under its name with video_close(). Fails with FACET_ERROR_WRITE. */
+/* Opens path ("-": standard output); a file appears under its name with video_close(). Fails with
+ * FACET_ERROR_WRITE. */
 facet_result video_open(const char *path, video_format format, double fps, video **out, facet_error *error);
 /* Adds a frame; all frames have the same size. */
 facet_result video_add(video *v, const facet_image *image, const facet_allocator *allocator,

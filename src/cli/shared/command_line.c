@@ -178,8 +178,8 @@ static facet_result parse_letters(command_line *c, int argc, char **argv, int *a
 
 /* ---- arguments ---- */
 
-/* Whether an argument names an output: "render in.glb out.png". Where inputs and outputs share extensions, only a
- * surplus argument is taken for an output. */
+/* Whether an argument names an output: "render in.glb out.png". Where inputs and outputs share extensions,
+ * only a surplus argument is taken for an output. */
 static bool is_output(const command_line *c, size_t index)
 {
     const verb *v = c->verb;

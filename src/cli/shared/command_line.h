@@ -24,14 +24,15 @@ typedef struct command_line {
     bool has_attributes;     /* some options were given as attributes of <model-viewer> */
 } command_line;
 
-/* Parses argv (without program and verb). Options stand anywhere before "--"; --name=value, --name value, -xvalue, -x
- * value and -x=value are equivalent; a negative number is a value. Fails with FACET_ERROR_ARGUMENT and one sentence
- * that names the option, suggests another one or states the expectation. */
+/* Parses argv (without program and verb). Options stand anywhere before "--"; --name=value, --name value,
+ * -xvalue, -x value and -x=value are equivalent; a negative number is a value. Fails with
+ * FACET_ERROR_ARGUMENT and one sentence that names the option, suggests another one or states the
+ * expectation. */
 facet_result command_line_parse(const verb *v, int argc, char **argv, command_line *out, facet_error *error);
 void command_line_destroy(command_line *c); /* {0} is allowed */
 
-/* Sets an option from another source, with the same checks, unless an earlier source has set it. text is NULL for a
- * flag. */
+/* Sets an option from another source, with the same checks, unless an earlier source has set it. text is
+ * NULL for a flag. */
 facet_result command_line_set(command_line *c, const option *o, const char *text, option_source source,
                               facet_error *error);
 

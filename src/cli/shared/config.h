@@ -13,9 +13,10 @@ typedef struct config {
     size_t text_count;
 } config;
 
-/* Sets the options in the file of --config that are not set already: an object whose members are long option names,
- * with true for flags (a number for those that count), text, numbers, or arrays for values with commas. Fails with
- * FACET_ERROR_READ, _LIMIT, or _ARGUMENT (not a JSON object, unknown option, wrong value). */
+/* Sets the options in the file of --config that are not set already: an object whose members are long
+ * option names, with true for flags (a number for those that count), text, numbers, or arrays for values
+ * with commas. Fails with FACET_ERROR_READ, _LIMIT, or _ARGUMENT (not a JSON object, unknown option, wrong
+ * value). */
 facet_result config_apply(command_line *c, config *storage, facet_error *error);
 void config_destroy(config *storage);
 

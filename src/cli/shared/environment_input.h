@@ -10,8 +10,8 @@
  *   sun:EL[,AZ[,TURBIDITY]][,WORD..]      a clear sky and its sun, degrees above the horizon and from +Z towards +X
  *   preetham:EL[,AZ[,TURBIDITY]][,WORD..] the same by Preetham's formula; docs/environments.md has the words
  *
- * ./NAME is always a file. Numbers are radiance, 1 is white. Skies are exposed so that white turned to the light is 1, as in
- * the studio, unless the word lux asks for cd/m^2. */
+ * ./NAME is always a file. Numbers are radiance, 1 is white. Skies are exposed so that white turned to the
+ * light is 1, as in the studio, unless the word lux asks for cd/m^2. */
 #ifndef CLI_ENVIRONMENT_INPUT_H
 #define CLI_ENVIRONMENT_INPUT_H
 
@@ -37,8 +37,8 @@ typedef struct environment_input {
     facet_sky_desc sky;
 } environment_input;
 
-/* Parses text, which stays with the caller; no file is read. place begins messages: "--env", "INPUT". Fails with
- * FACET_ERROR_ARGUMENT. */
+/* Parses text, which stays with the caller; no file is read. place begins messages: "--env", "INPUT".
+ * Fails with FACET_ERROR_ARGUMENT. */
 facet_result environment_input_parse(const char *place, const char *text, unsigned takes,
                                      environment_input *out, facet_error *error);
 

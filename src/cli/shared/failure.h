@@ -28,14 +28,17 @@ typedef struct exit_meaning {
 } exit_meaning;
 extern const exit_meaning exit_meanings[]; /* ends with {NULL} */
 
-/* The exit code of a result. FACET_ERROR_CANCELLED gives EXIT_AGAIN; interrupt_exit_code() has that of the signal. */
+/* The exit code of a result. FACET_ERROR_CANCELLED gives EXIT_AGAIN; interrupt_exit_code() has that of the
+ * signal. */
 int exit_code_of(facet_result result);
 
-/* Prepends the name of the input to a general failure (memory, limit) unless the sentence begins with it, and appends
+/* Prepends the name of the input to a general failure (memory, limit) unless the sentence begins with it,
+ * and appends
  * --max-memory, limit bytes (0: none), to a lack of memory. */
 void failure_complete(facet_error *error, const char *name, uint64_t limit);
 
-/* A JSON string; null where text is NULL. Bytes that are not UTF-8, as names of files may have, become U+FFFD. */
+/* A JSON string; null where text is NULL. Bytes that are not UTF-8, as names of files may have, become
+ * U+FFFD. */
 json_t *report_string_json(const char *text);
 json_t *report_error_json(const facet_error *error, const char *model /* NULL: none */, int exit_code);
 

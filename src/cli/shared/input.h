@@ -7,8 +7,9 @@
 /* Name of an input in messages: its path, "stdin" for -, "built-in scene" for NULL. */
 const char *input_name(const char *path);
 
-/* Loads a model; path - is standard input, NULL the built-in scene. Standard input needs memory of desc->allocator,
- * which must be set. Fails as facet_scene_load(), and with FACET_ERROR_ARGUMENT for an empty name or an address. */
+/* Loads a model; path - is standard input, NULL the built-in scene. Standard input needs memory of
+ * desc->allocator, which must be set. Fails as facet_scene_load(), and with FACET_ERROR_ARGUMENT for an
+ * empty name or an address. */
 facet_result input_load(const char *path, const facet_scene_desc *desc, facet_scene **scene,
                         facet_error *error);
 

@@ -12,8 +12,8 @@ typedef struct limits {
 
 /* Reads --threads, --max-memory, --max-texture, --time-limit. Fails with FACET_ERROR_ARGUMENT. */
 facet_result limits_read(const command_line *c, limits *out, facet_error *error);
-/* Starts --time-limit, if given, before the other options are read: configurations and lists of models may be pipes
- * without a writer. Fails with FACET_ERROR_ARGUMENT. */
+/* Starts --time-limit, if given, before the other options are read: configurations and lists of models may
+ * be pipes without a writer. Fails with FACET_ERROR_ARGUMENT. */
 facet_result limits_start_clock(const command_line *c, facet_error *error);
 
 /* Peak resident memory of the process, bytes. */

@@ -39,7 +39,8 @@ void message_at(const messages *m, verbosity least, const char *format, ...)
 
 typedef enum progress_mode { PROGRESS_NONE, PROGRESS_BAR, PROGRESS_PLAIN, PROGRESS_JSON } progress_mode;
 
-/* mode_index is the index in --progress' choices: auto, plain, json, none. A bar is shown on a terminal, after 0.3 s. */
+/* mode_index is the index in --progress' choices: auto, plain, json, none. A bar is shown on a terminal,
+ * after 0.3 s. */
 progress_mode progress_choose(int mode_index, bool is_quiet);
 
 /* Progress of an operation, which may be one of several images. */

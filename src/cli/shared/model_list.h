@@ -16,11 +16,12 @@ typedef struct model_list {
     size_t text_count;
 } model_list;
 
-/* Lists the first argument_count arguments and the models of --files-from. A folder stands for the models in and
- * below it, sorted by path, of the verb's file types (except .json, which may be anything), without hidden files and
- * links to folders. A folder without models stays in the list, and reading it fails. Without arguments and list the
- * built-in scene is listed. The expanded paths replace the first argument_count arguments of c. Fails with
- * FACET_ERROR_READ, _MEMORY, _LIMIT (nested too deep), and _ARGUMENT for an empty list. */
+/* Lists the first argument_count arguments and the models of --files-from. A folder stands for the models
+ * in and below it, sorted by path, of the verb's file types (except .json, which may be anything), without
+ * hidden files and links to folders. A folder without models stays in the list, and reading it fails.
+ * Without arguments and list the built-in scene is listed. The expanded paths replace the first
+ * argument_count arguments of c. Fails with FACET_ERROR_READ, _MEMORY, _LIMIT (nested too deep), and
+ * _ARGUMENT for an empty list. */
 facet_result model_list_create(command_line *c, size_t argument_count, model_list *out, facet_error *error);
 void model_list_destroy(model_list *list); /* {0} is allowed */
 

@@ -1,5 +1,5 @@
-/* options.h - the tables of verbs and options (verbs.def, options.def), which parsing, help, man pages, completions
- * and suggestions read. */
+/* options.h - the tables of verbs and options (verbs.def, options.def), which parsing, help, man pages,
+ * completions and suggestions read. */
 #ifndef CLI_OPTIONS_H
 #define CLI_OPTIONS_H
 
@@ -96,8 +96,8 @@ typedef struct verb {
     const option_group *const *groups; /* ends with NULL */
 } verb;
 
-/* NAME/cmd_NAME.c of each verb in verbs.def defines NAME_verb, its arguments, options and help, and cmd_NAME(), which
- * runs it: it reports failures and returns the exit code. */
+/* NAME/cmd_NAME.c of each verb in verbs.def defines NAME_verb, its arguments, options and help, and
+ * cmd_NAME(), which runs it: it reports failures and returns the exit code. */
 struct command_line;
 #define VERB(name)                                                                                           \
     extern const verb name##_verb;                                                                           \

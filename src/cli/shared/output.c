@@ -17,8 +17,8 @@ bool output_exists(const char *path)
     return access(path, F_OK) == 0;
 }
 
-/* Writes the nearest existing folder above path to folder, without a trailing slash, and returns the rest of path.
- * NULL: too long. */
+/* Writes the nearest existing folder above path to folder, without a trailing slash, and returns the rest
+ * of path. NULL: too long. */
 static const char *find_folder(const char *path, char *folder, size_t size)
 {
     struct stat info;
@@ -114,8 +114,8 @@ facet_result output_check(const char *path, facet_error *error)
     return FACET_OK;
 }
 
-/* Begins the writing of a regular file (interrupt.h), or of a stream, which needs no cleanup and whose reader may
- * never come. Returns whether path is a file. */
+/* Begins the writing of a regular file (interrupt.h), or of a stream, which needs no cleanup and whose
+ * reader may never come. Returns whether path is a file. */
 static bool begin_writing(const char *path)
 {
     struct stat info;

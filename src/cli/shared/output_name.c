@@ -10,8 +10,8 @@
 enum { MARK_STEM, MARK_NAME, MARK_DIR, MARK_INDEX, MARK_COUNT };
 static const char *const marks[] = {"{stem}", "{name}", "{dir}", "{index}"};
 
-/* Length of the frame number placeholder at text, 0: none; *width is its number of digits. A single # belongs to the
- * name, as in "part#2.png". */
+/* Length of the frame number placeholder at text, 0: none; *width is its number of digits. A single #
+ * belongs to the name, as in "part#2.png". */
 static size_t frame_mark(const char *text, int *width)
 {
     size_t run = strspn(text, "#");

@@ -25,9 +25,9 @@ bool output_name_has_model(const char *pattern);
 #define OUTPUT_NAME_WORDS "stem name dir index"
 facet_result output_name_check(const char *place, const char *pattern, const char *words, facet_error *error);
 
-/* Writes pattern with all placeholders replaced to name (size bytes): {stem} is the model's name without folder and
- * extension, {name} with its extension; the frame number is zero-padded to the width of its placeholder. frame NULL:
- * its placeholders stay. False: too long. */
+/* Writes pattern with all placeholders replaced to name (size bytes): {stem} is the model's name without
+ * folder and extension, {name} with its extension; the frame number is zero-padded to the width of its
+ * placeholder. frame NULL: its placeholders stay. False: too long. */
 bool output_name_expand(const char *pattern, const model_name *model, const uint32_t *frame, char *name,
                         size_t size);
 

@@ -9,8 +9,9 @@
 
 enum { MAX_WORD = 63 };
 
-/* Options of f3d, blender, <model-viewer>, screenshot-glb, cmgen, glTF-IBL-Sampler, cmft, ktx, gltf-transform and
- * ImageMagick, and their counterparts here. Of several rows with one name the first counts whose option the verb has. */
+/* Options of f3d, blender, <model-viewer>, screenshot-glb, cmgen, glTF-IBL-Sampler, cmft, ktx,
+ * gltf-transform and ImageMagick, and their counterparts here. Of several rows with one name the first
+ * counts whose option the verb has. */
 static const struct {
     const char *theirs;
     option_id id; /* suggested only if the verb has it */

@@ -9,14 +9,14 @@
 bool terminal_is(FILE *stream);
 /* Whether to use color: a terminal that is not dumb, without NO_COLOR. */
 bool terminal_has_color(FILE *stream);
-/* Replaces control characters by "?": those of ASCII, U+0080 to U+009F (U+009B begins an escape sequence as ESC [
- * does), and such bytes outside of UTF-8. */
+/* Replaces control characters by "?": those of ASCII, U+0080 to U+009F (U+009B begins an escape sequence
+ * as ESC [ does), and such bytes outside of UTF-8. */
 void terminal_disarm(char *text);
 /* Width of text: COLUMNS or the terminal's, at most 100; 100 if neither is known. */
 int terminal_width(FILE *stream);
 
-/* Prints text from column indent on, wrapped at width; *column is the column of the stream before and after. Words
- * are separated by single blanks. */
+/* Prints text from column indent on, wrapped at width; *column is the column of the stream before and
+ * after. Words are separated by single blanks. */
 void terminal_wrap(FILE *stream, const char *text, int indent, int width, int *column);
 
 enum { TABLE_COLUMNS = 10 };

@@ -1,4 +1,5 @@
-/* value.h - parsers of option values. Each returns false, with its outputs untouched, if text is not such a value. */
+/* value.h - parsers of option values. Each returns false, with its outputs untouched, if text is not such
+ * a value. */
 #ifndef CLI_VALUE_H
 #define CLI_VALUE_H
 

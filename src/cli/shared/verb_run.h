@@ -1,5 +1,5 @@
-/* verb_run.h - the common frame of verbs: --config, limits, memory budget, messages, the object of --json and the
- * exit code. A verb embeds a verb_run as the first member of its state and provides a verb_work. */
+/* verb_run.h - the common frame of verbs: --config, limits, memory budget, messages, the object of --json
+ * and the exit code. A verb embeds a verb_run as the first member of its state and provides a verb_work. */
 #ifndef CLI_VERB_RUN_H
 #define CLI_VERB_RUN_H
 
@@ -45,13 +45,13 @@ struct verb_run {
 /* Runs the verb of c: everything from --config to the exit code, which it returns. */
 int verb_run_all(verb_run *run, command_line *c, const verb_work *parts);
 
-/* Calls each() for all models in order. Failures, which must name their file, are reported, and the next model
- * follows; warnings are printed per model. Stops after a signal and if standard output is closed. */
+/* Calls each() for all models in order. Failures, which must name their file, are reported, and the next
+ * model follows; warnings are printed per model. Stops after a signal and if standard output is closed. */
 void verb_run_models(verb_run *run, const model_list *models,
                      facet_result (*each)(verb_run *run, size_t index, facet_error *error));
 
-/* Descs for environments and models with the run's budget, messages and limits; for models also with --root and the
- * options of OBJ files and OpenGL 1 materials. Text stays with the command line. */
+/* Descs for environments and models with the run's budget, messages and limits; for models also with
+ * --root and the options of OBJ files and OpenGL 1 materials. Text stays with the command line. */
 facet_environment_desc verb_run_environment_desc(verb_run *run, const char *cache_folder);
 facet_scene_desc verb_run_scene_desc(verb_run *run);
 

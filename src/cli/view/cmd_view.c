@@ -55,8 +55,8 @@ typedef struct view_run {
 
 /* ---- models ---- */
 
-/* Chooses scene, variant and animation. Names must exist in the first model; other models of the folder are shown
- * without them. */
+/* Chooses scene, variant and animation. Names must exist in the first model; other models of the folder
+ * are shown without them. */
 static facet_result choose_pose(view_run *run, const char *path, facet_view_model *model, facet_error *error)
 {
     const render_options *o = &run->options;

@@ -1,5 +1,5 @@
-/* gl_blocks.h - uniform blocks and texture units, in the layout of the shaders (blocks.glsl). std140: a vec3 takes
- * four floats. */
+/* gl_blocks.h - uniform blocks and texture units, in the layout of the shaders (blocks.glsl). std140: a
+ * vec3 takes four floats. */
 #ifndef GL_GL_BLOCKS_H
 #define GL_GL_BLOCKS_H
 
@@ -18,8 +18,8 @@ enum {
 typedef struct gl_frame_block {
     float view_projection[16]; /* column-major, for points relative to the eye */
     float eye[4];              /* m; w: 1 for orthographic cameras */
-    /* step per +1 of gl_FragCoord at depth 1 m (orthographic: in m); up points down where rows run from the top:
-     * gl_camera.h */
+    /* step per +1 of gl_FragCoord at depth 1 m (orthographic: in m); up points down where rows run from
+     * the top: gl_camera.h */
     float right[4], up[4];
     float forward[4]; /* unit vector */
     float size[4];    /* size of the whole drawing in pixels; offset from gl_FragCoord to a position in it */

@@ -1,4 +1,5 @@
-/* gl_context.h - an OpenGL context and its capabilities. The feature level is OpenGL 3.3 core or OpenGL ES 3.0. */
+/* gl_context.h - an OpenGL context and its capabilities. The feature level is OpenGL 3.3 core or OpenGL ES
+ * 3.0. */
 #ifndef GL_GL_CONTEXT_H
 #define GL_GL_CONTEXT_H
 
@@ -28,23 +29,23 @@ typedef struct gl_context {
     char name[160]; /* renderer and version, for messages */
 } gl_context;
 
-/* Creates an off-screen context and makes it current: on a GPU of its own, else on Mesa's surfaceless platform,
- * else with a pbuffer. Fails with FACET_ERROR_SYSTEM; the message names what is missing. */
+/* Creates an off-screen context and makes it current: on a GPU of its own, else on Mesa's surfaceless
+ * platform, else with a pbuffer. Fails with FACET_ERROR_SYSTEM; the message names what is missing. */
 facet_result gl_context_create(gl_context *context, facet_error *error);
 facet_result gl_context_create_api(gl_context *context, gl_api wanted, facet_error *error);
-/* Adopts the current context of a window, which remains the window's. FACET_ERROR_SYSTEM: older than OpenGL 3.3 or
- * ES 3.0. */
+/* Adopts the current context of a window, which remains the window's. FACET_ERROR_SYSTEM: older than
+ * OpenGL 3.3 or ES 3.0. */
 facet_result gl_context_adopt(gl_context *context, facet_error *error);
 /* Makes the context current for the calling thread. No effect on a window's context, which its owner manages.
  * FACET_ERROR_SYSTEM. */
 facet_result gl_context_make_current(gl_context *context, facet_error *error);
-/* Releases the context, so that another thread can make it current, and restores what was current before, if that
- * was EGL's. */
+/* Releases the context, so that another thread can make it current, and restores what was current before,
+ * if that was EGL's. */
 void gl_context_release(gl_context *context);
 void gl_context_destroy(gl_context *context); /* {0} is allowed; leaves {0} */
 
-/* Reports errors of OpenGL since the last call: FACET_ERROR_MEMORY, FACET_ERROR_SYSTEM (a lost context, or a bug
- * in facet, with OpenGL's error code). while_doing: such as "textures". */
+/* Reports errors of OpenGL since the last call: FACET_ERROR_MEMORY, FACET_ERROR_SYSTEM (a lost context, or
+ * a bug in facet, with OpenGL's error code). while_doing: such as "textures". */
 facet_result gl_context_check(gl_context *context, const char *while_doing, facet_error *error);
 
 #endif

@@ -1,7 +1,8 @@
 /* gl_context_egl.c - off-screen contexts by EGL; see gl_context.h.
  *
- * Displays are never terminated: EGL returns the same display to every caller, another renderer in the process may use it, and
- * terminating it would destroy all of their contexts. The cost is one loaded driver per process. */
+ * Displays are never terminated: EGL returns the same display to every caller, another renderer in the
+ * process may use it, and terminating it would destroy all of their contexts. The cost is one loaded
+ * driver per process. */
 #include "gl/core/gl_context.h"
 
 #include <epoxy/egl.h>
@@ -61,7 +62,8 @@ void gl_context_destroy(gl_context *c)
 
 /* ---- creation ---- */
 
-/* Enables notification of resets where the driver has it: level 0 by EGL 1.5, 1 by its extension, 2 not at all. */
+/* Enables notification of resets where the driver has it: level 0 by EGL 1.5, 1 by its extension, 2 not at
+ * all. */
 static EGLContext new_context(EGLDisplay display, EGLConfig config, bool is_es, int level)
 {
     EGLint wanted[16];

@@ -1,5 +1,5 @@
-/* gl_program_test.c - the text of every program in every configuration that an image may need, through glslangValidator where
- * it is installed and through the drivers at hand. */
+/* gl_program_test.c - the text of every program in every configuration that an image may need, through
+ * glslangValidator where it is installed and through the drivers at hand. */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <epoxy/gl.h>
 #include <setjmp.h>
@@ -247,8 +247,8 @@ static void write_text(const char *path, const text *t)
     assert_int_equal(fclose(file), 0);
 }
 
-/* Every configuration, version and stage: the reference compiler rejects what is used before its definition, which drivers
- * may let through. */
+/* Every configuration, version and stage: the reference compiler rejects what is used before its
+ * definition, which drivers may let through. */
 static void the_reference_compiler_takes_every_text(void **state)
 {
     (void)state;

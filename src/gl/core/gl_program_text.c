@@ -1,4 +1,5 @@
-/* gl_program_text.c - see gl_program_text.h: which parts of the shader library and which files make up each main. */
+/* gl_program_text.c - see gl_program_text.h: which parts of the shader library and which files make up
+ * each main. */
 #include "gl/core/gl_program_text.h"
 
 #include <epoxy/gl.h>
@@ -241,8 +242,8 @@ int gl_material_slot_units(uint64_t features, int8_t units[SCENE_TEXTURE_SLOT_CO
     return count;
 }
 
-/* Adds MATERIAL_LAYERS, the samplers u_material0.., and BASE_COLOR_TEXEL and so on: a vec4 per slot, white for
- * absent textures. */
+/* Adds MATERIAL_LAYERS, the samplers u_material0.., and BASE_COLOR_TEXEL and so on: a vec4 per slot, white
+ * for absent textures. */
 static void slot_text(uint64_t features, text *out)
 {
     int8_t units[SCENE_TEXTURE_SLOT_COUNT];

@@ -1,5 +1,5 @@
-/* gl_program_text.h - the GLSL of each program: version, shader library, #defines of the requested features, and a main of
- * src/gl/shaders. */
+/* gl_program_text.h - the GLSL of each program: version, shader library, #defines of the requested
+ * features, and a main of src/gl/shaders. */
 #ifndef GL_GL_PROGRAM_TEXT_H
 #define GL_GL_PROGRAM_TEXT_H
 
@@ -58,8 +58,8 @@ enum {
     GL_SURFACE_HAS_SPECULAR_ANTIALIASING
 };
 
-/* GL_MAIN_PHONG has features of its own from GL_SURFACE_TEXTURES to GL_SURFACE_IS_LIT, maps first; the others are
- * those of GL_MAIN_SURFACE. */
+/* GL_MAIN_PHONG has features of its own from GL_SURFACE_TEXTURES to GL_SURFACE_IS_LIT, maps first; the
+ * others are those of GL_MAIN_SURFACE. */
 enum {
     GL_PHONG_MAP_COUNT = 7,
     GL_PHONG_IS_SPHERE_MAP = GL_SURFACE_TEXTURES + GL_PHONG_MAP_COUNT,
@@ -105,8 +105,8 @@ extern const gl_slot_pair gl_slot_pairs[GL_SLOT_PAIR_COUNT];
 /* Slots in the order in which they are dropped where a material has more textures than there are units. */
 extern const uint8_t gl_slots_by_loss[SCENE_TEXTURE_SLOT_COUNT];
 
-/* The unit of each slot, counted from GL_UNIT_MATERIAL; -1: not sampled, or sampled through its pair. Returns the
- * number of units in use. */
+/* The unit of each slot, counted from GL_UNIT_MATERIAL; -1: not sampled, or sampled through its pair.
+ * Returns the number of units in use. */
 int gl_material_slot_units(uint64_t features, int8_t units[SCENE_TEXTURE_SLOT_COUNT]);
 
 /* ---- the text ---- */

@@ -24,8 +24,9 @@ typedef struct gl_target {
     uint32_t depth;                        /* texture, single-sampled targets only */
 } gl_target;
 
-/* Creates the target, or replaces it where kind, size or samples differ. samples: rounded down to what OpenGL has.
- * Fails with FACET_ERROR_MEMORY, FACET_ERROR_LIMIT (larger than OpenGL's textures), FACET_ERROR_SYSTEM. */
+/* Creates the target, or replaces it where kind, size or samples differ. samples: rounded down to what
+ * OpenGL has. Fails with FACET_ERROR_MEMORY, FACET_ERROR_LIMIT (larger than OpenGL's textures),
+ * FACET_ERROR_SYSTEM. */
 facet_result gl_target_update(gl_target *target, gl_context *context, gl_target_kind kind, uint32_t width,
                               uint32_t height, uint32_t samples, facet_error *error);
 void gl_target_destroy(gl_target *target); /* {0} is allowed */

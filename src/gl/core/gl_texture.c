@@ -1,5 +1,5 @@
-/* gl_texture.c - see gl_texture.h. An image becomes one texture per way of reading it (as color, as data), shared
- * by all textures of the scene that refer to it. Wrapping and filtering are in sampler objects. */
+/* gl_texture.c - see gl_texture.h. An image becomes one texture per way of reading it (as color, as data),
+ * shared by all textures of the scene that refer to it. Wrapping and filtering are in sampler objects. */
 #include "gl/core/gl_texture.h"
 
 #include <epoxy/gl.h>
@@ -100,8 +100,8 @@ static GLenum internal_format(const texture_pyramid *p, bool as_color)
     return p->type != IMAGE_U8 ? GL_RGBA16F : as_color ? GL_SRGB8_ALPHA8 : GL_RGBA8;
 }
 
-/* Allocates the levels from first on. With immutable storage where possible: otherwise Mesa holds two copies of
- * the finest level for a while. */
+/* Allocates the levels from first on. With immutable storage where possible: otherwise Mesa holds two
+ * copies of the finest level for a while. */
 static void allocate_levels(const gl_context *c, const texture_pyramid *p, uint32_t first, bool as_color)
 {
     const GLenum format = internal_format(p, as_color);

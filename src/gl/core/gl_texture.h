@@ -12,15 +12,16 @@ facet_result gl_texture_create(gl_context *context, const facet_scene *scene,
                                const facet_allocator *allocator, gl_texture_set **out, facet_error *error);
 void gl_texture_destroy(gl_texture_set *set); /* NULL is allowed */
 
-/* Decodes, in parallel, and uploads the missing images of uses, one per texture of the scene. min_lod is ignored,
- * because the camera of a window moves. 8-bit colors stay in sRGB, 16-bit texels become half floats. Warns once of
- * an image that cannot be decoded, or that starts at a coarser mip because it exceeds OpenGL's limit. Fails with
- * FACET_ERROR_LIMIT (an image larger than scene->max_texture_size), FACET_ERROR_MEMORY. */
+/* Decodes, in parallel, and uploads the missing images of uses, one per texture of the scene. min_lod is
+ * ignored, because the camera of a window moves. 8-bit colors stay in sRGB, 16-bit texels become half
+ * floats. Warns once of an image that cannot be decoded, or that starts at a coarser mip because it
+ * exceeds OpenGL's limit. Fails with FACET_ERROR_LIMIT (an image larger than scene->max_texture_size),
+ * FACET_ERROR_MEMORY. */
 facet_result gl_texture_update(gl_texture_set *set, const texture_use *uses, const facet_log *log,
                                uint32_t thread_count, facet_error *error);
 
-/* OpenGL names of a texture and its sampler; texture may be any number. Texture 0: it reads as white, or was not
- * requested. Samplers are isotropic: surface_in.glsl takes the CPU's anisotropic probes. */
+/* OpenGL names of a texture and its sampler; texture may be any number. Texture 0: it reads as white, or
+ * was not requested. Samplers are isotropic: surface_in.glsl takes the CPU's anisotropic probes. */
 uint32_t gl_texture_name(const gl_texture_set *set, uint32_t texture, bool as_color);
 bool gl_texture_lacks_red(const gl_texture_set *set, uint32_t texture); /* as data, after an update */
 uint32_t gl_texture_sampler(gl_texture_set *set, uint32_t texture);

@@ -1,5 +1,5 @@
-/* gl_texture_test.c - uploaded textures hold the CPU's texels at every level, and samplers follow glTF. Exits with
- * 77 where there is no OpenGL. */
+/* gl_texture_test.c - uploaded textures hold the CPU's texels at every level, and samplers follow glTF.
+ * Exits with 77 where there is no OpenGL. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

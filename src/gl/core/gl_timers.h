@@ -42,8 +42,8 @@ typedef struct gl_timers {
 
 void gl_timers_begin(gl_timers *timers, gl_timer timer);
 void gl_timers_end(gl_timers *timers);
-/* Ends an image: its times are complete when all results have arrived. waits: wait for them; otherwise returns the
- * times of an earlier image. */
+/* Ends an image: its times are complete when all results have arrived. waits: wait for them; otherwise
+ * returns the times of an earlier image. */
 gl_times gl_timers_finish(gl_timers *timers, bool waits);
 void gl_timers_destroy(gl_timers *timers); /* {0} is allowed; the context is current */
 

@@ -1,5 +1,5 @@
-/* gl_bloom_test.c - bloom conserves energy, has the right shape, and is off by default. Exits with 77 where there
- * is no OpenGL. */
+/* gl_bloom_test.c - bloom conserves energy, has the right shape, and is off by default. Exits with 77
+ * where there is no OpenGL. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -26,8 +26,8 @@ static void depth_range(const camera_rays *c, const float bounds_min[3], const f
     }
 }
 
-/* Clip-space z is a * depth + b, with w = depth (orthographic: 1). The far plane leaves room for the ground, as
- * far behind the scene as the scene is deep. */
+/* Clip-space z is a * depth + b, with w = depth (orthographic: 1). The far plane leaves room for the
+ * ground, as far behind the scene as the scene is deep. */
 static void depth_terms(const gl_context *context, const camera_rays *c, double low, double high, double *a,
                         double *b)
 {

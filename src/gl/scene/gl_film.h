@@ -1,4 +1,5 @@
-/* gl_film.h - renders a film in tiles and passes, where an image exceeds OpenGL's size limit or number of samples. */
+/* gl_film.h - renders a film in tiles and passes, where an image exceeds OpenGL's size limit or number of
+ * samples. */
 #ifndef GL_GL_FILM_H
 #define GL_GL_FILM_H
 

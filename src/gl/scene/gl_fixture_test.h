@@ -20,8 +20,8 @@ film gl_fixture_draw(const fixture *f, gl_renderer *renderer);
 /* The same with a renderer of its own. */
 film gl_fixture_render(const fixture *f, gl_context *context);
 
-/* Difference of two images of the same size: mean absolute difference, and share of the pixels in which a channel
- * differs by more than `most`, among the pixels that are not empty in both. */
+/* Difference of two images of the same size: mean absolute difference, and share of the pixels in which a
+ * channel differs by more than `most`, among the pixels that are not empty in both. */
 typedef struct image_difference {
     double mean, share;
 } image_difference;

@@ -288,8 +288,8 @@ static facet_result take_opaque(gl_frame *f, const gl_target *target, facet_erro
     return result;
 }
 
-/* Transmissive surfaces show radiance also where a single lobe is displayed; the opaque surfaces are then drawn
- * twice. */
+/* Transmissive surfaces show radiance also where a single lobe is displayed; the opaque surfaces are then
+ * drawn twice. */
 static facet_result draw_opaque(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
                                 facet_error *error)
 {

@@ -26,8 +26,8 @@ typedef struct gl_frame {
     uint32_t empty_array;  /* vertex array of full-screen passes */
 } gl_frame;
 
-/* The context is current, as for all functions here. Fails with FACET_ERROR_MEMORY; call gl_frame_destroy() in any
- * case. */
+/* The context is current, as for all functions here. Fails with FACET_ERROR_MEMORY; call
+ * gl_frame_destroy() in any case. */
 facet_result gl_frame_create(gl_frame *frame, gl_context *context, const facet_scene *scene,
                              const facet_allocator *allocator, facet_error *error);
 void gl_frame_destroy(gl_frame *frame); /* {0} is allowed; leaves {0} */
@@ -41,8 +41,8 @@ uint32_t gl_frame_max_samples(const gl_frame *frame, const facet_render_desc *de
 /* Draws a view into a target and resolves it. block: filled by gl_camera_set(); the rest is filled in here. */
 facet_result gl_frame_draw(gl_frame *frame, const gl_target *target, const facet_render_desc *desc,
                            gl_frame_block *block, facet_error *error);
-/* Draws the AOVs of the nearest surfaces into the layers of a GL_TARGET_LAYERED target: normal and depth (m; 0:
- * none); base color and occlusion; index of the geometry, texture coordinates, opacity. */
+/* Draws the AOVs of the nearest surfaces into the layers of a GL_TARGET_LAYERED target: normal and depth
+ * (m; 0: none); base color and occlusion; index of the geometry, texture coordinates, opacity. */
 facet_result gl_frame_draw_layers(gl_frame *frame, const gl_target *target, const facet_render_desc *desc,
                                   gl_frame_block *block, facet_error *error);
 /* Tone-maps and encodes a resolved image into the bound framebuffer, lower left corner at (x, y). */

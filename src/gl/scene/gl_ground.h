@@ -1,5 +1,5 @@
-/* gl_ground.h - the shadow on the ground, an invisible plane under the model's lowest point: its ambient occlusion
- * by the model under a uniform sky, as a map that is made when the scene changes.
+/* gl_ground.h - the shadow on the ground, an invisible plane under the model's lowest point: its ambient
+ * occlusion by the model under a uniform sky, as a map that is made when the scene changes.
  *
  * The lowest and highest heights above the plane, seen from below and from above, are drawn into squares of 2
  * GL_GROUND_EDGE texels around the model. From them ground_map.frag computes the hidden share of the sky for
@@ -26,8 +26,8 @@ typedef struct gl_ground {
 void gl_ground_plan(gl_ground *ground, const facet_render_desc *desc, const float bounds_min[3],
                     const float bounds_max[3]);
 void gl_ground_describe(const gl_ground *ground, gl_light_block *block);
-/* Makes the map where the scene has changed. Changes the framebuffer, the viewport and the frame block; the light
- * block is bound. Fails as gl_programs_get(), with FACET_ERROR_MEMORY. */
+/* Makes the map where the scene has changed. Changes the framebuffer, the viewport and the frame block;
+ * the light block is bound. Fails as gl_programs_get(), with FACET_ERROR_MEMORY. */
 facet_result gl_ground_draw(gl_ground *ground, gl_casters *casters, facet_error *error);
 void gl_ground_destroy(gl_ground *ground); /* {0} is allowed; leaves {.context} */
 

@@ -91,12 +91,13 @@ static void destroy_tables(light_tables *tables)
 
 /* Punctual lights and the grid of cells that they reach (light_grid.h), as one texture.
  *
- * Rows of GL_LIGHT_ROW texels of four 32-bit words: four texels per light (position and range, spot direction and
- * scale, intensity and spot offset, whether it is directional and where its shadow record is), shadow records
- * (gl_shadow.h), lists of light indices (four per texel: the lights without range, then those of each cell), cells
- * (two per texel: begin and end of the list). Positions are in world space, so a moving camera uploads nothing.
- * Shading a point reads one texel for its cell, then one for the index and four for the data of each light: the
- * cost depends on the lights that reach the point, not on their total. */
+ * Rows of GL_LIGHT_ROW texels of four 32-bit words: four texels per light (position and range, spot
+ * direction and scale, intensity and spot offset, whether it is directional and where its shadow record
+ * is), shadow records (gl_shadow.h), lists of light indices (four per texel: the lights without range,
+ * then those of each cell), cells (two per texel: begin and end of the list). Positions are in world
+ * space, so a moving camera uploads nothing. Shading a point reads one texel for its cell, then one for
+ * the index and four for the data of each light: the cost depends on the lights that reach the point, not
+ * on their total. */
 typedef struct punctual_lights {
     uint32_t texture;
     uint32_t *words; /* as uploaded */

@@ -1,7 +1,8 @@
 /* gl_light.h - the light of an image as textures, with the texels that light_setup.h prepares for the CPU.
  *
- * The environment's filtered cube maps and images are in one texture of half floats (gl_light_atlas.h), punctual
- * lights in one of 32-bit words. Shaders look them up as ibl.h and light_grid.h do: environment.glsl, lights.glsl. */
+ * The environment's filtered cube maps and images are in one texture of half floats (gl_light_atlas.h),
+ * punctual lights in one of 32-bit words. Shaders look them up as ibl.h and light_grid.h do:
+ * environment.glsl, lights.glsl. */
 #ifndef GL_GL_LIGHT_H
 #define GL_GL_LIGHT_H
 

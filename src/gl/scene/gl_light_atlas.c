@@ -101,8 +101,8 @@ static facet_result send_cube(const cube *c, gl_atlas_part *part, const facet_al
 
 enum { BAND = 64 }; /* rows per upload */
 
-/* Uploads an equirectangular image. border: texels around it, which wrap around the seam and repeat the rows at
- * the poles. */
+/* Uploads an equirectangular image. border: texels around it, which wrap around the seam and repeat the
+ * rows at the poles. */
 static facet_result send_equirect(const image *equirect, uint32_t border, gl_atlas_part *part,
                                   const facet_allocator *allocator, facet_error *error)
 {

@@ -1,8 +1,9 @@
 /* gl_light_atlas.h - an environment's filtered cube maps and images in one texture of half floats.
  *
- * Each part has a border of one texel, which repeats the texels across the edge, and a power of two as its scale,
- * which brings its brightest texel to [2^14, 2^15). The error is 2^-11 of a texel's value, or 2^-40 of the
- * brightest texel's where that is larger: beside a sun of 2e9 cd/m^2 a shadow is accurate to 0.002 cd/m^2. */
+ * Each part has a border of one texel, which repeats the texels across the edge, and a power of two as its
+ * scale, which brings its brightest texel to [2^14, 2^15). The error is 2^-11 of a texel's value, or 2^-40
+ * of the brightest texel's where that is larger: beside a sun of 2e9 cd/m^2 a shadow is accurate to 0.002
+ * cd/m^2. */
 #ifndef GL_GL_LIGHT_ATLAS_H
 #define GL_GL_LIGHT_ATLAS_H
 

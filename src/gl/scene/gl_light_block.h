@@ -13,8 +13,8 @@ enum {
     GL_LIGHT_ROW = 1024 /* texels per row of the punctual lights' texture */
 };
 
-/* A place is the column and row of the first texel, border included, then the edge (of an image width and height)
- * in texels; for a cube map also the scale of its texels, 0 where it is missing. */
+/* A place is the column and row of the first texel, border included, then the edge (of an image width and
+ * height) in texels; for a cube map also the scale of its texels, 0 where it is missing. */
 typedef struct gl_light_block {
     float atlas[4];    /* 1 / width, 1 / height; scale of the background's texels; GLASS_ROOT_MAX of dfg.h */
     int32_t ranges[4]; /* first and last level of GGX, of Charlie */

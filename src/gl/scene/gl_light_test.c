@@ -1,5 +1,6 @@
-/* gl_light_test.c - shaders look up the same light and LUTs as the CPU: the same directions and roughnesses
- * through a program and through light_setup.h, with OpenGL and OpenGL ES. Exits with 77 where there is neither. */
+/* gl_light_test.c - shaders look up the same light and LUTs as the CPU: the same directions and
+ * roughnesses through a program and through light_setup.h, with OpenGL and OpenGL ES. Exits with 77 where
+ * there is neither. */
 #include <epoxy/gl.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -227,8 +228,8 @@ static void look_up_background(const light_setup *setup, const float d[3], float
     light_background(setup, d, 0.0f, out);
 }
 
-/* How much a lookup changes within 1e-4 rad, a 60th of the finest texel: OpenGL may round the position of a lookup
- * to a 512th of a texel. */
+/* How much a lookup changes within 1e-4 rad, a 60th of the finest texel: OpenGL may round the position of
+ * a lookup to a 512th of a texel. */
 static void find_slack(const light_setup *setup, lookup *on_cpu, const float q[4], const float expected[3],
                        float slack[3])
 {
@@ -244,8 +245,8 @@ static void find_slack(const light_setup *setup, lookup *on_cpu, const float q[4
     }
 }
 
-/* Half floats are accurate to 2^-11 (4.9e-4) or 2^-40 of the brightest texel (gl_light_atlas.h), and a lookup is a
- * mean of texels that are not negative: 1e-3 covers that and sums in another order. */
+/* Half floats are accurate to 2^-11 (4.9e-4) or 2^-40 of the brightest texel (gl_light_atlas.h), and a
+ * lookup is a mean of texels that are not negative: 1e-3 covers that and sums in another order. */
 static void compare(bench *b, const light_setup *setup, lookup *on_cpu, const char *expression,
                     float brightest)
 {
@@ -469,8 +470,8 @@ static void lights_are_those_of_the_cpu(void **state)
         assert_int_equal(gl_context_make_current(&on[i].context, NULL), FACET_OK);
         light_setup setup = {.scale = 1.0f};
         make_lights(&setup, LIGHTS, true);
-        /* 10 lights have no range, 5 no position; the spheres of 12 others reach a point of the box, the bounding
-         * boxes of their cells some more. */
+        /* 10 lights have no range, 5 no position; the spheres of 12 others reach a point of the box, the
+         * bounding boxes of their cells some more. */
         double looked_at = compare_lights(&on[i], &setup);
         assert_true(looked_at > 10.0 && looked_at < 100.0);
         light_setup_destroy(&setup);

@@ -1,5 +1,5 @@
-/* gl_material.c - see gl_material.h. Materials are indexed as in render_geometry: a pose changes factors, never
- * textures. */
+/* gl_material.c - see gl_material.h. Materials are indexed as in render_geometry: a pose changes factors,
+ * never textures. */
 #include "gl/scene/gl_material.h"
 
 #include <epoxy/gl.h>

@@ -15,8 +15,8 @@ void gl_material_destroy(gl_material_set *set); /* NULL is allowed */
 /* Selects the channel that is drawn from now on; gl_material_update() sets the desc's. */
 void gl_material_show(gl_material_set *set, facet_channel channel);
 
-/* Uploads the blocks and textures of all batches. Textures are decoded in parallel, once, and scaled down with a
- * warning where they exceed OpenGL's limit. Fails with FACET_ERROR_MEMORY, FACET_ERROR_LIMIT. */
+/* Uploads the blocks and textures of all batches. Textures are decoded in parallel, once, and scaled down
+ * with a warning where they exceed OpenGL's limit. Fails with FACET_ERROR_MEMORY, FACET_ERROR_LIMIT. */
 facet_result gl_material_update(gl_material_set *set, const gl_mesh_set *meshes,
                                 const facet_render_desc *desc, facet_error *error);
 /* The main of a batch: GL_MAIN_PHONG for legacy materials where gl_material_use_phong() was called. */

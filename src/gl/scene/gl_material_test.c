@@ -39,8 +39,8 @@ static uint32_t add_waves(fixture *f, uint32_t seed)
     return fixture_add_texture(f, EDGE, EDGE, rgba);
 }
 
-/* A tilted quad in front of a sphere, lit by punctual lights and a constant environment: one sample per pixel, so
- * that edges agree. */
+/* A tilted quad in front of a sphere, lit by punctual lights and a constant environment: one sample per
+ * pixel, so that edges agree. */
 static void place(fixture *f, scene_material material)
 {
     f->desc.width = f->desc.height = SIZE;
@@ -54,8 +54,8 @@ static void place(fixture *f, scene_material material)
     fixture_add_light(f, lamp, -3.0f, 0.0f, -3.0f);
 }
 
-/* Share of the pixels in which a channel differs by more than 0.4 % of at least 1: half floats keep 2^-11 of a
- * highlight. */
+/* Share of the pixels in which a channel differs by more than 0.4 % of at least 1: half floats keep 2^-11
+ * of a highlight. */
 static double share_of_different(const film *a, const film *b)
 {
     size_t different = 0, shown = 0;
@@ -71,8 +71,8 @@ static double share_of_different(const film *a, const film *b)
     return (double)different / (double)shown;
 }
 
-/* The images of both renderers agree, except for a share of the pixels, at edges. Contexts are tested one after
- * the other, because compiling programs takes most of the time. */
+/* The images of both renderers agree, except for a share of the pixels, at edges. Contexts are tested one
+ * after the other, because compiling programs takes most of the time. */
 static void assert_near(fixture *f, double share, const char *what)
 {
     static int turn;
@@ -325,8 +325,8 @@ static void test_alpha(void **state)
     }
 }
 
-/* Alpha-to-coverage: at an edge through the center of pixels, as many samples as the driver takes for 0.5, with
- * alpha 1. */
+/* Alpha-to-coverage: at an edge through the center of pixels, as many samples as the driver takes for 0.5,
+ * with alpha 1. */
 static void test_mask_samples(void **state)
 {
     (void)state;
@@ -496,7 +496,8 @@ static void test_formulas(void **state)
     fixture_destroy(&f);
 }
 
-/* A scene of metals only needs irradiance for multiple scattering alone: white metal in a white room is white. */
+/* A scene of metals only needs irradiance for multiple scattering alone: white metal in a white room is
+ * white. */
 static void multiscatter_keeps_the_light_of_metal(void **state)
 {
     (void)state;

@@ -442,8 +442,8 @@ uint32_t gl_mesh_instance_geometry(const gl_mesh_set *set, uint32_t instance)
     return set->instance_geometries[instance];
 }
 
-/* Constants for attributes without arrays: white colors, the rest is irrelevant. OpenGL may lose such constants
- * where an array used the location, so they are set for each draw. */
+/* Constants for attributes without arrays: white colors, the rest is irrelevant. OpenGL may lose such
+ * constants where an array used the location, so they are set for each draw. */
 static void set_absent(const gl_batch *b)
 {
     static const float white[4] = {1.0f, 1.0f, 1.0f, 1.0f}, zero[4] = {0.0f, 0.0f, 0.0f, 1.0f};

@@ -1,15 +1,16 @@
 /* gl_mesh.h - the geometry of a pose in GPU memory, as batches that one call draws.
  *
- * Instances are in world space; the vertex shader subtracts the eye from the instance's origin before it adds the
- * local position, so a model far from the origin does not jitter and a new camera uploads nothing. */
+ * Instances are in world space; the vertex shader subtracts the eye from the instance's origin before it
+ * adds the local position, so a model far from the origin does not jitter and a new camera uploads
+ * nothing. */
 #ifndef GL_GL_MESH_H
 #define GL_GL_MESH_H
 
 #include "gl/scene/gl_mesh_vertices.h"
 #include "gl/scene/gl_scene.h"
 
-/* Instances of one primitive with one material, drawn by one call. Sprites (points, lines one pixel wide) are one
- * instance, drawn once per sprite; the vertex shader computes their outlines. */
+/* Instances of one primitive with one material, drawn by one call. Sprites (points, lines one pixel wide)
+ * are one instance, drawn once per sprite; the vertex shader computes their outlines. */
 typedef struct gl_batch {
     const render_geometry *geometry; /* the first instance's */
     const material_plan *plan;
@@ -34,9 +35,9 @@ facet_result gl_mesh_create(gl_context *context, const facet_allocator *allocato
                             facet_error *error);
 void gl_mesh_destroy(gl_mesh_set *set); /* NULL is allowed */
 
-/* Uploads what is missing or has changed (deformed vertices); nothing where the scene's revision is unchanged.
- * scene must not change until the next call. Fails with FACET_ERROR_MEMORY, FACET_ERROR_LIMIT; there are no
- * batches then. */
+/* Uploads what is missing or has changed (deformed vertices); nothing where the scene's revision is
+ * unchanged. scene must not change until the next call. Fails with FACET_ERROR_MEMORY, FACET_ERROR_LIMIT;
+ * there are no batches then. */
 facet_result gl_mesh_update(gl_mesh_set *meshes, const gl_scene *scene, const facet_log *log,
                             facet_error *error);
 
@@ -47,8 +48,8 @@ typedef enum gl_pass {
     GL_PASS_COUNT
 } gl_pass;
 
-/* Sorts the batches of an image by program, then from near to far. Those of GL_PASS_BLENDED keep the order of the
- * scene, on which gl_sort.h relies. */
+/* Sorts the batches of an image by program, then from near to far. Those of GL_PASS_BLENDED keep the order
+ * of the scene, on which gl_sort.h relies. */
 typedef uint64_t gl_mesh_features_function(const struct gl_material_set *materials, const gl_batch *batch);
 void gl_mesh_order(gl_mesh_set *meshes, const gl_frame_block *frame, const struct gl_material_set *materials,
                    gl_mesh_features_function *features_of);

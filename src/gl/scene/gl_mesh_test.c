@@ -1,5 +1,6 @@
-/* gl_mesh_test.c - geometry in GPU memory: what is uploaded and how often, which instances share a call, and that
- * triangles, points and lines are where the preview has them. Exits with 77 where there is no OpenGL. */
+/* gl_mesh_test.c - geometry in GPU memory: what is uploaded and how often, which instances share a call,
+ * and that triangles, points and lines are where the preview has them. Exits with 77 where there is no
+ * OpenGL. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,10 +1,10 @@
 /* gl_mesh_vertices.h - vertices and indices in GPU memory, each array once.
  *
- * The arrays of a buffer are stored one after the other, as in the scene, so most are uploaded without a copy;
- * attributes that a primitive lacks have no array. Static arrays are found again by their address in the scene;
- * those of deformed geometries go into buffers that the next frame reuses. Two cases need generated vertices:
- * tangents per corner (corners that agree are merged again), and sprites, whose ends are stored in the order of
- * the indices. */
+ * The arrays of a buffer are stored one after the other, as in the scene, so most are uploaded without a
+ * copy; attributes that a primitive lacks have no array. Static arrays are found again by their address in
+ * the scene; those of deformed geometries go into buffers that the next frame reuses. Two cases need
+ * generated vertices: tangents per corner (corners that agree are merged again), and sprites, whose ends
+ * are stored in the order of the indices. */
 #ifndef GL_GL_MESH_VERTICES_H
 #define GL_GL_MESH_VERTICES_H
 
@@ -51,19 +51,19 @@ typedef struct gl_vertex_store {
 void gl_vertex_store_destroy(gl_vertex_store *store); /* leaves the initial state */
 /* Begins a new pose: deformed vertices are uploaded again. */
 void gl_vertex_store_begin(gl_vertex_store *store);
-/* Uploads what is missing. Fails with FACET_ERROR_MEMORY, FACET_ERROR_LIMIT: a mesh has more than 2^31 - 1 bytes
- * of vertices or indices, OpenGL's limit where a long has 32 bits. */
+/* Uploads what is missing. Fails with FACET_ERROR_MEMORY, FACET_ERROR_LIMIT: a mesh has more than 2^31 - 1
+ * bytes of vertices or indices, OpenGL's limit where a long has 32 bits. */
 facet_result gl_vertex_store_use(gl_vertex_store *store, const render_geometry *g, gl_vertex_use *use,
                                  facet_error *error);
 
-/* Uploads sprites in another order into the buffer of out: sprite order[i] of the geometry becomes sprite i. Fails
- * as above. */
+/* Uploads sprites in another order into the buffer of out: sprite order[i] of the geometry becomes sprite
+ * i. Fails as above. */
 facet_result gl_vertex_store_reorder(gl_vertex_store *store, const render_geometry *g, const uint32_t *order,
                                      gl_vertices *out, facet_error *error);
 
-/* Texture coordinate sets of the attributes texcoord0 to texcoord3: the sets 0 to 3, unless the material reads a
- * higher one; then those that it reads, in the order of its slots. False: it reads more than GL_TEXCOORD_SETS; the
- * rest is left out. */
+/* Texture coordinate sets of the attributes texcoord0 to texcoord3: the sets 0 to 3, unless the material
+ * reads a higher one; then those that it reads, in the order of its slots. False: it reads more than
+ * GL_TEXCOORD_SETS; the rest is left out. */
 bool gl_texcoord_sets(const scene_material *m, uint32_t sets[GL_TEXCOORD_SETS]);
 /* The texcoord attribute of a set; GL_TEXCOORD_SETS: none. */
 uint32_t gl_texcoord_attribute(const scene_material *m, uint32_t set);

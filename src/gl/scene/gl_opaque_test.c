@@ -1,5 +1,5 @@
-/* gl_opaque_test.c - what glass shows of surfaces behind it: thin walls, volumes, roughness, dispersion by closed
- * forms, and energy conservation. Exits with 77 where there is no OpenGL. */
+/* gl_opaque_test.c - what glass shows of surfaces behind it: thin walls, volumes, roughness, dispersion by
+ * closed forms, and energy conservation. Exits with 77 where there is no OpenGL. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -29,7 +29,8 @@ static scene_material glass(float roughness, float thickness)
     return m;
 }
 
-/* Unlit squares of two grays, `count` in a row, on a quad of edge 4 m at z = -1, with texels of 64 pixels / count. */
+/* Unlit squares of two grays, `count` in a row, on a quad of edge 4 m at z = -1, with texels of 64 pixels
+ * / count. */
 static void add_board(fixture *f, uint32_t count, unsigned char dark, unsigned char bright)
 {
     static unsigned char texels[32 * 32 * 4];
@@ -92,8 +93,8 @@ static void a_lobe_alone_shows_light_behind(void **state)
     }
 }
 
-/* color^(thickness / distance) of a white board, with the thickness as a factor and as a texture; the base color
- * tints at both boundaries. */
+/* color^(thickness / distance) of a white board, with the thickness as a factor and as a texture; the base
+ * color tints at both boundaries. */
 static void a_body_attenuates_by_its_thickness(void **state)
 {
     (void)state;

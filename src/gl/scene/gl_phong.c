@@ -1,5 +1,5 @@
-/* gl_phong.c - see gl_phong.h. Its textures are separate from those of glTF materials, because the same image may
- * be decoded differently. */
+/* gl_phong.c - see gl_phong.h. Its textures are separate from those of glTF materials, because the same
+ * image may be decoded differently. */
 #include "gl/scene/gl_phong.h"
 
 #include <epoxy/gl.h>

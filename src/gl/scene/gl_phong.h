@@ -1,5 +1,5 @@
-/* gl_phong.h - materials of OpenGL 1 (FACET_SHADING_OGL1): the counterpart of gl_material.h for batches with a
- * legacy material. */
+/* gl_phong.h - materials of OpenGL 1 (FACET_SHADING_OGL1): the counterpart of gl_material.h for batches
+ * with a legacy material. */
 #ifndef GL_GL_PHONG_H
 #define GL_GL_PHONG_H
 
@@ -24,15 +24,15 @@ typedef struct gl_phong_view {
     const facet_render_desc *render;
 } gl_phong_view;
 
-/* Uploads the blocks of the image and of its materials, and the textures that they read. Fails with FACET_ERROR_MEMORY,
- * FACET_ERROR_LIMIT. */
+/* Uploads the blocks of the image and of its materials, and the textures that they read. Fails with
+ * FACET_ERROR_MEMORY, FACET_ERROR_LIMIT. */
 facet_result gl_phong_update(gl_phong *phong, const gl_phong_view *view, facet_error *error);
 /* Features of GL_MAIN_PHONG that follow from a batch's material. */
 uint64_t gl_phong_features(const gl_phong *phong, const gl_batch *batch);
 /* Binds blocks and textures. */
 void gl_phong_bind(const gl_phong *phong, const gl_batch *batch);
-/* Converts a resolved image from display colors to radiance, unless it was shaded in linear light. The frame block
- * is bound. */
+/* Converts a resolved image from display colors to radiance, unless it was shaded in linear light. The
+ * frame block is bound. */
 facet_result gl_phong_develop(gl_phong *phong, const gl_pyramid_brush *brush, const gl_target *target,
                               facet_error *error);
 uint64_t gl_phong_decoded_texels(const gl_phong *phong);

@@ -1,5 +1,6 @@
-/* gl_phong_test.c - FACET_SHADING_OGL1 by OpenGL: quads against the pipelines in double (cpu/ogl1_fixture.h),
- * everything else against the preview, which src/cpu/ogl1_*_test.c test. Exits with 77 where there is no OpenGL. */
+/* gl_phong_test.c - FACET_SHADING_OGL1 by OpenGL: quads against the pipelines in double
+ * (cpu/ogl1_fixture.h), everything else against the preview, which src/cpu/ogl1_*_test.c test. Exits with
+ * 77 where there is no OpenGL. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,7 +23,8 @@ static void set3(float out[3], float a, float b, float c)
     out[2] = c;
 }
 
-/* The images of the preview and of OpenGL differ nowhere by more than `most`, except in a share of the pixels. */
+/* The images of the preview and of OpenGL differ nowhere by more than `most`, except in a share of the
+ * pixels. */
 static void assert_same(fixture *f, float most, double share, const char *what)
 {
     film reference = fixture_render(f);

@@ -26,8 +26,8 @@ struct gl_renderer {
 
 /* ---- lifetime ---- */
 
-/* Releases all GPU memory and the renderer's own context; the next image creates a new one. A lost context can
- * still be current; where it cannot, names are released in an empty one, where they have no meaning. */
+/* Releases all GPU memory and the renderer's own context; the next image creates a new one. A lost context
+ * can still be current; where it cannot, names are released in an empty one, where they have no meaning. */
 static void stop(gl_renderer *r)
 {
     gl_context spare = {.context = NULL};

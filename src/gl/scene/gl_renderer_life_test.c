@@ -1,5 +1,5 @@
-/* gl_renderer_life_test.c - leaks, failures, and renderers in several threads. Exits with 77 where there is no
- * OpenGL. */
+/* gl_renderer_life_test.c - leaks, failures, and renderers in several threads. Exits with 77 where there
+ * is no OpenGL. */
 #include <epoxy/gl.h>
 #include <pthread.h>
 #include <setjmp.h>

@@ -1,5 +1,5 @@
-/* gl_renderer_test.c - images of gl_renderer.h: crops, tiles, samples, layers as in the preview, windows. Exits
- * with 77 where there is no OpenGL. */
+/* gl_renderer_test.c - images of gl_renderer.h: crops, tiles, samples, layers as in the preview, windows.
+ * Exits with 77 where there is no OpenGL. */
 #include <epoxy/gl.h>
 #include <math.h>
 #include <setjmp.h>

@@ -25,8 +25,8 @@ typedef struct gl_scene {
 void gl_scene_init(gl_scene *s, const facet_scene *scene, const facet_allocator *allocator);
 /* resets to the state after init, except for revision and generation; {0} stays {0} */
 void gl_scene_clear(gl_scene *s);
-/* Prepares what desc (resolved) needs and is missing; tangents of static geometry are computed once. On failure
- * nothing is prepared. Fails with FACET_ERROR_MEMORY, and as scene_pose_create(). */
+/* Prepares what desc (resolved) needs and is missing; tangents of static geometry are computed once. On
+ * failure nothing is prepared. Fails with FACET_ERROR_MEMORY, and as scene_pose_create(). */
 facet_result gl_scene_update(gl_scene *s, const facet_render_desc *desc, facet_error *error);
 
 #endif

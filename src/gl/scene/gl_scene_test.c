@@ -13,7 +13,8 @@
 
 static gl_fixture_contexts contexts;
 
-/* A moving sphere, a quad bent by a morph target, a quad at rest; with normal maps, so that all have tangents. */
+/* A moving sphere, a quad bent by a morph target, a quad at rest; with normal maps, so that all have
+ * tangents. */
 static const float times[3] = {0.0f, 0.5f, 1.0f};
 static const float places[9] = {-0.5f, 0.0f, 0.0f, 0.0f, 0.5f, 0.0f, 0.5f, 0.0f, 0.3f};
 static const float weights[3] = {0.0f, 1.0f, 0.25f}, rest[1] = {0.0f};

@@ -1,11 +1,11 @@
-/* gl_shadow.h - shadow maps of punctual lights and the sun: tiles of one square depth texture. And shadow casters
- * in general, which gl_ground.h draws, too.
+/* gl_shadow.h - shadow maps of punctual lights and the sun: tiles of one square depth texture. And shadow
+ * casters in general, which gl_ground.h draws, too.
  *
- * Spot and directional lights have one tile, others six, the faces of a cube (cube.h). The frustum of a tile is
- * extended by GL_SHADOW_GUARD texels on each side, so that filters do not read across edges.
+ * Spot and directional lights have one tile, others six, the faces of a cube (cube.h). The frustum of a
+ * tile is extended by GL_SHADOW_GUARD texels on each side, so that filters do not read across edges.
  *
- * Opaque surfaces cast shadows, masked texels where they are opaque, and so do closed volumes, which refract light
- * away; blended surfaces, thin transmissive walls, points and lines cast none. */
+ * Opaque surfaces cast shadows, masked texels where they are opaque, and so do closed volumes, which
+ * refract light away; blended surfaces, thin transmissive walls, points and lines cast none. */
 #ifndef GL_GL_SHADOW_H
 #define GL_GL_SHADOW_H
 
@@ -30,8 +30,8 @@ facet_result gl_casters_make_texture(gl_context *context, uint32_t edge, bool co
                                      uint32_t *framebuffer, facet_error *error);
 /* Clears a framebuffer and sets the depth state, from 0 (near) to 1. */
 void gl_casters_begin(const gl_casters *casters, uint32_t framebuffer, uint32_t edge);
-/* Draws the casters into a square of the framebuffer, through a matrix to clip space (column-major, z from -1 to
- * 1, for points relative to eye). Changes the frame block. Fails as gl_programs_get(). */
+/* Draws the casters into a square of the framebuffer, through a matrix to clip space (column-major, z from
+ * -1 to 1, for points relative to eye). Changes the frame block. Fails as gl_programs_get(). */
 facet_result gl_casters_draw(gl_casters *casters, const float matrix[16], uint32_t x, uint32_t y,
                              uint32_t edge, facet_error *error);
 
@@ -72,8 +72,8 @@ uint32_t gl_shadow_of_light(const gl_shadow *shadow,
                             uint32_t light); /* index of its record, from 1; 0: none */
 void gl_shadow_describe(const gl_shadow *shadow, gl_light_block *block);
 
-/* Draws the tiles where the scene or the lights have changed. Changes the framebuffer, the viewport and the frame
- * block. Fails as gl_programs_get(), with FACET_ERROR_MEMORY. */
+/* Draws the tiles where the scene or the lights have changed. Changes the framebuffer, the viewport and
+ * the frame block. Fails as gl_programs_get(), with FACET_ERROR_MEMORY. */
 facet_result gl_shadow_draw(gl_shadow *shadow, gl_casters *casters, facet_error *error);
 uint32_t gl_shadow_texture(const gl_shadow *shadow); /* OpenGL name; 0: none */
 

@@ -1,6 +1,6 @@
-/* gl_shadow_test.c - shadow maps: where the shadow of a square falls for each kind of light, what casts none, no
- * self-shadowing; and the ground's shadow against the form factor of a rectangle. Exits with 77 where there is no
- * OpenGL. */
+/* gl_shadow_test.c - shadow maps: where the shadow of a square falls for each kind of light, what casts
+ * none, no self-shadowing; and the ground's shadow against the form factor of a rectangle. Exits with 77
+ * where there is no OpenGL. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -89,8 +89,8 @@ static uint32_t row_of(float y_m)
     return (uint32_t)(0.5f * SIZE - y_m / PIXEL_M);
 }
 
-/* Position (m) of a shadow's edge along a row or column, from dark to light: where an edge without width would
- * pass as much light. */
+/* Position (m) of a shadow's edge along a row or column, from dark to light: where an edge without width
+ * would pass as much light. */
 static float edge_along(bool is_row, float across_m, float dark_m, float light_m)
 {
     float step = light_m > dark_m ? 1.0f : -1.0f;
@@ -115,8 +115,8 @@ static float edge_along(bool is_row, float across_m, float dark_m, float light_m
     return border + step * dark * PIXEL_M;
 }
 
-/* A light 3 m before the wall and 2 m before the square enlarges its shadow 1.5 times. Texels are 2 * 3 m / 1357
- * and 2 * 3 m tan(0.5) / 2040 wide; pixels 7.8 mm, and a sum over an edge resolves a tenth of one. */
+/* A light 3 m before the wall and 2 m before the square enlarges its shadow 1.5 times. Texels are 2 * 3 m
+ * / 1357 and 2 * 3 m tan(0.5) / 2040 wide; pixels 7.8 mm, and a sum over an edge resolves a tenth of one. */
 static void edges_of_lights_are_where_they_should_be(void **state)
 {
     (void)state;
@@ -198,7 +198,8 @@ static void a_ball_is_lit_to_its_terminator(void **state)
     fixture_destroy(&f);
 }
 
-/* A square that stands on the wall, lit at 45 degrees: its shadow begins at its foot and is as long as it is high. */
+/* A square that stands on the wall, lit at 45 degrees: its shadow begins at its foot and is as long as it
+ * is high. */
 static void shadows_begin_at_the_foot(void **state)
 {
     (void)state;
@@ -213,15 +214,16 @@ static void shadows_begin_at_the_foot(void **state)
     float texel = 8.0f / 2040.0f, dark = 0.0f;
     for (uint32_t x = column_of(-0.7f); x < column_of(0.3f); x++)
         dark += (1.0f - image.at[row_of(0.05f)][x]) * PIXEL_M;
-    /* The point is raised by up to 3 sqrt(2) sin(45) + 0.1 texels, which shortens the shadow, and moved towards
-     * the light by 1.5 sin(45) across the wall, which delays its beginning. */
+    /* The point is raised by up to 3 sqrt(2) sin(45) + 0.1 texels, which shortens the shadow, and moved
+     * towards the light by 1.5 sin(45) across the wall, which delays its beginning. */
     assert_near(dark, 0.5f, 4.2f * texel);
     assert_near(edge_along(true, 0.05f, -0.4f, -0.6f), -0.5f, 3.2f * texel);
     assert_near(image.at[row_of(0.05f)][column_of(-4.0f * texel)], 0.0f, 1e-6f);
     fixture_destroy(&f);
 }
 
-/* One of two texels is transparent; between their centers alpha crosses the cutoff in the middle of the square. */
+/* One of two texels is transparent; between their centers alpha crosses the cutoff in the middle of the
+ * square. */
 static void masked_texels_cast_blended_surfaces_do_not(void **state)
 {
     (void)state;

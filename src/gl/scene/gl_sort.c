@@ -160,8 +160,8 @@ static uint32_t root_of(extent *clusters, uint32_t i)
     return i;
 }
 
-/* Merges units into clusters until any two clusters are disjoint in the image or in depth. clusters: by unit; each
- * root gets the range of depths. */
+/* Merges units into clusters until any two clusters are disjoint in the image or in depth. clusters: by
+ * unit; each root gets the range of depths. */
 static void join(const extent *extents, extent *clusters, uint32_t count)
 {
     bool is_done = false;
@@ -224,7 +224,8 @@ static bool find_clusters(const gl_sort *s, const gl_frame_block *frame, uint32_
 
 /* ---- sorting ---- */
 
-/* Stable sort of items and keys by the lowest bits of the keys, with scratch arrays of the same size (other_*). */
+/* Stable sort of items and keys by the lowest bits of the keys, with scratch arrays of the same size
+ * (other_*). */
 static void radix_sort(uint32_t *items, uint32_t *keys, uint32_t *other_items, uint32_t *other_keys,
                        uint32_t count, int bits)
 {

@@ -1,9 +1,9 @@
 /* gl_sort.h - the order of blended triangles from back to front, across all batches.
  *
- * Triangles and sprites are sorted by the depth of their centers. Consecutive ones of one instance are drawn by
- * one call, a run. Instances that do not overlap in the image, or that are entirely in front of each other, are
- * not interleaved: only a cluster of overlapping ones is sorted together. Where that still takes too many calls,
- * instances alternate by slices of depth, and each is sorted within a slice. */
+ * Triangles and sprites are sorted by the depth of their centers. Consecutive ones of one instance are
+ * drawn by one call, a run. Instances that do not overlap in the image, or that are entirely in front of
+ * each other, are not interleaved: only a cluster of overlapping ones is sorted together. Where that still
+ * takes too many calls, instances alternate by slices of depth, and each is sorted within a slice. */
 #ifndef GL_GL_SORT_H
 #define GL_GL_SORT_H
 

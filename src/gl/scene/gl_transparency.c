@@ -357,8 +357,8 @@ static void clear_color(GLint buffer, float rgb, float alpha)
     glClearBufferfv(GL_COLOR, buffer, value);
 }
 
-/* Draws the next layer: the nearest surfaces behind the last layer and in front of opaque ones. False: there is
- * none. */
+/* Draws the next layer: the nearest surfaces behind the last layer and in front of opaque ones. False:
+ * there is none. */
 static bool draw_layer(gl_transparency *t, const gl_transparency_view *view, int number, facet_result *result,
                        facet_error *error)
 {
@@ -477,8 +477,8 @@ static facet_result weighted_draw(gl_transparency *t, const gl_transparency_view
     clear_color(1, 0.0f, 0.0f);
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
-    /* Light and weights are summed, transmittance is multiplied, with one blend function: OpenGL 3.3 has no second
-     * one. */
+    /* Light and weights are summed, transmittance is multiplied, with one blend function: OpenGL 3.3 has
+     * no second one. */
     glBlendFuncSeparate(GL_ONE, GL_ONE, GL_ZERO, GL_ONE_MINUS_SRC_ALPHA);
     result = draw_weighted(t, view, error);
     glDisable(GL_BLEND);

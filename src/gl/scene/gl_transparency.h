@@ -1,11 +1,12 @@
 /* gl_transparency.h - blended surfaces, in one of the modes of facet_transparency.
  *
- * Sorted: gl_sort.h. Peeled: the layers of each pixel from front to back, each the nearest surface behind the
- * previous layer (Everitt 2001, "Interactive order-independent transparency"). Pixels are ordered, not samples, so
- * the target should have one sample, and an image several views. Surfaces in the same place are one layer. Falls
- * back to sorted where OpenGL has no texture unit left. Weighted: the mean of all layers, weighted by depth and
- * opacity, over the light that they transmit (McGuire and Bavoil 2013, "Weighted blended order-independent
- * transparency", equations 2 and 10, with depth relative to the range of blended surfaces). */
+ * Sorted: gl_sort.h. Peeled: the layers of each pixel from front to back, each the nearest surface behind
+ * the previous layer (Everitt 2001, "Interactive order-independent transparency"). Pixels are ordered, not
+ * samples, so the target should have one sample, and an image several views. Surfaces in the same place
+ * are one layer. Falls back to sorted where OpenGL has no texture unit left. Weighted: the mean of all
+ * layers, weighted by depth and opacity, over the light that they transmit (McGuire and Bavoil 2013,
+ * "Weighted blended order-independent transparency", equations 2 and 10, with depth relative to the range
+ * of blended surfaces). */
 #ifndef GL_GL_TRANSPARENCY_H
 #define GL_GL_TRANSPARENCY_H
 
@@ -40,8 +41,8 @@ uint32_t gl_transparency_max_samples(const gl_context *context, facet_transparen
 /* Requests the programs. */
 facet_result gl_transparency_request(const gl_transparency *t, const gl_transparency_view *view,
                                      facet_error *error);
-/* Draws GL_PASS_BLENDED with the depth test of gl_camera_begin_depth(). Leaves the target bound, blending off,
- * depth writes on. Fails with FACET_ERROR_MEMORY, FACET_ERROR_SYSTEM, FACET_ERROR_LIMIT. */
+/* Draws GL_PASS_BLENDED with the depth test of gl_camera_begin_depth(). Leaves the target bound, blending
+ * off, depth writes on. Fails with FACET_ERROR_MEMORY, FACET_ERROR_SYSTEM, FACET_ERROR_LIMIT. */
 facet_result gl_transparency_draw(gl_transparency *t, const gl_transparency_view *view, facet_error *error);
 
 #endif

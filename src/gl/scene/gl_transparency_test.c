@@ -1,5 +1,5 @@
-/* gl_transparency_test.c - blended surfaces in the three modes: layers with a known result in any order of the
- * scene, and what only peeling solves, against the preview. Exits with 77 where there is no OpenGL. */
+/* gl_transparency_test.c - blended surfaces in the three modes: layers with a known result in any order of
+ * the scene, and what only peeling solves, against the preview. Exits with 77 where there is no OpenGL. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,4 +1,5 @@
-/* gl_sea_block.c - see gl_sea_block.h. Values far from the origin are made relative to the eye here, in double. */
+/* gl_sea_block.c - see gl_sea_block.h. Values far from the origin are made relative to the eye here, in
+ * double. */
 #include "gl/sea/gl_sea_block.h"
 
 #include <math.h>

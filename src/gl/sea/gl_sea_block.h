@@ -8,8 +8,8 @@
 
 enum { GL_SEA_PATCHES = 128, GL_SEA_FOOTPRINTS = 64 }; /* corners of patches per axis around the eye */
 
-/* Images of a model whose near plane is the water: what the eye's mirror image sees on the eye's side, and, for an
- * eye in the water, what is above it. */
+/* Images of a model whose near plane is the water: what the eye's mirror image sees on the eye's side,
+ * and, for an eye in the water, what is above it. */
 enum { GL_SEA_MIRRORED, GL_SEA_WINDOW, GL_SEA_CUTS };
 
 typedef struct gl_sea_block {

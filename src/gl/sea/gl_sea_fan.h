@@ -1,9 +1,10 @@
 /* gl_sea_fan.h - where the nodes of a sea's mesh are at rest: on circles around the eye, a few pixels apart.
  *
- * Circle i has the radius first sinh(step i): near the eye the nodes are spaced by their projection on the level
- * surface; farther away in proportion to distance, as there crests are seen upright. From level_m on, where waves
- * are lower than a cell is wide, they are spaced evenly in depression: 1 / radius falls by the same amount from
- * one to the next. Beyond the distance at which waves are visible the last circles reach over the horizon. */
+ * Circle i has the radius first sinh(step i): near the eye the nodes are spaced by their projection on the
+ * level surface; farther away in proportion to distance, as there crests are seen upright. From level_m
+ * on, where waves are lower than a cell is wide, they are spaced evenly in depression: 1 / radius falls by
+ * the same amount from one to the next. Beyond the distance at which waves are visible the last circles
+ * reach over the horizon. */
 #ifndef GL_GL_SEA_FAN_H
 #define GL_GL_SEA_FAN_H
 
@@ -25,8 +26,8 @@ typedef struct gl_sea_fan {
 /* most_nodes per axis: OpenGL's largest texture. */
 gl_sea_fan gl_sea_fan_of(const water_frame *frame, const camera_rays *camera, uint32_t most_nodes);
 
-/* One triangle strip: bands of columns, in each of them the rows from near to far, joined by degenerate triangles.
- * The indices are a block of mem_alloc(). FACET_ERROR_MEMORY. */
+/* One triangle strip: bands of columns, in each of them the rows from near to far, joined by degenerate
+ * triangles. The indices are a block of mem_alloc(). FACET_ERROR_MEMORY. */
 size_t gl_sea_fan_index_count(const gl_sea_fan *fan);
 facet_result gl_sea_fan_make_indices(const gl_sea_fan *fan, const facet_allocator *allocator, uint32_t **out,
                                      facet_error *error);

@@ -24,8 +24,8 @@ static camera_rays mirrored(const camera_rays *c, float plane_m)
     return m;
 }
 
-/* The depth, relative to the eye's depth, at which an eye would see the same without water: of a point height_m
- * above flat water, away_m away. Snell's law by bisection. */
+/* The depth, relative to the eye's depth, at which an eye would see the same without water: of a point
+ * height_m above flat water, away_m away. Snell's law by bisection. */
 static double apparent_depth(double depth_m, double height_m, double away_m, double ior)
 {
     double low = 0.0, high = 1.0; /* sine in the air */
@@ -38,8 +38,8 @@ static double apparent_depth(double depth_m, double height_m, double away_m, dou
     return sqrt(1.0 - low * low) / (ior * sqrt(1.0 - in * in));
 }
 
-/* From the eye, as deep as flat water raises it for the middle of what is above the water; no wider than needed to
- * see that. */
+/* From the eye, as deep as flat water raises it for the middle of what is above the water; no wider than
+ * needed to see that. */
 static facet_camera window_camera(const water_frame *p, const float eye[3], float ior)
 {
     facet_camera c = {.eye = {eye[0], 0.0f, eye[2]}, .fov_y_rad = 0.0f};
@@ -60,17 +60,18 @@ static facet_camera window_camera(const water_frame *p, const float eye[3], floa
     return c;
 }
 
-/* Height of a near plane that leaves the eye at y on the other side and all free water around the model on this
- * one. */
+/* Height of a near plane that leaves the eye at y on the other side and all free water around the model on
+ * this one. */
 static float cut_height(const water_frame *p, float y, float side)
 {
     float middle = p->model_water_m, least = y + 0.1f * (middle - y);
     return side > 0.0f ? fmaxf(p->model_water_low_m, least) : fminf(p->model_water_high_m, least);
 }
 
-/* The near plane lies in the water, so that what is on its other side does not hide the rest (Lengyel 2005): the
- * nearness of a point to the far plane is scale times its height over the plane, divided by its depth. Chosen so
- * that the whole model is nearer than the far plane. side: 1: what is above is visible, -1: below. */
+/* The near plane lies in the water, so that what is on its other side does not hide the rest (Lengyel
+ * 2005): the nearness of a point to the far plane is scale times its height over the plane, divided by its
+ * depth. Chosen so that the whole model is nearer than the far plane. side: 1: what is above is visible,
+ * -1: below. */
 static float plane_scale(const water_frame *p, const camera_rays *c, float plane_m, float side)
 {
     double scale = 1.0;

@@ -1,6 +1,7 @@
-/* gl_sea_model.h - a model in a sea: images of it from the eye, from the eye's mirror image behind the water, and,
- * for an eye in the water, of what is above it. sea_model.glsl puts them behind the surface, in front of it, and
- * into what it reflects and refracts. Drawn as any model is (gl_frame.h), by the light over the sea. */
+/* gl_sea_model.h - a model in a sea: images of it from the eye, from the eye's mirror image behind the
+ * water, and, for an eye in the water, of what is above it. sea_model.glsl puts them behind the surface,
+ * in front of it, and into what it reflects and refracts. Drawn as any model is (gl_frame.h), by the light
+ * over the sea. */
 #ifndef GL_GL_SEA_MODEL_H
 #define GL_GL_SEA_MODEL_H
 
@@ -19,8 +20,8 @@ typedef struct gl_sea_model {
     facet_render_desc desc;
 } gl_sea_model;
 
-/* For an image with a model: uploads it, and draws its cuts and shadow maps. Anew for each image, as the model may
- * have moved. Fails as gl_renderer_render(). Call gl_sea_model_end() whatever it returns. */
+/* For an image with a model: uploads it, and draws its cuts and shadow maps. Anew for each image, as the
+ * model may have moved. Fails as gl_renderer_render(). Call gl_sea_model_end() whatever it returns. */
 facet_result gl_sea_model_begin(gl_sea_model *m, gl_context *context, const water_frame *frame,
                                 const camera_rays *camera, gl_sea_block *block, facet_render_stats *stats,
                                 facet_error *error);

@@ -76,7 +76,8 @@ static void draw_gl(gl_sea *renderer, const facet_sea *sea, const shot *s, film 
     water_cache_clear(&cache);
 }
 
-/* Mean difference of both in 255ths; *contrast: mean distance of a value of the preview from the one below it. */
+/* Mean difference of both in 255ths; *contrast: mean distance of a value of the preview from the one below
+ * it. */
 static double difference(const shot *s, const film *gl, bool is_light, double *contrast)
 {
     double sum = 0.0, steps = 0.0;
@@ -91,8 +92,8 @@ static double difference(const shot *s, const film *gl, bool is_light, double *c
     return sum / (3.0 * WIDTH * (HEIGHT - 1));
 }
 
-/* Difference between the preview with the model and OpenGL without it: what a comparison would find if the model
- * were not drawn. */
+/* Difference between the preview with the model and OpenGL without it: what a comparison would find if the
+ * model were not drawn. */
 static double without_model(gl_sea *renderer, const facet_sea *sea, shot *s)
 {
     film gl;
@@ -252,8 +253,8 @@ static void environments(void **state)
     sea_destroy(sea);
 }
 
-/* Spheres of radius 1: one floats between the eye and the sun, one lies on the right below the surface, one hangs
- * over it on the left. */
+/* Spheres of radius 1: one floats between the eye and the sun, one lies on the right below the surface,
+ * one hangs over it on the left. */
 static fixture spheres(void)
 {
     fixture f = fixture_create();

@@ -78,8 +78,8 @@ static void make_layers(uint32_t *name, uint32_t unit, const gl_context *c, GLen
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, level - 1);
 }
 
-/* Textures that are missing, or have another size. An image without foam or caustics reads neither: the previous
- * ones stay. */
+/* Textures that are missing, or have another size. An image without foam or caustics reads neither: the
+ * previous ones stay. */
 static void make_missing(gl_sea_textures *t, const gl_context *c, const water_frame *p)
 {
     const waves *w = &p->sea->waves;

@@ -1,5 +1,6 @@
-/* gl_sea_textures.h - the textures that a sea's shaders read: tiles of waves with their means, foam, origins of
- * patches, the sky, the table of means over microfacets, sunlight on the bed. What does not move is uploaded once. */
+/* gl_sea_textures.h - the textures that a sea's shaders read: tiles of waves with their means, foam,
+ * origins of patches, the sky, the table of means over microfacets, sunlight on the bed. What does not
+ * move is uploaded once. */
 #ifndef GL_GL_SEA_TEXTURES_H
 #define GL_GL_SEA_TEXTURES_H
 

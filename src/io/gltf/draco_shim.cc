@@ -1,5 +1,5 @@
-/* draco_shim.cc - see draco_shim.h. The library's own entry point allocates memory for any counts in a bitstream, so
- * its two decoders are used through subclasses that check the counts first. */
+/* draco_shim.cc - see draco_shim.h. The library's own entry point allocates memory for any counts in a
+ * bitstream, so its two decoders are used through subclasses that check the counts first. */
 #include "io/gltf/draco_shim.h"
 
 #include <cstdio>
@@ -20,12 +20,13 @@ namespace
 
 /* ---- limits ---- */
 
-/* A generous estimate of the library's memory: corner tables and traversal marks; each component in its encoded and
- * stored form and as a prediction. */
+/* A generous estimate of the library's memory: corner tables and traversal marks; each component in its
+ * encoded and stored form and as a prediction. */
 enum { BYTES_PER_FACE = 160, BYTES_PER_COMPONENT = 16 };
 
-/* In libdraco 1.5.5 an attribute of texture coordinates can declare 2^31 bits of orientations, which are allocated
- * (20 s, 512 MB) before their absence is noticed; callers cannot see the count. So few are allowed. */
+/* In libdraco 1.5.5 an attribute of texture coordinates can declare 2^31 bits of orientations, which are
+ * allocated (20 s, 512 MB) before their absence is noticed; callers cannot see the count. So few are
+ * allowed. */
 enum { MAX_ATTRIBUTES = 32 };
 
 /* Compares counts with limits and reserves the memory in the budget. */
@@ -44,8 +45,8 @@ class guard
         mem_account(&allocator_, -static_cast<ptrdiff_t>(taken_));
     }
 
-    /* A mesh whose counts are known and whose faces are not read yet; seam_count: attributes with their own seams,
-     * and so their own corner tables. */
+    /* A mesh whose counts are known and whose faces are not read yet; seam_count: attributes with their
+     * own seams, and so their own corner tables. */
     bool allow_faces(uint32_t face_count, uint32_t seam_count)
     {
         values_ = uint64_t{3} * face_count * (1 + seam_count);
@@ -61,7 +62,8 @@ class guard
                       limits_.point_count);
     }
 
-    /* The attributes of a point cloud whose points and attributes are known and whose values are not read yet. */
+    /* The attributes of a point cloud whose points and attributes are known and whose values are not read
+     * yet. */
     bool allow_attributes(const draco::PointCloud &cloud)
     {
         uint64_t components = 0;

@@ -1,5 +1,5 @@
-/* gltf.c - reads a .glb or .gltf file: the container (glTF 2.0 section 4.4), the JSON, its version, then one concern
- * after the other. */
+/* gltf.c - reads a .glb or .gltf file: the container (glTF 2.0 section 4.4), the JSON, its version, then
+ * one concern after the other. */
 #include "io/gltf/gltf.h"
 
 #include <stdio.h>

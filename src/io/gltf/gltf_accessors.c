@@ -1,6 +1,6 @@
-/* gltf_accessors.c - typed arrays in the binary data (glTF 2.0 section 3.6.2): the table, which is checked when it is
- * read, and the elements as arrays of floats or indices. min and max are not read: they are often wrong and never
- * needed. */
+/* gltf_accessors.c - typed arrays in the binary data (glTF 2.0 section 3.6.2): the table, which is checked
+ * when it is read, and the elements as arrays of floats or indices. min and max are not read: they are
+ * often wrong and never needed. */
 #include <string.h>
 
 #include "base/parallel.h"
@@ -174,8 +174,8 @@ bool gltf_is_zero_accessor(const io_reader *r, uint32_t accessor)
     return a->view == SCENE_NONE && a->sparse_count == 0 && !a->decoded;
 }
 
-/* Refuses (FACET_ERROR_LIMIT) an accessor without a buffer view that has many more elements than any array in the
- * file and than its sparse values: a few bytes of JSON must not allocate gigabytes. */
+/* Refuses (FACET_ERROR_LIMIT) an accessor without a buffer view that has many more elements than any array
+ * in the file and than its sparse values: a few bytes of JSON must not allocate gigabytes. */
 static bool check_claim(io_reader *r, const json_place *at, const gltf_accessor *a)
 {
     const uint64_t free_count = 1 << 16; /* elements, at most 4 MiB */
@@ -243,7 +243,8 @@ static uint32_t load_unsigned(const unsigned char *p, gltf_component component)
     return component == GLTF_U8 ? p[0] : component == GLTF_U16 ? load_u16(p) : load_u32(p);
 }
 
-/* Converts components in order (section 3.6.2.2; normalized ones: 3.11). The compiler turns each case into a loop. */
+/* Converts components in order (section 3.6.2.2; normalized ones: 3.11). The compiler turns each case into
+ * a loop. */
 static void convert_components(const unsigned char *in, gltf_component component, bool is_normalized,
                                size_t count, float *out)
 {

@@ -1,5 +1,5 @@
-/* gltf_animation_pointer.c - the target of a JSON pointer (RFC 6901) of KHR_animation_pointer: translates a location
- * in the file to the location of floats in the scene, by the names of Khronos' object model. */
+/* gltf_animation_pointer.c - the target of a JSON pointer (RFC 6901) of KHR_animation_pointer: translates
+ * a location in the file to the location of floats in the scene, by the names of Khronos' object model. */
 #include <stddef.h>
 #include <string.h>
 
@@ -18,7 +18,8 @@ typedef struct pointer_path {
     size_t count;
 } pointer_path;
 
-/* Splits at '/', and undoes ~1 (a '/') and ~0 (a '~'). False: not a pointer, or longer than any with a meaning. */
+/* Splits at '/', and undoes ~1 (a '/') and ~0 (a '~'). False: not a pointer, or longer than any with a
+ * meaning. */
 static bool split(const char *pointer, pointer_path *out)
 {
     size_t used = 0;
@@ -142,8 +143,8 @@ static const char *resolve_node(io_reader *r, const pointer_path *p, gltf_target
 
 /* ---- materials ---- */
 
-/* Whether a material has the parameters of a table row. KHR_materials_pbrSpecularGlossiness replaces metallic-
- * roughness. */
+/* Whether a material has the parameters of a table row. KHR_materials_pbrSpecularGlossiness replaces
+ * metallic- roughness. */
 static bool has_object(const scene_material *m, uint32_t extension, const char *object)
 {
     if (extension)

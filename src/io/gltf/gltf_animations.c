@@ -1,5 +1,6 @@
-/* gltf_animations.c - animations (glTF 2.0 sections 3.11, 5.5 to 5.8): samplers, whose times are put in order, whose
- * values are made finite and whose rotations unit, and channels. Arrays that need no repair are not copied. */
+/* gltf_animations.c - animations (glTF 2.0 sections 3.11, 5.5 to 5.8): samplers, whose times are put in
+ * order, whose values are made finite and whose rotations unit, and channels. Arrays that need no repair
+ * are not copied. */
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
@@ -31,8 +32,8 @@ static bool is_increasing(const float *times, size_t count)
     return is_right;
 }
 
-/* Sorts keys by time and removes those without a finite time; of several at the same time the last one stays. Returns
- * the number that is left. */
+/* Sorts keys by time and removes those without a finite time; of several at the same time the last one
+ * stays. Returns the number that is left. */
 static uint32_t order_keys(const float *times, uint32_t count, key *out)
 {
     uint32_t finite = 0;
@@ -180,8 +181,8 @@ static bool read_sampler(io_reader *r, const json_place *at, scene_sampler *out)
     return out->times && out->values;
 }
 
-/* Keys in the form of scene_sampler; is_rotation: values of 4 floats become unit. False: an error is recorded, or a
- * warning reports why it animates nothing. */
+/* Keys in the form of scene_sampler; is_rotation: values of 4 floats become unit. False: an error is
+ * recorded, or a warning reports why it animates nothing. */
 static bool read_animation_sampler(io_reader *r, const json_place *at, bool is_rotation, scene_sampler *out)
 {
     if (!read_sampler(r, at, out))
@@ -293,8 +294,8 @@ static bool find_pointed_target(io_reader *r, const json_place *target, gltf_tar
     return !message;
 }
 
-/* Weights of a mesh apply to every node that uses it without weights of its own: a channel for each, as in a file
- * without pointers. */
+/* Weights of a mesh apply to every node that uses it without weights of its own: a channel for each, as in
+ * a file without pointers. */
 static void add_mesh_channels(io_reader *r, animation_reader *a, const scene_channel *channel, uint32_t width)
 {
     const facet_scene *scene = r->scene;

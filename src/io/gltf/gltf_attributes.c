@@ -1,7 +1,7 @@
-/* gltf_attributes.c - vertex attributes: the formats and names that glTF allows them (glTF 2.0 section 3.7.2,
- * KHR_mesh_quantization), and their values as scene_primitive promises them: finite positions, unit normals, unit
- * tangents with a sign, finite texture coordinates, colors in [0, 1] with alpha. Only values that need repair are
- * copied. */
+/* gltf_attributes.c - vertex attributes: the formats and names that glTF allows them (glTF 2.0 section
+ * 3.7.2, KHR_mesh_quantization), and their values as scene_primitive promises them: finite positions, unit
+ * normals, unit tangents with a sign, finite texture coordinates, colors in [0, 1] with alpha. Only values
+ * that need repair are copied. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

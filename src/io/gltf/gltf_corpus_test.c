@@ -1,5 +1,5 @@
-/* gltf_corpus_test.c - real models and broken ones from the shared test data: which load, which are refused; cut off
- * anywhere; out of memory anywhere. Skips where there is no test data. */
+/* gltf_corpus_test.c - real models and broken ones from the shared test data: which load, which are
+ * refused; cut off anywhere; out of memory anywhere. Skips where there is no test data. */
 #define _XOPEN_SOURCE 700
 #include "io/gltf/gltf_test_support.h"
 
@@ -184,8 +184,8 @@ static void counts_are_those_of_the_files(void **state)
     }
 }
 
-/* How many materials have each extension, by the order of their bits, and how many textures all of them name; counted
- * in the files' JSON by a script. */
+/* How many materials have each extension, by the order of their bits, and how many textures all of them
+ * name; counted in the files' JSON by a script. */
 static void materials_are_those_of_the_files(void **state)
 {
     (void)state;

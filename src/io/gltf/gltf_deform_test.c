@@ -1,4 +1,5 @@
-/* gltf_deform_test.c - deformation of meshes: morph targets and their weights, joints and their weights, skins. */
+/* gltf_deform_test.c - deformation of meshes: morph targets and their weights, joints and their weights,
+ * skins. */
 #include "io/gltf/gltf_test_support.h"
 
 #include <math.h>

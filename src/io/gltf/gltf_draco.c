@@ -1,5 +1,5 @@
-/* gltf_draco.c - KHR_draco_mesh_compression: primitives whose attributes and faces are in a bitstream. All bitstreams
- * of the file are decoded in parallel when the first such primitive is read. */
+/* gltf_draco.c - KHR_draco_mesh_compression: primitives whose attributes and faces are in a bitstream. All
+ * bitstreams of the file are decoded in parallel when the first such primitive is read. */
 #include <string.h>
 
 #include "base/parallel.h"
@@ -28,8 +28,8 @@ struct gltf_draco_state {
 
 static const char NAME[] = "KHR_draco_mesh_compression";
 
-/* Limits on the number of values that a bitstream may decode to, per byte and in total. A flat grid of 2 million
- * triangles in 50 kB, with 20 constant components per vertex, needs 600 per byte. */
+/* Limits on the number of values that a bitstream may decode to, per byte and in total. A flat grid of 2
+ * million triangles in 50 kB, with 20 constant components per vertex, needs 600 per byte. */
 enum { VALUES_PER_BYTE = 4096, VALUES_OF_NOTHING = 1 << 20 };
 
 /* ---- all bitstreams at once ---- */
@@ -196,8 +196,8 @@ static void replace_elements(gltf_accessor *a, const unsigned char *elements, ui
                          .draco_attribute = id};
 }
 
-/* Replaces the elements of an attribute's accessor by the attribute `id` of the bitstream. at: the attribute in the
- * extension. */
+/* Replaces the elements of an attribute's accessor by the attribute `id` of the bitstream. at: the
+ * attribute in the extension. */
 static bool bind_attribute(io_reader *r, const json_place *at, const bitstream *s, uint32_t view, uint32_t id,
                            uint32_t accessor)
 {

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The unit square in z = 0 as two triangles with a color at each corner, by the npm package draco3dgltf 1.5.7 without
- * quantisation: attribute 0 positions (floats), 1 colors (4 bytes). The method is the only difference; the order of
- * vertices in the second is another. */
+/* The unit square in z = 0 as two triangles with a color at each corner, by the npm package draco3dgltf
+ * 1.5.7 without quantisation: attribute 0 positions (floats), 1 colors (4 bytes). The method is the only
+ * difference; the order of vertices in the second is another. */
 static const uint8_t SEQUENTIAL[] = {
     0x44, 0x52, 0x41, 0x43, 0x4f, 0x02, 0x02, 0x01, 0x00, 0x00, 0x00, 0x02, 0x04, 0x01, 0x00, 0x01,
     0x02, 0x02, 0x01, 0x03, 0x01, 0x02, 0x00, 0x09, 0x03, 0x00, 0x00, 0x02, 0x02, 0x04, 0x00, 0x01,
@@ -205,7 +205,8 @@ static void other_attributes_are_read_as_usual(void **state)
                    "POSITION: accessor 0 has 3 elements, but the bitstream in buffer view 0 has 4 vertices");
 }
 
-/* Accessors hold the bitstream of the current primitive, even if primitives of different bitstreams share them. */
+/* Accessors hold the bitstream of the current primitive, even if primitives of different bitstreams share
+ * them. */
 static void accessors_may_be_shared(void **state)
 {
     (void)state;

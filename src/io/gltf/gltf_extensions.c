@@ -69,7 +69,8 @@ static const known_extension KNOWN[] = {
     {"KHR_texture_transform", SCENE_SUPPORTED, TEXTURE_INFO, NULL, 0},
     {"KHR_xmp", SCENE_SUPPORTED, ANYWHERE, NULL, 0},
     {"KHR_xmp_json_ld", SCENE_SUPPORTED, ANYWHERE, NULL, 0},
-    /* Metadata, behavior, sound, and hints for editors that depend on the order of vertices: no effect on images. */
+    /* Metadata, behavior, sound, and hints for editors that depend on the order of vertices: no effect on
+     * images. */
     {"AGI_articulations", SCENE_IGNORED, ANYWHERE, NULL, 0},
     {"AGI_stk_metadata", SCENE_IGNORED, ANYWHERE, NULL, 0},
     {"EXT_feature_metadata", SCENE_IGNORED, ANYWHERE, NULL, 0},
@@ -127,7 +128,8 @@ bool gltf_is_extension_listed(const io_reader *r, const char *name)
     return find_listed(r, name) != NULL;
 }
 
-/* Adds a name of extensionsUsed or extensionsRequired to the list; NULL: it is not a string, or an error is recorded. */
+/* Adds a name of extensionsUsed or extensionsRequired to the list; NULL: it is not a string, or an error
+ * is recorded. */
 static scene_extension *list(io_reader *r, const json_place *at)
 {
     if (!json_is_string(at->value)) {
@@ -191,8 +193,8 @@ static void check_extensions_of(io_reader *r, json_t *extensions, int place)
     }
 }
 
-/* Reports, once per name, extension objects below value, an object or array at place, that are not listed or are
- * misplaced. The depth is bounded: glTF's own objects are not nested deeper. */
+/* Reports, once per name, extension objects below value, an object or array at place, that are not listed
+ * or are misplaced. The depth is bounded: glTF's own objects are not nested deeper. */
 static void check_objects(io_reader *r, json_t *value, int place, int depth)
 {
     size_t index;

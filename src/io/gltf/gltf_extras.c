@@ -1,10 +1,10 @@
-/* gltf_extras.c - metadata, kept as JSON text so that readers of the scene need no JSON parser: extras of any object,
- * and XMP packets (KHR_xmp_json_ld and its predecessor KHR_xmp). The member extras.facet_legacy becomes the scene's
- * OpenGL 1 materials (scene/legacy_extras.h writes it).
+/* gltf_extras.c - metadata, kept as JSON text so that readers of the scene need no JSON parser: extras of
+ * any object, and XMP packets (KHR_xmp_json_ld and its predecessor KHR_xmp). The member
+ * extras.facet_legacy becomes the scene's OpenGL 1 materials (scene/legacy_extras.h writes it).
  *
- * The old values of a material count while its factors equal those of the member "pbr" to 1e-6 and its images exist:
- * otherwise an editor has changed the material, and the glTF material is the truth. Other programs may own a member of
- * that name, so that unexpected content is ignored without a message. */
+ * The old values of a material count while its factors equal those of the member "pbr" to 1e-6 and its
+ * images exist: otherwise an editor has changed the material, and the glTF material is the truth. Other
+ * programs may own a member of that name, so that unexpected content is ignored without a message. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

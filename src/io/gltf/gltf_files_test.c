@@ -290,7 +290,8 @@ static void json_counts_against_a_budget(void **state)
     free(json);
 }
 
-/* Latin-1; GBK, whose second bytes may be a backslash, before a letter and before the quote; half of a surrogate pair. */
+/* Latin-1; GBK, whose second bytes may be a backslash, before a letter and before the quote; half of a
+ * surrogate pair. */
 static void text_of_other_encodings_is_read(void **state)
 {
     (void)state;

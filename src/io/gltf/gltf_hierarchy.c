@@ -1,15 +1,16 @@
-/* gltf_hierarchy.c - parents and children of nodes, and copies. The specification allows a node one parent; some
- * exporters give it several and mean instances, so that the second parent and all after it get copies of the node and
- * its descendants. Copies follow the nodes of the file, whose indices stay. Cycles are an error.
- * EXT_mesh_gpu_instancing: the transforms of a node's instances. Custom attributes (_ID, ..) affect no image. */
+/* gltf_hierarchy.c - parents and children of nodes, and copies. The specification allows a node one
+ * parent; some exporters give it several and mean instances, so that the second parent and all after it
+ * get copies of the node and its descendants. Copies follow the nodes of the file, whose indices stay.
+ * Cycles are an error. EXT_mesh_gpu_instancing: the transforms of a node's instances. Custom attributes
+ * (_ID, ..) affect no image. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "io/gltf/gltf_reader.h"
 
-/* Copies of copies can grow exponentially. The first path to a node is the node itself, and each other path a copy;
- * with MAX_PATHS paths there are too many copies. */
+/* Copies of copies can grow exponentially. The first path to a node is the node itself, and each other
+ * path a copy; with MAX_PATHS paths there are too many copies. */
 enum { MAX_COPIES = 1 << 16, MAX_PATHS = MAX_COPIES + 2 };
 
 void gltf_read_children(io_reader *r, const json_place *at, uint32_t index, uint32_t node_count)
@@ -105,8 +106,8 @@ static void warn_shared(io_reader *r, const json_place *array, uint32_t parent, 
             r->scene->nodes[child].parent);
 }
 
-/* A copy has no camera, since a camera is selected by node, and no skinned mesh, which would be drawn again in the
- * same place. */
+/* A copy has no camera, since a camera is selected by node, and no skinned mesh, which would be drawn
+ * again in the same place. */
 static void make_copy(io_reader *r, uint32_t copy, uint32_t of, uint32_t parent)
 {
     scene_node *node = &r->scene->nodes[copy];

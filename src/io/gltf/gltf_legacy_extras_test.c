@@ -125,8 +125,8 @@ static void edited_materials_do_not_count(void **state)
     scene_destroy(scene);
 }
 
-/* If an image is missing, by its mark or by its index, the glTF material is used. An image that was missing from the
- * start, or that no surface shows, does not matter. */
+/* If an image is missing, by its mark or by its index, the glTF material is used. An image that was
+ * missing from the start, or that no surface shows, does not matter. */
 static void materials_without_their_pictures_do_not_count(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* gltf_materials.c - materials: the parameters and textures of scene/material_table.h, and rules beyond the ranges of
- * that table (glTF 2.0 section 3.9 and the extensions of materials). */
+/* gltf_materials.c - materials: the parameters and textures of scene/material_table.h, and rules beyond
+ * the ranges of that table (glTF 2.0 section 3.9 and the extensions of materials). */
 #include <math.h>
 #include <string.h>
 
@@ -144,8 +144,8 @@ static uint32_t exclude(io_reader *r, const json_place *material, uint32_t bits,
     return bits & ~others;
 }
 
-/* Unlit excludes all other reflection models, pbrSpecularGlossiness all extensions of metallic-roughness; emission is
- * independent of the latter. */
+/* Unlit excludes all other reflection models, pbrSpecularGlossiness all extensions of metallic-roughness;
+ * emission is independent of the latter. */
 static uint32_t find_extensions(io_reader *r, const json_place *material)
 {
     uint32_t bits = 0;

@@ -266,7 +266,8 @@ static void numbers_of_extensions_have_their_domains(void **state)
     scene_destroy(scene);
 }
 
-/* The worked example of the extension: offset (0, 1), a quarter turn, scale 0.5 select the lower left quadrant. */
+/* The worked example of the extension: offset (0, 1), a quarter turn, scale 0.5 select the lower left
+ * quadrant. */
 static void texture_transform_turns_as_its_example_says(void **state)
 {
     (void)state;

@@ -1,6 +1,7 @@
-/* gltf_meshes.c - meshes and their primitives: which accessor is which attribute, the materials of variants
- * (KHR_materials_variants), morph targets (glTF 2.0 section 3.7.2.2), and what a primitive lacks. Morph targets may
- * also change texture coordinates and colors, which viewers need not draw: a warning names them. */
+/* gltf_meshes.c - meshes and their primitives: which accessor is which attribute, the materials of
+ * variants (KHR_materials_variants), morph targets (glTF 2.0 section 3.7.2.2), and what a primitive lacks.
+ * Morph targets may also change texture coordinates and colors, which viewers need not draw: a warning
+ * names them. */
 #include <float.h>
 #include <stdio.h>
 #include <string.h>

@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A mesh over the vertices (i, i^2, 0) with the given attributes and members; accessor 0 is POSITION, followed by
- * those of rest, over the views 1.. . */
+/* A mesh over the vertices (i, i^2, 0) with the given attributes and members; accessor 0 is POSITION,
+ * followed by those of rest, over the views 1.. . */
 static facet_result try_mesh(uint32_t vertex_count, const char *attributes, const char *members,
                              test_bin *bin, const char *views, const char *rest, facet_scene **scene,
                              facet_error *error)

@@ -1,6 +1,6 @@
-/* gltf_meshopt.c - EXT_meshopt_compression and KHR_meshopt_compression: buffer views whose bytes are decoded from
- * others. They are checked when the table of views is read, and decoded in parallel, all at once, when the bytes of
- * the first one are requested. */
+/* gltf_meshopt.c - EXT_meshopt_compression and KHR_meshopt_compression: buffer views whose bytes are
+ * decoded from others. They are checked when the table of views is read, and decoded in parallel, all at
+ * once, when the bytes of the first one are requested. */
 #include <string.h>
 
 #include "base/parallel.h"
@@ -60,7 +60,8 @@ static void read_stream(io_reader *r, const json_place *at, gltf_compressed_view
     v->stream.filter = (meshopt_filter)get_word(r, at, "filter", filters, 5, "NONE");
 }
 
-/* Whether the numbers are consistent with each other, with the buffer of the stream, and with the view of size bytes. */
+/* Whether the numbers are consistent with each other, with the buffer of the stream, and with the view of
+ * size bytes. */
 static bool check_stream(io_reader *r, const json_place *at, const gltf_compressed_view *v, size_t size)
 {
     const gltf_buffer *buffer = &r->gltf->buffers[v->buffer];
@@ -112,8 +113,8 @@ uint32_t gltf_get_meshopt_buffer(const gltf_compressed_view *view)
 
 /* ---- bytes ---- */
 
-/* Finds the bytes of a stream and allocates memory for the decoded ones. Errors of a view are reported when it is
- * requested. */
+/* Finds the bytes of a stream and allocates memory for the decoded ones. Errors of a view are reported
+ * when it is requested. */
 static bool prepare(io_reader *r, const json_place *at, gltf_compressed_view *v)
 {
     meshopt_stream *s = &v->stream;

@@ -7,8 +7,8 @@
 
 static const float POSITIONS[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0.5f};
 
-/* Appends a stream of mode ATTRIBUTES, version 0, with each group of 16 bytes stored uncompressed; returns its
- * offset. */
+/* Appends a stream of mode ATTRIBUTES, version 0, with each group of 16 bytes stored uncompressed; returns
+ * its offset. */
 static size_t add_attributes(test_bin *bin, const void *elements, size_t count, size_t stride, size_t *size)
 {
     uint8_t stream[2048] = {0xa0};

@@ -113,7 +113,8 @@ static void copies_of_copies_have_a_limit(void **state)
                    FACET_ERROR_INVALID, "is its own ancestor");
 }
 
-/* One node has more parents than the limit of copies, and nothing else is copied: counting stops at the limit. */
+/* One node has more parents than the limit of copies, and nothing else is copied: counting stops at the
+ * limit. */
 static void one_node_has_a_limit_of_parents(void **state)
 {
     static const char parent[] = ",{'children':[0]}";

@@ -1,5 +1,5 @@
-/* gltf_quantization_test.c - KHR_mesh_quantization: each attribute in each component type, as the tables of the
- * extension allow them, and where the transforms that undo quantisation are found. */
+/* gltf_quantization_test.c - KHR_mesh_quantization: each attribute in each component type, as the tables
+ * of the extension allow them, and where the transforms that undo quantisation are found. */
 #include "io/gltf/gltf_test_support.h"
 
 #include <math.h>
@@ -140,8 +140,8 @@ static void assert_values(const float *array, const question *q, int count)
     }
 }
 
-/* One letter for each of BYTE, UBYTE, SHORT, USHORT: plain ones allowed 'p', normalised 'n', both 'b', none '-'. The
- * same without the extension. */
+/* One letter for each of BYTE, UBYTE, SHORT, USHORT: plain ones allowed 'p', normalised 'n', both 'b',
+ * none '-'. The same without the extension. */
 static const struct {
     const char *name;
     bool is_target;
@@ -201,7 +201,8 @@ static void every_type_of_every_attribute(void **state)
 
 /* ---- where the transforms are ---- */
 
-/* A box of 0 to 65535 under a node that scales it to 2 m and moves it: the extension's "dequantization transform". */
+/* A box of 0 to 65535 under a node that scales it to 2 m and moves it: the extension's "dequantization
+ * transform". */
 static void nodes_undo_the_quantisation_of_positions(void **state)
 {
     (void)state;
@@ -225,8 +226,8 @@ static void nodes_undo_the_quantisation_of_positions(void **state)
     scene_destroy(scene);
 }
 
-/* Texture coordinates of 0 to 4095, which KHR_texture_transform scales to 0 to 1: the transform is the texture's, and
- * coordinates are not clamped or scaled before it. */
+/* Texture coordinates of 0 to 4095, which KHR_texture_transform scales to 0 to 1: the transform is the
+ * texture's, and coordinates are not clamped or scaled before it. */
 static void texture_transforms_undo_the_quantisation_of_coordinates(void **state)
 {
     (void)state;

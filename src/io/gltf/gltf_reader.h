@@ -1,5 +1,5 @@
-/* gltf_reader.h - what the files of the glTF reader share: the tables of the file, and one function per concern. Errors,
- * places and typed access to the JSON: io/json_reader.h. */
+/* gltf_reader.h - what the files of the glTF reader share: the tables of the file, and one function per
+ * concern. Errors, places and typed access to the JSON: io/json_reader.h. */
 #ifndef IO_GLTF_READER_H
 #define IO_GLTF_READER_H
 
@@ -58,8 +58,8 @@ typedef struct gltf_accessor {
     uint32_t sparse_index_view, sparse_value_view;
     size_t sparse_index_offset, sparse_value_offset;
     gltf_component sparse_index_component;
-    /* Tightly packed elements of the accessor's type that replace those of the view; NULL: none. gltf_draco.c sets them,
-     * with the bitstream and the attribute that they come from. */
+    /* Tightly packed elements of the accessor's type that replace those of the view; NULL: none.
+     * gltf_draco.c sets them, with the bitstream and the attribute that they come from. */
     const unsigned char *decoded;
     uint32_t draco_view, draco_attribute;
 
@@ -120,8 +120,8 @@ const unsigned char *gltf_get_view_bytes(io_reader *r, const json_place *at, uin
 /* end: number of bytes of the buffer that are needed. */
 const unsigned char *gltf_get_buffer_bytes(io_reader *r, uint32_t buffer, size_t end);
 
-/* Whether a buffer, a view or an accessor (with its sparse parts) has a source of bytes. A buffer with neither a uri nor
- * the binary chunk behind it is valid, but empty. */
+/* Whether a buffer, a view or an accessor (with its sparse parts) has a source of bytes. A buffer with
+ * neither a uri nor the binary chunk behind it is valid, but empty. */
 bool gltf_has_buffer_source(const io_reader *r, uint32_t buffer);
 bool gltf_has_view_source(const io_reader *r, uint32_t view);
 bool gltf_has_accessor_source(const io_reader *r, uint32_t accessor);
@@ -148,16 +148,16 @@ extern const uint32_t gltf_component_counts[GLTF_TYPE_COUNT];
 /* Bytes of one element; the columns of a matrix begin at multiples of 4 bytes. */
 size_t gltf_element_size(gltf_component component, gltf_type type);
 
-/* All elements as floats, gltf_component_counts[type] each; normalized integers become [-1, 1] or [0, 1]. Points into the
- * file where it holds such floats. NULL: an error is recorded. */
+/* All elements as floats, gltf_component_counts[type] each; normalized integers become [-1, 1] or [0, 1].
+ * Points into the file where it holds such floats. NULL: an error is recorded. */
 const float *gltf_get_accessor_floats(io_reader *r, const json_place *at, uint32_t accessor);
 /* Elements of a scalar accessor of unsigned integers, and the largest of them. */
 const uint32_t *gltf_get_accessor_indices(io_reader *r, const json_place *at, uint32_t accessor,
                                           uint32_t *largest);
 
-/* gltf_draco.c, or gltf_draco_none.c in builds without the Draco library: KHR_draco_mesh_compression. Decodes the
- * bitstream of a primitive, if it has one, into its accessors and tables.faces, before attributes and indices are read.
- * False: an error is recorded. */
+/* gltf_draco.c, or gltf_draco_none.c in builds without the Draco library: KHR_draco_mesh_compression.
+ * Decodes the bitstream of a primitive, if it has one, into its accessors and tables.faces, before
+ * attributes and indices are read. False: an error is recorded. */
 bool gltf_prepare_draco(io_reader *r, const json_place *primitive);
 /* After all primitives are read. */
 void gltf_release_draco(io_reader *r);
@@ -175,40 +175,42 @@ typedef enum gltf_attribute {
     GLTF_NORMAL_DELTA,
     GLTF_TANGENT_DELTA
 } gltf_attribute;
-/* The accessor of an attribute, checked to have an allowed format and vertex_count elements; SCENE_NONE: the primitive
- * lacks the attribute, or an error is recorded. */
+/* The accessor of an attribute, checked to have an allowed format and vertex_count elements; SCENE_NONE:
+ * the primitive lacks the attribute, or an error is recorded. */
 uint32_t gltf_get_attribute(io_reader *r, const json_place *attributes, const char *name,
                             gltf_attribute attribute, uint32_t vertex_count);
 /* The number of attributes PREFIX0, PREFIX1, .. without a gap; at most 64. */
 uint32_t gltf_count_sets(const json_place *attributes, const char *prefix);
 /* Whether the attribute of that name is read for drawing. */
 bool gltf_is_read_attribute(const char *name);
-/* Reports names that glTF reserves but does not define, gaps in their numbers, and values that are no accessors. */
+/* Reports names that glTF reserves but does not define, gaps in their numbers, and values that are no
+ * accessors. */
 void gltf_check_attribute_names(io_reader *r, const json_place *attributes);
 
-/* Vertex attributes in the form of scene_primitive; NULL: an error is recorded, or (tangents) none are usable. */
+/* Vertex attributes in the form of scene_primitive; NULL: an error is recorded, or (tangents) none are
+ * usable. */
 const float *gltf_get_positions(io_reader *r, const json_place *at, uint32_t accessor,
                                 const uint8_t **is_lost);
 const float *gltf_get_normals(io_reader *r, const json_place *at, uint32_t accessor, bool *has_missing);
 const float *gltf_get_tangents(io_reader *r, const json_place *at, uint32_t accessor);
 const float *gltf_get_colors(io_reader *r, const json_place *at, uint32_t accessor);
-/* Texture coordinates, or displacements of a morph target, with 0 for values that are not finite. what: their name in a
- * warning. */
+/* Texture coordinates, or displacements of a morph target, with 0 for values that are not finite. what:
+ * their name in a warning. */
 const float *gltf_get_finite(io_reader *r, const json_place *at, uint32_t accessor, const char *what);
 
 /* gltf_skins.c: joints and weights, from any number of sets JOINTS_n, WEIGHTS_n. */
 bool gltf_read_influences(io_reader *r, const json_place *attributes, scene_primitive *primitive);
 
-/* gltf_meshes.c: the morph weights of a mesh or a node: count numbers, 0 where the file has fewer; NULL: it has none, or
- * count is 0. */
+/* gltf_meshes.c: the morph weights of a mesh or a node: count numbers, 0 where the file has fewer; NULL:
+ * it has none, or count is 0. */
 const float *gltf_read_weights(io_reader *r, const json_place *object, uint32_t count);
 
 /* gltf_triangles.c: the index list of a primitive, with strips, fans and loops unrolled. */
 bool gltf_read_primitive_indices(io_reader *r, const json_place *at, scene_primitive *primitive,
                                  const uint8_t *is_lost);
 
-/* Flat shading: unshares the vertices of each triangle, sets their normals to its own, and drops tangents, also those
- * of morph targets. */
+/* Flat shading: unshares the vertices of each triangle, sets their normals to its own, and drops tangents,
+ * also those of morph targets. */
 bool gltf_make_flat(io_reader *r, const json_place *at, scene_primitive *primitive);
 /* Replaces normals of length 0 by those of the adjacent triangles, in a copy. */
 bool gltf_fill_missing_normals(io_reader *r, const json_place *at, scene_primitive *primitive);
@@ -265,7 +267,8 @@ void gltf_read_meta(io_reader *r, const json_place *root);
 /* Sets scene->legacy from extras.facet_legacy, which a conversion wrote; it stays NULL where none is valid. */
 void gltf_read_legacy_extras(io_reader *r, const json_place *root);
 
-/* gltf_extensions.c: extensionsUsed and extensionsRequired; fails on a required extension that facet does not support. */
+/* gltf_extensions.c: extensionsUsed and extensionsRequired; fails on a required extension that facet does
+ * not support. */
 void gltf_read_extensions(io_reader *r, const json_place *root);
 bool gltf_is_extension_listed(const io_reader *r, const char *name);
 

@@ -1,5 +1,5 @@
-/* gltf_skins.c - the joints and weights of vertices, in any number of sets of four (glTF 2.0 section 3.7.3.3), and skins
- * (sections 3.7.3, 5.28): joints and their inverse bind matrices. */
+/* gltf_skins.c - the joints and weights of vertices, in any number of sets of four (glTF 2.0 section
+ * 3.7.3.3), and skins (sections 3.7.3, 5.28): joints and their inverse bind matrices. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

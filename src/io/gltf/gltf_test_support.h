@@ -21,14 +21,15 @@ typedef struct test_bin {
 /* Appends at the next multiple of 4; returns where. */
 size_t bin_add(test_bin *bin, const void *bytes, size_t size);
 
-/* Loads "{'asset':{'version':'2.0'},'buffers':[{'byteLength':SIZE}], BODY}" as a .glb with that chunk (NULL: none). */
+/* Loads "{'asset':{'version':'2.0'},'buffers':[{'byteLength':SIZE}], BODY}" as a .glb with that chunk
+ * (NULL: none). */
 facet_result try_load(const char *body, const test_bin *bin, facet_scene **scene, facet_error *error);
 /* The same, which must succeed. */
 facet_scene *load(const char *body, const test_bin *bin);
 /* The same, which must succeed with a warning that contains text. */
 void assert_left_out(const char *body, const test_bin *bin, const char *text);
-/* The same, which must fail with that result and a message that contains text. Where the body has no nodes, one uses the
- * first mesh, or the first material. */
+/* The same, which must fail with that result and a message that contains text. Where the body has no
+ * nodes, one uses the first mesh, or the first material. */
 void assert_refused(const char *body, const test_bin *bin, facet_result result, const char *text);
 /* Whether a warning or a note of scene contains text. */
 bool has_warning(const facet_scene *scene, const char *text);
@@ -47,8 +48,8 @@ typedef struct test_model {
     uint32_t count;
 } test_model;
 
-/* Adds count elements of a type ("VEC3") whose components are of size bytes and number component (5126: float);
- * members: more members of the accessor (",'normalized':true"). Returns its number. */
+/* Adds count elements of a type ("VEC3") whose components are of size bytes and number component (5126:
+ * float); members: more members of the accessor (",'normalized':true"). Returns its number. */
 uint32_t model_add(test_model *model, const void *elements, size_t count, const char *type,
                    unsigned component, const char *members);
 uint32_t model_add_floats(test_model *model, const float *floats, size_t count, const char *type);

@@ -1,4 +1,5 @@
-/* gltf_textures.c - images, located but not decoded, and textures with their samplers (glTF 2.0 sections 3.8, 5.18,
+/* gltf_textures.c - images, located but not decoded, and textures with their samplers (glTF 2.0 sections
+ * 3.8, 5.18,
  * 5.29; KHR_texture_basisu, EXT_texture_webp, EXT_texture_avif, MSFT_texture_dds). A missing image is reported and
  * rendered white, as in other viewers. */
 #include <string.h>
@@ -74,8 +75,8 @@ static void check_ktx2(io_reader *r, const json_place *at, const scene_image *i)
         io_warn(r, at, NULL, "has premultiplied alpha, which glTF does not define");
 }
 
-/* From the header of the image. If it cannot be read for the format of an extension, the image is unusable and a
- * texture uses its other source. */
+/* From the header of the image. If it cannot be read for the format of an extension, the image is unusable
+ * and a texture uses its other source. */
 static void read_size(io_reader *r, const json_place *at, const image_kind *kind, scene_image *out)
 {
     image header;

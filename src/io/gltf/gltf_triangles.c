@@ -1,6 +1,6 @@
-/* gltf_triangles.c - the index list of a primitive (glTF 2.0 section 3.7.2.1): read or counted, checked, strips, fans
- * and loops unrolled to lists, without the elements that use lost or missing vertices; and normals that the file
- * lacks: flat ones, and replacements for normals of length 0. */
+/* gltf_triangles.c - the index list of a primitive (glTF 2.0 section 3.7.2.1): read or counted, checked,
+ * strips, fans and loops unrolled to lists, without the elements that use lost or missing vertices; and
+ * normals that the file lacks: flat ones, and replacements for normals of length 0. */
 #include <math.h>
 #include <string.h>
 
@@ -124,9 +124,10 @@ static void unroll_all(unsigned mode, const index_source *s, uint32_t *out)
     }
 }
 
-/* The largest value of a component type is not an index in glTF 2.0, but older exporters wrote it as one: in lists it
- * is an index. In strips, loops and fans it restarts the primitive if there is no such vertex, or if the file has
- * EXT_mesh_primitive_restart. (That extension itself groups ordinary primitives, which are drawn.) */
+/* The largest value of a component type is not an index in glTF 2.0, but older exporters wrote it as one:
+ * in lists it is an index. In strips, loops and fans it restarts the primitive if there is no such vertex,
+ * or if the file has EXT_mesh_primitive_restart. (That extension itself groups ordinary primitives, which
+ * are drawn.) */
 static void find_restarts(io_reader *r, const json_place *at, unsigned mode, uint32_t vertex_count,
                           index_source *s)
 {
@@ -144,8 +145,8 @@ static void find_restarts(io_reader *r, const json_place *at, unsigned mode, uin
 
 /* ---- vertices that are lost or not there ---- */
 
-/* Removes elements of a list, of `corners` corners each, that use lost or missing vertices; is_lost: NULL: none.
- * False: an error is recorded. */
+/* Removes elements of a list, of `corners` corners each, that use lost or missing vertices; is_lost: NULL:
+ * none. False: an error is recorded. */
 static bool drop_unusable(io_reader *r, scene_primitive *p, size_t corners, const uint8_t *is_lost)
 {
     uint32_t *out = io_alloc_raw(r, "indices", p->index_count, sizeof *out);
@@ -182,8 +183,8 @@ static void warn_missing_vertex(io_reader *r, const json_place *at, const index_
 
 /* ---- the primitive ---- */
 
-/* The indices of a primitive; indices NULL: an error is recorded. If a bitstream has faces, *mode becomes that of a
- * list, whatever mode they were stored in, with a vertex per corner. */
+/* The indices of a primitive; indices NULL: an error is recorded. If a bitstream has faces, *mode becomes
+ * that of a list, whatever mode they were stored in, with a vertex per corner. */
 static index_source find_indices(io_reader *r, const json_place *at, uint32_t vertex_count, unsigned *mode)
 {
     uint32_t accessor = gltf_get_accessor(r, at, "indices");
@@ -318,8 +319,8 @@ static void spread(void *context, size_t begin, size_t end)
         spread_stream(&s->streams[i], s->in->indices, 3 * begin, 3 * end);
 }
 
-/* Adds an array of elements of size bytes to the arrays that are unshared. Returns its copy; NULL: in is NULL, or an
- * error is recorded. */
+/* Adds an array of elements of size bytes to the arrays that are unshared. Returns its copy; NULL: in is
+ * NULL, or an error is recorded. */
 static void *add_stream(io_reader *r, spreading *s, const void *in, size_t size)
 {
     void *out = in ? io_alloc_raw(r, "vertices", s->in->index_count, size) : NULL;

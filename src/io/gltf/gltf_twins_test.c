@@ -218,7 +218,8 @@ static void the_box_of_draco(void **state)
         skip();
     facet_scene *plain = load_file(plain_path);
     facet_scene *twin = load_file(path);
-    /* positions in 11 or more bits: the corners of a cube are whole steps; normals octahedral, exact on the axes */
+    /* positions in 11 or more bits: the corners of a cube are whole steps; normals octahedral, exact on
+     * the axes */
     const scene_primitive *a = first_primitive(plain);
     const scene_primitive *b = first_primitive(twin);
     assert_int_equal(a->index_count, b->index_count);
@@ -282,8 +283,8 @@ static int find_word(const char *word, const char *const *words)
     return word ? i : 0;
 }
 
-/* Whether two views of size bytes are the same, but for the 1 that rounding in filters may change (units: bytes of a
- * component; 4: exact). */
+/* Whether two views of size bytes are the same, but for the 1 that rounding in filters may change (units:
+ * bytes of a component; 4: exact). */
 static bool are_close(const uint8_t *a, const uint8_t *b, size_t size, size_t unit)
 {
     bool is_close = unit < 4 || memcmp(a, b, size) == 0;

@@ -195,7 +195,8 @@ static json_t *parse(gltf_writer *w, const char *json)
     return value;
 }
 
-/* RFC 3986: escapes bytes that are neither unreserved nor UTF-8; in a name that is not UTF-8, all bytes beyond ASCII. */
+/* RFC 3986: escapes bytes that are neither unreserved nor UTF-8; in a name that is not UTF-8, all bytes
+ * beyond ASCII. */
 void gltf_put_uri(gltf_writer *w, json_t *object, const char *name)
 {
     const bool has_characters = utf8_is_valid(name, strlen(name));

@@ -1,5 +1,5 @@
-/* gltf_write_materials.c - writes images, unchanged or as PNG where glTF has no such format, textures with their
- * samplers, and materials by the table that the reader uses. */
+/* gltf_write_materials.c - writes images, unchanged or as PNG where glTF has no such format, textures with
+ * their samplers, and materials by the table that the reader uses. */
 #include <string.h>
 
 #include "base/result.h"
@@ -179,8 +179,8 @@ static json_t *object_of(gltf_writer *w, json_t *material, const char *name, uin
     return extension ? gltf_put_extension(w, material, name) : gltf_put_object(w, material, name);
 }
 
-/* pbrSpecularGlossiness replaces pbrMetallicRoughness and shares members with it: whether a row applies to the
- * material. */
+/* pbrSpecularGlossiness replaces pbrMetallicRoughness and shares members with it: whether a row applies to
+ * the material. */
 static bool is_of_kind(const scene_material *m, uint32_t extension, const char *object)
 {
     if (extension == SCENE_SPECULAR_GLOSSINESS)

@@ -1,5 +1,5 @@
-/* gltf_write_scene.c - writes meshes with morph targets, skin attributes and variants; cameras, lights, nodes and scenes;
- * skins and animations. */
+/* gltf_write_scene.c - writes meshes with morph targets, skin attributes and variants; cameras, lights,
+ * nodes and scenes; skins and animations. */
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
@@ -36,8 +36,8 @@ static void add_still_target(gltf_writer *w, json_t *targets, size_t vertex_coun
     gltf_append(w, targets, target);
 }
 
-/* An empty primitive keeps its index in the mesh: a triangle without area, with as many morph targets as the other
- * primitives. */
+/* An empty primitive keeps its index in the mesh: a triangle without area, with as many morph targets as
+ * the other primitives. */
 static void write_empty(gltf_writer *w, json_t *out, uint32_t target_count)
 {
     static const float positions[9] = {0};
@@ -167,7 +167,8 @@ static void write_camera(gltf_writer *w, const scene_camera *camera)
         gltf_put(w, lens, "yfov", gltf_json_float(camera->fov_y_rad));
         gltf_put_float(w, lens, "aspectRatio", camera->aspect, 0.0f);
     }
-    /* glTF requires zfar of an orthographic and znear above 0 of a perspective camera; facet may have neither plane. */
+    /* glTF requires zfar of an orthographic and znear above 0 of a perspective camera; facet may have
+     * neither plane. */
     bool lacks_far = camera->is_orthographic && camera->far_m == 0.0f;
     bool lacks_near = !camera->is_orthographic && camera->near_m == 0.0f;
     gltf_put(w, lens, "znear", gltf_json_float(lacks_near ? FLT_MIN : camera->near_m));

@@ -340,7 +340,8 @@ static int remove_folder(void **state)
     return rmdir(folder);
 }
 
-/* Writes scene under a name, reads that, and compares; all without a warning that the first reading did not give. */
+/* Writes scene under a name, reads that, and compares; all without a warning that the first reading did
+ * not give. */
 static void assert_round_trip(const facet_scene *scene, const char *name)
 {
     char path[256];
@@ -394,7 +395,8 @@ static void small_scenes_survive(void **state)
     }
 }
 
-/* Loads "{'asset':..., BODY}" of a model with one triangle as accessor 0, and writes and reads it; the second scene. */
+/* Loads "{'asset':..., BODY}" of a model with one triangle as accessor 0, and writes and reads it; the
+ * second scene. */
 static facet_scene *rewrite(const char *body, const char *name)
 {
     static const float triangle[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
@@ -539,7 +541,8 @@ static void what_cannot_be_written_is_said(void **state)
     scene_destroy(scene);
 }
 
-/* For both kinds of file: if any allocation fails, the error has its size if it is known, and no memory leaks. */
+/* For both kinds of file: if any allocation fails, the error has its size if it is known, and no memory
+ * leaks. */
 static void memory_that_runs_out_is_reported(void **state)
 {
     (void)state;

@@ -1,7 +1,8 @@
-/* gltf_writer.h - what the files of the glTF writer share: its state, and JSON without members that have glTF's defaults.
+/* gltf_writer.h - what the files of the glTF writer share: its state, and JSON without members that have
+ * glTF's defaults.
  *
- * Errors are sticky: the first one stays in gltf_writer.result; later calls are safe and have no effect that counts.
- * Objects of the scene keep their indices, so that those in metadata stay valid. */
+ * Errors are sticky: the first one stays in gltf_writer.result; later calls are safe and have no effect
+ * that counts. Objects of the scene keep their indices, so that those in metadata stay valid. */
 #ifndef IO_GLTF_WRITER_H
 #define IO_GLTF_WRITER_H
 
@@ -64,7 +65,8 @@ void gltf_writer_fail_memory(gltf_writer *w, size_t size); /* 0: an allocation o
 
 void gltf_put(gltf_writer *w, json_t *object, const char *key, json_t *value);
 void gltf_append(gltf_writer *w, json_t *array, json_t *value);
-/* A string of the scene or a file name. Bytes that are not UTF-8 are taken as Latin-1, with one warning per file. */
+/* A string of the scene or a file name. Bytes that are not UTF-8 are taken as Latin-1, with one warning
+ * per file. */
 json_t *gltf_json_text(gltf_writer *w, const char *words);
 json_t *gltf_put_object(gltf_writer *w, json_t *object,
                         const char *key); /* borrowed; created where it is missing */
@@ -93,8 +95,8 @@ void gltf_put_meta(gltf_writer *w, json_t *object, const scene_meta *meta);
 
 typedef enum write_type { WRITE_SCALAR, WRITE_VEC2, WRITE_VEC3, WRITE_VEC4, WRITE_MAT4 } write_type;
 
-/* Writes count elements of floats and returns the index of their accessor; an array that has one shares it. bounds: with
- * min and max. */
+/* Writes count elements of floats and returns the index of their accessor; an array that has one shares
+ * it. bounds: with min and max. */
 uint32_t gltf_write_floats(gltf_writer *w, const float *values, size_t count, write_type type, int target,
                            bool bounds);
 /* Positions of a mesh in the coordinates of the file, with min and max. */

@@ -1,5 +1,5 @@
-/* meshopt.c - decodes index streams and applies filters: which modes, filters and strides are consistent, and the
- * sequence of decoder and filter for a stream. */
+/* meshopt.c - decodes index streams and applies filters: which modes, filters and strides are consistent,
+ * and the sequence of decoder and filter for a stream. */
 #include "io/gltf/meshopt.h"
 
 #include <math.h>
@@ -94,8 +94,8 @@ static inline void decode_beside_edge(triangle_state *t, unsigned code, uint32_t
     triangle[2] = c;
 }
 
-/* The second or third vertex of a separate triangle: 0 is the next new vertex, 15 one stored in full, others a recent
- * one. */
+/* The second or third vertex of a separate triangle: 0 is the next new vertex, 15 one stored in full,
+ * others a recent one. */
 static inline uint32_t get_corner(triangle_state *t, unsigned how)
 {
     return how == 0 ? t->next++ : how == 15 ? get_delta(t) : get_vertex(t, how - 1);
@@ -248,8 +248,8 @@ static void store_components(components c, size_t count, size_t stride, uint8_t 
         }
 }
 
-/* Rounds to the nearest integer, halves away from zero, clamped to [-limit, limit]; NaN, which only damaged elements
- * give, becomes -limit. */
+/* Rounds to the nearest integer, halves away from zero, clamped to [-limit, limit]; NaN, which only
+ * damaged elements give, becomes -limit. */
 static inline float round_within(float value, float limit)
 {
     value += value < 0.0f ? -0.5f : 0.5f;
@@ -258,8 +258,8 @@ static inline float round_within(float value, float limit)
     return (float)(int)value;
 }
 
-/* Octahedral unit vectors: x, y, and an integer that stands for 1; the fourth component stays. scale: 1 in the
- * result. */
+/* Octahedral unit vectors: x, y, and an integer that stands for 1; the fourth component stays. scale: 1 in
+ * the result. */
 static void decode_octahedral(components c, size_t count, float scale)
 {
     for (size_t i = 0; i < count; i++) {
@@ -276,8 +276,8 @@ static void decode_octahedral(components c, size_t count, float scale)
     }
 }
 
-/* Unit quaternions: three components, scaled by sqrt(2) since the largest is omitted; the fourth has an integer that
- * stands for 1, and in its lowest two bits the index of the omitted one. */
+/* Unit quaternions: three components, scaled by sqrt(2) since the largest is omitted; the fourth has an
+ * integer that stands for 1, and in its lowest two bits the index of the omitted one. */
 static void decode_quaternion(components c, size_t count, float scale)
 {
     const float range = 0.70710678f * scale;
@@ -326,8 +326,8 @@ static inline uint32_t native_32(uint32_t v)
     return __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? v : __builtin_bswap32(v);
 }
 
-/* 8 bits of exponent over 24 of mantissa, both signed: 2^e m. Exponents that encoders may not write (beyond 100) stay
- * within the range of floats. */
+/* 8 bits of exponent over 24 of mantissa, both signed: 2^e m. Exponents that encoders may not write
+ * (beyond 100) stay within the range of floats. */
 static void filter_exponential(uint32_t *words, size_t count)
 {
     for (size_t i = 0; i < count; i++) {

@@ -1,6 +1,6 @@
-/* meshopt.h - the bitstreams and filters of EXT_meshopt_compression and KHR_meshopt_compression (the second adds
- * version 1 of attributes and the color filter), independent of JSON. Section names below are those of the KHR
- * specification: appendix A has the bitstreams, appendix B the filters. */
+/* meshopt.h - the bitstreams and filters of EXT_meshopt_compression and KHR_meshopt_compression (the
+ * second adds version 1 of attributes and the color filter), independent of JSON. Section names below are
+ * those of the KHR specification: appendix A has the bitstreams, appendix B the filters. */
 #ifndef IO_MESHOPT_H
 #define IO_MESHOPT_H
 
@@ -31,12 +31,12 @@ typedef struct meshopt_stream {
 /* NULL: mode, filter, count and stride are consistent; otherwise the reason: "byteStride must be ..". */
 const char *meshopt_check(const meshopt_stream *stream);
 
-/* The minimal size of a stream with that many elements; SIZE_MAX if that overflows. Callers compare it with the
- * stream before they allocate memory for the elements: a byte decodes to at most 1024. */
+/* The minimal size of a stream with that many elements; SIZE_MAX if that overflows. Callers compare it
+ * with the stream before they allocate memory for the elements: a byte decodes to at most 1024. */
 size_t meshopt_smallest_size(const meshopt_stream *stream);
 
-/* Writes count * stride bytes to out, aligned to 16, after meshopt_check(). NULL: success; otherwise the flaw of the
- * bytes, as in "ends too early", and the contents of out are undefined. */
+/* Writes count * stride bytes to out, aligned to 16, after meshopt_check(). NULL: success; otherwise the
+ * flaw of the bytes, as in "ends too early", and the contents of out are undefined. */
 const char *meshopt_decode(const meshopt_stream *stream, uint8_t *out);
 
 /* The parts of meshopt_decode(): a stream in one mode; a filter over elements in place, which cannot fail. */

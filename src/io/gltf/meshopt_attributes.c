@@ -1,9 +1,9 @@
-/* meshopt_attributes.c - mode ATTRIBUTES, versions 0 and 1: elements of 4 to 256 bytes as deltas between neighbors,
- * byte by byte ("planes"), in blocks of at most 256 elements, each plane in groups of 16 bytes that are packed to 0,
- * 1, 2, 4 or 8 bits.
+/* meshopt_attributes.c - mode ATTRIBUTES, versions 0 and 1: elements of 4 to 256 bytes as deltas between
+ * neighbors, byte by byte ("planes"), in blocks of at most 256 elements, each plane in groups of 16 bytes
+ * that are packed to 0, 1, 2, 4 or 8 bits.
  *
- * Whole words serve as vectors of bytes ("SWAR": Lamport, "Multiple byte processing with full-word instructions",
- * 1975), so that the code is the same for every machine. */
+ * Whole words serve as vectors of bytes ("SWAR": Lamport, "Multiple byte processing with full-word
+ * instructions", 1975), so that the code is the same for every machine. */
 #include <string.h>
 
 #include "io/gltf/meshopt.h"
@@ -32,8 +32,8 @@ static layout make_layout(bool is_v1, size_t stride)
                     .block = fitting < MAX_BLOCK ? fitting : MAX_BLOCK};
 }
 
-/* The minimal size of a block. Version 1: a control byte for 4 planes; version 0: 2 bits for each group of each
- * plane. */
+/* The minimal size of a block. Version 1: a control byte for 4 planes; version 0: 2 bits for each group of
+ * each plane. */
 static size_t block_size(const layout *l, size_t count, size_t stride)
 {
     const size_t groups = (count + GROUP - 1) / GROUP;
@@ -102,8 +102,8 @@ static uint64_t spread_4(uint32_t fields)
     return (x | x << 4) & UINT64_C(0x0f0f0f0f0f0f0f0f);
 }
 
-/* Each decodes one group to out[16] and returns the position behind it. A field of all ones ("sentinel") means that
- * the value is a byte behind the fields, in the same order. */
+/* Each decodes one group to out[16] and returns the position behind it. A field of all ones ("sentinel")
+ * means that the value is a byte behind the fields, in the same order. */
 
 static const uint8_t *unpack_1(const uint8_t *in, uint8_t *out)
 {
@@ -229,8 +229,8 @@ static uint32_t rotate_right(uint32_t v, unsigned by)
     return v >> by | v << ((32 - by) & 31);
 }
 
-/* Undoes the deltas of one channel: *last is its word in the element before the block, and becomes that of the last
- * element. mode: its byte in the tail. out: the word of the block's first element. */
+/* Undoes the deltas of one channel: *last is its word in the element before the block, and becomes that of
+ * the last element. mode: its byte in the tail. out: the word of the block's first element. */
 static void decode_channel(planes_of_channel planes, unsigned mode, size_t count, size_t stride,
                            uint32_t *last, uint8_t *out)
 {

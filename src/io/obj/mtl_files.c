@@ -36,8 +36,8 @@ static bool go_up(const char *path, char **end)
     return true;
 }
 
-/* Joins folder and name with slashes, without "./", doubled slashes and "folder/../", so that a file has one name; in
- * the arena. */
+/* Joins folder and name with slashes, without "./", doubled slashes and "folder/../", so that a file has
+ * one name; in the arena. */
 static const char *join(mtl_files *f, const char *folder, const char *name)
 {
     size_t folder_length = name[0] == '/' ? 0 : strlen(folder);

@@ -1,10 +1,10 @@
-/* mtl_gltf.c - comments "#facet-gltf {..}" in MTL files: the glTF material from which the statements above were
- * converted.
+/* mtl_gltf.c - comments "#facet-gltf {..}" in MTL files: the glTF material from which the statements above
+ * were converted.
  *
- * The JSON is a glTF material with file names of images and samplers in place of texture indices, and a member
- * "facet": the statements at the time of writing. While the statements are unchanged, the glTF material is restored
- * exactly, except for textures that read a second set of coordinates; once they have been edited, the statements are
- * used. */
+ * The JSON is a glTF material with file names of images and samplers in place of texture indices, and a
+ * member "facet": the statements at the time of writing. While the statements are unchanged, the glTF
+ * material is restored exactly, except for textures that read a second set of coordinates; once they have
+ * been edited, the statements are used. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -79,8 +79,8 @@ static double texcoord_of(const json_t *info)
     return json_number_value(set ? set : json_object_get(info, "texCoord"));
 }
 
-/* Replaces the name of an image by a texture index, or removes the textureInfo if the image is missing. OBJ has one
- * set of coordinates, which mtl_gltf_write() calls 0: other sets cannot be drawn. */
+/* Replaces the name of an image by a texture index, or removes the textureInfo if the image is missing.
+ * OBJ has one set of coordinates, which mtl_gltf_write() calls 0: other sets cannot be drawn. */
 static void resolve_texture(mtl_parser *p, mtl_files *f, const char *folder, json_t *object, const char *key,
                             const char *material)
 {
@@ -225,8 +225,8 @@ static json_t *parse_back(const char *statements, const char *name, const facet_
     return json;
 }
 
-/* The material for an OBJ file with its single set of coordinates, that of the first map, as obj_write.c chooses it.
- * That set becomes 0 in the comment, and set 0 takes its index. */
+/* The material for an OBJ file with its single set of coordinates, that of the first map, as obj_write.c
+ * chooses it. That set becomes 0 in the comment, and set 0 takes its index. */
 static scene_material with_one_set(const facet_scene *scene, uint32_t material)
 {
     scene_material m = scene->materials[material];

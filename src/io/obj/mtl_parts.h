@@ -114,8 +114,9 @@ typedef struct mtl_files {
     bool has_failed;
 } mtl_files;
 
-/* Finds the file of a name as libraries write it: below folder ("" or "materials/") or beside the OBJ file. *found:
- * its path below the OBJ file's folder, in the scene's arena. NULL in *found: out->message gives the reason. */
+/* Finds the file of a name as libraries write it: below folder ("" or "materials/") or beside the OBJ
+ * file. *found: its path below the OBJ file's folder, in the scene's arena. NULL in *found: out->message
+ * gives the reason. */
 bool mtl_files_open_named(mtl_files *f, const char *folder, const char *name, uri_bytes *out,
                           const char **found);
 /* The same, with the base name as the last resort. */
@@ -136,10 +137,11 @@ facet_result mtl_reader_load_bytes(mtl_reader *reader, const char *name, const v
 
 /* mtl_gltf.c: comments "#facet-gltf". */
 typedef struct mtl_gltf mtl_gltf; /* parsed comment */
-/* Parses the comment and compares it with the statements; its images become textures. NULL: unusable (p reports
- * broken ones), or has_failed. */
+/* Parses the comment and compares it with the statements; its images become textures. NULL: unusable (p
+ * reports broken ones), or has_failed. */
 mtl_gltf *mtl_gltf_begin(mtl_parser *p, mtl_files *f, const char *folder, const legacy_material *m);
-/* Reads the material into *out, after the textures are in the scene. False: broken, *out is unchanged. Releases g. */
+/* Reads the material into *out, after the textures are in the scene. False: broken, *out is unchanged.
+ * Releases g. */
 bool mtl_gltf_end(mtl_gltf *g, mtl_parser *p, scene_material *out);
 void mtl_gltf_destroy(mtl_gltf *g); /* NULL is allowed */
 /* Appends the comment's JSON for a material of that name with those statements to out. */

@@ -280,8 +280,8 @@ static bool load_library(mtl_reader *r, const char *name, name_leeway leeway, ur
     return true;
 }
 
-/* Loads the shortest name of up to MAX_WORDS words at the front of *rest that is a file, and advances *rest. The
- * format separates names by spaces, but names with spaces are common. */
+/* Loads the shortest name of up to MAX_WORDS words at the front of *rest that is a file, and advances
+ * *rest. The format separates names by spaces, but names with spaces are common. */
 static bool load_front(mtl_reader *r, mtl_span *rest, name_leeway leeway, mtl_parser *p)
 {
     enum { MAX_WORDS = 16 };
@@ -443,8 +443,8 @@ static const char *settle_name(const mtl_reader *r, name_table *names, const cha
     return copy;
 }
 
-/* Statements refer to materials by the bytes of their names; afterwards names are UTF-8. Bytes of another encoding
- * are taken as Latin-1, with one warning. */
+/* Statements refer to materials by the bytes of their names; afterwards names are UTF-8. Bytes of another
+ * encoding are taken as Latin-1, with one warning. */
 static bool settle_names(mtl_reader *r, scene_legacy *legacy)
 {
     size_t others = 0;

@@ -420,7 +420,8 @@ static void unknown_textures_stay_alone(void **state)
     test_folder_remove(&folder);
 }
 
-/* OBJ has one set of coordinates: textures that read another one are left out, and the one that is written is called
+/* OBJ has one set of coordinates: textures that read another one are left out, and the one that is written
+ * is called
  * 0. */
 static void one_set_of_coordinates_comes_back(void **state)
 {

@@ -1,6 +1,6 @@
-/* mtl_statements.c - the text of MTL files (lines, words, numbers) and the statements of a material, by tables (Alias|
- * Wavefront, File Formats 4.2, section 5, and the PBR extension of 2015). Values stay as they are written; invalid ones
- * are clamped or ignored with a warning. */
+/* mtl_statements.c - the text of MTL files (lines, words, numbers) and the statements of a material, by
+ * tables (Alias| Wavefront, File Formats 4.2, section 5, and the PBR extension of 2015). Values stay as
+ * they are written; invalid ones are clamped or ignored with a warning. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>

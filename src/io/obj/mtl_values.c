@@ -1,7 +1,8 @@
 /* mtl_values.c - the arguments of statements: colors, and maps with their options.
  *
- * A color is RGB, CIE XYZ, or the spectrum of a reflectance in a file of its own. The name of a map may contain spaces
- * and have options behind it; -o and -s translate and scale texture coordinates in MTL's system, whose v points up:
+ * A color is RGB, CIE XYZ, or the spectrum of a reflectance in a file of its own. The name of a map may
+ * contain spaces and have options behind it; -o and -s translate and scale texture coordinates in MTL's
+ * system, whose v points up:
  *     u' = s_u u + o_u,  v' = s_v v + o_v
  * glTF's v points down, w = 1 - v, so that
  *     w' = 1 - v' = 1 - (s_v (1 - w) + o_v) = s_v w + (1 - s_v - o_v)
@@ -57,8 +58,8 @@ static void color_of_reflectance(const spectrum *s, double rgb[3])
         rgb[k] /= white_rgb[k];
 }
 
-/* Parses pairs of wavelength and value, one per line; other lines are comments or headings. False: no pair, or
- * wavelengths that do not increase. Wavelengths below 10 are in micrometers. */
+/* Parses pairs of wavelength and value, one per line; other lines are comments or headings. False: no
+ * pair, or wavelengths that do not increase. Wavelengths below 10 are in micrometers. */
 static bool read_spectrum(mtl_parser *p, const uri_bytes *bytes, spectrum *out)
 {
     mtl_lines lines = mtl_lines_begin(p->allocator, bytes->data, bytes->size);
@@ -172,8 +173,8 @@ static bool parse_triple(mtl_parser *p, const char *keyword, mtl_span arguments,
     return true;
 }
 
-/* Physical colors are linear; if those of the file are sRGB, they are encoded to match. Components outside of Rec.709
- * are clamped. */
+/* Physical colors are linear; if those of the file are sRGB, they are encoded to match. Components outside
+ * of Rec.709 are clamped. */
 static void encode(const mtl_parser *p, const double linear[3], double out[3])
 {
     for (int i = 0; i < 3; i++) {
@@ -398,8 +399,8 @@ static mtl_span cut_comment(mtl_span s)
 
 enum { MAX_TRIES = 16 }; /* each try may parse the whole rest of the line */
 
-/* A name in quotes, which may itself contain quotes: up to one that is followed by options or a comment only. False:
- * there is none. */
+/* A name in quotes, which may itself contain quotes: up to one that is followed by options or a comment
+ * only. False: there is none. */
 static bool take_quoted(const mtl_parser *p, mtl_span *s, mtl_span *name)
 {
     mtl_span all = mtl_trim(*s);

@@ -9,8 +9,8 @@
 
 /* ---- names ---- */
 
-/* Appends text that fits on a line: control characters, and a backslash at the end, which would continue the line,
- * become "_". Blanks at the ends are removed. */
+/* Appends text that fits on a line: control characters, and a backslash at the end, which would continue
+ * the line, become "_". Blanks at the ends are removed. */
 static void add_line_text(text *out, const char *s)
 {
     mtl_span trimmed = mtl_trim((mtl_span){s, s + strlen(s)});
@@ -127,8 +127,8 @@ static bool is_clamped(const mtl_writer *w, const legacy_map *map)
     return t->wrap_u == SCENE_WRAP_CLAMP && t->wrap_v == SCENE_WRAP_CLAMP;
 }
 
-/* Parses s as options on one line: extras of a glTF file may contain anything there. said->options and said->dropped
- * are the text of it. */
+/* Parses s as options on one line: extras of a glTF file may contain anything there. said->options and
+ * said->dropped are the text of it. */
 static void read_options(const mtl_writer *w, const char *s, legacy_map *said, bool *is_option_clamped)
 {
     mtl_parser p = make_parser(w);
@@ -228,8 +228,8 @@ static void warn_of_map(const mtl_writer *w, const legacy_map *map, const char *
                     key, "this one is written as repeating");
 }
 
-/* Quotes names that readers would take as options, numbers or comments; such names contain no quotes, and none begins
- * with one. */
+/* Quotes names that readers would take as options, numbers or comments; such names contain no quotes, and
+ * none begins with one. */
 static void add_path(text *out, const char *path)
 {
     text name = {.allocator = out->allocator};
@@ -283,8 +283,8 @@ static void write_maps(mtl_writer *w, const legacy_material *m)
             write_map(w, &m->maps[i], i == LEGACY_ORM_MAP && m->is_rma ? "map_RMA" : legacy_map_keys[i]);
 }
 
-/* Whether a reader would keep the line again. Extras of a glTF file may contain statements and comments with a
- * meaning, which would begin another material or change this one. */
+/* Whether a reader would keep the line again. Extras of a glTF file may contain statements and comments
+ * with a meaning, which would begin another material or change this one. */
 static bool is_unknown(const mtl_writer *w, const legacy_material *m, mtl_span line)
 {
     mtl_span rest = line;

@@ -236,7 +236,8 @@ static void foreign_text_stays_text(void **state)
 
 /* ---- glTF materials ---- */
 
-/* A glTF model with every parameter and texture that a material can have, at values that are not the defaults. */
+/* A glTF model with every parameter and texture that a material can have, at values that are not the
+ * defaults. */
 static facet_scene *load_rich(test_folder *folder)
 {
     test_put_png(folder, "one.png");

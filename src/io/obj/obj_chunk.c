@@ -1,5 +1,5 @@
-/* obj_chunk.c - chunks of the text: how it is cut, the check of each chunk's indices, which become zero-based, and the lists
- * of all chunks together. Elements with invalid indices are removed. */
+/* obj_chunk.c - chunks of the text: how it is cut, the check of each chunk's indices, which become
+ * zero-based, and the lists of all chunks together. Elements with invalid indices are removed. */
 #include <math.h>
 #include <string.h>
 
@@ -97,7 +97,8 @@ static void check_normals(checking *k, size_t begin, size_t end)
         n[i] = OBJ_ABSENT;
 }
 
-/* Moves the corners to their place, those of a face without consecutive duplicates; returns how many are kept. */
+/* Moves the corners to their place, those of a face without consecutive duplicates; returns how many are
+ * kept. */
 static uint32_t move_corners(checking *k, size_t begin, size_t end, bool is_face)
 {
     const obj_chunk *c = k->c;
@@ -165,8 +166,8 @@ void obj_check_chunk(obj_reader *r, obj_chunk *c)
     c->triangle_count = k.triangle_count;
 }
 
-/* Large enough to make the work per chunk negligible, small enough for a chunk's arrays to stay in a core's cache
- * until they are copied. */
+/* Large enough to make the work per chunk negligible, small enough for a chunk's arrays to stay in a
+ * core's cache until they are copied. */
 enum { CHUNK_SIZE = 1 << 19 };
 
 /* ---- pieces ---- */
@@ -185,8 +186,8 @@ static size_t find_cut(const char *bytes, size_t size, size_t at)
     return size;
 }
 
-/* The end of the chunk that begins at `begin`. The last chunk has at least NUMBER_TAIL bytes, so that the others can
- * be read that far beyond their ends. */
+/* The end of the chunk that begins at `begin`. The last chunk has at least NUMBER_TAIL bytes, so that the
+ * others can be read that far beyond their ends. */
 static size_t find_chunk_end(const char *bytes, size_t size, size_t begin)
 {
     if (size - begin <= CHUNK_SIZE)

@@ -1,5 +1,6 @@
-/* obj_corners.c - elements as triangles, lines and points, sorted by primitive; and the partition of corners into blocks of
- * positions, so that the work per position stays in the cache of one core and threads share no data. */
+/* obj_corners.c - elements as triangles, lines and points, sorted by primitive; and the partition of
+ * corners into blocks of positions, so that the work per position stays in the cache of one core and
+ * threads share no data. */
 #include <math.h>
 #include <string.h>
 

@@ -145,8 +145,8 @@ static void test_mixed_attributes(void **state)
     (void)state;
     facet_scene *scene = obj_load_shared("obj/obj2gltf/box-mixed-attributes/box-mixed-attributes.obj");
     const scene_primitive *p = obj_only_primitive(scene);
-    /* Three sides with all attributes, one with normals only: 4 vertices each; two without normals, flat since s is off:
-     * 6 each. */
+    /* Three sides with all attributes, one with normals only: 4 vertices each; two without normals, flat
+     * since s is off: 6 each. */
     assert_int_equal(p->vertex_count, 4 * 4 + 2 * 6);
     assert_true(obj_has_warning(scene, "get (0, 0) (12 times in all)"));
     for (size_t i = 0; i < p->index_count;
@@ -159,8 +159,8 @@ static void test_mixed_attributes(void **state)
     scene_destroy(scene);
 }
 
-/* Its upper and lower sides are squares of 2 x 2 with a notch of 2 x 0.87836 / 2: triangles across the notch would make
- * the area larger, and one of them point to the other side. */
+/* Its upper and lower sides are squares of 2 x 2 with a notch of 2 x 0.87836 / 2: triangles across the
+ * notch would make the area larger, and one of them point to the other side. */
 static void test_concave(void **state)
 {
     (void)state;

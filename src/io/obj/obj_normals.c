@@ -1,10 +1,10 @@
-/* obj_normals.c - normals for files without them: where faces are smooth, corners at one position share the sum of
- * their triangles' normals, weighted by the angle at the corner (Thuermer and Wuethrich 1998, "Computing vertex
- * normals from polygonal facets"), which does not depend on how a face is triangulated.
+/* obj_normals.c - normals for files without them: where faces are smooth, corners at one position share
+ * the sum of their triangles' normals, weighted by the angle at the corner (Thuermer and Wuethrich 1998,
+ * "Computing vertex normals from polygonal facets"), which does not depend on how a face is triangulated.
  *
- * A smoothing group smooths across edges, between triangles that continue each other's surface. Sheets are often
- * modeled twice, with opposite windings, in one group: front and back share positions and edges, and their normals
- * would cancel out. */
+ * A smoothing group smooths across edges, between triangles that continue each other's surface. Sheets are
+ * often modeled twice, with opposite windings, in one group: front and back share positions and edges, and
+ * their normals would cancel out. */
 #include <math.h>
 #include <string.h>
 
@@ -14,11 +14,11 @@
 
 /* Cosine of the angle across which AUTO smooths, 45 degrees. */
 static const double CREASE_COSINE = 0.70710678118654752;
-/* Cosine of the sharpest fold within a smoothing group, 150 degrees: beyond are the two sides of a sheet, which need
- * not be exactly opposite where their polygons are cut along different diagonals. */
+/* Cosine of the sharpest fold within a smoothing group, 150 degrees: beyond are the two sides of a sheet,
+ * which need not be exactly opposite where their polygons are cut along different diagonals. */
 static const double FOLD_COSINE = -0.86602540378443865;
-/* Maximum numbers of triangles along one edge that are compared with each other (more than 2 are rare), and of fans
- * at one position. */
+/* Maximum numbers of triangles along one edge that are compared with each other (more than 2 are rare),
+ * and of fans at one position. */
 enum { MAX_ALONG_EDGE = 8, MAX_FANS = 16 };
 enum { BLOCK_GRAIN = 4, FEW_KEYS = 64 };
 
@@ -56,8 +56,8 @@ typedef struct workspace {
 
 /* ---- triangles ---- */
 
-/* The angle of a sine >= 0 and a cosine, both scaled alike, to 1e-5 (Abramowitz and Stegun 4.4.47): enough for a
- * weight, where atan2() would take most of the time. */
+/* The angle of a sine >= 0 and a cosine, both scaled alike, to 1e-5 (Abramowitz and Stegun 4.4.47): enough
+ * for a weight, where atan2() would take most of the time. */
 static double angle_of(double sine, double cosine)
 {
     double c = fabs(cosine);
@@ -117,7 +117,8 @@ static void unite(spoke *spokes, uint32_t a, uint32_t b)
         spokes[a].next = b;
 }
 
-/* Sorts by the upper halves of the keys, stably. spare: scratch space of the same size for more than FEW_KEYS. */
+/* Sorts by the upper halves of the keys, stably. spare: scratch space of the same size for more than
+ * FEW_KEYS. */
 static void sort_keys(uint64_t *keys, uint64_t *spare, size_t count)
 {
     if (count <= FEW_KEYS) { /* the common case: a position has six triangles */
@@ -155,8 +156,8 @@ static double cosine_between(const spoke *a, const spoke *b)
     return cosine;
 }
 
-/* Keys of the edges at the position, two per spoke: the position at the other end, then the spoke and the edge's
- * direction. Sorting groups the keys of an edge. */
+/* Keys of the edges at the position, two per spoke: the position at the other end, then the spoke and the
+ * edge's direction. Sorting groups the keys of an edge. */
 static void sort_edges(const obj_reader *r, workspace *w, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
@@ -193,8 +194,8 @@ static uint32_t group_of(const obj_reader *r, const spoke *s)
     return r->groups ? r->groups[s->corner / 3] : 0;
 }
 
-/* The cosine of the fold between the triangles of two keys, if they continue each other: the edge leads to the
- * position in one and away from it in the other, so that they face the same side. Otherwise -1. */
+/* The cosine of the fold between the triangles of two keys, if they continue each other: the edge leads to
+ * the position in one and away from it in the other, so that they face the same side. Otherwise -1. */
 static double continues(const obj_reader *r, const workspace *w, uint64_t a, uint64_t b)
 {
     const spoke *s = &w->spokes[spoke_of(a)];
@@ -203,7 +204,8 @@ static double continues(const obj_reader *r, const workspace *w, uint64_t a, uin
     return is_opposite && group_of(r, s) == group_of(r, t) ? cosine_between(s, t) : -1.0;
 }
 
-/* Unites the pair of triangles along one edge that folds least, and removes it from the list. False: there is none. */
+/* Unites the pair of triangles along one edge that folds least, and removes it from the list. False: there
+ * is none. */
 static bool unite_best_pair(const obj_reader *r, workspace *w, uint64_t *keys, size_t *count)
 {
     double best = FOLD_COSINE;
@@ -284,8 +286,8 @@ static void unite_groups(const obj_reader *r, workspace *w, uint32_t count)
 
 /* ---- sums ---- */
 
-/* The unit normals of all classes at one position. A class without direction (its triangles have no area, or cancel
- * out) gets the normal of the others, or +Y if they have none. */
+/* The unit normals of all classes at one position. A class without direction (its triangles have no area,
+ * or cancel out) gets the normal of the others, or +Y if they have none. */
 static bool sum_classes(const making *m, block *b, spoke *spokes, uint32_t count)
 {
     size_t first_class = b->count;

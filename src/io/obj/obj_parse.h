@@ -1,5 +1,5 @@
-/* obj_parse.h - parses the text of one chunk, words and lines, into its lists. All text ends with a line end, followed
- * by NUMBER_TAIL readable bytes. */
+/* obj_parse.h - parses the text of one chunk, words and lines, into its lists. All text ends with a line
+ * end, followed by NUMBER_TAIL readable bytes. */
 #ifndef IO_OBJ_PARSE_H
 #define IO_OBJ_PARSE_H
 

@@ -1,5 +1,5 @@
-/* obj_read.c - reads a file by the steps of obj_reader.h, and reports its flaws: one sentence per kind, with the first
- * line. */
+/* obj_read.c - reads a file by the steps of obj_reader.h, and reports its flaws: one sentence per kind,
+ * with the first line. */
 #include <stdio.h>
 #include <string.h>
 
@@ -193,7 +193,8 @@ static void check_chunks(void *context, size_t begin, size_t end)
         obj_check_chunk(r, &r->chunks[i]);
 }
 
-/* Comments before the first statement: the first one that is recognized names the program that wrote the file. */
+/* Comments before the first statement: the first one that is recognized names the program that wrote the
+ * file. */
 static void read_head(obj_reader *r)
 {
     enum { MAX_COMMENTS = 8, MAX_LENGTH = 200 };

@@ -143,8 +143,8 @@ static void test_vertices_are_shared(void **state)
     scene_destroy(scene);
 }
 
-/* A million corners at one position, each with its own texture coordinate: a table keyed by position alone would take
- * minutes. */
+/* A million corners at one position, each with its own texture coordinate: a table keyed by position alone
+ * would take minutes. */
 static void test_many_vertices_at_one_position(void **state)
 {
     (void)state;

@@ -11,7 +11,8 @@
  *     obj_make_vertices   merges equal corners
  *     obj_make_scene      nodes and meshes
  *
- * Chunks, and blocks of work within the later steps, are cut by size alone, independent of the number of threads. */
+ * Chunks, and blocks of work within the later steps, are cut by size alone, independent of the number of
+ * threads. */
 #ifndef IO_OBJ_READER_H
 #define IO_OBJ_READER_H
 
@@ -21,8 +22,8 @@
 #include "io/obj/mtl.h"
 #include "io/obj/obj.h"
 
-/* Indices into the lists of the file. The parser stores indices that count back from the end as OBJ_RELATIVE +
- * OBJ_MAX + the index in the chunk's own list, which may be negative. */
+/* Indices into the lists of the file. The parser stores indices that count back from the end as
+ * OBJ_RELATIVE + OBJ_MAX + the index in the chunk's own list, which may be negative. */
 #define OBJ_ABSENT UINT32_MAX
 #define OBJ_WRONG (UINT32_MAX - 1)
 #define OBJ_MAX ((uint32_t)1 << 30) /* elements of a list */
@@ -45,7 +46,8 @@ typedef enum obj_remark {
     OBJ_REMARK_COUNT
 } obj_remark;
 
-/* Counts of remarks, and the byte of the file (or, while it is unknown, the element of the chunk) of the first. */
+/* Counts of remarks, and the byte of the file (or, while it is unknown, the element of the chunk) of the
+ * first. */
 typedef struct obj_remarks {
     size_t counts[OBJ_REMARK_COUNT], first[OBJ_REMARK_COUNT];
 } obj_remarks;
@@ -199,7 +201,8 @@ void obj_parse_chunk(obj_chunk *c, const facet_allocator *allocator);
 size_t obj_find_element(const obj_chunk *c, size_t element, const facet_allocator *allocator);
 
 /* obj_statements.c */
-/* Reads a statement other than vertices and elements: text points to its name. Returns the end of what was read. */
+/* Reads a statement other than vertices and elements: text points to its name. Returns the end of what was
+ * read. */
 const char *obj_parse_statement(obj_chunk *c, const char *text, const facet_allocator *allocator);
 /* Names of the bits of other_statements; NULL: no more. is_geometry: free-form curves and surfaces. */
 const char *obj_statement_name(unsigned bit, bool *is_geometry);
@@ -222,7 +225,8 @@ void obj_make_normals(obj_reader *r);
 void obj_make_vertices(obj_reader *r);
 
 /* obj_scene.c */
-/* A name in the scene's arena, up to its first 0, as UTF-8; other bytes are taken as Latin-1. NULL: no memory. */
+/* A name in the scene's arena, up to its first 0, as UTF-8; other bytes are taken as Latin-1. NULL: no
+ * memory. */
 char *obj_copy_name(obj_reader *r, const char *bytes, size_t size);
 void obj_make_scene(obj_reader *r);
 

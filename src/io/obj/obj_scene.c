@@ -1,6 +1,6 @@
-/* obj_scene.c - objects and materials: the names in the file, numbered in order of appearance; the runs of elements that
- * belong to one object and material, from the events of all chunks in order; and at the end nodes and meshes, one of
- * each per object, with its primitives. */
+/* obj_scene.c - objects and materials: the names in the file, numbered in order of appearance; the runs of
+ * elements that belong to one object and material, from the events of all chunks in order; and at the end
+ * nodes and meshes, one of each per object, with its primitives. */
 #include <string.h>
 
 #include "base/utf8.h"
@@ -263,8 +263,8 @@ static bool load_libraries(obj_reader *r)
     return obj_is_ok(r);
 }
 
-/* Elements before any usemtl have the material without a name, which has default values as well: OBJ draws all
- * surfaces two-sided, unlike a glTF primitive without a material. */
+/* Elements before any usemtl have the material without a name, which has default values as well: OBJ draws
+ * all surfaces two-sided, unlike a glTF primitive without a material. */
 static bool find_materials(obj_reader *r)
 {
     size_t count = r->material_names.count;

@@ -1,5 +1,5 @@
-/* obj_soup.h - triangles or points of formats without objects and materials, made a scene by the last steps of the
- * OBJ reader: normals if there are none, shared vertices, one neutral material. */
+/* obj_soup.h - triangles or points of formats without objects and materials, made a scene by the last
+ * steps of the OBJ reader: normals if there are none, shared vertices, one neutral material. */
 #ifndef IO_OBJ_SOUP_H
 #define IO_OBJ_SOUP_H
 
@@ -33,8 +33,8 @@ typedef struct obj_soup {
 } obj_soup;
 
 obj_soup obj_soup_begin(facet_scene *scene, const facet_scene_desc *desc);
-/* Fills the scene except for its images and textures. Triangles without area and those with positions that are not
- * finite are left out, the latter with a warning. */
+/* Fills the scene except for its images and textures. Triangles without area and those with positions that
+ * are not finite are left out, the latter with a warning. */
 facet_result obj_soup_finish(obj_soup *soup, facet_error *error);
 void obj_soup_release(obj_soup *soup);
 

@@ -1,5 +1,5 @@
-/* obj_statements.c - statements by name: objects, groups, materials, points and lines, and unsupported ones. Also
- * detects OBJ files by their first statement. */
+/* obj_statements.c - statements by name: objects, groups, materials, points and lines, and unsupported
+ * ones. Also detects OBJ files by their first statement. */
 #include <string.h>
 
 #include "io/obj/obj_parse.h"

@@ -11,9 +11,9 @@ typedef struct obj_key {
     uint32_t vertex; /* the value; not part of the key */
 } obj_key;
 
-/* Slots hold indices of keys; UINT32_MAX: none. The first slot follows the position, since most positions have one
- * vertex, and consecutive corners have positions that are near in memory; further slots are spread by all three
- * indices, so that a position with a million vertices is not slower. */
+/* Slots hold indices of keys; UINT32_MAX: none. The first slot follows the position, since most positions
+ * have one vertex, and consecutive corners have positions that are near in memory; further slots are
+ * spread by all three indices, so that a position with a million vertices is not slower. */
 typedef struct obj_table {
     const facet_allocator *allocator;
     uint32_t *slots;

@@ -118,8 +118,8 @@ static void test_any_cuts(void **state)
     scene_destroy(expected);
 }
 
-/* One primitive that is processed in blocks: each corner has the position, texture coordinate and normal of the file,
- * and no vertex exists twice. */
+/* One primitive that is processed in blocks: each corner has the position, texture coordinate and normal
+ * of the file, and no vertex exists twice. */
 static void test_large_primitive(void **state)
 {
     (void)state;
@@ -155,7 +155,8 @@ static void test_large_primitive(void **state)
                 assert_true(obj_texcoord(p, corner)[0] == (float)numbers[row * EDGE + column]);
                 assert_true(obj_normal(p, corner)[k == 0 && (x & y & 1)] == 1.0f);
             }
-    /* All vertices but the last one; those with odd x and y have two normals, unless no other triangle uses them. */
+    /* All vertices but the last one; those with odd x and y have two normals, unless no other triangle
+     * uses them. */
     size_t twice = 0;
     for (int y = 1; y + 1 < EDGE; y += 2)
         for (int x = 1; x + 1 < EDGE; x += 2)

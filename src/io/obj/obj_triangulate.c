@@ -81,8 +81,8 @@ static void newell(const float *points, uint32_t count, double normal[3])
     }
 }
 
-/* Drops the axis of the largest projection, oriented counterclockwise: coordinates stay unchanged, and with them the
- * signs of areas. */
+/* Drops the axis of the largest projection, oriented counterclockwise: coordinates stay unchanged, and
+ * with them the signs of areas. */
 static void project(obj_polygon *p, uint32_t count)
 {
     double normal[3];
@@ -125,7 +125,8 @@ static double corner_area(const cutting *c, uint32_t i)
     return area(at(c, c->p->previous[i]), at(c, i), at(c, c->p->next[i]));
 }
 
-/* Whether the polygon is convex: all corners turn left, and x has one minimum and one maximum (a spiral has more). */
+/* Whether the polygon is convex: all corners turn left, and x has one minimum and one maximum (a spiral
+ * has more). */
 static bool is_convex(const cutting *c)
 {
     int turns = 0;
@@ -208,7 +209,8 @@ typedef struct ear {
     bool is_strict; /* points on its sides count as inside */
 } ear;
 
-/* Points that coincide with a corner of the ear never block it: they are the other side of a bridge, or touch it. */
+/* Points that coincide with a corner of the ear never block it: they are the other side of a bridge, or
+ * touch it. */
 static bool is_blocked_by(const ear *e, const double *q)
 {
     double ab = area(e->a, e->b, q);
@@ -313,8 +315,8 @@ static bool is_short(const cutting *c, uint32_t i, double limit)
     return (b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1]) <= limit;
 }
 
-/* Whether to cut corner i now. A corner that is not an ear is marked: it stays one until a neighbor is cut, since its
- * blocking corner cannot be cut before. */
+/* Whether to cut corner i now. A corner that is not an ear is marked: it stays one until a neighbor is
+ * cut, since its blocking corner cannot be cut before. */
 static bool is_next(cutting *c, uint32_t i, double limit)
 {
     uint8_t *state = &c->p->states[i];
@@ -328,7 +330,8 @@ static bool is_next(cutting *c, uint32_t i, double limit)
     return false;
 }
 
-/* Cuts ears whose new side has a squared length of at most limit until there are none; returns a remaining corner. */
+/* Cuts ears whose new side has a squared length of at most limit until there are none; returns a remaining
+ * corner. */
 static uint32_t cut_short_ears(cutting *c, uint32_t i, double limit)
 {
     for (uint32_t without = 0; c->left > 3 && without < c->left && c->budget > 0;) {
@@ -372,8 +375,8 @@ static bool is_convex_corner(cutting *c, uint32_t i)
     return (c->p->states[i] & IS_CONVEX) != 0;
 }
 
-/* Cuts one corner where no ear is known, the least bad one: an ear that was overlooked, one with touched sides, a
- * degenerate corner, a convex one (the polygon crosses itself). */
+/* Cuts one corner where no ear is known, the least bad one: an ear that was overlooked, one with touched
+ * sides, a degenerate corner, a convex one (the polygon crosses itself). */
 static uint32_t cut_something(cutting *c, uint32_t start)
 {
     bool (*const choices[])(cutting *, uint32_t) = {is_any_ear, is_touched_ear, is_straight,
@@ -395,8 +398,8 @@ static void cut_fan(cutting *c, uint32_t i)
         i = c->p->previous[cut(c, c->p->next[i])];
 }
 
-/* The number of corners to examine: all pairs up to 1000 corners; up to some 60 000, 1000 per corner; beyond, 64.
- * With the grid, simple polygons take fewer than 10, combs of many teeth 300. */
+/* The number of corners to examine: all pairs up to 1000 corners; up to some 60 000, 1000 per corner;
+ * beyond, 64. With the grid, simple polygons take fewer than 10, combs of many teeth 300. */
 static size_t find_budget(uint32_t count)
 {
     size_t all = (size_t)1024 * count + ((size_t)1 << 16);

@@ -4,8 +4,8 @@
 
 #include "base/memory.h"
 
-/* Corner indices of the two triangles of a quadrilateral, cut along the diagonal inside it: that from the first
- * corner if both or none are. */
+/* Corner indices of the two triangles of a quadrilateral, cut along the diagonal inside it: that from the
+ * first corner if both or none are. */
 const uint32_t *obj_split_quad(const float *a, const float *b, const float *c, const float *d);
 
 /* Buffers that triangulations share, and the next polygon. {.allocator} starts it. */
@@ -24,11 +24,11 @@ typedef struct obj_polygon {
 bool obj_polygon_reserve(obj_polygon *p, uint32_t count);
 void obj_polygon_release(obj_polygon *p); /* {0} is allowed */
 
-/* Cuts the polygon of the first count >= 3 points into count - 2 triangles, 3 corner indices each, with the winding
- * of the polygon. It may be concave, not quite planar (it is projected along its Newell normal), and repeat points
- * and edges, as the bridge to a hole does; a self-intersecting one becomes triangles whose signed areas sum up to its
- * own. Ear clipping (Meisters 1975; Held 2001, "FIST", for polygons without ears) with a bounded number of corners
- * examined per ear. */
+/* Cuts the polygon of the first count >= 3 points into count - 2 triangles, 3 corner indices each, with
+ * the winding of the polygon. It may be concave, not quite planar (it is projected along its Newell
+ * normal), and repeat points and edges, as the bridge to a hole does; a self-intersecting one becomes
+ * triangles whose signed areas sum up to its own. Ear clipping (Meisters 1975; Held 2001, "FIST", for
+ * polygons without ears) with a bounded number of corners examined per ear. */
 void obj_triangulate(obj_polygon *p, uint32_t count, uint32_t *triangles);
 
 #endif

@@ -59,7 +59,8 @@ static double shape_area(void)
     return sum;
 }
 
-/* Triangles with the area of the shape, none inverted, every corner used. slack: area that rounding may turn over. */
+/* Triangles with the area of the shape, none inverted, every corner used. slack: area that rounding may
+ * turn over. */
 static void check_triangles(double slack)
 {
     obj_triangulate(&polygon, s.count, triangles);

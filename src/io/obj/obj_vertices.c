@@ -1,7 +1,8 @@
 /* obj_vertices.c - merges corners of a primitive that share position, texture coordinate and normal.
  *
- * Large primitives are processed in blocks of positions, so that the table of a block stays in a core's cache;
- * vertices are in the order of the blocks, within each in order of first use. Flat triangles share no vertices. */
+ * Large primitives are processed in blocks of positions, so that the table of a block stays in a core's
+ * cache; vertices are in the order of the blocks, within each in order of first use. Flat triangles share
+ * no vertices. */
 #include <string.h>
 
 #include "base/parallel.h"

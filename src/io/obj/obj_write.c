@@ -1,5 +1,5 @@
-/* obj_write.c - writes a scene at rest as an OBJ file with its MTL file and images, all or nothing. Images keep their own
- * names where those are plain and free, and are called STEM_image0.png otherwise. */
+/* obj_write.c - writes a scene at rest as an OBJ file with its MTL file and images, all or nothing. Images
+ * keep their own names where those are plain and free, and are called STEM_image0.png otherwise. */
 #define _POSIX_C_SOURCE 200809L
 #include <errno.h>
 #include <stdio.h>
@@ -51,8 +51,8 @@ static bool is_plain(const char *name, const image_kind *kind)
 
 typedef enum presence { NOT_THERE, SAME, OTHER, NO_MEMORY } presence;
 
-/* Whether the file at path holds the image. Only a regular file of the same size is opened: a pipe could block, a
- * device might never end. */
+/* Whether the file at path holds the image. Only a regular file of the same size is opened: a pipe could
+ * block, a device might never end. */
 static presence look_at(const char *path, const scene_image *source, const facet_allocator *allocator)
 {
     struct stat status;
@@ -312,8 +312,8 @@ static char *print_obj(const obj_writer *w, const char *mtl_name, size_t *size)
     return obj;
 }
 
-/* The OBJ file is printed before any file is created, as it takes long, and is committed last, so that its presence
- * implies that of all files that it names. */
+/* The OBJ file is printed before any file is created, as it takes long, and is committed last, so that its
+ * presence implies that of all files that it names. */
 static facet_result save(const obj_writer *w, facet_error *error)
 {
     char *mtl_name = mem_alloc(&w->desc->allocator, strlen(w->stem) + sizeof ".mtl", 1);
@@ -337,8 +337,8 @@ static facet_result save(const obj_writer *w, facet_error *error)
     return result;
 }
 
-/* The file's name without its extension, as a statement can refer to it: on one line, without leading blanks, which
- * readers skip, and without quotes. */
+/* The file's name without its extension, as a statement can refer to it: on one line, without leading
+ * blanks, which readers skip, and without quotes. */
 static char *make_stem(const char *path, const facet_allocator *allocator)
 {
     const char *base = path_base_name(path);

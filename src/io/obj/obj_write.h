@@ -23,14 +23,15 @@ typedef struct obj_piece {
     obj_values lists[OBJ_LIST_COUNT];
 } obj_piece;
 
-/* obj_write_pieces.c: the distinct values of all pieces in world space, and their numbers in the file. False: no
- * memory. */
+/* obj_write_pieces.c: the distinct values of all pieces in world space, and their numbers in the file.
+ * False: no memory. */
 bool obj_pieces_fill(obj_piece *pieces, size_t count, const facet_scene *scene,
                      const facet_scene_save_desc *desc);
 void obj_pieces_destroy(obj_piece *pieces, size_t count);
 
-/* The statements of all pieces, each after its heading ("o ..", "usemtl .."), all after begin. Positions are printed
- * in the file's coordinates: origin is the scene's. A block of mem_alloc(), *size bytes; NULL: no memory. */
+/* The statements of all pieces, each after its heading ("o ..", "usemtl .."), all after begin. Positions
+ * are printed in the file's coordinates: origin is the scene's. A block of mem_alloc(), *size bytes; NULL:
+ * no memory. */
 char *obj_pieces_print(const obj_piece *pieces, const text *headings, size_t count, const text *begin,
                        const double origin[3], const facet_scene_save_desc *desc, size_t *size);
 

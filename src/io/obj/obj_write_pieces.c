@@ -1,6 +1,6 @@
-/* obj_write_pieces.c - the statements of an OBJ file: positions, texture coordinates and normals of a pose in world
- * space, each value once per piece, without unused vertices; and their text, which is printed in parallel: in blocks
- * of lines that are then copied to their place. */
+/* obj_write_pieces.c - the statements of an OBJ file: positions, texture coordinates and normals of a pose
+ * in world space, each value once per piece, without unused vertices; and their text, which is printed in
+ * parallel: in blocks of lines that are then copied to their place. */
 #include <math.h>
 #include <string.h>
 
@@ -36,8 +36,8 @@ static void put_normal(const obj_piece *piece, size_t vertex, float *out)
                     (double)m[3 * k + 2] * (double)n[2];
         square += turned[k] * turned[k];
     }
-    /* Vectors that are unit to float precision are kept to the bit, so that repeated reading and writing does not
-     * drift. */
+    /* Vectors that are unit to float precision are kept to the bit, so that repeated reading and writing
+     * does not drift. */
     double scale = fabs(square - 1.0) < 1e-6 || !(square > 0.0) ? 1.0 : 1.0 / sqrt(square);
     for (int k = 0; k < 3; k++)
         out[k] = (float)(turned[k] * scale);

@@ -140,8 +140,8 @@ static void far_scenes_are_written_in_doubles(void **state)
     test_folder_remove(&folder);
 }
 
-/* Names, transforms, reflections, lists of every mode, indices that continue from object to object, shared values,
- * unused vertices, primitives without a material. */
+/* Names, transforms, reflections, lists of every mode, indices that continue from object to object, shared
+ * values, unused vertices, primitives without a material. */
 static void objects_follow_one_another(void **state)
 {
     (void)state;
@@ -186,7 +186,8 @@ static void objects_follow_one_another(void **state)
     test_folder_remove(&folder);
 }
 
-/* Those in use, by their own names where they are plain; existing files stay, files of others are not touched. */
+/* Those in use, by their own names where they are plain; existing files stay, files of others are not
+ * touched. */
 static void images_are_beside(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* ogl1_json.c - a JSON document of rgl's parameters: its detection, its members one after the other, and the scene that
- * shows it, with one ball per material in a grid with the aspect of an image. */
+/* ogl1_json.c - a JSON document of rgl's parameters: its detection, its members one after the other, and
+ * the scene that shows it, with one ball per material in a grid with the aspect of an image. */
 #include "io/ogl1/ogl1_json.h"
 
 #include <math.h>

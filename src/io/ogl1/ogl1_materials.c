@@ -1,7 +1,7 @@
-/* ogl1_materials.c - reads the parameters of material3d() into a legacy_material, by tables that the writer shares, and
- * finds the images that materials name, beside the document or below the root. Members without a meaning here are kept
- * as text. R writes absolute paths of the machine that it runs on: where such a path is not allowed or names no file, the
- * base name is searched beside the document. */
+/* ogl1_materials.c - reads the parameters of material3d() into a legacy_material, by tables that the
+ * writer shares, and finds the images that materials name, beside the document or below the root. Members
+ * without a meaning here are kept as text. R writes absolute paths of the machine that it runs on: where
+ * such a path is not allowed or names no file, the base name is searched beside the document. */
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -180,8 +180,8 @@ static void read_statements(io_reader *r, const json_place *at, legacy_material 
         m->fields |= LEGACY_TRANSMISSION_FILTER;
 }
 
-/* Whether this file reads the member, so that it is not kept as text. Modes of front and back that a legacy_material
- * cannot express are kept. */
+/* Whether this file reads the member, so that it is not kept as text. Modes of front and back that a
+ * legacy_material cannot express are kept. */
 static bool is_read(const char *key, const json_t *value)
 {
     if (strcmp(key, "front") == 0 || strcmp(key, "back") == 0) {

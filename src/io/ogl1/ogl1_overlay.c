@@ -1,5 +1,5 @@
-/* ogl1_overlay.c - applies a document of parameters to a scene. Objects take precedence over names of materials, and
- * names over entries for everything; among equals the last is used. */
+/* ogl1_overlay.c - applies a document of parameters to a scene. Objects take precedence over names of
+ * materials, and names over entries for everything; among equals the last is used. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -63,7 +63,8 @@ static bool names_create(ogl1_document *d, bool of_objects, entry_names *out)
     return true;
 }
 
-/* The names of the materials, or of the objects, of all entries. Reports those of several entries. False: no memory. */
+/* The names of the materials, or of the objects, of all entries. Reports those of several entries. False:
+ * no memory. */
 static void names_destroy(entry_names *n)
 {
     mem_free(n->names);
@@ -147,8 +148,8 @@ static void release(overlay *o)
 
 /* ---- materials ---- */
 
-/* Grows the material arrays of both models. A glTF scene gets legacy materials; those that no entry replaces stay
- * glTF's. */
+/* Grows the material arrays of both models. A glTF scene gets legacy materials; those that no entry
+ * replaces stay glTF's. */
 static void make_room(overlay *o)
 {
     io_reader *r = &o->d.r;
@@ -349,8 +350,8 @@ static bool is_used(const facet_scene *scene, uint32_t material)
     return false;
 }
 
-/* Removes the material without a name, which the OBJ reader gives to faces before any usemtl, if entries for objects
- * replaced it everywhere. */
+/* Removes the material without a name, which the OBJ reader gives to faces before any usemtl, if entries
+ * for objects replaced it everywhere. */
 static void drop_unnamed(overlay *o)
 {
     facet_scene *scene = o->d.r.scene;

@@ -5,8 +5,8 @@
 #include "tests/support/support.h"
 #include "io/ogl1/ogl1_test_support.h"
 
-/* Materials red, green; nodes: 0 "a" (mesh "m": red, green), 1 "b" (mesh "m" again), 2 "c" (mesh "n": none), 3 "top" above
- * 4 "d" (mesh "o": green) and 5 "" (mesh "p": red). */
+/* Materials red, green; nodes: 0 "a" (mesh "m": red, green), 1 "b" (mesh "m" again), 2 "c" (mesh "n":
+ * none), 3 "top" above 4 "d" (mesh "o": green) and 5 "" (mesh "p": red). */
 static const char MODEL[] =
     "'buffers':[{'uri':'model.bin','byteLength':36}],'bufferViews':[{'buffer':0,'byteLength':36}],"
     "'accessors':[{'bufferView':0,'componentType':5126,'type':'VEC3','count':3,'min':[0,0,0],'max':[1,1,0]}],"

@@ -1,5 +1,5 @@
-/* ogl1_reader.h - what the files of the reader of rgl's parameters share, on top of json_reader.h. The parameters are
- * first read into an ogl1_document, which then becomes a scene or is applied to one. */
+/* ogl1_reader.h - what the files of the reader of rgl's parameters share, on top of json_reader.h. The
+ * parameters are first read into an ogl1_document, which then becomes a scene or is applied to one. */
 #ifndef IO_OGL1_READER_H
 #define IO_OGL1_READER_H
 
@@ -51,8 +51,8 @@ bool ogl1_color_value(io_reader *r, const json_place *at, float rgba[4]);
 /* The index of one of names, which end with NULL. */
 bool ogl1_choice(io_reader *r, const json_place *object, const char *key, const char *const *names, int *out);
 
-/* R writes a list of lists as an array of objects, as an object of objects if they had names, or as the bare object
- * if there was no list (is_element() decides). */
+/* R writes a list of lists as an array of objects, as an object of objects if they had names, or as the
+ * bare object if there was no list (is_element() decides). */
 typedef struct ogl1_list {
     json_place at;
     size_t count, next;
@@ -74,13 +74,13 @@ void ogl1_read_material(io_reader *r, const json_place *at, ogl1_entry *out);
 void ogl1_read_lights(ogl1_document *d, const json_place *root);
 void ogl1_read_fog(ogl1_document *d, const json_place *root);
 
-/* ogl1_json.c: parses the bytes and reads the document into the arena of scene; d->r.result is the result. folder: of
- * the document; NULL: from memory. */
+/* ogl1_json.c: parses the bytes and reads the document into the arena of scene; d->r.result is the result.
+ * folder: of the document; NULL: from memory. */
 void ogl1_document_read(ogl1_document *d, facet_scene *scene, const char *bytes, size_t size,
                         const char *folder, const facet_scene_desc *desc, facet_error *error);
 
-/* ogl1_materials.c: locates the images of the entries, appends them and their textures to the scene and sets the maps
- * of the entries. Missing images are reported. */
+/* ogl1_materials.c: locates the images of the entries, appends them and their textures to the scene and
+ * sets the maps of the entries. Missing images are reported. */
 void ogl1_find_textures(ogl1_document *d);
 
 /* ogl1_json.c: copies lights, fog and the encoding of colors to scene->legacy, which must exist. */

@@ -1,5 +1,5 @@
-/* ogl1_values.c - values as R's toJSON() writes them: scalars also as arrays of one, NULL as {}, colors in R's
- * notations; see ogl1_reader.h. */
+/* ogl1_values.c - values as R's toJSON() writes them: scalars also as arrays of one, NULL as {}, colors in
+ * R's notations; see ogl1_reader.h. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

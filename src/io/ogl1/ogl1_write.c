@@ -1,5 +1,5 @@
-/* ogl1_write.c - scene->legacy as JSON text, one line per material, in the names of material3d(), light3d() and bg3d(); and
- * the document with the images that it names as files, all or nothing. */
+/* ogl1_write.c - scene->legacy as JSON text, one line per material, in the names of material3d(),
+ * light3d() and bg3d(); and the document with the images that it names as files, all or nothing. */
 #include <jansson.h>
 #include <math.h>
 #include <stdio.h>
@@ -21,8 +21,8 @@ typedef struct ogl1_object {
     uint32_t material, node;
 } ogl1_object;
 
-/* The single material of a node's mesh; SCENE_NONE: several or none, or the node has descendants, which would get it,
- * too. */
+/* The single material of a node's mesh; SCENE_NONE: several or none, or the node has descendants, which
+ * would get it, too. */
 static uint32_t material_of(const facet_scene *scene, const scene_node *node)
 {
     const scene_mesh *mesh = &scene->meshes[node->mesh];
@@ -66,8 +66,9 @@ static size_t keep_clear(ogl1_object *objects, size_t count)
     return kept;
 }
 
-/* The objects whose name identifies their material: leaf nodes with a name that no object of another material has;
- * for unnamed nodes, their meshes. Sorted by material, then node. *out is one block of mem_alloc(). False: no memory. */
+/* The objects whose name identifies their material: leaf nodes with a name that no object of another
+ * material has; for unnamed nodes, their meshes. Sorted by material, then node. *out is one block of
+ * mem_alloc(). False: no memory. */
 static bool create_objects(const facet_scene *scene, const facet_allocator *allocator, ogl1_object **out,
                            size_t *count)
 {
@@ -249,8 +250,8 @@ static bool is_json(const char *value, size_t length)
     return json != NULL;
 }
 
-/* A line "KEY VALUE" of legacy_material.unknown; the value is JSON if it comes from a document, any text if from an
- * MTL file. */
+/* A line "KEY VALUE" of legacy_material.unknown; the value is JSON if it comes from a document, any text
+ * if from an MTL file. */
 static void write_unknown_line(const char *line, size_t length, json_t *seen, text *out)
 {
     char key[64];

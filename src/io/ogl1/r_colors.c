@@ -1,5 +1,5 @@
-/* r_colors.c - R's color names; see ogl1_json.h. The table is that of colors() in R 4, which derives from the rgb.txt
- * of X11, without names that follow a rule: gray0 to gray100, and grey for gray. */
+/* r_colors.c - R's color names; see ogl1_json.h. The table is that of colors() in R 4, which derives from
+ * the rgb.txt of X11, without names that follow a rule: gray0 to gray100, and grey for gray. */
 #include <string.h>
 
 #include "io/ogl1/ogl1_json.h"

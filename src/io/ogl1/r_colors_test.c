@@ -1,4 +1,5 @@
-/* r_colors_test.c - every color of R's colors() against col2rgb(); testdata/r_colors.txt was written by R 4.2:
+/* r_colors_test.c - every color of R's colors() against col2rgb(); testdata/r_colors.txt was written by R
+ * 4.2:
  *     n <- colors(); m <- col2rgb(n); writeLines(sprintf("%s #%02X%02X%02X", n, m[1,], m[2,], m[3,])) */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,5 @@
-/* ply.c - reads a PLY file: the header, lines of text up to "end_header", then the elements in order, and the scene made
- * of them. */
+/* ply.c - reads a PLY file: the header, lines of text up to "end_header", then the elements in order, and
+ * the scene made of them. */
 #include "io/ply/ply.h"
 
 #include <stdarg.h>

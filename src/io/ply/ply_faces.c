@@ -1,5 +1,5 @@
-/* ply_faces.c - faces of a PLY file as triangles: lists of corners, polygons of any size, with texture coordinates
- * per corner if the file has them, and strips, in which -1 restarts. */
+/* ply_faces.c - faces of a PLY file as triangles: lists of corners, polygons of any size, with texture
+ * coordinates per corner if the file has them, and strips, in which -1 restarts. */
 #include <math.h>
 #include <string.h>
 

@@ -55,7 +55,8 @@ size_t ply_type_size(ply_type type);
 
 /* ply_vertices.c: the next value of a type. False: the file ends before. */
 bool ply_read_value(ply_reader *r, ply_type type, double *value);
-/* An upper bound on how many of count elements the remaining bytes hold: each has at least one value per property. */
+/* An upper bound on how many of count elements the remaining bytes hold: each has at least one value per
+ * property. */
 uint64_t ply_max_elements(const ply_reader *r, const ply_element *e);
 
 /* ply_vertices.c: positions and their attributes. False: a failure is recorded. */

@@ -1,5 +1,5 @@
-/* ply_vertices.c - numbers of a PLY file, as text or binary, and its vertices: positions, and the properties of well-known
- * names. */
+/* ply_vertices.c - numbers of a PLY file, as text or binary, and its vertices: positions, and the
+ * properties of well-known names. */
 #include <math.h>
 #include <string.h>
 
@@ -228,7 +228,8 @@ static double to_unit(double value)
 /* Converts the file's numbers to linear light. An opacity that is 0 everywhere was never set. */
 static void settle_colors(ply_reader *r, const layout *l, size_t count)
 {
-    /* Kerbl et al. 2023, "3D Gaussian splatting": the band of order 0 is 1 / (2 sqrt(pi)), colors are 0.5 above it. */
+    /* Kerbl et al. 2023, "3D Gaussian splatting": the band of order 0 is 1 / (2 sqrt(pi)), colors are 0.5
+     * above it. */
     static const double Y0 = 0.28209479177387814;
     float *colors = r->soup.colors;
     bool is_splat = !has_all(l, VALUE_RED, 3);

@@ -1,5 +1,5 @@
-/* stl.c - see stl.h. A binary file has a header of 80 bytes, the number of triangles, and 50 bytes per triangle: the
- * normal and three corners as floats, and 16 bits without a standard meaning. */
+/* stl.c - see stl.h. A binary file has a header of 80 bytes, the number of triangles, and 50 bytes per
+ * triangle: the normal and three corners as floats, and 16 bits without a standard meaning. */
 #include "io/stl/stl.h"
 
 #include <string.h>
