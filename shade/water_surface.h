@@ -174,7 +174,7 @@ FN float V_slopes(int normals, int masking, vec3 C, vec3 N, vec3 L, vec3 V)
  * flux, whose variance is radius^2 / 2 along each axis of directions; s = -h_xz / h.y, so ds = -(dL_xz + s
  * dL.y) / h.y. On flat water the image of the sun is F times as bright as its disc at any angle; facing
  * it, alpha^2 is radius^2
- *  / 4. */
+ * / 4. */
 FN vec3 sun_slopes_about(vec3 L, vec3 h)
 {
     bool is_wall =

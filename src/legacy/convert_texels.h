@@ -56,7 +56,7 @@ uint8_t texel_code(float value); /* nearest code of a value in [0, 1] */
 
 /* Nodes of the base color are at (i / last)^2, of roughness even; those of the second axis even for
  * metallic, at (i
- *  / last)^2 for the specular color of a specular-glossiness material. */
+ * / last)^2 for the specular color of a specular-glossiness material. */
 enum { OGL1_GRID_BASE = 9, OGL1_GRID_SECOND = 7, OGL1_GRID_ROUGHNESS = 13 };
 
 typedef struct ogl1_grid {

@@ -4,7 +4,7 @@
  * ''"); its MTL files all begin "# Blender MTL File: '..'". It wrote Ns = (hardness - 1) / 0.51 with an
  * integer hardness up to
  * 2.79, and Ns = (30 (1 - roughness))^2 from 2.80 on: where the version is unknown, an Ns that is not a multiple of 1
- *  / 0.51 decides. The exporter of 3.1 and later writes "# Blender 3.3.0 MTL File: '..'" and "# Blender 3.3.0". */
+ * / 0.51 decides. The exporter of 3.1 and later writes "# Blender 3.3.0 MTL File: '..'" and "# Blender 3.3.0". */
 #include <math.h>
 #include <string.h>
 #include <strings.h>
