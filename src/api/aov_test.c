@@ -1,4 +1,4 @@
-/* Tests of layers as a program of somebody else uses them: IDs and Cryptomatte of all renderers beside
+/* Tests of AOVs through the public headers only: IDs and Cryptomatte of all renderers beside
  * each other. */
 #include <math.h>
 #include <setjmp.h>

@@ -1,4 +1,4 @@
-/* Tests of facet.h as a program of somebody else uses it: nothing but the public header. */
+/* Tests of facet.h through the public header only. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,4 +1,4 @@
-/* ocean_api_test.c - the sea of facet.h as a program of somebody else uses it. */
+/* ocean_api_test.c - the sea, through the public headers only. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

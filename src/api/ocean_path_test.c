@@ -51,7 +51,7 @@ static void draw(pair *p, uint32_t preview_samples, uint32_t path_samples)
     p->d.render.renderer = FACET_RENDERER_KIND_PREVIEW;
     p->d.render.samples = preview_samples;
     done(facet_sea_render(p->sea, p->scene, &p->d, &p->preview, &failure));
-    bool omits_glints = p->d.shading.omits_glints; /* which paths have none of, and refuse to be told */
+    bool omits_glints = p->d.shading.omits_glints; /* path tracing has no glints and refuses omits_glints */
     p->d.shading.omits_glints = false;
     p->d.render.renderer = FACET_RENDERER_KIND_PATH;
     p->d.render.samples = path_samples;

@@ -1,4 +1,4 @@
-/* plot_api_test.c - the plots of facet.h as a program of somebody else uses them. */
+/* plot_api_test.c - plots, through the public headers only. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -219,7 +219,7 @@ static void draw(view_app *a)
     if ((a->needs_image || a->needs_frame) && view_show(a, &error) != FACET_OK) {
         a->needs_image = a->needs_frame = false;
         view_app_say(a, error.message, 8.0);
-        if (a->desc->script) { /* nobody would read messages */
+        if (a->desc->script) { /* a script has no reader of messages */
             a->error = error;
             a->result = error.result;
         }

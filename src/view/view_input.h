@@ -43,7 +43,7 @@ typedef struct view_event {
     view_button button;
     double x,
         y; /* pointer, pixels of the framebuffer from its top left; SCROLL: steps, positive: right, away */
-    char *path; /* DROP: a block of malloc(), owned by whoever takes the event from the queue */
+    char *path; /* DROP: a block of malloc(), owned by the receiver of the event */
 } view_event;
 
 /* Events wait here between the window, or a script, and the loop. */

@@ -15,7 +15,7 @@ typedef struct view_request {
     const facet_view_model *model;
 } view_request;
 
-/* The result. Whoever takes it owns it. */
+/* The result; the caller owns it. */
 typedef struct view_loaded {
     bool has_model, has_environment; /* were read */
     facet_view_model model;

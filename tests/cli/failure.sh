@@ -138,7 +138,7 @@ if command -v mkfifo >/dev/null; then
     odd=$(printf 'odd\roptions')
     mkfifo "$odd"
     expect 7 render tri.gltf --config "$odd" --json -o late.png --time-limit 200ms
-    grep -q '"message": "odd.roptions: the time limit' out || failed "--json tells of the end: $(cat out)"
+    grep -q '"message": "odd.roptions: the time limit' out || failed "--json does not name the time limit: $(cat out)"
     rm "$odd"
 fi
 finish

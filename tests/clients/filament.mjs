@@ -2,7 +2,7 @@
 // usage: node filament.mjs FACET WORK
 //
 // White metal reflects the light as it was filtered, and nothing else: Filament compensates its energy. Every pixel of a sphere
-// then tells direction and roughness of what was looked up. The light's color is its direction's (light.mjs); plaster shows
+// then reports direction and roughness of the lookup. The light's color is its direction's (light.mjs); plaster shows
 // the harmonics.
 import path from 'node:path';
 import { open_page } from './browser.mjs';

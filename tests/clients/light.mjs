@@ -1,4 +1,4 @@
-// light.mjs - a light whose filtered cube maps are known in closed form, so that a texel tells by its color where it
+// light.mjs - a light whose filtered cube maps are known in closed form, so that the color of a texel encodes where it
 // belongs: radiance 1 + 0.75 (x, y, z) of the direction, in red, green and blue. It has nothing beyond the first band of
 // spherical harmonics; a lobe around an axis therefore leaves 1 + 0.75 k (x, y, z), k being the lobe's mean cosine.
 import { writeFileSync } from 'node:fs';

@@ -1,4 +1,4 @@
-// three_page.mjs - what three.html does for three.mjs: loads files by three.js' own loaders, and tells what its shaders see.
+// three_page.mjs - what three.html does for three.mjs: loads files by three.js' own loaders, and reports what its shaders read.
 import * as THREE from 'three';
 import { HDRLoader } from 'three/addons/loaders/HDRLoader.js';
 import { KTX2Loader } from 'three/addons/loaders/KTX2Loader.js';
