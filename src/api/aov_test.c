@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "api/image_layer.h"
 #include "facet/facet.h"
 
 /* A blended square before an opaque one that is wider, both in the plane of the picture; no other node has
@@ -56,23 +57,12 @@ static facet_image *draw(const facet_scene *scene, facet_renderer_kind renderer,
     return image;
 }
 
-static const float *find(const facet_image *image, const char *name)
-{
-    for (uint32_t i = 0; i < facet_image_get_layer_count(image); i++) {
-        facet_image_view view = facet_image_get_layer(image, i);
-        if (strcmp(view.name, name) == 0)
-            return view.pixels;
-    }
-    fail_msg("there is no layer %s", name);
-    return NULL;
-}
-
 /* ID and share of a rank. */
 static const float *rank_of(const facet_image *image, const char *kind, uint32_t rank, size_t pixel)
 {
     char name[32];
     snprintf(name, sizeof name, "%s%02u", kind, rank / 2);
-    return find(image, name) + 4 * pixel + 2 * (rank % 2);
+    return layer_of(image, name, 4) + 4 * pixel + 2 * (rank % 2);
 }
 
 static float share_of_all(const facet_image *image, const char *kind, size_t pixel)
@@ -110,7 +100,7 @@ static void shares_add_up_to_the_opacity(void **state)
                  {FACET_RENDERER_KIND_PATH, FACET_FILTER_MITCHELL}}; /* with weights of its own */
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         facet_image *image = draw(scene, cases[k].renderer, cases[k].filter);
-        const float *rgba = find(image, "");
+        const float *rgba = layer_of(image, "", 4);
         double covered = 0.0, difference = 0.0, largest = 0.0;
         for (size_t i = 0; i < PIXELS; i++) {
             covered += (double)rgba[4 * i + 3];
@@ -138,8 +128,8 @@ static void what_blends_shares_pixels(void **state)
         facet_image *image = draw(scene, (facet_renderer_kind)renderer, FACET_FILTER_BLACKMAN_HARRIS);
         if (!image)
             continue;
-        const float *object = find(image, "object"), *material = find(image, "material"),
-                    *instance = find(image, "instance");
+        const float *object = layer_of(image, "object", 1), *material = layer_of(image, "material", 1),
+                    *instance = layer_of(image, "instance", 1);
         size_t shared = 0, alone = 0;
         for (size_t i = 0; i < PIXELS; i++) {
             const float *most = rank_of(image, kinds[0], 0, i), *second = rank_of(image, kinds[0], 1, i);
@@ -170,7 +160,7 @@ static void ids_have_colors(void **state)
     assert_int_equal(facet_image_create_id_colors(image, "object", NULL, &colors, NULL), FACET_OK);
     assert_int_equal(facet_image_encode(colors, &raw, &bytes, &size, NULL), FACET_OK);
     assert_int_equal(size, 4 * PIXELS);
-    const float *object = find(image, "object");
+    const float *object = layer_of(image, "object", 1);
     static const unsigned char expected[3][4] = {
         {0, 0, 0, 0}, {0x6e, 0xf3, 0x62, 255}, {0xa6, 0x6d, 0x13, 255}};
     for (size_t i = 0; i < PIXELS; i++) {

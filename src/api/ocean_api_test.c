@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "api/image_layer.h"
 #include "facet/facet.h"
 
 #include "tests/support/support.h"
@@ -152,19 +153,6 @@ static void points_move_as_waves_do(void **state)
     assert_true(mean < 0.15); /* velocities are 0.55 m/s, flow along slopes a fifth of that */
     assert_int_equal(facet_sea_set_time(sea, (double)NAN, &failure), FACET_ERROR_ARGUMENT);
     facet_sea_destroy(sea);
-}
-
-static const float *layer_of(const facet_image *image, const char *name, uint32_t channels)
-{
-    for (uint32_t i = 0; i < facet_image_get_layer_count(image); i++) {
-        facet_image_view v = facet_image_get_layer(image, i);
-        if (strcmp(v.name, name) == 0) {
-            assert_int_equal(v.channel_count, channels);
-            return v.pixels;
-        }
-    }
-    fail_msg("there is no layer %s", name);
-    return NULL;
 }
 
 /* Variances of the maps are those of the spectrum; the foam's mean is what info says. */

@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "api/image_layer.h"
 #include "facet/facet.h"
 
 enum { WIDTH = 24, HEIGHT = 16 };
@@ -161,17 +162,6 @@ static void what_is_not_drawn_is_refused_by_name(void **state)
     facet_sea_destroy(sea);
 }
 
-static const float *layer(const facet_image *image, const char *name)
-{
-    for (uint32_t i = 0; i < facet_image_get_layer_count(image); i++) {
-        facet_image_view view = facet_image_get_layer(image, i);
-        if (strcmp(view.name, name) == 0)
-            return view.pixels;
-    }
-    fail_msg("there is no layer %s", name);
-    return NULL;
-}
-
 /* Path tracing has the water in its layers, beside the model: the lowest row shows it, the middle the square. */
 static void layers_show_water_and_model(void **state)
 {
@@ -184,11 +174,11 @@ static void layers_show_water_and_model(void **state)
     desc.aovs = FACET_AOV_DEPTH | FACET_AOV_NORMAL | FACET_AOV_OBJECT_ID | FACET_AOV_CRYPTOMATTE;
     done(facet_render(scene, &desc, &image, &failure));
     const size_t middle = (size_t)(HEIGHT / 2) * WIDTH + WIDTH / 2, low = (size_t)(HEIGHT - 1) * WIDTH;
-    const float *depth = layer(image, "depth"), *object = layer(image, "object");
+    const float *depth = layer_of(image, "depth", 1), *object = layer_of(image, "object", 1);
     assert_true(fabsf(depth[middle] - 8.0f) < 0.01f);
     assert_true(object[middle] == 1.0f && object[low] > 1.0f);
-    assert_true(depth[low] > 10.0f && depth[low] < 20.0f);    /* 3 m below the eye, 0.19 rad down */
-    assert_true(layer(image, "normal")[3 * low + 1] > 0.99f); /* still water */
+    assert_true(depth[low] > 10.0f && depth[low] < 20.0f);          /* 3 m below the eye, 0.19 rad down */
+    assert_true(layer_of(image, "normal", 3)[3 * low + 1] > 0.99f); /* still water */
     facet_image_destroy(image);
     facet_scene_destroy(scene);
     facet_sea_destroy(sea);
