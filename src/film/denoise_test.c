@@ -189,8 +189,8 @@ static void textures_stay_sharp(void **state)
 
 /* ---- images of real noise ---- */
 
-/* Relative to the light (Rousselle et al. 2011) and absolute; what is left of the absolute error is mostly
- * that of edges, which are as rough as 16 samples make them: color and guides come of the same samples. In
+/* Relative to the light (Rousselle et al. 2011) and absolute; the remaining absolute error is mostly
+ * that of edges, which are as rough as 16 samples make them: color and guides share their samples. In
  * the last one surfaces come and go by chance, which the guides say too, and the noise of that stays. */
 static void errors_of_traced_images_fall(void **state)
 {
