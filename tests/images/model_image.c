@@ -1,5 +1,5 @@
-/* picture.c - see picture.h. */
-#include "picture.h"
+/* model_image.c - see model_image.h. */
+#include "model_image.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -114,10 +114,10 @@ facet_scene *model_load_edited(const char *path, const char *text, const char *b
     return scene;
 }
 
-static picture copy_layers(const facet_image *image)
+static model_image copy_layers(const facet_image *image)
 {
     facet_image_view color = facet_image_get_layer(image, 0);
-    picture p = {.width = color.width, .height = color.height, .count = color.width * color.height};
+    model_image p = {.width = color.width, .height = color.height, .count = color.width * color.height};
     p.rgba = malloc(p.count * 4 * sizeof *p.rgba);
     p.material = malloc(p.count * sizeof *p.material);
     assert_non_null(p.rgba);
@@ -139,7 +139,7 @@ static picture copy_layers(const facet_image *image)
     return p;
 }
 
-picture picture_take(const facet_scene *scene, const view *v, const facet_render_desc *desc)
+model_image model_image_render(const facet_scene *scene, const view *v, const facet_render_desc *desc)
 {
     facet_render_desc filled = desc ? *desc : (facet_render_desc){0};
     facet_environment *studio = NULL;
@@ -165,50 +165,50 @@ picture picture_take(const facet_scene *scene, const view *v, const facet_render
         filled.camera = &camera;
     if (facet_render(scene, &filled, &image, &error) != FACET_OK)
         fail_msg("%s", error.message);
-    picture p = copy_layers(image);
+    model_image p = copy_layers(image);
     facet_image_destroy(image);
     facet_environment_destroy(studio);
     return p;
 }
 
-#define SPHERE_VIEW 1.02f /* m, height of the picture of a sphere of diameter 1 */
+#define SPHERE_VIEW 1.02f /* m, height of the image of a sphere of diameter 1 */
 
-picture picture_of_sphere(const char *path, float x, const facet_render_desc *desc, const char *text,
-                          const char *by)
+model_image model_image_of_sphere(const char *path, float x, const facet_render_desc *desc, const char *text,
+                                  const char *by)
 {
     facet_scene *scene = text ? model_load_edited(path, text, by) : model_load(path);
     if (!scene)
-        return (picture){0};
-    picture p = picture_take(scene, &(view){.x = x, .height = SPHERE_VIEW}, desc);
+        return (model_image){0};
+    model_image p = model_image_render(scene, &(view){.x = x, .height = SPHERE_VIEW}, desc);
     facet_scene_destroy(scene);
     return p;
 }
 
-void picture_destroy(picture *p)
+void model_image_destroy(model_image *p)
 {
     free(p->rgba);
     free(p->material);
-    *p = (picture){0};
+    *p = (model_image){0};
 }
 
-double picture_luminance(const picture *p, uint32_t i)
+double model_image_luminance(const model_image *p, uint32_t i)
 {
     const float *c = p->rgba + i * 4;
     return 0.2126 * (double)c[0] + 0.7152 * (double)c[1] + 0.0722 * (double)c[2];
 }
 
-double picture_chroma(const picture *p, uint32_t i)
+double model_image_chroma(const model_image *p, uint32_t i)
 {
     const float *c = p->rgba + i * 4;
     return (double)(fmaxf(c[0], fmaxf(c[1], c[2])) - fminf(c[0], fminf(c[1], c[2])));
 }
 
-static bool belongs(const picture *p, uint32_t i, int material)
+static bool belongs(const model_image *p, uint32_t i, int material)
 {
     return material < 0 ? p->material[i] >= 0 : p->material[i] == material;
 }
 
-uint32_t picture_pixels(const picture *p, int material)
+uint32_t model_image_pixels(const model_image *p, int material)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < p->count; i++)
@@ -216,31 +216,31 @@ uint32_t picture_pixels(const picture *p, int material)
     return count;
 }
 
-static double channel_of(const picture *p, uint32_t i, int channel)
+static double channel_of(const model_image *p, uint32_t i, int channel)
 {
     return (double)p->rgba[i * 4 + (uint32_t)channel];
 }
 
-double picture_mean(const picture *p, int material, int channel)
+double model_image_mean(const model_image *p, int material, int channel)
 {
     double sum = 0.0;
     for (uint32_t i = 0; i < p->count; i++)
         sum += belongs(p, i, material) ? channel_of(p, i, channel) : 0.0;
-    return sum / picture_pixels(p, material);
+    return sum / model_image_pixels(p, material);
 }
 
-double picture_mean_luminance(const picture *p, int material)
+double model_image_mean_luminance(const model_image *p, int material)
 {
-    return 0.2126 * picture_mean(p, material, 0) + 0.7152 * picture_mean(p, material, 1) +
-           0.0722 * picture_mean(p, material, 2);
+    return 0.2126 * model_image_mean(p, material, 0) + 0.7152 * model_image_mean(p, material, 1) +
+           0.0722 * model_image_mean(p, material, 2);
 }
 
-double picture_mean_chroma(const picture *p, int material)
+double model_image_mean_chroma(const model_image *p, int material)
 {
     double sum = 0.0;
     for (uint32_t i = 0; i < p->count; i++)
-        sum += belongs(p, i, material) ? picture_chroma(p, i) : 0.0;
-    return sum / picture_pixels(p, material);
+        sum += belongs(p, i, material) ? model_image_chroma(p, i) : 0.0;
+    return sum / model_image_pixels(p, material);
 }
 
 static int compare_doubles(const void *a, const void *b)
@@ -249,14 +249,14 @@ static int compare_doubles(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-double picture_percentile(const picture *p, int material, double share)
+double model_image_percentile(const model_image *p, int material, double share)
 {
     double *values = malloc(p->count * sizeof *values);
     assert_non_null(values);
     uint32_t count = 0;
     for (uint32_t i = 0; i < p->count; i++)
         if (belongs(p, i, material))
-            values[count++] = picture_luminance(p, i);
+            values[count++] = model_image_luminance(p, i);
     assert_true(count > 0);
     qsort(values, count, sizeof *values, compare_doubles);
     double value = values[(uint32_t)(share * (count - 1))];
@@ -264,7 +264,7 @@ double picture_percentile(const picture *p, int material, double share)
     return value;
 }
 
-double picture_detail(const picture *p, int material)
+double model_image_detail(const model_image *p, int material)
 {
     double sum = 0.0;
     uint32_t count = 0;
@@ -273,7 +273,7 @@ double picture_detail(const picture *p, int material)
             uint32_t i = y * p->width + x, others[2] = {i + 1, i + p->width};
             for (int k = 0; k < 2; k++)
                 if (belongs(p, i, material) && belongs(p, others[k], material)) {
-                    sum += fabs(picture_luminance(p, i) - picture_luminance(p, others[k]));
+                    sum += fabs(model_image_luminance(p, i) - model_image_luminance(p, others[k]));
                     count++;
                 }
         }
@@ -281,24 +281,24 @@ double picture_detail(const picture *p, int material)
     return sum / count;
 }
 
-double picture_radius(const picture *p, uint32_t i)
+double model_image_radius(const model_image *p, uint32_t i)
 {
     double x = (i % p->width + 0.5) / p->width * 2.0 - 1.0;
     double y = (i / p->width + 0.5) / p->height * 2.0 - 1.0;
     return sqrt(x * x + y * y) * (double)SPHERE_VIEW;
 }
 
-double picture_cosine(const picture *p, uint32_t i)
+double model_image_cosine(const model_image *p, uint32_t i)
 {
-    double r = picture_radius(p, i);
+    double r = model_image_radius(p, i);
     return sqrt(fmax(0.0, 1.0 - r * r));
 }
 
-double picture_ring(const picture *p, int material, int channel, double from, double to)
+double model_image_ring(const model_image *p, int material, int channel, double from, double to)
 {
     double sum = 0.0, count = 0.0;
     for (uint32_t i = 0; i < p->count; i++) {
-        double r = picture_radius(p, i);
+        double r = model_image_radius(p, i);
         if (belongs(p, i, material) && r >= from && r < to) {
             sum += channel_of(p, i, channel);
             count++;
@@ -317,20 +317,20 @@ static double hue_of(const float *c, double chroma)
     return g >= b ? 2.0 + (b - r) / chroma : 4.0 + (r - g) / chroma;
 }
 
-uint32_t picture_hues(const picture *p, int material)
+uint32_t model_image_hues(const model_image *p, int material)
 {
     uint32_t bins[12] = {0}, used = 0;
     for (uint32_t i = 0; i < p->count; i++) {
-        double chroma = picture_chroma(p, i);
+        double chroma = model_image_chroma(p, i);
         if (belongs(p, i, material) && chroma >= 0.05)
             bins[(uint32_t)(hue_of(p->rgba + i * 4, chroma) * 2.0) % 12]++;
     }
     for (int k = 0; k < 12; k++)
-        used += bins[k] * 50 >= picture_pixels(p, material);
+        used += bins[k] * 50 >= model_image_pixels(p, material);
     return used;
 }
 
-static facet_image *image_of(const picture *p)
+static facet_image *image_of(const model_image *p)
 {
     facet_image *image = NULL;
     const facet_image_view pixels = {
@@ -339,7 +339,7 @@ static facet_image *image_of(const picture *p)
     return image;
 }
 
-double picture_distance(const picture *a, const picture *b)
+double model_image_distance(const model_image *a, const model_image *b)
 {
     facet_image *first = image_of(a), *second = image_of(b);
     facet_comparison c;

@@ -27,7 +27,7 @@ static const double MAX_TIMES = 1.5, MAX_MORE = 0.25;
 static char *models[MAX_MODELS];
 static int model_count;
 
-static int note_model(const char *path, const struct stat *status, int type, struct FTW *place)
+static int add_model(const char *path, const struct stat *status, int type, struct FTW *place)
 {
     (void)status, (void)place;
     size_t length = strlen(path);
@@ -84,7 +84,7 @@ static double code(float linear)
 }
 
 /* Whether the surface in pixel i continues in its neighbor k. */
-static bool goes_on(const float *depth, const float *normal, const float *material, size_t i, size_t k)
+static bool is_continuous(const float *depth, const float *normal, const float *material, size_t i, size_t k)
 {
     if (isinf(depth[i]) || isinf(depth[k]))
         return isinf(depth[i]) && isinf(depth[k]);
@@ -101,7 +101,7 @@ static bool is_edge(const facet_image *reference, size_t i)
     for (int dy = -1; dy <= 1; dy++)
         for (int dx = -1; dx <= 1; dx++) {
             size_t u = x + (size_t)dx, v = y + (size_t)dy; /* beyond the border: huge */
-            if (u < WIDTH && v < HEIGHT && !goes_on(depth, normal, material, i, v * WIDTH + u))
+            if (u < WIDTH && v < HEIGHT && !is_continuous(depth, normal, material, i, v * WIDTH + u))
                 return true;
         }
     return false;
@@ -119,7 +119,7 @@ typedef struct distance {
 } distance;
 
 /* differences: of the channel with the largest one. */
-static distance sum_up(double *differences, size_t count, double sum)
+static distance summarize(double *differences, size_t count, double sum)
 {
     if (count == 0)
         return (distance){1e9, 1e9, 1e9, 0};
@@ -129,7 +129,8 @@ static distance sum_up(double *differences, size_t count, double sum)
 }
 
 /* Adds a pair of colors to the sums. */
-static void add(const double a[3], const double b[3], double *differences, size_t *count, double *sum)
+static void add_difference(const double a[3], const double b[3], double *differences, size_t *count,
+                           double *sum)
 {
     double most = 0.0;
     for (int c = 0; c < 3; c++) {
@@ -155,10 +156,10 @@ static distance compare_pixels(const facet_image *reference, const facet_image *
         if (is_edge(reference, i))
             continue;
         const float *p = a + 4 * i, *q = b + 4 * i;
-        add((double[3]){display(p[0]), display(p[1]), display(p[2])},
-            (double[3]){display(q[0]), display(q[1]), display(q[2])}, differences, &count, &sum);
+        add_difference((double[3]){display(p[0]), display(p[1]), display(p[2])},
+                       (double[3]){display(q[0]), display(q[1]), display(q[2])}, differences, &count, &sum);
     }
-    return sum_up(differences, count, sum);
+    return summarize(differences, count, sum);
 }
 
 /* Mean over all pixels and channels. */
@@ -174,7 +175,7 @@ static double mean_error(const facet_image *reference, const facet_image *other)
 
 /* ---- a model ---- */
 
-static bool lets_light_through(const facet_scene *scene)
+static bool has_transmission(const facet_scene *scene)
 {
     char *text = NULL;
     facet_error error;
@@ -184,7 +185,7 @@ static bool lets_light_through(const facet_scene *scene)
     return has;
 }
 
-typedef enum verdict { SAME, DIFFERENT, LISTED, NOT_LOADED, NO_GL } verdict;
+typedef enum outcome { SAME, DIFFERENT, LISTED, NOT_LOADED, NO_GL } outcome;
 
 /* Differences between a scene's images. */
 typedef struct comparison {
@@ -198,16 +199,16 @@ static facet_result measure(const facet_scene *scene, facet_environment *environ
     static const struct {
         facet_renderer_kind renderer;
         uint32_t samples;
-    } pictures[] = {{FACET_RENDERER_KIND_GL, 1},
-                    {FACET_RENDERER_KIND_PREVIEW, 1},
-                    {FACET_RENDERER_KIND_GL, 4},
-                    {FACET_RENDERER_KIND_PREVIEW, 4},
-                    {FACET_RENDERER_KIND_PREVIEW, 64}};
+    } passes[] = {{FACET_RENDERER_KIND_GL, 1},
+                  {FACET_RENDERER_KIND_PREVIEW, 1},
+                  {FACET_RENDERER_KIND_GL, 4},
+                  {FACET_RENDERER_KIND_PREVIEW, 4},
+                  {FACET_RENDERER_KIND_PREVIEW, 64}};
     facet_image *drawn[5] = {NULL};
     facet_result result = FACET_OK;
     int count = is_whole ? 5 : 2;
     for (int i = 0; i < count && result == FACET_OK; i++)
-        result = draw(scene, environment, pictures[i].renderer, pictures[i].samples, &drawn[i], error);
+        result = draw(scene, environment, passes[i].renderer, passes[i].samples, &drawn[i], error);
     if (result == FACET_OK && is_whole)
         *out = (comparison){compare_pixels(drawn[1], drawn[0]), mean_error(drawn[4], drawn[2]),
                             mean_error(drawn[4], drawn[3])};
@@ -218,9 +219,9 @@ static facet_result measure(const facet_scene *scene, facet_environment *environ
     return result;
 }
 
-/* Mirrors made of triangles smaller than a pixel: OpenGL snaps vertices to a grid of 1/256 pixel, which tilts
+/* Smooth metal made of triangles smaller than a pixel: OpenGL snaps vertices to a grid of 1/256 pixel, which tilts
  * them. The percentile does not apply. */
-static bool has_fine_mirrors(const char *name)
+static bool has_subpixel_triangles(const char *name)
 {
     return strcmp(name, "core/NormalTangentTest.glb") == 0;
 }
@@ -228,11 +229,11 @@ static bool has_fine_mirrors(const char *name)
 static bool is_same(const comparison *c, const char *name)
 {
     const distance *d = &c->pixels;
-    return d->mean < MAX_MEAN && (d->percentile < MAX_PERCENTILE || has_fine_mirrors(name)) &&
+    return d->mean < MAX_MEAN && (d->percentile < MAX_PERCENTILE || has_subpixel_triangles(name)) &&
            d->count > COUNT / 20 && c->gl_error < MAX_TIMES * c->cpu_error + MAX_MORE;
 }
 
-static verdict check(const char *path, facet_environment *environment, bool is_verbose)
+static outcome check(const char *path, facet_environment *environment, bool is_verbose)
 {
     facet_scene *scene = NULL;
     facet_error error = {0};
@@ -240,9 +241,9 @@ static verdict check(const char *path, facet_environment *environment, bool is_v
     const char *name = strstr(path, "/models/") ? strstr(path, "/models/") + 8 : path;
     if (facet_scene_load(path, NULL, &scene, &error) != FACET_OK)
         return NOT_LOADED;
-    bool is_clear = lets_light_through(scene);
+    bool is_clear = has_transmission(scene);
     facet_result result = measure(scene, environment, !is_clear || is_verbose, &c, &error);
-    verdict v;
+    outcome v;
     if (result != FACET_OK) {
         v = result == FACET_ERROR_SYSTEM ? NO_GL : DIFFERENT;
         printf("%s: %s\n", name, error.message);
@@ -273,7 +274,7 @@ int main(int argc, char **argv)
     for (int i = 1 + is_verbose; i < argc && model_count < MAX_MODELS; i++)
         models[model_count++] = strdup(argv[i]);
     if (model_count == 0)
-        nftw(path, note_model, 16, FTW_PHYS);
+        nftw(path, add_model, 16, FTW_PHYS);
     qsort(models, (size_t)model_count, sizeof *models, compare_names);
     facet_environment *environment = NULL;
     facet_error error;
@@ -283,7 +284,7 @@ int main(int argc, char **argv)
         return 1;
     }
     printf("differences in 8-bit codes: mean, 99.5th percentile, largest; OpenGL and preview from a better "
-           "picture\n");
+           "image\n");
     for (int i = 0; i < model_count; i++) {
         counts[check(models[i], environment, is_verbose)] += 1;
         free(models[i]);

@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "picture.h"
+#include "model_image.h"
 
 static const view FRAMED = {0};
 
@@ -23,66 +23,67 @@ static facet_scene *load(const char *path)
     return scene;
 }
 
-static picture take_model(const char *path)
+static model_image render_model(const char *path)
 {
     facet_scene *scene = load(path);
-    picture p = picture_take(scene, &FRAMED, NULL);
+    model_image p = model_image_render(scene, &FRAMED, NULL);
     facet_scene_destroy(scene);
     return p;
 }
 
-static double distance_of(const char *a, const char *b)
+static double distance_between(const char *a, const char *b)
 {
-    picture p = take_model(a), q = take_model(b);
-    double distance = picture_distance(&p, &q);
+    model_image p = render_model(a), q = render_model(b);
+    double distance = model_image_distance(&p, &q);
     print_message("%s and %s: %.2g apart\n", a, b, distance);
-    picture_destroy(&p);
-    picture_destroy(&q);
+    model_image_destroy(&p);
+    model_image_destroy(&q);
     return distance;
 }
 
 /* ---- other encodings ---- */
 
 /* The box has integer coordinates, which every quantisation preserves; its normals are along the axes. */
-static void compressed_boxes_are_the_box(void **state)
+static void compressed_boxes_look_like_the_plain_one(void **state)
 {
     (void)state;
-    assert_true(distance_of("core/Box.glb", "extensions/Box_Draco.glb") < 1e-3);
-    assert_true(distance_of("core/Box.glb", "extensions/BoxMeshopt.glb") < 1e-3);
+    assert_true(distance_between("core/Box.glb", "extensions/Box_Draco.glb") < 1e-3);
+    assert_true(distance_between("core/Box.glb", "extensions/BoxMeshopt.glb") < 1e-3);
 }
 
-static void embedded_models_are_the_packed(void **state)
+static void embedded_models_look_like_the_packed_ones(void **state)
 {
     (void)state;
-    assert_true(distance_of("animation/SimpleMorph.glb", "gltf/SimpleMorph-embedded.gltf") < 1e-6);
-    assert_true(distance_of("core/TextureSettingsTest.glb", "gltf/TextureSettingsTest-embedded.gltf") < 1e-6);
+    assert_true(distance_between("animation/SimpleMorph.glb", "gltf/SimpleMorph-embedded.gltf") < 1e-6);
+    assert_true(distance_between("core/TextureSettingsTest.glb", "gltf/TextureSettingsTest-embedded.gltf") <
+                1e-6);
 }
 
 /* Rows of cubes, 4 m apart: the first is uncompressed, the others are compressed in four ways. In an
  * orthographic view the cubes of a column look equal; filters quantise colors and normals to 8 bits and
  * fewer. */
-static void cubes_of_a_column_look_alike(void **state)
+static void all_compressions_of_a_cube_look_alike(void **state)
 {
     (void)state;
     facet_scene *scene = load("extensions/MeshoptCubeTest/MeshoptCubeTest.gltf");
     static const float tilts[2] = {0.0f, 0.7f};
     for (int column = 0; column < 5; column++)
         for (int tilt = 0; tilt < 2; tilt++) {
-            picture first = {0};
+            model_image first = {0};
             for (int row = 0; row < 5; row++) {
                 float x = 4.0f * (float)column, y = 16.0f - 4.0f * (float)row, away = tilts[tilt];
                 facet_camera camera = {
                     .eye = {x + 5 * away, y + 5 * away, 10}, .target = {x, y, 0}, .ortho_height = 2.4f};
-                picture p = picture_take(scene, &FRAMED, &(facet_render_desc){.camera = &camera});
+                model_image p = model_image_render(scene, &FRAMED, &(facet_render_desc){.camera = &camera});
                 if (row == 0)
                     first = p;
-                else if (picture_distance(&first, &p) > 0.02)
+                else if (model_image_distance(&first, &p) > 0.02)
                     fail_msg("column %d, row %d: %g from the plain one", column, row,
-                             picture_distance(&first, &p));
+                             model_image_distance(&first, &p));
                 if (row > 0)
-                    picture_destroy(&p);
+                    model_image_destroy(&p);
             }
-            picture_destroy(&first);
+            model_image_destroy(&first);
         }
     facet_scene_destroy(scene);
 }
@@ -96,15 +97,15 @@ static void scaled_nodes_look_the_same(void **state)
     facet_scene *plain = load(path);
     facet_scene *large = model_load_edited(path, name, "\"scale\":[2,2,2]");
     facet_scene *small = model_load_edited(path, name, "\"scale\":[0.1,0.1,0.1]");
-    picture one = picture_take(plain, &(view){.x = 0.5f, .height = 0.5f}, NULL),
-            two = picture_take(large, &(view){.x = 0.5f, .height = 1}, NULL),
-            tenth = picture_take(small, &(view){.x = 0.5f, .height = 0.05f}, NULL);
-    assert_true(picture_pixels(&one, -1) > one.count / 5);
-    assert_true(picture_distance(&one, &two) < 1e-3);
-    assert_true(picture_distance(&one, &tenth) < 0.02); /* rounding at its edges */
-    picture_destroy(&one);
-    picture_destroy(&two);
-    picture_destroy(&tenth);
+    model_image one = model_image_render(plain, &(view){.x = 0.5f, .height = 0.5f}, NULL),
+                two = model_image_render(large, &(view){.x = 0.5f, .height = 1}, NULL),
+                tenth = model_image_render(small, &(view){.x = 0.5f, .height = 0.05f}, NULL);
+    assert_true(model_image_pixels(&one, -1) > one.count / 5);
+    assert_true(model_image_distance(&one, &two) < 1e-3);
+    assert_true(model_image_distance(&one, &tenth) < 0.02); /* rounding at its edges */
+    model_image_destroy(&one);
+    model_image_destroy(&two);
+    model_image_destroy(&tenth);
     facet_scene_destroy(plain);
     facet_scene_destroy(large);
     facet_scene_destroy(small);
@@ -139,7 +140,7 @@ static char *write_nodes(const unsigned char *glb)
     return text;
 }
 
-static void instances_are_nodes(void **state)
+static void instances_look_like_nodes(void **state)
 {
     (void)state;
     const char *path = "extensions/SimpleInstancing.glb";
@@ -156,14 +157,15 @@ static void instances_are_nodes(void **state)
                           "\"mesh\":0}]",
                           nodes);
     assert_int_equal(facet_scene_get_counts(spelled).instances, 125);
-    picture a = picture_take(instanced, &FRAMED, NULL), b = picture_take(spelled, &FRAMED, NULL);
+    model_image a = model_image_render(instanced, &FRAMED, NULL),
+                b = model_image_render(spelled, &FRAMED, NULL);
     uint32_t covered = 0;
     for (uint32_t i = 0; i < a.count; i++)
         covered += a.rgba[4 * i + 3] > 0.5f;
     assert_true(covered > a.count / 3);
-    assert_true(picture_distance(&a, &b) < 1e-4);
-    picture_destroy(&a);
-    picture_destroy(&b);
+    assert_true(model_image_distance(&a, &b) < 1e-4);
+    model_image_destroy(&a);
+    model_image_destroy(&b);
     facet_scene_destroy(instanced);
     facet_scene_destroy(spelled);
     free(nodes);
@@ -172,64 +174,64 @@ static void instances_are_nodes(void **state)
 
 /* ---- materials ---- */
 
-/* The same avocado in two material models. Its textures were authored separately (the reflectance of one
- * is not
- * 0.04 everywhere), so that the images are similar, not equal. */
-static void an_avocado_is_an_avocado(void **state)
+/* The same avocado in two material models. Its textures were authored separately (one has a
+ * reflectance other than 0.04 in places), so that the images are similar, not equal. */
+static void both_material_models_describe_the_avocado(void **state)
 {
     (void)state;
-    double distance = distance_of("core/Avocado.glb", "specgloss/Avocado-specgloss.glb");
+    double distance = distance_between("core/Avocado.glb", "specgloss/Avocado-specgloss.glb");
     assert_true(distance > 1e-3 && distance < 0.15);
 }
 
 /* Every variant assigns another material to the shoe; the fabric and the wood of the chair change, its metal
  * and label do not. Without a variant the primitive's own material is drawn, here that of the first. */
-static void variants_change_what_they_map(void **state)
+static void variants_change_only_mapped_materials(void **state)
 {
     (void)state;
     facet_scene *shoe = load("materials/MaterialsVariantsShoe.glb");
-    picture shoes[4];
+    model_image shoes[4];
     for (uint32_t i = 0; i < 4; i++) {
         facet_render_desc desc = {.pose = {.has_variant = i < 3, .variant = i}};
-        shoes[i] = picture_take(shoe, &FRAMED, &desc);
-        assert_int_equal(picture_pixels(&shoes[i], i < 3 ? (int)i : 0), picture_pixels(&shoes[i], -1));
+        shoes[i] = model_image_render(shoe, &FRAMED, &desc);
+        assert_int_equal(model_image_pixels(&shoes[i], i < 3 ? (int)i : 0),
+                         model_image_pixels(&shoes[i], -1));
     }
     for (int i = 0; i < 3; i++)
-        assert_true(picture_distance(&shoes[i], &shoes[(i + 1) % 3]) > 0.1);
-    assert_true(picture_distance(&shoes[0], &shoes[3]) == 0.0);
+        assert_true(model_image_distance(&shoes[i], &shoes[(i + 1) % 3]) > 0.1);
+    assert_true(model_image_distance(&shoes[0], &shoes[3]) == 0.0);
     for (int i = 0; i < 4; i++)
-        picture_destroy(&shoes[i]);
+        model_image_destroy(&shoes[i]);
     facet_scene_destroy(shoe);
 
     facet_scene *chair = load("materials/SheenChair.glb");
     facet_render_desc desc = {.pose = {.has_variant = true, .variant = 0}};
-    picture mango = picture_take(chair, &FRAMED, &desc);
+    model_image mango = model_image_render(chair, &FRAMED, &desc);
     desc.pose.variant = 1;
-    picture peacock = picture_take(chair, &FRAMED, &desc);
-    assert_int_equal(picture_pixels(&mango, 0), picture_pixels(&peacock, 4));
-    assert_int_equal(picture_pixels(&mango, 1), picture_pixels(&peacock, 5));
-    assert_true(picture_pixels(&mango, 4) == 0 && picture_pixels(&peacock, 0) == 0);
-    assert_true(picture_mean(&mango, 0, 0) > 3.0 * picture_mean(&mango, 0, 2));
-    assert_true(picture_mean(&peacock, 4, 2) > 1.5 * picture_mean(&peacock, 4, 0));
-    picture_destroy(&mango);
-    picture_destroy(&peacock);
+    model_image peacock = model_image_render(chair, &FRAMED, &desc);
+    assert_int_equal(model_image_pixels(&mango, 0), model_image_pixels(&peacock, 4));
+    assert_int_equal(model_image_pixels(&mango, 1), model_image_pixels(&peacock, 5));
+    assert_true(model_image_pixels(&mango, 4) == 0 && model_image_pixels(&peacock, 0) == 0);
+    assert_true(model_image_mean(&mango, 0, 0) > 3.0 * model_image_mean(&mango, 0, 2));
+    assert_true(model_image_mean(&peacock, 4, 2) > 1.5 * model_image_mean(&peacock, 4, 0));
+    model_image_destroy(&mango);
+    model_image_destroy(&peacock);
     facet_scene_destroy(chair);
 }
 
 /* Copper, by a JPEG of its color; brushed and dented, by KTX2 files. */
-static void a_lamp_with_ktx2_textures(void **state)
+static void jpeg_and_ktx2_textures_mix_in_a_model(void **state)
 {
     (void)state;
-    picture lamp = take_model("extensions/AnisotropyBarnLamp-ktx2/AnisotropyBarnLamp.gltf");
-    assert_true(picture_pixels(&lamp, -1) > lamp.count / 5);
-    assert_true(picture_mean(&lamp, -1, 0) > 1.3 * picture_mean(&lamp, -1, 2));
-    assert_true(picture_detail(&lamp, -1) > 0.03);
-    picture_destroy(&lamp);
+    model_image lamp = render_model("extensions/AnisotropyBarnLamp-ktx2/AnisotropyBarnLamp.gltf");
+    assert_true(model_image_pixels(&lamp, -1) > lamp.count / 5);
+    assert_true(model_image_mean(&lamp, -1, 0) > 1.3 * model_image_mean(&lamp, -1, 2));
+    assert_true(model_image_detail(&lamp, -1) > 0.03);
+    model_image_destroy(&lamp);
 }
 
 /* ---- motion ---- */
 
-static picture take_at(const facet_scene *scene, uint32_t animation, double time_s)
+static model_image render_at(const facet_scene *scene, uint32_t animation, double time_s)
 {
     facet_orbit orbit = facet_orbit_default();
     orbit.azimuth_rad = 0.9f;
@@ -237,11 +239,11 @@ static picture take_at(const facet_scene *scene, uint32_t animation, double time
     assert_int_equal(facet_camera_from_orbit(scene, NULL, &orbit, 1, &camera, NULL), FACET_OK);
     facet_render_desc desc = {.camera = &camera,
                               .pose = {.animation_count = 1, .animations = &animation, .time_s = time_s}};
-    return picture_take(scene, &FRAMED, &desc);
+    return model_image_render(scene, &FRAMED, &desc);
 }
 
 /* Models move, and these clips are loops. */
-static void models_move_and_loops_close(void **state)
+static void animated_models_move_and_loops_close(void **state)
 {
     (void)state;
     static const struct {
@@ -260,15 +262,15 @@ static void models_move_and_loops_close(void **state)
         facet_animation a = facet_scene_get_animation(scene, cases[i].animation);
         double length = a.end_s - a.begin_s;
         assert_true(length > 0.0);
-        picture begin = take_at(scene, cases[i].animation, a.begin_s),
-                some = take_at(scene, cases[i].animation, a.begin_s + 0.31 * length),
-                end = take_at(scene, cases[i].animation, a.end_s);
-        if (!(picture_distance(&begin, &some) > 0.05) || !(picture_distance(&begin, &end) < 1e-4))
+        model_image begin = render_at(scene, cases[i].animation, a.begin_s),
+                    some = render_at(scene, cases[i].animation, a.begin_s + 0.31 * length),
+                    end = render_at(scene, cases[i].animation, a.end_s);
+        if (!(model_image_distance(&begin, &some) > 0.05) || !(model_image_distance(&begin, &end) < 1e-4))
             fail_msg("%s, animation %s: %g after 31 %%, %g at the end", cases[i].path, a.name,
-                     picture_distance(&begin, &some), picture_distance(&begin, &end));
-        picture_destroy(&begin);
-        picture_destroy(&some);
-        picture_destroy(&end);
+                     model_image_distance(&begin, &some), model_image_distance(&begin, &end));
+        model_image_destroy(&begin);
+        model_image_destroy(&some);
+        model_image_destroy(&end);
         facet_scene_destroy(scene);
     }
 }
@@ -276,11 +278,15 @@ static void models_move_and_loops_close(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(compressed_boxes_are_the_box),  cmocka_unit_test(embedded_models_are_the_packed),
-        cmocka_unit_test(cubes_of_a_column_look_alike),  cmocka_unit_test(scaled_nodes_look_the_same),
-        cmocka_unit_test(instances_are_nodes),           cmocka_unit_test(an_avocado_is_an_avocado),
-        cmocka_unit_test(variants_change_what_they_map), cmocka_unit_test(a_lamp_with_ktx2_textures),
-        cmocka_unit_test(models_move_and_loops_close),
+        cmocka_unit_test(compressed_boxes_look_like_the_plain_one),
+        cmocka_unit_test(embedded_models_look_like_the_packed_ones),
+        cmocka_unit_test(all_compressions_of_a_cube_look_alike),
+        cmocka_unit_test(scaled_nodes_look_the_same),
+        cmocka_unit_test(instances_look_like_nodes),
+        cmocka_unit_test(both_material_models_describe_the_avocado),
+        cmocka_unit_test(variants_change_only_mapped_materials),
+        cmocka_unit_test(jpeg_and_ktx2_textures_mix_in_a_model),
+        cmocka_unit_test(animated_models_move_and_loops_close),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
