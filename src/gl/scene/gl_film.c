@@ -5,10 +5,7 @@
 
 #include "base/memory.h"
 #include "base/result.h"
-#include "draw/camera_rays.h"
 #include "film/matte.h"
-#include "gl/scene/gl_camera.h"
-#include "scene/identity.h"
 
 /* Pixels per tile: some 170 MB with 4 samples; the caller may cancel between tiles. */
 static const uint64_t TILE_PIXELS = 1u << 21;
@@ -21,13 +18,9 @@ typedef struct tile {
 
 typedef struct drawing {
     const gl_film_desc *desc;
-    gl_sampling sampling;
     float *jitter; /* per pass */
     uint32_t tile_width, tile_height, columns, rows;
-    /* passes that read other pixels (transmission, bloom) need as much of the whole image as possible */
-    bool looks_around;
     gl_target layers;
-    scene_identity *identities; /* per geometry; NULL: no requested layer needs them */
     matte_layers mattes;
     float *pixels; /* of one tile, as drawn */
     film *film;
@@ -45,10 +38,10 @@ static uint32_t smaller(uint32_t a, uint32_t b)
 static void plan_tiles(drawing *d)
 {
     const uint32_t *crop = d->desc->render->crop;
-    uint32_t scale = d->sampling.scale;
-    uint32_t most = (uint32_t)d->desc->frame->context->max_texture_size / scale;
-    uint64_t pixels = d->looks_around ? UINT64_MAX : TILE_PIXELS / ((uint64_t)scale * scale);
-    if (d->looks_around && (d->desc->render->width > most || d->desc->render->height > most))
+    uint32_t scale = d->desc->sampling.scale;
+    uint32_t most = (uint32_t)d->desc->context->max_texture_size / scale;
+    uint64_t pixels = d->desc->looks_around ? UINT64_MAX : TILE_PIXELS / ((uint64_t)scale * scale);
+    if (d->desc->looks_around && (d->desc->render->width > most || d->desc->render->height > most))
         most /= 2; /* half of the texture is for the margin */
     d->tile_width = smaller(crop[2], most);
     uint64_t height = pixels / d->tile_width;
@@ -74,8 +67,8 @@ static tile get_tile(const drawing *d, uint32_t number)
               .y = r->crop[1] + top,
               .width = smaller(d->tile_width, r->crop[2] - left),
               .height = smaller(d->tile_height, r->crop[3] - top)};
-    uint32_t most = (uint32_t)d->desc->frame->context->max_texture_size / d->sampling.scale;
-    if (d->looks_around) {
+    uint32_t most = (uint32_t)d->desc->context->max_texture_size / d->desc->sampling.scale;
+    if (d->desc->looks_around) {
         choose_margin(t.x, t.width, r->width, most, &t.margin[0], &t.margin[2]);
         choose_margin(t.y, t.height, r->height, most, &t.margin[1], &t.margin[3]);
     }
@@ -95,7 +88,7 @@ static gl_view view_of(const tile *t, uint32_t scale)
 static void read_tile(const drawing *d, const gl_target *target, uint32_t layer, const tile *t,
                       uint32_t scale)
 {
-    bool is_top_down = gl_camera_is_top_down(d->desc->frame->context);
+    bool is_top_down = gl_camera_is_top_down(d->desc->context);
     uint32_t w = t->width * scale, h = t->height * scale;
     gl_target_read(target, layer, t->margin[0] * scale, t->margin[is_top_down ? 1 : 3] * scale, w, h,
                    d->pixels);
@@ -114,8 +107,8 @@ static void read_tile(const drawing *d, const gl_target *target, uint32_t layer,
 static void add_tile(const drawing *d, const tile *t)
 {
     const uint32_t *crop = d->desc->render->crop;
-    uint32_t scale = d->sampling.scale;
-    float weight = 1.0f / (float)(scale * scale * d->sampling.passes);
+    uint32_t scale = d->desc->sampling.scale;
+    float weight = 1.0f / (float)(scale * scale * d->desc->sampling.passes);
     for (uint32_t y = 0; y < t->height * scale; y++) {
         const float *from = d->pixels + 4 * (size_t)y * t->width * scale;
         size_t row = (size_t)(t->y - crop[1]) + y / scale;
@@ -135,19 +128,16 @@ static facet_result check_watch(drawing *d, facet_error *error)
 static facet_result draw_picture(drawing *d, const tile *t, facet_error *error)
 {
     const gl_film_desc *desc = d->desc;
-    gl_view view = view_of(t, d->sampling.scale);
-    facet_result result = gl_target_update(desc->target, desc->frame->context, GL_TARGET_FILM, view.width,
-                                           view.height, d->sampling.samples, error);
-    for (uint32_t pass = 0; pass < d->sampling.passes && result == FACET_OK; pass++) {
-        gl_frame_block block = {.channel = 0};
+    gl_view view = view_of(t, desc->sampling.scale);
+    facet_result result = gl_target_update(desc->target, desc->context, GL_TARGET_FILM, view.width,
+                                           view.height, desc->sampling.samples, error);
+    for (uint32_t pass = 0; pass < desc->sampling.passes && result == FACET_OK; pass++) {
         memcpy(view.jitter, d->jitter + 2 * pass, sizeof view.jitter);
-        gl_camera_set(desc->frame->context, desc->camera, desc->scene->pose.bounds_min,
-                      desc->scene->pose.bounds_max, desc->render->width, desc->render->height, &view, &block);
-        result = gl_frame_draw(desc->frame, desc->target, desc->render, &block, error);
+        result = desc->draw(desc->self, desc->target, &view, error);
         if (result == FACET_OK)
-            read_tile(d, desc->target, 0, t, d->sampling.scale);
+            read_tile(d, desc->target, 0, t, desc->sampling.scale);
         if (result == FACET_OK)
-            result = gl_context_check(desc->frame->context, "the image", error);
+            result = gl_context_check(desc->context, "the image", error);
         if (result == FACET_OK)
             add_tile(d, t);
         render_watch_add(&d->watch, (uint64_t)t->width * t->height);
@@ -202,11 +192,11 @@ static void store_layer(const drawing *d, const struct layer_source *source, con
         }
 }
 
-/* Identity of the geometry at a pixel; NULL: none. */
+/* Identity of the surface at a pixel; NULL: none. */
 static const scene_identity *find_identity(const drawing *d, const float *pixel)
 {
-    return pixel[3] > 0.0f && pixel[0] < (float)d->desc->scene->geometries.count
-               ? &d->identities[(uint32_t)(pixel[0] + 0.5f)]
+    return pixel[3] > 0.0f && pixel[0] < (float)d->desc->identity_count
+               ? &d->desc->identities[(uint32_t)(pixel[0] + 0.5f)]
                : NULL;
 }
 
@@ -228,7 +218,7 @@ static void store_layers(const drawing *d, const tile *t, uint8_t *is_there)
     read_tile(d, &d->layers, NUMBER_LAYER, t, 1);
     for (size_t i = 0; i < (size_t)t->width * t->height; i++)
         is_there[i] = d->pixels[4 * i + 3] > 0.0f;
-    for (size_t i = 0; d->identities && i < sizeof identity_sources / sizeof *identity_sources; i++)
+    for (size_t i = 0; d->desc->identities && i < sizeof identity_sources / sizeof *identity_sources; i++)
         store_identities(d, &identity_sources[i], t);
     for (uint8_t layer = 0; layer < GL_TARGET_LAYERS; layer++) {
         read_tile(d, &d->layers, layer, t, 1);
@@ -256,13 +246,9 @@ static facet_result sample_layers(drawing *d, const tile *t, const float jitter[
 {
     const gl_film_desc *desc = d->desc;
     gl_view view = view_of(t, 1);
-    gl_frame_block block = {.channel = 0};
     memcpy(view.jitter, jitter, sizeof view.jitter);
-    gl_camera_set(desc->frame->context, desc->camera, desc->scene->pose.bounds_min,
-                  desc->scene->pose.bounds_max, desc->render->width, desc->render->height, &view, &block);
-    TRY(gl_target_update(&d->layers, desc->frame->context, GL_TARGET_LAYERED, view.width, view.height, 1,
-                         error));
-    return gl_frame_draw_layers(desc->frame, &d->layers, desc->render, &block, error);
+    TRY(gl_target_update(&d->layers, desc->context, GL_TARGET_LAYERED, view.width, view.height, 1, error));
+    return desc->draw_layers(desc->self, &d->layers, &view, error);
 }
 
 /* Opaque surfaces and the nearest transparent ones; nothing behind a transparent surface counts. */
@@ -301,7 +287,7 @@ static facet_result draw_layers(drawing *d, const tile *t, facet_error *error)
     if (result == FACET_OK && d->mattes.aovs)
         result = draw_mattes(d, t, error);
     if (result == FACET_OK)
-        result = gl_context_check(desc->frame->context, "the layers", error);
+        result = gl_context_check(desc->context, "the layers", error);
     mem_free(is_there);
     return result;
 }
@@ -311,30 +297,23 @@ static facet_result draw_layers(drawing *d, const tile *t, facet_error *error)
 static facet_result prepare(drawing *d, facet_error *error)
 {
     const facet_render_desc *r = d->desc->render;
-    const gl_frame *frame = d->desc->frame;
-    d->sampling =
-        gl_sampling_plan(r->samples, r->quality,
-                         gl_transparency_max_samples(frame->context, r->gl.transparency, frame->meshes));
-    d->looks_around = d->desc->scene->plans.lets_rays_through || r->gl.bloom > 0.0f;
+    const gl_sampling *sampling = &d->desc->sampling;
     plan_tiles(d);
-    size_t scale = d->sampling.scale;
+    size_t scale = sampling->scale;
     size_t count = (size_t)d->tile_width * d->tile_height * scale * scale;
     d->pixels = mem_alloc(&r->allocator, count, 4 * sizeof *d->pixels);
-    d->jitter = mem_alloc(&r->allocator, d->sampling.passes, 2 * sizeof *d->jitter);
+    d->jitter = mem_alloc(&r->allocator, sampling->passes, 2 * sizeof *d->jitter);
     if (!d->pixels || !d->jitter)
         return fail_memory(error, "image", count * 4 * sizeof *d->pixels);
-    gl_sampling_jitter(&d->sampling, d->jitter);
+    gl_sampling_jitter(sampling, d->jitter);
     memset(d->film->layers[0].pixels, 0,
            /* a failed attempt may have left values */
            4 * sizeof(float) * (size_t)d->film->width * d->film->height);
     d->mattes = matte_find(d->film);
     matte_clear(&d->mattes, (size_t)d->film->width * d->film->height);
     render_watch_init(&d->watch, &r->progress, "shade", d->desc->deadline_s,
-                      (double)r->crop[2] * (double)r->crop[3] * (double)d->sampling.passes);
-    if (!(r->aovs & SCENE_IDENTITY_AOVS))
-        return FACET_OK;
-    const gl_scene *scene = d->desc->scene;
-    return scene_identities_create(scene->scene, &scene->pose, &r->allocator, &d->identities, error);
+                      (double)r->crop[2] * (double)r->crop[3] * (double)sampling->passes);
+    return FACET_OK;
 }
 
 facet_result gl_film_draw(const gl_film_desc *desc, film *target, facet_error *error)
@@ -350,7 +329,6 @@ facet_result gl_film_draw(const gl_film_desc *desc, film *target, facet_error *e
             result = check_watch(&d, error);
     }
     gl_target_destroy(&d.layers);
-    mem_free(d.identities);
     mem_free(d.pixels);
     mem_free(d.jitter);
     return result;

@@ -149,6 +149,62 @@ static void report_driver(gl_renderer *r, const facet_log *log)
     r->has_reported_driver = true;
 }
 
+/* Of gl_film_desc: what a view of the scene takes. */
+typedef struct scene_view {
+    gl_renderer *renderer;
+    const camera_rays *camera;
+    const facet_render_desc *desc;
+} scene_view;
+
+static void set_camera(const gl_renderer *r, const camera_rays *camera, const facet_render_desc *desc,
+                       const gl_view *view, gl_frame_block *block)
+{
+    *block = (gl_frame_block){.channel = 0};
+    gl_camera_set(r->context, camera, r->prepared.pose.bounds_min, r->prepared.pose.bounds_max, desc->width,
+                  desc->height, view, block);
+}
+
+static facet_result draw_view(void *self, const gl_target *target, const gl_view *view, facet_error *error)
+{
+    const scene_view *v = self;
+    gl_frame_block block;
+    set_camera(v->renderer, v->camera, v->desc, view, &block);
+    return gl_frame_draw(&v->renderer->frame, target, v->desc, &block, error);
+}
+
+static facet_result draw_layers(void *self, const gl_target *target, const gl_view *view, facet_error *error)
+{
+    const scene_view *v = self;
+    gl_frame_block block;
+    set_camera(v->renderer, v->camera, v->desc, view, &block);
+    return gl_frame_draw_layers(&v->renderer->frame, target, v->desc, &block, error);
+}
+
+static facet_result draw_film(gl_renderer *r, const facet_render_desc *desc, const camera_rays *camera,
+                              double deadline_s, film *target, facet_error *error)
+{
+    scene_view view = {r, camera, desc};
+    scene_identity *identities = NULL;
+    if (desc->aovs & SCENE_IDENTITY_AOVS)
+        TRY(scene_identities_create(r->prepared.scene, &r->prepared.pose, &desc->allocator, &identities,
+                                    error));
+    const gl_film_desc drawn = {
+        .context = r->context,
+        .render = desc,
+        .target = &r->target,
+        .sampling = gl_sampling_plan(desc->samples, desc->quality, gl_frame_max_samples(&r->frame, desc)),
+        .looks_around = r->prepared.plans.lets_rays_through || desc->gl.bloom > 0.0f,
+        .deadline_s = deadline_s,
+        .identities = identities,
+        .identity_count = r->prepared.geometries.count,
+        .self = &view,
+        .draw = draw_view,
+        .draw_layers = draw_layers};
+    facet_result result = gl_film_draw(&drawn, target, error);
+    mem_free(identities);
+    return result;
+}
+
 static facet_result attempt(gl_renderer *r, const facet_render_desc *desc, double deadline_s, film *target,
                             facet_render_stats *stats, facet_error *error)
 {
@@ -160,14 +216,8 @@ static facet_result attempt(gl_renderer *r, const facet_render_desc *desc, doubl
     if (result == FACET_OK)
         result = prepare(r, desc, &camera, deadline_s, stats, error);
     double begin = clock_seconds();
-    const gl_film_desc drawn = {.frame = &r->frame,
-                                .scene = &r->prepared,
-                                .camera = &camera,
-                                .render = desc,
-                                .target = &r->target,
-                                .deadline_s = deadline_s};
     if (result == FACET_OK)
-        result = gl_film_draw(&drawn, target, error);
+        result = draw_film(r, desc, &camera, deadline_s, target, error);
     if (result == FACET_OK) {
         r->times = gl_timers_finish(&r->frame.timers, true);
         result = render_check_limits(desc, "shade", 1.0, 0.0, error);
@@ -213,7 +263,7 @@ facet_result gl_renderer_present(gl_renderer *r, const facet_render_desc *wanted
 {
     const facet_render_desc settled = settle(wanted), *desc = &settled;
     camera_rays camera;
-    gl_frame_block block = {.channel = 0};
+    gl_frame_block block;
     *stats = (facet_render_stats){.thread_count = desc->thread_count};
     if (!desc->width || !desc->height)
         return FACET_OK; /* a window that is reduced to its title bar */
@@ -228,8 +278,7 @@ facet_result gl_renderer_present(gl_renderer *r, const facet_render_desc *wanted
                                   sampling.samples, error);
     if (result == FACET_OK) {
         const gl_view all = {.scale = 1, .width = desc->width, .height = desc->height};
-        gl_camera_set(r->context, &camera, r->prepared.pose.bounds_min, r->prepared.pose.bounds_max,
-                      desc->width, desc->height, &all, &block);
+        set_camera(r, &camera, desc, &all, &block);
         result = gl_frame_draw(&r->frame, &r->target, desc, &block, error);
     }
     if (result == FACET_OK) {

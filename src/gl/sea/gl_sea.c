@@ -7,10 +7,11 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/result.h"
-#include "draw/render_watch.h"
 #include "draw/camera_rays.h"
+#include "draw/render_watch.h"
 #include "gl/core/gl_blocks.h"
 #include "gl/scene/gl_camera.h"
+#include "gl/scene/gl_film.h"
 #include "gl/scene/gl_light_atlas.h"
 #include "gl/core/gl_program.h"
 #include "gl/sea/gl_sea_block.h"
@@ -19,9 +20,6 @@
 #include "gl/core/gl_target.h"
 #include "ibl/environment.h"
 #include "ibl/light.h"
-
-/* Pixels drawn at once; between tiles the caller may cancel. */
-static const uint64_t TILE_PIXELS = 1u << 21;
 
 struct gl_sea {
     facet_allocator allocator;
@@ -213,9 +211,6 @@ typedef struct drawing {
     gl_sea_model model;
     bool has_model;
     GLuint grid, surface, sorting, smooth, linear, beside; /* programs */
-    float *pattern, *pixels;
-    film *film;
-    render_watch watch;
 } drawing;
 
 static facet_result get_programs(drawing *d, facet_error *error)
@@ -316,7 +311,7 @@ static void draw_classes(const drawing *d)
 }
 
 /* First which water is visible, then its class, then its shading. */
-static void draw_view(const drawing *d)
+static void draw_water(const drawing *d, const gl_target *target)
 {
     const gl_sea *s = d->s;
     begin_pass(&s->seen);
@@ -336,7 +331,7 @@ static void draw_view(const drawing *d)
     glBindTexture(GL_TEXTURE_2D, s->seen.color);
     if (d->has_model)
         gl_sea_model_bind(&d->model);
-    begin_pass(&s->target);
+    begin_pass(target);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_ALWAYS);
     glUseProgram(d->sorting);
@@ -344,26 +339,6 @@ static void draw_view(const drawing *d)
     glDrawArrays(GL_TRIANGLES, 0, 3);
     draw_classes(d);
     gl_camera_end_depth(&s->context);
-}
-
-/* ---- the film ---- */
-
-/* In pixels of the whole image. */
-typedef struct tile {
-    uint32_t x, y, width, height;
-} tile;
-
-static void add_tile(const drawing *d, const tile *t, uint32_t sample_count)
-{
-    const uint32_t *crop = d->frame->desc->crop;
-    float *film_pixels = film_find(d->film, "")->pixels, weight = 1.0f / (float)sample_count;
-    bool is_top_down = gl_camera_is_top_down(&d->s->context);
-    for (uint32_t y = 0; y < t->height; y++) {
-        const float *from = d->pixels + 4 * (size_t)t->width * (is_top_down ? y : t->height - 1 - y);
-        float *to = film_pixels + 4 * ((size_t)(t->y - crop[1] + y) * crop[2] + (t->x - crop[0]));
-        for (size_t i = 0; i < 4 * (size_t)t->width; i++)
-            to[i] += weight * from[i];
-    }
 }
 
 /* And restores what was bound before. */
@@ -376,63 +351,28 @@ static facet_result draw_model(drawing *d, const gl_view *view, facet_error *err
     return result;
 }
 
-static facet_result draw_tile(drawing *d, const tile *t, facet_error *error)
+static facet_result draw_view(void *self, const gl_target *target, const gl_view *view, facet_error *error)
 {
-    gl_sea *s = d->s;
-    uint32_t sample_count = d->frame->desc->samples ? d->frame->desc->samples : 1;
-    facet_result result =
-        gl_target_update(&s->seen, &s->context, GL_TARGET_FILM, t->width, t->height, 1, error);
-    if (result == FACET_OK)
-        result = gl_target_update(&s->target, &s->context, GL_TARGET_FILM, t->width, t->height, 1, error);
-    for (uint32_t i = 0; i < sample_count && result == FACET_OK; i++) {
-        const gl_view view = {.scale = 1,
-                              .x = t->x,
-                              .y = t->y,
-                              .width = t->width,
-                              .height = t->height,
-                              .jitter = {d->pattern[2 * i] - 0.5f, d->pattern[2 * i + 1] - 0.5f}};
-        if (d->has_model)
-            result = draw_model(d, &view, error);
-        if (result != FACET_OK)
-            return result;
-        set_frame(d, &view);
-        draw_view(d);
-        gl_target_read(&s->target, 0, 0, 0, t->width, t->height, d->pixels);
-        result = gl_context_check(&s->context, "the image", error);
-        if (result == FACET_OK)
-            add_tile(d, t, sample_count);
-        render_watch_add(&d->watch, (uint64_t)t->width * t->height);
-        render_watch_look(&d->watch);
-        if (result == FACET_OK)
-            result = render_watch_explain(&d->watch, error);
-    }
-    return result;
+    drawing *d = self;
+    TRY(gl_target_update(&d->s->seen, &d->s->context, GL_TARGET_FILM, view->width, view->height, 1, error));
+    if (d->has_model)
+        TRY(draw_model(d, view, error));
+    set_frame(d, view);
+    draw_water(d, target);
+    return FACET_OK;
 }
 
-static facet_result draw_tiles(drawing *d, double deadline_s, facet_error *error)
+static facet_result draw_film(drawing *d, double deadline_s, film *target, facet_error *error)
 {
     const facet_render_desc *r = d->frame->desc;
-    uint32_t most = (uint32_t)d->s->context.max_texture_size, samples = r->samples ? r->samples : 1;
-    uint32_t width = r->crop[2] < most ? r->crop[2] : most;
-    uint64_t lines = TILE_PIXELS / width;
-    uint32_t height = lines < r->crop[3] ? (uint32_t)(lines ? lines : 1) : r->crop[3];
-    height = height < most ? height : most;
-    d->pattern = mem_alloc(&r->allocator, samples, 2 * sizeof *d->pattern);
-    d->pixels = mem_alloc(&r->allocator, (size_t)width * height, 4 * sizeof *d->pixels);
-    if (!d->pattern || !d->pixels)
-        return fail_memory(error, "image", (size_t)width * height * 4 * sizeof *d->pixels);
-    sample_pattern(samples, d->pattern);
-    memset(film_find(d->film, "")->pixels, 0, 4 * sizeof(float) * (size_t)d->film->width * d->film->height);
-    render_watch_init(&d->watch, &r->progress, "shade", deadline_s,
-                      (double)r->crop[2] * (double)r->crop[3] * (double)samples);
-    facet_result result = FACET_OK;
-    for (uint32_t y = 0; y < r->crop[3] && result == FACET_OK; y += height)
-        for (uint32_t x = 0; x < r->crop[2] && result == FACET_OK; x += width) {
-            const tile t = {r->crop[0] + x, r->crop[1] + y, r->crop[2] - x < width ? r->crop[2] - x : width,
-                            r->crop[3] - y < height ? r->crop[3] - y : height};
-            result = draw_tile(d, &t, error);
-        }
-    return result;
+    const gl_film_desc drawn = {.context = &d->s->context,
+                                .render = r,
+                                .target = &d->s->target,
+                                .sampling = {.scale = 1, .samples = 1, .passes = r->samples ? r->samples : 1},
+                                .deadline_s = deadline_s,
+                                .self = d,
+                                .draw = draw_view};
+    return gl_film_draw(&drawn, target, error);
 }
 
 /* ---- entry points ---- */
@@ -473,7 +413,7 @@ facet_result gl_sea_draw(gl_sea *s, const water_frame *frame, film *target, face
     double begin = clock_seconds();
     const facet_render_desc *r = frame->desc;
     double deadline_s = r->time_limit_s > 0.0 ? begin + r->time_limit_s : 0.0;
-    drawing d = {.s = s, .frame = frame, .film = target};
+    drawing d = {.s = s, .frame = frame};
     facet_result result = render_check_limits(r, "prepare", 0.0, deadline_s, error);
     if (result == FACET_OK)
         result = prepare(&d, stats, error);
@@ -482,13 +422,11 @@ facet_result gl_sea_draw(gl_sea *s, const water_frame *frame, film *target, face
     if (result == FACET_OK)
         result = draw_grid(&d, error);
     if (result == FACET_OK)
-        result = draw_tiles(&d, deadline_s, error);
+        result = draw_film(&d, deadline_s, target, error);
     if (result == FACET_OK)
         result = render_check_limits(r, "shade", 1.0, 0.0, error);
     stats->shade_s += clock_seconds() - drawing_begin;
     stats->total_s = stats->light_s + (clock_seconds() - begin);
-    mem_free(d.pattern);
-    mem_free(d.pixels);
     gl_sea_model_end(&d.model);
     if (result == FACET_ERROR_MEMORY || s->context.is_lost)
         stop(s);
