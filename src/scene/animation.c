@@ -8,7 +8,7 @@
 
 #include "base/result.h"
 #include "scene/material_table.h"
-#include "scene/sampler.h"
+#include "scene/keyframes.h"
 
 /* ---- ranges ---- */
 

@@ -3,7 +3,7 @@
 
 #include "base/parallel.h"
 #include "base/result.h"
-#include "scene/fit_times.h"
+#include "scene/keyframes.h"
 #include "scene/stray.h"
 #include "scene/unseen.h"
 #include "scene/vertex_tree.h"
@@ -399,8 +399,8 @@ facet_result scene_fit_pose(const facet_scene *scene, const scene_pose *pose, co
 
 /* Bounds of the scene at all times, and with a view the extent that frames them. */
 static facet_result look_at_times(const facet_scene *scene, const facet_pose_desc *desc,
-                                  const fit_times *list, const facet_orbit *orbit, const view *v, subject *s,
-                                  facet_error *error)
+                                  const keyframe_times *list, const facet_orbit *orbit, const view *v,
+                                  subject *s, facet_error *error)
 {
     facet_pose_desc at = *desc;
     for (uint32_t i = 0; i < list->count; i++) {
@@ -428,8 +428,8 @@ static facet_result fit_motion(const facet_scene *scene, const facet_pose_desc *
         if (desc->animations[i] >= scene->animation_count)
             return fail(error, FACET_ERROR_ARGUMENT, "%s: has no animation %u", scene->source,
                         desc->animations[i]);
-    fit_times list;
-    fit_times_list(scene, desc, &list);
+    keyframe_times list;
+    keyframes_list_times(scene, desc, &list);
     subject s = empty_subject();
     if (!orbit->has_target)
         TRY(look_at_times(scene, desc, &list, orbit, NULL, &s, error));

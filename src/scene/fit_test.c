@@ -1,5 +1,5 @@
 /* fit_test.c - framing: everything is in the image, and something touches its border, also in motion. */
-#include "scene/fit_times.h"
+#include "scene/keyframes.h"
 #include "scene/motion_test_support.h"
 #include "tests/support/support.h"
 
@@ -260,9 +260,9 @@ static const uint32_t FIRST_ANIMATION[1] = {0};
 static double farthest_ever(const facet_scene *scene, const facet_camera *camera, double aspect)
 {
     facet_pose_desc desc = {.animation_count = 1, .animations = FIRST_ANIMATION};
-    fit_times list;
+    keyframe_times list;
     double most = 0.0;
-    fit_times_list(scene, &desc, &list);
+    keyframes_list_times(scene, &desc, &list);
     for (uint32_t i = 0; i < list.count; i++) {
         scene_pose pose = test_pose_at(scene, 1, list.times[i], 1);
         for (int k = 0; k < COUNT; k++) {
@@ -381,8 +381,8 @@ static void times_are_the_keys_and_24_per_second(void **state)
         const test_channel channel = {{.offset = offsetof(scene_node, translation)},
                                       {SCENE_LINEAR, cases[i].keys, times, 3, values}};
         test_animation(scene, &channel, 1);
-        fit_times list;
-        fit_times_list(scene, &desc, &list);
+        keyframe_times list;
+        keyframes_list_times(scene, &desc, &list);
         assert_int_equal(list.count, cases[i].expected);
         assert_true(list.times[0] == (double)times[0]);
         assert_near(list.times[list.count - 1], times[cases[i].keys - 1],

@@ -1,6 +1,6 @@
-/* sampler.h - the value of an animation's keys at a point in time. */
-#ifndef SCENE_SAMPLER_H
-#define SCENE_SAMPLER_H
+/* keyframes.h - animation samplers: the value at a point in time, and the times of all keys. */
+#ifndef SCENE_KEYFRAMES_H
+#define SCENE_KEYFRAMES_H
 
 #include "scene/scene.h"
 
@@ -27,5 +27,15 @@ static inline double sampler_blend_value(const sampler_blend *blend, size_t i)
 
 /* A rotation at time_s: a unit quaternion x y z w. False: the keys cancel. */
 bool sampler_rotation_at(const scene_sampler *sampler, double time_s, float out[4]);
+
+/* Times in ascending order. */
+typedef struct keyframe_times {
+    uint32_t count;
+    double times[SCENE_FIT_TIMES];
+} keyframe_times;
+
+/* Every key of desc's animations (at least one, all valid) and 24 even steps per second; SCENE_FIT_TIMES
+ * even steps from the first to the last key if there would be more. */
+void keyframes_list_times(const facet_scene *scene, const facet_pose_desc *desc, keyframe_times *list);
 
 #endif

@@ -1,5 +1,5 @@
-/* sampler_test.c - each interpolation against its closed form. */
-#include "scene/sampler.h"
+/* keyframes_test.c - each interpolation against its closed form. */
+#include "scene/keyframes.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
