@@ -1,6 +1,6 @@
 /* skinning.c - morph targets (glTF 2.0 section 3.7.2.2: attributes plus the weighted sum of displacements)
  * and linear blend skinning (section 3.7.3; the transform of the node that has the mesh is ignored). */
-#include "scene/skinning.h"
+#include "scene/deform.h"
 
 #include <float.h>
 #include <math.h>
