@@ -27,6 +27,14 @@ static void describe_indices(text *t, const char *key, const uint32_t *indices, 
     text_json_end_array(t);
 }
 
+static void describe_strings(text *t, const char *key, const char *const *strings, uint32_t count)
+{
+    text_json_begin_array(t, key);
+    for (uint32_t i = 0; i < count; i++)
+        text_json_string(t, NULL, strings[i]);
+    text_json_end_array(t);
+}
+
 /* The position behind the string that begins at json. */
 static const char *skip_string(const char *json)
 {
@@ -144,14 +152,8 @@ static void write_animation(text *t, const scene_animation *animation)
 /* "skins", "animations" */
 static void describe_motion(text *t, const facet_scene *scene)
 {
-    text_json_begin_array(t, "skins");
-    for (uint32_t i = 0; i < scene->skin_count; i++)
-        write_skin(t, &scene->skins[i]);
-    text_json_end_array(t);
-    text_json_begin_array(t, "animations");
-    for (uint32_t i = 0; i < scene->animation_count; i++)
-        write_animation(t, &scene->animations[i]);
-    text_json_end_array(t);
+    DESCRIBE_ARRAY("skins", scene->skins, scene->skin_count, write_skin);
+    DESCRIBE_ARRAY("animations", scene->animations, scene->animation_count, write_animation);
 }
 
 /* ---- counts ---- */
@@ -368,36 +370,6 @@ static void write_meshes(text *t, const facet_scene *scene)
     text_json_end_array(t);
 }
 
-static void write_texture(text *t, const scene_texture *texture)
-{
-    static const char *const wraps[] = {"repeat", "clamp", "mirror"};
-    static const char *const filters[] = {"linear", "nearest"};
-    static const char *const mips[] = {"linear", "nearest", "none"};
-    text_json_begin_object(t, NULL);
-    text_json_string(t, "name", texture->name);
-    describe_index(t, "image", texture->image);
-    text_json_string(t, "wrap_u", wraps[texture->wrap_u]);
-    text_json_string(t, "wrap_v", wraps[texture->wrap_v]);
-    text_json_string(t, "mag_filter", filters[texture->mag_filter]);
-    text_json_string(t, "min_filter", filters[texture->min_filter]);
-    text_json_string(t, "mip_filter", mips[texture->mip_filter]);
-    describe_meta(t, &texture->meta);
-    text_json_end_object(t);
-}
-
-static void write_image(text *t, const scene_image *image)
-{
-    text_json_begin_object(t, NULL);
-    text_json_string(t, "name", image->name);
-    text_json_string(t, "mime_type", image->mime_type[0] ? image->mime_type : NULL);
-    text_json_integer(t, "bytes", (int64_t)image->size);
-    text_json_integer(t, "width", image->width);
-    text_json_integer(t, "height", image->height);
-    text_json_bool(t, "readable", image->bytes != NULL);
-    describe_meta(t, &image->meta);
-    text_json_end_object(t);
-}
-
 static void write_camera(text *t, const scene_camera *camera)
 {
     text_json_begin_object(t, NULL);
@@ -454,14 +426,6 @@ static void write_image_light(text *t, const scene_image_light *light)
     text_json_end_object(t);
 }
 
-static void write_variants(text *t, const facet_scene *scene)
-{
-    text_json_begin_array(t, "variants");
-    for (uint32_t i = 0; i < scene->variant_count; i++)
-        text_json_string(t, NULL, scene->variants[i]);
-    text_json_end_array(t);
-}
-
 /* ---- memory ---- */
 
 /* Bytes of a primitive's arrays in the renderer's form. */
@@ -508,14 +472,6 @@ static void write_extensions(text *t, const facet_scene *scene)
     text_json_end_array(t);
 }
 
-#define WRITE_ARRAY(key, items, count, write)                                                                \
-    do {                                                                                                     \
-        text_json_begin_array(t, key);                                                                       \
-        for (uint32_t index_ = 0; index_ < (count); index_++)                                                \
-            write(t, &(items)[index_]);                                                                      \
-        text_json_end_array(t);                                                                              \
-    } while (0)
-
 void scene_describe_json(const facet_scene *scene, struct text *t)
 {
     text_json_begin_object(t, NULL);
@@ -525,27 +481,20 @@ void scene_describe_json(const facet_scene *scene, struct text *t)
     write_bounds(t, scene, NULL);
     describe_index(t, "default_scene", scene->default_scene);
     write_scenes(t, scene);
-    WRITE_ARRAY("nodes", scene->nodes, scene->node_count, write_node);
+    DESCRIBE_ARRAY("nodes", scene->nodes, scene->node_count, write_node);
     write_meshes(t, scene);
     describe_materials(t, scene);
     describe_legacy(t, scene);
-    WRITE_ARRAY("textures", scene->textures, scene->texture_count, write_texture);
-    WRITE_ARRAY("images", scene->images, scene->image_count, write_image);
-    WRITE_ARRAY("cameras", scene->cameras, scene->camera_count, write_camera);
-    WRITE_ARRAY("lights", scene->lights, scene->light_count, write_light);
-    WRITE_ARRAY("image_lights", scene->image_lights, scene->image_light_count, write_image_light);
+    describe_images(t, scene);
+    DESCRIBE_ARRAY("cameras", scene->cameras, scene->camera_count, write_camera);
+    DESCRIBE_ARRAY("lights", scene->lights, scene->light_count, write_light);
+    DESCRIBE_ARRAY("image_lights", scene->image_lights, scene->image_light_count, write_image_light);
     describe_motion(t, scene);
-    write_variants(t, scene);
+    describe_strings(t, "variants", scene->variants, scene->variant_count);
     write_memory(t, scene);
     describe_meta(t, &scene->meta);
     write_extensions(t, scene);
-    text_json_begin_array(t, "warnings");
-    for (uint32_t i = 0; i < scene->warning_count; i++)
-        text_json_string(t, NULL, scene->warnings[i]);
-    text_json_end_array(t);
-    text_json_begin_array(t, "notes");
-    for (uint32_t i = 0; i < scene->note_count; i++)
-        text_json_string(t, NULL, scene->notes[i]);
-    text_json_end_array(t);
+    describe_strings(t, "warnings", scene->warnings, scene->warning_count);
+    describe_strings(t, "notes", scene->notes, scene->note_count);
     text_json_end_object(t);
 }

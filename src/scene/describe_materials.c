@@ -1,5 +1,5 @@
-/* describe_materials.c - materials as JSON: the core by facet's names, extensions by glTF's; and
- * materials, lights and fog of OpenGL 1, only what is stated. */
+/* describe_materials.c - materials as JSON, the core by facet's names, extensions by glTF's; textures and
+ * images; materials, lights and fog of OpenGL 1, only what is stated. */
 #include "scene/describe.h"
 
 #include "scene/legacy_extras.h"
@@ -78,10 +78,45 @@ static void write_material(text *t, const scene_material *m)
 
 void describe_materials(text *t, const facet_scene *scene)
 {
-    text_json_begin_array(t, "materials");
-    for (uint32_t i = 0; i < scene->material_count; i++)
-        write_material(t, &scene->materials[i]);
-    text_json_end_array(t);
+    DESCRIBE_ARRAY("materials", scene->materials, scene->material_count, write_material);
+}
+
+/* ---- textures and images ---- */
+
+static void write_texture(text *t, const scene_texture *texture)
+{
+    static const char *const wraps[] = {"repeat", "clamp", "mirror"};
+    static const char *const filters[] = {"linear", "nearest"};
+    static const char *const mips[] = {"linear", "nearest", "none"};
+    text_json_begin_object(t, NULL);
+    text_json_string(t, "name", texture->name);
+    describe_index(t, "image", texture->image);
+    text_json_string(t, "wrap_u", wraps[texture->wrap_u]);
+    text_json_string(t, "wrap_v", wraps[texture->wrap_v]);
+    text_json_string(t, "mag_filter", filters[texture->mag_filter]);
+    text_json_string(t, "min_filter", filters[texture->min_filter]);
+    text_json_string(t, "mip_filter", mips[texture->mip_filter]);
+    describe_meta(t, &texture->meta);
+    text_json_end_object(t);
+}
+
+static void write_image(text *t, const scene_image *image)
+{
+    text_json_begin_object(t, NULL);
+    text_json_string(t, "name", image->name);
+    text_json_string(t, "mime_type", image->mime_type[0] ? image->mime_type : NULL);
+    text_json_integer(t, "bytes", (int64_t)image->size);
+    text_json_integer(t, "width", image->width);
+    text_json_integer(t, "height", image->height);
+    text_json_bool(t, "readable", image->bytes != NULL);
+    describe_meta(t, &image->meta);
+    text_json_end_object(t);
+}
+
+void describe_images(text *t, const facet_scene *scene)
+{
+    DESCRIBE_ARRAY("textures", scene->textures, scene->texture_count, write_texture);
+    DESCRIBE_ARRAY("images", scene->images, scene->image_count, write_image);
 }
 
 /* ---- OpenGL 1 ---- */
@@ -168,14 +203,8 @@ void describe_legacy(text *t, const facet_scene *scene)
     text_json_string(t, "colors", legacy->colors == FACET_LEGACY_COLORS_LINEAR ? "linear" : "srgb");
     text_json_string(t, "dialect", legacy_dialect_names[legacy->dialect]);
     text_json_bool(t, "dialect_guessed", legacy->is_dialect_guessed);
-    text_json_begin_array(t, "materials");
-    for (uint32_t i = 0; i < scene->material_count; i++)
-        write_legacy_material(t, &legacy->materials[i]);
-    text_json_end_array(t);
-    text_json_begin_array(t, "lights");
-    for (uint32_t i = 0; i < legacy->light_count; i++)
-        write_light(t, &legacy->lights[i]);
-    text_json_end_array(t);
+    DESCRIBE_ARRAY("materials", legacy->materials, scene->material_count, write_legacy_material);
+    DESCRIBE_ARRAY("lights", legacy->lights, legacy->light_count, write_light);
     if (legacy->fog.mode != LEGACY_FOG_NONE)
         write_fog(t, &legacy->fog);
     text_json_end_object(t);
