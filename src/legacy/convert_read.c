@@ -1,17 +1,11 @@
-/* convert_read.c - interprets a legacy material: its dialect, its illum, switches of rgl, mistakes of
- * exporters. docs/legacy.md, "What becomes of each statement". Values and textures are converted
+/* convert_read.c - interprets a legacy material: its dialect, switches of rgl, mistakes of exporters; its
+ * illum by convert_illum.c. docs/legacy.md, "What becomes of each statement". Values and textures are converted
  * elsewhere. */
 #include "legacy/convert_state.h"
-#include "legacy/specular_glossiness.h"
 #include "scene/legacy_extras.h"
 
 #include <math.h>
 #include <string.h>
-
-static void remove_map(legacy_map *map)
-{
-    map->ref.texture = SCENE_NONE;
-}
 
 /* ---- missing textures, and statements without counterpart ---- */
 
@@ -29,7 +23,7 @@ static void check_maps(conversion *c, uint32_t material, legacy_material *m)
             if (map->path || map->ref.texture != SCENE_NONE)
                 note_add(&c->notes, material, NOTE_MAP_DROPPED,
                          "%s has no counterpart in glTF; it is kept in extras", statement);
-            remove_map(map);
+            legacy_remove_map(map);
             continue;
         }
         bool is_stated = map->path || map->ref.texture != SCENE_NONE;
@@ -37,7 +31,7 @@ static void check_maps(conversion *c, uint32_t material, legacy_material *m)
             note_add(&c->notes, material, NOTE_TEXTURE_MISSING,
                      "the image of %s, %s, cannot be read; the material is converted without it", statement,
                      map->path ? map->path : "of a texture");
-            remove_map(map);
+            legacy_remove_map(map);
         }
         if (is_stated && map->dropped)
             note_add(&c->notes, material, NOTE_TEXTURE_OPTION_DROPPED,
@@ -124,12 +118,12 @@ static void read_opacity(conversion *c, uint32_t material, legacy_reading *r)
             &c->notes, material, NOTE_TR_AMBIGUOUS,
             "Tr means transparency to most programs and opacity to some; it is read such that opacity is %g",
             (double)r->opacity);
-    bool has_picture = legacy_has_map(m, LEGACY_OPACITY_MAP) || legacy_has_map(m, LEGACY_DIFFUSE_MAP) ||
-                       m->maps[LEGACY_OPACITY_MAP].path || m->maps[LEGACY_DIFFUSE_MAP].path;
-    if (r->opacity == 0.0f && (has_picture || c->hides_everything)) {
+    bool has_image = legacy_has_map(m, LEGACY_OPACITY_MAP) || legacy_has_map(m, LEGACY_DIFFUSE_MAP) ||
+                     m->maps[LEGACY_OPACITY_MAP].path || m->maps[LEGACY_DIFFUSE_MAP].path;
+    if (r->opacity == 0.0f && (has_image || c->hides_everything)) {
         r->opacity = 1.0f;
         note_add(&c->notes, material, NOTE_ZERO_ALPHA,
-                 has_picture
+                 has_image
                      ? "an opacity of 0 would hide its texture; it counts as 1, as some exporters meant it"
                      : "an opacity of 0 in all materials would hide the whole model; it counts as 1, as "
                        "some exporters meant it");
@@ -154,7 +148,7 @@ static void read_ambient(conversion *c, uint32_t material, legacy_reading *r, fa
     if (c->desc.ambient == FACET_LEGACY_AMBIENT_OCCLUSION && has_map)
         return;
     if (is_black(ambient)) {
-        remove_map(&m->maps[LEGACY_AMBIENT_MAP]);
+        legacy_remove_map(&m->maps[LEGACY_AMBIENT_MAP]);
         return;
     }
     if (c->desc.ambient == FACET_LEGACY_AMBIENT_EMISSIVE) {
@@ -164,7 +158,7 @@ static void read_ambient(conversion *c, uint32_t material, legacy_reading *r, fa
         } else if (has_map || legacy_has_map(m, LEGACY_EMISSION_MAP)) {
             note_add(&c->notes, material, NOTE_AMBIENT_DROPPED,
                      "Ka and Ke have maps of their own, of which glTF's emission holds one: Ka is dropped");
-            remove_map(&m->maps[LEGACY_AMBIENT_MAP]);
+            legacy_remove_map(&m->maps[LEGACY_AMBIENT_MAP]);
             return;
         }
         for (int k = 0; k < 3; k++)
@@ -175,81 +169,7 @@ static void read_ambient(conversion *c, uint32_t material, legacy_reading *r, fa
             "the ambient color has no counterpart in glTF, where ambient light is the scene's; it is kept "
             "in extras");
     }
-    remove_map(&m->maps[LEGACY_AMBIENT_MAP]);
-}
-
-/* ---- illum ---- */
-
-static bool reflects_surroundings(int illum)
-{
-    return illum == 3 || illum == 5 || illum == 7 || illum == 8;
-}
-
-static bool is_known_good(facet_mtl_dialect dialect)
-{
-    return dialect == FACET_MTL_DIALECT_BLENDER27 || dialect == FACET_MTL_DIALECT_BLENDER28 ||
-           dialect == FACET_MTL_DIALECT_BLENDER3;
-}
-
-/* Exporters write illum 0 and 1 for shiny materials too, so these are honored only if nothing contradicts
- * them. */
-static void read_illum(conversion *c, uint32_t material, legacy_reading *r, facet_mtl_dialect dialect)
-{
-    legacy_material *m = &r->m;
-    bool has_highlight = !is_black(r->surface.specular);
-    if (m->illum == 10)
-        note_add(&c->notes, material, NOTE_ILLUM_IGNORED,
-                 "illum 10, which only catches shadows, has no counterpart in glTF");
-    if (m->illum != 0 && m->illum != 1)
-        return;
-    bool is_honoured = c->desc.illum == FACET_MTL_ILLUM_HONOR ||
-                       (c->desc.illum == FACET_MTL_ILLUM_AUTO && (!has_highlight || is_known_good(dialect)));
-    if (!is_honoured) {
-        if (has_highlight || m->illum == 0)
-            note_add(&c->notes, material, NOTE_ILLUM_IGNORED, "illum %d would %s, but %s: it is ignored",
-                     m->illum, m->illum == 0 ? "switch light off" : "switch the highlight off",
-                     has_highlight ? "Ks is not black" : "the setting of illum is to ignore it");
-        return;
-    }
-    if (m->illum == 0) {
-        m->is_lit = false;
-        note_add(&c->notes, material, NOTE_ILLUM_HONOURED, "illum 0: the color is shown without light");
-    } else if (has_highlight) {
-        memset(r->surface.specular, 0, sizeof r->surface.specular);
-        remove_map(&m->maps[LEGACY_SPECULAR_MAP]);
-        remove_map(&m->maps[LEGACY_SHININESS_MAP]);
-        note_add(&c->notes, material, NOTE_ILLUM_HONOURED, "illum 1: Ks and Ns do not count");
-    }
-}
-
-/* ---- highlights as wide as the surface ---- */
-
-/* At an exponent of 0 the highlight adds Ks to the whole surface. The format says so, also for a missing
- * Ns, but no author has seen it: exporters without highlights write 0, those with a range of [0, 1] write
- * fractions, and present readers take both as matte. With a mirror, Ks is its reflectance. rgl's
- * parameters were displayed as they are. */
-#define MIN_EXPONENT 1.0f
-
-static void read_widest_highlight(conversion *c, uint32_t material, legacy_reading *r)
-{
-    legacy_material *m = &r->m;
-    bool is_mirror = c->desc.has_mirrors && reflects_surroundings(m->illum);
-    if (r->kind != READING_OGL1 || c->scene->legacy->is_rgl || c->desc.dialect == FACET_MTL_DIALECT_SPEC ||
-        is_mirror || m->shininess > MIN_EXPONENT || is_black(r->surface.specular))
-        return;
-    if (legacy_has(m, LEGACY_SHININESS))
-        note_add(
-            &c->notes, material, NOTE_HIGHLIGHT_IGNORED,
-            "Ns %g spreads the highlight over the whole surface; it is left out (--dialect spec keeps it)",
-            (double)m->shininess);
-    else
-        note_add(
-            &c->notes, material, NOTE_HIGHLIGHT_IGNORED,
-            "Ks without Ns is a highlight over the whole surface; it is left out (--dialect spec keeps it)");
-    memset(r->surface.specular, 0, sizeof r->surface.specular);
-    r->surface.shininess = 0.0f; /* rough in viewers without the extensions, too */
-    remove_map(&m->maps[LEGACY_SPECULAR_MAP]);
-    remove_map(&m->maps[LEGACY_SHININESS_MAP]);
+    legacy_remove_map(&m->maps[LEGACY_AMBIENT_MAP]);
 }
 
 /* ---- rgl's kinds of textures and their modes: docs/legacy.md, "Textures of rgl" ---- */
@@ -277,13 +197,13 @@ static void read_texture_mode(conversion *c, uint32_t material, legacy_reading *
     if (m->has_environment_map) {
         note_add(&c->notes, material, NOTE_MAP_DROPPED,
                  "a texture as environment map has no counterpart in glTF; it is kept in extras");
-        remove_map(map);
+        legacy_remove_map(map);
         return;
     }
     if (type == LEGACY_ALPHA) { /* E.rgb, E.a lum in all modes */
         m->maps[LEGACY_OPACITY_MAP] = *map;
         m->maps[LEGACY_OPACITY_MAP].channel = 'l';
-        remove_map(map);
+        legacy_remove_map(map);
         return;
     }
     if (type == LEGACY_LUMINANCE || type == LEGACY_LUMINANCE_ALPHA)
@@ -323,7 +243,7 @@ static void read_texture_mode(conversion *c, uint32_t material, legacy_reading *
                 &c->notes, material, NOTE_TEXTURE_MODE_DROPPED,
                 "a texture that is added, beside an emission, has no counterpart in glTF: it is dropped");
         }
-        remove_map(map);
+        legacy_remove_map(map);
         r->has_diffuse_alpha = false;
         break;
     }
@@ -406,138 +326,6 @@ static void read_pbr_statements(legacy_reading *r)
         r->metallic = legacy_has(m, LEGACY_METALLIC) ? unit_of(m->metallic) : 1.0f;
 }
 
-/* ---- glass ---- */
-
-/* illum 4 and 9: glass without refraction; 6 and 7: with refraction, tinted by Tf. */
-static void read_glass(conversion *c, legacy_reading *r, facet_legacy_colors colors)
-{
-    const legacy_material *m = &r->m;
-    bool is_glass = m->illum == 4 || m->illum == 6 || m->illum == 7 || m->illum == 9;
-    float filter[3];
-    legacy_color_to_linear(m->transmission_filter, colors, filter);
-    bool has_filter = legacy_has(m, LEGACY_TRANSMISSION_FILTER) && !is_black(filter);
-    if (!c->desc.has_glass || r->kind == READING_UNLIT || (!is_glass && r->opacity >= 1.0f))
-        return;
-    float transmission = 1.0f - r->opacity;
-    r->is_refracting = m->illum == 6 || m->illum == 7;
-    if (transmission == 0.0f && r->is_refracting && has_filter)
-        transmission = unit_of(highest_of(filter));
-    if (transmission == 0.0f)
-        return;
-    /* Transmission is tinted with the base color, which is that of the diffuse part too: they are mixed. */
-    float most = highest_of(filter);
-    for (int k = 0; k < 3; k++) {
-        float tint = has_filter ? filter[k] / most : 1.0f;
-        r->surface.diffuse[k] += transmission * (tint - r->surface.diffuse[k]);
-    }
-    r->transmission = transmission;
-    r->opacity = 1.0f;
-    r->ior = legacy_has(m, LEGACY_IOR) && m->ior > 1.0f && m->ior <= 10.0f ? m->ior : 1.5f;
-    if (r->kind == READING_OGL1) {
-        r->kind = READING_METALLIC;
-        r->metallic = 0.0f;
-        r->perceptual_roughness = perceptual_roughness_from_shininess(r->surface.shininess);
-        if (is_black(r->surface.specular))
-            r->perceptual_roughness = 0.0f; /* no roughness is stated: clear */
-        r->has_roughness_from_shininess = true;
-    }
-}
-
-/* ---- mirrors ---- */
-
-/* A diffuse color (linear) that is invisible beside a mirror: the mirror is then a metal, also in viewers
- * without extensions. */
-#define MIRROR_BLACK 0.02f
-
-static void note_mirror(conversion *c, uint32_t material, const legacy_material *m)
-{
-    bool is_bright = legacy_has(m, LEGACY_SPECULAR) ? highest_of(m->specular) > 0.5f : true;
-    /* illum 7 is primarily glass, whose mirror is dim. */
-    note_add(
-        &c->notes, material, is_bright && m->illum != 7 ? NOTE_MIRROR_IGNORED : NOTE_MIRROR_IGNORED_QUIETLY,
-        "illum %d makes Ks a mirror of the environment; mirrors are not enabled, and only the highlight is "
-        "converted",
-        m->illum);
-}
-
-/* Ray tracers reflect the environment sharply whatever Ns, which belongs to the highlight; for large Ns
- * that is followed. Between 100, the highlight width of brushed metal, and 500 the two are interpolated. */
-static float mirror_roughness(const legacy_material *m, float shininess)
-{
-    if (!legacy_has(m, LEGACY_SHININESS) || m->shininess <= MIN_EXPONENT)
-        return 0.0f;
-    return perceptual_roughness_from_shininess(shininess) * unit_of((500.0f - shininess) / 400.0f);
-}
-
-/* A metal of that color, whose maps become those of the base color. */
-static void read_metal_mirror(legacy_reading *r)
-{
-    r->kind = READING_METALLIC;
-    r->metallic = 1.0f;
-    memcpy(r->surface.diffuse, r->surface.specular, sizeof r->surface.diffuse);
-    r->m.maps[LEGACY_DIFFUSE_MAP] = r->m.maps[LEGACY_SPECULAR_MAP];
-    r->has_diffuse_alpha = false;
-}
-
-/* Without extensions: a base color and a metallic whose mix approximates both colors; maps are replaced by
- * their means. */
-static void read_core_mirror(conversion *c, uint32_t material, legacy_reading *r)
-{
-    ogl1_surface mean = build_representative(c, r);
-    float base[3];
-    r->kind = READING_METALLIC;
-    core_from_glossiness(mean.diffuse, mean.specular, base, &r->metallic);
-    for (int k = 0; k < 3; k++)
-        r->surface.diffuse[k] =
-            mean.diffuse[k] > 0.0f ? r->surface.diffuse[k] * base[k] / mean.diffuse[k] : base[k];
-    if (legacy_has_map(&r->m, LEGACY_SPECULAR_MAP))
-        note_add(&c->notes, material, NOTE_TEXTURE_AVERAGED,
-                 "without extensions a mirror reflects the same everywhere; the mean of map_Ks is used");
-}
-
-/* Ks is a reflectance: the remainder is for Kd. glTF weights the base color with 1 - max(F0). */
-static void read_mirror(conversion *c, uint32_t material, legacy_reading *r)
-{
-    legacy_material *m = &r->m;
-    if (r->kind != READING_OGL1 || !reflects_surroundings(m->illum) || is_black(r->surface.specular))
-        return;
-    if (!c->desc.has_mirrors) {
-        note_mirror(c, material, m);
-        return;
-    }
-    for (int k = 0; k < 3; k++)
-        r->surface.specular[k] = unit_of(r->surface.specular[k]);
-    if (legacy_has_map(m, LEGACY_SHININESS_MAP))
-        note_add(&c->notes, material, NOTE_MAP_DROPPED, "map_Ns does not count where illum %d is a mirror",
-                 m->illum);
-    remove_map(&m->maps[LEGACY_SHININESS_MAP]);
-    r->has_roughness_from_shininess = true;
-    r->perceptual_roughness = mirror_roughness(m, r->surface.shininess);
-    r->glossiness = 1.0f - r->perceptual_roughness;
-    bool has_map = legacy_has_map(m, LEGACY_DIFFUSE_MAP);
-    if (!has_map && highest_of(r->surface.diffuse) <= MIRROR_BLACK) {
-        read_metal_mirror(r);
-        return;
-    }
-    float most = highest_of(r->surface.specular);
-    float brightest = highest_of(r->surface.diffuse);
-    float rest = fmaxf(1.0f - most, 0.05f); /* a base below a perfect mirror is invisible */
-    if (brightest + most > 1.0f && !has_map) {
-        rest = fmaxf(rest, brightest);
-        note_add(
-            &c->notes, material, NOTE_ENERGY_GAIN,
-            "diffuse and specular color add up to more than 1, which no mirror returns; the diffuse color "
-            "gives way");
-    }
-    for (int k = 0; k < 3; k++)
-        r->surface.diffuse[k] /= rest;
-    /* With Fresnel (illum 5 and 7) reflectance at grazing angles is 1; without, it is constant. */
-    r->F90 = m->illum == 5 || m->illum == 7 ? 1.0f : most;
-    r->kind = READING_GLOSSY;
-    if (c->desc.profile == FACET_LEGACY_PROFILE_CORE)
-        read_core_mirror(c, material, r);
-}
-
 void legacy_read(conversion *c, uint32_t material, legacy_reading *out)
 {
     const struct scene_legacy *legacy = c->scene->legacy;
@@ -563,11 +351,6 @@ void legacy_read(conversion *c, uint32_t material, legacy_reading *out)
     if (legacy->dialect != FACET_MTL_DIALECT_BLENDER28 && legacy->dialect != FACET_MTL_DIALECT_BLENDER3)
         read_ambient(c, material, out, colors);
     else
-        remove_map(&m->maps[LEGACY_AMBIENT_MAP]);
-    read_illum(c, material, out, legacy->dialect);
-    if (!m->is_lit)
-        out->kind = READING_UNLIT;
-    read_widest_highlight(c, material, out);
-    read_glass(c, out, colors);
-    read_mirror(c, material, out);
+        legacy_remove_map(&m->maps[LEGACY_AMBIENT_MAP]);
+    legacy_read_illum(c, material, out);
 }

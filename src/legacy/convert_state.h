@@ -1,5 +1,5 @@
 /* convert_state.h - what the stages of a conversion share:
- *   convert_read.c       interprets a legacy material: its dialect, illum and switches
+ *   convert_read.c       interprets a legacy material: its dialect and switches; convert_illum.c its illum
  *   convert_solve.c      converts the values of all materials in parallel, each distinct input once, with errors
  *   convert_build.c      builds a glTF material; convert_build_maps.c its textures
  *   convert_to_ogl1.c    builds legacy materials from glTF ones; convert_ogl1_maps.c their textures
@@ -69,6 +69,14 @@ typedef struct legacy_reading {
 } legacy_reading;
 
 void legacy_read(conversion *c, uint32_t material, legacy_reading *out);
+/* convert_illum.c: the last step, by illum and the colors and maps of r. */
+void legacy_read_illum(conversion *c, uint32_t material, legacy_reading *r);
+
+/* The material is converted without that map. */
+static inline void legacy_remove_map(legacy_map *map)
+{
+    map->ref.texture = SCENE_NONE;
+}
 
 /* ---- values ---- */
 
