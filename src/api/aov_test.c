@@ -13,7 +13,7 @@
 #include "api/image_layer.h"
 #include "facet/facet.h"
 
-/* A blended square before an opaque one that is wider, both in the plane of the picture; no other node has
+/* A blended square before an opaque one that is wider, both in the plane of the image; no other node has
  * a mesh. */
 static const char two_squares[] =
     "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[1,2]}],\"nodes\":[{\"name\":"

@@ -39,7 +39,7 @@ static facet_scene *load_two_scenes(void)
     return scene;
 }
 
-/* The sum of the picture's channels. */
+/* The sum of the image's channels. */
 static void sum_of(const facet_image *image, double sum[4])
 {
     facet_image_view view = facet_image_get_layer(image, 0);
@@ -143,8 +143,8 @@ static void every_format_is_written(void **state)
         facet_bytes_destroy(bytes);
     }
     facet_error error;
-    assert_int_equal(facet_image_save(image, "picture.tiff", NULL, &error), FACET_ERROR_ARGUMENT);
-    assert_non_null(strstr(error.message, "picture.tiff"));
+    assert_int_equal(facet_image_save(image, "image.tiff", NULL, &error), FACET_ERROR_ARGUMENT);
+    assert_non_null(strstr(error.message, "image.tiff"));
     assert_non_null(strstr(error.message, ".png"));
     facet_image_destroy(image);
     facet_scene_destroy(scene);

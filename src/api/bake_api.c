@@ -1,4 +1,4 @@
-/* bake_api.c - baked cube maps and tables as pictures. */
+/* bake_api.c - baked cube maps and tables as images. */
 #include "api/api.h"
 
 #include "bake/bake.h"
@@ -10,28 +10,28 @@
 
 static const facet_allocator default_allocator;
 
-/* Gives a picture of 1 to 4 floats per texel over as a facet_image. */
-static facet_result give(image *picture, const facet_allocator *allocator, facet_image **out,
+/* Converts texels of 1 to 4 floats to a facet_image and releases them. */
+static facet_result give(image *texels, const facet_allocator *allocator, facet_image **out,
                          facet_error *error)
 {
     image rgba = {0};
     facet_result result = FACET_OK;
-    if (picture->channel_count != 4) {
-        result = image_create(allocator, picture->width, picture->height, 4, IMAGE_F32, &rgba, error);
-        const float *from = picture->pixels;
+    if (texels->channel_count != 4) {
+        result = image_create(allocator, texels->width, texels->height, 4, IMAGE_F32, &rgba, error);
+        const float *from = texels->pixels;
         float *to = rgba.pixels;
-        uint32_t channels = picture->channel_count;
-        for (size_t i = 0; result == FACET_OK && i < (size_t)picture->width * picture->height; i++)
+        uint32_t channels = texels->channel_count;
+        for (size_t i = 0; result == FACET_OK && i < (size_t)texels->width * texels->height; i++)
             for (uint32_t c = 0; c < 4; c++)
                 to[4 * i + c] = c < channels ? from[channels * i + c] : c == 3 ? 1.0f : 0.0f;
     }
-    const image *source = rgba.pixels ? &rgba : picture;
+    const image *source = rgba.pixels ? &rgba : texels;
     const facet_image_view view = {
         .width = source->width, .height = source->height, .channel_count = 4, .pixels = source->pixels};
     if (result == FACET_OK)
         result = facet_image_create(&view, allocator, out, error);
     image_destroy(&rgba);
-    image_destroy(picture);
+    image_destroy(texels);
     return result;
 }
 
@@ -40,10 +40,10 @@ facet_result facet_cube_unfold(const facet_cube *c, uint32_t level, facet_layout
 {
     *out = NULL;
     allocator = allocator ? allocator : &default_allocator;
-    image picture = {0};
+    image texels = {0};
     facet_result result =
-        layout_write(&c->levels[level], layout, height, allocator, facet_thread_count(), &picture, error);
-    return result == FACET_OK ? give(&picture, allocator, out, error) : result;
+        layout_write(&c->levels[level], layout, height, allocator, facet_thread_count(), &texels, error);
+    return result == FACET_OK ? give(&texels, allocator, out, error) : result;
 }
 
 facet_result facet_cube_copy_face(const facet_cube *c, uint32_t level, uint32_t face,
@@ -52,18 +52,18 @@ facet_result facet_cube_copy_face(const facet_cube *c, uint32_t level, uint32_t 
     *out = NULL;
     allocator = allocator ? allocator : &default_allocator;
     uint32_t size = c->levels[level].size;
-    image picture = {0};
-    facet_result result = image_create(allocator, size, size, 4, IMAGE_F32, &picture, error);
+    image texels = {0};
+    facet_result result = image_create(allocator, size, size, 4, IMAGE_F32, &texels, error);
     if (result != FACET_OK)
         return result;
-    rgbx *to = picture.pixels;
+    rgbx *to = texels.pixels;
     for (uint32_t y = 0; y < size; y++)
         for (uint32_t x = 0; x < size; x++) {
             rgbx texel = *cube_texel(&c->levels[level], face, (int)x, (int)y);
             texel[3] = 1.0f;
             to[(size_t)y * size + x] = texel;
         }
-    return give(&picture, allocator, out, error);
+    return give(&texels, allocator, out, error);
 }
 
 facet_result facet_dfg_bake(const facet_dfg_desc *desc, facet_image **out, facet_error *error)
@@ -76,10 +76,10 @@ facet_result facet_dfg_bake(const facet_dfg_desc *desc, facet_image **out, facet
     return result == FACET_OK ? give(&table, &desc->allocator, out, error) : result;
 }
 
-facet_result facet_image_encode_ktx2(const facet_image *picture, const facet_ktx2_desc *desc,
+facet_result facet_image_encode_ktx2(const facet_image *source, const facet_ktx2_desc *desc,
                                      unsigned char **bytes, size_t *size, facet_error *error)
 {
-    const film *f = &picture->film;
+    const film *f = &source->film;
     const image rgba = {.pixels = f->layers[0].pixels,
                         .width = f->width,
                         .height = f->height,
@@ -88,7 +88,7 @@ facet_result facet_image_encode_ktx2(const facet_image *picture, const facet_ktx
     return bake_image_ktx2(&rgba, desc, bytes, size, error);
 }
 
-facet_result facet_image_encode_rgbm(const facet_image *picture, float range,
+facet_result facet_image_encode_rgbm(const facet_image *source, float range,
                                      const facet_image_save_desc *desc, unsigned char **bytes, size_t *size,
                                      facet_error *error)
 {
@@ -98,7 +98,7 @@ facet_result facet_image_encode_rgbm(const facet_image *picture, float range,
     *size = 0;
     if (!(range > 0.0f && range <= 0x1.fffffep127f))
         return fail(error, FACET_ERROR_ARGUMENT, "RGBM: a range above 0 was expected, not %g", (double)range);
-    const film *f = &picture->film;
+    const film *f = &source->film;
     const image rgba = {.pixels = f->layers[0].pixels,
                         .width = f->width,
                         .height = f->height,
@@ -123,7 +123,7 @@ facet_result facet_cube_draw_sheet(const facet_cube *c, facet_environment *envir
     static const facet_sheet_desc default_desc;
     *out = NULL;
     desc = desc ? desc : &default_desc;
-    image picture = {0};
-    facet_result result = ibl_sheet_draw(c, environment, desc, &picture, error);
-    return result == FACET_OK ? give(&picture, &desc->allocator, out, error) : result;
+    image texels = {0};
+    facet_result result = ibl_sheet_draw(c, environment, desc, &texels, error);
+    return result == FACET_OK ? give(&texels, &desc->allocator, out, error) : result;
 }

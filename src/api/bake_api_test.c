@@ -72,16 +72,15 @@ static void layouts_are_environments(void **state)
     (void)state;
     facet_cube *c = bake();
     for (int layout = FACET_LAYOUT_EQUIRECTANGULAR; layout <= FACET_LAYOUT_OCTAHEDRAL; layout++) {
-        facet_image *picture = NULL;
+        facet_image *image = NULL;
         unsigned char *bytes = NULL;
         size_t size = 0;
         facet_environment *e = NULL;
         facet_environment_info info;
         facet_error error;
-        if (facet_cube_unfold(c, 0, (facet_layout)layout, 0, NULL, &picture, &error) != FACET_OK)
+        if (facet_cube_unfold(c, 0, (facet_layout)layout, 0, NULL, &image, &error) != FACET_OK)
             fail_msg("%s", error.message);
-        assert_int_equal(facet_image_encode(picture,
-                                            &(facet_image_save_desc){.format = FACET_IMAGE_FORMAT_PFM},
+        assert_int_equal(facet_image_encode(image, &(facet_image_save_desc){.format = FACET_IMAGE_FORMAT_PFM},
                                             &bytes, &size, NULL),
                          FACET_OK);
         const facet_environment_desc desc = {
@@ -93,7 +92,7 @@ static void layouts_are_environments(void **state)
         assert_true(info.mean[0] > info.mean[1] && info.mean[1] > info.mean[2]);
         facet_environment_destroy(e);
         facet_bytes_destroy(bytes);
-        facet_image_destroy(picture);
+        facet_image_destroy(image);
     }
     facet_cube_destroy(c);
 }
@@ -102,46 +101,45 @@ static void rgbm(void **state)
 {
     (void)state;
     facet_cube *c = bake();
-    facet_image *picture = NULL;
+    facet_image *image = NULL;
     unsigned char *bytes = NULL;
     size_t size = 0;
     facet_error error;
-    assert_int_equal(facet_cube_unfold(c, 0, FACET_LAYOUT_STRIP_VERTICAL, 0, NULL, &picture, NULL), FACET_OK);
-    assert_int_equal(facet_image_encode_rgbm(picture, 8.0f, NULL, &bytes, &size, &error), FACET_OK);
+    assert_int_equal(facet_cube_unfold(c, 0, FACET_LAYOUT_STRIP_VERTICAL, 0, NULL, &image, NULL), FACET_OK);
+    assert_int_equal(facet_image_encode_rgbm(image, 8.0f, NULL, &bytes, &size, &error), FACET_OK);
     assert_memory_equal(bytes, "\x89PNG\r\n\x1a\n", 8);
     assert_memory_equal(bytes + 16, "\0\0\0\x10\0\0\0\x60\x08\x06", 10); /* 16 x 96, 8 bits, RGBA */
     facet_bytes_destroy(bytes);
     static const float ranges[] = {0.0f, -1.0f, NAN, INFINITY};
     for (int k = 0; k < 4; k++) {
-        assert_int_equal(facet_image_encode_rgbm(picture, ranges[k], NULL, &bytes, &size, &error),
+        assert_int_equal(facet_image_encode_rgbm(image, ranges[k], NULL, &bytes, &size, &error),
                          FACET_ERROR_ARGUMENT);
         assert_null(bytes);
         assert_non_null(strstr(error.message, "RGBM: a range above 0"));
     }
-    facet_image_destroy(picture);
+    facet_image_destroy(image);
     facet_cube_destroy(c);
 }
 
-/* A picture as a 2D texture: alpha as it is. */
-static void pictures_as_textures(void **state)
+/* A image as a 2D texture: alpha as it is. */
+static void images_as_textures(void **state)
 {
     (void)state;
     facet_cube *c = bake();
-    facet_image *picture = NULL;
+    facet_image *image = NULL;
     unsigned char *bytes = NULL;
     size_t size = 0;
     facet_environment *e = NULL;
     facet_environment_info info;
-    assert_int_equal(facet_cube_unfold(c, 0, FACET_LAYOUT_EQUIRECTANGULAR, 24, NULL, &picture, NULL),
-                     FACET_OK);
-    assert_int_equal(facet_image_encode_ktx2(picture, NULL, &bytes, &size, NULL), FACET_OK);
+    assert_int_equal(facet_cube_unfold(c, 0, FACET_LAYOUT_EQUIRECTANGULAR, 24, NULL, &image, NULL), FACET_OK);
+    assert_int_equal(facet_image_encode_ktx2(image, NULL, &bytes, &size, NULL), FACET_OK);
     assert_int_equal(facet_environment_load_memory(bytes, size, "2d.ktx2", NULL, &e, NULL), FACET_OK);
     assert_int_equal(facet_environment_get_info(e, &info, NULL), FACET_OK);
     assert_int_equal(info.layout, FACET_LAYOUT_EQUIRECTANGULAR);
     assert_int_equal(info.width, 48);
     facet_environment_destroy(e);
     facet_bytes_destroy(bytes);
-    facet_image_destroy(picture);
+    facet_image_destroy(image);
     facet_cube_destroy(c);
 }
 
@@ -151,7 +149,7 @@ int main(void)
         cmocka_unit_test(cubes_are_environments),
         cmocka_unit_test(layouts_are_environments),
         cmocka_unit_test(rgbm),
-        cmocka_unit_test(pictures_as_textures),
+        cmocka_unit_test(images_as_textures),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* compare_api_test.c - pictures from files and pixels, and their comparison, through facet.h alone. */
+/* compare_api_test.c - images from files and pixels, and their comparison, through facet.h alone. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -130,7 +130,7 @@ static void pixels_have_rows_and_channels(void **state)
 }
 
 /* The difference, saved for a display, holds the numbers. */
-static void the_difference_is_a_picture(void **state)
+static void the_difference_is_an_image(void **state)
 {
     (void)state;
     facet_image *a = draw(1.0f, true), *b = draw(0.5f, true), *difference = NULL;
@@ -271,7 +271,7 @@ int main(void)
         cmocka_unit_test(files_come_back),
         cmocka_unit_test(not_a_number_survives_files_of_light),
         cmocka_unit_test(pixels_have_rows_and_channels),
-        cmocka_unit_test(the_difference_is_a_picture),
+        cmocka_unit_test(the_difference_is_an_image),
         cmocka_unit_test(compact_images_are_compared_alike),
         cmocka_unit_test(bad_files_are_refused),
         cmocka_unit_test(memory_that_runs_out_is_a_result),

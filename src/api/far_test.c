@@ -1,4 +1,4 @@
-/* Tests of models far from the origin of their file: the same picture by every renderer wherever the model
+/* Tests of models far from the origin of their file: the same image by every renderer wherever the model
  * is, as far as the file can say what it is (scene/origin.h). */
 #include <math.h>
 #include <setjmp.h>
@@ -199,7 +199,7 @@ static model make_obj(const ball *b, const double move[3])
     return m;
 }
 
-/* ---- pictures ---- */
+/* ---- images ---- */
 
 /* Takes m. */
 static facet_scene *load(model m)

@@ -12,32 +12,32 @@
 #include "image/srgb.h"
 #include "report/contact_sheet.h"
 
-uint32_t facet_image_get_layer_count(const facet_image *picture)
+uint32_t facet_image_get_layer_count(const facet_image *source)
 {
-    return picture->film.layer_count;
+    return source->film.layer_count;
 }
 
-facet_image_view facet_image_get_layer(const facet_image *picture, uint32_t layer)
+facet_image_view facet_image_get_layer(const facet_image *source, uint32_t layer)
 {
-    const film_layer *l = &picture->film.layers[layer];
+    const film_layer *l = &source->film.layers[layer];
     return (facet_image_view){.name = l->name,
-                              .width = picture->film.width,
-                              .height = picture->film.height,
+                              .width = source->film.width,
+                              .height = source->film.height,
                               .channel_count = l->channel_count,
                               .pixels = l->pixels,
                               .row_stride_bytes =
-                                  (size_t)picture->film.width * l->channel_count * sizeof(float)};
+                                  (size_t)source->film.width * l->channel_count * sizeof(float)};
 }
 
-void facet_image_destroy(facet_image *picture)
+void facet_image_destroy(facet_image *owned)
 {
-    if (!picture)
+    if (!owned)
         return;
-    film_destroy(&picture->film);
-    if (picture->texels)
-        image_destroy(picture->texels);
-    mem_free(picture->texels);
-    mem_free(picture);
+    film_destroy(&owned->film);
+    if (owned->texels)
+        image_destroy(owned->texels);
+    mem_free(owned->texels);
+    mem_free(owned);
 }
 
 facet_result facet_image_create_sheet(const facet_image *const *images, uint32_t count,
@@ -147,15 +147,15 @@ static facet_result encode_raw(const film *f, const image_encode_desc *desc, uns
     return result;
 }
 
-facet_result facet_image_encode(const facet_image *picture, const facet_image_save_desc *desc,
+facet_result facet_image_encode(const facet_image *source, const facet_image_save_desc *desc,
                                 unsigned char **bytes, size_t *size, facet_error *error)
 {
     static const facet_image_save_desc defaults = {.format = FACET_IMAGE_FORMAT_FROM_NAME};
     *bytes = NULL;
     *size = 0;
     desc = desc ? desc : &defaults;
-    const film *f = &picture->film;
-    if (picture->texels)
+    const film *f = &source->film;
+    if (source->texels)
         return fail(error, FACET_ERROR_ARGUMENT,
                     "image: a compact image is for comparisons and cannot be encoded");
     image_encode_desc encode = {.allocator = desc->allocator,
@@ -202,7 +202,7 @@ facet_result facet_bytes_save(const void *bytes, size_t size, const char *path, 
     return file_write(path, bytes, size, error);
 }
 
-facet_result facet_image_save(const facet_image *picture, const char *path, const facet_image_save_desc *desc,
+facet_result facet_image_save(const facet_image *source, const char *path, const facet_image_save_desc *desc,
                               facet_error *error)
 {
     facet_image_save_desc resolved = desc ? *desc : (facet_image_save_desc){0};
@@ -213,7 +213,7 @@ facet_result facet_image_save(const facet_image *picture, const char *path, cons
                     "%s: unknown image extension; expected .png, .jpg, .webp, .exr, .hdr or .pfm", path);
     unsigned char *bytes;
     size_t size;
-    facet_result result = facet_image_encode(picture, &resolved, &bytes, &size, error);
+    facet_result result = facet_image_encode(source, &resolved, &bytes, &size, error);
     if (result == FACET_OK)
         result = file_write(path, bytes, size, error);
     facet_bytes_destroy(bytes);
@@ -246,11 +246,11 @@ static const film_layer *find_layer(const film *f, const char *name)
     return NULL;
 }
 
-facet_result facet_image_create_id_colors(const facet_image *picture, const char *layer,
+facet_result facet_image_create_id_colors(const facet_image *source, const char *layer,
                                           const facet_allocator *allocator, facet_image **out,
                                           facet_error *error)
 {
-    const film *from = &picture->film;
+    const film *from = &source->film;
     const film_layer *ids = is_id_layer(layer) ? find_layer(from, layer) : NULL,
                      *instances = find_layer(from, "instance");
     *out = NULL;
@@ -269,7 +269,7 @@ facet_result facet_image_create_id_colors(const facet_image *picture, const char
     for (size_t i = 0; i < (size_t)from->width * from->height; i++)
         if (instances->pixels[i] > 0.0f)
             color_pixel(ids->pixels[i], made->film.layers[0].pixels + 4 * i);
-    made->stats = picture->stats;
+    made->stats = source->stats;
     *out = made;
     return FACET_OK;
 }

@@ -54,9 +54,9 @@ static void premultiply(void *context, size_t begin, size_t end)
 }
 
 facet_result facet_image_create(const facet_image_view *pixels, const facet_allocator *allocator,
-                                facet_image **picture, facet_error *error)
+                                facet_image **out, facet_error *error)
 {
-    *picture = NULL;
+    *out = NULL;
     const uint32_t channels = pixels->channel_count;
     if (channels != 1 && channels != 3 && channels != 4)
         return fail(error, FACET_ERROR_ARGUMENT, "image: %u channels; 1, 3 or 4 expected", channels);
@@ -75,12 +75,12 @@ facet_result facet_image_create(const facet_image_view *pixels, const facet_allo
             to[3] = channels == 4 ? from[3] : 1.0f;
         }
     }
-    return take_pixels(&rgba, false, allocator, false, picture, error);
+    return take_pixels(&rgba, false, allocator, false, out, error);
 }
 
-bool facet_image_is_for_display(const facet_image *picture)
+bool facet_image_is_for_display(const facet_image *source)
 {
-    return picture->is_for_display;
+    return source->is_for_display;
 }
 
 /* ---- files ---- */
@@ -103,12 +103,11 @@ static facet_result expand_pair(const image *pair, const facet_allocator *alloca
 }
 
 facet_result facet_image_load_memory(const void *bytes, size_t size, const char *name,
-                                     const facet_image_load_desc *desc, facet_image **picture,
-                                     facet_error *error)
+                                     const facet_image_load_desc *desc, facet_image **out, facet_error *error)
 {
     const facet_image_load_desc defaults = {0};
     desc = desc ? desc : &defaults;
-    *picture = NULL;
+    *out = NULL;
     const uint32_t thread_count = desc->thread_count ? desc->thread_count : facet_thread_count();
     image_note note;
     const image_decode_desc decode = {.allocator = desc->allocator,
@@ -127,9 +126,9 @@ facet_result facet_image_load_memory(const void *bytes, size_t size, const char 
     const bool is_for_display = decoded.is_srgb;
     const bool is_pair = desc->layer && decoded.channel_count == 2; /* not grey with opacity */
     if (desc->is_compact && !is_pair) {
-        result = take_pixels(&decoded, true, &desc->allocator, is_for_display, picture, error);
+        result = take_pixels(&decoded, true, &desc->allocator, is_for_display, out, error);
         if (result == FACET_OK)
-            (*picture)->is_straight = is_straight;
+            (*out)->is_straight = is_straight;
         return result;
     }
     if (decoded.type == IMAGE_F32 && decoded.channel_count == 4 && !decoded.is_srgb) {
@@ -146,19 +145,19 @@ facet_result facet_image_load_memory(const void *bytes, size_t size, const char 
         return result;
     if (is_straight)
         parallel_for(thread_count, (size_t)rgba.width * rgba.height, GRAIN, premultiply, &rgba);
-    return take_pixels(&rgba, false, &desc->allocator, is_for_display, picture, error);
+    return take_pixels(&rgba, false, &desc->allocator, is_for_display, out, error);
 }
 
-facet_result facet_image_load(const char *path, const facet_image_load_desc *desc, facet_image **picture,
+facet_result facet_image_load(const char *path, const facet_image_load_desc *desc, facet_image **out,
                               facet_error *error)
 {
     const facet_image_load_desc defaults = {0};
     desc = desc ? desc : &defaults;
-    *picture = NULL;
+    *out = NULL;
     file_bytes file = {0};
     facet_result result = file_open(path, file_limit(desc->max_file_bytes), &desc->allocator, &file, error);
     if (result == FACET_OK)
-        result = facet_image_load_memory(file.data, file.size, path, desc, picture, error);
+        result = facet_image_load_memory(file.data, file.size, path, desc, out, error);
     file_close(&file);
     return result;
 }

@@ -42,7 +42,7 @@ static facet_sea *make(const facet_sea_desc *desc)
     return sea;
 }
 
-static facet_sea_render_desc picture(void)
+static facet_sea_render_desc small_image(void)
 {
     return (facet_sea_render_desc){.render = {.width = 24, .height = 16, .samples = 1, .thread_count = 1},
                                    .sky = {.sun_elevation_rad = 0.5f}};
@@ -244,12 +244,12 @@ static double brightness(const facet_image *image)
     return sum;
 }
 
-static void pictures_are_exposed(void **state)
+static void images_are_exposed(void **state)
 {
     (void)state;
     facet_sea_desc desc = small();
     facet_sea *sea = make(&desc);
-    facet_sea_render_desc d = picture();
+    facet_sea_render_desc d = small_image();
     double ev100 = 0.0, night = 0.0;
     done(facet_sea_meter(sea, &d, &ev100, &failure));
     assert_true(ev100 > 12.0 && ev100 < 16.0); /* a sunny day */
@@ -286,7 +286,7 @@ static void numbers_far_away_are_answered(void **state)
         assert_true(isfinite(points[i].height_m) && isfinite(points[i].velocity_mps) &&
                     isfinite(points[i].jacobian) && isfinite(points[i].normal[1]));
     assert_true(isfinite(facet_sea_camera(sea, NAN, NAN).eye[1]));
-    facet_sea_render_desc d = picture();
+    facet_sea_render_desc d = small_image();
     d.render.samples = 1;
     const facet_camera camera = {.eye = {1e9f, 3.0f, 1e9f}, .target = {1e9f, 0.0f, 2e9f}, .fov_y_rad = 0.6f};
     for (int i = 0; i < 3; i++) {
@@ -342,7 +342,7 @@ static void what_is_wrong_is_said(void **state)
     facet_image *image = NULL;
     double ev100 = 0.0;
     for (int i = 0; i < 9; i++) {
-        facet_sea_render_desc d = picture();
+        facet_sea_render_desc d = small_image();
         if (i == 0)
             d.shading.stage = 6;
         if (i == 1)
@@ -426,7 +426,7 @@ static void memory_runs_out(void **state)
         const facet_sea_mesh_desc mesh = {.allocator = desc.allocator, .samples = 8};
         if (result == FACET_OK)
             result = facet_sea_create_mesh(sea, &mesh, &scene, &failure);
-        facet_sea_render_desc d = picture();
+        facet_sea_render_desc d = small_image();
         d.render.allocator = desc.allocator;
         d.render.width = d.render.height = 8;
         const facet_contact_sheet_desc s = {.allocator = desc.allocator};
@@ -523,7 +523,7 @@ int main(void)
                                        cmocka_unit_test(points_move_as_waves_do),
                                        cmocka_unit_test(maps_hold_the_tiles),
                                        cmocka_unit_test(mesh_is_the_surface),
-                                       cmocka_unit_test(pictures_are_exposed),
+                                       cmocka_unit_test(images_are_exposed),
                                        cmocka_unit_test(numbers_far_away_are_answered),
                                        cmocka_unit_test(zero_is_a_sea),
                                        cmocka_unit_test(what_is_wrong_is_said),

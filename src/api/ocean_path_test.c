@@ -24,7 +24,7 @@ static void done(facet_result result)
         fail_msg("%s", failure.message);
 }
 
-/* One picture to be, by both renderers. */
+/* One image to be, by both renderers. */
 typedef struct pair {
     facet_sea *sea;
     const facet_scene *scene;
@@ -255,7 +255,7 @@ static void rough_water_is_the_same(void **state)
 }
 
 /* The horizon is six times as bright as what stands high: what of it rough water mirrors depends on which
- * slopes are seen. In bands from the horizon down, and whatever the size of the picture, which decides how
+ * slopes are seen. In bands from the horizon down, and whatever the size of the image, which decides how
  * many waves are slopes. */
 static void a_bright_horizon_is_mirrored_alike(void **state)
 {

@@ -93,7 +93,7 @@ static void colors_come_back_as_codes(void **state)
 }
 
 /* Half of a color over a background: half of both codes, as OpenGL blended them; as light it would be
- * brighter. A transparent picture holds the color itself. */
+ * brighter. A transparent image holds the color itself. */
 static void layers_are_blended_as_codes(void **state)
 {
     (void)state;

@@ -16,13 +16,13 @@ struct facet_renderer {
 
 /* Tone-maps the film and blends the background in: linearly, or, where the shading wrote display values, in
  * those. */
-static void develop(const facet_render_desc *desc, film *picture)
+static void develop(const facet_render_desc *desc, film *target)
 {
     const float *behind = desc->background == FACET_BACKGROUND_COLOR ? desc->background_color : NULL;
     bool is_encoded = desc->shading == FACET_SHADING_OGL1 && !desc->ogl1.is_linear;
-    film_develop(picture, desc->tonemap, is_encoded ? NULL : behind, desc->thread_count);
+    film_develop(target, desc->tonemap, is_encoded ? NULL : behind, desc->thread_count);
     if (is_encoded && behind)
-        film_blend_encoded(picture, behind, desc->thread_count);
+        film_blend_encoded(target, behind, desc->thread_count);
 }
 
 /* An image whose passes the caller wants to see. */

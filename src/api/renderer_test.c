@@ -1,4 +1,4 @@
-/* Tests of facet_renderer through facet.h: its pictures are those of facet_render(), byte for byte. */
+/* Tests of facet_renderer through facet.h: its images are those of facet_render(), byte for byte. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -207,7 +207,7 @@ static bool refuse(void *user, const char *stage, double fraction)
     return fraction < 0.5;
 }
 
-static void after_a_cancelled_picture_there_are_others(void **state)
+static void after_a_cancelled_image_others_follow(void **state)
 {
     (void)state;
     facet_scene *scene;
@@ -268,7 +268,7 @@ int main(void)
         cmocka_unit_test(the_meter_follows_the_light),
         cmocka_unit_test(animations_of_models),
         cmocka_unit_test(a_renderer_fits_into_a_budget_or_fails),
-        cmocka_unit_test(after_a_cancelled_picture_there_are_others),
+        cmocka_unit_test(after_a_cancelled_image_others_follow),
         cmocka_unit_test(a_cancelled_path_trace_is_partial),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

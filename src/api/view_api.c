@@ -30,10 +30,10 @@ static facet_result load_environment(void *user, const char *name, const facet_v
     return facet_environment_create_studio(&desc, environment, error);
 }
 
-static char *describe(void *user, const facet_view_image *picture)
+static char *describe(void *user, const facet_view_image *image)
 {
     (void)user;
-    (void)picture;
+    (void)image;
     return NULL;
 }
 

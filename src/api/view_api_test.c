@@ -62,8 +62,8 @@ static facet_render_desc path_desc(uint32_t samples)
                                .tonemap = FACET_TONEMAP_NEUTRAL};
 }
 
-/* A pass shows the picture that is made with that many samples, to the last bit; looking changes nothing. */
-static void passes_are_pictures_of_fewer_samples(void **state)
+/* A pass shows the image that is made with that many samples, to the last bit; looking changes nothing. */
+static void passes_are_images_of_fewer_samples(void **state)
 {
     (void)state;
     static passes seen;
@@ -99,6 +99,6 @@ static void passes_are_pictures_of_fewer_samples(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(what_cannot_be_is_refused),
-                                       cmocka_unit_test(passes_are_pictures_of_fewer_samples)};
+                                       cmocka_unit_test(passes_are_images_of_fewer_samples)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -143,12 +143,12 @@ void render_gl_destroy(void *state)
 static facet_result draw_sea(render_gl *r, const gl_entry *gl, const facet_render_desc *desc, film *target,
                              facet_render_stats *stats, facet_error *error)
 {
-    water_frame *picture;
+    water_frame *image;
     if (!r->seas)
         TRY(gl->create_sea(&r->set->allocator, &r->seas, error));
-    TRY(water_frame_create(&r->set->water, r->set->scene, desc, &picture, stats, error));
-    facet_result result = gl->draw_sea(r->seas, picture, target, stats, error);
-    water_frame_destroy(picture);
+    TRY(water_frame_create(&r->set->water, r->set->scene, desc, &image, stats, error));
+    facet_result result = gl->draw_sea(r->seas, image, target, stats, error);
+    water_frame_destroy(image);
     return result;
 }
 

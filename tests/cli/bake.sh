@@ -83,7 +83,7 @@ expect 3 bake missing.hdr -o x.ktx2
 says "missing.hdr: "
 mkdir folder.hdr
 expect 3 bake folder.hdr -o x.ktx2
-echo "no picture" >bad.hdr
+echo "no image" >bad.hdr
 expect 4 bake bad.hdr -o x.ktx2
 pfm square.pfm 3 w w w w w w w w w
 expect 1 bake square.pfm -o x.ktx2 --input-layout equirect $tiny --strict
@@ -142,7 +142,7 @@ is_type x_m0.png "PNG image data, 48 x 64, 8-bit/color RGBA"
 for projection in equirect cross-horizontal strip-horizontal strip-vertical octahedral; do
     expect 0 bake neutral --size 16 --mips 1 -o $projection.pfm --projection $projection
 done
-[ "$(sed -n 2p equirect.pfm | tr -d '\0') $(sed -n 2p cross-horizontal.pfm | tr -d '\0')" = "64 32 64 48" ] || failed "sizes of pictures"
+[ "$(sed -n 2p equirect.pfm | tr -d '\0') $(sed -n 2p cross-horizontal.pfm | tr -d '\0')" = "64 32 64 48" ] || failed "sizes of images"
 [ "$(sed -n 2p strip-vertical.pfm | tr -d '\0') $(sed -n 2p octahedral.pfm | tr -d '\0')" = "16 96 32 32" ] || failed "sizes of strips"
 clean
 

@@ -44,13 +44,13 @@ pfm inf.pfm h h h h i h h h h h h h h h h h
 
 # ---- numbers ----
 expect 0 compare half.pfm half.pfm
-grep -q 'as light, equal' out || failed "equal pictures are not called equal"
-grep -qE '^  psnr +inf ' out || failed "psnr of equal pictures is not inf"
+grep -q 'as light, equal' out || failed "equal images are not called equal"
+grep -qE '^  psnr +inf ' out || failed "psnr of equal images is not inf"
 expect 0 compare half.pfm ones.pfm
 grep -qE '^  rmse +0\.5 ' out || failed "rmse is not 0.5"
 grep -q '^psnr and ssim: for a peak of 0.5$' out || failed "the peak is not reported"
 grep -q '^flip: the largest of 2 exposures from +2.08 to +2.08 stops$' out || failed "exposures are not reported: $(cat out)"
-grep -q 'different' out || failed "different pictures are not called so"
+grep -q 'different' out || failed "different images are not called so"
 expect 0 compare half.pfm ones.pfm --metric mse,max
 [ "$(tr -s ' ' <out | tr '\n' '|')" = "mse 0.25|max 0.5|" ] || failed "--metric mse,max prints $(cat out)"
 expect 0 compare half.pfm spot.pfm --json --percentile 90
@@ -89,7 +89,7 @@ expect 0 compare half.pfm ones.pfm --json -j 3
 [ "$(value flip)" = "$one" ] || failed "FLIP depends on the threads"
 cat half.pfm >piped
 "$facet" compare - ones.pfm --metric max <piped >out 2>err || failed "standard input is not read"
-grep -q '0.5' out || failed "standard input is another picture"
+grep -q '0.5' out || failed "standard input is another image"
 rm piped
 
 # ---- limits ----
@@ -209,10 +209,10 @@ is_type d.png "PNG image data, 144 x 32"
 expect 0 compare b.png a.png -o - --format png --metric flip
 cp out piped.png
 is_type piped.png "PNG image data, 48 x 32"
-grep -q '^flip' err || failed "numbers beside a picture on standard output do not go to standard error"
+grep -q '^flip' err || failed "numbers beside an image on standard output do not go to standard error"
 cp d.png saved.png
 expect 0 compare b.png a.png -o d.png --no-clobber -q
-cmp -s d.png saved.png || failed "--no-clobber replaced a picture"
+cmp -s d.png saved.png || failed "--no-clobber replaced an image"
 expect 2 compare b.png a.png -o d.gif
 says "does not end in .png"
 expect 2 compare b.png a.png -o -
@@ -243,7 +243,7 @@ says "half.pfm: 4 x 4 pixels, but a.png has 48 x 32"
 head -c 300 a.png >cut.png
 expect 4 compare cut.png a.png
 says "cut.png"
-printf 'not a picture' >text
+printf 'not an image' >text
 expect 4 compare a.png text
 says "text: first bytes"
 : >empty

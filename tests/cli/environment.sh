@@ -3,7 +3,7 @@
 set -eu
 . "$(dirname "$0")/lib.sh"
 
-pixels() { # pixels FILE ENV WORD..: a picture of the environment alone, 16 x 16, floats
+pixels() { # pixels FILE ENV WORD..: an image of the environment alone, 16 x 16, floats
     name=$1
     shift
     expect 0 render tri.gltf --size 16 --samples 1 --background env --tone-mapping none -o "$name.pfm" --env "$@"
@@ -19,7 +19,7 @@ for word in constant:white constant:1 constant:1,1,1 constant:1/1/1 constant:#ff
     pixels other "$word"
     same white other
 done
-for word in gradient:1,1 gradient:white,1,#ffffff; do # another picture, which rounds in other places
+for word in gradient:1,1 gradient:white,1,#ffffff; do # another image, which rounds in other places
     pixels other "$word"
     expect 0 compare white.pfm other.pfm --space linear --max max=1e-4
 done
@@ -55,7 +55,7 @@ pixels b sun:40,0,nodisc,height=256 --env-rotation -45
 expect 1 compare a.pfm b.pfm --space linear --max max=1e-3
 
 # skies are exposed: a sunlit sheet is about white, neither black nor clipped; lux keeps absolute values
-mean() { # mean of the picture's first layer
+mean() { # mean of the image's first layer
     tail -c 3072 "$1" | od -An -v -t f4 | awk '{for (i = 1; i <= NF; i++) {s += $i; n++}} END {printf "%.9g", s / n}'
 }
 within() { # within VALUE LEAST MOST
@@ -93,7 +93,7 @@ refused() { # refused ENV TEXT
     expect 2 render tri.gltf $small -o x.png --env "$1"
     says "--env"
     says "$2"
-    [ ! -e x.png ] || failed "a picture by --env $1"
+    [ ! -e x.png ] || failed "an image by --env $1"
 }
 refused sun "sun:ELEVATION"
 refused sun: "sun:ELEVATION"

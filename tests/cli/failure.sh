@@ -28,7 +28,7 @@ rm bad.gltf short.glb needs.gltf
 # 1: some of several; --strict
 expect 1 render $small tri.gltf missing.glb -o '{stem}.png'
 [ -s tri.png ] || failed "the good one of two models is missing"
-[ ! -e missing.png ] || failed "a picture of nothing"
+[ ! -e missing.png ] || failed "an image of nothing"
 rm tri.png
 sed 's/"scene":0/"extensionsUsed":["X_unknown"],"extensions":{"X_unknown":{}},"scene":0/' tri.gltf >warns.gltf
 expect 0 render $small warns.gltf -o w.png
@@ -36,7 +36,7 @@ says "X_unknown"
 [ "$(grep -c X_unknown err)" = 1 ] || failed "a warning came more than once"
 rm w.png
 expect 1 render $small warns.gltf -o w.png --strict -q
-[ -s w.png ] || failed "--strict leaves out the picture"
+[ -s w.png ] || failed "--strict leaves out the image"
 expect 1 inspect --strict warns.gltf
 expect 0 inspect --strict tri.gltf
 rm w.png warns.gltf

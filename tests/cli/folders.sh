@@ -78,7 +78,7 @@ expect 3 render none -o x.png $tiny
 says "none: there is no model in or below this folder"
 expect 1 inspect none models/zebra.gltf
 expect 6 render models/zebra.gltf -o models/zebra.gltf/a/b.png $tiny
-[ ! -e x.png ] || failed "a picture of nothing"
+[ ! -e x.png ] || failed "an image of nothing"
 expect 3 render missing.glb -o new/folder/x.png $tiny
 [ ! -e new ] || failed "a folder for an image that was not drawn"
 finish

@@ -11,14 +11,14 @@ cp "$facet" bin/facet
 alone="$work/bin/facet"
 write_triangle model.gltf
 
-# fails TEXT: exit code 8, one sentence, no picture, and facet version -v says the same.
+# fails TEXT: exit code 8, one sentence, no image, and facet version -v says the same.
 fails() {
     code=0
     "$alone" render model.gltf -o none.png $small --renderer gl >out 2>err || code=$?
     [ "$code" = 8 ] || failed "exit code $code, not 8: $1"
     says "$1"
     [ "$(wc -l <err)" = 1 ] || failed "more than one sentence: $1"
-    [ ! -e none.png ] || failed "a picture came of it: $1"
+    [ ! -e none.png ] || failed "an image came of it: $1"
     "$alone" version -v >out 2>err || failed "facet version -v fails: $1"
     grep -q '^opengl ' out || failed "facet version -v has no line of OpenGL"
 }
@@ -55,7 +55,7 @@ code=0
 LD_LIBRARY_PATH="$work/shadow${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" "$facet" render model.gltf -o none.png $small --renderer gl >out 2>err || code=$?
 [ "$code" = 8 ] || failed "exit code $code, not 8, without libGL"
 says "OpenGL: "
-[ ! -e none.png ] || failed "a picture without libGL"
+[ ! -e none.png ] || failed "an image without libGL"
 
 # Its options are refused with another renderer, and vice versa.
 for option in --shadows '--transparency peeled' '--bloom 0.1' '--channel normal' '--brdf schlick-ggx'; do
@@ -115,7 +115,7 @@ done
 # Deterministic; every format; several models; a sequence is drawn by one renderer.
 expect 0 render -o a.png $small --renderer gl
 expect 0 render -o b.png $small --renderer gl --threads 1
-cmp -s a.png b.png || failed "pictures of two runs differ"
+cmp -s a.png b.png || failed "images of two runs differ"
 expect 0 render model.gltf -o 'turn_##.png' $small --renderer gl --turntable 4
 for i in 1 2 3 4; do [ -s turn_0$i.png ] || failed "frame $i is missing"; done
 cmp -s turn_01.png turn_02.png && failed "the model does not turn"
@@ -137,14 +137,14 @@ done
 # Limits, and the report.
 expect 7 render model.gltf -o late.png --size 2000 --renderer gl --time-limit 0.000001s
 says "the time limit (--time-limit) was reached"
-[ ! -e late.png ] || failed "a picture of no time"
+[ ! -e late.png ] || failed "an image of no time"
 long="render -o long.png --size 4000 --samples 4096 --renderer gl"
 expect 7 $long --time-limit 1s
 says "long.png: the time limit (--time-limit) was reached"
 code=0
 timeout --preserve-status -k 20 -s TERM 1 "$facet" $long >out 2>err || code=$?
 [ "$code" = 75 ] || failed "exit code $code, not 75, by SIGTERM"
-[ ! -e long.png ] || failed "a part of a picture"
+[ ! -e long.png ] || failed "a part of an image"
 expect 0 render model.gltf -o one.png $small --renderer gl --json
 grep -q '"width": 48' out || failed "no report"
 expect 0 render model.gltf -o dark.png $small --renderer gl --env none

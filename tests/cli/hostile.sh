@@ -163,7 +163,7 @@ for entry in cache/*.light; do
     mkfifo "$entry"
 done
 within 10 0 render $small tri.gltf --env sky.hdr --env-cache cache -o b.png
-cmp -s a.png b.png || failed "the picture depends on what is in the cache"
+cmp -s a.png b.png || failed "the image depends on what is in the cache"
 rm -r cache sky.hdr victim a.png b.png
 
 # C1 control characters act on terminals like those of ASCII

@@ -147,7 +147,7 @@ f 1/1 2/2 3/3
 END
 expect 0 convert mapped.obj mapped.glb
 expect 0 convert mapped.obj kept.glb --keep-sources
-[ "$(($(wc -c <kept.glb) - $(wc -c <mapped.glb)))" -gt "$(wc -c <map.png)" ] || failed "the picture of the map stayed"
+[ "$(($(wc -c <kept.glb) - $(wc -c <mapped.glb)))" -gt "$(wc -c <map.png)" ] || failed "the image of the map stayed"
 expect 0 convert mapped.obj same.glb --materials metallic-roughness
 cmp -s mapped.glb same.glb || failed "--materials metallic-roughness converts twice"
 expect 0 convert kept.glb way.obj -v
@@ -156,7 +156,7 @@ expect 0 convert mapped.glb way.obj -v
 says "(fit, ogl1)"
 expect 0 render mapped.obj -o h.png $small --shading ogl1
 expect 0 render kept.glb -o i.png $small --shading ogl1
-cmp -s h.png i.png || failed "a kept picture is not drawn in OpenGL 1"
+cmp -s h.png i.png || failed "a kept image is not drawn in OpenGL 1"
 
 # Mirrors
 sed 's/^illum 2/illum 5/' old.mtl >shiny.mtl

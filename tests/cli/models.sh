@@ -12,8 +12,8 @@ while read -r model; do
     code=0
     "$facet" render --size 64 --quality draft --time-limit 60s "$model" -o x.png 2>err || code=$?
     case $code in
-    0) [ -s x.png ] || failed "$model: no picture" ;;
-    5) [ ! -e x.png ] || failed "$model: a picture in spite of exit 5" ;;
+    0) [ -s x.png ] || failed "$model: no image" ;;
+    5) [ ! -e x.png ] || failed "$model: an image in spite of exit 5" ;;
     *) failed "$model: exit code $code" ;;
     esac
     rm -f x.png
@@ -27,9 +27,9 @@ while read -r model; do
     code=0
     "$facet" render --size 16 --quality draft --time-limit 20s --max-memory 512M "$model" -o x.png >out 2>err || code=$?
     case $code in
-    0) [ -s x.png ] || failed "$model: no picture" ;;
+    0) [ -s x.png ] || failed "$model: no image" ;;
     2 | 3 | 4 | 5 | 7)
-        [ ! -e x.png ] || failed "$model: exit code $code and yet a picture"
+        [ ! -e x.png ] || failed "$model: exit code $code and yet an image"
         [ "$(tail -1 err | wc -c)" -gt 10 ] || failed "$model: exit code $code without a sentence"
         ;;
     *) failed "$model: exit code $code" ;;

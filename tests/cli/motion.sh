@@ -99,6 +99,6 @@ expect 2 render walk.gltf -o 'a_##.y4m' --animation Walk
 expect 2 render -o a.png --time 1
 says "it has no animation for --time"
 expect 0 render walk.gltf -o a.png $small --animation none
-[ -e a.png ] || failed "--animation none draws no picture"
+[ -e a.png ] || failed "--animation none draws no image"
 
 finish

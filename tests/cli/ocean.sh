@@ -3,7 +3,7 @@
 set -eu
 . "$(dirname "$0")/lib.sh"
 
-# A sky costs a third of a second; most pictures make do with two colors and a lamp.
+# A sky costs a third of a second; most images make do with two colors and a lamp.
 small="$small --resolution 32"
 light="-e gradient:0.2/0.3/0.6,0.8 --env-intensity 5000 --sun 22,0,80000"
 
@@ -55,13 +55,13 @@ small="$small $light"
 expect 0 ocean $small -o sea.png
 is_type sea.png "PNG image data, 48 x 32"
 expect 0 ocean $small -o again.png -j 3
-cmp -s sea.png again.png || failed "the picture depends on the threads"
+cmp -s sea.png again.png || failed "the image depends on the threads"
 expect 0 ocean $small -o sea.png --no-clobber
 says "sea.png: kept"
 expect 0 ocean $small -o - --format png
-cmp -s out sea.png || failed "standard output has another picture"
+cmp -s out sea.png || failed "standard output has another image"
 expect 0 ocean $small --crop 8,4,16,12 -o crop.exr
-different() { # different WORD...: another picture than sea.png
+different() { # different WORD...: another image than sea.png
     expect 0 ocean $small -o other.png "$@"
     cmp -s sea.png other.png && failed "nothing changes with $*"
     rm -f other.png
@@ -269,9 +269,9 @@ expect 2 ocean --config sea.json -o a.png
 printf '{"preset": "glass", "time": 3}' >sea.json
 expect 0 ocean --config sea.json $small -o a.png
 expect 0 ocean --preset glass $small --time 3 -o b.png
-cmp -s a.png b.png || failed "the config makes another picture"
+cmp -s a.png b.png || failed "the config makes another image"
 expect 0 ocean $small -o a.png --json
-grep -q '"output": *"a.png"' out || failed "--json does not name the picture"
+grep -q '"output": *"a.png"' out || failed "--json does not name the image"
 grep -q '"exit_code": *0' out || failed "--json does not tell the exit code"
 expect 2 ocean --wind x -o a.png --json
 grep -q '"exit_code": *2' out || failed "--json does not tell the failure"

@@ -10,10 +10,10 @@ for options in "" "--filter mitchell --ground shadow --background transparent" "
     "--noise 0.05 --samples 64 --format exr32 --aov all"; do
     is_quick && [ -n "$options" ] && [ "$options" != "--aperture 4% --sun 30,40" ] && continue
     for threads in 1 2 5; do
-        expect 0 $path $options -j $threads -o picture.$threads --format png $options
+        expect 0 $path $options -j $threads -o image.$threads --format png $options
     done
     for other in 2 5; do
-        cmp -s picture.1 picture.$other || failed "-j $other differs from -j 1: $options"
+        cmp -s image.1 image.$other || failed "-j $other differs from -j 1: $options"
     done
 done
 expect 0 $path -o a.png
@@ -105,10 +105,10 @@ if "$facet" version -v | grep -q 'OpenEXR [0-9]'; then
     expect 0 $path --format exr32 -o whole.exr
     expect 0 render --renderer path --size 48x32 --samples 3 --checkpoint state.exr -o part.exr
     expect 0 $path --format exr32 --checkpoint state.exr --resume -o resumed.exr
-    cmp -s whole.exr resumed.exr || failed "a resumed picture differs"
+    cmp -s whole.exr resumed.exr || failed "a resumed image differs"
     cp state.exr before.exr
     expect 0 $path --format exr32 --checkpoint state.exr --resume -o again.exr
-    cmp -s whole.exr again.exr || failed "a picture that is done differs"
+    cmp -s whole.exr again.exr || failed "an image that is done differs"
     expect 2 $path --seed 5 --checkpoint state.exr --resume -o other.exr
     says "state.exr"
     [ ! -e other.exr ] || failed "other.exr is there"
@@ -136,12 +136,12 @@ if "$facet" version -v | grep -q 'OpenEXR [0-9]'; then
         expect 0 $noisy --samples 128 -o whole_noise.exr
         expect 0 $noisy --samples 64 --checkpoint noise.exr -o part.exr
         expect 0 $noisy --samples 128 --checkpoint noise.exr --resume -o resumed_noise.exr
-        cmp -s whole_noise.exr resumed_noise.exr || failed "a resumed adaptive picture differs"
-        # A pass that a shorter picture ended in, and what was judged there.
+        cmp -s whole_noise.exr resumed_noise.exr || failed "a resumed adaptive image differs"
+        # A pass that a shorter image ended in, and what was judged there.
         expect 0 $noisy --samples 200 -o whole_noise.exr
         expect 0 $noisy --samples 70 --checkpoint cut_pass.exr -o part.exr
         expect 0 $noisy --samples 200 --checkpoint cut_pass.exr --resume -o resumed_noise.exr
-        cmp -s whole_noise.exr resumed_noise.exr || failed "an adaptive picture that a pass was cut off of differs"
+        cmp -s whole_noise.exr resumed_noise.exr || failed "an adaptive image that a pass was cut off of differs"
     fi
 
     # Samples before an interruption are kept.

@@ -37,9 +37,9 @@ compare() {
     expect 0 render $small -o a.png $left
     expect 0 render $small -o b.png $right
     if cmp -s a.png b.png; then
-        [ $relation = same ] || failed "same picture: $left | $right"
+        [ $relation = same ] || failed "same image: $left | $right"
     else
-        [ $relation = differ ] || failed "different pictures: $left | $right"
+        [ $relation = differ ] || failed "different images: $left | $right"
     fi
     rm -f a.png b.png
 }

@@ -78,7 +78,7 @@ if command -v script >/dev/null; then
     grep -q "$esc" out || failed "no color on a terminal"
     NO_COLOR=1 TERM=xterm script -qec "$facet render missing.glb" /dev/null >out 2>&1 </dev/null || true
     ! grep -q "$esc" out || failed "color in spite of NO_COLOR"
-    script -qec "$facet render -o - --format png" /dev/null >out 2>&1 </dev/null && failed "a picture on a terminal"
+    script -qec "$facet render -o - --format png" /dev/null >out 2>&1 </dev/null && failed "an image on a terminal"
     grep -q "standard output is a terminal" out || failed "no refusal to write to a terminal"
 fi
 

@@ -182,9 +182,9 @@ static void bake_text_table(bake_text *t, const facet_image_view *table, uint32_
     add(t, "};\n");
 }
 
-/* ---- pictures ---- */
+/* ---- images ---- */
 
-static facet_image_format picture_format(bake_container container)
+static facet_image_format image_format(bake_container container)
 {
     switch (container) {
     case CONTAINER_EXR:
@@ -211,14 +211,14 @@ static facet_image_save_desc save_desc(const bake_making *m, facet_image_format 
 }
 
 /* Encodes an image in its container; with --rgbm PNG is RGBM. */
-static facet_result encode_picture(const bake_making *m, const facet_image *picture, bake_file *file,
-                                   facet_error *error)
+static facet_result encode_image(const bake_making *m, const facet_image *image, bake_file *file,
+                                 facet_error *error)
 {
-    const facet_image_save_desc desc = save_desc(m, picture_format(file->container));
+    const facet_image_save_desc desc = save_desc(m, image_format(file->container));
     if (file->container == CONTAINER_PNG && file->content != BAKE_SHEET)
-        return facet_image_encode_rgbm(picture, m->options->rgbm_range, &desc, &file->bytes, &file->size,
+        return facet_image_encode_rgbm(image, m->options->rgbm_range, &desc, &file->bytes, &file->size,
                                        error);
-    return facet_image_encode(picture, &desc, &file->bytes, &file->size, error);
+    return facet_image_encode(image, &desc, &file->bytes, &file->size, error);
 }
 
 static const facet_cube *cube_of(const bake_making *m, const bake_file *file)
@@ -229,23 +229,23 @@ static const facet_cube *cube_of(const bake_making *m, const bake_file *file)
 
 static facet_result make_face(const bake_making *m, bake_file *file, facet_error *error)
 {
-    facet_image *picture = NULL;
+    facet_image *image = NULL;
     facet_result result =
-        facet_cube_copy_face(cube_of(m, file), file->level, file->face, &m->allocator, &picture, error);
+        facet_cube_copy_face(cube_of(m, file), file->level, file->face, &m->allocator, &image, error);
     if (result == FACET_OK)
-        result = encode_picture(m, picture, file, error);
-    facet_image_destroy(picture);
+        result = encode_image(m, image, file, error);
+    facet_image_destroy(image);
     return result;
 }
 
 static facet_result make_level(const bake_making *m, bake_file *file, facet_error *error)
 {
-    facet_image *picture = NULL;
+    facet_image *image = NULL;
     facet_result result =
-        facet_cube_unfold(cube_of(m, file), file->level, file->projection, 0, &m->allocator, &picture, error);
+        facet_cube_unfold(cube_of(m, file), file->level, file->projection, 0, &m->allocator, &image, error);
     if (result == FACET_OK)
-        result = encode_picture(m, picture, file, error);
-    facet_image_destroy(picture);
+        result = encode_image(m, image, file, error);
+    facet_image_destroy(image);
     return result;
 }
 
@@ -333,7 +333,7 @@ static facet_result encode_linear_png(const bake_making *m, const facet_image_vi
     const facet_image_save_desc desc = save_desc(m, FACET_IMAGE_FORMAT_PNG16);
     const size_t row = (size_t)view->width * 4, size = row * view->height * sizeof(float);
     float *pixels = m->allocator.allocate(m->allocator.user, size);
-    facet_image *picture = NULL;
+    facet_image *image = NULL;
     if (!pixels)
         return fail(error, FACET_ERROR_MEMORY, "out of memory: %zu bytes of an image", size);
     for (uint32_t y = 0; y < view->height; y++)
@@ -342,11 +342,11 @@ static facet_result encode_linear_png(const bake_making *m, const facet_image_vi
                    view->width);
     const facet_image_view linear = {
         .width = view->width, .height = view->height, .channel_count = 4, .pixels = pixels};
-    facet_result result = facet_image_create(&linear, &m->allocator, &picture, error);
+    facet_result result = facet_image_create(&linear, &m->allocator, &image, error);
     m->allocator.release(m->allocator.user, pixels, size);
     if (result == FACET_OK)
-        result = facet_image_encode(picture, &desc, &file->bytes, &file->size, error);
-    facet_image_destroy(picture);
+        result = facet_image_encode(image, &desc, &file->bytes, &file->size, error);
+    facet_image_destroy(image);
     return result;
 }
 
@@ -368,7 +368,7 @@ static facet_result encode_table(const bake_making *m, const facet_image *table,
                         symbol);
         return take_text(file, &text, error);
     }
-    return encode_picture(m, table, file, error);
+    return encode_image(m, table, file, error);
 }
 
 static facet_result make_table(const bake_making *m, bake_file *file, facet_error *error)
@@ -399,7 +399,7 @@ static facet_result make_sheet(const bake_making *m, bake_file *file, facet_erro
     facet_image *sheet = NULL;
     facet_result result = facet_cube_draw_sheet(baked->cube, m->environment, &desc, &sheet, error);
     if (result == FACET_OK)
-        result = encode_picture(m, sheet, file, error);
+        result = encode_image(m, sheet, file, error);
     facet_image_destroy(sheet);
     return result;
 }

@@ -204,7 +204,7 @@ static facet_result read_format(const command_line *c, bake_options *out, facet_
     return FACET_OK;
 }
 
-static facet_result read_picture(const command_line *c, bake_options *out, facet_error *error)
+static facet_result read_image_layout(const command_line *c, bake_options *out, facet_error *error)
 {
     static const facet_layout projections[] = {FACET_LAYOUT_EQUIRECTANGULAR,
                                                FACET_LAYOUT_CROSS_HORIZONTAL,
@@ -237,10 +237,10 @@ static facet_result check_layout(const command_line *c, const bake_options *o, f
         return fail(error, FACET_ERROR_ARGUMENT, "--mapping: %s it is %s", why[o->layout],
                     o->layout == BAKE_LAYOUT_KHRONOS ? "linear" : "filament");
     const bool takes_texels = o->layout != BAKE_LAYOUT_FILAMENT;
-    const bool takes_pictures = o->layout == BAKE_LAYOUT_FILAMENT;
-    const bool is_picture = o->container == CONTAINER_EXR || o->container == CONTAINER_HDR;
+    const bool takes_images = o->layout == BAKE_LAYOUT_FILAMENT;
+    const bool is_image = o->container == CONTAINER_EXR || o->container == CONTAINER_HDR;
     if ((o->has_texels && !takes_texels) ||
-        (o->container != CONTAINER_FROM_NAME && !(takes_pictures && is_picture)))
+        (o->container != CONTAINER_FROM_NAME && !(takes_images && is_image)))
         return fail(error, FACET_ERROR_ARGUMENT, "--format: %s is not loaded %s",
                     option_text(c, OPT_FORMAT, ""), why[o->layout]);
     if (o->zstd_level && o->layout != BAKE_LAYOUT_KHRONOS)
@@ -282,7 +282,7 @@ facet_result bake_options_read(const command_line *c, bake_options *out, facet_e
                           .layout = (bake_layout)(option_choice(c, OPT_LAYOUT, -1) + 1),
                           .keeps_existing = is_given(c, OPT_NO_CLOBBER)};
     facet_result (*const readers[])(const command_line *, bake_options *, facet_error *) = {
-        read_table, read_environment, read_light, read_filter, read_format, read_picture};
+        read_table, read_environment, read_light, read_filter, read_format, read_image_layout};
     facet_result result = limits_read(c, &out->limits, error);
     for (size_t i = 0; i < COUNT(readers) && result == FACET_OK; i++)
         result = readers[i](c, out, error);

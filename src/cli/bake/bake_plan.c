@@ -79,8 +79,8 @@ static facet_result add(bake_plan *plan, const char *path, const bake_file *what
 }
 
 /* Adds the images of a cube map: one per level, or six. */
-static facet_result add_pictures(const bake_options *o, bake_plan *plan, const char *pattern,
-                                 const char *stem, bake_file what, facet_error *error)
+static facet_result add_images(const bake_options *o, bake_plan *plan, const char *pattern, const char *stem,
+                               bake_file what, facet_error *error)
 {
     const uint32_t level_count = plan->cubes[what.cube].desc.level_count;
     const bool has_faces =
@@ -161,7 +161,7 @@ static facet_result add_cube_files(const bake_options *o, bake_plan *plan, const
                             .texels = o->has_texels ? o->texels : FACET_TEXEL_FORMAT_RGBA16F,
                             .table_channel = -1};
     if (container != CONTAINER_KTX2)
-        return add_pictures(o, plan, w->pattern, stem, what, error);
+        return add_images(o, plan, w->pattern, stem, what, error);
     if (!is_stdout && !bake_name_expand(w->pattern, stem, -1, false, -1, name))
         return fail(error, FACET_ERROR_ARGUMENT, "%s: the name \"%.100s..\" is too long", w->option,
                     w->pattern);
@@ -393,12 +393,12 @@ static void drop_idle_cubes(bake_plan *plan)
 /* Refuses options of a file type that is not written. */
 static facet_result check_idle_options(const command_line *c, const bake_plan *plan, facet_error *error)
 {
-    bool has_picture = false, has_png = false, has_ktx2 = false, has_sh = false;
+    bool has_image = false, has_png = false, has_ktx2 = false, has_sh = false;
     for (size_t i = 0; i < plan->file_count; i++) {
         const bake_file *file = &plan->files[i];
-        const bool is_picture = file->content == BAKE_LEVEL || file->content == BAKE_FACE;
-        has_picture = has_picture || is_picture;
-        has_png = has_png || (is_picture && file->container == CONTAINER_PNG);
+        const bool is_image = file->content == BAKE_LEVEL || file->content == BAKE_FACE;
+        has_image = has_image || is_image;
+        has_png = has_png || (is_image && file->container == CONTAINER_PNG);
         has_ktx2 = has_ktx2 || file->container == CONTAINER_KTX2;
         has_sh = has_sh || file->content == BAKE_SH;
     }
@@ -406,8 +406,8 @@ static facet_result check_idle_options(const command_line *c, const bake_plan *p
         option_id id;
         bool is_of_use;
         const char *what;
-    } rules[] = {{OPT_PROJECTION, has_picture, "an image (.exr .hdr .pfm .png)"},
-                 {OPT_LEVEL, has_picture, "an image (.exr .hdr .pfm .png)"},
+    } rules[] = {{OPT_PROJECTION, has_image, "an image (.exr .hdr .pfm .png)"},
+                 {OPT_LEVEL, has_image, "an image (.exr .hdr .pfm .png)"},
                  {OPT_RGBM, has_png, "a .png file"},
                  {OPT_ZSTD, has_ktx2, "a .ktx2 file"},
                  {OPT_SH_WINDOW, has_sh, "--sh"}};

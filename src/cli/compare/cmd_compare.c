@@ -69,7 +69,7 @@ typedef struct compare_run {
 
 /* ---- options ---- */
 
-static facet_result read_pictures(compare_run *run, facet_error *error)
+static facet_result read_images(compare_run *run, facet_error *error)
 {
     const command_line *c = run->base.line;
     const char *mask = option_text(c, OPT_MASK, NULL);
@@ -168,7 +168,7 @@ static facet_result read_desc(compare_run *run, facet_error *error)
 
 /* ---- the run ---- */
 
-static facet_image_view picture(const facet_image *image)
+static facet_image_view pixels_of(const facet_image *image)
 {
     return facet_image_get_layer(image, 0);
 }
@@ -189,7 +189,7 @@ static facet_result load(compare_run *run, const char *path, const char *layer, 
         failure_complete(error, input_name(path), run->base.limits.max_memory_bytes);
         return result;
     }
-    const facet_image_view loaded = picture(*image), first = picture(run->a);
+    const facet_image_view loaded = pixels_of(*image), first = pixels_of(run->a);
     if (loaded.width != first.width || loaded.height != first.height)
         return fail(error, FACET_ERROR_INVALID,
                     "%s: %u x %u pixels, but %s has %u x %u; images of the same size were expected",
@@ -257,7 +257,7 @@ static facet_result compare(compare_run *run, facet_error *error)
 
 /* ---- the answer ---- */
 
-static json_t *picture_json(const char *path, const facet_image *image)
+static json_t *image_json(const char *path, const facet_image *image)
 {
     if (!image)
         return json_pack("{s:o}", "path", report_string_json(path));
@@ -269,8 +269,8 @@ static void add_json(const verb_run *base, json_t *root)
 {
     const compare_run *run = (const compare_run *)base;
     const command_line *c = base->line;
-    json_object_set_new(root, "a", picture_json(c->argument_count > 0 ? c->arguments[0] : NULL, run->a));
-    json_object_set_new(root, "b", picture_json(c->argument_count > 1 ? c->arguments[1] : NULL, run->b));
+    json_object_set_new(root, "a", image_json(c->argument_count > 0 ? c->arguments[0] : NULL, run->a));
+    json_object_set_new(root, "b", image_json(c->argument_count > 1 ? c->arguments[1] : NULL, run->b));
     if (run->is_measured) {
         json_t *found = compare_report_json(&run->wish, &run->comparison);
         json_object_update(root, found);
@@ -309,7 +309,7 @@ static void check_limits(compare_run *run)
 static facet_result read_line(verb_run *base, facet_error *error)
 {
     compare_run *run = (compare_run *)base;
-    TRY(read_pictures(run, error));
+    TRY(read_images(run, error));
     TRY(compare_wish_read(base->line, &run->wish, error));
     TRY(read_output(run, error));
     TRY(limits_read(base->line, &base->limits, error));

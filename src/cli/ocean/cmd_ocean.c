@@ -25,8 +25,8 @@ static bool find_pattern(const ocean_options *o, uint32_t frame, char *pattern, 
     if (output_name_has_frame(maps))
         return (size_t)snprintf(pattern, size, "%s", maps) < size;
     const char *slash = length && maps[length - 1] == '/' ? "" : "/";
-    int used = o->picture.is_sequence ? snprintf(pattern, size, "%s%stile_##_%04u.exr", maps, slash, frame)
-                                      : snprintf(pattern, size, "%s%stile_##.exr", maps, slash);
+    int used = o->render.is_sequence ? snprintf(pattern, size, "%s%stile_##_%04u.exr", maps, slash, frame)
+                                     : snprintf(pattern, size, "%s%stile_##.exr", maps, slash);
     return used > 0 && (size_t)used < size;
 }
 
@@ -42,7 +42,7 @@ static facet_result ocean_map_name(const ocean_options *o, uint32_t tile, uint32
 
 static facet_result ocean_check_name(const ocean_run *run, const char *name, facet_error *error)
 {
-    const render_options *p = &run->options.picture;
+    const render_options *p = &run->options.render;
     bool is_of_model = run->model && facet_scene_has_file(run->model, name);
     if (is_of_model || render_name_is_input(run->base.line, p, NULL, name))
         return fail(error, FACET_ERROR_ARGUMENT, "%s: this input would be overwritten; name another output",
@@ -121,62 +121,62 @@ static void report_file(ocean_run *run, const char *name)
         json_array_append_new(run->outputs, json_pack("{s:o}", "output", report_string_json(name)));
 }
 
-static void report_output(ocean_run *run, const picture_report *report)
+static void report_output(ocean_run *run, const image_report *report)
 {
-    report_picture(&run->base.messages, report, false);
+    report_image(&run->base.messages, report, false);
     if (run->outputs)
-        json_array_append_new(run->outputs, report->is_kept ? report_picture_json(report)
-                                                            : ocean_report_picture_json(run, report));
+        json_array_append_new(run->outputs, report->is_kept ? report_image_json(report)
+                                                            : ocean_report_image_json(run, report));
 }
 
 /* Whether --no-clobber keeps the file name, which is then reported. */
 static bool is_kept(ocean_run *run, const char *name)
 {
-    const render_options *p = &run->options.picture;
+    const render_options *p = &run->options.render;
     if (!p->keeps_existing || run->video || p->is_stdout || !output_exists(name))
         return false;
-    report_output(run, &(picture_report){.model = "sea", .output = name, .is_kept = true});
+    report_output(run, &(image_report){.model = "sea", .output = name, .is_kept = true});
     return true;
 }
 
-/* ---- pictures ---- */
+/* ---- images ---- */
 
-static facet_result write_picture(ocean_run *run, const facet_image *image, const char *name,
-                                  facet_error *error)
+static facet_result write_image(ocean_run *run, const facet_image *image, const char *name,
+                                facet_error *error)
 {
-    const render_options *p = &run->options.picture;
+    const render_options *p = &run->options.render;
     facet_image_save_desc save = p->save;
     save.allocator = run->base.allocator;
     return run->video ? video_add(run->video, image, &run->base.allocator, p->limits.thread_count, error)
                       : output_write(image, name, &save, error);
 }
 
-static facet_result make_picture(ocean_run *run, uint32_t index, const char *name, facet_error *error)
+static facet_result make_image(ocean_run *run, uint32_t index, const char *name, facet_error *error)
 {
     const ocean_options *options = &run->options;
     double start = interrupt_clock();
     facet_image *image = NULL;
-    ocean_step step = {name, index, options->picture.frames.frame_count};
+    ocean_step step = {name, index, options->render.frames.frame_count};
     facet_result result = options->sweep ? ocean_sweep(run, name, &image, error)
                                          : ocean_run_draw(run, options, step, &image, error);
     double drawn = interrupt_clock();
     if (result == FACET_OK)
-        result = write_picture(run, image, name, error);
+        result = write_image(run, image, name, error);
     if (result == FACET_OK) {
         facet_image_view view = facet_image_get_layer(image, 0);
         static const uint32_t samples[] = {4, 1, 16}, path_samples[] = {64, 16, 512}; /* of facet_quality */
-        const facet_render_desc *d = &options->picture.desc;
+        const facet_render_desc *d = &options->render.desc;
         bool is_path = d->renderer == FACET_RENDERER_KIND_PATH;
-        picture_report report = {.model = "sea",
-                                 .output = name,
-                                 .width = view.width,
-                                 .height = view.height,
-                                 .samples = d->samples ? d->samples
-                                            : is_path  ? path_samples[d->quality]
-                                                       : samples[d->quality],
-                                 .stats = facet_image_get_render_stats(image),
-                                 .save_s = interrupt_clock() - drawn,
-                                 .total_s = interrupt_clock() - start};
+        image_report report = {.model = "sea",
+                               .output = name,
+                               .width = view.width,
+                               .height = view.height,
+                               .samples = d->samples ? d->samples
+                                          : is_path  ? path_samples[d->quality]
+                                                     : samples[d->quality],
+                               .stats = facet_image_get_render_stats(image),
+                               .save_s = interrupt_clock() - drawn,
+                               .total_s = interrupt_clock() - start};
         report_partial(&run->base.messages, &report, NULL);
         report_output(run, &report);
         run->base.is_interrupted = report.stats.is_partial && interrupt_signal();
@@ -234,7 +234,7 @@ static facet_result make_map(ocean_run *run, uint32_t tile, const char *name, fa
         result = facet_sea_create_maps(run->sea, tile, &run->base.allocator, &image, error);
     const facet_image_save_desc save = {.allocator = run->base.allocator,
                                         .format = FACET_IMAGE_FORMAT_EXR_FLOAT,
-                                        .thread_count = run->options.picture.limits.thread_count};
+                                        .thread_count = run->options.render.limits.thread_count};
     if (result == FACET_OK)
         result = output_write(image, name, &save, error);
     if (result == FACET_OK)
@@ -262,7 +262,7 @@ static facet_result make_maps(ocean_run *run, uint32_t frame, facet_error *error
 
 static facet_result set_moment(ocean_run *run, uint32_t number, facet_error *error)
 {
-    const render_options *p = &run->options.picture;
+    const render_options *p = &run->options.render;
     double time = p->has_time ? p->time_s : ((double)number - 1.0) / p->fps;
     run->time_s = time;
     facet_result result = facet_sea_set_time(run->sea, time, error);
@@ -278,18 +278,18 @@ static facet_result make_frame(ocean_run *run, uint32_t index, uint32_t number, 
         TRY(make_maps(run, number, error));
     if (!*name)
         return FACET_OK;
-    snprintf(run->name, sizeof run->name, "%s", run->options.picture.is_stdout ? "stdout" : name);
-    if (!run->video && !run->options.picture.is_stdout) {
+    snprintf(run->name, sizeof run->name, "%s", run->options.render.is_stdout ? "stdout" : name);
+    if (!run->video && !run->options.render.is_stdout) {
         TRY(ocean_check_name(run, name, error));
         TRY(ocean_check_maps(run, name, number, error));
     }
-    return run->options.has_mesh ? make_mesh(run, name, error) : make_picture(run, index, name, error);
+    return run->options.has_mesh ? make_mesh(run, name, error) : make_image(run, index, name, error);
 }
 
 /* --no-clobber skips frames whose output exists. */
 static facet_result make_frames(ocean_run *run, facet_error *error)
 {
-    const render_options *p = &run->options.picture;
+    const render_options *p = &run->options.render;
     facet_result result = FACET_OK;
     for (uint32_t i = 0; i < p->frames.frame_count && result == FACET_OK && !run->base.is_interrupted; i++) {
         uint32_t number = frame_list_at(&p->frames, i);
@@ -313,7 +313,7 @@ static facet_result make_frames(ocean_run *run, facet_error *error)
  * number of frames, which jumps. */
 static void warn_of_loop(ocean_run *run)
 {
-    const render_options *p = &run->options.picture;
+    const render_options *p = &run->options.render;
     double loop = run->options.sea.loop_s, frames = loop * p->fps;
     facet_log log = messages_log(&run->base.messages);
     double longest = facet_sea_get_info(run->sea).peak_period_s;
@@ -333,7 +333,7 @@ static void warn_of_loop(ocean_run *run)
 static facet_result make_all(ocean_run *run, facet_error *error)
 {
     const ocean_options *options = &run->options;
-    const render_options *p = &options->picture;
+    const render_options *p = &options->render;
     facet_result result = set_moment(run, p->has_frames ? frame_list_at(&p->frames, 0) : 1, error);
     if (result == FACET_OK && options->has_info && !is_given(run->base.line, OPT_JSON))
         ocean_report_print(run);
@@ -354,7 +354,7 @@ static facet_result make_all(ocean_run *run, facet_error *error)
 
 static facet_result load_environment(ocean_run *run, facet_error *error)
 {
-    const render_options *p = &run->options.picture;
+    const render_options *p = &run->options.render;
     environment_input input = p->environment;
     if (!p->has_environment)
         return FACET_OK;
@@ -367,7 +367,7 @@ static facet_result load_environment(ocean_run *run, facet_error *error)
 /* Warns of an environment that the sun outshines: an image without units is black beside a sun in lux. */
 static void warn_of_sun(ocean_run *run)
 {
-    const facet_render_desc *d = &run->options.picture.desc;
+    const facet_render_desc *d = &run->options.render.desc;
     facet_environment_info info;
     if (!run->environment || facet_environment_get_info(run->environment, &info, NULL) != FACET_OK)
         return;
@@ -388,28 +388,28 @@ static facet_result check_names(const command_line *c, const ocean_options *o, f
     model_name sea = {.number = 1, .count = 1};
     size_t no_clash = MODEL_NO_CLASH;
     model_list one = {.models = &sea, .count = 1, .clashes = &no_clash};
-    return render_names_check(c, &o->picture, &one, error);
+    return render_names_check(c, &o->render, &one, error);
 }
 
 static facet_result read_line(verb_run *base, facet_error *error)
 {
     ocean_options *o = &((ocean_run *)base)->options;
     TRY(ocean_options_read(base->line, o, error));
-    base->limits = o->picture.limits;
-    return o->picture.output && !o->picture.has_frames ? check_names(base->line, o, error) : FACET_OK;
+    base->limits = o->render.limits;
+    return o->render.output && !o->render.has_frames ? check_names(base->line, o, error) : FACET_OK;
 }
 
 static facet_result make(ocean_run *run, facet_error *error)
 {
     const ocean_options *o = &run->options;
-    if (o->has_picture)
+    if (o->has_image)
         TRY(load_environment(run, error));
     warn_of_sun(run);
     if (o->model)
         TRY(ocean_float_load(run, error));
     interrupt_begin("sea", "creating its waves and metering its light", false);
     TRY(ocean_run_set_sea(run, o, error));
-    if (o->has_picture && !o->sweep)
+    if (o->has_image && !o->sweep)
         TRY(ocean_run_meter(run, o, error));
     interrupt_end();
     return make_all(run, error);

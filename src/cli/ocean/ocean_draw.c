@@ -25,9 +25,9 @@ facet_result ocean_run_set_sea(ocean_run *run, const ocean_options *options, fac
 facet_camera ocean_run_camera(const ocean_run *run, const ocean_options *o)
 {
     facet_camera camera = facet_sea_camera(run->sea, o->eye_height_m, o->heading_rad);
-    for (int i = 0; i < 3 && o->picture.has_eye; i++) {
-        camera.target[i] += (float)o->picture.eye[i] - camera.eye[i];
-        camera.eye[i] = (float)o->picture.eye[i];
+    for (int i = 0; i < 3 && o->render.has_eye; i++) {
+        camera.target[i] += (float)o->render.eye[i] - camera.eye[i];
+        camera.eye[i] = (float)o->render.eye[i];
     }
     if (o->has_target)
         memcpy(camera.target, o->target, sizeof camera.target);
@@ -39,14 +39,14 @@ facet_camera ocean_run_camera(const ocean_run *run, const ocean_options *o)
 /* The desc of an image, without exposure and camera. */
 static facet_render_desc desc_of(ocean_run *run, const ocean_options *o, const facet_sea_shading *shading)
 {
-    facet_render_desc d = o->picture.desc;
+    facet_render_desc d = o->render.desc;
     d.sea = run->sea;
     d.sky = o->sky;
     d.sea_shading = *shading;
     d.allocator = run->base.allocator;
     d.log = messages_log(&run->base.messages);
     d.environment = run->environment;
-    if (o->picture.environment.kind == ENVIRONMENT_NONE) /* a cell of --sweep without light */
+    if (o->render.environment.kind == ENVIRONMENT_NONE) /* a cell of --sweep without light */
         d.environment_ev = BLACK_EV;
     return d;
 }
@@ -112,7 +112,7 @@ static facet_result draw_both(ocean_run *run, const ocean_options *o, progress *
     facet_result result = draw(run, o, &before, FACET_TONEMAP_NONE, 1, shown, &halves[0], error);
     facet_tonemap tonemap = o->shading.style && !is_given(run->base.line, OPT_TONE_MAPPING)
                                 ? FACET_TONEMAP_AGX
-                                : o->picture.desc.tonemap;
+                                : o->render.desc.tonemap;
     if (result == FACET_OK)
         result = draw(run, o, &now, tonemap, 1, shown, &halves[1], error);
     const facet_contact_sheet_desc sheet = {.allocator = run->base.allocator,
@@ -137,7 +137,7 @@ facet_result ocean_run_draw(ocean_run *run, const ocean_options *o, ocean_step s
                       .share = 1.0 / step.count,
                       .last_percent = -10};
     return o->is_before_after ? draw_both(run, o, &shown, image, error)
-                              : draw(run, o, &o->shading, o->picture.desc.tonemap, step.count - step.index,
+                              : draw(run, o, &o->shading, o->render.desc.tonemap, step.count - step.index,
                                      &shown, image, error);
 }
 
@@ -208,7 +208,7 @@ static facet_result read_axes(const ocean_run *run, axis axes[AXES], facet_error
     }
     if (result == FACET_OK && *at)
         result = option_fail(c, OPT_SWEEP, expected, error);
-    const render_options *p = &run->options.picture;
+    const render_options *p = &run->options.render;
     uint64_t columns = axes[0].count, rows = axes[1].count; /* 0: the number of columns is free */
     if (result == FACET_OK && (columns * p->desc.width > MAX_EDGE || rows * p->desc.height > MAX_EDGE))
         result = fail(error, FACET_ERROR_ARGUMENT,
@@ -248,7 +248,7 @@ static facet_result draw_cell(ocean_run *run, const axis *axes, uint32_t cell, o
     TRY(ocean_options_read(&line, &options, error));
     TRY(ocean_run_set_sea(run, &options, error));
     TRY(ocean_run_meter(run, &options, error));
-    TRY(facet_sea_set_time(run->sea, options.picture.time_s, error));
+    TRY(facet_sea_set_time(run->sea, options.render.time_s, error));
     if (run->model)
         TRY(ocean_float_place(run, error));
     return ocean_run_draw(run, &options, step, image, error);
@@ -261,13 +261,13 @@ facet_result ocean_sweep(ocean_run *run, const char *output, facet_image **image
     if (result != FACET_OK)
         return result;
     uint32_t count = axes[0].count * (axes[1].option ? axes[1].count : 1);
-    facet_image **pictures = calloc(count, sizeof *pictures);
+    facet_image **images = calloc(count, sizeof *images);
     char(*labels)[LABEL_SIZE] = calloc(count, sizeof *labels);
     const char **words = calloc(count, sizeof *words);
-    if (!pictures || !labels || !words)
+    if (!images || !labels || !words)
         result = fail(error, FACET_ERROR_MEMORY, "out of memory: sheet");
     for (uint32_t i = 0; i < count && result == FACET_OK; i++) {
-        result = draw_cell(run, axes, i, (ocean_step){output, i, count}, labels[i], &pictures[i], error);
+        result = draw_cell(run, axes, i, (ocean_step){output, i, count}, labels[i], &images[i], error);
         words[i] = labels[i];
     }
     const facet_contact_sheet_desc desc = {.allocator = run->base.allocator,
@@ -275,10 +275,10 @@ facet_result ocean_sweep(ocean_run *run, const char *output, facet_image **image
                                            .column_count = axes[1].option ? axes[0].count : 0,
                                            .labels = words};
     if (result == FACET_OK)
-        result = facet_image_create_sheet((const facet_image *const *)pictures, count, &desc, image, error);
-    for (uint32_t i = 0; pictures && i < count; i++)
-        facet_image_destroy(pictures[i]);
-    free(pictures);
+        result = facet_image_create_sheet((const facet_image *const *)images, count, &desc, image, error);
+    for (uint32_t i = 0; images && i < count; i++)
+        facet_image_destroy(images[i]);
+    free(images);
     free(labels);
     free(words);
     return result;

@@ -66,8 +66,8 @@ facet_result ocean_float_load(ocean_run *run, facet_error *error)
         return result;
     const facet_scene_desc desc = {.allocator = run->base.allocator,
                                    .log = messages_log(&run->base.messages),
-                                   .thread_count = run->options.picture.limits.thread_count,
-                                   .max_texture_size = run->options.picture.limits.max_texture_size};
+                                   .thread_count = run->options.render.limits.thread_count,
+                                   .max_texture_size = run->options.render.limits.max_texture_size};
     interrupt_begin_reading(path);
     result = input_load(path, &desc, &run->model, error);
     interrupt_end();
@@ -144,7 +144,7 @@ static void find_berth(ocean_run *run)
     double width = fmax((double)high[0] - (double)low[0], (double)high[2] - (double)low[2]);
     double size = fmax(width, (double)high[1] - (double)low[1]);
     double lowest =
-        tan(fmin(fmax(half - atan2(y, level), 0.05), 1.5)); /* edge of the picture, below the level */
+        tan(fmin(fmax(half - atan2(y, level), 0.05), 1.5)); /* edge of the image, below the level */
     double away = fmax(SIZE_AWAY * size / tan(half), NEAREST * fabs((double)camera.eye[1]) / lowest + width);
     run->berth.has_place = true;
     run->berth.numbers[0] = (double)camera.eye[0] + (level > 0.0 ? x / level * away : 0.0);
@@ -163,7 +163,7 @@ static double azimuth_of(double x, double z)
 static void warn_of_view(ocean_run *run)
 {
     const facet_camera camera = ocean_run_camera(run, &run->options);
-    const facet_render_desc *r = &run->options.picture.desc;
+    const facet_render_desc *r = &run->options.render.desc;
     const float *low = run->model_low, *high = run->model_high;
     double size[3], to[3], along[3];
     const double at[3] = {run->berth.numbers[0], 0.0, run->berth.numbers[1]};
@@ -198,7 +198,7 @@ static double pixels_of(const ocean_run *run, double size)
     double x = run->berth.numbers[0] - (double)camera.eye[0],
            z = run->berth.numbers[1] - (double)camera.eye[2];
     double away = fmax(hypot(hypot(x, z), (double)camera.eye[1]), 0.5 * size);
-    return size / away / (2.0 * tan(0.5 * (double)camera.fov_y_rad)) * run->options.picture.desc.height;
+    return size / away / (2.0 * tan(0.5 * (double)camera.fov_y_rad)) * run->options.render.desc.height;
 }
 
 /* Warns of implausible sizes: a model in millimetres is a thousand times too large, one in kilometres
@@ -235,7 +235,7 @@ static void warn_of_size(ocean_run *run)
 
 facet_result ocean_float_place(ocean_run *run, facet_error *error)
 {
-    bool is_first = !run->is_afloat && run->options.has_picture && !run->options.sweep;
+    bool is_first = !run->is_afloat && run->options.has_image && !run->options.sweep;
     if (run->berth.has_place && is_first)
         warn_of_view(run);
     run->is_afloat = true;

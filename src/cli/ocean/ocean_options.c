@@ -204,10 +204,10 @@ static facet_result read_bed(const command_line *c, ocean_options *out, facet_er
 
 static facet_result read_sky(const command_line *c, ocean_options *out, facet_error *error)
 {
-    render_options *o = &out->picture;
+    render_options *o = &out->render;
     double numbers[3] = {DEFAULT_SUN_EL, 0.0, 0.0};
     size_t count = 2;
-    TRY(picture_options_environment(c, o, error));
+    TRY(image_options_environment(c, o, error));
     if (is_given(c, OPT_SUN))
         count = scan_list(option_text(c, OPT_SUN, ""), 1, 3, numbers);
     if (!count || !are_within(numbers, 1, -90.0, 90.0) || !is_azimuth(numbers[1]) ||
@@ -232,7 +232,7 @@ static facet_result read_sky(const command_line *c, ocean_options *out, facet_er
                         .illuminance_lux = {(float)numbers[2], (float)numbers[2], (float)numbers[2]}};
     out->has_ev100 = is_given(c, OPT_EV100);
     out->ev100 = option_number(c, OPT_EV100, 0.0);
-    return picture_options_exposure(c, o, error);
+    return image_options_exposure(c, o, error);
 }
 
 /* ---- look ---- */
@@ -249,7 +249,7 @@ static const option *first_given(const command_line *c, const option_id *ids, si
 
 static facet_result read_look(const command_line *c, ocean_options *out, facet_error *error)
 {
-    render_options *o = &out->picture;
+    render_options *o = &out->render;
     int before = option_choice(c, OPT_BEFORE, -1);
     out->is_before_after = is_given(c, OPT_BEFORE_AFTER);
     out->shading = (facet_sea_shading){
@@ -294,15 +294,15 @@ static facet_result read_camera(const command_line *c, ocean_options *out, facet
     if (is_given(c, OPT_HEADING) && !value_angle(option_text(c, OPT_HEADING, ""), &angle))
         return option_fail(c, OPT_HEADING, "an angle in degrees", error);
     out->heading_rad = (float)angle;
-    out->picture.has_eye = is_given(c, OPT_EYE);
-    if (out->picture.has_eye) {
+    out->render.has_eye = is_given(c, OPT_EYE);
+    if (out->render.has_eye) {
         if (is_given(c, OPT_EYE_HEIGHT))
             return fail(error, FACET_ERROR_ARGUMENT, "--eye: it excludes --height-of-eye; give one of them");
         if (!value_numbers(option_text(c, OPT_EYE, ""), 3, numbers) ||
             !are_within(numbers, 3, -MAX_DISTANCE, MAX_DISTANCE))
             return option_fail(c, OPT_EYE, "X,Y,Z in metres, each from -1e6 to 1e6", error);
         for (int i = 0; i < 3; i++)
-            out->picture.eye[i] = numbers[i];
+            out->render.eye[i] = numbers[i];
     }
     out->has_target = is_given(c, OPT_TARGET);
     if (out->has_target) {
@@ -336,8 +336,8 @@ static bool is_mesh_name(const char *name)
 
 static facet_result read_sequence(const command_line *c, ocean_options *out, facet_error *error)
 {
-    render_options *o = &out->picture;
-    TRY(picture_options_frames(c, o, error));
+    render_options *o = &out->render;
+    TRY(image_options_frames(c, o, error));
     double loop = out->sea.loop_s;
     o->is_sequence = o->has_frames || (!o->has_time && (is_given(c, OPT_LOOP) || o->has_fps));
     if (!o->has_frames)
@@ -357,15 +357,15 @@ static facet_result read_sequence(const command_line *c, ocean_options *out, fac
 
 static facet_result read_output(const command_line *c, ocean_options *out, facet_error *error)
 {
-    render_options *o = &out->picture;
-    TRY(picture_options_output(c, o, error));
+    render_options *o = &out->render;
+    TRY(image_options_output(c, o, error));
     out->maps = option_text(c, OPT_MAPS, NULL);
     out->sweep = option_text(c, OPT_SWEEP, NULL);
     out->model = option_text(c, OPT_WITH, NULL);
     if (c->values[OPT_WITH].count > 1)
         return option_fail(c, OPT_WITH, "one model; it is given more than once", error);
     out->has_mesh = is_mesh_name(o->output);
-    out->has_picture = o->output && !out->has_mesh;
+    out->has_image = o->output && !out->has_mesh;
     out->has_info = is_given(c, OPT_INFO);
     out->mesh = (facet_sea_mesh_desc){.size_m = (float)option_number(c, OPT_MESH_SIZE, 0.0),
                                       .samples = (uint32_t)option_number(c, OPT_MESH_SAMPLES, 0.0)};
@@ -375,10 +375,10 @@ static facet_result read_output(const command_line *c, ocean_options *out, facet
     if (!o->output && !out->maps && !out->has_info && !is_given(c, OPT_JSON))
         return fail(error, FACET_ERROR_ARGUMENT,
                     "ocean: no output is named; for an image: facet ocean -o sea.png");
-    if (out->sweep && (!out->has_picture || out->is_before_after))
+    if (out->sweep && (!out->has_image || out->is_before_after))
         return fail(error, FACET_ERROR_ARGUMENT,
                     "--sweep: it makes one sheet, named by --output, and excludes --before-after");
-    return out->has_picture ? picture_options_format(c, o, error) : FACET_OK;
+    return out->has_image ? image_options_format(c, o, error) : FACET_OK;
 }
 
 static facet_result check_maps(const command_line *c, const ocean_options *out, facet_error *error)
@@ -387,7 +387,7 @@ static facet_result check_maps(const command_line *c, const ocean_options *out, 
     bool has_place = maps && output_name_has_frame(maps);
     if (has_place && (!dot || strcasecmp(dot, ".exr") != 0))
         return option_fail(c, OPT_MAPS, "a folder, or a name with #### that ends in .exr", error);
-    if (has_place && out->picture.is_sequence)
+    if (has_place && out->render.is_sequence)
         return option_fail(c, OPT_MAPS, "a folder, as there are several frames", error);
     return FACET_OK;
 }
@@ -395,17 +395,17 @@ static facet_result check_maps(const command_line *c, const ocean_options *out, 
 /* Refuses options without effect on a mesh. */
 static facet_result check_mesh(const command_line *c, const ocean_options *out, facet_error *error)
 {
-    static const option_id of_pictures[] = {
+    static const option_id of_images[] = {
         OPT_FORMAT,  OPT_SIZE,    OPT_CROP,   OPT_JPEG_QUALITY, OPT_SUN,      OPT_TURBIDITY,
         OPT_ENV,     OPT_EV100,   OPT_BEFORE, OPT_BEFORE_AFTER, OPT_STAGE,    OPT_ROUGHNESS,
         OPT_NORMALS, OPT_MASKING, OPT_CLAMP,  OPT_WITH,         OPT_RENDERER, OPT_EXPOSURE,
         OPT_SAMPLES, OPT_EYE,     OPT_TARGET, OPT_HEADING};
     const option *other =
-        first_given(c, of_pictures, sizeof of_pictures / sizeof *of_pictures, SOURCE_COMMAND_LINE);
+        first_given(c, of_images, sizeof of_images / sizeof *of_images, SOURCE_COMMAND_LINE);
     if (other && out->has_mesh)
         return fail(error, FACET_ERROR_ARGUMENT,
                     "--%s: it is an option of images, but %s is a mesh of the water", other->name,
-                    out->picture.output);
+                    out->render.output);
     return FACET_OK;
 }
 
@@ -413,13 +413,13 @@ static facet_result check_mesh(const command_line *c, const ocean_options *out, 
 static facet_result check_output(const command_line *c, const ocean_options *out, facet_error *error)
 {
     facet_result result = check_maps(c, out, error);
-    if (result != FACET_OK || !out->picture.output)
+    if (result != FACET_OK || !out->render.output)
         return result;
-    if (out->sweep && out->picture.frames.frame_count > 1)
+    if (out->sweep && out->render.frames.frame_count > 1)
         return fail(error, FACET_ERROR_ARGUMENT,
                     "--sweep: it has one moment and excludes --frames and --loop");
     result = check_mesh(c, out, error);
-    return result == FACET_OK ? picture_options_check_sequence(c, &out->picture, error) : result;
+    return result == FACET_OK ? image_options_check_sequence(c, &out->render, error) : result;
 }
 
 facet_result ocean_options_read(const command_line *c, ocean_options *out, facet_error *error)
@@ -429,14 +429,14 @@ facet_result ocean_options_read(const command_line *c, ocean_options *out, facet
         TRY(facet_sea_preset(option_text(c, OPT_PRESET, ""), &out->sea, error));
     facet_result (*const readers[])(const command_line *, ocean_options *, facet_error *) = {
         read_output, read_waves, read_water, read_bed, read_sky, read_look, read_camera, read_sequence};
-    TRY(limits_read(c, &out->picture.limits, error));
+    TRY(limits_read(c, &out->render.limits, error));
     for (size_t i = 0; i < sizeof readers / sizeof *readers; i++)
         TRY(readers[i](c, out, error));
-    TRY(picture_options_size(c, "1280x720", &out->picture, error));
+    TRY(image_options_size(c, "1280x720", &out->render, error));
     TRY(check_output(c, out, error));
     bool is_before = out->shading.style || (out->shading.stage && out->shading.stage <= 2);
-    picture_options_look(c, is_before ? FACET_TONEMAP_NONE : FACET_TONEMAP_AGX, &out->picture);
-    out->picture.desc.thread_count = out->picture.save.thread_count = out->picture.limits.thread_count;
-    out->sea.thread_count = out->picture.limits.thread_count;
+    image_options_quality(c, is_before ? FACET_TONEMAP_NONE : FACET_TONEMAP_AGX, &out->render);
+    out->render.desc.thread_count = out->render.save.thread_count = out->render.limits.thread_count;
+    out->sea.thread_count = out->render.limits.thread_count;
     return FACET_OK;
 }

@@ -6,7 +6,7 @@
 
 typedef struct ocean_options {
     /* output, format, size, environment, frames, limits; desc.exposure_ev is relative to the meter */
-    render_options picture;
+    render_options render;
     facet_sea_desc sea;
     facet_sky_desc sky;
     facet_sea_shading shading;
@@ -17,11 +17,11 @@ typedef struct ocean_options {
     float eye_height_m; /* 0: facet_sea_camera()'s */
     float heading_rad;  /* from +Z towards +X */
     bool has_target;
-    float target[3]; /* eye and has_eye are in picture */
+    float target[3]; /* eye and has_eye are in render */
     float fov_y_rad; /* 0: facet_sea_camera()'s */
 
     /* what is made */
-    bool has_picture, has_mesh, has_info;
+    bool has_image, has_mesh, has_info;
     bool is_before_after;
     const char *maps;  /* folder or pattern; NULL: none */
     const char *model; /* of --with, including @ and what follows; NULL: none */

@@ -79,9 +79,9 @@ static json_t *numbers_json(const float *numbers, size_t count)
     return list;
 }
 
-json_t *ocean_report_picture_json(const ocean_run *run, const picture_report *p)
+json_t *ocean_report_image_json(const ocean_run *run, const image_report *p)
 {
-    json_t *all = report_picture_json(p);
+    json_t *all = report_image_json(p);
     const facet_camera camera = ocean_run_camera(run, &run->options);
     if (!all || run->options.sweep) /* whose images have their own values each */
         return all;

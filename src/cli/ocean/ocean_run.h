@@ -66,8 +66,8 @@ void ocean_report_print(const ocean_run *run);
 /* The same as JSON; NULL: no memory. */
 json_t *ocean_report_json(const ocean_run *run);
 
-/* report_picture_json() with what another renderer needs for the same image: exposure, time, camera, pose
+/* report_image_json() with what another renderer needs for the same image: exposure, time, camera, pose
  * of the model. */
-json_t *ocean_report_picture_json(const ocean_run *run, const picture_report *p);
+json_t *ocean_report_image_json(const ocean_run *run, const image_report *p);
 
 #endif

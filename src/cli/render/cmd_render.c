@@ -76,7 +76,7 @@ typedef struct render_run {
     model_list models;
     facet_environment *environment; /* read once, for all models */
     bool has_environment, environment_failed;
-    json_t *pictures;   /* NULL without --json */
+    json_t *images;     /* NULL without --json */
     size_t models_left; /* including the current one */
 } render_run;
 
@@ -106,7 +106,7 @@ static facet_result load_model(render_run *run, const char *model, facet_scene *
     return result;
 }
 
-/* ---- pictures ---- */
+/* ---- images ---- */
 
 /* The state of one model. */
 typedef struct model_run {
@@ -123,8 +123,7 @@ typedef struct model_run {
     bool is_framed; /* the camera is framed, and its warnings are reported */
 } model_run;
 
-static facet_result write_picture(model_run *m, const facet_image *image, const char *name,
-                                  facet_error *error)
+static facet_result write_image(model_run *m, const facet_image *image, const char *name, facet_error *error)
 {
     const render_run *run = m->run;
     if (m->video)
@@ -231,7 +230,7 @@ static facet_result draw_frame(model_run *m, uint32_t index, const sequence_fram
 }
 
 static facet_result render_frame(model_run *m, uint32_t index, const sequence_frame *frame,
-                                 picture_report *report, facet_error *error)
+                                 image_report *report, facet_error *error)
 {
     render_run *run = m->run;
     const render_options *o = &m->options;
@@ -245,7 +244,7 @@ static facet_result render_frame(model_run *m, uint32_t index, const sequence_fr
     if (result != FACET_OK)
         return result;
     double rendered = interrupt_clock();
-    result = write_picture(m, image, report->output, error);
+    result = write_image(m, image, report->output, error);
     facet_image_view view = facet_image_get_layer(image, 0);
     report->width = view.width;
     report->height = view.height;
@@ -260,11 +259,11 @@ static facet_result render_frame(model_run *m, uint32_t index, const sequence_fr
     return result;
 }
 
-static void report_frame(render_run *run, const picture_report *report)
+static void report_frame(render_run *run, const image_report *report)
 {
-    report_picture(&run->base.messages, report, !run->options.output);
-    if (run->pictures)
-        json_array_append_new(run->pictures, report_picture_json(report));
+    report_image(&run->base.messages, report, !run->options.output);
+    if (run->images)
+        json_array_append_new(run->images, report_image_json(report));
 }
 
 static facet_result render_frames(model_run *m, facet_error *error)
@@ -277,7 +276,7 @@ static facet_result render_frames(model_run *m, facet_error *error)
         result = render_name(o, m->model, frame.number, name, sizeof name, error);
         if (result != FACET_OK)
             break;
-        picture_report report = {
+        image_report report = {
             .model = input_name(m->model->path), .output = name, .load_s = i ? 0.0 : m->load_s};
         if (interrupt_signal())
             return fail(error, FACET_ERROR_CANCELLED, "%s: interrupted", name);
@@ -404,7 +403,7 @@ static bool is_kept(render_run *run, const model_name *model)
         (run->options.is_sequence && !run->options.video) ||
         render_name(&run->options, model, 1, name, sizeof name, &ignored) != FACET_OK || !output_exists(name))
         return false;
-    report_frame(run, &(picture_report){.model = input_name(model->path), .output = name, .is_kept = true});
+    report_frame(run, &(image_report){.model = input_name(model->path), .output = name, .is_kept = true});
     return true;
 }
 
@@ -464,7 +463,7 @@ static facet_result render(verb_run *base, facet_error *error)
 {
     render_run *run = (render_run *)base;
     (void)error;
-    run->pictures = is_given(base->line, OPT_JSON) ? json_array() : NULL;
+    run->images = is_given(base->line, OPT_JSON) ? json_array() : NULL;
     if (run->options.note[0])
         message_at(&base->messages, VERBOSITY_NORMAL, "%s", run->options.note);
     verb_run_models(base, &run->models, render_one);
@@ -473,13 +472,13 @@ static facet_result render(verb_run *base, facet_error *error)
 
 static void add_json(const verb_run *base, json_t *root)
 {
-    json_object_set(root, "pictures", ((const render_run *)base)->pictures);
+    json_object_set(root, "pictures", ((const render_run *)base)->images);
 }
 
 static void destroy(verb_run *base)
 {
     render_run *run = (render_run *)base;
-    json_decref(run->pictures);
+    json_decref(run->images);
     facet_environment_destroy(run->environment);
     model_list_destroy(&run->models);
 }

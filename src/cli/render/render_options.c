@@ -125,7 +125,7 @@ static facet_result aov_options_read(const command_line *c, render_options *out,
 
 static facet_result read_size(const command_line *c, render_options *out, facet_error *error)
 {
-    return picture_options_size(c, "1024x768", out, error);
+    return image_options_size(c, "1024x768", out, error);
 }
 
 static facet_result read_background(const command_line *c, render_options *out, facet_error *error)
@@ -148,7 +148,7 @@ static facet_result read_background(const command_line *c, render_options *out, 
 static facet_result read_look(const command_line *c, render_options *out, facet_error *error)
 {
     facet_render_desc *d = &out->desc;
-    TRY(picture_options_exposure(c, out, error));
+    TRY(image_options_exposure(c, out, error));
     d->shading = (facet_shading)option_choice(c, OPT_SHADING, FACET_SHADING_GLTF);
     static const option_id ogl1_only[] = {OPT_OGL1_VARIANT, OPT_OGL1_SPACE, OPT_FOG};
     for (size_t i = 0; i < sizeof ogl1_only / sizeof *ogl1_only; i++)
@@ -158,8 +158,8 @@ static facet_result read_look(const command_line *c, render_options *out, facet_
     if (out->meters_exposure && d->shading == FACET_SHADING_OGL1)
         return fail(error, FACET_ERROR_ARGUMENT,
                     "--exposure: --shading ogl1 produces display values, which auto cannot meter");
-    picture_options_look(c, d->shading == FACET_SHADING_OGL1 ? FACET_TONEMAP_NONE : FACET_TONEMAP_NEUTRAL,
-                         out);
+    image_options_quality(c, d->shading == FACET_SHADING_OGL1 ? FACET_TONEMAP_NONE : FACET_TONEMAP_NEUTRAL,
+                          out);
     d->ogl1 = (facet_ogl1_desc){.variant = (facet_ogl1_variant)option_choice(c, OPT_OGL1_VARIANT, 0),
                                 .is_linear = option_choice(c, OPT_OGL1_SPACE, 0) == 1,
                                 .ignores_fog = option_choice(c, OPT_FOG, 0) == 1};
@@ -173,7 +173,7 @@ static facet_result read_look(const command_line *c, render_options *out, facet_
 static facet_result read_motion(const command_line *c, render_options *out, facet_error *error)
 {
     out->animation = option_text(c, OPT_ANIMATION, NULL);
-    TRY(picture_options_frames(c, out, error));
+    TRY(image_options_frames(c, out, error));
     bool plays_none = out->animation && strcmp(out->animation, "none") == 0;
     if (plays_none && (out->has_time || out->has_frames))
         return fail(error, FACET_ERROR_ARGUMENT, "--animation: none excludes --%s",
@@ -188,14 +188,14 @@ facet_result render_options_read(const command_line *c, render_options *out, fac
     *out = (render_options){.scene = option_text(c, OPT_SCENE, NULL),
                             .variant = option_text(c, OPT_VARIANT, NULL)};
     facet_result (*const readers[])(const command_line *, render_options *,
-                                    facet_error *) = {picture_options_output,
-                                                      picture_options_format,
+                                    facet_error *) = {image_options_output,
+                                                      image_options_format,
                                                       read_size,
                                                       read_background,
                                                       read_look,
                                                       camera_options_read,
                                                       read_motion,
-                                                      picture_options_environment,
+                                                      image_options_environment,
                                                       path_options_read,
                                                       aov_options_read};
     facet_result result = limits_read(c, &out->limits, error);
@@ -203,7 +203,7 @@ facet_result render_options_read(const command_line *c, render_options *out, fac
         result = readers[i](c, out, error);
     if (result != FACET_OK)
         return result;
-    result = picture_options_check_sequence(c, out, error);
+    result = image_options_check_sequence(c, out, error);
     if (result != FACET_OK)
         return result;
     out->desc.thread_count = out->save.thread_count = out->limits.thread_count;

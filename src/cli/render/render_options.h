@@ -64,23 +64,22 @@ const char *render_extension(facet_image_format format);
 
 /* ---- parts, in files of their own ---- */
 
-facet_result picture_options_output(const command_line *c, render_options *out, facet_error *error);
-facet_result picture_options_format(const command_line *c, render_options *out, facet_error *error);
+facet_result image_options_output(const command_line *c, render_options *out, facet_error *error);
+facet_result image_options_format(const command_line *c, render_options *out, facet_error *error);
 /* --size (default: otherwise), --crop. */
-facet_result picture_options_size(const command_line *c, const char *otherwise, render_options *out,
-                                  facet_error *error);
+facet_result image_options_size(const command_line *c, const char *otherwise, render_options *out,
+                                facet_error *error);
 /* --exposure, as stops. */
-facet_result picture_options_exposure(const command_line *c, render_options *out, facet_error *error);
+facet_result image_options_exposure(const command_line *c, render_options *out, facet_error *error);
 /* --tone-mapping (default: otherwise, none for linear files), --quality, --jpeg-quality, --png-compression. */
-void picture_options_look(const command_line *c, facet_tonemap otherwise, render_options *out);
+void image_options_quality(const command_line *c, facet_tonemap otherwise, render_options *out);
 /* --time, --frames, --fps. */
-facet_result picture_options_frames(const command_line *c, render_options *out, facet_error *error);
+facet_result image_options_frames(const command_line *c, render_options *out, facet_error *error);
 /* --env and the options of the environment. */
-facet_result picture_options_environment(const command_line *c, render_options *out, facet_error *error);
+facet_result image_options_environment(const command_line *c, render_options *out, facet_error *error);
 
 /* Checks that all images have a name; needs is_sequence. */
-facet_result picture_options_check_sequence(const command_line *c, const render_options *o,
-                                            facet_error *error);
+facet_result image_options_check_sequence(const command_line *c, const render_options *o, facet_error *error);
 
 /* The camera, without its lens. */
 facet_result camera_options_read(const command_line *c, render_options *out, facet_error *error);

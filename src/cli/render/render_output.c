@@ -54,7 +54,7 @@ bool render_name_is_input(const command_line *c, const render_options *o, const 
 
 /* A checkpoint replaces an earlier checkpoint only, which is checked when that is read. */
 static facet_result check_checkpoint(const command_line *c, const render_options *o, const model_name *model,
-                                     const char *picture, facet_error *error)
+                                     const char *image, facet_error *error)
 {
     char name[RENDER_NAME_SIZE];
     facet_result result = render_checkpoint_name(o, model, 1, name, sizeof name, error);
@@ -63,7 +63,7 @@ static facet_result check_checkpoint(const command_line *c, const render_options
     result = output_check(name, error);
     if (result == FACET_OK && output_exists(name) &&
         (render_name_is_input(c, o, model->path, name) ||
-         (output_exists(picture) && input_is_same_file(name, picture))))
+         (output_exists(image) && input_is_same_file(name, image))))
         result = fail(error, FACET_ERROR_ARGUMENT,
                       "--checkpoint: %s is an input or the image itself and would be overwritten", name);
     return result;
@@ -105,13 +105,13 @@ facet_result render_names_check(const command_line *c, const render_options *o, 
 /* ---- reports ---- */
 
 /* Mean samples per pixel. */
-static double samples_taken(const picture_report *p)
+static double samples_taken(const image_report *p)
 {
     double pixels = (double)p->width * p->height;
     return p->stats.samples && pixels > 0.0 ? (double)p->stats.samples / pixels : p->samples;
 }
 
-void report_partial(messages *m, const picture_report *p, const char *resume_with)
+void report_partial(messages *m, const image_report *p, const char *resume_with)
 {
     if (!p->stats.is_partial)
         return;
@@ -123,7 +123,7 @@ void report_partial(messages *m, const picture_report *p, const char *resume_wit
                 p->samples, *checkpoint ? "; --resume continues " : "", checkpoint);
 }
 
-void report_picture(const messages *m, const picture_report *p, bool is_news)
+void report_image(const messages *m, const image_report *p, bool is_news)
 {
     if (strcmp(p->output, "-") == 0)
         is_news = false;
@@ -148,7 +148,7 @@ void report_picture(const messages *m, const picture_report *p, bool is_news)
         1e3 * s->total_s, 1e3 * p->save_s, s->thread_count);
 }
 
-json_t *report_picture_json(const picture_report *p)
+json_t *report_image_json(const image_report *p)
 {
     const facet_render_stats *s = &p->stats;
     if (p->is_kept)

@@ -32,23 +32,23 @@ facet_result render_names_check(const command_line *c, const render_options *o, 
 /* ---- reports: a line for people, an object for programs ---- */
 
 /* An image that was written or kept. */
-typedef struct picture_report {
+typedef struct image_report {
     const char *model, *output;
     uint32_t width, height, samples;
     double exposure_ev;       /* stops */
     bool is_kept;             /* by --no-clobber */
     facet_render_stats stats; /* of facet_render() */
     double load_s, save_s, total_s;
-} picture_report;
+} image_report;
 
 /* Prints lines on standard error by verbosity. is_news: also without -v and off a terminal, since the user
  * did not name the output. */
-void report_picture(const messages *m, const picture_report *p, bool is_news);
+void report_image(const messages *m, const image_report *p, bool is_news);
 
 /* The same as JSON; NULL: no memory. */
-json_t *report_picture_json(const picture_report *p);
+json_t *report_image_json(const image_report *p);
 
 /* Warns of an image with fewer samples than requested; resume_with is its checkpoint, "" or NULL: none. */
-void report_partial(messages *m, const picture_report *p, const char *resume_with);
+void report_partial(messages *m, const image_report *p, const char *resume_with);
 
 #endif

@@ -1,6 +1,6 @@
 /* environment_input.h - the words that name an environment, the same for --env of render and INPUT of bake:
  *
- *   FILE                                  a picture, or a KTX2 cube map
+ *   FILE                                  an image, or a KTX2 cube map
  *   -                                     standard input, where the caller allows it
  *   NAME{face}.hdr                        six files, px nx py ny pz nz (or posx negx .., right left top bottom front back) for {face}
  *   faces:A,B,C,D,E,F                     six files, +X -X +Y -Y +Z -Z

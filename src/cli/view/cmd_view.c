@@ -158,10 +158,10 @@ static facet_result load_environment(void *user, const char *name, const facet_v
 
 /* ---- the run ---- */
 
-static char *describe(void *user, const facet_view_image *picture)
+static char *describe(void *user, const facet_view_image *image)
 {
     const view_run *run = user;
-    return view_command(run->base.line, &run->options, picture);
+    return view_command(run->base.line, &run->options, image);
 }
 
 static void print(void *user, const char *text)

@@ -6,6 +6,6 @@
 
 /* Returns a malloc() block for a shell; NULL: no memory. c is the command line of facet view, whose
  * options that no key changes are kept; options are its values. */
-char *view_command(const command_line *c, const render_options *options, const facet_view_image *picture);
+char *view_command(const command_line *c, const render_options *options, const facet_view_image *image);
 
 #endif

@@ -1,4 +1,4 @@
-/* picture_options.c - options of images that facet render and facet ocean share. */
+/* image_options.c - options of images that facet render and facet ocean share. */
 #include "cli/render/render_options.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@
 
 /* ---- output ---- */
 
-facet_result picture_options_output(const command_line *c, render_options *out, facet_error *error)
+facet_result image_options_output(const command_line *c, render_options *out, facet_error *error)
 {
     out->output = option_text(c, OPT_OUTPUT, NULL);
     out->is_stdout = out->output && strcmp(out->output, "-") == 0;
@@ -68,7 +68,7 @@ static bool is_linear(facet_image_format format)
            format == FACET_IMAGE_FORMAT_HDR || format == FACET_IMAGE_FORMAT_PFM;
 }
 
-facet_result picture_options_format(const command_line *c, render_options *out, facet_error *error)
+facet_result image_options_format(const command_line *c, render_options *out, facet_error *error)
 {
     int choice = option_choice(c, OPT_FORMAT, -1);
     if (choice >= 0) {
@@ -96,8 +96,8 @@ facet_result picture_options_format(const command_line *c, render_options *out, 
 
 /* ---- size ---- */
 
-facet_result picture_options_size(const command_line *c, const char *otherwise, render_options *out,
-                                  facet_error *error)
+facet_result image_options_size(const command_line *c, const char *otherwise, render_options *out,
+                                facet_error *error)
 {
     facet_render_desc *d = &out->desc;
     if (!value_size(option_text(c, OPT_SIZE, otherwise), &d->width, &d->height))
@@ -115,7 +115,7 @@ facet_result picture_options_size(const command_line *c, const char *otherwise, 
 
 /* ---- color, quality ---- */
 
-facet_result picture_options_exposure(const command_line *c, render_options *out, facet_error *error)
+facet_result image_options_exposure(const command_line *c, render_options *out, facet_error *error)
 {
     double stops = 0.0;
     const char *text = option_text(c, OPT_EXPOSURE, "+0");
@@ -135,7 +135,7 @@ facet_result picture_options_exposure(const command_line *c, render_options *out
     return FACET_OK;
 }
 
-void picture_options_look(const command_line *c, facet_tonemap otherwise, render_options *out)
+void image_options_quality(const command_line *c, facet_tonemap otherwise, render_options *out)
 {
     static const facet_quality qualities[] = {FACET_QUALITY_DRAFT, FACET_QUALITY_NORMAL, FACET_QUALITY_FINAL};
     if (is_linear(out->save.format))
@@ -148,7 +148,7 @@ void picture_options_look(const command_line *c, facet_tonemap otherwise, render
 
 /* ---- light ---- */
 
-facet_result picture_options_environment(const command_line *c, render_options *out, facet_error *error)
+facet_result image_options_environment(const command_line *c, render_options *out, facet_error *error)
 {
     out->has_environment = is_given(c, OPT_ENV);
     out->environment_cache = option_text(c, OPT_ENV_CACHE, NULL);
@@ -168,7 +168,7 @@ facet_result picture_options_environment(const command_line *c, render_options *
 
 /* ---- sequences ---- */
 
-facet_result picture_options_frames(const command_line *c, render_options *out, facet_error *error)
+facet_result image_options_frames(const command_line *c, render_options *out, facet_error *error)
 {
     out->has_time = is_given(c, OPT_TIME);
     out->has_frames = is_given(c, OPT_FRAMES);
@@ -185,8 +185,7 @@ facet_result picture_options_frames(const command_line *c, render_options *out, 
     return FACET_OK;
 }
 
-facet_result picture_options_check_sequence(const command_line *c, const render_options *o,
-                                            facet_error *error)
+facet_result image_options_check_sequence(const command_line *c, const render_options *o, facet_error *error)
 {
     bool has_mark = o->output && output_name_has_frame(o->output);
     if (o->video && has_mark)
