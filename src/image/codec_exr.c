@@ -11,7 +11,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
-#include "image/exr_check.h"
+#include "image/exr_shim.h"
 #include "image/primaries.h"
 
 enum {

@@ -1,5 +1,5 @@
-/* exr_check.c - see exr_check.h. */
-#include "image/exr_check.h"
+/* exr_check.c - validation of OpenEXR files; see exr_shim.h. */
+#include "image/exr_shim.h"
 
 #include <string.h>
 

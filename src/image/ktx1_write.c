@@ -11,7 +11,6 @@
 #include "base/parallel.h"
 #include "base/result.h"
 #include "image/codec.h"
-#include "image/ktx2_pack.h"
 
 enum {
     GL_RGB = 0x1907,

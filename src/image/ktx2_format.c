@@ -1,5 +1,5 @@
-/* ktx2_format.c - see ktx2_format.h. */
-#include "image/ktx2_format.h"
+/* ktx2_format.c - the texel formats of KTX2 files that facet decodes; see ktx2.h. */
+#include "image/ktx2.h"
 
 #include "image/codec.h"
 #include "image/half.h"

@@ -1,5 +1,5 @@
-/* ktx2_pack.c - see ktx2_pack.h. */
-#include "image/ktx2_pack.h"
+/* ktx2_pack.c - packs float texels for KTX files; see ktx_write.h. ktx2_format.c unpacks. */
+#include "image/ktx_write.h"
 
 #include "image/codec.h"
 #include "image/half.h"

@@ -18,7 +18,6 @@
 #endif
 #include "image/basis_etc1s.h"
 #include "image/codec.h"
-#include "image/ktx2_format.h"
 
 /* ---- ASTC ---- */
 

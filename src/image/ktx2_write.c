@@ -13,7 +13,6 @@
 #include "base/result.h"
 #include "image/codec.h"
 #include "image/ktx2.h"
-#include "image/ktx2_pack.h"
 
 enum { HEADER_SIZE = 80, LEVEL_RECORD = 24, GRAIN_TEXELS = 16384, MAX_ZSTD_LEVEL = 19 };
 

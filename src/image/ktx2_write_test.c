@@ -8,7 +8,6 @@
 #include "image/codec.h"
 #include "image/half.h"
 #include "image/ktx2.h"
-#include "image/ktx2_pack.h"
 #include "image/ktx_write.h"
 
 enum { FORMAT_COUNT = 8, MAX_IMAGES = 6 * 16 };
