@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 #include "base/clock.h"
-#include "film/denoise.h"
+#include "film/film.h"
 
 enum { REPEATS = 3 };
 

@@ -33,7 +33,7 @@ int main(int argc, char **argv)
     if (film_create(NULL, SIZE, SIZE, 0, &f, NULL) != FACET_OK)
         return 1;
     printf("%u x %u pixels, %u threads, best of %u\n%-18s %10s %10s %10s\n", SIZE, SIZE, thread_count,
-           REPEATS, "operator", "develop ms", "8 bits ms", "16 bits ms");
+           REPEATS, "operator", "tonemap ms", "8 bits ms", "16 bits ms");
     for (int op = FACET_TONEMAP_NONE; op <= FACET_TONEMAP_HABLE; op++) {
         double best[3] = {1.0, 1.0, 1.0};
         for (int repeat = 0; repeat < REPEATS; repeat++) {
@@ -41,8 +41,8 @@ int main(int argc, char **argv)
             image wide;
             fill(&f);
             double start = clock_seconds();
-            film_develop(&f, (facet_tonemap)op, NULL, thread_count);
-            double developed = clock_seconds();
+            film_tone_map(&f, (facet_tonemap)op, NULL, thread_count);
+            double mapped = clock_seconds();
             if (film_to_display_image(&f, IMAGE_U8, true, NULL, thread_count, &narrow, NULL) != FACET_OK)
                 return 1;
             double converted = clock_seconds();
@@ -51,7 +51,7 @@ int main(int argc, char **argv)
             double widened = clock_seconds();
             image_destroy(&narrow);
             image_destroy(&wide);
-            const double times[3] = {developed - start, converted - developed, widened - converted};
+            const double times[3] = {mapped - start, converted - mapped, widened - converted};
             for (int i = 0; i < 3; i++)
                 best[i] = times[i] < best[i] ? times[i] : best[i];
         }

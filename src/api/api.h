@@ -8,8 +8,7 @@
 struct image; /* image/image.h */
 
 struct facet_image {
-    film
-        film; /* developed: tone-mapped, background laid under it; layer 0 has no pixels where there are texels */
+    film film;            /* tone-mapped over its background; layer 0 has no pixels where there are texels */
     struct image *texels; /* those of a file as they are (facet_image_load_desc.is_compact); NULL: none */
     bool is_straight;     /* the colors of texels are not multiplied by alpha yet */
     facet_render_stats stats;

@@ -20,7 +20,7 @@ static void develop(const facet_render_desc *desc, film *target)
 {
     const float *behind = desc->background == FACET_BACKGROUND_COLOR ? desc->background_color : NULL;
     bool is_encoded = desc->shading == FACET_SHADING_OGL1 && !desc->ogl1.is_linear;
-    film_develop(target, desc->tonemap, is_encoded ? NULL : behind, desc->thread_count);
+    film_tone_map(target, desc->tonemap, is_encoded ? NULL : behind, desc->thread_count);
     if (is_encoded && behind)
         film_blend_encoded(target, behind, desc->thread_count);
 }

@@ -178,14 +178,14 @@ static void gather(const compare_source *s, int64_t x, int64_t y, uint32_t count
 }
 
 /* Exposure and tone mapping of linear pixels. The operator is applied to the unpremultiplied color. */
-static void develop(const compare_source *s, float *const c[4], uint32_t count)
+static void tone_map_rows(const compare_source *s, float *const c[4], uint32_t count)
 {
     for (int k = 0; k < 3 && s->scale != 1.0f; k++)
         for (uint32_t i = 0; i < count; i++)
             c[k][i] *= s->scale;
     for (uint32_t i = 0; i < count && s->is_display && s->tonemap != FACET_TONEMAP_NONE; i++) {
         const float opacity = clamp(c[3][i], 0.0f, 1.0f);
-        vec3 shown = vec3(0.0f); /* as film_develop() where nothing is covered */
+        vec3 shown = vec3(0.0f); /* as film_tone_map() where nothing is covered */
         if (opacity > 0.0f)
             shown = tonemap((int)s->tonemap, vec3(c[0][i], c[1][i], c[2][i]) / opacity) * opacity;
         for (int k = 0; k < 3; k++)
@@ -221,9 +221,9 @@ void compare_source_load(const compare_source *s, compare_values values, const f
     for (uint32_t done = 0; done < count; done += COMPARE_TEXELS)
         gather(s, x + done, y, count - done < COMPARE_TEXELS ? count - done : COMPARE_TEXELS, done, out);
     if (!s->a.image.is_display)
-        develop(s, out->a, count);
+        tone_map_rows(s, out->a, count);
     if (!s->b.image.is_display)
-        develop(s, out->b, count);
+        tone_map_rows(s, out->b, count);
     background = background ? background : s->background;
     compare_finish(out->a, count, background, s->is_display, is_encoded);
     compare_finish(out->b, count, background, s->is_display, is_encoded);

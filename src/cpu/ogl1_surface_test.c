@@ -299,7 +299,7 @@ static void sphere_maps(void **state)
 static void codes_over(film *picture, const float *color, unsigned char rgb[3])
 {
     image codes;
-    film_develop(picture, FACET_TONEMAP_NONE, NULL, 1);
+    film_tone_map(picture, FACET_TONEMAP_NONE, NULL, 1);
     if (color)
         film_blend_encoded(picture, color, 1);
     assert_int_equal(film_to_display_image(picture, IMAGE_U8, false, NULL, 1, &codes, NULL), FACET_OK);

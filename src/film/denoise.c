@@ -1,6 +1,6 @@
 /* denoise.c - see denoise.h. Fits are made for overlapping windows; a pixel is the weighted mean of the fits
  * that cover it. Regions then get the energy back that the filter lost. */
-#include "film/denoise.h"
+#include "film/film.h"
 
 #include <math.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
-#include "film/denoise_planes.h"
+#include "film/denoise.h"
 
 /* ---- energy ---- */
 

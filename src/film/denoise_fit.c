@@ -1,4 +1,4 @@
-/* denoise_fit.c - see denoise_planes.h: a weighted least squares fit of radiance in a window of pixels.
+/* denoise_fit.c - see denoise.h: a weighted least squares fit of radiance in a window of pixels.
  *
  * Weights are those of non-local means with the noise's own contribution to a distance removed (Rousselle,
  * Knaus, Zwicker 2012, "Adaptive Rendering with Non-Local Means Filtering", section 4.1). With them radiance
@@ -6,7 +6,7 @@
  * Weighted First-order Regression for Denoising Monte Carlo Renderings"). The bandwidth of the weights is
  * chosen per window by Stein's unbiased risk estimate (Li, Wu, Chuang 2012, "SURE-based Optimization for
  * Adaptive Sampling and Reconstruction"). */
-#include "film/denoise_planes.h"
+#include "film/denoise.h"
 
 #include <math.h>
 #include <string.h>

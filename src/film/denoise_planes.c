@@ -1,5 +1,5 @@
-/* denoise_planes.c - see denoise_planes.h: planes from the layers of a film, and the estimate of their noise. */
-#include "film/denoise_planes.h"
+/* denoise_planes.c - see denoise.h: planes from the layers of a film, and the estimate of their noise. */
+#include "film/denoise.h"
 
 #include <math.h>
 #include <stdlib.h>

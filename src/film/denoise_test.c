@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "tests/support/support.h"
-#include "film/denoise.h"
+#include "film/film.h"
 #include "film/denoise_fixture.h"
 
 static const uint32_t guides = FACET_AOV_ALBEDO | FACET_AOV_NORMAL | FACET_AOV_VARIANCE;

@@ -1,4 +1,4 @@
-/* film.c - see film.h: the layers of a film and its development, from radiance to display values. */
+/* film.c - see film.h: the layers of a film, and tone mapping from radiance to display values. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -121,7 +121,7 @@ facet_result film_add_text(film *f, const char *name, const char *value, const f
     return text->name && text->value ? FACET_OK : fail_memory(error, "metadata", strlen(value));
 }
 
-/* ---- development ---- */
+/* ---- tone_mapping ---- */
 
 _Static_assert(TONEMAP_NEUTRAL == (int)FACET_TONEMAP_NEUTRAL && TONEMAP_ACES == (int)FACET_TONEMAP_ACES &&
                    TONEMAP_ACES_NARKOWICZ == (int)FACET_TONEMAP_ACES_NARKOWICZ &&
@@ -130,17 +130,17 @@ _Static_assert(TONEMAP_NEUTRAL == (int)FACET_TONEMAP_NEUTRAL && TONEMAP_ACES == 
                    TONEMAP_HABLE == (int)FACET_TONEMAP_HABLE,
                "the shader library numbers operators as the interface does");
 
-typedef struct development {
+typedef struct tone_mapping {
     film *film;
     vec3 behind; /* display-linear */
     bool has_behind;
     facet_tonemap operator_;
-} development;
+} tone_mapping;
 
 /* Develops pixels begin to end - 1. NaN is black; uncovered parts of a pixel do not contribute. operator_ is
  * a constant at each call site, so that each operator is inlined in a loop of its own. */
-static inline __attribute__((always_inline)) void develop_pixels(const development *d, size_t begin,
-                                                                 size_t end, facet_tonemap operator_)
+static inline __attribute__((always_inline)) void tone_map_pixels(const tone_mapping *d, size_t begin,
+                                                                  size_t end, facet_tonemap operator_)
 {
     float *pixel = d->film->layers[0].pixels + 4 * begin;
     for (size_t i = begin; i < end; i++, pixel += 4) {
@@ -165,50 +165,49 @@ static inline __attribute__((always_inline)) void develop_pixels(const developme
     }
 }
 
-static void develop_range(void *context, size_t begin, size_t end)
+static void tone_map_range(void *context, size_t begin, size_t end)
 {
-    const development *d = context;
+    const tone_mapping *d = context;
     switch (d->operator_) {
     case FACET_TONEMAP_NEUTRAL:
-        develop_pixels(d, begin, end, FACET_TONEMAP_NEUTRAL);
+        tone_map_pixels(d, begin, end, FACET_TONEMAP_NEUTRAL);
         break;
     case FACET_TONEMAP_ACES:
-        develop_pixels(d, begin, end, FACET_TONEMAP_ACES);
+        tone_map_pixels(d, begin, end, FACET_TONEMAP_ACES);
         break;
     case FACET_TONEMAP_ACES_NARKOWICZ:
-        develop_pixels(d, begin, end, FACET_TONEMAP_ACES_NARKOWICZ);
+        tone_map_pixels(d, begin, end, FACET_TONEMAP_ACES_NARKOWICZ);
         break;
     case FACET_TONEMAP_AGX:
-        develop_pixels(d, begin, end, FACET_TONEMAP_AGX);
+        tone_map_pixels(d, begin, end, FACET_TONEMAP_AGX);
         break;
     case FACET_TONEMAP_REINHARD:
-        develop_pixels(d, begin, end, FACET_TONEMAP_REINHARD);
+        tone_map_pixels(d, begin, end, FACET_TONEMAP_REINHARD);
         break;
     case FACET_TONEMAP_REINHARD_EXTENDED:
-        develop_pixels(d, begin, end, FACET_TONEMAP_REINHARD_EXTENDED);
+        tone_map_pixels(d, begin, end, FACET_TONEMAP_REINHARD_EXTENDED);
         break;
     case FACET_TONEMAP_HABLE:
-        develop_pixels(d, begin, end, FACET_TONEMAP_HABLE);
+        tone_map_pixels(d, begin, end, FACET_TONEMAP_HABLE);
         break;
     case FACET_TONEMAP_NONE:
-        develop_pixels(d, begin, end, FACET_TONEMAP_NONE);
+        tone_map_pixels(d, begin, end, FACET_TONEMAP_NONE);
         break;
     }
 }
 
-enum {
-    GRAIN = 16384
-}; /* pixels; about 0.1 ms of the quickest operator, to be worth a thread's start of 20 us */
+/* pixels; about 0.1 ms of the quickest operator, to be worth a thread's start of 20 us */
+enum { GRAIN = 16384 };
 
-void film_develop(film *f, facet_tonemap operator_, const float color[3], uint32_t thread_count)
+void film_tone_map(film *f, facet_tonemap operator_, const float color[3], uint32_t thread_count)
 {
-    development d = {.film = f, .operator_ = operator_, .has_behind = color != NULL};
+    tone_mapping d = {.film = f, .operator_ = operator_, .has_behind = color != NULL};
     if (color)
         d.behind = vec3(color[0], color[1], color[2]);
-    parallel_for(thread_count, (size_t)f->width * f->height, GRAIN, develop_range, &d);
+    parallel_for(thread_count, (size_t)f->width * f->height, GRAIN, tone_map_range, &d);
 }
 
-/* ---- blending of encoded numbers ---- */
+/* ---- blending of encoded values ---- */
 
 typedef struct encoded_blend {
     film *film;

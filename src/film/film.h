@@ -39,9 +39,18 @@ facet_result film_add_text(film *f, const char *name, const char *value, const f
 
 /* Tone-maps the image in place: unpremultiplies, applies operator_, clamps negative values to 0,
  * premultiplies again, and composites it over color (display-linear RGB; NULL: it stays transparent). */
-void film_develop(film *f, facet_tonemap operator_, const float color[3], uint32_t thread_count);
-/* Composites a developed image over color (display-linear RGB) as programs without linear light do: by
+void film_tone_map(film *f, facet_tonemap operator_, const float color[3], uint32_t thread_count);
+/* Composites a tone-mapped image over color (display-linear RGB) as programs without linear light do: by
  * blending the sRGB-encoded values. */
 void film_blend_encoded(film *f, const float color[3], uint32_t thread_count);
+
+/* ---- denoising of Monte Carlo renderings (denoise.c) ---- */
+
+/* Filters layer "" of f in place, guided by the layers "albedo", "normal" and "variance" and by opacity,
+ * which stays as it is: radiance is averaged where surface and color agree, as widely as the variance asks
+ * for. Biased: detail below the noise is lost. The result does not depend on thread_count.
+ * FACET_ERROR_MEMORY; FACET_ERROR_ARGUMENT if a layer is missing. */
+facet_result film_denoise(film *f, const facet_allocator *allocator, uint32_t thread_count,
+                          facet_error *error);
 
 #endif

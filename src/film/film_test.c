@@ -1,4 +1,4 @@
-/* Tests of film.h: layers, tone operators through film_develop(), alpha. */
+/* Tests of film.h: layers, tone operators through film_tone_map(), alpha. */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -20,12 +20,12 @@ static film make_film(uint32_t width, uint32_t height)
     return f;
 }
 
-/* A film of one pixel, developed. */
-static void develop_one(const float in[4], facet_tonemap operator_, const float *color, float out[4])
+/* A tone-mapped film of one pixel. */
+static void tone_map_one(const float in[4], facet_tonemap operator_, const float *color, float out[4])
 {
     film f = make_film(1, 1);
     memcpy(f.layers[0].pixels, in, 4 * sizeof *in);
-    film_develop(&f, operator_, color, 1);
+    film_tone_map(&f, operator_, color, 1);
     memcpy(out, f.layers[0].pixels, 4 * sizeof *out);
     film_destroy(&f);
 }
@@ -128,8 +128,8 @@ static void operators_give_reference_vectors(void **state)
     (void)state;
     for (size_t i = 0; i < VECTOR_COUNT; i++) {
         float out[4];
-        develop_one((float[4]){vectors[i].in[0], vectors[i].in[1], vectors[i].in[2], 1.0f},
-                    vectors[i].operator_, NULL, out);
+        tone_map_one((float[4]){vectors[i].in[0], vectors[i].in[1], vectors[i].in[2], 1.0f},
+                     vectors[i].operator_, NULL, out);
         for (int k = 0; k < 3; k++)
             assert_float_equal(out[k], vectors[i].out[k], 2e-5f);
         assert_true(out[3] == 1.0f);
@@ -144,7 +144,7 @@ static void operators_see_unpremultiplied_color(void **state)
             float in[4] = {vectors[i].in[0] * opacity, vectors[i].in[1] * opacity, vectors[i].in[2] * opacity,
                            opacity};
             float out[4];
-            develop_one(in, vectors[i].operator_, NULL, out);
+            tone_map_one(in, vectors[i].operator_, NULL, out);
             for (int k = 0; k < 3; k++)
                 assert_float_equal(out[k], vectors[i].out[k] * opacity, 2e-5f);
             assert_true(out[3] == opacity);
@@ -158,12 +158,12 @@ static void what_is_laid_over_a_color_is_opaque(void **state)
     (void)state;
     const float behind[3] = {0.25f, 0.5f, 1.0f};
     float out[4];
-    develop_one((float[4]){0.3f, 0.15f, 0.0f, 0.5f}, FACET_TONEMAP_NONE, behind, out);
+    tone_map_one((float[4]){0.3f, 0.15f, 0.0f, 0.5f}, FACET_TONEMAP_NONE, behind, out);
     assert_float_equal(out[0], 0.3f + 0.125f, 1e-6f);
     assert_float_equal(out[1], 0.15f + 0.25f, 1e-6f);
     assert_float_equal(out[2], 0.5f, 1e-6f);
     assert_true(out[3] == 1.0f);
-    develop_one((float[4]){0}, FACET_TONEMAP_AGX, behind, out); /* the color itself is not tone-mapped */
+    tone_map_one((float[4]){0}, FACET_TONEMAP_AGX, behind, out); /* the color itself is not tone-mapped */
     assert_memory_equal(out, behind, sizeof behind);
     assert_true(out[3] == 1.0f);
 }
@@ -178,8 +178,8 @@ static void edges_have_no_fringe(void **state)
             float c = shade ? 1.0f : 0.0f;
             float behind[3] = {c, c, c};
             float out[4];
-            develop_one((float[4]){c * opacity, c * opacity, c * opacity, opacity}, FACET_TONEMAP_NONE,
-                        behind, out);
+            tone_map_one((float[4]){c * opacity, c * opacity, c * opacity, opacity}, FACET_TONEMAP_NONE,
+                         behind, out);
             for (int k = 0; k < 3; k++)
                 assert_float_equal(out[k], c, 1e-6f);
         }
@@ -195,8 +195,8 @@ static void what_is_not_finite_is_made_so(void **state)
         for (int c = 0; c < COUNT; c++)
             for (int a = 0; a < COUNT + 1; a++) {
                 float out[4];
-                develop_one((float[4]){odd[c], 0.5f, odd[c], a < COUNT ? odd[a] : 1.0f}, (facet_tonemap)op,
-                            NULL, out);
+                tone_map_one((float[4]){odd[c], 0.5f, odd[c], a < COUNT ? odd[a] : 1.0f}, (facet_tonemap)op,
+                             NULL, out);
                 for (int k = 0; k < 4; k++)
                     assert_true(out[k] >= 0.0f && out[k] <= FLT_MAX);
                 assert_true(out[3] <= 1.0f);
@@ -215,8 +215,8 @@ static void threads_change_nothing(void **state)
             lcg_next(&random);
             one.layers[0].pixels[i] = many.layers[0].pixels[i] = (float)(random >> 8) * 0x1p-22f;
         }
-        film_develop(&one, (facet_tonemap)op, NULL, 1);
-        film_develop(&many, (facet_tonemap)op, NULL, 7);
+        film_tone_map(&one, (facet_tonemap)op, NULL, 1);
+        film_tone_map(&many, (facet_tonemap)op, NULL, 7);
         assert_memory_equal(one.layers[0].pixels, many.layers[0].pixels, 16 * WIDTH * HEIGHT);
         film_destroy(&one);
         film_destroy(&many);

@@ -66,7 +66,7 @@ bool film_is_covered(const film *f)
     return false;
 }
 
-bool film_is_beyond(const film *f, float most)
+bool film_is_brighter_than(const film *f, float most)
 {
     const float *p = f->layers[0].pixels;
     size_t covered = 0;

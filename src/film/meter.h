@@ -1,4 +1,4 @@
-/* meter.h - exposure metering of a film before it is developed. */
+/* meter.h - exposure metering of a film before tone mapping. */
 #ifndef FILM_METER_H
 #define FILM_METER_H
 
@@ -20,7 +20,7 @@ double film_meter(const film *f);
 
 bool film_is_covered(const film *f);
 /* Whether the median luminance of the covered pixels exceeds most. */
-bool film_is_beyond(const film *f, float most);
+bool film_is_brighter_than(const film *f, float most);
 
 /* EV100 that maps a log-average (cd/m^2) to METER_KEY, and facet_render_desc.exposure_ev for an EV100: log2
  * of 1 / (1.2 2^EV100), which maps the saturation of a camera's sensor to 1. ISO 12232; Lagarde and de

@@ -51,7 +51,7 @@ static void black_counts_as_ten_stops_below_the_mean(void **state)
     film_destroy(&f);
     static const float nothing[2][2] = {{5, 0}, {5, 0}};
     f = make_film(nothing, 2);
-    assert_true(film_meter(&f) <= 0.0 && !film_is_covered(&f) && !film_is_beyond(&f, 1.0f));
+    assert_true(film_meter(&f) <= 0.0 && !film_is_covered(&f) && !film_is_brighter_than(&f, 1.0f));
     film_destroy(&f);
 }
 
@@ -60,9 +60,9 @@ static void the_median_decides_what_is_beyond(void **state)
     (void)state;
     static const float pixels[4][2] = {{3, 1}, {3, .1f}, {0, 1}, {9, 0}};
     film f = make_film(pixels, 4);
-    assert_true(film_is_beyond(&f, 2.5f) && !film_is_beyond(&f, 3.5f));
+    assert_true(film_is_brighter_than(&f, 2.5f) && !film_is_brighter_than(&f, 3.5f));
     f.layers[0].pixels[0] = f.layers[0].pixels[1] = f.layers[0].pixels[2] = 1.0f;
-    assert_false(film_is_beyond(&f, 2.5f));
+    assert_false(film_is_brighter_than(&f, 2.5f));
     film_destroy(&f);
 }
 

@@ -12,7 +12,7 @@
 #include "base/result.h"
 #include "draw/render_watch.h"
 #include "cpu/tiles.h"
-#include "film/denoise.h"
+#include "film/film.h"
 #include "film/matte.h"
 #include "path/path_checkpoint.h"
 #include "path/path_film.h"

@@ -53,7 +53,7 @@ static void check_white(render_check *check, const facet_scene *scene, const fac
     float most = desc->background == FACET_BACKGROUND_ENVIRONMENT ? 8.0f : 2.0f;
     /* Without tone mapping the image may be meant for a file that keeps values above white. */
     if (check->has_warned_of_white || desc->tonemap == FACET_TONEMAP_NONE ||
-        desc->shading == FACET_SHADING_OGL1 || !film_is_beyond(drawn, most))
+        desc->shading == FACET_SHADING_OGL1 || !film_is_brighter_than(drawn, most))
         return;
     double stops = (double)desc->exposure_ev - log2(film_meter(drawn) / METER_KEY);
     bool has_lights = scene->light_count && !desc->ignores_scene_lights;

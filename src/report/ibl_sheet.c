@@ -520,7 +520,7 @@ facet_result ibl_sheet_draw(const facet_cube *cube_map, const facet_environment 
         result = sheet_draw_balls(s, error);
     if (result != FACET_OK)
         goto done;
-    film_develop(&s->film, desc->tonemap, BACKGROUND, desc->thread_count);
+    film_tone_map(&s->film, desc->tonemap, BACKGROUND, desc->thread_count);
     *out = (image){.pixels = s->film.layers[0].pixels,
                    .width = WIDTH,
                    .height = s->film.height,

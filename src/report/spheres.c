@@ -171,7 +171,7 @@ facet_result sphere_draw(sphere_stage *stage, uint32_t material, sphere_style lo
     if (result == FACET_OK)
         result = preview_render(scene, &desc, &drawn, &stats, error);
     if (result == FACET_OK)
-        film_develop(&drawn, FACET_TONEMAP_NONE, NULL, desc.thread_count);
+        film_tone_map(&drawn, FACET_TONEMAP_NONE, NULL, desc.thread_count);
     if (result == FACET_OK)
         result = encode(&drawn, scene, bytes, byte_count, error);
     film_destroy(&drawn);

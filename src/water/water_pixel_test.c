@@ -29,7 +29,7 @@ static void draw_view(const facet_sea *sea, shot *s, uint32_t samples, facet_qua
     s->desc.samples = samples;
     s->desc.quality = quality;
     draw_shot(sea, s);
-    film_develop(&s->film, FACET_TONEMAP_AGX, NULL, 2);
+    film_tone_map(&s->film, FACET_TONEMAP_AGX, NULL, 2);
 }
 
 /* Mean distance of tone-mapped numbers, [0, 1]. */

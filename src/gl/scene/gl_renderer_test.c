@@ -269,7 +269,7 @@ static void check_window(fixture *f, gl_context *context)
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glReadPixels(LEFT, BELOW, W, H, GL_RGBA, GL_UNSIGNED_BYTE, window);
     film image = gl_fixture_draw(f, renderer);
-    film_develop(&image, FACET_TONEMAP_NEUTRAL, f->desc.background_color, 1);
+    film_tone_map(&image, FACET_TONEMAP_NEUTRAL, f->desc.background_color, 1);
     size_t different = 0;
     for (uint32_t y = 0; y < H; y++)
         for (uint32_t x = 0; x < W; x++)

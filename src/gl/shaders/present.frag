@@ -1,4 +1,4 @@
-/* present.frag - radiance to the display values of a window: as film_develop() computes them for files meant for
+/* present.frag - radiance to the display values of a window: as film_tone_map() computes them for files meant for
  * displays, sRGB and not premultiplied. */
 uniform sampler2D u_image;
 
