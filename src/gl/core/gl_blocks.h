@@ -67,6 +67,10 @@ enum {
     GL_UNIT_SEA_MIRRORED,
     GL_UNIT_SEA_MIRRORED_DEPTH,
     GL_UNIT_SEA_TOUCH,
+    /* or, for layers, those of the model */
+    GL_UNIT_SEA_MODEL_NORMAL = GL_UNIT_SEA_MODEL,
+    GL_UNIT_SEA_MODEL_ALBEDO,
+    GL_UNIT_SEA_MODEL_NUMBER,
     /* and, for an underwater camera, two units that are otherwise unused there */
     GL_UNIT_SEA_WINDOW = GL_UNIT_SEA_MEANS,
     GL_UNIT_SEA_WINDOW_DEPTH = GL_UNIT_SEA_GRID

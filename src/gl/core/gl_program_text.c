@@ -70,6 +70,7 @@ static const char *const sea_features[] = {"HAS_IMAGE",
                                            "IS_BESIDE",
                                            "HAS_MODEL",
                                            "HAS_OTHER_MICROFACETS",
+                                           "AOVS",
                                            NULL};
 static const char *const present_features[] = {"IS_TOP_DOWN", NULL};
 

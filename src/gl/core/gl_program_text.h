@@ -80,7 +80,8 @@ enum {
     GL_SEA_HAS_CUBIC = 1u << 7, /* waves are read with cubic filtering: texels are larger than pixels */
     GL_SEA_IS_BESIDE = 1u << 8, /* pixels without a water surface */
     GL_SEA_HAS_MODEL = 1u << 9,
-    GL_SEA_HAS_OTHER_MICROFACETS = 1u << 10 /* GGX or other masking and Fresnel terms than the default's */
+    GL_SEA_HAS_OTHER_MICROFACETS = 1u << 10, /* GGX or other masking and Fresnel terms than the default's */
+    GL_SEA_AOVS = 1u << 11                   /* layers instead of radiance */
 };
 
 /* features: bits into the main's list of feature names, each of which becomes a #define. */

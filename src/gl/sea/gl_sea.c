@@ -195,11 +195,18 @@ static uint64_t features_of(const water_frame *p)
            (p->foam ? GL_SEA_HAS_FOAM : 0u) | (has_glints ? GL_SEA_HAS_GLINTS : 0u);
 }
 
-/* Features that programs other than the water's have too. */
+/* Those that matter beside the water, and for layers. */
 static const uint64_t BESIDE =
     GL_SEA_HAS_IMAGE | GL_SEA_IS_LEGACY | GL_SEA_IS_BELOW | GL_SEA_HAS_BED | GL_SEA_HAS_MODEL;
+static const uint64_t LAYERS =
+    GL_SEA_IS_BELOW | GL_SEA_HAS_BED | GL_SEA_HAS_FOAM | GL_SEA_HAS_MODEL | GL_SEA_HAS_OTHER_MICROFACETS;
 
 /* ---- passes ---- */
+
+/* Programs of GL_MAIN_SEA: for water that is read with cubic filtering and without, and for all other pixels. */
+typedef struct pixel_programs {
+    GLuint cubic, linear, beside;
+} pixel_programs;
 
 /* The state of one image. */
 typedef struct drawing {
@@ -210,22 +217,31 @@ typedef struct drawing {
     gl_sea_block block;
     gl_sea_model model;
     bool has_model;
-    GLuint grid, surface, sorting, smooth, linear, beside; /* programs */
+    GLuint grid, surface, sorting; /* programs */
+    pixel_programs image, layers;
 } drawing;
 
 static facet_result get_programs(drawing *d, facet_error *error)
 {
-    uint64_t features = features_of(d->frame);
-    enum { COUNT = 6 };
-    const gl_program_key keys[COUNT] = {
-        {GL_MAIN_SEA_GRID, 0},   {GL_MAIN_SEA_SURFACE, 0},
-        {GL_MAIN_SEA_CLASS, 0},  {GL_MAIN_SEA, features | GL_SEA_HAS_CUBIC},
-        {GL_MAIN_SEA, features}, {GL_MAIN_SEA, (features & BESIDE) | GL_SEA_IS_BESIDE}};
-    GLuint *names[COUNT] = {&d->grid, &d->surface, &d->sorting, &d->smooth, &d->linear, &d->beside};
+    uint64_t features = features_of(d->frame), layers = (features & LAYERS) | GL_SEA_AOVS;
+    enum { COUNT = 9, IMAGE_COUNT = 6 };
+    const gl_program_key keys[COUNT] = {{GL_MAIN_SEA_GRID, 0},
+                                        {GL_MAIN_SEA_SURFACE, 0},
+                                        {GL_MAIN_SEA_CLASS, 0},
+                                        {GL_MAIN_SEA, features | GL_SEA_HAS_CUBIC},
+                                        {GL_MAIN_SEA, features},
+                                        {GL_MAIN_SEA, (features & BESIDE) | GL_SEA_IS_BESIDE},
+                                        {GL_MAIN_SEA, layers | GL_SEA_HAS_CUBIC},
+                                        {GL_MAIN_SEA, layers},
+                                        {GL_MAIN_SEA, (layers & (BESIDE | GL_SEA_AOVS)) | GL_SEA_IS_BESIDE}};
+    GLuint *names[COUNT] = {&d->grid,         &d->surface,       &d->sorting,
+                            &d->image.cubic,  &d->image.linear,  &d->image.beside,
+                            &d->layers.cubic, &d->layers.linear, &d->layers.beside};
+    int count = d->frame->desc->aovs ? COUNT : IMAGE_COUNT;
     gl_programs_set_log(d->s->programs, &d->frame->desc->log);
-    for (int i = 0; i < COUNT; i++)
+    for (int i = 0; i < count; i++)
         TRY(gl_programs_request(d->s->programs, keys[i], error));
-    for (int i = 0; i < COUNT; i++)
+    for (int i = 0; i < count; i++)
         TRY(gl_programs_get(d->s->programs, keys[i], names[i], error));
     return FACET_OK;
 }
@@ -294,24 +310,24 @@ static void draw_class(const drawing *d, double depth)
 }
 
 /* Shades all pixels; the target's depths are their classes. */
-static void draw_classes(const drawing *d)
+static void draw_classes(const drawing *d, const pixel_programs *programs)
 {
     gl_sea_class classes[GL_SEA_MAX_CLASSES];
     uint32_t count = gl_sea_classes(d->frame->sea->waves.tile_count, classes);
     glDepthMask(GL_FALSE);
     glDepthFunc(GL_EQUAL);
-    glUseProgram(d->beside);
+    glUseProgram(programs->beside);
     draw_class(d, 0.0);
     for (uint32_t i = 0; i < count; i++) {
-        use(classes[i].cubic_end ? d->smooth : d->linear, classes[i]);
+        use(classes[i].cubic_end ? programs->cubic : programs->linear, classes[i]);
         draw_class(d, gl_sea_class_depth(classes[i]));
     }
     set_depths(&d->s->context, 0.0, 1.0);
     glDepthMask(GL_TRUE);
 }
 
-/* First which water is visible, then its class, then its shading. */
-static void draw_water(const drawing *d, const gl_target *target)
+/* First which water is visible, then its class, then its shading, or its layers. */
+static void draw_water(const drawing *d, const pixel_programs *programs, const gl_target *target)
 {
     const gl_sea *s = d->s;
     begin_pass(&s->seen);
@@ -330,36 +346,48 @@ static void draw_water(const drawing *d, const gl_target *target)
     glCullFace(GL_BACK); /* the state other passes expect */
     glBindTexture(GL_TEXTURE_2D, s->seen.color);
     if (d->has_model)
-        gl_sea_model_bind(&d->model);
+        (programs == &d->layers ? gl_sea_model_bind_layers : gl_sea_model_bind)(&d->model);
     begin_pass(target);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_ALWAYS);
     glUseProgram(d->sorting);
     glBindVertexArray(s->empty_array);
     glDrawArrays(GL_TRIANGLES, 0, 3);
-    draw_classes(d);
+    draw_classes(d, programs);
     gl_camera_end_depth(&s->context);
 }
 
 /* And restores what was bound before. */
-static facet_result draw_model(drawing *d, const gl_view *view, facet_error *error)
+static facet_result draw_model(drawing *d, const gl_view *view, bool is_layers, facet_error *error)
 {
     gl_sea *s = d->s;
-    facet_result result = gl_sea_model_draw(&d->model, d->frame, &d->camera, view, &d->block, error);
+    facet_result result = is_layers
+                              ? gl_sea_model_draw_layers(&d->model, d->frame, &d->camera, view, error)
+                              : gl_sea_model_draw(&d->model, d->frame, &d->camera, view, &d->block, error);
     set_block(s->sea_buffer, GL_BLOCK_SEA, &d->block, sizeof d->block);
     glBindBufferBase(GL_UNIFORM_BUFFER, GL_BLOCK_LIGHT, s->light_buffer);
     return result;
 }
 
-static facet_result draw_view(void *self, const gl_target *target, const gl_view *view, facet_error *error)
+static facet_result draw(drawing *d, const gl_target *target, const gl_view *view, bool is_layers,
+                         facet_error *error)
 {
-    drawing *d = self;
     TRY(gl_target_update(&d->s->seen, &d->s->context, GL_TARGET_FILM, view->width, view->height, 1, error));
     if (d->has_model)
-        TRY(draw_model(d, view, error));
+        TRY(draw_model(d, view, is_layers, error));
     set_frame(d, view);
-    draw_water(d, target);
+    draw_water(d, is_layers ? &d->layers : &d->image, target);
     return FACET_OK;
+}
+
+static facet_result draw_view(void *self, const gl_target *target, const gl_view *view, facet_error *error)
+{
+    return draw(self, target, view, false, error);
+}
+
+static facet_result draw_layers(void *self, const gl_target *target, const gl_view *view, facet_error *error)
+{
+    return draw(self, target, view, true, error);
 }
 
 static facet_result draw_film(drawing *d, double deadline_s, film *target, facet_error *error)
@@ -371,7 +399,8 @@ static facet_result draw_film(drawing *d, double deadline_s, film *target, facet
                                 .sampling = {.scale = 1, .samples = 1, .passes = r->samples ? r->samples : 1},
                                 .deadline_s = deadline_s,
                                 .self = d,
-                                .draw = draw_view};
+                                .draw = draw_view,
+                                .draw_layers = draw_layers};
     return gl_film_draw(&drawn, target, error);
 }
 

@@ -186,7 +186,7 @@ static facet_render_desc desc_of(const water_frame *p)
     d.renderer = FACET_RENDERER_KIND_GL;
     d.exposure_ev = 0.0f;
     d.gl = (facet_gl_desc){.has_shadows = true};
-    d.aovs = 0;
+    d.aovs = p->desc->aovs;
     return d;
 }
 
@@ -210,13 +210,20 @@ facet_result gl_sea_model_begin(gl_sea_model *m, gl_context *context, const wate
     return result;
 }
 
+static gl_frame_block frame_block(const gl_sea_model *m, const water_frame *p, const camera_rays *camera,
+                                  const gl_view *view)
+{
+    gl_frame_block block = {.channel = 0};
+    gl_camera_set(m->context, camera, p->model_low, p->model_high, p->desc->width, p->desc->height, view,
+                  &block);
+    return block;
+}
+
 facet_result gl_sea_model_draw(gl_sea_model *m, const water_frame *p, const camera_rays *camera,
                                const gl_view *view, gl_sea_block *b, facet_error *error)
 {
-    gl_frame_block block = {.channel = 0};
     TRY(gl_target_update(&m->seen, m->context, GL_TARGET_FILM, view->width, view->height, 1, error));
-    gl_camera_set(m->context, camera, p->model_low, p->model_high, p->desc->width, p->desc->height, view,
-                  &block);
+    gl_frame_block block = frame_block(m, p, camera, view);
     float along = 0.0f; /* depth in clip space is along * depth + block.view_projection[14] */
     for (int i = 0; i < 3; i++)
         along += block.view_projection[4 * i + 2] * block.forward[i];
@@ -226,17 +233,39 @@ facet_result gl_sea_model_draw(gl_sea_model *m, const water_frame *p, const came
     return gl_frame_draw(&m->frame, &m->seen, &m->desc, &block, error);
 }
 
+facet_result gl_sea_model_draw_layers(gl_sea_model *m, const water_frame *p, const camera_rays *camera,
+                                      const gl_view *view, facet_error *error)
+{
+    TRY(gl_target_update(&m->layers, m->context, GL_TARGET_LAYERED, view->width, view->height, 1, error));
+    gl_frame_block block = frame_block(m, p, camera, view);
+    return gl_frame_draw_layers(&m->frame, &m->layers, &m->desc, &block, error);
+}
+
+static void bind_image(uint32_t unit, uint32_t texture)
+{
+    gl_sea_texture_bind(unit, GL_TEXTURE_2D, texture);
+}
+
 void gl_sea_model_bind(const gl_sea_model *m)
 {
-    gl_sea_texture_bind(GL_UNIT_SEA_MODEL, GL_TEXTURE_2D, m->seen.color);
-    gl_sea_texture_bind(GL_UNIT_SEA_MODEL_DEPTH, GL_TEXTURE_2D, m->seen.depth);
-    gl_sea_texture_bind(GL_UNIT_SEA_MIRRORED, GL_TEXTURE_2D, m->cuts[GL_SEA_MIRRORED].color);
-    gl_sea_texture_bind(GL_UNIT_SEA_MIRRORED_DEPTH, GL_TEXTURE_2D, m->cuts[GL_SEA_MIRRORED].depth);
-    if (m->cuts[GL_SEA_WINDOW].color) {
-        gl_sea_texture_bind(GL_UNIT_SEA_WINDOW, GL_TEXTURE_2D, m->cuts[GL_SEA_WINDOW].color);
-        gl_sea_texture_bind(GL_UNIT_SEA_WINDOW_DEPTH, GL_TEXTURE_2D, m->cuts[GL_SEA_WINDOW].depth);
+    const gl_target *mirrored = &m->cuts[GL_SEA_MIRRORED], *window = &m->cuts[GL_SEA_WINDOW];
+    bind_image(GL_UNIT_SEA_MODEL, m->seen.color);
+    bind_image(GL_UNIT_SEA_MODEL_DEPTH, m->seen.depth);
+    bind_image(GL_UNIT_SEA_MIRRORED, mirrored->color);
+    bind_image(GL_UNIT_SEA_MIRRORED_DEPTH, mirrored->depth);
+    if (window->color) {
+        bind_image(GL_UNIT_SEA_WINDOW, window->color);
+        bind_image(GL_UNIT_SEA_WINDOW_DEPTH, window->depth);
     }
-    gl_sea_texture_bind(GL_UNIT_SEA_TOUCH, GL_TEXTURE_2D, m->touch);
+    bind_image(GL_UNIT_SEA_TOUCH, m->touch);
+}
+
+void gl_sea_model_bind_layers(const gl_sea_model *m)
+{
+    bind_image(GL_UNIT_SEA_MODEL_NORMAL, m->layers.color);
+    bind_image(GL_UNIT_SEA_MODEL_ALBEDO, m->layers.layers[0]);
+    bind_image(GL_UNIT_SEA_MODEL_NUMBER, m->layers.layers[1]);
+    bind_image(GL_UNIT_SEA_TOUCH, m->touch);
 }
 
 void gl_sea_model_end(gl_sea_model *m)
@@ -246,6 +275,7 @@ void gl_sea_model_end(gl_sea_model *m)
     gl_frame_destroy(&m->frame);
     gl_scene_clear(&m->prepared);
     gl_target_destroy(&m->seen);
+    gl_target_destroy(&m->layers);
     for (int i = 0; i < GL_SEA_CUTS; i++)
         gl_target_destroy(&m->cuts[i]);
     glDeleteTextures(1, &m->touch);

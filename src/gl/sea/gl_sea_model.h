@@ -15,7 +15,7 @@ typedef struct gl_sea_model {
     facet_allocator allocator;
     gl_scene prepared;
     gl_frame frame;
-    gl_target seen, cuts[GL_SEA_CUTS];
+    gl_target seen, layers, cuts[GL_SEA_CUTS];
     uint32_t touch; /* texture: sea_touch */
     facet_render_desc desc;
 } gl_sea_model;
@@ -29,6 +29,10 @@ facet_result gl_sea_model_begin(gl_sea_model *m, gl_context *context, const wate
 facet_result gl_sea_model_draw(gl_sea_model *m, const water_frame *frame, const camera_rays *camera,
                                const gl_view *view, gl_sea_block *block, facet_error *error);
 void gl_sea_model_bind(const gl_sea_model *m);
+/* The same of the model's layers (gl_frame_draw_layers()). */
+facet_result gl_sea_model_draw_layers(gl_sea_model *m, const water_frame *frame, const camera_rays *camera,
+                                      const gl_view *view, facet_error *error);
+void gl_sea_model_bind_layers(const gl_sea_model *m);
 void gl_sea_model_end(gl_sea_model *m); /* {0} is allowed; leaves {0} */
 
 #endif

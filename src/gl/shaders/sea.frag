@@ -1,9 +1,89 @@
-/* sea.frag - a pixel of an image of the sea: the surface, or what is visible where there is none. Which of both,
- * and how waves are read, is decided before (sea_class.frag). */
+/* sea.frag - a pixel of an image of the sea, or of its layers: the surface, or what is visible where there is none.
+ * Which of both, and how waves are read, is decided before (sea_class.frag). */
 /* resting position of the visible water, from the eye, m; distance, m; the closing rate of rays, 0: there is no
  * water */
 uniform highp sampler2D u_sea_seen;
 
+#ifdef AOVS
+layout(location = 0) out highp vec4 aov_normal_depth; /* as in output.glsl */
+layout(location = 1) out highp vec4 aov_color_occlusion;
+layout(location = 2) out highp vec4 aov_number_texcoord;
+
+#ifdef HAS_MODEL
+uniform highp sampler2D u_sea_model_normal; /* the same three of the model */
+uniform highp sampler2D u_sea_model_albedo;
+uniform highp sampler2D u_sea_model_number;
+#endif
+
+const float SEA_NOTHING = -1.0;
+const float SEA_WATER = 0.0;
+const float SEA_BED = 1.0;
+const float SEA_OBJECTS = 2.0; /* numbers of the model's geometries follow */
+
+/* A surface t m away along d, or the model where it is nearer than `reach` m. */
+void sea_put_aovs(float number, vec3 N, vec3 albedo, vec3 d, float t, float reach, ivec2 pixel)
+{
+    float cosine = dot(d, forward.xyz);
+    aov_normal_depth = vec4(N, t * cosine);
+    aov_color_occlusion = vec4(albedo, 1.0);
+    aov_number_texcoord = vec4(number, 0.0, 0.0, number == SEA_NOTHING ? 0.0 : 1.0);
+#ifdef HAS_MODEL
+    vec4 model = texelFetch(u_sea_model_number, pixel, 0);
+    vec4 normal_depth = texelFetch(u_sea_model_normal, pixel, 0);
+    if (model.w > 0.0 && normal_depth.w <= reach * cosine) {
+        aov_normal_depth = normal_depth;
+        aov_color_occlusion = texelFetch(u_sea_model_albedo, pixel, 0);
+        aov_number_texcoord = vec4(model.x + SEA_OBJECTS, model.yzw);
+    }
+#endif
+}
+
+/* Distance to the bed that the eye sees without the surface in front of it; 1e9: it sees none. */
+float sea_bare_bed(vec3 d)
+{
+#ifdef HAS_BED
+#ifdef IS_BELOW
+    float t = sea_distance_to_bed(vec3(0.0, sea_eye.x, 0.0), d);
+    return t < 1e4 ? t : 1e9;
+#else
+    float land = sea_land(d);
+    return land > 0.0 ? land : 1e9;
+#endif
+#else
+    return 1e9;
+#endif
+}
+
+void sea_put_beside(vec3 d, ivec2 pixel)
+{
+    float bed = sea_bare_bed(d);
+    vec3 N = normalize(vec3(-sea_bed_slope.x, 1.0, -sea_bed_slope.y));
+    sea_put_aovs(bed < 1e9 ? SEA_BED : SEA_NOTHING, N, sea_bed.xyz, d, bed, bed, pixel);
+}
+
+void sea_put_pixel(vec3 d, vec4 seen, ivec2 pixel)
+{
+    if (sea_bare_bed(d) < seen.z) {
+        sea_put_beside(d, pixel);
+        return;
+    }
+    Water w = sea_water();
+    SeaPlace p = sea_place(d, seen);
+#ifdef IS_BELOW
+    vec3 N = -water_faced(p.point.N, d);
+    float F = water_fresnel_inside(w, clamp(-dot(N, d), 0.0, 1.0));
+#else
+    vec3 N = p.point.N;
+    float F = water_fresnel(w, clamp(dot(N, p.V), 0.0, 1.0));
+#endif
+    float reach = p.t;
+#ifdef HAS_MODEL
+    if (sea_touched(p.at.xz).x > 0.5) /* a hull displaces it */
+        reach = 1e9;
+#endif
+    sea_put_aovs(SEA_WATER, N, vec3(mix(F, w.foam_albedo, p.point.foam)), d, p.t, reach, pixel);
+}
+#else
 layout(location = 0) out highp vec4 fragment;
 
 #ifdef IS_LEGACY
@@ -87,13 +167,18 @@ vec4 sea_pixel(vec3 d, vec4 seen, ivec2 pixel)
 }
 #endif
 #endif
+#endif
 
 void main()
 {
     vec2 place = gl_FragCoord.xy + frame_size.zw - 0.5 * frame_size.xy;
     vec3 d = normalize(forward.xyz + right.xyz * place.x + up.xyz * place.y);
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-#ifdef IS_BESIDE
+#if defined(AOVS) && defined(IS_BESIDE)
+    sea_put_beside(d, pixel);
+#elif defined(AOVS)
+    sea_put_pixel(d, texelFetch(u_sea_seen, pixel, 0), pixel);
+#elif defined(IS_BESIDE)
     fragment = sea_beside(d, pixel);
 #else
     fragment = sea_pixel(d, texelFetch(u_sea_seen, pixel, 0), pixel);
