@@ -15,8 +15,7 @@
 #include "base/parallel.h"
 #include "base/result.h"
 #include "ibl/equirect.h"
-#include "ibl/fourier.h"
-#include "ibl/legendre.h"
+#include "ibl/harmonics_transform.h"
 
 static const double pi = 3.14159265358979323846;
 

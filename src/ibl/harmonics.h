@@ -52,23 +52,4 @@ typedef struct harmonics_filter_desc {
 } harmonics_filter_desc;
 facet_result harmonics_filter(harmonics *h, const harmonics_filter_desc *desc, cube *out, facet_error *error);
 
-/* ---- between harmonics.c, which analyses, and harmonics_filter.c ---- */
-
-enum { HARMONICS_PARTS = 6 }; /* R G B, real and imaginary */
-
-/* Index of the first coefficient of an order. */
-static inline size_t harmonics_order_index(uint32_t degree, uint32_t order)
-{
-    return HARMONICS_PARTS * ((size_t)order * (degree + 1) - (size_t)order * (order - 1) / 2);
-}
-
-/* Spectra are Fourier coefficients of rows by order, [order][even odd][HARMONICS_PARTS][row], for pairs of
- * rows that mirror each other at the equator. As P_lm(-x) = (-1)^(l - m) P_lm(x), their sum (even) belongs to
- * even l - m, their difference (odd) to odd l - m, and both rows share their Legendre functions. */
-static inline size_t harmonics_spectrum_index(uint32_t order, uint32_t is_odd, uint32_t part,
-                                              uint32_t row_count)
-{
-    return (((size_t)order * 2 + is_odd) * HARMONICS_PARTS + part) * row_count;
-}
-
 #endif

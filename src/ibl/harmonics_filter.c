@@ -8,9 +8,8 @@
 #include "base/parallel.h"
 #include "base/result.h"
 #include "ibl/equirect.h"
-#include "ibl/fourier.h"
+#include "ibl/harmonics_transform.h"
 #include "ibl/harmonics.h"
-#include "ibl/legendre.h"
 
 static const double pi = 3.14159265358979323846;
 

@@ -4,7 +4,7 @@
 
 #include "image/image.h"
 
-#include "ibl/sky_view.h"
+#include "ibl/sky_luts.h"
 
 /* ---- the sun ---- */
 

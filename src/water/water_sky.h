@@ -9,7 +9,7 @@
 
 #include "ibl/ibl.h"
 #include "ibl/sky_image.h"
-#include "ibl/sky_view.h"
+#include "ibl/sky_luts.h"
 
 #include "shade/shade.h"
 
