@@ -6,7 +6,7 @@
 #include "base/result.h"
 #include "ibl/cube_layout.h"
 #include "image/image.h"
-#include "report/ibl_sheet.h"
+#include "report/report.h"
 
 static const facet_allocator default_allocator;
 

@@ -10,7 +10,7 @@
 #include "film/film_image.h"
 #include "image/image.h"
 #include "image/srgb.h"
-#include "report/contact_sheet.h"
+#include "report/report.h"
 
 uint32_t facet_image_get_layer_count(const facet_image *source)
 {

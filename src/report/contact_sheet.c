@@ -1,5 +1,5 @@
-/* contact_sheet.c - see contact_sheet.h. */
-#include "report/contact_sheet.h"
+/* contact_sheet.c - images of one size in rows, with labels; see report.h. */
+#include "report/report.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -7,7 +7,7 @@
 
 #include "base/memory.h"
 #include "base/result.h"
-#include "report/ibl_sheet_words.h"
+#include "report/sheet_words.h"
 
 enum { MAX_SIZE = 65536, DEFAULT_GAP = 4 };
 static const float BACKGROUND = 0.0100f; /* linear, dark grey */
@@ -27,17 +27,17 @@ static uint32_t top_of(const layout *l, uint32_t i)
     return i / l->columns * (l->height + l->band + l->gap);
 }
 
-static facet_result plan(const film *const *pictures, uint32_t count, const facet_contact_sheet_desc *d,
+static facet_result plan(const film *const *films, uint32_t count, const facet_contact_sheet_desc *d,
                          layout *l, facet_error *error)
 {
     if (!count)
         return fail(error, FACET_ERROR_ARGUMENT, "sheet: there are no images");
-    *l = (layout){.width = pictures[0]->width, .height = pictures[0]->height, .columns = d->column_count};
+    *l = (layout){.width = films[0]->width, .height = films[0]->height, .columns = d->column_count};
     for (uint32_t i = 1; i < count; i++)
-        if (pictures[i]->width != l->width || pictures[i]->height != l->height)
+        if (films[i]->width != l->width || films[i]->height != l->height)
             return fail(error, FACET_ERROR_ARGUMENT,
-                        "sheet: image %u has %u x %u pixels; the first has %u x %u", i, pictures[i]->width,
-                        pictures[i]->height, l->width, l->height);
+                        "sheet: image %u has %u x %u pixels; the first has %u x %u", i, films[i]->width,
+                        films[i]->height, l->width, l->height);
     if (!l->columns)
         l->columns = (uint32_t)ceil(sqrt((double)count));
     if (l->columns > count)
@@ -80,22 +80,22 @@ static facet_result write_labels(const layout *l, uint32_t count, const facet_co
                           .align = WORD_CENTER};
         snprintf(w->text, sizeof w->text, "%s", d->labels[i]);
     }
-    image picture = {.pixels = sheet->layers[0].pixels,
-                     .width = sheet->width,
-                     .height = sheet->height,
-                     .channel_count = 4,
-                     .type = IMAGE_F32};
-    facet_result result = sheet_write_words(words, count, &d->allocator, &picture, error);
+    image target = {.pixels = sheet->layers[0].pixels,
+                    .width = sheet->width,
+                    .height = sheet->height,
+                    .channel_count = 4,
+                    .type = IMAGE_F32};
+    facet_result result = sheet_write_words(words, count, &d->allocator, &target, error);
     mem_free(words);
     return result;
 }
 
-facet_result contact_sheet_create(const film *const *pictures, uint32_t count,
+facet_result contact_sheet_create(const film *const *films, uint32_t count,
                                   const facet_contact_sheet_desc *desc, film *out, facet_error *error)
 {
     layout l = {0};
     *out = (film){0};
-    facet_result result = plan(pictures, count, desc, &l, error);
+    facet_result result = plan(films, count, desc, &l, error);
     if (result == FACET_OK)
         result = film_create(&desc->allocator, l.columns * (l.width + l.gap) - l.gap,
                              l.rows * (l.height + l.band + l.gap) - l.gap, 0, out, error);
@@ -107,7 +107,7 @@ facet_result contact_sheet_create(const film *const *pictures, uint32_t count,
         p[3] = 1.0f;
     }
     for (uint32_t i = 0; i < count; i++)
-        copy(pictures[i], &l, i, out);
+        copy(films[i], &l, i, out);
     facet_error remark;
     if (desc->labels)
         result = write_labels(&l, count, desc, out, &remark);

@@ -35,7 +35,7 @@ void html_number(text *out, double value)
         text_addf(out, "%.3g", value);
 }
 
-/* ---- pictures ---- */
+/* ---- images ---- */
 
 static void add_base64(text *out, const unsigned char *bytes, size_t size)
 {

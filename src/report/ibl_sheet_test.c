@@ -12,8 +12,7 @@
 #include "base/memory.h"
 #include "ibl/making_test.h"
 #include "report/ibl_sheet.h"
-#include "report/ibl_sheet_draw.h"
-#include "report/ibl_sheet_words.h"
+#include "report/report.h"
 
 static const float LIGHT[3] = {0.2f, 0.5f, 0.8f};
 
@@ -145,7 +144,7 @@ static void test_ball_directions(void **state)
     static float cube_values[WIDTH * WIDTH * 3], values[WIDTH * WIDTH * 3];
     sheet_ball made = {.kind = BALL_CUBE, .cube_map = c};
     sheet_ball exact = {
-        .kind = BALL_PICTURE, .picture = &e->panorama, .rotation_cos = 1.0f, .environment_scale = 1.0f};
+        .kind = BALL_IMAGE, .panorama = &e->panorama, .rotation_cos = 1.0f, .environment_scale = 1.0f};
     sheet_shade_ball(&made, WIDTH, 2, cube_values);
     sheet_shade_ball(&exact, WIDTH, 2, values);
     /* N = (u, v, ..): at 45 degrees the mirror direction is sideways */

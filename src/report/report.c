@@ -130,7 +130,7 @@ static bool has_error(const facet_conversion *c)
 
 static void add_summary(const page *p)
 {
-    uint32_t grades[4] = {0}, told = 0;
+    uint32_t grades[4] = {0}, graded = 0;
     double sum = 0.0;
     for (uint32_t i = 0; i < p->conversion->material_count; i++) {
         const facet_conversion *c = &p->conversion->materials[i].summary;
@@ -138,7 +138,7 @@ static void add_summary(const page *p)
             continue;
         grades[c->grade]++;
         sum += c->error;
-        told++;
+        graded++;
     }
     text_add(p->out, "<h1>Materials of ");
     html_text(p->out, p->scene->source);
@@ -151,24 +151,20 @@ static void add_summary(const page *p)
     for (int i = 0; i < 4; i++)
         text_addf(p->out, "<b class=\"%s\">%u %s</b>%s", GRADES[i], grades[i], GRADES[i],
                   i < 3 ? " &middot; " : "");
-    if (told) {
+    if (graded) {
         text_add(p->out, " &middot; mean error <b>");
-        html_number(p->out, sum / told);
+        html_number(p->out, sum / graded);
         text_add(p->out, "</b>");
     }
-    text_add(
-        p->out,
-        "</p>\n<p class=\"dim\">E is the difference of the radiance of both models, as a share of that of "
-        "the "
-        "source (root mean square over lights from the hemisphere and views at 0&deg;, 30&deg; and 60&deg;). "
-        "E on a screen is the same with both clamped to what a screen shows. E as drawn is the same with "
-        "OpenGL "
-        "1 as its programs draw it: they add display values, not light, which darkens the shadow side. "
-        "The "
-        "grade is of E as drawn where the conversion aims at such a program, else of E on a screen: below "
-        "0.05 "
-        "good, 0.12 fair, 0.30 poor. \"Without extensions\" is the error in viewers that lack them, "
-        "\"usual formula\" that of what most converters write.</p>\n");
+    text_add(p->out,
+             "</p>\n<p class=\"dim\">E is the difference of the radiance of both models, as a share of "
+             "that of the source (root mean square over lights from the hemisphere and views at 0&deg;, "
+             "30&deg; and 60&deg;). E on a screen is the same with both clamped to what a screen shows. E "
+             "as drawn is the same with OpenGL 1 as its programs draw it: they add display values, not "
+             "light, which darkens the shadow side. The grade is of E as drawn where the conversion aims "
+             "at such a program, else of E on a screen: below 0.05 good, 0.12 fair, 0.30 poor. \"Without "
+             "extensions\" is the error in viewers that lack them, \"usual formula\" that of what most "
+             "converters write.</p>\n");
 }
 
 static void add_warnings(text *out, const conversion_warning *warnings, uint32_t count)
@@ -337,13 +333,13 @@ static facet_result add_spheres(page *p, uint32_t material, facet_error *error)
                                                              "OpenGL 1, in linear light", "glTF"};
     bool is_back = p->conversion->to == FACET_MATERIAL_MODEL_OGL1; /* the source comes first */
     for (int i = 0; i < SPHERE_STYLE_COUNT; i++) {
-        int look = is_back ? SPHERE_STYLE_COUNT - 1 - i : i;
+        int style = is_back ? SPHERE_STYLE_COUNT - 1 - i : i;
         unsigned char *bytes = NULL;
         size_t size = 0;
-        TRY(sphere_draw(p->stage, material, (sphere_style)look, 2 * SPHERE_SIZE, &bytes, &size, error));
+        TRY(sphere_draw(p->stage, material, (sphere_style)style, 2 * SPHERE_SIZE, &bytes, &size, error));
         text_add(p->out, "<figure>");
-        html_image(p->out, "image/png", bytes, size, SPHERE_SIZE, SPHERE_SIZE, captions[look]);
-        text_addf(p->out, "<figcaption>%s</figcaption></figure>\n", captions[look]);
+        html_image(p->out, "image/png", bytes, size, SPHERE_SIZE, SPHERE_SIZE, captions[style]);
+        text_addf(p->out, "<figcaption>%s</figcaption></figure>\n", captions[style]);
         mem_free(bytes);
     }
     return FACET_OK;
@@ -375,7 +371,7 @@ static facet_result add_curves(page *p, uint32_t material, facet_error *error)
     return FACET_OK;
 }
 
-static facet_result add_material(page *p, uint32_t material, bool has_pictures, facet_error *error)
+static facet_result add_material(page *p, uint32_t material, bool has_images, facet_error *error)
 {
     const material_conversion *m = &p->conversion->materials[material];
     facet_result result = FACET_OK;
@@ -385,13 +381,13 @@ static facet_result add_material(page *p, uint32_t material, bool has_pictures, 
         text_addf(p->out, "<span class=\"grade %s\">%s</span>", GRADES[m->summary.grade],
                   GRADES[m->summary.grade]);
     text_add(p->out, "</h2>\n<div class=\"row\">\n");
-    if (has_pictures && p->stage)
+    if (has_images && p->stage)
         result = add_spheres(p, material, error);
     text_add(p->out, "</div>\n<div class=\"row\">\n");
     add_values(p, m);
     add_errors(p->out, &m->summary);
     text_add(p->out, "</div>\n");
-    if (result == FACET_OK && has_pictures && m->has_surfaces)
+    if (result == FACET_OK && has_images && m->has_surfaces)
         result = add_curves(p, material, error);
     add_warnings(p->out, m->warnings, m->warning_count);
     text_add(p->out, "</section>\n");
@@ -426,9 +422,9 @@ static facet_result add_materials(page *p, facet_error *error)
     qsort(ranks, count, sizeof *ranks, compare_ranks);
     facet_result result = FACET_OK;
     for (uint32_t i = 0; i < count && result == FACET_OK && !p->out->has_failed; i++) {
-        if (i == REPORT_PICTURES)
+        if (i == REPORT_IMAGES)
             text_addf(p->out, "<p class=\"dim\">The remaining %u have no images.</p>\n", count - i);
-        result = add_material(p, ranks[i].material, i < REPORT_PICTURES, error);
+        result = add_material(p, ranks[i].material, i < REPORT_IMAGES, error);
     }
     mem_free(ranks);
     return result;

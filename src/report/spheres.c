@@ -1,5 +1,5 @@
 /* spheres.c - see spheres.h. The stage is a scene of its own that shares materials, textures and images
- * with the converted scene, so that spheres look as in a render of it. */
+ * with the converted scene, so that spheres style as in a render of it. */
 #include "report/spheres.h"
 
 #include <math.h>
@@ -137,17 +137,17 @@ void sphere_stage_destroy(sphere_stage *stage)
 static facet_result encode(const film *f, const facet_scene *scene, unsigned char **bytes, size_t *byte_count,
                            facet_error *error)
 {
-    image picture = {0};
+    image display = {0};
     const image_encode_desc desc = {.allocator = scene->allocator, .compression = 9};
     facet_result result =
-        film_to_display_image(f, IMAGE_U8, true, &scene->allocator, scene->thread_count, &picture, error);
+        film_to_display_image(f, IMAGE_U8, true, &scene->allocator, scene->thread_count, &display, error);
     if (result == FACET_OK)
-        result = image_encode(&picture, IMAGE_CODEC_PNG, &desc, bytes, byte_count, error);
-    image_destroy(&picture);
+        result = image_encode(&display, IMAGE_CODEC_PNG, &desc, bytes, byte_count, error);
+    image_destroy(&display);
     return result;
 }
 
-facet_result sphere_draw(sphere_stage *stage, uint32_t material, sphere_style look, uint32_t size,
+facet_result sphere_draw(sphere_stage *stage, uint32_t material, sphere_style style, uint32_t size,
                          unsigned char **bytes, size_t *byte_count, facet_error *error)
 {
     facet_scene *scene = stage->scene;
@@ -160,8 +160,8 @@ facet_result sphere_draw(sphere_stage *stage, uint32_t material, sphere_style lo
                                     .crop = {0, 0, size, size},
                                     .camera = &camera,
                                     .samples = 8,
-                                    .shading = look == SPHERE_PBR ? FACET_SHADING_GLTF : FACET_SHADING_OGL1,
-                                    .ogl1 = {.is_linear = look == SPHERE_OGL1_LINEAR}};
+                                    .shading = style == SPHERE_PBR ? FACET_SHADING_GLTF : FACET_SHADING_OGL1,
+                                    .ogl1 = {.is_linear = style == SPHERE_OGL1_LINEAR}};
     film drawn = {0};
     facet_render_stats stats = {0};
     *bytes = NULL;

@@ -18,7 +18,7 @@ facet_result sphere_stage_create(const facet_scene *scene, sphere_stage **out, f
 void sphere_stage_destroy(sphere_stage *stage); /* NULL is allowed */
 
 /* A PNG file of size x size pixels, transparent around the sphere; a block of mem_alloc(). */
-facet_result sphere_draw(sphere_stage *stage, uint32_t material, sphere_style look, uint32_t size,
+facet_result sphere_draw(sphere_stage *stage, uint32_t material, sphere_style style, uint32_t size,
                          unsigned char **bytes, size_t *byte_count, facet_error *error);
 
 #endif

@@ -1,6 +1,6 @@
-/* ibl_sheet_words.c - see ibl_sheet_words.h. cairo draws in white on transparent; coverage blends in display
+/* sheet_words.c - see sheet_words.h. cairo draws in white on transparent; coverage blends in display
  * values, which keeps the weight of letters. */
-#include "report/ibl_sheet_words.h"
+#include "report/sheet_words.h"
 
 #include "image/srgb.h"
 #include "plot/chart_text.h"
@@ -23,10 +23,10 @@ static void write_word(canvas *c, const sheet_word *w)
 }
 
 /* Premultiplied white: coverage is any of its channels. */
-static void lay_over(const uint32_t *pixels, image *picture)
+static void lay_over(const uint32_t *pixels, image *target)
 {
-    float *p = picture->pixels;
-    for (size_t i = 0; i < (size_t)picture->width * picture->height; i++, p += 4) {
+    float *p = target->pixels;
+    for (size_t i = 0; i < (size_t)target->width * target->height; i++, p += 4) {
         double share = (double)(pixels[i] & 255u) / 255.0;
         if (share == 0.0)
             continue;
@@ -39,13 +39,13 @@ static void lay_over(const uint32_t *pixels, image *picture)
 }
 
 facet_result sheet_write_words(const sheet_word *words, uint32_t count, const facet_allocator *allocator,
-                               image *picture, facet_error *error)
+                               image *target, facet_error *error)
 {
     canvas *c = NULL;
     facet_result result = canvas_create(&(canvas_desc){.allocator = *allocator,
                                                        .format = FACET_PLOT_FORMAT_PNG,
-                                                       .width = picture->width,
-                                                       .height = picture->height},
+                                                       .width = target->width,
+                                                       .height = target->height},
                                         &c, error);
     if (result != FACET_OK)
         return result;
@@ -54,7 +54,7 @@ facet_result sheet_write_words(const sheet_word *words, uint32_t count, const fa
     const uint32_t *pixels = NULL;
     result = canvas_read(c, &pixels, error);
     if (result == FACET_OK)
-        lay_over(pixels, picture);
+        lay_over(pixels, target);
     canvas_destroy(c);
     return result;
 }

@@ -1,6 +1,6 @@
-/* ibl_sheet_words.h - text and lines on a sheet. */
-#ifndef REPORT_IBL_SHEET_WORDS_H
-#define REPORT_IBL_SHEET_WORDS_H
+/* sheet_words.h - text and lines on a sheet. */
+#ifndef REPORT_SHEET_WORDS_H
+#define REPORT_SHEET_WORDS_H
 
 #include "facet/facet.h"
 #include "image/image.h"
@@ -21,6 +21,6 @@ typedef struct sheet_word {
 /* Draws them into an image (F32 RGBA, display-referred linear). FACET_ERROR_SYSTEM, _UNSUPPORTED: cairo is
  * missing, and the image is unchanged; _MEMORY. */
 facet_result sheet_write_words(const sheet_word *words, uint32_t count, const facet_allocator *allocator,
-                               image *picture, facet_error *error);
+                               image *target, facet_error *error);
 
 #endif
