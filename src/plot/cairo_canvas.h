@@ -1,7 +1,8 @@
-/* cairo_canvas.h - the canvas of a chart: paths, text and images in pixels, y down, as SVG, PDF or PNG.
- * Only this file and cairo_library.c use cairo.
+/* cairo_canvas.h - the canvas of a chart: paths, text and images in pixels, y down, as SVG, PDF or PNG. Only
+ * cairo_canvas.c uses cairo.
  *
- * * Drawing errors are kept and returned by canvas_finish(). Coordinates beyond 1e6 px overflow in cairo: clip first. */
+ * Drawing errors are kept and returned by canvas_finish(). Coordinates beyond 1e6 px overflow in cairo: clip
+ * first. */
 #ifndef PLOT_CAIRO_CANVAS_H
 #define PLOT_CAIRO_CANVAS_H
 

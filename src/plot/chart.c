@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "base/result.h"
-#include "plot/chart_layout.h"
+#include "plot/chart_view.h"
 
 double view_snap(double px)
 {

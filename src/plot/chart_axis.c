@@ -1,5 +1,5 @@
-/* chart_axis.c - see chart_axis.h. */
-#include "plot/chart_axis.h"
+/* chart_axis.c - an axis: its range, ticks and position in pixels. See chart_view.h. */
+#include "plot/chart_view.h"
 
 #include <math.h>
 #include <stdio.h>

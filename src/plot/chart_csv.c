@@ -6,7 +6,7 @@
 
 #include "base/result.h"
 #include "base/text.h"
-#include "plot/chart_number.h"
+#include "plot/chart_ticks.h"
 
 /* Quoted if necessary. */
 static void add_field(text *t, const char *field)

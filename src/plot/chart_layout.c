@@ -1,5 +1,5 @@
-/* chart_layout.c - see chart_layout.h. */
-#include "plot/chart_layout.h"
+/* chart_layout.c - where title, panels, margins and legends of a chart are. See chart_view.h. */
+#include "plot/chart_view.h"
 
 #include <math.h>
 

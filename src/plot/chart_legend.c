@@ -1,5 +1,5 @@
-/* chart_legend.c - see chart_legend.h. */
-#include "plot/chart_legend.h"
+/* chart_legend.c - the legend, placed where it covers the least of the curves. See chart_view.h. */
+#include "plot/chart_view.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-#include "plot/chart_number.h"
+#include "plot/chart_ticks.h"
 
 static void expect_shortest(double value, const char *expected)
 {

@@ -14,7 +14,7 @@
 #include <cmocka.h>
 
 #include "image/image.h"
-#include "plot/chart_layout.h"
+#include "plot/chart_view.h"
 
 enum { SCENE_POINTS = 91, SCENE_CELLS = 33, SCENE_GRID = 25, SCENE_KINDS = 5 };
 

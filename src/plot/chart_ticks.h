@@ -1,9 +1,19 @@
-/* chart_ticks.h - ticks of an axis and their labels. */
+/* chart_ticks.h - numbers as text, and the ticks of an axis with their labels. */
 #ifndef PLOT_CHART_TICKS_H
 #define PLOT_CHART_TICKS_H
 
 #include "plot/chart.h"
-#include "plot/chart_number.h"
+
+/* ---- numbers as text for files and labels, independent of the locale ---- */
+
+enum { NUMBER_SIZE = 32 };
+
+/* The shortest decimal that reads back as the same double; "": NaN; "inf", "-inf". */
+void number_shortest(double value, char out[NUMBER_SIZE]);
+/* The given number of decimals, with the typographic minus sign (U+2212); never "-0". */
+void number_label(double value, int decimals, char out[NUMBER_SIZE]);
+
+/* ---- ticks ---- */
 
 enum { TICKS_MAX = 24, TICKS_MINOR_MAX = 128, TICKS_EXPONENT_SIZE = 16 };
 

@@ -12,7 +12,7 @@
 #include "base/parallel.h"
 #include "base/result.h"
 #include "ibl/environment.h"
-#include "plot/chart_number.h"
+#include "plot/chart_ticks.h"
 #include "report/report.h"
 
 /* Pixels. */

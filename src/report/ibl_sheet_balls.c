@@ -9,7 +9,7 @@
 #include "base/parallel.h"
 #include "base/result.h"
 #include "ibl/equirect.h"
-#include "plot/chart_number.h"
+#include "plot/chart_ticks.h"
 
 /* Pixels. */
 enum {
