@@ -92,8 +92,8 @@ static bool move_materials(conversion *c, drop_plan *plan)
     c->legacy = arena_alloc(scene->arena, 1, sizeof *c->legacy);
     if (!materials || !legacy || !c->legacy)
         return false;
-    plan->before->materials = c->materials;
-    plan->before->legacy = scene->legacy->materials;
+    plan->source->materials = c->materials;
+    plan->source->legacy = scene->legacy->materials;
     for (size_t i = 0; i < count; i++) {
         materials[i] = c->materials[i];
         legacy[i] = scene->legacy->materials[i];
@@ -121,8 +121,8 @@ static facet_result drop_plan_make(conversion *c, facet_error *error)
     plan->images = arena_zalloc(scene->arena, image_count, sizeof *plan->images);
     plan->new_textures = arena_alloc(scene->arena, texture_count, sizeof *plan->new_textures);
     plan->new_images = arena_alloc(scene->arena, image_count, sizeof *plan->new_images);
-    plan->before = arena_zalloc(scene->arena, 1, sizeof *plan->before);
-    if (!plan->textures || !plan->images || !plan->new_textures || !plan->new_images || !plan->before)
+    plan->source = arena_zalloc(scene->arena, 1, sizeof *plan->source);
+    if (!plan->textures || !plan->images || !plan->new_textures || !plan->new_images || !plan->source)
         return fail_memory(error, "textures", texture_count * sizeof *plan->new_textures);
     mark_textures(c, plan);
     mark_images(scene, plan);
@@ -154,11 +154,11 @@ static void drop_plan_carry_out(conversion *c)
     for (uint32_t i = 0; i < scene->image_count; i++)
         if (plan->images[i] != SCENE_NONE)
             plan->new_images[image_count++] = scene->images[i];
-    plan->before->texture_count = scene->texture_count;
-    plan->before->textures = scene->textures;
-    plan->before->image_count = scene->image_count;
-    plan->before->images = scene->images;
-    c->out->before = plan->before;
+    plan->source->texture_count = scene->texture_count;
+    plan->source->textures = scene->textures;
+    plan->source->image_count = scene->image_count;
+    plan->source->images = scene->images;
+    c->out->source = plan->source;
     scene->textures = plan->new_textures;
     scene->texture_count = texture_count;
     scene->images = plan->new_images;
@@ -251,7 +251,7 @@ static facet_result convert_all(conversion *c, facet_material_model to, facet_er
 }
 
 /* Whether legacy materials cannot be converted again, since the first conversion dropped images of theirs. */
-static bool has_lost_pictures(const facet_scene *scene)
+static bool has_missing_images(const facet_scene *scene)
 {
     if (!scene->legacy || !scene->legacy->is_source || !scene->conversion)
         return false;
@@ -264,7 +264,7 @@ static bool has_lost_pictures(const facet_scene *scene)
 facet_result legacy_convert(facet_scene *scene, facet_material_model to, const facet_legacy_desc *desc,
                             const facet_log *log, facet_error *error)
 {
-    if (to == FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS && has_lost_pictures(scene))
+    if (to == FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS && has_missing_images(scene))
         return FACET_OK;
     conversion c = {.scene = scene, .desc = *desc, .log = log, .notes = {.scene = scene}};
     facet_result result = begin(&c, to, error);

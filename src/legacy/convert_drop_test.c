@@ -87,7 +87,7 @@ static void what_only_old_materials_read_leaves(void **state)
     assert_int_equal(scene->image_count, kept->image_count - 3);
     assert_int_equal(scene->texture_count, kept->texture_count - 3);
     assert_true(size_of_images(scene) < size_of_images(kept));
-    assert_null(kept->conversion->before);
+    assert_null(kept->conversion->source);
     assert_all_used(scene);
     /* The image that is used unchanged, by two materials. */
     const legacy_material *m = scene->legacy->materials;
@@ -121,14 +121,14 @@ static void the_report_has_what_was_there(void **state)
 {
     (void)state;
     facet_scene *scene = dropped();
-    const scene_conversion_source *before = scene->conversion->before;
-    assert_non_null(before);
-    assert_true(before->image_count > scene->image_count);
-    uint32_t texture = before->legacy[BAKED].maps[LEGACY_SPECULAR_MAP].ref.texture;
-    assert_true(texture < before->texture_count);
-    assert_non_null(before->images[before->textures[texture].image].bytes);
-    texture = before->materials[BAKED].textures[SCENE_SPECULAR_TEXTURE].texture;
-    assert_true(texture < before->texture_count);
+    const scene_conversion_source *source = scene->conversion->source;
+    assert_non_null(source);
+    assert_true(source->image_count > scene->image_count);
+    uint32_t texture = source->legacy[BAKED].maps[LEGACY_SPECULAR_MAP].ref.texture;
+    assert_true(texture < source->texture_count);
+    assert_non_null(source->images[source->textures[texture].image].bytes);
+    texture = source->materials[BAKED].textures[SCENE_SPECULAR_TEXTURE].texture;
+    assert_true(texture < source->texture_count);
     assert_int_equal(scene->conversion->materials[BAKED].pbr.textures[SCENE_SPECULAR_TEXTURE].texture,
                      scene->materials[BAKED].textures[SCENE_SPECULAR_TEXTURE].texture);
     scene_destroy(scene);
@@ -168,7 +168,7 @@ static void nothing_leaves_where_all_is_read(void **state)
     convert(scene, &DROPS);
     assert_int_equal(scene->image_count, 1);
     assert_ptr_equal(scene->images, images);
-    assert_null(scene->conversion->before);
+    assert_null(scene->conversion->source);
     assert_int_equal(scene->materials[0].textures[SCENE_BASE_COLOR_TEXTURE].texture, color);
     scene_destroy(scene);
 }
@@ -185,7 +185,7 @@ static void pictures_of_light_stay(void **state)
     scene->image_light_count = 1;
     const scene_image first = scene->images[0];
     convert(scene, &DROPS);
-    assert_null(scene->conversion->before);
+    assert_null(scene->conversion->source);
     assert_ptr_equal(scene->images[0].bytes, first.bytes);
     assert_false(legacy_lacks_images(&scene->legacy->materials[BAKED]));
     scene_destroy(scene);
@@ -201,7 +201,7 @@ static void memory_runs_out(void **state)
         assert_non_null(scene);
         scene->thread_count = 1;
         assert_true(fill(scene));
-        const scene_material *before = scene->materials;
+        const scene_material *original = scene->materials;
         const struct scene_legacy *legacy = scene->legacy;
         const uint32_t images = scene->image_count;
         failing.fail_at = atomic_load(&failing.calls) + at;
@@ -212,7 +212,7 @@ static void memory_runs_out(void **state)
             assert_all_used(scene);
         } else {
             assert_int_equal(result, FACET_ERROR_MEMORY);
-            assert_ptr_equal(scene->materials, before);
+            assert_ptr_equal(scene->materials, original);
             assert_ptr_equal(scene->legacy, legacy);
             assert_false(legacy_lacks_images(&legacy->materials[BAKED]));
             assert_int_equal(scene->image_count, images);

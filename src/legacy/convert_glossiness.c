@@ -222,7 +222,7 @@ static void report(conversion *c, uint32_t material, bool is_exact, const char *
     material_conversion *report = &c->out->materials[material];
     const scene_material *in = &c->scene->materials[material];
     report->pbr = c->materials[material];
-    report->before = in;
+    report->source = in;
     report->legacy = legacy_material_default();
     report->legacy.name = in->name;
     report->summary.name = in->name;
@@ -252,7 +252,7 @@ static void keep(conversion *c, uint32_t material)
     material_conversion *report = &c->out->materials[material];
     c->materials[material] = c->scene->materials[material];
     report->pbr = c->materials[material];
-    report->before = &c->scene->materials[material];
+    report->source = &c->scene->materials[material];
     report->legacy = c->scene->legacy ? c->scene->legacy->materials[material] : legacy_material_default();
     report->summary.name = report->pbr.name;
     report->summary.source =

@@ -10,7 +10,7 @@
 /* Notes of every conversion, and those that readers have logged already, are in the report only. */
 static const struct {
     const char *name;
-    bool is_told;
+    bool is_warning;
 } CODES[NOTE_COUNT] = {
     [NOTE_LEGACY_LIGHT_PI] = {"legacy-light-pi", false},
     [NOTE_COLOR_SPACE_ASSUMED] = {"color-space-assumed", false},
@@ -77,7 +77,7 @@ void note_list_destroy(note_list *list)
 }
 
 /* Logs "FILE: material "gold" and 3 more: SENTENCE." with the first sentence of a code. */
-static void tell(const note_list *list, note_code code, const facet_log *log)
+static void warn_of_code(const note_list *list, note_code code, const facet_log *log)
 {
     const note *first = NULL;
     size_t more = 0;
@@ -139,7 +139,7 @@ bool note_list_finish(note_list *list, const facet_log *log, scene_conversion *o
         }
     mem_free(counts);
     for (int code = 0; code < NOTE_COUNT; code++)
-        if (CODES[code].is_told)
-            tell(list, (note_code)code, log);
+        if (CODES[code].is_warning)
+            warn_of_code(list, (note_code)code, log);
     return true;
 }

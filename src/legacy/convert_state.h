@@ -22,7 +22,7 @@ typedef struct drop_plan {
     uint32_t *textures, *images;         /* new index of each; SCENE_NONE: dropped */
     scene_texture *new_textures;
     scene_image *new_images;
-    struct scene_conversion_source *before;
+    struct scene_conversion_source *source;
 } drop_plan;
 
 typedef struct conversion {

@@ -45,11 +45,11 @@ static double distance(void *context, const double *log_r)
     return -(u * nP + s->g * SP) / product(m, s->P, s->P, 0);
 }
 
-static void add_numbers(FILE *file, const char *name, int count, const double *numbers)
+static void add_values(FILE *file, const char *name, int count, const double *values)
 {
     fprintf(file, "static const float %s[%d] = {", name, count);
     for (int i = 0; i < count; i++)
-        fprintf(file, "%s%.8ef,", i % 6 ? " " : "\n", numbers[i]);
+        fprintf(file, "%s%.8ef,", i % 6 ? " " : "\n", values[i]);
     fprintf(file, "};\n");
 }
 
@@ -94,13 +94,13 @@ int main(int argc, char **argv)
     static const char *const names_r[6] = {"log_nS0", "log_nS1", "log_nS2", "log_SS0", "log_SS1", "log_SS2"};
     static const char *const names_s[5] = {"log_nP0", "log_nP1", "log_PP", "log_nearest_r", "log_nearest_g"};
     fprintf(file, "/* By fit_table_generate.c. */\n");
-    add_numbers(file, "table_nn", 3, nn);
+    add_values(file, "table_nn", 3, nn);
     for (int i = 0; i < 6; i++)
-        add_numbers(file, names_r[i], GRAM_R, of_r[i]);
+        add_values(file, names_r[i], GRAM_R, of_r[i]);
     for (int i = 0; i < 5; i++)
-        add_numbers(file, names_s[i], GRAM_S, of_s[i]);
-    add_numbers(file, "log_SP0", GRAM_R * GRAM_S, SP[0]);
-    add_numbers(file, "log_SP1", GRAM_R * GRAM_S, SP[1]);
+        add_values(file, names_s[i], GRAM_S, of_s[i]);
+    add_values(file, "log_SP0", GRAM_R * GRAM_S, SP[0]);
+    add_values(file, "log_SP1", GRAM_R * GRAM_S, SP[1]);
     fit_metric_destroy(m);
     return fclose(file) == 0 ? 0 : 1;
 }

@@ -147,8 +147,8 @@ static void add_values(const facet_scene *scene, const material_conversion *m, t
     text_json_begin_object(t, "in");
     if (is_from_legacy)
         add_legacy(scene->legacy, &m->legacy, true, t);
-    else if (m->before || is_to_legacy)
-        add_pbr(m->before ? m->before : &m->pbr, t);
+    else if (m->source || is_to_legacy)
+        add_pbr(m->source ? m->source : &m->pbr, t);
     text_json_end_object(t);
     text_json_begin_object(t, "out");
     if (is_to_legacy)

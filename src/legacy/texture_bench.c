@@ -177,7 +177,7 @@ static uint32_t find_made(texture_bench *bench, const void *key, size_t size)
 }
 
 /* Encodes an image and keeps it; takes over key if it succeeds. */
-static facet_result keep_made(texture_bench *bench, const struct image *picture, const char *name,
+static facet_result keep_made(texture_bench *bench, const struct image *texels, const char *name,
                               uint32_t like, void *key, size_t key_size, uint32_t *texture,
                               facet_error *error)
 {
@@ -190,9 +190,9 @@ static facet_result keep_made(texture_bench *bench, const struct image *picture,
     made.name = arena_strdup(scene->arena, name);
     if (!made.name)
         return fail_memory(error, "textures", strlen(name));
-    TRY(image_encode(picture, IMAGE_CODEC_PNG, &desc, &made.bytes, &made.byte_count, error));
-    made.width = picture->width;
-    made.height = picture->height;
+    TRY(image_encode(texels, IMAGE_CODEC_PNG, &desc, &made.bytes, &made.byte_count, error));
+    made.width = texels->width;
+    made.height = texels->height;
     *texture = scene->texture_count + bench->made_count;
     bench->made[bench->made_count++] = made;
     return FACET_OK;

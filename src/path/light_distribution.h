@@ -60,10 +60,10 @@ static inline size_t light_counts_find(const uint32_t *ends, size_t count, doubl
     double x = u * (double)LIGHT_COUNTS_TOTAL;
     uint32_t wanted = (uint32_t)x;
     size_t low = 0;
-    for (size_t left = count; left > 1;) { /* without branches: u is random */
-        size_t half = left / 2;
+    for (size_t remaining = count; remaining > 1;) { /* without branches: u is random */
+        size_t half = remaining / 2;
         low += ends[low + half - 1] <= wanted ? half : 0;
-        left -= half;
+        remaining -= half;
     }
     uint32_t start = low ? ends[low - 1] : 0;
     double width = (double)(ends[low] - start);

@@ -199,7 +199,7 @@ light_triangle light_emitters_triangle(const light_emitters *e, uint32_t item)
     return triangle_of(&e->scene->geometries->items[l->geometry], l->primitive);
 }
 
-bool light_emitters_shines_both_ways(const light_emitters *e, uint32_t item)
+bool light_emitters_is_two_sided(const light_emitters *e, uint32_t item)
 {
     uint32_t geometry = e->items[item].geometry;
     return e->scene->geometries->items[geometry].is_double_sided ||
@@ -328,7 +328,7 @@ static void add_triangles(light_emitters *e, const measuring *m, uint32_t triang
     for (uint32_t i = 0; i < triangle_count; i++) {
         float each = m->area[i] * (m->radiance[i] + least);
         bool is_light = each > 0.0f && isfinite(each);
-        e->numbers[e->first[m->geometry] + i] = is_light ? e->count : LIGHT_EMITTERS_NONE;
+        e->item_of[e->first[m->geometry] + i] = is_light ? e->count : LIGHT_EMITTERS_NONE;
         if (is_light)
             e->items[e->count++] =
                 (light_emitter){.geometry = m->geometry, .primitive = i, .intensity = each};
@@ -364,9 +364,9 @@ facet_result light_emitters_create(const shading_scene *scene, const facet_alloc
                    .area = mem_alloc(allocator, most, sizeof *m.area)};
     out->items = mem_alloc(allocator, all, sizeof *out->items);
     out->first = mem_alloc(allocator, set->count, sizeof *out->first);
-    out->numbers = mem_alloc(allocator, all, sizeof *out->numbers);
+    out->item_of = mem_alloc(allocator, all, sizeof *out->item_of);
     bool has_memory =
-        all < LIGHT_EMITTERS_NONE && m.radiance && m.area && out->items && out->first && out->numbers;
+        all < LIGHT_EMITTERS_NONE && m.radiance && m.area && out->items && out->first && out->item_of;
     if (has_memory) {
         uint32_t next = 0;
         for (m.geometry = 0; m.geometry < set->count; m.geometry++) {
@@ -391,6 +391,6 @@ void light_emitters_destroy(light_emitters *e)
 {
     mem_free(e->items);
     mem_free(e->first);
-    mem_free(e->numbers);
+    mem_free(e->item_of);
     *e = (light_emitters){0};
 }

@@ -51,8 +51,8 @@ typedef struct light_emitters {
     light_emitter *items;
     uint32_t count;
     uint64_t ignored;  /* emissive triangles that are ignored: not finite, without area */
-    uint32_t *first;   /* per geometry: its first entry in numbers; LIGHT_EMITTERS_NONE: it has no emission */
-    uint32_t *numbers; /* per triangle of the geometries that emit: its item; LIGHT_EMITTERS_NONE: none */
+    uint32_t *first;   /* per geometry: its first entry in item_of; LIGHT_EMITTERS_NONE: it has no emission */
+    uint32_t *item_of; /* per triangle of the geometries that emit: its item; LIGHT_EMITTERS_NONE: none */
 } light_emitters;
 
 /* All of a scene that outlives them. Fails with FACET_ERROR_MEMORY. */
@@ -63,7 +63,7 @@ void light_emitters_destroy(light_emitters *e); /* {0} is allowed */
 /* The item that is the triangle of a hit, or LIGHT_EMITTERS_NONE. */
 static inline uint32_t light_emitters_find(const light_emitters *e, uint32_t geometry, uint32_t primitive)
 {
-    return e->count && e->first[geometry] != LIGHT_EMITTERS_NONE ? e->numbers[e->first[geometry] + primitive]
+    return e->count && e->first[geometry] != LIGHT_EMITTERS_NONE ? e->item_of[e->first[geometry] + primitive]
                                                                  : LIGHT_EMITTERS_NONE;
 }
 
@@ -71,7 +71,7 @@ static inline uint32_t light_emitters_find(const light_emitters *e, uint32_t geo
  * that are not mirrored. */
 light_triangle light_emitters_triangle(const light_emitters *e, uint32_t item);
 /* Whether it emits on both sides; else on that of normal_sign times the cross product of its edges. */
-bool light_emitters_shines_both_ways(const light_emitters *e, uint32_t item);
+bool light_emitters_is_two_sided(const light_emitters *e, uint32_t item);
 float light_emitters_normal_sign(const light_emitters *e, uint32_t item);
 
 /* Radiance (cd/m^2), times coverage (alpha mask and blend), seen by a ray from P in the unit direction d

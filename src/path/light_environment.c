@@ -253,7 +253,7 @@ static uint32_t points_for(uint32_t size, uint32_t finest)
     return size < finest ? (finest + size - 1) / size | 1u : 1;
 }
 
-facet_result light_environment_create(const image *picture, const light_setup *light,
+facet_result light_environment_create(const image *map, const light_setup *light,
                                       const facet_allocator *allocator, uint32_t thread_count,
                                       light_environment **out, facet_error *error)
 {
@@ -262,13 +262,13 @@ facet_result light_environment_create(const image *picture, const light_setup *l
     if (!b.e)
         return fail_memory(error, "environment", sizeof *b.e);
     light_environment *e = b.e;
-    e->map = picture;
+    e->map = map;
     e->scale = light->scale;
     e->rotation_cos = light->rotation_cos;
     e->rotation_sin = light->rotation_sin;
-    e->width = picture->width * points_for(picture->width, FINEST_WIDTH);
-    e->height = picture->height * points_for(picture->height, FINEST_HEIGHT) + 1;
-    e->is_finer = e->width > picture->width || e->height > picture->height + 1;
+    e->width = map->width * points_for(map->width, FINEST_WIDTH);
+    e->height = map->height * points_for(map->height, FINEST_HEIGHT) + 1;
+    e->is_finer = e->width > map->width || e->height > map->height + 1;
     facet_result result = FACET_OK;
     if (allocate(&b, allocator)) {
         make_tables(&b);

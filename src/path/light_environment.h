@@ -26,7 +26,7 @@ typedef struct light_environment light_environment;
 
 /* For an image (F32 RGB, finite, not negative) that outlives it, rotated and scaled as in light. *out:
  * NULL where it is black. Takes 4 bytes per texel. Fails with FACET_ERROR_MEMORY. */
-facet_result light_environment_create(const image *picture, const light_setup *light,
+facet_result light_environment_create(const image *map, const light_setup *light,
                                       const facet_allocator *allocator, uint32_t thread_count,
                                       light_environment **out, facet_error *error);
 void light_environment_destroy(light_environment *e); /* NULL is allowed */

@@ -288,9 +288,9 @@ static light_bounds bounds_of(const builder *b, const range *r, float *mean_norm
 
 static void store_bounds(light_tree_node *node, int i, const light_bounds *l, float mean_normal)
 {
-    bool shines_by_cosine = l->dark >= 0.0f && l->full >= 1.0f;
+    bool has_cosine_emission = l->dark >= 0.0f && l->full >= 1.0f;
     node->mean_normal[i] = mean_normal;
-    node->bound_share[i] = shines_by_cosine ? BOUND_SHARE : 1.0f;
+    node->bound_share[i] = has_cosine_emission ? BOUND_SHARE : 1.0f;
     node->x[i] = l->center[0];
     node->y[i] = l->center[1];
     node->z[i] = l->center[2];

@@ -79,26 +79,26 @@ static void add_light(key_state *k, const facet_render_desc *desc)
 static void add_desc(key_state *k, const facet_render_desc *desc)
 {
     const facet_path_desc *path = &desc->path;
-    const double numbers[] = {desc->width,
-                              desc->height,
-                              desc->crop[0],
-                              desc->crop[1],
-                              desc->crop[2],
-                              desc->crop[3],
-                              desc->ignores_scene_lights,
-                              desc->background == FACET_BACKGROUND_ENVIRONMENT,
-                              (double)desc->background_blur,
-                              (double)desc->ground,
-                              (double)desc->energy,
-                              path->max_depth,
-                              path->seed,
-                              (double)path->filter,
-                              (double)path->light_sampling,
-                              (double)path->clamp,
-                              path->has_straight_shadows,
-                              (double)path->shutter_s};
-    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
-        add_number(k, numbers[i]);
+    const double values[] = {desc->width,
+                             desc->height,
+                             desc->crop[0],
+                             desc->crop[1],
+                             desc->crop[2],
+                             desc->crop[3],
+                             desc->ignores_scene_lights,
+                             desc->background == FACET_BACKGROUND_ENVIRONMENT,
+                             (double)desc->background_blur,
+                             (double)desc->ground,
+                             (double)desc->energy,
+                             path->max_depth,
+                             path->seed,
+                             (double)path->filter,
+                             (double)path->light_sampling,
+                             (double)path->clamp,
+                             path->has_straight_shadows,
+                             (double)path->shutter_s};
+    for (size_t i = 0; i < sizeof values / sizeof *values; i++)
+        add_number(k, values[i]);
     add_camera(k, desc->camera);
     add_light(k, desc);
 }
@@ -291,11 +291,11 @@ static facet_result check_image(const checkpoint *c, const path_film *f, const c
     return FACET_OK;
 }
 
-static bool are_finite(const float *numbers, size_t count)
+static bool are_finite(const float *values, size_t count)
 {
     float sum = 0.0f; /* 0 times a finite value stays 0 */
     for (size_t i = 0; i < count; i++)
-        sum += 0.0f * numbers[i];
+        sum += 0.0f * values[i];
     return sum == 0.0f;
 }
 
@@ -321,7 +321,7 @@ static bool is_sound(const path_film *f)
     return is;
 }
 
-static facet_result read_numbers(const checkpoint *c, path_film *into, const char *key, facet_error *error)
+static facet_result read_values(const checkpoint *c, path_film *into, const char *key, facet_error *error)
 {
     image_channel channels[CHANNELS];
     uint32_t count = list_channels(into, channels);
@@ -346,7 +346,7 @@ static facet_result read_film(const checkpoint *c, path_film *f, const char *key
     facet_result result =
         path_film_create(&f->allocator, f->width, f->height, f->ground != NULL, &made, error);
     if (result == FACET_OK)
-        result = read_numbers(c, made, key, error);
+        result = read_values(c, made, key, error);
     if (result == FACET_OK) {
         path_pixel *pixels = f->pixels;
         path_ground *ground = f->ground;

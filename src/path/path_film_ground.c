@@ -41,8 +41,8 @@ float path_ground_opacity(const path_ground *g)
 float path_ground_share(const path_ground *g, const path_pixel *p)
 {
     float share = p->samples > 0.0f ? (float)((double)g->samples / (double)p->samples) : 0.0f;
-    float left = 1.0f - shade_f_clamp(p->mean[3] * path_pixel_scale(p), 0.0f, 1.0f);
-    return share < left ? share : left;
+    float transmittance = 1.0f - shade_f_clamp(p->mean[3] * path_pixel_scale(p), 0.0f, 1.0f);
+    return share < transmittance ? share : transmittance;
 }
 
 /* ---- filter ---- */

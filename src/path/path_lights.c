@@ -181,7 +181,7 @@ static light_bounds bounds_of_emitter(const light_emitters *e, uint32_t item)
     float radius2 = 0.0f;
     for (int i = 0; i < 3; i++)
         radius2 = max(radius2, dot(corners[i] - center, corners[i] - center));
-    bool is_two_sided = light_emitters_shines_both_ways(e, item);
+    bool is_two_sided = light_emitters_is_two_sided(e, item);
     return (light_bounds){.center = center,
                           .radius = sqrt(radius2),
                           .axis = normalize(cross(t.edge1, t.edge2)) * light_emitters_normal_sign(e, item),

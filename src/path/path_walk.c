@@ -51,7 +51,7 @@ static bool has_depth_left(const path *p)
 /* ---- between vertices ---- */
 
 /* What a ray ends at. */
-typedef enum ray_end { AT_SURFACE, AT_PARTICLE, AT_INFINITY, LOST } ray_end;
+typedef enum ray_end { AT_SURFACE, AT_PARTICLE, AT_INFINITY, TERMINATED } ray_end;
 
 /* The medium below scene->surface: adds its emission along the ray, and attenuates what is behind. */
 static void cross_surface_medium(path *p, float distance_m)
@@ -69,7 +69,7 @@ static ray_end trace(path *p, visibility_hit *hit)
 {
     const shading_scene *shading = &p->scene->setup->shading;
     if (!is_finite(p->P) || !is_finite(p->D))
-        return LOST;
+        return TERMINATED;
     shading_ray ray = {.far_t = INFINITY};
     store3(p->P, ray.origin);
     store3(p->D, ray.direction);
@@ -81,7 +81,7 @@ static ray_end trace(path *p, visibility_hit *hit)
     float distance_m = is_hit ? hit->t : INFINITY;
     if (p->is_in_medium) {
         cross_surface_medium(p, distance_m);
-        return is_hit && max3(p->beta) > 0.0f ? AT_SURFACE : LOST;
+        return is_hit && max3(p->beta) > 0.0f ? AT_SURFACE : TERMINATED;
     }
     if (p->media.count) {
         vec2 u = path_sampler_pair(&p->sampler);
@@ -398,7 +398,8 @@ void path_walk(path *p, const visibility_hit *first_hit, const shading_ray *firs
     shading_ray ray = first_ray ? *first_ray : (shading_ray){.far_t = INFINITY};
     ray_spread spread;
     ray_end end = first_hit ? AT_SURFACE : next_vertex(p, &hit, &ray, &spread);
-    for (uint32_t i = 0; i < MAX_VERTICES && end != LOST; i++, end = next_vertex(p, &hit, &ray, &spread)) {
+    for (uint32_t i = 0; i < MAX_VERTICES && end != TERMINATED;
+         i++, end = next_vertex(p, &hit, &ray, &spread)) {
         if (end == AT_INFINITY) {
             path_add(p, light_at_infinity(p));
             return;

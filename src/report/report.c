@@ -288,10 +288,10 @@ static void add_pbr_values(text *out, const char *title, const scene_material *m
 /* Source and result, in this order. */
 static void add_values(const page *p, const material_conversion *m)
 {
-    bool has_legacy = scene_has_legacy_materials(p->scene) && !m->before;
+    bool has_legacy = scene_has_legacy_materials(p->scene) && !m->source;
     bool is_back = p->conversion->to == FACET_MATERIAL_MODEL_OGL1;
-    if (m->before)
-        add_pbr_values(p->out, "glTF, before", m->before);
+    if (m->source)
+        add_pbr_values(p->out, "glTF, before", m->source);
     if (has_legacy && !is_back)
         add_legacy_values(p->out, &m->legacy, p->scene->legacy->colors);
     add_pbr_values(p->out, "glTF, linear numbers", &m->pbr);

@@ -78,14 +78,14 @@ static bool fill_scene(sphere_stage *stage)
 /* Images of the source materials that the conversion dropped are restored. */
 static void share_source(const facet_scene *scene, facet_scene *s)
 {
-    const scene_conversion_source *before = scene->conversion ? scene->conversion->before : NULL;
-    if (!before)
+    const scene_conversion_source *source = scene->conversion ? scene->conversion->source : NULL;
+    if (!source)
         return;
-    s->materials = before->materials;
-    s->texture_count = before->texture_count;
-    s->textures = before->textures;
-    s->image_count = before->image_count;
-    s->images = before->images;
+    s->materials = source->materials;
+    s->texture_count = source->texture_count;
+    s->textures = source->textures;
+    s->image_count = source->image_count;
+    s->images = source->images;
 }
 
 facet_result sphere_stage_create(const facet_scene *scene, sphere_stage **out, facet_error *error)
@@ -118,8 +118,8 @@ facet_result sphere_stage_create(const facet_scene *scene, sphere_stage **out, f
         stage->legacy.lights = &stage->light;
         stage->legacy.light_count = 1;
         stage->legacy.fog = (legacy_fog){0};
-        if (scene->conversion && scene->conversion->before)
-            stage->legacy.materials = scene->conversion->before->legacy;
+        if (scene->conversion && scene->conversion->source)
+            stage->legacy.materials = scene->conversion->source->legacy;
         s->legacy = &stage->legacy;
     }
     *out = stage;

@@ -398,7 +398,7 @@ facet_result scene_fit_pose(const facet_scene *scene, const scene_pose *pose, co
 /* ---- all times ---- */
 
 /* Bounds of the scene at all times, and with a view the extent that frames them. */
-static facet_result look_at_times(const facet_scene *scene, const facet_pose_desc *desc,
+static facet_result measure_times(const facet_scene *scene, const facet_pose_desc *desc,
                                   const keyframe_times *list, const facet_orbit *orbit, const view *v,
                                   subject *s, facet_error *error)
 {
@@ -432,10 +432,10 @@ static facet_result fit_motion(const facet_scene *scene, const facet_pose_desc *
     keyframes_list_times(scene, desc, &list);
     subject s = empty_subject();
     if (!orbit->has_target)
-        TRY(look_at_times(scene, desc, &list, orbit, NULL, &s, error));
+        TRY(measure_times(scene, desc, &list, orbit, NULL, &s, error));
     view v = make_view(orbit, aspect, &s);
     if (is_measured(orbit))
-        TRY(look_at_times(scene, desc, &list, orbit, &v, &s, error));
+        TRY(measure_times(scene, desc, &list, orbit, &v, &s, error));
     warn_of_stray(scene, orbit, &s.stray);
     return stand(&v, &s, orbit, aspect, camera, error);
 }

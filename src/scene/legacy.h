@@ -206,7 +206,7 @@ typedef struct material_conversion {
     facet_conversion summary; /* facet.h; its strings live in the scene */
     legacy_material legacy;
     scene_material pbr;
-    const scene_material *before; /* conversions between glTF's own models: the source of pbr; NULL */
+    const scene_material *source; /* conversions between glTF's own models: the source of pbr; NULL */
     bool has_surfaces;            /* values for which the error was computed, textures at their means */
     ogl1_surface ogl1_surface;
     pbr_surface pbr_surface;
@@ -229,7 +229,7 @@ typedef struct scene_conversion {
     material_conversion *materials;
     uint32_t warning_count; /* of the whole scene: lights, fog */
     const conversion_warning *warnings;
-    const scene_conversion_source *before; /* NULL: no image was dropped */
+    const scene_conversion_source *source; /* NULL: no image was dropped */
     /* factor of legacy lights: pi, or 1 unless requested */
     double light_scale;
 } scene_conversion;

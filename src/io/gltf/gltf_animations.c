@@ -200,7 +200,7 @@ static bool read_animation_sampler(io_reader *r, const json_place *at, bool is_r
 typedef struct animation_reader {
     json_place samplers; /* of the file */
     /* Per sampler of the file, plain and as rotations: its index in the scene, NOT_YET or USELESS. */
-    uint32_t (*numbers)[2];
+    uint32_t (*indices)[2];
     scene_sampler *made;
     uint32_t made_count;
     scene_channel *channels;
@@ -215,7 +215,7 @@ static const uint32_t USELESS = UINT32_MAX - 1; /* a warning gave the reason */
 /* The index in the scene of a sampler of the file, or USELESS. */
 static uint32_t get_sampler(io_reader *r, animation_reader *a, uint32_t index, bool is_rotation)
 {
-    uint32_t *number = &a->numbers[index][is_rotation];
+    uint32_t *number = &a->indices[index][is_rotation];
     if (*number != NOT_YET)
         return *number;
     json_place at = io_get_element_object(r, &a->samplers, index);
@@ -406,11 +406,11 @@ static void read_animation(io_reader *r, const json_place *at, scene_animation *
         a.samplers.value = channels.value = NULL;
     size_t count = io_get_count(&a.samplers);
     a.made = io_alloc(r, "animation", count, 2 * sizeof *a.made);
-    a.numbers = mem_alloc(r->allocator, count, sizeof *a.numbers);
-    if (!a.numbers)
-        io_fail_memory(r, "animation", count * sizeof *a.numbers);
+    a.indices = mem_alloc(r->allocator, count, sizeof *a.indices);
+    if (!a.indices)
+        io_fail_memory(r, "animation", count * sizeof *a.indices);
     else
-        memset(a.numbers, 0xff, count * sizeof *a.numbers); /* NOT_YET */
+        memset(a.indices, 0xff, count * sizeof *a.indices); /* NOT_YET */
     for (size_t i = 0; i < io_get_count(&channels) && io_is_ok(r); i++) {
         json_place channel = io_get_element_object(r, &channels, i);
         read_channel(r, &a, &channel);
@@ -418,14 +418,14 @@ static void read_animation(io_reader *r, const json_place *at, scene_animation *
     }
     for (size_t i = 0; i < count && io_is_ok(r); i++) {
         json_place sampler = io_get_element_object(r, &a.samplers, i);
-        if (a.numbers[i][0] != USELESS && a.numbers[i][1] != USELESS)
+        if (a.indices[i][0] != USELESS && a.indices[i][1] != USELESS)
             check_animation_sampler(r, &sampler);
         io_leave_out(r, consequence);
     }
     if (io_is_ok(r))
         finish_animation(r, &a, out);
     out->meta = gltf_get_meta(r, at);
-    mem_free(a.numbers);
+    mem_free(a.indices);
     mem_free(a.channels);
 }
 

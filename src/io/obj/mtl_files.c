@@ -116,7 +116,7 @@ static void warn_foreign(mtl_parser *p, const uri_bytes *bytes, const char *name
 }
 
 /* Detects format and size of an image. False: not readable; p warns. */
-static bool look_at(mtl_parser *p, const uri_bytes *bytes, const char *name, scene_image *out)
+static bool inspect_image(mtl_parser *p, const uri_bytes *bytes, const char *name, scene_image *out)
 {
     const image_kind *kind = image_kind_of_bytes(bytes->data, bytes->size);
     image header;
@@ -151,7 +151,7 @@ uint32_t mtl_files_image(mtl_files *f, mtl_parser *p, const char *folder, const 
     mtl_image new = {
         .image = {.name = found, .mime_type = "", .bytes = bytes.data, .size = bytes.size, .uri = found},
         .index = SCENE_NONE};
-    if (look_at(p, &bytes, name, &new.image))
+    if (inspect_image(p, &bytes, name, &new.image))
         new.index = f->readable_count++;
     if (!mem_reserve(f->scope.allocator, (void **)&f->images, &f->image_capacity, f->image_count + 1,
                      sizeof *f->images) ||
@@ -174,13 +174,13 @@ static bool is_same_texture(const scene_texture *a, const scene_texture *b)
 
 uint32_t mtl_hash_texture(const scene_texture *texture)
 {
-    const uint32_t numbers[6] = {texture->image,
-                                 (uint32_t)texture->wrap_u,
-                                 (uint32_t)texture->wrap_v,
-                                 (uint32_t)texture->mag_filter,
-                                 (uint32_t)texture->min_filter,
-                                 (uint32_t)texture->mip_filter};
-    uint32_t hash = index_table_hash(INDEX_TABLE_HASH, numbers, sizeof numbers);
+    const uint32_t fields[6] = {texture->image,
+                                (uint32_t)texture->wrap_u,
+                                (uint32_t)texture->wrap_v,
+                                (uint32_t)texture->mag_filter,
+                                (uint32_t)texture->min_filter,
+                                (uint32_t)texture->mip_filter};
+    uint32_t hash = index_table_hash(INDEX_TABLE_HASH, fields, sizeof fields);
     return texture->name ? index_table_hash(hash, texture->name, strlen(texture->name)) : hash;
 }
 

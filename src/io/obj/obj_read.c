@@ -310,7 +310,7 @@ static void release(obj_reader *r)
     obj_names_release(&r->objects);
     obj_names_release(&r->material_names);
     mem_free(r->primitives);
-    mem_free(r->material_numbers);
+    mem_free(r->material_indices);
     mem_free(r->v);
     mem_free(r->t);
     mem_free(r->n);

@@ -168,7 +168,7 @@ typedef struct obj_reader {
     obj_names objects, material_names;
     obj_primitive *primitives; /* triangles first, then lines, then points */
     uint32_t primitive_count;
-    uint32_t *material_numbers; /* of the scene, per name */
+    uint32_t *material_indices; /* of the scene, per name */
 
     /* Corners of all primitives: three per triangle, two per line. */
     size_t corner_count, triangle_corner_count;

@@ -270,17 +270,17 @@ static bool find_materials(obj_reader *r)
     size_t count = r->material_names.count;
     const char *first_unknown = NULL;
     size_t unknown = 0;
-    r->material_numbers = mem_alloc(r->allocator, count, sizeof *r->material_numbers);
-    if (!r->material_numbers)
-        return obj_fail_memory(r, "materials", count * sizeof *r->material_numbers);
+    r->material_indices = mem_alloc(r->allocator, count, sizeof *r->material_indices);
+    if (!r->material_indices)
+        return obj_fail_memory(r, "materials", count * sizeof *r->material_indices);
     for (size_t i = 0; i < count; i++) {
         size_t length;
         const char *name = names_get(&r->material_names, (uint32_t)i, &length);
-        r->material_numbers[i] = mtl_reader_find(r->materials, name, length);
-        if (r->material_numbers[i] != SCENE_NONE)
+        r->material_indices[i] = mtl_reader_find(r->materials, name, length);
+        if (r->material_indices[i] != SCENE_NONE)
             continue;
-        r->material_numbers[i] = mtl_reader_add(r->materials, name, length);
-        if (r->material_numbers[i] == SCENE_NONE)
+        r->material_indices[i] = mtl_reader_add(r->materials, name, length);
+        if (r->material_indices[i] == SCENE_NONE)
             return obj_fail_memory(r, "materials", length);
         if (length > 0)
             first_unknown = unknown++ ? first_unknown : name;
@@ -340,7 +340,7 @@ static scene_primitive make_primitive(const obj_reader *r, const obj_primitive *
         .positions = p->positions,
         .normals = p->normals,
         .colors = p->colors,
-        .material = p->material == SCENE_NONE ? SCENE_NONE : r->material_numbers[p->material],
+        .material = p->material == SCENE_NONE ? SCENE_NONE : r->material_indices[p->material],
         .has_flat_normals = p->has_flat_normals,
     };
     memcpy(out.bounds_min, p->bounds_min, sizeof out.bounds_min);
@@ -371,7 +371,7 @@ static uint32_t *number_meshes(obj_reader *r)
 }
 
 /* Groups the primitives by mesh, each group in order of appearance. */
-static void make_meshes(obj_reader *r, const uint32_t *numbers)
+static void make_meshes(obj_reader *r, const uint32_t *indices)
 {
     facet_scene *scene = r->scene;
     scene->meshes = take(r, scene->mesh_count, sizeof *scene->meshes);
@@ -380,7 +380,7 @@ static void make_meshes(obj_reader *r, const uint32_t *numbers)
     if (!obj_is_ok(r))
         return;
     for (uint32_t i = 0; i < r->primitive_count; i++)
-        scene->meshes[numbers[r->primitives[i].object]].primitive_count++;
+        scene->meshes[indices[r->primitives[i].object]].primitive_count++;
     for (uint32_t i = 0; i < scene->mesh_count; i++) {
         scene->meshes[i].primitives = primitives;
         primitives += scene->meshes[i].primitive_count;
@@ -388,7 +388,7 @@ static void make_meshes(obj_reader *r, const uint32_t *numbers)
     }
     for (uint32_t i = 0; i < r->primitive_count; i++) {
         const obj_primitive *p = &r->primitives[i];
-        scene_mesh *mesh = &scene->meshes[numbers[p->object]];
+        scene_mesh *mesh = &scene->meshes[indices[p->object]];
         mesh->primitives[mesh->primitive_count++] = make_primitive(r, p, texcoords++);
         if (!mesh->name) {
             size_t size;
@@ -429,10 +429,10 @@ static void make_nodes(obj_reader *r)
 
 void obj_make_scene(obj_reader *r)
 {
-    uint32_t *numbers = number_meshes(r);
-    if (numbers)
-        make_meshes(r, numbers);
+    uint32_t *indices = number_meshes(r);
+    if (indices)
+        make_meshes(r, indices);
     if (obj_is_ok(r))
         make_nodes(r);
-    mem_free(numbers);
+    mem_free(indices);
 }

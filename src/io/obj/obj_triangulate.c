@@ -54,7 +54,7 @@ enum { IS_CONVEX = 1, IS_NO_EAR = 2, IS_CUT = 4, IS_SPIKE = 8 };
 /* The state of one triangulation. */
 typedef struct cutting {
     obj_polygon *p;
-    uint32_t left; /* corners */
+    uint32_t remaining; /* corners */
     uint32_t *out;
     size_t budget;         /* remaining work, in corners examined */
     double low[2], extent; /* the bounding square */
@@ -132,7 +132,7 @@ static bool is_convex(const cutting *c)
     int turns = 0;
     double last = 0.0;
     double first = 0.0;
-    for (uint32_t i = 0; i < c->left; i++) {
+    for (uint32_t i = 0; i < c->remaining; i++) {
         if (!(c->p->states[i] & IS_CONVEX))
             return false;
         double step = at(c, c->p->next[i])[0] - at(c, i)[0];
@@ -251,7 +251,7 @@ static bool is_blocked(cutting *c, const ear *e)
     const obj_polygon *p = c->p;
     if (c->cells[0] == 0.0) {
         uint32_t first = (uint32_t)((e->b - p->plane) / 2);
-        spend(c, c->left);
+        spend(c, c->remaining);
         for (uint32_t q = p->next[first]; q != first; q = p->next[q])
             if (!(p->states[q] & IS_CONVEX) && is_blocked_by(e, at(c, q)))
                 return true;
@@ -302,7 +302,7 @@ static uint32_t cut(cutting *c, uint32_t i)
     p->next[before] = after;
     p->previous[after] = before;
     p->states[i] = IS_CUT;
-    c->left--;
+    c->remaining--;
     look_at_corner(c, before);
     look_at_corner(c, after);
     return after;
@@ -334,7 +334,7 @@ static bool is_next(cutting *c, uint32_t i, double limit)
  * corner. */
 static uint32_t cut_short_ears(cutting *c, uint32_t i, double limit)
 {
-    for (uint32_t without = 0; c->left > 3 && without < c->left && c->budget > 0;) {
+    for (uint32_t without = 0; c->remaining > 3 && without < c->remaining && c->budget > 0;) {
         if (is_next(c, i, limit)) {
             i = c->p->previous[cut(c, i)];
             without = 0;
@@ -343,15 +343,15 @@ static uint32_t cut_short_ears(cutting *c, uint32_t i, double limit)
             without++;
         }
     }
-    spend(c, c->left);
+    spend(c, c->remaining);
     return i;
 }
 
 /* Cuts ears, short ones first, for better triangles and fewer corners near each. */
 static uint32_t cut_ears(cutting *c, uint32_t i)
 {
-    double side = 2.0 * c->extent / (double)c->left;
-    for (double limit = side * side; limit < c->extent * c->extent && c->left > 3; limit *= 4.0)
+    double side = 2.0 * c->extent / (double)c->remaining;
+    for (double limit = side * side; limit < c->extent * c->extent && c->remaining > 3; limit *= 4.0)
         i = cut_short_ears(c, i, limit);
     return cut_short_ears(c, i, HUGE_VAL);
 }
@@ -394,7 +394,7 @@ static uint32_t cut_something(cutting *c, uint32_t start)
 
 static void cut_fan(cutting *c, uint32_t i)
 {
-    while (c->left > 2)
+    while (c->remaining > 2)
         i = c->p->previous[cut(c, c->p->next[i])];
 }
 
@@ -409,7 +409,7 @@ static size_t find_budget(uint32_t count)
 
 void obj_triangulate(obj_polygon *p, uint32_t count, uint32_t *triangles)
 {
-    cutting c = {.p = p, .left = count, .out = triangles, .budget = find_budget(count)};
+    cutting c = {.p = p, .remaining = count, .out = triangles, .budget = find_budget(count)};
     p->is_rough = false;
     project(p, count);
     for (uint32_t i = 0; i < count; i++) {
@@ -422,9 +422,9 @@ void obj_triangulate(obj_polygon *p, uint32_t count, uint32_t *triangles)
     if (!is_convex(&c)) {
         make_grid(&c, count);
         i = cut_ears(&c, i);
-        while (c.left > 3 && c.budget > 0)
+        while (c.remaining > 3 && c.budget > 0)
             i = cut_short_ears(&c, cut_something(&c, i), HUGE_VAL);
-        p->is_rough = c.left > 3;
+        p->is_rough = c.remaining > 3;
     }
     cut_fan(&c, i);
 }

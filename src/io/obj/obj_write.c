@@ -53,7 +53,7 @@ typedef enum presence { NOT_THERE, SAME, OTHER, NO_MEMORY } presence;
 
 /* Whether the file at path holds the image. Only a regular file of the same size is opened: a pipe could
  * block, a device might never end. */
-static presence look_at(const char *path, const scene_image *source, const facet_allocator *allocator)
+static presence compare_file(const char *path, const scene_image *source, const facet_allocator *allocator)
 {
     struct stat status;
     if (stat(path, &status) != 0)
@@ -69,12 +69,12 @@ static presence look_at(const char *path, const scene_image *source, const facet
 }
 
 /* The same, for a file beside path. */
-static presence look_beside(const char *path, const char *name, const scene_image *source,
-                            const facet_allocator *allocator)
+static presence compare_beside(const char *path, const char *name, const scene_image *source,
+                               const facet_allocator *allocator)
 {
     char *folder = path_folder(allocator, path);
     char *beside = folder ? path_join(allocator, folder, name) : NULL;
-    presence found = beside ? look_at(beside, source, allocator) : NO_MEMORY;
+    presence found = beside ? compare_file(beside, source, allocator) : NO_MEMORY;
     mem_free(beside);
     mem_free(folder);
     return found;
@@ -97,7 +97,7 @@ static bool name_image(image_namer *namer, uint32_t index, obj_images *out, char
     const char *own = path_base_name(source->uri ? source->uri : source->name);
     out->names[index] = at;
     if (is_plain(own, kind) && !name_table_has(&namer->taken, own)) {
-        presence found = look_beside(namer->path, own, source, namer->allocator);
+        presence found = compare_beside(namer->path, own, source, namer->allocator);
         if (found == NO_MEMORY)
             return false;
         if (found != OTHER) {

@@ -311,7 +311,7 @@ static void make_balls(ogl1_document *d)
 
 /* ---- files ---- */
 
-void ogl1_set_surroundings(const ogl1_document *d, const facet_legacy_desc *desc)
+void ogl1_set_lights_and_fog(const ogl1_document *d, const facet_legacy_desc *desc)
 {
     scene_legacy *legacy = d->r.scene->legacy;
     facet_legacy_colors stated = desc->colors ? desc->colors : d->colors;
@@ -342,7 +342,7 @@ static void read_scene(ogl1_document *d, const facet_scene_desc *desc)
         return;
     r->scene->generator = d->generator;
     r->scene->legacy->fog.scale = 1.0f;
-    ogl1_set_surroundings(d, &desc->legacy);
+    ogl1_set_lights_and_fog(d, &desc->legacy);
 }
 
 static facet_result load(const char *bytes, size_t size, const char *source, const char *folder,

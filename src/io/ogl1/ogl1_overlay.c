@@ -102,7 +102,7 @@ typedef struct overlay {
     entry_names materials, objects;
     uint32_t all;             /* the entry for everything; SCENE_NONE: none */
     bool *is_set;             /* per material: replaced by an entry */
-    uint32_t *numbers;        /* per entry: its material in the scene; SCENE_NONE: none yet */
+    uint32_t *material_of;    /* per entry: its material in the scene; SCENE_NONE: none yet */
     bool *is_used, *is_named; /* per entry */
     uint32_t *node_entries;   /* per node: as in use; UINT32_MAX: unknown yet */
     uint32_t *path;           /* node_count, for find_entry() */
@@ -115,16 +115,16 @@ static bool take_memory(overlay *o)
     const facet_scene *scene = o->d.r.scene;
     const facet_allocator *allocator = o->d.r.allocator;
     o->is_set = mem_zalloc(allocator, (size_t)scene->material_count + o->d.entry_count, sizeof *o->is_set);
-    o->numbers = mem_alloc(allocator, o->d.entry_count, sizeof *o->numbers);
+    o->material_of = mem_alloc(allocator, o->d.entry_count, sizeof *o->material_of);
     o->is_used = mem_zalloc(allocator, o->d.entry_count, sizeof *o->is_used);
     o->is_named = mem_zalloc(allocator, o->d.entry_count, sizeof *o->is_named);
     o->node_entries = mem_alloc(allocator, scene->node_count, sizeof *o->node_entries);
     o->path = mem_alloc(allocator, scene->node_count, sizeof *o->path);
     o->uses = mem_alloc(allocator, scene->node_count, sizeof *o->uses);
-    if (!o->is_set || !o->numbers || !o->is_used || !o->is_named || !o->node_entries || !o->path ||
+    if (!o->is_set || !o->material_of || !o->is_used || !o->is_named || !o->node_entries || !o->path ||
         !o->uses || !names_create(&o->d, false, &o->materials) || !names_create(&o->d, true, &o->objects))
         return io_fail_memory(&o->d.r, "parameters", scene->node_count * sizeof *o->uses);
-    memset(o->numbers, 0xff, o->d.entry_count * sizeof *o->numbers);
+    memset(o->material_of, 0xff, o->d.entry_count * sizeof *o->material_of);
     memset(o->node_entries, 0xff, scene->node_count * sizeof *o->node_entries);
     o->all = SCENE_NONE;
     for (uint32_t i = 0; i < o->d.entry_count; i++)
@@ -138,7 +138,7 @@ static void release(overlay *o)
     names_destroy(&o->materials);
     names_destroy(&o->objects);
     mem_free(o->is_set);
-    mem_free(o->numbers);
+    mem_free(o->material_of);
     mem_free(o->is_used);
     mem_free(o->is_named);
     mem_free(o->node_entries);
@@ -208,7 +208,7 @@ static void replace_materials(overlay *o)
         if (named == SCENE_NONE)
             continue;
         o->is_named[named] = true;
-        o->numbers[named] = o->numbers[named] == SCENE_NONE ? i : o->numbers[named];
+        o->material_of[named] = o->material_of[named] == SCENE_NONE ? i : o->material_of[named];
     }
 }
 
@@ -216,12 +216,12 @@ static void replace_materials(overlay *o)
 static uint32_t material_of(overlay *o, uint32_t entry)
 {
     const ogl1_entry *e = &o->d.entries[entry];
-    if (o->numbers[entry] == SCENE_NONE)
-        o->numbers[entry] = add_material(o, entry,
-                                         e->name           ? e->name
-                                         : e->object_count ? e->objects[0]
-                                                           : "material3d");
-    return o->numbers[entry];
+    if (o->material_of[entry] == SCENE_NONE)
+        o->material_of[entry] = add_material(o, entry,
+                                             e->name           ? e->name
+                                             : e->object_count ? e->objects[0]
+                                                               : "material3d");
+    return o->material_of[entry];
 }
 
 /* ---- objects ---- */
@@ -418,7 +418,7 @@ static void lay(overlay *o, const facet_scene_desc *desc)
     for (size_t i = 0; i < sizeof steps / sizeof *steps && io_is_ok(r); i++)
         steps[i](o);
     if (io_is_ok(r))
-        ogl1_set_surroundings(&o->d, &desc->legacy);
+        ogl1_set_lights_and_fog(&o->d, &desc->legacy);
     release(o);
 }
 

@@ -84,6 +84,6 @@ void ogl1_document_read(ogl1_document *d, facet_scene *scene, const char *bytes,
 void ogl1_find_textures(ogl1_document *d);
 
 /* ogl1_json.c: copies lights, fog and the encoding of colors to scene->legacy, which must exist. */
-void ogl1_set_surroundings(const ogl1_document *d, const facet_legacy_desc *desc);
+void ogl1_set_lights_and_fog(const ogl1_document *d, const facet_legacy_desc *desc);
 
 #endif
