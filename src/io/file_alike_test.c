@@ -99,7 +99,7 @@ static void assert_found(const char *path, const char *wanted)
     mem_free(found);
 }
 
-static void the_only_one_is_found(void **state)
+static void unique_matches_are_found(void **state)
 {
     (void)state;
     assert_found("wood.png", "wood.png");
@@ -132,7 +132,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(names_differ_in_case_and_form_only),
-        cmocka_unit_test(the_only_one_is_found),
+        cmocka_unit_test(unique_matches_are_found),
         cmocka_unit_test(the_budget_ends_a_search),
     };
     return cmocka_run_group_tests(tests, make_files, remove_files);

@@ -57,7 +57,7 @@ static void files_appear_together(void **state)
     assert_true(is_there("a.obj"));
 }
 
-static void what_is_not_committed_is_gone(void **state)
+static void uncommitted_files_are_removed(void **state)
 {
     (void)state;
     facet_error error;
@@ -126,7 +126,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_appear_together),
-        cmocka_unit_test(what_is_not_committed_is_gone),
+        cmocka_unit_test(uncommitted_files_are_removed),
         cmocka_unit_test(cancelled_sets_leave_nothing),
         cmocka_unit_test(inputs_are_not_replaced),
     };

@@ -53,7 +53,7 @@ static void a_dielectric_is_fitted(void **state)
     scene_destroy(scene);
 }
 
-static void remarks_of_metals(void **state)
+static void metals_have_remarks(void **state)
 {
     (void)state;
     facet_scene *scene = gltf_scene(1);
@@ -89,7 +89,7 @@ static void colors_are_encoded(void **state)
     scene_destroy(scene);
 }
 
-static void unlit_and_sides(void **state)
+static void unlit_and_double_sided_materials_are_kept(void **state)
 {
     (void)state;
     facet_scene *scene = gltf_scene(2);
@@ -114,7 +114,7 @@ static void unlit_and_sides(void **state)
     scene_destroy(scene);
 }
 
-static void extensions_that_mtl_knows(void **state)
+static void extensions_with_mtl_statements_are_written(void **state)
 {
     (void)state;
     facet_scene *scene = gltf_scene(1);
@@ -151,7 +151,7 @@ static void extensions_that_mtl_knows(void **state)
 
 /* ---- textures ---- */
 
-static void a_base_texture_that_scales_stays(void **state)
+static void a_plain_base_texture_stays(void **state)
 {
     (void)state;
     facet_scene *scene = gltf_scene(1);
@@ -217,7 +217,7 @@ static void metallic_roughness_is_baked_and_split(void **state)
     scene_destroy(scene);
 }
 
-static void occlusion_darkens_where_asked_for(void **state)
+static void occlusion_darkens_on_request(void **state)
 {
     (void)state;
     const uint8_t dark[] = {255, 128, 64, 0};
@@ -322,7 +322,7 @@ static void known_values_come_back_exactly(void **state)
 
 /* Lobes of the two models differ in shape, so values that are fitted again differ from the originals and
  * approximate the glTF material better. */
-static void known_values_lose_nothing_and_a_fit_little(void **state)
+static void known_originals_lose_nothing_and_a_fit_little(void **state)
 {
     (void)state;
     facet_scene *scene = legacy_scene(1);
@@ -369,16 +369,16 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_dielectric_is_fitted),
-        cmocka_unit_test(remarks_of_metals),
+        cmocka_unit_test(metals_have_remarks),
         cmocka_unit_test(colors_are_encoded),
-        cmocka_unit_test(unlit_and_sides),
-        cmocka_unit_test(extensions_that_mtl_knows),
-        cmocka_unit_test(a_base_texture_that_scales_stays),
+        cmocka_unit_test(unlit_and_double_sided_materials_are_kept),
+        cmocka_unit_test(extensions_with_mtl_statements_are_written),
+        cmocka_unit_test(a_plain_base_texture_stays),
         cmocka_unit_test(metallic_roughness_is_baked_and_split),
-        cmocka_unit_test(occlusion_darkens_where_asked_for),
+        cmocka_unit_test(occlusion_darkens_on_request),
         cmocka_unit_test(alpha_tests_and_blending),
         cmocka_unit_test(known_values_come_back_exactly),
-        cmocka_unit_test(known_values_lose_nothing_and_a_fit_little),
+        cmocka_unit_test(known_originals_lose_nothing_and_a_fit_little),
         cmocka_unit_test(read_values_stay),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

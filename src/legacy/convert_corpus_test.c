@@ -177,7 +177,7 @@ static int check_data(const char *folder, const char *const *ends)
     return count;
 }
 
-static void gltf_models(void **state)
+static void gltf_models_convert(void **state)
 {
     (void)state;
     const char *const ends[] = {".glb", NULL};
@@ -186,7 +186,7 @@ static void gltf_models(void **state)
     assert_true(check_data("models/lights", ends) > (IS_SLOW ? 0 : 1));
 }
 
-static void obj_models(void **state)
+static void obj_models_convert(void **state)
 {
     (void)state;
     const char *const ends[] = {".obj", NULL};
@@ -195,6 +195,7 @@ static void obj_models(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(gltf_models), cmocka_unit_test(obj_models)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(gltf_models_convert),
+                                       cmocka_unit_test(obj_models_convert)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

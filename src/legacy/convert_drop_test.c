@@ -77,7 +77,7 @@ static size_t size_of_images(const facet_scene *scene)
     return size;
 }
 
-static void what_only_old_materials_read_leaves(void **state)
+static void images_of_legacy_materials_alone_are_dropped(void **state)
 {
     (void)state;
     facet_scene *kept = legacy_scene(MATERIALS);
@@ -97,7 +97,7 @@ static void what_only_old_materials_read_leaves(void **state)
     assert_false(legacy_lacks_images(&m[PLAIN_MAP]));
     /* The baked ones. */
     assert_int_equal(m[BAKED].maps[LEGACY_SPECULAR_MAP].ref.texture, SCENE_NONE);
-    assert_string_equal(m[BAKED].maps[LEGACY_SPECULAR_MAP].path, "picture.png");
+    assert_string_equal(m[BAKED].maps[LEGACY_SPECULAR_MAP].path, "image.png");
     assert_true(m[BAKED].maps[LEGACY_SPECULAR_MAP].is_left_out);
     assert_true(legacy_lacks_images(&m[BAKED]));
     assert_false(legacy_lacks_images(&m[UNTEXTURED]));
@@ -117,7 +117,7 @@ static void what_only_old_materials_read_leaves(void **state)
 }
 
 /* The report renders the source materials with the dropped images. */
-static void the_report_has_what_was_there(void **state)
+static void the_report_renders_the_dropped_images(void **state)
 {
     (void)state;
     facet_scene *scene = dropped();
@@ -134,7 +134,7 @@ static void the_report_has_what_was_there(void **state)
     scene_destroy(scene);
 }
 
-static void what_is_not_known_whole_is_fitted(void **state)
+static void materials_with_dropped_images_are_fitted(void **state)
 {
     (void)state;
     facet_scene *scene = dropped();
@@ -157,7 +157,7 @@ static void what_is_not_known_whole_is_fitted(void **state)
     scene_destroy(scene);
 }
 
-static void nothing_leaves_where_all_is_read(void **state)
+static void nothing_is_dropped_where_all_is_used(void **state)
 {
     (void)state;
     facet_scene *scene = legacy_scene(1);
@@ -174,7 +174,7 @@ static void nothing_leaves_where_all_is_read(void **state)
 }
 
 /* A glTF scene with rgl's parameters applied: its image-based light refers to images, too. */
-static void pictures_of_light_stay(void **state)
+static void images_of_image_lights_stay(void **state)
 {
     (void)state;
     facet_scene *scene = legacy_scene(MATERIALS);
@@ -191,7 +191,7 @@ static void pictures_of_light_stay(void **state)
     scene_destroy(scene);
 }
 
-static void memory_runs_out(void **state)
+static void failed_allocations_are_reported(void **state)
 {
     (void)state;
     for (long at = 0;; at = next_failure(at)) {
@@ -229,12 +229,12 @@ static void memory_runs_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_only_old_materials_read_leaves),
-        cmocka_unit_test(the_report_has_what_was_there),
-        cmocka_unit_test(what_is_not_known_whole_is_fitted),
-        cmocka_unit_test(nothing_leaves_where_all_is_read),
-        cmocka_unit_test(pictures_of_light_stay),
-        cmocka_unit_test(memory_runs_out),
+        cmocka_unit_test(images_of_legacy_materials_alone_are_dropped),
+        cmocka_unit_test(the_report_renders_the_dropped_images),
+        cmocka_unit_test(materials_with_dropped_images_are_fitted),
+        cmocka_unit_test(nothing_is_dropped_where_all_is_used),
+        cmocka_unit_test(images_of_image_lights_stay),
+        cmocka_unit_test(failed_allocations_are_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

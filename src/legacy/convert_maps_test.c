@@ -60,7 +60,7 @@ static void assert_surface(const pbr_surface *found, const pbr_surface *wanted)
 
 static const uint8_t WOOD[] = {200, 150, 100, 180, 120, 80, 90, 60, 30, 250, 240, 230};
 
-/* ---- pictures that stay ---- */
+/* ---- images that stay ---- */
 
 static void a_plain_diffuse_map_stays_its_file(void **state)
 {
@@ -140,7 +140,7 @@ static void black_and_unstated_factors_are_white_with_a_map(void **state)
 
 /* ---- texel by texel ---- */
 
-static const uint8_t GLOW[] = {255, 128, 0, 10, 20, 30, 255, 255, 255, 0, 0, 0};
+static const uint8_t METAL[] = {255, 128, 0, 10, 20, 30, 255, 255, 255, 0, 0, 0};
 static const uint8_t EXPONENTS[] = {255, 100, 20, 60};
 
 static void check_blinn_phong_texels(bool has_diffuse, bool has_specular, bool has_shininess)
@@ -151,7 +151,7 @@ static void check_blinn_phong_texels(bool has_diffuse, bool has_specular, bool h
     if (has_diffuse)
         set_map(&m, LEGACY_DIFFUSE_MAP, add_texels(scene, 2, 2, 3, WOOD));
     if (has_specular)
-        set_map(&m, LEGACY_SPECULAR_MAP, add_texels(scene, 2, 2, 3, GLOW));
+        set_map(&m, LEGACY_SPECULAR_MAP, add_texels(scene, 2, 2, 3, METAL));
     if (has_shininess)
         set_map(&m, LEGACY_SHININESS_MAP, add_texels(scene, 2, 2, 1, EXPONENTS));
     scene->legacy->materials[0] = m;
@@ -161,7 +161,7 @@ static void check_blinn_phong_texels(bool has_diffuse, bool has_specular, bool h
         float specular[3];
         for (size_t k = 0; k < 3; k++) {
             diffuse[k] = m.diffuse[k] * (has_diffuse ? light_of(WOOD[i * 3 + k]) : 1.0f);
-            specular[k] = m.specular[k] * (has_specular ? light_of(GLOW[i * 3 + k]) : 1.0f);
+            specular[k] = m.specular[k] * (has_specular ? light_of(METAL[i * 3 + k]) : 1.0f);
         }
         pbr_surface wanted =
             closed(diffuse, specular, m.shininess * (has_shininess ? (float)EXPONENTS[i] / 255.0f : 1.0f));
@@ -185,7 +185,7 @@ static void the_core_profile_packs_metallic_and_roughness(void **state)
     (void)state;
     facet_scene *scene = legacy_scene(1);
     legacy_material m = shiny();
-    set_map(&m, LEGACY_SPECULAR_MAP, add_texels(scene, 2, 2, 3, GLOW));
+    set_map(&m, LEGACY_SPECULAR_MAP, add_texels(scene, 2, 2, 3, METAL));
     scene->legacy->materials[0] = m;
     convert(scene, &(facet_legacy_desc){.profile = FACET_LEGACY_PROFILE_CORE});
     assert_int_equal(scene->materials[0].extensions, 0);
@@ -196,7 +196,7 @@ static void the_core_profile_packs_metallic_and_roughness(void **state)
         pbr_surface wanted;
         memcpy(in.diffuse, m.diffuse, sizeof in.diffuse);
         for (size_t k = 0; k < 3; k++)
-            in.specular[k] = m.specular[k] * light_of(GLOW[i * 3 + k]);
+            in.specular[k] = m.specular[k] * light_of(METAL[i * 3 + k]);
         in.shininess = m.shininess;
         ogl1_to_pbr_core_closed(&in, &wanted);
         pbr_surface found = surface_at(scene, 0, i);
@@ -221,14 +221,14 @@ static void smaller_maps_are_brought_to_the_size_of_the_largest(void **state)
     set_map(&m, LEGACY_SPECULAR_MAP, add_texels(scene, 4, 4, 1, grey));
     scene->legacy->materials[0] = m;
     convert(scene, &PLAIN);
-    image base = picture_of(scene, scene->materials[0].textures[SCENE_BASE_COLOR_TEXTURE].texture);
+    image base = decode_texture(scene, scene->materials[0].textures[SCENE_BASE_COLOR_TEXTURE].texture);
     assert_int_equal(base.width, 4);
     assert_int_equal(base.height, 4);
     image_destroy(&base);
     scene_destroy(scene);
 }
 
-static void maps_that_lie_elsewhere_count_with_their_mean(void **state)
+static void maps_with_other_coordinates_are_averaged(void **state)
 {
     (void)state;
     const uint8_t halves[] = {0, 0, 255, 255};
@@ -251,10 +251,10 @@ static void places_and_samplers_are_kept(void **state)
 {
     (void)state;
     facet_scene *scene = legacy_scene(1);
-    uint32_t glow = add_texels(scene, 2, 2, 3, GLOW);
-    scene->textures[glow].wrap_u = SCENE_WRAP_CLAMP;
+    uint32_t metal = add_texels(scene, 2, 2, 3, METAL);
+    scene->textures[metal].wrap_u = SCENE_WRAP_CLAMP;
     legacy_material m = shiny();
-    set_map(&m, LEGACY_SPECULAR_MAP, glow);
+    set_map(&m, LEGACY_SPECULAR_MAP, metal);
     m.maps[LEGACY_SPECULAR_MAP].ref.offset[1] = .25f;
     scene_texture_ref_update(&m.maps[LEGACY_SPECULAR_MAP].ref);
     scene->legacy->materials[0] = m;
@@ -263,7 +263,7 @@ static void places_and_samplers_are_kept(void **state)
     assert_near(ref->offset[1], .25, 0);
     assert_true(ref->has_transform);
     assert_int_equal(scene->textures[ref->texture].wrap_u, SCENE_WRAP_CLAMP);
-    assert_string_equal(scene->images[scene->textures[ref->texture].image].name, "picture_specular");
+    assert_string_equal(scene->images[scene->textures[ref->texture].image].name, "image_specular");
     scene_destroy(scene);
 }
 
@@ -271,11 +271,11 @@ static void equal_textures_are_made_once(void **state)
 {
     (void)state;
     facet_scene *scene = legacy_scene(3);
-    uint32_t glow = add_texels(scene, 2, 2, 3, GLOW);
+    uint32_t metal = add_texels(scene, 2, 2, 3, METAL);
     for (int i = 0; i < 3; i++) {
         scene->legacy->materials[i] = shiny();
         scene->legacy->materials[i].shininess = i == 2 ? 80 : 40;
-        set_map(&scene->legacy->materials[i], LEGACY_SPECULAR_MAP, glow);
+        set_map(&scene->legacy->materials[i], LEGACY_SPECULAR_MAP, metal);
     }
     convert(scene, &PLAIN);
     const scene_material *m = scene->materials;
@@ -289,7 +289,7 @@ static void equal_textures_are_made_once(void **state)
 
 /* ---- options ---- */
 
-static void base_gain_and_channel_count(void **state)
+static void map_options_base_gain_and_channel_apply(void **state)
 {
     (void)state;
     facet_scene *scene = legacy_scene(1);
@@ -356,21 +356,21 @@ static void opacity_maps_go_into_the_base_color(void **state)
     scene_destroy(scene);
 }
 
-static void one_picture_of_color_and_opacity_stays(void **state)
+static void a_shared_image_of_color_and_opacity_stays(void **state)
 {
     (void)state;
     const uint8_t leaf[] = {10, 200, 10, 255, 20, 100, 20, 0, 30, 90, 30, 255, 40, 80, 40, 0};
     facet_scene *scene = legacy_scene(2);
-    uint32_t picture = add_texels(scene, 2, 2, 4, leaf);
+    uint32_t shared = add_texels(scene, 2, 2, 4, leaf);
     legacy_material m = shiny();
-    set_map(&m, LEGACY_DIFFUSE_MAP, picture);
+    set_map(&m, LEGACY_DIFFUSE_MAP, shared);
     scene->legacy->materials[1] = m; /* without map_d alpha is ignored */
-    set_map(&m, LEGACY_OPACITY_MAP, picture);
+    set_map(&m, LEGACY_OPACITY_MAP, shared);
     scene->legacy->materials[0] = m;
     convert(scene, &PLAIN);
-    assert_int_equal(scene->materials[0].textures[SCENE_BASE_COLOR_TEXTURE].texture, picture);
+    assert_int_equal(scene->materials[0].textures[SCENE_BASE_COLOR_TEXTURE].texture, shared);
     assert_int_equal(scene->materials[0].alpha_mode, SCENE_ALPHA_MASK);
-    assert_int_equal(scene->materials[1].textures[SCENE_BASE_COLOR_TEXTURE].texture, picture);
+    assert_int_equal(scene->materials[1].textures[SCENE_BASE_COLOR_TEXTURE].texture, shared);
     assert_int_equal(scene->materials[1].alpha_mode, SCENE_ALPHA_OPAQUE);
     assert_int_equal(scene->texture_count, 1);
     scene_destroy(scene);
@@ -387,7 +387,7 @@ static void heights_become_normals(void **state)
         for (int x = 0; x < SIZE; x++)
             ramp[y * SIZE + x] = (uint16_t)(20000 + 100 * x + 300 * y);
     facet_scene *scene = legacy_scene(1);
-    uint32_t texture = add_picture(scene, SIZE, SIZE, 1, ramp, IMAGE_U16);
+    uint32_t texture = add_image_texture(scene, SIZE, SIZE, 1, ramp, IMAGE_U16);
     scene->textures[texture].wrap_u = scene->textures[texture].wrap_v = SCENE_WRAP_CLAMP;
     legacy_material m = shiny();
     set_map(&m, LEGACY_BUMP_MAP, texture);
@@ -467,7 +467,7 @@ static void roughness_and_metallic_maps_are_packed(void **state)
     scene_destroy(scene);
 }
 
-static void rma_is_reordered(void **state)
+static void rma_maps_are_reordered(void **state)
 {
     (void)state;
     facet_scene *scene = legacy_scene(1);
@@ -486,14 +486,14 @@ static void rma_is_reordered(void **state)
     scene_destroy(scene);
 }
 
-static void obj2gltf_puts_them_into_ks_and_ns(void **state)
+static void obj2gltf_maps_are_in_ks_and_ns(void **state)
 {
     (void)state;
     const uint8_t values[] = {10, 50, 100, 200};
     facet_scene *scene = legacy_scene(1);
     legacy_material m = legacy_material_default();
     set_map(&m, LEGACY_SHININESS_MAP, add_texels(scene, 2, 2, 1, values));
-    set_map(&m, LEGACY_SPECULAR_MAP, add_texels(scene, 2, 2, 3, GLOW));
+    set_map(&m, LEGACY_SPECULAR_MAP, add_texels(scene, 2, 2, 3, METAL));
     scene->legacy->materials[0] = m;
     convert(scene, &(facet_legacy_desc){.dialect = FACET_MTL_DIALECT_OBJ2GLTF_MR});
     uint8_t t[4];
@@ -530,7 +530,7 @@ static void ambient_maps_become_occlusion(void **state)
 
 /* ---- rgl ---- */
 
-static void rgl_modes(void **state)
+static void rgl_texture_modes_are_converted(void **state)
 {
     (void)state;
     const uint8_t texels[] = {200, 100, 0, 128, 10, 20, 30, 255, 255, 255, 255, 0, 0, 0, 0, 255};
@@ -571,13 +571,13 @@ static void rgl_modes(void **state)
     scene_destroy(scene);
 }
 
-static void rgl_lays_textures_over_highlights(void **state)
+static void rgl_textures_modulate_highlights(void **state)
 {
     (void)state;
     facet_scene *scene = legacy_scene(1);
     scene->legacy->is_rgl = true;
     scene->legacy->materials[0] = shiny();
-    set_map(&scene->legacy->materials[0], LEGACY_DIFFUSE_MAP, add_texels(scene, 2, 2, 3, GLOW));
+    set_map(&scene->legacy->materials[0], LEGACY_DIFFUSE_MAP, add_texels(scene, 2, 2, 3, METAL));
     convert(scene, &PLAIN);
     assert_false(has_warning(scene, 0, "ks-map-used-as-specular"));
     pbr_surface s = surface_at(scene, 0, 3); /* a black texel shows no highlight */
@@ -606,9 +606,9 @@ static void vertex_colors_replace_rgls(void **state)
     }
 }
 
-/* ---- broken pictures ---- */
+/* ---- broken images ---- */
 
-static void broken_pictures_count_as_absent(void **state)
+static void broken_images_count_as_absent(void **state)
 {
     (void)state;
     facet_scene *scene = legacy_scene(1);
@@ -634,22 +634,22 @@ int main(void)
         cmocka_unit_test(specular_and_shininess_maps_are_converted_by_texel),
         cmocka_unit_test(the_core_profile_packs_metallic_and_roughness),
         cmocka_unit_test(smaller_maps_are_brought_to_the_size_of_the_largest),
-        cmocka_unit_test(maps_that_lie_elsewhere_count_with_their_mean),
+        cmocka_unit_test(maps_with_other_coordinates_are_averaged),
         cmocka_unit_test(places_and_samplers_are_kept),
         cmocka_unit_test(equal_textures_are_made_once),
-        cmocka_unit_test(base_gain_and_channel_count),
+        cmocka_unit_test(map_options_base_gain_and_channel_apply),
         cmocka_unit_test(opacity_maps_go_into_the_base_color),
-        cmocka_unit_test(one_picture_of_color_and_opacity_stays),
+        cmocka_unit_test(a_shared_image_of_color_and_opacity_stays),
         cmocka_unit_test(heights_become_normals),
         cmocka_unit_test(normals_under_bump_are_found),
         cmocka_unit_test(roughness_and_metallic_maps_are_packed),
-        cmocka_unit_test(rma_is_reordered),
-        cmocka_unit_test(obj2gltf_puts_them_into_ks_and_ns),
+        cmocka_unit_test(rma_maps_are_reordered),
+        cmocka_unit_test(obj2gltf_maps_are_in_ks_and_ns),
         cmocka_unit_test(ambient_maps_become_occlusion),
-        cmocka_unit_test(rgl_modes),
-        cmocka_unit_test(rgl_lays_textures_over_highlights),
+        cmocka_unit_test(rgl_texture_modes_are_converted),
+        cmocka_unit_test(rgl_textures_modulate_highlights),
         cmocka_unit_test(vertex_colors_replace_rgls),
-        cmocka_unit_test(broken_pictures_count_as_absent),
+        cmocka_unit_test(broken_images_count_as_absent),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -57,7 +57,7 @@ static float reflectance(const facet_scene *scene, int k)
     return m->specular * m->specular_color[k];
 }
 
-static void what_a_mirror_leaves_is_diffuse(void **state)
+static void light_that_a_mirror_does_not_reflect_is_diffuse(void **state)
 {
     (void)state;
     legacy_material in = mirror();
@@ -83,7 +83,7 @@ static void what_a_mirror_leaves_is_diffuse(void **state)
 }
 
 /* No surface reflects more than it receives: the color is reduced, its hue kept. */
-static void more_than_all_light_is_not_reflected(void **state)
+static void reflectances_sum_to_at_most_one(void **state)
 {
     (void)state;
     legacy_material in = mirror();
@@ -124,7 +124,7 @@ static void large_exponents_are_smooth(void **state)
     }
 }
 
-static void mirrors_without_extensions(void **state)
+static void mirrors_without_extensions_are_approximated(void **state)
 {
     (void)state;
     legacy_material in = mirror();
@@ -142,7 +142,7 @@ static void mirrors_without_extensions(void **state)
     scene_destroy(scene);
 }
 
-static void maps_of_mirrors(void **state)
+static void maps_of_mirrors_are_converted(void **state)
 {
     (void)state;
     static const uint8_t texels[] = {200, 150, 100, 180, 120, 80, 90, 60, 30, 250, 240, 230};
@@ -164,7 +164,7 @@ static void maps_of_mirrors(void **state)
 }
 
 /* Always in the report; logged if it is visible. */
-static void ignored_mirrors_are_told(void **state)
+static void ignored_mirrors_are_reported(void **state)
 {
     (void)state;
     const struct {
@@ -203,12 +203,12 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_mirror_without_color_is_a_metal),
-        cmocka_unit_test(what_a_mirror_leaves_is_diffuse),
-        cmocka_unit_test(more_than_all_light_is_not_reflected),
+        cmocka_unit_test(light_that_a_mirror_does_not_reflect_is_diffuse),
+        cmocka_unit_test(reflectances_sum_to_at_most_one),
         cmocka_unit_test(large_exponents_are_smooth),
-        cmocka_unit_test(mirrors_without_extensions),
-        cmocka_unit_test(maps_of_mirrors),
-        cmocka_unit_test(ignored_mirrors_are_told),
+        cmocka_unit_test(mirrors_without_extensions_are_approximated),
+        cmocka_unit_test(maps_of_mirrors_are_converted),
+        cmocka_unit_test(ignored_mirrors_are_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -142,7 +142,7 @@ static void colors_are_srgb_or_linear(void **state)
     scene_destroy(unsaid);
 }
 
-static void remarks_of_the_fit_are_told(void **state)
+static void remarks_of_the_fit_are_reported(void **state)
 {
     (void)state;
     legacy_material m = gold();
@@ -232,7 +232,7 @@ static void opacity_becomes_alpha(void **state)
 }
 
 /* Two primitives; the second one has no material, the same, or one of another opacity. */
-static void opacity_0_of_all_that_is_drawn_counts_as_1(void **state)
+static void opacity_0_of_all_drawn_materials_counts_as_1(void **state)
 {
     (void)state;
     static const struct {
@@ -261,7 +261,7 @@ static void opacity_0_of_all_that_is_drawn_counts_as_1(void **state)
     }
 }
 
-static void glass_becomes_transmission_where_asked_for(void **state)
+static void glass_becomes_transmission_on_request(void **state)
 {
     (void)state;
     const facet_legacy_desc glass = {.has_glass = true};
@@ -306,7 +306,7 @@ static void glass_becomes_transmission_where_asked_for(void **state)
 
 /* ---- illum, lit, sides ---- */
 
-static void illum_counts_where_nothing_speaks_against_it(void **state)
+static void illum_is_honored_unless_contradicted(void **state)
 {
     (void)state;
     legacy_material m = gold();
@@ -346,7 +346,7 @@ static void illum_counts_where_nothing_speaks_against_it(void **state)
     scene_destroy(scene);
 }
 
-static void what_is_not_lit_is_unlit(void **state)
+static void materials_without_lighting_are_unlit(void **state)
 {
     (void)state;
     legacy_material m = gold();
@@ -448,7 +448,7 @@ static void dialects_put_roughness_elsewhere(void **state)
 
 /* A highlight over the whole surface is ignored in every dialect, except with the literal format;
  * Blender's newer exporters and obj2gltf have a roughness there. */
-static void widest_highlights_are_left_out(void **state)
+static void widest_highlights_are_dropped(void **state)
 {
     (void)state;
     static const facet_mtl_dialect dialects[] = {FACET_MTL_DIALECT_AUTO,       FACET_MTL_DIALECT_SPEC,
@@ -482,7 +482,7 @@ static void widest_highlights_are_left_out(void **state)
         }
 }
 
-static void guessed_dialects_are_told(void **state)
+static void guessed_dialects_are_reported(void **state)
 {
     (void)state;
     facet_scene *scene = legacy_scene(1);
@@ -500,7 +500,7 @@ static void guessed_dialects_are_told(void **state)
 
 /* ---- what has no counterpart ---- */
 
-static void losses_are_told_and_kept(void **state)
+static void losses_are_reported_and_kept_in_extras(void **state)
 {
     (void)state;
     legacy_material m = gold();
@@ -548,7 +548,7 @@ static void losses_are_told_and_kept(void **state)
     scene_destroy(scene);
 }
 
-static void restored_materials_are_left_alone(void **state)
+static void restored_materials_are_unchanged(void **state)
 {
     (void)state;
     facet_scene *scene = legacy_scene(1);
@@ -565,7 +565,7 @@ static void restored_materials_are_left_alone(void **state)
 }
 
 /* Notes of every conversion are in the report only; a loss is reported once for all materials. */
-static void the_log_is_short(void **state)
+static void the_log_has_one_line_per_code(void **state)
 {
     (void)state;
     captured_messages log = {0};
@@ -596,21 +596,21 @@ int main(void)
         cmocka_unit_test(fit_and_core_are_options),
         cmocka_unit_test(black_becomes_the_darkest_of_the_core),
         cmocka_unit_test(colors_are_srgb_or_linear),
-        cmocka_unit_test(remarks_of_the_fit_are_told),
+        cmocka_unit_test(remarks_of_the_fit_are_reported),
         cmocka_unit_test(emission_above_one_becomes_strength),
         cmocka_unit_test(ambient_is_dropped_or_emitted),
         cmocka_unit_test(opacity_becomes_alpha),
-        cmocka_unit_test(opacity_0_of_all_that_is_drawn_counts_as_1),
-        cmocka_unit_test(glass_becomes_transmission_where_asked_for),
-        cmocka_unit_test(illum_counts_where_nothing_speaks_against_it),
-        cmocka_unit_test(what_is_not_lit_is_unlit),
+        cmocka_unit_test(opacity_0_of_all_drawn_materials_counts_as_1),
+        cmocka_unit_test(glass_becomes_transmission_on_request),
+        cmocka_unit_test(illum_is_honored_unless_contradicted),
+        cmocka_unit_test(materials_without_lighting_are_unlit),
         cmocka_unit_test(pbr_statements_win),
         cmocka_unit_test(dialects_put_roughness_elsewhere),
-        cmocka_unit_test(widest_highlights_are_left_out),
-        cmocka_unit_test(guessed_dialects_are_told),
-        cmocka_unit_test(losses_are_told_and_kept),
-        cmocka_unit_test(restored_materials_are_left_alone),
-        cmocka_unit_test(the_log_is_short),
+        cmocka_unit_test(widest_highlights_are_dropped),
+        cmocka_unit_test(guessed_dialects_are_reported),
+        cmocka_unit_test(losses_are_reported_and_kept_in_extras),
+        cmocka_unit_test(restored_materials_are_unchanged),
+        cmocka_unit_test(the_log_has_one_line_per_code),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

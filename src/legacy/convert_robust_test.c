@@ -58,7 +58,7 @@ static bool same_bytes(const facet_scene *a, const facet_scene *b)
     return is_same;
 }
 
-static void threads_do_not_change_a_bit(void **state)
+static void results_do_not_depend_on_threads(void **state)
 {
     (void)state;
     facet_scene *scenes[2];
@@ -116,7 +116,7 @@ static void run_out(facet_material_model to, bool is_legacy, const facet_legacy_
     }
 }
 
-static void memory_runs_out(void **state)
+static void failed_allocations_are_reported(void **state)
 {
     (void)state;
     run_out(FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS, true, &(facet_legacy_desc){0});
@@ -153,7 +153,7 @@ static void equal_materials_are_solved_once(void **state)
     scene_destroy(scene);
 }
 
-static void many_different_materials(void **state)
+static void many_different_materials_are_solved(void **state)
 {
     (void)state;
     enum { COUNT = IS_SLOW ? 300 : 3000 };
@@ -175,10 +175,10 @@ static void many_different_materials(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(threads_do_not_change_a_bit),
-        cmocka_unit_test(memory_runs_out),
+        cmocka_unit_test(results_do_not_depend_on_threads),
+        cmocka_unit_test(failed_allocations_are_reported),
         cmocka_unit_test(equal_materials_are_solved_once),
-        cmocka_unit_test(many_different_materials),
+        cmocka_unit_test(many_different_materials_are_solved),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -67,22 +67,22 @@ static inline facet_scene *gltf_scene(uint32_t count)
 }
 
 /* A texture of those texels as a PNG. SCENE_NONE: out of memory. */
-static inline uint32_t add_picture(facet_scene *scene, uint32_t width, uint32_t height, uint32_t channels,
-                                   const void *texels, image_type type)
+static inline uint32_t add_image_texture(facet_scene *scene, uint32_t width, uint32_t height,
+                                         uint32_t channels, const void *texels, image_type type)
 {
-    image picture = {
+    image decoded = {
         .width = width, .height = height, .channel_count = channels, .type = type, .is_srgb = true};
     size_t size = (size_t)width * height * channels * image_type_size(type);
     unsigned char *bytes = NULL;
     size_t byte_count = 0;
-    picture.pixels = mem_alloc(NULL, size, 1);
-    assert_non_null(picture.pixels);
-    memcpy(picture.pixels, texels, size);
+    decoded.pixels = mem_alloc(NULL, size, 1);
+    assert_non_null(decoded.pixels);
+    memcpy(decoded.pixels, texels, size);
     assert_int_equal(
-        image_encode(&picture, IMAGE_CODEC_PNG, &(image_encode_desc){0}, &bytes, &byte_count, NULL),
+        image_encode(&decoded, IMAGE_CODEC_PNG, &(image_encode_desc){0}, &bytes, &byte_count, NULL),
         FACET_OK);
     unsigned char *kept = arena_alloc(scene->arena, byte_count, 1);
-    image_destroy(&picture);
+    image_destroy(&decoded);
     if (kept)
         memcpy(kept, bytes, byte_count);
     mem_free(bytes);
@@ -90,7 +90,7 @@ static inline uint32_t add_picture(facet_scene *scene, uint32_t width, uint32_t 
         return SCENE_NONE;
     assert_true(scene->image_count < TEST_MAX);
     scene->images[scene->image_count] =
-        (scene_image){.name = "picture.png", .mime_type = "image/png", .bytes = kept, .size = byte_count};
+        (scene_image){.name = "image.png", .mime_type = "image/png", .bytes = kept, .size = byte_count};
     scene->textures[scene->texture_count] = (scene_texture){.name = "", .image = scene->image_count++};
     return scene->texture_count++;
 }
@@ -98,13 +98,13 @@ static inline uint32_t add_picture(facet_scene *scene, uint32_t width, uint32_t 
 static inline uint32_t add_texels(facet_scene *scene, uint32_t width, uint32_t height, uint32_t channels,
                                   const uint8_t *texels)
 {
-    return add_picture(scene, width, height, channels, texels, IMAGE_U8);
+    return add_image_texture(scene, width, height, channels, texels, IMAGE_U8);
 }
 
 static inline void set_map(legacy_material *m, legacy_map_slot slot, uint32_t texture)
 {
     m->maps[slot].ref.texture = texture;
-    m->maps[slot].path = "picture.png";
+    m->maps[slot].path = "image.png";
 }
 
 static inline void set_color(float out[3], float r, float g, float b)
@@ -143,7 +143,7 @@ static inline bool has_warning(const facet_scene *scene, uint32_t material, cons
 }
 
 /* A scene's texture as RGBA of 8 bits; the caller destroys it. */
-static inline image picture_of(const facet_scene *scene, uint32_t texture)
+static inline image decode_texture(const facet_scene *scene, uint32_t texture)
 {
     image raw;
     image out;
@@ -160,10 +160,10 @@ static inline image picture_of(const facet_scene *scene, uint32_t texture)
 /* Texel number i of a texture, as codes. */
 static inline void texel_at(const facet_scene *scene, uint32_t texture, size_t i, uint8_t out[4])
 {
-    image picture = picture_of(scene, texture);
-    assert_true(i < (size_t)picture.width * picture.height);
-    memcpy(out, (const uint8_t *)picture.pixels + i * 4, 4);
-    image_destroy(&picture);
+    image decoded = decode_texture(scene, texture);
+    assert_true(i < (size_t)decoded.width * decoded.height);
+    memcpy(out, (const uint8_t *)decoded.pixels + i * 4, 4);
+    image_destroy(&decoded);
 }
 
 static inline float light_of(uint8_t code)

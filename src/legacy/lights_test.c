@@ -85,7 +85,7 @@ static void directional_lights_are_pi_times_their_color(void **state)
     scene_destroy(scene);
 }
 
-static void point_lights_are_right_at_the_middle(void **state)
+static void point_lights_are_exact_at_the_center(void **state)
 {
     (void)state;
     facet_scene *scene = stage(1);
@@ -124,7 +124,7 @@ static void lights_of_the_viewer_are_placed_for_the_default_camera(void **state)
     scene_destroy(scene);
 }
 
-static void there_and_back(void **state)
+static void lights_round_trip(void **state)
 {
     (void)state;
     facet_scene *scene = stage(2);
@@ -154,9 +154,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(directional_lights_are_pi_times_their_color),
-        cmocka_unit_test(point_lights_are_right_at_the_middle),
+        cmocka_unit_test(point_lights_are_exact_at_the_center),
         cmocka_unit_test(lights_of_the_viewer_are_placed_for_the_default_camera),
-        cmocka_unit_test(there_and_back),
+        cmocka_unit_test(lights_round_trip),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

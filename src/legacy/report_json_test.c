@@ -36,7 +36,7 @@ static legacy_material of(const char *name, float diffuse, float specular, float
     return m;
 }
 
-static void worst_first_with_a_summary(void **state)
+static void materials_are_listed_worst_first(void **state)
 {
     (void)state;
     facet_scene *scene = legacy_scene(4);
@@ -99,7 +99,7 @@ static void worst_first_with_a_summary(void **state)
     scene_destroy(scene);
 }
 
-static void the_other_directions(void **state)
+static void the_other_directions_are_reported(void **state)
 {
     (void)state;
     facet_scene *scene = gltf_scene(1);
@@ -126,7 +126,7 @@ static void the_other_directions(void **state)
     scene_destroy(scene);
 }
 
-static void no_materials(void **state)
+static void scenes_without_materials_are_reported(void **state)
 {
     (void)state;
     facet_scene *scene = legacy_scene(0);
@@ -142,9 +142,9 @@ static void no_materials(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(worst_first_with_a_summary),
-        cmocka_unit_test(the_other_directions),
-        cmocka_unit_test(no_materials),
+        cmocka_unit_test(materials_are_listed_worst_first),
+        cmocka_unit_test(the_other_directions_are_reported),
+        cmocka_unit_test(scenes_without_materials_are_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

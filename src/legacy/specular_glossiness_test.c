@@ -97,7 +97,7 @@ static void the_core_follows_the_sample_code(void **state)
     assert_color(base, .9f, .7f, .3f, .02);
 }
 
-static void the_core_tells_its_error(void **state)
+static void core_materials_report_their_error(void **state)
 {
     (void)state;
     facet_scene *scene = gltf_scene(2);
@@ -165,7 +165,7 @@ static void metals_and_dielectrics_are_exact(void **state)
     }
 }
 
-static void what_is_not_exact_is_told(void **state)
+static void inexact_conversions_are_reported(void **state)
 {
     (void)state;
     facet_scene *scene = gltf_scene(3);
@@ -189,7 +189,7 @@ static void what_is_not_exact_is_told(void **state)
     scene_destroy(scene);
 }
 
-static void there_and_back_with_textures(void **state)
+static void textures_round_trip(void **state)
 {
     (void)state;
     const uint8_t packed[] = {0, 100, 255, 0, 150, 0, 0, 200, 255, 0, 250, 0};
@@ -256,11 +256,11 @@ int main(void)
         cmocka_unit_test(specular_and_ior_lose_nothing),
         cmocka_unit_test(textures_are_reused_or_inverted),
         cmocka_unit_test(the_core_follows_the_sample_code),
-        cmocka_unit_test(the_core_tells_its_error),
+        cmocka_unit_test(core_materials_report_their_error),
         cmocka_unit_test(the_core_bakes_textures),
         cmocka_unit_test(metals_and_dielectrics_are_exact),
-        cmocka_unit_test(what_is_not_exact_is_told),
-        cmocka_unit_test(there_and_back_with_textures),
+        cmocka_unit_test(inexact_conversions_are_reported),
+        cmocka_unit_test(textures_round_trip),
         cmocka_unit_test(the_error_is_that_of_a_plain_grid),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -177,7 +177,7 @@ static void bakes_are_shared_and_sized(void **state)
     scene_destroy(scene);
 }
 
-static void resizing_wraps(void **state)
+static void resizing_wraps_as_the_sampler_does(void **state)
 {
     (void)state;
     const uint8_t pair[] = {0, 200};
@@ -236,7 +236,7 @@ int main(void)
         cmocka_unit_test(statistics_count_codes),
         cmocka_unit_test(large_images_are_counted_in_little_memory),
         cmocka_unit_test(bakes_are_shared_and_sized),
-        cmocka_unit_test(resizing_wraps),
+        cmocka_unit_test(resizing_wraps_as_the_sampler_does),
         cmocka_unit_test(flat_heights_point_up_and_edges_wrap),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

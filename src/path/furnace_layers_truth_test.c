@@ -20,7 +20,7 @@ typedef enum layer_kind {
     THIN_WALL,
     LEAF,
     HALF_METAL,
-    BODY,
+    VOLUME,
     LAYER_KINDS
 } layer_kind;
 
@@ -60,7 +60,7 @@ static void add_layer(scene_material *m, layer_kind kind, float amount)
     case HALF_METAL:
         m->metallic = 0.5f;
         return;
-    case BODY:
+    case VOLUME:
         m->extensions |= SCENE_TRANSMISSION | SCENE_VOLUME | SCENE_IOR;
         m->transmission = 1.0f;
         m->thickness = 1.0f;
@@ -76,11 +76,11 @@ static void add_layer(scene_material *m, layer_kind kind, float amount)
  * from all, rough closed volumes lose energy. */
 static bool is_lossless(uint32_t layers)
 {
-    return (layers & (1u << GRAIN | 1u << FILM | 1u << SHEEN | 1u << BODY)) == 0;
+    return (layers & (1u << GRAIN | 1u << FILM | 1u << SHEEN | 1u << VOLUME)) == 0;
 }
 
 /* All sets of one to three layers, a roughness and a view each. */
-static void layers_never_gain(void **state)
+static void layers_never_gain_energy(void **state)
 {
     (void)state;
     static const float roughness[] = {0.2f, 0.5f, 0.9f};
@@ -97,11 +97,11 @@ static void layers_never_gain(void **state)
         for (int kind = 0; kind < LAYER_KINDS; kind++)
             if (layers >> kind & 1u)
                 add_layer(&m, (layer_kind)kind, 0.3f + 0.2f * (float)(number % 3));
-        truth_value v = layers >> BODY & 1u ? truth_furnace_body(m, polar)
-                                            : truth_furnace(m, polar, FACET_ENERGY_CONSERVING);
+        truth_value v = layers >> VOLUME & 1u ? truth_furnace_volume(m, polar)
+                                              : truth_furnace(m, polar, FACET_ENERGY_CONSERVING);
         for (int c = 0; c < 3; c++)
             highest = fmax(highest, v.mean[c]);
-        double tables = layers >> BODY & 1u ? 2.0 * TRUTH_TABLES : TRUTH_TABLES;
+        double tables = layers >> VOLUME & 1u ? 2.0 * TRUTH_TABLES : TRUTH_TABLES;
         truth_assert_at_most(&v, 1.0 + tables, "layers 0x%x, roughness %g, %g degrees", layers, (double)r,
                              polar);
         if (is_lossless(layers)) {
@@ -117,6 +117,6 @@ static void layers_never_gain(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(layers_never_gain)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(layers_never_gain_energy)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -50,7 +50,7 @@ static void dielectric_is_white_at_every_roughness(void **state)
 
 /* The mixes of glTF's text lose with roughness and gain at grazing views; by how much is known from
  * quadrature to 9 digits, for a white dielectric and for a metal of reflectance 1 (A + B). */
-static void gltf_mode_returns_what_quadrature_says(void **state)
+static void gltf_mode_agrees_with_quadrature(void **state)
 {
     (void)state;
     static const struct {
@@ -96,19 +96,19 @@ static void thin_walls_and_leaves_are_white(void **state)
 
 /* ---- closed volumes ---- */
 
-static void smooth_bodies_are_white(void **state)
+static void smooth_volumes_are_white(void **state)
 {
     (void)state;
     static const float iors[] = {1.0f, 1.33f, 1.5f, 2.42f};
     for (int n = 0; n < 4; n++)
         for (int i = 0; i < VIEW_COUNT; i++)
-            truth_assert_white(truth_furnace_body(truth_glass(iors[n], 0.0f), VIEWS[i]), 0.0, "body",
+            truth_assert_white(truth_furnace_volume(truth_glass(iors[n], 0.0f), VIEWS[i]), 0.0, "body",
                                (double)iors[n], VIEWS[i]);
 }
 
 /* A rough boundary returns the energy of multiple microfacet scattering to both sides: the volume loses
  * none, by tables at each of the boundaries that light crosses, two at least. */
-static void rough_bodies_are_white(void **state)
+static void rough_volumes_are_white(void **state)
 {
     (void)state;
     static const float iors[] = {1.33f, 1.5f, 2.42f};
@@ -116,7 +116,7 @@ static void rough_bodies_are_white(void **state)
     for (int n = 0; n < 3; n++)
         for (int r = 0; r < 3; r++) {
             double polar = VIEWS[(n + r) % VIEW_COUNT];
-            truth_value v = truth_furnace_body(truth_glass(iors[n], roughness[r]), polar);
+            truth_value v = truth_furnace_volume(truth_glass(iors[n], roughness[r]), polar);
             print_message("ior %g, roughness %g, %g degrees: %.6f +- %.2g\n", (double)iors[n],
                           (double)roughness[r], polar, v.mean[0], v.error[0]);
             if (n == 2 && r == 2) {
@@ -136,10 +136,10 @@ int main(void)
         cmocka_unit_test(diffuse_is_white),
         cmocka_unit_test(metal_is_white_at_every_roughness),
         cmocka_unit_test(dielectric_is_white_at_every_roughness),
-        cmocka_unit_test(gltf_mode_returns_what_quadrature_says),
+        cmocka_unit_test(gltf_mode_agrees_with_quadrature),
         cmocka_unit_test(thin_walls_and_leaves_are_white),
-        cmocka_unit_test(smooth_bodies_are_white),
-        cmocka_unit_test(rough_bodies_are_white),
+        cmocka_unit_test(smooth_volumes_are_white),
+        cmocka_unit_test(rough_volumes_are_white),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -45,7 +45,7 @@ static fixture slab_of(scene_material material, double polar, float s)
     fixture f = truth_create();
     truth_set_sky(&f, 64, truth_sky_halves);
     truth_add_box(&f, fixture_add_material(&f, material), 0.0f, s, 0.5f, s);
-    truth_look(&f, polar, 0.0f, 0.0f, 0.1f);
+    truth_set_camera(&f, polar, 0.0f, 0.0f, 0.1f);
     f.desc.samples = 256;
     return f;
 }
@@ -68,7 +68,7 @@ static void check_slab(fixture *f, stack expected, const char *what, double angl
 /* ---- slabs ---- */
 
 /* R = 2 F / (1 + F), T = (1 - F) / (1 + F). */
-static void a_slab_of_clear_glass(void **state)
+static void a_slab_of_clear_glass_is_exact(void **state)
 {
     (void)state;
     static const double iors[] = {1.33, 1.5, 2.42};
@@ -84,7 +84,7 @@ static void a_slab_of_clear_glass(void **state)
 }
 
 /* Each pass leaves t = exp(-sigma d / cos'): T = (1 - F)^2 t / (1 - F^2 t^2), R = F + F t T. */
-static void a_slab_that_absorbs(void **state)
+static void an_absorbing_slab_is_exact(void **state)
 {
     (void)state;
     static const double angles[] = {0.0, 45.0, 70.0};
@@ -158,7 +158,7 @@ static void a_glass_ball_in_a_furnace(void **state)
                 fixture_place(&f, fixture_add_sphere(&f, 128, glass), 0.0f, 0.0f, 0.0f, 1.0f);
             else
                 truth_add_flat_sphere(&f, glass, 64, 0.0f, 1.0f);
-            truth_look(&f, 60.0, 0.0f, 0.0f, 2.2f);
+            truth_set_camera(&f, 60.0, 0.0f, 0.0f, 2.2f);
             f.desc.width = f.desc.height = 16;
             f.desc.samples = 16;
             /* Total reflection keeps some light in a ball of flat triangles for long: of ior 2.42, 1.3 %
@@ -192,7 +192,7 @@ static void a_slab_in_a_slab(void **state)
 }
 
 /* A volume of the same index inside changes nothing, nor does one that overlaps. */
-static void bodies_of_one_index_are_one(void **state)
+static void volumes_of_equal_index_are_one(void **state)
 {
     (void)state;
     for (int is_overlapping = 0; is_overlapping < 2; is_overlapping++) {
@@ -281,7 +281,7 @@ static void a_thin_wall(void **state)
         fixture f = truth_create();
         truth_set_sky(&f, 64, truth_sky_halves);
         truth_add_floor(&f, fixture_add_material(&f, m), 0.0f, 100.0f);
-        truth_look(&f, angle, 0.0f, 0.0f, 0.1f);
+        truth_set_camera(&f, angle, 0.0f, 0.0f, 0.1f);
         f.desc.samples = 256;
         double F = truth_fresnel(cos(truth_radians(angle)), 1.5);
         check_slab(&f, (stack){.R = F, .T = 0.5 * (1.0 - F)}, "thin wall", angle);
@@ -302,7 +302,7 @@ static void a_leaf(void **state)
         fixture f = truth_create();
         truth_set_sky(&f, 512, truth_sky_halves);
         truth_add_floor(&f, fixture_add_material(&f, m), 0.0f, 1000.0f);
-        truth_look(&f, is_below ? 150.0 : 30.0, 0.0f, 0.0f, 0.1f);
+        truth_set_camera(&f, is_below ? 150.0 : 30.0, 0.0f, 0.0f, 0.1f);
         f.desc.samples = 1024;
         truth_value v = truth_measure(&f, 16);
         truth_assert_channel(&v, is_below, 0.75 * 0.6, "leaf, its own side");
@@ -314,14 +314,14 @@ static void a_leaf(void **state)
 
 /* ---- mirrors ---- */
 
-static void a_mirror_shows_the_sky(void **state)
+static void a_mirror_reflects_the_sky(void **state)
 {
     (void)state;
     for (int angle = 0; angle <= 80; angle += 40) {
         fixture f = truth_create();
         truth_set_constant_sky(&f, 1.0f, 2.0f, 4.0f);
         truth_add_floor(&f, fixture_add_material(&f, truth_metal(0.9f, 0.5f, 0.2f, 0.0f)), 0.0f, 10.0f);
-        truth_look(&f, angle, 0.0f, 0.0f, 0.1f);
+        truth_set_camera(&f, angle, 0.0f, 0.0f, 0.1f);
         truth_value v = truth_measure_pixels(&f);
         double cosine = cos(truth_radians(angle));
         truth_assert_channel(&v, 0, truth_schlick((double)0.9f, cosine), "mirror at %d degrees", angle);
@@ -333,7 +333,7 @@ static void a_mirror_shows_the_sky(void **state)
 }
 
 /* The emitter's radiance, whichever way light is sampled. */
-static void a_mirror_shows_a_light(void **state)
+static void a_mirror_reflects_an_area_light(void **state)
 {
     (void)state;
     for (int strategy = 0; strategy < 3; strategy++) {
@@ -341,7 +341,7 @@ static void a_mirror_shows_a_light(void **state)
         f.desc.path.light_sampling = (facet_light_sampling)strategy;
         truth_add_floor(&f, fixture_add_material(&f, truth_metal(0.8f, 0.8f, 0.8f, 0.0f)), 0.0f, 10.0f);
         truth_add_ceiling(&f, fixture_add_material(&f, truth_emitter(50.0f)), 2.0f, 6.0f);
-        truth_look(&f, 60.0, 0.0f, 0.0f, 0.1f);
+        truth_set_camera(&f, 60.0, 0.0f, 0.0f, 0.1f);
         /* Nearer, below the light. */
         f.camera.eye[0] = 1.5f;
         f.camera.eye[1] = (float)(1.5 / tan(truth_radians(60.0)));
@@ -381,7 +381,7 @@ static void facing_mirrors(void **state)
 /* In a room whose walls emit 1 - rho and reflect rho the radiance is 1 everywhere; glass and mirrors,
  * which absorb nothing, do not change that: the light that they remove from one place arrives at another,
  * by paths that only BSDF sampling finds. */
-static void lossless_bodies_in_a_closed_room(void **state)
+static void lossless_volumes_keep_the_energy_of_a_closed_room(void **state)
 {
     (void)state;
     for (int strategy = 0; strategy < 3; strategy++) {
@@ -453,21 +453,21 @@ static void light_through_a_slab_on_a_floor(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_slab_of_clear_glass),
-        cmocka_unit_test(a_slab_that_absorbs),
+        cmocka_unit_test(a_slab_of_clear_glass_is_exact),
+        cmocka_unit_test(an_absorbing_slab_is_exact),
         cmocka_unit_test(a_colored_slab),
         cmocka_unit_test(a_medium_without_a_boundary),
         cmocka_unit_test(a_glass_ball_in_a_furnace),
         cmocka_unit_test(a_slab_in_a_slab),
-        cmocka_unit_test(bodies_of_one_index_are_one),
+        cmocka_unit_test(volumes_of_equal_index_are_one),
         cmocka_unit_test(overlap_is_the_same_from_both_sides),
         cmocka_unit_test(a_rough_boundary_reflects),
         cmocka_unit_test(a_thin_wall),
         cmocka_unit_test(a_leaf),
-        cmocka_unit_test(a_mirror_shows_the_sky),
-        cmocka_unit_test(a_mirror_shows_a_light),
+        cmocka_unit_test(a_mirror_reflects_the_sky),
+        cmocka_unit_test(a_mirror_reflects_an_area_light),
         cmocka_unit_test(facing_mirrors),
-        cmocka_unit_test(lossless_bodies_in_a_closed_room),
+        cmocka_unit_test(lossless_volumes_keep_the_energy_of_a_closed_room),
         cmocka_unit_test(light_through_a_slab_on_a_floor),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

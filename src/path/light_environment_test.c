@@ -24,35 +24,35 @@ static double random_number(void)
 
 /* ---- images ---- */
 
-static image make_picture(uint32_t width, uint32_t height)
+static image make_map(uint32_t width, uint32_t height)
 {
-    image picture;
-    assert_int_equal(image_create(NULL, width, height, 3, IMAGE_F32, &picture, NULL), FACET_OK);
-    memset(picture.pixels, 0, (size_t)width * height * 3 * sizeof(float));
-    return picture;
+    image map;
+    assert_int_equal(image_create(NULL, width, height, 3, IMAGE_F32, &map, NULL), FACET_OK);
+    memset(map.pixels, 0, (size_t)width * height * 3 * sizeof(float));
+    return map;
 }
 
-static float *texel(image *picture, uint32_t x, uint32_t y)
+static float *texel(image *map, uint32_t x, uint32_t y)
 {
-    return (float *)picture->pixels + 3 * ((size_t)picture->width * y + x);
+    return (float *)map->pixels + 3 * ((size_t)map->width * y + x);
 }
 
 /* Smooth, with bright_count bright texels and a black part. */
 static image make_sky(uint32_t width, uint32_t height, int bright_count)
 {
-    image picture = make_picture(width, height);
+    image map = make_map(width, height);
     for (uint32_t y = 0; y < height; y++)
         for (uint32_t x = 0; x < width; x++)
             for (int c = 0; c < 3; c++) {
                 double v = (y + 0.5) / height;
                 double u = (x + 0.5) / width;
-                texel(&picture, x, y)[c] =
+                texel(&map, x, y)[c] =
                     v < 0.7 ? (float)(0.2 + 0.1 * c + (1.0 - v) * (1.0 + cos(2.0 * pi * u))) : 0.0f;
             }
     for (int i = 0; i < bright_count; i++)
-        texel(&picture, (uint32_t)(random_number() * width), (uint32_t)(random_number() * height))[i % 3] +=
+        texel(&map, (uint32_t)(random_number() * width), (uint32_t)(random_number() * height))[i % 3] +=
             (float)(30.0 * random_number());
-    return picture;
+    return map;
 }
 
 static light_setup placed(float rotation_rad, float scale)
@@ -61,11 +61,11 @@ static light_setup placed(float rotation_rad, float scale)
         .scale = scale, .rotation_cos = cosf(rotation_rad), .rotation_sin = sinf(rotation_rad)};
 }
 
-static light_environment *make_environment(const image *picture, float rotation_rad, float scale)
+static light_environment *make_environment(const image *map, float rotation_rad, float scale)
 {
     light_setup light = placed(rotation_rad, scale);
     light_environment *e;
-    assert_int_equal(light_environment_create(picture, &light, NULL, 2, &e, NULL), FACET_OK);
+    assert_int_equal(light_environment_create(map, &light, NULL, 2, &e, NULL), FACET_OK);
     return e;
 }
 
@@ -92,10 +92,10 @@ static void a_constant_is_exact(void **state)
     (void)state;
     static const uint32_t sizes[5][2] = {{1, 1}, {2, 1}, {7, 5}, {64, 32}, {1000, 500}};
     for (int i = 0; i < 5; i++) {
-        image picture = make_picture(sizes[i][0], sizes[i][1]);
+        image map = make_map(sizes[i][0], sizes[i][1]);
         for (size_t k = 0; k < (size_t)3 * sizes[i][0] * sizes[i][1]; k++)
-            ((float *)picture.pixels)[k] = 3.0f;
-        light_environment *e = make_environment(&picture, 0.7f, 2.0f);
+            ((float *)map.pixels)[k] = 3.0f;
+        light_environment *e = make_environment(&map, 0.7f, 2.0f);
         light_environment_view view;
         light_environment_see(e, vec3(0.0f), &view);
         assert_true(fabs((double)view.irradiance / (24.0 * pi) - 1.0) < 4e-6);
@@ -109,19 +109,19 @@ static void a_constant_is_exact(void **state)
                 assert_true(fabs((double)(radiance[c] / pdf) / (24.0 * pi) - 1.0) < 2e-6);
         }
         light_environment_destroy(e);
-        image_destroy(&picture);
+        image_destroy(&map);
     }
 }
 
-static void black_is_none(void **state)
+static void black_environments_have_no_light(void **state)
 {
     (void)state;
-    image picture = make_picture(16, 8);
-    assert_null(make_environment(&picture, 0.0f, 1.0f));
-    texel(&picture, 3, 3)[1] = 1.0f;
-    assert_null(make_environment(&picture, 0.0f, 0.0f));
+    image map = make_map(16, 8);
+    assert_null(make_environment(&map, 0.0f, 1.0f));
+    texel(&map, 3, 3)[1] = 1.0f;
+    assert_null(make_environment(&map, 0.0f, 0.0f));
     light_environment_destroy(NULL);
-    image_destroy(&picture);
+    image_destroy(&map);
 }
 
 /* ---- densities ---- */
@@ -131,14 +131,13 @@ static void black_is_none(void **state)
 static void densities_integrate_to_one(void **state)
 {
     (void)state;
-    for (int picture_number = 0; picture_number < 8; picture_number++) {
+    for (int map_number = 0; map_number < 8; map_number++) {
         static const uint32_t single[5][2] = {{0, 8}, {31, 8}, {4, 0}, {17, 15}, {13, 6}};
-        image picture = picture_number < 5
-                            ? make_picture(32, 16)
-                            : make_sky(picture_number < 7 ? 40 : 331, picture_number < 7 ? 20 : 170, 20);
-        if (picture_number < 5)
-            texel(&picture, single[picture_number][0], single[picture_number][1])[picture_number % 3] = 1.0f;
-        light_environment *e = make_environment(&picture, (float)picture_number, 0.5f);
+        image map = map_number < 5 ? make_map(32, 16)
+                                   : make_sky(map_number < 7 ? 40 : 331, map_number < 7 ? 20 : 170, 20);
+        if (map_number < 5)
+            texel(&map, single[map_number][0], single[map_number][1])[map_number % 3] = 1.0f;
+        light_environment *e = make_environment(&map, (float)map_number, 0.5f);
         for (int i = 0; i < 4; i++) {
             enum { SIDE = 700 };
             vec3 N = normal_number(i);
@@ -159,11 +158,11 @@ static void densities_integrate_to_one(void **state)
                     assert_true(pdf > 0.0f);
             }
             double integral = sum * 4.0 * pi / (SIDE * SIDE);
-            if (fabs(integral - 1.0) > (picture_number < 5 ? 3e-2 : 3e-3)) /* few points hit one texel */
-                fail_msg("picture %d, normal %d: %.6f", picture_number, i, integral);
+            if (fabs(integral - 1.0) > (map_number < 5 ? 3e-2 : 3e-3)) /* few points hit one texel */
+                fail_msg("map %d, normal %d: %.6f", map_number, i, integral);
         }
         light_environment_destroy(e);
-        image_destroy(&picture);
+        image_destroy(&map);
     }
 }
 
@@ -173,8 +172,8 @@ static void samples_have_their_density(void **state)
 {
     (void)state;
     enum { ROWS = 24, COLUMNS = 48, SAMPLES = 400000, INNER = 24 };
-    image picture = make_sky(96, 48, 20);
-    light_environment *e = make_environment(&picture, 0.4f, 3.0f);
+    image map = make_sky(96, 48, 20);
+    light_environment *e = make_environment(&map, 0.4f, 3.0f);
     for (int i = 0; i < 4; i++) {
         static double counts[ROWS * COLUMNS];
         light_environment_view view;
@@ -220,7 +219,7 @@ static void samples_have_their_density(void **state)
             fail_msg("normal %d: chi2 %.1f with %d degrees of freedom", i, chi2, freedom);
     }
     light_environment_destroy(e);
-    image_destroy(&picture);
+    image_destroy(&map);
 }
 
 /* ---- estimates ---- */
@@ -265,14 +264,14 @@ static double irradiance_by_sum(const light_environment *e, vec3 N)
 
 /* A sun of 1e5 in the map costs no noise, and little where it is behind the surface: sampling the map
  * alone would have deviations of hundreds there. */
-static void irradiance_is_right(void **state)
+static void irradiance_agrees_with_a_sum_over_the_map(void **state)
 {
     (void)state;
     for (int with_sun = 0; with_sun < 2; with_sun++) {
-        image picture = make_sky(96, 48, 20);
+        image map = make_sky(96, 48, 20);
         if (with_sun)
-            texel(&picture, 33, 15)[0] = texel(&picture, 33, 15)[1] = texel(&picture, 33, 15)[2] = 1e5f;
-        light_environment *e = make_environment(&picture, 1.1f, 0.25f);
+            texel(&map, 33, 15)[0] = texel(&map, 33, 15)[1] = texel(&map, 33, 15)[2] = 1e5f;
+        light_environment *e = make_environment(&map, 1.1f, 0.25f);
         double worst = 0.0;
         for (int i = 0; i < 24; i++) {
             vec3 N = random_direction();
@@ -287,18 +286,18 @@ static void irradiance_is_right(void **state)
         }
         assert_true(worst < (with_sun ? 2.5 : 1.0));
         light_environment_destroy(e);
-        image_destroy(&picture);
+        image_destroy(&map);
     }
 }
 
 /* Nearby random numbers, nearby directions: 32 x 32 stratified ones leave much less noise than random
  * ones. */
-static void strata_stay_strata(void **state)
+static void stratified_numbers_reduce_noise(void **state)
 {
     (void)state;
     enum { SIDE = 32, REPEATS = 40 };
-    image picture = make_sky(96, 48, 0);
-    light_environment *e = make_environment(&picture, 0.0f, 1.0f);
+    image map = make_sky(96, 48, 0);
+    light_environment *e = make_environment(&map, 0.0f, 1.0f);
     vec3 N = vec3(0.0f, 1.0f, 0.0f);
     light_environment_view view;
     light_environment_see(e, vec3(0.0f), &view);
@@ -322,19 +321,19 @@ static void strata_stay_strata(void **state)
         }
     assert_true(variance[1] < 0.01 * variance[0]);
     light_environment_destroy(e);
-    image_destroy(&picture);
+    image_destroy(&map);
 }
 
 /* ---- limits ---- */
 
-static void threads_change_nothing(void **state)
+static void results_do_not_depend_on_threads(void **state)
 {
     (void)state;
-    image picture = make_sky(200, 100, 20);
+    image map = make_sky(200, 100, 20);
     light_setup light = placed(0.3f, 1.0f);
     light_environment *e[2];
-    assert_int_equal(light_environment_create(&picture, &light, NULL, 1, &e[0], NULL), FACET_OK);
-    assert_int_equal(light_environment_create(&picture, &light, NULL, 7, &e[1], NULL), FACET_OK);
+    assert_int_equal(light_environment_create(&map, &light, NULL, 1, &e[0], NULL), FACET_OK);
+    assert_int_equal(light_environment_create(&map, &light, NULL, 7, &e[1], NULL), FACET_OK);
     for (int i = 0; i < 1000; i++) {
         double u[2] = {random_number(), random_number()};
         vec3 N = normal_number(i % 4);
@@ -350,13 +349,13 @@ static void threads_change_nothing(void **state)
     }
     light_environment_destroy(e[0]);
     light_environment_destroy(e[1]);
-    image_destroy(&picture);
+    image_destroy(&map);
 }
 
-static void memory_is_a_third_of_the_picture(void **state)
+static void memory_is_a_third_of_the_map(void **state)
 {
     (void)state;
-    image picture = make_sky(2048, 1024, 20);
+    image map = make_sky(2048, 1024, 20);
     light_setup light = placed(0.0f, 1.0f);
     size_t bytes = (size_t)2048 * 1024 * 12;
     for (uint64_t limit = bytes / 2;; limit /= 4) {
@@ -364,7 +363,7 @@ static void memory_is_a_third_of_the_picture(void **state)
         assert_int_equal(facet_budget_create(limit, &budget, NULL), FACET_OK);
         facet_allocator allocator = facet_budget_allocator(budget);
         light_environment *e;
-        facet_result result = light_environment_create(&picture, &light, &allocator, 2, &e, NULL);
+        facet_result result = light_environment_create(&map, &light, &allocator, 2, &e, NULL);
         assert_int_equal(result, limit == bytes / 2 ? FACET_OK : FACET_ERROR_MEMORY);
         if (result != FACET_OK)
             assert_null(e);
@@ -374,7 +373,7 @@ static void memory_is_a_third_of_the_picture(void **state)
         if (limit < 1000)
             break;
     }
-    image_destroy(&picture);
+    image_destroy(&map);
 }
 
 /* Numbers at the very ends, and images of extremes. */
@@ -383,12 +382,12 @@ static void extremes_are_finite(void **state)
     (void)state;
     static const float values[4] = {1e-30f, 1.0f, 1e12f, 0.0f};
     static const double ends[3] = {0.0, 0.5, 1.0 - 0x1p-53};
-    for (int picture_number = 0; picture_number < 6; picture_number++) {
-        image picture = make_picture(70, 33);
+    for (int map_number = 0; map_number < 6; map_number++) {
+        image map = make_map(70, 33);
         for (uint32_t i = 0; i < 70 * 33 * 3; i++)
-            ((float *)picture.pixels)[i] =
-                values[picture_number < 3 ? (uint32_t)picture_number : (uint32_t)(random_number() * 4.0)];
-        light_environment *e = make_environment(&picture, 0.3f, 1.0f);
+            ((float *)map.pixels)[i] =
+                values[map_number < 3 ? (uint32_t)map_number : (uint32_t)(random_number() * 4.0)];
+        light_environment *e = make_environment(&map, 0.3f, 1.0f);
         assert_non_null(e);
         for (int i = 0; i < 400; i++) {
             light_environment_view view;
@@ -397,23 +396,27 @@ static void extremes_are_finite(void **state)
                            i < 200 ? ends[i / 3 % 3] : random_number()};
             vec3 d;
             float pdf = light_environment_sample(e, &view, u, &d);
-            assert_true((picture_number < 3 ? pdf > 0.0f : pdf >= 0.0f) && isfinite(pdf));
+            assert_true((map_number < 3 ? pdf > 0.0f : pdf >= 0.0f) && isfinite(pdf));
             assert_true(fabsf(dot(d, d) - 1.0f) < 1e-5f);
             float asked = light_environment_pdf(e, &view, random_direction());
             assert_true(asked >= 0.0f && isfinite(asked));
         }
         light_environment_destroy(e);
-        image_destroy(&picture);
+        image_destroy(&map);
     }
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_constant_is_exact),        cmocka_unit_test(black_is_none),
-        cmocka_unit_test(densities_integrate_to_one), cmocka_unit_test(samples_have_their_density),
-        cmocka_unit_test(irradiance_is_right),        cmocka_unit_test(strata_stay_strata),
-        cmocka_unit_test(threads_change_nothing),     cmocka_unit_test(memory_is_a_third_of_the_picture),
+        cmocka_unit_test(a_constant_is_exact),
+        cmocka_unit_test(black_environments_have_no_light),
+        cmocka_unit_test(densities_integrate_to_one),
+        cmocka_unit_test(samples_have_their_density),
+        cmocka_unit_test(irradiance_agrees_with_a_sum_over_the_map),
+        cmocka_unit_test(stratified_numbers_reduce_noise),
+        cmocka_unit_test(results_do_not_depend_on_threads),
+        cmocka_unit_test(memory_is_a_third_of_the_map),
         cmocka_unit_test(extremes_are_finite),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

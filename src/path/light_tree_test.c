@@ -112,7 +112,7 @@ static float irradiance_of(const light_bounds *l, vec3 P, vec3 N)
 
 /* All probabilities add up to 1, less that of subtrees without light; every light with irradiance has one;
  * samples return the same, bit for bit, and have that frequency. */
-static void probabilities_are_those_of_samples(void **state)
+static void probabilities_match_the_samples(void **state)
 {
     (void)state;
     static const uint32_t counts[] = {1, 2, 7, 8, 9, 64, 65, 1000};
@@ -168,7 +168,7 @@ static void probabilities_are_those_of_samples(void **state)
 }
 
 /* The rest of the random number is uniform again. */
-static void the_rest_is_uniform(void **state)
+static void the_remainder_is_uniform(void **state)
 {
     (void)state;
     enum { COUNT = 5000, SAMPLES = 200000, BINS = 50 };
@@ -266,7 +266,7 @@ static double processor_seconds(void)
     return (double)clock() / CLOCKS_PER_SEC;
 }
 
-static void it_is_quick(void **state)
+static void building_and_sampling_are_fast(void **state)
 {
     (void)state;
     enum { COUNT = 100000, SAMPLES = 200000 };
@@ -303,7 +303,7 @@ static void it_is_quick(void **state)
 
 /* ---- limits ---- */
 
-static void all_in_one_place_and_far_away(void **state)
+static void coincident_and_distant_lights_are_sampled(void **state)
 {
     (void)state;
     const uint32_t count = 3000;
@@ -342,7 +342,7 @@ static void all_in_one_place_and_far_away(void **state)
     }
 }
 
-static void out_of_memory_is_told(void **state)
+static void failed_allocations_are_reported(void **state)
 {
     (void)state;
     enum { COUNT = 5000 };
@@ -371,13 +371,13 @@ static void out_of_memory_is_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(probabilities_are_those_of_samples),
-        cmocka_unit_test(the_rest_is_uniform),
+        cmocka_unit_test(probabilities_match_the_samples),
+        cmocka_unit_test(the_remainder_is_uniform),
         cmocka_unit_test(few_lights_are_chosen_almost_perfectly),
         cmocka_unit_test(many_lights_are_chosen_well),
-        cmocka_unit_test(it_is_quick),
-        cmocka_unit_test(all_in_one_place_and_far_away),
-        cmocka_unit_test(out_of_memory_is_told),
+        cmocka_unit_test(building_and_sampling_are_fast),
+        cmocka_unit_test(coincident_and_distant_lights_are_sampled),
+        cmocka_unit_test(failed_allocations_are_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -113,7 +113,7 @@ static void near_directions_are_uniform(void **state)
 
 /* The estimate of a solid angle, 1 / pdf, is right on average for far and for near triangles, and sample
  * and pdf agree. */
-static void densities_are_right(void **state)
+static void densities_match_solid_angles(void **state)
 {
     (void)state;
     for (int trial = 0; trial < 200; trial++) {
@@ -176,7 +176,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(near_directions_are_uniform),
-        cmocka_unit_test(densities_are_right),
+        cmocka_unit_test(densities_match_solid_angles),
         cmocka_unit_test(odd_views_are_finite),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -24,7 +24,7 @@ static void a_lambert_sphere_under_a_constant_sky(void **state)
         fixture f = truth_create();
         truth_set_constant_sky(&f, 1.0f, 2.0f, 0.5f);
         truth_add_flat_sphere(&f, fixture_add_material(&f, truth_lambert(albedos[i])), 32, 0.0f, 1.0f);
-        truth_look(&f, 60.0, 0.0f, 0.0f, 1.4f);
+        truth_set_camera(&f, 60.0, 0.0f, 0.0f, 1.4f);
         truth_value v = truth_measure(&f, 16);
         for (int c = 0; c < 3; c++)
             truth_assert_channel(&v, c,
@@ -61,7 +61,7 @@ static void tilted_surfaces_under_skies_of_the_height(void **state)
         float v[3] = {0.0f, 0.0f, -side};
         truth_add_panel(&f, fixture_add_material(&f, truth_lambert(0.8f)), (float[3]){0.0f, 0.0f, 0.0f}, u,
                         v);
-        truth_look(&f, tilt, 0.0f, 0.0f, 0.01f);
+        truth_set_camera(&f, tilt, 0.0f, 0.0f, 0.01f);
         truth_value value = truth_measure_pixels(&f);
         truth_assert_channel(&value, 0, 0.8 * (0.5 + cos(t) / 3.0), "linear sky, tilt %d", tilt);
         truth_assert_channel(&value, 2, 0.8 * 0.5 * (1.0 + cos(t)), "upper half, tilt %d", tilt);
@@ -146,7 +146,7 @@ static void a_square_light_over_a_plane(void **state)
         fixture f = truth_create();
         truth_add_floor(&f, fixture_add_material(&f, truth_lambert(0.6f)), 0.0f, 20.0f);
         truth_add_ceiling(&f, fixture_add_material(&f, truth_emitter(7.0f)), 1.0f, 0.5f);
-        truth_look(&f, -75.0, (float)x, 0.0f, 0.001f);
+        truth_set_camera(&f, -75.0, (float)x, 0.0f, 0.001f);
         truth_value v = truth_measure_pixels(&f);
         double E = 7.0 * truth_polygon_irradiance((double[3]){x, 0.0, 0.0}, up, corners, 4);
         truth_assert_grey(&v, 0.6 / TRUTH_PI * E, "plane at x = %g", x);
@@ -166,7 +166,7 @@ static void a_square_light_beside_a_wall(void **state)
                     (float[3]){0.0f, 0.5f, 0.0f}, (float[3]){0.0f, 0.0f, 0.5f});
     truth_add_panel(&f, fixture_add_material(&f, truth_emitter(3.0f)), (float[3]){1.0f, 1.0f, 0.0f},
                     (float[3]){0.5f, 0.0f, 0.0f}, (float[3]){0.0f, 0.0f, 0.5f});
-    truth_look(&f, 90.0, 0.0f, 0.0f, 0.001f);
+    truth_set_camera(&f, 90.0, 0.0f, 0.0f, 0.001f);
     truth_value v = truth_measure_pixels(&f);
     double E = 3.0 * truth_polygon_irradiance((double[3]){0.0, 0.0, 0.0}, N, corners, 4);
     truth_assert_grey(&v, 0.5 / TRUTH_PI * E, "wall");
@@ -175,7 +175,7 @@ static void a_square_light_beside_a_wall(void **state)
 
 /* E = pi L (R / d)^2 below a sphere: the square of the sine under which it is seen. Its triangles are seen
  * as a polygon of 256 corners on the circle, whose area is sin(2 pi / 256) / (2 pi / 256) of the disc's. */
-static void a_shining_sphere_over_a_plane(void **state)
+static void an_emissive_sphere_over_a_plane(void **state)
 {
     (void)state;
     double polygon = sin(2.0 * TRUTH_PI / 256.0) / (2.0 * TRUTH_PI / 256.0);
@@ -184,7 +184,7 @@ static void a_shining_sphere_over_a_plane(void **state)
         fixture f = truth_create();
         truth_add_floor(&f, fixture_add_material(&f, truth_lambert(0.5f)), 0.0f, 20.0f);
         truth_add_flat_sphere(&f, fixture_add_material(&f, truth_emitter(2.0f)), 256, (float)distance, 1.0f);
-        truth_look(&f, 84.0, 0.0f, 0.0f, 0.001f);
+        truth_set_camera(&f, 84.0, 0.0f, 0.0f, 0.001f);
         f.desc.path.max_depth = 1;
         truth_value v = truth_measure_pixels(&f);
         /* The sphere touches nothing and is black itself, so that nothing comes back from it. */
@@ -203,7 +203,7 @@ static fixture floor_under(scene_light light, float x, float y, const float rota
     truth_add_floor(&f, fixture_add_material(&f, truth_lambert(0.5f)), 0.0f, 20.0f);
     fixture_add_light(&f, light, x, y, 0.0f);
     memcpy(f.scene->nodes[f.scene->node_count - 1].rotation, rotation, 4 * sizeof(float));
-    truth_look(&f, -30.0, 0.0f, 0.0f, 0.0001f);
+    truth_set_camera(&f, -30.0, 0.0f, 0.0f, 0.0001f);
     return f;
 }
 
@@ -225,7 +225,7 @@ static void check_light(fixture *f, double illuminance, const char *what)
     fixture_destroy(f);
 }
 
-static void lights_without_size(void **state)
+static void delta_lights_are_exact(void **state)
 {
     (void)state;
     scene_light light = {.name = "", .color = {1.0f, 0.5f, 0.25f}, .intensity = 100.0f};
@@ -253,7 +253,7 @@ static void lights_without_size(void **state)
 }
 
 /* A wall between light and floor. */
-static void lights_without_size_throw_sharp_shadows(void **state)
+static void delta_lights_cast_sharp_shadows(void **state)
 {
     (void)state;
     scene_light light = {
@@ -283,7 +283,7 @@ static void the_sun_gives_its_illuminance(void **state)
                                      .illuminance_lux = {100.0f, 50.0f, 10.0f},
                                      .diameter_rad = diameters[i]};
             truth_add_floor(&f, fixture_add_material(&f, truth_lambert(0.5f)), 0.0f, 20.0f);
-            truth_look(&f, 20.0, 0.0f, 0.0f, 0.001f);
+            truth_set_camera(&f, 20.0, 0.0f, 0.0f, 0.001f);
             truth_value v = truth_measure_pixels(&f);
             /* A disc that is wholly above the horizon: its projected solid angle is that of its middle. */
             double E = 0.5 / TRUTH_PI * sin(truth_radians(elevation));
@@ -350,7 +350,7 @@ static void the_penumbra_of_an_edge(void **state)
         truth_add_floor(&f, fixture_add_material(&f, truth_lambert(0.5f)), 0.0f, 20.0f);
         truth_add_panel(&f, fixture_add_material(&f, truth_lambert(0.0f)), (float[3]){1.0f, 1.0f, 0.0f},
                         (float[3]){1.0f, 0.0f, 0.0f}, (float[3]){0.0f, 0.0f, -5.0f});
-        truth_look(&f, -60.0, (float)x, 0.0f, 0.0001f);
+        truth_set_camera(&f, -60.0, (float)x, 0.0f, 0.0001f);
         truth_value v = truth_measure_pixels(&f);
         double E = 10.0 * share_of_disc(-x, radius);
         truth_assert_grey(&v, 0.5 / TRUTH_PI * E, "%g m from the edge", x);
@@ -384,7 +384,7 @@ static void a_closed_room_sums_the_geometric_series(void **state)
 }
 
 /* A light in a closed room: its power, pi L A, is absorbed by the walls and by itself. */
-static void a_room_absorbs_what_its_lamp_sends(void **state)
+static void a_room_absorbs_the_flux_of_its_light(void **state)
 {
     (void)state;
     double rho = 0.5;
@@ -395,9 +395,9 @@ static void a_room_absorbs_what_its_lamp_sends(void **state)
         uint32_t white = fixture_add_material(&f, truth_lambert((float)rho));
         truth_add_box(&f, white, 0.0f, -1.0f, -1.0f, -1.0f);
         /* A plate that emits on both sides, with the walls' albedo 0: it absorbs all incident light. */
-        scene_material lamp = truth_emitter(1.0f);
-        lamp.is_double_sided = true;
-        truth_add_panel(&f, fixture_add_material(&f, lamp), (float[3]){0.2f, 0.1f, 0.0f},
+        scene_material emitter = truth_emitter(1.0f);
+        emitter.is_double_sided = true;
+        truth_add_panel(&f, fixture_add_material(&f, emitter), (float[3]){0.2f, 0.1f, 0.0f},
                         (float[3]){0.3f, 0.0f, 0.0f}, (float[3]){0.0f, 0.2f, 0.0f});
         float axis[3] = {0};
         axis[wall / 2] = wall & 1 ? -1.0f : 1.0f;
@@ -421,10 +421,10 @@ static void a_room_absorbs_what_its_lamp_sends(void **state)
         fixture f = truth_create();
         f.desc.width = f.desc.height = 8;
         truth_add_box(&f, fixture_add_material(&f, truth_lambert((float)rho)), 0.0f, -1.0f, -1.0f, -1.0f);
-        scene_material lamp = truth_lambert(1e-3f);
-        lamp.emissive[0] = lamp.emissive[1] = lamp.emissive[2] = 1.0f;
-        lamp.is_double_sided = true;
-        truth_add_panel(&f, fixture_add_material(&f, lamp), (float[3]){0.2f, 0.1f, 0.0f},
+        scene_material emitter = truth_lambert(1e-3f);
+        emitter.emissive[0] = emitter.emissive[1] = emitter.emissive[2] = 1.0f;
+        emitter.is_double_sided = true;
+        truth_add_panel(&f, fixture_add_material(&f, emitter), (float[3]){0.2f, 0.1f, 0.0f},
                         (float[3]){0.3f, 0.0f, 0.0f}, (float[3]){0.0f, 0.2f, 0.0f});
         f.camera = (facet_camera){
             .eye = {0.2f, 0.1f, side ? -0.001f : 0.001f}, .target = {0.2f, 0.1f, 0.0f}, .ortho_height = 0.4f};
@@ -450,14 +450,14 @@ int main(void)
         cmocka_unit_test(a_glossy_metal_in_the_studio),
         cmocka_unit_test(a_square_light_over_a_plane),
         cmocka_unit_test(a_square_light_beside_a_wall),
-        cmocka_unit_test(a_shining_sphere_over_a_plane),
-        cmocka_unit_test(lights_without_size),
-        cmocka_unit_test(lights_without_size_throw_sharp_shadows),
+        cmocka_unit_test(an_emissive_sphere_over_a_plane),
+        cmocka_unit_test(delta_lights_are_exact),
+        cmocka_unit_test(delta_lights_cast_sharp_shadows),
         cmocka_unit_test(the_sun_gives_its_illuminance),
         cmocka_unit_test(the_sun_is_seen_as_a_disc),
         cmocka_unit_test(the_penumbra_of_an_edge),
         cmocka_unit_test(a_closed_room_sums_the_geometric_series),
-        cmocka_unit_test(a_room_absorbs_what_its_lamp_sends),
+        cmocka_unit_test(a_room_absorbs_the_flux_of_its_light),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -105,7 +105,7 @@ static void save(const path_film *f, const char *to)
         fail_msg("%s", error.message);
 }
 
-static void interrupted_pictures_go_on(void **state)
+static void interrupted_renders_continue(void **state)
 {
     (void)state;
     for (int has_ground = 0; has_ground < 2; has_ground++) {
@@ -137,7 +137,7 @@ static void interrupted_pictures_go_on(void **state)
     }
 }
 
-static void viewers_see_the_picture(void **state)
+static void viewers_show_the_image(void **state)
 {
     (void)state;
     path_film *f = create(WIDTH, HEIGHT, true);
@@ -313,7 +313,7 @@ static void damaged_files_are_refused(void **state)
 }
 
 /* Numbers that no film has, digest and all. */
-static void made_up_numbers_are_refused(void **state)
+static void impossible_values_are_refused(void **state)
 {
     (void)state;
     const float odd[] = {NAN, INFINITY, -INFINITY};
@@ -341,7 +341,7 @@ static void made_up_numbers_are_refused(void **state)
 
 /* ---- failures ---- */
 
-static void what_cannot_be_written(void **state)
+static void unwritable_checkpoints_are_reported(void **state)
 {
     (void)state;
     path_film *f = create(WIDTH, HEIGHT, false);
@@ -361,7 +361,7 @@ static void what_cannot_be_written(void **state)
     path_film_destroy(f);
 }
 
-static void memory_runs_out(void **state)
+static void failed_allocations_are_reported(void **state)
 {
     (void)state;
     path_film *filled = create(WIDTH, HEIGHT, true);
@@ -398,15 +398,15 @@ static void memory_runs_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(interrupted_pictures_go_on),
-        cmocka_unit_test(viewers_see_the_picture),
+        cmocka_unit_test(interrupted_renders_continue),
+        cmocka_unit_test(viewers_show_the_image),
         cmocka_unit_test(other_files_are_refused),
         cmocka_unit_test(other_versions_are_refused),
         cmocka_unit_test(truncated_files_are_refused),
         cmocka_unit_test(damaged_files_are_refused),
-        cmocka_unit_test(made_up_numbers_are_refused),
-        cmocka_unit_test(what_cannot_be_written),
-        cmocka_unit_test(memory_runs_out),
+        cmocka_unit_test(impossible_values_are_refused),
+        cmocka_unit_test(unwritable_checkpoints_are_reported),
+        cmocka_unit_test(failed_allocations_are_reported),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

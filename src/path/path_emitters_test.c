@@ -17,11 +17,11 @@ static const double pi = 3.14159265358979323846;
 
 /* From everywhere around: a light sample agrees with a ray that hits its point, in place, radiance and
  * pdf. Returns the visible share of the samples. */
-static double assert_aimed_is_met(const stage *s, float extent)
+static double assert_light_samples_agree(const stage *s, float extent)
 {
     enum { TRIALS = IS_SLOW ? 1000 : 4000 };
-    int aimed = 0;
-    int met = 0;
+    int sampled = 0;
+    int hit = 0;
     for (int i = 0; i < TRIALS; i++) {
         vec3 P = random_direction() * (extent * random_number());
         vec3 N = i % 3 ? random_direction() : vec3(0.0f);
@@ -30,23 +30,23 @@ static double assert_aimed_is_met(const stage *s, float extent)
         if (!path_lights_sample(s->lights, P, N, u, random_pair(), &l) || l.geometry == VISIBILITY_NONE)
             continue;
         assert_true(!l.is_delta && !l.is_infinite && l.pdf > 0.0f && isfinite(l.pdf));
-        aimed++;
-        meeting m = meet(s, P, l.L);
-        if (!m.is_met || m.hit.geometry != l.geometry || m.hit.primitive != l.primitive)
+        sampled++;
+        encounter m = trace_to(s, P, l.L);
+        if (!m.is_hit || m.hit.geometry != l.geometry || m.hit.primitive != l.primitive)
             continue; /* something is in between, or the ray went through an edge */
-        met++;
+        hit++;
         float pdf = path_lights_emitter_pdf(s->lights, P, N, &m.hit, l.L, m.hit.t);
         float per_cosine = 1.0f / max(abs(dot(normalize(load3(m.hit.normal)), l.L)), 1e-6f); /* rounding */
         assert_true(fabsf(m.hit.t - l.distance_m) < (1e-5f + 1e-6f * per_cosine) * (l.distance_m + 1.0f));
         if (!(fabsf(pdf / l.pdf - 1.0f) < 1e-4f + 1e-5f * per_cosine))
-            fail_msg("density %g when aimed at, %g when met", (double)l.pdf, (double)pdf);
+            fail_msg("density %g light-sampled, %g BSDF-sampled", (double)l.pdf, (double)pdf);
         for (int c = 0; c < 3; c++)
             if (!(fabsf(m.radiance[c] * m.opacity - l.radiance[c]) <= 0.01f * max3(m.radiance)))
-                fail_msg("radiance %g aimed at, %g met", (double)l.radiance[c],
+                fail_msg("radiance %g light-sampled, %g BSDF-sampled", (double)l.radiance[c],
                          (double)(m.radiance[c] * m.opacity));
     }
-    assert_true(aimed > TRIALS / 20);
-    return (double)met / aimed;
+    assert_true(sampled > TRIALS / 20);
+    return (double)hit / sampled;
 }
 
 /* Irradiance at P by directions that know nothing of lights. */
@@ -57,8 +57,8 @@ static estimate irradiance_by_chance(const stage *s, vec3 P, vec3 N, int count)
     mat3 frame = basis_from_normal(N);
     for (int i = 0; i < count; i++) {
         vec3 d = mul(frame, sample_cosine(random_pair()));
-        meeting m = meet(s, P, d);
-        vec3 radiance = m.is_met ? m.radiance : path_lights_infinite(s->lights, d);
+        encounter m = trace_to(s, P, d);
+        vec3 radiance = m.is_hit ? m.radiance : path_lights_infinite(s->lights, d);
         double x = pi * (double)radiance[0];
         sum += x;
         sum2 += x * x;
@@ -74,15 +74,15 @@ static void assert_same(estimate a, estimate b)
 }
 
 /* All strategies agree. */
-static void assert_ways_agree(const stage *s, vec3 P, vec3 N, int count)
+static void assert_strategies_agree(const stage *s, vec3 P, vec3 N, int count)
 {
     estimate chance = irradiance_by_chance(s, P, N, count);
     estimate both = irradiance_by_both(s, P, N, count / 2);
     assert_same(both, chance);
-    estimate aimed = irradiance_at(s, P, N, count);
-    assert_same(aimed, chance);
+    estimate light_sampled = irradiance_at(s, P, N, count);
+    assert_same(light_sampled, chance);
     /* never much worse than the better of the two */
-    double best = fmin(chance.error, aimed.error);
+    double best = fmin(chance.error, light_sampled.error);
     assert_true(both.error * sqrt(0.5) < 3.1 * best + 1e-6 * chance.mean);
 }
 
@@ -127,7 +127,7 @@ static scene_material material_of_kind(stage *s, int kind)
 }
 
 /* Quads and balls, turned, mirrored, stretched, seen from all sides. */
-static void what_is_aimed_at_is_met(void **state)
+static void light_samples_agree_with_rays(void **state)
 {
     (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
@@ -143,14 +143,14 @@ static void what_is_aimed_at_is_met(void **state)
         stage_ready(&s);
         assert_int_equal(path_lights_ignored(s.lights),
                          4 * 12); /* no area: the balls' triangles at the poles */
-        double visible = assert_aimed_is_met(&s, 2.0f);
+        double visible = assert_light_samples_agree(&s, 2.0f);
         assert_true(visible > (kind == BLENDED ? 0.1 : 0.5));
         stage_destroy(&s);
     }
 }
 
 /* All strategies agree where the light may be occluded. */
-static void ways_agree_on_emitters(void **state)
+static void strategies_agree_on_emitters(void **state)
 {
     (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
@@ -160,15 +160,15 @@ static void ways_agree_on_emitters(void **state)
             -0.7f;
         fixture_place(&s.f, fixture_add_quad(&s.f, material), -0.2f, 0.3f, -1.5f, 1.0f);
         stage_ready(&s);
-        assert_ways_agree(&s, vec3(0.0f), normalize(vec3(0.1f, 0.2f, 0.9f)), 40000);
-        assert_ways_agree(&s, vec3(0.9f, 0.2f, 0.9f), normalize(vec3(-0.3f, 0.0f, 0.3f)), 40000);
-        assert_ways_agree(&s, vec3(0.1f, 0.2f, -1.4f), vec3(0.0f, 0.0f, -1.0f), 40000);
+        assert_strategies_agree(&s, vec3(0.0f), normalize(vec3(0.1f, 0.2f, 0.9f)), 40000);
+        assert_strategies_agree(&s, vec3(0.9f, 0.2f, 0.9f), normalize(vec3(-0.3f, 0.0f, 0.3f)), 40000);
+        assert_strategies_agree(&s, vec3(0.1f, 0.2f, -1.4f), vec3(0.0f, 0.0f, -1.0f), 40000);
         stage_destroy(&s);
     }
 }
 
 /* Unlit surfaces are found by BSDF sampling only, with weight 1. */
-static void flat_colors_are_not_aimed_at(void **state)
+static void unlit_surfaces_are_not_light_sampled(void **state)
 {
     (void)state;
     stage s = stage_create();
@@ -180,9 +180,9 @@ static void flat_colors_are_not_aimed_at(void **state)
                   0, 1.0f);
     stage_ready(&s);
     assert_true(!path_lights_has_any(s.lights));
-    meeting met = meet(&s, vec3(0.0f), vec3(0.0f, 0.0f, 1.0f));
-    assert_true(met.is_met);
-    assert_true(path_lights_emitter_pdf(s.lights, vec3(0.0f), vec3(0.0f), &met.hit, vec3(0.0f, 0.0f, 1.0f),
+    encounter found = trace_to(&s, vec3(0.0f), vec3(0.0f, 0.0f, 1.0f));
+    assert_true(found.is_hit);
+    assert_true(path_lights_emitter_pdf(s.lights, vec3(0.0f), vec3(0.0f), &found.hit, vec3(0.0f, 0.0f, 1.0f),
                                         2.0f) == 0.0f);
     path_light_sample l;
     assert_true(!path_lights_sample(s.lights, vec3(0.0f), vec3(0.0f), 0.5f, vec2(0.5f), &l));
@@ -190,7 +190,7 @@ static void flat_colors_are_not_aimed_at(void **state)
 }
 
 /* A material that does not emit beside one that does: the numbers of triangles are not confused. */
-static void only_emitters_are_aimed_at(void **state)
+static void only_emitters_are_light_sampled(void **state)
 {
     (void)state;
     stage s = stage_create();
@@ -198,10 +198,10 @@ static void only_emitters_are_aimed_at(void **state)
     fixture_place(&s.f, fixture_add_quad(&s.f, add_emitter(&s, 2.0f, false)), 0.0f, 0.0f, -1.0f, 1.0f);
     fixture_place(&s.f, fixture_add_sphere(&s.f, 16, SCENE_NONE), 0.0f, 0.0f, 3.0f, 1.0f);
     stage_ready(&s);
-    assert_aimed_is_met(&s, 0.5f);
-    meeting met = meet(&s, vec3(0.0f), vec3(0.0f, 0.0f, 1.0f));
-    assert_true(met.is_met);
-    assert_true(path_lights_emitter_pdf(s.lights, vec3(0.0f), vec3(0.0f), &met.hit, vec3(0.0f, 0.0f, 1.0f),
+    assert_light_samples_agree(&s, 0.5f);
+    encounter found = trace_to(&s, vec3(0.0f), vec3(0.0f, 0.0f, 1.0f));
+    assert_true(found.is_hit);
+    assert_true(path_lights_emitter_pdf(s.lights, vec3(0.0f), vec3(0.0f), &found.hit, vec3(0.0f, 0.0f, 1.0f),
                                         2.0f) == 0.0f);
     stage_destroy(&s);
 }
@@ -234,7 +234,7 @@ static double triangle_irradiance(vec3 a, vec3 b, vec3 c, vec3 N)
 
 /* A ball of 102 080 triangles over a floor: the irradiance of the floor is the sum over those that face
  * it. */
-static void a_hundred_thousand_emitters(void **state)
+static void a_hundred_thousand_emitters_are_sampled(void **state)
 {
     (void)state;
     stage s = stage_create();
@@ -272,7 +272,7 @@ static void a_hundred_thousand_emitters(void **state)
     stage_destroy(&s);
 }
 
-static void threads_change_nothing(void **state)
+static void results_do_not_depend_on_threads(void **state)
 {
     (void)state;
     path_light_sample first[200];
@@ -305,9 +305,12 @@ static void threads_change_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_aimed_at_is_met),      cmocka_unit_test(ways_agree_on_emitters),
-        cmocka_unit_test(flat_colors_are_not_aimed_at), cmocka_unit_test(only_emitters_are_aimed_at),
-        cmocka_unit_test(a_hundred_thousand_emitters),  cmocka_unit_test(threads_change_nothing),
+        cmocka_unit_test(light_samples_agree_with_rays),
+        cmocka_unit_test(strategies_agree_on_emitters),
+        cmocka_unit_test(unlit_surfaces_are_not_light_sampled),
+        cmocka_unit_test(only_emitters_are_light_sampled),
+        cmocka_unit_test(a_hundred_thousand_emitters_are_sampled),
+        cmocka_unit_test(results_do_not_depend_on_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -57,7 +57,7 @@ static double normal(uint64_t *state)
 
 /* ---- means ---- */
 
-static void means_keep_their_digits(void **state)
+static void means_keep_their_precision(void **state)
 {
     (void)state;
     enum { COUNT = 3000000 };
@@ -119,7 +119,7 @@ static void variance_does_not_cancel(void **state)
     path_film_destroy(f);
 }
 
-static void few_samples(void **state)
+static void few_samples_have_an_estimate(void **state)
 {
     (void)state;
     path_film *f = create(3, 1, true);
@@ -161,7 +161,7 @@ static void a_pixel_can_be_full(void **state)
 
 /* ---- odd samples ---- */
 
-static void what_is_not_finite_is_black(void **state)
+static void non_finite_samples_are_black(void **state)
 {
     (void)state;
     const float odd[3] = {NAN, INFINITY, -INFINITY};
@@ -213,7 +213,7 @@ static void huge_light_stays_finite(void **state)
 }
 
 /* Filters with negative lobes: light may come out negative, opacity not. */
-static void negative_weights(void **state)
+static void negative_filter_weights_are_kept(void **state)
 {
     (void)state;
     path_film *f = create(2, 1, false);
@@ -252,7 +252,7 @@ static void weights_divided_out(void **state)
 
 /* A shadow with an edge down the middle, of 16 noisy samples a pixel: denoised on both sides, with the
  * edge preserved. */
-static void a_shadow_becomes_calm(void **state)
+static void shadows_are_denoised_up_to_their_edge(void **state)
 {
     (void)state;
     enum { SIDE = 48 };
@@ -285,7 +285,7 @@ static void a_shadow_becomes_calm(void **state)
 }
 
 /* What has no noise keeps its shape. */
-static void a_calm_shadow_stays(void **state)
+static void noise_free_shadows_are_unchanged(void **state)
 {
     (void)state;
     path_film *f = create(16, 4, true);
@@ -339,7 +339,7 @@ static path_sample ground(float lit, float open)
     return s;
 }
 
-static void shadows_lie_under_the_picture(void **state)
+static void shadows_lie_under_the_image(void **state)
 {
     (void)state;
     path_film *f = create(5, 1, true);
@@ -555,7 +555,7 @@ static void regions(void **state)
 }
 
 /* Nothing but a noisy shadow on the ground: it is noise as well. */
-static void shadows_are_judged(void **state)
+static void noise_of_shadows_counts(void **state)
 {
     (void)state;
     path_film *f = create(8, 8, true);
@@ -575,7 +575,7 @@ static void shadows_are_judged(void **state)
 
 /* ---- memory ---- */
 
-static void memory_runs_out(void **state)
+static void failed_allocations_are_reported(void **state)
 {
     (void)state;
     assert_true(sizeof(path_pixel) + sizeof(path_ground) <= 120);
@@ -599,24 +599,24 @@ static void memory_runs_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(means_keep_their_digits),
+        cmocka_unit_test(means_keep_their_precision),
         cmocka_unit_test(variance_does_not_cancel),
-        cmocka_unit_test(few_samples),
+        cmocka_unit_test(few_samples_have_an_estimate),
         cmocka_unit_test(a_pixel_can_be_full),
-        cmocka_unit_test(what_is_not_finite_is_black),
+        cmocka_unit_test(non_finite_samples_are_black),
         cmocka_unit_test(huge_light_stays_finite),
-        cmocka_unit_test(negative_weights),
+        cmocka_unit_test(negative_filter_weights_are_kept),
         cmocka_unit_test(weights_divided_out),
-        cmocka_unit_test(a_shadow_becomes_calm),
-        cmocka_unit_test(a_calm_shadow_stays),
+        cmocka_unit_test(shadows_are_denoised_up_to_their_edge),
+        cmocka_unit_test(noise_free_shadows_are_unchanged),
         cmocka_unit_test(guides),
-        cmocka_unit_test(shadows_lie_under_the_picture),
+        cmocka_unit_test(shadows_lie_under_the_image),
         cmocka_unit_test(noise_does_not_darken_the_ground),
         cmocka_unit_test(adaptive_sampling_reaches_the_noise),
         cmocka_unit_test(adaptive_sampling_does_not_depend_on_threads),
         cmocka_unit_test(regions),
-        cmocka_unit_test(shadows_are_judged),
-        cmocka_unit_test(memory_runs_out),
+        cmocka_unit_test(noise_of_shadows_counts),
+        cmocka_unit_test(failed_allocations_are_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

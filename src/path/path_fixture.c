@@ -264,7 +264,7 @@ uint32_t truth_add_flat_sphere(fixture *f, uint32_t material, uint32_t columns, 
     return quads_end(f, &q);
 }
 
-void truth_look(fixture *f, double polar_deg, float x, float y, float height)
+void truth_set_camera(fixture *f, double polar_deg, float x, float y, float height)
 {
     double polar = truth_radians(polar_deg);
     f->camera = (facet_camera){.eye = {x + (float)(10.0 * sin(polar)), y + (float)(10.0 * cos(polar)), 0.0f},
@@ -449,7 +449,7 @@ static truth_value furnace(fixture *f, double polar)
     f->desc.samples = 4096;
     f->desc.path.max_depth = 1000;
     truth_set_constant_sky(f, 1.0f, 1.0f, 1.0f);
-    truth_look(f, polar, 0.0f, 0.0f, 0.1f);
+    truth_set_camera(f, polar, 0.0f, 0.0f, 0.1f);
     truth_value v = truth_measure_pixels(f);
     fixture_destroy(f);
     return v;
@@ -464,7 +464,7 @@ truth_value truth_furnace(scene_material material, double polar, facet_energy en
     return furnace(&f, polar);
 }
 
-truth_value truth_furnace_body(scene_material material, double polar)
+truth_value truth_furnace_volume(scene_material material, double polar)
 {
     fixture f = truth_create();
     truth_add_box(&f, fixture_add_material(&f, material), 0.0f, 10.0f, 0.5f, 10.0f);

@@ -46,7 +46,7 @@ uint32_t truth_add_flat_sphere(fixture *f, uint32_t material, uint32_t columns, 
 
 /* An orthographic camera that sees `height` m around the point (x, y, 0) from 10 m away, from the
  * direction at `polar` degrees from +Y, towards +X. */
-void truth_look(fixture *f, double polar_deg, float x, float y, float height);
+void truth_set_camera(fixture *f, double polar_deg, float x, float y, float height);
 
 /* ---- images ---- */
 
@@ -94,7 +94,7 @@ void truth_assert_same(const truth_value *a, const truth_value *b, double sigmas
  * above and below: 4096 samples a pixel. */
 truth_value truth_furnace(scene_material material, double polar, facet_energy energy);
 /* The same of a closed volume, a slab of 1 m, conserving. */
-truth_value truth_furnace_body(scene_material material, double polar);
+truth_value truth_furnace_volume(scene_material material, double polar);
 /* Fails unless all of it is 1, within tables and four standard errors. */
 void truth_assert_white(truth_value v, double tables, const char *what, double roughness, double polar);
 

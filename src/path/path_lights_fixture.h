@@ -99,7 +99,7 @@ static inline scene_light point_light(float intensity, float range)
         .name = "", .type = SCENE_LIGHT_POINT, .color = {1, 1, 1}, .intensity = intensity, .range = range};
 }
 
-/* ---- numbers ---- */
+/* ---- random numbers ---- */
 
 static uint64_t random_state = 1;
 static inline float random_number(void)
@@ -151,25 +151,25 @@ static inline estimate irradiance_at(const stage *s, vec3 P, vec3 N, int count)
 }
 
 /* A surface that a ray hits, with its emission as a path counts it. */
-typedef struct meeting {
-    bool is_met;
+typedef struct encounter {
+    bool is_hit;
     visibility_hit hit;
     vec3 radiance;
     float opacity;
-} meeting;
+} encounter;
 
-static inline meeting meet(const stage *s, vec3 P, vec3 d)
+static inline encounter trace_to(const stage *s, vec3 P, vec3 d)
 {
     static const ray_spread none = {.moves = false};
-    meeting m = {.radiance = vec3(0.0f)};
+    encounter m = {.radiance = vec3(0.0f)};
     shading_ray ray = {.near_t = 1e-5f, .far_t = INFINITY, .spread = &none};
     for (int i = 0; i < 3; i++) {
         ray.origin[i] = P[i];
         ray.direction[i] = d[i];
     }
     uint32_t random = (uint32_t)(random_number() * 4294967040.0f);
-    m.is_met = ray_trace_nearest(&s->setup.shading, &ray, random, &m.hit);
-    if (!m.is_met || !ray_trace_is_visible_side(&s->setup.shading, &m.hit, ray.direction))
+    m.is_hit = ray_trace_nearest(&s->setup.shading, &ray, random, &m.hit);
+    if (!m.is_hit || !ray_trace_is_visible_side(&s->setup.shading, &m.hit, ray.direction))
         return m;
     surface_point point;
     surface_point_make(&s->setup.shading, &(shading_point){.hit = &m.hit, .ray = &ray, .shade_count = 1},
@@ -196,9 +196,9 @@ static inline estimate irradiance_by_both(const stage *s, vec3 P, vec3 N, int co
         }
         vec3 d = mul(frame, sample_cosine(random_pair()));
         double own = (double)(dot(d, N) * INV_PI);
-        meeting m = meet(s, P, d);
-        vec3 radiance = m.is_met ? m.radiance : path_lights_infinite(s->lights, d);
-        double other = (double)(m.is_met ? path_lights_emitter_pdf(s->lights, P, N, &m.hit, d, m.hit.t)
+        encounter m = trace_to(s, P, d);
+        vec3 radiance = m.is_hit ? m.radiance : path_lights_infinite(s->lights, d);
+        double other = (double)(m.is_hit ? path_lights_emitter_pdf(s->lights, P, N, &m.hit, d, m.hit.t)
                                          : path_lights_infinite_pdf(s->lights, P, N, d));
         if (own > 0.0)
             x += (double)(radiance[0] * dot(d, N)) * own / (own * own + other * other);

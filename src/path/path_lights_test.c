@@ -18,7 +18,7 @@ static const double pi = 3.14159265358979323846;
 
 static const double QUAD_ABOVE = 0.752274688454; /* E / L of the quad [-1, 1]^2 2 m above */
 
-static void a_quad_light_gives_what_it_should(void **state)
+static void quad_lights_have_the_exact_irradiance(void **state)
 {
     (void)state;
     static const float shifts[2] = {0.0f, 2.0f};
@@ -89,7 +89,7 @@ static void the_sun_gives_its_illuminance(void **state)
 }
 
 /* 100 cd at 2 m, cosine .8: 20 lx; with a range of 5 m times 1 - (2/5)^4: 19.488. */
-static void punctual_lights_give_what_they_should(void **state)
+static void punctual_lights_have_the_exact_illuminance(void **state)
 {
     (void)state;
     for (int i = 0; i < 3; i++) {
@@ -110,7 +110,7 @@ static void punctual_lights_give_what_they_should(void **state)
 
 /* Inner 20 deg, outer 40 deg, at 30 deg: 0.331508104841 of the intensity; nothing outside, of any kind of
  * choice. */
-static void spots_shine_in_their_cone(void **state)
+static void spots_emit_in_their_cone(void **state)
 {
     (void)state;
     stage s = stage_create();
@@ -132,7 +132,7 @@ static void spots_shine_in_their_cone(void **state)
 
 /* Everything at once adds up: sky 2, sun 3 at 60 deg, a directional light of 1.5 at 60 deg, 100 cd at 2 m
  * and .8, a quad. */
-static void kinds_add_up(void **state)
+static void kinds_of_light_add_up(void **state)
 {
     (void)state;
     stage s = {.f = fixture_create()};
@@ -153,12 +153,12 @@ static void kinds_add_up(void **state)
     assert_estimate(irradiance_by_both(&s, vec3(0.0f), up, 100000 / EFFORT), expected);
 
     /* The pdf of environment and sun integrates to the probability of sampling them. */
-    int aimed = 0;
+    int infinite_count = 0;
     enum { SAMPLES = 200000 / EFFORT, SIDE = 1500 };
     for (int i = 0; i < SAMPLES; i++) {
         path_light_sample l;
         float u = random_number();
-        aimed += path_lights_sample(s.lights, vec3(0.0f), up, u, random_pair(), &l) && l.is_infinite;
+        infinite_count += path_lights_sample(s.lights, vec3(0.0f), up, u, random_pair(), &l) && l.is_infinite;
     }
     double integral = 0.0;
     for (int i = 0; i < SIDE * SIDE; i++) {
@@ -169,17 +169,17 @@ static void kinds_add_up(void **state)
             (double)path_lights_infinite_pdf(s.lights, vec3(0.0f), up, vec3(r * cos(phi), r * sin(phi), z));
     }
     integral *= 4.0 * pi / ((double)SIDE * SIDE);
-    double share = (double)aimed / SAMPLES;
+    double share = (double)infinite_count / SAMPLES;
     double error = sqrt(share * (1.0 - share) / SAMPLES);
     /* the sun has 12 of the points */
     if (fabs(integral - share) > 4.0 * error + 0.03)
-        fail_msg("density of the surroundings: %.4f, aimed at: %.4f", integral, share);
+        fail_msg("density of the environment: %.4f, share of samples: %.4f", integral, share);
     stage_destroy(&s);
 }
 
 /* ---- limits ---- */
 
-static void running_out_of_memory_leaks_nothing(void **state)
+static void failed_allocations_leak_nothing(void **state)
 {
     (void)state;
     bool is_done = false;
@@ -255,8 +255,8 @@ static void odd_input_does_no_harm(void **state)
                 assert_true(l.radiance[c] >= 0.0f && isfinite(l.radiance[c]));
             float pdf = path_lights_infinite_pdf(s.lights, P, N, l.L);
             assert_true(pdf >= 0.0f && isfinite(pdf));
-            vec3 seen = path_lights_infinite(s.lights, l.L);
-            assert_true(isfinite(seen[0] + seen[1] + seen[2]));
+            vec3 radiance = path_lights_infinite(s.lights, l.L);
+            assert_true(isfinite(radiance[0] + radiance[1] + radiance[2]));
         }
         stage_destroy(&s);
     }
@@ -266,13 +266,13 @@ static void odd_input_does_no_harm(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_quad_light_gives_what_it_should),
+        cmocka_unit_test(quad_lights_have_the_exact_irradiance),
         cmocka_unit_test(a_constant_sky_gives_pi),
         cmocka_unit_test(the_sun_gives_its_illuminance),
-        cmocka_unit_test(punctual_lights_give_what_they_should),
-        cmocka_unit_test(spots_shine_in_their_cone),
-        cmocka_unit_test(kinds_add_up),
-        cmocka_unit_test(running_out_of_memory_leaks_nothing),
+        cmocka_unit_test(punctual_lights_have_the_exact_illuminance),
+        cmocka_unit_test(spots_emit_in_their_cone),
+        cmocka_unit_test(kinds_of_light_add_up),
+        cmocka_unit_test(failed_allocations_leak_nothing),
         cmocka_unit_test(odd_input_does_no_harm),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -32,7 +32,7 @@ static const scene_material *here(const scene_material *const *entered, uint32_t
 
 /* ---- nested dielectrics ---- */
 
-static void air_is_where_nothing_is(void **state)
+static void outside_all_volumes_is_air(void **state)
 {
     (void)state;
     media m = {.count = 0};
@@ -81,7 +81,7 @@ static void priority_is_read_from_extras(void **state)
         }
 }
 
-static void equal_bodies_have_an_order(void **state)
+static void equal_volumes_are_ordered(void **state)
 {
     (void)state;
     scene_material materials[2] = {body(1.5f, NULL), body(1.5f, NULL)};
@@ -91,7 +91,7 @@ static void equal_bodies_have_an_order(void **state)
 
 /* KHR_materials_dispersion's example: ior 1.5168 with 20 / 64.17 (BK7) has 1.5143 at 656.27 nm, 1.5224 at
  * 486.13 nm. */
-static void index_goes_with_the_wavelength(void **state)
+static void the_index_depends_on_the_wavelength(void **state)
 {
     (void)state;
     scene_material m = body(1.5168f, NULL);
@@ -130,7 +130,7 @@ static void fly_all(const scene_material *m, vec3 beta, float distance_m, double
         }
 }
 
-static void flight_keeps_the_balance(void **state)
+static void free_flights_conserve_energy(void **state)
 {
     (void)state;
     scene_material m = body(1.0f, NULL);
@@ -157,7 +157,7 @@ static void flight_keeps_the_balance(void **state)
 }
 
 /* Without a far boundary a volume has the thickness of its material. */
-static void open_bodies_end(void **state)
+static void open_volumes_end_at_their_thickness(void **state)
 {
     (void)state;
     scene_material m = body(1.5f, NULL);
@@ -178,13 +178,13 @@ static void open_bodies_end(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(air_is_where_nothing_is),
+        cmocka_unit_test(outside_all_volumes_is_air),
         cmocka_unit_test(order_of_entering_does_not_matter),
         cmocka_unit_test(priority_is_read_from_extras),
-        cmocka_unit_test(equal_bodies_have_an_order),
-        cmocka_unit_test(index_goes_with_the_wavelength),
-        cmocka_unit_test(flight_keeps_the_balance),
-        cmocka_unit_test(open_bodies_end),
+        cmocka_unit_test(equal_volumes_are_ordered),
+        cmocka_unit_test(the_index_depends_on_the_wavelength),
+        cmocka_unit_test(free_flights_conserve_energy),
+        cmocka_unit_test(open_volumes_end_at_their_thickness),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -163,7 +163,7 @@ static scene_material glass(float ior, float attenuation)
 }
 
 /* Of 3 lx, from +Z. */
-static void add_lamp(stage *s)
+static void add_light(stage *s)
 {
     fixture_add_light(
         &s->f,
@@ -198,23 +198,23 @@ static void all_layers_count(void **state)
         fixture_place(&s.f, sphere, 0.0f, 0.0f, 0.0f, 1.0f + 0.01f * (float)i);
     s.f.camera.eye[2] = 5.0f;
     stage_prepare(&s);
-    double passes = pow(0.97, 80.0);
-    mean seen = trace_all(&s);
-    assert_near(seen.opacity, 1.0 - passes, 1e-5);
-    assert_near(seen.radiance[1], 1.0 - passes, 1e-5);
+    double transmittance = pow(0.97, 80.0);
+    mean measured = trace_all(&s);
+    assert_near(measured.opacity, 1.0 - transmittance, 1e-5);
+    assert_near(measured.radiance[1], 1.0 - transmittance, 1e-5);
     shading_ray ray = {.origin = {0.1f, 0.2f, 5.0f}, .direction = {0.0f, 0.0f, -1.0f}, .far_t = INFINITY};
-    assert_near((double)ray_trace_transmittance(&s.setup.shading, &ray, NULL), passes, 1e-6);
-    double met = 0.0;
+    assert_near((double)ray_trace_transmittance(&s.setup.shading, &ray, NULL), transmittance, 1e-6);
+    double hit_share = 0.0;
     for (uint32_t i = 0; i < 4000; i++) {
         visibility_hit hit;
-        met += ray_trace_nearest(&s.setup.shading, &ray, hash_uint(i), &hit) ? 1.0 / 4000.0 : 0.0;
+        hit_share += ray_trace_nearest(&s.setup.shading, &ray, hash_uint(i), &hit) ? 1.0 / 4000.0 : 0.0;
     }
-    assert_near(met, 1.0 - passes, 0.02);
+    assert_near(hit_share, 1.0 - transmittance, 0.02);
     stage_end(&s);
 }
 
-/* The nearer of two half-opaque walls is seen twice as often. */
-static void layers_are_drawn_by_their_share(void **state)
+/* The nearer of two half-opaque walls is measured twice as often. */
+static void blended_layers_count_by_their_visibility(void **state)
 {
     (void)state;
     stage s;
@@ -244,7 +244,7 @@ static mean below_wall(scene_material material, float turn, float width)
     stage s;
     stage_begin(&s);
     add_floor(&s, 0.0f);
-    add_lamp(&s);
+    add_light(&s);
     uint32_t wall = fixture_add_quad(&s.f, fixture_add_material(&s.f, material));
     scene_node *n = fixture_place(&s.f, wall, 0.0f, 0.0f, 1.0f, width);
     n->rotation[0] = turn;
@@ -255,7 +255,7 @@ static mean below_wall(scene_material material, float turn, float width)
 }
 
 /* A wall of which the camera sees one side only blocks light from either side. */
-static void culled_sides_throw_shadows(void **state)
+static void culled_sides_cast_shadows(void **state)
 {
     (void)state;
     scene_material m = scene_material_default();
@@ -271,7 +271,7 @@ static void culled_sides_throw_shadows(void **state)
     fixture_destroy(&s.f);
 }
 
-static void flat_colors_are_seen_and_throw_shadows(void **state)
+static void unlit_surfaces_are_visible_and_cast_shadows(void **state)
 {
     (void)state;
     scene_material m = scene_material_default();
@@ -281,10 +281,10 @@ static void flat_colors_are_seen_and_throw_shadows(void **state)
     stage s;
     stage_begin(&s);
     fixture_place(&s.f, fixture_add_quad(&s.f, fixture_add_material(&s.f, m)), 0.0f, 0.0f, 0.0f, 1.0f);
-    mean seen = measure(&s);
-    assert_near(seen.radiance[0], 0.25, 1e-7);
-    assert_near(seen.radiance[1], 1.0, 1e-7);
-    assert_true(seen.opacity == 1.0);
+    mean measured = measure(&s);
+    assert_near(measured.radiance[0], 0.25, 1e-7);
+    assert_near(measured.radiance[1], 1.0, 1e-7);
+    assert_true(measured.opacity == 1.0);
     fixture_destroy(&s.f);
 }
 
@@ -297,7 +297,7 @@ static void shadow_rays_pass_clear_walls(void **state)
     stage s;
     stage_begin(&s);
     add_floor(&s, 0.0f);
-    add_lamp(&s);
+    add_light(&s);
     uint32_t sphere = fixture_add_sphere(&s.f, 64, fixture_add_material(&s.f, clear_wall(0.98f)));
     for (int i = 0; i < 40; i++)
         fixture_place(&s.f, sphere, 0.0f, 0.0f, 0.0f, 2.0f + 0.01f * (float)i);
@@ -318,14 +318,14 @@ static void windows_are_counted_once(void **state)
         stage s;
         stage_begin(&s);
         add_floor(&s, 0.0f);
-        scene_material lamp = scene_material_default();
-        lamp.base_color[0] = lamp.base_color[1] = lamp.base_color[2] = 0.0f;
-        lamp.metallic = 0.0f;
-        lamp.extensions |= SCENE_SPECULAR;
-        lamp.specular = 0.0f;
+        scene_material emitter = scene_material_default();
+        emitter.base_color[0] = emitter.base_color[1] = emitter.base_color[2] = 0.0f;
+        emitter.metallic = 0.0f;
+        emitter.extensions |= SCENE_SPECULAR;
+        emitter.specular = 0.0f;
         for (int c = 0; c < 3; c++)
-            lamp.emissive[c] = 1.0f;
-        scene_node *n = fixture_place(&s.f, fixture_add_quad(&s.f, fixture_add_material(&s.f, lamp)), 0.0f,
+            emitter.emissive[c] = 1.0f;
+        scene_node *n = fixture_place(&s.f, fixture_add_quad(&s.f, fixture_add_material(&s.f, emitter)), 0.0f,
                                       0.0f, 2.0f, 1.0f);
         n->rotation[0] = 1.0f;
         n->rotation[3] = 0.0f;
@@ -352,7 +352,7 @@ static void straight_shadows_are_tinted(void **state)
         stage s;
         stage_begin(&s);
         add_floor(&s, -2.0f);
-        add_lamp(&s);
+        add_light(&s);
         fixture_place(&s.f, fixture_add_sphere(&s.f, 128, fixture_add_material(&s.f, glass(1.5f, 0.25f))),
                       0.0f, 0.0f, 0.0f, 1.0f);
         s.f.camera.eye[2] = -1.5f;
@@ -396,7 +396,7 @@ static void media_around_a_point_are_found(void **state)
 }
 
 /* From the middle of a ball of fog that only absorbs. */
-static void cameras_may_be_in_a_body(void **state)
+static void cameras_may_be_inside_a_volume(void **state)
 {
     (void)state;
     stage s;
@@ -414,7 +414,7 @@ static void cameras_may_be_in_a_body(void **state)
 
 /* A ball inside another one of the same material is a null interface, and BSDF-sampled light behind it has
  * weight 1. */
-static void overlapping_bodies_are_one(void **state)
+static void overlapping_volumes_are_one(void **state)
 {
     (void)state;
     double means[2];
@@ -440,7 +440,7 @@ static void overlapping_bodies_are_one(void **state)
 }
 
 /* White light that a prism parts is white again in a white room. */
-static void dispersion_keeps_the_balance(void **state)
+static void dispersion_conserves_energy(void **state)
 {
     (void)state;
     stage s;
@@ -454,9 +454,9 @@ static void dispersion_keeps_the_balance(void **state)
     s.f.camera.ortho_height = 1.5f;
     s.f.desc.energy = FACET_ENERGY_CONSERVING;
     s.f.desc.samples = 512;
-    mean seen = measure(&s);
+    mean measured = measure(&s);
     for (int c = 0; c < 3; c++)
-        assert_near(seen.radiance[c], 1.0, 0.01);
+        assert_near(measured.radiance[c], 1.0, 0.01);
     fixture_destroy(&s.f);
 }
 
@@ -468,7 +468,7 @@ static const struct {
 enum { SCALE_COUNT = sizeof SCALES / sizeof *SCALES };
 
 /* A closed ball keeps all light out. */
-static void nothing_leaks(void **state)
+static void closed_surfaces_block_all_light(void **state)
 {
     (void)state;
     for (int i = 0; i < SCALE_COUNT; i++) {
@@ -485,14 +485,14 @@ static void nothing_leaks(void **state)
         s.f.camera =
             (facet_camera){.eye = {x, 0.0f, 0.0f}, .target = {x, 0.1f * scale, -scale}, .fov_y_rad = 2.0f};
         s.f.desc.samples = 16;
-        mean seen = measure(&s);
-        assert_true(seen.radiance[0] == 0.0 && seen.opacity == 1.0);
+        mean measured = measure(&s);
+        assert_true(measured.radiance[0] == 0.0 && measured.opacity == 1.0);
         fixture_destroy(&s.f);
     }
 }
 
-/* A clear ball in a white room is not seen. */
-static void nothing_is_lost(void **state)
+/* A clear ball in a white room is not measured. */
+static void clear_volumes_lose_no_light(void **state)
 {
     (void)state;
     for (int i = 0; i < SCALE_COUNT; i++) {
@@ -517,7 +517,7 @@ static void nothing_is_lost(void **state)
 static void add_ground_view(stage *s)
 {
     set_sky(s, 1.0f);
-    add_lamp(s);
+    add_light(s);
     s->f.camera.eye[1] = 3.0f;
     s->f.camera.eye[2] = 4.0f;
     s->f.camera.ortho_height = 0.5f;
@@ -533,7 +533,7 @@ static mean measure_ground(stage *s)
 }
 
 /* What lies flat on the ground takes nothing: the same to the bit. What hangs above it does. */
-static void ground_is_as_bright_as_nothing_takes(void **state)
+static void ground_is_darkened_by_occluders_only(void **state)
 {
     (void)state;
     stage s;
@@ -559,7 +559,7 @@ static void ground_is_as_bright_as_nothing_takes(void **state)
     assert_near(m.lit / m.open, 0.75, 0.03);
 }
 
-static void ground_is_seen_from_above_only(void **state)
+static void ground_is_visible_from_above_only(void **state)
 {
     (void)state;
     stage s;
@@ -612,7 +612,7 @@ static void lens_rays_meet_in_focus(void **state)
 /* ---- features for the denoiser ---- */
 
 /* A mirror at 45 degrees shows a red wall. */
-static void guides_follow_mirrors(void **state)
+static void guides_follow_specular_reflections(void **state)
 {
     (void)state;
     stage s;
@@ -643,7 +643,7 @@ static void clamp_cuts_indirect_light(void **state)
         stage s;
         stage_begin(&s);
         add_floor(&s, 0.0f);
-        add_lamp(&s);
+        add_light(&s);
         scene_node *n = fixture_place(&s.f, fixture_add_quad(&s.f, lambert(&s, 1.0f, 1.0f, 1.0f)), 0.3f, 0.0f,
                                       0.0f, 1.0f);
         n->rotation[1] = -0.5f; /* leans over the floor */
@@ -662,22 +662,22 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_layers_count),
-        cmocka_unit_test(layers_are_drawn_by_their_share),
-        cmocka_unit_test(culled_sides_throw_shadows),
-        cmocka_unit_test(flat_colors_are_seen_and_throw_shadows),
+        cmocka_unit_test(blended_layers_count_by_their_visibility),
+        cmocka_unit_test(culled_sides_cast_shadows),
+        cmocka_unit_test(unlit_surfaces_are_visible_and_cast_shadows),
         cmocka_unit_test(shadow_rays_pass_clear_walls),
         cmocka_unit_test(windows_are_counted_once),
         cmocka_unit_test(straight_shadows_are_tinted),
         cmocka_unit_test(media_around_a_point_are_found),
-        cmocka_unit_test(cameras_may_be_in_a_body),
-        cmocka_unit_test(overlapping_bodies_are_one),
-        cmocka_unit_test(dispersion_keeps_the_balance),
-        cmocka_unit_test(nothing_leaks),
-        cmocka_unit_test(nothing_is_lost),
-        cmocka_unit_test(ground_is_as_bright_as_nothing_takes),
-        cmocka_unit_test(ground_is_seen_from_above_only),
+        cmocka_unit_test(cameras_may_be_inside_a_volume),
+        cmocka_unit_test(overlapping_volumes_are_one),
+        cmocka_unit_test(dispersion_conserves_energy),
+        cmocka_unit_test(closed_surfaces_block_all_light),
+        cmocka_unit_test(clear_volumes_lose_no_light),
+        cmocka_unit_test(ground_is_darkened_by_occluders_only),
+        cmocka_unit_test(ground_is_visible_from_above_only),
         cmocka_unit_test(lens_rays_meet_in_focus),
-        cmocka_unit_test(guides_follow_mirrors),
+        cmocka_unit_test(guides_follow_specular_reflections),
         cmocka_unit_test(clamp_cuts_indirect_light),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -29,51 +29,51 @@ static fixture healthy(void)
     truth_set_constant_sky(&f, 0.5f, 0.5f, 0.5f);
     truth_add_floor(&f, fixture_add_material(&f, truth_lambert(0.5f)), -1.0f, 4.0f);
     truth_add_ceiling(&f, fixture_add_material(&f, truth_emitter(2.0f)), 2.0f, 1.0f);
-    scene_light lamp = {.name = "", .type = SCENE_LIGHT_POINT, .color = {1, 1, 1}, .intensity = 3.0f};
-    fixture_add_light(&f, lamp, 1.0f, 3.0f, 1.0f);
+    scene_light point = {.name = "", .type = SCENE_LIGHT_POINT, .color = {1, 1, 1}, .intensity = 3.0f};
+    fixture_add_light(&f, point, 1.0f, 3.0f, 1.0f);
     fixture_place(&f,
                   fixture_add_sphere(&f, 16, fixture_add_material(&f, truth_metal(0.9f, 0.8f, 0.7f, 0.4f))),
                   0.0f, 0.0f, 0.0f, 1.0f);
-    truth_look(&f, 60.0, 0.0f, 0.0f, 3.0f);
+    truth_set_camera(&f, 60.0, 0.0f, 0.0f, 3.0f);
     return f;
 }
 
 /* Draws it; every number is finite, the image is not black, the samples add up. The number dropped. */
-static uint64_t check_picture(fixture *f, const char *what, int poison)
+static uint64_t check_render(fixture *f, const char *what, int poison)
 {
-    film picture;
+    film rendered;
     facet_render_stats stats;
     facet_error error = {0};
-    if (truth_try_render(f, &picture, &stats, &error) != FACET_OK)
+    if (truth_try_render(f, &rendered, &stats, &error) != FACET_OK)
         fail_msg("%s, poison %d: %s", what, poison, error.message);
     double sum = 0.0;
-    for (uint32_t i = 0; i < picture.layer_count; i++)
-        for (size_t k = 0; k < (size_t)picture.width * picture.height * picture.layers[i].channel_count;
+    for (uint32_t i = 0; i < rendered.layer_count; i++)
+        for (size_t k = 0; k < (size_t)rendered.width * rendered.height * rendered.layers[i].channel_count;
              k++) {
-            float v = picture.layers[i].pixels[k];
+            float v = rendered.layers[i].pixels[k];
             if (!isfinite(v))
-                fail_msg("%s, poison %d: layer \"%s\" has a %g", what, poison, picture.layers[i].name,
+                fail_msg("%s, poison %d: layer \"%s\" has a %g", what, poison, rendered.layers[i].name,
                          (double)v);
             sum += i == 0 ? fabs((double)v) : 0.0;
         }
     if (!(sum > 0.0))
-        fail_msg("%s, poison %d: the picture is black", what, poison);
-    assert_true(stats.samples == (uint64_t)picture.width * picture.height * f->desc.samples);
+        fail_msg("%s, poison %d: the image is black", what, poison);
+    assert_true(stats.samples == (uint64_t)rendered.width * rendered.height * f->desc.samples);
     assert_true(stats.dropped_samples <= stats.samples);
-    film_destroy(&picture);
+    film_destroy(&rendered);
     return stats.dropped_samples;
 }
 
-static void a_healthy_scene_drops_nothing(void **state)
+static void valid_scenes_drop_no_sample(void **state)
 {
     (void)state;
     fixture f = healthy();
-    assert_int_equal(check_picture(&f, "healthy", -1), 0);
+    assert_int_equal(check_render(&f, "healthy", -1), 0);
     fixture_destroy(&f);
 }
 
 /* Readers make vertices finite; a renderer that is given others does not fall over. */
-static void poisoned_vertices(void **state)
+static void poisoned_vertices_stay_finite(void **state)
 {
     (void)state;
     for (int poison = 0; poison < POISON_COUNT; poison++)
@@ -90,16 +90,12 @@ static void poisoned_vertices(void **state)
             }
             for (uint32_t i = 0; i < p->vertex_count; i += 5)
                 values[(kind == 2 ? 2 : 3) * i + i % 2] = POISONS[poison];
-            check_picture(&f,
-                          kind == 0   ? "positions"
-                          : kind == 1 ? "normals"
-                                      : "texture coordinates",
-                          poison);
+            check_render(&f, kind == 0 ? "positions" : kind == 1 ? "normals" : "texture coordinates", poison);
             fixture_destroy(&f);
         }
 }
 
-static void poisoned_materials(void **state)
+static void poisoned_materials_stay_finite(void **state)
 {
     (void)state;
     static const size_t members[] = {
@@ -154,14 +150,14 @@ static void poisoned_materials(void **state)
             memcpy((char *)m + members[member], &POISONS[poison], sizeof(float));
             char what[32];
             snprintf(what, sizeof what, "material, member %zu", member);
-            dropped += check_picture(&f, what, poison);
+            dropped += check_render(&f, what, poison);
             fixture_destroy(&f);
         }
     print_message("%llu samples were dropped\n", (unsigned long long)dropped);
     assert_true(dropped > 0); /* an emission without end is counted */
 }
 
-static void poisoned_lights(void **state)
+static void poisoned_lights_stay_finite(void **state)
 {
     (void)state;
     static const size_t members[] = {offsetof(scene_light, color), offsetof(scene_light, intensity),
@@ -174,14 +170,14 @@ static void poisoned_lights(void **state)
                 f.scene->lights[0].type = (scene_light_type)type;
                 f.scene->lights[0].outer_cone_rad = 0.5f;
                 memcpy((char *)&f.scene->lights[0] + members[member], &POISONS[poison], sizeof(float));
-                check_picture(&f, "light", poison);
+                check_render(&f, "light", poison);
                 fixture_destroy(&f);
             }
 }
 
 /* Files of environments are limited when they are read; what is in memory behind that is not believed
  * either. */
-static void poisoned_surroundings(void **state)
+static void poisoned_environments_stay_finite(void **state)
 {
     (void)state;
     for (int poison = 0; poison < POISON_COUNT; poison++) {
@@ -191,9 +187,9 @@ static void poisoned_surroundings(void **state)
         texels[3 * (8 * 32 + 5)] = POISONS[poison];
         texels[3 * (2 * 32 + 9) + 1] = POISONS[poison];
         environment_limit(f.environment, 1);
-        check_picture(&f, "surroundings", poison);
+        check_render(&f, "environment", poison);
         f.desc.sun = (facet_sun){.elevation_rad = 1.0f, .illuminance_lux = {1.0f, POISONS[poison], 1.0f}};
-        check_picture(&f, "sun", poison);
+        check_render(&f, "sun", poison);
         fixture_destroy(&f);
     }
 }
@@ -211,22 +207,19 @@ static void paths_end(void **state)
                   -1.0f);
     f.camera = (facet_camera){.eye = {0.1f, 0.2f, 0.3f}, .target = {0.7f, 0.5f, -0.4f}, .fov_y_rad = 1.0f};
     facet_render_stats stats;
-    film picture = truth_render(&f, &stats);
+    film rendered = truth_render(&f, &stats);
     for (size_t i = 0; i < 64; i++)
-        assert_true(isfinite(picture.layers[0].pixels[i]));
-    film_destroy(&picture);
+        assert_true(isfinite(rendered.layers[0].pixels[i]));
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_healthy_scene_drops_nothing),
-        cmocka_unit_test(poisoned_vertices),
-        cmocka_unit_test(poisoned_materials),
-        cmocka_unit_test(poisoned_lights),
-        cmocka_unit_test(poisoned_surroundings),
-        cmocka_unit_test(paths_end),
+        cmocka_unit_test(valid_scenes_drop_no_sample),       cmocka_unit_test(poisoned_vertices_stay_finite),
+        cmocka_unit_test(poisoned_materials_stay_finite),    cmocka_unit_test(poisoned_lights_stay_finite),
+        cmocka_unit_test(poisoned_environments_stay_finite), cmocka_unit_test(paths_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

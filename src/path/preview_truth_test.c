@@ -101,7 +101,7 @@ static bool is_inside(uint32_t x, uint32_t y, double radius)
     return hypot(px, py) < radius;
 }
 
-static void lights_without_size_are_the_same(void **state)
+static void delta_lights_are_equal(void **state)
 {
     (void)state;
     for (int energy = 0; energy < 2; energy++)
@@ -166,7 +166,7 @@ static void compare_means(fixture *f, int material, const char *what, double bou
  * views alone reflect, costs it more: there the lobe leans towards the normal.) Both compensate what
  * scatters twice: in glTF mode the preview does so for surroundings only, as Khronos' renderer, and is
  * brighter by that. */
-static void surroundings_are_nearly_the_same(void **state)
+static void environments_are_nearly_equal(void **state)
 {
     (void)state;
     for (int material = 0; material < MATERIALS; material++) {
@@ -182,8 +182,8 @@ static void surroundings_are_nearly_the_same(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lights_without_size_are_the_same),
-        cmocka_unit_test(surroundings_are_nearly_the_same),
+        cmocka_unit_test(delta_lights_are_equal),
+        cmocka_unit_test(environments_are_nearly_equal),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

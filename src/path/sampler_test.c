@@ -43,7 +43,7 @@ static void every_pair_is_even(void **state)
             }
 }
 
-static void earlier_draws_do_not_count(void **state)
+static void pairs_do_not_depend_on_earlier_ones(void **state)
 {
     (void)state;
     for (uint32_t vertex = 1; vertex < 12; vertex++) {
@@ -222,7 +222,7 @@ static void patterns_do_not_repeat(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_pair_is_even),        cmocka_unit_test(earlier_draws_do_not_count),
+        cmocka_unit_test(every_pair_is_even),        cmocka_unit_test(pairs_do_not_depend_on_earlier_ones),
         cmocka_unit_test(pairs_are_even_together),   cmocka_unit_test(all_dimensions_are_even_together),
         cmocka_unit_test(neighbors_are_independent), cmocka_unit_test(patterns_do_not_repeat),
     };

@@ -25,14 +25,14 @@ static fixture busy_scene(uint32_t size)
     truth_add_flat_sphere(&f, fixture_add_material(&f, truth_metal(0.9f, 0.7f, 0.3f, 0.4f)), 24, 0.0f, 0.7f);
     fixture_place(&f, f.scene->mesh_count - 1, 1.2f, 0.0f, 0.9f, 0.5f);
     truth_add_box(&f, fixture_add_material(&f, truth_glass(1.5f, 0.2f)), 1.0f, 0.4f, 0.2f, 0.4f);
-    truth_look(&f, 65.0, 0.0f, 0.0f, 3.0f);
+    truth_set_camera(&f, 65.0, 0.0f, 0.0f, 3.0f);
     f.desc.width = f.desc.height = size;
     f.desc.samples = 16;
     f.desc.path.max_depth = 16;
     return f;
 }
 
-static void assert_same_picture(const film *a, const film *b, const char *what)
+static void assert_same_image(const film *a, const film *b, const char *what)
 {
     assert_int_equal(a->width, b->width);
     assert_int_equal(a->height, b->height);
@@ -47,7 +47,7 @@ static void assert_same_picture(const film *a, const film *b, const char *what)
 
 /* Pixel by pixel: the mean of 64 seeds of 16 samples each, and 2048 samples of another seed. The
  * differences are those of normal numbers with the errors that both have. */
-static void many_short_pictures_are_a_long_one(void **state)
+static void many_short_renders_average_to_a_long_one(void **state)
 {
     (void)state;
     enum { SIZE = 16, SEEDS = 64 };
@@ -62,13 +62,13 @@ static void many_short_pictures_are_a_long_one(void **state)
     memset(square, 0, sizeof square);
     for (uint32_t seed = 0; seed < SEEDS; seed++) {
         f.desc.path.seed = seed;
-        film picture = truth_render(&f, NULL);
+        film rendered = truth_render(&f, NULL);
         for (size_t i = 0; i < SIZE * SIZE * 3; i++) {
-            double v = (double)picture.layers[0].pixels[4 * (i / 3) + i % 3];
+            double v = (double)rendered.layers[0].pixels[4 * (i / 3) + i % 3];
             sum[i] += v;
             square[i] += v * v;
         }
-        film_destroy(&picture);
+        film_destroy(&rendered);
     }
     double chi2 = 0.0, bias = 0.0, bias_error2 = 0.0;
     uint32_t count = 0;
@@ -99,7 +99,7 @@ static void many_short_pictures_are_a_long_one(void **state)
 
 /* Root mean square error against an image of 64 times the samples: it falls with the root of the samples,
  * or faster. Without the glass, whose rare caustics make the errors themselves noisy. */
-static void errors_fall_with_the_root(void **state)
+static void errors_fall_with_the_square_root_of_samples(void **state)
 {
     (void)state;
     enum { SIZE = 16, STEPS = 3 };
@@ -116,12 +116,12 @@ static void errors_fall_with_the_root(void **state)
         uint32_t seeds = 16;
         for (uint32_t seed = 1; seed <= seeds; seed++) {
             f.desc.path.seed = seed;
-            film picture = truth_render(&f, NULL);
+            film rendered = truth_render(&f, NULL);
             for (size_t i = 0; i < SIZE * SIZE * 4; i++) {
-                double d = (double)picture.layers[0].pixels[i] - (double)reference.layers[0].pixels[i];
+                double d = (double)rendered.layers[0].pixels[i] - (double)reference.layers[0].pixels[i];
                 sum += d * d / (SIZE * SIZE * 4.0 * seeds);
             }
-            film_destroy(&picture);
+            film_destroy(&rendered);
         }
         rmse[step] = sqrt(sum);
     }
@@ -134,34 +134,35 @@ static void errors_fall_with_the_root(void **state)
 
 /* The variance of the film is that of images: not less than half of it, and not more than that of
  * independent samples, which is an upper bound for stratified ones. */
-static void the_film_knows_its_error(void **state)
+static void the_film_estimates_its_variance(void **state)
 {
     (void)state;
     enum { SIZE = 8, SEEDS = 64 };
     fixture f = busy_scene(SIZE);
     f.desc.aovs = FACET_AOV_VARIANCE;
     f.desc.samples = 64;
-    double told = 0.0;
+    double estimated = 0.0;
     static double sum[SIZE * SIZE * 3], square[SIZE * SIZE * 3];
     memset(sum, 0, sizeof sum);
     memset(square, 0, sizeof square);
     for (uint32_t seed = 1; seed <= SEEDS; seed++) {
         f.desc.path.seed = seed;
-        film picture = truth_render(&f, NULL);
+        film rendered = truth_render(&f, NULL);
         for (uint32_t i = 0; i < SIZE * SIZE * 3; i++) {
-            double v = (double)picture.layers[0].pixels[4 * (i / 3) + i % 3];
+            double v = (double)rendered.layers[0].pixels[4 * (i / 3) + i % 3];
             sum[i] += v;
             square[i] += v * v;
-            told += (double)fixture_pixel(&picture, "variance", i / 3 % SIZE, i / 3 / SIZE)[i % 3] / SEEDS;
+            estimated +=
+                (double)fixture_pixel(&rendered, "variance", i / 3 % SIZE, i / 3 / SIZE)[i % 3] / SEEDS;
         }
-        film_destroy(&picture);
+        film_destroy(&rendered);
     }
-    double seen = 0.0;
+    double measured = 0.0;
     for (size_t i = 0; i < SIZE * SIZE * 3; i++)
-        seen += (square[i] - sum[i] * sum[i] / SEEDS) / (SEEDS - 1);
+        measured += (square[i] - sum[i] * sum[i] / SEEDS) / (SEEDS - 1);
     fixture_destroy(&f);
-    print_message("variance told %.4g, seen %.4g\n", told, seen);
-    assert_true(told > seen * 0.9 && told < seen * 10.0);
+    print_message("variance estimated %.4g, measured %.4g\n", estimated, measured);
+    assert_true(estimated > measured * 0.9 && estimated < measured * 10.0);
 }
 
 /* ---- coverage ---- */
@@ -183,7 +184,7 @@ static void blending_and_masks_cover_their_share(void **state)
             uint32_t material = fixture_add_material(&f, m);
             for (int k = 0; k < layers; k++)
                 truth_add_floor(&f, material, -1000.0f * (float)k, 10.0f);
-            truth_look(&f, 0.0, 0.0f, 0.0f, 0.1f);
+            truth_set_camera(&f, 0.0, 0.0f, 0.0f, 0.1f);
             truth_value v = truth_measure(&f, 16);
             double opacity = 1.0 - pow(1.0 - (double)opacities[i], layers);
             truth_assert_channel(&v, 3, opacity, "%d layers of %g", layers, (double)opacities[i]);
@@ -201,7 +202,7 @@ static void blending_and_masks_cover_their_share(void **state)
         m.alpha_cutoff = 0.5f;
         m.base_color[3] = i ? 0.5f : 0.49f;
         truth_add_floor(&f, fixture_add_material(&f, m), 0.0f, 10.0f);
-        truth_look(&f, 0.0, 0.0f, 0.0f, 0.1f);
+        truth_set_camera(&f, 0.0, 0.0f, 0.0f, 0.1f);
         truth_value v = truth_measure_pixels(&f);
         truth_assert_channel(&v, 3, i, "mask at %g", (double)m.base_color[3]);
         fixture_destroy(&f);
@@ -222,7 +223,7 @@ static void blending_casts_half_a_shadow(void **state)
     m.is_double_sided = true;
     truth_add_floor(&f, fixture_add_material(&f, m), 1.0f, 0.5f);
     fixture_add_light(&f, light, 0.2f, 2.0f, 0.0f); /* not through the diagonal, where both triangles count */
-    truth_look(&f, 60.0, 0.0f, 0.0f, 0.0001f);
+    truth_set_camera(&f, 60.0, 0.0f, 0.0f, 0.0001f);
     truth_value v = truth_measure(&f, 16);
     truth_assert_grey(&v, 0.7 * 0.5 / TRUTH_PI * 100.0 / 4.04 * 2.0 / sqrt(4.04), "under a veil");
     fixture_destroy(&f);
@@ -237,18 +238,18 @@ static void edges_cover_their_area(void **state)
     f.desc.samples = 4096;
     truth_set_constant_sky(&f, 1.0f, 1.0f, 1.0f);
     truth_add_floor(&f, fixture_add_material(&f, truth_lambert(1.0f)), 0.0f, 0.8125f);
-    truth_look(&f, 0.0, 0.0f, 0.0f, 2.0f);
+    truth_set_camera(&f, 0.0, 0.0f, 0.0f, 2.0f);
     truth_value v = truth_measure_pixels(&f);
     assert_true(fabs(v.mean[3] - 0.8125 * 0.8125) < 2e-4);
-    film picture = truth_render(&f, NULL);
+    film rendered = truth_render(&f, NULL);
     for (uint32_t y = 0; y < 4; y++)
         for (uint32_t x = 0; x < 4; x++) {
             double cx = x % 3 ? 1.0 : 0.625;
             double cy = y % 3 ? 1.0 : 0.625;
             /* Owen-scrambled: the error at an edge is about N^-3/4. */
-            assert_true(fabs((double)fixture_pixel(&picture, "", x, y)[3] - cx * cy) < 4e-3);
+            assert_true(fabs((double)fixture_pixel(&rendered, "", x, y)[3] - cx * cy) < 4e-3);
         }
-    film_destroy(&picture);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -265,7 +266,7 @@ static void filters_keep_a_constant(void **state)
         f.desc.samples = 16;
         truth_set_constant_sky(&f, 1.0f, 2.0f, 4.0f);
         truth_add_floor(&f, fixture_add_material(&f, truth_metal(1.0f, 1.0f, 1.0f, 0.0f)), -5.0f, 0.01f);
-        truth_look(&f, 10.0, 3.0f, 0.0f, 0.5f);
+        truth_set_camera(&f, 10.0, 3.0f, 0.0f, 0.5f);
         truth_value v = truth_measure_pixels(&f);
         for (int c = 0; c < 4; c++) {
             truth_assert_channel(&v, c, c == 3 ? 1.0 : (double)(1 << c), "filter %d", filter);
@@ -304,11 +305,11 @@ static void filters_blur_a_line_as_they_say(void **state)
         f.desc.width = f.desc.height = 8;
         f.desc.samples = 4096;
         /* A line of 1/4 pixel through the middle of column 4, 8 pixels of 1 m. */
-        scene_material lamp = truth_emitter(1.0f);
-        truth_add_panel(&f, fixture_add_material(&f, lamp), (float[3]){0.5f, 0.0f, 0.0f},
+        scene_material emitter = truth_emitter(1.0f);
+        truth_add_panel(&f, fixture_add_material(&f, emitter), (float[3]){0.5f, 0.0f, 0.0f},
                         (float[3]){0.125f, 0.0f, 0.0f}, (float[3]){0.0f, 0.0f, -100.0f});
-        truth_look(&f, 0.0, 0.0f, 0.0f, 8.0f);
-        film picture = truth_render(&f, NULL);
+        truth_set_camera(&f, 0.0, 0.0f, 0.0f, 8.0f);
+        film rendered = truth_render(&f, NULL);
         double total = 0.0;
         for (int i = -2000; i < 2000; i++)
             total += filter_weight((facet_filter)filter, (i + 0.5) / 1000.0) / 1000.0;
@@ -320,12 +321,12 @@ static void filters_blur_a_line_as_they_say(void **state)
             }
             double mean = 0.0;
             for (uint32_t y = 2; y < 6; y++)
-                mean += (double)fixture_pixel(&picture, "", x, y)[0] / 4.0;
+                mean += (double)fixture_pixel(&rendered, "", x, y)[0] / 4.0;
             if (fabs(mean - expected) > 2e-3)
                 fail_msg("filter %d, %d pixels from the line: %.5f, expected %.5f", filter, (int)x - 4, mean,
                          expected);
         }
-        film_destroy(&picture);
+        film_destroy(&rendered);
         fixture_destroy(&f);
     }
 }
@@ -340,7 +341,7 @@ static void a_moving_square_is_blurred_by_a_box(void **state)
     f.desc.width = f.desc.height = SIZE;
     f.desc.samples = 256;
     truth_add_floor(&f, fixture_add_material(&f, truth_emitter(1.0f)), 0.0f, 2.0f);
-    truth_look(&f, 0.0, 0.0f, 0.0f, 16.0f);
+    truth_set_camera(&f, 0.0, 0.0f, 0.0f, 16.0f);
     static const float times[2] = {1.0f, 2.0f};
     static const float values[6] = {-4.0f, 0.0f, 0.0f, 4.0f, 0.0f, 0.0f};
     static const scene_sampler sampler = {
@@ -358,7 +359,7 @@ static void a_moving_square_is_blurred_by_a_box(void **state)
     f.scene->animation_count = 1;
     f.desc.pose = (facet_pose_desc){.animation_count = 1, .animations = (uint32_t[]){0}, .time_s = 1.0};
     f.desc.path.shutter_s = 1.0f;
-    film picture = truth_render(&f, NULL);
+    film rendered = truth_render(&f, NULL);
     double sum = 0.0;
     for (uint32_t x = 0; x < SIZE; x++) {
         double expected = 0.0;
@@ -370,15 +371,15 @@ static void a_moving_square_is_blurred_by_a_box(void **state)
             }
         double mean = 0.0;
         for (uint32_t y = 7; y < 9; y++)
-            mean += (double)fixture_pixel(&picture, "", x, y)[3] / 2.0;
+            mean += (double)fixture_pixel(&rendered, "", x, y)[3] / 2.0;
         sum += mean;
         /* 64 instants, evenly spread: each stands for 1/64 of the time. */
         if (fabs(mean - expected) > 1.0 / 64.0)
             fail_msg("column %u: %.4f, expected %.4f", x, mean, expected);
-        assert_true(fabs((double)fixture_pixel(&picture, "", x, 2)[3]) < 1e-6);
+        assert_true(fabs((double)fixture_pixel(&rendered, "", x, 2)[3]) < 1e-6);
     }
     assert_true(fabs(sum - 4.0) < 0.02);
-    film_destroy(&picture);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -402,11 +403,11 @@ static void a_lens_blurs_a_point_into_a_disc(void **state)
                                   .fov_y_rad = (float)(2.0 * atan(0.5 * height / 4.0)),
                                   .lens_radius_m = is_sharp ? 0.0f : 0.1f,
                                   .focus_m = 2.0f};
-        film picture = truth_render(&f, NULL);
+        film rendered = truth_render(&f, NULL);
         double sum = 0.0, moment = 0.0, middle[2] = {0.0, 0.0}, farthest = 0.0;
         for (uint32_t y = 0; y < SIZE; y++)
             for (uint32_t x = 0; x < SIZE; x++) {
-                double v = (double)fixture_pixel(&picture, "", x, y)[0];
+                double v = (double)fixture_pixel(&rendered, "", x, y)[0];
                 double px = (x + 0.5 - SIZE / 2) * height / SIZE;
                 double py = (y + 0.5 - SIZE / 2) * height / SIZE;
                 sum += v;
@@ -427,7 +428,7 @@ static void a_lens_blurs_a_point_into_a_disc(void **state)
         assert_true(is_sharp || fabs(moment / sum - expected) < TRUTH_SIGMAS * 0.0058 * expected);
         assert_true(hypot(middle[0], middle[1]) / sum < TRUTH_SIGMAS * 0.0005);
         assert_true(farthest < (is_sharp ? 0.0 : 0.1) + 0.01 * sqrt(2.0) + 1.5 * pixel);
-        film_destroy(&picture);
+        film_destroy(&rendered);
         fixture_destroy(&f);
     }
     assert_true(fabs(flux[0] - flux[1]) < TRUTH_SIGMAS * 0.01 * flux[1]);
@@ -435,7 +436,7 @@ static void a_lens_blurs_a_point_into_a_disc(void **state)
 
 /* ---- independence of threads, crops, interruptions ---- */
 
-static void pictures_do_not_depend_on_threads(void **state)
+static void images_do_not_depend_on_threads(void **state)
 {
     (void)state;
     fixture f = busy_scene(48);
@@ -450,8 +451,8 @@ static void pictures_do_not_depend_on_threads(void **state)
         film two = truth_render(&f, NULL);
         f.desc.thread_count = 7;
         film seven = truth_render(&f, NULL);
-        assert_same_picture(&one, &two, "1 and 2 threads");
-        assert_same_picture(&one, &seven, "1 and 7 threads");
+        assert_same_image(&one, &two, "1 and 2 threads");
+        assert_same_image(&one, &seven, "1 and 7 threads");
         film_destroy(&one);
         film_destroy(&two);
         film_destroy(&seven);
@@ -459,7 +460,7 @@ static void pictures_do_not_depend_on_threads(void **state)
     fixture_destroy(&f);
 }
 
-static void a_part_is_the_whole_there(void **state)
+static void a_crop_equals_the_whole_image_there(void **state)
 {
     (void)state;
     fixture f = busy_scene(40);
@@ -487,7 +488,7 @@ static bool stop_after(void *user, const char *stage, double fraction)
     return fraction < 0.2 || (*left)-- > 0;
 }
 
-static void interrupted_pictures_are_resumed_to_the_bit(void **state)
+static void interrupted_renders_resume_to_the_bit(void **state)
 {
     (void)state;
     char folder[] = "/tmp/facet-path-XXXXXX";
@@ -510,7 +511,7 @@ static void interrupted_pictures_are_resumed_to_the_bit(void **state)
         f.desc.path.resumes = true;
         film all = truth_render(&f, NULL);
         if (!is_adaptive) /* where passes end differs with the number of samples, and with it where regions are done */
-            assert_same_picture(&whole, &all, "more samples later");
+            assert_same_image(&whole, &all, "more samples later");
         film_destroy(&some);
         film_destroy(&all);
         unlink(path);
@@ -533,7 +534,7 @@ static void interrupted_pictures_are_resumed_to_the_bit(void **state)
         f.desc.progress = (facet_progress){0};
         assert_true(tries > 0);
         if (!is_adaptive)
-            assert_same_picture(&whole, &resumed, "cancelled");
+            assert_same_image(&whole, &resumed, "cancelled");
         film_destroy(&resumed);
         film_destroy(&whole);
         unlink(path);
@@ -544,7 +545,7 @@ static void interrupted_pictures_are_resumed_to_the_bit(void **state)
 
 /* Adaptive sampling stops where the noise is low; its mean is that of all samples within 1 %, and it took
  * fewer. */
-static void adaptive_pictures_have_the_same_mean(void **state)
+static void adaptive_images_have_the_same_mean(void **state)
 {
     (void)state;
     fixture f = busy_scene(16);
@@ -552,8 +553,8 @@ static void adaptive_pictures_have_the_same_mean(void **state)
     f.desc.path.noise = 0.01f;
     truth_value adaptive = truth_measure(&f, 8);
     facet_render_stats stats;
-    film picture = truth_render(&f, &stats);
-    film_destroy(&picture);
+    film rendered = truth_render(&f, &stats);
+    film_destroy(&rendered);
     uint64_t taken = stats.samples;
     f.desc.path.noise = 0.0f;
     truth_value all = truth_measure(&f, 8);
@@ -570,7 +571,7 @@ static void adaptive_pictures_have_the_same_mean(void **state)
 /* A path of at most 64 events and one of at most 4000: longer paths contribute less than the noise, in a
  * scene without white rooms; and roulette, which ends nearly all of these paths before, does not change
  * the mean. */
-static void roulette_changes_no_mean(void **state)
+static void roulette_is_unbiased(void **state)
 {
     (void)state;
     truth_value v[2];
@@ -587,9 +588,9 @@ static void roulette_changes_no_mean(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(many_short_pictures_are_a_long_one),
-        cmocka_unit_test(errors_fall_with_the_root),
-        cmocka_unit_test(the_film_knows_its_error),
+        cmocka_unit_test(many_short_renders_average_to_a_long_one),
+        cmocka_unit_test(errors_fall_with_the_square_root_of_samples),
+        cmocka_unit_test(the_film_estimates_its_variance),
         cmocka_unit_test(blending_and_masks_cover_their_share),
         cmocka_unit_test(blending_casts_half_a_shadow),
         cmocka_unit_test(edges_cover_their_area),
@@ -597,11 +598,11 @@ int main(void)
         cmocka_unit_test(filters_blur_a_line_as_they_say),
         cmocka_unit_test(a_moving_square_is_blurred_by_a_box),
         cmocka_unit_test(a_lens_blurs_a_point_into_a_disc),
-        cmocka_unit_test(pictures_do_not_depend_on_threads),
-        cmocka_unit_test(a_part_is_the_whole_there),
-        cmocka_unit_test(interrupted_pictures_are_resumed_to_the_bit),
-        cmocka_unit_test(adaptive_pictures_have_the_same_mean),
-        cmocka_unit_test(roulette_changes_no_mean),
+        cmocka_unit_test(images_do_not_depend_on_threads),
+        cmocka_unit_test(a_crop_equals_the_whole_image_there),
+        cmocka_unit_test(interrupted_renders_resume_to_the_bit),
+        cmocka_unit_test(adaptive_images_have_the_same_mean),
+        cmocka_unit_test(roulette_is_unbiased),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,16 +11,16 @@
 #include "path/path_fixture.h"
 
 /* Independent images of a mean. With 24 values each, Student's t exceeds 3 once in 250 comparisons. */
-enum { PICTURES = 24 };
+enum { RENDERS = 24 };
 
 static void check_strategies(fixture *f, const char *what)
 {
-    static const char *names[] = {"both", "met by chance", "aimed at"};
+    static const char *names[] = {"both", "BSDF-sampled", "light-sampled"};
     truth_value v[3];
     f->desc.width = f->desc.height = 6;
     for (int i = 0; i < 3; i++) {
         f->desc.path.light_sampling = (facet_light_sampling)i;
-        v[i] = truth_measure(f, PICTURES);
+        v[i] = truth_measure(f, RENDERS);
         /* Of no use as a test where the mean is not known to a percent. */
         for (int c = 0; c < 3; c++)
             if (v[i].mean[c] <= 0.0 || v[i].error[c] > 0.015 * v[i].mean[c])
@@ -45,7 +45,7 @@ static void area_light_over_diffuse_and_glossy(void **state)
         truth_add_ceiling(&f, fixture_add_material(&f, truth_emitter(5.0f)), 2.0f, 1.0f);
         /* An occluder that reflects. */
         truth_add_box(&f, fixture_add_material(&f, truth_lambert(0.7f)), 0.5f, 0.3f, 0.2f, 0.3f);
-        truth_look(&f, 60.0, -0.5f, 0.0f, 1.5f);
+        truth_set_camera(&f, 60.0, -0.5f, 0.0f, 1.5f);
         f.desc.samples = i == 0 ? 256 : 128;
         check_strategies(&f, "area light");
     }
@@ -81,7 +81,7 @@ static void environment_over_layers(void **state)
             m.metallic = 0.2f;
         }
         truth_add_flat_sphere(&f, fixture_add_material(&f, m), 48, 0.0f, 1.0f);
-        truth_look(&f, 70.0, 0.0f, 0.0f, 1.8f);
+        truth_set_camera(&f, 70.0, 0.0f, 0.0f, 1.8f);
         f.desc.environment_rotation_rad = 0.7f * (float)i;
         f.desc.samples = 256;
         check_strategies(&f, "environment");
@@ -98,11 +98,11 @@ static void emissive_texture(void **state)
                                                 : i % 8 > 4 && i / 8 < 3 ? 255 - 60 * c
                                                                          : 20 * c);
     fixture f = truth_create();
-    scene_material lamp = truth_emitter(10.0f);
-    lamp.textures[SCENE_EMISSIVE_TEXTURE].texture = fixture_add_texture(&f, 8, 8, texels);
+    scene_material emitter = truth_emitter(10.0f);
+    emitter.textures[SCENE_EMISSIVE_TEXTURE].texture = fixture_add_texture(&f, 8, 8, texels);
     truth_add_floor(&f, fixture_add_material(&f, truth_lambert(0.8f)), 0.0f, 5.0f);
-    truth_add_ceiling(&f, fixture_add_material(&f, lamp), 1.0f, 1.0f);
-    truth_look(&f, 80.0, 0.0f, 0.0f, 0.3f);
+    truth_add_ceiling(&f, fixture_add_material(&f, emitter), 1.0f, 1.0f);
+    truth_set_camera(&f, 80.0, 0.0f, 0.0f, 0.3f);
     f.desc.samples = 256;
     check_strategies(&f, "emissive texture");
 }
@@ -113,16 +113,16 @@ static void many_emitters(void **state)
     fixture f = truth_create();
     truth_add_floor(&f, fixture_add_material(&f, truth_metal(0.9f, 0.9f, 0.9f, 0.6f)), 0.0f, 5.0f);
     for (int i = 0; i < 24; i++) {
-        scene_material lamp = truth_emitter(4.0f + (float)(i % 5));
-        lamp.emissive[i % 3] = 0.2f;
-        lamp.is_double_sided = i % 2;
+        scene_material emitter = truth_emitter(4.0f + (float)(i % 5));
+        emitter.emissive[i % 3] = 0.2f;
+        emitter.is_double_sided = i % 2;
         float angle = 0.7f * (float)i;
         float c[3] = {1.5f * cosf(angle), 0.4f + 0.1f * (float)(i % 7), 1.5f * sinf(angle)};
         float u[3] = {0.2f * cosf(angle), 0.1f, 0.2f * sinf(angle)};
         float v[3] = {0.2f * sinf(angle), 0.0f, -0.2f * cosf(angle)};
-        truth_add_panel(&f, fixture_add_material(&f, lamp), c, u, v);
+        truth_add_panel(&f, fixture_add_material(&f, emitter), c, u, v);
     }
-    truth_look(&f, 45.0, 0.0f, 0.0f, 1.0f);
+    truth_set_camera(&f, 45.0, 0.0f, 0.0f, 1.0f);
     f.desc.samples = 512;
     check_strategies(&f, "24 emitters");
 }
@@ -140,7 +140,7 @@ static void sun_and_sky(void **state)
     m.metallic = 0.3f;
     truth_add_floor(&f, fixture_add_material(&f, m), 0.0f, 5.0f);
     truth_add_box(&f, fixture_add_material(&f, truth_lambert(0.5f)), 0.5f, 0.2f, 0.4f, 0.2f);
-    truth_look(&f, 50.0, 0.3f, 0.0f, 1.5f);
+    truth_set_camera(&f, 50.0, 0.3f, 0.0f, 1.5f);
     f.desc.samples = 256;
     check_strategies(&f, "sun and sky");
 }
@@ -154,7 +154,7 @@ static void rough_glass(void **state)
     truth_add_floor(&f, fixture_add_material(&f, truth_lambert(0.6f)), -1.2f, 4.0f);
     truth_add_panel(&f, fixture_add_material(&f, truth_emitter(3.0f)), (float[3]){0.0f, 2.5f, 0.0f},
                     (float[3]){1.0f, 0.0f, 0.0f}, (float[3]){0.0f, 0.0f, 1.0f});
-    truth_look(&f, 60.0, 0.0f, 0.0f, 1.6f);
+    truth_set_camera(&f, 60.0, 0.0f, 0.0f, 1.6f);
     f.desc.samples = 256;
     check_strategies(&f, "rough glass");
 }
@@ -173,13 +173,13 @@ static void scattering_volume(void **state)
     }
     fog.scatter_anisotropy = 0.4f;
     truth_add_box(&f, fixture_add_material(&f, fog), 0.0f, 1.0f, 1.0f, 1.0f);
-    scene_material lamp = truth_emitter(4.0f);
-    lamp.is_double_sided = true;
-    truth_add_panel(&f, fixture_add_material(&f, lamp), (float[3]){0.1f, 0.2f, 0.3f},
+    scene_material emitter = truth_emitter(4.0f);
+    emitter.is_double_sided = true;
+    truth_add_panel(&f, fixture_add_material(&f, emitter), (float[3]){0.1f, 0.2f, 0.3f},
                     (float[3]){0.5f, 0.0f, 0.0f}, (float[3]){0.0f, 0.3f, 0.3f});
-    truth_look(&f, 60.0, 0.0f, 0.0f, 1.6f);
+    truth_set_camera(&f, 60.0, 0.0f, 0.0f, 1.6f);
     f.desc.samples = 256;
-    check_strategies(&f, "lamp in fog");
+    check_strategies(&f, "area light in fog");
 }
 
 int main(void)

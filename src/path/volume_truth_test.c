@@ -37,7 +37,7 @@ static fixture slab(scene_material m, double polar, float s)
     fixture f = truth_create();
     truth_set_sky(&f, 256, truth_sky_halves);
     truth_add_box(&f, fixture_add_material(&f, m), 0.0f, s, 0.5f, s);
-    truth_look(&f, polar, 0.0f, 0.0f, 0.1f);
+    truth_set_camera(&f, polar, 0.0f, 0.0f, 0.1f);
     f.desc.samples = 256;
     f.desc.path.max_depth = 1000;
     return f;
@@ -220,7 +220,7 @@ static void a_white_medium_in_a_furnace(void **state)
         fixture f = truth_create();
         truth_set_constant_sky(&f, 1.0f, 1.0f, 1.0f);
         truth_add_flat_sphere(&f, fixture_add_material(&f, m), 32, 0.0f, 1.0f);
-        truth_look(&f, 60.0, 0.0f, 0.0f, 1.9f);
+        truth_set_camera(&f, 60.0, 0.0f, 0.0f, 1.9f);
         f.desc.path.max_depth = 3000;
         f.desc.samples = 128;
         truth_value v = truth_measure(&f, 16);

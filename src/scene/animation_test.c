@@ -22,7 +22,7 @@ static scene_state state_at(const facet_scene *scene, double time_s)
     return state;
 }
 
-static void nothing_selected_is_the_scene_itself(void **state)
+static void without_an_animation_the_state_is_the_scene(void **state)
 {
     (void)state;
     static const float values[6] = {0, 0, 0, 1, 2, 3};
@@ -70,7 +70,7 @@ static void nodes_move_and_the_scene_stays(void **state)
     scene_destroy(scene);
 }
 
-static void a_matrix_comes_apart_where_a_part_of_it_moves(void **state)
+static void animated_matrices_are_decomposed(void **state)
 {
     (void)state;
     static const float translations[6] = {0, 0, 0, 10, 20, 30};
@@ -91,7 +91,7 @@ static void a_matrix_comes_apart_where_a_part_of_it_moves(void **state)
     scene_destroy(scene);
 }
 
-static void weights_move_per_node_from_an_offset_on(void **state)
+static void weights_are_animated_per_node_from_an_offset(void **state)
 {
     (void)state;
     static const float rest[4] = {0.1f, 0.2f, 0.3f, 0.4f};
@@ -117,7 +117,7 @@ static void weights_move_per_node_from_an_offset_on(void **state)
     scene_destroy(scene);
 }
 
-static void visibility_steps(void **state)
+static void visibility_is_a_step_function(void **state)
 {
     (void)state;
     static const float values[2] = {0, 1};
@@ -169,7 +169,7 @@ static void materials_move_with_their_texture_transforms(void **state)
     scene_destroy(scene);
 }
 
-static void lights_and_cameras_stay_possible(void **state)
+static void animated_lights_and_cameras_stay_in_range(void **state)
 {
     (void)state;
     static const float intensity[2] = {-10, 30};
@@ -203,7 +203,7 @@ static void lights_and_cameras_stay_possible(void **state)
     scene_destroy(scene);
 }
 
-static void the_last_one_wins(void **state)
+static void the_last_animation_wins(void **state)
 {
     (void)state;
     static const float first[6] = {1, 1, 1, 1, 1, 1};
@@ -225,7 +225,7 @@ static void the_last_one_wins(void **state)
     scene_destroy(scene);
 }
 
-static void what_overflows_leaves_what_was_there(void **state)
+static void overflowing_values_are_not_applied(void **state)
 {
     (void)state;
     /* Hermite between the largest floats with the largest tangents. */
@@ -243,7 +243,7 @@ static void what_overflows_leaves_what_was_there(void **state)
     scene_destroy(scene);
 }
 
-static void channels_that_point_nowhere_do_nothing(void **state)
+static void channels_without_a_target_have_no_effect(void **state)
 {
     (void)state;
     static const float values[16] = {0};
@@ -260,7 +260,7 @@ static void channels_that_point_nowhere_do_nothing(void **state)
     scene_destroy(scene);
 }
 
-static void what_is_not_there_is_refused(void **state)
+static void unknown_animations_are_refused(void **state)
 {
     (void)state;
     static const float values[6] = {0};
@@ -285,17 +285,17 @@ static void what_is_not_there_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nothing_selected_is_the_scene_itself),
+        cmocka_unit_test(without_an_animation_the_state_is_the_scene),
         cmocka_unit_test(nodes_move_and_the_scene_stays),
-        cmocka_unit_test(a_matrix_comes_apart_where_a_part_of_it_moves),
-        cmocka_unit_test(weights_move_per_node_from_an_offset_on),
-        cmocka_unit_test(visibility_steps),
+        cmocka_unit_test(animated_matrices_are_decomposed),
+        cmocka_unit_test(weights_are_animated_per_node_from_an_offset),
+        cmocka_unit_test(visibility_is_a_step_function),
         cmocka_unit_test(materials_move_with_their_texture_transforms),
-        cmocka_unit_test(lights_and_cameras_stay_possible),
-        cmocka_unit_test(the_last_one_wins),
-        cmocka_unit_test(what_overflows_leaves_what_was_there),
-        cmocka_unit_test(channels_that_point_nowhere_do_nothing),
-        cmocka_unit_test(what_is_not_there_is_refused),
+        cmocka_unit_test(animated_lights_and_cameras_stay_in_range),
+        cmocka_unit_test(the_last_animation_wins),
+        cmocka_unit_test(overflowing_values_are_not_applied),
+        cmocka_unit_test(channels_without_a_target_have_no_effect),
+        cmocka_unit_test(unknown_animations_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

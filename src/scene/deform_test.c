@@ -301,7 +301,7 @@ static void the_node_of_a_skinned_mesh_does_not_matter(void **state)
     scene_destroy(scene);
 }
 
-static void joints_move_where_they_are_hidden_or_elsewhere(void **state)
+static void joints_move_vertices_if_hidden_or_outside_the_scene(void **state)
 {
     (void)state;
     facet_scene *scene = make_skinned(30, 4);
@@ -402,7 +402,7 @@ static void tiny_and_huge_joints_keep_the_direction_of_normals(void **state)
     }
 }
 
-static void joints_far_out_take_their_primitive_with_them(void **state)
+static void joints_beyond_the_limit_exclude_their_primitive(void **state)
 {
     (void)state;
     static const float far_out[4] = {2e17f, 3e38f, INFINITY, NAN};
@@ -426,7 +426,7 @@ static void joints_far_out_take_their_primitive_with_them(void **state)
     }
 }
 
-static void joints_that_are_not_there_move_nothing(void **state)
+static void missing_joints_have_no_effect(void **state)
 {
     (void)state;
     facet_scene *scene = make_skinned(30, 4);
@@ -481,7 +481,7 @@ static void weights_of_a_node_are_its_own(void **state)
     scene_destroy(scene);
 }
 
-static void only_what_targets_move_is_new(void **state)
+static void only_displaced_attributes_are_new_arrays(void **state)
 {
     (void)state;
     static float weights[8];
@@ -503,7 +503,7 @@ static void only_what_targets_move_is_new(void **state)
     scene_destroy(scene);
 }
 
-static void skins_move_what_targets_made(void **state)
+static void skins_move_morphed_vertices(void **state)
 {
     (void)state;
     facet_scene *scene = make_skinned(VERTICES, 4);
@@ -514,7 +514,7 @@ static void skins_move_what_targets_made(void **state)
     scene_destroy(scene);
 }
 
-static void huge_weights_draw_nothing(void **state)
+static void huge_weights_exclude_the_primitive(void **state)
 {
     (void)state;
     static float weights[8];
@@ -540,7 +540,7 @@ static void huge_weights_draw_nothing(void **state)
     scene_destroy(scene);
 }
 
-static void one_vertex_without_a_place_draws_nothing(void **state)
+static void one_non_finite_vertex_excludes_the_primitive(void **state)
 {
     (void)state;
     /* Both displacements are infinite at one vertex, and their sum is NaN, which a comparison of bounds
@@ -605,7 +605,7 @@ static void flat_normals_follow_their_triangles(void **state)
     }
 }
 
-static void bounds_are_those_of_moved_vertices(void **state)
+static void bounds_enclose_moved_vertices(void **state)
 {
     (void)state;
     facet_scene *scene = make_morphed(VERTICES);
@@ -629,7 +629,7 @@ static void bounds_are_those_of_moved_vertices(void **state)
     scene_destroy(scene);
 }
 
-static void thread_counts_give_the_same_bits(void **state)
+static void results_do_not_depend_on_threads(void **state)
 {
     (void)state;
     facet_scene *scene = make_skinned(VERTICES, 8);
@@ -656,21 +656,21 @@ int main(void)
         cmocka_unit_test(skins_blend_any_number_of_joints),
         cmocka_unit_test(the_bind_pose_gives_the_mesh),
         cmocka_unit_test(the_node_of_a_skinned_mesh_does_not_matter),
-        cmocka_unit_test(joints_move_where_they_are_hidden_or_elsewhere),
+        cmocka_unit_test(joints_move_vertices_if_hidden_or_outside_the_scene),
         cmocka_unit_test(mirrored_skins_are_mirrored_instances),
         cmocka_unit_test(joints_without_volume_keep_directions_unit),
         cmocka_unit_test(tiny_and_huge_joints_keep_the_direction_of_normals),
-        cmocka_unit_test(joints_far_out_take_their_primitive_with_them),
-        cmocka_unit_test(joints_that_are_not_there_move_nothing),
+        cmocka_unit_test(joints_beyond_the_limit_exclude_their_primitive),
+        cmocka_unit_test(missing_joints_have_no_effect),
         cmocka_unit_test(targets_add_to_positions_normals_and_tangents),
         cmocka_unit_test(weights_of_a_node_are_its_own),
-        cmocka_unit_test(only_what_targets_move_is_new),
-        cmocka_unit_test(skins_move_what_targets_made),
-        cmocka_unit_test(huge_weights_draw_nothing),
-        cmocka_unit_test(one_vertex_without_a_place_draws_nothing),
+        cmocka_unit_test(only_displaced_attributes_are_new_arrays),
+        cmocka_unit_test(skins_move_morphed_vertices),
+        cmocka_unit_test(huge_weights_exclude_the_primitive),
+        cmocka_unit_test(one_non_finite_vertex_excludes_the_primitive),
         cmocka_unit_test(flat_normals_follow_their_triangles),
-        cmocka_unit_test(bounds_are_those_of_moved_vertices),
-        cmocka_unit_test(thread_counts_give_the_same_bits),
+        cmocka_unit_test(bounds_enclose_moved_vertices),
+        cmocka_unit_test(results_do_not_depend_on_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -106,7 +106,7 @@ static void the_outermost_vertex_touches_the_border(void **state)
     scene_destroy(scene);
 }
 
-static void a_turntable_keeps_its_distance_and_cuts_nothing(void **state)
+static void a_turntable_keeps_its_distance_and_crops_nothing(void **state)
 {
     (void)state;
     facet_scene *scene = make_scene();
@@ -187,7 +187,7 @@ static void every_size_is_framed_alike(void **state)
     scene_destroy(scene);
 }
 
-static void nothing_and_a_single_point_have_a_camera(void **state)
+static void empty_scenes_and_single_points_have_a_camera(void **state)
 {
     (void)state;
     for (uint32_t points = 0; points < 2; points++) {
@@ -213,7 +213,7 @@ static void nothing_and_a_single_point_have_a_camera(void **state)
     }
 }
 
-static void numbers_that_are_no_camera_are_refused(void **state)
+static void invalid_orbits_are_refused(void **state)
 {
     (void)state;
     const facet_orbit good = {.polar_rad = 1, .radius_scale = 1, .fov_y_rad = 0.5f};
@@ -275,7 +275,7 @@ static double farthest_ever(const facet_scene *scene, const facet_camera *camera
     return most;
 }
 
-static void a_whole_motion_touches_the_border(void **state)
+static void a_whole_animation_touches_the_border(void **state)
 {
     (void)state;
     facet_scene *scene = make_moving();
@@ -303,7 +303,7 @@ static void a_whole_motion_touches_the_border(void **state)
     scene_destroy(scene);
 }
 
-static void the_target_is_the_middle_of_the_motion(void **state)
+static void the_target_is_the_center_of_the_animation(void **state)
 {
     (void)state;
     /* One point that moves from (0, 0, 0) over (8, 2, 0) to (4, 0, -6). */
@@ -335,7 +335,7 @@ static void the_target_is_the_middle_of_the_motion(void **state)
     scene_destroy(scene);
 }
 
-static void a_turntable_of_a_motion_cuts_nothing(void **state)
+static void a_turntable_of_an_animation_crops_nothing(void **state)
 {
     (void)state;
     facet_scene *scene = make_moving();
@@ -407,14 +407,14 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_outermost_vertex_touches_the_border),
-        cmocka_unit_test(a_turntable_keeps_its_distance_and_cuts_nothing),
+        cmocka_unit_test(a_turntable_keeps_its_distance_and_crops_nothing),
         cmocka_unit_test(angles_are_those_of_model_viewer),
         cmocka_unit_test(every_size_is_framed_alike),
-        cmocka_unit_test(nothing_and_a_single_point_have_a_camera),
-        cmocka_unit_test(numbers_that_are_no_camera_are_refused),
-        cmocka_unit_test(a_whole_motion_touches_the_border),
-        cmocka_unit_test(the_target_is_the_middle_of_the_motion),
-        cmocka_unit_test(a_turntable_of_a_motion_cuts_nothing),
+        cmocka_unit_test(empty_scenes_and_single_points_have_a_camera),
+        cmocka_unit_test(invalid_orbits_are_refused),
+        cmocka_unit_test(a_whole_animation_touches_the_border),
+        cmocka_unit_test(the_target_is_the_center_of_the_animation),
+        cmocka_unit_test(a_turntable_of_an_animation_crops_nothing),
         cmocka_unit_test(times_are_the_keys_and_24_per_second),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

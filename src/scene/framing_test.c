@@ -94,7 +94,7 @@ static void transparent_parts_do_not_count(void **state)
 }
 
 /* A scene without visible geometry has the bounds of all of it. */
-static void a_scene_that_is_unseen_has_bounds(void **state)
+static void invisible_scenes_have_bounds(void **state)
 {
     (void)state;
     facet_scene *scene = make_parts(1, (const uint32_t[]){CORNERS});
@@ -149,7 +149,7 @@ static void triangles_without_area_do_not_count(void **state)
 
 /* ---- strays ---- */
 
-static void few_parts_far_away_are_left_out(void **state)
+static void few_distant_parts_are_excluded(void **state)
 {
     (void)state;
     static const double places[][3] = {{1e3, 0, 0}, {0, -1e5, 40}, {-300, 200, 100}, {0, 0, 1e9}};
@@ -162,7 +162,7 @@ static void few_parts_far_away_are_left_out(void **state)
 }
 
 /* On opposite sides, so that the middle of the bounds is the model itself, and behind each other. */
-static void several_strays_are_left_out(void **state)
+static void several_strays_are_excluded(void **state)
 {
     (void)state;
     static const double places[][4] = {{1e3, -1e3, 5e3, 200}, {3e2, 1e3, 1e4, 1e5}};
@@ -341,10 +341,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(transparent_parts_do_not_count),
-        cmocka_unit_test(a_scene_that_is_unseen_has_bounds),
+        cmocka_unit_test(invisible_scenes_have_bounds),
         cmocka_unit_test(triangles_without_area_do_not_count),
-        cmocka_unit_test(few_parts_far_away_are_left_out),
-        cmocka_unit_test(several_strays_are_left_out),
+        cmocka_unit_test(few_distant_parts_are_excluded),
+        cmocka_unit_test(several_strays_are_excluded),
         cmocka_unit_test(a_stray_may_be_of_the_same_mesh),
         cmocka_unit_test(ordinary_scenes_have_no_strays),
         cmocka_unit_test(a_ground_is_not_stray),

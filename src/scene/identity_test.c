@@ -36,7 +36,7 @@ static facet_scene *make_scene(void)
     return scene;
 }
 
-static void numbers_do_not_depend_on_what_is_drawn(void **state)
+static void ids_do_not_depend_on_the_pose(void **state)
 {
     (void)state;
     facet_scene *scene = make_scene();
@@ -83,7 +83,7 @@ static void manifests_have_every_name_once(void **state)
 }
 
 /* Of instances that a few bytes of a file stand for, and that no image shows. */
-static void manifests_have_an_end(void **state)
+static void manifests_are_limited(void **state)
 {
     (void)state;
     facet_scene *scene = make_scene();
@@ -114,7 +114,7 @@ static void ids_are_ordinary_floats(void **state)
     }
 }
 
-static void every_refused_block_is_an_error(void **state)
+static void every_failed_allocation_is_an_error(void **state)
 {
     (void)state;
     facet_scene *scene = make_scene();
@@ -143,11 +143,11 @@ static void every_refused_block_is_an_error(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numbers_do_not_depend_on_what_is_drawn),
+        cmocka_unit_test(ids_do_not_depend_on_the_pose),
         cmocka_unit_test(manifests_have_every_name_once),
-        cmocka_unit_test(manifests_have_an_end),
+        cmocka_unit_test(manifests_are_limited),
         cmocka_unit_test(ids_are_ordinary_floats),
-        cmocka_unit_test(every_refused_block_is_an_error),
+        cmocka_unit_test(every_failed_allocation_is_an_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

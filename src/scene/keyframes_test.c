@@ -119,7 +119,7 @@ static void turn(const double axis[3], double angle, float out[4])
     out[3] = (float)cos(0.5 * angle);
 }
 
-static void rotations_turn_evenly_along_the_shorter_way(void **state)
+static void rotations_are_uniform_along_the_shorter_arc(void **state)
 {
     (void)state;
     static const float times[2] = {0, 2};
@@ -151,7 +151,7 @@ static void rotations_turn_evenly_along_the_shorter_way(void **state)
     }
 }
 
-static void opposite_rotations_take_some_way(void **state)
+static void opposite_rotations_take_either_arc(void **state)
 {
     (void)state;
     /* 180 degrees apart: both paths are equally long, and the result is a rotation. */
@@ -230,8 +230,8 @@ int main(void)
         cmocka_unit_test(linear_keys_draw_straight_lines),
         cmocka_unit_test(cubic_keys_reproduce_a_cubic_polynomial),
         cmocka_unit_test(spline_sides_of_a_key_have_their_own_tangents),
-        cmocka_unit_test(rotations_turn_evenly_along_the_shorter_way),
-        cmocka_unit_test(opposite_rotations_take_some_way),
+        cmocka_unit_test(rotations_are_uniform_along_the_shorter_arc),
+        cmocka_unit_test(opposite_rotations_take_either_arc),
         cmocka_unit_test(cubic_rotations_are_normalised),
         cmocka_unit_test(rotation_keys_keep_their_bits),
         cmocka_unit_test(one_key_is_constant),

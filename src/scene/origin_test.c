@@ -178,7 +178,7 @@ static void copies_are_placed_in_double(void **state)
     scene_destroy(scene);
 }
 
-static void what_lies_apart_does_not_count(void **state)
+static void outliers_do_not_move_the_origin(void **state)
 {
     (void)state;
     facet_scene *scene = test_scene(40);
@@ -193,7 +193,7 @@ static void what_lies_apart_does_not_count(void **state)
     scene_destroy(scene);
 }
 
-static void lights_and_cameras_go_along(void **state)
+static void lights_and_cameras_move_with_the_origin(void **state)
 {
     (void)state;
     facet_scene *scene = make_scene();
@@ -211,7 +211,7 @@ static void lights_and_cameras_go_along(void **state)
 }
 
 /* A model at the origin at rest, and elsewhere in motion: the origin follows, and returns. */
-static void the_origin_follows_what_is_shown(void **state)
+static void the_origin_follows_the_shown_scene(void **state)
 {
     (void)state;
     static const float times[2] = {0, 1},
@@ -291,9 +291,9 @@ int main(void)
         cmocka_unit_test(vertices_are_moved_to_their_mesh),
         cmocka_unit_test(distances_that_cancel_are_exact),
         cmocka_unit_test(copies_are_placed_in_double),
-        cmocka_unit_test(what_lies_apart_does_not_count),
-        cmocka_unit_test(lights_and_cameras_go_along),
-        cmocka_unit_test(the_origin_follows_what_is_shown),
+        cmocka_unit_test(outliers_do_not_move_the_origin),
+        cmocka_unit_test(lights_and_cameras_move_with_the_origin),
+        cmocka_unit_test(the_origin_follows_the_shown_scene),
         cmocka_unit_test(a_placed_model_has_the_origin_of_its_place),
         cmocka_unit_test(points_are_judged_without_outliers),
     };

@@ -33,7 +33,7 @@ static scene_pose make_pose(const facet_scene *scene)
     return pose;
 }
 
-static void bounds_leave_out_unused_vertices(void **state)
+static void bounds_exclude_unused_vertices(void **state)
 {
     (void)state;
     facet_scene *scene = make_scene(mat4_identity());
@@ -104,7 +104,7 @@ static void mirrored_instances_keep_outward_normals(void **state)
     }
 }
 
-static void singular_and_endless_matrices_draw_nothing(void **state)
+static void singular_and_infinite_matrices_draw_nothing(void **state)
 {
     (void)state;
     mat4 cases[4] = {mat4_identity(), mat4_identity(), mat4_identity(), mat4_identity()};
@@ -123,7 +123,7 @@ static void singular_and_endless_matrices_draw_nothing(void **state)
     }
 }
 
-static void what_lies_too_far_out_is_left_out(void **state)
+static void instances_beyond_the_limit_are_excluded(void **state)
 {
     (void)state;
     /* A matrix that is near enough, and a corner at 1.4e17 m; turned or not. */
@@ -141,7 +141,7 @@ static void what_lies_too_far_out_is_left_out(void **state)
     }
 }
 
-static void a_node_that_is_named_twice_is_drawn_once(void **state)
+static void nodes_listed_twice_are_drawn_once(void **state)
 {
     (void)state;
     static const uint32_t roots[3] = {0, 1, 0};
@@ -262,7 +262,7 @@ static void too_many_copies_are_refused(void **state)
     scene_destroy(scene);
 }
 
-static void copies_share_what_targets_made(void **state)
+static void copies_share_morphed_vertices(void **state)
 {
     (void)state;
     static const float changes[12] = {0, 0, 5, 0, 0, 5, 0, 0, 5, 0, 0, 0};
@@ -288,7 +288,7 @@ static void copies_share_what_targets_made(void **state)
 
 /* ---- visibility, variants, materials ---- */
 
-static void what_is_below_something_hidden_is_hidden(void **state)
+static void children_of_hidden_nodes_are_hidden(void **state)
 {
     (void)state;
     /* 0 - 1 - 2, and 3 beside; 1 has a light, 2 a mesh, a light and a camera, 3 a mesh. */
@@ -424,7 +424,7 @@ static facet_scene *make_motion(void)
     return scene;
 }
 
-static void memory_that_runs_out_leaks_nothing(void **state)
+static void failed_allocations_leak_nothing(void **state)
 {
     (void)state;
     facet_scene *scene = make_motion();
@@ -493,21 +493,21 @@ static void the_same_mesh_under_a_skin_and_a_node_differs(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bounds_leave_out_unused_vertices),
+        cmocka_unit_test(bounds_exclude_unused_vertices),
         cmocka_unit_test(bounds_are_exact_when_turned),
         cmocka_unit_test(axis_aligned_bounds_equal_those_of_vertices),
         cmocka_unit_test(mirrored_instances_keep_outward_normals),
-        cmocka_unit_test(singular_and_endless_matrices_draw_nothing),
+        cmocka_unit_test(singular_and_infinite_matrices_draw_nothing),
         cmocka_unit_test(small_models_are_regular),
-        cmocka_unit_test(what_lies_too_far_out_is_left_out),
-        cmocka_unit_test(a_node_that_is_named_twice_is_drawn_once),
+        cmocka_unit_test(instances_beyond_the_limit_are_excluded),
+        cmocka_unit_test(nodes_listed_twice_are_drawn_once),
         cmocka_unit_test(copies_stand_where_node_and_instance_put_them),
         cmocka_unit_test(too_many_copies_are_refused),
-        cmocka_unit_test(copies_share_what_targets_made),
-        cmocka_unit_test(what_is_below_something_hidden_is_hidden),
+        cmocka_unit_test(copies_share_morphed_vertices),
+        cmocka_unit_test(children_of_hidden_nodes_are_hidden),
         cmocka_unit_test(variants_choose_materials),
         cmocka_unit_test(moved_materials_are_the_pose_s_own),
-        cmocka_unit_test(memory_that_runs_out_leaks_nothing),
+        cmocka_unit_test(failed_allocations_leak_nothing),
         cmocka_unit_test(instances_of_a_skin_are_one),
         cmocka_unit_test(the_same_mesh_under_a_skin_and_a_node_differs),
     };

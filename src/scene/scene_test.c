@@ -13,7 +13,7 @@ static void count_message(void *user, facet_log_level level, const char *message
     ++*(int *)user;
 }
 
-static void warnings_are_kept_once_and_have_an_end(void **state)
+static void warnings_are_kept_once_and_limited(void **state)
 {
     (void)state;
     int messages = 0;
@@ -122,7 +122,7 @@ static void the_description_names_everything(void **state)
 }
 
 /* Extras of a file may nest as deep as it likes; programs that read descriptions do not. */
-static void a_description_is_not_deep(void **state)
+static void descriptions_limit_their_nesting(void **state)
 {
     (void)state;
     enum { LEVELS = 500 };
@@ -161,11 +161,11 @@ static void a_description_is_not_deep(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(warnings_are_kept_once_and_have_an_end),
+        cmocka_unit_test(warnings_are_kept_once_and_limited),
         cmocka_unit_test(the_builtin_scene_is_sound),
         cmocka_unit_test(the_builtin_scene_stands_on_its_plate),
         cmocka_unit_test(the_description_names_everything),
-        cmocka_unit_test(a_description_is_not_deep),
+        cmocka_unit_test(descriptions_limit_their_nesting),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

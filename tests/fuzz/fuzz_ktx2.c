@@ -1,20 +1,20 @@
-/* fuzz_ktx2.c - every picture of KTX2 files of arbitrary bytes, with little memory: no fault, no leak. */
+/* fuzz_ktx2.c - every image of KTX2 files of arbitrary bytes, with little memory: no fault, no leak. */
 #include <stdlib.h>
 
 #include "image/ktx2.h"
 
-enum { MAX_PICTURES = 24, MAX_EDGE = 256 };
+enum { MAX_IMAGES = 24, MAX_EDGE = 256 };
 
 int LLVMFuzzerTestOneInput(const unsigned char *bytes, size_t size);
 
-static void decode_pictures(const ktx2 *k, const image_decode_desc *desc)
+static void decode_images(const ktx2 *k, const image_decode_desc *desc)
 {
-    uint32_t left = MAX_PICTURES;
+    uint32_t remaining = MAX_IMAGES;
     for (uint32_t level = 0; level < k->level_count; level++) {
         ktx2_data data;
         if (ktx2_load_level(k, level, &desc->allocator, &data, NULL) != FACET_OK)
             continue;
-        for (uint32_t n = 0; n / k->face_count < k->layer_count && left > 0; n++, left--) {
+        for (uint32_t n = 0; n / k->face_count < k->layer_count && remaining > 0; n++, remaining--) {
             image i;
             ktx2_decode(k, &data, level, n / k->face_count, n % k->face_count, desc, &i, NULL);
             image_destroy(&i);
@@ -36,7 +36,7 @@ int LLVMFuzzerTestOneInput(const unsigned char *bytes, size_t size)
         return 0;
     image_decode_desc desc = {
         .allocator = facet_budget_allocator(budget), .thread_count = 1, .max_size = MAX_EDGE};
-    decode_pictures(&k, &desc);
+    decode_images(&k, &desc);
     if (facet_budget_used_bytes(budget) != 0)
         abort();
     facet_budget_destroy(budget);

@@ -6,7 +6,7 @@
 
 #include "io/ogl1/ogl1_json.h"
 
-static void check_numbers(const float *values, size_t count, float minimum, float maximum)
+static void check_values(const float *values, size_t count, float minimum, float maximum)
 {
     for (size_t i = 0; i < count; i++)
         if (!(values[i] >= minimum && values[i] <= maximum))
@@ -19,12 +19,12 @@ static void check_legacy(const facet_scene *scene)
     const scene_legacy *legacy = scene->legacy;
     for (uint32_t i = 0; i < scene->material_count; i++) {
         const legacy_material *m = &legacy->materials[i];
-        check_numbers(m->ambient, 3, 0.0f, 1e6f);
-        check_numbers(m->diffuse, 3, 0.0f, 1e6f);
-        check_numbers(m->specular, 3, 0.0f, 1e6f);
-        check_numbers(m->emission, 3, 0.0f, 1e6f);
-        check_numbers(&m->shininess, 1, 0.0f, 1e6f);
-        check_numbers(&m->opacity, 1, 0.0f, 1.0f);
+        check_values(m->ambient, 3, 0.0f, 1e6f);
+        check_values(m->diffuse, 3, 0.0f, 1e6f);
+        check_values(m->specular, 3, 0.0f, 1e6f);
+        check_values(m->emission, 3, 0.0f, 1e6f);
+        check_values(&m->shininess, 1, 0.0f, 1e6f);
+        check_values(&m->opacity, 1, 0.0f, 1.0f);
         if (!m->name || m->name[0] == 0 || (m->unknown && m->unknown[0] == 0))
             abort();
     }
@@ -33,11 +33,11 @@ static void check_legacy(const facet_scene *scene)
         const float *p = l->position;
         double length =
             sqrt((double)p[0] * (double)p[0] + (double)p[1] * (double)p[1] + (double)p[2] * (double)p[2]);
-        check_numbers(p, 3, -SCENE_FARTHEST, SCENE_FARTHEST);
+        check_values(p, 3, -SCENE_FARTHEST, SCENE_FARTHEST);
         if (!l->is_point && !(fabs(length - 1.0) < 1e-5))
             abort();
     }
-    check_numbers(&legacy->fog.scale, 1, 1e-7f, 1e6f);
+    check_values(&legacy->fog.scale, 1, 1e-7f, 1e6f);
 }
 
 static text print(const facet_scene *scene, const facet_allocator *allocator)

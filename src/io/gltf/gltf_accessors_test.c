@@ -71,7 +71,7 @@ static void tight_floats_stay_in_the_file(void **state)
     scene_destroy(scene);
 }
 
-static void interleaved_attributes_are_taken_apart(void **state)
+static void interleaved_attributes_are_separated(void **state)
 {
     (void)state;
     const float vertices[3][8] = {
@@ -166,7 +166,7 @@ static void sparse_indices_are_checked(void **state)
         &bin, FACET_ERROR_INVALID, "accessors[0]: sparse index 0 is 3, but the accessor has 3 elements");
 }
 
-static void claims_without_data_are_bounded(void **state)
+static void counts_without_data_are_limited(void **state)
 {
     (void)state;
     const float value[3] = {1, 2, 3};
@@ -198,7 +198,7 @@ static void claims_without_data_are_bounded(void **state)
                    "accessors[0].count: 65537 elements are declared without a buffer view");
 }
 
-static void what_leaves_its_buffer_is_left_out(void **state)
+static void accessors_beyond_their_buffer_are_left_out(void **state)
 {
     (void)state;
     test_bin bin = {.size = 64};
@@ -314,12 +314,12 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(component_types_convert_as_the_specification_says),
         cmocka_unit_test(tight_floats_stay_in_the_file),
-        cmocka_unit_test(interleaved_attributes_are_taken_apart),
+        cmocka_unit_test(interleaved_attributes_are_separated),
         cmocka_unit_test(misaligned_floats_are_read_with_a_warning),
         cmocka_unit_test(sparse_elements_replace),
         cmocka_unit_test(sparse_indices_are_checked),
-        cmocka_unit_test(claims_without_data_are_bounded),
-        cmocka_unit_test(what_leaves_its_buffer_is_left_out),
+        cmocka_unit_test(counts_without_data_are_limited),
+        cmocka_unit_test(accessors_beyond_their_buffer_are_left_out),
         cmocka_unit_test(wrong_types_are_refused_where_they_are_used),
         cmocka_unit_test(work_beyond_the_bytes_is_limited),
         cmocka_unit_test(index_types_are_equal),

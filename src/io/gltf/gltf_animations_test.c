@@ -10,7 +10,7 @@ static const float VECTORS[9] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
 
 /* ---- samplers ---- */
 
-static void channels_of_the_core_arrive(void **state)
+static void core_channels_are_read(void **state)
 {
     (void)state;
     const float rotations[12] = {0, 0, 0, 1, 0, 0, 1, 0, 1, 0, 0, 0};
@@ -137,7 +137,7 @@ static void keys_are_put_in_order(void **state)
 }
 
 /* Invalid targets are reported and not animated. */
-static void what_cannot_move_is_named(void **state)
+static void unsupported_targets_are_reported(void **state)
 {
     (void)state;
     test_model m = {0};
@@ -226,7 +226,7 @@ static facet_scene *load_pointer(const char *pointer, size_t width, const char *
     offsetof(scene_material, textures) + (slot) * sizeof(scene_texture_ref) +                                \
         offsetof(scene_texture_ref, member)
 
-static void pointers_find_what_they_name(void **state)
+static void pointers_resolve_to_their_targets(void **state)
 {
     (void)state;
     static const struct {
@@ -286,7 +286,7 @@ static void pointers_find_what_they_name(void **state)
     }
 }
 
-static void pointers_that_move_nothing_are_named(void **state)
+static void pointers_without_a_target_are_reported(void **state)
 {
     (void)state;
     static const struct {
@@ -334,7 +334,7 @@ static void pointers_that_move_nothing_are_named(void **state)
     }
 }
 
-static void truth_values_step(void **state)
+static void booleans_are_step_functions(void **state)
 {
     (void)state;
     facet_scene *scene = load_pointer("/nodes/2/extensions/KHR_node_visibility/visible", 1, "STEP");
@@ -349,7 +349,7 @@ static void truth_values_step(void **state)
 }
 
 /* A mesh has no pose of its own: its weights apply to each node without weights. */
-static void weights_of_a_mesh_move_its_nodes(void **state)
+static void animated_mesh_weights_apply_to_its_nodes(void **state)
 {
     (void)state;
     facet_scene *scene = load_pointer("/meshes/0/weights", 2, "LINEAR");
@@ -370,7 +370,7 @@ static void weights_of_a_mesh_move_its_nodes(void **state)
 
 /* ---- real models ---- */
 
-static void real_models_arrive(void **state)
+static void real_models_are_read(void **state)
 {
     (void)state;
     facet_scene *scene = load_shared("animation/AnimatedColorsCube.glb");
@@ -406,16 +406,16 @@ static void real_models_arrive(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(channels_of_the_core_arrive),
+        cmocka_unit_test(core_channels_are_read),
         cmocka_unit_test(cubic_rotations_become_unit),
         cmocka_unit_test(normalised_rotations_become_unit),
         cmocka_unit_test(keys_are_put_in_order),
-        cmocka_unit_test(what_cannot_move_is_named),
-        cmocka_unit_test(pointers_find_what_they_name),
-        cmocka_unit_test(pointers_that_move_nothing_are_named),
-        cmocka_unit_test(truth_values_step),
-        cmocka_unit_test(weights_of_a_mesh_move_its_nodes),
-        cmocka_unit_test(real_models_arrive),
+        cmocka_unit_test(unsupported_targets_are_reported),
+        cmocka_unit_test(pointers_resolve_to_their_targets),
+        cmocka_unit_test(pointers_without_a_target_are_reported),
+        cmocka_unit_test(booleans_are_step_functions),
+        cmocka_unit_test(animated_mesh_weights_apply_to_its_nodes),
+        cmocka_unit_test(real_models_are_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

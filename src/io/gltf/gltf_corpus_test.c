@@ -249,7 +249,7 @@ static bool is_silent(const char *path)
     return strstr(path, "/out_of_range_elements_") != NULL;
 }
 
-static void what_the_validator_finds_is_refused_or_mentioned(void **state)
+static void validator_errors_are_refused_or_reported(void **state)
 {
     (void)state;
     if (!data_folder())
@@ -279,7 +279,7 @@ static void what_the_validator_finds_is_refused_or_mentioned(void **state)
     free_files(files);
 }
 
-static void broken_models_never_fault(void **state)
+static void broken_models_never_crash(void **state)
 {
     (void)state;
     if (!data_folder())
@@ -428,8 +428,8 @@ int main(void)
         cmocka_unit_test(every_model_loads),
         cmocka_unit_test(counts_are_those_of_the_files),
         cmocka_unit_test(materials_are_those_of_the_files),
-        cmocka_unit_test(what_the_validator_finds_is_refused_or_mentioned),
-        cmocka_unit_test(broken_models_never_fault),
+        cmocka_unit_test(validator_errors_are_refused_or_reported),
+        cmocka_unit_test(broken_models_never_crash),
         cmocka_unit_test(truncations_are_refused),
         cmocka_unit_test(every_failed_allocation_is_survived),
         cmocka_unit_test(threads_do_not_change_a_scene),

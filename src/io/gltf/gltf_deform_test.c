@@ -11,7 +11,7 @@ static const float UP[9] = {0, 0, 1, 0, 0, 1, 0, 0, 1};
 
 /* ---- morph targets ---- */
 
-static void morph_targets_arrive(void **state)
+static void morph_targets_are_read(void **state)
 {
     (void)state;
     const float tangents[12] = {1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1};
@@ -53,7 +53,7 @@ static void morph_targets_arrive(void **state)
 }
 
 /* Sparse displacements without a base: the common form of exporters. */
-static void sparse_changes_are_zero_elsewhere(void **state)
+static void sparse_displacements_are_zero_elsewhere(void **state)
 {
     (void)state;
     const uint16_t places[2] = {2, 0};
@@ -75,7 +75,7 @@ static void sparse_changes_are_zero_elsewhere(void **state)
     scene_destroy(scene);
 }
 
-static void weights_of_another_number_are_named(void **state)
+static void wrong_weight_counts_are_reported(void **state)
 {
     (void)state;
     test_model m = {0};
@@ -100,7 +100,7 @@ static void weights_of_another_number_are_named(void **state)
     scene_destroy(scene);
 }
 
-static void broken_targets_change_nothing(void **state)
+static void broken_targets_have_no_effect(void **state)
 {
     (void)state;
     test_model m = {0};
@@ -115,7 +115,7 @@ static void broken_targets_change_nothing(void **state)
     model_assert_left_out(&m, "targets[0].POSITION: accessor 3 does not exist", body, 3);
 }
 
-static void changes_that_are_not_finite_are_none(void **state)
+static void non_finite_displacements_are_zero(void **state)
 {
     (void)state;
     const float deltas[9] = {NAN, 0, 1, INFINITY, 0, 2, 0, 0, 3};
@@ -136,7 +136,7 @@ static void changes_that_are_not_finite_are_none(void **state)
 
 static const unsigned char JOINTS[12] = {1, 0, 0, 0, 0, 1, 0, 0, 2, 0, 9, 0};
 
-static void influences_of_all_sets_lie_side_by_side(void **state)
+static void influences_of_all_sets_are_contiguous_per_vertex(void **state)
 {
     (void)state;
     const unsigned short more[12] = {3, 0, 0, 0, 300, 0, 0, 0, 0, 0, 0, 0};
@@ -190,7 +190,7 @@ static void weights_sum_to_one(void **state)
 }
 
 /* Flat normals give every corner a vertex of its own, in the order of the indices. */
-static void flat_primitives_carry_all_along(void **state)
+static void flat_primitives_keep_all_attributes(void **state)
 {
     (void)state;
     const float weights[12] = {1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 1, 0, 0, 0};
@@ -250,7 +250,7 @@ static void broken_influences_are_refused(void **state)
 
 /* ---- skins ---- */
 
-static void skins_arrive(void **state)
+static void skins_are_read(void **state)
 {
     (void)state;
     float matrices[48] = {0};
@@ -287,7 +287,7 @@ static void skins_arrive(void **state)
 
 /* ---- real models ---- */
 
-static void real_models_arrive(void **state)
+static void real_models_are_read(void **state)
 {
     (void)state;
     facet_scene *scene = load_shared("animation/Fox.glb");
@@ -311,17 +311,17 @@ static void real_models_arrive(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(morph_targets_arrive),
-        cmocka_unit_test(sparse_changes_are_zero_elsewhere),
-        cmocka_unit_test(weights_of_another_number_are_named),
-        cmocka_unit_test(broken_targets_change_nothing),
-        cmocka_unit_test(changes_that_are_not_finite_are_none),
-        cmocka_unit_test(influences_of_all_sets_lie_side_by_side),
+        cmocka_unit_test(morph_targets_are_read),
+        cmocka_unit_test(sparse_displacements_are_zero_elsewhere),
+        cmocka_unit_test(wrong_weight_counts_are_reported),
+        cmocka_unit_test(broken_targets_have_no_effect),
+        cmocka_unit_test(non_finite_displacements_are_zero),
+        cmocka_unit_test(influences_of_all_sets_are_contiguous_per_vertex),
         cmocka_unit_test(weights_sum_to_one),
-        cmocka_unit_test(flat_primitives_carry_all_along),
+        cmocka_unit_test(flat_primitives_keep_all_attributes),
         cmocka_unit_test(broken_influences_are_refused),
-        cmocka_unit_test(skins_arrive),
-        cmocka_unit_test(real_models_arrive),
+        cmocka_unit_test(skins_are_read),
+        cmocka_unit_test(real_models_are_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -75,7 +75,7 @@ static void assert_square(const scene_primitive *p)
     }
 }
 
-static void both_methods(void **state)
+static void both_methods_are_decoded(void **state)
 {
     (void)state;
     const test_bin bins[2] = {make_bin(SEQUENTIAL, sizeof SEQUENTIAL),
@@ -88,7 +88,7 @@ static void both_methods(void **state)
     }
 }
 
-static void what_does_not_fit_is_refused(void **state)
+static void contradictory_counts_and_types_are_refused(void **state)
 {
     (void)state;
     static const struct {
@@ -140,7 +140,7 @@ static void integers_become_floats(void **state)
     scene_destroy(scene);
 }
 
-static void strips_are_drawn_as_their_triangles(void **state)
+static void strips_become_their_triangles(void **state)
 {
     (void)state;
     const test_bin bin = make_bin(SEQUENTIAL, sizeof SEQUENTIAL);
@@ -152,7 +152,7 @@ static void strips_are_drawn_as_their_triangles(void **state)
     scene_destroy(scene);
 }
 
-static void oddities_get_warnings(void **state)
+static void oddities_are_warned_of(void **state)
 {
     (void)state;
     const test_bin bin = make_bin(EDGEBREAKER, sizeof EDGEBREAKER);
@@ -321,11 +321,11 @@ static void memory_is_accounted(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(both_methods),
-        cmocka_unit_test(what_does_not_fit_is_refused),
+        cmocka_unit_test(both_methods_are_decoded),
+        cmocka_unit_test(contradictory_counts_and_types_are_refused),
         cmocka_unit_test(integers_become_floats),
-        cmocka_unit_test(strips_are_drawn_as_their_triangles),
-        cmocka_unit_test(oddities_get_warnings),
+        cmocka_unit_test(strips_become_their_triangles),
+        cmocka_unit_test(oddities_are_warned_of),
         cmocka_unit_test(other_attributes_are_read_as_usual),
         cmocka_unit_test(accessors_may_be_shared),
         cmocka_unit_test(truncated_bitstreams_are_refused),

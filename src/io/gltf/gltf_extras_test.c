@@ -43,7 +43,7 @@ static void variants_name_materials(void **state)
 
 /* ---- instances ---- */
 
-static void instances_arrive(void **state)
+static void instances_are_read(void **state)
 {
     (void)state;
     const float moves[6] = {1, 2, 3, 4, 5, 6};
@@ -119,7 +119,7 @@ static void instances_without_data_are_one(void **state)
     "'specularImageSize':%d,'specularImages':[[0,0,0,0,0,1],[1,1,1,1,1,%d]],'irradianceCoefficients':["      \
     "[1,2,3],[0,0,0],[0,0,0],[0,0,0],[0,0,0],[0,0,0],[0,0,0],[0,0,0],%s]}]}},"
 
-static void image_lights_arrive(void **state)
+static void image_lights_are_read(void **state)
 {
     (void)state;
     char body[2048];
@@ -163,7 +163,7 @@ static void image_lights_arrive(void **state)
 
 /* ---- metadata ---- */
 
-static void extras_stay_as_they_are(void **state)
+static void extras_are_kept_verbatim(void **state)
 {
     (void)state;
     facet_scene *scene = load(
@@ -203,7 +203,7 @@ static void xmp_is_kept(void **state)
 
 /* ---- where extensions may stand ---- */
 
-static void extensions_in_wrong_places_are_named(void **state)
+static void misplaced_extensions_are_reported(void **state)
 {
     (void)state;
     test_model m = {0};
@@ -229,7 +229,7 @@ static void extensions_in_wrong_places_are_named(void **state)
 
 /* ---- real models ---- */
 
-static void real_models_arrive(void **state)
+static void real_models_are_read(void **state)
 {
     (void)state;
     facet_scene *scene = load_shared("materials/MaterialsVariantsShoe.glb");
@@ -255,14 +255,10 @@ static void real_models_arrive(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(variants_name_materials),
-        cmocka_unit_test(instances_arrive),
-        cmocka_unit_test(instances_without_data_are_one),
-        cmocka_unit_test(image_lights_arrive),
-        cmocka_unit_test(extras_stay_as_they_are),
-        cmocka_unit_test(xmp_is_kept),
-        cmocka_unit_test(extensions_in_wrong_places_are_named),
-        cmocka_unit_test(real_models_arrive),
+        cmocka_unit_test(variants_name_materials),           cmocka_unit_test(instances_are_read),
+        cmocka_unit_test(instances_without_data_are_one),    cmocka_unit_test(image_lights_are_read),
+        cmocka_unit_test(extras_are_kept_verbatim),          cmocka_unit_test(xmp_is_kept),
+        cmocka_unit_test(misplaced_extensions_are_reported), cmocka_unit_test(real_models_are_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -107,7 +107,7 @@ static void files_below_the_model_are_read(void **state)
     }
 }
 
-static void files_named_otherwise_are_read_with_a_warning(void **state)
+static void files_with_alike_names_are_read_with_a_warning(void **state)
 {
     static const char *const uris[] = {"Inside.BIN",   "DEEP/inside.bin", "inside.bin?v=1", "inside.bin#a",
                                        "deep/A%20B.x", "a\\\\ b.bin",     "A%20b.bin?x"};
@@ -125,7 +125,7 @@ static void files_named_otherwise_are_read_with_a_warning(void **state)
     }
 }
 
-static void files_elsewhere_are_not(void **state)
+static void files_outside_the_root_are_not_read(void **state)
 {
     const folder *f = *state;
     char absolute[256];
@@ -156,7 +156,7 @@ static void files_elsewhere_are_not(void **state)
     }
 }
 
-static void a_root_widens_what_may_be_read(void **state)
+static void a_root_admits_more_files(void **state)
 {
     const folder *f = *state;
     facet_scene *scene = NULL;
@@ -216,7 +216,7 @@ static void missing_files_are_read_errors(void **state)
 
 /* ---- containers ---- */
 
-static void broken_containers_say_what_is_wrong(void **state)
+static void broken_containers_are_refused_with_a_reason(void **state)
 {
     (void)state;
     static const struct {
@@ -327,7 +327,7 @@ static void text_of_other_encodings_is_read(void **state)
     assert_non_null(strstr(error.message, "is not valid JSON"));
 }
 
-static void versions_of_two_written_otherwise_are_read(void **state)
+static void unusual_spellings_of_version_2_are_read(void **state)
 {
     (void)state;
     static const char *const versions[] = {"2", "2.0.0"};
@@ -355,7 +355,7 @@ static void large_numbers_are_rounded(void **state)
     scene_destroy(scene);
 }
 
-static void versions_are_looked_at(void **state)
+static void other_versions_are_refused(void **state)
 {
     (void)state;
     static const struct {
@@ -384,7 +384,7 @@ static void versions_are_looked_at(void **state)
     }
 }
 
-static void extensions_are_named(void **state)
+static void unsupported_extensions_are_reported(void **state)
 {
     (void)state;
     assert_refused("'extensionsUsed':['VENDOR_x'],'extensionsRequired':['VENDOR_x']", NULL,
@@ -430,20 +430,20 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_below_the_model_are_read),
-        cmocka_unit_test(files_named_otherwise_are_read_with_a_warning),
-        cmocka_unit_test(files_elsewhere_are_not),
-        cmocka_unit_test(a_root_widens_what_may_be_read),
+        cmocka_unit_test(files_with_alike_names_are_read_with_a_warning),
+        cmocka_unit_test(files_outside_the_root_are_not_read),
+        cmocka_unit_test(a_root_admits_more_files),
         cmocka_unit_test(files_that_are_too_short_are_refused),
         cmocka_unit_test(data_uris_are_decoded),
         cmocka_unit_test(missing_files_are_read_errors),
-        cmocka_unit_test(broken_containers_say_what_is_wrong),
+        cmocka_unit_test(broken_containers_are_refused_with_a_reason),
         cmocka_unit_test(deep_json_is_refused),
         cmocka_unit_test(json_counts_against_a_budget),
         cmocka_unit_test(text_of_other_encodings_is_read),
-        cmocka_unit_test(versions_of_two_written_otherwise_are_read),
+        cmocka_unit_test(unusual_spellings_of_version_2_are_read),
         cmocka_unit_test(large_numbers_are_rounded),
-        cmocka_unit_test(versions_are_looked_at),
-        cmocka_unit_test(extensions_are_named),
+        cmocka_unit_test(other_versions_are_refused),
+        cmocka_unit_test(unsupported_extensions_are_reported),
         cmocka_unit_test(asset_and_names_are_kept),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

@@ -93,7 +93,7 @@ static void assert_same(const legacy_material *a, const legacy_material *b)
     text_destroy(&second);
 }
 
-static void values_come_back(void **state)
+static void values_round_trip(void **state)
 {
     (void)state;
     const legacy_material m = make_material();
@@ -112,7 +112,7 @@ static void values_come_back(void **state)
     scene_destroy(scene);
 }
 
-static void edited_materials_do_not_count(void **state)
+static void extras_of_edited_materials_are_ignored(void **state)
 {
     (void)state;
     const legacy_material m = make_material();
@@ -127,7 +127,7 @@ static void edited_materials_do_not_count(void **state)
 
 /* If an image is missing, by its mark or by its index, the glTF material is used. An image that was
  * missing from the start, or that no surface shows, does not matter. */
-static void materials_without_their_pictures_do_not_count(void **state)
+static void extras_of_materials_without_their_images_are_ignored(void **state)
 {
     (void)state;
     legacy_material m = make_material();
@@ -154,7 +154,7 @@ static void materials_without_their_pictures_do_not_count(void **state)
     scene_destroy(scene);
 }
 
-static void lights_and_fog_come_back(void **state)
+static void lights_and_fog_round_trip(void **state)
 {
     (void)state;
     legacy_light lights[2] = {legacy_light_default(),
@@ -197,7 +197,7 @@ static void lights_and_fog_come_back(void **state)
 }
 
 /* Any program may use extras: unexpected content is no error. */
-static void strange_extras_are_left_alone(void **state)
+static void foreign_extras_are_ignored(void **state)
 {
     (void)state;
     static const char *const extras[] = {"7",
@@ -269,11 +269,11 @@ static void extras_are_merged(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(values_come_back),
-        cmocka_unit_test(edited_materials_do_not_count),
-        cmocka_unit_test(materials_without_their_pictures_do_not_count),
-        cmocka_unit_test(lights_and_fog_come_back),
-        cmocka_unit_test(strange_extras_are_left_alone),
+        cmocka_unit_test(values_round_trip),
+        cmocka_unit_test(extras_of_edited_materials_are_ignored),
+        cmocka_unit_test(extras_of_materials_without_their_images_are_ignored),
+        cmocka_unit_test(lights_and_fog_round_trip),
+        cmocka_unit_test(foreign_extras_are_ignored),
         cmocka_unit_test(extras_are_merged),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -37,7 +37,7 @@ static void an_empty_material_has_the_defaults(void **state)
     scene_destroy(scene);
 }
 
-static void all_members_arrive(void **state)
+static void all_members_are_read(void **state)
 {
     (void)state;
     facet_scene *scene = load(
@@ -73,7 +73,7 @@ static void all_members_arrive(void **state)
 }
 
 /* Every parameter and texture of every extension, with a compatible one. */
-static void extensions_arrive(void **state)
+static void extensions_are_read(void **state)
 {
     (void)state;
     facet_scene *scene = load(
@@ -243,7 +243,7 @@ static void extensions_that_exclude_others_win(void **state)
     scene_destroy(scene);
 }
 
-static void numbers_of_extensions_have_their_domains(void **state)
+static void extension_parameters_have_their_ranges(void **state)
 {
     (void)state;
     facet_scene *scene =
@@ -268,7 +268,7 @@ static void numbers_of_extensions_have_their_domains(void **state)
 
 /* The worked example of the extension: offset (0, 1), a quarter turn, scale 0.5 select the lower left
  * quadrant. */
-static void texture_transform_turns_as_its_example_says(void **state)
+static void texture_transforms_match_the_specification_example(void **state)
 {
     (void)state;
     facet_scene *scene = load(
@@ -291,7 +291,7 @@ static void texture_transform_turns_as_its_example_says(void **state)
     scene_destroy(scene);
 }
 
-static void a_transform_that_does_nothing_is_none(void **state)
+static void identity_transforms_are_ignored(void **state)
 {
     (void)state;
     facet_scene *scene =
@@ -352,7 +352,7 @@ static void wrong_members_are_refused_where_they_are_used(void **state)
                     "images[0].bufferView: buffer view 0 does not exist (there are 0); white is used");
 }
 
-static void samplers_translate(void **state)
+static void samplers_are_translated(void **state)
 {
     (void)state;
     facet_scene *scene =
@@ -396,7 +396,7 @@ static void images_are_found_and_probed(void **state)
     scene_destroy(scene);
 }
 
-static void pictures_that_cannot_be_had_are_white(void **state)
+static void unreadable_images_are_white(void **state)
 {
     (void)state;
     facet_scene *scene =
@@ -422,19 +422,19 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_empty_material_has_the_defaults),
-        cmocka_unit_test(all_members_arrive),
-        cmocka_unit_test(extensions_arrive),
+        cmocka_unit_test(all_members_are_read),
+        cmocka_unit_test(extensions_are_read),
         cmocka_unit_test(empty_extensions_have_their_defaults),
         cmocka_unit_test(specular_glossiness_takes_the_place_of_the_fallback),
         cmocka_unit_test(extensions_that_exclude_others_win),
-        cmocka_unit_test(numbers_of_extensions_have_their_domains),
-        cmocka_unit_test(texture_transform_turns_as_its_example_says),
-        cmocka_unit_test(a_transform_that_does_nothing_is_none),
+        cmocka_unit_test(extension_parameters_have_their_ranges),
+        cmocka_unit_test(texture_transforms_match_the_specification_example),
+        cmocka_unit_test(identity_transforms_are_ignored),
         cmocka_unit_test(values_out_of_range_are_clamped_with_a_warning),
         cmocka_unit_test(wrong_members_are_refused_where_they_are_used),
-        cmocka_unit_test(samplers_translate),
+        cmocka_unit_test(samplers_are_translated),
         cmocka_unit_test(images_are_found_and_probed),
-        cmocka_unit_test(pictures_that_cannot_be_had_are_white),
+        cmocka_unit_test(unreadable_images_are_white),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

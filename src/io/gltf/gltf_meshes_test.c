@@ -102,7 +102,7 @@ static facet_scene *load_byte_indices(uint32_t vertex_count, const unsigned char
     return load_mesh(vertex_count, "", all, &bin, view, accessor);
 }
 
-static void what_uses_a_missing_vertex_is_left_out(void **state)
+static void elements_with_missing_vertices_are_left_out(void **state)
 {
     (void)state;
     facet_scene *scene = load_byte_indices(3, (const unsigned char[]){0, 1, 3, 0, 1, 2}, 6, "");
@@ -237,7 +237,7 @@ static void quantized_normals_are_made_unit_silently(void **state)
     scene_destroy(scene);
 }
 
-static void lost_positions_take_their_triangles_along(void **state)
+static void triangles_with_non_finite_positions_are_left_out(void **state)
 {
     (void)state;
     float positions[18] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 5, 5, 6, 5, 5, 5, NAN, 5};
@@ -254,7 +254,7 @@ static void lost_positions_take_their_triangles_along(void **state)
     scene_destroy(scene);
 }
 
-static void colors_come_as_linear_rgba_in_range(void **state)
+static void colors_are_linear_rgba_in_range(void **state)
 {
     (void)state;
     const uint8_t u8[12] = {255, 0, 51, 0, 0, 255, 0, 0, 1, 2, 3, 0};
@@ -337,7 +337,7 @@ static void attributes_must_fit_together(void **state)
     }
 }
 
-static void attributes_that_nothing_reads_are_left_out(void **state)
+static void unused_attributes_are_not_read(void **state)
 {
     (void)state;
     static const char *const cases[][3] = {
@@ -360,7 +360,7 @@ static void attributes_that_nothing_reads_are_left_out(void **state)
     }
 }
 
-static void texcoord_sets_are_all_there(void **state)
+static void all_texcoord_sets_are_read(void **state)
 {
     (void)state;
     facet_scene *scene = load_mesh(3, ",'TEXCOORD_0':1,'TEXCOORD_1':1,'TEXCOORD_2':1,'TEXCOORD_4':1", "",
@@ -375,20 +375,20 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(modes_become_lists),
         cmocka_unit_test(too_few_vertices_draw_nothing),
-        cmocka_unit_test(what_uses_a_missing_vertex_is_left_out),
+        cmocka_unit_test(elements_with_missing_vertices_are_left_out),
         cmocka_unit_test(the_last_index_is_a_vertex_where_there_is_one),
         cmocka_unit_test(the_last_index_restarts_where_there_is_no_vertex),
         cmocka_unit_test(missing_normals_become_flat),
         cmocka_unit_test(points_and_lines_stay_without_normals),
         cmocka_unit_test(normals_are_made_unit),
         cmocka_unit_test(quantized_normals_are_made_unit_silently),
-        cmocka_unit_test(lost_positions_take_their_triangles_along),
-        cmocka_unit_test(colors_come_as_linear_rgba_in_range),
+        cmocka_unit_test(triangles_with_non_finite_positions_are_left_out),
+        cmocka_unit_test(colors_are_linear_rgba_in_range),
         cmocka_unit_test(tangents_without_use_are_dropped),
         cmocka_unit_test(bounds_are_those_of_used_vertices),
         cmocka_unit_test(attributes_must_fit_together),
-        cmocka_unit_test(attributes_that_nothing_reads_are_left_out),
-        cmocka_unit_test(texcoord_sets_are_all_there),
+        cmocka_unit_test(unused_attributes_are_not_read),
+        cmocka_unit_test(all_texcoord_sets_are_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -89,7 +89,7 @@ static void views_are_decoded(void **state)
     scene_destroy(scene);
 }
 
-static void what_does_not_fit_is_refused(void **state)
+static void contradictory_sizes_and_modes_are_refused(void **state)
 {
     (void)state;
     const parts p = make_parts();
@@ -137,7 +137,7 @@ static void large_counts_take_no_memory(void **state)
     assert_refused(body, &p.bin, FACET_ERROR_INVALID, "ends too early");
 }
 
-static void streams_that_nothing_uses_may_be_broken(void **state)
+static void unused_streams_may_be_broken(void **state)
 {
     (void)state;
     const parts p = make_parts();
@@ -163,7 +163,7 @@ static void buffers_without_bytes_are_not_drawn(void **state)
 }
 
 /* Fallbacks are for other readers: they are neither read nor searched for. */
-static void fallbacks_are_left_alone(void **state)
+static void fallback_buffers_are_not_read(void **state)
 {
     (void)state;
     const parts p = make_parts();
@@ -174,7 +174,7 @@ static void fallbacks_are_left_alone(void **state)
     scene_destroy(scene);
 }
 
-static void oddities_get_warnings(void **state)
+static void oddities_are_warned_of(void **state)
 {
     (void)state;
     const parts p = make_parts();
@@ -229,12 +229,12 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(views_are_decoded),
-        cmocka_unit_test(what_does_not_fit_is_refused),
+        cmocka_unit_test(contradictory_sizes_and_modes_are_refused),
         cmocka_unit_test(large_counts_take_no_memory),
-        cmocka_unit_test(streams_that_nothing_uses_may_be_broken),
+        cmocka_unit_test(unused_streams_may_be_broken),
         cmocka_unit_test(buffers_without_bytes_are_not_drawn),
-        cmocka_unit_test(fallbacks_are_left_alone),
-        cmocka_unit_test(oddities_get_warnings),
+        cmocka_unit_test(fallback_buffers_are_not_read),
+        cmocka_unit_test(oddities_are_warned_of),
         cmocka_unit_test(sparse_parts_are_decoded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -15,7 +15,7 @@ static scene_pose pose_of(const facet_scene *scene, uint32_t index)
     return pose;
 }
 
-static void trs_and_matrix_say_the_same(void **state)
+static void trs_and_matrix_agree(void **state)
 {
     (void)state;
     /* A turn of 90 degrees around +Y takes +X to -Z; scale (2, 3, 4) before it, the translation after. */
@@ -152,7 +152,7 @@ static void a_center_moves_the_roots(void **state)
                     "center: must have 3 numbers, but has 1; the model is not moved");
 }
 
-static void scenes_and_hidden_nodes(void **state)
+static void scenes_and_hidden_nodes_are_read(void **state)
 {
     (void)state;
     facet_scene *scene =
@@ -181,7 +181,7 @@ static void scenes_and_hidden_nodes(void **state)
     scene_destroy(scene);
 }
 
-static void cameras_arrive(void **state)
+static void cameras_are_read(void **state)
 {
     (void)state;
     facet_scene *scene = load("'cameras':[{'type':'perspective','name':'p','perspective':{'yfov':0.5,'znear':"
@@ -212,7 +212,7 @@ static void cameras_arrive(void **state)
                     "cameras[0].perspective.yfov: is missing");
 }
 
-static void lights_arrive_and_shine_along_minus_z(void **state)
+static void lights_are_read_and_point_along_minus_z(void **state)
 {
     (void)state;
     facet_scene *scene = load("'extensionsUsed':['KHR_lights_punctual'],'extensions':{'KHR_lights_punctual':{"
@@ -264,7 +264,7 @@ static void deep_hierarchies_do_not_recurse(void **state)
     scene_destroy(scene);
 }
 
-static void skins_and_animations_that_are_broken_are_left_out(void **state)
+static void broken_skins_and_animations_are_left_out(void **state)
 {
     (void)state;
     const char *used =
@@ -294,18 +294,18 @@ static void skins_and_animations_that_are_broken_are_left_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(trs_and_matrix_say_the_same),
+        cmocka_unit_test(trs_and_matrix_agree),
         cmocka_unit_test(worlds_are_products_down_the_tree),
         cmocka_unit_test(broken_hierarchies_are_refused),
         cmocka_unit_test(shared_nodes_are_copied),
         cmocka_unit_test(copies_of_copies_have_a_limit),
         cmocka_unit_test(one_node_has_a_limit_of_parents),
         cmocka_unit_test(a_center_moves_the_roots),
-        cmocka_unit_test(scenes_and_hidden_nodes),
-        cmocka_unit_test(cameras_arrive),
-        cmocka_unit_test(lights_arrive_and_shine_along_minus_z),
+        cmocka_unit_test(scenes_and_hidden_nodes_are_read),
+        cmocka_unit_test(cameras_are_read),
+        cmocka_unit_test(lights_are_read_and_point_along_minus_z),
         cmocka_unit_test(deep_hierarchies_do_not_recurse),
-        cmocka_unit_test(skins_and_animations_that_are_broken_are_left_out),
+        cmocka_unit_test(broken_skins_and_animations_are_left_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

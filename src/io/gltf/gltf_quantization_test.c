@@ -185,7 +185,7 @@ static void check(const char *name, bool is_target, int component, bool is_norma
     }
 }
 
-static void every_type_of_every_attribute(void **state)
+static void every_type_of_every_attribute_is_read(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof TABLE / sizeof *TABLE; i++) {
@@ -203,7 +203,7 @@ static void every_type_of_every_attribute(void **state)
 
 /* A box of 0 to 65535 under a node that scales it to 2 m and moves it: the extension's "dequantization
  * transform". */
-static void nodes_undo_the_quantisation_of_positions(void **state)
+static void nodes_undo_the_quantization_of_positions(void **state)
 {
     (void)state;
     const uint16_t corners[3][4] = {{0, 0, 0}, {65535, 0, 0}, {0, 65535, 32768}};
@@ -228,7 +228,7 @@ static void nodes_undo_the_quantisation_of_positions(void **state)
 
 /* Texture coordinates of 0 to 4095, which KHR_texture_transform scales to 0 to 1: the transform is the
  * texture's, and coordinates are not clamped or scaled before it. */
-static void texture_transforms_undo_the_quantisation_of_coordinates(void **state)
+static void texture_transforms_undo_the_quantization_of_coordinates(void **state)
 {
     (void)state;
     const float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
@@ -261,9 +261,9 @@ static void texture_transforms_undo_the_quantisation_of_coordinates(void **state
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_type_of_every_attribute),
-        cmocka_unit_test(nodes_undo_the_quantisation_of_positions),
-        cmocka_unit_test(texture_transforms_undo_the_quantisation_of_coordinates),
+        cmocka_unit_test(every_type_of_every_attribute_is_read),
+        cmocka_unit_test(nodes_undo_the_quantization_of_positions),
+        cmocka_unit_test(texture_transforms_undo_the_quantization_of_coordinates),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

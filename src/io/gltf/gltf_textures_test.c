@@ -117,7 +117,7 @@ static void the_first_source_that_can_be_read_wins(void **state)
     scene_destroy(scene);
 }
 
-static void ktx2_files_beside_the_extension(void **state)
+static void ktx2_files_are_read_without_the_extension(void **state)
 {
     (void)state;
     static const unsigned char texels[6 * 4] = {0};
@@ -165,7 +165,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_first_source_that_can_be_read_wins),
-        cmocka_unit_test(ktx2_files_beside_the_extension),
+        cmocka_unit_test(ktx2_files_are_read_without_the_extension),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -365,7 +365,7 @@ static void assert_round_trip(const facet_scene *scene, const char *name)
     empty_folder();
 }
 
-static void small_scenes_survive(void **state)
+static void small_scenes_round_trip(void **state)
 {
     (void)state;
     static const char *const documents[] = {
@@ -415,7 +415,7 @@ static facet_scene *rewrite(const char *body, const char *name)
     return again;
 }
 
-static void what_glTF_forbids_is_not_written(void **state)
+static void values_that_glTF_forbids_are_not_written(void **state)
 {
     (void)state;
     facet_scene *s =
@@ -433,7 +433,7 @@ static void what_glTF_forbids_is_not_written(void **state)
     scene_destroy(s);
 }
 
-static void targets_that_move_nothing_keep_their_place(void **state)
+static void empty_targets_keep_their_index(void **state)
 {
     (void)state;
     /* The first primitive has no texture coordinates to be changed, the second no index that it could draw. */
@@ -452,7 +452,7 @@ static void targets_that_move_nothing_keep_their_place(void **state)
 }
 
 /* In floats, as they were before the scene was made relative to an origin near it. */
-static void far_vertices_come_back_as_they_were(void **state)
+static void distant_vertices_round_trip(void **state)
 {
     (void)state;
     static const float triangle[] = {1048576.0f, 0.0f,         0.125f, 1048577.5f, 0.1f,
@@ -493,7 +493,7 @@ static void names_need_not_be_UTF_8(void **state)
 }
 
 /* What is there stays as it was where one of the files cannot be written. */
-static void all_files_or_none(void **state)
+static void all_files_are_written_or_none(void **state)
 {
     (void)state;
     static const float triangle[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
@@ -518,7 +518,7 @@ static void all_files_or_none(void **state)
     scene_destroy(scene);
 }
 
-static void the_builtin_scene_survives(void **state)
+static void the_builtin_scene_round_trips(void **state)
 {
     (void)state;
     facet_scene *scene = NULL;
@@ -530,7 +530,7 @@ static void the_builtin_scene_survives(void **state)
     scene_destroy(scene);
 }
 
-static void what_cannot_be_written_is_said(void **state)
+static void failed_writes_are_reported(void **state)
 {
     (void)state;
     facet_scene *scene = load("'nodes':[{}]", NULL);
@@ -610,7 +610,7 @@ static size_t check_models(const char *path)
     return count;
 }
 
-static void real_models_survive(void **state)
+static void real_models_round_trip(void **state)
 {
     (void)state;
     const char *data = getenv("FACET_TEST_DATA");
@@ -626,17 +626,17 @@ static void real_models_survive(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(small_scenes_survive),
-        cmocka_unit_test(what_glTF_forbids_is_not_written),
-        cmocka_unit_test(targets_that_move_nothing_keep_their_place),
-        cmocka_unit_test(far_vertices_come_back_as_they_were),
+        cmocka_unit_test(small_scenes_round_trip),
+        cmocka_unit_test(values_that_glTF_forbids_are_not_written),
+        cmocka_unit_test(empty_targets_keep_their_index),
+        cmocka_unit_test(distant_vertices_round_trip),
         cmocka_unit_test(characters_0_in_extras_survive),
         cmocka_unit_test(names_need_not_be_UTF_8),
-        cmocka_unit_test(all_files_or_none),
-        cmocka_unit_test(the_builtin_scene_survives),
-        cmocka_unit_test(what_cannot_be_written_is_said),
+        cmocka_unit_test(all_files_are_written_or_none),
+        cmocka_unit_test(the_builtin_scene_round_trips),
+        cmocka_unit_test(failed_writes_are_reported),
         cmocka_unit_test(memory_that_runs_out_is_reported),
-        cmocka_unit_test(real_models_survive),
+        cmocka_unit_test(real_models_round_trip),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -129,7 +129,7 @@ static void check_record(const record *r, size_t number)
     free(decoded);
 }
 
-static void streams_of_the_reference_encoder(void **state)
+static void streams_of_the_reference_encoder_are_decoded(void **state)
 {
     const records *all = *state;
     bool has_version[2] = {false, false};
@@ -151,7 +151,7 @@ static void streams_of_the_reference_encoder(void **state)
 /* ---- by hand ---- */
 
 /* Appendix A, channel mode 0: a group of 4 bits with two values that do not fit. */
-static void the_example_of_the_specification(void **state)
+static void the_example_of_the_specification_is_decoded(void **state)
 {
     (void)state;
     static const uint8_t group[10] = {0x17, 0x5f, 0xf0, 0xbc, 0x77, 0xa9, 0x21, 0x00, 0x34, 0xb5};
@@ -372,7 +372,7 @@ static void damaged_streams_do_no_harm(void **state)
     }
 }
 
-static void sizes_that_no_stream_has(void **state)
+static void impossible_sizes_are_refused(void **state)
 {
     (void)state;
     static const uint8_t header[2] = {0xa0, 0xa1};
@@ -391,7 +391,7 @@ static void sizes_that_no_stream_has(void **state)
     assert_int_equal(meshopt_smallest_size(&s), SIZE_MAX);
 }
 
-static void what_goes_together(void **state)
+static void modes_filters_and_strides_must_match(void **state)
 {
     (void)state;
     static const struct {
@@ -434,8 +434,8 @@ static void what_goes_together(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(streams_of_the_reference_encoder),
-        cmocka_unit_test(the_example_of_the_specification),
+        cmocka_unit_test(streams_of_the_reference_encoder_are_decoded),
+        cmocka_unit_test(the_example_of_the_specification_is_decoded),
         cmocka_unit_test(indices_move_two_positions),
         cmocka_unit_test(triangles_share_edges),
         cmocka_unit_test(octahedral_vectors_have_unit_length),
@@ -444,8 +444,8 @@ int main(void)
         cmocka_unit_test(filters_take_any_bytes),
         cmocka_unit_test(streams_of_another_length_are_refused),
         cmocka_unit_test(damaged_streams_do_no_harm),
-        cmocka_unit_test(sizes_that_no_stream_has),
-        cmocka_unit_test(what_goes_together),
+        cmocka_unit_test(impossible_sizes_are_refused),
+        cmocka_unit_test(modes_filters_and_strides_must_match),
     };
     return cmocka_run_group_tests(tests, read_records, free_records);
 }

@@ -57,7 +57,7 @@ static void all_statements_are_read(void **state)
     scene_destroy(scene);
 }
 
-static void what_is_not_stated_is_absent(void **state)
+static void unstated_values_are_absent(void **state)
 {
     (void)state;
     facet_scene *scene = mtl_load_text("newmtl none\n", NULL);
@@ -73,7 +73,7 @@ static void what_is_not_stated_is_absent(void **state)
 }
 
 /* A byte order mark, CRLF and CR, tabs, blanks at the ends, case, continued lines, comments behind values. */
-static void lines_may_be_written_oddly(void **state)
+static void odd_spellings_of_lines_are_read(void **state)
 {
     (void)state;
     facet_scene *scene = mtl_load_text(
@@ -92,7 +92,7 @@ static void lines_may_be_written_oddly(void **state)
     scene_destroy(scene);
 }
 
-static void wrong_values_are_clamped_or_ignored(void **state)
+static void invalid_values_are_clamped_or_ignored(void **state)
 {
     (void)state;
     facet_scene *scene = mtl_load_text("newmtl a\nKd nan 0 0\nKs -1 0 2e10\nNs inf\nNs -5\nd 7\nillum 11\n"
@@ -295,7 +295,7 @@ static void options_are_read(void **state)
 }
 
 /* Common differences between written names and names on disk; each file is read, with one warning. */
-static void names_are_read_as_they_are_meant(void **state)
+static void alike_file_names_are_found(void **state)
 {
     (void)state;
     test_folder folder = test_folder_make();
@@ -329,7 +329,7 @@ static void names_are_read_as_they_are_meant(void **state)
 }
 
 /* No name leads out of the folder because it is only alike. */
-static void names_that_are_alike_stay_inside(void **state)
+static void alike_file_names_stay_inside_the_root(void **state)
 {
     (void)state;
     test_folder folder = test_folder_make();
@@ -397,7 +397,7 @@ static void textures_are_found_and_shared(void **state)
 /* ---- comments ---- */
 
 /* Members outside of materials are ignored, whatever they contain. */
-static void unknown_textures_stay_alone(void **state)
+static void unknown_members_are_ignored(void **state)
 {
     (void)state;
     test_folder folder = test_folder_make();
@@ -423,7 +423,7 @@ static void unknown_textures_stay_alone(void **state)
 /* OBJ has one set of coordinates: textures that read another one are left out, and the one that is written
  * is called
  * 0. */
-static void one_set_of_coordinates_comes_back(void **state)
+static void one_texcoord_set_round_trips(void **state)
 {
     (void)state;
     static const char statements[] = "map_Kd a.png\n";
@@ -599,7 +599,7 @@ static void materials_are_found_by_name(void **state)
 
 /* ---- dialects ---- */
 
-static void dialects_are_known_by_comments(void **state)
+static void dialects_are_detected_by_comments(void **state)
 {
     (void)state;
     const struct {
@@ -652,7 +652,7 @@ static void dialects_are_known_by_comments(void **state)
 /* ---- memory ---- */
 
 /* If any allocation fails, the result reports it and nothing leaks. */
-static void memory_may_run_out(void **state)
+static void failed_allocations_are_reported(void **state)
 {
     (void)state;
     test_folder folder = test_folder_make();
@@ -759,9 +759,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_statements_are_read),
-        cmocka_unit_test(what_is_not_stated_is_absent),
-        cmocka_unit_test(lines_may_be_written_oddly),
-        cmocka_unit_test(wrong_values_are_clamped_or_ignored),
+        cmocka_unit_test(unstated_values_are_absent),
+        cmocka_unit_test(odd_spellings_of_lines_are_read),
+        cmocka_unit_test(invalid_values_are_clamped_or_ignored),
         cmocka_unit_test(names_count_once),
         cmocka_unit_test(names_become_utf8),
         cmocka_unit_test(transparency_is_settled),
@@ -769,17 +769,17 @@ int main(void)
         cmocka_unit_test(colors_may_be_spectra),
         cmocka_unit_test(offset_and_scale_are_converted),
         cmocka_unit_test(options_are_read),
-        cmocka_unit_test(names_are_read_as_they_are_meant),
-        cmocka_unit_test(names_that_are_alike_stay_inside),
+        cmocka_unit_test(alike_file_names_are_found),
+        cmocka_unit_test(alike_file_names_stay_inside_the_root),
         cmocka_unit_test(textures_are_found_and_shared),
-        cmocka_unit_test(unknown_textures_stay_alone),
-        cmocka_unit_test(one_set_of_coordinates_comes_back),
+        cmocka_unit_test(unknown_members_are_ignored),
+        cmocka_unit_test(one_texcoord_set_round_trips),
         cmocka_unit_test(a_library_named_like_the_model_is_found),
         cmocka_unit_test(libraries_are_found),
         cmocka_unit_test(files_are_opened_once),
         cmocka_unit_test(materials_are_found_by_name),
-        cmocka_unit_test(dialects_are_known_by_comments),
-        cmocka_unit_test(memory_may_run_out),
+        cmocka_unit_test(dialects_are_detected_by_comments),
+        cmocka_unit_test(failed_allocations_are_reported),
         cmocka_unit_test(real_files_are_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -54,7 +54,7 @@ static const char LIBRARY[] =
     "-2.png\nkey 1 2\n"
     "refl -type cube_top b.png\nnewmtl plain\n";
 
-static void all_statements_come_back(void **state)
+static void all_statements_round_trip(void **state)
 {
     (void)state;
     test_folder folder = test_folder_make();
@@ -116,7 +116,7 @@ static void offsets_are_short(void **state)
         }
 }
 
-static void what_was_asked_for_is_left_out(void **state)
+static void options_omit_statements(void **state)
 {
     (void)state;
     facet_scene *scene = mtl_load_text(LIBRARY, NULL);
@@ -132,7 +132,7 @@ static void what_was_asked_for_is_left_out(void **state)
     scene_destroy(scene);
 }
 
-static void illum_says_what_is_on(void **state)
+static void illum_states_the_enabled_terms(void **state)
 {
     (void)state;
     facet_scene *scene = mtl_load_text(
@@ -165,7 +165,7 @@ static void names_are_made_unique(void **state)
 }
 
 /* Names whose numbers are taken already: with all of them tried for each, this takes minutes. */
-static void many_names_take_no_time(void **state)
+static void many_names_take_linear_time(void **state)
 {
     (void)state;
     enum { HALF = 30000, ROOM = 24 };
@@ -191,7 +191,7 @@ static void many_names_take_no_time(void **state)
 }
 
 /* Text that extras of a glTF file may hold begins no statements. */
-static void foreign_text_stays_text(void **state)
+static void text_from_extras_starts_no_statement(void **state)
 {
     (void)state;
     facet_scene *scene = mtl_load_text("newmtl a\nKd 0.5 0.5 0.5\nmap_Kd -o 1 2 a.png\nrefl b.png\n"
@@ -331,7 +331,7 @@ static void assert_same_gltf(const facet_scene *a, const facet_scene *b, uint32_
         assert_same_texture(a, &m->textures[i], b, &n->textures[i]);
 }
 
-static void gltf_materials_come_back(void **state)
+static void gltf_materials_round_trip(void **state)
 {
     (void)state;
     test_folder folder = test_folder_make();
@@ -357,7 +357,7 @@ static void gltf_materials_come_back(void **state)
 }
 
 /* The comment is void once a statement differs. White space and a new name do not matter. */
-static void changed_statements_count(void **state)
+static void changed_statements_override_the_comment(void **state)
 {
     (void)state;
     test_folder folder = test_folder_make();
@@ -428,7 +428,7 @@ static void broken_comments_are_warnings(void **state)
     }
 }
 
-static void memory_may_run_out(void **state)
+static void failed_allocations_are_reported(void **state)
 {
     (void)state;
     test_folder folder = test_folder_make();
@@ -457,17 +457,17 @@ static void memory_may_run_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_statements_come_back),
+        cmocka_unit_test(all_statements_round_trip),
         cmocka_unit_test(offsets_are_short),
-        cmocka_unit_test(what_was_asked_for_is_left_out),
-        cmocka_unit_test(illum_says_what_is_on),
+        cmocka_unit_test(options_omit_statements),
+        cmocka_unit_test(illum_states_the_enabled_terms),
         cmocka_unit_test(names_are_made_unique),
-        cmocka_unit_test(many_names_take_no_time),
-        cmocka_unit_test(foreign_text_stays_text),
-        cmocka_unit_test(gltf_materials_come_back),
-        cmocka_unit_test(changed_statements_count),
+        cmocka_unit_test(many_names_take_linear_time),
+        cmocka_unit_test(text_from_extras_starts_no_statement),
+        cmocka_unit_test(gltf_materials_round_trip),
+        cmocka_unit_test(changed_statements_override_the_comment),
         cmocka_unit_test(broken_comments_are_warnings),
-        cmocka_unit_test(memory_may_run_out),
+        cmocka_unit_test(failed_allocations_are_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

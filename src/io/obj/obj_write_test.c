@@ -188,7 +188,7 @@ static void objects_follow_one_another(void **state)
 
 /* Those in use, by their own names where they are plain; existing files stay, files of others are not
  * touched. */
-static void images_are_beside(void **state)
+static void images_are_written_beside_the_model(void **state)
 {
     (void)state;
     test_folder folder = test_folder_make();
@@ -251,7 +251,7 @@ static facet_scene *make_images(uint32_t count)
 }
 
 /* Pipes, which would never be read to their end, folders, links that lead nowhere: files of others. */
-static void what_is_no_file_is_not_opened(void **state)
+static void only_regular_files_are_opened(void **state)
 {
     (void)state;
     test_folder folder = test_folder_make();
@@ -287,7 +287,7 @@ static char *make_name(facet_scene *scene, const char *format, uint32_t number)
 }
 
 /* Names whose numbers are taken already: with all of them tried for each, this takes minutes. */
-static void many_names_take_no_time(void **state)
+static void many_names_take_linear_time(void **state)
 {
     (void)state;
     enum { HALF = 30000 };
@@ -317,7 +317,7 @@ static void many_names_take_no_time(void **state)
 }
 
 /* The libraries and images of files whose names a statement cannot hold as they are. */
-static void odd_names_are_found_again(void **state)
+static void odd_names_round_trip(void **state)
 {
     (void)state;
     static const char *const names[] = {" a.obj", "  .obj", "\"q\".obj", "\ta.obj", "a b.obj", ".obj"};
@@ -354,7 +354,7 @@ static void scenes_without_legacy_are_refused(void **state)
     scene_destroy(scene);
 }
 
-static void nothing_stays_of_what_fails(void **state)
+static void failed_writes_leave_no_file(void **state)
 {
     (void)state;
     test_folder folder = test_folder_make();
@@ -474,7 +474,7 @@ static int round_trip_folder(const char *path, const test_folder *folder)
     return count;
 }
 
-static void real_files_come_back(void **state)
+static void real_files_round_trip(void **state)
 {
     (void)state;
     const char *data = getenv("FACET_TEST_DATA");
@@ -553,14 +553,14 @@ int main(void)
         cmocka_unit_test(a_quad_is_written),
         cmocka_unit_test(far_scenes_are_written_in_doubles),
         cmocka_unit_test(objects_follow_one_another),
-        cmocka_unit_test(images_are_beside),
+        cmocka_unit_test(images_are_written_beside_the_model),
         cmocka_unit_test(scenes_without_legacy_are_refused),
-        cmocka_unit_test(nothing_stays_of_what_fails),
-        cmocka_unit_test(real_files_come_back),
+        cmocka_unit_test(failed_writes_leave_no_file),
+        cmocka_unit_test(real_files_round_trip),
         cmocka_unit_test(threads_change_nothing),
-        cmocka_unit_test(what_is_no_file_is_not_opened),
-        cmocka_unit_test(many_names_take_no_time),
-        cmocka_unit_test(odd_names_are_found_again),
+        cmocka_unit_test(only_regular_files_are_opened),
+        cmocka_unit_test(many_names_take_linear_time),
+        cmocka_unit_test(odd_names_round_trip),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
