@@ -172,6 +172,9 @@ FN float water_foam_cover(float share, float amount)
 
 /* ---- the bed ---- */
 
+/* A distance (m) beyond the visibility in any water. */
+#define WATER_FAR_M 1e4f
+
 /* Distance (m) along `down` to a planar bed, `depth` m below the point and rising by `rise` m per m along it. */
 FN float water_way_to_bed(float depth, float rise, vec3 down)
 {

@@ -1,6 +1,7 @@
 /* glsl_generate.c - writes texts of shaders to a C header; runs when facet is built.
  * usage: glsl_generate OUTPUT SHADE_FOLDER       the shader library
- *        glsl_generate OUTPUT FOLDER NAME...     files of a folder, as the array `parts`
+ *        glsl_generate OUTPUT FOLDER NAME...     files of a folder, as the array `parts`; their names are
+ *                                                without the paths from there
  *
  * OUTPUT gets the dialect of GLSL and, in the order of shade.h, the parts of the text as arrays of bytes:
  * a string literal is limited to 4095. */
@@ -89,7 +90,8 @@ int main(int argc, char **argv)
     static char names[MAX_PARTS][MAX_NAME];
     int count = argc - 3;
     for (int i = 0; i < count; i++) {
-        snprintf(names[i], sizeof names[i], "%s", argv[3 + i]);
+        const char *slash = strrchr(argv[3 + i], '/');
+        snprintf(names[i], sizeof names[i], "%s", slash ? slash + 1 : argv[3 + i]);
         put_part(out, argv[2], argv[3 + i], i + 1);
     }
     if (count == 0)

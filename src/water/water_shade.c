@@ -4,58 +4,141 @@
 
 #include <math.h>
 
-/* ---- below ---- */
+/* ---- the host of shade/compose/water_shade.h ---- */
+
+typedef struct SeaHost {
+    const water_setup *s;
+} SeaHost;
+
+typedef struct SeaPosition {
+    double at[3];
+} SeaPosition;
+
+typedef water_place SeaPlace;
+
+static Water host_water(SeaHost host)
+{
+    return host.s->water;
+}
+
+static WaterLight host_light(SeaHost host)
+{
+    return host.s->light;
+}
+
+static WaterCrest host_crest(SeaHost host)
+{
+    return host.s->crest;
+}
+
+static vec3 host_sunbeam(SeaHost host)
+{
+    return host.s->beam;
+}
+
+static vec3 host_sunward(SeaHost host)
+{
+    return host.s->sunward;
+}
+
+static SeaPosition position_at(const double P[3])
+{
+    return (SeaPosition){{P[0], P[1], P[2]}};
+}
+
+static SeaPosition host_position(SeaPlace p)
+{
+    return position_at(p.P);
+}
+
+static SeaPosition host_along(SeaPosition P, vec3 d, float x)
+{
+    for (int i = 0; i < 3; i++)
+        P.at[i] += (double)x * (double)d[i];
+    return P;
+}
+
+static float host_depth(SeaPosition P)
+{
+    return (float)fmax(-P.at[1], 0.0);
+}
+
+static bool host_has_bed(SeaHost host)
+{
+    return water_has_bed(host.s);
+}
+
+static bool host_has_light_on_bed(SeaHost host)
+{
+    return water_has_light_on_bed(host.s);
+}
+
+static vec3 host_bed_albedo(SeaHost host)
+{
+    return water_bed_albedo(&host.s->sea->desc.bed);
+}
+
+static float host_bed_rise(SeaHost host, vec3 d)
+{
+    return (float)water_bed_rise(&host.s->sea->desc.bed, d);
+}
+
+static float host_bed_depth(SeaHost host, SeaPosition P)
+{
+    return (float)-water_bed_height(&host.s->sea->desc.bed, P.at[0], P.at[2]);
+}
+
+static double over_bed(SeaHost host, SeaPosition P)
+{
+    return P.at[1] - water_bed_height(&host.s->sea->desc.bed, P.at[0], P.at[2]);
+}
+
+static float host_over_bed(SeaHost host, SeaPosition P)
+{
+    return (float)over_bed(host, P);
+}
+
+static float host_distance_to_bed(SeaHost host, SeaPosition P, vec3 d)
+{
+    double closing = water_bed_rise(&host.s->sea->desc.bed, d) - (double)d[1];
+    double above = over_bed(host, P);
+    if (!water_has_bed(host.s))
+        return WATER_FAR_M;
+    if (above <= 0.0)
+        return 0.0f;
+    return closing > 1e-9 ? (float)fmin(above / closing, (double)WATER_FAR_M) : WATER_FAR_M;
+}
+
+static vec2 host_bed_visibility(SeaHost host, SeaPosition P)
+{
+    bed_shadow_texel open = bed_shadow_at(&host.s->shadow, P.at[0], P.at[2]);
+    return vec2(open.sun, open.rest);
+}
+
+static vec2 host_caustics(SeaHost host, SeaPosition P, float width)
+{
+    float beyond, factor = caustic_map_within(&host.s->caustics, P.at[0], P.at[2], width, &beyond);
+    return vec2(factor, beyond);
+}
+
+#include "shade/compose/water_shade.h"
+
+/* ---- the bed ---- */
 
 vec3 water_light_over_bed(const water_setup *s, float depth_m)
 {
-    return water_interreflected(
-        s->water, s->light.downwelling,
-        water_bed_reflectance(s->water, water_bed_albedo(&s->sea->desc.bed), depth_m));
+    return sea_light_over_bed((SeaHost){s}, depth_m);
 }
 
 vec3 water_bed_lit_at(const water_setup *s, const double P[3], vec3 d, float way, float width_m)
 {
-    double X = P[0] + (double)way * (double)d[0], Z = P[2] + (double)way * (double)d[2];
-    float depth = max((float)-water_bed_height(&s->sea->desc.bed, X, Z), 0.0f);
-    vec3 focused = water_focused(s->water, water_bed_albedo(&s->sea->desc.bed), s->light.downwelling, s->beam,
-                                 s->sunward[1], depth);
-    bed_shadow_texel open = bed_shadow_at(&s->shadow, X, Z);
-    float beyond, factor = caustic_map_within(&s->caustics, X, Z, width_m, &beyond);
-    return water_bed_lit(focused, factor + beyond * open.sun, open.rest);
-}
-
-/* lit, mean_lit: relative irradiance of the bed where the ray hits it, and around. */
-static vec3 over_bed(const water_setup *s, float depth, vec3 down, vec3 lit, vec3 mean_lit)
-{
-    const facet_sea_bed *bed = &s->sea->desc.bed;
-    float rise = (float)water_bed_rise(bed, down), way = water_way_to_bed(depth, rise, down);
-    vec3 light = water_light_over_bed(s, water_bed_depth(depth, rise, way)), albedo = water_bed_albedo(bed);
-    return water_over_bed(s->water, light, albedo * lit, albedo * mean_lit, depth, rise, down);
+    return sea_bed_lit((SeaHost){s}, position_at(P), d, way, width_m);
 }
 
 vec3 water_from_still(const water_setup *s, float depth_m, vec3 down)
 {
-    return water_has_bed(s) ? over_bed(s, depth_m, down, vec3(1.0f), vec3(1.0f))
+    return water_has_bed(s) ? sea_over_bed((SeaHost){s}, depth_m, down, vec3(1.0f), vec3(1.0f))
                             : water_from_deep(s->water, s->light.downwelling);
-}
-
-/* Upward radiance (cd/m^2) just below the surface, towards the eye: of deep water, or of the bed through it. */
-static vec3 from_below(const water_setup *s, const water_place *p)
-{
-    vec3 down = water_refracted(s->water, -p->V, p->point.N), lit = vec3(1.0f), mean_lit = lit;
-    vec3 crest = water_crest(s->water, s->light, s->crest, p->point.N, p->V, down, p->height_m);
-    if (!water_has_bed(s))
-        return water_from_deep(s->water, s->light.downwelling) + crest;
-    const facet_sea_bed *bed = &s->sea->desc.bed;
-    float depth = (float)(p->P[1] - water_bed_height(bed, p->P[0], p->P[2]));
-    if (water_has_light_on_bed(s)) {
-        float way = water_way_to_bed(depth, (float)water_bed_rise(bed, down), down);
-        float width = p->footprint_m * inversesqrt(p->cosine);
-        width = water_bed_footprint(s->water, p->point.N, p->V, down, p->point.covariance, width, way);
-        lit = water_bed_lit_at(s, p->P, down, way, width);
-        mean_lit = water_bed_lit_at(s, p->P, down, way, max(width, 0.25f * way));
-    }
-    return over_bed(s, depth, down, lit, mean_lit) + crest;
 }
 
 /* ---- the sun ---- */
@@ -102,7 +185,7 @@ vec3 water_shade(const water_setup *s, const water_place *p, const water_finding
         float share = min(found->covered / m.fresnel, 1.0f);
         sky = sky * (1.0f - share) + found->mirrored * (share / found->covered);
     }
-    vec3 below = found->has_below ? found->below : from_below(s, p);
+    vec3 below = found->has_below ? found->below : sea_from_below((SeaHost){s}, *p);
     WaterLight light = s->light;
     if (found->has_shadow)
         light.sun_irradiance = light.sun_irradiance * found->sun;
@@ -117,8 +200,6 @@ vec3 water_shade_land(const water_setup *s)
 }
 
 /* ---- seen from below ---- */
-
-static const float FAR_M = 1e4f; /* beyond the visibility in any water */
 
 static float depth_of(const double P[3])
 {
@@ -135,36 +216,12 @@ vec3 water_model_behind_water(const water_setup *s, const model_hit *hit, const 
 
 float water_way_to_bed_below(const water_setup *s, const double P[3], vec3 d)
 {
-    const facet_sea_bed *bed = &s->sea->desc.bed;
-    if (!water_has_bed(s))
-        return FAR_M;
-    double closing = water_bed_rise(bed, d) - (double)d[1];
-    double above = P[1] - water_bed_height(bed, P[0], P[2]);
-    if (above <= 0.0)
-        return 0.0f;
-    return closing > 1e-9 ? (float)fmin(above / closing, (double)FAR_M) : FAR_M;
+    return host_distance_to_bed((SeaHost){s}, position_at(P), d);
 }
 
 vec3 water_seen_through_water(const water_setup *s, const double P[3], vec3 d, float width_m, float spread)
 {
-    float x = water_way_to_bed_below(s, P, d), z = depth_of(P);
-    vec3 ground = vec3(0.0f);
-    if (x < FAR_M) {
-        float depth = max(z - x * d[1], 0.0f);
-        vec3 light = water_light_over_bed(s, depth);
-        vec3 mean = water_bed_below(s->water, light, water_bed_albedo(&s->sea->desc.bed), depth);
-        float width = (width_m + spread * x) * inversesqrt(clamp(-d[1], 0.05f, 1.0f));
-        vec3 bed = mean;
-        if (water_has_light_on_bed(s)) {
-            bed = mean * water_bed_lit_at(s, P, d, x, width);
-            mean = mean * water_bed_lit_at(s, P, d, x, max(width, 0.25f * x));
-        }
-        ground = water_bed_through(s->water, bed, mean, x);
-    }
-    /* an endless upward ray leaves water as bright as near the surface */
-    float reach = d[1] > 1e-4f ? min(x, z / d[1]) : x;
-    return ground +
-           water_through(s->water, s->light.downwelling, s->beam, s->sunward, vec3(0.0f), z, d, reach);
+    return sea_seen_through_water((SeaHost){s}, position_at(P), d, width_m, spread);
 }
 
 /* Upward irradiance just below the surface, lx. */

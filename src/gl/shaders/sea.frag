@@ -39,12 +39,12 @@ void sea_put_aovs(float number, vec3 N, vec3 albedo, vec3 d, float t, float reac
 }
 
 /* Distance to the bed that the eye sees without the surface in front of it; 1e9: it sees none. */
-float sea_bare_bed(vec3 d)
+float sea_bare_bed(SeaHost host, vec3 d)
 {
 #ifdef HAS_BED
 #ifdef IS_BELOW
-    float t = sea_distance_to_bed(vec3(0.0, sea_eye.x, 0.0), d);
-    return t < 1e4 ? t : 1e9;
+    float t = host_distance_to_bed(host, vec3(0.0, sea_eye.x, 0.0), d);
+    return t < WATER_FAR_M ? t : 1e9;
 #else
     float land = sea_land(d);
     return land > 0.0 ? land : 1e9;
@@ -54,20 +54,20 @@ float sea_bare_bed(vec3 d)
 #endif
 }
 
-void sea_put_beside(vec3 d, ivec2 pixel)
+void sea_put_beside(SeaHost host, vec3 d, ivec2 pixel)
 {
-    float bed = sea_bare_bed(d);
+    float bed = sea_bare_bed(host, d);
     vec3 N = normalize(vec3(-sea_bed_slope.x, 1.0, -sea_bed_slope.y));
     sea_put_aovs(bed < 1e9 ? SEA_BED : SEA_NOTHING, N, sea_bed.xyz, d, bed, bed, pixel);
 }
 
-void sea_put_pixel(vec3 d, vec4 seen, ivec2 pixel)
+void sea_put_pixel(SeaHost host, vec3 d, vec4 seen, ivec2 pixel)
 {
-    if (sea_bare_bed(d) < seen.z) {
-        sea_put_beside(d, pixel);
+    if (sea_bare_bed(host, d) < seen.z) {
+        sea_put_beside(host, d, pixel);
         return;
     }
-    Water w = sea_water();
+    Water w = host_water(host);
     SeaPlace p = sea_place(d, seen);
 #ifdef IS_BELOW
     vec3 N = -water_faced(p.point.N, d);
@@ -87,18 +87,18 @@ void sea_put_pixel(vec3 d, vec4 seen, ivec2 pixel)
 layout(location = 0) out highp vec4 fragment;
 
 #ifdef IS_LEGACY
-vec4 sea_pixel(vec3 d, vec4 seen, ivec2 pixel)
+vec4 sea_pixel(SeaHost host, vec3 d, vec4 seen, ivec2 pixel)
 {
     return sea_shown(sea_legacy(sea_place(d, seen)));
 }
-vec4 sea_beside(vec3 d, ivec2 pixel)
+vec4 sea_beside(SeaHost host, vec3 d, ivec2 pixel)
 {
     return sea_shown(before_sky(d));
 }
 #else
 #ifdef HAS_MODEL
 /* The model where it is nearer than t m, over what is behind it; both as the eye sees them. */
-vec3 sea_model_over(vec3 behind, vec3 d, float t, ivec2 pixel)
+vec3 sea_model_over(SeaHost host, vec3 behind, vec3 d, float t, ivec2 pixel)
 {
     SeaModel m = sea_model_at(pixel, d / dot(d, forward.xyz));
     float way = length(m.at);
@@ -106,33 +106,33 @@ vec3 sea_model_over(vec3 behind, vec3 d, float t, ivec2 pixel)
         return behind;
     vec3 L = m.color.xyz / m.color.w;
 #ifdef IS_BELOW
-    L *= water_transmittance(water_K_d(sea_water()), max(-(sea_eye.x + m.at.y), 0.0));
-    L = water_through(sea_water(), sea_downwelling.xyz, sea_beam.xyz, sea_sunward.xyz, L, max(-sea_eye.x, 0.0), d, way);
+    L *= water_transmittance(water_K_d(host_water(host)), max(-(sea_eye.x + m.at.y), 0.0));
+    L = water_through(host_water(host), sea_downwelling.xyz, sea_beam.xyz, sea_sunward.xyz, L, max(-sea_eye.x, 0.0), d, way);
 #else
     L = sea_through_air(L, d, way);
 #endif
     return mix(behind, L, m.color.w);
 }
 #else
-vec3 sea_model_over(vec3 behind, vec3 d, float t, ivec2 pixel)
+vec3 sea_model_over(SeaHost host, vec3 behind, vec3 d, float t, ivec2 pixel)
 {
     return behind;
 }
 #endif
 
 #ifdef IS_BELOW
-vec4 sea_beside(vec3 d, ivec2 pixel)
+vec4 sea_beside(SeaHost host, vec3 d, ivec2 pixel)
 {
-    return sea_exposed(sea_model_over(sea_seen_through_water(vec3(0.0, sea_eye.x, 0.0), d, 0.0, sea_ray.x * sea_ray.y * dot(d, forward.xyz)), d, 1e9, pixel));
+    return sea_exposed(sea_model_over(host, sea_seen_through_water(host, vec3(0.0, sea_eye.x, 0.0), d, 0.0, sea_ray.x * sea_ray.y * dot(d, forward.xyz)), d, 1e9, pixel));
 }
-vec4 sea_pixel(vec3 d, vec4 seen, ivec2 pixel)
+vec4 sea_pixel(SeaHost host, vec3 d, vec4 seen, ivec2 pixel)
 {
-    if (seen.z < sea_distance_to_bed(vec3(0.0, sea_eye.x, 0.0), d))
-        return sea_exposed(sea_model_over(sea_shade_below(sea_place(d, seen)), d, seen.z, pixel));
-    return sea_beside(d, pixel);
+    if (seen.z < host_distance_to_bed(host, vec3(0.0, sea_eye.x, 0.0), d))
+        return sea_exposed(sea_model_over(host, sea_shade_below(host, sea_place(d, seen)), d, seen.z, pixel));
+    return sea_beside(host, d, pixel);
 }
 #else
-vec4 sea_beside(vec3 d, ivec2 pixel)
+vec4 sea_beside(SeaHost host, vec3 d, ivec2 pixel)
 {
     float t = 1e9;
     vec3 radiance = sea_sky_seen(d);
@@ -140,30 +140,30 @@ vec4 sea_beside(vec3 d, ivec2 pixel)
     float land = sea_land(d);
     if (land > 0.0) {
         t = land;
-        radiance = sea_land_seen(d, land);
+        radiance = sea_land_seen(host, d, land);
     }
 #endif
-    return sea_exposed(sea_model_over(radiance, d, t, pixel));
+    return sea_exposed(sea_model_over(host, radiance, d, t, pixel));
 }
-vec4 sea_pixel(vec3 d, vec4 seen, ivec2 pixel)
+vec4 sea_pixel(SeaHost host, vec3 d, vec4 seen, ivec2 pixel)
 {
 #ifdef HAS_BED
     float land = sea_land(d);
     if (land > 0.0 && land < seen.z)
-        return sea_beside(d, pixel);
+        return sea_beside(host, d, pixel);
 #endif
     SeaPlace p = sea_place(d, seen);
 #ifdef IS_PAINTED
-    vec3 radiance = sea_painted(p);
+    vec3 radiance = sea_painted(host, p);
 #else
-    vec3 radiance = sea_shade(p);
+    vec3 radiance = sea_shade(host, p);
 #endif
     float t = p.t;
 #ifdef HAS_MODEL
     if (sea_touched(p.at.xz).x > 0.5) /* a hull displaces it */
         t = 1e9;
 #endif
-    return sea_exposed(sea_model_over(sea_through_air(radiance, d, p.t), d, t, pixel));
+    return sea_exposed(sea_model_over(host, sea_through_air(radiance, d, p.t), d, t, pixel));
 }
 #endif
 #endif
@@ -174,13 +174,14 @@ void main()
     vec2 place = gl_FragCoord.xy + frame_size.zw - 0.5 * frame_size.xy;
     vec3 d = normalize(forward.xyz + right.xyz * place.x + up.xyz * place.y);
     ivec2 pixel = ivec2(gl_FragCoord.xy);
+    SeaHost host = SeaHost(hash_uint(uint(pixel.y) * 65536u + uint(pixel.x)));
 #if defined(AOVS) && defined(IS_BESIDE)
-    sea_put_beside(d, pixel);
+    sea_put_beside(host, d, pixel);
 #elif defined(AOVS)
-    sea_put_pixel(d, texelFetch(u_sea_seen, pixel, 0), pixel);
+    sea_put_pixel(host, d, texelFetch(u_sea_seen, pixel, 0), pixel);
 #elif defined(IS_BESIDE)
-    fragment = sea_beside(d, pixel);
+    fragment = sea_beside(host, d, pixel);
 #else
-    fragment = sea_pixel(d, texelFetch(u_sea_seen, pixel, 0), pixel);
+    fragment = sea_pixel(host, d, texelFetch(u_sea_seen, pixel, 0), pixel);
 #endif
 }

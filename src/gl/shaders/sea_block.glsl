@@ -67,20 +67,3 @@ layout(std140) uniform Sea
     vec4 sea_touch;        /* of the rectangle: x, z from the eye, 1 / lengths, 1/m */
     vec4 sea_shadow;       /* the same for the shadow on the bed; 0: there is none */
 };
-
-Water sea_water()
-{
-#ifdef HAS_OTHER_MICROFACETS
-    ivec3 facets = ivec3(sea_backscattering.w, sea_reflectance.w, sea_pure_share.w);
-#else
-    /* constant, so the compiler removes the other models */
-    const ivec3 facets = ivec3(WATER_BECKMANN, WATER_SCALES, 0);
-#endif
-    return Water(sea_absorption.w, sea_absorption.xyz, sea_scattering.xyz, sea_backscattering.xyz, sea_reflectance.xyz, sea_pure_share.xyz,
-                 sea_sun_irradiance.w, sea_scattering.w, facets.x, facets.y, facets.z);
-}
-
-WaterLight sea_light()
-{
-    return WaterLight(sea_sun.xyz, sea_sun_irradiance.xyz, sea_sky_irradiance.xyz, sea_downwelling.xyz, sea_sun.w);
-}

@@ -21,7 +21,7 @@ float sea_glints(SeaPlace p, Water w)
     vec3 H = normalize(p.V + sea_sun.xyz);
     if (H.y <= 0.0 || p.moments.y <= 0.0)
         return 1.0;
-    float width = p.width / sea_ray.y;
+    float width = p.footprint_m / sea_ray.y;
     float area = width * width / p.cosine;
     float lifetime = 1.0 / p.moments.y;
     float count = glint_count(w.normals, p.point.covariance, sun_slopes(sea_sun.xyz, p.V), p.point.N, H, p.moments.x, area, sea_downwelling.w / lifetime);
@@ -39,39 +39,11 @@ vec3 sea_sun_seen(SeaPlace p, Water w, WaterLight light)
     return sun.y > 0.0 ? sun * (water_passing(p.resolved, p.point.N, light.L) * sea_glints(p, w)) : sun;
 }
 
-WaterCrest sea_crest()
-{
-    return WaterCrest(sea_crest_beam.xyz, sea_crest_sunward.xyz, sea_crest_beam.w, sea_crest_sunward.w);
-}
-
-/* Upward radiance just below the surface, towards the eye. */
-vec3 sea_from_below(SeaPlace p, Water w, WaterLight light)
-{
-    vec3 down = water_refracted(w, -p.V, p.point.N);
-    vec3 crest = water_crest(w, light, sea_crest(), p.point.N, p.V, down, p.height);
-#ifdef HAS_BED
-    float depth = p.at.y + sea_bed.w - dot(sea_bed_slope.xy, p.at.xz);
-    float rise = dot(sea_bed_slope.xy, down.xz);
-    float way = water_way_to_bed(depth, rise, down);
-    vec3 lit = sea_light_over_bed(w, water_bed_depth(depth, rise, way));
-    vec3 albedo = sea_bed.xyz;
-    vec3 mean_albedo = albedo;
-    if (sea_has_light_on_bed()) {
-        float width = water_bed_footprint(w, p.point.N, p.V, down, p.point.covariance, p.width * inversesqrt(p.cosine), way);
-        albedo *= sea_bed_lit(w, p.at, down, way, width);
-        mean_albedo *= sea_bed_lit(w, p.at, down, way, max(width, 0.25 * way));
-    }
-    return water_over_bed(w, lit, albedo, mean_albedo, depth, rise, down) + crest;
-#else
-    return water_from_deep(w, light.downwelling) + crest;
-#endif
-}
-
 /* To an eye above the water. */
-vec3 sea_shade(SeaPlace p)
+vec3 sea_shade(SeaHost host, SeaPlace p)
 {
-    Water w = sea_water();
-    WaterLight light = sea_light();
+    Water w = host_water(host);
+    WaterLight light = host_light(host);
     vec4 means = vec4(1.0, 1.0, 0.0, 0.0); /* of flat water */
     float NdotV = clamp(dot(p.point.N, p.V), 1e-4, 1.0);
     vec3 least = vec3(SLOPE_VARIANCE_MIN, SLOPE_VARIANCE_MIN, 0.0);
@@ -81,11 +53,10 @@ vec3 sea_shade(SeaPlace p)
     WaterMirror m = water_mirror(w, p.point, p.V, means.x, means.y, means.z, means.w);
     m = water_mirror_passing(m, p.resolved, p.point.N);
     vec3 sky = sea_sky_reflected(m.R, m.perceptual_roughness);
-    vec3 below = sea_from_below(p, w, light);
+    vec3 below = sea_from_below(host, p);
 #ifdef HAS_MODEL
     vec3 P = p.d * p.t;
-    uvec2 at = uvec2(gl_FragCoord.xy);
-    vec4 mirrored = sea_model_reflected(P, p.V, p.point, w, hash_uint(at.y * 65536u + at.x));
+    vec4 mirrored = sea_model_reflected(P, p.V, p.point, w, host.random);
     if (mirrored.w > 0.0) {
         float share = min(mirrored.w / m.fresnel, 1.0);
         sky = sky * (1.0 - share) + mirrored.xyz * (share / mirrored.w);
@@ -99,12 +70,12 @@ vec3 sea_shade(SeaPlace p)
 }
 
 /* Water that an eye in it sees mirrored by microfacets of the mean normal m. */
-vec3 sea_mirrored_below(SeaPlace p, vec3 m)
+vec3 sea_mirrored_below(SeaHost host, SeaPlace p, vec3 m)
 {
     vec3 mirrored = reflect(p.d, m);
     if (mirrored.y > -1e-3)
         mirrored = normalize(vec3(mirrored.x, -1e-3, mirrored.z));
-    return sea_seen_through_water(vec3(p.at.x, min(p.at.y, 0.0), p.at.z), mirrored, p.width, water_mirrored_spread(p.point.covariance));
+    return sea_seen_through_water(host, vec3(p.at.x, min(p.at.y, 0.0), p.at.z), mirrored, p.footprint_m, water_mirrored_spread(p.point.covariance));
 }
 
 /* What the microfacets show to it: the same as in water_shade.c. */
@@ -116,7 +87,7 @@ struct SeaMicrofacets
 };
 
 /* upwards: upward radiance below the surface. */
-SeaMicrofacets sea_microfacets_below(SeaPlace p, Water w, vec3 upwards)
+SeaMicrofacets sea_microfacets_below(SeaHost host, SeaPlace p, Water w, vec3 upwards)
 {
     vec3 C = p.point.covariance;
     vec3 N = p.point.N;
@@ -140,29 +111,28 @@ SeaMicrofacets sea_microfacets_below(SeaPlace p, Water w, vec3 upwards)
         k++;
     } while (k < WINDOW_FACETS && !is_sharp);
     if (L.fresnel > 0.0)
-        L.mirrored = sea_mirrored_below(p, normalize(mirrors));
+        L.mirrored = sea_mirrored_below(host, p, normalize(mirrors));
     L.window /= share;
     L.fresnel /= share;
     return L;
 }
 
 /* To an eye in the water. */
-vec3 sea_shade_below(SeaPlace p)
+vec3 sea_shade_below(SeaHost host, SeaPlace p)
 {
-    Water w = sea_water();
-    WaterLight light = sea_light();
+    Water w = host_water(host);
+    WaterLight light = host_light(host);
 #ifdef HAS_BED
     vec3 R = water_bed_reflectance(w, sea_bed.xyz, max(p.at.y + sea_bed.w - dot(sea_bed_slope.xy, p.at.xz), 0.0));
 #else
     vec3 R = water_deep_reflectance(w);
 #endif
     vec3 upwelling = R * water_interreflected(w, light.downwelling, R);
-    SeaMicrofacets facets = sea_microfacets_below(p, w, upwelling * INV_PI);
+    SeaMicrofacets facets = sea_microfacets_below(host, p, w, upwelling * INV_PI);
     vec3 L = facets.window + facets.mirrored * facets.fresnel;
     vec3 sharp = water_sun_below(w, p.point, light, p.d) * water_passing(p.resolved, p.point.N, light.L);
 #if defined(HAS_MODEL) && defined(IS_BELOW)
-    uvec2 at = uvec2(gl_FragCoord.xy);
-    SeaFound found = sea_find_below(p, hash_uint(at.y * 65536u + at.x));
+    SeaFound found = sea_find_below(host, p, host.random);
     float share = found.covered > facets.fresnel ? facets.fresnel / found.covered : 1.0;
     L = max(facets.window - found.hidden, 0.0) + facets.mirrored * (facets.fresnel - share * found.covered);
     sharp = sharp * sea_touched(p.at.xz).y + found.through + found.mirrored * share;
@@ -178,15 +148,15 @@ vec3 sea_legacy(SeaPlace p)
     vec2 slope = slope_from_normal(p.point.N);
     float sparkle = 0.0;
     if (sea_look.w != 0) /* white noise fixed to the water, about one cell in ten */
-        sparkle = glint_uniform(glint_cell(sea_world_rest(p), vec2(p.width), 1.0).key) > 0.9 ? 1.0 : 0.0;
+        sparkle = glint_uniform(glint_cell(sea_world_rest(p), vec2(p.footprint_m), 1.0).key) > 0.9 ? 1.0 : 0.0;
     float foam = sea_look.z != 0 ? before_foam(length(slope)) : 0.0;
     return before_shade(sea_look.y, sea_look.x, p.d, p.point.N, sea_sun.xyz, p.at.y, sparkle, foam, sea_absorption.w, sea_bed_slope.z);
 }
 
 /* Stage 3: the sky in a mirror of Schlick's reflectance, the sun in GGX of one roughness, and a diffuse base color
  * below. */
-vec3 sea_painted(SeaPlace p)
+vec3 sea_painted(SeaHost host, SeaPlace p)
 {
     vec3 sky = sea_sky_reflected(painted_mirror(p.point.N, p.V), sea_bed_slope.z);
-    return painted_water(sea_light(), p.point.N, p.V, sea_absorption.w, sea_bed_slope.z, sky);
+    return painted_water(host_light(host), p.point.N, p.V, sea_absorption.w, sea_bed_slope.z, sky);
 }

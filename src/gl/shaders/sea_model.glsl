@@ -198,33 +198,33 @@ struct SeaFound
 };
 
 /* A model's color seen through `way` m of water along d from the point `at`: water_model_behind_water(). */
-vec3 sea_model_behind_water(vec3 color, vec3 at, vec3 d, float way)
+vec3 sea_model_behind_water(SeaHost host, vec3 color, vec3 at, vec3 d, float way)
 {
-    Water w = sea_water();
+    Water w = host_water(host);
     vec3 L = color * water_transmittance(water_K_d(w), max(-(at.y + d.y * way), 0.0));
     return water_through(w, sea_downwelling.xyz, sea_beam.xyz, sea_sunward.xyz, L, max(-at.y, 0.0), d, way);
 }
 
 /* look_down(), look_through() of water_find.c. */
-SeaFound sea_look_down(SeaFound found, SeaPlace p, Facet f, int count)
+SeaFound sea_look_down(SeaHost host, SeaFound found, SeaPlace p, Facet f, int count)
 {
     float way;
     vec3 R = reflect(p.d, f.m);
     R.y = -max(abs(R.y), 1e-4);
-    float weight = f.weight * water_fresnel_inside(sea_water(), clamp(dot(f.m, p.d), 0.0, 1.0));
+    float weight = f.weight * water_fresnel_inside(host_water(host), clamp(dot(f.m, p.d), 0.0, 1.0));
     if (weight <= 0.0)
         return found;
     vec4 color = sea_model_in_cut(SEA_MIRRORED, p.d * p.t, R, count, way);
     if (color.w > 0.0) {
         found.covered += weight * color.w;
-        found.mirrored += sea_model_behind_water(color.xyz / color.w, p.at, R, way) * (weight * color.w);
+        found.mirrored += sea_model_behind_water(host, color.xyz / color.w, p.at, R, way) * (weight * color.w);
     }
     return found;
 }
-SeaFound sea_look_through(SeaFound found, SeaPlace p, Facet f, float roughness, int count)
+SeaFound sea_look_through(SeaHost host, SeaFound found, SeaPlace p, Facet f, float roughness, int count)
 {
     float way;
-    WaterWindow window = water_window(sea_water(), p.d, f.m);
+    WaterWindow window = water_window(host_water(host), p.d, f.m);
     float weight = f.weight * water_passing(p.resolved, p.point.N, window.outside);
     if (weight <= 0.0 || window.fresnel >= 1.0)
         return found;
@@ -235,7 +235,7 @@ SeaFound sea_look_through(SeaFound found, SeaPlace p, Facet f, float roughness, 
 }
 
 /* water_find_below() of water_find.c. */
-SeaFound sea_find_below(SeaPlace p, uint seed)
+SeaFound sea_find_below(SeaHost host, SeaPlace p, uint seed)
 {
     SeaFound found = SeaFound(0.0, vec3(0.0), vec3(0.0), vec3(0.0));
     vec3 C = p.point.covariance;
@@ -245,25 +245,25 @@ SeaFound sea_find_below(SeaPlace p, uint seed)
     vec3 high = from + sea_model_half.xyz;
     float roughness = window_roughness(facets_seen(C, p.point.N, p.d), C);
     FacetRange mirror = facets_that_mirror(C, N, p.d, -vec3(high.x, min(high.y, 0.0), high.z), -low);
-    FacetRange window = facets_that_bend(C, N, p.d, vec3(low.x, max(low.y, 0.0), low.z), high, sea_water().ior);
+    FacetRange window = facets_that_bend(C, N, p.d, vec3(low.x, max(low.y, 0.0), low.z), high, host_water(host).ior);
     bool is_mirrored = low.y < 0.0 && facets_share(mirror) >= SEA_MIN_SHARE;
     bool is_through = high.y > 0.0 && facets_share(window) >= SEA_MIN_SHARE;
     bool is_smooth = max(mirror.along, mirror.across) < SEA_SMOOTH;
     Facet smoothed = Facet(water_seen_normal(C, p.point.N, p.d), 1.0);
     if (is_smooth && is_mirrored)
-        found = sea_look_down(found, p, smoothed, SEA_MODEL_STEPS);
+        found = sea_look_down(host, found, p, smoothed, SEA_MODEL_STEPS);
     if (is_smooth && is_through)
-        found = sea_look_through(found, p, smoothed, roughness, SEA_MODEL_STEPS);
+        found = sea_look_through(host, found, p, smoothed, roughness, SEA_MODEL_STEPS);
     for (int i = 0; i < SEA_SAMPLES && !is_smooth && (is_mirrored || is_through); i++) {
         vec2 u = sobol_scrambled(uint(i), seed);
         Facet f = facet_drawn(mirror, N, u);
         f.weight /= float(SEA_SAMPLES);
         if (is_mirrored)
-            found = sea_look_down(found, p, f, SEA_SAMPLE_STEPS);
+            found = sea_look_down(host, found, p, f, SEA_SAMPLE_STEPS);
         f = facet_drawn(window, N, u);
         f.weight /= float(SEA_SAMPLES);
         if (is_through)
-            found = sea_look_through(found, p, f, roughness, SEA_SAMPLE_STEPS);
+            found = sea_look_through(host, found, p, f, roughness, SEA_SAMPLE_STEPS);
     }
     return found;
 }

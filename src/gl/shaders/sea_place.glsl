@@ -8,13 +8,18 @@ struct SeaPlace
     float t;          /* m */
     vec3 V;           /* unit, to the eye, against the level of the sea there */
     vec3 at;          /* x, z from the eye; y over still water; m */
-    float width;      /* of the footprint across the ray, m */
+    float footprint_m; /* across the ray */
     float cosine;     /* water_seen_cosine() */
-    float height;     /* of waves, m */
+    float height_m;   /* of waves */
     vec3 resolved;    /* slope variances that the footprint resolves */
     vec2 moments;     /* k4, omega of the unresolved ones */
     WaterPoint point;
 };
+
+vec3 host_position(SeaPlace p)
+{
+    return p.at;
+}
 
 /* ---- slopes ---- */
 
@@ -128,14 +133,14 @@ SeaPlace sea_place(vec3 d, vec4 seen)
     float rise = p.d.y + 2.0 * p.t * level2 * sea_eye.y;
     p.V = normalize(vec3(-p.d.x, -rise, -p.d.z));
     p.at = d * t + vec3(0.0, sea_eye.x + t * t * level2 * sea_eye.y, 0.0);
-    p.width = sea_ray.x * sea_ray.y * p.t * dot(p.d, forward.xyz);
-    float footprint = water_footprint(p.width, rise, sea_eye.z);
+    p.footprint_m = sea_ray.x * sea_ray.y * p.t * dot(p.d, forward.xyz);
+    float footprint = water_footprint(p.footprint_m, rise, sea_eye.z);
     sea_slopes(footprint, p.resolved, p.moments);
     p.cosine = water_seen_cosine(p.V * side, p.resolved);
-    footprint = max(footprint, p.width * inversesqrt(p.cosine));
+    footprint = max(footprint, p.footprint_m * inversesqrt(p.cosine));
     vec3 hidden = sea_slopes(footprint, p.resolved, p.moments);
     SeaWaves waves = sea_waves(rest, footprint);
-    p.height = waves.displacement.y;
+    p.height_m = waves.displacement.y;
     p.point.N = wave_normal(waves.slope, waves.D);
 #ifndef IS_BELOW
     p.point.N = water_faced(p.point.N, p.V);

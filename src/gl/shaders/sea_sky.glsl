@@ -80,52 +80,12 @@ float sea_land(vec3 d)
     return dot(sea_bed_slope.xy, sea_bed_slope.xy) > 0.0 ? land : -1.0;
 }
 
-vec3 sea_land_seen(vec3 d, float land)
+vec3 sea_land_seen(SeaHost host, vec3 d, float land)
 {
     vec3 N = normalize(vec3(-sea_bed_slope.x, 1.0, -sea_bed_slope.y));
-    return sea_through_air(water_land(sea_light(), sea_bed.xyz, N), d, land);
+    return sea_through_air(water_land(host_light(host), sea_bed.xyz, N), d, land);
 }
 #endif
-
-/* Distance to the bed along d from a point at x, z from the eye and y over still water, m; 1e4: it is not hit. */
-float sea_distance_to_bed(vec3 at, vec3 d)
-{
-#ifdef HAS_BED
-    float closing = dot(sea_bed_slope.xy, d.xz) - d.y;
-    float above = at.y + sea_bed.w - dot(sea_bed_slope.xy, at.xz);
-    if (above <= 0.0)
-        return 0.0;
-    return closing > 1e-9 ? min(above / closing, 1e4) : 1e4;
-#else
-    return 1e4;
-#endif
-}
-
-/* Water, and the bed behind it, seen from a point in the water along d by a ray of that width, which grows by
- * `spread` per m. */
-vec3 sea_seen_through_water(vec3 at, vec3 d, float width, float spread)
-{
-    Water w = sea_water();
-    float x = sea_distance_to_bed(at, d);
-    float z = max(-at.y, 0.0);
-    vec3 ground = vec3(0.0);
-    if (x < 1e4) {
-        float depth = max(z - x * d.y, 0.0);
-        vec3 light = sea_light_over_bed(w, depth);
-        vec3 mean = water_bed_below(w, light, sea_bed.xyz, depth);
-        vec3 bed = mean;
-#ifdef HAS_BED
-        if (sea_has_light_on_bed()) {
-            float wide = (width + spread * x) * inversesqrt(clamp(-d.y, 0.05, 1.0));
-            bed *= sea_bed_lit(w, at, d, x, wide);
-            mean *= sea_bed_lit(w, at, d, x, max(wide, 0.25 * x));
-        }
-#endif
-        ground = water_bed_through(w, bed, mean, x);
-    }
-    float reach = d.y > 1e-4 ? min(x, z / d.y) : x;
-    return ground + water_through(w, sea_downwelling.xyz, sea_beam.xyz, sea_sunward.xyz, vec3(0.0), z, d, reach);
-}
 
 /* ---- output ---- */
 
