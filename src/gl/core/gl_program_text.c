@@ -146,7 +146,7 @@ static const struct {
                              "sea.vert",
                              "sea_surface.frag",
                              {"water_place"},
-                             {0},
+                             {"sea_block.glsl"},
                              no_features,
                              {"sea_block.glsl"}},
     [GL_MAIN_SEA_CLASS] =

@@ -9,6 +9,8 @@
 
 #include "shade/shade.h"
 
+static const float MAX_DISTANCE_M = 1e7f; /* as in water_trace.c */
+
 static void set4(float to[4], const float xyz[3], float w)
 {
     memcpy(to, xyz, 3 * sizeof *to);
@@ -143,6 +145,7 @@ void gl_sea_block_fill(const water_frame *p, const camera_rays *camera, const gl
     *b = (gl_sea_block){
         .eye = {camera->origin[1], (float)p->fall, p->deviation_m, p->sea->waves.level_m},
         .ray = {camera->pixel_size, inversesqrt((float)samples), fan->near_m, 0.0f},
+        .clip = {camera->near_m, fminf(camera->far_m, MAX_DISTANCE_M)},
         .fan = {fan->azimuth, fan->half_azimuth, fan->first_m, fan->step},
         .fan_ends = {(float)fan->columns, (float)(fan->wave_rows - 1), (float)fan->rows, fan->ratio},
         .fan_level = {(float)fan->level_row, fan->level_m},

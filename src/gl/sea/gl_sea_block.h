@@ -15,7 +15,7 @@ enum { GL_SEA_MIRRORED, GL_SEA_WINDOW, GL_SEA_CUTS };
 typedef struct gl_sea_block {
     float axes[WAVES_MAX_TILES][4], places[WAVES_MAX_TILES][4], lengths[WAVES_MAX_TILES][4];
     int32_t counts[4];
-    float eye[4], ray[4], fan[4], fan_ends[4], fan_level[4], shift[4];
+    float eye[4], ray[4], clip[4], fan[4], fan_ends[4], fan_level[4], shift[4];
     float residual[GL_SEA_FOOTPRINTS][4], moments[GL_SEA_FOOTPRINTS][4], total[4], rough[4];
     float foam_axes[FOAM_READINGS][4], foam_places[FOAM_READINGS][4];
     float foam_hidden[WAVES_MAX_LEVELS][4];

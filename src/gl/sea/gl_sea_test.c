@@ -197,6 +197,10 @@ static void parts_and_depths(void **state)
     s.desc.crop[2] = WIDTH;
     s.desc.crop[3] = HEIGHT;
     assert_true(compare(renderer, sea, &s, "a part") < 1.5);
+    make_shot(&s, WIDTH, HEIGHT, 3.0f, 0.2f);
+    expose(&s);
+    s.camera.far_m = 25.0f;
+    assert_true(compare(renderer, sea, &s, "no farther than 25 m") < 0.4);
     sea_destroy(sea);
 }
 

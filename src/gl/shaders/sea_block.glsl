@@ -24,6 +24,7 @@ layout(std140) uniform Sea
     vec4 sea_eye;
     /* height of a pixel at depth 1, share of it that a sample covers; near, far; m */
     vec4 sea_ray;
+    vec4 sea_clip;                 /* clipping distances along the camera's axis, m */
     /* of the grid: first and half azimuth, scale of the sinh, m, and its step */
     vec4 sea_fan;
     vec4 sea_fan_ends;             /* columns, last row with waves, rows; ratio of distances beyond */

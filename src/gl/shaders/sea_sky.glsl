@@ -77,7 +77,9 @@ float sea_land(vec3 d)
     float closing = dot(sea_bed_slope.xy, d.xz) - d.y;
     float above = sea_eye.x + sea_bed.w;
     float land = closing > 0.0 ? above / closing : -1.0;
-    return dot(sea_bed_slope.xy, sea_bed_slope.xy) > 0.0 ? land : -1.0;
+    float depth = land * dot(d, forward.xyz);
+    bool is_seen = dot(sea_bed_slope.xy, sea_bed_slope.xy) > 0.0 && depth > sea_clip.x && depth < sea_clip.y;
+    return is_seen ? land : -1.0;
 }
 
 vec3 sea_land_seen(SeaHost host, vec3 d, float land)

@@ -8,5 +8,8 @@ layout(location = 0) out highp vec4 fragment;
 
 void main()
 {
-        fragment = vec4(v_rest, length(v_at), max(abs(v_closing), 1e-3));
+    float depth = dot(v_at, forward.xyz);
+    if (depth < sea_clip.x || depth > sea_clip.y)
+        discard;
+    fragment = vec4(v_rest, length(v_at), max(abs(v_closing), 1e-3));
 }
