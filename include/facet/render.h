@@ -244,8 +244,8 @@ typedef struct facet_render_desc {
     facet_path_desc path;
     facet_gl_desc gl;
     facet_quality quality;
-    /* Per pixel; 0: by quality. Preview: coverage samples, draft 1, normal 4, final 16, at most 4096.
-     * Path: draft 16, normal 64, final 512, at most 2^24. */
+    /* Per pixel; 0: by quality (facet_renderer_info.samples). Preview: coverage samples, draft 1, normal 4,
+     * final 16, at most 4096. Path: draft 16, normal 64, final 512, at most 2^24. */
     uint32_t samples;
     facet_energy energy;
     /* FACET_SHADING_OGL1 is meant for FACET_TONEMAP_NONE. FACET_ERROR_ARGUMENT without legacy materials,
@@ -268,6 +268,30 @@ typedef struct facet_render_desc {
      * has a sample. */
     double time_limit_s;
 } facet_render_desc;
+
+/* ---- what a renderer can do ---- */
+
+/* Combined by or. */
+typedef enum facet_renderer_feature {
+    FACET_RENDERER_FEATURE_PATH = 1u << 0,        /* traces paths: reads facet_path_desc */
+    FACET_RENDERER_FEATURE_GL = 1u << 1,          /* reads facet_gl_desc */
+    FACET_RENDERER_FEATURE_GROUND = 1u << 2,      /* FACET_GROUND_SHADOW */
+    FACET_RENDERER_FEATURE_OGL1 = 1u << 3,        /* FACET_SHADING_OGL1 */
+    FACET_RENDERER_FEATURE_SPECULAR_AA = 1u << 4, /* facet_render_desc.has_specular_antialiasing */
+    /* all of facet_sea_shading, legacy styles and stages included; else the physical style */
+    FACET_RENDERER_FEATURE_SEA_STYLES = 1u << 5,
+    FACET_RENDERER_FEATURE_VIEW = 1u << 6 /* facet_view() shows it */
+} facet_renderer_feature;
+
+typedef struct facet_renderer_info {
+    const char *name;        /* "preview", "path", "gl": that of facet render --renderer */
+    uint32_t features;       /* facet_renderer_feature */
+    uint32_t samples[3];     /* per pixel, by facet_quality */
+    uint32_t max_samples;    /* per pixel */
+    uint32_t aovs, sea_aovs; /* facet_aov that it renders: of scenes, of scenes in a sea */
+} facet_renderer_info;
+/* {0} past the last renderer. */
+FACET_API facet_renderer_info facet_renderer_get_info(facet_renderer_kind kind);
 
 /* ---- rendering ---- */
 

@@ -6,12 +6,10 @@
 #include "base/memory.h"
 #include "base/result.h"
 #include "film/meter.h"
-#include "render/render_check.h"
 #include "render/render_gl.h"
 
 struct facet_renderer {
     renderer_set set; /* without a scene: borrows a window's renderer */
-    render_check check;
 };
 
 /* Tone-maps the film and blends the background in: linearly, or, where the shading wrote display values, in
@@ -49,8 +47,7 @@ static facet_result render(facet_renderer *renderer, const facet_render_desc *re
     facet_render_desc desc = *resolved;
     facet_camera camera;
     watched_image watched = {.desc = &desc, .image = image};
-    bool poses_scene = renderer_get(desc.renderer)->poses_scene;
-    if (!desc.camera && (desc.sea || !poses_scene)) {
+    if (!desc.camera && (desc.sea || !renderer_get(desc.renderer)->poses_scene)) {
         TRY(renderer_set_camera(set, &desc, &camera, error));
         desc.camera = &camera;
     }
@@ -66,9 +63,6 @@ static facet_result render(facet_renderer *renderer, const facet_render_desc *re
     }
     TRY(film_create(&desc.allocator, desc.crop[2], desc.crop[3], desc.aovs, &image->film, error));
     TRY(renderer_set_draw(set, &drawn, &image->film, &image->stats, error));
-    if (set->scene && !desc.sea)
-        render_check_film(&renderer->check, set->scene, poses_scene ? NULL : &set->prepared.pose, &desc,
-                          &image->film);
     develop(&desc, &image->film);
     return FACET_OK;
 }
@@ -107,7 +101,7 @@ facet_result facet_render(const facet_scene *scene, const facet_render_desc *des
 {
     *image = NULL;
     facet_render_desc resolved;
-    facet_renderer renderer = {.check = {false, false}};
+    facet_renderer renderer;
     TRY(resolve(scene, desc, &resolved, error));
     renderer_set_init(&renderer.set, scene, &resolved.allocator);
     facet_result result = render_image(&renderer, &resolved, image, error);
@@ -121,8 +115,9 @@ facet_result render_by_gl(gl_renderer *gl, const facet_render_desc *desc, facet_
     *image = NULL;
     facet_render_desc resolved;
     render_gl state = {.scenes = gl};
-    facet_renderer borrowed = {.set.states[FACET_RENDERER_KIND_GL] = &state};
+    facet_renderer borrowed = {.set.scene = NULL};
     TRY(render_desc_resolve(desc, &resolved, error));
+    borrowed.set.states[desc->renderer] = &state;
     return render_image(&borrowed, &resolved, image, error);
 }
 
@@ -162,6 +157,12 @@ void facet_renderer_destroy(facet_renderer *renderer)
         return;
     renderer_set_clear(&renderer->set);
     mem_free(renderer);
+}
+
+facet_renderer_info facet_renderer_get_info(facet_renderer_kind kind)
+{
+    const renderer_row *r = renderer_get(kind);
+    return r ? r->info : (facet_renderer_info){.name = NULL};
 }
 
 facet_render_stats facet_image_get_render_stats(const facet_image *image)

@@ -49,7 +49,7 @@ static facet_result check(const facet_view_desc *d, facet_error *error)
     if (r->width > 16384 || r->height > 16384)
         return fail(error, FACET_ERROR_ARGUMENT, "window: %u x %u pixels; each side must be 1 to 16384",
                     r->width, r->height);
-    if (r->renderer != FACET_RENDERER_KIND_GL && r->renderer != FACET_RENDERER_KIND_PATH)
+    if (!(facet_renderer_get_info(r->renderer).features & FACET_RENDERER_FEATURE_VIEW))
         return fail(error, FACET_ERROR_ARGUMENT, "window: renderer %d; OpenGL or path tracing was expected",
                     (int)r->renderer);
     if (!isfinite(r->exposure_ev) || !isfinite(r->environment_ev) || !isfinite(r->environment_rotation_rad))

@@ -57,7 +57,15 @@ static facet_result check_sea_shading(const facet_sea_shading *s, facet_error *e
     return FACET_OK;
 }
 
-/* Refuses what no renderer draws in a sea. The sky is the background. */
+/* Whether the shading is the physical style with nothing left out. */
+static bool is_physical(const facet_sea_shading *s)
+{
+    return s->style == FACET_SEA_STYLE_PHYSICAL && s->stage == 0 &&
+           s->normals == FACET_SEA_NORMALS_BECKMANN && s->masking == FACET_SEA_MASKING_SCALES &&
+           !s->omits_glints && !s->omits_caustics && !(s->clamp > 0.0f);
+}
+
+/* Refuses what the renderer does not draw in a sea. The sky is the background. */
 static facet_result resolve_sea(const renderer_row *r, facet_render_desc *d, facet_error *error)
 {
     TRY(check_sea_shading(&d->sea_shading, error));
@@ -68,8 +76,13 @@ static facet_result resolve_sea(const renderer_row *r, facet_render_desc *d, fac
         return fail(
             error, FACET_ERROR_ARGUMENT,
             "shading: a sea cannot be combined with OpenGL 1 shading, whose colors are display values");
-    if (d->aovs & ~r->sea_aovs)
-        return fail(error, FACET_ERROR_ARGUMENT, "layers: %s has none in a sea; path tracing has", r->name);
+    if (d->aovs & ~r->info.sea_aovs)
+        return fail(error, FACET_ERROR_ARGUMENT, "layers: %s has none in a sea; path tracing has", r->title);
+    if (!(r->info.features & FACET_RENDERER_FEATURE_SEA_STYLES) && !is_physical(&d->sea_shading))
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "sea_shading: %s supports the physical style only: no stage, GGX normals, other masking, "
+                    "omits_glints, omits_caustics or clamp",
+                    r->title);
     d->background = FACET_BACKGROUND_ENVIRONMENT;
     return FACET_OK;
 }
@@ -79,16 +92,22 @@ static facet_result resolve_sea(const renderer_row *r, facet_render_desc *d, fac
 static facet_result resolve_renderer(facet_render_desc *d, facet_error *error)
 {
     const renderer_row *r = renderer_get(d->renderer);
+    const facet_renderer_info *info = &r->info;
     if (!d->samples)
-        d->samples = r->samples[(unsigned)d->quality <= FACET_QUALITY_FINAL ? d->quality : 0];
-    if (d->samples > r->max_samples)
+        d->samples = info->samples[(unsigned)d->quality <= FACET_QUALITY_FINAL ? d->quality : 0];
+    if (d->samples > info->max_samples)
         return fail(error, FACET_ERROR_ARGUMENT, "samples: %u per pixel; the maximum is %u", d->samples,
-                    r->max_samples);
-    if (d->aovs & ~r->aovs)
+                    info->max_samples);
+    if (d->aovs & ~info->aovs)
         return fail(error, FACET_ERROR_ARGUMENT, "layers: only path tracing has variance and samples");
     if (d->sea)
         TRY(resolve_sea(r, d, error));
-    return r->resolve(d, error);
+    if (d->ground != FACET_GROUND_NONE && !(info->features & FACET_RENDERER_FEATURE_GROUND))
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "ground: %s has no ground shadow; use path tracing or OpenGL", r->title);
+    if (d->shading != FACET_SHADING_GLTF && !(info->features & FACET_RENDERER_FEATURE_OGL1))
+        return fail(error, FACET_ERROR_ARGUMENT, "shading: %s supports FACET_SHADING_GLTF only", r->title);
+    return r->resolve ? r->resolve(d, error) : FACET_OK;
 }
 
 facet_result render_desc_resolve(const facet_render_desc *desc, facet_render_desc *out, facet_error *error)

@@ -7,6 +7,7 @@
 #include "base/result.h"
 #include "base/text.h"
 #include "cpu/preview.h"
+#include "draw/empty_view.h"
 #include "film/matte.h"
 #include "film/meter.h"
 #include "ocean/sea.h"
@@ -49,14 +50,6 @@ static void destroy_nothing(void *state)
 
 /* ---- preview ---- */
 
-static facet_result resolve_preview(facet_render_desc *desc, facet_error *error)
-{
-    if (desc->ground != FACET_GROUND_NONE)
-        return fail(error, FACET_ERROR_ARGUMENT,
-                    "ground: the preview has no ground shadow; use path tracing or OpenGL");
-    return FACET_OK;
-}
-
 static facet_result draw_preview(void *state, const facet_render_desc *desc, film *target,
                                  facet_render_stats *stats, facet_error *error)
 {
@@ -68,26 +61,11 @@ static facet_result draw_preview(void *state, const facet_render_desc *desc, fil
 
 /* ---- path tracing ---- */
 
-/* Whether the shading is the one that path tracing implements, with nothing left out. */
-static bool is_physical(const facet_sea_shading *s)
-{
-    return s->style == FACET_SEA_STYLE_PHYSICAL && s->stage == 0 &&
-           s->normals == FACET_SEA_NORMALS_BECKMANN && s->masking == FACET_SEA_MASKING_SCALES &&
-           !s->omits_glints && !s->omits_caustics && !(s->clamp > 0.0f);
-}
-
 static facet_result resolve_path(facet_render_desc *desc, facet_error *error)
 {
     if (desc->path.resumes && desc->aovs & FACET_AOV_CRYPTOMATTE)
         return fail(error, FACET_ERROR_ARGUMENT,
                     "layers: a checkpoint does not keep Cryptomatte's; render them without resuming");
-    if (desc->shading != FACET_SHADING_GLTF)
-        return fail(error, FACET_ERROR_ARGUMENT, "shading: path tracing supports FACET_SHADING_GLTF only");
-    if (desc->sea && !is_physical(&desc->sea_shading))
-        return fail(
-            error, FACET_ERROR_ARGUMENT,
-            "sea_shading: path tracing supports the physical style only: no stage, GGX normals, other "
-            "masking, omits_glints, omits_caustics or clamp");
     if (!desc->path.max_depth)
         desc->path.max_depth = PATH_DEFAULT_DEPTH;
     return FACET_OK;
@@ -130,32 +108,47 @@ enum {
 
 const renderer_row *renderer_get(facet_renderer_kind kind)
 {
-    static const renderer_row preview = {.name = "the preview",
-                                         .samples = {4, 1, 16},
-                                         .max_samples = 4096,
-                                         .aovs = (uint32_t)ALL_AOVS,
-                                         .resolve = resolve_preview,
-                                         .create = create_nothing,
-                                         .draw = draw_preview,
-                                         .destroy = destroy_nothing},
-                              path = {.name = "path tracing",
-                                      .samples = {64, 16, 512},
-                                      .max_samples = 1 << 24,
-                                      .aovs = UINT32_MAX,
-                                      .sea_aovs = UINT32_MAX,
-                                      .resolve = resolve_path,
-                                      .create = create_nothing,
-                                      .draw = draw_path,
-                                      .destroy = destroy_nothing},
-                              gl = {.name = "OpenGL",
-                                    .samples = {4, 1, 16},
-                                    .max_samples = 4096,
-                                    .aovs = (uint32_t)ALL_AOVS,
-                                    .poses_scene = true,
-                                    .resolve = render_gl_resolve,
-                                    .create = render_gl_create,
-                                    .draw = render_gl_draw,
-                                    .destroy = render_gl_destroy};
+    static const renderer_row preview = {
+        .title = "the preview",
+        .info = {.name = "preview",
+                 .features = FACET_RENDERER_FEATURE_OGL1 | FACET_RENDERER_FEATURE_SPECULAR_AA |
+                             FACET_RENDERER_FEATURE_SEA_STYLES,
+                 .samples = {4, 1, 16},
+                 .max_samples = 4096,
+                 .aovs = (uint32_t)ALL_AOVS},
+        .create = create_nothing,
+        .draw = draw_preview,
+        .destroy = destroy_nothing,
+    };
+    static const renderer_row path = {
+        .title = "path tracing",
+        .info = {.name = "path",
+                 .features = FACET_RENDERER_FEATURE_PATH | FACET_RENDERER_FEATURE_GROUND |
+                             FACET_RENDERER_FEATURE_VIEW,
+                 .samples = {64, 16, 512},
+                 .max_samples = 1 << 24,
+                 .aovs = UINT32_MAX,
+                 .sea_aovs = UINT32_MAX},
+        .resolve = resolve_path,
+        .create = create_nothing,
+        .draw = draw_path,
+        .destroy = destroy_nothing,
+    };
+    static const renderer_row gl = {
+        .title = "OpenGL",
+        .info = {.name = "gl",
+                 .features = FACET_RENDERER_FEATURE_GL | FACET_RENDERER_FEATURE_GROUND |
+                             FACET_RENDERER_FEATURE_OGL1 | FACET_RENDERER_FEATURE_SPECULAR_AA |
+                             FACET_RENDERER_FEATURE_SEA_STYLES | FACET_RENDERER_FEATURE_VIEW,
+                 .samples = {4, 1, 16},
+                 .max_samples = 4096,
+                 .aovs = (uint32_t)ALL_AOVS},
+        .poses_scene = true,
+        .resolve = render_gl_resolve,
+        .create = render_gl_create,
+        .draw = render_gl_draw,
+        .destroy = render_gl_destroy,
+    };
     static const renderer_row *const table[RENDERER_COUNT] = {
         [FACET_RENDERER_KIND_PREVIEW] = &preview,
         [FACET_RENDERER_KIND_PATH] = &path,
@@ -207,6 +200,72 @@ facet_result renderer_set_camera(renderer_set *set, const facet_render_desc *des
                           desc->thread_count, camera, error);
 }
 
+/* ---- images that show nothing, or white only ---- */
+
+static bool explain(const facet_scene *scene, const scene_pose *pose, const facet_render_desc *desc,
+                    char *why, size_t size)
+{
+    facet_camera fitted;
+    facet_orbit orbit = scene_orbit_default();
+    camera_rays rays;
+    if (!desc->camera && scene_fit_pose(scene, pose, &orbit, (float)desc->width / (float)desc->height,
+                                        desc->thread_count, &fitted, NULL) != FACET_OK)
+        return false;
+    return camera_rays_create(desc->camera ? desc->camera : &fitted, desc->width, desc->height, &rays,
+                              NULL) == FACET_OK &&
+           empty_view_explain(scene, pose, desc, &rays, why, size);
+}
+
+/* An environment as background covers the whole image: then only a certain reason counts. */
+static void check_nothing(renderer_set *set, const scene_pose *pose, const facet_render_desc *desc,
+                          const film *drawn)
+{
+    char why[512] = "";
+    scene_pose own = {0};
+    bool has_background = desc->background == FACET_BACKGROUND_ENVIRONMENT;
+    if (set->has_warned_of_nothing || (!has_background && film_is_covered(drawn)))
+        return;
+    if (!pose && scene_pose_create(set->scene, &desc->pose, &desc->allocator, desc->thread_count, &own,
+                                   NULL) != FACET_OK)
+        return;
+    bool is_certain = explain(set->scene, pose ? pose : &own, desc, why, sizeof why);
+    scene_pose_destroy(&own);
+    if (!*why || (has_background && !is_certain))
+        return;
+    log_warning(&desc->log, "%s: nothing of the model is seen: %s", set->scene->source, why);
+    set->has_warned_of_nothing = true;
+}
+
+static void check_white(renderer_set *set, const facet_render_desc *desc, const film *drawn)
+{
+    /* White surfaces reach 1.8 in the built-in studio, and so do intended emitters. A visible environment may
+     * be brighter. */
+    float most = desc->background == FACET_BACKGROUND_ENVIRONMENT ? 8.0f : 2.0f;
+    /* Without tone mapping the image may be meant for a file that keeps values above white. */
+    if (set->has_warned_of_white || desc->tonemap == FACET_TONEMAP_NONE ||
+        desc->shading == FACET_SHADING_OGL1 || !film_is_brighter_than(drawn, most))
+        return;
+    double stops = (double)desc->exposure_ev - log2(film_meter(drawn) / METER_KEY);
+    bool has_lights = set->scene->light_count && !desc->ignores_scene_lights;
+    log_warning(
+        &desc->log,
+        "%s: most of the visible image is overexposed: --exposure %+.1f shows it, and --exposure auto "
+        "meters the light%s",
+        set->scene->source, stops,
+        has_lights ? "; the file's lights may be in real units (lx, cd), --lights none leaves them out" : "");
+    set->has_warned_of_white = true;
+}
+
+/* Before tone mapping. pose: of the scene; NULL: computed where needed. */
+static void check_image(renderer_set *set, const scene_pose *pose, const facet_render_desc *desc,
+                        const film *drawn)
+{
+    if (!desc->log.message)
+        return;
+    check_nothing(set, pose, desc, drawn);
+    check_white(set, desc, drawn);
+}
+
 facet_result renderer_set_draw(renderer_set *set, const facet_render_desc *desc, film *target,
                                facet_render_stats *stats, facet_error *error)
 {
@@ -217,7 +276,12 @@ facet_result renderer_set_draw(renderer_set *set, const facet_render_desc *desc,
     if (!*state)
         TRY(r->create(set, state, error));
     TRY(r->draw(*state, desc, target, stats, error));
-    return desc->sea ? FACET_OK : describe_mattes(set->scene, desc, target, error);
+    if (desc->sea)
+        return FACET_OK;
+    TRY(describe_mattes(set->scene, desc, target, error));
+    if (set->scene)
+        check_image(set, r->poses_scene ? NULL : &set->prepared.pose, desc, target);
+    return FACET_OK;
 }
 
 /* ---- the light meter ---- */

@@ -1,8 +1,8 @@
-/* renderer.h - one interface to all renderers. Each is a row of the table in renderer.c: its limits and
- * four functions, resolve, create, draw and destroy. All drawing goes through the table. Other code that
- * depends on the kind compares desc.renderer: draw/light_setup.c and cpu/render_setup.c (what path tracing
- * finds by itself), src/water (the same for the bed), the window (src/view, api/view_api.c, which has
- * OpenGL's state) and the options of src/cli. */
+/* renderer.h - one interface to all renderers. Each is a row of the table in renderer.c: what it can do
+ * (facet_renderer_info) and four functions, resolve, create, draw and destroy. All drawing goes through
+ * the table, and src/api and src/cli ask it what a renderer can do. Below it code compares desc.renderer:
+ * draw/light_setup.c and cpu/render_setup.c (what path tracing finds by itself), src/water (the same for
+ * the bed) and the window (src/view, which has OpenGL's state). */
 #ifndef RENDER_RENDERER_H
 #define RENDER_RENDERER_H
 
@@ -16,20 +16,20 @@ enum { RENDERER_COUNT = FACET_RENDERER_KIND_GL + 1 };
 typedef struct renderer_set {
     const facet_scene *scene; /* NULL: none, or not at hand (a window's) */
     facet_allocator allocator;
-    prepared_scene prepared;      /* of scene, for the renderers on the CPU */
-    water_cache water;            /* of the sea that was drawn last */
-    void *states[RENDERER_COUNT]; /* NULL: not used yet */
+    prepared_scene prepared;                         /* of scene, for the renderers on the CPU */
+    water_cache water;                               /* of the sea that was drawn last */
+    void *states[RENDERER_COUNT];                    /* NULL: not used yet */
+    bool has_warned_of_nothing, has_warned_of_white; /* each warning comes once */
 } renderer_set;
 
 typedef struct renderer_row {
-    const char *name;    /* in messages */
-    uint32_t samples[3]; /* per pixel, by facet_quality */
-    uint32_t max_samples;
-    uint32_t aovs, sea_aovs; /* that it draws: of scenes, of scenes in a sea */
+    const char *title; /* in messages */
+    facet_renderer_info info;
     /* Poses the scene by itself: outside of a sea, draw() fits the camera where desc has none, and
      * set->prepared is not used. */
     bool poses_scene;
-    /* Refuses what it cannot draw (FACET_ERROR_ARGUMENT), and fills in its own defaults. */
+    /* Refuses what it cannot draw beyond info (FACET_ERROR_ARGUMENT), and fills in its own defaults. NULL:
+     * neither. */
     facet_result (*resolve)(facet_render_desc *desc, facet_error *error);
     facet_result (*create)(renderer_set *set, void **state, facet_error *error);
     /* Draws what desc (resolved, with a camera) describes into target: linear radiance times
@@ -51,7 +51,8 @@ facet_result render_desc_resolve(const facet_render_desc *desc, facet_render_des
 facet_result renderer_set_camera(renderer_set *set, const facet_render_desc *desc, facet_camera *camera,
                                  facet_error *error);
 
-/* Draws a resolved desc, with its camera, by the renderer that it names. */
+/* Draws a resolved desc, with its camera, by the renderer that it names. Warns where an image of a scene
+ * shows nothing, and where the median of its visible part is more than a stop above white. */
 facet_result renderer_set_draw(renderer_set *set, const facet_render_desc *desc, film *target,
                                facet_render_stats *stats, facet_error *error);
 

@@ -27,7 +27,7 @@ expect 2 render --noise 0.1 -o x.png
 says "it needs --renderer path"
 expect 2 render --ground shadow -o x.png
 expect 2 render --renderer path --specular-aa -o x.png
-says "it has no effect with --renderer path"
+says "it needs --renderer preview or gl"
 expect 2 render --aov variance -o x.exr
 expect 2 render --renderer path --sun 30 -o x.png
 says "AZIMUTH,ELEVATION"

@@ -164,16 +164,13 @@ static facet_result make_image(ocean_run *run, uint32_t index, const char *name,
         result = write_image(run, image, name, error);
     if (result == FACET_OK) {
         facet_image_view view = facet_image_get_layer(image, 0);
-        static const uint32_t samples[] = {4, 1, 16}, path_samples[] = {64, 16, 512}; /* of facet_quality */
         const facet_render_desc *d = &options->render.desc;
-        bool is_path = d->renderer == FACET_RENDERER_KIND_PATH;
         image_report report = {.model = "sea",
                                .output = name,
                                .width = view.width,
                                .height = view.height,
-                               .samples = d->samples ? d->samples
-                                          : is_path  ? path_samples[d->quality]
-                                                     : samples[d->quality],
+                               .samples =
+                                   d->samples ? d->samples : options->render.renderer.samples[d->quality],
                                .stats = facet_image_get_render_stats(image),
                                .save_s = interrupt_clock() - drawn,
                                .total_s = interrupt_clock() - start};

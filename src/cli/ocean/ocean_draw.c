@@ -85,7 +85,7 @@ static facet_result draw(ocean_run *run, const ocean_options *o, const facet_sea
     d.camera = &camera;
     d.progress = progress_callback(shown);
     d.tonemap = tonemap;
-    bool is_path = d.renderer == FACET_RENDERER_KIND_PATH;
+    bool is_path = o->render.renderer.features & FACET_RENDERER_FEATURE_PATH;
     d.time_limit_s = left > 1e29 ? 0.0 : is_path ? left / images_left : left;
     d.path.keeps_cancelled = true;
     d.exposure_ev = facet_exposure_from_ev100(run->ev100);

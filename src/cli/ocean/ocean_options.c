@@ -268,18 +268,15 @@ static facet_result read_look(const command_line *c, ocean_options *out, facet_e
         return fail(error, FACET_ERROR_ARGUMENT,
                     "--before: it is the style before all stages and excludes --stage");
     o->desc.samples = (uint32_t)option_number(c, OPT_SAMPLES, 0.0);
-    static const facet_renderer_kind renderers[] = {FACET_RENDERER_KIND_PREVIEW, FACET_RENDERER_KIND_PATH,
-                                                    FACET_RENDERER_KIND_GL};
-    o->desc.renderer = renderers[option_choice(c, OPT_RENDERER, 0)];
-    static const option_id preview_only[] = {OPT_BEFORE,  OPT_BEFORE_AFTER, OPT_STAGE,       OPT_NORMALS,
-                                             OPT_MASKING, OPT_NO_GLINTS,    OPT_NO_CAUSTICS, OPT_CLAMP};
+    TRY(image_options_renderer(c, o, error));
     o->desc.path.denoises = is_given(c, OPT_DENOISE);
-    if (o->desc.path.denoises && o->desc.renderer != FACET_RENDERER_KIND_PATH)
-        return fail(error, FACET_ERROR_ARGUMENT, "--denoise: it needs --renderer path");
-    const option *other =
-        first_given(c, preview_only, sizeof preview_only / sizeof *preview_only, SOURCE_PRESET);
-    if (other && o->desc.renderer == FACET_RENDERER_KIND_PATH)
-        return fail(error, FACET_ERROR_ARGUMENT, "--%s: it has no effect with --renderer path", other->name);
+    TRY(image_options_need(c, OPTION_IDS(OPT_DENOISE), FACET_RENDERER_FEATURE_PATH, o, error));
+    static const option_id styles[] = {OPT_BEFORE,  OPT_BEFORE_AFTER, OPT_STAGE,       OPT_NORMALS,
+                                       OPT_MASKING, OPT_NO_GLINTS,    OPT_NO_CAUSTICS, OPT_CLAMP};
+    const option *other = first_given(c, styles, sizeof styles / sizeof *styles, SOURCE_PRESET);
+    if (other && !(o->renderer.features & FACET_RENDERER_FEATURE_SEA_STYLES))
+        return fail(error, FACET_ERROR_ARGUMENT, "--%s: it has no effect with --renderer %s", other->name,
+                    o->renderer.name);
     return FACET_OK;
 }
 

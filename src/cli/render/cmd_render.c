@@ -177,7 +177,7 @@ static double time_for_frame(const model_run *m, uint32_t index, double left)
 {
     if (!(left < 1e29))
         return 0.0;
-    if (m->options.desc.renderer != FACET_RENDERER_KIND_PATH)
+    if (!(m->options.renderer.features & FACET_RENDERER_FEATURE_PATH))
         return left;
     double frames_left = (double)(m->sequence.frames.frame_count - index);
     return left / (frames_left * (double)m->run->models_left);
@@ -219,7 +219,7 @@ static facet_result draw_frame(model_run *m, uint32_t index, const sequence_fram
     desc.path.keeps_cancelled = true;
     bool has_bar = shown.mode == PROGRESS_BAR;
     /* an OpenGL driver may compile and render for half a minute without polling */
-    if (desc.renderer == FACET_RENDERER_KIND_GL)
+    if (o->renderer.features & FACET_RENDERER_FEATURE_GL)
         interrupt_begin(output, "OpenGL drew", has_bar);
     else
         interrupt_begin_polling(output, "drawing", has_bar);

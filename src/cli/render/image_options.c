@@ -11,6 +11,54 @@
 #include "cli/shared/terminal.h"
 #include "cli/shared/value.h"
 
+/* ---- renderer ---- */
+
+facet_result image_options_renderer(const command_line *c, render_options *out, facet_error *error)
+{
+    const char *wanted = option_text(c, OPT_RENDERER, "preview");
+    facet_renderer_info info;
+    for (int kind = 0; (info = facet_renderer_get_info((facet_renderer_kind)kind)).name; kind++)
+        if (strcmp(info.name, wanted) == 0) {
+            out->desc.renderer = (facet_renderer_kind)kind;
+            out->renderer = info;
+            return FACET_OK;
+        }
+    char names[128];
+    image_options_renderers(0, names, sizeof names);
+    return option_fail(c, OPT_RENDERER, names, error);
+}
+
+void image_options_renderers(facet_renderer_feature feature, char *text, size_t size)
+{
+    const char *found[16];
+    size_t count = 0, used = 0;
+    facet_renderer_info info;
+    for (int kind = 0; (info = facet_renderer_get_info((facet_renderer_kind)kind)).name && count < 16; kind++)
+        if ((info.features & feature) == feature)
+            found[count++] = info.name;
+    *text = 0;
+    for (size_t i = 0; i < count && used < size; i++)
+        used += (size_t)snprintf(text + used, size - used, "%s%s",
+                                 i == 0           ? ""
+                                 : i + 1 == count ? " or "
+                                                  : ", ",
+                                 found[i]);
+}
+
+facet_result image_options_need(const command_line *c, const option_id *options, facet_renderer_feature need,
+                                const render_options *o, facet_error *error)
+{
+    char names[128];
+    if (o->renderer.features & need)
+        return FACET_OK;
+    image_options_renderers(need, names, sizeof names);
+    for (; *options != OPTION_ID_COUNT; options++)
+        if (is_given(c, *options))
+            return fail(error, FACET_ERROR_ARGUMENT, "--%s: it needs --renderer %s",
+                        option_find_id(c->verb, *options)->name, names);
+    return FACET_OK;
+}
+
 /* ---- output ---- */
 
 facet_result image_options_output(const command_line *c, render_options *out, facet_error *error)

@@ -2,6 +2,7 @@
 #include "cli/render/render_options.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,54 +12,20 @@
 
 #define DEGREE 0.017453292519943295 /* pi / 180 */
 
-/* Samples per pixel of draft, normal, final, as in facet_render(), for reports. */
-static const uint32_t preview_samples[] = {1, 4, 16};
-static const uint32_t path_samples[] = {16, 64, 512};
-
-static facet_result read_renderer(const command_line *c, render_options *out, facet_error *error)
-{
-    const char *renderer = option_text(c, OPT_RENDERER, "preview");
-    if (strcmp(renderer, "preview") == 0)
-        out->desc.renderer = FACET_RENDERER_KIND_PREVIEW;
-    else if (strcmp(renderer, "path") == 0)
-        out->desc.renderer = FACET_RENDERER_KIND_PATH;
-    else if (strcmp(renderer, "gl") == 0)
-        out->desc.renderer = FACET_RENDERER_KIND_GL;
-    else
-        return option_fail(c, OPT_RENDERER, "preview, path or gl", error);
-    return FACET_OK;
-}
-
-/* Lists end with OPTION_ID_COUNT. */
-static const option_id path_only[] = {
-    OPT_BOUNCES,  OPT_NOISE, OPT_SEED,    OPT_FILTER,     OPT_DENOISE, OPT_CLAMP,          OPT_GLASS_SHADOWS,
-    OPT_APERTURE, OPT_FOCUS, OPT_SHUTTER, OPT_CHECKPOINT, OPT_RESUME,  OPT_LIGHT_SAMPLING, OPTION_ID_COUNT};
-static const option_id gl_only[] = {OPT_SHADOWS, OPT_TRANSPARENCY, OPT_BLOOM,
-                                    OPT_CHANNEL, OPT_BRDF,         OPTION_ID_COUNT};
-static const option_id not_path[] = {OPT_SPECULAR_AA, OPT_SHADING, OPTION_ID_COUNT};
-
-static facet_result refuse(const command_line *c, const option_id *list, const char *why, facet_error *error)
-{
-    for (; *list != OPTION_ID_COUNT; list++)
-        if (is_given(c, *list))
-            return fail(error, FACET_ERROR_ARGUMENT, "--%s: %s", option_find_id(c->verb, *list)->name, why);
-    return FACET_OK;
-}
-
+/* Refuses options without effect on the renderer. */
 static facet_result check_renderer(const command_line *c, const render_options *o, facet_error *error)
 {
-    bool is_path = o->desc.renderer == FACET_RENDERER_KIND_PATH,
-         is_gl = o->desc.renderer == FACET_RENDERER_KIND_GL;
-    facet_result result = FACET_OK;
-    if (!is_path)
-        result = refuse(c, path_only, "it needs --renderer path", error);
-    if (result == FACET_OK && !is_gl)
-        result = refuse(c, gl_only, "it needs --renderer gl", error);
-    if (result == FACET_OK && !is_path && !is_gl && is_given(c, OPT_GROUND))
-        result = fail(error, FACET_ERROR_ARGUMENT, "--ground: it needs --renderer path or gl");
-    if (result == FACET_OK && is_path)
-        result = refuse(c, not_path, "it has no effect with --renderer path", error);
-    return result;
+    static const struct {
+        facet_renderer_feature need;
+        option_id options[16]; /* ends with OPTION_ID_COUNT */
+    } rules[] = {{FACET_RENDERER_FEATURE_PATH, {PATH_OPTIONS, OPT_CHECKPOINT, OPT_RESUME, OPTION_ID_COUNT}},
+                 {FACET_RENDERER_FEATURE_GL, {GL_OPTIONS, OPTION_ID_COUNT}},
+                 {FACET_RENDERER_FEATURE_GROUND, {OPT_GROUND, OPTION_ID_COUNT}},
+                 {FACET_RENDERER_FEATURE_SPECULAR_AA, {OPT_SPECULAR_AA, OPTION_ID_COUNT}},
+                 {FACET_RENDERER_FEATURE_OGL1, {OPT_SHADING, OPTION_ID_COUNT}}};
+    for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
+        TRY(image_options_need(c, rules[i].options, rules[i].need, o, error));
+    return FACET_OK;
 }
 
 /* ---- light ---- */
@@ -216,10 +183,9 @@ static void read_gl(const command_line *c, render_options *out)
 /* Defaults that depend on the renderer. */
 static void read_defaults(const command_line *c, render_options *out)
 {
-    bool is_path = out->desc.renderer == FACET_RENDERER_KIND_PATH;
-    int quality = option_choice(c, OPT_QUALITY, 1);
-    const uint32_t *samples = is_path ? path_samples : preview_samples;
-    out->desc.samples = (uint32_t)option_number(c, OPT_SAMPLES, samples[quality]);
+    bool is_path = out->renderer.features & FACET_RENDERER_FEATURE_PATH;
+    out->desc.samples =
+        (uint32_t)option_number(c, OPT_SAMPLES, (double)out->renderer.samples[out->desc.quality]);
     out->desc.isa = (facet_isa)option_choice(c, OPT_ISA, FACET_ISA_PORTABLE);
     out->desc.energy =
         option_choice(c, OPT_ENERGY, is_path ? 1 : 0) ? FACET_ENERGY_CONSERVING : FACET_ENERGY_GLTF;
@@ -227,25 +193,23 @@ static void read_defaults(const command_line *c, render_options *out)
 
 facet_result path_options_read(const command_line *c, render_options *out, facet_error *error)
 {
-    facet_result result = read_renderer(c, out, error);
-    if (result == FACET_OK)
-        result = check_renderer(c, out, error);
-    if (result == FACET_OK)
-        result = read_sun(c, out, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(image_options_renderer(c, out, error));
+    TRY(check_renderer(c, out, error));
+    TRY(read_sun(c, out, error));
     read_defaults(c, out);
-    if (out->desc.renderer != FACET_RENDERER_KIND_PATH && out->desc.samples > 4096)
-        return option_fail(c, OPT_SAMPLES, "a number from 1 to 4096 (--renderer path takes more)", error);
-    result = read_ground(c, out, error);
-    if (out->desc.renderer == FACET_RENDERER_KIND_GL)
+    if (out->desc.samples > out->renderer.max_samples) {
+        char expected[96];
+        snprintf(expected, sizeof expected, "a number from 1 to %u (--renderer path takes more)",
+                 out->renderer.max_samples);
+        return option_fail(c, OPT_SAMPLES, expected, error);
+    }
+    TRY(read_ground(c, out, error));
+    if (out->renderer.features & FACET_RENDERER_FEATURE_GL)
         read_gl(c, out);
-    if (out->desc.renderer != FACET_RENDERER_KIND_PATH)
-        return result;
+    if (!(out->renderer.features & FACET_RENDERER_FEATURE_PATH))
+        return FACET_OK;
     read_sampling(c, out);
-    facet_result (*const readers[])(const command_line *, render_options *,
-                                    facet_error *) = {read_lens, read_shutter, read_checkpoint};
-    for (size_t i = 0; i < sizeof readers / sizeof *readers && result == FACET_OK; i++)
-        result = readers[i](c, out, error);
-    return result;
+    TRY(read_lens(c, out, error));
+    TRY(read_shutter(c, out, error));
+    return read_checkpoint(c, out, error);
 }

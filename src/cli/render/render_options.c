@@ -10,8 +10,6 @@
 #include <string.h>
 #include <strings.h>
 
-static const uint32_t path_only = FACET_AOV_VARIANCE | FACET_AOV_SAMPLES;
-
 static const struct aov_name {
     const char *name;
     uint32_t aovs;
@@ -49,8 +47,7 @@ static uint32_t all_aovs(const render_options *o)
     uint32_t all = 0;
     for (size_t i = 0; i < AOV_NAMES; i++)
         all |= aov_names[i].aovs;
-    if (o->desc.renderer != FACET_RENDERER_KIND_PATH)
-        all &= ~path_only;
+    all &= o->renderer.aovs;
     if (o->desc.path.resumes)
         all &= ~(uint32_t)FACET_AOV_CRYPTOMATTE;
     return all;
@@ -67,7 +64,6 @@ static void list_names(uint32_t aovs, char *list, size_t size)
 
 static facet_result check_renderer(const char *text, const render_options *o, facet_error *error)
 {
-    static const char *const renderers[] = {"preview", "path", "gl"};
     uint32_t all = all_aovs(o);
     for (size_t i = 0; i < AOV_NAMES; i++) {
         if (!has_word(text, aov_names[i].name) || (aov_names[i].aovs & ~all) == 0)
@@ -80,7 +76,7 @@ static facet_result check_renderer(const char *text, const render_options *o, fa
         list_names(all, list, sizeof list);
         return fail(error, FACET_ERROR_ARGUMENT,
                     "--aov: %s needs --renderer path; --renderer %s has %s, or all", aov_names[i].name,
-                    renderers[o->desc.renderer], list);
+                    o->renderer.name, list);
     }
     return FACET_OK;
 }

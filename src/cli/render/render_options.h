@@ -16,12 +16,13 @@ typedef struct render_options {
     const char *output;   /* pattern; NULL: named after the model */
     const char *id_layer; /* layer of IDs to write in false color; NULL: none */
     bool is_stdout;
-    bool is_sequence;           /* several images of a model, by the options */
-    video_format video;         /* all of them in one file */
-    bool keeps_existing;        /* --no-clobber */
-    const char *checkpoint;     /* pattern; NULL: none */
-    facet_image_save_desc save; /* with a format */
-    facet_render_desc desc;     /* without allocator, log, progress, pose, camera, environment */
+    bool is_sequence;             /* several images of a model, by the options */
+    video_format video;           /* all of them in one file */
+    bool keeps_existing;          /* --no-clobber */
+    const char *checkpoint;       /* pattern; NULL: none */
+    facet_image_save_desc save;   /* with a format */
+    facet_render_desc desc;       /* without allocator, log, progress, pose, camera, environment */
+    facet_renderer_info renderer; /* of desc.renderer */
 
     /* camera */
     const char *camera; /* NULL: orbit or eye */
@@ -63,6 +64,14 @@ bool render_is_lit_by_scene(const render_options *o, const facet_scene *scene, c
 const char *render_extension(facet_image_format format);
 
 /* ---- parts, in files of their own ---- */
+
+/* --renderer. Refuses the first of the options (up to OPTION_ID_COUNT) that is given and needs a feature
+ * that the renderer lacks: FACET_ERROR_ARGUMENT, "--NAME: it needs --renderer path or gl". */
+facet_result image_options_renderer(const command_line *c, render_options *out, facet_error *error);
+facet_result image_options_need(const command_line *c, const option_id *options, facet_renderer_feature need,
+                                const render_options *o, facet_error *error);
+/* "path or gl": the renderers with a feature. */
+void image_options_renderers(facet_renderer_feature feature, char *text, size_t size);
 
 facet_result image_options_output(const command_line *c, render_options *out, facet_error *error);
 facet_result image_options_format(const command_line *c, render_options *out, facet_error *error);

@@ -53,8 +53,7 @@ const option_group light_group = {"Light", OPTION_IDS(OPT_ENV, OPT_LIGHTS, OPT_S
 const option_group color_group = {"Color", OPTION_IDS(OPT_EXPOSURE, OPT_TONE_MAPPING)};
 const option_group quality_group = {
     "Quality", OPTION_IDS(OPT_QUALITY, OPT_SAMPLES, OPT_RENDERER, OPT_ENERGY, OPT_ISA, OPT_SPECULAR_AA)};
-const option_group gl_group = {"OpenGL (--renderer gl)",
-                               OPTION_IDS(OPT_SHADOWS, OPT_TRANSPARENCY, OPT_BLOOM, OPT_CHANNEL, OPT_BRDF)};
+const option_group gl_group = {"OpenGL (--renderer gl)", OPTION_IDS(GL_OPTIONS)};
 const option_group shading_group = {"Shading",
                                     OPTION_IDS(OPT_SHADING, OPT_OGL1_VARIANT, OPT_OGL1_SPACE, OPT_FOG)};
 const option_group scene_group = {"Scene", OPTION_IDS(OPT_SCENE, OPT_VARIANT)};

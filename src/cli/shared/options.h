@@ -64,6 +64,9 @@ typedef struct option_group {
     OPT_BOUNCES, OPT_NOISE, OPT_SEED, OPT_FILTER, OPT_DENOISE, OPT_CLAMP, OPT_GLASS_SHADOWS,                 \
         OPT_LIGHT_SAMPLING, OPT_APERTURE, OPT_FOCUS, OPT_SHUTTER
 
+/* Options of --renderer gl. */
+#define GL_OPTIONS OPT_SHADOWS, OPT_TRANSPARENCY, OPT_BLOOM, OPT_CHANNEL, OPT_BRDF
+
 /* A list of words. */
 #define OPTION_WORDS(...)                                                                                    \
     (const char *const[])                                                                                    \

@@ -182,7 +182,7 @@ static facet_result read_line(verb_run *base, facet_error *error)
         return option_fail(c, OPT_EXPOSURE,
                            "stops or a factor; the window has no light meter, + and - change its exposure",
                            error);
-    if (o->desc.renderer == FACET_RENDERER_KIND_PREVIEW)
+    if (!(o->renderer.features & FACET_RENDERER_FEATURE_VIEW))
         return option_fail(c, OPT_RENDERER, "gl or path; the preview is in facet render", error);
     return FACET_OK;
 }
@@ -193,7 +193,7 @@ static facet_result show(verb_run *base, facet_error *error)
     static const char *const environments[] = {"neutral", "white", "sun:45,135", "sun:6,120", "none"};
     const command_line *c = run->base.line;
     const render_options *o = &run->options;
-    bool is_path = o->desc.renderer == FACET_RENDERER_KIND_PATH;
+    bool is_path = o->renderer.features & FACET_RENDERER_FEATURE_PATH;
     const char *script = option_text(c, OPT_SCRIPT, NULL);
     facet_view_desc desc = {
         .allocator = run->base.allocator,

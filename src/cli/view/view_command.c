@@ -245,16 +245,17 @@ static void add_gl(line *l, const facet_gl_desc *gl)
 
 static void add_rendering(line *l, const facet_render_desc *d)
 {
-    bool is_path = d->renderer == FACET_RENDERER_KIND_PATH;
+    facet_renderer_info info = facet_renderer_get_info(d->renderer);
+    bool is_path = info.features & FACET_RENDERER_FEATURE_PATH;
     bool is_conserving = d->energy == FACET_ENERGY_CONSERVING;
-    add_option(l, OPT_RENDERER, "%s", is_path ? "path" : "gl");
+    add_option(l, OPT_RENDERER, "%s", info.name);
     if (is_conserving != is_path)
         add_option(l, OPT_ENERGY, "%s", is_conserving ? "conserving" : "gltf");
     if (is_path || d->samples != 4)
         add_option(l, OPT_SAMPLES, "%u", d->samples);
     if (is_path && d->path.denoises)
         add_option(l, OPT_DENOISE, "%s", "");
-    if (!is_path)
+    if (info.features & FACET_RENDERER_FEATURE_GL)
         add_gl(l, &d->gl);
 }
 
@@ -370,7 +371,7 @@ char *view_command(const command_line *c, const render_options *options, const f
     add_light(&l, c, p);
     add_background(&l, c, d);
     add_look(&l, d);
-    add_others(&l, c, d->renderer == FACET_RENDERER_KIND_PATH);
+    add_others(&l, c, facet_renderer_get_info(d->renderer).features & FACET_RENDERER_FEATURE_PATH);
     if (l.has_failed) {
         free(l.text);
         return NULL;
