@@ -23,8 +23,7 @@ enum { TEXT_FLOAT_SIZE = 40 };
 /* The shortest decimal that reads back as the same finite float. */
 void text_shortest_float(float value, char digits[TEXT_FLOAT_SIZE]);
 /* The same for doubles, from 15 digits on. A double below 4096 that equals a float is printed as that
- * float: 0.1f is
- * 0.1, not 0.10000000149011612. */
+ * float: 0.1f is 0.1, not 0.10000000149011612. */
 void text_shortest_double(double value, char digits[TEXT_FLOAT_SIZE]);
 /* A short decimal of origin + value, from which the same float results when the origin is subtracted,
  * within the precision of a double. */

@@ -42,7 +42,8 @@ static inline vec3 sun_column(const sky_luts *t, float height_km, float mu)
     return fetch(t->columns, 1, COLUMN_TABLE_WIDTH, COLUMN_TABLE_HEIGHT, column_table_place(height_km, mu));
 }
 
-void sky_sun(const sky_luts *t, float height_km, float mu_sun, vec3 out[SKY_HALVES])
+/* Transmittance from the sun to a height, including sun_visibility(). */
+static void sky_sun(const sky_luts *t, float height_km, float mu_sun, vec3 out[SKY_HALVES])
 {
     vec3 column = sun_column(t, height_km, mu_sun);
     for (int half = 0; half < SKY_HALVES; half++)

@@ -32,9 +32,6 @@ void sky_luts_destroy(sky_luts *t); /* {0} is allowed */
 /* The Earth's atmosphere of turbidity [1, 10] over a ground. */
 void sky_atmosphere(float turbidity, const float ground_albedo[3], Atmosphere air[SKY_HALVES]);
 
-/* Transmittance from the sun to a height, including sun_visibility(). */
-void sky_sun(const sky_luts *t, float height_km, float mu_sun, vec3 out[SKY_HALVES]);
-
 /* In-scattering along the first length_km of a ray. */
 void sky_march(const sky_luts *t, const sky_ray *ray, float length_km, int steps, AirLight out[SKY_HALVES]);
 

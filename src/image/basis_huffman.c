@@ -1,5 +1,6 @@
-/* basis_huffman.c - see basis_huffman.h. Codes are those of Deflate (RFC 1951, section 3.2.2). */
-#include "image/basis_huffman.h"
+/* basis_huffman.c - bits, variable-length numbers and Huffman codes of BasisLZ streams; see basis_etc1s.h.
+ * Codes are those of Deflate (RFC 1951, section 3.2.2). */
+#include "image/basis_etc1s.h"
 
 #include <string.h>
 

@@ -5,7 +5,6 @@
 #include <float.h>
 #include <math.h>
 
-#include "image/exr_test_file.h"
 #include "image/half.h"
 
 /* The sample of testdata/README.md; exact in half. */

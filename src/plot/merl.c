@@ -28,7 +28,8 @@ double merl_theta_h(double cell)
     return HALF_PI * root * root;
 }
 
-double merl_cell_of_theta_h(double theta_h)
+/* The inverse of merl_theta_h(). */
+static double merl_cell_of_theta_h(double theta_h)
 {
     return sqrt(fmax(theta_h, 0.0) / HALF_PI) * MERL_THETA_H;
 }

@@ -27,9 +27,8 @@ void merl_brdf(const merl *m, const float V[3], const float L[3], double out[3])
 
 /* Directions of half and difference angles (rad), for iterating over the cells. */
 void merl_directions(double theta_h, double theta_d, double phi_d, float V[3], float L[3]);
-/* theta_h of a cell coordinate, [0, 90], and its inverse. */
+/* theta_h of a cell coordinate, [0, 90]. */
 double merl_theta_h(double cell);
-double merl_cell_of_theta_h(double theta_h);
 
 /* Factor of a channel: the BRDF is the stored value times it. */
 double merl_scale(int channel);
