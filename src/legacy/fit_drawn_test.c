@@ -95,7 +95,7 @@ static const struct drawn_case {
     {{1, 1, 1}, {0, 0, 0}, 10, {1, 1, 1}, .6f, 0, {1, 1, 1}, 0, .38303, .30030},
 };
 
-static void test_error(void **state)
+static void errors_are_those_of_displayed_light(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -115,7 +115,7 @@ static void test_error(void **state)
 }
 
 /* A white matte surface: the integrals of (x - decode(x))^2 x and decode(x)^2 x over the cosine x. */
-static void test_matte(void **state)
+static void matte_errors_have_a_closed_form(void **state)
 {
     (void)state;
     enum { STEPS = 100000 };
@@ -143,7 +143,7 @@ static double drawn_fit(const double Cd[3], const double Cs[3], double s, pbr_su
 }
 
 /* No worse than the general optimizer, and better than the fit of linear light. */
-static void test_fit_to_pbr(void **state)
+static void fits_to_pbr_are_as_good_as_a_general_optimizer(void **state)
 {
     (void)state;
     static const struct {
@@ -171,7 +171,7 @@ static void test_fit_to_pbr(void **state)
 }
 
 /* The values are display values. Exponents end at 2. */
-static void test_fit_to_ogl1(void **state)
+static void fits_to_ogl1_have_known_optima(void **state)
 {
     (void)state;
     static const struct {
@@ -201,7 +201,7 @@ static void test_fit_to_ogl1(void **state)
 /* ---- texels ---- */
 
 /* Between nodes of the grid colors are nearly as good as fits of the texel. */
-static void test_grid(void **state)
+static void the_grid_interpolates_fits(void **state)
 {
     (void)state;
     static const facet_legacy_target targets[] = {FACET_LEGACY_TARGET_DISPLAY, FACET_LEGACY_TARGET_DRAWN};
@@ -234,7 +234,7 @@ static void test_grid(void **state)
     }
 }
 
-static void test_grid_without_memory(void **state)
+static void grids_report_failed_allocations(void **state)
 {
     (void)state;
     pbr_surface factors = pbr_surface_default();
@@ -251,7 +251,7 @@ static void test_grid_without_memory(void **state)
 }
 
 /* A textured metal is converted for the same target as one without textures. */
-static void test_textured_metal(void **state)
+static void textured_metals_have_the_same_target(void **state)
 {
     (void)state;
     const uint8_t packed[] = {0, 102, 255, 0, 102, 255,
@@ -277,7 +277,7 @@ static void test_textured_metal(void **state)
 /* ---- defaults ---- */
 
 /* White metal of roughness .4: the error of linear light alone (E_display .913) was the default once. */
-static void test_default_to_ogl1(void **state)
+static void the_default_target_to_ogl1_is_the_drawn_light(void **state)
 {
     (void)state;
     facet_scene *scene = gltf_scene(1);
@@ -299,7 +299,7 @@ static void test_default_to_ogl1(void **state)
 }
 
 /* MTL is read as present programs do, which add light; rgl's programs add display values. */
-static void test_default_from_ogl1(void **state)
+static void the_default_target_from_ogl1_depends_on_the_format(void **state)
 {
     (void)state;
     for (int is_rgl = 0; is_rgl < 2; is_rgl++) {
@@ -330,7 +330,7 @@ static void test_default_from_ogl1(void **state)
 
 /* ---- hue ---- */
 
-static void test_hue(void **state)
+static void hues_are_kept_in_proportion(void **state)
 {
     (void)state;
     const double blue[3] = {.2745, .5098, .7059}, white[3] = {1, 1, 1};
@@ -356,7 +356,7 @@ static void test_hue(void **state)
     assert_false(fit_keep_hue(metric, &gray, FACET_LEGACY_TARGET_LINEAR, &out)); /* no hue */
 }
 
-static void test_hue_is_reported(void **state)
+static void lost_hues_are_reported(void **state)
 {
     (void)state;
     for (int keeps = 0; keeps < 2; keeps++) {
@@ -377,17 +377,17 @@ static void test_hue_is_reported(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_error),
-        cmocka_unit_test(test_matte),
-        cmocka_unit_test(test_fit_to_pbr),
-        cmocka_unit_test(test_fit_to_ogl1),
-        cmocka_unit_test(test_grid),
-        cmocka_unit_test(test_grid_without_memory),
-        cmocka_unit_test(test_textured_metal),
-        cmocka_unit_test(test_default_to_ogl1),
-        cmocka_unit_test(test_default_from_ogl1),
-        cmocka_unit_test(test_hue),
-        cmocka_unit_test(test_hue_is_reported),
+        cmocka_unit_test(errors_are_those_of_displayed_light),
+        cmocka_unit_test(matte_errors_have_a_closed_form),
+        cmocka_unit_test(fits_to_pbr_are_as_good_as_a_general_optimizer),
+        cmocka_unit_test(fits_to_ogl1_have_known_optima),
+        cmocka_unit_test(the_grid_interpolates_fits),
+        cmocka_unit_test(grids_report_failed_allocations),
+        cmocka_unit_test(textured_metals_have_the_same_target),
+        cmocka_unit_test(the_default_target_to_ogl1_is_the_drawn_light),
+        cmocka_unit_test(the_default_target_from_ogl1_depends_on_the_format),
+        cmocka_unit_test(hues_are_kept_in_proportion),
+        cmocka_unit_test(lost_hues_are_reported),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

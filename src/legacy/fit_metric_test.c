@@ -38,7 +38,7 @@ static int teardown(void **state)
 /* ---- integrals ---- */
 
 /* The weights sum to the integral of the cosine, pi, and with its powers to 2 pi / (n + 2). */
-static void test_weights(void **state)
+static void weights_sum_to_integrals_of_the_cosine(void **state)
 {
     (void)state;
     for (int v = 0; v < FIT_VIEWS; v++)
@@ -52,7 +52,7 @@ static void test_weights(void **state)
 
 /* At normal incidence N.H is the cosine of half the light angle; with u = (N.H)^2 the integral of (N.H)^(2
  * s) N.L dL is 4 pi int u^s (2 u - 1) du from 1/2 to 1. */
-static void test_highlights(void **state)
+static void highlights_have_their_integral(void **state)
 {
     (void)state;
     static const double exponents[] = {0.0, 0.5, 1.0, 4.0, 50.0, 128.0, 1000.0, 1e4, 1e6, 1e8};
@@ -70,7 +70,7 @@ static void test_highlights(void **state)
 }
 
 /* The lobe without Fresnel integrates to A + B of the split sum for any width, and never above 1. */
-static void test_lobes(void **state)
+static void lobes_have_the_integral_of_the_split_sum(void **state)
 {
     (void)state;
     float lobe[FIT_MAX_NODES];
@@ -97,7 +97,7 @@ static void test_lobes(void **state)
 }
 
 /* exp(s log N.H) against pow() in double. */
-static void test_power(void **state)
+static void powers_agree_with_doubles(void **state)
 {
     (void)state;
     float highlight[FIT_MAX_NODES];
@@ -172,7 +172,7 @@ static void compare_with_grid(const ogl1_surface *ogl1, const pbr_surface *pbr, 
 }
 
 /* Half of the classic materials by the naive formulas, and a strong colored lobe: the grid resolves these. */
-static void test_plain_grid(void **state)
+static void errors_agree_with_a_plain_grid(void **state)
 {
     (void)state;
     for (int i = 0; i < CLASSIC_COUNT; i += 2) {
@@ -192,7 +192,7 @@ static void test_plain_grid(void **state)
 
 /* ---- what the error means ---- */
 
-static void test_equal(void **state)
+static void equal_surfaces_have_no_error(void **state)
 {
     (void)state;
     ogl1_surface matte = {{0.2f, 0.5f, 0.8f}, {0.0f, 0.0f, 0.0f}, 10.0f};
@@ -206,7 +206,7 @@ static void test_equal(void **state)
 
 /* Errors are relative: both radiances halved leave E as it is. Half the light is half of Cd and Cs, and of
  * base and F where base (1 - F) is linear in what is halved. */
-static void test_scale(void **state)
+static void errors_are_relative(void **state)
 {
     (void)state;
     ogl1_surface ogl1 = {{0.3f, 0.2f, 0.1f}, {0.4f, 0.4f, 0.2f}, 20.0f};
@@ -229,7 +229,7 @@ static void test_scale(void **state)
 }
 
 /* Black has no relative error: it counts as a thousandth of white. */
-static void test_black(void **state)
+static void black_counts_as_a_thousandth_of_white(void **state)
 {
     (void)state;
     ogl1_surface black = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f};
@@ -257,7 +257,7 @@ static void no_release(void *user, void *memory, size_t size)
     (void)size;
 }
 
-static void test_out_of_memory(void **state)
+static void failed_allocations_are_reported(void **state)
 {
     (void)state;
     facet_allocator none = {.allocate = no_memory, .release = no_release};
@@ -271,11 +271,15 @@ static void test_out_of_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_weights),       cmocka_unit_test(test_highlights),
-        cmocka_unit_test(test_lobes),         cmocka_unit_test(test_power),
-        cmocka_unit_test(test_plain_grid),    cmocka_unit_test(test_equal),
-        cmocka_unit_test(test_scale),         cmocka_unit_test(test_black),
-        cmocka_unit_test(test_out_of_memory),
+        cmocka_unit_test(weights_sum_to_integrals_of_the_cosine),
+        cmocka_unit_test(highlights_have_their_integral),
+        cmocka_unit_test(lobes_have_the_integral_of_the_split_sum),
+        cmocka_unit_test(powers_agree_with_doubles),
+        cmocka_unit_test(errors_agree_with_a_plain_grid),
+        cmocka_unit_test(equal_surfaces_have_no_error),
+        cmocka_unit_test(errors_are_relative),
+        cmocka_unit_test(black_counts_as_a_thousandth_of_white),
+        cmocka_unit_test(failed_allocations_are_reported),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

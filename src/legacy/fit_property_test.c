@@ -139,7 +139,7 @@ static void check_all_to_ogl1(const pbr_surface *in)
     assert_true(isfinite(out.shininess) && isfinite(out.specular[0]) && isfinite(out.diffuse[0]));
 }
 
-static void test_range_to_pbr(void **state)
+static void fits_to_pbr_are_in_range(void **state)
 {
     (void)state;
     static const float exponents[] = {0.0f, 1e-6f, 0.5f, 2.0f, 127.9f, 128.0f, 1000.0f, 1e6f, 1e9f, 3e38f};
@@ -155,7 +155,7 @@ static void test_range_to_pbr(void **state)
     }
 }
 
-static void test_range_to_ogl1(void **state)
+static void fits_to_ogl1_are_in_range(void **state)
 {
     (void)state;
     static const float shares[] = {0.0f, 0.0f, 1e-6f, 0.5f, 1.0f, 1.0f};
@@ -177,7 +177,7 @@ static void test_range_to_ogl1(void **state)
 
 /* ---- order ---- */
 
-static void test_order_to_pbr(void **state)
+static void fits_to_pbr_beat_closed_forms(void **state)
 {
     (void)state;
     for (int i = 0; i < COUNT; i++) {
@@ -202,7 +202,7 @@ static void test_order_to_pbr(void **state)
     }
 }
 
-static void test_order_to_ogl1(void **state)
+static void fits_to_ogl1_beat_closed_forms(void **state)
 {
     (void)state;
     for (int i = 0; i < COUNT; i++) {
@@ -298,7 +298,7 @@ static double polished_error(const ogl1_surface *source, const pbr_surface *fit)
     return fit_compare(metric, source, &s, FIT_FROM_OGL1).E;
 }
 
-static void test_nothing_nearby(void **state)
+static void fits_are_minima(void **state)
 {
     (void)state;
     double worst = 0.0;
@@ -315,7 +315,7 @@ static void test_nothing_nearby(void **state)
 
 /* ---- shapes of the maps ---- */
 
-static void test_monotonic(void **state)
+static void closed_forms_are_monotonic(void **state)
 {
     (void)state;
     float before = 2.0f;
@@ -342,7 +342,7 @@ static void test_monotonic(void **state)
 
 /* Both directions are least squares with their own weights: a broad highlight returns narrower (roughness
  * .6 gives s 19; s 16 gives .596). From 50 on s is kept within 7 %, and Cs within a tenth. */
-static void test_round_trip(void **state)
+static void round_trips_are_close(void **state)
 {
     (void)state;
     for (int i = 0; i < COUNT; i++) {
@@ -363,7 +363,7 @@ static void test_round_trip(void **state)
 }
 
 /* Equal colors stay equal, and permuted channels are permuted. */
-static void test_channels(void **state)
+static void channels_are_independent(void **state)
 {
     (void)state;
     for (int i = 0; i < 30; i++) {
@@ -388,7 +388,7 @@ static void test_channels(void **state)
 }
 
 /* Scaling PBR scales OpenGL 1 unless it is clamped: ior 0 and a constant Fresnel make radiance linear. */
-static void test_scaling(void **state)
+static void scaled_materials_have_scaled_fits(void **state)
 {
     (void)state;
     for (int i = 0; i < 20; i++) {
@@ -417,7 +417,7 @@ static void test_scaling(void **state)
 /* Results reflect no more than they receive, except by the formulas of glTF at grazing angles: with F90 =
  * 1 the base is dimmed by Fresnel at the half vector, and 2.5 % too much is reflected at 60 degrees. A
  * constant Fresnel, all that the closed form makes, never does. */
-static void test_white_furnace(void **state)
+static void fits_reflect_no_more_than_they_receive(void **state)
 {
     (void)state;
     static float lobe[FIT_MAX_NODES];
@@ -446,7 +446,7 @@ static void test_white_furnace(void **state)
 
 /* ---- remarks ---- */
 
-static void test_remarks_to_pbr(void **state)
+static void remarks_to_pbr_are_correct(void **state)
 {
     (void)state;
     pbr_surface pbr;
@@ -463,7 +463,7 @@ static void test_remarks_to_pbr(void **state)
     assert_int_equal(ogl1_to_pbr_closed(&white, &pbr), 0);
 }
 
-static void test_remarks_to_ogl1(void **state)
+static void remarks_to_ogl1_are_correct(void **state)
 {
     (void)state;
     ogl1_surface old;
@@ -484,12 +484,18 @@ static void test_remarks_to_ogl1(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_range_to_pbr),   cmocka_unit_test(test_range_to_ogl1),
-        cmocka_unit_test(test_order_to_pbr),   cmocka_unit_test(test_order_to_ogl1),
-        cmocka_unit_test(test_nothing_nearby), cmocka_unit_test(test_monotonic),
-        cmocka_unit_test(test_round_trip),     cmocka_unit_test(test_channels),
-        cmocka_unit_test(test_scaling),        cmocka_unit_test(test_white_furnace),
-        cmocka_unit_test(test_remarks_to_pbr), cmocka_unit_test(test_remarks_to_ogl1),
+        cmocka_unit_test(fits_to_pbr_are_in_range),
+        cmocka_unit_test(fits_to_ogl1_are_in_range),
+        cmocka_unit_test(fits_to_pbr_beat_closed_forms),
+        cmocka_unit_test(fits_to_ogl1_beat_closed_forms),
+        cmocka_unit_test(fits_are_minima),
+        cmocka_unit_test(closed_forms_are_monotonic),
+        cmocka_unit_test(round_trips_are_close),
+        cmocka_unit_test(channels_are_independent),
+        cmocka_unit_test(scaled_materials_have_scaled_fits),
+        cmocka_unit_test(fits_reflect_no_more_than_they_receive),
+        cmocka_unit_test(remarks_to_pbr_are_correct),
+        cmocka_unit_test(remarks_to_ogl1_are_correct),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -94,7 +94,7 @@ static void vignette_at(double phi, double *step, double *ramp, double *ogl1, do
     shape[1] = *ogl1 - cos(phi);
 }
 
-static void test_vignette_values(void **state)
+static void values_match_the_vignette(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof vignette / sizeof *vignette; i++) {
@@ -139,7 +139,7 @@ static double vignette_error(void *context, const double *x)
 }
 
 /* "The hopeless case is a 4 % fit." */
-static void test_vignette_fit(void **state)
+static void the_hopeless_case_fits_to_4_percent(void **state)
 {
     (void)state;
     for (int is_ramp = 0; is_ramp < 2; is_ramp++) {
@@ -210,7 +210,7 @@ static double E_of(const fit_metric *metric, const ogl1_surface *ogl1, const pbr
 }
 
 /* Without the factor pi the legacy material is pi times too bright. */
-static void test_pbr_columns(void **state)
+static void errors_without_pi_match_the_table(void **state)
 {
     (void)state;
     for (int i = 0; i < PBR_ROWS; i++) {
@@ -228,7 +228,7 @@ static void test_pbr_columns(void **state)
     }
 }
 
-static void test_pbr_fits(void **state)
+static void fits_of_pbr_match_the_table(void **state)
 {
     (void)state;
     for (int i = 0; i < PBR_ROWS; i++) {
@@ -254,7 +254,7 @@ static void test_pbr_fits(void **state)
 
 /* With height-correlated masking the same materials are fitted as well, except white metal of roughness 1:
  * GGX is flatter there, and further from a cosine lobe: .158 instead of .132, the optimum. */
-static void test_pbr_fits_correlated(void **state)
+static void fits_with_correlated_masking_are_as_good(void **state)
 {
     (void)state;
     double sum[2] = {0.0, 0.0};
@@ -309,7 +309,7 @@ static double E_to(const fit_metric *metric, const ogl1_surface *ogl1, const pbr
 }
 
 /* Naive: the light of OpenGL 1 unchanged, and times pi. */
-static void test_ogl1_naive(void **state)
+static void naive_conversions_match_the_table(void **state)
 {
     (void)state;
     for (int i = 0; i < OGL1_ROWS; i++) {
@@ -325,7 +325,7 @@ static void test_ogl1_naive(void **state)
 
 /* The optima agree to the last digit, with the same parameters. At Cs .5, s 4 the table has a specular
  * factor of .5, the fit .354: E hardly changes between F90 = F0 and F90 = .5 with an F0 of .33. */
-static void test_ogl1_fits(void **state)
+static void fits_of_ogl1_match_the_table(void **state)
 {
     (void)state;
     for (int i = 0; i < OGL1_ROWS; i++) {
@@ -384,7 +384,7 @@ static double emissive_error(void *context, const double *x)
 }
 
 /* With emission; conversions add no emission, so this is in the test only. */
-static void test_ogl1_emissive(void **state)
+static void fits_with_emission_match_the_table(void **state)
 {
     (void)state;
     for (int i = 0; i < OGL1_ROWS; i++) {
@@ -448,7 +448,7 @@ static double nearest_error(void *context, const double *x)
 
 /* The LUT of the closed forms has height-correlated masking: within 2 % in roughness, and from s = 10 on
  * within 3 % in strength; below that up to 7 % less, since the lobe is brighter. */
-static void test_exponents(void **state)
+static void closed_forms_match_the_table_of_exponents(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof exponent_rows / sizeof *exponent_rows; i++) {
@@ -486,7 +486,7 @@ static void closed_by_formulas(const ogl1_surface *in, pbr_surface *out)
 }
 
 /* MTL's matte material is tabulated with .001 for formulas that are exact there: Cs of 0 leaves base = Cd. */
-static void test_classics_formulas(void **state)
+static void formulas_of_classic_materials_match_the_table(void **state)
 {
     (void)state;
     double naive = 0.0;
@@ -511,7 +511,7 @@ static void test_classics_formulas(void **state)
 }
 
 /* The optimum with separable masking to the last digit; with that of facet within the limits. */
-static void test_classics_fits(void **state)
+static void fits_of_classic_materials_match_the_table(void **state)
 {
     (void)state;
     double mean[2][2] = {{0.0, 0.0}, {0.0, 0.0}};
@@ -542,7 +542,7 @@ static void test_classics_fits(void **state)
 
 /* facet's closed forms, within the limit of 10 % + .005, and better on average than the formulas and the
  * table (.099). */
-static void test_classics_closed(void **state)
+static void closed_forms_of_classic_materials_are_within_limits(void **state)
 {
     (void)state;
     double mean = 0.0;
@@ -566,7 +566,7 @@ static void test_classics_closed(void **state)
 }
 
 /* The LUT adds no error: E of the box fits again. */
-static void test_pbr_closed(void **state)
+static void closed_forms_of_pbr_equal_the_fit(void **state)
 {
     (void)state;
     for (int i = 0; i < PBR_ROWS; i++) {
@@ -582,13 +582,19 @@ static void test_pbr_closed(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_vignette_values),     cmocka_unit_test(test_vignette_fit),
-        cmocka_unit_test(test_pbr_columns),         cmocka_unit_test(test_pbr_fits),
-        cmocka_unit_test(test_pbr_fits_correlated), cmocka_unit_test(test_ogl1_naive),
-        cmocka_unit_test(test_ogl1_fits),           cmocka_unit_test(test_ogl1_emissive),
-        cmocka_unit_test(test_exponents),           cmocka_unit_test(test_classics_formulas),
-        cmocka_unit_test(test_classics_fits),       cmocka_unit_test(test_classics_closed),
-        cmocka_unit_test(test_pbr_closed),
+        cmocka_unit_test(values_match_the_vignette),
+        cmocka_unit_test(the_hopeless_case_fits_to_4_percent),
+        cmocka_unit_test(errors_without_pi_match_the_table),
+        cmocka_unit_test(fits_of_pbr_match_the_table),
+        cmocka_unit_test(fits_with_correlated_masking_are_as_good),
+        cmocka_unit_test(naive_conversions_match_the_table),
+        cmocka_unit_test(fits_of_ogl1_match_the_table),
+        cmocka_unit_test(fits_with_emission_match_the_table),
+        cmocka_unit_test(closed_forms_match_the_table_of_exponents),
+        cmocka_unit_test(formulas_of_classic_materials_match_the_table),
+        cmocka_unit_test(fits_of_classic_materials_match_the_table),
+        cmocka_unit_test(closed_forms_of_classic_materials_are_within_limits),
+        cmocka_unit_test(closed_forms_of_pbr_equal_the_fit),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

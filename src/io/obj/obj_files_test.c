@@ -35,7 +35,7 @@ static double find_volume(const facet_scene *scene)
     return volume;
 }
 
-static void test_counts(void **state)
+static void element_counts_match_the_files(void **state)
 {
     (void)state;
     static const struct {
@@ -103,7 +103,7 @@ static void test_counts(void **state)
 }
 
 /* "Load or refuse, never crash": all of these load, with warnings about their flaws. */
-static void test_malformed(void **state)
+static void malformed_files_load_with_warnings(void **state)
 {
     (void)state;
     static const struct {
@@ -140,7 +140,7 @@ static void test_malformed(void **state)
     }
 }
 
-static void test_mixed_attributes(void **state)
+static void mixed_attributes_are_read(void **state)
 {
     (void)state;
     facet_scene *scene = obj_load_shared("obj/obj2gltf/box-mixed-attributes/box-mixed-attributes.obj");
@@ -161,7 +161,7 @@ static void test_mixed_attributes(void **state)
 
 /* Its upper and lower sides are squares of 2 x 2 with a notch of 2 x 0.87836 / 2: triangles across the
  * notch would make the area larger, and one of them point to the other side. */
-static void test_concave(void **state)
+static void concave_faces_keep_their_area(void **state)
 {
     (void)state;
     facet_scene *scene = obj_load_shared("obj/obj2gltf/concave/concave.obj");
@@ -184,7 +184,7 @@ static void test_concave(void **state)
     scene_destroy(scene);
 }
 
-static void test_cornell_box(void **state)
+static void the_cornell_box_is_read(void **state)
 {
     (void)state;
     facet_scene *scene = obj_load_shared("obj/cornell/CornellBox-Original.obj");
@@ -199,7 +199,7 @@ static void test_cornell_box(void **state)
     scene_destroy(scene);
 }
 
-static void test_vertex_colors(void **state)
+static void vertex_colors_are_read(void **state)
 {
     (void)state;
     facet_scene *scene = obj_load_shared("obj/tinyobjloader/cube-vertexcol.obj");
@@ -212,7 +212,7 @@ static void test_vertex_colors(void **state)
     scene_destroy(scene);
 }
 
-static void test_points_and_lines(void **state)
+static void points_and_lines_are_read(void **state)
 {
     (void)state;
     facet_scene *scene = obj_load_shared("obj/tinyobjloader/points-prim.obj");
@@ -226,7 +226,7 @@ static void test_points_and_lines(void **state)
 }
 
 /* Smooth ones have the normals that their shape has. */
-static void test_shapes(void **state)
+static void shapes_have_their_normals(void **state)
 {
     (void)state;
     facet_scene *scene = obj_load_shared("obj/c-ray/torus.obj"); /* around +Y, radii 1 and 0.25 */
@@ -246,10 +246,14 @@ static void test_shapes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_counts),           cmocka_unit_test(test_malformed),
-        cmocka_unit_test(test_mixed_attributes), cmocka_unit_test(test_concave),
-        cmocka_unit_test(test_cornell_box),      cmocka_unit_test(test_vertex_colors),
-        cmocka_unit_test(test_points_and_lines), cmocka_unit_test(test_shapes),
+        cmocka_unit_test(element_counts_match_the_files),
+        cmocka_unit_test(malformed_files_load_with_warnings),
+        cmocka_unit_test(mixed_attributes_are_read),
+        cmocka_unit_test(concave_faces_keep_their_area),
+        cmocka_unit_test(the_cornell_box_is_read),
+        cmocka_unit_test(vertex_colors_are_read),
+        cmocka_unit_test(points_and_lines_are_read),
+        cmocka_unit_test(shapes_have_their_normals),
     };
     return cmocka_run_group_tests_name("obj_files", tests, NULL, NULL);
 }

@@ -28,7 +28,7 @@ static void assert_cube_is_flat(const scene_primitive *p)
         }
 }
 
-static void test_flat(void **state)
+static void flat_faces_have_their_normals(void **state)
 {
     (void)state;
     const char *flat[] = {CUBE_POINTS CUBE_FACES, "s off\n" CUBE_POINTS CUBE_FACES,
@@ -43,7 +43,7 @@ static void test_flat(void **state)
     }
 }
 
-static void test_sharp_edges(void **state)
+static void sharp_edges_stay_sharp(void **state)
 {
     (void)state;
     facet_scene *scene = load(CUBE_POINTS CUBE_FACES, FACET_OBJ_NORMALS_AUTO);
@@ -55,7 +55,7 @@ static void test_sharp_edges(void **state)
 }
 
 /* However its sides are cut, a cube's corners point along its diagonals: weights are angles. */
-static void test_smooth_cube(void **state)
+static void smooth_cubes_have_diagonal_normals(void **state)
 {
     (void)state;
     const char *smooth[] = {CUBE_POINTS CUBE_FACES, CUBE_POINTS "s 1\n" CUBE_FACES,
@@ -94,7 +94,7 @@ static facet_scene *load_tube(int count)
     return load(bytes, FACET_OBJ_NORMALS_AUTO);
 }
 
-static void test_angles(void **state)
+static void tubes_are_smooth_with_sharp_rims(void **state)
 {
     (void)state;
     facet_scene *scene = load_tube(24);
@@ -121,7 +121,7 @@ static void test_angles(void **state)
 /* Two squares like an open book, 90 degrees. */
 #define BOOK_POINTS "v 0 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 0 0 1\nv 0 1 1\n"
 
-static void test_groups(void **state)
+static void groups_override_the_angle(void **state)
 {
     (void)state;
     facet_scene *scene = load(BOOK_POINTS "s 3\nf 1 3 4 2\nf 1 2 6 5\n", FACET_OBJ_NORMALS_AUTO);
@@ -179,7 +179,7 @@ static size_t write_sheet(char *out, size_t room, const char *group, int sides)
 }
 
 /* A sheet that exists twice, with opposite windings, has the normals of the front one, to the last bit. */
-static void test_sheets_with_two_sides(void **state)
+static void sheets_with_two_sides_have_the_normals_of_the_front(void **state)
 {
     (void)state;
     static const struct {
@@ -211,7 +211,7 @@ static void test_sheets_with_two_sides(void **state)
 }
 
 /* A wall on a floor, both with two sides in one group: each side of each stays with itself. */
-static void test_sheets_that_meet(void **state)
+static void sheets_that_meet_stay_separate(void **state)
 {
     (void)state;
     facet_scene *scene =
@@ -227,7 +227,7 @@ static void test_sheets_that_meet(void **state)
     scene_destroy(scene);
 }
 
-static void test_the_files_own_come_first(void **state)
+static void normals_of_the_file_come_first(void **state)
 {
     (void)state;
     facet_scene *scene =
@@ -241,7 +241,7 @@ static void test_the_files_own_come_first(void **state)
 }
 
 /* Triangles without area leave the others as they are. */
-static void test_nothing_is_poisoned(void **state)
+static void triangles_without_area_do_not_affect_others(void **state)
 {
     (void)state;
     facet_scene *scene = load(CUBE_POINTS "v -1 -1 -1\nv 0 -1 -1\n" CUBE_FACES "f 1 2 9\nf 1 10 2\n",
@@ -256,7 +256,7 @@ static void test_nothing_is_poisoned(void **state)
 }
 
 /* A cone of many triangles around one point, flat enough to be smooth, then with a group per triangle. */
-static void test_many_at_one_position(void **state)
+static void many_triangles_at_one_position_are_smoothed(void **state)
 {
     (void)state;
     enum { COUNT = 5000 };
@@ -284,7 +284,7 @@ static void test_many_at_one_position(void **state)
 }
 
 /* Three sheets along one edge: the two that are level are smooth, the third is not. */
-static void test_three_along_an_edge(void **state)
+static void of_three_sheets_the_level_ones_are_smooth(void **state)
 {
     (void)state;
     facet_scene *scene = load("v 0 0 0\nv 0 1 0\nv 1 0 0\nv -1 0 0\nv 0 0 1\nf 1 3 2\nf 1 5 2\nf 1 2 4\n",
@@ -298,7 +298,7 @@ static void test_three_along_an_edge(void **state)
 }
 
 /* Tiny and huge ones keep their directions. */
-static void test_sizes(void **state)
+static void normals_do_not_depend_on_size(void **state)
 {
     (void)state;
     const char *sizes[] = {"1e-30", "1e-18", "1", "1e16"};
@@ -316,18 +316,18 @@ static void test_sizes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_flat),
-        cmocka_unit_test(test_sharp_edges),
-        cmocka_unit_test(test_smooth_cube),
-        cmocka_unit_test(test_angles),
-        cmocka_unit_test(test_groups),
-        cmocka_unit_test(test_sheets_with_two_sides),
-        cmocka_unit_test(test_sheets_that_meet),
-        cmocka_unit_test(test_the_files_own_come_first),
-        cmocka_unit_test(test_nothing_is_poisoned),
-        cmocka_unit_test(test_many_at_one_position),
-        cmocka_unit_test(test_three_along_an_edge),
-        cmocka_unit_test(test_sizes),
+        cmocka_unit_test(flat_faces_have_their_normals),
+        cmocka_unit_test(sharp_edges_stay_sharp),
+        cmocka_unit_test(smooth_cubes_have_diagonal_normals),
+        cmocka_unit_test(tubes_are_smooth_with_sharp_rims),
+        cmocka_unit_test(groups_override_the_angle),
+        cmocka_unit_test(sheets_with_two_sides_have_the_normals_of_the_front),
+        cmocka_unit_test(sheets_that_meet_stay_separate),
+        cmocka_unit_test(normals_of_the_file_come_first),
+        cmocka_unit_test(triangles_without_area_do_not_affect_others),
+        cmocka_unit_test(many_triangles_at_one_position_are_smoothed),
+        cmocka_unit_test(of_three_sheets_the_level_ones_are_smooth),
+        cmocka_unit_test(normals_do_not_depend_on_size),
     };
     return cmocka_run_group_tests_name("obj_normals", tests, NULL, NULL);
 }

@@ -11,7 +11,7 @@
 
 #define SQUARE "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
 
-static void test_detect(void **state)
+static void files_are_detected(void **state)
 {
     (void)state;
     const char *are[] = {"v 1 2 3", "# c\n\n  \tv 1 2 3\n", "\xef\xbb\xbfo x\n", "mtllib a.mtl\r\n", "G\n",
@@ -25,7 +25,7 @@ static void test_detect(void **state)
     assert_false(obj_detect("usemtl", 4)); /* "usem" */
 }
 
-static void test_triangle(void **state)
+static void a_triangle_is_read(void **state)
 {
     (void)state;
     facet_scene *scene =
@@ -52,7 +52,7 @@ static void test_triangle(void **state)
 }
 
 /* Positions are relative to the node's place, with all digits that the text has. */
-static void test_far_from_the_origin(void **state)
+static void distant_positions_keep_all_digits(void **state)
 {
     (void)state;
     facet_scene *near =
@@ -83,7 +83,7 @@ static void test_far_from_the_origin(void **state)
     scene_destroy(far);
 }
 
-static void test_texcoords_as_they_are(void **state)
+static void texcoords_are_kept_as_written_on_request(void **state)
 {
     (void)state;
     const facet_scene_desc desc = {.has_flipped_texcoords = true};
@@ -97,7 +97,7 @@ static void test_texcoords_as_they_are(void **state)
 }
 
 /* Every notation of the same square gives the same scene. */
-static void test_ways_to_write(void **state)
+static void all_notations_give_the_same_scene(void **state)
 {
     (void)state;
     facet_scene *expected = obj_load_text("g a b\n" SQUARE "f 1 2 3 4\n", NULL);
@@ -125,7 +125,7 @@ static void test_ways_to_write(void **state)
     scene_destroy(expected);
 }
 
-static void test_vertices_are_shared(void **state)
+static void vertices_are_shared(void **state)
 {
     (void)state;
     /* Corner 2 with two texture coordinates, corner 3 with two normals. */
@@ -145,7 +145,7 @@ static void test_vertices_are_shared(void **state)
 
 /* A million corners at one position, each with its own texture coordinate: a table keyed by position alone
  * would take minutes. */
-static void test_many_vertices_at_one_position(void **state)
+static void many_vertices_at_one_position_are_fast(void **state)
 {
     (void)state;
     enum { COUNT = 150000 };
@@ -163,7 +163,7 @@ static void test_many_vertices_at_one_position(void **state)
     free(bytes);
 }
 
-static void test_objects_and_materials(void **state)
+static void objects_and_materials_are_read(void **state)
 {
     (void)state;
     facet_scene *scene =
@@ -190,7 +190,7 @@ static void test_objects_and_materials(void **state)
     scene_destroy(scene);
 }
 
-static void test_groups_without_objects(void **state)
+static void groups_without_objects_become_meshes(void **state)
 {
     (void)state;
     facet_scene *scene =
@@ -202,7 +202,7 @@ static void test_groups_without_objects(void **state)
     scene_destroy(scene);
 }
 
-static void test_names(void **state)
+static void names_are_read(void **state)
 {
     (void)state;
     facet_scene *scene = obj_load_text(SQUARE "o caf\xe9 na\xc3\xafve #1 \nusemtl a \\\n b\nf 1 2 3\n", NULL);
@@ -211,7 +211,7 @@ static void test_names(void **state)
     scene_destroy(scene);
 }
 
-static void test_colors(void **state)
+static void vertex_colors_are_read(void **state)
 {
     (void)state;
     const char *numbers = "v 0 0 0 1 0.5 0\nv 1 0 0 0.2 0.2 0.2 0.25\nv 0 1 0\nf 1 2 3\n";
@@ -250,7 +250,7 @@ static void test_colors(void **state)
     scene_destroy(scene);
 }
 
-static void test_wrong_indices(void **state)
+static void invalid_indices_are_reported(void **state)
 {
     (void)state;
     facet_scene *scene =
@@ -269,7 +269,7 @@ static void test_wrong_indices(void **state)
     scene_destroy(scene);
 }
 
-static void test_wrong_attributes(void **state)
+static void invalid_attributes_are_reported(void **state)
 {
     (void)state;
     facet_scene *scene =
@@ -288,7 +288,7 @@ static void test_wrong_attributes(void **state)
     scene_destroy(scene);
 }
 
-static void test_numbers_that_are_none(void **state)
+static void invalid_numbers_are_reported(void **state)
 {
     (void)state;
     facet_scene *scene =
@@ -309,7 +309,7 @@ static void test_numbers_that_are_none(void **state)
     scene_destroy(scene);
 }
 
-static void test_what_is_not_read(void **state)
+static void unsupported_statements_are_reported(void **state)
 {
     (void)state;
     facet_scene *scene =
@@ -324,7 +324,7 @@ static void test_what_is_not_read(void **state)
     scene_destroy(scene);
 }
 
-static void test_files_without_geometry(void **state)
+static void files_without_geometry_are_refused(void **state)
 {
     (void)state;
     facet_scene *scene = (facet_scene *)1;
@@ -346,7 +346,7 @@ static void test_files_without_geometry(void **state)
     assert_null(scene);
 }
 
-static void test_cloud_of_points(void **state)
+static void point_clouds_are_read(void **state)
 {
     (void)state;
     facet_scene *scene = obj_load_text("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv nan 0 0\nv 1 1 1 0 0 1\n", NULL);
@@ -358,7 +358,7 @@ static void test_cloud_of_points(void **state)
     scene_destroy(scene);
 }
 
-static void test_lines_and_points(void **state)
+static void lines_and_points_are_read(void **state)
 {
     (void)state;
     facet_scene *scene = obj_load_text(SQUARE "vt 0 0\nvt 0.5 0\nl 1/1 2/2 3/1\nl 3 4 1\np 1 2\np 2\n", NULL);
@@ -376,7 +376,7 @@ static void test_lines_and_points(void **state)
     scene_destroy(scene);
 }
 
-static void test_polygons(void **state)
+static void polygons_are_triangulated(void **state)
 {
     (void)state;
     /* An L of area 3, a dart of area 1, a square with a hole over a bridge: 16 - 4. */
@@ -398,7 +398,7 @@ static void test_polygons(void **state)
     scene_destroy(scene);
 }
 
-static void test_many_groups(void **state)
+static void many_groups_are_read(void **state)
 {
     (void)state;
     enum { COUNT = 100000 };
@@ -415,7 +415,7 @@ static void test_many_groups(void **state)
     free(bytes);
 }
 
-static void test_root_and_limit(void **state)
+static void roots_and_size_limits_hold(void **state)
 {
     (void)state;
     char path[] = "/tmp/facet-obj-XXXXXX";
@@ -435,7 +435,7 @@ static void test_root_and_limit(void **state)
 }
 
 /* If any allocation fails, that is the result, and nothing leaks. */
-static void test_memory_runs_out(void **state)
+static void failed_allocations_are_reported(void **state)
 {
     (void)state;
     const char *bytes =
@@ -461,28 +461,28 @@ static void test_memory_runs_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_detect),
-        cmocka_unit_test(test_triangle),
-        cmocka_unit_test(test_far_from_the_origin),
-        cmocka_unit_test(test_texcoords_as_they_are),
-        cmocka_unit_test(test_ways_to_write),
-        cmocka_unit_test(test_vertices_are_shared),
-        cmocka_unit_test(test_many_vertices_at_one_position),
-        cmocka_unit_test(test_objects_and_materials),
-        cmocka_unit_test(test_groups_without_objects),
-        cmocka_unit_test(test_names),
-        cmocka_unit_test(test_colors),
-        cmocka_unit_test(test_wrong_indices),
-        cmocka_unit_test(test_wrong_attributes),
-        cmocka_unit_test(test_numbers_that_are_none),
-        cmocka_unit_test(test_what_is_not_read),
-        cmocka_unit_test(test_files_without_geometry),
-        cmocka_unit_test(test_cloud_of_points),
-        cmocka_unit_test(test_lines_and_points),
-        cmocka_unit_test(test_polygons),
-        cmocka_unit_test(test_many_groups),
-        cmocka_unit_test(test_root_and_limit),
-        cmocka_unit_test(test_memory_runs_out),
+        cmocka_unit_test(files_are_detected),
+        cmocka_unit_test(a_triangle_is_read),
+        cmocka_unit_test(distant_positions_keep_all_digits),
+        cmocka_unit_test(texcoords_are_kept_as_written_on_request),
+        cmocka_unit_test(all_notations_give_the_same_scene),
+        cmocka_unit_test(vertices_are_shared),
+        cmocka_unit_test(many_vertices_at_one_position_are_fast),
+        cmocka_unit_test(objects_and_materials_are_read),
+        cmocka_unit_test(groups_without_objects_become_meshes),
+        cmocka_unit_test(names_are_read),
+        cmocka_unit_test(vertex_colors_are_read),
+        cmocka_unit_test(invalid_indices_are_reported),
+        cmocka_unit_test(invalid_attributes_are_reported),
+        cmocka_unit_test(invalid_numbers_are_reported),
+        cmocka_unit_test(unsupported_statements_are_reported),
+        cmocka_unit_test(files_without_geometry_are_refused),
+        cmocka_unit_test(point_clouds_are_read),
+        cmocka_unit_test(lines_and_points_are_read),
+        cmocka_unit_test(polygons_are_triangulated),
+        cmocka_unit_test(many_groups_are_read),
+        cmocka_unit_test(roots_and_size_limits_hold),
+        cmocka_unit_test(failed_allocations_are_reported),
     };
     return cmocka_run_group_tests_name("obj_read", tests, NULL, NULL);
 }

@@ -79,7 +79,7 @@ static facet_scene *load(const char *bytes, uint32_t threads, facet_obj_normals 
     return obj_load_text(bytes, &desc);
 }
 
-static void test_any_number_of_threads(void **state)
+static void results_do_not_depend_on_threads(void **state)
 {
     (void)state;
     static const uint32_t threads[] = {2, 3, 7};
@@ -98,7 +98,7 @@ static void test_any_number_of_threads(void **state)
 }
 
 /* Wherever pieces of the text begin. */
-static void test_any_cuts(void **state)
+static void results_do_not_depend_on_chunks(void **state)
 {
     (void)state;
     facet_scene *expected = NULL;
@@ -120,7 +120,7 @@ static void test_any_cuts(void **state)
 
 /* One primitive that is processed in blocks: each corner has the position, texture coordinate and normal
  * of the file, and no vertex exists twice. */
-static void test_large_primitive(void **state)
+static void blocks_of_a_large_primitive_share_vertices(void **state)
 {
     (void)state;
     enum { EDGE = IS_SLOW ? 200 : 400 };
@@ -168,7 +168,7 @@ static void test_large_primitive(void **state)
 }
 
 /* Memory that runs out now and then among several threads. */
-static void test_memory_runs_out(void **state)
+static void failed_allocations_are_reported(void **state)
 {
     (void)state;
     char *bytes = make_sheet("");
@@ -189,7 +189,7 @@ static void test_memory_runs_out(void **state)
 }
 
 /* At most three times the memory of the scene, for a file of one large mesh. */
-static void test_memory_is_bounded(void **state)
+static void memory_is_three_times_the_scene_at_most(void **state)
 {
     (void)state;
     enum { EDGE = 500 };
@@ -216,9 +216,11 @@ static void test_memory_is_bounded(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_any_number_of_threads), cmocka_unit_test(test_any_cuts),
-        cmocka_unit_test(test_large_primitive),       cmocka_unit_test(test_memory_runs_out),
-        cmocka_unit_test(test_memory_is_bounded),
+        cmocka_unit_test(results_do_not_depend_on_threads),
+        cmocka_unit_test(results_do_not_depend_on_chunks),
+        cmocka_unit_test(blocks_of_a_large_primitive_share_vertices),
+        cmocka_unit_test(failed_allocations_are_reported),
+        cmocka_unit_test(memory_is_three_times_the_scene_at_most),
     };
     return cmocka_run_group_tests_name("obj_threads", tests, NULL, NULL);
 }

@@ -105,7 +105,7 @@ static void check_in_all_planes(void)
     check_triangles(1e-7 * fabs(shape_area()));
 }
 
-static void test_stars(void **state)
+static void stars_are_triangulated(void **state)
 {
     (void)state;
     uint64_t random = 1;
@@ -152,7 +152,7 @@ static void make_comb(uint32_t teeth)
     }
 }
 
-static void test_spirals_and_combs(void **state)
+static void spirals_and_combs_are_triangulated(void **state)
 {
     (void)state;
     for (uint32_t count = 8; count < 300; count += 13) {
@@ -164,7 +164,7 @@ static void test_spirals_and_combs(void **state)
 }
 
 /* With so many corners that examining all pairs would take minutes. */
-static void test_large_polygons(void **state)
+static void large_polygons_are_fast(void **state)
 {
     (void)state;
     make_spiral(20000, 30.0);
@@ -175,7 +175,7 @@ static void test_large_polygons(void **state)
     check_triangles(1e-6 * shape_area());
 }
 
-static void test_straight_corners(void **state)
+static void straight_corners_are_triangulated(void **state)
 {
     (void)state;
     s.count = 0;
@@ -195,7 +195,7 @@ static void test_straight_corners(void **state)
 }
 
 /* A square with a square hole, reached over a bridge that is passed twice. */
-static void test_hole_over_a_bridge(void **state)
+static void holes_over_a_bridge_are_kept(void **state)
 {
     (void)state;
     const double corners[][2] = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0},
@@ -216,7 +216,7 @@ static void test_hole_over_a_bridge(void **state)
 }
 
 /* Two holes that share one corner of the outline. */
-static void test_two_bridges_at_one_corner(void **state)
+static void two_bridges_may_share_a_corner(void **state)
 {
     (void)state;
     const double corners[][2] = {{0, 0}, {10, 0}, {10, 10}, {0, 10}, {0, 0}, {1, 4}, {1, 6}, {3, 6},
@@ -229,7 +229,7 @@ static void test_two_bridges_at_one_corner(void **state)
 }
 
 /* Triangles of one that crosses itself, or has no area: as many, and their signed areas sum up. */
-static void test_odd_polygons(void **state)
+static void odd_polygons_keep_their_signed_area(void **state)
 {
     (void)state;
     uint64_t random = 5;
@@ -248,7 +248,7 @@ static void test_odd_polygons(void **state)
 }
 
 /* However bad the polygon is, the work has an end. */
-static void test_work_has_an_end(void **state)
+static void the_work_is_limited(void **state)
 {
     (void)state;
     uint64_t random = 6;
@@ -262,7 +262,7 @@ static void test_work_has_an_end(void **state)
     assert_true(polygon.is_rough);
 }
 
-static void test_quads(void **state)
+static void quads_are_split_well(void **state)
 {
     (void)state;
     const float a[3] = {0, 0, 0};
@@ -293,15 +293,15 @@ static int release(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_quads),
-        cmocka_unit_test(test_stars),
-        cmocka_unit_test(test_spirals_and_combs),
-        cmocka_unit_test(test_straight_corners),
-        cmocka_unit_test(test_hole_over_a_bridge),
-        cmocka_unit_test(test_two_bridges_at_one_corner),
-        cmocka_unit_test(test_odd_polygons),
-        cmocka_unit_test(test_large_polygons),
-        cmocka_unit_test(test_work_has_an_end),
+        cmocka_unit_test(quads_are_split_well),
+        cmocka_unit_test(stars_are_triangulated),
+        cmocka_unit_test(spirals_and_combs_are_triangulated),
+        cmocka_unit_test(straight_corners_are_triangulated),
+        cmocka_unit_test(holes_over_a_bridge_are_kept),
+        cmocka_unit_test(two_bridges_may_share_a_corner),
+        cmocka_unit_test(odd_polygons_keep_their_signed_area),
+        cmocka_unit_test(large_polygons_are_fast),
+        cmocka_unit_test(the_work_is_limited),
     };
     return cmocka_run_group_tests_name("obj_triangulate", tests, NULL, release);
 }

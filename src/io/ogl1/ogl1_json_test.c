@@ -27,7 +27,7 @@ static const char FROM_R_BOXED[] =
     "'6':{'vertices':[[1,2,3]],'finite':true,'viewpoint':true}},"
     "'background':{'fogtype':'exp2','fogscale':2,'colors':[[0.5,0.25,0.125,1]],'sphere':false}}";
 
-static void test_as_r_writes_it(void **state)
+static void json_of_r_is_read(void **state)
 {
     (void)state;
     facet_scene *scene = ogl1_load(FROM_R);
@@ -59,7 +59,7 @@ static void test_as_r_writes_it(void **state)
     scene_destroy(scene);
 }
 
-static void test_boxed_values(void **state)
+static void boxed_values_are_read(void **state)
 {
     (void)state;
     facet_scene *scene = ogl1_load(FROM_R_BOXED);
@@ -79,7 +79,7 @@ static void test_boxed_values(void **state)
     scene_destroy(scene);
 }
 
-static void test_defaults_are_rgls(void **state)
+static void defaults_are_those_of_rgl(void **state)
 {
     (void)state;
     facet_scene *scene = ogl1_load("{'materials':[{}],'material3d':null}");
@@ -97,7 +97,7 @@ static void test_defaults_are_rgls(void **state)
     scene_destroy(scene);
 }
 
-static void test_bare_parameters(void **state)
+static void bare_parameters_are_read(void **state)
 {
     (void)state;
     facet_scene *scene = ogl1_load("{'material3d':{'col':'steelblue','shininess':7}}");
@@ -117,7 +117,7 @@ static void test_bare_parameters(void **state)
     scene_destroy(scene);
 }
 
-static void test_colors(void **state)
+static void colors_of_r_are_read(void **state)
 {
     (void)state;
     static const struct {
@@ -156,7 +156,7 @@ static void test_colors(void **state)
     scene_destroy(scene);
 }
 
-static void test_wrong_colors(void **state)
+static void invalid_colors_are_refused(void **state)
 {
     (void)state;
     static const char *const rows[][2] = {
@@ -181,7 +181,7 @@ static void test_wrong_colors(void **state)
     }
 }
 
-static void test_parameters(void **state)
+static void all_parameters_are_read(void **state)
 {
     (void)state;
     facet_scene *scene = ogl1_load(
@@ -210,7 +210,7 @@ static void test_parameters(void **state)
     scene_destroy(scene);
 }
 
-static void test_out_of_range(void **state)
+static void values_out_of_range_are_clamped(void **state)
 {
     (void)state;
     facet_scene *scene =
@@ -223,7 +223,7 @@ static void test_out_of_range(void **state)
     scene_destroy(scene);
 }
 
-static void test_unknown_is_reported_once(void **state)
+static void unknown_parameters_are_reported_once(void **state)
 {
     (void)state;
     facet_scene *scene =
@@ -239,7 +239,7 @@ static void test_unknown_is_reported_once(void **state)
     scene_destroy(scene);
 }
 
-static void test_lights(void **state)
+static void lights_are_read(void **state)
 {
     (void)state;
     facet_scene *scene = ogl1_load("{'materials':[{}],'lights':["
@@ -270,7 +270,7 @@ static void test_lights(void **state)
     scene_destroy(scene);
 }
 
-static void test_fog(void **state)
+static void fog_is_read(void **state)
 {
     (void)state;
     facet_scene *scene =
@@ -284,7 +284,7 @@ static void test_fog(void **state)
                         "\"thick\" is not one of none, linear, exp, exp2");
 }
 
-static void test_wrong_documents(void **state)
+static void invalid_documents_are_refused(void **state)
 {
     (void)state;
     static const struct {
@@ -327,7 +327,7 @@ static void test_wrong_documents(void **state)
                         "version: ", "2 is not supported");
 }
 
-static void test_hostile_sizes(void **state)
+static void hostile_sizes_are_refused(void **state)
 {
     (void)state;
     size_t size = 4 * 20000 + 64;
@@ -356,7 +356,7 @@ static void test_hostile_sizes(void **state)
     free(json);
 }
 
-static void test_detection(void **state)
+static void documents_are_detected(void **state)
 {
     (void)state;
     static const struct {
@@ -385,7 +385,7 @@ static void test_detection(void **state)
             fail_msg("%s", rows[i].text);
 }
 
-static void test_balls(void **state)
+static void materials_are_shown_on_balls(void **state)
 {
     (void)state;
     facet_scene *scene =
@@ -413,7 +413,7 @@ static void test_balls(void **state)
     scene_destroy(scene);
 }
 
-static void test_textures(void **state)
+static void textures_are_found(void **state)
 {
     const ogl1_folder *f = *state;
     facet_error error = {0};
@@ -456,7 +456,7 @@ static void test_textures(void **state)
 }
 
 /* Every single allocation refused once. */
-static void test_out_of_memory(void **state)
+static void failed_allocations_are_reported(void **state)
 {
     const ogl1_folder *f = *state;
     ogl1_write_png(f, "a.png");
@@ -488,23 +488,24 @@ static void test_out_of_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_as_r_writes_it),
-        cmocka_unit_test(test_boxed_values),
-        cmocka_unit_test(test_defaults_are_rgls),
-        cmocka_unit_test(test_bare_parameters),
-        cmocka_unit_test(test_colors),
-        cmocka_unit_test(test_wrong_colors),
-        cmocka_unit_test(test_parameters),
-        cmocka_unit_test(test_out_of_range),
-        cmocka_unit_test(test_unknown_is_reported_once),
-        cmocka_unit_test(test_lights),
-        cmocka_unit_test(test_fog),
-        cmocka_unit_test(test_wrong_documents),
-        cmocka_unit_test(test_hostile_sizes),
-        cmocka_unit_test(test_detection),
-        cmocka_unit_test(test_balls),
-        cmocka_unit_test_setup_teardown(test_textures, ogl1_folder_create, ogl1_folder_remove),
-        cmocka_unit_test_setup_teardown(test_out_of_memory, ogl1_folder_create, ogl1_folder_remove),
+        cmocka_unit_test(json_of_r_is_read),
+        cmocka_unit_test(boxed_values_are_read),
+        cmocka_unit_test(defaults_are_those_of_rgl),
+        cmocka_unit_test(bare_parameters_are_read),
+        cmocka_unit_test(colors_of_r_are_read),
+        cmocka_unit_test(invalid_colors_are_refused),
+        cmocka_unit_test(all_parameters_are_read),
+        cmocka_unit_test(values_out_of_range_are_clamped),
+        cmocka_unit_test(unknown_parameters_are_reported_once),
+        cmocka_unit_test(lights_are_read),
+        cmocka_unit_test(fog_is_read),
+        cmocka_unit_test(invalid_documents_are_refused),
+        cmocka_unit_test(hostile_sizes_are_refused),
+        cmocka_unit_test(documents_are_detected),
+        cmocka_unit_test(materials_are_shown_on_balls),
+        cmocka_unit_test_setup_teardown(textures_are_found, ogl1_folder_create, ogl1_folder_remove),
+        cmocka_unit_test_setup_teardown(failed_allocations_are_reported, ogl1_folder_create,
+                                        ogl1_folder_remove),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

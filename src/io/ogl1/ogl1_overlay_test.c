@@ -60,7 +60,7 @@ static float shininess(const facet_scene *scene, uint32_t node, uint32_t k)
     return m ? m->shininess : -1.0f;
 }
 
-static void test_by_material(void **state)
+static void entries_apply_by_material_name(void **state)
 {
     facet_scene *scene = lay(*state, "{'materials':[{'name':'red','shininess':7}]}");
     assert_int_equal(scene->material_count, 2);
@@ -81,7 +81,7 @@ static void test_by_material(void **state)
     scene_destroy(scene);
 }
 
-static void test_by_object(void **state)
+static void entries_apply_by_object_name(void **state)
 {
     facet_scene *scene =
         lay(*state, "{'materials':[{'objects':['b','c'],'shininess':7},{'name':'new','objects':'d',"
@@ -101,7 +101,7 @@ static void test_by_object(void **state)
     scene_destroy(scene);
 }
 
-static void test_by_mesh_and_from_above(void **state)
+static void entries_apply_by_mesh_and_by_ancestor(void **state)
 {
     facet_scene *scene =
         lay(*state, "{'materials':[{'objects':'m','shininess':7},{'objects':'top','shininess':8},"
@@ -116,7 +116,7 @@ static void test_by_mesh_and_from_above(void **state)
     scene_destroy(scene);
 }
 
-static void test_the_more_specific_wins(void **state)
+static void the_more_specific_entry_wins(void **state)
 {
     facet_scene *scene =
         lay(*state, "{'material3d':{'shininess':1},'materials':[{'objects':'a','shininess':7},"
@@ -137,7 +137,7 @@ static void test_the_more_specific_wins(void **state)
 }
 
 /* An entry with both: the material of that name, and the objects get it. */
-static void test_name_and_objects(void **state)
+static void entries_with_name_and_objects_apply_to_both(void **state)
 {
     facet_scene *scene =
         lay(*state, "{'materials':[{'name':'red','objects':['c','nowhere'],'shininess':7}]}");
@@ -148,7 +148,7 @@ static void test_name_and_objects(void **state)
     scene_destroy(scene);
 }
 
-static void test_unmet(void **state)
+static void unused_entries_are_reported(void **state)
 {
     facet_scene *scene =
         lay(*state, "{'materials':[{'name':'blue'},{'name':'x','objects':['y','c']}],'lights':[{}],"
@@ -162,7 +162,7 @@ static void test_unmet(void **state)
     scene_destroy(scene);
 }
 
-static void test_over_legacy(void **state)
+static void entries_apply_to_legacy_scenes(void **state)
 {
     const ogl1_folder *f = *state;
     facet_error error = {0};
@@ -182,7 +182,7 @@ static void test_over_legacy(void **state)
     scene_destroy(scene);
 }
 
-static void test_textures_are_appended(void **state)
+static void textures_are_appended(void **state)
 {
     const ogl1_folder *f = *state;
     ogl1_write_png(f, "a.png");
@@ -203,7 +203,7 @@ static void test_textures_are_appended(void **state)
     scene_destroy(scene);
 }
 
-static void test_failures(void **state)
+static void failures_are_reported(void **state)
 {
     const ogl1_folder *f = *state;
     facet_scene *scene = load_model(f);
@@ -217,7 +217,7 @@ static void test_failures(void **state)
     scene_destroy(scene);
 }
 
-static void test_out_of_memory(void **state)
+static void failed_allocations_are_reported(void **state)
 {
     const ogl1_folder *f = *state;
     ogl1_write_png(f, "a.png");
@@ -254,16 +254,16 @@ int main(void)
 {
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, ogl1_folder_create, ogl1_folder_remove)
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(test_by_material),
-        IN_FOLDER(test_by_object),
-        IN_FOLDER(test_by_mesh_and_from_above),
-        IN_FOLDER(test_the_more_specific_wins),
-        IN_FOLDER(test_name_and_objects),
-        IN_FOLDER(test_unmet),
-        IN_FOLDER(test_over_legacy),
-        IN_FOLDER(test_textures_are_appended),
-        IN_FOLDER(test_failures),
-        IN_FOLDER(test_out_of_memory),
+        IN_FOLDER(entries_apply_by_material_name),
+        IN_FOLDER(entries_apply_by_object_name),
+        IN_FOLDER(entries_apply_by_mesh_and_by_ancestor),
+        IN_FOLDER(the_more_specific_entry_wins),
+        IN_FOLDER(entries_with_name_and_objects_apply_to_both),
+        IN_FOLDER(unused_entries_are_reported),
+        IN_FOLDER(entries_apply_to_legacy_scenes),
+        IN_FOLDER(textures_are_appended),
+        IN_FOLDER(failures_are_reported),
+        IN_FOLDER(failed_allocations_are_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

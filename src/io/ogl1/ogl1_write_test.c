@@ -95,7 +95,7 @@ static const char DOCUMENT[] =
     "{'x':0.1,'y':-2,'z':1e9,'viewpoint.rel':false,'specular':[0.3,0.3,2]},{'theta':0,'phi':90}],"
     "'fog':{'fogtype':'exp2','fogScale':0.7,'color':'gray90'}}";
 
-static void test_round_trip(void **state)
+static void all_parameters_round_trip(void **state)
 {
     (void)state;
     facet_scene *scene = ogl1_load(DOCUMENT);
@@ -113,7 +113,7 @@ static void test_round_trip(void **state)
 }
 
 /* What MTL and extras may state comes back: colors up to the largest that counts. */
-static void test_bright_colors(void **state)
+static void bright_colors_round_trip(void **state)
 {
     (void)state;
     facet_scene *scene = ogl1_load("{'materials':[{'color':'red'}]}");
@@ -135,7 +135,7 @@ static void test_bright_colors(void **state)
     scene_destroy(scene);
 }
 
-static void test_random_directions(void **state)
+static void random_directions_round_trip(void **state)
 {
     (void)state;
     facet_scene *scene = ogl1_load("{'materials':[{'name':'a'}],'lights':[{}]}");
@@ -160,7 +160,7 @@ static void test_random_directions(void **state)
 }
 
 /* As R reads it: names of material3d() and light3d(), colors that are strings wherever 8 bits hold them. */
-static void test_as_r_takes_it(void **state)
+static void the_json_has_the_names_of_r(void **state)
 {
     (void)state;
     facet_scene *scene =
@@ -195,7 +195,7 @@ static void test_as_r_takes_it(void **state)
 }
 
 /* Unknown statements of an MTL file may be any text, even the names of parameters. */
-static void test_unknown_of_mtl(void **state)
+static void unknown_statements_of_mtl_round_trip(void **state)
 {
     (void)state;
     facet_scene *scene = ogl1_load("{'materials':[{'name':'a'}]}");
@@ -216,7 +216,7 @@ static void test_unknown_of_mtl(void **state)
 }
 
 /* An object is named only where its name alone says its material. */
-static void test_objects(void **state)
+static void objects_are_named_where_names_are_ambiguous(void **state)
 {
     (void)state;
     facet_scene *scene = ogl1_load("{'materials':[{'name':'a'},{'name':'b'},{'name':'c'},{'name':'d'},{}]}");
@@ -250,7 +250,7 @@ static void count_warnings(void *user, facet_log_level level, const char *messag
     *(int *)user += strstr(message, "rgl ") != NULL;
 }
 
-static void test_save_with_images(void **state)
+static void images_are_saved_beside(void **state)
 {
     const ogl1_folder *f = *state;
     facet_error error = {0};
@@ -290,7 +290,7 @@ static void test_save_with_images(void **state)
     scene_destroy(scene);
 }
 
-static void test_out_of_memory(void **state)
+static void failed_allocations_are_reported(void **state)
 {
     const ogl1_folder *f = *state;
     facet_error error = {0};
@@ -318,14 +318,15 @@ static void test_out_of_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_round_trip),
-        cmocka_unit_test(test_bright_colors),
-        cmocka_unit_test(test_random_directions),
-        cmocka_unit_test(test_as_r_takes_it),
-        cmocka_unit_test(test_unknown_of_mtl),
-        cmocka_unit_test(test_objects),
-        cmocka_unit_test_setup_teardown(test_save_with_images, ogl1_folder_create, ogl1_folder_remove),
-        cmocka_unit_test_setup_teardown(test_out_of_memory, ogl1_folder_create, ogl1_folder_remove),
+        cmocka_unit_test(all_parameters_round_trip),
+        cmocka_unit_test(bright_colors_round_trip),
+        cmocka_unit_test(random_directions_round_trip),
+        cmocka_unit_test(the_json_has_the_names_of_r),
+        cmocka_unit_test(unknown_statements_of_mtl_round_trip),
+        cmocka_unit_test(objects_are_named_where_names_are_ambiguous),
+        cmocka_unit_test_setup_teardown(images_are_saved_beside, ogl1_folder_create, ogl1_folder_remove),
+        cmocka_unit_test_setup_teardown(failed_allocations_are_reported, ogl1_folder_create,
+                                        ogl1_folder_remove),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

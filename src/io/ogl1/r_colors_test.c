@@ -32,7 +32,7 @@ static void assert_none(const char *name)
         fail_msg("\"%s\" is found", name);
 }
 
-static void test_all_of_r(void **state)
+static void all_colors_of_r_are_known(void **state)
 {
     (void)state;
     FILE *file = fopen("src/io/testdata/r_colors.txt", "r");
@@ -46,7 +46,7 @@ static void test_all_of_r(void **state)
     assert_int_equal(count, 657);
 }
 
-static void test_spelling(void **state)
+static void spellings_of_r_are_accepted(void **state)
 {
     (void)state;
     assert_color("Steel Blue", 70, 130, 180, 255);
@@ -64,7 +64,7 @@ static void test_spelling(void **state)
     assert_none("a name that is longer than any color has it");
 }
 
-static void test_hex(void **state)
+static void hex_colors_are_read(void **state)
 {
     (void)state;
     assert_color("#123456", 0x12, 0x34, 0x56, 255);
@@ -79,7 +79,7 @@ static void test_hex(void **state)
     assert_none("#-12345");
 }
 
-static void test_numbers(void **state)
+static void numbered_colors_are_read(void **state)
 {
     (void)state;
     assert_color("1", 0, 0, 0, 255);
@@ -98,10 +98,10 @@ static void test_numbers(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_all_of_r),
-        cmocka_unit_test(test_spelling),
-        cmocka_unit_test(test_hex),
-        cmocka_unit_test(test_numbers),
+        cmocka_unit_test(all_colors_of_r_are_known),
+        cmocka_unit_test(spellings_of_r_are_accepted),
+        cmocka_unit_test(hex_colors_are_read),
+        cmocka_unit_test(numbered_colors_are_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
