@@ -11,4 +11,4 @@ cat "$here/lang/lang_glsl.glsl"
 sed -n 's/^#include "\([a-z_]*\.h\)"$/\1/p' "$here/shade.h" | while read -r header; do
     grep -v '^#include' "$here/$header"
 done
-[ $# -eq 0 ] || cat "$@"
+[ $# -eq 0 ] || grep -hv '^#include' "$@"

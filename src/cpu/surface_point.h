@@ -34,7 +34,7 @@ float surface_opacity(const scene_material *material, float alpha);
 void surface_base_color(const shading_scene *scene, const shading_hit *h, const material_plan *plan,
                         float out[4]);
 
-/* ---- tables that shade/ takes for a surface and a view ---- */
+/* ---- LUTs ---- */
 
 /* ENERGY_* of shade/. */
 static inline int surface_energy(const shading_scene *scene)
@@ -42,35 +42,27 @@ static inline int surface_energy(const shading_scene *scene)
     return scene->energy == FACET_ENERGY_CONSERVING ? ENERGY_CONSERVING : ENERGY_GLTF;
 }
 
-/* (A, B) of the split sum; point: (N.V, perceptual roughness). */
-static inline vec2 surface_dfg(vec2 point)
+/* The look-ups of shade/compose/surface_tables.h. */
+
+static inline vec2 host_split_sum(vec2 point)
 {
     float terms[2];
     ibl_dfg(point[0], point[1], terms);
     return vec2(terms[0], terms[1]);
 }
 
-/* Of a surface seen from V. */
-static inline LayerTables surface_tables(const Layers *m, vec3 V, int energy)
+static inline float host_sheen_albedo(float NdotV, float sheen_roughness)
 {
-    vec2 coat = vec2(0.0f);
-    vec2 transmission = vec2(0.0f);
-    float sheen_E = 0.0f;
-    if (m->layers & LAYER_CLEARCOAT)
-        coat = surface_dfg(vec2(layers_clearcoat_NdotV(*m, V), m->clearcoat_roughness));
-    if (m->layers & LAYER_TRANSMISSION)
-        transmission = surface_dfg(layers_transmission_point(*m, V, energy));
-    if (m->layers & LAYER_SHEEN)
-        sheen_E = ibl_sheen_albedo(surface_NdotV(m->base, V), m->sheen_roughness);
-    vec3 glass = vec3(0.0f);
-    if (layers_is_exact(*m, energy)) {
-        vec3 point = layers_glass_point(*m, V, energy);
-        float terms[3];
-        ibl_glass(point[0], point[1], point[2], terms);
-        glass = vec3(terms[0], terms[1], terms[2]);
-    }
-    return layer_tables(*m, V, energy, surface_dfg(layers_dfg_point(*m, V, energy)), coat[0] + coat[1],
-                        transmission[0] + transmission[1], sheen_E, glass);
+    return ibl_sheen_albedo(NdotV, sheen_roughness);
 }
+
+static inline vec3 host_glass(float NdotV, float perceptual_roughness, float eta)
+{
+    float terms[3];
+    ibl_glass(NdotV, perceptual_roughness, eta, terms);
+    return vec3(terms[0], terms[1], terms[2]);
+}
+
+#include "shade/compose/surface_tables.h"
 
 #endif

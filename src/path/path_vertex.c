@@ -85,7 +85,7 @@ static void set_boundary(const shading_scene *shading, const visibility_hit *hit
 void path_vertex_set_wavelength(path_vertex *v, const media *in, float wavelength_nm)
 {
     v->s.m.eta = relative_ior(&v->behind, in, wavelength_nm);
-    v->tables = surface_tables(&v->s.m, v->s.V, v->energy);
+    v->tables = surface_tables(v->s.m, v->s.V, v->energy);
     v->disperses = false;
 }
 
@@ -147,7 +147,7 @@ void path_vertex_make(const path_scene *scene, const visibility_hit *hit, const 
         m->clearcoat_N = faced_normal(m->clearcoat_N, s->V);
     v->is_transmissive = (m->layers & (LAYER_TRANSMISSION | LAYER_DIFFUSE_TRANSMISSION)) != 0;
     v->passes_straight = s->plan->may_pass_straight && transmits_straight(m);
-    v->tables = surface_tables(m, s->V, v->energy);
+    v->tables = surface_tables(*m, s->V, v->energy);
     v->lobes = layers_lobes(*m, s->V, v->energy, v->tables);
     v->is_specular = is_specular_only(m, &v->lobes);
 }

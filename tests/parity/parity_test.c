@@ -12,11 +12,21 @@
 #include "shade/lang/lang_c_begin.h"
 
 #include "common.h"
+#include "surface_host.h"
+
+#include "shade/lang/lang_c_end.h"
+
+#include "shade/compose/surface_tables.h"
+#include "shade/compose/surface_radiance.h"
+
+#include "shade/lang/lang_c_begin.h"
+
 #include "layers.h"
 #include "light.h"
 #include "phong.h"
 #include "sky.h"
 #include "surface.h"
+#include "surface_radiance.h"
 #include "water.h"
 
 #include "shade/lang/lang_c_end.h"

@@ -74,12 +74,13 @@ static const char *const sea_features[] = {"HAS_IMAGE",
                                            NULL};
 static const char *const present_features[] = {"IS_TOP_DOWN", NULL};
 
-enum { MAX_PARTS = 12 };
+enum { MAX_PARTS = 12, MAX_FRAGMENTS = 12 };
 
 static const struct {
     const char *name, *vertex, *fragment;
     const char *parts[MAX_PARTS]; /* of the shader library; their dependencies are added */
-    const char *fragments[12];    /* files of src/gl/shaders before the fragment shader */
+    /* files of src/gl/shaders and shade/compose before the fragment shader */
+    const char *fragments[MAX_FRAGMENTS];
     const char *const *features;
     const char *vertex_parts[4]; /* files before the vertex shader */
 } mains[GL_MAIN_COUNT] = {
@@ -90,7 +91,7 @@ static const struct {
                           "footprint"},
                          {"light_block.glsl", "environment.glsl", "shadow.glsl", "lights.glsl",
                           "surface_in.glsl", "material.glsl", "transmission.glsl", "radiance.glsl",
-                          "channels.glsl", "output.glsl"},
+                          "surface_tables.h", "surface_radiance.h", "channels.glsl", "output.glsl"},
                          surface_features,
                          {0}},
     [GL_MAIN_SHADOW] = {"shadow",
@@ -298,7 +299,7 @@ facet_result gl_program_text(const char *glsl_version, gl_program_key key, uint3
     if ((key.main == GL_MAIN_SURFACE || key.main == GL_MAIN_SHADOW) && stage == GL_FRAGMENT_SHADER)
         slot_text(key.features, out);
     text_add(out, file_text("blocks.glsl"));
-    for (int i = 0; stage == GL_FRAGMENT_SHADER && i < 12 && mains[key.main].fragments[i]; i++)
+    for (int i = 0; stage == GL_FRAGMENT_SHADER && i < MAX_FRAGMENTS && mains[key.main].fragments[i]; i++)
         text_add(out, file_text(mains[key.main].fragments[i]));
     for (int i = 0; stage == GL_VERTEX_SHADER && i < 4 && mains[key.main].vertex_parts[i]; i++)
         text_add(out, file_text(mains[key.main].vertex_parts[i]));

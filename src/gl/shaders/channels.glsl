@@ -34,23 +34,22 @@ vec3 lobe_channel(Layers m, vec3 V)
 {
     if (channel == CHANNEL_EMISSION)
         return layers_emission(m, V);
-    LayerTables t = tables_of(m, V);
+    SurfaceHost host = surface_host(V);
+    LayerTables t = surface_tables(m, V, energy);
     if (channel == CHANNEL_FURNACE) {
         m.base.occlusion = 1.0;
         return layers_ibl(m, V, t, layer_light_of(vec3(1.0)), energy);
     }
     int lobe = channel - CHANNEL_DIFFUSE;
-    vec3 radiance = layers_ibl_alone(m, V, t, layer_light(m, V), energy, lobe);
-#ifdef HAS_LIGHTS
-    int count = light_count(v_position);
-    for (int i = 0; i < count; i++) {
-        Light l = light_at(i);
-        vec3 alone = layers_punctual_alone(m, v_position, V, l, energy, t, sheen_albedo_of(m, l), lobe);
+    vec3 radiance = layers_ibl_alone(m, V, t, layer_light(host, m, diffuse_exit(host, m)), energy, lobe);
+    for (LightCursor c = host_first_light(host); c.has_light; c = host_next_light(host, c)) {
+        Light l = host_punctual(host, c);
+        float sheen_E_L = sheen_albedo_of_light(host, m, l);
+        vec3 alone = layers_punctual_alone(m, host.P, V, l, energy, t, sheen_E_L, lobe);
         if (lobe == ALONE_SPECULAR)
-            alone += specular_variant(m, V, l, t);
+            alone += specular_variant(host, m, l, t, sheen_E_L);
         radiance += alone;
     }
-#endif
     return radiance;
 }
 #endif

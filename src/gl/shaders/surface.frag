@@ -39,13 +39,13 @@ vec3 lit_radiance(Surface s, vec3 V)
 #ifdef HAS_CHANNEL
     return lobe_channel(m, V);
 #else
-    return layered_radiance(m, V);
+    return layered_radiance(surface_host(V), m, surface_tables(m, V, energy));
 #endif
 #else
 #ifdef HAS_SPECULAR_ANTIALIASING
     s = surface_specular_aa(s, dN_dx, dN_dy);
 #endif
-    return plain_radiance(s, V);
+    return plain_radiance(surface_host(V), s);
 #endif
 }
 #endif

@@ -1,0 +1,107 @@
+/* surface_radiance.h - radiance (cd/m^2 per channel) from a surface towards the eye: emission, prefiltered
+ * environment, punctual lights. It is no part of shade.h: a host, which is a renderer, defines the types and
+ * look-ups below, and includes this text after them. src/cpu/surface_light.c is the host on the CPU,
+ * src/gl/shaders/radiance.glsl on the GPU.
+ *
+ *     SurfaceHost     the point that is shaded: P (m), V (unit, to the eye), energy (ENERGY_*); and whatever
+ *                     the look-ups need
+ *     LightCursor     a place in the sequence of punctual lights; has_light: not at its end
+ *     VolumeExit      distance_m; normal (unit, outward)
+ *
+ *     bool host_has_environment(host)
+ *     vec3 host_specular(host, R, perceptual_roughness)    radiance prefiltered with GGX around R
+ *     vec3 host_sheen(host, R, sheen_roughness)            with Charlie
+ *     vec3 host_irradiance_over_pi(host, N)
+ *     VolumeExit host_exit(host, m)                        straight behind the surface, along -N
+ *     vec3 host_transmitted(host, m)                       LayerLight.transmitted; 0: the host adds it itself
+ *     LightCursor host_first_light(host), host_next_light(host, cursor)
+ *     Light host_punctual(host, cursor)                    its intensity scaled by its visibility
+ *     vec3 host_reflected(host, m, light, t, sheen_E_L)    layers_punctual(), or a variant of it
+ *     host_split_sum(), host_sheen_albedo()                as for surface_tables.h */
+#ifndef SHADE_COMPOSE_SURFACE_RADIANCE_H
+#define SHADE_COMPOSE_SURFACE_RADIANCE_H
+#include "shade/lang/lang_c_begin.h"
+
+/* ---- a surface without layers ---- */
+
+FN vec3 plain_radiance(SurfaceHost host, Surface s)
+{
+    float NdotV = surface_NdotV(s, host.V);
+    vec2 dfg = host_split_sum(vec2(NdotV, s.perceptual_roughness));
+    vec3 radiance = s.emissive;
+    if (host_has_environment(host)) {
+        vec3 specular = host_specular(host, normalize(reflect(-host.V, s.N)), s.perceptual_roughness);
+        radiance += surface_ibl(s, NdotV, dfg, specular, host_irradiance_over_pi(host, s.N), host.energy);
+    }
+    for (LightCursor c = host_first_light(host); c.has_light; c = host_next_light(host, c))
+        radiance += shade_punctual(s, host.P, host.V, host_punctual(host, c), host.energy, dfg);
+    return radiance;
+}
+
+/* ---- layers ---- */
+
+/* Where light that enters a closed volume diffusely has come from; for others the material's thickness. */
+FN VolumeExit diffuse_exit(SurfaceHost host, Layers m)
+{
+    VolumeExit e;
+    e.distance_m = m.thickness;
+    e.normal = -m.base.N;
+    if (host_has_environment(host) && has_layer(m, LAYER_DIFFUSE_TRANSMISSION) && has_layer(m, LAYER_VOLUME))
+        e = host_exit(host, m);
+    return e;
+}
+
+/* Light from everywhere but from punctual lights. e: of diffuse_exit(). */
+FN LayerLight layer_light(SurfaceHost host, Layers m, VolumeExit e)
+{
+    LayerLight light;
+    light.specular = vec3(0.0f);
+    light.irradiance_over_pi = vec3(0.0f);
+    light.irradiance_back_over_pi = vec3(0.0f);
+    light.clearcoat = vec3(0.0f);
+    light.sheen = vec3(0.0f);
+    light.transmitted = vec3(0.0f);
+    if (host_has_environment(host)) {
+        light.specular = host_specular(host, layers_reflection(m, host.V), m.base.perceptual_roughness);
+        light.irradiance_over_pi = host_irradiance_over_pi(host, m.base.N);
+        if (has_layer(m, LAYER_DIFFUSE_TRANSMISSION)) {
+            light.irradiance_back_over_pi = host_irradiance_over_pi(host, e.normal);
+            if (has_layer(m, LAYER_VOLUME))
+                light.irradiance_back_over_pi *=
+                    volume_transmittance(m.attenuation_color, m.attenuation_distance, e.distance_m);
+        }
+        if (has_layer(m, LAYER_CLEARCOAT))
+            light.clearcoat =
+                host_specular(host, layers_clearcoat_reflection(m, host.V), m.clearcoat_roughness);
+        if (has_layer(m, LAYER_SHEEN))
+            light.sheen = host_sheen(host, normalize(reflect(-host.V, m.base.N)), m.sheen_roughness);
+    }
+    if (has_layer(m, LAYER_TRANSMISSION))
+        light.transmitted = host_transmitted(host, m);
+    return light;
+}
+
+/* Directional albedo of the sheen at the cosine of a light. */
+FN float sheen_albedo_of_light(SurfaceHost host, Layers m, Light l)
+{
+    if (!has_layer(m, LAYER_SHEEN))
+        return 0.0f;
+    return host_sheen_albedo(clamp(dot(m.base.N, light_illuminate(l, host.P).L), 0.0f, 1.0f),
+                             m.sheen_roughness);
+}
+
+FN vec3 layered_radiance(SurfaceHost host, Layers m, LayerTables t)
+{
+    VolumeExit e = diffuse_exit(host, m);
+    m.thickness = e.distance_m;
+    vec3 punctual = vec3(0.0f);
+    for (LightCursor c = host_first_light(host); c.has_light; c = host_next_light(host, c)) {
+        Light l = host_punctual(host, c);
+        punctual += host_reflected(host, m, l, t, sheen_albedo_of_light(host, m, l));
+    }
+    return layers_emission(m, host.V) + layers_ibl(m, host.V, t, layer_light(host, m, e), host.energy) +
+           punctual;
+}
+
+#include "shade/lang/lang_c_end.h"
+#endif
