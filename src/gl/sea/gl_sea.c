@@ -31,8 +31,8 @@ struct gl_sea {
     gl_target grid, seen, target;
     /* those whose parts are in the atlas: referenced, so they do not change */
     facet_environment *environments[2];
-    GLuint frame_buffer, light_buffer, sea_buffer, index_buffer, mesh_array, empty_array;
-    uint32_t columns, rows; /* of the index buffer */
+    gl_sea_mesh mesh;
+    GLuint frame_buffer, light_buffer, sea_buffer, empty_array;
 };
 
 /* ---- kept state ---- */
@@ -56,9 +56,9 @@ static void stop(gl_sea *s)
         gl_target_destroy(&s->grid);
         gl_target_destroy(&s->seen);
         gl_target_destroy(&s->target);
-        const GLuint buffers[] = {s->frame_buffer, s->light_buffer, s->sea_buffer, s->index_buffer};
-        glDeleteBuffers(4, buffers);
-        glDeleteVertexArrays(1, &s->mesh_array);
+        gl_sea_mesh_destroy(&s->mesh);
+        const GLuint buffers[] = {s->frame_buffer, s->light_buffer, s->sea_buffer};
+        glDeleteBuffers(3, buffers);
         glDeleteVertexArrays(1, &s->empty_array);
         forget_light(s);
         gl_sea_textures_destroy(&s->textures);
@@ -75,13 +75,11 @@ static facet_result start(gl_sea *s, facet_error *error)
         return gl_context_make_current(&s->context, error);
     TRY(gl_context_create_api(&s->context, s->api, error));
     TRY(gl_programs_create(&s->context, &s->allocator, NULL, &s->programs, error));
-    GLuint buffers[4];
-    glGenBuffers(4, buffers);
+    GLuint buffers[3];
+    glGenBuffers(3, buffers);
     s->frame_buffer = buffers[0];
     s->light_buffer = buffers[1];
     s->sea_buffer = buffers[2];
-    s->index_buffer = buffers[3];
-    glGenVertexArrays(1, &s->mesh_array);
     glGenVertexArrays(1, &s->empty_array);
     return FACET_OK;
 }
@@ -162,23 +160,6 @@ static void bind_textures(const gl_sea *s)
     gl_sea_texture_bind(GL_UNIT_SEA_SEEN, GL_TEXTURE_2D, s->seen.color);
 }
 
-static facet_result update_indices(gl_sea *s, const gl_sea_fan *fan, facet_error *error)
-{
-    if (s->columns == fan->columns && s->rows == fan->rows)
-        return FACET_OK;
-    uint32_t *indices;
-    size_t count = gl_sea_fan_index_count(fan);
-    TRY(gl_sea_fan_make_indices(fan, &s->allocator, &indices, error));
-    glBindVertexArray(s->mesh_array);
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, s->index_buffer);
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(count * sizeof *indices), indices, GL_STATIC_DRAW);
-    glBindVertexArray(0);
-    mem_free(indices);
-    s->columns = fan->columns;
-    s->rows = fan->rows;
-    return gl_context_check(&s->context, "a sea's mesh", error);
-}
-
 static uint64_t features_of(const water_frame *p)
 {
     const facet_sea_shading *look = &p->desc->sea_shading;
@@ -201,7 +182,7 @@ static const uint64_t BESIDE =
 static const uint64_t LAYERS =
     GL_SEA_IS_BELOW | GL_SEA_HAS_BED | GL_SEA_HAS_FOAM | GL_SEA_HAS_MODEL | GL_SEA_HAS_OTHER_MICROFACETS;
 
-/* ---- passes ---- */
+/* ---- one image ---- */
 
 /* Programs of GL_MAIN_SEA: for water that is read with cubic filtering and without, and for all other pixels. */
 typedef struct pixel_programs {
@@ -246,51 +227,42 @@ static facet_result get_programs(drawing *d, facet_error *error)
     return FACET_OK;
 }
 
-static void begin_pass(const gl_target *t)
+/* ---- pixel classes: sea_class.frag ---- */
+
+/* How the tiles of waves are read: those from 0 to cubic_end may be read with cubic filtering, those from
+ * linear_begin to linear_end linearly. */
+typedef struct pixel_class {
+    int32_t cubic_end, linear_begin, linear_end;
+} pixel_class;
+
+enum { MAX_CLASSES = 24 };
+enum { CLASS_STEP = 8, CLASSES = CLASS_STEP * CLASS_STEP * CLASS_STEP }; /* as in sea_block.glsl */
+
+/* The classes that exist with that many tiles; returns their number. */
+static uint32_t list_classes(uint32_t tile_count, pixel_class classes[MAX_CLASSES])
 {
-    glBindFramebuffer(GL_FRAMEBUFFER, t->framebuffer);
-    glViewport(0, 0, (GLsizei)t->width, (GLsizei)t->height);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_BLEND);
-    glDisable(GL_SCISSOR_TEST);
-    glDisable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    int32_t tiles = (int32_t)tile_count;
+    uint32_t count = 0;
+    for (int32_t end = 0; end <= tiles; end++)
+        classes[count++] = (pixel_class){0, 0, end};
+    for (int32_t cubic = 1; cubic <= tiles; cubic++)
+        for (int32_t begin = 0; begin <= cubic; begin++)
+            if (begin == 0 || begin >= cubic - 1)
+                classes[count++] = (pixel_class){cubic, begin, tiles};
+    return count;
 }
 
-static void use(GLuint program, gl_sea_class reading)
+/* What sea_class.frag writes for it, exact in floats. 0 is what is not water. */
+static double depth_of(pixel_class c)
+{
+    return (double)(1 + c.linear_end + CLASS_STEP * (c.linear_begin + CLASS_STEP * c.cubic_end)) / CLASSES;
+}
+
+static void use(GLuint program, pixel_class reading)
 {
     glUseProgram(program);
     glUniform3i(glGetUniformLocation(program, "u_sea_reading"), reading.cubic_end, reading.linear_begin,
                 reading.linear_end);
-}
-
-/* Moves the nodes of the mesh to the waves. */
-static facet_result draw_grid(drawing *d, facet_error *error)
-{
-    gl_sea *s = d->s;
-    TRY(gl_target_update(&s->grid, &s->context, GL_TARGET_LAYERED, d->fan.columns, d->fan.rows, 1, error));
-    begin_pass(&s->grid);
-    gl_sea_textures_bind(&s->textures);
-    use(d->grid, (gl_sea_class){.linear_end = (int32_t)d->frame->sea->waves.tile_count});
-    glBindVertexArray(s->empty_array);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    return gl_context_check(&s->context, "a sea's mesh", error);
-}
-
-static void set_frame(const drawing *d, const gl_view *view)
-{
-    const water_frame *p = d->frame;
-    const float *eye = d->camera.origin;
-    const float low[3] = {eye[0] - 1000.0f, eye[1] - 1000.0f, eye[2] - 1000.0f};
-    const float high[3] = {eye[0] + 1000.0f, eye[1] + 1000.0f, eye[2] + 1000.0f};
-    gl_frame_block block = {.channel = 0};
-    gl_camera_set(&d->s->context, &d->camera, low, high, p->desc->width, p->desc->height, view, &block);
-    block.light[0] = p->light_scale;
-    block.light[1] = p->rotation_cos;
-    block.light[2] = p->rotation_sin;
-    block.exposure = p->exposure;
-    set_block(d->s->frame_buffer, GL_BLOCK_FRAME, &block, sizeof block);
 }
 
 /* Maps the depths of triangles to this range. */
@@ -312,18 +284,60 @@ static void draw_class(const drawing *d, double depth)
 /* Shades all pixels; the target's depths are their classes. */
 static void draw_classes(const drawing *d, const pixel_programs *programs)
 {
-    gl_sea_class classes[GL_SEA_MAX_CLASSES];
-    uint32_t count = gl_sea_classes(d->frame->sea->waves.tile_count, classes);
+    pixel_class classes[MAX_CLASSES];
+    uint32_t count = list_classes(d->frame->sea->waves.tile_count, classes);
     glDepthMask(GL_FALSE);
     glDepthFunc(GL_EQUAL);
     glUseProgram(programs->beside);
     draw_class(d, 0.0);
     for (uint32_t i = 0; i < count; i++) {
         use(classes[i].cubic_end ? programs->cubic : programs->linear, classes[i]);
-        draw_class(d, gl_sea_class_depth(classes[i]));
+        draw_class(d, depth_of(classes[i]));
     }
     set_depths(&d->s->context, 0.0, 1.0);
     glDepthMask(GL_TRUE);
+}
+
+/* ---- passes ---- */
+
+static void begin_pass(const gl_target *t)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, t->framebuffer);
+    glViewport(0, 0, (GLsizei)t->width, (GLsizei)t->height);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
+/* Moves the nodes of the mesh to the waves. */
+static facet_result draw_grid(drawing *d, facet_error *error)
+{
+    gl_sea *s = d->s;
+    TRY(gl_target_update(&s->grid, &s->context, GL_TARGET_LAYERED, d->fan.columns, d->fan.rows, 1, error));
+    begin_pass(&s->grid);
+    gl_sea_textures_bind(&s->textures);
+    use(d->grid, (pixel_class){.linear_end = (int32_t)d->frame->sea->waves.tile_count});
+    glBindVertexArray(s->empty_array);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    return gl_context_check(&s->context, "a sea's mesh", error);
+}
+
+static void set_frame(const drawing *d, const gl_view *view)
+{
+    const water_frame *p = d->frame;
+    const float *eye = d->camera.origin;
+    const float low[3] = {eye[0] - 1000.0f, eye[1] - 1000.0f, eye[2] - 1000.0f};
+    const float high[3] = {eye[0] + 1000.0f, eye[1] + 1000.0f, eye[2] + 1000.0f};
+    gl_frame_block block = {.channel = 0};
+    gl_camera_set(&d->s->context, &d->camera, low, high, p->desc->width, p->desc->height, view, &block);
+    block.light[0] = p->light_scale;
+    block.light[1] = p->rotation_cos;
+    block.light[2] = p->rotation_sin;
+    block.exposure = p->exposure;
+    set_block(d->s->frame_buffer, GL_BLOCK_FRAME, &block, sizeof block);
 }
 
 /* First which water is visible, then its class, then its shading, or its layers. */
@@ -340,9 +354,7 @@ static void draw_water(const drawing *d, const pixel_programs *programs, const g
     glEnable(GL_CULL_FACE); /* backs of waves are hidden by their fronts, and half of a distant mesh */
     glCullFace(d->frame->is_below ? GL_FRONT : GL_BACK);
     glUseProgram(d->surface);
-    glBindVertexArray(s->mesh_array);
-    size_t count = gl_sea_fan_index_count(&d->fan);
-    glDrawElements(GL_TRIANGLE_STRIP, (GLsizei)count, GL_UNSIGNED_INT, NULL);
+    gl_sea_mesh_draw(&s->mesh);
     glCullFace(GL_BACK); /* the state other passes expect */
     glBindTexture(GL_TEXTURE_2D, s->seen.color);
     if (d->has_model)
@@ -432,7 +444,7 @@ static facet_result prepare(drawing *d, facet_render_stats *stats, facet_error *
     if (result == FACET_OK)
         result = gl_sea_textures_update(&s->textures, &s->context, p, &d->camera, error);
     if (result == FACET_OK)
-        result = update_indices(s, &d->fan, error);
+        result = gl_sea_mesh_update(&s->mesh, &s->context, &d->fan, &s->allocator, error);
     return result;
 }
 

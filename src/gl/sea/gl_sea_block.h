@@ -3,7 +3,7 @@
 #define GL_GL_SEA_BLOCK_H
 
 #include "draw/camera_rays.h"
-#include "gl/sea/gl_sea_fan.h"
+#include "gl/sea/gl_sea_mesh.h"
 #include "water/water_frame.h"
 
 enum { GL_SEA_PATCHES = 128, GL_SEA_FOOTPRINTS = 64 }; /* corners of patches per axis around the eye */
@@ -31,20 +31,5 @@ typedef struct gl_sea_block {
 
 void gl_sea_block_fill(const water_frame *frame, const camera_rays *camera, const gl_sea_fan *fan,
                        gl_sea_block *block);
-
-/* ---- pixel classes ---- */
-
-/* How the tiles of waves are read: those from 0 to cubic_end may be read with cubic filtering, those from
- * linear_begin to linear_end linearly. */
-typedef struct gl_sea_class {
-    int32_t cubic_end, linear_begin, linear_end;
-} gl_sea_class;
-
-enum { GL_SEA_MAX_CLASSES = 24 };
-
-/* The classes that exist with that many tiles; returns their number. Depth 0 is what is not water. */
-uint32_t gl_sea_classes(uint32_t tile_count, gl_sea_class classes[GL_SEA_MAX_CLASSES]);
-/* What sea_class.frag writes for it, exact in floats. */
-double gl_sea_class_depth(gl_sea_class c);
 
 #endif

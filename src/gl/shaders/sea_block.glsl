@@ -7,7 +7,7 @@
 #define SEA_TILES 4
 #define SEA_FOOTPRINTS 64
 #define SEA_LEVELS 11
-#define SEA_CLASS_STEP 8 /* gl_sea_block.c */
+#define SEA_CLASS_STEP 8 /* gl_sea.c */
 #define SEA_CLASSES 512
 #define SEA_CAUSTIC_LAYERS 3
 #define SEA_FOAM_READINGS 4

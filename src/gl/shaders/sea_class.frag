@@ -1,5 +1,5 @@
 /* sea_class.frag - sorts pixels by the work they need, as a depth that the following passes test against: a
- * software rasterizer skips what fails the depth test, but executes both branches of an if. gl_sea_block.h has the
+ * software rasterizer skips what fails the depth test, but executes both branches of an if. gl_sea.c has the
  * numbers. */
 uniform highp sampler2D u_sea_seen;
 

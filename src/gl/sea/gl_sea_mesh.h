@@ -1,14 +1,16 @@
-/* gl_sea_fan.h - where the nodes of a sea's mesh are at rest: on circles around the eye, a few pixels apart.
+/* gl_sea_mesh.h - the mesh of a sea: a fan of nodes, at rest on circles around the eye, a few pixels apart.
+ * sea_grid.frag moves them to the waves.
  *
  * Circle i has the radius first sinh(step i): near the eye the nodes are spaced by their projection on the
  * level surface; farther away in proportion to distance, as there crests are seen upright. From level_m
  * on, where waves are lower than a cell is wide, they are spaced evenly in depression: 1 / radius falls by
  * the same amount from one to the next. Beyond the distance at which waves are visible the last circles
  * reach over the horizon. */
-#ifndef GL_GL_SEA_FAN_H
-#define GL_GL_SEA_FAN_H
+#ifndef GL_GL_SEA_MESH_H
+#define GL_GL_SEA_MESH_H
 
 #include "draw/camera_rays.h"
+#include "gl/core/gl_context.h"
 #include "water/water_frame.h"
 
 typedef struct gl_sea_fan {
@@ -23,13 +25,20 @@ typedef struct gl_sea_fan {
     float near_m;     /* no part of the surface is nearer */
 } gl_sea_fan;
 
-/* most_nodes per axis: OpenGL's largest texture. */
-gl_sea_fan gl_sea_fan_of(const water_frame *frame, const camera_rays *camera, uint32_t most_nodes);
+/* max_nodes per axis: OpenGL's largest texture. */
+gl_sea_fan gl_sea_fan_of(const water_frame *frame, const camera_rays *camera, uint32_t max_nodes);
 
-/* One triangle strip: bands of columns, in each of them the rows from near to far, joined by degenerate
- * triangles. The indices are a block of mem_alloc(). FACET_ERROR_MEMORY. */
-size_t gl_sea_fan_index_count(const gl_sea_fan *fan);
-facet_result gl_sea_fan_make_indices(const gl_sea_fan *fan, const facet_allocator *allocator, uint32_t **out,
-                                     facet_error *error);
+/* The indices of a fan in GPU memory, kept while it has as many nodes: one triangle strip of bands of columns,
+ * in each of them the rows from near to far, joined by degenerate triangles. Names of OpenGL; 0: none yet. */
+typedef struct gl_sea_mesh {
+    uint32_t array, indices;
+    uint32_t columns, rows, index_count;
+} gl_sea_mesh;
+
+/* FACET_ERROR_MEMORY. */
+facet_result gl_sea_mesh_update(gl_sea_mesh *mesh, gl_context *context, const gl_sea_fan *fan,
+                                const facet_allocator *allocator, facet_error *error);
+void gl_sea_mesh_draw(const gl_sea_mesh *mesh);
+void gl_sea_mesh_destroy(gl_sea_mesh *mesh); /* {0} is allowed; leaves {0} */
 
 #endif

@@ -1,6 +1,7 @@
-/* gl_sea_fan.c - see gl_sea_fan.h. */
-#include "gl/sea/gl_sea_fan.h"
+/* gl_sea_mesh.c - see gl_sea_mesh.h. */
+#include "gl/sea/gl_sea_mesh.h"
 
+#include <epoxy/gl.h>
 #include <math.h>
 
 #include "base/memory.h"
@@ -55,7 +56,7 @@ static uint32_t at_most(double count, uint32_t most)
     return count < (double)most ? (uint32_t)count : most;
 }
 
-gl_sea_fan gl_sea_fan_of(const water_frame *p, const camera_rays *camera, uint32_t most_nodes)
+gl_sea_fan gl_sea_fan_of(const water_frame *p, const camera_rays *camera, uint32_t max_nodes)
 {
     const facet_render_desc *r = p->desc;
     const waves *w = &p->sea->waves;
@@ -76,11 +77,11 @@ gl_sea_fan gl_sea_fan_of(const water_frame *p, const camera_rays *camera, uint32
     double step = fmin(CELL_PIXELS * pixel, 0.05);
     double nodes = (standing + lying) / step * angle / step;
     step *= nodes > MAX_NODES ? sqrt(nodes / MAX_NODES) : 1.0;
-    fan.columns = at_most(angle / step + 3.0, most_nodes);
-    fan.level_row = at_most(standing / step + 1.0, most_nodes / 2);
+    fan.columns = at_most(angle / step + 3.0, max_nodes);
+    fan.level_row = at_most(standing / step + 1.0, max_nodes / 2);
     fan.step = (float)(standing / fan.level_row);
     fan.level_m = (float)level;
-    fan.wave_rows = fan.level_row + at_most(lying / (double)fan.step, most_nodes / 2 - 256) + 1;
+    fan.wave_rows = fan.level_row + at_most(lying / (double)fan.step, max_nodes / 2 - 256) + 1;
     double beyond = 1.5 * horizon_m(p, eye_y) + 1000.0;
     fan.rows = fan.wave_rows + at_most(fmax(log(beyond / last), 0.0) / log((double)fan.ratio) + 2.0, 254);
     fan.width_rad = (float)(0.5 * step);
@@ -92,19 +93,15 @@ gl_sea_fan gl_sea_fan_of(const water_frame *p, const camera_rays *camera, uint32
 /* Columns of a band of the mesh. Software rasterizers cache 256 vertices, which holds two rows of a band. */
 enum { BAND_COLUMNS = 64 };
 
-size_t gl_sea_fan_index_count(const gl_sea_fan *fan)
+static size_t index_count(const gl_sea_fan *fan)
 {
     size_t bands = (fan->columns - 1 + BAND_COLUMNS - 1) / BAND_COLUMNS;
     return (size_t)(fan->rows - 1) * (2 * ((size_t)fan->columns - 1 + bands) + 2 * bands);
 }
 
-facet_result gl_sea_fan_make_indices(const gl_sea_fan *fan, const facet_allocator *allocator, uint32_t **out,
-                                     facet_error *error)
+static void fill_indices(const gl_sea_fan *fan, uint32_t *indices)
 {
-    size_t count = gl_sea_fan_index_count(fan), at = 0;
-    uint32_t *indices = *out = mem_alloc(allocator, count, sizeof *indices);
-    if (!indices)
-        return fail_memory(error, "a sea's mesh", count * sizeof *indices);
+    size_t at = 0;
     for (uint32_t begin = 0; begin + 1 < fan->columns; begin += BAND_COLUMNS) {
         uint32_t left = fan->columns - 1 - begin, last = left < BAND_COLUMNS ? left : BAND_COLUMNS;
         for (uint32_t row = 0; row + 1 < fan->rows; row++) {
@@ -118,5 +115,41 @@ facet_result gl_sea_fan_make_indices(const gl_sea_fan *fan, const facet_allocato
             at++;
         }
     }
-    return FACET_OK;
+}
+
+facet_result gl_sea_mesh_update(gl_sea_mesh *m, gl_context *context, const gl_sea_fan *fan,
+                                const facet_allocator *allocator, facet_error *error)
+{
+    if (m->columns == fan->columns && m->rows == fan->rows)
+        return FACET_OK;
+    size_t count = index_count(fan);
+    uint32_t *indices = mem_alloc(allocator, count, sizeof *indices);
+    if (!indices)
+        return fail_memory(error, "a sea's mesh", count * sizeof *indices);
+    fill_indices(fan, indices);
+    gl_sea_mesh_destroy(m);
+    glGenVertexArrays(1, &m->array);
+    glGenBuffers(1, &m->indices);
+    glBindVertexArray(m->array);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, m->indices);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(count * sizeof *indices), indices, GL_STATIC_DRAW);
+    glBindVertexArray(0);
+    mem_free(indices);
+    m->columns = fan->columns;
+    m->rows = fan->rows;
+    m->index_count = (uint32_t)count;
+    return gl_context_check(context, "a sea's mesh", error);
+}
+
+void gl_sea_mesh_draw(const gl_sea_mesh *m)
+{
+    glBindVertexArray(m->array);
+    glDrawElements(GL_TRIANGLE_STRIP, (GLsizei)m->index_count, GL_UNSIGNED_INT, NULL);
+}
+
+void gl_sea_mesh_destroy(gl_sea_mesh *m)
+{
+    glDeleteVertexArrays(1, &m->array);
+    glDeleteBuffers(1, &m->indices);
+    *m = (gl_sea_mesh){.array = 0};
 }
