@@ -185,15 +185,13 @@ scene_node *fixture_place(fixture *f, uint32_t mesh, float x, float y, float z, 
 {
     assert_true(f->scene->node_count < FIXTURE_CAPACITY);
     scene_node *node = &f->scene->nodes[f->scene->node_count++];
-    *node = (scene_node){.name = "",
-                         .parent = SCENE_NONE,
-                         .translation = {(double)x, (double)y, (double)z},
-                         .rotation = {0.0f, 0.0f, 0.0f, 1.0f},
-                         .scale = {scale, scale, scale},
-                         .mesh = mesh,
-                         .camera = SCENE_NONE,
-                         .light = SCENE_NONE,
-                         .skin = SCENE_NONE};
+    const double place[3] = {(double)x, (double)y, (double)z};
+    *node = scene_node_default("");
+    node->mesh = mesh;
+    for (int k = 0; k < 3; k++) {
+        node->translation[k] = place[k];
+        node->scale[k] = scale;
+    }
     return node;
 }
 

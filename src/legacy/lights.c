@@ -126,12 +126,7 @@ static void make_light(conversion *c, const stage *s, const legacy_light *in, sc
         note_add(&c->notes, SCENE_NONE, NOTE_VIEWPOINT_LIGHT,
                  "lights that move with the camera are placed for the default camera");
     }
-    *node = (scene_node){.parent = SCENE_NONE,
-                         .rotation = {0, 0, 0, 1},
-                         .scale = {1, 1, 1},
-                         .mesh = SCENE_NONE,
-                         .camera = SCENE_NONE,
-                         .skin = SCENE_NONE};
+    *node = scene_node_default(NULL);
     if (in->is_point) {
         float at[3];
         for (int k = 0; k < 3; k++) {

@@ -27,13 +27,8 @@ static facet_scene *stage(uint32_t light_count)
                                    .bounds_min = {-1, 1, -1},
                                    .bounds_max = {1, 3, 1}};
     scene->meshes[0] = (scene_mesh){.name = "", .primitive_count = 1, .primitives = primitive};
-    scene->nodes[0] = (scene_node){.name = "",
-                                   .parent = SCENE_NONE,
-                                   .rotation = {0, 0, 0, 1},
-                                   .scale = {1, 1, 1},
-                                   .camera = SCENE_NONE,
-                                   .light = SCENE_NONE,
-                                   .skin = SCENE_NONE};
+    scene->nodes[0] = scene_node_default("");
+    scene->nodes[0].mesh = 0;
     scene->scenes[0] = (scene_root){.name = "", .node_count = 1, .nodes = roots, .image_light = SCENE_NONE};
     scene->mesh_count = scene->node_count = scene->scene_count = 1;
     scene->default_scene = 0;

@@ -240,14 +240,8 @@ static bool add_node(facet_scene *scene, uint32_t i, const scene_primitive *p)
     own->material = i;
     const char *name = scene->materials[i].name;
     scene->meshes[i] = (scene_mesh){.name = name, .primitive_count = 1, .primitives = own};
-    scene->nodes[i] = (scene_node){.name = name,
-                                   .parent = SCENE_NONE,
-                                   .rotation = {0, 0, 0, 1},
-                                   .scale = {1, 1, 1},
-                                   .mesh = i,
-                                   .camera = SCENE_NONE,
-                                   .light = SCENE_NONE,
-                                   .skin = SCENE_NONE};
+    scene->nodes[i] = scene_node_default(name);
+    scene->nodes[i].mesh = i;
     return true;
 }
 

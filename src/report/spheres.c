@@ -31,18 +31,6 @@ static void rotation_to(const float d[3], float out[4])
         out[i] = q[i] / length;
 }
 
-static scene_node make_node(void)
-{
-    return (scene_node){.name = "",
-                        .parent = SCENE_NONE,
-                        .rotation = {0, 0, 0, 1},
-                        .scale = {1, 1, 1},
-                        .mesh = SCENE_NONE,
-                        .camera = SCENE_NONE,
-                        .light = SCENE_NONE,
-                        .skin = SCENE_NONE};
-}
-
 /* Creates sphere and light. False: out of memory. */
 static bool fill_scene(sphere_stage *stage)
 {
@@ -62,7 +50,7 @@ static bool fill_scene(sphere_stage *stage)
                                  .type = SCENE_LIGHT_DIRECTIONAL,
                                  .color = {1, 1, 1},
                                  .intensity = 3.14159265f}; /* makes PBR as bright as OpenGL 1 */
-    s->nodes[0] = s->nodes[1] = make_node();
+    s->nodes[0] = s->nodes[1] = scene_node_default("");
     s->nodes[0].mesh = 0;
     s->nodes[1].light = 0;
     rotation_to(shines, s->nodes[1].rotation);

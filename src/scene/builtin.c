@@ -197,15 +197,14 @@ static void place(builder *b, scene_primitive primitive, uint32_t material, floa
     own->material = material;
     const char *name = b->scene->materials[material].name;
     b->scene->meshes[i] = (scene_mesh){.name = name, .primitive_count = 1, .primitives = own};
-    b->scene->nodes[i] = (scene_node){.name = name,
-                                      .parent = SCENE_NONE,
-                                      .translation = {(double)x, (double)y, (double)z},
-                                      .rotation = {0, 0, 0, 1},
-                                      .scale = {radius, radius, radius},
-                                      .mesh = i,
-                                      .camera = SCENE_NONE,
-                                      .light = SCENE_NONE,
-                                      .skin = SCENE_NONE};
+    scene_node *node = &b->scene->nodes[i];
+    const double place[3] = {(double)x, (double)y, (double)z};
+    *node = scene_node_default(name);
+    node->mesh = i;
+    for (int k = 0; k < 3; k++) {
+        node->translation[k] = place[k];
+        node->scale[k] = radius;
+    }
 }
 
 static void make_nodes(builder *b)

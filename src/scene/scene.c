@@ -39,6 +39,18 @@ scene_material scene_material_default(void)
     return m;
 }
 
+scene_node scene_node_default(const char *name)
+{
+    return (scene_node){.name = name,
+                        .parent = SCENE_NONE,
+                        .rotation = {0, 0, 0, 1},
+                        .scale = {1, 1, 1},
+                        .mesh = SCENE_NONE,
+                        .camera = SCENE_NONE,
+                        .light = SCENE_NONE,
+                        .skin = SCENE_NONE};
+}
+
 void scene_texture_ref_update(scene_texture_ref *ref)
 {
     float c = (float)cos((double)ref->rotation_rad);
@@ -249,17 +261,10 @@ static facet_result add_root(facet_scene *s, facet_error *error)
         memcpy(scenes, s->scenes, s->scene_count * sizeof *scenes);
     for (uint32_t i = 0; i < roots.node_count; i++)
         nodes[roots.nodes[i]].parent = own;
-    nodes[own] = (scene_node){.name = "place",
-                              .parent = SCENE_NONE,
-                              .child_count = roots.node_count,
-                              .children = roots.nodes,
-                              .has_matrix = true,
-                              .rotation = {0, 0, 0, 1},
-                              .scale = {1, 1, 1},
-                              .mesh = SCENE_NONE,
-                              .camera = SCENE_NONE,
-                              .light = SCENE_NONE,
-                              .skin = SCENE_NONE};
+    nodes[own] = scene_node_default("place");
+    nodes[own].child_count = roots.node_count;
+    nodes[own].children = roots.nodes;
+    nodes[own].has_matrix = true;
     *list = own;
     scenes[index] = roots;
     scenes[index].nodes = list;

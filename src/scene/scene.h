@@ -268,6 +268,9 @@ typedef struct scene_node {
     scene_meta meta;
 } scene_node;
 
+/* A root at the origin, without rotation and with nothing attached. */
+scene_node scene_node_default(const char *name);
+
 /* One of the file's scenes. */
 typedef struct scene_root {
     const char *name;

@@ -26,14 +26,8 @@ static inline facet_scene *test_scene(uint32_t count)
     for (uint32_t i = 0; i < count; i++) {
         roots[i] = i;
         scene->meshes[i] = (scene_mesh){.name = "", .primitive_count = 1, .primitives = &primitives[i]};
-        scene->nodes[i] = (scene_node){.name = "",
-                                       .parent = SCENE_NONE,
-                                       .rotation = {0, 0, 0, 1},
-                                       .scale = {1, 1, 1},
-                                       .mesh = i,
-                                       .camera = SCENE_NONE,
-                                       .light = SCENE_NONE,
-                                       .skin = SCENE_NONE};
+        scene->nodes[i] = scene_node_default("");
+        scene->nodes[i].mesh = i;
     }
     scene->scenes[0] = (scene_root){.name = "", .node_count = count, .nodes = roots};
     scene->node_count = scene->mesh_count = count;

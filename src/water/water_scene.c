@@ -97,14 +97,9 @@ static bool add(facet_scene *scene, const scene_primitive *p, const scene_materi
     scene->materials[scene->material_count++] = *material;
     scene->meshes[scene->mesh_count] =
         (scene_mesh){.name = material->name, .primitive_count = 1, .primitives = own};
-    scene->nodes[scene->node_count++] = (scene_node){.name = material->name,
-                                                     .parent = SCENE_NONE,
-                                                     .rotation = {0, 0, 0, 1},
-                                                     .scale = {1, 1, 1},
-                                                     .mesh = scene->mesh_count++,
-                                                     .camera = SCENE_NONE,
-                                                     .light = SCENE_NONE,
-                                                     .skin = SCENE_NONE};
+    scene_node *node = &scene->nodes[scene->node_count++];
+    *node = scene_node_default(material->name);
+    node->mesh = scene->mesh_count++;
     return true;
 }
 

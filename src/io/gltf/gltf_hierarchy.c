@@ -197,18 +197,12 @@ void gltf_read_center(io_reader *r, const json_place *root)
         if (nodes[i].parent != SCENE_NONE)
             continue;
         children[i] = i;
-        nodes[i].parent = scene->node_count;
-        nodes[scene->node_count++] = (scene_node){.name = "CESIUM_RTC",
-                                                  .parent = SCENE_NONE,
-                                                  .child_count = 1,
-                                                  .children = &children[i],
-                                                  .translation = {center[0], center[1], center[2]},
-                                                  .rotation = {0, 0, 0, 1},
-                                                  .scale = {1, 1, 1},
-                                                  .mesh = SCENE_NONE,
-                                                  .camera = SCENE_NONE,
-                                                  .light = SCENE_NONE,
-                                                  .skin = SCENE_NONE};
+        scene_node *place = &nodes[scene->node_count];
+        *place = scene_node_default("CESIUM_RTC");
+        place->child_count = 1;
+        place->children = &children[i];
+        memcpy(place->translation, center, sizeof place->translation);
+        nodes[i].parent = scene->node_count++;
     }
     scene->nodes = nodes;
     for (uint32_t i = 0; i < scene->scene_count; i++)

@@ -410,15 +410,9 @@ static void make_nodes(obj_reader *r)
         return;
     for (uint32_t i = 0; i < scene->mesh_count; i++) {
         roots[i] = i;
-        scene->nodes[i] = (scene_node){.name = scene->meshes[i].name,
-                                       .parent = SCENE_NONE,
-                                       .translation = {r->origin[0], r->origin[1], r->origin[2]},
-                                       .rotation = {0, 0, 0, 1},
-                                       .scale = {1, 1, 1},
-                                       .mesh = i,
-                                       .camera = SCENE_NONE,
-                                       .light = SCENE_NONE,
-                                       .skin = SCENE_NONE};
+        scene->nodes[i] = scene_node_default(scene->meshes[i].name);
+        memcpy(scene->nodes[i].translation, r->origin, sizeof r->origin);
+        scene->nodes[i].mesh = i;
     }
     scene->node_count = scene->mesh_count;
     scene->scenes[0] =

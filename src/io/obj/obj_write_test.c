@@ -42,14 +42,8 @@ static facet_scene *make_scene(uint32_t node_count, uint32_t material_count)
     scene->node_count = scene->mesh_count = node_count;
     for (uint32_t i = 0; i < node_count; i++) {
         scene->meshes[i] = (scene_mesh){.name = ""};
-        scene->nodes[i] = (scene_node){.name = "",
-                                       .parent = SCENE_NONE,
-                                       .rotation = {0, 0, 0, 1},
-                                       .scale = {1, 1, 1},
-                                       .mesh = i,
-                                       .camera = SCENE_NONE,
-                                       .light = SCENE_NONE,
-                                       .skin = SCENE_NONE};
+        scene->nodes[i] = scene_node_default("");
+        scene->nodes[i].mesh = i;
     }
     scene->material_count = material_count;
     scene->materials = add(scene, material_count, sizeof *scene->materials);

@@ -249,18 +249,11 @@ static void place(io_reader *r, const scene_primitive *sphere, uint32_t i, uint3
     own->material = i;
     const char *name = scene->materials[i].name;
     scene->meshes[i] = (scene_mesh){.name = name, .primitive_count = 1, .primitives = own};
-    scene->nodes[i] = (scene_node){
-        .name = name,
-        .parent = SCENE_NONE,
-        .translation = {(double)(SPACING * ((float)(i % columns) - 0.5f * (float)(columns - 1))),
-                        (double)(SPACING * (0.5f * (float)(rows - 1) - (float)(i / columns))), 0.0},
-        .rotation = {0, 0, 0, 1},
-        .scale = {1, 1, 1},
-        .mesh = i,
-        .camera = SCENE_NONE,
-        .light = SCENE_NONE,
-        .skin = SCENE_NONE,
-    };
+    scene_node *node = &scene->nodes[i];
+    *node = scene_node_default(name);
+    node->translation[0] = (double)(SPACING * ((float)(i % columns) - 0.5f * (float)(columns - 1)));
+    node->translation[1] = (double)(SPACING * (0.5f * (float)(rows - 1) - (float)(i / columns)));
+    node->mesh = i;
 }
 
 static void make_materials(ogl1_document *d)
