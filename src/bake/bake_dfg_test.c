@@ -29,7 +29,7 @@ static const float *node(const image *table, uint32_t x, uint32_t y)
     return (const float *)table->pixels + table->channel_count * ((size_t)y * table->width + x);
 }
 
-static void test_shape(void **state)
+static void luts_have_the_channels_of_their_kind(void **state)
 {
     (void)state;
     static const uint32_t counts[] = {2, 2, 2, 1, 1, 1, 3};
@@ -48,7 +48,7 @@ static void test_shape(void **state)
 }
 
 /* x is N.V and y perceptual roughness, at middles of texels, from 0. */
-static void test_nodes(void **state)
+static void texels_are_at_their_nodes(void **state)
 {
     (void)state;
     enum { SIZE = 40 };
@@ -77,7 +77,7 @@ static void test_nodes(void **state)
 }
 
 /* One integral in several layouts. */
-static void test_kinds_agree(void **state)
+static void kinds_agree(void **state)
 {
     (void)state;
     enum { SIZE = 24 };
@@ -103,7 +103,7 @@ static void test_kinds_agree(void **state)
 
 /* Averages are those of the table of albedos over the cosine, by its own midpoints, and the same in each
  * column. */
-static void test_average_of_table(void **state)
+static void averages_are_those_of_the_albedos(void **state)
 {
     (void)state;
     enum { SIZE = 128 };
@@ -121,7 +121,7 @@ static void test_average_of_table(void **state)
     image_destroy(&average);
 }
 
-static void test_threads_do_not_matter(void **state)
+static void luts_do_not_depend_on_threads(void **state)
 {
     (void)state;
     image a = bake(FACET_DFG_KIND_FILAMENT, 33, 1);
@@ -145,7 +145,7 @@ static bool look(void *user, const char *stage, double fraction)
     return ++w->calls != w->stops_at;
 }
 
-static void test_progress(void **state)
+static void progress_is_reported_and_can_cancel(void **state)
 {
     (void)state;
     watch w = {0};
@@ -174,7 +174,7 @@ static void no_release(void *user, void *memory, size_t size)
     (void)user, (void)memory, (void)size;
 }
 
-static void test_refused(void **state)
+static void invalid_descs_are_refused(void **state)
 {
     (void)state;
     image table = {0};
@@ -192,13 +192,13 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_shape),
-        cmocka_unit_test(test_nodes),
-        cmocka_unit_test(test_kinds_agree),
-        cmocka_unit_test(test_average_of_table),
-        cmocka_unit_test(test_threads_do_not_matter),
-        cmocka_unit_test(test_progress),
-        cmocka_unit_test(test_refused),
+        cmocka_unit_test(luts_have_the_channels_of_their_kind),
+        cmocka_unit_test(texels_are_at_their_nodes),
+        cmocka_unit_test(kinds_agree),
+        cmocka_unit_test(averages_are_those_of_the_albedos),
+        cmocka_unit_test(luts_do_not_depend_on_threads),
+        cmocka_unit_test(progress_is_reported_and_can_cancel),
+        cmocka_unit_test(invalid_descs_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

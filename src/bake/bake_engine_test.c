@@ -40,7 +40,7 @@ static facet_cube *make(void)
     return c;
 }
 
-static void test_mirrored(void **state)
+static void mirrored_cube_maps_flip_x(void **state)
 {
     (void)state;
     facet_cube *c = make(), *m, *back;
@@ -74,7 +74,7 @@ static void test_mirrored(void **state)
     facet_cube_destroy(c);
 }
 
-static void test_ktx1(void **state)
+static void ktx1_files_hold_harmonics(void **state)
 {
     (void)state;
     static const float harmonics[9][3] = {{1.0f, 0.5f, -0.25f}, {0.1f}};
@@ -98,7 +98,7 @@ static void test_ktx1(void **state)
 }
 
 /* Each call that memory may be refused at leaves nothing behind. */
-static void test_no_memory(void **state)
+static void running_out_of_memory_leaks_nothing(void **state)
 {
     (void)state;
     static const float harmonics[9][3];
@@ -127,9 +127,9 @@ static void test_no_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_mirrored),
-        cmocka_unit_test(test_ktx1),
-        cmocka_unit_test(test_no_memory),
+        cmocka_unit_test(mirrored_cube_maps_flip_x),
+        cmocka_unit_test(ktx1_files_hold_harmonics),
+        cmocka_unit_test(running_out_of_memory_leaks_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

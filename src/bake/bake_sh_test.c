@@ -57,7 +57,7 @@ static void sun(const float d[3], float out[3])
     out[0] = out[1] = out[2] = d[0] * 0.6f + d[1] * 0.64f + d[2] * 0.48f > 0.9998f ? 1e5f : 0.3f;
 }
 
-static void test_constant(void **state)
+static void uniform_light_has_one_coefficient(void **state)
 {
     (void)state;
     static const float L[3] = {1.0f, 2.0f, 0.5f};
@@ -76,7 +76,7 @@ static void test_constant(void **state)
 }
 
 /* Golden numbers by independent quadrature. */
-static void test_cosine_lobe(void **state)
+static void a_cosine_lobe_gives_golden_values(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(WIDTH, HEIGHT, cosine_lobe);
@@ -111,7 +111,7 @@ static void test_cosine_lobe(void **state)
 }
 
 /* Coefficients of what has no other bands are those that it was made of: +Y up, signs and order. */
-static void test_basis(void **state)
+static void coefficients_are_those_of_the_basis(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(WIDTH, HEIGHT, polynomial);
@@ -137,7 +137,7 @@ static void test_basis(void **state)
 }
 
 /* By whole texels, rotating the image is moving its columns: positive turns from +Z towards +X. */
-static void test_rotation(void **state)
+static void rotation_moves_columns(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(WIDTH, HEIGHT, room);
@@ -160,7 +160,7 @@ static void test_rotation(void **state)
     facet_environment_destroy(moved);
 }
 
-static void test_exposure_and_clamp(void **state)
+static void exposure_and_clamp_are_applied(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(WIDTH, HEIGHT, room);
@@ -179,7 +179,7 @@ static void test_exposure_and_clamp(void **state)
 }
 
 /* Nine bands of a sun go below 0 on its far side; windowed nowhere, and its mean stays. */
-static void test_window_under_a_sun(void **state)
+static void windows_remove_negative_irradiance_and_keep_the_mean(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(WIDTH, HEIGHT, sun);
@@ -218,7 +218,7 @@ static void test_window_under_a_sun(void **state)
     facet_environment_destroy(e);
 }
 
-static void test_refused(void **state)
+static void invalid_arguments_are_refused(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(WIDTH, HEIGHT, constant);
@@ -238,13 +238,13 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_constant),
-        cmocka_unit_test(test_cosine_lobe),
-        cmocka_unit_test(test_basis),
-        cmocka_unit_test(test_rotation),
-        cmocka_unit_test(test_exposure_and_clamp),
-        cmocka_unit_test(test_window_under_a_sun),
-        cmocka_unit_test(test_refused),
+        cmocka_unit_test(uniform_light_has_one_coefficient),
+        cmocka_unit_test(a_cosine_lobe_gives_golden_values),
+        cmocka_unit_test(coefficients_are_those_of_the_basis),
+        cmocka_unit_test(rotation_moves_columns),
+        cmocka_unit_test(exposure_and_clamp_are_applied),
+        cmocka_unit_test(windows_remove_negative_irradiance_and_keep_the_mean),
+        cmocka_unit_test(invalid_arguments_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

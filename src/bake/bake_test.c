@@ -21,7 +21,7 @@ static const double pi = 3.14159265358979323846;
 
 /* ---- what is uniform ---- */
 
-static void test_constant(void **state)
+static void uniform_light_stays_uniform(void **state)
 {
     (void)state;
     static const float radiance[3] = {0.3f, 1.0f, 1234.5f};
@@ -108,7 +108,7 @@ static double worst_of_bands(facet_environment *e, facet_lobe lobe, facet_bake_m
     return worst;
 }
 
-static void test_bands(void **state)
+static void bands_of_harmonics_are_scaled(void **state)
 {
     (void)state;
     /* an image of texels 0.025 rad wide has l (l + 1) width^2 / 24 = 5e-4 less of band 4; samples blur a
@@ -142,7 +142,7 @@ static void upper_half(const float d[3], float out[3])
 }
 
 /* Lambert's lobe of the clamped cosine: (2 / 3) ((pi - t) cos(t) + sin(t)) / pi, shading-model.md 16.9. */
-static void test_irradiance(void **state)
+static void irradiance_is_that_of_the_clamped_cosine(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(256, 128, upper_half);
@@ -256,7 +256,7 @@ static void check_sun(facet_lobe kind, facet_bake_method method, uint32_t x, uin
     facet_environment_destroy(e);
 }
 
-static void test_sun(void **state)
+static void a_sun_becomes_the_lobe(void **state)
 {
     (void)state;
     check_sun(FACET_LOBE_GGX, FACET_BAKE_METHOD_AUTO, 768, 5, 0.01, 5e-3); /* at a pole */
@@ -267,7 +267,7 @@ static void test_sun(void **state)
     check_sun(FACET_LOBE_NONE, FACET_BAKE_METHOD_AUTO, 666, 505, 0.0, 0.0);
 }
 
-static void test_sun_in_a_ring(void **state)
+static void a_sun_becomes_the_ring_of_charlie(void **state)
 {
     (void)state;
     /* harmonics round the outer edge of a ring off, where it falls to nothing within a texel or two */
@@ -277,7 +277,7 @@ static void test_sun_in_a_ring(void **state)
 /* ---- means over texels ---- */
 
 /* Whatever the sizes of both and however turned: all light arrives, and what is uniform stays that. */
-static void test_areas_keep_light(void **state)
+static void areas_keep_energy_at_any_size_and_rotation(void **state)
 {
     (void)state;
     static const uint32_t sizes[5] = {1, 2, 4, 16, 64};
@@ -321,7 +321,7 @@ static void smooth(const float d[3], float out[3])
 }
 
 /* A quarter turn moves light from face to face and changes nothing else. */
-static void test_quarter_turn(void **state)
+static void a_quarter_turn_moves_light_between_faces(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(256, 128, smooth);
@@ -350,7 +350,7 @@ static void test_quarter_turn(void **state)
 
 /* Texels on both sides of an edge are half a texel from it: they differ by no more than neighbours on a
  * face do. */
-static void test_no_seams(void **state)
+static void faces_are_seamless(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(256, 128, smooth);
@@ -389,7 +389,7 @@ static void test_no_seams(void **state)
 /* ---- source ---- */
 
 /* A source that was a cube map is copied, or averaged with solid angles. */
-static void test_faces(void **state)
+static void cube_maps_are_copied_or_averaged(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(64, 32, smooth);
@@ -415,7 +415,7 @@ static void test_faces(void **state)
     facet_environment_destroy(e);
 }
 
-static void test_clamp(void **state)
+static void clamped_light_is_reported(void **state)
 {
     (void)state;
     double sun[3];
@@ -441,7 +441,7 @@ static void test_clamp(void **state)
 
 /* ---- runs ---- */
 
-static void test_threads(void **state)
+static void cube_maps_do_not_depend_on_threads(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(200, 100, smooth);
@@ -483,7 +483,7 @@ static bool report(void *user, const char *stage, double fraction)
     return p->left-- > 0;
 }
 
-static void test_cancel(void **state)
+static void baking_can_be_cancelled(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(64, 32, smooth);
@@ -516,7 +516,7 @@ static void test_cancel(void **state)
 }
 
 /* Whichever allocation fails, the result says so and nothing leaks. */
-static void test_memory_runs_out(void **state)
+static void running_out_of_memory_leaks_nothing(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(64, 32, smooth);
@@ -549,7 +549,7 @@ static void test_memory_runs_out(void **state)
     facet_environment_destroy(e);
 }
 
-static void test_arguments(void **state)
+static void invalid_arguments_are_refused(void **state)
 {
     (void)state;
     static const facet_bake_desc bad[] = {{.size = 100},
@@ -586,13 +586,20 @@ static void test_arguments(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_constant),        cmocka_unit_test(test_bands),
-        cmocka_unit_test(test_irradiance),      cmocka_unit_test(test_sun),
-        cmocka_unit_test(test_sun_in_a_ring),   cmocka_unit_test(test_areas_keep_light),
-        cmocka_unit_test(test_quarter_turn),    cmocka_unit_test(test_no_seams),
-        cmocka_unit_test(test_faces),           cmocka_unit_test(test_clamp),
-        cmocka_unit_test(test_threads),         cmocka_unit_test(test_cancel),
-        cmocka_unit_test(test_memory_runs_out), cmocka_unit_test(test_arguments),
+        cmocka_unit_test(uniform_light_stays_uniform),
+        cmocka_unit_test(bands_of_harmonics_are_scaled),
+        cmocka_unit_test(irradiance_is_that_of_the_clamped_cosine),
+        cmocka_unit_test(a_sun_becomes_the_lobe),
+        cmocka_unit_test(a_sun_becomes_the_ring_of_charlie),
+        cmocka_unit_test(areas_keep_energy_at_any_size_and_rotation),
+        cmocka_unit_test(a_quarter_turn_moves_light_between_faces),
+        cmocka_unit_test(faces_are_seamless),
+        cmocka_unit_test(cube_maps_are_copied_or_averaged),
+        cmocka_unit_test(clamped_light_is_reported),
+        cmocka_unit_test(cube_maps_do_not_depend_on_threads),
+        cmocka_unit_test(baking_can_be_cancelled),
+        cmocka_unit_test(running_out_of_memory_leaks_nothing),
+        cmocka_unit_test(invalid_arguments_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

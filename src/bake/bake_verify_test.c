@@ -20,7 +20,7 @@ static void lamps(const float d[3], float out[3])
 }
 
 /* What is added to a cube map is what is found to be wrong with it. */
-static void test_errors_are_found(void **state)
+static void added_errors_are_found(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(IS_SLOW ? 64 : 128, IS_SLOW ? 32 : 64, lamps);
@@ -63,7 +63,7 @@ static double rms_of(facet_environment *e, facet_bake_desc desc)
     return fmax(errors[1].rms, errors[2].rms);
 }
 
-static void test_sampling_converges(void **state)
+static void sampling_converges(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(128, 64, lamps);
@@ -80,7 +80,7 @@ static void test_sampling_converges(void **state)
 
 /* The reference itself is the lobe's: of bands 1 and 2 (shading-model.md 16.4), and of the method that
  * fills whole levels. */
-static void test_method(void **state)
+static void the_reference_filters_with_the_lobe(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(64, 32, lamps);
@@ -146,7 +146,7 @@ static void check_real(facet_environment *e, const char *name, facet_bake_desc d
     facet_cube_destroy(c);
 }
 
-static void test_real_environments(void **state)
+static void real_environments_are_baked_accurately(void **state)
 {
     (void)state;
     static const char *const names[3] = {"leadenhall_market_1k", "qwantani_afternoon_puresky_1k",
@@ -182,10 +182,10 @@ static void test_real_environments(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_errors_are_found),
-        cmocka_unit_test(test_sampling_converges),
-        cmocka_unit_test(test_method),
-        cmocka_unit_test(test_real_environments),
+        cmocka_unit_test(added_errors_are_found),
+        cmocka_unit_test(sampling_converges),
+        cmocka_unit_test(the_reference_filters_with_the_lobe),
+        cmocka_unit_test(real_environments_are_baked_accurately),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

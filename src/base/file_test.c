@@ -41,7 +41,7 @@ static char *in_folder(const char *name)
     return path_join(NULL, folder.path, name);
 }
 
-static void what_is_written_is_read(void **state)
+static void written_bytes_are_read_back(void **state)
 {
     (void)state;
     static unsigned char data[3 * 4096 + 5];
@@ -63,7 +63,7 @@ static void what_is_written_is_read(void **state)
 }
 
 /* A model is displayed while another program exports it again. */
-static void a_file_may_be_cut_while_it_is_open(void **state)
+static void small_files_may_shrink_while_open(void **state)
 {
     (void)state;
     char *path = in_folder("cut.bin");
@@ -81,7 +81,7 @@ static void a_file_may_be_cut_while_it_is_open(void **state)
     mem_free(path);
 }
 
-static void a_file_is_known_by_other_names(void **state)
+static void files_are_recognized_under_other_names(void **state)
 {
     (void)state;
     char *path = in_folder("known.bin");
@@ -140,7 +140,7 @@ static void links_are_replaced_but_those_to_descriptors(void **state)
     mem_free(link);
 }
 
-static void a_file_of_our_own_follows_no_link(void **state)
+static void file_replace_follows_no_link(void **state)
 {
     (void)state;
     char *victim = in_folder("victim.bin");
@@ -226,7 +226,7 @@ static void a_full_device_is_an_error(void **state)
     assert_non_null(strstr(error.message, "/dev/full"));
 }
 
-static void names_are_taken_apart(void **state)
+static void paths_split_into_folder_name_and_extension(void **state)
 {
     (void)state;
     assert_string_equal(path_extension("a/b.tar.GZ"), "GZ");
@@ -240,7 +240,7 @@ static void names_are_taken_apart(void **state)
         mem_free(of[i]);
 }
 
-static void links_do_not_lead_out(void **state)
+static void links_out_of_a_folder_are_refused(void **state)
 {
     (void)state;
     char *inner = in_folder("inner");
@@ -293,7 +293,7 @@ static void *keep_swapping(void *context)
     return NULL;
 }
 
-static void a_link_that_is_swapped_does_not_lead_out(void **state)
+static void links_swapped_during_the_check_are_refused(void **state)
 {
     (void)state;
     static const char *const folders[] = {"swap", "swap/real", "swapped_out"};
@@ -332,7 +332,7 @@ static void a_link_that_is_swapped_does_not_lead_out(void **state)
         mem_free(all[i]);
 }
 
-static void staged_files_wait(void **state)
+static void staged_files_appear_on_commit(void **state)
 {
     (void)state;
     char path[300];
@@ -361,19 +361,19 @@ static void staged_files_wait(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_written_is_read),
-        cmocka_unit_test(a_file_may_be_cut_while_it_is_open),
-        cmocka_unit_test(a_file_is_known_by_other_names),
+        cmocka_unit_test(written_bytes_are_read_back),
+        cmocka_unit_test(small_files_may_shrink_while_open),
+        cmocka_unit_test(files_are_recognized_under_other_names),
         cmocka_unit_test(links_are_replaced_but_those_to_descriptors),
-        cmocka_unit_test(a_file_of_our_own_follows_no_link),
+        cmocka_unit_test(file_replace_follows_no_link),
         cmocka_unit_test(the_longest_name_can_be_written),
         cmocka_unit_test(modes_follow_umask_and_stay),
         cmocka_unit_test(failures_name_the_file),
         cmocka_unit_test(a_full_device_is_an_error),
-        cmocka_unit_test(staged_files_wait),
-        cmocka_unit_test(names_are_taken_apart),
-        cmocka_unit_test(links_do_not_lead_out),
-        cmocka_unit_test(a_link_that_is_swapped_does_not_lead_out),
+        cmocka_unit_test(staged_files_appear_on_commit),
+        cmocka_unit_test(paths_split_into_folder_name_and_extension),
+        cmocka_unit_test(links_out_of_a_folder_are_refused),
+        cmocka_unit_test(links_swapped_during_the_check_are_refused),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

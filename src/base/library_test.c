@@ -17,7 +17,7 @@
 static const library_desc DESC = {
     .subject = "test", .advice = " is not installed", .missing = FACET_ERROR_UNSUPPORTED};
 
-static void a_missing_library_is_missing(void **state)
+static void a_missing_library_is_reported(void **state)
 {
     (void)state;
     void *handle;
@@ -28,7 +28,7 @@ static void a_missing_library_is_missing(void **state)
     assert_string_equal(error.message, "test: libfacet-is-missing.so.2 is not installed");
 }
 
-static void a_broken_library_is_there(void **state)
+static void a_broken_library_is_not_missing(void **state)
 {
     (void)state;
     char path[] = "/tmp/facet-library-XXXXXX";
@@ -45,7 +45,7 @@ static void a_broken_library_is_there(void **state)
 }
 
 /* In a process of its own, whose address space has no room for it. */
-static void a_library_without_room_is_a_lack_of_memory(void **state)
+static void a_library_that_cannot_be_mapped_is_out_of_memory(void **state)
 {
     (void)state;
 #ifdef FACET_QUICK_TESTS
@@ -69,9 +69,9 @@ static void a_library_without_room_is_a_lack_of_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_missing_library_is_missing),
-        cmocka_unit_test(a_broken_library_is_there),
-        cmocka_unit_test(a_library_without_room_is_a_lack_of_memory),
+        cmocka_unit_test(a_missing_library_is_reported),
+        cmocka_unit_test(a_broken_library_is_not_missing),
+        cmocka_unit_test(a_library_that_cannot_be_mapped_is_out_of_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

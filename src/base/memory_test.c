@@ -28,7 +28,7 @@ static void blocks_are_aligned_and_keep_their_size(void **state)
 }
 
 /* Blocks on huge pages, if the system has them. */
-static void large_blocks_are_like_others(void **state)
+static void large_blocks_behave_like_small_ones(void **state)
 {
     (void)state;
     for (size_t size = (size_t)4 << 20; size < (size_t)10 << 20; size += ((size_t)1 << 20) + 4001) {
@@ -56,7 +56,7 @@ static void sizes_that_overflow_are_refused(void **state)
     arena_destroy(a);
 }
 
-static void a_budget_is_kept(void **state)
+static void budgets_are_not_exceeded(void **state)
 {
     (void)state;
     facet_budget *budget;
@@ -75,7 +75,7 @@ static void a_budget_is_kept(void **state)
     facet_budget_destroy(budget);
 }
 
-static void what_libraries_take_counts_against_a_budget(void **state)
+static void memory_of_libraries_counts_against_a_budget(void **state)
 {
     (void)state;
     facet_budget *budget;
@@ -115,7 +115,7 @@ static void arena_blocks_do_not_overlap(void **state)
     facet_budget_destroy(budget);
 }
 
-static void reserve_grows_and_keeps(void **state)
+static void reserve_grows_and_keeps_elements(void **state)
 {
     (void)state;
     uint32_t *items = NULL;
@@ -134,12 +134,12 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(blocks_are_aligned_and_keep_their_size),
-        cmocka_unit_test(large_blocks_are_like_others),
+        cmocka_unit_test(large_blocks_behave_like_small_ones),
         cmocka_unit_test(sizes_that_overflow_are_refused),
-        cmocka_unit_test(a_budget_is_kept),
-        cmocka_unit_test(what_libraries_take_counts_against_a_budget),
+        cmocka_unit_test(budgets_are_not_exceeded),
+        cmocka_unit_test(memory_of_libraries_counts_against_a_budget),
         cmocka_unit_test(arena_blocks_do_not_overlap),
-        cmocka_unit_test(reserve_grows_and_keeps),
+        cmocka_unit_test(reserve_grows_and_keeps_elements),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -56,7 +56,7 @@ static void check_double(const char *text)
         fail_msg("\"%s\": read %.17g, not %.17g", text, actual, expected);
 }
 
-static void test_doubles(void **state)
+static void doubles_are_nearest(void **state)
 {
     (void)state;
     const char *texts[] = {"0",
@@ -90,7 +90,7 @@ static void test_doubles(void **state)
     assert_true(value == -HUGE_VAL);
 }
 
-static void test_forms(void **state)
+static void floats_are_those_of_strtof(void **state)
 {
     (void)state;
     const char *forms[] = {"0",
@@ -132,7 +132,7 @@ static void test_forms(void **state)
         assert_as_strtof(forms[i]);
 }
 
-static void test_what_is_no_number(void **state)
+static void text_without_a_number_is_refused(void **state)
 {
     (void)state;
     const char *forms[] = {"", "-", "+", ".", "-.", "e5", ".e5", "x", "--1", "+-1", " 1", "/", "no"};
@@ -143,7 +143,7 @@ static void test_what_is_no_number(void **state)
     }
 }
 
-static void test_words(void **state)
+static void nan_and_infinity_are_read(void **state)
 {
     (void)state;
     float value;
@@ -166,7 +166,7 @@ static void test_words(void **state)
 }
 
 /* Numbers as programs print them. */
-static void test_random_decimals(void **state)
+static void random_decimals_are_nearest(void **state)
 {
     (void)state;
     uint64_t random = 1;
@@ -182,7 +182,7 @@ static void test_random_decimals(void **state)
 }
 
 /* Floats of all sizes, and their midpoints, exact and off by one in the last digit. */
-static void test_every_size_of_float(void **state)
+static void floats_of_all_magnitudes_and_midpoints_are_nearest(void **state)
 {
     (void)state;
     uint64_t random = 2;
@@ -217,7 +217,7 @@ static void test_every_size_of_float(void **state)
     }
 }
 
-static void test_digits(void **state)
+static void leading_digits_are_counted(void **state)
 {
     (void)state;
     const char text[] = "1234567890/x12:;0\0\0\0\0\0\0\0\0";
@@ -240,7 +240,7 @@ static void test_digits(void **state)
 }
 
 /* The first numbers of splitmix64 from the seed 1234567 by Vigna's splitmix64.c. */
-static void test_mixed_bits(void **state)
+static void mix64_is_splitmix64(void **state)
 {
     (void)state;
     static const uint64_t expected[] = {6457827717110365317u, 3203168211198807973u, 9817491932198370423u,
@@ -253,14 +253,14 @@ static void test_mixed_bits(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_forms),
-        cmocka_unit_test(test_doubles),
-        cmocka_unit_test(test_what_is_no_number),
-        cmocka_unit_test(test_words),
-        cmocka_unit_test(test_random_decimals),
-        cmocka_unit_test(test_every_size_of_float),
-        cmocka_unit_test(test_digits),
-        cmocka_unit_test(test_mixed_bits),
+        cmocka_unit_test(floats_are_those_of_strtof),
+        cmocka_unit_test(doubles_are_nearest),
+        cmocka_unit_test(text_without_a_number_is_refused),
+        cmocka_unit_test(nan_and_infinity_are_read),
+        cmocka_unit_test(random_decimals_are_nearest),
+        cmocka_unit_test(floats_of_all_magnitudes_and_midpoints_are_nearest),
+        cmocka_unit_test(leading_digits_are_counted),
+        cmocka_unit_test(mix64_is_splitmix64),
     };
     return cmocka_run_group_tests_name("number", tests, NULL, NULL);
 }

@@ -47,7 +47,7 @@ static void loops_nest(void **state)
         assert_int_equal(visits[i], 1);
 }
 
-static void thread_count_is_sane(void **state)
+static void the_default_thread_count_is_positive(void **state)
 {
     (void)state;
     assert_in_range(facet_thread_count(), 1, 256);
@@ -66,7 +66,7 @@ int main(void)
         cmocka_unit_test(threads_that_can_be_started_are_counted),
         cmocka_unit_test(each_item_is_visited_once),
         cmocka_unit_test(loops_nest),
-        cmocka_unit_test(thread_count_is_sane),
+        cmocka_unit_test(the_default_thread_count_is_positive),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

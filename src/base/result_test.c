@@ -9,7 +9,7 @@
 
 #include "base/result.h"
 
-static void writes_code_and_sentence(void **state)
+static void fail_returns_its_code_and_writes_a_sentence(void **state)
 {
     (void)state;
     facet_error error;
@@ -19,7 +19,7 @@ static void writes_code_and_sentence(void **state)
     assert_int_equal(fail(NULL, FACET_ERROR_READ, "no error is wanted"), FACET_ERROR_READ);
 }
 
-static void missing_memory_has_a_size_if_known(void **state)
+static void fail_memory_names_the_size_if_known(void **state)
 {
     (void)state;
     facet_error error;
@@ -29,7 +29,7 @@ static void missing_memory_has_a_size_if_known(void **state)
     assert_string_equal(error.message, "out of memory: JPEG decoder");
 }
 
-static void stays_one_line_and_in_bounds(void **state)
+static void messages_stay_one_line_and_in_bounds(void **state)
 {
     (void)state;
     facet_error error;
@@ -80,8 +80,10 @@ static void log_sends_formatted_text(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(writes_code_and_sentence),     cmocka_unit_test(missing_memory_has_a_size_if_known),
-        cmocka_unit_test(stays_one_line_and_in_bounds), cmocka_unit_test(try_returns_the_first_failure),
+        cmocka_unit_test(fail_returns_its_code_and_writes_a_sentence),
+        cmocka_unit_test(fail_memory_names_the_size_if_known),
+        cmocka_unit_test(messages_stay_one_line_and_in_bounds),
+        cmocka_unit_test(try_returns_the_first_failure),
         cmocka_unit_test(log_sends_formatted_text),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

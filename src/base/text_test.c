@@ -125,7 +125,7 @@ static void shortest_floats_are_those_of_printf(void **state)
     }
 }
 
-static void shortest_doubles_keep_what_floats_lose(void **state)
+static void shortest_doubles_are_more_precise_than_floats(void **state)
 {
     (void)state;
     static const struct {
@@ -154,7 +154,7 @@ static void shortest_doubles_keep_what_floats_lose(void **state)
     }
 }
 
-static void places_keep_both_their_parts(void **state)
+static void places_keep_origin_and_offset(void **state)
 {
     (void)state;
     static const struct {
@@ -188,8 +188,8 @@ int main(void)
         cmocka_unit_test(json_has_commas_where_they_belong),
         cmocka_unit_test(numbers_read_back),
         cmocka_unit_test(shortest_floats_are_those_of_printf),
-        cmocka_unit_test(shortest_doubles_keep_what_floats_lose),
-        cmocka_unit_test(places_keep_both_their_parts),
+        cmocka_unit_test(shortest_doubles_are_more_precise_than_floats),
+        cmocka_unit_test(places_keep_origin_and_offset),
         cmocka_unit_test(strings_are_valid_utf8),
         cmocka_unit_test(long_text_grows_and_failure_sticks),
     };

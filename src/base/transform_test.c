@@ -19,7 +19,7 @@ static mat4 example(void)
     return mat4_from_trs(t, r, s);
 }
 
-static void trs_scales_then_rotates_then_moves(void **state)
+static void trs_scales_then_rotates_then_translates(void **state)
 {
     (void)state;
     mat4 m = example();
@@ -47,7 +47,7 @@ static void normals_stay_perpendicular(void **state)
     assert_near(dot, 0.0f, 1e-5f);
 }
 
-static void matrices_without_shear_come_apart_and_together(void **state)
+static void matrices_without_shear_decompose_exactly(void **state)
 {
     (void)state;
     static const float rotations[][4] = {{0, 0, 0, 1},
@@ -91,7 +91,7 @@ static void sheared_matrices_keep_lengths_and_the_first_axis(void **state)
     assert_true(mat4_determinant3(again) * mat4_determinant3(m) > 0.0f);
 }
 
-static void doubles_agree_with_floats_and_keep_what_is_far(void **state)
+static void doubles_agree_with_floats_and_keep_distant_places(void **state)
 {
     (void)state;
     const float rotation[4] = {0.1f, 0.7f, -0.1f, 0.7f}; /* of length 1 */
@@ -120,10 +120,10 @@ static void doubles_agree_with_floats_and_keep_what_is_far(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(matrices_without_shear_come_apart_and_together),
-        cmocka_unit_test(doubles_agree_with_floats_and_keep_what_is_far),
+        cmocka_unit_test(matrices_without_shear_decompose_exactly),
+        cmocka_unit_test(doubles_agree_with_floats_and_keep_distant_places),
         cmocka_unit_test(sheared_matrices_keep_lengths_and_the_first_axis),
-        cmocka_unit_test(trs_scales_then_rotates_then_moves),
+        cmocka_unit_test(trs_scales_then_rotates_then_translates),
         cmocka_unit_test(normals_stay_perpendicular),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

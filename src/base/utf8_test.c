@@ -44,7 +44,7 @@ static void lengths_are_those_of_the_standard(void **state)
     assert_true(utf8_is_valid("", 0));
 }
 
-static void other_bytes_are_latin1(void **state)
+static void invalid_bytes_are_read_as_latin1(void **state)
 {
     (void)state;
     const char text[] = "caf\xe9 \xc3\xa9\xff";
@@ -59,7 +59,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lengths_are_those_of_the_standard),
-        cmocka_unit_test(other_bytes_are_latin1),
+        cmocka_unit_test(invalid_bytes_are_read_as_latin1),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

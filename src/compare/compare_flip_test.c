@@ -179,7 +179,7 @@ static plane plane_of(const fixture *f, double gain, bool is_mapped)
 
 /* ---- tests ---- */
 
-static void agrees_with_the_paper_written_down_again(void **state)
+static void agrees_with_a_direct_implementation_of_the_paper(void **state)
 {
     (void)state;
     static const float ppds[] = {67.0f, 20.0f, 5.0f, 100.0f};
@@ -209,7 +209,7 @@ static void agrees_with_the_paper_written_down_again(void **state)
     free(b);
 }
 
-static void of_light_it_is_the_largest_over_exposures(void **state)
+static void radiance_is_compared_over_exposures(void **state)
 {
     (void)state;
     enum { WIDTH = 60, HEIGHT = 40 };
@@ -282,7 +282,7 @@ static void large_areas_differ_by_their_colors(void **state)
     free(b);
 }
 
-static void equal_is_zero_and_order_does_not_matter(void **state)
+static void equal_images_give_zero_and_order_does_not_matter(void **state)
 {
     (void)state;
     for (int is_display = 0; is_display < 2; is_display++) {
@@ -302,7 +302,7 @@ static void equal_is_zero_and_order_does_not_matter(void **state)
 }
 
 /* More noise is more error; what is too fine for the eye is less than the same in large. */
-static void follows_the_eye(void **state)
+static void noise_raises_and_fine_detail_lowers_errors(void **state)
 {
     (void)state;
     fixture *a = fixture_create(128, 128, true), *b = fixture_create(128, 128, true);
@@ -353,7 +353,7 @@ static void opacity_shows_over_white(void **state)
     free(b);
 }
 
-static void extreme_light_has_an_answer(void **state)
+static void extreme_radiance_gives_finite_errors(void **state)
 {
     (void)state;
     static const float lights[] = {0.0f, 1e-30f, 1e-3f, 1e30f, 3e38f, -1.0f};
@@ -374,13 +374,13 @@ static void extreme_light_has_an_answer(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(agrees_with_the_paper_written_down_again),
-        cmocka_unit_test(of_light_it_is_the_largest_over_exposures),
+        cmocka_unit_test(agrees_with_a_direct_implementation_of_the_paper),
+        cmocka_unit_test(radiance_is_compared_over_exposures),
         cmocka_unit_test(large_areas_differ_by_their_colors),
-        cmocka_unit_test(equal_is_zero_and_order_does_not_matter),
-        cmocka_unit_test(follows_the_eye),
+        cmocka_unit_test(equal_images_give_zero_and_order_does_not_matter),
+        cmocka_unit_test(noise_raises_and_fine_detail_lowers_errors),
         cmocka_unit_test(opacity_shows_over_white),
-        cmocka_unit_test(extreme_light_has_an_answer),
+        cmocka_unit_test(extreme_radiance_gives_finite_errors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

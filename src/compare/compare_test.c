@@ -23,7 +23,7 @@ static const facet_compare_desc errors_only = {.skipped_metrics = FACET_METRIC_S
 
 /* An offset d everywhere: MSE d^2, MAE and bias d, PSNR -20 log10 d, every percentile d. In linear space
  * PSNR's peak is the largest value of a. */
-static void of_an_offset_everything_is_known(void **state)
+static void an_offset_gives_known_errors(void **state)
 {
     (void)state;
     fixture *a = fixture_create(50, 40, false), *b = fixture_create(50, 40, false);
@@ -58,7 +58,7 @@ static void of_an_offset_everything_is_known(void **state)
 }
 
 /* A code of 8 bits is 1/255 in display space: PSNR 48.13 dB. */
-static void codes_are_what_a_file_has(void **state)
+static void display_images_are_compared_in_codes(void **state)
 {
     (void)state;
     fixture *a = fixture_create(256, 16, true), *b = fixture_create(256, 16, true);
@@ -241,7 +241,7 @@ static void only_the_crop_counts(void **state)
 
 /* What the mask hides is seen by no metric, not through filters either; what it lets count is divided by
  * what counts. */
-static void only_what_the_mask_shows_counts(void **state)
+static void hidden_pixels_do_not_count(void **state)
 {
     (void)state;
     fixture *a = fixture_create(200, 90, false), *b = fixture_create(200, 90, false),
@@ -278,7 +278,7 @@ static void only_what_the_mask_shows_counts(void **state)
     free(m);
 }
 
-static void opacity_is_a_channel_where_there_is_some(void **state)
+static void opacity_is_compared_where_an_image_has_it(void **state)
 {
     (void)state;
     fixture *a = fixture_create(20, 20, false), *b = fixture_create(20, 20, false);
@@ -300,7 +300,7 @@ static void opacity_is_a_channel_where_there_is_some(void **state)
 }
 
 /* Light is exposed and tone-mapped; what is a display's already is not. Both meet in the display's numbers. */
-static void light_meets_what_a_display_shows(void **state)
+static void radiance_is_compared_with_display_images(void **state)
 {
     (void)state;
     fixture *light = fixture_create(20, 20, false), *shown = fixture_create(20, 20, true);
@@ -426,7 +426,7 @@ static void integers_are_compared_as_floats_are(void **state)
     }
 }
 
-static void threads_change_no_bit(void **state)
+static void results_do_not_depend_on_threads(void **state)
 {
     (void)state;
     fixture *a = fixture_create(310, 190, false), *b = fixture_create(310, 190, false);
@@ -455,7 +455,7 @@ static void threads_change_no_bit(void **state)
     free(b);
 }
 
-static void running_out_of_memory_is_a_result(void **state)
+static void running_out_of_memory_leaks_nothing(void **state)
 {
     (void)state;
     fixture *a = fixture_create(40, 40, false), *b = fixture_create(40, 40, false);
@@ -483,7 +483,7 @@ static void running_out_of_memory_is_a_result(void **state)
     free(b);
 }
 
-static void what_cannot_be_is_refused(void **state)
+static void invalid_arguments_are_refused(void **state)
 {
     (void)state;
     fixture *a = fixture_create(40, 40, false), *b = fixture_create(40, 41, false);
@@ -515,7 +515,7 @@ static void what_cannot_be_is_refused(void **state)
 
 /* ---- images ---- */
 
-static void the_difference_image_has_the_numbers(void **state)
+static void the_difference_image_holds_the_errors(void **state)
 {
     (void)state;
     fixture *a = fixture_create(30, 20, true), *b = fixture_create(30, 20, true);
@@ -553,7 +553,7 @@ static void the_difference_image_has_the_numbers(void **state)
 }
 
 /* From dark to light, each step brighter than the last. */
-static void heat_rises(void **state)
+static void the_color_map_rises_in_lightness(void **state)
 {
     (void)state;
     float last = -1.0f, color[3];
@@ -589,23 +589,23 @@ static void powers_are_those_of_libm(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(of_an_offset_everything_is_known),
-        cmocka_unit_test(codes_are_what_a_file_has),
+        cmocka_unit_test(an_offset_gives_known_errors),
+        cmocka_unit_test(display_images_are_compared_in_codes),
         cmocka_unit_test(equal_images_have_no_error),
         cmocka_unit_test(percentiles_are_those_of_sorting),
         cmocka_unit_test(ssim_is_that_of_every_window),
         cmocka_unit_test(ssim_of_constants_is_that_of_their_means),
         cmocka_unit_test(only_the_crop_counts),
-        cmocka_unit_test(only_what_the_mask_shows_counts),
-        cmocka_unit_test(opacity_is_a_channel_where_there_is_some),
-        cmocka_unit_test(light_meets_what_a_display_shows),
+        cmocka_unit_test(hidden_pixels_do_not_count),
+        cmocka_unit_test(opacity_is_compared_where_an_image_has_it),
+        cmocka_unit_test(radiance_is_compared_with_display_images),
         cmocka_unit_test(nonfinite_pixels_are_reported_and_left_out),
         cmocka_unit_test(integers_are_compared_as_floats_are),
-        cmocka_unit_test(threads_change_no_bit),
-        cmocka_unit_test(running_out_of_memory_is_a_result),
-        cmocka_unit_test(what_cannot_be_is_refused),
-        cmocka_unit_test(the_difference_image_has_the_numbers),
-        cmocka_unit_test(heat_rises),
+        cmocka_unit_test(results_do_not_depend_on_threads),
+        cmocka_unit_test(running_out_of_memory_leaks_nothing),
+        cmocka_unit_test(invalid_arguments_are_refused),
+        cmocka_unit_test(the_difference_image_holds_the_errors),
+        cmocka_unit_test(the_color_map_rises_in_lightness),
         cmocka_unit_test(powers_are_those_of_libm),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -119,7 +119,7 @@ enum { WIDTH = 64, HEIGHT = 48 };
 /* Noise of 7 to 25 % of the light. A fit of nine terms to 225 pixels leaves no less than sqrt(9 / 225) =
  * 0.2 where all of them belong together, less what windows that overlap have in common. A highlight of
  * five pixels has few of its kind. */
-static void known_light_comes_out_of_noise(void **state)
+static void known_radiance_is_recovered_from_noise(void **state)
 {
     (void)state;
     static const struct {
@@ -152,7 +152,7 @@ static double column_mean(const film *f, uint32_t x)
 
 /* The pixels on both sides of an edge keep their light, within 3 standard errors of a column of the noisy
  * image. */
-static void edges_stay_where_they_are(void **state)
+static void edges_stay_sharp(void **state)
 {
     (void)state;
     static pixel_truth (*const at[])(uint32_t, uint32_t) = {corner, shadow};
@@ -221,7 +221,7 @@ static void errors_of_traced_images_fall(void **state)
 
 /* Weights that go by likeness and outliers that are taken down would leave images too dark: here by 4 %
  * and more. */
-static void light_is_not_lost(void **state)
+static void energy_is_kept(void **state)
 {
     (void)state;
     static const fixture_scene scenes[] = {FIXTURE_BOX, FIXTURE_LIGHTS};
@@ -240,7 +240,7 @@ static void light_is_not_lost(void **state)
 }
 
 /* A spot of 50 times the light, of one sample: it goes, its neighbours do not take its light over. */
-static void fireflies_go(void **state)
+static void fireflies_are_removed(void **state)
 {
     (void)state;
     film truth;
@@ -276,7 +276,7 @@ static void clean_images_keep_their_bits(void **state)
 }
 
 /* What samples say is trusted in the end: a pixel is never moved by more than 8 times its noise. */
-static void the_filter_fades_out(void **state)
+static void the_filter_fades_out_as_variance_falls(void **state)
 {
     (void)state;
     film f = noisy_film(WIDTH, HEIGHT, grainy_wall, 1.0f, 23, NULL);
@@ -339,7 +339,7 @@ static void scale(film *f, float factor)
         film_find(f, "variance")->pixels[i] *= factor * factor;
 }
 
-static void units_change_nothing(void **state)
+static void results_do_not_depend_on_units(void **state)
 {
     (void)state;
     film one = fixture_render(FIXTURE_BOX, 48, 36, 16, 1);
@@ -362,7 +362,7 @@ static void units_change_nothing(void **state)
     film_destroy(&noisy);
 }
 
-static void threads_change_nothing(void **state)
+static void results_do_not_depend_on_threads(void **state)
 {
     (void)state;
     film one = fixture_render(FIXTURE_SKY, 149, 83, 4, 3);
@@ -377,7 +377,7 @@ static void threads_change_nothing(void **state)
 /* ---- odd films ---- */
 
 /* Two pixels that are odd do not change what is beyond two windows' radius and what noise is estimated over. */
-static void odd_numbers_stay_where_they_are(void **state)
+static void invalid_pixels_do_not_spread(void **state)
 {
     (void)state;
     enum { REACH = 18 };
@@ -406,7 +406,7 @@ static void odd_numbers_stay_where_they_are(void **state)
         }
 }
 
-static void all_of_it_may_be_odd(void **state)
+static void films_of_invalid_pixels_become_finite(void **state)
 {
     (void)state;
     static const float odd[] = {NAN, INFINITY, -1.0f, 0.0f, FLT_MAX};
@@ -454,7 +454,7 @@ static void missing_layers_are_errors(void **state)
 }
 
 /* Each refused block is an error that leaves the image alone and gives all blocks back. */
-static void memory_runs_out_cleanly(void **state)
+static void running_out_of_memory_leaks_nothing(void **state)
 {
     (void)state;
     film f = noisy_film(40, 30, plain_wall, 0.5f, 33, NULL);
@@ -503,22 +503,22 @@ static void memory_is_bounded(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(known_light_comes_out_of_noise),
-        cmocka_unit_test(edges_stay_where_they_are),
+        cmocka_unit_test(known_radiance_is_recovered_from_noise),
+        cmocka_unit_test(edges_stay_sharp),
         cmocka_unit_test(textures_stay_sharp),
         cmocka_unit_test(errors_of_traced_images_fall),
-        cmocka_unit_test(light_is_not_lost),
-        cmocka_unit_test(fireflies_go),
+        cmocka_unit_test(energy_is_kept),
+        cmocka_unit_test(fireflies_are_removed),
         cmocka_unit_test(clean_images_keep_their_bits),
-        cmocka_unit_test(the_filter_fades_out),
+        cmocka_unit_test(the_filter_fades_out_as_variance_falls),
         cmocka_unit_test(opacity_is_kept),
-        cmocka_unit_test(units_change_nothing),
-        cmocka_unit_test(threads_change_nothing),
-        cmocka_unit_test(odd_numbers_stay_where_they_are),
-        cmocka_unit_test(all_of_it_may_be_odd),
+        cmocka_unit_test(results_do_not_depend_on_units),
+        cmocka_unit_test(results_do_not_depend_on_threads),
+        cmocka_unit_test(invalid_pixels_do_not_spread),
+        cmocka_unit_test(films_of_invalid_pixels_become_finite),
         cmocka_unit_test(small_films_are_filtered),
         cmocka_unit_test(missing_layers_are_errors),
-        cmocka_unit_test(memory_runs_out_cleanly),
+        cmocka_unit_test(running_out_of_memory_leaks_nothing),
         cmocka_unit_test(memory_is_bounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -79,7 +79,7 @@ static void alpha_is_straight_in_files(void **state)
 }
 
 /* A single transparent pixel makes the image RGBA; fully transparent pixels have no color. */
-static void alpha_is_there_where_it_says_something(void **state)
+static void alpha_is_kept_where_a_pixel_is_transparent(void **state)
 {
     (void)state;
     film f = make_ramp(5000, 1.0f);
@@ -113,7 +113,7 @@ static void without_alpha_white_is_behind(void **state)
     film_destroy(&f);
 }
 
-static void what_is_out_of_range_is_clamped(void **state)
+static void values_out_of_range_are_clamped(void **state)
 {
     (void)state;
     const float odd[] = {NAN, -INFINITY, -1.0f, INFINITY, 2.0f};
@@ -139,7 +139,7 @@ static void what_is_out_of_range_is_clamped(void **state)
     film_destroy(&f);
 }
 
-static void threads_change_nothing(void **state)
+static void results_do_not_depend_on_threads(void **state)
 {
     (void)state;
     film f;
@@ -174,7 +174,7 @@ static void release(void *user, void *memory, size_t size)
     free(memory);
 }
 
-static void memory_that_is_not_there_is_an_error(void **state)
+static void running_out_of_memory_is_an_error(void **state)
 {
     (void)state;
     film f = make_ramp(64, 0.5f);
@@ -193,11 +193,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(codes_are_rounded_exactly),
         cmocka_unit_test(alpha_is_straight_in_files),
-        cmocka_unit_test(alpha_is_there_where_it_says_something),
+        cmocka_unit_test(alpha_is_kept_where_a_pixel_is_transparent),
         cmocka_unit_test(without_alpha_white_is_behind),
-        cmocka_unit_test(what_is_out_of_range_is_clamped),
-        cmocka_unit_test(threads_change_nothing),
-        cmocka_unit_test(memory_that_is_not_there_is_an_error),
+        cmocka_unit_test(values_out_of_range_are_clamped),
+        cmocka_unit_test(results_do_not_depend_on_threads),
+        cmocka_unit_test(running_out_of_memory_is_an_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -32,7 +32,7 @@ static void tone_map_one(const float in[4], facet_tonemap operator_, const float
 
 /* ---- layers ---- */
 
-static void layers_are_those_asked_for(void **state)
+static void layers_are_the_requested_ones(void **state)
 {
     (void)state;
     static const struct {
@@ -80,7 +80,7 @@ static void bad_sizes_are_errors(void **state)
     assert_int_equal(f.layer_count, 0);
 }
 
-static void every_refused_block_is_an_error(void **state)
+static void running_out_of_memory_leaks_nothing(void **state)
 {
     (void)state;
     for (int count = 0;; count++) {
@@ -153,7 +153,7 @@ static void operators_see_unpremultiplied_color(void **state)
 
 /* ---- compositing ---- */
 
-static void what_is_laid_over_a_color_is_opaque(void **state)
+static void films_over_a_color_are_opaque(void **state)
 {
     (void)state;
     const float behind[3] = {0.25f, 0.5f, 1.0f};
@@ -186,7 +186,7 @@ static void edges_have_no_fringe(void **state)
     }
 }
 
-static void what_is_not_finite_is_made_so(void **state)
+static void nonfinite_values_are_made_finite(void **state)
 {
     (void)state;
     const float odd[] = {NAN, INFINITY, -INFINITY, -1.0f, FLT_MAX, 1e-40f};
@@ -203,7 +203,7 @@ static void what_is_not_finite_is_made_so(void **state)
             }
 }
 
-static void threads_change_nothing(void **state)
+static void results_do_not_depend_on_threads(void **state)
 {
     (void)state;
     enum { WIDTH = 333, HEIGHT = 217 };
@@ -227,7 +227,7 @@ static void threads_change_nothing(void **state)
 
 /* Half of 0.8 over 0.2 is 0.5 on the display; blended as light it would be 0.6. Opaque pixels keep their
  * bits. */
-static void encoded_numbers_are_mixed_as_they_are(void **state)
+static void encoded_values_are_blended_without_decoding(void **state)
 {
     (void)state;
     const float linear[3] = {0.60382734f, 0.03310477f, 0.21404114f}; /* of 0.8, 0.2, 0.5 */
@@ -256,16 +256,16 @@ static void encoded_numbers_are_mixed_as_they_are(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(layers_are_those_asked_for),
+        cmocka_unit_test(layers_are_the_requested_ones),
         cmocka_unit_test(bad_sizes_are_errors),
-        cmocka_unit_test(every_refused_block_is_an_error),
+        cmocka_unit_test(running_out_of_memory_leaks_nothing),
         cmocka_unit_test(operators_give_reference_vectors),
         cmocka_unit_test(operators_see_unpremultiplied_color),
-        cmocka_unit_test(what_is_laid_over_a_color_is_opaque),
+        cmocka_unit_test(films_over_a_color_are_opaque),
         cmocka_unit_test(edges_have_no_fringe),
-        cmocka_unit_test(what_is_not_finite_is_made_so),
-        cmocka_unit_test(threads_change_nothing),
-        cmocka_unit_test(encoded_numbers_are_mixed_as_they_are),
+        cmocka_unit_test(nonfinite_values_are_made_finite),
+        cmocka_unit_test(results_do_not_depend_on_threads),
+        cmocka_unit_test(encoded_values_are_blended_without_decoding),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -16,7 +16,7 @@ static film make_film(uint32_t aovs)
     return f;
 }
 
-static void layers_are_those_asked_for(void **state)
+static void layers_are_the_requested_ones(void **state)
 {
     (void)state;
     film none = make_film(FACET_AOV_DEPTH), some = make_film(FACET_AOV_CRYPTO_MATERIAL);
@@ -29,7 +29,7 @@ static void layers_are_those_asked_for(void **state)
     film_destroy(&some);
 }
 
-static void shares_are_sorted_and_add_up(void **state)
+static void coverages_are_sorted_and_add_up(void **state)
 {
     (void)state;
     film f = make_film(FACET_AOV_CRYPTO_OBJECT);
@@ -47,7 +47,7 @@ static void shares_are_sorted_and_add_up(void **state)
     film_destroy(&f);
 }
 
-static void a_larger_share_takes_a_rank(void **state)
+static void a_larger_coverage_replaces_the_smallest(void **state)
 {
     (void)state;
     film f = make_film(FACET_AOV_CRYPTO_INSTANCE);
@@ -84,9 +84,9 @@ static void metadata_names_layer_and_hash(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(layers_are_those_asked_for),
-        cmocka_unit_test(shares_are_sorted_and_add_up),
-        cmocka_unit_test(a_larger_share_takes_a_rank),
+        cmocka_unit_test(layers_are_the_requested_ones),
+        cmocka_unit_test(coverages_are_sorted_and_add_up),
+        cmocka_unit_test(a_larger_coverage_replaces_the_smallest),
         cmocka_unit_test(metadata_names_layer_and_hash),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

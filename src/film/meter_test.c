@@ -26,7 +26,7 @@ static void assert_close(double a, double b)
         fail_msg("%.9g instead of %.9g", a, b);
 }
 
-static void averages_are_of_what_is_covered(void **state)
+static void averages_are_over_covered_pixels(void **state)
 {
     (void)state;
     static const float pixels[4][2] = {{2, 1}, {8, 1}, {4, .5f}, {1000, 0}};
@@ -55,7 +55,7 @@ static void black_counts_as_ten_stops_below_the_mean(void **state)
     film_destroy(&f);
 }
 
-static void the_median_decides_what_is_beyond(void **state)
+static void brightness_is_judged_by_the_median(void **state)
 {
     (void)state;
     static const float pixels[4][2] = {{3, 1}, {3, .1f}, {0, 1}, {9, 0}};
@@ -78,9 +78,9 @@ static void exposures_are_those_of_a_camera(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(averages_are_of_what_is_covered),
+        cmocka_unit_test(averages_are_over_covered_pixels),
         cmocka_unit_test(black_counts_as_ten_stops_below_the_mean),
-        cmocka_unit_test(the_median_decides_what_is_beyond),
+        cmocka_unit_test(brightness_is_judged_by_the_median),
         cmocka_unit_test(exposures_are_those_of_a_camera),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

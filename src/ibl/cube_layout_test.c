@@ -55,7 +55,7 @@ static const float *texel_at(const image *i, uint32_t x, uint32_t y)
 static const facet_layout face_layouts[] = {FACET_LAYOUT_CROSS_HORIZONTAL, FACET_LAYOUT_CROSS_VERTICAL,
                                             FACET_LAYOUT_STRIP_HORIZONTAL, FACET_LAYOUT_STRIP_VERTICAL};
 
-static void faces_come_back_as_they_were(void **state)
+static void faces_round_trip(void **state)
 {
     (void)state;
     static const uint32_t sizes[] = {1, 2, 5, 16};
@@ -137,7 +137,7 @@ static void faces_are_where_facet_h_says(void **state)
 }
 
 /* On paper as on the sphere: neighbours in a cross, cells or not, are neighbours in direction. */
-static void crosses_hang_together(void **state)
+static void neighboring_faces_of_crosses_are_continuous(void **state)
 {
     (void)state;
     enum { SIZE = 16 };
@@ -267,7 +267,7 @@ static sphere make_target(sphere_kind kind, uint32_t height, cube *c, image *pan
 /* From each kind to each, finer, as fine and coarser. A smooth function stays what it is, to the second
  * order of the sources' texels, which are bilinear (most at the folds of octahedra), also across edges. A
  * shift by a twentieth of a texel would be 1.5e-3. */
-static void smooth_functions_stay(void **state)
+static void smooth_functions_are_kept(void **state)
 {
     (void)state;
     cube first = make_directions(64);
@@ -311,7 +311,7 @@ static void get_mean(const sphere *s, double mean[3])
 
 /* Suns of one texel, a million times as bright as the sky: in the middle of a face, at an edge, in a
  * corner, and where nothing is special; noise everywhere. */
-static void no_light_is_lost(void **state)
+static void energy_is_kept(void **state)
 {
     (void)state;
     static const int suns[][3] = {{2, 15, 15}, {0, 31, 7}, {3, 0, 0}};
@@ -352,7 +352,7 @@ static void no_light_is_lost(void **state)
 }
 
 /* A bright and even patch, hot, stays even: few lookups weigh its texels by a few thousandths more or less. */
-static void lights_stay_even(void **state)
+static void bright_patches_stay_uniform(void **state)
 {
     (void)state;
     static const uint32_t heights[] = {32, 57, 96};
@@ -388,7 +388,7 @@ static void lights_stay_even(void **state)
     cube_destroy(&c);
 }
 
-static void constants_stay(void **state)
+static void constants_are_kept(void **state)
 {
     (void)state;
     static const uint32_t heights[] = {1, 3, 16, 50};
@@ -415,7 +415,7 @@ static void constants_stay(void **state)
 }
 
 /* A turn, and the same back; d of the target is rows d of the source. */
-static void turns(void **state)
+static void rotations_are_applied(void **state)
 {
     (void)state;
     cube c = make_directions(32);
@@ -456,7 +456,7 @@ static void bits_do_not_depend_on_threads(void **state)
     cube_destroy(&c);
 }
 
-static void what_does_not_fit(void **state)
+static void sizes_that_fit_no_layout_are_refused(void **state)
 {
     (void)state;
     static const struct {
@@ -497,7 +497,7 @@ static void what_does_not_fit(void **state)
     assert_int_equal(layout_detect(0xfffffffe, 0x7fffffff), FACET_LAYOUT_EQUIRECTANGULAR);
 }
 
-static void memory_runs_out(void **state)
+static void running_out_of_memory_leaks_nothing(void **state)
 {
     (void)state;
     cube c = make_directions(8);
@@ -522,18 +522,18 @@ static void memory_runs_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(faces_come_back_as_they_were),
+        cmocka_unit_test(faces_round_trip),
         cmocka_unit_test(faces_are_where_facet_h_says),
-        cmocka_unit_test(crosses_hang_together),
+        cmocka_unit_test(neighboring_faces_of_crosses_are_continuous),
         cmocka_unit_test(directions_are_where_facet_h_says),
-        cmocka_unit_test(smooth_functions_stay),
-        cmocka_unit_test(no_light_is_lost),
-        cmocka_unit_test(lights_stay_even),
-        cmocka_unit_test(constants_stay),
-        cmocka_unit_test(turns),
+        cmocka_unit_test(smooth_functions_are_kept),
+        cmocka_unit_test(energy_is_kept),
+        cmocka_unit_test(bright_patches_stay_uniform),
+        cmocka_unit_test(constants_are_kept),
+        cmocka_unit_test(rotations_are_applied),
         cmocka_unit_test(bits_do_not_depend_on_threads),
-        cmocka_unit_test(what_does_not_fit),
-        cmocka_unit_test(memory_runs_out),
+        cmocka_unit_test(sizes_that_fit_no_layout_are_refused),
+        cmocka_unit_test(running_out_of_memory_leaks_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

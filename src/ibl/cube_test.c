@@ -14,7 +14,7 @@
 static const double pi = 3.14159265358979323846;
 
 /* Face directions of cube maps (OpenGL 4.6, table 8.19). */
-static void test_directions(void **state)
+static void faces_point_as_in_opengl(void **state)
 {
     (void)state;
     const double s = 0.25;
@@ -29,7 +29,7 @@ static void test_directions(void **state)
     }
 }
 
-static void test_round_trip(void **state)
+static void directions_round_trip(void **state)
 {
     (void)state;
     for (uint32_t face = 0; face < 6; face++)
@@ -46,7 +46,7 @@ static void test_round_trip(void **state)
             }
 }
 
-static void test_solid_angles_add_up(void **state)
+static void solid_angles_add_up(void **state)
 {
     (void)state;
     static const uint32_t sizes[] = {1, 2, 7, 64, 256};
@@ -75,7 +75,7 @@ static cube make_noise(uint32_t size)
 
 /* Over each of the twelve edges and at the corners, lookups a hair's breadth apart agree although the
  * texels are noise. */
-static void test_no_seams(void **state)
+static void lookups_are_seamless(void **state)
 {
     (void)state;
     cube c = make_noise(8);
@@ -100,7 +100,7 @@ static void test_no_seams(void **state)
     cube_destroy(&c);
 }
 
-static void test_lookup_hits_texels(void **state)
+static void lookups_at_centers_give_texels(void **state)
 {
     (void)state;
     cube c = make_noise(16);
@@ -118,9 +118,11 @@ static void test_lookup_hits_texels(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_directions),          cmocka_unit_test(test_round_trip),
-        cmocka_unit_test(test_solid_angles_add_up), cmocka_unit_test(test_no_seams),
-        cmocka_unit_test(test_lookup_hits_texels),
+        cmocka_unit_test(faces_point_as_in_opengl),
+        cmocka_unit_test(directions_round_trip),
+        cmocka_unit_test(solid_angles_add_up),
+        cmocka_unit_test(lookups_are_seamless),
+        cmocka_unit_test(lookups_at_centers_give_texels),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -99,7 +99,7 @@ static double worst_of_albedo(dfg_masking masking, const double E[5][5])
     return worst;
 }
 
-static void test_golden_split_sum(void **state)
+static void split_sum_terms_equal_golden_values(void **state)
 {
     (void)state;
     double correlated = worst_of_split_sum(DFG_SMITH_CORRELATED, correlated_A, correlated_B);
@@ -112,7 +112,7 @@ static void test_golden_split_sum(void **state)
     assert_true(correlated < GGX_ERROR && schlick < GGX_ERROR && separable < GGX_ERROR && direct < GGX_ERROR);
 }
 
-static void test_golden_averages(void **state)
+static void averages_equal_golden_values(void **state)
 {
     (void)state;
     for (int i = 0; i < 5; i++) {
@@ -126,7 +126,7 @@ static void test_golden_averages(void **state)
     }
 }
 
-static void test_golden_sheen(void **state)
+static void sheen_albedos_equal_golden_values(void **state)
 {
     (void)state;
     double worst = 0.0;
@@ -155,7 +155,7 @@ static void test_golden_sheen(void **state)
 }
 
 /* The limit of no roughness, exactly and from above, far from grazing angles. */
-static void test_mirror(void **state)
+static void roughness_zero_gives_fresnel(void **state)
 {
     (void)state;
     for (int i = 0; i < 4; i++) {
@@ -180,7 +180,7 @@ static void test_mirror(void **state)
 
 /* Facts: E = 1 - ln 2 for alpha = 1 seen from above, whichever the masking; separable and Schlick with k =
  * 1/2 are the same there; below NDOTV_MIN nothing changes. */
-static void test_facts(void **state)
+static void known_identities_hold(void **state)
 {
     (void)state;
     for (int i = 0; i < 4; i++) {
@@ -199,7 +199,7 @@ static void test_facts(void **state)
 }
 
 /* No surface reflects more than it receives, at grazing angles and at next to no roughness neither. */
-static void test_energy(void **state)
+static void no_surface_reflects_more_than_it_receives(void **state)
 {
     (void)state;
     for (int y = 0; y < 60; y++)
@@ -250,7 +250,7 @@ static void integrate_brdf(double r, double NoV, uint32_t samples, double *A, do
     }
 }
 
-static void test_sum_of_samples(void **state)
+static void terms_equal_those_of_importance_sampling(void **state)
 {
     (void)state;
     enum { SAMPLES = 18 };
@@ -269,13 +269,13 @@ static void test_sum_of_samples(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_golden_split_sum),
-        cmocka_unit_test(test_golden_averages),
-        cmocka_unit_test(test_golden_sheen),
-        cmocka_unit_test(test_mirror),
-        cmocka_unit_test(test_facts),
-        cmocka_unit_test(test_energy),
-        cmocka_unit_test(test_sum_of_samples),
+        cmocka_unit_test(split_sum_terms_equal_golden_values),
+        cmocka_unit_test(averages_equal_golden_values),
+        cmocka_unit_test(sheen_albedos_equal_golden_values),
+        cmocka_unit_test(roughness_zero_gives_fresnel),
+        cmocka_unit_test(known_identities_hold),
+        cmocka_unit_test(no_surface_reflects_more_than_it_receives),
+        cmocka_unit_test(terms_equal_those_of_importance_sampling),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -29,7 +29,7 @@ static const double golden_B[5][5] = {
     {0.06511868640, 0.02794833429, 0.008483010132, 0.001641360163, 4.763906469e-05},
     {0.03208961021, 0.01087625501, 0.002988735255, 6.330741246e-04, 3.361429473e-05}};
 
-static void test_golden_numbers(void **state)
+static void split_sum_terms_equal_golden_values(void **state)
 {
     (void)state;
     double worst = 0.0;
@@ -45,7 +45,7 @@ static void test_golden_numbers(void **state)
 }
 
 /* r = 1 and N.V = 1 are a node: E = 1 - ln 2 exactly. */
-static void test_node(void **state)
+static void the_last_node_is_exact(void **state)
 {
     (void)state;
     float dfg[2];
@@ -56,7 +56,7 @@ static void test_node(void **state)
 }
 
 /* A mirror reflects Fresnel's share and nothing else. */
-static void test_mirror(void **state)
+static void roughness_zero_gives_fresnel(void **state)
 {
     (void)state;
     for (int x = 0; x < DFG_SIZE; x++) {
@@ -69,7 +69,7 @@ static void test_mirror(void **state)
     }
 }
 
-static void test_energy_and_range(void **state)
+static void terms_stay_in_range_and_conserve_energy(void **state)
 {
     (void)state;
     for (int y = 0; y <= 500; y++)
@@ -95,7 +95,7 @@ static const double golden_sheen[5][5] = {
     {0.7819239627, 0.4815967431, 0.2980103504, 0.1844342457, 0.1008732237},
     {0.8272474977, 0.5342260461, 0.3562892487, 0.2454791415, 0.1637639667}};
 
-static void test_sheen_golden_numbers(void **state)
+static void sheen_albedos_equal_golden_values(void **state)
 {
     (void)state;
     double worst = 0.0;
@@ -109,7 +109,7 @@ static void test_sheen_golden_numbers(void **state)
 }
 
 /* The sampled integral of the shader library: another method, the same D and V. */
-static void test_sheen_is_that_of_the_shared_text(void **state)
+static void sheen_albedos_equal_those_of_the_shader_library(void **state)
 {
     (void)state;
     double worst = 0.0;
@@ -126,7 +126,7 @@ static void test_sheen_is_that_of_the_shared_text(void **state)
 
 /* Falling with N.V from its peak on, which is nearer to the horizon than 0.03; above 1 only at the rim of
  * smooth sheen, and 0 where the rim has no width. */
-static void test_sheen_range(void **state)
+static void sheen_albedos_fall_towards_the_normal(void **state)
 {
     (void)state;
     for (int y = 0; y <= 300; y++) {
@@ -144,7 +144,7 @@ static void test_sheen_range(void **state)
 }
 
 /* The mean over a hemisphere of uniform light, 2 E N.V dN.V: golden numbers 16.4. */
-static void test_sheen_average(void **state)
+static void averages_of_sheen_equal_golden_values(void **state)
 {
     (void)state;
     static const double golden[5] = {0.021510382484, 0.058355778644, 0.142676851913, 0.240117050939,
@@ -160,7 +160,7 @@ static void test_sheen_average(void **state)
 }
 
 /* Rough glass: R and T by quadrature, R + T the node-free number of the table. */
-static void test_glass_golden_numbers(void **state)
+static void terms_of_glass_equal_golden_values(void **state)
 {
     (void)state;
     static const struct {
@@ -189,7 +189,7 @@ static void test_glass_golden_numbers(void **state)
 
 /* Interpolated, what scatters once is known to 1 %, from either side, for the glasses that there are; and
  * a node is integrate_glass() to the last of its 16 bits. */
-static void test_glass_interpolation(void **state)
+static void interpolated_terms_of_glass_are_accurate(void **state)
 {
     (void)state;
     double worst = 0.0;
@@ -216,16 +216,16 @@ static void test_glass_interpolation(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_golden_numbers),
-        cmocka_unit_test(test_node),
-        cmocka_unit_test(test_mirror),
-        cmocka_unit_test(test_energy_and_range),
-        cmocka_unit_test(test_sheen_golden_numbers),
-        cmocka_unit_test(test_sheen_is_that_of_the_shared_text),
-        cmocka_unit_test(test_sheen_range),
-        cmocka_unit_test(test_sheen_average),
-        cmocka_unit_test(test_glass_golden_numbers),
-        cmocka_unit_test(test_glass_interpolation),
+        cmocka_unit_test(split_sum_terms_equal_golden_values),
+        cmocka_unit_test(the_last_node_is_exact),
+        cmocka_unit_test(roughness_zero_gives_fresnel),
+        cmocka_unit_test(terms_stay_in_range_and_conserve_energy),
+        cmocka_unit_test(sheen_albedos_equal_golden_values),
+        cmocka_unit_test(sheen_albedos_equal_those_of_the_shader_library),
+        cmocka_unit_test(sheen_albedos_fall_towards_the_normal),
+        cmocka_unit_test(averages_of_sheen_equal_golden_values),
+        cmocka_unit_test(terms_of_glass_equal_golden_values),
+        cmocka_unit_test(interpolated_terms_of_glass_are_accurate),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -50,7 +50,7 @@ static size_t make_hdr(unsigned char *bytes, int width, int height, const unsign
     return (size_t)head + 4 * (size_t)(width * height);
 }
 
-static void test_load_memory(void **state)
+static void environments_are_read_from_memory(void **state)
 {
     (void)state;
     unsigned char bytes[4096];
@@ -78,7 +78,7 @@ static void test_load_memory(void **state)
     facet_environment_destroy(e);
 }
 
-static void test_refused(void **state)
+static void invalid_files_and_arguments_are_refused(void **state)
 {
     (void)state;
     facet_environment *e = (facet_environment *)8;
@@ -108,7 +108,7 @@ static void test_refused(void **state)
 }
 
 /* 8-bit images are decoded from sRGB. */
-static void test_8_bit(void **state)
+static void images_of_8_bits_are_decoded_from_srgb(void **state)
 {
     (void)state;
     image grey;
@@ -143,7 +143,7 @@ static const char *data_path(const char *name, char path[1024])
     return path;
 }
 
-static void test_real_files(void **state)
+static void real_environments_are_read(void **state)
 {
     (void)state;
     static const char *const names[] = {"leadenhall_market_1k.hdr",
@@ -183,7 +183,7 @@ static void test_real_files(void **state)
 }
 
 /* data/README.md: the sun of this sky is at u 0.600, v 0.272. The light is brightest there. */
-static void test_direction_of_the_sun(void **state)
+static void the_sun_is_in_its_direction(void **state)
 {
     (void)state;
     char path[1024];
@@ -214,7 +214,7 @@ static void test_direction_of_the_sun(void **state)
 
 /* ---- the studio ---- */
 
-static void test_studio(void **state)
+static void the_studio_is_neutral_and_lit_from_above(void **state)
 {
     (void)state;
     facet_environment *e = NULL;
@@ -278,7 +278,7 @@ static void check_equal(facet_environment *a, facet_environment *b)
                                 mem_size(a->parts.levels[lobe][level].texels));
 }
 
-static void test_cache(void **state)
+static void prepared_parts_are_cached(void **state)
 {
     (void)state;
     char folder[] = "/tmp/facet-cache-XXXXXX";
@@ -350,7 +350,7 @@ static void test_cache(void **state)
 }
 
 /* A folder that cannot be written costs a warning, not the image. */
-static void test_cache_without_folder(void **state)
+static void an_unwritable_cache_is_a_warning(void **state)
 {
     (void)state;
     messages m = {0};
@@ -366,10 +366,14 @@ static void test_cache_without_folder(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_load_memory), cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_8_bit),       cmocka_unit_test(test_real_files),
-        cmocka_unit_test(test_studio),      cmocka_unit_test(test_direction_of_the_sun),
-        cmocka_unit_test(test_cache),       cmocka_unit_test(test_cache_without_folder),
+        cmocka_unit_test(environments_are_read_from_memory),
+        cmocka_unit_test(invalid_files_and_arguments_are_refused),
+        cmocka_unit_test(images_of_8_bits_are_decoded_from_srgb),
+        cmocka_unit_test(real_environments_are_read),
+        cmocka_unit_test(the_studio_is_neutral_and_lit_from_above),
+        cmocka_unit_test(the_sun_is_in_its_direction),
+        cmocka_unit_test(prepared_parts_are_cached),
+        cmocka_unit_test(an_unwritable_cache_is_a_warning),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

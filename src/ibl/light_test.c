@@ -22,7 +22,7 @@ static const double pi = 3.14159265358979323846;
 static const ibl_light_desc everything = {
     .needs_irradiance = true, .needs_specular = true, .max_roughness = 1.0f, .needs_background = true};
 
-static void test_constant(void **state)
+static void uniform_light_stays_uniform(void **state)
 {
     (void)state;
     static const float radiance[3] = {0.3f, 1.0f, 1234.5f};
@@ -76,7 +76,7 @@ static void band_4(const float d[3], float out[3])
 }
 
 /* k_l of shading-model.md 16.4, quadrature in long double. */
-static void test_kernel_golden_numbers(void **state)
+static void kernels_equal_golden_values(void **state)
 {
     (void)state;
     static const double golden[5][5] = {
@@ -139,7 +139,7 @@ static void check_bands(facet_environment *e, int first_band, int band_step)
     facet_environment_destroy(e);
 }
 
-static void test_bands(void **state)
+static void bands_of_harmonics_are_scaled(void **state)
 {
     (void)state;
     check_bands(make_environment(1024, 512, bands_1_2_3), 1, 1);
@@ -154,7 +154,7 @@ static void upper_half(const float d[3], float out[3])
 }
 
 /* Of the clamped cosine: (2 / 3) ((pi - t) cos(t) + sin(t)), shading-model.md 16.9. */
-static void test_irradiance(void **state)
+static void irradiance_is_that_of_the_clamped_cosine(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(512, 256, upper_half);
@@ -221,7 +221,7 @@ static void check_sun(uint32_t sun_x, uint32_t sun_y)
     facet_environment_destroy(e);
 }
 
-static void test_sun(void **state)
+static void a_sun_becomes_the_lobe(void **state)
 {
     (void)state;
     check_sun(614, 139); /* anywhere */
@@ -277,7 +277,7 @@ static void check_rotation(float phase, double tolerance)
     facet_environment_destroy(turned);
 }
 
-static void test_rotation(void **state)
+static void rotated_environments_give_rotated_light(void **state)
 {
     (void)state;
     check_rotation((float)(0.5 * pi), 2e-4);
@@ -286,7 +286,7 @@ static void test_rotation(void **state)
 
 /* Along each edge of the cube, lookups on both sides of it differ by no more than lookups as far apart
  * elsewhere. */
-static void test_seams(void **state)
+static void lookups_are_seamless(void **state)
 {
     (void)state;
     rotation_phase = 0.3f;
@@ -314,7 +314,7 @@ static void test_seams(void **state)
 }
 
 /* Roughness 0 is the image: at the middle of a texel, that texel. */
-static void test_mirror(void **state)
+static void roughness_zero_gives_the_panorama(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(256, 128, pattern);
@@ -339,7 +339,7 @@ static void sun_in_grey(const float d[3], float out[3])
         out[k] = is_sun ? 1e5f : 1.0f + (float)k;
 }
 
-static void test_never_darker_than_the_image(void **state)
+static void light_is_never_below_the_least_radiance(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(64, 32, sun_in_grey);
@@ -363,7 +363,7 @@ static void test_never_darker_than_the_image(void **state)
 }
 
 /* Continuous in roughness, too. */
-static void test_roughness_is_continuous(void **state)
+static void light_is_continuous_in_roughness(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(256, 128, sky);
@@ -382,7 +382,7 @@ static void test_roughness_is_continuous(void **state)
 
 /* ---- parts ---- */
 
-static void test_parts_are_lazy(void **state)
+static void only_needed_parts_are_prepared(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(64, 32, sky);
@@ -422,7 +422,7 @@ static void test_parts_are_lazy(void **state)
 }
 
 /* A level depends neither on the other parts that are prepared nor on the number of threads. */
-static void test_levels_are_equal(void **state)
+static void levels_do_not_depend_on_other_parts_or_threads(void **state)
 {
     (void)state;
     rotation_phase = 0.1f;
@@ -459,7 +459,7 @@ static void *prepare_in_thread(void *argument)
     return (void *)(uintptr_t)light;
 }
 
-static void test_threads_share(void **state)
+static void threads_share_prepared_parts(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(256, 128, sky);
@@ -510,7 +510,7 @@ static void count_release(void *user, void *memory, size_t size)
 }
 
 /* Whichever allocation fails, the result says so and nothing leaks. */
-static void test_memory_runs_out(void **state)
+static void running_out_of_memory_leaks_nothing(void **state)
 {
     (void)state;
     for (long limit = 0;; limit = next_failure(limit)) {
@@ -543,20 +543,20 @@ static void test_memory_runs_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_constant),
-        cmocka_unit_test(test_kernel_golden_numbers),
-        cmocka_unit_test(test_bands),
-        cmocka_unit_test(test_irradiance),
-        cmocka_unit_test(test_sun),
-        cmocka_unit_test(test_rotation),
-        cmocka_unit_test(test_seams),
-        cmocka_unit_test(test_mirror),
-        cmocka_unit_test(test_never_darker_than_the_image),
-        cmocka_unit_test(test_roughness_is_continuous),
-        cmocka_unit_test(test_parts_are_lazy),
-        cmocka_unit_test(test_levels_are_equal),
-        cmocka_unit_test(test_threads_share),
-        cmocka_unit_test(test_memory_runs_out),
+        cmocka_unit_test(uniform_light_stays_uniform),
+        cmocka_unit_test(kernels_equal_golden_values),
+        cmocka_unit_test(bands_of_harmonics_are_scaled),
+        cmocka_unit_test(irradiance_is_that_of_the_clamped_cosine),
+        cmocka_unit_test(a_sun_becomes_the_lobe),
+        cmocka_unit_test(rotated_environments_give_rotated_light),
+        cmocka_unit_test(lookups_are_seamless),
+        cmocka_unit_test(roughness_zero_gives_the_panorama),
+        cmocka_unit_test(light_is_never_below_the_least_radiance),
+        cmocka_unit_test(light_is_continuous_in_roughness),
+        cmocka_unit_test(only_needed_parts_are_prepared),
+        cmocka_unit_test(levels_do_not_depend_on_other_parts_or_threads),
+        cmocka_unit_test(threads_share_prepared_parts),
+        cmocka_unit_test(running_out_of_memory_leaks_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -166,7 +166,7 @@ static double error_over_sphere(const ibl_light *light, const image *panorama, f
 
 /* Never negative, together 1, a mirror at one end and the rough lobe at the other, smooth in between; and
  * the lobe of NARROW_END has at least what makes the tail. */
-static void test_weights(void **state)
+static void weights_are_smooth_and_add_up(void **state)
 {
     (void)state;
     static const double rows[] = {512.0, 400.0, 256.0, 100.0};
@@ -216,7 +216,7 @@ static void dark(const float d[3], float out[3])
 }
 
 /* A sun of one texel keeps its energy wherever it is, poles included, and nothing is negative. */
-static void test_energy(void **state)
+static void a_sun_keeps_its_energy(void **state)
 {
     (void)state;
     static const uint32_t places[][2] = {{0, 0},   {700, 1},   {3, 5},      {1023, 30},
@@ -249,7 +249,7 @@ static void uniform(const float d[3], float out[3])
 }
 
 /* Whatever the size: uniform stays uniform, and the bytes are the same for every number of threads. */
-static void test_sizes(void **state)
+static void all_sizes_keep_uniform_light(void **state)
 {
     (void)state;
     static const uint32_t sizes[][2] = {{1, 1},     {2, 1},     {5, 3},     {16, 16},
@@ -302,7 +302,7 @@ static void blob(const float d[3], float out[3])
 
 /* The lobe itself around a small light: the same at the poles, where texels are narrow, on the image's
  * seam and elsewhere. */
-static void test_light_anywhere(void **state)
+static void small_lights_become_the_lobe_anywhere(void **state)
 {
     (void)state;
     static const float places[][3] = {{0.0f, 1.0f, 0.0f},
@@ -337,7 +337,7 @@ static void test_light_anywhere(void **state)
 }
 
 /* A sun becomes duller and wider with roughness, without steps. */
-static void test_sun_is_continuous(void **state)
+static void a_sun_widens_continuously_with_roughness(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(1024, 512, dark);
@@ -387,7 +387,7 @@ static void check_file(const char *name, double tolerance)
     facet_environment_destroy(e);
 }
 
-static void test_real_files(void **state)
+static void real_environments_are_blurred_accurately(void **state)
 {
     (void)state;
     if (!getenv("FACET_TEST_DATA")) {
@@ -401,12 +401,12 @@ static void test_real_files(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_weights),
-        cmocka_unit_test(test_energy),
-        cmocka_unit_test(test_sizes),
-        cmocka_unit_test(test_light_anywhere),
-        cmocka_unit_test(test_sun_is_continuous),
-        cmocka_unit_test(test_real_files),
+        cmocka_unit_test(weights_are_smooth_and_add_up),
+        cmocka_unit_test(a_sun_keeps_its_energy),
+        cmocka_unit_test(all_sizes_keep_uniform_light),
+        cmocka_unit_test(small_lights_become_the_lobe_anywhere),
+        cmocka_unit_test(a_sun_widens_continuously_with_roughness),
+        cmocka_unit_test(real_environments_are_blurred_accurately),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

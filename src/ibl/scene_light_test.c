@@ -200,7 +200,7 @@ static void check_uniform(const writing *w, const double expected[3], float inte
     destroy_scene(s);
 }
 
-static void test_uniform(void **state)
+static void uniform_light_has_its_radiance(void **state)
 {
     (void)state;
     /* 8 bits of a transfer function of slope 1 / 2.4 over d = 51 / 255: within 2 % of a channel */
@@ -220,7 +220,7 @@ static void one_face(const double d[3], double out[3])
 
 /* One face of radiance 4, seen along each axis; a white surface that faces it sends out 4 times the form
  * factor of a square from one side length's half: (4 / 2 pi) 2 atan(1 / sqrt 2) / sqrt 2. */
-static void test_one_face(void **state)
+static void each_face_lights_from_its_direction(void **state)
 {
     (void)state;
     double form_factor = 4.0 / (2.0 * pi) * sqrt(2.0) * atan(1.0 / sqrt(2.0));
@@ -250,7 +250,7 @@ static void test_one_face(void **state)
 }
 
 /* A light turned by a quarter around +Y: what was at +Z is at +X, for reflections and diffuse light. */
-static void test_rotation(void **state)
+static void rotated_lights_turn(void **state)
 {
     (void)state;
     bright_face = 4;
@@ -283,7 +283,7 @@ static void gradient(const double d[3], double out[3])
 }
 
 /* Of L = a + b.d: what a lobe with k_1 makes of it is a + k_1 b.d, and k_1 = 2 / 3 for diffuse light. */
-static void test_gradient_in_all_readings(void **state)
+static void gradients_are_read_in_all_conventions(void **state)
 {
     (void)state;
     for (int reading = 0; reading < 8; reading++) {
@@ -322,7 +322,7 @@ static void test_gradient_in_all_readings(void **state)
 }
 
 /* Where images cannot hold what shone, diffuse light is still what the file says. */
-static void test_irradiance_is_the_files(void **state)
+static void irradiance_is_that_of_the_file(void **state)
 {
     (void)state;
     lit_scene *s = make_scene(&(writing){.size = 16, .is_rgb = true}, gradient);
@@ -344,7 +344,7 @@ static void test_irradiance_is_the_files(void **state)
 }
 
 /* Seams: none of a gradient read as it was written, plain ones read the other way. */
-static void test_seams(void **state)
+static void seams_reveal_mirrored_faces(void **state)
 {
     (void)state;
     cube c;
@@ -390,7 +390,7 @@ static void check_failure(const lit_scene *s, facet_result expected, const char 
         fail_msg("\"%s\" does not say \"%s\"", error.message, words);
 }
 
-static void test_bad_files(void **state)
+static void invalid_images_are_refused(void **state)
 {
     (void)state;
     lit_scene *s = make_scene(&(writing){.size = 8}, gradient);
@@ -440,7 +440,7 @@ static void test_bad_files(void **state)
 }
 
 /* Alpha 0 divides nothing by 0. */
-static void test_no_alpha(void **state)
+static void texels_of_alpha_zero_are_finite(void **state)
 {
     (void)state;
     lit_scene *s = make_scene(&(writing){.size = 4}, gradient);
@@ -466,7 +466,7 @@ static void test_no_alpha(void **state)
 }
 
 /* A light belongs to a scene of the file, and the pose says which. */
-static void test_which_light(void **state)
+static void the_pose_selects_the_light(void **state)
 {
     (void)state;
     lit_scene *s = make_scene(&(writing){.size = 2}, uniform);
@@ -495,7 +495,7 @@ static void test_which_light(void **state)
 
 /* ---- threads and memory ---- */
 
-static void test_threads(void **state)
+static void lights_do_not_depend_on_threads(void **state)
 {
     (void)state;
     lit_scene *s = make_scene(&(writing){.size = 20}, gradient);
@@ -534,7 +534,7 @@ static void count_release(void *user, void *memory, size_t size)
     free(memory);
 }
 
-static void test_memory_runs_out(void **state)
+static void running_out_of_memory_leaks_nothing(void **state)
 {
     (void)state;
     lit_scene *s = make_scene(&(writing){.size = 4}, gradient);
@@ -559,17 +559,17 @@ static void test_memory_runs_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_uniform),
-        cmocka_unit_test(test_one_face),
-        cmocka_unit_test(test_rotation),
-        cmocka_unit_test(test_gradient_in_all_readings),
-        cmocka_unit_test(test_irradiance_is_the_files),
-        cmocka_unit_test(test_seams),
-        cmocka_unit_test(test_bad_files),
-        cmocka_unit_test(test_no_alpha),
-        cmocka_unit_test(test_which_light),
-        cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_memory_runs_out),
+        cmocka_unit_test(uniform_light_has_its_radiance),
+        cmocka_unit_test(each_face_lights_from_its_direction),
+        cmocka_unit_test(rotated_lights_turn),
+        cmocka_unit_test(gradients_are_read_in_all_conventions),
+        cmocka_unit_test(irradiance_is_that_of_the_file),
+        cmocka_unit_test(seams_reveal_mirrored_faces),
+        cmocka_unit_test(invalid_images_are_refused),
+        cmocka_unit_test(texels_of_alpha_zero_are_finite),
+        cmocka_unit_test(the_pose_selects_the_light),
+        cmocka_unit_test(lights_do_not_depend_on_threads),
+        cmocka_unit_test(running_out_of_memory_leaks_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

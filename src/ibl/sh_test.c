@@ -36,7 +36,7 @@ static void fold(double radiance[SH_COUNT][3], float c[SH_COUNT][3])
     sh_fold_over_pi((const double(*)[3])irradiance, c);
 }
 
-static void test_constant_is_pi(void **state)
+static void uniform_radiance_gives_irradiance_pi(void **state)
 {
     (void)state;
     image i = make_image(173, 91);
@@ -57,7 +57,7 @@ static void test_constant_is_pi(void **state)
 }
 
 /* Clamped cosine around z, by independent quadrature. */
-static void test_golden_numbers(void **state)
+static void a_clamped_cosine_gives_golden_values(void **state)
 {
     (void)state;
     const uint32_t width = 1024;
@@ -90,7 +90,7 @@ static void test_golden_numbers(void **state)
 }
 
 /* One texel of radiance 1: coefficients are the basis there times its solid angle. */
-static void test_single_texel(void **state)
+static void a_single_texel_gives_the_basis(void **state)
 {
     (void)state;
     const uint32_t width = 2048;
@@ -115,7 +115,7 @@ static void test_single_texel(void **state)
     image_destroy(&i);
 }
 
-static void test_threads_do_not_matter(void **state)
+static void coefficients_do_not_depend_on_threads(void **state)
 {
     (void)state;
     image i = make_image(331, 120);
@@ -131,10 +131,10 @@ static void test_threads_do_not_matter(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_constant_is_pi),
-        cmocka_unit_test(test_golden_numbers),
-        cmocka_unit_test(test_single_texel),
-        cmocka_unit_test(test_threads_do_not_matter),
+        cmocka_unit_test(uniform_radiance_gives_irradiance_pi),
+        cmocka_unit_test(a_clamped_cosine_gives_golden_values),
+        cmocka_unit_test(a_single_texel_gives_the_basis),
+        cmocka_unit_test(coefficients_do_not_depend_on_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -62,7 +62,7 @@ static double search_least(const double c[SH_COUNT])
     return best;
 }
 
-static void test_least_value(void **state)
+static void minima_are_those_of_a_dense_search(void **state)
 {
     (void)state;
     uint32_t seed = 7;
@@ -87,7 +87,7 @@ static void test_least_value(void **state)
 }
 
 /* The function turned is the function at the direction turned back. */
-static void test_rotation(void **state)
+static void rotated_harmonics_are_the_rotated_function(void **state)
 {
     (void)state;
     uint32_t seed = 3;
@@ -116,7 +116,7 @@ static void test_rotation(void **state)
     }
 }
 
-static void test_window(void **state)
+static void windows_are_powers_of_sinc(void **state)
 {
     (void)state;
     double factors[2];
@@ -138,7 +138,7 @@ static double least_irradiance(double radiance[SH_COUNT][3], int channel)
 }
 
 /* A sun in any direction: the window takes the negative away, no more than that, alike in all channels. */
-static void test_dering(void **state)
+static void deringing_removes_exactly_the_negative_lobes(void **state)
 {
     (void)state;
     uint32_t seed = 11;
@@ -181,10 +181,10 @@ static void test_dering(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_least_value),
-        cmocka_unit_test(test_rotation),
-        cmocka_unit_test(test_window),
-        cmocka_unit_test(test_dering),
+        cmocka_unit_test(minima_are_those_of_a_dense_search),
+        cmocka_unit_test(rotated_harmonics_are_the_rotated_function),
+        cmocka_unit_test(windows_are_powers_of_sinc),
+        cmocka_unit_test(deringing_removes_exactly_the_negative_lobes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -25,7 +25,7 @@ static double lobe(double x, double roughness)
 }
 
 /* k_l of shading-model.md 16.4. */
-static void test_kernel_golden_numbers(void **state)
+static void kernels_equal_golden_values(void **state)
 {
     (void)state;
     static const double golden[5][5] = {
@@ -44,7 +44,7 @@ static void test_kernel_golden_numbers(void **state)
 }
 
 /* High degrees, down to roughness where D is below any float, against many midpoints of the lobe in x. */
-static void test_kernel_of_high_degrees(void **state)
+static void kernels_are_accurate_at_high_degrees(void **state)
 {
     (void)state;
     for (int r = 1; r <= 20; r++) {
@@ -69,7 +69,7 @@ static void test_kernel_of_high_degrees(void **state)
     }
 }
 
-static void test_constant(void **state)
+static void uniform_light_stays_uniform(void **state)
 {
     (void)state;
     static const float radiance[3] = {0.3f, 1.0f, 1234.5f};
@@ -97,7 +97,7 @@ static void nothing(const float d[3], float out[3])
 }
 
 /* At each level, around a sun of one texel: the ring, no light behind its edge, none negative. */
-static void test_sun_is_the_lobe(void **state)
+static void a_sun_becomes_the_lobe(void **state)
 {
     (void)state;
     const uint32_t width = 1024, height = 512, sun_x = 614, sun_y = 139;
@@ -190,7 +190,7 @@ static void room(const float d[3], float out[3])
     out[2] = d[2] > 0.2f ? 4.0f : 0.5f;
 }
 
-static void test_analytic_environment(void **state)
+static void analytic_environments_are_filtered_accurately(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(512, 256, room);
@@ -200,7 +200,7 @@ static void test_analytic_environment(void **state)
     facet_environment_destroy(e);
 }
 
-static void test_real_environments(void **state)
+static void real_environments_are_filtered_accurately(void **state)
 {
     (void)state;
     /* two rings stand for the one between them: a sun shows both, the more the sharper they are */
@@ -234,7 +234,7 @@ static void test_real_environments(void **state)
 /* ---- parts ---- */
 
 /* What needs no sheen prepares none; a range of roughness prepares the levels around it. */
-static void test_parts_are_lazy(void **state)
+static void only_needed_levels_are_prepared(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(64, 32, room);
@@ -259,7 +259,7 @@ static void test_parts_are_lazy(void **state)
 }
 
 /* Below the first level, and at no roughness at all, the lobe is that of the first level. */
-static void test_low_roughness(void **state)
+static void low_roughness_is_clamped_to_the_first_level(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(64, 32, room);
@@ -282,14 +282,14 @@ static void test_low_roughness(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_kernel_golden_numbers),
-        cmocka_unit_test(test_kernel_of_high_degrees),
-        cmocka_unit_test(test_constant),
-        cmocka_unit_test(test_sun_is_the_lobe),
-        cmocka_unit_test(test_analytic_environment),
-        cmocka_unit_test(test_real_environments),
-        cmocka_unit_test(test_parts_are_lazy),
-        cmocka_unit_test(test_low_roughness),
+        cmocka_unit_test(kernels_equal_golden_values),
+        cmocka_unit_test(kernels_are_accurate_at_high_degrees),
+        cmocka_unit_test(uniform_light_stays_uniform),
+        cmocka_unit_test(a_sun_becomes_the_lobe),
+        cmocka_unit_test(analytic_environments_are_filtered_accurately),
+        cmocka_unit_test(real_environments_are_filtered_accurately),
+        cmocka_unit_test(only_needed_levels_are_prepared),
+        cmocka_unit_test(low_roughness_is_clamped_to_the_first_level),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -58,7 +58,7 @@ static double illuminance(const image *p, const double n[3])
 /* ---- the disc ---- */
 
 /* All of the sun's light is in an image of any size, at any height of the sun: 0.05 %, for sums of float. */
-static void test_disc_energy(void **state)
+static void the_disc_keeps_its_energy_at_any_resolution(void **state)
 {
     (void)state;
     static const uint32_t heights[] = {2, 3, 16, 64, 257, 512, 1024};
@@ -86,7 +86,7 @@ static void test_disc_energy(void **state)
 }
 
 /* It is a disc: as wide as the sun, in the right place, darker at its limb, without holes. */
-static void test_disc_shape(void **state)
+static void the_disc_has_the_size_and_limb_of_the_sun(void **state)
 {
     (void)state;
     enum { SIZE = 4096 };
@@ -123,7 +123,7 @@ static void test_disc_shape(void **state)
 }
 
 /* The image of the whole sky has it too: with the disc minus without is the sun. */
-static void test_disc_in_sky(void **state)
+static void skies_contain_the_disc(void **state)
 {
     (void)state;
     for (int model = 0; model < 2; model++) {
@@ -144,7 +144,7 @@ static void test_disc_in_sky(void **state)
 }
 
 /* At sunset half of it is left, below nothing. */
-static void test_disc_sets(void **state)
+static void the_disc_sets(void **state)
 {
     (void)state;
     Atmosphere air[SKY_HALVES] = {atmosphere_earth(SKY_BANDS_FIRST), atmosphere_earth(SKY_BANDS_SECOND)};
@@ -160,7 +160,7 @@ static void test_disc_sets(void **state)
 
 /* ---- the sky ---- */
 
-static void test_symmetry(void **state)
+static void skies_are_symmetric_about_the_sun(void **state)
 {
     (void)state;
     enum { SIZE = 64 };
@@ -191,7 +191,7 @@ static void test_symmetry(void **state)
 }
 
 /* Neighbours differ little: no bands, no seam where azimuths of +-180 degrees meet, though for the horizon. */
-static void test_smooth(void **state)
+static void skies_are_smooth(void **state)
 {
     (void)state;
     enum { SIZE = 192 };
@@ -227,7 +227,7 @@ static void test_smooth(void **state)
 }
 
 /* No image holds what is no number, whatever the arguments. */
-static void test_numbers(void **state)
+static void all_radiances_are_finite(void **state)
 {
     (void)state;
     static const float elevations[] = {-90, -18, -6, -0.3f, 0, 3, 45, 90};
@@ -252,7 +252,7 @@ static void test_numbers(void **state)
 
 /* Twilight fades as it does: 3.4 lx where civil twilight ends (-6 degrees), 0.008 lx at -12 (Explanatory
  * Supplement to the Astronomical Almanac 1992); to a factor of 3 and of 5. Light of stars is not in it. */
-static void test_twilight(void **state)
+static void twilight_fades_as_measured(void **state)
 {
     (void)state;
     static const double expected[4][3] = {
@@ -269,7 +269,7 @@ static void test_twilight(void **state)
 }
 
 /* Light from the ground comes back from the sky; the ground is as bright as its albedo says. */
-static void test_ground(void **state)
+static void the_ground_lights_the_sky(void **state)
 {
     (void)state;
     double before = 0.0;
@@ -293,7 +293,7 @@ static void test_ground(void **state)
 }
 
 /* From a mountain the sky is darker and the horizon lower. */
-static void test_altitude(void **state)
+static void skies_are_darker_from_a_mountain(void **state)
 {
     (void)state;
     facet_sky_desc sky = {.sun_elevation_rad = 0.7f, .ground_albedo = {0.3f, 0.3f, 0.3f}, .height = 180};
@@ -312,7 +312,7 @@ static void test_altitude(void **state)
 
 /* ---- exposure, threads, arguments ---- */
 
-static void test_exposure(void **state)
+static void skies_have_the_requested_illuminance(void **state)
 {
     (void)state;
     static const double elevations[] = {60, 10, 1, -3};
@@ -337,7 +337,7 @@ static void test_exposure(void **state)
     facet_environment_destroy(night);
 }
 
-static void test_threads(void **state)
+static void skies_do_not_depend_on_threads(void **state)
 {
     (void)state;
     for (int model = 0; model < 2; model++) {
@@ -358,7 +358,7 @@ static void test_threads(void **state)
     }
 }
 
-static void test_arguments(void **state)
+static void invalid_arguments_are_refused(void **state)
 {
     (void)state;
     const struct {
@@ -388,7 +388,7 @@ static void test_arguments(void **state)
     }
 }
 
-static void test_memory(void **state)
+static void running_out_of_memory_leaks_nothing(void **state)
 {
     (void)state;
     for (int model = 0; model < 3; model++)
@@ -413,7 +413,7 @@ static void test_memory(void **state)
 
 /* ---- gradients ---- */
 
-static void test_gradient(void **state)
+static void gradients_interpolate_three_colors(void **state)
 {
     (void)state;
     const float zenith[3] = {1.0f, 2.0f, 4.0f}, horizon[3] = {3.0f, 3.0f, 1.0f},
@@ -442,13 +442,20 @@ static void test_gradient(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_disc_energy), cmocka_unit_test(test_disc_shape),
-                                       cmocka_unit_test(test_disc_in_sky), cmocka_unit_test(test_disc_sets),
-                                       cmocka_unit_test(test_symmetry),    cmocka_unit_test(test_smooth),
-                                       cmocka_unit_test(test_numbers),     cmocka_unit_test(test_twilight),
-                                       cmocka_unit_test(test_ground),      cmocka_unit_test(test_altitude),
-                                       cmocka_unit_test(test_exposure),    cmocka_unit_test(test_threads),
-                                       cmocka_unit_test(test_arguments),   cmocka_unit_test(test_memory),
-                                       cmocka_unit_test(test_gradient)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_disc_keeps_its_energy_at_any_resolution),
+                                       cmocka_unit_test(the_disc_has_the_size_and_limb_of_the_sun),
+                                       cmocka_unit_test(skies_contain_the_disc),
+                                       cmocka_unit_test(the_disc_sets),
+                                       cmocka_unit_test(skies_are_symmetric_about_the_sun),
+                                       cmocka_unit_test(skies_are_smooth),
+                                       cmocka_unit_test(all_radiances_are_finite),
+                                       cmocka_unit_test(twilight_fades_as_measured),
+                                       cmocka_unit_test(the_ground_lights_the_sky),
+                                       cmocka_unit_test(skies_are_darker_from_a_mountain),
+                                       cmocka_unit_test(skies_have_the_requested_illuminance),
+                                       cmocka_unit_test(skies_do_not_depend_on_threads),
+                                       cmocka_unit_test(invalid_arguments_are_refused),
+                                       cmocka_unit_test(running_out_of_memory_leaks_nothing),
+                                       cmocka_unit_test(gradients_interpolate_three_colors)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -90,7 +90,7 @@ static const double reference[7][14] = {
     {90, 109190, 1.143, 0.974, 0.841, 13260, 0.82, 0.99, 1.60, 17500, 2980, 2970, 6600, 7050}};
 
 /* E_n to 0.5 %, as the reference requires, and its color to 0.004. */
-static void test_sun(void **state)
+static void sunlight_equals_the_reference(void **state)
 {
     (void)state;
     static const double very_clear[7] = {34810, 62070, 88640, 100390, 108810, 112800, 115250};
@@ -115,7 +115,7 @@ static void test_sun(void **state)
 /* E_sky and luminances to 10 %, as the reference requires: measured, 7 % at most. Colors of E_sky per Y:
  * the reference's own are good to 3 % each, and differ by up to 5 % from a smooth curve over the sun's
  * elevation: 7 %. */
-static void test_sky(void **state)
+static void skylight_equals_the_reference(void **state)
 {
     (void)state;
     static const double directions[5][2] = {{90, 0}, {30, 180}, {30, 90}, {5, 90}, {2, 90}};
@@ -136,7 +136,7 @@ static void test_sky(void **state)
     destroy(&s);
 }
 
-static void test_very_clear_sky(void **state)
+static void very_clear_skies_equal_the_reference(void **state)
 {
     (void)state;
     static const double expected[7] = {3340, 4770, 6090, 6850, 7360, 7750, 8010};
@@ -178,7 +178,7 @@ static void march(const scene *s, const double d[3], const double sun[3], AirLig
 
 /* Scattered once: the same but for steps and haze_forward_share(), which is taken out here by an air
  * without it. 2 %. */
-static void test_single_scattering(void **state)
+static void single_scattering_equals_monte_carlo(void **state)
 {
     (void)state;
     static const sight sights[] = {{60, 80, 0}, {60, 45, 180}, {30, 10, 90},
@@ -202,7 +202,7 @@ static void test_single_scattering(void **state)
 /* All orders at 574 and 465 nm, over a bright ground: 12 % and four standard deviations of the photons (1
  * to 2 % each). What the approximation leaves out is largest where single wavelengths are looked at;
  * luminance is better, see above. */
-static void test_all_orders(void **state)
+static void multiple_scattering_is_close_to_monte_carlo(void **state)
 {
     (void)state;
     static const sight sights[] = {{60, 2, 90},  {60, 30, 90}, {30, 5, 90},
@@ -227,7 +227,7 @@ static void test_all_orders(void **state)
 
 /* Light that the ground sends up comes back from the sky: E_sky over grounds from black to snow at 574 and
  * 465 nm, 12 % of what photons find. */
-static void test_bright_ground(void **state)
+static void skies_over_bright_ground_agree_with_monte_carlo(void **state)
 {
     (void)state;
     enum { PATHS = 20000 };
@@ -254,7 +254,7 @@ static void test_bright_ground(void **state)
 }
 
 /* What the ground gets of the sky is what the image holds. */
-static void test_irradiance(void **state)
+static void irradiance_of_the_ground_is_that_of_the_image(void **state)
 {
     (void)state;
     scene s;
@@ -274,7 +274,7 @@ static void test_irradiance(void **state)
 
 /* Seen from above, what the air in front of the ground shines with grows towards the horizon and goes over
  * into the sky there. */
-static void test_horizon(void **state)
+static void in_scattering_is_continuous_across_the_horizon(void **state)
 {
     (void)state;
     scene s;
@@ -298,7 +298,7 @@ static void test_horizon(void **state)
 }
 
 /* Of any number of radians: nodes of the table, and weights that sum to one. */
-static void test_azimuths(void **state)
+static void azimuths_of_any_size_are_reduced(void **state)
 {
     (void)state;
     for (int i = 0; i < 400; i++) {
@@ -316,14 +316,14 @@ static void test_azimuths(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_sun),
-                                       cmocka_unit_test(test_sky),
-                                       cmocka_unit_test(test_very_clear_sky),
-                                       cmocka_unit_test(test_single_scattering),
-                                       cmocka_unit_test(test_all_orders),
-                                       cmocka_unit_test(test_bright_ground),
-                                       cmocka_unit_test(test_irradiance),
-                                       cmocka_unit_test(test_horizon),
-                                       cmocka_unit_test(test_azimuths)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(sunlight_equals_the_reference),
+                                       cmocka_unit_test(skylight_equals_the_reference),
+                                       cmocka_unit_test(very_clear_skies_equal_the_reference),
+                                       cmocka_unit_test(single_scattering_equals_monte_carlo),
+                                       cmocka_unit_test(multiple_scattering_is_close_to_monte_carlo),
+                                       cmocka_unit_test(skies_over_bright_ground_agree_with_monte_carlo),
+                                       cmocka_unit_test(irradiance_of_the_ground_is_that_of_the_image),
+                                       cmocka_unit_test(in_scattering_is_continuous_across_the_horizon),
+                                       cmocka_unit_test(azimuths_of_any_size_are_reduced)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

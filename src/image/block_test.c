@@ -37,7 +37,7 @@ static uint64_t hash_blocks(block_decode *decode, bool is_bc7, size_t tile_size)
 }
 
 /* Each texel of these blocks was found equal to what Mesa 22.3's software renderer reads (glGetTexImage). */
-static void random_blocks_are_as_mesa_has_them(void **state)
+static void random_blocks_decode_as_in_mesa(void **state)
 {
     (void)state;
     static const struct {
@@ -75,7 +75,7 @@ static double interpolate(int first, int second, bool is_larger, unsigned index,
     return index == 6 ? lowest : highest;
 }
 
-static void channels_are_nearest_to_real_numbers(void **state)
+static void channels_are_nearest_to_the_exact_value(void **state)
 {
     (void)state;
     uint32_t random = 7;
@@ -106,7 +106,7 @@ static void channels_are_nearest_to_real_numbers(void **state)
 }
 
 /* Colors of BC1 within half a code of what real numbers give, from codes widened by repetition. */
-static void colors_are_nearest_to_real_numbers(void **state)
+static void colors_are_nearest_to_the_exact_value(void **state)
 {
     (void)state;
     uint32_t random = 3;
@@ -146,7 +146,7 @@ static void colors_are_nearest_to_real_numbers(void **state)
 }
 
 /* EAC of 11 signed bits: base * 8 + modifier * multiplier * 8, here of hand-made blocks. */
-static void signed_eac(void **state)
+static void signed_eac_decodes_known_blocks(void **state)
 {
     (void)state;
     /* base, multiplier and table, 16 indices: all 0 */
@@ -166,7 +166,7 @@ static void signed_eac(void **state)
 }
 
 /* A sampler that decodes sRGB widens ends otherwise: results differ by one code at most, and alpha does not. */
-static void uastc_for_srgb_differs_by_a_code(void **state)
+static void uastc_for_srgb_differs_by_one_code_at_most(void **state)
 {
     (void)state;
     uint32_t random = 11;
@@ -185,7 +185,7 @@ static void uastc_for_srgb_differs_by_a_code(void **state)
     assert_true(differing > 1000);
 }
 
-static void reserved_blocks_have_a_color(void **state)
+static void reserved_blocks_decode_to_a_defined_color(void **state)
 {
     (void)state;
     unsigned char block[16] = {0x45}, tile[64]; /* UASTC's mode 19 */
@@ -209,12 +209,12 @@ static void reserved_blocks_have_a_color(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_blocks_are_as_mesa_has_them),
-        cmocka_unit_test(channels_are_nearest_to_real_numbers),
-        cmocka_unit_test(colors_are_nearest_to_real_numbers),
-        cmocka_unit_test(signed_eac),
-        cmocka_unit_test(uastc_for_srgb_differs_by_a_code),
-        cmocka_unit_test(reserved_blocks_have_a_color),
+        cmocka_unit_test(random_blocks_decode_as_in_mesa),
+        cmocka_unit_test(channels_are_nearest_to_the_exact_value),
+        cmocka_unit_test(colors_are_nearest_to_the_exact_value),
+        cmocka_unit_test(signed_eac_decodes_known_blocks),
+        cmocka_unit_test(uastc_for_srgb_differs_by_one_code_at_most),
+        cmocka_unit_test(reserved_blocks_decode_to_a_defined_color),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -185,7 +185,7 @@ static void clean_apertures_are_cut_out(void **state)
 }
 
 /* BT.2020 with constant luminance, which libavif does not convert. */
-static void matrices_that_are_not_read_are_named(void **state)
+static void unsupported_matrices_are_named(void **state)
 {
     (void)state;
     size_t size;
@@ -203,7 +203,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(eight_bits_with_alpha),       cmocka_unit_test(ten_bits_become_sixteen),
         cmocka_unit_test(sizes_are_limited),           cmocka_unit_test(rotations_and_mirrors_are_applied),
-        cmocka_unit_test(clean_apertures_are_cut_out), cmocka_unit_test(matrices_that_are_not_read_are_named),
+        cmocka_unit_test(clean_apertures_are_cut_out), cmocka_unit_test(unsupported_matrices_are_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -37,7 +37,7 @@ static void expect_samples(const char *name, int dx, int dy, float tolerance, fl
     image_destroy(&i);
 }
 
-static void lossless_codings(void **state)
+static void lossless_compressions_are_exact(void **state)
 {
     (void)state;
     static const char *const names[] = {"none", "rle", "zips", "zip", "piz"};
@@ -47,7 +47,7 @@ static void lossless_codings(void **state)
 
 /* PXR24 keeps 15 bits of a float's fraction; B44 6 of 16 bits in a block, but here halves differ by
  * little; DWA blurs dark corners beside bright ones. DWA and PXR24 keep alpha as it is. */
-static void lossy_codings(void **state)
+static void lossy_compressions_lose_little(void **state)
 {
     (void)state;
     expect_samples("pxr24", 0, 0, 0x1p-15f, 0.0f);
@@ -58,7 +58,7 @@ static void lossy_codings(void **state)
     expect_samples("tiled_dwab", 0, 0, 0.3f, 0.0f);
 }
 
-static void windows_tiles_and_parts(void **state)
+static void windows_tiles_and_parts_are_read(void **state)
 {
     (void)state;
     expect_samples("tiled_mipmap_zip", 0, 0, 0.0f, 0.0f);
@@ -230,7 +230,7 @@ static void channels_are_chosen(void **state)
     }
 }
 
-static void odd_numbers(void **state)
+static void nonfinite_samples_are_replaced(void **state)
 {
     (void)state;
     static const float values[] = {NAN, INFINITY, -INFINITY, -2.0f, 1e6f, 0.5f};
@@ -251,7 +251,7 @@ static void odd_numbers(void **state)
     }
 }
 
-static void what_cannot_be_written(void **state)
+static void images_that_cannot_be_written_are_refused(void **state)
 {
     (void)state;
     static const float texels[6] = {0};
@@ -272,7 +272,7 @@ static void what_cannot_be_written(void **state)
 
 /* The sky was scaled to 512 x 256 and 256 x 128: half and float agree to half's precision, the small one with
  * the means of 2 x 2 texels where the sky is smooth. */
-static void environments_agree(void **state)
+static void environments_agree_across_compressions(void **state)
 {
     (void)state;
     char path[512];
@@ -303,7 +303,7 @@ static void environments_agree(void **state)
 }
 
 /* Against the OpenEXR 3.1.5 library: sums of all components of what it reads. */
-static void dwa_environments(void **state)
+static void dwa_compressed_environments_are_read(void **state)
 {
     (void)state;
     static const struct {
@@ -325,7 +325,7 @@ static void dwa_environments(void **state)
 }
 
 /* Attributes are walked over before the library takes memory for them. */
-static void attributes_stay_inside_the_file(void **state)
+static void attributes_do_not_reach_beyond_the_file(void **state)
 {
     (void)state;
     file_bytes file = read_file(TEST_DATA "zip.exr");
@@ -378,16 +378,16 @@ static void damaged_files_do_no_harm(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lossless_codings),
-        cmocka_unit_test(lossy_codings),
-        cmocka_unit_test(windows_tiles_and_parts),
+        cmocka_unit_test(lossless_compressions_are_exact),
+        cmocka_unit_test(lossy_compressions_lose_little),
+        cmocka_unit_test(windows_tiles_and_parts_are_read),
         cmocka_unit_test(written_layers_come_back),
         cmocka_unit_test(channels_are_chosen),
-        cmocka_unit_test(odd_numbers),
-        cmocka_unit_test(what_cannot_be_written),
-        cmocka_unit_test(environments_agree),
-        cmocka_unit_test(attributes_stay_inside_the_file),
-        cmocka_unit_test(dwa_environments),
+        cmocka_unit_test(nonfinite_samples_are_replaced),
+        cmocka_unit_test(images_that_cannot_be_written_are_refused),
+        cmocka_unit_test(environments_agree_across_compressions),
+        cmocka_unit_test(attributes_do_not_reach_beyond_the_file),
+        cmocka_unit_test(dwa_compressed_environments_are_read),
         cmocka_unit_test(damaged_files_do_no_harm),
         cmocka_unit_test(chromaticities_are_converted),
         cmocka_unit_test(unreadable_chromaticities_are_a_warning),

@@ -31,7 +31,7 @@ static const float *texel(const image *i, uint32_t x, uint32_t y)
 }
 
 /* m / 256 2^(e - 128), computed independently. */
-static void flat_texels(void **state)
+static void uncompressed_texels_are_read(void **state)
 {
     (void)state;
     const unsigned char data[] = {128, 64, 0, 129, 255, 1, 2, 0};
@@ -108,7 +108,7 @@ static void primaries_are_converted(void **state)
 
 /* Four bytes per texel, exactly: what looks like a run, or like the beginning of a coded scanline, is a
  * texel; coded scanlines that happen to be as long stay coded. */
-static void plain_texels_are_no_runs(void **state)
+static void uncompressed_texels_are_not_taken_for_runs(void **state)
 {
     (void)state;
     unsigned char data[4 * 16];
@@ -129,7 +129,7 @@ static void plain_texels_are_no_runs(void **state)
 }
 
 /* (1, 1, 1, n) repeats; a second one counts 256 times as much. */
-static void old_runs(void **state)
+static void old_run_length_encoding_is_read(void **state)
 {
     (void)state;
     unsigned char data[] = {128, 128, 128, 129, 1, 1, 1, 4, 1, 1, 1, 1, 200, 0, 0, 129};
@@ -145,7 +145,7 @@ static void old_runs(void **state)
 }
 
 /* A run and literals in each component. */
-static void new_runs(void **state)
+static void new_run_length_encoding_is_read(void **state)
 {
     (void)state;
     const unsigned char data[] = {2, 2, 0, 8,   136, 100, 8, 1, 2, 3, 4,   5,
@@ -164,7 +164,7 @@ static void new_runs(void **state)
 }
 
 /* The eight orientations of an image of 2 x 3 texels are one image. */
-static void orientations(void **state)
+static void all_orientations_are_read(void **state)
 {
     (void)state;
     static const char *const lines[] = {"-Y 3 +X 2", "-Y 3 -X 2", "+Y 3 +X 2", "+Y 3 -X 2",
@@ -288,7 +288,7 @@ static void hdr_writes_extremes(void **state)
     image_destroy(&back);
 }
 
-static void real_environments(void **state)
+static void real_environments_are_read(void **state)
 {
     (void)state;
     static const struct {
@@ -320,7 +320,7 @@ static void real_environments(void **state)
 }
 
 /* expect.json: one "name": "load", "refuse" or "either" per line. */
-static void damaged_files(void **state)
+static void damaged_files_do_no_harm(void **state)
 {
     (void)state;
     char path[512];
@@ -356,7 +356,7 @@ static void damaged_files(void **state)
 }
 
 /* The exposure of 2 halves the same texels. */
-static void exposure_of_a_file(void **state)
+static void exposure_lines_of_a_file_are_divided_out(void **state)
 {
     (void)state;
     char path[512];
@@ -386,7 +386,7 @@ static void pfm_round_trip(void **state)
 
 /* Bottom row first; big-endian where the scale is positive; grey spreads; NaN and infinities as image.h
  * says. */
-static void pfm_by_hand(void **state)
+static void pfm_of_known_bytes(void **state)
 {
     (void)state;
     static const unsigned char grey[] = "Pf\n1 2\n1.0\n\x3f\x80\x00\x00\x40\x00\x00\x00"; /* 1, 2 */
@@ -419,21 +419,21 @@ static void pfm_by_hand(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(flat_texels),
+        cmocka_unit_test(uncompressed_texels_are_read),
         cmocka_unit_test(exposure_is_divided_out),
-        cmocka_unit_test(old_runs),
-        cmocka_unit_test(new_runs),
-        cmocka_unit_test(orientations),
+        cmocka_unit_test(old_run_length_encoding_is_read),
+        cmocka_unit_test(new_run_length_encoding_is_read),
+        cmocka_unit_test(all_orientations_are_read),
         cmocka_unit_test(headers_are_checked),
         cmocka_unit_test(hdr_round_trip),
         cmocka_unit_test(hdr_writes_extremes),
-        cmocka_unit_test(real_environments),
-        cmocka_unit_test(damaged_files),
-        cmocka_unit_test(exposure_of_a_file),
+        cmocka_unit_test(real_environments_are_read),
+        cmocka_unit_test(damaged_files_do_no_harm),
+        cmocka_unit_test(exposure_lines_of_a_file_are_divided_out),
         cmocka_unit_test(pfm_round_trip),
-        cmocka_unit_test(pfm_by_hand),
+        cmocka_unit_test(pfm_of_known_bytes),
         cmocka_unit_test(color_correction_is_divided_out),
-        cmocka_unit_test(plain_texels_are_no_runs),
+        cmocka_unit_test(uncompressed_texels_are_not_taken_for_runs),
         cmocka_unit_test(primaries_are_converted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -51,7 +51,7 @@ static image through(const image *i, image_codec codec, uint32_t quality, const 
     return back;
 }
 
-static void jpeg_is_close(void **state)
+static void jpeg_loses_little(void **state)
 {
     (void)state;
     for (uint32_t channels = 1; channels <= 3; channels += 2) {
@@ -136,7 +136,7 @@ static void jpeg_color_spaces(void **state)
     image_destroy(&i);
 }
 
-static void jpeg_takes_what_it_can(void **state)
+static void unsuitable_images_and_qualities_are_refused(void **state)
 {
     (void)state;
     unsigned char *bytes;
@@ -163,7 +163,7 @@ static bool has_webp(void)
 }
 
 /* Tables alone, which libjpeg takes without a word on the image. */
-static void jpeg_without_a_image_is_refused(void **state)
+static void jpeg_without_an_image_is_refused(void **state)
 {
     (void)state;
     static const unsigned char files[2][20] = {{0xff, 0xd8, 0xff, 0xd9},
@@ -230,7 +230,7 @@ static void webp_is_lossless_at_100(void **state)
     }
 }
 
-static void webp_is_close(void **state)
+static void webp_loses_little(void **state)
 {
     (void)state;
     if (!has_webp())
@@ -248,11 +248,15 @@ static void webp_is_close(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(jpeg_is_close),          cmocka_unit_test(jpeg_keeps_chroma),
-        cmocka_unit_test(jpeg_is_reduced),        cmocka_unit_test(jpeg_color_spaces),
-        cmocka_unit_test(jpeg_takes_what_it_can), cmocka_unit_test(jpeg_without_a_image_is_refused),
-        cmocka_unit_test(jpeg_skips_stray_bytes), cmocka_unit_test(webp_is_lossless_at_100),
-        cmocka_unit_test(webp_is_close),
+        cmocka_unit_test(jpeg_loses_little),
+        cmocka_unit_test(jpeg_keeps_chroma),
+        cmocka_unit_test(jpeg_is_reduced),
+        cmocka_unit_test(jpeg_color_spaces),
+        cmocka_unit_test(unsuitable_images_and_qualities_are_refused),
+        cmocka_unit_test(jpeg_without_an_image_is_refused),
+        cmocka_unit_test(jpeg_skips_stray_bytes),
+        cmocka_unit_test(webp_is_lossless_at_100),
+        cmocka_unit_test(webp_loses_little),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -60,7 +60,7 @@ static void images_are_those_of_the_transcoder(void **state)
 }
 
 /* The same sheet in several formats: a name on one color, which the last texel shows. */
-static void files_of_other_makers(void **state)
+static void files_of_other_encoders_decode(void **state)
 {
     (void)state;
     static const struct {
@@ -126,7 +126,7 @@ static void broken_files_are_refused(void **state)
 }
 
 /* Red and green in two slices: the same with the swizzle that toktx writes, in which alpha is the second one. */
-static void red_and_green_of_toktx(void **state)
+static void two_channel_files_of_toktx_decode(void **state)
 {
     (void)state;
     image plain = decode_file("tests/cases/29-etc1s-swizzle/rg.ktx2");
@@ -147,9 +147,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(images_are_those_of_the_transcoder),
-        cmocka_unit_test(files_of_other_makers),
+        cmocka_unit_test(files_of_other_encoders_decode),
         cmocka_unit_test(broken_files_are_refused),
-        cmocka_unit_test(red_and_green_of_toktx),
+        cmocka_unit_test(two_channel_files_of_toktx_decode),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

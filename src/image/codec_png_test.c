@@ -110,7 +110,7 @@ static void bytes_do_not_depend_on_threads(void **state)
 }
 
 /* 8 bits with requested channels: alpha from tRNS or 255, grey spread to RGB. */
-static void channel_counts_as_asked(void **state)
+static void requested_channel_counts_are_decoded(void **state)
 {
     (void)state;
     for (uint32_t channels = 1; channels <= 4; channels++)
@@ -247,7 +247,7 @@ static void every_changed_byte_is_noticed(void **state)
 }
 
 /* What does not count is not read: a text with a wrong CRC and a profile that is none do not refuse an image. */
-static void other_chunks_are_passed_over(void **state)
+static void other_chunks_are_skipped(void **state)
 {
     (void)state;
     static const unsigned char others[] = "\0\0\0\4tEXt\1\2\3\4wxyz\0\0\0\3iCCPabc\0\0\0\0";
@@ -271,7 +271,7 @@ static void other_chunks_are_passed_over(void **state)
     image_destroy(&i);
 }
 
-static void limits_hold(void **state)
+static void size_limits_hold(void **state)
 {
     (void)state;
     image i = make_image(40, 20, 3, IMAGE_U8);
@@ -319,7 +319,7 @@ static facet_result gather_row(void *user, const void *texels, facet_error *erro
     return FACET_OK;
 }
 
-static void rows_are_those_of_the_whole(void **state)
+static void rows_read_alone_equal_the_whole_image(void **state)
 {
     (void)state;
     for (uint32_t channels = 1; channels <= 4; channels++)
@@ -358,12 +358,17 @@ static void rows_are_those_of_the_whole(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_layouts_come_back),        cmocka_unit_test(all_levels_come_back),
-        cmocka_unit_test(extremes_come_back),           cmocka_unit_test(bytes_do_not_depend_on_threads),
-        cmocka_unit_test(channel_counts_as_asked),      cmocka_unit_test(pngsuite_is_read),
-        cmocka_unit_test(corrupt_files_are_refused),    cmocka_unit_test(every_changed_byte_is_noticed),
-        cmocka_unit_test(other_chunks_are_passed_over), cmocka_unit_test(limits_hold),
-        cmocka_unit_test(rows_are_those_of_the_whole),
+        cmocka_unit_test(all_layouts_come_back),
+        cmocka_unit_test(all_levels_come_back),
+        cmocka_unit_test(extremes_come_back),
+        cmocka_unit_test(bytes_do_not_depend_on_threads),
+        cmocka_unit_test(requested_channel_counts_are_decoded),
+        cmocka_unit_test(pngsuite_is_read),
+        cmocka_unit_test(corrupt_files_are_refused),
+        cmocka_unit_test(every_changed_byte_is_noticed),
+        cmocka_unit_test(other_chunks_are_skipped),
+        cmocka_unit_test(size_limits_hold),
+        cmocka_unit_test(rows_read_alone_equal_the_whole_image),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

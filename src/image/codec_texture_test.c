@@ -161,7 +161,7 @@ static void make_tga(const tga_kind *k, bool has_runs, bool is_top_down, bool is
     }
 }
 
-static void tga_in_every_order(void **state)
+static void tga_is_read_in_every_row_and_column_order(void **state)
 {
     (void)state;
     static const tga_kind kinds[] = {
@@ -214,7 +214,7 @@ static void put_bmp_header(made *m, int32_t height, uint32_t bits, uint32_t comp
     put_u32(m, 0);
 }
 
-static void bmp_of_colors(void **state)
+static void bmp_with_direct_colors(void **state)
 {
     (void)state;
     static const struct {
@@ -251,7 +251,7 @@ static void bmp_of_colors(void **state)
 }
 
 /* Colors i, 2 i, 3 i; texel (x, y) has number (x + y) % count. */
-static void bmp_of_palettes(void **state)
+static void bmp_with_palettes(void **state)
 {
     (void)state;
     for (uint32_t bits = 1; bits <= 8; bits *= 2) {
@@ -328,7 +328,7 @@ static void bmp_runs(void **state)
 /* ---- GIF ---- */
 
 /* What "What's In A GIF" by M. Flickinger takes apart byte by byte: 10 x 10 texels of white, red and blue. */
-static void gif_of_a_textbook(void **state)
+static void gif_of_a_known_example(void **state)
 {
     (void)state;
     static const char file[] =
@@ -421,7 +421,7 @@ static void put_gif(made *m, uint32_t width, uint32_t height, const uint32_t fra
 }
 
 /* 200 x 150 texels: codes grow to 12 bits, and stay so where all 4096 are taken. */
-static void gif_of_long_codes(void **state)
+static void gif_with_long_codes(void **state)
 {
     (void)state;
     static unsigned char indices[200 * 150];
@@ -442,7 +442,7 @@ static void gif_of_long_codes(void **state)
 }
 
 /* A frame of 3 x 11 at (2, 1) of 6 x 13, interlaced, with a transparent color. */
-static void gif_frames_on_a_canvas(void **state)
+static void gif_frames_are_placed_on_the_canvas(void **state)
 {
     (void)state;
     static const int order[11] = {0, 8, 4, 2, 6, 10, 1, 3, 5, 7, 9};
@@ -506,7 +506,7 @@ static void put_dds_header(made *m, uint32_t flags, const char *letters, uint32_
 }
 
 /* 2 x 2 blocks, cut off at 7 x 5 texels, are what their decoder says. */
-static void dds_of_blocks(void **state)
+static void dds_with_blocks(void **state)
 {
     (void)state;
     static const struct {
@@ -546,7 +546,7 @@ static void dds_of_blocks(void **state)
     }
 }
 
-static void dds_of_texels(void **state)
+static void dds_with_uncompressed_texels(void **state)
 {
     (void)state;
     static const struct {
@@ -573,7 +573,7 @@ static void dds_of_texels(void **state)
     }
 }
 
-static void dds_kinds_are_named(void **state)
+static void unsupported_dds_kinds_are_named(void **state)
 {
     (void)state;
     made m;
@@ -591,18 +591,18 @@ static void dds_kinds_are_named(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tga_in_every_order),
+        cmocka_unit_test(tga_is_read_in_every_row_and_column_order),
         cmocka_unit_test(tga_runs_and_unused_alpha),
-        cmocka_unit_test(bmp_of_colors),
-        cmocka_unit_test(bmp_of_palettes),
+        cmocka_unit_test(bmp_with_direct_colors),
+        cmocka_unit_test(bmp_with_palettes),
         cmocka_unit_test(bmp_runs),
-        cmocka_unit_test(gif_of_a_textbook),
-        cmocka_unit_test(gif_of_long_codes),
-        cmocka_unit_test(gif_frames_on_a_canvas),
+        cmocka_unit_test(gif_of_a_known_example),
+        cmocka_unit_test(gif_with_long_codes),
+        cmocka_unit_test(gif_frames_are_placed_on_the_canvas),
         cmocka_unit_test(gif_sizes_are_checked),
-        cmocka_unit_test(dds_of_blocks),
-        cmocka_unit_test(dds_of_texels),
-        cmocka_unit_test(dds_kinds_are_named),
+        cmocka_unit_test(dds_with_blocks),
+        cmocka_unit_test(dds_with_uncompressed_texels),
+        cmocka_unit_test(unsupported_dds_kinds_are_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -118,7 +118,7 @@ static facet_result try_bytes(const unsigned char *bytes, size_t size, const cha
     return result;
 }
 
-static void whole_files_decode(void **state)
+static void undamaged_files_decode(void **state)
 {
     (void)state;
     for (size_t k = 0; k < sample_count; k++)
@@ -165,7 +165,7 @@ static void changed_files_do_no_harm(void **state)
 }
 
 /* Lets the first, second, .. allocation fail until all succeed. */
-static void memory_that_runs_out_is_a_result(void **state)
+static void running_out_of_memory_while_reading_is_an_error(void **state)
 {
     (void)state;
     for (size_t k = 0; k < sample_count; k++) {
@@ -186,7 +186,7 @@ static void memory_that_runs_out_is_a_result(void **state)
     }
 }
 
-static void memory_that_runs_out_while_writing(void **state)
+static void running_out_of_memory_while_writing_is_an_error(void **state)
 {
     (void)state;
     static const struct {
@@ -261,11 +261,11 @@ static void small_files_take_little_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(whole_files_decode),
+        cmocka_unit_test(undamaged_files_decode),
         cmocka_unit_test(truncated_files_do_no_harm),
         cmocka_unit_test(changed_files_do_no_harm),
-        cmocka_unit_test(memory_that_runs_out_is_a_result),
-        cmocka_unit_test(memory_that_runs_out_while_writing),
+        cmocka_unit_test(running_out_of_memory_while_reading_is_an_error),
+        cmocka_unit_test(running_out_of_memory_while_writing_is_an_error),
         cmocka_unit_test(small_files_take_little_memory),
     };
     return cmocka_run_group_tests(tests, make_samples, free_samples);

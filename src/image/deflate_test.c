@@ -48,7 +48,7 @@ static void fill(unsigned char *bytes, size_t size, int kind, uint32_t seed)
 }
 
 /* Pieces with history, joined, are one stream for zlib. */
-static void pieces_join(void **state)
+static void concatenated_pieces_are_one_stream(void **state)
 {
     (void)state;
     unsigned char *bytes = malloc(MOST);
@@ -89,7 +89,7 @@ static void pieces_join(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pieces_join),
+        cmocka_unit_test(concatenated_pieces_are_one_stream),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

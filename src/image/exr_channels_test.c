@@ -72,7 +72,7 @@ static float *make_room(void)
     return room;
 }
 
-static void bits_come_back(void **state)
+static void channels_come_back_bit_for_bit(void **state)
 {
     (void)state;
     for (int is_stored = 0; is_stored < 2; is_stored++) {
@@ -104,7 +104,7 @@ static void expect_refusal(facet_result result, const facet_error *error, const 
     assert_string_equal(error->message, sentence);
 }
 
-static void what_is_not_there(void **state)
+static void missing_channels_and_texts_are_errors(void **state)
 {
     (void)state;
     size_t size;
@@ -136,7 +136,7 @@ static void what_is_not_there(void **state)
 }
 
 /* Part of a file is none; changed bytes do no harm. */
-static void damage(void **state)
+static void damaged_files_do_no_harm(void **state)
 {
     (void)state;
     for (int is_stored = 0; is_stored < 2; is_stored++) {
@@ -170,7 +170,7 @@ static void damage(void **state)
     }
 }
 
-static void memory_runs_out(void **state)
+static void running_out_of_memory_leaks_nothing(void **state)
 {
     (void)state;
     size_t size;
@@ -190,10 +190,10 @@ static void memory_runs_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bits_come_back),
-        cmocka_unit_test(what_is_not_there),
-        cmocka_unit_test(damage),
-        cmocka_unit_test(memory_runs_out),
+        cmocka_unit_test(channels_come_back_bit_for_bit),
+        cmocka_unit_test(missing_channels_and_texts_are_errors),
+        cmocka_unit_test(damaged_files_do_no_harm),
+        cmocka_unit_test(running_out_of_memory_leaks_nothing),
     };
     return cmocka_run_group_tests(tests, make_numbers, NULL);
 }

@@ -52,7 +52,7 @@ static void half_rounds_to_nearest_even(void **state)
     assert_int_equal(half_from_float(-3e38f), 0xfc00);
 }
 
-static void srgb_codes_come_back(void **state)
+static void srgb_codes_round_trip(void **state)
 {
     (void)state;
     srgb_tables tables;
@@ -142,7 +142,7 @@ static void alpha_is_always_linear(void **state)
     image_destroy(&out);
 }
 
-static void channels_spread_and_drop(void **state)
+static void channels_are_replicated_and_dropped(void **state)
 {
     (void)state;
     uint8_t grey_alpha[] = {10, 20, 30, 40};
@@ -182,7 +182,7 @@ static void conversion_does_not_depend_on_threads(void **state)
     image_destroy(&in);
 }
 
-static void detection(void **state)
+static void formats_are_detected_by_content(void **state)
 {
     (void)state;
     assert_int_equal(image_codec_detect("\x89PNG\r\n\x1a\n", 8), IMAGE_CODEC_PNG);
@@ -215,14 +215,14 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(half_codes_are_exact),
         cmocka_unit_test(half_rounds_to_nearest_even),
-        cmocka_unit_test(srgb_codes_come_back),
+        cmocka_unit_test(srgb_codes_round_trip),
         cmocka_unit_test(srgb_encoding_is_nearest),
         cmocka_unit_test(create_checks_its_arguments),
         cmocka_unit_test(eight_bits_survive_float_and_half),
         cmocka_unit_test(alpha_is_always_linear),
-        cmocka_unit_test(channels_spread_and_drop),
+        cmocka_unit_test(channels_are_replicated_and_dropped),
         cmocka_unit_test(conversion_does_not_depend_on_threads),
-        cmocka_unit_test(detection),
+        cmocka_unit_test(formats_are_detected_by_content),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

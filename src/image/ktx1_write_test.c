@@ -42,7 +42,7 @@ static float small_float(uint32_t code, int digits)
                   (int)(code >> digits) - 15);
 }
 
-static void test_bytes(void **state)
+static void bytes_follow_the_specification(void **state)
 {
     (void)state;
     static cube_image p;
@@ -81,7 +81,7 @@ static void test_bytes(void **state)
     mem_free(bytes);
 }
 
-static void test_threads(void **state)
+static void bytes_do_not_depend_on_threads(void **state)
 {
     (void)state;
     static cube_image p;
@@ -100,7 +100,7 @@ static void test_threads(void **state)
     mem_free(three);
 }
 
-static void test_what_is_no_cube(void **state)
+static void images_that_are_no_cube_map_are_refused(void **state)
 {
     (void)state;
     static cube_image p;
@@ -120,7 +120,7 @@ static void test_what_is_no_cube(void **state)
     assert_int_equal(size, 0);
 }
 
-static void test_no_memory(void **state)
+static void running_out_of_memory_leaks_nothing(void **state)
 {
     (void)state;
     static cube_image p;
@@ -138,10 +138,10 @@ static void test_no_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bytes),
-        cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_what_is_no_cube),
-        cmocka_unit_test(test_no_memory),
+        cmocka_unit_test(bytes_follow_the_specification),
+        cmocka_unit_test(bytes_do_not_depend_on_threads),
+        cmocka_unit_test(images_that_are_no_cube_map_are_refused),
+        cmocka_unit_test(running_out_of_memory_leaks_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -42,7 +42,7 @@ static double get_channel(const image *i, size_t texel, uint32_t channel)
     }
 }
 
-static void texels_without_compression(void **state)
+static void uncompressed_texels_are_read(void **state)
 {
     (void)state;
     static const struct {
@@ -110,7 +110,7 @@ static void texels_without_compression(void **state)
 }
 
 /* NaN and infinity are kept on request; otherwise infinity is replaced. */
-static void what_is_not_finite_can_stay(void **state)
+static void nonfinite_values_are_kept_on_request(void **state)
 {
     (void)state;
     static const struct {
@@ -170,7 +170,7 @@ static ktx2_test_file make_levels(uint32_t width, uint32_t height, uint32_t leve
     return f;
 }
 
-static void levels_are_reductions(void **state)
+static void levels_are_chosen_by_reduction(void **state)
 {
     (void)state;
     static const struct {
@@ -192,7 +192,7 @@ static void levels_are_reductions(void **state)
     }
 }
 
-static void layers_and_faces(void **state)
+static void layers_and_faces_are_in_order(void **state)
 {
     (void)state;
     enum { LAYERS = 3, FACES = 6, EDGE = 4 };
@@ -230,7 +230,7 @@ static void layers_and_faces(void **state)
     free(bytes);
 }
 
-static void orientation_and_swizzle(void **state)
+static void orientation_and_swizzle_are_applied(void **state)
 {
     (void)state;
     static const unsigned char texels[2 * 3 * 4] = {10, 11, 12, 13, 20, 21, 22, 23, 30, 31, 32, 33,
@@ -282,7 +282,7 @@ static size_t write_zstd(const unsigned char *data, size_t size, unsigned char *
     return size + 12;
 }
 
-static void supercompression(void **state)
+static void supercompressed_levels_are_read(void **state)
 {
     (void)state;
     image drawn = make_image(24, 16, 4, IMAGE_U8);
@@ -329,7 +329,7 @@ static void supercompression(void **state)
 }
 
 /* Blocks of one color (KDF, "ASTC void-extent blocks") in all sizes, clipped at the edges. */
-static void astc_of_all_block_sizes(void **state)
+static void astc_is_read_in_all_block_sizes(void **state)
 {
     (void)state;
     static const unsigned char block[16] = {0xfc, 0xfd, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff,
@@ -367,7 +367,7 @@ static void astc_of_all_block_sizes(void **state)
     free(blocks);
 }
 
-static void what_is_refused(void **state)
+static void malformed_and_unsupported_files_are_refused(void **state)
 {
     (void)state;
     static const unsigned char texels[64 * 4] = {0};
@@ -435,7 +435,7 @@ static void what_is_refused(void **state)
 }
 
 /* UASTC HDR, and claims of compressed levels beyond what their bytes could become. */
-static void what_is_refused_besides(void **state)
+static void excessive_claims_and_uastc_hdr_are_refused(void **state)
 {
     (void)state;
     static const unsigned char block[16] = {0};
@@ -470,16 +470,16 @@ static void what_is_refused_besides(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(texels_without_compression),
-        cmocka_unit_test(what_is_not_finite_can_stay),
+        cmocka_unit_test(uncompressed_texels_are_read),
+        cmocka_unit_test(nonfinite_values_are_kept_on_request),
         cmocka_unit_test(transfer_functions_are_reported),
-        cmocka_unit_test(levels_are_reductions),
-        cmocka_unit_test(layers_and_faces),
-        cmocka_unit_test(orientation_and_swizzle),
-        cmocka_unit_test(supercompression),
-        cmocka_unit_test(astc_of_all_block_sizes),
-        cmocka_unit_test(what_is_refused),
-        cmocka_unit_test(what_is_refused_besides),
+        cmocka_unit_test(levels_are_chosen_by_reduction),
+        cmocka_unit_test(layers_and_faces_are_in_order),
+        cmocka_unit_test(orientation_and_swizzle_are_applied),
+        cmocka_unit_test(supercompressed_levels_are_read),
+        cmocka_unit_test(astc_is_read_in_all_block_sizes),
+        cmocka_unit_test(malformed_and_unsupported_files_are_refused),
+        cmocka_unit_test(excessive_claims_and_uastc_hdr_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

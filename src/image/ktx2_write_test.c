@@ -51,7 +51,7 @@ static uint32_t nearest_code(double x, const double *values, uint32_t count)
 }
 
 /* All codes that are finite, what is exactly between two of them, and random numbers around them. */
-static void small_floats_are_nearest(void **state)
+static void small_floats_are_rounded_to_nearest(void **state)
 {
     (void)state;
     for (int digits = 5; digits <= 6; digits++) {
@@ -118,7 +118,7 @@ static void shared_exponents_are_the_smallest(void **state)
     }
 }
 
-static void what_formats_cannot_hold(void **state)
+static void values_beyond_a_format_are_clamped(void **state)
 {
     (void)state;
     const float in[4] = {INFINITY, -INFINITY, NAN, -2.0f};
@@ -226,7 +226,7 @@ static texture make_shape(uint32_t format, uint32_t shape)
                         shapes[shape].faces, shapes[shape].levels, shapes[shape].channels);
 }
 
-static void what_is_written_is_read(void **state)
+static void written_files_are_read_back(void **state)
 {
     (void)state;
     for (uint32_t n = 0; n < FORMAT_COUNT * SHAPE_COUNT * 2; n++) {
@@ -385,7 +385,7 @@ static void check_file(const texture *t, const unsigned char *b, size_t size)
     assert_int_equal(at, size);
 }
 
-static void files_keep_the_rules(void **state)
+static void files_follow_the_specification(void **state)
 {
     (void)state;
     for (uint32_t n = 0; n < FORMAT_COUNT * SHAPE_COUNT * 2; n++) {
@@ -436,7 +436,7 @@ static void bytes_do_not_depend_on_threads(void **state)
     }
 }
 
-static void what_is_no_texture(void **state)
+static void invalid_textures_are_refused(void **state)
 {
     (void)state;
     for (int k = 0; k < 9; k++) {
@@ -481,7 +481,7 @@ static void what_is_no_texture(void **state)
     }
 }
 
-static void memory_runs_out(void **state)
+static void running_out_of_memory_leaks_nothing(void **state)
 {
     (void)state;
     for (uint32_t zstd = 0; zstd <= 1; zstd++)
@@ -531,7 +531,7 @@ static void zstandard_stays_within_a_budget(void **state)
 }
 
 /* A stride longer than the rows. */
-static void rows_may_lie_anywhere(void **state)
+static void rows_may_have_any_stride(void **state)
 {
     (void)state;
     static const float texels[] = {1, 2, 99, 3, 4, 99};
@@ -548,16 +548,16 @@ static void rows_may_lie_anywhere(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(small_floats_are_nearest),
+        cmocka_unit_test(small_floats_are_rounded_to_nearest),
         cmocka_unit_test(shared_exponents_are_the_smallest),
-        cmocka_unit_test(what_formats_cannot_hold),
-        cmocka_unit_test(what_is_written_is_read),
-        cmocka_unit_test(files_keep_the_rules),
+        cmocka_unit_test(values_beyond_a_format_are_clamped),
+        cmocka_unit_test(written_files_are_read_back),
+        cmocka_unit_test(files_follow_the_specification),
         cmocka_unit_test(bytes_do_not_depend_on_threads),
-        cmocka_unit_test(what_is_no_texture),
-        cmocka_unit_test(memory_runs_out),
+        cmocka_unit_test(invalid_textures_are_refused),
+        cmocka_unit_test(running_out_of_memory_leaks_nothing),
         cmocka_unit_test(zstandard_stays_within_a_budget),
-        cmocka_unit_test(rows_may_lie_anywhere),
+        cmocka_unit_test(rows_may_have_any_stride),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -25,7 +25,7 @@ static void expect_matrix(const primaries *p, double expected[3][3], double tole
 /* AP0 and AP1: the matrices of the ACES configurations of OpenColorIO, to their digits. Rec.2020:
  * Recommendation ITU-R BT.2407-0, section 2. XYZ: IEC 61966-2-1, whose rounded matrix is 2e-3 off the
  * exact one. */
-static void matrices_are_those_of_others(void **state)
+static void matrices_equal_published_ones(void **state)
 {
     (void)state;
     expect_matrix(&ap0,
@@ -94,7 +94,7 @@ static void images_are_converted(void **state)
     }
 }
 
-static void what_is_no_space_is_a_warning(void **state)
+static void invalid_primaries_are_a_warning(void **state)
 {
     (void)state;
     const primaries bad[] = {
@@ -129,10 +129,10 @@ static void what_is_no_space_is_a_warning(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(matrices_are_those_of_others),
+        cmocka_unit_test(matrices_equal_published_ones),
         cmocka_unit_test(white_stays_white),
         cmocka_unit_test(images_are_converted),
-        cmocka_unit_test(what_is_no_space_is_a_warning),
+        cmocka_unit_test(invalid_primaries_are_a_warning),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

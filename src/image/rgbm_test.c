@@ -20,7 +20,7 @@ static image make_texels(uint32_t channel_count)
     return i;
 }
 
-static void values_are_near(void **state)
+static void values_are_near_the_original(void **state)
 {
     (void)state;
     for (uint32_t channels = 3; channels <= 4; channels++) {
@@ -50,7 +50,7 @@ static void values_are_near(void **state)
     }
 }
 
-static void ends_of_the_range(void **state)
+static void values_beyond_the_range_are_clamped(void **state)
 {
     (void)state;
     static const float texels[5][3] = {{0.0f, 0.0f, 0.0f},
@@ -71,7 +71,7 @@ static void ends_of_the_range(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(values_are_near),
-                                       cmocka_unit_test(ends_of_the_range)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(values_are_near_the_original),
+                                       cmocka_unit_test(values_beyond_the_range_are_clamped)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

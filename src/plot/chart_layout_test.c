@@ -17,7 +17,7 @@ static bool is_apart(const chart_box *a, const chart_box *b)
            b->y + b->height <= a->y;
 }
 
-static void plots_fill_their_room_at_every_size(void **state)
+static void plots_fill_their_space_at_every_size(void **state)
 {
     (void)state;
     static const uint32_t SIZES[][2] = {{320, 240},  {640, 480}, {960, 640},  {240, 320},
@@ -151,7 +151,7 @@ static void count_colors(const image *picture, int counts[3])
         }
 }
 
-static void curves_that_coincide_are_all_seen(void **state)
+static void coinciding_curves_are_all_visible(void **state)
 {
     (void)state;
     chart_curve curves[3];
@@ -175,7 +175,7 @@ static void curves_that_coincide_are_all_seen(void **state)
     }
 }
 
-static void fields_have_the_colors_of_their_values(void **state)
+static void fields_are_colored_by_value(void **state)
 {
     (void)state;
     static const double VALUES[4] = {1.0, 100.0, (double)NAN, 10.0};
@@ -221,7 +221,7 @@ static void discs_end_at_the_horizon(void **state)
 }
 
 /* The center shows the surface in the colors of its values, apart from shading; beside it is the background. */
-static void surfaces_are_drawn_in_their_colors(void **state)
+static void surfaces_are_colored_by_value(void **state)
 {
     (void)state;
     chart_panel panel = data.panels[CHART_SURFACE];
@@ -282,14 +282,14 @@ static int set_up(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(plots_fill_their_room_at_every_size),
+        cmocka_unit_test(plots_fill_their_space_at_every_size),
         cmocka_unit_test(axes_of_a_grid_are_aligned),
         cmocka_unit_test(legends_cover_no_curve),
         cmocka_unit_test(curves_stay_in_the_plot),
-        cmocka_unit_test(curves_that_coincide_are_all_seen),
-        cmocka_unit_test(fields_have_the_colors_of_their_values),
+        cmocka_unit_test(coinciding_curves_are_all_visible),
+        cmocka_unit_test(fields_are_colored_by_value),
         cmocka_unit_test(discs_end_at_the_horizon),
-        cmocka_unit_test(surfaces_are_drawn_in_their_colors),
+        cmocka_unit_test(surfaces_are_colored_by_value),
         cmocka_unit_test(polar_angles_are_from_above),
     };
     return cmocka_run_group_tests(tests, set_up, NULL);

@@ -85,7 +85,7 @@ static void random_numbers_read_back(void **state)
     }
 }
 
-static void a_locale_changes_nothing(void **state)
+static void numbers_do_not_depend_on_the_locale(void **state)
 {
     (void)state;
     static const char *const NAMES[] = {"de_DE.UTF-8", "fr_FR.UTF-8", "de_DE", "ar_EG.UTF-8"};
@@ -136,7 +136,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(known_numbers_are_shortest),
         cmocka_unit_test(random_numbers_read_back),
-        cmocka_unit_test(a_locale_changes_nothing),
+        cmocka_unit_test(numbers_do_not_depend_on_the_locale),
         cmocka_unit_test(labels_have_a_minus_sign_and_no_negative_zero),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

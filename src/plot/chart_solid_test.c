@@ -30,7 +30,7 @@ static void make_sheet(solid_vertex v[4], float x0, float y0, float x1, float y1
             .x = i & 1 ? x1 : x0, .y = i & 2 ? y1 : y0, .depth = depth, .value = value, .shade = 1.0f};
 }
 
-static void a_sheet_covers_its_pixels(void **state)
+static void a_flat_surface_covers_its_pixels(void **state)
 {
     (void)state;
     solid_vertex v[4];
@@ -60,7 +60,7 @@ static void a_sheet_covers_its_pixels(void **state)
 }
 
 /* Two intersecting sheets, in both orders: the nearer one is visible. */
-static void the_nearer_one_is_seen(void **state)
+static void nearer_surfaces_hide_farther_ones(void **state)
 {
     (void)state;
     for (int order = 0; order < 2; order++) {
@@ -83,7 +83,7 @@ static void the_nearer_one_is_seen(void **state)
     }
 }
 
-static void bad_corners_are_left_out(void **state)
+static void invalid_corners_are_omitted(void **state)
 {
     (void)state;
     static const float BAD[] = {NAN, INFINITY, -INFINITY, 1e30f};
@@ -104,7 +104,7 @@ static void bad_corners_are_left_out(void **state)
         }
 }
 
-static void memory_may_run_out(void **state)
+static void running_out_of_memory_leaks_nothing(void **state)
 {
     (void)state;
     for (long i = 0; i < 4; i++) {
@@ -124,10 +124,10 @@ static void memory_may_run_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_sheet_covers_its_pixels),
-        cmocka_unit_test(the_nearer_one_is_seen),
-        cmocka_unit_test(bad_corners_are_left_out),
-        cmocka_unit_test(memory_may_run_out),
+        cmocka_unit_test(a_flat_surface_covers_its_pixels),
+        cmocka_unit_test(nearer_surfaces_hide_farther_ones),
+        cmocka_unit_test(invalid_corners_are_omitted),
+        cmocka_unit_test(running_out_of_memory_leaks_nothing),
     };
     return cmocka_run_group_tests(tests, set_up, NULL);
 }

@@ -96,7 +96,7 @@ static void normals_of_a_sphere_are_radial(void **state)
     }
 }
 
-static void light_falls_on_both_sides(void **state)
+static void both_sides_are_shaded(void **state)
 {
     (void)state;
     sphere.azimuth_rad = 0.3;
@@ -121,7 +121,7 @@ int main(void)
         cmocka_unit_test(directions_are_orthonormal),
         cmocka_unit_test(all_points_are_inside_the_plot),
         cmocka_unit_test(normals_of_a_sphere_are_radial),
-        cmocka_unit_test(light_falls_on_both_sides),
+        cmocka_unit_test(both_sides_are_shaded),
     };
     return cmocka_run_group_tests(tests, set_up, NULL);
 }

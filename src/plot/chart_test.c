@@ -130,7 +130,7 @@ static void svg_is_well_formed(void **state)
 
 /* ---- the same chart, the same bytes ---- */
 
-static void same_chart_same_bytes(void **state)
+static void charts_are_repeatable(void **state)
 {
     (void)state;
     static const facet_plot_format FORMATS[3] = {FACET_PLOT_FORMAT_SVG, FACET_PLOT_FORMAT_PDF,
@@ -208,7 +208,7 @@ static void pdf_has_a_title_and_no_date(void **state)
 
 /* ---- hostile data ---- */
 
-static void all_labels_are_survived(void **state)
+static void any_label_can_be_drawn(void **state)
 {
     (void)state;
     char *endless = malloc(100001);
@@ -278,7 +278,7 @@ static void draw_all_kinds(const double *x, const double *y, size_t count, chart
     }
 }
 
-static void all_data_are_survived(void **state)
+static void any_data_can_be_drawn(void **state)
 {
     (void)state;
     static const double N = (double)NAN, I = HUGE_VAL;
@@ -303,7 +303,7 @@ static void all_data_are_survived(void **state)
     draw_all_kinds(X, X, 0, CHART_LINEAR);
 }
 
-static void all_ranges_are_survived(void **state)
+static void any_range_can_be_drawn(void **state)
 {
     (void)state;
     const double values[] = {0.0,     -1.0,     1.0,         1e-300,   1e300,
@@ -335,7 +335,7 @@ static void all_ranges_are_survived(void **state)
             }
 }
 
-static void all_sizes_are_survived(void **state)
+static void any_size_can_be_drawn(void **state)
 {
     (void)state;
     static const uint32_t SIZES[][2] = {{1, 1},   {1, 600},  {600, 1},   {20, 20},
@@ -397,7 +397,7 @@ static void many_panels_and_points_are_drawn(void **state)
 
 /* ---- what may be missing ---- */
 
-static void without_cairo_it_says_what_to_do(void **state)
+static void a_missing_cairo_is_reported_with_advice(void **state)
 {
     (void)state;
     const chart c = scene_chart(&data.panels[CHART_XY]);
@@ -422,7 +422,7 @@ static void without_cairo_it_says_what_to_do(void **state)
     mem_free(d.bytes);
 }
 
-static void memory_may_run_out_anywhere(void **state)
+static void running_out_of_memory_leaks_nothing(void **state)
 {
     (void)state;
     static const facet_plot_format FORMATS[3] = {FACET_PLOT_FORMAT_SVG, FACET_PLOT_FORMAT_PDF,
@@ -462,16 +462,16 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(svg_is_well_formed),
-        cmocka_unit_test(same_chart_same_bytes),
+        cmocka_unit_test(charts_are_repeatable),
         cmocka_unit_test(threads_draw_the_same_bytes),
         cmocka_unit_test(pdf_has_a_title_and_no_date),
-        cmocka_unit_test(all_labels_are_survived),
-        cmocka_unit_test(all_data_are_survived),
-        cmocka_unit_test(all_ranges_are_survived),
-        cmocka_unit_test(all_sizes_are_survived),
+        cmocka_unit_test(any_label_can_be_drawn),
+        cmocka_unit_test(any_data_can_be_drawn),
+        cmocka_unit_test(any_range_can_be_drawn),
+        cmocka_unit_test(any_size_can_be_drawn),
         cmocka_unit_test(many_panels_and_points_are_drawn),
-        cmocka_unit_test(without_cairo_it_says_what_to_do),
-        cmocka_unit_test(memory_may_run_out_anywhere),
+        cmocka_unit_test(a_missing_cairo_is_reported_with_advice),
+        cmocka_unit_test(running_out_of_memory_leaks_nothing),
     };
     return cmocka_run_group_tests(tests, set_up, NULL);
 }

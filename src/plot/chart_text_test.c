@@ -70,7 +70,7 @@ static bool is_whole(const char *s)
     return strcmp(s, again) == 0;
 }
 
-static void lines_fit_and_are_as_long_as_can_be(void **state)
+static void lines_fit_and_are_as_long_as_possible(void **state)
 {
     (void)state;
     static const char TEXT[] = "a l\xc3\xb6ng \xe2\x82\xac text \xf0\x9f\x98\x80 of "
@@ -129,7 +129,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(clean_text_is_utf8),
-        cmocka_unit_test(lines_fit_and_are_as_long_as_can_be),
+        cmocka_unit_test(lines_fit_and_are_as_long_as_possible),
         cmocka_unit_test(text_is_wrapped_at_spaces),
         cmocka_unit_test(exponents_are_raised_and_smaller),
     };

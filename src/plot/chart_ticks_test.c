@@ -62,7 +62,7 @@ static void expect_round(const ticks *t)
         assert_true(fabs(t->values[i] / step - rint(t->values[i] / step)) < 1e-5);
 }
 
-static void linear_ticks_hold_their_properties(void **state)
+static void linear_ticks_have_their_properties(void **state)
 {
     (void)state;
     uint64_t random = 1;
@@ -136,7 +136,7 @@ static void ticks_are_the_nearest_doubles(void **state)
     assert_memory_equal(t.values, EXPECTED, sizeof EXPECTED);
 }
 
-static void logarithmic_ticks_hold_their_properties(void **state)
+static void logarithmic_ticks_have_their_properties(void **state)
 {
     (void)state;
     uint64_t random = 7;
@@ -220,10 +220,10 @@ static void ranges_are_never_empty(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(linear_ticks_hold_their_properties),
+        cmocka_unit_test(linear_ticks_have_their_properties),
         cmocka_unit_test(known_ranges_have_known_ticks),
         cmocka_unit_test(ticks_are_the_nearest_doubles),
-        cmocka_unit_test(logarithmic_ticks_hold_their_properties),
+        cmocka_unit_test(logarithmic_ticks_have_their_properties),
         cmocka_unit_test(decades_are_labeled_by_powers),
         cmocka_unit_test(ranges_are_never_empty),
     };

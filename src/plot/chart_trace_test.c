@@ -19,7 +19,7 @@ static bool is_inside(double x, double y, double slack)
 }
 
 /* Compared with 1000 points of the line: the same part is inside. */
-static void clipping_keeps_what_is_inside(void **state)
+static void clipping_keeps_the_inside(void **state)
 {
     (void)state;
     uint64_t random = 3;
@@ -68,7 +68,7 @@ static void lengths_add_up(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(clipping_keeps_what_is_inside),
+        cmocka_unit_test(clipping_keeps_the_inside),
         cmocka_unit_test(lengths_add_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -72,7 +72,7 @@ static void light_from_below_is_black(void **state)
 }
 
 /* Radiance of both models as in the fits: times pi. */
-static void radiance_is_the_fits(void **state)
+static void radiance_equals_that_of_the_fits(void **state)
 {
     (void)state;
     material a = pbr(0.35f, 0.3f, 0.7f);
@@ -94,7 +94,7 @@ static void radiance_is_the_fits(void **state)
 }
 
 /* Single-scattering albedo is the split sum, which src/ibl integrates in another way. */
-static void albedo_is_the_table(void **state)
+static void albedo_equals_that_of_the_lut(void **state)
 {
     (void)state;
     static const float roughness[] = {0.02f, 0.1f, 0.3f, 0.6f, 1.0f};
@@ -133,7 +133,7 @@ static void conserving_surfaces_return_all(void **state)
 }
 
 /* Sheen over black: the LUT of its albedo. */
-static void sheen_is_its_table(void **state)
+static void sheen_equals_its_lut(void **state)
 {
     (void)state;
     static const float roughness[] = {0.2f, 0.5f, 0.9f};
@@ -148,7 +148,7 @@ static void sheen_is_its_table(void **state)
 }
 
 /* Anisotropic: a plain grid over the hemisphere agrees with lobe sampling. */
-static void grain_is_sampled_where_it_is(void **state)
+static void anisotropic_albedos_agree_with_a_grid(void **state)
 {
     (void)state;
     material m = pbr(0.5f, 1.0f, 0.9f);
@@ -181,7 +181,7 @@ static void highlight_has_its_integral(void **state)
     }
 }
 
-static void labels_say_what_matters(void **state)
+static void labels_name_the_relevant_parameters(void **state)
 {
     (void)state;
     arena *memory = arena_create(NULL);
@@ -219,11 +219,15 @@ static void labels_say_what_matters(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(matte_is_albedo_over_pi),        cmocka_unit_test(light_from_below_is_black),
-        cmocka_unit_test(radiance_is_the_fits),           cmocka_unit_test(albedo_is_the_table),
-        cmocka_unit_test(conserving_surfaces_return_all), cmocka_unit_test(sheen_is_its_table),
-        cmocka_unit_test(grain_is_sampled_where_it_is),   cmocka_unit_test(highlight_has_its_integral),
-        cmocka_unit_test(labels_say_what_matters),
+        cmocka_unit_test(matte_is_albedo_over_pi),
+        cmocka_unit_test(light_from_below_is_black),
+        cmocka_unit_test(radiance_equals_that_of_the_fits),
+        cmocka_unit_test(albedo_equals_that_of_the_lut),
+        cmocka_unit_test(conserving_surfaces_return_all),
+        cmocka_unit_test(sheen_equals_its_lut),
+        cmocka_unit_test(anisotropic_albedos_agree_with_a_grid),
+        cmocka_unit_test(highlight_has_its_integral),
+        cmocka_unit_test(labels_name_the_relevant_parameters),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

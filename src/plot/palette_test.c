@@ -11,7 +11,7 @@
 #include "plot/palette.h"
 
 /* Rows of the published table, most of them between stored ones. */
-static void viridis_is_the_published_one(void **state)
+static void viridis_equals_the_published_one(void **state)
 {
     (void)state;
     static const double ROWS[][4] = {{0, 0.267004, 0.004874, 0.329415},   {7, 0.276022, 0.044167, 0.370164},
@@ -44,7 +44,7 @@ static void viridis_rises_in_lightness(void **state)
                 palette_viridis(2.0).g == palette_viridis(1.0).g);
 }
 
-static void colors_are_seen_on_both_grounds(void **state)
+static void colors_are_visible_on_both_backgrounds(void **state)
 {
     (void)state;
     for (int is_dark = 0; is_dark < 2; is_dark++) {
@@ -66,7 +66,7 @@ static void colors_are_seen_on_both_grounds(void **state)
     assert_true(fabs(red.r - 0.8) < 1e-6 && fabs(red.g - 0.1) < 1e-6 && red.b == 0.0); /* unchanged */
 }
 
-static void numbers_wrap_around(void **state)
+static void color_indices_wrap_around(void **state)
 {
     (void)state;
     const canvas_color first = palette_color(&(chart_style){.color = 0}, false);
@@ -90,10 +90,10 @@ static void numbers_wrap_around(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(viridis_is_the_published_one),
+        cmocka_unit_test(viridis_equals_the_published_one),
         cmocka_unit_test(viridis_rises_in_lightness),
-        cmocka_unit_test(colors_are_seen_on_both_grounds),
-        cmocka_unit_test(numbers_wrap_around),
+        cmocka_unit_test(colors_are_visible_on_both_backgrounds),
+        cmocka_unit_test(color_indices_wrap_around),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -62,7 +62,7 @@ static bool makes_much(facet_plot_kind kind)
            kind == FACET_PLOT_KIND_FURNACE || kind == FACET_PLOT_KIND_ERROR;
 }
 
-static void every_kind_is_drawn_from_nothing(void **state)
+static void every_kind_has_defaults(void **state)
 {
     (void)state;
     for (int k = 0; k < KINDS; k++)
@@ -113,7 +113,7 @@ static void every_kind_shows_several_materials(void **state)
     }
 }
 
-static void threads_do_not_change_numbers(void **state)
+static void values_do_not_depend_on_threads(void **state)
 {
     (void)state;
     static const facet_plot_kind kinds[] = {FACET_PLOT_KIND_ALBEDO, FACET_PLOT_KIND_FURNACE,
@@ -137,7 +137,7 @@ static void threads_do_not_change_numbers(void **state)
     }
 }
 
-static void running_out_of_memory_is_a_result(void **state)
+static void running_out_of_memory_leaks_nothing(void **state)
 {
     (void)state;
     for (int k = 0; k < KINDS; k++)
@@ -246,7 +246,7 @@ static void curves_per_channel_or_luminance(void **state)
     free_plot(&f);
 }
 
-static void disc_has_the_slice_in_it(void **state)
+static void the_disc_contains_the_slice(void **state)
 {
     (void)state;
     static const float view = 0.5f;
@@ -295,7 +295,7 @@ static void lobe_is_as_long_as_the_root_of_its_value(void **state)
 
 /* ---- terms, tables, curves ---- */
 
-static void terms_are_shades(void **state)
+static void terms_equal_those_of_the_shader_library(void **state)
 {
     (void)state;
     facet_plot_material m = material_default();
@@ -326,7 +326,7 @@ static void terms_are_shades(void **state)
     free_plot(&f);
 }
 
-static void albedo_of_white_metal_is_the_tables_sum(void **state)
+static void albedo_of_white_metal_is_the_sum_of_the_dfg_terms(void **state)
 {
     (void)state;
     facet_plot_material m = material_default();
@@ -343,7 +343,7 @@ static void albedo_of_white_metal_is_the_tables_sum(void **state)
     free_plot(&f);
 }
 
-static void furnace_conserves_where_it_says_so(void **state)
+static void conserving_materials_pass_the_furnace_test(void **state)
 {
     (void)state;
     plot_fixture f = make_plot(&(facet_plot_desc){.kind = FACET_PLOT_KIND_FURNACE});
@@ -365,7 +365,7 @@ static void furnace_conserves_where_it_says_so(void **state)
     free_plot(&f);
 }
 
-static void tables_are_those_of_ibl(void **state)
+static void tables_equal_those_of_ibl(void **state)
 {
     (void)state;
     plot_fixture f = make_plot(&(facet_plot_desc){.kind = FACET_PLOT_KIND_DFG});
@@ -402,7 +402,7 @@ static void tone_curves_rise(void **state)
     free_plot(&f);
 }
 
-static void fresnel_has_its_ends(void **state)
+static void fresnel_is_exact_at_both_ends(void **state)
 {
     (void)state;
     plot_fixture f = make_plot(&(facet_plot_desc){.kind = FACET_PLOT_KIND_FRESNEL});
@@ -448,7 +448,7 @@ static void fresnel_has_its_ends(void **state)
 }
 
 /* The errors of fit.h for one material, and the order of the methods. */
-static void errors_are_the_fits(void **state)
+static void errors_equal_those_of_the_fits(void **state)
 {
     (void)state;
     plot_fixture f =
@@ -493,7 +493,7 @@ static void errors_are_the_fits(void **state)
 
 /* ---- materials and conversions ---- */
 
-static void conversions_stand_beside_their_sources(void **state)
+static void conversions_are_drawn_beside_their_sources(void **state)
 {
     (void)state;
     facet_plot_material m[2] = {material_default(), material_default()};
@@ -571,24 +571,24 @@ static void wrong_descs_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_kind_is_drawn_from_nothing),
+        cmocka_unit_test(every_kind_has_defaults),
         cmocka_unit_test(every_kind_shows_several_materials),
-        cmocka_unit_test(threads_do_not_change_numbers),
-        cmocka_unit_test(running_out_of_memory_is_a_result),
+        cmocka_unit_test(values_do_not_depend_on_threads),
+        cmocka_unit_test(running_out_of_memory_leaks_nothing),
         cmocka_unit_test(matte_slice_is_flat),
         cmocka_unit_test(peaks_are_not_cut),
         cmocka_unit_test(polar_lobes_reach_one),
         cmocka_unit_test(curves_per_channel_or_luminance),
-        cmocka_unit_test(disc_has_the_slice_in_it),
+        cmocka_unit_test(the_disc_contains_the_slice),
         cmocka_unit_test(lobe_is_as_long_as_the_root_of_its_value),
-        cmocka_unit_test(terms_are_shades),
-        cmocka_unit_test(albedo_of_white_metal_is_the_tables_sum),
-        cmocka_unit_test(furnace_conserves_where_it_says_so),
-        cmocka_unit_test(tables_are_those_of_ibl),
+        cmocka_unit_test(terms_equal_those_of_the_shader_library),
+        cmocka_unit_test(albedo_of_white_metal_is_the_sum_of_the_dfg_terms),
+        cmocka_unit_test(conserving_materials_pass_the_furnace_test),
+        cmocka_unit_test(tables_equal_those_of_ibl),
         cmocka_unit_test(tone_curves_rise),
-        cmocka_unit_test(fresnel_has_its_ends),
-        cmocka_unit_test(errors_are_the_fits),
-        cmocka_unit_test(conversions_stand_beside_their_sources),
+        cmocka_unit_test(fresnel_is_exact_at_both_ends),
+        cmocka_unit_test(errors_equal_those_of_the_fits),
+        cmocka_unit_test(conversions_are_drawn_beside_their_sources),
         cmocka_unit_test(wrong_descs_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

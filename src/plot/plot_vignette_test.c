@@ -13,7 +13,7 @@ static const struct {
              {80, 0.011890705, 0.025238578, 0.173648178}};
 static const double half_digit = 0.5e-9 * 1.0001;
 
-static void values_are_the_vignettes(void **state)
+static void values_equal_those_of_the_vignette(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
@@ -25,7 +25,7 @@ static void values_are_the_vignettes(void **state)
 }
 
 /* The first two panels are the plots of the vignette: 33 points, phi in rad, three curves, blue last. */
-static void panels_are_the_vignettes(void **state)
+static void panels_equal_those_of_the_vignette(void **state)
 {
     (void)state;
     for (int ramp = 0; ramp < 2; ramp++) {
@@ -55,7 +55,7 @@ static void panels_are_the_vignettes(void **state)
 }
 
 /* With the step it equals shade/ with separable masking for any material. */
-static void step_is_shades(void **state)
+static void masking_with_its_step_equals_the_shader_library(void **state)
 {
     (void)state;
     static const float roughness[] = {0.2f, 0.5f, 1.0f};
@@ -79,7 +79,7 @@ static void step_is_shades(void **state)
 }
 
 /* "This looks pretty hopeless": as plotted, and with the light times pi and the optimal parameters. */
-static void hopeless_case_is_a_fit_of_four_percent(void **state)
+static void the_hard_case_fits_to_four_percent(void **state)
 {
     (void)state;
     static const struct {
@@ -109,7 +109,7 @@ static void hopeless_case_is_a_fit_of_four_percent(void **state)
 }
 
 /* An OpenGL 1 curve is recovered, also with a color at its bound. */
-static void fit_finds_what_was_put_in(void **state)
+static void fits_recover_known_parameters(void **state)
 {
     (void)state;
     static const double cases[3][3] = {{37.3, 0.4, 0.7}, {5.0, 1.0, 0.2}, {128.0, 0.0, 1.0}};
@@ -128,11 +128,11 @@ static void fit_finds_what_was_put_in(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(values_are_the_vignettes),
-        cmocka_unit_test(panels_are_the_vignettes),
-        cmocka_unit_test(step_is_shades),
-        cmocka_unit_test(hopeless_case_is_a_fit_of_four_percent),
-        cmocka_unit_test(fit_finds_what_was_put_in),
+        cmocka_unit_test(values_equal_those_of_the_vignette),
+        cmocka_unit_test(panels_equal_those_of_the_vignette),
+        cmocka_unit_test(masking_with_its_step_equals_the_shader_library),
+        cmocka_unit_test(the_hard_case_fits_to_four_percent),
+        cmocka_unit_test(fits_recover_known_parameters),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

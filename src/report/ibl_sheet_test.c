@@ -63,7 +63,7 @@ static const float *pixel(const image *i, uint32_t x, uint32_t y)
 }
 
 /* In uniform light crosses and spheres have its color, however they are lit, and cover the expected area. */
-static void test_uniform_light(void **state)
+static void uniform_light_colors_all_elements(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(64, 32, uniform);
@@ -97,7 +97,7 @@ static void test_uniform_light(void **state)
 }
 
 /* The faces of the cross are in place and upright. */
-static void test_cross(void **state)
+static void crosses_show_upright_faces(void **state)
 {
     (void)state;
     enum { EDGE = 42 }; /* pixel centers coincide with texel centers */
@@ -134,7 +134,7 @@ static void test_cross(void **state)
 }
 
 /* The center of a sphere mirrors +Z, the rim -Z; the center of a diffuse one faces +Z. */
-static void test_ball_directions(void **state)
+static void spheres_read_the_right_directions(void **state)
 {
     (void)state;
     enum { WIDTH = 101 };
@@ -175,7 +175,7 @@ static void test_ball_directions(void **state)
     facet_environment_destroy(e);
 }
 
-static void test_levels_between(void **state)
+static void levels_are_interpolated(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(64, 32, faces);
@@ -192,7 +192,7 @@ static void test_levels_between(void **state)
     facet_environment_destroy(e);
 }
 
-static void test_difference(void **state)
+static void differences_are_rms_over_the_sphere(void **state)
 {
     (void)state;
     static float a[10 * 10 * 3], b[10 * 10 * 3];
@@ -206,7 +206,7 @@ static void test_difference(void **state)
     assert_near(sheet_compare_balls(a, b, 10), 0.1, 1e-6);
 }
 
-static void test_threads_do_not_matter(void **state)
+static void sheets_do_not_depend_on_threads(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(32, 16, faces);
@@ -226,7 +226,7 @@ static void test_threads_do_not_matter(void **state)
 }
 
 /* Text is drawn in place, over the image. */
-static void test_words(void **state)
+static void text_is_drawn_in_place(void **state)
 {
     (void)state;
     image i;
@@ -272,7 +272,7 @@ static bool look(void *user, const char *stage, double fraction)
     return ++w->calls != w->stops_at;
 }
 
-static void test_progress(void **state)
+static void progress_is_reported_and_can_cancel(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(32, 16, uniform);
@@ -298,7 +298,7 @@ static void test_progress(void **state)
     facet_environment_destroy(e);
 }
 
-static void test_memory(void **state)
+static void running_out_of_memory_leaks_nothing(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(32, 16, uniform);
@@ -323,11 +323,15 @@ static void test_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_uniform_light),   cmocka_unit_test(test_cross),
-        cmocka_unit_test(test_ball_directions), cmocka_unit_test(test_levels_between),
-        cmocka_unit_test(test_difference),      cmocka_unit_test(test_threads_do_not_matter),
-        cmocka_unit_test(test_words),           cmocka_unit_test(test_progress),
-        cmocka_unit_test(test_memory),
+        cmocka_unit_test(uniform_light_colors_all_elements),
+        cmocka_unit_test(crosses_show_upright_faces),
+        cmocka_unit_test(spheres_read_the_right_directions),
+        cmocka_unit_test(levels_are_interpolated),
+        cmocka_unit_test(differences_are_rms_over_the_sphere),
+        cmocka_unit_test(sheets_do_not_depend_on_threads),
+        cmocka_unit_test(text_is_drawn_in_place),
+        cmocka_unit_test(progress_is_reported_and_can_cancel),
+        cmocka_unit_test(running_out_of_memory_leaks_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

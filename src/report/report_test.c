@@ -55,7 +55,7 @@ static size_t count(const char *page, const char *what)
     return n;
 }
 
-static void every_material_is_there(void **state)
+static void every_material_is_listed(void **state)
 {
     (void)state;
     facet_scene *scene = make_scene();
@@ -75,7 +75,7 @@ static void every_material_is_there(void **state)
     scene_destroy(scene);
 }
 
-static void pages_repeat(void **state)
+static void pages_are_repeatable(void **state)
 {
     (void)state;
     facet_scene *scene = make_scene();
@@ -155,8 +155,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(text_is_escaped),
-        cmocka_unit_test(every_material_is_there),
-        cmocka_unit_test(pages_repeat),
+        cmocka_unit_test(every_material_is_listed),
+        cmocka_unit_test(pages_are_repeatable),
         cmocka_unit_test(matte_balls_are_equal),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -84,13 +84,13 @@ static void compare(const char *name, const facet_render_desc *desc)
     facet_scene_destroy(scene);
 }
 
-static void the_builtin_scene_in_gltf_mode(void **state)
+static void the_builtin_scene_is_unchanged_in_gltf_mode(void **state)
 {
     (void)state;
     compare("builtin_gltf", &(facet_render_desc){0});
 }
 
-static void the_builtin_scene_in_conserving_mode(void **state)
+static void the_builtin_scene_is_unchanged_in_conserving_mode(void **state)
 {
     (void)state;
     compare("builtin_conserving", &(facet_render_desc){.energy = FACET_ENERGY_CONSERVING,
@@ -102,8 +102,8 @@ int main(int argc, char **argv)
 {
     folder = argc > 1 ? argv[1] : "tests/golden";
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_builtin_scene_in_gltf_mode),
-        cmocka_unit_test(the_builtin_scene_in_conserving_mode),
+        cmocka_unit_test(the_builtin_scene_is_unchanged_in_gltf_mode),
+        cmocka_unit_test(the_builtin_scene_is_unchanged_in_conserving_mode),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
