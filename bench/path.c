@@ -67,8 +67,11 @@ static void prepare(picture *p, const char *model, const char *light, uint32_t s
         check(facet_camera_from_orbit(p->scene, NULL, &orbit, 1.0f, &p->camera, &error), &error);
     prepared_scene_init(&p->prepared, p->scene, &p->desc.allocator);
     check(prepared_scene_pose(&p->prepared, &p->desc, &error), &error);
-    p->setup = (render_setup){
-        .prepared = &p->prepared, .desc = &p->desc, .stats = &p->stats, .reads_everywhere = true};
+    p->setup = (render_setup){.prepared = &p->prepared,
+                              .desc = &p->desc,
+                              .stats = &p->stats,
+                              .reads_everywhere = true,
+                              .samples_light = true};
     check(render_setup_create(&p->setup, &error), &error);
     check(path_lights_create(&p->setup, &p->lights, &error), &error);
     p->paths = (path_scene){.setup = &p->setup, .lights = p->lights};

@@ -75,7 +75,7 @@ static facet_result prepare_light(render_setup *p, facet_error *error)
 {
     double start = clock_seconds();
     facet_result result = light_setup_create(&p->prepared->geometries, &p->prepared->pose, &p->camera,
-                                             p->desc, &p->light, error);
+                                             p->desc, p->samples_light, &p->light, error);
     p->stats->light_s += clock_seconds() - start;
     return result;
 }
@@ -121,12 +121,12 @@ static bool lacks_red(const texture_set *textures, uint32_t texture)
 }
 
 /* Removes occlusion textures that are black throughout, with a warning per material: once for all images
- * of a scene, and not for path tracing, which needs no occlusion. */
+ * of a scene, and not where light is sampled, which needs no occlusion. */
 static facet_result drop_black_occlusion(render_setup *p, facet_error *error)
 {
     const uint32_t bit = 1u << SCENE_OCCLUSION_TEXTURE;
     const facet_scene *scene = p->prepared->scene;
-    bool warns = !p->prepared->has_warned_occlusion && p->desc->renderer != FACET_RENDERER_KIND_PATH;
+    bool warns = !p->prepared->has_warned_occlusion && !p->samples_light;
     bool *is_warned = mem_zalloc(&p->desc->allocator, (size_t)scene->material_count + 1, sizeof *is_warned);
     if (!is_warned)
         return fail_memory(error, "materials", scene->material_count);

@@ -12,7 +12,9 @@ typedef struct render_setup {
     prepared_scene *prepared;
     const facet_render_desc *desc;
     facet_render_stats *stats;
-    bool reads_everywhere; /* textures are read at full size and outside of the view as well: for paths */
+    /* What the renderer does: */
+    bool reads_everywhere; /* textures are read at full size and outside of the view as well */
+    bool samples_light;    /* of light_setup_create() */
     camera_rays camera;
     texture_use *uses;
     texture_set *textures;
@@ -24,7 +26,7 @@ typedef struct render_setup {
 } render_setup;
 
 /* Prepares for desc (resolved, as for preview_render()); stages run concurrently where they can. Adds
- * times to stats. *setup comes with prepared, desc, stats and reads_everywhere set and the rest {0};
+ * times to stats. *setup comes with the members up to samples_light set and the rest {0};
  * release it with render_setup_destroy(), also after a failure. Fails as preview_render(). */
 facet_result render_setup_create(render_setup *setup, facet_error *error);
 void render_setup_destroy(render_setup *setup);

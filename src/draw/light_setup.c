@@ -82,19 +82,18 @@ static void add_material(ibl_light_desc *needs, const scene_material *material, 
 }
 
 static ibl_light_desc light_needs(const render_geometry_set *set, const camera_rays *camera,
-                                  const facet_render_desc *desc)
+                                  const facet_render_desc *desc, bool is_sampled)
 {
     ibl_light_desc needs = {.thread_count = desc->thread_count, .min_roughness = 1.0f};
-    bool is_path = desc->renderer == FACET_RENDERER_KIND_PATH; /* its paths read the image itself */
-    for (uint32_t i = 0; i < set->count && !is_path; i++)
+    for (uint32_t i = 0; i < set->count && !is_sampled; i++)
         if (set->items[i].is_lit)
             add_material(&needs, set->items[i].material, desc);
-    if (desc->ground == FACET_GROUND_SHADOW && !is_path) /* a sun's shadow is a share of it */
+    if (desc->ground == FACET_GROUND_SHADOW && !is_sampled) /* a sun's shadow is a share of it */
         needs.needs_irradiance = true;
     if (desc->background == FACET_BACKGROUND_ENVIRONMENT) {
         if (desc->background_blur > 0.0f)
             add_range(&needs, desc->background_blur, desc->background_blur);
-        else if (!is_path)
+        else if (!is_sampled)
             needs.needs_background = true;
     }
     if (needs.needs_background)
@@ -126,12 +125,12 @@ static Light posed_light(const scene_posed_light *posed)
     return light_point(position, intensity, l->range);
 }
 
-/* A sun without size; false: there is none, or paths hit its disc. */
-static bool preview_sun(const facet_render_desc *desc, Light *out)
+/* A sun without size; false: there is none. */
+static bool delta_sun(const facet_render_desc *desc, Light *out)
 {
     const facet_sun *sun = &desc->sun;
     vec3 E = load3(sun->illuminance_lux);
-    if (desc->renderer == FACET_RENDERER_KIND_PATH || !(max3(E) > 0.0f))
+    if (!(max3(E) > 0.0f))
         return false;
     float level = cos(sun->elevation_rad);
     *out = light_directional(
@@ -139,11 +138,11 @@ static bool preview_sun(const facet_render_desc *desc, Light *out)
     return true;
 }
 
-static facet_result create_punctual(const scene_pose *pose, const facet_render_desc *desc, light_setup *out,
-                                    facet_error *error)
+static facet_result create_punctual(const scene_pose *pose, const facet_render_desc *desc, bool is_sampled,
+                                    light_setup *out, facet_error *error)
 {
     Light sun;
-    bool has_sun = preview_sun(desc, &sun);
+    bool has_sun = !is_sampled && delta_sun(desc, &sun);
     uint32_t of_scene = desc->ignores_scene_lights ? 0 : pose->light_count;
     uint32_t count = of_scene + (has_sun ? 1 : 0);
     if (count == 0)
@@ -160,20 +159,20 @@ static facet_result create_punctual(const scene_pose *pose, const facet_render_d
 }
 
 facet_result light_setup_create(const render_geometry_set *set, const scene_pose *pose,
-                                const camera_rays *camera, const facet_render_desc *desc, light_setup *out,
-                                facet_error *error)
+                                const camera_rays *camera, const facet_render_desc *desc, bool is_sampled,
+                                light_setup *out, facet_error *error)
 {
     *out = (light_setup){.scale = exp2f(desc->environment_ev),
                          .rotation_cos = cosf(desc->environment_rotation_rad),
                          .rotation_sin = sinf(desc->environment_rotation_rad)};
-    facet_result result = create_punctual(pose, desc, out, error);
+    facet_result result = create_punctual(pose, desc, is_sampled, out, error);
     if (result != FACET_OK) {
         light_setup_destroy(out);
         return result;
     }
     if (!desc->environment || desc->shading == FACET_SHADING_OGL1)
         return FACET_OK;
-    ibl_light_desc needs = light_needs(set, camera, desc);
+    ibl_light_desc needs = light_needs(set, camera, desc, is_sampled);
     if (!(needs.needs_irradiance || needs.needs_specular || needs.needs_sheen || needs.needs_background))
         return FACET_OK;
     result = ibl_light_prepare(desc->environment, &needs, &out->ibl, error);

@@ -23,11 +23,11 @@ typedef struct light_setup {
 facet_energy light_energy(const facet_render_desc *desc);
 
 /* Prepares what the materials of the drawn geometries and the background read; with FACET_SHADING_OGL1 the
- * punctual lights only, with FACET_RENDERER_KIND_PATH those and a blurred background. Fails as
- * ibl_light_prepare(). */
+ * punctual lights only. is_sampled: the renderer samples the environment and the sun's disc itself, as path
+ * tracing does; prepares other punctual lights and a blurred background only. Fails as ibl_light_prepare(). */
 facet_result light_setup_create(const render_geometry_set *set, const scene_pose *pose,
-                                const camera_rays *camera, const facet_render_desc *desc, light_setup *out,
-                                facet_error *error);
+                                const camera_rays *camera, const facet_render_desc *desc, bool is_sampled,
+                                light_setup *out, facet_error *error);
 void light_setup_destroy(light_setup *light); /* {0} is allowed */
 /* Warns of an image that is black because nothing emits light, which is rarely intended. */
 void light_setup_warn_dark(const light_setup *light, const render_geometry_set *set,

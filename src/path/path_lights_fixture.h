@@ -39,8 +39,11 @@ static inline facet_result stage_try(stage *s, const facet_allocator *allocator)
     s->desc.crop[3] = s->desc.height;
     facet_error error = {0};
     prepared_scene_init(&s->prepared, s->f.scene, NULL);
-    s->setup = (render_setup){
-        .prepared = &s->prepared, .desc = &s->desc, .stats = &s->stats, .reads_everywhere = true};
+    s->setup = (render_setup){.prepared = &s->prepared,
+                              .desc = &s->desc,
+                              .stats = &s->stats,
+                              .reads_everywhere = true,
+                              .samples_light = true};
     assert_int_equal(render_setup_create(&s->setup, &error), FACET_OK);
     if (allocator)
         s->desc.allocator = *allocator;

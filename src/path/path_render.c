@@ -127,8 +127,11 @@ static facet_result begin_instant(path_job *p, facet_error *error)
 {
     const facet_render_desc *desc = &p->instant;
     end_instant(p);
-    p->setup =
-        (render_setup){.prepared = p->prepared, .desc = desc, .stats = p->stats, .reads_everywhere = true};
+    p->setup = (render_setup){.prepared = p->prepared,
+                              .desc = desc,
+                              .stats = p->stats,
+                              .reads_everywhere = true,
+                              .samples_light = true};
     TRY(render_setup_create(&p->setup, error));
     TRY(path_lights_create(&p->setup, &p->lights, error));
     p->scene = (path_scene){.setup = &p->setup,

@@ -49,8 +49,11 @@ static void stage_prepare(stage *s)
     s->desc.crop[2] = s->desc.width;
     s->desc.crop[3] = s->desc.height;
     prepared_scene_init(&s->prepared, s->f.scene, &s->desc.allocator);
-    s->setup = (render_setup){
-        .prepared = &s->prepared, .desc = &s->desc, .stats = &s->stats, .reads_everywhere = true};
+    s->setup = (render_setup){.prepared = &s->prepared,
+                              .desc = &s->desc,
+                              .stats = &s->stats,
+                              .reads_everywhere = true,
+                              .samples_light = true};
     assert_int_equal(render_setup_create(&s->setup, NULL), FACET_OK);
     assert_int_equal(path_lights_create(&s->setup, &s->lights, NULL), FACET_OK);
     s->scene = (path_scene){.setup = &s->setup,

@@ -57,8 +57,8 @@ static void begin(lagoon *l, float eye_m, const float *sky)
     r->camera = &l->s.camera;
     l->s.camera.eye[0] = l->s.camera.target[0] = -1.5f;
     facet_error error;
-    if (water_setup_create(shot_in(l->sea, &l->s), l->f.scene, &l->s.desc, &l->setup, &l->s.stats, &error) !=
-        FACET_OK)
+    if (water_setup_create(shot_in(l->sea, &l->s), l->f.scene, &l->s.desc, WATER_SETUP_ALL, &l->setup,
+                           &l->s.stats, &error) != FACET_OK)
         fail_msg("%s", error.message);
 }
 

@@ -29,7 +29,8 @@ static vec3 seen_by_model(const facet_sea *sea, shot *s)
     water_setup setup;
     facet_render_stats stats = {0};
     facet_error error;
-    if (water_setup_create(shot_in(sea, s), f.scene, &s->desc, &setup, &stats, &error) != FACET_OK)
+    if (water_setup_create(shot_in(sea, s), f.scene, &s->desc, WATER_SETUP_ALL, &setup, &stats, &error) !=
+        FACET_OK)
         fail_msg("%s", error.message);
     const image *around = &setup.cache->light->around->panorama;
     float d[3];

@@ -280,7 +280,8 @@ static bool has_map(const facet_sea_desc *d, float elevation_rad, float eye_m, f
     s.desc.camera = &s.camera;
     water_setup setup;
     facet_error error;
-    if (water_setup_create(shot_in(sea, &s), NULL, &s.desc, &setup, &s.stats, &error) != FACET_OK)
+    if (water_setup_create(shot_in(sea, &s), NULL, &s.desc, WATER_SETUP_ALL, &setup, &s.stats, &error) !=
+        FACET_OK)
         fail_msg("%s", error.message);
     bool is_there = setup.caustics.is_there;
     for (uint32_t l = 0; is_there && l < CAUSTIC_LAYERS; l++)

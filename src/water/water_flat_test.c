@@ -59,7 +59,9 @@ static void test_flat(void **state)
     s.desc.sky.sun_azimuth_rad = 0.3f; /* behind the eye: no disc in sight */
     draw_shot(sea, &s);
     water_setup setup;
-    assert_int_equal(water_setup_create(shot_in(sea, &s), NULL, &s.desc, &setup, &s.stats, NULL), FACET_OK);
+    assert_int_equal(
+        water_setup_create(shot_in(sea, &s), NULL, &s.desc, WATER_SETUP_ALL, &setup, &s.stats, NULL),
+        FACET_OK);
     int seen = 0;
     for (uint32_t y = 0; y < 48; y++)
         for (uint32_t x = 0; x < 32; x++) {
@@ -98,7 +100,9 @@ static void test_sun(void **state)
     s.desc.sky.sun_azimuth_rad = 3.14159265f;
     draw_shot(sea, &s);
     water_setup setup;
-    assert_int_equal(water_setup_create(shot_in(sea, &s), NULL, &s.desc, &setup, &s.stats, NULL), FACET_OK);
+    assert_int_equal(
+        water_setup_create(shot_in(sea, &s), NULL, &s.desc, WATER_SETUP_ALL, &setup, &s.stats, NULL),
+        FACET_OK);
     double F = fresnel(sin(0.7), (double)setup.water.ior);
     double E = (double)setup.light.sun_irradiance[1],
            disc = E / (3.14159265358979323846 * 0.00465305 * 0.00465305);

@@ -27,8 +27,7 @@ static void make(made *m, const facet_sea_desc *desc, const facet_scene *scene, 
     m->sea = make_sea(desc);
     make_shot(&m->shot, 160, 90, eye_m, 0.1f);
     m->shot.desc.camera = &m->shot.camera;
-    m->shot.desc.renderer = FACET_RENDERER_KIND_PATH;
-    if (water_setup_create(shot_in(m->sea, &m->shot), scene, &m->shot.desc, &m->setup, &stats, &error) !=
+    if (water_setup_create(shot_in(m->sea, &m->shot), scene, &m->shot.desc, 0, &m->setup, &stats, &error) !=
         FACET_OK)
         fail_msg("%s", error.message);
     m->memory = arena_create(&plain);

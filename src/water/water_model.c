@@ -25,7 +25,6 @@ static void fill_desc(const facet_render_desc *desc, const water_sky *sky, facet
     m->desc.sea = NULL;
     m->desc.environment = around;
     m->desc.environment_rotation_rad = m->desc.environment_ev = 0.0f;
-    m->desc.renderer = FACET_RENDERER_KIND_PREVIEW;
     m->desc.background = (facet_background){0};
     m->desc.background_blur = 0.0f;
     m->desc.ground = FACET_GROUND_NONE;

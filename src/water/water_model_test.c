@@ -130,8 +130,9 @@ static void test_dry(void **state)
     water_setup setup;
     make_dark_shot(&s, 8, 3.0f, 0.5f, f.scene);
     s.desc.camera = &s.camera;
-    assert_int_equal(water_setup_create(shot_in(sea, &s), f.scene, &s.desc, &setup, &s.stats, NULL),
-                     FACET_OK);
+    assert_int_equal(
+        water_setup_create(shot_in(sea, &s), f.scene, &s.desc, WATER_SETUP_ALL, &setup, &s.stats, NULL),
+        FACET_OK);
     assert_true(water_model_is_dry(&setup.model, (const double[3]){0.1, 0.0, 0.2}));
     assert_false(
         water_model_is_dry(&setup.model, (const double[3]){0.9, 0.0, 0.9})); /* within the box around it */

@@ -93,7 +93,7 @@ facet_result water_render(water_cache *cache, const facet_scene *scene, const fa
     facet_result result = render_check_limits(desc, "prepare", 0.0, deadline_s, error);
     if (result != FACET_OK)
         return result;
-    result = water_setup_create(cache, scene, desc, &setup, stats, error);
+    result = water_setup_create(cache, scene, desc, WATER_SETUP_ALL, &setup, stats, error);
     stats->light_s += clock_seconds() - start;
     double drawing = clock_seconds();
     if (result == FACET_OK)
@@ -124,7 +124,6 @@ static facet_render_desc meter_desc(const facet_render_desc *desc)
     r->crop[3] = r->height;
     r->samples = 1;
     r->quality = FACET_QUALITY_DRAFT;
-    r->renderer = FACET_RENDERER_KIND_PREVIEW;
     r->exposure_ev = 0.0f;
     r->progress = (facet_progress){0};
     d.sea_shading = (facet_sea_shading){.omits_glints = true};

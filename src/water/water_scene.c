@@ -174,7 +174,7 @@ facet_result water_scene_create(water_cache *cache, const facet_scene *scene, co
     water_scene *w = mem_zalloc(&desc->allocator, 1, sizeof *w);
     if (!w)
         return fail_memory(error, "the scene of a sea", sizeof *w);
-    facet_result result = water_setup_create(cache, scene, desc, &w->setup, stats, error);
+    facet_result result = water_setup_create(cache, scene, desc, 0, &w->setup, stats, error);
     if (result == FACET_OK)
         result = water_mesh_scene(&w->setup, scene, deadline_s, &w->scene, error);
     if (result != FACET_OK) {

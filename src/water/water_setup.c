@@ -86,7 +86,7 @@ static facet_result make_foam(water_setup *s, facet_error *error)
 }
 
 facet_result water_setup_create(water_cache *cache, const facet_scene *scene, const facet_render_desc *desc,
-                                water_setup *s, facet_render_stats *stats, facet_error *error)
+                                uint32_t needs, water_setup *s, facet_render_stats *stats, facet_error *error)
 {
     const facet_render_desc *r = desc;
     const facet_sea *sea = desc->sea;
@@ -104,7 +104,7 @@ facet_result water_setup_create(water_cache *cache, const facet_scene *scene, co
     s->is_below = is_under_water(sea, s->camera.origin);
     s->march = water_march_of(&sea->waves, &sea->slopes, !s->camera.is_orthographic);
     const uint32_t whole[4] = {0, 0, r->width, r->height}; /* so that a crop shows the same */
-    if (r->renderer == FACET_RENDERER_KIND_PREVIEW)
+    if (needs & WATER_SETUP_PROFILE)
         result = water_profile_create(&s->march, &s->camera, whole, s->is_below, r->thread_count,
                                       &r->allocator, &s->profile, error);
     bool has_foam = sea_shading_is_complete(&desc->sea_shading) && !desc->sea_shading.omits_foam &&
@@ -125,7 +125,7 @@ facet_result water_setup_create(water_cache *cache, const facet_scene *scene, co
     s->roughness = perceptual_roughness > 0.0f ? slopes_from_roughness(perceptual_roughness) : vec3(-1.0f);
     if (scene)
         result = add_model(s, scene, stats, error);
-    if (r->renderer == FACET_RENDERER_KIND_PATH) /* path tracing finds light on the bed by itself */
+    if (!(needs & WATER_SETUP_BED_LIGHT))
         return result;
     if (result == FACET_OK)
         result = caustic_map_of_picture(s, &s->caustics, error);

@@ -37,10 +37,18 @@ typedef struct water_setup {
     float shutter_s;  /* exposure time of glints */
 } water_setup;
 
+/* What not every renderer needs. */
+enum {
+    WATER_SETUP_PROFILE = 1u << 0,   /* bounds of waves for the rays of the camera */
+    WATER_SETUP_BED_LIGHT = 1u << 1, /* caustics and the model's shadow on the bed; path tracing finds them */
+    WATER_SETUP_ALL = WATER_SETUP_PROFILE | WATER_SETUP_BED_LIGHT
+};
+
 /* Not to be moved between create and destroy, which is due even after a failure. scene NULL: water only.
  * Nothing else may use the cache meanwhile. Adds the model's preparation to stats. Fails as water_render(). */
 facet_result water_setup_create(water_cache *cache, const facet_scene *scene, const facet_render_desc *desc,
-                                water_setup *out, facet_render_stats *stats, facet_error *error);
+                                uint32_t needs, water_setup *out, facet_render_stats *stats,
+                                facet_error *error);
 void water_setup_destroy(water_setup *s);
 
 /* Slopes that a footprint (m) does not resolve, with SLOPE_VARIANCE_MIN; curvature, rate: of their waves

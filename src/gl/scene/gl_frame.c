@@ -118,7 +118,8 @@ facet_result gl_frame_update(gl_frame *f, const gl_scene *scene, const camera_ra
     double start = clock_seconds();
     light_setup light = {0};
     f->scene = scene;
-    facet_result result = light_setup_create(&scene->geometries, &scene->pose, camera, desc, &light, error);
+    facet_result result =
+        light_setup_create(&scene->geometries, &scene->pose, camera, desc, false, &light, error);
     if (result == FACET_OK)
         result =
             gl_light_update(f->light, &light, desc, scene->pose.bounds_min, scene->pose.bounds_max, error);
