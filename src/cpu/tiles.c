@@ -16,23 +16,49 @@
 enum { TILE = 32 };
 _Static_assert(TILE % VISIBILITY_BLOCK == 0, "tiles are made of whole blocks");
 
-/* The layers of the film; NULL: not requested. */
-typedef struct layers {
-    film_layer *color, *depth, *normal, *albedo, *material, *object, *instance, *uv, *occlusion;
-} layers;
-
 typedef struct picture {
     const tiles_desc *desc;
     uint32_t crop[4]; /* x, y, width, height in the whole image */
     uint32_t tile_columns, tile_count;
     visibility_pattern pattern, middle;
-    layers layers;
+    film_layer *color;
+    surface_layers layers;
     matte_layers mattes;
     bool has_picture, wants_aovs;
     /* shared by the threads */
     render_watch watch;
     _Atomic uint64_t rays, shades;
 } picture;
+
+/* ---- layers ---- */
+
+surface_layers surface_layers_find(film *f)
+{
+    return (surface_layers){film_find(f, "depth"),    film_find(f, "normal"),   film_find(f, "albedo"),
+                            film_find(f, "material"), film_find(f, "object"),   film_find(f, "instance"),
+                            film_find(f, "uv"),       film_find(f, "occlusion")};
+}
+
+static void store(const film_layer *layer, size_t pixel, const float *values)
+{
+    if (layer)
+        memcpy(layer->pixels + pixel * layer->channel_count, values, layer->channel_count * sizeof(float));
+}
+
+void surface_layers_store(const surface_layers *layers, size_t pixel, float depth_m,
+                          const shading_description *surface, const scene_identity *identity)
+{
+    store(layers->depth, pixel, &depth_m);
+    store(layers->normal, pixel, surface->normal);
+    store(layers->albedo, pixel, surface->base_color);
+    store(layers->uv, pixel, surface->uv);
+    store(layers->occlusion, pixel, &surface->occlusion);
+    if (!identity)
+        return;
+    store(layers->material, pixel, &identity->numbers[SCENE_IDENTITY_MATERIAL]);
+    store(layers->object, pixel, &identity->numbers[SCENE_IDENTITY_OBJECT]);
+    store(layers->instance, pixel, &identity->numbers[SCENE_IDENTITY_INSTANCE]);
+}
 
 /* ---- one block ---- */
 
@@ -43,12 +69,6 @@ typedef struct workspace {
     visibility_hit middle_hits[VISIBILITY_BLOCK_PIXELS];
 } workspace;
 
-static void store(const film_layer *layer, size_t pixel, const float *values)
-{
-    if (layer)
-        memcpy(layer->pixels + pixel * layer->channel_count, values, layer->channel_count * sizeof(float));
-}
-
 static void write_aovs(const picture *p, workspace *w, uint32_t x, uint32_t y, const visibility_hit *hit,
                        size_t pixel)
 {
@@ -57,17 +77,8 @@ static void write_aovs(const picture *p, workspace *w, uint32_t x, uint32_t y, c
     uint32_t geometry;
     if (!pixel_nearest_surface(&w->resolver, x, y, hit, &surface, &depth_m, &geometry))
         return; /* the film starts with background values */
-    store(p->layers.depth, pixel, &depth_m);
-    store(p->layers.normal, pixel, surface.normal);
-    store(p->layers.albedo, pixel, surface.base_color);
-    store(p->layers.uv, pixel, surface.uv);
-    store(p->layers.occlusion, pixel, &surface.occlusion);
-    if (!p->desc->identities)
-        return;
-    const float *numbers = p->desc->identities[geometry].numbers;
-    store(p->layers.material, pixel, &numbers[SCENE_IDENTITY_MATERIAL]);
-    store(p->layers.object, pixel, &numbers[SCENE_IDENTITY_OBJECT]);
-    store(p->layers.instance, pixel, &numbers[SCENE_IDENTITY_INSTANCE]);
+    const scene_identity *identities = p->desc->identities;
+    surface_layers_store(&p->layers, pixel, depth_m, &surface, identities ? &identities[geometry] : NULL);
 }
 
 static bool draw_block(const picture *p, workspace *w, uint32_t x, uint32_t y)
@@ -88,7 +99,7 @@ static bool draw_block(const picture *p, workspace *w, uint32_t x, uint32_t y)
             py - p->crop[1] >= p->crop[3])
             continue;
         size_t pixel = (size_t)(py - p->crop[1]) * p->crop[2] + (px - p->crop[0]);
-        float *rgba = p->layers.color->pixels + 4 * pixel;
+        float *rgba = p->color->pixels + 4 * pixel;
         if (p->has_picture &&
             !pixel_resolve(&w->resolver, px, py, w->hits + visibility_first_hit(&p->pattern, i), rgba))
             return false;
@@ -158,10 +169,8 @@ static facet_result draw(const tiles_desc *desc, bool has_picture, film *target,
     picture p = {.desc = desc,
                  .crop = {crop[0], crop[1], target->width, target->height},
                  .tile_columns = (crop[0] + target->width - 1) / TILE - crop[0] / TILE + 1,
-                 .layers = {film_find(target, ""), film_find(target, "depth"), film_find(target, "normal"),
-                            film_find(target, "albedo"), film_find(target, "material"),
-                            film_find(target, "object"), film_find(target, "instance"),
-                            film_find(target, "uv"), film_find(target, "occlusion")},
+                 .color = film_find(target, ""),
+                 .layers = surface_layers_find(target),
                  .mattes = matte_find(target),
                  .has_picture = has_picture,
                  .wants_aovs = (render->aovs & ~(uint32_t)FACET_AOV_CRYPTOMATTE) != 0};
