@@ -14,6 +14,7 @@
 #include "path/path_render.h"
 #include "render/render_gl.h"
 #include "scene/identity.h"
+#include "water/water_objects.h"
 #include "water/water_scene.h"
 
 /* Cryptomatte's metadata: the names of everything in the scene. */
@@ -32,6 +33,19 @@ static facet_result describe_mattes(const facet_scene *scene, const facet_render
             result = matte_describe(target, kind, manifest.data, &desc->allocator, error);
         text_destroy(&manifest);
     }
+    return result;
+}
+
+/* In a sea, water and bed have names, too. */
+static facet_result describe_mattes_in_sea(const facet_scene *scene, const facet_render_desc *desc,
+                                           film *target, facet_error *error)
+{
+    facet_scene *objects;
+    if (!(desc->aovs & FACET_AOV_CRYPTOMATTE))
+        return FACET_OK;
+    TRY(water_objects_scene(scene, desc->sea, &desc->allocator, &objects, error));
+    facet_result result = describe_mattes(objects, desc, target, error);
+    scene_destroy(objects);
     return result;
 }
 
@@ -83,8 +97,6 @@ static facet_result draw_path_in_sea(renderer_set *set, const facet_render_desc 
     prepared_scene_init(&prepared, water_scene_get_scene(water), &desc->allocator);
     facet_result result =
         path_render_prepared(&prepared, inner, water_scene_get_surface(water), target, stats, error);
-    if (result == FACET_OK)
-        result = describe_mattes(prepared.scene, inner, target, error);
     prepared_scene_clear(&prepared);
     water_scene_destroy(water);
     return result;
@@ -115,7 +127,8 @@ const renderer_row *renderer_get(facet_renderer_kind kind)
                              FACET_RENDERER_FEATURE_SEA_STYLES,
                  .samples = {4, 1, 16},
                  .max_samples = 4096,
-                 .aovs = (uint32_t)ALL_AOVS},
+                 .aovs = (uint32_t)ALL_AOVS,
+                 .sea_aovs = (uint32_t)ALL_AOVS},
         .create = create_nothing,
         .draw = draw_preview,
         .destroy = destroy_nothing,
