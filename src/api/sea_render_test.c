@@ -5,6 +5,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -47,14 +48,14 @@ static facet_render_desc desc_of(const facet_sea *sea, facet_renderer_kind rende
 }
 
 /* A white square of 2 x 2 m, 8 m before the eye and 2 to 4 m over the water, and a point light of 10^6 cd
- * 2 m before it. */
-static facet_scene *lit_square(void)
+ * 2 m before it; more: further nodes, of which `roots` are shown as well. */
+static facet_scene *lit_square_and(const char *roots, const char *more)
 {
-    static const char file[] =
+    static const char format[] =
         "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_lights_punctual\"],"
         "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"point\",\"intensity\":1000000}]}},"
-        "\"scenes\":[{\"nodes\":[0,1]}],\"scene\":0,\"nodes\":[{\"mesh\":0,\"name\":\"square\"},"
-        "{\"translation\":[0,3,-6],\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}],"
+        "\"scenes\":[{\"nodes\":[0,1%s]}],\"scene\":0,\"nodes\":[{\"mesh\":0,\"name\":\"square\"},"
+        "{\"translation\":[0,3,-6],\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}%s],"
         "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1},\"indices\":2,"
         "\"material\":0}]}],\"materials\":[{\"doubleSided\":true,\"pbrMetallicRoughness\":{"
         "\"metallicFactor\":0}}],\"accessors\":["
@@ -66,9 +67,17 @@ static facet_scene *lit_square(void)
         "\"data:application/octet-stream;base64,"
         "AACAvwAAAEAAAADBAACAPwAAAEAAAADBAACAPwAAgEAAAADBAACAvwAAgEAAAADBAAAAAAAAAAAAAIA/"
         "AAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/AAABAAIAAAACAAMA\"}]}";
+    char file[2048];
     facet_scene *scene = NULL;
-    done(facet_scene_load_memory(file, strlen(file), "square.gltf", NULL, &scene, &failure));
+    int length = snprintf(file, sizeof file, format, roots, more);
+    assert_true(length > 0 && (size_t)length < sizeof file);
+    done(facet_scene_load_memory(file, (size_t)length, "square.gltf", NULL, &scene, &failure));
     return scene;
+}
+
+static facet_scene *lit_square(void)
+{
+    return lit_square_and("", "");
 }
 
 static const facet_camera at_square = {.eye = {0, 3, 0}, .target = {0, 3, -1}, .fov_y_rad = 0.4f};
@@ -138,17 +147,17 @@ static void what_is_not_drawn_is_refused_by_name(void **state)
     facet_sea *sea = make_sea(5.0f);
     for (int kind = 0; kind <= FACET_RENDERER_KIND_GL; kind++) {
         facet_render_desc cases[4];
-        const char *words[] = {"ground", "shading", names[kind], "sea_shading"};
+        const char *words[] = {"ground", "shading", "only path tracing", "sea_shading"};
         for (int i = 0; i < 4; i++)
             cases[i] = desc_of(sea, (facet_renderer_kind)kind);
         cases[0].ground = FACET_GROUND_SHADOW;
         cases[1].shading = FACET_SHADING_OGL1;
-        cases[2].aovs = FACET_AOV_DEPTH;
+        cases[2].aovs = FACET_AOV_DEPTH | FACET_AOV_VARIANCE;
         cases[3].sea_shading.stage = 6;
         for (int i = 0; i < 4; i++) {
             facet_image *image = NULL;
             if (kind == FACET_RENDERER_KIND_PATH && i == 2)
-                continue; /* it draws them */
+                continue; /* it draws it */
             assert_int_equal(facet_render(NULL, &cases[i], &image, &failure), FACET_ERROR_ARGUMENT);
             assert_null(image);
             if (!strstr(failure.message, words[i]))
@@ -162,14 +171,11 @@ static void what_is_not_drawn_is_refused_by_name(void **state)
     facet_sea_destroy(sea);
 }
 
-/* Path tracing has the water in its layers, beside the model: the lowest row shows it, the middle the square. */
-static void layers_show_water_and_model(void **state)
+/* Water is in the layers, beside the model: the lowest row shows it, the middle the square. */
+static void assert_water_and_model(facet_renderer_kind kind, const facet_sea *sea, const facet_scene *scene)
 {
-    (void)state;
-    facet_sea *sea = make_sea(0.0f);
-    facet_scene *scene = lit_square();
     facet_image *image = NULL;
-    facet_render_desc desc = desc_of(sea, FACET_RENDERER_KIND_PATH);
+    facet_render_desc desc = desc_of(sea, kind);
     desc.camera = &at_square;
     desc.aovs = FACET_AOV_DEPTH | FACET_AOV_NORMAL | FACET_AOV_OBJECT_ID | FACET_AOV_CRYPTOMATTE;
     done(facet_render(scene, &desc, &image, &failure));
@@ -180,6 +186,172 @@ static void layers_show_water_and_model(void **state)
     assert_true(depth[low] > 10.0f && depth[low] < 20.0f);          /* 3 m below the eye, 0.19 rad down */
     assert_true(layer_of(image, "normal", 3)[3 * low + 1] > 0.99f); /* still water */
     facet_image_destroy(image);
+}
+
+static void layers_show_water_and_model(void **state)
+{
+    (void)state;
+    facet_sea *sea = make_sea(0.0f);
+    facet_scene *scene = lit_square();
+    assert_water_and_model(FACET_RENDERER_KIND_PREVIEW, sea, scene);
+    assert_water_and_model(FACET_RENDERER_KIND_PATH, sea, scene);
+    facet_scene_destroy(scene);
+    facet_sea_destroy(sea);
+}
+
+/* The legacy style draws no model, and its layers have none. */
+static void layers_of_the_legacy_style_are_water(void **state)
+{
+    (void)state;
+    facet_sea *sea = make_sea(0.0f);
+    facet_scene *scene = lit_square();
+    facet_image *image = NULL;
+    facet_render_desc desc = desc_of(sea, FACET_RENDERER_KIND_PREVIEW);
+    desc.camera = &at_square;
+    desc.sea_shading.style = FACET_SEA_STYLE_LEGACY_WRITTEN;
+    desc.aovs = FACET_AOV_DEPTH | FACET_AOV_OBJECT_ID;
+    done(facet_render(scene, &desc, &image, &failure));
+    const float *depth = layer_of(image, "depth", 1), *object = layer_of(image, "object", 1);
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        assert_true(object[i] == 0.0f || object[i] == 3.0f); /* the model has two nodes */
+        assert_true((object[i] == 0.0f) == (depth[i] > 1e6f));
+    }
+    facet_image_destroy(image);
+    facet_scene_destroy(scene);
+    facet_sea_destroy(sea);
+}
+
+enum {
+    LAYERS_WIDTH = 48,
+    LAYERS_HEIGHT = 32,
+    ALL_LAYERS = FACET_AOV_DEPTH | FACET_AOV_NORMAL | FACET_AOV_ALBEDO | FACET_AOV_MATERIAL_ID |
+                 FACET_AOV_OBJECT_ID | FACET_AOV_INSTANCE_ID | FACET_AOV_UV | FACET_AOV_OCCLUSION |
+                 FACET_AOV_CRYPTOMATTE
+};
+
+/* Whether a value lies between those of pixel (x, y) of the other image and of its neighbors. */
+static bool is_within_a_pixel(float value, const float *other, int x, int y)
+{
+    float low = INFINITY, high = -INFINITY;
+    for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < LAYERS_HEIGHT; v++)
+        for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < LAYERS_WIDTH; u++) {
+            low = fminf(low, other[v * LAYERS_WIDTH + u]);
+            high = fmaxf(high, other[v * LAYERS_WIDTH + u]);
+        }
+    return value >= 0.99f * low && value <= 1.01f * high;
+}
+
+/* Layers with one value: each within a pixel of the other renderer's; IDs differ at few edges. */
+static void assert_like_values(const facet_image *a, const facet_image *b, const char *name, bool is_id)
+{
+    const float *x = layer_of(a, name, 1), *y = layer_of(b, name, 1);
+    int different = 0;
+    for (int i = 0; i < LAYERS_WIDTH * LAYERS_HEIGHT; i++) {
+        if (!is_within_a_pixel(x[i], y, i % LAYERS_WIDTH, i / LAYERS_WIDTH))
+            fail_msg("%s: pixel %d, %d: %g, not %g", name, i % LAYERS_WIDTH, i / LAYERS_WIDTH, (double)x[i],
+                     (double)y[i]);
+        different += fabsf(x[i] - y[i]) > 0.5f;
+    }
+    assert_true(!is_id || different < LAYERS_WIDTH * LAYERS_HEIGHT / 100);
+}
+
+/* The mean distance of two layers over the pixels with a surface. */
+static double mean_distance(const facet_image *a, const facet_image *b, const char *name, uint32_t channels)
+{
+    const float *x = layer_of(a, name, channels), *y = layer_of(b, name, channels);
+    const float *object = layer_of(a, "object", 1);
+    double sum = 0.0;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < LAYERS_WIDTH * LAYERS_HEIGHT; i++) {
+        double square = 0.0;
+        for (uint32_t c = 0; object[i] > 0.0f && c < channels; c++)
+            square += pow((double)x[channels * i + c] - (double)y[channels * i + c], 2.0);
+        sum += sqrt(square);
+        count += object[i] > 0.0f;
+    }
+    return sum / count;
+}
+
+/* The share of the image that an object covers, of the two with the largest coverage of each pixel. */
+static double covered(const facet_image *image, float id)
+{
+    const float *matte = layer_of(image, "CryptoObject00", 4);
+    double sum = 0.0;
+    for (size_t i = 0; i < LAYERS_WIDTH * LAYERS_HEIGHT; i++)
+        for (int rank = 0; rank < 4; rank += 2)
+            sum += fabsf(matte[4 * i + (size_t)rank] - id) > 0.0f ? 0.0
+                                                                  : (double)matte[4 * i + (size_t)rank + 1];
+    return sum / (LAYERS_WIDTH * LAYERS_HEIGHT);
+}
+
+static void assert_like_layers(const facet_image *a, const facet_image *b)
+{
+    static const char *const ids[] = {"object", "material", "instance"};
+    for (int i = 0; i < 3; i++)
+        assert_like_values(a, b, ids[i], true);
+    assert_like_values(a, b, "depth", false);
+    assert_like_values(a, b, "occlusion", false);
+    assert_true(mean_distance(a, b, "normal", 3) < 0.04);
+    assert_true(mean_distance(a, b, "albedo", 3) < 0.06);
+    assert_true(mean_distance(a, b, "uv", 2) < 1e-4);
+    const float *matte = layer_of(b, "CryptoObject00", 4);
+    for (size_t i = 0; i < LAYERS_WIDTH * LAYERS_HEIGHT; i++)
+        if (fabs(covered(a, matte[4 * i]) - covered(b, matte[4 * i])) >= 0.002)
+            fail_msg("%g: %g of the image, not %g", (double)matte[4 * i], covered(a, matte[4 * i]),
+                     covered(b, matte[4 * i]));
+}
+
+/* The names of the water and of the bed with their IDs, as a file has them. */
+static void assert_names_water_and_bed(const facet_image *image)
+{
+    unsigned char *bytes = NULL;
+    size_t size = 0, found = 0;
+    const facet_image_save_desc desc = {.format = FACET_IMAGE_FORMAT_EXR};
+    static const char *const entries[] = {"\"water\":\"", "\"bed\":\"", "\"water#4\":\"", "\"bed#5\":\""};
+    done(facet_image_encode(image, &desc, &bytes, &size, &failure));
+    for (size_t k = 0; k < sizeof entries / sizeof *entries; k++)
+        for (size_t i = 0; i + strlen(entries[k]) <= size; i++)
+            if (memcmp(bytes + i, entries[k], strlen(entries[k])) == 0) {
+                found |= (size_t)1 << k;
+                break;
+            }
+    assert_int_equal(found, 15);
+    facet_bytes_destroy(bytes);
+}
+
+/* Three squares, over the water, half in it and below it, and land; from above and from below. */
+static void the_preview_has_the_layers_of_path_tracing(void **state)
+{
+    (void)state;
+    static const facet_camera views[] = {{.eye = {0, 3, 0}, .target = {0, 1.5f, -8}, .fov_y_rad = 0.6f},
+                                         {.eye = {0, 3, 0}, .target = {5, 2, -1}, .fov_y_rad = 0.6f},
+                                         {.eye = {0, -1, 0}, .target = {0, -0.5f, -8}, .fov_y_rad = 0.9f}};
+    facet_sea_desc d = facet_sea_default();
+    facet_sea *sea = NULL;
+    d.wind_mps = 6.0f;
+    d.resolution = 64;
+    d.cascade_count = 2;
+    d.bed = (facet_sea_bed){.depth_m = 4.0f, .slope = 0.2f, .albedo = {0.6f, 0.5f, 0.4f}};
+    done(facet_sea_create(&d, &sea, &failure));
+    facet_scene *scene = lit_square_and(
+        ",2,3", ",{\"mesh\":0,\"translation\":[-2,-3,0]},{\"mesh\":0,\"translation\":[2,-5.2,0]}");
+    for (size_t v = 0; v < sizeof views / sizeof *views; v++) {
+        facet_image *images[2] = {NULL, NULL};
+        for (int kind = 0; kind < 2; kind++) {
+            facet_render_desc desc = desc_of(sea, (facet_renderer_kind)kind);
+            desc.camera = &views[v];
+            desc.width = LAYERS_WIDTH;
+            desc.height = LAYERS_HEIGHT;
+            desc.samples = 16;
+            desc.path.filter = FACET_FILTER_BOX; /* the preview's */
+            desc.aovs = ALL_LAYERS;
+            done(facet_render(scene, &desc, &images[kind], &failure));
+        }
+        assert_like_layers(images[0], images[1]);
+        assert_names_water_and_bed(images[0]);
+        facet_image_destroy(images[0]);
+        facet_image_destroy(images[1]);
+    }
     facet_scene_destroy(scene);
     facet_sea_destroy(sea);
 }
@@ -241,9 +413,12 @@ static void images_meter_themselves(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_kept_changes_no_image),
-        cmocka_unit_test(what_is_not_drawn_is_refused_by_name), cmocka_unit_test(layers_show_water_and_model),
-        cmocka_unit_test(punctual_lights_light_the_model), cmocka_unit_test(images_meter_themselves)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_kept_changes_no_image),
+                                       cmocka_unit_test(what_is_not_drawn_is_refused_by_name),
+                                       cmocka_unit_test(layers_show_water_and_model),
+                                       cmocka_unit_test(layers_of_the_legacy_style_are_water),
+                                       cmocka_unit_test(the_preview_has_the_layers_of_path_tracing),
+                                       cmocka_unit_test(punctual_lights_light_the_model),
+                                       cmocka_unit_test(images_meter_themselves)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -77,7 +77,8 @@ static facet_result resolve_sea(const renderer_row *r, facet_render_desc *d, fac
             error, FACET_ERROR_ARGUMENT,
             "shading: a sea cannot be combined with OpenGL 1 shading, whose colors are display values");
     if (d->aovs & ~r->info.sea_aovs)
-        return fail(error, FACET_ERROR_ARGUMENT, "layers: %s has none in a sea; path tracing has", r->title);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "layers: %s has none in a sea; the preview and path tracing have", r->title);
     if (!(r->info.features & FACET_RENDERER_FEATURE_SEA_STYLES) && !is_physical(&d->sea_shading))
         return fail(error, FACET_ERROR_ARGUMENT,
                     "sea_shading: %s supports the physical style only: no stage, GGX normals, other masking, "

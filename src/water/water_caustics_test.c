@@ -291,7 +291,8 @@ static bool has_map(const facet_sea_desc *d, float elevation_rad, float eye_m, f
     assert_true(is_there || caustic_map_at(&setup.caustics, 1.0, 2.0, 0.1f) == 1.0f);
     static const float middle[2] = {0.5f, 0.5f};
     for (uint32_t i = 0; i < 24 * 16; i++) {
-        vec3 L = water_pixel_trace(&setup, i % 24, i / 24, middle, 1);
+        const water_pixel pixel = {.x = i % 24, .y = i / 24, .count = 1, .pattern = middle};
+        vec3 L = water_pixel_trace(&setup, &pixel);
         assert_true(L[0] >= 0.0f && L[1] >= 0.0f && L[2] >= 0.0f && isfinite(L[0] + L[1] + L[2]));
     }
     water_setup_destroy(&setup);

@@ -9,7 +9,9 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
+#include "cpu/shading_hit.h"
 
+#include "water/water_objects.h"
 #include "water/water_setup.h"
 
 /* A frame and the data that it points to. */
@@ -216,12 +218,6 @@ static facet_result describe_model(const water_setup *s, sea_touch **touch, wate
 
 /* ---- all ---- */
 
-static void store3(vec3 from, float to[3])
-{
-    for (int i = 0; i < 3; i++)
-        to[i] = from[i];
-}
-
 static void describe(const water_setup *s, water_frame *p)
 {
     const water_sky *sky = &s->sky;
@@ -255,6 +251,10 @@ static void describe(const water_setup *s, water_frame *p)
     p->light_scale = sky->scale;
     p->rotation_cos = sky->rotation_cos;
     p->rotation_sin = sky->rotation_sin;
+    if (!s->identities)
+        return;
+    p->water_identity = &s->identities[WATER_OBJECT_WATER];
+    p->bed_identity = water_has_bed(s) ? &s->identities[WATER_OBJECT_BED] : NULL;
 }
 
 facet_result water_frame_create(water_cache *cache, const facet_scene *scene, const facet_render_desc *desc,

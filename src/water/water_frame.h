@@ -59,6 +59,8 @@ typedef struct water_frame {
     /* prefiltered; background: of an image as environment, else NULL */
     const struct ibl_light *reflected, *background;
     float light_scale, rotation_cos, rotation_sin; /* of both */
+    /* scene/identity.h; NULL: no layer of desc needs them, or there is no bed */
+    const struct scene_identity *water_identity, *bed_identity;
     /* the model */
     const facet_scene *model;            /* NULL: nothing */
     const facet_render_desc *model_desc; /* lit by the sky and the sea around it, and by the sun */

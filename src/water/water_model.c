@@ -132,16 +132,42 @@ bool water_model_find(const water_model *m, const double P[3], vec3 d, double fa
     return find(m, 1.0, random, hit);
 }
 
+/* Through (x, y) of the image, to far_m; *scale: m per unit of t. */
+static shading_ray camera_ray(const water_model *m, float x, float y, float footprint, double far_m,
+                              double *scale)
+{
+    const shading_scene *s = &m->setup.shading;
+    shading_ray ray = shading_ray_of_camera(s->camera, &s->camera_spread, x, y, footprint);
+    *scale = (double)length(load3(ray.direction));
+    ray.far_t = (float)fmin((double)ray.far_t, far_m / *scale);
+    return ray;
+}
+
 bool water_model_find_seen(const water_model *m, float x, float y, float footprint, double far_m,
                            uint32_t random, model_hit *hit)
 {
+    double scale;
     if (!m->is_there)
         return false;
-    const shading_scene *s = &m->setup.shading;
-    hit->ray = shading_ray_of_camera(s->camera, &s->camera_spread, x, y, footprint);
-    double scale = (double)length(load3(hit->ray.direction));
-    hit->ray.far_t = (float)fmin((double)hit->ray.far_t, far_m / scale);
+    hit->ray = camera_ray(m, x, y, footprint, far_m, &scale);
     return find(m, scale, random, hit);
+}
+
+bool water_model_describe(const water_model *m, float x, float y, double far_m, shading_description *out,
+                          float *depth_m, uint32_t *geometry)
+{
+    double scale;
+    visibility_hit layers[RAY_TRACE_LAYERS + 1];
+    if (!m->is_there)
+        return false;
+    shading_ray ray = camera_ray(m, x, y, 1.0f, far_m, &scale);
+    if (ray_trace_layers(&m->setup.shading, &ray, layers) == 0)
+        return false;
+    const shading_point point = {.hit = &layers[0], .ray = &ray};
+    shading_describe(&m->setup.shading, &point, out);
+    *depth_m = layers[0].t;
+    *geometry = layers[0].geometry;
+    return true;
 }
 
 float water_model_opening(const water_model *m, const double P[3], vec3 d, double far_m)

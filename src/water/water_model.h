@@ -38,6 +38,11 @@ bool water_model_find(const water_model *m, const double P[3], vec3 d, double fa
 bool water_model_find_seen(const water_model *m, float x, float y, float footprint, double far_m,
                            uint32_t random, model_hit *hit);
 
+/* The nearest surface along the same ray at any opacity but 0, on the sides that are drawn; false: none.
+ * depth_m along the camera's axis; geometry: its index in m->setup. */
+bool water_model_describe(const water_model *m, float x, float y, double far_m, shading_description *out,
+                          float *depth_m, uint32_t *geometry);
+
 /* Radiance (cd/m^2) towards the ray's origin. */
 vec3 water_model_radiance(const water_model *m, const model_hit *hit, vec3 sun);
 

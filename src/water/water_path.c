@@ -79,15 +79,10 @@ static float foam_reflectance(const water_path *w, const path_surface_point *p)
     return p->side > 0.0f ? w->water.foam_albedo : 1.0f - (1.0f - w->water.foam_albedo) / (n * n);
 }
 
-/* For the denoiser: foam, and what water reflects. */
-static float mean_albedo(const water_path *w, const path_surface_point *p, vec3 V)
-{
-    return mix(reflectance(w, p, abs(dot(p->N, V))), w->water.foam_albedo, foam_cover(p));
-}
-
 static bool intersect(const void *self, const shading_hit *h, const float triangle_normal[3], vec3 V,
                       path_surface_point *out)
 {
+    const water_path *w = self;
     const float *values = h->geometry->primitive->water;
     if (!values)
         return false;
@@ -101,7 +96,7 @@ static bool intersect(const void *self, const shading_hit *h, const float triang
     p.side = dot(p.Ng, V) < 0.0f ? -1.0f : 1.0f;
     vec3 N = normalize_or(shading_hit_vec3(h, h->geometry->normals), p.Ng);
     p.N = water_faced(N, V * p.side);
-    p.albedo = mean_albedo(self, &p, V);
+    p.albedo = water_albedo(w->water, abs(dot(p.N, V)), foam_cover(&p), p.side < 0.0f);
     *out = p;
     return true;
 }

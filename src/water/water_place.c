@@ -102,21 +102,21 @@ static void finish(const water_setup *s, vec3 N, float height_m, float footprint
 /* A profile resolves waves of a pixel and more: finer slopes are those of nearby water. */
 static vec3 faced(const water_setup *s, const water_place *p, vec3 N, float footprint_m)
 {
-    float pixel_m = p->footprint_m / s->footprint;
-    if (s->profile.tangents && pixel_m > footprint_m)
-        N = water_tilted(N, water_slopes_at(s, pixel_m).covariance - p->slopes.covariance, p->V);
+    if (s->profile.tangents && p->pixel_m > footprint_m)
+        N = water_tilted(N, water_slopes_at(s, p->pixel_m).covariance - p->slopes.covariance, p->V);
     return water_faced(N, p->V);
 }
 
-water_place water_place_of(const water_setup *s, const march_ray *ray, const march_hit *hit)
+water_place water_place_of(const water_setup *s, const march_ray *ray, const march_hit *hit, float footprint)
 {
     water_place p;
-    float footprint = begin(s, ray, hit->t, hit->width_m, 1, &p);
-    p.slopes = water_slopes_at(s, footprint);
+    float read_m = begin(s, ray, hit->t, hit->width_m, 1, &p);
+    p.pixel_m = p.footprint_m / footprint;
+    p.slopes = water_slopes_at(s, read_m);
     locate(s, ray, hit, &p);
-    wave_point at = waves_at(&s->sea->waves, p.rest[0], p.rest[1], footprint);
+    wave_point at = waves_at(&s->sea->waves, p.rest[0], p.rest[1], read_m);
     vec3 N = normal_of(&at);
-    finish(s, ray->is_below ? N : faced(s, &p, N, footprint), at.height_m, footprint, &p);
+    finish(s, ray->is_below ? N : faced(s, &p, N, read_m), at.height_m, read_m, &p);
     return p;
 }
 

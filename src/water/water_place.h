@@ -21,8 +21,8 @@ typedef struct water_place {
 /* Foam coverage of a footprint (m) at the rest position. */
 float water_foam_at(const water_setup *s, const double rest[2], float footprint_m);
 
-/* For a ray from above or below and its hit. */
-water_place water_place_of(const water_setup *s, const march_ray *ray, const march_hit *hit);
+/* For a ray from above or below and its hit; footprint: the ray's width relative to a pixel. */
+water_place water_place_of(const water_setup *s, const march_ray *ray, const march_hit *hit, float footprint);
 
 /* Approximate intersection of a sample with the water. */
 typedef struct water_sight {

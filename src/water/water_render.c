@@ -8,8 +8,9 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
-#include "draw/render_watch.h"
+#include "cpu/tiles.h"
 #include "draw/camera_rays.h"
+#include "draw/render_watch.h"
 #include "film/meter.h"
 
 #include "water/water_trace.h"
@@ -22,6 +23,9 @@ typedef struct picture {
     uint32_t tile_columns, tile_count, sample_count;
     float *pattern; /* x, y of each sample in a pixel */
     float *pixels;  /* RGBA */
+    matte_layers mattes;
+    surface_layers layers;
+    bool has_layers; /* any of them */
     render_watch watch;
     _Atomic uint64_t rays;
 } picture;
@@ -30,11 +34,21 @@ typedef struct picture {
 
 static void draw_pixel(const picture *p, uint32_t x, uint32_t y)
 {
-    vec3 L = water_pixel_trace(p->setup, x, y, p->pattern, p->sample_count);
-    float *rgba = p->pixels + 4 * ((size_t)(y - p->crop[1]) * p->crop[2] + (x - p->crop[0]));
+    size_t number = (size_t)(y - p->crop[1]) * p->crop[2] + (x - p->crop[0]);
+    const water_pixel pixel = {.x = x,
+                               .y = y,
+                               .count = p->sample_count,
+                               .pattern = p->pattern,
+                               .mattes = p->mattes.aovs ? &p->mattes : NULL,
+                               .number = number};
+    vec3 L = water_pixel_trace(p->setup, &pixel);
+    float *rgba = p->pixels + 4 * number;
     for (int i = 0; i < 3; i++)
         rgba[i] = L[i];
     rgba[3] = 1.0f;
+    water_description nearest;
+    if (p->has_layers && water_pixel_describe(p->setup, x, y, &nearest))
+        surface_layers_store(&p->layers, number, nearest.depth_m, &nearest.surface, nearest.identity);
 }
 
 static void draw_tile(picture *p, uint32_t tile)
@@ -70,7 +84,10 @@ static facet_result draw(const water_setup *s, double deadline_s, film *target, 
                  .crop = {r->crop[0], r->crop[1], target->width, target->height},
                  .tile_columns = (target->width + TILE - 1) / TILE,
                  .sample_count = r->samples ? r->samples : 1,
-                 .pixels = color->pixels};
+                 .pixels = color->pixels,
+                 .mattes = matte_find(target),
+                 .layers = surface_layers_find(target),
+                 .has_layers = (r->aovs & ~(uint32_t)FACET_AOV_CRYPTOMATTE) != 0};
     p.tile_count = p.tile_columns * ((target->height + TILE - 1) / TILE);
     p.pattern = mem_alloc(&r->allocator, p.sample_count, 2 * sizeof *p.pattern);
     if (!p.pattern)
@@ -125,6 +142,7 @@ static facet_render_desc meter_desc(const facet_render_desc *desc)
     r->samples = 1;
     r->quality = FACET_QUALITY_DRAFT;
     r->exposure_ev = 0.0f;
+    r->aovs = 0;
     r->progress = (facet_progress){0};
     d.sea_shading = (facet_sea_shading){.omits_glints = true};
     return d;

@@ -2,10 +2,13 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/result.h"
+#include "cpu/shading_hit.h"
 
 #include "water/caustic_plan.h"
 #include "water/water_around.h"
+#include "water/water_objects.h"
 #include "water/water_render.h"
 
 _Static_assert(FACET_SEA_MASKING_SCALES == WATER_SCALES && FACET_SEA_MASKING_SMITH == WATER_SMITH &&
@@ -13,11 +16,6 @@ _Static_assert(FACET_SEA_MASKING_SCALES == WATER_SCALES && FACET_SEA_MASKING_SMI
                "looks and shaders have the same numbers");
 
 static const float SHUTTER_S = 0.01f;
-
-static inline vec3 load3(const float *v)
-{
-    return vec3(v[0], v[1], v[2]);
-}
 
 static void fill_water(water_setup *s)
 {
@@ -121,6 +119,8 @@ facet_result water_setup_create(water_cache *cache, const facet_scene *scene, co
     fill_water(s);
     fill_light(s);
     fill_crest(s);
+    if (desc->aovs & SCENE_IDENTITY_AOVS)
+        TRY(water_objects_identify(scene, sea, &desc->allocator, &s->identities, error));
     float perceptual_roughness = desc->sea_shading.perceptual_roughness;
     s->roughness = perceptual_roughness > 0.0f ? slopes_from_roughness(perceptual_roughness) : vec3(-1.0f);
     if (scene)
@@ -139,6 +139,7 @@ void water_setup_destroy(water_setup *s)
     caustic_map_destroy(&s->caustics);
     water_profile_destroy(&s->profile);
     waves_foam_destroy(&s->foam);
+    mem_free(s->identities);
     memset(s, 0, sizeof *s);
 }
 

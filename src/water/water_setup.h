@@ -33,8 +33,10 @@ typedef struct water_setup {
     /* slope covariance in place of the waves finer than all tiles; xx < 0: by their spectrum */
     vec3 roughness;
     WaterCrest crest; /* sunlight through waves */
-    float exposure;   /* 2^exposure_ev */
-    float shutter_s;  /* exposure time of glints */
+    /* per WATER_OBJECT_ constant that the sea has; NULL: not needed by any layer */
+    struct scene_identity *identities;
+    float exposure;  /* 2^exposure_ev */
+    float shutter_s; /* exposure time of glints */
 } water_setup;
 
 /* What not every renderer needs. */
@@ -67,6 +69,14 @@ static inline vec3 water_slopes_of(const slope_covariance *c)
 static inline float water_sigma_of(vec3 covariance)
 {
     return sqrt(max(0.5f * (covariance[0] + covariance[1]), 0.0f));
+}
+
+/* What the surface reflects of light from all directions behind N.V = cosine > 0: by Fresnel's equations,
+ * and by foam. */
+static inline float water_albedo(Water w, float cosine, float foam, bool is_below)
+{
+    float c = min(cosine, 1.0f);
+    return mix(is_below ? water_fresnel_inside(w, c) : water_fresnel(w, c), w.foam_albedo, foam);
 }
 
 /* ---- the bed ---- */

@@ -45,7 +45,7 @@ typedef struct water_findings_below {
 /* Radiance (cd/m^2) of the model, hit in the water along the unit direction d from P. */
 vec3 water_model_behind_water(const water_setup *s, const model_hit *hit, const double P[3], vec3 d);
 
-/* Distance from P to the bed along the unit direction d, m; 1e4: no hit. */
+/* Distance from P to the bed along the unit direction d, m; WATER_FAR_M: no hit. */
 float water_way_to_bed_below(const water_setup *s, const double P[3], vec3 d);
 
 /* Radiance (cd/m^2) at P from the unit direction d through water that ends only at the bed, if there is one.

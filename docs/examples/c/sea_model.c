@@ -12,7 +12,7 @@ static facet_result draw(const facet_scene *scene, const facet_sea *sea, facet_i
                               .sea = sea,
                               .sky = {.sun_elevation_rad = 0.4f, .sun_azimuth_rad = 0.6f},
                               .camera = &camera,
-                              .renderer = FACET_RENDERER_KIND_PATH, /* the only one with layers in a sea */
+                              .renderer = FACET_RENDERER_KIND_PATH,
                               .samples = 16,
                               .aovs = FACET_AOV_DEPTH | FACET_AOV_OBJECT_ID};
     facet_renderer *renderer = NULL;
