@@ -290,7 +290,7 @@ facet_result renderer_set_draw(renderer_set *set, const facet_render_desc *desc,
         TRY(r->create(set, state, error));
     TRY(r->draw(*state, desc, target, stats, error));
     if (desc->sea)
-        return FACET_OK;
+        return describe_mattes_in_sea(set->scene, desc, target, error);
     TRY(describe_mattes(set->scene, desc, target, error));
     if (set->scene)
         check_image(set, r->poses_scene ? NULL : &set->prepared.pose, desc, target);
