@@ -179,22 +179,12 @@ bool io_spend(io_reader *r, const json_place *at, uint64_t elements)
 
 static const char *type_name(const json_t *value)
 {
-    switch (json_typeof(value)) {
-    case JSON_OBJECT:
-        return "an object";
-    case JSON_ARRAY:
-        return "an array";
-    case JSON_STRING:
-        return "a string";
-    case JSON_INTEGER:
-    case JSON_REAL:
-        return "a number";
-    case JSON_TRUE:
-    case JSON_FALSE:
-        return "a boolean";
-    default:
-        return "null";
-    }
+    return json_is_object(value)    ? "an object"
+           : json_is_array(value)   ? "an array"
+           : json_is_string(value)  ? "a string"
+           : json_is_number(value)  ? "a number"
+           : json_is_boolean(value) ? "a boolean"
+                                    : "null";
 }
 
 static json_place get_member(const json_place *object, const char *key)
@@ -204,9 +194,9 @@ static json_place get_member(const json_place *object, const char *key)
                         .value = json_is_object(object->value) ? json_object_get(object->value, key) : NULL};
 }
 
-static void fail_type(io_reader *r, const json_place *at, const char *wanted)
+bool io_fail_type(io_reader *r, const json_place *at, const char *wanted)
 {
-    io_fail(r, at, NULL, FACET_ERROR_INVALID, "must be %s, but is %s", wanted, type_name(at->value));
+    return io_fail(r, at, NULL, FACET_ERROR_INVALID, "must be %s, but is %s", wanted, type_name(at->value));
 }
 
 bool io_has_member(const json_place *object, const char *key)
@@ -214,21 +204,25 @@ bool io_has_member(const json_place *object, const char *key)
     return get_member(object, key).value != NULL;
 }
 
-json_place io_get_object(io_reader *r, const json_place *object, const char *key)
+json_place io_as_object(io_reader *r, json_place at)
 {
-    json_place at = get_member(object, key);
     if (at.value && !json_is_object(at.value)) {
-        fail_type(r, &at, "an object");
+        io_fail_type(r, &at, "an object");
         at.value = NULL;
     }
     return at;
+}
+
+json_place io_get_object(io_reader *r, const json_place *object, const char *key)
+{
+    return io_as_object(r, get_member(object, key));
 }
 
 json_place io_get_array(io_reader *r, const json_place *object, const char *key)
 {
     json_place at = get_member(object, key);
     if (at.value && !json_is_array(at.value)) {
-        fail_type(r, &at, "an array");
+        io_fail_type(r, &at, "an array");
         at.value = NULL;
     } else if (at.value && json_array_size(at.value) == 0) {
         io_note(r, &at, NULL, "is empty, which glTF does not allow");
@@ -251,12 +245,7 @@ json_place io_get_element(const json_place *array, size_t index)
 
 json_place io_get_element_object(io_reader *r, const json_place *array, size_t index)
 {
-    json_place at = io_get_element(array, index);
-    if (at.value && !json_is_object(at.value)) {
-        fail_type(r, &at, "an object");
-        at.value = NULL;
-    }
-    return at;
+    return io_as_object(r, io_get_element(array, index));
 }
 
 json_place io_get_extension(io_reader *r, const json_place *object, const char *name)
@@ -304,7 +293,7 @@ uint64_t io_get_uint(io_reader *r, const json_place *object, const char *key, ui
     if (!at.value)
         io_fail(r, object, key, FACET_ERROR_INVALID, "is missing");
     else if (!json_is_number(at.value))
-        fail_type(r, &at, "a number");
+        io_fail_type(r, &at, "a number");
     else if (!to_uint(at.value, maximum, &out))
         io_fail(r, &at, NULL, FACET_ERROR_INVALID, "%.17g is not a whole number from 0 to %llu",
                 json_number_value(at.value), (unsigned long long)maximum);
@@ -317,7 +306,7 @@ uint32_t io_get_index_value(io_reader *r, const json_place *at, uint32_t count, 
 {
     uint64_t index;
     if (!json_is_number(at->value))
-        fail_type(r, at, "a number");
+        io_fail_type(r, at, "a number");
     else if (!to_uint(at->value, SCENE_NONE - 1, &index) || index >= count)
         io_fail(r, at, NULL, FACET_ERROR_INVALID, "%s %.17g does not exist (there %s %u)", what,
                 json_number_value(at->value), count == 1 ? "is" : "are", count);
@@ -352,7 +341,7 @@ uint32_t io_peek_index(const json_place *object, const char *key, uint32_t count
 static bool to_float(io_reader *r, const json_place *at, float *out)
 {
     if (!json_is_number(at->value)) {
-        fail_type(r, at, "a number");
+        io_fail_type(r, at, "a number");
         return false;
     }
     double number = json_number_value(at->value);
@@ -391,7 +380,7 @@ float io_get_float_in(io_reader *r, const json_place *object, const char *key, f
 bool io_get_floats_value(io_reader *r, const json_place *at, float *out, size_t count)
 {
     if (!json_is_array(at->value)) {
-        fail_type(r, at, "an array");
+        io_fail_type(r, at, "an array");
         return false;
     }
     if (io_get_count(at) != count)
@@ -443,7 +432,7 @@ bool io_get_bool(io_reader *r, const json_place *object, const char *key, bool f
     if (!at.value)
         return fallback;
     if (!json_is_boolean(at.value)) {
-        fail_type(r, &at, "a boolean");
+        io_fail_type(r, &at, "a boolean");
         return fallback;
     }
     return json_is_true(at.value);
@@ -455,7 +444,7 @@ const char *io_get_string(io_reader *r, const json_place *object, const char *ke
     if (!at.value)
         return fallback;
     if (!json_is_string(at.value)) {
-        fail_type(r, &at, "a string");
+        io_fail_type(r, &at, "a string");
         return fallback;
     }
     const char *string = json_string_value(at.value);

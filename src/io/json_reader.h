@@ -102,6 +102,10 @@ json_t *io_parse_json(io_reader *r, const char *text, size_t size);
 
 /* ---- typed members ---- */
 
+/* Fails with "must be WANTED, but is a string". */
+bool io_fail_type(io_reader *r, const json_place *at, const char *wanted);
+/* at; value NULL if it is absent or (recorded) no object. */
+json_place io_as_object(io_reader *r, json_place at);
 /* An object or array member; value NULL if it is absent or (recorded) something else. An empty array,
  * which glTF forbids, is noted. */
 json_place io_get_object(io_reader *r, const json_place *object, const char *key);

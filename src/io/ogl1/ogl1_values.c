@@ -9,21 +9,6 @@
 
 enum { MAX_DEPTH = 8 }; /* arrays around a value; R makes one or two */
 
-static const char *type_name(const json_t *value)
-{
-    return json_is_object(value)    ? "an object"
-           : json_is_array(value)   ? "an array"
-           : json_is_string(value)  ? "a string"
-           : json_is_number(value)  ? "a number"
-           : json_is_boolean(value) ? "a boolean"
-                                    : "null";
-}
-
-static bool fail_type(io_reader *r, const json_place *at, const char *wanted)
-{
-    return io_fail(r, at, NULL, FACET_ERROR_INVALID, "must be %s, but is %s", wanted, type_name(at->value));
-}
-
 static bool is_absent(const json_t *value)
 {
     return !value || json_is_null(value) || (json_is_object(value) && json_object_size(value) == 0) ||
@@ -60,12 +45,7 @@ static json_place first_of(io_reader *r, const json_place *object, const char *k
 
 json_place ogl1_object(io_reader *r, const json_place *object, const char *key)
 {
-    json_place at = ogl1_member(object, key);
-    if (at.value && !json_is_object(at.value)) {
-        fail_type(r, &at, "an object");
-        at.value = NULL;
-    }
-    return at;
+    return io_as_object(r, ogl1_member(object, key));
 }
 
 bool ogl1_number(io_reader *r, const json_place *object, const char *key, double *out)
@@ -74,7 +54,7 @@ bool ogl1_number(io_reader *r, const json_place *object, const char *key, double
     if (!at.value)
         return false;
     if (!json_is_number(at.value))
-        return fail_type(r, &at, "a number");
+        return io_fail_type(r, &at, "a number");
     *out = json_number_value(at.value) + 0.0; /* no -0, which JSON integers cannot represent */
     return true;
 }
@@ -102,7 +82,7 @@ bool ogl1_bool(io_reader *r, const json_place *object, const char *key, bool *ou
     else if (json_is_integer(at.value) && (json_integer_value(at.value) | 1) == 1)
         *out = json_integer_value(at.value) == 1;
     else
-        return fail_type(r, &at, "a boolean");
+        return io_fail_type(r, &at, "a boolean");
     return true;
 }
 
@@ -115,7 +95,7 @@ bool ogl1_string(io_reader *r, const json_place *object, const char *key, const 
 bool ogl1_string_value(io_reader *r, const json_place *at, const char **out)
 {
     if (!json_is_string(at->value))
-        return fail_type(r, at, "a string");
+        return io_fail_type(r, at, "a string");
     if (strlen(json_string_value(at->value)) != json_string_length(at->value))
         return io_fail(r, at, NULL, FACET_ERROR_INVALID, "contains a NUL character");
     *out = json_string_value(at->value);
@@ -145,12 +125,12 @@ bool ogl1_vector(io_reader *r, const json_place *object, const char *key, float 
     if (!at.value)
         return false;
     if (!json_is_array(at.value) || json_array_size(at.value) != 3)
-        return fail_type(r, &at, "three numbers");
+        return io_fail_type(r, &at, "three numbers");
     for (size_t i = 0; i < 3; i++) {
         json_place element = io_get_element(&at, i);
         double number = json_number_value(element.value);
         if (!json_is_number(element.value))
-            return fail_type(r, &element, "a number");
+            return io_fail_type(r, &element, "a number");
         if (!(fabs(number) <= (double)SCENE_FARTHEST))
             return io_fail(r, &element, NULL, FACET_ERROR_INVALID, "%g is too far out", number);
         out[i] = (float)number + 0.0f; /* no -0, as above */
@@ -171,7 +151,7 @@ static bool color_of_numbers(io_reader *r, const json_place *at, float rgba[4])
         json_place element = io_get_element(at, i);
         double number = json_number_value(element.value);
         if (!json_is_number(element.value))
-            return fail_type(r, &element, "a number");
+            return io_fail_type(r, &element, "a number");
         if (!(number >= 0.0 && number <= (double)LEGACY_LARGEST))
             return io_fail(r, &element, NULL, FACET_ERROR_INVALID,
                            "%g is not a component of a color, which is from 0 to 1", number);
@@ -193,7 +173,7 @@ bool ogl1_color_value(io_reader *r, const json_place *at, float rgba[4])
     if (json_is_integer(at->value))
         snprintf(number, sizeof number, "%" JSON_INTEGER_FORMAT, json_integer_value(at->value));
     else if (!json_is_string(at->value))
-        return fail_type(r, at, "a color");
+        return io_fail_type(r, at, "a color");
     else if (!ogl1_string_value(r, at, &name))
         return false;
     if (ogl1_find_r_color(name, rgba))
@@ -232,7 +212,7 @@ ogl1_list ogl1_list_begin(io_reader *r, const json_place *object, const char *ke
     else if (json_is_array(value))
         list.count = json_array_size(value);
     else if (value && !json_is_null(value))
-        fail_type(r, &list.at, "an array of objects");
+        io_fail_type(r, &list.at, "an array of objects");
     if (json_is_object(value) && !list.is_single)
         list.iterator = json_object_iter(value);
     return list;
@@ -252,5 +232,5 @@ bool ogl1_list_next(io_reader *r, ogl1_list *list, json_place *element)
     } else {
         element->value = json_array_get(list->at.value, element->index);
     }
-    return json_is_object(element->value) || fail_type(r, element, "an object");
+    return json_is_object(element->value) || io_fail_type(r, element, "an object");
 }
