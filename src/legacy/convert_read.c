@@ -186,12 +186,31 @@ static void lay_over_all(const conversion *c, legacy_reading *r)
         m->maps[LEGACY_EMISSION_MAP] = m->maps[LEGACY_DIFFUSE_MAP];
 }
 
+/* Mode add: the texture becomes the emission, unless there is one. */
+static void add_texture(conversion *c, uint32_t material, legacy_reading *r)
+{
+    legacy_material *m = &r->m;
+    legacy_map *map = &m->maps[LEGACY_DIFFUSE_MAP];
+    if (r->has_diffuse_alpha) {
+        m->maps[LEGACY_OPACITY_MAP] = *map;
+        m->maps[LEGACY_OPACITY_MAP].channel = 'm';
+    }
+    if (is_black(r->emission)) {
+        m->maps[LEGACY_EMISSION_MAP] = *map;
+        memcpy(r->emission, WHITE, sizeof WHITE);
+    } else {
+        note_add(&c->notes, material, NOTE_TEXTURE_MODE_DROPPED,
+                 "a texture that is added, beside an emission, has no counterpart in glTF: it is dropped");
+    }
+    legacy_remove_map(map);
+    r->has_diffuse_alpha = false;
+}
+
 static void read_texture_mode(conversion *c, uint32_t material, legacy_reading *r)
 {
     legacy_material *m = &r->m;
     legacy_map *map = &m->maps[LEGACY_DIFFUSE_MAP];
     legacy_texture_type type = m->texture_type;
-    legacy_texture_mode mode = m->texture_mode;
     if (map->ref.texture == SCENE_NONE)
         return;
     if (m->has_environment_map) {
@@ -209,7 +228,7 @@ static void read_texture_mode(conversion *c, uint32_t material, legacy_reading *
     if (type == LEGACY_LUMINANCE || type == LEGACY_LUMINANCE_ALPHA)
         map->channel = 'l';
     r->has_diffuse_alpha = type == LEGACY_RGBA || type == LEGACY_LUMINANCE_ALPHA;
-    switch (mode) {
+    switch (m->texture_mode) {
     case LEGACY_MODULATE:
         lay_over_all(c, r);
         break;
@@ -231,20 +250,7 @@ static void read_texture_mode(conversion *c, uint32_t material, legacy_reading *
         lay_over_all(c, r);
         break;
     case LEGACY_ADD: /* E + T */
-        if (r->has_diffuse_alpha) {
-            m->maps[LEGACY_OPACITY_MAP] = *map;
-            m->maps[LEGACY_OPACITY_MAP].channel = 'm';
-        }
-        if (is_black(r->emission)) {
-            m->maps[LEGACY_EMISSION_MAP] = *map;
-            memcpy(r->emission, WHITE, sizeof WHITE);
-        } else {
-            note_add(
-                &c->notes, material, NOTE_TEXTURE_MODE_DROPPED,
-                "a texture that is added, beside an emission, has no counterpart in glTF: it is dropped");
-        }
-        legacy_remove_map(map);
-        r->has_diffuse_alpha = false;
+        add_texture(c, material, r);
         break;
     }
 }
