@@ -4,24 +4,9 @@
  * targets, and the hue of broad highlights. */
 #include <math.h>
 
-#include "tests/support/support.h"
+#include "legacy/fit_test_support.h"
 #include "legacy/convert_texels.h"
 #include "legacy/convert_test_support.h"
-
-static fit_metric *metric;
-
-static int setup(void **state)
-{
-    (void)state;
-    return fit_metric_create(NULL, PBR_CORRELATED, &metric, NULL) == FACET_OK ? 0 : -1;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    fit_metric_destroy(metric);
-    return 0;
-}
 
 static float light(double number)
 {
@@ -107,10 +92,10 @@ static void errors_are_those_of_displayed_light(void **state)
         new.perceptual_roughness = c->roughness;
         new.ior = 0;
         new.specular = c->specular;
-        fit_error to = fit_compare(metric, &old, &new, FIT_FROM_OGL1);
+        fit_error to = fit_compare(correlated, &old, &new, FIT_FROM_OGL1);
         assert_near(to.E_display, c->display, 1e-3);
         assert_near(to.E_drawn, c->to_pbr, 1e-3);
-        assert_near(fit_compare(metric, &old, &new, FIT_FROM_PBR).E_drawn, c->from_pbr, 1e-3);
+        assert_near(fit_compare(correlated, &old, &new, FIT_FROM_PBR).E_drawn, c->from_pbr, 1e-3);
     }
 }
 
@@ -130,7 +115,7 @@ static void matte_errors_have_a_closed_form(void **state)
     pbr_surface new = pbr_surface_default();
     new.ior = 0;
     new.specular = 0;
-    assert_near(fit_compare(metric, &old, &new, FIT_FROM_OGL1).E_drawn, sqrt(difference / source), 1e-4);
+    assert_near(fit_compare(correlated, &old, &new, FIT_FROM_OGL1).E_drawn, sqrt(difference / source), 1e-4);
 }
 
 /* ---- fits ---- */
@@ -138,8 +123,8 @@ static void matte_errors_have_a_closed_form(void **state)
 static double drawn_fit(const double Cd[3], const double Cs[3], double s, pbr_surface *out)
 {
     ogl1_surface in = ogl1_of(Cd, Cs, s);
-    ogl1_to_pbr_fit(metric, &in, FACET_LEGACY_TARGET_DRAWN, out);
-    return fit_compare(metric, &in, out, FIT_FROM_OGL1).E_drawn;
+    ogl1_to_pbr_fit(correlated, &in, FACET_LEGACY_TARGET_DRAWN, out);
+    return fit_compare(correlated, &in, out, FIT_FROM_OGL1).E_drawn;
 }
 
 /* No worse than the general optimizer, and better than the fit of linear light. */
@@ -161,12 +146,12 @@ static void fits_to_pbr_are_as_good_as_a_general_optimizer(void **state)
         assert_true(found < known[i].best * 1.02 + 5e-4);
         assert_true(found > known[i].best * 0.98 - 1e-3);
         ogl1_surface in = ogl1_of(known[i].Cd, known[i].Cs, known[i].s);
-        ogl1_to_pbr_fit(metric, &in, FACET_LEGACY_TARGET_DISPLAY, &other);
-        assert_true(found < fit_compare(metric, &in, &other, FIT_FROM_OGL1).E_drawn);
-        ogl1_to_pbr_core_fit(metric, &in, FACET_LEGACY_TARGET_DRAWN, &other);
-        double core = fit_compare(metric, &in, &other, FIT_FROM_OGL1).E_drawn;
-        ogl1_to_pbr_core_fit(metric, &in, FACET_LEGACY_TARGET_LINEAR, &other);
-        assert_true(core <= fit_compare(metric, &in, &other, FIT_FROM_OGL1).E_drawn + 1e-4);
+        ogl1_to_pbr_fit(correlated, &in, FACET_LEGACY_TARGET_DISPLAY, &other);
+        assert_true(found < fit_compare(correlated, &in, &other, FIT_FROM_OGL1).E_drawn);
+        ogl1_to_pbr_core_fit(correlated, &in, FACET_LEGACY_TARGET_DRAWN, &other);
+        double core = fit_compare(correlated, &in, &other, FIT_FROM_OGL1).E_drawn;
+        ogl1_to_pbr_core_fit(correlated, &in, FACET_LEGACY_TARGET_LINEAR, &other);
+        assert_true(core <= fit_compare(correlated, &in, &other, FIT_FROM_OGL1).E_drawn + 1e-4);
     }
 }
 
@@ -185,15 +170,15 @@ static void fits_to_ogl1_have_known_optima(void **state)
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
         pbr_surface in = metal_of(known[i].base, known[i].roughness, known[i].metallic);
         ogl1_surface out, other;
-        pbr_to_ogl1_fit(metric, &in, FACET_LEGACY_TARGET_DRAWN, FIT_DISPLAYABLE, &out);
-        double found = fit_compare(metric, &out, &in, FIT_FROM_PBR).E_drawn;
+        pbr_to_ogl1_fit(correlated, &in, FACET_LEGACY_TARGET_DRAWN, FIT_DISPLAYABLE, &out);
+        double found = fit_compare(correlated, &out, &in, FIT_FROM_PBR).E_drawn;
         assert_near(found, known[i].best, .02 * known[i].best + 1e-3);
         assert_near(srgb_encode((double)out.diffuse[0]), known[i].Cd, .01);
         assert_near(srgb_encode((double)out.specular[0]), known[i].Cs, .01);
         assert_near((double)out.shininess / known[i].s, 1, .03);
         for (int target = FACET_LEGACY_TARGET_LINEAR; target < FACET_LEGACY_TARGET_DRAWN; target++) {
-            pbr_to_ogl1_fit(metric, &in, (facet_legacy_target)target, FIT_DISPLAYABLE, &other);
-            assert_true(found < fit_compare(metric, &other, &in, FIT_FROM_PBR).E_drawn);
+            pbr_to_ogl1_fit(correlated, &in, (facet_legacy_target)target, FIT_DISPLAYABLE, &other);
+            assert_true(found < fit_compare(correlated, &other, &in, FIT_FROM_PBR).E_drawn);
         }
     }
 }
@@ -217,10 +202,10 @@ static void the_grid_interpolates_fits(void **state)
                 for (int m = 0; m < 3; m++) {
                     pbr_surface in = metal_of(bases[b], roughnesses[r], .45f * (float)m);
                     ogl1_surface wanted, found;
-                    pbr_to_ogl1_fit_at(metric, &in, targets[t], 20, &wanted);
+                    pbr_to_ogl1_fit_at(correlated, &in, targets[t], 20, &wanted);
                     ogl1_grid_look_up(grid, &in, &found);
-                    fit_error d = fit_compare(metric, &wanted, &in, FIT_FROM_PBR);
-                    fit_error e = fit_compare(metric, &found, &in, FIT_FROM_PBR);
+                    fit_error d = fit_compare(correlated, &wanted, &in, FIT_FROM_PBR);
+                    fit_error e = fit_compare(correlated, &found, &in, FIT_FROM_PBR);
                     bool is_drawn = targets[t] == FACET_LEGACY_TARGET_DRAWN;
                     double more = is_drawn ? e.E_drawn - d.E_drawn : e.E_display - d.E_display;
                     sum += more;
@@ -337,10 +322,10 @@ static void hues_are_kept_in_proportion(void **state)
     for (int target = FACET_LEGACY_TARGET_LINEAR; target <= FACET_LEGACY_TARGET_DRAWN; target++) {
         ogl1_surface in = ogl1_of(blue, white, 1);
         pbr_surface out;
-        ogl1_to_pbr_fit(metric, &in, (facet_legacy_target)target, &out);
+        ogl1_to_pbr_fit(correlated, &in, (facet_legacy_target)target, &out);
         assert_true(fit_hue_share(&in, &out) < .1);
         pbr_surface kept = out;
-        assert_true(fit_keep_hue(metric, &in, (facet_legacy_target)target, &kept));
+        assert_true(fit_keep_hue(correlated, &in, (facet_legacy_target)target, &kept));
         assert_true(fit_hue_share(&in, &kept) > FIT_HUE_KEPT - .01);
         for (int k = 0; k < 2; k++) /* steelblue's own proportions */
             assert_near(kept.base_color[k] / kept.base_color[2], in.diffuse[k] / in.diffuse[2], 1e-4);
@@ -350,10 +335,10 @@ static void hues_are_kept_in_proportion(void **state)
     pbr_surface out;
     ogl1_to_pbr_closed(&narrow, &out);
     pbr_surface before = out;
-    assert_false(fit_keep_hue(metric, &narrow, FACET_LEGACY_TARGET_LINEAR, &out));
+    assert_false(fit_keep_hue(correlated, &narrow, FACET_LEGACY_TARGET_LINEAR, &out));
     assert_memory_equal(&before, &out, sizeof out);
     ogl1_to_pbr_closed(&gray, &out);
-    assert_false(fit_keep_hue(metric, &gray, FACET_LEGACY_TARGET_LINEAR, &out)); /* no hue */
+    assert_false(fit_keep_hue(correlated, &gray, FACET_LEGACY_TARGET_LINEAR, &out)); /* no hue */
 }
 
 static void lost_hues_are_reported(void **state)
@@ -389,5 +374,5 @@ int main(void)
         cmocka_unit_test(hues_are_kept_in_proportion),
         cmocka_unit_test(lost_hues_are_reported),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, fit_test_setup, fit_test_teardown);
 }

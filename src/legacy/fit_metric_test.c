@@ -1,39 +1,14 @@
 /* fit_metric_test.c - the error of materials: its quadrature against known integrals and against a plain
  * grid of directions. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
-#include "tests/support/support.h"
+#include "legacy/fit_test_support.h"
 #include "ibl/ibl.h"
 #include "legacy/classic_materials.h"
-#include "legacy/fit_metric.h"
 
 static const double pi = 3.14159265358979323846;
 static const double view_rad[FIT_VIEWS] = {0.0, 0.52359877559829887308, 1.04719755119659774615};
-
-static fit_metric *correlated, *separable;
-
-static int setup(void **state)
-{
-    (void)state;
-    facet_result a = fit_metric_create(NULL, PBR_CORRELATED, &correlated, NULL);
-    facet_result b = fit_metric_create(NULL, PBR_SEPARABLE, &separable, NULL);
-    return a == FACET_OK && b == FACET_OK ? 0 : -1;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    fit_metric_destroy(correlated);
-    fit_metric_destroy(separable);
-    return 0;
-}
 
 /* ---- integrals ---- */
 
@@ -281,5 +256,5 @@ int main(void)
         cmocka_unit_test(black_counts_as_a_thousandth_of_white),
         cmocka_unit_test(failed_allocations_are_reported),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, fit_test_setup, fit_test_teardown);
 }

@@ -2,34 +2,12 @@
  * fits are never worse than LUTs and LUTs never worse than the usual formulas, fits are local minima, and
  * permuted or scaled inputs give permuted or scaled results. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include <cminpack.h>
 
-#include "tests/support/support.h"
+#include "legacy/fit_test_support.h"
 #include "legacy/classic_materials.h"
-#include "legacy/fit_metric.h"
-
-static fit_metric *metric;
-
-static int setup(void **state)
-{
-    (void)state;
-    return fit_metric_create(NULL, PBR_CORRELATED, &metric, NULL) == FACET_OK ? 0 : -1;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    fit_metric_destroy(metric);
-    return 0;
-}
 
 enum { COUNT = 40 }; /* sanitizers take 50 times as long */
 
@@ -89,7 +67,7 @@ static void check_pbr(const ogl1_surface *in, const pbr_surface *out)
     assert_true(out->metallic >= 0.0f && out->metallic <= 1.0f);
     assert_true(out->perceptual_roughness >= 0.0f && out->perceptual_roughness <= 1.0f);
     assert_true(out->specular >= 0.0f && out->specular <= 1.0f);
-    fit_error e = fit_compare(metric, in, out, FIT_FROM_OGL1);
+    fit_error e = fit_compare(correlated, in, out, FIT_FROM_OGL1);
     assert_true(isfinite(e.E) && isfinite(e.E_display) && isfinite(e.E_drawn) && isfinite(e.views[0]) &&
                 isfinite(e.views[2]));
 }
@@ -99,7 +77,7 @@ static void check_ogl1(const pbr_surface *in, const ogl1_surface *out)
     assert_color(out->diffuse);
     assert_color(out->specular);
     assert_true(out->shininess >= 0.0f && out->shininess <= 128.0f);
-    fit_error e = fit_compare(metric, out, in, FIT_FROM_PBR);
+    fit_error e = fit_compare(correlated, out, in, FIT_FROM_PBR);
     assert_true(isfinite(e.E) && isfinite(e.E_display) && isfinite(e.E_drawn) && isfinite(e.views[0]) &&
                 isfinite(e.views[2]));
 }
@@ -114,9 +92,9 @@ static void check_all_to_pbr(const ogl1_surface *in)
     ogl1_to_pbr_core_closed(in, &out);
     check_pbr(in, &out);
     for (int target = FACET_LEGACY_TARGET_LINEAR; target <= FACET_LEGACY_TARGET_DRAWN; target++) {
-        ogl1_to_pbr_fit(metric, in, (facet_legacy_target)target, &out);
+        ogl1_to_pbr_fit(correlated, in, (facet_legacy_target)target, &out);
         check_pbr(in, &out);
-        ogl1_to_pbr_core_fit(metric, in, (facet_legacy_target)target, &out);
+        ogl1_to_pbr_core_fit(correlated, in, (facet_legacy_target)target, &out);
         check_pbr(in, &out);
     }
 }
@@ -132,10 +110,10 @@ static void check_all_to_ogl1(const pbr_surface *in)
     check_ogl1(in, &out);
     assert_true(out.shininess == 30.0f);
     for (int target = FACET_LEGACY_TARGET_LINEAR; target <= FACET_LEGACY_TARGET_DRAWN; target++) {
-        pbr_to_ogl1_fit(metric, in, (facet_legacy_target)target, FIT_DISPLAYABLE, &out);
+        pbr_to_ogl1_fit(correlated, in, (facet_legacy_target)target, FIT_DISPLAYABLE, &out);
         check_ogl1(in, &out);
     }
-    pbr_to_ogl1_fit(metric, in, FACET_LEGACY_TARGET_LINEAR, FIT_UNLIMITED, &out);
+    pbr_to_ogl1_fit(correlated, in, FACET_LEGACY_TARGET_LINEAR, FIT_UNLIMITED, &out);
     assert_true(isfinite(out.shininess) && isfinite(out.specular[0]) && isfinite(out.diffuse[0]));
 }
 
@@ -185,20 +163,20 @@ static void fits_to_pbr_beat_closed_forms(void **state)
         pbr_surface naive, closed, fit, display, core_closed, core;
         ogl1_to_pbr_naive(&s, &naive);
         ogl1_to_pbr_closed(&s, &closed);
-        ogl1_to_pbr_fit(metric, &s, FACET_LEGACY_TARGET_LINEAR, &fit);
-        ogl1_to_pbr_fit(metric, &s, FACET_LEGACY_TARGET_DISPLAY, &display);
+        ogl1_to_pbr_fit(correlated, &s, FACET_LEGACY_TARGET_LINEAR, &fit);
+        ogl1_to_pbr_fit(correlated, &s, FACET_LEGACY_TARGET_DISPLAY, &display);
         ogl1_to_pbr_core_closed(&s, &core_closed);
-        ogl1_to_pbr_core_fit(metric, &s, FACET_LEGACY_TARGET_LINEAR, &core);
-        fit_error e = fit_compare(metric, &s, &fit, FIT_FROM_OGL1);
-        double E_closed = fit_compare(metric, &s, &closed, FIT_FROM_OGL1).E;
-        double E_core = fit_compare(metric, &s, &core, FIT_FROM_OGL1).E;
+        ogl1_to_pbr_core_fit(correlated, &s, FACET_LEGACY_TARGET_LINEAR, &core);
+        fit_error e = fit_compare(correlated, &s, &fit, FIT_FROM_OGL1);
+        double E_closed = fit_compare(correlated, &s, &closed, FIT_FROM_OGL1).E;
+        double E_core = fit_compare(correlated, &s, &core, FIT_FROM_OGL1).E;
         assert_true(e.E <= E_closed + 1e-5);
-        assert_true(E_closed <= fit_compare(metric, &s, &naive, FIT_FROM_OGL1).E);
-        assert_true(E_core <= fit_compare(metric, &s, &core_closed, FIT_FROM_OGL1).E + 1e-5);
+        assert_true(E_closed <= fit_compare(correlated, &s, &naive, FIT_FROM_OGL1).E);
+        assert_true(E_core <= fit_compare(correlated, &s, &core_closed, FIT_FROM_OGL1).E + 1e-5);
         /* Metal is the only thing that the extensions' side leaves out: up to 1e-4 for exponents below 5. */
         assert_true(e.E <= E_core + 1e-4);
         /* 1e-4: tolerance of the simplex */
-        assert_true(fit_compare(metric, &s, &display, FIT_FROM_OGL1).E_display <= e.E_display + 1e-4);
+        assert_true(fit_compare(correlated, &s, &display, FIT_FROM_OGL1).E_display <= e.E_display + 1e-4);
     }
 }
 
@@ -210,16 +188,16 @@ static void fits_to_ogl1_beat_closed_forms(void **state)
         ogl1_surface naive, closed, box, unlimited, display;
         pbr_to_ogl1_naive(&s, &naive);
         pbr_to_ogl1_closed(&s, &closed);
-        pbr_to_ogl1_fit(metric, &s, FACET_LEGACY_TARGET_LINEAR, FIT_DISPLAYABLE, &box);
-        pbr_to_ogl1_fit(metric, &s, FACET_LEGACY_TARGET_LINEAR, FIT_UNLIMITED, &unlimited);
-        pbr_to_ogl1_fit(metric, &s, FACET_LEGACY_TARGET_DISPLAY, FIT_DISPLAYABLE, &display);
-        fit_error e = fit_compare(metric, &box, &s, FIT_FROM_PBR);
-        double E_closed = fit_compare(metric, &closed, &s, FIT_FROM_PBR).E;
+        pbr_to_ogl1_fit(correlated, &s, FACET_LEGACY_TARGET_LINEAR, FIT_DISPLAYABLE, &box);
+        pbr_to_ogl1_fit(correlated, &s, FACET_LEGACY_TARGET_LINEAR, FIT_UNLIMITED, &unlimited);
+        pbr_to_ogl1_fit(correlated, &s, FACET_LEGACY_TARGET_DISPLAY, FIT_DISPLAYABLE, &display);
+        fit_error e = fit_compare(correlated, &box, &s, FIT_FROM_PBR);
+        double E_closed = fit_compare(correlated, &closed, &s, FIT_FROM_PBR).E;
         assert_true(e.E <= E_closed + 1e-5);
         assert_true(E_closed <= 1.01 * e.E + 3e-4);
-        assert_true(E_closed <= fit_compare(metric, &naive, &s, FIT_FROM_PBR).E + 1e-5);
-        assert_true(fit_compare(metric, &unlimited, &s, FIT_FROM_PBR).E <= e.E + 1e-5);
-        assert_true(fit_compare(metric, &display, &s, FIT_FROM_PBR).E_display <= e.E_display + 1e-4);
+        assert_true(E_closed <= fit_compare(correlated, &naive, &s, FIT_FROM_PBR).E + 1e-5);
+        assert_true(fit_compare(correlated, &unlimited, &s, FIT_FROM_PBR).E <= e.E + 1e-5);
+        assert_true(fit_compare(correlated, &display, &s, FIT_FROM_PBR).E_display <= e.E_display + 1e-4);
     }
 }
 
@@ -261,13 +239,13 @@ static int residuals(void *context, int count, int n, const double *u, double *o
     polish *p = context;
     pbr_surface s = surface_of(u);
     fit_lobes lobes = fit_lobes_of(&s);
-    fit_specular_lobe(metric, s.perceptual_roughness, lobe);
-    size_t nodes = metric->node_begin[FIT_VIEWS];
+    fit_specular_lobe(correlated, s.perceptual_roughness, lobe);
+    size_t nodes = correlated->node_begin[FIT_VIEWS];
     for (int k = 0; k < 3; k++) {
-        fit_radiance_pbr(metric, &lobes, lobe, k, M);
+        fit_radiance_pbr(correlated, &lobes, lobe, k, M);
         for (size_t i = 0; i < nodes; i++)
             out[(size_t)k * nodes + i] =
-                sqrt((double)metric->weight[i]) * ((double)M[i] - (double)p->T[k][i]);
+                sqrt((double)correlated->weight[i]) * ((double)M[i] - (double)p->T[k][i]);
     }
     return 0;
 }
@@ -281,12 +259,12 @@ static double polished_error(const ogl1_surface *source, const pbr_surface *fit)
     double u[NUMBERS], scale[NUMBERS], qtf[NUMBERS], w1[NUMBERS], w2[NUMBERS], w3[NUMBERS];
     int pivot[NUMBERS];
     int calls;
-    int count = 3 * (int)metric->node_begin[FIT_VIEWS];
+    int count = 3 * (int)correlated->node_begin[FIT_VIEWS];
     double start[NUMBERS] = {(double)fit->perceptual_roughness, (double)fit->specular, 0.01};
     p.source = source;
-    fit_highlight(metric, source->shininess, p.highlight);
+    fit_highlight(correlated, source->shininess, p.highlight);
     for (int k = 0; k < 3; k++) {
-        fit_radiance_ogl1(metric, source, p.highlight, k, p.T[k]);
+        fit_radiance_ogl1(correlated, source, p.highlight, k, p.T[k]);
         start[3 + k] = (double)fit->base_color[k];
         start[6 + k] = (double)fit->specular_color[k];
     }
@@ -295,7 +273,7 @@ static double polished_error(const ogl1_surface *source, const pbr_surface *fit)
     lmdif(residuals, &p, count, NUMBERS, u, f, 1e-7, 1e-7, 0.0, 600, 1e-6, scale, 1, 1.0, 0, &calls, jacobian,
           count, pivot, qtf, w1, w2, w3, work);
     pbr_surface s = surface_of(u);
-    return fit_compare(metric, source, &s, FIT_FROM_OGL1).E;
+    return fit_compare(correlated, source, &s, FIT_FROM_OGL1).E;
 }
 
 static void fits_are_minima(void **state)
@@ -305,8 +283,8 @@ static void fits_are_minima(void **state)
     for (int i = 0; i < CLASSIC_COUNT + 11; i++) {
         ogl1_surface s = i < CLASSIC_COUNT ? classic_materials[i].surface : random_ogl1(i);
         pbr_surface fit;
-        ogl1_to_pbr_fit(metric, &s, FACET_LEGACY_TARGET_LINEAR, &fit);
-        double E = fit_compare(metric, &s, &fit, FIT_FROM_OGL1).E;
+        ogl1_to_pbr_fit(correlated, &s, FACET_LEGACY_TARGET_LINEAR, &fit);
+        double E = fit_compare(correlated, &s, &fit, FIT_FROM_OGL1).E;
         worst = fmax(worst, E - polished_error(&s, &fit));
     }
     print_message("most that another method gains: %.2e\n", worst);
@@ -351,8 +329,8 @@ static void round_trips_are_close(void **state)
         ogl1_surface s = {{Cd, Cd, Cd}, {Cs, Cs, Cs}, 6.0f * expf(2.9f * random_float())};
         ogl1_surface back;
         pbr_surface pbr;
-        ogl1_to_pbr_fit(metric, &s, FACET_LEGACY_TARGET_LINEAR, &pbr);
-        pbr_to_ogl1_fit(metric, &pbr, FACET_LEGACY_TARGET_LINEAR, FIT_DISPLAYABLE, &back);
+        ogl1_to_pbr_fit(correlated, &s, FACET_LEGACY_TARGET_LINEAR, &pbr);
+        pbr_to_ogl1_fit(correlated, &pbr, FACET_LEGACY_TARGET_LINEAR, FIT_DISPLAYABLE, &back);
         assert_true(back.shininess > s.shininess && back.shininess < s.shininess + 6.5f);
         if (s.shininess > 50.0f) {
             assert_near(back.shininess, s.shininess, 0.07f * s.shininess);
@@ -374,10 +352,10 @@ static void channels_are_independent(void **state)
             turned.diffuse[k] = s.diffuse[(k + 1) % 3];
             turned.specular[k] = s.specular[(k + 1) % 3];
         }
-        ogl1_to_pbr_fit(metric, &s, FACET_LEGACY_TARGET_LINEAR, &a);
-        ogl1_to_pbr_fit(metric, &turned, FACET_LEGACY_TARGET_LINEAR, &b);
-        assert_near(fit_compare(metric, &s, &a, FIT_FROM_OGL1).E,
-                    fit_compare(metric, &turned, &b, FIT_FROM_OGL1).E, 2e-5);
+        ogl1_to_pbr_fit(correlated, &s, FACET_LEGACY_TARGET_LINEAR, &a);
+        ogl1_to_pbr_fit(correlated, &turned, FACET_LEGACY_TARGET_LINEAR, &b);
+        assert_near(fit_compare(correlated, &s, &a, FIT_FROM_OGL1).E,
+                    fit_compare(correlated, &turned, &b, FIT_FROM_OGL1).E, 2e-5);
         ogl1_to_pbr_closed(&s, &a);
         ogl1_to_pbr_closed(&turned, &b);
         for (int k = 0; k < 3; k++)
@@ -404,8 +382,8 @@ static void scaled_materials_have_scaled_fits(void **state)
         less.specular = 0.25f * one.specular;
         for (int k = 0; k < 3; k++)
             less.base_color[k] = 0.25f * one.base_color[k] * (1.0f - one.specular) / (1.0f - less.specular);
-        pbr_to_ogl1_fit(metric, &one, FACET_LEGACY_TARGET_LINEAR, FIT_UNLIMITED, &a);
-        pbr_to_ogl1_fit(metric, &less, FACET_LEGACY_TARGET_LINEAR, FIT_UNLIMITED, &b);
+        pbr_to_ogl1_fit(correlated, &one, FACET_LEGACY_TARGET_LINEAR, FIT_UNLIMITED, &a);
+        pbr_to_ogl1_fit(correlated, &less, FACET_LEGACY_TARGET_LINEAR, FIT_UNLIMITED, &b);
         assert_near(b.shininess, a.shininess, 0.005f * a.shininess + 0.01f);
         for (int k = 0; k < 3; k++) {
             assert_near(b.specular[k], 0.25f * a.specular[k], 0.005f * a.specular[k] + 1e-5f);
@@ -426,18 +404,18 @@ static void fits_reflect_no_more_than_they_receive(void **state)
         ogl1_surface s = random_ogl1(i / 2);
         pbr_surface pbr;
         if (i % 2)
-            ogl1_to_pbr_fit(metric, &s, FACET_LEGACY_TARGET_LINEAR, &pbr);
+            ogl1_to_pbr_fit(correlated, &s, FACET_LEGACY_TARGET_LINEAR, &pbr);
         else
             ogl1_to_pbr_closed(&s, &pbr);
         fit_lobes lobes = fit_lobes_of(&pbr);
-        fit_specular_lobe(metric, pbr.perceptual_roughness, lobe);
+        fit_specular_lobe(correlated, pbr.perceptual_roughness, lobe);
         for (int k = 0; k < 3; k++) {
-            fit_radiance_pbr(metric, &lobes, lobe, k, radiance);
+            fit_radiance_pbr(correlated, &lobes, lobe, k, radiance);
             for (int v = 0; v < FIT_VIEWS; v++) {
                 double albedo = 0.0;
-                for (size_t n = metric->node_begin[v]; n < metric->node_begin[v + 1]; n++)
-                    albedo += (double)metric->weight[n] * (double)radiance[n] /
-                              ((double)metric->NdotL[n] * 3.14159265358979323846);
+                for (size_t n = correlated->node_begin[v]; n < correlated->node_begin[v + 1]; n++)
+                    albedo += (double)correlated->weight[n] * (double)radiance[n] /
+                              ((double)correlated->NdotL[n] * 3.14159265358979323846);
                 assert_true(albedo < (i % 2 ? 1.03 : 1.001));
             }
         }
@@ -452,10 +430,10 @@ static void remarks_to_pbr_are_correct(void **state)
     pbr_surface pbr;
     ogl1_surface plain = {{0.4f, 0.4f, 0.4f}, {0.3f, 0.3f, 0.3f}, 40.0f};
     assert_int_equal(ogl1_to_pbr_closed(&plain, &pbr), 0);
-    assert_int_equal(ogl1_to_pbr_fit(metric, &plain, FACET_LEGACY_TARGET_LINEAR, &pbr), 0);
+    assert_int_equal(ogl1_to_pbr_fit(correlated, &plain, FACET_LEGACY_TARGET_LINEAR, &pbr), 0);
     ogl1_surface bright = {{1.0f, 0.4f, 0.4f}, {0.5f, 0.5f, 0.5f}, 40.0f};
     assert_int_equal(ogl1_to_pbr_closed(&bright, &pbr), FIT_BASE_CLAMPED | FIT_ENERGY_GAIN);
-    assert_int_equal(ogl1_to_pbr_fit(metric, &bright, FACET_LEGACY_TARGET_LINEAR, &pbr),
+    assert_int_equal(ogl1_to_pbr_fit(correlated, &bright, FACET_LEGACY_TARGET_LINEAR, &pbr),
                      FIT_BASE_CLAMPED | FIT_ENERGY_GAIN);
     ogl1_surface broad = {{0.2f, 0.2f, 0.2f}, {0.3f, 0.3f, 0.3f}, 2.0f};
     assert_int_equal(ogl1_to_pbr_closed(&broad, &pbr), FIT_LOW_EXPONENT);
@@ -473,9 +451,9 @@ static void remarks_to_ogl1_are_correct(void **state)
     assert_int_equal(pbr_to_ogl1_closed(&s, &old), 0);
     s.perceptual_roughness = 0.1f;
     assert_int_equal(pbr_to_ogl1_closed(&s, &old), FIT_SPECULAR_CLAMPED | FIT_SHININESS_CLAMPED);
-    assert_int_equal(pbr_to_ogl1_fit(metric, &s, FACET_LEGACY_TARGET_LINEAR, FIT_DISPLAYABLE, &old),
+    assert_int_equal(pbr_to_ogl1_fit(correlated, &s, FACET_LEGACY_TARGET_LINEAR, FIT_DISPLAYABLE, &old),
                      FIT_SPECULAR_CLAMPED | FIT_SHININESS_CLAMPED);
-    assert_int_equal(pbr_to_ogl1_fit(metric, &s, FACET_LEGACY_TARGET_LINEAR, FIT_UNLIMITED, &old), 0);
+    assert_int_equal(pbr_to_ogl1_fit(correlated, &s, FACET_LEGACY_TARGET_LINEAR, FIT_UNLIMITED, &old), 0);
     s.perceptual_roughness = 0.8f;
     s.metallic = 1.0f;
     assert_int_equal(pbr_to_ogl1_closed(&s, &old), FIT_METAL_WITH_DIFFUSE);
@@ -497,5 +475,5 @@ int main(void)
         cmocka_unit_test(remarks_to_pbr_are_correct),
         cmocka_unit_test(remarks_to_ogl1_are_correct),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, fit_test_setup, fit_test_teardown);
 }

@@ -2,38 +2,14 @@
  * masking), whose tables are below. facet renders height-correlated masking: those errors are held to
  * limits of acceptance, and differ mostly at high roughness. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
-#include "tests/support/support.h"
+#include "legacy/fit_test_support.h"
 #include "legacy/classic_materials.h"
 #include "legacy/fit_linear.h"
 #include "legacy/fit_minimize.h"
 
 static const double pi = 3.14159265358979323846;
-static fit_metric *correlated, *separable;
-
-static int setup(void **state)
-{
-    (void)state;
-    facet_result a = fit_metric_create(NULL, PBR_CORRELATED, &correlated, NULL);
-    facet_result b = fit_metric_create(NULL, PBR_SEPARABLE, &separable, NULL);
-    return a == FACET_OK && b == FACET_OK ? 0 : -1;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    fit_metric_destroy(correlated);
-    fit_metric_destroy(separable);
-    return 0;
-}
-
 /* Three digits, at most three decimals; 1e-4 more for the two quadratures. */
 static double printed_to(double printed)
 {
@@ -596,5 +572,5 @@ int main(void)
         cmocka_unit_test(closed_forms_of_classic_materials_are_within_limits),
         cmocka_unit_test(closed_forms_of_pbr_equal_the_fit),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, fit_test_setup, fit_test_teardown);
 }
