@@ -1,7 +1,7 @@
 /* Truth tests of how samples become an image: mean and error of an estimate with more of them, coverage,
  * shutter and lens, filters; and that an image depends neither on threads, nor on the part that is drawn,
  * nor on being interrupted. */
-#define _POSIX_C_SOURCE 200809L /* mkdtemp */
+#define _POSIX_C_SOURCE 200809L /* unlink */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,6 +13,7 @@
 
 #include <cmocka.h>
 
+#include "tests/support/support.h"
 #include "path/path_fixture.h"
 
 /* Glossy and diffuse meshes, an area light, a sky, glass, fog. */
@@ -491,10 +492,10 @@ static bool stop_after(void *user, const char *stage, double fraction)
 static void interrupted_renders_resume_to_the_bit(void **state)
 {
     (void)state;
-    char folder[] = "/tmp/facet-path-XXXXXX";
-    assert_non_null(mkdtemp(folder));
-    char path[64];
-    snprintf(path, sizeof path, "%s/c.exr", folder);
+    temporary_folder folder;
+    temporary_folder_create(&folder);
+    char path[sizeof folder.path + sizeof "/c.exr"];
+    snprintf(path, sizeof path, "%s/c.exr", folder.path);
     fixture f = busy_scene(32);
     f.desc.samples = 48;
     f.desc.aovs = FACET_AOV_ALBEDO | FACET_AOV_NORMAL | FACET_AOV_VARIANCE | FACET_AOV_SAMPLES;
@@ -540,7 +541,7 @@ static void interrupted_renders_resume_to_the_bit(void **state)
         unlink(path);
     }
     fixture_destroy(&f);
-    rmdir(folder);
+    temporary_folder_remove(&folder);
 }
 
 /* Adaptive sampling stops where the noise is low; its mean is that of all samples within 1 %, and it took

@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 #include <ftw.h>
+#include <sys/stat.h>
 
 #include "tests/support/support.h"
 
@@ -96,4 +97,29 @@ const char *temporary_folder_file(const temporary_folder *folder, const char *na
     char *path = paths[next++ % 4];
     snprintf(path, sizeof paths[0], "%s/%s", folder->path, name);
     return path;
+}
+
+const char *temporary_folder_put(const temporary_folder *folder, const char *name, const void *bytes,
+                                 size_t size)
+{
+    const char *path = temporary_folder_file(folder, name);
+    char parent[512];
+    snprintf(parent, sizeof parent, "%s", path);
+    *strrchr(parent, '/') = 0;
+    mkdir(parent, 0700);
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+    return path;
+}
+
+const char *temporary_folder_put_png(const temporary_folder *folder, const char *name)
+{
+    static const unsigned char white[] = {
+        0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00,
+        0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x00, 0x00, 0x00, 0x00, 0x3a, 0x7e, 0x9b, 0x55, 0x00,
+        0x00, 0x00, 0x0a, 0x49, 0x44, 0x41, 0x54, 0x78, 0xda, 0x63, 0xf8, 0x0f, 0x00, 0x01, 0x01, 0x01, 0x00,
+        0x1c, 0xb0, 0x8c, 0x99, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+    return temporary_folder_put(folder, name, white, sizeof white);
 }

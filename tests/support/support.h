@@ -111,5 +111,10 @@ void temporary_folder_remove(const temporary_folder *folder);
 
 /* The path of a file in the folder: valid until the fourth call after this one. */
 const char *temporary_folder_file(const temporary_folder *folder, const char *name);
+/* Writes a file, and the folder that "a/b" is in; returns its path as above. */
+const char *temporary_folder_put(const temporary_folder *folder, const char *name, const void *bytes,
+                                 size_t size);
+/* The same: a PNG image of one white texel. */
+const char *temporary_folder_put_png(const temporary_folder *folder, const char *name);
 
 #endif

@@ -5,80 +5,40 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 /* ---- a folder of files ---- */
 
-typedef struct folder {
-    char path[64];
-} folder;
-
-static void write_text(const folder *f, const char *name, const void *bytes, size_t size)
-{
-    char path[256];
-    snprintf(path, sizeof path, "%s/%s", f->path, name);
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(bytes, 1, size, file), size);
-    assert_int_equal(fclose(file), 0);
-}
-
 /* outside.bin; model/ with inside.bin, "a b.bin", deep/inside.bin, link.bin -> ../outside.bin */
 static int make_folder(void **state)
 {
-    folder *f = calloc(1, sizeof *f);
+    temporary_folder *f = malloc(sizeof *f);
     assert_non_null(f);
-    strcpy(f->path, "/tmp/facet_gltf_XXXXXX");
-    assert_non_null(mkdtemp(f->path));
-    char path[256];
-    snprintf(path, sizeof path, "%s/model", f->path);
-    assert_int_equal(mkdir(path, 0700), 0);
-    snprintf(path, sizeof path, "%s/model/deep", f->path);
-    assert_int_equal(mkdir(path, 0700), 0);
+    temporary_folder_create(f);
     const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-    write_text(f, "outside.bin", triangle, sizeof triangle);
-    write_text(f, "model/inside.bin", triangle, sizeof triangle);
-    write_text(f, "model/short.bin", triangle, 35);
-    write_text(f, "model/a b.bin", triangle, sizeof triangle);
-    write_text(f, "model/100%.bin", triangle, sizeof triangle);
-    write_text(f, "model/deep/inside.bin", triangle, sizeof triangle);
-    snprintf(path, sizeof path, "%s/model/link.bin", f->path);
-    assert_int_equal(symlink("../outside.bin", path), 0);
+    temporary_folder_put(f, "outside.bin", triangle, sizeof triangle);
+    temporary_folder_put(f, "model/inside.bin", triangle, sizeof triangle);
+    temporary_folder_put(f, "model/short.bin", triangle, 35);
+    temporary_folder_put(f, "model/a b.bin", triangle, sizeof triangle);
+    temporary_folder_put(f, "model/100%.bin", triangle, sizeof triangle);
+    temporary_folder_put(f, "model/deep/inside.bin", triangle, sizeof triangle);
+    assert_int_equal(symlink("../outside.bin", temporary_folder_file(f, "model/link.bin")), 0);
     *state = f;
     return 0;
 }
 
 static int remove_folder(void **state)
 {
-    folder *f = *state;
-    static const char *const names[] = {"model/link.bin",
-                                        "model/deep/inside.bin",
-                                        "model/deep",
-                                        "model/100%.bin",
-                                        "model/a b.bin",
-                                        "model/short.bin",
-                                        "model/inside.bin",
-                                        "model/model.gltf",
-                                        "model",
-                                        "outside.bin",
-                                        ""};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        char path[256];
-        snprintf(path, sizeof path, "%s/%s", f->path, names[i]);
-        if (unlink(path) != 0)
-            rmdir(path);
-    }
-    free(f);
+    temporary_folder_remove(*state);
+    free(*state);
     return 0;
 }
 
 /* Loads a model of one triangle, whose buffer is uri. */
-static facet_result load_uri_model(const folder *f, const char *uri, const char *root, facet_scene **scene,
-                                   facet_error *error)
+static facet_result load_uri_model(const temporary_folder *f, const char *uri, const char *root,
+                                   facet_scene **scene, facet_error *error)
 {
     char json[2048];
-    char path[256];
     int size =
         snprintf(json, sizeof json,
                  "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":36,\"uri\":\"%s\"}],"
@@ -86,10 +46,8 @@ static facet_result load_uri_model(const folder *f, const char *uri, const char 
                  "\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],\"meshes\":[{\"primitives\":[{"
                  "\"attributes\":{\"POSITION\":0}}]}]}",
                  uri);
-    write_text(f, "model/model.gltf", json, (size_t)size);
-    snprintf(path, sizeof path, "%s/model/model.gltf", f->path);
     const facet_scene_desc desc = {.root = root};
-    return gltf_load(path, &desc, scene, error);
+    return gltf_load(temporary_folder_put(f, "model/model.gltf", json, (size_t)size), &desc, scene, error);
 }
 
 static void files_below_the_model_are_read(void **state)
@@ -127,7 +85,7 @@ static void files_with_alike_names_are_read_with_a_warning(void **state)
 
 static void files_outside_the_root_are_not_read(void **state)
 {
-    const folder *f = *state;
+    const temporary_folder *f = *state;
     char absolute[256];
     snprintf(absolute, sizeof absolute, "%s/model/inside.bin", f->path);
     const char *const uris[] = {"../outside.bin",
@@ -158,7 +116,7 @@ static void files_outside_the_root_are_not_read(void **state)
 
 static void a_root_admits_more_files(void **state)
 {
-    const folder *f = *state;
+    const temporary_folder *f = *state;
     facet_scene *scene = NULL;
     facet_error error = {0};
     static const char *const uris[] = {"../outside.bin", "link.bin", "inside.bin"};

@@ -311,33 +311,26 @@ static void assert_same_scene(const facet_scene *a, const facet_scene *b)
 
 /* ---- round trips ---- */
 
-static char folder[] = "/tmp/facet_write_XXXXXX";
+static temporary_folder folder;
 
 static int make_folder(void **state)
 {
     (void)state;
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static void empty_folder(void)
-{
-    DIR *d = opendir(folder);
-    struct dirent *entry;
-    while (d && (entry = readdir(d))) {
-        char path[512];
-        snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
-        if (entry->d_name[0] != '.')
-            unlink(path);
-    }
-    if (d)
-        closedir(d);
+    temporary_folder_create(&folder);
+    return 0;
 }
 
 static int remove_folder(void **state)
 {
     (void)state;
-    empty_folder();
-    return rmdir(folder);
+    temporary_folder_remove(&folder);
+    return 0;
+}
+
+static void empty_folder(void)
+{
+    temporary_folder_remove(&folder);
+    assert_int_equal(mkdir(folder.path, 0700), 0);
 }
 
 /* Writes scene under a name, reads that, and compares; all without a warning that the first reading did
@@ -347,7 +340,7 @@ static void assert_round_trip(const facet_scene *scene, const char *name)
     char path[256];
     facet_error error = {0};
     facet_scene *again = NULL;
-    snprintf(path, sizeof path, "%s/%s", folder, name);
+    snprintf(path, sizeof path, "%s/%s", folder.path, name);
     if (gltf_save(scene, path, "a test", NULL, &error) != FACET_OK ||
         gltf_load(path, NULL, &again, &error) != FACET_OK)
         fail_msg("%s: %s", model, error.message);
@@ -406,7 +399,7 @@ static facet_scene *rewrite(const char *body, const char *name)
     facet_scene *again = NULL;
     model_add_floats(&m, triangle, 3, "VEC3");
     facet_scene *scene = model_load(&m, "%s", body);
-    snprintf(path, sizeof path, "%s/%s", folder, name);
+    snprintf(path, sizeof path, "%s/%s", folder.path, name);
     if (gltf_save(scene, path, "a test", NULL, &error) != FACET_OK ||
         gltf_load(path, NULL, &again, &error) != FACET_OK)
         fail_msg("%s: %s", body, error.message);
@@ -467,7 +460,7 @@ static void distant_vertices_round_trip(void **state)
     assert_int_equal(scene_settle_origin(scene, NULL, NULL, NULL), FACET_OK);
     assert_true(scene->meshes[0].origin[0] > 1e6);
     assert_true(fabsf(scene->meshes[0].primitives[0].positions[0]) < 16.0f);
-    snprintf(path, sizeof path, "%s/a.glb", folder);
+    snprintf(path, sizeof path, "%s/a.glb", folder.path);
     assert_int_equal(gltf_save(scene, path, "a test", NULL, NULL), FACET_OK);
     assert_int_equal(gltf_load(path, NULL, &again, NULL), FACET_OK);
     assert_memory_equal(again->meshes[0].primitives[0].positions, triangle, sizeof triangle);
@@ -503,8 +496,8 @@ static void all_files_are_written_or_none(void **state)
     file_bytes old;
     model_add_floats(&m, triangle, 3, "VEC3");
     facet_scene *scene = model_load(&m, "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}]");
-    snprintf(bin, sizeof bin, "%s/a.bin", folder);
-    snprintf(path, sizeof path, "%s/a.gltf", folder);
+    snprintf(bin, sizeof bin, "%s/a.bin", folder.path);
+    snprintf(path, sizeof path, "%s/a.gltf", folder.path);
     assert_int_equal(file_write(bin, "old", 3, NULL), FACET_OK);
     assert_int_equal(mkdir(path, 0777), 0);
     assert_int_equal(gltf_save(scene, path, "a test", NULL, &error), FACET_ERROR_WRITE);
@@ -513,8 +506,8 @@ static void all_files_are_written_or_none(void **state)
     assert_int_equal(old.size, 3);
     file_close(&old);
     unlink(bin);
-    assert_int_equal(rmdir(folder), 0); /* no temporary is left */
-    assert_int_equal(mkdir(folder, 0700), 0);
+    assert_int_equal(rmdir(folder.path), 0); /* no temporary is left */
+    assert_int_equal(mkdir(folder.path, 0700), 0);
     scene_destroy(scene);
 }
 
@@ -552,7 +545,7 @@ static void memory_that_runs_out_is_reported(void **state)
     for (int kind = 0; kind < 2; kind++) {
         char path[256];
         facet_result result = FACET_ERROR_MEMORY;
-        snprintf(path, sizeof path, "%s/%s", folder, kind ? "m.gltf" : "m.glb");
+        snprintf(path, sizeof path, "%s/%s", folder.path, kind ? "m.gltf" : "m.glb");
         for (long at = 0; result != FACET_OK; at++) {
             failing_allocator memory = {.fail_at = at};
             const facet_scene_save_desc desc = {.allocator = failing_allocator_get(&memory)};

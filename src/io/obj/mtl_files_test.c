@@ -2,7 +2,6 @@
 #define _XOPEN_SOURCE 700
 #include "io/obj/mtl_test_support.h"
 
-#include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,19 +16,20 @@
 static void alike_file_names_are_found(void **state)
 {
     (void)state;
-    test_folder folder = test_folder_make();
+    temporary_folder folder;
+    temporary_folder_create(&folder);
     static const char *const names[] = {"sub/WOOD.PNG",  "sub\\Wood.png",   "SUB\\wood.PNG",
                                         "my\\ wood.png", "wood.png?v=1",    "wood.png#top",
                                         "my%20wood.png", "t\xc3\xa9te.png", "Two.png"};
     static const char *const found[] = {"sub/wood.png", "sub/wood.png",     "sub/wood.png",
                                         "my wood.png",  "wood.png",         "wood.png",
                                         "my wood.png",  "te\xcc\x81te.png", NULL};
-    test_put_png(&folder, "sub/wood.png");
-    test_put_png(&folder, "wood.png");
-    test_put_png(&folder, "my wood.png");
-    test_put_png(&folder, "te\xcc\x81te.png");
-    test_put_png(&folder, "two.png");
-    test_put_png(&folder, "two.PNG");
+    temporary_folder_put_png(&folder, "sub/wood.png");
+    temporary_folder_put_png(&folder, "wood.png");
+    temporary_folder_put_png(&folder, "my wood.png");
+    temporary_folder_put_png(&folder, "te\xcc\x81te.png");
+    temporary_folder_put_png(&folder, "two.png");
+    temporary_folder_put_png(&folder, "two.PNG");
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         char library[256];
         snprintf(library, sizeof library, "newmtl a\nmap_Kd %s\nmap_Ks %s\n", names[i], names[i]);
@@ -44,34 +44,36 @@ static void alike_file_names_are_found(void **state)
         assert_int_equal(scene->warning_count, i == 6 ? 1 : found[i] ? 2 : 3);
         scene_destroy(scene);
     }
-    test_folder_remove(&folder);
+    temporary_folder_remove(&folder);
 }
 
 /* No name leads out of the folder because it is only alike. */
 static void alike_file_names_stay_inside_the_root(void **state)
 {
     (void)state;
-    test_folder folder = test_folder_make();
-    test_put_png(&folder, "out/wood.png");
+    temporary_folder folder;
+    temporary_folder_create(&folder);
+    temporary_folder_put_png(&folder, "out/wood.png");
     test_put_text(&folder, "in/a.mtl", "newmtl a\nmap_Kd ../OUT/WOOD.PNG\nmap_Ks ..\\Out\\wood.png\n");
-    facet_scene *scene = mtl_load(test_path(&folder, "in"), "a.mtl", NULL);
+    facet_scene *scene = mtl_load(temporary_folder_file(&folder, "in"), "a.mtl", NULL);
     assert_int_equal(scene->image_count, 0);
     assert_int_equal(mtl_count_warnings(scene, "leads out of the model's folder"), 1);
     scene_destroy(scene);
-    scene = mtl_load(test_path(&folder, "in"), "a.mtl", &(facet_scene_desc){.root = folder.path});
+    scene = mtl_load(temporary_folder_file(&folder, "in"), "a.mtl", &(facet_scene_desc){.root = folder.path});
     assert_int_equal(scene->image_count, 1);
     scene_destroy(scene);
-    test_folder_remove(&folder);
+    temporary_folder_remove(&folder);
 }
 
 static void textures_are_found_and_shared(void **state)
 {
     (void)state;
-    test_folder folder = test_folder_make();
-    test_put_png(&folder, "sub/a.png");
-    test_put_png(&folder, "with space.png");
-    test_put(&folder, "sub/b.gif", "8BPS\0\1\0\1\0", 9);
-    test_put(&folder, "c.pcx", "\012\0\2\0", 4);
+    temporary_folder folder;
+    temporary_folder_create(&folder);
+    temporary_folder_put_png(&folder, "sub/a.png");
+    temporary_folder_put_png(&folder, "with space.png");
+    temporary_folder_put(&folder, "sub/b.gif", "8BPS\0\1\0\1\0", 9);
+    temporary_folder_put(&folder, "c.pcx", "\012\0\2\0", 4);
     test_put_text(&folder, "sub/m.mtl",
                   "newmtl a\nmap_Kd a.png\nmap_Ks ./a.png\nmap_Ka .\\a.png\nmap_Ke C:\\textures\\a.png\n"
                   "map_Ns -clamp on a.png\nmap_d \"with space.png\"\nbump ../with space.png\ndisp b.gif\n"
@@ -110,7 +112,7 @@ static void textures_are_found_and_shared(void **state)
                      1);
     assert_int_equal(scene->warning_count, 4);
     scene_destroy(scene);
-    test_folder_remove(&folder);
+    temporary_folder_remove(&folder);
 }
 
 /* ---- libraries ---- */
@@ -124,7 +126,8 @@ static void a_library_named_like_the_model_is_found(void **state)
         "mtllib: there is no file \"old.mtl\"; \"Test.MTL\", which is named like the model, is read instead",
         "mtllib: there is no file \"old.mtl\"; \"Test.MTL\", which is named like the model, is read instead",
         "test.obj: names no library of materials; \"Test.MTL\", which is named like the model, is read"};
-    test_folder folder = test_folder_make();
+    temporary_folder folder;
+    temporary_folder_create(&folder);
     test_put_text(&folder, "Test.MTL", "newmtl a\n");
     for (size_t i = 0; i < 3; i++) {
         facet_scene *scene = mtl_load(folder.path, statements[i], NULL);
@@ -139,13 +142,14 @@ static void a_library_named_like_the_model_is_found(void **state)
     assert_int_equal(
         mtl_count_warnings(scene, "there is no file \"gone.mtl\"; its materials have default values"), 1);
     scene_destroy(scene);
-    test_folder_remove(&folder);
+    temporary_folder_remove(&folder);
 }
 
 static void libraries_are_found(void **state)
 {
     (void)state;
-    test_folder folder = test_folder_make();
+    temporary_folder folder;
+    temporary_folder_create(&folder);
     test_put_text(&folder, "a b.mtl", "newmtl ab\n");
     test_put_text(&folder, "c.mtl", "newmtl c\n");
     test_put_text(&folder, "d/e.mtl", "newmtl e\n");
@@ -158,29 +162,30 @@ static void libraries_are_found(void **state)
     assert_int_equal(scene->warning_count, 1);
     assert_int_equal(mtl_count_warnings(scene, "test.obj: mtllib: there is no file \"missing one.mtl\""), 1);
     scene_destroy(scene);
-    scene = mtl_load(test_path(&folder, "d"), "../c.mtl", NULL);
+    scene = mtl_load(temporary_folder_file(&folder, "d"), "../c.mtl", NULL);
     assert_int_equal(scene->material_count, 0);
     assert_int_equal(mtl_count_warnings(scene, "leads out of the model's folder"), 1);
     scene_destroy(scene);
     const facet_scene_desc wide = {.root = folder.path};
-    scene = mtl_load(test_path(&folder, "d"), "../c.mtl", &wide);
+    scene = mtl_load(temporary_folder_file(&folder, "d"), "../c.mtl", &wide);
     assert_int_equal(scene->material_count, 1);
     scene_destroy(scene);
-    scene =
-        mtl_load(test_path(&folder, "d"), test_path(&folder, "c.mtl"), &wide); /* absolute, below the root */
+    scene = mtl_load(temporary_folder_file(&folder, "d"), temporary_folder_file(&folder, "c.mtl"),
+                     &wide); /* absolute, below the root */
     assert_int_equal(scene->material_count, 1);
     scene_destroy(scene);
     scene = mtl_load(NULL, "c.mtl", NULL);
     assert_int_equal(mtl_count_warnings(scene, "the model was not read from a folder"), 1);
     scene_destroy(scene);
-    test_folder_remove(&folder);
+    temporary_folder_remove(&folder);
 }
 
 /* However often a file is named, and by how many names, it is mapped and parsed once. */
 static void files_are_opened_once(void **state)
 {
     (void)state;
-    test_folder folder = test_folder_make();
+    temporary_folder folder;
+    temporary_folder_create(&folder);
     text library = {0};
     text spectrum = {0};
     for (int i = 0; i < 300; i++)
@@ -188,12 +193,13 @@ static void files_are_opened_once(void **state)
                   i % 2 ? "s.rfl" : "./s.rfl", 1 + i % 9);
     for (int i = 0; i < 20000; i++)
         text_addf(&spectrum, "%.2f 0.5\n", 380.0 + 0.02 * i);
-    test_put(&folder, "a.mtl", library.data, library.length);
-    test_put(&folder, "s.rfl", spectrum.data, spectrum.length);
+    temporary_folder_put(&folder, "a.mtl", library.data, library.length);
+    temporary_folder_put(&folder, "s.rfl", spectrum.data, spectrum.length);
     test_put_text(&folder, "c.png", "no image");
-    test_put_png(&folder, "a.png");
-    assert_int_equal(link(test_path(&folder, "a.png"), test_path(&folder, "b.png")), 0);
-    assert_int_equal(symlink("a.mtl", test_path(&folder, "link.mtl")), 0);
+    temporary_folder_put_png(&folder, "a.png");
+    assert_int_equal(link(temporary_folder_file(&folder, "a.png"), temporary_folder_file(&folder, "b.png")),
+                     0);
+    assert_int_equal(symlink("a.mtl", temporary_folder_file(&folder, "link.mtl")), 0);
     failing_allocator f = {.fail_at = -1};
     const facet_scene_desc desc = {.allocator = failing_allocator_get(&f)};
     facet_scene *scene = NULL;
@@ -217,40 +223,25 @@ static void files_are_opened_once(void **state)
     assert_int_equal(atomic_load(&f.blocks), 0);
     text_destroy(&library);
     text_destroy(&spectrum);
-    test_folder_remove(&folder);
+    temporary_folder_remove(&folder);
 }
 
 /* ---- real files ---- */
 
-/* All libraries of the shared data: each has materials, and none is misunderstood in part. */
-static int read_folder(const char *path)
+/* A library has materials, and none is misunderstood in part. */
+static bool read_library(const char *folder, const char *name, void *context)
 {
-    int count = 0;
-    DIR *folder = opendir(path);
-    assert_non_null(folder);
-    for (struct dirent *entry; (entry = readdir(folder));) {
-        char inner[1024];
-        const char *dot = strrchr(entry->d_name, '.');
-        snprintf(inner, sizeof inner, "%s/%s", path, entry->d_name);
-        DIR *is_folder = entry->d_name[0] == '.' ? NULL : opendir(inner);
-        if (is_folder) {
-            closedir(is_folder);
-            count += read_folder(inner);
-        } else if (dot && strcmp(dot, ".mtl") == 0) {
-            facet_scene *scene = mtl_load(path, entry->d_name, NULL);
-            assert_true(scene->material_count > 0);
-            assert_int_equal(mtl_count_warnings(scene, "is not a number"), 0);
-            assert_int_equal(mtl_count_warnings(scene, "mtllib"), 0);
-            for (uint32_t i = 0; i < scene->material_count; i++) {
-                assert_true(legacy_has(mtl_get(scene, i), LEGACY_DIFFUSE));
-                assert_false(mtl_get(scene, i)->is_transparency_ambiguous && !strstr(path, "tinyobjloader"));
-            }
-            scene_destroy(scene);
-            count++;
-        }
+    (void)context;
+    facet_scene *scene = mtl_load(folder, name, NULL);
+    assert_true(scene->material_count > 0);
+    assert_int_equal(mtl_count_warnings(scene, "is not a number"), 0);
+    assert_int_equal(mtl_count_warnings(scene, "mtllib"), 0);
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        assert_true(legacy_has(mtl_get(scene, i), LEGACY_DIFFUSE));
+        assert_false(mtl_get(scene, i)->is_transparency_ambiguous && !strstr(folder, "tinyobjloader"));
     }
-    closedir(folder);
-    return count;
+    scene_destroy(scene);
+    return true;
 }
 
 static void real_files_are_read(void **state)
@@ -263,7 +254,7 @@ static void real_files_are_read(void **state)
     }
     char path[1024];
     snprintf(path, sizeof path, "%s/obj", data);
-    assert_int_equal(read_folder(path), 40);
+    assert_int_equal(test_visit_files(path, ".mtl", read_library, NULL), 40);
 
     snprintf(path, sizeof path, "%s/obj/obj2gltf/box-mtllib-spaces", data);
     facet_scene *scene = mtl_load(path, "box mtllib green.mtl box mtllib blue.mtl ", NULL);

@@ -196,7 +196,8 @@ static void colors_may_be_xyz(void **state)
 static void colors_may_be_spectra(void **state)
 {
     (void)state;
-    test_folder folder = test_folder_make();
+    temporary_folder folder;
+    temporary_folder_create(&folder);
     test_put_text(&folder, "white.rfl", "spectrum\n400 1\n700 1\n");
     test_put_text(&folder, "red one.rfl", "# nm\n0.38 0\n0.59 0\n0.6 1\n0.78 1\n");
     test_put_text(&folder, "bad.rfl", "500 1\n400 1\n");
@@ -215,7 +216,7 @@ static void colors_may_be_spectra(void **state)
     assert_int_equal(mtl_count_warnings(scene, "line 5: Ka: \"bad.rfl\" is not a list of wavelengths"), 1);
     assert_int_equal(mtl_count_warnings(scene, "line 6: Tf: the spectrum cannot be read: names no file"), 1);
     scene_destroy(scene);
-    test_folder_remove(&folder);
+    temporary_folder_remove(&folder);
 }
 
 /* ---- maps ---- */
@@ -295,8 +296,9 @@ static void options_are_read(void **state)
 static void unknown_members_are_ignored(void **state)
 {
     (void)state;
-    test_folder folder = test_folder_make();
-    test_put_png(&folder, "a.png");
+    temporary_folder folder;
+    temporary_folder_create(&folder);
+    temporary_folder_put_png(&folder, "a.png");
     text t = {0};
     text_add(
         &t,
@@ -304,7 +306,7 @@ static void unknown_members_are_ignored(void **state)
     for (int i = 0; i < 1000; i++)
         text_addf(&t, ",\"t%d\":{\"image\":\"a.png\",\"name\":\"%d\"}", i, i);
     text_add(&t, "}\n");
-    test_put(&folder, "a.mtl", t.data, t.length);
+    temporary_folder_put(&folder, "a.mtl", t.data, t.length);
     facet_scene *scene = mtl_load(folder.path, "a.mtl", NULL);
     assert_true(mtl_get(scene, 0)->is_gltf_restored);
     assert_true(scene_material_has(&scene->materials[0], SCENE_NORMAL_TEXTURE));
@@ -312,7 +314,7 @@ static void unknown_members_are_ignored(void **state)
     assert_int_equal(scene->warning_count, 0);
     scene_destroy(scene);
     text_destroy(&t);
-    test_folder_remove(&folder);
+    temporary_folder_remove(&folder);
 }
 
 /* OBJ has one set of coordinates: textures that read another one are left out, and the one that is written
@@ -322,8 +324,9 @@ static void one_texcoord_set_round_trips(void **state)
 {
     (void)state;
     static const char statements[] = "map_Kd a.png\n";
-    test_folder folder = test_folder_make();
-    test_put_png(&folder, "a.png");
+    temporary_folder folder;
+    temporary_folder_create(&folder);
+    temporary_folder_put_png(&folder, "a.png");
     test_put_text(&folder, "a.mtl", "newmtl a\nmap_Kd a.png\n");
     facet_scene *scene = mtl_load(folder.path, "a.mtl", NULL);
     scene_texture_ref *refs = scene->materials[0].textures;
@@ -336,7 +339,7 @@ static void one_texcoord_set_round_trips(void **state)
         scene->legacy->materials[0].maps[LEGACY_DIFFUSE_MAP].ref.texcoord = written;
         text_addf(&t, "newmtl a\n%s#facet-gltf ", statements);
         mtl_gltf_write(scene, 0, "a", statements, images, &desc, &t);
-        test_put(&folder, "b.mtl", t.data, t.length);
+        temporary_folder_put(&folder, "b.mtl", t.data, t.length);
         facet_scene *again = mtl_load(folder.path, "b.mtl", NULL);
         const scene_material *m = &again->materials[0];
         assert_true(mtl_get(again, 0)->is_gltf_restored);
@@ -356,7 +359,7 @@ static void one_texcoord_set_round_trips(void **state)
     assert_false(scene_material_has(&scene->materials[0], SCENE_NORMAL_TEXTURE));
     assert_int_equal(mtl_count_warnings(scene, "material \"t\": normalTexture reads another set"), 1);
     scene_destroy(scene);
-    test_folder_remove(&folder);
+    temporary_folder_remove(&folder);
 }
 
 /* ---- names of materials ---- */
@@ -416,7 +419,8 @@ static void dialects_are_detected_by_comments(void **state)
         {"", "newmtl a\n# Blender 3.3.0 MTL File: ''\n", FACET_MTL_DIALECT_SPEC, false},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        test_folder folder = test_folder_make();
+        temporary_folder folder;
+        temporary_folder_create(&folder);
         const facet_scene_desc desc = {0};
         facet_scene *scene = NULL;
         mtl_reader *reader = NULL;
@@ -430,7 +434,7 @@ static void dialects_are_detected_by_comments(void **state)
         assert_int_equal(scene->legacy->is_dialect_guessed, cases[i].is_guessed);
         mtl_reader_destroy(reader);
         scene_destroy(scene);
-        test_folder_remove(&folder);
+        temporary_folder_remove(&folder);
     }
     const facet_scene_desc chosen = {.legacy = {.dialect = FACET_MTL_DIALECT_BLENDER28}};
     facet_scene *scene = mtl_load_text("# Blender 3.3.0 MTL File: ''\nnewmtl a\n", &chosen);
@@ -445,8 +449,9 @@ static void dialects_are_detected_by_comments(void **state)
 static void failed_allocations_are_reported(void **state)
 {
     (void)state;
-    test_folder folder = test_folder_make();
-    test_put_png(&folder, "a.png");
+    temporary_folder folder;
+    temporary_folder_create(&folder);
+    temporary_folder_put_png(&folder, "a.png");
     test_put_text(&folder, "w.rfl", "400 1\n");
     test_put_text(
         &folder, "a.mtl",
@@ -472,7 +477,7 @@ static void failed_allocations_are_reported(void **state)
         assert_int_equal(atomic_load(&f.blocks), 0);
     }
     assert_true(fail_at > 10);
-    test_folder_remove(&folder);
+    temporary_folder_remove(&folder);
 }
 
 int main(void)

@@ -1,4 +1,4 @@
-/* mtl_test_support.h - libraries of materials for tests, in a folder of their own. */
+/* mtl_test_support.h - files for tests, and libraries of materials from them. */
 #ifndef IO_MTL_TEST_SUPPORT_H
 #define IO_MTL_TEST_SUPPORT_H
 
@@ -12,21 +12,13 @@
 #include "tests/support/support.h"
 #include "io/obj/mtl.h"
 
-/* A new folder for a test; test_folder_remove() at its end. */
-typedef struct test_folder {
-    char path[64];
-} test_folder;
-
-test_folder test_folder_make(void);
-void test_folder_remove(const test_folder *folder);
-/* "FOLDER/name" in a buffer that the next but three calls use again. */
-const char *test_path(const test_folder *folder, const char *name);
-void test_put(const test_folder *folder, const char *name, const void *bytes, size_t size);
-void test_put_text(const test_folder *folder, const char *name, const char *string);
-/* A PNG image of one texel. */
-void test_put_png(const test_folder *folder, const char *name);
+void test_put_text(const temporary_folder *folder, const char *name, const char *string);
 /* The text of a file with 0 behind it; free() it. */
-char *test_get(const test_folder *folder, const char *name);
+char *test_get(const temporary_folder *folder, const char *name);
+
+/* Calls visit for every file below a folder whose name ends with extension; how many times it returned true. */
+int test_visit_files(const char *folder, const char *extension,
+                     bool (*visit)(const char *folder, const char *name, void *context), void *context);
 
 /* A scene with the materials of an mtllib statement; must succeed. desc NULL: {0}. */
 facet_scene *mtl_load(const char *folder, const char *names, const facet_scene_desc *desc);

@@ -57,8 +57,9 @@ static const char LIBRARY[] =
 static void all_statements_round_trip(void **state)
 {
     (void)state;
-    test_folder folder = test_folder_make();
-    test_put_png(&folder, "a.png");
+    temporary_folder folder;
+    temporary_folder_create(&folder);
+    temporary_folder_put_png(&folder, "a.png");
     test_put_text(&folder, "a.mtl", LIBRARY);
     facet_scene *scene = mtl_load(folder.path, "a.mtl", NULL);
     const char *const names[] = {"a.png"};
@@ -85,7 +86,7 @@ static void all_statements_round_trip(void **state)
     free(second);
     scene_destroy(again);
     scene_destroy(scene);
-    test_folder_remove(&folder);
+    temporary_folder_remove(&folder);
 }
 
 /* Offsets and scales without the text they were read from. */
@@ -238,10 +239,10 @@ static void text_from_extras_starts_no_statement(void **state)
 
 /* A glTF model with every parameter and texture that a material can have, at values that are not the
  * defaults. */
-static facet_scene *load_rich(test_folder *folder)
+static facet_scene *load_rich(temporary_folder *folder)
 {
-    test_put_png(folder, "one.png");
-    test_put_png(folder, "two.png");
+    temporary_folder_put_png(folder, "one.png");
+    temporary_folder_put_png(folder, "two.png");
     text t = {0};
     text_add(&t, "{\"asset\":{\"version\":\"2.0\"},\"images\":[{\"uri\":\"one.png\"},{\"uri\":\"two.png\"}],"
                  "\"samplers\":[{\"magFilter\":9728,\"minFilter\":9984,\"wrapS\":33071,\"wrapT\":33648}],"
@@ -268,11 +269,11 @@ static facet_scene *load_rich(test_folder *folder)
              "{\"extensions\":{\"KHR_materials_unlit\":{}}},"
              "{\"name\":\"sg\",\"extensions\":{\"KHR_materials_pbrSpecularGlossiness\":{\"diffuseFactor\":"
              "[0.5,0.5,0.5,1],\"glossinessFactor\":0.7,\"diffuseTexture\":{\"index\":0}}}}]}");
-    test_put(folder, "rich.gltf", t.data, t.length);
+    temporary_folder_put(folder, "rich.gltf", t.data, t.length);
     text_destroy(&t);
     facet_scene *scene = NULL;
     facet_error error = {0};
-    if (gltf_load(test_path(folder, "rich.gltf"), NULL, &scene, &error) != FACET_OK)
+    if (gltf_load(temporary_folder_file(folder, "rich.gltf"), NULL, &scene, &error) != FACET_OK)
         fail_msg("%s", error.message);
     assert_int_equal(scene->warning_count, 0);
     scene_legacy *legacy = arena_zalloc(scene->arena, 1, sizeof *legacy);
@@ -334,7 +335,8 @@ static void assert_same_gltf(const facet_scene *a, const facet_scene *b, uint32_
 static void gltf_materials_round_trip(void **state)
 {
     (void)state;
-    test_folder folder = test_folder_make();
+    temporary_folder folder;
+    temporary_folder_create(&folder);
     facet_scene *scene = load_rich(&folder);
     const char *const names[] = {"one.png", "two.png"};
     char *written = write_mtl(scene, names, NULL);
@@ -353,14 +355,15 @@ static void gltf_materials_round_trip(void **state)
     free(second);
     scene_destroy(again);
     scene_destroy(scene);
-    test_folder_remove(&folder);
+    temporary_folder_remove(&folder);
 }
 
 /* The comment is void once a statement differs. White space and a new name do not matter. */
 static void changed_statements_override_the_comment(void **state)
 {
     (void)state;
-    test_folder folder = test_folder_make();
+    temporary_folder folder;
+    temporary_folder_create(&folder);
     facet_scene *scene = load_rich(&folder);
     const char *const names[] = {"one.png", "two.png"};
     char *written = write_mtl(scene, names, NULL);
@@ -380,7 +383,7 @@ static void changed_statements_override_the_comment(void **state)
         text_add_bytes(&t, written, (size_t)(at - written));
         text_add(&t, edits[i].to);
         text_add(&t, at + strlen(edits[i].from));
-        test_put(&folder, "edited.mtl", t.data, t.length);
+        temporary_folder_put(&folder, "edited.mtl", t.data, t.length);
         text_destroy(&t);
         facet_scene *again = mtl_load(folder.path, "edited.mtl", NULL);
         assert_int_equal(mtl_get(again, 0)->is_gltf_restored, edits[i].is_restored);
@@ -392,7 +395,7 @@ static void changed_statements_override_the_comment(void **state)
         scene_destroy(again);
     }
     /* A texture that is gone is a warning and leaves its place empty. */
-    remove(test_path(&folder, "one.png"));
+    remove(temporary_folder_file(&folder, "one.png"));
     test_put_text(&folder, "rich.mtl", written);
     facet_scene *again = mtl_load(folder.path, "rich.mtl", NULL);
     assert_true(mtl_get(again, 0)->is_gltf_restored);
@@ -403,7 +406,7 @@ static void changed_statements_override_the_comment(void **state)
     scene_destroy(again);
     free(written);
     scene_destroy(scene);
-    test_folder_remove(&folder);
+    temporary_folder_remove(&folder);
 }
 
 static void broken_comments_are_warnings(void **state)
@@ -431,7 +434,8 @@ static void broken_comments_are_warnings(void **state)
 static void failed_allocations_are_reported(void **state)
 {
     (void)state;
-    test_folder folder = test_folder_make();
+    temporary_folder folder;
+    temporary_folder_create(&folder);
     facet_scene *scene = load_rich(&folder);
     const char *const names[] = {"one.png", "two.png"};
     char *written = write_mtl(scene, names, NULL);
@@ -451,7 +455,7 @@ static void failed_allocations_are_reported(void **state)
     }
     free(written);
     scene_destroy(scene);
-    test_folder_remove(&folder);
+    temporary_folder_remove(&folder);
 }
 
 int main(void)

@@ -3,7 +3,6 @@
 #include "tests/support/support.h"
 #include "io/obj/mtl_test_support.h"
 
-#include <dirent.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -83,10 +82,10 @@ static scene_primitive *add_quad(facet_scene *scene, uint32_t mesh, uint32_t mat
 }
 
 /* Text of the OBJ file that a scene becomes; free() it. */
-static char *save(const test_folder *folder, const facet_scene *scene, const facet_scene_save_desc *desc)
+static char *save(const temporary_folder *folder, const facet_scene *scene, const facet_scene_save_desc *desc)
 {
     facet_error error = {0};
-    if (obj_save(scene, test_path(folder, "out.obj"), "a test", desc, &error) != FACET_OK)
+    if (obj_save(scene, temporary_folder_file(folder, "out.obj"), "a test", desc, &error) != FACET_OK)
         fail_msg("%s", error.message);
     return test_get(folder, "out.obj");
 }
@@ -94,7 +93,8 @@ static char *save(const test_folder *folder, const facet_scene *scene, const fac
 static void a_quad_is_written(void **state)
 {
     (void)state;
-    test_folder folder = test_folder_make();
+    temporary_folder folder;
+    temporary_folder_create(&folder);
     facet_scene *scene = make_scene(1, 1);
     add_quad(scene, 0, 0);
     char *obj = save(&folder, scene, NULL);
@@ -111,14 +111,15 @@ static void a_quad_is_written(void **state)
     assert_non_null(strstr(obj, "vt 0 1\nvt 1 1\nvt 1 0\nvt 0 0.25\n"));
     free(obj);
     scene_destroy(scene);
-    test_folder_remove(&folder);
+    temporary_folder_remove(&folder);
 }
 
 /* In the coordinates of the file, with the digits that floats lack. */
 static void far_scenes_are_written_in_doubles(void **state)
 {
     (void)state;
-    test_folder folder = test_folder_make();
+    temporary_folder folder;
+    temporary_folder_create(&folder);
     facet_scene *scene = make_scene(1, 1);
     scene_primitive *p = add_quad(scene, 0, 0);
     p->bounds_max[0] = p->bounds_max[1] = 1.0f;
@@ -131,7 +132,7 @@ static void far_scenes_are_written_in_doubles(void **state)
     assert_non_null(strstr(obj, "\nvt 0 0\n"));
     free(obj);
     scene_destroy(scene);
-    test_folder_remove(&folder);
+    temporary_folder_remove(&folder);
 }
 
 /* Names, transforms, reflections, lists of every mode, indices that continue from object to object, shared
@@ -141,7 +142,8 @@ static void objects_follow_one_another(void **state)
     (void)state;
     static const uint32_t line[2] = {3, 0};
     static const uint32_t points[2] = {0, 2};
-    test_folder folder = test_folder_make();
+    temporary_folder folder;
+    temporary_folder_create(&folder);
     facet_scene *scene = make_scene(4, 2);
     scene->nodes[0].name = "same";
     scene->nodes[1].name = "same";
@@ -177,7 +179,7 @@ static void objects_follow_one_another(void **state)
     assert_string_equal(obj, expected);
     free(obj);
     scene_destroy(scene);
-    test_folder_remove(&folder);
+    temporary_folder_remove(&folder);
 }
 
 /* Those in use, by their own names where they are plain; existing files stay, files of others are not
@@ -185,18 +187,19 @@ static void objects_follow_one_another(void **state)
 static void images_are_written_beside_the_model(void **state)
 {
     (void)state;
-    test_folder folder = test_folder_make();
-    test_put_png(&folder, "in/plain.png");
-    test_put_png(&folder, "in/not plain.png");
-    test_put_png(&folder, "in/taken.png");
+    temporary_folder folder;
+    temporary_folder_create(&folder);
+    temporary_folder_put_png(&folder, "in/plain.png");
+    temporary_folder_put_png(&folder, "in/not plain.png");
+    temporary_folder_put_png(&folder, "in/taken.png");
     test_put_text(&folder, "taken.png", "another program's");
     test_put_text(
         &folder, "in/a.mtl",
         "newmtl m0\nmap_Kd plain.png\nmap_Ks not plain.png\nmap_Ke taken.png\nnewmtl m1\nmap_Kd gone.png\n");
     test_put_text(&folder, "in/a.obj", "mtllib a.mtl\nusemtl m0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     facet_scene *scene = NULL;
-    assert_int_equal(obj_load(test_path(&folder, "in/a.obj"), NULL, &scene, NULL), FACET_OK);
-    const char *path = test_path(&folder, "my model.obj");
+    assert_int_equal(obj_load(temporary_folder_file(&folder, "in/a.obj"), NULL, &scene, NULL), FACET_OK);
+    const char *path = temporary_folder_file(&folder, "my model.obj");
     assert_int_equal(obj_save(scene, path, "a test", NULL, NULL), FACET_OK);
     char *mtl = test_get(&folder, "my model.mtl");
     assert_non_null(
@@ -213,16 +216,17 @@ static void images_are_written_beside_the_model(void **state)
     assert_int_equal(again->material_count, 2);
     assert_int_equal(mtl_count_warnings(again, "gone.png"), 1);
     const facet_scene_save_desc careful = {.keeps_inputs = true};
-    assert_int_equal(obj_save(again, test_path(&folder, "other.obj"), "a test", &careful, NULL), FACET_OK);
+    assert_int_equal(obj_save(again, temporary_folder_file(&folder, "other.obj"), "a test", &careful, NULL),
+                     FACET_OK);
     facet_error error = {0};
-    assert_int_equal(obj_save(scene, test_path(&folder, "in/a.obj"), "a test", &careful, &error),
+    assert_int_equal(obj_save(scene, temporary_folder_file(&folder, "in/a.obj"), "a test", &careful, &error),
                      FACET_ERROR_ARGUMENT); /* its MTL file is an input */
     char *mine = test_get(&folder, "in/a.mtl");
     assert_null(strstr(mine, "written by"));
     free(mine);
     scene_destroy(again);
     scene_destroy(scene);
-    test_folder_remove(&folder);
+    temporary_folder_remove(&folder);
 }
 
 /* Images of one texel each, all of them used: one material per image. */
@@ -248,14 +252,15 @@ static facet_scene *make_images(uint32_t count)
 static void only_regular_files_are_opened(void **state)
 {
     (void)state;
-    test_folder folder = test_folder_make();
+    temporary_folder folder;
+    temporary_folder_create(&folder);
     facet_scene *scene = make_images(3);
     scene->images[0].uri = "pipe.png";
     scene->images[1].uri = "link.png";
     scene->images[2].uri = "device.png";
-    assert_int_equal(mkfifo(test_path(&folder, "pipe.png"), 0600), 0);
-    assert_int_equal(symlink("nowhere", test_path(&folder, "link.png")), 0);
-    assert_int_equal(symlink("/dev/zero", test_path(&folder, "device.png")), 0);
+    assert_int_equal(mkfifo(temporary_folder_file(&folder, "pipe.png"), 0600), 0);
+    assert_int_equal(symlink("nowhere", temporary_folder_file(&folder, "link.png")), 0);
+    assert_int_equal(symlink("/dev/zero", temporary_folder_file(&folder, "device.png")), 0);
     alarm(20); /* instead of waiting for ever */
     free(save(&folder, scene, NULL));
     alarm(0);
@@ -269,8 +274,8 @@ static void only_regular_files_are_opened(void **state)
     scene_destroy(scene);
     for (const char *const *name = (const char *const[]){"pipe.png", "link.png", "device.png", NULL}; *name;
          name++)
-        unlink(test_path(&folder, *name));
-    test_folder_remove(&folder);
+        unlink(temporary_folder_file(&folder, *name));
+    temporary_folder_remove(&folder);
 }
 
 static char *make_name(facet_scene *scene, const char *format, uint32_t number)
@@ -285,7 +290,8 @@ static void many_names_take_linear_time(void **state)
 {
     (void)state;
     enum { HALF = 30000 };
-    test_folder folder = test_folder_make();
+    temporary_folder folder;
+    temporary_folder_create(&folder);
     facet_scene *scene = make_scene(2 * HALF, 1);
     for (uint32_t i = 0; i < 2 * HALF; i++) {
         add_quad(scene, i, 0);
@@ -298,7 +304,7 @@ static void many_names_take_linear_time(void **state)
     free(save(&folder, scene, NULL));
     obj_images named;
     const facet_scene_save_desc desc = {0};
-    assert_true(obj_images_create(images, test_path(&folder, "out.obj"), "out", &desc, &named));
+    assert_true(obj_images_create(images, temporary_folder_file(&folder, "out.obj"), "out", &desc, &named));
     assert_true((double)(clock() - start) / CLOCKS_PER_SEC < 15.0);
     assert_string_equal(named.names[HALF], "same.png");
     char expected[48];
@@ -307,7 +313,7 @@ static void many_names_take_linear_time(void **state)
     obj_images_destroy(&named);
     scene_destroy(images);
     scene_destroy(scene);
-    test_folder_remove(&folder);
+    temporary_folder_remove(&folder);
 }
 
 /* The libraries and images of files whose names a statement cannot hold as they are. */
@@ -316,25 +322,27 @@ static void odd_names_round_trip(void **state)
     (void)state;
     static const char *const names[] = {" a.obj", "  .obj", "\"q\".obj", "\ta.obj", "a b.obj", ".obj"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        test_folder folder = test_folder_make();
-        test_put_png(&folder, "in.png");
+        temporary_folder folder;
+        temporary_folder_create(&folder);
+        temporary_folder_put_png(&folder, "in.png");
         char *bytes = test_get(&folder, "in.png");
         struct stat status;
-        assert_int_equal(stat(test_path(&folder, "in.png"), &status), 0);
+        assert_int_equal(stat(temporary_folder_file(&folder, "in.png"), &status), 0);
         facet_scene *scene = make_images(1);
         scene->images[0].uri = "not plain.png";
         scene->images[0].bytes = (const unsigned char *)bytes;
         scene->images[0].size = (size_t)status.st_size;
         facet_scene *again = NULL;
-        assert_int_equal(obj_save(scene, test_path(&folder, names[i]), "a test", NULL, NULL), FACET_OK);
-        assert_int_equal(obj_load(test_path(&folder, names[i]), NULL, &again, NULL), FACET_OK);
+        assert_int_equal(obj_save(scene, temporary_folder_file(&folder, names[i]), "a test", NULL, NULL),
+                         FACET_OK);
+        assert_int_equal(obj_load(temporary_folder_file(&folder, names[i]), NULL, &again, NULL), FACET_OK);
         if (again->warning_count)
             fail_msg("%s: %s", names[i], again->warnings[0]);
         assert_int_equal(again->image_count, 1);
         scene_destroy(again);
         scene_destroy(scene);
         free(bytes);
-        test_folder_remove(&folder);
+        temporary_folder_remove(&folder);
     }
 }
 
@@ -351,27 +359,29 @@ static void scenes_without_legacy_are_refused(void **state)
 static void failed_writes_leave_no_file(void **state)
 {
     (void)state;
-    test_folder folder = test_folder_make();
+    temporary_folder folder;
+    temporary_folder_create(&folder);
     facet_scene *scene = make_scene(1, 1);
     add_quad(scene, 0, 0);
-    assert_int_equal(obj_save(scene, test_path(&folder, "none/out.obj"), "a test", NULL, NULL),
+    assert_int_equal(obj_save(scene, temporary_folder_file(&folder, "none/out.obj"), "a test", NULL, NULL),
                      FACET_ERROR_WRITE);
     bool is_done = false;
     for (long fail_at = 0; !is_done; fail_at = next_failure(fail_at)) {
         assert_true(fail_at < 1000);
         failing_allocator f = {.fail_at = fail_at};
         const facet_scene_save_desc desc = {.allocator = failing_allocator_get(&f), .thread_count = 1};
-        facet_result result = obj_save(scene, test_path(&folder, "out.obj"), "a test", &desc, NULL);
+        facet_result result =
+            obj_save(scene, temporary_folder_file(&folder, "out.obj"), "a test", &desc, NULL);
         is_done = result == FACET_OK;
         assert_true(is_done || result == FACET_ERROR_MEMORY);
         assert_int_equal(atomic_load(&f.blocks), 0);
-        FILE *file = fopen(test_path(&folder, "out.obj"), "rb");
+        FILE *file = fopen(temporary_folder_file(&folder, "out.obj"), "rb");
         assert_int_equal(file != NULL, is_done);
         if (file)
             fclose(file);
     }
     scene_destroy(scene);
-    test_folder_remove(&folder);
+    temporary_folder_remove(&folder);
 }
 
 /* ---- round trips ---- */
@@ -436,36 +446,24 @@ static void assert_same_scene(const facet_scene *a, const facet_scene *b)
     }
 }
 
-static int round_trip_folder(const char *path, const test_folder *folder)
+/* False: the file is one of those that cannot be read. */
+static bool round_trip(const char *source, const char *name, void *context)
 {
-    int count = 0;
-    DIR *entries = opendir(path);
-    assert_non_null(entries);
-    for (struct dirent *entry; (entry = readdir(entries));) {
-        char inner[1024];
-        const char *dot = strrchr(entry->d_name, '.');
-        snprintf(inner, sizeof inner, "%s/%s", path, entry->d_name);
-        DIR *is_folder = entry->d_name[0] == '.' ? NULL : opendir(inner);
-        if (is_folder) {
-            closedir(is_folder);
-            count += round_trip_folder(inner, folder);
-            continue;
-        }
-        facet_scene *scene = NULL;
-        facet_scene *again = NULL;
-        facet_error error = {0};
-        if (!dot || strcmp(dot, ".obj") != 0 || obj_load(inner, NULL, &scene, NULL) != FACET_OK)
-            continue;
-        if (obj_save(scene, test_path(folder, "out.obj"), "a test", NULL, &error) != FACET_OK ||
-            obj_load(test_path(folder, "out.obj"), NULL, &again, &error) != FACET_OK)
-            fail_msg("%s: %s", inner, error.message);
-        assert_same_scene(scene, again);
-        scene_destroy(again);
-        scene_destroy(scene);
-        count++;
-    }
-    closedir(entries);
-    return count;
+    const temporary_folder *folder = context;
+    char path[1024];
+    facet_scene *scene = NULL;
+    facet_scene *again = NULL;
+    facet_error error = {0};
+    snprintf(path, sizeof path, "%s/%s", source, name);
+    if (obj_load(path, NULL, &scene, NULL) != FACET_OK)
+        return false;
+    if (obj_save(scene, temporary_folder_file(folder, "out.obj"), "a test", NULL, &error) != FACET_OK ||
+        obj_load(temporary_folder_file(folder, "out.obj"), NULL, &again, &error) != FACET_OK)
+        fail_msg("%s: %s", path, error.message);
+    assert_same_scene(scene, again);
+    scene_destroy(again);
+    scene_destroy(scene);
+    return true;
 }
 
 static void real_files_round_trip(void **state)
@@ -477,10 +475,11 @@ static void real_files_round_trip(void **state)
         skip();
     }
     char path[1024];
-    test_folder folder = test_folder_make();
+    temporary_folder folder;
+    temporary_folder_create(&folder);
     snprintf(path, sizeof path, "%s/obj", data);
-    assert_true(round_trip_folder(path, &folder) >= 35);
-    test_folder_remove(&folder);
+    assert_true(test_visit_files(path, ".obj", round_trip, &folder) >= 35);
+    temporary_folder_remove(&folder);
 }
 
 /* ---- speed and threads ---- */
@@ -490,7 +489,8 @@ static void threads_change_nothing(void **state)
 {
     (void)state;
     enum { EDGE = IS_SLOW ? 300 : 700 };
-    test_folder folder = test_folder_make();
+    temporary_folder folder;
+    temporary_folder_create(&folder);
     facet_scene *scene = make_scene(1, 1);
     scene_primitive *p = add_quad(scene, 0, 0);
     float *positions = add(scene, EDGE * EDGE, 3 * sizeof *positions);
@@ -534,11 +534,11 @@ static void threads_change_nothing(void **state)
     free(first);
     free(second);
     facet_scene *again = NULL;
-    assert_int_equal(obj_load(test_path(&folder, "out.obj"), NULL, &again, NULL), FACET_OK);
+    assert_int_equal(obj_load(temporary_folder_file(&folder, "out.obj"), NULL, &again, NULL), FACET_OK);
     assert_same_primitive(p, &again->meshes[0].primitives[0], 0x1p-24);
     scene_destroy(again);
     scene_destroy(scene);
-    test_folder_remove(&folder);
+    temporary_folder_remove(&folder);
 }
 
 int main(void)

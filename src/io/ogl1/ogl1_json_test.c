@@ -415,11 +415,11 @@ static void materials_are_shown_on_balls(void **state)
 
 static void textures_are_found(void **state)
 {
-    const ogl1_folder *f = *state;
+    const temporary_folder *f = *state;
     facet_error error = {0};
     facet_scene *scene = NULL;
-    ogl1_write_png(f, "a.png");
-    ogl1_write(f, "b.png", "8BPS\0\1", 6);
+    temporary_folder_put_png(f, "a.png");
+    temporary_folder_put(f, "b.png", "8BPS\0\1", 6);
     const char *path = ogl1_write_json(
         f, "p.json",
         "{'materials':[{'texture':'a.png','texmipmap':true,'texminfilter':'nearest.mipmap.linear'},"
@@ -452,14 +452,15 @@ static void textures_are_found(void **state)
     assert_true(has_warning(scene, "texture \"gone.png\": there is no file"));
     assert_true(has_warning(scene, "texture \"../../etc/passwd\": "));
     scene_destroy(scene);
-    assert_int_equal(ogl1_json_load(ogl1_path(f, "none.json"), NULL, &scene, &error), FACET_ERROR_READ);
+    assert_int_equal(ogl1_json_load(temporary_folder_file(f, "none.json"), NULL, &scene, &error),
+                     FACET_ERROR_READ);
 }
 
 /* Every single allocation refused once. */
 static void failed_allocations_are_reported(void **state)
 {
-    const ogl1_folder *f = *state;
-    ogl1_write_png(f, "a.png");
+    const temporary_folder *f = *state;
+    temporary_folder_put_png(f, "a.png");
     const char *path =
         ogl1_write_json(f, "p.json",
                         "{'generator':'g','materials':[{'name':'a','objects':['x'],'texture':'a.png',"

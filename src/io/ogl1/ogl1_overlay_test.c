@@ -21,13 +21,13 @@ static const char MODEL[] =
     "5]},"
     "{'name':'d','mesh':2},{'mesh':3}],'scenes':[{'nodes':[0,1,2,3]}]";
 
-static facet_scene *load_model(const ogl1_folder *f)
+static facet_scene *load_model(const temporary_folder *f)
 {
     static const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     char json[4096];
     facet_scene *scene = NULL;
     facet_error error = {0};
-    ogl1_write(f, "model.bin", triangle, sizeof triangle);
+    temporary_folder_put(f, "model.bin", triangle, sizeof triangle);
     snprintf(json, sizeof json, "{'asset':{'version':'2.0'},%s}", MODEL);
     const char *path = ogl1_write_json(f, "model.gltf", json);
     if (gltf_load(path, NULL, &scene, &error) != FACET_OK)
@@ -35,7 +35,7 @@ static facet_scene *load_model(const ogl1_folder *f)
     return scene;
 }
 
-static facet_scene *lay(const ogl1_folder *f, const char *parameters)
+static facet_scene *lay(const temporary_folder *f, const char *parameters)
 {
     facet_scene *scene = load_model(f);
     facet_error error = {0};
@@ -164,7 +164,7 @@ static void unused_entries_are_reported(void **state)
 
 static void entries_apply_to_legacy_scenes(void **state)
 {
-    const ogl1_folder *f = *state;
+    const temporary_folder *f = *state;
     facet_error error = {0};
     facet_scene *scene = ogl1_load("{'colors':'linear','materials':[{'name':'a','shininess':3},{'name':'b'}],"
                                    "'lights':[{},{}],'fog':{'fogtype':'exp'}}");
@@ -184,14 +184,14 @@ static void entries_apply_to_legacy_scenes(void **state)
 
 static void textures_are_appended(void **state)
 {
-    const ogl1_folder *f = *state;
-    ogl1_write_png(f, "a.png");
+    const temporary_folder *f = *state;
+    temporary_folder_put_png(f, "a.png");
     facet_error error = {0};
     facet_scene *scene = NULL;
     const char *path =
         ogl1_write_json(f, "in.json", "{'materials':[{'name':'a','texture':'a.png'},{'name':'b'}]}");
     assert_int_equal(ogl1_json_load(path, NULL, &scene, &error), FACET_OK);
-    ogl1_write_png(f, "b.png");
+    temporary_folder_put_png(f, "b.png");
     path = ogl1_write_json(f, "p.json", "{'materials':[{'name':'b','texture':'b.png'}]}");
     assert_int_equal(ogl1_json_overlay(scene, path, NULL, &error), FACET_OK);
     assert_int_equal(scene->image_count, 2);
@@ -205,10 +205,11 @@ static void textures_are_appended(void **state)
 
 static void failures_are_reported(void **state)
 {
-    const ogl1_folder *f = *state;
+    const temporary_folder *f = *state;
     facet_scene *scene = load_model(f);
     facet_error error = {0};
-    assert_int_equal(ogl1_json_overlay(scene, ogl1_path(f, "none.json"), NULL, &error), FACET_ERROR_READ);
+    assert_int_equal(ogl1_json_overlay(scene, temporary_folder_file(f, "none.json"), NULL, &error),
+                     FACET_ERROR_READ);
     const char *path = ogl1_write_json(f, "p.json", "{'materials':[{'shininess':'x'}]}");
     assert_int_equal(ogl1_json_overlay(scene, path, NULL, &error), FACET_ERROR_INVALID);
     assert_non_null(strstr(error.message, "p.json: materials[0].shininess: must be a number"));
@@ -219,8 +220,8 @@ static void failures_are_reported(void **state)
 
 static void failed_allocations_are_reported(void **state)
 {
-    const ogl1_folder *f = *state;
-    ogl1_write_png(f, "a.png");
+    const temporary_folder *f = *state;
+    temporary_folder_put_png(f, "a.png");
     failing_allocator failing = {.fail_at = -1};
     facet_scene_desc desc = {.allocator = failing_allocator_get(&failing)};
     facet_result result = FACET_ERROR_MEMORY;
@@ -234,7 +235,7 @@ static void failed_allocations_are_reported(void **state)
     for (; n < 1000; n++) {
         facet_scene *scene = NULL;
         failing.fail_at = -1;
-        assert_int_equal(gltf_load(ogl1_path(f, "model.gltf"), &desc, &scene, &error), FACET_OK);
+        assert_int_equal(gltf_load(temporary_folder_file(f, "model.gltf"), &desc, &scene, &error), FACET_OK);
         failing.calls = 0;
         failing.fail_at = n;
         result = ogl1_json_overlay(scene, parameters, &desc, &error);

@@ -13,16 +13,9 @@ facet_scene *ogl1_load(const char *json);
 void ogl1_assert_refused(const char *json, facet_result result, const char *place, const char *what);
 void ogl1_assert_color(const float color[3], unsigned rgb); /* 0xrrggbb */
 
-/* A temporary folder: set up and torn down for each test, as *state. */
-typedef struct ogl1_folder {
-    char path[64];
-} ogl1_folder;
+/* A temporary_folder as *state, for each test. */
 int ogl1_folder_create(void **state);
-int ogl1_folder_remove(void **state); /* with all files in it */
-/* The path of a file in it; good until the fourth call after this one. */
-const char *ogl1_path(const ogl1_folder *f, const char *name);
-const char *ogl1_write(const ogl1_folder *f, const char *name, const void *bytes, size_t size);
-const char *ogl1_write_json(const ogl1_folder *f, const char *name, const char *json);
-const char *ogl1_write_png(const ogl1_folder *f, const char *name); /* one white texel */
+int ogl1_folder_remove(void **state);
+const char *ogl1_write_json(const temporary_folder *f, const char *name, const char *json);
 
 #endif

@@ -252,19 +252,19 @@ static void count_warnings(void *user, facet_log_level level, const char *messag
 
 static void images_are_saved_beside(void **state)
 {
-    const ogl1_folder *f = *state;
+    const temporary_folder *f = *state;
     facet_error error = {0};
     facet_scene *scene = NULL;
     facet_scene *back = NULL;
     int warnings = 0;
     const facet_scene_save_desc desc = {.log = {.user = &warnings, .message = count_warnings}};
-    ogl1_write_png(f, "a.png");
+    temporary_folder_put_png(f, "a.png");
     const char *in = ogl1_write_json(f, "in.json",
                                      "{'materials':[{'name':'x','texture':'a.png','texmipmap':true,"
                                      "'texminfilter':'linear.mipmap.nearest','texmagfilter':'nearest',"
                                      "'texenvmap':true},{'name':'y'},{'name':'z','texture':'gone.png'}]}");
     assert_int_equal(ogl1_json_load(in, NULL, &scene, &error), FACET_OK);
-    const char *out = ogl1_path(f, "out.json");
+    const char *out = temporary_folder_file(f, "out.json");
     assert_int_equal(ogl1_json_save(scene, out, "test", &desc, &error), FACET_OK);
     assert_int_equal(warnings, 0);
     assert_int_equal(ogl1_json_load(out, NULL, &back, &error), FACET_OK);
@@ -285,17 +285,17 @@ static void images_are_saved_beside(void **state)
     assert_int_equal(warnings, 2);
 
     /* Nothing where the document cannot be written. */
-    assert_int_equal(ogl1_json_save(scene, ogl1_path(f, "no/out.json"), "test", &desc, &error),
+    assert_int_equal(ogl1_json_save(scene, temporary_folder_file(f, "no/out.json"), "test", &desc, &error),
                      FACET_ERROR_WRITE);
     scene_destroy(scene);
 }
 
 static void failed_allocations_are_reported(void **state)
 {
-    const ogl1_folder *f = *state;
+    const temporary_folder *f = *state;
     facet_error error = {0};
     facet_scene *scene = NULL;
-    ogl1_write_png(f, "a.png");
+    temporary_folder_put_png(f, "a.png");
     const char *in =
         ogl1_write_json(f, "in.json", "{'materials':[{'name':'x','texture':'a.png','foo':1}],'lights':[{}]}");
     assert_int_equal(ogl1_json_load(in, NULL, &scene, &error), FACET_OK);
@@ -304,7 +304,7 @@ static void failed_allocations_are_reported(void **state)
     for (; failing.fail_at < 1000; failing.fail_at++) {
         const facet_scene_save_desc desc = {.allocator = failing_allocator_get(&failing)};
         failing.calls = 0;
-        result = ogl1_json_save(scene, ogl1_path(f, "out.json"), "test", &desc, &error);
+        result = ogl1_json_save(scene, temporary_folder_file(f, "out.json"), "test", &desc, &error);
         assert_int_equal(failing.blocks, 0);
         if (failing.calls <= failing.fail_at)
             break;

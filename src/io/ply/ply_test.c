@@ -204,8 +204,9 @@ static void texture_coordinates_of_faces_and_an_image_are_read(void **state)
         "ply\nformat ascii 1.0\ncomment TextureFile My wood.png\nelement vertex 4\n" XYZ
         "element face 2\n" CORNERS "property list uchar float texcoord\nend_header\n" SQUARE
         "3 0 1 2 6 0 0 1 0 1 1\n3 0 2 3 6 0.5 0.5 0.75 0.5 0.75 0.75\n";
-    test_folder folder = test_folder_make();
-    test_put_png(&folder, "my wood.PNG");
+    temporary_folder folder;
+    temporary_folder_create(&folder);
+    temporary_folder_put_png(&folder, "my wood.PNG");
     facet_scene *scene = NULL;
     assert_int_equal(ply_load_memory(bytes, sizeof bytes - 1, "test.ply", folder.path, NULL, &scene, NULL),
                      FACET_OK);
@@ -218,7 +219,7 @@ static void texture_coordinates_of_faces_and_an_image_are_read(void **state)
     assert_int_equal(scene->materials[0].textures[SCENE_BASE_COLOR_TEXTURE].texture, 0);
     assert_true(obj_has_warning(scene, "\"my wood.PNG\" is read instead"));
     scene_destroy(scene);
-    test_folder_remove(&folder);
+    temporary_folder_remove(&folder);
     scene = load(bytes, sizeof bytes - 1, NULL);
     assert_int_equal(scene->image_count, 0);
     assert_true(obj_has_warning(scene, "test.ply: line 3: "));
