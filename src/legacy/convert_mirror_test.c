@@ -19,18 +19,10 @@ static legacy_material mirror(void)
     return m;
 }
 
-static facet_scene *one(legacy_material m, const facet_legacy_desc *desc)
-{
-    facet_scene *scene = legacy_scene(1);
-    scene->legacy->materials[0] = m;
-    convert(scene, desc);
-    return scene;
-}
-
 static void a_mirror_without_color_is_a_metal(void **state)
 {
     (void)state;
-    facet_scene *scene = one(mirror(), &MIRRORS);
+    facet_scene *scene = convert_one(mirror(), &MIRRORS);
     const scene_material *m = &scene->materials[0];
     const facet_conversion *c = &scene->conversion->materials[0].summary;
     assert_int_equal(m->extensions, 0); /* visible in viewers without extensions */
@@ -66,7 +58,7 @@ static void light_that_a_mirror_does_not_reflect_is_diffuse(void **state)
     set_color(in.specular, .5f, .4f, .2f);
     for (int i = 0; i < 4; i++) {
         in.illum = illums[i];
-        facet_scene *scene = one(in, &MIRRORS);
+        facet_scene *scene = convert_one(in, &MIRRORS);
         const scene_material *m = &scene->materials[0];
         assert_int_equal(m->extensions, SCENE_SPECULAR | SCENE_IOR);
         assert_near(m->metallic, 0, 0);
@@ -89,7 +81,7 @@ static void reflectances_sum_to_at_most_one(void **state)
     legacy_material in = mirror();
     set_color(in.diffuse, .8f, .4f, .2f);
     set_color(in.specular, 1.5f, .9f, .9f);
-    facet_scene *scene = one(in, &MIRRORS);
+    facet_scene *scene = convert_one(in, &MIRRORS);
     const scene_material *m = &scene->materials[0];
     assert_near(reflectance(scene, 0), 1, 0);
     assert_color(m->base_color, 1, .5f, .25f, 1e-6);
@@ -105,7 +97,7 @@ static void large_exponents_are_smooth(void **state)
     float last = 2;
     for (size_t i = 0; i < sizeof exponents / sizeof *exponents; i++) {
         in.shininess = exponents[i];
-        facet_scene *scene = one(in, &MIRRORS);
+        facet_scene *scene = convert_one(in, &MIRRORS);
         float roughness = scene->materials[0].perceptual_roughness;
         assert_true(roughness < last && roughness > 0);
         if (exponents[i] <= 100)
@@ -117,7 +109,7 @@ static void large_exponents_are_smooth(void **state)
     for (int stated = 0; stated < 2; stated++) {
         in.shininess = 500;
         in.fields = stated ? in.fields : in.fields & ~(uint32_t)LEGACY_SHININESS;
-        facet_scene *scene = one(in, &MIRRORS);
+        facet_scene *scene = convert_one(in, &MIRRORS);
         assert_near(scene->materials[0].perceptual_roughness, 0, 0);
         scene_destroy(scene);
         in.fields |= LEGACY_SHININESS;
@@ -131,7 +123,7 @@ static void mirrors_without_extensions_are_approximated(void **state)
     set_color(in.diffuse, .05f, .05f, .05f);
     set_color(in.specular, .8f, .6f, .4f);
     facet_scene *scene =
-        one(in, &(facet_legacy_desc){.has_mirrors = true, .profile = FACET_LEGACY_PROFILE_CORE});
+        convert_one(in, &(facet_legacy_desc){.has_mirrors = true, .profile = FACET_LEGACY_PROFILE_CORE});
     const scene_material *m = &scene->materials[0];
     assert_int_equal(m->extensions, 0);
     assert_true(m->metallic > .9f);
@@ -193,7 +185,7 @@ static void ignored_mirrors_are_reported(void **state)
     legacy_material m = mirror();
     m.illum = 3;
     facet_scene *scene =
-        one(m, &(facet_legacy_desc){.dialect = FACET_MTL_DIALECT_BLENDER3, .has_mirrors = true});
+        convert_one(m, &(facet_legacy_desc){.dialect = FACET_MTL_DIALECT_BLENDER3, .has_mirrors = true});
     assert_false(has_warning(scene, 0, "mirror-ignored"));
     assert_near(scene->materials[0].metallic, 0, 0); /* of Ka, which is black */
     scene_destroy(scene);

@@ -16,21 +16,12 @@ static legacy_material gold(void)
     return m;
 }
 
-/* Converts one material; the caller inspects the scene. */
-static facet_scene *one(legacy_material m, const facet_legacy_desc *desc)
-{
-    facet_scene *scene = legacy_scene(1);
-    scene->legacy->materials[0] = m;
-    convert(scene, desc);
-    return scene;
-}
-
 /* ---- Kd, Ks, Ns ---- */
 
 static void blinn_phong_becomes_specular_and_ior(void **state)
 {
     (void)state;
-    facet_scene *scene = one(gold(), &PLAIN);
+    facet_scene *scene = convert_one(gold(), &PLAIN);
     const scene_material *m = &scene->materials[0];
     ogl1_surface in = {{.75164f, .60648f, .22648f}, {.628281f, .555802f, .366065f}, 51.2f};
     pbr_surface wanted;
@@ -81,11 +72,11 @@ static void vertex_colors_replace_a_default(void **state)
 static void fit_and_core_are_options(void **state)
 {
     (void)state;
-    facet_scene *fit = one(gold(), &(facet_legacy_desc){.method = FACET_LEGACY_METHOD_FIT});
+    facet_scene *fit = convert_one(gold(), &(facet_legacy_desc){.method = FACET_LEGACY_METHOD_FIT});
     assert_string_equal(fit->conversion->materials[0].summary.method, "fit");
     assert_near(fit->conversion->materials[0].summary.error, .068, .0064);
-    facet_scene *core = one(gold(), &(facet_legacy_desc){.method = FACET_LEGACY_METHOD_FIT,
-                                                         .profile = FACET_LEGACY_PROFILE_CORE});
+    facet_scene *core = convert_one(gold(), &(facet_legacy_desc){.method = FACET_LEGACY_METHOD_FIT,
+                                                                 .profile = FACET_LEGACY_PROFILE_CORE});
     const facet_conversion *c = &core->conversion->materials[0].summary;
     assert_int_equal(core->materials[0].extensions, 0);
     assert_string_equal(c->profile, "core");
@@ -102,7 +93,7 @@ static void black_becomes_the_darkest_of_the_core(void **state)
     legacy_material m = gold();
     set_color(m.diffuse, 0, 0, 0);
     set_color(m.specular, 0, 0, 0);
-    facet_scene *scene = one(m, &(facet_legacy_desc){.profile = FACET_LEGACY_PROFILE_CORE});
+    facet_scene *scene = convert_one(m, &(facet_legacy_desc){.profile = FACET_LEGACY_PROFILE_CORE});
     const scene_material *out = &scene->materials[0];
     double E = scene->conversion->materials[0].summary.error;
     fit_metric *metric;
@@ -129,13 +120,13 @@ static void colors_are_srgb_or_linear(void **state)
     legacy_material m = gold();
     set_color(m.specular, 0, 0, 0);
     set_color(m.diffuse, .5f, .5f, .5f);
-    facet_scene *linear = one(m, &(facet_legacy_desc){.colors = FACET_LEGACY_COLORS_LINEAR});
-    facet_scene *srgb = one(m, &(facet_legacy_desc){.colors = FACET_LEGACY_COLORS_SRGB});
+    facet_scene *linear = convert_one(m, &(facet_legacy_desc){.colors = FACET_LEGACY_COLORS_LINEAR});
+    facet_scene *srgb = convert_one(m, &(facet_legacy_desc){.colors = FACET_LEGACY_COLORS_SRGB});
     assert_near(linear->materials[0].base_color[0], .5, 1e-6);
     assert_near(srgb->materials[0].base_color[0], .21404, 1e-4);
     assert_int_equal(srgb->legacy->colors, FACET_LEGACY_COLORS_SRGB);
     assert_false(has_warning(srgb, SCENE_NONE, "color-space-assumed"));
-    facet_scene *unsaid = one(m, &PLAIN);
+    facet_scene *unsaid = convert_one(m, &PLAIN);
     assert_true(has_warning(unsaid, SCENE_NONE, "color-space-assumed"));
     scene_destroy(linear);
     scene_destroy(srgb);
@@ -149,14 +140,14 @@ static void remarks_of_the_fit_are_reported(void **state)
     set_color(m.diffuse, 1, 1, 1);
     set_color(m.specular, 1, 1, 1);
     m.shininess = 2;
-    facet_scene *scene = one(m, &PLAIN);
+    facet_scene *scene = convert_one(m, &PLAIN);
     assert_true(has_warning(scene, 0, "energy-gain"));
     assert_true(has_warning(scene, 0, "base-clamped"));
     assert_true(has_warning(scene, 0, "low-exponent"));
     scene_destroy(scene);
     m = gold();
     set_color(m.specular, .1f, .1f, .1f);
-    scene = one(m, &PLAIN);
+    scene = convert_one(m, &PLAIN);
     assert_false(has_warning(scene, 0, "energy-gain"));
     assert_false(has_warning(scene, 0, "low-exponent"));
     scene_destroy(scene);
@@ -170,7 +161,7 @@ static void emission_above_one_becomes_strength(void **state)
     legacy_material m = gold();
     m.fields |= LEGACY_EMISSION;
     set_color(m.emission, 17, 12, 4);
-    facet_scene *scene = one(m, &PLAIN);
+    facet_scene *scene = convert_one(m, &PLAIN);
     const scene_material *out = &scene->materials[0];
     assert_true(out->extensions & SCENE_EMISSIVE_STRENGTH);
     assert_near(out->emissive_strength, 17, 1e-5);
@@ -178,7 +169,7 @@ static void emission_above_one_becomes_strength(void **state)
         assert_near(out->emissive[k] * out->emissive_strength, m.emission[k], 1e-5);
     scene_destroy(scene);
     set_color(m.emission, .5f, 0, 0);
-    scene = one(m, &PLAIN);
+    scene = convert_one(m, &PLAIN);
     assert_false(scene->materials[0].extensions & SCENE_EMISSIVE_STRENGTH);
     assert_near(scene->materials[0].emissive[0], .5, 1e-6);
     scene_destroy(scene);
@@ -190,15 +181,15 @@ static void ambient_is_dropped_or_emitted(void **state)
     legacy_material m = gold();
     m.fields |= LEGACY_AMBIENT;
     set_color(m.ambient, .2f, .1f, 0);
-    facet_scene *dropped = one(m, &PLAIN);
+    facet_scene *dropped = convert_one(m, &PLAIN);
     assert_true(has_warning(dropped, 0, "ambient-dropped"));
     assert_near(dropped->materials[0].emissive[0], 0, 0);
-    facet_scene *emitted = one(m, &(facet_legacy_desc){.ambient = FACET_LEGACY_AMBIENT_EMISSIVE});
+    facet_scene *emitted = convert_one(m, &(facet_legacy_desc){.ambient = FACET_LEGACY_AMBIENT_EMISSIVE});
     assert_false(has_warning(emitted, 0, "ambient-dropped"));
     assert_color(emitted->materials[0].emissive, .2f, .1f, 0, 1e-6);
     /* Exporters write Ka of 0 or equal to Kd without meaning. */
     memcpy(m.ambient, m.diffuse, sizeof m.ambient);
-    facet_scene *equal = one(m, &PLAIN);
+    facet_scene *equal = convert_one(m, &PLAIN);
     assert_false(has_warning(equal, 0, "ambient-dropped"));
     scene_destroy(dropped);
     scene_destroy(emitted);
@@ -213,19 +204,19 @@ static void opacity_becomes_alpha(void **state)
     legacy_material m = gold();
     m.fields |= LEGACY_OPACITY;
     m.opacity = .25f;
-    facet_scene *scene = one(m, &PLAIN);
+    facet_scene *scene = convert_one(m, &PLAIN);
     assert_int_equal(scene->materials[0].alpha_mode, SCENE_ALPHA_BLEND);
     assert_near(scene->materials[0].base_color[3], .25, 1e-6);
     scene_destroy(scene);
     m.opacity = 0; /* invisible, and not known to be a mistake */
-    scene = one(m, &PLAIN);
+    scene = convert_one(m, &PLAIN);
     assert_near(scene->materials[0].base_color[3], 0, 0);
     assert_false(has_warning(scene, 0, "zero-alpha"));
     scene_destroy(scene);
     m.is_transparency_ambiguous = true;
     m.is_halo = true;
     m.opacity = .5f;
-    scene = one(m, &PLAIN);
+    scene = convert_one(m, &PLAIN);
     assert_true(has_warning(scene, 0, "tr-ambiguous"));
     assert_true(has_warning(scene, 0, "halo-dropped"));
     scene_destroy(scene);
@@ -270,7 +261,7 @@ static void glass_becomes_transmission_on_request(void **state)
     m.opacity = .2f;
     m.illum = 4;
     m.ior = 1.33f;
-    facet_scene *scene = one(m, &glass);
+    facet_scene *scene = convert_one(m, &glass);
     const scene_material *out = &scene->materials[0];
     assert_true(out->extensions & SCENE_TRANSMISSION && out->extensions & SCENE_IOR);
     assert_false(out->extensions & (SCENE_SPECULAR | SCENE_VOLUME));
@@ -279,7 +270,7 @@ static void glass_becomes_transmission_on_request(void **state)
     assert_near(out->base_color[3], 1, 0);
     assert_int_equal(out->alpha_mode, SCENE_ALPHA_OPAQUE);
     scene_destroy(scene);
-    scene = one(m, &PLAIN); /* not enabled */
+    scene = convert_one(m, &PLAIN); /* not enabled */
     assert_false(scene->materials[0].extensions & SCENE_TRANSMISSION);
     assert_near(scene->materials[0].base_color[3], .2, 1e-6);
     scene_destroy(scene);
@@ -312,36 +303,36 @@ static void illum_is_honored_unless_contradicted(void **state)
     legacy_material m = gold();
     m.fields |= LEGACY_ILLUM;
     m.illum = 0;
-    facet_scene *scene = one(m, &PLAIN); /* Ks is not black */
+    facet_scene *scene = convert_one(m, &PLAIN); /* Ks is not black */
     assert_true(has_warning(scene, 0, "illum-ignored"));
     assert_false(scene->materials[0].extensions & SCENE_UNLIT);
     scene_destroy(scene);
-    scene = one(m, &(facet_legacy_desc){.illum = FACET_MTL_ILLUM_HONOR});
+    scene = convert_one(m, &(facet_legacy_desc){.illum = FACET_MTL_ILLUM_HONOR});
     assert_true(has_warning(scene, 0, "illum-honoured"));
     assert_int_equal(scene->materials[0].extensions, SCENE_UNLIT);
     assert_near(scene->materials[0].base_color[0], .75164, 1e-6);
     assert_string_equal(scene->conversion->materials[0].summary.method, "exact");
     scene_destroy(scene);
     m.illum = 1;
-    scene = one(m, &(facet_legacy_desc){.illum = FACET_MTL_ILLUM_HONOR});
+    scene = convert_one(m, &(facet_legacy_desc){.illum = FACET_MTL_ILLUM_HONOR});
     assert_true(has_warning(scene, 0, "illum-honoured"));
     assert_near(scene->materials[0].specular, 0, 0);
     scene_destroy(scene);
     /* known to write it on purpose */
-    scene = one(m, &(facet_legacy_desc){.dialect = FACET_MTL_DIALECT_BLENDER27});
+    scene = convert_one(m, &(facet_legacy_desc){.dialect = FACET_MTL_DIALECT_BLENDER27});
     assert_true(has_warning(scene, 0, "illum-honoured"));
     scene_destroy(scene);
     set_color(m.specular, 0, 0, 0);
     m.illum = 0;
-    scene = one(m, &PLAIN);
+    scene = convert_one(m, &PLAIN);
     assert_true(scene->materials[0].extensions & SCENE_UNLIT);
     scene_destroy(scene);
-    scene = one(m, &(facet_legacy_desc){.illum = FACET_MTL_ILLUM_IGNORE});
+    scene = convert_one(m, &(facet_legacy_desc){.illum = FACET_MTL_ILLUM_IGNORE});
     assert_false(scene->materials[0].extensions & SCENE_UNLIT);
     assert_true(has_warning(scene, 0, "illum-ignored"));
     scene_destroy(scene);
     m.illum = 10;
-    scene = one(m, &PLAIN);
+    scene = convert_one(m, &PLAIN);
     assert_true(has_warning(scene, 0, "illum-ignored"));
     scene_destroy(scene);
 }
@@ -352,7 +343,7 @@ static void materials_without_lighting_are_unlit(void **state)
     legacy_material m = gold();
     m.is_lit = false;
     m.is_culled = true;
-    facet_scene *scene = one(m, &PLAIN);
+    facet_scene *scene = convert_one(m, &PLAIN);
     assert_int_equal(scene->materials[0].extensions, SCENE_UNLIT);
     assert_false(scene->materials[0].is_double_sided);
     assert_color(scene->materials[0].base_color, .75164f, .60648f, .22648f, 1e-6);
@@ -374,7 +365,7 @@ static void pbr_statements_win(void **state)
     m.clearcoat_roughness = .1f;
     m.anisotropy = .6f;
     m.anisotropy_rotation = .25f;
-    facet_scene *scene = one(m, &PLAIN);
+    facet_scene *scene = convert_one(m, &PLAIN);
     const scene_material *out = &scene->materials[0];
     assert_int_equal(out->extensions, SCENE_SHEEN | SCENE_CLEARCOAT | SCENE_ANISOTROPY);
     assert_color(out->base_color, .75164f, .60648f, .22648f, 1e-6);
@@ -388,7 +379,7 @@ static void pbr_statements_win(void **state)
     assert_string_equal(scene->conversion->materials[0].summary.method, "exact");
     scene_destroy(scene);
     m.fields = ALL_BLINN_PHONG | LEGACY_METALLIC; /* the other is still Ns's */
-    scene = one(m, &PLAIN);
+    scene = convert_one(m, &PLAIN);
     assert_near(scene->materials[0].perceptual_roughness, perceptual_roughness_from_shininess(51.2f), 1e-6);
     scene_destroy(scene);
 }
@@ -397,7 +388,7 @@ static void pbr_statements_win(void **state)
 
 static facet_scene *in_dialect(legacy_material m, facet_mtl_dialect dialect)
 {
-    return one(m, &(facet_legacy_desc){.dialect = dialect});
+    return convert_one(m, &(facet_legacy_desc){.dialect = dialect});
 }
 
 static void dialects_put_roughness_elsewhere(void **state)
@@ -508,7 +499,7 @@ static void losses_are_reported_and_kept_in_extras(void **state)
     m.sharpness = 100;
     m.unknown = "alpha_test 1\nfoo 2";
     set_map(&m, LEGACY_REFLECTION_MAP, SCENE_NONE);
-    facet_scene *scene = one(m, &PLAIN);
+    facet_scene *scene = convert_one(m, &PLAIN);
     assert_true(has_warning(scene, 0, "map-dropped"));
     assert_true(has_warning(scene, 0, "sharpness-dropped"));
     assert_true(has_warning(scene, 0, "unknown-key"));
@@ -517,13 +508,13 @@ static void losses_are_reported_and_kept_in_extras(void **state)
     scene_destroy(scene);
     m = gold(); /* known to rgl: kept */
     m.unknown = m.kept = "size 3\nlwd 2";
-    scene = one(m, &PLAIN);
+    scene = convert_one(m, &PLAIN);
     assert_false(has_warning(scene, 0, "unknown-key"));
     assert_non_null(strstr(scene->materials[0].meta.extras, "lwd 2"));
     scene_destroy(scene);
     m.unknown = "foo 1\nsize 3";
     m.kept = m.unknown + 6;
-    scene = one(m, &PLAIN);
+    scene = convert_one(m, &PLAIN);
     assert_true(has_warning(scene, 0, "unknown-key"));
     const conversion_warning *warnings = scene->conversion->materials[0].warnings;
     bool is_alone = false;
@@ -534,7 +525,7 @@ static void losses_are_reported_and_kept_in_extras(void **state)
     m = gold();
     m.maps[LEGACY_DIFFUSE_MAP].path = "gone.png";
     m.maps[LEGACY_DIFFUSE_MAP].dropped = "-t 1 1 1";
-    scene = one(m, &PLAIN);
+    scene = convert_one(m, &PLAIN);
     assert_true(has_warning(scene, 0, "texture-missing"));
     assert_true(has_warning(scene, 0, "texture-option-dropped"));
     assert_near(scene->materials[0].base_color[0], scene->materials[0].base_color[0], 0);

@@ -129,6 +129,15 @@ static inline void convert(facet_scene *scene, const facet_legacy_desc *desc)
     convert_to(scene, FACET_MATERIAL_MODEL_METALLIC_ROUGHNESS, desc);
 }
 
+/* Converts one material; the caller inspects the scene. */
+static inline facet_scene *convert_one(legacy_material m, const facet_legacy_desc *desc)
+{
+    facet_scene *scene = legacy_scene(1);
+    scene->legacy->materials[0] = m;
+    convert(scene, desc);
+    return scene;
+}
+
 /* material SCENE_NONE: the scene's. */
 static inline bool has_warning(const facet_scene *scene, uint32_t material, const char *code)
 {
