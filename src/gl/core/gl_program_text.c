@@ -82,7 +82,8 @@ static const struct {
     /* files of src/gl/shaders and shade/compose before the fragment shader */
     const char *fragments[MAX_FRAGMENTS];
     const char *const *features;
-    const char *vertex_parts[4]; /* files before the vertex shader */
+    const char *vertex_files[4];         /* files before the vertex shader */
+    const char *vertex_parts[MAX_PARTS]; /* the parts of the vertex shader; {0}: the constants alone */
 } mains[GL_MAIN_COUNT] = {
     [GL_MAIN_SURFACE] = {"surface",
                          "surface.vert",
@@ -108,7 +109,8 @@ static const struct {
                        {"light_block.glsl", "shadow.glsl", "lights.glsl", "surface_in.glsl", "phong.glsl",
                         "output.glsl"},
                        surface_features,
-                       {"light_block.glsl", "lights.glsl", "phong.glsl", "phong_vertex.glsl"}},
+                       {"light_block.glsl", "lights.glsl", "phong.glsl", "phong_vertex.glsl"},
+                       {"phong", "light", "color", "material"}},
     [GL_MAIN_GROUND_MAP] = {"ground_map",
                             "screen.vert",
                             "ground_map.frag",
@@ -149,7 +151,8 @@ static const struct {
                              {"water_place"},
                              {"sea_block.glsl"},
                              no_features,
-                             {"sea_block.glsl"}},
+                             {"sea_block.glsl"},
+                             {"water_place"}},
     [GL_MAIN_SEA_CLASS] =
         {"sea_class", "screen.vert", "sea_class.frag", {"water_place"}, {"sea_block.glsl"}, no_features, {0}},
     [GL_MAIN_SEA] = {"sea",
@@ -282,8 +285,12 @@ static const char *file_text(const char *name)
 facet_result gl_program_text(const char *glsl_version, gl_program_key key, uint32_t stage, text *out,
                              facet_error *error)
 {
+    static const char *const constants[MAX_PARTS] = {"constants"};
+    const char *const *vertex_parts = mains[key.main].vertex_parts;
     facet_shader_desc desc = {
         .allocator = out->allocator, .version = glsl_version, .parts = mains[key.main].parts};
+    if (stage == GL_VERTEX_SHADER)
+        desc.parts = vertex_parts[0] ? vertex_parts : constants;
     while (desc.part_count < MAX_PARTS && desc.parts[desc.part_count])
         desc.part_count++;
     unsigned char *shared;
@@ -301,8 +308,8 @@ facet_result gl_program_text(const char *glsl_version, gl_program_key key, uint3
     text_add(out, file_text("blocks.glsl"));
     for (int i = 0; stage == GL_FRAGMENT_SHADER && i < MAX_FRAGMENTS && mains[key.main].fragments[i]; i++)
         text_add(out, file_text(mains[key.main].fragments[i]));
-    for (int i = 0; stage == GL_VERTEX_SHADER && i < 4 && mains[key.main].vertex_parts[i]; i++)
-        text_add(out, file_text(mains[key.main].vertex_parts[i]));
+    for (int i = 0; stage == GL_VERTEX_SHADER && i < 4 && mains[key.main].vertex_files[i]; i++)
+        text_add(out, file_text(mains[key.main].vertex_files[i]));
     text_add(out, file_text(stage == GL_VERTEX_SHADER ? mains[key.main].vertex : mains[key.main].fragment));
     return out->has_failed ? fail_memory(error, "shader", out->length) : FACET_OK;
 }
