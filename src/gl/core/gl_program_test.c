@@ -248,7 +248,7 @@ static void write_text(const char *path, const text *t)
 }
 
 /* Every configuration, version and stage: the reference compiler rejects what is used before its
- * definition, which drivers may let through. */
+ * definition, which drivers may let through. One process with a thread per core (-t) takes all files. */
 static void the_reference_compiler_takes_every_text(void **state)
 {
     (void)state;
@@ -269,7 +269,7 @@ static void the_reference_compiler_takes_every_text(void **state)
             text_destroy(&t);
         }
     snprintf(command, sizeof command,
-             "cd %s && ls | xargs -n 32 glslangValidator >log || { grep -m 4 ERROR log; false; }", folder);
+             "cd %s && glslangValidator -t *.vert *.frag >log || { grep -m 4 ERROR log; false; }", folder);
     assert_int_equal(system(command), 0);
     snprintf(command, sizeof command, "rm -r %s", folder);
     assert_int_equal(system(command), 0);
