@@ -1,6 +1,6 @@
-/* gl_program_text.c - see gl_program_text.h: which parts of the shader library and which files make up
+/* gl_program_text.c - the GLSL of each program: which parts of the shader library and which files make up
  * each main. */
-#include "gl/core/gl_program_text.h"
+#include "gl/core/gl_program.h"
 
 #include <epoxy/gl.h>
 #include <string.h>
@@ -37,7 +37,7 @@ typedef struct glsl_part {
 static const char *const slot_names[] = {TEXTURE_SLOTS(SLOT_NAME)};
 const gl_slot_pair gl_slot_pairs[GL_SLOT_PAIR_COUNT] = {TEXTURE_PAIRS(PAIR)};
 
-/* Feature names become #defines; bit 0 first. gl_program_text.h has those that C sets by number. */
+/* Feature names become #defines; bit 0 first. gl_program.h has those that C sets by number. */
 static const char *const surface_features[] = {
     "HAS_TANGENTS", "HAS_ENVIRONMENT", "HAS_LIGHTS", "HAS_SHADOWS",
     TEXTURE_SLOTS(TEXTURE_FEATURE) TEXTURE_PAIRS(PAIR_FEATURE)
@@ -74,98 +74,61 @@ static const char *const sea_features[] = {"HAS_IMAGE",
                                            NULL};
 static const char *const present_features[] = {"IS_TOP_DOWN", NULL};
 
-enum { MAX_PARTS = 12, MAX_FRAGMENTS = 12 };
+enum { MAX_SOURCES = 12 };
+
+/* The source of a stage: parts of the shader library with their dependencies, then files of src/gl/shaders and shade/compose, the last
+ * of which has main(). */
+typedef struct stage_source {
+    const char *parts[MAX_SOURCES], *files[MAX_SOURCES];
+} stage_source;
+
+/* clang-format off */
+#define SCREEN {{"constants"}, {"screen.vert"}}
+#define SURFACE {{"constants"}, {"surface.vert"}}
 
 static const struct {
-    const char *name, *vertex, *fragment;
-    const char *parts[MAX_PARTS]; /* of the shader library; their dependencies are added */
-    /* files of src/gl/shaders and shade/compose before the fragment shader */
-    const char *fragments[MAX_FRAGMENTS];
+    const char *name;
     const char *const *features;
-    const char *vertex_files[4];         /* files before the vertex shader */
-    const char *vertex_parts[MAX_PARTS]; /* the parts of the vertex shader; {0}: the constants alone */
+    stage_source vertex, fragment;
 } mains[GL_MAIN_COUNT] = {
-    [GL_MAIN_SURFACE] = {"surface",
-                         "surface.vert",
-                         "surface.frag",
-                         {"surface", "light", "layers_direct", "layers_ibl", "layers_lobes", "material",
-                          "footprint"},
-                         {"light_block.glsl", "environment.glsl", "shadow.glsl", "lights.glsl",
-                          "surface_in.glsl", "material.glsl", "transmission.glsl", "radiance.glsl",
-                          "surface_tables.h", "surface_radiance.h", "channels.glsl", "output.glsl"},
-                         surface_features,
-                         {0}},
-    [GL_MAIN_SHADOW] = {"shadow",
-                        "surface.vert",
-                        "shadow.frag",
-                        {"surface", "light", "layers_direct", "layers_ibl", "material", "footprint"},
-                        {"surface_in.glsl", "material.glsl"},
-                        surface_features,
-                        {0}},
-    [GL_MAIN_PHONG] = {"phong",
-                       "surface.vert",
-                       "phong.frag",
-                       {"phong", "light", "color", "material", "footprint"},
-                       {"light_block.glsl", "shadow.glsl", "lights.glsl", "surface_in.glsl", "phong.glsl",
-                        "output.glsl"},
-                       surface_features,
-                       {"light_block.glsl", "lights.glsl", "phong.glsl", "phong_vertex.glsl"},
-                       {"phong", "light", "color", "material"}},
-    [GL_MAIN_GROUND_MAP] = {"ground_map",
-                            "screen.vert",
-                            "ground_map.frag",
-                            {"constants"},
-                            {"light_block.glsl"},
-                            no_features,
-                            {0}},
-    [GL_MAIN_GROUND] = {"ground",
-                        "screen.vert",
-                        "ground.frag",
-                        {"surface", "light", "color"},
-                        {"light_block.glsl", "environment.glsl", "shadow.glsl", "lights.glsl"},
-                        ground_features,
-                        {0}},
-    [GL_MAIN_BACKGROUND] = {"background",
-                            "screen.vert",
-                            "background.frag",
-                            {"surface"},
-                            {"light_block.glsl", "environment.glsl"},
-                            background_features,
-                            {0}},
-    [GL_MAIN_COMPOSE] = {"compose", "screen.vert", "compose.frag", {"constants"}, {0}, compose_features, {0}},
-    [GL_MAIN_PRESENT] =
-        {"present", "screen.vert", "present.frag", {"tonemap", "color"}, {0}, present_features, {0}},
-    [GL_MAIN_HALVE] = {"halve", "screen.vert", "halve.frag", {"constants"}, {0}, halve_features, {0}},
-    [GL_MAIN_SPREAD] = {"spread", "screen.vert", "spread.frag", {"constants"}, {0}, no_features, {0}},
-    [GL_MAIN_DEVELOP] = {"develop", "screen.vert", "develop.frag", {"color"}, {0}, no_features, {0}},
-    [GL_MAIN_SEA_GRID] = {"sea_grid",
-                          "screen.vert",
-                          "sea_grid.frag",
-                          {"water_place"},
-                          {"sea_block.glsl", "sea_waves.glsl"},
-                          no_features,
-                          {0}},
-    [GL_MAIN_SEA_SURFACE] = {"sea_surface",
-                             "sea.vert",
-                             "sea_surface.frag",
-                             {"water_place"},
-                             {"sea_block.glsl"},
-                             no_features,
-                             {"sea_block.glsl"},
-                             {"water_place"}},
-    [GL_MAIN_SEA_CLASS] =
-        {"sea_class", "screen.vert", "sea_class.frag", {"water_place"}, {"sea_block.glsl"}, no_features, {0}},
-    [GL_MAIN_SEA] = {"sea",
-                     "screen.vert",
-                     "sea.frag",
-                     {"water_place", "water_crest", "water_facets", "water_caustic", "water_before", "glint",
-                      "ibl", "surface", "sobol"},
-                     {"sea_block.glsl", "light_block.glsl", "environment.glsl", "sea_waves.glsl",
-                      "sea_host.glsl", "sea_sky.glsl", "sea_place.glsl", "water_shade.h", "sea_model.glsl",
-                      "sea_look.glsl"},
-                     sea_features,
-                     {0}},
+    [GL_MAIN_SURFACE] = {"surface", surface_features, SURFACE,
+        {{"surface", "light", "layers_direct", "layers_ibl", "layers_lobes", "material", "footprint"},
+         {"light_block.glsl", "environment.glsl", "shadow.glsl", "lights.glsl", "surface_io.glsl", "material.glsl",
+          "transmission.glsl", "radiance.glsl", "surface_tables.h", "surface_radiance.h", "surface.frag"}}},
+    [GL_MAIN_SHADOW] = {"shadow", surface_features, SURFACE,
+        {{"surface", "light", "layers_direct", "layers_ibl", "material", "footprint"},
+         {"surface_io.glsl", "material.glsl", "shadow.frag"}}},
+    [GL_MAIN_PHONG] = {"phong", surface_features,
+        {{"phong", "light", "color", "material"},
+         {"light_block.glsl", "lights.glsl", "phong.glsl", "surface.vert"}},
+        {{"phong", "light", "color", "material", "footprint"},
+         {"light_block.glsl", "shadow.glsl", "lights.glsl", "surface_io.glsl", "phong.glsl", "phong.frag"}}},
+    [GL_MAIN_GROUND_MAP] = {"ground_map", no_features, SCREEN,
+        {{"constants"}, {"light_block.glsl", "ground_map.frag"}}},
+    [GL_MAIN_GROUND] = {"ground", ground_features, SCREEN,
+        {{"surface", "light", "color"},
+         {"light_block.glsl", "environment.glsl", "shadow.glsl", "lights.glsl", "ground.frag"}}},
+    [GL_MAIN_BACKGROUND] = {"background", background_features, SCREEN,
+        {{"surface"}, {"light_block.glsl", "environment.glsl", "background.frag"}}},
+    [GL_MAIN_COMPOSE] = {"compose", compose_features, SCREEN, {{"constants"}, {"compose.frag"}}},
+    [GL_MAIN_PRESENT] = {"present", present_features, SCREEN, {{"tonemap", "color"}, {"present.frag"}}},
+    [GL_MAIN_HALVE] = {"halve", halve_features, SCREEN, {{"constants"}, {"halve.frag"}}},
+    [GL_MAIN_SPREAD] = {"spread", no_features, SCREEN, {{"constants"}, {"spread.frag"}}},
+    [GL_MAIN_DEVELOP] = {"develop", no_features, SCREEN, {{"color"}, {"develop.frag"}}},
+    [GL_MAIN_SEA_GRID] = {"sea_grid", no_features, SCREEN,
+        {{"water_place"}, {"sea_block.glsl", "sea_waves.glsl", "sea_grid.frag"}}},
+    [GL_MAIN_SEA_SURFACE] = {"sea_surface", no_features,
+        {{"water_place"}, {"sea_block.glsl", "sea.vert"}},
+        {{"water_place"}, {"sea_block.glsl", "sea_surface.frag"}}},
+    [GL_MAIN_SEA_CLASS] = {"sea_class", no_features, SCREEN,
+        {{"water_place"}, {"sea_block.glsl", "sea_class.frag"}}},
+    [GL_MAIN_SEA] = {"sea", sea_features, SCREEN,
+        {{"water_place", "water_crest", "water_facets", "water_caustic", "water_before", "glint", "ibl", "surface",
+          "sobol"},
+         {"sea_block.glsl", "light_block.glsl", "environment.glsl", "sea_waves.glsl", "sea_host.glsl",
+          "sea_sky.glsl", "sea_place.glsl", "water_shade.h", "sea_model.glsl", "sea_look.glsl", "sea.frag"}}},
 };
+/* clang-format on */
 
 const char *gl_program_main_name(gl_main main)
 {
@@ -285,13 +248,10 @@ static const char *file_text(const char *name)
 facet_result gl_program_text(const char *glsl_version, gl_program_key key, uint32_t stage, text *out,
                              facet_error *error)
 {
-    static const char *const constants[MAX_PARTS] = {"constants"};
-    const char *const *vertex_parts = mains[key.main].vertex_parts;
-    facet_shader_desc desc = {
-        .allocator = out->allocator, .version = glsl_version, .parts = mains[key.main].parts};
-    if (stage == GL_VERTEX_SHADER)
-        desc.parts = vertex_parts[0] ? vertex_parts : constants;
-    while (desc.part_count < MAX_PARTS && desc.parts[desc.part_count])
+    const stage_source *source =
+        stage == GL_VERTEX_SHADER ? &mains[key.main].vertex : &mains[key.main].fragment;
+    facet_shader_desc desc = {.allocator = out->allocator, .version = glsl_version, .parts = source->parts};
+    while (desc.part_count < MAX_SOURCES && desc.parts[desc.part_count])
         desc.part_count++;
     unsigned char *shared;
     size_t size;
@@ -306,10 +266,7 @@ facet_result gl_program_text(const char *glsl_version, gl_program_key key, uint3
     if ((key.main == GL_MAIN_SURFACE || key.main == GL_MAIN_SHADOW) && stage == GL_FRAGMENT_SHADER)
         slot_text(key.features, out);
     text_add(out, file_text("blocks.glsl"));
-    for (int i = 0; stage == GL_FRAGMENT_SHADER && i < MAX_FRAGMENTS && mains[key.main].fragments[i]; i++)
-        text_add(out, file_text(mains[key.main].fragments[i]));
-    for (int i = 0; stage == GL_VERTEX_SHADER && i < 4 && mains[key.main].vertex_files[i]; i++)
-        text_add(out, file_text(mains[key.main].vertex_files[i]));
-    text_add(out, file_text(stage == GL_VERTEX_SHADER ? mains[key.main].vertex : mains[key.main].fragment));
+    for (int i = 0; i < MAX_SOURCES && source->files[i]; i++)
+        text_add(out, file_text(source->files[i]));
     return out->has_failed ? fail_memory(error, "shader", out->length) : FACET_OK;
 }

@@ -4,7 +4,7 @@
 
 #include "gl/core/gl_context.h"
 
-enum { GL_TARGET_LAYERS = 3 }; /* outputs of AOVs: output.glsl */
+enum { GL_TARGET_LAYERS = 3 }; /* outputs of AOVs: surface_io.glsl */
 
 typedef enum gl_target_kind {
     GL_TARGET_FILM,   /* RGBA32F, or RGBA16F */

@@ -21,7 +21,7 @@ facet_result gl_texture_update(gl_texture_set *set, const texture_use *uses, con
                                uint32_t thread_count, facet_error *error);
 
 /* OpenGL names of a texture and its sampler; texture may be any number. Texture 0: it reads as white, or
- * was not requested. Samplers are isotropic: surface_in.glsl takes the CPU's anisotropic probes. */
+ * was not requested. Samplers are isotropic: surface_io.glsl takes the CPU's anisotropic probes. */
 uint32_t gl_texture_name(const gl_texture_set *set, uint32_t texture, bool as_color);
 bool gl_texture_lacks_red(const gl_texture_set *set, uint32_t texture); /* as data, after an update */
 uint32_t gl_texture_sampler(gl_texture_set *set, uint32_t texture);

@@ -23,7 +23,7 @@ facet_result gl_material_update(gl_material_set *set, const gl_mesh_set *meshes,
 gl_main gl_material_main(const gl_material_set *set, const gl_batch *batch);
 void gl_material_use_phong(gl_material_set *set, const gl_phong *phong); /* NULL: none */
 /* Features of a batch's program as of the last update, without those of light and transparency
- * (gl_program_text.h). */
+ * (gl_program.h). */
 uint64_t gl_material_features(const gl_material_set *set, const gl_batch *batch);
 /* Whether alpha-to-coverage with alpha-to-one is available, which OpenGL ES lacks. */
 bool gl_material_has_coverage(const gl_context *context);

@@ -6,6 +6,6 @@ out vec4 fragment;
 void main()
 {
     vec4 c = texelFetch(u_level, ivec2(gl_FragCoord.xy), 0);
-    vec3 numbers = c.w > 0.0 ? clamp(c.xyz / c.w, 0.0, 1.0) : vec3(0.0);
-    fragment = vec4(linear_from_srgb(numbers) * (c.w * exposure), c.w);
+    vec3 encoded = c.w > 0.0 ? clamp(c.xyz / c.w, 0.0, 1.0) : vec3(0.0);
+    fragment = vec4(linear_from_srgb(encoded) * (c.w * exposure), c.w);
 }

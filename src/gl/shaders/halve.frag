@@ -19,7 +19,7 @@ void main()
     fragment = as_half(texelFetch(u_level, ivec2(gl_FragCoord.xy), 0));
 }
 #else
-vec4 picture(vec2 texel, float x, float y)
+vec4 fetch(vec2 texel, float x, float y)
 {
     return textureLod(u_level, gl_FragCoord.xy * u_pixel + texel * vec2(x, y), 0.0);
 }
@@ -27,9 +27,9 @@ vec4 picture(vec2 texel, float x, float y)
 void main()
 {
     vec2 t = 1.0 / vec2(textureSize(u_level, 0));
-    vec4 near = picture(t, -1.0, -1.0) + picture(t, 1.0, -1.0) + picture(t, -1.0, 1.0) + picture(t, 1.0, 1.0);
-    vec4 sides = picture(t, -2.0, 0.0) + picture(t, 2.0, 0.0) + picture(t, 0.0, -2.0) + picture(t, 0.0, 2.0);
-    vec4 corners = picture(t, -2.0, -2.0) + picture(t, 2.0, -2.0) + picture(t, -2.0, 2.0) + picture(t, 2.0, 2.0);
-    fragment = (near + picture(t, 0.0, 0.0)) * 0.125 + sides * 0.0625 + corners * 0.03125;
+    vec4 near = fetch(t, -1.0, -1.0) + fetch(t, 1.0, -1.0) + fetch(t, -1.0, 1.0) + fetch(t, 1.0, 1.0);
+    vec4 sides = fetch(t, -2.0, 0.0) + fetch(t, 2.0, 0.0) + fetch(t, 0.0, -2.0) + fetch(t, 0.0, 2.0);
+    vec4 corners = fetch(t, -2.0, -2.0) + fetch(t, 2.0, -2.0) + fetch(t, -2.0, 2.0) + fetch(t, 2.0, 2.0);
+    fragment = (near + fetch(t, 0.0, 0.0)) * 0.125 + sides * 0.0625 + corners * 0.03125;
 }
 #endif
