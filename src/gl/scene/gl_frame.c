@@ -160,12 +160,10 @@ static facet_result draw_batches(gl_frame *f, gl_pass pass, bool is_layers, face
     uint32_t count;
     const gl_batch *batches = gl_mesh_batches(f->meshes, pass, &count);
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t program;
         if (batches[i].is_outside)
             continue;
-        TRY(gl_programs_get(f->programs, key_of(f, &batches[i], is_layers), &program, error));
-        glUseProgram(program);
-        gl_material_bind(f->materials, &batches[i]);
+        TRY(gl_material_use(f->materials, f->programs, &batches[i],
+                            key_of(f, &batches[i], is_layers).features, error));
         gl_mesh_draw(f->meshes, &batches[i]);
     }
     return FACET_OK;

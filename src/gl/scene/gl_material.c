@@ -441,6 +441,16 @@ void gl_material_bind(const gl_material_set *set, const gl_batch *batch)
     glFrontFace(batch->geometry->is_mirrored ? GL_CW : GL_CCW);
 }
 
+facet_result gl_material_use(const gl_material_set *set, gl_programs *programs, const gl_batch *batch,
+                             uint64_t features, facet_error *error)
+{
+    uint32_t program;
+    TRY(gl_programs_get(programs, (gl_program_key){gl_material_main(set, batch), features}, &program, error));
+    glUseProgram(program);
+    gl_material_bind(set, batch);
+    return FACET_OK;
+}
+
 uint64_t gl_material_decoded_texels(const gl_material_set *set)
 {
     return gl_texture_decoded_texels(set->textures);

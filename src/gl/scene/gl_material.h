@@ -29,6 +29,9 @@ uint64_t gl_material_features(const gl_material_set *set, const gl_batch *batch)
 bool gl_material_has_coverage(const gl_context *context);
 /* Binds block and textures, and sets culling and alpha-to-coverage. */
 void gl_material_bind(const gl_material_set *set, const gl_batch *batch);
+/* Uses the batch's program with all of these features, and binds its material. Fails as gl_programs_get(). */
+facet_result gl_material_use(const gl_material_set *set, gl_programs *programs, const gl_batch *batch,
+                             uint64_t features, facet_error *error);
 uint64_t gl_material_decoded_texels(const gl_material_set *set);
 
 #endif

@@ -1,30 +1,15 @@
-/* gl_mesh.c - see gl_mesh.h. Vertices and indices: gl_mesh_vertices.h. */
+/* gl_mesh.c - see gl_mesh.h. Vertices and indices: gl_mesh_vertices.h; vertex array objects: gl_attributes.h. */
 #include "gl/scene/gl_mesh.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "base/result.h"
 #include "gl/core/gl_program.h"
-
-/* Vertex attributes of an instance; matrices are row-major. */
-typedef struct gl_instance {
-    float world[12], normal_matrix[9];
-    /* index of the scene's geometry; one attribute together with the next member */
-    float scale, bitangent_sign, number;
-    float sprite_radius; /* pixels */
-} gl_instance;
-
-/* A vertex array object and what it was made from. */
-typedef struct gl_mesh_array {
-    gl_vertices fixed, streamed;
-    uint32_t name, elements, first_instance;
-    scene_mode mode;
-} gl_mesh_array;
+#include "gl/scene/gl_attributes.h"
 
 struct gl_mesh_set {
     facet_allocator allocator;
@@ -35,7 +20,7 @@ struct gl_mesh_set {
     uint32_t first[GL_PASS_COUNT + 1];
     gl_instance *instances; /* as uploaded: the instances of a batch are contiguous */
     uint32_t *instance_geometries;
-    gl_mesh_array *arrays; /* of the batches, in the order of creation */
+    gl_vertex_array *arrays; /* of the batches, in the order of creation */
     size_t array_count, array_capacity;
     uint32_t instance_buffer;
     uint64_t sprite_feature; /* of GL_MAIN_SURFACE */
@@ -43,9 +28,6 @@ struct gl_mesh_set {
 
 /* Two for each of the eight positions along the outline of a sprite: surface.vert. */
 enum { SPRITE_VERTICES = 16 };
-/* A disc is drawn as a regular polygon of twelve sides with the same area: sqrt(pi / (6 sin(pi / 6))). */
-static const float DISC_OF_TWELVE = 1.0233267f;
-
 facet_result gl_mesh_create(gl_context *context, const facet_allocator *allocator, gl_mesh_set **out,
                             facet_error *error)
 {
@@ -87,21 +69,6 @@ void gl_mesh_destroy(gl_mesh_set *set)
 }
 
 /* ---- instances ---- */
-
-static void load_instance(const render_geometry *g, uint32_t number, gl_instance *out)
-{
-    for (int row = 0; row < 3; row++)
-        for (int column = 0; column < 4; column++)
-            out->world[4 * row + column] = g->world->m[4 * column + row];
-    memcpy(out->normal_matrix, g->normal_matrix, sizeof out->normal_matrix);
-    out->scale = g->scale;
-    out->bitangent_sign = g->bitangent_sign;
-    out->number = (float)number;
-    out->sprite_radius =
-        g->primitive->mode == SCENE_TRIANGLES ? 0.0f : render_geometry_sprite_radius(g->primitive->mode);
-    if (g->primitive->mode == SCENE_POINTS)
-        out->sprite_radius *= DISC_OF_TWELVE;
-}
 
 void gl_mesh_instance_box(const scene_instance *instance, float low[3], float high[3])
 {
@@ -190,7 +157,7 @@ static void place_instances(gl_mesh_set *set, const gl_scene *scene, const uint3
     for (uint32_t i = 0; i < scene->geometries.count; i++) {
         gl_batch *b = &set->batches[batch_of[i]];
         uint32_t place = b->first_instance + b->instance_count++;
-        load_instance(&scene->geometries.items[i], i, &set->instances[place]);
+        gl_instance_load(&scene->geometries.items[i], i, &set->instances[place]);
         set->instance_geometries[place] = i;
     }
 }
@@ -216,108 +183,6 @@ static facet_result make_batches(gl_mesh_set *set, const gl_scene *scene, facet_
     return has_memory ? FACET_OK : fail_memory(error, "geometry", count * sizeof *set->batches);
 }
 
-/* ---- vertex array objects ---- */
-
-static void point_array(GLuint index, GLint size, size_t offset, GLsizei stride, GLuint divisor)
-{
-    glEnableVertexAttribArray(index);
-    glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, stride, (const void *)(uintptr_t)offset);
-    glVertexAttribDivisor(index, divisor);
-}
-
-/* Attributes of the second end of a sprite, in locations that sprites do not use otherwise. */
-static const GLuint end_attributes[GL_VERTEX_ARRAYS] = {
-    [GL_ATTRIBUTE_POSITION] = GL_ATTRIBUTE_TANGENT,
-    [GL_ATTRIBUTE_NORMAL] = GL_ATTRIBUTE_NORMAL_MATRIX,
-    [GL_ATTRIBUTE_COLOR] = GL_ATTRIBUTE_NORMAL_MATRIX + 1,
-    [GL_ATTRIBUTE_TEXCOORD] = GL_ATTRIBUTE_TEXCOORD + 2,
-    [GL_ATTRIBUTE_TEXCOORD + 1] = GL_ATTRIBUTE_TEXCOORD + 3,
-};
-
-static void point_arrays(const gl_vertices *v, scene_mode mode, size_t first)
-{
-    static const GLint widths[GL_VERTEX_ARRAYS] = {3, 3, 4, 4, 2, 2, 2, 2};
-    glBindBuffer(GL_ARRAY_BUFFER, v->buffer);
-    for (GLuint i = 0; i < GL_VERTEX_ARRAYS; i++) {
-        if (!(v->arrays >> i & 1))
-            continue;
-        GLsizei size = widths[i] * (GLsizei)sizeof(float);
-        size_t offset = v->offsets[i];
-        if (mode == SCENE_TRIANGLES) {
-            point_array(i, widths[i], offset, size, 0);
-        } else if (i < GL_ATTRIBUTE_TEXCOORD + 2) {
-            bool is_line = mode == SCENE_LINES;
-            GLsizei stride = is_line ? 2 * size : size;
-            offset += first * (size_t)stride;
-            point_array(i, widths[i], offset, stride, 1);
-            point_array(end_attributes[i], widths[i], offset + (is_line ? (size_t)size : 0), stride, 1);
-        }
-    }
-}
-
-void gl_mesh_point_arrays(const gl_batch *b, size_t first)
-{
-    scene_mode mode = b->geometry->primitive->mode;
-    if (b->vertices.fixed.arrays)
-        point_arrays(&b->vertices.fixed, mode, first);
-    if (b->vertices.streamed.arrays)
-        point_arrays(&b->vertices.streamed, mode, first);
-}
-
-static void point_instances(size_t first)
-{
-    enum { SIZE = sizeof(gl_instance) };
-    size_t offset = first * SIZE;
-    for (GLuint k = 0; k < 3; k++) {
-        point_array(GL_ATTRIBUTE_WORLD + k, 4, offset + offsetof(gl_instance, world) + 16 * k, SIZE, 1);
-        point_array(GL_ATTRIBUTE_NORMAL_MATRIX + k, 3, offset + offsetof(gl_instance, normal_matrix) + 12 * k,
-                    SIZE, 1);
-    }
-    point_array(GL_ATTRIBUTE_INSTANCE, 4, offset + offsetof(gl_instance, scale), SIZE, 1);
-}
-
-static gl_mesh_array array_of(const gl_batch *b)
-{
-    gl_mesh_array array;
-    memset(&array, 0, sizeof array);
-    array.fixed = b->vertices.fixed;
-    array.streamed = b->vertices.streamed;
-    array.elements = b->vertices.elements.buffer;
-    array.mode = b->geometry->primitive->mode;
-    array.first_instance = b->is_sprites ? 0 : b->first_instance;
-    return array;
-}
-
-static bool is_same_array(const gl_mesh_array *a, const gl_mesh_array *b)
-{
-    return a->fixed.buffer == b->fixed.buffer && a->fixed.arrays == b->fixed.arrays &&
-           memcmp(a->fixed.offsets, b->fixed.offsets, sizeof a->fixed.offsets) == 0 &&
-           a->streamed.buffer == b->streamed.buffer && a->streamed.arrays == b->streamed.arrays &&
-           memcmp(a->streamed.offsets, b->streamed.offsets, sizeof a->streamed.offsets) == 0 &&
-           a->elements == b->elements && a->mode == b->mode && a->first_instance == b->first_instance;
-}
-
-/* Sets the vertex array object of batch i, usually that of the previous pose. */
-static void set_array(gl_mesh_set *set, uint32_t i)
-{
-    gl_batch *b = &set->batches[i];
-    gl_mesh_array wanted = array_of(b), *array = &set->arrays[i];
-    b->vertex_array = array->name;
-    if (array->name && is_same_array(array, &wanted))
-        return;
-    glDeleteVertexArrays(1, &array->name);
-    *array = wanted;
-    glGenVertexArrays(1, &array->name);
-    glBindVertexArray(array->name);
-    b->vertex_array = array->name;
-    gl_mesh_point_arrays(b, 0);
-    if (!b->is_sprites) {
-        glBindBuffer(GL_ARRAY_BUFFER, set->instance_buffer);
-        point_instances(b->first_instance);
-    }
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, array->elements);
-}
-
 static facet_result make_arrays(gl_mesh_set *set, facet_error *error)
 {
     if (!mem_reserve(&set->allocator, (void **)&set->arrays, &set->array_capacity, set->count,
@@ -326,7 +191,7 @@ static facet_result make_arrays(gl_mesh_set *set, facet_error *error)
     for (; set->array_count < set->count; set->array_count++)
         memset(&set->arrays[set->array_count], 0, sizeof *set->arrays);
     for (uint32_t i = 0; i < set->count; i++)
-        set_array(set, i);
+        gl_vertex_array_use(&set->arrays[i], &set->batches[i], set->instance_buffer);
     glBindVertexArray(0);
     return FACET_OK;
 }
@@ -442,38 +307,9 @@ uint32_t gl_mesh_instance_geometry(const gl_mesh_set *set, uint32_t instance)
     return set->instance_geometries[instance];
 }
 
-/* Constants for attributes without arrays: white colors, the rest is irrelevant. OpenGL may lose such
- * constants where an array used the location, so they are set for each draw. */
-static void set_absent(const gl_batch *b)
-{
-    static const float white[4] = {1.0f, 1.0f, 1.0f, 1.0f}, zero[4] = {0.0f, 0.0f, 0.0f, 1.0f};
-    uint32_t arrays = b->vertices.fixed.arrays | b->vertices.streamed.arrays;
-    for (GLuint i = GL_ATTRIBUTE_NORMAL; i < GL_VERTEX_ARRAYS; i++) {
-        if (arrays >> i & 1)
-            continue;
-        const float *value = i == GL_ATTRIBUTE_COLOR ? white : zero;
-        if (!b->is_sprites)
-            glVertexAttrib4fv(i, value);
-        else if (end_attributes[i]) {
-            glVertexAttrib4fv(i, value);
-            glVertexAttrib4fv(end_attributes[i], value);
-        }
-    }
-}
-
-static void set_instance(const gl_instance *one, bool is_sprite)
-{
-    for (GLuint k = 0; k < 3; k++)
-        glVertexAttrib4fv(GL_ATTRIBUTE_WORLD + k, one->world + 4 * k);
-    for (GLuint k = 0; k < 3 && !is_sprite; k++)
-        glVertexAttrib3fv(GL_ATTRIBUTE_NORMAL_MATRIX + k, one->normal_matrix + 3 * k);
-    glVertexAttrib4fv(GL_ATTRIBUTE_INSTANCE, &one->scale);
-}
-
 void gl_mesh_set_constants(const gl_mesh_set *set, const gl_batch *b, uint32_t instance)
 {
-    set_absent(b);
-    set_instance(&set->instances[instance], b->is_sprites);
+    gl_attributes_set_constants(b, &set->instances[instance]);
 }
 
 facet_result gl_mesh_reorder(gl_mesh_set *set, const gl_batch *b, const uint32_t *order, gl_vertices *out,
@@ -485,9 +321,7 @@ facet_result gl_mesh_reorder(gl_mesh_set *set, const gl_batch *b, const uint32_t
 void gl_mesh_draw(const gl_mesh_set *set, const gl_batch *b)
 {
     glBindVertexArray(b->vertex_array);
-    set_absent(b);
-    if (b->is_sprites)
-        set_instance(&set->instances[b->first_instance], true);
+    gl_attributes_set_constants(b, b->is_sprites ? &set->instances[b->first_instance] : NULL);
     if (b->has_elements)
         glDrawElementsInstanced(b->mode, (GLsizei)b->element_count, GL_UNSIGNED_INT, NULL,
                                 (GLsizei)b->instance_count);

@@ -65,10 +65,8 @@ uint64_t gl_mesh_features(const gl_mesh_set *meshes, const gl_batch *batch);
 /* Binds the batch's vertices and draws it. */
 void gl_mesh_draw(const gl_mesh_set *meshes, const gl_batch *batch);
 
-/* For calls that draw part of a batch, into the bound vertex array object, without instance arrays: sets the
- * arrays of its vertices, those of sprites from index first on. */
-void gl_mesh_point_arrays(const gl_batch *batch, size_t first);
-/* Sets missing attributes, and those of the instance (index among all), as constants. */
+/* For calls that draw part of a batch, without instance arrays (gl_attributes_point()): sets missing attributes, and those
+ * of the instance (index among all), as constants. */
 void gl_mesh_set_constants(const gl_mesh_set *meshes, const gl_batch *batch, uint32_t instance);
 /* gl_vertex_store_reorder() of the sprites of a batch. */
 facet_result gl_mesh_reorder(gl_mesh_set *meshes, const gl_batch *batch, const uint32_t *order,

@@ -1,11 +1,12 @@
-/* gl_transparency.c - see gl_transparency.h. */
+/* gl_transparency.c - see gl_transparency.h: the sorted mode, and the choice of the mode. */
 #include "gl/scene/gl_transparency.h"
 
 #include <epoxy/gl.h>
-#include <math.h>
 
 #include "base/memory.h"
 #include "base/result.h"
+#include "gl/scene/gl_attributes.h"
+#include "gl/scene/gl_layers.h"
 
 /* The order of gl_sort.h in GPU memory. */
 typedef struct sorted_triangles {
@@ -19,54 +20,12 @@ typedef struct sorted_triangles {
     uint32_t unit_count;
 } sorted_triangles;
 
-/* Textures of the target's size, and their framebuffers. */
-typedef struct blend_layers {
-    facet_transparency mode;
-    uint32_t width, height, samples;
-    uint32_t sum, layer;       /* peeled: the composite so far, one layer; weighted: light, weights */
-    uint32_t depths[2];        /* peeled: of the last layer and of this one, alternating */
-    uint32_t renderbuffers[2]; /* weighted, multisampled: of sum and layer */
-    /* peeled: a layer with either depth, sum; weighted: both, then sum and layer resolved */
-    uint32_t framebuffers[3];
-} blend_layers;
-
 struct gl_transparency {
     gl_context *context;
     facet_allocator allocator;
     sorted_triangles sorted;
-    blend_layers layers;
-    uint32_t empty_array;
-    uint32_t query;
-    uint64_t weighted_feature, peeled_feature;
+    gl_layers layers;
 };
-
-typedef enum compose_mode { COMPOSE_LAYER, COMPOSE_SUM, COMPOSE_WEIGHTED } compose_mode;
-
-/* ---- batches ---- */
-
-static facet_result use_batch(const gl_transparency_view *view, const gl_batch *b, uint64_t features,
-                              facet_error *error)
-{
-    uint32_t program;
-    gl_program_key key = {gl_material_main(view->materials, b), b->features | view->features | features};
-    TRY(gl_programs_get(view->programs, key, &program, error));
-    glUseProgram(program);
-    gl_material_bind(view->materials, b);
-    return FACET_OK;
-}
-
-static facet_result draw_all(const gl_transparency_view *view, uint64_t features, facet_error *error)
-{
-    uint32_t count;
-    const gl_batch *batches = gl_mesh_batches(view->meshes, GL_PASS_BLENDED, &count);
-    for (uint32_t i = 0; i < count; i++) {
-        if (batches[i].is_outside)
-            continue;
-        TRY(use_batch(view, &batches[i], features, error));
-        gl_mesh_draw(view->meshes, &batches[i]);
-    }
-    return FACET_OK;
-}
 
 /* ---- sorted ---- */
 
@@ -112,7 +71,7 @@ static facet_result make_arrays(gl_transparency *t, const gl_transparency_view *
     for (uint32_t i = 0; i < s->batch_count; i++) {
         glGenVertexArrays(1, &s->arrays[i]);
         glBindVertexArray(s->arrays[i]);
-        gl_mesh_point_arrays(&batches[i], 0);
+        gl_attributes_point(&batches[i], 0);
         glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, s->elements);
     }
     glBindVertexArray(0);
@@ -162,7 +121,7 @@ static void draw_run(const sorted_triangles *s, const gl_batch *b, const gl_sort
         gl_batch sorted = *b;
         sorted.vertices.fixed = s->sprites[run->unit];
         sorted.vertices.streamed.arrays = 0;
-        gl_mesh_point_arrays(&sorted, run->first);
+        gl_attributes_point(&sorted, run->first);
         glDrawArraysInstanced(b->mode, 0, (GLsizei)b->element_count, (GLsizei)run->count);
         return;
     }
@@ -182,7 +141,7 @@ static facet_result draw_runs(const gl_transparency *t, const gl_transparency_vi
         if (b->is_outside)
             continue;
         if (batch != u->batch) {
-            TRY(use_batch(view, b, 0, error));
+            TRY(gl_material_use(view->materials, view->programs, b, b->features | view->features, error));
             glBindVertexArray(s->arrays[u->batch]);
             batch = u->batch;
             unit = UINT32_MAX;
@@ -222,273 +181,6 @@ static facet_result sorted_draw(gl_transparency *t, const gl_transparency_view *
     return result;
 }
 
-/* ---- layers beside the image ---- */
-
-static void layers_destroy(blend_layers *l)
-{
-    glDeleteFramebuffers(3, l->framebuffers);
-    glDeleteRenderbuffers(2, l->renderbuffers);
-    glDeleteTextures(2, l->depths);
-    glDeleteTextures(1, &l->sum);
-    glDeleteTextures(1, &l->layer);
-    *l = (blend_layers){.width = 0};
-}
-
-static GLuint make_texture(GLenum format, uint32_t width, uint32_t height)
-{
-    GLuint name;
-    GLenum layout = format == GL_DEPTH_COMPONENT32F          ? GL_DEPTH_COMPONENT
-                    : format == GL_R32F || format == GL_R16F ? GL_RED
-                                                             : GL_RGBA;
-    glGenTextures(1, &name);
-    glActiveTexture(GL_TEXTURE0 + GL_UNIT_MATERIAL);
-    glBindTexture(GL_TEXTURE_2D, name);
-    glTexImage2D(GL_TEXTURE_2D, 0, (GLint)format, (GLsizei)width, (GLsizei)height, 0, layout, GL_FLOAT, NULL);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    return name;
-}
-
-static void attach(GLuint framebuffer, GLuint color, GLuint depth)
-{
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color, 0);
-    if (depth)
-        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
-}
-
-static void make_peeled(blend_layers *l, GLenum format)
-{
-    l->layer = make_texture(format, l->width, l->height);
-    for (int i = 0; i < 2; i++) {
-        l->depths[i] = make_texture(GL_DEPTH_COMPONENT32F, l->width, l->height);
-        attach(l->framebuffers[i], l->layer, l->depths[i]);
-    }
-    attach(l->framebuffers[2], l->sum, 0);
-}
-
-static void make_weighted(blend_layers *l, GLenum format)
-{
-    static const GLenum both[2] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
-    const GLenum formats[2] = {format, format == GL_RGBA32F ? GL_R32F : GL_R16F};
-    l->layer = make_texture(formats[1], l->width, l->height);
-    const GLuint textures[2] = {l->sum, l->layer};
-    if (l->samples > 1)
-        glGenRenderbuffers(2, l->renderbuffers);
-    for (int i = 0; i < 2; i++) {
-        attach(l->framebuffers[1 + i], textures[i], 0);
-        glBindFramebuffer(GL_FRAMEBUFFER, l->framebuffers[0]);
-        if (l->samples == 1) {
-            glFramebufferTexture2D(GL_FRAMEBUFFER, both[i], GL_TEXTURE_2D, textures[i], 0);
-            continue;
-        }
-        glBindRenderbuffer(GL_RENDERBUFFER, l->renderbuffers[i]);
-        glRenderbufferStorageMultisample(GL_RENDERBUFFER, (GLsizei)l->samples, formats[i], (GLsizei)l->width,
-                                         (GLsizei)l->height);
-        glFramebufferRenderbuffer(GL_FRAMEBUFFER, both[i], GL_RENDERBUFFER, l->renderbuffers[i]);
-    }
-    glDrawBuffers(2, both);
-}
-
-static facet_result layers_update(gl_transparency *t, const gl_transparency_view *view, facet_error *error)
-{
-    blend_layers *l = &t->layers;
-    const gl_target *target = view->target;
-    if (l->width == target->width && l->height == target->height && l->samples == target->samples &&
-        l->mode == view->mode)
-        return FACET_OK;
-    bool blends_floats =
-        t->context->has_float_target && (!t->context->is_es || epoxy_has_gl_extension("GL_EXT_float_blend"));
-    GLenum format = blends_floats ? GL_RGBA32F : GL_RGBA16F;
-    layers_destroy(l);
-    *l = (blend_layers){
-        .mode = view->mode, .width = target->width, .height = target->height, .samples = target->samples};
-    glGenFramebuffers(3, l->framebuffers);
-    l->sum = make_texture(format, l->width, l->height);
-    if (view->mode == FACET_TRANSPARENCY_PEELED)
-        make_peeled(l, format);
-    else
-        make_weighted(l, format);
-    bool is_complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-    facet_result result = gl_context_check(t->context, "blended surfaces", error);
-    if (result == FACET_OK && !is_complete)
-        result = fail(error, FACET_ERROR_SYSTEM,
-                      "OpenGL (%s): blending into floating point images is not supported", t->context->name);
-    if (result != FACET_OK)
-        layers_destroy(l);
-    return result;
-}
-
-static void layers_bind(uint32_t unit, uint32_t texture)
-{
-    glBindSampler(unit, 0); /* without a sampler that expects mips */
-    glActiveTexture(GL_TEXTURE0 + unit);
-    glBindTexture(GL_TEXTURE_2D, texture);
-}
-
-/* Blends a layer texture over the bound framebuffer, with the current blend function. */
-static facet_result compose(gl_transparency *t, const gl_transparency_view *view, compose_mode what,
-                            facet_error *error)
-{
-    static const char *const features[] = {
-        [COMPOSE_LAYER] = "", [COMPOSE_SUM] = "IS_SUM", [COMPOSE_WEIGHTED] = "IS_WEIGHTED"};
-    uint32_t program;
-    gl_program_key key = {GL_MAIN_COMPOSE, gl_program_feature(GL_MAIN_COMPOSE, features[what])};
-    TRY(gl_programs_get(view->programs, key, &program, error));
-    glUseProgram(program);
-    if (what == COMPOSE_WEIGHTED)
-        layers_bind(GL_UNIT_MATERIAL + 1, t->layers.layer);
-    layers_bind(GL_UNIT_MATERIAL, what == COMPOSE_LAYER ? t->layers.layer : t->layers.sum);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_DEPTH_TEST);
-    glEnable(GL_BLEND);
-    glBindVertexArray(t->empty_array);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    glDisable(GL_BLEND);
-    glEnable(GL_DEPTH_TEST);
-    return FACET_OK;
-}
-
-/* ---- depth peeling ---- */
-
-static void clear_color(GLint buffer, float rgb, float alpha)
-{
-    const float value[4] = {rgb, rgb, rgb, alpha};
-    glClearBufferfv(GL_COLOR, buffer, value);
-}
-
-/* Draws the next layer: the nearest surfaces behind the last layer and in front of opaque ones. False:
- * there is none. */
-static bool draw_layer(gl_transparency *t, const gl_transparency_view *view, int number, facet_result *result,
-                       facet_error *error)
-{
-    const blend_layers *l = &t->layers;
-    GLint w = (GLint)l->width, h = (GLint)l->height;
-    GLuint framebuffer = l->framebuffers[number & 1];
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, view->target->framebuffer);
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-    glBlitFramebuffer(0, 0, w, h, 0, 0, w, h, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    clear_color(0, 0.0f, 0.0f);
-    layers_bind(GL_UNIT_PEELED, l->depths[1 - (number & 1)]);
-    glBeginQuery(GL_ANY_SAMPLES_PASSED, t->query);
-    *result = draw_all(view, t->peeled_feature, error);
-    glEndQuery(GL_ANY_SAMPLES_PASSED);
-    GLuint is_seen = 0;
-    glGetQueryObjectuiv(t->query, GL_QUERY_RESULT, &is_seen);
-    return is_seen && *result == FACET_OK;
-}
-
-/* Composites the layer under the previous ones. */
-static facet_result add_layer(gl_transparency *t, const gl_transparency_view *view, facet_error *error)
-{
-    glBindFramebuffer(GL_FRAMEBUFFER, t->layers.framebuffers[2]);
-    glBlendFuncSeparate(GL_DST_ALPHA, GL_ONE, GL_ZERO, GL_ONE_MINUS_SRC_ALPHA);
-    return compose(t, view, COMPOSE_LAYER, error);
-}
-
-static facet_result peeled_draw(gl_transparency *t, const gl_transparency_view *view, facet_error *error)
-{
-    facet_result result = layers_update(t, view, error);
-    if (result != FACET_OK)
-        return result;
-    const float nearest = t->context->has_clip_control ? 1.0f : 0.0f;
-    glBindFramebuffer(GL_FRAMEBUFFER, t->layers.framebuffers[1]);
-    glClearBufferfv(GL_DEPTH, 0, &nearest);
-    glBindFramebuffer(GL_FRAMEBUFFER, t->layers.framebuffers[2]);
-    clear_color(0, 0.0f, 1.0f);
-    for (int i = 0; i < GL_TRANSPARENCY_LAYERS && draw_layer(t, view, i, &result, error); i++) {
-        result = add_layer(t, view, error);
-        if (result != FACET_OK)
-            return result;
-    }
-    if (result != FACET_OK)
-        return result;
-    glBindFramebuffer(GL_FRAMEBUFFER, view->target->framebuffer);
-    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    return compose(t, view, COMPOSE_SUM, error);
-}
-
-/* ---- weighted blending ---- */
-
-/* Nearest depth of blended batches, and 1 over the range of depths. */
-static void find_depths(const gl_transparency_view *view, float out[2])
-{
-    uint32_t count;
-    const gl_batch *batches = gl_mesh_batches(view->meshes, GL_PASS_BLENDED, &count);
-    float low = INFINITY, high = -INFINITY;
-    for (uint32_t i = 0; i < count; i++)
-        for (int corner = 0; corner < 8; corner++) {
-            float depth = 0.0f;
-            for (int k = 0; k < 3; k++)
-                depth += view->frame->forward[k] *
-                         ((corner >> k & 1 ? batches[i].bounds_max[k] : batches[i].bounds_min[k]) -
-                          view->frame->eye[k]);
-            low = fminf(low, depth);
-            high = fmaxf(high, depth);
-        }
-    if (!(view->frame->eye[3] > 0.0f))
-        low = fmaxf(low, 0.0f);
-    out[0] = low;
-    out[1] = high > low ? 1.0f / (high - low) : 0.0f;
-}
-
-static facet_result draw_weighted(gl_transparency *t, const gl_transparency_view *view, facet_error *error)
-{
-    uint32_t count;
-    const gl_batch *batches = gl_mesh_batches(view->meshes, GL_PASS_BLENDED, &count);
-    float depths[2];
-    find_depths(view, depths);
-    for (uint32_t i = 0; i < count; i++) {
-        if (batches[i].is_outside)
-            continue;
-        TRY(use_batch(view, &batches[i], t->weighted_feature, error));
-        GLint program;
-        glGetIntegerv(GL_CURRENT_PROGRAM, &program);
-        glUniform2fv(glGetUniformLocation((GLuint)program, "u_depths"), 1, depths);
-        gl_mesh_draw(view->meshes, &batches[i]);
-    }
-    return FACET_OK;
-}
-
-static void resolve(const blend_layers *l)
-{
-    GLint w = (GLint)l->width, h = (GLint)l->height;
-    for (GLuint i = 0; i < 2 && l->samples > 1; i++) {
-        glBindFramebuffer(GL_READ_FRAMEBUFFER, l->framebuffers[0]);
-        glReadBuffer(GL_COLOR_ATTACHMENT0 + i);
-        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, l->framebuffers[1 + i]);
-        glBlitFramebuffer(0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    }
-}
-
-static facet_result weighted_draw(gl_transparency *t, const gl_transparency_view *view, facet_error *error)
-{
-    facet_result result = layers_update(t, view, error);
-    if (result != FACET_OK)
-        return result;
-    glBindFramebuffer(GL_FRAMEBUFFER, t->layers.framebuffers[0]);
-    if (t->layers.samples > 1)
-        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
-                                  view->target->renderbuffers[1]);
-    else
-        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, view->target->depth, 0);
-    clear_color(0, 0.0f, 1.0f);
-    clear_color(1, 0.0f, 0.0f);
-    glDepthMask(GL_FALSE);
-    glEnable(GL_BLEND);
-    /* Light and weights are summed, transmittance is multiplied, with one blend function: OpenGL 3.3 has
-     * no second one. */
-    glBlendFuncSeparate(GL_ONE, GL_ONE, GL_ZERO, GL_ONE_MINUS_SRC_ALPHA);
-    result = draw_weighted(t, view, error);
-    glDisable(GL_BLEND);
-    glDepthMask(GL_TRUE);
-    resolve(&t->layers);
-    glBindFramebuffer(GL_FRAMEBUFFER, view->target->framebuffer);
-    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    return result == FACET_OK ? compose(t, view, COMPOSE_WEIGHTED, error) : result;
-}
-
 /* ---- dispatch ---- */
 
 facet_result gl_transparency_create(gl_context *context, const facet_allocator *allocator,
@@ -499,10 +191,7 @@ facet_result gl_transparency_create(gl_context *context, const facet_allocator *
         return fail_memory(error, "transparency", sizeof **out);
     (*out)->context = context;
     (*out)->allocator = allocator ? *allocator : (facet_allocator){0};
-    (*out)->weighted_feature = gl_program_feature(GL_MAIN_SURFACE, "IS_WEIGHTED");
-    (*out)->peeled_feature = gl_program_feature(GL_MAIN_SURFACE, "IS_PEELED");
-    glGenVertexArrays(1, &(*out)->empty_array);
-    glGenQueries(1, &(*out)->query);
+    gl_layers_create(&(*out)->layers, context);
     return FACET_OK;
 }
 
@@ -511,9 +200,7 @@ void gl_transparency_destroy(gl_transparency *t)
     if (!t)
         return;
     sorted_destroy(&t->sorted);
-    layers_destroy(&t->layers);
-    glDeleteVertexArrays(1, &t->empty_array);
-    glDeleteQueries(1, &t->query);
+    gl_layers_destroy(&t->layers);
     mem_free(t);
 }
 
@@ -533,13 +220,6 @@ uint32_t gl_transparency_max_samples(const gl_context *context, facet_transparen
     return is_peeled ? 1 : (uint32_t)context->max_samples;
 }
 
-static uint64_t mode_features(const gl_transparency *t, facet_transparency mode)
-{
-    return mode == FACET_TRANSPARENCY_WEIGHTED ? t->weighted_feature
-           : mode == FACET_TRANSPARENCY_PEELED ? t->peeled_feature
-                                               : 0;
-}
-
 facet_result gl_transparency_request(const gl_transparency *t, const gl_transparency_view *view,
                                      facet_error *error)
 {
@@ -550,7 +230,7 @@ facet_result gl_transparency_request(const gl_transparency *t, const gl_transpar
         gl_program_key key = {gl_material_main(view->materials, &batches[i]),
                               gl_material_features(view->materials, &batches[i]) |
                                   gl_mesh_features(view->meshes, &batches[i]) | view->features |
-                                  mode_features(t, possible_mode(t->context, view->mode))};
+                                  gl_layers_features(&t->layers, possible_mode(t->context, view->mode))};
         result = gl_programs_request(view->programs, key, error);
     }
     return result;
@@ -562,18 +242,8 @@ facet_result gl_transparency_draw(gl_transparency *t, const gl_transparency_view
     gl_mesh_batches(view->meshes, GL_PASS_BLENDED, &count);
     if (count == 0)
         return FACET_OK;
-    facet_result result;
-    switch (possible_mode(t->context, view->mode)) {
-    case FACET_TRANSPARENCY_PEELED:
-        result = peeled_draw(t, view, error);
-        break;
-    case FACET_TRANSPARENCY_WEIGHTED:
-        result = weighted_draw(t, view, error);
-        break;
-    default:
-        result = sorted_draw(t, view, error);
-        break;
-    }
+    bool is_sorted = possible_mode(t->context, view->mode) == FACET_TRANSPARENCY_SORTED;
+    facet_result result = is_sorted ? sorted_draw(t, view, error) : gl_layers_draw(&t->layers, view, error);
     glBindFramebuffer(GL_FRAMEBUFFER, view->target->framebuffer);
     return result == FACET_OK ? gl_context_check(t->context, "blended surfaces", error) : result;
 }
