@@ -1,5 +1,10 @@
-/* gl_ground.h - the shadow on the ground, an invisible plane under the model's lowest point: its ambient
- * occlusion by the model under a uniform sky, as a map that is made when the scene changes.
+/* gl_ground.h - shadow casters, drawn as depth; and the shadow on the ground that is made from them.
+ *
+ * Opaque surfaces cast shadows, masked texels where they are opaque, and so do closed volumes, which
+ * refract light away; blended surfaces, thin transmissive walls, points and lines cast none.
+ *
+ * The ground is an invisible plane under the model's lowest point. Its shadow is the ambient occlusion by the model
+ * under a uniform sky, a map that is made when the scene changes.
  *
  * The lowest and highest heights above the plane, seen from below and from above, are drawn into squares of 2
  * GL_GROUND_EDGE texels around the model. From them ground_map.frag computes the hidden share of the sky for
@@ -7,8 +12,32 @@
 #ifndef GL_GL_GROUND_H
 #define GL_GL_GROUND_H
 
-#include "gl/scene/gl_shadow.h"
 #include "gl/scene/gl_light_block.h"
+#include "gl/scene/gl_material.h"
+
+/* ---- casters ---- */
+
+typedef struct gl_casters {
+    gl_context *context;
+    gl_programs *programs;
+    const gl_mesh_set *meshes;
+    const gl_material_set *materials;
+    float eye[3];      /* m; of the image: casters are drawn relative to it */
+    uint64_t revision; /* of the scene */
+    uint32_t block;    /* uniform buffer; 0: not created yet */
+} gl_casters;
+
+/* Creates a float depth texture and its framebuffer. compares: for sampler2DShadow. */
+facet_result gl_casters_make_texture(gl_context *context, uint32_t edge, bool compares, uint32_t *texture,
+                                     uint32_t *framebuffer, facet_error *error);
+/* Clears a framebuffer and sets the depth state, from 0 (near) to 1. */
+void gl_casters_begin(const gl_casters *casters, uint32_t framebuffer, uint32_t edge);
+/* Draws the casters into a square of the framebuffer, through a matrix to clip space (column-major, z from
+ * -1 to 1, for points relative to eye). Changes the frame block. Fails as gl_programs_get(). */
+facet_result gl_casters_draw(gl_casters *casters, const float matrix[16], uint32_t x, uint32_t y,
+                             uint32_t edge, facet_error *error);
+
+/* ---- the ground ---- */
 
 enum { GL_GROUND_EDGE = 256 };
 

@@ -338,7 +338,7 @@ static void describe_narrow(const gl_light_atlas *a, const ibl_light *light, gl_
     for (uint32_t k = 0; k < GL_LIGHT_IMAGES; k++) {
         const gl_atlas_part *p = &a->parts[GL_ATLAS_IMAGES + k];
         float place[4] = {(float)p->x, (float)p->y, (float)p->width, (float)p->height};
-        memcpy(block->pictures[k], place, sizeof place);
+        memcpy(block->images[k], place, sizeof place);
     }
     for (uint32_t i = 0; i < GL_LIGHT_STEPS; i++) {
         const float mirror[NARROW_PARTS] = {1.0f};

@@ -1,41 +1,12 @@
-/* gl_shadow.h - shadow maps of punctual lights and the sun: tiles of one square depth texture. And shadow
- * casters in general, which gl_ground.h draws, too.
+/* gl_shadow.h - shadow maps of punctual lights and the sun: tiles of one square depth texture.
  *
  * Spot and directional lights have one tile, others six, the faces of a cube (cube.h). The frustum of a
- * tile is extended by GL_SHADOW_GUARD texels on each side, so that filters do not read across edges.
- *
- * Opaque surfaces cast shadows, masked texels where they are opaque, and so do closed volumes, which
- * refract light away; blended surfaces, thin transmissive walls, points and lines cast none. */
+ * tile is extended by GL_SHADOW_GUARD texels on each side, so that filters do not read across edges. */
 #ifndef GL_GL_SHADOW_H
 #define GL_GL_SHADOW_H
 
 #include "draw/light_setup.h"
-#include "gl/scene/gl_material.h"
-#include "gl/scene/gl_light_block.h"
-
-/* ---- casters ---- */
-
-typedef struct gl_casters {
-    gl_context *context;
-    gl_programs *programs;
-    const gl_mesh_set *meshes;
-    const gl_material_set *materials;
-    float eye[3];      /* m; of the image: casters are drawn relative to it */
-    uint64_t revision; /* of the scene */
-    uint32_t block;    /* uniform buffer; 0: not created yet */
-} gl_casters;
-
-/* Creates a float depth texture and its framebuffer. compares: for sampler2DShadow. */
-facet_result gl_casters_make_texture(gl_context *context, uint32_t edge, bool compares, uint32_t *texture,
-                                     uint32_t *framebuffer, facet_error *error);
-/* Clears a framebuffer and sets the depth state, from 0 (near) to 1. */
-void gl_casters_begin(const gl_casters *casters, uint32_t framebuffer, uint32_t edge);
-/* Draws the casters into a square of the framebuffer, through a matrix to clip space (column-major, z from
- * -1 to 1, for points relative to eye). Changes the frame block. Fails as gl_programs_get(). */
-facet_result gl_casters_draw(gl_casters *casters, const float matrix[16], uint32_t x, uint32_t y,
-                             uint32_t edge, facet_error *error);
-
-/* ---- shadow maps ---- */
+#include "gl/scene/gl_ground.h"
 
 enum {
     GL_SHADOW_GUARD = 4,      /* texels */

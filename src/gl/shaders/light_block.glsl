@@ -12,7 +12,7 @@ layout(std140) uniform Lighting
     vec4 light_places[2 * LIGHT_LEVELS]; /* of the levels of GGX, then of Charlie: column, row, size, scale */
     vec4 light_irradiance;               /* the same */
     vec4 light_steps[LIGHT_LEVELS];      /* roughness of GGX, 1 / difference to the next one; Charlie's */
-    vec4 light_images[LIGHT_IMAGES]; /* mirror, blurred ones: column, row, width, height */
+    vec4 light_images[LIGHT_IMAGES]; /* unfiltered, blurred ones: column, row, width, height */
     vec4 light_narrow_weights[LIGHT_STEPS];         /* of the images, with their scales */
     vec4 light_narrow_lobe[(LIGHT_STEPS + 3) / 4];  /* of level 1 of GGX, four steps each */
     vec4 light_grid_origin;                         /* m, world */
