@@ -27,7 +27,7 @@ typedef struct gl_film_desc {
     void *self;                  /* of both functions, for a view that fills a target of the same size */
     gl_film_draw_function *draw; /* the image, resolved: radiance times exposure, premultiplied */
     gl_film_draw_function
-        *draw_layers; /* GL_TARGET_LAYERED: outputs of output.glsl, opacity 0 for no surface */
+        *draw_layers; /* GL_TARGET_LAYERED: outputs of surface_io.glsl, opacity 0 for no surface */
 } gl_film_desc;
 
 /* Fills all layers of the film. Fails with FACET_ERROR_MEMORY, FACET_ERROR_LIMIT past the deadline,

@@ -5,7 +5,7 @@
 uniform highp sampler2D u_sea_seen;
 
 #ifdef AOVS
-layout(location = 0) out highp vec4 aov_normal_depth; /* as in output.glsl */
+layout(location = 0) out highp vec4 aov_normal_depth; /* as in surface_io.glsl */
 layout(location = 1) out highp vec4 aov_color_occlusion;
 layout(location = 2) out highp vec4 aov_number_texcoord;
 
