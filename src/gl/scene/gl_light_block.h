@@ -21,7 +21,7 @@ typedef struct gl_light_block {
     float places[PREFILTER_LOBE_COUNT][PREFILTER_LEVEL_COUNT][4];
     float irradiance[4];                   /* a place */
     float steps[PREFILTER_LEVEL_COUNT][4]; /* roughness of GGX, 1 / distance to the next; those of Charlie */
-    float images[GL_LIGHT_IMAGES][4];    /* places */
+    float images[GL_LIGHT_IMAGES][4];      /* places */
     float narrow_weights[GL_LIGHT_STEPS][4];         /* weights of the images, times their scales */
     float narrow_lobe[(GL_LIGHT_STEPS + 3) / 4 * 4]; /* weight of level 1 of GGX */
     float grid_origin[4];                            /* m, world */
