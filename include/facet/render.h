@@ -303,7 +303,7 @@ FACET_API facet_renderer_info facet_renderer_get_info(facet_renderer_kind kind);
  * perspective cameras; _PATH traces paths through the waves as triangles out to the horizon: of
  * sea_shading it reads omits_foam, has_schlick_fresnel and perceptual_roughness. The punctual lights of
  * the scene light the scene; with _PATH the water, too. background is the sky. Fails with
- * FACET_ERROR_ARGUMENT in a sea for a ground, for FACET_SHADING_OGL1, and for aovs with _GL. */
+ * FACET_ERROR_ARGUMENT in a sea for a ground and for FACET_SHADING_OGL1. */
 FACET_API facet_result facet_render(const facet_scene *scene, const facet_render_desc *desc,
                                     facet_image **image, facet_error *error);
 

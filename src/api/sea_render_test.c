@@ -195,18 +195,16 @@ static void layers_show_water_and_model(void **state)
     facet_scene *scene = lit_square();
     assert_water_and_model(FACET_RENDERER_KIND_PREVIEW, sea, scene);
     assert_water_and_model(FACET_RENDERER_KIND_PATH, sea, scene);
+    if (has_gl())
+        assert_water_and_model(FACET_RENDERER_KIND_GL, sea, scene);
     facet_scene_destroy(scene);
     facet_sea_destroy(sea);
 }
 
-/* The legacy style draws no model, and its layers have none. */
-static void layers_of_the_legacy_style_are_water(void **state)
+static void assert_water_alone(facet_renderer_kind kind, const facet_sea *sea, const facet_scene *scene)
 {
-    (void)state;
-    facet_sea *sea = make_sea(0.0f);
-    facet_scene *scene = lit_square();
     facet_image *image = NULL;
-    facet_render_desc desc = desc_of(sea, FACET_RENDERER_KIND_PREVIEW);
+    facet_render_desc desc = desc_of(sea, kind);
     desc.camera = &at_square;
     desc.sea_shading.style = FACET_SEA_STYLE_LEGACY_WRITTEN;
     desc.aovs = FACET_AOV_DEPTH | FACET_AOV_OBJECT_ID;
@@ -217,6 +215,17 @@ static void layers_of_the_legacy_style_are_water(void **state)
         assert_true((object[i] == 0.0f) == (depth[i] > 1e6f));
     }
     facet_image_destroy(image);
+}
+
+/* The legacy style draws no model, and its layers have none. */
+static void layers_of_the_legacy_style_are_water(void **state)
+{
+    (void)state;
+    facet_sea *sea = make_sea(0.0f);
+    facet_scene *scene = lit_square();
+    assert_water_alone(FACET_RENDERER_KIND_PREVIEW, sea, scene);
+    if (has_gl())
+        assert_water_alone(FACET_RENDERER_KIND_GL, sea, scene);
     facet_scene_destroy(scene);
     facet_sea_destroy(sea);
 }
@@ -320,7 +329,7 @@ static void assert_names_water_and_bed(const facet_image *image)
 }
 
 /* Three squares, over the water, half in it and below it, and land; from above and from below. */
-static void the_preview_has_the_layers_of_path_tracing(void **state)
+static void layers_are_those_of_path_tracing(void **state)
 {
     (void)state;
     static const facet_camera views[] = {{.eye = {0, 3, 0}, .target = {0, 1.5f, -8}, .fov_y_rad = 0.6f},
@@ -336,8 +345,9 @@ static void the_preview_has_the_layers_of_path_tracing(void **state)
     facet_scene *scene = lit_square_and(
         ",2,3", ",{\"mesh\":0,\"translation\":[-2,-3,0]},{\"mesh\":0,\"translation\":[2,-5.2,0]}");
     for (size_t v = 0; v < sizeof views / sizeof *views; v++) {
-        facet_image *images[2] = {NULL, NULL};
-        for (int kind = 0; kind < 2; kind++) {
+        facet_image *images[3] = {NULL, NULL, NULL};
+        int count = has_gl() ? 3 : 2;
+        for (int kind = 0; kind < count; kind++) {
             facet_render_desc desc = desc_of(sea, (facet_renderer_kind)kind);
             desc.camera = &views[v];
             desc.width = LAYERS_WIDTH;
@@ -347,10 +357,12 @@ static void the_preview_has_the_layers_of_path_tracing(void **state)
             desc.aovs = ALL_LAYERS;
             done(facet_render(scene, &desc, &images[kind], &failure));
         }
-        assert_like_layers(images[0], images[1]);
-        assert_names_water_and_bed(images[0]);
-        facet_image_destroy(images[0]);
-        facet_image_destroy(images[1]);
+        for (int kind = 0; kind < count; kind++) {
+            assert_like_layers(images[kind], images[FACET_RENDERER_KIND_PATH]);
+            assert_names_water_and_bed(images[kind]);
+        }
+        for (int kind = 0; kind < 3; kind++)
+            facet_image_destroy(images[kind]);
     }
     facet_scene_destroy(scene);
     facet_sea_destroy(sea);
@@ -417,7 +429,7 @@ int main(void)
                                        cmocka_unit_test(what_is_not_drawn_is_refused_by_name),
                                        cmocka_unit_test(layers_show_water_and_model),
                                        cmocka_unit_test(layers_of_the_legacy_style_are_water),
-                                       cmocka_unit_test(the_preview_has_the_layers_of_path_tracing),
+                                       cmocka_unit_test(layers_are_those_of_path_tracing),
                                        cmocka_unit_test(punctual_lights_light_the_model),
                                        cmocka_unit_test(images_meter_themselves)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -369,24 +369,27 @@ static void draw_water(const drawing *d, const pixel_programs *programs, const g
     gl_camera_end_depth(&s->context);
 }
 
-/* And restores what was bound before. */
+/* Changes OpenGL's bindings. */
 static facet_result draw_model(drawing *d, const gl_view *view, bool is_layers, facet_error *error)
 {
-    gl_sea *s = d->s;
-    facet_result result = is_layers
-                              ? gl_sea_model_draw_layers(&d->model, d->frame, &d->camera, view, error)
-                              : gl_sea_model_draw(&d->model, d->frame, &d->camera, view, &d->block, error);
-    set_block(s->sea_buffer, GL_BLOCK_SEA, &d->block, sizeof d->block);
-    glBindBufferBase(GL_UNIFORM_BUFFER, GL_BLOCK_LIGHT, s->light_buffer);
-    return result;
+    if (!d->has_model)
+        return FACET_OK;
+    return is_layers ? gl_sea_model_draw_layers(&d->model, d->frame, &d->camera, view, error)
+                     : gl_sea_model_draw(&d->model, d->frame, &d->camera, view, &d->block, error);
 }
 
+/* Layers have one sample per pixel, of its whole footprint. */
 static facet_result draw(drawing *d, const gl_target *target, const gl_view *view, bool is_layers,
                          facet_error *error)
 {
-    TRY(gl_target_update(&d->s->seen, &d->s->context, GL_TARGET_FILM, view->width, view->height, 1, error));
-    if (d->has_model)
-        TRY(draw_model(d, view, is_layers, error));
+    gl_sea *s = d->s;
+    TRY(gl_target_update(&s->seen, &s->context, GL_TARGET_FILM, view->width, view->height, 1, error));
+    TRY(draw_model(d, view, is_layers, error));
+    gl_sea_block block = d->block;
+    if (is_layers)
+        block.ray[1] = 1.0f;
+    set_block(s->sea_buffer, GL_BLOCK_SEA, &block, sizeof block);
+    glBindBufferBase(GL_UNIFORM_BUFFER, GL_BLOCK_LIGHT, s->light_buffer);
     set_frame(d, view);
     draw_water(d, is_layers ? &d->layers : &d->image, target);
     return FACET_OK;
@@ -405,15 +408,23 @@ static facet_result draw_layers(void *self, const gl_target *target, const gl_vi
 static facet_result draw_film(drawing *d, double deadline_s, film *target, facet_error *error)
 {
     const facet_render_desc *r = d->frame->desc;
-    const gl_film_desc drawn = {.context = &d->s->context,
-                                .render = r,
-                                .target = &d->s->target,
-                                .sampling = {.scale = 1, .samples = 1, .passes = r->samples ? r->samples : 1},
-                                .deadline_s = deadline_s,
-                                .self = d,
-                                .draw = draw_view,
-                                .draw_layers = draw_layers};
-    return gl_film_draw(&drawn, target, error);
+    gl_film_desc drawn = {.context = &d->s->context,
+                          .render = r,
+                          .target = &d->s->target,
+                          .sampling = {.scale = 1, .samples = 1, .passes = r->samples ? r->samples : 1},
+                          .deadline_s = deadline_s,
+                          .self = d,
+                          .draw = draw_view,
+                          .draw_layers = draw_layers};
+    scene_identity *identities = NULL;
+    facet_result result = FACET_OK;
+    if (r->aovs & SCENE_IDENTITY_AOVS)
+        result = gl_sea_model_identify(&d->model, d->frame, &identities, &drawn.identity_count, error);
+    drawn.identities = identities;
+    if (result == FACET_OK)
+        result = gl_film_draw(&drawn, target, error);
+    mem_free(identities);
+    return result;
 }
 
 /* ---- entry points ---- */

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/result.h"
 #include "gl/sea/gl_sea_textures.h"
 
@@ -180,12 +181,15 @@ static void describe_ball(const water_frame *p, const camera_rays *camera, gl_se
 
 /* ---- entry points ---- */
 
+/* The model is exposed together with the water. Display values of OpenGL 1 count as the radiance that the
+ * exposure turns into them; nothing casts shadows there. */
 static facet_render_desc desc_of(const water_frame *p)
 {
     facet_render_desc d = *p->model_desc;
+    bool is_ogl1 = d.shading == FACET_SHADING_OGL1;
     d.renderer = FACET_RENDERER_KIND_GL;
-    d.exposure_ev = 0.0f;
-    d.gl = (facet_gl_desc){.has_shadows = true};
+    d.exposure_ev = is_ogl1 ? -p->desc->exposure_ev : 0.0f;
+    d.gl = (facet_gl_desc){.has_shadows = !is_ogl1};
     d.aovs = p->desc->aovs;
     return d;
 }
@@ -208,6 +212,26 @@ facet_result gl_sea_model_begin(gl_sea_model *m, gl_context *context, const wate
     if (result == FACET_OK)
         upload_touch(m, p, camera, b);
     return result;
+}
+
+facet_result gl_sea_model_identify(const gl_sea_model *m, const water_frame *p, scene_identity **out,
+                                   uint32_t *count, facet_error *error)
+{
+    scene_identity *model = NULL;
+    uint32_t model_count = m->prepared.pose.instance_count;
+    *count = 2 + model_count;
+    *out = mem_zalloc(&p->desc->allocator, *count, sizeof **out);
+    if (!*out)
+        return fail_memory(error, "identities", *count * sizeof **out);
+    (*out)[0] = *p->water_identity;
+    if (p->bed_identity)
+        (*out)[1] = *p->bed_identity;
+    if (model_count > 0)
+        TRY(scene_identities_create(p->model, &m->prepared.pose, &p->desc->allocator, &model, error));
+    if (model_count > 0)
+        memcpy(*out + 2, model, model_count * sizeof *model);
+    mem_free(model);
+    return FACET_OK;
 }
 
 static gl_frame_block frame_block(const gl_sea_model *m, const water_frame *p, const camera_rays *camera,

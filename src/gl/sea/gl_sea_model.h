@@ -8,6 +8,7 @@
 #include "gl/scene/gl_camera.h"
 #include "gl/scene/gl_frame.h"
 #include "gl/sea/gl_sea_block.h"
+#include "scene/identity.h"
 #include "water/water_frame.h"
 
 typedef struct gl_sea_model {
@@ -25,6 +26,10 @@ typedef struct gl_sea_model {
 facet_result gl_sea_model_begin(gl_sea_model *m, gl_context *context, const water_frame *frame,
                                 const camera_rays *camera, gl_sea_block *block, facet_render_stats *stats,
                                 facet_error *error);
+/* Identities by the numbers in the layers (sea.frag): the water's, the bed's, those of the model's geometries.
+ * A block of mem_alloc(). FACET_ERROR_MEMORY. m: {0} where there is no model. */
+facet_result gl_sea_model_identify(const gl_sea_model *m, const water_frame *frame, scene_identity **out,
+                                   uint32_t *count, facet_error *error);
 /* The model as a view sees it. Changes OpenGL's bindings. */
 facet_result gl_sea_model_draw(gl_sea_model *m, const water_frame *frame, const camera_rays *camera,
                                const gl_view *view, gl_sea_block *block, facet_error *error);
