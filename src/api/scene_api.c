@@ -182,7 +182,18 @@ facet_animation facet_scene_get_animation(const facet_scene *scene, uint32_t ind
 
 facet_result facet_scene_place(facet_scene *scene, const float matrix[16], facet_error *error)
 {
-    return scene_place(scene, matrix, error);
+    return scene_place(scene, 0, matrix, error);
+}
+
+facet_result facet_scene_place_part(facet_scene *scene, uint32_t part, const float matrix[16],
+                                    facet_error *error)
+{
+    return scene_place(scene, part, matrix, error);
+}
+
+facet_result facet_scene_append(facet_scene *scene, facet_scene *other, facet_error *error)
+{
+    return scene_append(scene, other, error);
 }
 
 facet_result facet_scene_save(const facet_scene *scene, const char *path, const facet_scene_save_desc *desc,

@@ -372,7 +372,7 @@ facet_result scene_settle_origin(facet_scene *scene, const facet_pose_desc *desc
 {
     uint32_t index;
     TRY(scene_pose_check(scene, desc, &index, error));
-    if (scene->is_placed)
+    if (scene->part_count)
         return FACET_OK;
     samples *s = mem_alloc(&scene->allocator, 1, sizeof *s);
     if (!s)

@@ -250,7 +250,7 @@ static void a_placed_model_has_the_origin_of_its_place(void **state)
     float matrix[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 10, 20, 30, 1};
     for (int i = 0; i < 2; i++) {
         scene_pose pose;
-        assert_int_equal(scene_place(scene, matrix, NULL), FACET_OK);
+        assert_int_equal(scene_place(scene, 0, matrix, NULL), FACET_OK);
         assert_true(scene->origin[0] == 0.0);
         assert_int_equal(scene_pose_create(scene, NULL, NULL, 1, &pose, NULL), FACET_OK);
         for (int axis = 0; axis < 3; axis++)

@@ -1,4 +1,4 @@
-/* scene.c - the scene as an object: creation, warnings, lookups, placement. pose.c evaluates it. */
+/* scene.c - the scene as an object: creation, warnings, lookups. parts.c places it, pose.c evaluates it. */
 #include "scene/scene.h"
 
 #include <float.h>
@@ -72,6 +72,8 @@ typedef struct scene_store {
     size_t warning_capacity, note_capacity;
     size_t file_capacity;
     index_table kept_files; /* scene.files with open bytes, by device and inode */
+    facet_scene *appended;  /* scenes whose arrays this one uses, destroyed with it: a list, .. */
+    facet_scene *next;      /* .. of which this one is an element */
 } scene_store;
 
 /* The directory entries examined in a second or two. */
@@ -105,6 +107,11 @@ void scene_destroy(facet_scene *scene)
 {
     if (!scene)
         return;
+    facet_scene *next;
+    for (facet_scene *s = ((scene_store *)scene)->appended; s; s = next) {
+        next = ((scene_store *)s)->next;
+        scene_destroy(s);
+    }
     for (uint32_t i = 0; i < scene->file_count; i++)
         file_close(&scene->files[i]);
     mem_free(scene->files);
@@ -156,6 +163,9 @@ bool scene_has_file(const facet_scene *scene, const char *path)
 {
     for (uint32_t i = 0; i < scene->file_count; i++)
         if (file_is_at(&scene->files[i], path))
+            return true;
+    for (const facet_scene *s = ((const scene_store *)scene)->appended; s; s = ((const scene_store *)s)->next)
+        if (scene_has_file(s, path))
             return true;
     return false;
 }
@@ -211,86 +221,21 @@ void scene_note(facet_scene *scene, const facet_log *log, const char *format, ..
         log_message(log, FACET_LOG_LEVEL_DETAIL, "%s", message);
 }
 
+void scene_keep_scene(facet_scene *scene, facet_scene *other)
+{
+    static const facet_log silent = {0};
+    scene_store *store = (scene_store *)scene;
+    ((scene_store *)other)->next = store->appended;
+    store->appended = other;
+    for (uint32_t i = 0; i < other->warning_count; i++)
+        scene_warn(scene, &silent, "%s", other->warnings[i]);
+    for (uint32_t i = 0; i < other->note_count; i++)
+        scene_note(scene, &silent, "%s", other->notes[i]);
+}
+
 const scene_material *scene_get_material(const facet_scene *scene, uint32_t index)
 {
     if (index == SCENE_NONE)
         return &((const scene_store *)scene)->default_material;
     return &scene->materials[index];
-}
-
-/* ---- a model's place: a node above the roots of its default scene ---- */
-
-static bool is_affine(const float m[16])
-{
-    for (int i = 0; i < 16; i++)
-        if (!isfinite(m[i]))
-            return false;
-    return m[3] == 0.0f && m[7] == 0.0f && m[11] == 0.0f && m[15] == 1.0f;
-}
-
-/* The roots of the default scene; a file without scenes shows all nodes without a parent. False: no memory. */
-static bool find_roots(facet_scene *s, scene_root *out)
-{
-    if (s->scene_count) {
-        *out = s->scenes[s->default_scene == SCENE_NONE ? 0 : s->default_scene];
-        return true;
-    }
-    uint32_t *nodes = arena_alloc(s->arena, (size_t)s->node_count + 1, sizeof *nodes);
-    if (!nodes)
-        return false;
-    *out = (scene_root){.name = "", .nodes = nodes, .image_light = SCENE_NONE};
-    for (uint32_t i = 0; i < s->node_count; i++)
-        if (s->nodes[i].parent == SCENE_NONE)
-            nodes[out->node_count++] = i;
-    return true;
-}
-
-static facet_result add_root(facet_scene *s, facet_error *error)
-{
-    scene_root roots;
-    bool fits = find_roots(s, &roots);
-    scene_node *nodes = arena_alloc(s->arena, (size_t)s->node_count + 1, sizeof *nodes);
-    scene_root *scenes = arena_alloc(s->arena, (size_t)s->scene_count + 1, sizeof *scenes);
-    uint32_t *list = arena_alloc(s->arena, 1, sizeof *list);
-    if (!fits || !nodes || !scenes || !list)
-        return fail_memory(error, "a place for a model", ((size_t)s->node_count + 1) * sizeof *nodes);
-    uint32_t own = s->node_count, index = s->default_scene == SCENE_NONE ? 0 : s->default_scene;
-    if (own)
-        memcpy(nodes, s->nodes, own * sizeof *nodes);
-    if (s->scene_count)
-        memcpy(scenes, s->scenes, s->scene_count * sizeof *scenes);
-    for (uint32_t i = 0; i < roots.node_count; i++)
-        nodes[roots.nodes[i]].parent = own;
-    nodes[own] = scene_node_default("place");
-    nodes[own].child_count = roots.node_count;
-    nodes[own].children = roots.nodes;
-    nodes[own].has_matrix = true;
-    *list = own;
-    scenes[index] = roots;
-    scenes[index].nodes = list;
-    scenes[index].node_count = 1;
-    s->nodes = nodes;
-    s->node_count++;
-    s->scenes = scenes;
-    s->scene_count += s->scene_count == 0;
-    s->is_placed = true;
-    memcpy(s->placed_origin, s->origin, sizeof s->origin);
-    memset(s->origin, 0, sizeof s->origin);
-    return FACET_OK;
-}
-
-facet_result scene_place(facet_scene *scene, const float matrix[16], facet_error *error)
-{
-    if (!is_affine(matrix))
-        return fail(error, FACET_ERROR_ARGUMENT, "%s: a matrix whose last row is 0 0 0 1 was expected",
-                    scene->source);
-    if (!scene->is_placed)
-        TRY(add_root(scene, error));
-    dmat4 place;
-    for (int i = 0; i < 16; i++)
-        place.m[i] = (double)matrix[i];
-    const double back[3] = {-scene->placed_origin[0], -scene->placed_origin[1], -scene->placed_origin[2]};
-    dmat4 to_world = dmat4_translation(back);
-    scene->nodes[scene->node_count - 1].matrix = dmat4_multiply(&place, &to_world);
-    return FACET_OK;
 }

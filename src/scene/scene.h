@@ -339,6 +339,12 @@ typedef struct scene_extension {
     scene_support support;
 } scene_extension;
 
+/* What facet_scene_place() moves: a root of the default scene. */
+typedef struct scene_part {
+    uint32_t node;
+    double origin[3]; /* the part's origin before it was placed */
+} scene_part;
+
 typedef struct facet_scene {
     facet_allocator allocator;
     arena *arena;
@@ -367,9 +373,9 @@ typedef struct facet_scene {
      * model is far from it. is_far: worlds of nodes are composed in double. */
     double origin[3];
     bool is_far;
-    bool is_placed; /* the default scene has one root, the last node, which facet_scene_place() made */
-    double placed_origin[3]; /* if so: the previous origin */
-    uint32_t default_scene;  /* 0 where the file names none; SCENE_NONE: the file has no scene */
+    uint32_t part_count; /* 0: the scene was neither placed nor joined with another */
+    scene_part *parts;
+    uint32_t default_scene; /* 0 where the file names none; SCENE_NONE: the file has no scene */
     scene_extension *extensions;
     const char **warnings; /* warnings sent to log during reading */
     const char **notes;    /* violations of the file format without effect */
@@ -406,8 +412,11 @@ void scene_note(facet_scene *scene, const facet_log *log, const char *format, ..
 /* Looks up scene->materials[index], or the default material for SCENE_NONE. */
 const scene_material *scene_get_material(const facet_scene *scene, uint32_t index);
 
-/* facet_scene_place(). */
-facet_result scene_place(facet_scene *scene, const float matrix[16], facet_error *error);
+/* facet_scene_place_part(), facet_scene_append(). */
+facet_result scene_place(facet_scene *scene, uint32_t part, const float matrix[16], facet_error *error);
+facet_result scene_append(facet_scene *scene, facet_scene *other, facet_error *error);
+/* Takes ownership of a scene into whose arrays this one points, and adds its warnings and notes. */
+void scene_keep_scene(facet_scene *scene, facet_scene *other);
 /* facet_scene_create_builtin(), facet_scene_get_counts(), facet_scene_describe_json(). */
 facet_result scene_create_builtin(const facet_scene_desc *desc, facet_scene **out, facet_error *error);
 facet_scene_counts scene_count(const facet_scene *scene);
