@@ -20,7 +20,7 @@ enum {
 
 /* Per image. */
 typedef struct phong_frame_block {
-    float view[3][4]; /* rows: world to eye space */
+    float view[3][4]; /* rows: world to eye space; w: the eye, m */
     int32_t variant, is_encoded, are_colors_srgb, light_count;
     float global_ambient[3], has_rgl_colors;
     float fog_color[3], fog_mode;
@@ -49,7 +49,8 @@ static void store3(vec3 v, float out[3])
         out[i] = v[i];
 }
 
-static void fill_frame(const ogl1_setup *s, facet_ogl1_variant variant, phong_frame_block *b)
+static void fill_frame(const ogl1_setup *s, const camera_rays *camera, facet_ogl1_variant variant,
+                       phong_frame_block *b)
 {
     memset(b, 0, sizeof *b);
     for (int axis = 0; axis < 3; axis++) {
@@ -57,6 +58,7 @@ static void fill_frame(const ogl1_setup *s, facet_ogl1_variant variant, phong_fr
         vec3 column = mul(s->view, unit);
         for (int row = 0; row < 3; row++)
             b->view[row][axis] = column[row];
+        b->view[axis][3] = camera->origin[axis];
     }
     b->variant = (int32_t)variant;
     b->is_encoded = s->is_encoded;
@@ -230,12 +232,13 @@ static facet_result update_textures(gl_phong *p, const gl_phong_view *view, face
 }
 
 /* On the heap, because the block is too large for the stack of an arbitrary caller's thread. */
-static facet_result upload_frame(gl_phong *p, const ogl1_setup *setup, facet_error *error)
+static facet_result upload_frame(gl_phong *p, const ogl1_setup *setup, const camera_rays *camera,
+                                 facet_error *error)
 {
     phong_frame_block *block = mem_alloc(&p->allocator, 1, sizeof *block);
     if (!block)
         return fail_memory(error, "lights", sizeof *block);
-    fill_frame(setup, p->desc.variant, block);
+    fill_frame(setup, camera, p->desc.variant, block);
     glBindBuffer(GL_UNIFORM_BUFFER, p->frame_buffer);
     glBufferData(GL_UNIFORM_BUFFER, sizeof *block, block, GL_DYNAMIC_DRAW);
     mem_free(block);
@@ -275,7 +278,7 @@ facet_result gl_phong_update(gl_phong *p, const gl_phong_view *view, facet_error
     if (result == FACET_OK)
         result = update_textures(p, view, error);
     if (result == FACET_OK)
-        result = upload_frame(p, &setup, error);
+        result = upload_frame(p, &setup, view->camera, error);
     if (result == FACET_OK)
         result = upload_materials(p, &setup, error);
     ogl1_setup_destroy(&setup);

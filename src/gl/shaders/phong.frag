@@ -90,7 +90,7 @@ vec3 mapped_normal()
 vec4 diffuse_texel()
 {
 #if defined(IS_SPHERE_MAP) && !defined(IS_SPRITE)
-    vec3 V = view_in_eye_space(to_eye_space(v_position));
+    vec3 V = view_in_eye_space(point_in_eye_space(v_position));
     vec2 at = phong_sphere_map(phong_normal(ogl1_rules(), point_normal(), V, gl_FrontFacing), V);
     return filtered_texel(u_material1, vec2(at.x, 1.0 - at.y), phong_maps[3 * DIFFUSE_MAP + 1].w > 0.0);
 #else
@@ -155,7 +155,7 @@ PhongColor base_color()
     PhongColor c = phong_color(v_color);
 #endif
     if (phong_flags.y > 0.0) {
-        vec3 V = view_in_eye_space(to_eye_space(v_position));
+        vec3 V = view_in_eye_space(point_in_eye_space(v_position));
         c.opacity = phong_halo(c.opacity, abs(dot(point_normal(), V)));
     }
 #ifdef HAS_OPACITY_MAP
@@ -205,7 +205,7 @@ vec3 with_fog(PhongRules r, vec3 color)
     f.far_m = ogl1_fog.y;
     f.scale = ogl1_fog.z;
     f.w = ogl1_fog.w;
-    return phong_flags.z > 0.0 ? phong_fogged(r, f, color, -to_eye_space(v_position).z) : color;
+    return phong_flags.z > 0.0 ? phong_fogged(r, f, color, -point_in_eye_space(v_position).z) : color;
 }
 
 void main()

@@ -2,7 +2,7 @@
  * eye space is that of shade/phong.h; values are those of the computation, encoded ones or linear light. */
 layout(std140) uniform Ogl1
 {
-    vec4 ogl1_view[3];     /* rows: world to eye space */
+    vec4 ogl1_view[3];     /* rows: world to eye space, of the eye at w, m, for all views of an image */
     /* variant; 1: computed with encoded values; 1: colors are sRGB; number of lights, 0: punctual ones */
     ivec4 ogl1_modes;
     vec4 ogl1_ambient;     /* global; w: 1 rgl's colors */
@@ -47,10 +47,16 @@ PhongRules ogl1_rules()
 
 /* ---- places ---- */
 
-/* A direction, or a point relative to the eye, in eye space. */
+/* A direction in eye space. */
 vec3 to_eye_space(vec3 v)
 {
     return vec3(dot(ogl1_view[0].xyz, v), dot(ogl1_view[1].xyz, v), dot(ogl1_view[2].xyz, v));
+}
+
+/* A point relative to the eye of the view. In a mirror the lights are where the image has them. */
+vec3 point_in_eye_space(vec3 at)
+{
+    return to_eye_space(at + (eye.xyz - vec3(ogl1_view[0].w, ogl1_view[1].w, ogl1_view[2].w)));
 }
 
 vec3 view_in_eye_space(vec3 P)
@@ -111,7 +117,7 @@ PhongLight ogl1_punctual(Light light, vec3 P)
 PhongLit light_at_point(PhongMaterial m, vec3 at, vec3 N, bool is_front)
 {
     PhongRules r = ogl1_rules();
-    vec3 P = to_eye_space(at);
+    vec3 P = point_in_eye_space(at);
     vec3 V = view_in_eye_space(P);
     vec3 lit_N = phong_normal(r, N, V, is_front);
     PhongLit lit = phong_unlit_part(r, m);
