@@ -1,4 +1,4 @@
-/* bake_dfg_test.c - tables of reflectance: nodes, layouts, threads, what is refused. The integrals
+/* bake_dfg_test.c - LUTs of directional albedo: nodes, layouts, threads, refusals. The integrals
  * themselves: ibl/dfg_integrate_test.c. */
 #include <math.h>
 #include <setjmp.h>

@@ -58,7 +58,7 @@ static void mirrored_cube_maps_flip_x(void **state)
                     assert_float_equal(here[1], there[1], 0.0f);
                     assert_float_equal(here[2], there[2], 0.0f);
                 }
-        /* The borders are what the faces make them. */
+        /* Borders follow from the faces. */
         assert_int_equal(cube_create((uint32_t)n, NULL, &with_borders, &error), FACET_OK);
         const size_t size = 6 * (size_t)(n + 2) * (size_t)(n + 2) * sizeof(rgbx);
         memcpy(with_borders.texels, m->levels[level].texels, size);

@@ -1,4 +1,4 @@
-/* bake_sh_test.c - environments as nine harmonics: what each form adds up to, rotation, exposure, clamp,
+/* bake_sh_test.c - environments as nine harmonics: the sum of each form, rotation, exposure, clamp,
  * window. */
 #include <math.h>
 #include <setjmp.h>
@@ -110,7 +110,7 @@ static void a_cosine_lobe_gives_golden_values(void **state)
     facet_environment_destroy(e);
 }
 
-/* Coefficients of what has no other bands are those that it was made of: +Y up, signs and order. */
+/* The coefficients of a polynomial of bands 0 to 2 are the ones it was made of: +Y up, signs and order. */
 static void coefficients_are_those_of_the_basis(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* bake_test.c - baked cube maps against closed forms, and what holds for all of them. */
+/* bake_test.c - baked cube maps against closed forms, and properties of all of them. */
 #include <float.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,7 +19,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* ---- what is uniform ---- */
+/* ---- uniform light ---- */
 
 static void uniform_light_stays_uniform(void **state)
 {
@@ -206,8 +206,8 @@ static double density(const bake_lobe *lobe, double s2)
     return s2 < 0.5 ? bake_lobe_weight(lobe, s2) / whole : 0.0;
 }
 
-/* Each level is the lobe, and none of the light is lost. Tolerances: of the largest value that a texel
- * has, and of the root mean square. */
+/* Each level shows the lobe, and no energy is lost. Tolerances are relative to the largest texel and to
+ * the root mean square. */
 static void check_sun(facet_lobe kind, facet_bake_method method, uint32_t x, uint32_t y, double tolerance,
                       double rms_tolerance)
 {
@@ -276,7 +276,7 @@ static void a_sun_becomes_the_ring_of_charlie(void **state)
 
 /* ---- means over texels ---- */
 
-/* Whatever the sizes of both and however turned: all light arrives, and what is uniform stays that. */
+/* For all sizes of source and target and any rotation, energy is kept and uniform radiance stays uniform. */
 static void areas_keep_energy_at_any_size_and_rotation(void **state)
 {
     (void)state;
@@ -336,7 +336,7 @@ static void a_quarter_turn_moves_light_between_faces(void **state)
             for (uint32_t i = 0; i < texel_count(&turned->levels[level]); i++) {
                 double d[3];
                 texel_direction(&turned->levels[level], i, d);
-                /* light goes from +Z to +X: the texel at +X has what was at +Z */
+                /* light turns from +Z to +X: the texel at +X has the value of the one at +Z */
                 cube_point p = cube_locate((float)-d[2], (float)d[1], (float)d[0]);
                 rgbx was = cube_fetch(&straight->levels[level], p);
                 for (int k = 0; k < 3; k++)
@@ -515,7 +515,7 @@ static void baking_can_be_cancelled(void **state)
     facet_environment_destroy(e);
 }
 
-/* Whichever allocation fails, the result says so and nothing leaks. */
+/* Each failing allocation gives FACET_ERROR_MEMORY, and nothing leaks. */
 static void running_out_of_memory_leaks_nothing(void **state)
 {
     (void)state;

@@ -19,7 +19,7 @@ static void lamps(const float d[3], float out[3])
         out[k] = 0.2f + (d[k] > 0.95f ? 40.0f : 0.0f) + 0.1f * d[(k + 1) % 3];
 }
 
-/* What is added to a cube map is what is found to be wrong with it. */
+/* The reported error is the one that was added to the cube map. */
 static void added_errors_are_found(void **state)
 {
     (void)state;
@@ -97,7 +97,7 @@ static void the_reference_filters_with_the_lobe(void **state)
     facet_environment_destroy(e);
 }
 
-/* Harmonics are within 1 % of the reference on real light, from mirror to diffuse. */
+/* In real environments harmonics are within 1 % of the reference, from smooth to diffuse. */
 static void check_real(facet_environment *e, const char *name, facet_bake_desc desc, uint32_t count)
 {
     facet_cube *c = bake(e, desc);

@@ -230,7 +230,7 @@ static void leading_digits_are_counted(void **state)
     assert_int_equal(value, 0);
     assert_int_equal(number_read_digits(text + 12, &value), 2);
     assert_int_equal(value, 12);
-    for (int c = 0; c < 256; c++) { /* no other byte is a digit, whatever follows */
+    for (int c = 0; c < 256; c++) { /* no other byte is a digit, with any bytes behind it */
         char bytes[8];
         memset(bytes, c, sizeof bytes);
         bytes[0] = '7';

@@ -82,7 +82,7 @@ static void long_text_grows_and_failure_sticks(void **state)
     facet_budget_destroy(budget);
 }
 
-/* What text_shortest_float() promises, by the C library alone. */
+/* text_shortest_float() by the C library alone. */
 static void assert_shortest(uint32_t bits)
 {
     float value;

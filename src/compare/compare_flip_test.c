@@ -294,14 +294,14 @@ static void equal_images_give_zero_and_order_does_not_matter(void **state)
         fixture_draw(b, 2, 0.3f);
         double forth = fixture_compare(a, b, &flip_only).flip, back = fixture_compare(b, a, &flip_only).flip;
         assert_true(forth > 0.01);
-        if (is_display) /* of light, the exposures are those of the first image */
+        if (is_display) /* for radiance, exposures are chosen from the first image */
             assert_true(forth == back);
         free(a);
         free(b);
     }
 }
 
-/* More noise is more error; what is too fine for the eye is less than the same in large. */
+/* More noise is more error; a pattern too fine for the eye gives a smaller error than a coarse one. */
 static void noise_raises_and_fine_detail_lowers_errors(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* compare_test.c - errors of pixels, percentiles, SSIM, crops, masks, alpha, what is no number, memory
- * that runs out. FLIP is in compare_flip_test.c. */
+/* compare_test.c - errors of pixels, percentiles, SSIM, crops, masks, alpha, nonfinite pixels, failing
+ * allocations. FLIP is in compare_flip_test.c. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -212,7 +212,7 @@ static void ssim_of_constants_is_that_of_their_means(void **state)
     free(b);
 }
 
-/* ---- what is compared ---- */
+/* ---- the compared pixels ---- */
 
 static void only_the_crop_counts(void **state)
 {
@@ -239,8 +239,7 @@ static void only_the_crop_counts(void **state)
     free(b);
 }
 
-/* What the mask hides is seen by no metric, not through filters either; what it lets count is divided by
- * what counts. */
+/* Masked pixels affect no metric, not through filters either; means are over the unmasked pixels. */
 static void hidden_pixels_do_not_count(void **state)
 {
     (void)state;
@@ -299,7 +298,8 @@ static void opacity_is_compared_where_an_image_has_it(void **state)
     free(b);
 }
 
-/* Light is exposed and tone-mapped; what is a display's already is not. Both meet in the display's numbers. */
+/* Radiance is exposed and tone-mapped, a display-referred image is not; both are compared in display
+ * values. */
 static void radiance_is_compared_with_display_images(void **state)
 {
     (void)state;
@@ -325,7 +325,7 @@ static void radiance_is_compared_with_display_images(void **state)
     free(shown);
 }
 
-/* ---- what is no number ---- */
+/* ---- nonfinite pixels ---- */
 
 static void nonfinite_pixels_are_reported_and_left_out(void **state)
 {

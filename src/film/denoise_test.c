@@ -1,4 +1,4 @@
-/* Tests of denoise.h: noise goes, all else stays. */
+/* denoise_test.c - film_denoise() removes noise and keeps the rest. */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -23,7 +23,7 @@ typedef struct pixel_truth {
 } pixel_truth;
 
 /* A film of the mean of 16 samples per pixel, each light * albedo * a factor of mean 1: 1 - amount +
- * amount times what is exponentially distributed. Keeps the truth in its own film. */
+ * amount times an exponentially distributed number. The noise-free values go to a film of their own. */
 static film noisy_film(uint32_t width, uint32_t height, pixel_truth (*at)(uint32_t x, uint32_t y),
                        float amount, uint32_t seed, film *truth)
 {
@@ -100,7 +100,7 @@ static pixel_truth corner(uint32_t x, uint32_t y)
                   : (pixel_truth){.light = 0.3f, .albedo = 0.5f, .normal = {1, 0, 0}};
 }
 
-/* A shadow's edge, which neither albedo nor normal know of. */
+/* A shadow's edge, which albedo and normal do not show. */
 static pixel_truth shadow(uint32_t x, uint32_t y)
 {
     (void)y;
@@ -116,9 +116,8 @@ static pixel_truth highlight(uint32_t x, uint32_t y)
 
 enum { WIDTH = 64, HEIGHT = 48 };
 
-/* Noise of 7 to 25 % of the light. A fit of nine terms to 225 pixels leaves no less than sqrt(9 / 225) =
- * 0.2 where all of them belong together, less what windows that overlap have in common. A highlight of
- * five pixels has few of its kind. */
+/* Noise of 7 to 25 % of the radiance. A fit of nine terms to 225 similar pixels leaves at least sqrt(9 /
+ * 225) = 0.2 of it, overlapping windows somewhat less. A highlight of five pixels has few similar ones. */
 static void known_radiance_is_recovered_from_noise(void **state)
 {
     (void)state;
@@ -219,8 +218,7 @@ static void errors_of_traced_images_fall(void **state)
     }
 }
 
-/* Weights that go by likeness and outliers that are taken down would leave images too dark: here by 4 %
- * and more. */
+/* Weights by similarity and damped outliers alone would make images too dark: here by 4 % and more. */
 static void energy_is_kept(void **state)
 {
     (void)state;
@@ -239,7 +237,8 @@ static void energy_is_kept(void **state)
     }
 }
 
-/* A spot of 50 times the light, of one sample: it goes, its neighbours do not take its light over. */
+/* A spot of 50 times the radiance, from one sample: it is removed, and its neighbors do not become
+ * brighter. */
 static void fireflies_are_removed(void **state)
 {
     (void)state;
@@ -259,7 +258,7 @@ static void fireflies_are_removed(void **state)
     film_destroy(&truth);
 }
 
-/* ---- what stays ---- */
+/* ---- kept properties ---- */
 
 static void clean_images_keep_their_bits(void **state)
 {
@@ -275,7 +274,7 @@ static void clean_images_keep_their_bits(void **state)
     film_destroy(&before);
 }
 
-/* What samples say is trusted in the end: a pixel is never moved by more than 8 times its noise. */
+/* As variance falls the samples are trusted: a pixel never changes by more than 8 standard deviations. */
 static void the_filter_fades_out_as_variance_falls(void **state)
 {
     (void)state;
@@ -328,7 +327,7 @@ static void opacity_is_kept(void **state)
     film_destroy(&truth);
 }
 
-/* ---- what it does not depend on ---- */
+/* ---- independence ---- */
 
 static void scale(film *f, float factor)
 {
@@ -374,9 +373,10 @@ static void results_do_not_depend_on_threads(void **state)
     film_destroy(&many);
 }
 
-/* ---- odd films ---- */
+/* ---- invalid pixels ---- */
 
-/* Two pixels that are odd do not change what is beyond two windows' radius and what noise is estimated over. */
+/* Two invalid pixels do not affect pixels beyond two radii of a window and the extent of the noise
+ * estimate. */
 static void invalid_pixels_do_not_spread(void **state)
 {
     (void)state;

@@ -168,7 +168,7 @@ static void films_over_a_color_are_opaque(void **state)
     assert_true(out[3] == 1.0f);
 }
 
-/* The edge of a surface over a background of its own color must not show, whatever the coverage. */
+/* The edge of a surface over a background of its own color is invisible at any coverage. */
 static void edges_have_no_fringe(void **state)
 {
     (void)state;

@@ -66,7 +66,7 @@ static void brightness_is_judged_by_the_median(void **state)
     film_destroy(&f);
 }
 
-/* What is metered comes to the key; saturation at EV 15 is 1.2 * 2^15 cd/m^2. */
+/* The metered exposure maps the log-average to the key; saturation at EV 15 is 1.2 * 2^15 cd/m^2. */
 static void exposures_are_those_of_a_camera(void **state)
 {
     (void)state;

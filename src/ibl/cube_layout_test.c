@@ -136,7 +136,7 @@ static void faces_are_where_facet_h_says(void **state)
     cube_destroy(&c);
 }
 
-/* On paper as on the sphere: neighbours in a cross, cells or not, are neighbours in direction. */
+/* Adjacent pixels of a cross, within a face or across faces, are adjacent on the sphere. */
 static void neighboring_faces_of_crosses_are_continuous(void **state)
 {
     (void)state;
@@ -264,9 +264,9 @@ static sphere make_target(sphere_kind kind, uint32_t height, cube *c, image *pan
     return sphere_of_image(kind, panorama);
 }
 
-/* From each kind to each, finer, as fine and coarser. A smooth function stays what it is, to the second
- * order of the sources' texels, which are bilinear (most at the folds of octahedra), also across edges. A
- * shift by a twentieth of a texel would be 1.5e-3. */
+/* From each kind to each, finer, equal and coarser. A smooth function is kept to the second order of the
+ * source's texels, which are read bilinearly (the error is largest at the folds of octahedra), also across
+ * edges. A shift by a twentieth of a texel would be 1.5e-3. */
 static void smooth_functions_are_kept(void **state)
 {
     (void)state;
@@ -351,7 +351,7 @@ static void energy_is_kept(void **state)
     }
 }
 
-/* A bright and even patch, hot, stays even: few lookups weigh its texels by a few thousandths more or less. */
+/* A uniform patch much brighter than the mean stays uniform although few lookups hit each texel. */
 static void bright_patches_stay_uniform(void **state)
 {
     (void)state;
@@ -380,7 +380,8 @@ static void bright_patches_stay_uniform(void **state)
                 continue;
             inside++;
             assert_true(fabsf(sphere_texel(&target, i)[0] / 1000.0f - 1.0f) < 0.015f);
-            assert_true(fabsf(sphere_texel(&target, i)[1] - 1.0f) < 1e-5f); /* not hot */
+            assert_true(fabsf(sphere_texel(&target, i)[1] - 1.0f) <
+                        1e-5f); /* not much brighter than the mean */
         }
         assert_true(inside > 0);
         image_destroy(&p2);
@@ -414,12 +415,12 @@ static void constants_are_kept(void **state)
     cube_destroy(&c);
 }
 
-/* A turn, and the same back; d of the target is rows d of the source. */
+/* A rotation and its inverse; direction d of the target is rows d of the source. */
 static void rotations_are_applied(void **state)
 {
     (void)state;
     cube c = make_directions(32);
-    *cube_texel(&c, 4, 16, 16) = rgbx_splat(1000.0f); /* hot: at +Z */
+    *cube_texel(&c, 4, 16, 16) = rgbx_splat(1000.0f); /* much brighter than the mean, at +Z */
     cube_fill_borders(&c);
     cube c2;
     image p2;

@@ -73,7 +73,7 @@ static const double average_charlie[5] = {0.021510382484, 0.058355778644, 0.1426
 static const double average_neubelt[5] = {0.037041921533, 0.093838319491, 0.170338834695, 0.216227572227,
                                           0.241857965860};
 
-/* What the header promises. */
+/* The errors that the header states. */
 static const double GGX_ERROR = 2e-6;
 static const double SHEEN_ERROR = 1e-5;
 
@@ -178,8 +178,8 @@ static void roughness_zero_gives_fresnel(void **state)
     assert_true(E.charlie == 0.0 && E.neubelt == 0.0);
 }
 
-/* Facts: E = 1 - ln 2 for alpha = 1 seen from above, whichever the masking; separable and Schlick with k =
- * 1/2 are the same there; below NDOTV_MIN nothing changes. */
+/* E = 1 - ln 2 for alpha = 1 at normal incidence with any masking; separable masking and Schlick with k =
+ * 1/2 are equal there; N.V is clamped to NDOTV_MIN. */
 static void known_identities_hold(void **state)
 {
     (void)state;
@@ -198,7 +198,7 @@ static void known_identities_hold(void **state)
     }
 }
 
-/* No surface reflects more than it receives, at grazing angles and at next to no roughness neither. */
+/* No surface reflects more than it receives, not even at grazing angles and near roughness 0. */
 static void no_surface_reflects_more_than_it_receives(void **state)
 {
     (void)state;

@@ -55,7 +55,7 @@ static void the_last_node_is_exact(void **state)
     assert_near(dfg[1], golden_B[4][4], 1e-4);
 }
 
-/* A mirror reflects Fresnel's share and nothing else. */
+/* At roughness 0 the terms are those of Fresnel reflection. */
 static void roughness_zero_gives_fresnel(void **state)
 {
     (void)state;
@@ -155,7 +155,7 @@ static void averages_of_sheen_equal_golden_values(void **state)
             double mu = (k + 0.5) / 20000.0;
             sum += 2.0 * mu * (double)ibl_sheen_albedo((float)mu, (float)roughness[i]) / 20000.0;
         }
-        assert_near(sum, golden[i], 2e-3); /* less what is above 1 */
+        assert_near(sum, golden[i], 2e-3); /* without the part above 1 */
     }
 }
 
@@ -187,8 +187,8 @@ static void terms_of_glass_equal_golden_values(void **state)
     }
 }
 
-/* Interpolated, what scatters once is known to 1 %, from either side, for the glasses that there are; and
- * a node is integrate_glass() to the last of its 16 bits. */
+/* Interpolated single scattering is accurate to 1 % from either side for the iors of real glasses; at
+ * nodes the LUT holds integrate_glass() to the last of its 16 bits. */
 static void interpolated_terms_of_glass_are_accurate(void **state)
 {
     (void)state;

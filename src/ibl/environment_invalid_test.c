@@ -200,7 +200,7 @@ static void other_aspect_ratios_are_refused_or_stretched(void **state)
     }
 }
 
-/* Headers that claim much: refused for their edges, or when a budget ends, before the memory is there. */
+/* Headers that claim large sizes are refused for their edges, or by the budget, before memory is taken. */
 static void large_claims_are_refused_before_memory_is_taken(void **state)
 {
     (void)state;

@@ -330,7 +330,7 @@ static void prepared_parts_are_cached(void **state)
     }
     assert_int_equal(m.count, 0);
 
-    /* bounded: room for the smallest levels only; what is not facet's stays */
+    /* bounded: space for the smallest levels only; files that are not facet's are kept */
     count_entries(folder, "all");
     char other[1100];
     snprintf(other, sizeof other, "%s/notes.txt", folder);

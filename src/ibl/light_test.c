@@ -1,4 +1,4 @@
-/* light_test.c - prepared lights: what they filter, and that parts are prepared once, lazily and equally. */
+/* light_test.c - prepared lights: filtered radiance, and parts that are prepared once, lazily and equally. */
 #include <math.h>
 #include <pthread.h>
 #include <setjmp.h>
@@ -94,8 +94,8 @@ static void kernels_equal_golden_values(void **state)
     }
 }
 
-/* Each level scales each band by k_l: in its texels, and with a little more deviation in what is looked up
- * between them. */
+/* Each level scales each band by k_l, in its texels and, with a slightly larger error, in lookups between
+ * them. */
 static void check_bands(facet_environment *e, int first_band, int band_step)
 {
     const ibl_light *light = prepare(e, everything);
@@ -181,8 +181,8 @@ static void sky(const float d[3], float out[3])
     out[2] = 0.4f;
 }
 
-/* No fireflies: nothing is brighter than the sun's energy times the lobe's peak, nor darker than the
- * darkest sky less what ringing is left. No energy is lost. */
+/* No fireflies: nothing is brighter than the sun's energy times the lobe's peak, or darker than the
+ * darkest sky minus the remaining ringing. No energy is lost. */
 static void check_sun(uint32_t sun_x, uint32_t sun_y)
 {
     const uint32_t width = 1024;
@@ -230,7 +230,7 @@ static void a_sun_becomes_the_lobe(void **state)
     check_sun(384, 255); /* near the middle of an edge of the cube */
 }
 
-/* ---- rotation, seams, mirrors ---- */
+/* ---- rotation, seams, roughness 0 ---- */
 
 static float rotation_phase;
 
@@ -394,7 +394,7 @@ static void only_needed_parts_are_prepared(void **state)
     facet_environment_destroy(e);
 
     e = make_environment(64, 32, sky);
-    light = prepare(e, (ibl_light_desc){.needs_specular = true}); /* mirrors only */
+    light = prepare(e, (ibl_light_desc){.needs_specular = true}); /* roughness 0 only */
     assert_null(e->parts.harmonics.coefficients);
     assert_false(e->parts.has_narrow);
     ibl_light_release(light);
@@ -411,7 +411,7 @@ static void only_needed_parts_are_prepared(void **state)
     assert_false(e->parts.has_narrow);
     ibl_light_release(light);
 
-    light = prepare(e, everything); /* keeps what there is */
+    light = prepare(e, everything); /* keeps the prepared parts */
     assert_ptr_equal(e->parts.levels[PREFILTER_GGX][4].texels, texels);
     facet_environment_destroy(e); /* the light keeps it */
     float d[3] = {0.0f, 1.0f, 0.0f};
@@ -509,7 +509,7 @@ static void count_release(void *user, void *memory, size_t size)
     free(memory);
 }
 
-/* Whichever allocation fails, the result says so and nothing leaks. */
+/* Each failing allocation gives FACET_ERROR_MEMORY, and nothing leaks. */
 static void running_out_of_memory_leaks_nothing(void **state)
 {
     (void)state;

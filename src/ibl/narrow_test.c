@@ -1,5 +1,4 @@
-/* narrow_test.c - nearly mirrors: what is looked up between a mirror and roughness 0.16, against the lobe
- * itself. */
+/* narrow_test.c - lookups between roughness 0 and 0.16 against the lobe itself. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -78,7 +77,7 @@ static void add_core(const image *panorama, const float R[3], float a2, double r
     }
 }
 
-/* A texel in parts x parts pieces; what is nearer to R than near2 is left out. */
+/* A texel in parts x parts pieces, without those nearer to R than near2. */
 static void add_pieces(const image *panorama, uint32_t x, uint32_t y, int parts, const float R[3], float a2,
                        float near2, double sum[4])
 {
@@ -164,8 +163,8 @@ static double error_over_sphere(const ibl_light *light, const image *panorama, f
 
 /* ---- weights ---- */
 
-/* Never negative, together 1, a mirror at one end and the rough lobe at the other, smooth in between; and
- * the lobe of NARROW_END has at least what makes the tail. */
+/* Weights are never negative and add up to 1; only the sharp image counts at one end, only the rough lobe
+ * at the other, with smooth transitions; the lobe of NARROW_END has at least the weight of the tail. */
 static void weights_are_smooth_and_add_up(void **state)
 {
     (void)state;
@@ -248,7 +247,7 @@ static void uniform(const float d[3], float out[3])
     out[2] = 1e6f;
 }
 
-/* Whatever the size: uniform stays uniform, and the bytes are the same for every number of threads. */
+/* At any size uniform light stays uniform, and bytes do not depend on threads. */
 static void all_sizes_keep_uniform_light(void **state)
 {
     (void)state;
@@ -329,7 +328,8 @@ static void small_lights_become_the_lobe_anywhere(void **state)
                     d[j] /= (float)sqrt(sum);
                 lobe_mean(&e->panorama, d, some_roughness[r], mean);
                 ibl_specular(light, d, some_roughness[r], out);
-                assert_near(out[1], mean[1], 3.0); /* of 100; a mirror mixed with the rough lobe: 11 */
+                assert_near(out[1], mean[1],
+                            3.0); /* of 100; a blend of the sharp image and the rough lobe: 11 */
             }
         ibl_light_release(light);
         facet_environment_destroy(e);

@@ -249,7 +249,8 @@ static void each_face_lights_from_its_direction(void **state)
     }
 }
 
-/* A light turned by a quarter around +Y: what was at +Z is at +X, for reflections and diffuse light. */
+/* A light rotated by 90 degrees around +Y: radiance from +Z comes from +X, for reflections and diffuse
+ * light. */
 static void rotated_lights_turn(void **state)
 {
     (void)state;
@@ -273,7 +274,7 @@ static void rotated_lights_turn(void **state)
     destroy_scene(s);
 }
 
-/* ---- the four ways in which files are written ---- */
+/* ---- the four conventions of files ---- */
 
 static void gradient(const double d[3], double out[3])
 {
@@ -282,7 +283,7 @@ static void gradient(const double d[3], double out[3])
     out[2] = 2.0 + 1.5 * d[1] + 0.4 * d[0];
 }
 
-/* Of L = a + b.d: what a lobe with k_1 makes of it is a + k_1 b.d, and k_1 = 2 / 3 for diffuse light. */
+/* A lobe with k_1 filters L = a + b.d to a + k_1 b.d, with k_1 = 2 / 3 for diffuse light. */
 static void gradients_are_read_in_all_conventions(void **state)
 {
     (void)state;
@@ -311,7 +312,7 @@ static void gradients_are_read_in_all_conventions(void **state)
                 assert_near(rough[k], lower[k], tolerance);
                 assert_near(diffuse[k], lower[k], 3e-3);
             }
-            float back[3]; /* diffuse transmission looks the other way */
+            float back[3]; /* diffuse transmission is lit from the opposite side */
             ibl_irradiance_over_pi(light, (const float[3]){-d[0], -d[1], -d[2]}, back);
             assert_near(back[1] + diffuse[1], 2.0, 4e-3);
         }
@@ -321,7 +322,7 @@ static void gradients_are_read_in_all_conventions(void **state)
     }
 }
 
-/* Where images cannot hold what shone, diffuse light is still what the file says. */
+/* Where images cannot hold the radiance, irradiance is still that of the file. */
 static void irradiance_is_that_of_the_file(void **state)
 {
     (void)state;
@@ -343,7 +344,7 @@ static void irradiance_is_that_of_the_file(void **state)
     destroy_scene(s);
 }
 
-/* Seams: none of a gradient read as it was written, plain ones read the other way. */
+/* A gradient has no seams when read as it was written, and distinct ones in the other convention. */
 static void seams_reveal_mirrored_faces(void **state)
 {
     (void)state;
@@ -365,7 +366,7 @@ static void seams_reveal_mirrored_faces(void **state)
     cube_destroy(&c);
 }
 
-/* ---- what files get wrong ---- */
+/* ---- invalid files ---- */
 
 typedef struct messages {
     int count;

@@ -86,7 +86,7 @@ static void minima_are_those_of_a_dense_search(void **state)
     assert_near(sh_minimum(sun), -19.0 / 480.0, 1e-12);
 }
 
-/* The function turned is the function at the direction turned back. */
+/* The rotated function at d is the function at d rotated back. */
 static void rotated_harmonics_are_the_rotated_function(void **state)
 {
     (void)state;
@@ -137,7 +137,7 @@ static double least_irradiance(double radiance[SH_COUNT][3], int channel)
     return sh_minimum(one);
 }
 
-/* A sun in any direction: the window takes the negative away, no more than that, alike in all channels. */
+/* For a sun in any direction the window just removes negative irradiance, equally in all channels. */
 static void deringing_removes_exactly_the_negative_lobes(void **state)
 {
     (void)state;

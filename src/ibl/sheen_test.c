@@ -127,7 +127,7 @@ static void a_sun_becomes_the_lobe(void **state)
         }
         print_message("roughness %.2f: peak %.3f, largest error %.2f %% of it, RMS %.2f %%, energy %.4f\n",
                       roughness, peak, 100.0 * worst, 100.0 * sqrt(square / count), energy);
-        /* the largest at the horizon, where a ring ends in an edge; energy: what was not below 0 */
+        /* the largest at the horizon, where a ring ends in an edge; energy: of nonnegative values */
         assert_true(worst < 0.05 + 0.035 / roughness && sqrt(square / count) < 0.02);
         assert_near(energy, 1.0, 0.003 / roughness);
     }
@@ -158,7 +158,7 @@ static void filter_by_sum(const image *panorama, const float R[3], double roughn
         out[k] /= whole;
 }
 
-/* RMS over directions of the error, relative to the mean of what is expected. */
+/* RMS error over directions, relative to the mean of the expected values. */
 static double compare(facet_environment *e, const char *name, double roughness, int count)
 {
     const ibl_light *light = prepare(e, all_sheen);
@@ -233,7 +233,7 @@ static void real_environments_are_filtered_accurately(void **state)
 
 /* ---- parts ---- */
 
-/* What needs no sheen prepares none; a range of roughness prepares the levels around it. */
+/* Without sheen no level is prepared; a range of roughness prepares the levels around it. */
 static void only_needed_levels_are_prepared(void **state)
 {
     (void)state;

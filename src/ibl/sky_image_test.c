@@ -79,13 +79,13 @@ static void the_disc_keeps_its_energy_at_any_resolution(void **state)
                         sum[i] +=
                             (double)texel(&p, x, y)[i] * equirect_texel_solid_angle(p.width, p.height, y);
             vec3 expected = sky_sun_illuminance(&sun);
-            for (int i = 0; i < 3; i++) /* of an orange sun, blue may be none */
+            for (int i = 0; i < 3; i++) /* the blue of an orange sun may be 0 */
                 assert_near(sum[i], (double)expected[i], 5e-4 * (double)luminance(expected));
             image_destroy(&p);
         }
 }
 
-/* It is a disc: as wide as the sun, in the right place, darker at its limb, without holes. */
+/* The disc is as wide as the sun, in the right place, darker at its limb, without holes. */
 static void the_disc_has_the_size_and_limb_of_the_sun(void **state)
 {
     (void)state;
@@ -122,7 +122,7 @@ static void the_disc_has_the_size_and_limb_of_the_sun(void **state)
     image_destroy(&p);
 }
 
-/* The image of the whole sky has it too: with the disc minus without is the sun. */
+/* The difference of skies with and without the disc is the sun. */
 static void skies_contain_the_disc(void **state)
 {
     (void)state;
@@ -143,7 +143,7 @@ static void skies_contain_the_disc(void **state)
     }
 }
 
-/* At sunset half of it is left, below nothing. */
+/* At sunset half of the disc is visible, below the horizon nothing. */
 static void the_disc_sets(void **state)
 {
     (void)state;
@@ -190,7 +190,7 @@ static void skies_are_symmetric_about_the_sun(void **state)
     }
 }
 
-/* Neighbours differ little: no bands, no seam where azimuths of +-180 degrees meet, though for the horizon. */
+/* Neighbors differ little: no bands, no seam at azimuths of +-180 degrees, except at the horizon. */
 static void skies_are_smooth(void **state)
 {
     (void)state;
@@ -226,7 +226,7 @@ static void skies_are_smooth(void **state)
     facet_environment_destroy(e);
 }
 
-/* No image holds what is no number, whatever the arguments. */
+/* All radiances are finite for any arguments. */
 static void all_radiances_are_finite(void **state)
 {
     (void)state;
@@ -250,8 +250,8 @@ static void all_radiances_are_finite(void **state)
         }
 }
 
-/* Twilight fades as it does: 3.4 lx where civil twilight ends (-6 degrees), 0.008 lx at -12 (Explanatory
- * Supplement to the Astronomical Almanac 1992); to a factor of 3 and of 5. Light of stars is not in it. */
+/* Twilight fades to 3.4 lx where civil twilight ends (-6 degrees) and 0.008 lx at -12 (Explanatory
+ * Supplement to the Astronomical Almanac 1992), to a factor of 3 and of 5. Starlight is not modeled. */
 static void twilight_fades_as_measured(void **state)
 {
     (void)state;
@@ -268,7 +268,7 @@ static void twilight_fades_as_measured(void **state)
     }
 }
 
-/* Light from the ground comes back from the sky; the ground is as bright as its albedo says. */
+/* The sky scatters light of the ground back; the radiance of the ground is proportional to its albedo. */
 static void the_ground_lights_the_sky(void **state)
 {
     (void)state;
@@ -302,7 +302,7 @@ static void skies_are_darker_from_a_mountain(void **state)
     facet_environment *high = create(sky);
     double a = luminance_of(texel(&low->panorama, 0, 20)), b = luminance_of(texel(&high->panorama, 0, 20));
     assert_true(b < 0.1 * a && b > 0.0);
-    /* dips by acos(R / (R + h)) = 5.55 degrees: rows of a degree; air in front of the ground shines */
+    /* dips by acos(R / (R + h)) = 5.55 degrees: rows of a degree; the ground is seen through in-scattering */
     double limb = luminance_of(texel(&high->panorama, 0, 94)),
            space = luminance_of(texel(&high->panorama, 0, 86));
     assert_true(limb > 2.0 * space);

@@ -1,6 +1,6 @@
-/* sky_monte_carlo_test.h - for tests: light of the atmosphere at one wavelength, in double, by other means
- * than the renderer's: scattered once by direct integration, all orders by tracking photons from the eye
- * (Woodcock), with the sun's light taken at each collision. */
+/* sky_monte_carlo_test.h - for tests: radiance of the atmosphere at one wavelength, in double,
+ * independently of the renderer: single scattering by direct integration, all orders by delta tracking
+ * from the eye (Woodcock) with the sun sampled at each collision. */
 #ifndef IBL_SKY_MONTE_CARLO_TEST_H
 #define IBL_SKY_MONTE_CARLO_TEST_H
 
@@ -137,7 +137,7 @@ static double mc_scattering_cosine(bool is_haze, double g, uint64_t *random)
     }
 }
 
-/* Goes on to the next collision; false: there is none before the ray ends after length. */
+/* Advances to the next collision; false: there is none within length. */
 static bool mc_collide(const mc_air *a, double p[3], const double d[3], double length, uint64_t *random)
 {
     double nearest = fmin(fmax(-mc_dot(p, d), 0.0), length), lowest[3] = {p[0], p[1], p[2]}, k[3];

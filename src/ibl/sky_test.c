@@ -176,8 +176,8 @@ static void march(const scene *s, const double d[3], const double sun[3], AirLig
     sky_march(&s->tables, &ray, ray_to_top(0.0f, ray.mu), 48, light);
 }
 
-/* Scattered once: the same but for steps and haze_forward_share(), which is taken out here by an air
- * without it. 2 %. */
+/* Single scattering agrees to 2 %, the error of the steps; the air here has hardly any haze, so that
+ * haze_forward_share() does not matter. */
 static void single_scattering_equals_monte_carlo(void **state)
 {
     (void)state;
@@ -199,8 +199,8 @@ static void single_scattering_equals_monte_carlo(void **state)
     destroy(&s);
 }
 
-/* All orders at 574 and 465 nm, over a bright ground: 12 % and four standard deviations of the photons (1
- * to 2 % each). What the approximation leaves out is largest where single wavelengths are looked at;
+/* All orders at 574 and 465 nm, over a bright ground: 12 % plus four standard deviations of the Monte
+ * Carlo estimate (1 to 2 % each). The error of the approximation is largest at single wavelengths;
  * luminance is better, see above. */
 static void multiple_scattering_is_close_to_monte_carlo(void **state)
 {
@@ -225,8 +225,8 @@ static void multiple_scattering_is_close_to_monte_carlo(void **state)
     sky_luts_destroy(&s.tables);
 }
 
-/* Light that the ground sends up comes back from the sky: E_sky over grounds from black to snow at 574 and
- * 465 nm, 12 % of what photons find. */
+/* The sky scatters light of the ground back: E_sky over grounds from black to snow at 574 and 465 nm,
+ * within 12 % of the Monte Carlo estimate. */
 static void skies_over_bright_ground_agree_with_monte_carlo(void **state)
 {
     (void)state;
@@ -253,7 +253,7 @@ static void skies_over_bright_ground_agree_with_monte_carlo(void **state)
         }
 }
 
-/* What the ground gets of the sky is what the image holds. */
+/* sky_irradiance() equals the integral of the image. */
 static void irradiance_of_the_ground_is_that_of_the_image(void **state)
 {
     (void)state;
@@ -272,8 +272,8 @@ static void irradiance_of_the_ground_is_that_of_the_image(void **state)
     destroy(&s);
 }
 
-/* Seen from above, what the air in front of the ground shines with grows towards the horizon and goes over
- * into the sky there. */
+/* Seen from above, in-scattering in front of the ground grows towards the horizon and continues into the
+ * sky there. */
 static void in_scattering_is_continuous_across_the_horizon(void **state)
 {
     (void)state;

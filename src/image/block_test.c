@@ -36,7 +36,7 @@ static uint64_t hash_blocks(block_decode *decode, bool is_bc7, size_t tile_size)
     return hash;
 }
 
-/* Each texel of these blocks was found equal to what Mesa 22.3's software renderer reads (glGetTexImage). */
+/* Each texel of these blocks equals the one that Mesa 22.3's software renderer returns (glGetTexImage). */
 static void random_blocks_decode_as_in_mesa(void **state)
 {
     (void)state;
@@ -105,7 +105,7 @@ static void channels_are_nearest_to_the_exact_value(void **state)
     }
 }
 
-/* Colors of BC1 within half a code of what real numbers give, from codes widened by repetition. */
+/* Colors of BC1 are within half a code of exact interpolation between codes widened by repetition. */
 static void colors_are_nearest_to_the_exact_value(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* codec_exr_test.c - OpenEXR: every coding of files that the OpenEXR library wrote, windows, tiles, parts;
- * what we write; environments against each other. */
+/* codec_exr_test.c - OpenEXR: every compression of files that the OpenEXR library wrote, windows, tiles,
+ * parts; written files; environments against each other. */
 #include "image/image_test.h"
 
 #include <float.h>
@@ -107,7 +107,7 @@ static void written_layers_come_back(void **state)
                 *x = half_to_float(half_from_float(*x));
             }
             assert_same_texels(&rgba, &back);
-            image_destroy(&back); /* what needs floats keeps every bit beside halves */
+            image_destroy(&back); /* layers that need floats keep every bit beside halves */
             assert_int_equal(
                 image_decode(bytes, size, "p", &(image_decode_desc){.layer = "depth"}, &back, NULL),
                 FACET_OK);
@@ -302,7 +302,7 @@ static void environments_agree_across_compressions(void **state)
     image_destroy(&small);
 }
 
-/* Against the OpenEXR 3.1.5 library: sums of all components of what it reads. */
+/* Against sums of all components as OpenEXR 3.1.5 reads them. */
 static void dwa_compressed_environments_are_read(void **state)
 {
     (void)state;
@@ -369,7 +369,7 @@ static void damaged_files_do_no_harm(void **state)
         if (image_decode(file.data, file.size, names[k], NULL, &i, &error) != FACET_OK)
             assert_null(i.pixels);
         else
-            assert_int_equal(k, 0); /* only a chunk that nothing checks is odd in it */
+            assert_int_equal(k, 0); /* only a chunk without a checksum is damaged */
         image_destroy(&i);
         file_close(&file);
     }

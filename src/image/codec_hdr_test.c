@@ -15,7 +15,7 @@ static facet_result decode_text(const char *header, const void *data, size_t dat
     return image_decode(bytes, length + data_size, "t.hdr", NULL, out, error);
 }
 
-/* Decodes what must decode. */
+/* Decodes a file that must decode. */
 static image decoded(const char *header, const void *data, size_t data_size)
 {
     image i;
@@ -76,7 +76,7 @@ static void color_correction_is_divided_out(void **state)
     assert_non_null(strstr(error.message, "COLORCORR=2 1: three positive numbers"));
 }
 
-/* XYZ by IEC 61966-2-1's matrix; what is no color space is a warning, and the numbers stay. */
+/* XYZ by IEC 61966-2-1's matrix; invalid primaries are a warning, and the values are kept. */
 static void primaries_are_converted(void **state)
 {
     (void)state;
@@ -106,8 +106,8 @@ static void primaries_are_converted(void **state)
     }
 }
 
-/* Four bytes per texel, exactly: what looks like a run, or like the beginning of a coded scanline, is a
- * texel; coded scanlines that happen to be as long stay coded. */
+/* Files of exactly four bytes per texel are uncompressed although bytes look like runs or like a coded
+ * scanline; coded scanlines of that length stay coded. */
 static void uncompressed_texels_are_not_taken_for_runs(void **state)
 {
     (void)state;

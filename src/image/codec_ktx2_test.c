@@ -1,5 +1,5 @@
 /* codec_ktx2_test.c - files of Basis Universal against the bytes of its own transcoder, files of other
- * makers against what they show. */
+ * encoders against their source images. */
 #include "image/image_test.h"
 
 #include "image/ktx2.h"
@@ -29,7 +29,7 @@ static uint64_t hash_images(const char *path, uint32_t thread_count)
     return hash;
 }
 
-/* The numbers are of what basis_transcoder.wasm of three.js 0.187 gives as RGBA32. */
+/* The hashes are those of the RGBA32 output of basis_transcoder.wasm (three.js 0.187). */
 static void images_are_those_of_the_transcoder(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* codec_png_test.c - PNG: what we write libspng reads back, PngSuite, refusals, independence of threads. */
+/* codec_png_test.c - PNG: libspng reads written files back, PngSuite, refusals, independence of threads. */
 #define _GNU_SOURCE
 #include "image/image_test.h"
 #include "tests/support/support.h"
@@ -246,7 +246,7 @@ static void every_changed_byte_is_noticed(void **state)
     image_destroy(&i);
 }
 
-/* What does not count is not read: a text with a wrong CRC and a profile that is none do not refuse an image. */
+/* Ancillary chunks are not read: a text with a wrong CRC and an invalid profile do not refuse an image. */
 static void other_chunks_are_skipped(void **state)
 {
     (void)state;
@@ -291,7 +291,7 @@ static void size_limits_hold(void **state)
     image_destroy(&i);
 }
 
-/* A sink that assembles what it gets, and refuses the row fail_at. */
+/* A sink that assembles its rows, and refuses row fail_at. */
 typedef struct gathering {
     image made;
     uint32_t row_count, fail_at;

@@ -62,11 +62,11 @@ static image decode_made(const made *m, image_codec codec)
     assert_int_equal(header.channel_count, i.channel_count);
     assert_true(i.type == IMAGE_U8 && i.is_srgb);
     for (size_t size = 0; size < m->size; size++) {
-        unsigned char *part = malloc(size + !size); /* so that a sanitizer sees what is read behind it */
+        unsigned char *part = malloc(size + !size); /* so that a sanitizer detects reads behind it */
         image none;
         memcpy(part, m->bytes, size);
         if (image_decode(part, size, "part", NULL, &none, &error) == FACET_OK) {
-            assert_int_equal(none.width, i.width); /* only what no texel needs was missing */
+            assert_int_equal(none.width, i.width); /* only bytes that no texel needs were missing */
             assert_memory_equal(none.pixels, i.pixels, image_row_size(&i) * i.height);
         } else {
             assert_null(none.pixels);
@@ -327,7 +327,8 @@ static void bmp_runs(void **state)
 
 /* ---- GIF ---- */
 
-/* What "What's In A GIF" by M. Flickinger takes apart byte by byte: 10 x 10 texels of white, red and blue. */
+/* The file that "What's In A GIF" by M. Flickinger explains byte by byte: 10 x 10 texels of white, red and
+ * blue. */
 static void gif_of_a_known_example(void **state)
 {
     (void)state;
@@ -505,7 +506,7 @@ static void put_dds_header(made *m, uint32_t flags, const char *letters, uint32_
         put_u32(m, i == 0 ? dxgi : i == 1 ? 3 : i == 3 ? 1 : 0);
 }
 
-/* 2 x 2 blocks, cut off at 7 x 5 texels, are what their decoder says. */
+/* 2 x 2 blocks, cropped to 7 x 5 texels, equal the output of their decoder. */
 static void dds_with_blocks(void **state)
 {
     (void)state;

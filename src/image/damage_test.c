@@ -1,5 +1,5 @@
-/* damage_test.c - what all decoders owe: truncated and changed files do no harm, memory that runs out is a
- * result, nothing leaks. Made to run under the address sanitizer. */
+/* damage_test.c - requirements on all decoders: truncated and changed files do no harm, failing
+ * allocations are errors, nothing leaks. Most useful under the address sanitizer. */
 #include "image/image_test.h"
 #include "tests/support/support.h"
 
@@ -88,7 +88,7 @@ static int free_samples(void **state)
     return 0;
 }
 
-/* Probes and decodes a copy without a byte to spare behind it. Whatever comes, nothing may be left. */
+/* Probes and decodes a copy without spare bytes behind it. In any case no memory may leak. */
 static facet_result try_bytes(const unsigned char *bytes, size_t size, const char *name)
 {
     unsigned char *copy = malloc(size ? size : 1);
@@ -133,7 +133,7 @@ static void truncated_files_do_no_harm(void **state)
         const sample *s = &samples[k];
         for (size_t size = 0; size < s->size; size += size < 600 || s->size - size < 20 ? 1 : 37) {
             facet_result result = try_bytes(s->bytes, size, s->name);
-            /* half an image is none; the ends of JPEG and PNG files hold no texels */
+            /* half an image is an error; the last bytes of JPEG and PNG files hold no texels */
             if (result == FACET_OK && size < s->size / 2 && !strstr(s->name, "multipart"))
                 fail_msg("%s: %zu of %zu bytes were enough", s->name, size, s->size);
         }

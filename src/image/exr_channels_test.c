@@ -1,4 +1,4 @@
-/* exr_channels_test.c - numbers and texts written into OpenEXR files come back bit for bit, or not at all. */
+/* exr_channels_test.c - values and texts written into OpenEXR files come back bit for bit, or not at all. */
 #include "image/image_test.h"
 #include "tests/support/support.h"
 
@@ -21,7 +21,7 @@ static int make_numbers(void **state)
         uint32_t finite = (bits & 0x7f800000u) == 0x7f800000u ? bits & 0xbfffffffu : bits;
         memcpy(&numbers[i], &finite, sizeof finite);
         if (i % CHANNELS == 3)
-            numbers[i] = 0.5f; /* what can be compressed */
+            numbers[i] = 0.5f; /* compressible */
         else if (i % 11 == 0)
             numbers[i] = odd[i / 11 % (sizeof odd / sizeof *odd)];
     }
@@ -59,7 +59,7 @@ static bool is_same(const float *read_back)
 {
     for (size_t t = 0; t < WIDTH * HEIGHT; t++)
         if (memcmp(read_back + t * ROOM, numbers + t * CHANNELS, CHANNELS * sizeof(float)) != 0 ||
-            read_back[t * ROOM + CHANNELS] != 7.0f) /* between them nothing is touched */
+            read_back[t * ROOM + CHANNELS] != 7.0f) /* the bytes in between are unchanged */
             return false;
     return true;
 }
@@ -135,7 +135,7 @@ static void missing_channels_and_texts_are_errors(void **state)
     expect_refusal(result, &error, "p: an OpenEXR file was expected");
 }
 
-/* Part of a file is none; changed bytes do no harm. */
+/* Truncated files are refused; changed bytes do no harm. */
 static void damaged_files_do_no_harm(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* image_test.h - what the tests of this module share: files, generated images, an allocator that fails. */
+/* image_test.h - shared by the tests of this module: files, generated images, attributes of OpenEXR files. */
 #ifndef IMAGE_IMAGE_TEST_H
 #define IMAGE_IMAGE_TEST_H
 

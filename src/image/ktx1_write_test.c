@@ -1,4 +1,4 @@
-/* ktx1_write_test.c - KTX 1 files of cube maps: every byte, sizes that are none, memory that is none. */
+/* ktx1_write_test.c - KTX 1 files of cube maps: every byte, invalid sizes, failing allocations. */
 #include "image/image_test.h"
 
 #include <math.h>

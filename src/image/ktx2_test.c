@@ -1,5 +1,5 @@
-/* ktx2_test.c - KTX2 files: texels without compression, levels, layers, faces, metadata, supercompression,
- * and what is refused. Basis Universal: codec_ktx2_test.c. */
+/* ktx2_test.c - KTX2 files: uncompressed texels, levels, layers, faces, metadata, supercompression,
+ * refusals. Basis Universal: codec_ktx2_test.c. */
 #include "image/image_test.h"
 
 #include <math.h>

@@ -50,7 +50,7 @@ static uint32_t nearest_code(double x, const double *values, uint32_t count)
     return below < above || (below == above && low % 2 == 0) ? low : high;
 }
 
-/* All codes that are finite, what is exactly between two of them, and random numbers around them. */
+/* All finite codes, the midpoints between them, and random numbers around them. */
 static void small_floats_are_rounded_to_nearest(void **state)
 {
     (void)state;
@@ -150,7 +150,7 @@ typedef struct texture {
     ktx2_write_desc desc;
 } texture;
 
-/* Numbers that every format holds: what is written is what is read. */
+/* Values that every format can hold are read back exactly. */
 static texture make_texture(facet_texel_format format, uint32_t width, uint32_t height, uint32_t faces,
                             uint32_t levels, uint32_t channels)
 {
@@ -506,7 +506,7 @@ static void running_out_of_memory_leaks_nothing(void **state)
         }
 }
 
-/* With a limit, what Zstandard takes counts as well. */
+/* Memory of Zstandard counts against a budget. */
 static void zstandard_stays_within_a_budget(void **state)
 {
     (void)state;

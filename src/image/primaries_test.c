@@ -69,7 +69,7 @@ static image make_texels(float texels[4][3])
     return i;
 }
 
-/* Colors outside of Rec.709 stay, or lose what is negative; what is not finite stays. */
+/* Colors outside of Rec.709 are kept or clamped to 0; nonfinite values are kept. */
 static void images_are_converted(void **state)
 {
     (void)state;

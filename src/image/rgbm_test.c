@@ -1,4 +1,4 @@
-/* rgbm_test.c - radiance in 8 bits is what its definition says, as near as 8 bits come. */
+/* rgbm_test.c - radiance as RGBM is accurate to the precision of 8 bits. */
 #include "image/image_test.h"
 
 #include <math.h>

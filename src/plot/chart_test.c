@@ -395,7 +395,7 @@ static void many_panels_and_points_are_drawn(void **state)
     free(x);
 }
 
-/* ---- what may be missing ---- */
+/* ---- missing cairo and memory ---- */
 
 static void a_missing_cairo_is_reported_with_advice(void **state)
 {

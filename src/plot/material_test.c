@@ -93,7 +93,7 @@ static void radiance_equals_that_of_the_fits(void **state)
         }
 }
 
-/* Single-scattering albedo is the split sum, which src/ibl integrates in another way. */
+/* Single-scattering albedo equals the split sum, which src/ibl integrates independently. */
 static void albedo_equals_that_of_the_lut(void **state)
 {
     (void)state;

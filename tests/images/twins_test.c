@@ -1,5 +1,5 @@
-/* twins_test.c - models that should look alike: compressed and plain, instanced and expanded, in either
- * material model, embedded and packed; and variants and times that should not. */
+/* twins_test.c - models whose images should be equal: compressed and plain, instanced and expanded, in
+ * either material model, embedded and packed; and variants and times whose images should differ. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

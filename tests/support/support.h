@@ -1,5 +1,5 @@
-/* support.h - what the tests of all modules share: how many cases to run, random numbers, comparison with
- * a tolerance, memory that runs out, captured messages, temporary folders, sRGB in double. Include after
+/* support.h - shared by the tests of all modules: how many cases to run, random numbers, comparison with a
+ * tolerance, failing allocations, captured messages, temporary folders, sRGB in double. Include after
  * cmocka.h. */
 #ifndef TESTS_SUPPORT_H
 #define TESTS_SUPPORT_H
@@ -92,7 +92,7 @@ facet_allocator failing_allocator_get(failing_allocator *f);
 
 /* ---- messages ---- */
 
-/* What a facet_log receives: the number of messages, and their texts, a line each, as far as there is room. */
+/* The messages of a facet_log: their number and texts, a line each, as far as there is space. */
 typedef struct captured_messages {
     int count;
     char text[8000];
@@ -101,8 +101,7 @@ facet_log capture_log(captured_messages *messages);
 
 /* ---- files ---- */
 
-/* A new temporary folder; its path stays until temporary_folder_remove(), which removes what is in it as
- * well. */
+/* A new temporary folder; temporary_folder_remove() removes it with its contents. */
 typedef struct temporary_folder {
     char path[64];
 } temporary_folder;
