@@ -58,10 +58,10 @@ static void time_once(const job *j, uint32_t thread_count, timing *t)
     facet_error error;
     check(facet_budget_create(0, &budget, &error), &error);
     double wall = clock_seconds();
-    double cpu = processor_seconds();
+    double cpu = cpu_seconds();
     j->run(j, thread_count, facet_budget_allocator(budget));
     t->wall[t->count] = clock_seconds() - wall;
-    t->cpu[t->count] = processor_seconds() - cpu;
+    t->cpu[t->count] = cpu_seconds() - cpu;
     t->bytes[t->count++] = (double)facet_budget_peak_bytes(budget);
     facet_budget_destroy(budget);
 }
@@ -165,11 +165,11 @@ static void run_all(const job *j, uint32_t thread_count, facet_allocator allocat
 
 /* ---- the baseline ---- */
 
-typedef struct picture {
-    facet_image_view faces[6]; /* unfiltered */
-} picture;
+typedef struct unfiltered {
+    facet_image_view faces[6];
+} unfiltered;
 
-static void look_up(const picture *p, const float d[3], float out[3])
+static void look_up(const unfiltered *p, const float d[3], float out[3])
 {
     float ax = fabsf(d[0]);
     float ay = fabsf(d[1]);
@@ -249,7 +249,7 @@ static void sample_GGX(uint32_t i, float a, const float N[3], float H[3])
 }
 
 /* PrefilterEnvMap() of the notes. */
-static void prefilter(const picture *p, float roughness, const float R[3], float out[3])
+static void prefilter(const unfiltered *p, float roughness, const float R[3], float out[3])
 {
     float total = 0.0f;
     out[0] = out[1] = out[2] = 0.0f;
@@ -285,7 +285,7 @@ static double time_baseline(facet_environment *environment, uint32_t size, float
     enum { STEP = 16 };
     facet_bake_desc desc = {.size = size};
     facet_cube *cube = NULL;
-    picture p;
+    unfiltered p;
     facet_error error;
     check(facet_cube_bake(environment, &desc, &cube, &error), &error);
     for (uint32_t face = 0; face < 6; face++)
@@ -294,7 +294,7 @@ static double time_baseline(facet_environment *environment, uint32_t size, float
     for (uint32_t level = 1; level < facet_cube_get_level_count(cube); level++) {
         uint32_t edge = facet_cube_get_size(cube, level);
         uint32_t rows = 0;
-        double start = processor_seconds();
+        double start = cpu_seconds();
         for (uint32_t face = 0; face < 6; face++)
             for (uint32_t y = face; y < edge; y += STEP, rows++)
                 for (uint32_t x = 0; x < edge; x++) {
@@ -304,7 +304,7 @@ static double time_baseline(facet_environment *environment, uint32_t size, float
                     prefilter(&p, facet_cube_get_roughness(cube, level), d, out);
                     *sink += out[0] + out[1] + out[2];
                 }
-        all += (processor_seconds() - start) * 6.0 * edge / rows;
+        all += (cpu_seconds() - start) * 6.0 * edge / rows;
     }
     facet_cube_destroy(cube);
     return all;

@@ -2,7 +2,7 @@
 # convergence.sh - error against time of the path tracer, for five scenes of bench/make_scenes: seconds of the whole process,
 # wall and CPU, RMSE and relative MSE, mean of (x - r)^2 / (r^2 + 0.01), for 4 to 1024 samples per pixel.
 #     bench/convergence.sh [BUILD [SCENE...]]      BUILD: a build folder with benchmarks (build/release)
-# SIZE (256), MOST (1024), REFERENCE (4096): pixels, samples. The reference r is facet's own, of another seed; its own noise is
+# SIZE (256), MAX_SAMPLES (1024), REFERENCE (4096): pixels, samples. The reference r is facet's own, of another seed; its own noise is
 # subtracted from the errors: N / REFERENCE of them for N samples. REFERENCES: a folder that keeps references between runs.
 set -eu
 here=$(CDPATH= cd -- "$(dirname -- "$0")/.." && pwd)
@@ -10,7 +10,7 @@ build=${1:-$here/build/release}
 [ $# -gt 0 ] && shift
 facet=$build/src/cli/facet
 size=${SIZE:-256}
-most=${MOST:-1024}
+max_samples=${MAX_SAMPLES:-1024}
 reference=${REFERENCE:-4096}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -37,7 +37,7 @@ for scene; do
     r=$references/$scene-$size-$reference.exr
     [ -f "$r" ] || draw "$scene" "$reference" 1000 "$r" >"$work/log"
     n=4
-    while [ "$n" -le "$most" ]; do
+    while [ "$n" -le "$max_samples" ]; do
         draw "$scene" "$n" 0 "$work/a.exr" >"$work/errors"
         "$facet" compare "$r" "$work/a.exr" --space linear --alpha ignore --metric rmse,mse-relative \
             >>"$work/errors"

@@ -59,7 +59,7 @@ int main(int argc, char **argv)
         const char *name;
         float noise;
         uint32_t block;
-    } pictures[] = {
+    } images[] = {
         {"noise", 0.3f, 1u << 20}, {"blocks of 24", 0.3f, 24}, {"blocks of 4", 0.3f, 4}, {"calm", 0.01f, 24}};
     uint32_t width = argc > 2 ? (uint32_t)strtoul(argv[1], NULL, 10) : 1024;
     uint32_t height = argc > 2 ? (uint32_t)strtoul(argv[2], NULL, 10) : 768;
@@ -67,12 +67,11 @@ int main(int argc, char **argv)
     if (film_create(NULL, width, height, FACET_AOV_ALBEDO | FACET_AOV_NORMAL | FACET_AOV_VARIANCE, &f,
                     NULL) != FACET_OK)
         return 1;
-    printf("%u x %u pixels, best of %u, ms per megapixel\n%-14s %10s %10s\n", width, height, REPEATS,
-           "picture", "1 thread", "2 threads");
-    for (size_t k = 0; k < sizeof pictures / sizeof *pictures; k++)
-        printf("%-14s %10.0f %10.0f\n", pictures[k].name,
-               best_ms(&f, pictures[k].noise, pictures[k].block, 1),
-               best_ms(&f, pictures[k].noise, pictures[k].block, 2));
+    printf("%u x %u pixels, best of %u, ms per megapixel\n%-14s %10s %10s\n", width, height, REPEATS, "image",
+           "1 thread", "2 threads");
+    for (size_t k = 0; k < sizeof images / sizeof *images; k++)
+        printf("%-14s %10.0f %10.0f\n", images[k].name, best_ms(&f, images[k].noise, images[k].block, 1),
+               best_ms(&f, images[k].noise, images[k].block, 2));
     film_destroy(&f);
     return 0;
 }

@@ -69,9 +69,9 @@ static long peak_megabytes(void)
     return usage.ru_maxrss / 1024;
 }
 
-static uint64_t hash_image(const facet_image *picture)
+static uint64_t hash_image(const facet_image *rendered)
 {
-    facet_image_view view = facet_image_get_layer(picture, 0);
+    facet_image_view view = facet_image_get_layer(rendered, 0);
     uint64_t hash = 14695981039346656037u; /* FNV-1a */
     for (uint32_t y = 0; y < view.height; y++) {
         const unsigned char *row = (const unsigned char *)view.pixels + y * view.row_stride_bytes;
@@ -89,31 +89,31 @@ static void run(const film_strip *s, facet_renderer *renderer, uint64_t *hashes,
     double geometry = 0.0;
     double textures = 0.0;
     double shade = 0.0;
-    double cpu = processor_seconds();
+    double cpu = cpu_seconds();
     if (!seconds)
         exit(1);
     for (uint32_t i = 0; i < s->count; i++) {
-        facet_image *picture;
+        facet_image *rendered;
         facet_render_desc desc = frame_desc(s, i);
         double start = clock_seconds();
-        check(renderer ? facet_renderer_render(renderer, &desc, &picture, &error)
-                       : facet_render(s->scene, &desc, &picture, &error),
+        check(renderer ? facet_renderer_render(renderer, &desc, &rendered, &error)
+                       : facet_render(s->scene, &desc, &rendered, &error),
               &error);
         seconds[i] = clock_seconds() - start;
-        facet_render_stats stats = facet_image_get_render_stats(picture);
+        facet_render_stats stats = facet_image_get_render_stats(rendered);
         if (i > 0) { /* the first frame prepares what the others reuse */
             geometry += stats.geometry_s;
             textures += stats.textures_s;
             shade += stats.shade_s;
         } else {
-            cpu = processor_seconds();
+            cpu = cpu_seconds();
         }
-        hashes[i] = hash_image(picture);
-        facet_image_destroy(picture);
+        hashes[i] = hash_image(rendered);
+        facet_image_destroy(rendered);
     }
     double first = seconds[0], *others = seconds + (s->count > 1);
     double n = s->count > 1 ? (double)(s->count - 1) : 1.0;
-    cpu = processor_seconds() - cpu;
+    cpu = cpu_seconds() - cpu;
     double typical = median(others, s->count > 1 ? (int)s->count - 1 : 1);
     printf("%-9s first %6.1f ms; others: median %6.1f ms (%.1f frames/s), least %6.1f ms, CPU %6.1f ms: "
            "geometry "

@@ -76,15 +76,15 @@ static void draw(gl_sea *renderer, water_cache *cache, facet_sea *sea, const fac
 {
     facet_error error;
     facet_render_stats stats = {.total_s = 0.0};
-    water_frame *picture;
-    double begin = clock_seconds(), processor = processor_seconds();
+    water_frame *frame;
+    double begin = clock_seconds(), processor = cpu_seconds();
     waves_set_time(&sea->waves, time_s);
     double stepped = clock_seconds();
-    check(water_frame_create(cache, NULL, desc, &picture, &stats, &error), &error);
-    double prepared = clock_seconds(), unlit = processor_seconds();
-    check(gl_sea_draw(renderer, picture, target, &stats, &error), &error);
-    double end = clock_seconds(), drawn = processor_seconds();
-    water_frame_destroy(picture);
+    check(water_frame_create(cache, NULL, desc, &frame, &stats, &error), &error);
+    double prepared = clock_seconds(), unlit = cpu_seconds();
+    check(gl_sea_draw(renderer, frame, target, &stats, &error), &error);
+    double end = clock_seconds(), drawn = cpu_seconds();
+    water_frame_destroy(frame);
     if (!to)
         return;
     *to[WAVES] = 1e3 * (stepped - begin);

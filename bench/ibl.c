@@ -75,7 +75,7 @@ static void time_stage(const settings *s, const char *name, ibl_light_desc desc)
 enum { PROBE_COUNT = 192 };
 
 typedef struct probing {
-    const image *picture;
+    const image *panorama;
     const ibl_light *light;
     float roughness;
     uint32_t size; /* of the level */
@@ -99,8 +99,8 @@ static void probe_one(void *context, size_t begin, size_t end)
 {
     probing *p = context;
     float alpha = alpha_from_roughness(p->roughness);
-    uint32_t width = p->picture->width;
-    uint32_t height = p->picture->height;
+    uint32_t width = p->panorama->width;
+    uint32_t height = p->panorama->height;
     uint32_t size = p->size;
     for (size_t i = begin; i < end; i++) {
         float R[3], got[3];
@@ -121,7 +121,7 @@ static void probe_one(void *context, size_t begin, size_t end)
                     continue;
                 float NdotH = (float)sqrt(0.5 + 0.5 * NdotL);
                 double w = (double)D_GGX(NdotH, alpha) * NdotL;
-                const float *c = (const float *)p->picture->pixels + 3 * ((size_t)y * width + x);
+                const float *c = (const float *)p->panorama->pixels + 3 * ((size_t)y * width + x);
                 for (int k = 0; k < 3; k++)
                     row[k] += w * (double)c[k];
                 row_weight += w;
@@ -148,7 +148,7 @@ static void print_errors(const settings *s)
     const ibl_light *light = prepare(
         e, &(ibl_light_desc){.thread_count = s->thread_count, .needs_specular = true, .max_roughness = 1.0f});
     for (uint32_t level = 1; level < prefilter_level_count(PREFILTER_GGX); level++) {
-        probing p = {.picture = &e->panorama,
+        probing p = {.panorama = &e->panorama,
                      .light = light,
                      .roughness = prefilter_roughness(PREFILTER_GGX, level),
                      .size = e->parts.levels[PREFILTER_GGX][level].size};
@@ -164,7 +164,7 @@ static void print_errors(const settings *s)
         double mean[3];
         cube_mean(&e->parts.levels[PREFILTER_GGX][level], mean);
         printf("roughness %.2f  size %3u  RMS error / RMS %.5f  RMS of relative error %.5f  mean G %.5f "
-               "(picture %.5f)\n",
+               "(panorama %.5f)\n",
                (double)p.roughness, e->parts.levels[PREFILTER_GGX][level].size, sqrt(square / reference),
                sqrt(relative / PROBE_COUNT), mean[1], (double)e->parts.harmonics.mean[1]);
     }
@@ -208,7 +208,7 @@ static void write_faces(const cube *c, float scale, const char *folder, uint32_t
     image_destroy(&out);
 }
 
-static void write_pictures(const settings *s, const char *folder)
+static void write_images(const settings *s, const char *folder)
 {
     facet_environment *e = open_environment(s);
     const ibl_light *light = prepare(
@@ -263,6 +263,6 @@ int main(int argc, char **argv)
     if (has_errors)
         print_errors(&s);
     if (folder)
-        write_pictures(&s, folder);
+        write_images(&s, folder);
     return 0;
 }

@@ -83,12 +83,12 @@ static unsigned char *time_encode(const char *what, const image *i, image_codec 
 int main(int argc, char **argv)
 {
     size_t size;
-    image picture = make_texture(512, 4);
+    image small = make_texture(512, 4);
     for (uint32_t level = 1; level <= 9; level += level < 6 ? 1 : 3) {
         char what[32];
         snprintf(what, sizeof what, "PNG level %u", level);
-        mem_free(time_encode(what, &picture, IMAGE_CODEC_PNG, level, 1, &size));
-        mem_free(time_encode(what, &picture, IMAGE_CODEC_PNG, level, 2, &size));
+        mem_free(time_encode(what, &small, IMAGE_CODEC_PNG, level, 1, &size));
+        mem_free(time_encode(what, &small, IMAGE_CODEC_PNG, level, 2, &size));
     }
     image texture = make_texture(2048, 3);
     unsigned char *png = time_encode("PNG level 4", &texture, IMAGE_CODEC_PNG, 4, 1, &size);
@@ -99,8 +99,8 @@ int main(int argc, char **argv)
         time_decode("JPEG", jpeg, size, 1, reduction);
     mem_free(png);
     mem_free(jpeg);
-    image_destroy(&picture);
     image_destroy(&texture);
+    image_destroy(&small);
     for (int k = 1; k < argc; k++) {
         file_bytes file;
         facet_error error;

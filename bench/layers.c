@@ -102,12 +102,12 @@ static double draw(facet_scene *scene, const facet_render_desc *desc, int runs, 
     double least = HUGE_VAL;
     facet_error error;
     for (int i = 0; i < runs; i++) {
-        film picture;
-        if (film_create(&desc->allocator, SIZE, SIZE, 0, &picture, &error) != FACET_OK ||
-            preview_render(scene, desc, &picture, stats, &error) != FACET_OK)
+        film drawn;
+        if (film_create(&desc->allocator, SIZE, SIZE, 0, &drawn, &error) != FACET_OK ||
+            preview_render(scene, desc, &drawn, stats, &error) != FACET_OK)
             die(&error);
         least = fmin(least, stats->shade_s);
-        film_destroy(&picture);
+        film_destroy(&drawn);
     }
     return least;
 }

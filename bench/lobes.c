@@ -109,10 +109,10 @@ static double measure(int what, int runs)
 {
     double least = HUGE_VAL;
     for (int r = 0; r < runs; ++r) {
-        double start = processor_seconds();
+        double start = cpu_seconds();
         for (int pass = 0; pass < PASSES; ++pass)
             sink = run(what);
-        least = fmin(least, 1e9 * (processor_seconds() - start) / ((double)COUNT * PASSES));
+        least = fmin(least, 1e9 * (cpu_seconds() - start) / ((double)COUNT * PASSES));
     }
     return least;
 }

@@ -140,17 +140,17 @@ static void stop(const facet_error *error)
 static unsigned char *paint(texture_kind kind, size_t *size)
 {
     facet_error error;
-    image picture;
-    if (image_create(NULL, TEXTURE_SIZE, TEXTURE_SIZE, 3, IMAGE_U8, &picture, &error) != FACET_OK)
+    image texture;
+    if (image_create(NULL, TEXTURE_SIZE, TEXTURE_SIZE, 3, IMAGE_U8, &texture, &error) != FACET_OK)
         stop(&error);
-    picture.is_srgb = true;
-    painter p = {.kind = kind, .pixels = picture.pixels};
+    texture.is_srgb = true;
+    painter p = {.kind = kind, .pixels = texture.pixels};
     parallel_for(0, TEXTURE_SIZE, 16, paint_rows, &p);
     unsigned char *bytes;
-    if (image_encode(&picture, IMAGE_CODEC_JPEG, &(image_encode_desc){.quality = 90}, &bytes, size, &error) !=
+    if (image_encode(&texture, IMAGE_CODEC_JPEG, &(image_encode_desc){.quality = 90}, &bytes, size, &error) !=
         FACET_OK)
         stop(&error);
-    image_destroy(&picture);
+    image_destroy(&texture);
     return bytes;
 }
 
@@ -284,10 +284,10 @@ static void write_glb(const char *folder, const char *name, uint32_t columns, ui
 static void write_light(const char *folder)
 {
     facet_error error;
-    image picture;
-    if (image_create(NULL, 1024, 512, 3, IMAGE_F32, &picture, &error) != FACET_OK)
+    image panorama;
+    if (image_create(NULL, 1024, 512, 3, IMAGE_F32, &panorama, &error) != FACET_OK)
         stop(&error);
-    float *pixels = picture.pixels;
+    float *pixels = panorama.pixels;
     for (uint32_t y = 0; y < 512; y++)
         for (uint32_t x = 0; x < 1024; x++) {
             float u = ((float)x + 0.5f) / 1024.0f;
@@ -303,13 +303,14 @@ static void write_light(const char *folder)
     unsigned char *bytes;
     size_t size;
     char *path = path_join(NULL, folder, "light_1k.hdr");
-    if (image_encode(&picture, IMAGE_CODEC_HDR, &(image_encode_desc){0}, &bytes, &size, &error) != FACET_OK ||
+    if (image_encode(&panorama, IMAGE_CODEC_HDR, &(image_encode_desc){0}, &bytes, &size, &error) !=
+            FACET_OK ||
         file_write(path, bytes, size, &error) != FACET_OK)
         stop(&error);
     printf("%s: %.1f MB\n", path, (double)size * 1e-6);
     mem_free(bytes);
     mem_free(path);
-    image_destroy(&picture);
+    image_destroy(&panorama);
 }
 
 int main(int argc, char **argv)

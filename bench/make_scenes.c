@@ -450,10 +450,10 @@ static void studio_at(float u, float v, float out[3])
 static void write_light(const char *folder, const char *name, uint32_t rows, light_at *at)
 {
     facet_error error;
-    image picture;
-    if (image_create(NULL, 2 * rows, rows, 3, IMAGE_F32, &picture, &error) != FACET_OK)
+    image panorama;
+    if (image_create(NULL, 2 * rows, rows, 3, IMAGE_F32, &panorama, &error) != FACET_OK)
         stop(&error);
-    float *pixels = picture.pixels;
+    float *pixels = panorama.pixels;
     for (uint32_t i = 0; i < 2 * rows * rows; i++)
         at(((float)(i % (2 * rows)) + 0.5f) / (float)(2 * rows),
            ((float)(i / (2 * rows)) + 0.5f) / (float)rows, pixels + 3 * i);
@@ -461,13 +461,14 @@ static void write_light(const char *folder, const char *name, uint32_t rows, lig
     size_t size = 0;
     char *path = path_join(NULL, folder, name);
     if (!path ||
-        image_encode(&picture, IMAGE_CODEC_HDR, &(image_encode_desc){0}, &bytes, &size, &error) != FACET_OK ||
+        image_encode(&panorama, IMAGE_CODEC_HDR, &(image_encode_desc){0}, &bytes, &size, &error) !=
+            FACET_OK ||
         file_write(path, bytes, size, &error) != FACET_OK)
         stop(&error);
     printf("%s: %.1f MB\n", path, (double)size * 1e-6);
     mem_free(bytes);
     mem_free(path);
-    image_destroy(&picture);
+    image_destroy(&panorama);
 }
 
 int main(int argc, char **argv)

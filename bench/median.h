@@ -6,7 +6,7 @@
 #include <time.h>
 
 /* CPU seconds of all threads of this process. */
-static inline double processor_seconds(void)
+static inline double cpu_seconds(void)
 {
     return (double)clock() / (double)CLOCKS_PER_SEC;
 }

@@ -24,7 +24,7 @@
 enum { MAX_RUNS = 100, SAMPLES = 4, TILE = 16, DEPTH = 64 };
 
 /* An image ready to be sampled. */
-typedef struct picture {
+typedef struct bench_image {
     facet_scene *scene;
     facet_environment *environment;
     facet_camera camera;
@@ -36,8 +36,8 @@ typedef struct picture {
     path_scene paths;
     float *sums; /* of a row of tiles: keeps the compiler from removing the work */
     uint64_t *rays;
-    bool counts_processors;
-} picture;
+    bool uses_cpu_time;
+} bench_image;
 
 static void check(facet_result result, const facet_error *error)
 {
@@ -47,7 +47,7 @@ static void check(facet_result result, const facet_error *error)
     exit(1);
 }
 
-static void prepare(picture *p, const char *model, const char *light, uint32_t size)
+static void prepare(bench_image *p, const char *model, const char *light, uint32_t size)
 {
     facet_error error;
     facet_orbit orbit = facet_orbit_default();
@@ -81,7 +81,7 @@ static void prepare(picture *p, const char *model, const char *light, uint32_t s
         exit(1);
 }
 
-static void release(picture *p)
+static void release(bench_image *p)
 {
     path_lights_destroy(p->lights);
     render_setup_destroy(&p->setup);
@@ -96,7 +96,7 @@ static void release(picture *p)
 
 static void draw_rows(void *context, size_t begin, size_t end)
 {
-    picture *p = context;
+    bench_image *p = context;
     for (size_t row = begin; row < end; row++) {
         float sum = 0.0f;
         uint64_t rays = 0;
@@ -114,17 +114,17 @@ static void draw_rows(void *context, size_t begin, size_t end)
     }
 }
 
-static double draw(picture *p, uint32_t thread_count)
+static double draw(bench_image *p, uint32_t thread_count)
 {
-    double start = rays_now(p->counts_processors, thread_count);
+    double start = rays_now(p->uses_cpu_time, thread_count);
     parallel_for(thread_count, p->desc.height / TILE, 1, draw_rows, p);
-    return rays_now(p->counts_processors, thread_count) - start;
+    return rays_now(p->uses_cpu_time, thread_count) - start;
 }
 
-/* ---- numbers ---- */
+/* ---- rates ---- */
 
-/* Medians of each way to trace a kind of ray: seconds[way]. */
-static void time_rays(const picture *p, rays_kind kind, int runs, uint32_t threads, double seconds[3],
+/* Medians of each method of tracing a kind of ray: seconds[method]. */
+static void time_rays(const bench_image *p, rays_kind kind, int runs, uint32_t threads, double seconds[3],
                       uint64_t hits[3])
 {
     static double times[3][MAX_RUNS];
@@ -134,19 +134,19 @@ static void time_rays(const picture *p, rays_kind kind, int runs, uint32_t threa
                                   rays_trace_embree(scene, kind, threads)};
         if (kind == RAYS_CAMERA)
             results[2] = rays_trace_packets(scene, kind, threads);
-        for (int way = 0; way < 3; way++) {
-            times[way][i] = results[way].seconds;
-            hits[way] = results[way].hits;
+        for (int method = 0; method < 3; method++) {
+            times[method][i] = results[method].seconds;
+            hits[method] = results[method].hits;
         }
     }
-    for (int way = 0; way < 3; way++)
-        seconds[way] = median(times[way], runs);
+    for (int method = 0; method < 3; method++)
+        seconds[method] = median(times[method], runs);
 }
 
 static const char *const kind_names[RAYS_KINDS] = {"camera", "bounce", "shadow"};
 
 /* Seconds of all rays on one thread; counts surface hits in *vertices. */
-static double print_rays(const picture *p, int runs, uint64_t *vertices)
+static double print_rays(const bench_image *p, int runs, uint64_t *vertices)
 {
     double traced = 0.0;
     *vertices = 0;
@@ -174,10 +174,10 @@ static double print_rays(const picture *p, int runs, uint64_t *vertices)
     return traced;
 }
 
-static void measure(const char *model, const char *light, uint32_t size, int runs, bool counts_processors)
+static void measure(const char *model, const char *light, uint32_t size, int runs, bool uses_cpu_time)
 {
-    picture p = {.counts_processors = counts_processors};
-    rays_count_processors(counts_processors);
+    bench_image p = {.uses_cpu_time = uses_cpu_time};
+    rays_use_cpu_time(uses_cpu_time);
     prepare(&p, model, light, size);
     double one[MAX_RUNS];
     double two[MAX_RUNS];
@@ -211,13 +211,13 @@ int main(int argc, char **argv)
 {
     int runs = 5;
     uint32_t size = 512;
-    bool counts_processors = false;
+    bool uses_cpu_time = false;
     int first = 1;
     for (; first + 1 < argc && argv[first][0] == '-'; first += 2) {
         if (argv[first][1] == 'n')
             runs = atoi(argv[first + 1]);
         else if (argv[first][1] == 'c')
-            counts_processors = atoi(argv[first + 1]) != 0;
+            uses_cpu_time = atoi(argv[first + 1]) != 0;
         else
             size = (uint32_t)atoi(argv[first + 1]) / TILE * TILE;
     }
@@ -229,7 +229,7 @@ int main(int argc, char **argv)
         char *light = strchr(argv[i], ',');
         if (light)
             *light++ = 0;
-        measure(argv[i], light, size, runs, counts_processors);
+        measure(argv[i], light, size, runs, uses_cpu_time);
     }
     return 0;
 }

@@ -24,17 +24,17 @@ typedef struct recorder {
 } recorder;
 
 static recorder recording;
-static bool counts_processors;
+static bool uses_cpu_time;
 static const ray_spread NO_SPREAD = {.moves = false, .turns = false};
 
-double rays_now(bool by_processors, uint32_t thread_count)
+double rays_now(bool is_cpu_time, uint32_t thread_count)
 {
-    return by_processors ? processor_seconds() / thread_count : clock_seconds();
+    return is_cpu_time ? cpu_seconds() / thread_count : clock_seconds();
 }
 
-void rays_count_processors(bool by_processors)
+void rays_use_cpu_time(bool is_cpu_time)
 {
-    counts_processors = by_processors;
+    uses_cpu_time = is_cpu_time;
 }
 
 void rays_record(size_t capacity)
@@ -149,10 +149,10 @@ rays_result rays_trace_facet(const shading_scene *scene, rays_kind kind, uint32_
               .hits = mem_zalloc(NULL, recording.counts[kind] + 1, sizeof(visibility_hit))};
     if (!p.hits)
         abort();
-    memset(p.hits, 1, p.count * sizeof *p.hits); /* touches its pages */
-    double start = rays_now(counts_processors, thread_count);
+    memset(p.hits, 1, p.count * sizeof *p.hits); /* faults its pages in */
+    double start = rays_now(uses_cpu_time, thread_count);
     parallel_for(thread_count, p.count, GRAIN, trace_facet, &p);
-    rays_result result = {.seconds = rays_now(counts_processors, thread_count) - start};
+    rays_result result = {.seconds = rays_now(uses_cpu_time, thread_count) - start};
     for (size_t i = 0; i < p.count; i++)
         result.hits += p.hits[i].geometry != VISIBILITY_NONE;
     mem_free(p.hits);
@@ -193,9 +193,9 @@ rays_result rays_trace_embree(const shading_scene *scene, rays_kind kind, uint32
         p.embree[i].hit.geomID = RTC_INVALID_GEOMETRY_ID;
         p.embree[i].hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     }
-    double start = rays_now(counts_processors, thread_count);
+    double start = rays_now(uses_cpu_time, thread_count);
     parallel_for(thread_count, p.count, GRAIN, trace_embree, &p);
-    rays_result result = {.seconds = rays_now(counts_processors, thread_count) - start};
+    rays_result result = {.seconds = rays_now(uses_cpu_time, thread_count) - start};
     for (size_t i = 0; i < p.count; i++)
         result.hits += kind == RAYS_SHADOW ? p.embree[i].ray.tfar < 0.0f
                                            : p.embree[i].hit.geomID != RTC_INVALID_GEOMETRY_ID;
@@ -236,9 +236,9 @@ rays_result rays_trace_packets(const shading_scene *scene, rays_kind kind, uint3
             q->hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
         }
     pass p = {.scene = scene, .kind = kind, .count = count, .packet = packets};
-    double start = rays_now(counts_processors, thread_count);
+    double start = rays_now(uses_cpu_time, thread_count);
     parallel_for(thread_count, count, GRAIN / 16, trace_packets, &p);
-    rays_result result = {.seconds = rays_now(counts_processors, thread_count) - start};
+    rays_result result = {.seconds = rays_now(uses_cpu_time, thread_count) - start};
     for (size_t i = 0; i < 16 * count; i++)
         result.hits += packets[i / 16].hit.geomID[i % 16] != RTC_INVALID_GEOMETRY_ID;
     free(packets);

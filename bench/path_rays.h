@@ -14,9 +14,9 @@ typedef struct rays_result {
     uint64_t hits; /* of shadow rays: the occluded ones */
 } rays_result;
 
-/* Seconds, for differences: wall time, or with by_processors CPU time of the process over thread_count, which
+/* Seconds, for differences: wall time, or with is_cpu_time CPU time of the process over thread_count, which
  * hardly depends on other load. */
-double rays_now(bool by_processors, uint32_t thread_count);
+double rays_now(bool is_cpu_time, uint32_t thread_count);
 
 /* Records up to capacity rays of each kind from now on, of one thread; 0: stops. Earlier recordings are
  * dropped. */
@@ -24,7 +24,7 @@ void rays_record(size_t capacity);
 size_t rays_count(rays_kind kind);
 
 /* Whether the following seconds are CPU time. */
-void rays_count_processors(bool by_processors);
+void rays_use_cpu_time(bool is_cpu_time);
 
 /* Replays all rays of a kind by the function of ray_trace.h called by path_trace(), results kept. */
 rays_result rays_trace_facet(const shading_scene *scene, rays_kind kind, uint32_t thread_count);

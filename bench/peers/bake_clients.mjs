@@ -1,5 +1,5 @@
 // bake_clients.mjs - environments filtered by three.js and by Khronos' renderer, in headless Chromium, beside facet's: how far
-// the levels are apart; and spheres in the light of each, as one picture.
+// the levels are apart; and spheres in the light of each, as one image.
 // usage: node bake_clients.mjs FACET OUT LIGHT.hdr ..     FACET: the command; OUT: a folder for the files and NAME.jpg
 //
 // Uses the pages and packages of tests/clients (npm ci there). Software rendering filters Khronos' cube maps in minutes.

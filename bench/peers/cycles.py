@@ -1,6 +1,6 @@
 # cycles.py - renders a glTF model with Blender's Cycles as `facet render --renderer path` does: same camera, light,
 # bounces, filter; nothing clamped, blurred or denoised. Prints the seconds (of the clock, of
-# processors) from the model in memory to the picture.
+# processors) from the model in memory to the image.
 #     blender -b --factory-startup -P cycles.py -- MODEL OUT.exr [-e LIGHT.hdr] [--samples N] [--size N] [--bounces N]
 #         [--seed N] [--threads N] [--eye X,Y,Z --target X,Y,Z --fov DEGREES]
 # Without --eye: the file's camera. Run by cycles.sh; made for Blender 3.4 with python3-numpy.
@@ -64,7 +64,7 @@ def set_light(scene, path):
     texture = nodes.new("ShaderNodeTexEnvironment")
     texture.image = bpy.data.images.load(path)
     scene.world.node_tree.links.new(texture.outputs["Color"], background.inputs["Color"])
-    # As large as the picture: what Cycles chooses by itself is smaller.
+    # As large as the image: what Cycles chooses by itself is smaller.
     scene.world.cycles.sampling_method = "MANUAL"
     scene.world.cycles.sample_map_resolution = texture.image.size[0]
 

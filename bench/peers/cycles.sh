@@ -6,7 +6,7 @@
 #     bench/peers/cycles.sh [BUILD [SCENE...]]      BUILD: a build folder with benchmarks; textured glass interior
 # SIZE (256), SAMPLES ("16 64"), REFERENCE (1024), SEEDS ("0 1 2"); REFERENCES: a folder that keeps references from one run to
 # the next. Seconds and errors are medians over the seeds: where a path that is met once in thousands lights one pixel up, a
-# single picture says little.
+# single image says little.
 # Seconds of the clock say the same on a machine with nothing else to do; SECONDS_OF=clock prints those.
 # Needs blender 3.4 and python3-numpy (Debian; both are for this alone).
 set -eu

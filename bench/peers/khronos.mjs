@@ -1,5 +1,5 @@
 // khronos.mjs - draws models with the Khronos glTF Sample Renderer in headless Chromium and with facet, with the same
-// light, camera and tone mapping, and prints how far the pictures are apart.
+// light, camera and tone mapping, and prints how far the images are apart.
 // usage: node khronos.mjs [--renderer gl] [--frames N] FACET MODELS LIGHT.hdr OUT [NAME ..]     FACET: the command; MODELS: the folder that
 // holds core, materials, ..; OUT: a folder for NAME-khronos.png and NAME-facet.png; NAME: only these. CHROMIUM names the
 // browser. FLIP is that of the files as they are, at 67 pixels a degree. --frames: the median time of a frame of Khronos' renderer, too,
@@ -132,7 +132,7 @@ window.time_frames = (count) => {
     }
     return times.sort((a, b) => a - b)[count >> 1];
 };
-// Mean, median and 95th percentile of the largest channel's difference, in codes of 8 bits, over pixels that either picture
+// Mean, median and 95th percentile of the largest channel's difference, in codes of 8 bits, over pixels that either image
 // has something on.
 window.compare = async (a, b) => {
     const read = async (url) => {

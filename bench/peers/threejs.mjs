@@ -32,14 +32,14 @@ const polar = 75 * Math.PI / 180;
 camera.position.set(0, distance * Math.cos(polar), distance * Math.sin(polar)).add(sphere.center);
 camera.lookAt(sphere.center);
 renderer.render(scene, camera);
-window.picture = canvas.toDataURL('image/png');
+window.rendered = canvas.toDataURL('image/png');
 </script>`;
 
 const { page, close } = await open_page(page_text, (url) => ({ '/model': model, '/light': light })[url]);
 try {
-    await page.waitForFunction('window.picture', null, { timeout: 120000 });
-    const picture = await page.evaluate('window.picture');
-    await writeFile(out, Buffer.from(picture.split(',')[1], 'base64'));
+    await page.waitForFunction('window.rendered', null, { timeout: 120000 });
+    const rendered = await page.evaluate('window.rendered');
+    await writeFile(out, Buffer.from(rendered.split(',')[1], 'base64'));
 } finally {
     await close();
 }

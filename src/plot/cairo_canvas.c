@@ -295,23 +295,23 @@ void canvas_destroy(canvas *c)
 /* cairo's premultiplied 0xAARRGGBB, opaque, as PNG. */
 static facet_result encode_png(canvas *c, unsigned char **bytes, size_t *size, facet_error *error)
 {
-    image picture;
+    image rgb;
     facet_result result =
-        image_create(&c->desc.allocator, c->desc.width, c->desc.height, 3, IMAGE_U8, &picture, error);
+        image_create(&c->desc.allocator, c->desc.width, c->desc.height, 3, IMAGE_U8, &rgb, error);
     if (result != FACET_OK)
         return result;
-    picture.is_srgb = true;
+    rgb.is_srgb = true;
     const size_t count = (size_t)c->desc.width * c->desc.height;
-    unsigned char *out = picture.pixels;
+    unsigned char *out = rgb.pixels;
     for (size_t i = 0; i < count; i++, out += 3) {
         out[0] = (unsigned char)(c->pixels[i] >> 16);
         out[1] = (unsigned char)(c->pixels[i] >> 8);
         out[2] = (unsigned char)c->pixels[i];
     }
-    result = image_encode(&picture, IMAGE_CODEC_PNG,
+    result = image_encode(&rgb, IMAGE_CODEC_PNG,
                           &(image_encode_desc){.allocator = c->desc.allocator, .compression = 6}, bytes, size,
                           error);
-    image_destroy(&picture);
+    image_destroy(&rgb);
     return result;
 }
 
@@ -455,19 +455,19 @@ void canvas_text(canvas *c, double x, double y, double angle_rad, canvas_font fo
 void canvas_image(canvas *c, double x, double y, double width, double height, uint32_t *pixels,
                   uint32_t pixel_width, uint32_t pixel_height)
 {
-    cairo_surface_t *picture =
+    cairo_surface_t *source =
         c->cairo.image_surface_create_for_data((unsigned char *)pixels, CAIRO_FORMAT_ARGB32, (int)pixel_width,
                                                (int)pixel_height, (int)(4 * pixel_width));
     c->cairo.save(c->context);
     c->cairo.translate(c->context, x, y);
     c->cairo.scale(c->context, width / pixel_width, height / pixel_height);
-    c->cairo.set_source_surface(c->context, picture, 0.0, 0.0);
+    c->cairo.set_source_surface(c->context, source, 0.0, 0.0);
     /* for PNG, pixels align with pixels */
     c->cairo.pattern_set_filter(c->cairo.get_source(c->context),
                                 c->pixels ? CAIRO_FILTER_NEAREST : CAIRO_FILTER_GOOD);
     c->cairo.paint(c->context);
     c->cairo.restore(c->context);
-    c->has_failed = c->has_failed || c->cairo.surface_status(picture) == CAIRO_STATUS_NO_MEMORY;
-    c->cairo.surface_finish(picture); /* cairo copies the pixels of the caller if it keeps them */
-    c->cairo.surface_destroy(picture);
+    c->has_failed = c->has_failed || c->cairo.surface_status(source) == CAIRO_STATUS_NO_MEMORY;
+    c->cairo.surface_finish(source); /* cairo copies the pixels of the caller if it keeps them */
+    c->cairo.surface_destroy(source);
 }

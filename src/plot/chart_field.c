@@ -155,7 +155,7 @@ facet_result view_field_draw(const drawing *d, const chart_field *field, const a
         paint(field, fractions, pixels, width, height);
         canvas_image(d->canvas, box->x, box->y, box->width, box->height, pixels, width, height);
     } else {
-        result = fail_memory(error, "picture of a field", (size_t)width * height * sizeof *pixels);
+        result = fail_memory(error, "image of a field", (size_t)width * height * sizeof *pixels);
     }
     mem_free(fractions);
     mem_free(pixels);

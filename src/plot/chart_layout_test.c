@@ -122,11 +122,11 @@ static void curves_stay_in_the_plot(void **state)
                                .curves = &curve};
     chart c = scene_chart(&panel);
     panel_view *v = lay_out(&c);
-    image picture = draw_picture(&c);
+    image raster = draw_raster(&c);
     int inside = 0;
-    for (uint32_t y = 0; y < picture.height; y++)
-        for (uint32_t x = 0; x < picture.width; x++) {
-            const uint8_t *p = pixel_at(&picture, x, y);
+    for (uint32_t y = 0; y < raster.height; y++)
+        for (uint32_t x = 0; x < raster.width; x++) {
+            const uint8_t *p = pixel_at(&raster, x, y);
             if (p[0] < 200 || p[1] > 100 || p[2] > 100)
                 continue;
             inside++;
@@ -134,18 +134,18 @@ static void curves_stay_in_the_plot(void **state)
             assert_true(y >= v->plot.y - 3.0 && y <= v->plot.y + v->plot.height + 3.0);
         }
     assert_true(inside > 200);
-    image_destroy(&picture);
+    image_destroy(&raster);
     free(v);
 }
 
 /* Pixels of the three pure colors. */
-static void count_colors(const image *picture, int counts[3])
+static void count_colors(const image *raster, int counts[3])
 {
     for (int k = 0; k < 3; k++)
         counts[k] = 0;
-    for (uint32_t y = 0; y < picture->height; y++)
-        for (uint32_t x = 0; x < picture->width; x++) {
-            const uint8_t *p = pixel_at(picture, x, y);
+    for (uint32_t y = 0; y < raster->height; y++)
+        for (uint32_t x = 0; x < raster->width; x++) {
+            const uint8_t *p = pixel_at(raster, x, y);
             for (int k = 0; k < 3; k++)
                 counts[k] += p[k] > 120 && p[(k + 1) % 3] < 60 && p[(k + 2) % 3] < 60;
         }
@@ -166,12 +166,12 @@ static void coinciding_curves_are_all_visible(void **state)
         chart_panel panel = data.panels[CHART_XY];
         panel.curves = curves;
         const chart c = scene_chart(&panel);
-        image picture = draw_picture(&c);
+        image raster = draw_raster(&c);
         int counts[3];
-        count_colors(&picture, counts);
+        count_colors(&raster, counts);
         for (int k = 0; k < 3; k++)
             assert_true(10 * counts[k] > counts[0] + counts[1] + counts[2]);
-        image_destroy(&picture);
+        image_destroy(&raster);
     }
 }
 
@@ -184,18 +184,18 @@ static void fields_are_colored_by_value(void **state)
     const chart_panel panel = {.kind = CHART_FIELD, .field = &field};
     chart c = scene_chart(&panel);
     panel_view *v = lay_out(&c);
-    image picture = draw_picture(&c);
+    image raster = draw_raster(&c);
     const chart_box *b = &v->plot;
     const double left = b->x + 0.1 * b->width, right = b->x + 0.9 * b->width;
     const double top = b->y + 0.1 * b->height, bottom = b->y + 0.9 * b->height;
-    assert_true(is_color(pixel_at(&picture, left, top), palette_viridis(0.0), 2));
-    assert_true(is_color(pixel_at(&picture, right, top), palette_viridis(1.0), 2));
-    assert_true(is_color(pixel_at(&picture, right, bottom), palette_viridis(0.5), 2));
+    assert_true(is_color(pixel_at(&raster, left, top), palette_viridis(0.0), 2));
+    assert_true(is_color(pixel_at(&raster, right, top), palette_viridis(1.0), 2));
+    assert_true(is_color(pixel_at(&raster, right, bottom), palette_viridis(0.5), 2));
     assert_true(
-        is_color(pixel_at(&picture, left, bottom), palette_get_theme(false)->background, 0)); /* NaN */
+        is_color(pixel_at(&raster, left, bottom), palette_get_theme(false)->background, 0)); /* NaN */
     assert_true(
-        is_color(pixel_at(&picture, b->x + 0.5 * b->width, top), palette_viridis(0.5), 4)); /* between */
-    image_destroy(&picture);
+        is_color(pixel_at(&raster, b->x + 0.5 * b->width, top), palette_viridis(0.5), 4)); /* between */
+    image_destroy(&raster);
     free(v);
 }
 
@@ -208,15 +208,15 @@ static void discs_end_at_the_horizon(void **state)
     chart c = scene_chart(&panel);
     c.is_dark = true;
     panel_view *v = lay_out(&c);
-    image picture = draw_picture(&c);
+    image raster = draw_raster(&c);
     const double x = v->plot.x + 0.5 * v->plot.width, y = v->plot.y + 0.5 * v->plot.height;
     const double radius = 0.5 * fmin(v->plot.width, v->plot.height), side = 0.8 * radius;
-    assert_true(is_color(pixel_at(&picture, x - side, y - side), palette_get_theme(true)->background, 0));
-    assert_false(is_color(pixel_at(&picture, x - 0.6 * side, y - 0.6 * side),
+    assert_true(is_color(pixel_at(&raster, x - side, y - side), palette_get_theme(true)->background, 0));
+    assert_false(is_color(pixel_at(&raster, x - 0.6 * side, y - 0.6 * side),
                           palette_get_theme(true)->background, 40));
     /* the peak is at x = 0.4, to the right */
-    assert_true(is_color(pixel_at(&picture, x + 0.4 * radius, y + 4.0), palette_viridis(1.0), 12));
-    image_destroy(&picture);
+    assert_true(is_color(pixel_at(&raster, x + 0.4 * radius, y + 4.0), palette_viridis(1.0), 12));
+    image_destroy(&raster);
     free(v);
 }
 
@@ -233,18 +233,18 @@ static void surfaces_are_colored_by_value(void **state)
     panel.surface = &surface;
     chart c = scene_chart(&panel);
     panel_view *v = lay_out(&c);
-    image picture = draw_picture(&c);
+    image raster = draw_raster(&c);
     int yellow = 0, within = 0;
     for (double y = v->plot.y; y < v->plot.y + v->plot.height; y++)
         for (double x = v->plot.x; x < v->plot.x + v->plot.width; x++) {
-            const uint8_t *p = pixel_at(&picture, x, y);
+            const uint8_t *p = pixel_at(&raster, x, y);
             yellow += p[0] > 120 && p[1] > 100 && p[2] < 0.5 * p[1];
             within++;
         }
     assert_in_range(yellow, within / 8, within);
-    assert_true(is_color(pixel_at(&picture, v->plot.x + 1.0, v->plot.y + 1.0),
+    assert_true(is_color(pixel_at(&raster, v->plot.x + 1.0, v->plot.y + 1.0),
                          palette_get_theme(false)->background, 0));
-    image_destroy(&picture);
+    image_destroy(&raster);
     free(v);
 }
 

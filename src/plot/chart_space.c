@@ -304,7 +304,7 @@ facet_result solid_create(const facet_allocator *allocator, uint32_t width, uint
     if (has_memory)
         return FACET_OK;
     solid_destroy(out);
-    return fail_memory(error, "picture of a surface", (size_t)width * height * 8);
+    return fail_memory(error, "image of a surface", (size_t)width * height * 8);
 }
 
 void solid_destroy(solid *s)

@@ -115,11 +115,11 @@ static void draw_mesh_line(const drawing *d, const space_view *w, const chart_su
     canvas_draw(d->canvas, &line->stroke);
 }
 
-static void draw_mesh(const drawing *d, const space_view *w, const chart_surface *s, const solid *picture)
+static void draw_mesh(const drawing *d, const space_view *w, const chart_surface *s, const solid *rendered)
 {
     enum { LINES = 12 }; /* about this many in each direction */
     const space_line line = {.stroke = {.color = {1.0, 1.0, 1.0, 0.3}, .width = fmax(0.7 * d->scale, 0.6)},
-                             .solid = picture,
+                             .solid = rendered,
                              .slack = 0.012 * w->scale * w->base_radius,
                              .is_over = true,
                              .around = 1};
@@ -142,10 +142,10 @@ static void draw_ring(const drawing *d, const space_view *w, const space_line *l
 }
 
 /* The disc at z = 0 and the z axis: all of it below the surface, then the part in front of it. */
-static void draw_base(const drawing *d, const space_view *w, const solid *picture)
+static void draw_base(const drawing *d, const space_view *w, const solid *rendered)
 {
     space_line line = {.stroke = {.color = d->theme->grid, .width = 1.0},
-                       .solid = picture,
+                       .solid = rendered,
                        .slack = 0.001 * w->scale * w->base_radius,
                        .is_over = true};
     for (int degrees = 0; degrees < 360; degrees += 30) {
@@ -166,19 +166,19 @@ static void draw_base(const drawing *d, const space_view *w, const solid *pictur
 }
 
 /* Whether the surface leaves a box uncovered. */
-static bool is_free(const space_view *w, const solid *picture, const chart_box *box)
+static bool is_free(const space_view *w, const solid *rendered, const chart_box *box)
 {
     for (int row = 0; row <= 4; row++)
         for (int column = 0; column <= 4; column++) {
             const double x = box->x + 0.25 * column * box->width, y = box->y + 0.25 * row * box->height;
-            if (isfinite(solid_depth_at(picture, (x - w->box.x) * w->fine, (y - w->box.y) * w->fine)))
+            if (isfinite(solid_depth_at(rendered, (x - w->box.x) * w->fine, (y - w->box.y) * w->fine)))
                 return false;
         }
     return true;
 }
 
 /* Azimuths around the disc, where the surface does not cover them. */
-static void draw_compass(const drawing *d, const space_view *w, const solid *picture)
+static void draw_compass(const drawing *d, const space_view *w, const solid *rendered)
 {
     const canvas_font font = view_tick_font(d);
     for (int degrees = 0; degrees < 360; degrees += 90) {
@@ -197,7 +197,7 @@ static void draw_compass(const drawing *d, const space_view *w, const solid *pic
         x += dx * (0.5 * font.size + 0.5 * l.width);
         y += dy * 0.95 * font.size;
         const chart_box box = {x - 0.5 * l.width, y - 0.5 * font.size, l.width, font.size};
-        if (is_free(w, picture, &box))
+        if (is_free(w, rendered, &box))
             label_draw(d->canvas, &l, font, d->theme->muted_text, LABEL_CENTER, x, y + label_middle(font));
     }
 }
@@ -223,7 +223,7 @@ void view_surface_measure(const drawing *d, panel_view *v)
 }
 
 /* The bounds of the surface, in whole px. */
-static chart_box picture_box(const space_view *w)
+static chart_box image_box(const space_view *w)
 {
     const double x0 = floor(w->x + w->scale * w->low[0]) - 1.0, x1 = ceil(w->x + w->scale * w->high[0]) + 1.0;
     const double y0 = floor(w->y - w->scale * w->high[1]) - 1.0, y1 = ceil(w->y - w->scale * w->low[1]) + 1.0;
@@ -237,19 +237,19 @@ facet_result view_surface_draw(const drawing *d, panel_view *v, facet_error *err
         return FACET_OK;
     space_view w = space_look_at(s);
     space_place(&w, &v->plot);
-    w.box = picture_box(&w);
+    w.box = image_box(&w);
     w.fine = canvas_is_raster(d->canvas) ? 1.0 : 2.0;
     w.fine = fmin(w.fine, CANVAS_MAX_SIZE / fmax(w.box.width, w.box.height));
-    solid picture;
-    TRY(make_solid(d, &w, v, &picture, error));
+    solid rendered;
+    TRY(make_solid(d, &w, v, &rendered, error));
     draw_base(d, &w, NULL);
-    canvas_image(d->canvas, w.box.x, w.box.y, w.box.width, w.box.height, picture.pixels, picture.width,
-                 picture.height);
-    draw_mesh(d, &w, s, &picture);
-    draw_base(d, &w, &picture);
+    canvas_image(d->canvas, w.box.x, w.box.y, w.box.width, w.box.height, rendered.pixels, rendered.width,
+                 rendered.height);
+    draw_mesh(d, &w, s, &rendered);
+    draw_base(d, &w, &rendered);
     if (v->detail >= VIEW_TICKS)
-        draw_compass(d, &w, &picture);
-    solid_destroy(&picture);
+        draw_compass(d, &w, &rendered);
+    solid_destroy(&rendered);
     if (v->detail >= VIEW_ALL) {
         const double height = 0.8 * v->plot.height;
         const double side = v->margins.left - 2.0; /* of the labels on the right */

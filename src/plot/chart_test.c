@@ -236,8 +236,8 @@ static void any_label_can_be_drawn(void **state)
         chart c = scene_chart(&panel);
         c.title = labels[i];
         expect_svg(&c);
-        image picture = draw_picture(&c);
-        image_destroy(&picture);
+        image raster = draw_raster(&c);
+        image_destroy(&raster);
         const drawn pdf = draw(&c, FACET_PLOT_FORMAT_PDF);
         mem_free(pdf.bytes);
     }
@@ -273,8 +273,8 @@ static void draw_all_kinds(const double *x, const double *y, size_t count, chart
                                    .has_legend = true};
         chart c = scene_chart(&panel);
         expect_svg(&c);
-        image picture = draw_picture(&c);
-        image_destroy(&picture);
+        image raster = draw_raster(&c);
+        image_destroy(&raster);
     }
 }
 
@@ -346,8 +346,8 @@ static void any_size_can_be_drawn(void **state)
         c.columns = i % 2 ? 0 : 2;
         c.width = SIZES[i][0];
         c.height = SIZES[i][1];
-        image picture = draw_picture(&c);
-        image_destroy(&picture);
+        image raster = draw_raster(&c);
+        image_destroy(&raster);
         expect_svg(&c);
     }
     chart c = scene_chart(data.panels);
@@ -380,8 +380,8 @@ static void many_panels_and_points_are_drawn(void **state)
     c.columns = 18;
     c.width = 1600;
     c.height = 1200;
-    image picture = draw_picture(&c);
-    image_destroy(&picture);
+    image raster = draw_raster(&c);
+    image_destroy(&raster);
     for (int i = 0; i < POINTS; i++) {
         x[i] = i;
         x[POINTS + i] = sin(i * 1e-3) + 0.1 * sin(i * 0.37);
@@ -389,8 +389,8 @@ static void many_panels_and_points_are_drawn(void **state)
     const chart_curve curve = {.name = "many points", .count = POINTS, .x = x, .y = x + POINTS};
     const chart_panel panel = {.curve_count = 1, .curves = &curve, .has_legend = true};
     c = scene_chart(&panel);
-    picture = draw_picture(&c);
-    image_destroy(&picture);
+    raster = draw_raster(&c);
+    image_destroy(&raster);
     free(panels);
     free(x);
 }

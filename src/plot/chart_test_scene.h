@@ -135,18 +135,18 @@ static inline drawn draw(const chart *c, facet_plot_format format)
     return d;
 }
 
-static inline image draw_picture(const chart *c)
+static inline image draw_raster(const chart *c)
 {
     const drawn d = draw(c, FACET_PLOT_FORMAT_PNG);
-    image picture;
+    image raster;
     facet_error error;
     assert_int_equal(
-        image_decode(d.bytes, d.size, "plot", &(image_decode_desc){.channel_count = 3}, &picture, &error),
+        image_decode(d.bytes, d.size, "plot", &(image_decode_desc){.channel_count = 3}, &raster, &error),
         FACET_OK);
     mem_free(d.bytes);
-    assert_int_equal(picture.width, c->width);
-    assert_int_equal(picture.height, c->height);
-    return picture;
+    assert_int_equal(raster.width, c->width);
+    assert_int_equal(raster.height, c->height);
+    return raster;
 }
 
 static inline const uint8_t *pixel_at(const image *i, double x, double y)
