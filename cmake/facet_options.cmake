@@ -69,12 +69,12 @@ endif()
 # Builds what tests run. Tests of the command add it themselves.
 add_custom_target(facet_tested)
 
-# facet_add_test(NAME [NUMBERS] [LABELS threads] [TIMEOUT s] COMMAND ...): declares a test; NUMBERS: a long test of
-# numbers rather than of memory or threads, only in the build that runs all cases. The environment variable FACET_TEST_DATA
+# facet_add_test(NAME [LONG] [LABELS threads] [TIMEOUT s] COMMAND ...): declares a test. LONG: it checks computed values, not
+# memory or threads, and takes long: only the build that runs all cases has it. The environment variable FACET_TEST_DATA
 # names the test data; tests that need it skip without (exit code 77).
 function(facet_add_test name)
-    cmake_parse_arguments(T "NUMBERS" "TIMEOUT" "COMMAND;LABELS" ${ARGN})
-    if(T_NUMBERS AND FACET_QUICK_TESTS)
+    cmake_parse_arguments(T "LONG" "TIMEOUT" "COMMAND;LABELS" ${ARGN})
+    if(T_LONG AND FACET_QUICK_TESTS)
         return()
     endif()
     if(FACET_TEST_LABEL AND NOT FACET_TEST_LABEL IN_LIST T_LABELS)
@@ -92,14 +92,14 @@ function(facet_add_test name)
     endif()
 endfunction()
 
-# facet_test(NAME [NUMBERS] SOURCES a_test.c LINK facet_x [LABELS threads] [TIMEOUT s]): a cmocka program as a test, with
+# facet_test(NAME [LONG] SOURCES a_test.c LINK facet_x [LABELS threads] [TIMEOUT s]): a cmocka program as a test, with
 # tests/support.
 function(facet_test name)
     if(NOT BUILD_TESTING)
         return()
     endif()
-    cmake_parse_arguments(T "NUMBERS" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
-    if((FACET_TEST_LABEL AND NOT FACET_TEST_LABEL IN_LIST T_LABELS) OR (T_NUMBERS AND FACET_QUICK_TESTS))
+    cmake_parse_arguments(T "LONG" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
+    if((FACET_TEST_LABEL AND NOT FACET_TEST_LABEL IN_LIST T_LABELS) OR (T_LONG AND FACET_QUICK_TESTS))
         return()
     endif()
     add_executable(${name}_test ${T_SOURCES})

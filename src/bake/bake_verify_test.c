@@ -13,7 +13,7 @@
 #include "bake/bake_reference.h"
 #include "bake/bake_area.h"
 
-static void lamps(const float d[3], float out[3])
+static void small_lights(const float d[3], float out[3])
 {
     for (int k = 0; k < 3; k++)
         out[k] = 0.2f + (d[k] > 0.95f ? 40.0f : 0.0f) + 0.1f * d[(k + 1) % 3];
@@ -23,7 +23,7 @@ static void lamps(const float d[3], float out[3])
 static void added_errors_are_found(void **state)
 {
     (void)state;
-    facet_environment *e = make_environment(IS_SLOW ? 64 : 128, IS_SLOW ? 32 : 64, lamps);
+    facet_environment *e = make_environment(IS_SLOW ? 64 : 128, IS_SLOW ? 32 : 64, small_lights);
     facet_bake_desc desc = {.size = 16, .level_count = 3, .rotation_rad = 1.0f};
     facet_cube *c = bake(e, desc);
     facet_cube_error before[3], after[3];
@@ -66,7 +66,7 @@ static double rms_of(facet_environment *e, facet_bake_desc desc)
 static void sampling_converges(void **state)
 {
     (void)state;
-    facet_environment *e = make_environment(128, 64, lamps);
+    facet_environment *e = make_environment(128, 64, small_lights);
     facet_bake_desc desc = {.method = FACET_BAKE_METHOD_SAMPLING, .size = 16, .level_count = 3};
     double rms[3];
     for (int i = 0; i < 3; i++) {
@@ -83,7 +83,7 @@ static void sampling_converges(void **state)
 static void the_reference_filters_with_the_lobe(void **state)
 {
     (void)state;
-    facet_environment *e = make_environment(64, 32, lamps);
+    facet_environment *e = make_environment(64, 32, small_lights);
     for (int lobe = 0; lobe < 3; lobe++) {
         facet_bake_desc desc = {
             .lobe = (facet_lobe)lobe, .method = FACET_BAKE_METHOD_REFERENCE, .size = 8, .level_count = 3};

@@ -354,7 +354,7 @@ static void nonfinite_pixels_are_reported_and_left_out(void **state)
 
 /* ---- threads, memory, arguments ---- */
 
-static void assert_same_numbers(const facet_comparison *a, const facet_comparison *b)
+static void assert_same_results(const facet_comparison *a, const facet_comparison *b)
 {
     const double first[] = {a->mse,           a->mse_relative,   a->nrmse,         a->mae,
                             a->bias,          a->max_error,      a->percentile_50, a->percentile_95,
@@ -416,7 +416,7 @@ static void integers_are_compared_as_floats_are(void **state)
         assert_int_equal(
             compare_images(&converted[0], &converted[1], &converted[1], &desc, &c[1], NULL, NULL), FACET_OK);
         assert_true(c[0].mse > 0.0 && c[0].pixel_count > 100 && c[0].pixel_count < 290 * 37);
-        assert_same_numbers(&c[0], &c[1]);
+        assert_same_results(&c[0], &c[1]);
         assert_int_equal(compare_images(&own[0], &converted[0], NULL, &desc, &c[0], NULL, NULL), FACET_OK);
         assert_true(c[0].is_equal);
         for (int side = 0; side < 2; side++) {
@@ -446,7 +446,7 @@ static void results_do_not_depend_on_threads(void **state)
             first = c;
             continue;
         }
-        assert_same_numbers(&c, &first);
+        assert_same_results(&c, &first);
         assert_memory_equal(heat[0].pixels, heat[1].pixels, 3 * 310 * 190 * 4 * sizeof(float));
         mem_free(heat[1].pixels);
     }

@@ -11,7 +11,7 @@
 
 #include "shade/shade.h"
 
-const char *const fixture_scene_names[FIXTURE_SCENE_COUNT] = {"box", "sky", "lamps", "cutout"};
+const char *const fixture_scene_names[FIXTURE_SCENE_COUNT] = {"box", "sky", "lights", "cutout"};
 
 typedef enum sphere_kind { MATTE, GLOSSY, GLASS, VEIL } sphere_kind;
 
@@ -137,10 +137,10 @@ static vec3 sky_radiance(const scene *s, vec3 D)
 static vec3 direct_light(const scene *s, vec3 P, vec3 N, random_state *r)
 {
     vec3 sum = vec3(0.0f);
-    int lamps = 0;
+    int lights = 0;
     int chosen = -1;
     for (int i = 0; i < s->sphere_count; i++)
-        if (s->spheres[i].emission[1] > 0.0f && random_number(r) * (float)++lamps < 1.0f)
+        if (s->spheres[i].emission[1] > 0.0f && random_number(r) * (float)++lights < 1.0f)
             chosen = i;
     if (chosen >= 0) {
         const sphere *b = &s->spheres[chosen];
@@ -153,7 +153,7 @@ static vec3 direct_light(const scene *s, vec3 P, vec3 N, random_state *r)
         vec3 L = around(to / sqrtf(d2), sine * cosf(phi), sine * sinf(phi), z);
         float NdotL = dot(N, L);
         if (NdotL > 0.0f && nearest(s, P, L).index == chosen)
-            sum = b->emission * (2.0f * (1.0f - least) * NdotL * (float)lamps);
+            sum = b->emission * (2.0f * (1.0f - least) * NdotL * (float)lights);
     }
     vec3 L = normalize(sun_direction + lobe(sun_direction, 1.0f, r) * 0.2f);
     float NdotL = dot(N, L);

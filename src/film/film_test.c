@@ -223,7 +223,7 @@ static void results_do_not_depend_on_threads(void **state)
     }
 }
 
-/* ---- blending of encoded numbers ---- */
+/* ---- blending of encoded values ---- */
 
 /* Half of 0.8 over 0.2 is 0.5 on the display; blended as light it would be 0.6. Opaque pixels keep their
  * bits. */
@@ -233,7 +233,7 @@ static void encoded_values_are_blended_without_decoding(void **state)
     const float linear[3] = {0.60382734f, 0.03310477f, 0.21404114f}; /* of 0.8, 0.2, 0.5 */
     const float color[3] = {linear[1], linear[0], linear[2]};
     static const float opacities[] = {0.0f, 0.25f, 0.5f, 1.0f};
-    static const double numbers[3] = {0.8, 0.2, 0.5}, behind[3] = {0.2, 0.8, 0.5};
+    static const double colors[3] = {0.8, 0.2, 0.5}, behind[3] = {0.2, 0.8, 0.5};
     for (int i = 0; i < 4; i++) {
         film f = make_film(1, 1);
         float *pixel = f.layers[0].pixels;
@@ -243,8 +243,7 @@ static void encoded_values_are_blended_without_decoding(void **state)
         film_blend_encoded(&f, color, 1);
         for (int c = 0; c < 3; c++) {
             double a = (double)opacities[i];
-            assert_true(fabs(srgb_encode((double)pixel[c]) - (a * numbers[c] + (1.0 - a) * behind[c])) <
-                        1e-6);
+            assert_true(fabs(srgb_encode((double)pixel[c]) - (a * colors[c] + (1.0 - a) * behind[c])) < 1e-6);
             if (i == 3)
                 assert_memory_equal(pixel, linear, sizeof linear);
         }

@@ -38,7 +38,7 @@ typedef struct lobe {
 typedef struct ring {
     float cos_t, sin_t;
     float level, swing; /* N.L = level + swing cos p */
-    float opening;
+    float half_angle;
     float weight;
 } ring;
 
@@ -58,7 +58,7 @@ static inline float ring_cosine(float x)
 /* Vis of each masking function; each has a loop of its own below, without branches. */
 #define ADD_RING(VISIBILITY)                                                                                 \
     for (int i = 0; i < RING; i++) {                                                                         \
-        float cos_p = ring_cosine(r.opening * o->nodes[i]);                                                  \
+        float cos_p = ring_cosine(r.half_angle * o->nodes[i]);                                               \
         float NdotL = max(r.level + r.swing * cos_p, 0.0f);                                                  \
         float VdotH = max(cos_v * r.cos_t + sin_v * r.sin_t * cos_p, 0.0f);                                  \
         float w = r.weight * o->weights[i] * (VISIBILITY)*NdotL * VdotH;                                     \
@@ -98,13 +98,13 @@ static void add_node(lobe *o, double s, double weight)
               .level = (float)(o->cos_v * cos_2t),
               .swing = (float)(o->sin_v * sin_2t)};
     double edge = o->cos_v * cos_2t + o->sin_v * sin_2t * -1.0; /* N.L at p = pi */
-    double opening = 2.0 * half_pi;
+    double half_angle = 2.0 * half_pi;
     if (edge < 0.0)
-        opening = acos(fmin(fmax(-o->cos_v * cos_2t / (o->sin_v * sin_2t), -1.0), 1.0));
-    r.opening = (float)opening;
+        half_angle = acos(fmin(fmax(-o->cos_v * cos_2t / (o->sin_v * sin_2t), -1.0), 1.0));
+    r.half_angle = (float)half_angle;
     /* dH = sin t dt dp and dt = sin t cos t ds; 2: p and -p */
     float D = D_GGX_stable(r.cos_t, vec3(r.sin_t, 0.0f, 0.0f), o->alpha);
-    r.weight = (float)(weight * 2.0 * opening * 4.0 * (double)D * sin_t * sin_t * cos_t);
+    r.weight = (float)(weight * 2.0 * half_angle * 4.0 * (double)D * sin_t * sin_t * cos_t);
     dfg_add_ring(o, r);
 }
 

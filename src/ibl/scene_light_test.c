@@ -111,7 +111,7 @@ typedef struct lit_scene {
     scene_image_light light;
 } lit_scene;
 
-static const uint32_t image_numbers[6] = {0, 1, 2, 3, 4, 5};
+static const uint32_t image_indices[6] = {0, 1, 2, 3, 4, 5};
 
 static lit_scene *make_scene(const writing *w, radiance_function radiance)
 {
@@ -124,7 +124,7 @@ static lit_scene *make_scene(const writing *w, radiance_function radiance)
                                    .intensity = 1.0f,
                                    .specular_size = w->size,
                                    .mip_count = 1,
-                                   .images = image_numbers};
+                                   .images = image_indices};
     write_irradiance(w, radiance, s->light.irradiance);
     s->root.image_light = 0;
     s->scene = (facet_scene){.source = "room.gltf",

@@ -29,7 +29,7 @@ typedef struct resampling {
     uint32_t parts;      /* a texel of the target is looked up parts x parts times */
     float (*columns)[2]; /* equirectangular target: cosine and sine of the longitude of each part of a row */
     float limit;         /* limit of texels that are not hot */
-    uint32_t *bright_numbers; /* indices of the hot texels by source texel, from 1 on; NULL: none is hot */
+    uint32_t *bright_indices; /* indices of the hot texels by source texel, from 1 on; NULL: none is hot */
     hot_texel *hot;
     size_t hot_count;
     uint32_t span;         /* texels of a row that are resampled at a time */
@@ -281,7 +281,7 @@ static void list_hot(resampling *r, const row_survey *rows)
             h->texel = row * r->source->width + x;
             h->excess = rgbx_not_negative((rgbx){c[0], c[1], c[2], 0.0f} - rgbx_splat(r->limit));
             atomic_init(&h->covered, 0);
-            r->bright_numbers[h->texel] = ++number;
+            r->bright_indices[h->texel] = ++number;
         }
     }
 }
@@ -298,19 +298,19 @@ static bool find_hot(resampling *r, const facet_allocator *allocator, uint32_t t
         r->hot_count += v.rows[row].hot_count;
     r->limit = r->hot_count ? v.limit : INFINITY;
     if (r->hot_count) {
-        r->bright_numbers = mem_zalloc(allocator, sphere_texel_count(r->source), sizeof *r->bright_numbers);
+        r->bright_indices = mem_zalloc(allocator, sphere_texel_count(r->source), sizeof *r->bright_indices);
         r->hot = mem_alloc(allocator, r->hot_count, sizeof *r->hot);
-        if (r->bright_numbers && r->hot)
+        if (r->bright_indices && r->hot)
             list_hot(r, v.rows);
     }
     mem_free(v.rows);
-    return r->hot_count == 0 || (r->bright_numbers && r->hot);
+    return r->hot_count == 0 || (r->bright_indices && r->hot);
 }
 
 /* The hot texel at an index of the source; NULL: it is not hot. */
 static hot_texel *get_hot(const resampling *r, size_t texel)
 {
-    uint32_t number = r->bright_numbers[texel];
+    uint32_t number = r->bright_indices[texel];
     return number ? &r->hot[number - 1] : NULL;
 }
 
@@ -487,7 +487,7 @@ facet_result sphere_resample(const sphere *source, const sphere_turn *turn, cons
     r.span_count = (target->width - 1) / r.span + 1;
     r.is_near_hot = mem_zalloc(allocator, rows, r.span_count);
     if (!r.is_near_hot || !make_columns(&r, allocator) || !find_hot(&r, allocator, thread_count)) {
-        result = fail_memory(error, "resampling", sphere_texel_count(source) * sizeof *r.bright_numbers);
+        result = fail_memory(error, "resampling", sphere_texel_count(source) * sizeof *r.bright_indices);
     } else {
         parallel_for(thread_count, rows, 2, resample_rows, &r);
         if (r.hot) { /* spans near hot texels, once more */
@@ -499,7 +499,7 @@ facet_result sphere_resample(const sphere *source, const sphere_turn *turn, cons
     }
     mem_free(r.is_near_hot);
     mem_free(r.columns);
-    mem_free(r.bright_numbers);
+    mem_free(r.bright_indices);
     mem_free(r.hot);
     return result;
 }

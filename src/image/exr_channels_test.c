@@ -7,10 +7,10 @@
 enum { WIDTH = 37, HEIGHT = 21, CHANNELS = 5, COUNT = WIDTH * HEIGHT * CHANNELS };
 
 static const char *const names[CHANNELS] = {"R", "G", "B", "A", "state.low"};
-static float numbers[COUNT];
+static float values[COUNT];
 
 /* Every kind of float. */
-static int make_numbers(void **state)
+static int make_values(void **state)
 {
     (void)state;
     static const float odd[] = {0.0f,      -0.0f, 1e-45f,        -1e-39f,    INFINITY,
@@ -19,11 +19,11 @@ static int make_numbers(void **state)
     for (size_t i = 0; i < COUNT; i++) {
         lcg_next(&bits);
         uint32_t finite = (bits & 0x7f800000u) == 0x7f800000u ? bits & 0xbfffffffu : bits;
-        memcpy(&numbers[i], &finite, sizeof finite);
+        memcpy(&values[i], &finite, sizeof finite);
         if (i % CHANNELS == 3)
-            numbers[i] = 0.5f; /* compressible */
+            values[i] = 0.5f; /* compressible */
         else if (i % 11 == 0)
-            numbers[i] = odd[i / 11 % (sizeof odd / sizeof *odd)];
+            values[i] = odd[i / 11 % (sizeof odd / sizeof *odd)];
     }
     return 0;
 }
@@ -31,7 +31,7 @@ static int make_numbers(void **state)
 static unsigned char *encode(bool is_stored, bool as_half, size_t *size)
 {
     const image_text texts[] = {{"first", "one"}, {"second", ""}};
-    image_layer layer = {names, CHANNELS, numbers, WIDTH * CHANNELS * sizeof(float), false};
+    image_layer layer = {names, CHANNELS, values, WIDTH * CHANNELS * sizeof(float), false};
     unsigned char *bytes;
     facet_error error;
     if (image_encode_exr(WIDTH, HEIGHT, &layer, 1, as_half,
@@ -58,7 +58,7 @@ static facet_result read(const void *bytes, size_t size, const facet_allocator *
 static bool is_same(const float *read_back)
 {
     for (size_t t = 0; t < WIDTH * HEIGHT; t++)
-        if (memcmp(read_back + t * ROOM, numbers + t * CHANNELS, CHANNELS * sizeof(float)) != 0 ||
+        if (memcmp(read_back + t * ROOM, values + t * CHANNELS, CHANNELS * sizeof(float)) != 0 ||
             read_back[t * ROOM + CHANNELS] != 7.0f) /* the bytes in between are unchanged */
             return false;
     return true;
@@ -195,5 +195,5 @@ int main(void)
         cmocka_unit_test(damaged_files_do_no_harm),
         cmocka_unit_test(running_out_of_memory_leaks_nothing),
     };
-    return cmocka_run_group_tests(tests, make_numbers, NULL);
+    return cmocka_run_group_tests(tests, make_values, NULL);
 }

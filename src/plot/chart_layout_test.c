@@ -191,8 +191,7 @@ static void fields_are_colored_by_value(void **state)
     assert_true(is_color(pixel_at(&raster, left, top), palette_viridis(0.0), 2));
     assert_true(is_color(pixel_at(&raster, right, top), palette_viridis(1.0), 2));
     assert_true(is_color(pixel_at(&raster, right, bottom), palette_viridis(0.5), 2));
-    assert_true(
-        is_color(pixel_at(&raster, left, bottom), palette_get_theme(false)->background, 0)); /* NaN */
+    assert_true(is_color(pixel_at(&raster, left, bottom), palette_get_theme(false)->background, 0)); /* NaN */
     assert_true(
         is_color(pixel_at(&raster, b->x + 0.5 * b->width, top), palette_viridis(0.5), 4)); /* between */
     image_destroy(&raster);
@@ -212,8 +211,8 @@ static void discs_end_at_the_horizon(void **state)
     const double x = v->plot.x + 0.5 * v->plot.width, y = v->plot.y + 0.5 * v->plot.height;
     const double radius = 0.5 * fmin(v->plot.width, v->plot.height), side = 0.8 * radius;
     assert_true(is_color(pixel_at(&raster, x - side, y - side), palette_get_theme(true)->background, 0));
-    assert_false(is_color(pixel_at(&raster, x - 0.6 * side, y - 0.6 * side),
-                          palette_get_theme(true)->background, 40));
+    assert_false(
+        is_color(pixel_at(&raster, x - 0.6 * side, y - 0.6 * side), palette_get_theme(true)->background, 40));
     /* the peak is at x = 0.4, to the right */
     assert_true(is_color(pixel_at(&raster, x + 0.4 * radius, y + 4.0), palette_viridis(1.0), 12));
     image_destroy(&raster);

@@ -47,8 +47,8 @@ static const parameter ogl1_parameters[] = {{"diffuse", AT(diffuse), 3, 0.0f, 1e
                                             {0}};
 #undef AT
 
-static facet_result check_numbers(const facet_plot_material *m, const parameter *list, uint32_t number,
-                                  facet_error *error)
+static facet_result check_parameters(const facet_plot_material *m, const parameter *list, uint32_t number,
+                                     facet_error *error)
 {
     for (; list->name; list++)
         for (int i = 0; i < list->count; i++) {
@@ -67,9 +67,9 @@ static facet_result check_material(const facet_plot_material *m, uint32_t number
 {
     switch (m->model) {
     case FACET_PLOT_MODEL_PBR:
-        return check_numbers(m, pbr_parameters, number, error);
+        return check_parameters(m, pbr_parameters, number, error);
     case FACET_PLOT_MODEL_OGL1:
-        return check_numbers(m, ogl1_parameters, number, error);
+        return check_parameters(m, ogl1_parameters, number, error);
     case FACET_PLOT_MODEL_MERL:
         if (m->path && *m->path)
             return FACET_OK;

@@ -29,7 +29,7 @@ static void integrate_albedo(void *context, size_t begin, size_t end)
 /* 0 to 89.5 degrees, denser towards grazing angles. */
 static double *view_angles(plot *p)
 {
-    double *x = plot_numbers(p, ALBEDO_POINTS);
+    double *x = plot_values(p, ALBEDO_POINTS);
     for (int i = 0; x && i < ALBEDO_POINTS; i++) {
         double u = 1.0 - (double)i / (ALBEDO_POINTS - 1);
         x[i] = 89.5 * (1.0 - u * sqrt(u));
@@ -198,8 +198,8 @@ facet_result plot_make_furnace(plot *p)
     const furnace_subject *subjects = subjects_of(p, &subject_count);
     size_t per_subject = (size_t)p->angle_count * MODES * WAYS * FURNACE_POINTS;
     furnace_work work = {
-        .plot = p, .subjects = subjects, .albedo = plot_numbers(p, per_subject * subject_count)};
-    double *x = plot_numbers(p, FURNACE_POINTS);
+        .plot = p, .subjects = subjects, .albedo = plot_values(p, per_subject * subject_count)};
+    double *x = plot_values(p, FURNACE_POINTS);
     if (p->has_failed)
         return plot_finish(p, "", 1, 0, 0);
     for (int i = 0; i < FURNACE_POINTS; i++)

@@ -63,7 +63,7 @@ static const char *note_of(plot *p, double view)
 /* A ray from the center to the border. */
 static void add_ray(plot *p, plot_panel *panel, double angle, double from, double to, int dash)
 {
-    double *x = plot_numbers(p, 2);
+    double *x = plot_values(p, 2);
     double *y = plot_add_curve(p, panel, "", plot_faint(dash), 2, x);
     if (!y)
         return;
@@ -125,7 +125,7 @@ static void add_curves(plot *p, double view)
 {
     size_t count;
     const double *angles = plot_light_angles(p, view, &count);
-    double *degrees = plot_numbers(p, count);
+    double *degrees = plot_values(p, count);
     for (size_t i = 0; degrees && i < count; i++)
         degrees[i] = angles[i] / PLOT_DEGREE;
     plot_panel *panel = plot_add_panel(p, CHART_XY, plot_text(p, "eye at %s degrees", plot_degrees(p, view)),
@@ -271,9 +271,9 @@ static void add_lobe(plot *p, const plot_subject *subject, double view)
     const size_t count = (size_t)LOBE * LOBE;
     plot_panel *panel = plot_add_panel(p, CHART_SURFACE, title_of(p, subject, view), "", "");
     chart_surface *surface = plot_alloc(p, 1, sizeof *surface);
-    double *x = plot_numbers(p, count), *y = plot_numbers(p, count), *z = plot_numbers(p, count);
-    double *values = plot_numbers(p, count);
-    double *polar = plot_numbers(p, LOBE), *azimuth = plot_numbers(p, LOBE);
+    double *x = plot_values(p, count), *y = plot_values(p, count), *z = plot_values(p, count);
+    double *values = plot_values(p, count);
+    double *polar = plot_values(p, LOBE), *azimuth = plot_values(p, LOBE);
     float(*L)[3] = plot_alloc(p, count, sizeof *L);
     if (p->has_failed || !panel)
         return;

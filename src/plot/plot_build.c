@@ -18,7 +18,7 @@ void *plot_alloc(plot *p, size_t count, size_t size)
     return block;
 }
 
-double *plot_numbers(plot *p, size_t count)
+double *plot_values(plot *p, size_t count)
 {
     return plot_alloc(p, count, sizeof(double));
 }
@@ -86,7 +86,7 @@ void plot_add_line(plot *p, plot_panel *panel, const char *name, chart_style sty
 double *plot_add_curve(plot *p, plot_panel *panel, const char *name, chart_style style, size_t count,
                        const double *x)
 {
-    double *y = plot_numbers(p, count);
+    double *y = plot_values(p, count);
     plot_add_line(p, panel, name, style, count, x, y);
     return p->has_failed ? NULL : y;
 }
@@ -95,7 +95,7 @@ chart_field *plot_add_field(plot *p, plot_panel *panel, uint32_t width, uint32_t
                             const char *label, double **values)
 {
     chart_field *field = plot_alloc(p, 1, sizeof *field);
-    *values = plot_numbers(p, (size_t)width * height);
+    *values = plot_values(p, (size_t)width * height);
     if (!field || !*values || !panel)
         return NULL;
     *field = (chart_field){.width = width,
@@ -193,7 +193,7 @@ chart_scale plot_scale(const plot *p)
 
 double *plot_steps(plot *p, size_t count, double first, double last)
 {
-    double *x = plot_numbers(p, count);
+    double *x = plot_values(p, count);
     for (size_t i = 0; x && i < count; i++)
         x[i] = first + (last - first) * (double)i / (double)(count - 1);
     return x;
@@ -248,7 +248,7 @@ double *plot_light_angles(plot *p, double view_rad, size_t *count)
     const double limit = 89.9 * PLOT_DEGREE;
     double widths[2 * FACET_PLOT_MAX_MATERIALS];
     size_t width_count = widths_of(p, widths);
-    double *x = plot_numbers(p, EVEN + width_count * NEAR_PEAK);
+    double *x = plot_values(p, EVEN + width_count * NEAR_PEAK);
     *count = 0;
     if (!x)
         return NULL;

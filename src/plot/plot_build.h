@@ -53,7 +53,7 @@ enum { PLOT_MAX_PANELS = FACET_PLOT_MAX_MATERIALS * 2 * (FACET_PLOT_MAX_ANGLES +
 /* ---- memory and text ---- */
 
 void *plot_alloc(plot *p, size_t count, size_t size); /* NULL: has_failed */
-double *plot_numbers(plot *p, size_t count);
+double *plot_values(plot *p, size_t count);
 /* Formatted text; never NULL (out of memory: "" and has_failed). */
 const char *plot_text(plot *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

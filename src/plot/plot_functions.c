@@ -47,7 +47,7 @@ facet_result plot_make_tone(plot *p)
     plot_panel *stops = plot_add_panel(p, CHART_XY, "over stops", "scene light, stops over middle gray 0.18",
                                        "display, sRGB-encoded");
     const double *x = plot_steps(p, TONE_POINTS, -STOPS, STOPS);
-    double *light = plot_numbers(p, TONE_POINTS);
+    double *light = plot_values(p, TONE_POINTS);
     for (int i = 0; light && x && i < TONE_POINTS; i++)
         light[i] = MIDDLE_GRAY * exp2(x[i]);
     add_operators(p, stops, x, light, true);

@@ -80,11 +80,11 @@ static void convert_points(void *context, size_t begin, size_t end)
 static plot_panel *add_errors(plot *p, const facet_plot_material *m, const char *title, uint32_t point_count)
 {
     bool is_pbr = m->model == FACET_PLOT_MODEL_PBR;
-    double *x = plot_numbers(p, point_count);
+    double *x = plot_values(p, point_count);
     error_work work = {.metric = plot_metric(p),
                        .material = m,
                        .x = x,
-                       .errors = plot_numbers(p, (size_t)METHODS * point_count),
+                       .errors = plot_values(p, (size_t)METHODS * point_count),
                        .point_count = point_count};
     plot_panel *panel =
         plot_add_panel(p, CHART_XY, title, is_pbr ? "perceptual roughness" : "shininess", "relative error E");
@@ -330,7 +330,7 @@ static void add_polar(plot *p, const experiment *e, const material *source, cons
                        "", "radiance, light of 1");
     add_pair_curves(p, panel, &r, 0, "PBR times pi", 0, 0);
     add_pair_curves(p, panel, &r, 1, "OpenGL 1, fitted", 1, 1);
-    double *ray = plot_numbers(p, 2), *radius = plot_numbers(p, 2);
+    double *ray = plot_values(p, 2), *radius = plot_values(p, 2);
     if (!ray || !radius || !r.source)
         return;
     double highest = 0.0;

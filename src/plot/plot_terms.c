@@ -40,7 +40,7 @@ static const char *label_of(plot *p, float roughness)
 /* Cosines of angles from 0 on, as dense as the highlights are narrow. */
 static double *cosines(plot *p)
 {
-    double *x = plot_numbers(p, POINTS);
+    double *x = plot_values(p, POINTS);
     for (int i = 0; x && i < POINTS; i++) {
         double u = (double)i / (POINTS - 1);
         x[i] =
@@ -53,7 +53,7 @@ static double *cosines(plot *p)
 /* From near 0, where visibility is unbounded, denser there. */
 static double *cosines_from_horizon(plot *p)
 {
-    double *x = plot_numbers(p, POINTS);
+    double *x = plot_values(p, POINTS);
     for (int i = 0; x && i < POINTS; i++) {
         double u = (i + 1.0) / POINTS;
         x[i] = u * u;

@@ -226,7 +226,7 @@ static bool is_black(const float color[3])
 static void add_legacy_values(text *out, const legacy_material *m, facet_legacy_colors colors)
 {
     bool is_linear = colors == FACET_LEGACY_COLORS_LINEAR;
-    text_addf(out, "<table><tr><th colspan=\"2\">OpenGL 1, %s numbers</th></tr>\n",
+    text_addf(out, "<table><tr><th colspan=\"2\">OpenGL 1, %s values</th></tr>\n",
               is_linear ? "linear" : "sRGB");
     if (!is_black(m->ambient))
         add_color(out, "ambient", m->ambient, is_linear);
@@ -291,10 +291,10 @@ static void add_values(const page *p, const material_conversion *m)
     bool has_legacy = scene_has_legacy_materials(p->scene) && !m->source;
     bool is_back = p->conversion->to == FACET_MATERIAL_MODEL_OGL1;
     if (m->source)
-        add_pbr_values(p->out, "glTF, before", m->source);
+        add_pbr_values(p->out, "glTF, source", m->source);
     if (has_legacy && !is_back)
         add_legacy_values(p->out, &m->legacy, p->scene->legacy->colors);
-    add_pbr_values(p->out, "glTF, linear numbers", &m->pbr);
+    add_pbr_values(p->out, "glTF, linear values", &m->pbr);
     if (has_legacy && is_back)
         add_legacy_values(p->out, &m->legacy, p->scene->legacy->colors);
 }

@@ -49,7 +49,7 @@ static void check(const char *name, const facet_image *got)
     facet_image_destroy(wanted);
     facet_image_destroy(difference);
     if (!is_good)
-        fail_msg("%s: differs by %.3g of its root mean square, FLIP %.3g, %llu pixels are no numbers; at "
+        fail_msg("%s: differs by %.3g of its root mean square, FLIP %.3g, %llu pixels are not finite; at "
                  "most %g, %g "
                  "and 0 are allowed",
                  name, c.nrmse, c.flip, (unsigned long long)c.invalid_count, most_nrmse, most_flip);
