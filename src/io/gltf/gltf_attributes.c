@@ -151,14 +151,14 @@ enum { GRAIN = 1 << 15 };
 typedef struct check {
     const float *in;
     float *out;
-    size_t *counts;   /* per item: elements to repair */
-    size_t *warnings; /* per item: those of them that deserve a warning */
-    size_t width;     /* floats per element, where that varies */
+    size_t *counts;         /* per item: elements to repair */
+    size_t *warnings;       /* per item: those of them that deserve a warning */
+    size_t width;           /* floats per element, where that varies */
+    size_t repairs, warned; /* their sums */
 } check;
 
-/* Runs body over count elements and sums the counts. False: no memory. */
-static bool run_check(io_reader *r, check *c, size_t count, void (*body)(void *, size_t, size_t),
-                      size_t *to_repair, size_t *to_warn)
+/* Runs body over count elements and sums what it counts. False: no memory. */
+static bool run_check(io_reader *r, check *c, size_t count, void (*body)(void *, size_t, size_t))
 {
     size_t ranges = count / GRAIN + 1;
     c->counts = mem_zalloc(r->allocator, 2 * ranges, sizeof *c->counts);
@@ -166,10 +166,9 @@ static bool run_check(io_reader *r, check *c, size_t count, void (*body)(void *,
         return io_fail_memory(r, "vertices", 2 * ranges * sizeof *c->counts);
     c->warnings = c->counts + ranges;
     parallel_for(r->thread_count, count, GRAIN, body, c);
-    *to_repair = *to_warn = 0;
     for (size_t i = 0; i < ranges; i++) {
-        *to_repair += c->counts[i];
-        *to_warn += c->warnings[i];
+        c->repairs += c->counts[i];
+        c->warned += c->warnings[i];
     }
     mem_free(c->counts);
     return true;
@@ -182,18 +181,18 @@ static bool is_sane(float x)
 
 /* ---- positions ---- */
 
+static void check_finite(void *context, size_t begin, size_t end)
+{
+    check *c = context;
+    size_t repairs = 0;
+    for (size_t i = c->width * begin; i < c->width * end; i++)
+        repairs += fabsf(c->in[i]) <= SCENE_FARTHEST ? 0u : 1u;
+    c->counts[begin / GRAIN] = repairs;
+}
+
 static bool is_sane3(const float *p)
 {
     return is_sane(p[0]) && is_sane(p[1]) && is_sane(p[2]);
-}
-
-static void check_positions(void *context, size_t begin, size_t end)
-{
-    check *c = context;
-    size_t lost = 0;
-    for (size_t i = 3 * begin; i < 3 * end; i++)
-        lost += fabsf(c->in[i]) <= SCENE_FARTHEST ? 0u : 1u;
-    c->counts[begin / GRAIN] = lost;
 }
 
 const float *gltf_get_positions(io_reader *r, const json_place *at, uint32_t index, const uint8_t **is_lost)
@@ -203,12 +202,10 @@ const float *gltf_get_positions(io_reader *r, const json_place *at, uint32_t ind
     if (a->positions)
         return a->positions;
     const float *in = gltf_get_accessor_floats(r, at, index);
-    check c = {.in = in};
-    size_t lost;
-    size_t unused;
-    if (!in || !run_check(r, &c, a->count, check_positions, &lost, &unused))
+    check c = {.in = in, .width = 3};
+    if (!in || !run_check(r, &c, a->count, check_finite))
         return NULL;
-    if (lost == 0)
+    if (c.repairs == 0)
         return a->positions = in;
 
     float *out = io_alloc_raw(r, "positions", a->count, 3 * sizeof *out);
@@ -278,14 +275,12 @@ const float *gltf_get_normals(io_reader *r, const json_place *at, uint32_t index
         return a->normals;
     const float *in = gltf_get_accessor_floats(r, at, index);
     check c = {.in = in};
-    size_t repairs;
-    size_t warnings;
-    if (!in || !run_check(r, &c, a->count, check_normals, &repairs, &warnings))
+    if (!in || !run_check(r, &c, a->count, check_normals))
         return NULL;
-    if (repairs == 0)
+    if (c.repairs == 0)
         return a->normals = in;
-    if (warnings && a->component == GLTF_F32)
-        io_note(r, at, NULL, "%zu normals of accessor %u are not of length 1", warnings, index);
+    if (c.warned && a->component == GLTF_F32)
+        io_note(r, at, NULL, "%zu normals of accessor %u are not of length 1", c.warned, index);
     float *out = io_alloc_raw(r, "normals", a->count, 3 * sizeof *out);
     if (!out)
         return NULL;
@@ -315,14 +310,12 @@ const float *gltf_get_tangents(io_reader *r, const json_place *at, uint32_t inde
         return a->has_tangents ? a->tangents : NULL;
     const float *in = gltf_get_accessor_floats(r, at, index);
     check c = {.in = in};
-    size_t repairs;
-    size_t warnings;
-    if (!in || !run_check(r, &c, a->count, check_tangents, &repairs, &warnings))
+    if (!in || !run_check(r, &c, a->count, check_tangents))
         return NULL;
     a->has_tangents = true;
-    if (repairs == 0)
+    if (c.repairs == 0)
         return a->tangents = in;
-    if (warnings && a->component == GLTF_F32)
+    if (c.warned && a->component == GLTF_F32)
         io_note(r, at, NULL, "tangents of accessor %u are not all of length 1 with w 1 or -1", index);
     float *out = io_alloc_raw(r, "tangents", a->count, 4 * sizeof *out);
     if (!out)
@@ -340,16 +333,7 @@ const float *gltf_get_tangents(io_reader *r, const json_place *at, uint32_t inde
     return a->has_tangents ? out : NULL;
 }
 
-/* ---- finite numbers ---- */
-
-static void check_finite(void *context, size_t begin, size_t end)
-{
-    check *c = context;
-    size_t repairs = 0;
-    for (size_t i = c->width * begin; i < c->width * end; i++)
-        repairs += fabsf(c->in[i]) <= SCENE_FARTHEST ? 0u : 1u;
-    c->counts[begin / GRAIN] = repairs;
-}
+/* ---- other values that must be finite ---- */
 
 const float *gltf_get_finite(io_reader *r, const json_place *at, uint32_t index, const char *what)
 {
@@ -358,11 +342,9 @@ const float *gltf_get_finite(io_reader *r, const json_place *at, uint32_t index,
         return a->finite;
     const float *in = gltf_get_accessor_floats(r, at, index);
     check c = {.in = in, .width = gltf_component_counts[a->type]};
-    size_t repairs;
-    size_t unused;
-    if (!in || !run_check(r, &c, a->count, check_finite, &repairs, &unused))
+    if (!in || !run_check(r, &c, a->count, check_finite))
         return NULL;
-    if (repairs == 0)
+    if (c.repairs == 0)
         return a->finite = in;
     float *out = io_alloc_raw(r, what, a->count, c.width * sizeof *out);
     if (!out)
@@ -410,11 +392,9 @@ const float *gltf_get_colors(io_reader *r, const json_place *at, uint32_t index)
         parallel_for(r->thread_count, a->count, GRAIN, add_alpha, &c);
         c.in = c.out;
     }
-    size_t repairs;
-    size_t unused;
-    if (!run_check(r, &c, a->count, check_colors, &repairs, &unused))
+    if (!run_check(r, &c, a->count, check_colors))
         return NULL;
-    if (repairs == 0)
+    if (c.repairs == 0)
         return a->colors = c.in;
     io_warn(r, at, NULL, "accessor %u has colors outside [0, 1]; they are clamped", index);
     float *out = c.out ? c.out : io_alloc_raw(r, "colors", a->count, 4 * sizeof *out);
