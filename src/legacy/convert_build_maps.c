@@ -302,9 +302,18 @@ static bool is_channel(const legacy_map *map, char letter)
     return map->ref.texture != SCENE_NONE && map->channel == letter && map->base == 0.0f && map->gain == 1.0f;
 }
 
-static facet_result build_packed(conversion *c, uint32_t material, legacy_map roughness, legacy_map metallic,
-                                 bool is_gloss, bool is_rma, scene_material *out, facet_error *error)
+/* Maps of a material that states roughness and metallic. */
+typedef struct stated_maps {
+    legacy_map roughness, metallic;
+    bool is_gloss; /* roughness is 1 minus the map, a glossiness */
+    bool is_rma;   /* both are channels of one map, whose third one is occlusion */
+} stated_maps;
+
+static facet_result build_packed(conversion *c, uint32_t material, const stated_maps *maps,
+                                 scene_material *out, facet_error *error)
 {
+    const legacy_map roughness = maps->roughness;
+    legacy_map metallic = maps->metallic;
     scene_texture_ref *ref = &out->textures[SCENE_METALLIC_ROUGHNESS_TEXTURE];
     bool is_rough = roughness.ref.texture != SCENE_NONE;
     bool is_metal = metallic.ref.texture != SCENE_NONE;
@@ -319,15 +328,15 @@ static facet_result build_packed(conversion *c, uint32_t material, legacy_map ro
         is_metal = false;
     }
     *ref = is_rough ? roughness.ref : metallic.ref;
-    if (!is_gloss && is_rough && is_metal && roughness.ref.texture == metallic.ref.texture &&
+    if (!maps->is_gloss && is_rough && is_metal && roughness.ref.texture == metallic.ref.texture &&
         is_channel(&roughness, 'g') && is_channel(&metallic, 'b'))
         return FACET_OK;
     p.roughness = scalar_lut_make(c->bench, &roughness, 1.0f, TEXTURE_GREY);
     p.metallic = scalar_lut_make(c->bench, &metallic, 1.0f, TEXTURE_GREY);
-    legacy_map occlusion = is_rma ? roughness : legacy_map_default();
+    legacy_map occlusion = maps->is_rma ? roughness : legacy_map_default();
     occlusion.channel = 'b';
     p.occlusion = scalar_lut_make(c->bench, &occlusion, 1.0f, TEXTURE_BLUE);
-    if (is_gloss) { /* roughness = 1 - factor gloss: the factor is baked */
+    if (maps->is_gloss) { /* roughness = 1 - factor gloss: the factor is baked */
         for (int code = 0; code < 256; code++)
             p.roughness.values[code] = 1.0f - (1.0f - out->perceptual_roughness) * p.roughness.values[code];
         out->perceptual_roughness = 1.0f;
@@ -344,12 +353,11 @@ static facet_result build_packed(conversion *c, uint32_t material, legacy_map ro
 
 static facet_result build_orm(conversion *c, const legacy_reading *r, scene_material *out, facet_error *error)
 {
-    legacy_map orm = r->m.maps[LEGACY_ORM_MAP];
-    legacy_map roughness = orm;
-    legacy_map metallic = orm;
-    roughness.channel = r->m.is_rma ? 'r' : 'g';
-    metallic.channel = r->m.is_rma ? 'g' : 'b';
-    facet_result result = build_packed(c, SCENE_NONE, roughness, metallic, false, r->m.is_rma, out, error);
+    const legacy_map *orm = &r->m.maps[LEGACY_ORM_MAP];
+    stated_maps maps = {.roughness = *orm, .metallic = *orm, .is_rma = r->m.is_rma};
+    maps.roughness.channel = r->m.is_rma ? 'r' : 'g';
+    maps.metallic.channel = r->m.is_rma ? 'g' : 'b';
+    facet_result result = build_packed(c, SCENE_NONE, &maps, out, error);
     out->textures[SCENE_OCCLUSION_TEXTURE] = out->textures[SCENE_METALLIC_ROUGHNESS_TEXTURE];
     return result;
 }
@@ -358,19 +366,19 @@ static facet_result build_stated(conversion *c, uint32_t material, const legacy_
                                  scene_material *out, facet_error *error)
 {
     const legacy_map *maps = r->m.maps;
-    const legacy_map none = legacy_map_default();
+    stated_maps stated = {.roughness = maps[LEGACY_ROUGHNESS_MAP], .metallic = maps[LEGACY_METALLIC_MAP]};
     if (r->kind == READING_GLOSSY) {
         /* Specular colors are sRGB in both: the image is used unchanged. */
         out->textures[SCENE_SPECULAR_COLOR_TEXTURE] = maps[LEGACY_SPECULAR_MAP].ref;
-        return build_packed(c, material, maps[LEGACY_SHININESS_MAP], none, true, false, out, error);
-    }
-    if (r->has_shininess_as_roughness)
-        return build_packed(c, material, maps[LEGACY_SHININESS_MAP], maps[LEGACY_SPECULAR_MAP], false, false,
-                            out, error);
-    if (has_map(r, LEGACY_ORM_MAP))
+        stated = (stated_maps){
+            .roughness = maps[LEGACY_SHININESS_MAP], .metallic = legacy_map_default(), .is_gloss = true};
+    } else if (r->has_shininess_as_roughness) {
+        stated =
+            (stated_maps){.roughness = maps[LEGACY_SHININESS_MAP], .metallic = maps[LEGACY_SPECULAR_MAP]};
+    } else if (has_map(r, LEGACY_ORM_MAP)) {
         return build_orm(c, r, out, error);
-    return build_packed(c, material, maps[LEGACY_ROUGHNESS_MAP], maps[LEGACY_METALLIC_MAP], false, false, out,
-                        error);
+    }
+    return build_packed(c, material, &stated, out, error);
 }
 
 facet_result build_surface_maps(conversion *c, uint32_t material, legacy_reading *r, const solve_item *item,
