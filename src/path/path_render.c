@@ -37,7 +37,7 @@ typedef struct path_job {
     path_key key;
     double saved_s; /* when the checkpoint was written, or rendering begun */
     float ground_y;
-    matte_layers mattes; /* of target; sums until develop() */
+    matte_layers mattes; /* of target; sums until resolve_film() */
     /* of one instant of the shutter */
     facet_render_desc instant; /* desc at its time */
     render_setup setup;
@@ -387,7 +387,7 @@ static void warn_dropped(const path_job *p)
     log->message(log->user, FACET_LOG_LEVEL_WARNING, message);
 }
 
-static facet_result develop(path_job *p, facet_error *error)
+static facet_result resolve_film(path_job *p, facet_error *error)
 {
     const facet_render_desc *desc = p->desc;
     float scale = exp2f(desc->exposure_ev);
@@ -416,7 +416,7 @@ static facet_result render_image(path_job *p, bool *has_setup, facet_error *erro
     path_film_set_scale(p->sums, exp2f(desc->exposure_ev));
     TRY(draw_aovs(p, error));
     TRY(draw(p, error));
-    TRY(develop(p, error));
+    TRY(resolve_film(p, error));
     return p->stats->is_partial ? FACET_OK : render_check_limits(desc, "sample", 1.0, 0.0, error);
 }
 
