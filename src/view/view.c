@@ -211,9 +211,7 @@ static void draw(view_app *a)
     }
     if (view_window_needs_drawing(a->window))
         a->needs_image = true;
-    bool traces = a->state.render.renderer == FACET_RENDERER_KIND_PATH ||
-                  a->state.divider.comparison == VIEW_COMPARE_RENDERER;
-    if (traces)
+    if (view_state_accumulating_sides(&a->state))
         a->needs_frame = true; /* the tracer may have a newer image */
     facet_error error;
     if ((a->needs_image || a->needs_frame) && view_show(a, &error) != FACET_OK) {

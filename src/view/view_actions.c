@@ -219,19 +219,19 @@ static void step_channel(view_state *s, int steps)
     facet_gl_desc *gl = &s->render.gl;
     gl->channel = (facet_channel)wrap((int)gl->channel + steps, FACET_CHANNEL_COUNT);
     if (gl->channel != FACET_CHANNEL_LIGHT)
-        s->render.renderer = FACET_RENDERER_KIND_GL;
+        s->render.renderer = FACET_RENDERER_KIND_GL; /* the others draw light only */
     say(s, "Channel: %s", view_channel_name(gl->channel));
 }
 
 static void step_renderer(view_state *s)
 {
-    bool is_path = s->render.renderer == FACET_RENDERER_KIND_PATH;
-    s->render.renderer = is_path ? FACET_RENDERER_KIND_GL : FACET_RENDERER_KIND_PATH;
-    if (!is_path)
+    s->render.renderer = view_renderer_next(s->render.renderer);
+    if (s->render.renderer != FACET_RENDERER_KIND_GL) {
         s->render.gl.channel = FACET_CHANNEL_LIGHT;
-    if (!is_path && s->divider.comparison == VIEW_COMPARE_MASKING) /* which path tracing does not support */
-        s->divider.comparison = VIEW_COMPARE_NOTHING;
-    say(s, "Renderer: %s", is_path ? "OpenGL" : "path tracing");
+        if (s->divider.comparison == VIEW_COMPARE_MASKING)
+            s->divider.comparison = VIEW_COMPARE_NOTHING;
+    }
+    say(s, "Renderer: %s", view_renderer_title(s->render.renderer));
 }
 
 bool view_state_has_casters(const view_state *s)
@@ -256,8 +256,7 @@ static uint32_t find_variant(const facet_scene *scene)
 
 static void step_divider(view_state *s, int steps)
 {
-    view_divider_step(&s->divider, steps, s->counts.variants > 0,
-                      s->render.renderer == FACET_RENDERER_KIND_PATH);
+    view_divider_step(&s->divider, steps, s->counts.variants > 0, s->render.renderer);
     s->divider.variant = s->scene ? find_variant(s->scene) : 0;
     if (s->divider.comparison == VIEW_COMPARE_NOTHING) /* otherwise the sides have labels */
         say(s, "No comparison");

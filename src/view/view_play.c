@@ -55,13 +55,6 @@ static bool is_traced(view_app *a, const view_step *s, int side)
     return t->is_current && (trace.is_done || (s->numbers[0] > 0.0 && t->samples >= s->numbers[0]));
 }
 
-static bool traces_both(const view_app *a)
-{
-    const view_state *s = &a->state;
-    return s->render.renderer == FACET_RENDERER_KIND_PATH && s->divider.comparison != VIEW_COMPARE_NOTHING &&
-           s->divider.comparison != VIEW_COMPARE_RENDERER;
-}
-
 /* Whether a step's condition holds. */
 static bool is_ready(view_app *a, const view_step *s)
 {
@@ -71,7 +64,8 @@ static bool is_ready(view_app *a, const view_step *s)
     case VIEW_STEP_RELOAD:
         return a->reload_count > a->script_reload_count;
     case VIEW_STEP_TRACE:
-        return is_traced(a, s, 1) && (!traces_both(a) || is_traced(a, s, 0));
+        return is_traced(a, s, 1) &&
+               (!(view_state_accumulating_sides(&a->state) & VIEW_SIDE_LEFT) || is_traced(a, s, 0));
     default:
         return true;
     }

@@ -92,7 +92,7 @@ static char *describe(view_app *a)
     if (!a->scene || !width)
         return NULL;
     facet_render_desc desc = view_show_desc(a, width, height, &camera);
-    if (desc.renderer == FACET_RENDERER_KIND_PATH && a->traced[1].is_current)
+    if (view_renderer_accumulates(desc.renderer) && a->traced[1].is_current)
         desc.samples = a->traced[1].samples;
     const view_state *s = &a->state;
     const facet_orbit orbit = view_camera_round(&s->orbit);

@@ -32,7 +32,7 @@ facet_render_desc view_show_desc(view_app *a, uint32_t width, uint32_t height, f
     facet_render_desc base = view_state_desc(&a->state, width, height, camera);
     base.environment = a->environment;
     view_divider_sides(&a->state.divider, &base, sides, labels);
-    if (sides[1].renderer == FACET_RENDERER_KIND_PATH)
+    if (view_renderer_accumulates(sides[1].renderer))
         sides[1].samples = a->state.path_samples;
     return sides[1];
 }
@@ -128,14 +128,14 @@ static facet_result draw_sides(view_app *a, uint32_t width, uint32_t height, con
         snprintf(a->variant, sizeof a->variant, "Variant: %.100s", a->scene->variants[sides[1].pose.variant]);
         labels[1] = a->variant;
     }
-    if (!is_divided || sides[0].renderer != FACET_RENDERER_KIND_PATH)
+    if (!is_divided || !view_renderer_accumulates(sides[0].renderer))
         stop_left(a);
     for (int i = is_divided ? 0 : 1; i < 2 && result == FACET_OK; i++) {
         shown[i] = &a->sides[i];
-        bool is_path = sides[i].renderer == FACET_RENDERER_KIND_PATH;
-        if (is_path && trace(a, i, &sides[i]))
+        bool accumulates = view_renderer_accumulates(sides[i].renderer);
+        if (accumulates && trace(a, i, &sides[i]))
             shown[i] = &a->traced[i].surface;
-        else if (a->needs_image || is_path)
+        else if (a->needs_image || accumulates)
             result = draw_side(a, i, &sides[i], error);
     }
     if (!is_divided)

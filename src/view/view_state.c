@@ -174,6 +174,39 @@ void view_state_follow_motion(view_state *s)
     s->needs_framing = true;
 }
 
+/* ---- renderers ---- */
+
+/* In the order of the key. OpenGL is first: it draws what moves, and channels and specular lobes are its own. */
+static const struct {
+    facet_renderer_kind kind;
+    bool accumulates;
+    const char *title;
+} renderers[] = {{FACET_RENDERER_KIND_GL, false, "OpenGL"}, {FACET_RENDERER_KIND_PATH, true, "Path tracing"}};
+enum { RENDERER_COUNT = sizeof renderers / sizeof *renderers };
+
+static size_t find_renderer(facet_renderer_kind kind)
+{
+    size_t i = RENDERER_COUNT - 1;
+    while (i > 0 && renderers[i].kind != kind)
+        i--;
+    return i;
+}
+
+bool view_renderer_accumulates(facet_renderer_kind kind)
+{
+    return renderers[find_renderer(kind)].accumulates;
+}
+
+facet_renderer_kind view_renderer_next(facet_renderer_kind kind)
+{
+    return renderers[(find_renderer(kind) + 1) % RENDERER_COUNT].kind;
+}
+
+const char *view_renderer_title(facet_renderer_kind kind)
+{
+    return renderers[find_renderer(kind)].title;
+}
+
 /* ---- the divider ---- */
 
 void view_divider_sides(const view_divider *d, const facet_render_desc *base, facet_render_desc sides[2],
@@ -183,7 +216,7 @@ void view_divider_sides(const view_divider *d, const facet_render_desc *base, fa
         [VIEW_COMPARE_NOTHING] = {"", ""},
         [VIEW_COMPARE_MASKING] = {"Schlick-GGX, separable", "Smith, height-correlated"},
         [VIEW_COMPARE_SCATTERING] = {"Single scattering", "Multiple scattering"},
-        [VIEW_COMPARE_RENDERER] = {"OpenGL", "Path tracing"},
+        [VIEW_COMPARE_RENDERER] = {"", ""}, /* their titles */
         [VIEW_COMPARE_TONEMAP] = {"Linear", "Tone-mapped"},
         [VIEW_COMPARE_VARIANT] = {"Materials of the file", "Variant"}};
     sides[0] = sides[1] = *base;
@@ -191,7 +224,7 @@ void view_divider_sides(const view_divider *d, const facet_render_desc *base, fa
     labels[1] = names[d->comparison][1];
     switch (d->comparison) {
     case VIEW_COMPARE_MASKING:
-        sides[0].renderer = sides[1].renderer = FACET_RENDERER_KIND_GL;
+        sides[0].renderer = sides[1].renderer = renderers[0].kind;
         sides[0].gl.brdf = FACET_BRDF_SCHLICK_GGX;
         sides[1].gl.brdf = FACET_BRDF_ENERGY;
         break;
@@ -201,8 +234,11 @@ void view_divider_sides(const view_divider *d, const facet_render_desc *base, fa
         sides[1].energy = FACET_ENERGY_CONSERVING;
         break;
     case VIEW_COMPARE_RENDERER:
-        sides[0].renderer = FACET_RENDERER_KIND_GL;
-        sides[1].renderer = FACET_RENDERER_KIND_PATH;
+        sides[0].renderer = renderers[0].kind;
+        if (!view_renderer_accumulates(base->renderer))
+            sides[1].renderer = renderers[1].kind;
+        for (int i = 0; i < 2; i++)
+            labels[i] = view_renderer_title(sides[i].renderer);
         break;
     case VIEW_COMPARE_TONEMAP:
         sides[0].tonemap = FACET_TONEMAP_NONE;
@@ -235,12 +271,22 @@ static view_comparison step(view_comparison from, int steps, int count)
     return (view_comparison)((((int)from + steps) % count + count) % count);
 }
 
-void view_divider_step(view_divider *d, int steps, bool has_variants, bool traces_paths)
+void view_divider_step(view_divider *d, int steps, bool has_variants, facet_renderer_kind renderer)
 {
     int count = has_variants ? VIEW_COMPARISON_COUNT : VIEW_COMPARE_VARIANT;
     d->comparison = step(d->comparison, steps, count);
-    if (traces_paths && d->comparison == VIEW_COMPARE_MASKING)
+    if (renderer != renderers[0].kind && d->comparison == VIEW_COMPARE_MASKING)
         d->comparison = step(d->comparison, steps, count);
+}
+
+unsigned view_state_accumulating_sides(const view_state *s)
+{
+    facet_render_desc sides[2];
+    const char *labels[2];
+    view_divider_sides(&s->divider, &s->render, sides, labels);
+    bool is_divided = s->divider.comparison != VIEW_COMPARE_NOTHING;
+    return (is_divided && view_renderer_accumulates(sides[0].renderer) ? VIEW_SIDE_LEFT : 0u) |
+           (view_renderer_accumulates(sides[1].renderer) ? VIEW_SIDE_RIGHT : 0u);
 }
 
 bool view_divider_labels(int border, int width, int margin, const int widths[2], int x[2])

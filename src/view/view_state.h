@@ -7,6 +7,14 @@
 
 #include "facet/facet.h"
 
+/* ---- the renderers of a window ---- */
+
+/* Whether a renderer accumulates samples in the background, while nothing moves (view_trace.h). OpenGL does not: it
+ * draws every frame, and those in between for the others. A new renderer is a row of the table in view_state.c. */
+bool view_renderer_accumulates(facet_renderer_kind kind);
+facet_renderer_kind view_renderer_next(facet_renderer_kind kind); /* after the last one the first */
+const char *view_renderer_title(facet_renderer_kind kind);        /* "OpenGL" */
+
 /* ---- the divider: two variants side by side, with a draggable border ---- */
 
 typedef enum view_comparison {
@@ -27,16 +35,15 @@ typedef struct view_divider {
 } view_divider;
 
 /* The settings of the left and right side, in that order; base is what is drawn without a divider, and its
- * renderer is kept: both sides are path traced, unless the comparison is of the renderers or needs OpenGL
- * (VIEW_COMPARE_MASKING). */
+ * renderer is kept, unless the comparison is of the renderers or needs OpenGL (VIEW_COMPARE_MASKING). */
 void view_divider_sides(const view_divider *d, const facet_render_desc *base, facet_render_desc sides[2],
                         const char *labels[2]);
 /* Whether the pointer at x can grab it. reach: px to either side. */
 bool view_divider_is_at(const view_divider *d, double x, uint32_t width, double reach);
 void view_divider_drag(view_divider *d, double x, uint32_t width);
-/* The next comparison, in either direction; variants only where there are some, masking only without path
- * tracing, which has no separable one. */
-void view_divider_step(view_divider *d, int steps, bool has_variants, bool traces_paths);
+/* The next comparison, in either direction; variants only where there are some, masking only with OpenGL: other
+ * renderers have no separable one. */
+void view_divider_step(view_divider *d, int steps, bool has_variants, facet_renderer_kind renderer);
 /* Where labels of those widths begin (x): next to the border where they fit there, else as near as the window
  * allows. True: one of them does not fit on its own side, and they need separate lines. */
 bool view_divider_labels(int border, int width, int margin, const int widths[2], int x[2]);
@@ -63,7 +70,7 @@ typedef struct view_state {
     facet_orbit framing; /* the orbit they were found for, while is_framed: the orbit was not moved since */
     bool is_framed;
 
-    facet_render_desc render; /* renderer: GL or PATH; without the settings of the model and the window */
+    facet_render_desc render; /* without the settings of the model and the window */
     uint32_t path_samples;
     view_divider divider;
     uint32_t help_page, help_pages; /* the visible page, from 1, and how many; 0: none */
@@ -109,6 +116,11 @@ void view_state_show_whole(view_state *s);
 /* After a change of the running animations: an orbit that was found for others, and that was not moved by
  * hand, is found again. */
 void view_state_follow_motion(view_state *s);
+
+/* The sides whose renderers accumulate samples: bit 0 left, bit 1 right. Without a divider the image is the right
+ * one. */
+enum { VIEW_SIDE_LEFT = 1 << 0, VIEW_SIDE_RIGHT = 1 << 1 };
+unsigned view_state_accumulating_sides(const view_state *s);
 
 /* The whole desc of an image of that size, except for the environment. camera: where it is stored. */
 facet_render_desc view_state_desc(const view_state *s, uint32_t width, uint32_t height, facet_camera *camera);

@@ -275,6 +275,9 @@ static void comparisons_keep_tracing_paths(void **state)
         assert_int_not_equal(s.divider.comparison, VIEW_COMPARE_MASKING);
         view_divider_sides(&s.divider, &s.render, sides, labels);
         assert_int_equal(sides[1].renderer, FACET_RENDERER_KIND_PATH);
+        bool is_both =
+            s.divider.comparison != VIEW_COMPARE_NOTHING && s.divider.comparison != VIEW_COMPARE_RENDERER;
+        assert_int_equal(view_state_accumulating_sides(&s), VIEW_SIDE_RIGHT | (is_both ? VIEW_SIDE_LEFT : 0));
         assert_int_equal(sides[0].renderer, s.divider.comparison == VIEW_COMPARE_RENDERER
                                                 ? FACET_RENDERER_KIND_GL
                                                 : FACET_RENDERER_KIND_PATH);
@@ -284,6 +287,7 @@ static void comparisons_keep_tracing_paths(void **state)
     press(&s, "r");
     press(&s, "Tab");
     assert_int_equal(s.divider.comparison, VIEW_COMPARE_MASKING);
+    assert_int_equal(view_state_accumulating_sides(&s), 0);
     press(&s, "r");
     assert_int_equal(s.divider.comparison, VIEW_COMPARE_NOTHING);
 }

@@ -67,36 +67,43 @@ static uint32_t samples_of(const view_traced *t)
     return t->is_current ? t->samples : 0;
 }
 
+/* Title of the renderer of the image, or of its right side, which accumulates samples if any side does. */
+static const char *title_of(const view_state *s)
+{
+    facet_render_desc sides[2];
+    const char *labels[2];
+    view_divider_sides(&s->divider, &s->render, sides, labels);
+    return view_renderer_title(sides[1].renderer);
+}
+
 void view_values_write_samples(const view_app *a, char *out, size_t size)
 {
     const view_state *s = &a->state;
-    bool is_divided = s->divider.comparison != VIEW_COMPARE_NOTHING;
-    bool is_both = is_divided && s->divider.comparison != VIEW_COMPARE_RENDERER;
-    bool is_path =
-        s->render.renderer == FACET_RENDERER_KIND_PATH || s->divider.comparison == VIEW_COMPARE_RENDERER;
+    unsigned sides = view_state_accumulating_sides(s);
+    bool is_both = sides == (VIEW_SIDE_LEFT | VIEW_SIDE_RIGHT);
     uint32_t left = samples_of(&a->traced[0]), right = samples_of(&a->traced[1]);
     out[0] = 0;
-    if (!is_path)
+    if (!sides)
         return;
     if (right >= s->path_samples && (!is_both || left >= s->path_samples))
-        snprintf(out, size, "Path tracing: %u samples", s->path_samples);
+        snprintf(out, size, "%s: %u samples", title_of(s), s->path_samples);
     else if (is_both)
-        snprintf(out, size, "Path tracing: %u | %u of %u samples", left, right, s->path_samples);
+        snprintf(out, size, "%s: %u | %u of %u samples", title_of(s), left, right, s->path_samples);
     else
-        snprintf(out, size, "Path tracing: %u of %u samples", right, s->path_samples);
+        snprintf(out, size, "%s: %u of %u samples", title_of(s), right, s->path_samples);
 }
 
 static void add_renderer(values *v, const view_app *a)
 {
     const view_state *s = &a->state;
     const facet_render_desc *r = &s->render;
-    bool is_path = r->renderer == FACET_RENDERER_KIND_PATH || s->divider.comparison == VIEW_COMPARE_RENDERER;
-    if (is_path)
-        add(v, "Path tracing", "%u of %u samples", samples_of(&a->traced[1]), s->path_samples);
+    bool accumulates = view_state_accumulating_sides(s) != 0;
+    if (accumulates)
+        add(v, title_of(s), "%u of %u samples", samples_of(&a->traced[1]), s->path_samples);
     else
-        add(v, "OpenGL", "%u samples", r->samples ? r->samples : 4);
+        add(v, title_of(s), "%u samples", r->samples ? r->samples : 4);
     add(v, "Driver", "%.200s", (const char *)glGetString(GL_RENDERER));
-    if (!is_path && a->frame_s > 0.0)
+    if (!accumulates && a->frame_s > 0.0)
         add(v, "Frame", "%.1f ms%s", 1e3 * a->frame_s,
             a->divisor > 1 ? a->divisor > 2 ? ", a quarter as fine" : ", half as fine" : "");
     if (r->gl.channel != FACET_CHANNEL_LIGHT)
@@ -114,7 +121,7 @@ void view_values_write(view_app *a, uint32_t width, uint32_t height, char *out, 
     values v = {.out = out, .size = size};
     const facet_render_desc *r = &a->state.render;
     add_model(&v, a);
-    add(&v, "Picture", "%u x %u", width, height);
+    add(&v, "Image", "%u x %u", width, height);
     add_camera(&v, &a->state);
     add_renderer(&v, a);
     add(&v, "Environment", "%.200s", a->environment_name ? path_base_name(a->environment_name) : "default");
