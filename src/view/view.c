@@ -47,9 +47,9 @@ static void show_warning(view_app *a)
     pthread_mutex_lock(&a->warning_mutex);
     memcpy(text, a->warning, sizeof text);
     a->warning[0] = 0;
-    bool is_new = text[0] && strcmp(text, a->said_warning) != 0;
+    bool is_new = text[0] && strcmp(text, a->shown_warning) != 0;
     if (is_new)
-        memcpy(a->said_warning, text, sizeof text);
+        memcpy(a->shown_warning, text, sizeof text);
     pthread_mutex_unlock(&a->warning_mutex);
     if (is_new)
         view_app_say(a, text, 6.0);
@@ -58,7 +58,7 @@ static void show_warning(view_app *a)
 void view_app_forget_warning(view_app *a)
 {
     pthread_mutex_lock(&a->warning_mutex);
-    a->said_warning[0] = 0;
+    a->shown_warning[0] = 0;
     pthread_mutex_unlock(&a->warning_mutex);
 }
 

@@ -1,5 +1,5 @@
 /* view_app.h - the state that the viewer's files share: view.c (the loop), view_files.c (reading),
- * view_show.c (drawing), view_shot.c (saving), view_play.c (scripts). */
+ * view_show.c and view_panels.c (drawing), view_shot.c (saving), view_play.c (scripts). */
 #ifndef VIEW_VIEW_APP_H
 #define VIEW_VIEW_APP_H
 
@@ -8,7 +8,6 @@
 
 #include "gl/scene/gl_renderer.h"
 #include "view/view_draw.h"
-#include "view/view_folder.h"
 #include "view/view_load.h"
 #include "view/view_overlay.h"
 #include "view/view_state.h"
@@ -16,6 +15,14 @@
 #include "view/view_trace.h"
 #include "view/view_watch.h"
 #include "view/view_window.h"
+
+/* Names to step through: models, environments. */
+typedef struct view_list {
+    facet_allocator allocator;
+    char **names; /* each a block of mem_alloc() */
+    size_t count, capacity;
+    size_t at; /* index of the current one; count: none of them */
+} view_list;
 
 /* A text panel and its source, so that it is redrawn only when that changes. */
 typedef struct view_shown_panel {
@@ -87,7 +94,7 @@ typedef struct view_app {
     bool is_hint;
     pthread_mutex_t warning_mutex; /* guards: */
     char warning[256],
-        said_warning[256]; /* the warning of a renderer, from any thread; the last one that was shown */
+        shown_warning[256]; /* the warning of a renderer, from any thread; the last one that was shown */
 
     /* the loop */
     double time_s; /* of animations and messages: the clock's, or the script's */
@@ -125,10 +132,10 @@ void view_show_end(view_app *a);
 /* The desc of what the window shows; with a divider of the right side. */
 facet_render_desc view_show_desc(view_app *a, uint32_t width, uint32_t height, facet_camera *camera);
 
-/* view_values.c: the values that Z shows, rows of a name, a tab and a value. */
-/* The sample counter of path tracing; "": path tracing is off. */
-void view_values_write_samples(const view_app *a, char *out, size_t size);
-void view_values_write(view_app *a, uint32_t width, uint32_t height, char *out, size_t size);
+/* view_panels.c */
+/* Renders the text of the panels where it has changed. */
+void view_panels_make(view_app *a, uint32_t width, uint32_t height, const char *const labels[2]);
+void view_panels_draw(view_app *a, uint32_t width, uint32_t height);
 
 /* view_shot.c */
 facet_result view_shot_save(view_app *a, const char *path, bool has_panels, facet_error *error);

@@ -1,14 +1,232 @@
-/* view_files.c - models and environments of a window: stepping, dropping, reloading, and updating the
- * state when they are read. */
+/* view_files.c - models and environments of a window: the lists to step through, dropping, reloading, and updating
+ * the state when they are read. */
+#define _POSIX_C_SOURCE 200809L
 #include "view/view_app.h"
 
+#include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
 
 #include "base/file.h"
+#include "base/memory.h"
 #include "base/result.h"
 #include "scene/scene.h"
+
+/* ---- kinds of files ---- */
+
+enum { MAX_NAMES = 10000, MAX_DEPTH = 2 };
+
+static bool has_extension(const char *path, const char *const *extensions)
+{
+    const char *extension = path_extension(path);
+    for (; *extensions; extensions++)
+        if (strcasecmp(extension, *extensions) == 0)
+            return true;
+    return false;
+}
+
+static bool is_model(const char *path)
+{
+    return has_extension(path, (const char *const[]){"glb", "gltf", "obj", NULL});
+}
+
+static bool is_environment(const char *path)
+{
+    return has_extension(
+        path, (const char *const[]){"hdr", "exr", "pfm", "ktx2", "png", "jpg", "jpeg", "webp", "avif", NULL});
+}
+
+/* Environment light has high dynamic range: images of eight bits in a folder are more likely textures. */
+static bool is_light(const char *path)
+{
+    return has_extension(path, (const char *const[]){"hdr", "exr", "ktx2", NULL});
+}
+
+/* ---- lists ---- */
+
+static void list_clear(view_list *l)
+{
+    for (size_t i = 0; i < l->count; i++)
+        mem_free(l->names[i]);
+    mem_free(l->names);
+    *l = (view_list){.allocator = l->allocator};
+}
+
+/* Takes ownership of name. */
+static bool list_add(view_list *l, char *name)
+{
+    bool fits =
+        name && mem_reserve(&l->allocator, (void **)&l->names, &l->capacity, l->count + 1, sizeof *l->names);
+    if (!fits) {
+        mem_free(name);
+        return false;
+    }
+    l->names[l->count++] = name;
+    return true;
+}
+
+static char *copy_of(const view_list *l, const char *name)
+{
+    size_t size = strlen(name) + 1;
+    char *copy = mem_alloc(&l->allocator, size, 1);
+    if (copy)
+        memcpy(copy, name, size);
+    return copy;
+}
+
+static bool list_add_copy(view_list *l, const char *name)
+{
+    return list_add(l, copy_of(l, name));
+}
+
+/* Numbers in names sort by value: ball2 before ball10. */
+static int compare_names(const void *a, const void *b)
+{
+    const char *x = *(char *const *)a;
+    const char *y = *(char *const *)b;
+    while (*x && *y) {
+        bool are_figures = *x >= '0' && *x <= '9' && *y >= '0' && *y <= '9';
+        if (are_figures) {
+            size_t zeros_x = strspn(x, "0");
+            size_t zeros_y = strspn(y, "0");
+            size_t length_x = strspn(x + zeros_x, "0123456789");
+            size_t length_y = strspn(y + zeros_y, "0123456789");
+            if (length_x != length_y)
+                return length_x < length_y ? -1 : 1;
+            int order = strncmp(x + zeros_x, y + zeros_y, length_x);
+            if (order)
+                return order;
+            x += zeros_x + length_x;
+            y += zeros_y + length_y;
+            continue;
+        }
+        if (*x != *y)
+            return (unsigned char)*x < (unsigned char)*y ? -1 : 1;
+        x++;
+        y++;
+    }
+    return (*x != 0) - (*y != 0);
+}
+
+static bool is_folder(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+}
+
+/* Appends the matching files of a folder, by name. depth: how many folders further down it looks where it
+ * has none itself. */
+static bool list_add_folder(view_list *l, const char *folder, bool (*is_wanted)(const char *), int depth)
+{
+    DIR *directory = opendir(folder);
+    view_list folders = {.allocator = l->allocator};
+    size_t first = l->count;
+    bool fits = true;
+    struct dirent *entry;
+    while (fits && directory && l->count < MAX_NAMES && (entry = readdir(directory)) != NULL) {
+        if (entry->d_name[0] == '.')
+            continue;
+        char *path = path_join(&l->allocator, folder, entry->d_name);
+        if (path && is_folder(path))
+            fits = list_add(&folders, path);
+        else if (is_wanted(entry->d_name))
+            fits = list_add(l, path);
+        else
+            mem_free(path);
+    }
+    if (directory)
+        closedir(directory);
+    if (l->count > first)
+        qsort(l->names + first, l->count - first, sizeof *l->names, compare_names);
+    else if (folders.count && depth > 0) {
+        qsort(folders.names, folders.count, sizeof *folders.names, compare_names);
+        for (size_t i = 0; fits && i < folders.count; i++)
+            fits = list_add_folder(l, folders.names[i], is_wanted, depth - 1);
+    }
+    list_clear(&folders);
+    return fits;
+}
+
+static bool is_same_file(const char *a, const char *b)
+{
+    struct stat x;
+    struct stat y;
+    return strcmp(a, b) == 0 ||
+           (stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino);
+}
+
+static size_t list_find(const view_list *l, const char *path)
+{
+    for (size_t i = 0; i < l->count; i++)
+        if (is_same_file(l->names[i], path))
+            return i;
+    return l->count;
+}
+
+/* The matching files in path's folder; path is among them whatever its extension is. */
+static bool list_add_neighbours(view_list *l, const char *path, bool (*is_wanted)(const char *))
+{
+    char *folder = path_folder(&l->allocator, path);
+    bool fits = folder && list_add_folder(l, folder, is_wanted, 0);
+    mem_free(folder);
+    l->at = list_find(l, path);
+    if (!fits || l->at == l->count)
+        return fits && list_add_copy(l, path);
+    char *as_given = copy_of(l, path); /* not ./path */
+    if (as_given) {
+        mem_free(l->names[l->at]);
+        l->names[l->at] = as_given;
+    }
+    return as_given != NULL;
+}
+
+/* From the given paths: models as they are; of folders the models in them, or where there are none those
+ * one or two folders below, by name. For a single model: those of its folder, with it as the current one.
+ * False: out of memory. */
+static bool list_models(view_list *l, const char *const *paths, uint32_t path_count)
+{
+    list_clear(l);
+    if (path_count == 1 && !is_folder(paths[0]))
+        return strcmp(paths[0], "-") == 0 ? list_add_copy(l, paths[0])
+                                          : list_add_neighbours(l, paths[0], is_model);
+    bool fits = true;
+    for (uint32_t i = 0; fits && i < path_count; i++)
+        fits = is_folder(paths[i]) ? list_add_folder(l, paths[i], is_model, MAX_DEPTH)
+                                   : list_add_copy(l, paths[i]);
+    return fits;
+}
+
+/* The names, followed by the environments in the folder of path (NULL: none), which is the current one. */
+static bool list_environments(view_list *l, const char *const *names, uint32_t name_count, const char *path)
+{
+    list_clear(l);
+    bool fits = true;
+    for (uint32_t i = 0; fits && i < name_count; i++)
+        fits = list_add_copy(l, names[i]);
+    l->at = path ? list_find(l, path) : 0;
+    if (fits && path && l->at == l->count)
+        fits = list_add_neighbours(l, path, is_light);
+    return fits;
+}
+
+/* Moves by that many steps, wrapping around, and returns the name; NULL: the list is empty. */
+static const char *list_step(view_list *l, int steps)
+{
+    if (l->count == 0)
+        return NULL;
+    size_t at = l->at;
+    if (at >= l->count)
+        at = steps > 0 ? l->count - 1 : 0;
+    size_t count = l->count;
+    size_t forward = steps >= 0 ? (size_t)steps % count : count - (size_t)-steps % count;
+    l->at = (at + forward) % count;
+    return l->names[l->at];
+}
+
+/* ---- requests ---- */
 
 static void request(view_app *a, const view_request *r)
 {
@@ -28,12 +246,12 @@ facet_result view_files_begin(view_app *a, facet_error *error)
 {
     const facet_view_desc *d = a->desc;
     a->models.allocator = a->environments.allocator = d->allocator;
-    if (!view_list_models(&a->models, d->paths, d->path_count) ||
-        !view_list_environments(&a->environments, d->environments, d->environment_count, d->environment))
+    if (!list_models(&a->models, d->paths, d->path_count) ||
+        !list_environments(&a->environments, d->environments, d->environment_count, d->environment))
         return fail_memory(error, "names", 0);
     if (d->path_count && a->models.count == 0)
         return fail(error, FACET_ERROR_READ, "%s: there is no .glb, .gltf or .obj file in it", d->paths[0]);
-    const char *first = view_list_step(&a->models, 0);
+    const char *first = list_step(&a->models, 0);
     if (!view_load_request(a->loader, &(view_request){.wants_model = true,
                                                       .path = first,
                                                       .wants_environment = true,
@@ -44,7 +262,7 @@ facet_result view_files_begin(view_app *a, facet_error *error)
 
 void view_files_step_model(view_app *a, int steps)
 {
-    const char *path = view_list_step(&a->models, steps);
+    const char *path = list_step(&a->models, steps);
     if (path)
         request_model(a, path);
     else
@@ -53,7 +271,7 @@ void view_files_step_model(view_app *a, int steps)
 
 void view_files_step_environment(view_app *a, int steps)
 {
-    const char *name = view_list_step(&a->environments, steps);
+    const char *name = list_step(&a->environments, steps);
     if (name)
         request(a, &(view_request){.wants_environment = true, .environment = name});
 }
@@ -70,24 +288,24 @@ void view_files_drop(view_app *a, const char *path)
 {
     if (!path)
         return;
-    if (view_path_is_environment(path)) {
-        view_list_environments(&a->environments, a->desc->environments, a->desc->environment_count, path);
+    if (is_environment(path)) {
+        list_environments(&a->environments, a->desc->environments, a->desc->environment_count, path);
         request(a, &(view_request){.wants_environment = true, .environment = path});
         return;
     }
     view_list dropped = {.allocator = a->desc->allocator};
-    if (view_path_is_folder(path)) {
+    if (is_folder(path)) {
         const char *const paths[] = {path};
-        if (!view_list_models(&dropped, paths, 1) || dropped.count == 0) {
+        if (!list_models(&dropped, paths, 1) || dropped.count == 0) {
             char text[512];
             snprintf(text, sizeof text, "%.400s: there is no model in this folder", path_base_name(path));
             view_app_say(a, text, 6.0);
-            view_list_clear(&dropped);
+            list_clear(&dropped);
             return;
         }
-        view_list_clear(&a->models);
+        list_clear(&a->models);
         a->models = dropped;
-        path = view_list_step(&a->models, 0);
+        path = list_step(&a->models, 0);
     }
     request_model(a, path); /* added to the list only when it has been read */
 }
@@ -151,7 +369,7 @@ static void find_in_list(view_app *a)
     a->models.at = i;
     if (a->path && i == a->models.count) {
         const char *const paths[] = {a->path};
-        view_list_models(&a->models, paths, 1);
+        list_models(&a->models, paths, 1);
     }
 }
 
@@ -236,8 +454,8 @@ facet_result view_files_update(view_app *a, facet_error *error)
 
 void view_files_end(view_app *a)
 {
-    view_list_clear(&a->models);
-    view_list_clear(&a->environments);
+    list_clear(&a->models);
+    list_clear(&a->environments);
     a->host->environment_destroy(a->environment);
     a->host->scene_destroy(a->scene);
     free(a->path);

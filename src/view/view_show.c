@@ -143,141 +143,6 @@ static facet_result draw_sides(view_app *a, uint32_t width, uint32_t height, con
     return result;
 }
 
-/* ---- text ---- */
-
-static bool is_made(const view_shown_panel *p, const char *text, float scale, uint32_t max_width,
-                    uint32_t max_height)
-{
-    return p->is_there && strcmp(p->text, text) == 0 && p->scale == scale && p->max_width == max_width &&
-           p->max_height == max_height;
-}
-
-/* text "": no panel; ignored for VIEW_PANEL_HELP. */
-static void make_panel(view_app *a, view_panel_id id, const char *text, float scale, uint32_t max_width,
-                       uint32_t max_height)
-{
-    view_shown_panel *p = &a->panels[id];
-    view_state *s = &a->state;
-    if (!*text || a->has_no_text) {
-        p->is_there = false;
-        return;
-    }
-    if (is_made(p, text, scale, max_width, max_height))
-        return;
-    view_panel panel;
-    facet_error error;
-    const facet_allocator *allocator = &a->desc->allocator;
-    facet_result result = id == VIEW_PANEL_HELP
-                              ? view_overlay_help(scale, max_width, max_height, s->help_page, &s->help_pages,
-                                                  allocator, &panel, &error)
-                              : view_overlay_text(text, scale, max_width, allocator, &panel, &error);
-    p->is_there = result == FACET_OK;
-    if (result != FACET_OK) {
-        a->has_no_text = true;
-        if (a->desc->log.message)
-            a->desc->log.message(a->desc->log.user, FACET_LOG_LEVEL_WARNING, error.message);
-        return;
-    }
-    snprintf(p->text, sizeof p->text, "%s", text);
-    p->scale = scale;
-    p->max_width = max_width;
-    p->max_height = max_height;
-    view_surface_upload(&p->surface, panel.width, panel.height, panel.pixels);
-    view_panel_destroy(&panel);
-}
-
-/* Smaller text where the panel would take more than half of the window. */
-static float scale_of_values(const view_app *a, const char *values, uint32_t height)
-{
-    int rows = 1;
-    for (const char *p = values; *p; p++)
-        rows += *p == '\n';
-    float wanted = 0.5f * (float)height / (20.0f * (float)rows);
-    return fminf(a->state.scale, fmaxf(wanted, 10.0f / 13.0f * a->state.scale));
-}
-
-static void make_help(view_app *a, uint32_t width, uint32_t height)
-{
-    char text[32] = "";
-    view_state *s = &a->state;
-    if (s->help_page)
-        snprintf(text, sizeof text, "help %u", s->help_page);
-    make_panel(a, VIEW_PANEL_HELP, text, s->scale, width, height);
-}
-
-static void make_panels(view_app *a, uint32_t width, uint32_t height, const char *const labels[2])
-{
-    char values[2048] = "", samples[96] = "";
-    float scale = a->state.scale;
-    uint32_t margin = (uint32_t)(12.0f * a->state.scale);
-    uint32_t inside = width > 2 * margin ? width - 2 * margin : 1;
-    uint32_t inside_height = height > 2 * margin ? height - 2 * margin : 1;
-    if (a->state.shows_values && a->scene && !a->state.help_page)
-        view_values_write(a, width, height, values, sizeof values);
-    else if (a->scene && !a->state.help_page)
-        view_values_write_samples(a, samples, sizeof samples);
-    make_help(a, inside, inside_height);
-    make_panel(a, VIEW_PANEL_VALUES, values, scale_of_values(a, values, height), inside * 2 / 3, 0);
-    make_panel(a, VIEW_PANEL_MESSAGE, a->message, scale, inside, 0);
-    make_panel(a, VIEW_PANEL_SAMPLES, samples, scale, inside, 0);
-    make_panel(a, VIEW_PANEL_LEFT, labels[0], scale, inside / 2, 0);
-    make_panel(a, VIEW_PANEL_RIGHT, labels[1], scale, inside / 2, 0);
-}
-
-static void draw_panel(view_app *a, view_panel_id id, int x, int y, int left, int right)
-{
-    const view_shown_panel *p = &a->panels[id];
-    if (p->is_there)
-        view_draw_surface(a->draw, &p->surface, VIEW_LAY_PANEL, x, y, p->surface.width, p->surface.height,
-                          left, right);
-}
-
-/* Next to the border, or, where a side is narrower than its label, the right label a line below. Returns
- * the y below them. */
-static int draw_labels(view_app *a, int width, int border, int margin)
-{
-    const view_surface *left = &a->panels[VIEW_PANEL_LEFT].surface;
-    const view_surface *right = &a->panels[VIEW_PANEL_RIGHT].surface;
-    if (!a->panels[VIEW_PANEL_LEFT].is_there || !a->panels[VIEW_PANEL_RIGHT].is_there)
-        return margin;
-    int x[2];
-    const int widths[2] = {(int)left->width, (int)right->width};
-    bool is_narrow = view_divider_labels(border, width, margin, widths, x);
-    int y = is_narrow ? 2 * margin + (int)left->height : margin;
-    draw_panel(a, VIEW_PANEL_LEFT, x[0], margin, 0, width);
-    draw_panel(a, VIEW_PANEL_RIGHT, x[1], y, 0, width);
-    return y + (int)right->height + margin;
-}
-
-/* Bottom left; above a message that leaves no room beside it. */
-static void draw_samples(view_app *a, int width, int height, int margin)
-{
-    const view_shown_panel *samples = &a->panels[VIEW_PANEL_SAMPLES],
-                           *message = &a->panels[VIEW_PANEL_MESSAGE];
-    int y = height - margin - (int)samples->surface.height;
-    if (message->is_there &&
-        (int)message->surface.width / 2 + (int)samples->surface.width + 2 * margin > width / 2)
-        y -= margin + (int)message->surface.height;
-    draw_panel(a, VIEW_PANEL_SAMPLES, margin, y, 0, width);
-}
-
-/* Values top right, messages bottom center, labels of sides at the top, help in the middle. */
-static void draw_panels(view_app *a, uint32_t width, uint32_t height)
-{
-    int margin = (int)(12.0f * a->state.scale);
-    int w = (int)width;
-    int h = (int)height;
-    int border = (int)(a->state.divider.position * width);
-    const view_shown_panel *p = a->panels;
-    int y = draw_labels(a, w, border, margin);
-    draw_panel(a, VIEW_PANEL_VALUES, w - margin - (int)p[VIEW_PANEL_VALUES].surface.width, y, 0, w);
-    draw_panel(a, VIEW_PANEL_HELP, (w - (int)p[VIEW_PANEL_HELP].surface.width) / 2,
-               (h - (int)p[VIEW_PANEL_HELP].surface.height) / 2, 0, w);
-    draw_samples(a, w, h, margin);
-    draw_panel(a, VIEW_PANEL_MESSAGE, (w - (int)p[VIEW_PANEL_MESSAGE].surface.width) / 2,
-               h - margin - (int)p[VIEW_PANEL_MESSAGE].surface.height, 0, w);
-}
-
 /* ---- all of it ---- */
 
 static void draw_border(view_app *a, int x)
@@ -299,7 +164,7 @@ static facet_result compose(view_app *a, uint32_t framebuffer, uint32_t width, u
         TRY(draw_sides(a, width, height, shown, labels, error));
     }
     if (has_panels)
-        make_panels(a, width, height, labels);
+        view_panels_make(a, width, height, labels);
     view_draw_begin(a->draw, framebuffer, width, height, square);
     if (!a->scene) {
         glClearColor(0.18f, 0.18f, 0.19f, 1.0f);
@@ -313,7 +178,7 @@ static facet_result compose(view_app *a, uint32_t framebuffer, uint32_t width, u
             draw_border(a, border);
     }
     if (has_panels)
-        draw_panels(a, width, height);
+        view_panels_draw(a, width, height);
     return gl_context_check(&a->context, "the window", error);
 }
 

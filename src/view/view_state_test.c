@@ -52,7 +52,7 @@ static void press(view_state *s, const char *name)
 }
 
 /* Keys that step wrap around, and reverse steps return to the start. */
-static void keys_go_around(void **state)
+static void keys_cycle_through_their_values(void **state)
 {
     (void)state;
     view_state s;
@@ -80,7 +80,7 @@ static void keys_go_around(void **state)
 }
 
 /* Missing features of a model are reported, and change nothing. */
-static void what_is_not_there_is_said(void **state)
+static void absent_things_are_reported(void **state)
 {
     (void)state;
     static const char *const keys[] = {"v", "c", "w", "Space"};
@@ -108,7 +108,7 @@ static void keys_without_a_model(void **state)
     assert_false(view_state_point(&s, &(view_event){.kind = VIEW_MOVE, .x = 10.0}));
 }
 
-static void what_does_nothing_is_said(void **state)
+static void keys_without_effect_say_why(void **state)
 {
     (void)state;
     view_state s;
@@ -190,7 +190,7 @@ static void the_pointer_moves_what_it_holds(void **state)
     assert_true(s.orbit.azimuth_rad == azimuth && s.orbit.target[0] != x);
 }
 
-static void the_divider_is_taken_where_it_is(void **state)
+static void the_divider_is_dragged_by_its_border(void **state)
 {
     (void)state;
     view_state s;
@@ -261,7 +261,7 @@ static void sides_differ_in_one_thing(void **state)
 }
 
 /* A divider leaves path tracing on, and skips comparisons that only OpenGL has. */
-static void comparisons_keep_tracing_paths(void **state)
+static void comparisons_keep_path_tracing(void **state)
 {
     (void)state;
     view_state s;
@@ -292,18 +292,54 @@ static void comparisons_keep_tracing_paths(void **state)
     assert_int_equal(s.divider.comparison, VIEW_COMPARE_NOTHING);
 }
 
+/* ---- resolution while the camera moves ---- */
+
+static void still_images_have_full_resolution(void **state)
+{
+    (void)state;
+    assert_int_equal(view_pace_divisor(&(view_pace){.full_s = 100.0}, false), 1);
+    assert_int_equal(view_pace_divisor(&(view_pace){.full_s = 0.0}, true), 1);
+    assert_int_equal(view_pace_divisor(&(view_pace){.full_s = 0.04}, true), 1);
+}
+
+static void slower_frames_are_coarser(void **state)
+{
+    (void)state;
+    assert_int_equal(view_pace_divisor(&(view_pace){.full_s = 0.1}, true), 2);
+    assert_int_equal(view_pace_divisor(&(view_pace){.full_s = 0.3}, true), 4);
+}
+
+/* After a first frame of a second, in which a driver compiled, one coarse frame shows how fast it is. */
+static void one_coarse_frame_corrects_a_slow_first_frame(void **state)
+{
+    (void)state;
+    view_pace p = {.full_s = 0.0};
+    view_pace_measure(&p, 1, 1.0);
+    assert_int_equal(view_pace_divisor(&p, true), 4);
+    view_pace_measure(&p, 4, 0.001);
+    assert_int_equal(view_pace_divisor(&p, true), 1);
+    view_pace_measure(&p, 1, 0.02);
+    view_pace_measure(&p, 1, 0.4); /* a change of the light, for example */
+    assert_int_equal(view_pace_divisor(&p, true), 4);
+    view_pace_measure(&p, 4, 0.05); /* limited by its vertices, not its pixels */
+    assert_int_equal(view_pace_divisor(&p, true), 4);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(keys_go_around),
-                                       cmocka_unit_test(comparisons_keep_tracing_paths),
-                                       cmocka_unit_test(what_is_not_there_is_said),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(still_images_have_full_resolution),
+                                       cmocka_unit_test(slower_frames_are_coarser),
+                                       cmocka_unit_test(one_coarse_frame_corrects_a_slow_first_frame),
+                                       cmocka_unit_test(keys_cycle_through_their_values),
+                                       cmocka_unit_test(comparisons_keep_path_tracing),
+                                       cmocka_unit_test(absent_things_are_reported),
                                        cmocka_unit_test(keys_without_a_model),
-                                       cmocka_unit_test(what_does_nothing_is_said),
+                                       cmocka_unit_test(keys_without_effect_say_why),
                                        cmocka_unit_test(help_has_pages),
                                        cmocka_unit_test(labels_are_not_cut),
                                        cmocka_unit_test(channels_and_path_tracing_exclude_each_other),
                                        cmocka_unit_test(the_pointer_moves_what_it_holds),
-                                       cmocka_unit_test(the_divider_is_taken_where_it_is),
+                                       cmocka_unit_test(the_divider_is_dragged_by_its_border),
                                        cmocka_unit_test(views_show_the_whole_model),
                                        cmocka_unit_test(sides_differ_in_one_thing)};
     return cmocka_run_group_tests(tests, make_scene, drop_scene);
