@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "legacy/fit.h"
-#include "legacy/fit_gram.h"
 #include "legacy/fit_linear.h"
 #include "legacy/fit_minimize.h"
 #include "legacy_fit_table.h"

@@ -1,11 +1,10 @@
-/* fit_table_generate.c - computes the LUT of fit_gram.h when facet is built. usage: fit_table_generate OUTPUT
+/* fit_table_generate.c - computes the LUT of fit_metric.h when facet is built. usage: fit_table_generate OUTPUT
  *
  * * Logarithms of the integrals, and for each shininess the roughness and strength of the GGX lobe that, with a
  * Lambert term, approximates Blinn's best. */
 #include <math.h>
 #include <stdio.h>
 
-#include "legacy/fit_gram.h"
 #include "legacy/fit_metric.h"
 #include "legacy/fit_minimize.h"
 
