@@ -1,5 +1,5 @@
 /* convert_illum.c - interprets the illumination model of a legacy material: what illum switches off, highlights
- * as wide as the surface, glass and mirrors of ray tracers. docs/legacy.md, "What becomes of each statement". */
+ * as wide as the surface, glass and mirrors of ray tracers. docs/legacy.md, "From OpenGL 1 to glTF". */
 #include "legacy/convert_state.h"
 #include "legacy/specular_glossiness.h"
 

@@ -1,5 +1,5 @@
 /* convert_read.c - interprets a legacy material: its dialect, switches of rgl, mistakes of exporters; its
- * illum by convert_illum.c. docs/legacy.md, "What becomes of each statement". Values and textures are converted
+ * illum by convert_illum.c. docs/legacy.md, "From OpenGL 1 to glTF". Values and textures are converted
  * elsewhere. */
 #include "legacy/convert_state.h"
 #include "scene/legacy_extras.h"
@@ -172,7 +172,7 @@ static void read_ambient(conversion *c, uint32_t material, legacy_reading *r, fa
     legacy_remove_map(&m->maps[LEGACY_AMBIENT_MAP]);
 }
 
-/* ---- rgl's kinds of textures and their modes: docs/legacy.md, "Textures of rgl" ---- */
+/* ---- rgl's kinds of textures and their modes (textype, texmode) ---- */
 
 /* The texture of rgl affects highlight and emission too. */
 static void lay_over_all(const conversion *c, legacy_reading *r)
