@@ -50,11 +50,11 @@ page=$docs/gallery.md
 cat >"$page" <<'END'
 # Gallery
 
-Every model of the test data, drawn by `facet render` in its built-in studio with Khronos PBR Neutral tone mapping.
-`bench/gallery.sh FACET DATA` makes this page; it has the few options that were given (a time, a side, a darker
-background). Models are by those named behind them, under the licence that is named; textures of some were made smaller.
-glTF-Sample-Assets are Khronos'. CC0: <https://creativecommons.org/publicdomain/zero/1.0/>, CC-BY:
-<https://creativecommons.org/licenses/by/4.0/>.
+How does facet render each model of the test data? In its built-in studio, with Khronos PBR Neutral tone mapping. `bench/gallery.sh
+FACET DATA` makes this page, with options for a few models (a time, a side, a darker background).
+
+The tables name author and licence of each model; textures of some were made smaller. glTF-Sample-Assets are Khronos'. CC0:
+<https://creativecommons.org/publicdomain/zero/1.0/>, CC-BY: <https://creativecommons.org/licenses/by/4.0/>.
 END
 for group in core materials animation lights extensions specgloss scenes gltf; do
     [ -d "$data/models/$group" ] || continue
