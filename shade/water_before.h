@@ -79,6 +79,22 @@ FN vec3 before_display(vec3 c)
     return pow(max(c, 0.0f), vec3(0.95f));
 }
 
+/* Linear value whose sRGB encoding is that display value. */
+FN vec3 legacy_linear(vec3 c)
+{
+    return linear_from_srgb(before_display(c));
+}
+
+/* Parameters of an image. */
+STRUCT(LegacyStyle)
+{
+    int variant;                /* BEFORE_WRITTEN or BEFORE_INTENDED */
+    int stage;                  /* BEFORE_STAGE_* */
+    float perceptual_roughness; /* of BEFORE_STAGE_COOK_TORRANCE and of painted water */
+    bool has_foam;
+    bool has_sparkles;
+};
+
 /* ---- an intermediate stage ---- */
 
 /* Direction of the sky lookup; not below the horizon. */

@@ -67,29 +67,6 @@ FN bool is_wide_box(vec3 middle, vec3 D)
     return dot(vec2(D[0], D[2]), vec2(middle[0], middle[2])) < 0.5f;
 }
 
-/* Range of facets that may reflect a box; low, high: its corners from the point of the surface. Downward
- * reflections meet another wave and go up again: they show the box upside down as well. Conservative for wide
- * boxes. An eye in the water looking along V sees reflections of the box -high to -low. */
-FN FacetRange facets_that_mirror(vec3 C, vec3 N, vec3 V, vec3 low, vec3 high)
-{
-    FacetRange all = facets_seen(C, N, V);
-    vec3 middle = normalize(0.5f * (low + high) + vec3(0.0f, 1e-6f, 0.0f));
-    float bottom = min(low[1], -high[1]);
-    bool is_wide = false;
-    vec2 first = vec2(1e9f);
-    vec2 last = vec2(-1e9f);
-    for (int i = 0; i < 8; ++i) {
-        vec3 D = normalize(vec3(sel(i % 2 == 0, low[0], high[0]), sel(i < 4, bottom, high[1]),
-                                sel(i / 2 % 2 == 0, low[2], high[2])));
-        is_wide = is_wide || is_wide_box(middle, D);
-        vec3 H = V + normalize(vec3(D[0], max(D[1], -0.5f * V[1]), D[2])); /* seen edge-on, the lowest */
-        vec2 z = facet_place(all, N, vec3(H[0], max(H[1], 1e-4f), H[2]));
-        first = min(first, z);
-        last = max(last, z);
-    }
-    return facets_about(all, first, last, is_wide);
-}
-
 /* Normal, not unit, of the facet that refracts light from D, in the air, to an eye in the water looking along
  * d; both unit:
  *   n d - D
@@ -104,12 +81,11 @@ FN vec3 facet_that_bends(vec3 d, vec3 D, float ior)
     return d * ior - sel(c < least, rim, D);
 }
 
-/* Range of facets, for an eye in the water looking along d (unit, up), that may show a box through Snell's
- * window; low, high: its corners from the point of the surface, none below it. */
-FN FacetRange facets_that_bend(vec3 C, vec3 N, vec3 d, vec3 low, vec3 high, float ior)
+/* Range of the facets that show the corners of a box, in the unit direction D each, to an eye looking along -V:
+ * by reflection, H = V + D; or, ior > 0, by refraction to an eye in the water looking along V. middle: unit,
+ * to the box. */
+FN FacetRange facets_of_corners(FacetRange all, vec3 N, vec3 V, vec3 middle, vec3 low, vec3 high, float ior)
 {
-    FacetRange all = facets_seen(C, N, d);
-    vec3 middle = normalize(0.5f * (low + high) + vec3(0.0f, 1e-6f, 0.0f));
     bool is_wide = false;
     vec2 first = vec2(1e9f);
     vec2 last = vec2(-1e9f);
@@ -117,12 +93,34 @@ FN FacetRange facets_that_bend(vec3 C, vec3 N, vec3 d, vec3 low, vec3 high, floa
         vec3 D = normalize(vec3(sel(i % 2 == 0, low[0], high[0]), sel(i < 4, low[1], high[1]),
                                 sel(i / 2 % 2 == 0, low[2], high[2])));
         is_wide = is_wide || is_wide_box(middle, D);
-        vec3 m = facet_that_bends(d, D, ior);
+        vec3 m = vec3(0.0f);
+        if (ior > 0.0f)
+            m = facet_that_bends(V, D, ior);
+        else
+            m = V + normalize(vec3(D[0], max(D[1], -0.5f * V[1]), D[2])); /* seen edge-on, the lowest */
         vec2 z = facet_place(all, N, vec3(m[0], max(m[1], 1e-4f), m[2]));
         first = min(first, z);
         last = max(last, z);
     }
     return facets_about(all, first, last, is_wide);
+}
+
+/* Range of facets that may reflect a box; low, high: its corners from the point of the surface. Downward
+ * reflections meet another wave and go up again: they show the box upside down as well. Conservative for wide
+ * boxes. An eye in the water looking along V sees reflections of the box -high to -low. */
+FN FacetRange facets_that_mirror(vec3 C, vec3 N, vec3 V, vec3 low, vec3 high)
+{
+    vec3 middle = normalize(0.5f * (low + high) + vec3(0.0f, 1e-6f, 0.0f));
+    vec3 bottom = vec3(low[0], min(low[1], -high[1]), low[2]);
+    return facets_of_corners(facets_seen(C, N, V), N, V, middle, bottom, high, 0.0f);
+}
+
+/* Range of facets, for an eye in the water looking along d (unit, up), that may show a box through Snell's
+ * window; low, high: its corners from the point of the surface, none below it. */
+FN FacetRange facets_that_bend(vec3 C, vec3 N, vec3 d, vec3 low, vec3 high, float ior)
+{
+    vec3 middle = normalize(0.5f * (low + high) + vec3(0.0f, 1e-6f, 0.0f));
+    return facets_of_corners(facets_seen(C, N, d), N, d, middle, low, high, ior);
 }
 
 /* Fraction of all facets in the rectangle, visible or not; 0: it is empty. */
@@ -157,7 +155,17 @@ FN Facet facet_drawn(FacetRange r, vec3 N, vec2 u)
     return f;
 }
 
-/* ---- the view from below ---- */
+/* What the ray of a facet hits. */
+STRUCT(FacetHit)
+{
+    float opacity;  /* 0: nothing */
+    vec3 radiance;  /* cd/m^2, towards the surface, without the water between */
+    float distance; /* m */
+    float height;   /* of the hit over still water, m */
+    float depth;    /* of the ray's start below still water, m */
+};
+
+    /* ---- the view from below ---- */
 
 #define WINDOW_CELLS 3
 #define WINDOW_FACETS 8
@@ -213,24 +221,35 @@ FN float window_part(FacetRange r, float rim, int edge)
     return clamp(rim, last, next);
 }
 
+/* Whether one facet represents all. */
+FN bool is_window_sharp(FacetRange r)
+{
+    return r.along < WINDOW_SHARP;
+}
+
 /* Perceptual roughness of the view through one facet; C: of all slopes. */
 FN float window_roughness(FacetRange r, vec3 C)
 {
-    return roughness_from_slopes(C * sel(r.along < WINDOW_SHARP, 0.1f, 0.1f * WINDOW_BETWEEN));
+    return roughness_from_slopes(C * sel(is_window_sharp(r), 0.1f, 0.1f * WINDOW_BETWEEN));
 }
 
-/* Facet k of WINDOW_FACETS; r: facets_seen(). Their weights sum to 1 within 0.0015. Tilts towards d are in
+/* Facet k of WINDOW_FACETS, or the one facet of a sharp window; r: facets_seen(). Their weights sum to 1 within 0.0015. Tilts towards d are in
  * WINDOW_CELLS cells, one of which is divided by the rim of Snell's window: the weight of each part is
  * exactly its visible fraction, so that light changes smoothly with the tilt of a wave. Across, one
  * deviation to either side has the moments of all (Gauss-Hermite). */
-FN Facet facet_of_window(FacetRange r, vec3 N, vec3 d, float critical, int k)
+FN Facet facet_of_window(FacetRange r, vec3 C, vec3 N, vec3 d, float critical, int k)
 {
+    Facet f;
+    if (is_window_sharp(r)) {
+        f.m = water_seen_normal(C, N, d);
+        f.weight = 1.0f;
+        return f;
+    }
     float side = sel(k % 2 == 0, -1.0f, 1.0f);
     float first = window_edge(r, 0);
     float rim = clamp(window_rim(r, N, d, critical, side), first, window_edge(r, WINDOW_CELLS));
     float from = window_part(r, rim, k / 2);
     float to = window_part(r, rim, k / 2 + 1);
-    Facet f;
     f.m = N;
     f.weight = 0.0f;
     if (from >= to)

@@ -149,7 +149,7 @@ static void test_window(void **state)
         FacetRange all = facets_seen(s.C, s.N, d);
         double share = 0.0, through = 0.0, height = 0.0, expected = 0.0, expected_height = 0.0;
         for (int i = 0; i < WINDOW_FACETS; i++) {
-            Facet f = facet_of_window(all, s.N, d, water_critical_cosine(w), i);
+            Facet f = facet_of_window(all, s.C, s.N, d, water_critical_cosine(w), i);
             WaterWindow window = water_window(w, d, f.m);
             share += (double)f.weight;
             through += (double)(f.weight * (1.0f - window.fresnel));

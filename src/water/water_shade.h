@@ -5,19 +5,9 @@
 
 #include "water/water_place.h"
 
-/* Results of rays that leave the surface above the water; {0}: nothing but sky and water. */
-typedef struct water_findings {
-    bool has_below, has_shadow;
-    float sun; /* share of the sun's light that arrives */
-    /* share of the reflection, whatever its radiance, by microfacets that show something other than sky
-     * and sea */
-    float covered;
-    vec3 mirrored; /* its radiance */
-    vec3 below;    /* radiance just below the surface, along the refracted ray */
-} water_findings;
-
-/* Radiance (cd/m^2) towards the eye over the water. */
-vec3 water_shade(const water_setup *s, const water_place *p, const water_findings *found);
+/* Radiance (cd/m^2) towards the eye over the water. footprint: of a sample, relative to its pixel; random: selects the
+ * sampled microfacets. */
+vec3 water_shade(const water_setup *s, const water_place *p, float footprint, uint32_t random);
 
 /* Radiance (cd/m^2) just below still, evenly lit water that is depth_m deep, along the refracted ray `down`. */
 vec3 water_from_still(const water_setup *s, float depth_m, vec3 down);
@@ -33,15 +23,6 @@ vec3 water_bed_lit_at(const water_setup *s, const double P[3], vec3 d, float way
 /* Radiance of ground above the water. */
 vec3 water_shade_land(const water_setup *s);
 
-/* Results of rays from below that microfacets reflect and refract, as shares of all light. */
-typedef struct water_findings_below {
-    float covered; /* reflection of something other than water */
-    vec3 mirrored; /* its radiance */
-    vec3 through;  /* transmitted radiance of what replaces the sky */
-    vec3 hidden;   /* of the sky there */
-    float sun;     /* share of the sun's light that arrives */
-} water_findings_below;
-
 /* Radiance (cd/m^2) of the model, hit in the water along the unit direction d from P. */
 vec3 water_model_behind_water(const water_setup *s, const model_hit *hit, const double P[3], vec3 d);
 
@@ -53,18 +34,18 @@ float water_way_to_bed_below(const water_setup *s, const double P[3], vec3 d);
 vec3 water_seen_through_water(const water_setup *s, const double P[3], vec3 d, float width_m, float spread);
 
 /* Radiance of the surface at a distance of x m along the unit direction d from the eye E in the water. */
-vec3 water_shade_from_below(const water_setup *s, const water_place *p, const water_findings_below *found,
+vec3 water_shade_from_below(const water_setup *s, const water_place *p, float footprint, uint32_t random,
                             const double E[3], vec3 d, float x);
 
 /* Stages of facet_sea_shading: 1 Schlick's Fresnel with water's ior; 2 a microfacet highlight; 3 light of
  * sky and sun instead of constants; 4 refraction and absorption instead of a base color; 5 foam and
  * glints, that is everything. */
 
-/* Linear values whose sRGB encoding is the legacy program's display output. */
-vec3 water_look_sky(vec3 d);
-vec3 water_look_shade(const water_setup *s, const water_place *p, vec3 d);
+/* Linear values whose sRGB encoding is the legacy program's display output. d: unit, from the eye. */
+vec3 water_legacy_sky(vec3 d);
+vec3 water_shade_legacy(const water_setup *s, const water_place *p, vec3 d);
 
 /* Stage 3: radiance (cd/m^2) of an opaque reflecting surface with a base color under the sky. */
-vec3 water_look_painted(const water_setup *s, const water_place *p);
+vec3 water_shade_painted(const water_setup *s, const water_place *p);
 
 #endif

@@ -5,7 +5,6 @@
 #include <stddef.h>
 
 #include "cpu/shading_hit.h"
-#include "water/water_find.h"
 #include "water/water_objects.h"
 #include "water/water_shade.h"
 
@@ -117,9 +116,8 @@ static vec3 shade_sea(const water_sample *p, const march_hit *hit)
     water_place place = place_of(p, hit);
     place.pixel_m = place.footprint_m / p->footprint;
     if (s->desc->sea_shading.stage == 3)
-        return water_look_painted(s, &place);
-    water_findings found = water_find(s, &place, p->footprint, p->random);
-    return water_shade(s, &place, &found);
+        return water_shade_painted(s, &place);
+    return water_shade(s, &place, p->footprint, p->random);
 }
 
 /* model: the hit on the model where it is nearest, else NULL. */
@@ -146,8 +144,7 @@ static vec3 from_below(const water_sample *p, const backdrop *b, const march_hit
     if (b->object != WATER_OBJECT_WATER)
         return water_seen_through_water(s, p->ray.origin, p->d, (float)p->ray.width, (float)p->ray.spread);
     water_place place = place_of(p, sea);
-    water_findings_below found = water_find_below(s, &place, p->d, p->footprint, p->random);
-    return water_shade_from_below(s, &place, &found, p->ray.origin, p->d, (float)sea->t);
+    return water_shade_from_below(s, &place, p->footprint, p->random, p->ray.origin, p->d, (float)sea->t);
 }
 
 /* ---- all ---- */
@@ -166,9 +163,9 @@ static vec3 shade_nearest(const water_sample *p, const backdrop *b, const march_
     if (!sea_shading_is_legacy(&s->desc->sea_shading))
         return exposed(s, (p->ray.is_below ? from_below : from_above)(p, b, sea, model));
     if (b->object == NOTHING)
-        return water_look_sky(p->d);
+        return water_legacy_sky(p->d);
     water_place place = place_of(p, sea);
-    return water_look_shade(s, &place, p->d);
+    return water_shade_legacy(s, &place, p->d);
 }
 
 /* Radiance (cd/m^2) times the exposure, or the legacy style's value; *seen: the identity of what is seen, if

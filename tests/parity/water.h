@@ -356,7 +356,11 @@ FN vec3 case_facets_of_window(vec2 u)
     vec3 C = parity_slopes(u);
     vec3 N = water_faced(wave_normal(vec2(0.4f * u[1], -0.3f), vec3(0.3f * u[0], -0.2f * u[1], 0.1f)), V);
     FacetRange all = facets_seen(C, N, V);
-    Facet f = facet_of_window(all, N, V, water_critical_cosine(w), int(u[0] * float(WINDOW_FACETS) * 0.999f));
+    Facet f =
+        facet_of_window(all, C, N, V, water_critical_cosine(w), int(u[0] * float(WINDOW_FACETS) * 0.999f));
+    FacetRange around = facets_of_corners(all, N, V, vec3(0.0f, 0.3f, -0.95f), vec3(-1.0f, 0.5f, -9.0f),
+                                          vec3(1.0f + u[0], 3.0f, -6.0f), 0.0f);
+    f.weight += sel(is_window_sharp(all), 1.0f, 0.0f) + 0.1f * around.high[0];
     return f.m * f.weight + window_light(w, water_window(w, V, N), C, N, vec3(3.0f), vec3(0.5f)) +
            vec3(min(window_rim(all, N, V, 0.6f, u[1]), 9.0f), min(window_middle(all), 9.0f),
                 min(window_part(all, window_edge(all, 1), 1), 9.0f) + window_mean(u[0] - 1.0f, u[1] + 0.3f)) +
@@ -396,7 +400,7 @@ FN vec3 case_water_before(vec2 u)
     WaterMirror m = water_mirror(w, p, V, 0.9f, 0.95f, 0.1f * u[0], 0.3f * u[1]);
     vec3 before = before_shade(int(u[0] * 1.99f), int(u[1] * 2.99f), down, p.N, BEFORE_SUN_DIRECTION, u[0],
                                u[1], before_foam(u[0]), 1.33f, 0.3f);
-    return m.R + m.perceptual_roughness + before_display(before) + before_sky(V) +
+    return m.R + m.perceptual_roughness + before_display(before) + legacy_linear(before) + before_sky(V) +
            before_highlight(1, p.N, V, light.L, 1.33f, 0.1f) +
            water_radiance(water_parts(w, p, light, m, vec3(1.0f, 2.0f, 3.0f), vec3(0.5f), light.downwelling));
 }

@@ -89,11 +89,11 @@ layout(location = 0) out highp vec4 fragment;
 #ifdef IS_LEGACY
 vec4 sea_pixel(SeaHost host, vec3 d, vec4 seen, ivec2 pixel)
 {
-    return sea_shown(sea_legacy(sea_place(d, seen)));
+    return vec4(sea_legacy(host, sea_place(d, seen), d), 1.0);
 }
 vec4 sea_beside(SeaHost host, vec3 d, ivec2 pixel)
 {
-    return sea_shown(before_sky(d));
+    return vec4(legacy_linear(before_sky(d)), 1.0);
 }
 #else
 #ifdef HAS_MODEL
@@ -106,8 +106,7 @@ vec3 sea_model_over(SeaHost host, vec3 behind, vec3 d, float t, ivec2 pixel)
         return behind;
     vec3 L = m.color.xyz / m.color.w;
 #ifdef IS_BELOW
-    L *= water_transmittance(water_K_d(host_water(host)), max(-(sea_eye.x + m.at.y), 0.0));
-    L = water_through(host_water(host), sea_downwelling.xyz, sea_beam.xyz, sea_sunward.xyz, L, max(-sea_eye.x, 0.0), d, way);
+    L = sea_model_behind_water(host, L, sea_eye.x + m.at.y, max(-sea_eye.x, 0.0), d, way);
 #else
     L = sea_through_air(L, d, way);
 #endif
@@ -127,8 +126,10 @@ vec4 sea_beside(SeaHost host, vec3 d, ivec2 pixel)
 }
 vec4 sea_pixel(SeaHost host, vec3 d, vec4 seen, ivec2 pixel)
 {
-    if (seen.z < host_distance_to_bed(host, vec3(0.0, sea_eye.x, 0.0), d))
-        return sea_exposed(sea_model_over(host, sea_shade_below(host, sea_place(d, seen)), d, seen.z, pixel));
+    if (seen.z < host_distance_to_bed(host, vec3(0.0, sea_eye.x, 0.0), d)) {
+        SeaPlace p = sea_place(d, seen);
+        return sea_exposed(sea_model_over(host, sea_shade_below(host, p, d, p.t, max(-sea_eye.x, 0.0)), d, seen.z, pixel));
+    }
     return sea_beside(host, d, pixel);
 }
 #else

@@ -1,5 +1,6 @@
 /* sea_host.glsl - look-ups of shade/compose/water_shade.h: the water and its light, the bed and the light on it
  * (caustic_map.c and bed_shadow.c with textures). */
+uniform highp sampler2D u_sea_means; /* means over microfacets: water_table.h */
 uniform highp sampler2DArray u_sea_caustics;
 
 #ifdef HAS_MODEL
@@ -45,9 +46,59 @@ vec3 host_sunward(SeaHost host)
     return sea_sunward.xyz;
 }
 
+/* Channels: fresnel, escape, lift, spread. */
+WaterMeans host_means(SeaHost host, float mu, float sigma)
+{
+    vec2 place = (water_table_place(mu, sigma) + 0.5) / vec2(WATER_TABLE_COLUMNS, WATER_TABLE_ROWS);
+    vec4 means = textureLod(u_sea_means, place, 0.0);
+    return WaterMeans(means.x, means.y, means.z, means.w, 0.0, 0.0);
+}
+
+bool host_is_below(SeaHost host)
+{
+#ifdef IS_BELOW
+    return true;
+#else
+    return false;
+#endif
+}
+
+/* ---- style and glints ---- */
+
+bool host_has_glints(SeaHost host)
+{
+#ifdef HAS_GLINTS
+    return true;
+#else
+    return false;
+#endif
+}
+
+float host_shutter_s(SeaHost host)
+{
+    return sea_downwelling.w;
+}
+
+float host_glint_time(SeaHost host)
+{
+    return sea_sky_irradiance.w;
+}
+
+LegacyStyle host_style(SeaHost host)
+{
+    return LegacyStyle(sea_look.y, sea_look.x, sea_bed_slope.z, sea_look.z != 0, sea_look.w != 0);
+}
+
+/* ---- positions ---- */
+
 vec3 host_along(vec3 P, vec3 d, float x)
 {
     return P + x * d;
+}
+
+vec3 host_sunk(vec3 P)
+{
+    return vec3(P.x, min(P.y, 0.0), P.z);
 }
 
 float host_depth(vec3 P)

@@ -1,6 +1,8 @@
 /* sea_model.glsl - a model in the sea, looked up in images of it (gl_sea_model.h): in front of the surface, behind
  * it, and in its microfacets. Refracted rays search for it iteratively: a point on the ray, the depth of the image
  * in its direction, the point at that distance. */
+const int SEA_SAMPLES = 16; /* of microfacets per pixel */
+
 #ifdef HAS_MODEL
 uniform highp sampler2D u_sea_model; /* premultiplied radiance, as the eye sees it */
 uniform highp sampler2D u_sea_model_depth;
@@ -18,10 +20,7 @@ struct SeaModel
 };
 
 const int SEA_MODEL_STEPS = 32;
-const int SEA_SAMPLES = 16;
 const int SEA_SAMPLE_STEPS = 8;
-const float SEA_MIN_SHARE = 1e-3; /* both as in water_find.c */
-const float SEA_SMOOTH = 1e-3;
 
 /* d: at depth 1 m. Blended surfaces have no depth, and count as nearest. */
 SeaModel sea_model_at(ivec2 pixel, vec3 d)
@@ -164,110 +163,30 @@ vec4 sea_model_in_cut(int cut, vec3 P, vec3 R, int count, out float way)
     return color;
 }
 
-/* Of all reflected light, independent of its radiance, the share of microfacets that reflect the model: .w; and
- * its radiance. water_find() of water_find.c. */
-vec4 sea_model_reflected(vec3 P, vec3 V, WaterPoint point, Water w, uint seed)
+/* Along R from a place: the cuts, or, refracted into the water, the eye's image. */
+FacetHit host_model_hit(SeaHost host, SeaPlace p, vec3 R, bool is_transmitted, bool is_alone)
 {
-    float way;
-    vec3 from = sea_model_ball.xyz - P;
-    FacetRange r = facets_that_mirror(point.covariance, point.N, V, from - sea_model_half.xyz, from + sea_model_half.xyz);
-    if (facets_share(r) < SEA_MIN_SHARE)
-        return vec4(0.0);
-    if (max(r.along, r.across) < SEA_SMOOTH)
-        return sea_model_in_cut(SEA_MIRRORED, P, reflect(-V, point.N), SEA_MODEL_STEPS, way) * water_fresnel(w, clamp(dot(point.N, V), 0.0, 1.0));
-    vec4 sum = vec4(0.0);
-    for (int i = 0; i < SEA_SAMPLES; i++) {
-        Facet f = facet_drawn(r, point.N, sobol_scrambled(uint(i), seed));
-        vec3 R = reflect(-V, f.m);
-        R.y = max(abs(R.y), 1e-4);
-        float weight = f.weight * water_fresnel(w, clamp(dot(f.m, V), 0.0, 1.0));
-        if (weight > 0.0)
-            sum += sea_model_in_cut(SEA_MIRRORED, P, R, SEA_SAMPLE_STEPS, way) * weight;
+    vec3 P = p.d * p.t;
+    FacetHit hit = FacetHit(0.0, vec3(0.0), 0.0, 0.0, max(-p.at.y, 0.0));
+    vec4 color;
+#ifndef IS_BELOW
+    if (is_transmitted) {
+        SeaModel m = sea_model_below(P, R);
+        color = m.color;
+        hit.distance = length(m.at - P);
+        hit.height = p.at.y + (m.at.y - P.y);
     }
-    return sum / float(SEA_SAMPLES);
-}
-
-#ifdef IS_BELOW
-/* water_findings_below of water_shade.h; water: what the microfacets mirror of it. */
-struct SeaFound
-{
-    float covered;
-    vec3 mirrored;
-    vec3 through;
-    vec3 hidden;
-};
-
-/* A model's color seen through `way` m of water along d from the point `at`: water_model_behind_water(). */
-vec3 sea_model_behind_water(SeaHost host, vec3 color, vec3 at, vec3 d, float way)
-{
-    Water w = host_water(host);
-    vec3 L = color * water_transmittance(water_K_d(w), max(-(at.y + d.y * way), 0.0));
-    return water_through(w, sea_downwelling.xyz, sea_beam.xyz, sea_sunward.xyz, L, max(-at.y, 0.0), d, way);
-}
-
-/* look_down(), look_through() of water_find.c. */
-SeaFound sea_look_down(SeaHost host, SeaFound found, SeaPlace p, Facet f, int count)
-{
-    float way;
-    vec3 R = reflect(p.d, f.m);
-    R.y = -max(abs(R.y), 1e-4);
-    float weight = f.weight * water_fresnel_inside(host_water(host), clamp(dot(f.m, p.d), 0.0, 1.0));
-    if (weight <= 0.0)
-        return found;
-    vec4 color = sea_model_in_cut(SEA_MIRRORED, p.d * p.t, R, count, way);
-    if (color.w > 0.0) {
-        found.covered += weight * color.w;
-        found.mirrored += sea_model_behind_water(host, color.xyz / color.w, p.at, R, way) * (weight * color.w);
-    }
-    return found;
-}
-SeaFound sea_look_through(SeaHost host, SeaFound found, SeaPlace p, Facet f, float roughness, int count)
-{
-    float way;
-    WaterWindow window = water_window(host_water(host), p.d, f.m);
-    float weight = f.weight * water_passing(p.resolved, p.point.N, window.outside);
-    if (weight <= 0.0 || window.fresnel >= 1.0)
-        return found;
-    vec4 color = sea_model_in_cut(SEA_WINDOW, p.d * p.t, window.outside, count, way);
-    found.through += color.xyz * (weight * window.gain);
-    found.hidden += sea_sky_reflected(window.outside, roughness) * (weight * window.gain * color.w);
-    return found;
-}
-
-/* water_find_below() of water_find.c. */
-SeaFound sea_find_below(SeaHost host, SeaPlace p, uint seed)
-{
-    SeaFound found = SeaFound(0.0, vec3(0.0), vec3(0.0), vec3(0.0));
-    vec3 C = p.point.covariance;
-    vec3 N = water_faced(p.point.N, p.d);
-    vec3 from = sea_model_ball.xyz - p.d * p.t;
-    vec3 low = from - sea_model_half.xyz;
-    vec3 high = from + sea_model_half.xyz;
-    float roughness = window_roughness(facets_seen(C, p.point.N, p.d), C);
-    FacetRange mirror = facets_that_mirror(C, N, p.d, -vec3(high.x, min(high.y, 0.0), high.z), -low);
-    FacetRange window = facets_that_bend(C, N, p.d, vec3(low.x, max(low.y, 0.0), low.z), high, host_water(host).ior);
-    bool is_mirrored = low.y < 0.0 && facets_share(mirror) >= SEA_MIN_SHARE;
-    bool is_through = high.y > 0.0 && facets_share(window) >= SEA_MIN_SHARE;
-    bool is_smooth = max(mirror.along, mirror.across) < SEA_SMOOTH;
-    Facet smoothed = Facet(water_seen_normal(C, p.point.N, p.d), 1.0);
-    if (is_smooth && is_mirrored)
-        found = sea_look_down(host, found, p, smoothed, SEA_MODEL_STEPS);
-    if (is_smooth && is_through)
-        found = sea_look_through(host, found, p, smoothed, roughness, SEA_MODEL_STEPS);
-    for (int i = 0; i < SEA_SAMPLES && !is_smooth && (is_mirrored || is_through); i++) {
-        vec2 u = sobol_scrambled(uint(i), seed);
-        Facet f = facet_drawn(mirror, N, u);
-        f.weight /= float(SEA_SAMPLES);
-        if (is_mirrored)
-            found = sea_look_down(host, found, p, f, SEA_SAMPLE_STEPS);
-        f = facet_drawn(window, N, u);
-        f.weight /= float(SEA_SAMPLES);
-        if (is_through)
-            found = sea_look_through(host, found, p, f, roughness, SEA_SAMPLE_STEPS);
-    }
-    return found;
-}
+    else
 #endif
+    {
+        int count = is_alone ? SEA_MODEL_STEPS : SEA_SAMPLE_STEPS;
+        color = sea_model_in_cut(is_transmitted ? SEA_WINDOW : SEA_MIRRORED, P, R, count, hit.distance);
+        hit.height = p.at.y + R.y * hit.distance;
+    }
+    hit.opacity = color.w;
+    hit.radiance = color.w > 0.0 ? color.xyz / color.w : vec3(0.0);
+    return hit;
+}
 
 /* Whether a hull displaces the sea at a place; share of the sun's light there. */
 vec2 sea_touched(vec2 at)
@@ -278,13 +197,59 @@ vec2 sea_touched(vec2 at)
     return is_within ? touch : vec2(0.0, 1.0);
 }
 
-/* Light of the model below P refracted up through the surface: find_refracted() of water_find.c. */
-vec3 sea_model_through_water(SeaModel m, vec3 P, Water w, WaterLight light)
+
+float host_sun_visibility(SeaHost host, SeaPlace p)
 {
-    float way = length(m.at - P);
-    float depth = max(P.y - m.at.y, 0.0);
-    vec3 lit = m.color.xyz / m.color.w * water_transmittance(water_K_d(w), depth);
-    vec3 gone = water_transmittance(water_K_d(w), depth) * water_transmittance(water_diffuse(w), way);
-    return lit * water_transmittance(water_beam(w), way) + water_from_deep(w, light.downwelling) * (1.0 - gone);
+    return sea_touched(p.at.xz).y;
+}
+
+vec3 host_model_low(SeaHost host, SeaPlace p)
+{
+    return sea_model_ball.xyz - p.d * p.t - sea_model_half.xyz;
+}
+
+vec3 host_model_high(SeaHost host, SeaPlace p)
+{
+    return sea_model_ball.xyz - p.d * p.t + sea_model_half.xyz;
+}
+
+bool host_has_model(SeaHost host)
+{
+    return true;
+}
+#else
+FacetHit host_model_hit(SeaHost host, SeaPlace p, vec3 R, bool is_transmitted, bool is_alone)
+{
+    return FacetHit(0.0, vec3(0.0), 0.0, 0.0, 0.0);
+}
+
+float host_sun_visibility(SeaHost host, SeaPlace p)
+{
+    return 1.0;
+}
+
+vec3 host_model_low(SeaHost host, SeaPlace p)
+{
+    return vec3(0.0);
+}
+
+vec3 host_model_high(SeaHost host, SeaPlace p)
+{
+    return vec3(0.0);
+}
+
+bool host_has_model(SeaHost host)
+{
+    return false;
 }
 #endif
+
+int host_facet_count(SeaHost host)
+{
+    return SEA_SAMPLES;
+}
+
+uint host_random(SeaHost host)
+{
+    return host.random;
+}

@@ -1,5 +1,14 @@
-/* sea_place.glsl - the place of the surface that a fragment shows, as in water_shade.c. */
+/* sea_place.glsl - the place of the surface that a fragment shows, as in water_place.c. */
 uniform highp sampler2DArray u_sea_foam; /* one value per texel: amount of foam, patterns */
+
+/* water_slopes of water_setup.h. */
+struct SeaSlopes
+{
+    vec3 covariance;
+    vec3 resolved;
+    float curvature;
+    float rate;
+};
 
 struct SeaPlace
 {
@@ -11,10 +20,25 @@ struct SeaPlace
     float footprint_m; /* across the ray */
     float cosine;     /* water_seen_cosine() */
     float height_m;   /* of waves */
-    vec3 resolved;    /* slope variances that the footprint resolves */
-    vec2 moments;     /* k4, omega of the unresolved ones */
+    float pixel_m;    /* footprint of the whole pixel, for glints */
+    SeaSlopes slopes; /* that the footprint does not resolve */
     WaterPoint point;
 };
+
+float host_height(SeaPlace p)
+{
+    return p.at.y;
+}
+
+vec2 host_rest_from_eye(SeaHost host, SeaPlace p)
+{
+    return p.rest;
+}
+
+vec2 host_rest(SeaHost host, SeaPlace p)
+{
+    return p.rest + eye.xz;
+}
 
 vec3 host_position(SeaPlace p)
 {
@@ -30,18 +54,17 @@ float sea_footprint_place(float footprint)
 }
 
 /* Slope variances that a footprint does not resolve, and those that it does. */
-vec3 sea_slopes(float footprint, out vec3 resolved, out vec2 moments)
+SeaSlopes sea_slopes(float footprint)
 {
     float place = sea_footprint_place(footprint);
     int i = min(int(place), SEA_FOOTPRINTS - 2);
     vec3 hidden = mix(sea_residual[i], sea_residual[i + 1], place - float(i)).xyz;
-    moments = mix(sea_moments[i], sea_moments[i + 1], place - float(i)).xy;
-    resolved = sea_total.xyz - hidden.xyz;
+    vec2 moments = mix(sea_moments[i], sea_moments[i + 1], place - float(i)).xy;
+    vec3 resolved = sea_total.xyz - hidden.xyz;
     if (sea_total.w > 0.0)
         hidden += sea_rough.xyz - sea_residual[0].xyz;
     vec3 least = vec3(SLOPE_VARIANCE_MIN, SLOPE_VARIANCE_MIN, 0.0);
-    resolved = vec3(max(resolved.xy, 0.0), resolved.z) + least;
-    return vec3(max(hidden.xy, 0.0), hidden.z) + least;
+    return SeaSlopes(vec3(max(hidden.xy, 0.0), hidden.z) + least, vec3(max(resolved.xy, 0.0), resolved.z) + least, moments.x, moments.y);
 }
 
 /* ---- foam ---- */
@@ -134,18 +157,18 @@ SeaPlace sea_place(vec3 d, vec4 seen)
     p.V = normalize(vec3(-p.d.x, -rise, -p.d.z));
     p.at = d * t + vec3(0.0, sea_eye.x + t * t * level2 * sea_eye.y, 0.0);
     p.footprint_m = sea_ray.x * sea_ray.y * p.t * dot(p.d, forward.xyz);
+    p.pixel_m = p.footprint_m / sea_ray.y;
     float footprint = water_footprint(p.footprint_m, rise, sea_eye.z);
-    sea_slopes(footprint, p.resolved, p.moments);
-    p.cosine = water_seen_cosine(p.V * side, p.resolved);
+    p.cosine = water_seen_cosine(p.V * side, sea_slopes(footprint).resolved);
     footprint = max(footprint, p.footprint_m * inversesqrt(p.cosine));
-    vec3 hidden = sea_slopes(footprint, p.resolved, p.moments);
+    p.slopes = sea_slopes(footprint);
     SeaWaves waves = sea_waves(rest, footprint);
     p.height_m = waves.displacement.y;
     p.point.N = wave_normal(waves.slope, waves.D);
 #ifndef IS_BELOW
     p.point.N = water_faced(p.point.N, p.V);
 #endif
-    p.point.covariance = hidden;
+    p.point.covariance = p.slopes.covariance;
     p.point.foam = 0.0;
 #ifdef HAS_FOAM
     vec2 foam = sea_foam(rest, footprint);

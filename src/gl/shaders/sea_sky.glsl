@@ -42,7 +42,7 @@ vec3 sea_sky_seen(vec3 d)
     return sky + sea_disc(d);
 }
 
-vec3 sea_sky_reflected(vec3 R, float perceptual_roughness)
+vec3 host_sky(SeaHost host, vec3 R, float perceptual_roughness)
 {
 #ifdef HAS_IMAGE
     return light_specular(vec3(R.x, abs(R.y), R.z), perceptual_roughness);
@@ -95,10 +95,4 @@ vec4 sea_exposed(vec3 radiance)
 {
     vec3 c = radiance * exposure;
     return vec4(sea_bed_slope.w > 0.0 ? min(c, vec3(sea_bed_slope.w)) : c, 1.0);
-}
-
-/* Displays got c^0.95 without encoding; the output here is encoded later. */
-vec4 sea_shown(vec3 c)
-{
-    return vec4(linear_from_srgb(before_display(c)), 1.0);
 }
