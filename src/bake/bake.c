@@ -324,7 +324,7 @@ facet_bake_stats facet_cube_get_stats(const facet_cube *c)
     return c->stats;
 }
 
-/* ---- seen in a mirror ---- */
+/* ---- mirrored cube maps ---- */
 
 static const facet_allocator default_allocator;
 

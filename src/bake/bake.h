@@ -5,7 +5,7 @@
  * - A texel of a level with a lobe is the mean of that radiance, weighted with the lobe around the direction
  *   of the texel's center (cube.h): a function of direction alone, so faces are continuous across edges and
  *   corners without copying or moving texels. Readers interpolate across edges (seamless cube maps).
- * - A texel of a mirror (GGX of roughness 0, or no lobe) is the mean of the radiance over its solid angle.
+ * - A texel of a sharp level (GGX of roughness 0, or no lobe) is the mean of the radiance over its solid angle.
  *   Where texels are smaller than those of an equirectangular source, radiance is interpolated between the
  *   centers of the source's texels and scaled so that the mean stays the same. A source that was a cube map
  *   is copied if its faces have the same size and are not rotated, and averaged by solid angle if their size
@@ -33,7 +33,7 @@ struct facet_cube {
 /* Fills in the defaults. FACET_ERROR_ARGUMENT. */
 facet_result bake_complete(facet_bake_desc *desc, facet_error *error);
 
-/* Whether the level is a mirror, see above. */
+/* Whether the level is sharp, see above. */
 bool bake_level_is_sharp(const facet_cube *c, uint32_t level);
 
 /* A LUT of directional albedo: F32, facet_dfg_get_channel_count() channels. FACET_ERROR_ARGUMENT, _MEMORY,

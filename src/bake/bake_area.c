@@ -369,7 +369,7 @@ void bake_area_fill(const bake_area *a, bool is_equiangular, float scale, uint32
     cube_fill_borders(out);
 }
 
-/* ---- mirrors ---- */
+/* ---- sharp levels ---- */
 
 static bool bake_sharp_is_of_faces(const bake_source *source, uint32_t size)
 {

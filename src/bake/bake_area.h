@@ -1,4 +1,4 @@
-/* bake_area.h - exact means of a panorama over the texels of a cube map, and mirrors made of them.
+/* bake_area.h - exact means of a panorama over the texels of a cube map, and sharp levels made of them.
  *
  * By Green's theorem the integral of radiance over a texel is one along its border: of G(phi, h) dphi, where
  * h = cos(theta) (solid angle is dphi dh) and G is the integral of radiance above h on that meridian,
@@ -34,9 +34,9 @@ void bake_area_destroy(bake_area *a); /* {0} is allowed; leaves {0} */
  * s = tan(pi / 4 (2 i / size - 1)), rather than at s = 2 i / size - 1. */
 void bake_area_fill(const bake_area *a, bool is_equiangular, float scale, uint32_t thread_count, cube *out);
 
-/* ---- mirrors ---- */
+/* ---- sharp levels ---- */
 
-/* Fills out, whose size is set, and its borders as bake.h defines mirrors. FACET_ERROR_MEMORY. */
+/* Fills out, whose size is set, and its borders as bake.h defines sharp levels. FACET_ERROR_MEMORY. */
 facet_result bake_sharp(const bake_source *source, float scale, const facet_allocator *allocator,
                         uint32_t thread_count, cube *out, facet_error *error);
 

@@ -268,7 +268,7 @@ void bake_reference_gather(const bake_reference *r, const bake_reference_lobe *l
         out[k] = (double)r->source->scale * g.sum[k] / g.weight;
 }
 
-/* ---- a mirror's texel ---- */
+/* ---- texels of sharp levels ---- */
 
 /* Adds the radiance at (u, v), in texels from the corner, nearest or bilinear. */
 static void look_up(const bake_reference *r, bool is_interpolated, double u, double v, double weight,

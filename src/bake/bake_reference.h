@@ -34,7 +34,7 @@ void bake_reference_set_lobe(const bake_lobe *lobe, bake_reference_lobe *out);
 void bake_reference_gather(const bake_reference *r, const bake_reference_lobe *lobe, const double d[3],
                            double out[3]);
 /* Mean over a texel of a cube map of size texels, by at least 64 x 64 points, 8 per texel of the panorama
- * along an edge: the value of a mirror's texel, within 1 % for small bright features. is_interpolated:
+ * along an edge: the texel of a sharp level, within 1 % for small bright features. is_interpolated:
  * bake_sharp_is_interpolated(). */
 void bake_reference_average(const bake_reference *r, bool is_interpolated, uint32_t size, uint32_t face,
                             uint32_t x, uint32_t y, double out[3]);

@@ -322,30 +322,37 @@ static void begin_value(text *t, const char *key)
     }
 }
 
-void text_json_begin_object(text *t, const char *key)
+static void begin_container(text *t, const char *key, const char *bracket)
 {
     begin_value(t, key);
-    text_add(t, "{");
+    text_add(t, bracket);
     t->needs_comma = false;
+}
+
+static void end_container(text *t, const char *bracket)
+{
+    text_add(t, bracket);
+    t->needs_comma = true;
+}
+
+void text_json_begin_object(text *t, const char *key)
+{
+    begin_container(t, key, "{");
 }
 
 void text_json_end_object(text *t)
 {
-    text_add(t, "}");
-    t->needs_comma = true;
+    end_container(t, "}");
 }
 
 void text_json_begin_array(text *t, const char *key)
 {
-    begin_value(t, key);
-    text_add(t, "[");
-    t->needs_comma = false;
+    begin_container(t, key, "[");
 }
 
 void text_json_end_array(text *t)
 {
-    text_add(t, "]");
-    t->needs_comma = true;
+    end_container(t, "]");
 }
 
 void text_json_string(text *t, const char *key, const char *value)

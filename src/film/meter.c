@@ -22,7 +22,9 @@ static bool is_covered(const float *pixel)
     return pixel[3] > 0.0f;
 }
 
-double film_log_average(const film *f, double floor)
+/* Mean of value(luminance, parameter), weighted by opacity. False: no pixel is covered. */
+static bool mean_of(const film *f, double (*value)(double L, double parameter), double parameter,
+                    double *mean)
 {
     const float *p = f->layers[0].pixels;
     double sum = 0.0;
@@ -30,25 +32,33 @@ double film_log_average(const film *f, double floor)
     for (size_t i = 0; i < pixel_count(f); i++, p += 4) {
         if (!is_covered(p))
             continue;
-        sum += (double)p[3] * log(fmax(luminance(p), floor));
+        sum += (double)p[3] * value(luminance(p), parameter);
         weight += (double)p[3];
     }
-    return weight > 0.0 ? exp(sum / weight) : 0.0;
+    *mean = weight > 0.0 ? sum / weight : 0.0;
+    return weight > 0.0;
+}
+
+static double log_above(double L, double floor)
+{
+    return log(fmax(L, floor));
+}
+
+static double at_least(double L, double floor)
+{
+    return L > floor ? L : floor;
+}
+
+double film_log_average(const film *f, double floor)
+{
+    double mean;
+    return mean_of(f, log_above, floor, &mean) ? exp(mean) : 0.0;
 }
 
 double film_average(const film *f)
 {
-    const float *p = f->layers[0].pixels;
-    double sum = 0.0;
-    double weight = 0.0;
-    for (size_t i = 0; i < pixel_count(f); i++, p += 4) {
-        if (!is_covered(p))
-            continue;
-        double L = luminance(p);
-        sum += (double)p[3] * (L > 0.0 ? L : 0.0);
-        weight += (double)p[3];
-    }
-    return weight > 0.0 ? sum / weight : 0.0;
+    double mean;
+    return mean_of(f, at_least, 0.0, &mean) ? mean : 0.0;
 }
 
 double film_meter(const film *f)

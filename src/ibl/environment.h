@@ -19,7 +19,7 @@ typedef struct light_parts {
     image reduced[REDUCED_COUNT]; /* [0] is not used: that is the panorama itself */
     cube levels[PREFILTER_LOBE_COUNT][PREFILTER_LEVEL_COUNT]; /* [][0] is not used */
     harmonics harmonics;                                      /* harmonics that the levels are made of */
-    narrow narrow;                                            /* between a mirror and level 1 of GGX */
+    narrow narrow;                                            /* between roughness 0 and level 1 of GGX */
     bool has_narrow;
 } light_parts;
 

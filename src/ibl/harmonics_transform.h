@@ -19,7 +19,7 @@ enum { FOURIER_MAX = 4096 }; /* samples in a row */
 typedef struct fourier {
     uint32_t size;
     float cosine[FOURIER_MAX / 2], sine[FOURIER_MAX / 2]; /* of 2 pi k / size */
-    uint16_t mirrored[FOURIER_MAX / 2];                   /* bit-reversed index */
+    uint16_t reversed[FOURIER_MAX / 2];                   /* bit-reversed index */
 } fourier;
 
 static inline void fourier_init(fourier *f, uint32_t size)
@@ -30,10 +30,10 @@ static inline void fourier_init(fourier *f, uint32_t size)
         double angle = 2.0 * 3.14159265358979323846 * k / size;
         f->cosine[k] = (float)cos(angle);
         f->sine[k] = (float)sin(angle);
-        uint32_t mirrored = 0;
+        uint32_t reversed = 0;
         for (uint32_t b = 0; b < bits; b++)
-            mirrored |= (k >> b & 1u) << (bits - 1 - b);
-        f->mirrored[k] = (uint16_t)mirrored;
+            reversed |= (k >> b & 1u) << (bits - 1 - b);
+        f->reversed[k] = (uint16_t)reversed;
     }
 }
 
@@ -93,8 +93,8 @@ static inline __attribute__((always_inline)) void fourier_forward(const fourier 
     uint32_t n = f->size / 2;
     float8 z_re[FOURIER_MAX / 2], z_im[FOURIER_MAX / 2];
     for (uint32_t i = 0; i < n; i++) {
-        z_re[i] = x[2 * f->mirrored[i]];
-        z_im[i] = x[2 * f->mirrored[i] + 1];
+        z_re[i] = x[2 * f->reversed[i]];
+        z_im[i] = x[2 * f->reversed[i] + 1];
     }
     fourier_butterflies(f, z_re, z_im);
     for (uint32_t m = 0; m < n; m++) {
@@ -130,7 +130,7 @@ static inline __attribute__((always_inline)) void fourier_backward(const fourier
         float8 odd_re = d_re * c - d_im * s;
         float8 odd_im = d_re * s + d_im * c;
         /* the backward transform is the forward one with real and imaginary parts swapped before and after */
-        uint32_t to = f->mirrored[m];
+        uint32_t to = f->reversed[m];
         z_im[to] = re[m] + far_re - odd_im;
         z_re[to] = im[m] + far_im + odd_re;
     }

@@ -15,7 +15,7 @@
 /* Version of the preparation; entries of other versions in a cache are ignored. */
 static const uint64_t recipe_version = 3;
 
-/* Rows of the image for mirrors: at 0.35 degrees each, finer than most reflections can show. */
+/* Rows of the sharp image: at 0.35 degrees each, finer than most reflections can show. */
 static const double sharp_rows = 512.0;
 
 /* ---- preparing; the environment's mutex is held ---- */
@@ -199,7 +199,7 @@ static float find_lod(const ibl_light *light, prefilter_lobe lobe, float percept
     return lod < first ? first : lod > last ? last : lod;
 }
 
-/* Lookup between a mirror and level 1 of GGX. */
+/* Lookup between roughness 0 and level 1 of GGX. */
 static rgbx fetch_narrow(const ibl_light *light, const float R[3], float perceptual_roughness)
 {
     equirect_point p = equirect_locate(R);
@@ -209,8 +209,8 @@ static rgbx fetch_narrow(const ibl_light *light, const float R[3], float percept
     narrow_weights(light->narrow, perceptual_roughness, weights);
     rgbx c =
         cube_fetch(&light->levels[PREFILTER_GGX][1], cube_locate(R[0], R[1], R[2])) * weights[NARROW_LOBE];
-    if (weights[NARROW_MIRROR] > 0.0f)
-        c += equirect_fetch(&light->sharp, p) * weights[NARROW_MIRROR];
+    if (weights[NARROW_SHARP] > 0.0f)
+        c += equirect_fetch(&light->sharp, p) * weights[NARROW_SHARP];
     for (uint32_t i = 0; i < light->narrow->count; i++)
         if (weights[1 + i] > 0.0f)
             c += equirect_fetch(&light->narrow->blurred[i], p) * weights[1 + i];

@@ -22,7 +22,7 @@ struct ibl_light {
     ibl_level_range ranges[PREFILTER_LOBE_COUNT];
     cube levels[PREFILTER_LOBE_COUNT][PREFILTER_LEVEL_COUNT]; /* not owned; [][0] is not used */
     image sharp, background;                                  /* not owned; {0}: not needed */
-    const narrow *narrow; /* of the environment; NULL if nothing lies between a mirror and level 1 */
+    const narrow *narrow; /* of the environment; NULL if nothing lies between roughness 0 and level 1 */
 };
 
 #endif

@@ -70,7 +70,7 @@ static double tent(double x)
     return s * s;
 }
 
-/* Transfer function of blurred image index relative to the mirror, for waves of x radians per column and y
+/* Transfer function of blurred image index relative to the sharp image, for waves of x radians per column and y
  * per row. */
 static double blur_transfer(uint32_t index, double x, double y)
 {
@@ -103,10 +103,10 @@ static void spectrum_init(spectrum *s, uint32_t blurred_count, double row_rad)
         double x = l * row_rad * cos(pi / 8.0); /* neither along the grid nor diagonal */
         double y = l * row_rad * sin(pi / 8.0);
         /* Natural images have equal energy per octave, 1 / l^2 per degree; suns have equal energy per degree. */
-        double mirror = tent(x) * tent(y);
+        double interpolated = tent(x) * tent(y);
         s->degree[i] = l;
-        s->importance[i] = (1.0 + l * l / (120.0 * 120.0)) * mirror * mirror;
-        s->part[NARROW_MIRROR][i] = 1.0;
+        s->importance[i] = (1.0 + l * l / (120.0 * 120.0)) * interpolated * interpolated;
+        s->part[NARROW_SHARP][i] = 1.0;
         s->part[NARROW_LOBE][i] = lobe_transfer((double)NARROW_END, l);
         for (uint32_t k = 0; k < NARROW_COUNT; k++)
             s->part[1 + k][i] = k < blurred_count ? blur_transfer(k, x, y) : 0.0;
@@ -161,15 +161,15 @@ static bool fit_set(const spectrum *s, uint32_t set, const double b[NARROW_PARTS
     }
     if (!solve(count - 1, a, x))
         return false;
-    double left = total;
+    double remaining = total;
     for (uint32_t i = 1; i < count; i++) {
         if (x[i - 1] < 0.0)
             return false;
         weights[parts[i]] = x[i - 1];
-        left -= x[i - 1];
+        remaining -= x[i - 1];
     }
-    weights[parts[0]] = left;
-    return left >= 0.0;
+    weights[parts[0]] = remaining;
+    return remaining >= 0.0;
 }
 
 /* Half the squared error of weights, up to a constant. */
@@ -187,19 +187,19 @@ static double error_of(const spectrum *s, const double b[NARROW_PARTS], const do
 
 /* Lower bounds of the weights: for the lobe of NARROW_END, the weight that gives its tail; for the wider
  * images, a share of the mixture's mass around their variance. The squared error of a sun's peak hides the
- * glow around it, and without bounds the fit would leave gaps there. */
-static void find_least(const spectrum *s, double perceptual_roughness, double least[NARROW_PARTS])
+ * halo around it, and without bounds the fit would leave gaps there. */
+static void find_lower_bounds(const spectrum *s, double perceptual_roughness, double bounds[NARROW_PARTS])
 {
     double end = pow((double)NARROW_END, 4.0);
     double alpha2 = pow(perceptual_roughness, 4.0);
     double before = 0.0;
-    memset(least, 0, NARROW_PARTS * sizeof *least);
-    least[NARROW_LOBE] = alpha2 / end;
+    memset(bounds, 0, NARROW_PARTS * sizeof *bounds);
+    bounds[NARROW_LOBE] = alpha2 / end;
     for (uint32_t k = s->blurred_count; k > 1; k--) {
         double limit =
             sqrt(s->variance[k - 1] * s->variance[k - 2]); /* between an image and the next narrower one */
         double mass = (1.0 - exp(-2.0 * alpha2 / limit)) - alpha2 / end * (1.0 - exp(-2.0 * end / limit));
-        least[k] = least_share * (mass - before);
+        bounds[k] = least_share * (mass - before);
         before = mass;
     }
 }
@@ -207,25 +207,25 @@ static void find_least(const spectrum *s, double perceptual_roughness, double le
 /* Tries all sets of parts. The error is convex, so the best set without negative weights is the optimum. */
 static void fit_lobe(const spectrum *s, double perceptual_roughness, float weights[NARROW_PARTS])
 {
-    uint32_t available = 1u << NARROW_MIRROR | 1u << NARROW_LOBE | ((1u << s->blurred_count) - 1) << 1;
-    double least[NARROW_PARTS];
+    uint32_t available = 1u << NARROW_SHARP | 1u << NARROW_LOBE | ((1u << s->blurred_count) - 1) << 1;
+    double bounds[NARROW_PARTS];
     double b[NARROW_PARTS] = {0.0};
-    double left = 1.0;
-    find_least(s, perceptual_roughness, least);
+    double remaining = 1.0;
+    find_lower_bounds(s, perceptual_roughness, bounds);
     for (int k = 0; k < NARROW_PARTS; k++)
-        left -= least[k];
+        remaining -= bounds[k];
     for (int i = 0; i < DEGREES; i++) {
         double target = lobe_transfer(perceptual_roughness, s->degree[i]);
         for (int k = 0; k < NARROW_PARTS; k++)
-            target -= least[k] * s->part[k][i];
+            target -= bounds[k] * s->part[k][i];
         for (int k = 0; k < NARROW_PARTS; k++)
             b[k] += s->importance[i] * s->part[k][i] * target;
     }
-    double best[NARROW_PARTS] = {left};
+    double best[NARROW_PARTS] = {remaining};
     double lowest = error_of(s, b, best);
     for (uint32_t set = 1; set < 1u << NARROW_PARTS; set++) {
         double w[NARROW_PARTS];
-        if ((set & ~available) || !fit_set(s, set, b, left, w))
+        if ((set & ~available) || !fit_set(s, set, b, remaining, w))
             continue;
         double error = error_of(s, b, w);
         if (error < lowest) {
@@ -234,7 +234,7 @@ static void fit_lobe(const spectrum *s, double perceptual_roughness, float weigh
         }
     }
     for (int k = 0; k < NARROW_PARTS; k++)
-        weights[k] = (float)(best[k] + least[k]);
+        weights[k] = (float)(best[k] + bounds[k]);
 }
 
 void narrow_fit(uint32_t count, double row_rad, float weights[NARROW_STEPS + 1][NARROW_PARTS])
@@ -242,7 +242,7 @@ void narrow_fit(uint32_t count, double row_rad, float weights[NARROW_STEPS + 1][
     spectrum s;
     spectrum_init(&s, count, row_rad);
     memset(weights, 0, (NARROW_STEPS + 1) * sizeof *weights);
-    weights[0][NARROW_MIRROR] = 1.0f;
+    weights[0][NARROW_SHARP] = 1.0f;
     weights[NARROW_STEPS][NARROW_LOBE] = 1.0f;
     for (int i = 1; i < NARROW_STEPS; i++)
         fit_lobe(&s, (double)NARROW_END * i / NARROW_STEPS, weights[i]);
@@ -419,19 +419,19 @@ static uint32_t count_blurred(uint32_t width, uint32_t height)
     return count;
 }
 
-facet_result narrow_create(const image *mirror, const facet_allocator *allocator, uint32_t thread_count,
+facet_result narrow_create(const image *sharp, const facet_allocator *allocator, uint32_t thread_count,
                            narrow *out, facet_error *error)
 {
     *out = (narrow){0};
     narrow n = {0};
-    image base = {0}; /* if the mirror's size cannot be halved twice */
-    uint32_t width = (mirror->width < MAX_WIDTH ? mirror->width : MAX_WIDTH) & ~3u;
-    uint32_t height = (mirror->height < MAX_HEIGHT ? mirror->height : MAX_HEIGHT) & ~3u;
+    image base = {0}; /* if the size of the sharp image cannot be halved twice */
+    uint32_t width = (sharp->width < MAX_WIDTH ? sharp->width : MAX_WIDTH) & ~3u;
+    uint32_t height = (sharp->height < MAX_HEIGHT ? sharp->height : MAX_HEIGHT) & ~3u;
     facet_result result = FACET_OK;
     n.count = count_blurred(width, height);
-    if (n.count && (width != mirror->width || height != mirror->height))
-        result = equirect_resize(mirror, width, height, allocator, thread_count, &base, error);
-    const image *from = base.pixels ? &base : mirror;
+    if (n.count && (width != sharp->width || height != sharp->height))
+        result = equirect_resize(sharp, width, height, allocator, thread_count, &base, error);
+    const image *from = base.pixels ? &base : sharp;
     for (uint32_t i = 0; i < n.count && result == FACET_OK; i++) {
         image *to = &n.blurred[i];
         result = blur(from, i > 0, narrow_variances[i][0], allocator, thread_count, to, error);
@@ -448,7 +448,7 @@ facet_result narrow_create(const image *mirror, const facet_allocator *allocator
         narrow_destroy(&n);
         return result;
     }
-    narrow_fit(n.count, pi / (n.count ? height : mirror->height), n.weights);
+    narrow_fit(n.count, pi / (n.count ? height : sharp->height), n.weights);
     *out = n;
     return FACET_OK;
 }

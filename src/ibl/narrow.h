@@ -4,12 +4,12 @@
  * In the plane, which a few degrees of the sphere approximate, GGX of width alpha is a mixture of Gaussians
  * of variance v (rad^2) whose cumulative mass is exp(-2 alpha^2 / v). Without (alpha / alpha_end)^2 times the
  * lobe of NARROW_END, which supplies the tail, almost nothing of it is wider than that lobe. The rest is made
- * of the mirror's image and three blurred ones, each about 2.5 times as wide as the one before and half as
+ * of the sharp image and three blurred ones, each about 2.5 times as wide as the one before and half as
  * large (Burt and Adelson 1983). One set of images serves every roughness; their weights change continuously
  * and are never negative. With texels of 0.35 degrees the standard deviations are 0.25, 0.6 and 1.6 degrees.
  *
  * The error in real environments is 0.1 to 6 % RMS, most of it on the flanks of small lights, and up to 14 %
- * for a sun; a mirror blended with the lobe of NARROW_END is off by 10 to 60 %, and 200 %. */
+ * for a sun; the sharp image blended with the lobe of NARROW_END is off by 10 to 60 %, and 200 %. */
 #ifndef IBL_NARROW_H
 #define IBL_NARROW_H
 
@@ -19,8 +19,8 @@
 enum {
     NARROW_COUNT = 3,  /* blurred images */
     NARROW_STEPS = 16, /* steps of roughness between sets of weights */
-    /* terms of a lookup: mirror, blurred images, lobe of NARROW_END */
-    NARROW_MIRROR = 0,
+    /* terms of a lookup: sharp image, blurred images, lobe of NARROW_END */
+    NARROW_SHARP = 0,
     NARROW_LOBE = NARROW_COUNT + 1,
     NARROW_PARTS
 };
@@ -34,9 +34,9 @@ typedef struct narrow {
     float weights[NARROW_STEPS + 1][NARROW_PARTS]; /* each set adds up to 1 */
 } narrow;
 
-/* Blurs the image for mirrors. Mean radiance over the sphere and uniform radiance are preserved.
+/* Blurs the panorama. Mean radiance over the sphere and uniform radiance are preserved.
  * FACET_ERROR_MEMORY. */
-facet_result narrow_create(const image *mirror, const facet_allocator *allocator, uint32_t thread_count,
+facet_result narrow_create(const image *sharp, const facet_allocator *allocator, uint32_t thread_count,
                            narrow *out, facet_error *error);
 void narrow_destroy(narrow *n); /* {0} is allowed; leaves {0} */
 

@@ -20,7 +20,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-static const ibl_light_desc nearly_mirrors = {.needs_specular = true, .max_roughness = NARROW_END};
+static const ibl_light_desc nearly_smooth = {.needs_specular = true, .max_roughness = NARROW_END};
 
 static const float some_roughness[] = {0.02f, 0.04f, 0.06f, 0.08f, 0.1f, 0.12f, 0.14f};
 enum { ROUGHNESS_COUNT = sizeof some_roughness / sizeof *some_roughness };
@@ -94,7 +94,7 @@ static void add_pieces(const image *panorama, uint32_t x, uint32_t y, int parts,
     }
 }
 
-/* Mean of the mirrored image over the lobe: integral of D N.l L dl over that of D N.l. The middle by
+/* Mean of the environment over the lobe: integral of D N.l L dl over that of D N.l. The middle by
  * quadrature over the lobe, texels near it in pieces, the rest as they are. */
 static void lobe_mean(const image *panorama, const float R[3], float perceptual_roughness, double mean[3])
 {
@@ -315,7 +315,7 @@ static void small_lights_become_the_lobe_anywhere(void **state)
         for (int k = 0; k < 3; k++)
             blob_middle[k] = places[i][k] / length;
         facet_environment *e = make_environment(1024, 512, blob);
-        const ibl_light *light = prepare(e, nearly_mirrors);
+        const ibl_light *light = prepare(e, nearly_smooth);
         for (int r = 1; r < ROUGHNESS_COUNT; r += 2)
             for (int k = 0; k < 6; k++) {
                 float d[3], out[3];
@@ -373,7 +373,7 @@ static void check_file(const char *name, double tolerance)
     if (result != FACET_OK)
         print_error("%s\n", error.message);
     assert_int_equal(result, FACET_OK);
-    const ibl_light *light = prepare(e, nearly_mirrors);
+    const ibl_light *light = prepare(e, nearly_smooth);
     print_message("%s:", name);
     double worst = 0.0;
     for (int i = 0; i < ROUGHNESS_COUNT; i++) {

@@ -16,8 +16,7 @@
 
 typedef enum prefilter_lobe { PREFILTER_GGX, PREFILTER_CHARLIE, PREFILTER_LOBE_COUNT } prefilter_lobe;
 
-/* Levels of a lobe, from smooth to rough. Level 0 is not a cube map: for GGX it is a mirror, the panorama
- * itself, and narrow.h makes what lies between it and level 1. */
+/* Levels of a lobe, from smooth to rough. Level 0 is not a cube map: for GGX it is the panorama itself, and narrow.h makes what lies between it and level 1. */
 enum {
     PREFILTER_LEVEL_COUNT = 16, /* of the lobe with the most levels */
     PREFILTER_DEGREE = 160      /* highest degree of a level */

@@ -1,4 +1,6 @@
-/* sphere_resample.c - see sphere.h. */
+/* sphere_resample.c - see sphere.h. The first pass clamps bright texels of the source to a limit and marks the
+ * spans of the target that they reach. The lookups that cover each bright texel then add up their solid angles,
+ * by which its excess over the limit is scaled, and a second pass resamples the marked spans with it. */
 #include "ibl/sphere.h"
 
 #include <stdatomic.h>
@@ -9,33 +11,33 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* A texel is hot if it is brighter than this many times the mean. */
-static const double hot_contrast = 16.0;
+/* A texel is bright if it is brighter than this many times the mean. */
+static const double bright_contrast = 16.0;
 
 /* Solid angles are counted in integer units per steradian, so that sums do not depend on the order of
  * threads. */
 static const double parts_per_sr = 0x1p50;
 
-/* A hot texel of the source. */
-typedef struct hot_texel {
+/* A bright texel of the source. */
+typedef struct bright_texel {
     size_t texel;
     _Atomic uint64_t covered; /* solid angle covered by lookups */
-    rgbx excess;              /* excess over the limit; scaled to lookups once covered is known */
-} hot_texel;
+    rgbx excess;              /* over the limit; from the second pass on scaled to its lookups */
+} bright_texel;
 
 typedef struct resampling {
     const sphere *source, *target;
     const sphere_turn *turn;
     uint32_t parts;      /* a texel of the target is looked up parts x parts times */
     float (*columns)[2]; /* equirectangular target: cosine and sine of the longitude of each part of a row */
-    float limit;         /* limit of texels that are not hot */
-    uint32_t *bright_indices; /* indices of the hot texels by source texel, from 1 on; NULL: none is hot */
-    hot_texel *hot;
-    size_t hot_count;
-    uint32_t span;         /* texels of a row that are resampled at a time */
-    uint32_t span_count;   /* of a row */
-    bool *is_near_hot;     /* per row and span of the target: lookups hit hot texels, or may do so */
-    bool has_hot_excesses; /* second pass: covered is known, and only spans near hot texels are resampled */
+    float limit;         /* limit of texels that are not bright */
+    uint32_t *bright_indices; /* indices of the bright texels by source texel, from 1 on; NULL: none */
+    bright_texel *bright;
+    size_t bright_count;
+    uint32_t span;        /* texels of a row that are resampled at a time */
+    uint32_t span_count;  /* of a row */
+    bool *is_near_bright; /* per row and span of the target: lookups hit bright texels, or may do so */
+    bool is_second_pass;  /* excesses are scaled; only spans near bright texels are resampled */
 } resampling;
 
 /* ---- the parts of a target's texels ---- */
@@ -120,7 +122,7 @@ static void get_octahedron_parts(const resampling *r, const part_row *p, uint32_
     }
 }
 
-static void turn_back(const sphere_turn *turn, uint32_t count, sphere_batch *b)
+static void rotate_to_source(const sphere_turn *turn, uint32_t count, sphere_batch *b)
 {
     const float(*m)[3] = turn->rows;
     for (uint32_t i = 0; i < count; i++) {
@@ -148,7 +150,7 @@ static void look_up_parts(const resampling *r, const part_row *p, uint32_t first
         break;
     }
     if (r->turn->is_turned)
-        turn_back(r->turn, count, out);
+        rotate_to_source(r->turn, count, out);
     sphere_look_up(r->source, out, count, r->limit);
 }
 
@@ -194,12 +196,12 @@ static uint32_t choose_parts(const sphere *source, const sphere *target)
                                              : parts; /* folds through corners */
 }
 
-/* ---- what is hot ---- */
+/* ---- bright texels ---- */
 
 /* Sums of a row of the source. */
 typedef struct row_survey {
-    double sum;         /* sum of all channels, clamped to the limit */
-    uint32_t hot_count; /* texels above the limit */
+    double sum;            /* sum of all channels, clamped to the limit */
+    uint32_t bright_count; /* texels above the limit */
 } row_survey;
 
 typedef struct survey {
@@ -219,7 +221,7 @@ static const float *get_row(const sphere *s, size_t row, size_t *step)
     return s->pixels + row * s->width * s->channel_count;
 }
 
-static bool is_hot(const float *c, float limit)
+static bool is_bright(const float *c, float limit)
 {
     return (c[0] > limit) | (c[1] > limit) | (c[2] > limit);
 }
@@ -230,15 +232,15 @@ static void survey_rows(void *context, size_t begin, size_t end)
     const float limit = v->limit;
     for (size_t row = begin; row < end; row++) {
         double sums[3] = {0.0, 0.0, 0.0};
-        uint32_t hot_count = 0;
+        uint32_t bright_count = 0;
         size_t step;
         const float *c = get_row(v->source, row, &step);
         for (uint32_t x = 0; x < v->source->width; x++, c += step) {
             for (int k = 0; k < 3; k++)
                 sums[k] += (double)(c[k] < limit ? c[k] : limit);
-            hot_count += is_hot(c, limit);
+            bright_count += is_bright(c, limit);
         }
-        v->rows[row] = (row_survey){sums[0] + sums[1] + sums[2], hot_count};
+        v->rows[row] = (row_survey){sums[0] + sums[1] + sums[2], bright_count};
     }
 }
 
@@ -247,9 +249,9 @@ static size_t count_rows(const sphere *s)
     return (size_t)s->height * (s->kind == SPHERE_CUBE ? 6 : 1);
 }
 
-/* The limit: about hot_contrast times the mean of the texels that are not hot, so that a dominant sun hardly
- * raises it; infinite in the dark. At most 1 / hot_contrast of all texels are above it. The mean is not
- * weighted by solid angle, since it affects accuracy only. Leaves the number of hot texels of each row in
+/* The limit: about bright_contrast times the mean of the texels that are not bright, so that a dominant sun hardly
+ * raises it; infinite in the dark. At most 1 / bright_contrast of all texels are above it. The mean is not
+ * weighted by solid angle, since it affects accuracy only. Leaves the number of bright texels of each row in
  * v->rows. */
 static void choose_limit(survey *v, uint32_t thread_count)
 {
@@ -261,23 +263,23 @@ static void choose_limit(survey *v, uint32_t thread_count)
         double sum = 0.0;
         for (size_t row = 0; row < rows; row++)
             sum += v->rows[row].sum;
-        const double limit = hot_contrast * sum / (3.0 * (double)sphere_texel_count(v->source));
+        const double limit = bright_contrast * sum / (3.0 * (double)sphere_texel_count(v->source));
         if (round < ROUNDS)
             v->limit = limit > 0.0 ? (float)limit : INFINITY;
     }
 }
 
-/* Lists the hot texels. */
-static void list_hot(resampling *r, const row_survey *rows)
+/* Lists the bright texels. */
+static void list_bright(resampling *r, const row_survey *rows)
 {
     uint32_t number = 0;
-    for (size_t row = 0; number < r->hot_count; row++) {
+    for (size_t row = 0; number < r->bright_count; row++) {
         size_t step;
         const float *c = get_row(r->source, row, &step);
-        for (uint32_t x = 0; x < r->source->width && rows[row].hot_count > 0; x++, c += step) {
-            if (!is_hot(c, r->limit))
+        for (uint32_t x = 0; x < r->source->width && rows[row].bright_count > 0; x++, c += step) {
+            if (!is_bright(c, r->limit))
                 continue;
-            hot_texel *h = &r->hot[number];
+            bright_texel *h = &r->bright[number];
             h->texel = row * r->source->width + x;
             h->excess = rgbx_not_negative((rgbx){c[0], c[1], c[2], 0.0f} - rgbx_splat(r->limit));
             atomic_init(&h->covered, 0);
@@ -286,8 +288,8 @@ static void list_hot(resampling *r, const row_survey *rows)
     }
 }
 
-/* Indexes the hot texels. False: out of memory. */
-static bool find_hot(resampling *r, const facet_allocator *allocator, uint32_t thread_count)
+/* Indexes the bright texels. False: out of memory. */
+static bool find_bright(resampling *r, const facet_allocator *allocator, uint32_t thread_count)
 {
     const size_t rows = count_rows(r->source);
     survey v = {.source = r->source, .rows = mem_alloc(allocator, rows, sizeof *v.rows)};
@@ -295,23 +297,23 @@ static bool find_hot(resampling *r, const facet_allocator *allocator, uint32_t t
         return false;
     choose_limit(&v, thread_count);
     for (size_t row = 0; row < rows; row++)
-        r->hot_count += v.rows[row].hot_count;
-    r->limit = r->hot_count ? v.limit : INFINITY;
-    if (r->hot_count) {
+        r->bright_count += v.rows[row].bright_count;
+    r->limit = r->bright_count ? v.limit : INFINITY;
+    if (r->bright_count) {
         r->bright_indices = mem_zalloc(allocator, sphere_texel_count(r->source), sizeof *r->bright_indices);
-        r->hot = mem_alloc(allocator, r->hot_count, sizeof *r->hot);
-        if (r->bright_indices && r->hot)
-            list_hot(r, v.rows);
+        r->bright = mem_alloc(allocator, r->bright_count, sizeof *r->bright);
+        if (r->bright_indices && r->bright)
+            list_bright(r, v.rows);
     }
     mem_free(v.rows);
-    return r->hot_count == 0 || (r->bright_indices && r->hot);
+    return r->bright_count == 0 || (r->bright_indices && r->bright);
 }
 
-/* The hot texel at an index of the source; NULL: it is not hot. */
-static hot_texel *get_hot(const resampling *r, size_t texel)
+/* The bright texel at an index of the source; NULL: it is not bright. */
+static bright_texel *bright_at(const resampling *r, size_t texel)
 {
     uint32_t number = r->bright_indices[texel];
-    return number ? &r->hot[number - 1] : NULL;
+    return number ? &r->bright[number - 1] : NULL;
 }
 
 static void find_part(const resampling *r, const sphere_batch *b, uint32_t i, sphere_footprint *out)
@@ -319,11 +321,11 @@ static void find_part(const resampling *r, const sphere_batch *b, uint32_t i, sp
     sphere_find(r->source, (const float[3]){b->x[i], b->y[i], b->z[i]}, out);
 }
 
-/* Adds the solid angle of hot texels covered by a lookup. */
+/* Adds the solid angle of bright texels covered by a lookup. */
 static void cover(const resampling *r, const sphere_footprint *f, double solid_angle)
 {
     for (uint32_t k = 0; k < f->count; k++) {
-        hot_texel *h = get_hot(r, f->texels[k]);
+        bright_texel *h = bright_at(r, f->texels[k]);
         if (h)
             atomic_fetch_add_explicit(&h->covered,
                                       (uint64_t)(solid_angle * (double)f->weights[k] * parts_per_sr),
@@ -331,7 +333,7 @@ static void cover(const resampling *r, const sphere_footprint *f, double solid_a
     }
 }
 
-/* Adds the solid angles of hot texels covered by the lookups of a span. */
+/* Adds the solid angles of bright texels covered by the lookups of a span. */
 static void cover_span(const resampling *r, uint32_t face, uint32_t y, uint32_t x, uint32_t count)
 {
     const uint32_t end = (x + count) * r->parts;
@@ -358,16 +360,16 @@ static void cover_rows(void *context, size_t begin, size_t end)
     const sphere *t = r->target;
     for (size_t i = begin; i < end; i++)
         for (uint32_t s = 0, x = 0; s < r->span_count; s++, x += r->span)
-            if (r->is_near_hot[i * r->span_count + s])
+            if (r->is_near_bright[i * r->span_count + s])
                 cover_span(r, (uint32_t)(i / t->height), (uint32_t)(i % t->height), x,
                            t->width - x < r->span ? t->width - x : r->span);
 }
 
 /* Scales excess radiance so that all lookups together have the texel's energy. */
-static void scale_hot(resampling *r)
+static void scale_excesses(resampling *r)
 {
-    for (size_t i = 0; i < r->hot_count; i++) {
-        hot_texel *h = &r->hot[i];
+    for (size_t i = 0; i < r->bright_count; i++) {
+        bright_texel *h = &r->bright[i];
         double covered = (double)atomic_load(&h->covered) / parts_per_sr;
         if (covered > 0.0)
             h->excess *= rgbx_splat((float)(sphere_solid_angle(r->source, h->texel) / covered));
@@ -389,13 +391,13 @@ static void store_texel(const sphere *t, uint32_t face, uint32_t x, uint32_t y, 
         to[3] = 1.0f;
 }
 
-/* Radiance of a lookup near hot texels. */
+/* Radiance of a lookup near bright texels. */
 static rgbx look_up_bright(const resampling *r, const sphere_footprint *f)
 {
     rgbx sum = {0};
     for (uint32_t k = 0; k < f->count; k++) {
         rgbx c = sphere_texel(r->source, f->texels[k]);
-        const hot_texel *h = get_hot(r, f->texels[k]);
+        const bright_texel *h = bright_at(r, f->texels[k]);
         if (h)
             c = c - rgbx_not_negative(c - rgbx_splat(r->limit)) + h->excess;
         sum += c * rgbx_splat(f->weights[k]);
@@ -410,7 +412,7 @@ typedef struct texel_sum {
 } texel_sum;
 
 /* Adds a row of lookups, from column first on, to the sums of their texels; each row is summed separately
- * first, which keeps rounding errors small. True: a hot texel was clamped. */
+ * first, which keeps rounding errors small. True: a bright texel was clamped. */
 static bool add_parts(const resampling *r, const part_row *p, uint32_t first, uint32_t count, texel_sum *sums)
 {
     sphere_batch b;
@@ -419,7 +421,7 @@ static bool add_parts(const resampling *r, const part_row *p, uint32_t first, ui
     for (uint32_t k = 0; k < count; k++) {
         sphere_footprint f;
         is_any_cut |= b.is_cut[k];
-        if (!b.is_cut[k] || !r->has_hot_excesses)
+        if (!b.is_cut[k] || !r->is_second_pass)
             continue;
         find_part(r, &b, k, &f);
         b.radiance[k] = look_up_bright(r, &f);
@@ -439,7 +441,7 @@ static bool add_parts(const resampling *r, const part_row *p, uint32_t first, ui
     return is_any_cut;
 }
 
-/* Texels x .. x + count - 1 of a row, in one batch per row of lookups, or several per texel. True: a hot
+/* Texels x .. x + count - 1 of a row, in one batch per row of lookups, or several per texel. True: a bright
  * texel was clamped. */
 static bool resample_span(const resampling *r, uint32_t face, uint32_t y, uint32_t x, uint32_t count)
 {
@@ -466,10 +468,10 @@ static void resample_rows(void *context, size_t begin, size_t end)
     const sphere *t = r->target;
     for (size_t i = begin; i < end; i++)
         for (uint32_t s = 0, x = 0; s < r->span_count; s++, x += r->span) {
-            bool *is_near_hot = &r->is_near_hot[i * r->span_count + s];
-            if (*is_near_hot || !r->has_hot_excesses)
-                *is_near_hot = resample_span(r, (uint32_t)(i / t->height), (uint32_t)(i % t->height), x,
-                                             t->width - x < r->span ? t->width - x : r->span);
+            bool *is_near_bright = &r->is_near_bright[i * r->span_count + s];
+            if (*is_near_bright || !r->is_second_pass)
+                *is_near_bright = resample_span(r, (uint32_t)(i / t->height), (uint32_t)(i % t->height), x,
+                                                t->width - x < r->span ? t->width - x : r->span);
         }
 }
 
@@ -485,21 +487,21 @@ facet_result sphere_resample(const sphere *source, const sphere_turn *turn, cons
     facet_result result = FACET_OK;
     r.span = r.parts < SPHERE_BATCH ? SPHERE_BATCH / r.parts : 1;
     r.span_count = (target->width - 1) / r.span + 1;
-    r.is_near_hot = mem_zalloc(allocator, rows, r.span_count);
-    if (!r.is_near_hot || !make_columns(&r, allocator) || !find_hot(&r, allocator, thread_count)) {
+    r.is_near_bright = mem_zalloc(allocator, rows, r.span_count);
+    if (!r.is_near_bright || !make_columns(&r, allocator) || !find_bright(&r, allocator, thread_count)) {
         result = fail_memory(error, "resampling", sphere_texel_count(source) * sizeof *r.bright_indices);
     } else {
         parallel_for(thread_count, rows, 2, resample_rows, &r);
-        if (r.hot) { /* spans near hot texels, once more */
+        if (r.bright) { /* spans near bright texels, once more */
             parallel_for(thread_count, rows, 2, cover_rows, &r);
-            scale_hot(&r);
-            r.has_hot_excesses = true;
+            scale_excesses(&r);
+            r.is_second_pass = true;
             parallel_for(thread_count, rows, 2, resample_rows, &r);
         }
     }
-    mem_free(r.is_near_hot);
+    mem_free(r.is_near_bright);
     mem_free(r.columns);
     mem_free(r.bright_indices);
-    mem_free(r.hot);
+    mem_free(r.bright);
     return result;
 }

@@ -341,12 +341,11 @@ static void describe_narrow(const gl_light_atlas *a, const ibl_light *light, gl_
         memcpy(block->images[k], place, sizeof place);
     }
     for (uint32_t i = 0; i < GL_LIGHT_STEPS; i++) {
-        const float mirror[NARROW_PARTS] = {1.0f};
-        const float *weights = light->narrow ? light->narrow->weights[i] : mirror;
+        const float sharp[NARROW_PARTS] = {1.0f};
+        const float *weights = light->narrow ? light->narrow->weights[i] : sharp;
         for (uint32_t k = 0; k < GL_LIGHT_IMAGES; k++)
             if (a->parts[GL_ATLAS_IMAGES + k].texels)
-                block->narrow_weights[i][k] =
-                    weights[NARROW_MIRROR + k] * a->parts[GL_ATLAS_IMAGES + k].scale;
+                block->narrow_weights[i][k] = weights[NARROW_SHARP + k] * a->parts[GL_ATLAS_IMAGES + k].scale;
         block->narrow_lobe[i] = weights[NARROW_LOBE];
     }
 }
