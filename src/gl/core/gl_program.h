@@ -18,9 +18,8 @@ typedef enum gl_main {
     GL_MAIN_BACKGROUND,  /* the background */
     GL_MAIN_COMPOSE,     /* composites blended layers over the image */
     GL_MAIN_PRESENT,     /* tone-maps for a window */
-    GL_MAIN_HALVE,       /* halves the size of an image */
-    GL_MAIN_SPREAD,      /* doubles it */
-    GL_MAIN_DEVELOP,     /* linearizes the colors of OpenGL 1 */
+    GL_MAIN_PYRAMID,     /* halves, doubles or copies a level of an image */
+    GL_MAIN_LINEARIZE,   /* linearizes the colors of OpenGL 1 */
     GL_MAIN_SEA_GRID,    /* positions of the ocean mesh */
     GL_MAIN_SEA_SURFACE, /* visible water per pixel */
     GL_MAIN_SEA_CLASS,   /* classifies pixels by cost */
@@ -39,7 +38,8 @@ enum {
     GL_GROUND_HAS_SHADOWS = 1u << 2,
     GL_BACKGROUND_HAS_ENVIRONMENT = 1u << 0,
     GL_BACKGROUND_IS_BLURRED = 1u << 1,
-    GL_HALVE_IS_COPY = 1u << 0 /* copies instead of halving */
+    GL_PYRAMID_IS_COPY = 1u << 0,
+    GL_PYRAMID_IS_DOUBLED = 1u << 1
 };
 
 /* Bit numbers of the features that follow from the material; gl_material.c sets them. */

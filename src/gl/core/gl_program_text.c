@@ -54,7 +54,7 @@ static const char *const phong_features[] = {"HAS_AMBIENT_MAP",  "HAS_DIFFUSE_MA
                                              "HAS_EMISSION_MAP", "HAS_SHININESS_MAP", "HAS_OPACITY_MAP",
                                              "HAS_NORMAL_MAP",   "IS_SPHERE_MAP",     "IS_AT_VERTICES",
                                              "IS_FLAT",          "IS_SEE_THROUGH"};
-static const char *const halve_features[] = {"IS_COPY", NULL};
+static const char *const pyramid_features[] = {"IS_COPY", "IS_DOUBLED", NULL};
 static const char *const no_features[] = {NULL};
 static const char *const ground_features[] = {"HAS_ENVIRONMENT", "HAS_LIGHTS", "HAS_SHADOWS", NULL};
 static const char *const background_features[] = {"HAS_ENVIRONMENT", "IS_BLURRED", NULL};
@@ -112,9 +112,8 @@ static const struct {
         {{"surface"}, {"light_block.glsl", "environment.glsl", "background.frag"}}},
     [GL_MAIN_COMPOSE] = {"compose", compose_features, SCREEN, {{"constants"}, {"compose.frag"}}},
     [GL_MAIN_PRESENT] = {"present", present_features, SCREEN, {{"tonemap", "color"}, {"present.frag"}}},
-    [GL_MAIN_HALVE] = {"halve", halve_features, SCREEN, {{"constants"}, {"halve.frag"}}},
-    [GL_MAIN_SPREAD] = {"spread", no_features, SCREEN, {{"constants"}, {"spread.frag"}}},
-    [GL_MAIN_DEVELOP] = {"develop", no_features, SCREEN, {{"color"}, {"develop.frag"}}},
+    [GL_MAIN_PYRAMID] = {"pyramid", pyramid_features, SCREEN, {{"constants"}, {"pyramid.frag"}}},
+    [GL_MAIN_LINEARIZE] = {"linearize", no_features, SCREEN, {{"color"}, {"linearize.frag"}}},
     [GL_MAIN_SEA_GRID] = {"sea_grid", no_features, SCREEN,
         {{"water_place"}, {"sea_block.glsl", "sea_waves.glsl", "sea_grid.frag"}}},
     [GL_MAIN_SEA_SURFACE] = {"sea_surface", no_features,

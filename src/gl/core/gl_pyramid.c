@@ -106,7 +106,7 @@ static facet_result draw_level(const gl_pyramid *p, const gl_pyramid_brush *brus
 static facet_result fill(const gl_pyramid *p, const gl_pyramid_brush *brush, uint32_t texture,
                          facet_error *error)
 {
-    const gl_program_key copy = {GL_MAIN_HALVE, GL_HALVE_IS_COPY}, halve = {GL_MAIN_HALVE, 0};
+    const gl_program_key copy = {GL_MAIN_PYRAMID, GL_PYRAMID_IS_COPY}, halve = {GL_MAIN_PYRAMID, 0};
     begin_level(p, 0, -1);
     glActiveTexture(GL_TEXTURE0 + GL_UNIT_OPAQUE);
     glBindTexture(GL_TEXTURE_2D, texture);
@@ -146,8 +146,9 @@ void gl_pyramid_bind_opaque(const gl_pyramid *p)
 static const float SPREAD = 0.7f;
 enum {
     COARSEST = 2, /* coarsest levels that are left out: they have too few pixels to be smooth */
-    WIDTHS =
-        7 /* filter widths in use, from the widest: large images leave out the finer ones, so that the glow covers the same part of an image of any size */
+    /* filter widths in use, from the widest: large images leave out the finer ones, so that the glow covers the same part
+     * of an image of any size */
+    WIDTHS = 7
 };
 
 static uint32_t levels_of(uint32_t width, uint32_t height)
@@ -161,7 +162,7 @@ static uint32_t levels_of(uint32_t width, uint32_t height)
 /* From the coarsest level up: mix(level, coarser level, SPREAD). */
 static facet_result gather(const gl_pyramid *p, const gl_pyramid_brush *brush, facet_error *error)
 {
-    const gl_program_key spread = {GL_MAIN_SPREAD, 0};
+    const gl_program_key doubled = {GL_MAIN_PYRAMID, GL_PYRAMID_IS_DOUBLED};
     facet_result result = FACET_OK;
     uint32_t count = p->level_count;
     for (uint32_t level = count - 1; level-- > 1 && result == FACET_OK;) {
@@ -169,7 +170,7 @@ static facet_result gather(const gl_pyramid *p, const gl_pyramid_brush *brush, f
         glEnable(GL_BLEND);
         glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
         glBlendColor(0.0f, 0.0f, 0.0f, level + WIDTHS >= count ? SPREAD : 1.0f);
-        result = draw_level(p, brush, spread, level, error);
+        result = draw_level(p, brush, doubled, level, error);
     }
     return result;
 }
@@ -177,13 +178,13 @@ static facet_result gather(const gl_pyramid *p, const gl_pyramid_brush *brush, f
 static facet_result add(const gl_pyramid *p, const gl_pyramid_brush *brush, const gl_target *target,
                         float share, facet_error *error)
 {
-    const gl_program_key spread = {GL_MAIN_SPREAD, 0};
+    const gl_program_key doubled = {GL_MAIN_PYRAMID, GL_PYRAMID_IS_DOUBLED};
     begin_level(p, 0, 1);
     glBindFramebuffer(GL_FRAMEBUFFER, target->resolved_framebuffer);
     glEnable(GL_BLEND);
     glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
     glBlendColor(0.0f, 0.0f, 0.0f, share);
-    return draw_level(p, brush, spread, 0, error);
+    return draw_level(p, brush, doubled, 0, error);
 }
 
 facet_result gl_pyramid_bloom(gl_pyramid *p, gl_context *context, const gl_pyramid_brush *brush,

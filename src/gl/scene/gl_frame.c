@@ -346,7 +346,7 @@ facet_result gl_frame_draw(gl_frame *f, const gl_target *target, const facet_ren
     gl_timers_end(&f->timers);
     const gl_pyramid_brush brush = {f->programs, f->empty_array};
     if (result == FACET_OK && desc->shading == FACET_SHADING_OGL1)
-        result = gl_phong_develop(f->phong, &brush, target, error);
+        result = gl_phong_linearize(f->phong, &brush, target, error);
     if (result == FACET_OK)
         result = draw_bloom(f, target, desc, error);
     return result;

@@ -336,12 +336,12 @@ void gl_phong_bind(const gl_phong *p, const gl_batch *batch)
 
 /* ---- linearization ---- */
 
-facet_result gl_phong_develop(gl_phong *p, const gl_pyramid_brush *brush, const gl_target *target,
-                              facet_error *error)
+facet_result gl_phong_linearize(gl_phong *p, const gl_pyramid_brush *brush, const gl_target *target,
+                                facet_error *error)
 {
     if (p->desc.is_linear)
         return FACET_OK;
-    gl_program_key key = {GL_MAIN_DEVELOP, 0};
+    gl_program_key key = {GL_MAIN_LINEARIZE, 0};
     uint32_t program;
     TRY(gl_target_update(&p->copy, p->context, target->kind, target->width, target->height, 1, error));
     TRY(gl_programs_get(brush->programs, key, &program, error));

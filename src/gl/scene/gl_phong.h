@@ -33,8 +33,8 @@ uint64_t gl_phong_features(const gl_phong *phong, const gl_batch *batch);
 void gl_phong_bind(const gl_phong *phong, const gl_batch *batch);
 /* Converts a resolved image from display colors to radiance, unless it was shaded in linear light. The
  * frame block is bound. */
-facet_result gl_phong_develop(gl_phong *phong, const gl_pyramid_brush *brush, const gl_target *target,
-                              facet_error *error);
+facet_result gl_phong_linearize(gl_phong *phong, const gl_pyramid_brush *brush, const gl_target *target,
+                                facet_error *error);
 uint64_t gl_phong_decoded_texels(const gl_phong *phong);
 
 #endif

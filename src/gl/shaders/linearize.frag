@@ -1,4 +1,4 @@
-/* develop.frag - an image of OpenGL 1's display values, converted to linear light as a display shows them. */
+/* linearize.frag - an image of OpenGL 1's display values, converted to linear light as a display shows them. */
 uniform highp sampler2D u_level;
 
 out vec4 fragment;
