@@ -48,8 +48,8 @@ static facet_render_desc desc_of(const facet_sea *sea, facet_renderer_kind rende
 }
 
 /* A white square of 2 x 2 m, 8 m before the eye and 2 to 4 m over the water, and a point light of 10^6 cd
- * 2 m before it; more: further nodes, of which `roots` are shown as well. */
-static facet_scene *lit_square_and(const char *roots, const char *more)
+ * 2 m before it; material: more of its base; nodes: further ones, of which `roots` are shown as well. */
+static facet_scene *lit_square_and(const char *material, const char *roots, const char *nodes)
 {
     static const char format[] =
         "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_lights_punctual\"],"
@@ -58,7 +58,7 @@ static facet_scene *lit_square_and(const char *roots, const char *more)
         "{\"translation\":[0,3,-6],\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}%s],"
         "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1},\"indices\":2,"
         "\"material\":0}]}],\"materials\":[{\"doubleSided\":true,\"pbrMetallicRoughness\":{"
-        "\"metallicFactor\":0}}],\"accessors\":["
+        "\"metallicFactor\":0%s}}],\"accessors\":["
         "{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\",\"min\":[-1,2,-8],"
         "\"max\":[1,4,-8]},{\"bufferView\":1,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},"
         "{\"bufferView\":2,\"componentType\":5123,\"count\":6,\"type\":\"SCALAR\"}],\"bufferViews\":["
@@ -69,7 +69,7 @@ static facet_scene *lit_square_and(const char *roots, const char *more)
         "AAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/AAABAAIAAAACAAMA\"}]}";
     char file[2048];
     facet_scene *scene = NULL;
-    int length = snprintf(file, sizeof file, format, roots, more);
+    int length = snprintf(file, sizeof file, format, roots, nodes, material);
     assert_true(length > 0 && (size_t)length < sizeof file);
     done(facet_scene_load_memory(file, (size_t)length, "square.gltf", NULL, &scene, &failure));
     return scene;
@@ -77,7 +77,7 @@ static facet_scene *lit_square_and(const char *roots, const char *more)
 
 static facet_scene *lit_square(void)
 {
-    return lit_square_and("", "");
+    return lit_square_and("", "", "");
 }
 
 static const facet_camera at_square = {.eye = {0, 3, 0}, .target = {0, 3, -1}, .fov_y_rad = 0.4f};
@@ -156,8 +156,9 @@ static void what_is_not_drawn_is_refused_by_name(void **state)
         cases[3].sea_shading.stage = 6;
         for (int i = 0; i < 4; i++) {
             facet_image *image = NULL;
-            if (kind == FACET_RENDERER_KIND_PATH && i == 2)
-                continue; /* it draws it */
+            if ((kind == FACET_RENDERER_KIND_PATH && i == 2) ||
+                (kind == FACET_RENDERER_KIND_PREVIEW && i == 1))
+                continue; /* drawn */
             assert_int_equal(facet_render(NULL, &cases[i], &image, &failure), FACET_ERROR_ARGUMENT);
             assert_null(image);
             if (!strstr(failure.message, words[i]))
@@ -343,7 +344,7 @@ static void layers_are_those_of_path_tracing(void **state)
     d.bed = (facet_sea_bed){.depth_m = 4.0f, .slope = 0.2f, .albedo = {0.6f, 0.5f, 0.4f}};
     done(facet_sea_create(&d, &sea, &failure));
     facet_scene *scene = lit_square_and(
-        ",2,3", ",{\"mesh\":0,\"translation\":[-2,-3,0]},{\"mesh\":0,\"translation\":[2,-5.2,0]}");
+        "", ",2,3", ",{\"mesh\":0,\"translation\":[-2,-3,0]},{\"mesh\":0,\"translation\":[2,-5.2,0]}");
     for (size_t v = 0; v < sizeof views / sizeof *views; v++) {
         facet_image *images[3] = {NULL, NULL, NULL};
         int count = has_gl() ? 3 : 2;
@@ -401,6 +402,38 @@ static void punctual_lights_light_the_model(void **state)
     facet_sea_destroy(sea);
 }
 
+/* In front of the water a model shows the colors that OpenGL 1 gives it without a sea, whatever the
+ * exposure; water in front of it attenuates them. */
+static void the_preview_shows_colors_of_opengl1(void **state)
+{
+    (void)state;
+    facet_sea *sea = make_sea(0.0f);
+    facet_scene *scene = lit_square_and(",\"baseColorFactor\":[0.4,0.2,0.1,1]", ",2",
+                                        ",{\"mesh\":0,\"translation\":[0,-5,0]}");
+    done(facet_scene_convert_materials(scene, FACET_MATERIAL_MODEL_OGL1, NULL, NULL, &failure));
+    facet_render_desc desc = desc_of(sea, FACET_RENDERER_KIND_PREVIEW);
+    desc.camera = &at_square;
+    desc.shading = FACET_SHADING_OGL1;
+    desc.ignores_scene_lights = true;
+    const double dark = middle_of(scene, &desc);
+    desc.exposure_ev = -10.0f;
+    const double bright = middle_of(scene, &desc);
+    const facet_camera in_water = {.eye = {0, -2, 0}, .target = {0, -2, -1}, .fov_y_rad = 0.4f};
+    desc.camera = &in_water;
+    desc.exposure_ev = -30.0f; /* what the water scatters is black */
+    const double behind = middle_of(scene, &desc);
+    desc.sea = NULL;
+    desc.exposure_ev = 0.0f;
+    const double in_air = middle_of(scene, &desc);
+    desc.camera = &at_square;
+    const double alone = middle_of(scene, &desc);
+    assert_true(alone > 0.05 && alone < 0.5);
+    assert_true(fabs(dark - alone) < 0.005 && fabs(bright - alone) < 0.02); /* with 8 m of air */
+    assert_true(behind > 0.1 * in_air && behind < 0.5 * in_air);
+    facet_scene_destroy(scene);
+    facet_sea_destroy(sea);
+}
+
 /* A desc that meters exposes as facet_sea_meter() says. */
 static void images_meter_themselves(void **state)
 {
@@ -431,6 +464,7 @@ int main(void)
                                        cmocka_unit_test(layers_of_the_legacy_style_are_water),
                                        cmocka_unit_test(layers_are_those_of_path_tracing),
                                        cmocka_unit_test(punctual_lights_light_the_model),
+                                       cmocka_unit_test(the_preview_shows_colors_of_opengl1),
                                        cmocka_unit_test(images_meter_themselves)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

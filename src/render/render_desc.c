@@ -72,10 +72,10 @@ static facet_result resolve_sea(const renderer_row *r, facet_render_desc *d, fac
     if (d->ground != FACET_GROUND_NONE)
         return fail(error, FACET_ERROR_ARGUMENT,
                     "ground: in a sea the water and its bed (facet_sea_bed) take its place");
-    if (d->shading != FACET_SHADING_GLTF)
-        return fail(
-            error, FACET_ERROR_ARGUMENT,
-            "shading: a sea cannot be combined with OpenGL 1 shading, whose colors are display values");
+    if (d->shading != FACET_SHADING_GLTF && !(r->info.features & FACET_RENDERER_FEATURE_SEA_OGL1))
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "shading: in a sea %s supports FACET_SHADING_GLTF only; the preview has OpenGL 1 as well",
+                    r->title);
     if (d->aovs & ~r->info.sea_aovs)
         return fail(error, FACET_ERROR_ARGUMENT,
                     "layers: %s has none in a sea; the preview and path tracing have", r->title);
@@ -101,13 +101,13 @@ static facet_result resolve_renderer(facet_render_desc *d, facet_error *error)
                     info->max_samples);
     if (d->aovs & ~info->aovs)
         return fail(error, FACET_ERROR_ARGUMENT, "layers: only path tracing has variance and samples");
+    if (d->shading != FACET_SHADING_GLTF && !(info->features & FACET_RENDERER_FEATURE_OGL1))
+        return fail(error, FACET_ERROR_ARGUMENT, "shading: %s supports FACET_SHADING_GLTF only", r->title);
     if (d->sea)
         TRY(resolve_sea(r, d, error));
     if (d->ground != FACET_GROUND_NONE && !(info->features & FACET_RENDERER_FEATURE_GROUND))
         return fail(error, FACET_ERROR_ARGUMENT,
                     "ground: %s has no ground shadow; use path tracing or OpenGL", r->title);
-    if (d->shading != FACET_SHADING_GLTF && !(info->features & FACET_RENDERER_FEATURE_OGL1))
-        return fail(error, FACET_ERROR_ARGUMENT, "shading: %s supports FACET_SHADING_GLTF only", r->title);
     return r->resolve ? r->resolve(d, error) : FACET_OK;
 }
 

@@ -124,7 +124,7 @@ const renderer_row *renderer_get(facet_renderer_kind kind)
         .title = "the preview",
         .info = {.name = "preview",
                  .features = FACET_RENDERER_FEATURE_OGL1 | FACET_RENDERER_FEATURE_SPECULAR_AA |
-                             FACET_RENDERER_FEATURE_SEA_STYLES,
+                             FACET_RENDERER_FEATURE_SEA_STYLES | FACET_RENDERER_FEATURE_SEA_OGL1,
                  .samples = {4, 1, 16},
                  .max_samples = 4096,
                  .aovs = (uint32_t)ALL_AOVS,
@@ -350,7 +350,7 @@ facet_result renderer_set_meter(renderer_set *set, const facet_render_desc *desc
 {
     facet_camera camera;
     facet_render_desc d = *desc;
-    if (desc->shading == FACET_SHADING_OGL1)
+    if (desc->shading == FACET_SHADING_OGL1 && !desc->sea)
         return fail(error, FACET_ERROR_ARGUMENT,
                     "exposure: FACET_SHADING_OGL1 produces display values, which cannot be metered");
     if (!desc->camera) { /* with the exact proportions of the image */

@@ -28,7 +28,10 @@ static void fill_desc(const facet_render_desc *desc, const water_sky *sky, facet
     m->desc.background = (facet_background){0};
     m->desc.background_blur = 0.0f;
     m->desc.ground = FACET_GROUND_NONE;
-    m->desc.shading = (facet_shading){0};
+    if (desc->shading == FACET_SHADING_OGL1) { /* sky and sun do not light display values */
+        m->desc.sun = (facet_sun){0};
+        return;
+    }
     m->desc.sun = (facet_sun){.azimuth_rad = atan(L[0], L[2]),
                               .elevation_rad = asin(clamp(L[1], -1.0f, 1.0f)),
                               .illuminance_lux = {E[0], E[1], E[2]}};
@@ -55,6 +58,16 @@ static facet_result make_shade(const facet_allocator *allocator, bool has_sun, w
     return FACET_OK;
 }
 
+static facet_result make_ogl1(water_model *m, facet_error *error)
+{
+    const prepared_scene *p = &m->prepared;
+    const ogl1_source source = {p->scene, &p->pose, &p->geometries, &p->default_legacy};
+    render_setup *setup = &m->setup;
+    TRY(ogl1_setup_create(&source, &setup->camera, &m->desc, &setup->light, &setup->plans, &m->ogl1, error));
+    setup->shading.ogl1 = &m->ogl1;
+    return FACET_OK;
+}
+
 facet_result water_model_create(const facet_scene *scene, const facet_render_desc *desc, const water_sky *sky,
                                 facet_environment *around, facet_render_stats *stats, water_model *m,
                                 facet_error *error)
@@ -64,18 +77,19 @@ facet_result water_model_create(const facet_scene *scene, const facet_render_des
     m->is_there = true;
     m->setup =
         (render_setup){.prepared = &m->prepared, .desc = &m->desc, .stats = stats, .reads_everywhere = true};
-    facet_result result = render_setup_create(&m->setup, error);
-    if (result == FACET_OK) {
-        vec3 E = sky->sun_irradiance;
-        result = make_shade(&desc->allocator, max(E[0], max(E[1], E[2])) > 0.0f, m, error);
-    }
-    return result;
+    TRY(ogl1_check(scene, &m->desc, error));
+    TRY(render_setup_create(&m->setup, error));
+    if (desc->shading == FACET_SHADING_OGL1)
+        return make_ogl1(m, error);
+    vec3 E = sky->sun_irradiance;
+    return make_shade(&desc->allocator, max(E[0], max(E[1], E[2])) > 0.0f, m, error);
 }
 
 void water_model_destroy(water_model *m)
 {
     if (m->is_there) {
         mem_free(m->shaded_light.punctual);
+        ogl1_setup_destroy(&m->ogl1);
         render_setup_destroy(&m->setup);
         prepared_scene_clear(&m->prepared);
     }
@@ -178,10 +192,20 @@ float water_model_opening(const water_model *m, const double P[3], vec3 d, doubl
     return ray_trace_transmittance(&m->setup.shading, &ray, NULL);
 }
 
+/* The radiance that the exposure turns into OpenGL 1's display value. */
+static vec3 displayed_radiance(const water_model *m, const shading_point *point)
+{
+    shading_result shown;
+    shading_shade(&m->setup.shading, point, &shown);
+    return ogl1_displayed(&m->ogl1, load3(shown.radiance)) * exp2(-m->desc.exposure_ev);
+}
+
 /* Shadow rays start off the surface, on the sun's side. */
 vec3 water_model_radiance(const water_model *m, const model_hit *hit, vec3 sun)
 {
     const shading_point point = {.hit = &hit->hit, .ray = &hit->ray, .shade_count = 1};
+    if (m->setup.shading.ogl1)
+        return displayed_radiance(m, &point);
     shading_result lit, shaded;
     vec3 N = normalize(load3(hit->hit.normal));
     N = dot(N, sun) < 0.0f ? -N : N;

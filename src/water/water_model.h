@@ -1,9 +1,11 @@
 /* water_model.h - a model that stands or floats in the sea: ray queries against it, and its shading by the
- * sky, by light from the sea, and by the sun with its own shadow. */
+ * sky, by light from the sea, and by the sun with its own shadow; or by OpenGL 1 (FACET_SHADING_OGL1), under
+ * the lights of that shading alone. */
 #ifndef WATER_WATER_MODEL_H
 #define WATER_WATER_MODEL_H
 
 #include "cpu/render_setup.h"
+#include "draw/ogl1_setup.h"
 #include "water/water_sky.h"
 
 /* Not to be moved between create and destroy. */
@@ -14,10 +16,11 @@ typedef struct water_model {
     facet_render_desc desc;   /* of setup */
     light_setup shaded_light; /* setup's lights without the sun: punctual lights only */
     shading_scene shaded;
+    ogl1_setup ogl1; /* of setup.shading.ogl1; {0}: shaded as glTF */
 } water_model;
 
 /* around: the environment of the model, sky above and sea below; it outlives the model. Fails as
- * preview_render(). */
+ * preview_render(), and with FACET_ERROR_ARGUMENT as ogl1_check(). */
 facet_result water_model_create(const facet_scene *scene, const facet_render_desc *desc, const water_sky *sky,
                                 facet_environment *around, facet_render_stats *stats, water_model *out,
                                 facet_error *error);
