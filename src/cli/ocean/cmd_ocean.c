@@ -108,7 +108,7 @@ const verb ocean_verb = {
             OPTION_GROUP("Camera", OPT_EYE_HEIGHT, OPT_HEADING, OPT_EYE, OPT_TARGET, OPT_FOV),
             OPTION_GROUP("Shading", OPT_BEFORE, OPT_BEFORE_AFTER, OPT_STAGE, OPT_ROUGHNESS, OPT_NORMALS,
                          OPT_MASKING, OPT_FRESNEL, OPT_NO_GLINTS, OPT_NO_FOAM, OPT_NO_CAUSTICS, OPT_CLAMP,
-                         OPT_SWEEP, OPT_WITH),
+                         OPT_SWEEP, OPT_WITH, OPT_SHADING),
             OPTION_GROUP("Quality", OPT_QUALITY, OPT_SAMPLES, OPT_RENDERER, OPT_DENOISE),
             OPTION_GROUP("Motion", OPT_TIME, OPT_FRAMES, OPT_FPS, OPT_LOOP), &limits_group, &messages_group,
             OPTION_GROUP("Running", OPT_PROGRESS, OPT_CONFIG), NULL},

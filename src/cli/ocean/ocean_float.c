@@ -64,12 +64,17 @@ facet_result ocean_float_load(ocean_run *run, facet_error *error)
     facet_result result = read_berth(run, path, sizeof path, &run->berth, error);
     if (result != FACET_OK)
         return result;
+    bool is_ogl1 = run->options.render.desc.shading == FACET_SHADING_OGL1;
     const facet_scene_desc desc = {.allocator = run->base.allocator,
                                    .log = messages_log(&run->base.messages),
                                    .thread_count = run->options.render.limits.thread_count,
-                                   .max_texture_size = run->options.render.limits.max_texture_size};
+                                   .max_texture_size = run->options.render.limits.max_texture_size,
+                                   .legacy.keeps_materials = is_ogl1};
     interrupt_begin_reading(path);
     result = input_load(path, &desc, &run->model, error);
+    if (result == FACET_OK && is_ogl1)
+        result = facet_scene_convert_materials(run->model, FACET_MATERIAL_MODEL_OGL1, &desc.legacy, &desc.log,
+                                               error);
     interrupt_end();
     if (result != FACET_OK)
         return result;

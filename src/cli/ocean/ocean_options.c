@@ -268,7 +268,11 @@ static facet_result read_look(const command_line *c, ocean_options *out, facet_e
         return fail(error, FACET_ERROR_ARGUMENT,
                     "--before: it is the style before all stages and excludes --stage");
     o->desc.samples = (uint32_t)option_number(c, OPT_SAMPLES, 0.0);
+    o->desc.shading = (facet_shading)option_choice(c, OPT_SHADING, FACET_SHADING_GLTF);
     TRY(image_options_renderer(c, o, error));
+    TRY(image_options_need(c, OPTION_IDS(OPT_SHADING), FACET_RENDERER_FEATURE_SEA_OGL1, o, error));
+    if (is_given(c, OPT_SHADING) && !out->model)
+        return fail(error, FACET_ERROR_ARGUMENT, "--shading: it needs a model, as --with boat.obj");
     o->desc.path.denoises = is_given(c, OPT_DENOISE);
     TRY(image_options_need(c, OPTION_IDS(OPT_DENOISE), FACET_RENDERER_FEATURE_PATH, o, error));
     static const option_id styles[] = {OPT_BEFORE,  OPT_BEFORE_AFTER, OPT_STAGE,       OPT_NORMALS,
