@@ -12,6 +12,8 @@ enum { GL_SEA_PATCHES = 128, GL_SEA_FOOTPRINTS = 64 }; /* corners of patches per
  * and, for an eye in the water, what is above it. */
 enum { GL_SEA_MIRRORED, GL_SEA_WINDOW, GL_SEA_CUTS };
 
+enum { GL_SEA_BALLS = 4 }; /* bounding spheres of parts of a model */
+
 typedef struct gl_sea_block {
     float axes[WAVES_MAX_TILES][4], places[WAVES_MAX_TILES][4], lengths[WAVES_MAX_TILES][4];
     int32_t counts[4];
@@ -26,7 +28,7 @@ typedef struct gl_sea_block {
     int32_t look[4];
     /* of a model: gl_sea_model.c */
     float cut[GL_SEA_CUTS][16], cut_axis[GL_SEA_CUTS][4], cut_plane[GL_SEA_CUTS][4];
-    float model_depth[4], model_ball[4], model_half[4], touch[4], shadow[4];
+    float model_depth[4], model_middle[4], model_half[4], model_balls[GL_SEA_BALLS][4], touch[4], shadow[4];
 } gl_sea_block;
 
 void gl_sea_block_fill(const water_frame *frame, const camera_rays *camera, const gl_sea_fan *fan,

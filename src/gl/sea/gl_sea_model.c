@@ -167,16 +167,102 @@ static void upload_touch(gl_sea_model *m, const water_frame *p, const camera_ray
     }
 }
 
-static void describe_ball(const water_frame *p, const camera_rays *camera, gl_sea_block *b)
+/* ---- parts of a model ---- */
+
+/* Rays are marched through a bounding sphere, in steps that are short enough for a model, and too long for several
+ * models far from each other. */
+typedef struct part_box {
+    float low[3], high[3];
+} part_box;
+
+static float diagonal(const part_box *b)
+{
+    float square = 0.0f;
+    for (int i = 0; i < 3; i++)
+        square += (b->high[i] - b->low[i]) * (b->high[i] - b->low[i]);
+    return sqrtf(square);
+}
+
+static float gap(const part_box *a, const part_box *b)
 {
     float square = 0.0f;
     for (int i = 0; i < 3; i++) {
-        float half = 0.5f * (p->model_high[i] - p->model_low[i]);
-        b->model_ball[i] = p->model_low[i] + half - camera->origin[i];
-        b->model_half[i] = half;
+        float apart = fmaxf(fmaxf(a->low[i] - b->high[i], b->low[i] - a->high[i]), 0.0f);
+        square += apart * apart;
+    }
+    return sqrtf(square);
+}
+
+static void join(part_box *to, const part_box *from)
+{
+    for (int i = 0; i < 3; i++) {
+        to->low[i] = fminf(to->low[i], from->low[i]);
+        to->high[i] = fmaxf(to->high[i], from->high[i]);
+    }
+}
+
+/* Index of the nearest box; *apart: the gap over the larger diagonal. */
+static uint32_t nearest_part(const part_box *parts, uint32_t count, const part_box *box, float *apart)
+{
+    uint32_t nearest = 0;
+    *apart = INFINITY;
+    for (uint32_t i = 0; i < count; i++) {
+        float share = gap(&parts[i], box) / fmaxf(fmaxf(diagonal(&parts[i]), diagonal(box)), 1e-6f);
+        if (share < *apart) {
+            *apart = share;
+            nearest = i;
+        }
+    }
+    return nearest;
+}
+
+/* Instances are one part where the gap between them is smaller than the larger one; with more parts than there
+ * are spheres the nearest ones are joined. */
+static uint32_t find_parts(const scene_pose *pose, part_box parts[GL_SEA_BALLS])
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < pose->instance_count; i++) {
+        part_box box;
+        gl_mesh_instance_box(&pose->instances[i], box.low, box.high);
+        float apart;
+        uint32_t nearest = nearest_part(parts, count, &box, &apart);
+        while (count > 0 && (apart < 1.0f || count == GL_SEA_BALLS)) {
+            join(&box, &parts[nearest]);
+            parts[nearest] = parts[--count];
+            nearest = nearest_part(parts, count, &box, &apart);
+        }
+        parts[count++] = box;
+    }
+    return count;
+}
+
+static void describe_ball(const part_box *box, const camera_rays *camera, float ball[4])
+{
+    float square = 0.0f;
+    for (int i = 0; i < 3; i++) {
+        float half = 0.5f * (box->high[i] - box->low[i]);
+        ball[i] = box->low[i] + half - camera->origin[i];
         square += half * half;
     }
-    b->model_ball[3] = sqrtf(square);
+    ball[3] = sqrtf(square);
+}
+
+static void describe_bounds(const scene_pose *pose, const water_frame *p, const camera_rays *camera,
+                            gl_sea_block *b)
+{
+    part_box parts[GL_SEA_BALLS], whole;
+    memcpy(whole.low, p->model_low, sizeof whole.low);
+    memcpy(whole.high, p->model_high, sizeof whole.high);
+    uint32_t count = find_parts(pose, parts);
+    if (count < 2)
+        parts[0] = whole;
+    count = count < 2 ? 1 : count;
+    for (uint32_t i = 0; i < count; i++)
+        describe_ball(&parts[i], camera, b->model_balls[i]);
+    describe_ball(&whole, camera, b->model_middle);
+    b->model_middle[3] = (float)count;
+    for (int i = 0; i < 3; i++)
+        b->model_half[i] = 0.5f * (p->model_high[i] - p->model_low[i]);
 }
 
 /* ---- entry points ---- */
@@ -200,13 +286,14 @@ facet_result gl_sea_model_begin(gl_sea_model *m, gl_context *context, const wate
 {
     const facet_render_desc *r = p->desc;
     *m = (gl_sea_model){.context = context, .allocator = r->allocator, .desc = desc_of(p)};
-    describe_ball(p, camera, b);
     gl_scene_init(&m->prepared, p->model, &m->allocator);
     facet_result result = gl_frame_create(&m->frame, context, p->model, &m->allocator, error);
     if (result == FACET_OK)
         result = gl_scene_update(&m->prepared, &m->desc, error);
     if (result == FACET_OK)
         result = gl_frame_update(&m->frame, &m->prepared, camera, &m->desc, stats, error);
+    if (result == FACET_OK)
+        describe_bounds(&m->prepared.pose, p, camera, b);
     if (result == FACET_OK)
         result = draw_cuts(m, p, b, error);
     if (result == FACET_OK)

@@ -294,6 +294,28 @@ static void compare_model(gl_sea *renderer, float wind_mps, float eye_m, float d
     fixture_destroy(&f);
 }
 
+/* Reflections and refractions of a model do not depend on another one 80 m away: in one bounding sphere they
+ * were 1.4 apart. */
+static void models_far_from_each_other(void **state)
+{
+    (void)state;
+    if (IS_SLOW)
+        skip();
+    gl_sea *renderer = renderer_of(GL_API_CORE);
+    facet_sea_desc desc = small(2.0f);
+    facet_sea *sea = make_sea(&desc);
+    fixture f = spheres();
+    fixture_place(&f, 0, 60.0f, 0.0f, -50.0f, 1.0f);
+    shot s;
+    make_shot(&s, WIDTH, HEIGHT, 3.0f, 0.35f);
+    s.scene = f.scene;
+    s.desc.sea_shading.omits_glints = true;
+    expose(&s);
+    assert_true(compare(renderer, sea, &s, "spheres far from each other") < 0.9);
+    sea_destroy(sea);
+    fixture_destroy(&f);
+}
+
 /* An eye in the water sees a floating sphere through the window from where waves begin, in troughs as well. */
 static void a_hull_in_waves(void **state)
 {
@@ -404,6 +426,7 @@ int main(void)
                                        cmocka_unit_test(other_facets),
                                        cmocka_unit_test(environments),
                                        cmocka_unit_test(models),
+                                       cmocka_unit_test(models_far_from_each_other),
                                        cmocka_unit_test(a_hull_in_waves),
                                        cmocka_unit_test(a_model_from_below_in_opengl_es),
                                        cmocka_unit_test(frames_are_stills),

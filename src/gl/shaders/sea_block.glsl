@@ -12,6 +12,7 @@
 #define SEA_CAUSTIC_LAYERS 3
 #define SEA_FOAM_READINGS 4
 #define SEA_CUTS 2 /* gl_sea_block.h */
+#define SEA_BALLS 4
 
 layout(std140) uniform Sea
 {
@@ -63,8 +64,9 @@ layout(std140) uniform Sea
     /* nearness per height at its depth, < 0: below the water; plane, and height of the eye over it, m */
     vec4 sea_cut_plane[SEA_CUTS];
     vec4 sea_model_depth;  /* a, b of depth in clip space, a + b / depth; w: as in sea_cut_axis */
-    vec4 sea_model_ball;   /* bounding sphere: center, radius */
+    vec4 sea_model_middle; /* of its bounds; w: number of balls */
     vec4 sea_model_half;   /* half of its size, m */
+    vec4 sea_model_balls[SEA_BALLS]; /* bounding spheres of its parts: center, radius */
     vec4 sea_touch;        /* of the rectangle: x, z from the eye, 1 / lengths, 1/m */
     vec4 sea_shadow;       /* the same for the shadow on the bed; 0: there is none */
 };

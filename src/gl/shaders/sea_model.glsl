@@ -44,13 +44,12 @@ bool sea_is_within(ivec2 pixel, ivec2 size)
     return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, size));
 }
 
-/* Where a ray passes the bounding sphere of the model: first distance, and length of one of count steps; 0: it
- * misses. */
-vec2 sea_ball_steps(vec3 P, vec3 R, int count)
+/* Where a ray passes a bounding sphere: first distance, and length of one of count steps; 0: it misses. */
+vec2 sea_ball_steps(vec4 ball, vec3 P, vec3 R, int count)
 {
-    vec3 to = sea_model_ball.xyz - P;
+    vec3 to = ball.xyz - P;
     float middle = dot(to, R);
-    float reach2 = sea_model_ball.w * sea_model_ball.w + middle * middle - dot(to, to);
+    float reach2 = ball.w * ball.w + middle * middle - dot(to, to);
     float first = max(middle - sqrt(max(reach2, 0.0)), 0.0);
     return vec2(first, reach2 > 0.0 ? max(middle + sqrt(max(reach2, 0.0)) - first, 0.0) / float(count) : 0.0);
 }
@@ -66,10 +65,10 @@ SeaModel sea_model_towards(vec3 Q, float y)
     return m;
 }
 
-/* Along the unit direction `down` from P in the surface, relative to the eye; color.w 0: nothing. */
-SeaModel sea_model_below(vec3 P, vec3 down)
+/* A part, along the unit direction `down` from P in the surface, relative to the eye; color.w 0: nothing. */
+SeaModel sea_part_below(vec4 ball, vec3 P, vec3 down)
 {
-    vec2 steps = sea_ball_steps(P, down, SEA_MODEL_STEPS);
+    vec2 steps = sea_ball_steps(ball, P, down, SEA_MODEL_STEPS);
     float way = -1.0;
     for (int i = 0; i <= SEA_MODEL_STEPS; i++) {
         vec3 Q = P + down * (steps.x + steps.y * float(i));
@@ -86,6 +85,18 @@ SeaModel sea_model_below(vec3 P, vec3 down)
             found = m;
             way = length(m.at - P);
         }
+    }
+    return found;
+}
+
+/* The nearest part. */
+SeaModel sea_model_below(vec3 P, vec3 down)
+{
+    SeaModel found = sea_part_below(sea_model_balls[0], P, down);
+    for (int i = 1; i < int(sea_model_middle.w); i++) {
+        SeaModel m = sea_part_below(sea_model_balls[i], P, down);
+        if (m.color.w > 0.0 && (found.color.w <= 0.0 || length(m.at - P) < length(found.at - P)))
+            found = m;
     }
     return found;
 }
@@ -126,12 +137,12 @@ vec4 sea_cut_at(int cut, vec3 Q, out float far)
     return closing > 0.0 ? color : vec4(0.0);
 }
 
-/* Premultiplied, along the unit direction R from P: steps through the bounding sphere of the model until the ray
+/* Premultiplied, of a part along the unit direction R from P: steps through its bounding sphere until the ray
  * is behind the image's depth, then to the exact distance, which is *way (m). Inside the sphere the first steps
  * are short, as floating models begin close to P. */
-vec4 sea_model_in_cut(int cut, vec3 P, vec3 R, int count, out float way)
+vec4 sea_part_in_cut(vec4 sphere, int cut, vec3 P, vec3 R, int count, out float way)
 {
-    vec2 ball = sea_ball_steps(P, R, 1);
+    vec2 ball = sea_ball_steps(sphere, P, R, 1);
     P.y += sea_cut_plane[cut].z;
     float far;
     float before = ball.x;
@@ -158,6 +169,21 @@ vec4 sea_model_in_cut(int cut, vec3 P, vec3 R, int count, out float way)
         if (here.w > 0.0) {
             color = here;
             way = clamp(length(Q * (far / length(Q)) - P), first, last);
+        }
+    }
+    return color;
+}
+
+/* Of the nearest part. */
+vec4 sea_model_in_cut(int cut, vec3 P, vec3 R, int count, out float way)
+{
+    vec4 color = sea_part_in_cut(sea_model_balls[0], cut, P, R, count, way);
+    for (int i = 1; i < int(sea_model_middle.w); i++) {
+        float next;
+        vec4 c = sea_part_in_cut(sea_model_balls[i], cut, P, R, count, next);
+        if (c.w > 0.0 && (color.w <= 0.0 || next < way)) {
+            color = c;
+            way = next;
         }
     }
     return color;
@@ -205,12 +231,12 @@ float host_sun_visibility(SeaHost host, SeaPlace p)
 
 vec3 host_model_low(SeaHost host, SeaPlace p)
 {
-    return sea_model_ball.xyz - p.d * p.t - sea_model_half.xyz;
+    return sea_model_middle.xyz - p.d * p.t - sea_model_half.xyz;
 }
 
 vec3 host_model_high(SeaHost host, SeaPlace p)
 {
-    return sea_model_ball.xyz - p.d * p.t + sea_model_half.xyz;
+    return sea_model_middle.xyz - p.d * p.t + sea_model_half.xyz;
 }
 
 bool host_has_model(SeaHost host)
