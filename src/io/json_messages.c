@@ -1,4 +1,5 @@
-/* json_messages.c - errors, warnings and notes of the JSON readers, each with its place; see json_reader.h. */
+/* json_messages.c - errors, warnings and notes of the JSON readers, each with its place; see
+ * json_reader.h. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>

@@ -165,7 +165,8 @@ static void drop_plan_carry_out(conversion *c)
     scene->image_count = image_count;
 }
 
-/* ---- extras.facet_legacy of each glTF material and of the scene: nothing is lost, and the reverse is exact ---- */
+/* ---- extras.facet_legacy of each glTF material and of the scene: nothing is lost, and the reverse is
+ * exact ---- */
 
 /* Extras with that member, in the arena; NULL: out of memory. */
 static const char *merged(const facet_scene *scene, const char *extras, const text *member)

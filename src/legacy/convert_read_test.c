@@ -407,7 +407,7 @@ static void dialects_put_roughness_elsewhere(void **state)
     assert_false(has_warning(scene, 0, "ambient-dropped"));
     scene_destroy(scene);
     m.shininess = 250; /* the same of Blender 3 */
-    m.illum = 2;       /* no mirror: Ka says nothing */
+    m.illum = 2;       /* no mirror: Ka has no meaning */
     set_color(m.specular, .25f, .25f, .25f);
     m.fields |= LEGACY_CLEARCOAT;
     m.clearcoat = 1;

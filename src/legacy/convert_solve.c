@@ -114,7 +114,8 @@ static void solve_range(void *context, size_t begin, size_t end)
     }
 }
 
-/* Moves the first of equal requests to the front, in order, and notes which item each result is copied from. */
+/* Moves the first of equal requests to the front, in order, and notes which item each result is copied
+ * from. */
 static size_t merge_equal(solve_request *all, size_t count, uint32_t *solved_by)
 {
     qsort(all, count, sizeof *all, by_input);

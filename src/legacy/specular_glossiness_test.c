@@ -144,7 +144,7 @@ static void the_core_bakes_textures(void **state)
     scene_destroy(scene);
 }
 
-/* ---- the way back ---- */
+/* ---- back to specular-glossiness ---- */
 
 static void metals_and_dielectrics_are_exact(void **state)
 {

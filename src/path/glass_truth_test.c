@@ -11,7 +11,7 @@
 
 #include "path/path_fixture.h"
 
-/* What a stack of boundaries reflects and transmits of light that comes from above, and from below. */
+/* Reflectance and transmittance of a stack of boundaries, for light from above and from below. */
 typedef struct stack {
     double R, T, R_below, T_below;
 } stack;
@@ -205,8 +205,8 @@ static void volumes_of_equal_index_are_one(void **state)
     }
 }
 
-/* Where two volumes of different index overlap, light has to find the same order of volumes from both
- * sides: what goes down through them is what goes up (Stokes), and nothing is lost. */
+/* Where two volumes of different index overlap, the order of volumes must be the same from both sides.
+ * Then transmittance is equal in both directions (Stokes), and no energy is lost. */
 static void overlap_is_the_same_from_both_sides(void **state)
 {
     (void)state;
@@ -332,7 +332,7 @@ static void a_mirror_reflects_the_sky(void **state)
     }
 }
 
-/* The emitter's radiance, whichever way light is sampled. */
+/* The emitter's radiance, for every sampling strategy. */
 static void a_mirror_reflects_an_area_light(void **state)
 {
     (void)state;

@@ -77,7 +77,7 @@ static vec3 random_direction(void)
     return vec3((float)(r * cos(phi)), (float)(r * sin(phi)), (float)z);
 }
 
-/* {0}, then three that look around. */
+/* {0}, then three directions. */
 static vec3 normal_number(int i)
 {
     vec3 normals[4] = {vec3(0.0f), vec3(0.0f, 1.0f, 0.0f), normalize(vec3(0.9f, -0.1f, 0.3f)),

@@ -95,7 +95,7 @@ static light_tree *make_tree(const light_bounds *lights, uint32_t count)
     return tree;
 }
 
-/* Irradiance that a light gives as if all of it were at its center. */
+/* Irradiance of a light as if all of it were at its center. */
 static float irradiance_of(const light_bounds *l, vec3 P, vec3 N)
 {
     vec3 to = l->center - P;

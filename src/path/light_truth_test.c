@@ -220,7 +220,7 @@ static void check_light(fixture *f, double illuminance, const char *what)
                                   : c == 1 ? 0.5
                                            : 0.25),
                              "%s", what);
-    /* One light and one surface: nothing is left to chance but the place in the pixel. */
+    /* One light and one surface: only the position in the pixel is random. */
     assert_true(v.error[0] <= 5e-5 * v.mean[0]);
     fixture_destroy(f);
 }
@@ -358,7 +358,7 @@ static void the_penumbra_of_an_edge(void **state)
     }
 }
 
-/* ---- light that goes round ---- */
+/* ---- interreflection ---- */
 
 /* Walls that emit L and reflect rho have the radiance L (1 + rho + rho^2 ..) = L / (1 - rho); a path of D
  * events finds the first D + 1 terms. */

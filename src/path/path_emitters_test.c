@@ -15,7 +15,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* From everywhere around: a light sample agrees with a ray that hits its point, in place, radiance and
+/* From points all around, a light sample agrees with a ray that hits its point, in place, radiance and
  * pdf. Returns the visible share of the samples. */
 static double assert_light_samples_agree(const stage *s, float extent)
 {
@@ -49,7 +49,7 @@ static double assert_light_samples_agree(const stage *s, float extent)
     return (double)hit / sampled;
 }
 
-/* Irradiance at P by directions that know nothing of lights. */
+/* Irradiance at P by directions that do not depend on the lights. */
 static estimate irradiance_by_chance(const stage *s, vec3 P, vec3 N, int count)
 {
     double sum = 0.0;
@@ -189,7 +189,7 @@ static void unlit_surfaces_are_not_light_sampled(void **state)
     stage_destroy(&s);
 }
 
-/* A material that does not emit beside one that does: the numbers of triangles are not confused. */
+/* A material that does not emit beside one that does: indices of triangles are not confused. */
 static void only_emitters_are_light_sampled(void **state)
 {
     (void)state;

@@ -230,7 +230,7 @@ static void negative_filter_weights_are_kept(void **state)
     path_film_destroy(f);
 }
 
-/* What is constant stays so, whatever weights the filter gave. */
+/* A constant stays constant, whatever the filter weights are. */
 static void weights_divided_out(void **state)
 {
     (void)state;
@@ -284,7 +284,7 @@ static void shadows_are_denoised_up_to_their_edge(void **state)
     path_film_destroy(f);
 }
 
-/* What has no noise keeps its shape. */
+/* Shadows without noise keep their shape. */
 static void noise_free_shadows_are_unchanged(void **state)
 {
     (void)state;
@@ -482,8 +482,8 @@ static void adaptive_sampling_reaches_the_noise(void **state)
                       "mean off by %.1f errors\n",
                       (double)noise[k], (double)total[k] / (WIDTH * HEIGHT), 100.0 * share, worst, bias);
         assert_true(path_film_share_done(f) == 1.0f && passes < LARGEST / 16);
-        /* A block ends about where it is as noisy as asked for; over its 64 pixels that scatters by a
-         * tenth. */
+        /* A block ends when its noise is about as requested; over its 64 pixels the estimate scatters by
+         * a tenth. */
         assert_true(share > 0.75 && worst < 1.5);
         /* dark samples end a block early: the bias that stopping rules have is small */
         assert_true(fabs(bias) < 4.0);
@@ -538,7 +538,7 @@ static void regions(void **state)
     fill(f, 1, 0.5f, 0.5f);
     path_film_update(f, 0.01f, 1);
     assert_true(path_film_share_done(f) == 1.0f && !path_film_needs_more(f, 0));
-    path_film_update(f, 0.0f, 1); /* nothing asked for: all get as many */
+    path_film_update(f, 0.0f, 1); /* no noise limit: all get as many */
     assert_true(path_film_share_done(f) == 0.0f && path_film_needs_more(f, 0));
     /* one wild pixel in the middle of the left edge's block: it and its five neighbors go on, the others
      * do not */
@@ -554,7 +554,7 @@ static void regions(void **state)
     path_film_destroy(f);
 }
 
-/* Nothing but a noisy shadow on the ground: it is noise as well. */
+/* A noisy shadow on the ground counts as noise, too. */
 static void noise_of_shadows_counts(void **state)
 {
     (void)state;

@@ -59,7 +59,7 @@ typedef struct truth_value {
     uint32_t count;
 } truth_value;
 
-/* One image whose pixels all stand for the same number: each is a value. */
+/* One image whose pixels all estimate the same number. */
 truth_value truth_measure_pixels(fixture *f);
 /* Pictures of seeds 1 to `count`; the mean of each over all its pixels is a value. */
 truth_value truth_measure(fixture *f, uint32_t count);
@@ -90,8 +90,8 @@ void truth_assert_same(const truth_value *a, const truth_value *b, double sigmas
  * layers_furnace_test.c has the same number. */
 #define TRUTH_TABLES 2e-3
 
-/* What a double-sided floor of the material sends towards `polar` degrees in light of 1 from everywhere,
- * above and below: 4096 samples a pixel. */
+/* Radiance of a double-sided floor of the material towards `polar` degrees, in an environment of radiance
+ * 1 above and below: 4096 samples a pixel. */
 truth_value truth_furnace(scene_material material, double polar, facet_energy energy);
 /* The same of a closed volume, a slab of 1 m, conserving. */
 truth_value truth_furnace_volume(scene_material material, double polar);

@@ -31,7 +31,7 @@ static void quad_lights_have_the_exact_irradiance(void **state)
         vec3 up = vec3(0.0f, 0.0f, 1.0f);
         assert_estimate(irradiance_at(&s, vec3(0.0f), up, 200000 / EFFORT), 5.0 * expected[i]);
         assert_estimate(irradiance_by_both(&s, vec3(0.0f), up, 100000 / EFFORT), 5.0 * expected[i]);
-        /* Behind it there is nothing to sample. */
+        /* Behind the light there is nothing to sample. */
         path_light_sample l;
         for (int k = 0; k < 100; k++) {
             float u = random_number();

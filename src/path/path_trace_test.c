@@ -165,7 +165,7 @@ static scene_material glass(float ior, float attenuation)
     return m;
 }
 
-/* Of 3 lx, from +Z. */
+/* Directional, 3 lx, from +Z. */
 static void add_light(stage *s)
 {
     fixture_add_light(
@@ -216,7 +216,7 @@ static void all_layers_count(void **state)
     stage_end(&s);
 }
 
-/* The nearer of two half-opaque walls is measured twice as often. */
+/* The nearer of two half-opaque walls is hit twice as often. */
 static void blended_layers_count_by_their_visibility(void **state)
 {
     (void)state;
@@ -470,7 +470,7 @@ static const struct {
 } SCALES[] = {{1.0f, 0.0f}, {1e-4f, 0.0f}, {1e5f, 0.0f}, {1.0f, 1e4f}, {1e-2f, 100.0f}};
 enum { SCALE_COUNT = sizeof SCALES / sizeof *SCALES };
 
-/* A closed ball keeps all light out. */
+/* A closed sphere blocks all light. */
 static void closed_surfaces_block_all_light(void **state)
 {
     (void)state;
@@ -494,7 +494,7 @@ static void closed_surfaces_block_all_light(void **state)
     }
 }
 
-/* A clear ball in a white room is not measured. */
+/* A clear sphere in a white room is invisible. */
 static void clear_volumes_lose_no_light(void **state)
 {
     (void)state;
@@ -535,7 +535,8 @@ static mean measure_ground(stage *s)
     return m;
 }
 
-/* What lies flat on the ground takes nothing: the same to the bit. What hangs above it does. */
+/* A surface flat on the ground occludes nothing: the result is the same to the bit. One above the ground
+ * does. */
 static void ground_is_darkened_by_occluders_only(void **state)
 {
     (void)state;
@@ -558,7 +559,7 @@ static void ground_is_darkened_by_occluders_only(void **state)
     s.f.camera.eye[2] = 10.0f;
     s.f.camera.ortho_height = 0.01f;
     m = measure_ground(&s);
-    /* Of the light on the ground a sphere of radius 1 at height 2 takes 1 / 4. */
+    /* A sphere of radius 1 at height 2 occludes 1 / 4 of the light on the ground. */
     assert_near(m.lit / m.open, 0.75, 0.03);
 }
 

@@ -45,7 +45,7 @@ static scene_material material_number(int i)
 }
 enum { MATERIALS = 6 };
 
-/* One at a time: of several, path tracing takes one by chance. */
+/* One light at a time, since path tracing samples one of several. */
 static void place_light(fixture *f, int number)
 {
     scene_light light = {.name = "", .color = {1.0f, 0.9f, 0.8f}, .intensity = 0.8f};

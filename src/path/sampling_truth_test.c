@@ -295,7 +295,7 @@ static double filter_weight(facet_filter filter, double x)
     return a < 2.0 ? (-7.0 / 3.0 * a * a * a + 12.0 * a * a - 20.0 * a + 32.0 / 3.0) / 6.0 : 0.0;
 }
 
-/* What a thin line leaves in the pixels around it is the filter's integral over the line. */
+/* The value of a thin line in the pixels around it is the filter's integral over the line. */
 static void filters_blur_a_line_as_they_say(void **state)
 {
     (void)state;

@@ -21,7 +21,7 @@ static void check_strategies(fixture *f, const char *what)
     for (int i = 0; i < 3; i++) {
         f->desc.path.light_sampling = (facet_light_sampling)i;
         v[i] = truth_measure(f, RENDERS);
-        /* Of no use as a test where the mean is not known to a percent. */
+        /* The test is meaningless where the mean is not known to a percent. */
         for (int c = 0; c < 3; c++)
             if (v[i].mean[c] <= 0.0 || v[i].error[c] > 0.015 * v[i].mean[c])
                 fail_msg("%s, %s: channel %d is %.5g with a standard error of %.2g", what, names[i], c,

@@ -207,7 +207,7 @@ static void multiple_scattering_is_that_of_random_walks(void **state)
     }
 }
 
-/* What scatters without absorbing loses nothing, though each channel has another coefficient. */
+/* A medium that scatters without absorption conserves energy, with a different coefficient per channel. */
 static void a_white_medium_in_a_furnace(void **state)
 {
     (void)state;

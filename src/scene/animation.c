@@ -97,7 +97,8 @@ static void store_value(const scene_channel *channel, const scene_sampler *sampl
 
 /* ---- nodes ---- */
 
-/* The specification forbids animating a node with a matrix; such a node moves from its matrix' decomposition. */
+/* The specification forbids animating a node with a matrix; such a node moves from its matrix'
+ * decomposition. */
 static void leave_matrix(scene_node *node)
 {
     if (node->has_matrix) {

@@ -4,7 +4,8 @@
 
 #include "scene/box.h"
 
-/* A box in world space around `local` of the instance, in double, with a margin for the rounding of vertices. */
+/* A box in world space around `local` of the instance, in double, with a margin for the rounding of
+ * vertices. */
 typedef struct wide_box {
     double minimum[3], maximum[3];
 } wide_box;

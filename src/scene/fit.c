@@ -372,7 +372,8 @@ static facet_result stand(const view *v, const subject *s, const facet_orbit *or
     return FACET_OK;
 }
 
-/* A perspective camera at a given distance needs no measurement. Parallel rays begin in front of everything. */
+/* A perspective camera at a given distance needs no measurement. Parallel rays begin in front of
+ * everything. */
 static bool is_measured(const facet_orbit *orbit)
 {
     return orbit->is_orthographic || !(orbit->radius > 0.0f);

@@ -392,7 +392,7 @@ static void times_are_the_keys_and_24_per_second(void **state)
             double gap = list.times[k] - list.times[k - 1];
             assert_true(gap > 0.0 && gap <= fmax(1.0 / 24.0 + 1e-3, span / 255.0 * 1.001));
         }
-        /* Every key, where there is room for all. */
+        /* Every key is in the list if there is room for all. */
         for (uint32_t k = 0; k < cases[i].keys && list.count < SCENE_FIT_TIMES; k++) {
             bool is_there = false;
             for (uint32_t n = 0; n < list.count; n++)

@@ -201,8 +201,8 @@ static void a_stray_may_be_of_the_same_mesh(void **state)
     scene_destroy(scene);
 }
 
-/* Subjects that are meant to be shown whole: an object with its context, equal objects far apart, a thin
- * wall with something before it, a row of objects. */
+/* Subjects to be shown whole: an object with its context, equal objects far apart, a thin wall with
+ * something in front of it, a row of objects. */
 static void ordinary_scenes_have_no_strays(void **state)
 {
     (void)state;

@@ -82,7 +82,7 @@ static void manifests_have_every_name_once(void **state)
     scene_destroy(scene);
 }
 
-/* Of instances that a few bytes of a file stand for, and that no image shows. */
+/* A few bytes of a file may stand for any number of instances, which no image shows. */
 static void manifests_are_limited(void **state)
 {
     (void)state;

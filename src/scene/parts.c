@@ -22,7 +22,8 @@ static uint32_t default_index(const facet_scene *s)
     return s->default_scene == SCENE_NONE ? 0 : s->default_scene;
 }
 
-/* The roots of the default scene; a file without scenes shows all nodes without a parent. False: no memory. */
+/* The roots of the default scene; a file without scenes shows all nodes without a parent. False: no
+ * memory. */
 static bool find_roots(facet_scene *s, scene_root *out)
 {
     if (s->scene_count) {

@@ -1,4 +1,5 @@
-/* pose_test.c - instances, mirrored ones, copies, hidden nodes, variants, and bounds from every used vertex. */
+/* pose_test.c - instances, mirrored ones, copies, hidden nodes, variants, and bounds from every used
+ * vertex. */
 #include "scene/motion_test_support.h"
 
 #include <float.h>

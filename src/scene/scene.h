@@ -54,7 +54,8 @@ typedef struct scene_primitive {
     /* SCENE_WATER_VALUES per vertex, of the surface of a sea; NULL: none. No file has it */
     const float *water;
     uint32_t material; /* SCENE_NONE: the default material */
-    /* of positions in use, without triangles that have no area (unseen_tighten_bounds()); 0 if there are none */
+    /* of positions in use, without triangles that have no area (unseen_tighten_bounds()); 0 if there are
+     * none */
     float bounds_min[3], bounds_max[3];
     bool has_flat_triangles;  /* some without area lie outside of the bounds */
     bool is_flat;             /* none of its triangles has an area */

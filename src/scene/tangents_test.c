@@ -118,7 +118,7 @@ static void mirrored_halves_keep_their_own_tangents(void **state)
     grid *g = make_grid(mirrored_plane);
     generate(g);
     for (size_t i = 0; i < INDICES; i++) {
-        /* Of the triangle, not of the vertex: those on the seam are split by orientation. */
+        /* By triangle, not by vertex: vertices on the seam are split by orientation. */
         size_t triangle = i / 3;
         bool is_mirrored = triangle / 2 % SIZE >= SIZE / 2;
         assert_near(g->tangents[4 * i], is_mirrored ? -1 : 1, 1e-6);
@@ -198,7 +198,7 @@ static void degenerate_input_gives_unit_tangents(void **state)
 {
     (void)state;
     grid *g = make_grid(plane);
-    /* No area in the texture on the left, none in space at the bottom, some NaN-free nonsense at the right. */
+    /* No area in the texture on the left, none in space at the bottom, finite nonsense at the right. */
     for (uint32_t i = 0; i < VERTICES; i++) {
         if (g->positions[3 * i] < 1.0f)
             memset(g->uvs + 2 * i, 0, 2 * sizeof *g->uvs);

@@ -1,4 +1,5 @@
-/* fuzz_ogl1_json.c - the reader of rgl's parameters on arbitrary bytes; the result is written and read again. */
+/* fuzz_ogl1_json.c - the reader of rgl's parameters on arbitrary bytes; the result is written and read
+ * again. */
 #include "fuzz_support.h"
 
 #include <math.h>

@@ -181,13 +181,13 @@ static void counts_without_data_are_limited(void **state)
     static const char sparse[] = ",'sparse':{'count':1,'indices':{'bufferView':1,'componentType':5121},"
                                  "'values':{'bufferView':0}}";
     char body[1024];
-    /* Any number of vertices at 0 draws nothing and takes no memory. */
+    /* Vertices without data are all at 0: nothing is drawn, and no memory is taken. */
     snprintf(body, sizeof body, format, 30000000u, "");
     facet_scene *scene = load(body, &bin);
     assert_int_equal(first_primitive(scene)->index_count, 0);
     assert_true(has_warning(scene, "POSITION: is without data"));
     scene_destroy(scene);
-    /* With one sparse value the others count, up to a limit. */
+    /* With one sparse value the other elements exist as well, up to a limit. */
     snprintf(body, sizeof body, format, 65536u, sparse);
     scene = load(body, &bin);
     assert_int_equal(first_primitive(scene)->vertex_count, 65536);

@@ -251,7 +251,8 @@ static void check_units(void *context, size_t begin, size_t end, size_t width)
     c->warnings[begin / GRAIN] = warnings;
 }
 
-/* Normalizes v, in double so that no length overflows or underflows. False: v has no direction and becomes 0. */
+/* Normalizes v, in double so that no length overflows or underflows. False: v has no direction and
+ * becomes 0. */
 static bool normalise(float v[3])
 {
     double length =

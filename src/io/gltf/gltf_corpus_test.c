@@ -295,7 +295,7 @@ static void broken_models_never_crash(void **state)
                 use(scene);
             else
                 assert_null(scene);
-            /* Of these two have indices beyond the vertices; all others must be refused. */
+            /* Two of these have indices beyond the vertices; all others must be refused. */
             if (folder == 1 && result == FACET_OK)
                 assert_true(strstr(files->paths[i], "IndicesOutOfRange") ||
                             strstr(files->paths[i], "IndexOutOfRange"));

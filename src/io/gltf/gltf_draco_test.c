@@ -234,7 +234,7 @@ static void accessors_may_be_shared(void **state)
     scene_destroy(scene);
 }
 
-/* ---- bitstreams that lie ---- */
+/* ---- bitstreams with false claims ---- */
 
 static void try_bitstream(const uint8_t *bytes, size_t size, bool must_fail)
 {
@@ -293,7 +293,7 @@ static void large_counts_take_no_memory(void **state)
                    "elements of vertices and indices");
 }
 
-/* What the library takes counts against the limit of the caller, and is given back. */
+/* The library's memory counts against the caller's limit and is freed. */
 static void memory_is_accounted(void **state)
 {
     (void)state;

@@ -97,7 +97,8 @@ static void check_volume_scatter(io_reader *r, const json_place *at, scene_mater
     m->scatter_anisotropy = copysignf(most, m->scatter_anisotropy);
 }
 
-/* The extension replaces metallic-roughness, which such files have as a fallback and which is discarded here. */
+/* The extension replaces metallic-roughness, which such files have as a fallback and which is discarded
+ * here. */
 static void take_specular_glossiness(io_reader *r, const json_place *at, scene_material *m)
 {
     static const scene_texture_slot core[] = {SCENE_BASE_COLOR_TEXTURE, SCENE_METALLIC_ROUGHNESS_TEXTURE};

@@ -165,7 +165,7 @@ static void extensions_are_read(void **state)
     scene_destroy(scene);
 }
 
-/* What an empty extension object means: the bit, and the defaults of the specification. */
+/* An empty extension object sets the extension's bit and the defaults of the specification. */
 static void empty_extensions_have_their_defaults(void **state)
 {
     (void)state;
@@ -187,7 +187,7 @@ static void empty_extensions_have_their_defaults(void **state)
     scene_destroy(scene);
 }
 
-/* It replaces metallic-roughness completely. */
+/* The extension replaces metallic-roughness completely. */
 static void specular_glossiness_takes_the_place_of_the_fallback(void **state)
 {
     (void)state;

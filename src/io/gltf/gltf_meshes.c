@@ -212,7 +212,8 @@ static bool read_joints(io_reader *r, const json_place *attributes, scene_primit
     return io_is_ok(r);
 }
 
-/* Whether all data that the primitive reads has a source. Errors of an accessor are reported when it is read. */
+/* Whether all data that the primitive reads has a source. Errors of an accessor are reported when it is
+ * read. */
 static bool has_sources(io_reader *r, const json_place *at, const json_place *attributes)
 {
     const char *name;

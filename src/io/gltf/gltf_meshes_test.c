@@ -1,4 +1,5 @@
-/* gltf_meshes_test.c - primitives: modes, indices, attributes that are missing, broken or in need of repair. */
+/* gltf_meshes_test.c - primitives: modes, indices, attributes that are missing, broken or in need of
+ * repair. */
 #include "io/gltf/gltf_test_support.h"
 
 #include <math.h>
@@ -213,7 +214,7 @@ static void normals_are_made_unit(void **state)
     facet_scene *scene =
         load_mesh(3, ",'NORMAL':1", "", &bin, ",{'buffer':0,'byteOffset':36,'byteLength':36}",
                   ",{'bufferView':1,'componentType':5126,'count':3,'type':'VEC3'}");
-    /* The second one has no direction and takes that of the triangle, +Z. */
+    /* The second normal has no direction; it becomes the triangle's, +Z. */
     const float expected[9] = {0, 0, 1, 0, 0, 1, 1, 0, 0};
     assert_floats(first_primitive(scene)->normals, expected, 9, 1e-6);
     assert_true(has_note(scene, "3 normals of accessor 1 are not of length 1"));

@@ -130,7 +130,7 @@ static void one_node_has_a_limit_of_parents(void **state)
     free(body);
 }
 
-/* Of a file that says where it is in the world. */
+/* Models of a file that states its place in the world. */
 static void a_center_moves_the_roots(void **state)
 {
     (void)state;

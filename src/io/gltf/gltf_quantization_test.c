@@ -25,7 +25,7 @@ static int number(int component, int vertex, int k)
     return is_signed && k == 0 ? -NUMBERS[vertex][k] : NUMBERS[vertex][k];
 }
 
-/* What the extension's equations make of it ("Encoding Quantized Data"). */
+/* Values decoded by the extension's equations ("Encoding Quantized Data"). */
 static double value(int component, bool is_normalized, int vertex, int k)
 {
     const int c = number(component, vertex, k);

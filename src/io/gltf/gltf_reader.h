@@ -132,7 +132,8 @@ void gltf_check_unused_parts(io_reader *r);
 
 /* gltf_meshopt.c: EXT_meshopt_compression and KHR_meshopt_compression. */
 bool gltf_is_meshopt_fallback(io_reader *r, const json_place *buffer);
-/* Sets view->compressed where the view has the extension. Needs the view's length and the table of buffers. */
+/* Sets view->compressed where the view has the extension. Needs the view's length and the table of
+ * buffers. */
 void gltf_read_meshopt(io_reader *r, const json_place *place, gltf_view *view);
 /* The buffer that holds the compressed stream. */
 uint32_t gltf_get_meshopt_buffer(const gltf_compressed_view *view);
@@ -237,7 +238,8 @@ void gltf_read_animations(io_reader *r, const json_place *root);
 /* gltf_hierarchy.c */
 /* The children of node `index`. */
 void gltf_read_children(io_reader *r, const json_place *at, uint32_t index, uint32_t node_count);
-/* After all nodes are read: sets their parents. A node with several parents is copied for each but the first. */
+/* After all nodes are read: sets their parents. A node with several parents is copied for each but the
+ * first. */
 void gltf_settle_hierarchy(io_reader *r, const json_place *array);
 /* Iterates over the copies of a node; node: the node of the file, or the last copy. SCENE_NONE: no more. */
 uint32_t gltf_next_node_copy(const io_reader *r, uint32_t node);
@@ -256,7 +258,8 @@ typedef struct gltf_target {
     bool needs_steps;      /* a boolean: interpolation must be STEP */
     bool is_of_mesh;       /* morph weights of mesh channel.index: of all nodes that use it */
 } gltf_target;
-/* NULL: *out is set, with a copy of the pointer. Otherwise the reason for failure, as the end of a sentence. */
+/* NULL: *out is set, with a copy of the pointer. Otherwise the reason for failure, as the end of a
+ * sentence. */
 const char *gltf_resolve_pointer(io_reader *r, const char *pointer, gltf_target *out);
 
 /* gltf_extras.c: extras and metadata of an object. */
@@ -264,7 +267,8 @@ scene_meta gltf_get_meta(io_reader *r, const json_place *object);
 /* Of the root, the asset, images and textures. */
 void gltf_read_meta(io_reader *r, const json_place *root);
 
-/* Sets scene->legacy from extras.facet_legacy, which a conversion wrote; it stays NULL where none is valid. */
+/* Sets scene->legacy from extras.facet_legacy, which a conversion wrote; it stays NULL where none is
+ * valid. */
 void gltf_read_legacy_extras(io_reader *r, const json_place *root);
 
 /* gltf_extensions.c: extensionsUsed and extensionsRequired; fails on a required extension that facet does

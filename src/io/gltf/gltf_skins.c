@@ -225,7 +225,8 @@ static void read_bind_matrices(io_reader *r, const json_place *skin, scene_skin 
         io_warn(r, skin, "inverseBindMatrices", "is in a buffer without bytes; identities are used");
 }
 
-/* A skin that cannot be read keeps its index, with a single joint if there is a node; it may not be needed. */
+/* A skin that cannot be read keeps its index, with a single joint if there is a node; it may not be
+ * needed. */
 static void make_unused_skin(io_reader *r, scene_skin *out)
 {
     *out = (scene_skin){.name = out->name, .skeleton = SCENE_NONE};

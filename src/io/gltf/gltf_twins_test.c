@@ -73,7 +73,7 @@ static size_t put_values(float *out, size_t at, const float *array, size_t verte
     return at + (array ? count : 0);
 }
 
-/* All that is known of a vertex; returns how much that is. */
+/* Writes all attributes of a vertex; returns their number of floats. */
 static size_t vertex_values(const scene_primitive *p, size_t vertex, float out[MAX_VALUES])
 {
     size_t count = put_values(out, 0, p->positions, vertex, 3);

@@ -42,7 +42,8 @@ static void add_file(gltf_writer *w, json_t *object, uint32_t index, const char 
     gltf_put_uri(w, object, name);
 }
 
-/* An image as a PNG file in a block of mem_alloc(). NULL: it cannot be read, which is reported, or no memory. */
+/* An image as a PNG file in a block of mem_alloc(). NULL: it cannot be read, which is reported, or no
+ * memory. */
 static unsigned char *convert_to_png(gltf_writer *w, uint32_t index, size_t *size)
 {
     const scene_image *source = &w->scene->images[index];

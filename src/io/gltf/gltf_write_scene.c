@@ -338,7 +338,8 @@ static bool is_boolean(const scene_animation *animation, uint32_t sampler)
     return false;
 }
 
-/* Whether values are written as scalars: weights of any number, and values with more components than vectors. */
+/* Whether values are written as scalars: weights of any number, and values with more components than
+ * vectors. */
 static bool is_scalars(const scene_animation *animation, uint32_t sampler)
 {
     for (uint32_t i = 0; i < animation->channel_count; i++)

@@ -429,7 +429,8 @@ static void values_that_glTF_forbids_are_not_written(void **state)
 static void empty_targets_keep_their_index(void **state)
 {
     (void)state;
-    /* The first primitive has no texture coordinates to be changed, the second no index that it could draw. */
+    /* The first primitive has no texture coordinates to be changed, the second no index that it could
+     * draw. */
     facet_scene *s =
         rewrite("'meshes':[{'primitives':[{'attributes':{'POSITION':0},'targets':[{'_X':0},{'POSITION':0}]},"
                 "{'attributes':{},'targets':[{},{}]}]}]",
@@ -444,7 +445,7 @@ static void empty_targets_keep_their_index(void **state)
     scene_destroy(s);
 }
 
-/* In floats, as they were before the scene was made relative to an origin near it. */
+/* Vertices return to the floats that they had before the scene got an origin near it. */
 static void distant_vertices_round_trip(void **state)
 {
     (void)state;
@@ -485,7 +486,7 @@ static void names_need_not_be_UTF_8(void **state)
     scene_destroy(s);
 }
 
-/* What is there stays as it was where one of the files cannot be written. */
+/* If one of the files cannot be written, existing files stay unchanged. */
 static void all_files_are_written_or_none(void **state)
 {
     (void)state;

@@ -15,7 +15,7 @@
 
 typedef struct record {
     meshopt_stream stream;
-    const uint8_t *decoded; /* NULL: attribute_word() says it */
+    const uint8_t *decoded; /* NULL: by attribute_word() */
 } record;
 
 typedef struct records {
@@ -157,7 +157,7 @@ static void the_example_of_the_specification_is_decoded(void **state)
     static const uint8_t group[10] = {0x17, 0x5f, 0xf0, 0xbc, 0x77, 0xa9, 0x21, 0x00, 0x34, 0xb5};
     static const int deltas[16] = {-1, -4, -3, 26, -91, 0, -6, 6, -4, -4, 5, -5, 1, -1, 0, 0};
     uint8_t bytes[1 + 11 + 3 + 32] = {0xa0, 2 /* 4 bits */};
-    memcpy(bytes + 2, group, sizeof group); /* the other planes: a byte that says 0 bits */
+    memcpy(bytes + 2, group, sizeof group); /* the other planes: a byte for 0 bits */
     bytes[sizeof bytes - 4] = 100;          /* the first byte of the element before the first */
     const meshopt_stream s = {.bytes = bytes, .size = sizeof bytes, .count = 16, .stride = 4};
     uint8_t out[64];
@@ -190,7 +190,8 @@ static meshopt_stream triangles(const uint8_t *bytes, size_t size, size_t count)
         .bytes = bytes, .size = size, .mode = MESHOPT_TRIANGLES, .count = 3 * count, .stride = 2};
 }
 
-/* Appendix A, mode 1: a separate triangle, one on its last edge, and references to edges that do not exist. */
+/* Appendix A, mode 1: a separate triangle, one on its last edge, and references to edges that do not
+ * exist. */
 static void triangles_share_edges(void **state)
 {
     (void)state;

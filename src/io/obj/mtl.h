@@ -33,7 +33,8 @@ facet_result mtl_reader_finish(mtl_reader *reader, facet_error *error);
 /* Names for usemtl and newmtl: those of the scene's materials, made plain and unique. One block of
  * mem_alloc(); NULL: no memory. */
 const char **mtl_names_create(const facet_scene *scene, const facet_allocator *allocator);
-/* The text of an MTL file of scene->legacy. image_names: file name per image of the scene, NULL: not written. */
+/* The text of an MTL file of scene->legacy. image_names: file name per image of the scene, NULL: not
+ * written. */
 void mtl_write(const facet_scene *scene, const char *generator, const char *const *image_names,
                const facet_scene_save_desc *desc, text *out);
 

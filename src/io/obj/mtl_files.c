@@ -1,4 +1,5 @@
-/* mtl_files.c - the files that MTL names: where they are searched, image formats by content, shared textures. */
+/* mtl_files.c - the files that MTL names: where they are searched, image formats by content, shared
+ * textures. */
 #include <string.h>
 
 #include "io/image_kind.h"

@@ -1,4 +1,5 @@
-/* mtl_files_test.c - the files that MTL files name: images with alike names, textures that share one, libraries. */
+/* mtl_files_test.c - the files that MTL files name: images with alike names, textures that share one,
+ * libraries. */
 #define _XOPEN_SOURCE 700
 #include "io/obj/mtl_test_support.h"
 

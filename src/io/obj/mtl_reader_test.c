@@ -1,4 +1,5 @@
-/* mtl_reader_test.c - statements of MTL files as different programs write them: values, maps, comments, dialects. */
+/* mtl_reader_test.c - statements of MTL files as different programs write them: values, maps, comments,
+ * dialects. */
 #include "io/obj/mtl_test_support.h"
 
 #include <stdio.h>
@@ -221,7 +222,8 @@ static void colors_may_be_spectra(void **state)
 
 /* ---- maps ---- */
 
-/* -o and -s in MTL's coordinates are the map's offset and scale in glTF's: checked by transforming a point both ways. */
+/* -o and -s in MTL's coordinates are the map's offset and scale in glTF's: checked by transforming a
+ * point both ways. */
 static void offset_and_scale_are_converted(void **state)
 {
     (void)state;

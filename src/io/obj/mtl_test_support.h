@@ -16,13 +16,14 @@ void test_put_text(const temporary_folder *folder, const char *name, const char 
 /* The text of a file with 0 behind it; free() it. */
 char *test_get(const temporary_folder *folder, const char *name);
 
-/* Calls visit for every file below a folder whose name ends with extension; how many times it returned true. */
+/* Calls visit for every file below a folder whose name ends with extension; how many times it returned
+ * true. */
 int test_visit_files(const char *folder, const char *extension,
                      bool (*visit)(const char *folder, const char *name, void *context), void *context);
 
 /* A scene with the materials of an mtllib statement; must succeed. desc NULL: {0}. */
 facet_scene *mtl_load(const char *folder, const char *names, const facet_scene_desc *desc);
-/* One library "a.mtl" of that text. */
+/* The same, from one library "a.mtl" of that text. */
 facet_scene *mtl_load_text(const char *string, const facet_scene_desc *desc);
 /* Number index of the scene. */
 const legacy_material *mtl_get(const facet_scene *scene, uint32_t index);

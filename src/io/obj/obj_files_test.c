@@ -15,7 +15,7 @@ static size_t count_triangles(const facet_scene *scene)
     return count;
 }
 
-/* Of all triangles with the origin: a closed surface that is wound outwards gives its volume. */
+/* The signed volume between all triangles and the origin: that of a closed surface that is wound outwards. */
 static double find_volume(const facet_scene *scene)
 {
     double volume = 0.0;

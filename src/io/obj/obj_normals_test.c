@@ -14,7 +14,7 @@ static facet_scene *load(const char *bytes, facet_obj_normals normals)
     return obj_load_text(bytes, &(facet_scene_desc){.obj_normals = normals});
 }
 
-/* Of a cube around the origin: each corner has the normal of its face. */
+/* Each corner of a cube around the origin has the normal of its face. */
 static void assert_cube_is_flat(const scene_primitive *p)
 {
     assert_int_equal(p->index_count, 36);
@@ -151,7 +151,8 @@ static void groups_override_the_angle(void **state)
     scene_destroy(scene);
 }
 
-/* A bent sheet of 6 x 6 squares: in front, then behind as well (cut along the same or along other diagonals). */
+/* A bent sheet of 6 x 6 squares: in front, then behind as well (cut along the same or along other
+ * diagonals). */
 enum { SHEET_SIDE = 7 };
 
 static size_t write_sheet(char *out, size_t room, const char *group, int sides)

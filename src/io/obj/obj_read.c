@@ -167,7 +167,8 @@ static bool find_origin(obj_reader *r)
     return few ? is_far : obj_fail_memory(r, "positions", MAX * 3 * sizeof *few);
 }
 
-/* The numbers of a model that is far from the origin are parsed again, since floats have lost their digits. */
+/* The numbers of a model that is far from the origin are parsed again, since floats have lost their
+ * digits. */
 static void parse(obj_reader *r)
 {
     parallel_for(r->thread_count, r->chunk_count, 1, parse_chunks, r);

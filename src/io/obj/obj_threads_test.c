@@ -35,7 +35,8 @@ static double height(int x, int y)
     return 3.0 * sin(0.05 * x) * cos(0.07 * y);
 }
 
-/* A sheet of WIDTH x WIDTH vertices in several objects and materials, with all kinds of statements in turn. */
+/* A sheet of WIDTH x WIDTH vertices in several objects and materials, with all kinds of statements in
+ * turn. */
 static char *make_sheet(const char *head)
 {
     growing g = {0};

@@ -163,7 +163,7 @@ static void spirals_and_combs_are_triangulated(void **state)
     }
 }
 
-/* With so many corners that examining all pairs would take minutes. */
+/* Examining all pairs of so many corners would take minutes. */
 static void large_polygons_are_fast(void **state)
 {
     (void)state;
@@ -247,7 +247,7 @@ static void odd_polygons_keep_their_signed_area(void **state)
     }
 }
 
-/* However bad the polygon is, the work has an end. */
+/* The work is limited for the worst polygons, too. */
 static void the_work_is_limited(void **state)
 {
     (void)state;

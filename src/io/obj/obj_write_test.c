@@ -182,8 +182,7 @@ static void objects_follow_one_another(void **state)
     temporary_folder_remove(&folder);
 }
 
-/* Those in use, by their own names where they are plain; existing files stay, files of others are not
- * touched. */
+/* Images in use are written by their own names where these are plain; existing files stay unchanged. */
 static void images_are_written_beside_the_model(void **state)
 {
     (void)state;

@@ -456,7 +456,7 @@ static void textures_are_found(void **state)
                      FACET_ERROR_READ);
 }
 
-/* Every single allocation refused once. */
+/* Every allocation fails once. */
 static void failed_allocations_are_reported(void **state)
 {
     const temporary_folder *f = *state;

@@ -1,4 +1,5 @@
-/* ogl1_overlay_test.c - parameters over a model: by material, by object, over all; and over models of glTF. */
+/* ogl1_overlay_test.c - parameters over a model: by material, by object, over all; and over models of
+ * glTF. */
 #include <stdio.h>
 #include <string.h>
 

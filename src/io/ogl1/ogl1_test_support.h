@@ -1,4 +1,5 @@
-/* ogl1_test_support.h - documents of rgl's parameters for tests, written with ' for ", and a folder for them. */
+/* ogl1_test_support.h - documents of rgl's parameters for tests, written with ' for ", and a folder for
+ * them. */
 #ifndef IO_OGL1_TEST_SUPPORT_H
 #define IO_OGL1_TEST_SUPPORT_H
 

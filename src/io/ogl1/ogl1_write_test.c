@@ -112,7 +112,7 @@ static void all_parameters_round_trip(void **state)
     scene_destroy(back);
 }
 
-/* What MTL and extras may state comes back: colors up to the largest that counts. */
+/* Colors that MTL and extras may state round-trip, up to the largest that is read. */
 static void bright_colors_round_trip(void **state)
 {
     (void)state;
@@ -235,7 +235,7 @@ static void objects_are_named_where_names_are_ambiguous(void **state)
         if (expected[i])
             assert_string_equal(json_string_value(json_array_get(objects, 0)), expected[i]);
     }
-    /* One that has neither would go to all. */
+    /* An entry with neither would apply to all. */
     assert_string_equal(json_string_value(json_object_get(json_array_get(materials, 4), "name")),
                         "material 5");
     json_decref(root);
@@ -284,7 +284,7 @@ static void images_are_saved_beside(void **state)
     assert_int_equal(ogl1_json_save(scene, out, "test", &desc, &error), FACET_OK);
     assert_int_equal(warnings, 2);
 
-    /* Nothing where the document cannot be written. */
+    /* The document cannot be written. */
     assert_int_equal(ogl1_json_save(scene, temporary_folder_file(f, "no/out.json"), "test", &desc, &error),
                      FACET_ERROR_WRITE);
     scene_destroy(scene);
