@@ -83,7 +83,7 @@ static facet_result decode_faces(cube_face faces[FACE_COUNT], const facet_enviro
 }
 
 /* Flips all faces horizontally. */
-static void flip(cube *c)
+static void flip_faces(cube *c)
 {
     int last = (int)c->size - 1;
     for (uint32_t face = 0; face < FACE_COUNT; face++)
@@ -141,11 +141,11 @@ static facet_result scene_cube_decode(const facet_scene *scene, uint32_t index,
                                      error);
     if (result == FACET_OK) {
         cube_fill_borders(&out->texels);
-        double as_they_are = scene_cube_seams(&out->texels);
-        flip(&out->texels);
-        out->is_mirrored = as_they_are < 0.5 * scene_cube_seams(&out->texels);
+        double unflipped = scene_cube_seams(&out->texels);
+        flip_faces(&out->texels);
+        out->is_mirrored = unflipped < 0.5 * scene_cube_seams(&out->texels);
         if (out->is_mirrored)
-            flip(&out->texels);
+            flip_faces(&out->texels);
     }
     cube_faces_destroy(faces);
     return result;
@@ -226,16 +226,16 @@ static void probe_direction(uint32_t i, uint32_t size, float N[3])
         N[k] = (float)(d[k] * scale);
 }
 
-/* Correlation over directions, in [-1, 1], between the stated irradiance and that of the image; 0 if one of
+/* Correlation over directions, in [-1, 1], between the stated irradiance and the one measured in the image; 0 if one of
  * them is uniform. Scale does not matter: the image may hold less than the original radiance. */
-static double correlate(const light_irradiance *said, const float panorama[SH_COUNT][3])
+static double correlate(const light_irradiance *stated, const float measured[SH_COUNT][3])
 {
     double a1 = 0.0, b1 = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
     for (uint32_t i = 0; i < PROBE_COUNT; i++) {
         float N[3], p[3], q[3];
         probe_direction(i, 8, N);
-        evaluate(said, N, p);
-        sh_evaluate(panorama, N, q);
+        evaluate(stated, N, p);
+        sh_evaluate(measured, N, q);
         double a = (double)p[0] + (double)p[1] + (double)p[2];
         double b = (double)q[0] + (double)q[1] + (double)q[2];
         a1 += a / PROBE_COUNT;
@@ -252,13 +252,13 @@ static double correlate(const light_irradiance *said, const float panorama[SH_CO
  * first, which is the extension's own in the frame of the cube, unless another correlates clearly better with
  * the irradiance of the image. */
 static light_irradiance choose_irradiance(const scene_image_light *light, bool is_mirrored,
-                                          const float panorama[SH_COUNT][3])
+                                          const float measured[SH_COUNT][3])
 {
     light_irradiance best = read_irradiance(light, is_mirrored, false);
-    double best_correlation = correlate(&best, panorama) + 0.1;
+    double best_correlation = correlate(&best, measured) + 0.1;
     for (int k = 1; k < 4; k++) {
         light_irradiance other = read_irradiance(light, is_mirrored != (k >= 2), k & 1);
-        double correlation = correlate(&other, panorama);
+        double correlation = correlate(&other, measured);
         if (correlation > best_correlation) {
             best = other;
             best_correlation = correlation;
@@ -272,17 +272,17 @@ static facet_result keep_irradiance(facet_environment *e, const scene_cube *c, c
                                     uint32_t thread_count, facet_error *error)
 {
     double radiance[SH_COUNT][3], irradiance[SH_COUNT][3];
-    float panorama[SH_COUNT][3];
+    float measured[SH_COUNT][3];
     TRY(sh_project(&e->panorama, &e->allocator, thread_count, radiance, error));
     TRY(cube_create(IRRADIANCE_SIZE, &e->allocator, &e->irradiance_over_pi, error));
     sh_irradiance((const double(*)[3])radiance, irradiance);
-    sh_fold_over_pi((const double(*)[3])irradiance, panorama);
-    light_irradiance said = choose_irradiance(light, c->is_mirrored, (const float(*)[3])panorama);
+    sh_fold_over_pi((const double(*)[3])irradiance, measured);
+    light_irradiance stated = choose_irradiance(light, c->is_mirrored, (const float(*)[3])measured);
     const uint32_t n = IRRADIANCE_SIZE;
     for (uint32_t i = 0; i < 6 * n * n; i++) {
         float N[3], out[3];
         probe_direction(i, n, N);
-        evaluate(&said, N, out);
+        evaluate(&stated, N, out);
         *cube_texel(&e->irradiance_over_pi, i / (n * n), (int)(i % n), (int)(i / n % n)) =
             (rgbx){fminf(out[0], ENVIRONMENT_MAX_RADIANCE), fminf(out[1], ENVIRONMENT_MAX_RADIANCE),
                    fminf(out[2], ENVIRONMENT_MAX_RADIANCE), 0.0f};
