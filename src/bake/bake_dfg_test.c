@@ -131,31 +131,18 @@ static void luts_do_not_depend_on_threads(void **state)
     image_destroy(&b);
 }
 
-typedef struct watch {
-    int calls, stops_at;
-    double last;
-} watch;
-
-static bool look(void *user, const char *stage, double fraction)
-{
-    watch *w = user;
-    assert_string_equal(stage, "table");
-    assert_true(fraction > w->last && fraction <= 1.0);
-    w->last = fraction;
-    return ++w->calls != w->stops_at;
-}
-
 static void progress_is_reported_and_can_cancel(void **state)
 {
     (void)state;
-    watch w = {0};
+    captured_progress w = {0};
     image table = {0};
-    facet_dfg_desc desc = {.size = 32, .thread_count = 1, .progress = {&w, look}};
+    facet_dfg_desc desc = {.size = 32, .thread_count = 1, .progress = capture_progress(&w)};
     assert_int_equal(bake_dfg(&desc, &table, NULL), FACET_OK);
     assert_int_equal(w.calls, 32);
-    assert_true(w.last == 1.0);
+    assert_true(w.fraction == 1.0);
+    assert_string_equal(w.stage, "table");
     image_destroy(&table);
-    w = (watch){.stops_at = 5};
+    w = (captured_progress){.stops_at = 5};
     facet_error error = {0};
     assert_int_equal(bake_dfg(&desc, &table, &error), FACET_ERROR_CANCELLED);
     assert_int_equal(w.calls, 5);

@@ -10,13 +10,6 @@
 
 #include "shade/shade.h"
 
-_Static_assert(TONEMAP_NEUTRAL == (int)FACET_TONEMAP_NEUTRAL && TONEMAP_ACES == (int)FACET_TONEMAP_ACES &&
-                   TONEMAP_ACES_NARKOWICZ == (int)FACET_TONEMAP_ACES_NARKOWICZ &&
-                   TONEMAP_AGX == (int)FACET_TONEMAP_AGX && TONEMAP_REINHARD == (int)FACET_TONEMAP_REINHARD &&
-                   TONEMAP_REINHARD_EXTENDED == (int)FACET_TONEMAP_REINHARD_EXTENDED &&
-                   TONEMAP_HABLE == (int)FACET_TONEMAP_HABLE,
-               "the shader library numbers operators as the interface does");
-
 /* ---- opening ---- */
 
 static facet_result take_crop(const uint32_t crop[4], compare_source *s, facet_error *error)

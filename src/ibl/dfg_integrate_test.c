@@ -9,26 +9,12 @@
 #include <cmocka.h>
 
 #include "tests/support/support.h"
+#include "ibl/dfg_golden_test.h"
 #include "ibl/dfg_integrate.h"
 
 #include "shade/shade.h"
 
-/* Tanh-sinh quadrature in long double, 10 digits. Rows of roughness, columns of
- * N.V. */
-static const double roughness[5] = {0.1, 0.25, 0.5, 0.75, 1.0};
-static const double cosine[5] = {0.05, 0.25, 0.5, 0.75, 1.0};
-static const double correlated_A[5][5] = {
-    {0.2425478450, 0.7629295323, 0.9683388499, 0.9988543917, 0.9998984689},
-    {0.4492578850, 0.7580312136, 0.9556866708, 0.9923089370, 0.9956851107},
-    {0.7688192045, 0.7592543514, 0.8349161393, 0.8888141616, 0.9157850593},
-    {0.8398067681, 0.7165080086, 0.6546928351, 0.6312440025, 0.6268380177},
-    {0.8156842679, 0.5867642669, 0.4477051204, 0.3638935306, 0.3068192051}};
-static const double correlated_B[5][5] = {
-    {0.7336597451, 0.2361624228, 0.03140327267, 0.001003954061, 8.755134939e-08},
-    {0.4448470451, 0.2035357355, 0.03263732940, 0.001502187630, 2.950018171e-06},
-    {0.1643125381, 0.08082754775, 0.02234729629, 0.002718728294, 2.737092643e-05},
-    {0.06511868640, 0.02794833429, 0.008483010132, 0.001641360163, 4.763906469e-05},
-    {0.03208961021, 0.01087625501, 0.002988735255, 6.330741246e-04, 3.361429473e-05}};
+/* More values as in dfg_golden_test.h. */
 static const double schlick_A[5][5] = {
     {0.2083021751, 0.7410566129, 0.9588389269, 0.9955539406, 0.9998871135},
     {0.3348617238, 0.6573372938, 0.9023494544, 0.9717336779, 0.9943317615},
@@ -52,12 +38,6 @@ static const double direct_E[5][5] = {{0.07398940641, 0.4731160964, 0.7540057677
                                       {0.3411885911, 0.4338771713, 0.5852642069, 0.7327686427, 0.8598452698},
                                       {0.5143685070, 0.4973812414, 0.5080071844, 0.5369516006, 0.5755728342},
                                       {0.5844815608, 0.4909645111, 0.4091370926, 0.3506889365, 0.3068528194}};
-static const double charlie_E[5][5] = {
-    {1.032847540, 0.06662283901, 7.902655155e-04, 5.420908046e-07, 5.159165020e-18},
-    {0.7476768301, 0.2442339209, 0.05993452933, 0.009518274947, 1.279496138e-04},
-    {0.6798274764, 0.3668602622, 0.1878539311, 0.08897543866, 0.02698202441},
-    {0.7819239627, 0.4815967431, 0.2980103504, 0.1844342457, 0.1008732237},
-    {0.8272474977, 0.5342260461, 0.3562892487, 0.2454791415, 0.1637639667}};
 static const double neubelt_E[5][5] = {
     {1.741163852, 0.1167289075, 0.001374564072, 9.203277922e-07, 8.540177113e-18},
     {1.133320792, 0.3945428076, 0.09888474431, 0.01531132288, 1.953125000e-04},
@@ -68,8 +48,6 @@ static const double average_correlated[5] = {0.999490545680, 0.987250276739, 0.8
                                              0.409137092587};
 static const double average_separable[5] = {0.999485471601, 0.987056560159, 0.879455669520, 0.642754354162,
                                             0.376634611193};
-static const double average_charlie[5] = {0.021510382484, 0.058355778644, 0.142676851913, 0.240117050939,
-                                          0.299591942160};
 static const double average_neubelt[5] = {0.037041921533, 0.093838319491, 0.170338834695, 0.216227572227,
                                           0.241857965860};
 
@@ -82,7 +60,7 @@ static double worst_of_split_sum(dfg_masking masking, const double A[5][5], cons
     double worst = 0.0;
     for (int i = 0; i < 5; i++)
         for (int j = 0; j < 5; j++) {
-            dfg_terms t = dfg_integrate(masking, (float)roughness[i], cosine[j]);
+            dfg_terms t = dfg_integrate(masking, (float)golden_roughness[i], golden_cosine[j]);
             worst = fmax(worst, fmax(fabs(t.scale - A[i][j]), fabs(t.bias - B[i][j])));
         }
     return worst;
@@ -93,7 +71,7 @@ static double worst_of_albedo(dfg_masking masking, const double E[5][5])
     double worst = 0.0;
     for (int i = 0; i < 5; i++)
         for (int j = 0; j < 5; j++) {
-            dfg_terms t = dfg_integrate(masking, (float)roughness[i], cosine[j]);
+            dfg_terms t = dfg_integrate(masking, (float)golden_roughness[i], golden_cosine[j]);
             worst = fmax(worst, fabs(t.scale + t.bias - E[i][j]));
         }
     return worst;
@@ -102,7 +80,7 @@ static double worst_of_albedo(dfg_masking masking, const double E[5][5])
 static void split_sum_terms_equal_golden_values(void **state)
 {
     (void)state;
-    double correlated = worst_of_split_sum(DFG_SMITH_CORRELATED, correlated_A, correlated_B);
+    double correlated = worst_of_split_sum(DFG_SMITH_CORRELATED, golden_A, golden_B);
     double schlick = worst_of_split_sum(DFG_SCHLICK_IBL, schlick_A, schlick_B);
     double separable = worst_of_albedo(DFG_SMITH_SEPARABLE, separable_E);
     double direct = worst_of_albedo(DFG_SCHLICK_DIRECT, direct_E);
@@ -116,13 +94,13 @@ static void averages_equal_golden_values(void **state)
 {
     (void)state;
     for (int i = 0; i < 5; i++) {
-        assert_near(dfg_integrate_average(DFG_SMITH_CORRELATED, (float)roughness[i]), average_correlated[i],
-                    GGX_ERROR);
-        assert_near(dfg_integrate_average(DFG_SMITH_SEPARABLE, (float)roughness[i]), average_separable[i],
-                    GGX_ERROR);
+        assert_near(dfg_integrate_average(DFG_SMITH_CORRELATED, (float)golden_roughness[i]),
+                    average_correlated[i], GGX_ERROR);
+        assert_near(dfg_integrate_average(DFG_SMITH_SEPARABLE, (float)golden_roughness[i]),
+                    average_separable[i], GGX_ERROR);
         /* the fit that direct light uses says 1e-4 of itself */
-        assert_near(dfg_integrate_average(DFG_SMITH_CORRELATED, (float)roughness[i]),
-                    (double)E_avg_GGX((float)roughness[i]), 1.1e-4);
+        assert_near(dfg_integrate_average(DFG_SMITH_CORRELATED, (float)golden_roughness[i]),
+                    (double)E_avg_GGX((float)golden_roughness[i]), 1.1e-4);
     }
 }
 
@@ -132,10 +110,11 @@ static void sheen_albedos_equal_golden_values(void **state)
     double worst = 0.0;
     for (int i = 0; i < 5; i++) {
         sheen_nodes nodes;
-        sheen_prepare((float)roughness[i], &nodes);
+        sheen_prepare((float)golden_roughness[i], &nodes);
         for (int j = 0; j < 5; j++) {
-            sheen_albedos E = sheen_integrate(&nodes, cosine[j]);
-            worst = fmax(worst, fmax(fabs(E.charlie - charlie_E[i][j]), fabs(E.neubelt - neubelt_E[i][j])));
+            sheen_albedos E = sheen_integrate(&nodes, golden_cosine[j]);
+            worst =
+                fmax(worst, fmax(fabs(E.charlie - golden_sheen[i][j]), fabs(E.neubelt - neubelt_E[i][j])));
         }
         /* averages by 2000 midpoints of the root of N.V */
         double charlie = 0.0;
@@ -147,7 +126,7 @@ static void sheen_albedos_equal_golden_values(void **state)
             charlie += 4.0 * root * root * root * E.charlie / STEPS;
             neubelt += 4.0 * root * root * root * E.neubelt / STEPS;
         }
-        assert_near(charlie, average_charlie[i], SHEEN_ERROR);
+        assert_near(charlie, golden_sheen_average[i], SHEEN_ERROR);
         assert_near(neubelt, average_neubelt[i], SHEEN_ERROR);
     }
     print_message("farthest from 50 golden numbers of sheen: %.1e\n", worst);
@@ -191,8 +170,8 @@ static void known_identities_hold(void **state)
         assert_true(least.scale == zero.scale && least.bias == zero.bias);
     }
     for (int j = 0; j < 5; j++) {
-        dfg_terms separable = dfg_integrate(DFG_SMITH_SEPARABLE, 1.0f, cosine[j]);
-        dfg_terms schlick = dfg_integrate(DFG_SCHLICK_IBL, 1.0f, cosine[j]);
+        dfg_terms separable = dfg_integrate(DFG_SMITH_SEPARABLE, 1.0f, golden_cosine[j]);
+        dfg_terms schlick = dfg_integrate(DFG_SCHLICK_IBL, 1.0f, golden_cosine[j]);
         assert_near(separable.scale, schlick.scale, 1e-6);
         assert_near(separable.bias, schlick.bias, 1e-6);
     }
@@ -258,8 +237,8 @@ static void terms_equal_those_of_importance_sampling(void **state)
     for (int i = 0; i < 5; i++)
         for (int j = 0; j < 5; j++) {
             double A, B;
-            integrate_brdf(roughness[i], cosine[j], 1u << SAMPLES, &A, &B);
-            dfg_terms t = dfg_integrate(DFG_SCHLICK_IBL, (float)roughness[i], cosine[j]);
+            integrate_brdf(golden_roughness[i], golden_cosine[j], 1u << SAMPLES, &A, &B);
+            dfg_terms t = dfg_integrate(DFG_SCHLICK_IBL, (float)golden_roughness[i], golden_cosine[j]);
             worst = fmax(worst, fmax(fabs(t.scale - A), fabs(t.bias - B)));
         }
     print_message("farthest from sums of 2^%d samples: %.1e\n", SAMPLES, worst);

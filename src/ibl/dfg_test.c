@@ -8,26 +8,12 @@
 #include <cmocka.h>
 
 #include "tests/support/support.h"
+#include "ibl/dfg_golden_test.h"
 
 #include "ibl/dfg.h"
 #include "ibl/ibl.h"
 
 #include "shade/shade.h"
-
-/* A and B by tanh-sinh quadrature in long double. */
-static const double roughness[5] = {0.1, 0.25, 0.5, 0.75, 1.0};
-static const double NdotV[5] = {0.05, 0.25, 0.5, 0.75, 1.0};
-static const double golden_A[5][5] = {{0.2425478450, 0.7629295323, 0.9683388499, 0.9988543917, 0.9998984689},
-                                      {0.4492578850, 0.7580312136, 0.9556866708, 0.9923089370, 0.9956851107},
-                                      {0.7688192045, 0.7592543514, 0.8349161393, 0.8888141616, 0.9157850593},
-                                      {0.8398067681, 0.7165080086, 0.6546928351, 0.6312440025, 0.6268380177},
-                                      {0.8156842679, 0.5867642669, 0.4477051204, 0.3638935306, 0.3068192051}};
-static const double golden_B[5][5] = {
-    {0.7336597451, 0.2361624228, 0.03140327267, 0.001003954061, 8.755134939e-08},
-    {0.4448470451, 0.2035357355, 0.03263732940, 0.001502187630, 2.950018171e-06},
-    {0.1643125381, 0.08082754775, 0.02234729629, 0.002718728294, 2.737092643e-05},
-    {0.06511868640, 0.02794833429, 0.008483010132, 0.001641360163, 4.763906469e-05},
-    {0.03208961021, 0.01087625501, 0.002988735255, 6.330741246e-04, 3.361429473e-05}};
 
 static void split_sum_terms_equal_golden_values(void **state)
 {
@@ -36,7 +22,7 @@ static void split_sum_terms_equal_golden_values(void **state)
     for (int i = 0; i < 5; i++)
         for (int j = 0; j < 5; j++) {
             float dfg[2];
-            ibl_dfg((float)NdotV[j], (float)roughness[i], dfg);
+            ibl_dfg((float)golden_cosine[j], (float)golden_roughness[i], dfg);
             worst = fmax(worst,
                          fmax(fabs((double)dfg[0] - golden_A[i][j]), fabs((double)dfg[1] - golden_B[i][j])));
         }
@@ -87,21 +73,13 @@ static void terms_stay_in_range_and_conserve_energy(void **state)
     assert_memory_equal(inside, outside, sizeof inside);
 }
 
-/* 16.5, of the visibility term with Lambda. */
-static const double golden_sheen[5][5] = {
-    {1.032847540, 0.06662283901, 7.902655155e-04, 5.420908046e-07, 5.159165020e-18},
-    {0.7476768301, 0.2442339209, 0.05993452933, 0.009518274947, 1.279496138e-04},
-    {0.6798274764, 0.3668602622, 0.1878539311, 0.08897543866, 0.02698202441},
-    {0.7819239627, 0.4815967431, 0.2980103504, 0.1844342457, 0.1008732237},
-    {0.8272474977, 0.5342260461, 0.3562892487, 0.2454791415, 0.1637639667}};
-
 static void sheen_albedos_equal_golden_values(void **state)
 {
     (void)state;
     double worst = 0.0;
     for (int i = 0; i < 5; i++)
         for (int j = 0; j < 5; j++) {
-            double E = (double)ibl_sheen_albedo((float)NdotV[j], (float)roughness[i]);
+            double E = (double)ibl_sheen_albedo((float)golden_cosine[j], (float)golden_roughness[i]);
             worst = fmax(worst, fabs(E - golden_sheen[i][j]));
         }
     print_message("largest deviation of sheen, interpolated: %.2e\n", worst);
@@ -147,15 +125,13 @@ static void sheen_albedos_fall_towards_the_normal(void **state)
 static void averages_of_sheen_equal_golden_values(void **state)
 {
     (void)state;
-    static const double golden[5] = {0.021510382484, 0.058355778644, 0.142676851913, 0.240117050939,
-                                     0.299591942160};
     for (int i = 0; i < 5; i++) {
         double sum = 0.0;
         for (int k = 0; k < 20000; k++) {
             double mu = (k + 0.5) / 20000.0;
-            sum += 2.0 * mu * (double)ibl_sheen_albedo((float)mu, (float)roughness[i]) / 20000.0;
+            sum += 2.0 * mu * (double)ibl_sheen_albedo((float)mu, (float)golden_roughness[i]) / 20000.0;
         }
-        assert_near(sum, golden[i], 2e-3); /* without the part above 1 */
+        assert_near(sum, golden_sheen_average[i], 2e-3); /* without the part above 1 */
     }
 }
 

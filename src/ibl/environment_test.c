@@ -19,27 +19,8 @@
 #include "ibl/environment.h"
 #include "ibl/equirect.h"
 #include "ibl/ibl.h"
+#include "ibl/making_test.h"
 #include "tests/support/support.h"
-
-static const ibl_light_desc everything = {.needs_irradiance = true,
-                                          .needs_specular = true,
-                                          .max_roughness = 1.0f,
-                                          .needs_sheen = true,
-                                          .max_sheen_roughness = 1.0f,
-                                          .needs_background = true};
-
-typedef struct messages {
-    int count;
-    char last[1024];
-} messages;
-
-static void keep_message(void *user, facet_log_level level, const char *text)
-{
-    messages *m = user;
-    (void)level;
-    m->count++;
-    snprintf(m->last, sizeof m->last, "%s", text);
-}
 
 /* A Radiance file of width x height without run lengths: all texels rgbe. */
 static size_t make_hdr(unsigned char *bytes, int width, int height, const unsigned char rgbe[4])
@@ -56,14 +37,14 @@ static void environments_are_read_from_memory(void **state)
     unsigned char bytes[4096];
     const unsigned char white[4] = {128, 128, 128, 129}; /* 1.0, or 1.004 where half a step is added */
     size_t size = make_hdr(bytes, 6, 3, white);
-    messages m = {0};
-    facet_environment_desc desc = {.log = {&m, keep_message}};
+    captured_messages m = {0};
+    facet_environment_desc desc = {.log = capture_log(&m)};
     facet_environment *e = NULL;
     facet_error error = {0};
     assert_int_equal(facet_environment_load_memory(bytes, size, "white.hdr", &desc, &e, &error), FACET_OK);
     assert_int_equal(m.count, 0);
     const ibl_light *light = NULL;
-    assert_int_equal(ibl_light_prepare(e, &everything, &light, &error), FACET_OK);
+    assert_int_equal(ibl_light_prepare(e, &all_lookups, &light, &error), FACET_OK);
     float d[3] = {0.0f, 0.0f, 1.0f};
     float out[3];
     ibl_specular(light, d, 0.5f, out);
@@ -74,7 +55,7 @@ static void environments_are_read_from_memory(void **state)
     size = make_hdr(bytes, 41, 20, white);
     assert_int_equal(facet_environment_load_memory(bytes, size, "odd.hdr", &desc, &e, &error), FACET_OK);
     assert_int_equal(m.count, 1); /* not quite twice as wide as high */
-    assert_non_null(strstr(m.last, "odd.hdr: 41 x 20"));
+    assert_non_null(strstr(m.text, "odd.hdr: 41 x 20"));
     facet_environment_destroy(e);
 }
 
@@ -166,7 +147,7 @@ static void real_environments_are_read(void **state)
             print_error("%s\n", error.message);
         assert_int_equal(result, FACET_OK);
         const ibl_light *light = NULL;
-        assert_int_equal(ibl_light_prepare(e, &everything, &light, NULL), FACET_OK);
+        assert_int_equal(ibl_light_prepare(e, &all_lookups, &light, NULL), FACET_OK);
         double whole[3];
         cube_mean(&e->parts.levels[PREFILTER_GGX][prefilter_level_count(PREFILTER_GGX) - 1], whole);
         for (uint32_t level = 1; level < prefilter_level_count(PREFILTER_GGX); level++) {
@@ -192,7 +173,7 @@ static void the_sun_is_in_its_direction(void **state)
         facet_environment_load(data_path("qwantani_afternoon_puresky_1k.hdr", path), NULL, &e, NULL),
         FACET_OK);
     const ibl_light *light = NULL;
-    assert_int_equal(ibl_light_prepare(e, &everything, &light, NULL), FACET_OK);
+    assert_int_equal(ibl_light_prepare(e, &all_lookups, &light, NULL), FACET_OK);
     double azimuth = 2.0 * 3.14159265358979 * (0.600 - 0.5);
     double polar = 3.14159265358979 * 0.272;
     float sun[3] = {(float)(sin(polar) * cos(azimuth)), (float)cos(polar),
@@ -220,7 +201,7 @@ static void the_studio_is_neutral_and_lit_from_above(void **state)
     facet_environment *e = NULL;
     assert_int_equal(facet_environment_create_studio(NULL, &e, NULL), FACET_OK);
     const ibl_light *light = NULL;
-    assert_int_equal(ibl_light_prepare(e, &everything, &light, NULL), FACET_OK);
+    assert_int_equal(ibl_light_prepare(e, &all_lookups, &light, NULL), FACET_OK);
     for (int k = 0; k < 3; k++)
         assert_near(e->parts.harmonics.mean[k], 1.0, 0.002);
     const float front[3] = {0.0f, 0.0f, 1.0f};
@@ -258,13 +239,12 @@ static int count_entries(const char *folder, const char *remove_all)
     return count;
 }
 
-static facet_environment *open_cached(const char *folder, uint64_t cache_bytes, messages *m)
+static facet_environment *open_cached(const char *folder, uint64_t cache_bytes, captured_messages *m)
 {
     unsigned char bytes[4096];
     size_t size = make_hdr(bytes, 24, 12, (const unsigned char[4]){200, 100, 50, 130});
     memset(bytes + 400, 130, 4);
-    facet_environment_desc desc = {
-        .cache_folder = folder, .cache_bytes = cache_bytes, .log = {m, keep_message}};
+    facet_environment_desc desc = {.cache_folder = folder, .cache_bytes = cache_bytes, .log = capture_log(m)};
     facet_environment *e = NULL;
     assert_int_equal(facet_environment_load_memory(bytes, size, "x.hdr", &desc, &e, NULL), FACET_OK);
     return e;
@@ -285,17 +265,17 @@ static void prepared_parts_are_cached(void **state)
     assert_non_null(mkdtemp(folder));
     int entry_count =
         (int)prefilter_level_count(PREFILTER_GGX) + (int)prefilter_level_count(PREFILTER_CHARLIE) - 2;
-    messages m = {0};
+    captured_messages m = {0};
     facet_environment *fresh = open_cached(NULL, 0, &m);
     facet_environment *first = open_cached(folder, 0, &m);
     facet_environment *second = open_cached(folder, 0, &m);
     const ibl_light *a = NULL;
     const ibl_light *b = NULL;
     const ibl_light *c = NULL;
-    assert_int_equal(ibl_light_prepare(fresh, &everything, &a, NULL), FACET_OK);
-    assert_int_equal(ibl_light_prepare(first, &everything, &b, NULL), FACET_OK);
+    assert_int_equal(ibl_light_prepare(fresh, &all_lookups, &a, NULL), FACET_OK);
+    assert_int_equal(ibl_light_prepare(first, &all_lookups, &b, NULL), FACET_OK);
     assert_int_equal(count_entries(folder, NULL), entry_count);
-    assert_int_equal(ibl_light_prepare(second, &everything, &c, NULL), FACET_OK);
+    assert_int_equal(ibl_light_prepare(second, &all_lookups, &c, NULL), FACET_OK);
     assert_null(second->parts.harmonics.coefficients); /* nothing was prepared */
     check_equal(fresh, first);
     check_equal(fresh, second);
@@ -322,7 +302,7 @@ static void prepared_parts_are_cached(void **state)
     closedir(d);
     for (int k = 0; k < 2; k++) {
         facet_environment *third = open_cached(folder, 0, &m);
-        assert_int_equal(ibl_light_prepare(third, &everything, &c, NULL), FACET_OK);
+        assert_int_equal(ibl_light_prepare(third, &all_lookups, &c, NULL), FACET_OK);
         assert_int_equal(third->parts.harmonics.coefficients != NULL, k == 0);
         check_equal(fresh, third);
         ibl_light_release(c);
@@ -336,7 +316,7 @@ static void prepared_parts_are_cached(void **state)
     snprintf(other, sizeof other, "%s/notes.txt", folder);
     assert_int_equal(file_write(other, "mine", 4, NULL), FACET_OK);
     facet_environment *small = open_cached(folder, 300000, &m);
-    assert_int_equal(ibl_light_prepare(small, &everything, &c, NULL), FACET_OK);
+    assert_int_equal(ibl_light_prepare(small, &all_lookups, &c, NULL), FACET_OK);
     check_equal(fresh, small);
     int left = count_entries(folder, NULL);
     assert_true(left >= 2 && left < entry_count);
@@ -353,7 +333,7 @@ static void prepared_parts_are_cached(void **state)
 static void an_unwritable_cache_is_a_warning(void **state)
 {
     (void)state;
-    messages m = {0};
+    captured_messages m = {0};
     facet_environment *e = open_cached("/dev/null/nowhere", 0, &m);
     const ibl_light *light = NULL;
     assert_int_equal(ibl_light_prepare(e, &(ibl_light_desc){.needs_irradiance = true}, &light, NULL),

@@ -19,7 +19,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-static const ibl_light_desc everything = {
+static const ibl_light_desc all_ggx = {
     .needs_irradiance = true, .needs_specular = true, .max_roughness = 1.0f, .needs_background = true};
 
 static void uniform_light_stays_uniform(void **state)
@@ -28,7 +28,7 @@ static void uniform_light_stays_uniform(void **state)
     static const float radiance[3] = {0.3f, 1.0f, 1234.5f};
     facet_environment *e = NULL;
     assert_int_equal(facet_environment_create_constant(radiance, NULL, &e, NULL), FACET_OK);
-    const ibl_light *light = prepare(e, everything);
+    const ibl_light *light = prepare(e, all_ggx);
     for (int i = 0; i < 500; i++) {
         float d[3], out[3];
         test_direction(i, 500, d);
@@ -98,7 +98,7 @@ static void kernels_equal_golden_values(void **state)
  * them. */
 static void check_bands(facet_environment *e, int first_band, int band_step)
 {
-    const ibl_light *light = prepare(e, everything);
+    const ibl_light *light = prepare(e, all_ggx);
     double worst = 0.0;
     double worst_between = 0.0;
     for (uint32_t level = 1; level < prefilter_level_count(PREFILTER_GGX); level++) {
@@ -189,7 +189,7 @@ static void check_sun(uint32_t sun_x, uint32_t sun_y)
     facet_environment *e = make_environment(width, 512, sky);
     float *p = (float *)e->panorama.pixels + 3 * ((size_t)sun_y * width + sun_x);
     p[0] = p[1] = p[2] = 1e5f;
-    const ibl_light *light = prepare(e, everything);
+    const ibl_light *light = prepare(e, all_ggx);
     double omega = equirect_texel_solid_angle(width, 512, sun_y);
     double expected = 1e5 * omega / (4.0 * pi) + 0.3;
     for (uint32_t level = 1; level < prefilter_level_count(PREFILTER_GGX); level++) {
@@ -251,8 +251,8 @@ static void check_rotation(float phase, double tolerance)
     facet_environment *straight = make_environment(512, 256, pattern);
     rotation_phase = phase;
     facet_environment *turned = make_environment(512, 256, pattern);
-    const ibl_light *a = prepare(straight, everything);
-    const ibl_light *b = prepare(turned, everything);
+    const ibl_light *a = prepare(straight, all_ggx);
+    const ibl_light *b = prepare(turned, all_ggx);
     float c = cosf(phase);
     float s = sinf(phase);
     for (int i = 0; i < 400; i++) {
@@ -291,7 +291,7 @@ static void lookups_are_seamless(void **state)
     (void)state;
     rotation_phase = 0.3f;
     facet_environment *e = make_environment(512, 256, pattern);
-    const ibl_light *light = prepare(e, everything);
+    const ibl_light *light = prepare(e, all_ggx);
     for (int axis = 0; axis < 3; axis++)
         for (int corner = 0; corner < 4; corner++)
             for (int i = 0; i <= 100; i++)
@@ -318,7 +318,7 @@ static void roughness_zero_gives_the_panorama(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(256, 128, pattern);
-    const ibl_light *light = prepare(e, everything);
+    const ibl_light *light = prepare(e, all_ggx);
     const float *pixels = e->panorama.pixels;
     for (uint32_t i = 0; i < 256 * 128; i += 37) {
         float d[3], out[3];
@@ -343,7 +343,7 @@ static void light_is_never_below_the_least_radiance(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(64, 32, sun_in_grey);
-    ibl_light_desc desc = everything;
+    ibl_light_desc desc = all_ggx;
     desc.needs_sheen = true;
     desc.max_sheen_roughness = 1.0f;
     const ibl_light *light = prepare(e, desc);
@@ -367,7 +367,7 @@ static void light_is_continuous_in_roughness(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(256, 128, sky);
-    const ibl_light *light = prepare(e, everything);
+    const ibl_light *light = prepare(e, all_ggx);
     for (uint32_t level = 1; level + 1 < prefilter_level_count(PREFILTER_GGX); level++) {
         float d[3] = {0.6f, 0.64f, 0.48f};
         float below[3], above[3];
@@ -411,7 +411,7 @@ static void only_needed_parts_are_prepared(void **state)
     assert_false(e->parts.has_narrow);
     ibl_light_release(light);
 
-    light = prepare(e, everything); /* keeps the prepared parts */
+    light = prepare(e, all_ggx); /* keeps the prepared parts */
     assert_ptr_equal(e->parts.levels[PREFILTER_GGX][4].texels, texels);
     facet_environment_destroy(e); /* the light keeps it */
     float d[3] = {0.0f, 1.0f, 0.0f};
@@ -428,7 +428,7 @@ static void levels_do_not_depend_on_other_parts_or_threads(void **state)
     rotation_phase = 0.1f;
     facet_environment *a = make_environment(333, 150, pattern);
     facet_environment *b = make_environment(333, 150, pattern);
-    ibl_light_desc desc = everything;
+    ibl_light_desc desc = all_ggx;
     desc.thread_count = 1;
     const ibl_light *one = prepare(a, desc);
     desc.thread_count = 5;
@@ -452,7 +452,7 @@ static void levels_do_not_depend_on_other_parts_or_threads(void **state)
 static void *prepare_in_thread(void *argument)
 {
     const ibl_light *light = NULL;
-    ibl_light_desc desc = everything;
+    ibl_light_desc desc = all_ggx;
     desc.thread_count = 2;
     if (ibl_light_prepare(argument, &desc, &light, NULL) != FACET_OK)
         return NULL;
@@ -488,40 +488,19 @@ static void threads_share_prepared_parts(void **state)
 
 /* ---- memory ---- */
 
-typedef struct counter {
-    long left; /* allocations before one fails */
-    long held;
-} counter;
-
-static void *count_allocate(void *user, size_t size)
-{
-    counter *c = user;
-    if (c->left-- <= 0)
-        return NULL;
-    c->held++;
-    return malloc(size);
-}
-
-static void count_release(void *user, void *memory, size_t size)
-{
-    (void)size;
-    ((counter *)user)->held--;
-    free(memory);
-}
-
 /* Each failing allocation gives FACET_ERROR_MEMORY, and nothing leaks. */
 static void running_out_of_memory_leaks_nothing(void **state)
 {
     (void)state;
     for (long limit = 0;; limit = next_failure(limit)) {
-        counter c = {.left = limit};
+        failing_allocator c = {.fail_at = limit};
         facet_environment_desc desc = {
-            .allocator = {&c, count_allocate, count_release}, .thread_count = 1, .cache_folder = NULL};
+            .allocator = failing_allocator_get(&c), .thread_count = 1, .cache_folder = NULL};
         facet_environment *e = NULL;
         facet_error error;
         facet_result result = facet_environment_create_studio(&desc, &e, &error);
         const ibl_light *light = NULL;
-        ibl_light_desc all = everything;
+        ibl_light_desc all = all_ggx;
         all.thread_count = 1;
         all.background_size = 8;
         if (result == FACET_OK)
@@ -532,7 +511,7 @@ static void running_out_of_memory_leaks_nothing(void **state)
         }
         ibl_light_release(light);
         facet_environment_destroy(e);
-        assert_int_equal(c.held, 0);
+        assert_int_equal(c.blocks, 0);
         if (result == FACET_OK) {
             print_message("%ld allocations\n", limit);
             return;

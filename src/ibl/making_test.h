@@ -26,6 +26,14 @@ static inline facet_environment *make_environment(uint32_t width, uint32_t heigh
     return e;
 }
 
+/* All lookups at any roughness. */
+static const ibl_light_desc all_lookups = {.needs_irradiance = true,
+                                           .needs_specular = true,
+                                           .max_roughness = 1.0f,
+                                           .needs_sheen = true,
+                                           .max_sheen_roughness = 1.0f,
+                                           .needs_background = true};
+
 static inline const ibl_light *prepare(facet_environment *e, ibl_light_desc desc)
 {
     const ibl_light *light = NULL;

@@ -156,13 +156,6 @@ static facet_environment *make_light(const lit_scene *s)
     return e;
 }
 
-static const ibl_light_desc everything = {.needs_irradiance = true,
-                                          .needs_specular = true,
-                                          .max_roughness = 1.0f,
-                                          .needs_sheen = true,
-                                          .max_sheen_roughness = 1.0f,
-                                          .needs_background = true};
-
 /* ---- closed forms ---- */
 
 static void uniform(const double d[3], double out[3])
@@ -181,7 +174,7 @@ static void check_uniform(const writing *w, const double expected[3], float inte
     for (int k = 0; k < 3; k++)
         s->light.irradiance[0][k] = (float)(expected[k] * pi / 0.28209479177); /* E = pi L = c Y00 */
     facet_environment *e = make_light(s);
-    const ibl_light *light = prepare(e, everything);
+    const ibl_light *light = prepare(e, all_lookups);
     for (int i = 0; i < 100; i++) {
         float d[3], out[5][3];
         test_direction(i, 100, d);
@@ -227,7 +220,7 @@ static void each_face_lights_from_its_direction(void **state)
     for (bright_face = 0; bright_face < 6; bright_face++) {
         lit_scene *s = make_scene(&(writing){.size = 32, .type = IMAGE_U16}, one_face);
         facet_environment *e = make_light(s);
-        const ibl_light *light = prepare(e, everything);
+        const ibl_light *light = prepare(e, all_lookups);
         double mean = 0.0;
         for (uint32_t face = 0; face < 6; face++) {
             double d[3];
@@ -258,7 +251,7 @@ static void rotated_lights_turn(void **state)
     lit_scene *s = make_scene(&(writing){.size = 16, .type = IMAGE_U16}, one_face);
     s->light.rotation[1] = s->light.rotation[3] = 0.70710678f;
     facet_environment *e = make_light(s);
-    const ibl_light *light = prepare(e, everything);
+    const ibl_light *light = prepare(e, all_lookups);
     static const float X[3] = {1.0f, 0.0f, 0.0f};
     static const float Z[3] = {0.0f, 0.0f, 1.0f};
     float at_x[3], at_z[3];
@@ -295,7 +288,7 @@ static void gradients_are_read_in_all_conventions(void **state)
         double tolerance = reading & 4 ? 3e-3 : 0.02;
         lit_scene *s = make_scene(&w, gradient);
         facet_environment *e = make_light(s);
-        const ibl_light *light = prepare(e, everything);
+        const ibl_light *light = prepare(e, all_lookups);
         for (int i = 0; i < 300; i++) {
             float d[3], sharp[3], rough[3], diffuse[3];
             double c[3], lower[3];
@@ -331,7 +324,7 @@ static void irradiance_is_that_of_the_file(void **state)
         for (int k = 0; k < 3; k++)
             s->light.irradiance[l][k] *= 40.0f;
     facet_environment *e = make_light(s);
-    const ibl_light *light = prepare(e, everything);
+    const ibl_light *light = prepare(e, all_lookups);
     static const float Y[3] = {0.0f, 1.0f, 0.0f};
     float out[3];
     ibl_background(light, Y, 0.0f, out);
@@ -367,19 +360,6 @@ static void seams_reveal_mirrored_faces(void **state)
 }
 
 /* ---- invalid files ---- */
-
-typedef struct messages {
-    int count;
-    char last[1024];
-} messages;
-
-static void keep_message(void *user, facet_log_level level, const char *text)
-{
-    messages *m = user;
-    (void)level;
-    m->count++;
-    snprintf(m->last, sizeof m->last, "%s", text);
-}
 
 static void check_failure(const lit_scene *s, facet_result expected, const char *words)
 {
@@ -428,13 +408,13 @@ static void invalid_images_are_refused(void **state)
     check_failure(s, FACET_ERROR_INVALID, "there are no images");
     s->light.mip_count = 1;
 
-    messages m = {0};
+    captured_messages m = {0};
     s->light.specular_size = 256;
     facet_environment *e = NULL;
-    facet_environment_desc desc = {.log = {&m, keep_message}};
+    facet_environment_desc desc = {.log = capture_log(&m)};
     assert_int_equal(facet_environment_create_from_scene(&s->scene, NULL, &desc, &e, NULL), FACET_OK);
     assert_int_equal(m.count, 1);
-    assert_non_null(strstr(m.last, "specularImageSize is 256, but the faces have 8"));
+    assert_non_null(strstr(m.text, "specularImageSize is 256, but the faces have 8"));
     facet_environment_destroy(e);
     destroy_scene(s);
     destroy_scene(other);
@@ -514,39 +494,18 @@ static void lights_do_not_depend_on_threads(void **state)
     destroy_scene(s);
 }
 
-typedef struct counter {
-    long left; /* allocations before one fails */
-    long held;
-} counter;
-
-static void *count_allocate(void *user, size_t size)
-{
-    counter *c = user;
-    if (c->left-- <= 0)
-        return NULL;
-    c->held++;
-    return malloc(size);
-}
-
-static void count_release(void *user, void *memory, size_t size)
-{
-    (void)size;
-    ((counter *)user)->held--;
-    free(memory);
-}
-
 static void running_out_of_memory_leaks_nothing(void **state)
 {
     (void)state;
     lit_scene *s = make_scene(&(writing){.size = 4}, gradient);
     for (long limit = 0;; limit = next_failure(limit)) {
-        counter c = {.left = limit};
-        facet_environment_desc desc = {.allocator = {&c, count_allocate, count_release}, .thread_count = 1};
+        failing_allocator c = {.fail_at = limit};
+        facet_environment_desc desc = {.allocator = failing_allocator_get(&c), .thread_count = 1};
         facet_environment *e = NULL;
         facet_error error;
         facet_result result = facet_environment_create_from_scene(&s->scene, NULL, &desc, &e, &error);
         facet_environment_destroy(e);
-        assert_int_equal(c.held, 0);
+        assert_int_equal(c.blocks, 0);
         if (result == FACET_OK) {
             print_message("%ld allocations\n", limit);
             break;

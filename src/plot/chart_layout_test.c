@@ -2,8 +2,6 @@
 #include "plot/chart_test_scene.h"
 #include "tests/support/support.h"
 
-static scene_data data;
-
 static bool is_within(const chart_box *inner, const chart_box *outer)
 {
     return inner->x >= outer->x - 0.5 && inner->y >= outer->y - 0.5 &&
@@ -271,13 +269,6 @@ static void polar_angles_are_from_above(void **state)
     free(v);
 }
 
-static int set_up(void **state)
-{
-    (void)state;
-    scene_make(&data);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -291,5 +282,5 @@ int main(void)
         cmocka_unit_test(surfaces_are_colored_by_value),
         cmocka_unit_test(polar_angles_are_from_above),
     };
-    return cmocka_run_group_tests(tests, set_up, NULL);
+    return cmocka_run_group_tests(tests, make_data, NULL);
 }

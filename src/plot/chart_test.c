@@ -100,8 +100,6 @@ static void expect_references(const char *svg)
 
 /* ---- charts ---- */
 
-static scene_data data;
-
 static void expect_svg(const chart *c)
 {
     const drawn d = draw(c, FACET_PLOT_FORMAT_SVG);
@@ -451,13 +449,6 @@ static void running_out_of_memory_leaks_nothing(void **state)
         }
 }
 
-static int set_up(void **state)
-{
-    (void)state;
-    scene_make(&data);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -473,5 +464,5 @@ int main(void)
         cmocka_unit_test(a_missing_cairo_is_reported_with_advice),
         cmocka_unit_test(running_out_of_memory_leaks_nothing),
     };
-    return cmocka_run_group_tests(tests, set_up, NULL);
+    return cmocka_run_group_tests(tests, make_data, NULL);
 }

@@ -179,4 +179,14 @@ static inline panel_view *lay_out(const chart *c)
     return views;
 }
 
+/* The data of a test program, made by its group setup. */
+static scene_data data;
+
+static inline int make_data(void **state)
+{
+    (void)state;
+    scene_make(&data);
+    return 0;
+}
+
 #endif

@@ -169,6 +169,21 @@ static void unmeasured_cells_do_not_count(void **state)
     merl_close(file);
 }
 
+static material measured_material(const fixture *f, merl *file)
+{
+    return (material){
+        .parameters = {.model = FACET_PLOT_MODEL_MERL, .path = f->path}, .label = "", .measured = file};
+}
+
+/* Fits a model; the relative error. */
+static double fit(const material *measured, facet_plot_model model, facet_plot_material *found)
+{
+    double rms;
+    facet_allocator malloc_ = {0};
+    assert_int_equal(material_fit(measured, model, &malloc_, found, &rms, NULL), FACET_OK);
+    return rms;
+}
+
 /* Fitting recovers the parameters up to the error of interpolation. */
 static void parameters_are_recovered(void **state)
 {
@@ -178,12 +193,8 @@ static void parameters_are_recovered(void **state)
         facet_plot_material parameters = shiny(roughness[r]), found;
         write_material(f, &parameters);
         merl *file = open_file(f);
-        material measured = {
-            .parameters = {.model = FACET_PLOT_MODEL_MERL, .path = f->path}, .label = "", .measured = file};
-        double rms;
-        facet_allocator malloc_ = {0};
-        assert_int_equal(material_fit(&measured, FACET_PLOT_MODEL_PBR, &malloc_, &found, &rms, NULL),
-                         FACET_OK);
+        material measured = measured_material(f, file);
+        double rms = fit(&measured, FACET_PLOT_MODEL_PBR, &found);
         assert_near(found.perceptual_roughness, roughness[r], 0.005);
         for (int c = 0; c < 3; c++) {
             assert_near(found.specular_color[c], 0.04, 0.002);
@@ -203,11 +214,8 @@ static void metals_are_recovered(void **state)
     memcpy(parameters.base_color, gold, sizeof gold);
     write_material(f, &parameters);
     merl *file = open_file(f);
-    material measured = {
-        .parameters = {.model = FACET_PLOT_MODEL_MERL, .path = f->path}, .label = "", .measured = file};
-    double rms;
-    facet_allocator malloc_ = {0};
-    assert_int_equal(material_fit(&measured, FACET_PLOT_MODEL_PBR, &malloc_, &found, &rms, NULL), FACET_OK);
+    material measured = measured_material(f, file);
+    double rms = fit(&measured, FACET_PLOT_MODEL_PBR, &found);
     assert_near(found.perceptual_roughness, 0.35, 0.005);
     for (int c = 0; c < 3; c++)
         assert_near(found.specular_color[c], gold[c], 0.01);
@@ -225,11 +233,8 @@ static void legacy_materials_are_recovered(void **state)
     parameters.ogl1_specular[1] = 0.5f;
     write_material(f, &parameters);
     merl *file = open_file(f);
-    material measured = {
-        .parameters = {.model = FACET_PLOT_MODEL_MERL, .path = f->path}, .label = "", .measured = file};
-    double rms;
-    facet_allocator malloc_ = {0};
-    assert_int_equal(material_fit(&measured, FACET_PLOT_MODEL_OGL1, &malloc_, &found, &rms, NULL), FACET_OK);
+    material measured = measured_material(f, file);
+    fit(&measured, FACET_PLOT_MODEL_OGL1, &found);
     assert_near(found.shininess / 50.0f, 1.0, 0.03);
     for (int c = 0; c < 3; c++) {
         assert_near(found.diffuse[c], parameters.diffuse[c], 0.01);

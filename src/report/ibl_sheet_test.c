@@ -258,20 +258,6 @@ static void text_is_drawn_in_place(void **state)
     image_destroy(&i);
 }
 
-typedef struct watch {
-    int calls, stops_at;
-    double last;
-} watch;
-
-static bool look(void *user, const char *stage, double fraction)
-{
-    watch *w = user;
-    assert_string_equal(stage, "sheet");
-    assert_true(fraction > w->last && fraction <= 1.0);
-    w->last = fraction;
-    return ++w->calls != w->stops_at;
-}
-
 static void progress_is_reported_and_can_cancel(void **state)
 {
     (void)state;
@@ -280,15 +266,16 @@ static void progress_is_reported_and_can_cancel(void **state)
     for (int k = 0; k < 2; k++) {
         facet_bake_desc desc = {.lobe = lobes[k], .size = 16};
         facet_cube *c = bake(e, &desc);
-        watch w = {0};
-        facet_sheet_desc sheet_desc = {.bake = desc, .progress = {&w, look}};
+        captured_progress w = {0};
+        facet_sheet_desc sheet_desc = {.bake = desc, .progress = capture_progress(&w)};
         image sheet = {0};
         if (lobes[k] == FACET_LOBE_LAMBERT) {
             sheet = draw(c, e, &sheet_desc);
-            assert_true(w.last == 1.0);
+            assert_true(w.fraction == 1.0);
+            assert_string_equal(w.stage, "sheet");
             image_destroy(&sheet);
         }
-        w = (watch){.stops_at = 3};
+        w = (captured_progress){.stops_at = 3};
         facet_error error = {0};
         assert_int_equal(ibl_sheet_draw(c, e, &sheet_desc, &sheet, &error), FACET_ERROR_CANCELLED);
         assert_null(sheet.pixels);

@@ -71,6 +71,22 @@ facet_log capture_log(captured_messages *messages)
     return (facet_log){.user = messages, .message = capture};
 }
 
+/* ---- progress ---- */
+
+static bool watch(void *user, const char *stage, double fraction)
+{
+    captured_progress *progress = user;
+    assert_true(fraction > progress->fraction && fraction <= 1.0);
+    progress->stage = stage;
+    progress->fraction = fraction;
+    return ++progress->calls != progress->stops_at;
+}
+
+facet_progress capture_progress(captured_progress *progress)
+{
+    return (facet_progress){.user = progress, .report = watch};
+}
+
 /* ---- files ---- */
 
 void temporary_folder_create(temporary_folder *folder)

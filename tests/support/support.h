@@ -99,6 +99,17 @@ typedef struct captured_messages {
 } captured_messages;
 facet_log capture_log(captured_messages *messages);
 
+/* ---- progress ---- */
+
+/* What a facet_progress receives: the number of calls, and the last stage and fraction. The test fails unless
+ * fractions rise in [0, 1]. Call number stops_at (from 1; 0: none) cancels. */
+typedef struct captured_progress {
+    int stops_at, calls;
+    const char *stage;
+    double fraction;
+} captured_progress;
+facet_progress capture_progress(captured_progress *progress);
+
 /* ---- files ---- */
 
 /* A new temporary folder; temporary_folder_remove() removes it with its contents. */
