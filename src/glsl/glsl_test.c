@@ -24,7 +24,7 @@ static char *text_of(const char *version, const char *const *parts, uint32_t cou
     return (char *)bytes;
 }
 
-static void the_whole_has_all_parts_in_order(void **state)
+static void the_library_has_all_parts_in_order(void **state)
 {
     (void)state;
     char *text = text_of("300 es", NULL, 0);
@@ -48,7 +48,7 @@ static void the_whole_has_all_parts_in_order(void **state)
     mem_free(text);
 }
 
-static void a_part_brings_what_it_uses_and_no_more(void **state)
+static void a_part_comes_with_its_dependencies_only(void **state)
 {
     (void)state;
     static const char *const fresnel[] = {"fresnel"};
@@ -99,7 +99,7 @@ static void take_back(void *user, void *memory, size_t size)
     (void)user, (void)memory, (void)size;
 }
 
-static void no_memory_is_a_result(void **state)
+static void running_out_of_memory_is_a_result(void **state)
 {
     (void)state;
     static const char *const fresnel[] = {"fresnel"};
@@ -117,10 +117,10 @@ static void no_memory_is_a_result(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_whole_has_all_parts_in_order),
-        cmocka_unit_test(a_part_brings_what_it_uses_and_no_more),
+        cmocka_unit_test(the_library_has_all_parts_in_order),
+        cmocka_unit_test(a_part_comes_with_its_dependencies_only),
         cmocka_unit_test(versions_and_parts_are_checked),
-        cmocka_unit_test(no_memory_is_a_result),
+        cmocka_unit_test(running_out_of_memory_is_a_result),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -53,7 +53,7 @@ static void project(const facet_camera *c, const double p[3], double out[2])
     out[1] = 50.0 - 50.0 * y / half;
 }
 
-static void a_drag_over_the_height_is_a_turn(void **state)
+static void a_drag_over_the_height_is_a_full_turn(void **state)
 {
     (void)state;
     facet_orbit o = start(false);
@@ -69,7 +69,7 @@ static void a_drag_over_the_height_is_a_turn(void **state)
 }
 
 /* The point at the target's depth that was under the pointer stays under it. */
-static void what_is_held_stays_under_the_pointer(void **state)
+static void panning_keeps_the_point_under_the_pointer(void **state)
 {
     (void)state;
     for (int variant = 0; variant < 4; variant++) {
@@ -85,7 +85,7 @@ static void what_is_held_stays_under_the_pointer(void **state)
     }
 }
 
-static void dolly_never_arrives(void **state)
+static void dollying_never_reaches_the_target(void **state)
 {
     (void)state;
     facet_orbit o = start(false);
@@ -99,7 +99,7 @@ static void dolly_never_arrives(void **state)
     assert_true(isfinite(o.radius));
 }
 
-static void directions_look_along_axes(void **state)
+static void view_keys_look_along_axes(void **state)
 {
     (void)state;
     static const struct {
@@ -117,7 +117,7 @@ static void directions_look_along_axes(void **state)
 }
 
 /* A window's camera is the one that facet render makes of --orbit, and orbits of cameras round-trip. */
-static void an_orbit_survives_being_a_camera(void **state)
+static void orbits_round_trip_through_cameras(void **state)
 {
     (void)state;
     for (int variant = 0; variant < 4; variant++) {
@@ -135,7 +135,7 @@ static void an_orbit_survives_being_a_camera(void **state)
 }
 
 /* Rounding is invisible, and keeps zero, halves and whole numbers exact. */
-static void numbers_are_short(void **state)
+static void rounding_is_invisible_and_short(void **state)
 {
     (void)state;
     const double degree = 0.017453292519943295;
@@ -158,7 +158,7 @@ static void numbers_are_short(void **state)
 }
 
 /* An orthographic eye may be anywhere on its axis, but not inside the model. */
-static void a_parallel_eye_is_outside(void **state)
+static void an_orthographic_eye_is_outside_the_model(void **state)
 {
     (void)state;
     facet_orbit o = start(false);
@@ -174,12 +174,12 @@ static void a_parallel_eye_is_outside(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_drag_over_the_height_is_a_turn),
-                                       cmocka_unit_test(what_is_held_stays_under_the_pointer),
-                                       cmocka_unit_test(dolly_never_arrives),
-                                       cmocka_unit_test(directions_look_along_axes),
-                                       cmocka_unit_test(an_orbit_survives_being_a_camera),
-                                       cmocka_unit_test(numbers_are_short),
-                                       cmocka_unit_test(a_parallel_eye_is_outside)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_drag_over_the_height_is_a_full_turn),
+                                       cmocka_unit_test(panning_keeps_the_point_under_the_pointer),
+                                       cmocka_unit_test(dollying_never_reaches_the_target),
+                                       cmocka_unit_test(view_keys_look_along_axes),
+                                       cmocka_unit_test(orbits_round_trip_through_cameras),
+                                       cmocka_unit_test(rounding_is_invisible_and_short),
+                                       cmocka_unit_test(an_orthographic_eye_is_outside_the_model)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -54,7 +54,7 @@ static void every_action_has_a_key(void **state)
     }
 }
 
-static void names_are_read_back(void **state)
+static void key_names_round_trip(void **state)
 {
     (void)state;
     for (uint32_t i = 0; i < view_binding_count; i++) {
@@ -77,7 +77,7 @@ static void names_are_read_back(void **state)
 }
 
 /* "| `Left`, `Right` | previous, next model of the folder |", in the order of the table. */
-static void the_document_has_them_all(void **state)
+static void the_document_lists_every_key(void **state)
 {
     (void)state;
     const char *at = document;
@@ -106,7 +106,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(no_key_is_bound_twice), cmocka_unit_test(every_key_has_help),
-        cmocka_unit_test(every_action_has_a_key), cmocka_unit_test(names_are_read_back),
-        cmocka_unit_test(the_document_has_them_all)};
+        cmocka_unit_test(every_action_has_a_key), cmocka_unit_test(key_names_round_trip),
+        cmocka_unit_test(the_document_lists_every_key)};
     return cmocka_run_group_tests(tests, read_document, NULL);
 }

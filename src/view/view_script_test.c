@@ -17,7 +17,7 @@ static facet_result parse(const char *text, view_script *out, facet_error *error
     return view_script_parse(text, strlen(text), "test", &(facet_allocator){0}, out, error);
 }
 
-static void steps_are_what_lines_say(void **state)
+static void lines_become_steps(void **state)
 {
     (void)state;
     view_script s;
@@ -76,7 +76,7 @@ static void running_out_of_memory_is_a_result(void **state)
     assert_int_equal(result, FACET_OK);
 }
 
-static void movements_that_follow_each_other_are_one(void **state)
+static void consecutive_movements_are_merged(void **state)
 {
     (void)state;
     view_queue *q = calloc(1, sizeof *q);
@@ -100,9 +100,9 @@ static void movements_that_follow_each_other_are_one(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(steps_are_what_lines_say),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lines_become_steps),
                                        cmocka_unit_test(errors_name_their_line),
                                        cmocka_unit_test(running_out_of_memory_is_a_result),
-                                       cmocka_unit_test(movements_that_follow_each_other_are_one)};
+                                       cmocka_unit_test(consecutive_movements_are_merged)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -96,7 +96,7 @@ static void absent_things_are_reported(void **state)
 }
 
 /* Before a model is loaded, keys about it do nothing. */
-static void keys_without_a_model(void **state)
+static void keys_without_a_model_do_nothing(void **state)
 {
     (void)state;
     view_state s;
@@ -141,7 +141,7 @@ static void help_has_pages(void **state)
 }
 
 /* Whole labels, within the window, wherever the border is. */
-static void labels_are_not_cut(void **state)
+static void labels_stay_within_the_window(void **state)
 {
     (void)state;
     const int widths[2] = {150, 120};
@@ -167,7 +167,7 @@ static void channels_and_path_tracing_exclude_each_other(void **state)
     assert_int_equal(s.render.gl.channel, FACET_CHANNEL_LIGHT);
 }
 
-static void the_pointer_moves_what_it_holds(void **state)
+static void dragging_orbits_and_pans(void **state)
 {
     (void)state;
     view_state s;
@@ -238,7 +238,7 @@ static void views_show_the_whole_model(void **state)
 }
 
 /* The two sides differ in the compared setting, and in nothing else. */
-static void sides_differ_in_one_thing(void **state)
+static void sides_differ_in_the_compared_setting_only(void **state)
 {
     (void)state;
     const facet_render_desc base = {.renderer = FACET_RENDERER_KIND_GL, .tonemap = FACET_TONEMAP_AGX};
@@ -333,14 +333,14 @@ int main(void)
                                        cmocka_unit_test(keys_cycle_through_their_values),
                                        cmocka_unit_test(comparisons_keep_path_tracing),
                                        cmocka_unit_test(absent_things_are_reported),
-                                       cmocka_unit_test(keys_without_a_model),
+                                       cmocka_unit_test(keys_without_a_model_do_nothing),
                                        cmocka_unit_test(keys_without_effect_say_why),
                                        cmocka_unit_test(help_has_pages),
-                                       cmocka_unit_test(labels_are_not_cut),
+                                       cmocka_unit_test(labels_stay_within_the_window),
                                        cmocka_unit_test(channels_and_path_tracing_exclude_each_other),
-                                       cmocka_unit_test(the_pointer_moves_what_it_holds),
+                                       cmocka_unit_test(dragging_orbits_and_pans),
                                        cmocka_unit_test(the_divider_is_dragged_by_its_border),
                                        cmocka_unit_test(views_show_the_whole_model),
-                                       cmocka_unit_test(sides_differ_in_one_thing)};
+                                       cmocka_unit_test(sides_differ_in_the_compared_setting_only)};
     return cmocka_run_group_tests(tests, make_scene, drop_scene);
 }

@@ -13,7 +13,7 @@ typedef struct view_image {
     unsigned char *pixels; /* RGBA; a block of mem_alloc() */
 } view_image;
 
-/* From a developed image: linear, premultiplied. FACET_ERROR_MEMORY. */
+/* From a tone-mapped image: linear, premultiplied. FACET_ERROR_MEMORY. */
 facet_result view_image_create(const facet_image_view *linear, const facet_allocator *allocator,
                                view_image *out, facet_error *error);
 void view_image_destroy(view_image *p); /* {0} is allowed */

@@ -40,7 +40,7 @@ typedef struct gl_frame_block {
 /* Texture units; those of materials come last. */
 enum {
     GL_UNIT_ENVIRONMENT, /* filtered environment: gl_light.h */
-    GL_UNIT_SHARP,       /* the unfiltered environment, for mirrors and the background */
+    GL_UNIT_SHARP,       /* the unfiltered environment, for sharp reflections and the background */
     GL_UNIT_TABLES,      /* DFG and sheen albedo LUTs */
     GL_UNIT_GLASS,       /* 3D: transmission LUT */
     GL_UNIT_LIGHTS,      /* punctual lights */

@@ -83,22 +83,6 @@ static text assemble(const char *version, gl_program_key key, uint32_t stage)
 
 /* ---- compilers ---- */
 
-typedef struct heard {
-    size_t count;
-    char first[128], all[1 << 20];
-    size_t length;
-} heard;
-
-static void hear(void *user, facet_log_level level, const char *said)
-{
-    heard *h = user;
-    (void)level;
-    if (h->count++ == 0)
-        snprintf(h->first, sizeof h->first, "%s", said);
-    int length = snprintf(h->all + h->length, sizeof h->all - h->length, "%s\n", said);
-    h->length += (size_t)length < sizeof h->all - h->length ? (size_t)length : 0;
-}
-
 static gl_api apis[] = {GL_API_CORE, GL_API_ES};
 
 static int run_on_drivers(void (*check)(gl_context *context))
@@ -144,7 +128,7 @@ static void compile_all(gl_context *context)
     assert_int_equal(gl_context_check(context, "test", &error), FACET_OK);
 }
 
-static void programs_compile(void **state)
+static void drivers_compile_every_program(void **state)
 {
     (void)state;
     run_on_drivers(compile_all);
@@ -153,9 +137,8 @@ static void programs_compile(void **state)
 /* A program that does not compile is reported in one sentence, with its numbered source in the log. */
 static void compile_broken(gl_context *context)
 {
-    static heard h;
-    memset(&h, 0, sizeof h);
-    const facet_log log = {.user = &h, .message = hear};
+    captured_messages messages = {.count = 0};
+    const facet_log log = capture_log(&messages);
     gl_programs *programs;
     facet_error error;
     uint32_t name = 0;
@@ -168,11 +151,11 @@ static void compile_broken(gl_context *context)
     assert_non_null(strstr(error.message, "the shader \"present\" does not compile"));
     assert_non_null(strstr(error.message, "no_such_function"));
     assert_null(strchr(error.message, '\n'));
-    assert_non_null(strstr(h.all, "   1  #version "));
-    const char *line = strstr(h.all, "  float broken()");
+    assert_non_null(strstr(messages.text, "   1  #version "));
+    const char *line = strstr(messages.text, "  float broken()");
     assert_non_null(line);
     int number = 0; /* the driver's line number is that of the log */
-    while (line > h.all && line[-1] != '\n')
+    while (line > messages.text && line[-1] != '\n')
         line--;
     number = atoi(line);
     assert_int_equal(number, 3);
@@ -187,7 +170,7 @@ static void compile_broken(gl_context *context)
     gl_programs_destroy(programs);
 }
 
-static void a_broken_program_is_reported_with_its_text(void **state)
+static void compile_errors_come_with_the_source(void **state)
 {
     (void)state;
     run_on_drivers(compile_broken);
@@ -231,7 +214,7 @@ static void check_frame_block(gl_context *context)
     gl_programs_destroy(programs);
 }
 
-static void the_frame_block_is_the_same_in_shaders(void **state)
+static void the_frame_block_has_the_same_layout_in_c_and_glsl(void **state)
 {
     (void)state;
     run_on_drivers(check_frame_block);
@@ -249,7 +232,7 @@ static void write_text(const char *path, const text *t)
 
 /* Every configuration, version and stage: the reference compiler rejects what is used before its
  * definition, which drivers may let through. One process with a thread per core (-t) takes all files. */
-static void the_reference_compiler_takes_every_text(void **state)
+static void glslang_accepts_every_configuration(void **state)
 {
     (void)state;
     static gl_program_key keys[MAX_KEYS];
@@ -277,9 +260,9 @@ static void the_reference_compiler_takes_every_text(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(programs_compile),
-                                       cmocka_unit_test(a_broken_program_is_reported_with_its_text),
-                                       cmocka_unit_test(the_frame_block_is_the_same_in_shaders),
-                                       cmocka_unit_test(the_reference_compiler_takes_every_text)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(drivers_compile_every_program),
+                                       cmocka_unit_test(compile_errors_come_with_the_source),
+                                       cmocka_unit_test(the_frame_block_has_the_same_layout_in_c_and_glsl),
+                                       cmocka_unit_test(glslang_accepts_every_configuration)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

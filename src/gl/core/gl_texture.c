@@ -1,4 +1,4 @@
-/* gl_texture.c - see gl_texture.h. An image becomes one texture per way of reading it (as color, as data),
+/* gl_texture.c - see gl_texture.h. An image becomes one texture per interpretation (as color, as data),
  * shared by all textures of the scene that refer to it. Wrapping and filtering are in sampler objects. */
 #include "gl/core/gl_texture.h"
 

@@ -141,7 +141,7 @@ static gl_texture_set *make_set(const fixture *f, gl_context *context)
 }
 
 /* Odd sizes, every number of channels, colors and data, 8 and 16 bits. */
-static void test_texels(void **state)
+static void texels_equal_the_decoded_image(void **state)
 {
     (void)state;
     enum { COUNT = 8 };
@@ -188,7 +188,7 @@ static void test_texels(void **state)
 }
 
 /* An image beyond OpenGL's limit starts at a coarser level, with one warning. */
-static void test_too_large(void **state)
+static void images_beyond_the_limit_start_at_a_coarser_level(void **state)
 {
     (void)state;
     fixture f = fixture_create();
@@ -219,7 +219,7 @@ static void test_too_large(void **state)
 }
 
 /* An image that cannot be decoded reads as white, with one warning. */
-static void test_broken(void **state)
+static void broken_images_are_white_with_one_warning(void **state)
 {
     (void)state;
     fixture f = fixture_create();
@@ -245,7 +245,7 @@ static int sampler_parameter(uint32_t sampler, GLenum name)
     return value;
 }
 
-static void test_samplers(void **state)
+static void samplers_follow_gltf(void **state)
 {
     (void)state;
     fixture f = fixture_create();
@@ -286,8 +286,10 @@ static void test_samplers(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_texels), cmocka_unit_test(test_too_large),
-                                       cmocka_unit_test(test_broken), cmocka_unit_test(test_samplers)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(texels_equal_the_decoded_image),
+                                       cmocka_unit_test(images_beyond_the_limit_start_at_a_coarser_level),
+                                       cmocka_unit_test(broken_images_are_white_with_one_warning),
+                                       cmocka_unit_test(samplers_follow_gltf)};
     if (!gl_fixture_open(&contexts))
         return 77;
     int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -18,8 +18,8 @@ static fixture light_fixture(uint32_t width, uint32_t height, float scale)
     fixture f = fixture_create();
     f.desc.width = width;
     f.desc.height = height;
-    scene_material lamp = gl_fixture_unlit(1.0f, 0.5f, 0.25f, 1.0f);
-    fixture_place(&f, fixture_add_quad(&f, fixture_add_material(&f, lamp)), 0.0f, 0.0f, 0.0f, scale);
+    scene_material emitter = gl_fixture_unlit(1.0f, 0.5f, 0.25f, 1.0f);
+    fixture_place(&f, fixture_add_quad(&f, fixture_add_material(&f, emitter)), 0.0f, 0.0f, 0.0f, scale);
     return f;
 }
 
@@ -37,7 +37,7 @@ static size_t bytes_of(const film *image)
 }
 
 /* Odd sizes too, which cannot be halved exactly. */
-static void light_is_kept(void **state)
+static void bloom_preserves_energy(void **state)
 {
     (void)state;
     static const uint32_t sizes[][2] = {{128, 96}, {129, 97}, {200, 61}};
@@ -62,7 +62,7 @@ static void light_is_kept(void **state)
         }
 }
 
-static void none_is_off(void **state)
+static void zero_bloom_changes_nothing(void **state)
 {
     (void)state;
     for (int c = 0; c < contexts.count; c++) {
@@ -83,7 +83,7 @@ static void none_is_off(void **state)
     }
 }
 
-static void even_light_stays_even(void **state)
+static void uniform_images_stay_uniform(void **state)
 {
     (void)state;
     static const float wanted[4] = {1.0f, 0.5f, 0.25f, 1.0f};
@@ -111,7 +111,7 @@ static double ring(const film *image, double radius)
 }
 
 /* A power law of -2.5 within the distances that the filters cover. */
-static void light_falls_with_distance(void **state)
+static void bloom_falls_off_with_distance(void **state)
 {
     (void)state;
     for (int c = 0; c < contexts.count; c++) {
@@ -132,7 +132,7 @@ static void light_falls_with_distance(void **state)
 }
 
 /* Bloom over a background equals bloom with the background in the image. */
-static void coverage_is_spread_too(void **state)
+static void coverage_blooms_like_radiance(void **state)
 {
     (void)state;
     for (int c = 0; c < contexts.count; c++) {
@@ -155,34 +155,34 @@ static void coverage_is_spread_too(void **state)
     }
 }
 
-/* In an image of twice the size the glow spreads over twice as many pixels. */
-static void size_does_not_matter(void **state)
+/* In an image of twice the size bloom spreads over twice as many pixels. */
+static void bloom_scales_with_the_image(void **state)
 {
     (void)state;
     for (int c = 0; c < contexts.count; c++) {
-        film pictures[2];
+        film images[2];
         for (int i = 0; i < 2; i++) {
             fixture f = light_fixture(512u << i, 512u << i, 0.05f);
             f.desc.samples = 1;
             f.desc.gl.bloom = 1.0f;
-            pictures[i] = gl_fixture_render(&f, &contexts.items[c]);
+            images[i] = gl_fixture_render(&f, &contexts.items[c]);
             fixture_destroy(&f);
         }
         for (double radius = 32.0; radius < 220.0; radius += 20.0) {
-            double small = ring(&pictures[0], radius), large = ring(&pictures[1], 2.0 * radius);
+            double small = ring(&images[0], radius), large = ring(&images[1], 2.0 * radius);
             assert_true(fabs(large / small - 1.0) < 0.1);
         }
-        film_destroy(&pictures[0]);
-        film_destroy(&pictures[1]);
+        film_destroy(&images[0]);
+        film_destroy(&images[1]);
     }
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(light_is_kept),          cmocka_unit_test(none_is_off),
-        cmocka_unit_test(even_light_stays_even),  cmocka_unit_test(light_falls_with_distance),
-        cmocka_unit_test(coverage_is_spread_too), cmocka_unit_test(size_does_not_matter),
+        cmocka_unit_test(bloom_preserves_energy),        cmocka_unit_test(zero_bloom_changes_nothing),
+        cmocka_unit_test(uniform_images_stay_uniform),   cmocka_unit_test(bloom_falls_off_with_distance),
+        cmocka_unit_test(coverage_blooms_like_radiance), cmocka_unit_test(bloom_scales_with_the_image),
     };
     if (gl_fixture_open(&contexts) == 0)
         return 77;

@@ -125,7 +125,7 @@ static facet_result check_watch(drawing *d, facet_error *error)
     return render_watch_explain(&d->watch, error);
 }
 
-static facet_result draw_picture(drawing *d, const tile *t, facet_error *error)
+static facet_result draw_tile(drawing *d, const tile *t, facet_error *error)
 {
     const gl_film_desc *desc = d->desc;
     gl_view view = view_of(t, desc->sampling.scale);
@@ -322,7 +322,7 @@ facet_result gl_film_draw(const gl_film_desc *desc, film *target, facet_error *e
     facet_result result = prepare(&d, error);
     for (uint32_t i = 0; result == FACET_OK && i < d.columns * d.rows; i++) {
         tile t = get_tile(&d, i);
-        result = draw_picture(&d, &t, error);
+        result = draw_tile(&d, &t, error);
         if (result == FACET_OK && desc->render->aovs)
             result = draw_layers(&d, &t, error);
         if (result == FACET_OK)

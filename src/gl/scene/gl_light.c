@@ -108,7 +108,7 @@ enum { LIGHT_TEXELS = 4, WORDS = 4, RECORD_TEXELS = sizeof(gl_shadow_record) / 1
 
 /* Where each part begins, in texels. */
 typedef struct layout {
-    size_t records, lists, cells, end, number_count, cell_count;
+    size_t records, lists, cells, end, index_count, cell_count;
 } layout;
 
 /* Without a grid where there is none, or where it does not fit. */
@@ -119,9 +119,9 @@ static layout plan_layout(const light_setup *setup, uint32_t record_count, bool 
     l.lists = l.records + RECORD_TEXELS * (size_t)record_count;
     if (has_grid) {
         l.cell_count = (size_t)grid->cell_count[0] * grid->cell_count[1] * grid->cell_count[2];
-        l.number_count = grid->everywhere_count + grid->first[l.cell_count];
+        l.index_count = grid->everywhere_count + grid->first[l.cell_count];
     }
-    l.cells = l.lists + (l.number_count + WORDS - 1) / WORDS;
+    l.cells = l.lists + (l.index_count + WORDS - 1) / WORDS;
     l.end = l.cells + (l.cell_count + 1) / 2;
     return l;
 }
@@ -140,12 +140,12 @@ static void store_light(const Light *light, size_t record, uint32_t *out)
 
 static void store_grid(const light_grid *grid, const layout *l, uint32_t *words)
 {
-    uint32_t *numbers = words + WORDS * l->lists;
+    uint32_t *indices = words + WORDS * l->lists;
     uint32_t *cells = words + WORDS * l->cells;
     size_t near_count = grid->first[l->cell_count];
     if (grid->everywhere_count)
-        memcpy(numbers, grid->everywhere, grid->everywhere_count * sizeof *numbers);
-    memcpy(numbers + grid->everywhere_count, grid->lights, near_count * sizeof *numbers);
+        memcpy(indices, grid->everywhere, grid->everywhere_count * sizeof *indices);
+    memcpy(indices + grid->everywhere_count, grid->lights, near_count * sizeof *indices);
     for (size_t i = 0; i < l->cell_count; i++) {
         cells[2 * i] = grid->everywhere_count + grid->first[i];
         cells[2 * i + 1] = grid->everywhere_count + grid->first[i + 1];

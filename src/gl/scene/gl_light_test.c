@@ -322,7 +322,7 @@ static const ibl_light_desc everything = {.needs_irradiance = true,
                                           .max_sheen_roughness = 1.0f,
                                           .needs_background = true};
 
-static void environment_light_is_that_of_the_cpu(void **state)
+static void environment_lookups_match_the_cpu(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(1024, 512, gentle);
@@ -335,7 +335,7 @@ static void environment_light_is_that_of_the_cpu(void **state)
     facet_environment_destroy(e);
 }
 
-static void a_sun_leaves_the_shadow_dark(void **state)
+static void dark_texels_beside_a_sun_stay_accurate(void **state)
 {
     (void)state;
     facet_environment *e = make_environment(600, 301, harsh); /* a size that cannot be halved */
@@ -349,12 +349,12 @@ static void a_sun_leaves_the_shadow_dark(void **state)
 }
 
 /* Roughness beyond the prepared levels uses the last level; unprepared light is black. */
-static void what_is_missing_is_as_on_the_cpu(void **state)
+static void missing_levels_are_as_on_the_cpu(void **state)
 {
     (void)state;
     static const ibl_light_desc some[] = {
         {.needs_specular = true, .min_roughness = 0.35f, .max_roughness = 0.6f},
-        {.needs_specular = true}, /* mirrors */
+        {.needs_specular = true}, /* sharp reflections */
         {.needs_sheen = true,
          .min_sheen_roughness = 0.3f,
          .max_sheen_roughness = 0.3f,
@@ -376,7 +376,7 @@ static void what_is_missing_is_as_on_the_cpu(void **state)
 
 /* ---- tables ---- */
 
-static void tables_are_those_of_the_cpu(void **state)
+static void albedo_luts_match_the_cpu(void **state)
 {
     (void)state;
     light_setup none = {.scale = 1.0f};
@@ -463,7 +463,7 @@ static double compare_lights(bench *b, const light_setup *setup)
     return looked_at;
 }
 
-static void lights_are_those_of_the_cpu(void **state)
+static void punctual_lights_match_the_cpu(void **state)
 {
     (void)state;
     for (int i = 0; i < bench_count; i++) {
@@ -485,11 +485,11 @@ static void lights_are_those_of_the_cpu(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(environment_light_is_that_of_the_cpu),
-        cmocka_unit_test(a_sun_leaves_the_shadow_dark),
-        cmocka_unit_test(what_is_missing_is_as_on_the_cpu),
-        cmocka_unit_test(tables_are_those_of_the_cpu),
-        cmocka_unit_test(lights_are_those_of_the_cpu),
+        cmocka_unit_test(environment_lookups_match_the_cpu),
+        cmocka_unit_test(dark_texels_beside_a_sun_stay_accurate),
+        cmocka_unit_test(missing_levels_are_as_on_the_cpu),
+        cmocka_unit_test(albedo_luts_match_the_cpu),
+        cmocka_unit_test(punctual_lights_match_the_cpu),
     };
     static const gl_api apis[2] = {GL_API_CORE, GL_API_ES};
     for (int i = 0; i < 2; i++)

@@ -49,9 +49,9 @@ static void place(fixture *f, scene_material material)
     scene_node *quad = fixture_place(f, fixture_add_quad(f, number), -0.4f, 0.0f, 0.5f, 0.8f);
     gl_fixture_turn(quad, 0.0f, 0.38268343f, 0.0f, 0.92387953f);
     fixture_place(f, fixture_add_sphere(f, 32, number), 0.35f, 0.0f, -0.5f, 0.7f);
-    scene_light lamp = {.name = "", .type = SCENE_LIGHT_POINT, .color = {1, 0.9f, 0.7f}, .intensity = 20.0f};
-    fixture_add_light(f, lamp, 2.0f, 1.5f, 3.0f);
-    fixture_add_light(f, lamp, -3.0f, 0.0f, -3.0f);
+    scene_light light = {.name = "", .type = SCENE_LIGHT_POINT, .color = {1, 0.9f, 0.7f}, .intensity = 20.0f};
+    fixture_add_light(f, light, 2.0f, 1.5f, 3.0f);
+    fixture_add_light(f, light, -3.0f, 0.0f, -3.0f);
 }
 
 /* Share of the pixels in which a channel differs by more than 0.4 % of at least 1: half floats keep 2^-11
@@ -111,7 +111,7 @@ static void check(scene_material material, const char *what)
 
 /* ---- factors ---- */
 
-static void test_extensions(void **state)
+static void every_extension_matches_the_preview(void **state)
 {
     (void)state;
     scene_material m = base();
@@ -127,7 +127,7 @@ static void test_extensions(void **state)
     check(m, "unlit");
 }
 
-static void test_conserving(void **state)
+static void energy_conservation_matches_the_preview(void **state)
 {
     (void)state;
     fixture f = fixture_create();
@@ -152,7 +152,7 @@ static void set_texture(scene_material *m, scene_texture_slot slot, uint32_t tex
 }
 
 /* Every slot, each with its own image, in materials where it matters. Transmission has its own test. */
-static void test_slots(void **state)
+static void every_texture_slot_matches_the_preview(void **state)
 {
     (void)state;
     static const struct {
@@ -188,7 +188,7 @@ static void test_slots(void **state)
 }
 
 /* Transforms, a second set, wrap modes, filters. */
-static void test_coordinates(void **state)
+static void texture_coordinates_match_the_preview(void **state)
 {
     (void)state;
     for (int variant = 0; variant < 6; variant++) {
@@ -218,7 +218,7 @@ static void test_coordinates(void **state)
 }
 
 /* Texels that one image holds for two slots are sampled once, unless the coordinates differ. */
-static void test_pairs(void **state)
+static void shared_texels_are_sampled_once(void **state)
 {
     (void)state;
     for (int is_turned = 0; is_turned < 2; is_turned++) {
@@ -243,7 +243,7 @@ static void test_pairs(void **state)
 
 /* ---- units ---- */
 
-static void test_units(void **state)
+static void units_are_assigned_to_sampled_slots(void **state)
 {
     (void)state;
     int8_t units[SCENE_TEXTURE_SLOT_COUNT];
@@ -279,7 +279,7 @@ static void note_warning(void *user, facet_log_level level, const char *message)
 }
 
 /* Ten textures: the least important one is dropped, with one warning. */
-static void test_too_many_textures(void **state)
+static void the_least_important_texture_is_dropped(void **state)
 {
     (void)state;
     fixture f = fixture_create();
@@ -304,7 +304,7 @@ static void test_too_many_textures(void **state)
 
 /* ---- alpha ---- */
 
-static void test_alpha(void **state)
+static void alpha_modes_match_the_preview(void **state)
 {
     (void)state;
     static const scene_alpha_mode modes[] = {SCENE_ALPHA_OPAQUE, SCENE_ALPHA_MASK, SCENE_ALPHA_BLEND};
@@ -327,7 +327,7 @@ static void test_alpha(void **state)
 
 /* Alpha-to-coverage: at an edge through the center of pixels, as many samples as the driver takes for 0.5,
  * with alpha 1. */
-static void test_mask_samples(void **state)
+static void alpha_to_coverage_follows_the_mask(void **state)
 {
     (void)state;
     static const unsigned char rgba[8] = {255, 255, 255, 255, 255, 255, 255, 0};
@@ -356,7 +356,7 @@ static void test_mask_samples(void **state)
 /* ---- channels ---- */
 
 /* Lobes and emission add up to the whole image. */
-static void test_lobes(void **state)
+static void lobes_and_emission_sum_to_the_image(void **state)
 {
     (void)state;
     static const facet_channel parts[] = {FACET_CHANNEL_DIFFUSE,      FACET_CHANNEL_SPECULAR,
@@ -404,7 +404,7 @@ static void test_lobes(void **state)
 }
 
 /* White furnace: a white energy-conserving surface returns radiance 1 as 1 at any roughness. */
-static void test_furnace(void **state)
+static void white_surfaces_pass_the_furnace_test(void **state)
 {
     (void)state;
     for (int i = 0; i < 4; i++) {
@@ -431,7 +431,7 @@ static void test_furnace(void **state)
 }
 
 /* Parameters are shown unchanged. */
-static void test_parameters(void **state)
+static void channels_show_parameters_unchanged(void **state)
 {
     (void)state;
     static const struct {
@@ -460,7 +460,7 @@ static void test_parameters(void **state)
 }
 
 /* Schlick-GGX masks more than Smith's function; multiscatter conserves energy. */
-static void test_formulas(void **state)
+static void specular_variants_differ_as_expected(void **state)
 {
     (void)state;
     fixture f = fixture_create();
@@ -498,7 +498,7 @@ static void test_formulas(void **state)
 
 /* A scene of metals only needs irradiance for multiple scattering alone: white metal in a white room is
  * white. */
-static void multiscatter_keeps_the_light_of_metal(void **state)
+static void multiple_scattering_preserves_energy_of_metals(void **state)
 {
     (void)state;
     for (int i = 1; i < 5; i++) {
@@ -517,21 +517,21 @@ static void multiscatter_keeps_the_light_of_metal(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_extensions),
-                                       cmocka_unit_test(test_conserving),
-                                       cmocka_unit_test(test_slots),
-                                       cmocka_unit_test(test_coordinates),
-                                       cmocka_unit_test(test_pairs),
-                                       cmocka_unit_test(test_units),
-                                       cmocka_unit_test(test_too_many_textures),
-                                       cmocka_unit_test(test_alpha),
-                                       cmocka_unit_test(test_mask_samples),
-                                       cmocka_unit_test(test_lobes),
-                                       cmocka_unit_test(test_furnace),
-                                       cmocka_unit_test(multiscatter_keeps_the_light_of_metal),
-                                       cmocka_unit_test(test_parameters),
-                                       cmocka_unit_test(test_formulas)};
-    /* Mesa's llvmpipe filters 8-bit data with 8-bit weights by default, which shows in mirrors. */
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_extension_matches_the_preview),
+                                       cmocka_unit_test(energy_conservation_matches_the_preview),
+                                       cmocka_unit_test(every_texture_slot_matches_the_preview),
+                                       cmocka_unit_test(texture_coordinates_match_the_preview),
+                                       cmocka_unit_test(shared_texels_are_sampled_once),
+                                       cmocka_unit_test(units_are_assigned_to_sampled_slots),
+                                       cmocka_unit_test(the_least_important_texture_is_dropped),
+                                       cmocka_unit_test(alpha_modes_match_the_preview),
+                                       cmocka_unit_test(alpha_to_coverage_follows_the_mask),
+                                       cmocka_unit_test(lobes_and_emission_sum_to_the_image),
+                                       cmocka_unit_test(white_surfaces_pass_the_furnace_test),
+                                       cmocka_unit_test(multiple_scattering_preserves_energy_of_metals),
+                                       cmocka_unit_test(channels_show_parameters_unchanged),
+                                       cmocka_unit_test(specular_variants_differ_as_expected)};
+    /* Mesa's llvmpipe filters 8-bit data with 8-bit weights by default, which shows in sharp reflections. */
     setenv("GALLIVM_PERF", "no_aos_sampling", 1);
     if (!gl_fixture_open(&contexts))
         return 77;

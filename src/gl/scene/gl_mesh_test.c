@@ -89,7 +89,7 @@ static void arrays_are_uploaded_once(void **state)
 }
 
 /* Nothing for another camera; only instances for another pose. */
-static void frames_upload_what_moves(void **state)
+static void frames_upload_only_changes(void **state)
 {
     (void)state;
     static const float times[2] = {0.0f, 1.0f}, places[6] = {0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f};
@@ -205,7 +205,7 @@ static void corners_are_welded(void **state)
 
 /* ---- limits ---- */
 
-static void huge_meshes_are_refused(void **state)
+static void meshes_beyond_2_gib_are_refused(void **state)
 {
     (void)state;
     static const float nothing[4] = {0.0f};
@@ -238,7 +238,7 @@ static void huge_meshes_are_refused(void **state)
     gl_context_release(&contexts.items[0]);
 }
 
-static void material_chooses_texcoords(void **state)
+static void the_material_selects_texture_coordinates(void **state)
 {
     (void)state;
     scene_material material = scene_material_default();
@@ -272,7 +272,7 @@ static void assert_as_preview(const fixture *f, double mean, double share)
 }
 
 /* A seventh set of texture coordinates is read in place of the first four. */
-static void far_texcoords_are_read(void **state)
+static void high_texture_coordinate_sets_are_read(void **state)
 {
     (void)state;
     static const unsigned char texels[16] = {255, 0, 0,   255, 0,   255, 0, 255,
@@ -295,10 +295,10 @@ static void far_texcoords_are_read(void **state)
 }
 
 /* Instances of one call render as separate meshes do, except for rounding that depends on the drawing order. */
-static void instances_are_separate_meshes(void **state)
+static void instances_match_separate_meshes(void **state)
 {
     (void)state;
-    film pictures[2];
+    film images[2];
     for (int c = 0; c < contexts.count; c++) {
         for (int is_shared = 0; is_shared < 2; is_shared++) {
             fixture f = fixture_create();
@@ -315,16 +315,16 @@ static void instances_are_separate_meshes(void **state)
             bench_update(&b, &f);
             only_batch(&b, GL_PASS_OPAQUE, is_shared ? 1 : 9);
             bench_close(&b);
-            pictures[is_shared] = gl_fixture_render(&f, &contexts.items[c]);
+            images[is_shared] = gl_fixture_render(&f, &contexts.items[c]);
             fixture_destroy(&f);
         }
-        assert_true(gl_fixture_compare(&pictures[0], &pictures[1], 1e-6f).share <= 0.0);
-        film_destroy(&pictures[0]);
-        film_destroy(&pictures[1]);
+        assert_true(gl_fixture_compare(&images[0], &images[1], 1e-6f).share <= 0.0);
+        film_destroy(&images[0]);
+        film_destroy(&images[1]);
     }
 }
 
-static void mirrored_and_culled(void **state)
+static void mirrored_instances_are_culled_correctly(void **state)
 {
     (void)state;
     for (int is_double_sided = 0; is_double_sided < 2; is_double_sided++) {
@@ -353,7 +353,7 @@ static void mirrored_and_culled(void **state)
 }
 
 /* A nearby object is as steady far from the origin as at it. */
-static void far_from_the_origin(void **state)
+static void distant_objects_do_not_jitter(void **state)
 {
     (void)state;
     fixture f = fixture_create();
@@ -429,7 +429,7 @@ static void sprites_are_a_pixel_wide(void **state)
 }
 
 /* Lines with normals are lit, also those of mirrored nodes. */
-static void sprites_may_be_lit(void **state)
+static void lines_with_normals_are_lit(void **state)
 {
     (void)state;
     fixture f = sprite_fixture(SCENE_LINES, false);
@@ -463,17 +463,17 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(arrays_are_uploaded_once),
-        cmocka_unit_test(frames_upload_what_moves),
+        cmocka_unit_test(frames_upload_only_changes),
         cmocka_unit_test(deformed_vertices_are_streamed),
         cmocka_unit_test(corners_are_welded),
-        cmocka_unit_test(huge_meshes_are_refused),
-        cmocka_unit_test(material_chooses_texcoords),
-        cmocka_unit_test(far_texcoords_are_read),
-        cmocka_unit_test(instances_are_separate_meshes),
-        cmocka_unit_test(mirrored_and_culled),
-        cmocka_unit_test(far_from_the_origin),
+        cmocka_unit_test(meshes_beyond_2_gib_are_refused),
+        cmocka_unit_test(the_material_selects_texture_coordinates),
+        cmocka_unit_test(high_texture_coordinate_sets_are_read),
+        cmocka_unit_test(instances_match_separate_meshes),
+        cmocka_unit_test(mirrored_instances_are_culled_correctly),
+        cmocka_unit_test(distant_objects_do_not_jitter),
         cmocka_unit_test(sprites_are_a_pixel_wide),
-        cmocka_unit_test(sprites_may_be_lit),
+        cmocka_unit_test(lines_with_normals_are_lit),
     };
     if (!gl_fixture_open(&contexts))
         return 77;

@@ -271,11 +271,11 @@ static bool follow_indices(const vertex_key *key, const facet_allocator *allocat
     return out->vertices != NULL;
 }
 
-static void gather(const float *from, uint32_t width, const uint32_t *numbers, uint32_t count, float *to)
+static void gather(const float *from, uint32_t width, const uint32_t *indices, uint32_t count, float *to)
 {
     for (size_t i = 0; i < count; i++)
         for (uint32_t k = 0; k < width; k++)
-            to[width * i + k] = from[width * (size_t)numbers[i] + k];
+            to[width * i + k] = from[width * (size_t)indices[i] + k];
 }
 
 /* ---- uploads ---- */

@@ -54,7 +54,7 @@ static scene_node *add_pane(fixture *f, scene_material m)
 }
 
 /* At normal incidence in uniform light: reflected radiance 1 plus the board. */
-static void a_clear_wall_shows_what_is_behind(void **state)
+static void clear_glass_shows_the_opaque_image(void **state)
 {
     (void)state;
     for (int c = 0; c < contexts.count; c++) {
@@ -78,7 +78,7 @@ static void a_clear_wall_shows_what_is_behind(void **state)
 }
 
 /* The transmission lobe alone: the board shows behind it, although the board itself has no such lobe. */
-static void a_lobe_alone_shows_light_behind(void **state)
+static void the_transmission_lobe_shows_the_opaque_image(void **state)
 {
     (void)state;
     for (int c = 0; c < contexts.count; c++) {
@@ -95,7 +95,7 @@ static void a_lobe_alone_shows_light_behind(void **state)
 
 /* color^(thickness / distance) of a white board, with the thickness as a factor and as a texture; the base
  * color tints at both boundaries. */
-static void a_body_attenuates_by_its_thickness(void **state)
+static void attenuation_follows_thickness(void **state)
 {
     (void)state;
     for (int c = 0; c < contexts.count; c++)
@@ -140,7 +140,7 @@ static double contrast(const film *image, double *mean)
     return sqrt(fmax(squares / count - *mean * *mean, 0.0));
 }
 
-static void roughness_blurs_and_keeps_the_mean(void **state)
+static void roughness_blurs_and_preserves_the_mean(void **state)
 {
     (void)state;
     for (int c = 0; c < contexts.count; c++)
@@ -200,7 +200,7 @@ static double edge_of(const film *image, int channel)
 /* A pane rotated by 45 degrees about the upward axis shifts what is behind it by thickness sin(45 - t), with
  * Snell's sin t = sin 45 / n; each channel by its own n. Smooth transmission, so that reflections, equal
  * everywhere, do not matter. */
-static void a_slab_shifts_by_snells_law(void **state)
+static void a_slab_shifts_rays_by_snells_law(void **state)
 {
     (void)state;
     static const double iors[3] = {1.0, 1.5, 2.0};
@@ -241,7 +241,7 @@ static void a_slab_shifts_by_snells_law(void **state)
 /* ---- energy ---- */
 
 /* White glass in uniform light, in front of and beside white objects, is invisible. */
-static void a_furnace_stays_white(void **state)
+static void white_glass_passes_the_furnace_test(void **state)
 {
     (void)state;
     static const float white[4] = {1, 1, 1, 1};
@@ -270,7 +270,7 @@ static void a_furnace_stays_white(void **state)
 
 /* The opaque image has the size of the image; rays that leave it see the environment, without a step. A wide
  * sphere whose rays leave the image. */
-static void rays_leave_the_image_smoothly(void **state)
+static void rays_beyond_the_image_fade_to_the_environment(void **state)
 {
     (void)state;
     for (int c = 0; c < contexts.count; c++) {
@@ -298,14 +298,14 @@ static void rays_leave_the_image_smoothly(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_clear_wall_shows_what_is_behind),
-        cmocka_unit_test(a_lobe_alone_shows_light_behind),
-        cmocka_unit_test(a_body_attenuates_by_its_thickness),
-        cmocka_unit_test(roughness_blurs_and_keeps_the_mean),
+        cmocka_unit_test(clear_glass_shows_the_opaque_image),
+        cmocka_unit_test(the_transmission_lobe_shows_the_opaque_image),
+        cmocka_unit_test(attenuation_follows_thickness),
+        cmocka_unit_test(roughness_blurs_and_preserves_the_mean),
         cmocka_unit_test(ior_1_stays_sharp),
-        cmocka_unit_test(a_slab_shifts_by_snells_law),
-        cmocka_unit_test(a_furnace_stays_white),
-        cmocka_unit_test(rays_leave_the_image_smoothly),
+        cmocka_unit_test(a_slab_shifts_rays_by_snells_law),
+        cmocka_unit_test(white_glass_passes_the_furnace_test),
+        cmocka_unit_test(rays_beyond_the_image_fade_to_the_environment),
     };
     if (gl_fixture_open(&contexts) == 0)
         return 77;

@@ -77,7 +77,7 @@ static ogl1_quad make_quad(facet_ogl1_variant variant, bool is_linear, bool is_f
     return q;
 }
 
-/* Colors of the file are linear here, so that both ways of computing use the same numbers. */
+/* Colors of the file are linear here, so that both computations use the same values. */
 static fixture show(ogl1_quad *q, bool is_behind)
 {
     fixture f = fixture_create();
@@ -131,7 +131,7 @@ static void check_quad(const fixture *f, const ogl1_quad *q, gl_context *context
     film_destroy(&image);
 }
 
-static void quads_of_every_variant(void **state)
+static void quads_match_the_preview_in_every_variant(void **state)
 {
     (void)state;
     for (int k = 0; k < VARIANT_COUNT * 8; k++) {
@@ -166,7 +166,7 @@ static uint32_t add_texel(fixture *f, const unsigned char rgba[4])
     return fixture_add_texture(f, 2, 2, texels);
 }
 
-static void every_texture_type_and_mode(void **state)
+static void every_texture_type_and_mode_matches_the_preview(void **state)
 {
     (void)state;
     static const unsigned char texel[4] = {51, 204, 102, 153};
@@ -192,7 +192,7 @@ static void every_texture_type_and_mode(void **state)
 }
 
 /* All maps at once, with base, gain and channel; bumps too. */
-static void maps_of_the_terms(void **state)
+static void maps_of_every_term_match_the_preview(void **state)
 {
     (void)state;
     static const unsigned char texels[5][4] = {{51, 204, 102, 153},
@@ -230,7 +230,7 @@ static void maps_of_the_terms(void **state)
 }
 
 /* A sphere with a sphere map, and layers with fog, halo and opacity. */
-static void spheres_of_every_variant(void **state)
+static void spheres_match_the_preview_in_every_variant(void **state)
 {
     (void)state;
     enum { SIZE = 64 };
@@ -270,7 +270,7 @@ static void spheres_of_every_variant(void **state)
 }
 
 /* Layers are blended in display colors. */
-static void layers_are_blended_as_numbers(void **state)
+static void layers_blend_in_display_values(void **state)
 {
     (void)state;
     for (int mode = FACET_TRANSPARENCY_SORTED; mode <= FACET_TRANSPARENCY_PEELED; mode++) {
@@ -289,7 +289,7 @@ static void layers_are_blended_as_numbers(void **state)
 }
 
 /* Punctual lights of glTF where there are no legacy lights; vertex colors; points and lines. */
-static void lights_colors_and_sprites(void **state)
+static void punctual_lights_colors_and_sprites_match_the_preview(void **state)
 {
     (void)state;
     static const float positions[12] = {-0.8f, -0.5f, 0.2f, 0.7f, 0.6f,  0.2f,
@@ -310,7 +310,7 @@ static void lights_colors_and_sprites(void **state)
                                         .intensity = 12.0f,
                                         .range = INFINITY},
                           0.5f, 1.0f, 2.0f);
-        assert_same(&f, 2e-3f, 0.01, "lamps");
+        assert_same(&f, 2e-3f, 0.01, "punctual lights");
         fixture_destroy(&f);
     }
 }
@@ -333,7 +333,7 @@ static facet_result try_render(const fixture *f, gl_context *context, facet_erro
     return result;
 }
 
-static void what_cannot_be_drawn(void **state)
+static void unsupported_materials_are_reported(void **state)
 {
     (void)state;
     facet_error error;
@@ -355,7 +355,7 @@ static void what_cannot_be_drawn(void **state)
 }
 
 /* One renderer for both models: neither leaves state behind. */
-static void models_take_turns(void **state)
+static void alternating_models_do_not_interfere(void **state)
 {
     (void)state;
     scene_legacy *legacy;
@@ -385,14 +385,14 @@ static void models_take_turns(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quads_of_every_variant),
-        cmocka_unit_test(every_texture_type_and_mode),
-        cmocka_unit_test(maps_of_the_terms),
-        cmocka_unit_test(spheres_of_every_variant),
-        cmocka_unit_test(layers_are_blended_as_numbers),
-        cmocka_unit_test(lights_colors_and_sprites),
-        cmocka_unit_test(what_cannot_be_drawn),
-        cmocka_unit_test(models_take_turns),
+        cmocka_unit_test(quads_match_the_preview_in_every_variant),
+        cmocka_unit_test(every_texture_type_and_mode_matches_the_preview),
+        cmocka_unit_test(maps_of_every_term_match_the_preview),
+        cmocka_unit_test(spheres_match_the_preview_in_every_variant),
+        cmocka_unit_test(layers_blend_in_display_values),
+        cmocka_unit_test(punctual_lights_colors_and_sprites_match_the_preview),
+        cmocka_unit_test(unsupported_materials_are_reported),
+        cmocka_unit_test(alternating_models_do_not_interfere),
     };
     if (gl_fixture_open(&contexts) == 0)
         return 77;

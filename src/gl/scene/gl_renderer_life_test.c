@@ -76,14 +76,14 @@ static void check_leaks(fixture *f, gl_context *context)
     gl_context_release(context);
 }
 
-static void a_hundred_renderers_leave_nothing(void **state)
+static void destroyed_renderers_leave_no_objects(void **state)
 {
     (void)state;
     on_each(check_leaks);
 }
 
 /* Running out of memory anywhere is reported; the renderer remains usable. */
-static void memory_may_run_out(void **state)
+static void running_out_of_memory_is_reported(void **state)
 {
     (void)state;
     gl_context *context = &contexts.items[0];
@@ -130,7 +130,7 @@ static gl_renderer *own_renderer(const fixture *f)
     return renderer;
 }
 
-static void two_renderers_do_not_meet(void **state)
+static void two_renderers_do_not_interfere(void **state)
 {
     (void)state;
     fixture f = gl_fixture_scene(), g = gl_fixture_scene();
@@ -174,7 +174,7 @@ static void run_thread(void *(*body)(void *), errand *e)
     assert_int_equal(pthread_join(thread, NULL), 0);
 }
 
-static void any_thread_may_draw(void **state)
+static void any_thread_can_draw(void **state)
 {
     (void)state;
     fixture f = gl_fixture_scene();
@@ -211,7 +211,7 @@ static facet_result try_draw(const fixture *f, gl_renderer *renderer, facet_erro
     return result;
 }
 
-static void a_lost_context_is_followed_by_a_new_one(void **state)
+static void a_lost_context_is_replaced(void **state)
 {
     (void)state;
     fixture f = gl_fixture_scene();
@@ -230,7 +230,7 @@ static void a_lost_context_is_followed_by_a_new_one(void **state)
 }
 
 /* The caller's context stays current. */
-static void the_callers_context_comes_back(void **state)
+static void the_callers_context_is_restored(void **state)
 {
     (void)state;
     fixture f = gl_fixture_scene();
@@ -261,7 +261,7 @@ static bool stop_at_once(void *user, const char *stage, double fraction)
     return --*(int *)user > 0;
 }
 
-static void an_image_may_be_cancelled(void **state)
+static void images_can_be_cancelled(void **state)
 {
     (void)state;
     fixture f = gl_fixture_scene();
@@ -293,7 +293,7 @@ static void count_warning(void *user, facet_log_level level, const char *said)
     *(int *)user += strncmp(said, "the image is black", 18) == 0;
 }
 
-static void darkness_is_reported(void **state)
+static void scenes_without_light_are_reported(void **state)
 {
     (void)state;
     fixture f = fixture_create();
@@ -313,14 +313,14 @@ static void darkness_is_reported(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_hundred_renderers_leave_nothing),
-                                       cmocka_unit_test(memory_may_run_out),
-                                       cmocka_unit_test(two_renderers_do_not_meet),
-                                       cmocka_unit_test(any_thread_may_draw),
-                                       cmocka_unit_test(a_lost_context_is_followed_by_a_new_one),
-                                       cmocka_unit_test(the_callers_context_comes_back),
-                                       cmocka_unit_test(an_image_may_be_cancelled),
-                                       cmocka_unit_test(darkness_is_reported)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(destroyed_renderers_leave_no_objects),
+                                       cmocka_unit_test(running_out_of_memory_is_reported),
+                                       cmocka_unit_test(two_renderers_do_not_interfere),
+                                       cmocka_unit_test(any_thread_can_draw),
+                                       cmocka_unit_test(a_lost_context_is_replaced),
+                                       cmocka_unit_test(the_callers_context_is_restored),
+                                       cmocka_unit_test(images_can_be_cancelled),
+                                       cmocka_unit_test(scenes_without_light_are_reported)};
     if (!gl_fixture_open(&contexts))
         return 77;
     int failed = cmocka_run_group_tests(tests, NULL, NULL);

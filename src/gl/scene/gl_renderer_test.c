@@ -45,7 +45,7 @@ static void check_preview(fixture *f, gl_context *context)
     }
 }
 
-static void images_are_the_previews(void **state)
+static void images_match_the_preview(void **state)
 {
     (void)state;
     on_each(check_preview);
@@ -77,7 +77,7 @@ static void check_layers(fixture *f, gl_context *context)
     film_destroy(&theirs);
 }
 
-static void layers_are_the_previews(void **state)
+static void aovs_match_the_preview(void **state)
 {
     (void)state;
     on_each(check_layers);
@@ -103,7 +103,7 @@ static void check_crop(fixture *f, gl_context *context)
     film_destroy(&part);
 }
 
-static void a_crop_is_a_part_of_the_image(void **state)
+static void a_crop_equals_its_part_of_the_image(void **state)
 {
     (void)state;
     on_each(check_crop);
@@ -126,7 +126,7 @@ static void check_tiles(fixture *f, gl_context *context)
     }
 }
 
-static void tiles_make_the_same_image(void **state)
+static void tiles_render_the_same_image(void **state)
 {
     (void)state;
     on_each(check_tiles);
@@ -134,7 +134,7 @@ static void tiles_make_the_same_image(void **state)
 
 /* ---- samples ---- */
 
-static void samples_are_as_many_as_asked_for(void **state)
+static void every_sample_count_is_met(void **state)
 {
     (void)state;
     for (uint32_t most = 1; most <= 32; most *= 2)
@@ -179,7 +179,7 @@ static void check_samples(fixture *f, gl_context *context)
     film_destroy(&truth);
 }
 
-static void more_samples_are_closer(void **state)
+static void more_samples_reduce_the_error(void **state)
 {
     (void)state;
     on_each(check_samples);
@@ -204,7 +204,7 @@ static void check_poor_driver(fixture *f, gl_context *context)
     film_destroy(&half);
 }
 
-static void drivers_that_have_less_draw_the_same(void **state)
+static void drivers_without_extensions_draw_the_same(void **state)
 {
     (void)state;
     on_each(check_poor_driver);
@@ -236,7 +236,7 @@ static void check_depth(fixture *f, gl_context *context)
     fixture_destroy(&g);
 }
 
-static void nothing_flickers_far_away(void **state)
+static void distant_surfaces_do_not_z_fight(void **state)
 {
     (void)state;
     on_each(check_depth);
@@ -291,7 +291,7 @@ static void check_window(fixture *f, gl_context *context)
     film_destroy(&image);
 }
 
-static void a_window_shows_the_image(void **state)
+static void a_window_presents_the_tone_mapped_image(void **state)
 {
     (void)state;
     on_each(check_window);
@@ -326,15 +326,15 @@ static void passes_are_timed(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(images_are_the_previews),
-                                       cmocka_unit_test(layers_are_the_previews),
-                                       cmocka_unit_test(a_crop_is_a_part_of_the_image),
-                                       cmocka_unit_test(tiles_make_the_same_image),
-                                       cmocka_unit_test(samples_are_as_many_as_asked_for),
-                                       cmocka_unit_test(more_samples_are_closer),
-                                       cmocka_unit_test(drivers_that_have_less_draw_the_same),
-                                       cmocka_unit_test(nothing_flickers_far_away),
-                                       cmocka_unit_test(a_window_shows_the_image),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(images_match_the_preview),
+                                       cmocka_unit_test(aovs_match_the_preview),
+                                       cmocka_unit_test(a_crop_equals_its_part_of_the_image),
+                                       cmocka_unit_test(tiles_render_the_same_image),
+                                       cmocka_unit_test(every_sample_count_is_met),
+                                       cmocka_unit_test(more_samples_reduce_the_error),
+                                       cmocka_unit_test(drivers_without_extensions_draw_the_same),
+                                       cmocka_unit_test(distant_surfaces_do_not_z_fight),
+                                       cmocka_unit_test(a_window_presents_the_tone_mapped_image),
                                        cmocka_unit_test(passes_are_timed)};
     if (!gl_fixture_open(&contexts))
         return 77;

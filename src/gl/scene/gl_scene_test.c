@@ -8,6 +8,8 @@
 
 #include <cmocka.h>
 
+#include "tests/support/support.h"
+
 #include "gl/scene/gl_fixture_test.h"
 #include "gl/scene/gl_scene.h"
 
@@ -69,7 +71,7 @@ static void update(gl_scene *s, const fixture *f)
         fail_msg("%s", error.message);
 }
 
-static void the_same_pose_is_kept(void **state)
+static void an_unchanged_pose_is_kept(void **state)
 {
     (void)state;
     fixture f = animated_fixture();
@@ -102,7 +104,7 @@ static void the_same_pose_is_kept(void **state)
     fixture_destroy(&f);
 }
 
-static void frames_are_those_of_fresh_renderers(void **state)
+static void frames_match_fresh_renderers(void **state)
 {
     (void)state;
     for (int c = 0; c < contexts.count; c++) {
@@ -130,57 +132,34 @@ static void frames_are_those_of_fresh_renderers(void **state)
 
 /* ---- memory ---- */
 
-/* malloc that refuses call number `left` and counts leaks. */
-typedef struct poor {
-    int left, used;
-} poor;
-
-static void *poor_alloc(void *user, size_t size)
-{
-    poor *p = user;
-    if (p->left-- <= 0)
-        return NULL;
-    p->used++;
-    return malloc(size);
-}
-
-static void poor_free(void *user, void *memory, size_t size)
-{
-    poor *p = user;
-    (void)size;
-    p->used -= memory != NULL;
-    free(memory);
-}
-
-static void memory_may_run_out(void **state)
+static void running_out_of_memory_is_reported(void **state)
 {
     (void)state;
     fixture f = animated_fixture();
-    poor p = {0};
-    facet_allocator allocator = {.user = &p, .allocate = poor_alloc, .release = poor_free};
+    failing_allocator p = {.fail_at = -1};
+    facet_allocator allocator = failing_allocator_get(&p);
     f.desc.thread_count = 1;
     int refused = 0;
     for (int calls = 0;; calls++) {
         gl_scene s;
         gl_scene_init(&s, f.scene, &allocator);
         f.desc.pose.time_s = 0.2;
-        p.left = 1000;
         assert_int_equal(gl_scene_update(&s, &f.desc, NULL), FACET_OK);
         f.desc.pose.time_s = 0.7; /* memory runs out in the second frame */
-        p.left = calls;
+        p.fail_at = p.calls + calls;
         facet_result result = gl_scene_update(&s, &f.desc, NULL);
-        bool has_all = p.left >= 0;
+        bool has_all = p.calls <= p.fail_at;
         if (result != FACET_OK) {
             refused++;
             assert_int_equal(result, FACET_ERROR_MEMORY);
             assert_null(s.pose.instances);
             assert_null(s.geometries.items);
         }
-        p.left = 1000;
+        p.fail_at = -1;
         assert_int_equal(gl_scene_update(&s, &f.desc, NULL), FACET_OK); /* and it remains usable */
         assert_int_equal(s.geometries.count, 3);
         gl_scene_clear(&s);
-        assert_int_equal(p.used, 0);
+        assert_int_equal(p.blocks, 0);
         if (has_all)
             break;
     }
@@ -191,9 +170,9 @@ static void memory_may_run_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_same_pose_is_kept),
-        cmocka_unit_test(frames_are_those_of_fresh_renderers),
-        cmocka_unit_test(memory_may_run_out),
+        cmocka_unit_test(an_unchanged_pose_is_kept),
+        cmocka_unit_test(frames_match_fresh_renderers),
+        cmocka_unit_test(running_out_of_memory_is_reported),
     };
     if (!gl_fixture_open(&contexts))
         return 77;

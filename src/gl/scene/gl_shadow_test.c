@@ -41,7 +41,7 @@ static fixture wall_fixture(bool has_square)
     return f;
 }
 
-static scene_light lamp(scene_light_type type)
+static scene_light make_light(scene_light_type type)
 {
     return (scene_light){.type = type,
                          .color = {1.0f, 1.0f, 1.0f},
@@ -117,13 +117,14 @@ static float edge_along(bool is_row, float across_m, float dark_m, float light_m
 
 /* A light 3 m before the wall and 2 m before the square enlarges its shadow 1.5 times. Texels are 2 * 3 m
  * / 1357 and 2 * 3 m tan(0.5) / 2040 wide; pixels 7.8 mm, and a sum over an edge resolves a tenth of one. */
-static void edges_of_lights_are_where_they_should_be(void **state)
+static void shadow_edges_of_lights_match_geometry(void **state)
 {
     (void)state;
     for (int i = 0; i < contexts.count; i++)
         for (int is_spot = 0; is_spot < 2; is_spot++) {
             fixture f = wall_fixture(true);
-            fixture_add_light(&f, lamp(is_spot ? SCENE_LIGHT_SPOT : SCENE_LIGHT_POINT), 0.0f, 0.0f, 3.0f);
+            fixture_add_light(&f, make_light(is_spot ? SCENE_LIGHT_SPOT : SCENE_LIGHT_POINT), 0.0f, 0.0f,
+                              3.0f);
             find_shares(&f, &contexts.items[i]);
             float texel = is_spot ? 6.0f * tanf(0.5f) / 2040.0f : 6.0f / 1357.0f;
             float tolerance = texel + 0.1f * PIXEL_M;
@@ -136,7 +137,7 @@ static void edges_of_lights_are_where_they_should_be(void **state)
 }
 
 /* A sun 0.5 rad above the horizon moves the square's shadow tan(0.5) m down; a texel is 8 m / 2040. */
-static void edges_of_the_sun_are_where_they_are_to_be(void **state)
+static void shadow_edges_of_the_sun_match_geometry(void **state)
 {
     (void)state;
     fixture f = wall_fixture(true);
@@ -151,7 +152,7 @@ static void edges_of_the_sun_are_where_they_are_to_be(void **state)
 }
 
 /* The wall, and a sphere of flat triangles, at any angle of the light. */
-static void nothing_shades_itself(void **state)
+static void surfaces_do_not_shadow_themselves(void **state)
 {
     (void)state;
     fixture f = wall_fixture(false);
@@ -168,7 +169,7 @@ static void nothing_shades_itself(void **state)
     fixture_destroy(&f);
 }
 
-static void a_ball_is_lit_to_its_terminator(void **state)
+static void spheres_are_lit_up_to_the_terminator(void **state)
 {
     (void)state;
     enum { COLUMNS = 64 };
@@ -200,7 +201,7 @@ static void a_ball_is_lit_to_its_terminator(void **state)
 
 /* A square that stands on the wall, lit at 45 degrees: its shadow begins at its foot and is as long as it
  * is high. */
-static void shadows_begin_at_the_foot(void **state)
+static void shadows_begin_at_the_contact(void **state)
 {
     (void)state;
     fixture f = wall_fixture(false);
@@ -224,7 +225,7 @@ static void shadows_begin_at_the_foot(void **state)
 
 /* One of two texels is transparent; between their centers alpha crosses the cutoff in the middle of the
  * square. */
-static void masked_texels_cast_blended_surfaces_do_not(void **state)
+static void masked_texels_cast_and_blended_surfaces_do_not(void **state)
 {
     (void)state;
     static const unsigned char texels[] = {255, 255, 255, 255, 255, 255, 255, 0};
@@ -234,7 +235,7 @@ static void masked_texels_cast_blended_surfaces_do_not(void **state)
         m.alpha_mode = is_blended ? SCENE_ALPHA_BLEND : SCENE_ALPHA_MASK;
         m.textures[SCENE_BASE_COLOR_TEXTURE].texture = fixture_add_texture(&f, 2, 1, texels);
         fixture_place(&f, fixture_add_quad(&f, fixture_add_material(&f, m)), 0.0f, 0.0f, 1.0f, 0.25f);
-        fixture_add_light(&f, lamp(SCENE_LIGHT_SPOT), 0.0f, 0.0f, 3.0f);
+        fixture_add_light(&f, make_light(SCENE_LIGHT_SPOT), 0.0f, 0.0f, 3.0f);
         find_shares(&f, &contexts.items[0]);
         float texel = 6.0f * tanf(0.5f) / 2040.0f;
         assert_near(image.at[row_of(0.0f)][column_of(0.3f)], 1.0f, 1e-5f);
@@ -248,18 +249,18 @@ static void masked_texels_cast_blended_surfaces_do_not(void **state)
 
 /* ---- selection of lights ---- */
 
-typedef struct told {
+typedef struct warnings {
     int count;
     char last[200];
-} told;
+} warnings;
 
-static void note(void *user, facet_log_level level, const char *message)
+static void note_warning(void *user, facet_log_level level, const char *message)
 {
-    told *t = user;
+    warnings *w = user;
     if (level != FACET_LOG_LEVEL_WARNING || !strstr(message, "shadows: "))
         return;
-    t->count++;
-    snprintf(t->last, sizeof t->last, "%s", message);
+    w->count++;
+    snprintf(w->last, sizeof w->last, "%s", message);
 }
 
 /* 50 point lights need 300 tiles; the map has 256. The last light is the brightest. */
@@ -267,19 +268,19 @@ static void too_many_lights_are_reported_once(void **state)
 {
     (void)state;
     fixture f = wall_fixture(true);
-    told t = {0};
-    f.desc.log = (facet_log){.message = note, .user = &t};
+    warnings seen = {0};
+    f.desc.log = (facet_log){.message = note_warning, .user = &seen};
     f.desc.gl.has_shadows = true;
     f.desc.width = f.desc.height = 32;
     for (int i = 0; i < 50; i++) {
-        scene_light l = lamp(SCENE_LIGHT_POINT);
+        scene_light l = make_light(SCENE_LIGHT_POINT);
         l.intensity = i == 49 ? 1e6f : 1e-3f * (float)(50 - i);
         fixture_add_light(&f, l, 0.0f, 0.0f, 3.0f + 0.01f * (float)i);
     }
     gl_renderer *renderer = gl_fixture_renderer(&f, &contexts.items[0]);
     film a = gl_fixture_draw(&f, renderer), b = gl_fixture_draw(&f, renderer);
-    assert_int_equal(t.count, 1);
-    assert_string_equal(t.last,
+    assert_int_equal(seen.count, 1);
+    assert_string_equal(seen.last,
                         "shadows: 8 of 50 lights cast none; the shadow map has room for the 42 brightest");
     /* (0.28, 0) is in the shadow of the brightest light, a few of its large texels from the edge. */
     assert_true(fixture_pixel(&a, "", 20, 16)[1] < 0.1f * fixture_pixel(&a, "", 28, 16)[1]);
@@ -291,12 +292,12 @@ static void too_many_lights_are_reported_once(void **state)
 }
 
 /* A renderer that has drawn shadows draws the image without them as a fresh one does. */
-static void without_shadows_nothing_is_left_of_them(void **state)
+static void turning_shadows_off_leaves_no_trace(void **state)
 {
     (void)state;
     fixture f = wall_fixture(true);
     f.desc.width = f.desc.height = 32;
-    fixture_add_light(&f, lamp(SCENE_LIGHT_POINT), 0.3f, 0.0f, 3.0f);
+    fixture_add_light(&f, make_light(SCENE_LIGHT_POINT), 0.3f, 0.0f, 3.0f);
     film fresh = gl_fixture_render(&f, &contexts.items[0]);
     gl_renderer *renderer = gl_fixture_renderer(&f, &contexts.items[0]);
     f.desc.gl.has_shadows = true;
@@ -340,7 +341,7 @@ static float ground_at(fixture *f, gl_renderer *renderer, float x, float elevati
 }
 
 /* A plate of 0.5 m hangs 0.5 m above the ground, whose height is given by a speck far away. */
-static void the_ground_loses_what_a_plate_hides(void **state)
+static void ground_occlusion_equals_the_hidden_solid_angle(void **state)
 {
     (void)state;
     for (int i = 0; i < contexts.count; i++) {
@@ -369,15 +370,15 @@ static void the_ground_loses_what_a_plate_hides(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(edges_of_lights_are_where_they_should_be),
-        cmocka_unit_test(edges_of_the_sun_are_where_they_are_to_be),
-        cmocka_unit_test(nothing_shades_itself),
-        cmocka_unit_test(a_ball_is_lit_to_its_terminator),
-        cmocka_unit_test(shadows_begin_at_the_foot),
-        cmocka_unit_test(masked_texels_cast_blended_surfaces_do_not),
+        cmocka_unit_test(shadow_edges_of_lights_match_geometry),
+        cmocka_unit_test(shadow_edges_of_the_sun_match_geometry),
+        cmocka_unit_test(surfaces_do_not_shadow_themselves),
+        cmocka_unit_test(spheres_are_lit_up_to_the_terminator),
+        cmocka_unit_test(shadows_begin_at_the_contact),
+        cmocka_unit_test(masked_texels_cast_and_blended_surfaces_do_not),
         cmocka_unit_test(too_many_lights_are_reported_once),
-        cmocka_unit_test(without_shadows_nothing_is_left_of_them),
-        cmocka_unit_test(the_ground_loses_what_a_plate_hides),
+        cmocka_unit_test(turning_shadows_off_leaves_no_trace),
+        cmocka_unit_test(ground_occlusion_equals_the_hidden_solid_angle),
     };
     if (gl_fixture_open(&contexts) == 0)
         return 77;

@@ -147,7 +147,7 @@ static bool overlap(const extent *a, const extent *b, int axis)
     return a->low[axis] <= b->high[axis] && b->low[axis] <= a->high[axis];
 }
 
-static int by_left(const void *x, const void *y)
+static int by_low_end(const void *x, const void *y)
 {
     const extent *a = x, *b = y;
     return (a->low[0] > b->low[0]) - (a->low[0] < b->low[0]);
@@ -204,7 +204,7 @@ static bool find_clusters(const gl_sort *s, const gl_frame_block *frame, uint32_
         clusters[i] = extents[i];
     }
     if (n > 1)
-        qsort(extents, n, sizeof *extents, by_left);
+        qsort(extents, n, sizeof *extents, by_low_end);
     join(extents, clusters, n);
     for (uint32_t i = 0; i < n; i++) {
         uint32_t root = root_of(clusters, i);

@@ -65,7 +65,7 @@ static fixture layered_fixture(const int *permutation, int count)
 static const int permutations[][LAYERS] = {
     {0, 1, 2, 3, 4}, {4, 3, 2, 1, 0}, {2, 4, 0, 3, 1}, {3, 0, 4, 1, 2}};
 
-static void layers_blend_in_any_order(void **state)
+static void sorted_layers_blend_in_any_scene_order(void **state)
 {
     (void)state;
     float wanted[4];
@@ -83,7 +83,7 @@ static void layers_blend_in_any_order(void **state)
             }
 }
 
-static void weighted_needs_no_order(void **state)
+static void weighted_blending_ignores_order(void **state)
 {
     (void)state;
     float wanted[4];
@@ -110,7 +110,7 @@ static void weighted_needs_no_order(void **state)
 }
 
 /* A single layer is its own mean. */
-static void one_layer_is_exact(void **state)
+static void a_single_layer_is_exact(void **state)
 {
     (void)state;
     float wanted[4];
@@ -128,7 +128,7 @@ static void one_layer_is_exact(void **state)
 }
 
 /* Opaque surfaces hide what is behind them and show through what is in front. */
-static void opaque_surfaces_have_their_place(void **state)
+static void opaque_surfaces_occlude_and_show_through(void **state)
 {
     (void)state;
     const float list[3][4] = {{0.9f, 0.1f, 0.2f, 0.3f}, {0.2f, 0.8f, 0.1f, 0.5f}, {0.25f, 0.5f, 0.75f, 1.0f}};
@@ -148,7 +148,7 @@ static void opaque_surfaces_have_their_place(void **state)
 }
 
 /* Two meshes with interleaved triangles: neither is entirely in front. */
-static void triangles_of_batches_interleave(void **state)
+static void interleaved_triangles_of_meshes_are_sorted(void **state)
 {
     (void)state;
     const float list[4][4] = {{1.0f, 0.0f, 0.0f, 0.5f},
@@ -209,7 +209,7 @@ static void crossed_surfaces_are_peeled(void **state)
 }
 
 /* More layers than are peeled: the farthest are missing, which costs at most what the others transmit. */
-static void many_layers_fade(void **state)
+static void layers_beyond_the_limit_cost_their_transmittance(void **state)
 {
     (void)state;
     enum { MANY = 12 };
@@ -228,7 +228,7 @@ static void many_layers_fade(void **state)
 }
 
 /* A sphere's own triangles overlap. */
-static void spheres_are_the_previews(void **state)
+static void blended_spheres_match_the_preview(void **state)
 {
     (void)state;
     fixture f = fixture_create();
@@ -252,7 +252,7 @@ static void spheres_are_the_previews(void **state)
 }
 
 /* Points and lines are blended as in the preview. */
-static void sprites_are_put_in_order(void **state)
+static void blended_sprites_match_the_preview(void **state)
 {
     (void)state;
     fixture f = fixture_create();
@@ -290,7 +290,7 @@ static void sprites_are_put_in_order(void **state)
 }
 
 /* An oblique alpha edge is as smooth as a triangle's, and what remains is opaque. */
-static void masks_have_smooth_edges(void **state)
+static void mask_edges_are_antialiased(void **state)
 {
     (void)state;
     static const float colors[16] = {0.2f, 0.5f, 0.9f, 0.1f,  0.2f, 0.5f, 0.9f, 0.6f,
@@ -403,7 +403,7 @@ static fixture spheres_fixture(const float (*places)[3], int count, uint32_t col
     return f;
 }
 
-static void what_is_apart_is_not_interleaved(void **state)
+static void separate_instances_are_not_interleaved(void **state)
 {
     (void)state;
     static const float beside[3][3] = {{-0.6f, 0.0f, 0.0f}, {0.6f, 0.0f, 0.0f}, {-0.6f, 0.1f, -2.0f}};
@@ -418,7 +418,7 @@ static void what_is_apart_is_not_interleaved(void **state)
     fixture_destroy(&f);
 }
 
-static void what_overlaps_is_interleaved(void **state)
+static void overlapping_instances_are_interleaved(void **state)
 {
     (void)state;
     static const float inside[2][3] = {{0.0f, 0.0f, 0.0f}, {0.1f, 0.0f, 0.05f}};
@@ -441,7 +441,7 @@ static void what_overlaps_is_interleaved(void **state)
 }
 
 /* 2 x 16384 triangles that would change the batch at nearly each of them. */
-static void instances_take_turns(void **state)
+static void slices_limit_the_number_of_calls(void **state)
 {
     (void)state;
     static const float inside[2][3] = {{0.0f, 0.0f, 0.0f}, {0.1f, 0.0f, 0.001f}};
@@ -466,19 +466,19 @@ static void instances_take_turns(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(layers_blend_in_any_order),
-        cmocka_unit_test(weighted_needs_no_order),
-        cmocka_unit_test(one_layer_is_exact),
-        cmocka_unit_test(opaque_surfaces_have_their_place),
-        cmocka_unit_test(triangles_of_batches_interleave),
+        cmocka_unit_test(sorted_layers_blend_in_any_scene_order),
+        cmocka_unit_test(weighted_blending_ignores_order),
+        cmocka_unit_test(a_single_layer_is_exact),
+        cmocka_unit_test(opaque_surfaces_occlude_and_show_through),
+        cmocka_unit_test(interleaved_triangles_of_meshes_are_sorted),
         cmocka_unit_test(crossed_surfaces_are_peeled),
-        cmocka_unit_test(many_layers_fade),
-        cmocka_unit_test(spheres_are_the_previews),
-        cmocka_unit_test(sprites_are_put_in_order),
-        cmocka_unit_test(masks_have_smooth_edges),
-        cmocka_unit_test(what_is_apart_is_not_interleaved),
-        cmocka_unit_test(what_overlaps_is_interleaved),
-        cmocka_unit_test(instances_take_turns),
+        cmocka_unit_test(layers_beyond_the_limit_cost_their_transmittance),
+        cmocka_unit_test(blended_spheres_match_the_preview),
+        cmocka_unit_test(blended_sprites_match_the_preview),
+        cmocka_unit_test(mask_edges_are_antialiased),
+        cmocka_unit_test(separate_instances_are_not_interleaved),
+        cmocka_unit_test(overlapping_instances_are_interleaved),
+        cmocka_unit_test(slices_limit_the_number_of_calls),
     };
     if (!gl_fixture_open(&contexts))
         return 77;
