@@ -128,13 +128,11 @@ static shading_ray ray_from(const double P[3], vec3 d, double far_m)
     return ray;
 }
 
-static bool find(const water_model *m, double length, uint32_t random, model_hit *hit)
+/* Completes a hit. length: m per unit of t. */
+static void locate(double length, model_hit *hit)
 {
-    if (!ray_trace_nearest(&m->setup.shading, &hit->ray, random, &hit->hit))
-        return false;
     hit->distance_m = (double)hit->hit.t * length;
     hit->P = load3(hit->ray.origin) + load3(hit->ray.direction) * hit->hit.t;
-    return true;
 }
 
 bool water_model_find(const water_model *m, const double P[3], vec3 d, double far_m, uint32_t random,
@@ -143,7 +141,16 @@ bool water_model_find(const water_model *m, const double P[3], vec3 d, double fa
     if (!may_meet(m, P, d, far_m))
         return false;
     hit->ray = ray_from(P, d, far_m);
-    return find(m, 1.0, random, hit);
+    if (!ray_trace_nearest(&m->setup.shading, &hit->ray, random, &hit->hit))
+        return false;
+    locate(1.0, hit);
+    return true;
+}
+
+/* In [0, 1). */
+static float uniform(uint32_t random)
+{
+    return (float)(random >> 8) * (1.0f / 16777216.0f);
 }
 
 /* Through (x, y) of the image, to far_m; *scale: m per unit of t. */
@@ -164,7 +171,12 @@ bool water_model_find_seen(const water_model *m, float x, float y, float footpri
     if (!m->is_there)
         return false;
     hit->ray = camera_ray(m, x, y, footprint, far_m, &scale);
-    return find(m, scale, random, hit);
+    ray_first first = ray_trace_first(&m->setup.shading, &hit->ray, uniform(random));
+    if (uniform(hash_uint(random)) >= first.opacity)
+        return false;
+    hit->hit = first.hit;
+    locate(scale, hit);
+    return true;
 }
 
 bool water_model_describe(const water_model *m, float x, float y, double far_m, shading_description *out,

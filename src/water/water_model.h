@@ -37,7 +37,7 @@ typedef struct model_hit {
 /* Along the unit direction d from P, nearer than far_m. random: for stochastic opacity. */
 bool water_model_find(const water_model *m, const double P[3], vec3 d, double far_m, uint32_t random,
                       model_hit *hit);
-/* Along the camera ray through (x, y) of the image; footprint in pixels. */
+/* Along the camera ray through (x, y) of the image, on the sides that are drawn; footprint in pixels. */
 bool water_model_find_seen(const water_model *m, float x, float y, float footprint, double far_m,
                            uint32_t random, model_hit *hit);
 

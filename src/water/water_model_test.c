@@ -71,6 +71,34 @@ static void test_mirror(void **state)
     fixture_destroy(&f);
 }
 
+/* From inside of a sphere the camera sees it only if it is double-sided; a third of its opacity shows a third
+ * of it. */
+static void camera_rays_see_the_drawn_sides(void **state)
+{
+    (void)state;
+    facet_sea *sea = still_sea();
+    for (int k = 0; k < 3; k++) {
+        fixture f = shining_sphere(0.0f, 3.0f, 0.0f);
+        shot s;
+        f.scene->materials[0].is_double_sided = k > 0;
+        if (k == 2) {
+            f.scene->materials[0].alpha_mode = SCENE_ALPHA_BLEND;
+            f.scene->materials[0].base_color[3] = 1.0f / 3.0f;
+        }
+        make_dark_shot(&s, 9, 3.0f, -0.1f, f.scene);
+        s.desc.samples = 64;
+        draw_shot(sea, &s);
+        double mean = 0.0;
+        for (uint32_t i = 0; i < 81; i++)
+            mean += (double)shot_pixel(&s, i % 9, i / 9)[1] / 81.0;
+        const double expected[] = {0.0, 1000.0, 1000.0 / 3.0};
+        assert_true(fabs(mean - expected[k]) <= 0.02 * expected[k]);
+        end_shot(&s);
+        fixture_destroy(&f);
+    }
+    sea_destroy(sea);
+}
+
 /* Under water it gets darker, and red goes first. */
 static void test_depth(void **state)
 {
@@ -173,7 +201,8 @@ static void test_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_mirror), cmocka_unit_test(test_depth),  cmocka_unit_test(test_shadow),
+        cmocka_unit_test(test_mirror), cmocka_unit_test(camera_rays_see_the_drawn_sides),
+        cmocka_unit_test(test_depth),  cmocka_unit_test(test_shadow),
         cmocka_unit_test(test_dry),    cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
