@@ -285,11 +285,11 @@ typedef enum facet_renderer_feature {
 } facet_renderer_feature;
 
 typedef struct facet_renderer_info {
-    const char *name;        /* "preview", "path", "gl": that of facet render --renderer */
-    uint32_t features;       /* facet_renderer_feature */
-    uint32_t samples[3];     /* per pixel, by facet_quality */
-    uint32_t max_samples;    /* per pixel */
-    uint32_t aovs, sea_aovs; /* facet_aov that it renders: of scenes, of scenes in a sea */
+    const char *name;     /* "preview", "path", "gl": that of facet render --renderer */
+    uint32_t features;    /* facet_renderer_feature */
+    uint32_t aovs;        /* facet_aov that it renders */
+    uint32_t samples[3];  /* per pixel, by facet_quality */
+    uint32_t max_samples; /* per pixel */
 } facet_renderer_info;
 /* {0} past the last renderer. */
 FACET_API facet_renderer_info facet_renderer_get_info(facet_renderer_kind kind);

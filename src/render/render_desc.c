@@ -76,9 +76,6 @@ static facet_result resolve_sea(const renderer_row *r, facet_render_desc *d, fac
         return fail(error, FACET_ERROR_ARGUMENT,
                     "shading: in a sea %s supports FACET_SHADING_GLTF only; the preview has OpenGL 1 as well",
                     r->title);
-    if (d->aovs & ~r->info.sea_aovs)
-        return fail(error, FACET_ERROR_ARGUMENT,
-                    "layers: %s has none in a sea; the preview and path tracing have", r->title);
     if (!(r->info.features & FACET_RENDERER_FEATURE_SEA_STYLES) && !is_physical(&d->sea_shading))
         return fail(error, FACET_ERROR_ARGUMENT,
                     "sea_shading: %s supports the physical style only: no stage, GGX normals, other masking, "

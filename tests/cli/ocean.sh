@@ -157,8 +157,8 @@ expect 0 ocean $small -s 32x24 --sweep heading=5:60:2,wind=2:12:3 -o sheet.png
 is_type sheet.png "PNG image data, 68 x"
 expect 2 ocean $small --sweep rouhgness=0.1:0.2:2 -o sheet.png
 says "--sweep: unknown option --rouhgness; did you mean --roughness?"
-expect 2 ocean $small --sweep aov=1:2:3 -o sheet.png
-says "--sweep: --aov is an option of facet render, not of facet ocean"
+expect 2 ocean $small --sweep orbit=1:2:3 -o sheet.png
+says "--sweep: --orbit is an option of facet render"
 expect 2 ocean $small --sweep roughness=0.1:0.2 -o sheet.png
 says "NAME=FROM:TO:COUNT"
 expect 2 ocean $small --sweep output=1:2:2 -o sheet.png
@@ -211,7 +211,27 @@ says "MODEL@X,Z"
 cp boat.gltf saved.gltf
 expect 2 ocean $small --with boat.gltf -o boat.gltf
 cmp -s boat.gltf saved.gltf || failed "an input was overwritten"
-rm -f ./*.png ./*.gltf
+# Several models, and a camera of one of them
+expect 0 ocean $small --with boat.gltf@0,-20 --with boat.gltf@-4,-20,90 --heading 180 -o two.png --json
+grep -q '"model_matrices"' out || failed "--json lacks the places of two models"
+expect 0 ocean $small --with boat.gltf@0,-20 --heading 180 -o one.png
+cmp -s one.png two.png && failed "a second model is not there"
+expect 0 ocean $small --with boat.gltf --with boat.gltf -o a.png --strict
+printf '{"with": ["boat.gltf@0,-20", "boat.gltf@-4,-20,90"], "heading": "180"}' >sea.json
+expect 0 ocean $small --config sea.json -o a.png
+cmp -s a.png two.png || failed "the models of a config are not those of the command line"
+expect 0 ocean $small --with boat.gltf@0,-8 --with boat.gltf@0,0 --camera Hero -o a.png
+expect 0 ocean $small --with boat.gltf@0,-8 --with boat.gltf@0,0 --camera 0 -o b.png
+cmp -s a.png b.png || failed "the camera by number is another"
+expect 0 ocean $small --with boat.gltf@0,-8 --with boat.gltf@0,0 --camera 1 -o b.png
+cmp -s a.png b.png && failed "the camera of the second model is that of the first"
+expect 2 ocean $small --with boat.gltf --camera Keel -o b.png
+says 'there is no camera "Keel"'
+# Layers
+expect 0 ocean $small --with boat.gltf --aov depth,object -o a.exr
+grep -q 'object.id' a.exr || failed "no layer of objects"
+expect 0 ocean $small --with boat.gltf --aov object -o b.png
+rm -f ./*.png ./*.gltf ./*.exr sea.json
 
 # Invalid requests
 for words in "--sun 22,1e300" "--depth 1e39" "--bed-slope 1,1e300 --depth 3" "--wind 10,1e300" "--swell 2,0.01" \
@@ -221,8 +241,16 @@ for words in "--sun 22,1e300" "--depth 1e39" "--bed-slope 1,1e300 --depth 3" "--
 done
 expect 2 ocean --stage 2 -o a.glb
 says "an option of images"
-expect 2 ocean --with a.glb --with b.glb -o a.png
-says "more than once"
+expect 2 ocean --camera Bridge -o a.png
+says "--camera: it needs a model"
+expect 2 ocean --with a.glb --camera Bridge --fov 30 -o a.png
+says "--camera: it excludes --fov"
+expect 2 ocean --with a.glb --sweep wind=1:2:2 --aov depth -o a.exr
+says "--aov: a sheet has no layers"
+expect 2 ocean --aov depth -o a.png
+says "--aov: layers need an .exr file"
+expect 2 ocean --aov variance -o a.exr
+says "--aov: variance needs --renderer path"
 expect 2 ocean --wind 50 -o a.png
 says "0 to 40 m/s"
 expect 2 ocean --preset pond -o a.png

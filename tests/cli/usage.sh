@@ -43,8 +43,8 @@ for option in --hdri-file --output-file --width --skybox-image --no-background -
     expect 2 render $option x
     says "did you mean --"
 done
-expect 2 ocean --aov depth
-says "--aov is an option of facet render, not of facet ocean"
+expect 2 ocean --orbit 0
+says "--orbit is an option of facet render"
 expect 2 render --wind 5
 says "--wind is an option of facet ocean, not of facet render"
 expect 2 render --exposure auto --shading ogl1 -o x.png

@@ -319,7 +319,7 @@ static void zsh_action(FILE *stream, const option *o)
 
 static void zsh_specification(FILE *stream, const option *o, bool is_letter)
 {
-    const char *many = o->kind == OPTION_COUNT ? "*" : "";
+    const char *many = o->kind == OPTION_COUNT || o->kind == OPTION_TEXTS ? "*" : "";
     if (is_letter)
         fprintf(stream, "                '%s-%c%s[", many, o->letter, option_takes_value(o) ? "+" : "");
     else

@@ -12,6 +12,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
@@ -89,6 +90,8 @@ const verb ocean_verb = {
             {"facet ocean --sweep roughness=0.01:0.1:5,ior=1.3:1.4:5 -s 320x180 -o sweep.png",
              "a sheet of 25"},
             {"facet ocean --preset harbour --info", "wave heights, periods, colors"},
+            {"facet ocean --with ship.glb@0,40 --with boat.glb@8,20,90 --camera Bridge -o fleet.png",
+             "two models, seen by a camera of one"},
             {"facet ocean --wind 8 -o sea.glb --maps maps", "a mesh, and maps in a folder that exists"},
             {NULL, NULL}},
     .basics = OPTION_IDS(OPT_OUTPUT, OPT_SIZE, OPT_PRESET, OPT_WIND, OPT_WATER, OPT_DEPTH, OPT_SUN,
@@ -96,8 +99,8 @@ const verb ocean_verb = {
                          OPT_WITH, OPT_MAPS, OPT_JSON),
     .groups =
         (const option_group *const[]){
-            OPTION_GROUP("Output", OPT_OUTPUT, OPT_NO_CLOBBER, OPT_FORMAT, OPT_SIZE, OPT_CROP, OPT_INFO,
-                         OPT_MAPS, OPT_MESH_SIZE, OPT_MESH_SAMPLES, OPT_JPEG_QUALITY),
+            OPTION_GROUP("Output", OPT_OUTPUT, OPT_NO_CLOBBER, OPT_FORMAT, OPT_SIZE, OPT_CROP, OPT_AOV,
+                         OPT_INFO, OPT_MAPS, OPT_MESH_SIZE, OPT_MESH_SAMPLES, OPT_JPEG_QUALITY),
             OPTION_GROUP("Waves", OPT_PRESET, OPT_WIND, OPT_FETCH, OPT_SWELL, OPT_SPECTRUM, OPT_SPREADING,
                          OPT_CHOPPINESS, OPT_SEED, OPT_TILE_SAMPLES, OPT_CASCADES),
             OPTION_GROUP("Water and bed", OPT_WATER, OPT_CHLOROPHYLL, OPT_ABSORPTION, OPT_SALINITY,
@@ -105,10 +108,11 @@ const verb ocean_verb = {
             OPTION_GROUP("Light and exposure", OPT_SUN, OPT_TURBIDITY, OPT_ENV, OPT_EXPOSURE, OPT_EV100,
                          OPT_TONE_MAPPING),
             &environment_group,
-            OPTION_GROUP("Camera", OPT_EYE_HEIGHT, OPT_HEADING, OPT_EYE, OPT_TARGET, OPT_FOV),
+            OPTION_GROUP("Camera", OPT_EYE_HEIGHT, OPT_HEADING, OPT_EYE, OPT_TARGET, OPT_FOV, OPT_CAMERA),
             OPTION_GROUP("Shading", OPT_BEFORE, OPT_BEFORE_AFTER, OPT_STAGE, OPT_ROUGHNESS, OPT_NORMALS,
                          OPT_MASKING, OPT_FRESNEL, OPT_NO_GLINTS, OPT_NO_FOAM, OPT_NO_CAUSTICS, OPT_CLAMP,
-                         OPT_SWEEP, OPT_WITH, OPT_SHADING),
+                         OPT_SWEEP),
+            OPTION_GROUP("Models", OPT_WITH, OPT_SHADING, OPT_OGL1_VARIANT, OPT_OGL1_SPACE, OPT_FOG),
             OPTION_GROUP("Quality", OPT_QUALITY, OPT_SAMPLES, OPT_RENDERER, OPT_DENOISE),
             OPTION_GROUP("Motion", OPT_TIME, OPT_FRAMES, OPT_FPS, OPT_LOOP), &limits_group, &messages_group,
             OPTION_GROUP("Running", OPT_PROGRESS, OPT_CONFIG), NULL},
@@ -141,16 +145,6 @@ static bool is_kept(ocean_run *run, const char *name)
 
 /* ---- images ---- */
 
-static facet_result write_image(ocean_run *run, const facet_image *image, const char *name,
-                                facet_error *error)
-{
-    const render_options *p = &run->options.render;
-    facet_image_save_desc save = p->save;
-    save.allocator = run->base.allocator;
-    return run->video ? video_add(run->video, image, &run->base.allocator, p->limits.thread_count, error)
-                      : output_write(image, name, &save, error);
-}
-
 static facet_result make_image(ocean_run *run, uint32_t index, const char *name, facet_error *error)
 {
     const ocean_options *options = &run->options;
@@ -161,7 +155,7 @@ static facet_result make_image(ocean_run *run, uint32_t index, const char *name,
                                          : ocean_run_draw(run, options, step, &image, error);
     double drawn = interrupt_clock();
     if (result == FACET_OK)
-        result = write_image(run, image, name, error);
+        result = render_write(&options->render, image, name, &run->base.allocator, run->video, error);
     if (result == FACET_OK) {
         facet_image_view view = facet_image_get_layer(image, 0);
         const facet_render_desc *d = &options->render.desc;
@@ -402,8 +396,7 @@ static facet_result make(ocean_run *run, facet_error *error)
     if (o->has_image)
         TRY(load_environment(run, error));
     warn_of_sun(run);
-    if (o->model)
-        TRY(ocean_float_load(run, error));
+    TRY(ocean_float_load(run, error));
     interrupt_begin("sea", "creating its waves and metering its light", false);
     TRY(ocean_run_set_sea(run, o, error));
     if (o->has_image && !o->sweep)
@@ -436,6 +429,7 @@ static void destroy(verb_run *base)
     facet_renderer_destroy(run->renderer);
     facet_sea_destroy(run->sea);
     facet_scene_destroy(run->model);
+    free(run->models);
     facet_environment_destroy(run->environment);
 }
 

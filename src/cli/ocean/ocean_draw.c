@@ -24,7 +24,11 @@ facet_result ocean_run_set_sea(ocean_run *run, const ocean_options *options, fac
 
 facet_camera ocean_run_camera(const ocean_run *run, const ocean_options *o)
 {
-    facet_camera camera = facet_sea_camera(run->sea, o->eye_height_m, o->heading_rad);
+    facet_camera camera;
+    if (run->has_camera && run->is_afloat &&
+        facet_camera_from_scene(run->model, NULL, run->camera, &camera, NULL) == FACET_OK)
+        return camera;
+    camera = facet_sea_camera(run->sea, o->eye_height_m, o->heading_rad);
     for (int i = 0; i < 3 && o->render.has_eye; i++) {
         camera.target[i] += (float)o->render.eye[i] - camera.eye[i];
         camera.eye[i] = (float)o->render.eye[i];
@@ -60,6 +64,8 @@ static facet_result make_renderer(ocean_run *run, facet_error *error)
 
 facet_result ocean_run_meter(ocean_run *run, const ocean_options *o, facet_error *error)
 {
+    if (run->has_camera)
+        TRY(ocean_float_place(run, error));
     const facet_camera camera = ocean_run_camera(run, o);
     facet_render_desc d = desc_of(run, o, &o->shading);
     d.camera = &camera;

@@ -268,11 +268,16 @@ static facet_result read_look(const command_line *c, ocean_options *out, facet_e
         return fail(error, FACET_ERROR_ARGUMENT,
                     "--before: it is the style before all stages and excludes --stage");
     o->desc.samples = (uint32_t)option_number(c, OPT_SAMPLES, 0.0);
-    o->desc.shading = (facet_shading)option_choice(c, OPT_SHADING, FACET_SHADING_GLTF);
     TRY(image_options_renderer(c, o, error));
     TRY(image_options_need(c, OPTION_IDS(OPT_SHADING), FACET_RENDERER_FEATURE_SEA_OGL1, o, error));
-    if (is_given(c, OPT_SHADING) && !out->model)
+    TRY(image_options_shading(c, o, error));
+    if (is_given(c, OPT_SHADING) && !is_given(c, OPT_WITH))
         return fail(error, FACET_ERROR_ARGUMENT, "--shading: it needs a model, as --with boat.obj");
+    if (is_given(c, OPT_AOV) && (out->is_before_after || out->sweep))
+        return fail(error, FACET_ERROR_ARGUMENT, "--aov: a sheet has no layers; it excludes --%s",
+                    out->sweep ? "sweep" : "before-after");
+    if (out->has_image)
+        TRY(image_options_aov(c, o, error));
     o->desc.path.denoises = is_given(c, OPT_DENOISE);
     TRY(image_options_need(c, OPTION_IDS(OPT_DENOISE), FACET_RENDERER_FEATURE_PATH, o, error));
     static const option_id styles[] = {OPT_BEFORE,  OPT_BEFORE_AFTER, OPT_STAGE,       OPT_NORMALS,
@@ -285,6 +290,19 @@ static facet_result read_look(const command_line *c, ocean_options *out, facet_e
 }
 
 /* ---- camera ---- */
+
+/* --camera, of a model. */
+static facet_result read_model_camera(const command_line *c, ocean_options *out, facet_error *error)
+{
+    static const option_id others[] = {OPT_EYE, OPT_EYE_HEIGHT, OPT_HEADING, OPT_TARGET, OPT_FOV};
+    const option *other = first_given(c, others, sizeof others / sizeof *others, SOURCE_PRESET);
+    out->render.camera = option_text(c, OPT_CAMERA, NULL);
+    if (out->render.camera && !is_given(c, OPT_WITH))
+        return fail(error, FACET_ERROR_ARGUMENT, "--camera: it needs a model, as --with boat.glb");
+    if (out->render.camera && other)
+        return fail(error, FACET_ERROR_ARGUMENT, "--camera: it excludes --%s; give one of them", other->name);
+    return FACET_OK;
+}
 
 static facet_result read_camera(const command_line *c, ocean_options *out, facet_error *error)
 {
@@ -305,6 +323,7 @@ static facet_result read_camera(const command_line *c, ocean_options *out, facet
         for (int i = 0; i < 3; i++)
             out->render.eye[i] = numbers[i];
     }
+    TRY(read_model_camera(c, out, error));
     out->has_target = is_given(c, OPT_TARGET);
     if (out->has_target) {
         if (is_given(c, OPT_HEADING))
@@ -362,9 +381,8 @@ static facet_result read_output(const command_line *c, ocean_options *out, facet
     TRY(image_options_output(c, o, error));
     out->maps = option_text(c, OPT_MAPS, NULL);
     out->sweep = option_text(c, OPT_SWEEP, NULL);
-    out->model = option_text(c, OPT_WITH, NULL);
-    if (c->values[OPT_WITH].count > 1)
-        return option_fail(c, OPT_WITH, "one model; it is given more than once", error);
+    out->models = c->values[OPT_WITH].texts;
+    out->model_count = c->values[OPT_WITH].count;
     out->has_mesh = is_mesh_name(o->output);
     out->has_image = o->output && !out->has_mesh;
     out->has_info = is_given(c, OPT_INFO);
@@ -397,10 +415,11 @@ static facet_result check_maps(const command_line *c, const ocean_options *out, 
 static facet_result check_mesh(const command_line *c, const ocean_options *out, facet_error *error)
 {
     static const option_id of_images[] = {
-        OPT_FORMAT,  OPT_SIZE,    OPT_CROP,   OPT_JPEG_QUALITY, OPT_SUN,      OPT_TURBIDITY,
-        OPT_ENV,     OPT_EV100,   OPT_BEFORE, OPT_BEFORE_AFTER, OPT_STAGE,    OPT_ROUGHNESS,
-        OPT_NORMALS, OPT_MASKING, OPT_CLAMP,  OPT_WITH,         OPT_RENDERER, OPT_EXPOSURE,
-        OPT_SAMPLES, OPT_EYE,     OPT_TARGET, OPT_HEADING};
+        OPT_FORMAT,    OPT_SIZE,      OPT_CROP,    OPT_JPEG_QUALITY, OPT_SUN,
+        OPT_TURBIDITY, OPT_ENV,       OPT_EV100,   OPT_BEFORE,       OPT_BEFORE_AFTER,
+        OPT_STAGE,     OPT_ROUGHNESS, OPT_NORMALS, OPT_MASKING,      OPT_CLAMP,
+        OPT_AOV,       OPT_CAMERA,    OPT_SHADING, OPT_WITH,         OPT_RENDERER,
+        OPT_EXPOSURE,  OPT_SAMPLES,   OPT_EYE,     OPT_TARGET,       OPT_HEADING};
     const option *other =
         first_given(c, of_images, sizeof of_images / sizeof *of_images, SOURCE_COMMAND_LINE);
     if (other && out->has_mesh)

@@ -23,8 +23,9 @@ typedef struct ocean_options {
     /* what is made */
     bool has_image, has_mesh, has_info;
     bool is_before_after;
-    const char *maps;  /* folder or pattern; NULL: none */
-    const char *model; /* of --with, including @ and what follows; NULL: none */
+    const char *maps;          /* folder or pattern; NULL: none */
+    const char *const *models; /* of --with, including @ and what follows */
+    uint32_t model_count;
     const char *sweep; /* NULL: none */
     facet_sea_mesh_desc mesh;
 } ocean_options;

@@ -91,7 +91,13 @@ json_t *ocean_report_image_json(const ocean_run *run, const image_report *p)
     json_object_set_new(all, "camera",
                         json_pack("{s:o, s:o, s:f}", "eye", numbers_json(camera.eye, 3), "target",
                                   numbers_json(camera.target, 3), "fov_y_rad", (double)camera.fov_y_rad));
+    json_t *matrices = json_array();
+    for (uint32_t i = 0; i < run->options.model_count; i++)
+        json_array_append_new(matrices, numbers_json(run->models[i].pose, 16));
     if (run->model)
-        json_object_set_new(all, "model_matrix", numbers_json(run->model_pose, 16));
+        json_object_set(all, "model_matrix", json_array_get(matrices, 0));
+    if (run->options.model_count > 1)
+        json_object_set(all, "model_matrices", matrices);
+    json_decref(matrices);
     return all;
 }

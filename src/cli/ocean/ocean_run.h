@@ -8,23 +8,26 @@
 #include "cli/shared/verb_run.h"
 #include "cli/render/video.h"
 
-/* Position of the floating model. */
-typedef struct ocean_berth {
-    bool has_place;    /* false: in view */
-    double numbers[3]; /* x, z in m; heading in degrees, from +Z towards +X */
-} ocean_berth;
+/* A floating model: a part of ocean_run.model. */
+typedef struct ocean_model {
+    char path[4096];
+    bool is_placed;        /* by the user, or else once it was put in view */
+    double berth[3];       /* x, z in m; heading in degrees, from +Z towards +X */
+    float low[3], high[3]; /* bounds in the file */
+    float pose[16];        /* columns of a matrix */
+} ocean_model;
 
 typedef struct ocean_run {
     verb_run base;
     ocean_options options;
     facet_environment *environment; /* NULL: the sky */
     facet_sea *sea;
-    facet_scene *model;                /* NULL: none */
-    facet_renderer *renderer;          /* of model; NULL: not made yet */
-    float model_low[3], model_high[3]; /* bounds in the file */
-    ocean_berth berth;
-    bool is_afloat;       /* placed before */
-    float model_pose[16]; /* columns of a matrix */
+    facet_scene *model;       /* all of them in one scene; NULL: none */
+    ocean_model *models;      /* options.model_count */
+    facet_renderer *renderer; /* of model; NULL: not made yet */
+    bool is_afloat;           /* placed before */
+    bool has_camera;          /* of a model */
+    uint32_t camera;
     double time_s;
     double ev100;                /* exposure of the images, with --exposure */
     video *video;                /* NULL: files */
@@ -54,8 +57,8 @@ facet_result ocean_run_draw(ocean_run *run, const ocean_options *options, ocean_
 /* Renders the sheet of --sweep over one or two options. Leaves another sea in run. */
 facet_result ocean_sweep(ocean_run *run, const char *output, facet_image **image, facet_error *error);
 
-/* Load the model of --with, and place it on the sea at its current time. Without a position it lies in
- * view of the first frame's camera. */
+/* Load the models of --with, if any, and place them on the sea at its current time. Those without a position
+ * lie side by side in view of the first frame's camera. */
 facet_result ocean_float_load(ocean_run *run, facet_error *error);
 facet_result ocean_float_place(ocean_run *run, facet_error *error);
 

@@ -95,13 +95,9 @@ static facet_result load_environment(render_run *run, facet_error *error)
 
 static facet_result load_model(render_run *run, const char *model, facet_scene **scene, facet_error *error)
 {
-    facet_scene_desc desc = verb_run_scene_desc(&run->base);
-    desc.legacy.keeps_materials = run->options.desc.shading == FACET_SHADING_OGL1;
+    const facet_scene_desc desc = verb_run_scene_desc(&run->base);
     interrupt_begin_reading(input_name(model));
-    facet_result result = input_load(model, &desc, scene, error);
-    if (result == FACET_OK && run->options.desc.shading == FACET_SHADING_OGL1)
-        result =
-            facet_scene_convert_materials(*scene, FACET_MATERIAL_MODEL_OGL1, &desc.legacy, &desc.log, error);
+    facet_result result = input_load_shaded(model, &desc, run->options.desc.shading, scene, error);
     interrupt_end();
     return result;
 }
@@ -122,24 +118,6 @@ typedef struct model_run {
     bool has_lost_checkpoint;
     bool is_framed; /* the camera is framed, and its warnings are reported */
 } model_run;
-
-static facet_result write_image(model_run *m, const facet_image *image, const char *name, facet_error *error)
-{
-    const render_run *run = m->run;
-    if (m->video)
-        return video_add(m->video, image, &run->base.allocator, m->options.limits.thread_count, error);
-    facet_image_save_desc save = m->options.save;
-    save.allocator = run->base.allocator;
-    if (!m->options.id_layer)
-        return output_write(image, name, &save, error);
-    facet_image *colors = NULL;
-    facet_result result =
-        facet_image_create_id_colors(image, m->options.id_layer, &run->base.allocator, &colors, error);
-    if (result == FACET_OK)
-        result = output_write(colors, name, &save, error);
-    facet_image_destroy(colors);
-    return result;
-}
 
 static facet_result frame_camera(model_run *m, uint32_t index, const sequence_frame *frame,
                                  facet_camera *camera, facet_error *error)
@@ -244,7 +222,7 @@ static facet_result render_frame(model_run *m, uint32_t index, const sequence_fr
     if (result != FACET_OK)
         return result;
     double rendered = interrupt_clock();
-    result = write_image(m, image, report->output, error);
+    result = render_write(o, image, report->output, &run->base.allocator, m->video, error);
     facet_image_view view = facet_image_get_layer(image, 0);
     report->width = view.width;
     report->height = view.height;

@@ -13,6 +13,24 @@
 
 /* ---- renderer ---- */
 
+/* "path or gl": the renderers with layers and a feature. */
+static void renderers_with(uint32_t aovs, uint32_t feature, char *text, size_t size)
+{
+    const char *found[16];
+    size_t count = 0, used = 0;
+    facet_renderer_info info;
+    for (int kind = 0; (info = facet_renderer_get_info((facet_renderer_kind)kind)).name && count < 16; kind++)
+        if ((info.features & feature) == feature && (info.aovs & aovs) == aovs)
+            found[count++] = info.name;
+    *text = 0;
+    for (size_t i = 0; i < count && used < size; i++)
+        used += (size_t)snprintf(text + used, size - used, "%s%s",
+                                 i == 0           ? ""
+                                 : i + 1 == count ? " or "
+                                                  : ", ",
+                                 found[i]);
+}
+
 facet_result image_options_renderer(const command_line *c, render_options *out, facet_error *error)
 {
     const char *wanted = option_text(c, OPT_RENDERER, "preview");
@@ -24,25 +42,8 @@ facet_result image_options_renderer(const command_line *c, render_options *out, 
             return FACET_OK;
         }
     char names[128];
-    image_options_renderers(0, names, sizeof names);
+    renderers_with(0, 0, names, sizeof names);
     return option_fail(c, OPT_RENDERER, names, error);
-}
-
-void image_options_renderers(facet_renderer_feature feature, char *text, size_t size)
-{
-    const char *found[16];
-    size_t count = 0, used = 0;
-    facet_renderer_info info;
-    for (int kind = 0; (info = facet_renderer_get_info((facet_renderer_kind)kind)).name && count < 16; kind++)
-        if ((info.features & feature) == feature)
-            found[count++] = info.name;
-    *text = 0;
-    for (size_t i = 0; i < count && used < size; i++)
-        used += (size_t)snprintf(text + used, size - used, "%s%s",
-                                 i == 0           ? ""
-                                 : i + 1 == count ? " or "
-                                                  : ", ",
-                                 found[i]);
 }
 
 facet_result image_options_need(const command_line *c, const option_id *options, facet_renderer_feature need,
@@ -51,11 +52,117 @@ facet_result image_options_need(const command_line *c, const option_id *options,
     char names[128];
     if (o->renderer.features & need)
         return FACET_OK;
-    image_options_renderers(need, names, sizeof names);
+    renderers_with(0, need, names, sizeof names);
     for (; *options != OPTION_ID_COUNT; options++)
         if (is_given(c, *options))
             return fail(error, FACET_ERROR_ARGUMENT, "--%s: it needs --renderer %s",
                         option_find_id(c->verb, *options)->name, names);
+    return FACET_OK;
+}
+
+/* ---- layers ---- */
+
+static const struct aov_name {
+    const char *name;
+    uint32_t aovs;
+} aov_names[] = {{"depth", FACET_AOV_DEPTH},
+                 {"normal", FACET_AOV_NORMAL},
+                 {"albedo", FACET_AOV_ALBEDO},
+                 {"material", FACET_AOV_MATERIAL_ID},
+                 {"object", FACET_AOV_OBJECT_ID},
+                 {"instance", FACET_AOV_INSTANCE_ID},
+                 {"uv", FACET_AOV_UV},
+                 {"occlusion", FACET_AOV_OCCLUSION},
+                 {"variance", FACET_AOV_VARIANCE},
+                 {"samples", FACET_AOV_SAMPLES},
+                 {"cryptomatte", FACET_AOV_CRYPTOMATTE},
+                 {"crypto-object", FACET_AOV_CRYPTO_OBJECT},
+                 {"crypto-material", FACET_AOV_CRYPTO_MATERIAL},
+                 {"crypto-instance", FACET_AOV_CRYPTO_INSTANCE}};
+enum { AOV_NAMES = sizeof aov_names / sizeof *aov_names };
+
+static bool has_word(const char *list, const char *word)
+{
+    size_t length = strlen(word);
+    for (; *list; list += *list == ',') {
+        size_t here = strcspn(list, ",");
+        if (here == length && memcmp(list, word, length) == 0)
+            return true;
+        list += here;
+    }
+    return false;
+}
+
+/* All layers of the renderer, without those that --resume excludes. */
+static uint32_t all_aovs(const render_options *o)
+{
+    uint32_t all = 0;
+    for (size_t i = 0; i < AOV_NAMES; i++)
+        all |= aov_names[i].aovs;
+    all &= o->renderer.aovs;
+    if (o->desc.path.resumes)
+        all &= ~(uint32_t)FACET_AOV_CRYPTOMATTE;
+    return all;
+}
+
+/* Writes "depth, normal, uv" for layers. */
+static void list_names(uint32_t aovs, char *list, size_t size)
+{
+    size_t used = 0;
+    for (size_t i = 0; i < AOV_NAMES; i++)
+        if ((aov_names[i].aovs & aovs) == aov_names[i].aovs && used < size)
+            used += (size_t)snprintf(list + used, size - used, "%s%s", used ? ", " : "", aov_names[i].name);
+}
+
+static facet_result check_aovs(const char *text, const render_options *o, facet_error *error)
+{
+    uint32_t all = all_aovs(o);
+    for (size_t i = 0; i < AOV_NAMES; i++) {
+        if (!has_word(text, aov_names[i].name) || (aov_names[i].aovs & ~all) == 0)
+            continue;
+        if (o->desc.path.resumes && aov_names[i].aovs & FACET_AOV_CRYPTOMATTE)
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "--aov: a checkpoint does not hold %s; render it without --resume",
+                        aov_names[i].name);
+        char list[256] = "", names[128];
+        list_names(all, list, sizeof list);
+        renderers_with(aov_names[i].aovs, 0, names, sizeof names);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--aov: %s needs --renderer %s; --renderer %s has %s, or all", aov_names[i].name, names,
+                    o->renderer.name, list);
+    }
+    return FACET_OK;
+}
+
+/* A .png holds one layer of IDs in false color, which is lossless, instead of the image. */
+static facet_result read_id_layer(const char *text, render_options *out, facet_error *error)
+{
+    static const uint32_t ids = FACET_AOV_OBJECT_ID | FACET_AOV_MATERIAL_ID | FACET_AOV_INSTANCE_ID;
+    bool is_png = out->save.format == FACET_IMAGE_FORMAT_PNG && out->video == VIDEO_NONE;
+    for (size_t i = 0; i < AOV_NAMES && is_png; i++)
+        if (strcmp(text, aov_names[i].name) == 0 && aov_names[i].aovs & ids) {
+            out->id_layer = aov_names[i].name;
+            out->desc.aovs = aov_names[i].aovs | FACET_AOV_INSTANCE_ID;
+            return FACET_OK;
+        }
+    return fail(error, FACET_ERROR_ARGUMENT,
+                "--aov: layers need an .exr file, -o NAME.exr; a .png holds one of object, material and "
+                "instance alone, in false color");
+}
+
+facet_result image_options_aov(const command_line *c, render_options *out, facet_error *error)
+{
+    const char *text = option_text(c, OPT_AOV, "");
+    bool is_exr =
+        out->save.format == FACET_IMAGE_FORMAT_EXR || out->save.format == FACET_IMAGE_FORMAT_EXR_FLOAT;
+    if (*text && !is_exr)
+        return read_id_layer(text, out, error);
+    TRY(check_aovs(text, out, error));
+    if (has_word(text, "all"))
+        out->desc.aovs = all_aovs(out);
+    for (size_t i = 0; i < AOV_NAMES; i++)
+        if (has_word(text, aov_names[i].name))
+            out->desc.aovs |= aov_names[i].aovs;
     return FACET_OK;
 }
 
@@ -192,6 +299,21 @@ void image_options_quality(const command_line *c, facet_tonemap otherwise, rende
     out->desc.quality = qualities[option_choice(c, OPT_QUALITY, 1)];
     out->save.jpeg_quality = (uint32_t)option_number(c, OPT_JPEG_QUALITY, 0.0);
     out->save.png_compression = (uint32_t)option_number(c, OPT_PNG_COMPRESSION, 0.0);
+}
+
+facet_result image_options_shading(const command_line *c, render_options *out, facet_error *error)
+{
+    facet_render_desc *d = &out->desc;
+    d->shading = (facet_shading)option_choice(c, OPT_SHADING, FACET_SHADING_GLTF);
+    static const option_id ogl1_only[] = {OPT_OGL1_VARIANT, OPT_OGL1_SPACE, OPT_FOG};
+    for (size_t i = 0; i < sizeof ogl1_only / sizeof *ogl1_only; i++)
+        if (is_given(c, ogl1_only[i]) && d->shading != FACET_SHADING_OGL1)
+            return fail(error, FACET_ERROR_ARGUMENT, "--%s: it needs --shading ogl1",
+                        option_find_id(c->verb, ogl1_only[i])->name);
+    d->ogl1 = (facet_ogl1_desc){.variant = (facet_ogl1_variant)option_choice(c, OPT_OGL1_VARIANT, 0),
+                                .is_linear = option_choice(c, OPT_OGL1_SPACE, 0) == 1,
+                                .ignores_fog = option_choice(c, OPT_FOG, 0) == 1};
+    return FACET_OK;
 }
 
 /* ---- light ---- */

@@ -70,8 +70,11 @@ const char *render_extension(facet_image_format format);
 facet_result image_options_renderer(const command_line *c, render_options *out, facet_error *error);
 facet_result image_options_need(const command_line *c, const option_id *options, facet_renderer_feature need,
                                 const render_options *o, facet_error *error);
-/* "path or gl": the renderers with a feature. */
-void image_options_renderers(facet_renderer_feature feature, char *text, size_t size);
+/* --aov, after format and renderer. FACET_ERROR_ARGUMENT: the renderer lacks a layer, or the file has no room
+ * for one. */
+facet_result image_options_aov(const command_line *c, render_options *out, facet_error *error);
+/* --shading and what belongs to ogl1. */
+facet_result image_options_shading(const command_line *c, render_options *out, facet_error *error);
 
 facet_result image_options_output(const command_line *c, render_options *out, facet_error *error);
 facet_result image_options_format(const command_line *c, render_options *out, facet_error *error);

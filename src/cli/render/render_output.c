@@ -102,6 +102,23 @@ facet_result render_names_check(const command_line *c, const render_options *o, 
     return result;
 }
 
+facet_result render_write(const render_options *o, const facet_image *image, const char *name,
+                          const facet_allocator *allocator, video *frames, facet_error *error)
+{
+    if (frames)
+        return video_add(frames, image, allocator, o->limits.thread_count, error);
+    facet_image_save_desc save = o->save;
+    save.allocator = *allocator;
+    if (!o->id_layer)
+        return output_write(image, name, &save, error);
+    facet_image *colors = NULL;
+    facet_result result = facet_image_create_id_colors(image, o->id_layer, allocator, &colors, error);
+    if (result == FACET_OK)
+        result = output_write(colors, name, &save, error);
+    facet_image_destroy(colors);
+    return result;
+}
+
 /* ---- reports ---- */
 
 /* Mean samples per pixel. */

@@ -29,6 +29,10 @@ bool render_name_is_input(const command_line *c, const render_options *o, const 
 facet_result render_names_check(const command_line *c, const render_options *o, model_list *models,
                                 facet_error *error);
 
+/* Writes an image to name: as a frame of a video (NULL: a file), or of its layer of IDs the colors. */
+facet_result render_write(const render_options *o, const facet_image *image, const char *name,
+                          const facet_allocator *allocator, video *frames, facet_error *error);
+
 /* ---- reports: a line for people, an object for programs ---- */
 
 /* An image that was written or kept. */

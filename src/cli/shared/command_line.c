@@ -88,6 +88,13 @@ static facet_result set(command_line *c, const option *o, const char *text, opti
     if (result != FACET_OK)
         return result;
     option_value *value = &c->values[o->id];
+    if (o->kind == OPTION_TEXTS) {
+        const char **grown = realloc(value->texts, (value->count + 1) * sizeof *grown);
+        if (!grown)
+            return fail(error, FACET_ERROR_MEMORY, "out of memory: options");
+        value->texts = grown;
+        value->texts[value->count] = text;
+    }
     value->text = text;
     value->count++;
     value->source = source;
@@ -234,6 +241,8 @@ facet_result command_line_parse(const verb *v, int argc, char **argv, command_li
 
 void command_line_destroy(command_line *c)
 {
+    for (int i = 0; i < OPTION_ID_COUNT; i++)
+        free(c->values[i].texts);
     free(c->arguments);
     *c = (command_line){0};
 }

@@ -9,8 +9,9 @@
 typedef enum option_source { SOURCE_NONE, SOURCE_COMMAND_LINE, SOURCE_CONFIG, SOURCE_PRESET } option_source;
 
 typedef struct option_value {
-    const char *text; /* of the last occurrence; NULL: not given, or a flag */
-    unsigned count;   /* occurrences */
+    const char *text;   /* of the last occurrence; NULL: not given, or a flag */
+    const char **texts; /* OPTION_TEXTS: of all, count of them */
+    unsigned count;     /* occurrences */
     option_source source;
 } option_value;
 

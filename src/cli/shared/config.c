@@ -78,6 +78,19 @@ static long flag_count(const option *o, const json_t *value)
     return -1;
 }
 
+static facet_result apply_value(command_line *c, const option *o, const char *name, const json_t *value,
+                                config *storage, facet_error *error)
+{
+    char text[4096];
+    if (!to_text(value, text, sizeof text))
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: %s: it must be text, a number or an array of these",
+                    c->config_name, name);
+    const char *kept = keep(storage, text);
+    if (!kept)
+        return fail(error, FACET_ERROR_MEMORY, "%s: out of memory", c->config_name);
+    return command_line_set(c, o, kept, SOURCE_CONFIG, error);
+}
+
 static facet_result apply_member(command_line *c, const char *name, const json_t *value, config *storage,
                                  facet_error *error)
 {
@@ -105,14 +118,10 @@ static facet_result apply_member(command_line *c, const char *name, const json_t
             result = command_line_set(c, o, NULL, SOURCE_CONFIG, error);
         return result;
     }
-    char text[4096];
-    if (!to_text(value, text, sizeof text))
-        return fail(error, FACET_ERROR_ARGUMENT, "%s: %s: it must be text, a number or an array of these",
-                    path, name);
-    const char *kept = keep(storage, text);
-    if (!kept)
-        return fail(error, FACET_ERROR_MEMORY, "%s: out of memory", path);
-    return command_line_set(c, o, kept, SOURCE_CONFIG, error);
+    size_t count = o->kind == OPTION_TEXTS && json_is_array(value) ? json_array_size(value) : 0;
+    for (size_t i = 0; i < count; i++)
+        TRY(apply_value(c, o, name, json_array_get(value, i), storage, error));
+    return count ? FACET_OK : apply_value(c, o, name, value, storage, error);
 }
 
 /* The whole file in *text, for free(). */

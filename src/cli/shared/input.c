@@ -120,6 +120,17 @@ facet_result input_load(const char *path, const facet_scene_desc *desc, facet_sc
     return result;
 }
 
+facet_result input_load_shaded(const char *path, const facet_scene_desc *desc, facet_shading shading,
+                               facet_scene **scene, facet_error *error)
+{
+    facet_scene_desc d = *desc;
+    d.legacy.keeps_materials = shading == FACET_SHADING_OGL1;
+    TRY(input_load(path, &d, scene, error));
+    return shading == FACET_SHADING_OGL1
+               ? facet_scene_convert_materials(*scene, FACET_MATERIAL_MODEL_OGL1, &d.legacy, &d.log, error)
+               : FACET_OK;
+}
+
 facet_result input_load_image(const char *path, const facet_image_load_desc *desc, facet_image **image,
                               facet_error *error)
 {

@@ -13,6 +13,10 @@ const char *input_name(const char *path);
 facet_result input_load(const char *path, const facet_scene_desc *desc, facet_scene **scene,
                         facet_error *error);
 
+/* The same for a shading: FACET_SHADING_OGL1 needs legacy materials beside those of glTF. */
+facet_result input_load_shaded(const char *path, const facet_scene_desc *desc, facet_shading shading,
+                               facet_scene **scene, facet_error *error);
+
 /* Loads an image; - is standard input. Memory and failures as above. */
 facet_result input_load_image(const char *path, const facet_image_load_desc *desc, facet_image **image,
                               facet_error *error);

@@ -21,6 +21,7 @@
 #define KIND_FLAG OPTION_FLAG, 0, 0, 0
 #define KIND_COUNT OPTION_COUNT, 0, 0, 0
 #define KIND_TEXT OPTION_TEXT, 0, 0, 0
+#define KIND_TEXTS OPTION_TEXTS, 0, 0, 0
 #define KIND_FILE OPTION_FILE, 0, 0, 0
 #define KIND_FOLDER OPTION_FOLDER, 0, 0, 0
 #define KIND_NUMBER(minimum, maximum) OPTION_NUMBER, 0, minimum, maximum

@@ -12,6 +12,7 @@ typedef enum option_kind {
     OPTION_FLAG,    /* none */
     OPTION_COUNT,   /* none; occurrences count: -vv */
     OPTION_TEXT,    /* parsed by the verb */
+    OPTION_TEXTS,   /* the same, of every occurrence */
     OPTION_FILE,    /* completed with file names */
     OPTION_FOLDER,  /* completed with folders */
     OPTION_CHOICE,  /* one of choices */

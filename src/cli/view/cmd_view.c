@@ -106,14 +106,9 @@ static facet_result choose_camera(view_run *run, facet_view_model *model, facet_
 static facet_result load_model(void *user, const char *path, facet_view_model *model, facet_error *error)
 {
     view_run *run = user;
-    bool is_ogl1 = run->options.desc.shading == FACET_SHADING_OGL1;
-    facet_scene_desc desc = verb_run_scene_desc(&run->base);
-    desc.legacy.keeps_materials = is_ogl1;
+    const facet_scene_desc desc = verb_run_scene_desc(&run->base);
     *model = (facet_view_model){.scene = NULL};
-    facet_result result = input_load(path, &desc, &model->scene, error);
-    if (result == FACET_OK && is_ogl1)
-        result = facet_scene_convert_materials(model->scene, FACET_MATERIAL_MODEL_OGL1, &desc.legacy,
-                                               &desc.log, error);
+    facet_result result = input_load_shaded(path, &desc, run->options.desc.shading, &model->scene, error);
     if (result == FACET_OK)
         result = choose_pose(run, path, model, error);
     if (result == FACET_OK)
