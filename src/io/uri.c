@@ -176,7 +176,7 @@ static bool read_once(const file_scope *scope, int fd, const char *path, const s
 }
 
 /* Whether the scope permits a search for the name. */
-static bool may_look_for(const file_scope *scope, const char *name, const char *shown, uri_bytes *out)
+static bool may_search(const file_scope *scope, const char *name, const char *shown, uri_bytes *out)
 {
     bool is_absolute = name[0] == '/';
     if (!scope->folder && !scope->root)
@@ -195,7 +195,7 @@ static bool open_exact(const file_scope *scope, const char *name, const char *sh
     const char *folder = scope->folder ? scope->folder : scope->root;
     const char *allowed = scope->root ? scope->root : scope->folder;
     *out = (uri_bytes){0};
-    if (!may_look_for(scope, name, shown, out))
+    if (!may_search(scope, name, shown, out))
         return false;
     char *path = path_join(scope->allocator, name[0] == '/' ? "" : folder, name);
     if (!path)
@@ -224,7 +224,7 @@ static bool open_exact(const file_scope *scope, const char *name, const char *sh
 static bool open_alike(const file_scope *scope, const char *name, const char *shown, uri_bytes *out)
 {
     *out = (uri_bytes){0};
-    if (!may_look_for(scope, name, shown, out))
+    if (!may_search(scope, name, shown, out))
         return false;
     bool has_failed;
     char *found = file_find_alike(scope->allocator, scope->folder ? scope->folder : scope->root, name,

@@ -14,7 +14,7 @@
 
 enum { STAYS = 0 }; /* until new indices are counted */
 
-/* The image of a texture after texture_bench_finish(), which appends new ones. */
+/* The image of a texture after texture_baker_finish(), which appends new ones. */
 static uint32_t image_of(const facet_scene *scene, uint32_t texture)
 {
     return texture < scene->texture_count ? scene->textures[texture].image
@@ -112,7 +112,7 @@ static facet_result drop_plan_make(conversion *c, facet_error *error)
 {
     facet_scene *scene = c->scene;
     drop_plan *plan = &c->drop;
-    uint32_t made = texture_bench_made(c->bench);
+    uint32_t made = texture_baker_made(c->baker);
     *plan =
         (drop_plan){.texture_count = scene->texture_count + made, .image_count = scene->image_count + made};
     size_t texture_count = (size_t)plan->texture_count + 1;
@@ -234,7 +234,7 @@ static facet_result begin(conversion *c, facet_material_model to, facet_error *e
     if (!c->out || !materials)
         return fail_memory(error, "materials", scene->material_count * sizeof *materials);
     *c->out = (scene_conversion){.to = to, .material_count = scene->material_count, .materials = materials};
-    return texture_bench_create(scene, &c->bench, error);
+    return texture_baker_create(scene, &c->baker, error);
 }
 
 static facet_result convert_all(conversion *c, facet_material_model to, facet_error *error)
@@ -283,14 +283,14 @@ facet_result legacy_convert(facet_scene *scene, facet_material_model to, const f
     if (result == FACET_OK && !note_list_finish(&c.notes, log, c.out))
         result = fail_memory(error, "warnings", c.notes.count * sizeof(note));
     if (result == FACET_OK)
-        result = texture_bench_finish(c.bench, error);
+        result = texture_baker_finish(c.baker, error);
     if (result == FACET_OK) {
         drop_plan_carry_out(&c);
         scene->conversion = c.out;
         scene->materials = c.materials ? c.materials : scene->materials;
         scene->legacy = c.legacy ? c.legacy : scene->legacy;
     }
-    texture_bench_destroy(c.bench);
+    texture_baker_destroy(c.baker);
     note_list_destroy(&c.notes);
     return result;
 }

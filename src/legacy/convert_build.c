@@ -33,13 +33,13 @@ ogl1_surface build_representative(const conversion *c, const legacy_reading *r)
     if (!legacy_has_map(&r->m, LEGACY_DIFFUSE_MAP) && !legacy_has_map(&r->m, LEGACY_SPECULAR_MAP) &&
         !legacy_has_map(&r->m, LEGACY_SHININESS_MAP))
         return s;
-    color_lut diffuse = color_lut_make(c->bench, &maps[LEGACY_DIFFUSE_MAP], r->surface.diffuse);
-    color_lut specular = color_lut_make(c->bench, &maps[LEGACY_SPECULAR_MAP], r->surface.specular);
+    color_lut diffuse = color_lut_make(c->baker, &maps[LEGACY_DIFFUSE_MAP], r->surface.diffuse);
+    color_lut specular = color_lut_make(c->baker, &maps[LEGACY_SPECULAR_MAP], r->surface.specular);
     scalar_lut shininess =
-        scalar_lut_make(c->bench, &maps[LEGACY_SHININESS_MAP], r->surface.shininess, TEXTURE_GREY);
-    color_lut_mean(&diffuse, c->bench, &maps[LEGACY_DIFFUSE_MAP], s.diffuse);
-    color_lut_mean(&specular, c->bench, &maps[LEGACY_SPECULAR_MAP], s.specular);
-    s.shininess = scalar_lut_mean(&shininess, c->bench, &maps[LEGACY_SHININESS_MAP]);
+        scalar_lut_make(c->baker, &maps[LEGACY_SHININESS_MAP], r->surface.shininess, TEXTURE_GREY);
+    color_lut_mean(&diffuse, c->baker, &maps[LEGACY_DIFFUSE_MAP], s.diffuse);
+    color_lut_mean(&specular, c->baker, &maps[LEGACY_SPECULAR_MAP], s.specular);
+    s.shininess = scalar_lut_mean(&shininess, c->baker, &maps[LEGACY_SHININESS_MAP]);
     return s;
 }
 
@@ -81,8 +81,8 @@ static facet_result build_emission(conversion *c, const legacy_reading *r, scene
         return FACET_OK;
     emission_parameters p;
     memset(&p, 0, sizeof p);
-    p.color = color_lut_make(c->bench, map, (const float[3]){1, 1, 1});
-    p.srgb = texture_bench_srgb(c->bench);
+    p.color = color_lut_make(c->baker, map, (const float[3]){1, 1, 1});
+    p.srgb = texture_baker_srgb(c->baker);
     texture_bake bake = {.name = made_name(c, map->ref.texture, "emission"),
                          .inputs = {map->ref.texture},
                          .input_count = 1,
@@ -90,7 +90,7 @@ static facet_result build_emission(conversion *c, const legacy_reading *r, scene
                          .row = emission_row,
                          .parameters = &p,
                          .parameter_size = sizeof p};
-    return texture_bench_bake(c->bench, &bake, &out->textures[SCENE_EMISSIVE_TEXTURE].texture, error);
+    return texture_baker_bake(c->baker, &bake, &out->textures[SCENE_EMISSIVE_TEXTURE].texture, error);
 }
 
 /* ---- relief ---- */
@@ -137,7 +137,7 @@ static facet_result build_normals(conversion *c, uint32_t material, const legacy
     if (bump->ref.texture == SCENE_NONE)
         return FACET_OK;
     *ref = bump->ref;
-    if (is_normal_map(texture_bench_statistics(c->bench, bump->ref.texture))) {
+    if (is_normal_map(texture_baker_statistics(c->baker, bump->ref.texture))) {
         out->normal_scale = bump->bump_multiplier;
         note_add(&c->notes, material, NOTE_BUMP_AS_NORMAL,
                  "map_bump contains normals, not heights, and is used as a normal map");
@@ -149,7 +149,7 @@ static facet_result build_normals(conversion *c, uint32_t material, const legacy
                              .gain = bump->gain,
                              .slope = BUMP_SLOPE * bump->bump_multiplier};
     relief_weights(bump, relief.weights);
-    return texture_bench_relief(c->bench, &relief, &ref->texture, error);
+    return texture_baker_relief(c->baker, &relief, &ref->texture, error);
 }
 
 /* ---- MTL's extension for physically based materials ---- */
@@ -185,8 +185,8 @@ static facet_result build_sheen(conversion *c, const legacy_reading *r, scene_ma
         return FACET_OK;
     sheen_parameters p;
     memset(&p, 0, sizeof p);
-    p.sheen = scalar_lut_make(c->bench, map, 1.0f, TEXTURE_GREY);
-    p.srgb = texture_bench_srgb(c->bench);
+    p.sheen = scalar_lut_make(c->baker, map, 1.0f, TEXTURE_GREY);
+    p.srgb = texture_baker_srgb(c->baker);
     texture_bake bake = {.name = made_name(c, map->ref.texture, "sheen"),
                          .inputs = {map->ref.texture},
                          .input_count = 1,
@@ -195,7 +195,7 @@ static facet_result build_sheen(conversion *c, const legacy_reading *r, scene_ma
                          .parameters = &p,
                          .parameter_size = sizeof p};
     out->textures[SCENE_SHEEN_COLOR_TEXTURE] = map->ref;
-    return texture_bench_bake(c->bench, &bake, &out->textures[SCENE_SHEEN_COLOR_TEXTURE].texture, error);
+    return texture_baker_bake(c->baker, &bake, &out->textures[SCENE_SHEEN_COLOR_TEXTURE].texture, error);
 }
 
 static void build_coat(const conversion *c, const legacy_reading *r, scene_material *out)

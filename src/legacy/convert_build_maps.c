@@ -29,9 +29,9 @@ typedef struct opacity_source {
     scalar_lut table;
 } opacity_source;
 
-static bool is_cut_out(const texture_bench *bench, const opacity_source *o)
+static bool is_cut_out(const texture_baker *baker, const opacity_source *o)
 {
-    const texture_statistics *s = texture_bench_statistics(bench, o->map.ref.texture);
+    const texture_statistics *s = texture_baker_statistics(baker, o->map.ref.texture);
     for (int code = 0; s && code < 256; code++)
         if (s->histogram[o->table.channel][code] > 0 && o->table.values[code] > 0.0f &&
             o->table.values[code] < 1.0f)
@@ -53,14 +53,14 @@ static opacity_source read_opacity(const conversion *c, const legacy_reading *r,
         out->base_color[3] = r->opacity;
         return o;
     }
-    int channel = map_opacity_channel(c->bench, &o.map);
-    o.table = scalar_lut_make(c->bench, &o.map, r->opacity, channel);
-    if (scalar_lut_lowest(&o.table, c->bench, &o.map) >= 1.0f) {
+    int channel = map_opacity_channel(c->baker, &o.map);
+    o.table = scalar_lut_make(c->baker, &o.map, r->opacity, channel);
+    if (scalar_lut_lowest(&o.table, c->baker, &o.map) >= 1.0f) {
         o.map.ref.texture = SCENE_NONE;
         out->base_color[3] = 1.0f;
         return o;
     }
-    out->alpha_mode = is_cut_out(c->bench, &o) ? SCENE_ALPHA_MASK : SCENE_ALPHA_BLEND;
+    out->alpha_mode = is_cut_out(c->baker, &o) ? SCENE_ALPHA_MASK : SCENE_ALPHA_BLEND;
     out->base_color[3] = r->opacity;
     return o;
 }
@@ -108,7 +108,7 @@ static bool is_reusable(const surface_job *job, const float factors[3])
 {
     const legacy_map *diffuse = &job->r->m.maps[LEGACY_DIFFUSE_MAP];
     const legacy_map *opacity = &job->opacity.map;
-    const texture_statistics *s = texture_bench_statistics(job->c->bench, diffuse->ref.texture);
+    const texture_statistics *s = texture_baker_statistics(job->c->baker, diffuse->ref.texture);
     if (is_varying(job) || !map_is_plain(diffuse) || highest_of(factors) > 1.0f)
         return false;
     if (job->out->alpha_mode == SCENE_ALPHA_OPAQUE)
@@ -124,7 +124,7 @@ static void base_scale(surface_job *job)
 {
     const legacy_map *diffuse = &job->r->m.maps[LEGACY_DIFFUSE_MAP];
     float most[3];
-    color_lut_highest(&job->p.diffuse, job->c->bench, diffuse, most);
+    color_lut_highest(&job->p.diffuse, job->c->baker, diffuse, most);
     for (int k = 0; k < 3; k++) {
         float highest = is_varying(job) ? 1.0f : unit_of(most[k]);
         job->p.base_scale[k] = highest > 0.0f ? highest : 1.0f;
@@ -179,7 +179,7 @@ static facet_result build_base(surface_job *job, facet_error *error)
     }
     if (!is_varying(job)) {
         /* The LUT holds base colors already, without a specular color. */
-        job->p.diffuse = color_lut_make(job->c->bench, diffuse, factors);
+        job->p.diffuse = color_lut_make(job->c->baker, diffuse, factors);
         memset(job->p.specular.values, 0, sizeof job->p.specular.values);
         job->p.is_core = 0;
     }
@@ -194,7 +194,7 @@ static facet_result build_base(surface_job *job, facet_error *error)
         bake.inputs[TEXEL_SPECULAR] = bake.inputs[TEXEL_SHININESS] = SCENE_NONE;
     scene_texture_ref *ref = &out->textures[SCENE_BASE_COLOR_TEXTURE];
     *ref = shared_ref(job);
-    return texture_bench_bake(job->c->bench, &bake, &ref->texture, error);
+    return texture_baker_bake(job->c->baker, &bake, &ref->texture, error);
 }
 
 /* ---- specular and roughness of Blinn-Phong maps ---- */
@@ -204,9 +204,9 @@ static facet_result build_specular(surface_job *job, facet_error *error)
     scene_material *out = job->out;
     texel_parameters *p = &job->p;
     float highest[3];
-    color_lut_highest(&p->specular, job->c->bench, &job->specular, highest);
+    color_lut_highest(&p->specular, job->c->baker, &job->specular, highest);
     p->specular_scale =
-        unit_of(highest_of(highest) * scalar_lut_highest(&p->share, job->c->bench, &job->shininess));
+        unit_of(highest_of(highest) * scalar_lut_highest(&p->share, job->c->baker, &job->shininess));
     out->specular = p->specular_scale;
     for (int k = 0; k < 3; k++)
         out->specular_color[k] = 1.0f;
@@ -216,7 +216,7 @@ static facet_result build_specular(surface_job *job, facet_error *error)
     texture_bake bake = bake_of(job, "specular", 4, texel_specular_row);
     bake.inputs[TEXEL_DIFFUSE] = bake.inputs[TEXEL_OPACITY] = SCENE_NONE;
     scene_texture_ref ref = shared_ref(job);
-    facet_result result = texture_bench_bake(job->c->bench, &bake, &ref.texture, error);
+    facet_result result = texture_baker_bake(job->c->baker, &bake, &ref.texture, error);
     out->textures[SCENE_SPECULAR_TEXTURE] = ref;
     if (has_color)
         out->textures[SCENE_SPECULAR_COLOR_TEXTURE] = ref;
@@ -239,13 +239,13 @@ static facet_result build_roughness(surface_job *job, facet_error *error)
     out->metallic = job->p.is_core ? 1.0f : 0.0f;
     scene_texture_ref *ref = &out->textures[SCENE_METALLIC_ROUGHNESS_TEXTURE];
     *ref = shared_ref(job);
-    return texture_bench_bake(job->c->bench, &bake, &ref->texture, error);
+    return texture_baker_bake(job->c->baker, &bake, &ref->texture, error);
 }
 
 /* Replaces the maps whose lookup differs from that of the first by their means. */
 static void align(surface_job *job, legacy_reading *r)
 {
-    const texture_bench *bench = job->c->bench;
+    const texture_baker *baker = job->c->baker;
     struct {
         legacy_map *map;
         const char *statement;
@@ -262,32 +262,32 @@ static void align(surface_job *job, legacy_reading *r)
         if (map_refs_agree(job->c->scene, first, &map->ref))
             continue;
         if (i == TEXEL_SPECULAR) {
-            color_lut t = color_lut_make(bench, map, r->surface.specular);
-            color_lut_mean(&t, bench, map, r->surface.specular);
+            color_lut t = color_lut_make(baker, map, r->surface.specular);
+            color_lut_mean(&t, baker, map, r->surface.specular);
         } else if (i == TEXEL_SHININESS) {
-            scalar_lut t = scalar_lut_make(bench, map, r->surface.shininess, TEXTURE_GREY);
-            r->surface.shininess = scalar_lut_mean(&t, bench, map);
+            scalar_lut t = scalar_lut_make(baker, map, r->surface.shininess, TEXTURE_GREY);
+            r->surface.shininess = scalar_lut_mean(&t, baker, map);
         } else {
-            r->opacity = scalar_lut_mean(&job->opacity.table, bench, map);
+            r->opacity = scalar_lut_mean(&job->opacity.table, baker, map);
             job->out->base_color[3] = r->opacity;
             job->out->alpha_mode = r->opacity < 1.0f ? SCENE_ALPHA_BLEND : SCENE_ALPHA_OPAQUE;
         }
         set_mean(job->c, job->material, maps[i].statement, map);
         if (i == TEXEL_OPACITY)
-            job->opacity.table = scalar_lut_make(bench, map, r->opacity, TEXTURE_GREY);
+            job->opacity.table = scalar_lut_make(baker, map, r->opacity, TEXTURE_GREY);
     }
 }
 
 static void make_tables(surface_job *job)
 {
-    const texture_bench *bench = job->c->bench;
+    const texture_baker *baker = job->c->baker;
     texel_parameters *p = &job->p;
     const ogl1_surface *s = &job->r->surface;
-    p->srgb = texture_bench_srgb(bench);
+    p->srgb = texture_baker_srgb(baker);
     p->is_core = is_varying(job) && job->c->desc.profile == FACET_LEGACY_PROFILE_CORE;
-    p->diffuse = color_lut_make(bench, &job->r->m.maps[LEGACY_DIFFUSE_MAP], s->diffuse);
-    p->specular = color_lut_make(bench, &job->specular, s->specular);
-    p->shininess = scalar_lut_make(bench, &job->shininess, s->shininess, TEXTURE_GREY);
+    p->diffuse = color_lut_make(baker, &job->r->m.maps[LEGACY_DIFFUSE_MAP], s->diffuse);
+    p->specular = color_lut_make(baker, &job->specular, s->specular);
+    p->shininess = scalar_lut_make(baker, &job->shininess, s->shininess, TEXTURE_GREY);
     p->roughness.channel = p->share.channel = p->shininess.channel;
     for (int code = 0; code < 256; code++) {
         p->roughness.values[code] = perceptual_roughness_from_shininess(p->shininess.values[code]);
@@ -322,8 +322,8 @@ static facet_result build_packed(conversion *c, uint32_t material, const stated_
     packed_parameters p;
     memset(&p, 0, sizeof p);
     if (is_rough && is_metal && !map_refs_agree(c->scene, &roughness.ref, &metallic.ref)) {
-        scalar_lut t = scalar_lut_make(c->bench, &metallic, out->metallic, TEXTURE_GREY);
-        out->metallic = scalar_lut_mean(&t, c->bench, &metallic);
+        scalar_lut t = scalar_lut_make(c->baker, &metallic, out->metallic, TEXTURE_GREY);
+        out->metallic = scalar_lut_mean(&t, c->baker, &metallic);
         set_mean(c, material, "map_Pm", &metallic);
         is_metal = false;
     }
@@ -331,11 +331,11 @@ static facet_result build_packed(conversion *c, uint32_t material, const stated_
     if (!maps->is_gloss && is_rough && is_metal && roughness.ref.texture == metallic.ref.texture &&
         is_channel(&roughness, 'g') && is_channel(&metallic, 'b'))
         return FACET_OK;
-    p.roughness = scalar_lut_make(c->bench, &roughness, 1.0f, TEXTURE_GREY);
-    p.metallic = scalar_lut_make(c->bench, &metallic, 1.0f, TEXTURE_GREY);
+    p.roughness = scalar_lut_make(c->baker, &roughness, 1.0f, TEXTURE_GREY);
+    p.metallic = scalar_lut_make(c->baker, &metallic, 1.0f, TEXTURE_GREY);
     legacy_map occlusion = maps->is_rma ? roughness : legacy_map_default();
     occlusion.channel = 'b';
-    p.occlusion = scalar_lut_make(c->bench, &occlusion, 1.0f, TEXTURE_BLUE);
+    p.occlusion = scalar_lut_make(c->baker, &occlusion, 1.0f, TEXTURE_BLUE);
     if (maps->is_gloss) { /* roughness = 1 - factor gloss: the factor is baked */
         for (int code = 0; code < 256; code++)
             p.roughness.values[code] = 1.0f - (1.0f - out->perceptual_roughness) * p.roughness.values[code];
@@ -348,7 +348,7 @@ static facet_result build_packed(conversion *c, uint32_t material, const stated_
                          .row = texel_packed_row,
                          .parameters = &p,
                          .parameter_size = sizeof p};
-    return texture_bench_bake(c->bench, &bake, &ref->texture, error);
+    return texture_baker_bake(c->baker, &bake, &ref->texture, error);
 }
 
 static facet_result build_orm(conversion *c, const legacy_reading *r, scene_material *out, facet_error *error)
@@ -403,8 +403,8 @@ facet_result build_surface_maps(conversion *c, uint32_t material, legacy_reading
         core = mem_alloc(&c->scene->allocator, 1, sizeof *core);
         if (!core)
             return fail_memory(error, "textures", sizeof *core);
-        core_grid_make(core, scalar_lut_lowest(&job.p.shininess, c->bench, &job.shininess),
-                       scalar_lut_highest(&job.p.shininess, c->bench, &job.shininess),
+        core_grid_make(core, scalar_lut_lowest(&job.p.shininess, c->baker, &job.shininess),
+                       scalar_lut_highest(&job.p.shininess, c->baker, &job.shininess),
                        c->scene->thread_count);
         job.p.core = core;
     }

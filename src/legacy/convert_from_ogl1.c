@@ -20,7 +20,7 @@ static facet_result survey(conversion *c, facet_error *error)
             if (is_read && texture < scene->texture_count && !scene->legacy->materials[i].is_gltf_restored)
                 is_wanted[texture] = true;
         }
-    facet_result result = texture_bench_survey(c->bench, is_wanted, c->log, error);
+    facet_result result = texture_baker_survey(c->baker, is_wanted, c->log, error);
     mem_free(is_wanted);
     return result;
 }

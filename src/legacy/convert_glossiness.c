@@ -111,7 +111,7 @@ typedef struct gloss_job {
 
 static bool is_readable(const conversion *c, const scene_material *m, scene_texture_slot slot)
 {
-    return texture_bench_statistics(c->bench, m->textures[slot].texture) != NULL;
+    return texture_baker_statistics(c->baker, m->textures[slot].texture) != NULL;
 }
 
 static void take(gloss_job *job, int input, scene_texture_slot slot)
@@ -139,7 +139,7 @@ static gloss_job begin(conversion *c, uint32_t material, scene_material *out)
     legacy_surface_of_pbr(in, &job.p.factors);
     job.p.is_glossy = (in->extensions & SCENE_SPECULAR_GLOSSINESS) != 0;
     job.p.is_core = c->desc.profile == FACET_LEGACY_PROFILE_CORE;
-    job.p.srgb = texture_bench_srgb(c->bench);
+    job.p.srgb = texture_baker_srgb(c->baker);
     take(&job, GLOSS_BASE, SCENE_BASE_COLOR_TEXTURE);
     take(&job, GLOSS_SECOND,
          job.p.is_glossy ? SCENE_SPECULAR_GLOSSINESS_TEXTURE : SCENE_METALLIC_ROUGHNESS_TEXTURE);
@@ -155,7 +155,7 @@ static facet_result bake(gloss_job *job, gloss_output output, const char *purpos
 {
     job->p.output = (int)output;
     const texture_statistics *s = job->inputs[GLOSS_BASE] != SCENE_NONE
-                                      ? texture_bench_statistics(job->c->bench, job->inputs[GLOSS_BASE])
+                                      ? texture_baker_statistics(job->c->baker, job->inputs[GLOSS_BASE])
                                       : NULL;
     bool has_opacity = job->in->alpha_mode != SCENE_ALPHA_OPAQUE && s && s->has_alpha;
     job->p.channel_count =
@@ -168,7 +168,7 @@ static facet_result bake(gloss_job *job, gloss_output output, const char *purpos
                          .parameter_size = sizeof job->p};
     memcpy(task.inputs, job->inputs, sizeof task.inputs);
     job->out->textures[slot] = job->ref;
-    return texture_bench_bake(job->c->bench, &task, &job->out->textures[slot].texture, error);
+    return texture_baker_bake(job->c->baker, &task, &job->out->textures[slot].texture, error);
 }
 
 static void remove_texture(scene_material *m, scene_texture_slot slot)
@@ -281,7 +281,7 @@ static facet_result survey(conversion *c, bool is_glossy, facet_error *error)
                 ((m->extensions & SCENE_SPECULAR_GLOSSINESS) != 0) == is_glossy)
                 is_wanted[texture] = true;
         }
-    facet_result result = texture_bench_survey(c->bench, is_wanted, c->log, error);
+    facet_result result = texture_baker_survey(c->baker, is_wanted, c->log, error);
     mem_free(is_wanted);
     return result;
 }
@@ -294,9 +294,9 @@ static pbr_surface mean_surface(const conversion *c, const scene_material *m)
     const scene_texture_slot colors[] = {SCENE_BASE_COLOR_TEXTURE, SCENE_SPECULAR_GLOSSINESS_TEXTURE};
     float *factors[] = {s.base_color, s.specular_color};
     for (int i = 0; i < 2; i++) {
-        const texture_statistics *t = texture_bench_statistics(c->bench, m->textures[colors[i]].texture);
+        const texture_statistics *t = texture_baker_statistics(c->baker, m->textures[colors[i]].texture);
         for (int k = 0; k < 3 && t; k++)
-            factors[i][k] *= (float)texture_mean(t, k, texture_bench_srgb(c->bench)->decoded);
+            factors[i][k] *= (float)texture_mean(t, k, texture_baker_srgb(c->baker)->decoded);
     }
     return s;
 }

@@ -30,16 +30,16 @@ bool map_is_plain(const legacy_map *map)
     return map->base == 0.0f && map->gain == 1.0f && map->channel == 0;
 }
 
-int map_opacity_channel(const texture_bench *bench, const legacy_map *map)
+int map_opacity_channel(const texture_baker *baker, const legacy_map *map)
 {
-    const texture_statistics *s = texture_bench_statistics(bench, map->ref.texture);
+    const texture_statistics *s = texture_baker_statistics(baker, map->ref.texture);
     return channel_of(map->channel, s && s->has_alpha ? TEXTURE_ALPHA : TEXTURE_GREY);
 }
 
-color_lut color_lut_make(const texture_bench *bench, const legacy_map *map, const float factor[3])
+color_lut color_lut_make(const texture_baker *baker, const legacy_map *map, const float factor[3])
 {
     color_lut t;
-    const srgb_tables *srgb = texture_bench_srgb(bench);
+    const srgb_tables *srgb = texture_baker_srgb(baker);
     bool is_plain = map_is_plain(map);
     for (int k = 0; k < 3; k++) {
         t.channels[k] = channel_of(map->channel, k);
@@ -55,10 +55,10 @@ color_lut color_lut_make(const texture_bench *bench, const legacy_map *map, cons
     return t;
 }
 
-scalar_lut scalar_lut_make(const texture_bench *bench, const legacy_map *map, float factor, int fallback)
+scalar_lut scalar_lut_make(const texture_baker *baker, const legacy_map *map, float factor, int fallback)
 {
     scalar_lut t;
-    (void)bench;
+    (void)baker;
     t.channel = channel_of(map->channel, fallback);
     for (int code = 0; code < 256; code++) {
         float value =
@@ -68,16 +68,16 @@ scalar_lut scalar_lut_make(const texture_bench *bench, const legacy_map *map, fl
     return t;
 }
 
-void color_lut_mean(const color_lut *t, const texture_bench *bench, const legacy_map *map, float out[3])
+void color_lut_mean(const color_lut *t, const texture_baker *baker, const legacy_map *map, float out[3])
 {
-    const texture_statistics *s = texture_bench_statistics(bench, map->ref.texture);
+    const texture_statistics *s = texture_baker_statistics(baker, map->ref.texture);
     for (int k = 0; k < 3; k++)
         out[k] = s ? (float)texture_mean(s, t->channels[k], t->values[k]) : t->values[k][255];
 }
 
-float scalar_lut_mean(const scalar_lut *t, const texture_bench *bench, const legacy_map *map)
+float scalar_lut_mean(const scalar_lut *t, const texture_baker *baker, const legacy_map *map)
 {
-    const texture_statistics *s = texture_bench_statistics(bench, map->ref.texture);
+    const texture_statistics *s = texture_baker_statistics(baker, map->ref.texture);
     return s ? (float)texture_mean(s, t->channel, t->values) : t->values[255];
 }
 
@@ -96,21 +96,21 @@ static float extreme(const texture_statistics *s, int channel, const float value
     return found;
 }
 
-void color_lut_highest(const color_lut *t, const texture_bench *bench, const legacy_map *map, float out[3])
+void color_lut_highest(const color_lut *t, const texture_baker *baker, const legacy_map *map, float out[3])
 {
-    const texture_statistics *s = texture_bench_statistics(bench, map->ref.texture);
+    const texture_statistics *s = texture_baker_statistics(baker, map->ref.texture);
     for (int k = 0; k < 3; k++)
         out[k] = extreme(s, t->channels[k], t->values[k], 1.0f);
 }
 
-float scalar_lut_highest(const scalar_lut *t, const texture_bench *bench, const legacy_map *map)
+float scalar_lut_highest(const scalar_lut *t, const texture_baker *baker, const legacy_map *map)
 {
-    return extreme(texture_bench_statistics(bench, map->ref.texture), t->channel, t->values, 1.0f);
+    return extreme(texture_baker_statistics(baker, map->ref.texture), t->channel, t->values, 1.0f);
 }
 
-float scalar_lut_lowest(const scalar_lut *t, const texture_bench *bench, const legacy_map *map)
+float scalar_lut_lowest(const scalar_lut *t, const texture_baker *baker, const legacy_map *map)
 {
-    return extreme(texture_bench_statistics(bench, map->ref.texture), t->channel, t->values, -1.0f);
+    return extreme(texture_baker_statistics(baker, map->ref.texture), t->channel, t->values, -1.0f);
 }
 
 bool map_refs_agree(const facet_scene *scene, const scene_texture_ref *a, const scene_texture_ref *b)

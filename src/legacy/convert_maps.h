@@ -2,7 +2,7 @@
 #ifndef LEGACY_CONVERT_MAPS_H
 #define LEGACY_CONVERT_MAPS_H
 
-#include "legacy/texture_bench.h"
+#include "legacy/texture_baker.h"
 #include "scene/legacy.h"
 
 /* A color by texel: component k is values[k][code of channel channels[k]]. Without padding, since it is
@@ -33,21 +33,21 @@ static inline void lut_color(const color_lut *t, const uint8_t *texel, float out
 }
 
 /* Factor (linear) times the texels of the map; images are sRGB, whatever the factors of the file are. */
-color_lut color_lut_make(const texture_bench *bench, const legacy_map *map, const float factor[3]);
+color_lut color_lut_make(const texture_baker *baker, const legacy_map *map, const float factor[3]);
 /* The channel is that of the map, or fallback (TEXTURE_GREY, ..). */
-scalar_lut scalar_lut_make(const texture_bench *bench, const legacy_map *map, float factor, int fallback);
+scalar_lut scalar_lut_make(const texture_baker *baker, const legacy_map *map, float factor, int fallback);
 
-void color_lut_mean(const color_lut *t, const texture_bench *bench, const legacy_map *map, float out[3]);
-float scalar_lut_mean(const scalar_lut *t, const texture_bench *bench, const legacy_map *map);
+void color_lut_mean(const color_lut *t, const texture_baker *baker, const legacy_map *map, float out[3]);
+float scalar_lut_mean(const scalar_lut *t, const texture_baker *baker, const legacy_map *map);
 /* Of the codes that occur in the map: */
-void color_lut_highest(const color_lut *t, const texture_bench *bench, const legacy_map *map, float out[3]);
-float scalar_lut_highest(const scalar_lut *t, const texture_bench *bench, const legacy_map *map);
-float scalar_lut_lowest(const scalar_lut *t, const texture_bench *bench, const legacy_map *map);
+void color_lut_highest(const color_lut *t, const texture_baker *baker, const legacy_map *map, float out[3]);
+float scalar_lut_highest(const scalar_lut *t, const texture_baker *baker, const legacy_map *map);
+float scalar_lut_lowest(const scalar_lut *t, const texture_baker *baker, const legacy_map *map);
 
 /* Whether texels are used unmodified: no -mm, no -imfchan. */
 bool map_is_plain(const legacy_map *map);
 /* The channel of an opacity map: the stated one, else alpha if the image has it, else grey. */
-int map_opacity_channel(const texture_bench *bench, const legacy_map *map);
+int map_opacity_channel(const texture_baker *baker, const legacy_map *map);
 /* Whether two textures have the same lookup: set, transform and wrap. */
 bool map_refs_agree(const facet_scene *scene, const scene_texture_ref *a, const scene_texture_ref *b);
 

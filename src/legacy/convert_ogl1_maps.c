@@ -87,7 +87,7 @@ static void pbr_row(const void *parameters, uint32_t width, const uint8_t *const
 
 static bool is_readable(const conversion *c, const scene_material *m, scene_texture_slot slot)
 {
-    return texture_bench_statistics(c->bench, m->textures[slot].texture) != NULL;
+    return texture_baker_statistics(c->baker, m->textures[slot].texture) != NULL;
 }
 
 static scene_texture_slot second_slot(const scene_material *m)
@@ -98,12 +98,12 @@ static scene_texture_slot second_slot(const scene_material *m)
 
 static double mean_of(const conversion *c, const scene_texture_ref *ref, int channel, bool is_color)
 {
-    const texture_statistics *s = texture_bench_statistics(c->bench, ref->texture);
+    const texture_statistics *s = texture_baker_statistics(c->baker, ref->texture);
     float values[256];
     if (!s)
         return 1.0;
     for (int code = 0; code < 256; code++)
-        values[code] = is_color ? texture_bench_srgb(c->bench)->decoded[code] : (float)code / 255.0f;
+        values[code] = is_color ? texture_baker_srgb(c->baker)->decoded[code] : (float)code / 255.0f;
     return texture_mean(s, channel, values);
 }
 
@@ -218,7 +218,7 @@ static facet_result bake_color(pbr_job *job, bool is_specular, facet_error *erro
         job->p.occlusion_strength = job->m->occlusion_strength;
     }
     map->ref = job->ref;
-    facet_result result = texture_bench_bake(job->c->bench, &bake, &map->ref.texture, error);
+    facet_result result = texture_baker_bake(job->c->baker, &bake, &map->ref.texture, error);
     job->p.occlusion_strength = 0.0f;
     for (int k = 0; k < 3 && map->ref.texture != SCENE_NONE; k++)
         factor[k] = 1.0f;
@@ -230,7 +230,7 @@ static void note_spread(const pbr_job *job, float shininess)
 {
     scene_texture_slot slot = second_slot(job->m);
     bool is_glossy = slot == SCENE_SPECULAR_GLOSSINESS_TEXTURE;
-    const texture_statistics *s = texture_bench_statistics(job->c->bench, job->m->textures[slot].texture);
+    const texture_statistics *s = texture_baker_statistics(job->c->baker, job->m->textures[slot].texture);
     float found[2];
     if (!s)
         return;
@@ -295,7 +295,7 @@ static facet_result bake_channel(conversion *c, const scene_texture_ref *ref, co
                          .parameters = &p,
                          .parameter_size = sizeof p};
     out->ref = *ref;
-    return texture_bench_bake(c->bench, &bake, &out->ref.texture, error);
+    return texture_baker_bake(c->baker, &bake, &out->ref.texture, error);
 }
 
 static scalar_lut channel_table(int channel)
@@ -311,7 +311,7 @@ static facet_result build_opacity(conversion *c, const scene_material *m, legacy
                                   facet_error *error)
 {
     const scene_texture_ref *ref = &m->textures[SCENE_BASE_COLOR_TEXTURE];
-    const texture_statistics *s = texture_bench_statistics(c->bench, ref->texture);
+    const texture_statistics *s = texture_baker_statistics(c->baker, ref->texture);
     if (!s || m->alpha_mode == SCENE_ALPHA_OPAQUE)
         return FACET_OK;
     if (m->alpha_mode == SCENE_ALPHA_BLEND && !s->has_alpha)
@@ -376,7 +376,7 @@ facet_result ogl1_build_maps(conversion *c, uint32_t material, const scene_mater
         job.inputs[i] = SCENE_NONE;
     legacy_surface_of_pbr(m, &job.p.factors);
     job.p.shininess = item->ogl1.shininess;
-    job.p.srgb = texture_bench_srgb(c->bench);
+    job.p.srgb = texture_baker_srgb(c->baker);
     take_inputs(&job);
     note_spread(&job, item->ogl1.shininess);
     ogl1_grid *grid = NULL;

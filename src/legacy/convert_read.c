@@ -27,7 +27,7 @@ static void check_maps(conversion *c, uint32_t material, legacy_material *m)
             continue;
         }
         bool is_stated = map->path || map->ref.texture != SCENE_NONE;
-        if (is_stated && !texture_bench_statistics(c->bench, map->ref.texture)) {
+        if (is_stated && !texture_baker_statistics(c->baker, map->ref.texture)) {
             note_add(&c->notes, material, NOTE_TEXTURE_MISSING,
                      "the image of %s, %s, cannot be read; the material is converted without it", statement,
                      map->path ? map->path : "of a texture");

@@ -13,12 +13,12 @@
 #include "legacy/convert_notes.h"
 #include "legacy/convert_surface.h"
 #include "legacy/fit.h"
-#include "legacy/texture_bench.h"
+#include "legacy/texture_baker.h"
 
 /* Which textures are dropped, and the new indices of the others. Everything is in the arena of the scene. */
 typedef struct drop_plan {
     bool is_needed;                      /* some are dropped */
-    uint32_t texture_count, image_count; /* as texture_bench_finish() leaves them */
+    uint32_t texture_count, image_count; /* as texture_baker_finish() leaves them */
     uint32_t *textures, *images;         /* new index of each; SCENE_NONE: dropped */
     scene_texture *new_textures;
     scene_image *new_images;
@@ -29,7 +29,7 @@ typedef struct conversion {
     facet_scene *scene;
     facet_legacy_desc desc;
     const facet_log *log;
-    texture_bench *bench;
+    texture_baker *baker;
     note_list notes;
     scene_conversion *out;       /* in the arena of the scene, which takes it over on success */
     scene_material *materials;   /* the new ones, in the arena of the scene; NULL: unchanged */

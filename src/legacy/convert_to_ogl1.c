@@ -45,7 +45,7 @@ static facet_result survey(conversion *c, facet_error *error)
                 is_wanted[texture] = true;
         }
     }
-    facet_result result = texture_bench_survey(c->bench, is_wanted, c->log, error);
+    facet_result result = texture_baker_survey(c->baker, is_wanted, c->log, error);
     mem_free(is_wanted);
     return result;
 }

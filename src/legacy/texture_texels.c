@@ -6,7 +6,7 @@
 
 #include "base/parallel.h"
 #include "base/result.h"
-#include "legacy/texture_bench.h"
+#include "legacy/texture_baker.h"
 
 /* ---- decoding ---- */
 

@@ -3,7 +3,7 @@
 #define LEGACY_TEXTURE_TEXELS_H
 
 #include "image/image.h"
-#include "legacy/texture_bench.h"
+#include "legacy/texture_baker.h"
 
 /* Decodes an image of the scene with its own type and channel count. Fails as image_decode() does. */
 facet_result texels_decode_raw(const facet_scene *scene, uint32_t index, uint32_t max_reduction,

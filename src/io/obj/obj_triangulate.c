@@ -281,7 +281,7 @@ static bool is_ear(cutting *c, uint32_t i, bool is_strict)
 }
 
 /* A degenerate corner can be cut at once, as nothing is inside. */
-static void look_at_corner(cutting *c, uint32_t i)
+static void classify_corner(cutting *c, uint32_t i)
 {
     const double *a = at(c, c->p->previous[i]);
     const double *b = at(c, i);
@@ -303,8 +303,8 @@ static uint32_t cut(cutting *c, uint32_t i)
     p->previous[after] = before;
     p->states[i] = IS_CUT;
     c->remaining--;
-    look_at_corner(c, before);
-    look_at_corner(c, after);
+    classify_corner(c, before);
+    classify_corner(c, after);
     return after;
 }
 
@@ -417,7 +417,7 @@ void obj_triangulate(obj_polygon *p, uint32_t count, uint32_t *triangles)
         p->next[i] = i + 1 < count ? i + 1 : 0;
     }
     for (uint32_t i = 0; i < count; i++)
-        look_at_corner(&c, i);
+        classify_corner(&c, i);
     uint32_t i = 0;
     if (!is_convex(&c)) {
         make_grid(&c, count);

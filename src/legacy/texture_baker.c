@@ -1,5 +1,5 @@
-/* texture_bench.c - surveys, bakes and normal maps. See texture_bench.h. */
-#include "legacy/texture_bench.h"
+/* texture_baker.c - surveys, bakes and normal maps. See texture_baker.h. */
+#include "legacy/texture_baker.h"
 
 #include <math.h>
 #include <string.h>
@@ -20,7 +20,7 @@ typedef struct made_texture {
     size_t key_size;
 } made_texture;
 
-struct texture_bench {
+struct texture_baker {
     facet_scene *scene;
     srgb_tables srgb;
     texels_cache *cache;
@@ -31,68 +31,68 @@ struct texture_bench {
     size_t made_capacity;
 };
 
-facet_result texture_bench_create(facet_scene *scene, texture_bench **out, facet_error *error)
+facet_result texture_baker_create(facet_scene *scene, texture_baker **out, facet_error *error)
 {
     *out = NULL;
-    texture_bench *bench = mem_zalloc(&scene->allocator, 1, sizeof *bench);
-    if (!bench)
-        return fail_memory(error, "textures", sizeof *bench);
-    bench->scene = scene;
-    bench->image_count = scene->image_count;
-    bench->cache = texels_cache_create(scene);
-    bench->statistics =
-        mem_zalloc(&scene->allocator, (size_t)scene->image_count + 1, sizeof *bench->statistics);
-    if (!bench->cache || !bench->statistics) {
-        texture_bench_destroy(bench);
-        return fail_memory(error, "textures", sizeof *bench);
+    texture_baker *baker = mem_zalloc(&scene->allocator, 1, sizeof *baker);
+    if (!baker)
+        return fail_memory(error, "textures", sizeof *baker);
+    baker->scene = scene;
+    baker->image_count = scene->image_count;
+    baker->cache = texels_cache_create(scene);
+    baker->statistics =
+        mem_zalloc(&scene->allocator, (size_t)scene->image_count + 1, sizeof *baker->statistics);
+    if (!baker->cache || !baker->statistics) {
+        texture_baker_destroy(baker);
+        return fail_memory(error, "textures", sizeof *baker);
     }
-    srgb_tables_prepare(&bench->srgb);
-    *out = bench;
+    srgb_tables_prepare(&baker->srgb);
+    *out = baker;
     return FACET_OK;
 }
 
-void texture_bench_destroy(texture_bench *bench)
+void texture_baker_destroy(texture_baker *baker)
 {
-    if (!bench)
+    if (!baker)
         return;
-    for (uint32_t i = 0; bench->statistics && i < bench->image_count; i++)
-        mem_free(bench->statistics[i]);
-    for (uint32_t i = 0; i < bench->made_count; i++) {
-        mem_free(bench->made[i].bytes);
-        mem_free(bench->made[i].key);
+    for (uint32_t i = 0; baker->statistics && i < baker->image_count; i++)
+        mem_free(baker->statistics[i]);
+    for (uint32_t i = 0; i < baker->made_count; i++) {
+        mem_free(baker->made[i].bytes);
+        mem_free(baker->made[i].key);
     }
-    mem_free(bench->statistics);
-    mem_free(bench->made);
-    texels_cache_destroy(bench->cache);
-    mem_free(bench);
+    mem_free(baker->statistics);
+    mem_free(baker->made);
+    texels_cache_destroy(baker->cache);
+    mem_free(baker);
 }
 
-const srgb_tables *texture_bench_srgb(const texture_bench *bench)
+const srgb_tables *texture_baker_srgb(const texture_baker *baker)
 {
-    return &bench->srgb;
+    return &baker->srgb;
 }
 
-uint32_t texture_bench_made(const texture_bench *bench)
+uint32_t texture_baker_made(const texture_baker *baker)
 {
-    return bench->made_count;
+    return baker->made_count;
 }
 
-uint32_t texture_bench_shared(const texture_bench *bench)
+uint32_t texture_baker_shared(const texture_baker *baker)
 {
-    return bench->shared_count;
+    return baker->shared_count;
 }
 
 /* ---- survey ---- */
 
-static uint32_t image_of(const texture_bench *bench, uint32_t texture)
+static uint32_t image_of(const texture_baker *baker, uint32_t texture)
 {
-    if (texture >= bench->scene->texture_count)
+    if (texture >= baker->scene->texture_count)
         return SCENE_NONE;
-    return bench->scene->textures[texture].image;
+    return baker->scene->textures[texture].image;
 }
 
 typedef struct survey {
-    const texture_bench *bench;
+    const texture_baker *baker;
     const uint32_t *images;
     facet_error *errors; /* one per image; .result FACET_OK: none */
 } survey;
@@ -102,8 +102,8 @@ static void survey_images(void *context, size_t begin, size_t end)
 {
     const survey *s = context;
     for (size_t i = begin; i < end; i++) {
-        texture_statistics *out = s->bench->statistics[s->images[i]];
-        texels_count(s->bench->scene, s->images[i], 3, 1, out, &s->errors[i]);
+        texture_statistics *out = s->baker->statistics[s->images[i]];
+        texels_count(s->baker->scene, s->images[i], 3, 1, out, &s->errors[i]);
     }
 }
 
@@ -111,7 +111,7 @@ static void survey_images(void *context, size_t begin, size_t end)
  * bytes. */
 static facet_result judge_survey(const survey *s, size_t count, const facet_log *log, facet_error *error)
 {
-    facet_scene *scene = s->bench->scene;
+    facet_scene *scene = s->baker->scene;
     for (size_t i = 0; i < count; i++) {
         const facet_error *e = &s->errors[i];
         if (e->result == FACET_ERROR_MEMORY || e->result == FACET_ERROR_LIMIT)
@@ -122,10 +122,10 @@ static facet_result judge_survey(const survey *s, size_t count, const facet_log 
     return FACET_OK;
 }
 
-facet_result texture_bench_survey(texture_bench *bench, const bool *is_wanted, const facet_log *log,
+facet_result texture_baker_survey(texture_baker *baker, const bool *is_wanted, const facet_log *log,
                                   facet_error *error)
 {
-    facet_scene *scene = bench->scene;
+    facet_scene *scene = baker->scene;
     size_t count = 0;
     facet_result result = FACET_OK;
     uint32_t *images = mem_alloc(&scene->allocator, (size_t)scene->image_count + 1, sizeof *images);
@@ -133,11 +133,11 @@ facet_result texture_bench_survey(texture_bench *bench, const bool *is_wanted, c
     if (!images)
         result = FACET_ERROR_MEMORY;
     for (uint32_t i = 0; i < scene->texture_count && result == FACET_OK; i++) {
-        uint32_t index = is_wanted[i] ? image_of(bench, i) : SCENE_NONE;
-        if (index >= scene->image_count || bench->statistics[index])
+        uint32_t index = is_wanted[i] ? image_of(baker, i) : SCENE_NONE;
+        if (index >= scene->image_count || baker->statistics[index])
             continue;
-        bench->statistics[index] = mem_zalloc(&scene->allocator, 1, sizeof **bench->statistics);
-        if (!bench->statistics[index])
+        baker->statistics[index] = mem_zalloc(&scene->allocator, 1, sizeof **baker->statistics);
+        if (!baker->statistics[index])
             result = FACET_ERROR_MEMORY;
         else
             images[count++] = index;
@@ -145,7 +145,7 @@ facet_result texture_bench_survey(texture_bench *bench, const bool *is_wanted, c
     if (result == FACET_OK && !(errors = mem_zalloc(&scene->allocator, count + 1, sizeof *errors)))
         result = FACET_ERROR_MEMORY;
     if (result == FACET_OK) {
-        survey s = {.bench = bench, .images = images, .errors = errors};
+        survey s = {.baker = baker, .images = images, .errors = errors};
         parallel_for(scene->thread_count, count, 1, survey_images, &s);
         result = judge_survey(&s, count, log, error);
     } else {
@@ -156,52 +156,52 @@ facet_result texture_bench_survey(texture_bench *bench, const bool *is_wanted, c
     return result;
 }
 
-const texture_statistics *texture_bench_statistics(const texture_bench *bench, uint32_t texture)
+const texture_statistics *texture_baker_statistics(const texture_baker *baker, uint32_t texture)
 {
-    uint32_t index = image_of(bench, texture);
-    const texture_statistics *s = index < bench->image_count ? bench->statistics[index] : NULL;
+    uint32_t index = image_of(baker, texture);
+    const texture_statistics *s = index < baker->image_count ? baker->statistics[index] : NULL;
     return s && s->is_readable ? s : NULL;
 }
 
 /* ---- new textures ---- */
 
 /* The texture with an equal key; SCENE_NONE: none. */
-static uint32_t find_made(texture_bench *bench, const void *key, size_t size)
+static uint32_t find_made(texture_baker *baker, const void *key, size_t size)
 {
-    for (uint32_t i = 0; i < bench->made_count; i++)
-        if (bench->made[i].key_size == size && memcmp(bench->made[i].key, key, size) == 0) {
-            bench->shared_count++;
-            return bench->scene->texture_count + i;
+    for (uint32_t i = 0; i < baker->made_count; i++)
+        if (baker->made[i].key_size == size && memcmp(baker->made[i].key, key, size) == 0) {
+            baker->shared_count++;
+            return baker->scene->texture_count + i;
         }
     return SCENE_NONE;
 }
 
 /* Encodes an image and keeps it; takes over key if it succeeds. */
-static facet_result keep_made(texture_bench *bench, const struct image *texels, const char *name,
+static facet_result keep_made(texture_baker *baker, const struct image *texels, const char *name,
                               uint32_t like, void *key, size_t key_size, uint32_t *texture,
                               facet_error *error)
 {
-    facet_scene *scene = bench->scene;
+    facet_scene *scene = baker->scene;
     made_texture made = {.like = like, .key = key, .key_size = key_size};
     image_encode_desc desc = {.allocator = scene->allocator, .thread_count = scene->thread_count};
-    if (!mem_reserve(&scene->allocator, (void **)&bench->made, &bench->made_capacity,
-                     (size_t)bench->made_count + 1, sizeof *bench->made))
-        return fail_memory(error, "textures", sizeof *bench->made);
+    if (!mem_reserve(&scene->allocator, (void **)&baker->made, &baker->made_capacity,
+                     (size_t)baker->made_count + 1, sizeof *baker->made))
+        return fail_memory(error, "textures", sizeof *baker->made);
     made.name = arena_strdup(scene->arena, name);
     if (!made.name)
         return fail_memory(error, "textures", strlen(name));
     TRY(image_encode(texels, IMAGE_CODEC_PNG, &desc, &made.bytes, &made.byte_count, error));
     made.width = texels->width;
     made.height = texels->height;
-    *texture = scene->texture_count + bench->made_count;
-    bench->made[bench->made_count++] = made;
+    *texture = scene->texture_count + baker->made_count;
+    baker->made[baker->made_count++] = made;
     return FACET_OK;
 }
 
-facet_result texture_bench_finish(texture_bench *bench, facet_error *error)
+facet_result texture_baker_finish(texture_baker *baker, facet_error *error)
 {
-    facet_scene *scene = bench->scene;
-    uint32_t count = bench->made_count;
+    facet_scene *scene = baker->scene;
+    uint32_t count = baker->made_count;
     if (count == 0)
         return FACET_OK;
     scene_image *images = arena_alloc(scene->arena, (size_t)scene->image_count + count, sizeof *images);
@@ -214,7 +214,7 @@ facet_result texture_bench_finish(texture_bench *bench, facet_error *error)
     if (scene->texture_count > 0)
         memcpy(textures, scene->textures, scene->texture_count * sizeof *textures);
     for (uint32_t i = 0; i < count; i++) {
-        made_texture *made = &bench->made[i];
+        made_texture *made = &baker->made[i];
         unsigned char *bytes = arena_alloc(scene->arena, made->byte_count, 1);
         if (!bytes)
             return fail_memory(error, "textures", made->byte_count);
@@ -249,16 +249,16 @@ typedef struct bake_inputs {
     image resized[TEXTURE_INPUTS];
 } bake_inputs;
 
-static facet_result gather(texture_bench *bench, const texture_bake *bake, bake_inputs *in,
+static facet_result gather(texture_baker *baker, const texture_bake *bake, bake_inputs *in,
                            facet_error *error)
 {
-    const facet_scene *scene = bench->scene;
+    const facet_scene *scene = baker->scene;
     in->count = bake->input_count;
     for (uint32_t i = 0; i < bake->input_count; i++) {
-        uint32_t index = image_of(bench, bake->inputs[i]);
+        uint32_t index = image_of(baker, bake->inputs[i]);
         if (index == SCENE_NONE)
             continue;
-        TRY(texels_cache_get(bench->cache, index, &in->texels[i], error));
+        TRY(texels_cache_get(baker->cache, index, &in->texels[i], error));
         in->width = in->texels[i]->width > in->width ? in->texels[i]->width : in->width;
         in->height = in->texels[i]->height > in->height ? in->texels[i]->height : in->height;
     }
@@ -293,7 +293,7 @@ static void bake_rows(void *context, size_t begin, size_t end)
 }
 
 /* The key of a bake: inputs, function and parameters. */
-static void *key_of(const texture_bench *bench, const texture_bake *bake, size_t *size)
+static void *key_of(const texture_baker *baker, const texture_bake *bake, size_t *size)
 {
     struct {
         uint32_t inputs[TEXTURE_INPUTS];
@@ -307,7 +307,7 @@ static void *key_of(const texture_bench *bench, const texture_bake *bake, size_t
     head.channel_count = bake->channel_count;
     head.row = bake->row;
     *size = sizeof head + bake->parameter_size;
-    unsigned char *key = mem_alloc(&bench->scene->allocator, *size, 1);
+    unsigned char *key = mem_alloc(&baker->scene->allocator, *size, 1);
     if (!key)
         return NULL;
     memcpy(key, &head, sizeof head);
@@ -316,41 +316,41 @@ static void *key_of(const texture_bench *bench, const texture_bake *bake, size_t
     return key;
 }
 
-static uint32_t first_input(const texture_bench *bench, const texture_bake *bake)
+static uint32_t first_input(const texture_baker *baker, const texture_bake *bake)
 {
     for (uint32_t i = 0; i < bake->input_count; i++)
-        if (image_of(bench, bake->inputs[i]) != SCENE_NONE)
+        if (image_of(baker, bake->inputs[i]) != SCENE_NONE)
             return bake->inputs[i];
     return SCENE_NONE;
 }
 
-facet_result texture_bench_bake(texture_bench *bench, const texture_bake *bake, uint32_t *texture,
+facet_result texture_baker_bake(texture_baker *baker, const texture_bake *bake, uint32_t *texture,
                                 facet_error *error)
 {
     *texture = SCENE_NONE;
-    uint32_t like = first_input(bench, bake);
+    uint32_t like = first_input(baker, bake);
     if (like == SCENE_NONE)
         return FACET_OK;
     size_t key_size;
-    void *key = key_of(bench, bake, &key_size);
+    void *key = key_of(baker, bake, &key_size);
     if (!key)
         return fail_memory(error, "textures", bake->parameter_size);
-    *texture = find_made(bench, key, key_size);
+    *texture = find_made(baker, key, key_size);
     if (*texture != SCENE_NONE) {
         mem_free(key);
         return FACET_OK;
     }
     bake_inputs in = {0};
     image out = {0};
-    facet_result result = gather(bench, bake, &in, error);
+    facet_result result = gather(baker, bake, &in, error);
     if (result == FACET_OK)
-        result = image_create(&bench->scene->allocator, in.width, in.height, bake->channel_count, IMAGE_U8,
+        result = image_create(&baker->scene->allocator, in.width, in.height, bake->channel_count, IMAGE_U8,
                               &out, error);
     if (result == FACET_OK) {
         out.is_srgb = true;
         bake_job job = {.bake = bake, .in = &in, .out = &out};
-        parallel_for(bench->scene->thread_count, in.height, 8, bake_rows, &job);
-        result = keep_made(bench, &out, bake->name, like, key, key_size, texture, error);
+        parallel_for(baker->scene->thread_count, in.height, 8, bake_rows, &job);
+        result = keep_made(baker, &out, bake->name, like, key, key_size, texture, error);
         key = result == FACET_OK ? NULL : key;
     }
     for (int i = 0; i < TEXTURE_INPUTS; i++)
@@ -420,10 +420,10 @@ static void relief_rows(void *context, size_t begin, size_t end)
 }
 
 /* Floats proportional to the stored codes: heights have no transfer function. */
-static facet_result decode_heights(const texture_bench *bench, uint32_t index, image *out, facet_error *error)
+static facet_result decode_heights(const texture_baker *baker, uint32_t index, image *out, facet_error *error)
 {
     image raw;
-    const facet_scene *scene = bench->scene;
+    const facet_scene *scene = baker->scene;
     facet_result result = texels_decode_raw(scene, index, 0, scene->thread_count, &raw, error);
     if (result != FACET_OK)
         return result;
@@ -433,7 +433,7 @@ static facet_result decode_heights(const texture_bench *bench, uint32_t index, i
     return result;
 }
 
-facet_result texture_bench_relief(texture_bench *bench, const texture_relief *relief, uint32_t *texture,
+facet_result texture_baker_relief(texture_baker *baker, const texture_relief *relief, uint32_t *texture,
                                   facet_error *error)
 {
     *texture = SCENE_NONE;
@@ -448,23 +448,23 @@ facet_result texture_bench_relief(texture_bench *bench, const texture_relief *re
     head.relief.base = relief->base;
     head.relief.gain = relief->gain;
     head.relief.slope = relief->slope;
-    *texture = find_made(bench, &head, sizeof head);
-    const scene_texture *like = &bench->scene->textures[relief->texture];
+    *texture = find_made(baker, &head, sizeof head);
+    const scene_texture *like = &baker->scene->textures[relief->texture];
     if (*texture != SCENE_NONE || like->image == SCENE_NONE)
         return FACET_OK;
     image heights = {0};
     image normals = {0};
-    void *key = mem_alloc(&bench->scene->allocator, 1, sizeof head);
-    facet_result result = key ? decode_heights(bench, like->image, &heights, error)
+    void *key = mem_alloc(&baker->scene->allocator, 1, sizeof head);
+    facet_result result = key ? decode_heights(baker, like->image, &heights, error)
                               : fail_memory(error, "textures", sizeof head);
     if (result == FACET_OK)
-        result = image_create(&bench->scene->allocator, heights.width, heights.height, 3, IMAGE_U8, &normals,
+        result = image_create(&baker->scene->allocator, heights.width, heights.height, 3, IMAGE_U8, &normals,
                               error);
     if (result == FACET_OK) {
         memcpy(key, &head, sizeof head);
         relief_job job = {.relief = relief, .texture = like, .in = &heights, .out = &normals};
-        parallel_for(bench->scene->thread_count, heights.height, 8, relief_rows, &job);
-        result = keep_made(bench, &normals, relief->name, relief->texture, key, sizeof head, texture, error);
+        parallel_for(baker->scene->thread_count, heights.height, 8, relief_rows, &job);
+        result = keep_made(baker, &normals, relief->name, relief->texture, key, sizeof head, texture, error);
         key = result == FACET_OK ? NULL : key;
     }
     image_destroy(&heights);

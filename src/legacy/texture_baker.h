@@ -1,8 +1,8 @@
-/* texture_bench.h - reads and makes textures for conversions: statistics of images, texels of one size,
- * bakes of rows in parallel, and the resulting PNG files, each made once. The meaning of the values is up
- * to the caller. */
-#ifndef LEGACY_TEXTURE_BENCH_H
-#define LEGACY_TEXTURE_BENCH_H
+/* texture_baker.h - reads and bakes textures for conversions: statistics of images, texels of one size,
+ * bakes of rows in parallel, and the resulting PNG files, each made once. The caller defines what the
+ * values mean. */
+#ifndef LEGACY_TEXTURE_BAKER_H
+#define LEGACY_TEXTURE_BAKER_H
 
 #include "image/srgb.h"
 #include "scene/scene.h"
@@ -30,19 +30,19 @@ bool texture_is_two_valued(const texture_statistics *s, int channel);           
 int texture_highest(const texture_statistics *s, int channel);                     /* codes */
 int texture_lowest(const texture_statistics *s, int channel);
 
-typedef struct texture_bench texture_bench;
-facet_result texture_bench_create(facet_scene *scene, texture_bench **out, facet_error *error);
-void texture_bench_destroy(texture_bench *bench); /* NULL is allowed */
+typedef struct texture_baker texture_baker;
+facet_result texture_baker_create(facet_scene *scene, texture_baker **out, facet_error *error);
+void texture_baker_destroy(texture_baker *baker); /* NULL is allowed */
 
-const srgb_tables *texture_bench_srgb(const texture_bench *bench);
+const srgb_tables *texture_baker_srgb(const texture_baker *baker);
 
 /* Reads all images of the marked textures (one flag per texture of the scene), several at once; large JPEG
  * files at an eighth of their size. An image that cannot be read is a warning; fails with
  * FACET_ERROR_MEMORY, and with _LIMIT if one exceeds the size limit of the scene. */
-facet_result texture_bench_survey(texture_bench *bench, const bool *is_wanted, const facet_log *log,
+facet_result texture_baker_survey(texture_baker *baker, const bool *is_wanted, const facet_log *log,
                                   facet_error *error);
 /* NULL: the texture was not surveyed, or its image cannot be read. */
-const texture_statistics *texture_bench_statistics(const texture_bench *bench, uint32_t texture);
+const texture_statistics *texture_baker_statistics(const texture_baker *baker, uint32_t texture);
 
 /* One row of a bake. in: RGBA texels of each input, as wide as the bake; NULL where the input is
  * SCENE_NONE. out: channel_count values per texel. */
@@ -61,9 +61,9 @@ typedef struct texture_bake {
 } texture_bake;
 
 /* Makes a texture of the size of the largest input with the sampler of the first, or finds an equal one.
- * *texture: its index in the scene after texture_bench_finish(); SCENE_NONE: an input cannot be decoded.
+ * *texture: its index in the scene after texture_baker_finish(); SCENE_NONE: an input cannot be decoded.
  * Fails with FACET_ERROR_MEMORY. */
-facet_result texture_bench_bake(texture_bench *bench, const texture_bake *bake, uint32_t *texture,
+facet_result texture_baker_bake(texture_baker *baker, const texture_bake *bake, uint32_t *texture,
                                 facet_error *error);
 
 /* A normal map of the heights in a texture. weights: of red, green, blue, alpha, whose sum is the height
@@ -76,15 +76,15 @@ typedef struct texture_relief {
     float base, gain; /* height = base + gain value */
     float slope;
 } texture_relief;
-facet_result texture_bench_relief(texture_bench *bench, const texture_relief *relief, uint32_t *texture,
+facet_result texture_baker_relief(texture_baker *baker, const texture_relief *relief, uint32_t *texture,
                                   facet_error *error);
 
 /* Appends the new images and textures to the scene. Fails with FACET_ERROR_MEMORY; the scene is then
  * unchanged. */
-facet_result texture_bench_finish(texture_bench *bench, facet_error *error);
+facet_result texture_baker_finish(texture_baker *baker, facet_error *error);
 
 /* The number of new textures, and of requests that found an equal one. */
-uint32_t texture_bench_made(const texture_bench *bench);
-uint32_t texture_bench_shared(const texture_bench *bench);
+uint32_t texture_baker_made(const texture_baker *baker);
+uint32_t texture_baker_shared(const texture_baker *baker);
 
 #endif

@@ -1,16 +1,16 @@
-/* texture_bench_test.c - statistics of images, bakes and shared results. */
+/* texture_baker_test.c - statistics of images, bakes and shared results. */
 #include "legacy/convert_test_support.h"
-#include "legacy/texture_bench.h"
+#include "legacy/texture_baker.h"
 
 static const uint8_t TEXELS[] = {10, 20, 30, 255, 10, 20, 30, 0, 250, 20, 30, 255, 255, 255, 0, 0};
 
-static texture_bench *bench_of(facet_scene *scene)
+static texture_baker *bench_of(facet_scene *scene)
 {
-    texture_bench *bench = NULL;
+    texture_baker *baker = NULL;
     const bool wanted[TEST_MAX] = {true, true, true, true};
-    assert_int_equal(texture_bench_create(scene, &bench, NULL), FACET_OK);
-    assert_int_equal(texture_bench_survey(bench, wanted, &(facet_log){0}, NULL), FACET_OK);
-    return bench;
+    assert_int_equal(texture_baker_create(scene, &baker, NULL), FACET_OK);
+    assert_int_equal(texture_baker_survey(baker, wanted, &(facet_log){0}, NULL), FACET_OK);
+    return baker;
 }
 
 static unsigned count_lines;
@@ -30,18 +30,18 @@ static void unreadable_images_are_reported(void **state)
     scene->images[1].size = 50;
     const bool wanted[TEST_MAX] = {true, true, true, true};
     const facet_log log = {.message = count_line};
-    texture_bench *bench = NULL;
+    texture_baker *baker = NULL;
     facet_error error;
     count_lines = 0;
-    assert_int_equal(texture_bench_create(scene, &bench, NULL), FACET_OK);
-    assert_int_equal(texture_bench_survey(bench, wanted, &log, NULL), FACET_OK);
+    assert_int_equal(texture_baker_create(scene, &baker, NULL), FACET_OK);
+    assert_int_equal(texture_baker_survey(baker, wanted, &log, NULL), FACET_OK);
     assert_int_equal(count_lines, 1);
-    texture_bench_destroy(bench);
+    texture_baker_destroy(baker);
     scene->max_texture_size = 1;
-    assert_int_equal(texture_bench_create(scene, &bench, NULL), FACET_OK);
-    assert_int_equal(texture_bench_survey(bench, wanted, &log, &error), FACET_ERROR_LIMIT);
+    assert_int_equal(texture_baker_create(scene, &baker, NULL), FACET_OK);
+    assert_int_equal(texture_baker_survey(baker, wanted, &log, &error), FACET_ERROR_LIMIT);
     assert_non_null(strstr(error.message, "2 x 2 texels, more than 1 along an edge"));
-    texture_bench_destroy(bench);
+    texture_baker_destroy(baker);
     scene_destroy(scene);
 }
 
@@ -52,11 +52,11 @@ static void statistics_count_codes(void **state)
     uint32_t texture = add_texels(scene, 2, 2, 4, TEXELS);
     uint32_t broken = add_texels(scene, 2, 2, 4, TEXELS);
     scene->images[1].size = 20;
-    texture_bench *bench = bench_of(scene);
-    const texture_statistics *s = texture_bench_statistics(bench, texture);
+    texture_baker *baker = bench_of(scene);
+    const texture_statistics *s = texture_baker_statistics(baker, texture);
     assert_non_null(s);
-    assert_null(texture_bench_statistics(bench, broken));
-    assert_null(texture_bench_statistics(bench, SCENE_NONE));
+    assert_null(texture_baker_statistics(baker, broken));
+    assert_null(texture_baker_statistics(baker, SCENE_NONE));
     assert_int_equal(s->texel_count, 4);
     assert_true(s->has_alpha);
     assert_int_equal(s->histogram[TEXTURE_RED][10], 2);
@@ -73,7 +73,7 @@ static void statistics_count_codes(void **state)
     for (int i = 0; i < 256; i++)
         codes[i] = (float)i;
     assert_near(texture_mean(s, TEXTURE_RED, codes), (10 + 10 + 250 + 255) / 4.0, 1e-9);
-    texture_bench_destroy(bench);
+    texture_baker_destroy(baker);
     scene_destroy(scene);
 }
 
@@ -98,8 +98,8 @@ static void large_images_are_counted_in_little_memory(void **state)
             assert_int_equal(facet_budget_create(400 << 10, &budget, NULL), FACET_OK);
             const facet_allocator kept = scene->allocator;
             scene->allocator = facet_budget_allocator(budget);
-            texture_bench *bench = bench_of(scene);
-            const texture_statistics *s = texture_bench_statistics(bench, texture);
+            texture_baker *baker = bench_of(scene);
+            const texture_statistics *s = texture_baker_statistics(baker, texture);
             assert_non_null(s);
             assert_int_equal(s->texel_count, 1024 * 512);
             assert_int_equal(s->width, 1024);
@@ -107,7 +107,7 @@ static void large_images_are_counted_in_little_memory(void **state)
             assert_int_equal(s->histogram[TEXTURE_RED][100], 1024 * 512);
             assert_int_equal(s->histogram[TEXTURE_GREY][100], 1024 * 512);
             assert_int_equal(s->has_alpha, channels % 2 == 0);
-            texture_bench_destroy(bench);
+            texture_baker_destroy(baker);
             scene->allocator = kept;
             facet_budget_destroy(budget);
             scene_destroy(scene);
@@ -126,7 +126,7 @@ static void add_row(const void *parameters, uint32_t width, const uint8_t *const
     }
 }
 
-static uint32_t bake(texture_bench *bench, uint32_t first, uint32_t second, int plus)
+static uint32_t bake(texture_baker *baker, uint32_t first, uint32_t second, int plus)
 {
     uint32_t out = SCENE_NONE;
     texture_bake job = {.name = "made",
@@ -136,7 +136,7 @@ static uint32_t bake(texture_bench *bench, uint32_t first, uint32_t second, int 
                         .row = add_row,
                         .parameters = &plus,
                         .parameter_size = sizeof plus};
-    assert_int_equal(texture_bench_bake(bench, &job, &out, NULL), FACET_OK);
+    assert_int_equal(texture_baker_bake(baker, &job, &out, NULL), FACET_OK);
     return out;
 }
 
@@ -148,20 +148,20 @@ static void bakes_are_shared_and_sized(void **state)
     uint32_t large = add_texels(scene, 2, 2, 4, TEXELS);
     uint32_t pair = add_texels(scene, 2, 1, 1, small);
     scene->textures[large].wrap_u = SCENE_WRAP_MIRROR;
-    texture_bench *bench = bench_of(scene);
-    uint32_t a = bake(bench, large, pair, 3);
-    uint32_t b = bake(bench, large, pair, 3);
-    uint32_t c = bake(bench, large, pair, 4);
-    uint32_t d = bake(bench, large, SCENE_NONE, 3);
+    texture_baker *baker = bench_of(scene);
+    uint32_t a = bake(baker, large, pair, 3);
+    uint32_t b = bake(baker, large, pair, 3);
+    uint32_t c = bake(baker, large, pair, 4);
+    uint32_t d = bake(baker, large, SCENE_NONE, 3);
     assert_int_equal(a, 2);
     assert_int_equal(b, a);
     assert_int_equal(c, 3);
     assert_int_equal(d, 4);
-    assert_int_equal(texture_bench_made(bench), 3);
-    assert_int_equal(texture_bench_shared(bench), 1);
-    assert_int_equal(bake(bench, SCENE_NONE, SCENE_NONE, 3), SCENE_NONE);
+    assert_int_equal(texture_baker_made(baker), 3);
+    assert_int_equal(texture_baker_shared(baker), 1);
+    assert_int_equal(bake(baker, SCENE_NONE, SCENE_NONE, 3), SCENE_NONE);
     assert_int_equal(scene->texture_count, 2); /* only at the end */
-    assert_int_equal(texture_bench_finish(bench, NULL), FACET_OK);
+    assert_int_equal(texture_baker_finish(baker, NULL), FACET_OK);
     assert_int_equal(scene->texture_count, 5);
     assert_int_equal(scene->image_count, 5);
     assert_string_equal(scene->images[2].mime_type, "image/png");
@@ -173,7 +173,7 @@ static void bakes_are_shared_and_sized(void **state)
     assert_int_equal(t[1], 0);
     texel_at(scene, d, 3, t);
     assert_int_equal(t[1], 7);
-    texture_bench_destroy(bench);
+    texture_baker_destroy(baker);
     scene_destroy(scene);
 }
 
@@ -187,10 +187,10 @@ static void resizing_wraps_as_the_sampler_does(void **state)
     uint32_t repeats = add_texels(scene, 2, 1, 1, pair);
     uint32_t clamps = add_texels(scene, 2, 1, 1, pair);
     scene->textures[clamps].wrap_u = SCENE_WRAP_CLAMP;
-    texture_bench *bench = bench_of(scene);
-    uint32_t a = bake(bench, large, repeats, 0);
-    uint32_t b = bake(bench, large, clamps, 0);
-    assert_int_equal(texture_bench_finish(bench, NULL), FACET_OK);
+    texture_baker *baker = bench_of(scene);
+    uint32_t a = bake(baker, large, repeats, 0);
+    uint32_t b = bake(baker, large, clamps, 0);
+    assert_int_equal(texture_baker_finish(baker, NULL), FACET_OK);
     /* Centers of four texels lie at -1/4, 1/4, 3/4, 5/4 of two. */
     const uint8_t repeated[] = {50, 50, 150, 150};
     const uint8_t clamped[] = {0, 50, 150, 200};
@@ -201,7 +201,7 @@ static void resizing_wraps_as_the_sampler_does(void **state)
         texel_at(scene, b, i, t);
         assert_int_equal(t[1], clamped[i]);
     }
-    texture_bench_destroy(bench);
+    texture_baker_destroy(baker);
     scene_destroy(scene);
 }
 
@@ -211,12 +211,12 @@ static void flat_heights_point_up_and_edges_wrap(void **state)
     const uint8_t step[] = {0, 255, 255, 255};
     facet_scene *scene = gltf_scene(0);
     uint32_t texture = add_texels(scene, 4, 1, 1, step);
-    texture_bench *bench = bench_of(scene);
+    texture_baker *baker = bench_of(scene);
     uint32_t made;
     texture_relief relief = {
         .name = "n", .texture = texture, .weights = {1, 0, 0, 0}, .gain = 1, .slope = .5f};
-    assert_int_equal(texture_bench_relief(bench, &relief, &made, NULL), FACET_OK);
-    assert_int_equal(texture_bench_finish(bench, NULL), FACET_OK);
+    assert_int_equal(texture_baker_relief(baker, &relief, &made, NULL), FACET_OK);
+    assert_int_equal(texture_baker_finish(baker, NULL), FACET_OK);
     uint8_t t[4];
     texel_at(scene, made, 2, t);
     assert_int_equal(t[0], 128); /* flat */
@@ -225,7 +225,7 @@ static void flat_heights_point_up_and_edges_wrap(void **state)
     assert_near(t[0] / 255.0 * 2 - 1, -sqrt(.5), 1.0 / 255);
     texel_at(scene, made, 3, t); /* falls to the first texel, behind the edge */
     assert_near(t[0] / 255.0 * 2 - 1, sqrt(.5), 1.0 / 255);
-    texture_bench_destroy(bench);
+    texture_baker_destroy(baker);
     scene_destroy(scene);
 }
 
