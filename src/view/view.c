@@ -257,28 +257,17 @@ static facet_result begin(view_app *a, facet_error *error)
     view_state_create(&a->state, d);
     a->divisor = 1;
     a->state.render.log = (facet_log){.user = a, .message = receive_warning};
-    facet_result result = FACET_OK;
     if (d->script)
-        result = view_script_load(d->script, &d->allocator, &a->script, error);
-    if (result == FACET_OK)
-        result = view_load_create(a->host, d, wake, a, &a->loader, error);
-    if (result == FACET_OK)
-        result = view_files_begin(a, error); /* the model is read while the window opens */
-    if (result == FACET_OK)
-        result =
-            view_window_create(&d->allocator, d->render.width, d->render.height, &a->queue, &window, error);
+        TRY(view_script_load(d->script, &d->allocator, &a->script, error));
+    TRY(view_load_create(a->host, d, wake, a, &a->loader, error));
+    TRY(view_files_begin(a, error)); /* the model is read while the window opens */
+    TRY(view_window_create(&d->allocator, d->render.width, d->render.height, &a->queue, &window, error));
     atomic_store(&a->window, window);
-    if (result == FACET_OK)
-        result = gl_context_adopt(&a->context, error);
-    if (result == FACET_OK)
-        result = view_draw_create(&a->context, &d->allocator, &a->draw, error);
-    if (result == FACET_OK)
-        result = view_trace_create(a->host, &d->allocator, wake, a, &a->traced[0].tracer, error);
-    if (result == FACET_OK)
-        result = view_trace_create(a->host, &d->allocator, wake, a, &a->traced[1].tracer, error);
-    if (result == FACET_OK)
-        result = view_watch_create(&d->allocator, wake, a, &a->watcher, error);
-    return result;
+    TRY(gl_context_adopt(&a->context, error));
+    TRY(view_draw_create(&a->context, &d->allocator, &a->draw, error));
+    for (int i = 0; i < 2; i++)
+        TRY(view_trace_create(a->host, &d->allocator, wake, a, &a->traced[i].tracer, error));
+    return view_watch_create(&d->allocator, wake, a, &a->watcher, error);
 }
 
 static void end(view_app *a)

@@ -117,9 +117,7 @@ static facet_result draw_sides(view_app *a, uint32_t width, uint32_t height, con
 {
     facet_camera camera;
     facet_render_desc sides[2];
-    facet_result result = find_camera(a, width, height, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(find_camera(a, width, height, error));
     facet_render_desc base = view_state_desc(&a->state, width, height, &camera);
     base.environment = a->environment;
     view_divider_sides(&a->state.divider, &base, sides, labels);
@@ -130,17 +128,17 @@ static facet_result draw_sides(view_app *a, uint32_t width, uint32_t height, con
     }
     if (!is_divided || !view_renderer_accumulates(sides[0].renderer))
         stop_left(a);
-    for (int i = is_divided ? 0 : 1; i < 2 && result == FACET_OK; i++) {
+    for (int i = is_divided ? 0 : 1; i < 2; i++) {
         shown[i] = &a->sides[i];
         bool accumulates = view_renderer_accumulates(sides[i].renderer);
         if (accumulates && trace(a, i, &sides[i]))
             shown[i] = &a->traced[i].surface;
         else if (a->needs_image || accumulates)
-            result = draw_side(a, i, &sides[i], error);
+            TRY(draw_side(a, i, &sides[i], error));
     }
     if (!is_divided)
         shown[0] = shown[1];
-    return result;
+    return FACET_OK;
 }
 
 /* ---- all of it ---- */

@@ -129,22 +129,18 @@ static facet_result draw_tile(drawing *d, const tile *t, facet_error *error)
 {
     const gl_film_desc *desc = d->desc;
     gl_view view = view_of(t, desc->sampling.scale);
-    facet_result result = gl_target_update(desc->target, desc->context, GL_TARGET_FILM, view.width,
-                                           view.height, desc->sampling.samples, error);
-    for (uint32_t pass = 0; pass < desc->sampling.passes && result == FACET_OK; pass++) {
+    TRY(gl_target_update(desc->target, desc->context, GL_TARGET_FILM, view.width, view.height,
+                         desc->sampling.samples, error));
+    for (uint32_t pass = 0; pass < desc->sampling.passes; pass++) {
         memcpy(view.jitter, d->jitter + 2 * pass, sizeof view.jitter);
-        result = desc->draw(desc->self, desc->target, &view, error);
-        if (result == FACET_OK)
-            read_tile(d, desc->target, 0, t, desc->sampling.scale);
-        if (result == FACET_OK)
-            result = gl_context_check(desc->context, "the image", error);
-        if (result == FACET_OK)
-            add_tile(d, t);
+        TRY(desc->draw(desc->self, desc->target, &view, error));
+        read_tile(d, desc->target, 0, t, desc->sampling.scale);
+        TRY(gl_context_check(desc->context, "the image", error));
+        add_tile(d, t);
         render_watch_add(&d->watch, (uint64_t)t->width * t->height);
-        if (result == FACET_OK)
-            result = check_watch(d, error);
+        TRY(check_watch(d, error));
     }
-    return result;
+    return FACET_OK;
 }
 
 /* ---- layers ---- */
@@ -255,20 +251,17 @@ static facet_result sample_layers(drawing *d, const tile *t, const float jitter[
 static facet_result draw_mattes(drawing *d, const tile *t, facet_error *error)
 {
     float points[2 * MATTE_SAMPLES];
-    facet_result result = FACET_OK;
     sample_pattern(MATTE_SAMPLES, points);
-    for (int i = 0; i < MATTE_SAMPLES && result == FACET_OK; i++) {
+    for (int i = 0; i < MATTE_SAMPLES; i++) {
         const float jitter[2] = {points[2 * i] - 0.5f, points[2 * i + 1] - 0.5f};
-        result = sample_layers(d, t, jitter, error);
-        if (result == FACET_OK)
-            add_mattes(d, t);
-        if (result == FACET_OK)
-            result = check_watch(d, error);
+        TRY(sample_layers(d, t, jitter, error));
+        add_mattes(d, t);
+        TRY(check_watch(d, error));
     }
-    for (uint32_t y = 0; y < t->height && result == FACET_OK; y++)
+    for (uint32_t y = 0; y < t->height; y++)
         for (uint32_t x = 0; x < t->width; x++)
             matte_finish(&d->mattes, place_of(d, t, x, y), 1.0f / (float)MATTE_SAMPLES);
-    return result;
+    return FACET_OK;
 }
 
 /* One sample at the center of each pixel, and those of Cryptomatte. */

@@ -67,15 +67,14 @@ static gl_transparency_view transparency_of(const gl_frame *f, const facet_rende
 
 static facet_result request_batches(gl_frame *f, bool is_layers, facet_error *error)
 {
-    facet_result result = FACET_OK;
     gl_pass end = is_layers ? GL_PASS_COUNT : GL_PASS_BLENDED;
     for (gl_pass pass = GL_PASS_OPAQUE; pass < end; pass++) {
         uint32_t count;
         const gl_batch *batches = gl_mesh_batches(f->meshes, pass, &count);
-        for (uint32_t i = 0; i < count && result == FACET_OK; i++)
-            result = gl_programs_request(f->programs, key_of(f, &batches[i], is_layers), error);
+        for (uint32_t i = 0; i < count; i++)
+            TRY(gl_programs_request(f->programs, key_of(f, &batches[i], is_layers), error));
     }
-    return result;
+    return FACET_OK;
 }
 
 /* Requests all programs before waiting for the first, so that the driver compiles them in parallel. */
@@ -83,18 +82,15 @@ static facet_result request_programs(gl_frame *f, const facet_render_desc *desc,
 {
     gl_programs_set_log(f->programs, &desc->log);
     gl_transparency_view blended = transparency_of(f, desc);
-    facet_result result = request_batches(f, false, error);
-    if (result == FACET_OK)
-        result = gl_transparency_request(f->transparency, &blended, error);
-    if (result == FACET_OK && desc->aovs)
-        result = request_batches(f, true, error);
-    if (result == FACET_OK && desc->background == FACET_BACKGROUND_ENVIRONMENT) {
+    TRY(request_batches(f, false, error));
+    TRY(gl_transparency_request(f->transparency, &blended, error));
+    if (desc->aovs)
+        TRY(request_batches(f, true, error));
+    if (desc->background == FACET_BACKGROUND_ENVIRONMENT) {
         gl_program_key key = {GL_MAIN_BACKGROUND, gl_light_background_features(f->light, desc)};
-        result = gl_programs_request(f->programs, key, error);
+        TRY(gl_programs_request(f->programs, key, error));
     }
-    if (result == FACET_OK)
-        result = gl_light_request_programs(f->light, f->programs, error);
-    return result;
+    return gl_light_request_programs(f->light, f->programs, error);
 }
 
 static facet_result update_phong(gl_frame *f, const gl_phong_view *view, facet_error *error)
@@ -102,14 +98,11 @@ static facet_result update_phong(gl_frame *f, const gl_phong_view *view, facet_e
     gl_material_use_phong(f->materials, NULL);
     if (view->render->shading != FACET_SHADING_OGL1)
         return FACET_OK;
-    facet_result result = FACET_OK;
     if (!f->phong)
-        result = gl_phong_create(f->context, view->scene->scene, &view->scene->allocator, &f->phong, error);
-    if (result == FACET_OK)
-        result = gl_phong_update(f->phong, view, error);
-    if (result == FACET_OK)
-        gl_material_use_phong(f->materials, f->phong);
-    return result;
+        TRY(gl_phong_create(f->context, view->scene->scene, &view->scene->allocator, &f->phong, error));
+    TRY(gl_phong_update(f->phong, view, error));
+    gl_material_use_phong(f->materials, f->phong);
+    return FACET_OK;
 }
 
 facet_result gl_frame_update(gl_frame *f, const gl_scene *scene, const camera_rays *camera,

@@ -177,14 +177,13 @@ static void height_matrix(const gl_ground *g, bool is_above, const float eye[3],
 
 static facet_result draw_heights(const gl_ground *g, gl_casters *casters, facet_error *error)
 {
-    facet_result result = FACET_OK;
     gl_casters_begin(casters, g->heights_framebuffer, 4 * GL_GROUND_EDGE);
-    for (uint32_t side = 0; side < 2 && result == FACET_OK; side++) {
+    for (uint32_t side = 0; side < 2; side++) {
         float matrix[16];
         height_matrix(g, side == 1, casters->eye, matrix);
-        result = gl_casters_draw(casters, matrix, side * 2 * GL_GROUND_EDGE, 0, 2 * GL_GROUND_EDGE, error);
+        TRY(gl_casters_draw(casters, matrix, side * 2 * GL_GROUND_EDGE, 0, 2 * GL_GROUND_EDGE, error));
     }
-    return result;
+    return FACET_OK;
 }
 
 static facet_result draw_map(const gl_ground *g, gl_casters *casters, facet_error *error)
@@ -209,11 +208,9 @@ facet_result gl_ground_draw(gl_ground *g, gl_casters *casters, facet_error *erro
     if (!g->is_wanted || g->drawn_revision == casters->revision)
         return FACET_OK;
     g->drawn_revision = 0;
-    facet_result result = make_textures(g, error);
-    if (result == FACET_OK)
-        result = draw_heights(g, casters, error);
-    if (result == FACET_OK)
-        result = draw_map(g, casters, error);
-    g->drawn_revision = result == FACET_OK ? casters->revision : 0;
-    return result;
+    TRY(make_textures(g, error));
+    TRY(draw_heights(g, casters, error));
+    TRY(draw_map(g, casters, error));
+    g->drawn_revision = casters->revision;
+    return FACET_OK;
 }

@@ -41,16 +41,14 @@ void gl_scene_clear(gl_scene *s)
 
 static facet_result make_geometry(gl_scene *s, const facet_render_desc *desc, facet_error *error)
 {
-    facet_result result =
-        scene_pose_create(s->scene, &desc->pose, &s->allocator, desc->thread_count, &s->pose, error);
-    if (result == FACET_OK)
-        result = render_geometry_create(s->scene, &s->pose, &s->allocator, &s->geometries, error);
-    for (uint32_t i = 0; result == FACET_OK && i < s->geometries.count; i++)
-        s->geometries.items[i].world = &s->pose.instances[i].world;
     s->shading = FACET_SHADING_GLTF;
-    if (result == FACET_OK && !pose_key_set(&s->key, &desc->pose, &s->allocator))
-        result = fail_memory(error, "animations", desc->pose.animation_count * sizeof *s->key.animations);
-    return result;
+    TRY(scene_pose_create(s->scene, &desc->pose, &s->allocator, desc->thread_count, &s->pose, error));
+    TRY(render_geometry_create(s->scene, &s->pose, &s->allocator, &s->geometries, error));
+    for (uint32_t i = 0; i < s->geometries.count; i++)
+        s->geometries.items[i].world = &s->pose.instances[i].world;
+    return pose_key_set(&s->key, &desc->pose, &s->allocator)
+               ? FACET_OK
+               : fail_memory(error, "animations", desc->pose.animation_count * sizeof *s->key.animations);
 }
 
 static void choose_materials(gl_scene *s, facet_shading shading)

@@ -225,15 +225,14 @@ facet_result gl_transparency_request(const gl_transparency *t, const gl_transpar
 {
     uint32_t count;
     const gl_batch *batches = gl_mesh_batches(view->meshes, GL_PASS_BLENDED, &count);
-    facet_result result = FACET_OK;
-    for (uint32_t i = 0; i < count && result == FACET_OK; i++) {
+    for (uint32_t i = 0; i < count; i++) {
         gl_program_key key = {gl_material_main(view->materials, &batches[i]),
                               gl_material_features(view->materials, &batches[i]) |
                                   gl_mesh_features(view->meshes, &batches[i]) | view->features |
                                   gl_layers_features(&t->layers, possible_mode(t->context, view->mode))};
-        result = gl_programs_request(view->programs, key, error);
+        TRY(gl_programs_request(view->programs, key, error));
     }
-    return result;
+    return FACET_OK;
 }
 
 facet_result gl_transparency_draw(gl_transparency *t, const gl_transparency_view *view, facet_error *error)
