@@ -38,6 +38,14 @@ facet_result codec_check_texels(const char *name, const char *format, uint32_t w
 facet_result codec_check_input(const image *i, const char *codec, bool is_type_right, const char *types,
                                uint32_t channel_counts, facet_error *error);
 
+/* The header of a display-referred image; it has no pixels. */
+static inline image codec_srgb_header(uint32_t width, uint32_t height, uint32_t channel_count,
+                                      image_type type)
+{
+    return (image){
+        .width = width, .height = height, .channel_count = channel_count, .type = type, .is_srgb = true};
+}
+
 /* Flips columns and rows of an image in place. */
 void codec_flip(image *i, bool has_flipped_columns, bool has_flipped_rows);
 /* Converts an 8-bit image to desc->channel_count channels. On failure it becomes {0}. */

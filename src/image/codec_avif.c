@@ -186,11 +186,8 @@ static facet_result orient(image *in, const avifImage *properties, const facet_a
 /* As it is stored. */
 static image make_header(const avifDecoder *decoder)
 {
-    return (image){.width = decoder->image->width,
-                   .height = decoder->image->height,
-                   .channel_count = decoder->alphaPresent ? 4 : 3,
-                   .type = decoder->image->depth > 8 ? IMAGE_U16 : IMAGE_U8,
-                   .is_srgb = true};
+    return codec_srgb_header(decoder->image->width, decoder->image->height, decoder->alphaPresent ? 4 : 3,
+                             decoder->image->depth > 8 ? IMAGE_U16 : IMAGE_U8);
 }
 
 facet_result avif_probe(const unsigned char *bytes, size_t size, const char *name, image *header,

@@ -165,11 +165,7 @@ facet_result dds_probe(const unsigned char *bytes, size_t size, const char *name
     dds_header h;
     facet_result result = parse_header(bytes, size, name, UINT32_MAX, &h, error);
     if (result == FACET_OK)
-        *header = (image){.width = h.width,
-                          .height = h.height,
-                          .channel_count = h.format.channel_count,
-                          .type = IMAGE_U8,
-                          .is_srgb = true};
+        *header = codec_srgb_header(h.width, h.height, h.format.channel_count, IMAGE_U8);
     return result;
 }
 

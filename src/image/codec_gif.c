@@ -144,11 +144,7 @@ static bool fills_canvas(const gif_header *h)
 
 static image make_header(const gif_header *h)
 {
-    return (image){.width = h->width,
-                   .height = h->height,
-                   .channel_count = h->transparent >= 0 || !fills_canvas(h) ? 4 : 3,
-                   .type = IMAGE_U8,
-                   .is_srgb = true};
+    return codec_srgb_header(h->width, h->height, h->transparent >= 0 || !fills_canvas(h) ? 4 : 3, IMAGE_U8);
 }
 
 facet_result gif_probe(const unsigned char *bytes, size_t size, const char *name, image *header,

@@ -57,11 +57,8 @@ facet_result jpeg_probe(const unsigned char *bytes, size_t size, const char *nam
     facet_result result = read_header(handle, bytes, size, name, &width, &height, &color_space, error);
     tjDestroy(handle);
     if (result == FACET_OK)
-        *header = (image){.width = (uint32_t)width,
-                          .height = (uint32_t)height,
-                          .channel_count = color_space == TJCS_GRAY ? 1 : 3,
-                          .type = IMAGE_U8,
-                          .is_srgb = true};
+        *header =
+            codec_srgb_header((uint32_t)width, (uint32_t)height, color_space == TJCS_GRAY ? 1 : 3, IMAGE_U8);
     return result;
 }
 

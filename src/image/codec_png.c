@@ -187,11 +187,8 @@ facet_result png_probe(const unsigned char *bytes, size_t size, const char *name
     spng_ctx_free(context);
     if (code != 0)
         return fail_png(error, name, code);
-    *header = (image){.width = h.width,
-                      .height = h.height,
-                      .channel_count = own_channel_count(&h),
-                      .type = h.bit_depth == 16 ? IMAGE_U16 : IMAGE_U8,
-                      .is_srgb = true};
+    *header =
+        codec_srgb_header(h.width, h.height, own_channel_count(&h), h.bit_depth == 16 ? IMAGE_U16 : IMAGE_U8);
     return FACET_OK;
 }
 
@@ -265,11 +262,7 @@ static facet_result decode(spng_ctx *context, const png_header *h, source *s, co
         desc->channel_count && !is_deep ? desc->channel_count : own_channel_count(h);
     const int flags = h->has_transparency && (is_deep || channel_count != 3) ? SPNG_DECODE_TRNS : 0;
     const int format = choose_format(h, channel_count);
-    image header = {.width = h->width,
-                    .height = h->height,
-                    .channel_count = channel_count,
-                    .type = is_deep ? IMAGE_U16 : IMAGE_U8,
-                    .is_srgb = true};
+    image header = codec_srgb_header(h->width, h->height, channel_count, is_deep ? IMAGE_U16 : IMAGE_U8);
     size_t decoded_size;
     code = spng_decoded_image_size(context, format, &decoded_size);
     if (code == 0 && decoded_size != image_row_size(&header) * header.height)

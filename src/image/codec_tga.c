@@ -110,11 +110,7 @@ facet_result tga_probe(const unsigned char *bytes, size_t size, const char *name
         return fail(error, FACET_ERROR_INVALID, "%s: TGA: the header is damaged", name);
     facet_result result = check(&h, name, UINT32_MAX, error);
     if (result == FACET_OK)
-        *header = (image){.width = h.width,
-                          .height = h.height,
-                          .channel_count = h.channel_count,
-                          .type = IMAGE_U8,
-                          .is_srgb = true};
+        *header = codec_srgb_header(h.width, h.height, h.channel_count, IMAGE_U8);
     return result;
 }
 

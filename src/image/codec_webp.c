@@ -42,11 +42,8 @@ facet_result webp_probe(const unsigned char *bytes, size_t size, const char *nam
     WebPBitstreamFeatures features;
     facet_result result = read_header(bytes, size, name, &features, error);
     if (result == FACET_OK)
-        *header = (image){.width = (uint32_t)features.width,
-                          .height = (uint32_t)features.height,
-                          .channel_count = features.has_alpha ? 4 : 3,
-                          .type = IMAGE_U8,
-                          .is_srgb = true};
+        *header = codec_srgb_header((uint32_t)features.width, (uint32_t)features.height,
+                                    features.has_alpha ? 4 : 3, IMAGE_U8);
     return result;
 }
 

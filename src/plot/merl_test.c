@@ -175,7 +175,7 @@ static material measured_material(const fixture *f, merl *file)
         .parameters = {.model = FACET_PLOT_MODEL_MERL, .path = f->path}, .label = "", .measured = file};
 }
 
-/* Fits a model; the relative error. */
+/* Fits a model; its RMS (material_fit()). */
 static double fit(const material *measured, facet_plot_model model, facet_plot_material *found)
 {
     double rms;
