@@ -45,15 +45,12 @@ static facet_result prepare_level(facet_environment *e, prefilter_lobe lobe, uin
     uint64_t recipe = prefilter_recipe(lobe, level) ^ recipe_version;
     if (read_level(e, part, recipe, prefilter_size(lobe, level), out))
         return FACET_OK;
-    facet_result result = FACET_OK;
     if (!parts->harmonics.coefficients)
-        result = harmonics_create(&e->panorama, PREFILTER_DEGREE, &e->allocator, thread_count,
-                                  &parts->harmonics, error);
-    if (result == FACET_OK)
-        result = prefilter_level(&parts->harmonics, lobe, level, &e->allocator, thread_count, out, error);
-    if (result == FACET_OK)
-        cache_write(e, part, recipe, out->texels, mem_size(out->texels));
-    return result;
+        TRY(harmonics_create(&e->panorama, PREFILTER_DEGREE, &e->allocator, thread_count, &parts->harmonics,
+                             error));
+    TRY(prefilter_level(&parts->harmonics, lobe, level, &e->allocator, thread_count, out, error));
+    cache_write(e, part, recipe, out->texels, mem_size(out->texels));
+    return FACET_OK;
 }
 
 /* The panorama, halved as long as at least rows rows remain (0: not halved). */
@@ -66,10 +63,8 @@ static facet_result prepare_image(facet_environment *e, double rows, uint32_t th
     image *part = index ? &e->parts.reduced[index] : &e->panorama;
     if (!part->pixels) {
         uint32_t width = e->panorama.width >> index;
-        facet_result result = equirect_resize(&e->panorama, width ? width : 1, e->panorama.height >> index,
-                                              &e->allocator, thread_count, part, error);
-        if (result != FACET_OK)
-            return result;
+        TRY(equirect_resize(&e->panorama, width ? width : 1, e->panorama.height >> index, &e->allocator,
+                            thread_count, part, error));
     }
     *panorama = *part;
     return FACET_OK;
@@ -88,44 +83,50 @@ static facet_result prepare_narrow(facet_environment *e, uint32_t thread_count, 
     return result;
 }
 
+static facet_result prepare_irradiance(facet_environment *e, uint32_t thread_count, ibl_light *light,
+                                       facet_error *error)
+{
+    /* At roughness 1, D is constant and the lobe is the cosine: this is the radiance of a white Lambertian
+     * surface, without the dark far side of a sun that nine harmonics have. */
+    const uint32_t lambert = prefilter_level_count(PREFILTER_GGX) - 1;
+    light->irradiance_over_pi = e->irradiance_over_pi;
+    if (e->irradiance_over_pi.texels)
+        return FACET_OK;
+    TRY(prepare_level(e, PREFILTER_GGX, lambert, thread_count, error));
+    light->irradiance_over_pi = e->parts.levels[PREFILTER_GGX][lambert];
+    return FACET_OK;
+}
+
+/* The levels of a lobe from 1 on. */
+static facet_result prepare_levels(facet_environment *e, prefilter_lobe lobe, uint32_t thread_count,
+                                   ibl_light *light, facet_error *error)
+{
+    ibl_level_range range = light->ranges[lobe];
+    for (uint32_t level = range.first ? range.first : 1; level <= range.last; level++) {
+        TRY(prepare_level(e, lobe, level, thread_count, error));
+        light->levels[lobe][level] = e->parts.levels[lobe][level];
+    }
+    return FACET_OK;
+}
+
 /* Fills light with the parts that desc needs. */
 static facet_result prepare_parts(facet_environment *e, const ibl_light_desc *desc, ibl_light *light,
                                   facet_error *error)
 {
-    facet_result result = FACET_OK;
-    if (desc->needs_irradiance && e->irradiance_over_pi.texels) {
-        light->irradiance_over_pi = e->irradiance_over_pi;
-    } else if (desc->needs_irradiance) {
-        /* At roughness 1, D is constant and the lobe is the cosine: this is the radiance of a white
-         * Lambertian surface, without the dark far side of a sun that nine harmonics have. */
-        uint32_t lambert = prefilter_level_count(PREFILTER_GGX) - 1;
-        result = prepare_level(e, PREFILTER_GGX, lambert, desc->thread_count, error);
-        if (result != FACET_OK)
-            return result;
-        light->irradiance_over_pi = e->parts.levels[PREFILTER_GGX][lambert];
-    }
+    if (desc->needs_irradiance)
+        TRY(prepare_irradiance(e, desc->thread_count, light, error));
     if (desc->needs_specular && light->ranges[PREFILTER_GGX].first == 0) {
-        result = prepare_image(e, sharp_rows, desc->thread_count, &light->sharp, error);
-        if (result == FACET_OK && light->ranges[PREFILTER_GGX].last > 0)
-            result = prepare_narrow(e, desc->thread_count, light, error);
-        if (result != FACET_OK)
-            return result;
+        TRY(prepare_image(e, sharp_rows, desc->thread_count, &light->sharp, error));
+        if (light->ranges[PREFILTER_GGX].last > 0)
+            TRY(prepare_narrow(e, desc->thread_count, light, error));
     }
-    for (int lobe = 0; lobe < PREFILTER_LOBE_COUNT; lobe++) {
-        ibl_level_range range = light->ranges[lobe];
-        for (uint32_t level = range.first ? range.first : 1; level <= range.last; level++) {
-            result = prepare_level(e, (prefilter_lobe)lobe, level, desc->thread_count, error);
-            if (result != FACET_OK)
-                return result;
-            light->levels[lobe][level] = e->parts.levels[lobe][level];
-        }
-    }
+    for (int lobe = 0; lobe < PREFILTER_LOBE_COUNT; lobe++)
+        TRY(prepare_levels(e, (prefilter_lobe)lobe, desc->thread_count, light, error));
     harmonics_trim(&e->parts.harmonics);
-    /* texels smaller than pixels */
-    if (desc->needs_background)
-        result = prepare_image(e, 3.14159265358979 * desc->background_size, desc->thread_count,
-                               &light->background, error);
-    return result;
+    if (desc->needs_background) /* until texels are smaller than pixels */
+        TRY(prepare_image(e, 3.14159265358979 * desc->background_size, desc->thread_count, &light->background,
+                          error));
+    return FACET_OK;
 }
 
 static float clamp01(float x)

@@ -87,11 +87,11 @@ static facet_result draw_preetham(const facet_sky_desc *sky, const facet_environ
                                   image *panorama, facet_error *error)
 {
     sky_sun_light sun = sky_sun_preetham(sky->turbidity, sky->sun_elevation_rad, sky->sun_azimuth_rad);
-    facet_result result = sky_image_preetham(sky->turbidity, &sun, sky->ground_albedo, &desc->allocator,
-                                             desc->thread_count, panorama, error);
-    if (result == FACET_OK && !sky->omits_disc)
+    TRY(sky_image_preetham(sky->turbidity, &sun, sky->ground_albedo, &desc->allocator, desc->thread_count,
+                           panorama, error));
+    if (!sky->omits_disc)
         sky_sun_draw(&sun, panorama);
-    return result;
+    return FACET_OK;
 }
 
 /* Scales the panorama so that the most illuminated orientation receives the requested illuminance. */
@@ -115,12 +115,11 @@ static facet_result expose(const facet_sky_desc *sky, const facet_environment_de
     double lux = 0.0;
     if (sky->illuminance_lux == 0.0f)
         return FACET_OK;
-    facet_result result = sky_image_illuminance(panorama, sky->sun_azimuth_rad, &desc->allocator,
-                                                desc->thread_count, &lux, error);
+    TRY(sky_image_illuminance(panorama, sky->sun_azimuth_rad, &desc->allocator, desc->thread_count, &lux,
+                              error));
     scaling s = {panorama, (float)((double)sky->illuminance_lux / fmax(lux, darkest_lux))};
-    if (result == FACET_OK)
-        parallel_for(desc->thread_count, panorama->height, 16, scale_rows, &s);
-    return result;
+    parallel_for(desc->thread_count, panorama->height, 16, scale_rows, &s);
+    return FACET_OK;
 }
 
 facet_result facet_environment_create_sky(const facet_sky_desc *sky, const facet_environment_desc *desc,
@@ -130,16 +129,14 @@ facet_result facet_environment_create_sky(const facet_sky_desc *sky, const facet
     static const facet_environment_desc default_desc;
     *environment = NULL;
     desc = desc ? desc : &default_desc;
-    facet_result result = check(sky, desc->max_size ? desc->max_size : DEFAULT_MAX_SIZE, error);
     facet_environment *e = NULL;
-    if (result == FACET_OK)
-        result = environment_create(desc, &e, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(check(sky, desc->max_size ? desc->max_size : DEFAULT_MAX_SIZE, error));
+    TRY(environment_create(desc, &e, error));
     facet_sky_desc s = *sky;
     s.turbidity = s.turbidity != 0.0f ? s.turbidity : default_turbidity;
     s.height = s.height ? s.height : DEFAULT_HEIGHT;
-    result = image_create(&e->allocator, 2 * s.height, s.height, 3, IMAGE_F32, &e->panorama, error);
+    facet_result result =
+        image_create(&e->allocator, 2 * s.height, s.height, 3, IMAGE_F32, &e->panorama, error);
     if (result == FACET_OK)
         result = (s.model == FACET_SKY_MODEL_PREETHAM ? draw_preetham : draw_atmosphere)(&s, desc,
                                                                                          &e->panorama, error);

@@ -266,10 +266,10 @@ facet_result image_decode(const void *bytes, size_t size, const char *name, cons
     if (d.note)
         *d.note = (image_note){0};
     image_codec id;
-    facet_result result = find_codec(bytes, size, name, &id, error);
-    if (result == FACET_OK && d.layer && id != IMAGE_CODEC_EXR)
+    TRY(find_codec(bytes, size, name, &id, error));
+    if (d.layer && id != IMAGE_CODEC_EXR)
         return fail(error, FACET_ERROR_INVALID, "%s: only OpenEXR files have layers (\"%s\")", name, d.layer);
-    return result == FACET_OK ? codecs[id].decode(bytes, size, name, &d, out, error) : result;
+    return codecs[id].decode(bytes, size, name, &d, out, error);
 }
 
 facet_result image_encode(const image *i, image_codec codec_id, const image_encode_desc *desc,

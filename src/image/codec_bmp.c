@@ -128,12 +128,10 @@ facet_result bmp_probe(const unsigned char *bytes, size_t size, const char *name
                        facet_error *error)
 {
     bmp_header h;
-    facet_result result = parse_header(bytes, size, name, &h, error);
-    if (result == FACET_OK)
-        result = check(&h, name, UINT32_MAX, error);
-    if (result == FACET_OK)
-        *header = codec_srgb_header(h.width, h.height, h.channel_count, IMAGE_U8);
-    return result;
+    TRY(parse_header(bytes, size, name, &h, error));
+    TRY(check(&h, name, UINT32_MAX, error));
+    *header = codec_srgb_header(h.width, h.height, h.channel_count, IMAGE_U8);
+    return FACET_OK;
 }
 
 /* ---- texels ---- */

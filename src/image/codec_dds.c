@@ -163,10 +163,9 @@ facet_result dds_probe(const unsigned char *bytes, size_t size, const char *name
                        facet_error *error)
 {
     dds_header h;
-    facet_result result = parse_header(bytes, size, name, UINT32_MAX, &h, error);
-    if (result == FACET_OK)
-        *header = codec_srgb_header(h.width, h.height, h.format.channel_count, IMAGE_U8);
-    return result;
+    TRY(parse_header(bytes, size, name, UINT32_MAX, &h, error));
+    *header = codec_srgb_header(h.width, h.height, h.format.channel_count, IMAGE_U8);
+    return FACET_OK;
 }
 
 /* ---- texels ---- */

@@ -24,11 +24,10 @@ facet_result exr_probe(const unsigned char *bytes, size_t size, const char *name
 {
     exr_info info;
     exr_sizes s;
-    facet_result result = exr_check(bytes, size, name, INT32_MAX, NULL, 0, &info, &s, error);
-    if (result == FACET_OK)
-        *header = (image){
-            .width = s.width, .height = s.height, .channel_count = info.channel_count, .type = IMAGE_F32};
-    return result;
+    TRY(exr_check(bytes, size, name, INT32_MAX, NULL, 0, &info, &s, error));
+    *header =
+        (image){.width = s.width, .height = s.height, .channel_count = info.channel_count, .type = IMAGE_F32};
+    return FACET_OK;
 }
 
 /* ---- reading ---- */

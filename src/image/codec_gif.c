@@ -151,10 +151,9 @@ facet_result gif_probe(const unsigned char *bytes, size_t size, const char *name
                        facet_error *error)
 {
     gif_header h;
-    facet_result result = parse_header(bytes, size, name, UINT32_MAX, &h, error);
-    if (result == FACET_OK)
-        *header = make_header(&h);
-    return result;
+    TRY(parse_header(bytes, size, name, UINT32_MAX, &h, error));
+    *header = make_header(&h);
+    return FACET_OK;
 }
 
 /* ---- LZW with codes of growing length, appendix F ---- */

@@ -169,12 +169,10 @@ facet_result hdr_probe(const unsigned char *bytes, size_t size, const char *name
                        facet_error *error)
 {
     hdr_header h;
-    facet_result result = parse_header(bytes, size, name, &h, error);
-    if (result == FACET_OK)
-        result = codec_check_size(name, h.width, h.height, UINT32_MAX, error);
-    if (result == FACET_OK)
-        *header = (image){.width = h.width, .height = h.height, .channel_count = 3, .type = IMAGE_F32};
-    return result;
+    TRY(parse_header(bytes, size, name, &h, error));
+    TRY(codec_check_size(name, h.width, h.height, UINT32_MAX, error));
+    *header = (image){.width = h.width, .height = h.height, .channel_count = 3, .type = IMAGE_F32};
+    return FACET_OK;
 }
 
 /* ---- scanlines ---- */

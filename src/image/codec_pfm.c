@@ -60,10 +60,9 @@ facet_result pfm_probe(const unsigned char *bytes, size_t size, const char *name
                        facet_error *error)
 {
     pfm_header h;
-    facet_result result = parse_header(bytes, size, name, &h, error);
-    if (result == FACET_OK)
-        *header = (image){.width = h.width, .height = h.height, .channel_count = 3, .type = IMAGE_F32};
-    return result;
+    TRY(parse_header(bytes, size, name, &h, error));
+    *header = (image){.width = h.width, .height = h.height, .channel_count = 3, .type = IMAGE_F32};
+    return FACET_OK;
 }
 
 facet_result pfm_decode(const unsigned char *bytes, size_t size, const char *name,

@@ -108,10 +108,9 @@ facet_result tga_probe(const unsigned char *bytes, size_t size, const char *name
     tga_header h;
     if (!parse_header(bytes, size, &h))
         return fail(error, FACET_ERROR_INVALID, "%s: TGA: the header is damaged", name);
-    facet_result result = check(&h, name, UINT32_MAX, error);
-    if (result == FACET_OK)
-        *header = codec_srgb_header(h.width, h.height, h.channel_count, IMAGE_U8);
-    return result;
+    TRY(check(&h, name, UINT32_MAX, error));
+    *header = codec_srgb_header(h.width, h.height, h.channel_count, IMAGE_U8);
+    return FACET_OK;
 }
 
 /* Converts count words to texels. False: an index is outside of the color map. */

@@ -40,11 +40,10 @@ facet_result webp_probe(const unsigned char *bytes, size_t size, const char *nam
                         facet_error *error)
 {
     WebPBitstreamFeatures features;
-    facet_result result = read_header(bytes, size, name, &features, error);
-    if (result == FACET_OK)
-        *header = codec_srgb_header((uint32_t)features.width, (uint32_t)features.height,
-                                    features.has_alpha ? 4 : 3, IMAGE_U8);
-    return result;
+    TRY(read_header(bytes, size, name, &features, error));
+    *header = codec_srgb_header((uint32_t)features.width, (uint32_t)features.height,
+                                features.has_alpha ? 4 : 3, IMAGE_U8);
+    return FACET_OK;
 }
 
 facet_result webp_decode(const unsigned char *bytes, size_t size, const char *name,

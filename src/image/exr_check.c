@@ -138,12 +138,12 @@ static facet_result check_headers(const unsigned char *bytes, size_t size, const
                     name, version);
     cursor c = {bytes + FIRST_HEADER, bytes + size};
     bool is_empty;
-    facet_result result = check_header(&c, name, &is_empty, error);
-    if (result == FACET_OK && is_empty)
+    TRY(check_header(&c, name, &is_empty, error));
+    if (is_empty)
         return fail(error, FACET_ERROR_INVALID, "%s: OpenEXR: the header is empty", name);
-    while (result == FACET_OK && (version & FLAG_MULTIPART) && !is_empty)
-        result = check_header(&c, name, &is_empty, error);
-    return result;
+    while ((version & FLAG_MULTIPART) && !is_empty)
+        TRY(check_header(&c, name, &is_empty, error));
+    return FACET_OK;
 }
 
 /* ---- sizes ---- */

@@ -266,18 +266,13 @@ facet_result ktx2_open(const void *bytes, size_t size, const char *name, ktx2 *o
         return fail_ktx2(error, name, "the file ends in its header");
     if (image_codec_detect(bytes, size) != IMAGE_CODEC_KTX2)
         return fail_ktx2(error, name, "the identifier of KTX 2.0 files was expected");
-    facet_result result = read_counts(file, &k, error);
-    if (result == FACET_OK)
-        result = read_format(file, &k, error);
-    if (result == FACET_OK)
-        result = read_metadata(file, &k, error);
-    if (result == FACET_OK)
-        result = read_global(file, &k, error);
-    if (result == FACET_OK)
-        result = read_levels(file, &k, error);
-    if (result == FACET_OK)
-        *out = k;
-    return result;
+    TRY(read_counts(file, &k, error));
+    TRY(read_format(file, &k, error));
+    TRY(read_metadata(file, &k, error));
+    TRY(read_global(file, &k, error));
+    TRY(read_levels(file, &k, error));
+    *out = k;
+    return FACET_OK;
 }
 
 /* ---- the codec ---- */
@@ -286,10 +281,9 @@ facet_result ktx2_probe(const unsigned char *bytes, size_t size, const char *nam
                         facet_error *error)
 {
     ktx2 k;
-    facet_result result = ktx2_open(bytes, size, name, &k, error);
-    if (result == FACET_OK)
-        *header = ktx2_header(&k);
-    return result;
+    TRY(ktx2_open(bytes, size, name, &k, error));
+    *header = ktx2_header(&k);
+    return FACET_OK;
 }
 
 /* An edge reduced by 2^k, rounded up as in image_decode_desc. */
@@ -313,10 +307,8 @@ facet_result ktx2_decode_file(const unsigned char *bytes, size_t size, const cha
                               const image_decode_desc *desc, image *out, facet_error *error)
 {
     ktx2 k;
-    facet_result result = ktx2_open(bytes, size, name, &k, error);
-    if (result == FACET_OK) /* of the whole image, also if a smaller level is decoded */
-        result = codec_check_size(name, k.width, k.height, desc->max_size, error);
-    if (result == FACET_OK)
-        result = ktx2_read(&k, choose_level(&k, desc->max_reduction), 0, 0, desc, out, error);
-    return result;
+    TRY(ktx2_open(bytes, size, name, &k, error));
+    /* of the whole image, also if a smaller level is decoded */
+    TRY(codec_check_size(name, k.width, k.height, desc->max_size, error));
+    return ktx2_read(&k, choose_level(&k, desc->max_reduction), 0, 0, desc, out, error);
 }

@@ -217,19 +217,16 @@ static facet_result open_subjects(plot *p, const plot_kind *kind, merl *files[FA
     for (uint32_t i = 0; i < count; i++) {
         plot_subject *subject = &subjects[p->subject_count++];
         *subject = (plot_subject){.number = i};
-        facet_result result = open_material(p, &list[i], &files[i], &subject->material);
-        if (result == FACET_OK && p->desc->has_fit && kind->shows_reflectance) {
-            facet_plot_model to =
-                list[i].model == FACET_PLOT_MODEL_PBR ? FACET_PLOT_MODEL_OGL1 : FACET_PLOT_MODEL_PBR;
-            plot_conversion conversion;
-            result = plot_convert(p, &subject->material, to, true, &conversion);
-            if (result == FACET_OK)
-                plot_report_fit(p, i, &subject->material, &conversion);
-            subjects[p->subject_count++] =
-                (plot_subject){.material = conversion.material, .number = i, .is_fit = true};
-        }
-        if (result != FACET_OK)
-            return result;
+        TRY(open_material(p, &list[i], &files[i], &subject->material));
+        if (!p->desc->has_fit || !kind->shows_reflectance)
+            continue;
+        facet_plot_model to =
+            list[i].model == FACET_PLOT_MODEL_PBR ? FACET_PLOT_MODEL_OGL1 : FACET_PLOT_MODEL_PBR;
+        plot_conversion conversion;
+        TRY(plot_convert(p, &subject->material, to, true, &conversion));
+        plot_report_fit(p, i, &subject->material, &conversion);
+        subjects[p->subject_count++] =
+            (plot_subject){.material = conversion.material, .number = i, .is_fit = true};
     }
     p->has_cosine = p->desc->has_cosine;
     for (uint32_t i = 0; i < p->subject_count; i++)
