@@ -356,6 +356,65 @@ FN float phong_halo(float dissolve, float NdotV)
     return 1.0f - clamp(NdotV, 0.0f, 1.0f) * (1.0f - dissolve);
 }
 
+/* ---- an image and its materials ---- */
+
+/* The same for a whole image. */
+STRUCT(PhongFrame)
+{
+    PhongRules rules;
+    PhongFog fog;
+    bool is_encoded;      /* computed with encoded display values; false: with linear light */
+    bool are_colors_srgb; /* colors of materials are sRGB; false: they are linear */
+    bool has_rgl_colors;  /* vertex colors replace the diffuse color; false: they multiply it */
+};
+
+/* A material, its texture and fog. */
+STRUCT(PhongSurface)
+{
+    PhongMaterial material;
+    float opacity;
+    int texture_type;
+    int texture_mode;
+    /* The texture multiplies all of the light, as by glTexEnv; false: the diffuse color, as in MTL and glTF. */
+    bool has_texture_over_light;
+    bool is_halo;
+    bool has_fog;
+};
+
+/* Maps of a material. */
+#define PHONG_AMBIENT_MAP 0
+#define PHONG_DIFFUSE_MAP 1 /* the texture */
+#define PHONG_SPECULAR_MAP 2
+#define PHONG_EMISSION_MAP 3
+#define PHONG_SHININESS_MAP 4
+#define PHONG_OPACITY_MAP 5
+#define PHONG_NORMAL_MAP 6
+#define PHONG_MAP_COUNT 7
+
+/* From linear light (vertex colors, punctual lights) to the values of the computation, and back. */
+FN vec3 phong_from_linear(PhongFrame f, vec3 linear)
+{
+    return sel(f.is_encoded && f.are_colors_srgb, srgb_from_linear(linear), linear);
+}
+FN vec3 phong_to_linear(PhongFrame f, vec3 computed)
+{
+    return sel(f.is_encoded && f.are_colors_srgb, linear_from_srgb(computed), computed);
+}
+
+/* A punctual light of glTF at one point, L being its direction in eye space: a light of 1 is the irradiance pi. */
+FN PhongLight phong_light_punctual(PhongFrame f, LightSample light, vec3 L)
+{
+    vec3 color = phong_from_linear(f, light.E * INV_PI);
+    return phong_light_directional(L, vec3(0.0f), color, color);
+}
+
+FN PhongLit phong_with_highlight(PhongLit lit)
+{
+    lit.color += lit.highlight;
+    lit.highlight = vec3(0.0f);
+    return lit;
+}
+
 /* ---- the exponent as a microfacet distribution ---- */
 
 /* Width of Beckmann's distribution with the slopes of cos^s: sqrt(2 / (s + 2)). Walter et al. 2007,

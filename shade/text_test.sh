@@ -87,11 +87,13 @@ fi
 
 # ---- the whole ----
 
+compositions="compose/surface_tables.h compose/surface_radiance.h compose/ogl1_light.h compose/ogl1_fragment.h"
+
 if [ "$side" = c ]; then
     for h in $headers; do
         grep -q "$h" "$here/CMakeLists.txt" || fail "CMakeLists.txt does not install $h"
     done
-    for h in $headers compose/surface_tables.h compose/surface_radiance.h; do
+    for h in $headers $compositions; do
         # Some parity case calls every function, so that the parity test compares all of them.
         for f in $(sed -n 's/^FN [A-Za-z0-9]* \([A-Za-z_0-9]*\)(.*/\1/p' "$here/$h"); do
             grep -q "[^A-Za-z_0-9]$f(" "$here"/../tests/parity/*.h || fail "no parity case calls $f() of $h"
@@ -103,7 +105,7 @@ else
     parity=$here/../tests/parity
     cases=$(ls "$parity"/*.h | grep -v -e common.h -e _host.h)
     for version in "300 es" "330 core" "410 core"; do
-        { "$here/glsl.sh" "$version" "$parity/common.h" "$parity"/*_host.h "$here"/compose/surface_*.h $cases
+        { "$here/glsl.sh" "$version" "$parity/common.h" "$parity"/*_host.h $(for c in $compositions; do echo "$here/$c"; done) $cases
           echo 'void main() {}'; } > "$tmp/parity.frag"
         glslangValidator "$tmp/parity.frag" > "$tmp/log" || fail "#version $version"
         pass

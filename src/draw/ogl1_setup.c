@@ -18,6 +18,10 @@ _Static_assert(PHONG_FOG_NONE == (int)LEGACY_FOG_NONE && PHONG_FOG_LINEAR == (in
 
 /* ---- maps ---- */
 
+const legacy_map_slot ogl1_map_slots[PHONG_MAP_COUNT] = {
+    LEGACY_AMBIENT_MAP,   LEGACY_DIFFUSE_MAP, LEGACY_SPECULAR_MAP, LEGACY_EMISSION_MAP,
+    LEGACY_SHININESS_MAP, LEGACY_OPACITY_MAP, LEGACY_NORMAL_MAP};
+
 #define BIT(slot) (1u << (slot))
 
 static const uint32_t OPACITY_MAPS = BIT(LEGACY_DIFFUSE_MAP) | BIT(LEGACY_OPACITY_MAP);
@@ -107,7 +111,7 @@ facet_result ogl1_check(const facet_scene *scene, const facet_render_desc *desc,
 static vec3 computed(const ogl1_setup *s, const float color[3])
 {
     vec3 c = load3(color);
-    return !s->is_encoded && s->are_colors_srgb ? linear_from_srgb(c) : c;
+    return !s->frame.is_encoded && s->frame.are_colors_srgb ? linear_from_srgb(c) : c;
 }
 
 /* A color with a map: an unspecified one counts as 1, so that the map is visible; so does a black diffuse
@@ -122,17 +126,22 @@ static vec3 color_beside_map(const ogl1_setup *s, const legacy_material *m, lega
 
 static ogl1_material make_material(const ogl1_setup *s, const legacy_material *m)
 {
-    ogl1_material out = {.legacy = m};
+    ogl1_material out = {.legacy = m,
+                         .surface = {.opacity = m->opacity,
+                                     .texture_type = (int)m->texture_type,
+                                     .texture_mode = (int)m->texture_mode,
+                                     .is_halo = m->is_halo,
+                                     .has_fog = m->has_fog}};
     bool has_mode = m->texture_mode != LEGACY_MODULATE;
-    out.has_texture_over_light =
-        s->has_rgl_colors || has_mode || s->rules.is_lit_at_vertices || m->has_environment_map;
-    out.phong.ambient = color_beside_map(s, m, LEGACY_AMBIENT_MAP, LEGACY_AMBIENT, m->ambient);
-    out.phong.diffuse = s->has_rgl_colors
-                            ? computed(s, m->diffuse)
-                            : color_beside_map(s, m, LEGACY_DIFFUSE_MAP, LEGACY_DIFFUSE, m->diffuse);
-    out.phong.specular = color_beside_map(s, m, LEGACY_SPECULAR_MAP, LEGACY_SPECULAR, m->specular);
-    out.phong.emission = color_beside_map(s, m, LEGACY_EMISSION_MAP, LEGACY_EMISSION, m->emission);
-    out.phong.shininess = max(m->shininess, 0.0f);
+    out.surface.has_texture_over_light =
+        s->frame.has_rgl_colors || has_mode || s->frame.rules.is_lit_at_vertices || m->has_environment_map;
+    out.surface.material.ambient = color_beside_map(s, m, LEGACY_AMBIENT_MAP, LEGACY_AMBIENT, m->ambient);
+    out.surface.material.diffuse =
+        s->frame.has_rgl_colors ? computed(s, m->diffuse)
+                                : color_beside_map(s, m, LEGACY_DIFFUSE_MAP, LEGACY_DIFFUSE, m->diffuse);
+    out.surface.material.specular = color_beside_map(s, m, LEGACY_SPECULAR_MAP, LEGACY_SPECULAR, m->specular);
+    out.surface.material.emission = color_beside_map(s, m, LEGACY_EMISSION_MAP, LEGACY_EMISSION, m->emission);
+    out.surface.material.shininess = max(m->shininess, 0.0f);
     return out;
 }
 
@@ -152,7 +161,7 @@ static void set_view(ogl1_setup *s, const camera_rays *camera)
 /* origin: the scene's, as light positions are in the file's coordinates. */
 static PhongLight make_light(const ogl1_setup *s, const legacy_light *l, const double origin[3])
 {
-    float w = l->is_point ? 1.0f : s->rules.direction_w;
+    float w = l->is_point ? 1.0f : s->frame.rules.direction_w;
     vec3 position = load3(l->position);
     for (int k = 0; k < 3 && l->is_point && !l->is_viewpoint_relative; k++)
         position[k] = (float)((double)l->position[k] - origin[k]);
@@ -171,8 +180,8 @@ static PhongLight make_light(const ogl1_setup *s, const legacy_light *l, const d
 static legacy_light fallback_light(const ogl1_setup *s)
 {
     legacy_light light = legacy_light_default();
-    float ambient = max3(s->rules.global_ambient) > 0.0f ? 0.0f : 0.2f;
-    for (int c = 0; c < 3 && !s->has_rgl_colors; c++)
+    float ambient = max3(s->frame.rules.global_ambient) > 0.0f ? 0.0f : 0.2f;
+    for (int c = 0; c < 3 && !s->frame.has_rgl_colors; c++)
         light.ambient[c] = ambient;
     return light;
 }
@@ -233,16 +242,16 @@ facet_result ogl1_setup_create(const ogl1_source *source, const camera_rays *cam
 {
     const facet_scene *scene = source->scene;
     const scene_legacy *legacy = scene->legacy;
-    *out = (ogl1_setup){.rules = phong_rules((int)desc->ogl1.variant),
-                        .is_encoded = !desc->ogl1.is_linear,
-                        .are_colors_srgb = legacy->colors != FACET_LEGACY_COLORS_LINEAR,
-                        .has_rgl_colors = legacy->is_rgl};
+    *out = (ogl1_setup){.frame = {.rules = phong_rules((int)desc->ogl1.variant),
+                                  .is_encoded = !desc->ogl1.is_linear,
+                                  .are_colors_srgb = legacy->colors != FACET_LEGACY_COLORS_LINEAR,
+                                  .has_rgl_colors = legacy->is_rgl}};
     if (!desc->ogl1.translates_directions)
-        out->rules.direction_w = 0.0f;
-    if (!out->is_encoded && out->are_colors_srgb)
-        out->rules.global_ambient = linear_from_srgb(out->rules.global_ambient);
+        out->frame.rules.direction_w = 0.0f;
+    if (!out->frame.is_encoded && out->frame.are_colors_srgb)
+        out->frame.rules.global_ambient = linear_from_srgb(out->frame.rules.global_ambient);
     set_view(out, camera);
-    out->fog = make_fog(out, &legacy->fog, source->pose, camera, desc);
+    out->frame.fog = make_fog(out, &legacy->fog, source->pose, camera, desc);
     size_t count = (size_t)scene->material_count + 1;
     out->materials = mem_alloc(&desc->allocator, count, sizeof *out->materials);
     if (!out->materials)

@@ -11,22 +11,15 @@
 /* A legacy material in the values of the computation. */
 typedef struct ogl1_material {
     const legacy_material *legacy;
-    PhongMaterial phong;
-    /* The diffuse map is multiplied with all of the light, as by glTexEnv; false: it multiplies the
-     * diffuse color, as in MTL and glTF. */
-    bool has_texture_over_light;
+    PhongSurface surface;
 } ogl1_material;
 
 typedef struct ogl1_setup {
-    PhongRules rules;
-    bool is_encoded;      /* computed with encoded display values; false: with linear light */
-    bool are_colors_srgb; /* colors of legacy materials are sRGB; false: they are linear */
-    bool has_rgl_colors;  /* scene_legacy.is_rgl */
-    mat3 view;            /* world to eye space: view p + translation */
+    PhongFrame frame;
+    mat3 view; /* world to eye space: view p + translation */
     vec3 translation;
     uint32_t light_count; /* 0: those of the light_setup are used */
     PhongLight *lights;
-    PhongFog fog;
     ogl1_material *materials; /* by render_geometry.material_id */
 } ogl1_setup;
 
@@ -48,22 +41,16 @@ void ogl1_setup_destroy(ogl1_setup *setup); /* {0} is allowed */
 /* Whether desc can be drawn with the scene's legacy materials; FACET_ERROR_ARGUMENT says why not. */
 facet_result ogl1_check(const facet_scene *scene, const facet_render_desc *desc, facet_error *error);
 
-/* From linear light (vertex colors, punctual lights) to the values of the computation, and back. */
-static inline vec3 ogl1_from_linear(const ogl1_setup *s, vec3 linear)
-{
-    return s->is_encoded && s->are_colors_srgb ? srgb_from_linear(linear) : linear;
-}
-static inline vec3 ogl1_to_linear(const ogl1_setup *s, vec3 computed)
-{
-    return s->is_encoded && s->are_colors_srgb ? linear_from_srgb(computed) : computed;
-}
 /* From the image's values to light: encoded ones as a display shows them. */
 static inline vec3 ogl1_displayed(const ogl1_setup *s, vec3 computed)
 {
-    return s->is_encoded ? linear_from_srgb(clamp(computed, 0.0f, 1.0f)) : computed;
+    return s->frame.is_encoded ? linear_from_srgb(clamp(computed, 0.0f, 1.0f)) : computed;
 }
 
 /* ---- maps: which textures of a legacy material are read, and what they contain ---- */
+
+/* The slot of each PHONG_*_MAP. */
+extern const legacy_map_slot ogl1_map_slots[PHONG_MAP_COUNT];
 
 /* Bits of legacy_map_slot that shading of a geometry with a legacy material reads, with or without tangents.
  * Pipelines with lighting at vertices have textures of color and opacity only. */

@@ -12,18 +12,22 @@
 #include "shade/lang/lang_c_begin.h"
 
 #include "common.h"
+#include "ogl1_host.h"
 #include "surface_host.h"
 
 #include "shade/lang/lang_c_end.h"
 
 #include "shade/compose/surface_tables.h"
 #include "shade/compose/surface_radiance.h"
+#include "shade/compose/ogl1_light.h"
+#include "shade/compose/ogl1_fragment.h"
 
 #include "shade/lang/lang_c_begin.h"
 
 #include "layers.h"
 #include "light.h"
 #include "phong.h"
+#include "ogl1.h"
 #include "sky.h"
 #include "surface.h"
 #include "surface_radiance.h"

@@ -35,13 +35,9 @@ typedef struct phong_material_block {
     float specular[3], texture_type;
     float emission[3], texture_mode;
     float has_texture_over_light, is_halo, has_fog, bump_multiplier;
-    float maps[GL_PHONG_MAP_COUNT][3]
+    float maps[PHONG_MAP_COUNT][3]
               [4]; /* rows of the transform, w: set, 1 for trilinear; base, gain, channel */
 } phong_material_block;
-
-static const legacy_map_slot phong_slots[GL_PHONG_MAP_COUNT] = {
-    LEGACY_AMBIENT_MAP,   LEGACY_DIFFUSE_MAP, LEGACY_SPECULAR_MAP, LEGACY_EMISSION_MAP,
-    LEGACY_SHININESS_MAP, LEGACY_OPACITY_MAP, LEGACY_NORMAL_MAP};
 
 static void store3(vec3 v, float out[3])
 {
@@ -61,17 +57,17 @@ static void fill_frame(const ogl1_setup *s, const camera_rays *camera, facet_ogl
         b->view[axis][3] = camera->origin[axis];
     }
     b->variant = (int32_t)variant;
-    b->is_encoded = s->is_encoded;
-    b->are_colors_srgb = s->are_colors_srgb;
+    b->is_encoded = s->frame.is_encoded;
+    b->are_colors_srgb = s->frame.are_colors_srgb;
     b->light_count = (int32_t)s->light_count;
-    store3(s->rules.global_ambient, b->global_ambient);
-    b->has_rgl_colors = s->has_rgl_colors ? 1.0f : 0.0f;
-    store3(s->fog.color, b->fog_color);
-    b->fog_mode = (float)s->fog.mode;
-    b->fog_near = s->fog.near_m;
-    b->fog_far = s->fog.far_m;
-    b->fog_scale = s->fog.scale;
-    b->fog_w = s->fog.w;
+    store3(s->frame.rules.global_ambient, b->global_ambient);
+    b->has_rgl_colors = s->frame.has_rgl_colors ? 1.0f : 0.0f;
+    store3(s->frame.fog.color, b->fog_color);
+    b->fog_mode = (float)s->frame.fog.mode;
+    b->fog_near = s->frame.fog.near_m;
+    b->fog_far = s->frame.fog.far_m;
+    b->fog_scale = s->frame.fog.scale;
+    b->fog_w = s->frame.fog.w;
     for (uint32_t i = 0; i < s->light_count; i++) {
         store3(s->lights[i].position, b->lights[i][0]);
         b->lights[i][0][3] = s->lights[i].is_point ? 1.0f : 0.0f;
@@ -111,20 +107,20 @@ static void fill_material(const facet_scene *scene, const ogl1_material *m, phon
 {
     const legacy_material *l = m->legacy;
     memset(b, 0, sizeof *b);
-    store3(m->phong.ambient, b->ambient);
-    b->shininess = m->phong.shininess;
-    store3(m->phong.diffuse, b->diffuse);
+    store3(m->surface.material.ambient, b->ambient);
+    b->shininess = m->surface.material.shininess;
+    store3(m->surface.material.diffuse, b->diffuse);
     b->opacity = l->opacity;
-    store3(m->phong.specular, b->specular);
+    store3(m->surface.material.specular, b->specular);
     b->texture_type = (float)l->texture_type;
-    store3(m->phong.emission, b->emission);
+    store3(m->surface.material.emission, b->emission);
     b->texture_mode = (float)l->texture_mode;
-    b->has_texture_over_light = m->has_texture_over_light ? 1.0f : 0.0f;
+    b->has_texture_over_light = m->surface.has_texture_over_light ? 1.0f : 0.0f;
     b->is_halo = l->is_halo ? 1.0f : 0.0f;
     b->has_fog = l->has_fog ? 1.0f : 0.0f;
     b->bump_multiplier = l->maps[LEGACY_NORMAL_MAP].bump_multiplier;
-    for (int i = 0; i < GL_PHONG_MAP_COUNT; i++)
-        fill_map(scene, &l->maps[phong_slots[i]], b->maps[i]);
+    for (int i = 0; i < PHONG_MAP_COUNT; i++)
+        fill_map(scene, &l->maps[ogl1_map_slots[i]], b->maps[i]);
 }
 
 /* ---- the set ---- */
@@ -202,15 +198,15 @@ static uint32_t maps_of(const gl_phong *p, const gl_batch *batch)
 
 static bool is_color(const gl_phong *p, const gl_batch *batch, int map)
 {
-    return ogl1_map_is_color(batch->geometry->legacy, phong_slots[map], p->desc.is_linear);
+    return ogl1_map_is_color(batch->geometry->legacy, ogl1_map_slots[map], p->desc.is_linear);
 }
 
 static void add_uses(gl_phong *p, const gl_batch *batch)
 {
     uint32_t maps = maps_of(p, batch);
-    for (int i = 0; i < GL_PHONG_MAP_COUNT; i++) {
-        uint32_t texture = batch->geometry->legacy->maps[phong_slots[i]].ref.texture;
-        if (!(maps >> phong_slots[i] & 1) || texture >= p->scene->texture_count)
+    for (int i = 0; i < PHONG_MAP_COUNT; i++) {
+        uint32_t texture = batch->geometry->legacy->maps[ogl1_map_slots[i]].ref.texture;
+        if (!(maps >> ogl1_map_slots[i] & 1) || texture >= p->scene->texture_count)
             continue;
         if (is_color(p, batch, i))
             p->uses[texture].is_read_as_color = true;
@@ -292,8 +288,8 @@ uint64_t gl_phong_features(const gl_phong *p, const gl_batch *batch)
     const render_geometry *g = batch->geometry;
     uint32_t maps = maps_of(p, batch);
     uint64_t features = g->tangents ? GL_SURFACE_HAS_TANGENTS : 0;
-    for (int i = 0; i < GL_PHONG_MAP_COUNT; i++)
-        if (maps >> phong_slots[i] & 1)
+    for (int i = 0; i < PHONG_MAP_COUNT; i++)
+        if (maps >> ogl1_map_slots[i] & 1)
             features |= 1ull << (GL_SURFACE_TEXTURES + i);
     if (maps >> LEGACY_DIFFUSE_MAP & 1 && ogl1_map_is_spherical(g->legacy, LEGACY_DIFFUSE_MAP))
         features |= 1ull << GL_PHONG_IS_SPHERE_MAP;
@@ -314,10 +310,10 @@ void gl_phong_bind(const gl_phong *p, const gl_batch *batch)
 {
     const render_geometry *g = batch->geometry;
     uint32_t maps = maps_of(p, batch);
-    for (int i = 0; i < GL_PHONG_MAP_COUNT; i++) {
-        if (!(maps >> phong_slots[i] & 1))
+    for (int i = 0; i < PHONG_MAP_COUNT; i++) {
+        if (!(maps >> ogl1_map_slots[i] & 1))
             continue;
-        uint32_t texture = g->legacy->maps[phong_slots[i]].ref.texture;
+        uint32_t texture = g->legacy->maps[ogl1_map_slots[i]].ref.texture;
         uint32_t name = gl_texture_name(p->textures, texture, is_color(p, batch, i));
         GLuint unit = (GLuint)GL_UNIT_MATERIAL + (GLuint)i;
         glActiveTexture(GL_TEXTURE0 + unit);

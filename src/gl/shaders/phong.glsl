@@ -1,5 +1,5 @@
-/* phong.glsl - what OpenGL 1's shading needs of an image and of a material (gl_phong.c), and light at a point. The
- * eye space is that of shade/phong.h; values are those of the computation, encoded ones or linear light. */
+/* phong.glsl - image and material of OpenGL 1 (gl_phong.c), and the host of shade/compose/ogl1_light.h in both stages.
+ * The eye space is that of shade/phong.h; values are those of the computation, encoded ones or linear light. */
 layout(std140) uniform Ogl1
 {
     vec4 ogl1_view[3];     /* rows: world to eye space, of the eye at w, m, for all views of an image */
@@ -23,29 +23,51 @@ layout(std140) uniform Material
     vec4 phong_maps[21];
 };
 
-bool is_encoded()
+PhongFrame phong_frame()
 {
-    return ogl1_modes.y != 0;
+    PhongFrame f;
+    f.rules = phong_rules(ogl1_modes.x);
+    f.rules.global_ambient = ogl1_ambient.xyz;
+    f.fog.mode = int(ogl1_fog_color.w);
+    f.fog.color = ogl1_fog_color.xyz;
+    f.fog.near_m = ogl1_fog.x;
+    f.fog.far_m = ogl1_fog.y;
+    f.fog.scale = ogl1_fog.z;
+    f.fog.w = ogl1_fog.w;
+    f.is_encoded = ogl1_modes.y != 0;
+    f.are_colors_srgb = ogl1_modes.z != 0;
+    f.has_rgl_colors = ogl1_ambient.w > 0.0;
+    return f;
 }
 
-vec3 ogl1_from_linear(vec3 linear)
+PhongSurface phong_surface()
 {
-    return is_encoded() && ogl1_modes.z != 0 ? srgb_from_linear(linear) : linear;
+    PhongSurface s;
+    s.material.ambient = phong_ambient.xyz;
+    s.material.diffuse = phong_diffuse.xyz;
+    s.material.specular = phong_specular.xyz;
+    s.material.emission = phong_emission.xyz;
+    s.material.shininess = phong_ambient.w;
+    s.opacity = phong_diffuse.w;
+    s.texture_type = int(phong_specular.w);
+    s.texture_mode = int(phong_emission.w);
+    s.has_texture_over_light = phong_flags.x > 0.0;
+    s.is_halo = phong_flags.y > 0.0;
+    s.has_fog = phong_flags.z > 0.0;
+    return s;
 }
 
-vec3 ogl1_to_linear(vec3 computed)
-{
-    return is_encoded() && ogl1_modes.z != 0 ? linear_from_srgb(computed) : computed;
-}
+/* ---- a point ---- */
 
-PhongRules ogl1_rules()
+struct Ogl1Host
 {
-    PhongRules r = phong_rules(ogl1_modes.x);
-    r.global_ambient = ogl1_ambient.xyz;
-    return r;
-}
-
-/* ---- places ---- */
+    vec3 P;
+    vec3 V;
+    bool is_front;
+    vec3 position; /* m, relative to the eye, world directions */
+    vec3 N;        /* host_normal() */
+    vec4 color;    /* of a vertex or interpolated, in the values of the computation */
+};
 
 /* A direction in eye space. */
 vec3 to_eye_space(vec3 v)
@@ -59,95 +81,105 @@ vec3 point_in_eye_space(vec3 at)
     return to_eye_space(at + (eye.xyz - vec3(ogl1_view[0].w, ogl1_view[1].w, ogl1_view[2].w)));
 }
 
-vec3 view_in_eye_space(vec3 P)
+Ogl1Host ogl1_host(vec3 position, vec3 N, vec4 color, bool is_front)
 {
     vec3 axis = vec3(0.0, 0.0, 1.0);
-    return eye.w > 0.5 ? axis : normalize_or(-P, axis);
+    vec3 P = point_in_eye_space(position);
+    vec3 V = eye.w > 0.5 ? axis : normalize_or(-P, axis);
+    return Ogl1Host(P, V, is_front, position, N, color);
 }
 
-/* ---- colors ---- */
-
-PhongMaterial phong_material(vec3 diffuse)
+vec3 host_P(Ogl1Host host)
 {
-    PhongMaterial m;
-    m.ambient = phong_ambient.xyz;
-    m.diffuse = diffuse;
-    m.specular = phong_specular.xyz;
-    m.emission = phong_emission.xyz;
-    m.shininess = phong_ambient.w;
-    return m;
+    return host.P;
 }
 
-/* Diffuse color and opacity before any map; color: of a vertex or interpolated, in the values of the computation. */
-PhongColor phong_color(vec4 color)
+vec3 host_V(Ogl1Host host)
 {
-    PhongColor c;
-    c.rgb = phong_diffuse.xyz;
-    c.opacity = phong_diffuse.w;
+    return host.V;
+}
+
+bool host_is_front(Ogl1Host host)
+{
+    return host.is_front;
+}
+
+PhongFrame host_frame(Ogl1Host host)
+{
+    return phong_frame();
+}
+
+PhongSurface host_surface(Ogl1Host host)
+{
+    return phong_surface();
+}
+
+vec3 host_normal(Ogl1Host host)
+{
+    return host.N;
+}
+
+bool host_has_vertex_colors(Ogl1Host host)
+{
 #ifdef HAS_COLORS
-    c.rgb = ogl1_ambient.w > 0.0 ? color.xyz : c.rgb * color.xyz;
-    c.opacity *= color.w;
+    return true;
+#else
+    return false;
 #endif
-    return c;
+}
+
+PhongColor host_vertex_color(Ogl1Host host)
+{
+    return PhongColor(host.color.xyz, host.color.w);
 }
 
 /* ---- light ---- */
 
-PhongLight ogl1_light(int i)
+/* Legacy lights; if there are none, punctual ones. */
+struct Ogl1Cursor
 {
-    vec4 position = ogl1_lights[4 * i];
-    vec3 diffuse = ogl1_lights[4 * i + 2].xyz;
-    vec3 specular = ogl1_lights[4 * i + 3].xyz;
-    if (position.w > 0.0)
-        return phong_light_point(position.xyz, ogl1_lights[4 * i + 1].xyz, diffuse, specular);
-    return phong_light_directional(position.xyz, ogl1_lights[4 * i + 1].xyz, diffuse, specular);
-}
+    int light;
+    int count;
+    bool has_light;
+};
 
+Ogl1Cursor host_first_ogl1_light(Ogl1Host host)
+{
+    int count = ogl1_modes.w;
 #ifdef HAS_LIGHTS
-/* A punctual light of glTF as a light that shines on this point only: legacy light 1 is the irradiance pi. */
-PhongLight ogl1_punctual(Light light, vec3 P)
-{
-    LightSample l = light_illuminate(light, P);
-    vec3 color = ogl1_from_linear(l.E * INV_PI);
-    return phong_light_directional(to_eye_space(l.L), vec3(0.0), color, color);
-}
+    if (count == 0)
+        count = light_count(host.position);
 #endif
+    return Ogl1Cursor(0, count, count > 0);
+}
 
-/* at: the point relative to the eye in world directions. N: as in the mesh, in eye space. */
-PhongLit light_at_point(PhongMaterial m, vec3 at, vec3 N, bool is_front)
+Ogl1Cursor host_next_ogl1_light(Ogl1Host host, Ogl1Cursor c)
 {
-    PhongRules r = ogl1_rules();
-    vec3 P = point_in_eye_space(at);
-    vec3 V = view_in_eye_space(P);
-    vec3 lit_N = phong_normal(r, N, V, is_front);
-    PhongLit lit = phong_unlit_part(r, m);
-    for (int i = 0; i < ogl1_modes.w; i++)
-        lit = phong_add(lit, phong_light_part(r, m, ogl1_light(i), P, lit_N, V));
+    return Ogl1Cursor(c.light + 1, c.count, c.light + 1 < c.count);
+}
+
+PhongLight host_ogl1_light(Ogl1Host host, Ogl1Cursor c)
+{
 #ifdef HAS_LIGHTS
-    int count = ogl1_modes.w > 0 ? 0 : light_count(at);
-    for (int i = 0; i < count; i++)
-        lit = phong_add(lit, phong_light_part(r, m, ogl1_punctual(light_at(i), at), P, lit_N, V));
-#endif
-    return lit;
-}
-
-PhongLit with_highlight(PhongLit lit)
-{
-    lit.color += lit.highlight;
-    lit.highlight = vec3(0.0);
-    return lit;
-}
-
-/* At a corner, before interpolation: clamped to the range of a color register. */
-PhongLit light_at_corner(vec4 color, vec3 at, vec3 N, bool is_front)
-{
-    PhongLit lit = light_at_point(phong_material(phong_color(color).rgb), at, N, is_front);
-#ifndef HAS_DIFFUSE_MAP
-    lit = with_highlight(lit);
-#endif
-    if (is_encoded()) {
-        lit.color = clamp(lit.color, 0.0, 1.0);
-        lit.highlight = clamp(lit.highlight, 0.0, 1.0);
+    if (ogl1_modes.w == 0) {
+        LightSample light = light_illuminate(light_at(c.light), host.position);
+        return phong_light_punctual(host_frame(host), light, to_eye_space(light.L));
     }
-    return lit;
+#endif
+    vec4 position = ogl1_lights[4 * c.light];
+    vec3 ambient = ogl1_lights[4 * c.light + 1].xyz;
+    vec3 diffuse = ogl1_lights[4 * c.light + 2].xyz;
+    vec3 specular = ogl1_lights[4 * c.light + 3].xyz;
+    if (position.w > 0.0)
+        return phong_light_point(position.xyz, ambient, diffuse, specular);
+    return phong_light_directional(position.xyz, ambient, diffuse, specular);
+}
+
+bool host_separates_highlight(Ogl1Host host)
+{
+#ifdef HAS_DIFFUSE_MAP
+    return true;
+#else
+    return false;
+#endif
 }

@@ -64,15 +64,15 @@ out vec3 v_back_highlight;
 
 void light_vertex(inout vec4 color, vec3 at, vec3 normal)
 {
-    color.xyz = ogl1_from_linear(color.xyz);
+    color.xyz = phong_from_linear(phong_frame(), color.xyz);
 #ifdef IS_AT_VERTICES
 #ifdef IS_FLAT
     v_corner = at;
     v_corner_color = color;
 #else
     vec3 N = normalize_or(to_eye_space(normal), vec3(0.0, 0.0, 1.0));
-    PhongLit front = light_at_corner(color, at, N, true);
-    PhongLit back = light_at_corner(color, at, N, false);
+    PhongLit front = ogl1_light_at_corner(ogl1_host(at, N, color, true));
+    PhongLit back = ogl1_light_at_corner(ogl1_host(at, N, color, false));
     v_front = front.color;
     v_front_highlight = front.highlight;
     v_back = back.color;
