@@ -12,7 +12,6 @@
 #include <math.h>
 
 #include "ocean/water_optics.h"
-#include "ocean/water_spectrum.h"
 
 static void expect_near(double value, double expected, double tolerance, const char *what, double of,
                         int channel)

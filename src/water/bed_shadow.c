@@ -310,7 +310,7 @@ static bool is_worth_it(const water_setup *s, float depth)
     return max(max(left[0], left[1]), left[2]) > MIN_SEEN;
 }
 
-facet_result bed_shadow_of_picture(const struct water_setup *s, bed_shadow *out, facet_error *error)
+facet_result bed_shadow_of_image(const struct water_setup *s, bed_shadow *out, facet_error *error)
 {
     *out = (bed_shadow){.is_there = false};
     if (!s->model.is_there || !water_has_bed(s) || s->desc->sea_shading.style != FACET_SEA_STYLE_PHYSICAL)

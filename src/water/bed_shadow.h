@@ -25,7 +25,7 @@ typedef struct bed_shadow {
 
 /* Computes the shadow of the image's model; empty without a model, without a bed, or where no light returns
  * from the bed. FACET_ERROR_MEMORY. */
-facet_result bed_shadow_of_picture(const struct water_setup *s, bed_shadow *out, facet_error *error);
+facet_result bed_shadow_of_image(const struct water_setup *s, bed_shadow *out, facet_error *error);
 void bed_shadow_destroy(bed_shadow *b); /* {0} is allowed */
 
 /* Rectangle in X, Z (m) of the beam's shadow on a bed `depth` m below the surface; on the surface it is at

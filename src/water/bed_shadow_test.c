@@ -7,7 +7,7 @@
 #include "water/water_fixture.h"
 
 #include "cpu/preview_fixture.h"
-#include "water/caustic_plan.h"
+#include "water/water_caustics.h"
 #include "water/water_caustics.h"
 #include "water/water_shade.h"
 

@@ -1,10 +1,10 @@
-/* caustic_plan.c - see caustic_plan.h. Rays through the whole image, even if only a crop is rendered, find
+/* caustic_plan.c - caustic_map_of_image() of water_caustics.h: the layers of an image. Rays through the whole image, even if only a crop is rendered, find
  * the visible part of the bed, and below still water the part that a model may shade. */
 #include <math.h>
 #include <stdlib.h>
 
-#include "water/caustic_plan.h"
 #include "water/water_caustics.h"
+#include "water/water_setup.h"
 
 enum { RAYS = 24, MAX_SEEN = RAYS * RAYS };
 
@@ -252,7 +252,7 @@ static void begin(view *v, const water_setup *s)
     look_around(v);
 }
 
-facet_result caustic_map_of_picture(const water_setup *s, caustic_map *map, facet_error *error)
+facet_result caustic_map_of_image(const water_setup *s, caustic_map *map, facet_error *error)
 {
     *map = (caustic_map){.is_there = false};
     if (!has_caustics(s))

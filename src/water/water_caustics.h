@@ -9,6 +9,17 @@
 
 #include "shade/shade.h"
 
+struct water_setup;
+
+/* Makes the caustics of an image, from the light, camera and waves in s: layers centered on the nearest
+ * visible part of the bed, as fine as pixels are, and no finer than light is focused (caustic_plan.c). The
+ * map is empty without a bed or a sun, on still water without a model's shadow in view, where too little
+ * focused light would reach the eye, or where the shading omits caustics. FACET_ERROR_MEMORY; *map is to be
+ * destroyed, even then. */
+facet_result caustic_map_of_image(const struct water_setup *s, caustic_map *map, facet_error *error);
+
+/* ---- one map ---- */
+
 /* The scene that rays pass through. */
 typedef struct caustic_source {
     const waves *waves;

@@ -6,7 +6,9 @@
 #include <string.h>
 
 #include "base/parallel.h"
+#include "base/result.h"
 #include "water/water_mesh.h"
+#include "water/water_objects.h"
 #include "water/water_place.h"
 
 /* The footprint is twice the vertex spacing: the surface between vertices is nearly linear then. */
@@ -429,4 +431,40 @@ bool water_mesh_lattice_create(const water_setup *s, uint32_t most, arena *memor
     fill_steps(l->azimuths, l->column_count, l->column_steps);
     fill_steps(l->radii, l->row_count, l->row_steps);
     return true;
+}
+
+/* ---- triangles beside a model ---- */
+
+/* 70 bytes each with their two triangles, and about as much again for the BVH. */
+enum { MAX_VERTICES = 2000000 };
+
+static bool fill(const water_setup *s, facet_scene *scene, const facet_scene *with, render_watch *watch)
+{
+    scene_primitive water, bed;
+    water_mesh_lattice l;
+    bool has_bed = water_has_bed(s);
+    return water_mesh_lattice_create(s, MAX_VERTICES, scene->arena, &l) &&
+           water_mesh_surface(s, &l, watch, scene->arena, &water) &&
+           (!has_bed || water_mesh_bed(s, &l, scene->arena, &bed)) &&
+           water_objects_add(with, s->sea, &water, has_bed ? &bed : NULL, scene);
+}
+
+facet_result water_mesh_scene(const water_setup *s, const facet_scene *with, double deadline_s,
+                              facet_scene **out, facet_error *error)
+{
+    *out = NULL;
+    render_watch watch;
+    render_watch_init(&watch, &s->desc->progress, "prepare", deadline_s, 1.0);
+    facet_scene *scene;
+    facet_result result = scene_create(&s->desc->allocator, "sea", &scene, error);
+    if (result != FACET_OK)
+        return result;
+    result = fill(s, scene, with, &watch)
+                 ? render_watch_explain(&watch, error)
+                 : fail_memory(error, "triangles of a sea", (size_t)MAX_VERTICES * 70);
+    if (result == FACET_OK)
+        *out = scene;
+    else
+        scene_destroy(scene);
+    return result;
 }

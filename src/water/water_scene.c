@@ -1,4 +1,4 @@
-/* water_scene.c - see water_scene.h and water_mesh_scene() of water_mesh.h. */
+/* water_scene.c - see water_scene.h. */
 #include "water/water_scene.h"
 
 #include <math.h>
@@ -8,46 +8,7 @@
 #include "base/result.h"
 
 #include "water/water_mesh.h"
-#include "water/water_objects.h"
 #include "water/water_path.h"
-
-/* ---- triangles beside a model ---- */
-
-/* 70 bytes each with their two triangles, and about as much again for the BVH. */
-enum { MAX_VERTICES = 2000000 };
-
-static bool fill(const water_setup *s, facet_scene *scene, const facet_scene *with, render_watch *watch)
-{
-    scene_primitive surface, bed;
-    water_mesh_lattice l;
-    bool has_bed = water_has_bed(s);
-    return water_mesh_lattice_create(s, MAX_VERTICES, scene->arena, &l) &&
-           water_mesh_surface(s, &l, watch, scene->arena, &surface) &&
-           (!has_bed || water_mesh_bed(s, &l, scene->arena, &bed)) &&
-           water_objects_add(with, s->sea, &surface, has_bed ? &bed : NULL, scene);
-}
-
-facet_result water_mesh_scene(const water_setup *s, const facet_scene *with, double deadline_s,
-                              facet_scene **out, facet_error *error)
-{
-    *out = NULL;
-    render_watch watch;
-    render_watch_init(&watch, &s->desc->progress, "prepare", deadline_s, 1.0);
-    facet_scene *scene;
-    facet_result result = scene_create(&s->desc->allocator, "sea", &scene, error);
-    if (result != FACET_OK)
-        return result;
-    result = fill(s, scene, with, &watch)
-                 ? render_watch_explain(&watch, error)
-                 : fail_memory(error, "triangles of a sea", (size_t)MAX_VERTICES * 70);
-    if (result == FACET_OK)
-        *out = scene;
-    else
-        scene_destroy(scene);
-    return result;
-}
-
-/* ---- for the path tracer ---- */
 
 struct water_scene {
     water_setup setup;

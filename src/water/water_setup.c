@@ -3,13 +3,16 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/parallel.h"
 #include "base/result.h"
 #include "cpu/shading_hit.h"
+#include "ibl/environment.h"
+#include "ibl/equirect.h"
 
-#include "water/caustic_plan.h"
-#include "water/water_around.h"
+#include "water/water_caustics.h"
 #include "water/water_objects.h"
 #include "water/water_render.h"
+#include "water/water_shade.h"
 
 _Static_assert(FACET_SEA_MASKING_SCALES == WATER_SCALES && FACET_SEA_MASKING_SMITH == WATER_SMITH &&
                    FACET_SEA_MASKING_SCHLICK_KARIS == WATER_SCHLICK_KARIS,
@@ -65,13 +68,94 @@ static bool is_under_water(const facet_sea *sea, const float eye[3])
 
 /* ---- what a model sees ---- */
 
+/* Rows of the panorama that a model sees: the sky, and the mean radiance of the sea. */
+enum { AROUND_HEIGHT = 128 };
+
+static bool has_foam(const water_setup *s)
+{
+    return s->foam.share.level_count > 0;
+}
+
+/* Mean coverage by foam. Where there is foam, its amount is a quarter: of a coverage of 0.105 at 20 m/s, the
+ * mean square is 0.025. */
+static float foam_on_average(const water_setup *s)
+{
+    return water_foam_cover(s->sea->foam.coverage, 0.25f);
+}
+
+/* Radiance from a direction: of the sky, or the mean over the whole sea; over a bed, with the depth at the
+ * origin. */
+static vec3 surroundings(const water_setup *s, vec3 d)
+{
+    if (d[1] >= 0.0f)
+        return water_sky_reflected(&s->sky, d, 0.0f);
+    float means[4], mu = max(-d[1], 1e-3f);
+    WaterPoint point;
+    point.N = vec3(0.0f, 1.0f, 0.0f);
+    point.covariance = water_slopes_of(&s->sea->slopes.total);
+    point.foam = 0.0f;
+    water_table_at(&s->table, mu, water_sigma_of(point.covariance), means);
+    WaterMirror m = water_mirror(s->water, point, -d, means[0], means[1], means[2], means[3]);
+    vec3 sky = water_sky_reflected(&s->sky, m.R, m.perceptual_roughness);
+    vec3 below = water_from_still(s, s->sea->desc.bed.depth_m, water_refracted(s->water, d, point.N));
+    vec3 L = mix(below * (1.0f / (s->water.ior * s->water.ior)), sky, m.fresnel);
+    return has_foam(s) ? mix(L, water_foam(s->water, s->light, point.N), foam_on_average(s)) : L;
+}
+
+typedef struct surroundings_drawing {
+    const water_setup *setup;
+    const image *panorama;
+} surroundings_drawing;
+
+static void draw_surroundings(void *context, size_t begin, size_t end)
+{
+    const surroundings_drawing *drawing = context;
+    const water_setup *s = drawing->setup;
+    const image *panorama = drawing->panorama;
+    for (size_t y = begin; y < end; y++) {
+        float *texel = (float *)panorama->pixels + y * panorama->width * 3;
+        for (uint32_t x = 0; x < panorama->width; x++, texel += 3) {
+            float d[3];
+            equirect_direction(panorama->width, panorama->height, (double)x, (double)y, d);
+            vec3 L = surroundings(s, vec3(d[0], d[1], d[2]));
+            for (int i = 0; i < 3; i++)
+                texel[i] = L[i];
+        }
+    }
+}
+
+/* Makes s->cache->light->around, once per light. FACET_ERROR_MEMORY. */
+static facet_result prepare_surroundings(water_setup *s, facet_error *error)
+{
+    const facet_render_desc *r = s->desc;
+    const facet_environment_desc desc = {.allocator = s->cache->allocator};
+    facet_environment *around;
+    if (s->cache->light->around && s->cache->light->around_has_foam == has_foam(s))
+        return FACET_OK;
+    facet_result result = environment_create(&desc, &around, error);
+    if (result == FACET_OK)
+        result = image_create(&desc.allocator, 2 * AROUND_HEIGHT, AROUND_HEIGHT, 3, IMAGE_F32,
+                              &around->panorama, error);
+    if (result != FACET_OK) {
+        if (around)
+            environment_release(around);
+        return result;
+    }
+    surroundings_drawing drawing = {s, &around->panorama};
+    parallel_for(r->thread_count, AROUND_HEIGHT, 8, draw_surroundings, &drawing);
+    environment_limit(around, r->thread_count);
+    if (s->cache->light->around)
+        environment_release(s->cache->light->around);
+    s->cache->light->around = around;
+    s->cache->light->around_has_foam = has_foam(s);
+    return FACET_OK;
+}
+
 static facet_result add_model(water_setup *s, const facet_scene *scene, facet_render_stats *stats,
                               facet_error *error)
 {
-    facet_result result = water_around_prepare(s, error);
-    return result == FACET_OK
-               ? water_model_create(scene, s->desc, &s->sky, s->cache->light->around, stats, &s->model, error)
-               : result;
+    TRY(prepare_surroundings(s, error));
+    return water_model_create(scene, s->desc, &s->sky, s->cache->light->around, stats, &s->model, error);
 }
 
 /* ---- all ---- */
@@ -128,8 +212,8 @@ facet_result water_setup_create(water_cache *cache, const facet_scene *scene, co
     if (!(needs & WATER_SETUP_BED_LIGHT))
         return result;
     if (result == FACET_OK)
-        result = caustic_map_of_picture(s, &s->caustics, error);
-    return result == FACET_OK ? bed_shadow_of_picture(s, &s->shadow, error) : result;
+        result = caustic_map_of_image(s, &s->caustics, error);
+    return result == FACET_OK ? bed_shadow_of_image(s, &s->shadow, error) : result;
 }
 
 void water_setup_destroy(water_setup *s)
