@@ -1,9 +1,9 @@
 /* fit_linear.h - the linear part of a fit: for given roughness or shininess both models are sums of shapes
  * whose factors are the colors. For fit*.c only.
  *
- * * Channel k is M = factor[0] shape[0] + factor[1] shape[1] + rest, with factors within bounds. The search for the
- * nonlinear parameters sees only the minimum over the linear ones (Golub and Pereyra 1973, "variable
- * projection"). */
+ * Channel k is M = factor[0] shape[0] + factor[1] shape[1] + rest, with factors within bounds. The search
+ * for the nonlinear parameters sees only the minimum over the linear ones (Golub and Pereyra 1973,
+ * "variable projection"). */
 #ifndef LEGACY_FIT_LINEAR_H
 #define LEGACY_FIT_LINEAR_H
 

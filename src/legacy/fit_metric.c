@@ -1,8 +1,8 @@
 /* fit_metric.c - the difference between two models: the directions over which errors are integrated,
  * radiance there, and its error.
  *
- * * The formulas are shade/'s; here they are arranged as loops over arrays, which the compiler vectorises. Sums have
- * FIT_LANES partial sums, so their order does not depend on the width of the instructions. */
+ * The formulas are shade/'s; here they are arranged as loops over arrays, which the compiler vectorises.
+ * Sums have FIT_LANES partial sums, so their order does not depend on the width of the instructions. */
 #include "legacy/fit_metric.h"
 
 #include <math.h>

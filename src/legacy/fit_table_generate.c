@@ -1,7 +1,7 @@
 /* fit_table_generate.c - computes the LUT of fit_metric.h when facet is built. usage: fit_table_generate OUTPUT
  *
- * * Logarithms of the integrals, and for each shininess the roughness and strength of the GGX lobe that, with a
- * Lambert term, approximates Blinn's best. */
+ * Logarithms of the integrals, and for each shininess the roughness and strength of the GGX lobe that,
+ * with a Lambert term, approximates Blinn's best. */
 #include <math.h>
 #include <stdio.h>
 

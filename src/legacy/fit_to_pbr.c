@@ -1,9 +1,9 @@
 /* fit_to_pbr.c - OpenGL 1 to PBR by fitting, with KHR_materials_specular and KHR_materials_ior and without.
  *
- * * With ior 0, F0 is the specular color times specular and F90 is specular: Fresnel is constant for a white one, as
- * Blinn's highlight is. For given roughness, F90 and largest F0, radiance is linear in base color and the
- * other F0; the search is along those three, starting from the best constant Fresnel along roughness.
- * Without the extensions it is along roughness and metallic, and linear in base color. */
+ * With ior 0, F0 is the specular color times specular and F90 is specular: Fresnel is constant for a
+ * white one, as Blinn's highlight is. For given roughness, F90 and largest F0, radiance is linear in base
+ * color and the other F0; the search is along those three, starting from the best constant Fresnel along
+ * roughness. Without the extensions it is along roughness and metallic, and linear in base color. */
 #include <math.h>
 #include <string.h>
 

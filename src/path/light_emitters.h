@@ -1,6 +1,6 @@
 /* light_emitters.h - emissive triangles, and the sampling of points on them.
  *
- * * A light is a triangle of a lit geometry whose material emits. Emission without a light
+ * A light is a triangle of a lit geometry whose material emits. Emission without a light
  * (KHR_materials_unlit, points, lines, triangles without normals) is found by BSDF sampling only, with
  * weight 1: light_emitters_find() knows none of it. */
 #ifndef PATH_LIGHT_EMITTERS_H

@@ -1,13 +1,13 @@
 /* light_environment.h - importance sampling of an equirectangular image, in proportion to the irradiance that
  * each texel gives a surface.
  *
- * * The density is bilinear between texel centers, as radiance is (the mean of its three channels), and
+ * The density is bilinear between texel centers, as radiance is (the mean of its three channels), and
  * differs from it only by the change of solid angle within a row near the poles: it is positive wherever
  * radiance is, and uniform where radiance is. Above the patches of four texels there are
- * LIGHT_ENVIRONMENT_CELLS parts of the sphere, each weighted by its light and by the cosine at the surface
- * (product sampling on the coarse levels: Clarberg et al. 2005, "Wavelet Importance Sampling"; Cline et
- * al. 2006, "Two Stage Importance Sampling for Direct Lighting"). Nearby random numbers give nearby
- * directions, so that stratification is preserved. */
+ * LIGHT_ENVIRONMENT_CELLS parts of the sphere, each weighted by its light and by the cosine at the
+ * surface (product sampling on the coarse levels: Clarberg et al. 2005, "Wavelet Importance Sampling";
+ * Cline et al. 2006, "Two Stage Importance Sampling for Direct Lighting"). Nearby random numbers give
+ * nearby directions, so that stratification is preserved. */
 #ifndef PATH_LIGHT_ENVIRONMENT_H
 #define PATH_LIGHT_ENVIRONMENT_H
 

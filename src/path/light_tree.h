@@ -1,7 +1,7 @@
 /* light_tree.h - importance sampling of many lights by their estimated irradiance at a point: a tree of
  * bounds, traversed from the root.
  *
- * * Conty Estevez and Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree Splitting", with
+ * Conty Estevez and Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree Splitting", with
  * eight children per node, weighted together: up to eight lights are all compared with one another, and
  * 100 000 are six levels deep. Each weight is an upper bound of the irradiance from any light below, so
  * that 0 is exact. */

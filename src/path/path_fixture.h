@@ -2,7 +2,7 @@
  * have: for the tests that prove that the path tracer's images may be called ground truth. Built on
  * preview_fixture.h.
  *
- * * World: +Y up, floors and slabs lie in planes of constant y, lengths in m. Functions abort the test
+ * World: +Y up, floors and slabs lie in planes of constant y, lengths in m. Functions abort the test
  * where they fail. */
 #ifndef PATH_FIXTURE_H
 #define PATH_FIXTURE_H

@@ -1,9 +1,9 @@
 /* path_lights.c - see path_lights.h: which kind of light is sampled, and the resulting pdf.
  *
- * * Environment, sun, directional lights and all that has a place (the tree) each estimate their
- * unoccluded irradiance at P, and are chosen in proportion to it; but a quarter of the samples is shared
- * evenly by those with any, because of occlusion: a light in a room must be found although the sun shines
- * on the roof. */
+ * The kinds are the environment, the sun, directional lights, and lights with a position (the tree). Each
+ * estimates its unoccluded irradiance at P and is chosen in proportion to it. But a quarter of the samples
+ * is shared evenly by those with any, because of occlusion: a light in a room must be found although the
+ * sun shines on the roof. */
 #include "path/path_lights.h"
 
 #include "base/memory.h"
@@ -14,6 +14,7 @@
 #include "path/light_environment.h"
 #include "path/light_tree.h"
 
+static const double pi = 3.14159265358979323846;
 static const float EVEN_SHARE = 0.25f;
 static const float MAX_INTENSITY = 1e15f; /* cd or lx; above, sums might not be finite */
 
@@ -35,7 +36,7 @@ static bool sun_contains(const light_sun *sun, vec3 d)
     return dot(difference, difference) < sun->chord2;
 }
 
-static const double DEFAULT_DIAMETER_RAD = 0.53 * 3.14159265358979323846 / 180.0;
+static const double DEFAULT_DIAMETER_DEG = 0.53;
 static const double MIN_RADIUS_RAD = 5e-5;
 
 static bool is_sunlight(const float channels[3])
@@ -57,9 +58,9 @@ static light_sun sun_create(const facet_sun *desc)
     if (!is_sunlight(desc->illuminance_lux) || !isfinite(desc->azimuth_rad) ||
         !isfinite(desc->elevation_rad) || isnan(desc->diameter_rad))
         return sun;
-    double radius = 0.5 * (desc->diameter_rad > 0.0f ? (double)desc->diameter_rad : DEFAULT_DIAMETER_RAD);
-    double half_pi = 0.5 * 3.14159265358979323846;
-    radius = radius < MIN_RADIUS_RAD ? MIN_RADIUS_RAD : radius > half_pi ? half_pi : radius;
+    double diameter =
+        desc->diameter_rad > 0.0f ? (double)desc->diameter_rad : DEFAULT_DIAMETER_DEG * pi / 180.0;
+    double radius = fmin(fmax(0.5 * diameter, MIN_RADIUS_RAD), 0.5 * pi);
     double azimuth = (double)desc->azimuth_rad;
     double elevation = (double)desc->elevation_rad;
     double half_sine = sin(0.5 * radius);
@@ -69,11 +70,11 @@ static light_sun sun_create(const facet_sun *desc)
     for (int i = 0; i < 3; i++)
         sun.illuminance[i] = max(desc->illuminance_lux[i], 0.0f);
     /* The projected solid angle of a disc around the normal is pi sin^2(radius). */
-    sun.radiance = sun.illuminance * (float)(1.0 / (3.14159265358979323846 * sine * sine));
+    sun.radiance = sun.illuminance * (float)(1.0 / (pi * sine * sine));
     sun.sin_radius = (float)sine;
     sun.height = (float)(2.0 * half_sine * half_sine);
     sun.chord2 = (float)(4.0 * half_sine * half_sine);
-    sun.pdf = (float)(1.0 / (2.0 * 3.14159265358979323846 * 2.0 * half_sine * half_sine));
+    sun.pdf = (float)(1.0 / (2.0 * pi * 2.0 * half_sine * half_sine));
     return sun;
 }
 
@@ -123,9 +124,8 @@ static float mean_of(vec3 channels)
 }
 
 /* Whether the light is valid and positive. Clamps negative channels to 0. */
-static bool is_light(const path_lights *lights, Light *l)
+static bool is_light(Light *l)
 {
-    (void)lights;
     bool is_fit = is_finite(l->position) && is_finite(l->spot_direction) && is_finite(l->intensity) &&
                   isfinite(l->spot_scale) && isfinite(l->spot_offset) && !isnan(l->range) &&
                   max3(l->intensity) <= MAX_INTENSITY && max3(abs(l->position)) < 1e15f;
@@ -145,7 +145,7 @@ static facet_result take_punctual(path_lights *lights, const facet_allocator *al
         return fail_memory(error, "lights", count * sizeof *lights->placed);
     for (uint32_t i = 0; i < count; i++) {
         Light l = light->punctual[i];
-        if (!is_light(lights, &l))
+        if (!is_light(&l))
             lights->ignored++;
         else if (l.directional)
             lights->directional[lights->directional_count++] = l;
@@ -280,7 +280,7 @@ static float directional_irradiance(const Light *l, vec3 N)
     return mean_of(l->intensity) * cosine;
 }
 
-static void see(const path_lights *lights, vec3 P, vec3 N, choice *c)
+static void estimate_lights(const path_lights *lights, vec3 P, vec3 N, choice *c)
 {
     float *p = c->probabilities;
     p[ENVIRONMENT] = p[SUN] = p[PLACED] = c->directional = 0.0f;
@@ -310,11 +310,18 @@ static void see(const path_lights *lights, vec3 P, vec3 N, choice *c)
 
 /* ---- each kind ---- */
 
-/* The pdf per sr of a direction to environment or sun; environment_pdf: that of the environment alone. */
-static float mixed_pdf(const path_lights *lights, const choice *c, float environment_pdf, bool is_in_sun)
+/* The pdf per sr of a direction by the environment alone. */
+static float environment_pdf(const path_lights *lights, const choice *c, vec3 d)
 {
-    return c->probabilities[ENVIRONMENT] * environment_pdf +
-           (is_in_sun ? c->probabilities[SUN] * lights->sun.pdf : 0.0f);
+    if (!(c->probabilities[ENVIRONMENT] > 0.0f))
+        return 0.0f;
+    return light_environment_pdf(lights->environment, &c->environment, d);
+}
+
+/* The pdf per sr of a direction to environment or sun; pdf: that of the environment alone. */
+static float mixed_pdf(const path_lights *lights, const choice *c, float pdf, bool is_in_sun)
+{
+    return c->probabilities[ENVIRONMENT] * pdf + (is_in_sun ? c->probabilities[SUN] * lights->sun.pdf : 0.0f);
 }
 
 vec3 path_lights_environment(const path_lights *lights, vec3 d)
@@ -338,10 +345,7 @@ static bool sample_sun(const path_lights *lights, const choice *c, vec2 u, path_
     out->L = sun_sample(&lights->sun, u);
     out->is_infinite = true;
     out->radiance = path_lights_environment(lights, out->L) + lights->sun.radiance;
-    float environment_pdf = c->probabilities[ENVIRONMENT] > 0.0f
-                                ? light_environment_pdf(lights->environment, &c->environment, out->L)
-                                : 0.0f;
-    out->pdf = mixed_pdf(lights, c, environment_pdf, true);
+    out->pdf = mixed_pdf(lights, c, environment_pdf(lights, c, out->L), true);
     return out->pdf > 0.0f;
 }
 
@@ -406,7 +410,7 @@ bool path_lights_sample(const path_lights *lights, vec3 P, vec3 N, float u_light
     *out = (path_light_sample){
         .distance_m = INFINITY, .geometry = VISIBILITY_NONE, .primitive = VISIBILITY_NONE};
     choice c;
-    see(lights, P, N, &c);
+    estimate_lights(lights, P, N, &c);
     /* 24 bits are few where a choice among 100 000 continues with the rest of the choice before. */
     uint hash = hash_uint(floatBitsToUint(u_light) ^
                           hash_uint(floatBitsToUint(u[0]) ^ hash_uint(floatBitsToUint(u[1]))));
@@ -453,11 +457,9 @@ vec3 path_lights_infinite(const path_lights *lights, vec3 d)
 float path_lights_infinite_pdf(const path_lights *lights, vec3 P, vec3 N, vec3 d)
 {
     choice c;
-    see(lights, P, N, &c);
-    float environment_pdf = c.probabilities[ENVIRONMENT] > 0.0f
-                                ? light_environment_pdf(lights->environment, &c.environment, d)
-                                : 0.0f;
-    return mixed_pdf(lights, &c, environment_pdf, lights->sun.pdf > 0.0f && sun_contains(&lights->sun, d));
+    estimate_lights(lights, P, N, &c);
+    bool is_in_sun = lights->sun.pdf > 0.0f && sun_contains(&lights->sun, d);
+    return mixed_pdf(lights, &c, environment_pdf(lights, &c, d), is_in_sun);
 }
 
 float path_lights_emitter_pdf(const path_lights *lights, vec3 P, vec3 N, const visibility_hit *hit, vec3 d,
@@ -467,7 +469,7 @@ float path_lights_emitter_pdf(const path_lights *lights, vec3 P, vec3 N, const v
     if (item == LIGHT_EMITTERS_NONE)
         return 0.0f;
     choice c;
-    see(lights, P, N, &c);
+    estimate_lights(lights, P, N, &c);
     if (!(c.probabilities[PLACED] > 0.0f))
         return 0.0f;
     light_triangle t = light_emitters_triangle(&lights->emitters, item);

@@ -2,7 +2,7 @@
  * path tracer calls these functions wherever a ray hits a primitive of the boundary or travels through its
  * medium. Water implements it (water/water_path.h).
  *
- * * V: unit, towards where the path comes from; L: unit, where it goes on. All functions are thread-safe
+ * V: unit, towards where the path comes from; L: unit, where it goes on. All functions are thread-safe
  * and only read `self`. */
 #ifndef PATH_SURFACE_H
 #define PATH_SURFACE_H

@@ -2,11 +2,11 @@
  * sequence over the pixel's samples. They depend on seed, pixel, sample and dimension alone, so an image does
  * not depend on threads, tiles or interruptions.
  *
- * * Sequences in one order would put all samples of a pixel on lines through its dimensions; in orders
+ * Sequences in one order would put all samples of a pixel on lines through its dimensions; in orders
  * shuffled at random, pairs are independent, and their product is as noisy as random numbers or worse. So
- * related pairs, the four of each of four vertices, traverse the sequence in 16 orders that were chosen to
- * make well distributed points of 32 dimensions: those of the first vertices most, each two of them, for
- * 16 samples and more. Further pairs are shuffled. */
+ * related pairs, the four of each of four vertices, traverse the sequence in 16 orders that were chosen
+ * to make well distributed points of 32 dimensions: those of the first vertices most, each two of them,
+ * for 16 samples and more. Further pairs are shuffled. */
 #ifndef PATH_SAMPLER_H
 #define PATH_SAMPLER_H
 
