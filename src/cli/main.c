@@ -1,5 +1,4 @@
 /* main.c - finds the verb, parses its options, runs it. */
-#include "cli/help/generate.h"
 #include "cli/help/help.h"
 #include "cli/shared/command_line.h"
 #include "cli/shared/options.h"
@@ -7,7 +6,6 @@
 #include "cli/shared/interrupt.h"
 #include "cli/shared/messages.h"
 #include "cli/shared/output.h"
-#include "cli/shared/output_name.h"
 #include "cli/shared/suggest.h"
 
 #include <stdio.h>

@@ -7,7 +7,7 @@
 #include "cli/bake/bake_options.h"
 #include "cli/compare/compare_metrics.h"
 #include "cli/convert/convert_names.h"
-#include "cli/ocean/ocean_options.h"
+#include "cli/ocean/ocean_run.h"
 #include "cli/plot/plot_material.h"
 #include "cli/render/render_options.h"
 

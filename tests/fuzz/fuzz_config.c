@@ -1,7 +1,7 @@
 /* fuzz_config.c - JSON of --config, for the verb that the first byte chooses. */
 #include "fuzz_support.h"
 
-#include "cli/shared/config.h"
+#include "cli/shared/command_line.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {

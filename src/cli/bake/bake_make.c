@@ -1,9 +1,9 @@
 /* bake_make.c - see bake_make.h. */
-#include "cli/bake/bake_make.h"
+#include "cli/bake/bake_plan.h"
 
 #include "cli/bake/bake_names.h"
 #include "cli/shared/failure.h"
-#include "cli/shared/output_name.h"
+#include "cli/shared/output.h"
 
 #include <jansson.h>
 #include <math.h>

@@ -2,7 +2,7 @@
 #define _DEFAULT_SOURCE
 #include "cli/bake/bake_names.h"
 
-#include "cli/shared/output_name.h"
+#include "cli/shared/output.h"
 
 #include <limits.h>
 #include <stdio.h>

@@ -6,7 +6,6 @@
 #include "cli/shared/failure.h"
 #include "cli/shared/input.h"
 #include "cli/shared/output.h"
-#include "cli/shared/output_name.h"
 
 #include <errno.h>
 #include <stdio.h>

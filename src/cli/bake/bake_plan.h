@@ -1,8 +1,13 @@
-/* bake_plan.h - the plan of facet bake: cube maps and files, made before anything is read. */
+/* bake_plan.h - the plan of facet bake, cube maps and files, made before anything is read; and what is made
+ * of it. */
 #ifndef CLI_BAKE_PLAN_H
 #define CLI_BAKE_PLAN_H
 
 #include "cli/bake/bake_options.h"
+#include "cli/shared/messages.h"
+
+#include <jansson.h>
+#include <stdio.h>
 
 enum { BAKE_MAX_CUBES = 5 };
 
@@ -79,5 +84,41 @@ facet_result bake_layout_add(const bake_options *o, const char *stem, bake_plan 
 
 /* The additional rotation, rad, for an engine that places the center of an equirectangular image elsewhere. */
 float bake_layout_turn(const bake_options *o, const facet_environment_info *info);
+
+/* ---- encoding files: bake_make.c ---- */
+
+typedef struct bake_making {
+    const bake_options *options;
+    const bake_plan *plan;
+    facet_environment *environment; /* NULL for tables */
+    facet_allocator allocator;
+    facet_progress progress; /* of slow steps: tables, the sheet */
+} bake_making;
+
+/* Encodes file. Fails as the functions of facet.h. */
+facet_result bake_file_make(const bake_making *m, bake_file *file, facet_error *error);
+
+/* The largest value of the file's format; 0: unlimited, or unknown. */
+float bake_file_limit(const bake_file *file);
+
+/* The share, [0, 1], of a level's light above limit, weighted by solid angle. */
+double bake_cut_share(const facet_cube *cube, uint32_t level, float limit);
+
+/* ---- reports: bake_report.c ---- */
+
+extern const char *const bake_lobe_names[4];
+
+/* Prints "studio.ktx2: cube map 256 x 256, 5 levels, rgba16f, 4 MiB" per file; is_news: also without -v. */
+void bake_report_files(const messages *m, const bake_plan *plan, bool is_news, double seconds);
+
+/* Prints the errors of --verify as a table. */
+void bake_report_errors(FILE *stream, const bake_plan *plan);
+/* Writes "level 3 of ggx: RMS error 0.02" for the worst level with an RMS error above limit, or NaN; "" if
+ * there is none. */
+void bake_report_worst(const bake_plan *plan, double limit, char *text, size_t size);
+
+/* The verb's members of the JSON object; NULL: no memory. */
+json_t *bake_report_json(const bake_options *o, const bake_plan *plan, const facet_environment_info *info,
+                         bool is_done);
 
 #endif

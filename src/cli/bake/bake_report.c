@@ -1,5 +1,5 @@
 /* bake_report.c - see bake_report.h. */
-#include "cli/bake/bake_report.h"
+#include "cli/bake/bake_plan.h"
 
 #include "cli/bake/bake_names.h"
 #include "cli/shared/failure.h"

@@ -2,8 +2,6 @@
 #include "cli/shared/options.h"
 
 #include "cli/bake/bake_plan.h"
-#include "cli/bake/bake_make.h"
-#include "cli/bake/bake_report.h"
 #include "cli/shared/failure.h"
 #include "cli/shared/interrupt.h"
 #include "cli/shared/output.h"

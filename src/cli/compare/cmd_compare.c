@@ -2,7 +2,6 @@
 #include "cli/shared/options.h"
 
 #include "cli/compare/compare_metrics.h"
-#include "cli/shared/color.h"
 #include "cli/shared/failure.h"
 #include "cli/shared/input.h"
 #include "cli/shared/interrupt.h"

@@ -4,7 +4,6 @@
 #include "cli/shared/failure.h"
 #include "cli/shared/input.h"
 #include "cli/shared/output.h"
-#include "cli/shared/output_name.h"
 #include "cli/shared/terminal.h"
 
 #include <stdio.h>

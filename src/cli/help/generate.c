@@ -1,5 +1,4 @@
 /* generate.c - the table of options as man pages, man(7), and as completions for bash, zsh and fish. */
-#include "cli/help/generate.h"
 
 #include "cli/help/help.h"
 #include "cli/shared/failure.h"

@@ -18,4 +18,12 @@ void help_print_verb(FILE *stream, const verb *v, bool all);
 void help_print_option_line(FILE *stream, const option *o);
 void help_print_exit_codes(FILE *stream);
 
+/* ---- man pages and completions, for the build: generate.c ---- */
+
+/* Prints facet-VERB(1); v NULL: facet(1). version is "0.2.0". */
+void man_page_print(FILE *stream, const verb *v, const char *version);
+
+/* Prints a script for "bash", "zsh" or "fish". False, without output: another shell. */
+bool completion_print(FILE *stream, const char *shell);
+
 #endif

@@ -8,7 +8,6 @@
 #include "cli/shared/input.h"
 #include "cli/shared/interrupt.h"
 #include "cli/shared/output.h"
-#include "cli/shared/output_name.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,13 +1,12 @@
 /* ocean_options.c - converts the options of facet ocean to descs. */
-#include "cli/ocean/ocean_options.h"
+#include "cli/ocean/ocean_run.h"
 
 #include <math.h>
 #include <string.h>
 #include <strings.h>
 
-#include "cli/shared/color.h"
 #include "cli/shared/failure.h"
-#include "cli/shared/output_name.h"
+#include "cli/shared/output.h"
 #include "cli/render/render_options.h"
 #include "cli/shared/value.h"
 

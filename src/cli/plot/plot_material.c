@@ -1,7 +1,6 @@
 /* plot_material.c - see plot_material.h. */
 #include "cli/plot/plot_material.h"
 
-#include "cli/shared/color.h"
 #include "cli/shared/failure.h"
 #include "cli/shared/value.h"
 

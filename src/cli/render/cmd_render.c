@@ -2,14 +2,13 @@
 #include "cli/shared/options.h"
 
 #include "cli/render/render_options.h"
-#include "cli/render/render_camera.h"
 #include "cli/render/render_output.h"
 #include "cli/render/sequence.h"
 #include "cli/shared/failure.h"
 #include "cli/shared/input.h"
 #include "cli/shared/interrupt.h"
 #include "cli/shared/output.h"
-#include "cli/shared/config.h"
+#include "cli/shared/command_line.h"
 #include "cli/shared/verb_run.h"
 
 #include <stdio.h>

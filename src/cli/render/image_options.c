@@ -7,7 +7,7 @@
 #include <strings.h>
 
 #include "cli/shared/failure.h"
-#include "cli/shared/output_name.h"
+#include "cli/shared/output.h"
 #include "cli/shared/terminal.h"
 #include "cli/shared/value.h"
 

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "cli/shared/failure.h"
-#include "cli/shared/output_name.h"
+#include "cli/shared/output.h"
 #include "cli/shared/value.h"
 
 #define DEGREE 0.017453292519943295 /* pi / 180 */

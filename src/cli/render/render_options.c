@@ -1,7 +1,6 @@
 /* render_options.c - converts the options of facet render to descs. */
 #include "cli/render/render_options.h"
 
-#include "cli/shared/color.h"
 #include "cli/shared/failure.h"
 #include "cli/shared/value.h"
 

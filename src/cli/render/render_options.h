@@ -4,7 +4,7 @@
 
 #include "cli/shared/command_line.h"
 #include "cli/shared/environment_input.h"
-#include "cli/render/frame_list.h"
+#include "cli/shared/value.h"
 #include "cli/shared/limits.h"
 #include "cli/render/video.h"
 #include "facet/facet.h"

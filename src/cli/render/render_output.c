@@ -5,7 +5,6 @@
 #include "cli/shared/input.h"
 #include "cli/shared/interrupt.h"
 #include "cli/shared/output.h"
-#include "cli/shared/output_name.h"
 #include "cli/shared/terminal.h"
 
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* color.c - CSS colors: CSS Color Module Level 4, sections 5.2 and 6.1. */
-#include "cli/shared/color.h"
+#include "cli/shared/value.h"
 
 #include "facet/facet.h"
 

@@ -3,7 +3,6 @@
 
 #include "cli/shared/failure.h"
 #include "cli/shared/output.h"
-#include "cli/shared/output_name.h"
 #include "cli/shared/suggest.h"
 #include "cli/shared/value.h"
 

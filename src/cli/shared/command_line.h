@@ -49,4 +49,22 @@ int option_choice(const command_line *c, option_id id, int otherwise);
 /* FACET_ERROR_ARGUMENT with "--size: \"12y\" is not EXPECTED". */
 facet_result option_fail(const command_line *c, option_id id, const char *expected, facet_error *error);
 
+/* ---- options from presets and JSON files: config.c ---- */
+
+/* Sets the options of --preset that are not set already. */
+facet_result preset_apply(command_line *c, facet_error *error);
+
+/* Storage of the values of a configuration file. {0} initially. */
+typedef struct config {
+    char **texts;
+    size_t text_count;
+} config;
+
+/* Sets the options in the file of --config that are not set already: an object whose members are long
+ * option names, with true for flags (a number for those that count), text, numbers, or arrays for values
+ * with commas. Fails with FACET_ERROR_READ, _LIMIT, or _ARGUMENT (not a JSON object, unknown option, wrong
+ * value). */
+facet_result config_apply(command_line *c, config *storage, facet_error *error);
+void config_destroy(config *storage);
+
 #endif

@@ -7,7 +7,6 @@
 #include <cmocka.h>
 
 #include "cli/shared/command_line.h"
-#include "cli/shared/config.h"
 #include "cli/shared/suggest.h"
 
 #include <stdio.h>

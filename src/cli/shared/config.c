@@ -4,7 +4,7 @@
 #include "cli/shared/failure.h"
 #include "cli/shared/interrupt.h"
 #include "cli/shared/limits.h"
-#include "cli/shared/config.h"
+#include "cli/shared/command_line.h"
 #include "cli/shared/suggest.h"
 
 #include <errno.h>

@@ -8,7 +8,6 @@
 #include <string.h>
 #include <strings.h>
 
-#include "cli/shared/color.h"
 #include "cli/shared/failure.h"
 #include "cli/shared/input.h"
 #include "cli/shared/interrupt.h"

@@ -3,7 +3,7 @@
 #define CLI_MODEL_LIST_H
 
 #include "cli/shared/command_line.h"
-#include "cli/shared/output_name.h"
+#include "cli/shared/output.h"
 
 #define MODEL_NO_CLASH SIZE_MAX
 

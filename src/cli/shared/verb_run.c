@@ -5,7 +5,7 @@
 #include "cli/shared/input.h"
 #include "cli/shared/interrupt.h"
 #include "cli/shared/limits.h"
-#include "cli/shared/config.h"
+#include "cli/shared/command_line.h"
 
 #include <stdio.h>
 #include <string.h>

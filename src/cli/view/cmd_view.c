@@ -1,7 +1,6 @@
 /* cmd_view.c - facet view: a window for models and environments, with the options of facet render. */
 #include "cli/shared/options.h"
 
-#include "cli/render/render_camera.h"
 #include "cli/render/sequence.h"
 #include "cli/shared/failure.h"
 #include "cli/shared/input.h"

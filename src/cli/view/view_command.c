@@ -1,7 +1,7 @@
 /* view_command.c - see view_command.h. Defaults of facet render are left out, for a readable line. */
 #include "cli/view/view_command.h"
 
-#include "cli/shared/output_name.h"
+#include "cli/shared/output.h"
 
 #include <math.h>
 #include <stdarg.h>
