@@ -224,7 +224,7 @@ static float within_noise(float value, float before, float standard_error)
 }
 
 /* Resolves the sums of a pixel; weight 0 leaves it as it is. */
-static void settle_rows(void *context, size_t begin, size_t end)
+static void finish_rows(void *context, size_t begin, size_t end)
 {
     const denoising *d = context;
     const denoise_planes *p = d->planes;
@@ -286,7 +286,7 @@ facet_result film_denoise(film *f, const facet_allocator *allocator, uint32_t th
     size_t tile_count = (size_t)((d.tiles_x + 1) / 2) * ((d.tiles_y + 1) / 2);
     for (d.phase = 0; d.phase < PHASES; d.phase++)
         parallel_for(thread_count, tile_count, 1, filter_tiles, &d);
-    parallel_for(thread_count, f->height, TILE, settle_rows, &d);
+    parallel_for(thread_count, f->height, TILE, finish_rows, &d);
     result = restore_energy(f, sums, allocator, thread_count, error);
     if (result == FACET_OK)
         parallel_for(thread_count, f->height, TILE, write_rows, &d);

@@ -55,7 +55,7 @@ static void run_pass(noise_pass *s, void (*body)(void *, size_t, size_t), const 
 /* Factor that reduces an outlier. An outlier owes its value to few of its samples and is brighter than its
  * surroundings; it is reduced to the brightest of its eight neighbours. That loses energy, but the
  * alternative is a bright spot or its smear over a window. */
-static float share_kept(const denoise_planes *p, ptrdiff_t x, ptrdiff_t y)
+static float kept_fraction(const denoise_planes *p, ptrdiff_t x, ptrdiff_t y)
 {
     const float few = 0.4f; /* standard error over mean; 16 samples of which 5 have all the light have 0.38 */
     size_t o = denoise_index(p, x, y);
@@ -83,10 +83,10 @@ static void find_outliers(void *context, size_t begin, size_t end)
     for (size_t y = begin; y < end; y++)
         for (uint32_t x = 0; x < s->planes->width; x++)
             s->to[denoise_index(s->planes, (ptrdiff_t)x, (ptrdiff_t)y)] =
-                share_kept(s->planes, (ptrdiff_t)x, (ptrdiff_t)y);
+                kept_fraction(s->planes, (ptrdiff_t)x, (ptrdiff_t)y);
 }
 
-static void take_outliers_down(noise_pass *s, float *kept)
+static void damp_outliers(noise_pass *s, float *kept)
 {
     denoise_planes *p = s->planes;
     run_pass(s, find_outliers, NULL, kept);
@@ -147,7 +147,7 @@ static void measure_detail(void *context, size_t begin, size_t end)
     }
 }
 
-static void take_smaller(void *context, size_t begin, size_t end)
+static void keep_smaller(void *context, size_t begin, size_t end)
 {
     const noise_pass *s = context;
     for (size_t y = begin; y < end; y++) {
@@ -168,14 +168,14 @@ static void estimate_noise(noise_pass *s, float *detail, float *other)
         smooth_plane(s, s->planes->noise[c], other, 2);
         run_pass(s, measure_detail, s->planes->light[c], detail);
         smooth_plane(s, detail, other, 2);
-        run_pass(s, take_smaller, detail, s->planes->noise[c]);
+        run_pass(s, keep_smaller, detail, s->planes->noise[c]);
     }
 }
 
 static void find_noise(denoise_planes *p, float *const scratch[2], uint32_t thread_count)
 {
     noise_pass s = {.planes = p, .thread_count = thread_count};
-    take_outliers_down(&s, scratch[0]);
+    damp_outliers(&s, scratch[0]);
     estimate_noise(&s, scratch[0], scratch[1]);
 }
 

@@ -69,7 +69,7 @@ static void denoise(film *f)
     assert_int_equal(film_denoise(f, NULL, 2, &error), FACET_OK);
 }
 
-static double error_left(film *f, const film *truth)
+static double remaining_error(film *f, const film *truth)
 {
     double before = fixture_error(f, truth, false);
     denoise(f);
@@ -132,9 +132,9 @@ static void known_radiance_is_recovered_from_noise(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         film truth;
         film f = noisy_film(WIDTH, HEIGHT, cases[i].at, cases[i].amount, 5 + (uint32_t)i, &truth);
-        double left = error_left(&f, &truth);
-        if (left > cases[i].most)
-            fail_msg("case %zu: %.3f of the error is left", i, left);
+        double remaining = remaining_error(&f, &truth);
+        if (remaining > cases[i].most)
+            fail_msg("case %zu: %.3f of the error remains", i, remaining);
         film_destroy(&f);
         film_destroy(&truth);
     }
@@ -208,11 +208,11 @@ static void errors_of_traced_images_fall(void **state)
         film f = fixture_render(cases[i].scene, 80, 60, 16, 1);
         double before = fixture_error(&f, &truth, false), relative = fixture_error(&f, &truth, true);
         denoise(&f);
-        double left = fixture_error(&f, &truth, false) / before;
-        double left_relative = fixture_error(&f, &truth, true) / relative;
-        if (left > cases[i].most || left_relative > cases[i].most_relative)
-            fail_msg("%s: %.3f and %.3f of the errors are left", fixture_scene_names[cases[i].scene], left,
-                     left_relative);
+        double remaining = fixture_error(&f, &truth, false) / before;
+        double remaining_relative = fixture_error(&f, &truth, true) / relative;
+        if (remaining > cases[i].most || remaining_relative > cases[i].most_relative)
+            fail_msg("%s: %.3f and %.3f of the errors remain", fixture_scene_names[cases[i].scene], remaining,
+                     remaining_relative);
         film_destroy(&f);
         film_destroy(&truth);
     }
@@ -429,8 +429,8 @@ static void small_films_are_filtered(void **state)
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
         film truth;
         film f = noisy_film(sizes[k][0], sizes[k][1], plain_wall, 1.0f, 4, &truth);
-        double left = error_left(&f, &truth);
-        assert_true(left <= (sizes[k][0] * sizes[k][1] > 100 ? 0.5 : 1.001));
+        double remaining = remaining_error(&f, &truth);
+        assert_true(remaining <= (sizes[k][0] * sizes[k][1] > 100 ? 0.5 : 1.001));
         film_destroy(&f);
         film_destroy(&truth);
     }

@@ -171,20 +171,20 @@ static facet_result take_image(facet_environment *e, image *panorama, facet_layo
 
 const char *const cube_face_names[6] = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
 
-typedef struct decoding {
+typedef struct face_decoding {
     cube_face *faces;
     const facet_environment_desc *desc;
-} decoding;
+} face_decoding;
 
 static void decode_faces(void *context, size_t begin, size_t end)
 {
-    const decoding *job = context;
+    const face_decoding *job = context;
     for (size_t i = begin; i < end; i++) {
         cube_face *f = &job->faces[i];
-        image_decode_desc how = decode_desc(job->desc, &f->largest);
-        how.thread_count = 1;
-        how.note = &f->note;
-        f->result = image_decode(f->bytes, f->size, f->name, &how, &f->image, &f->error);
+        image_decode_desc decoding = decode_desc(job->desc, &f->largest);
+        decoding.thread_count = 1;
+        decoding.note = &f->note;
+        f->result = image_decode(f->bytes, f->size, f->name, &decoding, &f->image, &f->error);
         if (f->result == FACET_OK && f->image.width != f->image.height)
             f->result = fail(&f->error, FACET_ERROR_INVALID, "%s: %u x %u texels: faces of a cube are square",
                              f->name, f->image.width, f->image.height);
@@ -193,7 +193,7 @@ static void decode_faces(void *context, size_t begin, size_t end)
 
 facet_result cube_faces_decode(cube_face faces[6], const facet_environment_desc *desc, facet_error *error)
 {
-    decoding job = {faces, desc};
+    face_decoding job = {faces, desc};
     parallel_for(desc->thread_count, 6, 1, decode_faces, &job);
     facet_result result = FACET_OK;
     for (int i = 0; i < 6 && result == FACET_OK; i++) {
@@ -274,14 +274,14 @@ static facet_result load_cube_ktx2(facet_environment *e, const ktx2 *k, const fa
     static const char *const places[6] = {"face +X", "face -X", "face +Y", "face -Y", "face +Z", "face -Z"};
     cube_face faces[6] = {0};
     ktx2_data data = {0};
-    image_decode_desc how = decode_desc(desc, NULL);
-    if (k->width > how.max_size)
+    image_decode_desc decoding = decode_desc(desc, NULL);
+    if (k->width > decoding.max_size)
         return fail(error, FACET_ERROR_LIMIT, "%s: %u x %u texels, more than %u along an edge", k->name,
-                    k->width, k->height, how.max_size);
+                    k->width, k->height, decoding.max_size);
     facet_result result = ktx2_load_level(k, 0, &desc->allocator, &data, error);
     for (uint32_t i = 0; i < 6 && result == FACET_OK; i++) {
-        how.largest = &faces[i].largest;
-        result = ktx2_decode(k, &data, 0, 0, i, &how, &faces[i].image, error);
+        decoding.largest = &faces[i].largest;
+        result = ktx2_decode(k, &data, 0, 0, i, &decoding, &faces[i].image, error);
     }
     ktx2_data_destroy(&data);
     if (result == FACET_OK)
@@ -375,13 +375,13 @@ static facet_result load_image(facet_environment *e, const void *bytes, size_t s
     environment_repairs repairs = {.first = UINT64_MAX};
     facet_layout layout;
     const image_envmap envmap = image_get_envmap(bytes, size);
-    image_decode_desc how = decode_desc(desc, &largest);
-    how.note = &note;
+    image_decode_desc decoding = decode_desc(desc, &largest);
+    decoding.note = &note;
     facet_result result = image_probe(bytes, size, name, &header, NULL, error);
     if (result == FACET_OK) /* before memory is allocated */
         result = choose_layout(desc, envmap, &header, name, &layout, error);
     if (result == FACET_OK)
-        result = image_decode(bytes, size, name, &how, &decoded, error);
+        result = image_decode(bytes, size, name, &decoding, &decoded, error);
     if (result == FACET_OK) {
         image_note_log(&note, name, &e->log);
         result = repair_image(&decoded, largest, 0, &e->allocator, desc->thread_count, &rgb, &repairs, error);

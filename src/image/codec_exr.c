@@ -81,7 +81,7 @@ static void store_rows(const reading *r, uint32_t row, uint32_t row_end, const f
     }
 }
 
-static void note_failure(reading *r, uint64_t row, facet_result result)
+static void record_failure(reading *r, uint64_t row, facet_result result)
 {
     const uint64_t failure = row << 8 | (uint64_t)result;
     uint64_t first = atomic_load(&r->failure);
@@ -111,7 +111,7 @@ static void read_strips(void *context, size_t begin, size_t end)
         mem_account(r->allocator, -(ptrdiff_t)r->sizes->library_memory);
     }
     if (result != FACET_OK)
-        note_failure(r, (uint64_t)begin * rows, result);
+        record_failure(r, (uint64_t)begin * rows, result);
     mem_free(texels);
 }
 
@@ -277,14 +277,14 @@ facet_result image_encode_exr(uint32_t width, uint32_t height, const image_layer
     char message[EXR_MESSAGE] = "";
     facet_result result = list_channels(layers, layer_count, channels, error);
     if (result == FACET_OK) {
-        const exr_writing how = {.width = width,
-                                 .height = height,
-                                 .as_half = as_half,
-                                 .is_stored = desc && desc->is_stored,
-                                 .level = level,
-                                 .texts = desc ? desc->texts : NULL,
-                                 .text_count = desc ? desc->text_count : 0};
-        result = exr_shim_write(&how, channels, (uint32_t)count, &allocator, bytes, size, message);
+        const exr_write_desc write_desc = {.width = width,
+                                           .height = height,
+                                           .as_half = as_half,
+                                           .is_stored = desc && desc->is_stored,
+                                           .level = level,
+                                           .texts = desc ? desc->texts : NULL,
+                                           .text_count = desc ? desc->text_count : 0};
+        result = exr_shim_write(&write_desc, channels, (uint32_t)count, &allocator, bytes, size, message);
         if (result == FACET_ERROR_MEMORY)
             fail_memory(error, "OpenEXR file", (size_t)height * width * count * (as_half ? 2 : 4));
         else if (result != FACET_OK)

@@ -111,27 +111,27 @@ class memory_output : public Imf::OStream
 
 /* ---- failures ---- */
 
-facet_result say(char *message, facet_result result, const char *text)
+facet_result report(char *message, facet_result result, const char *text)
 {
     std::snprintf(message, EXR_MESSAGE, "%s", text);
     return result;
 }
 
 /* Result of the exception being handled. Must be called in a catch block. */
-facet_result say_exception(char *message, facet_result result)
+facet_result report_exception(char *message, facet_result result)
 {
     try {
         throw;
     } catch (const std::bad_alloc &) {
-        return say(message, FACET_ERROR_MEMORY, "out of memory");
+        return report(message, FACET_ERROR_MEMORY, "out of memory");
     } catch (const std::exception &e) {
         /* of "Cannot read image file "memory". REASON" only the reason is useful */
         const std::string prefix = std::string("file \"") + STREAM_NAME + "\". ";
         const char *text = e.what();
         const char *found = std::strstr(text, prefix.c_str());
-        return say(message, result, found ? found + prefix.size() : text);
+        return report(message, result, found ? found + prefix.size() : text);
     } catch (...) {
-        return say(message, result, "the library failed");
+        return report(message, result, "the library failed");
     }
 }
 
@@ -191,13 +191,13 @@ facet_result choose_channels(const Imf::ChannelList &list, exr_info *info, char 
     for (channel_iterator c = list.begin(); c != list.end(); ++c)
         count++;
     if (count == 0)
-        return say(message, FACET_ERROR_INVALID, "there are no channels");
+        return report(message, FACET_ERROR_INVALID, "there are no channels");
     channel_iterator grey = find_channel(list, "", "Y");
     if (grey == list.end() && count == 1)
         grey = list.begin();
     if (grey != list.end()) {
         if (find_channel(list, "", "RY") != list.end())
-            return say(message, FACET_ERROR_UNSUPPORTED, "luminance and chroma (Y, RY, BY) are not read");
+            return report(message, FACET_ERROR_UNSUPPORTED, "luminance and chroma (Y, RY, BY) are not read");
         const channel_iterator alpha = find_channel(list, "", "A");
         result = set_source(grey, &info->sources[0], message);
         info->sources[1] = info->sources[2] = info->sources[0];
@@ -226,7 +226,7 @@ int place_of(const char *suffix)
 }
 
 /* Names of the layers, such as "albedo, normal, Z". */
-facet_result say_layers(const Imf::ChannelList &list, const char *layer, char *message)
+facet_result report_layers(const Imf::ChannelList &list, const char *layer, char *message)
 {
     std::string names, last;
     for (channel_iterator c = list.begin(); c != list.end(); ++c) {
@@ -255,7 +255,7 @@ facet_result choose_layer(const Imf::ChannelList &list, const char *layer, exr_i
         if (!is_whole && !is_part)
             continue;
         if (info->channel_count == 4)
-            return say(message, FACET_ERROR_UNSUPPORTED, "the layer has more than 4 channels");
+            return report(message, FACET_ERROR_UNSUPPORTED, "the layer has more than 4 channels");
         const int place = is_whole ? 0 : place_of(suffix);
         uint32_t k = info->channel_count++;
         for (; k > 0 && places[k - 1] > place; k--) {
@@ -266,7 +266,7 @@ facet_result choose_layer(const Imf::ChannelList &list, const char *layer, exr_i
         result = set_source(c, &info->sources[k], message);
     }
     if (result == FACET_OK && info->channel_count == 0)
-        return say_layers(list, layer, message);
+        return report_layers(list, layer, message);
     if (info->channel_count == 1) {
         info->sources[1] = info->sources[2] = info->sources[0];
         info->channel_count = 3;
@@ -361,7 +361,7 @@ facet_result fill_info(const unsigned char *bytes, size_t size, const exr_channe
     *out = exr_info{};
     const int version = read_header(bytes, size, header);
     if (Imf::isNonImage(version) || (header.hasType() && Imf::isDeepData(header.type())))
-        return say(message, FACET_ERROR_UNSUPPORTED, "deep images are not read");
+        return report(message, FACET_ERROR_UNSUPPORTED, "deep images are not read");
     out->data = window(header.dataWindow());
     out->display = window(header.displayWindow());
     fill_color(header, out);
@@ -369,12 +369,12 @@ facet_result fill_info(const unsigned char *bytes, size_t size, const exr_channe
         Imf::isMultiPart(version) ? header.hasType() && Imf::isTiled(header.type()) : Imf::isTiled(version);
     const Imf::Compression compression = header.compression();
     if (compression < 0 || compression >= Imf::NUM_COMPRESSION_METHODS)
-        return say(message, FACET_ERROR_UNSUPPORTED, "the compression is not known");
+        return report(message, FACET_ERROR_UNSUPPORTED, "the compression is not known");
     out->is_dwa = compression == Imf::DWAA_COMPRESSION || compression == Imf::DWAB_COMPRESSION;
     out->chunk_rows = rows_of(compression);
     if (out->is_tiled) {
         if (!header.hasTileDescription())
-            return say(message, FACET_ERROR_INVALID, "the tiles attribute is missing");
+            return report(message, FACET_ERROR_INVALID, "the tiles attribute is missing");
         out->tile_width = header.tileDescription().xSize;
         out->tile_height = out->chunk_rows = header.tileDescription().ySize;
     }
@@ -394,7 +394,7 @@ facet_result exr_shim_info(const unsigned char *bytes, size_t size, const exr_ch
     try {
         return fill_info(bytes, size, named, named_count, out, message);
     } catch (...) {
-        return say_exception(message, FACET_ERROR_INVALID);
+        return report_exception(message, FACET_ERROR_INVALID);
     }
 }
 
@@ -406,7 +406,7 @@ facet_result exr_shim_layer(const unsigned char *bytes, size_t size, const char 
         read_header(bytes, size, header);
         return choose_layer(header.channels(), layer, info, message);
     } catch (...) {
-        return say_exception(message, FACET_ERROR_INVALID);
+        return report_exception(message, FACET_ERROR_INVALID);
     }
 }
 
@@ -425,7 +425,7 @@ facet_result exr_shim_text(const unsigned char *bytes, size_t size, const char *
         std::snprintf(value, value_size, "%s", found->value().c_str());
         return FACET_OK;
     } catch (...) {
-        return say_exception(message, FACET_ERROR_INVALID);
+        return report_exception(message, FACET_ERROR_INVALID);
     }
 }
 
@@ -451,7 +451,7 @@ facet_result exr_shim_open(const unsigned char *bytes, size_t size, exr_reader *
         *out = new exr_reader(bytes, size);
         return FACET_OK;
     } catch (...) {
-        return say_exception(message, FACET_ERROR_INVALID);
+        return report_exception(message, FACET_ERROR_INVALID);
     }
 }
 
@@ -487,7 +487,7 @@ facet_result exr_shim_read(exr_reader *reader, const exr_info *info, uint32_t ro
                 texels[t * info->channel_count];
         return FACET_OK;
     } catch (...) {
-        return say_exception(message, FACET_ERROR_INVALID);
+        return report_exception(message, FACET_ERROR_INVALID);
     }
 }
 
@@ -507,7 +507,7 @@ facet_result exr_shim_read_named(exr_reader *reader, const exr_info *info, const
         reader->part.readPixels(info->data.min_y, info->data.max_y);
         return FACET_OK;
     } catch (...) {
-        return say_exception(message, FACET_ERROR_INVALID);
+        return report_exception(message, FACET_ERROR_INVALID);
     }
 }
 
@@ -578,31 +578,31 @@ void write_floats(Imf::OutputFile &file, uint32_t height, const exr_channel *cha
 
 } // namespace
 
-facet_result exr_shim_write(const exr_writing *how, const exr_channel *channels, uint32_t channel_count,
+facet_result exr_shim_write(const exr_write_desc *desc, const exr_channel *channels, uint32_t channel_count,
                             const facet_allocator *allocator, unsigned char **bytes, size_t *size,
                             char message[EXR_MESSAGE])
 {
     try {
         memory_output stream(allocator);
-        Imf::Header header(static_cast<int>(how->width), static_cast<int>(how->height));
-        header.compression() = how->is_stored ? Imf::NO_COMPRESSION : Imf::ZIP_COMPRESSION;
-        header.zipCompressionLevel() = static_cast<int>(how->level);
+        Imf::Header header(static_cast<int>(desc->width), static_cast<int>(desc->height));
+        header.compression() = desc->is_stored ? Imf::NO_COMPRESSION : Imf::ZIP_COMPRESSION;
+        header.zipCompressionLevel() = static_cast<int>(desc->level);
         for (uint32_t c = 0; c < channel_count; c++)
             header.channels().insert(
                 channels[c].name,
-                Imf::Channel(how->as_half && !channels[c].needs_float ? Imf::HALF : Imf::FLOAT));
-        for (uint32_t t = 0; t < how->text_count; t++)
-            header.insert(how->texts[t].name, Imf::StringAttribute(how->texts[t].value));
+                Imf::Channel(desc->as_half && !channels[c].needs_float ? Imf::HALF : Imf::FLOAT));
+        for (uint32_t t = 0; t < desc->text_count; t++)
+            header.insert(desc->texts[t].name, Imf::StringAttribute(desc->texts[t].value));
         {
             Imf::OutputFile file(stream, header, 0);
-            if (how->as_half)
-                write_halves(file, how->width, how->height, channels, channel_count, allocator);
+            if (desc->as_half)
+                write_halves(file, desc->width, desc->height, channels, channel_count, allocator);
             else
-                write_floats(file, how->height, channels, channel_count);
+                write_floats(file, desc->height, channels, channel_count);
         } /* writes its table of chunks here */
         *bytes = stream.take(size);
         return FACET_OK;
     } catch (...) {
-        return say_exception(message, FACET_ERROR_ARGUMENT);
+        return report_exception(message, FACET_ERROR_ARGUMENT);
     }
 }

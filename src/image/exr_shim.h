@@ -72,17 +72,17 @@ facet_result exr_shim_read_named(exr_reader *reader, const exr_info *info, const
                                  uint32_t channel_count, char message[EXR_MESSAGE]);
 
 /* How a file is written. */
-typedef struct exr_writing {
+typedef struct exr_write_desc {
     uint32_t width, height;
     bool as_half;
     bool is_stored;          /* not compressed */
     uint32_t level;          /* of zlib */
     const image_text *texts; /* attributes */
     uint32_t text_count;
-} exr_writing;
+} exr_write_desc;
 
 /* Writes scanlines, ZIP. *bytes: a block of mem_alloc(). Fails with FACET_ERROR_ARGUMENT. */
-facet_result exr_shim_write(const exr_writing *how, const exr_channel *channels, uint32_t channel_count,
+facet_result exr_shim_write(const exr_write_desc *desc, const exr_channel *channels, uint32_t channel_count,
                             const facet_allocator *allocator, unsigned char **bytes, size_t *size,
                             char message[EXR_MESSAGE]);
 

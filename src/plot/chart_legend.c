@@ -56,7 +56,7 @@ void legend_create(canvas *c, const chart_panel *panel, canvas_font font, double
     out->height = font.size * (LINE_HEIGHT * row_count(out) + 2.0 * PADDING);
 }
 
-static bool touches_disc(const chart_box *b, double x, double y, double radius)
+static bool overlaps_disc(const chart_box *b, double x, double y, double radius)
 {
     const double dx = x - fmin(fmax(x, b->x), b->x + b->width),
                  dy = y - fmin(fmax(y, b->y), b->y + b->height);
@@ -79,7 +79,7 @@ double legend_fit_inside(legend *l, const chart_box *plot, const trace_list *tra
     for (size_t i = 0; i < sizeof PLACES / sizeof *PLACES; i++) {
         const chart_box box = {plot->x + inset + PLACES[i][0] * room_x,
                                plot->y + inset + PLACES[i][1] * room_y, l->width, l->height};
-        if (touches_disc(&box, disc_x, disc_y, disc_radius))
+        if (overlaps_disc(&box, disc_x, disc_y, disc_radius))
             continue;
         const double m = 0.4 * l->font.size;
         const chart_box near = {box.x - m, box.y - m, box.width + 2.0 * m, box.height + 2.0 * m};

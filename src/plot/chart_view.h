@@ -63,7 +63,7 @@ typedef struct legend {
 /* The entries for a panel, names cut to max_width; place is LEGEND_NONE if there are none. */
 void legend_create(canvas *c, const chart_panel *panel, canvas_font font, double scale, double max_width,
                    legend *out);
-/* The position inside plot that covers the least of traces and does not touch a disc (radius 0: none).
+/* The position inside plot that covers the least of traces and does not overlap a disc (radius 0: none).
  * Returns the px of covered lines; infinity: there is no space. Sets box. */
 double legend_fit_inside(legend *l, const chart_box *plot, const trace_list *traces, double disc_x,
                          double disc_y, double disc_radius);

@@ -308,11 +308,11 @@ static lobe_set lobes_of(const material *m)
     return set;
 }
 
-static vec3 into_grain(const lobe *l, vec3 v)
+static vec3 to_tangent_frame(const lobe *l, vec3 v)
 {
     return vec3(l->along[0] * v[0] + l->along[1] * v[1], l->along[0] * v[1] - l->along[1] * v[0], v[2]);
 }
-static vec3 out_of_grain(const lobe *l, vec3 v)
+static vec3 from_tangent_frame(const lobe *l, vec3 v)
 {
     return vec3(l->along[0] * v[0] - l->along[1] * v[1], l->along[1] * v[0] + l->along[0] * v[1], v[2]);
 }
@@ -323,8 +323,8 @@ static vec3 sample_lobe(const lobe *l, vec2 u, vec3 V)
         return sample_cosine(u);
     if (l->kind == LOBE_CHARLIE)
         return reflect(-V, sample_D_Charlie(u, l->alpha_x));
-    vec3 H = sample_VNDF_GGX(u, into_grain(l, V), l->alpha_x, l->alpha_y);
-    return reflect(-V, out_of_grain(l, H));
+    vec3 H = sample_VNDF_GGX(u, to_tangent_frame(l, V), l->alpha_x, l->alpha_y);
+    return reflect(-V, from_tangent_frame(l, H));
 }
 
 /* Combined pdf of L of all lobes, 1/sr. */
@@ -340,7 +340,8 @@ static float pdf_lobes(const lobe_set *set, vec3 V, vec3 L)
         else if (l->kind == LOBE_CHARLIE)
             sum += pdf_D_Charlie(H[2], l->alpha_x) * jacobian;
         else
-            sum += pdf_VNDF_GGX(into_grain(l, V), into_grain(l, H), l->alpha_x, l->alpha_y) * jacobian;
+            sum += pdf_VNDF_GGX(to_tangent_frame(l, V), to_tangent_frame(l, H), l->alpha_x, l->alpha_y) *
+                   jacobian;
     }
     return sum;
 }

@@ -56,7 +56,7 @@ static void check_panel(const chart_panel *panel)
 }
 
 /* Slow kinds, for which a logarithmic axis changes the axis only. */
-static bool makes_much(facet_plot_kind kind)
+static bool is_expensive(facet_plot_kind kind)
 {
     return kind == FACET_PLOT_KIND_LEGACY || kind == FACET_PLOT_KIND_ALBEDO ||
            kind == FACET_PLOT_KIND_FURNACE || kind == FACET_PLOT_KIND_ERROR;
@@ -66,7 +66,7 @@ static void every_kind_has_defaults(void **state)
 {
     (void)state;
     for (int k = 0; k < KINDS; k++)
-        for (int log = 0; log < (IS_SLOW || makes_much(all_kinds[k]) ? 1 : 2); log++) {
+        for (int log = 0; log < (IS_SLOW || is_expensive(all_kinds[k]) ? 1 : 2); log++) {
             plot_fixture f = make_plot(&(facet_plot_desc){.kind = all_kinds[k], .is_logarithmic = log});
             assert_true(f.drawing.panel_count > 0 && f.drawing.columns > 0);
             assert_true(f.drawing.width >= 640 && f.drawing.height >= 400);

@@ -23,7 +23,7 @@ static void write_word(canvas *c, const sheet_word *w)
 }
 
 /* Premultiplied white: coverage is any of its channels. */
-static void lay_over(const uint32_t *pixels, image *target)
+static void blend_over(const uint32_t *pixels, image *target)
 {
     float *p = target->pixels;
     for (size_t i = 0; i < (size_t)target->width * target->height; i++, p += 4) {
@@ -54,7 +54,7 @@ facet_result sheet_write_words(const sheet_word *words, uint32_t count, const fa
     const uint32_t *pixels = NULL;
     result = canvas_read(c, &pixels, error);
     if (result == FACET_OK)
-        lay_over(pixels, target);
+        blend_over(pixels, target);
     canvas_destroy(c);
     return result;
 }
