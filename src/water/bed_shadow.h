@@ -8,7 +8,7 @@
 
 struct water_setup;
 
-enum { BED_SHADOW_EDGE = SEA_TOUCH_EDGE };
+enum { BED_SHADOW_EDGE = SEA_CONTACT_EDGE };
 
 /* Shares, [0, 1]. */
 typedef struct bed_shadow_texel {

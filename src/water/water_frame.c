@@ -18,7 +18,7 @@
 typedef struct frame_parts {
     water_frame frame; /* first */
     water_setup setup;
-    sea_touch *touch;
+    sea_contact *contact;
 } frame_parts;
 
 /* ---- the sky ---- */
@@ -129,26 +129,26 @@ static facet_result draw_sky(const water_setup *setup, water_frame *p, facet_err
 
 /* ---- a model ---- */
 
-typedef struct touching {
+typedef struct contact_job {
     const water_setup *setup;
     const water_frame *picture;
-    sea_touch *touch;
-} touching;
+    sea_contact *contact;
+} contact_job;
 
-static void touch_rows(void *context, size_t begin, size_t end)
+static void measure_contact(void *context, size_t begin, size_t end)
 {
-    const touching *t = context;
+    const contact_job *t = context;
     const water_frame *p = t->picture;
-    double width = (double)(p->touch_high[0] - p->touch_low[0]) / SEA_TOUCH_EDGE;
-    double length = (double)(p->touch_high[1] - p->touch_low[1]) / SEA_TOUCH_EDGE;
+    double width = (double)(p->contact_high[0] - p->contact_low[0]) / SEA_CONTACT_EDGE;
+    double length = (double)(p->contact_high[1] - p->contact_low[1]) / SEA_CONTACT_EDGE;
     vec3 L = t->setup->light.L;
     const bed_shadow *shadow = &t->setup->shadow;
     for (size_t z = begin; z < end; z++)
-        for (size_t x = 0; x < SEA_TOUCH_EDGE; x++) {
-            double P[3] = {(double)p->touch_low[0] + ((double)x + 0.5) * width, 0.0,
-                           (double)p->touch_low[1] + ((double)z + 0.5) * length};
+        for (size_t x = 0; x < SEA_CONTACT_EDGE; x++) {
+            double P[3] = {(double)p->contact_low[0] + ((double)x + 0.5) * width, 0.0,
+                           (double)p->contact_low[1] + ((double)z + 0.5) * length};
             P[1] = (double)waves_height(&p->sea->waves, P[0], P[2], (float)fmin(width, length)) + 1e-3;
-            sea_touch *to = &t->touch[z * SEA_TOUCH_EDGE + x];
+            sea_contact *to = &t->contact[z * SEA_CONTACT_EDGE + x];
             to->dry = water_model_is_dry(&t->setup->model, P) ? 1.0f : 0.0f;
             to->open = L[1] > 0.0f ? water_model_opening(&t->setup->model, P, L, HUGE_VAL) : 1.0f;
             bed_shadow_texel bed = {1.0f, 1.0f};
@@ -168,8 +168,8 @@ static void choose_rectangle(const vec3 L, water_frame *p)
     float way = L[1] > 0.0f ? min(above / L[1], 8.0f * max(size, above)) : 0.0f, edge = 0.05f * size + 0.01f;
     for (int i = 0; i < 2; i++) {
         float shift = -L[2 * i] * way;
-        p->touch_low[i] = p->model_low[2 * i] + min(shift, 0.0f) - edge;
-        p->touch_high[i] = p->model_high[2 * i] + max(shift, 0.0f) + edge;
+        p->contact_low[i] = p->model_low[2 * i] + min(shift, 0.0f) - edge;
+        p->contact_high[i] = p->model_high[2 * i] + max(shift, 0.0f) + edge;
     }
 }
 
@@ -189,13 +189,14 @@ static void find_water_around(const water_setup *s, float width_m, water_frame *
     }
 }
 
-static facet_result describe_model(const water_setup *s, sea_touch **touch, water_frame *p,
+static facet_result describe_model(const water_setup *s, sea_contact **contact, water_frame *p,
                                    facet_error *error)
 {
     const scene_pose *pose = &s->model.prepared.pose;
-    *touch = mem_alloc(&s->desc->allocator, SEA_TOUCH_EDGE * SEA_TOUCH_EDGE, sizeof **touch);
-    if (!*touch)
-        return fail_memory(error, "water around a model", SEA_TOUCH_EDGE * SEA_TOUCH_EDGE * sizeof **touch);
+    *contact = mem_alloc(&s->desc->allocator, SEA_CONTACT_EDGE * SEA_CONTACT_EDGE, sizeof **contact);
+    if (!*contact)
+        return fail_memory(error, "water around a model",
+                           SEA_CONTACT_EDGE * SEA_CONTACT_EDGE * sizeof **contact);
     p->model_desc = &s->model.desc;
     memcpy(p->model_low, pose->bounds_min, sizeof p->model_low);
     memcpy(p->model_high, pose->bounds_max, sizeof p->model_high);
@@ -210,9 +211,9 @@ static facet_result describe_model(const water_setup *s, sea_touch **touch, wate
         p->shadow_low[i] = (float)s->shadow.low[i];
         p->shadow_high[i] = (float)s->shadow.high[i];
     }
-    touching t = {s, p, *touch};
-    parallel_for(s->desc->thread_count, SEA_TOUCH_EDGE, 4, touch_rows, &t);
-    p->touch = *touch;
+    contact_job t = {s, p, *contact};
+    parallel_for(s->desc->thread_count, SEA_CONTACT_EDGE, 4, measure_contact, &t);
+    p->contact = *contact;
     return FACET_OK;
 }
 
@@ -273,7 +274,7 @@ facet_result water_frame_create(water_cache *cache, const facet_scene *scene, co
     }
     if (result == FACET_OK && scene) {
         p->frame.model = scene;
-        result = describe_model(&p->setup, &p->touch, &p->frame, error);
+        result = describe_model(&p->setup, &p->contact, &p->frame, error);
     }
     stats->light_s += clock_seconds() - begin;
     if (result != FACET_OK) {
@@ -290,6 +291,6 @@ void water_frame_destroy(water_frame *frame)
         return;
     frame_parts *p = (frame_parts *)frame;
     water_setup_destroy(&p->setup);
-    mem_free(p->touch);
+    mem_free(p->contact);
     mem_free(p);
 }

@@ -29,12 +29,12 @@ enum { SEA_LOBE_WIDTH = 256, SEA_LOBE_HEIGHT = 128, SEA_LOBE_LAYERS = 17 };
 
 /* Effect of a model on the water around it, and on the light on the bed: over one rectangle of the plane
  * each, rows along z, sampled at texel centers. */
-enum { SEA_TOUCH_EDGE = 192 };
-typedef struct sea_touch {
+enum { SEA_CONTACT_EDGE = 192 };
+typedef struct sea_contact {
     float dry;               /* 1: inside of a hull that keeps the sea out */
     float open;              /* the sun's visibility past the model */
     float bed_sun, bed_rest; /* visibility on the bed, of the beam and of all other light: bed_shadow.h */
-} sea_touch;
+} sea_contact;
 
 typedef struct water_frame {
     const facet_sea *sea;
@@ -67,10 +67,10 @@ typedef struct water_frame {
     float model_low[3], model_high[3];   /* m */
     float model_water_m;                 /* mean water level there */
     float model_water_low_m, model_water_high_m;
-    const sea_touch *touch;              /* SEA_TOUCH_EDGE^2 */
-    float touch_low[2], touch_high[2];   /* x, z of its rectangle, m */
-    bool has_shadow;                     /* of the model on the bed */
-    float shadow_low[2], shadow_high[2]; /* x, z of that rectangle, m */
+    const sea_contact *contact;            /* SEA_CONTACT_EDGE^2 */
+    float contact_low[2], contact_high[2]; /* x, z of its rectangle, m */
+    bool has_shadow;                       /* of the model on the bed */
+    float shadow_low[2], shadow_high[2];   /* x, z of that rectangle, m */
 } water_frame;
 
 /* desc: resolved, as for water_render(); it, its sea and scene (NULL: water only) outlive the frame, and so

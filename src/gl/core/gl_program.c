@@ -43,7 +43,7 @@ static const struct {
                 {"u_sea_model_normal", GL_UNIT_SEA_MODEL_NORMAL},
                 {"u_sea_model_albedo", GL_UNIT_SEA_MODEL_ALBEDO},
                 {"u_sea_model_number", GL_UNIT_SEA_MODEL_NUMBER},
-                {"u_sea_touch", GL_UNIT_SEA_TOUCH},
+                {"u_sea_contact", GL_UNIT_SEA_CONTACT},
                 {"u_sea_grid", GL_UNIT_SEA_GRID},
                 {"u_sea_rest", GL_UNIT_SEA_SEEN},
                 {"u_sea_seen", GL_UNIT_SEA_SEEN},

@@ -28,7 +28,7 @@ typedef struct gl_sea_block {
     int32_t look[4];
     /* of a model: gl_sea_model.c */
     float cut[GL_SEA_CUTS][16], cut_axis[GL_SEA_CUTS][4], cut_plane[GL_SEA_CUTS][4];
-    float model_depth[4], model_middle[4], model_half[4], model_balls[GL_SEA_BALLS][4], touch[4], shadow[4];
+    float model_depth[4], model_middle[4], model_half[4], model_balls[GL_SEA_BALLS][4], contact[4], shadow[4];
 } gl_sea_block;
 
 void gl_sea_block_fill(const water_frame *frame, const camera_rays *camera, const gl_sea_fan *fan,

@@ -153,15 +153,15 @@ static facet_result draw_cuts(gl_sea_model *m, const water_frame *p, gl_sea_bloc
 
 /* ---- the water around ---- */
 
-static void upload_touch(gl_sea_model *m, const water_frame *p, const camera_rays *camera, gl_sea_block *b)
+static void upload_contact(gl_sea_model *m, const water_frame *p, const camera_rays *camera, gl_sea_block *b)
 {
-    m->touch =
-        gl_sea_texture_make(GL_UNIT_SEA_TOUCH, GL_TEXTURE_2D, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, SEA_TOUCH_EDGE, SEA_TOUCH_EDGE, 0, GL_RGBA, GL_FLOAT,
-                 p->touch);
+    m->contact = gl_sea_texture_make(GL_UNIT_SEA_CONTACT, GL_TEXTURE_2D, GL_LINEAR, GL_CLAMP_TO_EDGE,
+                                     GL_CLAMP_TO_EDGE);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, SEA_CONTACT_EDGE, SEA_CONTACT_EDGE, 0, GL_RGBA, GL_FLOAT,
+                 p->contact);
     for (int i = 0; i < 2; i++) {
-        b->touch[i] = p->touch_low[i] - camera->origin[2 * i];
-        b->touch[2 + i] = 1.0f / (p->touch_high[i] - p->touch_low[i]);
+        b->contact[i] = p->contact_low[i] - camera->origin[2 * i];
+        b->contact[2 + i] = 1.0f / (p->contact_high[i] - p->contact_low[i]);
         b->shadow[i] = p->shadow_low[i] - camera->origin[2 * i];
         b->shadow[2 + i] = p->has_shadow ? 1.0f / (p->shadow_high[i] - p->shadow_low[i]) : 0.0f;
     }
@@ -297,7 +297,7 @@ facet_result gl_sea_model_begin(gl_sea_model *m, gl_context *context, const wate
     if (result == FACET_OK)
         result = draw_cuts(m, p, b, error);
     if (result == FACET_OK)
-        upload_touch(m, p, camera, b);
+        upload_contact(m, p, camera, b);
     return result;
 }
 
@@ -368,7 +368,7 @@ void gl_sea_model_bind(const gl_sea_model *m)
         bind_image(GL_UNIT_SEA_WINDOW, window->color);
         bind_image(GL_UNIT_SEA_WINDOW_DEPTH, window->depth);
     }
-    bind_image(GL_UNIT_SEA_TOUCH, m->touch);
+    bind_image(GL_UNIT_SEA_CONTACT, m->contact);
 }
 
 void gl_sea_model_bind_layers(const gl_sea_model *m)
@@ -376,7 +376,7 @@ void gl_sea_model_bind_layers(const gl_sea_model *m)
     bind_image(GL_UNIT_SEA_MODEL_NORMAL, m->layers.color);
     bind_image(GL_UNIT_SEA_MODEL_ALBEDO, m->layers.layers[0]);
     bind_image(GL_UNIT_SEA_MODEL_NUMBER, m->layers.layers[1]);
-    bind_image(GL_UNIT_SEA_TOUCH, m->touch);
+    bind_image(GL_UNIT_SEA_CONTACT, m->contact);
 }
 
 void gl_sea_model_end(gl_sea_model *m)
@@ -389,6 +389,6 @@ void gl_sea_model_end(gl_sea_model *m)
     gl_target_destroy(&m->layers);
     for (int i = 0; i < GL_SEA_CUTS; i++)
         gl_target_destroy(&m->cuts[i]);
-    glDeleteTextures(1, &m->touch);
+    glDeleteTextures(1, &m->contact);
     *m = (gl_sea_model){.context = NULL};
 }

@@ -17,7 +17,7 @@ typedef struct gl_sea_model {
     gl_scene prepared;
     gl_frame frame;
     gl_target seen, layers, cuts[GL_SEA_CUTS];
-    uint32_t touch; /* texture: sea_touch */
+    uint32_t contact; /* texture: sea_contact */
     facet_render_desc desc;
 } gl_sea_model;
 

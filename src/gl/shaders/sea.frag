@@ -78,7 +78,7 @@ void sea_put_pixel(SeaHost host, vec3 d, vec4 seen, ivec2 pixel)
 #endif
     float reach = p.t;
 #ifdef HAS_MODEL
-    if (sea_touched(p.at.xz).x > 0.5) /* a hull displaces it */
+    if (sea_contact_at(p.at.xz).x > 0.5) /* a hull displaces it */
         reach = 1e9;
 #endif
     sea_put_aovs(SEA_WATER, N, vec3(mix(F, w.foam_albedo, p.point.foam)), d, p.t, reach, pixel);
@@ -161,7 +161,7 @@ vec4 sea_pixel(SeaHost host, vec3 d, vec4 seen, ivec2 pixel)
 #endif
     float t = p.t;
 #ifdef HAS_MODEL
-    if (sea_touched(p.at.xz).x > 0.5) /* a hull displaces it */
+    if (sea_contact_at(p.at.xz).x > 0.5) /* a hull displaces it */
         t = 1e9;
 #endif
     return sea_exposed(sea_model_over(host, sea_through_air(radiance, d, p.t), d, t, pixel));

@@ -67,6 +67,6 @@ layout(std140) uniform Sea
     vec4 sea_model_middle; /* of its bounds; w: number of balls */
     vec4 sea_model_half;   /* half of its size, m */
     vec4 sea_model_balls[SEA_BALLS]; /* bounding spheres of its parts: center, radius */
-    vec4 sea_touch;        /* of the rectangle: x, z from the eye, 1 / lengths, 1/m */
+    vec4 sea_contact;      /* of the rectangle: x, z from the eye, 1 / lengths, 1/m */
     vec4 sea_shadow;       /* the same for the shadow on the bed; 0: there is none */
 };

@@ -4,7 +4,7 @@ uniform highp sampler2D u_sea_means; /* means over microfacets: water_table.h */
 uniform highp sampler2DArray u_sea_caustics;
 
 #ifdef HAS_MODEL
-uniform highp sampler2D u_sea_touch; /* sea_touch */
+uniform highp sampler2D u_sea_contact; /* sea_contact */
 #endif
 
 #define SeaPosition vec3 /* x, z from the eye; y over still water; m */
@@ -161,7 +161,7 @@ vec2 host_bed_visibility(SeaHost host, vec3 P)
 #ifdef HAS_MODEL
     vec2 place = (P.xz - sea_shadow.xy) * sea_shadow.zw;
     bool is_within = all(greaterThan(place, vec2(0.0))) && all(lessThan(place, vec2(1.0)));
-    vec2 visibility = textureLod(u_sea_touch, place, 0.0).zw;
+    vec2 visibility = textureLod(u_sea_contact, place, 0.0).zw;
     return is_within ? visibility : vec2(1.0);
 #else
     return vec2(1.0);

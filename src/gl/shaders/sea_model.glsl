@@ -215,18 +215,18 @@ FacetHit host_model_hit(SeaHost host, SeaPlace p, vec3 R, bool is_transmitted, b
 }
 
 /* Whether a hull displaces the sea at a place; share of the sun's light there. */
-vec2 sea_touched(vec2 at)
+vec2 sea_contact_at(vec2 at)
 {
-    vec2 place = (at - sea_touch.xy) * sea_touch.zw;
+    vec2 place = (at - sea_contact.xy) * sea_contact.zw;
     bool is_within = all(greaterThanEqual(place, vec2(0.0))) && all(lessThanEqual(place, vec2(1.0)));
-    vec2 touch = textureLod(u_sea_touch, place, 0.0).xy;
-    return is_within ? touch : vec2(0.0, 1.0);
+    vec2 contact = textureLod(u_sea_contact, place, 0.0).xy;
+    return is_within ? contact : vec2(0.0, 1.0);
 }
 
 
 float host_sun_visibility(SeaHost host, SeaPlace p)
 {
-    return sea_touched(p.at.xz).y;
+    return sea_contact_at(p.at.xz).y;
 }
 
 vec3 host_model_low(SeaHost host, SeaPlace p)
