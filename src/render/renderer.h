@@ -2,7 +2,7 @@
  * (facet_renderer_info) and four functions, resolve, create, draw and destroy. All drawing goes through
  * the table, and src/api and src/cli ask it what a renderer can do. Below it code compares desc.renderer:
  * draw/light_setup.c and cpu/render_setup.c (what path tracing finds by itself), src/water (the same for
- * the bed) and the window (src/view, which has OpenGL's state). */
+ * the bed) and the window, whose renderers are a table in src/view/view_state.c. */
 #ifndef RENDER_RENDERER_H
 #define RENDER_RENDERER_H
 
