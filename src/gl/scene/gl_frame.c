@@ -105,6 +105,12 @@ static facet_result update_phong(gl_frame *f, const gl_phong_view *view, facet_e
     return FACET_OK;
 }
 
+/* Since the frame was created. */
+static uint64_t count_decoded_texels(const gl_frame *f)
+{
+    return gl_material_decoded_texels(f->materials) + (f->phong ? gl_phong_decoded_texels(f->phong) : 0);
+}
+
 facet_result gl_frame_update(gl_frame *f, const gl_scene *scene, const camera_rays *camera,
                              const facet_render_desc *desc, facet_render_stats *stats, facet_error *error)
 {
@@ -124,13 +130,14 @@ facet_result gl_frame_update(gl_frame *f, const gl_scene *scene, const camera_ra
         result = gl_mesh_update(f->meshes, scene, &desc->log, error);
     stats->geometry_s += clock_seconds() - start;
     start = clock_seconds();
+    uint64_t decoded_texels = count_decoded_texels(f);
     if (result == FACET_OK)
         result = gl_material_update(f->materials, f->meshes, desc, error);
     if (result == FACET_OK)
         result = update_phong(f, &(gl_phong_view){scene, camera, &light, f->meshes, desc}, error);
     light_setup_destroy(&light);
     stats->textures_s += clock_seconds() - start;
-    stats->decoded_texels += result == FACET_OK ? gl_material_decoded_texels(f->materials) : 0;
+    stats->decoded_texels += count_decoded_texels(f) - decoded_texels;
     if (result == FACET_OK)
         result = request_programs(f, desc, error);
     gl_timers_begin(&f->timers, GL_TIMER_SHADOWS);

@@ -131,7 +131,7 @@ static void check_quad(const fixture *f, const ogl1_quad *q, gl_context *context
     film_destroy(&image);
 }
 
-static void quads_match_the_preview_in_every_variant(void **state)
+static void quads_match_the_computation_in_double_in_every_variant(void **state)
 {
     (void)state;
     for (int k = 0; k < VARIANT_COUNT * 8; k++) {
@@ -189,6 +189,31 @@ static void every_texture_type_and_mode_matches_the_preview(void **state)
         assert_same(&f, 1e-4f, 0.0, what);
         fixture_destroy(&f);
     }
+}
+
+/* Decoded for the first image, not for the next. */
+static void decoded_texels_are_counted_per_image(void **state)
+{
+    (void)state;
+    static const unsigned char texel[4] = {51, 204, 102, 153};
+    scene_legacy *legacy;
+    fixture f = ogl1_fixture_head_on(&legacy);
+    add_quad(&f, 0.0f)->maps[LEGACY_DIFFUSE_MAP].ref.texture = add_texel(&f, texel);
+    gl_renderer *renderer = gl_fixture_renderer(&f, &contexts.items[0]);
+    facet_render_desc desc = f.desc;
+    desc.camera = &f.camera;
+    desc.crop[2] = desc.width;
+    desc.crop[3] = desc.height;
+    for (int i = 0; i < 2; i++) {
+        film out;
+        facet_render_stats stats;
+        assert_int_equal(film_create(&desc.allocator, desc.width, desc.height, 0, &out, NULL), FACET_OK);
+        assert_int_equal(gl_renderer_render(renderer, &desc, &out, &stats, NULL), FACET_OK);
+        assert_int_equal(stats.decoded_texels, i == 0 ? 4 : 0);
+        film_destroy(&out);
+    }
+    gl_renderer_destroy(renderer);
+    fixture_destroy(&f);
 }
 
 /* All maps at once, with base, gain and channel; bumps too. */
@@ -385,8 +410,9 @@ static void alternating_models_do_not_interfere(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quads_match_the_preview_in_every_variant),
+        cmocka_unit_test(quads_match_the_computation_in_double_in_every_variant),
         cmocka_unit_test(every_texture_type_and_mode_matches_the_preview),
+        cmocka_unit_test(decoded_texels_are_counted_per_image),
         cmocka_unit_test(maps_of_every_term_match_the_preview),
         cmocka_unit_test(spheres_match_the_preview_in_every_variant),
         cmocka_unit_test(layers_blend_in_display_values),
