@@ -359,8 +359,8 @@ typedef struct facet_sea_render_desc {
     facet_sea_shading shading;
 } facet_sea_render_desc;
 
-/* facet_render() and facet_renderer_meter() for a single image of a sea; sequences are faster with a
- * facet_renderer. desc NULL: {0}. */
+/* facet_render() and facet_renderer_meter() for a single image of a sea. Each prepares the sky anew: metering
+ * and rendering, and sequences, are faster with a facet_renderer. desc NULL: {0}. */
 FACET_API facet_result facet_sea_render(const facet_sea *sea, const facet_scene *scene,
                                         const facet_sea_render_desc *desc, facet_image **image,
                                         facet_error *error);

@@ -177,7 +177,7 @@ static void below_it_is_the_same(void **state)
     }
 }
 
-/* The sun through waves, 5 and 15 m below them: its beam has what was not scattered, its glow the rest,
+/* The sun through waves, 5 and 15 m below them: its beam has what was not scattered, in-scattering has the rest,
  * which counts once. */
 static void the_sun_below_is_the_same(void **state)
 {
@@ -257,7 +257,7 @@ static void rough_water_is_the_same(void **state)
 /* The horizon is six times as bright as what stands high: what of it rough water mirrors depends on which
  * slopes are seen. In bands from the horizon down, and whatever the size of the image, which decides how
  * many waves are slopes. */
-static void a_bright_horizon_is_mirrored_alike(void **state)
+static void a_bright_horizon_is_reflected_alike(void **state)
 {
     (void)state;
     static const uint32_t sizes[][2] = {{64, 36}, {192, 108}};
@@ -326,7 +326,7 @@ static double hue_of(const facet_image *image, uint32_t x, uint32_t y)
 
 /* Towards a low sun, no wave that it shines through is greener than by paths; where it glitters more it is
  * redder. */
-static void no_crest_glows_against_the_sun(void **state)
+static void no_crest_shines_against_the_sun(void **state)
 {
     (void)state;
     static const struct {
@@ -383,7 +383,7 @@ static facet_scene *square(bool shines)
     return scene;
 }
 
-static facet_scene *lamp(void)
+static facet_scene *lit_model(void)
 {
     return square(true);
 }
@@ -403,10 +403,10 @@ static float pixel(const facet_image *image, uint32_t x, uint32_t y)
 }
 
 /* The eye, 3 m high, looks level: the middle of the square straight on, its image at a slope of 6 in 8. */
-static void a_model_is_seen_and_mirrored(void **state)
+static void a_model_is_seen_and_reflected(void **state)
 {
     (void)state;
-    facet_scene *scene = lamp();
+    facet_scene *scene = lit_model();
     facet_sea_desc desc = sea_of(0.0f);
     pair p;
     begin(&p, &desc, 21, 21, black);
@@ -441,7 +441,7 @@ static double speckle(const facet_image *image, uint32_t from, uint32_t to)
 static void a_model_is_blurred_in_rough_water(void **state)
 {
     (void)state;
-    facet_scene *scene = lamp();
+    facet_scene *scene = lit_model();
     facet_sea_desc desc = sea_of(4.0f);
     pair p;
     begin(&p, &desc, 24, 24, black);
@@ -482,7 +482,7 @@ static void a_model_is_seen_in_the_surface_from_below(void **state)
                  {4.0f, -2.0f, true, 0.0},
                  {4.0f, 0.993f, false, 0.0}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        facet_scene *scene = lamp();
+        facet_scene *scene = lit_model();
         if (cases[k].is_mirrored)
             done(facet_scene_place(scene, lower, &failure));
         facet_sea_desc desc = sea_of(cases[k].wind_mps);
@@ -561,9 +561,9 @@ static void a_bed_lights_a_model(void **state)
     facet_scene_destroy(scene);
 }
 
-/* Where a look has no meaning it is refused; foam, Fresnel's formula and the roughness of what no tile has
+/* A style without meaning for paths is refused; foam, Fresnel's formula and the roughness of what no tile has
  * are in both. */
-static void looks_are_refused_or_followed(void **state)
+static void styles_are_refused_or_followed(void **state)
 {
     (void)state;
     facet_sea_desc desc = sea_of(10.0f);
@@ -603,7 +603,7 @@ static void memory_runs_out(void **state)
     desc.resolution = 32;
     pair p;
     begin(&p, &desc, 8, 8, NULL);
-    facet_scene *scene = lamp();
+    facet_scene *scene = lit_model();
     bool has_ended = false;
     for (long at = 0; at < 4000 && !has_ended; at += 1 + at / 2) {
         failing_allocator f = {.fail_at = at};
@@ -632,17 +632,17 @@ int main(void)
                                        cmocka_unit_test(below_it_is_the_same),
                                        cmocka_unit_test(the_sun_below_is_the_same),
                                        cmocka_unit_test(the_window_is_the_same),
-                                       cmocka_unit_test(a_model_is_seen_and_mirrored),
+                                       cmocka_unit_test(a_model_is_seen_and_reflected),
                                        cmocka_unit_test(a_model_is_seen_in_the_surface_from_below),
                                        cmocka_unit_test(a_model_shades_the_bed),
                                        cmocka_unit_test(a_bed_lights_a_model),
-                                       cmocka_unit_test(looks_are_refused_or_followed),
+                                       cmocka_unit_test(styles_are_refused_or_followed),
                                        cmocka_unit_test(memory_runs_out)};
     const struct CMUnitTest numbers[] = {cmocka_unit_test(swell_is_where_it_is),
                                          cmocka_unit_test(rough_water_is_the_same),
-                                         cmocka_unit_test(a_bright_horizon_is_mirrored_alike),
+                                         cmocka_unit_test(a_bright_horizon_is_reflected_alike),
                                          cmocka_unit_test(a_gale_from_above_is_the_same),
-                                         cmocka_unit_test(no_crest_glows_against_the_sun),
+                                         cmocka_unit_test(no_crest_shines_against_the_sun),
                                          cmocka_unit_test(a_model_is_blurred_in_rough_water)};
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     return IS_SLOW ? failed : failed + cmocka_run_group_tests(numbers, NULL, NULL);

@@ -100,7 +100,7 @@ static void the_meter_follows_the_light(void **state)
     desc.renderer = FACET_RENDERER_KIND_PATH;
     desc.samples = 2;
     assert_int_equal(facet_renderer_meter(renderer, &desc, &read[1], NULL), FACET_OK);
-    assert_true(read[1] - read[0] > 3.9 && read[1] - read[0] < 4.0); /* one of the balls glows */
+    assert_true(read[1] - read[0] > 3.9 && read[1] - read[0] < 4.0); /* one of the spheres emits */
     desc.meters_exposure = true;
     assert_int_equal(facet_renderer_render(renderer, &desc, &images[0], NULL), FACET_OK);
     assert_int_equal(warnings, 0);

@@ -3,7 +3,7 @@
 set -eu
 . "$(dirname "$0")/lib.sh"
 
-# A sky costs a third of a second; most images make do with two colors and a lamp.
+# A sky costs a third of a second; most images make do with two colors and a directional sun.
 small="$small --resolution 32"
 light="-e gradient:0.2/0.3/0.6,0.8 --env-intensity 5000 --sun 22,0,80000"
 

@@ -190,7 +190,7 @@ static bool needs_mirrored(const bake_plan *plan, uint32_t cube_index)
 static facet_result bake_cubes(bake_run *run, facet_error *error)
 {
     facet_result result = FACET_OK;
-    bool has_told = false;
+    bool has_reported = false;
     for (uint32_t i = 0; i < run->plan.cube_count && result == FACET_OK; i++) {
         bake_cube *baked = &run->plan.cubes[i];
         if (!baked->desc.size) /* its files are kept */
@@ -198,9 +198,9 @@ static facet_result bake_cubes(bake_run *run, facet_error *error)
         baked->desc.allocator = run->base.allocator;
         baked->desc.progress = next_step(run, STEP_BAKE, &baked->desc);
         result = facet_cube_bake(run->environment, &baked->desc, &baked->cube, error);
-        if (result == FACET_OK && !has_told)
+        if (result == FACET_OK && !has_reported)
             report_clamped(run, baked);
-        has_told = true;
+        has_reported = true;
         if (result == FACET_OK && baked->is_verified) {
             baked->desc.progress = next_step(run, STEP_VERIFY, &baked->desc);
             result = facet_cube_verify(baked->cube, run->environment, &baked->desc, baked->errors, error);

@@ -123,7 +123,7 @@ static facet_result read_output(compare_run *run, facet_error *error)
     return output_check(run->output, error);
 }
 
-static facet_result read_look(compare_run *run, facet_error *error)
+static facet_result read_color(compare_run *run, facet_error *error)
 {
     const command_line *c = run->base.line;
     facet_compare_desc *d = &run->desc;
@@ -162,7 +162,7 @@ static facet_result read_desc(compare_run *run, facet_error *error)
     d->difference = is_given(c, OPT_HEAT_MAP) ? FACET_DIFFERENCE_HEAT_MAP : FACET_DIFFERENCE_ABSOLUTE;
     d->gain = (float)option_number(c, OPT_GAIN, 0.0);
     d->is_sheet = is_given(c, OPT_SHEET);
-    return read_look(run, error);
+    return read_color(run, error);
 }
 
 /* ---- the run ---- */

@@ -78,7 +78,7 @@ facet_result ocean_run_meter(ocean_run *run, const ocean_options *o, facet_error
 }
 
 /* images_left includes this one; path tracing uses all of its time, so that images share the rest evenly. */
-static facet_result draw(ocean_run *run, const ocean_options *o, const facet_sea_shading *look,
+static facet_result draw(ocean_run *run, const ocean_options *o, const facet_sea_shading *shading,
                          facet_tonemap tonemap, uint32_t images_left, progress *shown, facet_image **image,
                          facet_error *error)
 {
@@ -87,7 +87,7 @@ static facet_result draw(ocean_run *run, const ocean_options *o, const facet_sea
     facet_result result = interrupt_check(shown->subject, error);
     if (result != FACET_OK)
         return result;
-    facet_render_desc d = desc_of(run, o, look);
+    facet_render_desc d = desc_of(run, o, shading);
     d.camera = &camera;
     d.progress = progress_callback(shown);
     d.tonemap = tonemap;
@@ -110,12 +110,12 @@ static facet_result draw_both(ocean_run *run, const ocean_options *o, progress *
 {
     facet_image *halves[2] = {NULL, NULL};
     static const char *const labels[] = {"before", "now"};
-    facet_sea_shading before = o->shading, now = o->shading;
+    facet_sea_shading legacy = o->shading, now = o->shading;
     now.style = FACET_SEA_STYLE_PHYSICAL;
-    if (!before.style)
-        before.style = FACET_SEA_STYLE_LEGACY_INTENDED;
-    before.stage = 0;
-    facet_result result = draw(run, o, &before, FACET_TONEMAP_NONE, 1, shown, &halves[0], error);
+    if (!legacy.style)
+        legacy.style = FACET_SEA_STYLE_LEGACY_INTENDED;
+    legacy.stage = 0;
+    facet_result result = draw(run, o, &legacy, FACET_TONEMAP_NONE, 1, shown, &halves[0], error);
     facet_tonemap tonemap = o->shading.style && !is_given(run->base.line, OPT_TONE_MAPPING)
                                 ? FACET_TONEMAP_AGX
                                 : o->render.desc.tonemap;

@@ -234,7 +234,7 @@ static facet_result read_sky(const command_line *c, ocean_options *out, facet_er
     return image_options_exposure(c, o, error);
 }
 
-/* ---- look ---- */
+/* ---- shading ---- */
 
 /* The first option that is given by a source up to last; NULL: none. */
 static const option *first_given(const command_line *c, const option_id *ids, size_t count,
@@ -246,13 +246,13 @@ static const option *first_given(const command_line *c, const option_id *ids, si
     return NULL;
 }
 
-static facet_result read_look(const command_line *c, ocean_options *out, facet_error *error)
+static facet_result read_shading(const command_line *c, ocean_options *out, facet_error *error)
 {
     render_options *o = &out->render;
-    int before = option_choice(c, OPT_BEFORE, -1);
+    int legacy = option_choice(c, OPT_BEFORE, -1);
     out->is_before_after = is_given(c, OPT_BEFORE_AFTER);
     out->shading = (facet_sea_shading){
-        .style = (facet_sea_style)(before + 1),
+        .style = (facet_sea_style)(legacy + 1),
         .normals = (facet_sea_normals)option_choice(c, OPT_NORMALS, 0),
         .masking = (facet_sea_masking)option_choice(c, OPT_MASKING, 0),
         .has_schlick_fresnel = option_choice(c, OPT_FRESNEL, 0) == 1,
@@ -447,7 +447,7 @@ facet_result ocean_options_read(const command_line *c, ocean_options *out, facet
     if (is_given(c, OPT_PRESET))
         TRY(facet_sea_preset(option_text(c, OPT_PRESET, ""), &out->sea, error));
     facet_result (*const readers[])(const command_line *, ocean_options *, facet_error *) = {
-        read_output, read_waves, read_water, read_bed, read_sky, read_look, read_camera, read_sequence};
+        read_output, read_waves, read_water, read_bed, read_sky, read_shading, read_camera, read_sequence};
     TRY(limits_read(c, &out->render.limits, error));
     for (size_t i = 0; i < sizeof readers / sizeof *readers; i++)
         TRY(readers[i](c, out, error));

@@ -35,7 +35,7 @@ static facet_result read_background(const command_line *c, render_options *out, 
 }
 
 /* Color management, quality. */
-static facet_result read_look(const command_line *c, render_options *out, facet_error *error)
+static facet_result read_color(const command_line *c, render_options *out, facet_error *error)
 {
     facet_render_desc *d = &out->desc;
     TRY(image_options_exposure(c, out, error));
@@ -69,17 +69,10 @@ facet_result render_options_read(const command_line *c, render_options *out, fac
 {
     *out = (render_options){.scene = option_text(c, OPT_SCENE, NULL),
                             .variant = option_text(c, OPT_VARIANT, NULL)};
-    facet_result (*const readers[])(const command_line *, render_options *,
-                                    facet_error *) = {image_options_output,
-                                                      image_options_format,
-                                                      read_size,
-                                                      read_background,
-                                                      read_look,
-                                                      camera_options_read,
-                                                      read_motion,
-                                                      image_options_environment,
-                                                      path_options_read,
-                                                      image_options_aov};
+    facet_result (*const readers[])(const command_line *, render_options *, facet_error *) = {
+        image_options_output, image_options_format, read_size,   read_background,
+        read_color,           camera_options_read,  read_motion, image_options_environment,
+        path_options_read,    image_options_aov};
     facet_result result = limits_read(c, &out->limits, error);
     for (size_t i = 0; i < sizeof readers / sizeof *readers && result == FACET_OK; i++)
         result = readers[i](c, out, error);

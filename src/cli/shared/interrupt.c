@@ -106,10 +106,10 @@ static void install_stop(int number)
     install(number, on_stop);
 }
 
-void interrupt_install(bool tells_json)
+void interrupt_install(bool reports_json)
 {
     is_installed = true;
-    has_json = tells_json;
+    has_json = reports_json;
     install(SIGALRM, on_tick);
     install_stop(SIGINT);
     install_stop(SIGTERM);

@@ -11,9 +11,9 @@
 
 #include "facet/facet.h"
 
-/* Installs the signal handlers. tells_json: an end at the time limit is also reported as a JSON object on
+/* Installs the signal handlers. reports_json: an end at the time limit is also reported as a JSON object on
  * standard output. */
-void interrupt_install(bool tells_json);
+void interrupt_install(bool reports_json);
 /* The pending signal; 0: none. */
 int interrupt_signal(void);
 

@@ -223,7 +223,7 @@ static void add_background(line *l, const command_line *c, const facet_render_de
         add_float(l, OPT_BACKGROUND_BLUR, d->background_blur);
 }
 
-static void add_look(line *l, const facet_render_desc *d)
+static void add_color(line *l, const facet_render_desc *d)
 {
     const option *o = option_find_id(verb_find("render"), OPT_TONE_MAPPING);
     if (d->exposure_ev != 0.0f)
@@ -370,7 +370,7 @@ char *view_command(const command_line *c, const render_options *options, const f
     add_pose(&l, c, &d->pose);
     add_light(&l, c, p);
     add_background(&l, c, d);
-    add_look(&l, d);
+    add_color(&l, d);
     add_others(&l, c, facet_renderer_get_info(d->renderer).features & FACET_RENDERER_FEATURE_PATH);
     if (l.has_failed) {
         free(l.text);
