@@ -22,8 +22,6 @@ typedef struct core_grid {
     float perceptual_roughness[CORE_EXPONENTS][CORE_COLORS][CORE_COLORS];
 } core_grid;
 void core_grid_make(core_grid *grid, float least_shininess, float most_shininess, uint32_t thread_count);
-/* Metallic and roughness of the mean channel, base color per channel. */
-pbr_surface core_grid_look_up(const core_grid *grid, const ogl1_surface *in);
 
 /* LUTs of the four maps, and divisors of the results. Part of the key of a bake: memset() before filling. */
 typedef struct texel_parameters {

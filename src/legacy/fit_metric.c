@@ -131,7 +131,8 @@ static void add_view(builder *b)
     }
 }
 
-void fit_quadrature(fit_metric *metric)
+/* Fills the nodes: everything except masking, fresnel and display. */
+static void fit_quadrature(fit_metric *metric)
 {
     builder b = {.metric = metric};
     gauss_legendre(POINTS, b.x, b.w);
@@ -273,11 +274,6 @@ void fit_radiance_pbr(const fit_metric *metric, const fit_lobes *lobes, const fl
 
 /* ---- OpenGL 1 as its programs display it ---- */
 
-float fit_display_number(float linear)
-{
-    return srgb_from_linear1(linear);
-}
-
 float fit_display_light(float number)
 {
     return linear_from_srgb1(number);
@@ -287,8 +283,8 @@ void fit_radiance_drawn(const fit_metric *metric, const ogl1_surface *surface, c
                         float *out)
 {
     const float *table = metric->display;
-    float Cd = fit_display_number(surface->diffuse[k]);
-    float Cs = fit_display_number(surface->specular[k]);
+    float Cd = srgb_from_linear1(surface->diffuse[k]);
+    float Cs = srgb_from_linear1(surface->specular[k]);
     for (size_t i = 0; i < metric->node_begin[FIT_VIEWS]; i++) {
         float place = min(metric->NdotL[i] * Cd + highlight[i] * Cs, 1.0f) * (float)DISPLAY_STEPS;
         int step_at = (int)place;

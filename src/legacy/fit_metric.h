@@ -29,9 +29,6 @@ struct fit_metric {
     float display[DISPLAY_STEPS + 2];
 };
 
-/* Fills the nodes: everything except masking, fresnel and display. */
-void fit_quadrature(fit_metric *metric);
-
 /* pi D V N.L at every node, and N.H^s. */
 void fit_specular_lobe(const fit_metric *metric, float perceptual_roughness, float *out);
 void fit_highlight(const fit_metric *metric, float shininess, float *out);
@@ -51,8 +48,7 @@ void fit_radiance_pbr(const fit_metric *metric, const fit_lobes *lobes, const fl
 
 /* ---- OpenGL 1 as its programs display it ---- */
 
-/* Display values (sRGB) of linear colors, and back: any value >= 0. */
-float fit_display_number(float linear);
+/* The linear value of a display value (sRGB), any value >= 0. */
 float fit_display_light(float number);
 
 /* Displayed light at every node, at most 1: the clamped sum of display values, decoded. */

@@ -26,9 +26,6 @@ static inline uint8_t texture_grey(const uint8_t *texel)
 double texture_mean(const texture_statistics *s, int channel,
                     const float values[256]);                                      /* mean of values[code] */
 int texture_percentile(const texture_statistics *s, int channel, double fraction); /* a code */
-bool texture_is_two_valued(const texture_statistics *s, int channel);              /* only 0 and 255 */
-int texture_highest(const texture_statistics *s, int channel);                     /* codes */
-int texture_lowest(const texture_statistics *s, int channel);
 
 typedef struct texture_baker texture_baker;
 facet_result texture_baker_create(facet_scene *scene, texture_baker **out, facet_error *error);

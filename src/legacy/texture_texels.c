@@ -299,24 +299,3 @@ int texture_percentile(const texture_statistics *s, int channel, double fraction
     }
     return 255;
 }
-
-bool texture_is_two_valued(const texture_statistics *s, int channel)
-{
-    return s->histogram[channel][0] + s->histogram[channel][255] == s->texel_count;
-}
-
-int texture_highest(const texture_statistics *s, int channel)
-{
-    int i = 255;
-    while (i > 0 && s->histogram[channel][i] == 0)
-        i--;
-    return i;
-}
-
-int texture_lowest(const texture_statistics *s, int channel)
-{
-    int i = 0;
-    while (i < 255 && s->histogram[channel][i] == 0)
-        i++;
-    return i;
-}
