@@ -20,7 +20,7 @@ typedef struct checking {
     uint32_t triangle_count;
 } checking;
 
-/* Remarks store the index of the element; obj_warn_all() finds its line. */
+/* Remarks store the index of the element; report_remarks() of obj_read.c finds its line. */
 static void note(checking *k, obj_remark remark)
 {
     obj_note(&k->c->remarks, remark, k->number);

@@ -105,7 +105,7 @@ static void warn_statements(obj_reader *r, bool is_geometry, const char *sentenc
     text_destroy(&names);
 }
 
-void obj_warn_all(obj_reader *r, const char *bytes)
+static void report_remarks(obj_reader *r, const char *bytes)
 {
     for (int i = 0; i < OBJ_REMARK_COUNT; i++)
         warn_remark(r, (obj_remark)i, bytes);
@@ -269,7 +269,7 @@ static void warn_all(obj_reader *r, bool has_elements, const char *bytes)
     for (uint32_t i = 0; i < r->primitive_count; i++)
         if (r->primitives[i].has_texcoords)
             r->chunks[0].remarks.counts[OBJ_TEXCOORD_MISSING] += r->primitives[i].missing_texcoords;
-    obj_warn_all(r, bytes);
+    report_remarks(r, bytes);
     if (r->primitive_count == 0)
         scene_warn(r->scene, &r->desc->log, "%s: has no face, line or point that can be drawn",
                    r->scene->source);

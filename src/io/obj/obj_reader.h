@@ -230,9 +230,6 @@ void obj_make_vertices(obj_reader *r);
 char *obj_copy_name(obj_reader *r, const char *bytes, size_t size);
 void obj_make_scene(obj_reader *r);
 
-/* obj_read.c */
-void obj_warn_all(obj_reader *r, const char *text);
-
 /* obj_scene.c */
 /* The index of a name; UINT32_MAX: no memory. *is_new: it was added. */
 uint32_t obj_names_add(obj_names *names, const void *bytes, size_t size, bool *is_new);
