@@ -38,14 +38,4 @@ facet_result sky_image_atmosphere(const sky_view *view, float sun_azimuth_rad,
                                   const facet_allocator *allocator, uint32_t thread_count, image *panorama,
                                   facet_error *error);
 
-/* The same by Preetham's formula, with a diffuse ground lit by that sky and sun. */
-facet_result sky_image_preetham(float turbidity, const sky_sun_light *sun, const float ground_albedo[3],
-                                const facet_allocator *allocator, uint32_t thread_count, image *panorama,
-                                facet_error *error);
-
-/* Largest illuminance in lx of any orientation, for a panorama that is symmetric about the vertical plane of
- * an azimuth. To 0.1 %. FACET_ERROR_MEMORY. */
-facet_result sky_image_illuminance(const image *panorama, float azimuth_rad, const facet_allocator *allocator,
-                                   uint32_t thread_count, double *out, facet_error *error);
-
 #endif
