@@ -63,7 +63,7 @@ const char *view_transparency_name(facet_transparency transparency)
     return names[transparency];
 }
 
-const char *view_background_name(facet_background background)
+static const char *background_name(facet_background background)
 {
     static const char *const names[] = {[FACET_BACKGROUND_TRANSPARENT] = "transparent",
                                         [FACET_BACKGROUND_COLOR] = "color",
@@ -196,7 +196,7 @@ static void step_background(view_state *s)
     r->background = r->background == FACET_BACKGROUND_COLOR         ? FACET_BACKGROUND_ENVIRONMENT
                     : r->background == FACET_BACKGROUND_ENVIRONMENT ? FACET_BACKGROUND_TRANSPARENT
                                                                     : FACET_BACKGROUND_COLOR;
-    say(s, "Background: %s", view_background_name(r->background));
+    say(s, "Background: %s", background_name(r->background));
 }
 
 static void step_blur(view_state *s)

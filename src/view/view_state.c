@@ -256,12 +256,13 @@ void view_divider_sides(const view_divider *d, const facet_render_desc *base, fa
     }
 }
 
-bool view_divider_is_at(const view_divider *d, double x, uint32_t width, double reach)
+/* Whether the pointer at x can grab it. reach: px to either side. */
+static bool divider_is_at(const view_divider *d, double x, uint32_t width, double reach)
 {
     return d->comparison != VIEW_COMPARE_NOTHING && fabs(x - d->position * width) <= reach;
 }
 
-void view_divider_drag(view_divider *d, double x, uint32_t width)
+static void drag_divider(view_divider *d, double x, uint32_t width)
 {
     d->position = width ? fmin(fmax(x / width, 0.02), 0.98) : 0.5;
 }
@@ -342,7 +343,7 @@ bool view_state_point(view_state *s, const view_event *e)
         s->button = e->button;
         s->held_modifiers = e->modifiers;
         s->divider.is_dragged = e->button == VIEW_LEFT_BUTTON &&
-                                view_divider_is_at(&s->divider, e->x, s->width, 8.0 * (double)s->scale);
+                                divider_is_at(&s->divider, e->x, s->width, 8.0 * (double)s->scale);
         return false;
     case VIEW_RELEASE:
         s->is_held = s->is_held && e->button != s->button;
@@ -354,7 +355,7 @@ bool view_state_point(view_state *s, const view_event *e)
         if (!s->is_held || !s->scene || (dx == 0.0 && dy == 0.0))
             return false;
         if (s->divider.is_dragged)
-            view_divider_drag(&s->divider, e->x, s->width);
+            drag_divider(&s->divider, e->x, s->width);
         else
             drag(s, dx, dy, s->held_modifiers);
         return true;

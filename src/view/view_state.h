@@ -38,9 +38,6 @@ typedef struct view_divider {
  * renderer is kept, unless the comparison is of the renderers or needs OpenGL (VIEW_COMPARE_MASKING). */
 void view_divider_sides(const view_divider *d, const facet_render_desc *base, facet_render_desc sides[2],
                         const char *labels[2]);
-/* Whether the pointer at x can grab it. reach: px to either side. */
-bool view_divider_is_at(const view_divider *d, double x, uint32_t width, double reach);
-void view_divider_drag(view_divider *d, double x, uint32_t width);
 /* The next comparison, in either direction; variants only where there are some, masking only with OpenGL: other
  * renderers have no separable one. */
 void view_divider_step(view_divider *d, int steps, bool has_variants, facet_renderer_kind renderer);
@@ -143,6 +140,5 @@ const char *view_channel_name(facet_channel channel);
 const char *view_brdf_name(facet_brdf brdf);
 const char *view_energy_name(facet_energy energy);
 const char *view_transparency_name(facet_transparency transparency);
-const char *view_background_name(facet_background background);
 
 #endif

@@ -58,7 +58,7 @@ differ() {
     ! "$facet" compare "$1" "$2" --max mae=0.002 -q >/dev/null 2>&1 || failed "$1 and $2 are alike"
 }
 
-# rendered PICTURE FILE [MOST]: the last printed command, run by a shell, writes FILE, equal to the last bit, or within MOST.
+# rendered IMAGE FILE [MOST]: the last printed command, run by a shell, writes FILE, equal to the last bit, or within MOST.
 rendered() {
     tail -1 out | grep '^facet render ' >command || {
         failed "no command was printed"

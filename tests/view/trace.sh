@@ -44,7 +44,7 @@ differ left.png right.png
 for side in left:0,0,46,72:both left:0,0,90,72:dragged right:50,0,46,72:both; do
     crop=${side#*:}
     "$facet" compare "${side%%:*}.png" "${side##*:}.png" --crop "${crop%:*}" --max max=0.004 -q >compared 2>&1 ||
-        failed "the $side side is another picture: $(cat compared)"
+        failed "the $side side differs: $(cat compared)"
 done
 
 # The divider does not stop path tracing: both sides are traced like their own images, and moving the border does not restart
