@@ -20,7 +20,7 @@ FN float clearcoat_lobe_cos(vec3 N, float NdotV, vec3 V, vec3 L, float alpha)
     if (NdotL <= 0.0f || sum2 < 1e-12f)
         return 0.0f;
     vec3 H = sum * inversesqrt(sum2);
-    float a = max(alpha, ALPHA_MIRROR);
+    float a = max(alpha, ALPHA_DELTA);
     return D_GGX_stable(clamp(dot(N, H), 0.0f, 1.0f), cross(N, H), a) * V_SmithGGX(NdotL, NdotV, a) * NdotL;
 }
 

@@ -76,7 +76,7 @@ FN vec3 integrate_glass(float perceptual_roughness, float NdotV, float eta, uint
 {
     float mu = clamp(NdotV, NDOTV_MIN, 1.0f);
     float alpha = alpha_from_roughness(perceptual_roughness);
-    if (alpha <= ALPHA_MIRROR)
+    if (alpha <= ALPHA_DELTA)
         return smooth_glass(mu, eta);
     float E = 0.0f;
     float R = 0.0f;

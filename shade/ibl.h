@@ -24,7 +24,7 @@ STRUCT(SpecularSample)
 FN SpecularSample specular_ibl_sample(uint i, uint n, vec3 F0, vec3 F90, float perceptual_roughness, vec3 N,
                                       vec3 V)
 {
-    float alpha = max(alpha_from_roughness(perceptual_roughness), ALPHA_MIRROR);
+    float alpha = max(alpha_from_roughness(perceptual_roughness), ALPHA_DELTA);
     vec3 H_local = sample_D_GGX(hammersley(i, n), alpha);
     vec3 H = mul(basis_from_normal(N), H_local);
     float NdotH = H_local[2];
@@ -53,7 +53,7 @@ STRUCT(PrefilterSample)
  * environment: every sample is R. Karis 2013, "PrefilterEnvMap". */
 FN PrefilterSample prefilter_sample(uint i, uint n, float alpha, vec3 R)
 {
-    float a = max(alpha, ALPHA_MIRROR);
+    float a = max(alpha, ALPHA_DELTA);
     vec3 H = sample_D_GGX(hammersley(i, n), a);
     float NdotL = 2.0f * H[2] * H[2] - 1.0f; /* L = reflect(-z, H) */
     PrefilterSample r;
@@ -80,7 +80,7 @@ FN float prefilter_lod(float pdf, uint n, float texel_solid_angle)
  * height-correlated Smith; otherwise Schlick-GGX with that k. Karis 2013, "IntegrateBRDF". */
 FN vec2 dfg_sample_k(uint i, uint n, float perceptual_roughness, float NdotV, float k)
 {
-    float alpha = max(alpha_from_roughness(perceptual_roughness), ALPHA_MIRROR);
+    float alpha = max(alpha_from_roughness(perceptual_roughness), ALPHA_DELTA);
     float mu = max(NdotV, NDOTV_MIN);
     vec3 V = vec3(sqrt(max(1.0f - mu * mu, 0.0f)), 0.0f, mu);
     vec3 H = sample_D_GGX(hammersley(i, n), alpha);

@@ -134,7 +134,7 @@ FN vec3 layers_to_frame(Layers m, vec3 v)
 FN vec2 layers_alpha(Layers m, float alpha)
 {
     float strength = sel(has_layer(m, LAYER_ANISOTROPY), m.anisotropy, 0.0f);
-    return max(anisotropic_alpha(alpha, strength), ALPHA_MIRROR);
+    return max(anisotropic_alpha(alpha, strength), ALPHA_DELTA);
 }
 
 /* Width of the specular transmission without anisotropy: a volume's boundary has the roughness of its
@@ -266,7 +266,7 @@ FN LayerTables layer_tables(Layers m, vec3 V, int energy, vec2 dfg, float clearc
         t.transmission_E = E[0] + E[1];
         t.glass = layers_glass_bound(glass, dfg, t.dfg, alpha, layers_fresnel_eta(m));
     }
-    if (layers_is_exact(m, energy) && max(alpha[0], alpha[1]) <= ALPHA_MIRROR) {
+    if (layers_is_exact(m, energy) && max(alpha[0], alpha[1]) <= ALPHA_DELTA) {
         t.dfg = t.dfg / (t.dfg[0] + t.dfg[1]); /* 1 except for LUT interpolation */
         t.glass = smooth_glass(surface_NdotV(m.base, V), layers_fresnel_eta(m));
     }

@@ -17,7 +17,7 @@ static bool draw(const void *context, vec2 u, vec3 *d)
     LayersSample s = layers_sample(w->from, w->p, w->V, rng_float(w->rng), u, w->energy, w->t);
     if (!s.is_valid)
         return false;
-    assert_false(s.is_mirror);
+    assert_false(s.is_delta);
     assert_true(s.is_through == (dot(w->m.base.N, s.L) < 0.0f));
     expect_near((double)length(s.L), 1.0, 1e-5, "unit");
     assert_true(s.pdf == layers_pdf(w->from, w->p, w->V, s.L));
@@ -191,7 +191,7 @@ static void test_mixtures(void **state)
         vec3 V = view_at(i % 4 ? 0.1f + 0.8f * rng_float(&rng) : -0.2f);
         Layers m = random_layers(&rng, rng_uint(&rng) % 512u & ~LAYER_DISPERSION, V, false);
         if (layers_scattering_lobes(m) == LOBES_ALL || !has_layer(m, LAYER_TRANSMISSION) ||
-            !layers_transmission_is_mirror(m))
+            !layers_transmission_is_delta(m))
             expect_density(m, V, "mixture");
     }
 }

@@ -186,7 +186,7 @@ FN float layers_DV(Layers m, vec3 V, vec3 L, vec3 H, float NdotL, float NdotV)
         return D_GGX_anisotropic(layers_to_frame(m, H), a[0], a[1]) *
                V_SmithGGX_anisotropic(layers_to_frame(m, L), V_local, a[0], a[1]);
     }
-    float alpha = max(m.base.alpha, ALPHA_MIRROR);
+    float alpha = max(m.base.alpha, ALPHA_DELTA);
     return D_GGX_stable(clamp(dot(m.base.N, H), 0.0f, 1.0f), cross(m.base.N, H), alpha) *
            V_SmithGGX(NdotL, NdotV, alpha);
 }

@@ -92,7 +92,7 @@ FN vec3 layers_punctual_alone(Layers m, vec3 P, vec3 V, Light l, int energy, Lay
  * alpha / 2, as in older renderers. Karis 2013, equation 4; cosines above 0. */
 FN float schlick_GGX_over_smith(float NdotL, float NdotV, float alpha)
 {
-    return V_SchlickGGX(NdotL, NdotV, k_ibl(alpha)) / V_SmithGGX(NdotL, NdotV, max(alpha, ALPHA_MIRROR));
+    return V_SchlickGGX(NdotL, NdotV, k_ibl(alpha)) / V_SmithGGX(NdotL, NdotV, max(alpha, ALPHA_DELTA));
 }
 
 #endif

@@ -31,7 +31,7 @@ STRUCT(LayersSample)
     float pdf;   /* per sr, of all non-specular lobes; 0 for a specular one */
     vec3 weight; /* of a specular lobe: f |N.L| / pdf, its probability included; otherwise 0 */
     /* a specular (delta) lobe: no other technique has a density for L */
-    bool is_mirror;
+    bool is_delta;
     bool is_through; /* L is on the other side of the surface: N.L < 0 */
     bool is_valid;   /* false: the path ends here */
 };
@@ -64,35 +64,35 @@ FN vec3 view_above(vec3 N, vec3 V)
 
 /* Whether a lobe of these widths is specular: not wider than the narrowest that is evaluated. There the
  * rounding of a direction, 6e-8, is 6e-4 of the width and changes D by about as much. */
-FN bool is_mirror_alpha(vec2 alpha)
+FN bool is_delta_alpha(vec2 alpha)
 {
-    return max(alpha[0], alpha[1]) <= ALPHA_MIRROR;
+    return max(alpha[0], alpha[1]) <= ALPHA_DELTA;
 }
 
 /* The same for refraction, which turns L by |1 - 1 / eta| times the microfacet's angle where reflection turns
  * it by 2: the width of the lobe in L decides. With equal or nearly equal iors light goes straight on however
  * rough the boundary is, and a half vector would be rounding noise. */
-FN bool is_mirror_refraction(vec2 alpha, float eta)
+FN bool is_delta_refraction(vec2 alpha, float eta)
 {
-    return max(alpha[0], alpha[1]) * abs(eta - 1.0f) <= 2.0f * ALPHA_MIRROR * eta;
+    return max(alpha[0], alpha[1]) * abs(eta - 1.0f) <= 2.0f * ALPHA_DELTA * eta;
 }
 
-FN bool layers_specular_is_mirror(Layers m)
+FN bool layers_specular_is_delta(Layers m)
 {
     if (!has_layer(m, LAYER_ANISOTROPY))
-        return m.base.alpha <= ALPHA_MIRROR;
-    return is_mirror_alpha(layers_alpha(m, m.base.alpha));
+        return m.base.alpha <= ALPHA_DELTA;
+    return is_delta_alpha(layers_alpha(m, m.base.alpha));
 }
-FN bool layers_transmission_is_mirror(Layers m)
+FN bool layers_transmission_is_delta(Layers m)
 {
     vec2 alpha = layers_alpha(m, layers_transmission_alpha(m));
     if (has_layer(m, LAYER_VOLUME))
-        return is_mirror_refraction(alpha, m.eta);
-    return is_mirror_alpha(alpha);
+        return is_delta_refraction(alpha, m.eta);
+    return is_delta_alpha(alpha);
 }
-FN bool layers_clearcoat_is_mirror(Layers m)
+FN bool layers_clearcoat_is_delta(Layers m)
 {
-    return alpha_from_roughness(m.clearcoat_roughness) <= ALPHA_MIRROR;
+    return alpha_from_roughness(m.clearcoat_roughness) <= ALPHA_DELTA;
 }
 
 /* Whether reflection and transmission share one microfacet, as both lobes of a volume's boundary do. The
@@ -102,18 +102,18 @@ FN bool layers_is_coupled(Layers m)
 {
     if (!has_layer(m, LAYER_TRANSMISSION) || !has_layer(m, LAYER_VOLUME))
         return false;
-    return !layers_specular_is_mirror(m) && !layers_transmission_is_mirror(m);
+    return !layers_specular_is_delta(m) && !layers_transmission_is_delta(m);
 }
 
 /* LOBE_* of the non-specular lobes. */
 FN uint layers_scattering_lobes(Layers m)
 {
     uint lobes = 0u;
-    if (!layers_specular_is_mirror(m))
+    if (!layers_specular_is_delta(m))
         lobes = lobes | LOBE_SPECULAR;
-    if (has_layer(m, LAYER_TRANSMISSION) && !layers_transmission_is_mirror(m))
+    if (has_layer(m, LAYER_TRANSMISSION) && !layers_transmission_is_delta(m))
         lobes = lobes | LOBE_TRANSMISSION;
-    if (has_layer(m, LAYER_CLEARCOAT) && !layers_clearcoat_is_mirror(m))
+    if (has_layer(m, LAYER_CLEARCOAT) && !layers_clearcoat_is_delta(m))
         lobes = lobes | LOBE_CLEARCOAT;
     return lobes;
 }
@@ -151,7 +151,7 @@ FN BoundaryWeights layers_boundary_albedo_conserving(Layers m, float NdotV, Laye
         R_metal = mix(R_metal, t.film_F_metal * multiscatter_scale(t.film_F_metal, E) * E, t.film_weight);
     }
     w.specular = mix(R_base, R_metal, m.base.metallic);
-    if (!layers_transmission_is_mirror(m))
+    if (!layers_transmission_is_delta(m))
         w.through = w.below;
     return w;
 }
@@ -171,7 +171,7 @@ FN BoundaryWeights layers_boundary_albedo_gltf(Layers m, float NdotV, LayerTable
     vec3 F_metal = m.base.base_color * t.dfg[0] + t.dfg[1];
     w.specular = mix(F_base, F_metal, m.base.metallic);
     w.below = (1.0f - m.base.metallic) * (1.0f - max3(F_base));
-    if (!layers_transmission_is_mirror(m))
+    if (!layers_transmission_is_delta(m))
         w.through = w.below;
     return w;
 }
@@ -334,7 +334,7 @@ FN float layers_specular_pdf(Layers m, vec3 V, vec3 L)
     if (has_layer(m, LAYER_ANISOTROPY))
         return pdf_reflection_anisotropic(layers_V_local(m, V), layers_to_frame(m, L),
                                           layers_alpha(m, m.base.alpha));
-    return pdf_reflection(m.base.N, V, L, max(m.base.alpha, ALPHA_MIRROR));
+    return pdf_reflection(m.base.N, V, L, max(m.base.alpha, ALPHA_DELTA));
 }
 
 FN float layers_transmission_pdf(Layers m, vec3 V, vec3 L)
@@ -379,7 +379,7 @@ FN float layers_pdf(Layers m, LayersLobes p, vec3 V_eye, vec3 L)
     float NdotL = dot(m.base.N, L);
     float pdf = p.diffuse * pdf_cosine(NdotL);
     bool is_coupled = layers_is_coupled(m);
-    if (p.specular > 0.0f && NdotL > 0.0f && !is_coupled && !layers_specular_is_mirror(m))
+    if (p.specular > 0.0f && NdotL > 0.0f && !is_coupled && !layers_specular_is_delta(m))
         pdf += p.specular * layers_specular_pdf(m, V, L);
     if (m.layers == 0u)
         return pdf;
@@ -388,9 +388,9 @@ FN float layers_pdf(Layers m, LayersLobes p, vec3 V_eye, vec3 L)
     pdf += p.diffuse_back * pdf_cosine(-NdotL);
     if (p.sheen > 0.0f)
         pdf += p.sheen * pdf_sheen_rim(NdotL, surface_NdotV(m.base, V), sheen_alpha(m.sheen_roughness));
-    if (p.transmission > 0.0f && NdotL < 0.0f && !is_coupled && !layers_transmission_is_mirror(m))
+    if (p.transmission > 0.0f && NdotL < 0.0f && !is_coupled && !layers_transmission_is_delta(m))
         pdf += p.transmission * layers_transmission_pdf(m, V, L);
-    if (p.clearcoat > 0.0f && !layers_clearcoat_is_mirror(m))
+    if (p.clearcoat > 0.0f && !layers_clearcoat_is_delta(m))
         pdf += p.clearcoat * layers_clearcoat_pdf(m, V_eye, L);
     return pdf;
 }
@@ -418,7 +418,7 @@ FN LayersSample no_sample(vec3 L)
     s.L = L;
     s.pdf = 0.0f;
     s.weight = vec3(0.0f);
-    s.is_mirror = false;
+    s.is_delta = false;
     s.is_through = false;
     s.is_valid = false;
     return s;
@@ -482,9 +482,9 @@ FN vec3 layers_draw_boundary(Layers m, vec3 V, float u_side, float p_specular, v
 /* Transmittance of a boundary with specular refraction. If it is specular because the iors are nearly equal,
  * all microfacets of a rough boundary transmit straight on: glTF's term is their mean, by the split sum, less
  * the masking G2; the conserving one is all that is not reflected. V and L in the base's frame. */
-FN float layers_mirror_through(Layers m, BoundaryWeights b, vec3 V, vec3 L, int energy, LayerTables t)
+FN float layers_delta_through(Layers m, BoundaryWeights b, vec3 V, vec3 L, int energy, LayerTables t)
 {
-    bool is_smooth = layers_specular_is_mirror(m);
+    bool is_smooth = layers_specular_is_delta(m);
     if (energy == ENERGY_CONSERVING)
         return sel(is_smooth, b.through, b.below);
     if (!has_layer(m, LAYER_VOLUME))
@@ -498,14 +498,15 @@ FN float layers_mirror_through(Layers m, BoundaryWeights b, vec3 V, vec3 L, int 
 }
 
 /* Specular lobes: their boundary weights are those of N.V, the cosine of the microfacet. */
-FN LayersSample layers_mirror(Layers m, LayersLobes p, vec3 V_eye, bool is_through, int energy, LayerTables t)
+FN LayersSample layers_sample_delta(Layers m, LayersLobes p, vec3 V_eye, bool is_through, int energy,
+                                    LayerTables t)
 {
     vec3 V = view_above(m.base.N, V_eye);
     float NdotV = surface_NdotV(m.base, V);
     float above = layers_below_coat(m, V_eye) * layers_below_sheen(m, t);
     BoundaryWeights b = boundary_weights(m, NdotV, NdotV, energy, t);
     LayersSample s = no_sample(normalize(reflect(-V, m.base.N)));
-    s.is_mirror = true;
+    s.is_delta = true;
     s.is_through = is_through;
     if (!is_through) {
         s.weight = b.specular * (above / p.specular);
@@ -515,18 +516,18 @@ FN LayersSample layers_mirror(Layers m, LayersLobes p, vec3 V_eye, bool is_throu
     s.L = -V_eye;
     if (has_layer(m, LAYER_VOLUME) && m.eta != 1.0f)
         s.L = refract_or_zero(-V, m.base.N, m.eta);
-    float through = layers_mirror_through(m, b, layers_V_local(m, V), layers_to_any_frame(m, s.L), energy, t);
+    float through = layers_delta_through(m, b, layers_V_local(m, V), layers_to_any_frame(m, s.L), energy, t);
     s.weight = below_shares(m).specular * (through * above / p.transmission);
     s.is_valid = max3(s.weight) > 0.0f && dot(s.L, s.L) > 0.5f;
     return s;
 }
 
-FN LayersSample layers_clearcoat_mirror(Layers m, LayersLobes p, vec3 V)
+FN LayersSample layers_sample_delta_clearcoat(Layers m, LayersLobes p, vec3 V)
 {
     vec3 N = m.clearcoat_N;
     LayersSample s = no_sample(normalize(reflect(-view_above(N, V), N)));
     s.weight = vec3((1.0f - layers_below_coat(m, V)) / p.clearcoat);
-    s.is_mirror = true;
+    s.is_delta = true;
     s.is_through = dot(m.base.N, s.L) < 0.0f;
     s.is_valid = s.weight[0] > 0.0f;
     return s;
@@ -549,16 +550,16 @@ FN LayersSample layers_sample(Layers m, LayersLobes p, vec3 V_eye, float u_lobe,
         bool is_through = x >= p.specular;
         if (layers_is_coupled(m))
             L = layers_draw_boundary(m, V, x / boundary, 0.0f, u);
-        else if ((is_through && layers_transmission_is_mirror(m)) ||
-                 (!is_through && layers_specular_is_mirror(m)))
-            return layers_mirror(m, p, V_eye, is_through, energy, t);
+        else if ((is_through && layers_transmission_is_delta(m)) ||
+                 (!is_through && layers_specular_is_delta(m)))
+            return layers_sample_delta(m, p, V_eye, is_through, energy, t);
         else
             L = layers_draw_boundary(m, V, x, p.specular, u);
     } else if (z < 0.0f) {
         L = -mul(basis_from_normal(m.base.N), sample_cosine(u));
     } else if (z < p.clearcoat) {
-        if (layers_clearcoat_is_mirror(m))
-            return layers_clearcoat_mirror(m, p, V_eye);
+        if (layers_clearcoat_is_delta(m))
+            return layers_sample_delta_clearcoat(m, p, V_eye);
         L = layers_draw_clearcoat(m, V_eye, u);
     } else if (p.sheen > 0.0f) {
         L = layers_draw_sheen(m, V, u);

@@ -33,7 +33,7 @@ static LayersSample sample_of(const seen *s, test_rng *rng, vec3 *weight)
     float u_lobe = rng_float(rng);
     LayersSample d = layers_sample(s->m, s->p, s->V, u_lobe, rng_vec2(rng), s->energy, s->t);
     *weight = d.weight;
-    if (d.is_valid && !d.is_mirror)
+    if (d.is_valid && !d.is_delta)
         *weight = layers_scatter_cos(s->m, s->V, d.L, s->energy, s->t,
                                      sheen_curve_at(&s->curve, dot(s->m.base.N, d.L))) *
                   (1.0f / d.pdf);
@@ -168,7 +168,7 @@ static void test_smooth_glass_is_fresnel(void **state)
                 continue;
             float u_lobe = way ? s.p.specular + 0.5f * p : 0.5f * p;
             LayersSample d = layers_sample(s.m, s.p, s.V, u_lobe, vec2(0.3f, 0.8f), s.energy, s.t);
-            assert_true(d.is_valid && d.is_mirror && d.is_through == (way == 1) && d.pdf == 0.0f);
+            assert_true(d.is_valid && d.is_delta && d.is_through == (way == 1) && d.pdf == 0.0f);
             expect_near((double)(d.weight[0] * p), way ? 1.0 - rows[i].F : rows[i].F, 2e-6, "row %zu", i);
             float sine = sqrt(1.0f - rows[i].cosine * rows[i].cosine);
             expect_near((double)d.L[0], (double)(way ? -sine / rows[i].eta : -sine), 1e-6, "Snell");
@@ -231,20 +231,20 @@ static void test_mirrors_continue_lobes(void **state)
         a.base.alpha = 1.04e-4f;
         b.base.perceptual_roughness = 0.0098f;
         b.base.alpha = 0.96e-4f;
-        assert_true(!layers_specular_is_mirror(a) && layers_specular_is_mirror(b));
+        assert_true(!layers_specular_is_delta(a) && layers_specular_is_delta(b));
         expect_continuous(a, b, 2e-3, "reflection");
-        float limit = 2.0f * ALPHA_MIRROR * iors[i] / fabsf(iors[i] - 1.0f);
+        float limit = 2.0f * ALPHA_DELTA * iors[i] / fabsf(iors[i] - 1.0f);
         a.base.alpha = 1.01f * limit;
         b.base.alpha = 0.99f * limit;
         a.base.perceptual_roughness = sqrt(a.base.alpha);
         b.base.perceptual_roughness = sqrt(b.base.alpha);
-        assert_true(!layers_transmission_is_mirror(a) && layers_transmission_is_mirror(b));
+        assert_true(!layers_transmission_is_delta(a) && layers_transmission_is_delta(b));
         expect_continuous(a, b, 2e-3, "refraction");
     }
     /* rough, and the ior of both sides nearly equal: straight on. glTF's term there is an estimate, 0.02
      * too large. */
     Layers a = glass(0.5f, 1.0f + 0.82e-3f), b = glass(0.5f, 1.0f + 0.78e-3f);
-    assert_true(!layers_transmission_is_mirror(a) && layers_transmission_is_mirror(b));
+    assert_true(!layers_transmission_is_delta(a) && layers_transmission_is_delta(b));
     expect_continuous(a, b, 0.025, "nearly air");
     a = glass(0.5f, 1.0f / (1.0f + 0.82e-3f));
     b = glass(0.5f, 1.0f / (1.0f + 0.78e-3f));
@@ -262,7 +262,7 @@ static void test_mirrors_continue_lobes(void **state)
     Layers smooth = coated;
     coated.clearcoat_roughness = 0.0102f;
     smooth.clearcoat_roughness = 0.0098f;
-    assert_true(!layers_clearcoat_is_mirror(coated) && layers_clearcoat_is_mirror(smooth));
+    assert_true(!layers_clearcoat_is_delta(coated) && layers_clearcoat_is_delta(smooth));
     expect_continuous(coated, smooth, 2e-3, "coat");
 }
 

@@ -283,7 +283,7 @@ static void test_extremes_are_finite(void **state)
 {
     (void)state;
     test_rng rng = {21};
-    const float alphas[] = {ALPHA_MIRROR, 0.01f, 1.0f},
+    const float alphas[] = {ALPHA_DELTA, 0.01f, 1.0f},
                 etas[] = {1.0f, 1.0000001f, 1.5f, 1.0f / 1.5f, 10.0f, 0.1f};
     for (int i = 0; i < 200000; ++i) {
         float ax = alphas[rng_uint(&rng) % 3u], ay = alphas[rng_uint(&rng) % 3u],

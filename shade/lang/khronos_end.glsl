@@ -48,7 +48,7 @@ float V_GGX_anisotropic(float NdotL, float NdotV, float BdotV, float TdotV, floa
 }
 vec3 BRDF_specularGGXAnisotropy(float alphaRoughness, float anisotropy, vec3 n, vec3 v, vec3 l, vec3 h, vec3 t, vec3 b)
 {
-    vec2 a = anisotropic_alpha(max(alphaRoughness, ALPHA_MIRROR), anisotropy);
+    vec2 a = anisotropic_alpha(max(alphaRoughness, ALPHA_DELTA), anisotropy);
     vec3 L = vec3(dot(t, l), dot(b, l), max(dot(n, l), 0.0));
     vec3 V = vec3(dot(t, v), dot(b, v), max(dot(n, v), 0.0));
     return vec3(V_SmithGGX_anisotropic(L, V, a.x, a.y) * D_GGX_anisotropic(to_frame(h, t, b, n), a.x, a.y));

@@ -118,7 +118,7 @@ static bool may_pass_straight(const render_geometry *g, const material_plan *pla
         return !(m->ior > 1.0f) || has_several_volumes;
     bool may_be_smooth = scene_material_has(m, SCENE_METALLIC_ROUGHNESS_TEXTURE);
     return may_be_smooth ||
-           thin_wall_alpha(alpha_from_roughness(m->perceptual_roughness), m->ior) <= ALPHA_MIRROR;
+           thin_wall_alpha(alpha_from_roughness(m->perceptual_roughness), m->ior) <= ALPHA_DELTA;
 }
 
 facet_result material_plans_create(const render_geometry_set *set, const facet_allocator *allocator,

@@ -408,7 +408,7 @@ uint32_t pbr_to_ogl1_naive(const pbr_surface *in, ogl1_surface *out)
 {
     vec3 color = vec3(in->specular_color[0], in->specular_color[1], in->specular_color[2]);
     vec3 F0 = dielectric_F0(in->ior, in->specular, color);
-    float alpha = max(alpha_from_roughness(in->perceptual_roughness), ALPHA_MIRROR);
+    float alpha = max(alpha_from_roughness(in->perceptual_roughness), ALPHA_DELTA);
     float shininess = shininess_from_alpha(alpha);
     for (int k = 0; k < 3; k++) {
         out->diffuse[k] = in->base_color[k] * (1.0f - in->metallic);

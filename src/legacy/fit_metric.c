@@ -193,7 +193,7 @@ DISPATCH_AVX2 static void smith_separable(size_t count, const float *NdotL, floa
 
 void fit_specular_lobe(const fit_metric *metric, float perceptual_roughness, float *out)
 {
-    float alpha = max(alpha_from_roughness(clamp(perceptual_roughness, 0.0f, 1.0f)), ALPHA_MIRROR);
+    float alpha = max(alpha_from_roughness(clamp(perceptual_roughness, 0.0f, 1.0f)), ALPHA_DELTA);
     float D[FIT_MAX_RINGS];
     for (size_t i = 0; i < metric->ring_begin[FIT_VIEWS]; i++)
         D[i] = D_GGX_stable(metric->cos_h[i], vec3(metric->sin_h[i], 0.0f, 0.0f), alpha);
@@ -434,7 +434,7 @@ void pbr_radiance(const pbr_surface *p, pbr_masking masking, const float V[3], c
         vec3(p->specular_color[0], p->specular_color[1], p->specular_color[2]), 1.0f, vec3(0.0f));
     SurfaceLobes lobes = surface_lobes_cos(s, v, l, ENERGY_GLTF, vec2(0.0f));
     if (masking == PBR_SEPARABLE && L[2] > 0.0f) {
-        float alpha = max(s.alpha, ALPHA_MIRROR);
+        float alpha = max(s.alpha, ALPHA_DELTA);
         float NdotL = min(L[2], 1.0f);
         float NdotV = surface_NdotV(s, v);
         lobes.specular *= V_SmithGGX_separable(NdotL, NdotV, alpha) / V_SmithGGX(NdotL, NdotV, alpha);

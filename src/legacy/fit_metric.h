@@ -66,7 +66,7 @@ uint32_t fit_remarks_to_ogl1(const pbr_surface *in, const ogl1_surface *out);
 
 /* ---- the LUT that fit_table_generate.c computes when facet is built and fit_closed.c reads ---- */
 
-/* Nodes: roughness by equal factors from that of ALPHA_MIRROR to 1, shininess by equal steps of log(1 +
+/* Nodes: roughness by equal factors from that of ALPHA_DELTA to 1, shininess by equal steps of log(1 +
  * s). */
 enum { GRAM_R = 49, GRAM_S = 76 };
 #define GRAM_LOG_R (-4.605170186) /* of the first roughness, 0.01 */

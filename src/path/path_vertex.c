@@ -92,7 +92,7 @@ void path_vertex_set_wavelength(path_vertex *v, const media *in, float wavelengt
 /* Whether transmitted light keeps its direction. */
 static bool transmits_straight(const Layers *m)
 {
-    if (!(m->layers & LAYER_TRANSMISSION) || !layers_transmission_is_mirror(*m))
+    if (!(m->layers & LAYER_TRANSMISSION) || !layers_transmission_is_delta(*m))
         return false;
     return !(m->layers & LAYER_VOLUME) || !(m->eta < 1.0f || m->eta > 1.0f);
 }
@@ -226,8 +226,8 @@ bool path_vertex_sample(const path_vertex *v, float u_lobe, vec2 u, bsdf_sample 
     LayersSample s = layers_sample(*m, v->lobes, v->s.V, u_lobe, u, v->energy, v->tables);
     if (!s.is_valid)
         return false;
-    *out = (bsdf_sample){.L = s.L, .pdf = s.pdf, .is_specular = s.is_mirror, .is_transmission = s.is_through};
-    if (s.is_mirror) {
+    *out = (bsdf_sample){.L = s.L, .pdf = s.pdf, .is_specular = s.is_delta, .is_transmission = s.is_through};
+    if (s.is_delta) {
         out->L = keep_side(s.L, v->Ng, s.is_through ? -1.0f : 1.0f);
         out->weight = s.weight;
         return true;
@@ -244,5 +244,5 @@ vec3 path_vertex_straight(const path_vertex *v)
         return vec3(0.0f);
     LayersLobes only = {.transmission = 1.0f};
     LayersSample s = layers_sample(v->s.m, only, v->s.V, 0.0f, vec2(0.0f, 0.0f), v->energy, v->tables);
-    return s.is_valid && s.is_mirror ? s.weight : vec3(0.0f);
+    return s.is_valid && s.is_delta ? s.weight : vec3(0.0f);
 }

@@ -205,7 +205,7 @@ double material_width(const material *m)
         alpha = alpha_from_roughness(perceptual_roughness_from_shininess(p->shininess));
     else
         alpha = 0.01f; /* cells of a measured BRDF are 0.01 degrees wide at the mirror direction, 2 at 45 */
-    return (double)max(alpha, ALPHA_MIRROR);
+    return (double)max(alpha, ALPHA_DELTA);
 }
 
 /* ---- conversions ---- */
@@ -278,7 +278,7 @@ static void add_lobe(lobe_set *set, lobe l)
 }
 static void add_ggx(lobe_set *set, float alpha)
 {
-    float a = clamp(alpha, ALPHA_MIRROR, 1.0f);
+    float a = clamp(alpha, ALPHA_DELTA, 1.0f);
     add_lobe(set, (lobe){.kind = LOBE_GGX, .alpha_x = a, .alpha_y = a, .along = vec2(1.0f, 0.0f)});
 }
 
@@ -297,7 +297,7 @@ static lobe_set lobes_of(const material *m)
     } else {
         vec2 a = anisotropic_alpha(alpha_from_roughness(p->perceptual_roughness), p->anisotropy);
         vec2 along = anisotropy_direction(vec2(1.0f, 0.0f), p->anisotropy_rotation_rad);
-        a = max(a, ALPHA_MIRROR);
+        a = max(a, ALPHA_DELTA);
         add_lobe(&set, (lobe){.kind = LOBE_GGX, .alpha_x = a[0], .alpha_y = a[1], .along = along});
         if (p->clearcoat > 0.0f)
             add_ggx(&set, alpha_from_roughness(p->clearcoat_roughness));

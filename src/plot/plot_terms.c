@@ -79,7 +79,7 @@ static void add_distributions(plot *p, const roughness_list *list, const double 
     plot_panel *charlie =
         panel_over(p, "D: fibres of sheen, Charlie", "N.H", "D, 1/sr", "Estevez and Kulla 2017, equation 2");
     for (uint32_t k = 0; k < list->count; k++) {
-        float alpha = max(alpha_from_roughness(list->values[k]), ALPHA_MIRROR);
+        float alpha = max(alpha_from_roughness(list->values[k]), ALPHA_DELTA);
         double *a = plot_add_curve(p, ggx, label_of(p, list->values[k]), plot_color(k, 0), POINTS, x);
         double *b = plot_add_curve(p, charlie, label_of(p, list->values[k]), plot_color(k, 0), POINTS, x);
         for (int i = 0; a && b && i < POINTS; i++) {
@@ -96,7 +96,7 @@ static void add_distributions(plot *p, const roughness_list *list, const double 
 typedef enum visibility_kind { CORRELATED, SEPARABLE, SCHLICK_DIRECT, CHARLIE } visibility_kind;
 static float visibility(visibility_kind kind, float NdotL, float NdotV, float roughness)
 {
-    float alpha = max(alpha_from_roughness(roughness), ALPHA_MIRROR);
+    float alpha = max(alpha_from_roughness(roughness), ALPHA_DELTA);
     switch (kind) {
     case CORRELATED:
         return V_SmithGGX(NdotL, NdotV, alpha);

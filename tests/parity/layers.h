@@ -64,7 +64,7 @@ FN vec3 parity_glass(Layers m, vec3 V, vec2 u)
     return b.R + b.scale + b.through + point + layers_F_exact(m, 0.3f + 0.7f * u[0]) + w.specular +
            g.specular +
            vec3(exact + layers_fresnel_eta(m),
-                w.through + g.through + layers_mirror_through(m, w, layers_V_local(m, V), -V, ENERGY_GLTF, t),
+                w.through + g.through + layers_delta_through(m, w, layers_V_local(m, V), -V, ENERGY_GLTF, t),
                 layers_reflection_share(m, u[0])) +
            layers_glass_bound(vec3(u[0], 0.9f, 0.8f), vec2(0.5f, 0.2f), vec2(0.6f, 0.2f), vec2(0.3f, 0.2f),
                               m.eta) +
@@ -361,9 +361,9 @@ FN vec3 parity_path_parts(Layers m, LayersLobes p, vec3 V, vec2 u, int energy, L
     vec3 L = normalize(parity_L(u));
     vec3 below = mirror_through(L, m.base.N);
     float mirrors =
-        sel(layers_specular_is_mirror(m), 1.0f, 0.0f) + sel(layers_transmission_is_mirror(m), 2.0f, 0.0f) +
-        sel(layers_clearcoat_is_mirror(m), 4.0f, 0.0f) + sel(is_mirror_alpha(vec2(u[0], 1e-5f)), 8.0f, 0.0f) +
-        sel(is_mirror_refraction(vec2(1e-3f, 1e-5f), 1.0f + u[0]), 16.0f, 0.0f);
+        sel(layers_specular_is_delta(m), 1.0f, 0.0f) + sel(layers_transmission_is_delta(m), 2.0f, 0.0f) +
+        sel(layers_clearcoat_is_delta(m), 4.0f, 0.0f) + sel(is_delta_alpha(vec2(u[0], 1e-5f)), 8.0f, 0.0f) +
+        sel(is_delta_refraction(vec2(1e-3f, 1e-5f), 1.0f + u[0]), 16.0f, 0.0f);
     BoundaryWeights b = layers_boundary_albedo(m, surface_NdotV(m.base, V), energy, t);
     return mul(frame, L) + view_above(m.base.N, -V) + layers_V_local(m, V) + b.specular + b.below +
            vec3(mirrors, float(layers_scattering_lobes(m)),
@@ -390,7 +390,7 @@ FN vec3 case_layers_sample_parts(vec2 u)
 
 FN vec3 parity_sampled(LayersSample s)
 {
-    float flags = sel(s.is_mirror, 1.0f, 0.0f) + sel(s.is_through, 2.0f, 0.0f) + sel(s.is_valid, 4.0f, 0.0f);
+    float flags = sel(s.is_delta, 1.0f, 0.0f) + sel(s.is_through, 2.0f, 0.0f) + sel(s.is_valid, 4.0f, 0.0f);
     return 2.0f + s.L + s.weight + vec3(flags, s.pdf * 0.1f, 0.0f);
 }
 
@@ -416,7 +416,8 @@ FN vec3 case_layers_mirror(vec2 u)
     p.clearcoat = 0.3f; /* each lobe is there */
     p.specular = 0.4f;
     p.transmission = 0.2f;
-    return parity_sampled(layers_mirror(m, p, V, u[0] > 0.4f, energy, t)) + parity_sampled(no_sample(V)) +
-           parity_sampled(layers_clearcoat_mirror(m, p, V)) + layers_draw_clearcoat(m, V, u) +
-           layers_draw_sheen(m, V, u) + layers_draw_boundary(m, V, u[1], 0.5f, turned);
+    return parity_sampled(layers_sample_delta(m, p, V, u[0] > 0.4f, energy, t)) +
+           parity_sampled(no_sample(V)) + parity_sampled(layers_sample_delta_clearcoat(m, p, V)) +
+           layers_draw_clearcoat(m, V, u) + layers_draw_sheen(m, V, u) +
+           layers_draw_boundary(m, V, u[1], 0.5f, turned);
 }
