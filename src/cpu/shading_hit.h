@@ -4,6 +4,7 @@
 #define CPU_SHADING_HIT_H
 
 #include "cpu/shading_scene.h"
+#include "shade/lang/lang_c_load.h"
 #include "shade/shade.h"
 
 /* Corners of the triangle, weights at the hit, and their derivatives over the footprint. */
@@ -21,17 +22,6 @@ typedef struct shading_hit {
 typedef struct shading_texcoord {
     float uv[2], dx[2], dy[2];
 } shading_texcoord;
-
-static inline vec3 load3(const float *v)
-{
-    return vec3(v[0], v[1], v[2]);
-}
-
-static inline void store3(vec3 v, float out[3])
-{
-    for (int i = 0; i < 3; i++)
-        out[i] = v[i];
-}
 
 shading_hit shading_hit_make(const shading_scene *scene, const shading_point *point);
 /* An attribute of 3 floats per vertex. */

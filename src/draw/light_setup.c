@@ -6,6 +6,7 @@
 #include "base/result.h"
 #include "draw/material_plan.h"
 
+#include "shade/lang/lang_c_load.h"
 #include "shade/shade.h"
 
 /* ---- what must be prepared ---- */
@@ -102,11 +103,6 @@ static ibl_light_desc light_needs(const render_geometry_set *set, const camera_r
 }
 
 /* ---- punctual lights ---- */
-
-static vec3 load3(const float v[3])
-{
-    return vec3(v[0], v[1], v[2]);
-}
 
 static Light posed_light(const scene_posed_light *posed)
 {

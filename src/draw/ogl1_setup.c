@@ -5,6 +5,7 @@
 #include "base/result.h"
 
 #include "draw/ogl1_setup.h"
+#include "shade/lang/lang_c_load.h"
 #include "shade/shade.h"
 
 _Static_assert(PHONG_VIGNETTE == (int)FACET_OGL1_VARIANT_VIGNETTE &&
@@ -82,11 +83,6 @@ float ogl1_map_scalar(const legacy_map *map, const float texel[4])
 }
 
 /* ---- the setup ---- */
-
-static vec3 load3(const float v[3])
-{
-    return vec3(v[0], v[1], v[2]);
-}
 
 facet_result ogl1_check(const facet_scene *scene, const facet_render_desc *desc, facet_error *error)
 {

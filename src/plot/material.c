@@ -10,6 +10,7 @@
 #include "ibl/ibl.h"
 #include "plot/merl.h"
 
+#include "shade/lang/lang_c_load.h"
 #include "shade/shade.h"
 
 facet_plot_material material_default(void)
@@ -33,11 +34,6 @@ facet_plot_material material_default(void)
 
 _Static_assert((int)FACET_ENERGY_GLTF == ENERGY_GLTF && (int)FACET_ENERGY_CONSERVING == ENERGY_CONSERVING,
                "the modes of the interface are those of shade");
-
-static vec3 load3(const float *p)
-{
-    return vec3(p[0], p[1], p[2]);
-}
 
 static Layers layers_of(const facet_plot_material *p)
 {

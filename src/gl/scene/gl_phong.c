@@ -10,6 +10,7 @@
 #include "gl/core/gl_texture.h"
 
 #include "draw/ogl1_setup.h"
+#include "shade/lang/lang_c_load.h"
 
 /* ---- uniform blocks ---- */
 
@@ -38,12 +39,6 @@ typedef struct phong_material_block {
     float maps[PHONG_MAP_COUNT][3]
               [4]; /* rows of the transform, w: set, 1 for trilinear; base, gain, channel */
 } phong_material_block;
-
-static void store3(vec3 v, float out[3])
-{
-    for (int i = 0; i < 3; i++)
-        out[i] = v[i];
-}
 
 static void fill_frame(const ogl1_setup *s, const camera_rays *camera, facet_ogl1_variant variant,
                        phong_frame_block *b)
