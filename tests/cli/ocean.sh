@@ -241,6 +241,8 @@ for words in "--sun 22,1e300" "--depth 1e39" "--bed-slope 1,1e300 --depth 3" "--
 done
 expect 2 ocean --stage 2 -o a.glb
 says "an option of images"
+expect 2 ocean --ground shadow -o a.png
+says "the water and its bed are the ground"
 expect 2 ocean --camera Bridge -o a.png
 says "--camera: it needs a model"
 expect 2 ocean --with a.glb --camera Bridge --fov 30 -o a.png

@@ -18,6 +18,11 @@
 #define TONE_MAPPINGS /* in the order of facet_tonemap */                                                    \
     "none", "neutral", "aces", "aces-narkowicz", "agx", "reinhard", "reinhard-extended", "hable"
 
+#define LAYERS                                                                                               \
+    "all", "depth", "normal", "albedo", "material", "object", "instance", "uv", "occlusion", "variance",     \
+        "samples", "cryptomatte", "crypto-object", "crypto-material", "crypto-instance"
+#define RENDERERS "preview", "path", "gl" /* as facet_renderer_info.name */
+
 #define KIND_FLAG OPTION_FLAG, 0, 0, 0
 #define KIND_COUNT OPTION_COUNT, 0, 0, 0
 #define KIND_TEXT OPTION_TEXT, 0, 0, 0

@@ -341,6 +341,10 @@ facet_result suggest_option(const verb *v, const char *name, size_t length, face
     if (option_is_planned(folded))
         return fail(error, FACET_ERROR_ARGUMENT, "--%s: this version of facet does not have it yet", text);
     const verb *owner = find_owner(folded);
+    if (owner && strcmp(v->name, "ocean") == 0 && strcmp(folded, "ground") == 0)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--ground is an option of facet render; in a sea the water and its bed are the ground "
+                    "(--depth, --bed-color)");
     if (owner)
         return fail(error, FACET_ERROR_ARGUMENT, "--%s is an option of facet %s, not of facet %s", folded,
                     owner->name, v->name);
