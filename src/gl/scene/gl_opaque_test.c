@@ -144,12 +144,12 @@ static void roughness_blurs_and_preserves_the_mean(void **state)
 {
     (void)state;
     for (int c = 0; c < contexts.count; c++)
-        for (int is_body = 0; is_body < 2; is_body++) {
-            double last = INFINITY, first_mean = 0.0;
+        for (int is_volume = 0; is_volume < 2; is_volume++) {
+            double last = (double)INFINITY, first_mean = 0.0;
             for (int k = 0; k <= 6; k++) {
                 fixture f = fixture_create();
                 add_board(&f, 16, 0, 255);
-                add_pane(&f, glass((float)k / 6.0f, is_body ? 0.001f : 0.0f));
+                add_pane(&f, glass((float)k / 6.0f, is_volume ? 0.001f : 0.0f));
                 film seen = gl_fixture_render(&f, &contexts.items[c]);
                 double mean, here = contrast(&seen, &mean);
                 assert_true(k == 0 || here < last || here < 0.005);
