@@ -56,15 +56,15 @@ static inline float chance_of(const foam_chances *c, float q)
     return c->table[i] + (place - (float)i) * (c->table[i + 1] - c->table[i]);
 }
 
-typedef struct looking {
+typedef struct lookup {
     const foam_chances *chances;
     const float *field;
     float *plane;
-} looking;
+} lookup;
 
 static void look_up(void *context, size_t begin, size_t end)
 {
-    const looking *l = context;
+    const lookup *l = context;
     for (size_t i = begin; i < end; i++)
         l->plane[i] = chance_of(l->chances, l->field[i]);
 }
@@ -108,7 +108,7 @@ static const foam_pair *find_pair(foam_history *h, const waves *w, int64_t numbe
     converge(h, w,
              (const double[2]){2.0 * (double)number * h->step_s, (2.0 * (double)number + 1.0) * h->step_s});
     for (int j = 0; j < 2; j++) {
-        looking l = {h->chances, h->fields[j], p->planes[j]};
+        lookup l = {h->chances, h->fields[j], p->planes[j]};
         parallel_for(w->thread_count, (size_t)h->size * h->size, 16384, look_up, &l);
     }
     p->is_there = true;

@@ -201,8 +201,8 @@ static scene_material floor_material(const facet_sea *sea, float depth_m)
     /* from just above the surface to just below */
     double below = n * n / ((1.0 - F0) * (1.0 - DIFFUSE_REFLECTANCE));
     for (int i = 0; i < 3; i++) {
-        double way = exp(2.0 * (double)attenuation(sea, i) * (double)depth_m);
-        double deep = fmin((double)sea->optics.reflectance[i] * below * way, 1.0);
+        double gain = exp(2.0 * (double)attenuation(sea, i) * (double)depth_m);
+        double deep = fmin((double)sea->optics.reflectance[i] * below * gain, 1.0);
         m.base_color[i] = is_bed ? sea->desc.bed.albedo[i] : (float)fmax(deep, 0.0);
     }
     m.perceptual_roughness = 1.0f;

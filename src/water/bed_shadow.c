@@ -26,21 +26,21 @@ enum { SUN_RAYS_FIRST = 8, SUN_RAYS = SHADOW_POINTS, SKY_RAYS = 24, SCATTERED_RA
 enum { SMOOTHED = 3 }; /* texels */
 
 /* A light path. */
-typedef struct light_way {
+typedef struct light_path {
     vec3 below, above; /* unit, towards the light */
     float weight;      /* not of sun rays, which have equal weights */
     float aside[2];    /* of sun rays: end point, in texels from the texel's center */
-} light_way;
+} light_path;
 
 typedef struct making {
     const water_setup *s;
     bed_shadow *out;
     double texel_m[2];
     float *finer; /* per texel, the beam's share */
-    light_way sun[SUN_RAYS], sky[SKY_RAYS], scattered[SCATTERED_RAYS];
+    light_path sun[SUN_RAYS], sky[SKY_RAYS], scattered[SCATTERED_RAYS];
 } making;
 
-/* ---- ways ---- */
+/* ---- light paths ---- */
 
 static vec3 sun_above(const water_setup *s)
 {
@@ -60,7 +60,7 @@ static void choose_sun(making *m)
                       inverse_normal(shadow_point_coordinate(i, 3)));
         vec3 N = normal_from_slope(vec2(x * g[0], mixed * g[0] + z * g[1]));
         vec3 down = dot(N, p.L) > 0.0f ? water_refracted(s->water, -p.L, N) : -s->sunward;
-        m->sun[i] = (light_way){.below = -down, .above = p.L, .aside = {p.aside[0], p.aside[1]}};
+        m->sun[i] = (light_path){.below = -down, .above = p.L, .aside = {p.aside[0], p.aside[1]}};
     }
 }
 
@@ -73,9 +73,9 @@ static void choose_sky(making *m)
         vec3 above = vec3(d[0], max(d[2], 0.02f), d[1]);
         vec3 below = -water_refracted(w, -normalize(above), vec3(0.0f, 1.0f, 0.0f));
         float radiance = water_sky_reflected(&m->s->sky, normalize(above), SKY_ROUGHNESS)[1];
-        m->sky[i] = (light_way){.below = below,
-                                .above = normalize(above),
-                                .weight = radiance * (1.0f - water_fresnel(w, above[1]))};
+        m->sky[i] = (light_path){.below = below,
+                                 .above = normalize(above),
+                                 .weight = radiance * (1.0f - water_fresnel(w, above[1]))};
         sum += m->sky[i].weight;
     }
     for (uint i = 0; i < SKY_RAYS; i++)
@@ -93,33 +93,33 @@ static void choose_scattered(making *m)
         vec2 u = hammersley(i, SCATTERED_RAYS) + vec2(0.5f / (float)SCATTERED_RAYS, 0.0f);
         vec3 turned = sample_phase_HG(vec2(u[1], u[0]), vec3(0.0f, 0.0f, 1.0f), WATER_PARTICLE_G);
         /* as evenly distributed as u */
-        float left = fract(0.5f + 0.618034f * (float)i) / max(turned[2], 0.1f);
-        vec3 d = normalize(mul(frame, vec3(turned[0] * left, turned[1] * left, 1.0f)));
+        float remaining = fract(0.5f + 0.618034f * (float)i) / max(turned[2], 0.1f);
+        vec3 d = normalize(mul(frame, vec3(turned[0] * remaining, turned[1] * remaining, 1.0f)));
         d[1] = max(d[1], 0.1f);
         m->scattered[i] =
-            (light_way){.below = normalize(d), .above = sun_above(s), .weight = 1.0f / SCATTERED_RAYS};
+            (light_path){.below = normalize(d), .above = sun_above(s), .weight = 1.0f / SCATTERED_RAYS};
     }
 }
 
 /* ---- texels ---- */
 
-static float passing(const making *m, const double P[3], const light_way *way)
+static float path_visibility(const making *m, const double P[3], const light_path *path)
 {
     const water_model *model = &m->s->model;
-    double length = -P[1] / (double)way->below[1], Q[3];
-    float open = water_model_opening(model, P, way->below, length);
-    if (open <= 0.0f)
+    double length = -P[1] / (double)path->below[1], Q[3];
+    float visibility = water_model_visibility(model, P, path->below, length);
+    if (visibility <= 0.0f)
         return 0.0f;
     for (int i = 0; i < 3; i++)
-        Q[i] = P[i] + length * (double)way->below[i];
-    return open * water_model_opening(model, Q, way->above, HUGE_VAL);
+        Q[i] = P[i] + length * (double)path->below[i];
+    return visibility * water_model_visibility(model, Q, path->above, HUGE_VAL);
 }
 
-static float share_of(const making *m, const double P[3], const light_way *ways, uint32_t count)
+static float share_of(const making *m, const double P[3], const light_path *paths, uint32_t count)
 {
     float sum = 0.0f;
     for (uint32_t i = 0; i < count; i++)
-        sum += ways[i].weight * passing(m, P, &ways[i]);
+        sum += paths[i].weight * path_visibility(m, P, &paths[i]);
     return min(sum, 1.0f);
 }
 
@@ -131,7 +131,7 @@ static float sun_share(const making *m, double X, double Z, uint32_t count)
         double x = X + m->texel_m[0] * (double)m->sun[i].aside[0],
                z = Z + m->texel_m[1] * (double)m->sun[i].aside[1];
         const double P[3] = {x, water_bed_height(&m->s->sea->desc.bed, x, z), z};
-        sum += P[1] < 0.0 ? passing(m, P, &m->sun[i]) : 1.0f;
+        sum += P[1] < 0.0 ? path_visibility(m, P, &m->sun[i]) : 1.0f;
     }
     return sum / (float)count;
 }
@@ -306,8 +306,8 @@ static void choose_rectangle(const water_setup *s, float depth, bed_shadow *b)
 /* Whether the bed is visible through the water. */
 static bool is_worth_it(const water_setup *s, float depth)
 {
-    vec3 left = water_transmittance(water_K_d(s->water) + water_diffuse(s->water), depth);
-    return max(max(left[0], left[1]), left[2]) > MIN_SEEN;
+    vec3 transmitted = water_transmittance(water_K_d(s->water) + water_diffuse(s->water), depth);
+    return max(max(transmitted[0], transmitted[1]), transmitted[2]) > MIN_SEEN;
 }
 
 facet_result bed_shadow_of_image(const struct water_setup *s, bed_shadow *out, facet_error *error)

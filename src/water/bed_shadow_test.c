@@ -256,7 +256,7 @@ static float sun_open(const photons *w, const double P[3])
     double way = -P[1] / (double)w->s->sunward[1], Q[3];
     for (int i = 0; i < 3; i++)
         Q[i] = P[i] + way * (double)w->s->sunward[i];
-    return water_model_opening(&w->s->model, Q, w->s->light.L, HUGE_VAL);
+    return water_model_visibility(&w->s->model, Q, w->s->light.L, HUGE_VAL);
 }
 
 static float phase(const photons *w, float c)
@@ -290,7 +290,7 @@ static bool mirrored(photons *w, const double P[3], vec3 *d, double weight, pair
     vec3 above = vec3((*d)[0] * water.ior, 0.0f, (*d)[2] * water.ior);
     above[1] = sqrt(max(1.0f - dot(above, above), 0.0f));
     add(sum, weight * (double)(water.ior * water.ior * w->sky),
-        water_model_opening(&w->s->model, P, above, HUGE_VAL));
+        water_model_visibility(&w->s->model, P, above, HUGE_VAL));
     return false;
 }
 

@@ -68,16 +68,16 @@ static bool see(const water_setup *s, float x, float y, seen_place *place)
     double height = e.at[1] - water_bed_height(bed, e.at[0], e.at[2]);
     if (!e.is_there || closing < 1e-3 || height <= 0.0)
         return false;
-    double way = height / closing;
-    *place = (seen_place){.distance_m = e.above_m + way,
-                          .X = e.at[0] + way * (double)e.down[0],
-                          .Z = e.at[2] + way * (double)e.down[2]};
+    double below_m = height / closing;
+    *place = (seen_place){.distance_m = e.above_m + below_m,
+                          .X = e.at[0] + below_m * (double)e.down[0],
+                          .Z = e.at[2] + below_m * (double)e.down[2]};
     place->depth_m = (float)-water_bed_height(bed, place->X, place->Z);
     place->width_m = width_at(s, place->distance_m);
     if (!s->is_below) {
         vec3 V = -refract(e.down, up, s->water.ior), C = water_slopes_at(s, place->width_m).covariance;
         place->width_m =
-            max(place->width_m, 0.1f * water_bed_footprint(s->water, up, V, e.down, C, 0.0f, (float)way));
+            max(place->width_m, 0.1f * water_bed_footprint(s->water, up, V, e.down, C, 0.0f, (float)below_m));
     }
     return place->depth_m > 0.0f;
 }
@@ -104,7 +104,7 @@ static bool has_structure(const water_setup *s, const seen_place *place)
 }
 
 /* The point below the eye stands in for a bed that is only seen in reflections. */
-static void look_around(view *v)
+static void find_places(view *v)
 {
     const water_setup *s = v->s;
     const facet_render_desc *r = s->desc;
@@ -134,10 +134,10 @@ static bool is_worth_it(const view *v)
     float depth = v->depth_m;
     for (uint32_t i = 0; i < v->count; i++)
         depth = min(depth, v->places[i].depth_m);
-    vec3 left = water_focused(s->water, water_bed_albedo(&s->sea->desc.bed), s->light.downwelling, s->beam,
-                              s->sunward[1], depth) *
-                water_transmittance(water_beam(s->water), depth);
-    return max(max(left[0], left[1]), left[2]) > MIN_SEEN;
+    vec3 transmitted = water_focused(s->water, water_bed_albedo(&s->sea->desc.bed), s->light.downwelling,
+                                     s->beam, s->sunward[1], depth) *
+                       water_transmittance(water_beam(s->water), depth);
+    return max(max(transmitted[0], transmitted[1]), transmitted[2]) > MIN_SEEN;
 }
 
 /* ---- layers ---- */
@@ -227,8 +227,8 @@ static float finest_texel(const view *v)
 
 static bool has_caustics(const water_setup *s)
 {
-    const facet_sea_shading *look = &s->desc->sea_shading;
-    return sea_shading_is_complete(look) && !look->omits_caustics && water_has_bed(s) &&
+    const facet_sea_shading *shading = &s->desc->sea_shading;
+    return sea_shading_is_complete(shading) && !shading->omits_caustics && water_has_bed(s) &&
            (has_waves(s) || s->model.is_there) && s->light.L[1] > 0.0f &&
            max(max(s->beam[0], s->beam[1]), s->beam[2]) > 0.0f;
 }
@@ -249,7 +249,7 @@ static void begin(view *v, const water_setup *s)
     float level = sqrt(s->light.L[0] * s->light.L[0] + s->light.L[2] * s->light.L[2]);
     v->axis[0] = level > 1e-4f ? s->light.L[0] / level : 1.0f;
     v->axis[1] = level > 1e-4f ? s->light.L[2] / level : 0.0f;
-    look_around(v);
+    find_places(v);
 }
 
 facet_result caustic_map_of_image(const water_setup *s, caustic_map *map, facet_error *error)

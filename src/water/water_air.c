@@ -37,21 +37,22 @@ static vec3 transmittance_over(const water_sky *s, float length_km, float height
     return clamp(color / s->white, 0.0f, 1.0f);
 }
 
-/* Distances of x / (1 - x) WAY_KM, x from 0 to 1 in equal steps. */
-static const float WAY_KM = 20.0f;
-enum { LAST_WAY = WATER_SKY_WAYS - 1 };
+/* Distances of x / (1 - x) DISTANCE_KM, x from 0 to 1 in equal steps. */
+static const float DISTANCE_KM = 20.0f;
+enum { LAST_DISTANCE = WATER_SKY_DISTANCES - 1 };
 
-void water_sky_fill_ways(water_sky *s)
+void water_sky_fill_transmittance(water_sky *s)
 {
-    for (int i = 0; i < WATER_SKY_WAYS; i++)
-        s->left[i] = transmittance_over(s, WAY_KM * (float)i / max((float)(LAST_WAY - i), 1e-6f), 0.0f);
+    for (int i = 0; i < WATER_SKY_DISTANCES; i++)
+        s->transmittance[i] =
+            transmittance_over(s, DISTANCE_KM * (float)i / max((float)(LAST_DISTANCE - i), 1e-6f), 0.0f);
 }
 
 static vec3 transmittance_to_sea(const water_sky *s, float length_km)
 {
-    float x = length_km / (length_km + WAY_KM) * LAST_WAY;
-    int i = (int)min(x, LAST_WAY - 1.0f);
-    return mix(s->left[i], s->left[i + 1], x - (float)i);
+    float x = length_km / (length_km + DISTANCE_KM) * LAST_DISTANCE;
+    int i = (int)min(x, LAST_DISTANCE - 1.0f);
+    return mix(s->transmittance[i], s->transmittance[i + 1], x - (float)i);
 }
 
 /* Over the whole distance to sea level, or to the horizon. */
@@ -107,7 +108,7 @@ facet_result water_sky_fill_air(water_sky *s, const facet_allocator *allocator, 
 vec3 water_sky_air_light(const water_sky *s, vec3 d)
 {
     if (!s->air_light)
-        return water_sky_picture(s, normalize(vec3(d[0], 0.0f, d[2]) + vec3(1e-9f, 0.0f, 0.0f)), 0.1f);
+        return water_sky_prefiltered(s, normalize(vec3(d[0], 0.0f, d[2]) + vec3(1e-9f, 0.0f, 0.0f)), 0.1f);
     float level = (d[0] * d[0] + d[2] * d[2]) * (s->L[0] * s->L[0] + s->L[2] * s->L[2]);
     float cosine = (d[0] * s->L[0] + d[2] * s->L[2]) * inversesqrt(max(level, 1e-30f));
     float x = sqrt(clamp(0.5f - 0.5f * cosine, 0.0f, 1.0f)) * (COLUMNS - 1);
@@ -122,6 +123,7 @@ vec3 water_sky_air_light(const water_sky *s, vec3 d)
 water_air water_sky_air(const water_sky *s, vec3 d, float distance_m, float height_m)
 {
     float km = clamp(distance_m * 0.001f, 0.0f, 1e12f);
-    vec3 left = height_m > 0.0f ? transmittance_over(s, km, height_m * 0.001f) : transmittance_to_sea(s, km);
-    return (water_air){left, water_sky_air_light(s, d) * (1.0f - left)};
+    vec3 transmittance =
+        height_m > 0.0f ? transmittance_over(s, km, height_m * 0.001f) : transmittance_to_sea(s, km);
+    return (water_air){transmittance, water_sky_air_light(s, d) * (1.0f - transmittance)};
 }

@@ -55,7 +55,7 @@ static double bed_at(const caustic_source *s, double X, double Z)
 }
 
 /* Distance along d to the bed from a point `above` m above it. */
-static double way_to_bed(const caustic_source *s, vec3 d, double above)
+static double distance_to_bed(const caustic_source *s, vec3 d, double above)
 {
     double closing = s->bed_rise[0] * (double)d[0] + s->bed_rise[1] * (double)d[2] - (double)d[1];
     return fmax(above, 0.0) / fmax(closing, 1e-3);
@@ -73,7 +73,7 @@ static float light_on(const caustic_source *s, const wave_point *p, vec3 N)
 
 /* The path of light from a node through the surface to the bed. */
 typedef struct node_ray {
-    double from[3], way; /* m */
+    double from[3], length_m; /* m */
     vec3 d;
     float light; /* without a model */
 } node_ray;
@@ -89,7 +89,7 @@ static node_ray trace_node(const making *m, double X, double Z, float footprint_
     node_ray r = {.from = {rest[0] + (double)p.displacement[0], (double)p.height_m,
                            rest[1] + (double)p.displacement[1]}};
     r.d = water_refracted(s->water, -s->L, N);
-    r.way = way_to_bed(s, r.d, r.from[1] - bed_at(s, r.from[0], r.from[2]));
+    r.length_m = distance_to_bed(s, r.d, r.from[1] - bed_at(s, r.from[0], r.from[2]));
     r.light = light_on(s, &p, N);
     return r;
 }
@@ -109,13 +109,13 @@ static node_ray trace_at(const making *m, uint32_t l, size_t i, size_t row)
 /* ---- a model's shadow ---- */
 
 /* Visibility of L past the model for a point (u, v) m beside a node, and from there to the bed. */
-static float passing_model(const making *m, const node_ray *r, double u, double v, vec3 L)
+static float model_visibility(const making *m, const node_ray *r, double u, double v, vec3 L)
 {
     const caustic_source *s = m->source;
     const double a = (double)m->map->axis[0], b = (double)m->map->axis[1];
     const double P[3] = {r->from[0] + u * a - v * b, r->from[1], r->from[2] + u * b + v * a};
-    float open = water_model_opening(s->model, P, L, HUGE_VAL);
-    return open > 0.0f ? open * water_model_opening(s->model, P, r->d, r->way) : 0.0f;
+    float above = water_model_visibility(s->model, P, L, HUGE_VAL);
+    return above > 0.0f ? above * water_model_visibility(s->model, P, r->d, r->length_m) : 0.0f;
 }
 
 /* From the sun's center to four points of a node's area, one in each quadrant; different ones for each
@@ -126,9 +126,9 @@ static float passing_few(const making *m, const node_ray *r, size_t i, size_t ro
                             fract(0.5698403f * (float)i + 0.7548777f * (float)row)};
     float sum = 0.0f;
     for (int k = 0; k < 4; k++)
-        sum += 0.25f * passing_model(m, r, spacing_m * (double)(0.5f * ((float)(k % 2) + shift[0]) - 0.5f),
-                                     spacing_m * (double)(0.5f * ((float)(k / 2) + shift[1]) - 0.5f),
-                                     m->source->L);
+        sum += 0.25f * model_visibility(m, r, spacing_m * (double)(0.5f * ((float)(k % 2) + shift[0]) - 0.5f),
+                                        spacing_m * (double)(0.5f * ((float)(k / 2) + shift[1]) - 0.5f),
+                                        m->source->L);
     return sum;
 }
 
@@ -136,8 +136,8 @@ static float passing_many(const making *m, const node_ray *r, double spacing_m)
 {
     float sum = 0.0f;
     for (int k = 0; k < SHADOW_POINTS; k++)
-        sum += passing_model(m, r, spacing_m * (double)m->points[k].aside[0],
-                             spacing_m * (double)m->points[k].aside[1], m->points[k].L);
+        sum += model_visibility(m, r, spacing_m * (double)m->points[k].aside[0],
+                                spacing_m * (double)m->points[k].aside[1], m->points[k].L);
     return sum / SHADOW_POINTS;
 }
 
@@ -204,8 +204,8 @@ static int32_t reach_of(const caustic_source *s, float spacing_m)
 /* Landing position of light, in texels. */
 static void place_on_layer(const making *m, const caustic_layer *layer, const node_ray *r, float *u, float *v)
 {
-    float x = (float)(r->from[0] + r->way * (double)r->d[0] - layer->middle[0]);
-    float z = (float)(r->from[2] + r->way * (double)r->d[2] - layer->middle[1]);
+    float x = (float)(r->from[0] + r->length_m * (double)r->d[0] - layer->middle[0]);
+    float z = (float)(r->from[2] + r->length_m * (double)r->d[2] - layer->middle[1]);
     const float *axis = m->map->axis;
     *u = (x * axis[0] + z * axis[1]) / layer->texel_m + 0.5f * CAUSTIC_SIZE;
     *v = (z * axis[0] - x * axis[1]) / layer->texel_m + 0.5f * CAUSTIC_SIZE;
@@ -497,6 +497,6 @@ facet_result water_caustics_fill(const caustic_source *source, const float axis[
 vec2 water_caustics_shift(const caustic_source *source, const float axis[2], vec3 L, vec2 slope, float depth)
 {
     vec3 d = water_refracted(source->water, -L, normalize(vec3(-slope[0], 1.0f, -slope[1])));
-    float way = (float)way_to_bed(source, d, (double)depth);
-    return vec2(way * (d[0] * axis[0] + d[2] * axis[1]), way * (d[2] * axis[0] - d[0] * axis[1]));
+    float length_m = (float)distance_to_bed(source, d, (double)depth);
+    return vec2(length_m * (d[0] * axis[0] + d[2] * axis[1]), length_m * (d[2] * axis[0] - d[0] * axis[1]));
 }

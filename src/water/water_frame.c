@@ -64,9 +64,9 @@ static void draw_texel(const sky_drawing *s, uint32_t layer, float u, float v, f
     case SEA_SKY_AIR:
         store(water_sky_air_light(sky, direction_of(u, mix(horizon, -1.0f, sky_rise(v)))), 1.0f, texel);
         break;
-    case SEA_SKY_CLEARNESS: {
-        float way_m = u / (1.0f - u) * SEA_SKY_WAY_KM * 1000.0f;
-        store(water_sky_air(sky, vec3(1.0f, 0.0f, 0.0f), way_m, 0.0f).transmittance, 1.0f, texel);
+    case SEA_SKY_TRANSMITTANCE: {
+        float distance_m = u / (1.0f - u) * SEA_SKY_DISTANCE_KM * 1000.0f;
+        store(water_sky_air(sky, vec3(1.0f, 0.0f, 0.0f), distance_m, 0.0f).transmittance, 1.0f, texel);
         break;
     }
     default:
@@ -107,7 +107,7 @@ static facet_result draw_once(const water_setup *setup, size_t row_count, size_t
         return FACET_OK;
     *texels = mem_alloc(&setup->cache->allocator, row_count * width, 4 * sizeof(float));
     if (!*texels)
-        return fail_memory(error, "pictures of the sky", row_count * width * 4 * sizeof(float));
+        return fail_memory(error, "images of the sky", row_count * width * 4 * sizeof(float));
     sky_drawing s = {.sky = setup->sky, .setup = setup, .texels = *texels};
     s.sky.disc_radius = 0.0f;
     parallel_for(setup->desc->thread_count, row_count, 4, draw, &s);
@@ -118,11 +118,11 @@ static facet_result draw_sky(const water_setup *setup, water_frame *p, facet_err
 {
     water_light *lit = setup->cache->light;
     facet_result result =
-        draw_once(setup, SEA_SKY_LAYERS * SEA_SKY_HEIGHT, SEA_SKY_WIDTH, draw_rows, &lit->pictures, error);
+        draw_once(setup, SEA_SKY_LAYERS * SEA_SKY_HEIGHT, SEA_SKY_WIDTH, draw_rows, &lit->images, error);
     if (result == FACET_OK && setup->sky.has_views)
         result = draw_once(setup, SEA_LOBE_LAYERS * SEA_LOBE_HEIGHT, SEA_LOBE_WIDTH, draw_lobes, &lit->lobes,
                            error);
-    p->sky = lit->pictures;
+    p->sky = lit->images;
     p->lobes = lit->lobes;
     return result;
 }
@@ -131,14 +131,14 @@ static facet_result draw_sky(const water_setup *setup, water_frame *p, facet_err
 
 typedef struct contact_job {
     const water_setup *setup;
-    const water_frame *picture;
+    const water_frame *frame;
     sea_contact *contact;
 } contact_job;
 
 static void measure_contact(void *context, size_t begin, size_t end)
 {
     const contact_job *t = context;
-    const water_frame *p = t->picture;
+    const water_frame *p = t->frame;
     double width = (double)(p->contact_high[0] - p->contact_low[0]) / SEA_CONTACT_EDGE;
     double length = (double)(p->contact_high[1] - p->contact_low[1]) / SEA_CONTACT_EDGE;
     vec3 L = t->setup->light.L;
@@ -150,7 +150,7 @@ static void measure_contact(void *context, size_t begin, size_t end)
             P[1] = (double)waves_height(&p->sea->waves, P[0], P[2], (float)fmin(width, length)) + 1e-3;
             sea_contact *to = &t->contact[z * SEA_CONTACT_EDGE + x];
             to->dry = water_model_is_dry(&t->setup->model, P) ? 1.0f : 0.0f;
-            to->open = L[1] > 0.0f ? water_model_opening(&t->setup->model, P, L, HUGE_VAL) : 1.0f;
+            to->open = L[1] > 0.0f ? water_model_visibility(&t->setup->model, P, L, HUGE_VAL) : 1.0f;
             bed_shadow_texel bed = {1.0f, 1.0f};
             if (shadow->is_there)
                 bed = shadow->texels[z * BED_SHADOW_EDGE + x];

@@ -17,11 +17,11 @@ enum {
     SEA_SKY_HEIGHT = 128,
     SEA_SKY_SEEN = 0, /* radiance seen by the eye without the sun's disc, up to the zenith; cd/m^2 */
     SEA_SKY_AIR, /* down to the nadir: in-scattered radiance between eye and sea over (1 - transmittance), cd/m^2 */
-    SEA_SKY_CLEARNESS, /* transmittance over a distance of x / (1 - x) SEA_SKY_WAY_KM, x along the columns, [0, 1) */
+    SEA_SKY_TRANSMITTANCE, /* transmittance over a distance of x / (1 - x) SEA_SKY_DISTANCE_KM, x along the columns, [0, 1) */
     SEA_SKY_DISC, /* the sun's disc over 2 x 2 radii, x to its right, y upwards; cd/m^2 */
     SEA_SKY_LAYERS
 };
-#define SEA_SKY_WAY_KM 20.0f
+#define SEA_SKY_DISTANCE_KM 20.0f
 
 /* The sky prefiltered for reflection, cd/m^2: perceptual roughness from 0 to 1 in equal steps, one per layer.
  * Columns and rows as above, from the horizontal up to the zenith. */
@@ -53,7 +53,7 @@ typedef struct water_frame {
     float crest_beam[3], crest_sunward[3], crest_wavenumber, crest_amplitude_m; /* shade/water_crest.h */
     /* the sky */
     const float *sky; /* SEA_SKY_LAYERS x SEA_SKY_HEIGHT x SEA_SKY_WIDTH x 4 */
-    /* SEA_LOBE_LAYERS x SEA_LOBE_HEIGHT x SEA_LOBE_WIDTH x 4; NULL: the picture's light is mirrored */
+    /* SEA_LOBE_LAYERS x SEA_LOBE_HEIGHT x SEA_LOBE_WIDTH x 4; NULL: `reflected` takes their place */
     const float *lobes;
     float horizon_mu, disc_radius; /* cosine of the horizon's zenith angle; disc_radius 0: no visible disc */
     /* prefiltered; background: of an image as environment, else NULL */

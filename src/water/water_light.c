@@ -17,7 +17,7 @@ static void destroy_light(water_light *l)
         environment_release(l->around);
     if (l->desc.environment)
         environment_release(l->desc.environment);
-    mem_free(l->pictures);
+    mem_free(l->images);
     mem_free(l->lobes);
     mem_free(l);
 }

@@ -15,7 +15,7 @@ typedef struct water_light {
     water_table table;
     facet_environment *around; /* the sky and the sea, as a model sees them; NULL: not needed yet */
     bool around_has_foam;
-    float *pictures, *lobes; /* of water_frame.h; NULL: not needed yet, or there are none */
+    float *images, *lobes; /* of water_frame.h; NULL: not needed yet, or there are none */
 } water_light;
 
 /* Drops from the cache what was made for a sea other than desc's. */

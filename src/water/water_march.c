@@ -68,7 +68,7 @@ typedef struct march {
     const water_march *m;
     const march_ray *ray;
     double level;       /* length of the direction's horizontal part */
-    float looked_m;     /* footprint of the following bounds */
+    float bounded_m;    /* footprint of the following bounds */
     wave_bounds bounds; /* valid for this footprint and all wider ones */
     /* maximum slope: five standard deviations where the sum over tiles could exceed that */
     double steepest;
@@ -87,12 +87,12 @@ static double resolved_deviation(const slope_filter *f, float footprint_m)
 }
 
 /* The bounds are reused until the footprint has doubled. */
-static void look_around(march *s, double t)
+static void update_bounds(march *s, double t)
 {
     float footprint = water_march_footprint(s->m, width_at(s->ray, t), march_rise(s->m, s->ray, t));
-    if (footprint <= 2.0f * s->looked_m)
+    if (footprint <= 2.0f * s->bounded_m)
         return;
-    s->looked_m = fmaxf(footprint, 1e-6f);
+    s->bounded_m = fmaxf(footprint, 1e-6f);
     s->bounds = waves_bounds(s->m->waves, footprint);
     s->steepest = fmin((double)s->bounds.steepest, 5.0 * resolved_deviation(s->m->slopes, footprint) + 1e-4);
 }
@@ -146,7 +146,7 @@ static bool march_waves(march *s)
     double t = water_march_reach(s->m, r, (double)(r->is_below ? all.lowest : all.highest), r->near_m);
     double before = t, f_before = 0.0, reach = 0.0; /* previous position, its clearance, its safe step */
     for (int step = 0; step < MAX_STEPS && t <= r->far_m && t < HUGE_VAL; step++) {
-        look_around(s, t);
+        update_bounds(s, t);
         if (is_away(s, t))
             return false;
         double f = clearance(s, t), least = 0.7 * (double)s->last.width_m + 1e-4;
@@ -182,7 +182,7 @@ static bool march_flat(march *s)
 
 bool water_march_find(const water_march *m, const march_ray *ray, march_hit *hit)
 {
-    march s = {.m = m, .ray = ray, .level = level_of(ray), .looked_m = -1.0f};
+    march s = {.m = m, .ray = ray, .level = level_of(ray), .bounded_m = -1.0f};
     bool is_met = m->waves->tile_count ? march_waves(&s) : march_flat(&s);
     *hit = s.last;
     return is_met;

@@ -378,8 +378,8 @@ static uint32_t fill_radii(const water_setup *s, const lattice_view *v, double s
         count++;
         if (r >= v->far_m)
             return count;
-        double way = hypot(r, v->height_m), rise = (v->height_m + s->march.fall * r * r) / way;
-        double width = scale * fmax(v->step_rad * way, v->width_m);
+        double distance_m = hypot(r, v->height_m), rise = (v->height_m + s->march.fall * r * r) / distance_m;
+        double width = scale * fmax(v->step_rad * distance_m, v->width_m);
         double step = v->width_m > 0.0 ? width : (double)water_march_footprint(&s->march, (float)width, rise);
         r += fmax(fmin(step, fmax(LONGEST * r, width)), 1e-3);
     }

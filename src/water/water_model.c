@@ -196,7 +196,7 @@ bool water_model_describe(const water_model *m, float x, float y, double far_m, 
     return true;
 }
 
-float water_model_opening(const water_model *m, const double P[3], vec3 d, double far_m)
+float water_model_visibility(const water_model *m, const double P[3], vec3 d, double far_m)
 {
     if (!may_meet(m, P, d, far_m))
         return 1.0f;
@@ -224,7 +224,7 @@ vec3 water_model_radiance(const water_model *m, const model_hit *hit, vec3 sun)
     float size = max(max(abs(hit->P[0]), abs(hit->P[1])), abs(hit->P[2]));
     vec3 start = hit->P + N * (1e-4f + 4e-6f * size);
     const double P[3] = {(double)start[0], (double)start[1], (double)start[2]};
-    float share = sun[1] > 0.0f ? water_model_opening(m, P, sun, HUGE_VAL) : 0.0f;
+    float share = sun[1] > 0.0f ? water_model_visibility(m, P, sun, HUGE_VAL) : 0.0f;
     vec3 L = vec3(0.0f);
     if (share > 0.0f) {
         shading_shade(&m->setup.shading, &point, &lit);

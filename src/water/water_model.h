@@ -50,7 +50,7 @@ bool water_model_describe(const water_model *m, float x, float y, double far_m, 
 vec3 water_model_radiance(const water_model *m, const model_hit *hit, vec3 sun);
 
 /* Visibility through the model from P along d over far_m (HUGE_VAL: infinity), [0, 1]. */
-float water_model_opening(const water_model *m, const double P[3], vec3 d, double far_m);
+float water_model_visibility(const water_model *m, const double P[3], vec3 d, double far_m);
 
 /* Whether P is inside of a hull that keeps the sea out: the model is below it and on all sides. */
 bool water_model_is_dry(const water_model *m, const double P[3]);

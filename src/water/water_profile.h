@@ -1,4 +1,4 @@
-/* water_profile.h - the sea as one eye sees it, for all rays of a picture at once.
+/* water_profile.h - the sea as one eye sees it, for all rays of an image at once.
  *
  * Every ray from an eye keeps its azimuth. Along an azimuth the surface at the distance r is seen under
  * the elevation whose tangent is

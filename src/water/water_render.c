@@ -17,7 +17,7 @@
 
 enum { TILE = 32 };
 
-typedef struct picture {
+typedef struct drawing {
     const water_setup *setup;
     uint32_t crop[4]; /* x, y, width, height in the whole image */
     uint32_t tile_columns, tile_count, sample_count;
@@ -28,11 +28,11 @@ typedef struct picture {
     bool has_layers; /* any of them */
     render_watch watch;
     _Atomic uint64_t rays;
-} picture;
+} drawing;
 
 /* ---- pixels, tiles ---- */
 
-static void draw_pixel(const picture *p, uint32_t x, uint32_t y)
+static void draw_pixel(const drawing *p, uint32_t x, uint32_t y)
 {
     size_t number = (size_t)(y - p->crop[1]) * p->crop[2] + (x - p->crop[0]);
     const water_pixel pixel = {.x = x,
@@ -51,7 +51,7 @@ static void draw_pixel(const picture *p, uint32_t x, uint32_t y)
         surface_layers_store(&p->layers, number, nearest.depth_m, &nearest.surface, nearest.identity);
 }
 
-static void draw_tile(picture *p, uint32_t tile)
+static void draw_tile(drawing *p, uint32_t tile)
 {
     uint32_t left = tile % p->tile_columns * TILE, top = tile / p->tile_columns * TILE;
     for (uint32_t y = top; y < top + TILE && y < p->crop[3]; y++) {
@@ -66,7 +66,7 @@ static void draw_tile(picture *p, uint32_t tile)
 
 static void draw_tiles(void *context, size_t begin, size_t end)
 {
-    picture *p = context;
+    drawing *p = context;
     for (size_t tile = begin; tile < end; tile++) {
         if (render_watch_is_stopped(&p->watch))
             return;
@@ -80,7 +80,7 @@ static facet_result draw(const water_setup *s, double deadline_s, film *target, 
 {
     const facet_render_desc *r = s->desc;
     film_layer *color = film_find(target, "");
-    picture p = {.setup = s,
+    drawing p = {.setup = s,
                  .crop = {r->crop[0], r->crop[1], target->width, target->height},
                  .tile_columns = (target->width + TILE - 1) / TILE,
                  .sample_count = r->samples ? r->samples : 1,
@@ -112,10 +112,10 @@ facet_result water_render(water_cache *cache, const facet_scene *scene, const fa
         return result;
     result = water_setup_create(cache, scene, desc, WATER_SETUP_ALL, &setup, stats, error);
     stats->light_s += clock_seconds() - start;
-    double drawing = clock_seconds();
+    double begin = clock_seconds();
     if (result == FACET_OK)
         result = draw(&setup, deadline_s, target, stats, error);
-    stats->shade_s = clock_seconds() - drawing;
+    stats->shade_s = clock_seconds() - begin;
     if (result == FACET_OK)
         result = render_check_limits(desc, "shade", 1.0, 0.0, error);
     water_setup_destroy(&setup);

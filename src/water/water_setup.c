@@ -16,14 +16,14 @@
 
 _Static_assert(FACET_SEA_MASKING_SCALES == WATER_SCALES && FACET_SEA_MASKING_SMITH == WATER_SMITH &&
                    FACET_SEA_MASKING_SCHLICK_KARIS == WATER_SCHLICK_KARIS,
-               "looks and shaders have the same numbers");
+               "styles and shaders have the same numbers");
 
 static const float SHUTTER_S = 0.01f;
 
 static void fill_water(water_setup *s)
 {
     const water_optics *o = &s->sea->optics;
-    const facet_sea_shading *look = &s->desc->sea_shading;
+    const facet_sea_shading *shading = &s->desc->sea_shading;
     s->water.ior = o->ior;
     s->water.absorption = load3(o->absorption);
     s->water.scattering = load3(o->scattering);
@@ -31,9 +31,9 @@ static void fill_water(water_setup *s)
     s->water.reflectance = load3(o->reflectance);
     s->water.pure_share = load3(o->pure_share);
     s->water.foam_albedo = o->foam_albedo;
-    s->water.normals = look->normals == FACET_SEA_NORMALS_GGX ? WATER_GGX : WATER_BECKMANN;
-    s->water.masking = (int)look->masking;
-    s->water.is_schlick = look->has_schlick_fresnel;
+    s->water.normals = shading->normals == FACET_SEA_NORMALS_GGX ? WATER_GGX : WATER_BECKMANN;
+    s->water.masking = (int)shading->masking;
+    s->water.is_schlick = shading->has_schlick_fresnel;
 }
 
 static void fill_light(water_setup *s)

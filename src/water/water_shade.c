@@ -234,7 +234,7 @@ static SeaPosition start_of(SeaPlace p, float up_m)
 static float host_sun_visibility(SeaHost host, SeaPlace p)
 {
     SeaPosition P = start_of(p, 1e-3f);
-    return water_model_opening(&host.s->model, P.at, host.s->light.L, HUGE_VAL);
+    return water_model_visibility(&host.s->model, P.at, host.s->light.L, HUGE_VAL);
 }
 
 static FacetHit host_model_hit(SeaHost host, SeaPlace p, vec3 d, bool is_transmitted, bool is_alone)

@@ -10,7 +10,7 @@
 #include "ibl/sky_image.h"
 #include "water/water_sky.h"
 
-enum { PICTURE_HEIGHT = 256 };
+enum { IMAGE_HEIGHT = 256 };
 
 /* Clear air over a sea, haze of optical depth 0.06, and the albedo of a sea. */
 static const float MARITIME_TURBIDITY = 1.55f, SEA_ALBEDO = 0.06f;
@@ -117,7 +117,7 @@ static void light_by_air(const facet_sky_desc *sky, water_sky *s)
     s->sky_irradiance = max(sky_color(&s->tables, share), 0.0f);
 }
 
-/* ---- pictures ---- */
+/* ---- images ---- */
 
 static facet_result make_environment(const facet_allocator *allocator, uint32_t width, uint32_t height,
                                      facet_environment **out, facet_error *error)
@@ -129,12 +129,12 @@ static facet_result make_environment(const facet_allocator *allocator, uint32_t 
     return result;
 }
 
-static void mirror_at_horizon(image *picture)
+static void mirror_at_horizon(image *panorama)
 {
-    size_t row = (size_t)picture->width * 3;
-    float *pixels = picture->pixels;
-    for (uint32_t y = (picture->height + 1) / 2; y < picture->height; y++)
-        memcpy(pixels + y * row, pixels + (picture->height - 1 - y) * row, row * sizeof *pixels);
+    size_t row = (size_t)panorama->width * 3;
+    float *pixels = panorama->pixels;
+    for (uint32_t y = (panorama->height + 1) / 2; y < panorama->height; y++)
+        memcpy(pixels + y * row, pixels + (panorama->height - 1 - y) * row, row * sizeof *pixels);
 }
 
 /* Prefilters the environment, whose pixels are filled already. */
@@ -154,7 +154,7 @@ static facet_result use_views(const facet_render_desc *desc, water_sky *s, facet
     const facet_render_desc *r = desc;
     facet_result result = make_views(desc, s, error);
     if (result == FACET_OK)
-        result = make_environment(&r->allocator, 2 * PICTURE_HEIGHT, PICTURE_HEIGHT, &s->mirrored, error);
+        result = make_environment(&r->allocator, 2 * IMAGE_HEIGHT, IMAGE_HEIGHT, &s->mirrored, error);
     if (result == FACET_OK)
         result = sky_image_atmosphere(water_sky_low(s), desc->sky.sun_azimuth_rad, &r->allocator,
                                       r->thread_count, &s->mirrored->panorama, error);
@@ -168,15 +168,15 @@ static facet_result use_views(const facet_render_desc *desc, water_sky *s, facet
     return result;
 }
 
-static facet_result use_picture(const facet_render_desc *desc, facet_environment *environment,
-                                float rows_per_rad, water_sky *s, facet_error *error)
+static facet_result use_image(const facet_render_desc *desc, facet_environment *environment,
+                              float rows_per_rad, water_sky *s, facet_error *error)
 {
-    const image *picture = &environment->panorama;
+    const image *panorama = &environment->panorama;
     const facet_allocator *allocator = &desc->allocator;
-    facet_result result = make_environment(allocator, picture->width, picture->height, &s->mirrored, error);
+    facet_result result = make_environment(allocator, panorama->width, panorama->height, &s->mirrored, error);
     if (result != FACET_OK)
         return result;
-    memcpy(s->mirrored->panorama.pixels, picture->pixels, image_row_size(picture) * picture->height);
+    memcpy(s->mirrored->panorama.pixels, panorama->pixels, image_row_size(panorama) * panorama->height);
     result = prepare_reflections(desc, s, error);
     const ibl_light_desc light = {.thread_count = desc->thread_count,
                                   .needs_background = true,
@@ -204,7 +204,7 @@ static facet_result use_preetham(const facet_render_desc *desc, float rows_per_r
     without.illuminance_lux = 0.0f;
     facet_result result = facet_environment_create_sky(&without, &environment_desc, &sky, error);
     if (result == FACET_OK)
-        result = use_picture(desc, sky, rows_per_rad, s, error);
+        result = use_image(desc, sky, rows_per_rad, s, error);
     facet_environment_destroy(sky);
     float turbidity = desc->sky.turbidity != 0.0f ? desc->sky.turbidity : 2.5f;
     if (result == FACET_OK) {
@@ -265,10 +265,10 @@ facet_result water_sky_create(const facet_render_desc *desc, float eye_height_m,
     s->eye_km = clamp(eye_height_m * 0.001f, MIN_EYE_KM, MAX_EYE_KM);
     s->horizon_mu = horizon_mu(s->eye_km);
     s->horizon_rad = acos(s->horizon_mu);
-    water_sky_fill_ways(s);
+    water_sky_fill_transmittance(s);
     if (desc->environment) {
         rotate(desc, s);
-        result = use_picture(desc, desc->environment, rows_per_rad, s, error);
+        result = use_image(desc, desc->environment, rows_per_rad, s, error);
         take_sun(s, &desc->sun);
     } else if (desc->sky.model == FACET_SKY_MODEL_PREETHAM) {
         result = use_preetham(desc, rows_per_rad, s, error);
@@ -296,7 +296,7 @@ void water_sky_destroy(water_sky *s)
     memset(s, 0, sizeof *s);
 }
 
-/* ---- looking it up ---- */
+/* ---- lookups ---- */
 
 static const float LIMB_DARKENING = 0.6f; /* in green; Cox 2000 */
 
@@ -316,7 +316,7 @@ static vec3 rotated(const water_sky *s, vec3 d)
                 d[0] * s->rotation_sin + d[2] * s->rotation_cos);
 }
 
-vec3 water_sky_picture(const water_sky *s, vec3 d, float perceptual_roughness)
+vec3 water_sky_prefiltered(const water_sky *s, vec3 d, float perceptual_roughness)
 {
     vec3 r = rotated(s, d);
     const float R[3] = {r[0], r[1], r[2]};
@@ -371,6 +371,6 @@ vec3 water_sky_reflected(const water_sky *s, vec3 R, float perceptual_roughness)
     if (share < 1.0f)
         sum = water_sky_view(s, water_sky_low(s), up, 0.0f, 0.5f * PI) * (1.0f - share);
     if (share > 0.0f)
-        sum = sum + water_sky_picture(s, up, perceptual_roughness) * share;
+        sum = sum + water_sky_prefiltered(s, up, perceptual_roughness) * share;
     return sum;
 }

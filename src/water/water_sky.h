@@ -13,7 +13,7 @@
 
 #include "shade/shade.h"
 
-enum { WATER_SKY_WAYS = 257 };
+enum { WATER_SKY_DISTANCES = 257 };
 
 typedef struct water_sky {
     bool has_views; /* the sky is the atmosphere; else an image */
@@ -32,7 +32,7 @@ typedef struct water_sky {
     float scale;                             /* of all radiance */
     float eye_km;                            /* height of the eye view */
     float horizon_mu, horizon_rad;           /* of the horizon from there: cosine and zenith angle */
-    vec3 left[WATER_SKY_WAYS];               /* transmittance of the air between eye and sea, by distance */
+    vec3 transmittance[WATER_SKY_DISTANCES]; /* transmittance of the air between eye and sea, by distance */
     vec3 white;                              /* color of sunlight outside the air, lx */
     vec3 L;                                  /* towards the sun, unit */
     vec3 sun_irradiance;                     /* lx, facing it, at the sea */
@@ -63,12 +63,12 @@ vec3 water_sky_reflected(const water_sky *s, vec3 R, float perceptual_roughness)
 
 /* Radiance of a view with the zenith angle clamped between two angles (rad), and of the prefiltered image. */
 vec3 water_sky_view(const water_sky *s, const sky_view *v, vec3 d, float least_angle, float most_angle);
-vec3 water_sky_picture(const water_sky *s, vec3 d, float perceptual_roughness);
+vec3 water_sky_prefiltered(const water_sky *s, vec3 d, float perceptual_roughness);
 
 /* ---- water_air.c ---- */
 
 /* Fill the LUTs of water_sky_air() and water_sky_air_light() for the eye view. FACET_ERROR_MEMORY. */
-void water_sky_fill_ways(water_sky *s);
+void water_sky_fill_transmittance(water_sky *s);
 facet_result water_sky_fill_air(water_sky *s, const facet_allocator *allocator, uint32_t thread_count,
                                 facet_error *error);
 

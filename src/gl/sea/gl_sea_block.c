@@ -98,7 +98,7 @@ static void fill_water(const water_frame *p, gl_sea_block *b)
     b->sky_at[0] = p->horizon_mu;
     set4(b->crest_beam, p->crest_beam, p->crest_wavenumber);
     set4(b->crest_sunward, p->crest_sunward, p->crest_amplitude_m);
-    b->sky_at[1] = SEA_SKY_WAY_KM;
+    b->sky_at[1] = SEA_SKY_DISTANCE_KM;
 }
 
 static void fill_bed(const water_frame *p, const double eye[2], gl_sea_block *b)

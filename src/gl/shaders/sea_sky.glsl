@@ -2,7 +2,7 @@
  * the sky, and filtered light. Radiance in cd/m^2. */
 #define SEA_SKY_SEEN 0
 #define SEA_SKY_AIR 1
-#define SEA_SKY_CLEARNESS 2
+#define SEA_SKY_TRANSMITTANCE 2
 #define SEA_SKY_DISC 3
 #define SEA_LOBE_LAYERS 17
 
@@ -57,7 +57,7 @@ vec3 sea_clearness(float way_km)
 {
     float edge = 0.5 / float(textureSize(u_sea_sky, 0).x);
     float x = way_km / (way_km + sea_sky_at.y);
-    vec3 left = textureLod(u_sea_sky, vec3(clamp(x, edge, 1.0 - edge), 0.5, SEA_SKY_CLEARNESS), 0.0).xyz;
+    vec3 left = textureLod(u_sea_sky, vec3(clamp(x, edge, 1.0 - edge), 0.5, SEA_SKY_TRANSMITTANCE), 0.0).xyz;
     return x < edge ? mix(vec3(1.0), left, x / edge) : left;
 }
 
