@@ -61,7 +61,7 @@ if [ -x "$build/example_sea" ]; then
     "$build/example_buoy" >buoy.log || fail buoy
     ran=$((ran + 2))
 fi
-# The window opens where there is a display, and says what is missing where there is none.
+# The window opens if there is a display; else a message names what is missing.
 printf 'load\npicture view.png\nclose\n' >script
 if "$build/example_view" "$spin" script >view.log 2>&1; then
     [ -s view.png ] || fail "view wrote no image"

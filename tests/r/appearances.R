@@ -12,7 +12,7 @@ ball$normals <- ball$vb
 textured <- ball
 textured$texcoords <- rbind(atan2(ball$vb[1, ], ball$vb[3, ]) / pi / 2 + 0.5, 0.5 + ball$vb[2, ] / 2)
 
-# Three balls in a row that leads away from the eye.
+# Three spheres in a row away from the eye.
 row_of <- function(..., of = ball)
   for (i in -1:1)
     shade3d(translate3d(of, 2.2 * i, 0, -2 * i), ...)
@@ -45,7 +45,7 @@ scene("point_light_of_view", steel, list(list(x = 2, y = 1, z = -8)))
 for (type in c("linear", "exp", "exp2"))
   scene(paste0("fog_", type), steel, fogtype = type)
 scene("unlit", function() row_of(color = "steelblue", lit = FALSE))
-# Without normals of its own, for which glShadeModel(GL_FLAT) would take the light of each triangle's last corner.
+# A mesh without normals: with normals, glShadeModel(GL_FLAT) would take the light of each triangle's last corner.
 scene("flat", function() row_of(color = "steelblue", smooth = FALSE, of = subdivision3d(icosahedron3d(), 1)))
 scene("texture", function() row_of(color = "tomato", specular = "gray50", of = textured,
                                    texture = system.file("textures/rgl2.png", package = "rgl")))

@@ -27,7 +27,7 @@ for (name in names(before$materials)) {
 }
 stopifnot(isTRUE(all.equal(before$lights, after$lights, tolerance = 1e-5)))
 
-# What is set comes back from rgl.
+# Parameters that are set round-trip through rgl.
 invisible(open3d())
 for (m in after$materials) {
   id <- do.call(spheres3d, c(list(0, 0, 0), rgl_settable(m)))

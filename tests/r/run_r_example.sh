@@ -51,11 +51,11 @@ differ() {
     echo "$1: $count pixels differ from rgl's by more than a level, at most $3 are allowed"
     [ "$count" -le "$3" ] || is_good=false
 }
-# Of these none was measured: only where an edge goes exactly through the middle of a pixel may a driver decide otherwise.
+# 0 were measured for these scenes. Drivers may differ where an edge passes exactly through the center of a pixel.
 for name in plain two_lights world_light point_light point_light_of_view fog_linear fog_exp fog_exp2 unlit flat texture; do
     differ drawn/$name 256 20
 done
-# Rims, where rgl's order of whole triangles counts: 93 measured.
+# Silhouettes, where rgl sorts whole triangles: 93 measured.
 differ drawn/translucent 256 250
 # The small balls, which rgl draws with triangles of its own, and the surface, whose squares it cuts along the other
 # diagonal.

@@ -65,7 +65,7 @@ if [ -n "$wrong" ]; then
     status=1
 fi
 
-# A name is no way around an arrow: "struct NAME" of a module that may not be included is refused, defined or not.
+# Forward declarations count as includes: "struct NAME" of a module that may not be included is refused.
 wrong=$(echo "$files" | grep -vE '_test\.[ch]$' | xargs grep -oE '(^|[^"[:alnum:]_])struct [[:alpha:]_][[:alnum:]_]*( *\{|)' /dev/null |
     awk -v rules="$rules" '
     BEGIN {
@@ -135,7 +135,7 @@ if [ -n "$found" ]; then
     status=1
 fi
 
-# shade/ includes nothing but itself.
+# shade/ includes only its own headers.
 found=$(grep -nE '^#include' shade/*.h | grep -vE '^shade/shade\.h:' || true)
 if [ -n "$found" ]; then
     echo "the shader library must not include anything: $found"

@@ -19,7 +19,7 @@ for wrong in 'src/base/result.c:"image/image.h"' 'src/scene/scene.c:"shade/shade
     fi
     cp "$copy/saved" "$file"
 done
-# Names of modules above are refused as well, a pointer in a struct or a forward declaration.
+# Names of upper modules are refused as well: a pointer in a struct, a forward declaration.
 for wrong in 'src/scene/scene.h:struct path_surface;' 'src/ocean/sea.h:struct opaque { const struct gl_sea *gl; };'; do
     file=$copy/${wrong%%:*}
     cp "$file" "$copy/saved"

@@ -1,5 +1,5 @@
 #!/bin/sh
-# copies.sh [ROOT] - no run of eight identical lines of code stands twice in the product. Blank lines, comments, #include lines
+# copies.sh [ROOT] - no run of eight identical lines of code occurs twice in the product. Blank lines, comments, #include lines
 # and indentation do not count; a run of table rows (no statement among the eight lines) is no code.
 set -eu
 cd "${1:-.}"

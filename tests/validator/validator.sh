@@ -23,7 +23,7 @@ while read -r model; do
         echo "$model: $(cat "$work/err")"
         status=1
     fi
-    case $name in # once more with all that MTL may mean
+    case $name in # again with all statements of MTL
     *.obj) "$facet" convert -q "$model" "${out%.glb}-glass.glb" --glass --mirrors --ambient occlusion --profile core ||
         status=1 ;;
     esac

@@ -3,7 +3,7 @@
 . "$(dirname "$0")/../cli/lib.sh"
 
 
-# GLFW unloads Mesa's driver at the end, and its memory looks leaked to the leak checker; a driver loaded before stays.
+# GLFW unloads Mesa's driver at the end, and the leak checker reports its memory; a driver that is preloaded stays.
 driver=$(ls /usr/lib/*/dri/swrast_dri.so 2>/dev/null | head -1)
 if [ -n "$driver" ] && grep -q __lsan_do_leak_check "$facet"; then
     printf '#!/bin/sh\nLD_PRELOAD=%s exec "%s" "$@"\n' "$driver" "$facet" >"$work/facet.sh"

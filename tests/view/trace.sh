@@ -40,7 +40,7 @@ picture right.png
 END
 view --orbit 0,75,105% # near, so that both differ in many pixels
 differ left.png right.png
-# columns 47 and 48 are the border's
+# columns 47 and 48 belong to the border
 for side in left:0,0,46,72:both left:0,0,90,72:dragged right:50,0,46,72:both; do
     crop=${side#*:}
     "$facet" compare "${side%%:*}.png" "${side##*:}.png" --crop "${crop%:*}" --max max=0.004 -q >compared 2>&1 ||

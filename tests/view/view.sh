@@ -124,7 +124,7 @@ wait 20
 window tiny.png
 END
 view triangle.gltf
-if "$facet" plot -o plot.png >/dev/null 2>&1; then # letters are cairo's
+if "$facet" plot -o plot.png >/dev/null 2>&1; then # cairo renders text
     differ bare.png help.png
     differ bare.png values.png
     differ page1.png page2.png # letters stay as large as they can be read
@@ -251,7 +251,7 @@ view triangle.gltf
 rendered wide.png triangle.png
 same wide.png same.png
 
-# ---- animations are framed in their whole motion, chosen at the start or later ----
+# ---- the frame holds the whole animation, chosen at the start or later ----
 sed 's/"scene":0,/"scene":0,"animations":[{"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}],"samplers":[{"input":1,"output":2}]}],/
     s/"max":.1,1,0.}\],/"max":[1,1,0]},{"bufferView":1,"componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[1]},{"bufferView":2,"componentType":5126,"count":2,"type":"VEC3"}],/
     s/"byteLength":36}\],/"byteLength":36},{"buffer":1,"byteLength":8},{"buffer":1,"byteOffset":8,"byteLength":24}],/

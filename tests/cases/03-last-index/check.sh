@@ -1,4 +1,4 @@
-# The largest index of a component type as a plain vertex number: drawn, with one warning.
+# The largest index of a component type may be a vertex, not a restart: it is drawn, with one warning.
 expect 0 render "$case_dir/byte-254.glb" $small -o 254.png
 [ ! -s err ] || failed "the control has a warning"
 expect 0 render "$case_dir/byte-255.glb" $small -o 255.png

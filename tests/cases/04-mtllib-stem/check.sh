@@ -1,4 +1,4 @@
-# The library was renamed with the model, but not in its text.
+# The library was renamed with the model, but the mtllib statement has the old name.
 expect 0 convert "$case_dir/chair.obj" chair.gltf
 says 'there is no file "exported-name.mtl"; "chair.mtl", which is named like the model, is read instead'
 grep -q baseColorFactor chair.gltf || failed "chair.gltf does not have the color of chair.mtl"

@@ -1,4 +1,4 @@
-# Names from Windows, and letters in the other form of Unicode: the only file that can be meant is read, with a warning.
+# File names that differ in case or Unicode form: the only match is read, with a warning.
 expect 0 convert "$case_dir/table.obj" table.gltf
 says 'there is no file "Table.MTL"; "table.mtl" is read instead'
 says '"textures/wood.png" is read instead'

@@ -1,4 +1,4 @@
-# A texture of each of the formats that glTF does not have: read from OBJ, written to glTF as PNG, the same image.
+# Textures in formats that glTF lacks are read from OBJ and written to glTF as PNG; the image is the same.
 cp "$case_dir"/tga.* "$case_dir"/wood.tga .
 red='\036\036\310' # BGR
 for i in 1 2 3 4; do printf "$red$red"'\000\000'; done >rows # two texels and padding
@@ -24,7 +24,7 @@ done
 expect 0 compare bmp.png gif.png --max differing=0 # red everywhere
 expect 0 compare bmp.png dds.png --max max=0.07
 expect 1 compare bmp.png tga.png --max max=0.07
-# A damaged one is one warning, and the model is drawn.
+# A damaged texture gives one warning, and the model is drawn.
 head -c 40 wood.tga >cut.tga
 sed "s/wood\.tga/cut.tga/" tga.mtl >cut.mtl
 sed "s/tga\.mtl/cut.mtl/" tga.obj >cut.obj

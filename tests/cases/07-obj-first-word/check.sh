@@ -1,4 +1,4 @@
-# What holds vertices and faces is an OBJ file, whatever it begins with.
+# A file with vertices and faces is an OBJ file, whatever its first word is.
 expect 0 render "$case_dir/newmtl.obj" -o newmtl.png --size 32
 says 'line 1: the statement is unknown'
 for first in 'Exported by a program of 1998' '// a comment' '%made by hand'; do

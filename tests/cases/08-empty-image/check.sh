@@ -1,4 +1,4 @@
-# An image on which nothing of the model is seen comes with one warning that says why and what to do.
+# An image that shows nothing of the model gives one warning, with the reason and a remedy.
 expect 0 render "$case_dir/d0.obj" -o a.png --size 32
 says "it counts as 1"
 expect 1 render "$case_dir/d0.obj" -o a.png --size 32 --strict
@@ -33,10 +33,10 @@ empty "it is smaller than a pixel" tri.gltf --orbit 0,90,50000m
 empty "the nodes that have a mesh are scaled to 0" scale.gltf
 empty "its opacity is 0" clear.gltf
 empty "no node of the file has a mesh" unused.gltf
-# The frames of a sequence say it once.
+# A sequence of frames warns once.
 expect 0 render tri.gltf -o 't_##.png' --size 32 --samples 1 --turntable 6
 [ "$(grep -c "nothing of the model" err)" = 1 ] || failed "a turntable says it $(grep -c nothing err) times"
-# A closed mesh around the camera, which its triangles face away from.
+# A closed mesh around the camera, whose triangles face away from it.
 cat >box.obj <<'END'
 mtllib box.mtl
 v -1 -1 -1

@@ -1,4 +1,4 @@
-# Parts that an image does not need are left out with a warning; what it needs still refuses the model.
+# Errors in parts that an image does not need are warnings; errors in parts that it needs refuse the model.
 expect 0 render "$case_dir/anim_node_oob.gltf" $small -o node.png
 says "target.node: node 7 does not exist (there is 1); it animates nothing"
 expect 0 render "$case_dir/parts.gltf" $small -o parts.png

@@ -11,7 +11,7 @@ expect 0 convert --json latin1.obj latin1.glb
 grep -q '"worst": *"caf' out || failed "the report lacks a name"
 expect 0 inspect --json latin1.glb
 grep -q '"café"' out && grep -q '"cafê"' out || failed "two names are not two"
-# A texture whose file has such a name.
+# The file of a texture has such a name, too.
 image=$(printf 'bild\344.png')
 expect 0 render latin1.obj --size 8 -o "$image"
 printf 'newmtl a\nmap_Kd %s\n' "$image" >map.mtl

@@ -1,4 +1,4 @@
-# A red ball of Ns 0 and a bright Ks is red and matte; to the letter of the format it is nearly white.
+# A red sphere with Ns 0 and a bright Ks is red and matte; with --dialect spec it is nearly white.
 expect 0 convert "$case_dir/ns0.obj" ball.gltf
 says "Ns 0 spreads the highlight over the whole surface"
 grep -q '"specularFactor": *0$' ball.gltf || failed "ball.gltf has a highlight"

@@ -15,9 +15,9 @@ cmp -s auto.png given.png || failed "--exposure auto is not --exposure $stops"
 expect 0 render "$lit" -o brighter.png --size 64 --exposure auto+1
 ! cmp -s auto.png brighter.png || failed "auto+1 is auto"
 expect 1 render "$lit" -o burnt.png --size 64 --strict
-expect 0 render "$lit" -o light.exr --size 64 --strict # a file that keeps what is beyond white
+expect 0 render "$lit" -o light.exr --size 64 --strict # a format that keeps values above white
 expect 2 render "$lit" -o x.png --exposure automatic
-# One exposure for all frames, whichever are drawn.
+# All frames have one exposure, whichever of them are rendered.
 expect 0 render "$lit" -o 'all_##.png' --size 32 --turntable 3 --exposure auto
 expect 0 render "$lit" -o 'one_##.png' --size 32 --turntable 3 --frames 3 --exposure auto
 cmp -s all_03.png one_03.png || failed "the exposure depends on which frames are drawn"

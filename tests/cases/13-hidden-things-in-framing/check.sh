@@ -1,4 +1,4 @@
-# What cannot be seen, and few triangles far away, leave the frame as it is without them.
+# Invisible geometry and a few distant triangles do not affect framing.
 sed 's/"scenes": \[{"nodes": \[0, 1\]}\]/"scenes": [{"nodes": [0]}]/' "$case_dir/far_transparent.gltf" >quad.gltf
 printf 'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n' >quad.obj
 (cat quad.obj && printf 'v 100000 5 3\nv 100000 5 3\nv 100000 5 3\nf 5 6 7\n') >point.obj

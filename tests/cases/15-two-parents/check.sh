@@ -1,4 +1,4 @@
-# A node that two nodes name as child is drawn under each, with one warning.
+# A node that is a child of two nodes is drawn under each, with one warning.
 expect 0 render "$case_dir/node_two_parents.gltf" $small -o two.png
 says "node 0 is a child of node 1 already; it is drawn under each parent"
 expect 0 inspect --json "$case_dir/node_two_parents.gltf"

@@ -1,4 +1,4 @@
-# Blanks in names that are escaped as in a shell.
+# Spaces in file names may be escaped as in a shell.
 for model in plain escaped; do
     expect 0 convert "$case_dir/$model.obj" $model.gltf
     grep -q baseColorTexture $model.gltf || failed "$model.gltf has no texture"

@@ -1,4 +1,4 @@
-# An occlusion texture that is 0 throughout: left out, with one warning, in the preview and with OpenGL.
+# An occlusion texture of zeros is ignored, with one warning, in the preview and with OpenGL.
 sed 's/"occlusionTexture": *{[^}]*}, *//; s/, *"occlusionTexture": *{[^}]*}//' "$case_dir/orm-red-0.gltf" >without.gltf
 grep -q occlusionTexture without.gltf && failed "the control has the texture"
 expect 0 render without.gltf $small -o without.png

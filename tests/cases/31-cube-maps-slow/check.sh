@@ -1,4 +1,4 @@
-# A cube map costs about what a panorama of as many texels does: processor time, with one thread. It was 10 times as much.
+# A cube map takes about the processor time of a panorama of as many texels, with one thread. It once took 10 times as much.
 milliseconds() { # of the last command that was run in a subshell, from the output of times
     tail -1 times | sed 's/m/ /g; s/s//g' | awk '{ printf "%d", 1000 * ($1 * 60 + $2 + $3 * 60 + $4) }'
 }
