@@ -46,6 +46,7 @@ run() { # run NAME ARGUMENT.. FILE: runs the program, which then has written FIL
 run render "$spin" spin.png
 run budget "$spin"
 run inspect "$top/docs/examples/obj/boat.obj" boat.glb
+run fleet "$spin" "$top/docs/examples/obj/boat.obj" fleet.glb
 run convert "$spin" spin.obj
 run turntable "$spin" turntable.png
 run sky sky.png
