@@ -200,8 +200,8 @@ static render_role choose_role(const chooser *c, uint32_t i, bool is_animated, b
     return RENDER_STILL;
 }
 
-/* Removes unused shapes. numbers: room for one per shape. */
-static void compact_shapes(render_geometry_set *set, uint32_t *numbers)
+/* Removes unused shapes. indices: room for one per shape. */
+static void compact_shapes(render_geometry_set *set, uint32_t *indices)
 {
     for (uint32_t i = 0; i < set->shape_count; i++)
         set->shapes[i].use_count = 0;
@@ -210,14 +210,14 @@ static void compact_shapes(render_geometry_set *set, uint32_t *numbers)
             set->shapes[set->items[i].shape].use_count++;
     uint32_t kept = 0;
     for (uint32_t i = 0; i < set->shape_count; i++) {
-        numbers[i] = kept;
+        indices[i] = kept;
         if (set->shapes[i].use_count)
             set->shapes[kept++] = set->shapes[i];
     }
     set->shape_count = kept;
     for (uint32_t i = 0; i < set->count; i++) {
         render_geometry *g = &set->items[i];
-        g->shape = g->role == RENDER_INSTANCED ? numbers[g->shape] : SCENE_NONE;
+        g->shape = g->role == RENDER_INSTANCED ? indices[g->shape] : SCENE_NONE;
     }
 }
 

@@ -213,13 +213,13 @@ static fixture grid_scene(scene_alpha_mode alpha_mode)
 }
 
 /* Renders instanced and, with a distant mesh, flat. */
-static void render_both(fixture *f, film pictures[2])
+static void render_both(fixture *f, film films[2])
 {
     assert_true(count_role(f, 64 * 64 * 4, RENDER_INSTANCED) > 0);
-    pictures[0] = fixture_render(f);
+    films[0] = fixture_render(f);
     add_far_thing(f);
     assert_int_equal(count_role(f, 64 * 64 * 4, RENDER_INSTANCED), 0);
-    pictures[1] = fixture_render(f);
+    films[1] = fixture_render(f);
 }
 
 /* Rays intersect an instance in its own space, so weights and distances differ by rounding, and at the
@@ -253,15 +253,15 @@ static void instances_are_seen_as_flat_ones(void **state)
         fixture f = grid_scene(modes[i % 3]);
         f.camera.fov_y_rad = i < 3 ? 0.0f : 0.2f;
         f.scene->materials[0].is_double_sided = i % 2;
-        film pictures[2];
-        render_both(&f, pictures);
-        assert_alike(&pictures[0], &pictures[1], "", 1.0f / 255.0f);
-        assert_alike(&pictures[0], &pictures[1], "normal", 1e-3f);
-        assert_alike(&pictures[0], &pictures[1], "albedo", 2e-3f);
-        assert_alike(&pictures[0], &pictures[1], "uv", 1e-4f);
-        assert_alike(&pictures[0], &pictures[1], "depth", 1e-4f);
-        film_destroy(&pictures[0]);
-        film_destroy(&pictures[1]);
+        film films[2];
+        render_both(&f, films);
+        assert_alike(&films[0], &films[1], "", 1.0f / 255.0f);
+        assert_alike(&films[0], &films[1], "normal", 1e-3f);
+        assert_alike(&films[0], &films[1], "albedo", 2e-3f);
+        assert_alike(&films[0], &films[1], "uv", 1e-4f);
+        assert_alike(&films[0], &films[1], "depth", 1e-4f);
+        film_destroy(&films[0]);
+        film_destroy(&films[1]);
         fixture_destroy(&f);
     }
 }
@@ -277,12 +277,12 @@ static void normals_of_instances_are_those_of_ellipsoids(void **state)
     f.desc.width = f.desc.height = 128;
     chosen c = choose(&f, 128 * 128 * 4);
     assert_int_equal(c.set.items[0].role, RENDER_INSTANCED);
-    film picture = fixture_render(&f);
+    film rendered = fixture_render(&f);
     uint32_t checked = 0;
     for (uint32_t y = 0; y < 128; y++)
         for (uint32_t x = 0; x < 128; x++) {
-            float depth = *fixture_pixel(&picture, "depth", x, y);
-            const float *n = fixture_pixel(&picture, "normal", x, y);
+            float depth = *fixture_pixel(&rendered, "depth", x, y);
+            const float *n = fixture_pixel(&rendered, "normal", x, y);
             if (!isfinite(depth))
                 continue;
             const double p[3] = {(x + 0.5 - 64.0) / 128.0 * 2.2, (64.0 - y - 0.5) / 128.0 * 2.2,
@@ -329,7 +329,7 @@ static void normals_of_instances_are_those_of_ellipsoids(void **state)
             assert_true(cosine > 0.999);
         }
     assert_true(checked > 1500);
-    film_destroy(&picture);
+    film_destroy(&rendered);
     release(&c);
     fixture_destroy(&f);
 }
@@ -342,16 +342,16 @@ static void instances_do_not_depend_on_threads(void **state)
     for (int i = 0; i < 16; i++)
         *fixture_place(&f, f.scene->nodes[i].mesh, 0, 0, 0, 1.0f) = f.scene->nodes[i];
     f.desc.width = f.desc.height = 100;
-    film pictures[3];
+    film films[3];
     for (uint32_t i = 0; i < 3; i++) {
         f.desc.thread_count = i * i + 1;
-        pictures[i] = fixture_render(&f);
-        for (uint32_t l = 0; l < pictures[i].layer_count; l++)
-            assert_memory_equal(pictures[i].layers[l].pixels, pictures[0].layers[l].pixels,
-                                (size_t)10000 * pictures[i].layers[l].channel_count * sizeof(float));
+        films[i] = fixture_render(&f);
+        for (uint32_t l = 0; l < films[i].layer_count; l++)
+            assert_memory_equal(films[i].layers[l].pixels, films[0].layers[l].pixels,
+                                (size_t)10000 * films[i].layers[l].channel_count * sizeof(float));
     }
     for (int i = 0; i < 3; i++)
-        film_destroy(&pictures[i]);
+        film_destroy(&films[i]);
     fixture_destroy(&f);
 }
 
@@ -381,13 +381,13 @@ static void many_copies_are_cheap(void **state)
     facet_budget *budget;
     assert_int_equal(facet_budget_create(32 << 20, &budget, NULL), FACET_OK);
     f.desc.allocator = facet_budget_allocator(budget);
-    film picture = fixture_render(&f);
+    film rendered = fixture_render(&f);
     /* Each pixel has one sphere of radius 1 in 4 x 4, here 0.02 m wide. */
     double disc = 3.14159265 / 16.0;
     for (uint32_t y = 5; y < 100; y += 9)
         for (uint32_t x = 5; x < 100; x += 9)
-            assert_true(fabs((double)fixture_pixel(&picture, "", x, y)[3] - disc) < 0.1);
-    film_destroy(&picture);
+            assert_true(fabs((double)fixture_pixel(&rendered, "", x, y)[3] - disc) < 0.1);
+    film_destroy(&rendered);
     assert_int_equal(facet_budget_used_bytes(budget), 0);
     facet_budget_destroy(budget);
     fixture_destroy(&f);

@@ -39,18 +39,18 @@ static film render_ball(scene_material material, fixture *f, bool is_antialiased
     wall.base_color[0] = 0.2f;
     fixture_place(f, fixture_add_quad(f, fixture_add_material(f, wall)), 0, 0, -2.0f, 3.0f);
     fixture_place(f, fixture_add_sphere(f, 48, fixture_add_material(f, material)), 0, 0, 0, 0.9f);
-    scene_light lamp = {.name = "", .type = SCENE_LIGHT_POINT, .color = {1, 1, 1}, .intensity = 20.0f};
-    fixture_add_light(f, lamp, 2.0f, 1.5f, 3.0f);
-    fixture_add_light(f, lamp, -3.0f, 0.0f, -3.0f);
+    scene_light light = {.name = "", .type = SCENE_LIGHT_POINT, .color = {1, 1, 1}, .intensity = 20.0f};
+    fixture_add_light(f, light, 2.0f, 1.5f, 3.0f);
+    fixture_add_light(f, light, -3.0f, 0.0f, -3.0f);
     return fixture_render(f);
 }
 
-static film picture_of(scene_material material)
+static film film_of(scene_material material)
 {
     fixture f = fixture_create();
-    film picture = render_ball(material, &f, false);
+    film rendered = render_ball(material, &f, false);
     fixture_destroy(&f);
-    return picture;
+    return rendered;
 }
 
 static double greatest_difference(const film *a, const film *b)
@@ -93,9 +93,9 @@ static scene_material with_all(float factor)
 static void a_factor_of_0_is_the_base(void **state)
 {
     (void)state;
-    film plain = picture_of(base());
-    film none = picture_of(with_all(0.0f));
-    film all = picture_of(with_all(1.0f));
+    film plain = film_of(base());
+    film none = film_of(with_all(0.0f));
+    film all = film_of(with_all(1.0f));
     assert_memory_equal(plain.layers[0].pixels, none.layers[0].pixels, FLOATS * sizeof(float));
     assert_true(greatest_difference(&plain, &all) > 0.05);
     film_destroy(&plain);
@@ -216,10 +216,10 @@ static void textures_are_read_by_their_channels(void **state)
             m.extensions = SCENE_SPECULAR_GLOSSINESS;
             m.glossiness = 0.8f;
         }
-        film plain = picture_of(m);
+        film plain = film_of(m);
         scene_material applied = m;
         apply_texel(&applied, (scene_texture_slot)slot);
-        film expected = picture_of(applied);
+        film expected = film_of(applied);
         fixture f = fixture_create();
         m.textures[slot].texture = fixture_add_texture(&f, 1, 1, TEXEL);
         film textured = render_ball(m, &f, false);
@@ -248,7 +248,7 @@ static void more_textures_than_a_group_holds(void **state)
         m.textures[slot].texture = texture;
         apply_texel(&applied, (scene_texture_slot)slot);
     }
-    film expected = picture_of(applied);
+    film expected = film_of(applied);
     film textured = render_ball(m, &f, false);
     assert_true(greatest_difference(&textured, &expected) < 2e-4);
     film_destroy(&expected);
@@ -271,8 +271,8 @@ static void glossiness_is_lossless(void **state)
     metal.metallic = 0.0f;
     metal.perceptual_roughness = 0.375f;
     metal.ior = 0.0f;
-    film a = picture_of(gloss);
-    film b = picture_of(metal);
+    film a = film_of(gloss);
+    film b = film_of(metal);
     assert_memory_equal(a.layers[0].pixels, b.layers[0].pixels, FLOATS * sizeof(float));
     film_destroy(&a);
     film_destroy(&b);
@@ -311,9 +311,9 @@ static float coat_towards(bool from_above, uint32_t set, bool has_tangents)
     scene_node *node = &f.scene->nodes[f.scene->node_count - 1];
     node->rotation[from_above ? 0 : 1] = (from_above ? -1.0f : 1.0f) * sinf(0.5f * angle);
     node->rotation[3] = cosf(0.5f * angle);
-    film picture = fixture_render(&f);
-    float brightness = fixture_pixel(&picture, "", 4, 4)[0];
-    film_destroy(&picture);
+    film rendered = fixture_render(&f);
+    float brightness = fixture_pixel(&rendered, "", 4, 4)[0];
+    film_destroy(&rendered);
     fixture_destroy(&f);
     return brightness;
 }
@@ -342,11 +342,11 @@ static film anisotropic_quad(const float *tangents, float rotation)
     uint32_t mesh = fixture_add_quad(&f, fixture_add_material(&f, m));
     fixture_primitive(&f, mesh)->tangents = tangents;
     fixture_place(&f, mesh, 0, 0, 0, 1.0f);
-    scene_light lamp = {.name = "", .type = SCENE_LIGHT_POINT, .color = {1, 1, 1}, .intensity = 3.0f};
-    fixture_add_light(&f, lamp, 0.3f, 0.1f, 1.0f);
-    film picture = fixture_render(&f);
+    scene_light light = {.name = "", .type = SCENE_LIGHT_POINT, .color = {1, 1, 1}, .intensity = 3.0f};
+    fixture_add_light(&f, light, 0.3f, 0.1f, 1.0f);
+    film rendered = fixture_render(&f);
     fixture_destroy(&f);
-    return picture;
+    return rendered;
 }
 
 static void highlights_are_stretched_along_the_tangent(void **state)
@@ -374,12 +374,12 @@ static void highlights_are_stretched_along_the_tangent(void **state)
 static void light_comes_through_leaves(void **state)
 {
     (void)state;
-    for (int is_body = 0; is_body < 3; is_body++) {
+    for (int is_volume = 0; is_volume < 3; is_volume++) {
         fixture f = fixture_create();
         scene_material m = scene_material_default();
         m.metallic = 0.0f;
         m.specular = 0.0f;
-        m.extensions = SCENE_DIFFUSE_TRANSMISSION | (is_body ? SCENE_VOLUME : 0u);
+        m.extensions = SCENE_DIFFUSE_TRANSMISSION | (is_volume ? SCENE_VOLUME : 0u);
         m.base_color[0] = 0.5f;
         m.diffuse_transmission = 0.25f;
         m.diffuse_transmission_color[0] = 0.8f;
@@ -388,17 +388,17 @@ static void light_comes_through_leaves(void **state)
         m.attenuation_color[0] = 0.7f;
         uint32_t mesh = fixture_add_quad(&f, fixture_add_material(&f, m));
         fixture_place(&f, mesh, 0, 0, 0, 1.0f);
-        if (is_body == 2) { /* a far side: the real thickness counts */
+        if (is_volume == 2) { /* a far side: the real thickness counts */
             scene_node *far = fixture_place(&f, mesh, 0, 0, -0.2f, 1.0f);
             far->rotation[1] = 1.0f;
             far->rotation[3] = 0.0f;
         }
-        film picture = fixture_render(&f);
-        float thickness = is_body == 2 ? 0.2f : 0.3f;
-        float passed = is_body ? powf(0.7f, thickness / 0.1f) : 1.0f;
+        film rendered = fixture_render(&f);
+        float thickness = is_volume == 2 ? 0.2f : 0.3f;
+        float passed = is_volume ? powf(0.7f, thickness / 0.1f) : 1.0f;
         float expected = 0.5f * 0.75f + 0.8f * 0.25f * passed;
-        assert_true(fabsf(fixture_pixel(&picture, "", 20, 40)[0] - expected) < 1e-3f);
-        film_destroy(&picture);
+        assert_true(fabsf(fixture_pixel(&rendered, "", 20, 40)[0] - expected) < 1e-3f);
+        film_destroy(&rendered);
         fixture_destroy(&f);
     }
 }
@@ -419,10 +419,10 @@ static void layers_return_no_more_than_they_got(void **state)
         m.perceptual_roughness = i & 2 ? 0.8f : 0.1f;
         m.sheen_roughness = i & 4 ? 0.9f : 0.2f;
         fixture_place(&f, fixture_add_sphere(&f, 48, fixture_add_material(&f, m)), 0, 0, 0, 0.9f);
-        film picture = fixture_render(&f);
+        film rendered = fixture_render(&f);
         for (uint32_t p = 0; p < FLOATS; p++)
-            assert_true(picture.layers[0].pixels[p] < 1.01f);
-        film_destroy(&picture);
+            assert_true(rendered.layers[0].pixels[p] < 1.01f);
+        film_destroy(&rendered);
         fixture_destroy(&f);
     }
 }
@@ -444,9 +444,9 @@ static float highlight(float perceptual_roughness, bool is_antialiased)
     scene_light sun = {.name = "", .type = SCENE_LIGHT_DIRECTIONAL, .color = {1, 1, 1}, .intensity = 1.0f};
     fixture_add_light(&f, sun, 0, 0, 0);
     f.camera.eye[2] = 20.0f;
-    film picture = fixture_render(&f);
-    float brightness = fixture_pixel(&picture, "", 4, 4)[0];
-    film_destroy(&picture);
+    film rendered = fixture_render(&f);
+    float brightness = fixture_pixel(&rendered, "", 4, 4)[0];
+    film_destroy(&rendered);
     fixture_destroy(&f);
     return brightness;
 }
@@ -464,20 +464,20 @@ static void highlights_of_curved_surfaces_widen(void **state)
 static void flat_surfaces_stay_as_they_are(void **state)
 {
     (void)state;
-    film pictures[2];
+    film films[2];
     for (int i = 0; i < 2; i++) {
         fixture f = fixture_create();
         f.desc.width = f.desc.height = SIZE;
         f.desc.has_specular_antialiasing = i;
         fixture_place(&f, fixture_add_quad(&f, fixture_add_material(&f, base())), 0, 0, 0, 1.0f);
-        scene_light lamp = {.name = "", .type = SCENE_LIGHT_POINT, .color = {1, 1, 1}, .intensity = 3.0f};
-        fixture_add_light(&f, lamp, 0.3f, 0.1f, 1.0f);
-        pictures[i] = fixture_render(&f);
+        scene_light light = {.name = "", .type = SCENE_LIGHT_POINT, .color = {1, 1, 1}, .intensity = 3.0f};
+        fixture_add_light(&f, light, 0.3f, 0.1f, 1.0f);
+        films[i] = fixture_render(&f);
         fixture_destroy(&f);
     }
-    assert_true(greatest_difference(&pictures[0], &pictures[1]) < 1e-6);
-    film_destroy(&pictures[0]);
-    film_destroy(&pictures[1]);
+    assert_true(greatest_difference(&films[0], &films[1]) < 1e-6);
+    film_destroy(&films[0]);
+    film_destroy(&films[1]);
 }
 
 /* Bumps narrower than a pixel roughen a mirror. */
@@ -506,11 +506,11 @@ static void normal_textures_count(void **state)
         scene_light sun = {
             .name = "", .type = SCENE_LIGHT_DIRECTIONAL, .color = {1, 1, 1}, .intensity = 1.0f};
         fixture_add_light(&f, sun, 0, 0, 0);
-        film picture = fixture_render(&f);
+        film rendered = fixture_render(&f);
         brightness[i] = 0.0f;
         for (uint32_t p = 0; p < 33; p++)
-            brightness[i] = fmaxf(brightness[i], fixture_pixel(&picture, "", p, 16)[0]);
-        film_destroy(&picture);
+            brightness[i] = fmaxf(brightness[i], fixture_pixel(&rendered, "", p, 16)[0]);
+        film_destroy(&rendered);
         fixture_destroy(&f);
     }
     assert_true(brightness[1] < 0.8f * brightness[0]);
@@ -534,11 +534,11 @@ static void the_time_limit_holds_within_a_tile(void **state)
     for (int i = 0; i < 12; i++)
         fixture_place(&f, fixture_add_sphere(&f, 64, fixture_add_material(&f, m)), 0, 0, 0,
                       0.95f - 0.07f * (float)i);
-    film picture;
+    film rendered;
     facet_render_stats stats;
     facet_error error;
-    assert_int_equal(fixture_try_render(&f, &picture, &stats, &error), FACET_ERROR_LIMIT);
-    film_destroy(&picture);
+    assert_int_equal(fixture_try_render(&f, &rendered, &stats, &error), FACET_ERROR_LIMIT);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -555,24 +555,24 @@ static void a_tile_can_be_cancelled(void **state)
 {
     (void)state;
     fixture f = fixture_create();
-    double told[2] = {-1.0, 0.0}; /* fraction, times */
+    double reported[2] = {-1.0, 0.0}; /* fraction, times */
     f.desc.width = f.desc.height = 32;
     f.desc.samples = 64;
     f.desc.quality = FACET_QUALITY_FINAL;
     f.desc.thread_count = 1;
-    f.desc.progress = (facet_progress){.report = stop_soon, .user = told};
+    f.desc.progress = (facet_progress){.report = stop_soon, .user = reported};
     scene_material m = with_all(1.0f);
     m.metallic = 0.0f;
     m.transmission = 1.0f;
     for (int i = 0; i < 12; i++)
         fixture_place(&f, fixture_add_sphere(&f, 64, fixture_add_material(&f, m)), 0, 0, 0,
                       0.95f - 0.07f * (float)i);
-    film picture;
+    film rendered;
     facet_render_stats stats;
     facet_error error;
-    assert_int_equal(fixture_try_render(&f, &picture, &stats, &error), FACET_ERROR_CANCELLED);
-    assert_true(told[0] < 1.0); /* the only tile was not done */
-    film_destroy(&picture);
+    assert_int_equal(fixture_try_render(&f, &rendered, &stats, &error), FACET_ERROR_CANCELLED);
+    assert_true(reported[0] < 1.0); /* the only tile was not done */
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 

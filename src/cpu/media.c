@@ -178,7 +178,7 @@ static void note_side(const struct RTCFilterFunctionNArguments *arguments)
     const struct RTCHit *h = (const struct RTCHit *)(const void *)arguments->hit;
     visibility_hit hit = visibility_hit_read(s->scene->geometries, ray->tfar, h);
     arguments->valid[0] = 0;
-    if (s->scene->plans->items[hit.geometry].is_body)
+    if (s->scene->plans->items[hit.geometry].is_closed_volume)
         count_side(s, &hit);
 }
 
@@ -215,7 +215,7 @@ uint32_t media_at(const shading_scene *scene, const float P[3], media *m)
     enum { DIRECTIONS = 3 };
     static const float directions[DIRECTIONS][3] = {
         {0.3015f, 0.9045f, 0.3015f}, {-0.8018f, -0.2673f, 0.5345f}, {0.4575f, -0.1525f, -0.8760f}};
-    if (!scene->plans->has_bodies || !is_within_bounds(scene, P))
+    if (!scene->plans->has_closed_volumes || !is_within_bounds(scene, P))
         return 0;
     survey surveys[DIRECTIONS];
     for (uint32_t i = 0; i < DIRECTIONS; i++) {

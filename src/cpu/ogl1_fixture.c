@@ -185,8 +185,8 @@ static bool hit(const ogl1_quad *q, const view *v, uint32_t x, uint32_t y, int v
     if (!(t > 0.0) || fabs(px) >= 0.999 || fabs(py) >= 0.999)
         return false;
     bool is_first = px + py < 0.0;
-    static const int numbers[2][3] = {{0, 1, 2}, {2, 1, 3}};
-    memcpy(vertex, numbers[!is_first], sizeof numbers[0]);
+    static const int triangles[2][3] = {{0, 1, 2}, {2, 1, 3}};
+    memcpy(vertex, triangles[!is_first], sizeof triangles[0]);
     if (is_first) {
         weight[1] = 0.5 * (px + 1.0);
         weight[2] = 0.5 * (py + 1.0);
@@ -266,14 +266,14 @@ static bool is_between_codes(double value)
 
 void ogl1_quad_check(fixture *f, const ogl1_quad *q, uint32_t least, const char *what)
 {
-    film picture = fixture_render(f);
+    film rendered = fixture_render(f);
     image codes;
-    assert_int_equal(film_to_display_image(&picture, IMAGE_U8, true, NULL, 1, &codes, NULL), FACET_OK);
+    assert_int_equal(film_to_display_image(&rendered, IMAGE_U8, true, NULL, 1, &codes, NULL), FACET_OK);
     uint32_t count = 0;
     for (uint32_t y = 0; y < q->size; y++)
         for (uint32_t x = 0; x < q->size; x++) {
             double rgb[3];
-            const float *pixel = fixture_pixel(&picture, "", x, y);
+            const float *pixel = fixture_pixel(&rendered, "", x, y);
             if (!ogl1_quad_color(q, x, y, rgb))
                 continue;
             count++;
@@ -292,5 +292,5 @@ void ogl1_quad_check(fixture *f, const ogl1_quad *q, uint32_t least, const char 
         }
     assert_true(count >= least);
     image_destroy(&codes);
-    film_destroy(&picture);
+    film_destroy(&rendered);
 }

@@ -125,25 +125,25 @@ static void variants_lights_and_sides(void **state)
 static void variants_differ(void **state)
 {
     (void)state;
-    film pictures[VARIANT_COUNT];
+    film films[VARIANT_COUNT];
     for (int variant = 0; variant < VARIANT_COUNT; variant++) {
         ogl1_quad q = make_quad((facet_ogl1_variant)variant);
         add_lights(&q, 4);
         fixture f = show(&q);
         f.camera.eye[0] = 4.0f; /* normals turn away within the image */
         f.camera.fov_y_rad = 1.0f;
-        pictures[variant] = fixture_render(&f);
+        films[variant] = fixture_render(&f);
         fixture_destroy(&f);
     }
     for (int a = 0; a < VARIANT_COUNT; a++)
         for (int b = 0; b < a; b++) {
             uint32_t different = 0;
             for (uint32_t i = 0; i < 4 * 64 * 64; i++)
-                different += fabsf(pictures[a].layers[0].pixels[i] - pictures[b].layers[0].pixels[i]) > 0.01f;
+                different += fabsf(films[a].layers[0].pixels[i] - films[b].layers[0].pixels[i]) > 0.01f;
             assert_true(different > 10);
         }
     for (int variant = 0; variant < VARIANT_COUNT; variant++)
-        film_destroy(&pictures[variant]);
+        film_destroy(&films[variant]);
 }
 
 static void flat_faces(void **state)
@@ -177,15 +177,15 @@ static void lights_that_move_with_the_camera(void **state)
             f.camera.eye[1] = q.camera.eye[1] = 0.0f;
             f.camera.eye[2] = q.camera.eye[2] = (float)(4.0 * cos(angle));
             ogl1_quad_check(&f, &q, 1000, "turned camera");
-            film picture = fixture_render(&f);
-            float middle = fixture_pixel(&picture, "", 32, 32)[0];
+            film rendered = fixture_render(&f);
+            float middle = fixture_pixel(&rendered, "", 32, 32)[0];
             if (i == 0)
                 first = middle;
             /* N.L is cos(angle) for a light at the camera, 1 for one of the world; equal at -30 and 30
              * degrees */
             bool is_equal = fabsf(middle - first) < 1e-4f;
             assert_true(is_equal == (!relative || i == 0 || i == 4));
-            film_destroy(&picture);
+            film_destroy(&rendered);
             fixture_destroy(&f);
         }
     }
@@ -256,11 +256,11 @@ static void directional_lamps_of_gltf(void **state)
             copy3(file.specular, f.scene->legacy->materials[0].specular);
             copy3(file.emission, f.scene->legacy->materials[0].emission);
         }
-        scene_light lamp = {.name = "",
-                            .type = SCENE_LIGHT_DIRECTIONAL,
-                            .color = {1.0f, 0.5f, 0.25f},
-                            .intensity = 3.14159265f * factor};
-        fixture_add_light(&f, lamp, 0, 0, 0); /* emits along -Z */
+        scene_light light = {.name = "",
+                             .type = SCENE_LIGHT_DIRECTIONAL,
+                             .color = {1.0f, 0.5f, 0.25f},
+                             .intensity = 3.14159265f * factor};
+        fixture_add_light(&f, light, 0, 0, 0); /* emits along -Z */
         q.light_count = 1;
         q.lights[0] = (legacy_light){.position = {0, 0, 1}};
         for (int c = 0; c < 3; c++) {
@@ -268,7 +268,7 @@ static void directional_lamps_of_gltf(void **state)
             q.lights[0].diffuse[c] = q.lights[0].specular[c] =
                 (float)(is_linear ? linear : ogl1_encode(linear));
         }
-        ogl1_quad_check(&f, &q, 1000, is_linear ? "lamp, linear" : "lamp, encoded");
+        ogl1_quad_check(&f, &q, 1000, is_linear ? "light, linear" : "light, encoded");
         fixture_destroy(&f);
     }
 }
@@ -288,14 +288,14 @@ static void lamps_with_falloff(void **state)
         memset(m->emission, 0, sizeof m->emission);
         memset(m->specular, 0, sizeof m->specular);
         m->is_smooth = false;
-        scene_light lamp = {.name = "",
-                            .type = is_spot ? SCENE_LIGHT_SPOT : SCENE_LIGHT_POINT,
-                            .color = {1.0f, 1.0f, 1.0f},
-                            .intensity = 20.0f,
-                            .inner_cone_rad = 0.1f,
-                            .outer_cone_rad = 0.4f};
-        fixture_add_light(&f, lamp, 0.0f, 0.0f, 2.0f);
-        film picture = fixture_render(&f);
+        scene_light light = {.name = "",
+                             .type = is_spot ? SCENE_LIGHT_SPOT : SCENE_LIGHT_POINT,
+                             .color = {1.0f, 1.0f, 1.0f},
+                             .intensity = 20.0f,
+                             .inner_cone_rad = 0.1f,
+                             .outer_cone_rad = 0.4f};
+        fixture_add_light(&f, light, 0.0f, 0.0f, 2.0f);
+        film rendered = fixture_render(&f);
         double pixel = 2.0 * tan(0.35) * 3.0 / 64.0;
         for (uint32_t x = 32; x < 60; x += 3) {
             double px = ((double)x + 0.5 - 32.0) * pixel;
@@ -307,9 +307,9 @@ static void lamps_with_falloff(void **state)
             double cone = (cosine - cos((double)0.4f)) / (cos((double)0.1f) - cos((double)0.4f));
             cone = is_spot ? pow(fmin(fmax(cone, 0.0), 1.0), 2.0) : 1.0;
             double expected = 20.0 / d2 * cone / 3.14159265358979 * cosine * 0.5;
-            assert_true(fabs((double)fixture_pixel(&picture, "", x, 32)[0] - expected) < 3e-5);
+            assert_true(fabs((double)fixture_pixel(&rendered, "", x, 32)[0] - expected) < 3e-5);
         }
-        film_destroy(&picture);
+        film_destroy(&rendered);
         fixture_destroy(&f);
     }
 }
@@ -343,12 +343,12 @@ static void linear_light(void **state)
             if (is_srgb)
                 q.global_ambient = q.global_ambient > 0.0 ? ogl1_decode(q.global_ambient) : 0.0;
             ogl1_quad_check(&f, &q, 1000, "linear");
-            film picture = fixture_render(&f);
+            film rendered = fixture_render(&f);
             float brightest = 0.0f;
             for (uint32_t i = 0; i < 64 * 64; i++)
-                brightest = fmaxf(brightest, picture.layers[0].pixels[4 * i]);
+                brightest = fmaxf(brightest, rendered.layers[0].pixels[4 * i]);
             assert_true(brightest > 1.05f || is_srgb);
-            film_destroy(&picture);
+            film_destroy(&rendered);
             fixture_destroy(&f);
         }
 }

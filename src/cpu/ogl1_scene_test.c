@@ -72,9 +72,9 @@ static void pictures_do_not_depend_on_threads(void **state)
         film first = fixture_render(&f);
         for (int i = 0; i < 3; i++) {
             f.desc.thread_count = threads[i];
-            film picture = fixture_render(&f);
-            assert_same_film(&first, &picture);
-            film_destroy(&picture);
+            film rendered = fixture_render(&f);
+            assert_same_film(&first, &rendered);
+            film_destroy(&rendered);
         }
         film_destroy(&first);
         fixture_destroy(&f);
@@ -143,21 +143,21 @@ static void errors_say_what_to_do(void **state)
 {
     (void)state;
     fixture f = busy_scene();
-    film picture;
+    film rendered;
     facet_render_stats stats;
     facet_error error;
     f.desc.background = FACET_BACKGROUND_ENVIRONMENT;
-    assert_int_equal(fixture_try_render(&f, &picture, &stats, &error), FACET_ERROR_ARGUMENT);
+    assert_int_equal(fixture_try_render(&f, &rendered, &stats, &error), FACET_ERROR_ARGUMENT);
     assert_non_null(strstr(error.message, "background: OpenGL 1"));
-    film_destroy(&picture);
+    film_destroy(&rendered);
     f.desc.background = FACET_BACKGROUND_TRANSPARENT;
     f.scene->legacy = NULL;
-    assert_int_equal(fixture_try_render(&f, &picture, &stats, &error), FACET_ERROR_ARGUMENT);
+    assert_int_equal(fixture_try_render(&f, &rendered, &stats, &error), FACET_ERROR_ARGUMENT);
     assert_non_null(strstr(error.message, "facet_scene_convert_materials"));
-    film_destroy(&picture);
+    film_destroy(&rendered);
     f.desc.shading = FACET_SHADING_GLTF;
-    assert_int_equal(fixture_try_render(&f, &picture, &stats, &error), FACET_OK);
-    film_destroy(&picture);
+    assert_int_equal(fixture_try_render(&f, &rendered, &stats, &error), FACET_OK);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -170,11 +170,11 @@ static void running_out_of_memory_leaks_nothing(void **state)
     for (long fail_at = 0;; fail_at = next_failure(fail_at)) {
         failing_allocator memory = {.fail_at = fail_at};
         f.desc.allocator = failing_allocator_get(&memory);
-        film picture = {0};
+        film rendered = {0};
         facet_render_stats stats;
         facet_error error;
-        facet_result result = fixture_try_render(&f, &picture, &stats, &error);
-        film_destroy(&picture);
+        facet_result result = fixture_try_render(&f, &rendered, &stats, &error);
+        film_destroy(&rendered);
         assert_int_equal(memory.blocks, 0);
         assert_true(result == FACET_OK || result == FACET_ERROR_MEMORY);
         if (memory.calls <= fail_at) {

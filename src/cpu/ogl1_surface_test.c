@@ -10,9 +10,9 @@
 #include "cpu/ogl1_fixture.h"
 #include "film/film_image.h"
 
-static void assert_numbers(const film *picture, uint32_t x, uint32_t y, const double rgb[3], double opacity)
+static void assert_pixel(const film *rendered, uint32_t x, uint32_t y, const double rgb[3], double opacity)
 {
-    const float *pixel = fixture_pixel(picture, "", x, y);
+    const float *pixel = fixture_pixel(rendered, "", x, y);
     if (!(fabs((double)pixel[3] - opacity) <= 1e-6))
         fail_msg("opacity %g instead of %g", (double)pixel[3], opacity);
     for (int c = 0; c < 3; c++) {
@@ -119,9 +119,9 @@ static void every_texture_type_and_mode(void **state)
                 environment(type, mode, E, T, out);
                 for (int c = 0; c < 3; c++)
                     out[c] = cut(out[c] + (is_separate ? highlight[c] : 0.0));
-                film picture = fixture_render(&f);
-                assert_numbers(&picture, 4, 2, out, out[3]);
-                film_destroy(&picture);
+                film rendered = fixture_render(&f);
+                assert_pixel(&rendered, 4, 2, out, out[3]);
+                film_destroy(&rendered);
                 fixture_destroy(&f);
             }
 }
@@ -143,10 +143,10 @@ static void the_diffuse_map_of_mtl(void **state)
             m->fields = 0;
         set3(m->specular, 0.1f, 0.2f, 0.3f);
         set_map(&f, m, LEGACY_DIFFUSE_MAP, texel);
-        film picture = fixture_render(&f);
+        film rendered = fixture_render(&f);
         const double factored[3] = {0.1 + 0.1, 0.2 + 0.2, 0.2 + 0.3}, whole[3] = {0.3, 1.0, 0.7};
-        assert_numbers(&picture, 4, 2, kind ? whole : factored, 1.0);
-        film_destroy(&picture);
+        assert_pixel(&rendered, 4, 2, kind ? whole : factored, 1.0);
+        film_destroy(&rendered);
         fixture_destroy(&f);
     }
 }
@@ -162,13 +162,13 @@ static void textures_in_linear_light(void **state)
     legacy_material *m = add_quad(&f, 0.0f);
     set3(m->diffuse, 0.5f, 0.25f, 0.5f);
     set_map(&f, m, LEGACY_DIFFUSE_MAP, texel);
-    film picture = fixture_render(&f);
+    film rendered = fixture_render(&f);
     const double kd[3] = {0.5, 0.25, 0.5}, t[3] = {0.2, 0.8, 0.4};
     double expected[3];
     for (int c = 0; c < 3; c++)
         expected[c] = ogl1_encode(ogl1_decode(kd[c]) * ogl1_decode(t[c]));
-    assert_numbers(&picture, 4, 2, expected, 1.0);
-    film_destroy(&picture);
+    assert_pixel(&rendered, 4, 2, expected, 1.0);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -209,9 +209,9 @@ static void maps_of_the_terms(void **state)
         for (int c = 0; c < 3; c++)
             expected[c] = cut((double)m->ambient[c] * (0.1 + 0.5 * t[c]) + (double)m->emission[c] * t[c] +
                               (double)m->specular[c] * t[c] * lobe);
-        film picture = fixture_render(&f);
-        assert_numbers(&picture, 4, 2, expected, 0.05 + values[channel]);
-        film_destroy(&picture);
+        film rendered = fixture_render(&f);
+        assert_pixel(&rendered, 4, 2, expected, 0.05 + values[channel]);
+        film_destroy(&rendered);
         fixture_destroy(&f);
     }
 }
@@ -232,7 +232,7 @@ static void normal_maps(void **state)
         set_map(&f, m, LEGACY_NORMAL_MAP, texel);
         m->maps[LEGACY_NORMAL_MAP].bump_multiplier = 0.5f;
         f.desc.aovs = FACET_AOV_NORMAL;
-        film picture = fixture_render(&f);
+        film rendered = fixture_render(&f);
         double n[3] = {0.5 * (2.0 * 218.0 / 255.0 - 1.0), 0.5 * (2.0 * 128.0 / 255.0 - 1.0),
                        2.0 * 218.0 / 255.0 - 1.0};
         double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
@@ -240,11 +240,11 @@ static void normal_maps(void **state)
          * (x, -y, z) there. */
         double NL = (0.6 * n[0] + 0.8 * n[2]) / length;
         const double expected[3] = {0.75 * NL, 0.75 * NL, 0.75 * NL};
-        assert_numbers(&picture, 4, 2, expected, 1.0);
-        const float *aov = fixture_pixel(&picture, "normal", 4, 2);
+        assert_pixel(&rendered, 4, 2, expected, 1.0);
+        const float *aov = fixture_pixel(&rendered, "normal", 4, 2);
         for (int c = 0; c < 3; c++)
             assert_true(fabs((double)aov[c] - n[c] / length * (side ? -1.0 : 1.0)) < 1e-5);
-        film_destroy(&picture);
+        film_destroy(&rendered);
         fixture_destroy(&f);
     }
 }
@@ -274,7 +274,7 @@ static void sphere_maps(void **state)
     set3(m->diffuse, 1.0f, 1.0f, 1.0f);
     m->has_environment_map = true;
     m->maps[LEGACY_DIFFUSE_MAP].ref.texture = fixture_add_texture(&f, SIZE, SIZE, texels);
-    film picture = fixture_render(&f);
+    film rendered = fixture_render(&f);
     uint32_t count = 0;
     for (uint32_t y = 0; y < 64; y++)
         for (uint32_t x = 0; x < 64; x++) {
@@ -282,28 +282,28 @@ static void sphere_maps(void **state)
             double ny = 1.0 - ((double)y + 0.5) / 32.0;
             if (nx * nx + ny * ny > 0.8)
                 continue;
-            const float *pixel = fixture_pixel(&picture, "", x, y);
+            const float *pixel = fixture_pixel(&rendered, "", x, y);
             double u = 0.5 * nx + 0.5, v = 0.5 * ny + 0.5; /* texel i is code 2 i at (i + 1/2) / 128 */
             assert_true(fabs(ogl1_encode((double)pixel[0]) - (u * 256.0 - 1.0) / 255.0) < 0.004);
             assert_true(fabs(ogl1_encode((double)pixel[1]) - (v * 256.0 - 1.0) / 255.0) < 0.004);
             count++;
         }
     assert_true(count > 2000);
-    film_destroy(&picture);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
 /* ---- opacity ---- */
 
 /* 8-bit codes of a film laid over a color. */
-static void codes_over(film *picture, const float *color, unsigned char rgb[3])
+static void codes_over(film *rendered, const float *color, unsigned char rgb[3])
 {
     image codes;
-    film_tone_map(picture, FACET_TONEMAP_NONE, NULL, 1);
+    film_tone_map(rendered, FACET_TONEMAP_NONE, NULL, 1);
     if (color)
-        film_blend_encoded(picture, color, 1);
-    assert_int_equal(film_to_display_image(picture, IMAGE_U8, false, NULL, 1, &codes, NULL), FACET_OK);
-    memcpy(rgb, (const unsigned char *)codes.pixels + codes.channel_count * (4 + 2 * picture->width), 3);
+        film_blend_encoded(rendered, color, 1);
+    assert_int_equal(film_to_display_image(rendered, IMAGE_U8, false, NULL, 1, &codes, NULL), FACET_OK);
+    memcpy(rgb, (const unsigned char *)codes.pixels + codes.channel_count * (4 + 2 * rendered->width), 3);
     image_destroy(&codes);
 }
 
@@ -319,7 +319,7 @@ static void alpha_over_alpha(void **state)
     set3(back->diffuse, 0.125f, 0.625f, 1.0f);
     front->opacity = 0.5f;
     back->opacity = 0.25f;
-    film picture = fixture_render(&f);
+    film rendered = fixture_render(&f);
     double over[3], straight[3];
     const double background = 0.75, coverage = 0.5 + 0.5 * 0.25;
     for (int c = 0; c < 3; c++) {
@@ -327,24 +327,24 @@ static void alpha_over_alpha(void **state)
         over[c] = 0.5 * (double)front->diffuse[c] + 0.5 * behind;
         straight[c] = (0.5 * (double)front->diffuse[c] + 0.125 * (double)back->diffuse[c]) / coverage;
     }
-    assert_numbers(&picture, 4, 2, straight, coverage); /* content of a transparent image */
+    assert_pixel(&rendered, 4, 2, straight, coverage); /* content of a transparent image */
     const float linear = (float)ogl1_decode(background);
     const float color[3] = {linear, linear, linear};
     unsigned char codes[3];
-    codes_over(&picture, color, codes);
+    codes_over(&rendered, color, codes);
     for (int c = 0; c < 3; c++)
         assert_int_equal(codes[c], (int)floor(over[c] * 255.0 + 0.5));
-    film_destroy(&picture);
+    film_destroy(&rendered);
 
     f.desc.ogl1.is_linear = true; /* and as light */
-    picture = fixture_render(&f);
-    const float *pixel = fixture_pixel(&picture, "", 4, 2);
+    rendered = fixture_render(&f);
+    const float *pixel = fixture_pixel(&rendered, "", 4, 2);
     for (int c = 0; c < 3; c++) {
         double sum =
             0.5 * ogl1_decode((double)front->diffuse[c]) + 0.125 * ogl1_decode((double)back->diffuse[c]);
         assert_true(fabs((double)pixel[c] - sum) < 1e-6);
     }
-    film_destroy(&picture);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -357,9 +357,9 @@ static void opacities(void **state)
     fixture f = ogl1_fixture_head_on(&legacy);
     legacy_material *m = add_quad(&f, 0.0f);
     m->opacity = 0.0f;
-    film picture = fixture_render(&f);
-    assert_true(fixture_pixel(&picture, "", 4, 2)[3] == 0.0f);
-    film_destroy(&picture);
+    film rendered = fixture_render(&f);
+    assert_true(fixture_pixel(&rendered, "", 4, 2)[3] == 0.0f);
+    film_destroy(&rendered);
 
     m->opacity = 0.5f;
     set_map(&f, m, LEGACY_OPACITY_MAP, half);
@@ -367,17 +367,17 @@ static void opacities(void **state)
     for (int i = 0; i < 16; i++)
         colors[i] = i % 4 == 3 ? 0.75f : 1.0f;
     fixture_primitive(&f, 0)->colors = colors;
-    picture = fixture_render(&f);
-    assert_true(fabs((double)fixture_pixel(&picture, "", 4, 2)[3] - 0.5 * 0.75 * 128.0 / 255.0) < 1e-6);
-    film_destroy(&picture);
+    rendered = fixture_render(&f);
+    assert_true(fabs((double)fixture_pixel(&rendered, "", 4, 2)[3] - 0.5 * 0.75 * 128.0 / 255.0) < 1e-6);
+    film_destroy(&rendered);
 
     fixture_primitive(&f, 0)->colors = NULL;
     m->maps[LEGACY_OPACITY_MAP].ref.texture = SCENE_NONE;
     m->is_halo = true;
     f.camera.eye[0] = 10.0f; /* 45 degrees */
-    picture = fixture_render(&f);
-    assert_true(fabs((double)fixture_pixel(&picture, "", 4, 4)[3] - (1.0 - sqrt(0.5) * 0.5)) < 1e-5);
-    film_destroy(&picture);
+    rendered = fixture_render(&f);
+    assert_true(fabs((double)fixture_pixel(&rendered, "", 4, 4)[3] - (1.0 - sqrt(0.5) * 0.5)) < 1e-5);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -392,9 +392,9 @@ static void opacity_does_not_count_lights(void **state)
         legacy->lights[1] = legacy->lights[0];
         legacy->light_count = 2;
         add_quad(&f, 0.0f)->opacity = 0.375f;
-        film picture = fixture_render(&f);
-        assert_true(fabsf(fixture_pixel(&picture, "", 4, 2)[3] - 0.375f) < 1e-6f);
-        film_destroy(&picture);
+        film rendered = fixture_render(&f);
+        assert_true(fabsf(fixture_pixel(&rendered, "", 4, 2)[3] - 0.375f) < 1e-6f);
+        film_destroy(&rendered);
         fixture_destroy(&f);
     }
 }
@@ -417,13 +417,13 @@ static void unlit_surfaces(void **state)
         set3(m->specular, 1.0f, 1.0f, 1.0f);
         const double plain[3] = {(double)0.7f, (double)0.4f, (double)0.1f};
         const double textured[3] = {(double)0.7f * 0.2, (double)0.4f * 0.8, (double)0.1f * 0.4};
-        film picture = fixture_render(&f);
-        assert_numbers(&picture, 4, 2, plain, 1.0);
-        film_destroy(&picture);
+        film rendered = fixture_render(&f);
+        assert_pixel(&rendered, 4, 2, plain, 1.0);
+        film_destroy(&rendered);
         set_map(&f, m, LEGACY_DIFFUSE_MAP, texel);
-        picture = fixture_render(&f);
-        assert_numbers(&picture, 4, 2, textured, 1.0);
-        film_destroy(&picture);
+        rendered = fixture_render(&f);
+        assert_pixel(&rendered, 4, 2, textured, 1.0);
+        film_destroy(&rendered);
         fixture_destroy(&f);
     }
 }
@@ -439,10 +439,10 @@ static void lines_show_their_color(void **state)
     uint32_t material = fixture_add_material(&f, scene_material_default());
     fixture_place(&f, fixture_add_sprites(&f, SCENE_LINES, line, 2, material), 0, 0, 0, 1.0f);
     set3(legacy->materials[material].diffuse, 0.7f, 0.4f, 0.1f);
-    film picture = fixture_render(&f);
+    film rendered = fixture_render(&f);
     const double expected[3] = {(double)0.7f, (double)0.4f, (double)0.1f};
-    assert_numbers(&picture, 4, 4, expected, 1.0);
-    film_destroy(&picture);
+    assert_pixel(&rendered, 4, 4, expected, 1.0);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -457,18 +457,18 @@ static void sides_and_defaults(void **state)
             fixture f = ogl1_fixture_head_on(&legacy);
             f.camera.eye[2] = side ? -10.0f : 10.0f;
             add_quad(&f, 0.0f)->is_culled = is_culled;
-            film picture = fixture_render(&f);
-            assert_true(fixture_pixel(&picture, "", 4, 2)[3] == (is_culled && side ? 0.0f : 1.0f));
-            film_destroy(&picture);
+            film rendered = fixture_render(&f);
+            assert_true(fixture_pixel(&rendered, "", 4, 2)[3] == (is_culled && side ? 0.0f : 1.0f));
+            film_destroy(&rendered);
             fixture_destroy(&f);
         }
     scene_legacy *legacy;
     fixture f = ogl1_fixture_head_on(&legacy);
     fixture_place(&f, fixture_add_quad(&f, SCENE_NONE), 0, 0, 0, 1.0f);
-    film picture = fixture_render(&f);
+    film rendered = fixture_render(&f);
     const double expected[3] = {(double)0.8f, (double)0.8f, (double)0.8f};
-    assert_numbers(&picture, 4, 2, expected, 1.0);
-    film_destroy(&picture);
+    assert_pixel(&rendered, 4, 2, expected, 1.0);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -483,17 +483,17 @@ static void aovs(void **state)
     set_map(&f, m, LEGACY_DIFFUSE_MAP, texel);
     f.desc.aovs = FACET_AOV_DEPTH | FACET_AOV_NORMAL | FACET_AOV_ALBEDO | FACET_AOV_MATERIAL_ID |
                   FACET_AOV_UV | FACET_AOV_OCCLUSION;
-    film picture = fixture_render(&f);
-    assert_true(fabsf(fixture_pixel(&picture, "depth", 2, 6)[0] - 10.0f) < 1e-5f);
-    assert_true(fabsf(fixture_pixel(&picture, "normal", 2, 6)[2] - 1.0f) < 1e-6f);
+    film rendered = fixture_render(&f);
+    assert_true(fabsf(fixture_pixel(&rendered, "depth", 2, 6)[0] - 10.0f) < 1e-5f);
+    assert_true(fabsf(fixture_pixel(&rendered, "normal", 2, 6)[2] - 1.0f) < 1e-6f);
     const double t[3] = {0.1, 0.4, 0.2};
     for (int c = 0; c < 3; c++)
-        assert_true(fabs((double)fixture_pixel(&picture, "albedo", 2, 6)[c] - ogl1_decode(t[c])) < 1e-5);
-    assert_true(fixture_pixel(&picture, "material", 2, 6)[0] == 1.0f);
-    assert_true(fabsf(fixture_pixel(&picture, "uv", 2, 6)[0] - 2.5f / 8.0f) < 1e-5f);
-    assert_true(fabsf(fixture_pixel(&picture, "uv", 2, 6)[1] - 6.5f / 8.0f) < 1e-5f);
-    assert_true(fixture_pixel(&picture, "occlusion", 2, 6)[0] == 1.0f);
-    film_destroy(&picture);
+        assert_true(fabs((double)fixture_pixel(&rendered, "albedo", 2, 6)[c] - ogl1_decode(t[c])) < 1e-5);
+    assert_true(fixture_pixel(&rendered, "material", 2, 6)[0] == 1.0f);
+    assert_true(fabsf(fixture_pixel(&rendered, "uv", 2, 6)[0] - 2.5f / 8.0f) < 1e-5f);
+    assert_true(fabsf(fixture_pixel(&rendered, "uv", 2, 6)[1] - 6.5f / 8.0f) < 1e-5f);
+    assert_true(fixture_pixel(&rendered, "occlusion", 2, 6)[0] == 1.0f);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 

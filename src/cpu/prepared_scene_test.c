@@ -25,12 +25,13 @@ static facet_render_desc resolved_desc(const fixture *f)
     return desc;
 }
 
-static facet_result try_prepared(const fixture *f, prepared_scene *p, film *picture,
+static facet_result try_prepared(const fixture *f, prepared_scene *p, film *rendered,
                                  facet_render_stats *stats, facet_error *error)
 {
     facet_render_desc desc = resolved_desc(f);
-    facet_result result = film_create(&desc.allocator, desc.crop[2], desc.crop[3], desc.aovs, picture, error);
-    return result == FACET_OK ? preview_render_prepared(p, &desc, picture, stats, error) : result;
+    facet_result result =
+        film_create(&desc.allocator, desc.crop[2], desc.crop[3], desc.aovs, rendered, error);
+    return result == FACET_OK ? preview_render_prepared(p, &desc, rendered, stats, error) : result;
 }
 
 static void assert_same_film(const film *a, const film *b)
@@ -461,17 +462,17 @@ static void what_is_cancelled_can_be_drawn_again(void **state)
     prepared_scene_init(&p, f.scene, NULL);
     for (int calls = 0; calls < 6; calls++) {
         orbit(&f, (float)calls, 5.0f);
-        film picture;
+        film rendered;
         facet_render_stats stats;
         facet_error error;
         int left = calls;
         f.desc.progress = (facet_progress){.user = &left, .report = refuse};
-        assert_int_equal(try_prepared(&f, &p, &picture, &stats, &error), FACET_ERROR_CANCELLED);
-        film_destroy(&picture);
+        assert_int_equal(try_prepared(&f, &p, &rendered, &stats, &error), FACET_ERROR_CANCELLED);
+        film_destroy(&rendered);
         f.desc.progress = (facet_progress){0};
         f.desc.time_limit_s = 1e-9;
-        assert_int_equal(try_prepared(&f, &p, &picture, &stats, &error), FACET_ERROR_LIMIT);
-        film_destroy(&picture);
+        assert_int_equal(try_prepared(&f, &p, &rendered, &stats, &error), FACET_ERROR_LIMIT);
+        film_destroy(&rendered);
         f.desc.time_limit_s = 0.0;
         if (calls % 2)
             compare(&f, &p);
@@ -487,19 +488,19 @@ static void wrong_arguments_harm_nothing(void **state)
     prepared_scene p;
     prepared_scene_init(&p, f.scene, NULL);
     for (int i = 0; i < 4; i++) {
-        film picture;
+        film rendered;
         facet_render_stats stats;
         facet_error error;
         if (i)
             compare(&f, &p);
         f.desc.pose = (facet_pose_desc){.has_scene_index = true, .scene_index = 7};
-        assert_int_equal(try_prepared(&f, &p, &picture, &stats, &error), FACET_ERROR_ARGUMENT);
-        film_destroy(&picture);
+        assert_int_equal(try_prepared(&f, &p, &rendered, &stats, &error), FACET_ERROR_ARGUMENT);
+        film_destroy(&rendered);
         f.desc.pose = (facet_pose_desc){0};
         facet_camera camera = f.camera;
         memcpy(f.camera.eye, f.camera.target, sizeof f.camera.eye);
-        assert_int_equal(try_prepared(&f, &p, &picture, &stats, &error), FACET_ERROR_ARGUMENT);
-        film_destroy(&picture);
+        assert_int_equal(try_prepared(&f, &p, &rendered, &stats, &error), FACET_ERROR_ARGUMENT);
+        film_destroy(&rendered);
         f.camera = camera;
     }
     prepared_scene_clear(&p);
@@ -523,18 +524,18 @@ static void running_out_of_memory_starts_again(void **state)
         memory = (failing_allocator){.fail_at = -1};
         prepared_scene p;
         prepared_scene_init(&p, f.scene, &allocator);
-        film picture;
+        film rendered;
         facet_render_stats stats;
         facet_error error;
         f.desc.pose.time_s = 0.0;
-        assert_int_equal(try_prepared(&f, &p, &picture, &stats, &error), FACET_OK);
-        film_destroy(&picture);
+        assert_int_equal(try_prepared(&f, &p, &rendered, &stats, &error), FACET_OK);
+        film_destroy(&rendered);
         f.desc.pose.time_s = 1.0;
         memory.fail_at = atomic_load(&memory.calls) + at;
-        assert_int_equal(try_prepared(&f, &p, &picture, &stats, &error), FACET_OK);
+        assert_int_equal(try_prepared(&f, &p, &rendered, &stats, &error), FACET_OK);
         bool was_refused = atomic_load(&memory.calls) > memory.fail_at;
-        assert_same_film(&picture, &expected);
-        film_destroy(&picture);
+        assert_same_film(&rendered, &expected);
+        film_destroy(&rendered);
         prepared_scene_clear(&p);
         assert_int_equal(memory.blocks, 0);
         if (!was_refused) {
@@ -562,16 +563,16 @@ static void budgets_are_kept(void **state)
         prepared_scene p;
         prepared_scene_init(&p, f.scene, &allocator);
         for (int i = 0; i < 3; i++) {
-            film picture = {0};
+            film rendered = {0};
             facet_render_stats stats;
             facet_error error;
             f.desc.pose.time_s = 0.7 * i;
-            facet_result result = try_prepared(&f, &p, &picture, &stats, &error);
+            facet_result result = try_prepared(&f, &p, &rendered, &stats, &error);
             assert_true(result == FACET_OK || result == FACET_ERROR_MEMORY);
             has_failed = has_failed || result != FACET_OK;
             has_worked = has_worked || result == FACET_OK;
             assert_true(result != FACET_ERROR_MEMORY || facet_budget_used_bytes(budget) == 0);
-            film_destroy(&picture);
+            film_destroy(&rendered);
         }
         prepared_scene_clear(&p);
         assert_int_equal(facet_budget_used_bytes(budget), 0);

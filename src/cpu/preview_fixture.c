@@ -56,18 +56,18 @@ uint32_t fixture_add_texture(fixture *f, uint32_t width, uint32_t height, const 
 {
     facet_scene *s = f->scene;
     assert_true(s->texture_count < FIXTURE_CAPACITY);
-    image picture;
-    assert_int_equal(image_create(NULL, width, height, 4, IMAGE_U8, &picture, NULL), FACET_OK);
-    memcpy(picture.pixels, rgba, (size_t)width * height * 4);
-    picture.is_srgb = true;
+    image texture;
+    assert_int_equal(image_create(NULL, width, height, 4, IMAGE_U8, &texture, NULL), FACET_OK);
+    memcpy(texture.pixels, rgba, (size_t)width * height * 4);
+    texture.is_srgb = true;
     unsigned char *encoded;
     size_t size;
-    assert_int_equal(image_encode(&picture, IMAGE_CODEC_PNG, &(image_encode_desc){0}, &encoded, &size, NULL),
+    assert_int_equal(image_encode(&texture, IMAGE_CODEC_PNG, &(image_encode_desc){0}, &encoded, &size, NULL),
                      FACET_OK);
     unsigned char *bytes = take(f, size, 1);
     memcpy(bytes, encoded, size);
     mem_free(encoded);
-    image_destroy(&picture);
+    image_destroy(&texture);
     uint32_t index = s->texture_count++;
     s->images[s->image_count++] = (scene_image){
         .name = "", .mime_type = "image/png", .bytes = bytes, .size = size, .width = width, .height = height};
@@ -229,9 +229,9 @@ film fixture_render(fixture *f)
     return out;
 }
 
-const float *fixture_pixel(const film *picture, const char *layer, uint32_t x, uint32_t y)
+const float *fixture_pixel(const film *rendered, const char *layer, uint32_t x, uint32_t y)
 {
-    const film_layer *l = film_find((film *)(uintptr_t)picture, layer);
+    const film_layer *l = film_find((film *)(uintptr_t)rendered, layer);
     assert_non_null(l);
-    return l->pixels + ((size_t)y * picture->width + x) * l->channel_count;
+    return l->pixels + ((size_t)y * rendered->width + x) * l->channel_count;
 }

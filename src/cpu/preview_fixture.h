@@ -36,6 +36,6 @@ void fixture_add_light(fixture *f, scene_light light, float x, float y, float z)
 film fixture_render(fixture *f);
 /* The same; returns the result. */
 facet_result fixture_try_render(fixture *f, film *out, facet_render_stats *stats, facet_error *error);
-const float *fixture_pixel(const film *picture, const char *layer, uint32_t x, uint32_t y);
+const float *fixture_pixel(const film *rendered, const char *layer, uint32_t x, uint32_t y);
 
 #endif

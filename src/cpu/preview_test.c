@@ -12,11 +12,11 @@
 #include "cpu/preview_fixture.h"
 #include "tests/support/support.h"
 
-static double coverage(const film *picture)
+static double coverage(const film *rendered)
 {
     double sum = 0.0;
-    for (uint32_t i = 0; i < picture->width * picture->height; i++)
-        sum += (double)picture->layers[0].pixels[4 * i + 3];
+    for (uint32_t i = 0; i < rendered->width * rendered->height; i++)
+        sum += (double)rendered->layers[0].pixels[4 * i + 3];
     return sum;
 }
 
@@ -32,10 +32,10 @@ static void a_sphere_covers_its_disc(void **state)
         f.desc.width = f.desc.height = 100;
         f.desc.samples = samples[i];
         fixture_place(&f, fixture_add_sphere(&f, 256, SCENE_NONE), 0.0f, 0.0f, 0.0f, 1.0f);
-        film picture = fixture_render(&f);
+        film rendered = fixture_render(&f);
         double disc = 3.14159265 * 40.0 * 40.0;
-        assert_true(fabs(coverage(&picture) - disc) < (samples[i] == 1 ? 0.005 : 0.002) * disc);
-        film_destroy(&picture);
+        assert_true(fabs(coverage(&rendered) - disc) < (samples[i] == 1 ? 0.005 : 0.002) * disc);
+        film_destroy(&rendered);
         fixture_destroy(&f);
     }
 }
@@ -48,19 +48,19 @@ static void depth_is_along_the_axis(void **state)
         f.camera.fov_y_rad = is_perspective ? 1.0f : 0.0f;
         f.desc.aovs = FACET_AOV_DEPTH | FACET_AOV_NORMAL | FACET_AOV_UV;
         fixture_place(&f, fixture_add_quad(&f, SCENE_NONE), 0.0f, 0.0f, 0.0f, 20.0f);
-        film picture = fixture_render(&f);
+        film rendered = fixture_render(&f);
         for (uint32_t y = 0; y < 64; y += 9)
             for (uint32_t x = 0; x < 64; x += 9) {
-                assert_true(fabsf(*fixture_pixel(&picture, "depth", x, y) - 10.0f) < 1e-5f);
-                const float *N = fixture_pixel(&picture, "normal", x, y);
+                assert_true(fabsf(*fixture_pixel(&rendered, "depth", x, y) - 10.0f) < 1e-5f);
+                const float *N = fixture_pixel(&rendered, "normal", x, y);
                 assert_true(fabsf(N[0]) < 1e-6f && fabsf(N[1]) < 1e-6f && fabsf(N[2] - 1.0f) < 1e-6f);
                 /* The image is as wide as 2 m or 20 tan(0.5) m of a quad of 40 m. */
                 float width = is_perspective ? 20.0f * tanf(0.5f) : 2.0f;
-                const float *uv = fixture_pixel(&picture, "uv", x, y);
+                const float *uv = fixture_pixel(&rendered, "uv", x, y);
                 assert_true(fabsf(uv[0] - 0.5f - ((float)x + 0.5f - 32.0f) / 64.0f * width / 40.0f) < 1e-5f);
                 assert_true(fabsf(uv[1] - 0.5f - ((float)y + 0.5f - 32.0f) / 64.0f * width / 40.0f) < 1e-5f);
             }
-        film_destroy(&picture);
+        film_destroy(&rendered);
         fixture_destroy(&f);
     }
 }
@@ -71,7 +71,7 @@ static void depth_of_a_sphere(void **state)
     fixture f = fixture_create();
     f.desc.aovs = FACET_AOV_DEPTH;
     fixture_place(&f, fixture_add_sphere(&f, 512, SCENE_NONE), 0.0f, 0.0f, 0.0f, 1.0f);
-    film picture = fixture_render(&f);
+    film rendered = fixture_render(&f);
     for (uint32_t y = 8; y < 56; y += 3)
         for (uint32_t x = 8; x < 56; x += 3) {
             double px = (x + 0.5 - 32.0) / 32.0;
@@ -79,9 +79,9 @@ static void depth_of_a_sphere(void **state)
             if (px * px + py * py > 0.81)
                 continue;
             double depth = 10.0 - sqrt(1.0 - px * px - py * py);
-            assert_true(fabs((double)*fixture_pixel(&picture, "depth", x, y) - depth) < 2e-4);
+            assert_true(fabs((double)*fixture_pixel(&rendered, "depth", x, y) - depth) < 2e-4);
         }
-    film_destroy(&picture);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -94,14 +94,14 @@ static void clipping_planes_clip(void **state)
     fixture_place(&f, mesh, 0.0f, 0.0f, 0.0f, 2.0f);
     f.desc.aovs = FACET_AOV_DEPTH;
     f.camera.near_m = 9.0f; /* the first quad is at 8 m */
-    film picture = fixture_render(&f);
-    assert_true(fabsf(*fixture_pixel(&picture, "depth", 32, 32) - 10.0f) < 1e-5f);
-    film_destroy(&picture);
+    film rendered = fixture_render(&f);
+    assert_true(fabsf(*fixture_pixel(&rendered, "depth", 32, 32) - 10.0f) < 1e-5f);
+    film_destroy(&rendered);
     f.camera.far_m = 9.5f;
-    picture = fixture_render(&f);
-    assert_true(isinf(*fixture_pixel(&picture, "depth", 32, 32)));
-    assert_true(coverage(&picture) == 0.0);
-    film_destroy(&picture);
+    rendered = fixture_render(&f);
+    assert_true(isinf(*fixture_pixel(&rendered, "depth", 32, 32)));
+    assert_true(coverage(&rendered) == 0.0);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -116,9 +116,9 @@ static void pictures_show_what_the_camera_was_made_for(void **state)
         f.desc.width = sizes[i][0];
         f.desc.height = sizes[i][1];
         fixture_place(&f, fixture_add_quad(&f, SCENE_NONE), 0.0f, 0.0f, 0.0f, 1.0f);
-        film picture = fixture_render(&f);
-        assert_true(fabs(coverage(&picture) - 64.0 * 64.0) < 1.0);
-        film_destroy(&picture);
+        film rendered = fixture_render(&f);
+        assert_true(fabs(coverage(&rendered) - 64.0 * 64.0) < 1.0);
+        film_destroy(&rendered);
         fixture_destroy(&f);
     }
 }
@@ -127,12 +127,12 @@ static void a_camera_that_looks_nowhere_is_an_error(void **state)
 {
     (void)state;
     fixture f = fixture_create();
-    film picture;
+    film rendered;
     facet_render_stats stats;
     facet_error error;
     f.camera.eye[2] = 0.0f;
-    assert_int_equal(fixture_try_render(&f, &picture, &stats, &error), FACET_ERROR_ARGUMENT);
-    film_destroy(&picture);
+    assert_int_equal(fixture_try_render(&f, &rendered, &stats, &error), FACET_ERROR_ARGUMENT);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -149,9 +149,9 @@ static double coverage_of_quad(bool is_double_sided, bool is_mirrored, bool from
         node->scale[0] = -0.5f;
     if (from_behind)
         f.camera.eye[2] = -10.0f;
-    film picture = fixture_render(&f);
-    double sum = coverage(&picture);
-    film_destroy(&picture);
+    film rendered = fixture_render(&f);
+    double sum = coverage(&rendered);
+    film_destroy(&rendered);
     fixture_destroy(&f);
     return sum;
 }
@@ -179,10 +179,10 @@ static void normals_face_the_eye(void **state)
         node->scale[0] = variant & 1 ? -1.0f : 1.0f;
         f.camera.eye[2] = variant & 2 ? -10.0f : 10.0f;
         f.desc.aovs = FACET_AOV_NORMAL;
-        film picture = fixture_render(&f);
-        assert_true(fabsf(fixture_pixel(&picture, "normal", 20, 40)[2] - (variant & 2 ? -1.0f : 1.0f)) <
+        film rendered = fixture_render(&f);
+        assert_true(fabsf(fixture_pixel(&rendered, "normal", 20, 40)[2] - (variant & 2 ? -1.0f : 1.0f)) <
                     1e-6f);
-        film_destroy(&picture);
+        film_destroy(&rendered);
         fixture_destroy(&f);
     }
 }
@@ -205,12 +205,12 @@ static void coincident_backs_hide_nothing(void **state)
             }
         }
         f.camera.eye[2] = side ? -10.0f : 10.0f;
-        film picture = fixture_render(&f);
+        film rendered = fixture_render(&f);
         for (uint32_t i = 0; i < 64; i++) {
-            const float *pixel = fixture_pixel(&picture, "", i, 63 - i);
+            const float *pixel = fixture_pixel(&rendered, "", i, 63 - i);
             assert_true(fabsf(pixel[0] - (float)side) < 1e-6f && pixel[3] == 1.0f);
         }
-        film_destroy(&picture);
+        film_destroy(&rendered);
         fixture_destroy(&f);
     }
 }
@@ -231,18 +231,18 @@ static void points_and_lines_are_a_pixel_wide(void **state)
                       fixture_add_sprites(&f, is_line ? SCENE_LINES : SCENE_POINTS, is_line ? line : point,
                                           is_line ? 2 : 1, SCENE_NONE),
                       0, 0, 0, 1.0f);
-        film picture = fixture_render(&f);
+        film rendered = fixture_render(&f);
         if (!is_line) {
-            assert_true(coverage(&picture) >= 0.9 && coverage(&picture) <= 4.0);
+            assert_true(coverage(&rendered) >= 0.9 && coverage(&rendered) <= 4.0);
         } else {
             for (uint32_t x = 14; x < 46; x++) {
                 double column = 0.0;
                 for (uint32_t y = 0; y < 64; y++)
-                    column += (double)fixture_pixel(&picture, "", x, y)[3];
+                    column += (double)fixture_pixel(&rendered, "", x, y)[3];
                 assert_true(column >= 0.9 && column <= 2.5);
             }
         }
-        film_destroy(&picture);
+        film_destroy(&rendered);
         fixture_destroy(&f);
     }
 }
@@ -301,9 +301,9 @@ static void assert_same_for_all_threads(fixture *f)
     film first = fixture_render(f);
     for (int i = 0; i < 4; i++) {
         f->desc.thread_count = threads[i];
-        film picture = fixture_render(f);
-        assert_same_film(&first, &picture);
-        film_destroy(&picture);
+        film rendered = fixture_render(f);
+        assert_same_film(&first, &rendered);
+        film_destroy(&rendered);
     }
     film_destroy(&first);
 }
@@ -360,15 +360,15 @@ static void a_crop_is_a_part_of_the_whole(void **state)
 
 /* ---- limits ---- */
 
-typedef struct told {
+typedef struct reports {
     double last;
     int calls, cancel_at;
     bool is_ordered;
-} told;
+} reports;
 
 static bool tell(void *user, const char *stage, double fraction)
 {
-    told *t = user;
+    reports *t = user;
     if (strcmp(stage, "shade") == 0) {
         t->is_ordered = t->is_ordered && fraction >= t->last && fraction <= 1.0;
         t->last = fraction;
@@ -376,22 +376,22 @@ static bool tell(void *user, const char *stage, double fraction)
     return ++t->calls != t->cancel_at;
 }
 
-static void progress_is_told_in_order_and_cancels(void **state)
+static void progress_is_reported_in_order_and_cancels(void **state)
 {
     (void)state;
     fixture f = busy_scene();
     for (int cancel_at = 0; cancel_at < 6; cancel_at++) {
-        told t = {.cancel_at = cancel_at, .is_ordered = true};
+        reports t = {.cancel_at = cancel_at, .is_ordered = true};
         f.desc.progress = (facet_progress){.user = &t, .report = tell};
-        film picture;
+        film rendered;
         facet_render_stats stats;
         facet_error error;
-        facet_result result = fixture_try_render(&f, &picture, &stats, &error);
+        facet_result result = fixture_try_render(&f, &rendered, &stats, &error);
         assert_int_equal(result, cancel_at ? FACET_ERROR_CANCELLED : FACET_OK);
         assert_true(t.is_ordered);
         if (!cancel_at)
             assert_true(t.last == 1.0 && t.calls > 5);
-        film_destroy(&picture);
+        film_destroy(&rendered);
     }
     fixture_destroy(&f);
 }
@@ -401,16 +401,16 @@ static void a_time_limit_is_kept(void **state)
     (void)state;
     fixture f = busy_scene();
     f.desc.time_limit_s = 1e-9;
-    film picture;
+    film rendered;
     facet_render_stats stats;
     facet_error error;
-    assert_int_equal(fixture_try_render(&f, &picture, &stats, &error), FACET_ERROR_LIMIT);
+    assert_int_equal(fixture_try_render(&f, &rendered, &stats, &error), FACET_ERROR_LIMIT);
     assert_non_null(strstr(error.message, "time limit"));
-    film_destroy(&picture);
+    film_destroy(&rendered);
     f.desc.time_limit_s = 100.0;
-    assert_int_equal(fixture_try_render(&f, &picture, &stats, &error), FACET_OK);
+    assert_int_equal(fixture_try_render(&f, &rendered, &stats, &error), FACET_OK);
     assert_true(stats.rays >= 150 * 110 * 5 && stats.shades > 0);
-    film_destroy(&picture);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -423,11 +423,11 @@ static void running_out_of_memory_leaks_nothing(void **state)
     for (long fail_at = 0;; fail_at++) {
         failing_allocator memory = {.fail_at = fail_at};
         f.desc.allocator = failing_allocator_get(&memory);
-        film picture = {0};
+        film rendered = {0};
         facet_render_stats stats;
         facet_error error;
-        facet_result result = fixture_try_render(&f, &picture, &stats, &error);
-        film_destroy(&picture);
+        facet_result result = fixture_try_render(&f, &rendered, &stats, &error);
+        film_destroy(&rendered);
         assert_int_equal(memory.blocks, 0);
         assert_true(result == FACET_OK || result == FACET_ERROR_MEMORY);
         if (memory.calls <= fail_at) {
@@ -448,12 +448,12 @@ static void a_budget_is_kept(void **state)
         facet_budget *budget;
         assert_int_equal(facet_budget_create(limits[i], &budget, NULL), FACET_OK);
         f.desc.allocator = facet_budget_allocator(budget);
-        film picture = {0};
+        film rendered = {0};
         facet_render_stats stats;
         facet_error error;
-        facet_result result = fixture_try_render(&f, &picture, &stats, &error);
+        facet_result result = fixture_try_render(&f, &rendered, &stats, &error);
         assert_int_equal(result, limits[i] && limits[i] < 50000000 ? FACET_ERROR_MEMORY : FACET_OK);
-        film_destroy(&picture);
+        film_destroy(&rendered);
         assert_int_equal(facet_budget_used_bytes(budget), 0);
         facet_budget_destroy(budget);
     }
@@ -476,7 +476,7 @@ int main(void)
         cmocka_unit_test(pictures_do_not_depend_on_threads),
         cmocka_unit_test(large_meshes_do_not_depend_on_threads),
         cmocka_unit_test(a_crop_is_a_part_of_the_whole),
-        cmocka_unit_test(progress_is_told_in_order_and_cancels),
+        cmocka_unit_test(progress_is_reported_in_order_and_cancels),
         cmocka_unit_test(a_time_limit_is_kept),
         cmocka_unit_test(running_out_of_memory_leaks_nothing),
         cmocka_unit_test(a_budget_is_kept),

@@ -14,7 +14,7 @@ static inline uint32_t ray_samples_hash(uint32_t x)
     return (word >> 22u) ^ word;
 }
 
-static inline uint32_t ray_samples_mirror(uint32_t b)
+static inline uint32_t ray_samples_reverse_bits(uint32_t b)
 {
     b = (b << 16) | (b >> 16);
     b = ((b & 0x00FF00FFu) << 8) | ((b & 0xFF00FF00u) >> 8);
@@ -69,9 +69,10 @@ static inline vec2 ray_samples_at(uint32_t index, uint32_t bounce)
     uint32_t seed = ray_samples_hash(bounce);
     /* Another order per bounce, of the numbers in a block and of the blocks: digits are permuted depending
      * on those above them. */
-    uint32_t i = ray_samples_mirror(ray_samples_scramble(ray_samples_mirror(index), seed));
-    uint32_t u = ray_samples_mirror(ray_samples_scramble(i, ray_samples_hash(seed + 1)));
-    uint32_t v = ray_samples_mirror(ray_samples_scramble(ray_samples_sobol2(i), ray_samples_hash(seed + 2)));
+    uint32_t i = ray_samples_reverse_bits(ray_samples_scramble(ray_samples_reverse_bits(index), seed));
+    uint32_t u = ray_samples_reverse_bits(ray_samples_scramble(i, ray_samples_hash(seed + 1)));
+    uint32_t v =
+        ray_samples_reverse_bits(ray_samples_scramble(ray_samples_sobol2(i), ray_samples_hash(seed + 2)));
     return vec2((float)(u >> 8) * 0x1p-24f, (float)(v >> 8) * 0x1p-24f);
 }
 

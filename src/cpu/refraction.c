@@ -52,8 +52,8 @@ typedef struct tracer {
 
 /* ---- between surfaces ---- */
 
-static vec3 lookup(void (*light)(const light_setup *, const float[3], float, float[3]),
-                   const light_setup *setup, const float d[3], float argument)
+static vec3 environment_at(void (*light)(const light_setup *, const float[3], float, float[3]),
+                           const light_setup *setup, const float d[3], float argument)
 {
     float out[3];
     light(setup, d, argument, out);
@@ -78,9 +78,9 @@ static vec3 environment_seen(const shading_scene *scene, const branch *b)
         return vec3(0.0f);
     float alpha2 = max(b->alpha2, bundle_alpha2(&b->ray));
     if (alpha2 <= SHARP2 && scene->light->has_background && !(scene->background_blur > 0.0f))
-        return lookup(light_background, scene->light, b->ray.direction, 0.0f);
+        return environment_at(light_background, scene->light, b->ray.direction, 0.0f);
     float roughness = max(sqrt(sqrt(alpha2)), scene->background_blur);
-    return lookup(light_specular, scene->light, b->ray.direction, min(roughness, 1.0f));
+    return environment_at(light_specular, scene->light, b->ray.direction, min(roughness, 1.0f));
 }
 
 /* In-scattered radiance of a volume along a ray: that of the environment ahead of it and behind it. */

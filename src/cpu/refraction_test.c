@@ -67,9 +67,9 @@ static void add_slab(fixture *f, scene_material material, float thickness, doubl
     }
 }
 
-static float *pixel(film *picture, uint32_t x, uint32_t y)
+static float *pixel(film *rendered, uint32_t x, uint32_t y)
 {
-    return picture->layers[0].pixels + 4 * ((size_t)y * picture->width + x);
+    return rendered->layers[0].pixels + 4 * ((size_t)y * rendered->width + x);
 }
 
 /* The position on the ruler, m, that the middle pixel sees; per channel of a white ruler the position that
@@ -86,20 +86,20 @@ static void glass_vanishes_in_a_constant_environment(void **state)
     (void)state;
     static const float roughnesses[] = {0.0f, 0.08f, 0.3f, 0.7f, 1.0f};
     for (int i = 0; i < 5; i++)
-        for (int is_body = 0; is_body < 2; is_body++)
+        for (int is_volume = 0; is_volume < 2; is_volume++)
             for (int quality = 0; quality < 3; quality++) {
                 fixture f = fixture_create();
                 f.desc.width = f.desc.height = 32;
                 f.desc.energy = FACET_ENERGY_CONSERVING;
                 f.desc.quality = (facet_quality)quality;
                 f.desc.background = FACET_BACKGROUND_ENVIRONMENT;
-                scene_material m = is_body ? glass_body(1.5f) : glass(1.5f);
+                scene_material m = is_volume ? glass_body(1.5f) : glass(1.5f);
                 m.perceptual_roughness = roughnesses[i];
                 fixture_place(&f, fixture_add_sphere(&f, 32, fixture_add_material(&f, m)), 0, 0, 0, 0.9f);
-                film picture = fixture_render(&f);
+                film rendered = fixture_render(&f);
                 for (uint32_t p = 0; p < 32 * 32; p++)
-                    assert_near(picture.layers[0].pixels[4 * p + 1], 1.0, 2.0 / 255.0);
-                film_destroy(&picture);
+                    assert_near(rendered.layers[0].pixels[4 * p + 1], 1.0, 2.0 / 255.0);
+                film_destroy(&rendered);
                 fixture_destroy(&f);
             }
 }
@@ -114,10 +114,10 @@ static void bodies_in_bodies_vanish(void **state)
     for (int i = 0; i < 3; i++)
         fixture_place(&f, fixture_add_sphere(&f, 48, fixture_add_material(&f, glass_body(iors[i]))), 0, 0, 0,
                       0.9f - 0.25f * (float)i);
-    film picture = fixture_render(&f);
+    film rendered = fixture_render(&f);
     for (uint32_t p = 0; p < 64 * 64; p++)
-        assert_near(picture.layers[0].pixels[4 * p], 1.0, 1.0 / 255.0);
-    film_destroy(&picture);
+        assert_near(rendered.layers[0].pixels[4 * p], 1.0, 1.0 / 255.0);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -128,10 +128,10 @@ static void an_eye_in_glass_sees_out(void **state)
     f.camera = (facet_camera){.eye = {0.0f, 0.0f, 0.3f}, .fov_y_rad = 1.5f};
     f.desc.energy = FACET_ENERGY_CONSERVING;
     fixture_place(&f, fixture_add_sphere(&f, 64, fixture_add_material(&f, glass_body(1.5f))), 0, 0, 0, 1.0f);
-    film picture = fixture_render(&f);
+    film rendered = fixture_render(&f);
     for (uint32_t p = 0; p < 64 * 64; p++)
-        assert_near(picture.layers[0].pixels[4 * p], 1.0, 1.0 / 255.0);
-    film_destroy(&picture);
+        assert_near(rendered.layers[0].pixels[4 * p], 1.0, 1.0 / 255.0);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -150,10 +150,10 @@ static void white_scattering_loses_nothing(void **state)
     }
     m.scatter_anisotropy = 0.4f;
     fixture_place(&f, fixture_add_sphere(&f, 48, fixture_add_material(&f, m)), 0, 0, 0, 0.9f);
-    film picture = fixture_render(&f);
+    film rendered = fixture_render(&f);
     for (int c = 0; c < 3; c++)
-        assert_near(pixel(&picture, 30, 40)[c], 1.0, 1.0 / 255.0);
-    film_destroy(&picture);
+        assert_near(pixel(&rendered, 30, 40)[c], 1.0, 1.0 / 255.0);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -179,12 +179,12 @@ static void a_slab_shifts_what_is_behind_it(void **state)
             f.desc.samples = 1;                /* and its ray */
             add_ruler(&f, -3.0f, 2.0f);
             add_slab(&f, glass_body(iors[k]), 0.4f, angles[i] * DEGREE, 4.0f);
-            film picture = fixture_render(&f);
+            film rendered = fixture_render(&f);
             /* Turned to +X, the front face sends the ray to -X; internal reflection adds a little. */
             double expected = -slab_shift(0.4, angles[i] * DEGREE, (double)iors[k]);
-            assert_near((float)ruler_x(pixel(&picture, 16, 16), 2.0), expected,
+            assert_near((float)ruler_x(pixel(&rendered, 16, 16), 2.0), expected,
                         1e-4 + 0.08 * fabs(expected) * (iors[k] > 1.0f));
-            film_destroy(&picture);
+            film_destroy(&rendered);
             fixture_destroy(&f);
         }
 }
@@ -208,15 +208,15 @@ static void a_ball_turns_the_picture_around(void **state)
     f.desc.width = f.desc.height = 64;
     add_ruler(&f, -2.0f, 4.0f);
     fixture_place(&f, fixture_add_sphere(&f, 512, fixture_add_material(&f, glass_body(1.5f))), 0, 0, 0, 1.0f);
-    film picture = fixture_render(&f);
+    film rendered = fixture_render(&f);
     for (uint32_t i = 20; i < 44; i += 3) {
         double x = (i + 0.5 - 32.0) / 32.0;
         double y = 0.5 / 32.0;
         double r = sqrt(x * x + y * y);
         double expected = ball_x(r, 1.5, -2.0) * x / r;
-        assert_near((float)ruler_x(pixel(&picture, i, 31), 4.0), expected, 0.03);
+        assert_near((float)ruler_x(pixel(&rendered, i, 31), 4.0), expected, 0.03);
     }
-    film_destroy(&picture);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -230,10 +230,10 @@ static void thin_walls_do_not_bend(void **state)
     scene_material m = glass(1.5f);
     m.is_double_sided = true;
     fixture_place(&f, fixture_add_sphere(&f, 64, fixture_add_material(&f, m)), 0, 0, 0, 1.0f);
-    film picture = fixture_render(&f);
+    film rendered = fixture_render(&f);
     for (uint32_t i = 12; i < 52; i += 3)
-        assert_near((float)ruler_x(pixel(&picture, i, 31), 1.0), (i + 0.5 - 32.0) / 32.0, 1e-3);
-    film_destroy(&picture);
+        assert_near((float)ruler_x(pixel(&rendered, i, 31), 1.0), (i + 0.5 - 32.0) / 32.0, 1e-3);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -257,8 +257,8 @@ static void absorption_follows_the_real_path(void **state)
             m.attenuation_color[2] = 1.0f;
             double angle = is_bent ? 40.0 * DEGREE : 0.0;
             add_slab(&f, m, (float)thicknesses[i], angle, 6.0f);
-            film picture = fixture_render(&f);
-            const float *p = pixel(&picture, 32, 32);
+            film rendered = fixture_render(&f);
+            const float *p = pixel(&rendered, 32, 32);
             double path = thicknesses[i] / cos(asin(sin(angle) / (double)m.ior));
             for (int c = 0; c < 2; c++) {
                 double T = pow((double)m.attenuation_color[c], path / 0.5);
@@ -266,7 +266,7 @@ static void absorption_follows_the_real_path(void **state)
                  * % */
                 assert_near(p[c] / p[2], T, is_bent ? 4e-3 : 2e-4);
             }
-            film_destroy(&picture);
+            film_destroy(&rendered);
             fixture_destroy(&f);
         }
 }
@@ -275,17 +275,17 @@ static void absorption_follows_the_real_path(void **state)
 static void boundaries_tint(void **state)
 {
     (void)state;
-    for (int is_body = 0; is_body < 2; is_body++) {
+    for (int is_volume = 0; is_volume < 2; is_volume++) {
         fixture f = fixture_create();
         no_environment(&f);
         add_ruler(&f, -3.0f, 2.0f);
-        scene_material m = is_body ? glass_body(1.0f) : glass(1.0f);
+        scene_material m = is_volume ? glass_body(1.0f) : glass(1.0f);
         m.base_color[2] = 0.6f;
         add_slab(&f, m, 0.2f, 0.0,
                  3.0f); /* of the thin ones only the front is double sided: back faces are culled */
-        film picture = fixture_render(&f);
-        assert_near(pixel(&picture, 32, 32)[2], is_body ? 0.36 : 0.6, 1e-4);
-        film_destroy(&picture);
+        film rendered = fixture_render(&f);
+        assert_near(pixel(&rendered, 32, 32)[2], is_volume ? 0.36 : 0.6, 1e-4);
+        film_destroy(&rendered);
         fixture_destroy(&f);
     }
 }
@@ -308,9 +308,9 @@ static film render_dispersive(float dispersion, facet_quality quality, bool is_w
     m.extensions |= dispersion >= 0.0f ? SCENE_DISPERSION : 0u;
     m.dispersion = fmaxf(dispersion, 0.0f);
     add_slab(&f, m, 0.8f, 45.0 * DEGREE, 4.0f);
-    film picture = fixture_render(&f);
+    film rendered = fixture_render(&f);
     fixture_destroy(&f);
-    return picture;
+    return rendered;
 }
 
 static void no_dispersion_is_none(void **state)
@@ -329,16 +329,16 @@ static void colors_part_by_their_ior(void **state)
     (void)state;
     const double dispersion = 4.0;
     for (int quality = 0; quality < 3; quality++) {
-        film picture = render_dispersive((float)dispersion, (facet_quality)quality, false);
+        film rendered = render_dispersive((float)dispersion, (facet_quality)quality, false);
         film white = render_dispersive((float)dispersion, (facet_quality)quality, true);
         for (int c = 0; c < 3; c++) {
             double ior = 1.5 + 0.5 * 0.025 * dispersion * (c - 1);
             double expected = 0.5 - slab_shift(0.8, 45.0 * DEGREE, ior) / 4.0;
-            assert_near(pixel(&picture, 16, 16)[c] / pixel(&white, 16, 16)[c], expected, 1e-3);
+            assert_near(pixel(&rendered, 16, 16)[c] / pixel(&white, 16, 16)[c], expected, 1e-3);
         }
         /* red and blue are 0.01 apart */
-        assert_true(pixel(&picture, 16, 16)[0] - pixel(&picture, 16, 16)[2] > 0.01f);
-        film_destroy(&picture);
+        assert_true(pixel(&rendered, 16, 16)[0] - pixel(&rendered, 16, 16)[2] > 0.01f);
+        film_destroy(&rendered);
         film_destroy(&white);
     }
 }
@@ -369,7 +369,7 @@ static void add_leaves(fixture *f)
 static void all_is_seen_through_glass(void **state)
 {
     (void)state;
-    film pictures[3];
+    film films[3];
     for (int kind = 0; kind < 3; kind++) {
         fixture f = fixture_create();
         no_environment(&f);
@@ -378,18 +378,18 @@ static void all_is_seen_through_glass(void **state)
         scene_material m = kind == 1 ? glass(1.0f) : glass_body(1.0f);
         if (kind)
             add_slab(&f, m, 0.3f, 0.0, 3.0f);
-        pictures[kind] = fixture_render(&f);
+        films[kind] = fixture_render(&f);
         fixture_destroy(&f);
     }
     for (int kind = 1; kind < 3; kind++)
         for (uint32_t p = 0; p < 64 * 64; p++)
             for (int c = 0; c < 4; c++) {
-                float bare = pictures[0].layers[0].pixels[4 * p + (uint32_t)c];
-                float behind = pictures[kind].layers[0].pixels[4 * p + (uint32_t)c];
+                float bare = films[0].layers[0].pixels[4 * p + (uint32_t)c];
+                float behind = films[kind].layers[0].pixels[4 * p + (uint32_t)c];
                 assert_near(behind, (double)bare, 1e-4);
             }
     for (int kind = 0; kind < 3; kind++)
-        film_destroy(&pictures[kind]);
+        film_destroy(&films[kind]);
 }
 
 /* Glass is opaque in the image, whatever is behind it. */
@@ -398,10 +398,10 @@ static void alpha_is_coverage(void **state)
     (void)state;
     fixture f = fixture_create();
     fixture_place(&f, fixture_add_quad(&f, fixture_add_material(&f, glass(1.5f))), 0, 0, 0, 0.5f);
-    film picture = fixture_render(&f);
-    assert_true(pixel(&picture, 32, 32)[3] == 1.0f && pixel(&picture, 32, 32)[0] > 0.9f);
-    assert_true(pixel(&picture, 3, 3)[3] == 0.0f);
-    film_destroy(&picture);
+    film rendered = fixture_render(&f);
+    assert_true(pixel(&rendered, 32, 32)[3] == 1.0f && pixel(&rendered, 32, 32)[0] > 0.9f);
+    assert_true(pixel(&rendered, 3, 3)[3] == 0.0f);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -418,10 +418,10 @@ static void an_open_body_shows_the_environment(void **state)
     m.specular = 0.0f;
     /* 0.4 m, with the scale of the node 0.2 m of the distance of transmittance one half */
     fixture_place(&f, fixture_add_quad(&f, fixture_add_material(&f, m)), 0, 0, 0, 0.5f);
-    film picture = fixture_render(&f);
-    assert_near(pixel(&picture, 32, 32)[0], 0.5, 1e-3);
-    assert_near(pixel(&picture, 32, 32)[1], 1.0, 1e-3);
-    film_destroy(&picture);
+    film rendered = fixture_render(&f);
+    assert_near(pixel(&rendered, 32, 32)[0], 0.5, 1e-3);
+    assert_near(pixel(&rendered, 32, 32)[1], 1.0, 1e-3);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -456,9 +456,9 @@ static void liquids_touch_their_glass(void **state)
                     node->rotation[3] = (float)cos(0.5 * turned);
                 }
         }
-        film picture = fixture_render(&f);
-        seen[kind] = ruler_x(pixel(&picture, 16, 16), 2.0);
-        film_destroy(&picture);
+        film rendered = fixture_render(&f);
+        seen[kind] = ruler_x(pixel(&rendered, 16, 16), 2.0);
+        film_destroy(&rendered);
         fixture_destroy(&f);
     }
     assert_near((float)seen[0], -slab_shift(0.4, 30.0 * DEGREE, 1.4), 5e-3);
@@ -493,14 +493,14 @@ static void glass_is_the_same_for_all_threads_and_crops(void **state)
             add_many_kinds(&f);
             f.desc.quality = (facet_quality)quality;
             f.desc.thread_count = threads;
-            film picture = fixture_render(&f);
+            film rendered = fixture_render(&f);
             if (threads == 1)
-                whole = picture;
+                whole = rendered;
             else
-                assert_memory_equal(whole.layers[0].pixels, picture.layers[0].pixels,
+                assert_memory_equal(whole.layers[0].pixels, rendered.layers[0].pixels,
                                     64 * 64 * 4 * sizeof(float));
             if (threads > 1)
-                film_destroy(&picture);
+                film_destroy(&rendered);
             fixture_destroy(&f);
         }
         fixture f = fixture_create();

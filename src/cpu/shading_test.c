@@ -43,9 +43,9 @@ static void a_white_mirror_shows_its_surroundings(void **state)
         f.desc.exposure_ev = -2.0f;
         scene_material material = scene_material_default();
         material.perceptual_roughness = 0.0f;
-        film picture = render_quad(&f, material);
-        assert_color(fixture_pixel(&picture, "", 30, 30), 0.25f, 0.5f, 1.0f, 2e-3f);
-        film_destroy(&picture);
+        film rendered = render_quad(&f, material);
+        assert_color(fixture_pixel(&rendered, "", 30, 30), 0.25f, 0.5f, 1.0f, 2e-3f);
+        film_destroy(&rendered);
         fixture_destroy(&f);
     }
 }
@@ -62,10 +62,10 @@ static void white_vanishes_in_white(void **state)
         material.metallic = (float)(i / 5);
         material.perceptual_roughness = 0.25f * (float)(i % 5);
         fixture_place(&f, fixture_add_sphere(&f, 64, fixture_add_material(&f, material)), 0, 0, 0, 0.9f);
-        film picture = fixture_render(&f);
+        film rendered = fixture_render(&f);
         for (uint32_t p = 0; p < 64 * 64; p++)
-            assert_color(picture.layers[0].pixels + 4 * p, 1.0f, 1.0f, 1.0f, 1.0f / 255.0f);
-        film_destroy(&picture);
+            assert_color(rendered.layers[0].pixels + 4 * p, 1.0f, 1.0f, 1.0f, 1.0f / 255.0f);
+        film_destroy(&rendered);
         fixture_destroy(&f);
     }
 }
@@ -79,10 +79,10 @@ static void the_gltf_mode_stays_near_white(void **state)
     scene_material material = scene_material_default();
     material.metallic = 0.0f;
     fixture_place(&f, fixture_add_sphere(&f, 64, fixture_add_material(&f, material)), 0, 0, 0, 0.9f);
-    film picture = fixture_render(&f);
+    film rendered = fixture_render(&f);
     for (uint32_t p = 0; p < 64 * 64; p++)
-        assert_color(picture.layers[0].pixels + 4 * p, 1.0f, 1.0f, 1.0f, 0.1f);
-    film_destroy(&picture);
+        assert_color(rendered.layers[0].pixels + 4 * p, 1.0f, 1.0f, 1.0f, 0.1f);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -112,15 +112,15 @@ static void a_directional_light_on_lambert(void **state)
     fixture_add_light(&f, light, 0, 0, 0); /* emits along -Z */
     f.scene->nodes[0].rotation[1] = sinf(0.5f);
     f.scene->nodes[0].rotation[3] = cosf(0.5f); /* 1 rad off */
-    film picture = render_quad(&f, lambert());
+    film rendered = render_quad(&f, lambert());
     float E = 2.0f * cosf(1.0f) / 3.14159265f;
-    assert_color(fixture_pixel(&picture, "", 10, 50), E, 0.5f * E, 0.25f * E, 1e-5f);
-    film_destroy(&picture);
+    assert_color(fixture_pixel(&rendered, "", 10, 50), E, 0.5f * E, 0.25f * E, 1e-5f);
+    film_destroy(&rendered);
     f.desc.ignores_scene_lights = true;
-    picture = fixture_render(&f);
-    assert_color(fixture_pixel(&picture, "", 10, 50), 0, 0, 0, 0.0f);
-    assert_true(fixture_pixel(&picture, "", 10, 50)[3] == 1.0f);
-    film_destroy(&picture);
+    rendered = fixture_render(&f);
+    assert_color(fixture_pixel(&rendered, "", 10, 50), 0, 0, 0, 0.0f);
+    assert_true(fixture_pixel(&rendered, "", 10, 50)[3] == 1.0f);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -132,10 +132,10 @@ static void a_point_light_falls_off(void **state)
     scene_light light = {.name = "", .type = SCENE_LIGHT_POINT, .color = {1, 1, 1}, .intensity = 10.0f};
     fixture_add_light(&f, light, 0, 0, 2.0f);
     f.desc.width = f.desc.height = 65; /* a pixel in the middle */
-    film picture = render_quad(&f, lambert());
+    film rendered = render_quad(&f, lambert());
     float E = 10.0f / 4.0f / 3.14159265f;
-    assert_color(fixture_pixel(&picture, "", 32, 32), E, E, E, 1e-4f);
-    film_destroy(&picture);
+    assert_color(fixture_pixel(&rendered, "", 32, 32), E, E, E, 1e-4f);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -154,12 +154,12 @@ static void an_unlit_surface_is_its_texture(void **state)
     material.base_color[1] = 0.5f;
     material.textures[SCENE_BASE_COLOR_TEXTURE].texture = fixture_add_texture(&f, 2, 2, CHECKER);
     f.scene->textures[0].mag_filter = SCENE_FILTER_NEAREST;
-    film picture = render_quad(&f, material);
-    assert_color(fixture_pixel(&picture, "", 10, 10), 1, 0, 0, 1e-6f);
-    assert_color(fixture_pixel(&picture, "", 50, 10), 0, 0.5f, 0, 1e-6f);
-    assert_color(fixture_pixel(&picture, "", 10, 50), 0, 0, 1, 1e-6f);
-    assert_color(fixture_pixel(&picture, "", 50, 50), 1, 0.5f, 1, 1e-6f);
-    film_destroy(&picture);
+    film rendered = render_quad(&f, material);
+    assert_color(fixture_pixel(&rendered, "", 10, 10), 1, 0, 0, 1e-6f);
+    assert_color(fixture_pixel(&rendered, "", 50, 10), 0, 0.5f, 0, 1e-6f);
+    assert_color(fixture_pixel(&rendered, "", 10, 50), 0, 0, 1, 1e-6f);
+    assert_color(fixture_pixel(&rendered, "", 50, 50), 1, 0.5f, 1, 1e-6f);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -174,10 +174,10 @@ static void texture_coordinates_are_transformed(void **state)
     memcpy(material.textures[SCENE_BASE_COLOR_TEXTURE].transform, (float[6]){0, 1, 0, 1, 0, 0},
            6 * sizeof(float)); /* u and v swapped */
     f.scene->textures[0].mag_filter = SCENE_FILTER_NEAREST;
-    film picture = render_quad(&f, material);
-    assert_color(fixture_pixel(&picture, "", 50, 10), 0, 0, 1, 1e-6f);
-    assert_color(fixture_pixel(&picture, "", 10, 50), 0, 1, 0, 1e-6f);
-    film_destroy(&picture);
+    film rendered = render_quad(&f, material);
+    assert_color(fixture_pixel(&rendered, "", 50, 10), 0, 0, 1, 1e-6f);
+    assert_color(fixture_pixel(&rendered, "", 10, 50), 0, 1, 0, 1e-6f);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -193,10 +193,10 @@ static void vertex_colors_multiply(void **state)
                                      1, 1, 0, 1, 1, 1, 0, 1}; /* green from bottom to top */
     fixture_primitive(&f, mesh)->colors = colors;
     fixture_place(&f, mesh, 0, 0, 0, 1.0f);
-    film picture = fixture_render(&f);
-    assert_color(fixture_pixel(&picture, "", 20, 31), 0.5f, 0.5f + 0.5f / 64.0f, 0, 1e-5f);
-    assert_color(fixture_pixel(&picture, "", 50, 63), 0.5f, 0.5f / 64.0f, 0, 1e-5f);
-    film_destroy(&picture);
+    film rendered = fixture_render(&f);
+    assert_color(fixture_pixel(&rendered, "", 20, 31), 0.5f, 0.5f + 0.5f / 64.0f, 0, 1e-5f);
+    assert_color(fixture_pixel(&rendered, "", 50, 63), 0.5f, 0.5f / 64.0f, 0, 1e-5f);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -215,9 +215,9 @@ static void distant_textures_are_averaged(void **state)
     scene_material material = scene_material_default();
     material.extensions = SCENE_UNLIT;
     material.textures[SCENE_BASE_COLOR_TEXTURE].texture = fixture_add_texture(&f, 256, 256, texels);
-    film picture = render_quad(&f, material);
-    assert_color(fixture_pixel(&picture, "albedo", 31, 32), 0.5f, 0.5f, 0.5f, 0.01f);
-    film_destroy(&picture);
+    film rendered = render_quad(&f, material);
+    assert_color(fixture_pixel(&rendered, "albedo", 31, 32), 0.5f, 0.5f, 0.5f, 0.01f);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -236,11 +236,11 @@ static void emission_is_added_and_occlusion_dims_the_environment_only(void **sta
         uint32_t texture = fixture_add_texture(&f, 1, 1, grey);
         if (is_occluded)
             material.textures[SCENE_OCCLUSION_TEXTURE].texture = texture;
-        film picture = render_quad(&f, material);
+        film rendered = render_quad(&f, material);
         float open = is_occluded ? 128.0f / 255.0f : 1.0f;
-        assert_color(fixture_pixel(&picture, "", 5, 5), 1.0f + open, 1.0f + open, 11.0f + open, 5e-3f);
-        assert_true(fabsf(*fixture_pixel(&picture, "occlusion", 5, 5) - open) < 1e-5f);
-        film_destroy(&picture);
+        assert_color(fixture_pixel(&rendered, "", 5, 5), 1.0f + open, 1.0f + open, 11.0f + open, 5e-3f);
+        assert_true(fabsf(*fixture_pixel(&rendered, "occlusion", 5, 5) - open) < 1e-5f);
+        film_destroy(&rendered);
         fixture_destroy(&f);
     }
 }
@@ -270,9 +270,9 @@ static void mapped_normal(const unsigned char texel[4], bool is_mirrored, bool f
     if (from_behind)
         f.camera.eye[2] = -10.0f;
     f.desc.aovs = FACET_AOV_NORMAL;
-    film picture = fixture_render(&f);
-    memcpy(N, fixture_pixel(&picture, "normal", 30, 30), 3 * sizeof(float));
-    film_destroy(&picture);
+    film rendered = fixture_render(&f);
+    memcpy(N, fixture_pixel(&rendered, "normal", 30, 30), 3 * sizeof(float));
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -314,9 +314,9 @@ static void generated_tangents_follow_the_texture(void **state)
     fixture_place(&f, mesh, 0, 0, 0, 1.0f);
     fixture_place(&f, mesh, 0, 0, -1.0f, 1.0f); /* shared by two instances */
     f.desc.aovs = FACET_AOV_NORMAL;
-    film picture = fixture_render(&f);
-    assert_color(fixture_pixel(&picture, "normal", 30, 30), 0, 0.70711f, 0.70711f, 6e-3f);
-    film_destroy(&picture);
+    film rendered = fixture_render(&f);
+    assert_color(fixture_pixel(&rendered, "normal", 30, 30), 0, 0.70711f, 0.70711f, 6e-3f);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 
@@ -340,15 +340,15 @@ static void layers_blend_in_any_order(void **state)
         }
         for (int k = 0; k < 3; k++) /* mesh 2 is nearest */
             fixture_place(&f, meshes[orders[i][k]], 0, 0, (float)orders[i][k], 1.0f);
-        film picture = fixture_render(&f);
+        film rendered = fixture_render(&f);
         /* front to back: blue 0.75, green 0.5 of 0.25, red 0.25 of 0.125 */
         for (uint32_t p = 0; p < 64; p++) { /* including the diagonal, where two triangles meet */
-            const float *pixel = fixture_pixel(&picture, "", p, p);
+            const float *pixel = fixture_pixel(&rendered, "", p, p);
             assert_color(pixel, 0.03125f, 0.125f, 0.75f, 1e-6f);
             assert_true(fabsf(pixel[3] - 0.90625f) < 1e-6f);
-            assert_color(fixture_pixel(&picture, "", p, 63 - p), 0.03125f, 0.125f, 0.75f, 1e-6f);
+            assert_color(fixture_pixel(&rendered, "", p, 63 - p), 0.03125f, 0.125f, 0.75f, 1e-6f);
         }
-        film_destroy(&picture);
+        film_destroy(&rendered);
         fixture_destroy(&f);
     }
 }
@@ -365,11 +365,11 @@ static void coincident_layers_all_count(void **state)
         uint32_t mesh = fixture_add_quad(&f, fixture_add_material(&f, material));
         for (int i = 0; i < count && i < FIXTURE_CAPACITY; i++)
             fixture_place(&f, mesh, 0, 0, 0, 1.0f);
-        film picture = fixture_render(&f);
+        film rendered = fixture_render(&f);
         int layers = count < FIXTURE_CAPACITY ? count : FIXTURE_CAPACITY;
         float expected = 1.0f - powf(0.99f, (float)layers);
-        assert_true(fabsf(fixture_pixel(&picture, "", 31, 31)[3] - expected) < 1e-5f);
-        film_destroy(&picture);
+        assert_true(fabsf(fixture_pixel(&rendered, "", 31, 31)[3] - expected) < 1e-5f);
+        film_destroy(&rendered);
         fixture_destroy(&f);
         if (count >= FIXTURE_CAPACITY)
             break;
@@ -392,11 +392,11 @@ static void an_opaque_surface_hides_layers_behind_it(void **state)
         fixture_place(&f, fixture_add_quad(&f, fixture_add_material(&f, glass)), 0, 0,
                       is_behind ? -1.0f : 1.0f, 1.0f);
         fixture_place(&f, fixture_add_quad(&f, fixture_add_material(&f, wall)), 0, 0, 0, 1.0f);
-        film picture = fixture_render(&f);
-        const float *pixel = fixture_pixel(&picture, "", 12, 40);
+        film rendered = fixture_render(&f);
+        const float *pixel = fixture_pixel(&rendered, "", 12, 40);
         assert_color(pixel, is_behind ? 1.0f : 0.5f, 1.0f, 1.0f, 1e-6f);
         assert_true(pixel[3] == 1.0f);
-        film_destroy(&picture);
+        film_destroy(&rendered);
         fixture_destroy(&f);
     }
 }
@@ -416,12 +416,12 @@ static void masks_cut_at_the_cutoff(void **state)
         uint32_t mesh = fixture_add_quad(&f, fixture_add_material(&f, material));
         fixture_primitive(&f, mesh)->colors = colors;
         fixture_place(&f, mesh, 0, 0, 0, 1.0f);
-        film picture = fixture_render(&f);
+        film rendered = fixture_render(&f);
         float row = 0.0f;
         for (uint32_t x = 0; x < 64; x++)
-            row += fixture_pixel(&picture, "", x, 20)[3];
+            row += fixture_pixel(&rendered, "", x, 20)[3];
         assert_true(fabsf(row - 64.0f * (1.0f - cutoffs[i])) < 0.1f);
-        film_destroy(&picture);
+        film_destroy(&rendered);
         fixture_destroy(&f);
     }
 }
@@ -436,15 +436,15 @@ static void edges_are_premultiplied(void **state)
     material.base_color[1] = 0.5f;
     material.base_color[2] = 0.125f;
     fixture_place(&f, fixture_add_sphere(&f, 100, fixture_add_material(&f, material)), 0, 0, 0, 0.9f);
-    film picture = fixture_render(&f);
+    film rendered = fixture_render(&f);
     int edges = 0;
     for (uint32_t p = 0; p < 64 * 64; p++) {
-        const float *pixel = picture.layers[0].pixels + 4 * p;
+        const float *pixel = rendered.layers[0].pixels + 4 * p;
         assert_color(pixel, pixel[3], 0.5f * pixel[3], 0.125f * pixel[3], 1e-6f);
         edges += pixel[3] > 0.0f && pixel[3] < 1.0f;
     }
     assert_true(edges > 100);
-    film_destroy(&picture);
+    film_destroy(&rendered);
     fixture_destroy(&f);
 }
 

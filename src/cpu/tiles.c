@@ -16,7 +16,7 @@
 enum { TILE = 32 };
 _Static_assert(TILE % VISIBILITY_BLOCK == 0, "tiles are made of whole blocks");
 
-typedef struct picture {
+typedef struct tile_job {
     const tiles_desc *desc;
     uint32_t crop[4]; /* x, y, width, height in the whole image */
     uint32_t tile_columns, tile_count;
@@ -24,11 +24,11 @@ typedef struct picture {
     film_layer *color;
     surface_layers layers;
     matte_layers mattes;
-    bool has_picture, wants_aovs;
+    bool draws_image, wants_aovs;
     /* shared by the threads */
     render_watch watch;
     _Atomic uint64_t rays, shades;
-} picture;
+} tile_job;
 
 /* ---- layers ---- */
 
@@ -69,7 +69,7 @@ typedef struct workspace {
     visibility_hit middle_hits[VISIBILITY_BLOCK_PIXELS];
 } workspace;
 
-static void write_aovs(const picture *p, workspace *w, uint32_t x, uint32_t y, const visibility_hit *hit,
+static void write_aovs(const tile_job *p, workspace *w, uint32_t x, uint32_t y, const visibility_hit *hit,
                        size_t pixel)
 {
     shading_description surface;
@@ -81,10 +81,10 @@ static void write_aovs(const picture *p, workspace *w, uint32_t x, uint32_t y, c
     surface_layers_store(&p->layers, pixel, depth_m, &surface, identities ? &identities[geometry] : NULL);
 }
 
-static bool draw_block(const picture *p, workspace *w, uint32_t x, uint32_t y)
+static bool draw_block(const tile_job *p, workspace *w, uint32_t x, uint32_t y)
 {
     const camera_rays *camera = p->desc->scene->camera;
-    if (p->has_picture) {
+    if (p->draws_image) {
         visibility_trace_block(p->desc->scene->embree, camera, x, y, &p->pattern, w->hits);
         w->resolver.rays += (uint64_t)VISIBILITY_BLOCK_PIXELS * p->pattern.sample_count;
     }
@@ -100,10 +100,10 @@ static bool draw_block(const picture *p, workspace *w, uint32_t x, uint32_t y)
             continue;
         size_t pixel = (size_t)(py - p->crop[1]) * p->crop[2] + (px - p->crop[0]);
         float *rgba = p->color->pixels + 4 * pixel;
-        if (p->has_picture &&
+        if (p->draws_image &&
             !pixel_resolve(&w->resolver, px, py, w->hits + visibility_first_hit(&p->pattern, i), rgba))
             return false;
-        if (p->has_picture && p->mattes.aovs)
+        if (p->draws_image && p->mattes.aovs)
             pixel_add_mattes(&w->resolver, p->desc->identities, &p->mattes, pixel);
         if (p->wants_aovs)
             write_aovs(p, w, px, py, &w->middle_hits[visibility_first_hit(&p->middle, i)], pixel);
@@ -113,7 +113,7 @@ static bool draw_block(const picture *p, workspace *w, uint32_t x, uint32_t y)
 
 /* ---- tiles ---- */
 
-static void draw_tile(picture *p, uint32_t tile)
+static void draw_tile(tile_job *p, uint32_t tile)
 {
     const facet_render_desc *render = p->desc->render;
     workspace w = {.hits =
@@ -151,7 +151,7 @@ static void draw_tile(picture *p, uint32_t tile)
 
 static void draw_tiles(void *context, size_t begin, size_t end)
 {
-    picture *p = context;
+    tile_job *p = context;
     for (size_t tile = begin; tile < end; tile++) {
         render_watch_look(&p->watch);
         if (render_watch_is_stopped(&p->watch))
@@ -161,26 +161,26 @@ static void draw_tiles(void *context, size_t begin, size_t end)
     }
 }
 
-static facet_result draw(const tiles_desc *desc, bool has_picture, film *target, facet_render_stats *stats,
+static facet_result draw(const tiles_desc *desc, bool draws_image, film *target, facet_render_stats *stats,
                          facet_error *error)
 {
     const facet_render_desc *render = desc->render;
     const uint32_t *crop = render->crop;
-    picture p = {.desc = desc,
-                 .crop = {crop[0], crop[1], target->width, target->height},
-                 .tile_columns = (crop[0] + target->width - 1) / TILE - crop[0] / TILE + 1,
-                 .color = film_find(target, ""),
-                 .layers = surface_layers_find(target),
-                 .mattes = matte_find(target),
-                 .has_picture = has_picture,
-                 .wants_aovs = (render->aovs & ~(uint32_t)FACET_AOV_CRYPTOMATTE) != 0};
-    if (has_picture)
+    tile_job p = {.desc = desc,
+                  .crop = {crop[0], crop[1], target->width, target->height},
+                  .tile_columns = (crop[0] + target->width - 1) / TILE - crop[0] / TILE + 1,
+                  .color = film_find(target, ""),
+                  .layers = surface_layers_find(target),
+                  .mattes = matte_find(target),
+                  .draws_image = draws_image,
+                  .wants_aovs = (render->aovs & ~(uint32_t)FACET_AOV_CRYPTOMATTE) != 0};
+    if (draws_image)
         matte_clear(&p.mattes,
                     (size_t)target->width * target->height); /* a failed attempt may have filled it */
     p.tile_count = p.tile_columns * ((crop[1] + target->height - 1) / TILE - crop[1] / TILE + 1);
     render_watch_init(&p.watch, &render->progress, "shade", desc->deadline_s, p.tile_count);
     bool has_memory =
-        visibility_pattern_create(&render->allocator, has_picture ? render->samples : 1, &p.pattern) &&
+        visibility_pattern_create(&render->allocator, draws_image ? render->samples : 1, &p.pattern) &&
         visibility_pattern_create(&render->allocator, 1, &p.middle);
     if (has_memory)
         parallel_for(render->thread_count, p.tile_count, 1, draw_tiles, &p);

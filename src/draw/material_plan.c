@@ -143,8 +143,8 @@ facet_result material_plans_create(const render_geometry_set *set, const facet_a
         plan->reads_changes = plan->textures || plan->lets_rays_through;
         plan->is_volume =
             plan->lets_rays_through && (plan->layers & LAYER_VOLUME) && g->primitive->mode == SCENE_TRIANGLES;
-        plan->is_body = (plan->layers & LAYER_VOLUME) && g->primitive->mode == SCENE_TRIANGLES;
-        out->has_bodies = out->has_bodies || plan->is_body;
+        plan->is_closed_volume = (plan->layers & LAYER_VOLUME) && g->primitive->mode == SCENE_TRIANGLES;
+        out->has_closed_volumes = out->has_closed_volumes || plan->is_closed_volume;
         out->has_see_through = out->has_see_through || g->is_see_through;
         out->lets_rays_through = out->lets_rays_through || plan->lets_rays_through;
         if (plan->is_volume) {

@@ -15,7 +15,7 @@ typedef struct material_plan {
     uint32_t legacy_maps;
     /* the boundary of a volume that rays pass through, not a thin wall: both sides are visible */
     bool is_volume;
-    bool is_body;           /* the same, or of one that light enters diffusely */
+    bool is_closed_volume;  /* the same, or of one that light enters diffusely */
     bool may_pass_straight; /* rays may pass through it without a change of direction */
 } material_plan;
 
@@ -24,7 +24,7 @@ typedef struct material_plan_set {
     bool lets_rays_through; /* some geometry */
     bool has_several_volumes;
     bool has_see_through; /* some geometry does not stop every ray that hits it: alpha mask or blend */
-    bool has_bodies;
+    bool has_closed_volumes;
     bool may_pass_straight; /* some geometry */
 } material_plan_set;
 

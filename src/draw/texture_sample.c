@@ -363,8 +363,8 @@ INLINE float4 blend_taps(const texture_pyramid *p, const texture_level *level, t
 }
 
 /* Bilinear, at (u, v) in [0, 1]. */
-INLINE float4 look_up_linear(const texture_binding *b, const texture_pyramid *p, uint32_t level_number,
-                             float u, float v)
+INLINE float4 texel_linear(const texture_binding *b, const texture_pyramid *p, uint32_t level_number, float u,
+                           float v)
 {
     const texture_level *level = &p->levels[level_number];
     taps x = get_taps(u, level->width, b->wrap_u);
@@ -383,7 +383,7 @@ INLINE float4 look_up_linear(const texture_binding *b, const texture_pyramid *p,
     return blend_taps(p, level, x, y, p->channel_count, IMAGE_U16);
 }
 
-static float4 look_up_nearest(const texture_pyramid *p, uint32_t level_number, float u, float v)
+static float4 texel_nearest(const texture_pyramid *p, uint32_t level_number, float u, float v)
 {
     const texture_level *level = &p->levels[level_number];
     uint32_t x = (uint32_t)(u * (float)level->width);
@@ -393,11 +393,10 @@ static float4 look_up_nearest(const texture_pyramid *p, uint32_t level_number, f
     return fetch(p, level->texels, (size_t)y * level->width + x, p->channel_count, p->type);
 }
 
-static float4 look_up(const texture_binding *b, const texture_pyramid *p, uint32_t level, scene_filter filter,
-                      float u, float v)
+static float4 texel_at_level(const texture_binding *b, const texture_pyramid *p, uint32_t level,
+                             scene_filter filter, float u, float v)
 {
-    return filter == SCENE_FILTER_NEAREST ? look_up_nearest(p, level, u, v)
-                                          : look_up_linear(b, p, level, u, v);
+    return filter == SCENE_FILTER_NEAREST ? texel_nearest(p, level, u, v) : texel_linear(b, p, level, u, v);
 }
 
 static float4 sample_minified(const texture_binding *b, const texture_pyramid *p, const float uv[2],
@@ -406,13 +405,14 @@ static float4 sample_minified(const texture_binding *b, const texture_pyramid *p
     float u = wrap_coordinate(uv[0], b->wrap_u);
     float v = wrap_coordinate(uv[1], b->wrap_v);
     if (b->mip_filter == SCENE_MIP_NONE)
-        return look_up(b, p, p->first_level, b->min_filter, u, v);
+        return texel_at_level(b, p, p->first_level, b->min_filter, u, v);
     level_pair levels = get_levels(p, f->longest2);
     if (b->mip_filter ==
         SCENE_MIP_NEAREST) /* at lod + 1/2 exactly the finer one: OpenGL 4.6, equation 8.16 */
-        return look_up(b, p, levels.fraction > 0.5f ? levels.second : levels.first, b->min_filter, u, v);
-    float4 fine = look_up(b, p, levels.first, b->min_filter, u, v);
-    float4 coarse = look_up(b, p, levels.second, b->min_filter, u, v);
+        return texel_at_level(b, p, levels.fraction > 0.5f ? levels.second : levels.first, b->min_filter, u,
+                              v);
+    float4 fine = texel_at_level(b, p, levels.first, b->min_filter, u, v);
+    float4 coarse = texel_at_level(b, p, levels.second, b->min_filter, u, v);
     return fine + (coarse - fine) * levels.fraction;
 }
 
@@ -447,21 +447,21 @@ static uint32_t sample_alike(const texture_set *set, texture_request *requests, 
 {
     const texture_binding *b = &set->bindings[requests[first].texture];
     const texture_pyramid *pyramids[TEXTURE_GROUP] = {find_pyramid(set, &requests[first])};
-    uint32_t numbers[TEXTURE_GROUP] = {first};
+    uint32_t indices[TEXTURE_GROUP] = {first};
     uint32_t alike = 1;
     for (uint32_t i = first + 1; i < count; i++) {
         const texture_pyramid *p = find_pyramid(set, &requests[i]);
         if (!p || !is_alike(b, pyramids[0], &set->bindings[requests[i].texture], p))
             continue;
         pyramids[alike] = p;
-        numbers[alike++] = i;
+        indices[alike++] = i;
     }
     float texels[TEXTURE_GROUP][4];
     trilinear(b, pyramids, alike, uv, f, texels);
     uint32_t bits = 0;
     for (uint32_t k = 0; k < alike; k++) {
-        memcpy(requests[numbers[k]].texel, texels[k], sizeof texels[k]);
-        bits |= 1u << numbers[k];
+        memcpy(requests[indices[k]].texel, texels[k], sizeof texels[k]);
+        bits |= 1u << indices[k];
     }
     return bits;
 }
@@ -479,10 +479,10 @@ void texture_sample_group(const texture_set *set, texture_request *requests, uin
             const texture_binding *b = &set->bindings[requests[i].texture];
             Footprint f;
             if (!get_footprint(p, duv_dx, duv_dy, &f)) {
-                texel = look_up_nearest(p, p->level_count - 1, 0.0f, 0.0f); /* the mean of the image */
+                texel = texel_nearest(p, p->level_count - 1, 0.0f, 0.0f); /* the mean of the image */
             } else if (is_magnified(b, &f)) {
-                texel = look_up(b, p, p->first_level, b->mag_filter, wrap_coordinate(uv[0], b->wrap_u),
-                                wrap_coordinate(uv[1], b->wrap_v));
+                texel = texel_at_level(b, p, p->first_level, b->mag_filter, wrap_coordinate(uv[0], b->wrap_u),
+                                       wrap_coordinate(uv[1], b->wrap_v));
             } else if (is_trilinear(b)) {
                 done |= sample_alike(set, requests, i, count, uv, &f);
                 continue;

@@ -140,7 +140,7 @@ void path_vertex_make(const path_scene *scene, const visibility_hit *hit, const 
     if (intersect_surface(scene->surface, hit, v))
         return;
     Layers *m = &s->m;
-    if (s->plan->is_body && m->layers & LAYER_VOLUME)
+    if (s->plan->is_closed_volume && m->layers & LAYER_VOLUME)
         set_boundary(shading, hit, in, wavelength_nm, v);
     m->base.N = faced_normal(m->base.N, s->V);
     if (m->layers & LAYER_CLEARCOAT)
