@@ -30,8 +30,8 @@ static WaterLight light;
 static void before(void)
 {
     for (int i = 0; i < COUNT; ++i)
-        shaded[i] = before_shade(BEFORE_INTENDED, BEFORE_STAGE_NONE, -hits[i].V, hits[i].N,
-                                 BEFORE_SUN_DIRECTION, hits[i].y, hits[i].sparkle, 0.1f, 1.33f, 0.1f);
+        shaded[i] = water_legacy_shade(WATER_LEGACY_INTENDED, WATER_LEGACY_STAGE_NONE, -hits[i].V, hits[i].N,
+                                 WATER_LEGACY_SUN_DIRECTION, hits[i].y, hits[i].sparkle, 0.1f, 1.33f, 0.1f);
 }
 
 static WaterPoint point_of(const hit *h)
@@ -139,7 +139,7 @@ static void prepare(void)
     water.normals = WATER_BECKMANN;
     water.masking = WATER_SCALES;
     water.is_schlick = 0;
-    light.L = BEFORE_SUN_DIRECTION;
+    light.L = WATER_LEGACY_SUN_DIRECTION;
     light.sun_irradiance = vec3(1e5f, 9e4f, 8e4f);
     light.sky_irradiance = vec3(1e4f, 1.2e4f, 1.6e4f);
     light.sun_fresnel = 0.03f;

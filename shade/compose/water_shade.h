@@ -18,7 +18,7 @@
  *     float host_shutter_s(host), float host_glint_time(host)   exposure time, time of the image; s
  *     vec2 host_rest_from_eye(host, p)      x, z of the water's resting position, m
  *     vec2 host_rest(host, p)               the same from the origin
- *     LegacyStyle host_style(host)
+ *     WaterStyle host_style(host)
  *
  *     SeaPosition host_position(p)
  *     float host_height(p)                  height (m) of the point over still water
@@ -450,14 +450,14 @@ FN vec3 sea_shade_below(SeaHost host, SeaPlace p, vec3 d, float x, float depth)
 /* Linear values whose sRGB encoding is the legacy program's display output. d: unit, from the eye. */
 FN vec3 sea_legacy(SeaHost host, SeaPlace p, vec3 d)
 {
-    LegacyStyle style = host_style(host);
+    WaterStyle style = host_style(host);
     float sparkle = 0.0f;
     if (style.has_sparkles) { /* white noise fixed to the water, about one cell in ten */
         GlintCell cell = glint_cell(host_rest(host, p), vec2(p.footprint_m), 1.0f);
         sparkle = sel(glint_uniform(cell.key) > 0.9f, 1.0f, 0.0f);
     }
-    float foam = sel(style.has_foam, before_foam(length(slope_from_normal(p.point.N))), 0.0f);
-    return legacy_linear(before_shade(style.variant, style.stage, d, p.point.N, host_light(host).L,
+    float foam = sel(style.has_foam, water_legacy_foam(length(slope_from_normal(p.point.N))), 0.0f);
+    return water_legacy_linear(water_legacy_shade(style.variant, style.stage, d, p.point.N, host_light(host).L,
                                       host_height(p), sparkle, foam, host_water(host).ior,
                                       style.perceptual_roughness));
 }

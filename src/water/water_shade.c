@@ -92,16 +92,16 @@ static vec2 host_rest(SeaHost host, SeaPlace p)
     return vec2((float)p.rest[0], (float)p.rest[1]);
 }
 
-static LegacyStyle host_style(SeaHost host)
+static WaterStyle host_style(SeaHost host)
 {
     const facet_sea_shading *shading = &host.s->desc->sea_shading;
     float given = shading->perceptual_roughness;
-    return (LegacyStyle){.variant = shading->style == FACET_SEA_STYLE_LEGACY_WRITTEN ? BEFORE_WRITTEN
-                                                                                     : BEFORE_INTENDED,
-                         .stage = shading->style != FACET_SEA_STYLE_PHYSICAL ? BEFORE_STAGE_NONE
-                                  : shading->stage == 1                      ? BEFORE_STAGE_FRESNEL
-                                                                             : BEFORE_STAGE_COOK_TORRANCE,
-                         .perceptual_roughness = given > 0.0f ? given : BEFORE_ROUGHNESS,
+    return (WaterStyle){.variant = shading->style == FACET_SEA_STYLE_LEGACY_WRITTEN ? WATER_LEGACY_WRITTEN
+                                                                                     : WATER_LEGACY_INTENDED,
+                         .stage = shading->style != FACET_SEA_STYLE_PHYSICAL ? WATER_LEGACY_STAGE_NONE
+                                  : shading->stage == 1                      ? WATER_LEGACY_STAGE_FRESNEL
+                                                                             : WATER_LEGACY_STAGE_COOK_TORRANCE,
+                         .perceptual_roughness = given > 0.0f ? given : WATER_LEGACY_ROUGHNESS,
                          .has_foam = !shading->omits_foam,
                          .has_sparkles = !shading->omits_glints};
 }
@@ -327,7 +327,7 @@ vec3 water_shade_legacy(const water_setup *s, const water_place *p, vec3 d)
     return sea_legacy((SeaHost){.s = s}, *p, d);
 }
 
-vec3 water_legacy_sky(vec3 d)
+vec3 water_shade_legacy_sky(vec3 d)
 {
-    return legacy_linear(before_sky(d));
+    return water_legacy_linear(water_legacy_sky(d));
 }

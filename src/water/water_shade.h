@@ -42,7 +42,7 @@ vec3 water_shade_from_below(const water_setup *s, const water_place *p, float fo
  * glints, that is everything. */
 
 /* Linear values whose sRGB encoding is the legacy program's display output. d: unit, from the eye. */
-vec3 water_legacy_sky(vec3 d);
+vec3 water_shade_legacy_sky(vec3 d);
 vec3 water_shade_legacy(const water_setup *s, const water_place *p, vec3 d);
 
 /* Stage 3: radiance (cd/m^2) of an opaque reflecting surface with a base color under the sky. */

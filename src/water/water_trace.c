@@ -163,7 +163,7 @@ static vec3 shade_nearest(const water_sample *p, const backdrop *b, const march_
     if (!sea_shading_is_legacy(&s->desc->sea_shading))
         return exposed(s, (p->ray.is_below ? from_below : from_above)(p, b, sea, model));
     if (b->object == NOTHING)
-        return water_legacy_sky(p->d);
+        return water_shade_legacy_sky(p->d);
     water_place place = place_of(p, sea);
     return water_shade_legacy(s, &place, p->d);
 }

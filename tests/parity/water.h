@@ -388,9 +388,9 @@ FN vec3 case_water_caustic(vec2 u)
                 caustic_lod(9.0f * u[1]) + water_mirrored_spread(C));
 }
 
-/* ---- water_before.h ---- */
+/* ---- water_legacy.h ---- */
 
-FN vec3 case_water_before(vec2 u)
+FN vec3 case_water_legacy(vec2 u)
 {
     Water w = parity_sea_water(u);
     WaterPoint p = parity_water_point(u);
@@ -398,9 +398,9 @@ FN vec3 case_water_before(vec2 u)
     WaterLight light = parity_water_light(w, u);
     vec3 down = -V;
     WaterMirror m = water_mirror(w, p, V, 0.9f, 0.95f, 0.1f * u[0], 0.3f * u[1]);
-    vec3 before = before_shade(int(u[0] * 1.99f), int(u[1] * 2.99f), down, p.N, BEFORE_SUN_DIRECTION, u[0],
-                               u[1], before_foam(u[0]), 1.33f, 0.3f);
-    return m.R + m.perceptual_roughness + before_display(before) + legacy_linear(before) + before_sky(V) +
-           before_highlight(1, p.N, V, light.L, 1.33f, 0.1f) +
+    vec3 before = water_legacy_shade(int(u[0] * 1.99f), int(u[1] * 2.99f), down, p.N, WATER_LEGACY_SUN_DIRECTION, u[0],
+                               u[1], water_legacy_foam(u[0]), 1.33f, 0.3f);
+    return m.R + m.perceptual_roughness + water_legacy_display(before) + water_legacy_linear(before) + water_legacy_sky(V) +
+           water_legacy_highlight(1, p.N, V, light.L, 1.33f, 0.1f) +
            water_radiance(water_parts(w, p, light, m, vec3(1.0f, 2.0f, 3.0f), vec3(0.5f), light.downwelling));
 }

@@ -21,7 +21,7 @@ const verb shaders_verb = {
                           "footprint", "surface", "light", "area_light", "ibl", "sheen", "clearcoat",
                           "anisotropy", "iridescence", "dispersion", "transmission", "glass", "volume", "sky",
                           "water_surface", "water_means", "glint", "water", "water_place", "water_crest",
-                          "water_facets", "water_before", "water_caustic", "specular_aa",
+                          "water_facets", "water_legacy", "water_caustic", "specular_aa",
                           "specular_glossiness", "layers", "layers_direct", "layers_ibl", "layers_lobes",
                           "material", "layers_sample", "phong", "tonemap"),
     .description =

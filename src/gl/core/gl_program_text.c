@@ -122,7 +122,7 @@ static const struct {
     [GL_MAIN_SEA_CLASS] = {"sea_class", no_features, SCREEN,
         {{"water_place"}, {"sea_block.glsl", "sea_class.frag"}}},
     [GL_MAIN_SEA] = {"sea", sea_features, SCREEN,
-        {{"water_place", "water_crest", "water_facets", "water_caustic", "water_before", "glint", "ibl", "surface",
+        {{"water_place", "water_crest", "water_facets", "water_caustic", "water_legacy", "glint", "ibl", "surface",
           "sobol"},
          {"sea_block.glsl", "light_block.glsl", "environment.glsl", "sea_waves.glsl", "sea_host.glsl",
           "sea_sky.glsl", "sea_place.glsl", "sea_model.glsl", "water_shade.h", "sea.frag"}}},

@@ -127,12 +127,12 @@ static void fill_caustics(const caustic_map *map, const double eye[2], gl_sea_bl
 
 static void fill_look(const facet_sea_shading *look, gl_sea_block *b)
 {
-    b->bed_slope[2] = look->perceptual_roughness > 0.0f ? look->perceptual_roughness : BEFORE_ROUGHNESS;
+    b->bed_slope[2] = look->perceptual_roughness > 0.0f ? look->perceptual_roughness : WATER_LEGACY_ROUGHNESS;
     b->bed_slope[3] = look->clamp;
-    b->look[0] = look->style != FACET_SEA_STYLE_PHYSICAL ? BEFORE_STAGE_NONE
-                 : look->stage == 1                      ? BEFORE_STAGE_FRESNEL
-                                                         : BEFORE_STAGE_COOK_TORRANCE;
-    b->look[1] = look->style == FACET_SEA_STYLE_LEGACY_WRITTEN ? BEFORE_WRITTEN : BEFORE_INTENDED;
+    b->look[0] = look->style != FACET_SEA_STYLE_PHYSICAL ? WATER_LEGACY_STAGE_NONE
+                 : look->stage == 1                      ? WATER_LEGACY_STAGE_FRESNEL
+                                                         : WATER_LEGACY_STAGE_COOK_TORRANCE;
+    b->look[1] = look->style == FACET_SEA_STYLE_LEGACY_WRITTEN ? WATER_LEGACY_WRITTEN : WATER_LEGACY_INTENDED;
     b->look[2] = !look->omits_foam;
     b->look[3] = !look->omits_glints;
 }

@@ -93,7 +93,7 @@ vec4 sea_pixel(SeaHost host, vec3 d, vec4 seen, ivec2 pixel)
 }
 vec4 sea_beside(SeaHost host, vec3 d, ivec2 pixel)
 {
-    return vec4(legacy_linear(before_sky(d)), 1.0);
+    return vec4(water_legacy_linear(water_legacy_sky(d)), 1.0);
 }
 #else
 #ifdef HAS_MODEL

@@ -84,9 +84,9 @@ float host_glint_time(SeaHost host)
     return sea_sky_irradiance.w;
 }
 
-LegacyStyle host_style(SeaHost host)
+WaterStyle host_style(SeaHost host)
 {
-    return LegacyStyle(sea_look.y, sea_look.x, sea_bed_slope.z, sea_look.z != 0, sea_look.w != 0);
+    return WaterStyle(sea_look.y, sea_look.x, sea_bed_slope.z, sea_look.z != 0, sea_look.w != 0);
 }
 
 /* ---- positions ---- */
