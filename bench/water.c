@@ -30,8 +30,9 @@ static WaterLight light;
 static void before(void)
 {
     for (int i = 0; i < COUNT; ++i)
-        shaded[i] = water_legacy_shade(WATER_LEGACY_INTENDED, WATER_LEGACY_STAGE_NONE, -hits[i].V, hits[i].N,
-                                 WATER_LEGACY_SUN_DIRECTION, hits[i].y, hits[i].sparkle, 0.1f, 1.33f, 0.1f);
+        shaded[i] =
+            water_legacy_shade(WATER_LEGACY_INTENDED, WATER_LEGACY_STAGE_NONE, -hits[i].V, hits[i].N,
+                               WATER_LEGACY_SUN_DIRECTION, hits[i].y, hits[i].sparkle, 0.1f, 1.33f, 0.1f);
 }
 
 static WaterPoint point_of(const hit *h)

@@ -228,10 +228,10 @@ FN vec3 water_from_deep(Water w, vec3 downwelling)
 /* The bed where the refracted ray meets it. */
 STRUCT(WaterBed)
 {
-    vec3 albedo;      /* there */
-    vec3 mean_albedo; /* around it, over a quarter of the path length */
-    float depth;      /* m of water above it, >= 0 */
-    float way;        /* path length (m) of the ray in the water, >= depth */
+    vec3 albedo;       /* there */
+    vec3 mean_albedo;  /* around it, over a quarter of the path length */
+    float depth;       /* m of water above it, >= 0 */
+    float path_length; /* m, of the ray in the water, >= depth */
 };
 
 /* Upwelling radiance (cd/m^2) below the surface: the bed, sharp by unscattered and blurred by forward
@@ -243,8 +243,8 @@ STRUCT(WaterBed)
  * 1998. */
 FN vec3 water_from_bed(Water w, vec3 light, WaterBed bed)
 {
-    vec3 sharp = water_transmittance(water_beam(w), bed.way);
-    vec3 blurred = water_transmittance(water_diffuse(w), bed.way);
+    vec3 sharp = water_transmittance(water_beam(w), bed.path_length);
+    vec3 blurred = water_transmittance(water_diffuse(w), bed.path_length);
     vec3 down = water_transmittance(water_K_d(w), bed.depth);
     vec3 ground = down * (bed.albedo * sharp + bed.mean_albedo * (blurred - sharp));
     return light * INV_PI * (ground + water_deep_reflectance(w) * (1.0f - down * blurred));
@@ -293,16 +293,16 @@ FN vec3 water_sun_below(Water w, WaterPoint p, WaterLight light, vec3 d)
 }
 
 /* Mean transmittance e^-t over an optical depth t from `first` to `last`, of any sign. */
-FN float water_mean_left1(float first, float last)
+FN float water_mean_transmittance1(float first, float last)
 {
     float t = 0.5f * (last - first);
     float middle = exp(-0.5f * (first + last)) * (1.0f + t * t * (1.0f / 6.0f)); /* where both ends cancel */
     return sel(abs(t) < 0.05f, middle, 0.5f * (exp(-first) - exp(-last)) / sel(t == 0.0f, 1.0f, t));
 }
-FN vec3 water_mean_left(vec3 first, vec3 last)
+FN vec3 water_mean_transmittance(vec3 first, vec3 last)
 {
-    return vec3(water_mean_left1(first[0], last[0]), water_mean_left1(first[1], last[1]),
-                water_mean_left1(first[2], last[2]));
+    return vec3(water_mean_transmittance1(first[0], last[0]), water_mean_transmittance1(first[1], last[1]),
+                water_mean_transmittance1(first[2], last[2]));
 }
 
 /* In-scattered radiance (cd/m^2) along a ray of x m below the surface, from an eye at the depth z (m) in
@@ -314,7 +314,7 @@ FN vec3 water_inscatter(Water w, vec3 downwelling, float z, vec3 d, float x)
     vec3 K = water_K_d(w);
     vec3 along = water_diffuse(w);
     vec3 last = K * max(z - x * d[1], 0.0f) + along * x;
-    return water_from_deep(w, downwelling) * (K + along) * water_mean_left(K * z, last) * x;
+    return water_from_deep(w, downwelling) * (K + along) * water_mean_transmittance(K * z, last) * x;
 }
 
 /* Phase function (1/sr) of light scattered out of the sun's beam over an optical depth t of scattering, by
@@ -353,7 +353,7 @@ FN vec3 water_sun_glow(Water w, vec3 beam, vec3 sunward, float z, vec3 d, float 
     for (int k = 0; k < 3; ++k) {
         float more = water_glow_phase1(t[k], w.pure_share[k], forward) -
                      water_glow_phase1(t[k], w.pure_share[k], 0.0f);
-        glow[k] = max(more, 0.0f) * water_mean_left1(first[k], last[k]);
+        glow[k] = max(more, 0.0f) * water_mean_transmittance1(first[k], last[k]);
     }
     return beam * w.scattering * glow * x;
 }

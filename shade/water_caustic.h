@@ -37,17 +37,17 @@ FN vec3 water_bed_lit(vec3 focused, float factor, float rest)
     return focused * (factor - rest) + rest;
 }
 
-/* Footprint (m) on the bed of a ray `width` m wide at the surface, after `way` m along `down`: unresolved
+/* Footprint (m) on the bed of a ray `width` m wide at the surface, after `distance` m along `down`: unresolved
  * slopes C turn the refracted ray by gamma times their angle across the plane of incidence, and by gamma /
  * cos' within it, where
  *   gamma = cos' - cos / n
  * and the ray meets the bed at the cosine -down.y. The width of a box with the same variance, of the
  * geometric mean of both axes. */
-FN float water_bed_footprint(Water w, vec3 N, vec3 V, vec3 down, vec3 C, float width, float way)
+FN float water_bed_footprint(Water w, vec3 N, vec3 V, vec3 down, vec3 C, float width, float distance)
 {
     float inside = max(-dot(N, down), 0.1f);
     float gamma = inside - clamp(dot(N, V), 0.0f, 1.0f) / w.ior;
-    float reach = way * gamma;
+    float reach = distance * gamma;
     float variance = 0.5f * (C[0] + C[1]) * reach * reach / (inside * max(-down[1], 0.1f));
     return sqrt(width * width + 12.0f * variance);
 }

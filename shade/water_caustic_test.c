@@ -61,11 +61,11 @@ static void test_footprint(void **state)
     (void)state;
     Water w = some_water();
     vec3 up = vec3(0.0f, 1.0f, 0.0f);
-    const float way = 4.0f, variance = 1e-6f;
+    const float path = 4.0f, variance = 1e-6f;
     for (int i = 0; i < 8; i++) {
         float angle = 0.18f * (float)i;
         vec3 V = vec3(sin(angle), cos(angle), 0.0f), down = water_refracted(w, -V, up);
-        double depth = (double)(-way * down[1]), areas[2];
+        double depth = (double)(-path * down[1]), areas[2];
         for (int k = 0; k < 2; k++) {
             vec3 tilted = k ? vec3(0.0f, 1.0f, 1e-3f) : vec3(1e-3f, 1.0f, 0.0f);
             vec3 turned = water_refracted(w, -V, normalize(tilted));
@@ -74,10 +74,10 @@ static void test_footprint(void **state)
             areas[k] = sqrt(x * x + z * z);
         }
         double expected = sqrt(12.0 * (double)variance * areas[0] * areas[1]);
-        float width = water_bed_footprint(w, up, V, down, vec3(variance, variance, 0.0f), 0.0f, way);
+        float width = water_bed_footprint(w, up, V, down, vec3(variance, variance, 0.0f), 0.0f, path);
         expect_near((double)width / expected, 1.0, 0.02, "at %g", (double)angle);
     }
-    float width = water_bed_footprint(w, up, up, -up, vec3(0.0f), 0.3f, way);
+    float width = water_bed_footprint(w, up, up, -up, vec3(0.0f), 0.3f, path);
     expect_near((double)width, 0.3, 1e-6, "flat water");
 }
 

@@ -47,7 +47,7 @@ FN WaterCrest water_crest_beam(Water w, WaterLight light, float variance, float 
 /* Path length (m) in water from a point of that phase (rad, [0, pi]: from the crest on, away from the sun)
  * to the sunbeam that enters at `entry` before it, along the refracted ray `down`, and back along that
  * beam. sun: unit and horizontal, towards it. 0 from a point to itself. */
-FN float water_crest_way(WaterCrest c, vec2 sun, vec3 down, float phase, float entry)
+FN float water_crest_path_length(WaterCrest c, vec2 sun, vec3 down, float phase, float entry)
 {
     float across = max(phase - entry, 0.0f) / c.wavenumber; /* to its entry, towards the sun */
     float up = max(cos(entry) - cos(phase), 0.0f) * c.amplitude;
@@ -71,12 +71,12 @@ FN vec3 water_crest_lit(Water w, WaterCrest c, vec2 sun, float tilt, vec3 down, 
     float phase = atan(sine, cosine);
     float end = max(tilt, 0.0f) / (c.amplitude * c.wavenumber); /* sine of the phase where sunlight ends */
     float end_phase = sel(end < 1.0f, atan(end, sqrt(max(1.0f - end * end, 0.0f))), PI);
-    float way = water_crest_way(c, sun, down, phase, min(end_phase, phase));
-    float more = max(water_crest_way(c, sun, down, phase, 0.0f) - way, 0.0f);
+    float first = water_crest_path_length(c, sun, down, phase, min(end_phase, phase));
+    float more = max(water_crest_path_length(c, sun, down, phase, 0.0f) - first, 0.0f);
     float here = sel(phase < end_phase, max(1.0f - sine / max(end, 1e-6f), 0.0f), 0.0f);
     vec3 K = max(water_diffuse(w), 1e-9f);
-    vec3 growing = water_mean_left(vec3(0.0f), K * more);
-    return water_transmittance(K, way) * mix(growing, vec3(1.0f), here);
+    vec3 growing = water_mean_transmittance(vec3(0.0f), K * more);
+    return water_transmittance(K, first) * mix(growing, vec3(1.0f), here);
 }
 
 /* Radiance (1/sr) of a singly scattered beam for an irradiance of 1 on level water and cosines of sun and eye

@@ -56,7 +56,7 @@ FN vec3 water_legacy_highlight(int stage, vec3 N, vec3 V, vec3 L, float ior, flo
  * and foam in [0, 1]. stage: WATER_LEGACY_STAGE_*; ior and perceptual_roughness apply to stages above 0, which are
  * WATER_LEGACY_INTENDED. L: the sun. */
 FN vec3 water_legacy_shade(int variant, int stage, vec3 d, vec3 N, vec3 L, float y, float sparkle, float foam,
-                     float ior, float perceptual_roughness)
+                           float ior, float perceptual_roughness)
 {
     vec3 V = -d;
     vec3 w = sel(variant == WATER_LEGACY_WRITTEN && stage == WATER_LEGACY_STAGE_NONE, d, V);

@@ -11,7 +11,8 @@ static void expect_color(vec3 c, double r, double g, double b, const char *what)
 
 static vec3 plain(int variant, vec3 d, vec3 N, float y)
 {
-    return water_legacy_shade(variant, WATER_LEGACY_STAGE_NONE, d, N, WATER_LEGACY_SUN_DIRECTION, y, 0.0f, 0.0f, 1.33f, 0.1f);
+    return water_legacy_shade(variant, WATER_LEGACY_STAGE_NONE, d, N, WATER_LEGACY_SUN_DIRECTION, y, 0.0f,
+                              0.0f, 1.33f, 0.1f);
 }
 
 static void test_vectors(void **state)
@@ -33,10 +34,10 @@ static void test_vectors(void **state)
     expect_color(plain(WATER_LEGACY_INTENDED, steep, N, 1.0f), 0.09070, 0.29195, 0.41002, "B, steep, a wave");
     expect_color(plain(WATER_LEGACY_WRITTEN, low, N, 1.0f), 0.29947, 0.37006, 0.50565, "A, low, a wave");
     expect_color(plain(WATER_LEGACY_INTENDED, low, N, 1.0f), 0.13710, 0.29959, 0.42804, "B, low, a wave");
-    expect_color(water_legacy_shade(WATER_LEGACY_INTENDED, 0, mirror, up, L, 0.0f, 1.0f, 0.0f, 1.33f, 0.1f), 3.40004,
-                 3.25056, 2.96651, "B, the sun, a sparkle");
-    expect_color(water_legacy_shade(WATER_LEGACY_INTENDED, 0, down, up, L, 0.0f, 0.0f, 1.0f, 1.33f, 0.1f), 0.73336,
-                 0.80805, 0.84224, "B, foam");
+    expect_color(water_legacy_shade(WATER_LEGACY_INTENDED, 0, mirror, up, L, 0.0f, 1.0f, 0.0f, 1.33f, 0.1f),
+                 3.40004, 3.25056, 2.96651, "B, the sun, a sparkle");
+    expect_color(water_legacy_shade(WATER_LEGACY_INTENDED, 0, down, up, L, 0.0f, 0.0f, 1.0f, 1.33f, 0.1f),
+                 0.73336, 0.80805, 0.84224, "B, foam");
 }
 
 /* Intermediate stages: the Fresnel term is 0.02 facing and 1 at the horizon; the Cook-Torrance highlight
@@ -46,8 +47,8 @@ static void test_stages(void **state)
     (void)state;
     vec3 up = vec3(0.0f, 1.0f, 0.0f), down = vec3(0.0f, -1.0f, 0.0f), L = WATER_LEGACY_SUN_DIRECTION;
     vec3 before = plain(WATER_LEGACY_INTENDED, down, up, 0.0f);
-    vec3 after =
-        water_legacy_shade(WATER_LEGACY_WRITTEN, WATER_LEGACY_STAGE_FRESNEL, down, up, L, 0.0f, 0.0f, 0.0f, 1.33f, 0.1f);
+    vec3 after = water_legacy_shade(WATER_LEGACY_WRITTEN, WATER_LEGACY_STAGE_FRESNEL, down, up, L, 0.0f, 0.0f,
+                                    0.0f, 1.33f, 0.1f);
     vec3 difference = (water_legacy_sky(up) - vec3(0.0f, 0.5f, 0.7f)) * (0.5f * F0_from_ior(1.33f));
     for (int k = 0; k < 3; ++k)
         expect_near((double)(after[k] - before[k]), (double)difference[k], 1e-6, "stage 1, facing");

@@ -176,16 +176,16 @@ FN float water_foam_cover(float share, float amount)
 #define WATER_FAR_M 1e4f
 
 /* Distance (m) along `down` to a planar bed, `depth` m below the point and rising by `rise` m per m along it. */
-FN float water_way_to_bed(float depth, float rise, vec3 down)
+FN float water_distance_to_bed(float depth, float rise, vec3 down)
 {
     float closing = rise - down[1];
     return max(sel(closing > 1e-6f, min(depth / closing, 1e6f), 1e6f), 0.0f);
 }
 
-/* Depth (m) of that bed after the path length `way`, below the same level. */
-FN float water_bed_depth(float depth, float rise, float way)
+/* Depth (m) of that bed after a path of `distance` m along it, below the same level. */
+FN float water_bed_depth(float depth, float rise, float distance)
 {
-    return clamp(depth - way * rise, 0.0f, way);
+    return clamp(depth - distance * rise, 0.0f, distance);
 }
 
 /* That bed seen through the water: of the albedo `albedo`, and `mean_albedo` around, both with their
@@ -195,8 +195,8 @@ FN vec3 water_over_bed(Water w, vec3 light, vec3 albedo, vec3 mean_albedo, float
     WaterBed b;
     b.albedo = albedo;
     b.mean_albedo = mean_albedo;
-    b.way = water_way_to_bed(depth, rise, down);
-    b.depth = water_bed_depth(depth, rise, b.way);
+    b.path_length = water_distance_to_bed(depth, rise, down);
+    b.depth = water_bed_depth(depth, rise, b.path_length);
     return water_from_bed(w, light, b);
 }
 

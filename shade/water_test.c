@@ -258,10 +258,11 @@ static void test_volume(void **state)
     expect_relative(thin[1], w.scattering[1] * water_phase_pure(-1.0f) * 0.001f, 1e-3, "a thin layer");
     for (double q = -2.0; q < 2.0; q += 0.0993) { /* the path integral, either sign */
         double exact = (1.0 - exp(-q * 3.0)) / q;
-        expect_relative(3.0f * water_mean_left1(0.0f, 3.0f * (float)q), exact, 1e-5, "path at %g", q);
+        expect_relative(3.0f * water_mean_transmittance1(0.0f, 3.0f * (float)q), exact, 1e-5, "path at %g",
+                        q);
     }
-    expect_relative(3.0f * water_mean_left1(0.0f, 0.0f), 3.0, 1e-6, "path without attenuation");
-    expect_relative(3.0f * water_mean_left1(0.0f, 3.0f * 3.3e-3f),
+    expect_relative(3.0f * water_mean_transmittance1(0.0f, 0.0f), 3.0, 1e-6, "path without attenuation");
+    expect_relative(3.0f * water_mean_transmittance1(0.0f, 3.0f * 3.3e-3f),
                     3.0 * (1.0 - 0.00495 + 0.0099 * 0.0099 / 6.0), 1e-6, "path, nearly without");
 }
 
@@ -296,13 +297,13 @@ static void test_bed(void **state)
     assert_true(fabs((double)seed[0] - golden[0]) > 0.4 && fabs((double)seed[2] - golden[2]) > 0.7);
 
     vec3 E = vec3(PI), R = water_deep_reflectance(w);
-    WaterBed bed = {.albedo = vec3(0.5f), .mean_albedo = vec3(0.5f), .depth = 0.0f, .way = 0.0f};
+    WaterBed bed = {.albedo = vec3(0.5f), .mean_albedo = vec3(0.5f), .depth = 0.0f, .path_length = 0.0f};
     vec3 dry = water_from_bed(w, E, bed);
     expect_near((double)dry[1], 0.5, 1e-6, "a bed without water");
     double contrast = 1.0, brightness = 1.0;
     for (float H = 0.5f; H < 200.0f; H *= 1.5f) {
         bed.depth = H;
-        bed.way = H * 1.3f;
+        bed.path_length = H * 1.3f;
         vec3 here = water_from_bed(w, E, bed);
         bed.albedo = vec3(0.7f); /* a bright pebble on it */
         vec3 pebble = water_from_bed(w, E, bed);
@@ -317,7 +318,7 @@ static void test_bed(void **state)
         brightness = (double)here[0];
     }
     vec3 deep = water_from_deep(w, E);
-    bed.depth = bed.way = 1e6f;
+    bed.depth = bed.path_length = 1e6f;
     vec3 over_abyss = water_interreflected(w, E, water_bed_reflectance(w, bed.albedo, bed.depth));
     for (int k = 0; k < 3; ++k)
         expect_near((double)water_from_bed(w, over_abyss, bed)[k], (double)deep[k], 1e-7,
@@ -389,17 +390,17 @@ static void test_furnace(void **state)
         WaterLight sky = light_of(UP, 0.0f, PI, w);
         vec3 bare = vec3(1.0f), R = water_bed_reflectance(w, bare, depths[i / 3]);
         WaterBed bed = {
-            .albedo = bare, .mean_albedo = bare, .depth = depths[i / 3], .way = 1.4f * depths[i / 3]};
+            .albedo = bare, .mean_albedo = bare, .depth = depths[i / 3], .path_length = 1.4f * depths[i / 3]};
         vec3 light = water_interreflected(w, sky.downwelling, R);
         vec3 deep = water_from_deep(w, sky.downwelling), shallow = water_from_bed(w, light, bed);
         vec3 foam = water_foam_below(w, sky, light * R), d = towards(15.0 * (i / 3), 0.0);
         vec3 through = water_surface_through(w, sky.downwelling, vec3(0.0f), UP, foam, vec3(0.0f), bed.depth,
-                                             d, bed.way);
+                                             d, bed.path_length);
         for (int k = 0; k < 3; k++) {
             expect_relative(deep[k], n2, 2e-6, "deep, ior %g", (double)w.ior);
             expect_relative(shallow[k], n2, 1e-5, "a bed %g m below", (double)bed.depth);
             expect_relative(foam[k], n2, 1e-5, "foam from below");
-            expect_relative(through[k], n2, 1e-4, "after %g m of water", (double)bed.way);
+            expect_relative(through[k], n2, 1e-4, "after %g m of water", (double)bed.path_length);
         }
     }
     /* and a thin film of water on gray ground darkens it, as rain does: (1 - R) (1 - R_int) / (1 - R_int
@@ -419,12 +420,12 @@ static void test_furnace(void **state)
 static void test_inscatter(void **state)
 {
     (void)state;
-    const double ways[][3] = {
+    const double paths[][3] = {
         {5.0, 0.9, 5.5}, {5.0, 0.2, 20.0}, {40.0, 1.0, 40.0}, {3.0, -0.5, 60.0}, {0.0, 0.0, 9.0}};
     Water w = ocean(1.34f);
     vec3 E = vec3(1000.0f), from_deep = water_from_deep(w, E), K = water_K_d(w), along = water_diffuse(w);
     for (int i = 0; i < 5; i++) {
-        double z = ways[i][0], up = ways[i][1], x = ways[i][2];
+        double z = paths[i][0], up = paths[i][1], x = paths[i][2];
         vec3 d = vec3((float)sqrt(1.0 - up * up), (float)up, 0.0f);
         vec3 seen = water_inscatter(w, E, (float)z, d, (float)x);
         for (int k = 0; k < 3; k++) {
@@ -434,7 +435,7 @@ static void test_inscatter(void **state)
                 sum += weight * exp(-(double)K[k] * (z - t * up) - (double)along[k] * t) * x / 6000.0;
             }
             expect_relative(seen[k], (double)(from_deep[k] * (K[k] + along[k])) * sum, 1e-4,
-                            "way %d, channel %d", i, k);
+                            "path %d, channel %d", i, k);
         }
     }
     w.absorption = vec3(30.0f, 5.0f, 1e6f);
@@ -513,9 +514,10 @@ static void test_glow(void **state)
         for (int i = 0; i < STEPS; ++i)
             phase += (double)water_glow_phase1((float)t, 0.0f, (float)(-1.0 + 2.0 * (i + 0.5) / STEPS));
         expect_relative(phase * 4.0 * PI_DOUBLE / STEPS, 1.0, 0.02, "all directions at %g m", (double)z);
-        double through = (double)(water_transmittance(water_beam(w), z)[1] +
-                                  (w.scattering - w.backscattering)[1] * z *
-                                      water_mean_left1(water_beam(w)[1] * z, water_diffuse(w)[1] * z));
+        double through =
+            (double)(water_transmittance(water_beam(w), z)[1] +
+                     (w.scattering - w.backscattering)[1] * z *
+                         water_mean_transmittance1(water_beam(w)[1] * z, water_diffuse(w)[1] * z));
         expect_relative(through, (double)water_transmittance(water_diffuse(w), z)[1], 1e-4,
                         "what %g m let through", (double)z);
         expect_relative(water_unscattered(w, z)[1] * water_transmittance(water_diffuse(w), z)[1],

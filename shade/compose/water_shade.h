@@ -78,7 +78,7 @@ FN vec3 sea_bed_lit(SeaHost host, SeaPosition P, vec3 d, float distance, float w
 FN vec3 sea_over_bed(SeaHost host, float depth, vec3 down, vec3 lit, vec3 mean_lit)
 {
     float rise = host_bed_rise(host, down);
-    float distance = water_way_to_bed(depth, rise, down);
+    float distance = water_distance_to_bed(depth, rise, down);
     vec3 light = sea_light_over_bed(host, water_bed_depth(depth, rise, distance));
     vec3 albedo = host_bed_albedo(host);
     return water_over_bed(host_water(host), light, albedo * lit, albedo * mean_lit, depth, rise, down);
@@ -98,7 +98,7 @@ FN vec3 sea_from_below(SeaHost host, SeaPlace p)
     vec3 lit = vec3(1.0f);
     vec3 mean_lit = vec3(1.0f);
     if (host_has_light_on_bed(host)) {
-        float distance = water_way_to_bed(depth, host_bed_rise(host, down), down);
+        float distance = water_distance_to_bed(depth, host_bed_rise(host, down), down);
         float width = water_bed_footprint(w, p.point.N, p.V, down, p.point.covariance,
                                           p.footprint_m * inversesqrt(p.cosine), distance);
         lit = sea_bed_lit(host, P, down, distance, width);
@@ -457,9 +457,9 @@ FN vec3 sea_legacy(SeaHost host, SeaPlace p, vec3 d)
         sparkle = sel(glint_uniform(cell.key) > 0.9f, 1.0f, 0.0f);
     }
     float foam = sel(style.has_foam, water_legacy_foam(length(slope_from_normal(p.point.N))), 0.0f);
-    return water_legacy_linear(water_legacy_shade(style.variant, style.stage, d, p.point.N, host_light(host).L,
-                                      host_height(p), sparkle, foam, host_water(host).ior,
-                                      style.perceptual_roughness));
+    return water_legacy_linear(water_legacy_shade(style.variant, style.stage, d, p.point.N,
+                                                  host_light(host).L, host_height(p), sparkle, foam,
+                                                  host_water(host).ior, style.perceptual_roughness));
 }
 
 /* Stage 3 of facet_sea_shading: radiance (cd/m^2) of an opaque reflecting surface with a base color under the sky. */

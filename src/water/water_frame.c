@@ -165,9 +165,10 @@ static void choose_rectangle(const vec3 L, water_frame *p)
 {
     float above = max(p->model_high[1] - p->model_water_m, 0.0f);
     float size = max(p->model_high[0] - p->model_low[0], p->model_high[2] - p->model_low[2]);
-    float way = L[1] > 0.0f ? min(above / L[1], 8.0f * max(size, above)) : 0.0f, edge = 0.05f * size + 0.01f;
+    float reach = L[1] > 0.0f ? min(above / L[1], 8.0f * max(size, above)) : 0.0f,
+          edge = 0.05f * size + 0.01f;
     for (int i = 0; i < 2; i++) {
-        float shift = -L[2 * i] * way;
+        float shift = -L[2 * i] * reach;
         p->contact_low[i] = p->model_low[2 * i] + min(shift, 0.0f) - edge;
         p->contact_high[i] = p->model_high[2 * i] + max(shift, 0.0f) + edge;
     }

@@ -97,13 +97,13 @@ static WaterStyle host_style(SeaHost host)
     const facet_sea_shading *shading = &host.s->desc->sea_shading;
     float given = shading->perceptual_roughness;
     return (WaterStyle){.variant = shading->style == FACET_SEA_STYLE_LEGACY_WRITTEN ? WATER_LEGACY_WRITTEN
-                                                                                     : WATER_LEGACY_INTENDED,
-                         .stage = shading->style != FACET_SEA_STYLE_PHYSICAL ? WATER_LEGACY_STAGE_NONE
-                                  : shading->stage == 1                      ? WATER_LEGACY_STAGE_FRESNEL
-                                                                             : WATER_LEGACY_STAGE_COOK_TORRANCE,
-                         .perceptual_roughness = given > 0.0f ? given : WATER_LEGACY_ROUGHNESS,
-                         .has_foam = !shading->omits_foam,
-                         .has_sparkles = !shading->omits_glints};
+                                                                                    : WATER_LEGACY_INTENDED,
+                        .stage = shading->style != FACET_SEA_STYLE_PHYSICAL ? WATER_LEGACY_STAGE_NONE
+                                 : shading->stage == 1                      ? WATER_LEGACY_STAGE_FRESNEL
+                                                       : WATER_LEGACY_STAGE_COOK_TORRANCE,
+                        .perceptual_roughness = given > 0.0f ? given : WATER_LEGACY_ROUGHNESS,
+                        .has_foam = !shading->omits_foam,
+                        .has_sparkles = !shading->omits_glints};
 }
 
 /* ---- positions ---- */
@@ -271,9 +271,9 @@ vec3 water_light_over_bed(const water_setup *s, float depth_m)
     return sea_light_over_bed((SeaHost){.s = s}, depth_m);
 }
 
-vec3 water_bed_lit_at(const water_setup *s, const double P[3], vec3 d, float way, float width_m)
+vec3 water_bed_lit_at(const water_setup *s, const double P[3], vec3 d, float distance, float width_m)
 {
-    return sea_bed_lit((SeaHost){.s = s}, position_at(P), d, way, width_m);
+    return sea_bed_lit((SeaHost){.s = s}, position_at(P), d, distance, width_m);
 }
 
 vec3 water_from_still(const water_setup *s, float depth_m, vec3 down)
@@ -294,7 +294,7 @@ vec3 water_model_behind_water(const water_setup *s, const model_hit *hit, const 
                                   hit->P[1], host_depth(position_at(P)), d, (float)hit->distance_m);
 }
 
-float water_way_to_bed_below(const water_setup *s, const double P[3], vec3 d)
+float water_distance_below(const water_setup *s, const double P[3], vec3 d)
 {
     return host_distance_to_bed((SeaHost){.s = s}, position_at(P), d);
 }

@@ -17,8 +17,8 @@ vec3 water_from_still(const water_setup *s, float depth_m, vec3 down);
 vec3 water_light_over_bed(const water_setup *s, float depth_m);
 
 /* Irradiance of the bed relative to its mean, per channel, where the ray from P along the unit direction d
- * hits it after `way` m with a width of width_m. */
-vec3 water_bed_lit_at(const water_setup *s, const double P[3], vec3 d, float way, float width_m);
+ * hits it after `distance` m with a width of width_m. */
+vec3 water_bed_lit_at(const water_setup *s, const double P[3], vec3 d, float distance, float width_m);
 
 /* Radiance of ground above the water. */
 vec3 water_shade_land(const water_setup *s);
@@ -27,7 +27,7 @@ vec3 water_shade_land(const water_setup *s);
 vec3 water_model_behind_water(const water_setup *s, const model_hit *hit, const double P[3], vec3 d);
 
 /* Distance from P to the bed along the unit direction d, m; WATER_FAR_M: no hit. */
-float water_way_to_bed_below(const water_setup *s, const double P[3], vec3 d);
+float water_distance_below(const water_setup *s, const double P[3], vec3 d);
 
 /* Radiance (cd/m^2) at P from the unit direction d through water that ends only at the bed, if there is one.
  * The ray is width_m wide at P and widens by `spread` m per m. */

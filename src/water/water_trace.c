@@ -83,7 +83,7 @@ static backdrop backdrop_above(const water_sample *p, bool is_met, const march_h
 
 static backdrop backdrop_below(const water_sample *p, bool is_met, const march_hit *sea)
 {
-    double bed = (double)water_way_to_bed_below(p->s, p->ray.origin, p->d), range = is_met ? sea->t : FAR_M;
+    double bed = (double)water_distance_below(p->s, p->ray.origin, p->d), range = is_met ? sea->t : FAR_M;
     if (is_met && sea->t < bed)
         return (backdrop){WATER_OBJECT_WATER, sea->t, range};
     return (backdrop){bed < (double)WATER_FAR_M ? WATER_OBJECT_BED : NOTHING, bed, range};

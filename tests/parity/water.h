@@ -189,7 +189,7 @@ FN vec3 case_water_bed(vec2 u)
     bed.albedo = vec3(0.5f, 0.4f, 0.3f);
     bed.mean_albedo = vec3(0.4f);
     bed.depth = 20.0f * u[0];
-    bed.way = bed.depth * 1.2f;
+    bed.path_length = bed.depth * 1.2f;
     vec3 R = water_bed_reflectance(w, bed.mean_albedo, bed.depth);
     return water_from_bed(w, water_interreflected(w, light.downwelling, R), bed) + R +
            water_deep_reflectance(w) + water_slab(vec3(5.0f * u[1])) + water_internal_reflectance(w) +
@@ -225,10 +225,11 @@ FN vec3 case_snells_window(vec2 u)
     WaterWindow window = water_window(w, d, p.N);
     return window.mirrored + window.outside * 0.1f + vec3(2.0f + window.fresnel, 2.0f + window.gain, 2.0f) +
            water_inscatter(w, light.downwelling, 3.0f, down, 20.0f * u[1]) +
-           water_mean_left(vec3(0.0f), down * u[0]) +
+           water_mean_transmittance(vec3(0.0f), down * u[0]) +
            water_sun_glow(w, water_beam_below(w, light), normalize(vec3(0.3f, 1.0f, 0.1f)), 2.0f, d,
                           10.0f * u[0]) +
-           vec3(water_mean_left1(5.0f * u[0], 4.0f * u[1]), water_glow_phase1(9.0f * u[0], 0.1f, u[1]), 0.0f);
+           vec3(water_mean_transmittance1(5.0f * u[0], 4.0f * u[1]),
+                water_glow_phase1(9.0f * u[0], 0.1f, u[1]), 0.0f);
 }
 
 /* ---- water_place.h ---- */
@@ -301,12 +302,12 @@ FN vec3 case_water_crest(vec2 u)
     vec3 back = normal_from_slope(vec2(low[0], low[2]) * 0.4f * u[0]);
     vec2 level = normalize(vec2(low[0], low[2]));
     vec3 into = water_refracted(w, -V, back);
-    float way = water_crest_way(crest, level, into, 0.5f + u[0], 0.5f * u[1]);
-    return water_crest(w, light, crest, back, V, into, u[0]) + 0.1f + 0.1f * way +
+    float path = water_crest_path_length(crest, level, into, 0.5f + u[0], 0.5f * u[1]);
+    return water_crest(w, light, crest, back, V, into, u[0]) + 0.1f + 0.1f * path +
            water_crest_lit(w, crest, level, 0.3f * u[1], into, 1.4f * u[0]) +
            water_over_bed(w, light.downwelling, vec3(0.5f, 0.4f, 0.3f), vec3(0.4f, 0.4f, 0.2f), 9.0f * u[0],
                           0.1f * u[1], down) +
-           0.1f * water_way_to_bed(9.0f * u[0], 0.1f * u[1], down) +
+           0.1f * water_distance_to_bed(9.0f * u[0], 0.1f * u[1], down) +
            0.1f * water_bed_depth(9.0f * u[0], 0.1f, u[1]) + water_land(light, vec3(0.5f), N) +
            water_through(w, light.downwelling, vec3(3.0f), sunward, vec3(1.0f), 2.0f * u[0], -V,
                          4.0f * u[1]) +
@@ -398,9 +399,10 @@ FN vec3 case_water_legacy(vec2 u)
     WaterLight light = parity_water_light(w, u);
     vec3 down = -V;
     WaterMirror m = water_mirror(w, p, V, 0.9f, 0.95f, 0.1f * u[0], 0.3f * u[1]);
-    vec3 before = water_legacy_shade(int(u[0] * 1.99f), int(u[1] * 2.99f), down, p.N, WATER_LEGACY_SUN_DIRECTION, u[0],
-                               u[1], water_legacy_foam(u[0]), 1.33f, 0.3f);
-    return m.R + m.perceptual_roughness + water_legacy_display(before) + water_legacy_linear(before) + water_legacy_sky(V) +
-           water_legacy_highlight(1, p.N, V, light.L, 1.33f, 0.1f) +
+    vec3 before =
+        water_legacy_shade(int(u[0] * 1.99f), int(u[1] * 2.99f), down, p.N, WATER_LEGACY_SUN_DIRECTION, u[0],
+                           u[1], water_legacy_foam(u[0]), 1.33f, 0.3f);
+    return m.R + m.perceptual_roughness + water_legacy_display(before) + water_legacy_linear(before) +
+           water_legacy_sky(V) + water_legacy_highlight(1, p.N, V, light.L, 1.33f, 0.1f) +
            water_radiance(water_parts(w, p, light, m, vec3(1.0f, 2.0f, 3.0f), vec3(0.5f), light.downwelling));
 }

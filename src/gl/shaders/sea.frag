@@ -101,14 +101,14 @@ vec4 sea_beside(SeaHost host, vec3 d, ivec2 pixel)
 vec3 sea_model_over(SeaHost host, vec3 behind, vec3 d, float t, ivec2 pixel)
 {
     SeaModel m = sea_model_at(pixel, d / dot(d, forward.xyz));
-    float way = length(m.at);
-    if (m.color.w <= 0.0 || way > t)
+    float distance = length(m.at);
+    if (m.color.w <= 0.0 || distance > t)
         return behind;
     vec3 L = m.color.xyz / m.color.w;
 #ifdef IS_BELOW
-    L = sea_model_behind_water(host, L, sea_eye.x + m.at.y, max(-sea_eye.x, 0.0), d, way);
+    L = sea_model_behind_water(host, L, sea_eye.x + m.at.y, max(-sea_eye.x, 0.0), d, distance);
 #else
-    L = sea_through_air(L, d, way);
+    L = sea_through_air(L, d, distance);
 #endif
     return mix(behind, L, m.color.w);
 }

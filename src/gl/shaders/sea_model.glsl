@@ -69,21 +69,21 @@ SeaModel sea_model_towards(vec3 Q, float y)
 SeaModel sea_part_below(vec4 ball, vec3 P, vec3 down)
 {
     vec2 steps = sea_ball_steps(ball, P, down, SEA_MODEL_STEPS);
-    float way = -1.0;
+    float distance = -1.0;
     for (int i = 0; i <= SEA_MODEL_STEPS; i++) {
         vec3 Q = P + down * (steps.x + steps.y * float(i));
         SeaModel m = sea_model_towards(Q, P.y);
         float behind = length(Q) - length(m.at);
-        if (way < 0.0 && m.color.w > 0.0 && behind > 0.0 && behind < 1.5 * steps.y)
-            way = steps.x + steps.y * float(i);
+        if (distance < 0.0 && m.color.w > 0.0 && behind > 0.0 && behind < 1.5 * steps.y)
+            distance = steps.x + steps.y * float(i);
     }
     SeaModel found = SeaModel(vec4(0.0), vec3(0.0));
-    float first = way;
+    float first = distance;
     for (int i = 0; i < 3; i++) {
-        SeaModel m = sea_model_towards(P + down * max(way, 0.0), P.y);
+        SeaModel m = sea_model_towards(P + down * max(distance, 0.0), P.y);
         if (first >= 0.0 && m.color.w > 0.0) {
             found = m;
-            way = length(m.at - P);
+            distance = length(m.at - P);
         }
     }
     return found;
@@ -138,52 +138,52 @@ vec4 sea_cut_at(int cut, vec3 Q, out float far)
 }
 
 /* Premultiplied, of a part along the unit direction R from P: steps through its bounding sphere until the ray
- * is behind the image's depth, then to the exact distance, which is *way (m). Inside the sphere the first steps
+ * is behind the image's depth, then to the exact distance, which is *distance (m). Inside the sphere the first steps
  * are short, as floating models begin close to P. */
-vec4 sea_part_in_cut(vec4 sphere, int cut, vec3 P, vec3 R, int count, out float way)
+vec4 sea_part_in_cut(vec4 sphere, int cut, vec3 P, vec3 R, int count, out float distance)
 {
     vec2 ball = sea_ball_steps(sphere, P, R, 1);
     P.y += sea_cut_plane[cut].z;
     float far;
     float before = ball.x;
     float first = -1.0;
-    way = -1.0;
+    distance = -1.0;
     for (int i = 1; i <= count && ball.y > 0.0; i++) {
         float share = float(i) / float(count);
         float next = ball.x + ball.y * (ball.x > 0.0 ? share : share * share);
         vec3 Q = P + R * next;
         vec4 color = sea_cut_at(cut, Q, far);
         float behind = length(Q) - far;
-        if (way < 0.0 && color.w > 0.0 && behind > 0.0 && behind < 1.5 * (next - before)) {
-            way = next;
+        if (distance < 0.0 && color.w > 0.0 && behind > 0.0 && behind < 1.5 * (next - before)) {
+            distance = next;
             first = before;
         }
         before = next;
     }
-    bool is_met = way >= 0.0 && R.y * sea_cut_plane[cut].x > 0.0;
+    bool is_met = distance >= 0.0 && R.y * sea_cut_plane[cut].x > 0.0;
     vec4 color = vec4(0.0);
-    float last = way;
+    float last = distance;
     for (int i = 0; i < 3 && is_met; i++) {
-        vec3 Q = P + R * way;
+        vec3 Q = P + R * distance;
         vec4 here = sea_cut_at(cut, Q, far);
         if (here.w > 0.0) {
             color = here;
-            way = clamp(length(Q * (far / length(Q)) - P), first, last);
+            distance = clamp(length(Q * (far / length(Q)) - P), first, last);
         }
     }
     return color;
 }
 
 /* Of the nearest part. */
-vec4 sea_model_in_cut(int cut, vec3 P, vec3 R, int count, out float way)
+vec4 sea_model_in_cut(int cut, vec3 P, vec3 R, int count, out float distance)
 {
-    vec4 color = sea_part_in_cut(sea_model_balls[0], cut, P, R, count, way);
+    vec4 color = sea_part_in_cut(sea_model_balls[0], cut, P, R, count, distance);
     for (int i = 1; i < int(sea_model_middle.w); i++) {
         float next;
         vec4 c = sea_part_in_cut(sea_model_balls[i], cut, P, R, count, next);
-        if (c.w > 0.0 && (color.w <= 0.0 || next < way)) {
+        if (c.w > 0.0 && (color.w <= 0.0 || next < distance)) {
             color = c;
-            way = next;
+            distance = next;
         }
     }
     return color;

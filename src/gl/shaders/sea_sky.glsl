@@ -53,7 +53,7 @@ vec3 host_sky(SeaHost host, vec3 R, float perceptual_roughness)
 }
 
 /* Transmittance of the air over a distance at the height of the eye. */
-vec3 sea_clearness(float way_km)
+vec3 sea_clearness(float distance_km)
 {
     float edge = 0.5 / float(textureSize(u_sea_sky, 0).x);
     float x = way_km / (way_km + sea_sky_at.y);
