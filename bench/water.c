@@ -46,7 +46,7 @@ static WaterPoint point_of(const hit *h)
 static inline vec3 shade(const Water *w, const hit *h, float glint, vec3 below)
 {
     WaterPoint p = point_of(h);
-    WaterMirror m = water_mirror(*w, p, h->V, h->table[0], h->table[1], h->table[2], h->spread);
+    WaterSpecular m = water_specular(*w, p, h->V, h->table[0], h->table[1], h->table[2], h->spread);
     vec3 sun = water_sun(*w, p, light, h->V) * glint;
     return water_radiance(water_parts(*w, p, light, m, h->sky * m.R[1], sun, below)) + m.perceptual_roughness;
 }

@@ -7,7 +7,7 @@
  * absorbed and scattered there.
  *
  * Order of use. Once per image: water_downwelling(). At a point of the surface: sigma_towards() and
- * water_table_place() give the coordinates in the LUT of means, water_mirror() the lookup in the sky;
+ * water_table_place() give the coordinates in the LUT of means, water_specular() the lookup in the sky;
  * water_from_deep(), or water_from_bed() with the irradiance of water_interreflected(), gives the upwelling
  * radiance; water_parts() combines them, water_radiance() adds them up with foam on top. */
 #ifndef SHADE_WATER_H
@@ -89,20 +89,20 @@ FN vec3 water_refracted(Water w, vec3 d, vec3 N)
 }
 
 /* Values of the LUT of water_means.h, see integrate_water_means(), and the lookup in the sky. */
-STRUCT(WaterMirror)
+STRUCT(WaterSpecular)
 {
     float fresnel;              /* mean reflectance of the visible facets */
     float escape;               /* fraction of the reflected light that comes from the sky */
-    vec3 R;                     /* unit direction of the sky lookup; after water_mirror_passing() R.y >= 0 */
+    vec3 R;                     /* unit direction of the sky lookup; after water_specular_masked() R.y >= 0 */
     float perceptual_roughness; /* of its prefiltering */
     float deviation;            /* rad, standard deviation of elevations within it */
 };
 
 /* From the fresnel, escape, lift and spread of the LUT at water_table_place(N.V, sigma_towards(..)). */
-FN WaterMirror water_mirror(Water w, WaterPoint p, vec3 V, float fresnel, float escape, float lift,
-                            float spread)
+FN WaterSpecular water_specular(Water w, WaterPoint p, vec3 V, float fresnel, float escape, float lift,
+                                float spread)
 {
-    WaterMirror r;
+    WaterSpecular r;
     float NdotV = clamp(dot(p.N, V), 1e-4f, 1.0f);
     r.fresnel = min(fresnel * water_fresnel(w, NdotV), 1.0f);
     r.escape = escape;
@@ -116,11 +116,11 @@ FN WaterMirror water_mirror(Water w, WaterPoint p, vec3 V, float fresnel, float 
 /* Radiance (cd/m^2) of the sun reflected by the facets: F D G E / (4 N.V). */
 FN vec3 water_sun(Water w, WaterPoint p, WaterLight light, vec3 V)
 {
-    float mirrored = glitter(w.normals, w.masking, p.covariance, p.N, light.L, V, 1.0f);
-    if (mirrored <= 0.0f)
+    float reflected = glitter(w.normals, w.masking, p.covariance, p.N, light.L, V, 1.0f);
+    if (reflected <= 0.0f)
         return vec3(0.0f);
     float VdotH = dot(V, normalize(V + light.L));
-    return light.sun_irradiance * (water_fresnel(w, clamp(VdotH, 0.0f, 1.0f)) * mirrored);
+    return light.sun_irradiance * (water_fresnel(w, clamp(VdotH, 0.0f, 1.0f)) * reflected);
 }
 
 /* ---- light in the water ---- */
@@ -266,16 +266,16 @@ FN vec3 water_single_scattering(Water w, vec3 beam, float cos_angle, float mu_s,
 /* Reflection and refraction of the surface seen from below: d unit, up to it; N its normal, up. */
 STRUCT(WaterWindow)
 {
-    float fresnel; /* reflectance, 1 outside of Snell's window */
-    vec3 mirrored; /* unit direction of the reflected water */
-    vec3 outside;  /* unit direction of the refracted sky; 0 if there is none */
-    float gain;    /* of transmitted radiance: n^2 (1 - F) */
+    float fresnel;  /* reflectance, 1 outside of Snell's window */
+    vec3 reflected; /* unit direction of the reflected water */
+    vec3 outside;   /* unit direction of the refracted sky; 0 if there is none */
+    float gain;     /* of transmitted radiance: n^2 (1 - F) */
 };
 FN WaterWindow water_window(Water w, vec3 d, vec3 N)
 {
     WaterWindow r;
     r.fresnel = water_fresnel_inside(w, clamp(dot(d, N), 0.0f, 1.0f));
-    r.mirrored = reflect(d, N);
+    r.reflected = reflect(d, N);
     r.outside = refract(d, -N, w.ior);
     r.gain = w.ior * w.ior * (1.0f - r.fresnel);
     return r;
@@ -322,7 +322,7 @@ FN vec3 water_inscatter(Water w, vec3 downwelling, float z, vec3 d, float x)
  *   t e^-t / (1 - e^-t)
  * was scattered once, and the rest m times, which leaves the mean of t / (1 - e^-t). The convolution of
  * Henyey-Greenstein functions of g is one of g^m (their Legendre moments are g^l). */
-FN float water_glow_phase1(float t, float pure_share, float cos_angle)
+FN float water_inscatter_phase1(float t, float pure_share, float cos_angle)
 {
     float x = max(t, 1e-3f);
     float out_of_beam = 1.0f - exp(-x);
@@ -340,7 +340,7 @@ FN float water_glow_phase1(float t, float pure_share, float cos_angle)
  * Within 4 % of a photon count up to 1.1 scatterings, 11 % up to 2.3; 7 to 35 degrees from the sun 27 % up to
  * 4.6, where single scattering alone has 0.1 to 0.01. Sideways and backward scattering belong to the diffuse
  * light. sunward: unit direction to the sun below the surface; beam: irradiance (lx) across it just below. */
-FN vec3 water_sun_glow(Water w, vec3 beam, vec3 sunward, float z, vec3 d, float x)
+FN vec3 water_sun_inscatter(Water w, vec3 beam, vec3 sunward, float z, vec3 d, float x)
 {
     float forward = dot(sunward, d);
     if (forward <= 0.0f) /* as for all reflections by the surface: most rays of an eye below */
@@ -351,8 +351,8 @@ FN vec3 water_sun_glow(Water w, vec3 beam, vec3 sunward, float z, vec3 d, float 
     vec3 t = w.scattering * (z / mu);
     vec3 glow = vec3(0.0f);
     for (int k = 0; k < 3; ++k) {
-        float more = water_glow_phase1(t[k], w.pure_share[k], forward) -
-                     water_glow_phase1(t[k], w.pure_share[k], 0.0f);
+        float more = water_inscatter_phase1(t[k], w.pure_share[k], forward) -
+                     water_inscatter_phase1(t[k], w.pure_share[k], 0.0f);
         glow[k] = max(more, 0.0f) * water_mean_transmittance1(first[k], last[k]);
     }
     return beam * w.scattering * glow * x;
@@ -407,7 +407,7 @@ FN vec3 water_foam_below(Water w, WaterLight light, vec3 upwelling)
  * the surface. Facets reflected in other facets show the sky again, or light from below:
  *   F e L_sky + (1 - F) L_below / n^2 + F (1 - e) (F L_sky + (1 - F) L_below / n^2) + L_sun
  * In a closed box, L_below = n^2 L_sky, the sum is L_sky. */
-FN WaterParts water_parts(Water w, WaterPoint p, WaterLight light, WaterMirror m, vec3 sky, vec3 sun,
+FN WaterParts water_parts(Water w, WaterPoint p, WaterLight light, WaterSpecular m, vec3 sky, vec3 sun,
                           vec3 below)
 {
     vec3 out_of_water = below * (1.0f / (w.ior * w.ior));

@@ -53,7 +53,7 @@ FN float water_bed_footprint(Water w, vec3 N, vec3 V, vec3 down, vec3 C, float w
 }
 
 /* Widening per m of a ray reflected by a surface of slopes C, whose tilts it doubles. A box's width. */
-FN float water_mirrored_spread(vec3 C)
+FN float water_reflection_spread(vec3 C)
 {
     return 2.0f * sqrt(6.0f * max(C[0] + C[1], 0.0f));
 }

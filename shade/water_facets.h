@@ -71,7 +71,7 @@ FN bool is_wide_box(vec3 middle, vec3 D)
  * d; both unit:
  *   n d - D
  * If no facet refracts so far it is that of the rim, where D is nearest. */
-FN vec3 facet_that_bends(vec3 d, vec3 D, float ior)
+FN vec3 facet_that_refracts(vec3 d, vec3 D, float ior)
 {
     float least = 1.0f / ior;
     float c = dot(d, D);
@@ -95,7 +95,7 @@ FN FacetRange facets_of_corners(FacetRange all, vec3 N, vec3 V, vec3 middle, vec
         is_wide = is_wide || is_wide_box(middle, D);
         vec3 m = vec3(0.0f);
         if (ior > 0.0f)
-            m = facet_that_bends(V, D, ior);
+            m = facet_that_refracts(V, D, ior);
         else
             m = V + normalize(vec3(D[0], max(D[1], -0.5f * V[1]), D[2])); /* seen edge-on, the lowest */
         vec2 z = facet_place(all, N, vec3(m[0], max(m[1], 1e-4f), m[2]));
@@ -108,7 +108,7 @@ FN FacetRange facets_of_corners(FacetRange all, vec3 N, vec3 V, vec3 middle, vec
 /* Range of facets that may reflect a box; low, high: its corners from the point of the surface. Downward
  * reflections meet another wave and go up again: they show the box upside down as well. Conservative for wide
  * boxes. An eye in the water looking along V sees reflections of the box -high to -low. */
-FN FacetRange facets_that_mirror(vec3 C, vec3 N, vec3 V, vec3 low, vec3 high)
+FN FacetRange facets_that_reflect(vec3 C, vec3 N, vec3 V, vec3 low, vec3 high)
 {
     vec3 middle = normalize(0.5f * (low + high) + vec3(0.0f, 1e-6f, 0.0f));
     vec3 bottom = vec3(low[0], min(low[1], -high[1]), low[2]);
@@ -117,7 +117,7 @@ FN FacetRange facets_that_mirror(vec3 C, vec3 N, vec3 V, vec3 low, vec3 high)
 
 /* Range of facets, for an eye in the water looking along d (unit, up), that may show a box through Snell's
  * window; low, high: its corners from the point of the surface, none below it. */
-FN FacetRange facets_that_bend(vec3 C, vec3 N, vec3 d, vec3 low, vec3 high, float ior)
+FN FacetRange facets_that_refract(vec3 C, vec3 N, vec3 d, vec3 low, vec3 high, float ior)
 {
     vec3 middle = normalize(0.5f * (low + high) + vec3(0.0f, 1e-6f, 0.0f));
     return facets_of_corners(facets_seen(C, N, d), N, d, middle, low, high, ior);
@@ -273,7 +273,7 @@ FN vec3 window_light(Water w, WaterWindow window, vec3 C, vec3 N, vec3 sky, vec3
 {
     float F = water_fresnel(w, water_seen_cosine(window.outside, C));
     vec3 others = mix(upwards * (1.0f / (w.ior * w.ior)), sky, F);
-    return mix(others, sky, water_passing(C, N, window.outside)) * window.gain;
+    return mix(others, sky, water_visibility(C, N, window.outside)) * window.gain;
 }
 
 #endif

@@ -89,7 +89,7 @@ static void test_share(void **state)
     tally t = {0, 0};
     for (uint k = 0; k < 60u; k++) {
         scene s = scene_of(k);
-        expect_range(&s, facets_that_mirror(s.C, s.N, s.V, s.low, s.high), shows, k, &t);
+        expect_range(&s, facets_that_reflect(s.C, s.N, s.V, s.low, s.high), shows, k, &t);
     }
     if (!(t.seen >= 12 && t.narrow > 25))
         fail_msg("%d are seen, %d look narrowly", t.seen, t.narrow);
@@ -106,7 +106,7 @@ static void test_bent(void **state)
         s.V = vec3(-cos_e * 0.3f, sin_e, -cos_e * sqrt(1.0f - 0.09f));
         s.low[1] = 0.0f;
         s.high[1] = 0.5f + 6.0f * sobol_scrambled(k, 3u)[1];
-        expect_range(&s, facets_that_bend(s.C, s.N, s.V, s.low, s.high, IOR), bends, k, &t);
+        expect_range(&s, facets_that_refract(s.C, s.N, s.V, s.low, s.high, IOR), bends, k, &t);
     }
     if (!(t.seen >= 24 && t.narrow > 40))
         fail_msg("%d are seen, %d look narrowly", t.seen, t.narrow);
@@ -126,8 +126,8 @@ static void test_all(void **state)
     }
     const vec3 still = vec3(SLOPE_VARIANCE_MIN, SLOPE_VARIANCE_MIN, 0.0f), up = vec3(0.0f, 1.0f, 0.0f);
     vec3 V = normalize(vec3(0.0f, 1.0f, 1.0f));
-    FacetRange in_it = facets_that_mirror(still, up, V, vec3(-1.0f, 2.0f, -4.0f), vec3(1.0f, 4.0f, -2.0f));
-    FacetRange beside = facets_that_mirror(still, up, V, vec3(3.0f, 2.0f, -4.0f), vec3(4.0f, 4.0f, -2.0f));
+    FacetRange in_it = facets_that_reflect(still, up, V, vec3(-1.0f, 2.0f, -4.0f), vec3(1.0f, 4.0f, -2.0f));
+    FacetRange beside = facets_that_reflect(still, up, V, vec3(3.0f, 2.0f, -4.0f), vec3(4.0f, 4.0f, -2.0f));
     expect_near((double)facets_share(in_it), 1.0, 1e-3, "in the mirror image");
     expect_near((double)facets_share(beside), 0.0, 1e-6, "beside it");
 }

@@ -98,7 +98,7 @@ STRUCT(WaterStyle)
 /* ---- an intermediate stage ---- */
 
 /* Direction of the sky lookup; not below the horizon. */
-FN vec3 painted_mirror(vec3 N, vec3 V)
+FN vec3 painted_reflection(vec3 N, vec3 V)
 {
     vec3 R = reflect(-V, N);
     return normalize(vec3(R[0], max(R[1], 0.0f), R[2]));

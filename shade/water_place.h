@@ -86,7 +86,7 @@ FN vec3 water_tilted(vec3 N, vec3 C, vec3 V)
 
 /* Visibility along X from a point of normal N past waves of the slopes C, which include N; Gaussian slopes
  * around the level. Masking accounts for the waves not in N: the product is the visibility past all. */
-FN float water_passing(vec3 C, vec3 N, vec3 X)
+FN float water_visibility(vec3 C, vec3 N, vec3 X)
 {
     bool is_up = X[1] > 0.0f && dot(N, X) > 0.0f;
     return sel(is_up, slopes_seen(C, vec3(0.0f, 1.0f, 0.0f), N, X), 0.0f);
@@ -96,15 +96,15 @@ FN float water_passing(vec3 C, vec3 N, vec3 X)
  * distributed around that of R: those below the horizon hit waves, and the rest, whose mean is higher by the
  * deviation times phi / Phi, is hidden by them accordingly. Phi is approximated by 1 / (1 + exp(-1.702 z)),
  * within 0.01 (Haley 1952), and phi by its derivative. */
-FN WaterMirror water_mirror_passing(WaterMirror m, vec3 C, vec3 N)
+FN WaterSpecular water_specular_masked(WaterSpecular m, vec3 C, vec3 N)
 {
     float level = max(sqrt(m.R[0] * m.R[0] + m.R[2] * m.R[2]), 1e-6f);
     vec3 up = vec3(-m.R[0] * m.R[1] / level, level, -m.R[2] * m.R[1] / level);
     float above = 1.0f / (1.0f + exp(-1.702f * max(m.R[1] / max(m.deviation, 1e-4f), -40.0f)));
     vec3 R = m.R + up * (1.702f * m.deviation * (1.0f - above));
-    WaterMirror r = m;
+    WaterSpecular r = m;
     r.R = normalize(vec3(R[0], max(R[1], 0.0f), R[2]));
-    r.escape = m.escape * above * water_passing(C, N, r.R);
+    r.escape = m.escape * above * water_visibility(C, N, r.R);
     return r;
 }
 
@@ -215,7 +215,8 @@ FN vec3 water_land(WaterLight light, vec3 albedo, vec3 N)
 FN vec3 water_through(Water w, vec3 downwelling, vec3 beam, vec3 sunward, vec3 behind, float z, vec3 d,
                       float x)
 {
-    vec3 inscatter = water_inscatter(w, downwelling, z, d, x) + water_sun_glow(w, beam, sunward, z, d, x);
+    vec3 inscatter =
+        water_inscatter(w, downwelling, z, d, x) + water_sun_inscatter(w, beam, sunward, z, d, x);
     return behind * water_transmittance(water_beam(w), x) + inscatter;
 }
 

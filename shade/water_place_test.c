@@ -136,10 +136,10 @@ static void test_passing(void **state)
 {
     (void)state;
     vec3 C = vec3(0.02f, 0.02f, 0.0f), up = vec3(0.0f, 1.0f, 0.0f);
-    expect_near((double)water_passing(C, up, up), 1.0, 1e-6, "straight up");
-    assert_true(water_passing(C, up, vec3(1.0f, -0.01f, 0.0f)) == 0.0f);
-    assert_true(water_passing(C, up, normalize(vec3(1.0f, 0.02f, 0.0f))) < 0.1f);
-    assert_true(water_passing(C, normal_from_slope(vec2(0.3f, 0.0f)), normalize(vec3(1.0f, 0.2f, 0.0f))) ==
+    expect_near((double)water_visibility(C, up, up), 1.0, 1e-6, "straight up");
+    assert_true(water_visibility(C, up, vec3(1.0f, -0.01f, 0.0f)) == 0.0f);
+    assert_true(water_visibility(C, up, normalize(vec3(1.0f, 0.02f, 0.0f))) < 0.1f);
+    assert_true(water_visibility(C, normal_from_slope(vec2(0.3f, 0.0f)), normalize(vec3(1.0f, 0.2f, 0.0f))) ==
                 0.0f); /* behind the wave itself */
 }
 
@@ -150,17 +150,17 @@ static void test_mirror_passing(void **state)
 {
     (void)state;
     vec3 C = vec3(0.005f, 0.005f, 0.0f), up = vec3(0.0f, 1.0f, 0.0f), calm = vec3(1e-6f, 1e-6f, 0.0f);
-    WaterMirror m;
+    WaterSpecular m;
     m.fresnel = 0.5f;
     m.escape = 0.8f;
     m.perceptual_roughness = 0.2f;
     m.deviation = 0.15f;
     m.R = normalize(vec3(0.3f, 1.0f, 0.2f));
-    WaterMirror high = water_mirror_passing(m, C, up);
+    WaterSpecular high = water_specular_masked(m, C, up);
     expect_near((double)high.escape, 0.8, 1e-4, "high above");
     expect_near((double)dot(high.R, m.R), 1.0, 1e-6, "high above, direction");
     m.R = vec3(1.0f, 0.0f, 0.0f);
-    WaterMirror half = water_mirror_passing(m, calm, up);
+    WaterSpecular half = water_specular_masked(m, calm, up);
     expect_near((double)half.escape, 0.4, 1e-5, "on the horizon");
     expect_near((double)half.R[1], 0.15 * 0.7979, 0.15 * 0.07, "half of a normal distribution");
     for (double e = -0.1; e < 0.5; e += 0.1) {
@@ -168,13 +168,13 @@ static void test_mirror_passing(void **state)
         for (int i = 0; i < 1000; ++i) {
             double z = 0.01 * (i - 499.5), w = exp(-0.5 * z * z), at = e + 0.15 * z;
             all += w;
-            passed += w * (double)water_passing(C, up, vec3((float)cos(at), (float)sin(at), 0.0f));
+            passed += w * (double)water_visibility(C, up, vec3((float)cos(at), (float)sin(at), 0.0f));
         }
         m.R = vec3((float)cos(e), (float)sin(e), 0.0f);
-        expect_near((double)water_mirror_passing(m, C, up).escape, 0.8 * passed / all, 0.1, "at %g", e);
+        expect_near((double)water_specular_masked(m, C, up).escape, 0.8 * passed / all, 0.1, "at %g", e);
     }
     m.R = vec3(0.8660254f, -0.5f, 0.0f);
-    WaterMirror below = water_mirror_passing(m, C, up);
+    WaterSpecular below = water_specular_masked(m, C, up);
     assert_true(below.escape < 0.01f && below.R[1] >= 0.0f);
     expect_near((double)length(below.R), 1.0, 1e-6, "unit");
 }

@@ -57,11 +57,11 @@ static WaterLight light_of(vec3 L, float sun, float sky, Water w)
 }
 
 /* The LUT values read by the renderer. */
-static WaterMirror mirror_of(Water w, WaterPoint p, vec3 V)
+static WaterSpecular mirror_of(Water w, WaterPoint p, vec3 V)
 {
     WaterMeans m = integrate_water_means(w.normals, w.masking, dot(p.N, V),
                                          sigma_towards(p.covariance, p.N, V), w.ior, 48);
-    return water_mirror(w, p, V, m.fresnel, m.escape, m.lift, m.spread);
+    return water_specular(w, p, V, m.fresnel, m.escape, m.lift, m.spread);
 }
 
 /* ---- the interface ---- */
@@ -170,7 +170,7 @@ static void test_closed_box(void **state)
         for (double a = 0.0; a < 90.0; a += 8.9) {
             WaterPoint p = point((float)(0.5 * mss[k]));
             vec3 V = towards(a, 25.0);
-            WaterMirror m = mirror_of(w, p, V);
+            WaterSpecular m = mirror_of(w, p, V);
             vec3 seen =
                 water_radiance(water_parts(w, p, night, m, vec3(1.0f), vec3(0.0f), vec3(1.34f * 1.34f)));
             expect_near((double)seen[1], 1.0, 2e-6, "closed box, mss %g, %g degrees", mss[k], a);
@@ -197,7 +197,7 @@ static void test_flat(void **state)
     WaterPoint p = point(SLOPE_VARIANCE_MIN);
     for (double a = 2.0; a < 88.0; a += 7.0) {
         vec3 V = towards(a, 40.0);
-        WaterMirror m = mirror_of(w, p, V);
+        WaterSpecular m = mirror_of(w, p, V);
         double F = (double)F_dielectric(V[1], 1.333f);
         expect_near((double)dot(m.R, reflect(-V, UP)), 1.0, 1e-6, "mirror at %g degrees", a);
         assert_true(m.perceptual_roughness < 0.02f && m.escape > 0.9999f);
@@ -465,13 +465,14 @@ static void test_below(void **state)
     vec3 beam = water_beam_below(w, day), sunward = -water_refracted(w, -day.L, UP);
     expect_relative(beam[1] * sunward[1], 80000.0f * (1.0f - day.sun_fresnel) * day.L[1], 1e-5,
                     "flux through the surface");
-    vec3 near = water_sun_glow(w, beam, sunward, 5.0f, normalize(sunward + vec3(0.0f, 0.1f, 0.0f)), 5.0f);
-    vec3 far = water_sun_glow(w, beam, sunward, 5.0f, normalize(sunward + vec3(0.0f, 0.0f, 1.0f)), 5.0f);
+    vec3 near =
+        water_sun_inscatter(w, beam, sunward, 5.0f, normalize(sunward + vec3(0.0f, 0.1f, 0.0f)), 5.0f);
+    vec3 far = water_sun_inscatter(w, beam, sunward, 5.0f, normalize(sunward + vec3(0.0f, 0.0f, 1.0f)), 5.0f);
     assert_true(near[1] > 5.0f * far[1] && far[1] > 0.0f);
-    assert_true(water_sun_glow(w, beam, sunward, 5.0f, -sunward, 5.0f)[1] == 0.0f);
+    assert_true(water_sun_inscatter(w, beam, sunward, 5.0f, -sunward, 5.0f)[1] == 0.0f);
     /* and fades to the side: no edge */
     vec3 side = normalize(vec3(sunward[1], -sunward[0], 0.0f));
-    vec3 aside = water_sun_glow(w, beam, sunward, 5.0f, normalize(side + sunward * 1e-3f), 5.0f);
+    vec3 aside = water_sun_inscatter(w, beam, sunward, 5.0f, normalize(side + sunward * 1e-3f), 5.0f);
     assert_true(aside[1] < 1e-3f * near[1]);
 }
 
@@ -483,7 +484,7 @@ static double ring_mean(Water w, float z, double from_deg, double to_deg)
     for (int i = 0; i < STEPS; ++i) {
         float c = (float)(low + (high - low) * (i + 0.5) / STEPS);
         vec3 d = vec3(sqrt(1.0f - c * c), c, 0.0f);
-        sum += (double)water_sun_glow(w, vec3(1.0f), UP, z, d, z / c)[1];
+        sum += (double)water_sun_inscatter(w, vec3(1.0f), UP, z, d, z / c)[1];
     }
     return sum / STEPS;
 }
@@ -512,7 +513,7 @@ static void test_glow(void **state)
         enum { STEPS = 4000 };
         double phase = 0.0, t = (double)(w.scattering[1] * z);
         for (int i = 0; i < STEPS; ++i)
-            phase += (double)water_glow_phase1((float)t, 0.0f, (float)(-1.0 + 2.0 * (i + 0.5) / STEPS));
+            phase += (double)water_inscatter_phase1((float)t, 0.0f, (float)(-1.0 + 2.0 * (i + 0.5) / STEPS));
         expect_relative(phase * 4.0 * PI_DOUBLE / STEPS, 1.0, 0.02, "all directions at %g m", (double)z);
         double through =
             (double)(water_transmittance(water_beam(w), z)[1] +
@@ -525,8 +526,8 @@ static void test_glow(void **state)
                         (double)z);
     }
     w.absorption = vec3(3.0f); /* in murky water far below everything is absorbed, and no number fails */
-    assert_true(water_sun_glow(w, vec3(1e5f), UP, 500.0f, UP, 500.0f)[1] == 0.0f);
-    assert_true(is_finite3(water_sun_glow(w, vec3(1e5f), UP, 0.0f, vec3(1.0f, 0.0f, 0.0f), 1e4f)));
+    assert_true(water_sun_inscatter(w, vec3(1e5f), UP, 500.0f, UP, 500.0f)[1] == 0.0f);
+    assert_true(is_finite3(water_sun_inscatter(w, vec3(1e5f), UP, 0.0f, vec3(1.0f, 0.0f, 0.0f), 1e4f)));
 }
 
 /* Foam is opaque: at 1 only foam is visible, as bright as its albedo. */
@@ -536,7 +537,7 @@ static void test_foam(void **state)
     Water w = ocean(1.34f);
     WaterLight day = light_of(UP, 60000.0f, 10000.0f, w);
     WaterPoint p = point(0.01f);
-    WaterMirror m = mirror_of(w, p, towards(50.0, 0.0));
+    WaterSpecular m = mirror_of(w, p, towards(50.0, 0.0));
     vec3 clear = water_radiance(water_parts(w, p, day, m, vec3(5000.0f), vec3(100.0f), vec3(900.0f)));
     p.foam = 1.0f;
     vec3 covered = water_radiance(water_parts(w, p, day, m, vec3(5000.0f), vec3(100.0f), vec3(900.0f)));

@@ -186,7 +186,7 @@ FN SeaFound sea_add_transmission(SeaHost host, SeaPlace p, vec3 d, Facet f, bool
                                  SeaFound found)
 {
     WaterWindow window = water_window(host_water(host), d, f.m);
-    float passing = water_passing(p.slopes.resolved, p.point.N, window.outside);
+    float passing = water_visibility(p.slopes.resolved, p.point.N, window.outside);
     if (f.weight * passing <= 0.0f || window.fresnel >= 1.0f)
         return found;
     FacetHit hit = host_model_hit(host, p, window.outside, true, is_alone);
@@ -240,7 +240,7 @@ FN SeaFound sea_find_above(SeaHost host, SeaPlace p)
 {
     vec3 N = p.point.N;
     FacetRange r =
-        facets_that_mirror(p.point.covariance, N, p.V, host_model_low(host, p), host_model_high(host, p));
+        facets_that_reflect(p.point.covariance, N, p.V, host_model_low(host, p), host_model_high(host, p));
     return sea_sample_facets(host, p, -p.V, r, N, N, false, 0.0f, sea_found_nothing(host, p));
 }
 
@@ -256,12 +256,12 @@ FN SeaFound sea_find_below(SeaHost host, SeaPlace p, vec3 d)
     float roughness = window_roughness(facets_seen(C, p.point.N, d), C);
     SeaFound found = sea_found_nothing(host, p);
     if (low[1] < 0.0f) {
-        FacetRange r = facets_that_mirror(C, N, d, -vec3(high[0], min(high[1], 0.0f), high[2]), -low);
+        FacetRange r = facets_that_reflect(C, N, d, -vec3(high[0], min(high[1], 0.0f), high[2]), -low);
         found = sea_sample_facets(host, p, d, r, N, smooth_N, false, 0.0f, found);
     }
     if (high[1] > 0.0f) {
         FacetRange r =
-            facets_that_bend(C, N, d, vec3(low[0], max(low[1], 0.0f), low[2]), high, host_water(host).ior);
+            facets_that_refract(C, N, d, vec3(low[0], max(low[1], 0.0f), low[2]), high, host_water(host).ior);
         found = sea_sample_facets(host, p, d, r, N, smooth_N, true, roughness, found);
     }
     return found;
@@ -305,13 +305,13 @@ FN vec3 sea_sun_reflected(SeaHost host, SeaPlace p, WaterLight light)
     vec3 sun = water_sun(host_water(host), p.point, light, p.V);
     if (!(sun[1] > 0.0f))
         return vec3(0.0f);
-    return sun * (water_passing(p.slopes.resolved, p.point.N, light.L) * sea_glints(host, p));
+    return sun * (water_visibility(p.slopes.resolved, p.point.N, light.L) * sea_glints(host, p));
 }
 
 /* ---- from above ---- */
 
 /* The sky's reflection, its mean over the microfacets. */
-FN WaterMirror sea_sky_mirror(SeaHost host, SeaPlace p)
+FN WaterSpecular sea_specular(SeaHost host, SeaPlace p)
 {
     WaterMeans means;
     means.fresnel = 1.0f; /* of flat water; the LUT's first row has slopes of 1e-4 */
@@ -323,9 +323,9 @@ FN WaterMirror sea_sky_mirror(SeaHost host, SeaPlace p)
     float sigma = sigma_towards(p.point.covariance - least, p.point.N, p.V);
     if (sigma > 1e-6f)
         means = host_means(host, NdotV, sigma);
-    WaterMirror m =
-        water_mirror(host_water(host), p.point, p.V, means.fresnel, means.escape, means.lift, means.spread);
-    return water_mirror_passing(m, p.slopes.resolved, p.point.N);
+    WaterSpecular m =
+        water_specular(host_water(host), p.point, p.V, means.fresnel, means.escape, means.lift, means.spread);
+    return water_specular_masked(m, p.slopes.resolved, p.point.N);
 }
 
 /* Radiance (cd/m^2) towards an eye above the water: reflected sky, sun with its glints, light from below; then foam
@@ -334,7 +334,7 @@ FN vec3 sea_shade(SeaHost host, SeaPlace p)
 {
     Water w = host_water(host);
     WaterLight light = host_light(host);
-    WaterMirror m = sea_sky_mirror(host, p);
+    WaterSpecular m = sea_specular(host, p);
     vec3 sky = host_sky(host, m.R, m.perceptual_roughness);
     vec3 below = vec3(0.0f);
     float opacity = 0.0f;
@@ -372,7 +372,7 @@ FN vec3 sea_reflected_below(SeaHost host, SeaPlace p, vec3 d, vec3 m)
     if (R[1] > -1e-3f)
         R = normalize(vec3(R[0], -1e-3f, R[2]));
     return sea_seen_through_water(host, host_sunk(host_position(p)), R, p.footprint_m,
-                                  water_mirrored_spread(p.point.covariance));
+                                  water_reflection_spread(p.point.covariance));
 }
 
 /* upwards: upward radiance below the surface. Snell's window has an edge, so each microfacet has its own sky;
@@ -389,7 +389,7 @@ FN SeaMicrofacets sea_microfacets_below(SeaHost host, SeaPlace p, vec3 d, vec3 u
     L.window = vec3(0.0f);
     L.fresnel = 0.0f;
     L.reflected = vec3(0.0f);
-    vec3 mirrors = vec3(0.0f);
+    vec3 reflecting = vec3(0.0f);
     float share = 0.0f;
     int k = 0;
     do {
@@ -397,7 +397,7 @@ FN SeaMicrofacets sea_microfacets_below(SeaHost host, SeaPlace p, vec3 d, vec3 u
         WaterWindow window = water_window(w, d, f.m);
         share += f.weight;
         L.fresnel += f.weight * window.fresnel;
-        mirrors += f.m * (f.weight * window.fresnel);
+        reflecting += f.m * (f.weight * window.fresnel);
         if (f.weight > 0.0f && window.fresnel < 1.0f) {
             vec3 sky = host_sky(host, window.outside, roughness);
             L.window += window_light(w, window, p.slopes.resolved, N, sky, upwards) * f.weight;
@@ -405,7 +405,7 @@ FN SeaMicrofacets sea_microfacets_below(SeaHost host, SeaPlace p, vec3 d, vec3 u
         ++k;
     } while (k < WINDOW_FACETS && !is_window_sharp(all));
     if (L.fresnel > 0.0f)
-        L.reflected = sea_reflected_below(host, p, d, normalize(mirrors));
+        L.reflected = sea_reflected_below(host, p, d, normalize(reflecting));
     L.window *= 1.0f / share;
     L.fresnel *= 1.0f / share;
     return L;
@@ -430,7 +430,8 @@ FN vec3 sea_shade_below(SeaHost host, SeaPlace p, vec3 d, float x, float depth)
     vec3 upwelling = sea_upwelling(host, p);
     SeaMicrofacets facets = sea_microfacets_below(host, p, d, upwelling * INV_PI);
     vec3 L = facets.window + facets.reflected * facets.fresnel;
-    vec3 sharp = water_sun_below(w, p.point, light, d) * water_passing(p.slopes.resolved, p.point.N, light.L);
+    vec3 sharp =
+        water_sun_below(w, p.point, light, d) * water_visibility(p.slopes.resolved, p.point.N, light.L);
     if (host_has_model(host)) {
         SeaFound found = sea_find_below(host, p, d);
         /* both shares are random */
@@ -466,7 +467,7 @@ FN vec3 sea_legacy(SeaHost host, SeaPlace p, vec3 d)
 FN vec3 sea_painted(SeaHost host, SeaPlace p)
 {
     float perceptual_roughness = host_style(host).perceptual_roughness;
-    vec3 sky = host_sky(host, painted_mirror(p.point.N, p.V), perceptual_roughness);
+    vec3 sky = host_sky(host, painted_reflection(p.point.N, p.V), perceptual_roughness);
     return painted_water(host_light(host), p.point.N, p.V, host_water(host).ior, perceptual_roughness, sky);
 }
 

@@ -272,7 +272,7 @@ static vec3 emission(const void *self, vec3 P, vec3 D, float distance_m, bool is
         return diffuse * water_deep_reflectance(w);
     if (!path->is_below && D[1] < 0.0f)
         diffuse *= (water_diffuse(w) - water_K_d(w) * D[1]) / max(water_diffuse(w) + water_K_d(w), 1e-9f);
-    return diffuse + water_sun_glow(w, path->beam, path->sunward, z, D, x);
+    return diffuse + water_sun_inscatter(w, path->beam, path->sunward, z, D, x);
 }
 
 /* Points of a plane across sunward, at a distance of 1, by a normal distribution. */

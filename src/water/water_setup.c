@@ -95,7 +95,7 @@ static vec3 surroundings(const water_setup *s, vec3 d)
     point.covariance = water_slopes_of(&s->sea->slopes.total);
     point.foam = 0.0f;
     water_table_at(&s->table, mu, water_sigma_of(point.covariance), means);
-    WaterMirror m = water_mirror(s->water, point, -d, means[0], means[1], means[2], means[3]);
+    WaterSpecular m = water_specular(s->water, point, -d, means[0], means[1], means[2], means[3]);
     vec3 sky = water_sky_reflected(&s->sky, m.R, m.perceptual_roughness);
     vec3 below = water_from_still(s, s->sea->desc.bed.depth_m, water_refracted(s->water, d, point.N));
     vec3 L = mix(below * (1.0f / (s->water.ior * s->water.ior)), sky, m.fresnel);

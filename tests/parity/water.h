@@ -223,13 +223,13 @@ FN vec3 case_snells_window(vec2 u)
     vec3 down = -V;
     vec3 d = normalize(vec3(u[0] - 0.5f, 1.0f, u[1] - 0.3f));
     WaterWindow window = water_window(w, d, p.N);
-    return window.mirrored + window.outside * 0.1f + vec3(2.0f + window.fresnel, 2.0f + window.gain, 2.0f) +
+    return window.reflected + window.outside * 0.1f + vec3(2.0f + window.fresnel, 2.0f + window.gain, 2.0f) +
            water_inscatter(w, light.downwelling, 3.0f, down, 20.0f * u[1]) +
            water_mean_transmittance(vec3(0.0f), down * u[0]) +
-           water_sun_glow(w, water_beam_below(w, light), normalize(vec3(0.3f, 1.0f, 0.1f)), 2.0f, d,
-                          10.0f * u[0]) +
+           water_sun_inscatter(w, water_beam_below(w, light), normalize(vec3(0.3f, 1.0f, 0.1f)), 2.0f, d,
+                               10.0f * u[0]) +
            vec3(water_mean_transmittance1(5.0f * u[0], 4.0f * u[1]),
-                water_glow_phase1(9.0f * u[0], 0.1f, u[1]), 0.0f);
+                water_inscatter_phase1(9.0f * u[0], 0.1f, u[1]), 0.0f);
 }
 
 /* ---- water_place.h ---- */
@@ -272,7 +272,7 @@ FN vec3 case_water_foam_cover(vec2 u)
     vec3 C = parity_slopes(u);
     vec3 D = vec3(0.3f * u[0], -0.2f * u[1], 0.1f);
     vec3 N = water_faced(wave_normal(vec2(0.4f * u[1], -0.3f), D), V);
-    WaterMirror m;
+    WaterSpecular m;
     m.fresnel = 0.5f;
     m.escape = 0.8f;
     m.R = reflect(-V, N);
@@ -281,8 +281,8 @@ FN vec3 case_water_foam_cover(vec2 u)
     return vec3(1.0f + foam_share(0.6f * u[0] - 0.1f, 0.01f + 0.05f * u[1], 0.4f),
                 2.0f * water_foam_cover(0.5f * u[1], u[0]) + normal_below(3.0f * u[0] - 1.5f) +
                     foam_lace(0.05f + 0.9f * u[0], u[1], 0.3f),
-                water_passing(C, N, light.L) + wave_jacobian(D)) +
-           water_mirror_passing(m, C, N).R * water_mirror_passing(m, C, N).escape;
+                water_visibility(C, N, light.L) + wave_jacobian(D)) +
+           water_specular_masked(m, C, N).R * water_specular_masked(m, C, N).escape;
 }
 
 /* ---- water_crest.h ---- */
@@ -315,7 +315,7 @@ FN vec3 case_water_crest(vec2 u)
                                  2.0f * u[0], -V, 4.0f * u[1]) +
            water_bed_below(w, light.downwelling, vec3(0.4f), u[0]) +
            water_bed_through(w, light.downwelling, vec3(2.0f), 9.0f * u[0]) +
-           painted_water(light, N, V, 1.34f, 0.1f + u[0], painted_mirror(N, V)) +
+           painted_water(light, N, V, 1.34f, 0.1f + u[0], painted_reflection(N, V)) +
            water_unscattered(w, 20.0f * u[1]);
 }
 
@@ -328,7 +328,7 @@ FN vec3 case_facets_that_mirror(vec2 u)
     vec3 N = water_faced(wave_normal(vec2(0.4f * u[1], -0.3f), vec3(0.3f * u[0], -0.2f * u[1], 0.1f)), V);
     FacetRange all = facets_seen(C, N, V);
     vec3 low = vec3(-1.0f, -0.5f, -9.0f);
-    FacetRange r = facets_that_mirror(C, N, V, low, vec3(1.0f + u[0], 2.0f, -6.0f - u[1]));
+    FacetRange r = facets_that_reflect(C, N, V, low, vec3(1.0f + u[0], 2.0f, -6.0f - u[1]));
     Facet f = facet_drawn(all, N, u);
     vec2 place = facet_place(r, N, f.m);
     return f.m + vec3(f.weight + facets_share(r), r.low[0] + r.high[1], 0.1f * (place[0] + place[1])) + 10.0f;
@@ -342,10 +342,10 @@ FN vec3 case_facets_that_bend(vec2 u)
     vec3 N = water_faced(wave_normal(vec2(0.4f * u[1], -0.3f), vec3(0.3f * u[0], -0.2f * u[1], 0.1f)), V);
     FacetRange all = facets_seen(C, N, V);
     vec3 low = vec3(-1.0f, 0.5f, -9.0f);
-    FacetRange r = facets_that_bend(C, N, V, low, vec3(1.0f + u[0], 3.0f, -6.0f), w.ior);
+    FacetRange r = facets_that_refract(C, N, V, low, vec3(1.0f + u[0], 3.0f, -6.0f), w.ior);
     bool is_wide = is_wide_box(vec3(1.0f, 0.0f, 0.0f), vec3(0.9f - 0.1f * u[0], 0.0f, 0.0f));
     FacetRange part = facets_about(all, -u, u, is_wide);
-    return facet_that_bends(V, normalize(vec3(0.3f, 0.5f + u[0], u[1])), w.ior) +
+    return facet_that_refracts(V, normalize(vec3(0.3f, 0.5f + u[0], u[1])), w.ior) +
            vec3(part.low[0], part.high[1], window_roughness(r, C)) +
            vec3(r.low[0], r.high[1], facets_share(r)) + 10.0f;
 }
@@ -386,7 +386,7 @@ FN vec3 case_water_caustic(vec2 u)
                          3.0f * u[1], 0.5f + 0.5f * u[0]) +
            vec3(water_bed_footprint(w, N, V, down, C, u[0], 4.0f * u[1]),
                 caustic_cover(vec2(2.0f * u[0] - 1.0f, 0.1f)),
-                caustic_lod(9.0f * u[1]) + water_mirrored_spread(C));
+                caustic_lod(9.0f * u[1]) + water_reflection_spread(C));
 }
 
 /* ---- water_legacy.h ---- */
@@ -398,7 +398,7 @@ FN vec3 case_water_legacy(vec2 u)
     vec3 V = parity_up(parity_V(u));
     WaterLight light = parity_water_light(w, u);
     vec3 down = -V;
-    WaterMirror m = water_mirror(w, p, V, 0.9f, 0.95f, 0.1f * u[0], 0.3f * u[1]);
+    WaterSpecular m = water_specular(w, p, V, 0.9f, 0.95f, 0.1f * u[0], 0.3f * u[1]);
     vec3 before =
         water_legacy_shade(int(u[0] * 1.99f), int(u[1] * 2.99f), down, p.N, WATER_LEGACY_SUN_DIRECTION, u[0],
                            u[1], water_legacy_foam(u[0]), 1.33f, 0.3f);

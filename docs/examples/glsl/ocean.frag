@@ -81,8 +81,8 @@ void main()
     light.sun_fresnel = water_fresnel(w, max(to_sun.y, 0.0));
     light.downwelling = water_downwelling(w, light);
 
-    /* `facet ocean` reads a table of mean reflectance here (water_mirror()); this is the fit to it */
-    WaterMirror m;
+    /* `facet ocean` reads a table of mean reflectance here (water_specular()); this is the fit to it */
+    WaterSpecular m;
     m.fresnel = water_mean_fresnel_fit(max(dot(p.N, V), 0.0), sigma_towards(p.covariance, p.N, V), ior);
     m.escape = 1.0;
     m.R = reflect(-V, p.N);
