@@ -23,7 +23,7 @@
 #include "ocean/sea.h"
 #include "water/water_frame.h"
 
-enum { MAX_FRAMES = 1000, UNTIMED_FRAMES = 2, LOOKS = 2 };
+enum { MAX_FRAMES = 1000, UNTIMED_FRAMES = 2, STYLES = 2 };
 typedef enum part { WAVES, LIGHT, UPLOAD, DRAW, FRAME, DRAW_PROCESSOR, PROCESSOR, PART_COUNT } part;
 
 static struct {
@@ -32,7 +32,7 @@ static struct {
     bool is_es;
 } options = {.frames = 20, .width = 640, .height = 360, .preset = "trade-wind"};
 
-static double times[LOOKS][PART_COUNT][MAX_FRAMES];
+static double times[STYLES][PART_COUNT][MAX_FRAMES];
 
 static void check(facet_result result, const facet_error *error)
 {
@@ -144,11 +144,11 @@ int main(int argc, char **argv)
     draw(renderer, &cache, sea, &desc, 0.0, &target, NULL);
     double first_s = clock_seconds() - begin;
     for (uint32_t i = 0; i < UNTIMED_FRAMES + options.frames; i++)
-        for (int look = 0; look < LOOKS; look++) {
-            desc.sea_shading.style = look ? FACET_SEA_STYLE_LEGACY_INTENDED : FACET_SEA_STYLE_PHYSICAL;
+        for (int style = 0; style < STYLES; style++) {
+            desc.sea_shading.style = style ? FACET_SEA_STYLE_LEGACY_INTENDED : FACET_SEA_STYLE_PHYSICAL;
             double *to[PART_COUNT];
             for (int p = 0; p < PART_COUNT; p++)
-                to[p] = &times[look][p][i < UNTIMED_FRAMES ? 0 : i - UNTIMED_FRAMES];
+                to[p] = &times[style][p][i < UNTIMED_FRAMES ? 0 : i - UNTIMED_FRAMES];
             draw(renderer, &cache, sea, &desc, i / 24.0, &target, to);
         }
     printf("%s, %u x %u, first %.0f ms\n", options.preset, options.width, options.height, 1e3 * first_s);

@@ -78,7 +78,7 @@ static void physical_bed(void)
         bed.albedo = hits[i].sky;
         bed.mean_albedo = vec3(0.4f);
         bed.depth = 5.0f;
-        bed.way = 5.0f / max(-d[1], 0.1f);
+        bed.path_length = 5.0f / max(-d[1], 0.1f);
         shaded[i] = shade(&water, &hits[i], 1.0f, water_from_bed(water, light.downwelling, bed));
     }
 }

@@ -153,7 +153,7 @@ static void test_refraction(void **state)
                 out = water_window(w, towards(critical + 0.1, 0.0), UP);
     assert_true(in.fresnel < 1.0f && in.outside[0] > 0.99f);
     assert_true(out.fresnel == 1.0f && out.gain == 0.0f && length(out.outside) == 0.0f);
-    assert_true(out.mirrored[1] < 0.0f);
+    assert_true(out.reflected[1] < 0.0f);
 }
 
 /* ---- energy ---- */

@@ -321,7 +321,7 @@ FN vec3 case_water_crest(vec2 u)
 
 /* ---- water_facets.h ---- */
 
-FN vec3 case_facets_that_mirror(vec2 u)
+FN vec3 case_facets_that_reflect(vec2 u)
 {
     vec3 V = parity_up(parity_V(u));
     vec3 C = parity_slopes(u);
@@ -334,7 +334,7 @@ FN vec3 case_facets_that_mirror(vec2 u)
     return f.m + vec3(f.weight + facets_share(r), r.low[0] + r.high[1], 0.1f * (place[0] + place[1])) + 10.0f;
 }
 
-FN vec3 case_facets_that_bend(vec2 u)
+FN vec3 case_facets_that_refract(vec2 u)
 {
     Water w = parity_clear_water(u);
     vec3 V = parity_up(parity_V(u));

@@ -162,16 +162,16 @@ static void bind_textures(const gl_sea *s)
 
 static uint64_t features_of(const water_frame *p)
 {
-    const facet_sea_shading *look = &p->desc->sea_shading;
-    if (sea_shading_is_legacy(look))
+    const facet_sea_shading *shading = &p->desc->sea_shading;
+    if (sea_shading_is_legacy(shading))
         return GL_SEA_IS_LEGACY;
     bool has_bed = sea_has_bed(&p->sea->desc.bed);
-    bool has_other_facets = look->normals == FACET_SEA_NORMALS_GGX ||
-                            look->masking != FACET_SEA_MASKING_SCALES || look->has_schlick_fresnel;
-    bool has_glints = sea_shading_is_complete(look) && !look->omits_glints && !p->is_below;
+    bool has_other_facets = shading->normals == FACET_SEA_NORMALS_GGX ||
+                            shading->masking != FACET_SEA_MASKING_SCALES || shading->has_schlick_fresnel;
+    bool has_glints = sea_shading_is_complete(shading) && !shading->omits_glints && !p->is_below;
     return (p->background ? GL_SEA_HAS_IMAGE : 0u) | (p->model ? GL_SEA_HAS_MODEL : 0u) |
            (has_other_facets ? GL_SEA_HAS_OTHER_MICROFACETS : 0u) |
-           (look->stage == 3 && !p->is_below ? GL_SEA_IS_PAINTED : 0u) |
+           (shading->stage == 3 && !p->is_below ? GL_SEA_IS_PAINTED : 0u) |
            (p->is_below ? GL_SEA_IS_BELOW : 0u) | (has_bed ? GL_SEA_HAS_BED : 0u) |
            (p->foam ? GL_SEA_HAS_FOAM : 0u) | (has_glints ? GL_SEA_HAS_GLINTS : 0u);
 }

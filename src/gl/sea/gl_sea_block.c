@@ -82,13 +82,13 @@ static void fill_foam(const water_frame *p, const double eye[2], gl_sea_block *b
 static void fill_water(const water_frame *p, gl_sea_block *b)
 {
     const water_optics *o = &p->sea->optics;
-    const facet_sea_shading *look = &p->desc->sea_shading;
+    const facet_sea_shading *shading = &p->desc->sea_shading;
     set4(b->absorption, o->absorption, o->ior);
     set4(b->scattering, o->scattering, o->foam_albedo);
     set4(b->backscattering, o->backscattering,
-         (float)(look->normals == FACET_SEA_NORMALS_GGX ? WATER_GGX : WATER_BECKMANN));
-    set4(b->reflectance, o->reflectance, (float)look->masking);
-    set4(b->pure_share, o->pure_share, look->has_schlick_fresnel ? 1.0f : 0.0f);
+         (float)(shading->normals == FACET_SEA_NORMALS_GGX ? WATER_GGX : WATER_BECKMANN));
+    set4(b->reflectance, o->reflectance, (float)shading->masking);
+    set4(b->pure_share, o->pure_share, shading->has_schlick_fresnel ? 1.0f : 0.0f);
     set4(b->sun, p->L, p->sun_fresnel);
     set4(b->sun_irradiance, p->sun_irradiance, p->sky_reflectance);
     set4(b->sky_irradiance, p->sky_irradiance, waves_glint_time(&p->sea->waves));
@@ -125,16 +125,18 @@ static void fill_caustics(const caustic_map *map, const double eye[2], gl_sea_bl
     }
 }
 
-static void fill_look(const facet_sea_shading *look, gl_sea_block *b)
+static void fill_style(const facet_sea_shading *shading, gl_sea_block *b)
 {
-    b->bed_slope[2] = look->perceptual_roughness > 0.0f ? look->perceptual_roughness : WATER_LEGACY_ROUGHNESS;
-    b->bed_slope[3] = look->clamp;
-    b->look[0] = look->style != FACET_SEA_STYLE_PHYSICAL ? WATER_LEGACY_STAGE_NONE
-                 : look->stage == 1                      ? WATER_LEGACY_STAGE_FRESNEL
-                                                         : WATER_LEGACY_STAGE_COOK_TORRANCE;
-    b->look[1] = look->style == FACET_SEA_STYLE_LEGACY_WRITTEN ? WATER_LEGACY_WRITTEN : WATER_LEGACY_INTENDED;
-    b->look[2] = !look->omits_foam;
-    b->look[3] = !look->omits_glints;
+    b->bed_slope[2] =
+        shading->perceptual_roughness > 0.0f ? shading->perceptual_roughness : WATER_LEGACY_ROUGHNESS;
+    b->bed_slope[3] = shading->clamp;
+    b->style[0] = shading->style != FACET_SEA_STYLE_PHYSICAL ? WATER_LEGACY_STAGE_NONE
+                  : shading->stage == 1                      ? WATER_LEGACY_STAGE_FRESNEL
+                                                             : WATER_LEGACY_STAGE_COOK_TORRANCE;
+    b->style[1] =
+        shading->style == FACET_SEA_STYLE_LEGACY_WRITTEN ? WATER_LEGACY_WRITTEN : WATER_LEGACY_INTENDED;
+    b->style[2] = !shading->omits_foam;
+    b->style[3] = !shading->omits_glints;
 }
 
 void gl_sea_block_fill(const water_frame *p, const camera_rays *camera, const gl_sea_fan *fan,
@@ -156,5 +158,5 @@ void gl_sea_block_fill(const water_frame *p, const camera_rays *camera, const gl
     fill_water(p, b);
     fill_bed(p, eye, b);
     fill_caustics(p->caustics, eye, b);
-    fill_look(&p->desc->sea_shading, b);
+    fill_style(&p->desc->sea_shading, b);
 }

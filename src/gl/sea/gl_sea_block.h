@@ -25,7 +25,7 @@ typedef struct gl_sea_block {
     float sun[4], sun_irradiance[4], sky_irradiance[4], downwelling[4], beam[4], sunward[4];
     float crest_beam[4], crest_sunward[4];
     float bed[4], bed_slope[4], sky_at[4], caustic_axis[4], caustics[CAUSTIC_LAYERS][4];
-    int32_t look[4];
+    int32_t style[4];
     /* of a model: gl_sea_model.c */
     float cut[GL_SEA_CUTS][16], cut_axis[GL_SEA_CUTS][4], cut_plane[GL_SEA_CUTS][4];
     float model_depth[4], model_middle[4], model_half[4], model_balls[GL_SEA_BALLS][4], contact[4], shadow[4];

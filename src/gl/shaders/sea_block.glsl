@@ -57,7 +57,7 @@ layout(std140) uniform Sea
     vec4 sea_sky_at;
     vec4 sea_caustic_axis;         /* of layers of sunlight on the bed; z: 1: there are some */
     vec4 sea_caustics[SEA_CAUSTIC_LAYERS]; /* middle from the eye, 2 / width, width of a texel */
-    ivec4 sea_look;                /* stage, legacy variant; 1: foam, legacy sparkles */
+    ivec4 sea_style;                /* stage, legacy variant; 1: foam, legacy sparkles */
     /* of a model; positions from the eye */
     mat4 sea_cut[SEA_CUTS];       /* for positions relative to the viewpoint of a cut */
     vec4 sea_cut_axis[SEA_CUTS];  /* unit; w: 1: depth is reversed, rows run from the top */

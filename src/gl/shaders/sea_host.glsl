@@ -86,7 +86,7 @@ float host_glint_time(SeaHost host)
 
 WaterStyle host_style(SeaHost host)
 {
-    return WaterStyle(sea_look.y, sea_look.x, sea_bed_slope.z, sea_look.z != 0, sea_look.w != 0);
+    return WaterStyle(sea_style.y, sea_style.x, sea_bed_slope.z, sea_style.z != 0, sea_style.w != 0);
 }
 
 /* ---- positions ---- */
