@@ -56,7 +56,7 @@ vec3 host_sky(SeaHost host, vec3 R, float perceptual_roughness)
 vec3 sea_clearness(float distance_km)
 {
     float edge = 0.5 / float(textureSize(u_sea_sky, 0).x);
-    float x = way_km / (way_km + sea_sky_at.y);
+    float x = distance_km / (distance_km + sea_sky_at.y);
     vec3 left = textureLod(u_sea_sky, vec3(clamp(x, edge, 1.0 - edge), 0.5, SEA_SKY_TRANSMITTANCE), 0.0).xyz;
     return x < edge ? mix(vec3(1.0), left, x / edge) : left;
 }
