@@ -44,7 +44,7 @@ static void values_are_normal(void **state)
 }
 
 /* Across the seam neighbours differ by no more than elsewhere. */
-static void they_repeat(void **state)
+static void fields_repeat(void **state)
 {
     (void)state;
     for (int which = 0; which < 2; which++) {
@@ -77,7 +77,7 @@ static void threads_change_nothing(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(values_are_normal), cmocka_unit_test(they_repeat),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(values_are_normal), cmocka_unit_test(fields_repeat),
                                        cmocka_unit_test(threads_change_nothing)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -95,7 +95,7 @@ static const struct case1_row {
      {0.0031, 0.0089, 0.0073}},
 };
 
-static void test_case1(void **state)
+static void chlorophyll_has_the_tabulated_coefficients(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof case1_rows / sizeof *case1_rows; i++) {
@@ -126,7 +126,7 @@ static void test_case1(void **state)
 }
 
 /* From blue to green with chlorophyll; up to 1 mg/m^3 red < green < blue. */
-static void test_hue(void **state)
+static void chlorophyll_turns_blue_to_green(void **state)
 {
     (void)state;
     double last = 0.0;
@@ -145,10 +145,10 @@ static void test_hue(void **state)
     assert_true(last > 1.0);
 }
 
-static void test_pure(void **state)
+static void pure_water_has_the_tabulated_transmittance(void **state)
 {
     (void)state;
-    const double way[5] = {1, 5, 10, 20, 50};
+    const double distances_m[5] = {1, 5, 10, 20, 50};
     const double golden[5][3] = {{0.740, 0.953, 1.000},
                                  {0.182, 0.779, 0.989},
                                  {0, 0.602, 0.965},
@@ -156,10 +156,10 @@ static void test_pure(void **state)
                                  {0, 0.079, 0.713}};
     for (int i = 0; i < 5; i++) {
         double T[3];
-        pure_water_transmittance(way[i], T);
+        pure_water_transmittance(distances_m[i], T);
         for (int k = 0; k < 3;
              k++) /* the golden table's spectrum was finer below 500 nm, where 10 nm steps cost 0.002 */
-            expect_near(fmax(T[k], 0.0), golden[i][k], 0.0025, "transmittance", way[i], k);
+            expect_near(fmax(T[k], 0.0), golden[i][k], 0.0025, "transmittance", distances_m[i], k);
     }
     facet_water water = clear_sea;
     water.chlorophyll_mg_m3 = 0.0f;
@@ -190,7 +190,7 @@ static const double jerlov_rows[JERLOV_COUNT][3] = {
     {.392, .114, .134},   {.408, .144, .201},   {.416, .193, .404},   {.484, .304, .588},
     {.524, .466, .948},   {.582, .680, 1.67}};
 
-static void test_jerlov(void **state)
+static void jerlov_types_have_their_attenuation(void **state)
 {
     (void)state;
     double last = 0.0;
@@ -223,7 +223,7 @@ static void test_jerlov(void **state)
         expect_near(rgb[k], golden[k], 0.0006, "K_d of chlorophyll", 0.03, k);
 }
 
-static void test_ior(void **state)
+static void the_ior_is_that_of_quan_and_fry(void **state)
 {
     (void)state;
     const double nm[7] = {400, 450, 500, 550, 589.3, 650, 700};
@@ -242,7 +242,7 @@ static void test_ior(void **state)
 }
 
 /* What absorbs nothing sends all back; and as far as seas go nothing but Lee's equation is asked. */
-static void test_reflectance(void **state)
+static void reflectance_follows_lee_and_is_one_without_absorption(void **state)
 {
     (void)state;
     expect_near(water_reflectance(0.0, 0.003), 1.0, 1e-12, "reflectance without absorption", 0.0, 0);
@@ -266,7 +266,7 @@ static void expect_refused(facet_water water, const char *word)
         fail_msg("'%s' does not name '%s'", error.message, word);
 }
 
-static void test_refusals(void **state)
+static void values_out_of_range_are_named(void **state)
 {
     (void)state;
     facet_water w = clear_sea;
@@ -304,9 +304,13 @@ static void test_refusals(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_case1),    cmocka_unit_test(test_hue), cmocka_unit_test(test_pure),
-        cmocka_unit_test(test_jerlov),   cmocka_unit_test(test_ior), cmocka_unit_test(test_reflectance),
-        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(chlorophyll_has_the_tabulated_coefficients),
+        cmocka_unit_test(chlorophyll_turns_blue_to_green),
+        cmocka_unit_test(pure_water_has_the_tabulated_transmittance),
+        cmocka_unit_test(jerlov_types_have_their_attenuation),
+        cmocka_unit_test(the_ior_is_that_of_quan_and_fry),
+        cmocka_unit_test(reflectance_follows_lee_and_is_one_without_absorption),
+        cmocka_unit_test(values_out_of_range_are_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,7 +14,7 @@ static int create(void **state)
 }
 
 /* Reflectance within 1 % (and 0.001) of a finer integral, for all eyes and winds of 1 to 40 m/s. */
-static void test_between(void **state)
+static void interpolated_reflectance_is_within_a_percent(void **state)
 {
     (void)state;
     for (float wind = 0.7f; wind < 40.0f; wind *= 1.9f)
@@ -36,7 +36,7 @@ static void test_between(void **state)
 }
 
 /* Flat water is flat between the places, too: the mirror itself. */
-static void test_flat(void **state)
+static void flat_water_is_exact_between_nodes(void **state)
 {
     (void)state;
     for (float mu = 0.03f; mu <= 1.0f; mu += 0.0211f) {
@@ -58,7 +58,7 @@ static void test_flat(void **state)
 
 /* Reflectance for light from all of the sky: golden numbers of Smith's masking, as oceanography's 0.06.
  * Waves of all lengths reflect a little less at grazing angles. */
-static void test_sky(void **state)
+static void sky_reflectance_is_that_of_the_literature(void **state)
 {
     (void)state;
     const double mss[4] = {0.0, 0.0286, 0.0542, 0.0798}, expected[4] = {0.0675, 0.0620, 0.0598, 0.0582};
@@ -73,7 +73,7 @@ static void test_sky(void **state)
 }
 
 /* The same bytes with more threads; GGX has longer tails, which reflect more of what stands high. */
-static void test_threads(void **state)
+static void threads_change_no_byte(void **state)
 {
     (void)state;
     static water_table again, tails;
@@ -89,7 +89,9 @@ static void test_threads(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_between), cmocka_unit_test(test_flat),
-                                       cmocka_unit_test(test_sky), cmocka_unit_test(test_threads)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(interpolated_reflectance_is_within_a_percent),
+                                       cmocka_unit_test(flat_water_is_exact_between_nodes),
+                                       cmocka_unit_test(sky_reflectance_is_that_of_the_literature),
+                                       cmocka_unit_test(threads_change_no_byte)};
     return cmocka_run_group_tests(tests, create, NULL);
 }

@@ -60,7 +60,7 @@ static void fields_are_sums_of_waves(void **state)
                 double kx = TWO_PI * m->n_x / t->length_m, kz = TWO_PI * m->n_z / t->length_m,
                        k = hypot(kx, kz);
                 double omega = wave_omega(k, 20.0), c = 0.8 / tanh(k * 20.0) / k;
-                /* 2 |h0| cos(k.x -+ omega t + phase) of both ways */
+                /* 2 |h0| cos(k.x -+ omega t + phase) in both directions */
                 double there = kx * x + kz * z - omega * 3.7, back = -kx * x - kz * z - omega * 3.7;
                 double h = 2.0 * ((double)m->there[0] * cos(there) - (double)m->there[1] * sin(there) +
                                   (double)m->back[0] * cos(back) - (double)m->back[1] * sin(back));

@@ -15,7 +15,7 @@
 
 static const float DEPTH_M = 3.0f, ABOVE_M = 1.0f, TURNED = 0.4f, ELEVATION = 0.8f, AZIMUTH = 1.0f;
 
-/* A level square of 2 m over a lagoon without waves, and all that a picture of it has. */
+/* A level square of 2 m over a lagoon without waves, and the setup of an image of it. */
 typedef struct lagoon {
     fixture f;
     facet_sea *sea;
@@ -78,10 +78,10 @@ typedef float reading(const void *what, double X, double Z);
 
 /* Of the four edges: where half of the light is, m from where it should be; and from 0.1 to 0.9 of it, m. */
 typedef struct edges {
-    double mean, farthest, width, back; /* back: the largest step into the dark on the way out */
+    double mean, farthest, width, back; /* back: the largest step into the dark outwards */
 } edges;
 
-/* Where light is `share` of all on the way out of an edge. */
+/* Where light is `share` of all outwards across an edge. */
 static double place_of(const float *shares, int count, double step, float share)
 {
     for (int i = 1; i < count; i++)
@@ -146,7 +146,7 @@ static float read_map(const void *what, double X, double Z)
     return caustic_map_at(what, X, Z, 0.0f);
 }
 
-/* What a picture has. */
+/* The shadow of an image. */
 static float read_both(const void *what, double X, double Z)
 {
     const water_setup *s = what;
@@ -155,7 +155,7 @@ static float read_both(const void *what, double X, double Z)
 }
 
 /* The map of the whole shadow, which is coarse: nothing of its texels shows. */
-static void test_texels(void **state)
+static void the_coarse_map_shows_no_texels(void **state)
 {
     (void)state;
     lagoon l;
@@ -171,8 +171,8 @@ static void test_texels(void **state)
     end(&l);
 }
 
-/* Rays through the grid, here as coarse as a wide picture has it. */
-static void test_grid(void **state)
+/* Rays through the grid, here as coarse as in a wide view. */
+static void a_coarse_grid_of_caustics_shows_no_nodes(void **state)
 {
     (void)state;
     lagoon l;
@@ -206,9 +206,9 @@ static void test_grid(void **state)
     end(&l);
 }
 
-/* Near the bed, a picture's edge is little wider than the sun's penumbra, 2.7 cm from 0.1 to 0.9 of the
+/* Near the bed, an image's edge is little wider than the sun's penumbra, 2.7 cm from 0.1 to 0.9 of the
  * light. */
-static void test_picture(void **state)
+static void edges_on_the_bed_are_as_wide_as_the_penumbra(void **state)
 {
     (void)state;
     lagoon l;
@@ -247,15 +247,15 @@ static void add(pair *to, double light, float share)
 /* Across the beam, where it has come to P. */
 static double beam_at(const photons *w, const double P[3])
 {
-    double way = -P[1] / (double)w->s->sunward[1];
-    return (double)w->s->beam[w->channel] * exp(-(double)(w->absorption + w->scattering) * way);
+    double length_m = -P[1] / (double)w->s->sunward[1];
+    return (double)w->s->beam[w->channel] * exp(-(double)(w->absorption + w->scattering) * length_m);
 }
 
 static float sun_open(const photons *w, const double P[3])
 {
-    double way = -P[1] / (double)w->s->sunward[1], Q[3];
+    double length_m = -P[1] / (double)w->s->sunward[1], Q[3];
     for (int i = 0; i < 3; i++)
-        Q[i] = P[i] + way * (double)w->s->sunward[i];
+        Q[i] = P[i] + length_m * (double)w->s->sunward[i];
     return water_model_visibility(&w->s->model, Q, w->s->light.L, HUGE_VAL);
 }
 
@@ -338,7 +338,7 @@ static void follow(photons *w, const double start[3], pair *sum)
 
 /* Of green light 0.22 are left in the middle of the shadow, of blue 0.26, and without scattering 0.19 and
  * 0.22. Red has green's shares of what comes from where, and too much. */
-static void test_core(void **state)
+static void the_core_of_a_shadow_has_the_counted_light(void **state)
 {
     (void)state;
     static const float sky[3] = {3000.0f, 3000.0f, 3000.0f};
@@ -370,10 +370,10 @@ static void test_core(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_texels),
-        cmocka_unit_test(test_grid),
-        cmocka_unit_test(test_picture),
-        cmocka_unit_test(test_core),
+        cmocka_unit_test(the_coarse_map_shows_no_texels),
+        cmocka_unit_test(a_coarse_grid_of_caustics_shows_no_nodes),
+        cmocka_unit_test(edges_on_the_bed_are_as_wide_as_the_penumbra),
+        cmocka_unit_test(the_core_of_a_shadow_has_the_counted_light),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,10 +30,10 @@ static void march_view(const water_sky *sky, float elevation_rad, sky_view *view
     assert_int_equal(sky_view_create(&dark, sky->eye_km, elevation_rad, &allocator, 2, view, NULL), FACET_OK);
 }
 
-/* On the whole way to the level of the sea it is what marching has, within 1 %: from the waves' height to
+/* Over the whole distance to sea level it equals ray marching, within 1 %: from the waves' height to
  * that of airliners, sun from the horizon to the zenith. The first row is the horizon itself, whose length
  * floats do not know. */
-static void test_light(void **state)
+static void in_scattering_matches_ray_marching(void **state)
 {
     (void)state;
     const float elevations[] = {0.02f, 0.35f, 1.2f}, eyes_m[] = {3.0f, 300.0f, 10000.0f};
@@ -61,8 +61,8 @@ static void test_light(void **state)
     }
 }
 
-/* Half of the way adds what it loses, and none nothing. */
-static void test_ways(void **state)
+/* Over half of the distance the in-scattered share equals the attenuated one; over none both are 0. */
+static void air_in_scatters_in_proportion_to_its_opacity(void **state)
 {
     (void)state;
     water_sky sky;
@@ -90,6 +90,7 @@ static void test_ways(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_light), cmocka_unit_test(test_ways)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(in_scattering_matches_ray_marching),
+                                       cmocka_unit_test(air_in_scatters_in_proportion_to_its_opacity)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

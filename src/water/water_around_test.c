@@ -1,4 +1,4 @@
-/* water_around_test.c - what a model sees of the sea, beside pictures of the sea. */
+/* water_around_test.c - the environment of a model, compared with images of the sea. */
 #include "water/water_fixture.h"
 
 #include "cpu/preview_fixture.h"
@@ -9,7 +9,7 @@
 static const float white[3] = {1.0f, 1.0f, 1.0f};
 static const float STEEP_RAD = 1.2f;
 
-/* Mean of a picture. */
+/* Mean of an image. */
 static vec3 mean_of(const shot *s)
 {
     vec3 sum = vec3(0.0f);
@@ -68,7 +68,7 @@ static void compare(const facet_sea_desc *d, float eye_m, double bound, const ch
     sea_destroy(sea);
 }
 
-static void test_around(void **state)
+static void the_environment_of_a_model_matches_images_of_the_sea(void **state)
 {
     (void)state;
     facet_sea_desc breeze = sea_default(), bed = sea_default(), gale = sea_default();
@@ -84,6 +84,7 @@ static void test_around(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_around)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_environment_of_a_model_matches_images_of_the_sea)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

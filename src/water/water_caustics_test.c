@@ -1,5 +1,5 @@
 /* water_caustics_test.c - sunlight on the bed: a sine against its analytic irradiance and focus, still
- * water, means under seas and low suns, threads; what a picture makes of it, and where it has none. */
+ * water, means under seas and low suns, threads; the maps of images, and where there is none. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -89,7 +89,7 @@ static void fill_plain(const waves *w, vec3 L, double depth_m, float texel_m, fl
 
 /* Before the focus, where rays are still in order, light at x + h (n - 1) / n eta_x is 1 / (1 - C cos kx),
  * C = h a k^2 (n - 1) / n. */
-static void test_sine(void **state)
+static void a_sine_wave_has_the_closed_form(void **state)
 {
     (void)state;
     const double n = 1.34, a = 0.005, depth = 12.0;
@@ -128,7 +128,7 @@ static double below_crest(double C)
 }
 
 /* Crests focus at the depth n / ((n - 1) a k^2), where C is 1: light below them is brightest there. */
-static void test_focus(void **state)
+static void crests_focus_at_the_computed_depth(void **state)
 {
     (void)state;
     const double n = 1.34, a = 0.005;
@@ -158,7 +158,7 @@ static double mean_of(const caustic_layer *l)
     return (double)l->mips[CAUSTIC_MIPS - 1][0];
 }
 
-static void test_still(void **state)
+static void still_water_has_a_factor_of_one(void **state)
 {
     (void)state;
     waves still = {.tile_count = 0};
@@ -181,7 +181,7 @@ static facet_sea_desc lagoon(void)
 
 /* Over a wide map none is lost, at all heights of the sun; it is bright and dark there. Threads make no
  * difference. */
-static void test_mean(void **state)
+static void wide_maps_conserve_light(void **state)
 {
     (void)state;
     facet_sea_desc d = lagoon();
@@ -215,10 +215,10 @@ static void test_mean(void **state)
     sea_destroy(sea);
 }
 
-/* ---- pictures ---- */
+/* ---- images ---- */
 
 /* By three colors and a sun, which take less time than a sky does. */
-static void light_by_picture(shot *s, float elevation_rad)
+static void light_by_environment(shot *s, float elevation_rad)
 {
     static const float zenith[3] = {1000.0f, 2000.0f, 4000.0f}, horizon[3] = {5000.0f, 5500.0f, 6000.0f};
     static const float nadir[3] = {100.0f, 100.0f, 100.0f};
@@ -241,14 +241,14 @@ static void sum_shot(const shot *s, double sums[3])
 }
 
 /* Waves move light on the bed, and neither add nor take any. */
-static void test_picture_mean(void **state)
+static void waves_conserve_light_on_the_bed(void **state)
 {
     (void)state;
     facet_sea_desc d = lagoon();
     facet_sea *sea = make_sea(&d);
     shot s;
     make_shot(&s, 120, 120, 20.0f, 1.5707f);
-    light_by_picture(&s, 0.9f);
+    light_by_environment(&s, 0.9f);
     double with[3], without[3], apart = 0.0;
     draw_shot(sea, &s);
     sum_shot(&s, with);
@@ -269,14 +269,14 @@ static void test_picture_mean(void **state)
     sea_destroy(sea);
 }
 
-/* Whether a picture of a sea has a map, of which every number is one. The sun of a picture stands for the
+/* Whether an image of a sea has a map, which must be finite. The sun of an environment stands for the
  * sky's. */
 static bool has_map(const facet_sea_desc *d, float elevation_rad, float eye_m, float down_rad)
 {
     facet_sea *sea = make_sea(d);
     shot s;
     make_shot(&s, 24, 16, eye_m, down_rad);
-    light_by_picture(&s, elevation_rad);
+    light_by_environment(&s, elevation_rad);
     s.desc.camera = &s.camera;
     water_setup setup;
     facet_error error;
@@ -303,7 +303,7 @@ static bool has_map(const facet_sea_desc *d, float elevation_rad, float eye_m, f
 }
 
 /* Where there is nothing to see, nothing is made. */
-static void test_nothing(void **state)
+static void invisible_caustics_are_not_made(void **state)
 {
     (void)state;
     facet_sea_desc d = lagoon();
@@ -318,7 +318,7 @@ static void test_nothing(void **state)
     assert_false(has_map(&d, 0.8f, 3.0f, 0.3f));
 }
 
-static void test_edges(void **state)
+static void extreme_views_and_beds_are_finite(void **state)
 {
     (void)state;
     facet_sea_desc d = lagoon();
@@ -338,9 +338,13 @@ static void test_edges(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sine),  cmocka_unit_test(test_focus),        cmocka_unit_test(test_still),
-        cmocka_unit_test(test_mean),  cmocka_unit_test(test_picture_mean), cmocka_unit_test(test_nothing),
-        cmocka_unit_test(test_edges),
+        cmocka_unit_test(a_sine_wave_has_the_closed_form),
+        cmocka_unit_test(crests_focus_at_the_computed_depth),
+        cmocka_unit_test(still_water_has_a_factor_of_one),
+        cmocka_unit_test(wide_maps_conserve_light),
+        cmocka_unit_test(waves_conserve_light_on_the_bed),
+        cmocka_unit_test(invisible_caustics_are_not_made),
+        cmocka_unit_test(extreme_views_and_beds_are_finite),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

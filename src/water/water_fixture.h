@@ -1,4 +1,4 @@
-/* water_fixture.h - for tests: small pictures of seas. */
+/* water_fixture.h - for tests: small images of seas. */
 #ifndef WATER_WATER_FIXTURE_H
 #define WATER_WATER_FIXTURE_H
 
@@ -13,7 +13,7 @@
 #include "ocean/sea.h"
 #include "water/water_render.h"
 
-/* A picture to be: what tests change before they draw it. */
+/* An image that is yet to be drawn; tests change its desc first. */
 typedef struct shot {
     facet_camera camera;
     facet_render_desc desc;

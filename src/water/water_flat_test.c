@@ -1,4 +1,4 @@
-/* water_flat_test.c - still water, whose pictures have a formula: F L_sky(mirror) + (1 - F) / n^2 L_u, the
+/* water_flat_test.c - still water, whose images have a closed form: F L_sky(mirror) + (1 - F) / n^2 L_u, the
  * sun as its own disc times F. And a closed box, in which rough water is as bright as all around it. */
 #include "water/water_fixture.h"
 
@@ -49,7 +49,7 @@ static vec3 expected_flat(const water_setup *s, const double d[3])
     return (sky * (float)F + below * (float)(1.0 - F)) * air.transmittance + air.light;
 }
 
-static void test_flat(void **state)
+static void flat_water_has_the_closed_form(void **state)
 {
     (void)state;
     facet_sea_desc d = still_sea();
@@ -88,7 +88,7 @@ static void test_flat(void **state)
 }
 
 /* Of the sun's disc in still water: its middle is F times the disc, and all of it F times its light. */
-static void test_sun(void **state)
+static void still_water_reflects_the_suns_disc(void **state)
 {
     (void)state;
     facet_sea_desc d = still_sea();
@@ -128,7 +128,7 @@ static void test_sun(void **state)
 }
 
 /* A uniform sky of 1 and n^2 everywhere below: rough or smooth, water shows 1. */
-static void test_closed_box(void **state)
+static void a_closed_box_shows_one(void **state)
 {
     (void)state;
     const float one[3] = {1.0f, 1.0f, 1.0f};
@@ -158,7 +158,7 @@ static void test_closed_box(void **state)
 
 /* A sky of 1 over water that absorbs nothing: 1 above it and n^2 below, over the depth and over a white
  * bed, whatever the index. */
-static void test_furnace(void **state)
+static void water_that_absorbs_nothing_shows_its_sky(void **state)
 {
     (void)state;
     const float one[3] = {1.0f, 1.0f, 1.0f};
@@ -194,7 +194,7 @@ static void test_furnace(void **state)
 }
 
 /* Without light there is none. */
-static void test_night(void **state)
+static void without_light_all_is_black(void **state)
 {
     (void)state;
     const float black[3] = {0.0f, 0.0f, 0.0f};
@@ -216,8 +216,11 @@ static void test_night(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_flat),    cmocka_unit_test(test_sun),   cmocka_unit_test(test_closed_box),
-        cmocka_unit_test(test_furnace), cmocka_unit_test(test_night),
+        cmocka_unit_test(flat_water_has_the_closed_form),
+        cmocka_unit_test(still_water_reflects_the_suns_disc),
+        cmocka_unit_test(a_closed_box_shows_one),
+        cmocka_unit_test(water_that_absorbs_nothing_shows_its_sky),
+        cmocka_unit_test(without_light_all_is_black),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* water_glints_test.c - glints are chance, and no light is lost or won by it: pictures that look into the
+/* water_glints_test.c - glints are random, but conserve light: images that look into the
  * sun have the same mean with and without them. */
 #include "water/water_fixture.h"
 
@@ -63,7 +63,7 @@ static void compare(const facet_sea *sea, const facet_sea_desc *desc, facet_envi
     }
 }
 
-static void test_mean(void **state)
+static void glints_keep_the_mean(void **state)
 {
     (void)state;
     static const float color[3] = {1.0f, 1.0f, 1.0f};
@@ -83,6 +83,6 @@ static void test_mean(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_mean)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(glints_keep_the_mean)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -52,7 +52,7 @@ static void compare_view(const facet_sea *sea, const view *v)
     film_destroy(&flat.film);
 }
 
-static void test_handover(void **state)
+static void unresolved_waves_keep_the_radiance_of_resolved_ones(void **state)
 {
     (void)state;
     facet_sea_desc d = sea_default();
@@ -70,6 +70,6 @@ static void test_handover(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_handover)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(unresolved_waves_keep_the_radiance_of_resolved_ones)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -76,7 +76,7 @@ static void add_triangle(const scene_primitive *p, const uint32_t *i, mean *to)
     }
 }
 
-/* Of the triangles that the picture shows: others are larger. */
+/* Of the visible triangles: others are larger. */
 static mean mean_between(const made *m, double from, double to)
 {
     mean sum = {.area = 0.0};
@@ -105,7 +105,7 @@ static facet_sea_desc trade_wind(void)
 }
 
 /* What is lost between vertices, where normals are linear, is 1.5 % of Cox and Munk's at most. */
-static void slopes_are_handed_over(void **state)
+static void vertices_and_covariances_add_up_to_all_slopes(void **state)
 {
     (void)state;
     static const double edges[] = {30.0, 120.0, 500.0, 2000.0, 9000.0};
@@ -133,7 +133,7 @@ static void slopes_are_handed_over(void **state)
     assert_true(resolved[0] > 2.0 * resolved[3]); /* what is far is left to roughness */
 }
 
-/* Of the water that the picture shows, at places at rest, each counted as the area that it has at its moment. */
+/* Of the visible water, at rest positions, each weighted by its displaced area. */
 static double foam_of_preview(const made *m, double from, double to)
 {
     const float footprint = 0.5f;
@@ -152,7 +152,7 @@ static double foam_of_preview(const made *m, double from, double to)
 }
 
 /* At 15 m/s: as much as the preview has, and between a tenth of what the wind covers and all of it. */
-static void foam_covers_what_it_should(void **state)
+static void foam_has_the_coverage_of_the_sea(void **state)
 {
     (void)state;
     double covered = 0.0, expected = 0.0, most = 0.0;
@@ -172,7 +172,7 @@ static void foam_covers_what_it_should(void **state)
 }
 
 /* Without waves: all around, on the sphere, to beyond the horizon; the circle is closed. */
-static void it_reaches_beyond_the_horizon(void **state)
+static void the_mesh_extends_beyond_the_horizon(void **state)
 {
     (void)state;
     facet_sea_desc d = sea_default();
@@ -202,7 +202,7 @@ static void it_reaches_beyond_the_horizon(void **state)
 }
 
 /* A sphere of radius 1 that lies half in still water leaves a hole of radius 1, round to a hundredth. */
-static void a_hull_keeps_water_out(void **state)
+static void there_is_no_water_in_a_dry_hull(void **state)
 {
     (void)state;
     fixture f = fixture_create();
@@ -239,7 +239,7 @@ static bool refuse(void *user, const char *stage, double fraction)
     return false;
 }
 
-static void it_ends_early(void **state)
+static void limits_and_cancelling_end_it(void **state)
 {
     (void)state;
     facet_sea_desc d = sea_default();
@@ -259,9 +259,10 @@ static void it_ends_early(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(slopes_are_handed_over), cmocka_unit_test(foam_covers_what_it_should),
-        cmocka_unit_test(it_reaches_beyond_the_horizon), cmocka_unit_test(a_hull_keeps_water_out),
-        cmocka_unit_test(it_ends_early)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(vertices_and_covariances_add_up_to_all_slopes),
+                                       cmocka_unit_test(foam_has_the_coverage_of_the_sea),
+                                       cmocka_unit_test(the_mesh_extends_beyond_the_horizon),
+                                       cmocka_unit_test(there_is_no_water_in_a_dry_hull),
+                                       cmocka_unit_test(limits_and_cancelling_end_it)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -52,7 +52,7 @@ static double fresnel(double c, double n)
 
 /* Half-way between the eye and the sphere, both 3 m over the water, it is mirrored at 45 degrees; straight
  * on it is as bright as it is. */
-static void test_mirror(void **state)
+static void still_water_reflects_a_sphere_by_fresnel(void **state)
 {
     (void)state;
     fixture f = shining_sphere(0.0f, 3.0f, -6.0f);
@@ -100,7 +100,7 @@ static void camera_rays_see_the_drawn_sides(void **state)
 }
 
 /* Under water it gets darker, and red goes first. */
-static void test_depth(void **state)
+static void deeper_spheres_are_darker_and_lose_red_first(void **state)
 {
     (void)state;
     facet_sea *sea = still_sea();
@@ -123,7 +123,7 @@ static void test_depth(void **state)
 }
 
 /* The sun's image in the water goes out where the sphere is before the sun. */
-static void test_shadow(void **state)
+static void a_sphere_blocks_the_reflection_of_the_sun(void **state)
 {
     (void)state;
     facet_sea *sea = still_sea();
@@ -149,7 +149,7 @@ static void test_shadow(void **state)
     fixture_destroy(&f);
 }
 
-static void test_dry(void **state)
+static void only_open_hulls_are_dry(void **state)
 {
     (void)state;
     fixture f = shining_sphere(0.0f, 0.0f, 0.0f);
@@ -172,7 +172,7 @@ static void test_dry(void **state)
     fixture_destroy(&f);
 }
 
-static void test_memory(void **state)
+static void running_out_of_memory_leaks_nothing(void **state)
 {
     (void)state;
     fixture f = shining_sphere(0.0f, 0.0f, -6.0f);
@@ -201,9 +201,12 @@ static void test_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_mirror), cmocka_unit_test(camera_rays_see_the_drawn_sides),
-        cmocka_unit_test(test_depth),  cmocka_unit_test(test_shadow),
-        cmocka_unit_test(test_dry),    cmocka_unit_test(test_memory),
+        cmocka_unit_test(still_water_reflects_a_sphere_by_fresnel),
+        cmocka_unit_test(camera_rays_see_the_drawn_sides),
+        cmocka_unit_test(deeper_spheres_are_darker_and_lose_red_first),
+        cmocka_unit_test(a_sphere_blocks_the_reflection_of_the_sun),
+        cmocka_unit_test(only_open_hulls_are_dry),
+        cmocka_unit_test(running_out_of_memory_leaks_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -93,7 +93,7 @@ static float lattice(uint32_t i, int dimension)
 }
 
 /* Radiance 1 from above and n^2 from below: the surface shows 1 to an eye above, n^2 to one below. */
-static void closed_box(void **state)
+static void a_closed_box_conserves_energy(void **state)
 {
     (void)state;
     water_path s = bright_water();
@@ -120,7 +120,7 @@ static void closed_box(void **state)
 }
 
 /* Between equal indices there is no surface: the ray goes on, with all its light, but for foam. */
-static void equal_indices_let_through(void **state)
+static void equal_indices_transmit_all(void **state)
 {
     (void)state;
     water_path s = bright_water();
@@ -143,7 +143,7 @@ static void equal_indices_let_through(void **state)
 
 /* Means of a function of the direction, by sampling and by quadrature over directions: both agree, but for
  * second facets, whose share is counted. */
-static void sampling_finds_what_is_scattered(void **state)
+static void samples_follow_the_bsdf(void **state)
 {
     (void)state;
     water_path s = bright_water();
@@ -179,8 +179,8 @@ static void sampling_finds_what_is_scattered(void **state)
     }
 }
 
-/* f(V, L) |N.L| / |N.V| / n^2 is the same both ways, n being that of the side that it is seen from. */
-static void light_goes_both_ways(void **state)
+/* f(V, L) |N.L| / |N.V| / n^2 is symmetric, n being that of the side that it is seen from. */
+static void the_bsdf_is_reciprocal(void **state)
 {
     (void)state;
     water_path s = bright_water();
@@ -203,7 +203,7 @@ static void light_goes_both_ways(void **state)
 
 /* Water that is endless shines as water_from_deep() has it, whatever the direction; what is at its end
  * takes the place of the rest. */
-static void deep_water_shines(void **state)
+static void deep_water_has_its_reflectance(void **state)
 {
     (void)state;
     water_path s = bright_water();
@@ -227,7 +227,7 @@ static void deep_water_shines(void **state)
 }
 
 /* The density of directions towards the sun is that with which they are drawn. */
-static void the_sun_is_aimed_at(void **state)
+static void samples_follow_the_pdf_of_the_refracted_sun(void **state)
 {
     (void)state;
     water_path s = bright_water();
@@ -253,11 +253,11 @@ static void the_sun_is_aimed_at(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(closed_box),
-                                       cmocka_unit_test(equal_indices_let_through),
-                                       cmocka_unit_test(sampling_finds_what_is_scattered),
-                                       cmocka_unit_test(light_goes_both_ways),
-                                       cmocka_unit_test(deep_water_shines),
-                                       cmocka_unit_test(the_sun_is_aimed_at)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_closed_box_conserves_energy),
+                                       cmocka_unit_test(equal_indices_transmit_all),
+                                       cmocka_unit_test(samples_follow_the_bsdf),
+                                       cmocka_unit_test(the_bsdf_is_reciprocal),
+                                       cmocka_unit_test(deep_water_has_its_reflectance),
+                                       cmocka_unit_test(samples_follow_the_pdf_of_the_refracted_sun)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

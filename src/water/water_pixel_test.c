@@ -8,7 +8,7 @@
 
 enum { WIDTH = 40, HEIGHT = 32, FEW = 4, MANY = 64 };
 
-/* As the command draws a picture of 960 x 540, a part of it: pixels of 1.3 mrad, and the sun beside.
+/* Part of an image of 960 x 540, as the command renders it: pixels of 1.3 mrad, and the sun beside.
  * Glints are chance, which differs. */
 static void make_view(shot *s, float down_rad)
 {
@@ -61,7 +61,7 @@ static double error_of_few(const char *name, float down_rad)
 
 /* Together they are to be as near as one by one, within a quarter. With the mean of their slopes alone,
  * and not what these differ by, four are as far away as a single sample is. */
-static void test_few(void **state)
+static void grouped_samples_are_as_accurate_as_single_ones(void **state)
 {
     (void)state;
     static const struct {
@@ -82,6 +82,6 @@ static void test_few(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_few)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(grouped_samples_are_as_accurate_as_single_ones)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

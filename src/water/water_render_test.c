@@ -1,4 +1,4 @@
-/* water_render_test.c - pictures of rough seas: every number is one whatever the camera, water and
+/* water_render_test.c - images of rough seas: all values are finite whatever the camera, water and
  * weather; threads and parts make no difference; limits; the profile finds what marching finds. */
 #include "water/water_fixture.h"
 
@@ -48,7 +48,7 @@ static const edge_case edge_cases[] = {
 /* Those after this one are lit by three colors and a sun, which takes a fifth of the time that a sky does. */
 enum { LAST_OF_SKY = 6 };
 
-static void light_by_picture(shot *s)
+static void light_by_environment(shot *s)
 {
     static const float zenith[3] = {1000.0f, 2000.0f, 4000.0f}, horizon[3] = {5000.0f, 5500.0f, 6000.0f};
     static const float nadir[3] = {100.0f, 100.0f, 100.0f};
@@ -60,7 +60,7 @@ static void light_by_picture(shot *s)
                          .illuminance_lux = {1e5f, 9e4f, 8e4f}};
 }
 
-static void test_edge_cases(void **state)
+static void extreme_seas_are_finite(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof edge_cases / sizeof *edge_cases; i++) {
@@ -75,7 +75,7 @@ static void test_edge_cases(void **state)
         make_shot(&s, 28, 20, eye, e->down_rad);
         s.desc.sky.sun_elevation_rad = e->sun_rad;
         if (i > LAST_OF_SKY)
-            light_by_picture(&s);
+            light_by_environment(&s);
         if (e->is_parallel) {
             s.camera.fov_y_rad = 0.0f;
             s.camera.ortho_height = 60.0f;
@@ -92,7 +92,7 @@ static void test_edge_cases(void **state)
 
 /* ---- the same bytes ---- */
 
-static void test_threads(void **state)
+static void threads_change_no_byte(void **state)
 {
     (void)state;
     facet_sea_desc d = small_sea(8.0f);
@@ -100,8 +100,8 @@ static void test_threads(void **state)
     shot one, three;
     make_shot(&one, 50, 70, 3.0f, 0.1f);
     make_shot(&three, 50, 70, 3.0f, 0.1f);
-    light_by_picture(&one);
-    light_by_picture(&three);
+    light_by_environment(&one);
+    light_by_environment(&three);
     one.desc.thread_count = 1;
     three.desc.thread_count = 3;
     draw_shot(sea, &one);
@@ -130,7 +130,7 @@ static bool cancel(void *user, const char *stage, double fraction)
     return false;
 }
 
-static void test_limits(void **state)
+static void limits_and_cancelling_are_reported(void **state)
 {
     (void)state;
     facet_sea_desc d = small_sea(8.0f);
@@ -169,7 +169,7 @@ static march_ray ray_of(const camera_rays *c, float x, float y)
 
 /* Rays that are found by bisection of a profile end where rays end that march, but for those that pass a
  * crest by less than a pixel; and nowhere under water or over it by more than some of a pixel. */
-static void test_profile(void **state)
+static void profiles_find_the_hits_of_marching(void **state)
 {
     (void)state;
     facet_sea_desc d = small_sea(10.0f);
@@ -207,7 +207,7 @@ static void test_profile(void **state)
 /* ---- exposure ---- */
 
 /* Light on level water by a sun 20 degrees high in a clear sky: E = 75 730 sin 20 + 9 500 = 35 400 lx. */
-static void test_light(void **state)
+static void level_water_has_the_illuminance_of_a_clear_sky(void **state)
 {
     (void)state;
     shot s;
@@ -239,9 +239,9 @@ static double metered(const facet_sea *sea, const facet_render_desc *desc)
     return ev100;
 }
 
-/* As metered, the log-average of a picture is 0.22; light, not the picture's size, part or samples, is
+/* As metered, the log-average of an image is 0.22; light, not the image's size, part or samples, is
  * what a meter reads. */
-static void test_exposure(void **state)
+static void the_meter_measures_light_only(void **state)
 {
     (void)state;
     facet_sea_desc desc = small_sea(6.0f);
@@ -277,8 +277,12 @@ static void test_exposure(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_edge_cases), cmocka_unit_test(test_threads), cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_profile),    cmocka_unit_test(test_light),   cmocka_unit_test(test_exposure),
+        cmocka_unit_test(extreme_seas_are_finite),
+        cmocka_unit_test(threads_change_no_byte),
+        cmocka_unit_test(limits_and_cancelling_are_reported),
+        cmocka_unit_test(profiles_find_the_hits_of_marching),
+        cmocka_unit_test(level_water_has_the_illuminance_of_a_clear_sky),
+        cmocka_unit_test(the_meter_measures_light_only),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
