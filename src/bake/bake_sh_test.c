@@ -11,7 +11,7 @@
 
 #include "tests/support/support.h"
 #include "facet/facet.h"
-#include "ibl/making_test.h"
+#include "ibl/light_fixture.h"
 #include "ibl/sh.h"
 
 static const double pi = 3.14159265358979323846;

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "bake/bake_making_test.h"
+#include "bake/bake_fixture.h"
 
 #include "bake/bake_area.h"
 #include "bake/bake_lobe.h"

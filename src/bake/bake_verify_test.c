@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "bake/bake_making_test.h"
+#include "bake/bake_fixture.h"
 
 #include "bake/bake_reference.h"
 #include "bake/bake_area.h"

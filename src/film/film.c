@@ -8,7 +8,7 @@
 #include "base/result.h"
 #include "film/film.h"
 
-#include "shade/shade.h"
+#include "shade/lang/lang_c_load.h"
 
 /* ---- layers ---- */
 
@@ -147,7 +147,7 @@ static inline __attribute__((always_inline)) void tone_map_pixels(const tone_map
         float opacity = clamp(pixel[3], 0.0f, 1.0f);
         vec3 color = vec3(0.0f);
         if (opacity > 0.0f) {
-            color = vec3(pixel[0], pixel[1], pixel[2]);
+            color = load3(pixel);
             if (opacity < 1.0f)
                 color = color / opacity;
             color = operator_ == FACET_TONEMAP_NONE ? clamp(color, 0.0f, FLT_MAX)
@@ -158,9 +158,7 @@ static inline __attribute__((always_inline)) void tone_map_pixels(const tone_map
             color = color + d->behind * (1.0f - opacity);
             opacity = 1.0f;
         }
-        pixel[0] = color[0];
-        pixel[1] = color[1];
-        pixel[2] = color[2];
+        store3(color, pixel);
         pixel[3] = opacity;
     }
 }
@@ -203,7 +201,7 @@ void film_tone_map(film *f, facet_tonemap operator_, const float color[3], uint3
 {
     tone_mapping d = {.film = f, .operator_ = operator_, .has_behind = color != NULL};
     if (color)
-        d.behind = vec3(color[0], color[1], color[2]);
+        d.behind = load3(color);
     parallel_for(thread_count, (size_t)f->width * f->height, GRAIN, tone_map_range, &d);
 }
 
@@ -224,18 +222,17 @@ static void blend_range(void *context, size_t begin, size_t end)
             continue;
         vec3 color = b->behind;
         if (opacity > 0.0f) {
-            vec3 straight = vec3(pixel[0], pixel[1], pixel[2]) / opacity;
+            vec3 straight = load3(pixel) / opacity;
             color = mix(b->behind, srgb_from_linear(straight), opacity);
         }
         color = linear_from_srgb(color);
-        for (int c = 0; c < 3; c++)
-            pixel[c] = color[c];
+        store3(color, pixel);
         pixel[3] = 1.0f;
     }
 }
 
 void film_blend_encoded(film *f, const float color[3], uint32_t thread_count)
 {
-    encoded_blend b = {.film = f, .behind = srgb_from_linear(vec3(color[0], color[1], color[2]))};
+    encoded_blend b = {.film = f, .behind = srgb_from_linear(load3(color))};
     parallel_for(thread_count, (size_t)f->width * f->height, GRAIN, blend_range, &b);
 }

@@ -19,7 +19,7 @@
 #include "ibl/environment.h"
 #include "ibl/equirect.h"
 #include "ibl/ibl.h"
-#include "ibl/making_test.h"
+#include "ibl/light_fixture.h"
 #include "tests/support/support.h"
 
 /* A Radiance file of width x height without run lengths: all texels rgbe. */

@@ -15,7 +15,7 @@
 #include "ibl/environment.h"
 #include "ibl/equirect.h"
 #include "ibl/ibl.h"
-#include "ibl/making_test.h"
+#include "ibl/light_fixture.h"
 
 static const double pi = 3.14159265358979323846;
 

@@ -14,7 +14,7 @@
 #include "ibl/environment.h"
 #include "ibl/equirect.h"
 #include "ibl/ibl.h"
-#include "ibl/making_test.h"
+#include "ibl/light_fixture.h"
 #include "ibl/narrow.h"
 #include "tests/support/support.h"
 

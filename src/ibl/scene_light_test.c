@@ -13,7 +13,7 @@
 
 #include "base/memory.h"
 #include "tests/support/support.h"
-#include "ibl/making_test.h"
+#include "ibl/light_fixture.h"
 #include "ibl/environment_source.h"
 #include "scene/scene.h"
 #include "ibl/sh.h"

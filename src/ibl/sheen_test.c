@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "tests/support/support.h"
-#include "ibl/making_test.h"
+#include "ibl/light_fixture.h"
 
 static const double pi = 3.14159265358979323846;
 

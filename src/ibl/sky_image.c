@@ -12,6 +12,8 @@
 #include "ibl/equirect.h"
 #include "ibl/sky_image.h"
 
+#include "shade/lang/lang_c_load.h"
+
 /* ---- the sun ---- */
 
 enum { PARTS = 16384, COLUMN_STEPS = 400 };
@@ -279,7 +281,7 @@ static void sum_blocks(void *context, size_t begin, size_t end)
             for (uint32_t x = 0; x < p->width; x++, texel += 3) {
                 float d[3];
                 equirect_direction(p->width, p->height, x, y, d);
-                double flux = (double)luminance(vec3(texel[0], texel[1], texel[2])) * solid_angle;
+                double flux = (double)luminance(load3(texel)) * solid_angle;
                 double *sum = b->vectors[row][(uint64_t)x * BLOCK_COLUMNS / p->width];
                 for (int i = 0; i < 3; i++)
                     sum[i] += flux * (double)d[i];

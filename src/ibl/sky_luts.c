@@ -8,6 +8,8 @@
 
 #include "ibl/sky_luts.h"
 
+#include "shade/lang/lang_c_load.h"
+
 enum {
     COLUMN_STEPS = 64,
     BOUNCE_STEPS = 12,
@@ -213,7 +215,7 @@ void sky_atmosphere(float turbidity, const float ground_albedo[3], Atmosphere ai
     for (int half = 0; half < SKY_HALVES; half++) {
         Atmosphere a = atmosphere_earth(half == 0 ? SKY_BANDS_FIRST : SKY_BANDS_SECOND);
         a = atmosphere_with_haze(a, haze_depth_from_turbidity(turbidity), angstrom, scattering_albedo, g);
-        a.ground_albedo = vec3(ground_albedo[0], ground_albedo[1], ground_albedo[2]);
+        a.ground_albedo = load3(ground_albedo);
         air[half] = a;
     }
 }

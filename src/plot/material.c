@@ -347,14 +347,12 @@ static float pdf_lobes(const lobe_set *set, vec3 V, vec3 L)
 static void add_batch(const material *m, const lobe_set *set, const lobe *l, const float V_[3],
                       uint32_t begin, uint32_t n, double sum[3])
 {
-    vec3 V = vec3(V_[0], V_[1], V_[2]);
+    vec3 V = load3(V_);
     float L[BATCH][3];
     double f[BATCH][3];
     for (uint32_t i = 0; i < BATCH; i++) {
         vec3 d = sample_lobe(l, hammersley(begin + i, n), V);
-        L[i][0] = d[0];
-        L[i][1] = d[1];
-        L[i][2] = d[2];
+        store3(d, L[i]);
     }
     material_brdf_cos(m, V_, BATCH, (const float(*)[3])L, f);
     for (uint32_t i = 0; i < BATCH; i++) {

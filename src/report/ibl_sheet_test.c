@@ -10,7 +10,7 @@
 
 #include "tests/support/support.h"
 #include "base/memory.h"
-#include "ibl/making_test.h"
+#include "ibl/light_fixture.h"
 #include "report/ibl_sheet.h"
 #include "report/report.h"
 

@@ -15,7 +15,7 @@
 #include "tests/support/support.h"
 #include "gl/scene/gl_light.h"
 #include "gl/core/gl_program.h"
-#include "ibl/making_test.h"
+#include "ibl/light_fixture.h"
 
 #include "shade/shade.h"
 

@@ -1,13 +1,13 @@
-/* bake_making_test.h - for tests: environments of formulas, baked cube maps, their texels. Include after
+/* bake_fixture.h - for tests: environments of formulas, baked cube maps, their texels. Include after
  * cmocka.h. */
-#ifndef BAKE_BAKE_MAKING_TEST_H
-#define BAKE_BAKE_MAKING_TEST_H
+#ifndef BAKE_BAKE_FIXTURE_H
+#define BAKE_BAKE_FIXTURE_H
 
 #include <math.h>
 
 #include "bake/bake.h"
 #include "tests/support/support.h"
-#include "ibl/making_test.h"
+#include "ibl/light_fixture.h"
 
 /* Rings take harmonics of a high degree, seconds where nothing is optimised: the tests of rings are enough
  * there. */

@@ -1,6 +1,6 @@
-/* making_test.h - for tests: environments of formulas, lights, directions. Include after cmocka.h. */
-#ifndef IBL_MAKING_TEST_H
-#define IBL_MAKING_TEST_H
+/* light_fixture.h - for tests: environments of formulas, lights, directions. Include after cmocka.h. */
+#ifndef IBL_LIGHT_FIXTURE_H
+#define IBL_LIGHT_FIXTURE_H
 
 #include <math.h>
 
