@@ -221,7 +221,7 @@ static void expect_continuous(Layers wide, Layers narrow, double step, const cha
             }
         }
 }
-static void test_mirrors_continue_lobes(void **state)
+static void test_delta_lobes_continue_narrow_ones(void **state)
 {
     (void)state;
     const float iors[] = {1.5f, 1.0f / 1.5f};
@@ -268,7 +268,7 @@ static void test_mirrors_continue_lobes(void **state)
 
 /* The non-specular lobes are the whole surface if there is no specular lobe, bit for bit; otherwise they
  * differ from it only near the specular directions, where the narrow lobes are hundreds high. */
-static void test_scatter_leaves_out_mirrors(void **state)
+static void test_scattering_excludes_delta_lobes(void **state)
 {
     (void)state;
     test_rng rng = {3};
@@ -443,11 +443,16 @@ static void test_fuzz(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_mean_weight_is_albedo),   cmocka_unit_test(test_glass_loses_nothing),
-        cmocka_unit_test(test_smooth_glass_is_fresnel), cmocka_unit_test(test_specular_factor),
-        cmocka_unit_test(test_mirrors_continue_lobes),  cmocka_unit_test(test_scatter_leaves_out_mirrors),
-        cmocka_unit_test(test_boundary_is_reciprocal),  cmocka_unit_test(test_lobes_are_reciprocal),
-        cmocka_unit_test(test_weights_are_bounded),     cmocka_unit_test(test_fuzz),
+        cmocka_unit_test(test_mean_weight_is_albedo),
+        cmocka_unit_test(test_glass_loses_nothing),
+        cmocka_unit_test(test_smooth_glass_is_fresnel),
+        cmocka_unit_test(test_specular_factor),
+        cmocka_unit_test(test_delta_lobes_continue_narrow_ones),
+        cmocka_unit_test(test_scattering_excludes_delta_lobes),
+        cmocka_unit_test(test_boundary_is_reciprocal),
+        cmocka_unit_test(test_lobes_are_reciprocal),
+        cmocka_unit_test(test_weights_are_bounded),
+        cmocka_unit_test(test_fuzz),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -209,7 +209,7 @@ static void test_steps(void **state)
 }
 
 /* Columns and rows of maps are inverted exactly; both are monotonic, and angles between neighbors stay small. */
-static void test_pictures(void **state)
+static void test_maps(void **state)
 {
     (void)state;
     const int n = 512;
@@ -271,7 +271,7 @@ int main(void)
                                        cmocka_unit_test(test_rays),
                                        cmocka_unit_test(test_tables),
                                        cmocka_unit_test(test_steps),
-                                       cmocka_unit_test(test_pictures),
+                                       cmocka_unit_test(test_maps),
                                        cmocka_unit_test(test_closed_box)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

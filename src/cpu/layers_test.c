@@ -1,4 +1,4 @@
-/* Tests of materials with extensions: texture channels, factors of 0, frames, anti-aliasing. */
+/* Tests of materials with extensions: texture channels, factors of 0, frames, limits. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,12 +11,6 @@
 #include "cpu/preview_fixture.h"
 
 enum { SIZE = 32, FLOATS = SIZE * SIZE * 4 };
-
-static void no_environment(fixture *f)
-{
-    facet_environment_destroy(f->environment);
-    f->environment = NULL;
-}
 
 static scene_material base(void)
 {
@@ -288,7 +282,7 @@ static float coat_towards(bool from_above, uint32_t set, bool has_tangents)
     static const unsigned char right[4] = {192, 128, 238, 255}; /* tilted by 30 degrees towards +u */
     static const float turned[8] = {0, 1, 0, 0, 1, 1, 1, 0};    /* u up, v to the right */
     fixture f = fixture_create();
-    no_environment(&f);
+    fixture_remove_environment(&f);
     f.desc.width = f.desc.height = 9;
     scene_material m = scene_material_default();
     m.base_color[0] = 0.0f;
@@ -332,7 +326,7 @@ static void coats_have_normals_of_their_own(void **state)
 static film anisotropic_quad(const float *tangents, float rotation)
 {
     fixture f = fixture_create();
-    no_environment(&f);
+    fixture_remove_environment(&f);
     f.desc.width = f.desc.height = SIZE;
     scene_material m = scene_material_default();
     m.perceptual_roughness = 0.3f;
@@ -427,113 +421,31 @@ static void layers_return_no_more_than_they_got(void **state)
     }
 }
 
-/* ---- specular anti-aliasing ---- */
-
-/* The normal of a ball of radius R pixels changes by 1 / R per pixel in the middle: alpha^2 grows by 1/2
- * (1 / R^2 + 1 / R^2). */
-static float highlight(float perceptual_roughness, bool is_antialiased)
-{
-    fixture f = fixture_create();
-    no_environment(&f);
-    f.desc.width = f.desc.height = 9;
-    f.desc.samples = 1;
-    f.desc.has_specular_antialiasing = is_antialiased;
-    scene_material m = scene_material_default();
-    m.perceptual_roughness = perceptual_roughness;
-    fixture_place(&f, fixture_add_sphere(&f, 512, fixture_add_material(&f, m)), 0, 0, 0, 20.0f / 9.0f);
-    scene_light sun = {.name = "", .type = SCENE_LIGHT_DIRECTIONAL, .color = {1, 1, 1}, .intensity = 1.0f};
-    fixture_add_light(&f, sun, 0, 0, 0);
-    f.camera.eye[2] = 20.0f;
-    film rendered = fixture_render(&f);
-    float brightness = fixture_pixel(&rendered, "", 4, 4)[0];
-    film_destroy(&rendered);
-    fixture_destroy(&f);
-    return brightness;
-}
-
-static void highlights_of_curved_surfaces_widen(void **state)
-{
-    (void)state;
-    float alpha = 0.3f * 0.3f;
-    float widened = sqrtf(alpha * alpha + 1.0f / (10.0f * 10.0f));
-    float expected = highlight(sqrtf(widened), false);
-    assert_true(fabsf(highlight(0.3f, true) - expected) < 0.01f * expected);
-    assert_true(highlight(0.3f, false) > 1.5f * expected);
-}
-
-static void flat_surfaces_stay_as_they_are(void **state)
-{
-    (void)state;
-    film films[2];
-    for (int i = 0; i < 2; i++) {
-        fixture f = fixture_create();
-        f.desc.width = f.desc.height = SIZE;
-        f.desc.has_specular_antialiasing = i;
-        fixture_place(&f, fixture_add_quad(&f, fixture_add_material(&f, base())), 0, 0, 0, 1.0f);
-        scene_light light = {.name = "", .type = SCENE_LIGHT_POINT, .color = {1, 1, 1}, .intensity = 3.0f};
-        fixture_add_light(&f, light, 0.3f, 0.1f, 1.0f);
-        films[i] = fixture_render(&f);
-        fixture_destroy(&f);
-    }
-    assert_true(greatest_difference(&films[0], &films[1]) < 1e-6);
-    film_destroy(&films[0]);
-    film_destroy(&films[1]);
-}
-
-/* Bumps narrower than a pixel roughen a mirror. */
-static void normal_textures_count(void **state)
-{
-    (void)state;
-    unsigned char bumps[4 * 64 * 64];
-    for (uint32_t i = 0; i < 64 * 64; i++) {
-        bool is_left = (i / 2) % 2;
-        memcpy(bumps + 4 * i,
-               is_left ? (unsigned char[4]){108, 128, 254, 255} : (unsigned char[4]){148, 128, 254, 255}, 4);
-    }
-    float brightness[2];
-    for (int i = 0; i < 2; i++) {
-        fixture f = fixture_create();
-        no_environment(&f);
-        f.desc.width = f.desc.height = 33;
-        f.desc.has_specular_antialiasing = i;
-        scene_material m = scene_material_default();
-        m.perceptual_roughness = 0.3f;
-        m.textures[SCENE_NORMAL_TEXTURE].texture = fixture_add_texture(&f, 64, 64, bumps);
-        f.scene->textures[0].mip_filter = SCENE_MIP_NONE;
-        uint32_t mesh = fixture_add_quad(&f, fixture_add_material(&f, m));
-        fixture_primitive(&f, mesh)->tangents = TANGENTS;
-        fixture_place(&f, mesh, 0, 0, 0, 1.0f);
-        scene_light sun = {
-            .name = "", .type = SCENE_LIGHT_DIRECTIONAL, .color = {1, 1, 1}, .intensity = 1.0f};
-        fixture_add_light(&f, sun, 0, 0, 0);
-        film rendered = fixture_render(&f);
-        brightness[i] = 0.0f;
-        for (uint32_t p = 0; p < 33; p++)
-            brightness[i] = fmaxf(brightness[i], fixture_pixel(&rendered, "", p, 16)[0]);
-        film_destroy(&rendered);
-        fixture_destroy(&f);
-    }
-    assert_true(brightness[1] < 0.8f * brightness[0]);
-}
-
 /* ---- limits ---- */
 
-/* The deadline is checked within a tile: this image is one, and takes much longer. */
-static void the_time_limit_holds_within_a_tile(void **state)
+/* Twelve balls within one another, in one tile. */
+static fixture slow_tile(void)
 {
-    (void)state;
     fixture f = fixture_create();
-    f.desc.width = f.desc.height = 32;
+    f.desc.width = f.desc.height = SIZE;
     f.desc.quality = FACET_QUALITY_FINAL;
-    f.desc.samples = 16;
     f.desc.thread_count = 1;
-    f.desc.time_limit_s = 0.03;
     scene_material m = with_all(1.0f);
     m.metallic = 0.0f;
     m.transmission = 1.0f;
     for (int i = 0; i < 12; i++)
         fixture_place(&f, fixture_add_sphere(&f, 64, fixture_add_material(&f, m)), 0, 0, 0,
                       0.95f - 0.07f * (float)i);
+    return f;
+}
+
+/* The deadline is checked within a tile: this image is one, and takes much longer. */
+static void the_time_limit_holds_within_a_tile(void **state)
+{
+    (void)state;
+    fixture f = slow_tile();
+    f.desc.samples = 16;
+    f.desc.time_limit_s = 0.03;
     film rendered;
     facet_render_stats stats;
     facet_error error;
@@ -554,19 +466,10 @@ static bool stop_soon(void *user, const char *stage, double fraction)
 static void a_tile_can_be_cancelled(void **state)
 {
     (void)state;
-    fixture f = fixture_create();
+    fixture f = slow_tile();
     double reported[2] = {-1.0, 0.0}; /* fraction, times */
-    f.desc.width = f.desc.height = 32;
     f.desc.samples = 64;
-    f.desc.quality = FACET_QUALITY_FINAL;
-    f.desc.thread_count = 1;
     f.desc.progress = (facet_progress){.report = stop_soon, .user = reported};
-    scene_material m = with_all(1.0f);
-    m.metallic = 0.0f;
-    m.transmission = 1.0f;
-    for (int i = 0; i < 12; i++)
-        fixture_place(&f, fixture_add_sphere(&f, 64, fixture_add_material(&f, m)), 0, 0, 0,
-                      0.95f - 0.07f * (float)i);
     film rendered;
     facet_render_stats stats;
     facet_error error;
@@ -588,9 +491,6 @@ int main(void)
         cmocka_unit_test(highlights_are_stretched_along_the_tangent),
         cmocka_unit_test(light_comes_through_leaves),
         cmocka_unit_test(layers_return_no_more_than_they_got),
-        cmocka_unit_test(highlights_of_curved_surfaces_widen),
-        cmocka_unit_test(flat_surfaces_stay_as_they_are),
-        cmocka_unit_test(normal_textures_count),
         cmocka_unit_test(the_time_limit_holds_within_a_tile),
         cmocka_unit_test(a_tile_can_be_cancelled),
     };

@@ -234,7 +234,7 @@ static void without_lights_there_is_rgls_default(void **state)
 }
 
 /* A punctual light of pi lx is a legacy light of 1; others are encoded like colors. */
-static void directional_lamps_of_gltf(void **state)
+static void directional_lights_of_gltf_are_lit_by_their_irradiance(void **state)
 {
     (void)state;
     for (int is_linear = 0; is_linear < 2; is_linear++) {
@@ -274,7 +274,7 @@ static void directional_lamps_of_gltf(void **state)
 }
 
 /* Points and spots have their inverse square and cones: irradiance / pi, at the middle of the image. */
-static void lamps_with_falloff(void **state)
+static void lights_with_falloff_have_it_in_ogl1_too(void **state)
 {
     (void)state;
     for (int is_spot = 0; is_spot < 2; is_spot++) {
@@ -443,8 +443,8 @@ int main(void)
         cmocka_unit_test(lights_that_move_with_the_camera),
         cmocka_unit_test(directions_as_the_vignette_prints_them),
         cmocka_unit_test(without_lights_there_is_rgls_default),
-        cmocka_unit_test(directional_lamps_of_gltf),
-        cmocka_unit_test(lamps_with_falloff),
+        cmocka_unit_test(directional_lights_of_gltf_are_lit_by_their_irradiance),
+        cmocka_unit_test(lights_with_falloff_have_it_in_ogl1_too),
         cmocka_unit_test(linear_light),
         cmocka_unit_test(encoded_numbers_have_no_color_space),
         cmocka_unit_test(fog),

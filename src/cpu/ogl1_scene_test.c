@@ -53,15 +53,7 @@ static fixture busy_scene(void)
     return f;
 }
 
-static void assert_same_film(const film *a, const film *b)
-{
-    assert_int_equal(a->layer_count, b->layer_count);
-    for (uint32_t i = 0; i < a->layer_count; i++)
-        assert_memory_equal(a->layers[i].pixels, b->layers[i].pixels,
-                            (size_t)a->width * a->height * a->layers[i].channel_count * sizeof(float));
-}
-
-static void pictures_do_not_depend_on_threads(void **state)
+static void images_do_not_depend_on_threads(void **state)
 {
     (void)state;
     for (int variant = 0; variant < 4; variant++) {
@@ -73,7 +65,7 @@ static void pictures_do_not_depend_on_threads(void **state)
         for (int i = 0; i < 3; i++) {
             f.desc.thread_count = threads[i];
             film rendered = fixture_render(&f);
-            assert_same_film(&first, &rendered);
+            fixture_assert_same(&first, &rendered);
             film_destroy(&rendered);
         }
         film_destroy(&first);
@@ -99,7 +91,7 @@ static void models_take_turns(void **state)
         desc.crop[3] = desc.height;
         assert_int_equal(film_create(NULL, desc.width, desc.height, desc.aovs, &kept, NULL), FACET_OK);
         assert_int_equal(preview_render_prepared(&prepared, &desc, &kept, &stats, NULL), FACET_OK);
-        assert_same_film(&fresh, &kept);
+        fixture_assert_same(&fresh, &kept);
         film_destroy(&fresh);
         film_destroy(&kept);
     }
@@ -129,7 +121,7 @@ static void environments_are_left_alone(void **state)
     facet_environment_destroy(f.environment);
     f.environment = NULL;
     film without = fixture_render(&f);
-    assert_same_film(&with, &without);
+    fixture_assert_same(&with, &without);
     film_destroy(&with);
     film_destroy(&without);
     film_destroy(&gltf);
@@ -188,7 +180,7 @@ static void running_out_of_memory_leaks_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pictures_do_not_depend_on_threads),   cmocka_unit_test(models_take_turns),
+        cmocka_unit_test(images_do_not_depend_on_threads),     cmocka_unit_test(models_take_turns),
         cmocka_unit_test(environments_are_left_alone),         cmocka_unit_test(errors_say_what_to_do),
         cmocka_unit_test(running_out_of_memory_leaks_nothing),
     };

@@ -235,3 +235,19 @@ const float *fixture_pixel(const film *rendered, const char *layer, uint32_t x, 
     assert_non_null(l);
     return l->pixels + ((size_t)y * rendered->width + x) * l->channel_count;
 }
+
+void fixture_assert_same(const film *a, const film *b)
+{
+    assert_int_equal(a->width, b->width);
+    assert_int_equal(a->height, b->height);
+    assert_int_equal(a->layer_count, b->layer_count);
+    for (uint32_t i = 0; i < a->layer_count; i++)
+        assert_memory_equal(a->layers[i].pixels, b->layers[i].pixels,
+                            (size_t)a->width * a->height * a->layers[i].channel_count * sizeof(float));
+}
+
+void fixture_remove_environment(fixture *f)
+{
+    facet_environment_destroy(f->environment);
+    f->environment = NULL;
+}

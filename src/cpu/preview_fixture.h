@@ -17,6 +17,7 @@ typedef struct fixture {
 /* camera: at (0, 0, 10), looks at the origin, orthographic, 2 m high. */
 fixture fixture_create(void);
 void fixture_destroy(fixture *f);
+void fixture_remove_environment(fixture *f);
 /* Index of the new material, image and texture (RGBA, 8 bits), mesh. */
 uint32_t fixture_add_material(fixture *f, scene_material material);
 uint32_t fixture_add_texture(fixture *f, uint32_t width, uint32_t height, const unsigned char *rgba);
@@ -37,5 +38,7 @@ film fixture_render(fixture *f);
 /* The same; returns the result. */
 facet_result fixture_try_render(fixture *f, film *out, facet_render_stats *stats, facet_error *error);
 const float *fixture_pixel(const film *rendered, const char *layer, uint32_t x, uint32_t y);
+/* Aborts the test unless all layers are the same, bit for bit. */
+void fixture_assert_same(const film *a, const film *b);
 
 #endif

@@ -106,7 +106,7 @@ static void clipping_planes_clip(void **state)
 }
 
 /* A camera made for a square shows the whole square in wide and in tall images. */
-static void pictures_show_what_the_camera_was_made_for(void **state)
+static void images_show_what_the_camera_was_made_for(void **state)
 {
     (void)state;
     static const uint32_t sizes[3][2] = {{64, 64}, {128, 64}, {64, 128}};
@@ -286,14 +286,6 @@ static fixture busy_scene(void)
     return f;
 }
 
-static void assert_same_film(const film *a, const film *b)
-{
-    assert_int_equal(a->layer_count, b->layer_count);
-    for (uint32_t i = 0; i < a->layer_count; i++)
-        assert_memory_equal(a->layers[i].pixels, b->layers[i].pixels,
-                            (size_t)a->width * a->height * a->layers[i].channel_count * sizeof(float));
-}
-
 static void assert_same_for_all_threads(fixture *f)
 {
     static const uint32_t threads[] = {2, 3, 8, 2};
@@ -302,13 +294,13 @@ static void assert_same_for_all_threads(fixture *f)
     for (int i = 0; i < 4; i++) {
         f->desc.thread_count = threads[i];
         film rendered = fixture_render(f);
-        assert_same_film(&first, &rendered);
+        fixture_assert_same(&first, &rendered);
         film_destroy(&rendered);
     }
     film_destroy(&first);
 }
 
-static void pictures_do_not_depend_on_threads(void **state)
+static void images_do_not_depend_on_threads(void **state)
 {
     (void)state;
     fixture f = busy_scene();
@@ -467,13 +459,13 @@ int main(void)
         cmocka_unit_test(depth_is_along_the_axis),
         cmocka_unit_test(depth_of_a_sphere),
         cmocka_unit_test(clipping_planes_clip),
-        cmocka_unit_test(pictures_show_what_the_camera_was_made_for),
+        cmocka_unit_test(images_show_what_the_camera_was_made_for),
         cmocka_unit_test(a_camera_that_looks_nowhere_is_an_error),
         cmocka_unit_test(backs_are_culled_unless_double_sided),
         cmocka_unit_test(normals_face_the_eye),
         cmocka_unit_test(coincident_backs_hide_nothing),
         cmocka_unit_test(points_and_lines_are_a_pixel_wide),
-        cmocka_unit_test(pictures_do_not_depend_on_threads),
+        cmocka_unit_test(images_do_not_depend_on_threads),
         cmocka_unit_test(large_meshes_do_not_depend_on_threads),
         cmocka_unit_test(a_crop_is_a_part_of_the_whole),
         cmocka_unit_test(progress_is_reported_in_order_and_cancels),

@@ -17,12 +17,6 @@ static void assert_near(float value, double expected, double tolerance)
         fail_msg("%g instead of %g", (double)value, expected);
 }
 
-static void no_environment(fixture *f)
-{
-    facet_environment_destroy(f->environment);
-    f->environment = NULL;
-}
-
 static scene_material glass(float ior)
 {
     scene_material m = scene_material_default();
@@ -34,7 +28,7 @@ static scene_material glass(float ior)
     return m;
 }
 
-static scene_material glass_body(float ior)
+static scene_material glass_volume(float ior)
 {
     scene_material m = glass(ior);
     m.extensions |= SCENE_VOLUME;
@@ -93,7 +87,7 @@ static void glass_vanishes_in_a_constant_environment(void **state)
                 f.desc.energy = FACET_ENERGY_CONSERVING;
                 f.desc.quality = (facet_quality)quality;
                 f.desc.background = FACET_BACKGROUND_ENVIRONMENT;
-                scene_material m = is_volume ? glass_body(1.5f) : glass(1.5f);
+                scene_material m = is_volume ? glass_volume(1.5f) : glass(1.5f);
                 m.perceptual_roughness = roughnesses[i];
                 fixture_place(&f, fixture_add_sphere(&f, 32, fixture_add_material(&f, m)), 0, 0, 0, 0.9f);
                 film rendered = fixture_render(&f);
@@ -104,7 +98,7 @@ static void glass_vanishes_in_a_constant_environment(void **state)
             }
 }
 
-static void bodies_in_bodies_vanish(void **state)
+static void volumes_in_equal_volumes_are_invisible(void **state)
 {
     (void)state;
     fixture f = fixture_create();
@@ -112,8 +106,8 @@ static void bodies_in_bodies_vanish(void **state)
     f.desc.energy = FACET_ENERGY_CONSERVING;
     static const float iors[3] = {1.5f, 1.33f, 2.4f};
     for (int i = 0; i < 3; i++)
-        fixture_place(&f, fixture_add_sphere(&f, 48, fixture_add_material(&f, glass_body(iors[i]))), 0, 0, 0,
-                      0.9f - 0.25f * (float)i);
+        fixture_place(&f, fixture_add_sphere(&f, 48, fixture_add_material(&f, glass_volume(iors[i]))), 0, 0,
+                      0, 0.9f - 0.25f * (float)i);
     film rendered = fixture_render(&f);
     for (uint32_t p = 0; p < 64 * 64; p++)
         assert_near(rendered.layers[0].pixels[4 * p], 1.0, 1.0 / 255.0);
@@ -127,7 +121,8 @@ static void an_eye_in_glass_sees_out(void **state)
     fixture f = fixture_create();
     f.camera = (facet_camera){.eye = {0.0f, 0.0f, 0.3f}, .fov_y_rad = 1.5f};
     f.desc.energy = FACET_ENERGY_CONSERVING;
-    fixture_place(&f, fixture_add_sphere(&f, 64, fixture_add_material(&f, glass_body(1.5f))), 0, 0, 0, 1.0f);
+    fixture_place(&f, fixture_add_sphere(&f, 64, fixture_add_material(&f, glass_volume(1.5f))), 0, 0, 0,
+                  1.0f);
     film rendered = fixture_render(&f);
     for (uint32_t p = 0; p < 64 * 64; p++)
         assert_near(rendered.layers[0].pixels[4 * p], 1.0, 1.0 / 255.0);
@@ -141,7 +136,7 @@ static void white_scattering_loses_nothing(void **state)
     (void)state;
     fixture f = fixture_create();
     f.desc.energy = FACET_ENERGY_CONSERVING;
-    scene_material m = glass_body(1.3f);
+    scene_material m = glass_volume(1.3f);
     m.extensions |= SCENE_VOLUME_SCATTER;
     m.attenuation_distance = 0.3f;
     for (int c = 0; c < 3; c++) {
@@ -174,11 +169,11 @@ static void a_slab_shifts_what_is_behind_it(void **state)
     for (int i = 0; i < 4; i++)
         for (int k = 0; k < 4; k++) {
             fixture f = fixture_create();
-            no_environment(&f);
+            fixture_remove_environment(&f);
             f.desc.width = f.desc.height = 33; /* a pixel in the middle */
             f.desc.samples = 1;                /* and its ray */
             add_ruler(&f, -3.0f, 2.0f);
-            add_slab(&f, glass_body(iors[k]), 0.4f, angles[i] * DEGREE, 4.0f);
+            add_slab(&f, glass_volume(iors[k]), 0.4f, angles[i] * DEGREE, 4.0f);
             film rendered = fixture_render(&f);
             /* Turned to +X, the front face sends the ray to -X; internal reflection adds a little. */
             double expected = -slab_shift(0.4, angles[i] * DEGREE, (double)iors[k]);
@@ -199,15 +194,16 @@ static double ball_x(double x, double ior, double z)
     return sin(out) - tan(turn) * (-z - cos(out));
 }
 
-static void a_ball_turns_the_picture_around(void **state)
+static void a_ball_turns_the_image_around(void **state)
 {
     (void)state;
     fixture f = fixture_create();
-    no_environment(&f);
+    fixture_remove_environment(&f);
     f.camera.ortho_height = 2.0f;
     f.desc.width = f.desc.height = 64;
     add_ruler(&f, -2.0f, 4.0f);
-    fixture_place(&f, fixture_add_sphere(&f, 512, fixture_add_material(&f, glass_body(1.5f))), 0, 0, 0, 1.0f);
+    fixture_place(&f, fixture_add_sphere(&f, 512, fixture_add_material(&f, glass_volume(1.5f))), 0, 0, 0,
+                  1.0f);
     film rendered = fixture_render(&f);
     for (uint32_t i = 20; i < 44; i += 3) {
         double x = (i + 0.5 - 32.0) / 32.0;
@@ -224,7 +220,7 @@ static void thin_walls_do_not_bend(void **state)
 {
     (void)state;
     fixture f = fixture_create();
-    no_environment(&f);
+    fixture_remove_environment(&f);
     f.desc.samples = 1;
     add_ruler(&f, -2.0f, 1.0f);
     scene_material m = glass(1.5f);
@@ -246,11 +242,11 @@ static void absorption_follows_the_real_path(void **state)
     for (int i = 0; i < 3; i++)
         for (int is_bent = 0; is_bent < 2; is_bent++) {
             fixture f = fixture_create();
-            no_environment(&f);
+            fixture_remove_environment(&f);
             scene_material light = scene_material_default();
             light.extensions = SCENE_UNLIT;
             fixture_place(&f, fixture_add_quad(&f, fixture_add_material(&f, light)), 0, 0, -5.0f, 8.0f);
-            scene_material m = glass_body(is_bent ? 1.5f : 1.0f);
+            scene_material m = glass_volume(is_bent ? 1.5f : 1.0f);
             m.attenuation_distance = 0.5f;
             m.attenuation_color[0] = 0.25f;
             m.attenuation_color[1] = 0.7f;
@@ -277,9 +273,9 @@ static void boundaries_tint(void **state)
     (void)state;
     for (int is_volume = 0; is_volume < 2; is_volume++) {
         fixture f = fixture_create();
-        no_environment(&f);
+        fixture_remove_environment(&f);
         add_ruler(&f, -3.0f, 2.0f);
-        scene_material m = is_volume ? glass_body(1.0f) : glass(1.0f);
+        scene_material m = is_volume ? glass_volume(1.0f) : glass(1.0f);
         m.base_color[2] = 0.6f;
         add_slab(&f, m, 0.2f, 0.0,
                  3.0f); /* of the thin ones only the front is double sided: back faces are culled */
@@ -294,7 +290,7 @@ static void boundaries_tint(void **state)
 static film render_dispersive(float dispersion, facet_quality quality, bool is_white)
 {
     fixture f = fixture_create();
-    no_environment(&f);
+    fixture_remove_environment(&f);
     f.desc.width = f.desc.height = 33;
     f.desc.samples = 1;
     f.desc.quality = quality;
@@ -304,7 +300,7 @@ static film render_dispersive(float dispersion, facet_quality quality, bool is_w
     uint32_t mesh = fixture_add_quad(&f, fixture_add_material(&f, m));
     fixture_primitive(&f, mesh)->colors = is_white ? NULL : colors;
     fixture_place(&f, mesh, 0, 0, -3.0f, 2.0f);
-    m = glass_body(1.5f);
+    m = glass_volume(1.5f);
     m.extensions |= dispersion >= 0.0f ? SCENE_DISPERSION : 0u;
     m.dispersion = fmaxf(dispersion, 0.0f);
     add_slab(&f, m, 0.8f, 45.0 * DEGREE, 4.0f);
@@ -372,10 +368,10 @@ static void all_is_seen_through_glass(void **state)
     film films[3];
     for (int kind = 0; kind < 3; kind++) {
         fixture f = fixture_create();
-        no_environment(&f);
+        fixture_remove_environment(&f);
         f.desc.samples = 1;
         add_leaves(&f);
-        scene_material m = kind == 1 ? glass(1.0f) : glass_body(1.0f);
+        scene_material m = kind == 1 ? glass(1.0f) : glass_volume(1.0f);
         if (kind)
             add_slab(&f, m, 0.3f, 0.0, 3.0f);
         films[kind] = fixture_render(&f);
@@ -406,12 +402,12 @@ static void alpha_is_coverage(void **state)
 }
 
 /* A volume without far side: rays end in it, absorbed over the thickness of its material. */
-static void an_open_body_shows_the_environment(void **state)
+static void an_open_volume_shows_the_environment(void **state)
 {
     (void)state;
     fixture f = fixture_create();
     f.desc.energy = FACET_ENERGY_CONSERVING;
-    scene_material m = glass_body(1.5f);
+    scene_material m = glass_volume(1.5f);
     m.thickness = 0.4f;
     m.attenuation_distance = 0.2f;
     m.attenuation_color[0] = 0.5f;
@@ -433,14 +429,14 @@ static void liquids_touch_their_glass(void **state)
     double seen[3];
     for (int kind = 0; kind < 3; kind++) {
         fixture f = fixture_create();
-        no_environment(&f);
+        fixture_remove_environment(&f);
         f.desc.width = f.desc.height = 33;
         add_ruler(&f, -3.0f, 2.0f);
         /* The liquid alone, or with walls of the same ior in the same places, or reaching into them by
          * 0.05. */
         double angle = 30.0 * DEGREE;
-        scene_material liquid = glass_body(1.4f);
-        scene_material wall = glass_body(1.4f);
+        scene_material liquid = glass_volume(1.4f);
+        scene_material wall = glass_volume(1.4f);
         add_slab(&f, liquid, kind == 2 ? 0.5f : 0.4f, angle, 4.0f);
         if (kind) {
             uint32_t material = fixture_add_material(&f, wall);
@@ -471,7 +467,7 @@ static void liquids_touch_their_glass(void **state)
 static void add_many_kinds(fixture *f)
 {
     add_leaves(f);
-    scene_material m = glass_body(1.6f);
+    scene_material m = glass_volume(1.6f);
     m.perceptual_roughness = 0.4f;
     m.extensions |= SCENE_DISPERSION;
     m.dispersion = 2.0f;
@@ -520,11 +516,11 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(glass_vanishes_in_a_constant_environment),
-        cmocka_unit_test(bodies_in_bodies_vanish),
+        cmocka_unit_test(volumes_in_equal_volumes_are_invisible),
         cmocka_unit_test(an_eye_in_glass_sees_out),
         cmocka_unit_test(white_scattering_loses_nothing),
         cmocka_unit_test(a_slab_shifts_what_is_behind_it),
-        cmocka_unit_test(a_ball_turns_the_picture_around),
+        cmocka_unit_test(a_ball_turns_the_image_around),
         cmocka_unit_test(thin_walls_do_not_bend),
         cmocka_unit_test(absorption_follows_the_real_path),
         cmocka_unit_test(boundaries_tint),
@@ -532,7 +528,7 @@ int main(void)
         cmocka_unit_test(colors_part_by_their_ior),
         cmocka_unit_test(all_is_seen_through_glass),
         cmocka_unit_test(alpha_is_coverage),
-        cmocka_unit_test(an_open_body_shows_the_environment),
+        cmocka_unit_test(an_open_volume_shows_the_environment),
         cmocka_unit_test(liquids_touch_their_glass),
         cmocka_unit_test(glass_is_the_same_for_all_threads_and_crops),
     };

@@ -32,7 +32,7 @@ static film render_quad(fixture *f, scene_material material)
 
 /* ---- furnaces ---- */
 
-static void a_white_mirror_shows_its_surroundings(void **state)
+static void a_white_mirror_shows_its_environment(void **state)
 {
     (void)state;
     for (int energy = 0; energy < 2; energy++) {
@@ -88,12 +88,6 @@ static void the_gltf_mode_stays_near_white(void **state)
 
 /* ---- lights ---- */
 
-static void no_environment(fixture *f)
-{
-    facet_environment_destroy(f->environment);
-    f->environment = NULL;
-}
-
 static scene_material lambert(void)
 {
     scene_material material = scene_material_default();
@@ -106,7 +100,7 @@ static void a_directional_light_on_lambert(void **state)
 {
     (void)state;
     fixture f = fixture_create();
-    no_environment(&f);
+    fixture_remove_environment(&f);
     scene_light light = {
         .name = "", .type = SCENE_LIGHT_DIRECTIONAL, .color = {1.0f, 0.5f, 0.25f}, .intensity = 2.0f};
     fixture_add_light(&f, light, 0, 0, 0); /* emits along -Z */
@@ -128,7 +122,7 @@ static void a_point_light_falls_off(void **state)
 {
     (void)state;
     fixture f = fixture_create();
-    no_environment(&f);
+    fixture_remove_environment(&f);
     scene_light light = {.name = "", .type = SCENE_LIGHT_POINT, .color = {1, 1, 1}, .intensity = 10.0f};
     fixture_add_light(&f, light, 0, 0, 2.0f);
     f.desc.width = f.desc.height = 65; /* a pixel in the middle */
@@ -451,7 +445,7 @@ static void edges_are_premultiplied(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_white_mirror_shows_its_surroundings),
+        cmocka_unit_test(a_white_mirror_shows_its_environment),
         cmocka_unit_test(white_vanishes_in_white),
         cmocka_unit_test(the_gltf_mode_stays_near_white),
         cmocka_unit_test(a_directional_light_on_lambert),
