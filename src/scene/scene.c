@@ -177,48 +177,45 @@ typedef struct message_list {
     size_t *capacity;
 } message_list;
 
-/* Adds a message. False: it is a duplicate, or the list is full. */
-static bool keep_message(facet_scene *scene, const message_list *list, char *message, size_t size)
+/* Keeps and logs a message, unless it is a duplicate or the list is full. */
+static void report_once(facet_scene *scene, const facet_log *log, facet_log_level level,
+                        const message_list *list, const char *format, va_list arguments)
 {
     /* A limit, since a broken file can repeat a message for each of a million elements. */
     enum { MAX_MESSAGES = 1000 };
+    char message[1024];
+    vsnprintf(message, sizeof message, format, arguments);
     if (*list->count >= MAX_MESSAGES)
-        return false;
+        return;
     for (uint32_t i = 0; i < *list->count; i++)
         if (strcmp((*list->texts)[i], message) == 0)
-            return false;
+            return;
     if (*list->count + 1 == MAX_MESSAGES)
-        snprintf(message, size, "%s: has more to warn about; this is the last one", scene->source);
+        snprintf(message, sizeof message, "%s: has more to warn about; this is the last one", scene->source);
     const char *copy = arena_strdup(scene->arena, message);
     if (copy && mem_reserve(&scene->allocator, (void **)list->texts, list->capacity, (size_t)*list->count + 1,
                             sizeof **list->texts))
         (*list->texts)[(*list->count)++] = copy;
-    return true;
+    log_message(log, level, "%s", message);
 }
 
 void scene_warn(facet_scene *scene, const facet_log *log, const char *format, ...)
 {
-    char message[1024];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(message, sizeof message, format, arguments);
-    va_end(arguments);
     const message_list list = {&scene->warnings, &scene->warning_count,
                                &((scene_store *)scene)->warning_capacity};
-    if (keep_message(scene, &list, message, sizeof message))
-        log_warning(log, "%s", message);
+    report_once(scene, log, FACET_LOG_LEVEL_WARNING, &list, format, arguments);
+    va_end(arguments);
 }
 
 void scene_note(facet_scene *scene, const facet_log *log, const char *format, ...)
 {
-    char message[1024];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(message, sizeof message, format, arguments);
-    va_end(arguments);
     const message_list list = {&scene->notes, &scene->note_count, &((scene_store *)scene)->note_capacity};
-    if (keep_message(scene, &list, message, sizeof message))
-        log_message(log, FACET_LOG_LEVEL_DETAIL, "%s", message);
+    report_once(scene, log, FACET_LOG_LEVEL_DETAIL, &list, format, arguments);
+    va_end(arguments);
 }
 
 void scene_keep_scene(facet_scene *scene, facet_scene *other)
