@@ -304,6 +304,7 @@ static void begin_pass(const gl_target *t)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, t->framebuffer);
     glViewport(0, 0, (GLsizei)t->width, (GLsizei)t->height);
+    glFrontFace(GL_CCW); /* a mirrored model leaves GL_CW */
     glDisable(GL_CULL_FACE);
     glDisable(GL_BLEND);
     glDisable(GL_SCISSOR_TEST);

@@ -316,6 +316,40 @@ static void models_far_from_each_other(void **state)
     fixture_destroy(&f);
 }
 
+/* Materials have samplers, with which the textures of the sea in the same units would be incomplete. */
+static void a_model_with_many_textures(void **state)
+{
+    (void)state;
+    if (IS_SLOW)
+        skip();
+    gl_sea *renderer = renderer_of(GL_API_CORE);
+    static const unsigned char white[4] = {255, 255, 255, 255};
+    static const scene_texture_slot slots[] = {
+        SCENE_BASE_COLOR_TEXTURE, SCENE_METALLIC_ROUGHNESS_TEXTURE,  SCENE_EMISSIVE_TEXTURE,
+        SCENE_CLEARCOAT_TEXTURE,  SCENE_CLEARCOAT_ROUGHNESS_TEXTURE, SCENE_SPECULAR_TEXTURE,
+        SCENE_SHEEN_COLOR_TEXTURE};
+    facet_sea_desc desc = small(5.0f);
+    facet_sea *sea = make_sea(&desc);
+    fixture f = fixture_create();
+    scene_material material = scene_material_default();
+    material.extensions = SCENE_CLEARCOAT | SCENE_SPECULAR | SCENE_SHEEN;
+    material.clearcoat = 0.5f;
+    material.sheen_color[0] = 0.2f;
+    material.emissive[0] = 1.0f;
+    for (size_t i = 0; i < sizeof slots / sizeof *slots; i++)
+        material.textures[slots[i]].texture = fixture_add_texture(&f, 1, 1, white);
+    fixture_place(&f, fixture_add_sphere(&f, 48, fixture_add_material(&f, material)), 0.0f, 0.4f, -9.0f,
+                  1.0f);
+    shot s;
+    make_shot(&s, WIDTH, HEIGHT, 3.0f, 0.2f);
+    s.scene = f.scene;
+    s.desc.sea_shading.omits_glints = true;
+    expose(&s);
+    assert_true(compare(renderer, sea, &s, "a sphere with seven textures") < 0.8);
+    sea_destroy(sea);
+    fixture_destroy(&f);
+}
+
 /* An eye in the water sees a floating sphere through the window from where waves begin, in troughs as well. */
 static void a_hull_in_waves(void **state)
 {
@@ -427,6 +461,7 @@ int main(void)
                                        cmocka_unit_test(environments),
                                        cmocka_unit_test(models),
                                        cmocka_unit_test(models_far_from_each_other),
+                                       cmocka_unit_test(a_model_with_many_textures),
                                        cmocka_unit_test(a_hull_in_waves),
                                        cmocka_unit_test(a_model_from_below_in_opengl_es),
                                        cmocka_unit_test(frames_are_stills),

@@ -14,6 +14,7 @@ void gl_sea_texture_bind(uint32_t unit, uint32_t target, uint32_t name)
 {
     glActiveTexture(GL_TEXTURE0 + unit);
     glBindTexture(target, name);
+    glBindSampler(unit, 0); /* a material of a model may have left one, which expects mips */
 }
 
 uint32_t gl_sea_texture_make(uint32_t unit, uint32_t target, uint32_t filter, uint32_t wrap_s,
