@@ -280,8 +280,7 @@ typedef enum facet_renderer_feature {
     FACET_RENDERER_FEATURE_SPECULAR_AA = 1u << 4, /* facet_render_desc.has_specular_antialiasing */
     /* all of facet_sea_shading, legacy styles and stages included; else the physical style */
     FACET_RENDERER_FEATURE_SEA_STYLES = 1u << 5,
-    FACET_RENDERER_FEATURE_VIEW = 1u << 6,    /* facet_view() shows it */
-    FACET_RENDERER_FEATURE_SEA_OGL1 = 1u << 7 /* FACET_SHADING_OGL1 in a sea */
+    FACET_RENDERER_FEATURE_VIEW = 1u << 6 /* facet_view() shows it */
 } facet_renderer_feature;
 
 typedef struct facet_renderer_info {
@@ -304,9 +303,8 @@ FACET_API facet_renderer_info facet_renderer_get_info(facet_renderer_kind kind);
  * perspective cameras; _PATH traces paths through the waves as triangles out to the horizon: of
  * sea_shading it reads omits_foam, has_schlick_fresnel and perceptual_roughness. The punctual lights of
  * the scene light the scene; with _PATH the water, too. background is the sky. Fails with
- * FACET_ERROR_ARGUMENT in a sea for a ground, and for FACET_SHADING_OGL1 unless the renderer has
- * FACET_RENDERER_FEATURE_SEA_OGL1: the displayed color, decoded and divided by 2^exposure_ev, then counts as
- * radiance of the model, under the lights of that shading alone. */
+ * FACET_ERROR_ARGUMENT in a sea for a ground. With FACET_SHADING_OGL1 the displayed color, decoded and divided
+ * by 2^exposure_ev, counts as radiance of the model, under the lights of that shading alone. */
 FACET_API facet_result facet_render(const facet_scene *scene, const facet_render_desc *desc,
                                     facet_image **image, facet_error *error);
 

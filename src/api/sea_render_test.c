@@ -156,8 +156,7 @@ static void what_is_not_drawn_is_refused_by_name(void **state)
         cases[3].sea_shading.stage = 6;
         for (int i = 0; i < 4; i++) {
             facet_image *image = NULL;
-            if ((kind == FACET_RENDERER_KIND_PATH && i == 2) ||
-                (kind == FACET_RENDERER_KIND_PREVIEW && i == 1))
+            if (i == (kind == FACET_RENDERER_KIND_PATH ? 2 : 1))
                 continue; /* drawn */
             assert_int_equal(facet_render(NULL, &cases[i], &image, &failure), FACET_ERROR_ARGUMENT);
             assert_null(image);
@@ -402,16 +401,9 @@ static void punctual_lights_light_the_model(void **state)
     facet_sea_destroy(sea);
 }
 
-/* In front of the water a model shows the colors that OpenGL 1 gives it without a sea, whatever the
- * exposure; water in front of it attenuates them. */
-static void the_preview_shows_colors_of_opengl1(void **state)
+static void assert_colors_of_opengl1(facet_renderer_kind kind, const facet_sea *sea, const facet_scene *scene)
 {
-    (void)state;
-    facet_sea *sea = make_sea(0.0f);
-    facet_scene *scene = lit_square_and(",\"baseColorFactor\":[0.4,0.2,0.1,1]", ",2",
-                                        ",{\"mesh\":0,\"translation\":[0,-5,0]}");
-    done(facet_scene_convert_materials(scene, FACET_MATERIAL_MODEL_OGL1, NULL, NULL, &failure));
-    facet_render_desc desc = desc_of(sea, FACET_RENDERER_KIND_PREVIEW);
+    facet_render_desc desc = desc_of(sea, kind);
     desc.camera = &at_square;
     desc.shading = FACET_SHADING_OGL1;
     desc.ignores_scene_lights = true;
@@ -430,6 +422,20 @@ static void the_preview_shows_colors_of_opengl1(void **state)
     assert_true(alone > 0.05 && alone < 0.5);
     assert_true(fabs(dark - alone) < 0.005 && fabs(bright - alone) < 0.02); /* with 8 m of air */
     assert_true(behind > 0.1 * in_air && behind < 0.5 * in_air);
+}
+
+/* In front of the water a model shows the colors that OpenGL 1 gives it without a sea, whatever the
+ * exposure; water in front of it attenuates them. */
+static void models_show_colors_of_opengl1(void **state)
+{
+    (void)state;
+    facet_sea *sea = make_sea(0.0f);
+    facet_scene *scene = lit_square_and(",\"baseColorFactor\":[0.4,0.2,0.1,1]", ",2",
+                                        ",{\"mesh\":0,\"translation\":[0,-5,0]}");
+    done(facet_scene_convert_materials(scene, FACET_MATERIAL_MODEL_OGL1, NULL, NULL, &failure));
+    assert_colors_of_opengl1(FACET_RENDERER_KIND_PREVIEW, sea, scene);
+    if (has_gl())
+        assert_colors_of_opengl1(FACET_RENDERER_KIND_GL, sea, scene);
     facet_scene_destroy(scene);
     facet_sea_destroy(sea);
 }
@@ -464,7 +470,7 @@ int main(void)
                                        cmocka_unit_test(layers_of_the_legacy_style_are_water),
                                        cmocka_unit_test(layers_are_those_of_path_tracing),
                                        cmocka_unit_test(punctual_lights_light_the_model),
-                                       cmocka_unit_test(the_preview_shows_colors_of_opengl1),
+                                       cmocka_unit_test(models_show_colors_of_opengl1),
                                        cmocka_unit_test(images_meter_themselves)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

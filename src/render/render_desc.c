@@ -72,10 +72,6 @@ static facet_result resolve_sea(const renderer_row *r, facet_render_desc *d, fac
     if (d->ground != FACET_GROUND_NONE)
         return fail(error, FACET_ERROR_ARGUMENT,
                     "ground: in a sea the water and its bed (facet_sea_bed) take its place");
-    if (d->shading != FACET_SHADING_GLTF && !(r->info.features & FACET_RENDERER_FEATURE_SEA_OGL1))
-        return fail(error, FACET_ERROR_ARGUMENT,
-                    "shading: in a sea %s supports FACET_SHADING_GLTF only; the preview has OpenGL 1 as well",
-                    r->title);
     if (!(r->info.features & FACET_RENDERER_FEATURE_SEA_STYLES) && !is_physical(&d->sea_shading))
         return fail(error, FACET_ERROR_ARGUMENT,
                     "sea_shading: %s supports the physical style only: no stage, GGX normals, other masking, "

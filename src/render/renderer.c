@@ -124,7 +124,7 @@ const renderer_row *renderer_get(facet_renderer_kind kind)
         .title = "the preview",
         .info = {.name = "preview",
                  .features = FACET_RENDERER_FEATURE_OGL1 | FACET_RENDERER_FEATURE_SPECULAR_AA |
-                             FACET_RENDERER_FEATURE_SEA_STYLES | FACET_RENDERER_FEATURE_SEA_OGL1,
+                             FACET_RENDERER_FEATURE_SEA_STYLES,
                  .samples = {4, 1, 16},
                  .max_samples = 4096,
                  .aovs = (uint32_t)ALL_AOVS},

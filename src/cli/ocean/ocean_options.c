@@ -268,7 +268,7 @@ static facet_result read_shading(const command_line *c, ocean_options *out, face
                     "--before: it is the style before all stages and excludes --stage");
     o->desc.samples = (uint32_t)option_number(c, OPT_SAMPLES, 0.0);
     TRY(image_options_renderer(c, o, error));
-    TRY(image_options_need(c, OPTION_IDS(OPT_SHADING), FACET_RENDERER_FEATURE_SEA_OGL1, o, error));
+    TRY(image_options_need(c, OPTION_IDS(OPT_SHADING), FACET_RENDERER_FEATURE_OGL1, o, error));
     TRY(image_options_shading(c, o, error));
     if (is_given(c, OPT_SHADING) && !is_given(c, OPT_WITH))
         return fail(error, FACET_ERROR_ARGUMENT, "--shading: it needs a model, as --with boat.obj");
