@@ -516,6 +516,49 @@ static void models_are_placed(void **state)
     facet_scene_destroy(builtin);
 }
 
+/* Two built-in scenes, the second 100 m aside: its spheres are seen there, with objects of their own. */
+static void appended_models_have_their_own_place(void **state)
+{
+    (void)state;
+    const float aside[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 100, 0, 0, 1};
+    facet_scene *scene = NULL, *other = NULL;
+    float low[3], high[3], low_after[3], high_after[3];
+    done(facet_scene_create_builtin(&(facet_scene_desc){.thread_count = 1}, &scene, &failure));
+    done(facet_scene_create_builtin(&(facet_scene_desc){.thread_count = 1}, &other, &failure));
+    const facet_scene_counts before = facet_scene_get_counts(scene);
+    assert_true(facet_scene_get_bounds(scene, NULL, low, high));
+    done(facet_scene_append(scene, other, &failure));
+    done(facet_scene_place_part(scene, 1, aside, &failure));
+    assert_int_equal(facet_scene_place_part(scene, 2, aside, &failure), FACET_ERROR_ARGUMENT);
+    assert_int_equal(facet_scene_append(scene, scene, &failure), FACET_ERROR_ARGUMENT);
+    assert_int_equal(facet_scene_get_counts(scene).instances, 2 * before.instances);
+    assert_true(facet_scene_get_bounds(scene, NULL, low_after, high_after));
+    assert_true(fabsf(low_after[0] - low[0]) < 1e-3f && fabsf(high_after[0] - (100.0f + high[0])) < 1e-3f);
+    facet_camera camera[2];
+    camera[0] = (facet_camera){.eye = {0, 2, 12}, .target = {0, 0.5f, 0}, .fov_y_rad = 0.6f};
+    camera[1] = camera[0];
+    camera[1].eye[0] += 100.0f;
+    camera[1].target[0] += 100.0f;
+    float objects[2] = {0.0f, 0.0f}; /* the largest ID in each view */
+    for (int view = 0; view < 2; view++) {
+        const facet_render_desc d = {.width = 24,
+                                     .height = 16,
+                                     .samples = 1,
+                                     .thread_count = 1,
+                                     .camera = &camera[view],
+                                     .aovs = FACET_AOV_OBJECT_ID};
+        facet_image *image = NULL;
+        done(facet_render(scene, &d, &image, &failure));
+        const float *ids = layer_of(image, "object", 1);
+        for (int i = 0; i < 24 * 16; i++)
+            objects[view] = fmaxf(objects[view], ids[i]);
+        facet_image_destroy(image);
+    }
+    assert_true(objects[0] > 0.0f && objects[0] <= (float)before.nodes);
+    assert_true(objects[1] > (float)before.nodes + 1.0f);
+    facet_scene_destroy(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(presets_are_seas),
@@ -530,6 +573,7 @@ int main(void)
                                        cmocka_unit_test(eyes_stay_above_the_water),
                                        cmocka_unit_test(memory_runs_out),
                                        cmocka_unit_test(sheets_lie_side_by_side),
-                                       cmocka_unit_test(models_are_placed)};
+                                       cmocka_unit_test(models_are_placed),
+                                       cmocka_unit_test(appended_models_have_their_own_place)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
