@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "io/model_file.h"
-#include "legacy/convert.h"
+#include "legacy/convert_surface.h"
 #include "legacy/fit.h"
 
 static facet_scene *load(const char *path)
@@ -32,7 +32,7 @@ static uint32_t find_material(const facet_scene *scene, const char *name)
     return SCENE_NONE;
 }
 
-static bool is_black(const ogl1_surface *s)
+static bool is_black_surface(const ogl1_surface *s)
 {
     float most = 0.0f;
     for (int i = 0; i < 3; i++)
@@ -54,7 +54,7 @@ static void compare(const fit_metric *metric, const facet_scene *old, const face
             continue;
         legacy_surface_of_ogl1(&old->legacy->materials[i], FACET_LEGACY_COLORS_LINEAR, &source);
         legacy_surface_of_pbr(&new->materials[k], &made);
-        if (is_black(&source)) /* the relative error is undefined */
+        if (is_black_surface(&source)) /* the relative error is undefined */
             continue;
         fit_error error = fit_compare(metric, &source, &made, FIT_FROM_OGL1);
         sum += error.E;

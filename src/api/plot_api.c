@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "base/result.h"
-#include "legacy/convert.h"
+#include "legacy/convert_surface.h"
 #include "legacy/fit.h"
 #include "plot/material.h"
 #include "plot/plot.h"

@@ -16,10 +16,4 @@ facet_result legacy_convert(facet_scene *scene, facet_material_model to, const f
 /* The report as a JSON object with "materials", "warnings", "summary"; see report_json.c. */
 void legacy_report_json(const facet_scene *scene, text *out);
 
-/* The surface of a material where its textures are 1; linear colors. */
-struct ogl1_surface;
-struct pbr_surface;
-void legacy_surface_of_ogl1(const legacy_material *m, facet_legacy_colors colors, struct ogl1_surface *out);
-void legacy_surface_of_pbr(const scene_material *m, struct pbr_surface *out);
-
 #endif

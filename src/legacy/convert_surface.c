@@ -4,7 +4,6 @@
 #include <math.h>
 
 #include "image/srgb.h"
-#include "legacy/convert.h"
 
 float legacy_to_linear(float value, facet_legacy_colors colors)
 {
@@ -32,7 +31,7 @@ void legacy_color_from_linear(const float in[3], facet_legacy_colors colors, flo
         out[k] = legacy_from_linear(in[k], colors);
 }
 
-void legacy_surface_of_ogl1(const legacy_material *m, facet_legacy_colors colors, struct ogl1_surface *out)
+void legacy_surface_of_ogl1(const legacy_material *m, facet_legacy_colors colors, ogl1_surface *out)
 {
     legacy_color_to_linear(m->diffuse, colors, out->diffuse);
     legacy_color_to_linear(m->specular, colors, out->specular);
@@ -40,7 +39,7 @@ void legacy_surface_of_ogl1(const legacy_material *m, facet_legacy_colors colors
 }
 
 /* Clamped to the ranges of the format, which files exceed. */
-void legacy_surface_of_pbr(const scene_material *m, struct pbr_surface *out)
+void legacy_surface_of_pbr(const scene_material *m, pbr_surface *out)
 {
     bool is_glossy = (m->extensions & SCENE_SPECULAR_GLOSSINESS) != 0;
     for (int k = 0; k < 3; k++) {

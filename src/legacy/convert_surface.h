@@ -12,6 +12,10 @@ float legacy_from_linear(float value, facet_legacy_colors colors);
 void legacy_color_to_linear(const float in[3], facet_legacy_colors colors, float out[3]);
 void legacy_color_from_linear(const float in[3], facet_legacy_colors colors, float out[3]);
 
+/* The surface of a material where its textures are 1; linear colors. */
+void legacy_surface_of_ogl1(const legacy_material *m, facet_legacy_colors colors, ogl1_surface *out);
+void legacy_surface_of_pbr(const scene_material *m, pbr_surface *out);
+
 static inline float highest_of(const float color[3])
 {
     float most = color[0] > color[1] ? color[0] : color[1];
