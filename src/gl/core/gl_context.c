@@ -64,6 +64,8 @@ static void read_limits(gl_context *c)
     c->has_float_target = !c->is_es || epoxy_has_gl_extension("GL_EXT_color_buffer_float");
     c->has_half_target =
         c->has_float_target || has_any("GL_EXT_color_buffer_half_float", "GL_EXT_color_buffer_float");
+    c->has_texture_storage =
+        c->version >= (c->is_es ? 30 : 42) || epoxy_has_gl_extension("GL_ARB_texture_storage");
     c->has_clip_control =
         has_any("GL_ARB_clip_control", "GL_EXT_clip_control") || (!c->is_es && c->version >= 45);
     find_reset_status(c);

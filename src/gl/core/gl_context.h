@@ -22,6 +22,7 @@ typedef struct gl_context {
     float max_anisotropy; /* 1: none */
     bool has_parallel_compile, has_timer_query, has_float_linear, has_debug_output;
     bool has_float_target, has_half_target; /* RGBA32F, RGBA16F can be render targets */
+    bool has_texture_storage;               /* glTexStorage2D() */
     bool has_clip_control;                  /* reversed depth is possible: gl_camera.h */
     /* GL_NO_ERROR, or the reason for the loss of the context; NULL: unsupported */
     unsigned (*reset_status)(void);

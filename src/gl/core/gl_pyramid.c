@@ -5,6 +5,7 @@
 
 #include "base/result.h"
 #include "gl/core/gl_blocks.h"
+#include "gl/core/gl_texture.h"
 
 static uint32_t halved(uint32_t size, uint32_t level)
 {
@@ -53,13 +54,11 @@ static void end_levels(const gl_pyramid *p)
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, (GLint)p->level_count - 1);
 }
 
-static void allocate(const gl_pyramid *p)
+static void allocate(const gl_pyramid *p, const gl_context *context)
 {
     glActiveTexture(GL_TEXTURE0 + GL_UNIT_OPAQUE);
     glBindTexture(GL_TEXTURE_2D, p->texture);
-    for (uint32_t level = 0; level < p->level_count; level++)
-        glTexImage2D(GL_TEXTURE_2D, (GLint)level, GL_RGBA16F, (GLsizei)halved(p->width, level),
-                     (GLsizei)halved(p->height, level), 0, GL_RGBA, GL_HALF_FLOAT, NULL);
+    gl_texture_allocate(context, p->level_count, GL_RGBA16F, p->width, p->height);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -78,7 +77,7 @@ static facet_result update(gl_pyramid *p, gl_context *context, uint32_t width, u
     *p = (gl_pyramid){.width = width, .height = height, .level_count = level_count};
     glGenTextures(1, &p->texture);
     glGenFramebuffers(1, &p->framebuffer);
-    allocate(p);
+    allocate(p, context);
     begin_level(p, 0, -1);
     bool is_complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
     facet_result result = gl_context_check(context, "the mip levels of an image", error);

@@ -100,22 +100,18 @@ static GLenum internal_format(const texture_pyramid *p, bool as_color)
     return p->type != IMAGE_U8 ? GL_RGBA16F : as_color ? GL_SRGB8_ALPHA8 : GL_RGBA8;
 }
 
-/* Allocates the levels from first on. With immutable storage where possible: otherwise Mesa holds two
- * copies of the finest level for a while. */
-static void allocate_levels(const gl_context *c, const texture_pyramid *p, uint32_t first, bool as_color)
+void gl_texture_allocate(const gl_context *context, uint32_t level_count, uint32_t format, uint32_t width,
+                         uint32_t height)
 {
-    const GLenum format = internal_format(p, as_color);
-    const bool is_8 = p->type == IMAGE_U8;
-    const GLsizei count = (GLsizei)(p->level_count - first);
-    if (c->version >= (c->is_es ? 30 : 42) || epoxy_has_gl_extension("GL_ARB_texture_storage")) {
-        glTexStorage2D(GL_TEXTURE_2D, count, format, (GLsizei)p->levels[first].width,
-                       (GLsizei)p->levels[first].height);
+    if (context->has_texture_storage) {
+        glTexStorage2D(GL_TEXTURE_2D, (GLsizei)level_count, format, (GLsizei)width, (GLsizei)height);
         return;
     }
-    for (GLsizei i = 0; i < count; i++)
-        glTexImage2D(GL_TEXTURE_2D, i, (GLint)format, (GLsizei)p->levels[first + (uint32_t)i].width,
-                     (GLsizei)p->levels[first + (uint32_t)i].height, 0, GL_RGBA,
-                     is_8 ? GL_UNSIGNED_BYTE : GL_HALF_FLOAT, NULL);
+    const GLenum type = format == GL_RGBA16F ? GL_HALF_FLOAT : GL_UNSIGNED_BYTE;
+    for (uint32_t level = 0; level < level_count; level++)
+        glTexImage2D(GL_TEXTURE_2D, (GLint)level, (GLint)format,
+                     (GLsizei)(width >> level ? width >> level : 1),
+                     (GLsizei)(height >> level ? height >> level : 1), 0, GL_RGBA, type, NULL);
 }
 
 /* Uploads one level; buffer holds one band of it. */
@@ -157,7 +153,8 @@ static facet_result upload(gl_texture_set *set, const texture_pyramid *p, uint32
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, *name);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    allocate_levels(set->context, p, first, as_color);
+    gl_texture_allocate(set->context, p->level_count - first, internal_format(p, as_color), l->width,
+                        l->height);
     for (uint32_t level = first; level < p->level_count; level++)
         upload_level(p, level, (GLint)(level - first), buffer);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, (GLint)(p->level_count - 1 - first));

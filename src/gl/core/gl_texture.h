@@ -5,6 +5,13 @@
 #include "draw/texture.h"
 #include "gl/core/gl_context.h"
 
+/* Allocates the mip levels of the texture that is bound to GL_TEXTURE_2D, in GL_RGBA8, GL_SRGB8_ALPHA8 or
+ * GL_RGBA16F. The storage is immutable where the context has that: drivers of ES 3.0 may refuse to draw into
+ * a level outside of BASE_LEVEL and MAX_LEVEL otherwise, and Mesa holds two copies of the finest level for a
+ * while. */
+void gl_texture_allocate(const gl_context *context, uint32_t level_count, uint32_t format, uint32_t width,
+                         uint32_t height);
+
 typedef struct gl_texture_set gl_texture_set;
 
 /* Decodes nothing yet. scene outlives the set. FACET_ERROR_MEMORY. */

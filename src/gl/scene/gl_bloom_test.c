@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include <cmocka.h>
+#include <epoxy/gl.h>
 
 #include "gl/scene/gl_fixture_test.h"
 
@@ -177,12 +178,55 @@ static void bloom_scales_with_the_image(void **state)
     }
 }
 
+/* The levels of the texture that is bound, as far as its MAX_LEVEL says; 1: that has its default. */
+static GLint level_count(void)
+{
+    GLint last;
+    glGetTexParameteriv(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, &last);
+    return last == 1000 ? 1 : last + 1;
+}
+
+/* Strict drivers of ES 3.0, browsers among them, draw into levels of immutable storage only. */
+static void textures_with_levels_have_immutable_storage(void **state)
+{
+    (void)state;
+    for (int c = 0; c < contexts.count; c++) {
+        if (!contexts.items[c].has_texture_storage)
+            continue;
+        fixture f = light_fixture(64, 64, 0.3f);
+        f.desc.gl.bloom = 0.5f;
+        gl_renderer *renderer = gl_fixture_renderer(&f, &contexts.items[c]);
+        film image = gl_fixture_draw(&f, renderer);
+        assert_int_equal(gl_context_make_current(&contexts.items[c], NULL), FACET_OK);
+        int found = 0;
+        for (GLuint name = 1; name < 1000; name++) {
+            GLint is_immutable = 0;
+            if (!glIsTexture(name))
+                continue;
+            glBindTexture(GL_TEXTURE_2D, name);
+            if (glGetError() != GL_NO_ERROR || level_count() == 1) /* an array, or without levels */
+                continue;
+            glGetTexParameteriv(GL_TEXTURE_2D, GL_TEXTURE_IMMUTABLE_FORMAT, &is_immutable);
+            assert_true(is_immutable);
+            found++;
+        }
+        assert_true(found > 0);
+        film_destroy(&image);
+        gl_renderer_destroy(renderer);
+        fixture_destroy(&f);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bloom_preserves_energy),        cmocka_unit_test(zero_bloom_changes_nothing),
-        cmocka_unit_test(uniform_images_stay_uniform),   cmocka_unit_test(bloom_falls_off_with_distance),
-        cmocka_unit_test(coverage_blooms_like_radiance), cmocka_unit_test(bloom_scales_with_the_image),
+        cmocka_unit_test(bloom_preserves_energy),
+        cmocka_unit_test(zero_bloom_changes_nothing),
+        cmocka_unit_test(uniform_images_stay_uniform),
+        cmocka_unit_test(bloom_falls_off_with_distance),
+        cmocka_unit_test(coverage_blooms_like_radiance),
+        cmocka_unit_test(bloom_scales_with_the_image),
+        cmocka_unit_test(textures_with_levels_have_immutable_storage),
     };
     if (gl_fixture_open(&contexts) == 0)
         return 77;
