@@ -102,6 +102,8 @@ facet_result gl_context_adopt(gl_context *c, facet_error *error)
     return FACET_OK;
 }
 
+enum { CONTEXT_LOST_WEBGL = 0x9242 }; /* a browser's GL_CONTEXT_LOST */
+
 /* Clears the error flags. A lost context reports the same error forever, so the loop is bounded. */
 static GLenum take_error(void)
 {
@@ -114,7 +116,8 @@ static GLenum take_error(void)
 facet_result gl_context_check(gl_context *c, const char *while_doing, facet_error *error)
 {
     GLenum code = take_error();
-    if (code == GL_CONTEXT_LOST || (c->reset_status && c->reset_status() != GL_NO_ERROR))
+    if (code == GL_CONTEXT_LOST || code == CONTEXT_LOST_WEBGL ||
+        (c->reset_status && c->reset_status() != GL_NO_ERROR))
         c->is_lost = true;
     if (c->is_lost)
         return fail(error, FACET_ERROR_SYSTEM, "OpenGL (%s): the driver was reset (%s); try again", c->name,

@@ -311,6 +311,32 @@ static void scenes_without_light_are_reported(void **state)
     fixture_destroy(&f);
 }
 
+static GLenum next_error;
+
+static GLenum fake_error(void)
+{
+    GLenum error = next_error;
+    next_error = GL_NO_ERROR;
+    return error;
+}
+
+/* Browsers have an error code of their own. */
+static void both_codes_of_a_lost_context_count(void **state)
+{
+    (void)state;
+    static const GLenum codes[] = {GL_CONTEXT_LOST, 0x9242, GL_INVALID_ENUM};
+    GLenum (*const get_error)(void) = epoxy_glGetError;
+    for (int i = 0; i < 3; i++) {
+        gl_context context = {.name = "none"};
+        next_error = codes[i];
+        epoxy_glGetError = fake_error;
+        facet_result result = gl_context_check(&context, "a test", NULL);
+        epoxy_glGetError = get_error;
+        assert_int_equal(result, FACET_ERROR_SYSTEM);
+        assert_int_equal(context.is_lost, i < 2);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(destroyed_renderers_leave_no_objects),
@@ -318,6 +344,7 @@ int main(void)
                                        cmocka_unit_test(two_renderers_do_not_interfere),
                                        cmocka_unit_test(any_thread_can_draw),
                                        cmocka_unit_test(a_lost_context_is_replaced),
+                                       cmocka_unit_test(both_codes_of_a_lost_context_count),
                                        cmocka_unit_test(the_callers_context_is_restored),
                                        cmocka_unit_test(images_can_be_cancelled),
                                        cmocka_unit_test(scenes_without_light_are_reported)};
