@@ -267,8 +267,8 @@ facet_result water_frame_create(water_cache *cache, const facet_scene *scene, co
     frame_parts *p = mem_zalloc(&desc->allocator, 1, sizeof *p);
     if (!p)
         return fail_memory(error, "an image of the sea", sizeof *p);
-    facet_result result =
-        water_setup_create(cache, scene, desc, WATER_SETUP_BED_LIGHT, &p->setup, stats, error);
+    facet_result result = water_setup_create(
+        cache, scene, desc, WATER_SETUP_BED_LIGHT | WATER_SETUP_MODEL_LIGHT, &p->setup, stats, error);
     if (result == FACET_OK) {
         describe(&p->setup, &p->frame);
         result = draw_sky(&p->setup, &p->frame, error);

@@ -24,6 +24,8 @@ static void fill_desc(const facet_render_desc *desc, const water_sky *sky, facet
     m->desc = *desc;
     m->desc.sea = NULL;
     m->desc.environment = around;
+    if (!around)
+        m->desc.log = (facet_log){0};
     m->desc.environment_rotation_rad = m->desc.environment_ev = 0.0f;
     m->desc.background = (facet_background){0};
     m->desc.background_blur = 0.0f;

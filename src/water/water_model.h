@@ -19,7 +19,8 @@ typedef struct water_model {
     ogl1_setup ogl1; /* of setup.shading.ogl1; {0}: shaded as glTF */
 } water_model;
 
-/* around: the environment of the model, sky above and sea below; it outlives the model. Fails as
+/* around: the environment of the model, sky above and sea below; it outlives the model. NULL: the model is
+ * not shaded, and its warnings are left to the renderer that draws it. Fails as
  * preview_render(), and with FACET_ERROR_ARGUMENT as ogl1_check(). */
 facet_result water_model_create(const facet_scene *scene, const facet_render_desc *desc, const water_sky *sky,
                                 facet_environment *around, facet_render_stats *stats, water_model *out,

@@ -187,6 +187,7 @@ static void running_out_of_memory_leaks_nothing(void **state)
         facet_error error;
         make_dark_shot(&s, 4, 3.0f, 0.3f, f.scene);
         s.desc.allocator = failing_allocator_get(&memory);
+        s.desc.aovs = FACET_AOV_OBJECT_ID | FACET_AOV_CRYPTO_MATERIAL;
         facet_result result = try_shot(sea, &s, &error);
         assert_true(result == FACET_OK || result == FACET_ERROR_MEMORY);
         refused += result == FACET_ERROR_MEMORY;

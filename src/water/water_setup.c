@@ -151,11 +151,13 @@ static facet_result prepare_surroundings(water_setup *s, facet_error *error)
     return FACET_OK;
 }
 
-static facet_result add_model(water_setup *s, const facet_scene *scene, facet_render_stats *stats,
-                              facet_error *error)
+static facet_result add_model(water_setup *s, const facet_scene *scene, bool is_lit,
+                              facet_render_stats *stats, facet_error *error)
 {
-    TRY(prepare_surroundings(s, error));
-    return water_model_create(scene, s->desc, &s->sky, s->cache->light->around, stats, &s->model, error);
+    if (is_lit)
+        TRY(prepare_surroundings(s, error));
+    facet_environment *around = is_lit ? s->cache->light->around : NULL;
+    return water_model_create(scene, s->desc, &s->sky, around, stats, &s->model, error);
 }
 
 /* ---- all ---- */
@@ -208,7 +210,7 @@ facet_result water_setup_create(water_cache *cache, const facet_scene *scene, co
     float perceptual_roughness = desc->sea_shading.perceptual_roughness;
     s->roughness = perceptual_roughness > 0.0f ? slopes_from_roughness(perceptual_roughness) : vec3(-1.0f);
     if (scene)
-        result = add_model(s, scene, stats, error);
+        result = add_model(s, scene, needs & WATER_SETUP_MODEL_LIGHT, stats, error);
     if (!(needs & WATER_SETUP_BED_LIGHT))
         return result;
     if (result == FACET_OK)

@@ -43,7 +43,9 @@ typedef struct water_setup {
 enum {
     WATER_SETUP_PROFILE = 1u << 0,   /* bounds of waves for the rays of the camera */
     WATER_SETUP_BED_LIGHT = 1u << 1, /* caustics and the model's shadow on the bed; path tracing finds them */
-    WATER_SETUP_ALL = WATER_SETUP_PROFILE | WATER_SETUP_BED_LIGHT
+    WATER_SETUP_MODEL_LIGHT =
+        1u << 2, /* the environment of the model; without it the model can only be hit */
+    WATER_SETUP_ALL = WATER_SETUP_PROFILE | WATER_SETUP_BED_LIGHT | WATER_SETUP_MODEL_LIGHT
 };
 
 /* Not to be moved between create and destroy, which is due even after a failure. scene NULL: water only.
