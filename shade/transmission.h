@@ -162,4 +162,34 @@ FN TransmissionSample sample_thin_wall(vec2 u, vec3 V, float alpha_x, float alph
     return s;
 }
 
+/* ---- the environment behind a surface ---- */
+
+/* Squared GGX width up to which a lobe shows the environment sharp: about a degree. */
+#define SHARP_ALPHA2 1e-5f
+
+/* Whether a transmitted lobe shows the sharp background. A blurred one stays blurred behind glass. */
+FN bool environment_is_sharp(float alpha2, float background_blur)
+{
+    return alpha2 <= SHARP_ALPHA2 && !(background_blur > 0.0f);
+}
+
+/* Perceptual roughness at which a transmitted lobe of this squared GGX width shows the environment. */
+FN float environment_blur(float alpha2, float background_blur)
+{
+    return min(max(sqrt(sqrt(alpha2)), background_blur), 1.0f);
+}
+
+/* GGX width of the lobe in L behind a boundary of width alpha: a microfacet turned by d turns a refracted
+ * direction by |1 - eta| d, and a reflected one, for which widths are defined, by 2 d. */
+FN float refracted_alpha(float alpha, float eta)
+{
+    return 0.5f * abs(1.0f - eta) * alpha;
+}
+
+/* Light that a scattering medium sends along a ray: of the irradiance / pi ahead of it and behind it. */
+FN vec3 scattered_ambient(vec3 ahead, vec3 behind, float scatter_anisotropy)
+{
+    return mix(behind, ahead, 0.5f + 0.5f * scatter_anisotropy);
+}
+
 #endif

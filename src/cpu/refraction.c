@@ -22,8 +22,6 @@ static const float BLURRED = 6.0f;
 /* GGX width up to which one ray in the middle of the lobe suffices: its hit is filtered for the lobe,
  * which blurs textures and the environment but no edges. */
 static const float SMOOTH = 0.0125f;
-/* Squared GGX width of lobes that see the sharp environment: about a degree. */
-static const float SHARP2 = 1e-5f;
 
 /* A ray to be traced, and its weight and lobe. */
 typedef struct branch {
@@ -71,16 +69,16 @@ static float bundle_alpha2(const shading_ray *ray)
     return width * width;
 }
 
-/* Environment radiance along the ray. A blurred background is seen blurred. */
+/* Environment radiance along the ray. */
 static vec3 environment_seen(const shading_scene *scene, const branch *b)
 {
     if (!scene->light->ibl)
         return vec3(0.0f);
     float alpha2 = max(b->alpha2, bundle_alpha2(&b->ray));
-    if (alpha2 <= SHARP2 && scene->light->has_background && !(scene->background_blur > 0.0f))
+    if (environment_is_sharp(alpha2, scene->background_blur) && scene->light->has_background)
         return environment_at(light_background, scene->light, b->ray.direction, 0.0f);
-    float roughness = max(sqrt(sqrt(alpha2)), scene->background_blur);
-    return environment_at(light_specular, scene->light, b->ray.direction, min(roughness, 1.0f));
+    return environment_at(light_specular, scene->light, b->ray.direction,
+                          environment_blur(alpha2, scene->background_blur));
 }
 
 /* In-scattered radiance of a volume along a ray: that of the environment ahead of it and behind it. */
@@ -96,7 +94,7 @@ static vec3 ambient(const shading_scene *scene, vec3 D, float anisotropy)
         return vec3(0.0f);
     light_irradiance_over_pi(scene->light, ahead, a);
     light_irradiance_over_pi(scene->light, behind, b);
-    return mix(load3(b), load3(a), 0.5f + 0.5f * anisotropy);
+    return scattered_ambient(load3(a), load3(b), anisotropy);
 }
 
 /* Attenuates the ray over a length of its volume. Scattered light is replaced as far as the volume's color
@@ -221,8 +219,7 @@ static void pass_wall(tracer *t, const branch *b, const boundary *y, vec3 weight
     follow_later(t, &c);
 }
 
-/* A microfacet rotated by d deflects a refracted direction by |1 - eta| d and a reflected one by 2 d,
- * which is what a GGX width means to the prefiltered environment; the earlier width scales with eta. */
+/* The earlier width scales with eta. */
 static void refract_into(tracer *t, const branch *b, const boundary *y, float eta, vec3 weight)
 {
     bundle_ray bundle;
@@ -231,7 +228,7 @@ static void refract_into(tracer *t, const branch *b, const boundary *y, float et
     else if (!ray_bundle_refract(&y->bundle, y->H, eta, &bundle) &&
              !ray_bundle_refract(&y->bundle, y->normal.N, eta, &bundle))
         bundle = ray_bundle_pass(&y->bundle);
-    float own = 0.5f * abs(1.0f - eta) * y->alpha;
+    float own = refracted_alpha(y->alpha, eta);
     branch c = child_of(b, y, -1.0f, bundle, weight, b->alpha2 * eta * eta + own * own * share_of(t, b));
     c.media = y->behind;
     follow_later(t, &c);

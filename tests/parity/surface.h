@@ -289,6 +289,15 @@ FN vec3 case_refraction(vec2 u)
            F_Schlick_boundary(vec3(0.04f), vec3(1.0f), 0.8f + 0.2f * u[0], 1.0f / 1.3f);
 }
 
+FN vec3 case_environment_behind(vec2 u)
+{
+    float alpha2 = u[0] * 2e-5f;
+    float blur = sel(u[1] < 0.5f, 0.0f, u[1]);
+    return scattered_ambient(vec3(1.0f, 2.0f, 3.0f), vec3(u[0]), 2.0f * u[1] - 1.0f) +
+           vec3(environment_blur(alpha2, blur), sel(environment_is_sharp(alpha2, blur), 1.0f, 0.0f),
+                refracted_alpha(u[0], 0.5f + u[1]));
+}
+
 FN vec3 case_btdf_GGX(vec2 u)
 {
     vec3 V = parity_V(u);

@@ -4,9 +4,6 @@
 #ifdef HAS_TRANSMISSION
 uniform highp sampler2D u_opaque; /* premultiplied, with exposure */
 
-/* Squared GGX width below which lobes use the sharp environment. */
-#define SHARP2 1e-5
-
 /* ---- the opaque image ---- */
 
 /* Where a point (m, relative to the eye) is seen, [0, 1] in the image. What is behind the eye is far outside. */
@@ -60,12 +57,12 @@ float opaque_lod(Layers m)
 
 /* ---- environment ---- */
 
-/* The environment in a direction. A blurred background stays blurred behind glass. */
+/* The environment in a direction. */
 vec3 environment_seen(vec3 D, float alpha2)
 {
-    if (alpha2 <= SHARP2 && light_atlas.z > 0.0 && !(background_blur > 0.0))
+    if (environment_is_sharp(alpha2, background_blur) && light_atlas.z > 0.0)
         return light_background(D);
-    return light_specular(D, min(max(sqrt(sqrt(alpha2)), background_blur), 1.0));
+    return light_specular(D, environment_blur(alpha2, background_blur));
 }
 
 vec3 light_behind(vec2 at, vec3 D, float lod, float alpha2)
@@ -87,17 +84,16 @@ vec3 light_through_wall(Layers m, vec3 V)
 /* Light that a scattering medium sends along a ray: that of the environment ahead of it and behind it. */
 vec3 scattered_light(Layers m, vec3 D)
 {
-    return m.multiscatter_color * mix(light_irradiance_over_pi(-D), light_irradiance_over_pi(D),
-                                      0.5 + 0.5 * m.scatter_anisotropy);
+    return m.multiscatter_color * scattered_ambient(light_irradiance_over_pi(D), light_irradiance_over_pi(-D), m.scatter_anisotropy);
 }
 
 /* Through the far side too, which tints as the near one does. What is reflected inside leaves elsewhere and is
  * replaced by what arrives from there: no energy is lost. */
-vec3 light_through_body(Layers m, vec3 V, float eta)
+vec3 light_through_volume(Layers m, vec3 V, float eta)
 {
     vec3 D = refract_or_zero(-V, m.base.N, eta);
     vec3 P = v_position + D * m.thickness;
-    float own = 0.5 * abs(1.0 - eta) * m.base.alpha;
+    float own = refracted_alpha(m.base.alpha, eta);
     vec3 light = light_behind(place_in_image(P), D, opaque_lod(m), own * own) * m.base.base_color;
     vec3 T = volume_transmittance(m.attenuation_color, m.attenuation_distance, m.thickness);
     light *= T;
@@ -107,10 +103,10 @@ vec3 light_through_body(Layers m, vec3 V, float eta)
 }
 
 /* Out of a volume that the eye is in, or whose near side is missing. */
-vec3 light_out_of_body(Layers m, vec3 V, float eta)
+vec3 light_out_of_volume(Layers m, vec3 V, float eta)
 {
     vec3 D = refract_or_zero(-V, m.base.N, eta);
-    float own = 0.5 * abs(1.0 - eta) * m.base.alpha;
+    float own = refracted_alpha(m.base.alpha, eta);
     if (dot(D, D) < 0.5)
         return environment_seen(normalize(reflect(-V, m.base.N)), m.base.alpha * m.base.alpha);
     return light_behind(place_in_image(v_position + D * m.thickness), D, opaque_lod(m), own * own);
@@ -121,8 +117,8 @@ vec3 light_out_of_body(Layers m, vec3 V, float eta)
 vec3 transmitted_light_of_ior(Layers m, vec3 V, float eta)
 {
     if (layers_is_inside(m))
-        return light_out_of_body(m, V, eta);
-    return light_through_body(m, V, eta);
+        return light_out_of_volume(m, V, eta);
+    return light_through_volume(m, V, eta);
 }
 
 /* Radiance (cd/m^2) that reaches the boundary from behind along the refracted ray: LayerLight.transmitted. */
