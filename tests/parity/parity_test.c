@@ -14,6 +14,7 @@
 #include "common.h"
 #include "ogl1_host.h"
 #include "surface_host.h"
+#include "water_host.h"
 
 #include "shade/lang/lang_c_end.h"
 
@@ -21,6 +22,7 @@
 #include "shade/compose/surface_radiance.h"
 #include "shade/compose/ogl1_light.h"
 #include "shade/compose/ogl1_fragment.h"
+#include "shade/compose/water_shade.h"
 
 #include "shade/lang/lang_c_begin.h"
 
@@ -32,6 +34,7 @@
 #include "surface.h"
 #include "surface_radiance.h"
 #include "water.h"
+#include "water_shade.h"
 
 #include "shade/lang/lang_c_end.h"
 
