@@ -405,7 +405,7 @@ FN vec3 case_layers_sample(vec2 u)
     return parity_sampled(layers_sample(m, p, V, fract(u[0] * 5.0f), turned, energy, t));
 }
 
-FN vec3 case_layers_mirror(vec2 u)
+FN vec3 case_layers_sample_delta(vec2 u)
 {
     vec3 V = parity_V(u);
     Layers m = parity_path_layers(u);
