@@ -47,17 +47,18 @@ static void test_lobes_add_up(void **state)
             Layers m = random_layers(&rng, layers, vec3(0.0f, 0.0f, 1.0f), false);
             LayerTables t = some_tables(m, V, energy);
             LayerLight light = random_light(&rng);
-            Light lamp = light_point(L * 2.0f, vec3(5.0f), 0.0f);
-            vec3 from_light = vec3(0.0f), from_lamp = vec3(0.0f);
+            Light punctual = light_point(L * 2.0f, vec3(5.0f), 0.0f);
+            vec3 from_light = vec3(0.0f), from_punctual = vec3(0.0f);
             float largest = 0.0f;
             for (int lobe = ALONE_DIFFUSE; lobe <= ALONE_TRANSMISSION; ++lobe) {
                 from_light += layers_ibl_alone(m, V, t, light, energy, lobe);
-                vec3 alone = layers_punctual_alone(m, vec3(0.0f), V, lamp, energy, t, 0.4f, lobe);
-                from_lamp += alone;
+                vec3 alone = layers_punctual_alone(m, vec3(0.0f), V, punctual, energy, t, 0.4f, lobe);
+                from_punctual += alone;
                 largest = max(largest, max3(alone));
             }
             expect_sum(from_light, layers_ibl(m, V, t, light, energy), 1.0f, "surroundings");
-            expect_sum(from_lamp, layers_punctual(m, vec3(0.0f), V, lamp, energy, t, 0.4f), largest, "lamp");
+            expect_sum(from_punctual, layers_punctual(m, vec3(0.0f), V, punctual, energy, t, 0.4f), largest,
+                       "punctual");
         }
     }
 }

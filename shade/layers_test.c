@@ -58,9 +58,9 @@ static void test_no_layers_is_the_surface(void **state)
         expect_bits(layers_ibl(m, V, t, light, energy),
                     surface_ibl(m.base, surface_NdotV(m.base, V), t.dfg, light.specular,
                                 light.irradiance_over_pi, energy));
-        Light lamp = light_point(L * 2.0f, vec3(5.0f), 0.0f);
-        expect_bits(layers_punctual(m, vec3(0.0f), V, lamp, energy, t, 0.5f),
-                    shade_punctual(m.base, vec3(0.0f), V, lamp, energy, t.dfg));
+        Light punctual = light_point(L * 2.0f, vec3(5.0f), 0.0f);
+        expect_bits(layers_punctual(m, vec3(0.0f), V, punctual, energy, t, 0.5f),
+                    shade_punctual(m.base, vec3(0.0f), V, punctual, energy, t.dfg));
         expect_bits(layers_emission(m, V), m.base.emissive);
         expect_bits(layers_reflection(m, V), normalize(reflect(-V, m.base.N)));
         vec2 p = layers_dfg_point(m, V, energy);
@@ -87,7 +87,7 @@ static void test_factor_zero_is_the_base(void **state)
             LayerTables t = some_tables(m, V, energy);
             vec3 f = layers_brdf_cos(m, V, L, energy, t, 0.4f);
             t.dfg = vec2(0.7f, 0.1f); /* without the margin of anisotropic tables, which is 0 as well */
-            expect_same(f, surface_brdf_cos_energy(m.base, V, L, energy, t.dfg), 1e-5, "lamp");
+            expect_same(f, surface_brdf_cos_energy(m.base, V, L, energy, t.dfg), 1e-5, "punctual");
             LayerLight light = random_light(&rng);
             expect_same(layers_ibl(m, V, t, light, energy),
                         surface_ibl(m.base, surface_NdotV(m.base, V), t.dfg, light.specular,
