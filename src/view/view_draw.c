@@ -1,12 +1,12 @@
 /* view_draw.c - see view_draw.h. */
 #include "view/view_draw.h"
 
-#include <epoxy/gl.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "base/result.h"
+#include "gl/core/gl_api.h"
 
 /* ---- surfaces ---- */
 

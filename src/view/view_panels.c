@@ -8,9 +8,8 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "gl/core/gl_api.h"
 #include "scene/scene.h"
-
-#include <epoxy/gl.h>
 
 /* ---- values ---- */
 

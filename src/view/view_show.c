@@ -8,10 +8,9 @@
 
 #include "base/clock.h"
 #include "base/result.h"
+#include "gl/core/gl_api.h"
 #include "scene/scene.h"
 #include "view/view_camera.h"
-
-#include <epoxy/gl.h>
 
 /* ---- the image ---- */
 

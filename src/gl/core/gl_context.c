@@ -1,51 +1,17 @@
 /* gl_context.c - see gl_context.h: capabilities and errors of any context. Contexts are created in
- * gl_context_egl.c. */
+ * gl_context_egl.c and, in a browser, gl_context_web.c. */
 #include "gl/core/gl_context.h"
 
-#include <dlfcn.h>
-#include <epoxy/gl.h>
 #include <stdio.h>
 
 #include "base/result.h"
+#include "gl/core/gl_api.h"
 
 /* ---- capabilities ---- */
 
 static bool has_any(const char *a, const char *b)
 {
-    return epoxy_has_gl_extension(a) || epoxy_has_gl_extension(b);
-}
-
-/* Function pointers of epoxy are variables, so wrap them in functions. */
-static unsigned core_reset_status(void)
-{
-    return glGetGraphicsResetStatus();
-}
-
-static unsigned khr_reset_status(void)
-{
-    return glGetGraphicsResetStatusKHR();
-}
-
-static unsigned arb_reset_status(void)
-{
-    return glGetGraphicsResetStatusARB();
-}
-
-static unsigned ext_reset_status(void)
-{
-    return glGetGraphicsResetStatusEXT();
-}
-
-static void find_reset_status(gl_context *c)
-{
-    if (c->version >= (c->is_es ? 32 : 45))
-        c->reset_status = core_reset_status;
-    else if (epoxy_has_gl_extension("GL_KHR_robustness"))
-        c->reset_status = khr_reset_status;
-    else if (!c->is_es && epoxy_has_gl_extension("GL_ARB_robustness"))
-        c->reset_status = arb_reset_status;
-    else if (c->is_es && epoxy_has_gl_extension("GL_EXT_robustness"))
-        c->reset_status = ext_reset_status;
+    return gl_api_has_extension(a) || gl_api_has_extension(b);
 }
 
 static void read_limits(gl_context *c)
@@ -58,40 +24,25 @@ static void read_limits(gl_context *c)
     if (has_any("GL_EXT_texture_filter_anisotropic", "GL_ARB_texture_filter_anisotropic") ||
         (!c->is_es && c->version >= 46))
         glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &c->max_anisotropy);
-    c->has_parallel_compile = epoxy_has_gl_extension("GL_KHR_parallel_shader_compile");
-    c->has_timer_query = !c->is_es || epoxy_has_gl_extension("GL_EXT_disjoint_timer_query");
-    c->has_float_linear = !c->is_es || epoxy_has_gl_extension("GL_OES_texture_float_linear");
-    c->has_float_target = !c->is_es || epoxy_has_gl_extension("GL_EXT_color_buffer_float");
+    c->has_parallel_compile = gl_api_has_extension("GL_KHR_parallel_shader_compile");
+    c->has_timer_query = !c->is_es || gl_api_has_extension("GL_EXT_disjoint_timer_query");
+    c->has_float_linear = !c->is_es || gl_api_has_extension("GL_OES_texture_float_linear");
+    c->has_float_target = !c->is_es || gl_api_has_extension("GL_EXT_color_buffer_float");
     c->has_half_target =
         c->has_float_target || has_any("GL_EXT_color_buffer_half_float", "GL_EXT_color_buffer_float");
     c->has_texture_storage =
-        c->version >= (c->is_es ? 30 : 42) || epoxy_has_gl_extension("GL_ARB_texture_storage");
+        c->version >= (c->is_es ? 30 : 42) || gl_api_has_extension("GL_ARB_texture_storage");
     c->has_clip_control =
         has_any("GL_ARB_clip_control", "GL_EXT_clip_control") || (!c->is_es && c->version >= 45);
-    find_reset_status(c);
-    c->has_debug_output = epoxy_has_gl_extension("GL_KHR_debug");
-}
-
-/* epoxy ends the process where it finds neither library, which can happen where only libEGL is installed. */
-static bool has_client_library(void)
-{
-    static const char *const names[] = {"libOpenGL.so.0", "libGL.so.1"};
-    for (int i = 0; i < 2; i++) {
-        void *library = dlopen(names[i], RTLD_LAZY | RTLD_LOCAL);
-        if (library) {
-            dlclose(library);
-            return true;
-        }
-    }
-    return false;
+    gl_context_find_reset_status(c);
+    c->has_debug_output = gl_api_has_extension("GL_KHR_debug");
 }
 
 facet_result gl_context_adopt(gl_context *c, facet_error *error)
 {
-    if (!has_client_library())
-        return fail(error, FACET_ERROR_SYSTEM, "OpenGL: neither libOpenGL.so.0 nor libGL.so.1 is installed");
-    c->is_es = !epoxy_is_desktop_gl();
-    c->version = epoxy_gl_version();
+    TRY(gl_context_find_library(error));
+    c->is_es = gl_api_is_es();
+    c->version = gl_api_version();
     snprintf(c->name, sizeof c->name, "%s, %s", (const char *)glGetString(GL_RENDERER),
              (const char *)glGetString(GL_VERSION));
     if (c->version < (c->is_es ? 30 : 33))

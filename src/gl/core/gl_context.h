@@ -45,6 +45,10 @@ facet_result gl_context_make_current(gl_context *context, facet_error *error);
 void gl_context_release(gl_context *context);
 void gl_context_destroy(gl_context *context); /* {0} is allowed; leaves {0} */
 
+/* What gl_context_adopt() asks of the platform. FACET_ERROR_SYSTEM: OpenGL's library is missing. */
+facet_result gl_context_find_library(facet_error *error);
+void gl_context_find_reset_status(gl_context *context); /* sets reset_status */
+
 /* Reports errors of OpenGL since the last call: FACET_ERROR_MEMORY, FACET_ERROR_SYSTEM (a lost context, or
  * a bug in facet, with OpenGL's error code). while_doing: such as "textures". */
 facet_result gl_context_check(gl_context *context, const char *while_doing, facet_error *error);

@@ -5,10 +5,12 @@
  * driver per process. */
 #include "gl/core/gl_context.h"
 
+#include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <string.h>
 
 #include "base/result.h"
+#include "gl/core/gl_api.h"
 
 static bool has_word(const char *words, const char *word)
 {
@@ -160,4 +162,53 @@ facet_result gl_context_create_api(gl_context *c, gl_api wanted, facet_error *er
 facet_result gl_context_create(gl_context *c, facet_error *error)
 {
     return gl_context_create_api(c, GL_API_ANY, error);
+}
+
+/* ---- what gl_context_adopt() asks for ---- */
+
+/* epoxy ends the process where it finds neither library, which can happen where only libEGL is installed. */
+facet_result gl_context_find_library(facet_error *error)
+{
+    static const char *const names[] = {"libOpenGL.so.0", "libGL.so.1"};
+    for (int i = 0; i < 2; i++) {
+        void *library = dlopen(names[i], RTLD_LAZY | RTLD_LOCAL);
+        if (library) {
+            dlclose(library);
+            return FACET_OK;
+        }
+    }
+    return fail(error, FACET_ERROR_SYSTEM, "OpenGL: neither libOpenGL.so.0 nor libGL.so.1 is installed");
+}
+
+/* Function pointers of epoxy are variables, so wrap them in functions. */
+static unsigned core_reset_status(void)
+{
+    return glGetGraphicsResetStatus();
+}
+
+static unsigned khr_reset_status(void)
+{
+    return glGetGraphicsResetStatusKHR();
+}
+
+static unsigned arb_reset_status(void)
+{
+    return glGetGraphicsResetStatusARB();
+}
+
+static unsigned ext_reset_status(void)
+{
+    return glGetGraphicsResetStatusEXT();
+}
+
+void gl_context_find_reset_status(gl_context *c)
+{
+    if (c->version >= (c->is_es ? 32 : 45))
+        c->reset_status = core_reset_status;
+    else if (gl_api_has_extension("GL_KHR_robustness"))
+        c->reset_status = khr_reset_status;
+    else if (!c->is_es && gl_api_has_extension("GL_ARB_robustness"))
+        c->reset_status = arb_reset_status;
+    else if (c->is_es && gl_api_has_extension("GL_EXT_robustness"))
+        c->reset_status = ext_reset_status;
 }

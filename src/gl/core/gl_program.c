@@ -1,12 +1,12 @@
 /* gl_program.c - see gl_program.h. */
 #include "gl/core/gl_program.h"
 
-#include <epoxy/gl.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "base/result.h"
+#include "gl/core/gl_api.h"
 #include "gl/core/gl_blocks.h"
 
 /* Texture units of samplers. */
@@ -97,7 +97,7 @@ facet_result gl_programs_create(gl_context *context, const facet_allocator *allo
     (*out)->allocator = allocator ? *allocator : (facet_allocator){0};
     gl_programs_set_log(*out, log);
     if (context->has_parallel_compile)
-        glMaxShaderCompilerThreadsKHR(0xffffffff); /* as many as the driver allows */
+        gl_api_compile_in_parallel();
     return FACET_OK;
 }
 

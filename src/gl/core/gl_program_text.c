@@ -2,7 +2,6 @@
  * each main. */
 #include "gl/core/gl_program.h"
 
-#include <epoxy/gl.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -12,6 +11,7 @@ typedef struct glsl_part {
     const char *name, *text;
 } glsl_part;
 
+#include "gl/core/gl_api.h"
 #include "gl_text.h"
 
 /* ---- features and mains ---- */

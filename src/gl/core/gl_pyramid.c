@@ -1,9 +1,8 @@
 /* gl_pyramid.c - see gl_pyramid.h. */
 #include "gl/core/gl_pyramid.h"
 
-#include <epoxy/gl.h>
-
 #include "base/result.h"
+#include "gl/core/gl_api.h"
 #include "gl/core/gl_blocks.h"
 #include "gl/core/gl_texture.h"
 

@@ -1,9 +1,8 @@
 /* gl_target.c - see gl_target.h. */
 #include "gl/core/gl_target.h"
 
-#include <epoxy/gl.h>
-
 #include "base/result.h"
+#include "gl/core/gl_api.h"
 
 void gl_target_destroy(gl_target *t)
 {

@@ -2,11 +2,10 @@
  * shared by all textures of the scene that refer to it. Wrapping and filtering are in sampler objects. */
 #include "gl/core/gl_texture.h"
 
-#include <epoxy/gl.h>
-
 #include "base/memory.h"
 #include "base/result.h"
 #include "draw/texture_store.h"
+#include "gl/core/gl_api.h"
 #include "image/half.h"
 
 enum {

@@ -1,7 +1,7 @@
 /* gl_timers.c - see gl_timers.h. A ring of pending queries, so that nothing waits for the GPU. */
 #include "gl/core/gl_timers.h"
 
-#include <epoxy/gl.h>
+#include "gl/core/gl_api.h"
 
 const char *gl_timer_name(gl_timer timer)
 {
@@ -21,11 +21,7 @@ static bool has_answer(const gl_timers *t)
 /* Takes the result of the oldest query, waiting for it. */
 static void take(gl_timers *t)
 {
-    GLuint64 ns = 0;
-    if (t->context->is_es)
-        glGetQueryObjectui64vEXT(t->ring[t->first].query, GL_QUERY_RESULT, &ns);
-    else
-        glGetQueryObjectui64v(t->ring[t->first].query, GL_QUERY_RESULT, &ns);
+    const uint64_t ns = gl_api_query_ns(t->context->is_es, t->ring[t->first].query);
     t->sum.ms[t->ring[t->first].timer] += 1e-6 * (double)ns;
     if (t->ring[t->first].ends_image) {
         t->last = t->sum;

@@ -1,7 +1,8 @@
 /* gl_attributes.c - see gl_attributes.h. */
 #include "gl/scene/gl_attributes.h"
 
-#include <epoxy/gl.h>
+#include "gl/core/gl_api.h"
+
 #include <stddef.h>
 #include <string.h>
 

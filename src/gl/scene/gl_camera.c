@@ -1,10 +1,10 @@
 /* gl_camera.c - see gl_camera.h. */
 #include "gl/scene/gl_camera.h"
 
-#include <epoxy/gl.h>
 #include <math.h>
 
 #include "draw/camera_rays.h"
+#include "gl/core/gl_api.h"
 
 static const double NEAREST = 1e-6;        /* near plane over the largest depth */
 static const double NEAREST_COARSE = 1e-4; /* the same without reversed depth */
@@ -100,27 +100,19 @@ void gl_camera_set(const gl_context *context, const camera_rays *c, const float 
     m[15] = (float)(1.0 - along);
 }
 
-static void clear_depth(const gl_context *context, float depth)
-{
-    if (context->is_es)
-        glClearDepthf(depth);
-    else
-        glClearDepth((double)depth);
-}
-
 void gl_camera_begin_depth(const gl_context *context)
 {
     if (context->has_clip_control)
-        glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
-    clear_depth(context, context->has_clip_control ? 0.0f : 1.0f);
+        gl_api_clip_control(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
+    gl_api_clear_depth(context->is_es, context->has_clip_control ? 0.0 : 1.0);
     glDepthFunc(context->has_clip_control ? GL_GEQUAL : GL_LEQUAL);
 }
 
 void gl_camera_end_depth(const gl_context *context)
 {
     if (context->has_clip_control)
-        glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
-    clear_depth(context, 1.0f);
+        gl_api_clip_control(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+    gl_api_clear_depth(context->is_es, 1.0);
     glDepthFunc(GL_LESS);
 }
 

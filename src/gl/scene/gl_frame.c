@@ -1,11 +1,11 @@
 /* gl_frame.c - see gl_frame.h. */
 #include "gl/scene/gl_frame.h"
 
-#include <epoxy/gl.h>
 #include <math.h>
 
 #include "base/clock.h"
 #include "base/result.h"
+#include "gl/core/gl_api.h"
 #include "gl/scene/gl_camera.h"
 #include "gl/gl_entry.h"
 

@@ -1,11 +1,11 @@
 /* gl_ground.c - see gl_ground.h. */
 #include "gl/scene/gl_ground.h"
 
-#include <epoxy/gl.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/result.h"
+#include "gl/core/gl_api.h"
 #include "gl/scene/gl_camera.h"
 
 /* ---- casters ---- */

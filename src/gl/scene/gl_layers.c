@@ -1,10 +1,10 @@
 /* gl_layers.c - see gl_layers.h. */
 #include "gl/scene/gl_layers.h"
 
-#include <epoxy/gl.h>
 #include <math.h>
 
 #include "base/result.h"
+#include "gl/core/gl_api.h"
 
 typedef enum compose_mode { COMPOSE_LAYER, COMPOSE_SUM, COMPOSE_WEIGHTED } compose_mode;
 
@@ -112,7 +112,7 @@ static facet_result update(gl_layers *l, const gl_transparency_view *view, facet
         l->mode == view->mode)
         return FACET_OK;
     bool blends_floats =
-        l->context->has_float_target && (!l->context->is_es || epoxy_has_gl_extension("GL_EXT_float_blend"));
+        l->context->has_float_target && (!l->context->is_es || gl_api_has_extension("GL_EXT_float_blend"));
     GLenum format = blends_floats ? GL_RGBA32F : GL_RGBA16F;
     clear(l);
     l->mode = view->mode;

@@ -1,11 +1,11 @@
 /* gl_light.c - see gl_light.h. */
 #include "gl/scene/gl_light.h"
 
-#include <epoxy/gl.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "base/result.h"
+#include "gl/core/gl_api.h"
 #include "gl/core/gl_program.h"
 #include "gl/scene/gl_ground.h"
 #include "gl/scene/gl_light_atlas.h"

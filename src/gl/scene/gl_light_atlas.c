@@ -1,12 +1,12 @@
 /* gl_light_atlas.c - see gl_light_atlas.h. Parts are packed on shelves, the tallest first. */
 #include "gl/scene/gl_light_atlas.h"
 
-#include <epoxy/gl.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "base/result.h"
+#include "gl/core/gl_api.h"
 #include "ibl/dfg.h"
 #include "ibl/equirect.h"
 #include "image/half.h"

@@ -2,12 +2,12 @@
  * never textures. */
 #include "gl/scene/gl_material.h"
 
-#include <epoxy/gl.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "base/result.h"
+#include "gl/core/gl_api.h"
 #include "gl/core/gl_texture.h"
 #include "gl/scene/gl_mesh_vertices.h"
 #include "scene/material_table.h"

@@ -1,13 +1,13 @@
 /* gl_mesh.c - see gl_mesh.h. Vertices and indices: gl_mesh_vertices.h; vertex array objects: gl_attributes.h. */
 #include "gl/scene/gl_mesh.h"
 
-#include <epoxy/gl.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "base/result.h"
+#include "gl/core/gl_api.h"
 #include "gl/core/gl_program.h"
 #include "gl/scene/gl_attributes.h"
 

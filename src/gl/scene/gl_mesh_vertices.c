@@ -1,12 +1,12 @@
 /* gl_mesh_vertices.c - see gl_mesh_vertices.h. */
 #include "gl/scene/gl_mesh_vertices.h"
 
-#include <epoxy/gl.h>
 #include <limits.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "base/result.h"
+#include "gl/core/gl_api.h"
 
 /* ---- keys: the arrays of a geometry ---- */
 

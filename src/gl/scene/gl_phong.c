@@ -2,11 +2,11 @@
  * image may be decoded differently. */
 #include "gl/scene/gl_phong.h"
 
-#include <epoxy/gl.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "base/result.h"
+#include "gl/core/gl_api.h"
 #include "gl/core/gl_texture.h"
 
 #include "draw/ogl1_setup.h"

@@ -1,12 +1,12 @@
 /* gl_renderer.c - see gl_renderer.h: resources that are kept from image to image, and recovery from errors. */
 #include "gl/scene/gl_renderer.h"
 
-#include <epoxy/gl.h>
 #include <stdio.h>
 
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/result.h"
+#include "gl/core/gl_api.h"
 #include "gl/scene/gl_camera.h"
 #include "gl/scene/gl_film.h"
 #include "gl/scene/gl_frame.h"

@@ -1,7 +1,6 @@
 /* gl_shadow.c - see gl_shadow.h. */
 #include "gl/scene/gl_shadow.h"
 
-#include <epoxy/gl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,6 +8,7 @@
 
 #include "base/memory.h"
 #include "base/result.h"
+#include "gl/core/gl_api.h"
 #include "ibl/cube.h"
 
 #include "shade/shade.h"

@@ -1,10 +1,9 @@
 /* gl_transparency.c - see gl_transparency.h: the sorted mode, and the choice of the mode. */
 #include "gl/scene/gl_transparency.h"
 
-#include <epoxy/gl.h>
-
 #include "base/memory.h"
 #include "base/result.h"
+#include "gl/core/gl_api.h"
 #include "gl/scene/gl_attributes.h"
 #include "gl/scene/gl_layers.h"
 

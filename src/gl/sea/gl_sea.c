@@ -1,7 +1,6 @@
 /* gl_sea.c - see gl_sea.h: what is kept from image to image, and the render passes. */
 #include "gl/sea/gl_sea.h"
 
-#include <epoxy/gl.h>
 #include <string.h>
 
 #include "base/clock.h"
@@ -9,6 +8,7 @@
 #include "base/result.h"
 #include "draw/camera_rays.h"
 #include "draw/render_watch.h"
+#include "gl/core/gl_api.h"
 #include "gl/core/gl_blocks.h"
 #include "gl/scene/gl_camera.h"
 #include "gl/scene/gl_film.h"
@@ -265,19 +265,10 @@ static void use(GLuint program, pixel_class reading)
                 reading.linear_end);
 }
 
-/* Maps the depths of triangles to this range. */
-static void set_depths(const gl_context *context, double nearest, double farthest)
-{
-    if (context->is_es)
-        glDepthRangef((GLfloat)nearest, (GLfloat)farthest);
-    else
-        glDepthRange(nearest, farthest);
-}
-
 /* Pixels of one class. */
 static void draw_class(const drawing *d, double depth)
 {
-    set_depths(&d->s->context, depth, depth);
+    gl_api_depth_range(d->s->context.is_es, depth, depth);
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
@@ -294,7 +285,7 @@ static void draw_classes(const drawing *d, const pixel_programs *programs)
         use(classes[i].cubic_end ? programs->cubic : programs->linear, classes[i]);
         draw_class(d, depth_of(classes[i]));
     }
-    set_depths(&d->s->context, 0.0, 1.0);
+    gl_api_depth_range(d->s->context.is_es, 0.0, 1.0);
     glDepthMask(GL_TRUE);
 }
 

@@ -1,11 +1,11 @@
 /* gl_sea_mesh.c - see gl_sea_mesh.h. */
 #include "gl/sea/gl_sea_mesh.h"
 
-#include <epoxy/gl.h>
 #include <math.h>
 
 #include "base/memory.h"
 #include "base/result.h"
+#include "gl/core/gl_api.h"
 
 static const double CELL_PIXELS = 4.0, MAX_NODES = 6e5, MAX_DISTANCE_M = 1e5;
 static const double PI_D = 3.14159265358979323846;

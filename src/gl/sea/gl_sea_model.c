@@ -1,12 +1,12 @@
 /* gl_sea_model.c - see gl_sea_model.h. */
 #include "gl/sea/gl_sea_model.h"
 
-#include <epoxy/gl.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "base/result.h"
+#include "gl/core/gl_api.h"
 #include "gl/sea/gl_sea_textures.h"
 
 static const uint32_t MAX_PIXELS = 2048; /* of a cut per axis */

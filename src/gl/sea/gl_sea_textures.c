@@ -1,12 +1,12 @@
 /* gl_sea_textures.c - see gl_sea_textures.h. */
 #include "gl/sea/gl_sea_textures.h"
 
-#include <epoxy/gl.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
+#include "gl/core/gl_api.h"
 #include "gl/core/gl_blocks.h"
 #include "ocean/wave_patches.h"
 
