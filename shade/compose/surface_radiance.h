@@ -40,13 +40,14 @@ FN vec3 plain_radiance(SurfaceHost host, Surface s)
 
 /* ---- layers ---- */
 
-/* Where light that enters a closed volume diffusely has come from; for others the material's thickness. */
+/* Where light that enters a closed volume diffusely has come from; for others the material's thickness. The
+ * path in the volume is that of light from the environment and from punctual lights alike. */
 FN VolumeExit diffuse_exit(SurfaceHost host, Layers m)
 {
     VolumeExit e;
     e.distance_m = m.thickness;
     e.normal = -m.base.N;
-    if (host_has_environment(host) && has_layer(m, LAYER_DIFFUSE_TRANSMISSION) && has_layer(m, LAYER_VOLUME))
+    if (has_layer(m, LAYER_DIFFUSE_TRANSMISSION) && has_layer(m, LAYER_VOLUME))
         e = host_exit(host, m);
     return e;
 }

@@ -363,40 +363,6 @@ static void highlights_are_stretched_along_the_tangent(void **state)
     film_destroy(&upward);
 }
 
-/* ---- diffuse transmission ---- */
-
-static void light_comes_through_leaves(void **state)
-{
-    (void)state;
-    for (int is_volume = 0; is_volume < 3; is_volume++) {
-        fixture f = fixture_create();
-        scene_material m = scene_material_default();
-        m.metallic = 0.0f;
-        m.specular = 0.0f;
-        m.extensions = SCENE_DIFFUSE_TRANSMISSION | (is_volume ? SCENE_VOLUME : 0u);
-        m.base_color[0] = 0.5f;
-        m.diffuse_transmission = 0.25f;
-        m.diffuse_transmission_color[0] = 0.8f;
-        m.thickness = 0.3f;
-        m.attenuation_distance = 0.1f;
-        m.attenuation_color[0] = 0.7f;
-        uint32_t mesh = fixture_add_quad(&f, fixture_add_material(&f, m));
-        fixture_place(&f, mesh, 0, 0, 0, 1.0f);
-        if (is_volume == 2) { /* a far side: the real thickness counts */
-            scene_node *far = fixture_place(&f, mesh, 0, 0, -0.2f, 1.0f);
-            far->rotation[1] = 1.0f;
-            far->rotation[3] = 0.0f;
-        }
-        film rendered = fixture_render(&f);
-        float thickness = is_volume == 2 ? 0.2f : 0.3f;
-        float passed = is_volume ? powf(0.7f, thickness / 0.1f) : 1.0f;
-        float expected = 0.5f * 0.75f + 0.8f * 0.25f * passed;
-        assert_true(fabsf(fixture_pixel(&rendered, "", 20, 40)[0] - expected) < 1e-3f);
-        film_destroy(&rendered);
-        fixture_destroy(&f);
-    }
-}
-
 /* ---- energy ---- */
 
 static void layers_return_no_more_than_they_got(void **state)
@@ -489,7 +455,6 @@ int main(void)
         cmocka_unit_test(glossiness_is_lossless),
         cmocka_unit_test(coats_have_normals_of_their_own),
         cmocka_unit_test(highlights_are_stretched_along_the_tangent),
-        cmocka_unit_test(light_comes_through_leaves),
         cmocka_unit_test(layers_return_no_more_than_they_got),
         cmocka_unit_test(the_time_limit_holds_within_a_tile),
         cmocka_unit_test(a_tile_can_be_cancelled),

@@ -1,4 +1,4 @@
-/* Tests of the parts of refraction: normals of boundaries, ray bundles, random numbers, media. */
+/* Tests of light in volumes: normals of boundaries, ray bundles, random numbers, media, diffuse transmission. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -10,6 +10,7 @@
 #include "cpu/media.h"
 
 #include "cpu/boundary.h"
+#include "cpu/preview_fixture.h"
 #include "cpu/ray_samples.h"
 
 /* ---- normals of boundaries ---- */
@@ -250,13 +251,82 @@ static void media_are_left_in_any_order(void **state)
     assert_null(media_here(&in)); /* the outermost were forgotten */
 }
 
+/* ---- diffuse transmission ---- */
+
+/* Red of a quad that transmits diffusely: 0 a thin wall; 1 a volume without far side; 2 with one 0.2 m behind.
+ * intensity: cd, of a point light behind it. */
+static float leaf_red(int kind, bool has_environment, float intensity)
+{
+    fixture f = fixture_create();
+    if (!has_environment)
+        fixture_remove_environment(&f);
+    scene_light light = {.name = "", .type = SCENE_LIGHT_POINT, .color = {1, 1, 1}, .intensity = intensity};
+    fixture_add_light(&f, light, 0.0f, 0.0f, -3.0f);
+    scene_material m = scene_material_default();
+    m.metallic = 0.0f;
+    m.specular = 0.0f;
+    m.extensions = SCENE_DIFFUSE_TRANSMISSION | (kind ? SCENE_VOLUME : 0u);
+    m.base_color[0] = 0.5f;
+    m.diffuse_transmission = 0.25f;
+    m.diffuse_transmission_color[0] = 0.8f;
+    m.thickness = 0.3f;
+    m.attenuation_distance = 0.1f;
+    m.attenuation_color[0] = 0.7f;
+    uint32_t mesh = fixture_add_quad(&f, fixture_add_material(&f, m));
+    fixture_place(&f, mesh, 0, 0, 0, 1.0f);
+    if (kind == 2) {
+        scene_node *far = fixture_place(&f, mesh, 0, 0, -0.2f, 1.0f);
+        far->rotation[1] = 1.0f;
+        far->rotation[3] = 0.0f;
+    }
+    film rendered = fixture_render(&f);
+    float red = fixture_pixel(&rendered, "", 20, 40)[0];
+    film_destroy(&rendered);
+    fixture_destroy(&f);
+    return red;
+}
+
+/* With a far side the real thickness counts, otherwise that of the material. */
+static float leaf_transmittance(int kind)
+{
+    return kind ? powf(0.7f, (kind == 2 ? 0.2f : 0.3f) / 0.1f) : 1.0f;
+}
+
+static void light_comes_through_leaves(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < 3; kind++) {
+        float expected = 0.5f * 0.75f + 0.8f * 0.25f * leaf_transmittance(kind);
+        assert_true(fabsf(leaf_red(kind, true, 0.0f) - expected) < 1e-3f);
+    }
+}
+
+static void punctual_light_is_absorbed_like_an_environment(void **state)
+{
+    (void)state;
+    for (int has_environment = 0; has_environment < 2; has_environment++) {
+        float through_wall = leaf_red(0, has_environment, 90.0f) - leaf_red(0, has_environment, 0.0f);
+        assert_true(through_wall > 0.1f);
+        for (int kind = 1; kind < 3; kind++) {
+            float red = leaf_red(kind, has_environment, 90.0f) - leaf_red(kind, has_environment, 0.0f);
+            assert_true(fabsf(red / through_wall - leaf_transmittance(kind)) < 1e-4f);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(normals_of_a_ball_stay),  cmocka_unit_test(normals_towards_a_rim_do_not_lean),
-        cmocka_unit_test(flat_normals_stay),       cmocka_unit_test(bundles_follow_their_neighbours),
-        cmocka_unit_test(rays_are_spread_evenly),  cmocka_unit_test(every_pixel_has_its_place),
-        cmocka_unit_test(bounces_are_independent), cmocka_unit_test(media_are_left_in_any_order),
+        cmocka_unit_test(normals_of_a_ball_stay),
+        cmocka_unit_test(normals_towards_a_rim_do_not_lean),
+        cmocka_unit_test(flat_normals_stay),
+        cmocka_unit_test(bundles_follow_their_neighbours),
+        cmocka_unit_test(rays_are_spread_evenly),
+        cmocka_unit_test(every_pixel_has_its_place),
+        cmocka_unit_test(bounces_are_independent),
+        cmocka_unit_test(media_are_left_in_any_order),
+        cmocka_unit_test(light_comes_through_leaves),
+        cmocka_unit_test(punctual_light_is_absorbed_like_an_environment),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
