@@ -1,6 +1,6 @@
 /* instancing.c - see instancing.h.
  *
- * * Flat triangles take 160 to 290 ns each to build with two threads and 80 bytes; an instance 0.6 us and
+ * Flat triangles take 160 to 290 ns each to build with two threads and 80 bytes; an instance 0.6 us and
  * 0.4 kB, however large its shape is. A ray takes 3 ns more through instances that do not overlap, up to
  * 60 ns where many do. So instancing pays if it saves a triangle per 5 to 90 rays; below that, and in
  * every model whose meshes are drawn once, all stays flat. (Packets of 16 rays, 30 to 60 ns each; spheres

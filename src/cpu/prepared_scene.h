@@ -2,7 +2,7 @@
  * BVH, tangents and decoded textures. Each stage makes what the desc needs and what is missing. The result
  * does not depend on what was there. (The environment keeps prepared light.)
  *
- * * What a frame of an animation redoes follows from instancing.h: nothing for triangles that do not move,
+ * What a frame of an animation redoes follows from instancing.h: nothing for triangles that do not move,
  * a BVH over instances for rigid parts, and a BVH of the triangles that a skin or morph targets deform.
  * The latter is not refitted, which would take 9 to 18 ns per triangle where building takes 30 to 400: a
  * refitted tree keeps the shape of an earlier frame, and where a ray hits the common edge of two triangles

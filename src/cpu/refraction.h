@@ -1,13 +1,13 @@
 /* refraction.h - transmission in the preview: rays through thin walls and closed volumes, refracted by the
  * actual geometry.
  *
- * * A transmissive surface is shaded as any other, with the prefiltered environment for its reflection; rays
+ * A transmissive surface is shaded as any other, with the prefiltered environment for its reflection; rays
  * find the radiance behind it. The first surface splits into as many rays as the quality has for roughness
  * and dispersion. Each then follows the strongest branch and, as long as its budget lasts, those of internal
  * reflections; the rest reads the environment, prefiltered for the lobe that the ray represents. All shares
  * add up to 1, so that in a constant environment glass has exactly its color.
  *
- * * Rays without a hit see the environment, also where the image's background is transparent or a color:
+ * Rays without a hit see the environment, also where the image's background is transparent or a color:
  * glass is opaque in the image (glTF's alpha is coverage). Delta lights are not visible through volumes;
  * they light what is behind unshadowed. */
 #ifndef CPU_REFRACTION_H

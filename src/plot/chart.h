@@ -1,7 +1,7 @@
 /* chart.h - charts as data: curves and fields that plots make, to be drawn by cairo or written as CSV.
  * Independent of shading.
  *
- * * A chart is a grid of panels. All memory is in an arena; strings are UTF-8. */
+ * A chart is a grid of panels. All memory is in an arena; strings are UTF-8. */
 #ifndef PLOT_CHART_H
 #define PLOT_CHART_H
 

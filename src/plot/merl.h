@@ -1,7 +1,7 @@
 /* merl.h - measured isotropic BRDFs in the format of the MERL database (Matusik, Pfister, Brand, McMillan
  * 2003, "A Data-Driven Reflectance Model").
  *
- * * A file is three int32 (90, 90, 180: cells of theta_h, theta_d, phi_d), then three planes of doubles, red, green,
+ * A file is three int32 (90, 90, 180: cells of theta_h, theta_d, phi_d), then three planes of doubles, red, green,
  * blue, phi_d fastest; little-endian. Values are BRDFs in 1/sr divided by 1/1500, 1.15/1500, 1.66/1500.
  * theta_h of cell i is (pi / 2) (i / 90)^2, so that cells are finest at the mirror direction; theta_d is
  * even over [0, pi/2], phi_d over [0, pi], for which reciprocity is made use of (Rusinkiewicz 1998, "A New

@@ -2,7 +2,7 @@
  * 21, with D of Gaussian slopes about those of N, and G of waves of all lengths (slopes_seen()). Seen from
  * below all is the same with both directions negated, so that the formulas see them above.
  *
- * * Sampling draws a microfacet from those visible from V, chooses reflection or refraction by Fresnel's
+ * Sampling draws a microfacet from those visible from V, chooses reflection or refraction by Fresnel's
  * equations, and tests whether other microfacets block the light: weights are then 1 or ratios of the
  * indices squared. Blocked light scatters at a second microfacet, so that no energy is lost. */
 #include "water/water_path.h"
