@@ -61,6 +61,12 @@ double water_march_reach(const water_march *m, const march_ray *ray, double heig
     return first;
 }
 
+bool water_march_is_cut(const water_march *m, const march_ray *ray, double height_m)
+{
+    double above = march_height(m, ray, ray->near_m) - height_m;
+    return ray->near_m > 0.0 && (ray->is_below ? -above : above) <= 0.0;
+}
+
 /* ---- one ray ---- */
 
 /* State of a ray, and bounds of the waves for its current footprint. */
@@ -136,6 +142,24 @@ static bool is_away(const march *s, double t)
     return rise >= 0.0 && y > (double)s->bounds.highest;
 }
 
+/* Where a ray that the near plane cuts off behind the surface is in front of it again; HUGE_VAL: nowhere. */
+static double leave_waves(march *s, double t)
+{
+    const double sign = s->ray->is_below ? -1.0 : 1.0;
+    for (int step = 0; step < MAX_STEPS && t <= s->ray->far_m; step++) {
+        update_bounds(s, t);
+        double y = march_height(s->m, s->ray, t), rise = sign * march_rise(s->m, s->ray, t);
+        double all = (double)(s->ray->is_below ? s->bounds.highest : s->bounds.lowest);
+        if (rise <= 0.0 && sign * (y - all) < 0.0)
+            return HUGE_VAL;
+        double f = clearance(s, t), least = 0.7 * (double)s->last.width_m + 1e-4;
+        if (f > 0.0)
+            return t;
+        t += fmax(-f / fmax(fmax(rise, 0.0) + s->steepest * s->level, 1e-6), least);
+    }
+    return HUGE_VAL;
+}
+
 /* Steps exceed the safe length by a factor; one that may have passed a wave is repeated. Waves shorter
  * than 0.7 of the width are filtered out. */
 static bool march_waves(march *s)
@@ -144,6 +168,8 @@ static bool march_waves(march *s)
     const double relaxation = 1.6, sign = r->is_below ? -1.0 : 1.0;
     wave_bounds all = waves_bounds(s->m->waves, width_at(r, r->near_m));
     double t = water_march_reach(s->m, r, (double)(r->is_below ? all.lowest : all.highest), r->near_m);
+    if (r->near_m > 0.0 && t <= r->near_m)
+        t = leave_waves(s, t);
     double before = t, f_before = 0.0, reach = 0.0; /* previous position, its clearance, its safe step */
     for (int step = 0; step < MAX_STEPS && t <= r->far_m && t < HUGE_VAL; step++) {
         update_bounds(s, t);
@@ -172,9 +198,10 @@ static bool march_waves(march *s)
 
 static bool march_flat(march *s)
 {
-    double f, t = water_march_reach(s->m, s->ray, (double)s->m->waves->level_m, s->ray->near_m);
+    const march_ray *r = s->ray;
+    double f, level_m = (double)s->m->waves->level_m, t = water_march_reach(s->m, r, level_m, r->near_m);
     const float still[2] = {0.0f, 0.0f};
-    if (!(t <= s->ray->far_m && t < HUGE_VAL))
+    if (water_march_is_cut(s->m, r, level_m) || !(t <= r->far_m && t < HUGE_VAL))
         return false;
     s->last = water_march_hit_at(s->m, s->ray, t, still, &f);
     return true;

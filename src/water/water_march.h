@@ -38,7 +38,8 @@ typedef struct march_hit {
     float displacement[2]; /* of the water at the hit */
 } march_hit;
 
-/* Finds the first intersection, to within some hundredths of the ray's width. */
+/* Finds the first intersection beyond near_m from the side that the ray comes from, to within some hundredths of
+ * the ray's width. */
 bool water_march_find(const water_march *m, const march_ray *ray, march_hit *hit);
 
 /* Footprint of the surface lookup where a ray of width_m that rises by `rise` hits it: that width, as long as
@@ -65,5 +66,7 @@ static inline double march_rise(const water_march *m, const march_ray *ray, doub
 
 /* Smallest t >= from at which the ray reaches height_m from the side that it starts on; HUGE_VAL: never. */
 double water_march_reach(const water_march *m, const march_ray *ray, double height_m, double from);
+/* Whether the near plane cuts off all of a ray that is in front of still water at height_m. */
+bool water_march_is_cut(const water_march *m, const march_ray *ray, double height_m);
 
 #endif

@@ -204,6 +204,55 @@ static void profiles_find_the_hits_of_marching(void **state)
     sea_destroy(sea);
 }
 
+/* With the near plane near_m away along each ray. Returns how many of the rays that hit nearer water find none. */
+static int cut_rays(const facet_sea *sea, float eye_m, float down_rad, double near_m)
+{
+    shot s;
+    make_shot(&s, 240, 160, eye_m, down_rad);
+    camera_rays rays;
+    assert_int_equal(camera_rays_create(&s.camera, 240, 160, &rays, NULL), FACET_OK);
+    water_march march = water_march_of(&sea->waves, &sea->slopes, true);
+    const uint32_t part[4] = {0, 0, 240, 160};
+    water_profile profile;
+    assert_int_equal(water_profile_create(&march, &rays, part, eye_m < 0.0f, 2, NULL, &profile, NULL),
+                     FACET_OK);
+    int open = 0;
+    for (uint32_t i = 0; i < 24 * 16; i++) {
+        march_ray ray = ray_of(&rays, (float)(i % 24 * 10), (float)(i / 24 * 10));
+        ray.is_below = eye_m < 0.0f;
+        march_hit whole = {.t = 0.0}, hit = {.t = 0.0};
+        bool is_whole = water_profile_find(&profile, &ray, &whole);
+        ray.near_m = near_m;
+        bool is_met = water_profile_find(&profile, &ray, &hit);
+        double f, before;
+        if (is_whole && whole.t > near_m * 1.01)
+            assert_true(is_met && hit.t == whole.t);
+        else if (is_met) {
+            assert_true(hit.t > near_m * 0.99);
+            water_march_hit_at(&march, &ray, hit.t, hit.displacement, &f);
+            water_march_hit_at(&march, &ray, hit.t - 4.0 * (double)hit.width_m, hit.displacement, &before);
+            assert_true(fabs(f) < (double)hit.width_m && before > f);
+        }
+        open += is_whole && !is_met;
+    }
+    water_profile_destroy(&profile);
+    return open;
+}
+
+/* Water nearer than the near plane is not seen, nor is its inside: rays go on to the next wave. */
+static void the_near_plane_cuts_water_off(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        facet_sea_desc d = small_sea(i ? 10.0f : 0.0f);
+        facet_sea *sea = make_sea(&d);
+        assert_true(cut_rays(sea, 4.0f, 0.3f, 12.0) > 100);
+        assert_true(cut_rays(sea, -4.0f, -0.3f, 12.0) > 100);
+        assert_int_equal(cut_rays(sea, 4.0f, 0.3f, 0.5), 0);
+        sea_destroy(sea);
+    }
+}
+
 /* ---- exposure ---- */
 
 /* Light on level water by a sun 20 degrees high in a clear sky: E = 75 730 sin 20 + 9 500 = 35 400 lx. */
@@ -281,6 +330,7 @@ int main(void)
         cmocka_unit_test(threads_change_no_byte),
         cmocka_unit_test(limits_and_cancelling_are_reported),
         cmocka_unit_test(profiles_find_the_hits_of_marching),
+        cmocka_unit_test(the_near_plane_cuts_water_off),
         cmocka_unit_test(level_water_has_the_illuminance_of_a_clear_sky),
         cmocka_unit_test(the_meter_measures_light_only),
     };
