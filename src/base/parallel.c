@@ -88,6 +88,15 @@ uint32_t parallel_startable(uint32_t wanted)
     return count;
 }
 
+#ifdef __EMSCRIPTEN__
+
+uint32_t facet_thread_count(void)
+{
+    return 1; /* threads in a browser need HTTP headers that few servers send */
+}
+
+#else
+
 /* The CPU quota of the cgroup (version 2, then 1), rounded up; 0: no limit. */
 static uint32_t cgroup_cpus(void)
 {
@@ -133,3 +142,5 @@ uint32_t facet_thread_count(void)
         count = quota;
     return count < MAX_THREADS ? count : MAX_THREADS;
 }
+
+#endif

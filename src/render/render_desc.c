@@ -87,6 +87,9 @@ static facet_result resolve_renderer(facet_render_desc *d, facet_error *error)
 {
     const renderer_row *r = renderer_get(d->renderer);
     const facet_renderer_info *info = &r->info;
+    if (r->lacks)
+        return fail(error, FACET_ERROR_SYSTEM, "%s: this facet was built without it (%s)", r->title,
+                    r->lacks);
     if (!d->samples)
         d->samples = info->samples[(unsigned)d->quality <= FACET_QUALITY_FINAL ? d->quality : 0];
     if (d->samples > info->max_samples)

@@ -97,28 +97,6 @@ facet_result gl_library_open(const gl_entry **entry, facet_error *error)
 
 /* ---- the renderer ---- */
 
-/* Channels other than light are shown without exposure and tone mapping, over black. */
-facet_result render_gl_resolve(facet_render_desc *d, facet_error *error)
-{
-    const facet_gl_desc *gl = &d->gl;
-    if ((unsigned)gl->channel >= FACET_CHANNEL_COUNT || (unsigned)gl->brdf > FACET_BRDF_MULTISCATTER ||
-        (unsigned)gl->transparency > FACET_TRANSPARENCY_WEIGHTED)
-        return fail(error, FACET_ERROR_ARGUMENT,
-                    "channel %d, brdf %d, transparency %d: at least one is no constant of its type",
-                    (int)gl->channel, (int)gl->brdf, (int)gl->transparency);
-    if (!(gl->bloom >= 0.0f && gl->bloom <= 1.0f))
-        return fail(error, FACET_ERROR_ARGUMENT, "bloom: %g; it is a share of the light, 0 to 1",
-                    (double)gl->bloom);
-    if (gl_channel_is_light(gl->channel))
-        return FACET_OK;
-    d->tonemap = FACET_TONEMAP_NONE;
-    d->exposure_ev = 0.0f;
-    d->background = FACET_BACKGROUND_COLOR;
-    for (int i = 0; i < 3; i++)
-        d->background_color[i] = 0.0f;
-    return FACET_OK;
-}
-
 facet_result render_gl_create(renderer_set *set, void **state, facet_error *error)
 {
     render_gl *r = mem_zalloc(&set->allocator, 1, sizeof *r);

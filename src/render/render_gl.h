@@ -4,7 +4,7 @@
 #define RENDER_RENDER_GL_H
 
 #include "gl/gl_entry.h"
-#include "render/renderer.h"
+#include "render/renderer_set.h"
 
 /* The module's functions; it stays open until the process ends. Safe from several threads.
  * FACET_ERROR_SYSTEM: the module is not there, or belongs to another build. */
@@ -17,7 +17,6 @@ typedef struct render_gl {
     gl_sea *seas;        /* with a context of its own; NULL: not used yet */
 } render_gl;
 
-facet_result render_gl_resolve(facet_render_desc *desc, facet_error *error);
 facet_result render_gl_create(renderer_set *set, void **state, facet_error *error);
 facet_result render_gl_draw(void *state, const facet_render_desc *desc, film *target,
                             facet_render_stats *stats, facet_error *error);

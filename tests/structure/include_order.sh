@@ -10,9 +10,9 @@ paths=$(grep -oE '(-I|-isystem )[^ "]+' "$build/compile_commands.json" | sort -u
 headers=$(git ls-files 'src/*.h' 2>/dev/null || true)
 [ -n "$headers" ] || headers=$(find src -name '*.h')
 
-# libraries FOLDER: those that its sources include, where they are installed
+# libraries FOLDER: those that its sources include, where they are installed, but for a browser's
 libraries() {
-    cat "$1"/*.[ch] | sed -n 's/^ *# *include \(<[^>]*>\).*/\1/p' | sort -u | grep -vE 'cmocka|facet/' |
+    cat "$1"/*.[ch] | sed -n 's/^ *# *include \(<[^>]*>\).*/\1/p' | sort -u | grep -vE 'cmocka|facet/|GLES|emscripten' |
         sed 's/.*/#if __has_include(&)\n#include &\n#endif/'
 }
 # compiles FOLDER HEADER...
