@@ -53,6 +53,12 @@ facet_result gl_context_adopt(gl_context *c, facet_error *error)
     return FACET_OK;
 }
 
+bool gl_context_make_current_to_delete(gl_context *c, gl_context *spare)
+{
+    *spare = (gl_context){.context = NULL};
+    return gl_context_make_current(c, NULL) == FACET_OK || gl_context_create(spare, NULL) == FACET_OK;
+}
+
 enum { CONTEXT_LOST_WEBGL = 0x9242 }; /* a browser's GL_CONTEXT_LOST */
 
 /* Clears the error flags. A lost context reports the same error forever, so the loop is bounded. */

@@ -40,6 +40,10 @@ facet_result gl_context_adopt(gl_context *context, facet_error *error);
 /* Makes the context current for the calling thread. No effect on a window's context, which its owner manages.
  * FACET_ERROR_SYSTEM. */
 facet_result gl_context_make_current(gl_context *context, facet_error *error);
+/* The same for deleting the context's objects. Where it is lost and cannot be current, an empty context takes its
+ * place, in which the objects' names have no meaning: *spare, {0} if unused, to be destroyed after them. False: no
+ * context is current. */
+bool gl_context_make_current_to_delete(gl_context *context, gl_context *spare);
 /* Releases the context, so that another thread can make it current, and restores what was current before,
  * if that was EGL's. */
 void gl_context_release(gl_context *context);

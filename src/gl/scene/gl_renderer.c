@@ -26,16 +26,12 @@ struct gl_renderer {
 
 /* ---- lifetime ---- */
 
-/* Releases all GPU memory and the renderer's own context; the next image creates a new one. A lost context
- * can still be current; where it cannot, names are released in an empty one, where they have no meaning. */
+/* Releases all GPU memory and the renderer's own context; the next image creates a new one. */
 static void stop(gl_renderer *r)
 {
     gl_context spare = {.context = NULL};
-    bool is_own = r->context == &r->own;
-    bool is_current = (!is_own || r->own.context) && gl_context_make_current(r->context, NULL) == FACET_OK;
-    if (!is_current && r->frame.context)
-        is_current = gl_context_create(&spare, NULL) == FACET_OK;
-    if (is_current) {
+    bool is_own = r->context == &r->own, has_context = !is_own || r->own.context;
+    if (has_context && gl_context_make_current_to_delete(r->context, &spare)) {
         gl_frame_destroy(&r->frame);
         gl_target_destroy(&r->target);
     }

@@ -51,7 +51,8 @@ static void forget_light(gl_sea *s)
 /* Frees all OpenGL objects, and the context. */
 static void stop(gl_sea *s)
 {
-    if (s->context.context && gl_context_make_current(&s->context, NULL) == FACET_OK) {
+    gl_context spare = {.context = NULL};
+    if (s->context.context && gl_context_make_current_to_delete(&s->context, &spare)) {
         gl_programs_destroy(s->programs);
         gl_target_destroy(&s->grid);
         gl_target_destroy(&s->seen);
@@ -63,6 +64,7 @@ static void stop(gl_sea *s)
         forget_light(s);
         gl_sea_textures_destroy(&s->textures);
     }
+    gl_context_destroy(&spare);
     gl_context_destroy(&s->context);
     *s = (gl_sea){.allocator = s->allocator, .api = s->api};
 }

@@ -2,6 +2,7 @@
  * 255ths of a display. */
 #include "water/water_fixture.h" /* cmocka, and seas */
 
+#include <epoxy/egl.h>
 #include <string.h>
 
 #include "tests/support/support.h"
@@ -424,6 +425,31 @@ static void frames_are_stills(void **state)
     sea_destroy(again);
 }
 
+static EGLBoolean (*make_current)(EGLDisplay, EGLSurface, EGLSurface, EGLContext);
+static int refusals;
+
+static EGLBoolean refuse_once(EGLDisplay display, EGLSurface draw, EGLSurface read, EGLContext context)
+{
+    return context && refusals++ == 0 ? EGL_FALSE : make_current(display, draw, read, context);
+}
+
+static void a_context_that_cannot_be_current_leaves_no_memory(void **state)
+{
+    (void)state;
+    renderer_of(GL_API_CORE);
+    failing_allocator counted = {.fail_at = -1};
+    facet_allocator allocator = failing_allocator_get(&counted);
+    gl_sea *renderer;
+    assert_int_equal(gl_sea_create_api(GL_API_CORE, &allocator, &renderer, NULL), FACET_OK);
+    assert_true(atomic_load(&counted.blocks) > 1);
+    make_current = epoxy_eglMakeCurrent;
+    epoxy_eglMakeCurrent = refuse_once;
+    gl_sea_destroy(renderer);
+    epoxy_eglMakeCurrent = make_current;
+    assert_true(refusals > 1);
+    assert_int_equal(atomic_load(&counted.blocks), 0);
+}
+
 static void unsupported_cameras_are_reported(void **state)
 {
     (void)state;
@@ -465,6 +491,7 @@ int main(void)
                                        cmocka_unit_test(a_hull_in_waves),
                                        cmocka_unit_test(a_model_from_below_in_opengl_es),
                                        cmocka_unit_test(frames_are_stills),
+                                       cmocka_unit_test(a_context_that_cannot_be_current_leaves_no_memory),
                                        cmocka_unit_test(unsupported_cameras_are_reported)};
     return cmocka_run_group_tests(tests, NULL, destroy_renderers);
 }
