@@ -6,6 +6,8 @@
 #include "ocean/water_optics.h"
 #include "ocean/waves.h"
 
+#include "shade/shade.h"
+
 struct facet_sea {
     facet_sea_desc desc;
     waves waves;
@@ -56,6 +58,20 @@ float sea_others_variance(const facet_sea *sea, uint32_t tile);
  * variance. */
 sea_texel sea_texel_of(const facet_sea *sea, uint32_t tile, float others_variance, uint32_t column,
                        uint32_t row);
+
+/* The shading style as the shader library has it. */
+static inline WaterStyle sea_water_style(const facet_sea_shading *shading)
+{
+    float given = shading->perceptual_roughness;
+    return (WaterStyle){.variant = shading->style == FACET_SEA_STYLE_LEGACY_WRITTEN ? WATER_LEGACY_WRITTEN
+                                                                                    : WATER_LEGACY_INTENDED,
+                        .stage = shading->style != FACET_SEA_STYLE_PHYSICAL ? WATER_LEGACY_STAGE_NONE
+                                 : shading->stage == 1                      ? WATER_LEGACY_STAGE_FRESNEL
+                                                       : WATER_LEGACY_STAGE_COOK_TORRANCE,
+                        .perceptual_roughness = given > 0.0f ? given : WATER_LEGACY_ROUGHNESS,
+                        .has_foam = !shading->omits_foam,
+                        .has_sparkles = !shading->omits_glints};
+}
 
 /* See facet_sea_create_mesh(). */
 facet_result sea_mesh_create(const facet_sea *sea, const facet_sea_mesh_desc *desc, facet_scene **out,

@@ -94,16 +94,7 @@ static vec2 host_rest(SeaHost host, SeaPlace p)
 
 static WaterStyle host_style(SeaHost host)
 {
-    const facet_sea_shading *shading = &host.s->desc->sea_shading;
-    float given = shading->perceptual_roughness;
-    return (WaterStyle){.variant = shading->style == FACET_SEA_STYLE_LEGACY_WRITTEN ? WATER_LEGACY_WRITTEN
-                                                                                    : WATER_LEGACY_INTENDED,
-                        .stage = shading->style != FACET_SEA_STYLE_PHYSICAL ? WATER_LEGACY_STAGE_NONE
-                                 : shading->stage == 1                      ? WATER_LEGACY_STAGE_FRESNEL
-                                                       : WATER_LEGACY_STAGE_COOK_TORRANCE,
-                        .perceptual_roughness = given > 0.0f ? given : WATER_LEGACY_ROUGHNESS,
-                        .has_foam = !shading->omits_foam,
-                        .has_sparkles = !shading->omits_glints};
+    return sea_water_style(&host.s->desc->sea_shading);
 }
 
 /* ---- positions ---- */

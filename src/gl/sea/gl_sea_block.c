@@ -127,16 +127,13 @@ static void fill_caustics(const caustic_map *map, const double eye[2], gl_sea_bl
 
 static void fill_style(const facet_sea_shading *shading, gl_sea_block *b)
 {
-    b->bed_slope[2] =
-        shading->perceptual_roughness > 0.0f ? shading->perceptual_roughness : WATER_LEGACY_ROUGHNESS;
+    const WaterStyle style = sea_water_style(shading);
+    b->bed_slope[2] = style.perceptual_roughness;
     b->bed_slope[3] = shading->clamp;
-    b->style[0] = shading->style != FACET_SEA_STYLE_PHYSICAL ? WATER_LEGACY_STAGE_NONE
-                  : shading->stage == 1                      ? WATER_LEGACY_STAGE_FRESNEL
-                                                             : WATER_LEGACY_STAGE_COOK_TORRANCE;
-    b->style[1] =
-        shading->style == FACET_SEA_STYLE_LEGACY_WRITTEN ? WATER_LEGACY_WRITTEN : WATER_LEGACY_INTENDED;
-    b->style[2] = !shading->omits_foam;
-    b->style[3] = !shading->omits_glints;
+    b->style[0] = style.stage;
+    b->style[1] = style.variant;
+    b->style[2] = style.has_foam;
+    b->style[3] = style.has_sparkles;
 }
 
 void gl_sea_block_fill(const water_frame *p, const camera_rays *camera, const gl_sea_fan *fan,
