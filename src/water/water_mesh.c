@@ -11,7 +11,7 @@
 #include "water/water_objects.h"
 #include "water/water_place.h"
 
-/* The footprint is twice the vertex spacing: the surface between vertices is nearly linear then. */
+/* The footprint equals the vertex spacing. */
 static const double WIDTH_OF_SPACING = 1.0;
 enum { HALVINGS = 14 };
 

@@ -1,5 +1,5 @@
 /* water_mesh.h - the sea around an eye as triangles, for the path tracer. Vertices lie on rays from the
- * point below the eye, about a pixel apart in view and farther apart beside and behind it, out to beyond
+ * point below the eye, half a pixel apart in view or more, and farther apart beside and behind it, out to beyond
  * the horizon, following the Earth's curvature. A vertex resolves the waves longer than twice the vertex
  * spacing, and stores the slope covariance of all others (scene_primitive.water). */
 #ifndef WATER_WATER_MESH_H
