@@ -64,7 +64,7 @@ double water_march_reach(const water_march *m, const march_ray *ray, double heig
 bool water_march_is_cut(const water_march *m, const march_ray *ray, double height_m)
 {
     double above = march_height(m, ray, ray->near_m) - height_m;
-    return ray->near_m > 0.0 && (ray->is_below ? -above : above) <= 0.0;
+    return (ray->is_below ? -above : above) < 0.0;
 }
 
 /* ---- one ray ---- */
@@ -142,7 +142,7 @@ static bool is_away(const march *s, double t)
     return rise >= 0.0 && y > (double)s->bounds.highest;
 }
 
-/* Where a ray that the near plane cuts off behind the surface is in front of it again; HUGE_VAL: nowhere. */
+/* Where a ray that starts at t, maybe behind the surface, is in front of it; HUGE_VAL: nowhere. */
 static double leave_waves(march *s, double t)
 {
     const double sign = s->ray->is_below ? -1.0 : 1.0;
@@ -153,7 +153,7 @@ static double leave_waves(march *s, double t)
         if (rise <= 0.0 && sign * (y - all) < 0.0)
             return HUGE_VAL;
         double f = clearance(s, t), least = 0.7 * (double)s->last.width_m + 1e-4;
-        if (f > 0.0)
+        if (f >= 0.0)
             return t;
         t += fmax(-f / fmax(fmax(rise, 0.0) + s->steepest * s->level, 1e-6), least);
     }
@@ -168,7 +168,7 @@ static bool march_waves(march *s)
     const double relaxation = 1.6, sign = r->is_below ? -1.0 : 1.0;
     wave_bounds all = waves_bounds(s->m->waves, width_at(r, r->near_m));
     double t = water_march_reach(s->m, r, (double)(r->is_below ? all.lowest : all.highest), r->near_m);
-    if (r->near_m > 0.0 && t <= r->near_m)
+    if (t <= r->near_m)
         t = leave_waves(s, t);
     double before = t, f_before = 0.0, reach = 0.0; /* previous position, its clearance, its safe step */
     for (int step = 0; step < MAX_STEPS && t <= r->far_m && t < HUGE_VAL; step++) {

@@ -66,7 +66,7 @@ static inline double march_rise(const water_march *m, const march_ray *ray, doub
 
 /* Smallest t >= from at which the ray reaches height_m from the side that it starts on; HUGE_VAL: never. */
 double water_march_reach(const water_march *m, const march_ray *ray, double height_m, double from);
-/* Whether the near plane cuts off all of a ray that is in front of still water at height_m. */
+/* Whether the ray starts behind still water at height_m: cut off by the near plane, or by that of parallel rays. */
 bool water_march_is_cut(const water_march *m, const march_ray *ray, double height_m);
 
 #endif

@@ -239,7 +239,8 @@ static bool look_flat(const water_profile *p, const march_ray *ray, double from,
 {
     *out =
         (profile_place){.t = water_march_reach(p->march, ray, 0.0, fmax(from, ray->near_m)), .closing = 1.0};
-    return out->t <= ray->far_m && out->t < HUGE_VAL && !water_march_is_cut(p->march, ray, 0.0);
+    bool is_cut = ray->near_m > from && water_march_is_cut(p->march, ray, 0.0);
+    return out->t <= ray->far_m && out->t < HUGE_VAL && !is_cut;
 }
 
 bool water_profile_look(const water_profile *p, const march_ray *ray, profile_nearby *nearby,

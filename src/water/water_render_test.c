@@ -249,6 +249,10 @@ static void the_near_plane_cuts_water_off(void **state)
         assert_true(cut_rays(sea, 4.0f, 0.3f, 12.0) > 100);
         assert_true(cut_rays(sea, -4.0f, -0.3f, 12.0) > 100);
         assert_int_equal(cut_rays(sea, 4.0f, 0.3f, 0.5), 0);
+        water_march march = water_march_of(&sea->waves, &sea->slopes, false);
+        march_ray parallel = {.origin = {0.0, -5.0, 0.0}, .direction = {0.8, -0.6, 0.0}, .far_m = 1e7};
+        march_hit hit;
+        assert_false(water_march_find(&march, &parallel, &hit)); /* the eye is above the water */
         sea_destroy(sea);
     }
 }
