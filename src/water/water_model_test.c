@@ -99,6 +99,30 @@ static void camera_rays_see_the_drawn_sides(void **state)
     sea_destroy(sea);
 }
 
+/* In a legacy style a model hides the water behind it, with its own light, and not the water in front of it. */
+static void the_legacy_style_has_models(void **state)
+{
+    (void)state;
+    facet_sea *sea = still_sea();
+    for (int k = 0; k < 2; k++) {
+        fixture f = shining_sphere(0.0f, k ? -3.0f : 0.0f, 0.0f);
+        shot s;
+        make_dark_shot(&s, 9, 3.0f, 1.5707963f, f.scene);
+        draw_shot(sea, &s);
+        float physical = shot_pixel(&s, 4, 4)[0];
+        s.desc.sea_shading.style = FACET_SEA_STYLE_LEGACY_INTENDED;
+        draw_shot(sea, &s);
+        float with = shot_pixel(&s, 4, 4)[0];
+        s.scene = NULL;
+        draw_shot(sea, &s);
+        float without = shot_pixel(&s, 4, 4)[0];
+        assert_true(k ? with == without : with != without && with > 0.99f * physical);
+        end_shot(&s);
+        fixture_destroy(&f);
+    }
+    sea_destroy(sea);
+}
+
 /* Under water it gets darker, and red goes first. */
 static void deeper_spheres_are_darker_and_lose_red_first(void **state)
 {
@@ -204,6 +228,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(still_water_reflects_a_sphere_by_fresnel),
         cmocka_unit_test(camera_rays_see_the_drawn_sides),
+        cmocka_unit_test(the_legacy_style_has_models),
         cmocka_unit_test(deeper_spheres_are_darker_and_lose_red_first),
         cmocka_unit_test(a_sphere_blocks_the_reflection_of_the_sun),
         cmocka_unit_test(only_open_hulls_are_dry),

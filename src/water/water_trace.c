@@ -67,18 +67,27 @@ typedef struct backdrop {
     double model_range_m; /* within which the model hides it; 0: there is no model */
 } backdrop;
 
+/* Within which the model hides the water at t, or, if there is none, the sky: any distance where a hull displaces it. */
+static double model_range(const water_sample *p, bool is_met, const march_hit *sea, double t)
+{
+    const double P[3] = {sea->X, p->ray.origin[1] + t * p->ray.direction[1], sea->Z};
+    return is_met && p->s->model.is_there && water_model_is_dry(&p->s->model, P) ? FAR_M : t;
+}
+
 static backdrop backdrop_above(const water_sample *p, bool is_met, const march_hit *sea)
 {
-    const water_setup *s = p->s;
-    double t = is_met ? sea->t : p->ray.far_m, land = land_before(s, &p->ray, p->d, t);
-    bool is_dry =
-        is_met && s->model.is_there &&
-        water_model_is_dry(&s->model,
-                           (const double[3]){sea->X, p->ray.origin[1] + t * p->ray.direction[1], sea->Z});
-    double range = is_dry ? FAR_M : fmin(land, t);
+    double t = is_met ? sea->t : p->ray.far_m, land = land_before(p->s, &p->ray, p->d, t);
+    double range = model_range(p, is_met, sea, t);
     if (land < HUGE_VAL)
-        return (backdrop){WATER_OBJECT_BED, land, range};
+        return (backdrop){WATER_OBJECT_BED, land, range == FAR_M ? range : land};
     return (backdrop){is_met ? WATER_OBJECT_WATER : NOTHING, t, range};
+}
+
+/* Water or sky. */
+static backdrop backdrop_of_legacy(const water_sample *p, bool is_met, const march_hit *sea)
+{
+    double t = is_met ? sea->t : p->ray.far_m;
+    return (backdrop){is_met ? WATER_OBJECT_WATER : NOTHING, t, model_range(p, is_met, sea, t)};
 }
 
 static backdrop backdrop_below(const water_sample *p, bool is_met, const march_hit *sea)
@@ -93,7 +102,7 @@ static backdrop backdrop_below(const water_sample *p, bool is_met, const march_h
 static backdrop backdrop_of(const water_sample *p, bool is_met, const march_hit *sea)
 {
     if (sea_shading_is_legacy(&p->s->desc->sea_shading))
-        return (backdrop){is_met ? WATER_OBJECT_WATER : NOTHING, sea->t, 0.0};
+        return backdrop_of_legacy(p, is_met, sea);
     return p->ray.is_below ? backdrop_below(p, is_met, sea) : backdrop_above(p, is_met, sea);
 }
 
@@ -162,6 +171,8 @@ static vec3 shade_nearest(const water_sample *p, const backdrop *b, const march_
     const water_setup *s = p->s;
     if (!sea_shading_is_legacy(&s->desc->sea_shading))
         return exposed(s, (p->ray.is_below ? from_below : from_above)(p, b, sea, model));
+    if (model) /* by its own light, in front of colors */
+        return exposed(s, water_model_radiance(&s->model, model, s->light.L));
     if (b->object == NOTHING)
         return water_shade_legacy_sky(p->d);
     water_place place = place_of(p, sea);

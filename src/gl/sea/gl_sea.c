@@ -166,7 +166,7 @@ static uint64_t features_of(const water_frame *p)
 {
     const facet_sea_shading *shading = &p->desc->sea_shading;
     if (sea_shading_is_legacy(shading))
-        return GL_SEA_IS_LEGACY;
+        return GL_SEA_IS_LEGACY | (p->model ? GL_SEA_HAS_MODEL : 0u);
     bool has_bed = sea_has_bed(&p->sea->desc.bed);
     bool has_other_facets = shading->normals == FACET_SEA_NORMALS_GGX ||
                             shading->masking != FACET_SEA_MASKING_SCALES || shading->has_schlick_fresnel;
@@ -431,7 +431,8 @@ static facet_result prepare(drawing *d, facet_render_stats *stats, facet_error *
     facet_result result = camera_rays_create(r->camera, r->width, r->height, &d->camera, error);
     if (result == FACET_OK && d->camera.is_orthographic)
         result = fail(error, FACET_ERROR_UNSUPPORTED,
-                      "sea: OpenGL draws it for cameras with a field of view only");
+                      "sea: OpenGL draws its waves as a mesh around one eye, which an orthographic camera "
+                      "does not have; use the preview or path tracing");
     if (result == FACET_OK)
         result = start(s, error);
     if (result == FACET_OK)

@@ -389,6 +389,25 @@ static void models(void **state)
     compare_model(renderer, 0.0f, 8.0f, 0.9f, 3.0f, 0.5); /* below still water */
 }
 
+/* The model is lit as in the physical style. */
+static void a_model_in_the_legacy_style(void **state)
+{
+    (void)state;
+    gl_sea *renderer = renderer_of(GL_API_CORE);
+    facet_sea_desc desc = small(2.0f);
+    facet_sea *sea = make_sea(&desc);
+    fixture f = spheres();
+    shot s;
+    make_shot(&s, WIDTH, HEIGHT, 3.0f, 0.35f);
+    s.scene = f.scene;
+    s.desc.sea_shading = (facet_sea_shading){.style = FACET_SEA_STYLE_LEGACY_INTENDED, .omits_glints = true};
+    expose(&s);
+    assert_true(compare(renderer, sea, &s, "spheres in the legacy style") < 0.5);
+    assert_true(without_model(renderer, sea, &s) > 2.0);
+    sea_destroy(sea);
+    fixture_destroy(&f);
+}
+
 static void a_model_from_below_in_opengl_es(void **state)
 {
     (void)state;
@@ -489,6 +508,7 @@ int main(void)
                                        cmocka_unit_test(models_far_from_each_other),
                                        cmocka_unit_test(a_model_with_many_textures),
                                        cmocka_unit_test(a_hull_in_waves),
+                                       cmocka_unit_test(a_model_in_the_legacy_style),
                                        cmocka_unit_test(a_model_from_below_in_opengl_es),
                                        cmocka_unit_test(frames_are_stills),
                                        cmocka_unit_test(a_context_that_cannot_be_current_leaves_no_memory),

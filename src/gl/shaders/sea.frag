@@ -4,6 +4,16 @@
  * water */
 uniform highp sampler2D u_sea_seen;
 
+/* Distance within which the model hides the surface. */
+float sea_reach(SeaPlace p)
+{
+#ifdef HAS_MODEL
+    if (sea_contact_at(p.at.xz).x > 0.5) /* a hull displaces it */
+        return 1e9;
+#endif
+    return p.t;
+}
+
 #ifdef AOVS
 layout(location = 0) out highp vec4 aov_normal_depth; /* as in surface_io.glsl */
 layout(location = 1) out highp vec4 aov_color_occlusion;
@@ -76,28 +86,13 @@ void sea_put_pixel(SeaHost host, vec3 d, vec4 seen, ivec2 pixel)
     vec3 N = p.point.N;
     float F = water_fresnel(w, clamp(dot(N, p.V), 0.0, 1.0));
 #endif
-    float reach = p.t;
-#ifdef HAS_MODEL
-    if (sea_contact_at(p.at.xz).x > 0.5) /* a hull displaces it */
-        reach = 1e9;
-#endif
-    sea_put_aovs(SEA_WATER, N, vec3(mix(F, w.foam_albedo, p.point.foam)), d, p.t, reach, pixel);
+    sea_put_aovs(SEA_WATER, N, vec3(mix(F, w.foam_albedo, p.point.foam)), d, p.t, sea_reach(p), pixel);
 }
 #else
 layout(location = 0) out highp vec4 fragment;
 
-#ifdef IS_LEGACY
-vec4 sea_pixel(SeaHost host, vec3 d, vec4 seen, ivec2 pixel)
-{
-    return vec4(sea_legacy(host, sea_place(d, seen), d), 1.0);
-}
-vec4 sea_beside(SeaHost host, vec3 d, ivec2 pixel)
-{
-    return vec4(water_legacy_linear(water_legacy_sky(d)), 1.0);
-}
-#else
 #ifdef HAS_MODEL
-/* The model where it is nearer than t m, over what is behind it; both as the eye sees them. */
+/* The model where it is nearer than t m, over what is behind it; both as the eye sees them (legacy: exposed). */
 vec3 sea_model_over(SeaHost host, vec3 behind, vec3 d, float t, ivec2 pixel)
 {
     SeaModel m = sea_model_at(pixel, d / dot(d, forward.xyz));
@@ -105,7 +100,9 @@ vec3 sea_model_over(SeaHost host, vec3 behind, vec3 d, float t, ivec2 pixel)
     if (m.color.w <= 0.0 || distance > t)
         return behind;
     vec3 L = m.color.xyz / m.color.w;
-#ifdef IS_BELOW
+#if defined(IS_LEGACY)
+    L = sea_exposed(L).xyz;
+#elif defined(IS_BELOW)
     L = sea_model_behind_water(host, L, sea_eye.x + m.at.y, max(-sea_eye.x, 0.0), d, distance);
 #else
     L = sea_through_air(L, d, distance);
@@ -119,7 +116,17 @@ vec3 sea_model_over(SeaHost host, vec3 behind, vec3 d, float t, ivec2 pixel)
 }
 #endif
 
-#ifdef IS_BELOW
+#if defined(IS_LEGACY)
+vec4 sea_pixel(SeaHost host, vec3 d, vec4 seen, ivec2 pixel)
+{
+    SeaPlace p = sea_place(d, seen);
+    return vec4(sea_model_over(host, sea_legacy(host, p, d), d, sea_reach(p), pixel), 1.0);
+}
+vec4 sea_beside(SeaHost host, vec3 d, ivec2 pixel)
+{
+    return vec4(sea_model_over(host, water_legacy_linear(water_legacy_sky(d)), d, 1e9, pixel), 1.0);
+}
+#elif defined(IS_BELOW)
 vec4 sea_beside(SeaHost host, vec3 d, ivec2 pixel)
 {
     return sea_exposed(sea_model_over(host, sea_seen_through_water(host, vec3(0.0, sea_eye.x, 0.0), d, 0.0, sea_ray.x * sea_ray.y * dot(d, forward.xyz)), d, 1e9, pixel));
@@ -159,14 +166,8 @@ vec4 sea_pixel(SeaHost host, vec3 d, vec4 seen, ivec2 pixel)
 #else
     vec3 radiance = sea_shade(host, p);
 #endif
-    float t = p.t;
-#ifdef HAS_MODEL
-    if (sea_contact_at(p.at.xz).x > 0.5) /* a hull displaces it */
-        t = 1e9;
-#endif
-    return sea_exposed(sea_model_over(host, sea_through_air(radiance, d, p.t), d, t, pixel));
+    return sea_exposed(sea_model_over(host, sea_through_air(radiance, d, p.t), d, sea_reach(p), pixel));
 }
-#endif
 #endif
 #endif
 
