@@ -6,7 +6,7 @@ static const vec3 up = {0.0f, 0.0f, 1.0f};
 static void test_parameters(void **state)
 {
     (void)state;
-    vec2 a = anisotropic_alpha(0.25f, 0.5f); /* section 16.12 of the reference */
+    vec2 a = anisotropic_alpha(0.25f, 0.5f); /* strength^2 of the way from alpha to 1 along T */
     assert_true(a[0] == 0.4375f && a[1] == 0.25f);
     a = anisotropic_alpha(0.25f, 1.0f);
     assert_true(a[0] == 1.0f && a[1] == 0.25f);
@@ -93,7 +93,7 @@ static void test_isotropic_is_its_own_substitute(void **state)
     }
 }
 
-/* The albedos of section 16.12, and a grid of them: the equivalent lobe within 0.04, the bounds never below. */
+/* Albedos by quadrature in long double, and a grid of them: the equivalent lobe within 0.04, the bounds never below. */
 static void test_substitute_albedo(void **state)
 {
     (void)state;

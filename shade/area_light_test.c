@@ -47,8 +47,8 @@ static void test_line_irradiance(void **state)
                     "far");
 }
 
-/* Section 16.10: radiance 1, F = 1, V at 45 degrees, center in the mirror direction or 10 degrees farther
- * from the normal; exact integral, and Karis' approximation with alpha + a / 3d and alpha + a / 2d in the
+/* Radiance 1, F = 1, V at 45 degrees, center in the mirror direction or 10 degrees farther
+ * from the normal; integral by quadrature, and Karis' approximation with alpha + a / 3d and alpha + a / 2d in the
  * normalisation. */
 static const double highlight[][6] = {{0, 0.05, 0.20, 0.351061787793, 0.275037888, 0.209036028},
                                       {0, 0.05, 0.35, 0.055116407781, 0.045299166, 0.040325208},

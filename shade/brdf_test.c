@@ -236,7 +236,7 @@ static void test_multiscatter(void **state)
     }
 }
 
-/* Against 2 int E mu dmu by midpoints over the albedo that test_albedo checks, and the golden values (16.4). */
+/* Against 2 int E mu dmu by midpoints over the albedo that test_albedo checks, and golden values. */
 static void test_mean_albedo(void **state)
 {
     (void)state;

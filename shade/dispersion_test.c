@@ -1,7 +1,7 @@
 /* dispersion_test.c - refractive index by wavelength. */
 #include "testing/test_support.h"
 
-/* Section 5.9 of the reference: ior 1.5, dispersion 1, at the lines F, d, C. */
+/* Ior 1.5, dispersion 1, at the lines F, d, C. */
 static void test_golden_numbers(void **state)
 {
     (void)state;

@@ -165,7 +165,7 @@ static void test_split_sum_error(void **state)
     assert_true(worst > 0.2 && worst < 0.3); /* 27 %, at grazing views of rough surfaces */
 }
 
-/* Section 16.7: Fdez-Aguera's total for four F0 at roughness .75, N.V .5, with k_S = F0 and
+/* Fdez-Aguera's total for four F0 at roughness .75, N.V .5, with k_S = F0 and
  * roughness-dependent. */
 static void test_multiscatter(void **state)
 {

@@ -1,7 +1,7 @@
 /* iridescence_test.c - the thin film: published numbers, limits, and an independent evaluation in double. */
 #include "testing/test_support.h"
 
-/* Section 16.11 of the reference: film of ior 1.3; it uses a matrix rounded to fewer digits. */
+/* Thin film of ior 1.3, computed by an independent program, which uses a matrix rounded to fewer digits. */
 static void test_golden_numbers(void **state)
 {
     (void)state;

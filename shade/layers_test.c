@@ -203,7 +203,7 @@ static void test_sheen_formula(void **state)
 static void test_sheen_furnace(void **state)
 {
     (void)state;
-    const double E[3] = {0.3668602622, 0.4815967431, 0.5342260461}; /* N.V .25, roughness .5 .75 1: 16.5 */
+    const double E[3] = {0.3668602622, 0.4815967431, 0.5342260461}; /* N.V .25, roughness .5 .75 1 */
     for (int r = 0; r < 3; ++r) {
         Layers m = layers_from_surface(
             surface_from_gltf(up, vec3(0.0f), 0.0f, 0.5f, 1.5f, 0.0f, vec3(1.0f), 1.0f, vec3(0.0f)));
@@ -409,7 +409,7 @@ static void test_volume_and_occlusion(void **state)
     m.layers |= LAYER_VOLUME;
     m.thickness = 0.3f;
     m.attenuation_color = vec3(0.5f, 0.8f, 0.9f);
-    m.attenuation_distance = 0.2f; /* 1.5 distances: the numbers of section 16.12 */
+    m.attenuation_distance = 0.2f; /* 1.5 distances: color^1.5 */
     vec3 thick = layers_brdf_cos(m, V, L, ENERGY_GLTF, t, 0.0f);
     expect_relative(thick[0], thin[0] * 0.353553390593f, 1e-5, "red");
     expect_relative(thick[2], thin[2] * 0.853814968245f, 1e-5, "blue");

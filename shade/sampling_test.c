@@ -44,7 +44,7 @@ static void test_basis(void **state)
     }
 }
 
-/* Section 16.12 of the reference. */
+/* Computed by an independent program in long double. */
 static void test_vectors(void **state)
 {
     (void)state;
@@ -264,8 +264,8 @@ static void test_albedo_by_visible_normals(void **state)
         }
 }
 
-/* Anisotropic albedo, roughness .5: strength .5 and 1; at normal incidence and 60 degrees in either plane
- * (16.12). */
+/* Anisotropic albedo, roughness .5: strength .5 and 1; at normal incidence and 60 degrees in either plane,
+ * by quadrature in long double. */
 static void test_anisotropic_albedo(void **state)
 {
     (void)state;

@@ -36,7 +36,7 @@ static void test_distribution_integrates_to_one(void **state)
     assert_true(D_Charlie(1.0f, 0.25f) < 1e-6f && D_Charlie(0.0f, 0.25f) > 0.9f);
 }
 
-/* Section 16.5 of the reference. */
+/* Computed by an independent program in long double. */
 static void test_point_values(void **state)
 {
     (void)state;
@@ -58,7 +58,7 @@ static void test_point_values(void **state)
     expect_relative(Lambda_Charlie(0.5f, 0.3f), Lambda_Charlie(0.49999f, 0.3f), 1e-3, "no step at 1/2");
 }
 
-/* Directional albedo, 16.5: rows roughness, columns N.V. */
+/* Directional albedo by quadrature in long double: rows roughness, columns N.V. */
 static const golden_table golden_E = {
     {1.032847540, 0.06662283901, 7.902655155e-04, 5.420908046e-07, 5.159165020e-18},
     {0.7476768301, 0.2442339209, 0.05993452933, 0.009518274947, 1.279496138e-04},
@@ -128,7 +128,7 @@ static void test_scaling_stays_in_range(void **state)
     }
 }
 
-/* Band 1 of prefiltering, 16.4: an environment (1 + z) / 2 becomes (1 + k1 R.z) / 2. */
+/* Band 1 of prefiltering: an environment (1 + z) / 2 becomes (1 + k1 R.z) / 2. */
 static void test_prefilter_band(void **state)
 {
     (void)state;

@@ -6,7 +6,7 @@ static const double degree = 0.017453292519943295;
 
 /* ---- Preetham ---- */
 
-/* Section 8 of the reference: turbidity 2.5, sun 45 degrees from the zenith. */
+/* Preetham et al. 1999: turbidity 2.5, sun 45 degrees from the zenith. */
 static void test_preetham_values(void **state)
 {
     (void)state;
@@ -77,7 +77,7 @@ static void test_constants(void **state)
     vec3 three = atmosphere_color(atmosphere_earth(SKY_BANDS_THREE), vec3(1.0f));
     vec3 six = atmosphere_color(atmosphere_earth(SKY_BANDS_FIRST), vec3(1.0f)) +
                atmosphere_color(atmosphere_earth(SKY_BANDS_SECOND), vec3(1.0f));
-    /* section 13.1: 132.6 klx of (1.092, 0.977, 0.959) outside the air */
+    /* 132.6 klx of (1.092, 0.977, 0.959) outside the air */
     static const double sun[3] = {1.092, 0.977, 0.958};
     for (int c = 0; c < 3; c++)
         expect_relative(six[c], 132600.0 * sun[c], 1e-3, "sunlight, channel %d", c);

@@ -1,7 +1,7 @@
 /* specular_aa_test.c - highlights smaller than a pixel. */
 #include "testing/test_support.h"
 
-/* Section 13 of the reference. */
+/* sqrt(alpha^2 + kernel) by hand, the kernel below and at its bound. */
 static void test_golden_numbers(void **state)
 {
     (void)state;

@@ -7,7 +7,7 @@ static const vec3 up = {0.0f, 0.0f, 1.0f};
 static void test_snell(void **state)
 {
     (void)state;
-    /* section 16.12 of the reference: 45 degrees into water */
+    /* 45 degrees into water, by Snell's law */
     vec3 t = refract_or_zero(normalize(vec3(1.0f, 0.0f, -1.0f)), up, 1.33f);
     expect_near((double)t[0], 0.5316592340, 1e-6, "x");
     expect_near((double)t[2], -0.8469583573, 1e-6, "z");
@@ -62,7 +62,8 @@ typedef struct energy_row {
     float eta, r, NdotV;
     double R, T;
 } energy_row;
-/* Section 16.6b: flux reflected and transmitted by a rough dielectric, exact Fresnel, one scattering event. */
+/* Flux reflected and transmitted by a rough dielectric, exact Fresnel, one scattering event: quadrature in long
+ * double. */
 static const energy_row energy_rows[] = {{1.33f, 0.25f, 0.25f, 0.194968220724, 0.789269741410},
                                          {1.33f, 0.50f, 0.25f, 0.091324771718, 0.829034374218},
                                          {1.33f, 1.00f, 0.25f, 0.023993545366, 0.669276530096},

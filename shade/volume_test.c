@@ -4,7 +4,7 @@
 static void test_beer(void **state)
 {
     (void)state;
-    /* section 16.12 of the reference */
+    /* color^(3 / 2) */
     vec3 T = volume_transmittance(vec3(0.5f, 0.8f, 0.9f), 2.0f, 3.0f);
     const double expected[3] = {0.353553390593, 0.715541752800, 0.853814968245};
     for (int c = 0; c < 3; ++c)

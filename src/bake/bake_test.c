@@ -77,7 +77,7 @@ static void high_bands(const float d[3], float out[3])
         out[k] = (float)(1.5 + legendre_of(k ? 4 : 3, tilt(e)));
 }
 
-/* k_1 to k_4 of shading-model.md 16.4, of roughness 0.25, 0.5, 0.75 and 1: quadrature in long double. */
+/* k_1 to k_4 of roughness 0.25, 0.5, 0.75 and 1: quadrature in long double. */
 static const double golden[2][4][4] = {{{0.976092604298, 0.933738270618, 0.880606983182, 0.822958863625},
                                         {0.867395662812, 0.662405687279, 0.460387585347, 0.305538297757},
                                         {0.745131342455, 0.398824737791, 0.140121157544, 0.028984607620},
@@ -141,7 +141,7 @@ static void upper_half(const float d[3], float out[3])
     out[0] = out[1] = out[2] = d[2] > 0.0f ? d[2] : 0.0f;
 }
 
-/* Lambert's lobe of the clamped cosine: (2 / 3) ((pi - t) cos(t) + sin(t)) / pi, shading-model.md 16.9. */
+/* Lambert's lobe of the clamped cosine: (2 / 3) ((pi - t) cos(t) + sin(t)) / pi. */
 static void irradiance_is_that_of_the_clamped_cosine(void **state)
 {
     (void)state;

@@ -78,7 +78,7 @@ static void sampling_converges(void **state)
     facet_environment_destroy(e);
 }
 
-/* The reference itself is the lobe's: of bands 1 and 2 (shading-model.md 16.4), and of the method that
+/* The reference itself is the lobe's: of bands 1 and 2 (by quadrature), and of the method that
  * fills whole levels. */
 static void the_reference_filters_with_the_lobe(void **state)
 {

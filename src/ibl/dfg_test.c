@@ -121,7 +121,7 @@ static void sheen_albedos_fall_towards_the_normal(void **state)
     assert_true(ibl_sheen_albedo(2.0f, 7.0f) == ibl_sheen_albedo(1.0f, 1.0f));
 }
 
-/* The mean over a hemisphere of uniform light, 2 E N.V dN.V: golden numbers 16.4. */
+/* The mean over a hemisphere of uniform light, 2 E N.V dN.V: quadrature in long double. */
 static void averages_of_sheen_equal_golden_values(void **state)
 {
     (void)state;

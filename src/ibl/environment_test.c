@@ -103,7 +103,7 @@ static void images_of_8_bits_are_decoded_from_srgb(void **state)
         FACET_OK);
     facet_environment *e = NULL;
     assert_int_equal(facet_environment_load_memory(bytes, size, "grey.png", NULL, &e, NULL), FACET_OK);
-    assert_near(((float *)e->panorama.pixels)[20], 0.5028864580, 1e-5); /* shading-model.md 16.12 */
+    assert_near(((float *)e->panorama.pixels)[20], 0.5028864580, 1e-5); /* sRGB's 188 / 255 as linear light */
     facet_environment_destroy(e);
     mem_free(bytes);
     image_destroy(&grey);

@@ -75,7 +75,7 @@ static void band_4(const float d[3], float out[3])
     out[0] = out[1] = out[2] = (float)(1.0 + p);
 }
 
-/* k_l of shading-model.md 16.4, quadrature in long double. */
+/* k_l by quadrature in long double. */
 static void kernels_equal_golden_values(void **state)
 {
     (void)state;
@@ -153,7 +153,7 @@ static void upper_half(const float d[3], float out[3])
     out[0] = out[1] = out[2] = d[2] > 0.0f ? d[2] : 0.0f;
 }
 
-/* Of the clamped cosine: (2 / 3) ((pi - t) cos(t) + sin(t)), shading-model.md 16.9. */
+/* Of the clamped cosine: (2 / 3) ((pi - t) cos(t) + sin(t)). */
 static void irradiance_is_that_of_the_clamped_cosine(void **state)
 {
     (void)state;

@@ -24,7 +24,7 @@ static double lobe(double x, double roughness)
     return x > 0.0 ? (q + 1.0) * (q + 2.0) * pow(1.0 - x, q) * x / (2.0 * pi) : 0.0;
 }
 
-/* k_l of shading-model.md 16.4. */
+/* k_l by quadrature in long double. */
 static void kernels_equal_golden_values(void **state)
 {
     (void)state;

@@ -208,8 +208,8 @@ static void only_emitters_are_light_sampled(void **state)
 
 /* ---- many ---- */
 
-/* Irradiance of a triangle of radiance 1 above the horizon; corners relative to P. Lambert:
- * shading-model.md, 6.3. */
+/* Irradiance of a triangle of radiance 1 above the horizon; corners relative to P: Lambert's
+ * formula for polygons. */
 static double triangle_irradiance(vec3 a, vec3 b, vec3 c, vec3 N)
 {
     vec3 corners[3] = {a, b, c};

@@ -14,7 +14,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* ---- closed forms: shading-model.md, 16.10 ---- */
+/* ---- closed forms ---- */
 
 static const double QUAD_ABOVE = 0.752274688454; /* E / L of the quad [-1, 1]^2 2 m above */
 

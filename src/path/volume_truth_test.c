@@ -10,7 +10,7 @@
 
 #include "path/path_fixture.h"
 
-/* KHR_materials_volume_scatter: the single-scattering part of a deep layer's albedo. Reference 5.15. */
+/* KHR_materials_volume_scatter: the single-scattering part of a deep layer's albedo. */
 static double single_albedo(double multi)
 {
     double s = 4.09712 + 4.20863 * multi - sqrt(9.59217 + 41.6808 * multi + 17.7126 * multi * multi);
