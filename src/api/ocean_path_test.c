@@ -24,7 +24,7 @@ static void done(facet_result result)
         fail_msg("%s", failure.message);
 }
 
-/* One image to be, by both renderers. */
+/* An image to be rendered by both renderers. */
 typedef struct pair {
     facet_sea *sea;
     const facet_scene *scene;
@@ -104,7 +104,7 @@ static facet_sea_desc sea_of(float wind_mps)
     return d;
 }
 
-/* Sky, air, horizon, water, bed: where there are no waves all is the same but for noise. */
+/* Without waves both renderers agree up to noise: sky, air, horizon, water, bed. */
 static void still_water_is_the_same(void **state)
 {
     (void)state;
@@ -124,8 +124,8 @@ static void still_water_is_the_same(void **state)
     }
 }
 
-/* Where nothing absorbs, water and a white bed show as much as an even sky does, n^2 as much below; with
- * an index of 1, too. */
+/* Without absorption, water over a white bed has the radiance of a uniform sky, n^2 times that below the surface;
+ * also with an index of 1. */
 static void a_furnace_is_even(void **state)
 {
     (void)state;
@@ -157,7 +157,7 @@ static void a_furnace_is_even(void **state)
     }
 }
 
-/* What an eye in the water sees of the surface and of a bed in it: mirrored, and through the window. */
+/* The surface seen from below: the reflected bed, and the sky through Snell's window. */
 static void below_it_is_the_same(void **state)
 {
     (void)state;
@@ -177,8 +177,8 @@ static void below_it_is_the_same(void **state)
     }
 }
 
-/* The sun through waves, 5 and 15 m below them: its beam has what was not scattered, in-scattering has the rest,
- * which counts once. */
+/* The sun through waves, seen from 5 and 15 m below: the beam carries unscattered light, in-scattering the rest,
+ * and nothing counts twice. */
 static void the_sun_below_is_the_same(void **state)
 {
     (void)state;
@@ -198,9 +198,9 @@ static void the_sun_below_is_the_same(void **state)
     }
 }
 
-/* In even light, seen from 10 m below, waves wash out the rim of Snell's window: in bands of 5 degrees,
- * from 65 degrees over the horizon down; those beyond the rim are as dark as the steepest waves are few,
- * of which paths' triangles have some more: 17 % of light at most, where 200 samples are 2 % off. */
+/* Under a uniform sky, seen from 10 m below, waves blur the rim of Snell's window: bands of 5 degrees, from 65
+ * degrees above the horizon down. Beyond the rim only the steepest waves transmit the sky; the path tracer's mesh
+ * has slightly more of them: at most 17 % more light, where 200 samples have an error of 2 %. */
 static void the_window_is_the_same(void **state)
 {
     (void)state;
@@ -216,8 +216,8 @@ static void the_window_is_the_same(void **state)
     end(&p);
 }
 
-/* A swell without wind hides no slopes and mirrors itself hardly ever: mean difference below 1 %, 95 of
- * 100 pixels within 5 %, noise included. */
+/* A swell without wind, with no slopes hidden and with hardly any interreflection: mean difference below 1 %, 95
+ * of 100 pixels within 5 %, noise included. */
 static void swell_is_where_it_is(void **state)
 {
     (void)state;
@@ -238,7 +238,7 @@ static void swell_is_where_it_is(void **state)
     end(&p);
 }
 
-/* In even light the preview has what waves hide of each other by statistics, paths by rays. */
+/* A uniform sky: the preview computes the occlusion between waves statistically, the path tracer by rays. */
 static void rough_water_is_the_same(void **state)
 {
     (void)state;
@@ -254,9 +254,9 @@ static void rough_water_is_the_same(void **state)
     }
 }
 
-/* The horizon is six times as bright as what stands high: what of it rough water mirrors depends on which
- * slopes are seen. In bands from the horizon down, and whatever the size of the image, which decides how
- * many waves are slopes. */
+/* The horizon is six times as bright as the zenith, so that the reflection in rough water depends on the
+ * distribution of visible slopes. In bands from the horizon down, for two sizes of the image, which decide how
+ * many waves are resolved. */
 static void a_bright_horizon_is_reflected_alike(void **state)
 {
     (void)state;
@@ -286,8 +286,8 @@ static void a_bright_horizon_is_reflected_alike(void **state)
     end(&p);
 }
 
-/* From above, where slopes are all that is hidden and little is mirrored twice: with sun, sky and depth.
- * Foam lies in troughs, too, which see less of the sky than an open plane. */
+/* From above, where masking and interreflection are small: with sun, sky and depth. Foam also lies in troughs,
+ * which receive less skylight than a plane. */
 static void a_gale_from_above_is_the_same(void **state)
 {
     (void)state;
@@ -324,8 +324,7 @@ static double hue_of(const facet_image *image, uint32_t x, uint32_t y)
     return green / red;
 }
 
-/* Towards a low sun, no wave that it shines through is greener than by paths; where it glitters more it is
- * redder. */
+/* Backlit crests are at most as green as path traced. Towards a low sun, stronger glitter makes them redder. */
 static void no_crest_shines_against_the_sun(void **state)
 {
     (void)state;
@@ -354,7 +353,7 @@ static void no_crest_shines_against_the_sun(void **state)
     }
 }
 
-/* A square of 2 x 2 m, 8 m before the eye and 2 to 4 m over the water, that shines with 1000 cd/m^2. */
+/* A square of 2 x 2 m, 8 m in front of the eye and 2 to 4 m above the water, emitting 1000 cd/m^2. */
 static facet_scene *square(bool shines)
 {
     static const char file[] =
@@ -388,7 +387,7 @@ static facet_scene *lit_model(void)
     return square(true);
 }
 
-/* For unpolarised light: half the sum of both polarisations' shares. */
+/* Fresnel reflectance for unpolarised light: the mean of both polarisations. */
 static double fresnel(double c, double n)
 {
     double t = sqrt(1.0 - (1.0 - c * c) / (n * n));
@@ -425,7 +424,7 @@ static void a_model_is_seen_and_reflected(void **state)
     facet_scene_destroy(scene);
 }
 
-/* From pixel to pixel along rows, of the mean. */
+/* Mean difference between neighboring pixels of a row, relative to the mean. */
 static double speckle(const facet_image *image, uint32_t from, uint32_t to)
 {
     double sum = 0.0;
@@ -436,8 +435,8 @@ static double speckle(const facet_image *image, uint32_t from, uint32_t to)
     return sum / ((double)(to - from) * (width - 1)) / rows_mean(image, from, to);
 }
 
-/* In rough water it is drawn out towards the eye, as bright as paths find it and as smooth, though slopes
- * of what a pixel shows would mirror either it or the dark. */
+/* Rough water stretches the reflection towards the eye: as bright and as smooth as path traced, although a single
+ * slope reflects either the model or darkness. */
 static void a_model_is_blurred_in_rough_water(void **state)
 {
     (void)state;
@@ -456,8 +455,8 @@ static void a_model_is_blurred_in_rough_water(void **state)
     facet_scene_destroy(scene);
 }
 
-/* Water that takes little of the light and scatters hardly any, where paths and preview differ in what is
- * scattered forward. */
+/* Water that absorbs little and scatters hardly any light, since both renderers treat forward scattering
+ * differently. */
 static facet_water clear_water(float red, float green, float blue)
 {
     return (facet_water){.kind = FACET_WATER_KIND_COEFFICIENTS,
@@ -466,9 +465,9 @@ static facet_water clear_water(float red, float green, float blue)
                          .backscattering = {5e-5f, 5e-5f, 5e-5f}};
 }
 
-/* An eye 3 m deep sees the square in the surface: mirrored, if it is as deep, beyond the critical angle by
- * all of it, and through Snell's window, n^2 (1 - F) times as bright, if it hangs over the water. Waves
- * blur both; of the square in still water a pixel knows how bright. */
+/* From a depth of 3 m: the reflection of a submerged square, total beyond the critical angle, and a square above
+ * the water through Snell's window, n^2 (1 - F) times as bright. Waves blur both. In still water one pixel gives
+ * the square's radiance. */
 static void a_model_is_seen_in_the_surface_from_below(void **state)
 {
     (void)state;
@@ -505,10 +504,10 @@ static void a_model_is_seen_in_the_surface_from_below(void **state)
     }
 }
 
-/* A square lies 30 cm over a lagoon of 2 m: its shadow on the bed is 1.4 m away from the sun. Seen from
- * the air and from the water, a fifth of the light is left: what paths find, and what the preview has. In
- * clear water, as paths know no light that is scattered into shadows; the sky around the sun is hidden
- * with it, and a twentieth of the light comes back from the surface. */
+/* A square lies 30 cm above a lagoon of 2 m: its shadow on the bed is displaced by 1.4 m away from the sun. Seen
+ * from the air and from the water, the shadow has a fifth of the light in both renderers. The water is clear, since
+ * the path tracer scatters no light into shadows. The square also blocks the sky around the sun, and the surface
+ * reflects a twentieth of the light back. */
 static void a_model_shades_the_bed(void **state)
 {
     (void)state;
@@ -543,8 +542,8 @@ static void a_model_shades_the_bed(void **state)
     facet_scene_destroy(scene);
 }
 
-/* A wall over a bright bed, in even light: half of what it sees is the sea. Paths have 0.93 of it, as the
- * wall shades the bed; over deep water it would have a fifth less. */
+/* A wall over a bright bed under a uniform sky receives half of its light from the sea. Path traced it has 0.93 of
+ * the preview's radiance, since the wall shades the bed; over deep water it would have a fifth less. */
 static void a_bed_lights_a_model(void **state)
 {
     (void)state;
@@ -561,8 +560,8 @@ static void a_bed_lights_a_model(void **state)
     facet_scene_destroy(scene);
 }
 
-/* A style without meaning for paths is refused; foam, Fresnel's formula and the roughness of what no tile has
- * are in both. */
+/* The path tracer refuses styles that it lacks; both renderers have foam, the choice of Fresnel's formula and the
+ * roughness of waves that no tile resolves. */
 static void styles_are_refused_or_followed(void **state)
 {
     (void)state;

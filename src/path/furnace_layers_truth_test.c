@@ -71,7 +71,7 @@ static void add_layer(scene_material *m, layer_kind kind, float amount)
     }
 }
 
-/* Whether the white material with these layers loses no light: grain has tables that are bounds, thin
+/* Whether the white material with these layers loses no light: the tables of anisotropy are bounds, thin
  * films scale the layers below by the largest of their channels, colored sheen takes its largest channel
  * from all, rough closed volumes lose energy. */
 static bool is_lossless(uint32_t layers)

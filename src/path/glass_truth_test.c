@@ -224,9 +224,9 @@ static void overlap_is_the_same_from_both_sides(void **state)
 
 /* ---- rough boundaries ---- */
 
-/* Reflection at one boundary alone: what goes in is absorbed at once. By one event it is R and T by
- * quadrature of exact Fresnel, D and the correlated G2; what is scattered more often is
- * shared out in proportion, so that R / (R + T) comes back, as far as tables know it: TRUTH_TABLES of it. */
+/* Reflection at one boundary alone: transmitted light is absorbed at once. R and T of single scattering are
+ * quadratures of exact Fresnel, D and the correlated G2. Multiple scattering is distributed in proportion, so that
+ * R / (R + T) is reflected, within the accuracy of the tables, TRUTH_TABLES. */
 static void a_rough_boundary_reflects(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
-/* bed_shadow_test.c - edges of a model's shadow on the bed below still water: straight where what casts
- * them is, where rays say, from light to dark without a step back, and as wide as the sun's disc makes
- * them where maps are finer; and the light in the middle, beside photons. */
+/* bed_shadow_test.c - a model's shadow on the bed below still water. Edges of a square's shadow are straight, at
+ * the refracted rays' position, monotonic, and as wide as the sun's penumbra where maps are finer. The light in
+ * its middle equals that of a photon simulation. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -73,15 +73,15 @@ static void end(lagoon *l)
 
 /* ---- edges ---- */
 
-/* The beam's share at a place of the bed. */
+/* Transmittance of the sun's beam at a point of the bed. */
 typedef float reading(const void *what, double X, double Z);
 
-/* Of the four edges: where half of the light is, m from where it should be; and from 0.1 to 0.9 of it, m. */
+/* Of the four edges: mean and largest error of the position of half the light, and width from 0.1 to 0.9 of it, m. */
 typedef struct edges {
-    double mean, farthest, width, back; /* back: the largest step into the dark outwards */
+    double mean, farthest, width, back; /* back: the largest decrease outwards */
 } edges;
 
-/* Where light is `share` of all outwards across an edge. */
+/* Where the light reaches `share` of the unshadowed light, outwards across an edge. */
 static double place_of(const float *shares, int count, double step, float share)
 {
     for (int i = 1; i < count; i++)
@@ -93,7 +93,7 @@ static double place_of(const float *shares, int count, double step, float share)
 
 enum { PLACES = 160, STEPS = 401 };
 
-/* Of the square's shadow on the bed. */
+/* The middle of the square's shadow on the bed. */
 static void find_middle(const lagoon *l, double P[3])
 {
     const water_setup *s = &l->setup;
@@ -154,7 +154,7 @@ static float read_both(const void *what, double X, double Z)
     return factor + beyond * bed_shadow_at(&s->shadow, X, Z).sun;
 }
 
-/* The map of the whole shadow, which is coarse: nothing of its texels shows. */
+/* The coarse map of the whole shadow shows no texels. */
 static void the_coarse_map_shows_no_texels(void **state)
 {
     (void)state;
@@ -223,8 +223,8 @@ static void edges_on_the_bed_are_as_wide_as_the_penumbra(void **state)
 
 /* ---- photons ---- */
 
-/* Light on the bed by walks back from it: through water that absorbs and scatters, to and fro between the
- * bed and the surface. */
+/* Irradiance of the bed by random walks backwards from it, through absorbing and scattering water, with
+ * interreflection between bed and surface. */
 typedef struct photons {
     const water_setup *s;
     int channel;
@@ -233,7 +233,7 @@ typedef struct photons {
     test_rng rng;
 } photons;
 
-/* Light with the model, and without. */
+/* Irradiance with the model and without. */
 typedef struct pair {
     double shaded, open;
 } pair;
@@ -244,7 +244,7 @@ static void add(pair *to, double light, float share)
     to->open += light;
 }
 
-/* Across the beam, where it has come to P. */
+/* Irradiance of the unscattered beam at P, perpendicular to it. */
 static double beam_at(const photons *w, const double P[3])
 {
     double length_m = -P[1] / (double)w->s->sunward[1];
@@ -278,7 +278,7 @@ static vec3 scatter(photons *w, vec3 d)
     }
 }
 
-/* At the surface from below: whether it is mirrored; else light of the sky is there. */
+/* At the surface from below: true if the walk is reflected; else adds the sky's light. */
 static bool mirrored(photons *w, const double P[3], vec3 *d, double weight, pair *sum)
 {
     const Water water = w->s->water;
@@ -300,7 +300,7 @@ static vec3 upwards(photons *w)
     return vec3(d[0], d[2], d[1]);
 }
 
-/* Where the walk is scattered or meets a border, m along d. */
+/* Advances P along d to a scattering event or the surface or bed, whichever is first. */
 static bool is_scattered(photons *w, double P[3], vec3 d)
 {
     double t = -log(1.0 - (double)rng_float(&w->rng)) / (double)(w->absorption + w->scattering);
@@ -312,7 +312,7 @@ static bool is_scattered(photons *w, double P[3], vec3 d)
     return t < far;
 }
 
-/* Adds the sun's light on the bed at P, and all other from one direction. */
+/* Adds the sun's direct light at P of the bed, and all other light by one random walk. */
 static void follow(photons *w, const double start[3], pair *sum)
 {
     const double pi = 3.14159265358979;
@@ -336,8 +336,8 @@ static void follow(photons *w, const double start[3], pair *sum)
     }
 }
 
-/* Of green light 0.22 are left in the middle of the shadow, of blue 0.26, and without scattering 0.19 and
- * 0.22. Red has green's shares of what comes from where, and too much. */
+/* The middle of the shadow has 0.22 of the green light and 0.26 of the blue; without scattering 0.19 and 0.22. Red
+ * is too bright, since it uses green's ratio of beam to diffuse light. */
 static void the_core_of_a_shadow_has_the_counted_light(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* water_air_test.c - the air before the sea: what is looked up in few numbers beside the view that they
- * are made of. */
+/* water_air_test.c - aerial perspective in front of the sea: the compact tables against the view that they
+ * are computed from. */
 #include "water/water_fixture.h"
 
 #include "water/water_sky.h"
@@ -20,7 +20,7 @@ static vec3 downwards(double angle, double longitude)
     return vec3((float)(level * cos(longitude)), (float)cos(angle), (float)(level * sin(longitude)));
 }
 
-/* What the eye sees over black ground, on rays that are marched. */
+/* The sky's radiance over black ground, by ray marching. */
 static void march_view(const water_sky *sky, float elevation_rad, sky_view *view)
 {
     sky_luts dark = sky->tables;
@@ -31,8 +31,8 @@ static void march_view(const water_sky *sky, float elevation_rad, sky_view *view
 }
 
 /* Over the whole distance to sea level it equals ray marching, within 1 %: from the waves' height to
- * that of airliners, sun from the horizon to the zenith. The first row is the horizon itself, whose length
- * floats do not know. */
+ * that of airliners, sun from the horizon to the zenith. The first row is the horizon itself, whose distance
+ * exceeds the precision of floats. */
 static void in_scattering_matches_ray_marching(void **state)
 {
     (void)state;
