@@ -32,6 +32,7 @@ static facet_result find_texture_need(render_setup *p, facet_error *error)
                               .footprint = footprint,
                               .ogl1 = &desc->ogl1,
                               .opacity_footprint = fminf(footprint, opacity_footprint),
+                              .is_opacity_only = p->reads_opacity_only,
                               .thread_count = desc->thread_count};
     TRY(texture_need(scene, &p->prepared->geometries, &p->camera, &need, &desc->allocator, p->uses, error));
     if (p->reads_everywhere || desc->decodes_whole_textures)

@@ -13,8 +13,9 @@ typedef struct render_setup {
     const facet_render_desc *desc;
     facet_render_stats *stats;
     /* What the renderer does: */
-    bool reads_everywhere; /* textures are read at full size and outside of the view as well */
-    bool samples_light;    /* of light_setup_create() */
+    bool reads_everywhere;   /* textures are read at full size and outside of the view as well */
+    bool reads_opacity_only; /* of textures of glTF materials: no hit is shaded */
+    bool samples_light;      /* of light_setup_create() */
     camera_rays camera;
     texture_use *uses;
     texture_set *textures;

@@ -232,6 +232,8 @@ static void add_readers(reader_list *list, const texture_need_desc *desc)
         return;
     }
     uint32_t textures = material_plan_textures(g);
+    if (desc->is_opacity_only)
+        textures &= g->is_see_through ? 1u << SCENE_BASE_COLOR_TEXTURE : 0u;
     for (int slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++)
         if (textures >> slot & 1)
             add_reader(list, &m->textures[slot], material_textures[slot].is_color,

@@ -11,6 +11,7 @@ typedef struct texture_need_desc {
     float footprint;             /* side of the square that a shade represents, pixels */
     const facet_ogl1_desc *ogl1; /* options of legacy materials; NULL: none */
     float opacity_footprint;     /* of alpha for coverage tests */
+    bool is_opacity_only;        /* rays are traced, and no hit is shaded */
     uint32_t thread_count;
 } texture_need_desc;
 

@@ -77,8 +77,11 @@ facet_result water_model_create(const facet_scene *scene, const facet_render_des
     fill_desc(desc, sky, around, m);
     prepared_scene_init(&m->prepared, scene, &desc->allocator);
     m->is_there = true;
-    m->setup =
-        (render_setup){.prepared = &m->prepared, .desc = &m->desc, .stats = stats, .reads_everywhere = true};
+    m->setup = (render_setup){.prepared = &m->prepared,
+                              .desc = &m->desc,
+                              .stats = stats,
+                              .reads_everywhere = true,
+                              .reads_opacity_only = !around && desc->shading == FACET_SHADING_GLTF};
     TRY(ogl1_check(scene, &m->desc, error));
     TRY(render_setup_create(&m->setup, error));
     if (desc->shading == FACET_SHADING_OGL1)

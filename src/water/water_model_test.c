@@ -196,6 +196,41 @@ static void only_open_hulls_are_dry(void **state)
     fixture_destroy(&f);
 }
 
+/* Paths draw the model themselves, by textures of their own. */
+static void a_model_that_is_not_shaded_decodes_opacity_only(void **state)
+{
+    (void)state;
+    static const unsigned char texel[4] = {255, 255, 255, 128};
+    facet_sea *sea = still_sea();
+    for (int is_masked = 0; is_masked < 2; is_masked++) {
+        fixture f = fixture_create();
+        scene_material material = scene_material_default();
+        material.alpha_mode = is_masked ? SCENE_ALPHA_MASK : SCENE_ALPHA_OPAQUE;
+        uint32_t number = fixture_add_material(&f, material);
+        uint32_t texture = fixture_add_texture(&f, 1, 1, texel);
+        f.scene->materials[number].textures[SCENE_BASE_COLOR_TEXTURE].texture = texture;
+        f.scene->materials[number].textures[SCENE_EMISSIVE_TEXTURE].texture =
+            fixture_add_texture(&f, 1, 1, texel);
+        f.scene->materials[number].emissive[0] = 1.0f;
+        fixture_place(&f, fixture_add_quad(&f, number), 0.0f, 0.0f, -6.0f, 1.0f);
+        for (uint32_t needs = 0; needs <= WATER_SETUP_MODEL_LIGHT; needs += WATER_SETUP_MODEL_LIGHT) {
+            shot s;
+            water_setup setup;
+            make_dark_shot(&s, 8, 3.0f, 0.5f, f.scene);
+            s.desc.camera = &s.camera;
+            assert_int_equal(
+                water_setup_create(shot_in(sea, &s), f.scene, &s.desc, needs, &setup, &s.stats, NULL),
+                FACET_OK);
+            assert_int_equal(s.stats.decoded_texels, needs ? 2 : is_masked);
+            water_setup_destroy(&setup);
+            water_cache_clear(&s.cache);
+            end_shot(&s);
+        }
+        fixture_destroy(&f);
+    }
+    sea_destroy(sea);
+}
+
 static void running_out_of_memory_leaks_nothing(void **state)
 {
     (void)state;
@@ -232,6 +267,7 @@ int main(void)
         cmocka_unit_test(deeper_spheres_are_darker_and_lose_red_first),
         cmocka_unit_test(a_sphere_blocks_the_reflection_of_the_sun),
         cmocka_unit_test(only_open_hulls_are_dry),
+        cmocka_unit_test(a_model_that_is_not_shaded_decodes_opacity_only),
         cmocka_unit_test(running_out_of_memory_leaks_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
