@@ -22,6 +22,22 @@ static void assert_pixel(const film *rendered, uint32_t x, uint32_t y, const dou
     }
 }
 
+/* Renders and compares the pixel (4, 2). */
+static void check(fixture *f, const double rgb[3], double opacity)
+{
+    film rendered = fixture_render(f);
+    assert_pixel(&rendered, 4, 2, rgb, opacity);
+    film_destroy(&rendered);
+}
+
+static double rendered_opacity(fixture *f, uint32_t x, uint32_t y)
+{
+    film rendered = fixture_render(f);
+    double opacity = (double)fixture_pixel(&rendered, "", x, y)[3];
+    film_destroy(&rendered);
+    return opacity;
+}
+
 static double cut(double x)
 {
     return fmin(fmax(x, 0.0), 1.0);
@@ -43,6 +59,17 @@ static legacy_material *add_quad(fixture *f, float z)
     m->fields = LEGACY_AMBIENT | LEGACY_DIFFUSE | LEGACY_SPECULAR | LEGACY_EMISSION | LEGACY_SHININESS;
     return m;
 }
+
+/* ogl1_fixture_head_on() with a quad at the origin. */
+static fixture quad_fixture(legacy_material **m)
+{
+    scene_legacy *legacy;
+    fixture f = ogl1_fixture_head_on(&legacy);
+    *m = add_quad(&f, 0.0f);
+    return f;
+}
+
+static const unsigned char TEXEL[4] = {51, 204, 102, 153}; /* 0.2, 0.8, 0.4, 0.6 */
 
 /* A map of one texel's color. */
 static void set_map(fixture *f, legacy_material *m, legacy_map_slot slot, const unsigned char rgba[4])
@@ -92,15 +119,13 @@ static void environment(int type, int mode, const double E[4], const double T[4]
 static void every_texture_type_and_mode(void **state)
 {
     (void)state;
-    static const unsigned char texel[4] = {51, 204, 102, 153};
     const double T[4] = {0.2, 0.8, 0.4, 0.6};
     for (int variant = 0; variant < 4; variant++)
         for (int type = 0; type < 5; type++)
             for (int mode = 0; mode < 5; mode++) {
-                scene_legacy *legacy;
-                fixture f = ogl1_fixture_head_on(&legacy);
-                legacy->is_rgl = true;
-                legacy_material *m = add_quad(&f, 0.0f);
+                legacy_material *m;
+                fixture f = quad_fixture(&m);
+                f.scene->legacy->is_rgl = true;
                 set3(m->diffuse, 0.3f, 0.2f, 0.1f);
                 set3(m->specular, 0.1f, 0.25f, 0.4f);
                 set3(m->emission, 0.05f, 0.0f, 0.15f);
@@ -108,7 +133,7 @@ static void every_texture_type_and_mode(void **state)
                 m->opacity = 0.75f;
                 m->texture_type = (legacy_texture_type)type;
                 m->texture_mode = (legacy_texture_mode)mode;
-                set_map(&f, m, LEGACY_DIFFUSE_MAP, texel);
+                set_map(&f, m, LEGACY_DIFFUSE_MAP, TEXEL);
                 f.desc.ogl1.variant = (facet_ogl1_variant)variant;
                 bool is_separate = variant >= FACET_OGL1_VARIANT_FIXED;
                 const double light[3] = {0.35, 0.2, 0.25}, highlight[3] = {0.1, 0.25, 0.4};
@@ -119,9 +144,7 @@ static void every_texture_type_and_mode(void **state)
                 environment(type, mode, E, T, out);
                 for (int c = 0; c < 3; c++)
                     out[c] = cut(out[c] + (is_separate ? highlight[c] : 0.0));
-                film rendered = fixture_render(&f);
-                assert_pixel(&rendered, 4, 2, out, out[3]);
-                film_destroy(&rendered);
+                check(&f, out, out[3]);
                 fixture_destroy(&f);
             }
 }
@@ -131,22 +154,18 @@ static void every_texture_type_and_mode(void **state)
 static void the_diffuse_map_of_mtl(void **state)
 {
     (void)state;
-    static const unsigned char texel[4] = {51, 204, 102, 153};
     for (int kind = 0; kind < 3; kind++) {
-        scene_legacy *legacy;
-        fixture f = ogl1_fixture_head_on(&legacy);
-        legacy_material *m = add_quad(&f, 0.0f);
+        legacy_material *m;
+        fixture f = quad_fixture(&m);
         set3(m->diffuse, 0.5f, 0.25f, 0.5f);
         if (kind == 1)
             set3(m->diffuse, 0.0f, 0.0f, 0.0f);
         if (kind == 2)
             m->fields = 0;
         set3(m->specular, 0.1f, 0.2f, 0.3f);
-        set_map(&f, m, LEGACY_DIFFUSE_MAP, texel);
-        film rendered = fixture_render(&f);
+        set_map(&f, m, LEGACY_DIFFUSE_MAP, TEXEL);
         const double factored[3] = {0.1 + 0.1, 0.2 + 0.2, 0.2 + 0.3}, whole[3] = {0.3, 1.0, 0.7};
-        assert_pixel(&rendered, 4, 2, kind ? whole : factored, 1.0);
-        film_destroy(&rendered);
+        check(&f, kind ? whole : factored, 1.0);
         fixture_destroy(&f);
     }
 }
@@ -155,13 +174,11 @@ static void the_diffuse_map_of_mtl(void **state)
 static void textures_in_linear_light(void **state)
 {
     (void)state;
-    static const unsigned char texel[4] = {51, 204, 102, 153};
-    scene_legacy *legacy;
-    fixture f = ogl1_fixture_head_on(&legacy);
+    legacy_material *m;
+    fixture f = quad_fixture(&m);
     f.desc.ogl1.is_linear = true;
-    legacy_material *m = add_quad(&f, 0.0f);
     set3(m->diffuse, 0.5f, 0.25f, 0.5f);
-    set_map(&f, m, LEGACY_DIFFUSE_MAP, texel);
+    set_map(&f, m, LEGACY_DIFFUSE_MAP, TEXEL);
     film rendered = fixture_render(&f);
     const double kd[3] = {0.5, 0.25, 0.5}, t[3] = {0.2, 0.8, 0.4};
     double expected[3];
@@ -176,20 +193,14 @@ static void textures_in_linear_light(void **state)
 static void maps_of_the_terms(void **state)
 {
     (void)state;
-    static const unsigned char texel[4] = {51, 204, 102, 153};
     const double t[3] = {0.2, 0.8, 0.4};
     static const char channels[6] = {'r', 'g', 'b', 'm', 'l', 0};
-    const double values[6] = {0.2,
-                              0.8,
-                              0.4,
-                              0.6,
-                              0.2126 * 0.2 + 0.7152 * 0.8 + 0.0722 * 0.4,
-                              0.2126 * 0.2 + 0.7152 * 0.8 + 0.0722 * 0.4};
+    const double luminance = 0.2126 * 0.2 + 0.7152 * 0.8 + 0.0722 * 0.4;
+    const double values[6] = {0.2, 0.8, 0.4, 0.6, luminance, luminance};
     for (int channel = 0; channel < 6; channel++) {
-        scene_legacy *legacy;
-        fixture f = ogl1_fixture_head_on(&legacy);
-        legacy_light_direction(0.0f, 40.0f * 0.017453292f, legacy->lights[0].position);
-        legacy_material *m = add_quad(&f, 0.0f);
+        legacy_material *m;
+        fixture f = quad_fixture(&m);
+        legacy_light_direction(0.0f, 40.0f * 0.017453292f, f.scene->legacy->lights[0].position);
         set3(m->ambient, 0.5f, 0.25f, 0.0f);
         set3(m->diffuse, 0.0f, 0.0f, 0.0f);
         set3(m->specular, 0.5f, 0.5f, 0.25f);
@@ -198,7 +209,7 @@ static void maps_of_the_terms(void **state)
         for (int slot = 0; slot < LEGACY_MAP_COUNT; slot++)
             if (slot == LEGACY_AMBIENT_MAP || slot == LEGACY_SPECULAR_MAP || slot == LEGACY_EMISSION_MAP ||
                 slot == LEGACY_SHININESS_MAP || slot == LEGACY_OPACITY_MAP)
-                set_map(&f, m, (legacy_map_slot)slot, texel);
+                set_map(&f, m, (legacy_map_slot)slot, TEXEL);
         m->maps[LEGACY_AMBIENT_MAP].base = 0.1f;
         m->maps[LEGACY_AMBIENT_MAP].gain = 0.5f;
         m->maps[LEGACY_SHININESS_MAP].channel = channels[channel];
@@ -209,9 +220,7 @@ static void maps_of_the_terms(void **state)
         for (int c = 0; c < 3; c++)
             expected[c] = cut((double)m->ambient[c] * (0.1 + 0.5 * t[c]) + (double)m->emission[c] * t[c] +
                               (double)m->specular[c] * t[c] * lobe);
-        film rendered = fixture_render(&f);
-        assert_pixel(&rendered, 4, 2, expected, 0.05 + values[channel]);
-        film_destroy(&rendered);
+        check(&f, expected, 0.05 + values[channel]);
         fixture_destroy(&f);
     }
 }
@@ -353,13 +362,10 @@ static void opacities(void **state)
 {
     (void)state;
     static const unsigned char half[4] = {128, 128, 128, 255};
-    scene_legacy *legacy;
-    fixture f = ogl1_fixture_head_on(&legacy);
-    legacy_material *m = add_quad(&f, 0.0f);
+    legacy_material *m;
+    fixture f = quad_fixture(&m);
     m->opacity = 0.0f;
-    film rendered = fixture_render(&f);
-    assert_true(fixture_pixel(&rendered, "", 4, 2)[3] == 0.0f);
-    film_destroy(&rendered);
+    assert_true(rendered_opacity(&f, 4, 2) == 0.0);
 
     m->opacity = 0.5f;
     set_map(&f, m, LEGACY_OPACITY_MAP, half);
@@ -367,17 +373,13 @@ static void opacities(void **state)
     for (int i = 0; i < 16; i++)
         colors[i] = i % 4 == 3 ? 0.75f : 1.0f;
     fixture_primitive(&f, 0)->colors = colors;
-    rendered = fixture_render(&f);
-    assert_true(fabs((double)fixture_pixel(&rendered, "", 4, 2)[3] - 0.5 * 0.75 * 128.0 / 255.0) < 1e-6);
-    film_destroy(&rendered);
+    assert_true(fabs(rendered_opacity(&f, 4, 2) - 0.5 * 0.75 * 128.0 / 255.0) < 1e-6);
 
     fixture_primitive(&f, 0)->colors = NULL;
     m->maps[LEGACY_OPACITY_MAP].ref.texture = SCENE_NONE;
     m->is_halo = true;
     f.camera.eye[0] = 10.0f; /* 45 degrees */
-    rendered = fixture_render(&f);
-    assert_true(fabs((double)fixture_pixel(&rendered, "", 4, 4)[3] - (1.0 - sqrt(0.5) * 0.5)) < 1e-5);
-    film_destroy(&rendered);
+    assert_true(fabs(rendered_opacity(&f, 4, 4) - (1.0 - sqrt(0.5) * 0.5)) < 1e-5);
     fixture_destroy(&f);
 }
 
@@ -392,9 +394,7 @@ static void opacity_does_not_count_lights(void **state)
         legacy->lights[1] = legacy->lights[0];
         legacy->light_count = 2;
         add_quad(&f, 0.0f)->opacity = 0.375f;
-        film rendered = fixture_render(&f);
-        assert_true(fabsf(fixture_pixel(&rendered, "", 4, 2)[3] - 0.375f) < 1e-6f);
-        film_destroy(&rendered);
+        assert_true(fabs(rendered_opacity(&f, 4, 2) - 0.375) < 1e-6);
         fixture_destroy(&f);
     }
 }
@@ -405,25 +405,19 @@ static void opacity_does_not_count_lights(void **state)
 static void unlit_surfaces(void **state)
 {
     (void)state;
-    static const unsigned char texel[4] = {51, 204, 102, 153};
     for (int variant = 0; variant < 4; variant++) {
-        scene_legacy *legacy;
-        fixture f = ogl1_fixture_head_on(&legacy);
+        legacy_material *m;
+        fixture f = quad_fixture(&m);
         f.desc.ogl1.variant = (facet_ogl1_variant)variant;
-        legacy_material *m = add_quad(&f, 0.0f);
         m->is_lit = false;
         set3(m->diffuse, 0.7f, 0.4f, 0.1f);
         set3(m->emission, 0.3f, 0.3f, 0.3f);
         set3(m->specular, 1.0f, 1.0f, 1.0f);
         const double plain[3] = {(double)0.7f, (double)0.4f, (double)0.1f};
         const double textured[3] = {(double)0.7f * 0.2, (double)0.4f * 0.8, (double)0.1f * 0.4};
-        film rendered = fixture_render(&f);
-        assert_pixel(&rendered, 4, 2, plain, 1.0);
-        film_destroy(&rendered);
-        set_map(&f, m, LEGACY_DIFFUSE_MAP, texel);
-        rendered = fixture_render(&f);
-        assert_pixel(&rendered, 4, 2, textured, 1.0);
-        film_destroy(&rendered);
+        check(&f, plain, 1.0);
+        set_map(&f, m, LEGACY_DIFFUSE_MAP, TEXEL);
+        check(&f, textured, 1.0);
         fixture_destroy(&f);
     }
 }
@@ -457,18 +451,14 @@ static void sides_and_defaults(void **state)
             fixture f = ogl1_fixture_head_on(&legacy);
             f.camera.eye[2] = side ? -10.0f : 10.0f;
             add_quad(&f, 0.0f)->is_culled = is_culled;
-            film rendered = fixture_render(&f);
-            assert_true(fixture_pixel(&rendered, "", 4, 2)[3] == (is_culled && side ? 0.0f : 1.0f));
-            film_destroy(&rendered);
+            assert_true(rendered_opacity(&f, 4, 2) == (is_culled && side ? 0.0 : 1.0));
             fixture_destroy(&f);
         }
     scene_legacy *legacy;
     fixture f = ogl1_fixture_head_on(&legacy);
     fixture_place(&f, fixture_add_quad(&f, SCENE_NONE), 0, 0, 0, 1.0f);
-    film rendered = fixture_render(&f);
     const double expected[3] = {(double)0.8f, (double)0.8f, (double)0.8f};
-    assert_pixel(&rendered, 4, 2, expected, 1.0);
-    film_destroy(&rendered);
+    check(&f, expected, 1.0);
     fixture_destroy(&f);
 }
 
@@ -476,9 +466,8 @@ static void aovs(void **state)
 {
     (void)state;
     static const unsigned char texel[4] = {51, 204, 102, 255};
-    scene_legacy *legacy;
-    fixture f = ogl1_fixture_head_on(&legacy);
-    legacy_material *m = add_quad(&f, 0.0f);
+    legacy_material *m;
+    fixture f = quad_fixture(&m);
     set3(m->diffuse, 0.5f, 0.5f, 0.5f);
     set_map(&f, m, LEGACY_DIFFUSE_MAP, texel);
     f.desc.aovs = FACET_AOV_DEPTH | FACET_AOV_NORMAL | FACET_AOV_ALBEDO | FACET_AOV_MATERIAL_ID |
