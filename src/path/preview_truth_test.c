@@ -160,12 +160,11 @@ static void compare_means(fixture *f, int material, const char *what, double bou
     fixture_destroy(f);
 }
 
-/* Reference 15.16 asks for a mean over the body within 2 %. In a sky of first harmonics that does not
- * change along the view the split sum is right on average; in the studio, whose soft boxes are wider apart
- * than the lobe, metals are off by up to 2.4 %. (Light that comes from behind the body, which grazing
- * views alone reflect, costs it more: there the lobe leans towards the normal.) Both compensate what
- * scatters twice: in glTF mode the preview does so for surroundings only, as Khronos' renderer, and is
- * brighter by that. */
+/* The mean over the object is to be within 2 %. In a sky of first harmonics that does not change along the view
+ * the split sum is right on average. In the studio, whose soft boxes are farther apart than the lobe is wide, metals
+ * are off by up to 2.4 %. (Light from behind, which only grazing views reflect, is less accurate: the lobe leans
+ * towards the normal there.) Both compensate for multiple scattering; in glTF mode the preview does so for the
+ * environment only, as Khronos' renderer does, and is brighter by that. */
 static void environments_are_nearly_equal(void **state)
 {
     (void)state;
