@@ -185,7 +185,7 @@ typedef enum facet_sea_masking {
     FACET_SEA_MASKING_SCHLICK_KARIS
 } facet_sea_masking;
 
-/* docs/ocean.md, "Before", has the legacy style. */
+/* docs/ocean.md, "The legacy style". */
 typedef enum facet_sea_style {
     FACET_SEA_STYLE_PHYSICAL,
     FACET_SEA_STYLE_LEGACY_WRITTEN, /* A: the legacy formulas as written */
