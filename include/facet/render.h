@@ -223,11 +223,12 @@ typedef struct facet_render_desc {
     facet_allocator allocator;
     facet_log log;
     facet_progress progress;
-    uint32_t thread_count;          /* 0: facet_thread_count(); the image does not depend on it */
-    uint32_t width, height;         /* pixels; 0: 1024 x 768 */
-    uint32_t crop[4];               /* x, y, width, height of the part to render; {0}: all */
-    facet_pose_desc pose;           /* what of the scene, and when */
-    const facet_camera *camera;     /* NULL: of facet_orbit_default() */
+    uint32_t thread_count;  /* 0: facet_thread_count(); the image does not depend on it */
+    uint32_t width, height; /* pixels; 0: 1024 x 768 */
+    uint32_t crop[4];       /* x, y, width, height of the part to render; {0}: all */
+    facet_pose_desc pose;   /* what of the scene, and when */
+    /* NULL: of facet_orbit_default(); in a sea of facet_sea_camera(), which ignores the scene */
+    const facet_camera *camera;
     facet_environment *environment; /* NULL: none, black */
     float environment_rotation_rad; /* around +Y, positive rotates the light from +Z towards +X */
     float environment_ev;           /* stops; the environment is scaled by 2^environment_ev */

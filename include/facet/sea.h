@@ -1,8 +1,8 @@
 /* facet/sea.h - the ocean: spectra of waves, water optics, rendering, maps and meshes. docs/ocean.md has the
  * formulas and their sources.
  *
- * Still water is at y = 0. Directions in the plane are angles from +X towards +Z of where wind and waves
- * go to. */
+ * Still water is at y = 0. Directions of wind, swell, waves and the slope of the bed are angles from +X
+ * towards +Z of where they go to (the bed: rises); those of sun and camera are angles from +Z towards +X. */
 #ifndef FACET_SEA_H
 #define FACET_SEA_H
 
@@ -206,8 +206,8 @@ typedef struct facet_sea_shading {
 } facet_sea_shading;
 
 /* A view from above the origin: height_m above the still water (0: 3 m, more in high seas; negative: under
- * water) and at least a metre above the waves there, towards azimuth_rad (from +Z towards +X, as the sun
- * of a sky), just below the horizon. */
+ * water) and at least a metre above the waves there, towards azimuth_rad (from +Z towards +X, as
+ * facet_sky_desc.sun_azimuth_rad, not as the directions of wind and waves), just below the horizon. */
 FACET_API facet_camera facet_sea_camera(const facet_sea *sea, float height_m, float azimuth_rad);
 
 #ifdef __cplusplus

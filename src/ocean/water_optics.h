@@ -1,5 +1,5 @@
 /* water_optics.h - optical properties of water, from spectra to linear Rec.709: absorption, scattering,
- * diffuse reflectance. Reference: docs/ocean.md, "Water". */
+ * diffuse reflectance. Reference: docs/ocean.md, "What is computed". */
 #ifndef OCEAN_WATER_OPTICS_H
 #define OCEAN_WATER_OPTICS_H
 
