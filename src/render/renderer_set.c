@@ -69,11 +69,37 @@ void renderer_set_clear(renderer_set *set)
     water_cache_clear(&set->water);
 }
 
+/* ---- the default camera ---- */
+
+/* The camera of a sea looks towards its sun, wherever the scene is. */
+static void check_sea_camera(renderer_set *set, const facet_render_desc *desc, const facet_camera *camera)
+{
+    facet_render_desc whole = *desc; /* without its crop; a background lets the search end at what it finds */
+    scene_pose pose;
+    camera_rays rays;
+    char why[512];
+    if (!set->scene || !desc->log.message || set->has_checked_sea_camera ||
+        camera_rays_create(camera, desc->width, desc->height, &rays, NULL) != FACET_OK ||
+        scene_pose_create(set->scene, &desc->pose, &desc->allocator, desc->thread_count, &pose, NULL) !=
+            FACET_OK)
+        return;
+    whole.crop[0] = whole.crop[1] = 0;
+    whole.crop[2] = desc->width;
+    whole.crop[3] = desc->height;
+    whole.background = FACET_BACKGROUND_ENVIRONMENT;
+    if (pose.instance_count > 0 && empty_view_explain(set->scene, &pose, &whole, &rays, why, sizeof why))
+        log_warning(&desc->log, "%s: the default camera in a sea does not show it; set one that does",
+                    set->scene->source);
+    scene_pose_destroy(&pose);
+    set->has_checked_sea_camera = true;
+}
+
 facet_result renderer_set_camera(renderer_set *set, const facet_render_desc *desc, facet_camera *camera,
                                  facet_error *error)
 {
     if (desc->sea) {
         *camera = sea_camera(desc->sea, 0.0f, desc->sky.sun_azimuth_rad);
+        check_sea_camera(set, desc, camera);
         return FACET_OK;
     }
     prepared_scene *prepared = &set->prepared;

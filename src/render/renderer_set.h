@@ -16,6 +16,7 @@ struct renderer_set {
     water_cache water;                               /* of the sea that was drawn last */
     void *states[RENDERER_COUNT];                    /* NULL: not used yet */
     bool has_warned_of_nothing, has_warned_of_white; /* each warning comes once */
+    bool has_checked_sea_camera;                     /* whether the default camera in a sea shows the scene */
 };
 
 void renderer_set_init(renderer_set *set, const facet_scene *scene, const facet_allocator *allocator);
