@@ -1,8 +1,9 @@
 /* renderer.h - one interface to all renderers. Each is a row of the table in renderer.c: what it can do
  * (facet_renderer_info) and four functions, resolve, create, draw and destroy. All drawing goes through
- * the table, and src/api and src/cli ask it what a renderer can do. Below it code compares desc.renderer:
- * draw/light_setup.c and cpu/render_setup.c (what path tracing finds by itself), src/water (the same for
- * the bed) and the window, whose renderers are a table in src/view/view_state.c. */
+ * the table, and src/api and src/cli ask it what a renderer can do. A renderer passes what it finds by
+ * itself to the code that it shares with others (render_setup of src/cpu, water_setup_create()), which does
+ * not compare desc.renderer. The window (src/view) has a table of its own, but names _KIND_GL where only
+ * OpenGL can follow: channels, and the images that it shows while it is used. */
 #ifndef RENDER_RENDERER_H
 #define RENDER_RENDERER_H
 
