@@ -7,6 +7,7 @@
 #include "build_config.h"
 #include "cpu/embree_scene.h"
 #include "render/render_gl.h"
+#include "render/renderer.h"
 
 const char *facet_version(void)
 {
@@ -52,7 +53,9 @@ size_t facet_build_report(char *out, size_t size)
 #endif
     add_cpu(&t);
     text_addf(&t, "threads   %u\n", facet_thread_count());
-    text_addf(&t, "renderers preview, path, gl\n");
+    for (int i = 0; i < RENDERER_COUNT; i++)
+        text_addf(&t, "%s%s", i ? ", " : "renderers ", renderer_get((facet_renderer_kind)i)->info.name);
+    text_addf(&t, "\n");
     text_addf(&t, "embree    %s\n", embree_scene_version());
     text_addf(&t, "images    png (spng %s), jpeg (turbojpeg %s), webp (%s), exr (%s), hdr, pfm\n",
               FACET_SPNG_VERSION, FACET_TURBOJPEG_VERSION, FACET_WEBP_VERSION, FACET_OPENEXR_VERSION);
