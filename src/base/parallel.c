@@ -38,7 +38,7 @@ void parallel_for(uint32_t thread_count, size_t count, size_t grain,
     if (grain == 0)
         grain = 1;
     size_t ranges = (count + grain - 1) / grain;
-    if (ranges == 1) { /* cached, since asking the system for the number of CPUs takes longer */
+    if (ranges == 1) {
         body(context, 0, count);
         return;
     }
