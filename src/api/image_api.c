@@ -256,7 +256,8 @@ facet_result facet_image_create_id_colors(const facet_image *source, const char 
     *out = NULL;
     if (!ids || !instances)
         return fail(error, FACET_ERROR_ARGUMENT,
-                    "image: \"%s\" and instance must be layers of it, and one of object, material, instance",
+                    "image: \"%s\" is no ID layer of this image (object, material, instance), or its layer "
+                    "instance is missing",
                     layer);
     facet_image *made = mem_zalloc(allocator, 1, sizeof *made);
     if (!made)
