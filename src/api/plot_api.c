@@ -13,7 +13,8 @@ facet_plot_material facet_plot_material_default(void)
     return material_default();
 }
 
-/* What is beside the base that the fits know. glTF takes the film's maximum where it has no texture. */
+/* The layers above the base, which the fits leave out. glTF takes the maximum of a thin film's thickness
+ * where it has no texture. */
 static void add_layers(const scene_material *from, facet_plot_material *to)
 {
     to->clearcoat = from->clearcoat;

@@ -270,9 +270,10 @@ static const char *describe_error(plot *p, const material *source, const plot_co
         return plot_text(p, "RMS of log(1 + f cos) %.3f of the measured", conversion->rms);
     bool has_layers =
         source->parameters.model == FACET_PLOT_MODEL_PBR && material_has_layers(&source->parameters);
-    return plot_text(p, "E %.3f, E_display %.3f%s%s", conversion->error.E, conversion->error.E_display,
-                     has_dashes ? "; views in order: solid, dashed, dotted" : "",
-                     has_layers ? "; of the base: coat, sheen, film and grain have no counterpart" : "");
+    return plot_text(
+        p, "E %.3f, E_display %.3f%s%s", conversion->error.E, conversion->error.E_display,
+        has_dashes ? "; views in order: solid, dashed, dotted" : "",
+        has_layers ? "; of the base: clearcoat, sheen, thin film and anisotropy have no counterpart" : "");
 }
 
 static const char *scaled(const material *m)
