@@ -65,7 +65,7 @@ shading_hit shading_hit_make(const shading_scene *scene, const shading_point *po
         vec3 e1 = corner(h.geometry, h.corner[1]) - p0;
         vec3 e2 = corner(h.geometry, h.corner[2]) - p0;
         h.position = p0 + e1 * hit->u + e2 * hit->v;
-        if (scene->plans->items[hit->geometry].reads_changes || scene->has_specular_antialiasing)
+        if (scene->plans->items[hit->geometry].needs_derivatives || scene->has_specular_antialiasing)
             weight_derivatives(point->ray, p0, e1, e2, &h);
         break;
     }

@@ -140,7 +140,7 @@ facet_result material_plans_create(const render_geometry_set *set, const facet_a
         bool is_plain = !plan->layers && !has(g->material, SCENE_SPECULAR_GLOSSINESS);
         plan->slot_count = is_plain ? SCENE_CLEARCOAT_TEXTURE : SCENE_TEXTURE_SLOT_COUNT;
         plan->lets_rays_through = (plan->layers & LAYER_TRANSMISSION) != 0;
-        plan->reads_changes = plan->textures || plan->lets_rays_through;
+        plan->needs_derivatives = plan->textures || plan->lets_rays_through;
         plan->is_volume =
             plan->lets_rays_through && (plan->layers & LAYER_VOLUME) && g->primitive->mode == SCENE_TRIANGLES;
         plan->is_closed_volume = (plan->layers & LAYER_VOLUME) && g->primitive->mode == SCENE_TRIANGLES;

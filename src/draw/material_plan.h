@@ -10,7 +10,8 @@ typedef struct material_plan {
     int slot_count;         /* slots that are read, with or without a texture */
     uint32_t layers;        /* LAYER_* of shade/layers.h that some of its points may have; 0: no layers */
     bool lets_rays_through; /* LAYER_TRANSMISSION */
-    bool reads_changes;     /* over the footprint: of textures, or of the normals of refraction */
+    /* of coordinates over the footprint, for textures; of normals, for refraction */
+    bool needs_derivatives;
     /* bits of legacy_map_slot: what shading of a legacy material reads; ogl1_setup.h */
     uint32_t legacy_maps;
     /* the boundary of a volume that rays pass through, not a thin wall: both sides are visible */

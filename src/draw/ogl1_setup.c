@@ -257,7 +257,7 @@ facet_result ogl1_setup_create(const ogl1_source *source, const camera_rays *cam
     for (uint32_t i = 0; plans && i < source->geometries->count; i++) {
         uint32_t maps = ogl1_drawn_maps(&source->geometries->items[i], desc->ogl1.variant);
         plans->items[i].legacy_maps = maps;
-        plans->items[i].reads_changes = maps != 0;
+        plans->items[i].needs_derivatives = maps != 0;
     }
     facet_result result = make_lights(out, legacy, scene->origin, desc, light, error);
     if (result != FACET_OK)
