@@ -52,7 +52,7 @@ STRUCT(Layers)
     float diffuse_transmission;      /* [0, 1]: fraction of the light neither reflected nor transmitted */
     vec3 diffuse_transmission_color; /* [0, 1] */
     /* LAYER_VOLUME: set where the thickness is above 0; without it a wall is thin */
-    float thickness;        /* m, in world scale: for diffuse transmission; rays know their real distances */
+    float thickness;        /* m, in world scale: for diffuse transmission; rays use the traced distance */
     vec3 attenuation_color; /* [0, 1] */
     float attenuation_distance; /* m; infinity: no absorption */
     /* LAYER_DISPERSION */

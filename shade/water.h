@@ -333,10 +333,10 @@ FN float water_inscatter_phase1(float t, float pure_share, float cos_angle)
     return mix(particles, water_phase_pure(cos_angle), pure_share);
 }
 
-/* In-scattered radiance of the sun's beam, by forward scattering: the glow around it. Light leaves the
+/* In-scattered radiance of the sun's beam, by forward scattering, around the sun. Light leaves the
  * beam by c on the way down, turned slightly, and is attenuated by a + b_b from there on like all diffuse
- * light; beam and glow add up to Gordon's quasi-single scattering,
- *   beam e^(-c x) + glow = beam e^(-(a + b_b) x) along the beam
+ * light; beam and in-scattering add up to Gordon's quasi-single scattering,
+ *   beam e^(-c x) + in-scattering = beam e^(-(a + b_b) x) along the beam
  * Within 4 % of a photon count up to 1.1 scatterings, 11 % up to 2.3; 7 to 35 degrees from the sun 27 % up to
  * 4.6, where single scattering alone has 0.1 to 0.01. Sideways and backward scattering belong to the diffuse
  * light. sunward: unit direction to the sun below the surface; beam: irradiance (lx) across it just below. */
@@ -349,17 +349,17 @@ FN vec3 water_sun_inscatter(Water w, vec3 beam, vec3 sunward, float z, vec3 d, f
     vec3 first = water_beam(w) * (z / mu); /* scattered here, and at the other end */
     vec3 last = water_beam(w) * (max(z - x * d[1], 0.0f) / mu) + water_diffuse(w) * x;
     vec3 t = w.scattering * (z / mu);
-    vec3 glow = vec3(0.0f);
+    vec3 inscatter = vec3(0.0f);
     for (int k = 0; k < 3; ++k) {
         float more = water_inscatter_phase1(t[k], w.pure_share[k], forward) -
                      water_inscatter_phase1(t[k], w.pure_share[k], 0.0f);
-        glow[k] = max(more, 0.0f) * water_mean_transmittance1(first[k], last[k]);
+        inscatter[k] = max(more, 0.0f) * water_mean_transmittance1(first[k], last[k]);
     }
-    return beam * w.scattering * glow * x;
+    return beam * w.scattering * inscatter * x;
 }
 
 /* Fraction of the quasi-single scattering transmittance e^(-(a + b_b) x) in the unscattered beam; the rest is
- * its glow. */
+ * in-scattering around it. */
 FN vec3 water_unscattered(Water w, float x)
 {
     return exp((w.backscattering - w.scattering) * x);
