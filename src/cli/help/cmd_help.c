@@ -24,6 +24,7 @@ static const struct {
 } documents[] = {
     {"cli.md", "the command: output names, motion, light, limits, JSON, exit codes"},
     {"formats.md", "model files: what is read of each format"},
+    {"images.md", "image files: codecs, bit depths, color, limits"},
     {"gltf-support.md", "glTF: how each extension is read, rendered and written"},
     {"shading-model.md", "the material model: equations and sources"},
     {"path-tracing.md", "path tracing: what is exact, what is biased, noise"},
@@ -40,6 +41,7 @@ static const struct {
     {"view.md", "the window: keys, mouse, scripts"},
     {"shaders.md", "the shader library as GLSL for other renderers"},
     {"c-api.md", "the library, by example"},
+    {"security.md", "untrusted files: what holds, and limits"},
     {"comparison.md", "facet compared with other renderers"},
     {"performance.md", "times and memory"},
     {"gallery.md", "example images"},
