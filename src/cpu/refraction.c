@@ -32,7 +32,7 @@ typedef struct branch {
     float alpha2; /* squared GGX width of the lobe of directions around it */
     /* shift of the ior: -1 red, 0 green, 1 blue (dispersion.h), and between and beyond */
     float shift;
-    bool is_white;
+    bool is_white;  /* carries all wavelengths: dispersion has not split it */
     uint32_t depth; /* surfaces before it */
 } branch;
 

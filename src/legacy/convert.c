@@ -12,7 +12,7 @@
  * Planned before extras are written, which refer to textures by index, and carried out when all else is there. The original
  * lists stay with the conversion, whose report renders the source materials. */
 
-enum { STAYS = 0 }; /* until new indices are counted */
+enum { STAYS = 0 }; /* marks a kept texture until its new index is assigned */
 
 /* The image of a texture after texture_baker_finish(), which appends new ones. */
 static uint32_t image_of(const facet_scene *scene, uint32_t texture)

@@ -90,7 +90,7 @@ static double squared(const float a[2])
     return (double)a[0] * (double)a[0] + (double)a[1] * (double)a[1];
 }
 
-/* Over k and -k, and over time, since the two beat. */
+/* wave_amplitudes.level_m, m: the sum over k and -k, in the mean over time, since the two beat. */
 static double level_of(const wave_amplitudes *a)
 {
     double sum = 0.0;

@@ -2,7 +2,7 @@
  *
  * A light is a triangle of a lit geometry whose material emits. Emission without a light
  * (KHR_materials_unlit, points, lines, triangles without normals) is found by BSDF sampling only, with
- * weight 1: light_emitters_find() knows none of it. */
+ * weight 1: light_emitters_find() finds none of it. */
 #ifndef PATH_LIGHT_EMITTERS_H
 #define PATH_LIGHT_EMITTERS_H
 

@@ -35,7 +35,7 @@ typedef struct scene_morph_target {
     const float *positions, *normals, *tangents; /* 3 per vertex, m, finite */
 } scene_morph_target;
 
-/* What vertices of a sea know beside their normals: xx, zz, xz of the covariance of slopes that vertices
+/* Values of a sea's vertices beside their normals: xx, zz, xz of the covariance of slopes that vertices
  * do not show; the share that foam hides. */
 enum { SCENE_WATER_VALUES = 4 };
 

@@ -6,8 +6,8 @@
 #include "scene/unseen.h"
 
 enum { SAMPLES = 256, MAX_ROUNDS = 64 };
-static const double FAR = 30.0; /* diagonals */
-static const double MAX = 0.75; /* of the elements */
+/* Stray parts are FAR_DIAGONALS diagonals of the core away, which has at least CORE_SHARE of the elements. */
+static const double FAR_DIAGONALS = 30.0, CORE_SHARE = 0.75;
 
 /* ---- elements ---- */
 
@@ -95,7 +95,7 @@ static core find_core(double middles[3][SAMPLES], uint32_t count)
             sorted[i] = fmax(sorted[i], fabs(middles[axis][i] - c.center[axis]));
     }
     qsort(sorted, count, sizeof *sorted, compare);
-    c.radius = sorted[(uint32_t)ceil(MAX * count) - 1];
+    c.radius = sorted[(uint32_t)ceil(CORE_SHARE * count) - 1];
     return c;
 }
 
@@ -195,7 +195,7 @@ static bool grow(const scene_pose *pose, stray_parts *out)
 {
     for (int round = 0; round < MAX_ROUNDS; round++) {
         box grown = out->kept;
-        double reach = FAR * box_diagonal(&out->kept);
+        double reach = FAR_DIAGONALS * box_diagonal(&out->kept);
         out->count = out->whole = 0;
         out->distance_m = HUGE_VAL;
         for (uint32_t i = 0; i < pose->instance_count; i++)
@@ -225,11 +225,11 @@ bool stray_find(const scene_pose *pose, stray_parts *out)
         all.minimum[axis] = pose->bounds_min[axis];
         all.maximum[axis] = pose->bounds_max[axis];
     }
-    if (!(FAR * 2.0 * c.radius < box_diagonal(&all)))
+    if (!(FAR_DIAGONALS * 2.0 * c.radius < box_diagonal(&all)))
         return false;
     *out = (stray_parts){.kept = core_box(pose, &c)};
     if (!(box_diagonal(&out->kept) > 0.0) || !grow(pose, out))
         return false;
     out->diagonal_m = box_diagonal(&out->kept);
-    return (double)(out->whole - out->count) >= MAX * (double)out->whole;
+    return (double)(out->whole - out->count) >= CORE_SHARE * (double)out->whole;
 }

@@ -1,4 +1,4 @@
-/* bake_make.c - see bake_make.h. */
+/* bake_make.c - see bake_plan.h. */
 #include "cli/bake/bake_plan.h"
 
 #include "cli/bake/bake_names.h"

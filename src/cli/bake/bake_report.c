@@ -1,4 +1,4 @@
-/* bake_report.c - see bake_report.h. */
+/* bake_report.c - see bake_plan.h. */
 #include "cli/bake/bake_plan.h"
 
 #include "cli/bake/bake_names.h"
