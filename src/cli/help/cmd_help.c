@@ -24,7 +24,7 @@ static const struct {
 } documents[] = {
     {"cli.md", "the command: output names, motion, light, limits, JSON, exit codes"},
     {"formats.md", "model files: what is read of each format"},
-    {"images.md", "image files: codecs, bit depths, color, limits"},
+    {"images.md", "image files: which are read and written, and what of them"},
     {"gltf-support.md", "glTF: how each extension is read, rendered and written"},
     {"shading-model.md", "the material model: equations and sources"},
     {"path-tracing.md", "path tracing: what is exact, what is biased, noise"},
