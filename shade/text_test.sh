@@ -87,7 +87,7 @@ fi
 
 # ---- the whole ----
 
-compositions="compose/surface_tables.h compose/surface_radiance.h compose/ogl1_light.h compose/ogl1_fragment.h compose/water_shade.h"
+compositions="compose/surface_tables.h compose/surface_radiance.h compose/ogl1_light.h compose/ogl1_fragment.h compose/sea_radiance.h"
 
 if [ "$side" = c ]; then
     for h in $headers; do
@@ -103,7 +103,8 @@ if [ "$side" = c ]; then
     done
 else
     parity=$here/../tests/parity
-    cases="$(ls "$parity"/*.h | grep -v -e common.h -e _host.h -e /ogl1.h) $parity/ogl1.h" # which uses phong.h's
+    # ogl1.h uses functions of phong.h, and sea_radiance.h those of water.h.
+    cases="$(ls "$parity"/*.h | grep -v -e common.h -e _host.h -e /ogl1.h -e /sea_radiance.h) $parity/ogl1.h $parity/sea_radiance.h"
     for version in "300 es" "330 core" "410 core"; do
         { "$here/glsl.sh" "$version" "$parity/common.h" "$parity"/*_host.h $(for c in $compositions; do echo "$here/$c"; done) $cases
           echo 'void main() {}'; } > "$tmp/parity.frag"

@@ -1,4 +1,4 @@
-/* water_shade.c - see water_shade.h. The look-ups of shade/compose/water_shade.h on the CPU, and the functions that
+/* water_shade.c - see water_shade.h. The look-ups of shade/compose/sea_radiance.h on the CPU, and the functions that
  * it composes from them. */
 #include "water/water_shade.h"
 
@@ -6,7 +6,7 @@
 
 static const float FACETS_PER_PIXEL = 64.0f;
 
-/* ---- the host of shade/compose/water_shade.h ---- */
+/* ---- the host of shade/compose/sea_radiance.h ---- */
 
 typedef struct SeaHost {
     const water_setup *s;
@@ -253,7 +253,7 @@ static uint32_t host_random(SeaHost host)
     return host.random;
 }
 
-#include "shade/compose/water_shade.h"
+#include "shade/compose/sea_radiance.h"
 
 /* ---- parts ---- */
 

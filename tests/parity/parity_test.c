@@ -22,7 +22,7 @@
 #include "shade/compose/surface_radiance.h"
 #include "shade/compose/ogl1_light.h"
 #include "shade/compose/ogl1_fragment.h"
-#include "shade/compose/water_shade.h"
+#include "shade/compose/sea_radiance.h"
 
 #include "shade/lang/lang_c_begin.h"
 
@@ -34,7 +34,7 @@
 #include "surface.h"
 #include "surface_radiance.h"
 #include "water.h"
-#include "water_shade.h"
+#include "sea_radiance.h"
 
 #include "shade/lang/lang_c_end.h"
 

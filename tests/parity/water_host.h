@@ -1,4 +1,4 @@
-/* water_host.h - look-ups of shade/compose/water_shade.h in closed form, for the parity cases. */
+/* water_host.h - look-ups of shade/compose/sea_radiance.h in closed form, for the parity cases. */
 
 STRUCT(SeaHost)
 {

@@ -125,7 +125,7 @@ static const struct {
         {{"water_place", "water_crest", "water_facets", "water_caustic", "water_legacy", "glint", "ibl", "surface",
           "sobol"},
          {"sea_block.glsl", "light_block.glsl", "environment.glsl", "sea_waves.glsl", "sea_host.glsl",
-          "sea_sky.glsl", "sea_place.glsl", "sea_model.glsl", "water_shade.h", "sea.frag"}}},
+          "sea_sky.glsl", "sea_place.glsl", "sea_model.glsl", "sea_radiance.h", "sea.frag"}}},
 };
 /* clang-format on */
 

@@ -1,4 +1,4 @@
-/* sea_host.glsl - look-ups of shade/compose/water_shade.h: the water and its light, the bed and the light on it
+/* sea_host.glsl - look-ups of shade/compose/sea_radiance.h: the water and its light, the bed and the light on it
  * (caustic_map.c and bed_shadow.c with textures). */
 uniform highp sampler2D u_sea_means; /* means over microfacets: water_table.h */
 uniform highp sampler2DArray u_sea_caustics;
