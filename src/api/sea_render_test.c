@@ -462,6 +462,45 @@ static void images_meter_themselves(void **state)
     facet_sea_destroy(sea);
 }
 
+static void count_warning(void *user, facet_log_level level, const char *text)
+{
+    if (level == FACET_LOG_LEVEL_WARNING && strstr(text, "default camera"))
+        ++*(int *)user;
+}
+
+/* Looking from the origin towards an azimuth: how many warnings two images of the square cause. */
+static int warnings_towards(float azimuth_rad, const facet_camera *camera)
+{
+    int warnings = 0;
+    facet_sea *sea = make_sea(5.0f);
+    facet_scene *scene = lit_square();
+    facet_renderer *renderer = NULL;
+    facet_render_desc desc = desc_of(sea, FACET_RENDERER_KIND_PREVIEW);
+    desc.sky.sun_azimuth_rad = azimuth_rad;
+    desc.camera = camera;
+    desc.log = (facet_log){&warnings, count_warning};
+    done(facet_renderer_create(scene, NULL, &renderer, &failure));
+    for (int i = 0; i < 2; i++) {
+        facet_image *image = NULL;
+        done(facet_renderer_render(renderer, &desc, &image, &failure));
+        facet_image_destroy(image);
+    }
+    facet_renderer_destroy(renderer);
+    facet_scene_destroy(scene);
+    facet_sea_destroy(sea);
+    return warnings;
+}
+
+/* The square is at an azimuth of pi; only a default camera that looks away from it is warned of. */
+static void a_default_camera_that_misses_the_model_warns_once(void **state)
+{
+    (void)state;
+    const facet_camera away = {.eye = {0, 3, 0}, .target = {0, 3, 1}, .fov_y_rad = 0.4f};
+    assert_int_equal(warnings_towards(0.0f, NULL), 1);
+    assert_int_equal(warnings_towards(3.1415927f, NULL), 0);
+    assert_int_equal(warnings_towards(0.0f, &away), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_kept_changes_no_image),
@@ -471,6 +510,7 @@ int main(void)
                                        cmocka_unit_test(layers_are_those_of_path_tracing),
                                        cmocka_unit_test(punctual_lights_light_the_model),
                                        cmocka_unit_test(models_show_colors_of_opengl1),
-                                       cmocka_unit_test(images_meter_themselves)};
+                                       cmocka_unit_test(images_meter_themselves),
+                                       cmocka_unit_test(a_default_camera_that_misses_the_model_warns_once)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
