@@ -172,11 +172,13 @@ static void what_is_not_drawn_is_refused_by_name(void **state)
 }
 
 /* Water is in the layers, beside the model: the lowest row shows it, the middle the square. */
-static void assert_water_and_model(facet_renderer_kind kind, const facet_sea *sea, const facet_scene *scene)
+static void assert_water_and_model(facet_renderer_kind kind, facet_sea_style style, const facet_sea *sea,
+                                   const facet_scene *scene)
 {
     facet_image *image = NULL;
     facet_render_desc desc = desc_of(sea, kind);
     desc.camera = &at_square;
+    desc.sea_shading.style = style;
     desc.aovs = FACET_AOV_DEPTH | FACET_AOV_NORMAL | FACET_AOV_OBJECT_ID | FACET_AOV_CRYPTOMATTE;
     done(facet_render(scene, &desc, &image, &failure));
     const size_t middle = (size_t)(HEIGHT / 2) * WIDTH + WIDTH / 2, low = (size_t)(HEIGHT - 1) * WIDTH;
@@ -193,39 +195,23 @@ static void layers_show_water_and_model(void **state)
     (void)state;
     facet_sea *sea = make_sea(0.0f);
     facet_scene *scene = lit_square();
-    assert_water_and_model(FACET_RENDERER_KIND_PREVIEW, sea, scene);
-    assert_water_and_model(FACET_RENDERER_KIND_PATH, sea, scene);
+    assert_water_and_model(FACET_RENDERER_KIND_PREVIEW, FACET_SEA_STYLE_PHYSICAL, sea, scene);
+    assert_water_and_model(FACET_RENDERER_KIND_PATH, FACET_SEA_STYLE_PHYSICAL, sea, scene);
     if (has_gl())
-        assert_water_and_model(FACET_RENDERER_KIND_GL, sea, scene);
+        assert_water_and_model(FACET_RENDERER_KIND_GL, FACET_SEA_STYLE_PHYSICAL, sea, scene);
     facet_scene_destroy(scene);
     facet_sea_destroy(sea);
 }
 
-static void assert_water_alone(facet_renderer_kind kind, const facet_sea *sea, const facet_scene *scene)
-{
-    facet_image *image = NULL;
-    facet_render_desc desc = desc_of(sea, kind);
-    desc.camera = &at_square;
-    desc.sea_shading.style = FACET_SEA_STYLE_LEGACY_WRITTEN;
-    desc.aovs = FACET_AOV_DEPTH | FACET_AOV_OBJECT_ID;
-    done(facet_render(scene, &desc, &image, &failure));
-    const float *depth = layer_of(image, "depth", 1), *object = layer_of(image, "object", 1);
-    for (int i = 0; i < WIDTH * HEIGHT; i++) {
-        assert_true(object[i] == 0.0f || object[i] == 3.0f); /* the model has two nodes */
-        assert_true((object[i] == 0.0f) == (depth[i] > 1e6f));
-    }
-    facet_image_destroy(image);
-}
-
-/* The legacy style draws no model, and its layers have none. */
-static void layers_of_the_legacy_style_are_water(void **state)
+/* The legacy style draws the model in front of its water, and its layers have both. */
+static void layers_of_the_legacy_style_show_water_and_model(void **state)
 {
     (void)state;
     facet_sea *sea = make_sea(0.0f);
     facet_scene *scene = lit_square();
-    assert_water_alone(FACET_RENDERER_KIND_PREVIEW, sea, scene);
+    assert_water_and_model(FACET_RENDERER_KIND_PREVIEW, FACET_SEA_STYLE_LEGACY_WRITTEN, sea, scene);
     if (has_gl())
-        assert_water_alone(FACET_RENDERER_KIND_GL, sea, scene);
+        assert_water_and_model(FACET_RENDERER_KIND_GL, FACET_SEA_STYLE_LEGACY_WRITTEN, sea, scene);
     facet_scene_destroy(scene);
     facet_sea_destroy(sea);
 }
@@ -506,7 +492,7 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_kept_changes_no_image),
                                        cmocka_unit_test(what_is_not_drawn_is_refused_by_name),
                                        cmocka_unit_test(layers_show_water_and_model),
-                                       cmocka_unit_test(layers_of_the_legacy_style_are_water),
+                                       cmocka_unit_test(layers_of_the_legacy_style_show_water_and_model),
                                        cmocka_unit_test(layers_are_those_of_path_tracing),
                                        cmocka_unit_test(punctual_lights_light_the_model),
                                        cmocka_unit_test(models_show_colors_of_opengl1),
