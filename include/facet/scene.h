@@ -125,8 +125,8 @@ FACET_API bool facet_scene_get_bounds(const facet_scene *scene, const facet_pose
  * matrix of the node that an earlier call has put there. Columns as in glTF; the last row is 0 0 0 1. The
  * matrix maps from the world space before the first call; from then on the origin of that space is the
  * origin of the file, and facet_scene_get_origin() is 0. No other thread may use the scene meanwhile.
- * Scenes that were appended stay. FACET_ERROR_ARGUMENT: no such matrix; FACET_ERROR_MEMORY: the scene is
- * unchanged. */
+ * Scenes that were appended stay. FACET_ERROR_ARGUMENT: no such matrix, or the scene belongs to another;
+ * FACET_ERROR_MEMORY: the scene is unchanged. */
 FACET_API facet_result facet_scene_place(facet_scene *scene, const float matrix[16], facet_error *error);
 
 /* Appends all of another scene, which from then on belongs to `scene` and is destroyed with it: a fleet, a
@@ -135,8 +135,8 @@ FACET_API facet_result facet_scene_place(facet_scene *scene, const float matrix[
  * animations of `other` follow those of `scene`, whose indices stay; material variants of the same name are
  * one. Left out are the metadata packets of `other` (KHR_xmp_json_ld), and its image-based light if `scene`
  * has one. Legacy materials stay if both scenes have them in the same color encoding and by the same rules
- * (rgl's, or MTL's). No other thread may use the scenes meanwhile. FACET_ERROR_MEMORY: `other` still belongs
- * to the caller; FACET_ERROR_ARGUMENT: both are the same scene. */
+ * (rgl's, or MTL's). No other thread may use the scenes meanwhile. FACET_ERROR_MEMORY: both are unchanged;
+ * FACET_ERROR_ARGUMENT: both are the same scene, or one of them belongs to another already. */
 FACET_API facet_result facet_scene_append(facet_scene *scene, facet_scene *other, facet_error *error);
 
 /* facet_scene_place() of one part: 0 is what the scene had of itself, then the appended scenes in their order.

@@ -531,6 +531,8 @@ static void appended_models_have_their_own_place(void **state)
     done(facet_scene_place_part(scene, 1, aside, &failure));
     assert_int_equal(facet_scene_place_part(scene, 2, aside, &failure), FACET_ERROR_ARGUMENT);
     assert_int_equal(facet_scene_append(scene, scene, &failure), FACET_ERROR_ARGUMENT);
+    assert_int_equal(facet_scene_append(scene, other, &failure), FACET_ERROR_ARGUMENT);
+    assert_int_equal(facet_scene_append(other, scene, &failure), FACET_ERROR_ARGUMENT);
     assert_int_equal(facet_scene_get_counts(scene).instances, 2 * before.instances);
     assert_true(facet_scene_get_bounds(scene, NULL, low_after, high_after));
     assert_true(fabsf(low_after[0] - low[0]) < 1e-3f && fabsf(high_after[0] - (100.0f + high[0])) < 1e-3f);

@@ -49,7 +49,7 @@ static void set_place(facet_scene *s, uint32_t part, const dmat4 *place)
     s->nodes[s->parts[part].node].matrix = dmat4_multiply(place, &to_world);
 }
 
-/* Makes all of the scene its part 0, where it is. */
+/* Makes all of the scene its part 0, where it is. Arrays are replaced, not changed. */
 static facet_result make_part(facet_scene *s, facet_error *error)
 {
     scene_root roots;
@@ -88,8 +88,16 @@ static facet_result make_part(facet_scene *s, facet_error *error)
     return FACET_OK;
 }
 
+static facet_result check_is_free(const facet_scene *scene, facet_error *error)
+{
+    return scene->is_appended ? fail(error, FACET_ERROR_ARGUMENT,
+                                     "%s: belongs to another scene, to which it was appended", scene->source)
+                              : FACET_OK;
+}
+
 facet_result scene_place(facet_scene *scene, uint32_t part, const float matrix[16], facet_error *error)
 {
+    TRY(check_is_free(scene, error));
     if (!is_affine(matrix))
         return fail(error, FACET_ERROR_ARGUMENT, "%s: a matrix whose last row is 0 0 0 1 was expected",
                     scene->source);
@@ -365,11 +373,14 @@ facet_result scene_append(facet_scene *scene, facet_scene *other, facet_error *e
 {
     if (scene == other)
         return fail(error, FACET_ERROR_ARGUMENT, "%s: a scene cannot be appended to itself", scene->source);
-    if (!scene->part_count)
-        TRY(make_part(scene, error));
-    if (!other->part_count)
-        TRY(make_part(other, error));
-    joining j = {.to = scene, .from = other, .out = *scene};
+    TRY(check_is_free(scene, error));
+    TRY(check_is_free(other, error));
+    facet_scene to = *scene, from = *other; /* both stay as they are where memory is lacking */
+    if (!to.part_count)
+        TRY(make_part(&to, error));
+    if (!from.part_count)
+        TRY(make_part(&from, error));
+    joining j = {.to = &to, .from = &from, .out = to};
     void (*const steps[])(joining *) = {join_textures,   join_meshes, join_nodes, join_animations,
                                         join_extensions, join_legacy, join_scenes};
     for (size_t i = 0; i < sizeof steps / sizeof *steps && !j.lacks_memory; i++)

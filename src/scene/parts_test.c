@@ -224,6 +224,27 @@ static void legacy_materials_need_equal_rules(void **state)
     scene_destroy(a);
 }
 
+static void a_scene_belongs_to_one_other(void **state)
+{
+    (void)state;
+    sample one, two, three;
+    const float there[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 100, 0, 0, 1};
+    facet_scene *a = make(&one, "one", "red"), *b = make(&two, "two", "red"),
+                *c = make(&three, "three", "red");
+    assert_int_equal(scene_append(a, b, NULL), FACET_OK);
+    assert_int_equal(scene_append(b, a, NULL), FACET_ERROR_ARGUMENT); /* each would own the other */
+    assert_int_equal(scene_append(a, b, NULL), FACET_ERROR_ARGUMENT); /* twice */
+    assert_int_equal(scene_append(b, c, NULL), FACET_ERROR_ARGUMENT); /* a would not show it */
+    assert_int_equal(scene_append(c, b, NULL), FACET_ERROR_ARGUMENT);
+    assert_int_equal(scene_place(b, 0, there, NULL), FACET_ERROR_ARGUMENT);
+    assert_int_equal(a->part_count, 2);
+    assert_int_equal(c->part_count, 0);
+    assert_int_equal(scene_append(c, a, NULL), FACET_OK);
+    assert_int_equal(scene_append(b, c, NULL), FACET_ERROR_ARGUMENT); /* a longer circle */
+    assert_int_equal(c->part_count, 3);
+    scene_destroy(c);
+}
+
 /* Whatever allocation fails, both scenes are there as before. */
 static void failures_leave_both_scenes(void **state)
 {
@@ -243,6 +264,10 @@ static void failures_leave_both_scenes(void **state)
         while (arena_alloc(a->arena, 1, 16000) && memory.calls < 4)
             ;
         memory.fail_at = memory.calls + n;
+        b->origin[0] = 1e7;
+        facet_scene before[2];
+        memcpy(&before[0], a, sizeof *a);
+        memcpy(&before[1], b, sizeof *b);
         facet_result result = scene_append(a, b, NULL);
         has_passed = result == FACET_OK;
         memory.fail_at = -1;
@@ -252,6 +277,8 @@ static void failures_leave_both_scenes(void **state)
         scene_pose_destroy(&pose);
         if (!has_passed) {
             assert_int_equal(result, FACET_ERROR_MEMORY);
+            assert_memory_equal(&before[0], a, sizeof *a);
+            assert_memory_equal(&before[1], b, sizeof *b);
             assert_int_equal(scene_pose_create(b, NULL, NULL, 1, &pose, NULL), FACET_OK);
             assert_int_equal(pose.instance_count, 1);
             scene_pose_destroy(&pose);
@@ -268,6 +295,7 @@ int main(void)
         cmocka_unit_test(indices_follow_their_scene),        cmocka_unit_test(variants_are_joined_by_name),
         cmocka_unit_test(animations_move_what_they_did),     cmocka_unit_test(each_part_has_its_place),
         cmocka_unit_test(legacy_materials_need_equal_rules), cmocka_unit_test(failures_leave_both_scenes),
+        cmocka_unit_test(a_scene_belongs_to_one_other),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

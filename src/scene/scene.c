@@ -224,6 +224,7 @@ void scene_keep_scene(facet_scene *scene, facet_scene *other)
     scene_store *store = (scene_store *)scene;
     ((scene_store *)other)->next = store->appended;
     store->appended = other;
+    other->is_appended = true;
     for (uint32_t i = 0; i < other->warning_count; i++)
         scene_warn(scene, &silent, "%s", other->warnings[i]);
     for (uint32_t i = 0; i < other->note_count; i++)
