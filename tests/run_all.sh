@@ -43,6 +43,12 @@ for folder in validator clients; do
 done
 
 configure gcc all -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Release
+# The page for browsers. Its test is skipped without emscripten, or where Debian's sources cannot be downloaded (77).
+if command -v emcc >/dev/null 2>&1; then
+    status=0
+    sh "$here/web/build.sh" "$build/gcc/generated" || status=$?
+    [ "$status" = 0 ] || [ "$status" = 77 ] || exit 1
+fi
 configure clang facet_tested -DCMAKE_C_COMPILER=clang $lld -DCMAKE_BUILD_TYPE=Release -DFACET_TRUTH=OFF -DFACET_BENCH=OFF \
     -DFACET_TEST_LABEL=threads
 # A sanitizer's report needs line numbers only.

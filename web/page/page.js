@@ -1,0 +1,192 @@
+// page.js - the page around facet.wasm: hands over files and events, and asks for a frame when something changed. What is drawn and
+// how the camera moves is C (facet_web.c).
+import createFacet from './facet.js';
+
+const byId = (id) => document.getElementById(id);
+const canvas = byId('view');
+const POINTER = { press: 1, release: 2, move: 3, wheel: 4 }; // view_event_kind
+const KEYS = { ArrowLeft: 256, ArrowRight: 257, ArrowUp: 258, ArrowDown: 259, Enter: 260, Home: 263 }; // view_input.h
+let facet = null;
+let isAsked = false;
+let isLost = false;
+let lastTime = 0;
+
+function showError(text) {
+  byId('error').hidden = !text;
+  byId('error').textContent = text;
+}
+
+// ---- strings and bytes of C ----
+
+function withText(text, use) {
+  const size = 4 * text.length + 1;
+  const at = facet._malloc(size);
+  facet.stringToUTF8(text, at, size);
+  try {
+    return use(at);
+  } finally {
+    facet._free(at);
+  }
+}
+
+const lastError = () => facet.UTF8ToString(facet._facet_web_error());
+const lastMessage = () => facet.UTF8ToString(facet._facet_web_message());
+
+// ---- frames ----
+
+// In pixels of the screen: the canvas is as sharp as the display.
+function fitCanvas() {
+  const scale = window.devicePixelRatio || 1;
+  const width = Math.max(1, Math.round(canvas.clientWidth * scale));
+  const height = Math.max(1, Math.round(canvas.clientHeight * scale));
+  if (canvas.width !== width || canvas.height !== height) {
+    canvas.width = width;
+    canvas.height = height;
+  }
+}
+
+function draw(seconds = 0) {
+  fitCanvas();
+  if (isLost) return false;
+  const failed = facet._facet_web_draw(canvas.width, canvas.height, seconds) !== 0;
+  if (failed) showError(lastError());
+  return !failed;
+}
+
+function askForFrame() {
+  if (isAsked || isLost || !facet) return;
+  isAsked = true;
+  requestAnimationFrame((time) => {
+    isAsked = false;
+    if (isLost) return;
+    const isPlaying = facet._facet_web_is_playing() !== 0;
+    draw(isPlaying && lastTime ? (time - lastTime) / 1000 : 0);
+    lastTime = isPlaying ? time : 0;
+    if (isPlaying) askForFrame();
+  });
+}
+
+// ---- models ----
+
+// bytes null: the built-in scene. True: it is shown; else the last model stays, and the page says why.
+function load(bytes, name) {
+  showError('');
+  let at = 0;
+  if (bytes) {
+    at = facet._malloc(bytes.length);
+    if (!at) {
+      showError(`${name}: there is no memory for ${bytes.length} bytes`);
+      return false;
+    }
+    facet.HEAPU8.set(bytes, at);
+  }
+  const failed = withText(name, (text) => facet._facet_web_load(at, bytes ? bytes.length : 0, text)) !== 0;
+  if (at) facet._free(at);
+  if (failed) {
+    showError(lastError());
+    return false;
+  }
+  canvas.setAttribute('aria-label', bytes ? name : 'The built-in scene: spheres of different roughness and materials');
+  const isDrawn = draw();
+  byId('status').textContent = lastMessage();
+  return isDrawn;
+}
+
+async function loadFile(file) {
+  return load(new Uint8Array(await file.arrayBuffer()), file.name);
+}
+
+// ---- events ----
+
+const modifiersOf = (event) => (event.shiftKey ? 1 : 0) | (event.ctrlKey ? 2 : 0) | (event.altKey ? 4 : 0);
+
+function point(kind, event, x, y, button = 0) {
+  if (facet && facet._facet_web_point(kind, button, modifiersOf(event), x, y)) askForFrame();
+}
+
+function pointAt(kind, event) {
+  const scale = window.devicePixelRatio || 1;
+  const button = event.button === 2 ? 1 : event.button === 1 ? 2 : 0; // view_button
+  point(kind, event, event.offsetX * scale, event.offsetY * scale, button);
+}
+
+// The last image stays until the browser gives the context back.
+function listenForLoss() {
+  canvas.addEventListener('webglcontextlost', (event) => {
+    event.preventDefault();
+    isLost = true;
+    facet._facet_web_lose();
+  });
+  canvas.addEventListener('webglcontextrestored', () => {
+    isLost = false;
+    if (facet._facet_web_restore() !== 0) showError(lastError());
+    else askForFrame();
+  });
+}
+
+function listen() {
+  canvas.addEventListener('pointerdown', (event) => {
+    canvas.setPointerCapture(event.pointerId);
+    pointAt(POINTER.press, event);
+  });
+  canvas.addEventListener('pointermove', (event) => pointAt(POINTER.move, event));
+  canvas.addEventListener('pointerup', (event) => pointAt(POINTER.release, event));
+  canvas.addEventListener('pointercancel', (event) => pointAt(POINTER.release, event));
+  canvas.addEventListener('contextmenu', (event) => event.preventDefault());
+  canvas.addEventListener('wheel', (event) => {
+    event.preventDefault();
+    point(POINTER.wheel, event, 0, -Math.sign(event.deltaY));
+  }, { passive: false });
+  canvas.addEventListener('keydown', (event) => {
+    const key = KEYS[event.key] ?? (event.key.length === 1 ? event.key.toUpperCase().codePointAt(0) : 0);
+    if (!key || event.ctrlKey || event.metaKey || !facet._facet_web_key(key, modifiersOf(event))) return;
+    event.preventDefault();
+    byId('status').textContent = lastMessage();
+    askForFrame();
+  });
+  window.addEventListener('dragover', (event) => event.preventDefault());
+  window.addEventListener('drop', (event) => {
+    event.preventDefault();
+    if (event.dataTransfer.files.length) loadFile(event.dataTransfer.files[0]);
+  });
+  new ResizeObserver(askForFrame).observe(canvas);
+}
+
+function set(name, value) {
+  withText(name, (text) => facet._facet_web_set(text, value));
+  askForFrame();
+}
+
+function connectControls() {
+  byId('file').addEventListener('change', (event) => event.target.files.length && loadFile(event.target.files[0]));
+  byId('exposure').addEventListener('input', (event) => {
+    byId('exposure-value').textContent = `${event.target.value} stops`;
+    set('exposure', Number(event.target.value));
+  });
+  byId('rotation').addEventListener('input', (event) => {
+    byId('rotation-value').textContent = `${event.target.value}°`;
+    set('rotation', (Number(event.target.value) * Math.PI) / 180);
+  });
+  byId('tonemap').addEventListener('change', (event) => set('tonemap', Number(event.target.value)));
+  byId('background').addEventListener('change', (event) => set('background', event.target.checked ? 2 : 0));
+}
+
+// ---- start ----
+
+async function start() {
+  facet = await createFacet();
+  facet.specialHTMLTargets['!view'] = canvas;
+  if (withText('!view', (text) => facet._facet_web_start(text)) !== 0) {
+    showError(lastError());
+    return;
+  }
+  listen();
+  listenForLoss();
+  connectControls();
+  byId('status').textContent = '';
+  load(null, 'built-in scene');
+}
+
+// For tests and for scripts of the page: ready is fulfilled when the first image is there.
+window.facetPage = { ready: start(), load, draw, get canvas() { return canvas; } };
+window.facetPage.ready.catch((error) => showError(`facet could not start: ${error.message}`));
