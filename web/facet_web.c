@@ -108,6 +108,23 @@ EMSCRIPTEN_KEEPALIVE int facet_web_load(const void *bytes, size_t size, const ch
     return result;
 }
 
+/* A panorama or cube map as light, of any format that facet reads. bytes NULL: the built-in studio. Where it fails the last
+ * light stays. */
+EMSCRIPTEN_KEEPALIVE int facet_web_light(const void *bytes, size_t size, const char *name)
+{
+    const facet_environment_desc desc = {.log = page_log};
+    facet_environment *environment;
+    page.message[0] = 0;
+    facet_result result =
+        bytes ? facet_environment_load_memory(bytes, size, name, &desc, &environment, &page.error)
+              : facet_environment_create_studio(&desc, &environment, &page.error);
+    if (result != FACET_OK)
+        return result;
+    facet_environment_destroy(page.environment);
+    page.environment = environment;
+    return FACET_OK;
+}
+
 /* The browser has taken the context away. The scene stays; objects of OpenGL are released now, because those of the
  * old context are errors in the new one. */
 EMSCRIPTEN_KEEPALIVE void facet_web_lose(void)

@@ -66,7 +66,7 @@ function glass_model() {
     });
 }
 
-const served = await serve_page('/index.html', (url) => path.join(dist, url));
+const served = await serve_page('/a/folder/index.html', (url) => path.join(dist, url.replace('/a/folder/', '')));
 const { page, messages } = served;
 try {
     // Without WebGL 2 everything below would be blank: fail, whatever the reason.
@@ -143,6 +143,27 @@ try {
     assert.ok(await page.evaluate(() => !document.getElementById('error').hidden));
     assert.deepEqual(await image(), before, 'a broken model changed the image');
 
+    // Light from a file: a panorama that is blue everywhere, then the studio again.
+    const blue = Buffer.concat([Buffer.from('#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n'), Buffer.alloc(4 * 32)]);
+    for (let i = blue.length - 4 * 32; i < blue.length; i += 4) blue.writeUInt32BE(0x00008081, i);
+    assert.ok(await page.evaluate((text) => window.facetPage.loadLight(Uint8Array.from(atob(text), (c) => c.charCodeAt(0)), 'blue.hdr'),
+        blue.toString('base64')), await error());
+    assert.notDeepEqual(await image(), before, 'the light of a file changed nothing');
+    assert.ok(await page.evaluate(() => window.facetPage.loadLight(null, 'studio')));
+    assert.deepEqual(await image(), before);
+
+    // Loading again and again takes no more memory.
+    const [early, late] = await page.evaluate((text) => {
+        const bytes = new TextEncoder().encode(text), sizes = [];
+        for (let i = 0; i < 12; i++) {
+            window.facetPage.load(bytes, 'glass.gltf');
+            sizes.push(window.facetPage.memory());
+        }
+        return [sizes[3], sizes[11]];
+    }, glass_model());
+    assert.equal(late, early, 'memory grows from model to model');
+    assert.deepEqual(await image(), before);
+
     // The pointer and the keyboard turn the camera.
     const box = await page.locator('#view').boundingBox();
     await page.mouse.move(box.x + 100, box.y + 100);
@@ -185,6 +206,9 @@ try {
     await page.locator('#file').setInputFiles({ name: 'empty.glb', mimeType: 'model/gltf-binary', buffer: Buffer.alloc(0) });
     await page.waitForFunction(() => document.getElementById('error').textContent.includes('empty.glb'));
 
+    const elsewhere = await page.evaluate(() => performance.getEntriesByType('resource').map((entry) => entry.name)
+        .filter((name) => !name.startsWith(`${location.origin}/a/folder/`)));
+    assert.deepEqual(elsewhere, [], 'the page asks for files outside of its folder');
     const said = messages.filter((text) => !/GPU stall|WebGL: CONTEXT_LOST/.test(text));
     assert.deepEqual(said, [], 'the page said something in the console');
     console.log('web: as facet render --renderer gl');

@@ -68,32 +68,41 @@ function askForFrame() {
 
 // ---- models ----
 
-// bytes null: the built-in scene. True: it is shown; else the last model stays, and the page says why.
-function load(bytes, name) {
+// Hands bytes to a function of C that takes (bytes, size, name). True: it succeeded; else the page says why.
+function hand(read, bytes, name) {
   showError('');
   let at = 0;
   if (bytes) {
-    at = facet._malloc(bytes.length);
+    at = facet._malloc(bytes.length || 1);
     if (!at) {
       showError(`${name}: there is no memory for ${bytes.length} bytes`);
       return false;
     }
     facet.HEAPU8.set(bytes, at);
   }
-  const failed = withText(name, (text) => facet._facet_web_load(at, bytes ? bytes.length : 0, text)) !== 0;
+  const failed = withText(name, (text) => read(at, bytes ? bytes.length : 0, text)) !== 0;
   if (at) facet._free(at);
-  if (failed) {
-    showError(lastError());
-    return false;
-  }
+  if (failed) showError(lastError());
+  return !failed;
+}
+
+// bytes null: the built-in scene. True: it is shown; else the last model stays.
+function load(bytes, name) {
+  if (!hand(facet._facet_web_load, bytes, name)) return false;
   canvas.setAttribute('aria-label', bytes ? name : 'The built-in scene: spheres of different roughness and materials');
   const isDrawn = draw();
   byId('status').textContent = lastMessage();
   return isDrawn;
 }
 
+// bytes null: the built-in studio.
+function loadLight(bytes, name) {
+  return hand(facet._facet_web_light, bytes, name) && draw();
+}
+
 async function loadFile(file) {
-  return load(new Uint8Array(await file.arrayBuffer()), file.name);
+  const bytes = new Uint8Array(await file.arrayBuffer());
+  return (/\.(hdr|ktx2|png|jpe?g)$/i.test(file.name) ? loadLight : load)(bytes, file.name);
 }
 
 // ---- events ----
@@ -188,5 +197,5 @@ async function start() {
 }
 
 // For tests and for scripts of the page: ready is fulfilled when the first image is there.
-window.facetPage = { ready: start(), load, draw, get canvas() { return canvas; } };
+window.facetPage = { ready: start(), load, loadLight, draw, memory: () => facet.HEAPU8.length, get canvas() { return canvas; } };
 window.facetPage.ready.catch((error) => showError(`facet could not start: ${error.message}`));
