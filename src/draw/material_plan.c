@@ -167,11 +167,12 @@ bool material_plan_drops_occlusion(const scene_material *m, bool lacks_red)
 
 void material_plan_warn_occlusion(const facet_scene *scene, uint32_t material, const facet_log *log)
 {
+    const scene_address at = scene_get_address(scene, SCENE_ITEM_MATERIAL, material);
     log_warning(log,
                 "%s: the occlusion texture of material %u is black throughout: environment light does not "
                 "reach it, so "
                 "the texture is left out",
-                scene->source, material);
+                at.source, at.number);
 }
 
 void material_plans_destroy(material_plan_set *plans)

@@ -94,10 +94,11 @@ void texture_store_destroy(texture_store *store)
 static void name_image(const facet_scene *scene, uint32_t index, char *text, size_t size)
 {
     const char *name = scene->images[index].name;
+    const scene_address at = scene_get_address(scene, SCENE_ITEM_IMAGE, index);
     if (name && name[0])
-        snprintf(text, size, "%s: image %u \"%s\"", scene->source, index, name);
+        snprintf(text, size, "%s: image %u \"%s\"", at.source, at.number, name);
     else
-        snprintf(text, size, "%s: image %u", scene->source, index);
+        snprintf(text, size, "%s: image %u", at.source, at.number);
 }
 
 /* The reduction that the decoder chose: full and decoded sizes differ by a power of two. False: they do not. */

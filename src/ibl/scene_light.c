@@ -63,7 +63,8 @@ static facet_result find_faces(const facet_scene *scene, const scene_image_light
         const scene_image *source = index < scene->image_count ? &scene->images[index] : NULL;
         snprintf(names->names[face], sizeof names->names[face], "%s: face %s", place, cube_face_names[face]);
         if (!source || !source->bytes)
-            return fail(error, FACET_ERROR_READ, "%s: image %u cannot be read", names->names[face], index);
+            return fail(error, FACET_ERROR_READ, "%s: image %u cannot be read", names->names[face],
+                        scene_get_address(scene, SCENE_ITEM_IMAGE, index).number);
         faces[face] = (cube_face){.bytes = source->bytes, .size = source->size, .name = names->names[face]};
     }
     return FACET_OK;
@@ -123,7 +124,8 @@ static facet_result scene_cube_decode(const facet_scene *scene, uint32_t index,
 {
     *out = (scene_cube){0};
     char place[400];
-    snprintf(place, sizeof place, "%.300s: EXT_lights_image_based: light %u", scene->source, index);
+    const scene_address at = scene_get_address(scene, SCENE_ITEM_IMAGE_LIGHT, index);
+    snprintf(place, sizeof place, "%.300s: EXT_lights_image_based: light %u", at.source, at.number);
     const scene_image_light *light = &scene->image_lights[index];
     if (light->mip_count == 0)
         return fail(error, FACET_ERROR_INVALID, "%s: there are no images", place);

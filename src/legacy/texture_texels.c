@@ -16,8 +16,9 @@ static facet_result decode(const facet_scene *scene, uint32_t index, uint32_t ma
 {
     const scene_image *source = &scene->images[index];
     *out = (image){0};
+    const scene_address at = scene_get_address(scene, SCENE_ITEM_IMAGE, index);
     if (!source->bytes)
-        return fail(error, FACET_ERROR_READ, "%s: image %u cannot be read", scene->source, index);
+        return fail(error, FACET_ERROR_READ, "%s: image %u cannot be read", at.source, at.number);
     image_decode_desc desc = {.allocator = scene->allocator,
                               .thread_count = thread_count,
                               .max_size = scene->max_texture_size,

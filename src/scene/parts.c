@@ -79,7 +79,8 @@ static facet_result make_part(facet_scene *s, facet_error *error)
     s->node_count++;
     s->scenes = scenes;
     s->scene_count += s->scene_count == 0;
-    *part = (scene_part){own, {s->origin[0], s->origin[1], s->origin[2]}};
+    *part = (scene_part){.node = own, .source = s->source};
+    memcpy(part->origin, s->origin, sizeof part->origin);
     s->parts = part;
     s->part_count = 1;
     memset(s->origin, 0, sizeof s->origin);
@@ -111,6 +112,17 @@ facet_result scene_place(facet_scene *scene, uint32_t part, const float matrix[1
         place.m[i] = (double)matrix[i];
     set_place(scene, part, &place);
     return FACET_OK;
+}
+
+scene_address scene_get_address(const facet_scene *scene, scene_item item, uint32_t index)
+{
+    uint32_t i = scene->part_count;
+    while (i > 0 && scene->parts[i - 1].first[item] > index)
+        i--;
+    if (i == 0)
+        return (scene_address){scene->source, index};
+    const scene_part *part = &scene->parts[i - 1];
+    return (scene_address){part->source, index - part->first[item]};
 }
 
 /* ---- appending ---- */
@@ -318,8 +330,37 @@ static void join_scenes(joining *j)
         to->image_light = from->image_light;
     memmove(from, from + 1, (j->out.scene_count - merged - 1) * sizeof *from);
     j->out.scene_count--;
+}
+
+/* The files of the first parts, each once, and the index of each part's first items. */
+static void join_parts(joining *j)
+{
     JOIN(j, parts, part_count, i)
-    j->out.parts[i].node += j->to->node_count;
+    {
+        scene_part *part = &j->out.parts[i];
+        part->node += j->to->node_count;
+        part->first[SCENE_ITEM_IMAGE] += j->to->image_count;
+        part->first[SCENE_ITEM_MATERIAL] += j->to->material_count;
+        part->first[SCENE_ITEM_IMAGE_LIGHT] += j->to->image_light_count;
+    }
+    enum { NAMED = 3 };
+    const char *names[NAMED + 1];
+    uint32_t count = 0;
+    size_t size = sizeof ", ...";
+    for (uint32_t i = 0; !j->lacks_memory && i < j->out.part_count && count <= NAMED; i++) {
+        const char *source = j->out.parts[i].source;
+        uint32_t k = 0;
+        while (k < count && strcmp(names[k], source) != 0)
+            k++;
+        if (k == count) {
+            names[count++] = source;
+            size += strlen(source) + 2;
+        }
+    }
+    char *text = new_array(j, size, 1);
+    for (uint32_t i = 0, at = 0; text && i < count; i++)
+        at += (uint32_t)snprintf(text + at, size - at, "%s%s", i ? ", " : "", i < NAMED ? names[i] : "...");
+    j->out.source = text;
 }
 
 static void join_extensions(joining *j)
@@ -381,8 +422,8 @@ facet_result scene_append(facet_scene *scene, facet_scene *other, facet_error *e
     if (!from.part_count)
         TRY(make_part(&from, error));
     joining j = {.to = &to, .from = &from, .out = to};
-    void (*const steps[])(joining *) = {join_textures,   join_meshes, join_nodes, join_animations,
-                                        join_extensions, join_legacy, join_scenes};
+    void (*const steps[])(joining *) = {join_textures,   join_meshes, join_nodes,  join_animations,
+                                        join_extensions, join_legacy, join_scenes, join_parts};
     for (size_t i = 0; i < sizeof steps / sizeof *steps && !j.lacks_memory; i++)
         steps[i](&j);
     if (j.lacks_memory)

@@ -224,6 +224,43 @@ static void legacy_materials_need_equal_rules(void **state)
     scene_destroy(a);
 }
 
+static void check_address(const facet_scene *scene, scene_item item, uint32_t index, const char *source,
+                          uint32_t number)
+{
+    const scene_address at = scene_get_address(scene, item, index);
+    assert_string_equal(at.source, source);
+    assert_int_equal(at.number, number);
+}
+
+static void messages_name_the_file_of_the_part(void **state)
+{
+    (void)state;
+    sample samples[5];
+    facet_scene *s[5];
+    const char *names[5] = {"a.glb", "b.glb", "c.glb", "b.glb", "d.glb"};
+    for (int i = 0; i < 5; i++) {
+        s[i] = make(&samples[i], names[i], "red");
+        s[i]->source = names[i];
+    }
+    check_address(s[0], SCENE_ITEM_IMAGE, 1, "a.glb", 1);
+    s[0]->image_count = 0;
+    assert_int_equal(scene_append(s[0], s[1], NULL), FACET_OK);
+    assert_string_equal(s[0]->source, "a.glb, b.glb");
+    assert_int_equal(scene_append(s[2], s[0], NULL), FACET_OK);
+    assert_string_equal(s[2]->source, "c.glb, a.glb, b.glb");
+    assert_int_equal(scene_append(s[2], s[3], NULL), FACET_OK);
+    assert_string_equal(s[2]->source, "c.glb, a.glb, b.glb");
+    assert_int_equal(scene_append(s[2], s[4], NULL), FACET_OK);
+    assert_string_equal(s[2]->source, "c.glb, a.glb, b.glb, ...");
+    check_address(s[2], SCENE_ITEM_IMAGE, 1, "c.glb", 1);
+    check_address(s[2], SCENE_ITEM_IMAGE, 2, "b.glb", 0); /* a.glb has none */
+    check_address(s[2], SCENE_ITEM_IMAGE, 7, "d.glb", 1);
+    check_address(s[2], SCENE_ITEM_MATERIAL, 3, "a.glb", 1);
+    check_address(s[2], SCENE_ITEM_MATERIAL, 4, "b.glb", 0);
+    check_address(s[2], SCENE_ITEM_IMAGE_LIGHT, 4, "d.glb", 0);
+    scene_destroy(s[2]);
+}
+
 static void a_scene_belongs_to_one_other(void **state)
 {
     (void)state;
@@ -292,10 +329,14 @@ static void failures_leave_both_scenes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(indices_follow_their_scene),        cmocka_unit_test(variants_are_joined_by_name),
-        cmocka_unit_test(animations_move_what_they_did),     cmocka_unit_test(each_part_has_its_place),
-        cmocka_unit_test(legacy_materials_need_equal_rules), cmocka_unit_test(failures_leave_both_scenes),
+        cmocka_unit_test(indices_follow_their_scene),
+        cmocka_unit_test(variants_are_joined_by_name),
+        cmocka_unit_test(animations_move_what_they_did),
+        cmocka_unit_test(each_part_has_its_place),
+        cmocka_unit_test(legacy_materials_need_equal_rules),
+        cmocka_unit_test(failures_leave_both_scenes),
         cmocka_unit_test(a_scene_belongs_to_one_other),
+        cmocka_unit_test(messages_name_the_file_of_the_part),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -340,16 +340,26 @@ typedef struct scene_extension {
     scene_support support;
 } scene_extension;
 
+/* What messages name by the number that it has in its file. */
+typedef enum scene_item {
+    SCENE_ITEM_IMAGE,
+    SCENE_ITEM_MATERIAL,
+    SCENE_ITEM_IMAGE_LIGHT,
+    SCENE_ITEM_COUNT
+} scene_item;
+
 /* What facet_scene_place() moves: a root of the default scene. */
 typedef struct scene_part {
     uint32_t node;
-    double origin[3]; /* the part's origin before it was placed */
+    double origin[3];                 /* the part's origin before it was placed */
+    const char *source;               /* the file that it was loaded from, for messages */
+    uint32_t first[SCENE_ITEM_COUNT]; /* index in the scene of what has the number 0 in that file */
 } scene_part;
 
 typedef struct facet_scene {
     facet_allocator allocator;
     arena *arena;
-    const char *source;    /* the path or name of the file, for messages */
+    const char *source;    /* the path or name of the file, for messages; of several parts: of the files */
     const char *generator; /* asset.generator, asset.version, asset.copyright; "" */
     const char *version;
     const char *copyright;
@@ -413,6 +423,13 @@ void scene_note(facet_scene *scene, const facet_log *log, const char *format, ..
     __attribute__((format(printf, 3, 4)));
 /* Looks up scene->materials[index], or the default material for SCENE_NONE. */
 const scene_material *scene_get_material(const facet_scene *scene, uint32_t index);
+
+/* The file that an item is of, and its number there: for messages. */
+typedef struct scene_address {
+    const char *source;
+    uint32_t number;
+} scene_address;
+scene_address scene_get_address(const facet_scene *scene, scene_item item, uint32_t index);
 
 /* facet_scene_place_part(), facet_scene_append(). */
 facet_result scene_place(facet_scene *scene, uint32_t part, const float matrix[16], facet_error *error);

@@ -225,6 +225,17 @@ expect 0 ocean $small --with boat.gltf@0,-8 --with boat.gltf@0,0 --camera 1 -o b
 cmp -s a.png b.png && failed "the camera of the second model is that of the first"
 expect 2 ocean $small --with boat.gltf --camera Keel -o b.png
 says 'there is no camera "Keel"'
+# Messages name the file of the model.
+sed 's/"meshes":\[{"primitives":\[{/"images":[{"uri":"data:image\/png;base64,iVBORw0KGgo="}],"textures":[{"source":0}],'\
+'"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],&"material":0,/' boat.gltf >painted.gltf
+sed 's/"Hero"/"Bow"/' boat.gltf >eye.gltf
+expect 0 ocean $small --with boat.gltf@0,-20 --with painted.gltf@0,-20 --heading 180 -o b.png
+says "painted.gltf: image 0"
+expect 0 ocean $small --with painted.gltf@0,-20 --with painted.gltf@0,-20 --heading 180 -o b.png
+says "painted.gltf: image 0"
+grep -q "image 1" err && failed "an image has the number of another file"
+expect 2 ocean $small --with boat.gltf --with eye.gltf --camera 7 -o b.png
+says 'boat.gltf, eye.gltf: there is no camera "7"; there are 0 "Hero", 1 "Bow"'
 # Layers
 expect 0 ocean $small --with boat.gltf --aov depth,object -o a.exr
 grep -q 'object.id' a.exr || failed "no layer of objects"

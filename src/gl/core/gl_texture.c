@@ -198,9 +198,10 @@ static void warn_reduced(const gl_texture_set *set, const texture_want *want, co
                          const facet_log *log)
 {
     const texture_level *l = &p->levels[want->first_level];
+    const scene_address at = scene_get_address(set->scene, SCENE_ITEM_IMAGE, want->image);
     log_warning(log, "%s: image %u: %u x %u texels exceed OpenGL's maximum of %d; it is drawn with %u x %u",
-                set->scene->source, want->image, p->width, p->height, set->context->max_texture_size,
-                l->width, l->height);
+                at.source, at.number, p->width, p->height, set->context->max_texture_size, l->width,
+                l->height);
 }
 
 static facet_result upload_want(gl_texture_set *set, const texture_want *want, const facet_log *log,

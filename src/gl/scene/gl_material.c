@@ -304,13 +304,14 @@ static void warn_lost(gl_material_set *set, const gl_batch *batch, const facet_l
     if (!lost || item->is_reported)
         return;
     item->is_reported = true;
+    const scene_address at =
+        scene_get_address(set->scene, SCENE_ITEM_MATERIAL, batch->geometry->material_id - 1);
     for (int slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++)
         if (lost >> slot & 1)
             log_warning(
                 log, "%s: material %u \"%s\": more textures than OpenGL's %d units: it is drawn without %s",
-                set->scene->source, batch->geometry->material_id - 1,
-                batch->geometry->material->name ? batch->geometry->material->name : "", GL_MATERIAL_UNITS,
-                material_textures[slot].key);
+                at.source, at.number, batch->geometry->material->name ? batch->geometry->material->name : "",
+                GL_MATERIAL_UNITS, material_textures[slot].key);
 }
 
 typedef void batch_function(gl_material_set *set, const gl_batch *batch);
