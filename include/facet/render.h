@@ -311,9 +311,10 @@ FACET_API facet_result facet_render(const facet_scene *scene, const facet_render
 
 /* Renders several images of one scene, such as frames and views. What they share (textures, tangents, BVHs
  * of what does not move, OpenGL objects) is kept. Each image equals that of facet_render() to the last
- * bit. The scene must outlive the renderer; one image at a time. allocator NULL: {0}; that of a desc
- * serves its image only. scene NULL: for descs with a sea, whose sky and foam are kept; a scene in a sea
- * may be placed anew between images. */
+ * bit. The scene must outlive the renderer; one image at a time. Between images the scene may change
+ * (facet_scene_append(), facet_scene_place_part(), ..): a new place costs what a frame of an animation does,
+ * other changes prepare the whole scene anew. allocator NULL: {0}; that of a desc serves its image only.
+ * scene NULL: for descs with a sea, whose sky and foam are kept. */
 FACET_API facet_result facet_renderer_create(const facet_scene *scene, const facet_allocator *allocator,
                                              facet_renderer **renderer, facet_error *error);
 FACET_API facet_result facet_renderer_render(facet_renderer *renderer, const facet_render_desc *desc,

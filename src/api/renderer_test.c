@@ -200,6 +200,49 @@ static void a_renderer_fits_into_a_budget_or_fails(void **state)
     fail_msg("200 MB are not enough for the built-in scene");
 }
 
+/* Between images parts move, and scenes are appended and converted; the last change comes before the end. */
+static void scenes_change_between_images(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind <= FACET_RENDERER_KIND_GL; kind++) {
+        facet_scene *scene, *other;
+        facet_renderer *renderer;
+        facet_image *first;
+        facet_error error;
+        float matrix[16] = {[0] = 1, [5] = 1, [10] = 1, [15] = 1, [12] = 0.5f};
+        const facet_render_desc desc = {.width = 40,
+                                        .height = 30,
+                                        .samples = 1,
+                                        .renderer = (facet_renderer_kind)kind,
+                                        .sun = {.elevation_rad = 1, .illuminance_lux = {3, 3, 3}},
+                                        .aovs = FACET_AOV_DEPTH};
+        assert_int_equal(facet_scene_create_builtin(NULL, &scene, NULL), FACET_OK);
+        assert_int_equal(facet_renderer_create(scene, NULL, &renderer, NULL), FACET_OK);
+        facet_result result = facet_renderer_render(renderer, &desc, &first, &error);
+        facet_image_destroy(first);
+        bool is_there = result != FACET_ERROR_SYSTEM || kind != FACET_RENDERER_KIND_GL;
+        if (!is_there)
+            print_message("OpenGL: skipped: %s\n", error.message);
+        for (int i = 0; i < 3 && is_there; i++) {
+            assert_int_equal(facet_scene_create_builtin(NULL, &other, NULL), FACET_OK);
+            assert_int_equal(facet_scene_append(scene, other, NULL), FACET_OK);
+            if (i == 2) /* the renderer is destroyed with what it has made of less */
+                break;
+            compare(scene, renderer, &desc);
+            matrix[13] += 1.5f;
+            assert_int_equal(facet_scene_place_part(scene, 1, matrix, NULL), FACET_OK);
+            compare(scene, renderer, &desc);
+            assert_int_equal(
+                facet_scene_convert_materials(scene, FACET_MATERIAL_MODEL_OGL1, NULL, NULL, NULL), FACET_OK);
+            compare(scene, renderer, &desc);
+            assert_int_equal(facet_scene_choose_origin(scene, NULL, NULL), FACET_OK);
+            compare(scene, renderer, &desc);
+        }
+        facet_renderer_destroy(renderer);
+        facet_scene_destroy(scene);
+    }
+}
+
 static bool refuse(void *user, const char *stage, double fraction)
 {
     (void)user;
@@ -267,6 +310,7 @@ int main(void)
         cmocka_unit_test(a_turntable_of_the_builtin_scene),
         cmocka_unit_test(the_meter_follows_the_light),
         cmocka_unit_test(animations_of_models),
+        cmocka_unit_test(scenes_change_between_images),
         cmocka_unit_test(a_renderer_fits_into_a_budget_or_fails),
         cmocka_unit_test(after_a_cancelled_image_others_follow),
         cmocka_unit_test(a_cancelled_path_trace_is_partial),

@@ -141,6 +141,39 @@ static void what_is_kept_changes_no_image(void **state)
     facet_sea_destroy(seas[1]);
 }
 
+/* By turns in a sea and without one; each renderer sees the scene as it is. */
+static void scenes_change_between_images(void **state)
+{
+    (void)state;
+    facet_sea *sea = make_sea(9.0f);
+    for (int kind = 0; kind <= FACET_RENDERER_KIND_GL; kind++) {
+        if (kind == FACET_RENDERER_KIND_GL && !has_gl())
+            continue;
+        float matrix[16] = {[0] = 1, [5] = 1, [10] = 1, [15] = 1};
+        facet_scene *scene = lit_square();
+        facet_renderer *renderer = NULL;
+        done(facet_renderer_create(scene, NULL, &renderer, &failure));
+        for (int i = 0; i < 6; i++) {
+            facet_render_desc desc = desc_of(sea, (facet_renderer_kind)kind);
+            facet_image *kept = NULL, *fresh = NULL;
+            desc.camera = &at_square;
+            desc.sea = i % 2 ? NULL : sea;
+            done(facet_renderer_render(renderer, &desc, &kept, &failure));
+            done(facet_render(scene, &desc, &fresh, &failure));
+            assert_same(kept, fresh);
+            facet_image_destroy(kept);
+            facet_image_destroy(fresh);
+            matrix[12] += 0.2f;
+            if (i == 2)
+                done(facet_scene_append(scene, lit_square(), &failure));
+            done(facet_scene_place_part(scene, i > 2, matrix, &failure));
+        }
+        facet_renderer_destroy(renderer);
+        facet_scene_destroy(scene);
+    }
+    facet_sea_destroy(sea);
+}
+
 static void what_is_not_drawn_is_refused_by_name(void **state)
 {
     (void)state;
@@ -490,6 +523,7 @@ static void a_default_camera_that_misses_the_model_warns_once(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_kept_changes_no_image),
+                                       cmocka_unit_test(scenes_change_between_images),
                                        cmocka_unit_test(what_is_not_drawn_is_refused_by_name),
                                        cmocka_unit_test(layers_show_water_and_model),
                                        cmocka_unit_test(layers_of_the_legacy_style_show_water_and_model),

@@ -12,6 +12,7 @@ void prepared_scene_init(prepared_scene *p, const facet_scene *scene, const face
 {
     memset(p, 0, sizeof *p);
     p->scene = scene;
+    p->content_revision = scene ? scene->content_revision : 0;
     p->allocator = allocator ? *allocator : (facet_allocator){0};
     p->default_legacy = legacy_material_default();
 }
@@ -32,16 +33,27 @@ void prepared_scene_clear(prepared_scene *p)
 
 /* ---- the pose ---- */
 
+/* Drops what was made of the scene before it changed. */
+static void follow_content(prepared_scene *p)
+{
+    bool has_warned = p->has_warned_occlusion;
+    if (p->content_revision == p->scene->content_revision)
+        return;
+    prepared_scene_clear(p);
+    p->has_warned_occlusion = has_warned;
+}
+
 facet_result prepared_scene_pose(prepared_scene *p, const facet_render_desc *desc, facet_error *error)
 {
-    if (pose_key_matches(&p->key, &desc->pose))
+    follow_content(p);
+    if (pose_key_matches(&p->key, p->scene, &desc->pose))
         return FACET_OK;
     scene_pose pose;
     facet_result result =
         scene_pose_create(p->scene, &desc->pose, &p->allocator, desc->thread_count, &pose, error);
     if (result != FACET_OK)
         return result;
-    if (!pose_key_set(&p->key, &desc->pose, &p->allocator)) {
+    if (!pose_key_set(&p->key, p->scene, &desc->pose, &p->allocator)) {
         scene_pose_destroy(&pose);
         return fail_memory(error, "animations", desc->pose.animation_count * sizeof *p->key.animations);
     }

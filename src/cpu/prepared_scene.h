@@ -20,6 +20,7 @@ struct texture_store; /* draw/texture_store.h */
 /* Stays where it is between init and clear: Embree keeps its address. */
 typedef struct prepared_scene {
     const facet_scene *scene;
+    uint64_t content_revision; /* of the scene that everything here is of */
     facet_allocator allocator;
     bool has_geometry, has_tangents;
     pose_key key; /* of pose */

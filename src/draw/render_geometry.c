@@ -341,10 +341,11 @@ void render_geometry_adopt(render_geometry_set *set, render_geometry_set *old, r
 
 /* ---- pose keys ---- */
 
-bool pose_key_matches(const pose_key *key, const facet_pose_desc *desc)
+bool pose_key_matches(const pose_key *key, const facet_scene *scene, const facet_pose_desc *desc)
 {
     const facet_pose_desc *a = &key->desc;
-    if (!key->is_set || a->has_scene_index != desc->has_scene_index || a->has_variant != desc->has_variant ||
+    if (!key->is_set || key->place_revision != scene->place_revision ||
+        a->has_scene_index != desc->has_scene_index || a->has_variant != desc->has_variant ||
         a->animation_count != desc->animation_count)
         return false;
     if ((a->has_scene_index && a->scene_index != desc->scene_index) ||
@@ -356,7 +357,8 @@ bool pose_key_matches(const pose_key *key, const facet_pose_desc *desc)
            memcmp(a->animations, desc->animations, a->animation_count * sizeof *a->animations) == 0;
 }
 
-bool pose_key_set(pose_key *key, const facet_pose_desc *desc, const facet_allocator *allocator)
+bool pose_key_set(pose_key *key, const facet_scene *scene, const facet_pose_desc *desc,
+                  const facet_allocator *allocator)
 {
     uint32_t *animations = NULL;
     if (desc->animation_count) {
@@ -366,7 +368,8 @@ bool pose_key_set(pose_key *key, const facet_pose_desc *desc, const facet_alloca
         memcpy(animations, desc->animations, desc->animation_count * sizeof *animations);
     }
     mem_free(key->animations);
-    *key = (pose_key){.is_set = true, .desc = *desc, .animations = animations};
+    *key = (pose_key){
+        .is_set = true, .place_revision = scene->place_revision, .desc = *desc, .animations = animations};
     key->desc.animations = animations;
     return true;
 }

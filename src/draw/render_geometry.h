@@ -117,17 +117,19 @@ static inline void render_geometry_corner(const render_geometry *g, size_t verte
 
 /* ---- pose keys ---- */
 
-/* A facet_pose_desc that owns its list. {0}: of no pose. */
+/* A facet_pose_desc that owns its list, of a scene with its parts in their places. {0}: of no pose. */
 typedef struct pose_key {
     bool is_set;
+    uint64_t place_revision; /* of the scene */
     facet_pose_desc desc;
     uint32_t *animations; /* storage of desc's pointer */
 } pose_key;
 
-/* Whether desc has the pose of the key. The time is ignored where no animation runs. */
-bool pose_key_matches(const pose_key *key, const facet_pose_desc *desc);
+/* Whether desc has the pose of the key, of the same scene. The time is ignored where no animation runs. */
+bool pose_key_matches(const pose_key *key, const facet_scene *scene, const facet_pose_desc *desc);
 /* Makes key that of desc. False: out of memory, key is unchanged. */
-bool pose_key_set(pose_key *key, const facet_pose_desc *desc, const facet_allocator *allocator);
+bool pose_key_set(pose_key *key, const facet_scene *scene, const facet_pose_desc *desc,
+                  const facet_allocator *allocator);
 void pose_key_clear(pose_key *key); /* leaves {0} */
 
 #endif

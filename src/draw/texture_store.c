@@ -28,6 +28,7 @@ struct texture_store {
     const facet_scene *scene;
     facet_allocator allocator;
     image_record *records; /* per image of the scene */
+    uint32_t record_count; /* the scene may have been given more images since */
     texture_tables *tables;
     bool has_tables;
 };
@@ -55,6 +56,7 @@ facet_result texture_store_create(const facet_scene *scene, const facet_allocato
     if (!store)
         return fail_memory(error, "textures", sizeof *store);
     store->scene = scene;
+    store->record_count = scene->image_count;
     store->allocator = allocator ? *allocator : (facet_allocator){0};
     store->records = mem_zalloc(allocator, scene->image_count, sizeof *store->records);
     store->tables = mem_alloc(allocator, 1, sizeof *store->tables);
@@ -78,7 +80,7 @@ void texture_store_destroy(texture_store *store)
 {
     if (!store)
         return;
-    for (uint32_t i = 0; store->records && i < store->scene->image_count; i++)
+    for (uint32_t i = 0; store->records && i < store->record_count; i++)
         while (store->records[i].stored) {
             stored_image *next = store->records[i].stored->next;
             destroy_stored(store->records[i].stored);

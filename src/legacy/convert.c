@@ -289,6 +289,7 @@ facet_result legacy_convert(facet_scene *scene, facet_material_model to, const f
         scene->conversion = c.out;
         scene->materials = c.materials ? c.materials : scene->materials;
         scene->legacy = c.legacy ? c.legacy : scene->legacy;
+        scene->content_revision++;
     }
     texture_baker_destroy(c.baker);
     note_list_destroy(&c.notes);

@@ -377,6 +377,7 @@ facet_result scene_settle_origin(facet_scene *scene, const facet_pose_desc *desc
     samples *s = mem_alloc(&scene->allocator, 1, sizeof *s);
     if (!s)
         return fail_memory(error, "samples", sizeof *s);
+    scene->content_revision++;
     facet_result result = find_scene_origin(scene, index, desc, s, error);
     mem_free(s);
     TRY(result);

@@ -47,6 +47,7 @@ static void set_place(facet_scene *s, uint32_t part, const dmat4 *place)
     const double back[3] = {-origin[0], -origin[1], -origin[2]};
     dmat4 to_world = dmat4_translation(back);
     s->nodes[s->parts[part].node].matrix = dmat4_multiply(place, &to_world);
+    s->place_revision++;
 }
 
 /* Makes all of the scene its part 0, where it is. Arrays are replaced, not changed. */
@@ -429,6 +430,7 @@ facet_result scene_append(facet_scene *scene, facet_scene *other, facet_error *e
     if (j.lacks_memory)
         return fail_memory(error, "a scene of two", (size_t)j.out.node_count * sizeof *scene->nodes);
     j.out.is_far |= other->is_far;
+    j.out.content_revision++;
     *scene = j.out;
     scene_keep_scene(scene, other);
     return FACET_OK;

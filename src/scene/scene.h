@@ -384,7 +384,10 @@ typedef struct facet_scene {
      * model is far from it. is_far: worlds of nodes are composed in double. */
     double origin[3];
     bool is_far;
-    bool is_appended;    /* it belongs to another scene: scene_keep_scene() */
+    bool is_appended; /* it belongs to another scene: scene_keep_scene() */
+    /* Raised by every change after loading, so that renderers drop what they have made of an earlier state:
+     * by the place of a part; by anything else. */
+    uint64_t place_revision, content_revision;
     uint32_t part_count; /* 0: the scene was neither placed nor joined with another */
     scene_part *parts;
     uint32_t default_scene; /* 0 where the file names none; SCENE_NONE: the file has no scene */

@@ -27,7 +27,8 @@ struct gl_texture_set {
     gl_context *context;
     const facet_scene *scene;
     facet_allocator allocator;
-    gl_image *images; /* of the scene */
+    gl_image *images;     /* of the scene */
+    uint32_t image_count; /* the scene may have been given more images since */
     GLuint samplers[SAMPLER_COUNT];
     uint64_t decoded_texels;
 };
@@ -41,6 +42,7 @@ facet_result gl_texture_create(gl_context *context, const facet_scene *scene,
         return fail_memory(error, "textures", sizeof *set);
     set->context = context;
     set->scene = scene;
+    set->image_count = scene->image_count;
     set->allocator = allocator ? *allocator : (facet_allocator){0};
     set->images = mem_zalloc(allocator, scene->image_count, sizeof *set->images);
     if (set->images)
@@ -54,7 +56,7 @@ void gl_texture_destroy(gl_texture_set *set)
 {
     if (!set)
         return;
-    for (uint32_t i = 0; set->images && i < set->scene->image_count; i++)
+    for (uint32_t i = 0; set->images && i < set->image_count; i++)
         glDeleteTextures(2, set->images[i].names);
     glDeleteSamplers(SAMPLER_COUNT, set->samplers);
     mem_free(set->images);

@@ -47,6 +47,10 @@ static facet_result start(gl_renderer *r, facet_error *error)
     bool is_own = r->context == &r->own;
     if (is_own && r->own.is_lost)
         stop(r);
+    if (r->prepared.content_revision != r->prepared.scene->content_revision) { /* the scene has changed */
+        stop(r);
+        gl_scene_clear(&r->prepared);
+    }
     facet_result result = is_own && !r->own.context ? gl_context_create(&r->own, error)
                                                     : gl_context_make_current(r->context, error);
     if (result == FACET_OK && !r->frame.context)

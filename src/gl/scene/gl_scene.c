@@ -10,6 +10,7 @@ void gl_scene_init(gl_scene *s, const facet_scene *scene, const facet_allocator 
 {
     memset(s, 0, sizeof *s);
     s->scene = scene;
+    s->content_revision = scene ? scene->content_revision : 0;
     s->allocator = allocator ? *allocator : (facet_allocator){0};
     s->default_legacy = legacy_material_default();
 }
@@ -46,7 +47,7 @@ static facet_result make_geometry(gl_scene *s, const facet_render_desc *desc, fa
     TRY(render_geometry_create(s->scene, &s->pose, &s->allocator, &s->geometries, error));
     for (uint32_t i = 0; i < s->geometries.count; i++)
         s->geometries.items[i].world = &s->pose.instances[i].world;
-    return pose_key_set(&s->key, &desc->pose, &s->allocator)
+    return pose_key_set(&s->key, s->scene, &desc->pose, &s->allocator)
                ? FACET_OK
                : fail_memory(error, "animations", desc->pose.animation_count * sizeof *s->key.animations);
 }
@@ -64,7 +65,7 @@ static void choose_materials(gl_scene *s, facet_shading shading)
 facet_result gl_scene_update(gl_scene *s, const facet_render_desc *desc, facet_error *error)
 {
     facet_result result = FACET_OK;
-    bool is_same_pose = pose_key_matches(&s->key, &desc->pose);
+    bool is_same_pose = pose_key_matches(&s->key, s->scene, &desc->pose);
     if (is_same_pose && s->shading == desc->shading)
         return FACET_OK;
     s->revision++;

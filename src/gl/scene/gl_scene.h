@@ -9,6 +9,7 @@
 
 typedef struct gl_scene {
     const facet_scene *scene;
+    uint64_t content_revision; /* of the scene that everything here is of */
     facet_allocator allocator;
     pose_key key; /* of pose */
     scene_pose pose;
