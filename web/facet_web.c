@@ -92,6 +92,15 @@ static facet_result show(facet_scene *scene, facet_error *error)
     return result;
 }
 
+/* Takes the scene; where it cannot be drawn the last one stays. */
+static int show_or_destroy(facet_scene *scene)
+{
+    facet_result result = show(scene, &page.error);
+    if (result != FACET_OK && page.scene != scene)
+        facet_scene_destroy(scene);
+    return result;
+}
+
 /* bytes NULL: the built-in scene. Where it fails the last model stays. */
 EMSCRIPTEN_KEEPALIVE int facet_web_load(const void *bytes, size_t size, const char *name)
 {
@@ -100,12 +109,17 @@ EMSCRIPTEN_KEEPALIVE int facet_web_load(const void *bytes, size_t size, const ch
     page.message[0] = 0;
     facet_result result = bytes ? facet_scene_load_memory(bytes, size, name, &desc, &scene, &page.error)
                                 : facet_scene_create_builtin(&desc, &scene, &page.error);
-    if (result != FACET_OK)
-        return result;
-    result = show(scene, &page.error);
-    if (result != FACET_OK && page.scene != scene)
-        facet_scene_destroy(scene);
-    return result;
+    return result == FACET_OK ? show_or_destroy(scene) : (int)result;
+}
+
+/* A model of several files, which the page has written to emscripten's file system in memory. */
+EMSCRIPTEN_KEEPALIVE int facet_web_open(const char *path, const char *folder)
+{
+    const facet_scene_desc desc = {.log = page_log, .root = folder};
+    facet_scene *scene;
+    page.message[0] = 0;
+    facet_result result = facet_scene_load(path, &desc, &scene, &page.error);
+    return result == FACET_OK ? show_or_destroy(scene) : (int)result;
 }
 
 /* A panorama or cube map as light, of any format that facet reads. bytes NULL: the built-in studio. Where it fails the last

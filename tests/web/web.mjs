@@ -1,7 +1,7 @@
 // web.mjs - facet's page in headless Chromium, against facet render --renderer gl. usage: web.mjs FACET DIST WORK [MODEL...]
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { readFileSync, writeFileSync } from 'node:fs';
+import { readdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { deflateSync } from 'node:zlib';
 import { serve_page } from '../clients/browser.mjs';
@@ -66,6 +66,9 @@ function glass_model() {
     });
 }
 
+const glass = path.join(work, 'glass.gltf');
+writeFileSync(glass, glass_model());
+
 const served = await serve_page('/a/folder/index.html', (url) => path.join(dist, url.replace('/a/folder/', '')));
 const { page, messages } = served;
 try {
@@ -107,7 +110,15 @@ try {
         return Buffer.from(got.text, 'latin1');
     };
     const error = () => page.evaluate(() => document.getElementById('error').textContent);
-    const load = (file) => page.evaluate(([base64, name]) => {
+    // With all of its folder, where the model says by its ending that it has other files.
+    const load_folder = (model) => {
+        const folder = path.dirname(model);
+        const files = readdirSync(folder, { recursive: true }).filter((name) => statSync(path.join(folder, name)).isFile());
+        return page.evaluate((list) => window.facetPage.loadFiles(list.map(([name, text]) => ({
+            path: name, file: new File([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))], name.split('/').pop()),
+        }))), files.map((name) => [name, readFileSync(path.join(folder, name)).toString('base64')]));
+    };
+    const load = (file) => file !== glass && /\.(gltf|obj)$/.test(file) ? load_folder(file) : page.evaluate(([base64, name]) => {
         const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
         return window.facetPage.load(bytes, name);
     }, [readFileSync(file).toString('base64'), path.basename(file)]);
@@ -129,8 +140,6 @@ try {
         assert.ok(json.metrics.mae < 2 / 255, `${name}: differs from facet render --renderer gl`);
     };
     await compare('builtin');
-    const glass = path.join(work, 'glass.gltf');
-    writeFileSync(glass, glass_model());
     for (const model of [...models, glass]) {
         assert.ok(await load(model), `${model}: ${await error()}`);
         await compare(path.parse(model).name, model);
@@ -201,6 +210,21 @@ try {
         loss.loseContext();
     }));
     assert.deepEqual(await image(), whole, 'the image after the loss of the context differs');
+
+    // A model of two files, picked and dropped, is the same as that of one.
+    const gltf = JSON.parse(glass_model());
+    const bin = Buffer.from(gltf.buffers[0].uri.split(',')[1], 'base64');
+    gltf.buffers[0].uri = 'data/glass%201.bin';
+    const dropped = [['glass.gltf', Buffer.from(JSON.stringify(gltf))], ['data/glass 1.bin', bin]];
+    await page.evaluate(() => window.facetPage.load(null, 'built-in scene'));
+    assert.ok(!(await image()).equals(before));
+    assert.ok(await page.evaluate((files) => window.facetPage.loadFiles(files.map(([path, text]) => ({
+        path, file: new File([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))], path.split('/').pop()),
+    }))), dropped.map(([name, bytes]) => [name, bytes.toString('base64')])), await error());
+    assert.ok((await image()).equals(before), 'a model of two files differs from that of one');
+    assert.equal(await page.evaluate((text) => window.facetPage.loadFiles([{ path: 'a.gltf', file: new File([text], 'a.gltf') },
+        { path: 'b.txt', file: new File(['b'], 'b.txt') }]), dropped[0][1].toString()), false);
+    assert.match(await error(), /glass 1\.bin|glass%201\.bin/, 'a missing file is named');
 
     // By the page's own input.
     await page.locator('#file').setInputFiles({ name: 'empty.glb', mimeType: 'model/gltf-binary', buffer: Buffer.alloc(0) });

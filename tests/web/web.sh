@@ -13,9 +13,10 @@ version=$(node -p 'process.versions.node.split(".")[0]')
 [ -x "${CHROMIUM:-/usr/bin/chromium}" ] || { echo "skipped: there is no ${CHROMIUM:-/usr/bin/chromium}"; exit 77; }
 [ -f "$dist/facet.wasm" ] || { echo "skipped: ./run web --build was not run"; exit 77; }
 models=
-for model in core/WaterBottle materials/SunglassesKhronos materials/AttenuationTest materials/CompareDispersion \
-    materials/CompareSheen materials/AnisotropyStrengthTest materials/UnlitTest animation/Fox lights/04_lights; do
-    [ ! -f "$data/models/$model.glb" ] || models="$models $data/models/$model.glb"
+for model in core/WaterBottle.glb materials/SunglassesKhronos.glb materials/AttenuationTest.glb materials/CompareDispersion.glb \
+    materials/CompareSheen.glb materials/AnisotropyStrengthTest.glb materials/UnlitTest.glb animation/Fox.glb \
+    lights/04_lights.glb gltf/Suzanne/Suzanne.gltf; do
+    [ ! -f "$data/models/$model" ] || models="$models $data/models/$model"
 done
 [ -n "$models" ] || echo "web: there are no models in $data: the built-in scene and a glass only"
 work=$(mktemp -d)

@@ -100,6 +100,67 @@ function loadLight(bytes, name) {
   return hand(facet._facet_web_light, bytes, name) && draw();
 }
 
+const MODEL = /\.(glb|gltf|obj|stl|ply)$/i;
+const FOLDER = '/dropped';
+
+function removeAll(path) {
+  for (const name of facet.FS.readdir(path)) {
+    if (name === '.' || name === '..') continue;
+    const at = `${path}/${name}`;
+    if (facet.FS.isDir(facet.FS.stat(at).mode)) removeAll(at);
+    else facet.FS.unlink(at);
+  }
+  facet.FS.rmdir(path);
+}
+
+// Files with paths relative to the folder that was dropped. The first model in it is shown; what it refers to is found among them.
+async function loadFiles(files) {
+  const models = files.filter(({ path }) => MODEL.test(path)).sort((a, b) => a.path.localeCompare(b.path));
+  if (files.length === 1) return loadFile(files[0].file);
+  if (!models.length) {
+    showError(`none of the ${files.length} files is a model (.glb, .gltf, .obj, .stl, .ply)`);
+    return false;
+  }
+  showError('');
+  const contents = await Promise.all(files.map(({ file }) => file.arrayBuffer()));
+  facet.FS.mkdirTree(FOLDER);
+  files.forEach(({ path }, i) => {
+    const at = `${FOLDER}/${path}`;
+    facet.FS.mkdirTree(at.slice(0, at.lastIndexOf('/')));
+    facet.FS.writeFile(at, new Uint8Array(contents[i]));
+  });
+  const { path } = models[0];
+  const failed = withText(`${FOLDER}/${path}`, (text) => withText(FOLDER, (root) => facet._facet_web_open(text, root))) !== 0;
+  removeAll(FOLDER);
+  if (failed) {
+    showError(lastError());
+    return false;
+  }
+  canvas.setAttribute('aria-label', path);
+  const isDrawn = draw();
+  byId('status').textContent = models.length > 1 ? `${path}, the first of ${models.length} models` : lastMessage();
+  return isDrawn;
+}
+
+// Entries must be asked for before the event returns; a folder gives its entries by the hundred.
+async function filesOf(entries) {
+  const files = [];
+  for (const entry of entries) {
+    if (entry.isFile) {
+      const file = await new Promise((resolve, reject) => entry.file(resolve, reject));
+      files.push({ path: entry.fullPath.replace(/^\//, ''), file });
+    } else if (entry.isDirectory) {
+      const reader = entry.createReader();
+      for (;;) {
+        const some = await new Promise((resolve, reject) => reader.readEntries(resolve, reject));
+        if (!some.length) break;
+        files.push(...(await filesOf(some)));
+      }
+    }
+  }
+  return files;
+}
+
 async function loadFile(file) {
   const bytes = new Uint8Array(await file.arrayBuffer());
   return (/\.(hdr|ktx2|png|jpe?g)$/i.test(file.name) ? loadLight : load)(bytes, file.name);
@@ -156,7 +217,8 @@ function listen() {
   window.addEventListener('dragover', (event) => event.preventDefault());
   window.addEventListener('drop', (event) => {
     event.preventDefault();
-    if (event.dataTransfer.files.length) loadFile(event.dataTransfer.files[0]);
+    const entries = [...event.dataTransfer.items].map((item) => item.webkitGetAsEntry()).filter(Boolean);
+    filesOf(entries).then(loadFiles).catch((error) => showError(String(error.message ?? error)));
   });
   new ResizeObserver(askForFrame).observe(canvas);
 }
@@ -167,7 +229,10 @@ function set(name, value) {
 }
 
 function connectControls() {
-  byId('file').addEventListener('change', (event) => event.target.files.length && loadFile(event.target.files[0]));
+  byId('file').addEventListener('change', (event) => {
+    const files = [...event.target.files].map((file) => ({ path: file.webkitRelativePath || file.name, file }));
+    if (files.length) loadFiles(files);
+  });
   byId('exposure').addEventListener('input', (event) => {
     byId('exposure-value').textContent = `${event.target.value} stops`;
     set('exposure', Number(event.target.value));
@@ -197,5 +262,5 @@ async function start() {
 }
 
 // For tests and for scripts of the page: ready is fulfilled when the first image is there.
-window.facetPage = { ready: start(), load, loadLight, draw, memory: () => facet.HEAPU8.length, get canvas() { return canvas; } };
+window.facetPage = { ready: start(), load, loadLight, loadFiles, draw, memory: () => facet.HEAPU8.length, get canvas() { return canvas; } };
 window.facetPage.ready.catch((error) => showError(`facet could not start: ${error.message}`));
