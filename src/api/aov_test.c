@@ -261,6 +261,33 @@ static void checkpoints_keep_no_shares(void **state)
     facet_scene_destroy(scene);
 }
 
+/* What a renderer says that it renders is one layer or more per bit; all other bits are refused. */
+static void bits_that_are_no_aov_are_refused(void **state)
+{
+    (void)state;
+    facet_scene *scene = load_squares();
+    for (int kind = 0; kind <= FACET_RENDERER_KIND_GL; kind++) {
+        facet_image *image = NULL;
+        facet_error error = {0};
+        uint32_t aovs = facet_renderer_get_info((facet_renderer_kind)kind).aovs;
+        assert_int_equal(aovs & every_renderer, every_renderer);
+        assert_true(aovs < FACET_AOV_CRYPTO_INSTANCE << 1);
+        assert_int_equal((aovs & FACET_AOV_SAMPLES) != 0, kind == FACET_RENDERER_KIND_PATH);
+        facet_render_desc desc = {.width = 8, .height = 8, .samples = 1, .aovs = aovs};
+        desc.renderer = (facet_renderer_kind)kind;
+        if (kind != FACET_RENDERER_KIND_GL) {
+            assert_int_equal(facet_render(scene, &desc, &image, &error), FACET_OK);
+            assert_true(facet_image_get_layer_count(image) > 10);
+            facet_image_destroy(image);
+        }
+        desc.aovs |= 1u << 20;
+        assert_int_equal(facet_render(scene, &desc, &image, &error), FACET_ERROR_ARGUMENT);
+        assert_non_null(strstr(error.message, "0x100000 "));
+        assert_null(image);
+    }
+    facet_scene_destroy(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -269,6 +296,7 @@ int main(void)
         cmocka_unit_test(ids_have_colors),
         cmocka_unit_test(files_have_the_manifest),
         cmocka_unit_test(depth_and_coordinates_stay_floats_in_half_files),
+        cmocka_unit_test(bits_that_are_no_aov_are_refused),
         cmocka_unit_test(checkpoints_keep_no_shares),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -95,6 +95,10 @@ static facet_result resolve_renderer(facet_render_desc *d, facet_error *error)
     if (d->samples > info->max_samples)
         return fail(error, FACET_ERROR_ARGUMENT, "samples: %u per pixel; the maximum is %u", d->samples,
                     info->max_samples);
+    uint32_t unknown = d->aovs & ~renderer_get(FACET_RENDERER_KIND_PATH)->info.aovs; /* it has all */
+    if (unknown)
+        return fail(error, FACET_ERROR_ARGUMENT, "aovs: 0x%x has bits 0x%x that are no facet_aov", d->aovs,
+                    unknown);
     if (d->aovs & ~info->aovs)
         return fail(error, FACET_ERROR_ARGUMENT, "layers: only path tracing has variance and samples");
     if (d->shading != FACET_SHADING_GLTF && !(info->features & FACET_RENDERER_FEATURE_OGL1))

@@ -38,8 +38,10 @@ static facet_result resolve_gl(facet_render_desc *d, facet_error *error)
 }
 
 enum {
-    PATH_AOVS = FACET_AOV_VARIANCE | FACET_AOV_SAMPLES, /* statistics of samples */
-    ALL_AOVS = ~0 & ~PATH_AOVS
+    SURFACE_AOVS = FACET_AOV_DEPTH | FACET_AOV_NORMAL | FACET_AOV_ALBEDO | FACET_AOV_MATERIAL_ID |
+                   FACET_AOV_UV | FACET_AOV_OCCLUSION | FACET_AOV_OBJECT_ID | FACET_AOV_INSTANCE_ID |
+                   FACET_AOV_CRYPTOMATTE,
+    STATISTICS_AOVS = FACET_AOV_VARIANCE | FACET_AOV_SAMPLES /* of samples */
 };
 
 const renderer_row *renderer_get(facet_renderer_kind kind)
@@ -51,7 +53,7 @@ const renderer_row *renderer_get(facet_renderer_kind kind)
                                                               FACET_RENDERER_FEATURE_SEA_STYLES,
                                                   .samples = {4, 1, 16},
                                                   .max_samples = 4096,
-                                                  .aovs = (uint32_t)ALL_AOVS},
+                                                  .aovs = SURFACE_AOVS},
                                          .lacks = NO_EMBREE,
                                          RENDERER_OF_CPU(.draw = render_preview_draw)};
     static const renderer_row path = {
@@ -61,7 +63,7 @@ const renderer_row *renderer_get(facet_renderer_kind kind)
                              FACET_RENDERER_FEATURE_VIEW,
                  .samples = {64, 16, 512},
                  .max_samples = 1 << 24,
-                 .aovs = UINT32_MAX},
+                 .aovs = SURFACE_AOVS | STATISTICS_AOVS},
         .lacks = NO_EMBREE,
         RENDERER_OF_CPU(.resolve = render_path_resolve, .draw = render_path_draw)};
     static const renderer_row gl = {
@@ -72,7 +74,7 @@ const renderer_row *renderer_get(facet_renderer_kind kind)
                              FACET_RENDERER_FEATURE_SEA_STYLES | FACET_RENDERER_FEATURE_VIEW,
                  .samples = {4, 1, 16},
                  .max_samples = 4096,
-                 .aovs = (uint32_t)ALL_AOVS},
+                 .aovs = SURFACE_AOVS},
         .poses_scene = true,
         .resolve = resolve_gl,
 #ifndef FACET_WITHOUT_EMBREE
