@@ -135,9 +135,16 @@ typedef struct joining {
     bool lacks_memory;
 } joining;
 
+/* Indices are below SCENE_NONE. */
+static bool is_index(joining *j, size_t count)
+{
+    j->lacks_memory |= count >= SCENE_NONE;
+    return count < SCENE_NONE;
+}
+
 static void *new_array(joining *j, size_t count, size_t size)
 {
-    void *array = count < SCENE_NONE ? arena_alloc(j->to->arena, count, size) : NULL;
+    void *array = arena_alloc(j->to->arena, count, size);
     j->lacks_memory |= !array;
     return array;
 }
@@ -145,7 +152,8 @@ static void *new_array(joining *j, size_t count, size_t size)
 /* Both arrays in one. NULL: no memory. */
 static void *both(joining *j, const void *a, uint32_t a_count, const void *b, uint32_t b_count, size_t size)
 {
-    unsigned char *array = new_array(j, (size_t)a_count + b_count, size);
+    unsigned char *array =
+        is_index(j, (size_t)a_count + b_count) ? new_array(j, (size_t)a_count + b_count, size) : NULL;
     if (array && a_count)
         memcpy(array, a, a_count * size);
     if (array && b_count)
@@ -153,10 +161,43 @@ static void *both(joining *j, const void *a, uint32_t a_count, const void *b, ui
     return array;
 }
 
+/* The space of an array; NULL: it has no other than its own. */
+static scene_room *find_room(joining *j, const void *array)
+{
+    for (int i = 0; i < SCENE_ROOM_COUNT; i++)
+        if (j->out.rooms[i].array == array)
+            return &j->out.rooms[i];
+    return NULL;
+}
+
+/* The same with space behind b from the third part on, so that the time and memory of appending one scene
+ * after the other are linear. What is in that space belongs to no scene before the end; a itself stays. */
+static void *extended(joining *j, const void *a, uint32_t a_count, const void *b, uint32_t b_count,
+                      size_t size)
+{
+    size_t used = a_count * size, wanted = used + b_count * size;
+    if (!is_index(j, (size_t)a_count + b_count))
+        return NULL;
+    scene_room *room = used ? find_room(j, a) : NULL;
+    bool fits = room && wanted <= room->capacity;
+    room = room ? room : find_room(j, NULL);
+    size_t capacity = room && j->to->part_count > 1 ? 2 * wanted : wanted;
+    unsigned char *array = fits ? (unsigned char *)(uintptr_t)a : new_array(j, capacity, 1);
+    if (!array)
+        return NULL;
+    if (!fits && used)
+        memcpy(array, a, used);
+    if (!fits && room && wanted)
+        *room = (scene_room){array, capacity};
+    if (b_count)
+        memcpy(array + used, b, b_count * size);
+    return array;
+}
+
 /* Joins an array and its count, and runs the statement behind it for each appended index i. */
 #define JOIN(j, array, count, i)                                                                             \
-    (j)->out.array =                                                                                         \
-        both(j, (j)->to->array, (j)->to->count, (j)->from->array, (j)->from->count, sizeof *(j)->out.array); \
+    (j)->out.array = extended(j, (j)->to->array, (j)->to->count, (j)->from->array, (j)->from->count,         \
+                              sizeof *(j)->out.array);                                                       \
     (j)->out.count = (j)->to->count + (j)->from->count;                                                      \
     for (uint32_t i = (j)->to->count; !(j)->lacks_memory && i < (j)->out.count; i++)
 
@@ -236,9 +277,13 @@ static void join_primitive(joining *j, const facet_scene *own, scene_primitive *
 static void join_meshes(joining *j)
 {
     join_variants(j);
+    bool is_regrouped = j->out.variant_count != j->to->variant_count;
+    scene_room *room = find_room(j, j->to->meshes);
+    if (is_regrouped && room) /* all meshes are changed, so that they need another array */
+        *room = (scene_room){0};
     JOIN(j, meshes, mesh_count, i)
     j->out.meshes[i].meta.extensions = NULL;
-    for (uint32_t i = 0; !j->lacks_memory && i < j->out.mesh_count; i++) {
+    for (uint32_t i = is_regrouped ? 0 : j->to->mesh_count; !j->lacks_memory && i < j->out.mesh_count; i++) {
         scene_mesh *mesh = &j->out.meshes[i];
         const facet_scene *own = i < j->to->mesh_count ? j->to : j->from;
         mesh->primitives =
@@ -315,8 +360,10 @@ static void join_animations(joining *j)
 static void join_scenes(joining *j)
 {
     uint32_t merged = j->to->scene_count + default_index(j->from);
-    JOIN(j, scenes, scene_count, i)
-    {
+    j->out.scenes = both(j, j->to->scenes, j->to->scene_count, j->from->scenes, j->from->scene_count,
+                         sizeof *j->out.scenes);
+    j->out.scene_count = j->to->scene_count + j->from->scene_count;
+    for (uint32_t i = j->to->scene_count; !j->lacks_memory && i < j->out.scene_count; i++) {
         scene_root *s = &j->out.scenes[i];
         s->nodes = shifted_list(j, s->nodes, s->node_count, j->to->node_count);
         s->image_light = shifted(s->image_light, j->to->image_light_count);
@@ -325,7 +372,7 @@ static void join_scenes(joining *j)
     if (j->lacks_memory)
         return;
     scene_root *to = &j->out.scenes[default_index(j->to)], *from = &j->out.scenes[merged];
-    to->nodes = both(j, to->nodes, to->node_count, from->nodes, from->node_count, sizeof *to->nodes);
+    to->nodes = extended(j, to->nodes, to->node_count, from->nodes, from->node_count, sizeof *to->nodes);
     to->node_count += from->node_count;
     if (to->image_light == SCENE_NONE)
         to->image_light = from->image_light;
@@ -398,9 +445,10 @@ static void join_legacy(joining *j)
     scene_legacy *out = j->out.legacy;
     *out = *to;
     out->is_source = true; /* of the parts, each of which has its own conversion */
-    out->materials = both(j, to->materials, j->to->material_count, from->materials, j->from->material_count,
-                          sizeof *out->materials);
-    out->lights = both(j, to->lights, to->light_count, from->lights, from->light_count, sizeof *out->lights);
+    out->materials = extended(j, to->materials, j->to->material_count, from->materials,
+                              j->from->material_count, sizeof *out->materials);
+    out->lights =
+        extended(j, to->lights, to->light_count, from->lights, from->light_count, sizeof *out->lights);
     out->light_count = to->light_count + from->light_count;
     if (out->fog.mode == LEGACY_FOG_NONE)
         out->fog = from->fog;

@@ -224,6 +224,43 @@ static void legacy_materials_need_equal_rules(void **state)
     scene_destroy(a);
 }
 
+/* Most appended scenes need no larger arrays; all elements are where they should be. */
+static void many_scenes_need_linear_memory(void **state)
+{
+    (void)state;
+    enum { COUNT = 300 };
+    static sample samples[COUNT + 1];
+    failing_allocator memory = {.fail_at = -1};
+    const facet_allocator allocator = failing_allocator_get(&memory);
+    facet_scene *a = NULL, *filled = make(&samples[COUNT], "one", "red");
+    assert_int_equal(scene_create(&allocator, "many", &a, NULL), FACET_OK);
+    facet_scene own = *a;
+    *a = *filled;
+    a->arena = own.arena;
+    a->allocator = own.allocator;
+    for (uint32_t i = 0; i < COUNT; i++) {
+        facet_scene *b = make(&samples[i], "one", "red");
+        b->nodes[2].translation[1] = i;
+        assert_int_equal(scene_append(a, b, NULL), FACET_OK);
+        if (i == 100) /* as a conversion does */
+            a->materials = memcpy(arena_alloc(a->arena, a->material_count, sizeof *a->materials),
+                                  a->materials, a->material_count * sizeof *a->materials);
+    }
+    assert_true(memory.calls < 2 * COUNT);
+    assert_int_equal(a->part_count, COUNT + 1);
+    assert_int_equal(a->scenes[0].node_count, COUNT + 1);
+    for (uint32_t i = 0; i < COUNT; i++) {
+        assert_near(a->nodes[4 * (i + 1) + 2].translation[1], i, 0.0);
+        assert_int_equal(a->nodes[4 * (i + 1) + 1].children[0], 4 * (i + 1) + 2);
+        assert_int_equal(a->scenes[0].nodes[i + 1], 4 * (i + 1) + 3);
+        assert_int_equal(a->materials[2 * i + 3].textures[SCENE_NORMAL_TEXTURE].texture, 2 * i + 3);
+        assert_int_equal(a->meshes[3 * i + 4].primitives->material, 2 * i + 3);
+        assert_int_equal(a->meshes[3 * i + 4].primitives->variant_materials[1], 2 * i + 3);
+    }
+    scene_destroy(a);
+    scene_destroy(filled);
+}
+
 static void check_address(const facet_scene *scene, scene_item item, uint32_t index, const char *source,
                           uint32_t number)
 {
@@ -297,8 +334,12 @@ static void failures_leave_both_scenes(void **state)
         *a = *filled;
         a->arena = own.arena;
         a->allocator = own.allocator;
-        /* the arena's blocks are full */
-        while (arena_alloc(a->arena, 1, 16000) && memory.calls < 4)
+        /* the first have space behind them for the third; the arena's blocks are full */
+        sample more[2];
+        for (int i = 0; i < 2; i++)
+            assert_int_equal(scene_append(a, make(&more[i], "more", i ? "red" : "blue"), NULL), FACET_OK);
+        long few = memory.calls + 3;
+        while (arena_alloc(a->arena, 1, 16000) && memory.calls < few)
             ;
         memory.fail_at = memory.calls + n;
         b->origin[0] = 1e7;
@@ -310,7 +351,7 @@ static void failures_leave_both_scenes(void **state)
         memory.fail_at = -1;
         scene_pose pose;
         assert_int_equal(scene_pose_create(a, NULL, NULL, 1, &pose, NULL), FACET_OK);
-        assert_int_equal(pose.instance_count, has_passed ? 2 : 1);
+        assert_int_equal(pose.instance_count, has_passed ? 4 : 3);
         scene_pose_destroy(&pose);
         if (!has_passed) {
             assert_int_equal(result, FACET_ERROR_MEMORY);
@@ -336,6 +377,7 @@ int main(void)
         cmocka_unit_test(legacy_materials_need_equal_rules),
         cmocka_unit_test(failures_leave_both_scenes),
         cmocka_unit_test(a_scene_belongs_to_one_other),
+        cmocka_unit_test(many_scenes_need_linear_memory),
         cmocka_unit_test(messages_name_the_file_of_the_part),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -356,6 +356,13 @@ typedef struct scene_part {
     uint32_t first[SCENE_ITEM_COUNT]; /* index in the scene of what has the number 0 in that file */
 } scene_part;
 
+/* An array that was joined, with space for what is appended next: in scene/parts.c. */
+typedef struct scene_room {
+    const void *array;
+    size_t capacity; /* bytes */
+} scene_room;
+enum { SCENE_ROOM_COUNT = 16 };
+
 typedef struct facet_scene {
     facet_allocator allocator;
     arena *arena;
@@ -390,6 +397,7 @@ typedef struct facet_scene {
     uint64_t place_revision, content_revision;
     uint32_t part_count; /* 0: the scene was neither placed nor joined with another */
     scene_part *parts;
+    scene_room rooms[SCENE_ROOM_COUNT];
     uint32_t default_scene; /* 0 where the file names none; SCENE_NONE: the file has no scene */
     scene_extension *extensions;
     const char **warnings; /* warnings sent to log during reading */
