@@ -11,22 +11,10 @@
 #include "base/memory.h"
 #include "cpu/prepared_fixture.h"
 
-static facet_render_desc resolved_desc(const fixture *f)
-{
-    facet_render_desc desc = f->desc;
-    desc.camera = &f->camera;
-    desc.environment = f->environment;
-    if (!desc.crop[2]) {
-        desc.crop[2] = desc.width;
-        desc.crop[3] = desc.height;
-    }
-    return desc;
-}
-
 facet_result prepared_try(const fixture *f, prepared_scene *p, film *rendered, facet_render_stats *stats,
                           facet_error *error)
 {
-    facet_render_desc desc = resolved_desc(f);
+    facet_render_desc desc = fixture_desc(f);
     facet_result result =
         film_create(&desc.allocator, desc.crop[2], desc.crop[3], desc.aovs, rendered, error);
     return result == FACET_OK ? preview_render_prepared(p, &desc, rendered, stats, error) : result;

@@ -204,7 +204,7 @@ void fixture_add_light(fixture *f, scene_light light, float x, float y, float z)
 
 /* ---- images ---- */
 
-facet_result fixture_try_render(fixture *f, film *out, facet_render_stats *stats, facet_error *error)
+facet_render_desc fixture_desc(const fixture *f)
 {
     facet_render_desc desc = f->desc;
     desc.camera = &f->camera;
@@ -213,6 +213,12 @@ facet_result fixture_try_render(fixture *f, film *out, facet_render_stats *stats
         desc.crop[2] = desc.width;
         desc.crop[3] = desc.height;
     }
+    return desc;
+}
+
+facet_result fixture_try_render(fixture *f, film *out, facet_render_stats *stats, facet_error *error)
+{
+    facet_render_desc desc = fixture_desc(f);
     facet_result result = film_create(&desc.allocator, desc.crop[2], desc.crop[3], desc.aovs, out, error);
     if (result == FACET_OK)
         result = preview_render(f->scene, &desc, out, stats, error);

@@ -33,6 +33,8 @@ scene_primitive *fixture_primitive(fixture *f, uint32_t mesh);
 scene_node *fixture_place(fixture *f, uint32_t mesh, float x, float y, float z, float scale);
 void fixture_add_light(fixture *f, scene_light light, float x, float y, float z);
 
+/* f->desc with camera, environment and crop filled in. */
+facet_render_desc fixture_desc(const fixture *f);
 /* Renders; the film is released with film_destroy(). */
 film fixture_render(fixture *f);
 /* The same; returns the result. */

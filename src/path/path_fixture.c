@@ -274,22 +274,10 @@ void truth_set_camera(fixture *f, double polar_deg, float x, float y, float heig
 
 /* ---- images ---- */
 
-static facet_render_desc resolved(fixture *f)
-{
-    facet_render_desc desc = f->desc;
-    desc.camera = &f->camera;
-    desc.environment = f->environment;
-    if (!desc.crop[2]) {
-        desc.crop[2] = desc.width;
-        desc.crop[3] = desc.height;
-    }
-    return desc;
-}
-
 static facet_result try_prepared(fixture *f, prepared_scene *p, film *out, facet_render_stats *stats,
                                  facet_error *error)
 {
-    facet_render_desc desc = resolved(f);
+    facet_render_desc desc = fixture_desc(f);
     facet_result result = film_create(&desc.allocator, desc.crop[2], desc.crop[3], desc.aovs, out, error);
     if (result != FACET_OK)
         return result;

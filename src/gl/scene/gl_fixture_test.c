@@ -48,13 +48,7 @@ film gl_fixture_draw(const fixture *f, gl_renderer *renderer)
     film out;
     facet_render_stats stats;
     facet_error error = {0};
-    facet_render_desc desc = f->desc;
-    desc.camera = &f->camera;
-    desc.environment = f->environment;
-    if (!desc.crop[2]) {
-        desc.crop[2] = desc.width;
-        desc.crop[3] = desc.height;
-    }
+    facet_render_desc desc = fixture_desc(f);
     if (film_create(&desc.allocator, desc.crop[2], desc.crop[3], desc.aovs, &out, &error) != FACET_OK ||
         gl_renderer_render(renderer, &desc, &out, &stats, &error) != FACET_OK)
         fail_msg("%s", error.message);

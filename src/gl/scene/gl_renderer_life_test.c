@@ -200,11 +200,7 @@ static facet_result try_draw(const fixture *f, gl_renderer *renderer, facet_erro
 {
     film out;
     facet_render_stats stats;
-    facet_render_desc desc = f->desc;
-    desc.camera = &f->camera;
-    desc.environment = f->environment;
-    desc.crop[2] = desc.width;
-    desc.crop[3] = desc.height;
+    const facet_render_desc desc = fixture_desc(f);
     assert_int_equal(film_create(NULL, desc.width, desc.height, 0, &out, NULL), FACET_OK);
     facet_result result = gl_renderer_render(renderer, &desc, &out, &stats, error);
     film_destroy(&out);
