@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "facet/facet.h"
+#include "tests/support/support.h"
 
 static void assert_same_image(const facet_image *a, const facet_image *b)
 {
@@ -130,11 +131,7 @@ static void animations_of_models(void **state)
     (void)state;
     static const char *const names[] = {
         "Fox", "BoxAnimated", "AnimatedMorphCube", "AnimatedColorsCube", "MorphStressTest", "RiggedSimple"};
-    const char *data = getenv("FACET_TEST_DATA");
-    if (!data) {
-        print_message("FACET_TEST_DATA is not set: no models to move\n");
-        skip();
-    }
+    const char *data = test_data();
     facet_environment *studio;
     assert_int_equal(facet_environment_create_studio(NULL, &studio, NULL), FACET_OK);
     for (size_t m = 0; m < sizeof names / sizeof *names; m++) {

@@ -12,6 +12,7 @@
 
 #include "bake/bake_reference.h"
 #include "bake/bake_area.h"
+#include "tests/support/support.h"
 
 static void small_lights(const float d[3], float out[3])
 {
@@ -151,11 +152,7 @@ static void real_environments_are_baked_accurately(void **state)
     (void)state;
     static const char *const names[3] = {"leadenhall_market_1k", "qwantani_afternoon_puresky_1k",
                                          "studio_small_03_1k"};
-    const char *folder = getenv("FACET_TEST_DATA");
-    if (!folder) {
-        print_message("FACET_TEST_DATA is not set: real environments are left out\n");
-        skip();
-    }
+    const char *folder = test_data();
     for (int i = 0; i < (IS_SLOW ? 1 : 3); i++) {
         char path[1024];
         snprintf(path, sizeof path, "%s/env/%s.hdr", folder, names[i]);

@@ -364,7 +364,7 @@ enum { PROBES = 60 };
 
 static void check_file(const char *name, double tolerance)
 {
-    const char *folder = getenv("FACET_TEST_DATA");
+    const char *folder = test_data();
     char path[512];
     snprintf(path, sizeof path, "%s/env/%s", folder, name);
     facet_environment *e = NULL;
@@ -390,10 +390,6 @@ static void check_file(const char *name, double tolerance)
 static void real_environments_are_blurred_accurately(void **state)
 {
     (void)state;
-    if (!getenv("FACET_TEST_DATA")) {
-        print_message("FACET_TEST_DATA is not set: real environments are not tried\n");
-        skip();
-    }
     check_file("leadenhall_market_1k.hdr", 0.03);
     check_file("studio_small_03_1k.hdr", 0.045);
 }

@@ -210,11 +210,7 @@ static void real_environments_are_filtered_accurately(void **state)
     } environments[3] = {{"leadenhall_market_1k", 0.01, 0.015},
                          {"qwantani_afternoon_puresky_1k", 0.025, 0.08},
                          {"studio_small_03_1k", 0.01, 0.03}};
-    const char *folder = getenv("FACET_TEST_DATA");
-    if (!folder) {
-        print_message("FACET_TEST_DATA is not set: real environments are left out\n");
-        skip();
-    }
+    const char *folder = test_data();
     for (int i = 0; i < 3; i++) {
         const char *name = environments[i].name;
         char path[1024];

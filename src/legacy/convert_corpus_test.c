@@ -166,11 +166,7 @@ static int check_folder(const char *folder, const char *const *ends)
 static int check_data(const char *folder, const char *const *ends)
 {
     char path[1024];
-    const char *data = getenv("FACET_TEST_DATA");
-    if (!data) {
-        print_message("FACET_TEST_DATA is not set: no models to convert\n");
-        skip();
-    }
+    const char *data = test_data();
     snprintf(path, sizeof path, "%s/%s", data, folder);
     int count = check_folder(path, ends);
     print_message("%d models of %s\n", count, folder);

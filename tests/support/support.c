@@ -87,6 +87,18 @@ facet_progress capture_progress(captured_progress *progress)
     return (facet_progress){.user = progress, .report = watch};
 }
 
+/* ---- test data ---- */
+
+const char *test_data(void)
+{
+    const char *folder = getenv("FACET_TEST_DATA");
+    if (!folder) {
+        print_message("skipped: FACET_TEST_DATA is not set\n");
+        skip();
+    }
+    return folder;
+}
+
 /* ---- files ---- */
 
 void temporary_folder_create(temporary_folder *folder)

@@ -110,6 +110,11 @@ typedef struct captured_progress {
 } captured_progress;
 facet_progress capture_progress(captured_progress *progress);
 
+/* ---- test data ---- */
+
+/* The folder that FACET_TEST_DATA names; skips the test, with a message, where it names none. */
+const char *test_data(void);
+
 /* ---- files ---- */
 
 /* A new temporary folder; temporary_folder_remove() removes it with its contents. */

@@ -1,6 +1,7 @@
 /* gltf_test_support.c - see gltf_test_support.h. */
 #define _POSIX_C_SOURCE 200809L
 #include "io/gltf/gltf_test_support.h"
+#include "tests/support/support.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -237,11 +238,7 @@ void model_assert_left_out(const test_model *model, const char *text, const char
 facet_scene *load_shared(const char *path)
 {
     char whole[1024];
-    const char *folder = getenv("FACET_TEST_DATA");
-    if (!folder) {
-        print_message("no test data: FACET_TEST_DATA is not set\n");
-        skip();
-    }
+    const char *folder = test_data();
     snprintf(whole, sizeof whole, "%s/models/%s", folder, path);
     facet_scene *scene = NULL;
     facet_error error = {0};

@@ -607,12 +607,8 @@ static size_t check_models(const char *path)
 static void real_models_round_trip(void **state)
 {
     (void)state;
-    const char *data = getenv("FACET_TEST_DATA");
+    const char *data = test_data();
     char path[1024];
-    if (!data) {
-        printf("skipped: FACET_TEST_DATA is not set\n");
-        skip();
-    }
     snprintf(path, sizeof path, "%s/models", data);
     assert_true(check_models(path) > 50);
 }

@@ -248,11 +248,7 @@ static bool read_library(const char *folder, const char *name, void *context)
 static void real_files_are_read(void **state)
 {
     (void)state;
-    const char *data = getenv("FACET_TEST_DATA");
-    if (!data) {
-        print_message("skip: FACET_TEST_DATA is not set\n");
-        skip();
-    }
+    const char *data = test_data();
     char path[1024];
     snprintf(path, sizeof path, "%s/obj", data);
     assert_int_equal(test_visit_files(path, ".mtl", read_library, NULL), 40);

@@ -1,5 +1,6 @@
 /* obj_test_support.c - see obj_test_support.h. */
 #include "io/obj/obj_test_support.h"
+#include "tests/support/support.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -25,11 +26,7 @@ facet_scene *obj_load_text(const char *bytes, const facet_scene_desc *desc)
 facet_scene *obj_load_shared(const char *path)
 {
     char whole[1024];
-    const char *folder = getenv("FACET_TEST_DATA");
-    if (!folder) {
-        print_message("no test data: FACET_TEST_DATA is not set\n");
-        skip();
-    }
+    const char *folder = test_data();
     snprintf(whole, sizeof whole, "%s/%s", folder, path);
     facet_scene *scene = NULL;
     facet_error error = {0};

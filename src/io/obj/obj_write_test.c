@@ -468,11 +468,7 @@ static bool round_trip(const char *source, const char *name, void *context)
 static void real_files_round_trip(void **state)
 {
     (void)state;
-    const char *data = getenv("FACET_TEST_DATA");
-    if (!data) {
-        print_message("skip: FACET_TEST_DATA is not set\n");
-        skip();
-    }
+    const char *data = test_data();
     char path[1024];
     temporary_folder folder;
     temporary_folder_create(&folder);
