@@ -30,6 +30,6 @@ fi
 run cmake -S "$here" -B "$build" $toolchain -DFACET_SOURCES="$build/sources" -DFACET_JPEG="$build/jpeg" \
     -DFACET_GENERATED="$generated" -DFACET_VERSION="$version"
 run cmake --build "$build"
-for file in facet.wasm facet.js; do
-    echo "web: $file $(wc -c <"$build/dist/$file") bytes, $(gzip -9c "$build/dist/$file" | wc -c) with gzip"
+for file in "$build"/dist/facet-viewer/*.wasm "$build"/dist/facet-viewer/*.js; do
+    echo "web: ${file##*/} $(wc -c <"$file") bytes, $(gzip -9c "$file" | wc -c) with gzip"
 done

@@ -11,7 +11,7 @@ version=$(node -p 'process.versions.node.split(".")[0]')
 [ "$version" -ge 18 ] || { echo "skipped: Node.js $version is older than 18"; exit 77; }
 [ -d "$here/../clients/node_modules/playwright-core" ] || { echo "skipped: npm ci was not run in tests/clients"; exit 77; }
 [ -x "${CHROMIUM:-/usr/bin/chromium}" ] || { echo "skipped: there is no ${CHROMIUM:-/usr/bin/chromium}"; exit 77; }
-[ -f "$dist/facet.wasm" ] || { echo "skipped: ./run web --build was not run"; exit 77; }
+[ -f "$dist/facet-viewer/viewer.wasm" ] || { echo "skipped: ./run web --build was not run"; exit 77; }
 models=
 for model in core/WaterBottle.glb materials/SunglassesKhronos.glb materials/AttenuationTest.glb materials/CompareDispersion.glb \
     materials/CompareSheen.glb materials/AnisotropyStrengthTest.glb materials/UnlitTest.glb animation/Fox.glb \

@@ -1,6 +1,6 @@
-// page.js - the page around facet.wasm: hands over files and events, and asks for a frame when something changed. What is drawn and
-// how the camera moves is C (facet_web.c).
-import createFacet from './facet.js';
+// page.js - the page around viewer.wasm: hands over files and events, and asks for a frame when something changed. What is drawn and
+// how the camera moves is C (viewer.c).
+import createFacet from './facet-viewer/viewer.js';
 
 const byId = (id) => document.getElementById(id);
 const canvas = byId('view');

@@ -1,4 +1,4 @@
-/* facet_web.c - what a page calls: one model in one canvas. The state is the window's (view_state.h), the image
+/* viewer.c - what a page calls: one model in one canvas. The state is the window's (view_state.h), the image
  * gl_renderer.h's; the page hands over bytes and events and asks for a frame when something changed. */
 #include <emscripten/emscripten.h>
 #include <emscripten/html5.h>
