@@ -55,6 +55,11 @@ FACET_API void facet_scene_destroy(facet_scene *scene);
  * replace an input. */
 FACET_API bool facet_scene_has_file(const facet_scene *scene, const char *path);
 
+/* The path, as it was opened, of a file that the scene was read from: the model, its buffers, images and
+ * materials, in no particular order. NULL past the end. A scene from memory or a pipe has none. Lives as long
+ * as the scene. */
+FACET_API const char *facet_scene_get_file(const facet_scene *scene, uint32_t index);
+
 /* ---- inspecting ---- */
 
 typedef struct facet_scene_counts {

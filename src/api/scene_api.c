@@ -63,6 +63,11 @@ void facet_scene_destroy(facet_scene *scene)
     scene_destroy(scene);
 }
 
+const char *facet_scene_get_file(const facet_scene *scene, uint32_t index)
+{
+    return scene_get_file(scene, index);
+}
+
 bool facet_scene_has_file(const facet_scene *scene, const char *path)
 {
     return scene_has_file(scene, path);

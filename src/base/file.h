@@ -11,6 +11,7 @@ typedef struct file_bytes {
     void *mapping; /* for file_close() */
     size_t mapping_size;
     uint64_t device, number; /* identify a regular file under any name; number 0: none */
+    const char *path;        /* of its owner, who sets it; NULL: unknown */
 } file_bytes;
 
 /* The limit that the max_file_bytes of a desc stands for, of which 0 is the default. */

@@ -110,7 +110,7 @@ static void inputs_are_not_replaced(void **state)
     assert_int_equal(scene_create(NULL, "source.obj", &scene, &error), FACET_OK);
     file_bytes file;
     assert_int_equal(file_open(in_folder("input.mtl"), 0, NULL, &file, &error), FACET_OK);
-    assert_true(scene_keep_file(scene, &file));
+    assert_true(scene_keep_file(scene, &file, "file"));
     snprintf(main_path, sizeof main_path, "%s/input.obj", folder.path);
     file_set set = {.main = main_path, .inputs = scene};
     assert_int_equal(file_set_add(&set, "input.mtl", "new", 3, &error), FACET_ERROR_ARGUMENT);

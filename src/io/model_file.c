@@ -31,7 +31,7 @@ static facet_result load_open(model_kind kind, const file_bytes *file, const cha
     char *folder = path_folder(&desc->allocator, path);
     facet_result result = folder ? load_bytes(kind, file->data, file->size, path, folder, desc, scene, error)
                                  : fail_memory(error, "path", strlen(path));
-    if (result == FACET_OK && !scene_note_file(*scene, file)) {
+    if (result == FACET_OK && !scene_note_file(*scene, file, path)) {
         scene_destroy(*scene);
         *scene = NULL;
         result = fail_memory(error, "files", sizeof *file);

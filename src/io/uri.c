@@ -165,7 +165,7 @@ static bool read_once(const file_scope *scope, int fd, const char *path, const s
             FACET_OK)
             return uri_fail(out, error.result, "%.400s", error.message);
         out->file = scene->file_count;
-        if (!scene_keep_file(scene, &file)) {
+        if (!scene_keep_file(scene, &file, path)) {
             file_close(&file);
             return uri_fail(out, FACET_ERROR_MEMORY, "out of memory for a file");
         }
@@ -338,7 +338,7 @@ facet_result io_load_file(io_loader *load, const char *path, const facet_scene_d
     char *folder = path_folder(&desc->allocator, path);
     facet_result result = folder ? load((const char *)file.data, file.size, path, folder, desc, scene, error)
                                  : fail_memory(error, "path", strlen(path));
-    if (result == FACET_OK && !scene_note_file(*scene, &file)) {
+    if (result == FACET_OK && !scene_note_file(*scene, &file, path)) {
         scene_destroy(*scene);
         *scene = NULL;
         result = fail_memory(error, "files", sizeof file);

@@ -128,16 +128,19 @@ static uint32_t hash_file(uint64_t device, uint64_t number)
     return index_table_hash(INDEX_TABLE_HASH, known_by, sizeof known_by);
 }
 
-bool scene_keep_file(facet_scene *scene, file_bytes *file)
+bool scene_keep_file(facet_scene *scene, file_bytes *file, const char *path)
 {
     scene_store *store = (scene_store *)scene;
-    if (!mem_reserve(&scene->allocator, (void **)&scene->files, &store->file_capacity,
+    const char *kept_path = arena_strdup(scene->arena, path);
+    if (!kept_path ||
+        !mem_reserve(&scene->allocator, (void **)&scene->files, &store->file_capacity,
                      (size_t)scene->file_count + 1, sizeof *scene->files) ||
         (file->number && file->data &&
          !index_table_add(&store->kept_files, &scene->allocator, hash_file(file->device, file->number),
                           scene->file_count)))
         return false;
-    scene->files[scene->file_count++] = *file;
+    scene->files[scene->file_count] = *file;
+    scene->files[scene->file_count++].path = kept_path;
     *file = (file_bytes){0};
     return true;
 }
@@ -153,10 +156,10 @@ uint32_t scene_find_file(const facet_scene *scene, uint64_t device, uint64_t num
     return i;
 }
 
-bool scene_note_file(facet_scene *scene, const file_bytes *file)
+bool scene_note_file(facet_scene *scene, const file_bytes *file, const char *path)
 {
     file_bytes known = {.device = file->device, .number = file->number};
-    return scene_keep_file(scene, &known);
+    return scene_keep_file(scene, &known, path);
 }
 
 bool scene_has_file(const facet_scene *scene, const char *path)
@@ -168,6 +171,24 @@ bool scene_has_file(const facet_scene *scene, const char *path)
         if (scene_has_file(s, path))
             return true;
     return false;
+}
+
+/* The path of file *index, which it reduces by the files before that one. */
+static const char *find_file(const facet_scene *scene, uint32_t *index)
+{
+    for (uint32_t i = 0; i < scene->file_count; i++)
+        if (scene->files[i].number && (*index)-- == 0)
+            return scene->files[i].path;
+    const char *found = NULL;
+    const facet_scene *s = ((const scene_store *)scene)->appended;
+    for (; s && !found; s = ((const scene_store *)s)->next)
+        found = find_file(s, index);
+    return found;
+}
+
+const char *scene_get_file(const facet_scene *scene, uint32_t index)
+{
+    return find_file(scene, &index);
 }
 
 /* A list of messages without duplicates. */

@@ -417,15 +417,17 @@ typedef struct facet_scene {
 facet_result scene_create(const facet_allocator *allocator, const char *source, facet_scene **out,
                           facet_error *error);
 void scene_destroy(facet_scene *scene); /* NULL is allowed */
-/* Takes ownership of an open file (leaves {0} in *file), which is closed with the scene. False: no memory,
- * *file is unchanged. */
-bool scene_keep_file(facet_scene *scene, file_bytes *file);
+/* Takes ownership of an open file (leaves {0} in *file), which is closed with the scene. path: as it was opened.
+ * False: no memory, *file is unchanged. */
+bool scene_keep_file(facet_scene *scene, file_bytes *file, const char *path);
 /* Index in scene->files of an open file by device and inode; SCENE_NONE: none. */
 uint32_t scene_find_file(const facet_scene *scene, uint64_t device, uint64_t number);
 /* Records a file that will be closed, for scene_has_file(). False: no memory. */
-bool scene_note_file(facet_scene *scene, const file_bytes *file);
+bool scene_note_file(facet_scene *scene, const file_bytes *file, const char *path);
 /* facet_scene_has_file(): one of scene->files. */
 bool scene_has_file(const facet_scene *scene, const char *path);
+/* facet_scene_get_file(): the path of one of scene->files. */
+const char *scene_get_file(const facet_scene *scene, uint32_t index);
 /* Appends to scene->warnings and sends the message to log; equal messages are kept once. */
 void scene_warn(facet_scene *scene, const facet_log *log, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

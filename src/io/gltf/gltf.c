@@ -229,7 +229,7 @@ static facet_result load(file_bytes *file, const char *source, const char *folde
     scene->thread_count = desc->thread_count;
     const unsigned char *bytes = file->data;
     size_t size = file->size;
-    if (!scene_keep_file(scene, file)) {
+    if (!scene_keep_file(scene, file, source)) {
         scene_destroy(scene);
         return fail_memory(error, "files", sizeof *file);
     }

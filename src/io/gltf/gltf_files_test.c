@@ -61,6 +61,10 @@ static void files_below_the_model_are_read(void **state)
         if (load_uri_model(*state, uris[i], NULL, &scene, &error) != FACET_OK)
             fail_msg("%s: %s", uris[i], error.message);
         assert_near(first_primitive(scene)->positions[3], 1, 0);
+        /* both files by the names under which they were opened */
+        assert_non_null(strstr(scene_get_file(scene, 0), "/model/model.gltf"));
+        assert_non_null(strstr(scene_get_file(scene, 1), "/model/"));
+        assert_null(scene_get_file(scene, 2));
         scene_destroy(scene);
     }
 }

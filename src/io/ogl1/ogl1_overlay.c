@@ -443,7 +443,7 @@ facet_result ogl1_json_overlay(facet_scene *scene, const char *path, const facet
     } else {
         result = fail_memory(error, "path", strlen(path));
     }
-    if (result == FACET_OK && !scene_note_file(scene, &file))
+    if (result == FACET_OK && !scene_note_file(scene, &file, path))
         result = fail_memory(error, "files", sizeof file);
     mem_free(folder);
     file_close(&file);
