@@ -288,6 +288,55 @@ void text_destroy(text *t)
     *t = (text){0};
 }
 
+/* ---- HTML and base64 ---- */
+
+void text_add_html(text *t, const char *string)
+{
+    for (const unsigned char *s = (const unsigned char *)string; *s;) {
+        size_t length = utf8_length(s, SIZE_MAX);
+        const char *entity = *s == '&'                                                ? "&amp;"
+                             : *s == '<'                                              ? "&lt;"
+                             : *s == '>'                                              ? "&gt;"
+                             : *s == '"'                                              ? "&quot;"
+                             : length == 0 || (*s < 0x20 && *s != '\n' && *s != '\t') ? "\xef\xbf\xbd"
+                                                                                      : NULL;
+        if (entity)
+            text_add(t, entity);
+        else
+            text_add_bytes(t, s, length);
+        s += length ? length : 1;
+    }
+}
+
+/* Writes the four digits of 1 to 3 bytes. */
+static void base64_group(const unsigned char *bytes, size_t count, char out[4])
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    uint32_t bits = (uint32_t)bytes[0] << 16 | (uint32_t)(count > 1 ? bytes[1] : 0) << 8 |
+                    (uint32_t)(count > 2 ? bytes[2] : 0);
+    out[0] = digits[bits >> 18];
+    out[1] = digits[bits >> 12 & 63];
+    out[2] = count > 1 ? digits[bits >> 6 & 63] : '=';
+    out[3] = count > 2 ? digits[bits & 63] : '=';
+}
+
+void text_add_base64(text *t, const void *bytes, size_t size)
+{
+    enum { GROUPS = 256 };
+    const unsigned char *from = bytes;
+    char out[4 * GROUPS];
+    while (size) {
+        size_t used = 0;
+        for (; used < sizeof out && size; used += 4) {
+            size_t count = size < 3 ? size : 3;
+            base64_group(from, count, out + used);
+            from += count;
+            size -= count;
+        }
+        text_add_bytes(t, out, used);
+    }
+}
+
 /* ---- JSON ---- */
 
 static void add_quoted(text *t, const char *value)

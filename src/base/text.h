@@ -18,6 +18,10 @@ void text_add(text *t, const char *string);
 void text_add_bytes(text *t, const void *bytes, size_t size);
 void text_addf(text *t, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void text_destroy(text *t); /* {0} is allowed */
+/* As HTML: &, <, > and quotes as entities; invalid UTF-8 and control characters become U+FFFD. */
+void text_add_html(text *t, const char *string);
+/* As base64 (RFC 4648), padded, without line breaks. */
+void text_add_base64(text *t, const void *bytes, size_t size);
 
 enum { TEXT_FLOAT_SIZE = 40 };
 /* The shortest decimal that reads back as the same finite float. */

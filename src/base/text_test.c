@@ -182,6 +182,36 @@ static void places_keep_origin_and_offset(void **state)
     }
 }
 
+static void html_is_escaped(void **state)
+{
+    (void)state;
+    text t = {0};
+    text_add_html(&t, "a<b>&\"\x01\xff\xc3\xa9\xed\xa0\x80");
+    assert_string_equal(
+        t.data, "a&lt;b&gt;&amp;&quot;\xef\xbf\xbd\xef\xbf\xbd\xc3\xa9\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd");
+    text_destroy(&t);
+}
+
+static void base64_is_padded(void **state)
+{
+    (void)state;
+    static const char *const cases[][2] = {
+        {"", ""}, {"M", "TQ=="}, {"Ma", "TWE="}, {"Man", "TWFu"}, {"Many", "TWFueQ=="}};
+    text t = {0};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        text_add(&t, ".");
+        text_add_base64(&t, cases[i][0], strlen(cases[i][0]));
+        assert_string_equal(t.data + 1, cases[i][1]);
+        text_destroy(&t);
+    }
+    /* longer than the pieces that it is made of */
+    static const unsigned char zeros[3000];
+    text_add_base64(&t, zeros, sizeof zeros);
+    assert_int_equal(t.length, 4000);
+    assert_int_equal(strspn(t.data, "A"), 4000);
+    text_destroy(&t);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -191,6 +221,8 @@ int main(void)
         cmocka_unit_test(shortest_doubles_are_more_precise_than_floats),
         cmocka_unit_test(places_keep_origin_and_offset),
         cmocka_unit_test(strings_are_valid_utf8),
+        cmocka_unit_test(html_is_escaped),
+        cmocka_unit_test(base64_is_padded),
         cmocka_unit_test(long_text_grows_and_failure_sticks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

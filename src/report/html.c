@@ -2,30 +2,9 @@
 #include "report/html.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <string.h>
 
-#include "base/utf8.h"
-
-/* ---- text ---- */
-
-void html_text(text *out, const char *string)
-{
-    for (const unsigned char *s = (const unsigned char *)string; *s;) {
-        size_t length = utf8_length(s, SIZE_MAX);
-        const char *entity = *s == '&'                                                ? "&amp;"
-                             : *s == '<'                                              ? "&lt;"
-                             : *s == '>'                                              ? "&gt;"
-                             : *s == '"'                                              ? "&quot;"
-                             : length == 0 || (*s < 0x20 && *s != '\n' && *s != '\t') ? "\xef\xbf\xbd"
-                                                                                      : NULL;
-        if (entity)
-            text_add(out, entity);
-        else
-            text_add_bytes(out, s, length);
-        s += length ? length : 1;
-    }
-}
+/* ---- numbers ---- */
 
 void html_number(text *out, double value)
 {
@@ -37,26 +16,13 @@ void html_number(text *out, double value)
 
 /* ---- images ---- */
 
-static void add_base64(text *out, const unsigned char *bytes, size_t size)
-{
-    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    for (size_t i = 0; i < size; i += 3) {
-        size_t count = size - i < 3 ? size - i : 3;
-        uint32_t bits = (uint32_t)bytes[i] << 16 | (uint32_t)(count > 1 ? bytes[i + 1] : 0) << 8 |
-                        (uint32_t)(count > 2 ? bytes[i + 2] : 0);
-        const char group[4] = {digits[bits >> 18], digits[bits >> 12 & 63],
-                               count > 1 ? digits[bits >> 6 & 63] : '=', count > 2 ? digits[bits & 63] : '='};
-        text_add_bytes(out, group, sizeof group);
-    }
-}
-
 void html_image(text *out, const char *mime_type, const unsigned char *bytes, size_t size, uint32_t width,
                 uint32_t height, const char *alternative)
 {
     text_addf(out, "<img width=\"%u\" height=\"%u\" alt=\"", width, height);
-    html_text(out, alternative);
+    text_add_html(out, alternative);
     text_addf(out, "\" src=\"data:%s;base64,", mime_type);
-    add_base64(out, bytes, size);
+    text_add_base64(out, bytes, size);
     text_add(out, "\">");
 }
 
@@ -89,7 +55,7 @@ void html_begin(text *out, const char *title)
 {
     text_add(out, "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
                   "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>");
-    html_text(out, title);
+    text_add_html(out, title);
     text_add(out, "</title>\n<style>");
     text_add(out, style);
     text_add(out, "</style>\n</head>\n<body>\n");

@@ -4,8 +4,6 @@
 
 #include "base/text.h"
 
-/* Text with &, <, > and quotes as entities; invalid UTF-8 and control characters become U+FFFD. */
-void html_text(text *out, const char *string);
 /* An img element with the file embedded. */
 void html_image(text *out, const char *mime_type, const unsigned char *bytes, size_t size, uint32_t width,
                 uint32_t height, const char *alternative);

@@ -141,7 +141,7 @@ static void add_summary(const page *p)
         graded++;
     }
     text_add(p->out, "<h1>Materials of ");
-    html_text(p->out, p->scene->source);
+    text_add_html(p->out, p->scene->source);
     text_addf(p->out, "</h1>\n<p class=\"dim\">%u converted to %s by facet %s</p>\n<p>",
               p->conversion->material_count,
               p->conversion->to == FACET_MATERIAL_MODEL_OGL1                  ? "OpenGL 1"
@@ -174,9 +174,9 @@ static void add_warnings(text *out, const conversion_warning *warnings, uint32_t
     text_add(out, "<ul>\n");
     for (uint32_t i = 0; i < count; i++) {
         text_add(out, "<li>");
-        html_text(out, warnings[i].text);
+        text_add_html(out, warnings[i].text);
         text_add(out, " <code class=\"dim\">");
-        html_text(out, warnings[i].code);
+        text_add_html(out, warnings[i].code);
         text_add(out, "</code></li>\n");
     }
     text_add(out, "</ul>\n");
@@ -359,7 +359,7 @@ static facet_result add_curves(page *p, uint32_t material, facet_error *error)
     p->has_curves = result == FACET_OK;
     if (!p->has_curves) {
         text_add(p->out, "<p class=\"dim\">No curves: ");
-        html_text(p->out, why.message);
+        text_add_html(p->out, why.message);
         text_add(p->out, "</p>\n");
         return FACET_OK;
     }
@@ -376,7 +376,7 @@ static facet_result add_material(page *p, uint32_t material, bool has_images, fa
     const material_conversion *m = &p->conversion->materials[material];
     facet_result result = FACET_OK;
     text_add(p->out, "<section class=\"card\">\n<h2>");
-    html_text(p->out, m->summary.name[0] ? m->summary.name : "(no name)");
+    text_add_html(p->out, m->summary.name[0] ? m->summary.name : "(no name)");
     if (has_error(&m->summary))
         text_addf(p->out, "<span class=\"grade %s\">%s</span>", GRADES[m->summary.grade],
                   GRADES[m->summary.grade]);

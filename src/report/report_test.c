@@ -139,10 +139,6 @@ static void text_is_escaped(void **state)
 {
     (void)state;
     text t = {0};
-    html_text(&t, "a<b>&\"\x01\xff\xc3\xa9\xed\xa0\x80");
-    assert_string_equal(
-        t.data, "a&lt;b&gt;&amp;&quot;\xef\xbf\xbd\xef\xbf\xbd\xc3\xa9\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd");
-    text_destroy(&t);
     html_image(&t, "image/png", (const unsigned char *)"Man", 3, 1, 1, "");
     assert_non_null(strstr(t.data, "base64,TWFu\""));
     text_destroy(&t);
