@@ -1,0 +1,181 @@
+// tools.mjs FACET DIST WORK [MODEL...] - the package's functions for Node.js beside the native command: same bytes, same sentences.
+// Where only the C libraries' elementary functions differ, numbers may differ in their last digits.
+import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
+import { mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { basename, dirname, join } from 'node:path';
+import { pathToFileURL } from 'node:url';
+
+const [facet, dist, work, ...models] = process.argv.slice(2);
+globalThis.fetch = () => {
+    throw new Error('the package asks the network for something');
+};
+const { loadTools, FacetError } = await import(pathToFileURL(join(dist, 'facet-viewer/node.js')));
+const tools = await loadTools();
+
+const QUAD = {
+    'quad/quad.obj': 'mtllib quad.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n'
+        + 'usemtl gold\nf 1/1/1 2/2/1 3/3/1\nusemtl glass\nf 1/1/1 3/3/1 4/4/1\n',
+    'quad/quad.mtl': 'newmtl gold\nKd 0.8 0.6 0.2\nKs 0.9 0.8 0.5\nNs 80\nnewmtl glass\nKd 0 0 0\nKs 1 1 1\nNs 400\nNi 1.5\nd 0.3\nillum 4\n',
+};
+
+// ---- the native command in a folder of its own ----
+
+let folders = 0;
+
+function native(args, files = {}, input = undefined) {
+    const folder = join(work, `native-${folders++}`);
+    mkdirSync(folder);
+    for (const [path, bytes] of Object.entries(files)) {
+        mkdirSync(dirname(join(folder, path)), { recursive: true });
+        writeFileSync(join(folder, path), bytes);
+    }
+    const { status, stdout, stderr } = spawnSync(facet, args, { cwd: folder, input, maxBuffer: 1 << 28 });
+    return { code: status, stdout: stdout.toString(), stdoutBytes: stdout, stderr: stderr.toString(), read: (path) => readFileSync(join(folder, path)), folder };
+}
+
+// What differs from run to run.
+const steady = (text) => text.replace(/"(seconds|peak_memory_bytes|peak_data_bytes)": *[-0-9.e+]+/g, '"$1": 0');
+
+// Both commands: same exit code, messages and standard output; the same files, byte for byte.
+async function assertSame(args, files = {}) {
+    const [here, there] = [await tools.run(args, files), native(args, files)];
+    const what = `facet ${args.join(' ')}`;
+    assert.equal(here.stderr, there.stderr, what);
+    assert.equal(here.code, there.code, what);
+    assert.equal(steady(here.stdout), steady(there.stdout), what);
+    for (const [path, bytes] of Object.entries(here.files)) {
+        assert.ok(Buffer.from(bytes).equals(there.read(path)), `${what}: ${path} has other bytes`);
+    }
+    rmSync(there.folder, { recursive: true });
+    return here;
+}
+
+// Numbers of two texts, which are equal but for these.
+function assertNear(a, b, tolerance, what) {
+    const NUMBER = /-?\d+(?:\.\d+)?(?:e[-+]?\d+)?/g;
+    assert.equal(a.replace(NUMBER, '#'), b.replace(NUMBER, '#'), what);
+    const [x, y] = [a, b].map((text) => (text.match(NUMBER) ?? []).map(Number));
+    const largest = Math.max(...x.map(Math.abs));
+    x.forEach((value, i) => assert.ok(Math.abs(value - y[i]) <= tolerance * Math.max(Math.abs(value), 1e-3 * largest), `${what}: ${value} and ${y[i]}`));
+}
+
+// ---- tests ----
+
+async function testModels() {
+    const builtin = native(['convert', 'quad/quad.obj', 'quad.glb'], QUAD);
+    const all = [{ 'quad.glb': builtin.read('quad.glb') }, ...models.map((path) => ({ [basename(path)]: readFileSync(path) }))];
+    for (const files of all) {
+        const [path] = Object.keys(files);
+        await assertSame(['inspect', path], files);
+        await assertSame(['inspect', path, '--json'], files);
+        for (const output of ['out.glb', 'out.gltf', 'new/out.obj']) {
+            const { files: made } = await assertSame(['convert', path, output], files);
+            assert.ok(output in made && !(path in made), 'the new files, without those that were given');
+        }
+    }
+    await assertSame(['inspect', 'quad', '--json'], QUAD);
+    await assertSame(['convert', 'quad/quad.obj', 'a.glb', '--method', 'fit', '--glass', '--report', 'report.json'], QUAD);
+}
+
+async function testFunctions() {
+    const { files, warnings } = await tools.convert(QUAD, 'quad/quad.obj', { output: 'quad.glb', profile: 'core' });
+    assert.deepEqual(Object.keys(files), ['quad.glb']);
+    assert.ok(Array.isArray(warnings));
+    const info = await tools.inspect(files, 'quad.glb');
+    assert.equal(info.counts.materials, 2);
+    assert.equal(info.source, 'quad.glb');
+    assert.equal(`facet ${await tools.version()}`, native(['version']).stdout.trim());
+    const backwards = await tools.run(['convert', '-', '-o', 'b.obj'], {}, { stdin: files['quad.glb'] });
+    assert.equal(backwards.code, 0, backwards.stderr);
+    assert.ok('b.mtl' in backwards.files);
+}
+
+function halves(bytes) {
+    const view = new Uint16Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + (bytes.length & ~1)));
+    return view;
+}
+
+// Tables are equal; a sky evaluates exp() and sin(), whose last bits differ between C libraries: a texel differs by one step of half.
+async function testBake() {
+    await assertSame(['bake', '--dfg', '-o', 'dfg.ktx2', '--size', '32']);
+    await assertSame(['bake', '--dfg', '-o', 'dfg.png', '--size', '32']);
+    const args = ['bake', 'sun:45,135', '-o', 'sky.ktx2', '--size', '32', '--diffuse', 'diffuse.ktx2', '--sh', 'sh.json'];
+    const { files } = await tools.bake({}, 'sun:45,135', { output: 'sky.ktx2', size: 32, diffuse: 'diffuse.ktx2', sh: 'sh.json' });
+    const there = native(args);
+    for (const path of ['sky.ktx2', 'diffuse.ktx2']) {
+        const [a, b] = [halves(files[path]), halves(there.read(path))];
+        assert.equal(a.length, b.length, path);
+        let different = 0;
+        a.forEach((half, i) => {
+            assert.ok(Math.abs(half - b[i]) <= 1, `${path}: half ${i} is ${half}, natively ${b[i]}`);
+            different += half !== b[i];
+        });
+        assert.ok(different < 0.001 * a.length, `${path}: ${different} of ${a.length} halves differ`);
+    }
+    assertNear(new TextDecoder().decode(files['sh.json']), there.read('sh.json').toString(), 1e-5, 'sh.json');
+    // a panorama in a file, in several layouts
+    const sky = native(['bake', 'sun:45,135', '-o', 'sky', '--size', '32', '--layout', 'three']);
+    assert.equal(sky.code, 0, sky.stderr);
+    const hdr = { 'light.hdr': sky.read('sky/environment.hdr') };
+    await assertSame(['bake', 'light.hdr', '-o', 'out.ktx2', '--size', '16', '--format', 'rgb9e5', '--zstd', '9'], hdr);
+    await assertSame(['bake', 'light.hdr', '-o', 'out', '--size', '16', '--layout', 'filament'], hdr);
+}
+
+async function testImages() {
+    const shot = (ev) => native(['render', '--size', '32', '--samples', '1', '--exposure', ev, '-o', 'a.png']).read('a.png');
+    const files = { 'a.png': shot('0'), 'b.png': shot('0.5') };
+    await assertSame(['compare', 'a.png', 'b.png'], files);
+    await assertSame(['compare', 'a.png', 'b.png', '-o', 'difference.png', '--heat-map', '--sheet'], files);
+    const { metrics } = await tools.compare(files, 'a.png', 'a.png');
+    assert.equal(metrics.flip, 0);
+    const failed = await tools.compare(files, 'a.png', 'b.png', { max: 'flip=0.0001' });
+    assert.equal(failed.passed, false, 'a limit that is passed is an answer, no error');
+}
+
+async function testPlots() {
+    for (const kind of ['brdf', 'slice', 'albedo', 'fresnel', 'terms', 'tone', 'legacy']) {
+        const args = ['plot', kind, '-o', '-', '--format', 'csv'];
+        const [here, there] = [await tools.run(args), native(args)];
+        assertNear(here.stdout, there.stdout, 1e-6, args.join(' '));
+    }
+}
+
+async function testRefusals() {
+    const refuses = (promise, expected) => assert.rejects(promise, (error) => {
+        assert.ok(error instanceof FacetError, String(error.stack));
+        assert.match(error.message, expected);
+        return true;
+    });
+    for (const words of [['nonsense'], ['inspect', 'no.glb'], ['convert', 'quad/quad.obj'], ['convert', 'quad/quad.obj', 'a.xyz'],
+        ['bake', 'no.hdr', '-o', 'a.ktx2'], ['plot', 'brdf', 'roughness=2', '-o', 'a.csv'], ['help', 'bake'], ['help', '--max-memory']]) {
+        await assertSame(words, QUAD);
+    }
+    const glb = native(['convert', 'quad/quad.obj', 'quad.glb'], QUAD).read('quad.glb');
+    await assertSame(['inspect', 'cut.glb'], { 'cut.glb': glb.subarray(0, glb.length / 2) });
+    await assertSame(['inspect', 'bad.gltf'], { 'bad.gltf': '{"asset":{"version":"2.0"},"meshes":[{}]' });
+    await refuses(tools.inspect({ 'bad.gltf': '{' }, 'bad.gltf'), /^bad\.gltf: /);
+    await refuses(tools.inspect({ '../up.gltf': '{}' }, '../up.gltf'), /relative/);
+    await refuses(tools.inspect({ 'a.gltf': 5 }, 'a.gltf'), /Uint8Array/);
+    await refuses(tools.convert(QUAD, 'quad/quad.obj', { output: 'a.glb', nonsense: true }), /--nonsense/);
+    const drawn = await tools.run(['render', '-o', 'a.png']);
+    assert.equal(drawn.code, 5);
+    assert.match(drawn.stderr, /WebAssembly has no renderer for the CPU/);
+    assert.equal((await tools.run(['render', '--size', 'x'])).code, 2, 'its options are checked all the same');
+}
+
+// The module's memory is reused: runs do not add up.
+async function testManyRuns() {
+    const before = process.memoryUsage().arrayBuffers;
+    for (let i = 0; i < 200; i++) await tools.run(['convert', 'quad/quad.obj', 'a.glb'], QUAD);
+    const grown = process.memoryUsage().arrayBuffers - before;
+    assert.ok(grown < 32 << 20, `200 runs left ${grown} bytes`);
+    const runs = await Promise.all([1, 2, 3].map((i) => tools.run(['convert', 'quad/quad.obj', `${i}.glb`], QUAD)));
+    assert.deepEqual(runs.map(({ files }) => Object.keys(files)), [['1.glb'], ['2.glb'], ['3.glb']], 'calls at the same time wait for each other');
+}
+
+for (const test of [testModels, testFunctions, testBake, testImages, testPlots, testRefusals, testManyRuns]) {
+    const start = performance.now();
+    await test();
+    console.log(`tools: ${test.name.replace(/^test/, '').toLowerCase()} ${((performance.now() - start) / 1000).toFixed(1)} s`);
+}

@@ -1,0 +1,279 @@
+// tools.js - the command `facet` over files in memory, for pages, workers and Node.js: reads, inspects, converts, bakes, compares and
+// plots. The work, its options, defaults and sentences are the command's own, compiled to WebAssembly (facet-command.wasm).
+import createCommand from './facet-command.js';
+import { FacetError } from './error.js';
+
+const FOLDER = '/work'; // where files lie in the module's file system
+const KEPT_MEMORY = 256 << 20; // bytes; a module that has grown beyond is replaced, since its memory never shrinks
+const EXIT_NEGATIVE = 1; // the command's answer is "no": images differ, there were warnings with --strict
+
+// ---- a module and its file system ----
+
+// A stream of the command that keeps what is written.
+class Sink {
+  chunks = [];
+
+  bytes() {
+    const all = new Uint8Array(this.chunks.reduce((sum, chunk) => sum + chunk.length, 0));
+    let at = 0;
+    for (const chunk of this.chunks) {
+      all.set(chunk, at);
+      at += chunk.length;
+    }
+    return all;
+  }
+}
+
+// Replaces a standard stream by operations on bytes: emscripten's own are lines of text.
+function replaceStream(FS, number, name, operations) {
+  const device = FS.makedev(64, number);
+  FS.registerDevice(device, { open() {}, close() {}, ...operations });
+  FS.mkdev(`/dev/${name}`, device);
+  FS.close(FS.streams[number]);
+  FS.open(`/dev/${name}`, number === 0 ? 'r' : 'w'); // takes the lowest free number
+}
+
+function connectStreams(module) {
+  const streams = { input: new Uint8Array(0), read: 0, sinks: [null, new Sink(), new Sink()] };
+  replaceStream(module.FS, 0, 'facet-stdin', {
+    read(stream, buffer, offset, length) {
+      const part = streams.input.subarray(streams.read, streams.read + length);
+      buffer.set(part, offset);
+      streams.read += part.length;
+      return part.length;
+    },
+  });
+  for (const number of [1, 2]) {
+    replaceStream(module.FS, number, number === 1 ? 'facet-stdout' : 'facet-stderr', {
+      write(stream, buffer, offset, length) {
+        streams.sinks[number].chunks.push(buffer.slice(offset, offset + length));
+        return length;
+      },
+    });
+  }
+  return streams;
+}
+
+// wasm: a compiled WebAssembly.Module.
+async function createInstance(wasm) {
+  const module = await new Promise((resolve, reject) => {
+    createCommand({
+      noExitRuntime: true,
+      print() {},
+      printErr() {},
+      instantiateWasm(imports, receive) {
+        WebAssembly.instantiate(wasm, imports).then((instance) => receive(instance, wasm), reject);
+        return {};
+      },
+    }).then(resolve, reject);
+  });
+  return { module, streams: connectStreams(module) };
+}
+
+// A path of the caller as one below FOLDER.
+function placeOf(path) {
+  const parts = path.split('/').filter((part) => part && part !== '.');
+  if (!parts.length || path.startsWith('/') || parts.includes('..')) {
+    throw new FacetError(`${path || '""'}: the names of files are relative, without ".."`);
+  }
+  return `${FOLDER}/${parts.join('/')}`;
+}
+
+function removeTree(FS, path) {
+  for (const name of FS.readdir(path)) {
+    if (name === '.' || name === '..') continue;
+    const at = `${path}/${name}`;
+    if (FS.isDir(FS.lstat(at).mode)) {
+      removeTree(FS, at);
+      FS.rmdir(at);
+    } else {
+      FS.unlink(at);
+    }
+  }
+}
+
+const toBytes = (data) => {
+  if (typeof data === 'string') return new TextEncoder().encode(data);
+  if (ArrayBuffer.isView(data)) return new Uint8Array(data.buffer, data.byteOffset, data.byteLength);
+  if (data instanceof ArrayBuffer) return new Uint8Array(data);
+  throw new FacetError('the content of a file is a Uint8Array, another view of bytes, an ArrayBuffer or a string');
+};
+
+// Files are handed over without a copy: the command replaces files, and does not write into them.
+function writeFiles(FS, files) {
+  const written = new Map();
+  for (const [path, data] of Object.entries(files)) {
+    const place = placeOf(path);
+    const bytes = toBytes(data);
+    FS.mkdirTree(place.slice(0, place.lastIndexOf('/')));
+    FS.writeFile(place, bytes, { canOwn: true });
+    written.set(place, bytes);
+  }
+  return written;
+}
+
+// What is new or replaced, by path relative to FOLDER.
+function collectFiles(FS, written, path = FOLDER, found = {}) {
+  for (const name of FS.readdir(path)) {
+    if (name === '.' || name === '..') continue;
+    const at = `${path}/${name}`;
+    if (FS.isDir(FS.stat(at).mode)) collectFiles(FS, written, at, found);
+    else {
+      const bytes = FS.readFile(at);
+      const before = written.get(at);
+      if (!before || before.length !== bytes.length || before.some((byte, i) => byte !== bytes[i])) {
+        found[at.slice(FOLDER.length + 1)] = bytes;
+      }
+    }
+  }
+  return found;
+}
+
+// Calls main() with text arguments. Returns the exit code.
+function callMain(module, args) {
+  const texts = ['facet', ...args].map((text) => new TextEncoder().encode(text));
+  const table = module._malloc(4 * (texts.length + 1) + texts.reduce((sum, text) => sum + text.length + 1, 0));
+  let at = table + 4 * (texts.length + 1);
+  texts.forEach((text, i) => {
+    module.HEAPU32[(table >> 2) + i] = at;
+    module.HEAPU8.set(text, at);
+    module.HEAPU8[at + text.length] = 0;
+    at += text.length + 1;
+  });
+  module.HEAPU32[(table >> 2) + texts.length] = 0;
+  try {
+    return module._main(texts.length, table);
+  } finally {
+    module._free(table);
+  }
+}
+
+// ---- options ----
+
+const kebab = (name) => name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
+
+// {maxTexture: 512, 'no-tangents': true, angle: [0, 30]} as --max-texture=512 --no-tangents --angle=0,30.
+function optionsToArgs(options = {}) {
+  const args = [];
+  for (const [name, value] of Object.entries(options)) {
+    if (value === undefined || value === null || value === false) continue;
+    const text = Array.isArray(value) ? value.join(',') : value;
+    args.push(value === true ? `--${kebab(name)}` : `--${kebab(name)}=${text}`);
+  }
+  return args;
+}
+
+// The command's sentence, without the warnings before it.
+function sentenceOf(result) {
+  const lines = result.stderr.trim().split('\n');
+  return lines[lines.length - 1].replace(/^facet: /, '') || `facet ended with exit code ${result.code}`;
+}
+
+function check(result, isNegativeAllowed = false) {
+  if (result.code === 0 || (isNegativeAllowed && result.code === EXIT_NEGATIVE)) return result;
+  throw new FacetError(sentenceOf(result), result.code);
+}
+
+const warningsOf = (result) => result.stderr.split('\n').filter((line) => line);
+
+// ---- the tools ----
+
+class Tools {
+  #wasm;
+  #instance = null; // kept from run to run
+  #queue = Promise.resolve();
+
+  constructor(wasm) {
+    this.#wasm = wasm;
+  }
+
+  // Runs the command with words as of a shell: run(['convert', 'a.obj', '-o', 'b.glb'], {'a.obj': bytes}). files are all that it
+  // can read; stdin is what "-" reads. Never throws because of its exit code.
+  run(args, files = {}, { stdin } = {}) {
+    const result = this.#queue.then(() => this.#run(args, files, stdin));
+    this.#queue = result.catch(() => {});
+    return result;
+  }
+
+  async #run(args, files, stdin) {
+    this.#instance ??= await createInstance(this.#wasm);
+    const { module, streams } = this.#instance;
+    const { FS } = module;
+    streams.input = stdin === undefined ? new Uint8Array(0) : toBytes(stdin);
+    streams.read = 0;
+    streams.sinks[1].chunks = [];
+    streams.sinks[2].chunks = [];
+    let isSound = false;
+    FS.mkdirTree(FOLDER);
+    FS.chdir(FOLDER);
+    try {
+      const written = writeFiles(FS, files);
+      const code = this.#call(module, args);
+      isSound = true;
+      const [out, err] = [streams.sinks[1].bytes(), streams.sinks[2].bytes()];
+      const text = (bytes) => new TextDecoder().decode(bytes);
+      const result = { code, stdoutBytes: out, stderr: text(err), files: collectFiles(FS, written) };
+      Object.defineProperty(result, 'stdout', { enumerable: true, get: () => text(out) });
+      removeTree(FS, FOLDER);
+      return result;
+    } finally {
+      if (!isSound || module.HEAPU8.length > KEPT_MEMORY) this.#instance = null;
+    }
+  }
+
+  #call(module, args) {
+    try {
+      return callMain(module, args.map(String));
+    } catch (error) {
+      if (error.name === 'ExitStatus') return error.status;
+      throw new FacetError(`facet ${args[0]}: WebAssembly stopped (${error.message}); probably there was not enough memory`);
+    }
+  }
+
+  async version() {
+    return (await this.run(['version'])).stdout.trim().replace('facet ', '');
+  }
+
+  // `facet inspect --json`: what is in the model at path, with the warnings of reading.
+  async inspect(files, path, options = {}) {
+    const result = check(await this.run(['inspect', path, '--json', ...optionsToArgs(options)], files), true);
+    return JSON.parse(result.stdout);
+  }
+
+  // `facet convert path -o options.output`: the new files, and the command's warnings. A report named by options is among the files.
+  async convert(files, path, options = {}) {
+    const result = check(await this.run(['convert', path, ...optionsToArgs(options)], files), true);
+    return { files: result.files, warnings: warningsOf(result) };
+  }
+
+  // `facet bake path`: the filtered cube map or what options name (`output`, `dfg`, `sh`, `layout`). path null: without an environment, as for --dfg.
+  async bake(files, path, options = {}) {
+    const result = check(await this.run(['bake', ...(path ? [path] : []), ...optionsToArgs(options)], files), true);
+    return { files: result.files, warnings: warningsOf(result) };
+  }
+
+  // `facet compare a b --json`: the metrics of two images.
+  async compare(files, a, b, options = {}) {
+    const result = check(await this.run(['compare', a, b, '--json', ...optionsToArgs(options)], files), true);
+    return { ...JSON.parse(result.stdout), files: result.files };
+  }
+}
+
+let compiled = null; // of the wasm beside this file
+
+async function compileDefault() {
+  const response = await fetch(new URL('./facet-command.wasm', import.meta.url));
+  if (!response.ok) throw new FacetError(`facet-command.wasm: the server answered ${response.status}`);
+  return WebAssembly.compile(await response.arrayBuffer());
+}
+
+// wasm: bytes or a compiled module in place of facet-command.wasm beside this file. Each Tools runs one command at a time.
+export async function loadTools({ wasm } = {}) {
+  if (wasm instanceof WebAssembly.Module) return new Tools(wasm);
+  if (wasm) return new Tools(await WebAssembly.compile(wasm));
+  compiled ??= compileDefault();
+  compiled.catch(() => { compiled = null; });
+  return new Tools(await compiled);
+}
+
+export { FacetError };
