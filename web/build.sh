@@ -7,7 +7,7 @@ generated=$(CDPATH= cd -- "$1" && pwd)
 build=$here/../build/web
 mkdir -p "$build"
 build=$(cd "$build" && pwd)
-[ -f "$generated/gl_text.h" ] || { echo "web: there is no gl_text.h in $generated: libepoxy-dev was missing" >&2; exit 1; }
+[ -f "$generated/compact/gl_text.h" ] || { echo "web: there is no compact/gl_text.h in $generated: libepoxy-dev was missing" >&2; exit 1; }
 sh "$here/sources.sh" "$build/sources" zlib libspng jansson libjpeg-turbo libzstd
 version=$(sed -n 's/^project(facet VERSION \([0-9.]*\).*/\1/p' "$here/../CMakeLists.txt")
 toolchain="-G Ninja -DCMAKE_TOOLCHAIN_FILE=$here/toolchain.cmake -DCMAKE_BUILD_TYPE=Release"

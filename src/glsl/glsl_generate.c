@@ -1,15 +1,20 @@
 /* glsl_generate.c - writes texts of shaders to a C header; runs when facet is built.
- * usage: glsl_generate OUTPUT SHADE_FOLDER       the shader library
- *        glsl_generate OUTPUT FOLDER NAME...     files of a folder, as the array `parts`; their names are
- *                                                without the paths from there
+ * usage: glsl_generate [--compact] OUTPUT SHADE_FOLDER       the shader library
+ *        glsl_generate [--compact] OUTPUT FOLDER NAME...     files of a folder, as the array `parts`; their names
+ *                                                            are without the paths from there
  *
  * OUTPUT gets the dialect of GLSL and, in the order of shade.h, the parts of the text as arrays of bytes:
- * a string literal is limited to 4095. */
+ * a string literal is limited to 4095. --compact: without comments (glsl_compact.h), for downloads. */
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_LINE = 1024, MAX_PARTS = 64, MAX_NAME = 64 };
+#include "glsl/glsl_compact.h"
+
+enum { MAX_LINE = 1024, MAX_PARTS = 64, MAX_NAME = 64, MAX_TEXT = 1 << 18 };
+
+static bool is_compact;
 
 static void stop(const char *path, const char *what)
 {
@@ -30,20 +35,27 @@ static FILE *open_text(const char *folder, const char *name)
 /* The file's lines, except those for C alone, as an array. */
 static void put_text(FILE *out, const char *folder, const char *name, const char *array)
 {
+    static char text[MAX_TEXT];
     FILE *file = open_text(folder, name);
     char line[MAX_LINE];
-    fprintf(out, "static const unsigned char %s[] = {", array);
+    size_t length = 0;
+    text[0] = 0;
     while (fgets(line, sizeof line, file)) {
-        if (!strchr(line, '\n'))
-            stop(name, "has a line that is too long");
+        size_t added = strlen(line);
+        if (!strchr(line, '\n') || length + added >= sizeof text)
+            stop(name, "has a line that is too long, or too many");
         if (strncmp(line, "#include", 8) == 0)
             continue;
-        for (const char *c = line; *c; c++)
-            fprintf(out, "%d,", (unsigned char)*c);
-        fputc('\n', out);
+        memcpy(text + length, line, added + 1);
+        length += added;
     }
-    fprintf(out, "0};\n");
     fclose(file);
+    if (is_compact)
+        glsl_compact(text);
+    fprintf(out, "static const unsigned char %s[] = {", array);
+    for (const char *c = text; *c; c++)
+        fprintf(out, *c == '\n' ? "%d,\n" : "%d,", (unsigned char)*c);
+    fprintf(out, "0};\n");
 }
 
 /* The same as text_INDEX. */
@@ -80,8 +92,13 @@ static int put_shared(FILE *out, const char *folder, char names[MAX_PARTS][MAX_N
 
 int main(int argc, char **argv)
 {
+    if (argc > 1 && strcmp(argv[1], "--compact") == 0) {
+        is_compact = true;
+        argv++;
+        argc--;
+    }
     if (argc < 3 || argc > 3 + MAX_PARTS) {
-        fprintf(stderr, "usage: glsl_generate OUTPUT FOLDER [NAME...]\n");
+        fprintf(stderr, "usage: glsl_generate [--compact] OUTPUT FOLDER [NAME...]\n");
         return 2;
     }
     FILE *out = fopen(argv[1], "w");
