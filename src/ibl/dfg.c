@@ -1,4 +1,4 @@
-/* dfg.c - LUTs of directional albedo and their lookup. tables_generate.c computes them when facet is built. */
+/* dfg.c - lookups in the LUTs of directional albedo. */
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -7,33 +7,6 @@
 #include "ibl/ibl.h"
 
 #include "shade/shade.h"
-
-static const float dfg_table[DFG_SIZE][DFG_SIZE][2] = {
-#include "ibl_dfg_table.h"
-};
-
-static const float sheen_table[SHEEN_SIZE][SHEEN_SIZE] = {
-#include "ibl_sheen_table.h"
-};
-
-static const uint16_t glass_table[2 * GLASS_IORS * GLASS_SIZE * GLASS_SIZE * 3] = {
-#include "ibl_glass_table.h"
-};
-
-const float *ibl_dfg_nodes(void)
-{
-    return &dfg_table[0][0][0];
-}
-
-const float *ibl_sheen_nodes(void)
-{
-    return &sheen_table[0][0];
-}
-
-const uint16_t *ibl_glass_nodes(void)
-{
-    return glass_table;
-}
 
 /* Index of the node of a LUT of size nodes at or before x in [0, 1], and the fraction to the next one. */
 typedef struct table_place {
@@ -53,11 +26,11 @@ void ibl_dfg(float NdotV, float perceptual_roughness, float out[2])
 {
     table_place x = find_place(sqrtf(NdotV > 0.0f ? NdotV : 0.0f), DFG_SIZE);
     table_place y = find_place(perceptual_roughness, DFG_SIZE);
-    const float(*low)[2] = dfg_table[y.first] + x.first;
-    const float(*high)[2] = dfg_table[y.first + 1] + x.first;
+    const float *low = ibl_dfg_nodes() + 2 * (y.first * DFG_SIZE + x.first);
+    const float *high = low + 2 * DFG_SIZE;
     for (int i = 0; i < 2; i++) {
-        float a = low[0][i] + (low[1][i] - low[0][i]) * x.weight;
-        float b = high[0][i] + (high[1][i] - high[0][i]) * x.weight;
+        float a = low[i] + (low[i + 2] - low[i]) * x.weight;
+        float b = high[i] + (high[i + 2] - high[i]) * x.weight;
         out[i] = a + (b - a) * y.weight;
     }
 }
@@ -66,8 +39,8 @@ float ibl_sheen_albedo(float NdotV, float sheen_roughness)
 {
     table_place x = find_place(sqrtf(NdotV > 0.0f ? NdotV : 0.0f), SHEEN_SIZE);
     table_place y = find_place(sheen_roughness, SHEEN_SIZE);
-    const float *low = sheen_table[y.first] + x.first;
-    const float *high = sheen_table[y.first + 1] + x.first;
+    const float *low = ibl_sheen_nodes() + y.first * SHEEN_SIZE + x.first;
+    const float *high = low + SHEEN_SIZE;
     float a = low[0] + (low[1] - low[0]) * x.weight;
     float b = high[0] + (high[1] - high[0]) * x.weight;
     return a + (b - a) * y.weight;
@@ -76,7 +49,8 @@ float ibl_sheen_albedo(float NdotV, float sheen_roughness)
 /* Bilinear in one layer of the glass LUT. */
 static void glass_layer(int layer, table_place x, table_place y, float out[3])
 {
-    const uint16_t *low = glass_table + (size_t)(((layer * GLASS_SIZE + y.first) * GLASS_SIZE + x.first) * 3);
+    const uint16_t *low =
+        ibl_glass_nodes() + (size_t)(((layer * GLASS_SIZE + y.first) * GLASS_SIZE + x.first) * 3);
     const uint16_t *high = low + (size_t)GLASS_SIZE * 3;
     for (int i = 0; i < 3; i++) {
         float a = (float)low[i] + (float)(low[i + 3] - low[i]) * x.weight;

@@ -18,9 +18,23 @@ enum {
 #define GLASS_ROOT_MAX 0.8f
 #define GLASS_UNIT 65535.0f
 
+/* In the terms of packed_table.h: channels, width, height, depth. */
+#define DFG_SHAPE                                                                                            \
+    {                                                                                                        \
+        2, DFG_SIZE, DFG_SIZE, 1                                                                             \
+    }
+#define SHEEN_SHAPE                                                                                          \
+    {                                                                                                        \
+        1, SHEEN_SIZE, SHEEN_SIZE, 1                                                                         \
+    }
+#define GLASS_SHAPE                                                                                          \
+    {                                                                                                        \
+        3, GLASS_SIZE, GLASS_SIZE, 2 * GLASS_IORS                                                            \
+    }
+
 /* The nodes of ibl_dfg(), ibl_sheen_albedo() and ibl_glass(): rows of roughness, columns of sqrt(NdotV).
  * Glass has a layer per ior for light from outside (eta above 1), then those for light from inside, times
- * GLASS_UNIT. */
+ * GLASS_UNIT. dfg_nodes.c has them as arrays, dfg_nodes_packed.c unpacks them. */
 const float *ibl_dfg_nodes(void);      /* DFG_SIZE x DFG_SIZE x 2 */
 const float *ibl_sheen_nodes(void);    /* SHEEN_SIZE x SHEEN_SIZE */
 const uint16_t *ibl_glass_nodes(void); /* 2 GLASS_IORS x GLASS_SIZE x GLASS_SIZE x 3 */

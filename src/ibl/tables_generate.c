@@ -1,48 +1,57 @@
 /* tables_generate.c - computes the look-up tables of dfg.h; runs when facet is built.
- * usage: tables_generate dfg|sheen|glass OUTPUT */
+ * usage: tables_generate dfg|sheen|glass OUTPUT PACKED
+ * Both are initializers: OUTPUT of an array of the values, PACKED of the bytes of packed_table.h. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "base/packed_table.h"
 #include "ibl/dfg.h"
 #include "ibl/dfg_integrate.h"
 
 #include "shade/shade.h"
 
-static void write_dfg(FILE *file)
+enum { MAX_VALUES = 2 * GLASS_IORS * GLASS_SIZE * GLASS_SIZE * 3 };
+
+static char texts[MAX_VALUES][16];
+
+static void set_float(size_t i, double value)
 {
-    for (int y = 0; y < DFG_SIZE; y++) {
-        fprintf(file, "{\n");
+    snprintf(texts[i], sizeof texts[i], "%.6e", value);
+}
+
+static void make_dfg(void)
+{
+    for (int y = 0; y < DFG_SIZE; y++)
         for (int x = 0; x < DFG_SIZE; x++) {
             double root = (double)x / (DFG_SIZE - 1);
             dfg_terms t = dfg_integrate(DFG_SMITH_CORRELATED, (float)y / (DFG_SIZE - 1), root * root);
-            fprintf(file, "{%.6ef, %.6ef},\n", t.scale, t.bias);
+            set_float(2 * (size_t)(y * DFG_SIZE + x), t.scale);
+            set_float(2 * (size_t)(y * DFG_SIZE + x) + 1, t.bias);
         }
-        fprintf(file, "},\n");
-    }
 }
 
-static void write_sheen(FILE *file)
+static void make_sheen(void)
 {
     for (int y = 0; y < SHEEN_SIZE; y++) {
         sheen_nodes nodes;
         sheen_prepare((float)y / (SHEEN_SIZE - 1), &nodes);
-        fprintf(file, "{\n");
         for (int x = 0; x < SHEEN_SIZE; x++) {
             double root = (double)x / (SHEEN_SIZE - 1);
             double E = sheen_integrate(&nodes, root * root).charlie;
-            fprintf(file, "%.6ef,\n",
-                    E > 1e-30 ? E : 0.0); /* smaller values have no float of full precision */
+            /* smaller values have no float of full precision */
+            set_float((size_t)(y * SHEEN_SIZE + x), E > 1e-30 ? E : 0.0);
         }
-        fprintf(file, "},\n");
     }
 }
 
 /* integrate_glass() of shade/glass.h: means over visible normals, first seen from the rarer side, then
  * from the denser one. The integrands jump at the horizon and at the critical angle, so points of low
  * discrepancy do as well as a quadrature rule. */
-static void write_glass(FILE *file)
+static void make_glass(void)
 {
     enum { TERMS = 4096 };
+    size_t count = 0;
     for (int node = 0; node < 2 * GLASS_IORS; node++) {
         float z = (float)(node % GLASS_IORS) / (GLASS_IORS - 1);
         float root = GLASS_ROOT_MAX * z * z;
@@ -53,29 +62,55 @@ static void write_glass(FILE *file)
                 float cosine = (float)x / (GLASS_SIZE - 1);
                 vec3 g = integrate_glass((float)y / (GLASS_SIZE - 1), cosine * cosine, eta, TERMS);
                 for (int i = 0; i < 3; i++)
-                    fprintf(file, "%.0f,", (double)min(g[i] * GLASS_UNIT, GLASS_UNIT));
-                fprintf(file, "\n");
+                    snprintf(texts[count++], sizeof *texts, "%.0f",
+                             (double)min(g[i] * GLASS_UNIT, GLASS_UNIT));
             }
     }
+}
+
+/* Ends the program with an error unless the file is there. */
+static FILE *open_output(const char *path)
+{
+    FILE *file = fopen(path, "w");
+    if (!file) {
+        perror(path);
+        exit(1);
+    }
+    return file;
+}
+
+static bool write_values(const char *path, packed_shape shape)
+{
+    FILE *file = open_output(path);
+    for (size_t i = 0; i < (size_t)shape.channels * shape.width * shape.height * shape.depth; i++)
+        fprintf(file, "%s%s,\n", texts[i], strchr(texts[i], 'e') ? "f" : "");
+    return fclose(file) == 0;
+}
+
+static bool write_packed(const char *path, packed_shape shape)
+{
+    FILE *file = open_output(path);
+    bool is_exact = packed_table_write(file, shape, texts);
+    if (!is_exact)
+        fprintf(stderr, "tables_generate: %s: a value cannot be packed\n", path);
+    return fclose(file) == 0 && is_exact;
 }
 
 int main(int argc, char **argv)
 {
     static const struct {
         const char *name;
-        void (*write)(FILE *file);
-    } tables[] = {{"dfg", write_dfg}, {"sheen", write_sheen}, {"glass", write_glass}};
+        packed_shape shape;
+        void (*make)(void);
+    } tables[] = {
+        {"dfg", DFG_SHAPE, make_dfg}, {"sheen", SHEEN_SHAPE, make_sheen}, {"glass", GLASS_SHAPE, make_glass}};
     for (size_t i = 0; i < sizeof tables / sizeof *tables; i++) {
-        if (argc != 3 || strcmp(argv[1], tables[i].name) != 0)
+        if (argc != 4 || strcmp(argv[1], tables[i].name) != 0)
             continue;
-        FILE *file = fopen(argv[2], "w");
-        if (!file) {
-            perror(argv[2]);
-            return 1;
-        }
-        tables[i].write(file);
-        return fclose(file) == 0 ? 0 : 1;
+        tables[i].make();
+        bool is_written = write_values(argv[2], tables[i].shape) && write_packed(argv[3], tables[i].shape);
+        return is_written ? 0 : 1;
     }
-    fprintf(stderr, "usage: tables_generate dfg|sheen|glass OUTPUT\n");
+    fprintf(stderr, "usage: tables_generate dfg|sheen|glass OUTPUT PACKED\n");
     return 1;
 }
