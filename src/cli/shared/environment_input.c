@@ -15,7 +15,7 @@
 
 #define DEGREE 0.017453292519943295 /* pi / 180 */
 
-enum { MAX_FIELDS = 16, FIELD_SIZE = 64, MAX_PATH = 4096 };
+enum { MAX_FIELDS = 16, FIELD_SIZE = 64 };
 static const float default_albedo = 0.2f; /* dry grass, soil */
 static const float white_illuminance = 3.14159265f;
 
@@ -196,16 +196,16 @@ static bool read_faces(const char *text, environment_input *out)
 }
 
 /* The pattern's name for a face; false: too long. */
-static bool expand_face(const char *pattern, const char *face, char name[MAX_PATH])
+static bool expand_face(const char *pattern, const char *face, char name[ENVIRONMENT_PATH_SIZE])
 {
     const char *mark = strstr(pattern, face_mark);
-    int length =
-        snprintf(name, MAX_PATH, "%.*s%s%s", (int)(mark - pattern), pattern, face, mark + strlen(face_mark));
-    return length >= 0 && length < MAX_PATH;
+    int length = snprintf(name, ENVIRONMENT_PATH_SIZE, "%.*s%s%s", (int)(mark - pattern), pattern, face,
+                          mark + strlen(face_mark));
+    return length >= 0 && length < ENVIRONMENT_PATH_SIZE;
 }
 
 /* Writes the file names of the list, or of the pattern with that naming, to names. */
-static bool list_faces(const char *text, int naming, char names[6][MAX_PATH])
+static bool list_faces(const char *text, int naming, char names[6][ENVIRONMENT_PATH_SIZE])
 {
     bool is_pattern = strstr(text, face_mark) != NULL;
     for (int i = 0; i < 6; i++) {
@@ -215,7 +215,7 @@ static bool list_faces(const char *text, int naming, char names[6][MAX_PATH])
             continue;
         }
         size_t length = strcspn(text, ",");
-        if (length >= MAX_PATH)
+        if (length >= ENVIRONMENT_PATH_SIZE)
             return false;
         memcpy(names[i], text, length);
         names[i][length] = '\0';
@@ -224,24 +224,48 @@ static bool list_faces(const char *text, int naming, char names[6][MAX_PATH])
     return true;
 }
 
+/* Writes the six names of the input: of a pattern the first naming with an existing file, else the first naming. False: one
+ * is too long. */
+static bool choose_faces(const char *text, char names[6][ENVIRONMENT_PATH_SIZE])
+{
+    bool fits = true;
+    int naming = 0;
+    if (strstr(text, face_mark))
+        for (int n = NAMING_COUNT - 1; fits && n >= 0; n--) {
+            fits = list_faces(text, n, names);
+            if (fits && input_is_same_file(names[0], names[0]))
+                naming = n;
+        }
+    return fits && list_faces(text, naming, names);
+}
+
 static facet_result load_faces(const environment_input *input, const facet_environment_desc *desc,
                                facet_environment **environment, facet_error *error)
 {
-    char(*names)[MAX_PATH] = malloc(6 * sizeof *names);
+    char(*names)[ENVIRONMENT_PATH_SIZE] = malloc(6 * sizeof *names);
     if (!names)
         return fail(error, FACET_ERROR_MEMORY, "%s: out of memory", input->path);
-    int naming = 0;
-    bool fits = list_faces(input->path, 0, names);
-    if (strstr(input->path, face_mark)) /* the first naming with an existing file; else the first */
-        for (int n = NAMING_COUNT - 1; fits && n >= 0; n--)
-            if (list_faces(input->path, n, names) && input_is_same_file(names[0], names[0]))
-                naming = n;
-    fits = fits && list_faces(input->path, naming, names);
+    bool fits = choose_faces(input->path, names);
     const char *paths[6] = {names[0], names[1], names[2], names[3], names[4], names[5]};
     facet_result result = fits ? facet_environment_load_faces(paths, desc, environment, error)
                                : fail(error, FACET_ERROR_ARGUMENT, "%s: a name is too long", input->path);
     free(names);
     return result;
+}
+
+bool environment_input_get_file(const environment_input *input, int index, char path[ENVIRONMENT_PATH_SIZE])
+{
+    int count = input->kind == ENVIRONMENT_FILE ? 1 : input->kind == ENVIRONMENT_FACES ? 6 : 0;
+    if (index >= count)
+        return false;
+    if (input->kind == ENVIRONMENT_FILE)
+        return snprintf(path, ENVIRONMENT_PATH_SIZE, "%s", input->path) < ENVIRONMENT_PATH_SIZE;
+    char(*names)[ENVIRONMENT_PATH_SIZE] = malloc(6 * sizeof *names);
+    bool fits = names && choose_faces(input->path, names);
+    if (fits)
+        memcpy(path, names[index], ENVIRONMENT_PATH_SIZE);
+    free(names);
+    return fits;
 }
 
 /* ---- all words ---- */
@@ -375,7 +399,7 @@ bool environment_input_is_file(const environment_input *input, const char *path)
         return input_is_same_file(path, input->path);
     if (input->kind != ENVIRONMENT_FACES)
         return false;
-    char(*names)[MAX_PATH] = malloc(6 * sizeof *names);
+    char(*names)[ENVIRONMENT_PATH_SIZE] = malloc(6 * sizeof *names);
     bool is_same = false;
     for (int n = 0; names && n < NAMING_COUNT; n++)
         if (list_faces(input->path, n, names))

@@ -50,6 +50,11 @@ facet_result environment_input_load(const environment_input *input, const facet_
 /* Name in messages and names of outputs: the path, "stdin", or the kind, as "studio" and "sky". */
 const char *environment_input_name(const environment_input *input);
 
+/* Writes the path of file index (0 or, of a cube map in six files, 0 to 5) that the environment is read from. False: there
+ * is none. */
+enum { ENVIRONMENT_PATH_SIZE = 4096 };
+bool environment_input_get_file(const environment_input *input, int index, char path[ENVIRONMENT_PATH_SIZE]);
+
 /* Whether the environment is read from the file path. */
 bool environment_input_is_file(const environment_input *input, const char *path);
 

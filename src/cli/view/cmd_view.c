@@ -6,6 +6,7 @@
 #include "cli/shared/input.h"
 #include "cli/shared/verb_run.h"
 #include "cli/view/view_command.h"
+#include "cli/view/view_export.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -25,14 +26,20 @@ const verb view_verb = {
         "model is read again when its files change. Without a MODEL the built-in scene is shown.\n\n"
         "The window renders with OpenGL as facet render --renderer gl does; R switches to "
         "progressive path tracing. Ctrl+C copies the facet render command line of the view. Exit "
-        "code 8: there is no display, GLFW or OpenGL.",
+        "code 8: there is no display, GLFW or OpenGL.\n\n"
+        "With --html there is no window: the view becomes a web page, which needs neither a display nor "
+        "OpenGL "
+        "to write. The options for light, camera, materials and animation mean the same there.",
     .examples = (const example[]){{"facet view helmet.glb", "one model, and the others of its folder"},
                                   {"facet view models/ --env studio.hdr --background env",
                                    "a folder, under another environment"},
                                   {"facet view ring.glb --renderer path --ground shadow", "path traced"},
+                                  {"facet view ring.glb --env sun:45,135 --html ring.html",
+                                   "one file that shows the model in any browser"},
+                                  {"facet view models/ --html pages/", "a folder for a web server"},
                                   {NULL, NULL}},
     .basics = OPTION_IDS(OPT_ENV, OPT_BACKGROUND, OPT_EXPOSURE, OPT_TONE_MAPPING, OPT_ORBIT, OPT_RENDERER,
-                         OPT_GROUND, OPT_ANIMATION, OPT_SIZE, OPT_SHADING),
+                         OPT_GROUND, OPT_ANIMATION, OPT_SIZE, OPT_SHADING, OPT_HTML),
     .groups =
         (const option_group *const[]){
             OPTION_GROUP("Window", OPT_SIZE, OPT_BACKGROUND, OPT_BACKGROUND_BLUR),
@@ -42,7 +49,8 @@ const verb view_verb = {
             OPTION_GROUP("Path tracing (--renderer path)", PATH_OPTIONS), &shading_group,
             OPTION_GROUP("Motion", OPT_ANIMATION, OPT_TIME), &scene_group, OPTION_GROUP("Files", OPT_ROOT),
             &legacy_group, &limits_group,
-            OPTION_GROUP("Messages", OPT_QUIET, OPT_VERBOSE, OPT_HELP, OPT_HELP_ALL),
+            OPTION_GROUP("Web page (--html)", OPT_HTML, OPT_NO_CLOBBER, OPT_TITLE, OPT_CONTROLS),
+            OPTION_GROUP("Messages", OPT_JSON, OPT_QUIET, OPT_VERBOSE, OPT_HELP, OPT_HELP_ALL),
             OPTION_GROUP("Running", OPT_SCRIPT, OPT_CONFIG), NULL},
 };
 
@@ -165,6 +173,20 @@ static void print(void *user, const char *text)
     fflush(stdout);
 }
 
+/* Refuses options of --html, which a window ignores. */
+static facet_result check_window(const command_line *c, facet_error *error)
+{
+    static const option_id ids[] = {OPT_HTML, OPT_NO_CLOBBER, OPT_TITLE, OPT_CONTROLS, OPT_JSON};
+    if (is_given(c, OPT_HTML))
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--html: it is not read from %s; give it on the command line", c->config_name);
+    for (size_t i = 0; i < sizeof ids / sizeof *ids; i++)
+        if (is_given(c, ids[i]))
+            return fail(error, FACET_ERROR_ARGUMENT, "--%s: it needs --html",
+                        option_find_id(c->verb, ids[i])->name);
+    return FACET_OK;
+}
+
 static facet_result read_line(verb_run *base, facet_error *error)
 {
     command_line *c = base->line;
@@ -172,6 +194,7 @@ static facet_result read_line(verb_run *base, facet_error *error)
     TRY(command_line_set(c, option_find_id(c->verb, OPT_RENDERER), "gl", SOURCE_PRESET, error));
     TRY(render_options_read(c, o, error));
     base->limits = o->limits;
+    TRY(check_window(c, error));
     if (o->meters_exposure)
         return option_fail(c, OPT_EXPOSURE,
                            "stops or a factor; the window has no light meter, + and - change its exposure",
@@ -220,6 +243,8 @@ static void destroy(verb_run *base)
 
 int cmd_view(command_line *c)
 {
+    if (is_given(c, OPT_HTML))
+        return view_export(c);
     static const verb_work parts = {read_line, show, NULL, destroy};
     view_run run = {.has_model = false};
     return verb_run_all(&run.base, c, &parts);

@@ -1,0 +1,30 @@
+/* page_files.h - the files that a page needs to show a model: those that the model was read from and those that options
+ * name, under relative names that keep their places beside each other. */
+#ifndef CLI_PAGE_FILES_H
+#define CLI_PAGE_FILES_H
+
+#include "cli/shared/environment_input.h"
+
+typedef struct page_file {
+    char *path;    /* on the disk */
+    char *name;    /* in the page, relative: "model.gltf", "textures/wood.png" */
+    bool is_light; /* of the environment, which models share */
+} page_file;
+
+/* {0}, then page_files_create(). */
+typedef struct page_files {
+    page_file *items;
+    size_t count, capacity;
+    size_t root_length; /* of the folder that all files of the model are in */
+} page_files;
+
+/* Lists the files of scene and of environment (NULL: none). Fails with FACET_ERROR_MEMORY, and with
+ * FACET_ERROR_READ if the current folder has no path. */
+facet_result page_files_create(const facet_scene *scene, const environment_input *environment,
+                               page_files *out, facet_error *error);
+void page_files_destroy(page_files *files); /* {0} is allowed */
+
+/* The name in the page of the file at path; NULL: it is not one of them. */
+const char *page_files_name(const page_files *files, const char *path);
+
+#endif
