@@ -75,8 +75,12 @@ facet_result page_preview_render(verb_run *run, const render_options *options, p
     progress quiet = {.mode = PROGRESS_NONE, .subject = name, .start = interrupt_clock(), .share = 1.0};
     desc.progress = progress_callback(&quiet);
     interrupt_begin_polling(name, "drawing its preview", false);
+    facet_renderer *renderer = NULL;
     if (result == FACET_OK)
-        result = facet_render(scene, &desc, &image, error);
+        result = facet_renderer_create(scene, &run->allocator, &renderer, error);
+    if (result == FACET_OK)
+        result = facet_renderer_render(renderer, &desc, &image, error);
+    facet_renderer_destroy(renderer);
     interrupt_end();
     if (result == FACET_OK)
         result = encode(run, image, png, size, error);
