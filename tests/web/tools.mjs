@@ -91,6 +91,52 @@ async function testFunctions() {
     assert.ok('b.mtl' in backwards.files);
 }
 
+function jsonOfGlb(bytes) {
+    const length = new DataView(bytes.buffer, bytes.byteOffset).getUint32(12, true);
+    return { json: JSON.parse(new TextDecoder().decode(bytes.subarray(20, 20 + length))), rest: Buffer.from(bytes.subarray(20 + length)) };
+}
+
+// Edited materials are in the saved file, and nothing else is different: of a .glb, of a .gltf with files, of an OBJ file.
+async function testSave() {
+    const edit = { pbrMetallicRoughness: { roughnessFactor: 0.125, baseColorFactor: [0.5, 0.25, 1, 1] }, extensions: { KHR_materials_clearcoat: { clearcoatFactor: 0.75 } } };
+    const glb = native(['convert', 'quad/quad.obj', 'quad.glb'], QUAD).read('quad.glb');
+    const before = jsonOfGlb(glb);
+    const saved = await tools.save({ 'm/quad.glb': glb }, 'm/quad.glb', { 1: edit });
+    const after = jsonOfGlb(saved);
+    assert.deepEqual(after.rest, before.rest, 'the binary chunk is the same');
+    assert.equal(after.json.materials[1].pbrMetallicRoughness.roughnessFactor, 0.125);
+    assert.equal(after.json.materials[1].extensions.KHR_materials_clearcoat.clearcoatFactor, 0.75);
+    assert.ok(after.json.extensionsUsed.includes('KHR_materials_clearcoat'));
+    const { materials: [plain], extensionsUsed, ...others } = after.json;
+    const { materials: [plainBefore], extensionsUsed: usedBefore, ...othersBefore } = before.json;
+    assert.deepEqual([plain, others], [plainBefore, othersBefore]);
+    assert.ok((usedBefore ?? []).every((name) => extensionsUsed.includes(name)));
+    const [here, there] = [await tools.inspect({ 'a.glb': saved }, 'a.glb'), await tools.inspect({ 'a.glb': glb }, 'a.glb')];
+    assert.equal(here.materials[1].pbrMetallicRoughness?.roughnessFactor ?? here.materials[1].roughness, 0.125);
+    assert.deepEqual([here.counts, here.meshes, here.materials[0]], [there.counts, there.meshes, there.materials[0]]);
+    assert.deepEqual(jsonOfGlb(await tools.save(QUAD, 'quad/quad.obj', { 1: edit })).json.materials[1], after.json.materials[1]);
+    const null1 = jsonOfGlb(await tools.save({ 'a.glb': saved }, 'a.glb', { 1: { extensions: { KHR_materials_clearcoat: null } } })).json;
+    assert.equal(null1.materials[1].extensions?.KHR_materials_clearcoat, undefined, 'null removes');
+    await testSaveOfFiles(edit);
+    await assert.rejects(tools.save({ 'a.glb': glb }, 'a.glb', { 7: edit }), /a\.glb: there is no material 7; it has 2/);
+    await assert.rejects(tools.save({ 'a.glb': glb }, 'a.glb', { 0: { pbrMetallicRoughness: { roughnessFactor: 'x' } } }), /a\.glb: .*roughnessFactor/);
+    await assert.rejects(tools.save({ 'a.glb': glb.subarray(0, 40) }, 'a.glb'), /a\.glb: /);
+}
+
+// A .gltf with buffer and images: the .glb has the same meshes and images.
+async function testSaveOfFiles(edit) {
+    const path = models.find((model) => model.endsWith('WaterBottle.glb'));
+    const files = path ? { 'a.glb': readFileSync(path) } : { 'a.glb': native(['convert', 'quad/quad.obj', 'quad.glb'], QUAD).read('quad.glb') };
+    const { files: loose } = await tools.convert(files, 'a.glb', { output: 'in/a.gltf' });
+    const [whole, packed] = [await tools.inspect(files, 'a.glb'), await tools.inspect({ 'a.glb': await tools.save(loose, 'in/a.gltf') }, 'a.glb')];
+    for (const name of ['counts', 'meshes', 'images', 'materials', 'bounds']) assert.deepEqual(packed[name], whole[name], name);
+    const edited = jsonOfGlb(await tools.save(loose, 'in/a.gltf', { 0: edit })).json;
+    assert.equal(edited.materials[0].pbrMetallicRoughness.roughnessFactor, 0.125);
+    assert.equal(edited.buffers.length, 1);
+    assert.ok((edited.images ?? []).every((image) => image.uri === undefined && image.mimeType));
+    await assert.rejects(tools.save({ 'a.gltf': loose['in/a.gltf'] }, 'a.gltf'), /a\.gltf: buffer 0: there is no file a\.bin/);
+}
+
 function halves(bytes) {
     const view = new Uint16Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + (bytes.length & ~1)));
     return view;
@@ -174,7 +220,7 @@ async function testManyRuns() {
     assert.deepEqual(runs.map(({ files }) => Object.keys(files)), [['1.glb'], ['2.glb'], ['3.glb']], 'calls at the same time wait for each other');
 }
 
-for (const test of [testModels, testFunctions, testBake, testImages, testPlots, testRefusals, testManyRuns]) {
+for (const test of [testModels, testFunctions, testSave, testBake, testImages, testPlots, testRefusals, testManyRuns]) {
     const start = performance.now();
     await test();
     console.log(`tools: ${test.name.replace(/^test/, '').toLowerCase()} ${((performance.now() - start) / 1000).toFixed(1)} s`);

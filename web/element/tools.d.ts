@@ -36,6 +36,11 @@ export interface Tools {
   convert(files: Files, path: string, options: Options & { output: string }): Promise<Made>;
   /** `facet bake path`; path is a file, the name of a sky ("sun:45,135") or null for tables (options.dfg). */
   bake(files: Files, path: string | null, options: Options): Promise<Made>;
+  /**
+   * The model at path as .glb with edited materials: {0: {pbrMetallicRoughness: {roughnessFactor: 0.3}}}. Named members replace
+   * values, null removes one; of a glTF file all else stays as it is.
+   */
+  save(files: Files, path: string, edits?: Record<number, object>): Promise<Uint8Array>;
   /** What `facet compare a b --json` prints, and the image of the difference among files. */
   compare(files: Files, a: string, b: string, options?: Options): Promise<any>;
 }

@@ -2,6 +2,7 @@
 // plots. The work, its options, defaults and sentences are the command's own, compiled to WebAssembly (facet-command.wasm).
 import createCommand from './facet-command.js';
 import { FacetError } from './error.js';
+import { editGltf, isGlb } from './gltf-file.js';
 
 const FOLDER = '/work'; // where files lie in the module's file system
 const KEPT_MEMORY = 256 << 20; // bytes; a module that has grown beyond is replaced, since its memory never shrinks
@@ -256,6 +257,22 @@ class Tools {
   async compare(files, a, b, options = {}) {
     const result = check(await this.run(['compare', a, b, '--json', ...optionsToArgs(options)], files), true);
     return { ...JSON.parse(result.stdout), files: result.files };
+  }
+
+  // The model at path as .glb, with edits of materials ({index: part of a glTF material}, whose members replace values). Of a glTF
+  // file everything else stays as it is; other formats are converted first. The reader checks the result.
+  async save(files, path, edits = {}) {
+    let all = Object.fromEntries(Object.entries(files).map(([name, data]) => [name, toBytes(data)]));
+    let name = path;
+    if (!all[path]) throw new FacetError(`${path}: there is no such file`);
+    if (!/\.gltf$/i.test(path) && !isGlb(all[path])) {
+      name = `${path.replace(/^.*\//, '').replace(/\.[^.]*$/, '')}.glb`;
+      all = (await this.convert(all, path, { output: name })).files;
+    }
+    const bytes = editGltf(all, name, edits);
+    const saved = name.replace(/\.[^.]*$/, '.glb');
+    check(await this.run(['inspect', saved, '--quiet'], { [saved]: bytes }), true);
+    return bytes;
   }
 }
 
