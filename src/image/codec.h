@@ -23,6 +23,9 @@ codec_decode png_decode, jpeg_decode, webp_decode, hdr_decode, exr_decode, pfm_d
     avif_decode, tga_decode, bmp_decode, gif_decode, dds_decode;
 codec_encode png_encode, jpeg_encode, webp_encode, hdr_encode, pfm_encode;
 
+/* image_get_envmap() of an EXR file. */
+image_envmap exr_get_envmap(const unsigned char *bytes, size_t size);
+
 /* Whether the bytes begin with the header of a format without a distinctive magic number. */
 bool tga_detect(const unsigned char *bytes, size_t size);
 bool bmp_detect(const unsigned char *bytes, size_t size);

@@ -152,15 +152,13 @@ static facet_result decode(reading *r, const char *name, const image_decode_desc
                 name, (unsigned long long)(failure >> 8), s->data_height);
 }
 
-image_envmap image_get_envmap(const void *bytes, size_t size)
+image_envmap exr_get_envmap(const unsigned char *bytes, size_t size)
 {
     static const exr_channel none = {0};
     exr_info info;
     exr_sizes s;
-    return image_codec_detect(bytes, size) == IMAGE_CODEC_EXR &&
-                   exr_check(bytes, size, "", INT32_MAX, &none, 0, &info, &s, NULL) == FACET_OK
-               ? info.envmap
-               : IMAGE_ENVMAP_NONE;
+    return exr_check(bytes, size, "", INT32_MAX, &none, 0, &info, &s, NULL) == FACET_OK ? info.envmap
+                                                                                        : IMAGE_ENVMAP_NONE;
 }
 
 /* Whether the first three channels are R, G and B of any layer, not other quantities or one channel for all. */
