@@ -180,9 +180,10 @@ static void read_document(io_reader *r)
         gltf_read_scenes,   gltf_read_center,        gltf_read_skins,     gltf_read_animations,
         gltf_read_meta,     gltf_read_legacy_extras,
     };
-    for (size_t i = 0; i < sizeof concerns / sizeof *concerns && io_is_ok(r); i++)
+    enum { IMAGES = 4 /* concerns up to images */, ALL = sizeof concerns / sizeof *concerns };
+    for (size_t i = 0; i < (r->gltf->reads_images_only ? IMAGES : ALL) && io_is_ok(r); i++)
         concerns[i](r, &root);
-    if (io_is_ok(r))
+    if (io_is_ok(r) && !r->gltf->reads_images_only)
         gltf_check_unused_parts(r);
 }
 
@@ -220,7 +221,7 @@ static void read_bytes(io_reader *r, const unsigned char *bytes, size_t size)
 }
 
 /* Reads the bytes of file, which the scene takes over. folder: as in io_reader. */
-static facet_result load(file_bytes *file, const char *source, const char *folder,
+static facet_result load(file_bytes *file, const char *source, const char *folder, bool reads_images_only,
                          const facet_scene_desc *desc, facet_scene **out, facet_error *error)
 {
     facet_scene *scene = NULL;
@@ -233,7 +234,7 @@ static facet_result load(file_bytes *file, const char *source, const char *folde
         scene_destroy(scene);
         return fail_memory(error, "files", sizeof *file);
     }
-    gltf_tables tables = {0};
+    gltf_tables tables = {.reads_images_only = reads_images_only};
     io_reader r = {.scene = scene,
                    .gltf = &tables,
                    .allocator = &desc->allocator,
@@ -254,8 +255,8 @@ static facet_result load(file_bytes *file, const char *source, const char *folde
     return FACET_OK;
 }
 
-facet_result gltf_load(const char *path, const facet_scene_desc *desc, facet_scene **scene,
-                       facet_error *error)
+static facet_result load_path(const char *path, bool reads_images_only, const facet_scene_desc *desc,
+                              facet_scene **scene, facet_error *error)
 {
     const facet_scene_desc defaults = {0};
     desc = desc ? desc : &defaults;
@@ -263,11 +264,23 @@ facet_result gltf_load(const char *path, const facet_scene_desc *desc, facet_sce
     file_bytes file = {0};
     TRY(file_open(path, file_limit(desc->max_file_bytes), &desc->allocator, &file, error));
     char *folder = path_folder(&desc->allocator, path);
-    facet_result result =
-        folder ? load(&file, path, folder, desc, scene, error) : fail_memory(error, "path", strlen(path));
+    facet_result result = folder ? load(&file, path, folder, reads_images_only, desc, scene, error)
+                                 : fail_memory(error, "path", strlen(path));
     mem_free(folder);
     file_close(&file);
     return result;
+}
+
+facet_result gltf_load(const char *path, const facet_scene_desc *desc, facet_scene **scene,
+                       facet_error *error)
+{
+    return load_path(path, false, desc, scene, error);
+}
+
+facet_result gltf_load_images(const char *path, const facet_scene_desc *desc, facet_scene **scene,
+                              facet_error *error)
+{
+    return load_path(path, true, desc, scene, error);
 }
 
 facet_result gltf_load_memory(const void *bytes, size_t size, const char *name, const facet_scene_desc *desc,
@@ -283,7 +296,7 @@ facet_result gltf_load_memory(const void *bytes, size_t size, const char *name, 
     memcpy(copy, bytes, size);
     copy[size] = 0;
     file_bytes file = {.data = copy, .size = size, .mapping = copy};
-    facet_result result = load(&file, name, NULL, desc, scene, error);
+    facet_result result = load(&file, name, NULL, false, desc, scene, error);
     file_close(&file);
     return result;
 }

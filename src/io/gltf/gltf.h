@@ -11,6 +11,10 @@ facet_result gltf_load(const char *path, const facet_scene_desc *desc, facet_sce
 facet_result gltf_load_memory(const void *bytes, size_t size, const char *name, const facet_scene_desc *desc,
                               facet_scene **scene, facet_error *error);
 
+/* Reads the extensions and images only: what model_needs() looks at. */
+facet_result gltf_load_images(const char *path, const facet_scene_desc *desc, facet_scene **scene,
+                              facet_error *error);
+
 /* facet_scene_save(). Indices of objects stay; extensions that facet does not read are lost, as are the
  * compression of geometry and the metallic-roughness fallback of specular-glossiness materials. */
 facet_result gltf_save(const facet_scene *scene, const char *path,

@@ -102,6 +102,7 @@ typedef struct gltf_tables {
     io_problem *material_problems; /* one per material; a material with a problem has default values */
     const uint32_t *iota;          /* 0, 1, 2, .. */
     uint32_t iota_count;
+    bool reads_images_only; /* gltf_load_images() */
     bool has_quantization;
     bool has_decoded_views;  /* some buffer view was decompressed */
     gltf_draco_state *draco; /* NULL: no primitive has used it yet */
