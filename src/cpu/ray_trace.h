@@ -3,6 +3,7 @@
 #define CPU_RAY_TRACE_H
 
 #include "cpu/surface_point.h"
+#include "cpu/visibility.h"
 
 /* Camera rays skip the culled sides of single-sided surfaces (ray_trace_is_visible_side()); all others hit
  * both sides: a wall that the camera looks through still blocks light, from either side. */

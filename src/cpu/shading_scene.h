@@ -2,7 +2,7 @@
 #ifndef CPU_SHADING_SCENE_H
 #define CPU_SHADING_SCENE_H
 
-#include "cpu/visibility.h"
+#include "cpu/visibility_hit.h"
 #include "draw/camera_rays.h"
 #include "draw/light_setup.h"
 #include "draw/material_plan.h"
@@ -51,12 +51,13 @@ static inline shading_ray shading_ray_of_camera(const camera_rays *camera, const
 
 /* ---- the scene ---- */
 
-struct ogl1_setup; /* draw/ogl1_setup.h */
+struct embree_scene; /* cpu/embree_scene.h */
+struct ogl1_setup;   /* draw/ogl1_setup.h */
 
 /* The scene as shading reads it; constant while an image is rendered. */
 typedef struct shading_scene {
     const render_geometry_set *geometries;
-    const embree_scene *embree;
+    const struct embree_scene *embree;
     const material_plan_set *plans;
     const texture_set *textures;
     const light_setup *light;

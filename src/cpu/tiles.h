@@ -5,22 +5,6 @@
 #include "cpu/shading_scene.h"
 #include "film/film.h"
 
-struct scene_identity; /* scene/identity.h */
-
-/* ---- layers of the nearest surface ---- */
-
-/* Those that a film has; NULL: not requested. */
-typedef struct surface_layers {
-    film_layer *depth, *normal, *albedo, *material, *object, *instance, *uv, *occlusion;
-} surface_layers;
-
-surface_layers surface_layers_find(film *f);
-/* identity: NULL where no layer needs it. */
-void surface_layers_store(const surface_layers *layers, size_t pixel, float depth_m,
-                          const shading_description *surface, const struct scene_identity *identity);
-
-/* ---- an image ---- */
-
 /* The image; {0} members as in facet_render_desc. */
 typedef struct tiles_desc {
     const facet_render_desc *render;

@@ -3,21 +3,13 @@
 #define CPU_VISIBILITY_H
 
 #include "cpu/embree_scene.h"
+#include "cpu/visibility_hit.h"
 
 /* Side of the squares of pixels whose rays are traced together, aligned to multiples of itself in the whole
  * image: a crop traces the same packets. */
 enum { VISIBILITY_BLOCK = 4, VISIBILITY_BLOCK_PIXELS = VISIBILITY_BLOCK * VISIBILITY_BLOCK };
 
-#define VISIBILITY_NONE RTC_INVALID_GEOMETRY_ID
-
-/* The nearest hit of one ray. */
-typedef struct visibility_hit {
-    float t;           /* of the ray */
-    float u, v;        /* weights of the triangle's second and third vertex; along a line: u */
-    uint32_t geometry; /* VISIBILITY_NONE: no hit */
-    uint32_t primitive;
-    float normal[3]; /* geometric, of any length, outward for counter-clockwise triangles */
-} visibility_hit;
+_Static_assert(VISIBILITY_NONE == RTC_INVALID_GEOMETRY_ID, "no hit has one number");
 
 /* Converts index and normal of a hit inside of an instance to those of its geometry: Embree's normal is in
  * the instance's space. The normal matrix keeps it outward; a mirrored instance's is negated to follow the

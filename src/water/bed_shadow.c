@@ -281,7 +281,7 @@ static void add_returned(making *m, float depth, float *around)
 
 void bed_shadow_of_beam(const struct water_setup *s, float depth, double low[2], double high[2])
 {
-    const float *from = s->model.prepared.pose.bounds_min, *to = s->model.prepared.pose.bounds_max;
+    const float *from = s->model.bounds_min, *to = s->model.bounds_max;
     vec3 L = s->light.L;
     float above = max(to[1], 0.0f), size = max(max(to[0] - from[0], to[2] - from[2]), above);
     float in_air = L[1] > 0.0f ? min(above / L[1], LONGEST * size) : 0.0f;
@@ -315,7 +315,7 @@ facet_result bed_shadow_of_image(const struct water_setup *s, bed_shadow *out, f
     *out = (bed_shadow){.is_there = false};
     if (!s->model.is_there || !water_has_bed(s) || s->desc->sea_shading.style != FACET_SEA_STYLE_PHYSICAL)
         return FACET_OK;
-    const float *low = s->model.prepared.pose.bounds_min, *high = s->model.prepared.pose.bounds_max;
+    const float *low = s->model.bounds_min, *high = s->model.bounds_max;
     double X = 0.5 * ((double)low[0] + (double)high[0]), Z = 0.5 * ((double)low[2] + (double)high[2]);
     float depth = (float)-water_bed_height(&s->sea->desc.bed, X, Z);
     if (!(depth > 0.0f) || !is_worth_it(s, depth))

@@ -195,7 +195,7 @@ static void shade_rows(void *context, size_t begin, size_t end)
 /* How far, in nodes, the size of the disc moves the shadow of the model's top on the water. */
 static int32_t reach_of(const caustic_source *s, float spacing_m)
 {
-    float above = max(s->model->prepared.pose.bounds_max[1], 0.0f), sine = max(s->L[1], 0.01f);
+    float above = max(s->model->bounds_max[1], 0.0f), sine = max(s->L[1], 0.01f);
     return 1 + (int32_t)fminf(ceilf(SUN_RADIUS * above / (sine * sine * spacing_m)), MAX_REACH - 1);
 }
 

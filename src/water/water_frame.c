@@ -9,7 +9,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
-#include "cpu/shading_hit.h"
+#include "shade/lang/lang_c_load.h"
 
 #include "water/water_objects.h"
 #include "water/water_setup.h"
@@ -193,14 +193,13 @@ static void find_water_around(const water_setup *s, float width_m, water_frame *
 static facet_result describe_model(const water_setup *s, sea_contact **contact, water_frame *p,
                                    facet_error *error)
 {
-    const scene_pose *pose = &s->model.prepared.pose;
     *contact = mem_alloc(&s->desc->allocator, SEA_CONTACT_EDGE * SEA_CONTACT_EDGE, sizeof **contact);
     if (!*contact)
         return fail_memory(error, "water around a model",
                            SEA_CONTACT_EDGE * SEA_CONTACT_EDGE * sizeof **contact);
     p->model_desc = &s->model.desc;
-    memcpy(p->model_low, pose->bounds_min, sizeof p->model_low);
-    memcpy(p->model_high, pose->bounds_max, sizeof p->model_high);
+    memcpy(p->model_low, s->model.bounds_min, sizeof p->model_low);
+    memcpy(p->model_high, s->model.bounds_max, sizeof p->model_high);
     float size = max(p->model_high[0] - p->model_low[0], p->model_high[2] - p->model_low[2]);
     p->model_water_m =
         waves_height(&s->sea->waves, 0.5 * ((double)p->model_low[0] + (double)p->model_high[0]),

@@ -9,7 +9,18 @@
 #include "water/water_model.h"
 
 #include "cpu/ray_trace.h"
+#include "cpu/render_setup.h"
 #include "cpu/shading.h"
+#include "draw/ogl1_setup.h"
+#include "scene/identity.h"
+
+struct water_model_rays {
+    prepared_scene prepared;
+    render_setup setup;
+    light_setup shaded_light; /* setup's lights without the sun: punctual lights only */
+    shading_scene shaded;
+    ogl1_setup ogl1; /* of setup.shading.ogl1; {0}: shaded as glTF */
+};
 
 static const ray_spread no_spread = {.moves = false, .turns = false};
 static const double farthest = 1e6;
@@ -43,11 +54,12 @@ static void fill_desc(const facet_render_desc *desc, const water_sky *sky, facet
 static facet_result make_shade(const facet_allocator *allocator, bool has_sun, water_model *m,
                                facet_error *error)
 {
-    const light_setup *light = &m->setup.light;
-    m->shaded_light = *light;
-    m->shaded_light.punctual = NULL;
-    m->shaded = m->setup.shading;
-    m->shaded.light = &m->shaded_light;
+    struct water_model_rays *r = m->rays;
+    const light_setup *light = &r->setup.light;
+    r->shaded_light = *light;
+    r->shaded_light.punctual = NULL;
+    r->shaded = r->setup.shading;
+    r->shaded.light = &r->shaded_light;
     if (light->punctual_count == 0)
         return FACET_OK;
     Light *lights = mem_alloc(allocator, light->punctual_count, sizeof *lights);
@@ -56,17 +68,18 @@ static facet_result make_shade(const facet_allocator *allocator, bool has_sun, w
     memcpy(lights, light->punctual, light->punctual_count * sizeof *lights);
     if (has_sun)
         lights[light->punctual_count - 1].intensity = vec3(0.0f);
-    m->shaded_light.punctual = lights;
+    r->shaded_light.punctual = lights;
     return FACET_OK;
 }
 
 static facet_result make_ogl1(water_model *m, facet_error *error)
 {
-    const prepared_scene *p = &m->prepared;
+    struct water_model_rays *r = m->rays;
+    const prepared_scene *p = &r->prepared;
     const ogl1_source source = {p->scene, &p->pose, &p->geometries, &p->default_legacy};
-    render_setup *setup = &m->setup;
-    TRY(ogl1_setup_create(&source, &setup->camera, &m->desc, &setup->light, &setup->plans, &m->ogl1, error));
-    setup->shading.ogl1 = &m->ogl1;
+    render_setup *setup = &r->setup;
+    TRY(ogl1_setup_create(&source, &setup->camera, &m->desc, &setup->light, &setup->plans, &r->ogl1, error));
+    setup->shading.ogl1 = &r->ogl1;
     return FACET_OK;
 }
 
@@ -75,15 +88,21 @@ facet_result water_model_create(const facet_scene *scene, const facet_render_des
                                 facet_error *error)
 {
     fill_desc(desc, sky, around, m);
-    prepared_scene_init(&m->prepared, scene, &desc->allocator);
+    struct water_model_rays *r = mem_zalloc(&desc->allocator, 1, sizeof *r);
+    if (!r)
+        return fail_memory(error, "a model in a sea", sizeof *r);
+    m->rays = r;
+    prepared_scene_init(&r->prepared, scene, &desc->allocator);
     m->is_there = true;
-    m->setup = (render_setup){.prepared = &m->prepared,
+    r->setup = (render_setup){.prepared = &r->prepared,
                               .desc = &m->desc,
                               .stats = stats,
                               .reads_everywhere = true,
                               .reads_opacity_only = !around && desc->shading == FACET_SHADING_GLTF};
     TRY(ogl1_check(scene, &m->desc, error));
-    TRY(render_setup_create(&m->setup, error));
+    TRY(render_setup_create(&r->setup, error));
+    memcpy(m->bounds_min, r->prepared.pose.bounds_min, sizeof m->bounds_min);
+    memcpy(m->bounds_max, r->prepared.pose.bounds_max, sizeof m->bounds_max);
     if (desc->shading == FACET_SHADING_OGL1)
         return make_ogl1(m, error);
     vec3 E = sky->sun_irradiance;
@@ -92,13 +111,15 @@ facet_result water_model_create(const facet_scene *scene, const facet_render_des
 
 void water_model_destroy(water_model *m)
 {
-    if (m->is_there) {
-        mem_free(m->shaded_light.punctual);
-        ogl1_setup_destroy(&m->ogl1);
-        render_setup_destroy(&m->setup);
-        prepared_scene_clear(&m->prepared);
+    struct water_model_rays *r = m->rays;
+    if (r) {
+        mem_free(r->shaded_light.punctual);
+        ogl1_setup_destroy(&r->ogl1);
+        render_setup_destroy(&r->setup);
+        prepared_scene_clear(&r->prepared);
+        mem_free(r);
     }
-    m->is_there = false;
+    *m = (water_model){.is_there = false};
 }
 
 /* ---- rays ---- */
@@ -109,7 +130,7 @@ static bool may_meet(const water_model *m, const double P[3], vec3 d, double far
 {
     if (!m->is_there)
         return false;
-    const float *low = m->prepared.pose.bounds_min, *high = m->prepared.pose.bounds_max;
+    const float *low = m->bounds_min, *high = m->bounds_max;
     double first = 0.0, last = far_m;
     for (int i = 0; i < 3; i++) {
         double per = 1.0 / (double)d[i], margin = 1e-6 * (fabs(P[i]) + 1.0);
@@ -146,7 +167,7 @@ bool water_model_find(const water_model *m, const double P[3], vec3 d, double fa
     if (!may_meet(m, P, d, far_m))
         return false;
     hit->ray = ray_from(P, d, far_m);
-    if (!ray_trace_nearest(&m->setup.shading, &hit->ray, random, &hit->hit))
+    if (!ray_trace_nearest(&m->rays->setup.shading, &hit->ray, random, &hit->hit))
         return false;
     locate(1.0, hit);
     return true;
@@ -162,7 +183,7 @@ static float uniform(uint32_t random)
 static shading_ray camera_ray(const water_model *m, float x, float y, float footprint, double far_m,
                               double *scale)
 {
-    const shading_scene *s = &m->setup.shading;
+    const shading_scene *s = &m->rays->setup.shading;
     shading_ray ray = shading_ray_of_camera(s->camera, &s->camera_spread, x, y, footprint);
     *scale = (double)length(load3(ray.direction));
     ray.far_t = (float)fmin((double)ray.far_t, far_m / *scale);
@@ -176,7 +197,7 @@ bool water_model_find_seen(const water_model *m, float x, float y, float footpri
     if (!m->is_there)
         return false;
     hit->ray = camera_ray(m, x, y, footprint, far_m, &scale);
-    ray_first first = ray_trace_first(&m->setup.shading, &hit->ray, uniform(random));
+    ray_first first = ray_trace_first(&m->rays->setup.shading, &hit->ray, uniform(random));
     if (uniform(hash_uint(random)) >= first.opacity)
         return false;
     hit->hit = first.hit;
@@ -192,10 +213,10 @@ bool water_model_describe(const water_model *m, float x, float y, double far_m, 
     if (!m->is_there)
         return false;
     shading_ray ray = camera_ray(m, x, y, 1.0f, far_m, &scale);
-    if (ray_trace_layers(&m->setup.shading, &ray, layers) == 0)
+    if (ray_trace_layers(&m->rays->setup.shading, &ray, layers) == 0)
         return false;
     const shading_point point = {.hit = &layers[0], .ray = &ray};
-    shading_describe(&m->setup.shading, &point, out);
+    shading_describe(&m->rays->setup.shading, &point, out);
     *depth_m = layers[0].t;
     *geometry = layers[0].geometry;
     return true;
@@ -206,22 +227,22 @@ float water_model_visibility(const water_model *m, const double P[3], vec3 d, do
     if (!may_meet(m, P, d, far_m))
         return 1.0f;
     shading_ray ray = ray_from(P, d, far_m);
-    return ray_trace_transmittance(&m->setup.shading, &ray, NULL);
+    return ray_trace_transmittance(&m->rays->setup.shading, &ray, NULL);
 }
 
 /* The radiance that the exposure turns into OpenGL 1's display value. */
 static vec3 displayed_radiance(const water_model *m, const shading_point *point)
 {
     shading_result shown;
-    shading_shade(&m->setup.shading, point, &shown);
-    return ogl1_displayed(&m->ogl1, load3(shown.radiance)) * exp2(-m->desc.exposure_ev);
+    shading_shade(&m->rays->setup.shading, point, &shown);
+    return ogl1_displayed(&m->rays->ogl1, load3(shown.radiance)) * exp2(-m->desc.exposure_ev);
 }
 
 /* Shadow rays start off the surface, on the sun's side. */
 vec3 water_model_radiance(const water_model *m, const model_hit *hit, vec3 sun)
 {
     const shading_point point = {.hit = &hit->hit, .ray = &hit->ray, .shade_count = 1};
-    if (m->setup.shading.ogl1)
+    if (m->rays->setup.shading.ogl1)
         return displayed_radiance(m, &point);
     shading_result lit, shaded;
     vec3 N = normalize(load3(hit->hit.normal));
@@ -232,19 +253,24 @@ vec3 water_model_radiance(const water_model *m, const model_hit *hit, vec3 sun)
     float share = sun[1] > 0.0f ? water_model_visibility(m, P, sun, HUGE_VAL) : 0.0f;
     vec3 L = vec3(0.0f);
     if (share > 0.0f) {
-        shading_shade(&m->setup.shading, &point, &lit);
+        shading_shade(&m->rays->setup.shading, &point, &lit);
         L = load3(lit.radiance) * share;
     }
     if (share < 1.0f) {
-        shading_shade(&m->shaded, &point, &shaded);
+        shading_shade(&m->rays->shaded, &point, &shaded);
         L = L + load3(shaded.radiance) * (1.0f - share);
     }
     return max(L, 0.0f);
 }
 
+const struct scene_identity *water_model_identity(const water_model *m, uint32_t geometry)
+{
+    return &m->rays->setup.identities[geometry];
+}
+
 bool water_model_is_dry(const water_model *m, const double P[3])
 {
-    const float *low = m->prepared.pose.bounds_min, *high = m->prepared.pose.bounds_max;
+    const float *low = m->bounds_min, *high = m->bounds_max;
     if (!m->is_there || P[0] < (double)low[0] || P[0] > (double)high[0] || P[2] < (double)low[2] ||
         P[2] > (double)high[2])
         return false;

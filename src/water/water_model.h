@@ -1,22 +1,19 @@
 /* water_model.h - a model that stands or floats in the sea: ray queries against it, and its shading by the
  * sky, by light from the sea, and by the sun with its own shadow; or by OpenGL 1 (FACET_SHADING_OGL1), under
- * the lights of that shading alone. */
+ * the lights of that shading alone. Its rays need Embree: a build without it has water_model_none.c instead of
+ * water_model.c. */
 #ifndef WATER_WATER_MODEL_H
 #define WATER_WATER_MODEL_H
 
-#include "cpu/render_setup.h"
-#include "draw/ogl1_setup.h"
+#include "cpu/shading_scene.h"
 #include "water/water_sky.h"
 
 /* Not to be moved between create and destroy. */
 typedef struct water_model {
     bool is_there;
-    prepared_scene prepared;
-    render_setup setup;
-    facet_render_desc desc;   /* of setup */
-    light_setup shaded_light; /* setup's lights without the sun: punctual lights only */
-    shading_scene shaded;
-    ogl1_setup ogl1; /* of setup.shading.ogl1; {0}: shaded as glTF */
+    facet_render_desc desc;             /* lit by the sky and the sea around it, and by the sun */
+    float bounds_min[3], bounds_max[3]; /* m */
+    struct water_model_rays *rays;      /* what traces and shades it: water_model.c */
 } water_model;
 
 /* around: the environment of the model, sky above and sea below; it outlives the model. NULL: the model is
@@ -49,6 +46,9 @@ bool water_model_describe(const water_model *m, float x, float y, double far_m, 
 
 /* Radiance (cd/m^2) towards the ray's origin. */
 vec3 water_model_radiance(const water_model *m, const model_hit *hit, vec3 sun);
+
+/* Identity of a geometry, where a layer of the image needs identities. */
+const struct scene_identity *water_model_identity(const water_model *m, uint32_t geometry);
 
 /* Visibility through the model from P along d over far_m (HUGE_VAL: infinity), [0, 1]. */
 float water_model_visibility(const water_model *m, const double P[3], vec3 d, double far_m);

@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
-#include "cpu/tiles.h"
+#include "cpu/surface_layers.h"
 #include "draw/camera_rays.h"
 #include "draw/render_watch.h"
 #include "film/meter.h"

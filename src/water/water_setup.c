@@ -5,9 +5,9 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
-#include "cpu/shading_hit.h"
 #include "ibl/environment.h"
 #include "ibl/equirect.h"
+#include "shade/lang/lang_c_load.h"
 
 #include "water/water_caustics.h"
 #include "water/water_objects.h"

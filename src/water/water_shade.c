@@ -206,12 +206,12 @@ static vec3 from_point(SeaPlace p, const float corner[3])
 
 static vec3 host_model_low(SeaHost host, SeaPlace p)
 {
-    return from_point(p, host.s->model.prepared.pose.bounds_min);
+    return from_point(p, host.s->model.bounds_min);
 }
 
 static vec3 host_model_high(SeaHost host, SeaPlace p)
 {
-    return from_point(p, host.s->model.prepared.pose.bounds_max);
+    return from_point(p, host.s->model.bounds_max);
 }
 
 /* The point, offset from the surface so that rays from it do not hit floating parts from the wrong side. */

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "cpu/shading_hit.h"
+#include "shade/lang/lang_c_load.h"
 #include "water/water_objects.h"
 #include "water/water_shade.h"
 
@@ -191,7 +191,7 @@ static vec3 shade_sample(const water_sample *p, bool is_met, const march_hit *se
                                                                    b.model_range_m, p->random, &hit);
     *seen = NULL;
     if (s->identities && is_model)
-        *seen = &s->model.setup.identities[hit.hit.geometry];
+        *seen = water_model_identity(&s->model, hit.hit.geometry);
     else if (s->identities && b.object != NOTHING)
         *seen = &s->identities[b.object];
     return shade_nearest(p, &b, sea, is_model ? &hit : NULL);
@@ -379,7 +379,7 @@ bool water_pixel_describe(const water_setup *s, uint32_t x, uint32_t y, water_de
     uint32_t geometry;
     if (b.model_range_m > 0.0 &&
         water_model_describe(&s->model, p.x, p.y, b.model_range_m, &out->surface, &out->depth_m, &geometry)) {
-        out->identity = s->identities ? &s->model.setup.identities[geometry] : NULL;
+        out->identity = s->identities ? water_model_identity(&s->model, geometry) : NULL;
         return true;
     }
     if (b.object == NOTHING)
