@@ -23,8 +23,8 @@
 
 struct gl_sea {
     facet_allocator allocator;
-    gl_context context;
-    gl_api api;
+    gl_context own, *context; /* own: {0} before its creation or after its loss */
+    gl_api api;               /* of own */
     gl_programs *programs;
     gl_sea_textures textures;
     gl_light_atlas atlas;
@@ -48,11 +48,12 @@ static void forget_light(gl_sea *s)
     }
 }
 
-/* Frees all OpenGL objects, and the context. */
+/* Frees all OpenGL objects, and its own context. */
 static void stop(gl_sea *s)
 {
     gl_context spare = {.context = NULL};
-    if (s->context.context && gl_context_make_current_to_delete(&s->context, &spare)) {
+    bool is_own = s->context == &s->own;
+    if (s->programs && gl_context_make_current_to_delete(s->context, &spare)) {
         gl_programs_destroy(s->programs);
         gl_target_destroy(&s->grid);
         gl_target_destroy(&s->seen);
@@ -65,18 +66,21 @@ static void stop(gl_sea *s)
         gl_sea_textures_destroy(&s->textures);
     }
     gl_context_destroy(&spare);
-    gl_context_destroy(&s->context);
-    *s = (gl_sea){.allocator = s->allocator, .api = s->api};
+    if (is_own)
+        gl_context_destroy(&s->own);
+    *s = (gl_sea){.allocator = s->allocator, .api = s->api, .context = is_own ? &s->own : s->context};
 }
 
 static facet_result start(gl_sea *s, facet_error *error)
 {
-    if (s->context.is_lost)
+    bool is_own = s->context == &s->own;
+    if (is_own && s->own.is_lost)
         stop(s);
-    if (s->context.context)
-        return gl_context_make_current(&s->context, error);
-    TRY(gl_context_create_api(&s->context, s->api, error));
-    TRY(gl_programs_create(&s->context, &s->allocator, NULL, &s->programs, error));
+    TRY(is_own && !s->own.context ? gl_context_create_api(&s->own, s->api, error)
+                                  : gl_context_make_current(s->context, error));
+    if (s->programs)
+        return FACET_OK;
+    TRY(gl_programs_create(s->context, &s->allocator, NULL, &s->programs, error));
     GLuint buffers[3];
     glGenBuffers(3, buffers);
     s->frame_buffer = buffers[0];
@@ -86,8 +90,8 @@ static facet_result start(gl_sea *s, facet_error *error)
     return FACET_OK;
 }
 
-facet_result gl_sea_create_api(gl_api wanted, const facet_allocator *allocator, gl_sea **out,
-                               facet_error *error)
+static facet_result create(gl_context *context, gl_api wanted, const facet_allocator *allocator, gl_sea **out,
+                           facet_error *error)
 {
     gl_sea *s = mem_zalloc(allocator, 1, sizeof *s);
     *out = NULL;
@@ -95,19 +99,32 @@ facet_result gl_sea_create_api(gl_api wanted, const facet_allocator *allocator, 
         return fail_memory(error, "renderer", sizeof *s);
     s->allocator = allocator ? *allocator : (facet_allocator){0};
     s->api = wanted;
+    s->context = context ? context : &s->own;
     facet_result result = start(s, error);
     if (result != FACET_OK) {
         gl_sea_destroy(s);
         return result;
     }
-    gl_context_release(&s->context);
+    gl_context_release(s->context);
     *out = s;
     return FACET_OK;
 }
 
 facet_result gl_sea_create(const facet_allocator *allocator, gl_sea **out, facet_error *error)
 {
-    return gl_sea_create_api(GL_API_ANY, allocator, out, error);
+    return create(NULL, GL_API_ANY, allocator, out, error);
+}
+
+facet_result gl_sea_create_api(gl_api wanted, const facet_allocator *allocator, gl_sea **out,
+                               facet_error *error)
+{
+    return create(NULL, wanted, allocator, out, error);
+}
+
+facet_result gl_sea_create_within(gl_context *context, const facet_allocator *allocator, gl_sea **out,
+                                  facet_error *error)
+{
+    return create(context, GL_API_ANY, allocator, out, error);
 }
 
 void gl_sea_destroy(gl_sea *s)
@@ -146,7 +163,7 @@ static facet_result update_light(gl_sea *s, const water_frame *p, facet_error *e
     if (!p->background)
         return FACET_OK;
     gl_light_block block = {.atlas = {0.0f}};
-    TRY(gl_light_atlas_update(&s->atlas, &s->context, &s->allocator, &both, error));
+    TRY(gl_light_atlas_update(&s->atlas, s->context, &s->allocator, &both, error));
     gl_light_atlas_describe(&s->atlas, &both, &block);
     set_block(s->light_buffer, GL_BLOCK_LIGHT, &block, sizeof block);
     return FACET_OK;
@@ -202,6 +219,8 @@ typedef struct drawing {
     bool has_model;
     GLuint grid, surface, sorting; /* programs */
     pixel_programs image, layers;
+    bool is_clipped;  /* to the crop, within a target of the whole image */
+    uint32_t earlier; /* images in the target, with which the next one is averaged */
 } drawing;
 
 static facet_result get_programs(drawing *d, facet_error *error)
@@ -267,10 +286,20 @@ static void use(GLuint program, pixel_class reading)
                 reading.linear_end);
 }
 
+/* The next image counts as much as each of the earlier ones. */
+static void begin_mean(const drawing *d)
+{
+    if (!d->earlier)
+        return;
+    glEnable(GL_BLEND);
+    glBlendColor(0.0f, 0.0f, 0.0f, 1.0f / (float)(1 + d->earlier));
+    glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
+}
+
 /* Pixels of one class. */
 static void draw_class(const drawing *d, double depth)
 {
-    gl_api_depth_range(d->s->context.is_es, depth, depth);
+    gl_api_depth_range(d->s->context->is_es, depth, depth);
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
@@ -281,17 +310,30 @@ static void draw_classes(const drawing *d, const pixel_programs *programs)
     uint32_t count = list_classes(d->frame->sea->waves.tile_count, classes);
     glDepthMask(GL_FALSE);
     glDepthFunc(GL_EQUAL);
+    begin_mean(d);
     glUseProgram(programs->beside);
     draw_class(d, 0.0);
     for (uint32_t i = 0; i < count; i++) {
         use(classes[i].cubic_end ? programs->cubic : programs->linear, classes[i]);
         draw_class(d, depth_of(classes[i]));
     }
-    gl_api_depth_range(d->s->context.is_es, 0.0, 1.0);
+    gl_api_depth_range(d->s->context->is_es, 0.0, 1.0);
     glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
 }
 
 /* ---- passes ---- */
+
+/* Restricts drawing to the crop. */
+static void clip(const drawing *d, const gl_target *t)
+{
+    const uint32_t *crop = d->frame->desc->crop;
+    uint32_t y = gl_camera_is_top_down(d->s->context) ? crop[1] : t->height - crop[1] - crop[3];
+    if (!d->is_clipped)
+        return;
+    glEnable(GL_SCISSOR_TEST);
+    glScissor((GLint)crop[0], (GLint)y, (GLsizei)crop[2], (GLsizei)crop[3]);
+}
 
 static void begin_pass(const gl_target *t)
 {
@@ -310,13 +352,13 @@ static void begin_pass(const gl_target *t)
 static facet_result draw_grid(drawing *d, facet_error *error)
 {
     gl_sea *s = d->s;
-    TRY(gl_target_update(&s->grid, &s->context, GL_TARGET_LAYERED, d->fan.columns, d->fan.rows, 1, error));
+    TRY(gl_target_update(&s->grid, s->context, GL_TARGET_LAYERED, d->fan.columns, d->fan.rows, 1, error));
     begin_pass(&s->grid);
     gl_sea_textures_bind(&s->textures);
     use(d->grid, (pixel_class){.linear_end = (int32_t)d->frame->sea->waves.tile_count});
     glBindVertexArray(s->empty_array);
     glDrawArrays(GL_TRIANGLES, 0, 3);
-    return gl_context_check(&s->context, "a sea's mesh", error);
+    return gl_context_check(s->context, "a sea's mesh", error);
 }
 
 static void set_frame(const drawing *d, const gl_view *view)
@@ -326,7 +368,7 @@ static void set_frame(const drawing *d, const gl_view *view)
     const float low[3] = {eye[0] - 1000.0f, eye[1] - 1000.0f, eye[2] - 1000.0f};
     const float high[3] = {eye[0] + 1000.0f, eye[1] + 1000.0f, eye[2] + 1000.0f};
     gl_frame_block block = {.channel = 0};
-    gl_camera_set(&d->s->context, &d->camera, low, high, p->desc->width, p->desc->height, view, &block);
+    gl_camera_set(d->s->context, &d->camera, low, high, p->desc->width, p->desc->height, view, &block);
     block.light[0] = p->light_scale;
     block.light[1] = p->rotation_cos;
     block.light[2] = p->rotation_sin;
@@ -339,7 +381,8 @@ static void draw_water(const drawing *d, const pixel_programs *programs, const g
 {
     const gl_sea *s = d->s;
     begin_pass(&s->seen);
-    gl_camera_begin_depth(&s->context);
+    clip(d, &s->seen);
+    gl_camera_begin_depth(s->context);
     glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     glEnable(GL_DEPTH_TEST);
@@ -354,13 +397,18 @@ static void draw_water(const drawing *d, const pixel_programs *programs, const g
     if (d->has_model)
         (programs == &d->layers ? gl_sea_model_bind_layers : gl_sea_model_bind)(&d->model);
     begin_pass(target);
+    clip(d, target);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_ALWAYS);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE,
+                GL_FALSE); /* WebGL refuses colors that a shader does not write */
     glUseProgram(d->sorting);
     glBindVertexArray(s->empty_array);
     glDrawArrays(GL_TRIANGLES, 0, 3);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     draw_classes(d, programs);
-    gl_camera_end_depth(&s->context);
+    glDisable(GL_SCISSOR_TEST);
+    gl_camera_end_depth(s->context);
 }
 
 /* Changes OpenGL's bindings. */
@@ -377,7 +425,7 @@ static facet_result draw(drawing *d, const gl_target *target, const gl_view *vie
                          facet_error *error)
 {
     gl_sea *s = d->s;
-    TRY(gl_target_update(&s->seen, &s->context, GL_TARGET_FILM, view->width, view->height, 1, error));
+    TRY(gl_target_update(&s->seen, s->context, GL_TARGET_FILM, view->width, view->height, 1, error));
     TRY(draw_model(d, view, is_layers, error));
     gl_sea_block block = d->block;
     if (is_layers)
@@ -402,7 +450,7 @@ static facet_result draw_layers(void *self, const gl_target *target, const gl_vi
 static facet_result draw_film(drawing *d, double deadline_s, film *target, facet_error *error)
 {
     const facet_render_desc *r = d->frame->desc;
-    gl_film_desc drawn = {.context = &d->s->context,
+    gl_film_desc drawn = {.context = d->s->context,
                           .render = r,
                           .target = &d->s->target,
                           .sampling = {.scale = 1, .samples = 1, .passes = r->samples ? r->samples : 1},
@@ -439,18 +487,18 @@ static facet_result prepare(drawing *d, facet_render_stats *stats, facet_error *
         result = get_programs(d, error);
     if (result != FACET_OK)
         return result;
-    d->fan = gl_sea_fan_of(p, &d->camera, (uint32_t)s->context.max_texture_size);
+    d->fan = gl_sea_fan_of(p, &d->camera, (uint32_t)s->context->max_texture_size);
     gl_sea_block_fill(p, &d->camera, &d->fan, &d->block);
     d->has_model = (features_of(p) & GL_SEA_HAS_MODEL) != 0;
     if (d->has_model)
-        result = gl_sea_model_begin(&d->model, &s->context, p, &d->camera, &d->block, stats, error);
+        result = gl_sea_model_begin(&d->model, s->context, p, &d->camera, &d->block, stats, error);
     if (result == FACET_OK)
         result = update_light(s, p, error);
     set_block(s->sea_buffer, GL_BLOCK_SEA, &d->block, sizeof d->block);
     if (result == FACET_OK)
-        result = gl_sea_textures_update(&s->textures, &s->context, p, &d->camera, error);
+        result = gl_sea_textures_update(&s->textures, s->context, p, &d->camera, error);
     if (result == FACET_OK)
-        result = gl_sea_mesh_update(&s->mesh, &s->context, &d->fan, &s->allocator, error);
+        result = gl_sea_mesh_update(&s->mesh, s->context, &d->fan, &s->allocator, error);
     return result;
 }
 
@@ -475,8 +523,73 @@ facet_result gl_sea_draw(gl_sea *s, const water_frame *frame, film *target, face
     stats->shade_s += clock_seconds() - drawing_begin;
     stats->total_s = stats->light_s + (clock_seconds() - begin);
     gl_sea_model_end(&d.model);
-    if (result == FACET_ERROR_MEMORY || s->context.is_lost)
+    if (result == FACET_ERROR_MEMORY || s->context->is_lost)
         stop(s);
-    gl_context_release(&s->context);
+    gl_context_release(s->context);
+    return result;
+}
+
+/* ---- a window's frame ---- */
+
+/* Tone-maps the crop of a target into a framebuffer, where the whole image has its lower left corner at (x, y). */
+static facet_result show(const drawing *d, const gl_target *mean, const gl_sea_place *to, facet_error *error)
+{
+    const gl_sea *s = d->s;
+    const facet_render_desc *r = d->frame->desc;
+    bool is_top_down = gl_camera_is_top_down(s->context);
+    const gl_program_key key = {GL_MAIN_PRESENT,
+                                is_top_down ? gl_program_feature(GL_MAIN_PRESENT, "IS_TOP_DOWN") : 0};
+    const gl_frame_block block = {.size = {(float)r->width, (float)r->height, (float)to->x, (float)to->y},
+                                  .tonemap = (float)r->tonemap};
+    GLuint program;
+    TRY(gl_programs_get(s->programs, key, &program, error));
+    set_block(s->frame_buffer, GL_BLOCK_FRAME, &block, sizeof block);
+    glBindFramebuffer(GL_FRAMEBUFFER, to->framebuffer);
+    glViewport(to->x, to->y, (GLsizei)r->width, (GLsizei)r->height);
+    glDisable(GL_DEPTH_TEST);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(to->x + (GLint)r->crop[0], to->y + (GLint)(r->height - r->crop[1] - r->crop[3]),
+              (GLsizei)r->crop[2], (GLsizei)r->crop[3]);
+    gl_sea_texture_bind(0, GL_TEXTURE_2D, mean->color);
+    glUseProgram(program);
+    glBindVertexArray(s->empty_array);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDisable(GL_SCISSOR_TEST);
+    gl_sea_texture_bind(0, GL_TEXTURE_2D, 0); /* the next image is rendered to it */
+    return gl_context_check(s->context, "the window", error);
+}
+
+/* The samples of an image lie where those of gl_film_draw() do. */
+static facet_result draw_sample(drawing *d, gl_target *mean, uint32_t pass, facet_error *error)
+{
+    const facet_render_desc *r = d->frame->desc;
+    const gl_sampling sampling = {.scale = 1, .samples = 1, .passes = r->samples ? r->samples : 1};
+    float *jitter = mem_alloc(&r->allocator, sampling.passes, 2 * sizeof *jitter);
+    if (!jitter)
+        return fail_memory(error, "samples", sampling.passes * 2 * sizeof *jitter);
+    gl_sampling_jitter(&sampling, jitter);
+    const gl_view all = {.scale = 1,
+                         .width = r->width,
+                         .height = r->height,
+                         .jitter = {jitter[2 * pass], jitter[2 * pass + 1]}};
+    mem_free(jitter);
+    TRY(gl_target_update(mean, d->s->context, GL_TARGET_WINDOW, r->width, r->height, 1, error));
+    return draw(d, mean, &all, false, error);
+}
+
+facet_result gl_sea_present(gl_sea *s, const water_frame *frame, gl_target *mean, uint32_t pass,
+                            const gl_sea_place *to, facet_render_stats *stats, facet_error *error)
+{
+    double begin = clock_seconds();
+    drawing d = {.s = s, .frame = frame, .is_clipped = true, .earlier = pass};
+    facet_result result = prepare(&d, stats, error);
+    if (result == FACET_OK)
+        result = draw_grid(&d, error);
+    if (result == FACET_OK)
+        result = draw_sample(&d, mean, pass, error);
+    if (result == FACET_OK)
+        result = show(&d, mean, to, error);
+    gl_sea_model_end(&d.model);
+    stats->shade_s += clock_seconds() - begin;
     return result;
 }

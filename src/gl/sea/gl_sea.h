@@ -7,7 +7,7 @@
 #define GL_GL_SEA_H
 
 #include "film/film.h"
-#include "gl/core/gl_context.h"
+#include "gl/core/gl_target.h"
 #include "gl/gl_entry.h"
 #include "water/water_frame.h"
 
@@ -15,6 +15,9 @@
 facet_result gl_sea_create(const facet_allocator *allocator, gl_sea **out, facet_error *error);
 facet_result gl_sea_create_api(gl_api wanted, const facet_allocator *allocator, gl_sea **out,
                                facet_error *error);
+/* In the caller's context (a window's), which outlives it and is current in all calls. */
+facet_result gl_sea_create_within(gl_context *context, const facet_allocator *allocator, gl_sea **out,
+                                  facet_error *error);
 void gl_sea_destroy(gl_sea *sea); /* NULL is allowed */
 
 /* Linear radiance times exposure, as in the preview, or display values for the legacy styles. film: of the
@@ -22,5 +25,17 @@ void gl_sea_destroy(gl_sea *sea); /* NULL is allowed */
  * FACET_ERROR_SYSTEM. */
 facet_result gl_sea_draw(gl_sea *sea, const water_frame *frame, film *target, facet_render_stats *stats,
                          facet_error *error);
+
+/* Where a window shows an image: the framebuffer, and the image's lower left corner in it. */
+typedef struct gl_sea_place {
+    uint32_t framebuffer;
+    int x, y;
+} gl_sea_place;
+
+/* Shows the crop of desc's image in a window, tone-mapped and sRGB-encoded: sample number `pass` of desc->samples,
+ * averaged with the earlier ones of the same frame, which are in `mean`. It is the caller's: {0} at first,
+ * gl_target_destroy() at last. Fails as gl_sea_draw(). */
+facet_result gl_sea_present(gl_sea *sea, const water_frame *frame, gl_target *mean, uint32_t pass,
+                            const gl_sea_place *to, facet_render_stats *stats, facet_error *error);
 
 #endif
