@@ -71,6 +71,13 @@ static void stop(gl_sea *s)
     *s = (gl_sea){.allocator = s->allocator, .api = s->api, .context = is_own ? &s->own : s->context};
 }
 
+static void set_block(GLuint buffer, GLuint point, const void *block, size_t size)
+{
+    glBindBuffer(GL_UNIFORM_BUFFER, buffer);
+    glBufferData(GL_UNIFORM_BUFFER, (GLsizeiptr)size, block, GL_DYNAMIC_DRAW);
+    glBindBufferBase(GL_UNIFORM_BUFFER, point, buffer);
+}
+
 static facet_result start(gl_sea *s, facet_error *error)
 {
     bool is_own = s->context == &s->own;
@@ -87,6 +94,11 @@ static facet_result start(gl_sea *s, facet_error *error)
     s->light_buffer = buffers[1];
     s->sea_buffer = buffers[2];
     glGenVertexArrays(1, &s->empty_array);
+    /* WebGL refuses to draw with a block that has no data, even if the program reads none of it */
+    const gl_frame_block no_frame = {.channel = 0};
+    const gl_light_block no_light = {.atlas = {0.0f}};
+    set_block(s->frame_buffer, GL_BLOCK_FRAME, &no_frame, sizeof no_frame);
+    set_block(s->light_buffer, GL_BLOCK_LIGHT, &no_light, sizeof no_light);
     return FACET_OK;
 }
 
@@ -136,13 +148,6 @@ void gl_sea_destroy(gl_sea *s)
 }
 
 /* ---- what an image needs ---- */
-
-static void set_block(GLuint buffer, GLuint point, const void *block, size_t size)
-{
-    glBindBuffer(GL_UNIFORM_BUFFER, buffer);
-    glBufferData(GL_UNIFORM_BUFFER, (GLsizeiptr)size, block, GL_DYNAMIC_DRAW);
-    glBindBufferBase(GL_UNIFORM_BUFFER, point, buffer);
-}
 
 /* For an image as the sky: the image itself and its filtered light. For the atmosphere, gl_sea_textures.c has
  * everything. */
@@ -353,8 +358,12 @@ static facet_result draw_grid(drawing *d, facet_error *error)
 {
     gl_sea *s = d->s;
     TRY(gl_target_update(&s->grid, s->context, GL_TARGET_LAYERED, d->fan.columns, d->fan.rows, 1, error));
+    static const GLenum outputs[GL_TARGET_LAYERS] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_NONE};
     begin_pass(&s->grid);
+    glDrawBuffers(GL_TARGET_LAYERS, outputs); /* WebGL refuses colors that a shader does not write */
     gl_sea_textures_bind(&s->textures);
+    glBindBufferBase(GL_UNIFORM_BUFFER, GL_BLOCK_FRAME,
+                     s->frame_buffer); /* WebGL refuses a block without data */
     use(d->grid, (pixel_class){.linear_end = (int32_t)d->frame->sea->waves.tile_count});
     glBindVertexArray(s->empty_array);
     glDrawArrays(GL_TRIANGLES, 0, 3);
