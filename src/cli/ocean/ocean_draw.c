@@ -104,23 +104,17 @@ static facet_result draw(ocean_run *run, const ocean_options *o, const facet_sea
     return result;
 }
 
-/* Legacy style and now side by side. Legacy style is in display values already. */
+/* Legacy style and now side by side. */
 static facet_result draw_both(ocean_run *run, const ocean_options *o, progress *shown, facet_image **image,
                               facet_error *error)
 {
     facet_image *halves[2] = {NULL, NULL};
     static const char *const labels[] = {"before", "now"};
-    facet_sea_shading legacy = o->shading, now = o->shading;
-    now.style = FACET_SEA_STYLE_PHYSICAL;
-    if (!legacy.style)
-        legacy.style = FACET_SEA_STYLE_LEGACY_INTENDED;
-    legacy.stage = 0;
-    facet_result result = draw(run, o, &legacy, FACET_TONEMAP_NONE, 1, shown, &halves[0], error);
-    facet_tonemap tonemap = o->shading.style && !is_given(run->base.line, OPT_TONE_MAPPING)
-                                ? FACET_TONEMAP_AGX
-                                : o->render.desc.tonemap;
+    ocean_half before, now;
+    ocean_options_halves(run->base.line, o, &before, &now);
+    facet_result result = draw(run, o, &before.shading, before.tonemap, 1, shown, &halves[0], error);
     if (result == FACET_OK)
-        result = draw(run, o, &now, tonemap, 1, shown, &halves[1], error);
+        result = draw(run, o, &now.shading, now.tonemap, 1, shown, &halves[1], error);
     const facet_contact_sheet_desc sheet = {.allocator = run->base.allocator,
                                             .log = messages_log(&run->base.messages),
                                             .column_count = 2,

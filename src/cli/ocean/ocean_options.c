@@ -459,3 +459,15 @@ facet_result ocean_options_read(const command_line *c, ocean_options *out, facet
     out->sea.thread_count = out->render.limits.thread_count;
     return FACET_OK;
 }
+
+void ocean_options_halves(const command_line *c, const ocean_options *o, ocean_half *before, ocean_half *now)
+{
+    *before = *now = (ocean_half){o->shading, o->render.desc.tonemap};
+    before->tonemap = FACET_TONEMAP_NONE; /* these are display values already */
+    before->shading.stage = 0;
+    if (!before->shading.style)
+        before->shading.style = FACET_SEA_STYLE_LEGACY_INTENDED;
+    now->shading.style = FACET_SEA_STYLE_PHYSICAL;
+    if (o->shading.style && !is_given(c, OPT_TONE_MAPPING))
+        now->tonemap = FACET_TONEMAP_AGX;
+}

@@ -40,6 +40,13 @@ typedef struct ocean_options {
  * Text stays with c. */
 facet_result ocean_options_read(const command_line *c, ocean_options *out, facet_error *error);
 
+/* What --before-after shows side by side: the legacy style, and now. */
+typedef struct ocean_half {
+    facet_sea_shading shading;
+    facet_tonemap tonemap;
+} ocean_half;
+void ocean_options_halves(const command_line *c, const ocean_options *o, ocean_half *before, ocean_half *now);
+
 /* Parses "1500", "1.5km", "inf" to m. False: not a length. */
 bool value_length(const char *text, double *metres);
 
