@@ -1,6 +1,7 @@
 // tools.js - the command `facet` over files in memory, for pages, workers and Node.js: reads, inspects, converts, bakes, compares and
 // plots. The work, its options, defaults and sentences are the command's own, compiled to WebAssembly (facet-command.wasm).
 import createCommand from './facet-command.js';
+import { Codecs } from './codecs.js';
 import { FacetError } from './error.js';
 import { editGltf, isGlb } from './gltf-file.js';
 
@@ -56,9 +57,10 @@ function connectStreams(module) {
 }
 
 // wasm: a compiled WebAssembly.Module.
-async function createInstance(wasm) {
+async function createInstance(wasm, codecs) {
   const module = await new Promise((resolve, reject) => {
     createCommand({
+      codecs,
       noExitRuntime: true,
       print() {},
       printErr() {},
@@ -181,23 +183,35 @@ const warningsOf = (result) => result.stderr.split('\n').filter((line) => line);
 
 class Tools {
   #wasm;
+  #codecs;
   #instance = null; // kept from run to run
   #queue = Promise.resolve();
 
-  constructor(wasm) {
+  constructor(wasm, codecs) {
     this.#wasm = wasm;
+    this.#codecs = codecs;
   }
 
   // Runs the command with words as of a shell: run(['convert', 'a.obj', '-o', 'b.glb'], {'a.obj': bytes}). files are all that it
   // can read; stdin is what "-" reads. Never throws because of its exit code.
   run(args, files = {}, { stdin } = {}) {
-    const result = this.#queue.then(() => this.#run(args, files, stdin));
+    const result = this.#queue.then(() => this.#runWithCodecs(args, files, stdin));
     this.#queue = result.catch(() => {});
     return result;
   }
 
+  // A command that lacked decoders runs again when they are loaded; what cannot be loaded is in its sentence.
+  async #runWithCodecs(args, files, stdin) {
+    for (;;) {
+      const result = await this.#run(args, files, stdin);
+      const missing = this.#codecs.takeMissing();
+      if (!missing.length) return result;
+      await this.#codecs.load(missing);
+    }
+  }
+
   async #run(args, files, stdin) {
-    this.#instance ??= await createInstance(this.#wasm);
+    this.#instance ??= await createInstance(this.#wasm, this.#codecs);
     const { module, streams } = this.#instance;
     const { FS } = module;
     streams.input = stdin === undefined ? new Uint8Array(0) : toBytes(stdin);
@@ -284,13 +298,14 @@ async function compileDefault() {
   return WebAssembly.compile(await response.arrayBuffer());
 }
 
-// wasm: bytes or a compiled module in place of facet-command.wasm beside this file. Each Tools runs one command at a time.
-export async function loadTools({ wasm } = {}) {
-  if (wasm instanceof WebAssembly.Module) return new Tools(wasm);
-  if (wasm) return new Tools(await WebAssembly.compile(wasm));
+// wasm: bytes or a compiled module in place of facet-command.wasm beside this file. codecs: where decoders come from (codecs.js).
+// Each Tools runs one command at a time.
+export async function loadTools({ wasm, codecs = new Codecs() } = {}) {
+  if (wasm instanceof WebAssembly.Module) return new Tools(wasm, codecs);
+  if (wasm) return new Tools(await WebAssembly.compile(wasm), codecs);
   compiled ??= compileDefault();
   compiled.catch(() => { compiled = null; });
-  return new Tools(await compiled);
+  return new Tools(await compiled, codecs);
 }
 
 export { FacetError };
