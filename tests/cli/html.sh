@@ -60,6 +60,18 @@ has 'data-path="sky.png"'
 has '"model": "m.obj"'
 has '"env": "sun:45,135"'
 
+# a model that options read otherwise than the page would, and one of no file: as .glb, by way of a temporary folder
+mkdir temporary
+export TMPDIR="$work/temporary"
+expect 0 view models/m.obj $small --method fit --mtl-colors linear --html page.html -q
+has '"model": "m.glb", "files": [{"path": "m.glb"}], "options": {}'
+expect 0 view - $small --html page.html -q <tri.gltf
+has '"model": "model.glb"'
+[ -z "$(ls temporary)" ] || failed "temporary files remain: $(ls temporary)"
+export TMPDIR="$work/nowhere"
+expect 6 view - $small --html page.html -q <tri.gltf
+unset TMPDIR
+
 # a file may not leave the folder of the model, unless it may by --root
 sed 's/data:[^"]*/..\/outside.bin/' tri.gltf >models/out.gltf
 expect 3 view models/out.gltf $small --html out.html
@@ -109,7 +121,6 @@ says "holds one model"
 expect 2 view tri.gltf --html page.html --exposure auto
 expect 2 view tri.gltf --html page.html --renderer path
 expect 2 view tri.gltf --html page.html --script x
-expect 2 view - --html page.html
 expect 2 view tri.gltf --html ''
 expect 2 view tri.gltf --title x
 says "it needs --html"

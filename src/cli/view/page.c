@@ -48,16 +48,52 @@ static json_t *url_json(const char *folder, const char *name)
 
 /* ---- the view ---- */
 
-/* Whether an option is about the command, or about drawing on the CPU, rather than about the view. */
-static bool is_of_command(option_id id)
+/* Whether an option is about the image: all others concern the command, reading (page_reads_otherwise()), or the CPU. */
+static bool is_of_view(option_id id)
 {
-    static const option_id ids[] = {
-        OPT_HTML,       OPT_TITLE,    OPT_CONTROLS,   OPT_NO_CLOBBER,  OPT_JSON,      OPT_SIZE,
-        OPT_RENDERER,   OPT_THREADS,  OPT_MAX_MEMORY, OPT_TIME_LIMIT,  OPT_QUIET,     OPT_VERBOSE,
-        OPT_HELP,       OPT_HELP_ALL, OPT_SCRIPT,     OPT_CONFIG,      OPT_ENV_CACHE, OPT_ROOT,
-        OPT_FILES_FROM, OPT_QUALITY,  OPT_SAMPLES,    OPT_MAX_TEXTURE, PATH_OPTIONS};
+    static const option_id ids[] = {OPT_BACKGROUND,
+                                    OPT_BACKGROUND_BLUR,
+                                    OPT_ORBIT,
+                                    OPT_TARGET,
+                                    OPT_FOV,
+                                    OPT_EYE,
+                                    OPT_UP,
+                                    OPT_ORTHO,
+                                    OPT_FRAMING,
+                                    OPT_CAMERA,
+                                    OPT_ENV,
+                                    OPT_ENV_ROTATION,
+                                    OPT_ENV_INTENSITY,
+                                    OPT_SUN,
+                                    OPT_LIGHTS,
+                                    OPT_GROUND,
+                                    OPT_EXPOSURE,
+                                    OPT_TONE_MAPPING,
+                                    OPT_ENERGY,
+                                    OPT_SPECULAR_AA,
+                                    OPT_SHADING,
+                                    OPT_OGL1_VARIANT,
+                                    OPT_OGL1_SPACE,
+                                    OPT_FOG,
+                                    OPT_ANIMATION,
+                                    OPT_TIME,
+                                    OPT_SCENE,
+                                    OPT_VARIANT,
+                                    GL_OPTIONS};
     for (size_t i = 0; i < sizeof ids / sizeof *ids; i++)
         if (ids[i] == id)
+            return true;
+    return false;
+}
+
+bool page_reads_otherwise(const command_line *c)
+{
+    static const option_id ids[] = {OPT_PARAMETERS, OPT_METHOD,      OPT_PROFILE,        OPT_FIT_TARGET,
+                                    OPT_MTL_COLORS, OPT_DIALECT,     OPT_ILLUM,          OPT_AMBIENT,
+                                    OPT_KEEP_HUE,   OPT_GLASS,       OPT_MIRRORS,        OPT_NORMALS,
+                                    OPT_REFIT,      OPT_LIGHT_SCALE, OPT_BAKE_OCCLUSION, OPT_FLIP_TEXTURES};
+    for (size_t i = 0; i < sizeof ids / sizeof *ids; i++)
+        if (is_given(c, ids[i]))
             return true;
     return false;
 }
@@ -87,10 +123,9 @@ static json_t *environment_json(const page *p, const char *value)
 static json_t *option_json(const page *p, const option *o)
 {
     const char *value = option_text(p->line, o->id, "");
-    const char *name = o->id == OPT_PARAMETERS ? page_files_name(&p->files, value) : NULL;
     if (!option_takes_value(o))
         return json_true();
-    return o->id == OPT_ENV ? environment_json(p, value) : report_string_json(name ? name : value);
+    return o->id == OPT_ENV ? environment_json(p, value) : report_string_json(value);
 }
 
 static json_t *options_json(const page *p)
@@ -99,7 +134,7 @@ static json_t *options_json(const page *p)
     const option *o;
     for (size_t i = 0; (o = option_at(p->line->verb, i)); i++) {
         option_source source = p->line->values[o->id].source;
-        if (source != SOURCE_NONE && source != SOURCE_PRESET && !is_of_command(o->id))
+        if (source != SOURCE_NONE && source != SOURCE_PRESET && is_of_view(o->id))
             json_object_set_new(json, o->name, option_json(p, o));
     }
     return json;
@@ -136,10 +171,9 @@ static void add_json(filling *f, const json_t *json)
 static void add_view(filling *f)
 {
     const page *p = f->p;
-    const char *model = p->model ? page_files_name(&p->files, p->model) : "";
     json_t *json = json_pack("{s:o, s:o, s:o, s:o, s:b}", "title", report_string_json(p->title), "model",
-                             report_string_json(model), "files", files_json(p), "options", options_json(p),
-                             "controls", (int)is_given(p->line, OPT_CONTROLS));
+                             report_string_json(p->files.model), "files", files_json(p), "options",
+                             options_json(p), "controls", (int)is_given(p->line, OPT_CONTROLS));
     add_json(f, json);
     json_decref(json);
 }

@@ -10,7 +10,6 @@
 typedef struct page {
     const command_line *line; /* options of the view go into the page */
     const char *title;
-    const char *model; /* path; NULL: the built-in scene */
     page_files files;
     const unsigned char *preview; /* PNG: shown until the viewer has drawn, in print, and without WebGL */
     size_t preview_size;
@@ -23,6 +22,9 @@ typedef struct page {
 /* Replaces the marks {{name}} of a template and appends the result to out. Fails with FACET_ERROR_READ where a file cannot
  * be read, and with FACET_ERROR_MEMORY. */
 facet_result page_fill(const page *p, const char *template, size_t size, text *out, facet_error *error);
+
+/* Whether options change how the model is read, which the page's own reader does not do. */
+bool page_reads_otherwise(const command_line *c);
 
 /* Appends string as a part of a URL: all but letters, digits and -._~/ as %XX. */
 void page_add_url(text *out, const char *string);

@@ -1,10 +1,11 @@
 /* page_files.c - see page_files.h. */
-#define _POSIX_C_SOURCE 200809L
+#define _GNU_SOURCE
 #include "cli/view/page_files.h"
 
 #include "base/file.h"
 #include "base/result.h"
 #include "cli/shared/input.h"
+#include "cli/shared/output.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -119,32 +120,85 @@ static bool name_files(page_files *files, size_t begin, const char *root)
     return true;
 }
 
-facet_result page_files_create(const facet_scene *scene, const environment_input *environment,
-                               page_files *out, facet_error *error)
+/* Lists the files that the scene was read from. */
+static facet_result list_model(const facet_scene *scene, const char *current, page_files *out,
+                               facet_error *error)
+{
+    const char *path;
+    for (uint32_t i = 0; (path = facet_scene_get_file(scene, i)); i++)
+        if (!add(out, absolute(path, current), false))
+            return fail_names(error);
+    return FACET_OK;
+}
+
+/* Writes the scene as a .glb file. */
+static facet_result write_model(const facet_scene *scene, const char *stem, page_files *out,
+                                facet_error *error)
+{
+    const char *folder = getenv("TMPDIR");
+    const facet_scene_save_desc desc = {.is_glb = true};
+    char name[4096];
+    snprintf(name, sizeof name, "%s/facet-XXXXXX", folder && *folder ? folder : "/tmp");
+    if (!mkdtemp(name))
+        return fail(error, FACET_ERROR_WRITE, "%s: %s", name, strerror(errno));
+    out->temporary = strdup(name);
+    size_t length = strlen(name);
+    if (!out->temporary ||
+        (size_t)snprintf(name + length, sizeof name - length, "/%s.glb", stem) >= sizeof name - length ||
+        !add(out, strdup(name), false))
+        return fail_names(error);
+    return output_write_scene(scene, name, desc, error);
+}
+
+/* Appends the files of the environment. */
+static facet_result list_light(const environment_input *environment, const char *current, page_files *out,
+                               facet_error *error)
+{
+    char path[ENVIRONMENT_PATH_SIZE];
+    for (int i = 0; environment && environment_input_get_file(environment, i, path); i++)
+        if (!add(out, absolute(path, current), true))
+            return fail_names(error);
+    return FACET_OK;
+}
+
+static facet_result list_files(const page_files_desc *desc, page_files *out, facet_error *error)
 {
     char current[4096];
-    const char *path;
-    *out = (page_files){0};
     if (!getcwd(current, sizeof current))
         return fail(error, FACET_ERROR_READ, "the current folder: %s", strerror(errno));
-    bool done = true;
-    for (uint32_t i = 0; done && (path = facet_scene_get_file(scene, i)); i++)
-        done = add(out, absolute(path, current), false);
+    if (desc->is_written)
+        TRY(write_model(desc->scene, desc->stem, out, error));
+    else
+        TRY(list_model(desc->scene, current, out, error));
     size_t model_count = out->count;
+    const char *first = model_count ? out->items[0].path : "";
     out->root_length = model_count ? common_folder(out) : 0;
-    done = done && name_files(out, 0, model_count ? out->items[0].path : "");
-    char light[ENVIRONMENT_PATH_SIZE];
-    for (int i = 0; done && environment && environment_input_get_file(environment, i, light); i++)
-        done = add(out, absolute(light, current), true);
-    done = done && name_files(out, model_count, model_count ? out->items[0].path : "");
-    if (done)
-        return FACET_OK;
-    page_files_destroy(out);
-    return fail_names(error);
+    if (!name_files(out, 0, first))
+        return fail_names(error);
+    const char *path = desc->is_written ? first : desc->path;
+    const char *model = path ? page_files_name(out, path) : NULL;
+    out->model = model ? model : "";
+    TRY(list_light(desc->environment, current, out, error));
+    return name_files(out, model_count, first) ? FACET_OK : fail_names(error);
+}
+
+facet_result page_files_create(const page_files_desc *desc, page_files *out, facet_error *error)
+{
+    *out = (page_files){0};
+    facet_result result = list_files(desc, out, error);
+    if (result != FACET_OK)
+        page_files_destroy(out);
+    return result;
 }
 
 void page_files_destroy(page_files *files)
 {
+    if (files->temporary) {
+        for (size_t i = 0; i < files->count && !files->items[i].is_light; i++)
+            unlink(files->items[i].path);
+        rmdir(files->temporary);
+        free(files->temporary);
+    }
     for (size_t i = 0; i < files->count; i++) {
         free(files->items[i].path);
         free(files->items[i].name);

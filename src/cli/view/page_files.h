@@ -15,13 +15,23 @@ typedef struct page_file {
 typedef struct page_files {
     page_file *items;
     size_t count, capacity;
+    const char *model;  /* name of the model; "": none, the built-in scene */
+    char *temporary;    /* a folder to be removed; NULL: none */
     size_t root_length; /* of the folder that all files of the model are in */
 } page_files;
 
-/* Lists the files of scene and of environment (NULL: none). Fails with FACET_ERROR_MEMORY, and with
- * FACET_ERROR_READ if the current folder has no path. */
-facet_result page_files_create(const facet_scene *scene, const environment_input *environment,
-                               page_files *out, facet_error *error);
+/* Of what files are listed. */
+typedef struct page_files_desc {
+    const facet_scene *scene;
+    const char *path; /* of the model; NULL: the built-in scene */
+    /* the scene is in no files that read alike without options: it is written as stem.glb to a temporary folder */
+    bool is_written;
+    const char *stem;
+    const environment_input *environment; /* NULL: none */
+} page_files_desc;
+
+/* Fails with FACET_ERROR_MEMORY, and with FACET_ERROR_READ or _WRITE if the current or the temporary folder cannot be used. */
+facet_result page_files_create(const page_files_desc *desc, page_files *out, facet_error *error);
 void page_files_destroy(page_files *files); /* {0} is allowed */
 
 /* The name in the page of the file at path; NULL: it is not one of them. */

@@ -55,10 +55,6 @@ static facet_result check_options(const export_run *run, facet_error *error)
     if (is_given(c, OPT_SCRIPT))
         return fail(error, FACET_ERROR_ARGUMENT,
                     "--script: it plays in a window, which --html does not open");
-    for (size_t i = 0; i < run->models.count; i++)
-        if (run->models.models[i].path && strcmp(run->models.models[i].path, "-") == 0)
-            return fail(error, FACET_ERROR_ARGUMENT,
-                        "--html: name a file; standard input is not read for pages");
     if (run->is_folder)
         return FACET_OK;
     if (run->models.count > 1)
@@ -79,7 +75,7 @@ static facet_result name_pages(export_run *run, facet_error *error)
     for (size_t i = 0; i < run->models.count; i++) {
         const char *path = run->models.models[i].path;
         bool is_taken = true;
-        if (!output_name_stem(path ? path : "facet", stem, sizeof stem))
+        if (!output_name_stem(!path ? "facet" : strcmp(path, "-") == 0 ? "model" : path, stem, sizeof stem))
             return fail(error, FACET_ERROR_ARGUMENT, "%s: the name is too long for a page", path);
         for (unsigned n = 1; is_taken; n++) {
             snprintf(run->stems[i], STEM_SIZE, n > 1 ? "%s-%u" : "%s", stem, n);
@@ -230,8 +226,18 @@ static void name_title(page_run *p)
     const char *given = option_text(p->run->base.line, OPT_TITLE, NULL);
     const char *path = p->model->path;
     p->page.title = given && !p->run->is_folder ? given : p->title;
-    if (!output_name_stem(path ? path : "facet", p->title, sizeof p->title))
+    if (!output_name_stem(!path                    ? "facet"
+                          : strcmp(path, "-") == 0 ? "model"
+                                                   : path,
+                          p->title, sizeof p->title))
         snprintf(p->title, sizeof p->title, "%.200s", path);
+}
+
+/* Whether the page holds the model as it was read instead of its files. */
+static bool is_written(const page_run *p)
+{
+    const char *path = p->model->path;
+    return path && (!facet_scene_get_file(p->scene, 0) || page_reads_otherwise(p->run->base.line));
 }
 
 /* Makes the page of a loaded model. */
@@ -242,8 +248,12 @@ static facet_result make_page(page_run *p, facet_error *error)
     TRY(check_inputs(run, p->scene, p->output, error));
     name_title(p);
     p->page.line = run->base.line;
-    p->page.model = p->model->path;
-    TRY(page_files_create(p->scene, light, &p->page.files, error));
+    const page_files_desc desc = {.scene = p->scene,
+                                  .path = p->model->path,
+                                  .is_written = is_written(p),
+                                  .stem = p->title,
+                                  .environment = light};
+    TRY(page_files_create(&desc, &p->page.files, error));
     TRY(page_preview_render(&run->base, &run->options, &run->light, p->scene, p->model->path, p->output,
                             &p->preview, &p->page.preview_size, error));
     p->page.preview = p->preview;
