@@ -78,6 +78,8 @@ FACET_API facet_result facet_image_load(const char *path, const facet_image_load
 FACET_API facet_result facet_image_load_memory(const void *bytes, size_t size, const char *name,
                                                const facet_image_load_desc *desc, facet_image **image,
                                                facet_error *error);
+/* The same decoder (facet_scene_get_decoder()) of an image file; NULL: none. */
+FACET_API const char *facet_image_find_decoder(const void *bytes, size_t size);
 /* Whether the image was read from a display-referred file (integers, sRGB): its colors lie in [0, 1] and
  * are those of a screen rather than light. */
 FACET_API bool facet_image_is_for_display(const facet_image *image);

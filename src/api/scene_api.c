@@ -9,6 +9,7 @@
 
 #include "base/text.h"
 #include "io/model_file.h"
+#include "io/model_needs.h"
 #include "io/ogl1/ogl1_json.h"
 #include "legacy/convert.h"
 #include "scene/origin.h"
@@ -66,6 +67,21 @@ void facet_scene_destroy(facet_scene *scene)
 const char *facet_scene_get_file(const facet_scene *scene, uint32_t index)
 {
     return scene_get_file(scene, index);
+}
+
+const char *facet_scene_get_decoder(const facet_scene *scene, uint32_t index)
+{
+    unsigned needs = model_needs_of_scene(scene);
+    for (unsigned bit = 0; bit < MODEL_NEED_COUNT; bit++)
+        if (needs >> bit & 1 && index-- == 0)
+            return model_need_name((model_need)(1u << bit));
+    return NULL;
+}
+
+const char *facet_image_find_decoder(const void *bytes, size_t size)
+{
+    unsigned needs = model_needs_of_image(bytes, size);
+    return needs ? model_need_name((model_need)needs) : NULL;
 }
 
 bool facet_scene_has_file(const facet_scene *scene, const char *path)
