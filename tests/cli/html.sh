@@ -9,7 +9,7 @@ small="--size 48x32"
 mkdir -p web/pages
 cat >web/pages/single.html <<'END'
 <title>{{title}}</title><p>{{nonce}} {{{{ {{version}}</p><img src="{{preview}}">
-{{files}}<script type="application/json">{{view}}</script>
+{{files}}{{decoders}}<script type="application/json">{{view}}</script>
 END
 cp web/pages/single.html web/pages/model.html
 echo '<title>{{title}}</title>{{links}}' >web/pages/index.html
@@ -71,6 +71,19 @@ has '"model": "model.glb"'
 export TMPDIR="$work/nowhere"
 expect 6 view - $small --html page.html -q <tri.gltf
 unset TMPDIR
+
+# the decoder that a texture needs is in the page
+if "$facet" render $small -o models/textures/a.webp -q 2>err; then
+    mkdir web/facet-viewer
+    echo decoder >web/facet-viewer/codec_webp.wasm
+    sed 's/a.ppm/a.webp/' models/m.mtl >models/w.mtl
+    sed 's/m.mtl/w.mtl/' models/m.obj >models/w.obj
+    expect 0 view models/w.obj $small --html page.html -q
+    sed -n 's/.*data-module="codec_webp.wasm">\(.*\)<\/script>.*/\1/p' page.html | base64 -d | gzip -dc | grep -qx decoder ||
+        failed "the page has no decoder"
+    expect 0 view models/m.obj $small --html page.html -q
+    ! grep -q codec_webp page.html || failed "the page has a decoder that nothing needs"
+fi
 
 # a file may not leave the folder of the model, unless it may by --root
 sed 's/data:[^"]*/..\/outside.bin/' tri.gltf >models/out.gltf

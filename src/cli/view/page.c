@@ -11,6 +11,7 @@
 
 #include <jansson.h>
 #include <limits.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
@@ -19,6 +20,8 @@ typedef struct filling {
     const page *p;
     text *out;
     uint32_t nonce[4];
+    const char *decoders[8]; /* in the page */
+    size_t decoder_count;
     facet_result result;
     facet_error *error;
 } filling;
@@ -227,6 +230,46 @@ static void add_files(filling *f)
         add_file(f, &f->p->files.items[i]);
 }
 
+/* A decoder of the viewer, unless the page has it. The browser itself decodes AVIF. */
+static void add_decoder(filling *f, const char *name)
+{
+    char file[64];
+    file_bytes bytes = {0};
+    for (size_t i = 0; i < f->decoder_count; i++)
+        if (strcmp(f->decoders[i], name) == 0)
+            return;
+    f->decoders[f->decoder_count++] = name;
+    if (f->result != FACET_OK || strcmp(name, "avif") == 0)
+        return;
+    snprintf(file, sizeof file, "facet-viewer/codec_%s.wasm", name);
+    f->result = viewer_package_open(f->p->package, file, &f->out->allocator, &bytes, f->error);
+    if (f->result != FACET_OK)
+        return;
+    text_addf(f->out, "<script type=\"application/octet-stream;base64\" data-module=\"codec_%s.wasm\">",
+              name);
+    f->result = add_packed(f->out, bytes.data, bytes.size, file, f->error);
+    text_add(f->out, "</script>\n");
+    file_close(&bytes);
+}
+
+static void add_decoders(filling *f)
+{
+    const page *p = f->p;
+    const char *name;
+    for (uint32_t i = 0; (name = facet_scene_get_decoder(p->scene, i)); i++)
+        add_decoder(f, name);
+    for (size_t i = 0; i < p->files.count && f->result == FACET_OK; i++) {
+        file_bytes bytes = {0};
+        if (!p->files.items[i].is_light)
+            continue;
+        f->result = file_open(p->files.items[i].path, 0, &f->out->allocator, &bytes, f->error);
+        name = f->result == FACET_OK ? facet_image_find_decoder(bytes.data, bytes.size) : NULL;
+        if (name)
+            add_decoder(f, name);
+        file_close(&bytes);
+    }
+}
+
 static void add_preview(filling *f)
 {
     if (f->p->preview_url) {
@@ -263,9 +306,9 @@ static void add_nonce(filling *f)
 static const struct {
     const char *mark;
     void (*add)(filling *f);
-} parts[] = {{"{{title}}", add_title},     {"{{version}}", add_version}, {"{{nonce}}", add_nonce},
-             {"{{preview}}", add_preview}, {"{{links}}", add_links},     {"{{files}}", add_files},
-             {"{{view}}", add_view}};
+} parts[] = {{"{{title}}", add_title}, {"{{decoders}}", add_decoders}, {"{{version}}", add_version},
+             {"{{nonce}}", add_nonce}, {"{{preview}}", add_preview},   {"{{links}}", add_links},
+             {"{{files}}", add_files}, {"{{view}}", add_view}};
 enum { PART_COUNT = sizeof parts / sizeof *parts };
 
 /* The part whose mark is at that place; PART_COUNT: none. */

@@ -5,11 +5,14 @@
 #include "base/text.h"
 #include "cli/shared/command_line.h"
 #include "cli/view/page_files.h"
+#include "cli/view/viewer_package.h"
 
 /* What a page shows. */
 typedef struct page {
     const command_line *line; /* options of the view go into the page */
     const char *title;
+    const facet_scene *scene;      /* NULL: none, in an index */
+    const viewer_package *package; /* whose decoders a page of one file carries where the model needs them */
     page_files files;
     const unsigned char *preview; /* PNG: shown until the viewer has drawn, in print, and without WebGL */
     size_t preview_size;

@@ -248,6 +248,8 @@ static facet_result make_page(page_run *p, facet_error *error)
     TRY(check_inputs(run, p->scene, p->output, error));
     name_title(p);
     p->page.line = run->base.line;
+    p->page.scene = p->scene;
+    p->page.package = &run->package;
     const page_files_desc desc = {.scene = p->scene,
                                   .path = p->model->path,
                                   .is_written = is_written(p),
