@@ -1,0 +1,78 @@
+// template.js - the inside of <facet-viewer>: canvases, poster, progress bar, prompt, slots. Styles are a constructed sheet, which a strict
+// content security policy allows.
+const css = `
+:host { display: block; position: relative; contain: strict; width: 300px; height: 150px; }
+:host([hidden]) { display: none; }
+.stage, .stage canvas, .cover { position: absolute; inset: 0; width: 100%; height: 100%; }
+.stage canvas { display: block; pointer-events: none; }
+.stage canvas.unused { visibility: hidden; }
+.input { visibility: hidden; outline-offset: -3px; }
+.input.shown { visibility: visible; }
+.input.controlled { cursor: grab; }
+.input.controlled.held { cursor: grabbing; }
+.input:focus-visible { outline: 2px solid Highlight; box-shadow: inset 0 0 0 1px HighlightText; }
+.poster { background-color: var(--poster-color, transparent); }
+.poster:not(.shown) { display: none; }
+.poster .image { position: absolute; inset: 0; width: 100%; height: 100%; border: 0; padding: 0; margin: 0; object-fit: contain; display: block;
+  background: transparent; }
+.poster .image[hidden] { display: none; }
+.layer { pointer-events: none; }
+.layer > ::slotted(*), .layer > slot > * { pointer-events: auto; }
+.bar { height: var(--progress-bar-height, 5px); background-color: var(--progress-bar-color, rgba(0, 0, 0, 0.4)); transform: scaleX(0);
+  transform-origin: 0 0; transition: transform 0.09s; pointer-events: none; }
+.bar.done { opacity: 0; transition: opacity 0.3s 1s; }
+.prompt { display: var(--interaction-prompt-display, flex); align-items: end; justify-content: center; opacity: 0; transition: opacity 0.3s;
+  pointer-events: none; }
+.prompt.shown { opacity: 1; }
+.prompt p { margin: 0 0 12px; padding: 6px 12px; border-radius: 16px; font: 13px/1.4 system-ui, sans-serif; color: #fff;
+  background: rgba(0, 0, 0, 0.65); }
+.hotspots { pointer-events: none; overflow: hidden; }
+.hotspot { position: absolute; left: 0; top: 0; }
+.hotspot ::slotted(*) { pointer-events: auto; opacity: var(--max-hotspot-opacity, 1); transition: opacity 0.3s; }
+.hotspot.behind:not(:focus-within) ::slotted(*) { opacity: var(--min-hotspot-opacity, 0.25); pointer-events: none; }
+.hotspot > div { transform: translate(-50%, -50%); }
+.pan { position: absolute; left: 50%; top: 50%; transform: translate(-50%, -50%); opacity: 0; transition: opacity 0.3s; pointer-events: none; }
+.pan.shown { opacity: 1; }
+.pan .dot { width: 6px; height: 6px; border-radius: 6px; border: 1px solid #fff; box-shadow: 0 0 2px 1px rgba(0, 0, 0, 0.8); }
+.unseen { position: absolute; width: 1px; height: 1px; margin: -1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap; }
+@media (prefers-reduced-motion: reduce) { .bar, .bar.done, .prompt, .hotspot ::slotted(*) { transition: none; } }
+`;
+
+const html = `
+<div class="input cover" part="input" role="img" tabindex="0" aria-label="3D model" aria-roledescription="3D model">
+  <div class="stage"><slot name="canvas"><canvas class="image"></canvas></slot></div>
+</div>
+<div class="poster cover shown"><slot name="poster"><img class="image" alt="" hidden></slot></div>
+<div class="hotspots cover"></div>
+<div class="pan"><slot name="pan-target"><div class="dot"></div></slot></div>
+<div class="prompt cover" aria-hidden="true"><slot name="interaction-prompt"><p part="default-interaction-prompt"></p></slot></div>
+<div class="layer cover"><slot></slot></div>
+<div class="layer cover"><slot name="progress-bar"><div class="bar done" part="default-progress-bar" aria-hidden="true"></div></slot></div>
+<div class="unseen"><span role="status"></span></div>`;
+
+const sheet = new CSSStyleSheet();
+sheet.replaceSync(css);
+const template = document.createElement('template');
+template.innerHTML = html;
+
+// The parts of the element's shadow tree by name.
+export function makeTree(element) {
+  const root = element.attachShadow({ mode: 'open' });
+  root.adoptedStyleSheets = [sheet];
+  root.append(template.content.cloneNode(true));
+  const find = (selector) => root.querySelector(selector);
+  return {
+    root,
+    input: find('.input'),
+    stage: find('.stage'),
+    canvas: find('canvas'),
+    poster: find('.poster'),
+    posterImage: find('.poster .image'),
+    hotspots: find('.hotspots'),
+    pan: find('.pan'),
+    prompt: find('.prompt'),
+    promptText: find('.prompt p'),
+    bar: find('.bar'),
+    status: find('[role=status]'),
+  };
+}

@@ -1,0 +1,241 @@
+// view.js - one viewer of the module: its model, its settings and its canvas. Remembers what it was told, so that a new module can be
+// told again.
+import { engine } from './engine.js';
+
+let count = 0;
+const OF_MODEL = new Set(['animation', 'time', 'variant', 'camera', 'scene', 'orbit', 'target', 'fov']); // options that need the model
+
+export class View {
+  #handle = 0;
+  #host;
+  #tree;
+  #folder = `view${++count}`;
+  #model = null; // {files, path} that is shown
+  #options = new Map();
+  #motion = new Map();
+  #camera = new Map();
+  #materials = [];
+  #extraFiles = []; // that options name
+  #lastTime = 0;
+  #isTouched = false;
+  #divisor = 1;
+  #isSharp = true;
+  #size = { width: 1, height: 1 };
+  isVisible = false;
+  isRevealed = false;
+  isPlaying = false;
+
+  // host: {beforeFrame(seconds), onFrame(), onScale(scale, reason), onFail(error, type), onReplayed()}
+  constructor(tree, host) {
+    this.#tree = tree;
+    this.#host = host;
+  }
+
+  // The element is in a page.
+  revive() { engine.add(this); }
+
+  destroy() {
+    this.close();
+    engine.remove(this);
+  }
+
+  // The model and all of its memory are released; settings stay.
+  close() {
+    const handle = this.#handle;
+    this.forget();
+    this.#model = null;
+    if (handle && engine.module) engine.call((module) => module.destroy(handle));
+    this.#tree.canvas.width = this.#tree.canvas.height = 0;
+  }
+
+  get hasModel() { return this.#handle !== 0 && this.#model !== null && engine.module !== null; }
+  get files() { return this.#model?.files ?? []; }
+  get path() { return this.#model?.path ?? null; }
+  get edits() { return this.#materials; }
+  get isLost() { return engine.isLost; }
+  get isDrawn() { return this.isVisible && this.isRevealed && this.hasModel; }
+  get isMoving() { return this.hasModel && (this.isPlaying || this.use((module, viewer) => module.isMoving(viewer))); }
+  get needsFrame() { return this.isDrawn && (this.#isTouched || !this.#isSharp || this.isMoving); }
+
+  // Calls use(module, viewer). The first time the viewer is told what was set before.
+  use(use) {
+    return engine.call((module) => {
+      if (!this.#handle) {
+        this.#handle = module.create();
+        this.#tell(module);
+      }
+      return use(module, this.#handle);
+    });
+  }
+
+  query(use, fallback) { return this.hasModel ? this.use(use) : fallback; }
+  state() { return this.query((module, viewer) => module.state(viewer), {}); }
+
+  // Draw again.
+  touch() {
+    this.#isTouched = true;
+    engine.requestFrame();
+  }
+
+  fail(error, type) { this.#host.onFail(error, type); }
+
+  // ---- what is shown ----
+
+  async open(files, path) {
+    await engine.start();
+    await this.#withFiles(files, async () => {
+      const at = path && `${this.#folder}/${path}`;
+      this.use((m, viewer) => m.open(viewer, at));
+    });
+    this.#model = { files, path };
+    this.#materials = [];
+    for (const name of OF_MODEL) this.#options.delete(name);
+    this.touch();
+  }
+
+  // The files are there for C while use runs.
+  async #withFiles(files, use) {
+    const contents = await Promise.all(files.map(({ file }) => file.arrayBuffer()));
+    try {
+      this.use((module) => files.forEach(({ path }, i) => module.putFile(`${this.#folder}/${path}`, new Uint8Array(contents[i]))));
+      await use();
+    } finally {
+      engine.module?.removeFiles();
+    }
+  }
+
+  // The value may be the path of a file of the model, or one that was set before: then wait for what is returned.
+  setOption(name, text) {
+    const entry = text !== null && [...this.files, ...this.#extraFiles].find(({ path }) => path === text);
+    if (entry) return this.setOptionFile(name, entry);
+    if (engine.module) this.use((module, viewer) => module.setOption(viewer, name, text));
+    this.#options.set(name, text);
+    this.touch();
+    return undefined;
+  }
+
+  async setOptionFile(name, entry) {
+    await engine.start();
+    await this.#withFiles([entry], async () => this.use((module, viewer) => module.setOption(viewer, name, `${this.#folder}/${entry.path}`)));
+    this.#options.set(name, entry.path);
+    this.#extraFiles = [...this.#extraFiles.filter(({ path }) => path !== entry.path), entry];
+    this.touch();
+  }
+
+  hasOption(name) { return (this.#options.get(name) ?? null) !== null; }
+
+  setMotion(name, value) {
+    this.#motion.set(name, value);
+    if (this.#handle && engine.module) this.use((module, viewer) => module.setMotion(viewer, name, value));
+    this.touch();
+  }
+
+  setCamera(name, text) {
+    this.use((module, viewer) => module.setCamera(viewer, name, text));
+    this.#camera.set(name, text);
+    this.touch();
+  }
+
+  // To what the attributes of the camera say.
+  frame(keepsDirection) {
+    this.use((module, viewer) => module.frame(viewer, this.#size.width, this.#size.height, keepsDirection));
+    this.touch();
+  }
+
+  setMaterial(index, values) {
+    this.use((module, viewer) => module.setMaterial(viewer, index, values));
+    this.#materials.push([index, values]);
+    this.touch();
+  }
+
+  // The module is gone.
+  forget() { this.#handle = 0; }
+
+  // Settings of a new viewer; those that name files follow in replay().
+  #tell(module) {
+    for (const [name, value] of this.#motion) module.setMotion(this.#handle, name, value);
+    for (const [name, text] of this.#camera) module.setCamera(this.#handle, name, text);
+    for (const [name, text] of this.#options)
+      if (!this.#extraFiles.some(({ path }) => path === text) && !OF_MODEL.has(name)) module.setOption(this.#handle, name, text);
+  }
+
+  // Tells a new module what the old one was told.
+  async replay() {
+    const model = this.#model;
+    const materials = this.#materials;
+    const options = [...this.#options];
+    if (!model) return;
+    this.#model = null;
+    try {
+      await this.open(model.files, model.path);
+      this.frame(true);
+      for (const [name, text] of options)
+        if (OF_MODEL.has(name) || this.#extraFiles.some(({ path }) => path === text)) await this.setOption(name, text);
+      for (const [index, values] of materials) this.setMaterial(index, values);
+      this.#host.onReplayed();
+    } catch (error) {
+      this.fail(error, 'loadfailure');
+    }
+  }
+
+  // ---- the image ----
+
+  setSize(width, height) {
+    this.#size = { width: Math.max(1, width), height: Math.max(1, height) };
+    this.touch();
+  }
+
+  // Of the canvas, in pixels of the screen.
+  get size() { return this.#size; }
+
+  pixelSize() {
+    return { width: Math.max(1, Math.round(this.#size.width / this.#divisor)), height: Math.max(1, Math.round(this.#size.height / this.#divisor)) };
+  }
+
+  placeCanvas(canvas) {
+    this.#tree.stage.append(canvas);
+    this.showOwnCanvas(false);
+  }
+
+  showOwnCanvas(isShown) { this.#tree.canvas.classList.toggle('unused', !isShown); }
+
+  // isDirect: the shared canvas is the one in the page.
+  drawFrame(time, isDirect) {
+    const seconds = this.#lastTime ? Math.min((time - this.#lastTime) / 1000, 0.5) : 0;
+    try {
+      this.#host.beforeFrame(seconds);
+      this.#isTouched = false;
+      const { width, height } = this.pixelSize();
+      this.use((module, viewer) => module.draw(viewer, width, height, seconds));
+      const isMoving = this.isMoving;
+      if (!isDirect || !isMoving) this.#copy(width, height);
+      this.#lastTime = isMoving ? time : 0;
+      this.#pace(isMoving, seconds);
+      this.#host.onFrame();
+    } catch (error) {
+      this.#lastTime = 0;
+      this.#isSharp = true;
+      this.fail(error, 'loadfailure');
+    }
+  }
+
+  // At rest a view keeps its image, for the time after a loss of the context.
+  #copy(width, height) {
+    const { canvas } = this.#tree;
+    if (canvas.width !== width) canvas.width = width;
+    if (canvas.height !== height) canvas.height = height;
+    const context = canvas.getContext('2d');
+    context.globalCompositeOperation = 'copy';
+    context.drawImage(engine.canvas, 0, engine.canvas.height - height, width, height, 0, 0, width, height);
+  }
+
+  // Coarser while slow frames move, sharp at rest.
+  #pace(isMoving, seconds) {
+    const divisor = this.use((module, viewer) => module.pace(viewer, isMoving, this.#divisor, seconds));
+    const allowed = Math.min(divisor, 1 / engine.minimumRenderScale);
+    this.#isSharp = isMoving || allowed === this.#divisor;
+    if (allowed === this.#divisor) return;
+    this.#divisor = allowed;
+    this.#host.onScale(1 / allowed, isMoving ? 'GPU throttling' : 'GPU idle');
+  }
+}
