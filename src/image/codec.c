@@ -1,4 +1,5 @@
-/* codec.c - selects the codec of a file by its first bytes and calls it. */
+/* codec.c - selects the decoder of a file by its first bytes and calls it. Encoders are selected in codec_encode.c, so that
+ * programs that only read are linked without them. */
 #include "image/codec.h"
 
 #include <float.h>
@@ -10,36 +11,35 @@ typedef struct codec {
     const char *name;
     codec_probe *probe; /* NULL: not in this build */
     codec_decode *decode;
-    codec_encode *encode; /* NULL: facet does not write this format */
-    const char *library;  /* library that is missing if probe is NULL */
+    const char *library; /* library that is missing if probe is NULL */
 } codec;
 
 static const codec codecs[] = {
     [IMAGE_CODEC_UNKNOWN] = {.name = "unknown"},
-    [IMAGE_CODEC_PNG] = {"PNG", png_probe, png_decode, png_encode, NULL},
-    [IMAGE_CODEC_JPEG] = {"JPEG", jpeg_probe, jpeg_decode, jpeg_encode, NULL},
+    [IMAGE_CODEC_PNG] = {"PNG", png_probe, png_decode, NULL},
+    [IMAGE_CODEC_JPEG] = {"JPEG", jpeg_probe, jpeg_decode, NULL},
 #ifdef HAVE_WEBP
-    [IMAGE_CODEC_WEBP] = {"WebP", webp_probe, webp_decode, webp_encode, NULL},
+    [IMAGE_CODEC_WEBP] = {"WebP", webp_probe, webp_decode, NULL},
 #else
     [IMAGE_CODEC_WEBP] = {.name = "WebP", .library = "libwebp"},
 #endif
-    [IMAGE_CODEC_HDR] = {"Radiance HDR", hdr_probe, hdr_decode, hdr_encode, NULL},
+    [IMAGE_CODEC_HDR] = {"Radiance HDR", hdr_probe, hdr_decode, NULL},
 #ifdef HAVE_OPENEXR
-    [IMAGE_CODEC_EXR] = {"OpenEXR", exr_probe, exr_decode, NULL, NULL}, /* written by image_encode_exr() */
+    [IMAGE_CODEC_EXR] = {"OpenEXR", exr_probe, exr_decode, NULL},
 #else
     [IMAGE_CODEC_EXR] = {.name = "OpenEXR", .library = "the OpenEXR library"},
 #endif
-    [IMAGE_CODEC_PFM] = {"PFM", pfm_probe, pfm_decode, pfm_encode, NULL},
-    [IMAGE_CODEC_KTX2] = {"KTX2", ktx2_probe, ktx2_decode_file, NULL, NULL},
+    [IMAGE_CODEC_PFM] = {"PFM", pfm_probe, pfm_decode, NULL},
+    [IMAGE_CODEC_KTX2] = {"KTX2", ktx2_probe, ktx2_decode_file, NULL},
 #ifdef HAVE_AVIF
-    [IMAGE_CODEC_AVIF] = {"AVIF", avif_probe, avif_decode, NULL, NULL},
+    [IMAGE_CODEC_AVIF] = {"AVIF", avif_probe, avif_decode, NULL},
 #else
     [IMAGE_CODEC_AVIF] = {.name = "AVIF", .library = "libavif"},
 #endif
-    [IMAGE_CODEC_TGA] = {"TGA", tga_probe, tga_decode, NULL, NULL},
-    [IMAGE_CODEC_BMP] = {"BMP", bmp_probe, bmp_decode, NULL, NULL},
-    [IMAGE_CODEC_GIF] = {"GIF", gif_probe, gif_decode, NULL, NULL},
-    [IMAGE_CODEC_DDS] = {"DDS", dds_probe, dds_decode, NULL, NULL},
+    [IMAGE_CODEC_TGA] = {"TGA", tga_probe, tga_decode, NULL},
+    [IMAGE_CODEC_BMP] = {"BMP", bmp_probe, bmp_decode, NULL},
+    [IMAGE_CODEC_GIF] = {"GIF", gif_probe, gif_decode, NULL},
+    [IMAGE_CODEC_DDS] = {"DDS", dds_probe, dds_decode, NULL},
 };
 
 image_codec image_codec_detect(const void *bytes, size_t size)
@@ -145,28 +145,6 @@ facet_result image_decode(const void *bytes, size_t size, const char *name, cons
     if (d.layer && id != IMAGE_CODEC_EXR)
         return fail(error, FACET_ERROR_INVALID, "%s: only OpenEXR files have layers (\"%s\")", name, d.layer);
     return codecs[id].decode(bytes, size, name, &d, out, error);
-}
-
-facet_result image_encode(const image *i, image_codec codec_id, const image_encode_desc *desc,
-                          unsigned char **bytes, size_t *size, facet_error *error)
-{
-    *bytes = NULL;
-    *size = 0;
-    image_encode_desc d = desc ? *desc : (image_encode_desc){0};
-    if (d.thread_count == 0)
-        d.thread_count = 1;
-    if (d.quality == 0)
-        d.quality = 92;
-    if (d.compression == 0)
-        d.compression = 4;
-    if (d.quality > 100 || d.compression > 9)
-        return fail(error, FACET_ERROR_ARGUMENT,
-                    "%s: quality %u is not 1 to 100 or compression %u not 1 to 9", codecs[codec_id].name,
-                    d.quality, d.compression);
-    if (!codecs[codec_id].encode)
-        return fail(error, FACET_ERROR_UNSUPPORTED, "this build of facet does not write %s files this way",
-                    codecs[codec_id].name);
-    return codecs[codec_id].encode(i, &d, bytes, size, error);
 }
 
 image_envmap image_get_envmap(const void *bytes, size_t size)

@@ -188,6 +188,9 @@ typedef struct image_encode_desc {
  * samples unchanged; HDR and PFM take F32 RGB. */
 facet_result image_encode(const image *i, image_codec codec, const image_encode_desc *desc,
                           unsigned char **bytes, size_t *size, facet_error *error);
+/* The same for PNG, for programs that need no other encoder. */
+facet_result image_encode_png(const image *i, const image_encode_desc *desc, unsigned char **bytes,
+                              size_t *size, facet_error *error);
 /* Encodes scanline OpenEXR, ZIP or uncompressed, as half (except layers that need floats) or float. Floats
  * are written bit for bit. */
 facet_result image_encode_exr(uint32_t width, uint32_t height, const image_layer *layers,

@@ -190,7 +190,7 @@ static facet_result keep_made(texture_baker *baker, const struct image *texels, 
     made.name = arena_strdup(scene->arena, name);
     if (!made.name)
         return fail_memory(error, "textures", strlen(name));
-    TRY(image_encode(texels, IMAGE_CODEC_PNG, &desc, &made.bytes, &made.byte_count, error));
+    TRY(image_encode_png(texels, &desc, &made.bytes, &made.byte_count, error));
     made.width = texels->width;
     made.height = texels->height;
     *texture = scene->texture_count + baker->made_count;
