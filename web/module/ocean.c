@@ -482,6 +482,19 @@ EMSCRIPTEN_KEEPALIVE int facet_ocean_rise(double height_m)
     return result == FACET_OK ? facet_ocean_look(azimuth, elevation) : result;
 }
 
+/* Narrows the field of view by steps of a wheel; negative: widens it. */
+EMSCRIPTEN_KEEPALIVE int facet_ocean_zoom(double steps)
+{
+    char value[32];
+    facet_result result = update_sea(&page.error);
+    if (result != FACET_OK)
+        return result;
+    const facet_camera c = ocean_run_camera(&page.settings.run, &page.settings.run.options);
+    double degrees = (double)c.fov_y_rad / DEGREE * pow(0.9, steps);
+    snprintf(value, sizeof value, "%.1f", fmin(fmax(degrees, 1.0), 120.0));
+    return facet_ocean_set_option("fov", value);
+}
+
 /* JSON: time, camera, and what is known of the sea. */
 EMSCRIPTEN_KEEPALIVE char *facet_ocean_state(void)
 {

@@ -2,10 +2,12 @@
 #include "ocean_settings.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/result.h"
+#include "image/srgb.h"
 
 static const double DEGREE = 0.017453292519943295; /* pi / 180 */
 
@@ -183,9 +185,12 @@ static void write_water(const facet_sea_desc *d, text *out)
     text_json_float(out, "depth", (float)d->bed.depth_m > 0.0f ? (double)d->bed.depth_m : (double)INFINITY);
     text_json_doubles(out, "bed-slope", (const double[]){(double)d->bed.slope, azimuth(d->bed.direction_rad)},
                       2);
-    text_json_doubles(
-        out, "bed-color",
-        (const double[]){(double)d->bed.albedo[0], (double)d->bed.albedo[1], (double)d->bed.albedo[2]}, 3);
+    char color[16];
+    int code[3];
+    for (int i = 0; i < 3; i++)
+        code[i] = (int)lround(255.0 * srgb_encode((double)d->bed.albedo[i]));
+    snprintf(color, sizeof color, "#%02x%02x%02x", code[0], code[1], code[2]);
+    text_json_string(out, "bed-color", color);
 }
 
 void ocean_settings_write_values(const ocean_settings *s, text *out)

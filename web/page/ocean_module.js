@@ -41,6 +41,7 @@ export async function loadOcean(canvas) {
     get isSharp() { return ocean._facet_ocean_is_sharp() !== 0; },
     look: (azimuth, elevation) => check(ocean._facet_ocean_look(azimuth, elevation)),
     turn: (dx, dy, height) => check(ocean._facet_ocean_turn(dx, dy, height)),
+    zoom: (steps) => check(ocean._facet_ocean_zoom(steps)),
     rise: (height) => check(ocean._facet_ocean_rise(height)),
     lose: () => ocean._facet_ocean_lose(),
     restore: () => check(ocean._facet_ocean_restore()),

@@ -1,0 +1,298 @@
+// ocean.js - the ocean page: when a frame is drawn and how large, input, the link and the buttons. The sea is C (ocean_module.js).
+import { button, element, icon } from './fields.js';
+import { makeDivider } from './ocean_divider.js';
+import { loadOcean } from './ocean_module.js';
+import { makePanel } from './ocean_panel.js';
+
+const byId = (id) => document.getElementById(id);
+const canvas = byId('view');
+const stage = byId('stage');
+const calm = matchMedia('(prefers-reduced-motion: reduce)');
+
+let ocean = null;
+let panel = null;
+let isPlaying = false;
+let isLost = false;
+let isAsked = false;
+let lastTime = 0; // of the last frame in motion, ms
+let lastChange = 0; // of a setting, ms
+let scale = 1; // drawn pixels per pixel of the screen along an axis, in motion
+
+// ---- messages ----
+
+let statusTimer = 0;
+function say(text) {
+  byId('status').textContent = text;
+  clearTimeout(statusTimer);
+  if (text) statusTimer = setTimeout(() => { byId('status').textContent = ''; }, 6000);
+}
+
+function showError(text) {
+  byId('error').hidden = !text;
+  byId('error').textContent = text;
+}
+
+// Runs f; its error is shown. True: there was none.
+function attempt(f) {
+  try {
+    f();
+    showError('');
+    return true;
+  } catch (error) {
+    showError(error.message);
+    return false;
+  }
+}
+
+// ---- frames ----
+
+const fullSize = () => {
+  const ratio = window.devicePixelRatio || 1;
+  return [canvas.clientWidth, canvas.clientHeight].map((edge) => Math.max(1, Math.round(edge * ratio)));
+};
+
+function fit(by) {
+  const [width, height] = fullSize().map((edge) => Math.max(1, Math.round(edge * by)));
+  if (canvas.width !== width || canvas.height !== height) {
+    canvas.width = width;
+    canvas.height = height;
+  }
+}
+
+// Frames come apart as far as the machine needs for one: aim at 25 to 50 per second.
+const SLOW_MS = 60;
+const FAST_MS = 30;
+const LEAST_SCALE = 0.2;
+function adapt(ms) {
+  if (ms > SLOW_MS) scale = Math.max(LEAST_SCALE, scale * Math.max(0.6, Math.sqrt(45 / ms)));
+  else if (ms < FAST_MS) scale = Math.min(1, scale * 1.05);
+}
+
+const REST_MS = 250; // after a change the image is drawn coarsely for so long
+function frame(time) {
+  isAsked = false;
+  if (isLost) return;
+  const passed = lastTime ? time - lastTime : 0;
+  const isChanging = performance.now() - lastChange < REST_MS;
+  lastTime = isPlaying || isChanging ? time : 0;
+  if (passed && passed < 3000) adapt(passed);
+  fit(isPlaying || isChanging ? scale : 1);
+  const isDrawn = attempt(() => ocean.draw(canvas.width, canvas.height, divider.value, isPlaying ? Math.min(passed, 1000) / 1000 : 0));
+  const warning = ocean.takeWarning();
+  if (warning) say(warning);
+  if (!isDrawn) return;
+  document.body.dataset.sharp = String(!isPlaying && !isChanging && ocean.isSharp);
+  if (isPlaying || isChanging || !ocean.isSharp) ask();
+}
+
+function ask() {
+  if (isAsked || isLost || !ocean) return;
+  isAsked = true;
+  requestAnimationFrame(frame);
+}
+
+function play(is) {
+  isPlaying = is;
+  playButton.setAttribute('aria-label', is ? 'Pause' : 'Play');
+  playButton.replaceChildren(icon(is ? 'pause' : 'play'));
+  lastTime = 0;
+  if (!is) settle();
+  ask();
+}
+
+// ---- settings, the link ----
+
+// After a change: the panel shows what is set, the link holds it.
+function settle() {
+  const [width, height] = fullSize();
+  const isDivided = ocean.options['before-after'] !== undefined;
+  divider.hidden = byId('label-before').hidden = byId('label-now').hidden = !isDivided;
+  panel.refresh(ocean.command(width, height));
+  history.replaceState(null, '', `#${linkText()}`);
+}
+
+function change(f) {
+  lastChange = performance.now();
+  attempt(f);
+  settle();
+  ask();
+}
+
+const set = (changes) => change(() => {
+  const before = ocean.options;
+  try {
+    for (const [name, text] of Object.entries(changes)) ocean.setOption(name, text);
+  } catch (error) {
+    for (const name of Object.keys(changes)) ocean.setOption(name, null);
+    for (const name of Object.keys(changes)) if (before[name] !== undefined) ocean.setOption(name, before[name]);
+    throw error;
+  }
+});
+
+function linkText() {
+  const parts = new URLSearchParams(ocean.options);
+  const { time } = ocean.state;
+  parts.delete('time');
+  if (!isPlaying && time) parts.set('time', String(time));
+  if (ocean.options['before-after'] !== undefined) parts.set('divider', divider.value.toFixed(3));
+  return parts.toString().replaceAll('%2C', ',').replaceAll('=&', '&').replace(/=$/, '');
+}
+
+// Options that cannot be set are reported, the others are set all the same. Returns whether there are any.
+function readLink() {
+  const wanted = new URLSearchParams(location.hash.slice(1));
+  const refused = [];
+  for (const name of Object.keys(ocean.options)) if (!wanted.has(name)) ocean.setOption(name, null);
+  for (const [name, text] of wanted) {
+    try {
+      if (name === 'divider') divider.value = Number(text) || 0;
+      else ocean.setOption(name, text);
+    } catch (error) {
+      refused.push(error.message);
+    }
+  }
+  showError(refused.join('\n'));
+  return { isEmpty: wanted.size === 0, hasTime: wanted.has('time') };
+}
+
+// ---- buttons ----
+
+const divider = makeDivider(byId('divider'), stage, () => change(() => {}));
+const playButton = button('', () => play(!isPlaying), { class: 'icon' });
+
+async function copy(text, what) {
+  try {
+    await navigator.clipboard.writeText(text);
+    say(`${what} copied.`);
+  } catch {
+    say(`This browser does not let pages copy. ${what}: ${text}`);
+  }
+}
+
+// Any size, with all samples.
+async function saveImage() {
+  const [width, height] = fullSize();
+  say('Drawing the image …');
+  await new Promise((resolve) => setTimeout(resolve, 30));
+  let pixels = null;
+  if (!attempt(() => { pixels = ocean.readImage(width, height, divider.value); })) return;
+  const drawn = element('canvas', { width, height });
+  drawn.getContext('2d').putImageData(new ImageData(pixels, width, height), 0, 0);
+  const blob = await new Promise((resolve) => drawn.toBlob(resolve, 'image/png'));
+  const link = element('a', { href: URL.createObjectURL(blob), download: 'sea.png' });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  say('Saved as sea.png.');
+  ask();
+}
+
+function addButtons() {
+  const labelled = (name, text, press) => {
+    const made = button('', press, { 'aria-label': text, title: text });
+    made.append(icon(name), element('span', { class: 'wide' }, text));
+    return made;
+  };
+  byId('actions').append(
+    labelled('copy', 'Copy command', () => copy(ocean.command(...fullSize()), 'Command')),
+    labelled('camera', 'Save image', saveImage),
+    labelled('share', 'Share', () => {
+      settle();
+      copy(location.href, 'Link');
+    }));
+  byId('controls').append(playButton);
+}
+
+// ---- input ----
+
+const look = (azimuth, elevation) => change(() => ocean.look(azimuth, elevation));
+const rise = (height) => change(() => ocean.rise(height));
+
+const pointers = new Map();
+function listenToPointer() {
+  canvas.addEventListener('pointerdown', (event) => {
+    canvas.setPointerCapture(event.pointerId);
+    pointers.set(event.pointerId, [event.clientX, event.clientY]);
+  });
+  canvas.addEventListener('pointermove', (event) => {
+    const last = pointers.get(event.pointerId);
+    if (!last) return;
+    const [dx, dy] = [event.clientX - last[0], event.clientY - last[1]];
+    const apart = () => { const [a, b] = [...pointers.values()]; return Math.hypot(a[0] - b[0], a[1] - b[1]); };
+    const before = pointers.size === 2 ? apart() : 0;
+    pointers.set(event.pointerId, [event.clientX, event.clientY]);
+    if (pointers.size === 2) change(() => ocean.zoom((apart() - before) / 40));
+    else change(() => ocean.turn(-dx, dy, canvas.clientHeight));
+  });
+  for (const end of ['pointerup', 'pointercancel']) canvas.addEventListener(end, (event) => pointers.delete(event.pointerId));
+  canvas.addEventListener('wheel', (event) => {
+    event.preventDefault();
+    change(() => ocean.zoom(-Math.sign(event.deltaY)));
+  }, { passive: false });
+}
+
+function listenToKeys() {
+  const step = () => canvas.clientHeight / 12;
+  const actions = {
+    ArrowLeft: () => ocean.turn(-step(), 0, canvas.clientHeight),
+    ArrowRight: () => ocean.turn(step(), 0, canvas.clientHeight),
+    ArrowUp: () => ocean.turn(0, step(), canvas.clientHeight),
+    ArrowDown: () => ocean.turn(0, -step(), canvas.clientHeight),
+    PageUp: () => ocean.rise(Math.round(ocean.state.height) + 1),
+    PageDown: () => ocean.rise(Math.round(ocean.state.height) - 1),
+    '+': () => ocean.zoom(1),
+    '-': () => ocean.zoom(-1),
+  };
+  canvas.addEventListener('keydown', (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.key === ' ') play(!isPlaying);
+    else if (actions[event.key]) change(actions[event.key]);
+    else return;
+    event.preventDefault();
+  });
+}
+
+// The last image stays until the browser gives the context back.
+function listenToLoss() {
+  canvas.addEventListener('webglcontextlost', (event) => {
+    event.preventDefault();
+    isLost = true;
+    ocean.lose();
+  });
+  canvas.addEventListener('webglcontextrestored', () => {
+    isLost = false;
+    if (attempt(() => ocean.restore())) ask();
+  });
+}
+
+// ---- start ----
+
+async function start() {
+  ocean = await loadOcean(canvas);
+  panel = makePanel({ set, look, rise, read: () => ({ options: ocean.options, values: ocean.values, state: ocean.state }) });
+  panel.setHelp(ocean.help);
+  byId('panel').append(panel.root);
+  addButtons();
+  listenToPointer();
+  listenToKeys();
+  listenToLoss();
+  const { isEmpty, hasTime } = readLink();
+  if (isEmpty) ocean.setOption('before-after', '');
+  if (isEmpty) divider.value = 0.3;
+  window.addEventListener('hashchange', () => {
+    readLink();
+    lastChange = performance.now();
+    settle();
+    ask();
+  });
+  new ResizeObserver(ask).observe(canvas);
+  calm.addEventListener('change', () => { if (calm.matches) play(false); });
+  say('');
+  scale = 0.5;
+  lastChange = performance.now();
+  play(!hasTime && !calm.matches);
+  settle();
+}
+
+// For tests and scripts of the page.
+window.oceanPage = { ready: start(), get ocean() { return ocean; }, get isPlaying() { return isPlaying; }, play, set };
+window.oceanPage.ready.catch((error) => showError(`The sea could not start: ${error.message}`));
