@@ -1,5 +1,5 @@
-/* facet/plot.h - charts of BRDFs, their terms, LUTs, tone mapping and conversion errors as SVG, PDF, PNG
- * or CSV. */
+/* facet/plot.h - charts of BRDFs, their terms, LUTs, tone mapping and conversion errors as SVG, PDF, PNG,
+ * CSV or JSON. */
 #ifndef FACET_PLOT_H
 #define FACET_PLOT_H
 
@@ -66,7 +66,8 @@ typedef enum facet_plot_format {
     FACET_PLOT_FORMAT_SVG,
     FACET_PLOT_FORMAT_PDF,
     FACET_PLOT_FORMAT_PNG,
-    FACET_PLOT_FORMAT_CSV /* the plotted numbers; works without cairo */
+    FACET_PLOT_FORMAT_CSV, /* the plotted numbers; works without cairo */
+    FACET_PLOT_FORMAT_JSON /* the same, with colors and the places of the panels in the drawing */
 } facet_plot_format;
 
 enum { FACET_PLOT_MAX_MATERIALS = 16, FACET_PLOT_MAX_ANGLES = 8 };

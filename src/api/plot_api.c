@@ -64,18 +64,16 @@ facet_result facet_plot_encode(const facet_plot_desc *desc, facet_plot_format fo
     desc = desc ? desc : &defaults;
     *bytes = NULL;
     *size = 0;
-    if ((int)format < 0 || format > FACET_PLOT_FORMAT_CSV)
+    if ((int)format < 0 || format > FACET_PLOT_FORMAT_JSON)
         return fail(error, FACET_ERROR_ARGUMENT, "plot: there is no format %d; 0 to %d expected", (int)format,
-                    (int)FACET_PLOT_FORMAT_CSV);
+                    (int)FACET_PLOT_FORMAT_JSON);
     arena *memory = arena_create(&desc->allocator);
     if (!memory)
         return fail_memory(error, "plot", 0);
     chart drawing = {0};
     facet_result result = plot_create(desc, memory, &drawing, error);
     if (result == FACET_OK)
-        result = format == FACET_PLOT_FORMAT_CSV
-                     ? chart_write_csv(&drawing, &desc->allocator, bytes, size, error)
-                     : chart_draw(&drawing, format, &desc->allocator, bytes, size, error);
+        result = chart_draw(&drawing, format, &desc->allocator, bytes, size, error);
     arena_destroy(memory);
     return result;
 }

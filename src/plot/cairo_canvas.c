@@ -1,5 +1,5 @@
-/* cairo_canvas.c - see cairo_canvas.h. */
-#include "plot/cairo_canvas.h"
+/* cairo_canvas.c - the canvas drawn by cairo; see canvas.h. */
+#include "plot/canvas.h"
 
 #include <cairo-pdf.h>
 #include <cairo-svg.h>

@@ -93,6 +93,8 @@ facet_result chart_draw_with(const chart *c, facet_plot_format format, const cha
     *size = 0;
     if (format == FACET_PLOT_FORMAT_CSV)
         return chart_write_csv(c, allocator, bytes, size, error);
+    if (format == FACET_PLOT_FORMAT_JSON)
+        return chart_write_json(c, allocator, bytes, size, error);
     char title[LABEL_SIZE];
     label_clean(c->title, title);
     for (char *p = title; *p; p++)

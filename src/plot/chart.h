@@ -1,4 +1,4 @@
-/* chart.h - charts as data: curves and fields that plots make, to be drawn by cairo or written as CSV.
+/* chart.h - charts as data: curves and fields that plots make, to be drawn, or written as CSV or JSON.
  * Independent of shading.
  *
  * A chart is a grid of panels. All memory is in an arena; strings are UTF-8. */
@@ -87,13 +87,19 @@ typedef struct chart {
     const chart_panel *panels; /* row by row */
 } chart;
 
-/* Draws a chart as SVG, PDF or PNG. Fails with FACET_ERROR_SYSTEM if cairo is missing. Equal charts give
- * equal bytes. */
+/* Draws a chart as SVG, PDF or PNG; builds without cairo draw SVG. Fails with FACET_ERROR_SYSTEM if cairo is missing. Equal
+ * charts give equal bytes. */
 facet_result chart_draw(const chart *c, facet_plot_format format, const facet_allocator *allocator,
                         unsigned char **bytes, size_t *size, facet_error *error);
 /* Writes the numbers of a chart: a block per panel after a comment line, with a header line and one row
  * per x; curves of a panel share the column of x if it is the same. */
 facet_result chart_write_csv(const chart *c, const facet_allocator *allocator, unsigned char **bytes,
                              size_t *size, facet_error *error);
+/* Writes the numbers of a chart as JSON, and where its panels are in the drawing (left out where cairo is missing):
+ * {"title", "width", "height", "panels": [{"kind": "xy", "title", "note", "plot": [x, y, width, height] in px,
+ * "x": {"label", "scale", "degrees", "range": [minimum, maximum]}, "y", "curves": [{"name", "color", "dash", "x": [],
+ * "y": []}]}]}; a half disc has "center" and "radius", fields and surfaces have "field" and "surface". NaN is null. */
+facet_result chart_write_json(const chart *c, const facet_allocator *allocator, unsigned char **bytes,
+                              size_t *size, facet_error *error);
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef PLOT_CHART_TEXT_H
 #define PLOT_CHART_TEXT_H
 
-#include "plot/cairo_canvas.h"
+#include "plot/canvas.h"
 #include "plot/chart_ticks.h"
 
 enum { LABEL_SIZE = 1024, LABEL_MAX_LINES = 4 };

@@ -2,7 +2,7 @@
 #ifndef PLOT_CHART_TRACE_H
 #define PLOT_CHART_TRACE_H
 
-#include "plot/cairo_canvas.h"
+#include "plot/canvas.h"
 #include "plot/chart.h"
 
 typedef struct chart_box {

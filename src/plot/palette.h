@@ -2,7 +2,7 @@
 #ifndef PLOT_PALETTE_H
 #define PLOT_PALETTE_H
 
-#include "plot/cairo_canvas.h"
+#include "plot/canvas.h"
 #include "plot/chart.h"
 
 /* The colors of everything but the data. */

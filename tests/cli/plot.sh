@@ -14,6 +14,8 @@ for kind in $kinds; do
 done
 expect 0 plot tone -o - --format csv
 cmp -s out tone.csv || failed "standard output has other numbers than the file"
+expect 0 plot tone -o tone.json
+grep -q '"panels":\[{"kind":"xy","title":".*"curves":\[{"name":"' tone.json || failed "tone.json is no chart"
 expect 0 plot tone -o none.csv --title ''
 expect 0 plot legacy -o again.csv -j 1
 cmp -s again.csv legacy.csv || failed "the numbers depend on the threads"
@@ -103,7 +105,7 @@ says "which plot? One of legacy, brdf"
 expect 2 plot pie -o a.svg
 says 'there is no plot "pie"'
 expect 2 plot tone -o tone.gif
-says "does not end in .svg, .pdf, .png or .csv"
+says "does not end in .svg, .pdf, .png, .csv or .json"
 expect 2 plot tone -o -
 says "needs --format"
 expect 6 plot tone -o /dev/null/tone.csv

@@ -185,6 +185,16 @@ async function testPlots() {
         const [here, there] = [await tools.run(args), native(args)];
         assertNear(here.stdout, there.stdout, 1e-6, args.join(' '));
     }
+    const { svg, fits } = await tools.plot('slice', ['roughness=0.4', 'ogl1,shininess=30'], { fit: true, size: '400x300' });
+    assert.match(svg, /^<svg [^>]*width="400" height="300"/);
+    assert.ok((svg.match(/<path /g) ?? []).length > 10 && svg.includes('>angle of the light, degrees</text>'));
+    assert.deepEqual(fits.map(({ model }) => model), ['ogl1', 'pbr']);
+    const data = await tools.plotData('slice', ['roughness=0.4'], { angle: 20 });
+    const csv = native(['plot', 'slice', 'roughness=0.4', '--angle', '20', '-o', '-', '--format', 'csv']).stdout.trim().split('\n').at(-1);
+    const last = data.panels[0].curves.map(({ y }) => y.at(-1));
+    assertNear(`${data.panels[0].curves[0].x.at(-1)},${last.join(',')}`, csv, 1e-6, 'plotData');
+    assert.deepEqual(data.panels[0].x.range, [-90, 90]);
+    assert.ok(data.panels[0].plot[2] > 100, 'the place of the panel');
 }
 
 async function testRefusals() {

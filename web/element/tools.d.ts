@@ -36,6 +36,10 @@ export interface Tools {
   convert(files: Files, path: string, options: Options & { output: string }): Promise<Made>;
   /** `facet bake path`; path is a file, the name of a sky ("sun:45,135") or null for tables (options.dfg). */
   bake(files: Files, path: string | null, options: Options): Promise<Made>;
+  /** `facet plot kind` with materials as "roughness=0.3,metallic=1", files among them: the drawing, and fits where options.fit is true. */
+  plot(kind: string, materials?: ReadonlyArray<string>, options?: Options, files?: Files): Promise<{ svg: string; fits: any[] }>;
+  /** The numbers of the same plot: title, width, height, and panels with their curves and places in the drawing. */
+  plotData(kind: string, materials?: ReadonlyArray<string>, options?: Options, files?: Files): Promise<any>;
   /**
    * The model at path as .glb with edited materials: {0: {pbrMetallicRoughness: {roughnessFactor: 0.3}}}. Named members replace
    * values, null removes one; of a glTF file all else stays as it is.

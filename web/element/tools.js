@@ -273,6 +273,19 @@ class Tools {
     return { ...JSON.parse(result.stdout), files: result.files };
   }
 
+  // `facet plot kind` with materials ("roughness=0.3,metallic=1"): {svg, fits}, the drawing and the fits of the other model.
+  async plot(kind, materials = [], options = {}, files = {}) {
+    const args = ['plot', kind, ...materials, '--output=plot.svg', '--json', ...optionsToArgs(options)];
+    const result = check(await this.run(args, files));
+    return { svg: new TextDecoder().decode(result.files['plot.svg']), fits: JSON.parse(result.stdout).fits };
+  }
+
+  // The numbers of the same plot: panels with their curves, and where they are in the drawing (`facet plot --format json`).
+  async plotData(kind, materials = [], options = {}, files = {}) {
+    const args = ['plot', kind, ...materials, '--output=-', '--format=json', ...optionsToArgs(options)];
+    return JSON.parse(check(await this.run(args, files)).stdout);
+  }
+
   // The model at path as .glb, with edits of materials ({index: part of a glTF material}, whose members replace values). Of a glTF
   // file everything else stays as it is; other formats are converted first. The reader checks the result.
   async save(files, path, edits = {}) {

@@ -20,7 +20,7 @@ const verb plot_verb = {
     .arguments = "KIND [MATERIAL...]",
     .max_arguments = FACET_PLOT_MAX_MATERIALS + 1,
     .file_types = "glb gltf obj json binary",
-    .output_types = "svg pdf png csv",
+    .output_types = "svg pdf png csv json",
     .words = OPTION_WORDS("legacy", "brdf", "slice", "hemisphere", "lobe", "terms", "albedo", "furnace",
                           "dfg", "tone", "fresnel", "error"),
     .description =
@@ -71,7 +71,7 @@ const verb plot_verb = {
 static const char *const kind_names[] = {"legacy", "brdf",    "slice", "hemisphere", "lobe",    "terms",
                                          "albedo", "furnace", "dfg",   "tone",       "fresnel", "error"};
 enum { KIND_COUNT = sizeof kind_names / sizeof *kind_names };
-static const char *const format_names[] = {"svg", "pdf", "png", "csv"}; /* of facet_plot_format */
+static const char *const format_names[] = {"svg", "pdf", "png", "csv", "json"}; /* of facet_plot_format */
 
 typedef struct plot_run {
     verb_run base;
@@ -121,18 +121,17 @@ static facet_result read_output(plot_run *run, facet_error *error)
         run->path = run->output;
     }
     const char *dot = strrchr(run->path, '.');
-    for (int i = 0; format < 0 && dot && i < 4; i++)
+    for (int i = 0; format < 0 && dot && i <= FACET_PLOT_FORMAT_JSON; i++)
         if (strcasecmp(dot + 1, format_names[i]) == 0)
             format = i;
     if (format < 0)
-        return strcmp(run->path, "-") == 0
-                   ? fail(error, FACET_ERROR_ARGUMENT,
-                          "--output: standard output needs --format svg, pdf, png "
-                          "or csv")
-                   : fail(
-                         error, FACET_ERROR_ARGUMENT,
-                         "--output: \"%s\" does not end in .svg, .pdf, .png or .csv; say which with --format",
-                         run->path);
+        return strcmp(run->path, "-") == 0 ? fail(error, FACET_ERROR_ARGUMENT,
+                                                  "--output: standard output needs --format svg, pdf, png, "
+                                                  "csv or json")
+                                           : fail(error, FACET_ERROR_ARGUMENT,
+                                                  "--output: \"%s\" does not end in .svg, .pdf, .png, .csv "
+                                                  "or .json; say which with --format",
+                                                  run->path);
     run->format = (facet_plot_format)format;
     return output_check(run->path, error);
 }

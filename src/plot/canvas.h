@@ -1,10 +1,10 @@
-/* cairo_canvas.h - the canvas of a chart: paths, text and images in pixels, y down, as SVG, PDF or PNG. Only
- * cairo_canvas.c uses cairo.
+/* canvas.h - the canvas of a chart: paths, text and images in pixels, y down. cairo_canvas.c draws SVG, PDF and PNG;
+ * svg_canvas.c, in builds without cairo, SVG only.
  *
  * Drawing errors are kept and returned by canvas_finish(). Coordinates beyond 1e6 px overflow in cairo: clip
  * first. */
-#ifndef PLOT_CAIRO_CANVAS_H
-#define PLOT_CAIRO_CANVAS_H
+#ifndef PLOT_CANVAS_H
+#define PLOT_CANVAS_H
 
 #include "base/memory.h"
 #include "facet/facet.h"
