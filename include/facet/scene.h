@@ -20,6 +20,22 @@ typedef enum facet_obj_normals {
     FACET_OBJ_NORMALS_SMOOTH /* smooth across all edges */
 } facet_obj_normals;
 
+/* Files that the caller supplies in place of the file system: those of a pack file, an archive, a network, a
+ * browser. Paths are written with "/", without a leading one, "." and "..", and are below one topmost folder. Calls
+ * come from the thread that reads the model; close() also from the one that destroys the scene. */
+typedef struct facet_file_source {
+    void *user;
+    /* The bytes of the file at exactly that path. False: there is none. They stay valid and unchanged until
+     * close(), which is called once for each open() that was true, at the latest when the scene is destroyed:
+     * scenes point into the bytes of their files. NULL: the file system is used. */
+    bool (*open)(void *user, const char *path, const void **bytes, size_t *size);
+    void (*close)(void *user, const void *bytes, size_t size); /* NULL: nothing is to be released */
+    /* The path of file number index, from 0; NULL behind the last one. A name for which there is no file is
+     * looked for among them: a path that differs in case or in Unicode normalization is read instead, with a
+     * warning. NULL: only exact names are found. */
+    const char *(*list)(void *user, size_t index);
+} facet_file_source;
+
 /* {0}: malloc, silent, all threads, files of the model's folder only. */
 typedef struct facet_scene_desc {
     facet_allocator allocator;
@@ -33,6 +49,8 @@ typedef struct facet_scene_desc {
     bool has_flipped_texcoords; /* OBJ: v points down (the format says up) */
     /* JSON file of rgl's material parameters that replace the model's; NULL: none */
     const char *parameters;
+    /* where facet_scene_load() finds the model and all files that it refers to; {0}: the file system */
+    facet_file_source files;
 } facet_scene_desc;
 
 /* Reads a .glb, .gltf, .obj (with its .mtl files), .stl or .ply file, or a .json file of rgl's material

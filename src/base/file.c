@@ -137,6 +137,8 @@ bool file_is_at(const file_bytes *file, const char *path)
 
 void file_close(file_bytes *file)
 {
+    if (file->release)
+        file->release(file->user, file->data, file->size);
     if (file->mapping_size)
         munmap(file->mapping, file->mapping_size);
     else

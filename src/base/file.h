@@ -6,12 +6,16 @@
 
 /* The bytes of a file: read, or mapped where it has 256 MiB or more. */
 typedef struct file_bytes {
-    const unsigned char *data; /* followed by at least one readable byte of 0 */
+    const unsigned char
+        *data; /* followed by at least one readable byte of 0, unless somebody else supplies it */
     size_t size;
     void *mapping; /* for file_close() */
     size_t mapping_size;
     uint64_t device, number; /* identify a regular file under any name; number 0: none */
     const char *path;        /* of its owner, who sets it; NULL: unknown */
+    /* of a file that somebody else supplies: file_close() gives it back; NULL: nothing to do */
+    void (*release)(void *user, const void *data, size_t size);
+    void *user;
 } file_bytes;
 
 /* The limit that the max_file_bytes of a desc stands for, of which 0 is the default. */

@@ -159,6 +159,7 @@ bool io_load_uri(io_reader *r, const char *uri, uri_bytes *out)
 {
     const file_scope scope = {.scene = r->scene,
                               .allocator = r->allocator,
+                              .files = r->files,
                               .folder = r->folder,
                               .root = r->root,
                               .log = r->log,

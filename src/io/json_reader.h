@@ -20,8 +20,9 @@ typedef struct io_reader {
     facet_result result; /* FACET_OK, or the first error */
     uint32_t thread_count;
     uint64_t max_file_bytes;
-    const char *folder; /* of the model; NULL: the model is read from memory */
-    const char *root;   /* folder that URIs may reach; NULL: folder */
+    const char *folder;             /* of the model; NULL: the model is read from memory */
+    const char *root;               /* folder that URIs may reach; NULL: folder */
+    const facet_file_source *files; /* NULL, or {0}: the file system */
     json_t *json;
     uint64_t work;              /* elements read so far; see io_spend() */
     struct io_remarks *remarks; /* json_messages.c; NULL: remarks are passed on at once */

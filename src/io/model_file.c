@@ -5,6 +5,7 @@
 #include <strings.h>
 
 #include "base/result.h"
+#include "io/file_source.h"
 #include "io/gltf/gltf.h"
 #include "io/model_kind.h"
 #include "io/obj/obj.h"
@@ -71,7 +72,7 @@ facet_result model_file_load(const char *path, const facet_scene_desc *desc, fac
 {
     file_bytes file = {0};
     *scene = NULL;
-    facet_result result = file_open(path, file_limit(desc->max_file_bytes), &desc->allocator, &file, error);
+    facet_result result = model_file_open(path, desc, &file, error);
     if (result == FACET_ERROR_READ && is_url(path))
         return fail(error, FACET_ERROR_READ,
                     "%s: facet reads files, not URLs; try: curl -sL %s | facet render - -o out.png", path,

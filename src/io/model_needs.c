@@ -3,9 +3,9 @@
 
 #include <string.h>
 
-#include "base/file.h"
 #include "base/result.h"
 #include "image/image.h"
+#include "io/file_source.h"
 #include "io/gltf/gltf.h"
 #include "io/model_kind.h"
 
@@ -54,12 +54,14 @@ unsigned model_needs_of_scene(const facet_scene *scene)
 facet_result model_needs_of_file(const char *path, const facet_scene_desc *desc, unsigned *needs,
                                  facet_error *error)
 {
-    const facet_scene_desc silent = {
-        .allocator = desc->allocator, .max_file_bytes = desc->max_file_bytes, .root = desc->root};
+    const facet_scene_desc silent = {.allocator = desc->allocator,
+                                     .max_file_bytes = desc->max_file_bytes,
+                                     .root = desc->root,
+                                     .files = desc->files};
     facet_scene *scene;
     file_bytes file = {0};
     *needs = 0;
-    TRY(file_open(path, file_limit(desc->max_file_bytes), &desc->allocator, &file, error));
+    TRY(model_file_open(path, desc, &file, error));
     const bool is_gltf = model_kind_detect(file.data, file.size, path) == MODEL_GLTF;
     *needs = model_needs_of_image(file.data, file.size);
     file_close(&file);

@@ -10,6 +10,7 @@
 
 #include "base/result.h"
 #include "io/file_alike.h"
+#include "io/file_source.h"
 #include "io/uri.h"
 
 static bool uri_fail(uri_bytes *out, facet_result result, const char *format, ...)
@@ -152,6 +153,17 @@ static bool climbs_out(const char *path)
     return false;
 }
 
+/* Keeps a file of the scene, or gives it back. */
+static bool keep_file(const file_scope *scope, file_bytes *file, const char *path, uri_bytes *out)
+{
+    facet_scene *scene = scope->scene;
+    out->file = scene->file_count;
+    if (scene_keep_file(scene, file, path))
+        return true;
+    file_close(file);
+    return uri_fail(out, FACET_ERROR_MEMORY, "out of memory for a file");
+}
+
 /* Reads the open file unless the scene has it already. */
 static bool read_once(const file_scope *scope, int fd, const char *path, const struct stat *status,
                       uri_bytes *out)
@@ -164,11 +176,8 @@ static bool read_once(const file_scope *scope, int fd, const char *path, const s
         if (file_open_descriptor(fd, path, scope->max_file_bytes, scope->allocator, &file, &error) !=
             FACET_OK)
             return uri_fail(out, error.result, "%.400s", error.message);
-        out->file = scene->file_count;
-        if (!scene_keep_file(scene, &file, path)) {
-            file_close(&file);
-            return uri_fail(out, FACET_ERROR_MEMORY, "out of memory for a file");
-        }
+        if (!keep_file(scope, &file, path, out))
+            return false;
     }
     out->data = scene->files[out->file].data;
     out->size = scene->files[out->file].size;
@@ -189,17 +198,49 @@ static bool may_search(const file_scope *scope, const char *name, const char *sh
     return true;
 }
 
-/* Opens the file of exactly that name. */
-static bool open_exact(const file_scope *scope, const char *name, const char *shown, uri_bytes *out)
+/* Opens the file at a path of file_source_path(), unless the scene has it already. */
+static bool read_supplied(const file_scope *scope, const char *path, const char *shown, uri_bytes *out)
 {
-    const char *folder = scope->folder ? scope->folder : scope->root;
     const char *allowed = scope->root ? scope->root : scope->folder;
-    *out = (uri_bytes){0};
-    if (!may_search(scope, name, shown, out))
-        return false;
-    char *path = path_join(scope->allocator, name[0] == '/' ? "" : folder, name);
-    if (!path)
-        return uri_fail(out, FACET_ERROR_MEMORY, "out of memory for a path");
+    facet_error error;
+    file_bytes file;
+    if (!file_source_below(path, allowed, scope->allocator))
+        return uri_fail(out, FACET_ERROR_READ, "\"%.200s\" leads out of the folder that the model may read",
+                        shown);
+    out->file = scene_find_file(scope->scene, FILE_SOURCE_DEVICE, file_source_number(path));
+    if (out->file == SCENE_NONE) {
+        if (file_source_open(scope->files, path, scope->max_file_bytes, &file, &error) != FACET_OK)
+            return error.result == FACET_ERROR_READ
+                       ? uri_fail(out, FACET_ERROR_READ, "there is no file \"%.200s\"", shown)
+                       : uri_fail(out, error.result, "%.400s", error.message);
+        if (!keep_file(scope, &file, path, out))
+            return false;
+    }
+    out->data = scope->scene->files[out->file].data;
+    out->size = scope->scene->files[out->file].size;
+    return true;
+}
+
+/* open_exact() of a name below the folder, among the files that the caller supplies. */
+static bool open_supplied(const file_scope *scope, const char *path, const char *name, const char *shown,
+                          uri_bytes *out)
+{
+    bool leaves_top;
+    char *plain = file_source_path(scope->allocator, path, &leaves_top);
+    if (!plain)
+        return leaves_top ? uri_fail(out, FACET_ERROR_READ,
+                                     "\"%.200s\" leads out of the folder that the model may read", shown)
+                          : uri_fail(out, FACET_ERROR_MEMORY, "out of memory for a path");
+    bool done = read_supplied(scope, plain, name, out);
+    mem_free(plain);
+    return done;
+}
+
+/* open_exact() in the file system. */
+static bool open_on_disk(const file_scope *scope, const char *path, const char *name, const char *shown,
+                         uri_bytes *out)
+{
+    const char *allowed = scope->root ? scope->root : scope->folder;
     bool done = false;
     struct stat status;
     int fd = path_open_inside(path, allowed);
@@ -215,8 +256,40 @@ static bool open_exact(const file_scope *scope, const char *name, const char *sh
         done = read_once(scope, fd, path, &status, out);
     if (fd >= 0)
         close(fd);
+    return done;
+}
+
+/* Opens the file of exactly that name. */
+static bool open_exact(const file_scope *scope, const char *name, const char *shown, uri_bytes *out)
+{
+    const char *folder = scope->folder ? scope->folder : scope->root;
+    *out = (uri_bytes){0};
+    if (!may_search(scope, name, shown, out))
+        return false;
+    char *path = path_join(scope->allocator, name[0] == '/' ? "" : folder, name);
+    if (!path)
+        return uri_fail(out, FACET_ERROR_MEMORY, "out of memory for a path");
+    bool done = file_source_is_given(scope->files) ? open_supplied(scope, path, name, shown, out)
+                                                   : open_on_disk(scope, path, name, shown, out);
     mem_free(path);
     out->name = done ? arena_strdup(scope->scene->arena, name) : NULL;
+    return done && !out->name ? uri_fail(out, FACET_ERROR_MEMORY, "out of memory for a path") : done;
+}
+
+/* open_alike() among the files that the caller supplies. The name of the result is relative to the folder. */
+static bool open_alike_supplied(const file_scope *scope, const char *name, const char *shown, uri_bytes *out)
+{
+    bool leaves_top;
+    const char *folder = scope->folder ? scope->folder : scope->root;
+    char *path = path_join(scope->allocator, name[0] == '/' ? "" : folder, name);
+    char *plain = path ? file_source_path(scope->allocator, path, &leaves_top) : NULL;
+    const char *found = plain ? file_source_find_alike(scope->files, plain) : NULL;
+    bool done = found ? read_supplied(scope, found, shown, out)
+                      : uri_fail(out, FACET_ERROR_READ, "there is no file \"%.200s\"", name);
+    const char *below = done ? file_source_below(found, folder, scope->allocator) : NULL;
+    out->name = done ? arena_strdup(scope->scene->arena, below ? below : found) : NULL;
+    mem_free(plain);
+    mem_free(path);
     return done && !out->name ? uri_fail(out, FACET_ERROR_MEMORY, "out of memory for a path") : done;
 }
 
@@ -227,6 +300,8 @@ static bool open_alike(const file_scope *scope, const char *name, const char *sh
     if (!may_search(scope, name, shown, out))
         return false;
     bool has_failed;
+    if (file_source_is_given(scope->files))
+        return open_alike_supplied(scope, name, shown, out);
     char *found = file_find_alike(scope->allocator, scope->folder ? scope->folder : scope->root, name,
                                   &scope->scene->search_budget, &has_failed);
     if (has_failed)
@@ -334,7 +409,7 @@ facet_result io_load_file(io_loader *load, const char *path, const facet_scene_d
 {
     file_bytes file = {0};
     *scene = NULL;
-    TRY(file_open(path, file_limit(desc->max_file_bytes), &desc->allocator, &file, error));
+    TRY(model_file_open(path, desc, &file, error));
     char *folder = path_folder(&desc->allocator, path);
     facet_result result = folder ? load((const char *)file.data, file.size, path, folder, desc, scene, error)
                                  : fail_memory(error, "path", strlen(path));

@@ -9,11 +9,12 @@ typedef struct file_scope {
     facet_scene *scene; /* owns the opened files */
     const facet_allocator *allocator;
     const facet_log *log;
-    const char *folder;      /* of the model; NULL: the model is read from memory */
-    const char *root;        /* folder that names may reach; NULL: folder */
-    uint64_t max_file_bytes; /* larger files are refused */
-    bool allows_absolute;    /* absolute names are tried, as they may lead below the root */
-    bool is_literal;         /* alike names are not tried */
+    const facet_file_source *files; /* NULL, or {0}: the file system */
+    const char *folder;             /* of the model; NULL: the model is read from memory */
+    const char *root;               /* folder that names may reach; NULL: folder */
+    uint64_t max_file_bytes;        /* larger files are refused */
+    bool allows_absolute;           /* absolute names are tried, as they may lead below the root */
+    bool is_literal;                /* alike names are not tried */
 } file_scope;
 
 /* Reads a model from bytes; folder: of its file, NULL: none. */

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/result.h"
+#include "io/file_source.h"
 #include "io/gltf/gltf_reader.h"
 
 /* ---- the container: header, JSON chunk, binary chunk ---- */
@@ -242,6 +243,7 @@ static facet_result load(file_bytes *file, const char *source, const char *folde
                    .error = error,
                    .thread_count = desc->thread_count,
                    .max_file_bytes = file_limit(desc->max_file_bytes),
+                   .files = &desc->files,
                    .folder = folder,
                    .root = desc->root};
     io_begin_remarks(&r);
@@ -262,7 +264,7 @@ static facet_result load_path(const char *path, bool reads_images_only, const fa
     desc = desc ? desc : &defaults;
     *scene = NULL;
     file_bytes file = {0};
-    TRY(file_open(path, file_limit(desc->max_file_bytes), &desc->allocator, &file, error));
+    TRY(model_file_open(path, desc, &file, error));
     char *folder = path_folder(&desc->allocator, path);
     facet_result result = folder ? load(&file, path, folder, reads_images_only, desc, scene, error)
                                  : fail_memory(error, "path", strlen(path));

@@ -35,6 +35,7 @@ facet_result mtl_reader_create(facet_scene *scene, const facet_scene_desc *desc,
     r->files.scope = (file_scope){
         .scene = scene,
         .allocator = &r->desc.allocator,
+        .files = &r->desc.files,
         .folder = folder,
         .root = desc->root,
         .log = &r->desc.log,

@@ -201,6 +201,7 @@ void ogl1_document_read(ogl1_document *d, facet_scene *scene, const char *bytes,
                                .log = &desc->log,
                                .error = error,
                                .max_file_bytes = file_limit(desc->max_file_bytes),
+                               .files = &desc->files,
                                .folder = folder,
                                .root = desc->root},
                          .generator = ""};

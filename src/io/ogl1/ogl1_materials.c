@@ -413,6 +413,7 @@ void ogl1_find_textures(ogl1_document *d)
     uint32_t first = r->scene->texture_count;
     findings f = {.files = {.scope = {.scene = r->scene,
                                       .allocator = r->allocator,
+                                      .files = r->files,
                                       .folder = r->folder,
                                       .root = r->root,
                                       .log = r->log,

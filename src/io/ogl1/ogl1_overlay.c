@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/result.h"
+#include "io/file_source.h"
 #include "io/ogl1/ogl1_json.h"
 #include "io/ogl1/ogl1_reader.h"
 
@@ -428,7 +429,7 @@ facet_result ogl1_json_overlay(facet_scene *scene, const char *path, const facet
     const facet_scene_desc defaults = {0};
     desc = desc ? desc : &defaults;
     file_bytes file = {0};
-    TRY(file_open(path, file_limit(desc->max_file_bytes), &desc->allocator, &file, error));
+    TRY(model_file_open(path, desc, &file, error));
     facet_result result;
     overlay o = {0};
     const char *source = scene->source;

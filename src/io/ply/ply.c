@@ -276,6 +276,7 @@ static void find_texture(ply_reader *r, const char *folder)
     mtl_files files = {.scope = {.scene = r->scene,
                                  .allocator = &r->desc->allocator,
                                  .log = &r->desc->log,
+                                 .files = &r->desc->files,
                                  .folder = folder,
                                  .root = r->desc->root,
                                  .max_file_bytes = file_limit(r->desc->max_file_bytes)}};
