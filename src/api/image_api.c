@@ -67,11 +67,6 @@ facet_result facet_image_create_sheet(const facet_image *const *images, uint32_t
     return result;
 }
 
-float facet_linear_from_srgb(float encoded)
-{
-    return (float)srgb_decode((double)encoded);
-}
-
 /* ---- formats ---- */
 
 typedef struct format_name {

@@ -12,17 +12,6 @@ struct facet_renderer {
     renderer_set set; /* without a scene: borrows a window's renderer */
 };
 
-/* Tone-maps the film and blends the background in: linearly, or, where the shading wrote display values, in
- * those. */
-static void develop(const facet_render_desc *desc, film *target)
-{
-    const float *behind = desc->background == FACET_BACKGROUND_COLOR ? desc->background_color : NULL;
-    bool is_encoded = desc->shading == FACET_SHADING_OGL1 && !desc->ogl1.is_linear;
-    film_tone_map(target, desc->tonemap, is_encoded ? NULL : behind, desc->thread_count);
-    if (is_encoded && behind)
-        film_blend_encoded(target, behind, desc->thread_count);
-}
-
 /* An image whose passes the caller wants to see. */
 typedef struct watched_image {
     const facet_render_desc *desc;
@@ -34,7 +23,7 @@ static void show_pass(void *user, const facet_image *unknown, uint32_t samples)
 {
     const watched_image *w = user;
     (void)unknown;
-    develop(w->desc, &w->image->film);
+    film_develop(&w->image->film, w->desc);
     w->desc->path.pass(w->desc->path.pass_user, w->image, samples);
 }
 
@@ -63,7 +52,7 @@ static facet_result render(facet_renderer *renderer, const facet_render_desc *re
     }
     TRY(film_create(&desc.allocator, desc.crop[2], desc.crop[3], desc.aovs, &image->film, error));
     TRY(renderer_set_draw(set, &drawn, &image->film, &image->stats, error));
-    develop(&desc, &image->film);
+    film_develop(&image->film, &desc);
     return FACET_OK;
 }
 
@@ -157,12 +146,6 @@ void facet_renderer_destroy(facet_renderer *renderer)
         return;
     renderer_set_clear(&renderer->set);
     mem_free(renderer);
-}
-
-facet_renderer_info facet_renderer_get_info(facet_renderer_kind kind)
-{
-    const renderer_row *r = renderer_get(kind);
-    return r ? r->info : (facet_renderer_info){.name = NULL};
 }
 
 facet_render_stats facet_image_get_render_stats(const facet_image *image)

@@ -236,3 +236,12 @@ void film_blend_encoded(film *f, const float color[3], uint32_t thread_count)
     encoded_blend b = {.film = f, .behind = srgb_from_linear(load3(color))};
     parallel_for(thread_count, (size_t)f->width * f->height, GRAIN, blend_range, &b);
 }
+
+void film_develop(film *f, const facet_render_desc *desc)
+{
+    const float *behind = desc->background == FACET_BACKGROUND_COLOR ? desc->background_color : NULL;
+    bool is_encoded = desc->shading == FACET_SHADING_OGL1 && !desc->ogl1.is_linear;
+    film_tone_map(f, desc->tonemap, is_encoded ? NULL : behind, desc->thread_count);
+    if (is_encoded && behind)
+        film_blend_encoded(f, behind, desc->thread_count);
+}

@@ -43,6 +43,9 @@ void film_tone_map(film *f, facet_tonemap operator_, const float color[3], uint3
 /* Composites a tone-mapped image over color (display-linear RGB) as programs without linear light do: by
  * blending the sRGB-encoded values. */
 void film_blend_encoded(film *f, const float color[3], uint32_t thread_count);
+/* Both as a resolved desc says: tone-maps the film and blends the background in, linearly, or, where the shading wrote
+ * display values, in those. */
+void film_develop(film *f, const facet_render_desc *desc);
 
 /* ---- denoising of Monte Carlo renderings (denoise.c) ---- */
 

@@ -29,3 +29,8 @@ void srgb_tables_prepare(srgb_tables *tables)
         tables->codes[part] = (uint8_t)code;
     }
 }
+
+float facet_linear_from_srgb(float encoded)
+{
+    return (float)srgb_decode((double)encoded);
+}

@@ -90,3 +90,9 @@ const renderer_row *renderer_get(facet_renderer_kind kind)
     };
     return (unsigned)kind < RENDERER_COUNT ? table[kind] : NULL;
 }
+
+facet_renderer_info facet_renderer_get_info(facet_renderer_kind kind)
+{
+    const renderer_row *r = renderer_get(kind);
+    return r ? r->info : (facet_renderer_info){.name = NULL};
+}

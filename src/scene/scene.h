@@ -393,7 +393,7 @@ typedef struct facet_scene {
     bool is_far;
     bool is_appended; /* it belongs to another scene: scene_keep_scene() */
     /* Raised by every change after loading, so that renderers drop what they have made of an earlier state:
-     * by the place of a part; by anything else. */
+     * by the place of a part or the values of a material; by anything else. */
     uint64_t place_revision, content_revision;
     uint32_t part_count; /* 0: the scene was neither placed nor joined with another */
     scene_part *parts;

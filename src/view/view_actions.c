@@ -240,9 +240,11 @@ bool view_state_has_casters(const view_state *s)
     return (s->counts.lights && !s->render.ignores_scene_lights) || sun[0] + sun[1] + sun[2] > 0.0f;
 }
 
-/* The first variant that looks different from the file without one: often the first is its default. */
-static uint32_t find_variant(const facet_scene *scene)
+uint32_t view_state_find_variant(const view_state *s)
 {
+    const facet_scene *scene = s->scene;
+    if (!scene)
+        return 0;
     for (uint32_t v = 0; v < scene->variant_count; v++)
         for (uint32_t m = 0; m < scene->mesh_count; m++)
             for (uint32_t i = 0; i < scene->meshes[m].primitive_count; i++) {
@@ -257,7 +259,7 @@ static uint32_t find_variant(const facet_scene *scene)
 static void step_divider(view_state *s, int steps)
 {
     view_divider_step(&s->divider, steps, s->counts.variants > 0, s->render.renderer);
-    s->divider.variant = s->scene ? find_variant(s->scene) : 0;
+    s->divider.variant = view_state_find_variant(s);
     if (s->divider.comparison == VIEW_COMPARE_NOTHING) /* otherwise the sides have labels */
         say(s, "No comparison");
 }

@@ -97,6 +97,8 @@ bool view_state_point(view_state *s, const view_event *event);
 /* Advances time. True: something moved. */
 bool view_state_advance(view_state *s, double seconds);
 
+/* The first variant that looks different from the file without one: often the first is its default. */
+uint32_t view_state_find_variant(const view_state *s);
 /* Whether there is a light that could cast shadows. */
 bool view_state_has_casters(const view_state *s);
 /* For other files: which animations of the scene run; the model's longest side in m, 1 where it has none;

@@ -5,7 +5,6 @@
 
 #include "api/api.h"
 #include "base/result.h"
-#include "render/renderer.h"
 #include "report/spheres.h"
 
 /* ---- renderers ---- */
@@ -45,12 +44,6 @@ facet_result facet_renderer_meter(facet_renderer *renderer, const facet_render_d
 void facet_renderer_destroy(facet_renderer *renderer)
 {
     (void)renderer;
-}
-
-facet_renderer_info facet_renderer_get_info(facet_renderer_kind kind)
-{
-    const renderer_row *row = renderer_get(kind);
-    return row ? row->info : (facet_renderer_info){.name = NULL};
 }
 
 facet_render_stats facet_image_get_render_stats(const facet_image *image)

@@ -1,12 +1,13 @@
 // page.js - the page around viewer.wasm: hands over files and events, and asks for a frame when something changed. What is drawn and
 // how the camera moves is C (viewer.c).
-import createFacet from './facet-viewer/viewer.js';
+import { loadModule } from './facet-viewer/module.js';
 
 const byId = (id) => document.getElementById(id);
 const canvas = byId('view');
 const POINTER = { press: 1, release: 2, move: 3, wheel: 4 }; // view_event_kind
 const KEYS = { ArrowLeft: 256, ArrowRight: 257, ArrowUp: 258, ArrowDown: 259, Enter: 260, Home: 263 }; // view_input.h
 let facet = null;
+let viewer = 0;
 let isAsked = false;
 let isLost = false;
 let lastTime = 0;
@@ -16,21 +17,17 @@ function showError(text) {
   byId('error').textContent = text;
 }
 
-// ---- strings and bytes of C ----
-
-function withText(text, use) {
-  const size = 4 * text.length + 1;
-  const at = facet._malloc(size);
-  facet.stringToUTF8(text, at, size);
+// True: it succeeded; else the page says why.
+function attempt(use) {
+  showError('');
   try {
-    return use(at);
-  } finally {
-    facet._free(at);
+    use();
+    return true;
+  } catch (error) {
+    showError(error.message);
+    return false;
   }
 }
-
-const lastError = () => facet.UTF8ToString(facet._facet_web_error());
-const lastMessage = () => facet.UTF8ToString(facet._facet_web_message());
 
 // ---- frames ----
 
@@ -48,9 +45,7 @@ function fitCanvas() {
 function draw(seconds = 0) {
   fitCanvas();
   if (isLost) return false;
-  const failed = facet._facet_web_draw(canvas.width, canvas.height, seconds) !== 0;
-  if (failed) showError(lastError());
-  return !failed;
+  return attempt(() => facet.draw(viewer, canvas.width, canvas.height, seconds));
 }
 
 function askForFrame() {
@@ -59,7 +54,7 @@ function askForFrame() {
   requestAnimationFrame((time) => {
     isAsked = false;
     if (isLost) return;
-    const isPlaying = facet._facet_web_is_playing() !== 0;
+    const isPlaying = facet.isMoving(viewer);
     draw(isPlaying && lastTime ? (time - lastTime) / 1000 : 0);
     lastTime = isPlaying ? time : 0;
     if (isPlaying) askForFrame();
@@ -68,49 +63,33 @@ function askForFrame() {
 
 // ---- models ----
 
-// Hands bytes to a function of C that takes (bytes, size, name). True: it succeeded; else the page says why.
-function hand(read, bytes, name) {
-  showError('');
-  let at = 0;
-  if (bytes) {
-    at = facet._malloc(bytes.length || 1);
-    if (!at) {
-      showError(`${name}: there is no memory for ${bytes.length} bytes`);
-      return false;
-    }
-    facet.HEAPU8.set(bytes, at);
-  }
-  const failed = withText(name, (text) => read(at, bytes ? bytes.length : 0, text)) !== 0;
-  if (at) facet._free(at);
-  if (failed) showError(lastError());
-  return !failed;
+const MODEL = /\.(glb|gltf|obj|stl|ply)$/i;
+
+// files: [path, bytes]. True: the model is shown; else the last one stays.
+function open(path, files, label, status) {
+  const isOpen = attempt(() => {
+    facet.removeFiles();
+    files.forEach(([name, bytes]) => facet.putFile(name, bytes));
+    facet.open(viewer, path);
+  });
+  if (!isOpen) return false;
+  canvas.setAttribute('aria-label', label);
+  const isDrawn = draw();
+  byId('status').textContent = status || facet.state(viewer).message;
+  return isDrawn;
 }
 
-// bytes null: the built-in scene. True: it is shown; else the last model stays.
+// bytes null: the built-in scene.
 function load(bytes, name) {
-  if (!hand(facet._facet_web_load, bytes, name)) return false;
-  canvas.setAttribute('aria-label', bytes ? name : 'The built-in scene: spheres of different roughness and materials');
-  const isDrawn = draw();
-  byId('status').textContent = lastMessage();
-  return isDrawn;
+  return bytes ? open(name, [[name, bytes]], name) : open('', [], 'The built-in scene: spheres of different roughness and materials');
 }
 
 // bytes null: the built-in studio.
 function loadLight(bytes, name) {
-  return hand(facet._facet_web_light, bytes, name) && draw();
-}
-
-const MODEL = /\.(glb|gltf|obj|stl|ply)$/i;
-const FOLDER = '/dropped';
-
-function removeAll(path) {
-  for (const name of facet.FS.readdir(path)) {
-    if (name === '.' || name === '..') continue;
-    const at = `${path}/${name}`;
-    if (facet.FS.isDir(facet.FS.stat(at).mode)) removeAll(at);
-    else facet.FS.unlink(at);
-  }
-  facet.FS.rmdir(path);
+  return attempt(() => {
+    if (bytes) facet.putFile(name, bytes);
+    facet.setOption(viewer, 'env', bytes ? `./${name}` : null);
+  }) && draw();
 }
 
 // Files with paths relative to the folder that was dropped. The first model in it is shown; what it refers to is found among them.
@@ -121,25 +100,9 @@ async function loadFiles(files) {
     showError(`none of the ${files.length} files is a model (.glb, .gltf, .obj, .stl, .ply)`);
     return false;
   }
-  showError('');
-  const contents = await Promise.all(files.map(({ file }) => file.arrayBuffer()));
-  facet.FS.mkdirTree(FOLDER);
-  files.forEach(({ path }, i) => {
-    const at = `${FOLDER}/${path}`;
-    facet.FS.mkdirTree(at.slice(0, at.lastIndexOf('/')));
-    facet.FS.writeFile(at, new Uint8Array(contents[i]));
-  });
+  const contents = await Promise.all(files.map(async ({ path, file }) => [path, new Uint8Array(await file.arrayBuffer())]));
   const { path } = models[0];
-  const failed = withText(`${FOLDER}/${path}`, (text) => withText(FOLDER, (root) => facet._facet_web_open(text, root))) !== 0;
-  removeAll(FOLDER);
-  if (failed) {
-    showError(lastError());
-    return false;
-  }
-  canvas.setAttribute('aria-label', path);
-  const isDrawn = draw();
-  byId('status').textContent = models.length > 1 ? `${path}, the first of ${models.length} models` : lastMessage();
-  return isDrawn;
+  return open(path, contents, path, models.length > 1 ? `${path}, the first of ${models.length} models` : '');
 }
 
 // Entries must be asked for before the event returns; a folder gives its entries by the hundred.
@@ -171,7 +134,7 @@ async function loadFile(file) {
 const modifiersOf = (event) => (event.shiftKey ? 1 : 0) | (event.ctrlKey ? 2 : 0) | (event.altKey ? 4 : 0);
 
 function point(kind, event, x, y, button = 0) {
-  if (facet && facet._facet_web_point(kind, button, modifiersOf(event), x, y)) askForFrame();
+  if (facet && facet.point(viewer, kind, button, modifiersOf(event), x, y)) askForFrame();
 }
 
 function pointAt(kind, event) {
@@ -185,12 +148,11 @@ function listenForLoss() {
   canvas.addEventListener('webglcontextlost', (event) => {
     event.preventDefault();
     isLost = true;
-    facet._facet_web_lose();
+    facet.lose();
   });
   canvas.addEventListener('webglcontextrestored', () => {
     isLost = false;
-    if (facet._facet_web_restore() !== 0) showError(lastError());
-    else askForFrame();
+    if (attempt(() => facet.restore())) askForFrame();
   });
 }
 
@@ -209,9 +171,9 @@ function listen() {
   }, { passive: false });
   canvas.addEventListener('keydown', (event) => {
     const key = KEYS[event.key] ?? (event.key.length === 1 ? event.key.toUpperCase().codePointAt(0) : 0);
-    if (!key || event.ctrlKey || event.metaKey || !facet._facet_web_key(key, modifiersOf(event))) return;
+    if (!key || event.ctrlKey || event.metaKey || !facet.key(viewer, key, modifiersOf(event))) return;
     event.preventDefault();
-    byId('status').textContent = lastMessage();
+    byId('status').textContent = facet.state(viewer).message;
     askForFrame();
   });
   window.addEventListener('dragover', (event) => event.preventDefault());
@@ -224,7 +186,7 @@ function listen() {
 }
 
 function set(name, value) {
-  withText(name, (text) => facet._facet_web_set(text, value));
+  attempt(() => facet.setOption(viewer, name, value));
   askForFrame();
 }
 
@@ -235,25 +197,26 @@ function connectControls() {
   });
   byId('exposure').addEventListener('input', (event) => {
     byId('exposure-value').textContent = `${event.target.value} stops`;
-    set('exposure', Number(event.target.value));
+    set('exposure', event.target.value);
   });
   byId('rotation').addEventListener('input', (event) => {
     byId('rotation-value').textContent = `${event.target.value}°`;
-    set('rotation', (Number(event.target.value) * Math.PI) / 180);
+    set('env-rotation', event.target.value);
   });
-  byId('tonemap').addEventListener('change', (event) => set('tonemap', Number(event.target.value)));
-  byId('background').addEventListener('change', (event) => set('background', event.target.checked ? 2 : 0));
+  byId('tonemap').addEventListener('change', (event) => set('tone-mapping', event.target.value));
+  byId('background').addEventListener('change', (event) => set('background', event.target.checked ? 'env' : 'transparent'));
 }
 
 // ---- start ----
 
 async function start() {
-  facet = await createFacet();
-  facet.specialHTMLTargets['!view'] = canvas;
-  if (withText('!view', (text) => facet._facet_web_start(text)) !== 0) {
-    showError(lastError());
-    return;
-  }
+  facet = await loadModule();
+  const isReady = attempt(() => {
+    facet.start(canvas);
+    viewer = facet.create();
+    facet.setOption(viewer, 'background', 'transparent');
+  });
+  if (!isReady) return;
   listen();
   listenForLoss();
   connectControls();
@@ -262,5 +225,5 @@ async function start() {
 }
 
 // For tests and for scripts of the page: ready is fulfilled when the first image is there.
-window.facetPage = { ready: start(), load, loadLight, loadFiles, draw, memory: () => facet.HEAPU8.length, get canvas() { return canvas; } };
+window.facetPage = { ready: start(), load, loadLight, loadFiles, draw, memory: () => facet.memorySize, get canvas() { return canvas; }, get module() { return facet; }, get viewer() { return viewer; } };
 window.facetPage.ready.catch((error) => showError(`facet could not start: ${error.message}`));

@@ -347,9 +347,10 @@ facet_result environment_input_parse(const char *place, const char *text, unsign
     return FACET_OK;
 }
 
-static facet_result load(const environment_input *input, const facet_environment_desc *desc,
-                         facet_environment **environment, facet_error *error)
+facet_result environment_input_create(const environment_input *input, const facet_environment_desc *desc,
+                                      facet_environment **environment, facet_error *error)
 {
+    *environment = NULL;
     switch (input->kind) {
     case ENVIRONMENT_STUDIO:
         return facet_environment_create_studio(desc, environment, error);
@@ -360,14 +361,18 @@ static facet_result load(const environment_input *input, const facet_environment
                                                  desc, environment, error);
     case ENVIRONMENT_SKY:
         return facet_environment_create_sky(&input->sky, desc, environment, error);
-    case ENVIRONMENT_FILE:
-        return input_load_environment(input->path, desc, environment, error);
-    case ENVIRONMENT_FACES:
-        return load_faces(input, desc, environment, error);
-    case ENVIRONMENT_NONE:
-        break;
+    default:
+        return FACET_OK;
     }
-    return FACET_OK;
+}
+
+static facet_result load(const environment_input *input, const facet_environment_desc *desc,
+                         facet_environment **environment, facet_error *error)
+{
+    if (input->kind == ENVIRONMENT_FILE)
+        return input_load_environment(input->path, desc, environment, error);
+    return input->kind == ENVIRONMENT_FACES ? load_faces(input, desc, environment, error)
+                                            : environment_input_create(input, desc, environment, error);
 }
 
 facet_result environment_input_load(const environment_input *input, const facet_environment_desc *desc,

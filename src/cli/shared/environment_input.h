@@ -42,6 +42,10 @@ typedef struct environment_input {
 facet_result environment_input_parse(const char *place, const char *text, unsigned takes,
                                      environment_input *out, facet_error *error);
 
+/* Creates an environment that is read from no file. *environment is NULL for the kinds _NONE, _FILE and _FACES. */
+facet_result environment_input_create(const environment_input *input, const facet_environment_desc *desc,
+                                      facet_environment **environment, facet_error *error);
+
 /* Loads or creates the environment; a signal or the time limit ends the process meanwhile (interrupt.h).
  * desc->allocator must be set for standard input. *environment is NULL for ENVIRONMENT_NONE. */
 facet_result environment_input_load(const environment_input *input, const facet_environment_desc *desc,

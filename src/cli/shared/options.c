@@ -36,10 +36,15 @@
 #define KIND_CHOICE(...) OPTION_CHOICE, OPTION_WORDS(__VA_ARGS__), 0, 0
 #define KIND_CHOICES(...) OPTION_CHOICES, OPTION_WORDS(__VA_ARGS__), 0, 0
 
+#ifdef FACET_WITHOUT_HELP /* where nobody can ask for it */
+#define HELP(...) NULL, NULL
+#else
+#define HELP(...) __VA_ARGS__
+#endif
 #define OPTION(id, name, letter, kind, argument, default_text, help)                                         \
-    {OPT_##id, NULL, name, letter, argument, default_text, help, KIND_##kind},
+    {OPT_##id, NULL, name, letter, argument, HELP(default_text, help), KIND_##kind},
 #define IN(verbs, id, kind, argument, default_text, help)                                                    \
-    {OPT_##id, verbs, name_of_##id, LETTER_OF_##id, argument, default_text, help, KIND_##kind},
+    {OPT_##id, verbs, name_of_##id, LETTER_OF_##id, argument, HELP(default_text, help), KIND_##kind},
 
 static const option options[] = {
 #include "cli/shared/options.def"
@@ -71,12 +76,6 @@ const option_group legacy_group = {"OBJ files and OpenGL 1 materials",
                                               OPT_NORMALS, OPT_FLIP_TEXTURES)};
 
 /* ---- verbs ---- */
-
-#define VERB(name) &name##_verb,
-const verb *const verbs[] = {
-#include "cli/shared/verbs.def"
-    NULL};
-#undef VERB
 
 const verb *verb_find(const char *name)
 {

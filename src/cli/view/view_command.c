@@ -1,4 +1,5 @@
 /* view_command.c - see view_command.h. Defaults of facet render are left out, for a readable line. */
+#define _POSIX_C_SOURCE 200809L
 #include "cli/view/view_command.h"
 
 #include "cli/shared/output.h"
@@ -55,33 +56,72 @@ static void add_word(line *l, const char *word)
 }
 
 /* Appends --name=value if the value could be taken for an option, else --name value. */
-static void add_to(line *l, const option *o, const char *value)
+static void add_option_words(line *l, const view_option *o)
 {
     char word[4300];
-    bool is_joined = value[0] == '-';
-    snprintf(word, sizeof word, "--%s%s%s", o->name, is_joined ? "=" : "", is_joined ? value : "");
+    bool is_joined = o->value[0] == '-';
+    snprintf(word, sizeof word, "--%s%s%s", o->option->name, is_joined ? "=" : "", is_joined ? o->value : "");
     add_word(l, word);
-    if (!is_joined && option_takes_value(o))
-        add_word(l, value);
+    if (!is_joined && option_takes_value(o->option))
+        add_word(l, o->value);
 }
 
-static void add_option(line *l, option_id id, const char *format, ...) __attribute__((format(printf, 3, 4)));
-static void add_option(line *l, option_id id, const char *format, ...)
+/* ---- a growing list of options ---- */
+
+void view_options_add(view_options *l, const option *o, const char *value)
+{
+    if (l->count == l->capacity) {
+        size_t capacity = 2 * l->capacity + 16;
+        view_option *grown = l->has_failed ? NULL : realloc(l->items, capacity * sizeof *grown);
+        l->has_failed = !grown;
+        if (!grown)
+            return;
+        l->items = grown;
+        l->capacity = capacity;
+    }
+    char *copy = strdup(value);
+    l->has_failed = l->has_failed || !copy;
+    if (copy)
+        l->items[l->count++] = (view_option){o, copy};
+}
+
+void view_options_remove(view_options *l, option_id id)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < l->count; i++)
+        if (l->items[i].option->id == id)
+            free(l->items[i].value);
+        else
+            l->items[kept++] = l->items[i];
+    l->count = kept;
+}
+
+void view_options_destroy(view_options *l)
+{
+    for (size_t i = 0; i < l->count; i++)
+        free(l->items[i].value);
+    free(l->items);
+    *l = (view_options){0};
+}
+
+static void add_option(view_options *l, option_id id, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+static void add_option(view_options *l, option_id id, const char *format, ...)
 {
     char value[4200];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(value, sizeof value, format, arguments);
     va_end(arguments);
-    add_to(l, option_find_id(verb_find("render"), id), value);
+    view_options_add(l, option_find_id(verb_find("render"), id), value);
 }
 
 /* Appends a choice by index, unless it is the first. */
-static void add_choice(line *l, option_id id, int choice)
+static void add_choice(view_options *l, option_id id, int choice)
 {
     const option *o = option_find_id(verb_find("render"), id);
     if (choice > 0)
-        add_to(l, o, o->choices[choice]);
+        view_options_add(l, o, o->choices[choice]);
 }
 
 /* The conversion of an option's number to the renderer's. */
@@ -100,6 +140,11 @@ static double read_double(double x)
 static double read_degrees(double x)
 {
     return (double)(float)(x * DEGREE);
+}
+
+static double read_percent(double x)
+{
+    return (double)(float)(x / 100.0);
 }
 
 static double read_factor(double x)
@@ -155,21 +200,35 @@ static void write_coordinate(float x, double origin, char out[48])
 
 /* ---- parts of an image ---- */
 
-static void add_float(line *l, option_id id, float x)
+static void add_float(view_options *l, option_id id, float x)
 {
     char word[48];
     write_float(x, word);
     add_option(l, id, "%s", word);
 }
 
-static void add_degrees(line *l, option_id id, float radians)
+static void add_degrees(view_options *l, option_id id, float radians)
 {
     char word[48];
     write_degrees(radians, word);
     add_option(l, id, "%s", word);
 }
 
-static void add_camera(line *l, const render_options *o, const facet_view_image *p)
+/* An orbit whose distance is left to framing; nothing for the default one. */
+static void add_framed_orbit(view_options *l, const facet_orbit *orbit)
+{
+    const facet_orbit usual = facet_orbit_default();
+    char words[3][48];
+    bool is_scaled = orbit->radius_scale != usual.radius_scale;
+    if (!is_scaled && orbit->azimuth_rad == usual.azimuth_rad && orbit->polar_rad == usual.polar_rad)
+        return;
+    write_degrees(orbit->azimuth_rad, words[0]);
+    write_degrees(orbit->polar_rad, words[1]);
+    write_number(100.0 * (double)orbit->radius_scale, (double)orbit->radius_scale, read_percent, words[2]);
+    add_option(l, OPT_ORBIT, is_scaled ? "%s,%s,%s%%" : "%s,%s", words[0], words[1], words[2]);
+}
+
+static void add_camera(view_options *l, const render_options *o, const facet_view_image *p)
 {
     const facet_orbit *orbit = p->orbit;
     if (!orbit) {
@@ -177,13 +236,18 @@ static void add_camera(line *l, const render_options *o, const facet_view_image 
         return;
     }
     char words[3][48];
-    write_degrees(orbit->azimuth_rad, words[0]);
-    write_degrees(orbit->polar_rad, words[1]);
-    write_float(orbit->radius, words[2]);
-    add_option(l, OPT_ORBIT, "%s,%s,%s", words[0], words[1], words[2]);
+    if (orbit->radius > 0.0f) {
+        write_degrees(orbit->azimuth_rad, words[0]);
+        write_degrees(orbit->polar_rad, words[1]);
+        write_float(orbit->radius, words[2]);
+        add_option(l, OPT_ORBIT, "%s,%s,%s", words[0], words[1], words[2]);
+    } else {
+        add_framed_orbit(l, orbit);
+    }
     for (int i = 0; i < 3; i++)
         write_coordinate(orbit->target[i], p->origin[i], words[i]);
-    add_option(l, OPT_TARGET, "%s,%s,%s", words[0], words[1], words[2]);
+    if (orbit->has_target)
+        add_option(l, OPT_TARGET, "%s,%s,%s", words[0], words[1], words[2]);
     if (orbit->fov_y_rad != facet_orbit_default().fov_y_rad)
         add_degrees(l, OPT_FOV, orbit->fov_y_rad);
     if (orbit->is_orthographic)
@@ -192,7 +256,7 @@ static void add_camera(line *l, const render_options *o, const facet_view_image 
         add_option(l, OPT_UP, "z");
 }
 
-static void add_light(line *l, const command_line *c, const facet_view_image *p)
+static void add_light(view_options *l, const command_line *c, const facet_view_image *p)
 {
     const facet_render_desc *d = p->render;
     const char *name = p->environment ? p->environment : option_text(c, OPT_ENV, NULL);
@@ -211,7 +275,7 @@ static void add_light(line *l, const command_line *c, const facet_view_image *p)
         add_option(l, OPT_GROUND, "shadow");
 }
 
-static void add_background(line *l, const command_line *c, const facet_render_desc *d)
+static void add_background(view_options *l, const command_line *c, const facet_render_desc *d)
 {
     if (d->background == FACET_BACKGROUND_TRANSPARENT)
         add_option(l, OPT_BACKGROUND, "transparent");
@@ -223,16 +287,16 @@ static void add_background(line *l, const command_line *c, const facet_render_de
         add_float(l, OPT_BACKGROUND_BLUR, d->background_blur);
 }
 
-static void add_color(line *l, const facet_render_desc *d)
+static void add_color(view_options *l, const facet_render_desc *d)
 {
     const option *o = option_find_id(verb_find("render"), OPT_TONE_MAPPING);
     if (d->exposure_ev != 0.0f)
         add_float(l, OPT_EXPOSURE, d->exposure_ev);
     if (d->tonemap != FACET_TONEMAP_NEUTRAL && d->shading == FACET_SHADING_GLTF)
-        add_to(l, o, o->choices[d->tonemap]);
+        view_options_add(l, o, o->choices[d->tonemap]);
 }
 
-static void add_gl(line *l, const facet_gl_desc *gl)
+static void add_gl(view_options *l, const facet_gl_desc *gl)
 {
     add_choice(l, OPT_CHANNEL, (int)gl->channel);
     add_choice(l, OPT_BRDF, (int)gl->brdf);
@@ -243,7 +307,7 @@ static void add_gl(line *l, const facet_gl_desc *gl)
         add_float(l, OPT_BLOOM, gl->bloom);
 }
 
-static void add_rendering(line *l, const facet_render_desc *d)
+static void add_rendering(view_options *l, const facet_render_desc *d)
 {
     facet_renderer_info info = facet_renderer_get_info(d->renderer);
     bool is_path = info.features & FACET_RENDERER_FEATURE_PATH;
@@ -259,7 +323,7 @@ static void add_rendering(line *l, const facet_render_desc *d)
         add_gl(l, &d->gl);
 }
 
-static void add_pose(line *l, const command_line *c, const facet_pose_desc *p)
+static void add_pose(view_options *l, const command_line *c, const facet_pose_desc *p)
 {
     const char *animation = option_text(c, OPT_ANIMATION, "");
     if (p->has_scene_index)
@@ -344,7 +408,7 @@ static bool is_of_paths(option_id id)
     return false;
 }
 
-static void add_others(line *l, const command_line *c, bool is_path)
+static void add_others(view_options *l, const command_line *c, bool is_path)
 {
     const option *o;
     for (size_t i = 0; (o = option_at(c->verb, i)); i++) {
@@ -354,32 +418,43 @@ static void add_others(line *l, const command_line *c, bool is_path)
     }
 }
 
+void view_options_of(const command_line *c, const render_options *options, const facet_view_image *p,
+                     view_options *out)
+{
+    const facet_render_desc *d = p->render;
+    add_rendering(out, d);
+    add_camera(out, options, p);
+    add_pose(out, c, &d->pose);
+    add_light(out, c, p);
+    add_background(out, c, d);
+    add_color(out, d);
+    add_others(out, c, facet_renderer_get_info(d->renderer).features & FACET_RENDERER_FEATURE_PATH);
+}
+
 char *view_command(const command_line *c, const render_options *options, const facet_view_image *p)
 {
     line l = {0};
+    view_options list = {0};
     char stem[1024];
-    char output[1100];
-    const facet_render_desc *d = p->render;
+    char output[1100], size[32];
     if (!output_name_stem(p->model ? p->model : "facet", stem, sizeof stem))
         memcpy(stem, "model", 6);
     snprintf(output, sizeof output, "%s.png", stem);
+    snprintf(size, sizeof size, "%ux%u", p->render->width, p->render->height);
     add_word(&l, "facet");
     add_word(&l, "render");
     if (p->model)
         add_word(&l, p->model);
     add_word(&l, "-o");
     add_word(&l, output);
-    add_option(&l, OPT_SIZE, "%ux%u", d->width, d->height);
-    add_rendering(&l, d);
-    add_camera(&l, options, p);
-    add_pose(&l, c, &d->pose);
-    add_light(&l, c, p);
-    add_background(&l, c, d);
-    add_color(&l, d);
-    add_others(&l, c, facet_renderer_get_info(d->renderer).features & FACET_RENDERER_FEATURE_PATH);
-    if (l.has_failed) {
-        free(l.text);
-        return NULL;
-    }
-    return l.text;
+    add_option(&list, OPT_SIZE, "%s", size);
+    view_options_of(c, options, p, &list);
+    for (size_t i = 0; i < list.count; i++)
+        add_option_words(&l, &list.items[i]);
+    bool has_failed = l.has_failed || list.has_failed;
+    view_options_destroy(&list);
+    if (!has_failed)
+        return l.text;
+    free(l.text);
+    return NULL;
 }

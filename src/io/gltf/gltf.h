@@ -21,4 +21,9 @@ facet_result gltf_save(const facet_scene *scene, const char *path,
                        const char *generator /* asset.generator */, const facet_scene_save_desc *desc,
                        facet_error *error);
 
+/* Changes a material of the scene: json is a part of a glTF material, whose members replace values; null takes a
+ * texture or an extension away. Fails as reading a file does, and with FACET_ERROR_ARGUMENT; then the material is as
+ * it was. No other thread may use the scene meanwhile. */
+facet_result gltf_edit_material(facet_scene *scene, uint32_t material, const char *json, facet_error *error);
+
 #endif

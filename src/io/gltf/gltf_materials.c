@@ -25,8 +25,9 @@ static void read_texture(io_reader *r, const json_place *object, const char *key
     json_place at = io_get_object(r, object, key);
     if (!at.value)
         return;
-    out->texture = io_get_required_index(r, &at, "index", r->scene->texture_count, "texture");
-    out->texcoord = (uint32_t)io_get_uint(r, &at, "texCoord", SCENE_NONE - 1, 0);
+    if (out->texture == SCENE_NONE || json_object_get(at.value, "index"))
+        out->texture = io_get_required_index(r, &at, "index", r->scene->texture_count, "texture");
+    out->texcoord = (uint32_t)io_get_uint(r, &at, "texCoord", SCENE_NONE - 1, out->texcoord);
     read_transform(r, &at, out);
 }
 
@@ -147,23 +148,30 @@ static uint32_t exclude(io_reader *r, const json_place *material, uint32_t bits,
 
 /* Unlit excludes all other reflection models, pbrSpecularGlossiness all extensions of metallic-roughness;
  * emission is independent of the latter. */
-static uint32_t find_extensions(io_reader *r, const json_place *material)
+static uint32_t exclude_others(io_reader *r, const json_place *material, uint32_t bits)
 {
-    uint32_t bits = 0;
-    for (size_t i = 0; i < MATERIAL_EXTENSION_COUNT; i++)
-        if (io_get_extension(r, material, material_extensions[i].name).value)
-            bits |= material_extensions[i].bit;
     bits = exclude(r, material, bits, SCENE_UNLIT, ~(uint32_t)SCENE_UNLIT, "KHR_materials_unlit");
     return exclude(r, material, bits, SCENE_SPECULAR_GLOSSINESS,
                    ~(uint32_t)(SCENE_SPECULAR_GLOSSINESS | SCENE_EMISSIVE_STRENGTH),
                    "KHR_materials_pbrSpecularGlossiness");
 }
 
+static uint32_t find_extensions(io_reader *r, const json_place *material)
+{
+    uint32_t bits = 0;
+    for (size_t i = 0; i < MATERIAL_EXTENSION_COUNT; i++)
+        if (io_get_extension(r, material, material_extensions[i].name).value)
+            bits |= material_extensions[i].bit;
+    return exclude_others(r, material, bits);
+}
+
 /* ---- materials ---- */
 
-static scene_alpha_mode get_alpha_mode(io_reader *r, const json_place *at)
+static scene_alpha_mode get_alpha_mode(io_reader *r, const json_place *at, scene_alpha_mode otherwise)
 {
-    const char *mode = io_get_string(r, at, "alphaMode", "OPAQUE");
+    const char *mode = io_get_string(r, at, "alphaMode", NULL);
+    if (!mode)
+        return otherwise;
     if (strcmp(mode, "MASK") == 0)
         return SCENE_ALPHA_MASK;
     if (strcmp(mode, "BLEND") == 0)
@@ -173,13 +181,11 @@ static scene_alpha_mode get_alpha_mode(io_reader *r, const json_place *at)
     return SCENE_ALPHA_OPAQUE;
 }
 
-void gltf_read_material(io_reader *r, const json_place *at, scene_material *m)
+void gltf_read_material_members(io_reader *r, const json_place *at, scene_material *m)
 {
-    *m = scene_material_default();
-    m->name = io_get_name(r, at);
-    m->alpha_mode = get_alpha_mode(r, at);
-    m->is_double_sided = io_get_bool(r, at, "doubleSided", false);
-    m->extensions = find_extensions(r, at);
+    m->alpha_mode = get_alpha_mode(r, at, m->alpha_mode);
+    m->is_double_sided = io_get_bool(r, at, "doubleSided", m->is_double_sided);
+    uint32_t before = m->extensions, there = find_extensions(r, at);
     read_rows(r, at, 0, m);
     /* Factors above 1 were common before emissive_strength, and all viewers draw them. */
     for (int i = 0; i < 3; i++)
@@ -187,13 +193,22 @@ void gltf_read_material(io_reader *r, const json_place *at, scene_material *m)
             io_note(r, at, "emissiveFactor", "is above 1, which needs KHR_materials_emissive_strength");
     for (size_t i = 0; i < MATERIAL_EXTENSION_COUNT; i++) {
         uint32_t bit = material_extensions[i].bit;
-        if (!(m->extensions & bit))
+        if (!(there & bit))
             continue;
         json_place extension = io_get_extension(r, at, material_extensions[i].name);
-        apply_rules(r, &extension, bit, true, m);
+        if (!(before & bit))
+            apply_rules(r, &extension, bit, true, m);
         read_rows(r, at, bit, m);
         apply_rules(r, &extension, bit, false, m);
     }
+    m->extensions = before ? exclude_others(r, at, before | there) : there;
+}
+
+void gltf_read_material(io_reader *r, const json_place *at, scene_material *m)
+{
+    *m = scene_material_default();
+    m->name = io_get_name(r, at);
+    gltf_read_material_members(r, at, m);
     m->meta = gltf_get_meta(r, at);
 }
 

@@ -228,6 +228,8 @@ void gltf_read_meshes(io_reader *r, const json_place *root);
 /* Filters and wrap modes; one material. at: the JSON object. */
 void gltf_read_texture_sampler(io_reader *r, const json_place *at, scene_texture *out);
 void gltf_read_material(io_reader *r, const json_place *at, scene_material *out);
+/* Reads the parameters and textures that are there; the others keep their values. */
+void gltf_read_material_members(io_reader *r, const json_place *at, scene_material *m);
 void gltf_read_cameras(io_reader *r, const json_place *root);
 void gltf_read_lights(io_reader *r, const json_place *root);
 void gltf_read_image_lights(io_reader *r, const json_place *root); /* EXT_lights_image_based */

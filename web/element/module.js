@@ -1,0 +1,283 @@
+// module.js - viewer.wasm for JavaScript: the functions of viewer.c with strings, bytes and JSON converted, and their errors thrown.
+import createViewer from './viewer.js';
+import { FacetError } from './error.js';
+
+const EXIT_CODES = [0, 2, 3, 4, 5, 6, 7, 7, 8, 75, 70]; // of the command, by facet_result
+const NO_MEMORY = 7; // facet_result
+const TARGET = '!facet'; // the canvas' name for emscripten
+
+class Memory {
+  constructor(wasm) {
+    this.wasm = wasm;
+  }
+
+  allocate(size) {
+    const at = this.wasm._malloc(Math.max(size, 1));
+    if (!at) throw new FacetError(`there is no memory for ${size} bytes`, EXIT_CODES[NO_MEMORY]);
+    return at;
+  }
+
+  // Calls use(address) with room for size bytes.
+  room(size, use) {
+    const at = this.allocate(size);
+    try {
+      return use(at);
+    } finally {
+      this.wasm._free(at);
+    }
+  }
+
+  // Calls use(address) with a string of C; null is the address 0.
+  text(text, use) {
+    if (text === null || text === undefined) return use(0);
+    const size = 4 * String(text).length + 1;
+    return this.room(size, (at) => {
+      this.wasm.stringToUTF8(String(text), at, size);
+      return use(at);
+    });
+  }
+
+  copy(bytes) {
+    const at = this.allocate(bytes.length);
+    this.wasm.HEAPU8.set(bytes, at);
+    return at;
+  }
+
+  read(at, size) {
+    return this.wasm.HEAPU8.slice(at, at + size);
+  }
+
+  pointer(at) {
+    return new DataView(this.wasm.HEAPU8.buffer).getUint32(at, true);
+  }
+
+  doubles(at, count) {
+    const view = new DataView(this.wasm.HEAPU8.buffer);
+    return Array.from({ length: count }, (_, i) => view.getFloat64(at + 8 * i, true));
+  }
+
+  setDoubles(at, values) {
+    const view = new DataView(this.wasm.HEAPU8.buffer);
+    values.forEach((value, i) => view.setFloat64(at + 8 * i, value, true));
+  }
+}
+
+export class Module {
+  #wasm;
+  #memory;
+  #isLost = false;
+
+  constructor(wasm) {
+    this.#wasm = wasm;
+    this.#memory = new Memory(wasm);
+  }
+
+  // ---- calls ----
+
+  // After an abort, mostly for want of memory, nothing in the module can be trusted: every later call throws, too.
+  #call(use) {
+    if (this.#isLost) throw new FacetError('facet has stopped; it has to be loaded again');
+    try {
+      return use();
+    } catch (error) {
+      if (error instanceof FacetError) throw error;
+      this.#isLost = true;
+      throw new FacetError(`facet has stopped (${error.message ?? error}); probably there was not enough memory`);
+    }
+  }
+
+  #lastError(code) {
+    return new FacetError(this.#wasm.UTF8ToString(this.#wasm._facet_web_error()), EXIT_CODES[code]);
+  }
+
+  #check(use) {
+    this.#call(() => {
+      const code = use();
+      if (code !== 0) throw this.#lastError(code);
+    });
+  }
+
+  // A text that C has allocated.
+  #take(use) {
+    return this.#call(() => {
+      const at = use();
+      if (!at) throw this.#lastError(NO_MEMORY);
+      const text = this.#wasm.UTF8ToString(at);
+      this.#wasm._free(at);
+      return text;
+    });
+  }
+
+  // True after an abort: load another module; this one is of no use.
+  get isLost() {
+    return this.#isLost;
+  }
+
+  get memorySize() {
+    return this.#wasm.HEAPU8.length;
+  }
+
+  // ---- the context ----
+
+  // Once: all viewers draw into this canvas, HTML's or an OffscreenCanvas.
+  start(canvas) {
+    this.#wasm.specialHTMLTargets[TARGET] = canvas;
+    this.#check(() => this.#memory.text(TARGET, (at) => this.#wasm._facet_web_start(at)));
+  }
+
+  // The browser has taken WebGL away, and given it back.
+  lose() {
+    this.#call(() => this.#wasm._facet_web_lose());
+  }
+
+  restore() {
+    this.#check(() => this.#wasm._facet_web_restore());
+  }
+
+  // ---- files: bytes by path, for all viewers ----
+
+  putFile(path, bytes) {
+    this.#check(() => {
+      const at = this.#memory.copy(bytes); // its owner is C
+      return this.#memory.text(path, (text) => this.#wasm._facet_web_put_file(text, at, bytes.length));
+    });
+  }
+
+  removeFiles() {
+    this.#call(() => this.#wasm._facet_web_remove_files());
+  }
+
+  // Names of the modules with codecs that a model of the files needs.
+  listNeeds(path) {
+    return JSON.parse(this.#take(() => this.#memory.text(path, (at) => this.#wasm._facet_web_list_needs(at))));
+  }
+
+  // ---- viewers: numbers that create() gives ----
+
+  create() {
+    return this.#call(() => {
+      const viewer = this.#wasm._facet_web_create();
+      if (!viewer) throw this.#lastError(NO_MEMORY);
+      return viewer;
+    });
+  }
+
+  destroy(viewer) {
+    this.#call(() => this.#wasm._facet_web_destroy(viewer));
+  }
+
+  // '': the built-in scene. If it throws, the last model stays.
+  open(viewer, path) {
+    this.#check(() => this.#memory.text(path, (at) => this.#wasm._facet_web_open(viewer, at)));
+  }
+
+  // value null: the default.
+  setOption(viewer, name, value) {
+    this.#check(() => this.#memory.text(name, (at) => this.#memory.text(value, (text) => this.#wasm._facet_web_set_option(viewer, at, text))));
+  }
+
+  getOptions(viewer) {
+    return JSON.parse(this.#take(() => this.#wasm._facet_web_get_options(viewer)));
+  }
+
+  command(viewer, width, height) {
+    return this.#take(() => this.#wasm._facet_web_command(viewer, width, height));
+  }
+
+  describe(viewer) {
+    return JSON.parse(this.#take(() => this.#wasm._facet_web_describe(viewer)));
+  }
+
+  state(viewer) {
+    return JSON.parse(this.#take(() => this.#wasm._facet_web_state(viewer)));
+  }
+
+  // name: 'masking', 'scattering', 'tone-mapping', 'variant', or '' for one image; position of the divider: 0 to 1.
+  compare(viewer, name, position = 0.5) {
+    this.#check(() => this.#memory.text(name, (at) => this.#wasm._facet_web_compare(viewer, at, position)));
+  }
+
+  // speed: 1 is that of the file; it stays where it is not given.
+  play(viewer, plays, speed = NaN) {
+    this.#call(() => this.#wasm._facet_web_play(viewer, plays, speed));
+  }
+
+  // ---- images ----
+
+  // Into the lower left corner of the canvas.
+  draw(viewer, width, height, seconds = 0) {
+    this.#check(() => this.#wasm._facet_web_draw(viewer, width, height, seconds));
+  }
+
+  isMoving(viewer) {
+    return this.#call(() => this.#wasm._facet_web_is_moving(viewer) !== 0);
+  }
+
+  // RGBA with straight alpha, rows from the top, of any size.
+  readImage(viewer, width, height) {
+    return this.#call(() => this.#memory.room(4, (out) => {
+      const code = this.#wasm._facet_web_read_image(viewer, width, height, out);
+      if (code !== 0) throw this.#lastError(code);
+      const at = this.#memory.pointer(out);
+      const bytes = this.#memory.read(at, 4 * width * height);
+      this.#wasm._free(at);
+      return new ImageData(new Uint8ClampedArray(bytes.buffer), width, height);
+    }));
+  }
+
+  // x, y: pixels of the last frame. null: nothing is there.
+  pick(viewer, x, y) {
+    return this.#call(() => this.#memory.room(64, (out) => {
+      const code = this.#wasm._facet_web_pick(viewer, x, y, out);
+      if (code !== 0) throw this.#lastError(code);
+      const found = this.#memory.doubles(out, 8);
+      return found[0] ? { position: found.slice(1, 4), normal: found.slice(4, 7), material: found[7] } : null;
+    }));
+  }
+
+  // Where a position is in the last frame.
+  project(viewer, position) {
+    return this.#call(() => this.#memory.room(56, (at) => {
+      this.#memory.setDoubles(at, position);
+      const code = this.#wasm._facet_web_project(viewer, at, at + 24);
+      if (code !== 0) throw this.#lastError(code);
+      const [x, y, depth, isInFront] = this.#memory.doubles(at + 24, 4);
+      return { x, y, depth, isInFront: isInFront !== 0 };
+    }));
+  }
+
+  // ---- materials ----
+
+  // change: part of a glTF material; null takes a texture or an extension away.
+  setMaterial(viewer, material, change) {
+    this.#check(() => this.#memory.text(JSON.stringify(change), (at) => this.#wasm._facet_web_set_material(viewer, material, at)));
+  }
+
+  // An image as it is in the file.
+  getImage(viewer, image) {
+    return this.#call(() => this.#memory.room(12, (out) => {
+      const code = this.#wasm._facet_web_get_image(viewer, image, out, out + 4, out + 8);
+      if (code !== 0) throw this.#lastError(code);
+      const [at, size, type] = [0, 4, 8].map((offset) => this.#memory.pointer(out + offset));
+      return { bytes: this.#memory.read(at, size), type: this.#wasm.UTF8ToString(type) };
+    }));
+  }
+
+  // ---- events: true asks for a frame ----
+
+  point(viewer, kind, button, modifiers, x, y) {
+    return this.#call(() => this.#wasm._facet_web_point(viewer, kind, button, modifiers, x, y) !== 0);
+  }
+
+  key(viewer, key, modifiers) {
+    return this.#call(() => this.#wasm._facet_web_key(viewer, key, modifiers) !== 0);
+  }
+}
+
+// base: the folder of viewer.wasm; that of this file where it is not given.
+export async function loadModule(base) {
+  const options = base ? { locateFile: (name) => new URL(name, base).href } : {};
+  return new Module(await createViewer(options));
+}
+
+export { FacetError };
