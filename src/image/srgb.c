@@ -1,6 +1,8 @@
 /* srgb.c - see srgb.h. */
 #include "image/srgb.h"
 
+#include "facet/facet.h"
+
 #include <math.h>
 
 double srgb_encode(double linear)
