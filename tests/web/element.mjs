@@ -666,6 +666,7 @@ try {
 async function compare_with_model_viewer() {
     await open('/site/both.html');
     for (const [name, attributes] of [['/site/box.gltf', {}], ['/site/box.gltf', { 'camera-orbit': '40deg 60deg 80%', 'camera-target': '0.2m auto 0m' }],
+        ['/site/box.gltf', { orientation: '20deg 90deg -40deg', scale: '1 0.5 2' }],
         ...shown.map((file) => [`/models/${path.basename(file)}`, {}])]) {
         if (/\.gltf$/.test(name) && name.startsWith('/models/')) continue;
         const [ours, theirs] = await page.evaluate(async ([src, more]) => {

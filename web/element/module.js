@@ -272,6 +272,100 @@ export class Module {
   key(viewer, key, modifiers) {
     return this.#call(() => this.#wasm._facet_web_key(viewer, key, modifiers) !== 0);
   }
+
+  // ---- the camera: view_rig.h ----
+
+  // A number by the name of view_rig_set_number().
+  setMotion(viewer, name, value) {
+    this.#check(() => this.#memory.text(name, (at) => this.#wasm._facet_web_set_motion(viewer, at, value)));
+  }
+
+  // A text of <model-viewer>'s attributes, by the attribute's name.
+  setCamera(viewer, name, text) {
+    this.#check(() => this.#memory.text(name, (at) => this.#memory.text(text, (value) => this.#wasm._facet_web_set_camera(viewer, at, value))));
+  }
+
+  // To what the texts say, for an image of that size.
+  frame(viewer, width, height, keepsDirection) {
+    this.#check(() => this.#wasm._facet_web_frame(viewer, width, height, keepsDirection));
+  }
+
+  // Texts of the attributes; the model is to be framed again.
+  place(viewer, orientation, scale) {
+    this.#check(() => this.#memory.text(orientation, (turn) => this.#memory.text(scale, (size) => this.#wasm._facet_web_place(viewer, turn, size))));
+  }
+
+  // dx, dy: pixels of an image of that height.
+  turn(viewer, dx, dy, height) {
+    this.#call(() => this.#wasm._facet_web_turn(viewer, dx, dy, height));
+  }
+
+  pan(viewer, dx, dy, height) {
+    this.#call(() => this.#wasm._facet_web_pan(viewer, dx, dy, height));
+  }
+
+  // Positive: away.
+  zoom(viewer, steps) {
+    this.#call(() => this.#wasm._facet_web_zoom(viewer, steps));
+  }
+
+  // step: a view_step.
+  step(viewer, step, pans, height) {
+    this.#call(() => this.#wasm._facet_web_step(viewer, step, pans, height));
+  }
+
+  // The camera turns around a point that it shows in its middle.
+  setPivot(viewer, point) {
+    this.#call(() => this.#memory.room(24, (at) => {
+      this.#memory.setDoubles(at, point);
+      this.#wasm._facet_web_set_pivot(viewer, at);
+    }));
+  }
+
+  // null: what camera-target says, from afar.
+  setTarget(viewer, point) {
+    this.#call(() => this.#memory.room(24, (at) => {
+      if (point) this.#memory.setDoubles(at, point);
+      this.#wasm._facet_web_set_target(viewer, point ? at : 0);
+    }));
+  }
+
+  // The camera is where it was going.
+  jump(viewer) {
+    this.#call(() => this.#wasm._facet_web_jump(viewer));
+  }
+
+  // The time of the running animation, s.
+  setTime(viewer, seconds) {
+    this.#call(() => this.#wasm._facet_web_set_time(viewer, seconds));
+  }
+
+  // Angles in rad, fields of view in degrees, lengths in m; low, high: corners of the model.
+  getCamera(viewer) {
+    return this.#call(() => this.#memory.room(136, (out) => {
+      this.#wasm._facet_web_get_camera(viewer, out);
+      const all = this.#memory.doubles(out, 17);
+      const [azimuth, polar, radius, fov, minFov, maxFov] = all;
+      const side = this.#wasm.UTF8ToString(this.#wasm._facet_web_get_side(viewer));
+      return { azimuth, polar, radius, fov, minFov, maxFov, target: all.slice(6, 9), turntable: all[9], aspect: all[10], low: all.slice(11, 14), high: all.slice(14), side };
+    }));
+  }
+
+  // Where a point of a surface is in the last frame, in parts of its size, and whether it faces the camera.
+  locate(viewer, position, normal) {
+    return this.#call(() => this.#memory.room(80, (at) => {
+      this.#memory.setDoubles(at, [...position, ...normal]);
+      const code = this.#wasm._facet_web_locate(viewer, at, at + 24, at + 48);
+      if (code !== 0) throw this.#lastError(code);
+      const [x, y, depth, isFacing] = this.#memory.doubles(at + 48, 4);
+      return { x, y, depth, isFacing: isFacing !== 0 };
+    }));
+  }
+
+  // After a frame: by what to divide the size of the next.
+  pace(viewer, isMoving, divisor, seconds) {
+    return this.#call(() => this.#wasm._facet_web_pace(viewer, isMoving, divisor, seconds));
+  }
 }
 
 // base: the folder of viewer.wasm; that of this file where it is not given.

@@ -15,6 +15,7 @@ export class View {
   #motion = new Map();
   #camera = new Map();
   #materials = [];
+  #placement = null; // texts, unless the model stands as in its file
   #extraFiles = []; // that options name
   #lastTime = 0;
   #isTouched = false;
@@ -88,6 +89,7 @@ export class View {
       this.use((m, viewer) => m.open(viewer, at));
     });
     this.#model = { files, path };
+    this.#placeAgain();
     this.#materials = [];
     for (const name of OF_MODEL) this.#options.delete(name);
     this.touch();
@@ -134,6 +136,27 @@ export class View {
     this.use((module, viewer) => module.setCamera(viewer, name, text));
     this.#camera.set(name, text);
     this.touch();
+  }
+
+  #placeAgain() {
+    if (!this.#placement) return;
+    try {
+      this.use((module, viewer) => module.place(viewer, ...this.#placement));
+    } catch (error) {
+      if (!this.hasModel) throw error;
+      console.warn(`<facet-viewer> ${error.message}`); // the model stands as in its file
+    }
+  }
+
+  // Texts of the attributes orientation and scale.
+  place(orientation, scale) {
+    const isAsInFile = orientation === '0 0 0' && scale === '1 1 1';
+    if (isAsInFile && !this.#placement) return;
+    if (this.hasModel) {
+      this.use((module, viewer) => module.place(viewer, orientation, scale));
+      this.frame(true);
+    }
+    this.#placement = isAsInFile ? null : [orientation, scale];
   }
 
   // To what the attributes of the camera say.

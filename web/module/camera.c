@@ -6,6 +6,7 @@
 
 #include "base/result.h"
 #include "view/view_camera.h"
+#include "view/view_terms.h"
 #include "viewer.h"
 
 static bool is_same(const facet_orbit *a, const facet_orbit *b)
@@ -103,6 +104,37 @@ EMSCRIPTEN_KEEPALIVE int facet_web_frame(viewer *v, int width, int height, bool 
     TRY(view_rig_frame(&v->rig, v->scene, &v->state.pose, keeps_direction, web_error()));
     place(v);
     return FACET_OK;
+}
+
+/* Columns of the matrix that scales, then turns around Z, X and Y: roll, pitch and yaw (rad) of <model-viewer>. */
+static void make_placement(const double turn[3], const double scale[3], float matrix[16])
+{
+    double sr = sin(turn[0]), cr = cos(turn[0]), sp = sin(turn[1]), cp = cos(turn[1]), sy = sin(turn[2]),
+           cy = cos(turn[2]);
+    const double columns[3][3] = {{cy * cr + sy * sp * sr, cp * sr, cy * sp * sr - sy * cr},
+                                  {sy * sp * cr - cy * sr, cp * cr, cy * sp * cr + sy * sr},
+                                  {sy * cp, -sp, cy * cp}};
+    memset(matrix, 0, 16 * sizeof *matrix);
+    for (int k = 0; k < 3; k++)
+        for (int row = 0; row < 3; row++)
+            matrix[4 * k + row] = (float)(scale[k] * columns[k][row]);
+    matrix[15] = 1.0f;
+}
+
+/* The attributes orientation ("roll pitch yaw") and scale ("x y z"). The model is to be framed again. */
+EMSCRIPTEN_KEEPALIVE int facet_web_place(viewer *v, const char *orientation, const char *scale)
+{
+    const view_term angle = {VIEW_UNIT_ANGLE, 0.0, 0.0}, factor = {VIEW_UNIT_LENGTH, 1.0, 1.0};
+    const view_term angles[3] = {angle, angle, angle}, factors[3] = {factor, factor, factor};
+    double turn[3], size[3];
+    float matrix[16];
+    if (!v->scene)
+        return fail(web_error(), FACET_ERROR_ARGUMENT, "there is no model to place");
+    TRY(view_terms_read("orientation", orientation, angles, 3, 0.0, turn, web_error()));
+    TRY(view_terms_read("scale", scale, factors, 3, 0.0, size, web_error()));
+    make_placement(turn, size, matrix);
+    TRY(facet_scene_place(v->scene, matrix, web_error()));
+    return web_model_find_bounds(v, web_error());
 }
 
 /* ---- input: view_motion.h ---- */

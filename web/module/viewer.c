@@ -24,6 +24,11 @@ static struct {
     facet_error error;
 } page;
 
+facet_error *web_error(void)
+{
+    return &page.error;
+}
+
 EMSCRIPTEN_KEEPALIVE const char *facet_web_error(void)
 {
     return page.error.message;
@@ -118,6 +123,7 @@ EMSCRIPTEN_KEEPALIVE viewer *facet_web_create(void)
     const facet_view_desc desc = {.render = {.renderer = FACET_RENDERER_KIND_GL}, .log = web_viewer_log(v)};
     v->context = &page.context;
     view_state_create(&v->state, &desc);
+    view_rig_create(&v->rig);
     v->next = page.first;
     page.first = v;
     if (web_options_create(v, &page.error) == FACET_OK)
@@ -261,13 +267,14 @@ EMSCRIPTEN_KEEPALIVE void facet_web_play(viewer *v, bool plays, double speed)
 EMSCRIPTEN_KEEPALIVE int facet_web_draw(viewer *v, int width, int height, double seconds)
 {
     view_state_advance(&v->state, seconds);
+    TRY(web_camera_advance(v, (uint32_t)width, (uint32_t)height, seconds, &page.error));
     return web_draw(v, (uint32_t)width, (uint32_t)height, &page.error);
 }
 
 /* Whether another frame is wanted though nothing was changed from outside. */
 EMSCRIPTEN_KEEPALIVE bool facet_web_is_moving(viewer *v)
 {
-    return v->state.is_playing;
+    return v->state.is_playing || web_camera_is_moving(v);
 }
 
 /* As facet render --renderer gl makes it at that size: RGBA8, rows from the top, straight alpha, a block that the page

@@ -5,6 +5,7 @@
 #include "cli/view/view_command.h"
 #include "gl/scene/gl_renderer.h"
 #include "light.h"
+#include "view/view_rig.h"
 #include "view/view_state.h"
 
 typedef struct viewer {
@@ -15,6 +16,9 @@ typedef struct viewer {
     gl_renderer *renderer; /* NULL: no scene, or the context is lost */
     web_light *light;
     view_state state;
+    view_rig rig;       /* places the orbit of the state, once a page has framed the model */
+    facet_orbit placed; /* by the rig */
+    view_pace pace;
     float framed_aspect; /* of the image for which the orbit was found */
 
     /* the options as they were accepted last; the state has changed since, where keys or the pointer did */
@@ -28,6 +32,8 @@ typedef struct viewer {
 } viewer;
 
 facet_log web_viewer_log(viewer *v);
+
+facet_error *web_error(void); /* of facet_web_error() */
 
 /* ---- options.c: the state as options of the command, and back ---- */
 
@@ -52,6 +58,13 @@ facet_result web_model_reload(viewer *v, facet_shading shading, facet_error *err
 /* After a change of the pose that may have moved the origin. */
 facet_result web_model_find_bounds(viewer *v, facet_error *error);
 void web_model_close(viewer *v);
+
+/* ---- camera.c: the camera of <facet-viewer> ---- */
+
+/* Before a frame of that size, so long after the last one. */
+facet_result web_camera_advance(viewer *v, uint32_t width, uint32_t height, double seconds,
+                                facet_error *error);
+bool web_camera_is_moving(const viewer *v);
 
 /* ---- draw.c ---- */
 
