@@ -14,6 +14,7 @@ export class Engine {
   #isLost = false;
   #lossTimer = 0;
   #canvas = null;
+  #last = Promise.resolve();
   base = undefined;
   minimumRenderScale = 0.25;
 
@@ -61,6 +62,13 @@ export class Engine {
       if (module.isLost && module === this.#module) this.#renew();
       throw error;
     }
+  }
+
+  // Calls use when nobody else uses the table of files.
+  alone(use) {
+    const done = this.#last.then(use);
+    this.#last = done.catch(() => {});
+    return done;
   }
 
   #renew() {

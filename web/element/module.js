@@ -1,4 +1,5 @@
 // module.js - viewer.wasm for JavaScript: the functions of viewer.c with strings, bytes and JSON converted, and their errors thrown.
+import { Codecs } from './codecs.js';
 import createViewer from './viewer.js';
 import { FacetError } from './error.js';
 
@@ -67,8 +68,10 @@ export class Module {
   #memory;
   #isLost = false;
 
-  constructor(wasm) {
+  // codecs: the decoders that its files may need
+  constructor(wasm, codecs) {
     this.#wasm = wasm;
+    this.codecs = codecs;
     this.#memory = new Memory(wasm);
   }
 
@@ -370,8 +373,9 @@ export class Module {
 
 // base: the folder of viewer.wasm; that of this file where it is not given.
 export async function loadModule(base) {
-  const options = base ? { locateFile: (name) => new URL(name, base).href } : {};
-  return new Module(await createViewer(options));
+  const codecs = new Codecs();
+  const options = base ? { codecs, locateFile: (name) => new URL(name, base).href } : { codecs };
+  return new Module(await createViewer(options), codecs);
 }
 
 export { FacetError };

@@ -84,10 +84,7 @@ export class View {
 
   async open(files, path) {
     await engine.start();
-    await this.#withFiles(files, async () => {
-      const at = path && `${this.#folder}/${path}`;
-      this.use((m, viewer) => m.open(viewer, at));
-    });
+    await this.#withFiles(files, () => this.use((module, viewer) => module.open(viewer, path && `${this.#folder}/${path}`)));
     this.#model = { files, path };
     this.#placeAgain();
     this.#materials = [];
@@ -95,15 +92,31 @@ export class View {
     this.touch();
   }
 
-  // The files are there for C while use runs.
+  // The files are there for C while use runs, once more with the decoders that it found missing.
   async #withFiles(files, use) {
     const contents = await Promise.all(files.map(({ file }) => file.arrayBuffer()));
-    try {
-      this.use((module) => files.forEach(({ path }, i) => module.putFile(`${this.#folder}/${path}`, new Uint8Array(contents[i]))));
-      await use();
-    } finally {
-      engine.module?.removeFiles();
-    }
+    await engine.alone(async () => {
+      const { codecs } = await engine.start();
+      try {
+        this.use((module) => files.forEach(({ path }, i) => module.putFile(`${this.#folder}/${path}`, new Uint8Array(contents[i]))));
+        codecs.takeMissing();
+        let failure = null;
+        try {
+          use();
+        } catch (error) {
+          failure = error;
+        }
+        const missing = codecs.takeMissing();
+        if (missing.length) {
+          await codecs.load(missing);
+          use();
+        } else if (failure) {
+          throw failure;
+        }
+      } finally {
+        engine.module?.removeFiles();
+      }
+    });
   }
 
   // The value may be the path of a file of the model, or one that was set before: then wait for what is returned.
@@ -118,7 +131,7 @@ export class View {
 
   async setOptionFile(name, entry) {
     await engine.start();
-    await this.#withFiles([entry], async () => this.use((module, viewer) => module.setOption(viewer, name, `${this.#folder}/${entry.path}`)));
+    await this.#withFiles([entry], () => this.use((module, viewer) => module.setOption(viewer, name, `${this.#folder}/${entry.path}`)));
     this.#options.set(name, entry.path);
     this.#extraFiles = [...this.#extraFiles.filter(({ path }) => path !== entry.path), entry];
     this.touch();
