@@ -473,6 +473,22 @@ const tests = {
         check(found.changes >= 2, 'facet-change');
     },
 
+    async 'addresses of blobs, and edited models as .glb'() {
+        const found = await page.evaluate(async () => {
+            await clear();
+            const viewer = make({ src: URL.createObjectURL(await (await fetch('box.gltf')).blob()) });
+            await event(viewer, 'load');
+            const gray = await image(viewer);
+            viewer.setMaterial(0, { pbrMetallicRoughness: { baseColorFactor: [1, 0, 0, 1] } });
+            const red = await image(viewer), blob = await viewer.exportScene();
+            await viewer.openFiles([{ path: 'saved.glb', file: blob }]);
+            return { gray, red, type: blob.type, saved: await image(viewer), edits: viewer.getDimensions().y };
+        });
+        check(found.gray.covered > 0.05 && found.red.color[0] > 1.5 * found.red.color[1], `a blob is shown and edited: ${JSON.stringify(found)}`);
+        equal(found.type, 'model/gltf-binary');
+        equal(found.saved.hash, found.red.hash, 'the saved model differs from the edited one');
+    },
+
     async 'many elements share one context'() {
         requests.length = 0;
         const found = await page.evaluate(async () => {

@@ -125,11 +125,11 @@ const decode = (uri) => {
 // message, which names the place in the model.
 export async function fetchModel(url, options) {
   const base = new URL(url, document.baseURI);
-  const name = decode(base.pathname.split('/').pop() || 'model');
+  const name = decode(base.protocol === 'data:' ? 'model' : base.pathname.split('/').pop() || 'model');
   const file = await fetchFile(base.href, { ...options, onProgress: (share) => options.onProgress(0.9 * share) });
   const files = [{ path: name, file }];
-  const folder = new URL('.', base);
-  const queue = [name];
+  const folder = /^(blob|data):$/.test(base.protocol) ? null : new URL('.', base); // null: there is nothing beside it
+  const queue = folder ? [name] : [];
   while (queue.length) {
     const path = queue.shift();
     if (!/\.(gltf|obj|mtl)$/i.test(path)) continue;

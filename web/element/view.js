@@ -5,6 +5,15 @@ import { engine } from './engine.js';
 let count = 0;
 const OF_MODEL = new Set(['animation', 'time', 'variant', 'camera', 'scene', 'orbit', 'target', 'fov']); // options that need the model
 
+// b over a: objects member by member, all else as a whole.
+function join(a, b) {
+  const isObject = (value) => value !== null && typeof value === 'object' && !Array.isArray(value);
+  if (!isObject(a) || !isObject(b)) return b;
+  const both = { ...a };
+  for (const [name, value] of Object.entries(b)) both[name] = join(a[name], value);
+  return both;
+}
+
 export class View {
   #handle = 0;
   #host;
@@ -52,7 +61,8 @@ export class View {
   get hasModel() { return this.#handle !== 0 && this.#model !== null && engine.module !== null; }
   get files() { return this.#model?.files ?? []; }
   get path() { return this.#model?.path ?? null; }
-  get edits() { return this.#materials; }
+  // All changes of materials, by their index.
+  get edits() { return this.#materials.reduce((all, [index, values]) => join(all, { [index]: values }), {}); }
   get isLost() { return engine.isLost; }
   get isDrawn() { return this.isVisible && this.isRevealed && this.hasModel; }
   get isMoving() { return this.hasModel && (this.isPlaying || this.use((module, viewer) => module.isMoving(viewer))); }

@@ -7,8 +7,8 @@ const elements = []; // facet-viewer, and model-viewer where it is there
 let source = null; // the address that both show
 
 function showError(text) {
-  byId('error').hidden = !text;
-  byId('error').textContent = text;
+  byId('failure').hidden = !text;
+  byId('failure').textContent = text;
 }
 
 // "name" or name="value" a line.
