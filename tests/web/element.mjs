@@ -22,10 +22,26 @@ function contents(url) {
     if (url === '/site/both.html') return { text: page_of(['facet-viewer/facet-viewer.js', 'google.js'], "script-src 'self' 'unsafe-eval' 'wasm-unsafe-eval' blob:") };
     if (url === '/site/google.js') return google;
     if (url.startsWith('/site/box')) return { text: box_model() };
+    if (url === '/site/models/apart.gltf' || url === '/site/buffers/the box.bin') return { text: apart()[url.includes('.bin') ? 1 : 0] };
+    if (url === '/site/blue.hdr') return { text: blue_sky() };
     if (url === '/site/broken.glb') return { text: 'glTF but no more' };
     if (url.startsWith('/site/poster')) return { text: '<svg xmlns="http://www.w3.org/2000/svg"/>' };
     if (url.startsWith('/models/')) return shown.find((file) => path.basename(file) === url.slice(8)) ?? 'none';
     return path.join(dist, url.replace('/site/', ''));
+}
+
+// The box as text and buffer in different folders.
+function apart() {
+    const gltf = JSON.parse(box_model()), bytes = Buffer.from(gltf.buffers[0].uri.split(',')[1], 'base64');
+    gltf.buffers[0].uri = '../buffers/the%20box.bin';
+    return [JSON.stringify(gltf), bytes];
+}
+
+// A panorama that is blue everywhere.
+function blue_sky() {
+    const texels = Buffer.alloc(4 * 32);
+    for (let i = 0; i < texels.length; i += 4) texels.writeUInt32BE(0x00008081, i);
+    return Buffer.concat([Buffer.from('#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n'), texels]);
 }
 
 const served = await serve_page('/site/test.html', contents);
@@ -333,7 +349,11 @@ const tests = {
             const again = await of({});
             const ground = await of({ shadowIntensity: 1 });
             const normal = await of({ shadowIntensity: 0, facetChannel: 'normal' });
-            return { plain, bright, tone, linear, red, sky, again, ground, normal };
+            await event(viewer, 'environment-change', () => { viewer.facetChannel = null; viewer.environmentImage = 'blue.hdr'; });
+            const blue = await of({});
+            await event(viewer, 'load', async () => { viewer.src = null; await viewer.updateComplete; viewer.src = 'box.gltf'; });
+            const still = await of({});
+            return { plain, bright, tone, linear, red, sky, again, ground, normal, blue, still };
         });
         const light = ({ color }) => color[0] + color[1] + color[2];
         check(light(found.bright) > 1.2 * light(found.plain), 'exposure');
@@ -343,6 +363,8 @@ const tests = {
         equal(found.again.hash, found.plain.hash, 'the light does not come back');
         check(found.ground.hash !== found.plain.hash, 'shadow-intensity');
         check(found.normal.hash !== found.plain.hash, 'facet-channel');
+        check(found.blue.color[2] > 3 * found.blue.color[0], `a blue panorama gives ${found.blue.color}`);
+        equal(found.still.hash, found.blue.hash, 'the light of a file is lost with the model');
     },
 
     async 'animations and variants'() {
@@ -467,7 +489,8 @@ const tests = {
         check(found.builtin.hash !== found.first.hash && found.builtin.covered > 0.05, 'the built-in scene');
         check(/c\.gltf/.test(found.errors[0]) && /x\.txt/.test(found.errors[1]) && /bogus/.test(found.errors[2]) && /no-such/.test(found.errors[3]), `${found.errors}`);
         equal(found.options['tone-mapping'], 'agx');
-        check(/^facet render .*b\.gltf/.test(found.command) && /agx/.test(found.command) && /640x480/.test(found.command), found.command);
+        equal(found.path, 'a/box.gltf');
+        check(/^facet render b\.gltf/.test(found.command) && /agx/.test(found.command) && /640x480/.test(found.command), found.command);
         check(Array.isArray(found.state.animations) && found.state.isPlaying === false, 'state');
         check(found.green.color[1] > 1.3 * found.green.color[0], `setMaterial gives ${found.green.color}`);
         check(found.changes >= 2, 'facet-change');
@@ -482,9 +505,13 @@ const tests = {
             viewer.setMaterial(0, { pbrMetallicRoughness: { baseColorFactor: [1, 0, 0, 1] } });
             const red = await image(viewer), blob = await viewer.exportScene();
             await viewer.openFiles([{ path: 'saved.glb', file: blob }]);
-            return { gray, red, type: blob.type, saved: await image(viewer), edits: viewer.getDimensions().y };
+            const saved = await image(viewer);
+            await event(viewer, 'load', () => { viewer.src = 'models/apart.gltf'; });
+            const parts = [(await image(viewer)).hash === gray.hash, viewer.modelPath, viewer.files.map(({ path }) => path)];
+            return { gray, parts, red, type: blob.type, saved };
         });
         check(found.gray.covered > 0.05 && found.red.color[0] > 1.5 * found.red.color[1], `a blob is shown and edited: ${JSON.stringify(found)}`);
+        equal(found.parts, [true, 'models/apart.gltf', ['models/apart.gltf', 'buffers/the box.bin']], 'a model of two folders');
         equal(found.type, 'model/gltf-binary');
         equal(found.saved.hash, found.red.hash, 'the saved model differs from the edited one');
     },
@@ -609,6 +636,33 @@ const tests = {
         await page.emulateMedia({ reducedMotion: null });
         equal(reduced.turned, 0, 'the turntable turns for users who want less motion');
         near(reduced.theta, Math.PI / 2, 'the camera glides for users who want less motion');
+    },
+
+    async 'coarse while slow frames move, sharp at rest'() {
+        const found = await page.evaluate(async () => {
+            await clear();
+            const { engine } = await import('./facet-viewer/engine.js');
+            await engine.start();
+            engine.module.pace = (_, isMoving) => (isMoving ? 4 : 1); // as after frames of 400 ms
+            const viewer = make({ src: 'box.gltf', 'auto-rotate': '', 'auto-rotate-delay': '0' });
+            const coarse = await event(viewer, 'render-scale');
+            await frames(3);
+            const canvas = viewer.shadowRoot.querySelector('.stage > canvas:not(.image)'), moving = [canvas.width, canvas.height];
+            viewer.autoRotate = false;
+            const sharp = await event(viewer, 'render-scale');
+            await frames(3);
+            const rest = [canvas.width, canvas.height];
+            viewer.constructor.minimumRenderScale = 1;
+            viewer.autoRotate = true;
+            await frames(8);
+            const full = [canvas.width, canvas.height];
+            viewer.constructor.minimumRenderScale = 0.25;
+            delete engine.module.pace;
+            return { coarse, moving, sharp, rest, full };
+        });
+        equal([found.coarse.renderedDpr, found.moving], [0.25, [80, 60]]);
+        equal([found.sharp.renderedDpr, found.rest], [1, [320, 240]]);
+        equal(found.full, [320, 240], 'minimumRenderScale = 1');
     },
 
     async 'removal frees everything, and an idle page draws nothing'() {

@@ -93,6 +93,7 @@ export async function fetchFile(url, { withCredentials = false, signal, onProgre
 }
 
 export const MODEL = /\.(glb|gltf|obj|stl|ply|json)$/i;
+const TEXT = /\.(gltf|obj)$/i; // models that name other files
 export const IMAGE = /\.(hdr|exr|ktx2|png|jpe?g|webp|dds|tga|bmp|pfm)$/i;
 
 // The relative addresses that a text model names; of binary ones nothing.
@@ -121,31 +122,38 @@ const decode = (uri) => {
   }
 };
 
+// How many folders above its own the addresses of a text reach.
+const climb = (uris) => Math.max(0, ...uris.map((uri) => uri.match(/^(?:\.\.\/)*/)[0].length / 3));
+
 // A model and the files that it refers to, as [{path, file}]; the model is the first. One that cannot be fetched is left to the reader's
 // message, which names the place in the model.
 export async function fetchModel(url, options) {
+  const { onProgress } = options;
   const base = new URL(url, document.baseURI);
-  const name = decode(base.protocol === 'data:' ? 'model' : base.pathname.split('/').pop() || 'model');
-  const file = await fetchFile(base.href, { ...options, onProgress: (share) => options.onProgress(0.9 * share) });
-  const files = [{ path: name, file }];
-  const folder = /^(blob|data):$/.test(base.protocol) ? null : new URL('.', base); // null: there is nothing beside it
-  const queue = folder ? [name] : [];
-  while (queue.length) {
-    const path = queue.shift();
-    if (!/\.(gltf|obj|mtl)$/i.test(path)) continue;
-    const text = await files.find((entry) => entry.path === path).file.text();
-    await Promise.all([...new Set(relatedTo(path, text))].map(async (uri) => {
-      const target = decode(uri).replace(/\\/g, '/');
-      if (/^([a-z]+:|\/)/i.test(target) || files.some((entry) => entry.path === target)) return;
-      const from = /\.mtl$/i.test(path) && path.includes('/') ? new URL(path, folder) : folder;
-      try {
-        files.push({ path: target, file: await fetchFile(new URL(uri.replace(/\\/g, '/'), from).href, { ...options, onProgress: () => {} }) });
-        queue.push(target);
-      } catch (error) {
-        if (error.name === 'AbortError') throw error;
-      }
-    }));
+  const file = await fetchFile(base.href, { ...options, onProgress: (share) => onProgress(0.9 * share) });
+  const name = decode(base.pathname.split('/').pop() || 'model');
+  if (!/^https?:$|^file:$/.test(base.protocol) || !TEXT.test(name)) {
+    onProgress(1);
+    return [{ path: base.protocol === 'data:' ? 'model' : name, file }];
   }
-  options.onProgress(1);
+  const first = relatedTo(name, await file.text());
+  const root = new URL('../'.repeat(climb(first)) || '.', base);
+  const pathOf = (address) => decode(address.pathname.slice(root.pathname.length));
+  const files = [{ path: pathOf(base), file }];
+  const seen = new Set([base.href]);
+  const follow = (uris, from) => Promise.all(uris.map(async (uri) => {
+    const address = new URL(uri.replace(/\\/g, '/'), from);
+    if (seen.has(address.href) || !address.href.startsWith(root.href)) return;
+    seen.add(address.href);
+    try {
+      const found = await fetchFile(address.href, { ...options, onProgress: () => {} });
+      files.push({ path: pathOf(address), file: found });
+      if (/\.mtl$/i.test(address.pathname)) await follow(relatedTo(address.pathname, await found.text()), address);
+    } catch (error) {
+      if (error.name === 'AbortError') throw error;
+    }
+  }));
+  await follow(first, base);
+  onProgress(1);
   return files;
 }

@@ -97,7 +97,7 @@ export class Loading {
       if (element.poster) tree.posterImage.src = element.poster;
       else tree.posterImage.removeAttribute('src');
     }
-    if (changed.has('alt')) tree.posterImage.alt = '';
+    if (changed.has('alt')) tree.posterImage.alt = element.alt ?? '';
     if (changed.has('src') && !element.src && this.#wanted) {
       this.drop();
       this.context.view.close();

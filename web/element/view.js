@@ -2,7 +2,6 @@
 // told again.
 import { engine } from './engine.js';
 
-let count = 0;
 const OF_MODEL = new Set(['animation', 'time', 'variant', 'camera', 'scene', 'orbit', 'target', 'fov']); // options that need the model
 
 // b over a: objects member by member, all else as a whole.
@@ -18,7 +17,6 @@ export class View {
   #handle = 0;
   #host;
   #tree;
-  #folder = `view${++count}`;
   #model = null; // {files, path} that is shown
   #options = new Map();
   #motion = new Map();
@@ -94,12 +92,22 @@ export class View {
 
   async open(files, path) {
     await engine.start();
-    await this.#withFiles(files, () => this.use((module, viewer) => module.open(viewer, path && `${this.#folder}/${path}`)));
+    const isNew = !this.#handle;
+    await this.#withFiles(files, () => this.use((module, viewer) => module.open(viewer, path)));
     this.#model = { files, path };
     this.#placeAgain();
     this.#materials = [];
     for (const name of OF_MODEL) this.#options.delete(name);
+    if (isNew) await this.#tellFiles();
     this.touch();
+  }
+
+  // Settings of a new viewer whose values are files.
+  async #tellFiles() {
+    for (const [name, text] of this.#options) {
+      const entry = this.#extraFiles.find(({ path }) => path === text);
+      if (entry) await this.setOptionFile(name, entry);
+    }
   }
 
   // The files are there for C while use runs, once more with the decoders that it found missing.
@@ -108,7 +116,7 @@ export class View {
     await engine.alone(async () => {
       const { codecs } = await engine.start();
       try {
-        this.use((module) => files.forEach(({ path }, i) => module.putFile(`${this.#folder}/${path}`, new Uint8Array(contents[i]))));
+        this.use((module) => files.forEach(({ path }, i) => module.putFile(path, new Uint8Array(contents[i]))));
         codecs.takeMissing();
         let failure = null;
         try {
@@ -141,7 +149,7 @@ export class View {
 
   async setOptionFile(name, entry) {
     await engine.start();
-    await this.#withFiles([entry], () => this.use((module, viewer) => module.setOption(viewer, name, `${this.#folder}/${entry.path}`)));
+    await this.#withFiles([entry], () => this.use((module, viewer) => module.setOption(viewer, name, entry.path)));
     this.#options.set(name, entry.path);
     this.#extraFiles = [...this.#extraFiles.filter(({ path }) => path !== entry.path), entry];
     this.touch();
@@ -197,7 +205,7 @@ export class View {
   // The module is gone.
   forget() { this.#handle = 0; }
 
-  // Settings of a new viewer; those that name files follow in replay().
+  // Settings of a new viewer; those whose values are files follow in open().
   #tell(module) {
     for (const [name, value] of this.#motion) module.setMotion(this.#handle, name, value);
     for (const [name, text] of this.#camera) module.setCamera(this.#handle, name, text);
@@ -216,7 +224,7 @@ export class View {
       await this.open(model.files, model.path);
       this.frame(true);
       for (const [name, text] of options)
-        if (OF_MODEL.has(name) || this.#extraFiles.some(({ path }) => path === text)) await this.setOption(name, text);
+        if (OF_MODEL.has(name)) await this.setOption(name, text);
       for (const [index, values] of materials) this.setMaterial(index, values);
       this.#host.onReplayed();
     } catch (error) {
