@@ -26,6 +26,8 @@ export class View {
   #extraFiles = []; // that options name
   #lastTime = 0;
   #isTouched = false;
+  #hasFailed = false; // the last frame
+  #isAlive = false;
   #divisor = 1;
   #isSharp = true;
   #size = { width: 1, height: 1 };
@@ -40,9 +42,13 @@ export class View {
   }
 
   // The element is in a page.
-  revive() { engine.add(this); }
+  revive() {
+    this.#isAlive = true;
+    engine.add(this);
+  }
 
   destroy() {
+    this.#isAlive = false;
     this.close();
     engine.remove(this);
   }
@@ -64,7 +70,8 @@ export class View {
   get isLost() { return engine.isLost; }
   get isDrawn() { return this.isVisible && this.isRevealed && this.hasModel; }
   get isMoving() { return this.hasModel && (this.isPlaying || this.use((module, viewer) => module.isMoving(viewer))); }
-  get needsFrame() { return this.isDrawn && (this.#isTouched || !this.#isSharp || this.isMoving); }
+  // After a failure nothing is drawn until something is set.
+  get needsFrame() { return this.isDrawn && (this.#isTouched || (!this.#hasFailed && (!this.#isSharp || this.isMoving))); }
 
   // Calls use(module, viewer). The first time the viewer is told what was set before.
   use(use) {
@@ -94,6 +101,10 @@ export class View {
     await engine.start();
     const isNew = !this.#handle;
     await this.#withFiles(files, () => this.use((module, viewer) => module.open(viewer, path)));
+    if (!this.#isAlive) {
+      this.close();
+      throw new DOMException('the element is not in the page', 'AbortError');
+    }
     this.#model = { files, path };
     this.#placeAgain();
     this.#materials = [];
@@ -209,8 +220,16 @@ export class View {
   #tell(module) {
     for (const [name, value] of this.#motion) module.setMotion(this.#handle, name, value);
     for (const [name, text] of this.#camera) module.setCamera(this.#handle, name, text);
-    for (const [name, text] of this.#options)
-      if (!this.#extraFiles.some(({ path }) => path === text) && !OF_MODEL.has(name)) module.setOption(this.#handle, name, text);
+    for (const [name, text] of this.#options) {
+      if (this.#extraFiles.some(({ path }) => path === text) || OF_MODEL.has(name)) continue;
+      try {
+        module.setOption(this.#handle, name, text);
+      } catch (error) {
+        if (module.isLost) throw error;
+        this.#options.delete(name);
+        console.warn(`<facet-viewer> ${error.message}`);
+      }
+    }
   }
 
   // Tells a new module what the old one was told.
@@ -258,7 +277,6 @@ export class View {
     const seconds = this.#lastTime ? Math.min((time - this.#lastTime) / 1000, 0.5) : 0;
     try {
       this.#host.beforeFrame(seconds);
-      this.#isTouched = false;
       const { width, height } = this.pixelSize();
       this.use((module, viewer) => module.draw(viewer, width, height, seconds));
       const isMoving = this.isMoving;
@@ -268,7 +286,8 @@ export class View {
       this.#host.onFrame();
     } catch (error) {
       this.#lastTime = 0;
-      this.#isSharp = true;
+      this.#isTouched = false;
+      this.#hasFailed = true;
       this.fail(error, 'loadfailure');
     }
   }

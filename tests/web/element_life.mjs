@@ -1,0 +1,206 @@
+// element_life.mjs - element.mjs: many elements, loss of the context and of the module, resolution, memory.
+
+// tools: see element.mjs
+export const cases = ({ page, check, equal, near, requests }) => ({
+    async 'many elements share one context'() {
+        requests.length = 0;
+        const found = await page.evaluate(async () => {
+            await clear();
+            let contexts = 0;
+            const { getContext } = HTMLCanvasElement.prototype;
+            HTMLCanvasElement.prototype.getContext = function (type, ...rest) {
+                if (/webgl/.test(type)) contexts++;
+                return getContext.call(this, type, ...rest);
+            };
+            const viewers = [];
+            for (let i = 0; i < 20; i++) {
+                viewers.push(make({ src: 'box.gltf?many', 'camera-orbit': `${18 * i}deg 75deg auto` }, [60, 60]));
+                viewers[i].style.display = 'inline-block';
+            }
+            const space = document.createElement('div');
+            space.style.height = '3000px';
+            document.body.append(space);
+            const lazy = make({ src: 'box-lazy.gltf', loading: 'lazy', poster: 'poster.svg' }), auto = make({ src: 'box-auto.gltf' });
+            const eager = make({ src: 'box-eager.gltf', loading: 'eager' }), manual = viewers[0].cloneNode();
+            manual.reveal = 'manual';
+            manual.src = 'box-manual.gltf';
+            document.body.prepend(manual);
+            await Promise.all([...viewers, eager].map((viewer) => viewer.loaded || event(viewer, 'load')));
+            await frames(6);
+            // what is on the screen, not a new image
+            const drawn = viewers.map((viewer) => {
+                const canvas = viewer.shadowRoot.querySelector('.image'), { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+                let hash = 0, covered = 0;
+                for (let i = 0; i < data.length; i += 4) { hash = (hash * 31 + data[i] + 7 * data[i + 3]) | 0; covered += data[i + 3] > 128; }
+                return [hash, covered / (data.length / 4)];
+            });
+            HTMLCanvasElement.prototype.getContext = getContext;
+            const { length } = document.querySelectorAll('facet-viewer');
+            const loaded = [lazy, auto, eager, manual].map((viewer) => viewer.loaded);
+            manual.log = [];
+            await event(manual, 'load', () => manual.dismissPoster());
+            await event(lazy, 'load', () => lazy.scrollIntoView());
+            return { contexts, length, loaded, drawn, late: [manual.loaded, lazy.loaded, manual.modelIsVisible] };
+        });
+        check(found.contexts <= 1, `${found.contexts} contexts for ${found.length} elements`);
+        equal(found.loaded, [false, false, true, false], 'lazy, auto, eager, manual');
+        equal(new Set(found.drawn.map(([hash]) => hash)).size > 5, true, 'the elements show the same');
+        check(found.drawn.every(([, covered]) => covered > 0.05), 'an element is empty');
+        check(found.late[0] && found.late[1], 'lazy and manual models come late');
+        equal(requests.filter((url) => url === '/site/box.gltf').length, 1, 'equal addresses are fetched once');
+    },
+
+    async 'loss of the context'() {
+        const found = await page.evaluate(async () => {
+            await clear();
+            const viewer = make({ src: 'box.gltf' });
+            await event(viewer, 'load');
+            await frames(6);
+            const before = await image(viewer);
+            const canvas = viewer.shadowRoot.querySelector('.stage > canvas:not(.image)');
+            const loss = canvas.getContext('webgl2').getExtension('WEBGL_lose_context');
+            await new Promise((resolve) => { canvas.addEventListener('webglcontextlost', () => setTimeout(resolve, 50), { once: true }); loss.loseContext(); });
+            const during = await image(viewer), isShown = !viewer.shadowRoot.querySelector('.image').classList.contains('unused');
+            await new Promise((resolve) => { canvas.addEventListener('webglcontextrestored', () => setTimeout(resolve, 50), { once: true }); loss.restoreContext(); });
+            await frames(4);
+            const after = await image(viewer);
+            const error = event(viewer, 'error');
+            loss.loseContext();
+            const started = performance.now(), { type } = await error, waited = performance.now() - started;
+            await new Promise((resolve) => { canvas.addEventListener('webglcontextrestored', () => setTimeout(resolve, 50), { once: true }); loss.restoreContext(); });
+            await frames(4);
+            return { before, during, isShown, after, type, waited, late: await image(viewer) };
+        });
+        check(found.isShown, 'the last image does not stay');
+        check(Math.abs(found.during.covered - found.before.covered) < 0.01, 'the last image is gone');
+        equal(found.after.hash, found.before.hash, 'the image after the loss differs');
+        equal(found.type, 'webglcontextlost');
+        check(found.waited > 4500, 'the error came early');
+        equal(found.late.hash, found.before.hash);
+    },
+
+    async 'without WebGL 2'() {
+        const other = await page.context().newPage();
+        await other.addInitScript(() => { HTMLCanvasElement.prototype.getContext = () => null; });
+        await other.goto(page.url());
+        const found = await other.evaluate(async () => {
+            await customElements.whenDefined('facet-viewer');
+            const viewer = document.createElement('facet-viewer');
+            viewer.src = 'box.gltf';
+            viewer.poster = 'poster.svg';
+            const failed = new Promise((resolve) => { viewer.addEventListener('error', (event) => resolve(event.detail.message)); });
+            document.body.append(viewer);
+            const message = await failed;
+            return [message, viewer.loaded, viewer.shadowRoot.querySelector('.poster').classList.contains('shown')];
+        });
+        await other.close();
+        check(/WebGL 2/.test(found[0]) && !found[1] && found[2], `without WebGL 2: ${found}`);
+    },
+
+    async 'a module that stops is replaced'() {
+        const found = await page.evaluate(async () => {
+            await clear();
+            const viewer = make({ src: 'box.gltf', exposure: '2', 'camera-orbit': '30deg 60deg auto' });
+            await event(viewer, 'load');
+            await frames(4);
+            const before = await image(viewer);
+            const { engine } = await import('./facet-viewer/engine.js');
+            const old = engine.module;
+            let message = '';
+            await event(viewer, 'load', () => {
+                try { engine.call((module) => module.destroy(0x7ffffff0)); } catch (error) { message = error.message; }
+            });
+            await frames(6);
+            return { before, message, isNew: engine.module !== old, after: await image(viewer), orbit: { ...viewer.getCameraOrbit() } };
+        });
+        check(found.message.length > 10 && found.isNew, `"${found.message}"`);
+        equal(found.after.hash, found.before.hash, 'the image of the new module differs');
+        near(found.orbit.theta, Math.PI / 6, 'the orbit of the new module');
+    },
+
+    async 'reduced motion and the turntable'() {
+        const run = () => page.evaluate(async () => {
+            await clear();
+            const viewer = make({ src: 'box.gltf', 'auto-rotate': '', 'auto-rotate-delay': '0', 'rotation-per-second': '90deg' });
+            await event(viewer, 'load');
+            await frames(12);
+            const turned = viewer.turntableRotation, orbit = viewer.getCameraOrbit().theta;
+            viewer.autoRotate = false;
+            viewer.resetTurntableRotation();
+            viewer.cameraOrbit = '90deg auto auto';
+            await viewer.updateComplete;
+            await frames(2);
+            return { turned, orbit, theta: viewer.getCameraOrbit().theta, reset: viewer.turntableRotation };
+        });
+        const moving = await run();
+        check(moving.turned > 0.01 && moving.orbit === 0 && moving.reset === 0, `the turntable is at ${moving.turned}`);
+        check(moving.theta < 1.5, 'the camera jumps');
+        await page.emulateMedia({ reducedMotion: 'reduce' });
+        const reduced = await run();
+        await page.emulateMedia({ reducedMotion: null });
+        equal(reduced.turned, 0, 'the turntable turns for users who want less motion');
+        near(reduced.theta, Math.PI / 2, 'the camera glides for users who want less motion');
+    },
+
+    async 'coarse while slow frames move, sharp at rest'() {
+        const found = await page.evaluate(async () => {
+            await clear();
+            const { engine } = await import('./facet-viewer/engine.js');
+            await engine.start();
+            engine.module.pace = (_, isMoving) => (isMoving ? 4 : 1); // as after frames of 400 ms
+            const viewer = make({ src: 'box.gltf', 'auto-rotate': '', 'auto-rotate-delay': '0' });
+            const coarse = await event(viewer, 'render-scale');
+            await frames(3);
+            const canvas = viewer.shadowRoot.querySelector('.stage > canvas:not(.image)'), moving = [canvas.width, canvas.height];
+            viewer.autoRotate = false;
+            const sharp = await event(viewer, 'render-scale');
+            await frames(3);
+            const rest = [canvas.width, canvas.height];
+            viewer.constructor.minimumRenderScale = 1;
+            viewer.autoRotate = true;
+            await frames(8);
+            const full = [canvas.width, canvas.height];
+            viewer.constructor.minimumRenderScale = 0.25;
+            delete engine.module.pace;
+            return { coarse, moving, sharp, rest, full };
+        });
+        equal([found.coarse.renderedDpr, found.moving], [0.25, [80, 60]]);
+        equal([found.sharp.renderedDpr, found.rest], [1, [320, 240]]);
+        equal(found.full, [320, 240], 'minimumRenderScale = 1');
+    },
+
+    async 'removal frees everything, and an idle page draws nothing'() {
+        const found = await page.evaluate(async () => {
+            await clear();
+            const { engine } = await import('./facet-viewer/engine.js');
+            const sizes = [];
+            for (let i = 0; i < 6; i++) {
+                const viewer = make({ src: 'box.gltf' });
+                await event(viewer, 'load');
+                await frames(2);
+                await clear();
+                sizes.push(engine.module.memorySize);
+            }
+            const left = engine.viewCount;
+            const viewer = make({ src: 'box.gltf' });
+            await event(viewer, 'load');
+            await frames(10);
+            let count = 0;
+            viewer.addEventListener('before-render', () => count++);
+            await frames(20);
+            const idle = count;
+            viewer.exposure = 1.5;
+            await frames(4);
+            const moved = document.createElement('div');
+            document.body.append(moved);
+            moved.append(viewer); // moving is no removal
+            await new Promise((resolve) => setTimeout(resolve, 1200));
+            return { sizes, left, idle, after: count, kept: viewer.loaded && (await image(viewer)).covered > 0.05 };
+        });
+        equal(found.left, 0, 'removed elements keep their views');
+        equal(found.sizes[5], found.sizes[1], `memory grows: ${found.sizes}`);
+        equal(found.idle, 0, 'an idle page draws');
+        check(found.after > 0 && found.after < 5, `${found.after} frames for a change`);
+        check(found.kept, 'an element that was moved lost its model');
+    },
+});
