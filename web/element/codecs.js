@@ -171,7 +171,7 @@ export class Codecs {
     if (!instance) {
       const module = this.#modules.get(name);
       if (!module) {
-        if (!this.#failures.has(name)) this.#missing.add(name);
+        this.#missing.add(name);
         return 0;
       }
       try {

@@ -12,7 +12,7 @@ export async function loadTools(options = {}) {
   const codecs = new Codecs({ read: fromDisk });
   if (options.wasm) return load({ codecs, ...options });
   compiled ??= fromDisk('./facet-command.wasm').then((bytes) => WebAssembly.compile(bytes));
-  return load({ codecs, wasm: await compiled });
+  return load({ codecs, wasm: await compiled, ...options });
 }
 
 export { FacetError };

@@ -202,11 +202,12 @@ class Tools {
 
   // A command that lacked decoders runs again when they are loaded; what cannot be loaded is in its sentence.
   async #runWithCodecs(args, files, stdin) {
-    for (;;) {
+    for (let tried = []; ; ) {
       const result = await this.#run(args, files, stdin);
-      const missing = this.#codecs.takeMissing();
+      const missing = this.#codecs.takeMissing().filter((name) => !tried.includes(name));
       if (!missing.length) return result;
       await this.#codecs.load(missing);
+      tried = tried.concat(missing);
     }
   }
 
