@@ -32,6 +32,7 @@ fi
 run cmake -S "$here" -B "$build" $toolchain -DFACET_SOURCES="$build/sources" -DFACET_JPEG="$build/jpeg" \
     -DFACET_GENERATED="$generated" -DFACET_VERSION="$version"
 run cmake --build "$build"
+sh "$here/gallery/make.sh" "$generated/../src/cli/facet" "$build/dist"
 for file in "$build"/dist/facet-viewer/*.wasm "$build"/dist/facet-viewer/*.js; do
     echo "web: ${file##*/} $(wc -c <"$file") bytes, $(gzip -9c "$file" | wc -c) with gzip"
 done

@@ -266,6 +266,9 @@ function listenToLoss() {
 
 // ---- start ----
 
+// The first image, where the link says nothing: a fresh breeze, and the glitter of the low sun.
+const FIRST = { wind: '8,90', sun: '12,0', heading: '14', 'before-after': '' };
+
 async function start() {
   ocean = await loadOcean(canvas);
   panel = makePanel({ set, look, rise, read: () => ({ options: ocean.options, values: ocean.values, state: ocean.state }) });
@@ -276,8 +279,10 @@ async function start() {
   listenToKeys();
   listenToLoss();
   const { isEmpty, hasTime } = readLink();
-  if (isEmpty) ocean.setOption('before-after', '');
-  if (isEmpty) divider.value = 0.3;
+  if (isEmpty) {
+    for (const [name, text] of Object.entries(FIRST)) ocean.setOption(name, text);
+    divider.value = 0.3;
+  }
   window.addEventListener('hashchange', () => {
     readLink();
     lastChange = performance.now();
