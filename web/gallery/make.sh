@@ -32,6 +32,6 @@ draw lagoon ocean --preset lagoon --sun 62,0 --heading 140 --height-of-eye 5
 draw gale ocean --preset gale --sun 30,0
 draw below ocean --preset lagoon --sun 50,0 --height-of-eye -1.2
 "$facet" ocean --wind 8 --sun 20,0 --before-after -q -s 240x300 -o "$dist/pictures/before.webp"
-"$facet" plot brdf --roughness 0.15,0.3,0.6 --angle 50 -q -s 480x300 --title '' -o "$dist/pictures/explorer.svg" ||
-    cp "$here/../page/icon.svg" "$dist/pictures/explorer.svg" # a facet without cairo
+"$facet" plot brdf --roughness 0.15,0.3,0.6 --angle 50 -q -s 480x300 --title '' -o "$dist/pictures/explorer.png" ||
+    cp "$dist/pictures/roughness.webp" "$dist/pictures/explorer.png" # a facet without cairo
 : >"$stamp"

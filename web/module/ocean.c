@@ -39,7 +39,7 @@ static struct {
     facet_sea_desc sea_desc; /* of settings.run.sea */
     water_cache cache;
     double time_s, ev100;
-    bool is_metered;
+    uint32_t metered_width, metered_height; /* of the view whose ev100 that is; 0: of none */
     ocean_side sides[SIDES];
     uint32_t passes; /* samples in the last image */
     facet_error error;
@@ -136,7 +136,7 @@ EMSCRIPTEN_KEEPALIVE int facet_ocean_set_option(const char *name, const char *te
         return result;
     if (strcmp(name, "time") == 0)
         page.time_s = page.settings.run.options.render.time_s;
-    page.is_metered = false;
+    page.metered_width = 0;
     forget_frames();
     return FACET_OK;
 }
@@ -205,7 +205,7 @@ static facet_result update_sea(facet_error *error)
     facet_sea_destroy(run->sea);
     run->sea = made;
     memcpy(&page.sea_desc, &desc, sizeof desc);
-    page.is_metered = false;
+    page.metered_width = 0;
     return FACET_OK;
 }
 
@@ -227,13 +227,23 @@ static facet_result describe_side(ocean_side *side, const ocean_half *half, uint
     return render_desc_resolve(&d, &side->desc, error);
 }
 
+/* Whether the exposure holds for a view: while the sea moves, also for nearly the same proportions, as the page adapts the
+ * size of images to the machine. */
+static bool is_metered(uint32_t width, uint32_t height, bool is_moving)
+{
+    double w = page.metered_width, h = page.metered_height;
+    if (!is_moving)
+        return w == width && h == height;
+    return fabs(w * height - h * width) < 0.02 * w * height;
+}
+
 /* As the command: the sea at its beginning, so that all frames have one exposure. */
-static facet_result meter(uint32_t width, uint32_t height, facet_error *error)
+static facet_result meter(uint32_t width, uint32_t height, bool is_moving, facet_error *error)
 {
     const ocean_options *o = &page.settings.run.options;
     const ocean_half half = {o->shading, o->render.desc.tonemap};
     ocean_side side = {.frame = NULL};
-    if (page.is_metered)
+    if (is_metered(width, height, is_moving))
         return FACET_OK;
     page.ev100 = o->ev100;
     if (!o->has_ev100) {
@@ -242,16 +252,17 @@ static facet_result meter(uint32_t width, uint32_t height, facet_error *error)
         TRY(water_meter(&page.cache, &side.desc, &page.ev100, error));
     }
     page.ev100 -= (double)o->render.desc.exposure_ev;
-    page.is_metered = true;
+    page.metered_width = width;
+    page.metered_height = height;
     return FACET_OK;
 }
 
-static facet_result prepare(uint32_t width, uint32_t height, facet_error *error)
+static facet_result prepare(uint32_t width, uint32_t height, bool is_moving, facet_error *error)
 {
     if (!width || !height)
         return fail(error, FACET_ERROR_ARGUMENT, "the image has no size");
     TRY(update_sea(error));
-    TRY(meter(width, height, error));
+    TRY(meter(width, height, is_moving, error));
     return facet_sea_set_time(page.settings.run.sea, page.time_s, error);
 }
 
@@ -303,7 +314,7 @@ EMSCRIPTEN_KEEPALIVE int facet_ocean_draw(int width, int height, double divider,
     last.is_moving = is_moving;
     if (is_moving) /* whole milliseconds, which the command line repeats */
         page.time_s = round(1000.0 * (page.time_s + seconds)) / 1000.0;
-    facet_result result = prepare((uint32_t)width, (uint32_t)height, &page.error);
+    facet_result result = prepare((uint32_t)width, (uint32_t)height, is_moving, &page.error);
     double share = o->is_before_after ? fmin(fmax(divider, 0.0), 1.0) : 0.0;
     uint32_t w = (uint32_t)width, h = (uint32_t)height, edge = (uint32_t)lround(share * width);
     if (result == FACET_OK)
@@ -383,19 +394,17 @@ EMSCRIPTEN_KEEPALIVE int facet_ocean_read_image(int width, int height, double di
     if (!page.renderer)
         return fail(&page.error, FACET_ERROR_SYSTEM, "the context of WebGL is lost");
     forget_frames();
-    page.is_metered = false; /* its view has the proportions of the image */
     uint32_t w = (uint32_t)width, h = (uint32_t)height;
     double share = page.settings.run.options.is_before_after ? fmin(fmax(divider, 0.0), 1.0) : 0.0;
     uint32_t edge = (uint32_t)lround(share * width);
     unsigned char *pixels = malloc(4 * (size_t)width * (size_t)height);
     if (!pixels)
         return fail_memory(&page.error, "an image", 4 * (size_t)width * (size_t)height);
-    facet_result result = prepare(w, h, &page.error);
+    facet_result result = prepare(w, h, false, &page.error);
     if (result == FACET_OK)
         result = read_side(BEFORE, w, h, 0, edge, pixels, &page.error);
     if (result == FACET_OK)
         result = read_side(NOW, w, h, edge, w, pixels, &page.error);
-    page.is_metered = false;
     if (result != FACET_OK) {
         free(pixels);
         return result;

@@ -1,0 +1,206 @@
+// ocean.mjs - the ocean page and the gallery in headless Chromium; the sea beside facet ocean --renderer gl, by the command that the
+// page gives. usage: ocean.mjs FACET DIST WORK
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { existsSync, readFileSync, writeFileSync } from 'node:fs';
+import path from 'node:path';
+import { serve_page } from '../clients/browser.mjs';
+
+const [facet, dist, work] = process.argv.slice(2);
+const width = 160, height = 90;
+
+const served = await serve_page('/a/folder/icon.svg', (url) => path.join(dist, url.replace('/a/folder/', '')));
+const { page, messages } = served;
+const address = page.url().replace('icon.svg', '');
+messages.length = 0;
+
+// Opens the page with a canvas of the size of the tests; the sea rests.
+async function open(hash) {
+    await page.goto('about:blank');
+    await page.goto(`${address}ocean.html${hash}`);
+    await page.evaluate(() => window.oceanPage.ready);
+    await page.evaluate(([w, h]) => {
+        const canvas = document.getElementById('view');
+        canvas.style.width = `${w}px`;
+        canvas.style.height = `${h}px`;
+    }, [width, height]);
+    await sharp();
+}
+
+const sharp = () => page.waitForFunction(([w]) => document.body.dataset.sharp === 'true' && document.getElementById('view').width === w, [width], { timeout: 120000 });
+
+// The pixels of the canvas, drawn anew, with all samples. divider: undefined: where it is.
+const image = (divider) => page.evaluate(([w, h, at]) => {
+    const { ocean } = window.oceanPage, canvas = document.getElementById('view');
+    const share = at ?? Number(document.getElementById('divider').getAttribute('aria-valuenow')) / 100;
+    canvas.width = w;
+    canvas.height = h;
+    do ocean.draw(w, h, share); while (!ocean.isSharp);
+    return canvas.toDataURL();
+}, [width, height, divider]).then((url) => Buffer.from(url.split(',')[1], 'base64'));
+
+const options = () => page.evaluate(() => window.oceanPage.ocean.options);
+const error = () => page.evaluate(() => document.getElementById('error').textContent);
+
+// Runs the page's command, with more options, and compares.
+async function compare(name, ours, ...more) {
+    const command = await page.evaluate(([w, h]) => window.oceanPage.ocean.command(w, h), [width, height]);
+    const words = command.split(' ').map((word) => word.replaceAll('\'', ''));
+    assert.deepEqual(words.slice(0, 2), ['facet', 'ocean']);
+    const ours_file = path.join(work, `${name}_web.png`), theirs = path.join(work, `${name}_gl.png`);
+    writeFileSync(ours_file, ours);
+    execFileSync(facet, [...words.slice(1).filter((word) => !more.length || word !== '--before-after'), ...more, '-q', '-o', theirs]);
+    const { metrics } = JSON.parse(execFileSync(facet, ['compare', '--json', ours_file, theirs]));
+    console.log(`${name}: mean difference ${(255 * metrics.mae).toFixed(3)} of 255, flip ${metrics.flip.toFixed(4)}`);
+    assert.ok(metrics.mae < 2 / 255, `${name}: differs from ${command}`);
+}
+
+try {
+    await page.setViewportSize({ width: 1000, height: 500 });
+    await page.emulateMedia({ reducedMotion: 'reduce' });
+
+    // Without WebGL 2 everything below would be blank: fail, whatever the reason.
+    const cleared = await page.evaluate(() => {
+        const gl = document.createElement('canvas').getContext('webgl2');
+        gl?.clearColor(0.2, 0.4, 0.6, 1);
+        gl?.clear(gl.COLOR_BUFFER_BIT);
+        const rgba = new Uint8Array(4);
+        gl?.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, rgba);
+        return [...rgba];
+    }).catch(() => null);
+    assert.deepEqual(cleared, [51, 102, 153, 255], 'the browser draws nothing by WebGL 2');
+
+    // Skies, depths, eyes above and below, styles: as the command draws them.
+    const seas = {
+        breeze: '#wind=7,40&sun=22,0',
+        sunset: '#sun=3,10&heading=12&time=20&turbidity=3',
+        gale: '#preset=gale&sun=40,60&exposure=0.5',
+        lagoon: '#preset=lagoon&sun=60,0&height-of-eye=8&fov=50',
+        below: '#preset=lagoon&sun=50,0&height-of-eye=-1.2',
+        legacy: '#before=A&sun=22,0',
+    };
+    const drawn = {};
+    for (const [name, hash] of Object.entries(seas)) {
+        await open(hash);
+        assert.equal(await error(), '', name);
+        drawn[name] = await image();
+        await compare(name, drawn[name]);
+    }
+    assert.equal(new Set(Object.values(drawn).map(String)).size, 6, 'seas look the same');
+
+    // The first image: at rest where motion is to be reduced, divided; each side as the command draws it.
+    await open('');
+    assert.equal(await page.evaluate(() => window.oceanPage.isPlaying), false, 'plays although motion is to be reduced');
+    assert.ok(!(await page.locator('#divider').isHidden()));
+    await compare('now', await image(0), '--stage', '5');
+    await compare('before', await image(1), '--before', 'B');
+
+    // The border: by the keyboard and by the pointer.
+    const at = () => page.locator('#divider').getAttribute('aria-valuenow').then(Number);
+    const first = await image();
+    await page.locator('#divider').focus();
+    await page.keyboard.press('Shift+ArrowRight');
+    assert.equal(await at(), 40);
+    assert.notDeepEqual(await image(), first, 'the border did not move the image');
+    const stage = await page.locator('#stage').boundingBox();
+    await page.mouse.move(stage.x + 0.4 * stage.width, stage.y + 200);
+    await page.mouse.down();
+    await page.mouse.move(stage.x + 0.7 * stage.width, stage.y + 210, { steps: 2 });
+    await page.mouse.up();
+    assert.equal(await at(), 70, 'the border did not follow the pointer');
+    assert.match(await page.evaluate(() => location.hash), /before-after&divider=0\.7/);
+    await page.getByLabel('Beside the look that it replaces').uncheck();
+    assert.ok(await page.locator('#divider').isHidden());
+
+    // Fields: by the keyboard, by the pointer, by a number, by a choice.
+    await page.getByLabel('Wind speed', { exact: true }).focus();
+    await page.keyboard.press('ArrowRight');
+    assert.equal((await options()).wind, '8.5,90');
+    const windy = await image();
+    const track = await page.getByLabel('Sun elevation', { exact: true }).boundingBox();
+    await page.mouse.click(track.x + track.width / 2, track.y + track.height / 2);
+    assert.match((await options()).sun, /^(39|40|41)/);
+    assert.notDeepEqual(await image(), windy, 'the sun did not change the image');
+    await page.getByLabel('Chlorophyll, milligrams per cubic metre').fill('5');
+    await page.keyboard.press('Enter');
+    assert.equal((await options()).chl, '5');
+    await page.getByLabel('Water type').selectOption('3C');
+    assert.deepEqual([(await options()).water, (await options()).chl], ['3C', undefined]);
+    await page.getByRole('button', { name: 'Lagoon' }).click();
+    assert.deepEqual([(await options()).preset, (await options()).water, (await options()).wind], ['lagoon', undefined, undefined]);
+    assert.equal(await page.getByRole('button', { name: 'Lagoon' }).getAttribute('aria-pressed'), 'true');
+
+    // The camera: by the pointer, the wheel and keys.
+    const heading = () => page.evaluate(() => { const { azimuth, elevation, height: eye, fov } = window.oceanPage.ocean.state; return [azimuth, elevation, eye, fov]; });
+    const before = await heading();
+    const box = await page.locator('#view').boundingBox();
+    await page.mouse.move(box.x + 80, box.y + 60);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 60, box.y + 40, { steps: 2 });
+    await page.mouse.up();
+    await page.mouse.wheel(0, -100);
+    await page.locator('#view').focus();
+    await page.keyboard.press('PageUp');
+    const after = await heading();
+    before.forEach((value, i) => assert.ok(Math.abs(value - after[i]) > 0.05, `the camera's value ${i} stays ${value}`));
+    assert.equal(await error(), '');
+
+    // The link gives the same image.
+    const link = await page.evaluate(() => location.hash), shown = await image();
+    await open(link);
+    assert.deepEqual(await image(), shown, `the image of the link differs: ${link}`);
+
+    // What cannot be set gets the command's sentence, and the page goes on.
+    await open('#wind=99&chl=1');
+    assert.match(await error(), /--wind: "99".*0 to 40 m\/s/);
+    assert.deepEqual(await options(), { chl: '1' });
+
+    // A lost context comes back with the same image.
+    const whole = await image();
+    await page.evaluate(() => new Promise((resolve) => {
+        const canvas = document.getElementById('view'), loss = canvas.getContext('webgl2').getExtension('WEBGL_lose_context');
+        canvas.addEventListener('webglcontextlost', () => setTimeout(() => loss.restoreContext(), 0), { once: true });
+        canvas.addEventListener('webglcontextrestored', () => setTimeout(resolve, 0), { once: true });
+        loss.loseContext();
+    }));
+    assert.deepEqual(await image(), whole, 'the image after the loss of the context differs');
+
+    // Space plays and pauses.
+    await page.locator('#view').focus();
+    await page.keyboard.press('Space');
+    await page.waitForFunction(() => window.oceanPage.ocean.state.time > 0.2, null, { timeout: 60000 });
+    await page.keyboard.press('Space');
+    assert.equal(await page.evaluate(() => window.oceanPage.isPlaying), false);
+    await sharp();
+    const time = await page.evaluate(() => window.oceanPage.ocean.state.time);
+    assert.match(await page.evaluate(() => location.hash), new RegExp(`time=${String(time).replace('.', '\\.')}`));
+    assert.notDeepEqual(await image(), whole, 'the sea did not move');
+    await compare('later', await image());
+
+    // A saved image has the pixels of the command.
+    const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Save image' }).click()]);
+    await compare('saved', readFileSync(await download.path()));
+
+    const said = messages.filter((text) => !/GPU stall|WebGL: CONTEXT_LOST/.test(text));
+    assert.deepEqual(said, [], 'the page said something in the console');
+
+    // The gallery: its pictures are there, and what its cards open; seas take all of their options.
+    await page.goto(`${address}gallery.html`);
+    const cards = await page.evaluate(() => [...document.querySelectorAll('a.card')].map((card) => ({ href: card.getAttribute('href'), picture: card.querySelector('img').getAttribute('src') })));
+    assert.ok(cards.length > 12);
+    for (const { href, picture } of cards) {
+        const [file, hash = ''] = href.split('#'), model = new URLSearchParams(hash).get('model');
+        for (const name of [file, picture, model].filter(Boolean)) assert.ok(existsSync(path.join(dist, name)), `${href}: there is no ${name}`);
+        if (model) execFileSync(facet, ['inspect', '-q', path.join(dist, model)], { stdio: 'pipe' });
+    }
+    await page.goto(`${address}ocean.html`);
+    await page.evaluate(() => window.oceanPage.ready);
+    for (const { href } of cards.filter((card) => card.href.startsWith('ocean.html'))) {
+        await page.evaluate((hash) => { location.hash = hash; }, href.split('#')[1]);
+        await page.waitForFunction(([name]) => window.oceanPage.ocean.options[name] !== undefined, [href.split('#')[1].split('=')[0]]);
+        assert.equal(await error(), '', href);
+    }
+    console.log('ocean: as facet ocean --renderer gl');
+} finally {
+    await served.close();
+}
