@@ -292,6 +292,20 @@ static facet_result draw_side(int number, uint32_t width, uint32_t height, uint3
     return gl_sea_present(page.renderer, side->frame, &side->mean, page.passes, &to, &stats, error);
 }
 
+static uint32_t wanted_samples(void)
+{
+    for (int i = 0; i < SIDES; i++)
+        if (page.sides[i].frame)
+            return page.sides[i].desc.samples;
+    return 1;
+}
+
+/* Whether the image has all samples of the command. */
+EMSCRIPTEN_KEEPALIVE bool facet_ocean_is_sharp(void)
+{
+    return page.passes > 0 && page.passes >= wanted_samples();
+}
+
 /* Draws the image into framebuffer 0. divider: the part of the width that shows the legacy style, where before-after is
  * set. seconds: since the last frame; 0: the sea rests, and each call refines the image until facet_ocean_is_sharp(). */
 EMSCRIPTEN_KEEPALIVE int facet_ocean_draw(int width, int height, double divider, double seconds)
@@ -321,25 +335,11 @@ EMSCRIPTEN_KEEPALIVE int facet_ocean_draw(int width, int height, double divider,
         result = draw_side(BEFORE, w, h, 0, edge, is_moving ? 1 : 0, &page.error);
     if (result == FACET_OK)
         result = draw_side(NOW, w, h, edge, w, is_moving ? 1 : 0, &page.error);
-    if (result == FACET_OK)
-        page.passes++;
-    else
+    if (result != FACET_OK)
         forget_frames();
+    else if (!facet_ocean_is_sharp())
+        page.passes++;
     return result;
-}
-
-static uint32_t wanted_samples(void)
-{
-    for (int i = 0; i < SIDES; i++)
-        if (page.sides[i].frame)
-            return page.sides[i].desc.samples;
-    return 1;
-}
-
-/* Whether the image has all samples of the command. */
-EMSCRIPTEN_KEEPALIVE bool facet_ocean_is_sharp(void)
-{
-    return page.passes > 0 && page.passes >= wanted_samples();
 }
 
 /* The image at any size, by the path of the command: with before-after both sides, divided. *rgba: rows from the top,

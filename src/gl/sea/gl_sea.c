@@ -591,10 +591,11 @@ facet_result gl_sea_present(gl_sea *s, const water_frame *frame, gl_target *mean
 {
     double begin = clock_seconds();
     drawing d = {.s = s, .frame = frame, .is_clipped = true, .earlier = pass};
-    facet_result result = prepare(&d, stats, error);
-    if (result == FACET_OK)
+    bool is_complete = pass > 0 && pass >= frame->desc->samples;
+    facet_result result = is_complete ? start(s, error) : prepare(&d, stats, error);
+    if (result == FACET_OK && !is_complete)
         result = draw_grid(&d, error);
-    if (result == FACET_OK)
+    if (result == FACET_OK && !is_complete)
         result = draw_sample(&d, mean, pass, error);
     if (result == FACET_OK)
         result = show(&d, mean, to, error);

@@ -33,7 +33,7 @@ typedef struct gl_sea_place {
 } gl_sea_place;
 
 /* Shows the crop of desc's image in a window, tone-mapped and sRGB-encoded: sample number `pass` of desc->samples,
- * averaged with the earlier ones of the same frame, which are in `mean`. It is the caller's: {0} at first,
+ * averaged with the earlier ones of the same frame (after the last one nothing is drawn anew), which are in `mean`. It is the caller's: {0} at first,
  * gl_target_destroy() at last. Fails as gl_sea_draw(). */
 facet_result gl_sea_present(gl_sea *sea, const water_frame *frame, gl_target *mean, uint32_t pass,
                             const gl_sea_place *to, facet_render_stats *stats, facet_error *error);
