@@ -1,4 +1,5 @@
-/* page_preview.h - the image of a model that stands for it in a page: rendered on the CPU by the options of the view. */
+/* page_preview.h - the image of a model that stands for it in a page: rendered on the CPU by the options of the view; by OpenGL where only
+ * that draws what they ask for, and it is there. */
 #ifndef CLI_PAGE_PREVIEW_H
 #define CLI_PAGE_PREVIEW_H
 
