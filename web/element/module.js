@@ -371,10 +371,24 @@ export class Module {
   }
 }
 
+const carried = new Map();
+
+// The bytes of a .wasm file that the page has inside (facet view --html): no file is fetched then.
+export function carry(name, bytes) {
+  carried.set(name, bytes);
+}
+
+async function readCarried(name) {
+  if (!carried.has(name)) throw new Error('the page does not have it');
+  return carried.get(name);
+}
+
 // base: the folder of viewer.wasm; that of this file where it is not given.
 export async function loadModule(base) {
-  const codecs = new Codecs();
-  const options = base ? { codecs, locateFile: (name) => new URL(name, base).href } : { codecs };
+  const codecs = new Codecs(carried.size ? { read: readCarried } : {});
+  const options = { codecs };
+  if (base) options.locateFile = (name) => new URL(name, base).href;
+  if (carried.has('viewer.wasm')) options.wasmBinary = carried.get('viewer.wasm');
   return new Module(await createViewer(options), codecs);
 }
 
