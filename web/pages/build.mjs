@@ -1,26 +1,34 @@
-// build.mjs DIST - what facet view --html needs besides the files of DIST: pages/single.html, the page of one file with style, script and
-// viewer inside, and pages/files.txt, the files that a folder of pages gets. Bundles by esbuild.
+// build.mjs DIST ESBUILD - what facet view --html needs besides the files of DIST: pages/single.html, the page of one file with style, script and
+// viewer inside, and pages/files.txt, the files that a folder of pages gets.
 import { execFileSync } from 'node:child_process';
-import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { gzipSync } from 'node:zlib';
 
-const dist = process.argv[2];
+const [dist, bundler] = process.argv.slice(2);
 const at = (name) => path.join(dist, name);
-const esbuild = (...words) => execFileSync('esbuild', ['--minify', '--log-level=error', '--charset=utf8', ...words], { encoding: 'utf8' }).trim();
+// tools.js, which writes models, is not carried: the element says so where it is asked for.
+const esbuild = (entry, ...words) => execFileSync(bundler, ['--minify', '--log-level=error', '--charset=utf8', '--target=es2022', '--bundle', '--external:*/tools.js',
+  ...words, at(`pages/${entry}`)], { encoding: 'utf8', maxBuffer: 2 ** 28 }).trim();
 
 // A module of the viewer, for showPage(): its bytes are found by the name.
 const carry = (name) => `<script type="application/octet-stream;base64" data-module="${name}">` +
   `${gzipSync(readFileSync(at(`facet-viewer/${name}`)), { level: 9 }).toString('base64')}</script>\n`;
 
 const parts = {
-  style: esbuild(at('pages/page.css')),
+  style: esbuild('page.css'),
   modules: carry('viewer.wasm'),
   // import.meta.url of a page is its address; modules are not fetched from there
-  script: esbuild('--bundle', '--format=esm', '--target=es2022', at('pages/single.js')),
+  script: esbuild('single.js', '--format=esm'),
 };
 const page = readFileSync(at('pages/single.in.html'), 'utf8').replace(/\[\[(\w+)\]\]/g, (_, name) => parts[name]);
 writeFileSync(at('pages/single.html'), page);
+
+// The same as one classic script, for R's htmlwidgets.
+writeFileSync(at('pages/viewer.wasm.gz'), gzipSync(readFileSync(at('facet-viewer/viewer.wasm')), { level: 9 }));
+writeFileSync(at('pages/widget.js'), esbuild('widget.in.js', '--format=iife', '--define:import.meta.url=document.baseURI',
+  '--loader:.gz=base64'));
+rmSync(at('pages/viewer.wasm.gz'));
 
 const isOfViewer = (name) => /\.(js|wasm)$/.test(name) && !/^(node|tools|facet-command|ocean)\b/.test(name);
 const viewer = readdirSync(at('facet-viewer')).filter(isOfViewer).sort().map((name) => `facet-viewer/${name}`);

@@ -1,19 +1,22 @@
 // show.js - a view that facet view --html wrote, shown by <facet-viewer>: a model's files, and options by their names on the command line.
 import '../facet-viewer/facet-viewer.js';
 
-const READING = new Set(['method', 'profile', 'fit-target', 'mtl-colors', 'dialect', 'illum', 'ambient', 'keep-hue', 'glass', 'mirrors', 'light-scale',
-  'bake-occlusion', 'refit', 'normals', 'flip-textures', 'shading']);
 const CAMERA = ['up', 'ortho', 'framing', 'fov', 'target', 'orbit', 'eye', 'camera'];
 
 // The value of an option as a text of the command line; of a flag it is empty.
 const textOf = (value) => (value === true ? '' : value);
 
-// Sets options in the order of the command line; what concerns reading before the model is opened, all else after it.
+// Sets options in the order of the command line.
 async function setOptions(viewer, options, wants) {
   for (const [name, value] of Object.entries(options)) if (wants(name)) await viewer.setOption(name, textOf(value));
 }
 
-const setCamera = (viewer, options) => setOptions(viewer, options, (name) => CAMERA.includes(name));
+// The camera of facet render: without options it shows the whole model, not the framing of <model-viewer>.
+async function setCamera(viewer, options) {
+  const isOfFile = 'camera' in options;
+  const camera = isOfFile ? options : { target: 'auto', ...('eye' in options ? {} : { orbit: '0,75,105%' }), ...options };
+  for (const name of CAMERA) if (name in camera) await viewer.setOption(name, textOf(camera[name]));
+}
 
 // Shows the view in the element. files: [{path, file: Blob}].
 export async function showView(viewer, view, files) {
@@ -22,10 +25,10 @@ export async function showView(viewer, view, files) {
   viewer.loading = 'eager';
   viewer.reveal = 'manual';
   viewer.cameraControls = true;
-  await setOptions(viewer, options, (name) => READING.has(name));
+  if (options.fov) Object.assign(viewer, { minFieldOfView: '0.1deg', maxFieldOfView: '179deg' });
   if (files.length) await viewer.openFiles(files, view.model);
   else await viewer.openModel('');
-  await setOptions(viewer, options, (name) => !READING.has(name) && !CAMERA.includes(name));
+  await setOptions(viewer, options, (name) => !CAMERA.includes(name));
   await setCamera(viewer, options);
   if (animation && animation !== 'none') await viewer.setOption('animation', animation);
   if (time) viewer.currentTime = Number(time);
@@ -36,6 +39,9 @@ export async function showView(viewer, view, files) {
 }
 
 // ---- a page ----
+
+export const WITHOUT_WEBGL = 'This browser draws no 3D graphics (WebGL 2), so this is a preview of the model, which cannot be turned.';
+export const hasWebGL = () => document.createElement('canvas').getContext('webgl2') !== null;
 
 const byId = (id) => document.getElementById(id);
 
@@ -84,8 +90,8 @@ function paintPage({ background = 'white' }) {
 export async function showPage(read) {
   const view = JSON.parse(byId('view').textContent);
   paintPage(view.options);
-  if (!document.createElement('canvas').getContext('webgl2')) {
-    note('This browser draws no 3D graphics (WebGL 2), so this is a preview of the model, which cannot be turned.');
+  if (!hasWebGL()) {
+    note(WITHOUT_WEBGL);
     return;
   }
   const viewer = document.createElement('facet-viewer');
