@@ -10,7 +10,7 @@ const [facet, dist, work, ...models] = process.argv.slice(2);
 globalThis.fetch = () => {
     throw new Error('the package asks the network for something');
 };
-const { loadTools, FacetError } = await import(pathToFileURL(join(dist, 'facet-viewer/node.js')));
+const { loadTools, readFolder, writeFiles, FacetError } = await import(pathToFileURL(join(dist, 'facet-viewer/node.js')));
 const tools = await loadTools();
 
 const QUAD = {
@@ -86,6 +86,10 @@ async function testFunctions() {
     assert.equal(info.counts.materials, 2);
     assert.equal(info.source, 'quad.glb');
     assert.equal(`facet ${await tools.version()}`, native(['version']).stdout.trim());
+    const over = await tools.run(['convert', 'quad.glb', 'quad.glb'], files);
+    assert.ok(over.code === 0 ? 'quad.glb' in over.files : over.files['quad.glb'] === undefined, over.stderr);
+    const kept = await tools.run(['convert', 'quad/quad.obj', 'quad.glb', '--no-clobber'], { ...QUAD, ...files });
+    assert.deepEqual([kept.code, kept.files], [0, {}]);
     const backwards = await tools.run(['convert', '-', '-o', 'b.obj'], {}, { stdin: files['quad.glb'] });
     assert.equal(backwards.code, 0, backwards.stderr);
     assert.ok('b.mtl' in backwards.files);
@@ -220,6 +224,18 @@ async function testRefusals() {
     assert.equal((await tools.run(['render', '--size', 'x'])).code, 2, 'its options are checked all the same');
 }
 
+// Models of several files from a folder of the disk, and back.
+async function testFolders() {
+    const [from, to] = [join(work, 'from'), join(work, 'to')];
+    await writeFiles(from, QUAD);
+    const files = await readFolder(from);
+    assert.deepEqual(Object.keys(files).sort(), ['quad/quad.mtl', 'quad/quad.obj']);
+    assert.deepEqual(Object.keys(await readFolder(from, (path) => path.endsWith('.mtl'))), ['quad/quad.mtl']);
+    await writeFiles(to, (await tools.convert(files, 'quad/quad.obj', { output: 'new/quad.gltf' })).files);
+    const { files: again } = await tools.convert(await readFolder(to), 'new/quad.gltf', { output: 'quad.glb' });
+    assert.ok(Buffer.from(again['quad.glb']).equals(native(['convert', 'quad/quad.obj', 'quad.glb'], QUAD).read('quad.glb')));
+}
+
 // The module's memory is reused: runs do not add up.
 async function testManyRuns() {
     const before = process.memoryUsage().arrayBuffers;
@@ -230,7 +246,7 @@ async function testManyRuns() {
     assert.deepEqual(runs.map(({ files }) => Object.keys(files)), [['1.glb'], ['2.glb'], ['3.glb']], 'calls at the same time wait for each other');
 }
 
-for (const test of [testModels, testFunctions, testSave, testBake, testImages, testPlots, testRefusals, testManyRuns]) {
+for (const test of [testModels, testFunctions, testSave, testBake, testImages, testPlots, testRefusals, testFolders, testManyRuns]) {
     const start = performance.now();
     await test();
     console.log(`tools: ${test.name.replace(/^test/, '').toLowerCase()} ${((performance.now() - start) / 1000).toFixed(1)} s`);

@@ -15,7 +15,7 @@ export interface RunResult {
   stdoutBytes: Uint8Array;
   /** Warnings and errors, one sentence in a line. */
   stderr: string;
-  /** New files and those with new content. */
+  /** The files that were written. */
   files: Record<string, Uint8Array>;
 }
 

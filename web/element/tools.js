@@ -115,19 +115,20 @@ function writeFiles(FS, files) {
   return written;
 }
 
-// What is new or replaced, by path relative to FOLDER.
+// Whether the command has left the file as it was handed over: it still lies in the bytes of the caller.
+function isUntouched(FS, at, bytes) {
+  if (!bytes) return false;
+  const { contents, usedBytes } = FS.lookupPath(at).node;
+  return bytes.length === 0 ? usedBytes === 0 : contents.buffer === bytes.buffer && contents.byteOffset === bytes.byteOffset;
+}
+
+// What was written, by path relative to FOLDER.
 function collectFiles(FS, written, path = FOLDER, found = {}) {
   for (const name of FS.readdir(path)) {
     if (name === '.' || name === '..') continue;
     const at = `${path}/${name}`;
     if (FS.isDir(FS.stat(at).mode)) collectFiles(FS, written, at, found);
-    else {
-      const bytes = FS.readFile(at);
-      const before = written.get(at);
-      if (!before || before.length !== bytes.length || before.some((byte, i) => byte !== bytes[i])) {
-        found[at.slice(FOLDER.length + 1)] = bytes;
-      }
-    }
+    else if (!isUntouched(FS, at, written.get(at))) found[at.slice(FOLDER.length + 1)] = FS.readFile(at);
   }
   return found;
 }
