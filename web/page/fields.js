@@ -51,6 +51,7 @@ export const shortNumber = (value, digits = 6) => String(Number(Number(value).to
 // A slider with a number field beside it, which takes values beyond the slider's ends unless limits says otherwise.
 //     min, max, step   of the slider; step also of the number's arrow keys
 //     limits           [min, max] of the number; default: those of the slider
+//     value            null: infinite
 //     unit             spoken after the value, "degrees"
 //     change(value)    while the slider moves, and when the number was entered
 export function range({ label, min, max, step, value = min, limits = [min, max], unit = '', change }) {
@@ -59,11 +60,20 @@ export function range({ label, min, max, step, value = min, limits = [min, max],
   const root = labelled(label, slider, 'range', number);
   number.setAttribute('aria-label', unit ? `${label}, ${unit}` : label);
   const show = (next) => {
+    if (next === null) return showInfinite();
     slider.value = next;
     slider.style.setProperty('--fill', `${(100 * (Number(slider.value) - min)) / (max - min)}%`);
     if (unit) slider.setAttribute('aria-valuetext', `${shortNumber(next)} ${unit}`);
     number.value = shortNumber(next);
     number.removeAttribute('aria-invalid');
+  };
+  const showInfinite = () => {
+    slider.value = max;
+    slider.style.setProperty('--fill', '100%');
+    slider.setAttribute('aria-valuetext', 'infinite');
+    number.value = '';
+    number.placeholder = '∞';
+    return undefined;
   };
   const enter = () => {
     const wanted = number.valueAsNumber;
