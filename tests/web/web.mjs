@@ -1,8 +1,9 @@
-// web.mjs - facet's page in headless Chromium, against facet render --renderer gl. usage: web.mjs FACET DIST WORK [MODEL...]
+// web.mjs - module.js in headless Chromium, against facet render --renderer gl. usage: web.mjs FACET DIST WORK [MODEL...]
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
+import { fileURLToPath } from 'node:url';
 import { deflateSync } from 'node:zlib';
 import { serve_page } from '../clients/browser.mjs';
 
@@ -69,7 +70,8 @@ function glass_model() {
 const glass = path.join(work, 'glass.gltf');
 writeFileSync(glass, glass_model());
 
-const served = await serve_page('/a/folder/index.html', (url) => path.join(dist, url.replace('/a/folder/', '')));
+const served = await serve_page('/a/folder/module_page.html', (url) =>
+    path.join(url.includes('/module_page.') ? path.dirname(fileURLToPath(import.meta.url)) : dist, url.replace('/a/folder/', '')));
 const { page, messages } = served;
 try {
     // Without WebGL 2 everything below would be blank: fail, whatever the reason.

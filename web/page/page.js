@@ -1,229 +1,421 @@
-// page.js - the page around viewer.wasm: hands over files and events, and asks for a frame when something changed. What is drawn and
-// how the camera moves is C (viewer.c).
-import { loadModule } from './facet-viewer/module.js';
+// page.js - the viewer's page: <facet-viewer> with its panels. What is drawn, and what options mean, is the element's; this file opens
+// files, carries changes to the element and back to the panels, and applies links.
+import './facet-viewer/facet-viewer.js';
+import { connectDivider } from './divider.js';
+import { createEdits } from './edits.js';
+import { button, choice, element, icon, section, tabs } from './fields.js';
+import { listenForDrops, listenForPicks, MODEL, save } from './files.js';
+import { connectKeys } from './keys.js';
+import { isOwnModel, readLink, writeLink } from './link.js';
+import { createMessages, copyText, sentenceOf } from './messages.js';
+import { analysisPanel } from './panels/analysis.js';
+import { cameraPanel } from './panels/camera.js';
+import { imagePanel } from './panels/image.js';
+import { lightPanel } from './panels/light.js';
+import { materialPanel } from './panels/material.js';
+import { motionBar } from './panels/motion.js';
+import { bytesText, reportPanel } from './panels/report.js';
+import { scenePanel } from './panels/scene.js';
+import { sharePanel } from './panels/share.js';
+import { forgetThumbnails } from './panels/textures.js';
+import { htmlOf } from './snippet.js';
 
 const byId = (id) => document.getElementById(id);
-const canvas = byId('view');
-const POINTER = { press: 1, release: 2, move: 3, wheel: 4 }; // view_event_kind
-const KEYS = { ArrowLeft: 256, ArrowRight: 257, ArrowUp: 258, ArrowDown: 259, Enter: 260, Home: 263 }; // view_input.h
-let facet = null;
-let viewer = 0;
-let isAsked = false;
-let isLost = false;
-let lastTime = 0;
+const viewer = byId('viewer');
+const messages = createMessages(byId('messages'));
+const edits = createEdits(viewer);
+const isNarrow = matchMedia('(max-width: 48rem)');
+const PAGE_BACKGROUND = 'transparent'; // the stage shows through; facet render's own default is white
 
-function showError(text) {
-  byId('error').hidden = !text;
-  byId('error').textContent = text;
-}
+let source = null; // { reread } of dropped files; null: of the server, or the built-in scene
+let waiting = null; // a link's view for a file that is still to be dropped
+let description = null;
+let lights = []; // paths of light files
+let panels = [];
 
-// True: it succeeded; else the page says why.
-function attempt(use) {
-  showError('');
+// ---- errors ----
+
+async function attempt(what) {
   try {
-    use();
-    return true;
+    return await what();
   } catch (error) {
-    showError(error.message);
-    return false;
+    messages.error(error);
+    return undefined;
   }
 }
 
-// ---- frames ----
+viewer.addEventListener('error', (event) => messages.error(event.detail?.message ?? sentenceOf(event.detail?.sourceError)));
+viewer.addEventListener('facet-message', (event) => { byId('model-facts').textContent = event.detail.text; });
 
-// In pixels of the screen: the canvas is as sharp as the display.
-function fitCanvas() {
-  const scale = window.devicePixelRatio || 1;
-  const width = Math.max(1, Math.round(canvas.clientWidth * scale));
-  const height = Math.max(1, Math.round(canvas.clientHeight * scale));
-  if (canvas.width !== width || canvas.height !== height) {
-    canvas.width = width;
-    canvas.height = height;
+// ---- options ----
+
+const optionsNow = () => viewer.options;
+
+async function set(name, text) {
+  await attempt(() => viewer.setOption(name, text));
+  refreshSoon();
+}
+
+const setAll = (options) => Promise.all(Object.entries(options).map(([name, text]) => set(name, text)));
+
+// Of many calls within a frame the last one: preparing a light takes long.
+const soon = new Map();
+function setSoon(name, apply) {
+  if (!soon.has(name)) requestAnimationFrame(() => {
+    const last = soon.get(name);
+    soon.delete(name);
+    last();
+  });
+  soon.set(name, apply);
+}
+
+// ---- panels follow the viewer ----
+
+let isRefreshAsked = false;
+function refreshSoon() {
+  if (isRefreshAsked) return;
+  isRefreshAsked = true;
+  requestAnimationFrame(() => {
+    isRefreshAsked = false;
+    refresh();
+  });
+}
+
+function refresh() {
+  if (!description) return;
+  const options = optionsNow();
+  const { state } = viewer;
+  panels.forEach((panel) => panel.update(options, state));
+}
+
+for (const name of ['facet-change', 'camera-change', 'environment-change', 'play', 'pause', 'finished']) viewer.addEventListener(name, refreshSoon);
+viewer.addEventListener('before-render', () => { if (!viewer.paused) motion.update(optionsNow(), viewer.state); });
+viewer.addEventListener('load', showModel);
+
+function showModel() {
+  description = viewer.describe();
+  edits.begin(description);
+  forgetThumbnails();
+  const { state } = viewer;
+  showName();
+  panels.forEach((panel) => panel.model?.(description, state));
+  refresh();
+}
+
+const fileName = () => (viewer.modelPath ?? '').split('/').pop();
+const fileSize = () => viewer.files.reduce((sum, { file }) => sum + file.size, 0);
+
+function showName() {
+  const models = viewer.files.map(({ path }) => path).filter((path) => MODEL.test(path)).sort((a, b) => a.localeCompare(b));
+  const name = fileName() || 'Built-in scene';
+  const { drawn_triangles: triangles } = description.counts;
+  byId('model-facts').textContent = `${triangles.toLocaleString('en')} triangles${fileSize() ? `, ${bytesText(fileSize())}` : ''}`;
+  document.title = `${name} – facet`;
+  viewer.alt = fileName() || 'The built-in scene: spheres of different roughness and materials';
+  byId('invitation').hidden = Boolean(fileName());
+  if (models.length < 2) {
+    byId('model-name').textContent = name;
+    return;
+  }
+  const list = choice({ label: 'Model', options: models.map((path) => [path, path]), value: viewer.modelPath, change: (path) => openModel(path) });
+  list.select.setAttribute('aria-label', `Model, one of ${models.length}`);
+  byId('model-name').replaceChildren(list.select);
+}
+
+// ---- files ----
+
+function showProgress(text, value) {
+  byId('progress').hidden = text === null;
+  byId('progress-text').textContent = text ?? '';
+  if (value === undefined) byId('progress-bar').removeAttribute('value');
+  else byId('progress-bar').value = value;
+}
+
+const PHASES = { 'model-load': ['Reading the model', 'Decoding and drawing'], 'environment-update': ['Reading the light', 'Preparing the light'] };
+viewer.addEventListener('progress', ({ detail }) => {
+  const [reading, preparing] = PHASES[detail.reason] ?? ['Reading', 'Drawing'];
+  if (detail.totalProgress >= 1) showProgress(null);
+  else showProgress(detail.totalProgress < 0.8 ? `${reading} …` : `${preparing} …`, detail.totalProgress);
+});
+
+const nextFrame = () => new Promise((resolve) => { requestAnimationFrame(() => setTimeout(resolve, 0)); });
+
+// Shows that something happens before the page stands still for it.
+async function withProgress(text, work) {
+  showProgress(text);
+  await nextFrame();
+  try {
+    return await attempt(work);
+  } finally {
+    showProgress(null);
   }
 }
 
-function draw(seconds = 0) {
-  fitCanvas();
-  if (isLost) return false;
-  return attempt(() => facet.draw(viewer, canvas.width, canvas.height, seconds));
-}
-
-function askForFrame() {
-  if (isAsked || isLost || !facet) return;
-  isAsked = true;
-  requestAnimationFrame((time) => {
-    isAsked = false;
-    if (isLost) return;
-    const isPlaying = facet.isMoving(viewer);
-    draw(isPlaying && lastTime ? (time - lastTime) / 1000 : 0);
-    lastTime = isPlaying ? time : 0;
-    if (isPlaying) askForFrame();
-  });
-}
-
-// ---- models ----
-
-const MODEL = /\.(glb|gltf|obj|stl|ply)$/i;
-
-// files: [path, bytes]. True: the model is shown; else the last one stays.
-function open(path, files, label, status) {
-  const isOpen = attempt(() => {
-    facet.removeFiles();
-    files.forEach(([name, bytes]) => facet.putFile(name, bytes));
-    facet.open(viewer, path);
-  });
-  if (!isOpen) return false;
-  canvas.setAttribute('aria-label', label);
-  const isDrawn = draw();
-  byId('status').textContent = status || facet.state(viewer).message;
-  return isDrawn;
-}
-
-// bytes null: the built-in scene.
-function load(bytes, name) {
-  return bytes ? open(name, [[name, bytes]], name) : open('', [], 'The built-in scene: spheres of different roughness and materials');
-}
-
-// bytes null: the built-in studio.
-function loadLight(bytes, name) {
-  return attempt(() => {
-    if (bytes) facet.putFile(name, bytes);
-    facet.setOption(viewer, 'env', bytes ? `./${name}` : null);
-  }) && draw();
-}
-
-// Files with paths relative to the folder that was dropped. The first model in it is shown; what it refers to is found among them.
-async function loadFiles(files) {
-  const models = files.filter(({ path }) => MODEL.test(path)).sort((a, b) => a.path.localeCompare(b.path));
-  if (files.length === 1) return loadFile(files[0].file);
+async function openFiles({ files, reread }) {
+  const models = await withProgress(files.length === 1 ? `Reading ${files[0].path} …` : `Reading ${files.length} files …`, () => viewer.openFiles(files));
+  if (!models) return;
   if (!models.length) {
-    showError(`none of the ${files.length} files is a model (.glb, .gltf, .obj, .stl, .ply)`);
-    return false;
+    lights = [...new Set([...lights, ...files.map(({ path }) => path)])];
+    refreshSoon();
+    return;
   }
-  const contents = await Promise.all(files.map(async ({ path, file }) => [path, new Uint8Array(await file.arrayBuffer())]));
-  const { path } = models[0];
-  return open(path, contents, path, models.length > 1 ? `${path}, the first of ${models.length} models` : '');
+  source = { reread };
+  tools.reload.hidden = !reread;
+  await applyWaiting();
 }
 
-// Entries must be asked for before the event returns; a folder gives its entries by the hundred.
-async function filesOf(entries) {
-  const files = [];
-  for (const entry of entries) {
-    if (entry.isFile) {
-      const file = await new Promise((resolve, reject) => entry.file(resolve, reject));
-      files.push({ path: entry.fullPath.replace(/^\//, ''), file });
-    } else if (entry.isDirectory) {
-      const reader = entry.createReader();
-      for (;;) {
-        const some = await new Promise((resolve, reject) => reader.readEntries(resolve, reject));
-        if (!some.length) break;
-        files.push(...(await filesOf(some)));
-      }
-    }
+const openModel = (path) => withProgress(`Decoding and drawing ${path} …`, () => viewer.openModel(path));
+
+// The same files as they are now, in the same view.
+async function reload() {
+  if (!source?.reread) return;
+  const view = { options: optionsNow(), edits: edits.list() };
+  const path = viewer.modelPath;
+  await attempt(async () => {
+    const files = await source.reread();
+    await withProgress('Reading again …', async () => {
+      await viewer.openFiles(files);
+      if (viewer.modelPath !== path && files.some((entry) => entry.path === path)) await viewer.openModel(path);
+    });
+    await applyView(view);
+  });
+}
+
+// ---- links ----
+
+const viewForLink = () => {
+  const { background, ...options } = optionsNow();
+  if (background !== PAGE_BACKGROUND) options.background = background ?? 'white';
+  const isServed = Boolean(viewer.src) && !source;
+  return { model: isServed ? viewer.getAttribute('src') : undefined, file: isServed ? undefined : fileName() || undefined, options, edits: edits.list() };
+};
+
+const linkOfView = () => `${location.href.replace(/#.*/s, '')}#${writeLink(viewForLink())}`;
+
+const ORDER = ['scene', 'variant', 'shading', 'animation', 'time', 'camera', 'env'];
+const rank = (name) => (ORDER.includes(name) ? ORDER.indexOf(name) : ORDER.length);
+
+async function applyView({ options, edits: values }) {
+  const wanted = { background: PAGE_BACKGROUND, ...options };
+  const { animation, time, ...rest } = wanted;
+  for (const name of Object.keys(optionsNow())) if (!(name in wanted)) await set(name, null);
+  for (const name of Object.keys(rest).sort((a, b) => rank(a) - rank(b))) await set(name, rest[name]);
+  if (animation !== undefined) await setAnimation(animation, Number(time ?? 0));
+  await attempt(() => edits.resetAll());
+  for (const [index, name, value] of values) await attempt(() => edits.set(index, name, value));
+  refresh();
+  if (description) material.refresh();
+}
+
+async function applyWaiting() {
+  if (!waiting) return;
+  const view = waiting;
+  waiting = null;
+  if (view.file === fileName()) await applyView(view);
+}
+
+async function showServed(name) {
+  source = null;
+  tools.reload.hidden = true;
+  if (viewer.getAttribute('src') === name && viewer.loaded) return true;
+  const done = new Promise((resolve) => {
+    viewer.addEventListener('load', () => resolve(true), { once: true });
+    viewer.addEventListener('error', () => resolve(false), { once: true });
+  });
+  viewer.src = name;
+  return done;
+}
+
+async function applyHash() {
+  const view = readLink(location.hash);
+  view.faults.forEach((text) => messages.error(text));
+  if (view.model !== undefined && !isOwnModel(view.model, document.baseURI)) {
+    messages.error(`The link's model ${view.model} is not on this server; this page loads none from elsewhere. Download it, and drop it here.`);
+    view.model = undefined;
   }
-  return files;
+  if (view.model !== undefined) {
+    if (await showServed(view.model)) await applyView(view);
+    else await showBuiltin();
+    return;
+  }
+  if (!description) await showBuiltin();
+  if (view.file !== undefined && view.file !== fileName()) {
+    waiting = view;
+    messages.note(`The link shows ${view.file}. Drop that file here to see it in the link's view.`);
+  }
+  await applyView(waiting ? { ...view, edits: [] } : view);
 }
 
-async function loadFile(file) {
-  const bytes = new Uint8Array(await file.arrayBuffer());
-  return (/\.(hdr|ktx2|png|jpe?g)$/i.test(file.name) ? loadLight : load)(bytes, file.name);
+async function showBuiltin() {
+  if (!description) await attempt(() => viewer.openModel(''));
 }
 
-// ---- events ----
-
-const modifiersOf = (event) => (event.shiftKey ? 1 : 0) | (event.ctrlKey ? 2 : 0) | (event.altKey ? 4 : 0);
-
-function point(kind, event, x, y, button = 0) {
-  if (facet && facet.point(viewer, kind, button, modifiersOf(event), x, y)) askForFrame();
+async function shareLink() {
+  const link = linkOfView();
+  history.replaceState(null, '', link);
+  return link;
 }
 
-function pointAt(kind, event) {
-  const scale = window.devicePixelRatio || 1;
-  const button = event.button === 2 ? 1 : event.button === 1 ? 2 : 0; // view_button
-  point(kind, event, event.offsetX * scale, event.offsetY * scale, button);
+function hintOfLink() {
+  if (source) return `The link holds the view; whoever opens it also needs ${fileName()}.`;
+  return 'The view is in the part behind #, which browsers send to no server.';
 }
 
-// The last image stays until the browser gives the context back.
-function listenForLoss() {
-  canvas.addEventListener('webglcontextlost', (event) => {
-    event.preventDefault();
-    isLost = true;
-    facet.lose();
-  });
-  canvas.addEventListener('webglcontextrestored', () => {
-    isLost = false;
-    if (attempt(() => facet.restore())) askForFrame();
-  });
+function htmlOfView() {
+  const { options } = viewForLink();
+  return htmlOf({ src: viewer.getAttribute('src') ?? (fileName() || 'model.glb'), alt: fileName() || 'A 3D model', options, exposure: viewer.state.exposure }).html;
 }
 
-function listen() {
-  canvas.addEventListener('pointerdown', (event) => {
-    canvas.setPointerCapture(event.pointerId);
-    pointAt(POINTER.press, event);
-  });
-  canvas.addEventListener('pointermove', (event) => pointAt(POINTER.move, event));
-  canvas.addEventListener('pointerup', (event) => pointAt(POINTER.release, event));
-  canvas.addEventListener('pointercancel', (event) => pointAt(POINTER.release, event));
-  canvas.addEventListener('contextmenu', (event) => event.preventDefault());
-  canvas.addEventListener('wheel', (event) => {
-    event.preventDefault();
-    point(POINTER.wheel, event, 0, -Math.sign(event.deltaY));
-  }, { passive: false });
-  canvas.addEventListener('keydown', (event) => {
-    const key = KEYS[event.key] ?? (event.key.length === 1 ? event.key.toUpperCase().codePointAt(0) : 0);
-    if (!key || event.ctrlKey || event.metaKey || !facet.key(viewer, key, modifiersOf(event))) return;
-    event.preventDefault();
-    byId('status').textContent = facet.state(viewer).message;
-    askForFrame();
-  });
-  window.addEventListener('dragover', (event) => event.preventDefault());
-  window.addEventListener('drop', (event) => {
-    event.preventDefault();
-    const entries = [...event.dataTransfer.items].map((item) => item.webkitGetAsEntry()).filter(Boolean);
-    filesOf(entries).then(loadFiles).catch((error) => showError(String(error.message ?? error)));
-  });
-  new ResizeObserver(askForFrame).observe(canvas);
+// ---- animation ----
+
+// which: a name, an index, "all", or "" for the model at rest.
+async function setAnimation(which, time) {
+  const { animations } = viewer.state;
+  if (which === '' || which === 'none') {
+    viewer.pause();
+    await setAll({ animation: null, time: null });
+    return;
+  }
+  viewer.animationName = animations.includes(which) ? which : animations[which] ?? animations[0];
+  await viewer.updateComplete;
+  if (which === 'all') await set('animation', which);
+  if (time !== undefined) viewer.currentTime = time;
+  refreshSoon();
 }
 
-function set(name, value) {
-  attempt(() => facet.setOption(viewer, name, value));
-  askForFrame();
+// ---- images and models ----
+
+async function saveImage({ width, height }) {
+  save(await viewer.screenshot({ width, height }), `${(fileName() || 'facet').replace(/\.[^.]*$/, '')}-${width}x${height}.png`);
 }
 
-function connectControls() {
-  byId('file').addEventListener('change', (event) => {
-    const files = [...event.target.files].map((file) => ({ path: file.webkitRelativePath || file.name, file }));
-    if (files.length) loadFiles(files);
-  });
-  byId('exposure').addEventListener('input', (event) => {
-    byId('exposure-value').textContent = `${event.target.value} stops`;
-    set('exposure', event.target.value);
-  });
-  byId('rotation').addEventListener('input', (event) => {
-    byId('rotation-value').textContent = `${event.target.value}°`;
-    set('env-rotation', event.target.value);
-  });
-  byId('tonemap').addEventListener('change', (event) => set('tone-mapping', event.target.value));
-  byId('background').addEventListener('change', (event) => set('background', event.target.checked ? 'env' : 'transparent'));
+async function saveModel() {
+  const blob = await withProgress('Writing the model …', () => viewer.exportScene());
+  if (blob) save(blob, `${(fileName() || 'model').replace(/\.[^.]*$/, '')}-edited.glb`);
 }
 
-// ---- start ----
+// ---- the page ----
 
-async function start() {
-  facet = await loadModule();
-  const isReady = attempt(() => {
-    facet.start(canvas);
-    viewer = facet.create();
-    facet.setOption(viewer, 'background', 'transparent');
-  });
-  if (!isReady) return;
-  listen();
-  listenForLoss();
-  connectControls();
-  byId('status').textContent = '';
-  load(null, 'built-in scene');
-}
+const app = {
+  viewer, messages, edits, attempt, set, setAll, setSoon, setAnimation, saveImage, saveModel, shareLink, linkOfView, htmlOfView, hintOfLink,
+  setFlag: (name, is) => set(name, is ? '' : null),
+  commandOfView: ({ width, height }) => viewer.command(width, height),
+  size: () => ({ width: Math.round(viewer.clientWidth * devicePixelRatio), height: Math.round(viewer.clientHeight * devicePixelRatio) }),
+  togglePlay: () => (viewer.paused ? viewer.play() : viewer.pause()),
+  // Of a name or an index in an option, the index as a text; '' for none.
+  indexOf: (names, text) => (names?.includes(text) ? String(names.indexOf(text)) : text ?? ''),
+  editMaterial: (index, name, value) => attempt(() => edits.set(index, name, value)),
+  editOf: (index, name) => edits.get(index, name),
+  hasEdits: (index) => edits.has(index),
+  resetMaterial(index) {
+    attempt(() => edits.reset(index));
+    material.show(index);
+  },
+  showMaterial(index) {
+    material.show(index);
+    panelTabs.select('material');
+  },
+  get lights() { return lights; },
+  get description() { return description; },
+  get fileSize() { return fileSize(); },
+};
 
-// For tests and for scripts of the page: ready is fulfilled when the first image is there.
-window.facetPage = { ready: start(), load, loadLight, loadFiles, draw, memory: () => facet.memorySize, get canvas() { return canvas; }, get module() { return facet; }, get viewer() { return viewer; } };
-window.facetPage.ready.catch((error) => showError(`facet could not start: ${error.message}`));
+const light = lightPanel(app);
+const image = imagePanel(app);
+const camera = cameraPanel(app);
+const analysis = analysisPanel(app);
+const scene = scenePanel(app);
+const material = materialPanel(app);
+const report = reportPanel(app);
+const share = sharePanel(app);
+const motion = motionBar(app);
+const divider = connectDivider(byId('divider'), app);
+
+const files = section('Files', true, element('div', { class: 'buttons' }, button('Open files …', () => byId('file-input').click()),
+  button('Open folder …', () => byId('folder-input').click()), button('Help', () => openHelp())));
+const bodies = {
+  look: element('div', { class: 'panel-body' }, light.root, image.root, camera.root, analysis.root),
+  scene: element('div', { class: 'panel-body' }, report.first, scene.root, report.last, files.root),
+  material: element('div', { class: 'panel-body' }, material.root),
+  share: element('div', { class: 'panel-body' }, share.root),
+};
+const panel = byId('panel');
+const openSheet = (is) => { panel.dataset.open = String(is); };
+const panelTabs = tabs('Settings', [['look', 'Look', bodies.look], ['scene', 'Scene', bodies.scene], ['material', 'Material', bodies.material], ['share', 'Share', bodies.share]], {
+  again: () => openSheet(panel.dataset.open === 'false'),
+  change: (id) => {
+    if (panel.isConnected && description) openSheet(true);
+    if (id === 'share') share.refresh();
+  },
+});
+panel.append(panelTabs.root, ...Object.values(bodies));
+openSheet(!isNarrow.matches);
+panels = [light, image, camera, analysis, scene, material, report, share, motion, divider];
+[light, image, camera, analysis].forEach((one) => one.update({ background: PAGE_BACKGROUND }, {}));
+
+const toolButton = (label, name, press) => {
+  const made = button('', press, { class: 'icon', 'aria-label': label, title: label });
+  made.append(icon(name));
+  return made;
+};
+const tools = {
+  whole: toolButton('Show the whole model', 'whole', () => setAll({ camera: null, target: null, orbit: null })),
+  image: toolButton('Save the image as PNG', 'camera', () => attempt(() => saveImage(app.size()))),
+  link: toolButton('Copy a link to this view', 'share', () => attempt(async () => {
+    await copyText(await shareLink());
+    messages.note('The link to this view is copied.');
+  })),
+  reload: toolButton('Read the files again', 'reload', reload),
+};
+tools.reload.hidden = true;
+byId('tools').append(...Object.values(tools), motion.root);
+
+// ---- click: the material there ----
+
+let pressed = null;
+viewer.addEventListener('pointerdown', (event) => { pressed = event.button === 0 ? { x: event.clientX, y: event.clientY } : null; });
+viewer.addEventListener('pointerup', (event) => {
+  if (!pressed || Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) > 4) return;
+  const box = viewer.getBoundingClientRect();
+  const hit = viewer.pick(event.clientX - box.x, event.clientY - box.y);
+  if (!hit || !(hit.material >= 0)) return;
+  material.show(hit.material);
+  if (!isNarrow.matches) panelTabs.select('material');
+});
+
+// ---- keys, drop, help ----
+
+const step = (select, by) => {
+  const open = [...select.options].filter((option) => !option.disabled);
+  const next = open[(open.indexOf(select.selectedOptions[0]) + by + open.length) % open.length];
+  select.value = next.value;
+  select.dispatchEvent(new Event('change'));
+};
+const stops = (by) => set('exposure', String(Number((Number.parseFloat(optionsNow().exposure ?? '0') + by / 3).toFixed(3))));
+const openHelp = () => byId('help').showModal();
+const selectOf = (root, label) => [...root.querySelectorAll('.field')].find((field) => field.querySelector('label').textContent === label).querySelector('select');
+
+connectKeys([
+  ['H ?', 'this help', openHelp],
+  ['O', 'open files', () => byId('file-input').click()],
+  ['R', 'read the files again', reload],
+  ['Home .', 'show the whole model', () => tools.whole.click()],
+  ['Space', 'play, pause', () => { if (!motion.root.hidden) app.togglePlay(); }],
+  ['+', 'brighter', () => stops(1)],
+  ['-', 'darker', () => stops(-1)],
+  ['T Shift+T', 'next, previous tone mapping', (by) => step(selectOf(image.root, 'Tone mapping'), by)],
+  ['J', 'background', () => step(selectOf(image.root, 'Background'), 1)],
+  ['N Shift+N', 'next, previous channel', (by) => step(selectOf(analysis.root, 'Show'), by)],
+  ['0', 'all channels, no comparison', () => setAll({ channel: null, compare: null })],
+  ['G', 'shadow on the ground', () => set('ground', optionsNow().ground ? null : 'shadow')],
+  ['F12', 'save the image', () => tools.image.click()],
+], byId('help-keys'));
+
+listenForDrops(byId('cover'), openFiles, (error) => messages.error(error));
+listenForPicks(byId('file-input'), byId('folder-input'), openFiles);
+byId('open-files').addEventListener('click', () => byId('file-input').click());
+byId('open-folder').addEventListener('click', () => byId('folder-input').click());
+byId('help-open').addEventListener('click', openHelp);
+byId('help-close').addEventListener('click', () => byId('help').close());
+window.addEventListener('hashchange', applyHash);
+applyHash();
