@@ -14,16 +14,19 @@ const { page, messages } = served;
 const address = page.url().replace('icon.svg', '');
 messages.length = 0;
 
-// Opens the page with a canvas of the size of the tests; the sea rests.
+// The canvas has the size of the tests before the page's script runs.
+await page.addInitScript(([w, h]) => document.addEventListener('readystatechange', () => {
+    const canvas = document.getElementById('view');
+    if (!canvas) return;
+    canvas.style.width = `${w}px`;
+    canvas.style.height = `${h}px`;
+}), [width, height]);
+
+// Opens the page; the sea rests.
 async function open(hash) {
     await page.goto('about:blank');
     await page.goto(`${address}ocean.html${hash}`);
     await page.evaluate(() => window.oceanPage.ready);
-    await page.evaluate(([w, h]) => {
-        const canvas = document.getElementById('view');
-        canvas.style.width = `${w}px`;
-        canvas.style.height = `${h}px`;
-    }, [width, height]);
     await sharp();
 }
 

@@ -17,7 +17,7 @@ cp "$here/../../docs/examples/gltf/spin.gltf" "$dist/models/spin.gltf"
 draw() {
     picture=$dist/pictures/$1.webp
     shift
-    "$facet" "$@" -q -s 480x300 -o "$picture"
+    "$facet" "$@" -q -s 400x250 -o "$picture"
 }
 draw builtin render --background '#eef1f5'
 for name in roughness clearcoat sheen glass iridescence; do
@@ -31,7 +31,7 @@ draw sunset ocean --wind 7 --sun 2,0 --heading 8
 draw lagoon ocean --preset lagoon --sun 62,0 --heading 140 --height-of-eye 5
 draw gale ocean --preset gale --sun 30,0
 draw below ocean --preset lagoon --sun 50,0 --height-of-eye -1.2
-"$facet" ocean --wind 8 --sun 20,0 --before-after -q -s 240x300 -o "$dist/pictures/before.webp"
-"$facet" plot brdf --roughness 0.15,0.3,0.6 --angle 50 -q -s 480x300 --title '' -o "$dist/pictures/explorer.png" ||
+"$facet" ocean --wind 8 --sun 20,0 --before-after -q -s 200x250 -o "$dist/pictures/before.webp"
+"$facet" plot brdf --roughness 0.15,0.3,0.6 --angle 50 -q -s 400x250 --title '' -o "$dist/pictures/explorer.png" ||
     cp "$dist/pictures/roughness.webp" "$dist/pictures/explorer.png" # a facet without cairo
 : >"$stamp"
