@@ -25,7 +25,7 @@ const server = createServer(async (request, response) => {
 });
 await new Promise((resolve) => { server.listen(0, '127.0.0.1', resolve); });
 const origin = `http://127.0.0.1:${server.address().port}`;
-const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox'] });
+const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] });
 
 const problems = [];
 
@@ -181,6 +181,29 @@ async function testMaterials() {
     return page;
 }
 
+// The sphere has the material of the plot, and follows its sliders.
+async function testSphere() {
+    const page = await open('#plot=slice&roughness=0.3&color=%23c08020');
+    await page.getByText('Sphere', { exact: true }).click();
+    await page.waitForFunction(() => document.querySelector('facet-viewer')?.loaded || document.querySelector('.sphere').textContent.includes('cannot'), null, { timeout: 60000 });
+    const material = () => page.evaluate(() => document.querySelector('facet-viewer').materials[0]);
+    const picture = () => page.evaluate(async () => {
+        const bytes = new Uint8Array(await (await document.querySelector('facet-viewer').screenshot({ width: 64, height: 64 })).arrayBuffer());
+        return [...bytes].join();
+    });
+    const plastic = await picture();
+    assert.equal((await material()).roughness, 0.3);
+    await page.getByRole('slider', { name: 'Metallic' }).focus();
+    await page.keyboard.press('End');
+    await drawn(page, 'metallic=1');
+    const { metallic, base_color: [r, g, b] } = await material();
+    assert.equal(metallic, 1);
+    const legend = csvOf(await command(page)).match(/metal \(([\d.]+), ([\d.]+), ([\d.]+)\)/).slice(1).map(Number);
+    [r, g, b].forEach((value, i) => assert.ok(Math.abs(value - legend[i]) < 0.001, `${value} and ${legend[i]}`));
+    assert.notEqual(await picture(), plastic, 'another picture');
+    return page;
+}
+
 // From a change of a slider to the new plot in the page.
 async function testSpeed() {
     const page = await open();
@@ -218,7 +241,7 @@ async function testAccess() {
 }
 
 try {
-    for (const test of [testKeyboard, testPointer, testPlots, testMaterials, testSpeed, testAccess]) {
+    for (const test of [testKeyboard, testPointer, testPlots, testMaterials, testSphere, testSpeed, testAccess]) {
         const page = await test();
         if (page && shots) await page.screenshot({ path: `${shots}/${test.name}.png` });
         await page?.context().close();

@@ -1,6 +1,7 @@
 // explorer.js - the BRDF explorer: settings become words of `facet plot`, which a worker draws; values are read under the pointer.
 import { button, check, choice, color, element, icon, range, section } from './fields.js';
 import { KINDS, PARAMETERS, commandOf, createWorker, defaultsOf, plotOf, materialText } from './explorer_plots.js';
+import { createSphere } from './explorer_sphere.js';
 import { fillTables, findAt, marksOf, named, sentenceOf, stepsOf } from './explorer_values.js';
 
 const byId = (id) => document.getElementById(id);
@@ -13,6 +14,7 @@ const state = { kind: 'slice', model: 'pbr', values: defaultsOf('pbr'), kept: []
 let data = null; // numbers of the plot that is shown; null: not asked for yet
 let reading = null; // {panel, at}
 let shown = null; // {kind, svg}
+let sphere = null; // of createSphere(), once it was opened
 
 // ---- the link: all settings in the hash ----
 
@@ -97,6 +99,7 @@ async function draw(isNew = true) {
 
 function change() {
   writeHash();
+  updateSphere();
   draw();
 }
 
@@ -213,6 +216,27 @@ function makeActions() {
   byId('table-close').addEventListener('click', () => byId('table').close());
 }
 
+// ---- the sphere: fetched and drawn when its section is opened ----
+
+const sphereSection = section('Sphere', false, element('div', { class: 'sphere' }, element('p', { class: 'quiet' }, 'Loading the viewer ...')));
+
+function updateSphere() {
+  sphereSection.root.hidden = state.model !== 'pbr';
+  if (sphere && state.model === 'pbr') sphere.update(state.values);
+}
+
+async function openSphere() {
+  if (!sphereSection.root.open || sphere) return;
+  sphereSection.root.removeEventListener('toggle', openSphere);
+  const place = sphereSection.body.querySelector('.sphere');
+  try {
+    sphere = await createSphere(place);
+    updateSphere();
+  } catch (error) {
+    place.replaceChildren(element('p', {}, `The sphere cannot be drawn: ${error.message}`));
+  }
+}
+
 // ---- settings ----
 
 function makeKinds() {
@@ -291,6 +315,7 @@ function makeSettings() {
   const parts = PARAMETERS[state.model].map(([title, list], i) => section(title, isOpen(title, i === 0 || isUsed(list)), ...list.map(makeParameter)).root);
   byId('settings').replaceChildren(
     section('Material', isOpen('Material', true), model.root, ...makeKept()).root,
+    sphereSection.root,
     ...(view.length ? [section('View', isOpen('View', true), ...view).root] : []),
     ...parts,
   );
@@ -313,6 +338,7 @@ function listen() {
   chart.addEventListener('keydown', readByKey);
   addEventListener('hashchange', () => {
     readHash();
+    updateSphere();
     byId('kinds').replaceChildren();
     makeKinds();
     draw();
@@ -322,4 +348,6 @@ function listen() {
 readHash();
 makeKinds();
 makeActions();
+sphereSection.root.addEventListener('toggle', openSphere);
+updateSphere();
 listen();
