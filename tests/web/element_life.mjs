@@ -80,7 +80,7 @@ export const cases = ({ page, check, equal, near, requests }) => ({
     },
 
     async 'without WebGL 2'() {
-        const other = await page.context().newPage();
+        const other = await (await page.context().browser().newContext()).newPage();
         await other.addInitScript(() => { HTMLCanvasElement.prototype.getContext = () => null; });
         await other.goto(page.url());
         const found = await other.evaluate(async () => {

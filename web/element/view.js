@@ -275,8 +275,10 @@ export class View {
   // isDirect: the shared canvas is the one in the page.
   drawFrame(time, isDirect) {
     const seconds = this.#lastTime ? Math.min((time - this.#lastTime) / 1000, 0.5) : 0;
+    this.#hasFailed = false;
     try {
       this.#host.beforeFrame(seconds);
+      this.#isTouched = false;
       const { width, height } = this.pixelSize();
       this.use((module, viewer) => module.draw(viewer, width, height, seconds));
       const isMoving = this.isMoving;
