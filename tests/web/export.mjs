@@ -107,6 +107,12 @@ try {
         '--tone-mapping', 'agx', '--ground', 'shadow']);
     await check(browser, 'sky', ['--env', 'sun:45,135', '--eye', '1,2,6', '--fov', '40', '--background', '#336699', '--channel', 'normal']);
 
+    // a model of OpenGL 1, read for its own shading
+    writeFileSync(at('models/old.mtl'), 'newmtl m\nKd .3 .5 .7\nKs 1 1 1\nNs 20\n');
+    writeFileSync(at('models/old.obj'), 'mtllib old.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n');
+    await check(browser, 'ogl1', [at('models/old.obj'), '--shading', 'ogl1']);
+    await check(browser, 'method', [at('models/old.obj'), '--method', 'fit', '--fit-target', 'linear']);
+
     // light of a file that needs a decoder
     run('render', '-s', '64x32', '-q', '--background', 'env', '-o', at('light.exr'));
     await check(browser, 'exr', [square, '--env', at('light.exr')]);

@@ -26,9 +26,10 @@ export async function showView(viewer, view, files) {
   viewer.reveal = 'manual';
   viewer.cameraControls = true;
   if (options.fov) Object.assign(viewer, { minFieldOfView: '0.1deg', maxFieldOfView: '179deg' });
+  await setOptions(viewer, options, (name) => name === 'shading'); // decides how the model is read
   if (files.length) await viewer.openFiles(files, view.model);
   else await viewer.openModel('');
-  await setOptions(viewer, options, (name) => !CAMERA.includes(name));
+  await setOptions(viewer, options, (name) => name !== 'shading' && !CAMERA.includes(name));
   await setCamera(viewer, options);
   if (animation && animation !== 'none') await viewer.setOption('animation', animation);
   if (time) viewer.currentTime = Number(time);
@@ -90,6 +91,7 @@ function paintPage({ background = 'white' }) {
 export async function showPage(read) {
   const view = JSON.parse(byId('view').textContent);
   paintPage(view.options);
+  document.body.classList.toggle('controlled', view.controls); // room for the bar
   if (!hasWebGL()) {
     note(WITHOUT_WEBGL);
     return;
