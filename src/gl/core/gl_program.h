@@ -56,7 +56,8 @@ enum {
     GL_SURFACE_HAS_ALPHA_BLEND,
     GL_SURFACE_HAS_COLORS, /* vertex colors */
     GL_SURFACE_IS_VOLUME,
-    GL_SURFACE_HAS_SPECULAR_ANTIALIASING
+    GL_SURFACE_HAS_SPECULAR_ANTIALIASING,
+    GL_SURFACE_HAS_ONE_FOOTPRINT /* all textures have the same size, coordinates and filter */
 };
 
 /* GL_MAIN_PHONG has features of its own from GL_SURFACE_TEXTURES to GL_SURFACE_IS_LIT, maps first; the

@@ -44,7 +44,7 @@ static const char *const surface_features[] = {
     "HAS_CLEARCOAT", "HAS_SHEEN", "HAS_ANISOTROPY", "HAS_IRIDESCENCE", "HAS_TRANSMISSION",
     "HAS_DIFFUSE_TRANSMISSION", "HAS_VOLUME", "HAS_DISPERSION", "HAS_SCATTER",
     "IS_LIT", "IS_UNLIT", "IS_GLOSSY", "HAS_ALPHA_MASK", "HAS_ALPHA_BLEND", "HAS_COLORS", "IS_VOLUME",
-    "HAS_SPECULAR_ANTIALIASING", "IS_SPRITE", "AOVS", "IS_WEIGHTED", "IS_PEELED", "HAS_CHANNEL",
+    "HAS_SPECULAR_ANTIALIASING", "HAS_ONE_FOOTPRINT", "IS_SPRITE", "AOVS", "IS_WEIGHTED", "IS_PEELED", "HAS_CHANNEL",
     "HAS_SCHLICK_GGX", NULL};
 /* clang-format on */
 _Static_assert(sizeof slot_names / sizeof *slot_names == SCENE_TEXTURE_SLOT_COUNT, "every slot has a name");
@@ -210,7 +210,7 @@ int gl_material_slot_units(uint64_t features, int8_t units[SCENE_TEXTURE_SLOT_CO
 }
 
 /* Adds MATERIAL_LAYERS, the samplers u_material0.., and BASE_COLOR_TEXEL and so on: a vec4 per slot, white
- * for absent textures. */
+ * for absent textures. FIRST_TEXTURE_SLOT, that of u_material0, is defined where all textures have its footprint. */
 static void slot_text(uint64_t features, text *out)
 {
     int8_t units[SCENE_TEXTURE_SLOT_COUNT];
@@ -222,6 +222,9 @@ static void slot_text(uint64_t features, text *out)
         text_addf(out, "#define HAS_LAYERS\n#define MATERIAL_LAYERS %uu\n", layers);
     for (int i = 0; i < count; i++)
         text_addf(out, "uniform sampler2D u_material%d;\n", i);
+    for (int slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++)
+        if (has(features, GL_SURFACE_HAS_ONE_FOOTPRINT) && units[slot] == 0)
+            text_addf(out, "#define FIRST_TEXTURE_SLOT %d\n", slot);
     for (int slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++) {
         int source = source_of(features, slot);
         if (!has(features, GL_SURFACE_TEXTURES + slot))

@@ -19,8 +19,9 @@ enum {
 /* An image as data and as color. */
 typedef struct gl_image {
     GLuint names[2];
-    bool is_known[2]; /* uploaded, or failed */
-    bool lacks_red;   /* read as data */
+    uint32_t sizes[2][2]; /* texels: width and height */
+    bool is_known[2];     /* uploaded, or failed */
+    bool lacks_red;       /* read as data */
 } gl_image;
 
 struct gl_texture_set {
@@ -220,6 +221,8 @@ static facet_result upload_want(gl_texture_set *set, const texture_want *want, c
                 warn_reduced(set, want, p, log);
             is_reported = true;
             TRY(upload(set, p, want->first_level, as_color, &record->names[as_color], error));
+            record->sizes[as_color][0] = p->levels[want->first_level].width;
+            record->sizes[as_color][1] = p->levels[want->first_level].height;
         }
         record->is_known[as_color] = true;
         record->lacks_red |= p && p->lacks_red;
@@ -251,6 +254,13 @@ uint32_t gl_texture_name(const gl_texture_set *set, uint32_t texture, bool as_co
 {
     uint32_t number = texture < set->scene->texture_count ? set->scene->textures[texture].image : SCENE_NONE;
     return number < set->scene->image_count ? set->images[number].names[as_color] : 0;
+}
+
+const uint32_t *gl_texture_size(const gl_texture_set *set, uint32_t texture, bool as_color)
+{
+    static const uint32_t none[2];
+    uint32_t number = texture < set->scene->texture_count ? set->scene->textures[texture].image : SCENE_NONE;
+    return number < set->scene->image_count ? set->images[number].sizes[as_color] : none;
 }
 
 bool gl_texture_lacks_red(const gl_texture_set *set, uint32_t texture)

@@ -257,6 +257,36 @@ static uint64_t texture_features(const gl_material_set *set, const gl_batch *bat
     return 0;
 }
 
+/* Whether slots a and b are read at the same places, through pixels of the same footprint. */
+static bool has_same_footprint(const gl_material_set *set, const gl_batch *batch, int a, int b)
+{
+    const gl_material_block *block = &set->items[batch->geometry->material_id].block;
+    const uint32_t *of_a =
+        gl_texture_size(set->textures, ref_of(batch, a)->texture, material_textures[a].is_color);
+    const uint32_t *of_b =
+        gl_texture_size(set->textures, ref_of(batch, b)->texture, material_textures[b].is_color);
+    return memcmp(of_a, of_b, 2 * sizeof *of_a) == 0 &&
+           memcmp(block->texcoords[a], block->texcoords[b], sizeof block->texcoords[a]) == 0;
+}
+
+/* GL_SURFACE_HAS_ONE_FOOTPRINT, where two textures or more of those in features have the same, and probes are taken. */
+static uint64_t footprint_feature(const gl_material_set *set, const gl_batch *batch, uint64_t features)
+{
+    const gl_material *item = &set->items[batch->geometry->material_id];
+    int8_t units[SCENE_TEXTURE_SLOT_COUNT];
+    if (gl_material_slot_units(features, units) < 2)
+        return 0;
+    int first = 0;
+    while (units[first] != 0)
+        first++;
+    if (item->block.texcoords[first][1][3] <= 0.0f)
+        return 0;
+    for (int slot = first + 1; slot < SCENE_TEXTURE_SLOT_COUNT; slot++)
+        if (units[slot] > 0 && !has_same_footprint(set, batch, first, slot))
+            return 0;
+    return 1ull << GL_SURFACE_HAS_ONE_FOOTPRINT;
+}
+
 /* Records the textures that the batch reads. */
 static void add_uses(gl_material_set *set, const gl_batch *batch)
 {
@@ -374,7 +404,8 @@ uint64_t gl_material_features(const gl_material_set *set, const gl_batch *batch)
     const render_geometry *g = batch->geometry;
     const scene_material *m = g->material;
     uint32_t lost;
-    uint64_t features = texture_features(set, batch, &lost) | set->channel_feature;
+    uint64_t features = texture_features(set, batch, &lost);
+    features |= footprint_feature(set, batch, features) | set->channel_feature;
     features |= (uint64_t)batch->plan->layers << GL_SURFACE_LAYERS;
     if (g->tangents)
         features |= GL_SURFACE_HAS_TANGENTS;

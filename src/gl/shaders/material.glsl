@@ -20,13 +20,33 @@ layout(std140) uniform Material
 
 /* ---- texels ---- */
 
+vec2 texcoord_of_slot(int slot)
+{
+    vec4 row_u = texcoord_rows[2 * slot];
+    return texcoord_transform(texcoord_of_set(int(row_u.w)), row_u.xyz, texcoord_rows[2 * slot + 1].xyz);
+}
+
+#ifdef FIRST_TEXTURE_SLOT
+/* Of all textures: to find the footprint takes longer than to read a texel. */
+Probes material_probes;
+#endif
+
+/* To be called before the first texel is read. */
+void begin_texels()
+{
+#ifdef FIRST_TEXTURE_SLOT
+    material_probes = probes_at(vec2(textureSize(u_material0, 0)), texcoord_of_slot(FIRST_TEXTURE_SLOT));
+#endif
+}
+
 /* The texel of a slot, at its coordinates and with the filter of its sampler. */
 vec4 material_texel(sampler2D image, int slot)
 {
-    vec4 row_u = texcoord_rows[2 * slot];
-    vec4 row_v = texcoord_rows[2 * slot + 1];
-    vec2 uv = texcoord_transform(texcoord_of_set(int(row_u.w)), row_u.xyz, row_v.xyz);
-    return filtered_texel(image, uv, row_v.w > 0.0);
+#ifdef FIRST_TEXTURE_SLOT
+    return probed_texel(image, material_probes);
+#else
+    return filtered_texel(image, texcoord_of_slot(slot), texcoord_rows[2 * slot + 1].w > 0.0);
+#endif
 }
 
 /* ---- color and opacity ---- */

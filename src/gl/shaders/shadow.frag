@@ -2,6 +2,7 @@
 void main()
 {
 #ifdef HAS_ALPHA_MASK
+    begin_texels();
     if (coverage(base_color().w) < 0.5)
         discard;
 #endif

@@ -32,25 +32,38 @@ vec2 texcoord_of_set(int set)
 
 /* ---- textures, filtered as the CPU does (draw/texture_sample.c) ---- */
 
-/* The mean of the probes that cover the pixel, as the CPU takes it: drivers' anisotropic filters differ. */
-vec4 probed_texel(sampler2D image, vec2 uv)
+/* Trilinear lookups at at, at + stride, .. */
+struct Probes
 {
-    vec2 size = vec2(textureSize(image, 0));
+    vec2 at;
+    vec2 stride;
+    int count;
+    float lod;
+};
+
+/* Those that cover the pixel, as the CPU takes them: drivers' anisotropic filters differ. size: texels. */
+Probes probes_at(vec2 size, vec2 uv)
+{
     Footprint f = footprint_from_derivatives(size, dFdx(uv), dFdy(uv));
     ProbeRow probes = footprint_probes(f, 1.0, 1.0 / size);
     float lod = footprint_is_finite(f) ? 0.5 * log2(max(probes.width2, 1e-30)) : 64.0;
     vec2 stride = vec2(probes.step_u, probes.step_v);
-    vec2 at = uv - stride * (0.5 * float(probes.count - 1));
-    vec4 sum = textureLod(image, at, lod);
-    for (int i = 1; i < probes.count; i++)
-        sum += textureLod(image, at + stride * float(i), lod);
-    return sum / float(probes.count);
+    return Probes(uv - stride * (0.5 * float(probes.count - 1)), stride, probes.count, lod);
+}
+
+/* Their mean. */
+vec4 probed_texel(sampler2D image, Probes p)
+{
+    vec4 sum = textureLod(image, p.at, p.lod);
+    for (int i = 1; i < p.count; i++)
+        sum += textureLod(image, p.at + p.stride * float(i), p.lod);
+    return sum / float(p.count);
 }
 
 vec4 filtered_texel(sampler2D image, vec2 uv, bool is_trilinear)
 {
     if (is_trilinear)
-        return probed_texel(image, uv);
+        return probed_texel(image, probes_at(vec2(textureSize(image, 0)), uv));
     return texture(image, uv);
 }
 
