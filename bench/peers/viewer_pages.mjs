@@ -28,6 +28,13 @@ window.finish = () => {
         gl.bindFramebuffer(gl.FRAMEBUFFER, bound);
     }
 };
+// Share of pixels that the model covers, %, of a viewer that draws at once.
+window.coverage = () => {
+    window.viewer.turn(0);
+    const [gl] = contexts, pixels = new Uint8Array(4 * ${width} * ${height});
+    gl.readPixels(0, 0, ${width}, ${height}, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    return pixels.filter((value, i) => i % 4 === 3 && value > 0).length / (${width} * ${height}) * 100;
+};
 window.next_frame = () => new Promise(requestAnimationFrame);
 window.time_frames = async (count) => {
     const start = performance.now();
@@ -67,7 +74,7 @@ function three_bundle(outfile) {
             scene.add(gltf.scene);
             const sphere = new THREE.Box3().setFromObject(gltf.scene).getBoundingSphere(new THREE.Sphere());
             center.copy(sphere.center);
-            distance = 1.05 * sphere.radius / Math.sin(15 * Math.PI / 180);
+            distance = 0.96 * sphere.radius / Math.sin(15 * Math.PI / 180);
             turn(0);
         };
         window.viewer = { ready: load(), turn };`;
