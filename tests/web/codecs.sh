@@ -1,9 +1,11 @@
 #!/bin/sh
-# codecs.sh FACET DIST - the decoders that are fetched when a file needs them, in Node.js beside the native command.
-# Skipped without Node.js 18 or newer, or the built package. FACET_TEST_DATA: models and images.
+# codecs.sh node|page FACET DIST - the decoders that are fetched when a file needs them, beside the native command: in Node.js, or in
+# headless Chromium (CHROMIUM names another one). Skipped without Node.js 18 or newer, the built package, or, for the page, npm ci in
+# tests/clients and the browser. FACET_TEST_DATA: models and images.
 set -eu
-facet=$(readlink -f "$1")
-dist=$(readlink -f "$2")
+where=$1
+facet=$(readlink -f "$2")
+dist=$(readlink -f "$3")
 here=$(cd "$(dirname "$0")" && pwd)
 data=${FACET_TEST_DATA-$here/../../../shared/data}
 skip() {
@@ -17,7 +19,13 @@ version=$(node -p 'process.versions.node.split(".")[0]')
 for name in draco webp exr; do
     [ -f "$dist/facet-viewer/codec_$name.wasm" ] || skip "./run web --build was not run, or had no source of the decoder $name"
 done
+if [ "$where" = page ]; then
+    [ -d "$here/../clients/node_modules/playwright-core" ] || skip "npm ci was not run in tests/clients"
+    [ -x "${CHROMIUM:-/usr/bin/chromium}" ] || skip "there is no ${CHROMIUM:-/usr/bin/chromium}"
+fi
 [ -d "$data/models" ] || echo "web: there are no models in $data: those of the test only"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-node "$here/codecs.mjs" "$facet" "$dist" "$work" "$data"
+script=codecs.mjs
+[ "$where" = node ] || script=codecs_page.mjs
+node "$here/$script" "$facet" "$dist" "$work" "$data"

@@ -2,10 +2,6 @@
 #include "codec_client.h"
 
 #include <emscripten/emscripten.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "io/model_needs.h"
 
 /* clang-format off */
 EM_JS(int, codec_open, (const char *name), {
@@ -73,21 +69,4 @@ void codec_release(int instance, codec_address block)
     uint32_t nothing;
     if (block)
         codec_call(instance, "free", &block, 1, &nothing);
-}
-
-char *codec_list_needs(const char *path)
-{
-    const facet_scene_desc desc = {0};
-    char names[64] = "[";
-    unsigned needs;
-    model_needs_of_file(path, &desc, &needs, NULL);
-    for (int i = 0; i < MODEL_NEED_COUNT; i++) {
-        const size_t length = strlen(names);
-        if (needs >> i & 1u)
-            snprintf(names + length, sizeof names - length, "%s\"%s\"", length > 1 ? "," : "",
-                     model_need_name((model_need)(1 << i)));
-    }
-    const size_t length = strlen(names);
-    snprintf(names + length, sizeof names - length, "]");
-    return strdup(names);
 }

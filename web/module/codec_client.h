@@ -35,8 +35,4 @@ void codec_get_picture(const void *bytes, size_t size, void *rgba);
 /* Hands an AVIF image to JavaScript, which decodes it when it loads the codec "avif". */
 void codec_offer_picture(const void *bytes, size_t size);
 
-/* JSON array of the names of the modules that a file needs (io/model_needs.h), a block of malloc(); NULL: no memory. Empty where
- * the file cannot be read, which opening it reports. */
-char *codec_list_needs(const char *path);
-
 #endif
