@@ -16,9 +16,15 @@ echo '<title>{{title}}</title>{{links}}' >web/pages/index.html
 echo 'viewer' >web/pages/viewer.js
 printf 'pages/viewer.js\n' >web/pages/files.txt
 
-# without the package, nothing is written
+# without the package, nothing is written: a copy of the command is neither installed nor in a build tree
+mkdir alone
+cp "$facet" alone/facet
+command=$facet
+facet=$work/alone/facet
 expect 8 view tri.gltf --html page.html
 says "./run web --build"
+facet=$command
+rm -r alone
 export FACET_WEB="$work/nowhere"
 expect 8 view tri.gltf --html page.html
 says "FACET_WEB names $work/nowhere"
