@@ -148,17 +148,25 @@ export const cases = ({ page, check, equal, near, requests }) => ({
             const fail = async (act) => { try { await act(); return ''; } catch (error) { return error.message; } };
             const errors = [await fail(() => viewer.openModel('c.gltf')), await fail(() => viewer.openFiles([{ path: 'x.txt', file: new Blob(['x']) }])),
                 await fail(() => viewer.setOption('tone-mapping', 'bogus')), await fail(() => viewer.setOption('no-such', '1'))];
-            await viewer.setOption('tone-mapping', 'agx');
             await viewer.openModel('b.gltf');
+            await viewer.setOption('shading', 'ogl1'); // reads the files again
+            await viewer.setOption('shading', null);
+            await viewer.setOption('tone-mapping', 'agx');
+            await viewer.setOption('compare', 'tone-mapping');
+            await viewer.setOption('divider', '0.25');
+            const both = viewer.options, wrong = [await fail(() => viewer.setOption('compare', 'bogus')), await fail(() => viewer.setOption('divider', '2'))];
+            await viewer.setOption('compare', null);
             viewer.setMaterial(0, { pbrMetallicRoughness: { baseColorFactor: [0, 1, 0, 1] } });
             const green = await image(viewer);
-            return { list, path, first, second, builtin, errors, green, options: viewer.options, command: viewer.command(640, 480), state: viewer.state, changes: viewer.log.filter(([type]) => type === 'facet-change').length };
+            return { list, path, first, second, builtin, errors, both, wrong, green, options: viewer.options, command: viewer.command(640, 480), state: viewer.state, changes: viewer.log.filter(([type]) => type === 'facet-change').length };
         });
         equal(found.list, ['a/box.gltf', 'b.gltf']);
         equal(found.path, 'a/box.gltf');
         equal(found.first.hash, found.second.hash, 'a model of two files differs from that of one');
         check(found.builtin.hash !== found.first.hash && found.builtin.covered > 0.05, 'the built-in scene');
         check(/c\.gltf/.test(found.errors[0]) && /x\.txt/.test(found.errors[1]) && /bogus/.test(found.errors[2]) && /no-such/.test(found.errors[3]), `${found.errors}`);
+        equal([found.both.compare, found.both.divider, found.options.compare], ['tone-mapping', '0.25', undefined]);
+        check(/bogus/.test(found.wrong[0]) && /divider.*2/.test(found.wrong[1]), `${found.wrong}`);
         equal(found.options['tone-mapping'], 'agx');
         equal(found.path, 'a/box.gltf');
         check(/^facet render b\.gltf/.test(found.command) && /agx/.test(found.command) && /640x480/.test(found.command), found.command);

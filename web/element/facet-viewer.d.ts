@@ -201,7 +201,10 @@ export class FacetViewer extends HTMLElement {
   openModel(path: string): Promise<void>;
   readonly files: ModelFile[];
   readonly modelPath: string | null;
-  /** An option of `facet render` by its long name; null: its default. */
+  /**
+   * An option of `facet render` by its long name; null: its default. Also "compare" (masking, scattering, tone-mapping, variant) and
+   * "divider" (0 to 1): two images side by side.
+   */
   setOption(name: string, text: string | null): Promise<void>;
   /** All options that differ from their defaults. Setting them gives the same image. */
   readonly options: Record<string, string>;

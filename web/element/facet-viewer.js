@@ -232,7 +232,7 @@ export class FacetViewer extends HTMLElement {
     this.#say();
   }
 
-  get options() { return this.#context.view.query((module, viewer) => module.getOptions(viewer), {}); }
+  get options() { return this.#context.view.options(); }
   command(width = this.#context.view.size.width, height = this.#context.view.size.height) {
     return this.#context.view.query((module, viewer) => module.command(viewer, width, height), '');
   }

@@ -57,7 +57,7 @@ template.innerHTML = html;
 
 // The parts of the element's shadow tree by name.
 export function makeTree(element) {
-  const root = element.attachShadow({ mode: 'open' });
+  const root = element.attachShadow({ mode: 'open', delegatesFocus: true });
   root.adoptedStyleSheets = [sheet];
   root.append(template.content.cloneNode(true));
   const find = (selector) => root.querySelector(selector);

@@ -21,6 +21,7 @@ export class View {
   #options = new Map();
   #motion = new Map();
   #camera = new Map();
+  #comparison = { name: '', position: 0.5 };
   #materials = [];
   #placement = null; // texts, unless the model stands as in its file
   #extraFiles = []; // that options name
@@ -110,6 +111,7 @@ export class View {
     this.#materials = [];
     for (const name of OF_MODEL) this.#options.delete(name);
     if (isNew) await this.#tellFiles();
+    if (isNew && this.#comparison.name) this.setOption('compare', this.#comparison.name);
     this.touch();
   }
 
@@ -150,12 +152,38 @@ export class View {
 
   // The value may be the path of a file of the model, or one that was set before: then wait for what is returned.
   setOption(name, text) {
+    if (name === 'compare' || name === 'divider') return this.#setComparison(name, text);
+    if (name === 'shading' && this.path) return this.#setShading(text);
     const entry = text !== null && [...this.files, ...this.#extraFiles].find(({ path }) => path === text);
     if (entry) return this.setOptionFile(name, entry);
     if (engine.module) this.use((module, viewer) => module.setOption(viewer, name, text));
     this.#options.set(name, text);
     this.touch();
     return undefined;
+  }
+
+  // The model is read again.
+  async #setShading(text) {
+    await this.#withFiles(this.files, () => this.use((module, viewer) => module.setOption(viewer, 'shading', text)));
+    this.#options.set('shading', text);
+    this.touch();
+  }
+
+  // Two images side by side are no option of the command, but are set as one: what is compared, and where the divider is.
+  #setComparison(name, text) {
+    const next = { ...this.#comparison };
+    if (name === 'compare') next.name = text ?? '';
+    else next.position = text === null ? 0.5 : Number(text);
+    if (!(next.position >= 0 && next.position <= 1)) throw new Error(`divider: "${text}" is no number from 0 to 1`);
+    if (engine.module) this.use((module, viewer) => module.compare(viewer, next.name, next.position));
+    this.#comparison = next;
+    this.touch();
+  }
+
+  options() {
+    const { name, position } = this.#comparison;
+    const own = name ? { compare: name, divider: String(position) } : {};
+    return { ...this.query((module, viewer) => module.getOptions(viewer), {}), ...own };
   }
 
   async setOptionFile(name, entry) {
