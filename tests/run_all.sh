@@ -33,9 +33,10 @@ configure() {
     echo "built $name"
 }
 
-# Khronos' glTF validator, and programs that read baked environments; their tests are skipped without npm or network access.
+# Khronos' glTF validator, programs that read baked environments, and what the element is compared with; their tests are skipped
+# without npm or network access.
 # Some of tests/clients need a browser, too, which ./run test installs.
-for folder in validator clients; do
+for folder in validator clients web; do
     if command -v npm >/dev/null 2>&1 && [ ! -d "$here/tests/$folder/node_modules" ]; then
         (cd "$here/tests/$folder" && npm ci --no-audit --no-fund >"$build/npm.log" 2>&1) ||
             echo "npm ci failed in tests/$folder: $(tail -n 1 "$build/npm.log")"
