@@ -51,6 +51,7 @@ export interface Tools {
 
 /** One sentence that names the file, the place and what was expected. */
 export class FacetError extends Error {
+  constructor(message: string, code?: number);
   /** The exit code of the command; 0: none. */
   readonly code: number;
 }

@@ -98,9 +98,9 @@ size_t facet_build_report(char *out, size_t size)
                           "compiler  clang %s, WebAssembly with SIMD\n"
                           "threads   %u\n"
                           "renderers none: images are drawn with WebGL 2 by facet-viewer\n"
-                          "images    png, jpeg, hdr, pfm\n"
+                          "images    png, jpeg, hdr, pfm; webp, exr by decoders of their own\n"
                           "textures  ktx2\n"
-                          "geometry  meshopt\n"
+                          "geometry  meshopt; draco by a decoder of its own\n"
                           "plots     csv, json, svg\n",
                           FACET_VERSION, __clang_version__, facet_thread_count());
     return length > 0 ? (size_t)length : 0;
