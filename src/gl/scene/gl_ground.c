@@ -7,6 +7,7 @@
 #include "base/result.h"
 #include "gl/core/gl_api.h"
 #include "gl/scene/gl_camera.h"
+#include "gl/scene/gl_material.h"
 
 /* ---- casters ---- */
 
@@ -72,19 +73,24 @@ static facet_result draw_batch(const gl_casters *c, const gl_batch *batch, facet
 facet_result gl_casters_draw(gl_casters *c, const float matrix[16], uint32_t x, uint32_t y, uint32_t edge,
                              facet_error *error)
 {
-    gl_frame_block frame = {.eye = {c->eye[0], c->eye[1], c->eye[2]}};
-    memcpy(frame.view_projection, matrix, sizeof frame.view_projection);
+    union { /* as large as any block that it stands in for */
+        gl_frame_block frame;
+        char material[GL_MATERIAL_BLOCK_SIZE];
+    } block = {.frame = {.eye = {c->eye[0], c->eye[1], c->eye[2]}}};
+    memcpy(block.frame.view_projection, matrix, sizeof block.frame.view_projection);
     if (!c->block)
         glGenBuffers(1, &c->block);
     glBindBuffer(GL_UNIFORM_BUFFER, c->block);
-    glBufferData(GL_UNIFORM_BUFFER, sizeof frame, &frame, GL_STREAM_DRAW);
+    glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STREAM_DRAW);
     glBindBufferBase(GL_UNIFORM_BUFFER, GL_BLOCK_FRAME, c->block);
+    /* WebGL demands a buffer for each block of a program, even where nothing of it is read */
+    glBindBufferBase(GL_UNIFORM_BUFFER, GL_BLOCK_MATERIAL, c->block);
     glViewport((GLint)x, (GLint)y, (GLsizei)edge, (GLsizei)edge);
     for (gl_pass pass = GL_PASS_OPAQUE; pass < GL_PASS_COUNT; pass++) {
         uint32_t count;
         const gl_batch *batches = gl_mesh_batches(c->meshes, pass, &count);
         for (uint32_t i = 0; i < count; i++) {
-            if (!casts(&batches[i], pass) || gl_mesh_is_outside(&batches[i], &frame))
+            if (!casts(&batches[i], pass) || gl_mesh_is_outside(&batches[i], &block.frame))
                 continue;
             TRY(draw_batch(c, &batches[i], error));
         }

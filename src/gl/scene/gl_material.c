@@ -36,6 +36,7 @@ typedef struct gl_material_block {
                    /* per slot: rows of the transform; w: texture coordinate set; 1: anisotropic probes */
                    [4];
 } gl_material_block;
+_Static_assert(sizeof(gl_material_block) <= GL_MATERIAL_BLOCK_SIZE, "gl_material.h has the size");
 
 static void copy3(const float in[3], float out[3])
 {

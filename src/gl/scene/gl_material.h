@@ -27,6 +27,8 @@ void gl_material_use_phong(gl_material_set *set, const gl_phong *phong); /* NULL
 uint64_t gl_material_features(const gl_material_set *set, const gl_batch *batch);
 /* Whether alpha-to-coverage with alpha-to-one is available, which OpenGL ES lacks. */
 bool gl_material_has_coverage(const gl_context *context);
+/* No block of a material is larger, bytes. */
+enum { GL_MATERIAL_BLOCK_SIZE = 1024 };
 /* Binds block and textures, and sets culling and alpha-to-coverage. */
 void gl_material_bind(const gl_material_set *set, const gl_batch *batch);
 /* Uses the batch's program with all of these features, and binds its material. Fails as gl_programs_get(). */
