@@ -39,16 +39,20 @@ configure() {
 for folder in validator clients web; do
     if command -v npm >/dev/null 2>&1 && [ ! -d "$here/tests/$folder/node_modules" ]; then
         (cd "$here/tests/$folder" && npm ci --no-audit --no-fund >"$build/npm.log" 2>&1) ||
-            echo "npm ci failed in tests/$folder: $(tail -n 1 "$build/npm.log")"
+            {
+                echo "npm ci failed in tests/$folder: $(tail -n 1 "$build/npm.log")"
+                [ -z "${CI_REQUIRES_ALL-}" ] || exit 1
+            }
     fi
 done
 
 configure gcc all -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Release
-# The page for browsers. Its test is skipped without emscripten, or where Debian's sources cannot be downloaded (77).
+# The modules for browsers. Their tests are skipped without emscripten, or where Debian's sources cannot be downloaded (77),
+# unless CI_REQUIRES_ALL is set.
 if command -v emcc >/dev/null 2>&1; then
     status=0
     sh "$here/web/build.sh" "$build/gcc/generated" || status=$?
-    [ "$status" = 0 ] || [ "$status" = 77 ] || exit 1
+    [ "$status" = 0 ] || { [ "$status" = 77 ] && [ -z "${CI_REQUIRES_ALL-}" ]; } || exit 1
 fi
 configure clang facet_tested -DCMAKE_C_COMPILER=clang $lld -DCMAKE_BUILD_TYPE=Release -DFACET_TRUTH=OFF -DFACET_BENCH=OFF \
     -DFACET_TEST_LABEL=threads

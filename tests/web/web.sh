@@ -1,17 +1,23 @@
 #!/bin/sh
-# web.sh FACET DIST - the page that web/build.sh built, in headless Chromium (CHROMIUM names another one), beside facet render.
-# Skipped without Node.js 18 or newer, npm ci in tests/clients, the browser, or the built page. FACET_TEST_DATA: models.
+# web.sh FACET DIST - the viewer's module that web/build.sh built, in headless Chromium (CHROMIUM names another one), beside
+# facet render. Skipped, or failed where CI_REQUIRES_ALL is set, without Node.js 18 or newer, npm ci in tests/clients, the
+# browser, or the built module. FACET_TEST_DATA: models.
 set -eu
 facet=$1
 dist=$2
 here=$(cd "$(dirname "$0")" && pwd)
 data=${FACET_TEST_DATA-$here/../../../shared/data}
-command -v node >/dev/null || { echo "skipped: there is no node"; exit 77; }
+skip() {
+    echo "skipped: $1"
+    [ -z "${CI_REQUIRES_ALL-}" ] || exit 1
+    exit 77
+}
+command -v node >/dev/null || skip "there is no node"
 version=$(node -p 'process.versions.node.split(".")[0]')
-[ "$version" -ge 18 ] || { echo "skipped: Node.js $version is older than 18"; exit 77; }
-[ -d "$here/../clients/node_modules/playwright-core" ] || { echo "skipped: npm ci was not run in tests/clients"; exit 77; }
-[ -x "${CHROMIUM:-/usr/bin/chromium}" ] || { echo "skipped: there is no ${CHROMIUM:-/usr/bin/chromium}"; exit 77; }
-[ -f "$dist/facet-viewer/viewer.wasm" ] || { echo "skipped: ./run web --build was not run"; exit 77; }
+[ "$version" -ge 18 ] || skip "Node.js $version is older than 18"
+[ -d "$here/../clients/node_modules/playwright-core" ] || skip "npm ci was not run in tests/clients"
+[ -x "${CHROMIUM:-/usr/bin/chromium}" ] || skip "there is no ${CHROMIUM:-/usr/bin/chromium}"
+[ -f "$dist/facet-viewer/viewer.wasm" ] || skip "./run web --build was not run"
 models=
 for model in core/WaterBottle.glb materials/SunglassesKhronos.glb materials/AttenuationTest.glb materials/CompareDispersion.glb \
     materials/CompareSheen.glb materials/AnisotropyStrengthTest.glb materials/UnlitTest.glb animation/Fox.glb \
