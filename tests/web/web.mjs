@@ -245,7 +245,7 @@ try {
     assert.ok((await frame()).equals(whole), 'another viewer changed this one');
     const divided = Buffer.from(await page.evaluate(() => {
         const { web } = window;
-        web.module.compare(web.viewer, 'scattering', 0.5);
+        web.module.compare(web.viewer, 'tone-mapping', 0.5);
         const text = web.frame();
         web.module.compare(web.viewer, '');
         return text;

@@ -75,6 +75,7 @@ static facet_result draw_sides(viewer *v, const facet_render_desc *desc, facet_e
     glBindFramebuffer(GL_READ_FRAMEBUFFER, v->side_framebuffer);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
     glBlitFramebuffer(border, 0, width, height, border, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0); /* of which the page may read */
     return gl_context_check(v->context, "the second side", error);
 }
 
