@@ -89,21 +89,19 @@ export function make_bundles(folder) {
 }
 
 const facet = `
-const { default: create } = await import('/dist/facet-viewer/viewer.js');
+const { loadModule } = await import('/dist/facet-viewer/module.js');
 const c = document.getElementById('c');
 const load = async () => {
-    const [m, bytes] = await Promise.all([create(), fetch('/model.glb').then((response) => response.arrayBuffer())]);
-    const text = (string) => { const at = m._malloc(4 * string.length + 1); m.stringToUTF8(string, at, 4 * string.length + 1); return at; };
-    const check = (result) => { if (result) throw new Error(m.UTF8ToString(m._facet_web_error())); };
-    m.specialHTMLTargets['!c'] = c;
-    check(m._facet_web_start(text('!c')));
-    const at = m._malloc(bytes.byteLength);
-    m.HEAPU8.set(new Uint8Array(bytes), at);
-    check(m._facet_web_load(at, bytes.byteLength, text('model.glb')));
-    window.viewer.memory = () => m.HEAPU8.length;
+    const [facet, bytes] = await Promise.all([loadModule(), fetch('/model.glb').then((response) => response.arrayBuffer())]);
+    facet.start(c);
+    const viewer = facet.create();
+    facet.putFile('model.glb', new Uint8Array(bytes));
+    facet.open(viewer, 'model.glb');
+    window.viewer.memory = () => facet.memorySize;
     window.viewer.turn = (step) => {
-        if (step) { m._facet_web_point(1, 0, 0, 300, 200); m._facet_web_point(3, 0, 0, 310, 200); m._facet_web_point(2, 0, 0, 310, 200); }
-        check(m._facet_web_draw(c.width, c.height, 0));
+        if (step) facet.turn(viewer, 10, 0, c.height);
+        facet.jump(viewer);
+        facet.draw(viewer, c.width, c.height);
     };
     window.viewer.turn(0);
 };
