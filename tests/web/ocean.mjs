@@ -30,6 +30,15 @@ async function open(hash) {
     await sharp();
 }
 
+// The same by a new link in the page that is open.
+async function show(hash) {
+    await page.evaluate((link) => {
+        document.body.dataset.sharp = '';
+        location.hash = link;
+    }, hash);
+    await sharp();
+}
+
 const sharp = () => page.waitForFunction(([w]) => document.body.dataset.sharp === 'true' && document.getElementById('view').width === w, [width], { timeout: 120000 });
 
 // The pixels of the canvas, drawn anew, with all samples. divider: undefined: where it is.
@@ -43,6 +52,8 @@ const image = (divider) => page.evaluate(([w, h, at]) => {
 }, [width, height, divider]).then((url) => Buffer.from(url.split(',')[1], 'base64'));
 
 const options = () => page.evaluate(() => window.oceanPage.ocean.options);
+// The address follows changes after a moment.
+const address_hash = () => page.waitForTimeout(400).then(() => page.evaluate(() => location.hash));
 const error = () => page.evaluate(() => document.getElementById('error').textContent);
 
 // Runs the page's command, with more options, and compares.
@@ -83,8 +94,9 @@ try {
         legacy: '#before=A&sun=22,0',
     };
     const drawn = {};
+    await open('#wind=1');
     for (const [name, hash] of Object.entries(seas)) {
-        await open(hash);
+        await show(hash);
         assert.equal(await error(), '', name);
         drawn[name] = await image();
         await compare(name, drawn[name]);
@@ -111,7 +123,7 @@ try {
     await page.mouse.move(stage.x + 0.7 * stage.width, stage.y + 210, { steps: 2 });
     await page.mouse.up();
     assert.equal(await at(), 70, 'the border did not follow the pointer');
-    assert.match(await page.evaluate(() => location.hash), /before-after&divider=0\.7/);
+    assert.match(await address_hash(), /before-after&divider=0\.7/);
     await page.getByLabel('Beside the look that it replaces').uncheck();
     assert.ok(await page.locator('#divider').isHidden());
 
@@ -120,7 +132,9 @@ try {
     await page.keyboard.press('ArrowRight');
     assert.equal((await options()).wind, '8.5,90');
     const windy = await image();
-    const track = await page.getByLabel('Sun elevation', { exact: true }).boundingBox();
+    const slider = page.getByLabel('Sun elevation', { exact: true });
+    await slider.scrollIntoViewIfNeeded();
+    const track = await slider.boundingBox();
     await page.mouse.click(track.x + track.width / 2, track.y + track.height / 2);
     assert.match((await options()).sun, /^(39|40|41)/);
     assert.notDeepEqual(await image(), windy, 'the sun did not change the image');
@@ -149,12 +163,12 @@ try {
     assert.equal(await error(), '');
 
     // The link gives the same image.
-    const link = await page.evaluate(() => location.hash), shown = await image();
+    const link = await address_hash(), shown = await image();
     await open(link);
     assert.deepEqual(await image(), shown, `the image of the link differs: ${link}`);
 
     // What cannot be set gets the command's sentence, and the page goes on.
-    await open('#wind=99&chl=1');
+    await show('#wind=99&chl=1');
     assert.match(await error(), /--wind: "99".*0 to 40 m\/s/);
     assert.deepEqual(await options(), { chl: '1' });
 
@@ -176,7 +190,7 @@ try {
     assert.equal(await page.evaluate(() => window.oceanPage.isPlaying), false);
     await sharp();
     const time = await page.evaluate(() => window.oceanPage.ocean.state.time);
-    assert.match(await page.evaluate(() => location.hash), new RegExp(`time=${String(time).replace('.', '\\.')}`));
+    assert.match(await address_hash(), new RegExp(`time=${String(time).replace('.', '\\.')}`));
     assert.notDeepEqual(await image(), whole, 'the sea did not move');
     await compare('later', await image());
 
@@ -196,8 +210,7 @@ try {
         for (const name of [file, picture, model].filter(Boolean)) assert.ok(existsSync(path.join(dist, name)), `${href}: there is no ${name}`);
         if (model) execFileSync(facet, ['inspect', '-q', path.join(dist, model)], { stdio: 'pipe' });
     }
-    await page.goto(`${address}ocean.html`);
-    await page.evaluate(() => window.oceanPage.ready);
+    await open('#wind=1');
     for (const { href } of cards.filter((card) => card.href.startsWith('ocean.html'))) {
         await page.evaluate((hash) => { location.hash = hash; }, href.split('#')[1]);
         await page.waitForFunction(([name]) => window.oceanPage.ocean.options[name] !== undefined, [href.split('#')[1].split('=')[0]]);

@@ -102,13 +102,17 @@ function play(is) {
 
 // ---- settings, the link ----
 
+let linkTimer = 0;
+const writeLink = () => history.replaceState(null, '', `#${linkText()}`);
+
 // After a change: the panel shows what is set, the link holds it.
 function settle() {
   const [width, height] = fullSize();
   const isDivided = ocean.options['before-after'] !== undefined;
   divider.hidden = byId('label-before').hidden = byId('label-now').hidden = !isDivided;
   panel.refresh(ocean.command(width, height));
-  history.replaceState(null, '', `#${linkText()}`);
+  clearTimeout(linkTimer);
+  linkTimer = setTimeout(writeLink, 200); // browsers limit how often an address may change
 }
 
 function change(f) {
@@ -196,7 +200,7 @@ function addButtons() {
     labelled('copy', 'Copy command', () => copy(ocean.command(...fullSize()), 'Command')),
     labelled('camera', 'Save image', saveImage),
     labelled('share', 'Share', () => {
-      settle();
+      writeLink();
       copy(location.href, 'Link');
     }));
   byId('controls').append(playButton);
