@@ -32,11 +32,10 @@ function showError(text) {
   byId('error').textContent = text;
 }
 
-// Runs f; its error is shown. True: there was none.
+// Runs f; its error is shown. True: there was none; the last error stays.
 function attempt(f) {
   try {
     f();
-    showError('');
     return true;
   } catch (error) {
     showError(error.message);
@@ -117,6 +116,7 @@ function settle() {
 
 function change(f) {
   lastChange = performance.now();
+  showError('');
   attempt(f);
   settle();
   ask();
