@@ -128,6 +128,15 @@ EMSCRIPTEN_KEEPALIVE int facet_ocean_restore(void)
 
 /* ---- options ---- */
 
+/* All options get their defaults. */
+EMSCRIPTEN_KEEPALIVE int facet_ocean_reset(void)
+{
+    page.time_s = 0.0;
+    page.metered_width = 0;
+    forget_frames();
+    return ocean_settings_reset(&page.settings, &page.error);
+}
+
 /* text NULL: the default again. */
 EMSCRIPTEN_KEEPALIVE int facet_ocean_set_option(const char *name, const char *text)
 {

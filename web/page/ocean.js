@@ -146,7 +146,7 @@ function linkText() {
 function readLink() {
   const wanted = new URLSearchParams(location.hash.slice(1));
   const refused = [];
-  for (const name of Object.keys(ocean.options)) if (!wanted.has(name)) ocean.setOption(name, null);
+  ocean.reset();
   for (const [name, text] of wanted) {
     try {
       if (name === 'divider') divider.value = Number(text) || 0;

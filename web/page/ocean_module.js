@@ -31,6 +31,7 @@ export async function loadOcean(canvas) {
 
   return {
     setOption: (name, text) => check(withText(name, (at) => withText(text, (value) => ocean._facet_ocean_set_option(at, value)))),
+    reset: () => check(ocean._facet_ocean_reset()),
     get options() { return JSON.parse(take(ocean._facet_ocean_get_options())); },
     get help() { return JSON.parse(take(ocean._facet_ocean_get_help())); },
     get values() { return JSON.parse(take(ocean._facet_ocean_get_values())); },

@@ -7,7 +7,7 @@ const note = (text) => element('p', { class: 'note' }, text);
 const FETCHES = [['inf', 'Unlimited'], ['1000km', '1000 km'], ['300km', '300 km'], ['100km', '100 km'], ['30km', '30 km'], ['10km', '10 km'], ['3km', '3 km'], ['1km', '1 km']];
 const PRESETS = { glass: 'Glass', breeze: 'Breeze', 'trade-wind': 'Trade wind', gale: 'Gale', lagoon: 'Lagoon', harbour: 'Harbour' };
 // What a preset sets; choosing one clears them.
-const SEA_OPTIONS = ['wind', 'fetch', 'swell', 'choppiness', 'water', 'chl', 'depth', 'bed-slope', 'bed-color'];
+const SEA_OPTIONS = ['wind', 'fetch', 'swell', 'choppiness', 'water', 'chl', 'bed-slope', 'bed-color', 'depth'];
 const LIGHTS = { Noon: 62, Afternoon: 30, Evening: 9, Sunset: 1.5, Dusk: -4 };
 const TONES = [['agx', 'AgX'], ['neutral', 'Khronos PBR Neutral'], ['aces', 'ACES (Hill)'], ['aces-narkowicz', 'ACES (Narkowicz)'], ['reinhard', 'Reinhard'], ['hable', 'Hable'], ['none', 'None']];
 const STAGES = [['', 'Everything'], ['5', '5: foam and glints'], ['4', '4: refraction and absorption'], ['3', '3: light of the sky'], ['2', '2: microfacets'], ['1', '1: Schlick’s Fresnel']];
