@@ -9,10 +9,9 @@ import { serve_page } from '../clients/browser.mjs';
 const [facet, dist, work] = process.argv.slice(2);
 const width = 160, height = 90;
 
-const served = await serve_page('/a/folder/icon.svg', (url) => path.join(dist, url.replace('/a/folder/', '')));
+const served = await serve_page('/a/folder/gallery.html', (url) => path.join(dist, url.replace('/a/folder/', '')));
 const { page, messages } = served;
-const address = page.url().replace('icon.svg', '');
-messages.length = 0;
+const address = page.url().replace('gallery.html', '');
 
 // The canvas has the size of the tests before the page's script runs.
 await page.addInitScript(([w, h]) => document.addEventListener('readystatechange', () => {
