@@ -222,7 +222,7 @@ async function showServed(name) {
     viewer.addEventListener('load', () => resolve(true), { once: true });
     viewer.addEventListener('error', () => resolve(false), { once: true });
   });
-  viewer.src = name;
+  viewer.setAttribute('src', name);
   return done;
 }
 

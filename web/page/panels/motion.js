@@ -37,8 +37,10 @@ export function motionBar(app) {
   };
   return {
     root,
-    update(options, state) {
+    update(options, now) {
       if (root.hidden) return;
+      // at rest the range is that of the animation that would run
+      const state = now.end > now.begin ? now : { ...now, begin: 0, end: app.viewer.duration, time: 0 };
       const isOn = state.end > state.begin;
       animation.value = valueOf(options, state);
       line.disabled = play.disabled = !isOn;
