@@ -52,6 +52,12 @@ if(EXISTS ${sources}/libwebp)
     facet_web_codec(webp SOURCES ${root}/src/image/codec_webp.c LIBRARIES webp FUNCTIONS webp_probe webp_decode image_destroy)
 endif()
 
+# ---- Zstandard: the compression of KTX2 files ----
+
+file(GLOB zstd ${sources}/libzstd/lib/common/*.c ${sources}/libzstd/lib/decompress/*.c)
+facet_web_library(zstd SOURCES ${zstd} INCLUDES ${sources}/libzstd/lib DEFINITIONS HAVE_ZSTD ZSTD_DISABLE_ASM ZSTD_LEGACY_SUPPORT=0)
+facet_web_codec(zstd SOURCES ${root}/src/image/ktx2_zstd.c LIBRARIES zstd FUNCTIONS ktx2_inflate_zstd)
+
 # ---- Draco ----
 
 if(EXISTS ${sources}/draco)

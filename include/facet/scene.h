@@ -78,7 +78,7 @@ FACET_API bool facet_scene_has_file(const facet_scene *scene, const char *path);
  * as the scene. */
 FACET_API const char *facet_scene_get_file(const facet_scene *scene, uint32_t index);
 
-/* A decoder that files of the scene need and that pages fetch when it is needed, by index: "draco", "webp", "avif", "exr".
+/* A decoder that files of the scene need and that pages fetch when it is needed, by index: "draco", "webp", "avif", "exr", "zstd".
  * NULL past the end. */
 FACET_API const char *facet_scene_get_decoder(const facet_scene *scene, uint32_t index);
 

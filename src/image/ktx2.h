@@ -92,6 +92,12 @@ facet_result ktx2_load_level(const ktx2 *k, uint32_t level, const facet_allocato
                              facet_error *error);
 void ktx2_data_destroy(ktx2_data *d); /* {0} is allowed */
 
+enum { KTX2_REASON = 200 };
+/* Inflates a frame of Zstandard, which must give out_size bytes. *reason, a text beforehand, is replaced where
+ * something else than damage is known. */
+facet_result ktx2_inflate_zstd(const unsigned char *in, size_t in_size, unsigned char *out, size_t out_size,
+                               char reason[KTX2_REASON]);
+
 /* Decodes one image of a loaded level: type and channels of k->format (RGBA if a swizzle needs alpha), or
  * desc->channel_count channels for U8. Blocks are decoded in parallel. Of desc only allocator, thread_count,
  * max_size, channel_count, keeps_nonfinite and largest are used. */

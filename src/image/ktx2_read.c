@@ -6,10 +6,6 @@
 #include <stdatomic.h>
 #include <zlib.h>
 
-#ifdef HAVE_ZSTD
-#include <zstd.h>
-#endif
-
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
@@ -82,21 +78,13 @@ static facet_result decode_astc_blocks(const ktx2 *k, const unsigned char *bytes
 
 /* ---- supercompression ---- */
 
-static bool inflate_zlib(const unsigned char *in, size_t in_size, unsigned char *out, size_t out_size)
+static facet_result inflate_zlib(const unsigned char *in, size_t in_size, unsigned char *out, size_t out_size)
 {
     uLongf made = (uLongf)out_size;
     return in_size <= ULONG_MAX && out_size <= ULONG_MAX &&
-           uncompress(out, &made, in, (uLong)in_size) == Z_OK && made == out_size;
-}
-
-static bool inflate_zstd(const unsigned char *in, size_t in_size, unsigned char *out, size_t out_size)
-{
-#ifdef HAVE_ZSTD
-    return ZSTD_decompress(out, out_size, in, in_size) == out_size;
-#else
-    (void)in, (void)in_size, (void)out, (void)out_size;
-    return false; /* refused by ktx2_open() */
-#endif
+                   uncompress(out, &made, in, (uLong)in_size) == Z_OK && made == out_size
+               ? FACET_OK
+               : FACET_ERROR_INVALID;
 }
 
 /* Bytes of one image of a level. */
@@ -120,11 +108,14 @@ facet_result ktx2_load_level(const ktx2 *k, uint32_t level, const facet_allocato
         *out = (ktx2_data){0};
         return fail_memory(error, "KTX2 level", size);
     }
-    if (!(k->scheme == KTX2_ZLIB ? inflate_zlib : inflate_zstd)(out->bytes, out->size, block, size)) {
+    char reason[KTX2_REASON] = "the compressed data is damaged";
+    const facet_result result = k->scheme == KTX2_ZLIB
+                                    ? inflate_zlib(out->bytes, out->size, block, size)
+                                    : ktx2_inflate_zstd(out->bytes, out->size, block, size, reason);
+    if (result != FACET_OK) {
         mem_free(block);
         *out = (ktx2_data){0};
-        return fail(error, FACET_ERROR_INVALID, "%s: KTX2: level %u: the compressed data is damaged", k->name,
-                    level);
+        return fail(error, result, "%s: KTX2: level %u: %s", k->name, level, reason);
     }
     *out = (ktx2_data){.bytes = block, .size = size, .block = block};
     return FACET_OK;

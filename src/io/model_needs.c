@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/result.h"
-#include "image/image.h"
+#include "image/ktx2.h"
 #include "io/file_source.h"
 #include "io/gltf/gltf.h"
 #include "io/model_kind.h"
@@ -20,6 +20,8 @@ const char *model_need_name(model_need need)
         return "avif";
     case MODEL_NEED_EXR:
         return "exr";
+    case MODEL_NEED_ZSTD:
+        return "zstd";
     default:
         return "";
     }
@@ -34,6 +36,11 @@ unsigned model_needs_of_image(const void *bytes, size_t size)
         return MODEL_NEED_AVIF;
     case IMAGE_CODEC_EXR:
         return MODEL_NEED_EXR;
+    case IMAGE_CODEC_KTX2: {
+        ktx2 k;
+        return ktx2_open(bytes, size, "", &k, NULL) == FACET_OK && k.scheme == KTX2_ZSTD ? MODEL_NEED_ZSTD
+                                                                                         : 0;
+    }
     default:
         return 0;
     }

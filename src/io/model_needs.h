@@ -9,7 +9,8 @@ typedef enum model_need {
     MODEL_NEED_WEBP = 1 << 1,
     MODEL_NEED_AVIF = 1 << 2,
     MODEL_NEED_EXR = 1 << 3,
-    MODEL_NEED_COUNT = 4 /* of bits */
+    MODEL_NEED_ZSTD = 1 << 4, /* KTX2 with that compression */
+    MODEL_NEED_COUNT = 5      /* of bits */
 } model_need;
 
 /* "draco", "webp", .. of a bit: the name of the module. */

@@ -76,6 +76,8 @@ static void other_files_are_told_apart(void **state)
     temporary_folder_create(&folder);
     assert_int_equal(needs_of_text(&folder, "a.hdr", "\x76\x2f\x31\x01 and more"), MODEL_NEED_EXR);
     assert_int_equal(needs_of_text(&folder, "a.exr", "#?RADIANCE\n"), 0);
+    assert_int_equal(needs_of("src/image/testdata/uastc_zstd.ktx2"), MODEL_NEED_ZSTD);
+    assert_int_equal(needs_of("src/image/testdata/uastc_modes.ktx2"), 0);
     assert_int_equal(needs_of_text(&folder, "a.obj", "v 0 0 0\nf 1 1 1\n"), 0);
     assert_int_equal(needs_of_text(&folder, "a.glb", "nonsense"), 0);
     temporary_folder_remove(&folder);
@@ -100,7 +102,7 @@ static void unreadable_files_have_their_sentence(void **state)
 static void names_are_those_of_modules(void **state)
 {
     (void)state;
-    static const char *const names[MODEL_NEED_COUNT] = {"draco", "webp", "avif", "exr"};
+    static const char *const names[MODEL_NEED_COUNT] = {"draco", "webp", "avif", "exr", "zstd"};
     for (int i = 0; i < MODEL_NEED_COUNT; i++)
         assert_string_equal(model_need_name((model_need)(1 << i)), names[i]);
 }

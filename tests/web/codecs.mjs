@@ -43,6 +43,7 @@ async function compare(tools, name, bytes, args, output) {
 
 const testdata = (name) => readFileSync(path.join(top, 'src/io/testdata', name));
 const image = (name) => readFileSync(path.join(top, 'tests/fuzz/corpus_image', name));
+const ktx2 = (name) => readFileSync(path.join(top, 'src/image/testdata', name));
 const shared = (...names) => names.map((name) => path.join(data, name)).filter((file) => existsSync(file));
 
 // ---- the same as native, and fetched only when needed ----
@@ -76,6 +77,8 @@ function black_tga(width, height) {
     return bytes;
 }
 
+const extent_of = (ktx2) => [ktx2.readUInt32LE(20), ktx2.readUInt32LE(24)];
+
 // Metrics of an image against a black one agree in all digits where the decoded texels do.
 async function compare_texels(tools, name, bytes, width, height) {
     const black = black_tga(width, height);
@@ -94,6 +97,16 @@ async function compare_texels(tools, name, bytes, width, height) {
     await compare_texels(tools, 'view.webp', readFileSync(path.join(work, 'view.webp')), 48, 32);
     await compare_texels(tools, 'lossless.webp', image('lossless.webp'), 9, 7);
     assert.deepEqual(read, ['codec_webp.wasm']);
+}
+
+{
+    const { tools, read } = await start();
+    await compare_texels(tools, 'uastc_modes.ktx2', ktx2('uastc_modes.ktx2'), ...extent_of(ktx2('uastc_modes.ktx2')));
+    assert.deepEqual(read, [], 'a decoder was fetched for a file without Zstandard');
+    await compare_texels(tools, 'uastc_zstd.ktx2', ktx2('uastc_zstd.ktx2'), ...extent_of(ktx2('uastc_zstd.ktx2')));
+    assert.equal(native(['bake', 'sun:40,135', '--size', '32', '--zstd', '9', '-q', '-o', 'sky.ktx2']).code, 0);
+    await compare(tools, 'sky.ktx2', readFileSync(path.join(work, 'sky.ktx2')), ['bake', 'sky.ktx2', '--size', '16', '--samples', '16'], 'out.ktx2');
+    assert.deepEqual(read, ['codec_zstd.wasm']);
 }
 
 // ---- what cannot be decoded has its sentence, and the next file is read ----
@@ -127,6 +140,15 @@ const accept = async (tools, name) => assert.equal((await tools.run(['compare', 
     assert.notEqual(draco.code, 0);
     assert.match(draco.stderr, /a\.glb: .*KHR_draco_mesh_compression.*codec_draco\.wasm could not be loaded/);
     await accept(tools, 'zip.exr');
+}
+{
+    const { tools } = await start({ 'codec_zstd.wasm': new Error('the server answers 404') });
+    await refuse(tools, 'a.ktx2', ktx2('uastc_zstd.ktx2'), /a\.ktx2: KTX2: level 0: codec_zstd\.wasm could not be loaded: the server answers 404/);
+    const whole = await start();
+    const damaged = Buffer.from(ktx2('uastc_zstd.ktx2'));
+    damaged.fill(0xff, Number(damaged.readBigUInt64LE(80))); // from level 0 on
+    await refuse(whole.tools, 'b.ktx2', damaged, /b\.ktx2: KTX2: level 0: the compressed data is damaged/);
+    await compare_texels(whole.tools, 'c.ktx2', ktx2('uastc_zstd.ktx2'), ...extent_of(ktx2('uastc_zstd.ktx2')));
 }
 
 // ---- a decoder that breaks ----

@@ -16,7 +16,7 @@ skip() {
 command -v node >/dev/null || skip "there is no node"
 version=$(node -p 'process.versions.node.split(".")[0]')
 [ "$version" -ge 18 ] || skip "Node.js $version is older than 18"
-for name in draco webp exr; do
+for name in draco webp exr zstd; do
     [ -f "$dist/facet-viewer/codec_$name.wasm" ] || skip "./run web --build was not run, or had no source of the decoder $name"
 done
 if [ "$where" = page ]; then

@@ -114,7 +114,7 @@ export class Codecs {
     this.#fetchBytes = read;
   }
 
-  /** Loads decoders by name ("draco", "webp", "avif", "exr"). A failure is no error here: the file that needs the decoder has the
+  /** Loads decoders by name ("draco", "webp", "avif", "exr", "zstd"). A failure is no error here: the file that needs the decoder has the
    *  sentence. report(fraction): progress. */
   async load(names, report = () => {}) {
     const fractions = new Map(names.map((name) => [name, 0]));
