@@ -39,4 +39,16 @@ const float *ibl_dfg_nodes(void);      /* DFG_SIZE x DFG_SIZE x 2 */
 const float *ibl_sheen_nodes(void);    /* SHEEN_SIZE x SHEEN_SIZE */
 const uint16_t *ibl_glass_nodes(void); /* 2 GLASS_IORS x GLASS_SIZE x GLASS_SIZE x 3 */
 
+/* The same as half floats, glass from 0 to 1, for textures. dfg_halves.c rounds the nodes, dfg_halves_packed.c unpacks tables that
+ * were rounded beforehand. Each fills a whole table. */
+void ibl_dfg_halves(uint16_t *halves);
+void ibl_sheen_halves(uint16_t *halves);
+void ibl_glass_halves(uint16_t *halves);
+
+enum {
+    DFG_VALUES = DFG_SIZE * DFG_SIZE * 2,
+    SHEEN_VALUES = SHEEN_SIZE * SHEEN_SIZE,
+    GLASS_VALUES = 2 * GLASS_IORS * GLASS_SIZE * GLASS_SIZE * 3
+};
+
 #endif

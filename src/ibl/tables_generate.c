@@ -1,6 +1,7 @@
 /* tables_generate.c - computes the look-up tables of dfg.h; runs when facet is built.
- * usage: tables_generate dfg|sheen|glass OUTPUT PACKED
- * Both are initializers: OUTPUT of an array of the values, PACKED of the bytes of packed_table.h. */
+ * usage: tables_generate dfg|sheen|glass OUTPUT PACKED HALVES
+ * All are initializers: OUTPUT of an array of the values, PACKED of the bytes of packed_table.h, HALVES of those of the values as
+ * half floats, whose bits are taken as integers. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,12 +9,11 @@
 #include "base/packed_table.h"
 #include "ibl/dfg.h"
 #include "ibl/dfg_integrate.h"
+#include "image/half.h"
 
 #include "shade/shade.h"
 
-enum { MAX_VALUES = 2 * GLASS_IORS * GLASS_SIZE * GLASS_SIZE * 3 };
-
-static char texts[MAX_VALUES][16];
+static char texts[GLASS_VALUES][16]; /* of the largest table */
 
 static void set_float(size_t i, double value)
 {
@@ -87,6 +87,17 @@ static bool write_values(const char *path, packed_shape shape)
     return fclose(file) == 0;
 }
 
+/* As the compiler and dfg_halves.c round them. */
+static void round_texts(size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        bool is_float = strchr(texts[i], 'e');
+        float value = strtof(texts[i], NULL);
+        snprintf(texts[i], sizeof texts[i], "%u",
+                 half_from_float(is_float ? value : value * (1.0f / GLASS_UNIT)));
+    }
+}
+
 static bool write_packed(const char *path, packed_shape shape)
 {
     FILE *file = open_output(path);
@@ -105,12 +116,14 @@ int main(int argc, char **argv)
     } tables[] = {
         {"dfg", DFG_SHAPE, make_dfg}, {"sheen", SHEEN_SHAPE, make_sheen}, {"glass", GLASS_SHAPE, make_glass}};
     for (size_t i = 0; i < sizeof tables / sizeof *tables; i++) {
-        if (argc != 4 || strcmp(argv[1], tables[i].name) != 0)
+        if (argc != 5 || strcmp(argv[1], tables[i].name) != 0)
             continue;
         tables[i].make();
-        bool is_written = write_values(argv[2], tables[i].shape) && write_packed(argv[3], tables[i].shape);
-        return is_written ? 0 : 1;
+        const packed_shape shape = tables[i].shape;
+        bool is_written = write_values(argv[2], shape) && write_packed(argv[3], shape);
+        round_texts((size_t)shape.channels * shape.width * shape.height * shape.depth);
+        return is_written && write_packed(argv[4], shape) ? 0 : 1;
     }
-    fprintf(stderr, "usage: tables_generate dfg|sheen|glass OUTPUT PACKED\n");
+    fprintf(stderr, "usage: tables_generate dfg|sheen|glass OUTPUT PACKED HALVES\n");
     return 1;
 }

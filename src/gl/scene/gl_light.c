@@ -12,7 +12,6 @@
 #include "gl/scene/gl_shadow.h"
 #include "ibl/dfg.h"
 #include "ibl/environment.h"
-#include "image/half.h"
 
 #include "shade/shade.h"
 
@@ -40,40 +39,49 @@ static uint32_t make_texture(GLenum target)
     return name;
 }
 
-static void upload_albedo(light_tables *tables, uint16_t *texels)
+enum {
+    ALBEDO_NODES = DFG_SIZE * DFG_SIZE,
+    GLASS_NODES = 2 * GLASS_IORS * GLASS_SIZE * GLASS_SIZE,
+    MAX_NODES = ALBEDO_NODES > GLASS_NODES ? ALBEDO_NODES : GLASS_NODES
+};
+
+/* What a texture is made of: three halves of each node, and four of each texel. */
+typedef struct table_texels {
+    uint16_t halves[3 * MAX_NODES], texels[4 * MAX_NODES];
+} table_texels;
+
+static void upload_albedo(light_tables *tables, table_texels *t)
 {
-    for (size_t i = 0; i < (size_t)DFG_SIZE * DFG_SIZE; i++) {
-        texels[4 * i] = half_from_float(ibl_dfg_nodes()[2 * i]);
-        texels[4 * i + 1] = half_from_float(ibl_dfg_nodes()[2 * i + 1]);
-        texels[4 * i + 2] = half_from_float(ibl_sheen_nodes()[i]);
-        texels[4 * i + 3] = 0;
+    const uint16_t *dfg = t->halves, *sheen = t->halves + DFG_VALUES;
+    ibl_dfg_halves(t->halves);
+    ibl_sheen_halves(t->halves + DFG_VALUES);
+    for (size_t i = 0; i < ALBEDO_NODES; i++) {
+        const uint16_t texel[4] = {dfg[2 * i], dfg[2 * i + 1], sheen[i], 0};
+        memcpy(t->texels + 4 * i, texel, sizeof texel);
     }
     tables->albedo = make_texture(GL_TEXTURE_2D);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, DFG_SIZE, DFG_SIZE, 0, GL_RGBA, GL_HALF_FLOAT, texels);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, DFG_SIZE, DFG_SIZE, 0, GL_RGBA, GL_HALF_FLOAT, t->texels);
 }
 
-enum { GLASS_NODES = 2 * GLASS_IORS * GLASS_SIZE * GLASS_SIZE };
-
-static void upload_glass(light_tables *tables, uint16_t *texels)
+static void upload_glass(light_tables *tables, table_texels *t)
 {
+    ibl_glass_halves(t->halves);
     for (size_t i = 0; i < GLASS_NODES; i++) {
-        for (size_t k = 0; k < 3; k++)
-            texels[4 * i + k] = half_from_float((float)ibl_glass_nodes()[3 * i + k] * (1.0f / GLASS_UNIT));
-        texels[4 * i + 3] = 0;
+        memcpy(t->texels + 4 * i, t->halves + 3 * i, 3 * sizeof *t->halves);
+        t->texels[4 * i + 3] = 0;
     }
     tables->glass = make_texture(GL_TEXTURE_3D);
     glTexImage3D(GL_TEXTURE_3D, 0, GL_RGBA16F, GLASS_SIZE, GLASS_SIZE, 2 * GLASS_IORS, 0, GL_RGBA,
-                 GL_HALF_FLOAT, texels);
+                 GL_HALF_FLOAT, t->texels);
 }
 
 static facet_result create_tables(light_tables *tables, gl_context *context, const facet_allocator *allocator,
                                   facet_error *error)
 {
-    enum { TEXELS = DFG_SIZE * DFG_SIZE > GLASS_NODES ? DFG_SIZE * DFG_SIZE : GLASS_NODES };
     *tables = (light_tables){0};
-    uint16_t *texels = mem_alloc(allocator, TEXELS, 4 * sizeof *texels);
+    table_texels *texels = mem_alloc(allocator, 1, sizeof *texels);
     if (!texels)
-        return fail_memory(error, "tables", TEXELS * 4 * sizeof *texels);
+        return fail_memory(error, "tables", sizeof *texels);
     upload_albedo(tables, texels);
     upload_glass(tables, texels);
     mem_free(texels);
