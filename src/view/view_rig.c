@@ -14,6 +14,8 @@ static const double nearest = 2.2; /* radii of the sphere around the model: the 
 static const double default_scale = 1.05;
 static const double default_fov = 30.0, least_fov = 12.0; /* degrees */
 
+static const char usual_orbit[] = "0deg 75deg 105%";
+
 static const char *const names[VIEW_RIG_TEXT_COUNT] = {
     "field-of-view",    "camera-target",    "min-field-of-view", "max-field-of-view",
     "min-camera-orbit", "max-camera-orbit", "camera-orbit",      "rotation-per-second"};
@@ -24,7 +26,7 @@ void view_rig_create(view_rig *rig)
     view_motion_create(&rig->motion);
     for (int i = 0; i < VIEW_RIG_TEXT_COUNT; i++)
         strcpy(rig->texts[i], "auto");
-    strcpy(rig->texts[VIEW_RIG_ORBIT], "0deg 75deg 105%");
+    strcpy(rig->texts[VIEW_RIG_ORBIT], usual_orbit);
 }
 
 /* What percentages and auto mean. Returns how many words the text has. */
@@ -116,6 +118,9 @@ static facet_result apply(view_rig *rig, view_rig_text which, const char *text, 
     }
     view_motion_limit(&rig->motion, low, high);
     view_motion_aim(&rig->motion, goal);
+    for (int i = 0; i < VIEW_AXIS_COUNT; i++)
+        if (!isnan(goal[i]))
+            rig->home[i] = rig->motion.goal[i];
     return FACET_OK;
 }
 
@@ -194,10 +199,32 @@ void view_rig_set_aspect(view_rig *rig, double aspect)
     if (!rig->is_framed)
         return;
     (void)apply(rig, VIEW_RIG_MAX_FOV, rig->texts[VIEW_RIG_MAX_FOV], NULL); /* it was read before */
+    rig->home[VIEW_AXIS_LOG_FOV] = log(shown_fov(rig, rig->fov_rad));
     double goal[VIEW_AXIS_COUNT] = {NAN, NAN, NAN, log(zoom * shown_fov(rig, rig->fov_rad)), NAN, NAN, NAN};
     view_motion_aim(&rig->motion, goal);
     rig->motion.now[VIEW_AXIS_LOG_FOV] = rig->motion.goal[VIEW_AXIS_LOG_FOV];
     rig->motion.velocity[VIEW_AXIS_LOG_FOV] = 0.0;
+}
+
+/* Nothing but "auto", or the orbit's default. */
+static bool is_usual(view_rig_text which, const char *text)
+{
+    if (which == VIEW_RIG_ORBIT && strcmp(text, usual_orbit) == 0)
+        return true;
+    while (strncmp(text, "auto", 4) == 0)
+        text += 4 + strspn(text + 4, " ");
+    return !*text;
+}
+
+bool view_rig_home(const view_rig *rig, facet_orbit *out)
+{
+    view_motion home = rig->motion;
+    for (int i = 0; i < VIEW_RIG_RATE; i++)
+        if (!is_usual((view_rig_text)i, rig->texts[i]))
+            return false;
+    memcpy(home.now, rig->home, sizeof home.now);
+    view_motion_place(&home, out);
+    return rig->is_framed && rig->motion.turntable_rad == 0.0;
 }
 
 void view_rig_follow(view_rig *rig, const facet_orbit *orbit)

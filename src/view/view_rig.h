@@ -28,9 +28,10 @@ typedef struct view_rig {
     double aspect;  /* of the image */
     double scroll;  /* env(window-scroll-y) */
     double
-        origin[3];  /* of the scene: texts are in the world of the file, the motion is relative to this; m */
-    bool is_framed; /* the framing is that of the present model */
-    bool was_aimed; /* an earlier model was shown */
+        origin[3]; /* of the scene: texts are in the world of the file, the motion is relative to this; m */
+    double home[VIEW_AXIS_COUNT]; /* where the texts aim */
+    bool is_framed;               /* the framing is that of the present model */
+    bool was_aimed;               /* an earlier model was shown */
 } view_rig;
 
 /* All texts are "auto"; camera-orbit is "0deg 75deg 105%". */
@@ -46,6 +47,9 @@ facet_result view_rig_frame(view_rig *rig, const facet_scene *scene, const facet
                             bool keeps_direction, facet_error *error);
 /* The image has another shape: the field of view changes, so that the model stays in view. */
 void view_rig_set_aspect(view_rig *rig, double aspect);
+/* Where the camera is before it is moved; the flags of out stay. False: not as for every viewer of the model, since a text is
+ * not the usual one, or the turntable turned. */
+bool view_rig_home(const view_rig *rig, facet_orbit *out);
 /* From another source: where the camera is, is where it shall be. */
 void view_rig_follow(view_rig *rig, const facet_orbit *orbit);
 /* A point of the file's world that was touched, or NULL: camera-target again, from afar. */

@@ -137,6 +137,23 @@ static void an_orbit_by_number_may_leave_the_limits(void **state)
     assert_false(view_motion_is_gliding(&rig.motion));
 }
 
+static void home_is_where_every_viewer_begins(void **state)
+{
+    (void)state;
+    view_rig rig = framed(2.0);
+    facet_orbit home = scene_orbit_default(), now = home;
+    assert_int_equal(view_rig_set(&rig, "camera-target", "auto auto auto", NULL), FACET_OK);
+    view_motion_step(&rig.motion, VIEW_STEP_LEFT, false, 100.0);
+    view_motion_jump(&rig.motion);
+    assert_true(view_rig_home(&rig, &home));
+    view_motion_place(&rig.motion, &now);
+    assert_true(home.azimuth_rad == 0.0f && now.azimuth_rad != 0.0f && home.radius == now.radius);
+    view_rig_set_aspect(&rig, 0.5);
+    assert_true(view_rig_home(&rig, &now) && now.fov_y_rad > home.fov_y_rad);
+    assert_int_equal(view_rig_set(&rig, "camera-orbit", "0deg 75deg 100%", NULL), FACET_OK);
+    assert_false(view_rig_home(&rig, &home));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -146,6 +163,7 @@ int main(void)
         cmocka_unit_test(a_narrow_image_widens_the_view_and_keeps_the_zoom),
         cmocka_unit_test(a_target_is_the_center_of_the_frame),
         cmocka_unit_test(an_orbit_by_number_may_leave_the_limits),
+        cmocka_unit_test(home_is_where_every_viewer_begins),
     };
     return cmocka_run_group_tests(tests, make_scene, drop_scene);
 }

@@ -26,14 +26,46 @@ static void place(viewer *v)
     v->state.needs_framing = v->state.is_framed = false;
 }
 
+/* Whether the orbit differs from that of an unmoved camera by no more than its options show. */
+static bool is_home(const viewer *v)
+{
+    const view_state *s = &v->state;
+    facet_orbit home = s->orbit;
+    if (s->camera != VIEW_NO_CAMERA || home.is_orthographic || home.is_z_up || !view_rig_home(&v->rig, &home))
+        return false;
+    facet_orbit rounded = view_camera_round(&s->orbit);
+    home = view_camera_round(&home);
+    if (fabsf(rounded.fov_y_rad - home.fov_y_rad) < 1e-5f)
+        rounded.fov_y_rad = home.fov_y_rad;
+    return is_same(&rounded, &home);
+}
+
+bool web_camera_is_home(const viewer *v)
+{
+    return v->scene && !v->state.needs_framing && is_same(&v->state.orbit, &v->placed) && is_home(v);
+}
+
+/* An orbit that says nothing is left to the attributes, not to the framing of facet render. */
+static bool is_usual(const facet_orbit *o)
+{
+    const facet_orbit usual = facet_orbit_default();
+    return o->radius == 0.0f && o->radius_scale == usual.radius_scale && !o->has_target &&
+           !o->is_orthographic && !o->is_z_up && o->azimuth_rad == usual.azimuth_rad &&
+           o->polar_rad == usual.polar_rad && o->fov_y_rad == usual.fov_y_rad;
+}
+
 /* Takes over an orbit that is not the rig's. Before the first frame the rig waits. */
 static facet_result follow(viewer *v, float aspect, facet_error *error)
 {
     view_state *s = &v->state;
     if (!s->needs_framing && is_same(&s->orbit, &v->placed))
         return FACET_OK;
+    bool goes_home = s->needs_framing && is_usual(&s->orbit);
     TRY(view_state_frame(s, aspect, error));
-    view_rig_follow(&v->rig, &s->orbit);
+    if (goes_home || is_home(v))
+        TRY(view_rig_frame(&v->rig, v->scene, &s->pose, false, error));
+    else
+        view_rig_follow(&v->rig, &s->orbit);
     place(v);
     return FACET_OK;
 }

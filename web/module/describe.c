@@ -17,9 +17,12 @@ static char *finish(text *t)
 
 char *web_describe_options(const viewer *v)
 {
+    static const option_id of_orbit[] = {OPT_ORBIT, OPT_TARGET, OPT_FOV};
     text t = {0};
     view_options list = {0};
     web_options_list(v, v->state.width, v->state.height, false, &list);
+    for (size_t i = 0; web_camera_is_home(v) && i < sizeof of_orbit / sizeof *of_orbit; i++)
+        view_options_remove(&list, of_orbit[i]);
     t.has_failed = list.has_failed;
     text_json_begin_object(&t, NULL);
     for (size_t i = 0; i < list.count; i++) {

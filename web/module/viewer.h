@@ -65,6 +65,8 @@ void web_model_close(viewer *v);
 facet_result web_camera_advance(viewer *v, uint32_t width, uint32_t height, double seconds,
                                 facet_error *error);
 bool web_camera_is_moving(const viewer *v);
+/* The camera was not moved: every viewer shows the model like this unless it is told otherwise. */
+bool web_camera_is_home(const viewer *v);
 
 /* ---- draw.c ---- */
 
