@@ -176,7 +176,7 @@ async function copy(text, what) {
 // Any size, with all samples.
 async function saveImage() {
   const [width, height] = fullSize();
-  say('Drawing the image …');
+  say('Drawing the image…');
   await new Promise((resolve) => setTimeout(resolve, 30));
   let pixels = null;
   if (!attempt(() => { pixels = ocean.readImage(width, height, divider.value); })) return;

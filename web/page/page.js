@@ -135,7 +135,7 @@ const PHASES = { 'model-load': ['Reading the model', 'Decoding and drawing'], 'e
 viewer.addEventListener('progress', ({ detail }) => {
   const [reading, preparing] = PHASES[detail.reason] ?? ['Reading', 'Drawing'];
   if (detail.totalProgress >= 1) showProgress(null);
-  else showProgress(detail.totalProgress < 0.8 ? `${reading} …` : `${preparing} …`, detail.totalProgress);
+  else showProgress(detail.totalProgress < 0.8 ? `${reading}…` : `${preparing}…`, detail.totalProgress);
 });
 
 const nextFrame = () => new Promise((resolve) => { requestAnimationFrame(() => setTimeout(resolve, 0)); });
@@ -152,7 +152,7 @@ async function withProgress(text, work) {
 }
 
 async function openFiles({ files, reread }) {
-  const models = await withProgress(files.length === 1 ? `Reading ${files[0].path} …` : `Reading ${files.length} files …`, () => viewer.openFiles(files));
+  const models = await withProgress(files.length === 1 ? `Reading ${files[0].path}…` : `Reading ${files.length} files…`, () => viewer.openFiles(files));
   if (!models) return;
   if (!models.length) {
     lights = [...new Set([...lights, ...files.map(({ path }) => path)])];
@@ -164,7 +164,7 @@ async function openFiles({ files, reread }) {
   await applyWaiting();
 }
 
-const openModel = (path) => withProgress(`Decoding and drawing ${path} …`, () => viewer.openModel(path));
+const openModel = (path) => withProgress(`Decoding and drawing ${path}…`, () => viewer.openModel(path));
 
 // The same files as they are now, in the same view.
 async function reload() {
@@ -173,7 +173,7 @@ async function reload() {
   const path = viewer.modelPath;
   await attempt(async () => {
     const files = await source.reread();
-    await withProgress('Reading again …', async () => {
+    await withProgress('Reading again…', async () => {
       await viewer.openFiles(files);
       if (viewer.modelPath !== path && files.some((entry) => entry.path === path)) await viewer.openModel(path);
     });
@@ -198,7 +198,8 @@ const rank = (name) => (ORDER.includes(name) ? ORDER.indexOf(name) : ORDER.lengt
 async function applyView({ options, edits: values }) {
   const wanted = { background: PAGE_BACKGROUND, ...options };
   const { animation, time, ...rest } = wanted;
-  for (const name of Object.keys(optionsNow())) if (!(name in wanted)) await set(name, null);
+  // at once: a frame in between would frame the model for some of them
+  await setAll(Object.fromEntries(Object.keys(optionsNow()).filter((name) => !(name in wanted)).map((name) => [name, null])));
   for (const name of Object.keys(rest).sort((a, b) => rank(a) - rank(b))) await set(name, rest[name]);
   if (animation !== undefined) await setAnimation(animation, Number(time ?? 0));
   await attempt(() => edits.resetAll());
@@ -290,7 +291,7 @@ async function saveImage({ width, height }) {
 }
 
 async function saveModel() {
-  const blob = await withProgress('Writing the model …', () => viewer.exportScene());
+  const blob = await withProgress('Writing the model…', () => viewer.exportScene());
   if (blob) save(blob, `${(fileName() || 'model').replace(/\.[^.]*$/, '')}-edited.glb`);
 }
 
@@ -331,8 +332,8 @@ const share = sharePanel(app);
 const motion = motionBar(app);
 const divider = connectDivider(byId('divider'), app);
 
-const files = section('Files', true, element('div', { class: 'buttons' }, button('Open files …', () => byId('file-input').click()),
-  button('Open folder …', () => byId('folder-input').click()), button('Help', () => openHelp())));
+const files = section('Files', true, element('div', { class: 'buttons' }, button('Open files…', () => byId('file-input').click()),
+  button('Open folder…', () => byId('folder-input').click()), button('Help', () => openHelp())));
 const bodies = {
   look: element('div', { class: 'panel-body' }, light.root, image.root, camera.root, analysis.root),
   scene: element('div', { class: 'panel-body' }, report.first, scene.root, report.last, files.root),

@@ -99,10 +99,10 @@ export function lightPanel(app) {
 function sunFields(app) {
   let rest = []; // the diameter, if there is one
   const set = () => app.set('sun', isOn.value ? [azimuth.value, elevation.value, lux.value, ...rest].join(',') : null);
-  const isOn = check({ label: 'Extra sun', change: set });
-  const azimuth = range({ label: 'From', min: -180, max: 180, step: 1, limits: [-1e6, 1e6], value: 45, unit: 'degrees', change: set });
-  const elevation = range({ label: 'Height', min: -90, max: 90, step: 1, value: 45, unit: 'degrees', change: set });
-  const lux = range({ label: 'Lux', min: 0, max: 12, step: 0.01, limits: [0, 1e9], value: 3.14, change: set });
+  const isOn = check({ label: 'Sun', change: set });
+  const azimuth = range({ label: 'Azimuth', min: -180, max: 180, step: 1, limits: [-1e6, 1e6], value: 45, unit: 'degrees', change: set });
+  const elevation = range({ label: 'Elevation', min: -90, max: 90, step: 1, value: 45, unit: 'degrees', change: set });
+  const lux = range({ label: 'Illuminance, lux', min: 0, max: 12, step: 0.01, limits: [0, 1e9], value: 3.14, change: set });
   const group = element('div', { class: 'group' }, azimuth.root, elevation.root, lux.root);
   return {
     roots: [isOn.root, group],

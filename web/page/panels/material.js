@@ -98,7 +98,7 @@ export function materialPanel(app) {
   function addField() {
     const missing = GROUPS.filter((group) => canBeAdded(group) && !scene.materials[shown].extensions[group.object]
       && !group.rows.some((row) => isEdited(nameOfRow(group, row))));
-    const add = choice({ label: 'Add a layer', options: [['', 'Choose …'], ...missing.map(({ object, title }) => [object, title])], change: (object) => {
+    const add = choice({ label: 'Add a layer', options: [['', 'Choose…'], ...missing.map(({ object, title }) => [object, title])], change: (object) => {
       const group = GROUPS.find((other) => other.object === object);
       for (const row of group.rows.filter(({ needs }) => !needs)) {
         const value = row.first ?? row.usual;

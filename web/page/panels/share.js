@@ -2,7 +2,7 @@
 import { button, choice, element, line, section } from '../fields.js';
 import { copyButton } from '../messages.js';
 
-const SIZES = [['', 'As on the screen'], ['1024x768', '1024 × 768'], ['1920x1080', '1920 × 1080'], ['2048x2048', '2048 × 2048'], ['3840x2160', '3840 × 2160'], ['other', 'Other …']];
+const SIZES = [['', 'As on the screen'], ['1024x768', '1024 × 768'], ['1920x1080', '1920 × 1080'], ['2048x2048', '2048 × 2048'], ['3840x2160', '3840 × 2160'], ['other', 'Other…']];
 const MAX_EDGE = 16384;
 
 const area = (label) => element('textarea', { readonly: true, rows: 4, 'aria-label': label, spellcheck: 'false' });
