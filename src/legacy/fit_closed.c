@@ -7,7 +7,7 @@
 #include "legacy/fit.h"
 #include "legacy/fit_linear.h"
 #include "legacy/fit_minimize.h"
-#include "legacy_fit_table.h"
+#include "legacy/fit_table.h"
 
 #include "shade/shade.h"
 
@@ -59,12 +59,11 @@ static double gram_value(const float *logs, const gram_place *p)
 static gram_place gram_roughness(fit_gram *gram, double perceptual_roughness)
 {
     gram_place p = gram_find((log(fmax(perceptual_roughness, 1e-9)) - GRAM_LOG_R) / GRAM_STEP_R, GRAM_R);
-    static const float *const nS[3] = {log_nS0, log_nS1, log_nS2};
-    static const float *const SS[3] = {log_SS0, log_SS1, log_SS2};
+    const fit_table *table = fit_table_get();
     for (int k = 0; k < 3; k++) {
-        gram->nS[k] = gram_value(nS[k], &p);
-        gram->SS[k] = gram_value(SS[k], &p);
-        gram->nn[k] = (double)table_nn[k];
+        gram->nS[k] = gram_value(table->nS[k], &p);
+        gram->SS[k] = gram_value(table->SS[k], &p);
+        gram->nn[k] = (double)table->nn[k];
     }
     return p;
 }
@@ -72,19 +71,21 @@ static gram_place gram_roughness(fit_gram *gram, double perceptual_roughness)
 static gram_place gram_shininess(fit_gram *gram, double shininess)
 {
     gram_place p = gram_find(log1p(fmax(shininess, 0.0)) / GRAM_STEP_S, GRAM_S);
-    gram->nP[0] = gram_value(log_nP0, &p);
-    gram->nP[1] = gram_value(log_nP1, &p);
-    gram->PP = gram_value(log_PP, &p);
+    const fit_table *table = fit_table_get();
+    gram->nP[0] = gram_value(table->nP[0], &p);
+    gram->nP[1] = gram_value(table->nP[1], &p);
+    gram->PP = gram_value(table->PP, &p);
     return p;
 }
 
 static void gram_both(fit_gram *gram, const gram_place *roughness, const gram_place *shininess)
 {
+    const fit_table *table = fit_table_get();
     double sum[2] = {0.0, 0.0};
     for (int i = 0; i < 4; i++) {
         int at = (roughness->first + i) * GRAM_S + shininess->first;
-        sum[0] += roughness->weight[i] * gram_mean_log(log_SP0 + at, shininess->weight);
-        sum[1] += roughness->weight[i] * gram_mean_log(log_SP1 + at, shininess->weight);
+        sum[0] += roughness->weight[i] * gram_mean_log(table->SP[0] + at, shininess->weight);
+        sum[1] += roughness->weight[i] * gram_mean_log(table->SP[1] + at, shininess->weight);
     }
     gram->SP[0] = exp(sum[0]);
     gram->SP[1] = exp(sum[1]);
@@ -109,7 +110,8 @@ static double gram_along(const float *logs, double x)
 static fit_nearest gram_nearest(double shininess)
 {
     double x = log1p(fmax(shininess, 0.0)) / GRAM_STEP_S;
-    return (fit_nearest){exp(gram_along(log_nearest_r, x)), exp(gram_along(log_nearest_g, x))};
+    const fit_table *table = fit_table_get();
+    return (fit_nearest){exp(gram_along(table->nearest_r, x)), exp(gram_along(table->nearest_g, x))};
 }
 
 /* The inverse; at most 1e5. */
@@ -119,17 +121,18 @@ static double gram_nearest_shininess(double perceptual_roughness)
     double wanted = log(fmax(perceptual_roughness, 1e-9));
     if (wanted >= 0.0)
         return 0.0;
+    const float *nearest_r = fit_table_get()->nearest_r;
     int first = 0;
     int end = GRAM_S - 1;
     while (end - first > 1) { /* decreasing */
         int middle = (first + end) / 2;
-        if ((double)log_nearest_r[middle] > wanted)
+        if ((double)nearest_r[middle] > wanted)
             first = middle;
         else
             end = middle;
     }
-    double a = (double)log_nearest_r[first];
-    double b = (double)log_nearest_r[first + 1];
+    double a = (double)nearest_r[first];
+    double b = (double)nearest_r[first + 1];
     return fmin(expm1((first + (a - wanted) / (a - b)) * GRAM_STEP_S), most);
 }
 

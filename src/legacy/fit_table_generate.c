@@ -1,12 +1,15 @@
-/* fit_table_generate.c - computes the LUT of fit_metric.h when facet is built. usage: fit_table_generate OUTPUT
+/* fit_table_generate.c - computes the LUT of fit_metric.h when facet is built. usage: fit_table_generate OUTPUT PACKED
+ * OUTPUT is the initializer of a fit_table, PACKED that of its packed bytes.
  *
  * Logarithms of the integrals, and for each shininess the roughness and strength of the GGX lobe that,
  * with a Lambert term, approximates Blinn's best. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "legacy/fit_metric.h"
 #include "legacy/fit_minimize.h"
+#include "legacy/fit_table.h"
 
 typedef struct shapes {
     const fit_metric *metric;
@@ -44,12 +47,23 @@ static double distance(void *context, const double *log_r)
     return -(u * nP + s->g * SP) / product(m, s->P, s->P, 0);
 }
 
-static void add_values(FILE *file, const char *name, int count, const double *values)
+/* Rounds a value as the compiler reads its text. */
+static void add_value(FILE *file, double value, float *out)
 {
-    fprintf(file, "static const float %s[%d] = {", name, count);
-    for (int i = 0; i < count; i++)
-        fprintf(file, "%s%.8ef,", i % 6 ? " " : "\n", values[i]);
-    fprintf(file, "};\n");
+    char text[24];
+    snprintf(text, sizeof text, "%.8e", value);
+    fprintf(file, "%sf,", text);
+    *out = strtof(text, NULL);
+}
+
+static void add_values(FILE *file, const char *name, int count, const double *values, float *out)
+{
+    fprintf(file, "%s = {", name);
+    for (int i = 0; i < count; i++) {
+        fputc(i % 6 ? ' ' : '\n', file);
+        add_value(file, values[i], out + i);
+    }
+    fprintf(file, "},\n");
 }
 
 int main(int argc, char **argv)
@@ -60,9 +74,10 @@ int main(int argc, char **argv)
     double of_r[6][GRAM_R]; /* nS, SS by power */
     double of_s[5][GRAM_S]; /* nP by power, PP; nearest roughness, its factor */
     fit_metric *m = NULL;
-    FILE *file = argc == 2 ? fopen(argv[1], "w") : NULL;
-    if (!file || fit_metric_create(NULL, PBR_CORRELATED, &m, NULL) != FACET_OK) {
-        fprintf(stderr, "usage: fit_table_generate OUTPUT\n");
+    FILE *file = argc == 3 ? fopen(argv[1], "w") : NULL;
+    FILE *packed = argc == 3 ? fopen(argv[2], "w") : NULL;
+    if (!file || !packed || fit_metric_create(NULL, PBR_CORRELATED, &m, NULL) != FACET_OK) {
+        fprintf(stderr, "usage: fit_table_generate OUTPUT PACKED\n");
         return 1;
     }
     s.metric = m;
@@ -90,16 +105,19 @@ int main(int argc, char **argv)
                 SP[k][i * GRAM_S + j] = log(product(m, s.S, s.P, k));
         }
     }
-    static const char *const names_r[6] = {"log_nS0", "log_nS1", "log_nS2", "log_SS0", "log_SS1", "log_SS2"};
-    static const char *const names_s[5] = {"log_nP0", "log_nP1", "log_PP", "log_nearest_r", "log_nearest_g"};
+    static const char *const names_r[6] = {".nS[0]", ".nS[1]", ".nS[2]", ".SS[0]", ".SS[1]", ".SS[2]"};
+    static const char *const names_s[5] = {".nP[0]", ".nP[1]", ".PP", ".nearest_r", ".nearest_g"};
+    static fit_table t;
+    float *const to_s[5] = {t.nP[0], t.nP[1], t.PP, t.nearest_r, t.nearest_g};
     fprintf(file, "/* By fit_table_generate.c. */\n");
-    add_values(file, "table_nn", 3, nn);
+    add_values(file, ".nn", 3, nn, t.nn);
     for (int i = 0; i < 6; i++)
-        add_values(file, names_r[i], GRAM_R, of_r[i]);
+        add_values(file, names_r[i], GRAM_R, of_r[i], i < 3 ? t.nS[i] : t.SS[i - 3]);
     for (int i = 0; i < 5; i++)
-        add_values(file, names_s[i], GRAM_S, of_s[i]);
-    add_values(file, "log_SP0", GRAM_R * GRAM_S, SP[0]);
-    add_values(file, "log_SP1", GRAM_R * GRAM_S, SP[1]);
+        add_values(file, names_s[i], GRAM_S, of_s[i], to_s[i]);
+    add_values(file, ".SP[0]", GRAM_R * GRAM_S, SP[0], t.SP[0]);
+    add_values(file, ".SP[1]", GRAM_R * GRAM_S, SP[1], t.SP[1]);
+    fit_table_write(packed, &t);
     fit_metric_destroy(m);
-    return fclose(file) == 0 ? 0 : 1;
+    return fclose(file) == 0 && fclose(packed) == 0 ? 0 : 1;
 }
