@@ -4,12 +4,18 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { copyFileSync, cpSync, readdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
-import { deflateSync } from 'node:zlib';
+import { deflateSync, gzipSync } from 'node:zlib';
 import { serve_page } from '../clients/browser.mjs';
 
 const [command_path, dist, work, ...models] = process.argv.slice(2);
 const facet = path.resolve(command_path);
 const width = 320, height = 240;
+
+// What a page fetches for its first model, as a server sends it.
+const CORE_LIMIT = 600_000; // bytes
+const core = ['viewer.wasm', 'viewer.js'].map((name) => gzipSync(readFileSync(path.join(dist, 'facet-viewer', name)), { level: 9 }).length);
+console.log(`size: viewer.wasm ${core[0]}, viewer.js ${core[1]} bytes with gzip`);
+assert.ok(core[0] + core[1] <= CORE_LIMIT, `viewer.wasm and viewer.js have ${core[0] + core[1]} bytes with gzip, more than ${CORE_LIMIT}`);
 
 // An image of straight RGBA, rows from the top.
 function write_png(file, pixels) {
