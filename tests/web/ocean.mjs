@@ -13,7 +13,33 @@ const served = await serve_page('/a/folder/gallery.html', (url) => path.join(dis
 const { page, messages } = served;
 const address = page.url().replace('gallery.html', '');
 
-// The canvas has the size of the tests before the page's script runs.
+// The page as people see it: the sea fills the stage, and its pixels are those of a picture.
+async function check_page(viewport) {
+    await page.setViewportSize(viewport);
+    await page.goto('about:blank');
+    await page.goto(`${address}ocean.html`);
+    await page.evaluate(() => window.oceanPage.ready);
+    await page.waitForFunction(() => document.body.dataset.sharp === 'true', null, { timeout: 60000 });
+    const [stage, canvas] = await Promise.all(['#stage', '#view'].map((name) => page.locator(name).boundingBox()));
+    assert.deepEqual(canvas, stage, 'the sea does not fill the stage');
+    assert.ok(stage.width >= 0.5 * viewport.width && stage.height >= 0.3 * viewport.height, 'the stage is small');
+    const colors = await page.evaluate((picture) => createImageBitmap(new Blob([Uint8Array.from(picture)])).then((bitmap) => {
+        const drawing = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
+        drawing.drawImage(bitmap, 0, 0);
+        const pixels = new Uint32Array(drawing.getImageData(0, 0, bitmap.width, bitmap.height).data.buffer);
+        return new Set(pixels).size;
+    }), [...await page.screenshot({ clip: { x: stage.x, y: stage.y + stage.height / 2, width: stage.width / 2, height: 60 } })]);
+    assert.ok(colors > 500, `the sea on the page has ${colors} colors`);
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth), 'the page scrolls sideways');
+    for (const link of await page.locator('.bar a, .bar button').all()) {
+        const { x, width: wide } = await link.boundingBox();
+        assert.ok(x >= 0 && x + wide <= viewport.width, `${await link.textContent()} is cut off at ${viewport.width} px`);
+    }
+}
+await page.emulateMedia({ reducedMotion: 'reduce' });
+for (const viewport of [{ width: 800, height: 240 }, { width: 390, height: 480 }]) await check_page(viewport);
+
+// From here on the canvas has the size of the tests before the page's script runs.
 await page.addInitScript(([w, h]) => document.addEventListener('readystatechange', () => {
     const canvas = document.getElementById('view');
     if (!canvas) return;
@@ -123,7 +149,7 @@ try {
     await page.mouse.up();
     assert.equal(await at(), 70, 'the border did not follow the pointer');
     assert.match(await address_hash(), /before-after&divider=0\.7/);
-    await page.getByLabel('Beside the look that it replaces').uncheck();
+    await page.getByLabel('Compare with the legacy look').uncheck();
     assert.ok(await page.locator('#divider').isHidden());
 
     // Fields: by the keyboard, by the pointer, by a number, by a choice.
@@ -137,7 +163,7 @@ try {
     await page.mouse.click(track.x + track.width / 2, track.y + track.height / 2);
     assert.match((await options()).sun, /^(39|40|41)/);
     assert.notDeepEqual(await image(), windy, 'the sun did not change the image');
-    await page.getByLabel('Chlorophyll, milligrams per cubic metre').fill('5');
+    await page.getByLabel('Chlorophyll, milligrams per cubic meter').fill('5');
     await page.keyboard.press('Enter');
     assert.equal((await options()).chl, '5');
     await page.getByLabel('Water type').selectOption('3C');

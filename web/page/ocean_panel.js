@@ -5,12 +5,12 @@ const note = (text) => element('p', { class: 'note' }, text);
 
 // Fetch, by the text of --fetch.
 const FETCHES = [['inf', 'Unlimited'], ['1000km', '1000 km'], ['300km', '300 km'], ['100km', '100 km'], ['30km', '30 km'], ['10km', '10 km'], ['3km', '3 km'], ['1km', '1 km']];
-const PRESETS = { glass: 'Glass', breeze: 'Breeze', 'trade-wind': 'Trade wind', gale: 'Gale', lagoon: 'Lagoon', harbour: 'Harbour' };
+const PRESETS = { glass: 'Glass', breeze: 'Breeze', 'trade-wind': 'Trade wind', gale: 'Gale', lagoon: 'Lagoon', harbour: 'Harbor' };
 // What a preset sets; choosing one clears them.
 const SEA_OPTIONS = ['wind', 'fetch', 'swell', 'choppiness', 'water', 'chl', 'bed-slope', 'bed-color', 'depth'];
 const LIGHTS = { Noon: 62, Afternoon: 30, Evening: 9, Sunset: 1.5, Dusk: -4 };
 const TONES = [['agx', 'AgX'], ['neutral', 'Khronos PBR Neutral'], ['aces', 'ACES (Hill)'], ['aces-narkowicz', 'ACES (Narkowicz)'], ['reinhard', 'Reinhard'], ['hable', 'Hable'], ['none', 'None']];
-const STAGES = [['', 'Everything'], ['5', '5: foam and glints'], ['4', '4: refraction and absorption'], ['3', '3: light of the sky'], ['2', '2: microfacets'], ['1', '1: Schlick’s Fresnel']];
+const STAGES = [['', 'Full model'], ['5', '5: foam and glints'], ['4', '4: refraction and absorption'], ['3', '3: light of the sky'], ['2', '2: microfacets'], ['1', '1: Schlick’s Fresnel']];
 
 const degrees = (angle) => ((Math.round(angle * 100) / 100 % 360) + 360) % 360;
 
@@ -24,17 +24,17 @@ export function makePanel({ set, look, rise, read }) {
   const optional = (name) => (text) => set({ [name]: text || null });
 
   const f = {
-    wind: range({ label: 'Wind speed', min: 0, max: 25, step: 0.5, limits: [0, 40], unit: 'metres per second', change: (v) => set({ wind: part('wind', 0, v) }) }),
+    wind: range({ label: 'Wind speed', min: 0, max: 25, step: 0.5, limits: [0, 40], unit: 'meters per second', change: (v) => set({ wind: part('wind', 0, v) }) }),
     windTo: range({ label: 'Wind blows to', min: 0, max: 360, step: 1, unit: 'degrees', change: (v) => set({ wind: part('wind', 1, v) }) }),
     fetch: choice({ label: 'Fetch', options: FETCHES, change: (v) => set({ fetch: v }) }),
-    swell: range({ label: 'Swell height', min: 0, max: 6, step: 0.1, limits: [0, 30], unit: 'metres', change: (v) => set({ swell: swellOf(0, v) }) }),
+    swell: range({ label: 'Swell height', min: 0, max: 6, step: 0.1, limits: [0, 30], unit: 'meters', change: (v) => set({ swell: swellOf(0, v) }) }),
     swellPeriod: range({ label: 'Swell period', min: 4, max: 20, step: 0.5, limits: [0.1, 40], unit: 'seconds', change: (v) => set({ swell: swellOf(1, v) }) }),
     swellTo: range({ label: 'Swell runs to', min: 0, max: 360, step: 1, unit: 'degrees', change: (v) => set({ swell: swellOf(2, v) }) }),
     choppiness: range({ label: 'Choppiness', min: 0, max: 2, step: 0.05, change: (v) => set({ choppiness: shortNumber(v) }) }),
-    chl: range({ label: 'Chlorophyll', min: 0, max: 10, step: 0.05, limits: [0, 30], unit: 'milligrams per cubic metre', change: (v) => set({ water: null, chl: shortNumber(v) }) }),
+    chl: range({ label: 'Chlorophyll', min: 0, max: 10, step: 0.05, limits: [0, 30], unit: 'milligrams per cubic meter', change: (v) => set({ water: null, chl: shortNumber(v) }) }),
     water: choice({ label: 'Water type', options: [], change: (v) => set(v ? { chl: null, water: v } : { water: null }) }),
     bed: check({ label: 'Sea bed', change: (is) => set(is ? { depth: '3' } : { 'bed-slope': null, 'bed-color': null, depth: 'inf' }) }),
-    depth: range({ label: 'Depth', min: 0.2, max: 30, step: 0.1, limits: [0.001, 1e7], unit: 'metres', change: (v) => set({ depth: shortNumber(v) }) }),
+    depth: range({ label: 'Depth', min: 0.2, max: 30, step: 0.1, limits: [0.001, 1e7], unit: 'meters', change: (v) => set({ depth: shortNumber(v) }) }),
     slope: range({ label: 'Slope of the bed', min: 0, max: 0.3, step: 0.01, limits: [0, 1], change: (v) => set({ 'bed-slope': part('bed-slope', 0, v) }) }),
     bedColor: color({ label: 'Color of the bed', change: (v) => set({ 'bed-color': v }) }),
     sun: range({ label: 'Sun elevation', min: -10, max: 90, step: 0.5, limits: [-90, 90], unit: 'degrees', change: (v) => set({ sun: part('sun', 0, v) }) }),
@@ -42,13 +42,13 @@ export function makePanel({ set, look, rise, read }) {
     turbidity: range({ label: 'Turbidity', min: 1, max: 10, step: 0.1, unit: '', change: (v) => set({ turbidity: shortNumber(v) }) }),
     exposure: range({ label: 'Exposure', min: -4, max: 4, step: 0.1, limits: [-20, 20], unit: 'stops', change: (v) => set({ exposure: shortNumber(v) }) }),
     tone: choice({ label: 'Tone mapping', options: TONES, change: (v) => set({ 'tone-mapping': v }) }),
-    height: range({ label: 'Height of the eye', min: -10, max: 40, step: 0.5, limits: [-1000, 50000], unit: 'metres', change: rise }),
+    height: range({ label: 'Height of the eye', min: -10, max: 40, step: 0.5, limits: [-1000, 50000], unit: 'meters', change: rise }),
     azimuth: range({ label: 'Looks to', min: 0, max: 360, step: 1, unit: 'degrees', change: (v) => look(v, now().state.elevation) }),
     elevation: range({ label: 'Up or down', min: -89, max: 89, step: 1, unit: 'degrees', change: (v) => look(now().state.azimuth, v) }),
     fov: range({ label: 'Field of view', min: 5, max: 100, step: 1, limits: [0.1, 170], unit: 'degrees', change: (v) => set({ fov: shortNumber(v) }) }),
-    compare: check({ label: 'Beside the look that it replaces', change: (is) => set({ 'before-after': is ? '' : null, ...(is ? { stage: null } : {}) }) }),
-    before: choice({ label: 'Its formulas', options: [['', 'As meant (B)'], ['A', 'As written (A)']], change: (v) => set({ before: v || null }) }),
-    stage: choice({ label: 'Up to stage', options: STAGES, change: optional('stage') }),
+    compare: check({ label: 'Compare with the legacy look', change: (is) => set({ 'before-after': is ? '' : null, ...(is ? { stage: null } : {}) }) }),
+    before: choice({ label: 'Legacy formulas', options: [['', 'Corrected (B)'], ['A', 'Original (A)']], change: (v) => set({ before: v || null }) }),
+    stage: choice({ label: 'Shading stage', options: STAGES, change: optional('stage') }),
     glints: check({ label: 'Single glints of the sun', change: flag('no-glints') }),
     foam: check({ label: 'Whitecaps', change: flag('no-foam') }),
     caustics: check({ label: 'Caustics on the bed', change: flag('no-caustics') }),
@@ -93,9 +93,9 @@ export function makePanel({ set, look, rise, read }) {
     section('Water and bed', true,
       f.chl.root, note('mg/m³ of chlorophyll, 0 to 30: 0.05 is deep blue, 10 is green.'),
       f.water.root, note('Jerlov’s types instead, from the clearest ocean (I) to the most turbid coast (9C).'),
-      f.bed.root, f.depth.root, f.slope.root, f.bedColor.root, note('Depth in m below the still water; the slope is its rise per metre, 0 to 1.')).root,
+      f.bed.root, f.depth.root, f.slope.root, f.bedColor.root, note('Depth in m below the still water; the slope is its rise per meter, 0 to 1.')).root,
     section('Camera', false,
-      f.height.root, note('Metres above the still water; below 0 the camera is under water. It keeps 1 m above the waves.'),
+      f.height.root, note('Meters above the still water; below 0 the camera is under water. It keeps 1 m above the waves.'),
       f.azimuth.root, f.elevation.root, f.fov.root,
       element('dl', { class: 'keys', id: 'keys' },
         ...[['Drag, arrow keys', 'look around'], ['Wheel, + and −', 'zoom'], ['Page Up, Page Down', 'rise and sink'], ['Space', 'play and pause']].flatMap(([key, what]) => [element('dt', {}, key), element('dd', {}, what)]))).root,
@@ -172,5 +172,5 @@ export function makePanel({ set, look, rise, read }) {
   };
 }
 
-const nearestFetch = (metres) => (metres === null ? 'inf'
-  : FETCHES.slice(1).reduce((best, [text]) => (Math.abs(Math.log(parseFloat(text) * 1000 / metres)) < Math.abs(Math.log(parseFloat(best) * 1000 / metres)) ? text : best), '1km'));
+const nearestFetch = (meters) => (meters === null ? 'inf'
+  : FETCHES.slice(1).reduce((best, [text]) => (Math.abs(Math.log(parseFloat(text) * 1000 / meters)) < Math.abs(Math.log(parseFloat(best) * 1000 / meters)) ? text : best), '1km'));
