@@ -44,8 +44,8 @@ export class Animation {
   modelOpened() {
     const { element, view } = this.context;
     const state = view.state();
-    this.#names = state.animations.map(({ name }) => name);
-    this.#ends = state.animations.map(({ end }) => end);
+    this.#names = state.animations;
+    this.#ends = state.animationTimes.map(([, end]) => end);
     this.#isSet = false;
     this.#time = 0;
     this.#halt();

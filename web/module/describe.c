@@ -87,15 +87,17 @@ static void describe_orbit(text *t, const viewer *v)
     text_json_end_object(t);
 }
 
+/* Names, and beside them when each begins and ends. */
 static void describe_animations(text *t, const facet_scene *scene)
 {
     text_json_begin_array(t, "animations");
+    for (uint32_t i = 0; i < scene->animation_count; i++)
+        text_json_string(t, NULL, scene->animations[i].name);
+    text_json_end_array(t);
+    text_json_begin_array(t, "animationTimes");
     for (uint32_t i = 0; i < scene->animation_count; i++) {
-        text_json_begin_object(t, NULL);
-        text_json_string(t, "name", scene->animations[i].name);
-        number(t, "begin", (double)scene->animations[i].begin_s);
-        number(t, "end", (double)scene->animations[i].end_s);
-        text_json_end_object(t);
+        const double times[] = {(double)scene->animations[i].begin_s, (double)scene->animations[i].end_s};
+        text_json_doubles(t, NULL, times, 2);
     }
     text_json_end_array(t);
 }
@@ -138,10 +140,7 @@ static void describe_stats(text *t, const viewer *v)
         text_json_integer(t, "draws", (int64_t)v->state.counts.instances);
         text_json_integer(t, "vertices", (int64_t)v->state.counts.vertices);
     }
-    if (v->renderer) {
-        const gl_times times = gl_renderer_get_times(v->renderer);
-        (void)times;
-    }
+    number(t, "seconds", v->stats.geometry_s + v->stats.light_s + v->stats.textures_s + v->stats.shade_s);
     number(t, "geometrySeconds", v->stats.geometry_s);
     number(t, "lightSeconds", v->stats.light_s);
     number(t, "textureSeconds", v->stats.textures_s);

@@ -64,12 +64,16 @@ static facet_result load(const environment_input *input, const web_file *file, b
 }
 
 facet_result web_light_create(const char *text, const environment_input *input,
-                              const facet_environment_desc *desc, web_light **out, facet_error *error)
+                              const facet_environment_desc *desc, web_light *last, web_light **out,
+                              facet_error *error)
 {
     facet_environment *environment = NULL;
     bool is_alike = false;
-    const web_file *file = input->kind == ENVIRONMENT_FILE ? web_files_find(input->path, &is_alike) : NULL;
+    const bool is_file = input->kind == ENVIRONMENT_FILE;
+    const web_file *file = is_file ? web_files_find(input->path, &is_alike) : NULL;
     web_light *light = find(text, file ? file->number : 0);
+    if (is_file && !file && last && strcmp(last->text, text) == 0)
+        light = last;
     *out = light;
     if (light) {
         light->uses++;
@@ -99,6 +103,17 @@ void web_light_release(web_light *light)
     facet_environment_destroy(light->environment);
     free(light->text);
     free(light);
+}
+
+web_light *web_light_keep_file(web_light *light, web_light *last, const char *text)
+{
+    const bool is_file = light && light->number;
+    if (is_file)
+        light->uses++;
+    if (!is_file && last && strcmp(last->text, text) == 0)
+        return last;
+    web_light_release(last);
+    return is_file ? light : NULL;
 }
 
 facet_environment *web_light_get(const web_light *light)

@@ -42,7 +42,7 @@ facet_result web_model_find_bounds(viewer *v, facet_error *error)
     return find_bounds(v->scene, &v->state.pose, v->state.low, v->state.high, error);
 }
 
-/* Replaces what is shown; the scene is the viewer's only if it succeeds. */
+/* Begins to show a scene. The one before, and its renderer, are the caller's; where it fails nothing has changed. */
 static facet_result show(viewer *v, facet_scene *scene, bool keeps_view, facet_error *error)
 {
     float low[3], high[3];
@@ -52,17 +52,46 @@ static facet_result show(viewer *v, facet_scene *scene, bool keeps_view, facet_e
     TRY(find_bounds(scene, keeps_view ? &v->state.pose : &rest, low, high, error));
     if (!v->context->is_lost)
         TRY(gl_renderer_create(scene, v->context, NULL, &renderer, error));
-    gl_renderer_destroy(v->renderer);
-    facet_scene_destroy(v->scene);
     v->renderer = renderer;
     v->scene = scene;
     view_state_set_model(&v->state, &model, low, high, keeps_view);
     return FACET_OK;
 }
 
+/* What a viewer shows; replaced as a whole. */
+typedef struct shown {
+    facet_scene *scene;
+    gl_renderer *renderer;
+    char *path;
+    view_state state;
+} shown;
+
+static shown get_shown(const viewer *v)
+{
+    return (shown){v->scene, v->renderer, v->path, v->state};
+}
+
+static void destroy(shown *s)
+{
+    gl_renderer_destroy(s->renderer);
+    facet_scene_destroy(s->scene);
+    free(s->path);
+}
+
+static void put_back(viewer *v, shown *old)
+{
+    shown failed = get_shown(v);
+    v->scene = old->scene;
+    v->renderer = old->renderer;
+    v->path = old->path;
+    v->state = old->state;
+    destroy(&failed);
+}
+
 facet_result web_model_open(viewer *v, const char *path, facet_error *error)
 {
     facet_scene *scene;
+    shown old = get_shown(v);
     char *copy = strdup(path);
     if (!copy)
         return fail_memory(error, "path", strlen(path));
@@ -76,29 +105,37 @@ facet_result web_model_open(viewer *v, const char *path, facet_error *error)
         free(copy);
         return result;
     }
-    free(v->path);
     v->path = copy;
-    return web_options_open(v, error);
+    result = web_options_open(v, error);
+    if (result == FACET_OK)
+        destroy(&old);
+    else
+        put_back(v, &old);
+    return result;
 }
 
 facet_result web_model_reload(viewer *v, facet_shading shading, facet_error *error)
 {
     facet_scene *scene;
+    shown old = get_shown(v);
     if (!v->scene)
         return FACET_OK;
     TRY(load(v, v->path, shading, &scene, error));
     facet_result result = show(v, scene, true, error);
-    if (result != FACET_OK)
+    if (result != FACET_OK) {
         facet_scene_destroy(scene);
-    return result;
+        return result;
+    }
+    old.path = NULL; /* stays */
+    destroy(&old);
+    return FACET_OK;
 }
 
 void web_model_close(viewer *v)
 {
-    gl_renderer_destroy(v->renderer);
-    facet_scene_destroy(v->scene);
-    free(v->path);
+    shown last = get_shown(v);
     v->renderer = NULL;
     v->scene = NULL;
     v->path = NULL;
+    destroy(&last);
 }

@@ -250,11 +250,13 @@ static facet_result make_light(viewer *v, const parsed *p, web_light **out, face
         return FACET_OK;
     if (v->scene && render_is_lit_by_scene(o, v->scene, &v->state.pose))
         return web_light_create_from_scene(v->scene, &v->state.pose, &desc, out, error);
-    return web_light_create(option_text(&p->line, OPT_ENV, "neutral"), &o->environment, &desc, out, error);
+    return web_light_create(option_text(&p->line, OPT_ENV, "neutral"), &o->environment, &desc, v->file_light,
+                            out, error);
 }
 
-static void take_light(viewer *v, web_light *light)
+static void take_light(viewer *v, const parsed *p, web_light *light)
 {
+    v->file_light = web_light_keep_file(light, v->file_light, option_text(&p->line, OPT_ENV, "neutral"));
     web_light_release(v->light);
     v->light = light;
 }
@@ -291,7 +293,7 @@ static facet_result take(viewer *v, parsed *p, unsigned concerns, facet_error *e
         return result;
     }
     if (concerns & (OF_LIGHT | OF_MATERIALS))
-        take_light(v, light);
+        take_light(v, p, light);
     take_render(v, o);
     return FACET_OK;
 }
@@ -315,6 +317,7 @@ void web_options_destroy(viewer *v)
     parsed old = {v->given, v->line, v->options};
     destroy(&old);
     web_light_release(v->light);
+    web_light_release(v->file_light);
 }
 
 /* --exposure auto: what the meter reads becomes the exposure. */

@@ -15,6 +15,7 @@ typedef struct viewer {
     facet_scene *scene;
     gl_renderer *renderer; /* NULL: no scene, or the context is lost */
     web_light *light;
+    web_light *file_light; /* of the last file of --env, which the table may not have any more; NULL: none */
     view_state state;
     view_rig rig;       /* places the orbit of the state, once a page has framed the model */
     facet_orbit placed; /* by the rig */
