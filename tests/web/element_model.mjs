@@ -38,6 +38,82 @@ export const cases = ({ page, check, equal, near, requests }) => ({
         equal(found.still.hash, found.blue.hash, 'the light of a file is lost with the model');
     },
 
+    async 'the light of a file stays for every model'() {
+        const found = await page.evaluate(async () => {
+            await clear();
+            const blob = async (name) => (await fetch(name)).blob(), sky = await blob('blue.hdr'), box = await blob('box.gltf');
+            const viewer = make({ 'environment-image': 'blue.hdr', loading: 'eager' }), colors = [];
+            const look = async () => { await frames(); colors.push((await image(viewer)).color); };
+            await event(viewer, 'environment-change'); // before there is a model
+            await event(viewer, 'load', () => { viewer.src = 'box.gltf'; });
+            await look();
+            await viewer.openFiles([{ path: 'room.hdr', file: sky }]);
+            await viewer.openFiles([{ path: 'a.gltf', file: box }]);
+            await look();
+            const bad = await viewer.openFiles([{ path: 'bad.gltf', file: new Blob(['{']) }]).then(() => '', (error) => error.message);
+            colors.push((await image(viewer)).color);
+            const kept = [viewer.modelPath, /room\.hdr/.test(viewer.command())];
+            await viewer.setOption('shading', 'ogl1');
+            await viewer.setOption('shading', null);
+            await look();
+            await viewer.openFiles([{ path: 'b.obj', file: new Blob(['v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n']) }]);
+            await look();
+            await viewer.openModel('');
+            await look();
+            return { colors, bad, kept, errors: viewer.log.filter(([type]) => type === 'error'), seconds: viewer.renderInfo.seconds };
+        });
+        for (const color of found.colors) check(color[2] > 1.5 * color[0], `a blue panorama gives ${JSON.stringify(found.colors)}`);
+        check(/bad\.gltf/.test(found.bad), `a broken model: "${found.bad}"`);
+        equal(found.kept, ['a.gltf', true], 'the last model does not stay');
+        equal(found.errors, []);
+        check(found.seconds > 0, 'the time of a frame');
+    },
+
+    async 'values and files of any kind stop nothing'() {
+        const found = await page.evaluate(async () => {
+            await clear();
+            const { engine } = await import('./facet-viewer/engine.js'), { fetchModel, fileCache } = await import('./facet-viewer/files.js');
+            const viewer = make({ src: 'box.gltf' });
+            await event(viewer, 'load');
+            await frames();
+            const { module } = engine, before = await image(viewer), loop = {};
+            loop.loop = loop;
+            const say = async (act) => { try { await act(); return ''; } catch (error) { return error.message; } };
+            const bad = [];
+            for (const values of [loop, { roughness: 1n }, null, undefined, 5, Object.create(null, { toJSON: { value() { throw new Error('no'); } } })])
+                bad.push(await say(() => viewer.setMaterial(0, values)));
+            for (const index of [NaN, 0.5, 4294967296, -1, '0', Object.create(null)]) bad.push(await say(() => viewer.setMaterial(index, {})));
+            bad.push(await say(() => viewer.setOption(Object.create(null), '1')), await say(() => viewer.setOption('exposure', Object.create(null))));
+            const { View } = await import('./facet-viewer/view.js'), view = new View({ canvas: document.createElement('canvas') }, {});
+            view.revive();
+            await view.open(viewer.files, viewer.modelPath);
+            for (const value of [1, 2]) view.setMaterial(0, JSON.parse(`{"extras": {"__proto__": {"polluted": ${value}}}}`));
+            const edit = JSON.stringify(view.edits[0]);
+            view.destroy();
+            const start = performance.now();
+            const models = { 'slow.obj': `mtllib ${' '.repeat(2e5)}\u2028x\nmtllib ${' '.repeat(2e5)}.mtl\n`, 'many.gltf': JSON.stringify({ images: Array(2e5).fill({ uri: 'data:,' }), buffers: [{ uri: 'http://[' }, { uri: 'box.bin' }] }) };
+            const original = window.fetch, names = [];
+            window.fetch = (url, ...rest) => {
+                const name = url.split('/').pop();
+                names.push(name);
+                return name in models ? Promise.resolve(new Response(models[name])) : name === 'box.bin' ? Promise.resolve(new Response('x')) : original(url, ...rest);
+            };
+            const many = await fetchModel('many.gltf', { onProgress() {} }), signal = AbortSignal.abort();
+            await fetchModel('slow.obj', { onProgress() {} });
+            const count = names.length, late = await say(() => fetchModel('late.gltf', { onProgress() {}, signal }));
+            const aborted = names.length - count;
+            await fetchModel('many.gltf', { onProgress() {}, withCredentials: true });
+            const again = names.filter((name) => name === 'many.gltf').length;
+            window.fetch = original;
+            fileCache.clear();
+            return { bad, edit, isSame: engine.module === module && !module.isLost, hash: (await image(viewer)).hash === before.hash, polluted: {}.polluted, spent: performance.now() - start, many: many.map(({ path }) => path), late, aborted, again };
+        });
+        check(found.bad.every((text) => text.length > 10 && !/stopped/.test(text)), JSON.stringify(found.bad));
+        check(found.isSame && found.hash, 'a bad value stops the module or changes the image');
+        equal([found.polluted, found.edit, found.many, found.aborted, found.again], [undefined, '{"extras":{"__proto__":{"polluted":2}}}', ['many.gltf', 'box.bin'], 0, 2]);
+        check(found.late && found.spent < 3000, `files take ${found.spent} ms`);
+    },
+
     async 'animations and variants'() {
         const found = await page.evaluate(async () => {
             await clear();

@@ -1,5 +1,5 @@
 // files.js - the bytes of models: fetched with progress, kept for elements that show the same, and found by what a model refers to.
-const kept = new Map(); // url -> Blob, the oldest first
+const kept = new Map(); // key of a request -> Blob, the oldest first
 let keptCount = 5;
 
 export const fileCache = {
@@ -12,15 +12,15 @@ export const fileCache = {
 };
 
 function shrink() {
-  for (const url of kept.keys()) {
+  for (const key of kept.keys()) {
     if (kept.size <= keptCount) return;
-    kept.delete(url);
+    kept.delete(key);
   }
 }
 
-function keep(url, blob) {
-  kept.delete(url);
-  kept.set(url, blob);
+function keep(key, blob) {
+  kept.delete(key);
+  kept.set(key, blob);
   shrink();
 }
 
@@ -41,6 +41,9 @@ async function readBody(response, onProgress) {
   return new Blob(parts);
 }
 
+// Whoever sends cookies may get another answer.
+const keyOf = (url, withCredentials) => `${withCredentials ? 'with' : 'without'} credentials ${url}`;
+
 async function request(url, withCredentials, download) {
   let response;
   try {
@@ -51,36 +54,38 @@ async function request(url, withCredentials, download) {
   }
   if (!response.ok) throw new Error(`${url} could not be fetched: the server answered ${response.status}`);
   const blob = await readBody(response, (share) => { for (const report of download.listeners) report(share); });
-  keep(url, blob);
+  keep(keyOf(url, withCredentials), blob);
   return blob;
 }
 
 // Elements that ask for the same address at the same time wait for one download. It is cancelled when nobody waits any more.
-const downloads = new Map(); // url -> {promise, listeners, abort}
+const downloads = new Map(); // key -> {promise, listeners, abort}
 
-function forget(url, download) {
-  if (downloads.get(url) === download) downloads.delete(url);
+function forget(key, download) {
+  if (downloads.get(key) === download) downloads.delete(key);
 }
 
 export async function fetchFile(url, { withCredentials = false, signal, onProgress = () => {} } = {}) {
-  const found = kept.get(url);
+  signal?.throwIfAborted();
+  const key = keyOf(url, withCredentials);
+  const found = kept.get(key);
   if (found) {
-    keep(url, found);
+    keep(key, found);
     onProgress(1);
     return found;
   }
-  let download = downloads.get(url);
+  let download = downloads.get(key);
   if (!download) {
     download = { listeners: new Set(), abort: new AbortController() };
-    downloads.set(url, download);
+    downloads.set(key, download);
     const started = download;
-    download.promise = request(url, withCredentials, download).finally(() => forget(url, started));
+    download.promise = request(url, withCredentials, download).finally(() => forget(key, started));
   }
   download.listeners.add(onProgress);
   const leave = () => {
     download.listeners.delete(onProgress);
     if (download.listeners.size) return;
-    forget(url, download);
+    forget(key, download);
     download.abort.abort();
   };
   signal?.addEventListener('abort', leave, { once: true });
@@ -96,6 +101,19 @@ export const MODEL = /\.(glb|gltf|obj|stl|ply|json)$/i;
 const TEXT = /\.(gltf|obj)$/i; // models that name other files
 export const IMAGE = /\.(hdr|exr|ktx2|png|jpe?g|webp|dds|tga|bmp|pfm)$/i;
 
+// The words of a line, as readers of OBJ and MTL see them.
+const words = (line) => line.trim().split(/\s+/);
+const afterFirst = (line) => line.trim().slice(words(line)[0].length).trim();
+const MAP = /^(map_\w+|bump|norm|disp|decal|refl)$/i;
+
+function relatedToObj(text) {
+  return text.split('\n').filter((line) => words(line)[0] === 'mtllib').map(afterFirst).filter(Boolean);
+}
+
+function relatedToMtl(text) {
+  return text.split('\n').map(words).filter((parts) => parts.length > 1 && MAP.test(parts[0])).map((parts) => parts.at(-1));
+}
+
 // The relative addresses that a text model names; of binary ones nothing.
 function relatedTo(path, text) {
   if (/\.gltf$/i.test(path)) {
@@ -108,9 +126,8 @@ function relatedTo(path, text) {
     const all = [...(Array.isArray(json?.buffers) ? json.buffers : []), ...(Array.isArray(json?.images) ? json.images : [])];
     return all.map((part) => part?.uri).filter((uri) => typeof uri === 'string' && !/^data:/i.test(uri));
   }
-  const lines = text.split(/\r?\n/);
-  if (/\.obj$/i.test(path)) return lines.flatMap((line) => line.match(/^\s*mtllib\s+(.+?)\s*$/)?.[1] ?? []);
-  if (/\.mtl$/i.test(path)) return lines.flatMap((line) => line.match(/^\s*(?:map_\w+|bump|norm|disp|decal|refl)\s+(?:.*\s)?(\S+)\s*$/i)?.[1] ?? []);
+  if (/\.obj$/i.test(path)) return relatedToObj(text);
+  if (/\.mtl$/i.test(path)) return relatedToMtl(text);
   return [];
 }
 
@@ -123,7 +140,16 @@ const decode = (uri) => {
 };
 
 // How many folders above its own the addresses of a text reach.
-const climb = (uris) => Math.max(0, ...uris.map((uri) => uri.match(/^(?:\.\.\/)*/)[0].length / 3));
+const climb = (uris) => uris.reduce((most, uri) => Math.max(most, uri.match(/^(?:\.\.\/)*/)[0].length / 3), 0);
+
+// Null: it is no address.
+function resolve(uri, from) {
+  try {
+    return new URL(uri.replace(/\\/g, '/'), from);
+  } catch {
+    return null;
+  }
+}
 
 // A model and the files that it refers to, as [{path, file}]; the model is the first. One that cannot be fetched is left to the reader's
 // message, which names the place in the model.
@@ -142,8 +168,8 @@ export async function fetchModel(url, options) {
   const files = [{ path: pathOf(base), file }];
   const seen = new Set([base.href]);
   const follow = (uris, from) => Promise.all(uris.map(async (uri) => {
-    const address = new URL(uri.replace(/\\/g, '/'), from);
-    if (seen.has(address.href) || !address.href.startsWith(root.href)) return;
+    const address = resolve(uri, from);
+    if (!address || seen.has(address.href) || !address.href.startsWith(root.href)) return;
     seen.add(address.href);
     try {
       const found = await fetchFile(address.href, { ...options, onProgress: () => {} });

@@ -7,6 +7,33 @@ const EXIT_CODES = [0, 2, 3, 4, 5, 6, 7, 7, 8, 75, 70]; // of the command, by fa
 const NO_MEMORY = 7; // facet_result
 const TARGET = '!facet'; // the canvas' name for emscripten
 
+// Values that scripts pass may be anything.
+function textOf(value) {
+  try {
+    return String(value);
+  } catch {
+    throw new FacetError('a text is expected, not an object that has none');
+  }
+}
+
+function jsonOf(value, what) {
+  if (value === null || typeof value !== 'object') throw new FacetError(`${what}: an object is expected, not ${textOf(value)}`);
+  try {
+    return JSON.stringify(value);
+  } catch (error) {
+    throw new FacetError(`${what}: it cannot be written as JSON (${textOf(error.message).split('\n')[0]})`);
+  }
+}
+
+function checkIndex(value, what) {
+  if (!Number.isInteger(value) || value < 0 || value > 0x7fffffff) throw new FacetError(`${what}: a whole number from 0 is expected, not ${textOf(value)}`);
+}
+
+// What leaves the module in a state that nobody knows: an abort, a trap, a stack that overflowed, or what is no error of JavaScript.
+function hasStopped(error) {
+  return !(error instanceof Error) || error instanceof WebAssembly.RuntimeError || error.name === 'ExitStatus' || /stack|recursion/i.test(error.message);
+}
+
 class Memory {
   constructor(wasm) {
     this.wasm = wasm;
@@ -31,9 +58,10 @@ class Memory {
   // Calls use(address) with a string of C; null is the address 0.
   text(text, use) {
     if (text === null || text === undefined) return use(0);
-    const size = 4 * String(text).length + 1;
+    const string = textOf(text);
+    const size = 4 * string.length + 1;
     return this.room(size, (at) => {
-      this.wasm.stringToUTF8(String(text), at, size);
+      this.wasm.stringToUTF8(string, at, size);
       return use(at);
     });
   }
@@ -77,13 +105,14 @@ export class Module {
 
   // ---- calls ----
 
-  // After an abort, mostly for want of memory, nothing in the module can be trusted: every later call throws, too.
+  // After an abort, mostly for want of memory, nothing in the module can be trusted: every later call throws, too. A value that cannot be
+  // converted is no such matter.
   #call(use) {
     if (this.#isLost) throw new FacetError('facet has stopped; it has to be loaded again');
     try {
       return use();
     } catch (error) {
-      if (error instanceof FacetError) throw error;
+      if (error instanceof FacetError || !hasStopped(error)) throw error;
       this.#isLost = true;
       throw new FacetError(`facet has stopped (${error.message ?? error}); probably there was not enough memory`);
     }
@@ -253,11 +282,14 @@ export class Module {
 
   // change: part of a glTF material; null takes a texture or an extension away.
   setMaterial(viewer, material, change) {
-    this.#check(() => this.#memory.text(JSON.stringify(change), (at) => this.#wasm._facet_web_set_material(viewer, material, at)));
+    checkIndex(material, 'the index of a material');
+    const json = jsonOf(change, `material ${material}`);
+    this.#check(() => this.#memory.text(json, (at) => this.#wasm._facet_web_set_material(viewer, material, at)));
   }
 
   // An image as it is in the file.
   getImage(viewer, image) {
+    checkIndex(image, 'the index of an image');
     return this.#call(() => this.#memory.room(12, (out) => {
       const code = this.#wasm._facet_web_get_image(viewer, image, out, out + 4, out + 8);
       if (code !== 0) throw this.#lastError(code);

@@ -8,9 +8,9 @@ const OF_MODEL = new Set(['animation', 'time', 'variant', 'camera', 'scene', 'or
 function join(a, b) {
   const isObject = (value) => value !== null && typeof value === 'object' && !Array.isArray(value);
   if (!isObject(a) || !isObject(b)) return b;
-  const both = { ...a };
-  for (const [name, value] of Object.entries(b)) both[name] = join(a[name], value);
-  return both;
+  const both = new Map(Object.entries(a));
+  for (const [name, value] of Object.entries(b)) both.set(name, join(both.get(name), value));
+  return Object.fromEntries(both); // "__proto__" is a name as any other
 }
 
 export class View {
@@ -237,7 +237,7 @@ export class View {
 
   setMaterial(index, values) {
     this.use((module, viewer) => module.setMaterial(viewer, index, values));
-    this.#materials.push([index, values]);
+    this.#materials.push([index, JSON.parse(JSON.stringify(values))]); // which the caller may change
     this.touch();
   }
 
