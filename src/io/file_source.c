@@ -73,9 +73,12 @@ facet_result file_source_open(const facet_file_source *source, const char *path,
                          .number = file_source_number(path),
                          .user = source->user,
                          .release = source->close};
-    if (size <= max_bytes)
+    if (size <= max_bytes && (bytes || size == 0))
         return FACET_OK;
     file_close(file);
+    if (!bytes)
+        return fail(error, FACET_ERROR_READ, "%s: facet_file_source.open() gave no bytes, but a size of %zu",
+                    path, size);
     return fail(error, FACET_ERROR_LIMIT, "%s: %zu bytes is larger than the limit of %llu", path, size,
                 (unsigned long long)max_bytes);
 }

@@ -141,6 +141,18 @@ static void what_is_missing_is_named(void **state)
     expect_failure("a/model.gltf", &desc, &p, FACET_ERROR_LIMIT, "a/model.gltf");
 }
 
+static void a_size_without_bytes_is_refused(void **state)
+{
+    (void)state;
+    static const char *const paths[] = {"a.glb", "a.gltf", "a.obj", "a.stl", "a.ply"};
+    for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
+        entry broken = {paths[i], NULL, 100};
+        pack p = {&broken, 1, 0, 0};
+        const facet_scene_desc desc = {.files = {&p, open_entry, close_entry, NULL}};
+        expect_failure(paths[i], &desc, &p, FACET_ERROR_READ, "gave no bytes, but a size of 100");
+    }
+}
+
 /* Names may not leave the folder of the model, nor the root. */
 static void names_stay_in_their_folder(void **state)
 {
@@ -188,6 +200,7 @@ int main(void)
         cmocka_unit_test(models_of_several_files_are_read),
         cmocka_unit_test(names_that_differ_in_case_are_found_with_a_warning),
         cmocka_unit_test(what_is_missing_is_named),
+        cmocka_unit_test(a_size_without_bytes_is_refused),
         cmocka_unit_test(names_stay_in_their_folder),
         cmocka_unit_test(paths_are_made_plain),
     };
