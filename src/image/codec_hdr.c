@@ -120,11 +120,12 @@ static void parse_primaries(const char *line, size_t length, hdr_header *h)
 {
     const char *end = line + length;
     const char *number = (const char *)memchr(line, '=', length) + 1;
-    h->has_primaries = true;
+    h->has_primaries = false; /* eight zeros, which some programs write, name none */
     for (int i = 0; i < 8; i++) {
         while (number < end && (*number == ' ' || *number == '\t'))
             number++;
         h->primaries.xy[i / 2][i % 2] = codec_parse_number(number, end, &number);
+        h->has_primaries |= h->primaries.xy[i / 2][i % 2] != 0.0; /* NaN too */
     }
 }
 
