@@ -3,12 +3,17 @@
 
 #include "base/result.h"
 
+#ifdef __EMSCRIPTEN__
+static const char reason[] = "the command in WebAssembly has none; the page ocean.html draws it";
+#else
+static const char reason[] = "this facet was built without kissfft (Debian: libkissfft-dev)";
+#endif
+
 facet_result wave_transform_create(const waves *w, wave_transform **out, facet_error *error)
 {
     (void)w;
     *out = NULL;
-    return fail(error, FACET_ERROR_UNSUPPORTED,
-                "a sea with waves: this facet was built without kissfft (Debian: libkissfft-dev)");
+    return fail(error, FACET_ERROR_UNSUPPORTED, "a sea with waves: %s", reason);
 }
 
 void wave_transform_destroy(wave_transform *t)
