@@ -201,12 +201,14 @@ async function testPlots() {
     assert.ok(data.panels[0].plot[2] > 100, 'the place of the panel');
 }
 
+// The promise is rejected with a sentence, not with an error of JavaScript.
+const refuses = (promise, expected) => assert.rejects(promise, (error) => {
+    assert.ok(error instanceof FacetError, String(error.stack));
+    assert.match(error.message, expected);
+    return true;
+});
+
 async function testRefusals() {
-    const refuses = (promise, expected) => assert.rejects(promise, (error) => {
-        assert.ok(error instanceof FacetError, String(error.stack));
-        assert.match(error.message, expected);
-        return true;
-    });
     for (const words of [['nonsense'], ['inspect', 'no.glb'], ['convert', 'quad/quad.obj'], ['convert', 'quad/quad.obj', 'a.xyz'],
         ['bake', 'no.hdr', '-o', 'a.ktx2'], ['plot', 'brdf', 'roughness=2', '-o', 'a.csv'], ['help', 'bake'], ['help', '--max-memory']]) {
         await assertSame(words, QUAD);
@@ -222,6 +224,69 @@ async function testRefusals() {
     assert.equal(drawn.code, 5);
     assert.match(drawn.stderr, /WebAssembly has no renderer for the CPU/);
     assert.equal((await tools.run(['render', '--size', 'x'])).code, 2, 'its options are checked all the same');
+}
+
+// Arguments of a wrong type, and files that have no place.
+async function testArguments() {
+    await refuses(tools.run('inspect'), /^args: an array/);
+    await refuses(tools.run([Object.create(null)]), /^args\[0\]: a string/);
+    await refuses(tools.run(['inspect', 'a'], null), /^files: an object/);
+    await refuses(tools.run(['inspect', 'a'], { a: 'x', 'a/b': 'y' }), /^a\/b: .*as a file and as a folder/);
+    await refuses(tools.inspect(QUAD, 'quad/quad.obj', null), /^options: an object/);
+    await refuses(tools.inspect(QUAD, 'quad/quad.obj', { maxTexture: {} }), /^maxTexture: a string/);
+    await refuses(tools.inspect(QUAD), /a string/);
+    const deep = `${'d/'.repeat(400)}a.obj`, start = performance.now();
+    await refuses(tools.run(['inspect', deep], { [deep]: 'v 0 0 0' }), /^d\/.*at most 63 folders/);
+    await refuses(tools.convert(QUAD, 'quad/quad.obj', { output: deep }), /at most 63 folders/);
+    assert.ok(performance.now() - start < 1000, 'deep names take time');
+    // nothing is left outside of the folder of a run
+    for (const output of ['/tmp/a.glb', '../a.glb', '/dev/shm/a.glb', '/new/a.glb']) {
+        const { code, stderr, files } = await tools.run(['convert', 'quad/quad.obj', '-o', output], QUAD);
+        assert.deepEqual([code, files], [6, {}], output);
+        assert.match(stderr, /cannot be written to: Permission denied/);
+    }
+    await refuses(tools.convert(QUAD, 'quad/quad.obj', { output: '__proto__/a.glb' }), /cannot have the name __proto__/);
+}
+
+const gltf = (members) => ({ 'm/a.gltf': JSON.stringify({ asset: { version: '2.0' }, ...members }), 'm/b.bin': new Uint8Array(8) });
+
+// Edits that are none, and files that are broken.
+async function testSaveRefusals() {
+    const glb = native(['convert', 'quad/quad.obj', 'quad.glb'], QUAD).read('quad.glb');
+    const save = (edits) => tools.save({ 'a.glb': glb }, 'a.glb', edits);
+    for (const key of ['-1', '0.5', ' 0', '', '0x0', '00', '2', '__proto__']) {
+        await refuses(save(Object.defineProperty({}, key, { value: {}, enumerable: true })), /^a\.glb: there is no material .*; it has 2/);
+    }
+    for (const edits of [5, 'x', null, [{}]]) await refuses(save(edits), /^a\.glb: edits: an object/);
+    await refuses(save({ 0: 5 }), /material 0: a part/);
+    await refuses(save({ 0: { alphaCutoff: NaN } }), /material 0\.alphaCutoff: number NaN has no place in JSON/);
+    await refuses(save({ 0: { alphaCutoff: 1n } }), /material 0\.alphaCutoff: bigint 1/);
+    const cyclic = {};
+    cyclic.extras = cyclic;
+    await refuses(save({ 0: cyclic }), /nested more than 32 times/);
+
+    // a member "__proto__" stays a member
+    const bytes = await save({ 0: JSON.parse('{"extras": {"__proto__": {"polluted": "yes"}}, "__proto__": {"polluted": "yes"}}') });
+    assert.equal({}.polluted, undefined, 'an edit reached Object.prototype');
+    assert.ok(Object.hasOwn(jsonOfGlb(bytes).json.materials[0].extras, '__proto__'));
+
+    for (const [members, expected] of [
+        [{ buffers: [{ uri: 'toString', byteLength: 8 }] }, /buffer 0: there is no file toString/],
+        [{ buffers: [{ uri: 5, byteLength: 8 }] }, /buffer 0: uri: a string/],
+        [{ buffers: [{ uri: 'b.bin', byteLength: 9 }] }, /buffer 0: 9 bytes were expected, its file has 8/],
+        [{ buffers: [{ uri: 'b.bin', byteLength: 'x' }] }, /buffer 0: byteLength: an integer/],
+        [{ buffers: [{ uri: 'data:text/plain,%', byteLength: 1 }] }, /a data URI cannot be decoded/],
+        [{ buffers: 'abc' }, /buffers: an array/],
+        [{ buffers: [null] }, /buffers\[0\]: an object/],
+        [{ bufferViews: [{ buffer: 'length', byteLength: 1 }] }, /bufferView 0: buffer: an integer/],
+        [{ bufferViews: [{ buffer: 3, byteLength: 1 }] }, /bufferView 0: there is no buffer 3/],
+        [{ buffers: [{ uri: 'b.bin', byteLength: 8 }], bufferViews: [{ buffer: 0, byteOffset: '4', byteLength: 1 }] }, /bufferView 0: byteOffset/],
+        [{ images: [null] }, /images\[0\]: an object/],
+        [{ materials: 5 }, /materials: an array/],
+        [{ extensionsUsed: 5 }, /extensionsUsed: an array/],
+    ]) await refuses(tools.save(gltf(members), 'm/a.gltf'), new RegExp(`^m/a\\.gltf: ${expected.source}`));
+    await refuses(tools.save({ 'a.gltf': `{"asset": ${'['.repeat(1e5)}${']'.repeat(1e5)}}` }, 'a.gltf'), /^a\.gltf: /);
+    await refuses(tools.save({}, 'toString'), /toString: there is no such file/);
 }
 
 // Models of several files from a folder of the disk, and back.
@@ -246,7 +311,7 @@ async function testManyRuns() {
     assert.deepEqual(runs.map(({ files }) => Object.keys(files)), [['1.glb'], ['2.glb'], ['3.glb']], 'calls at the same time wait for each other');
 }
 
-for (const test of [testModels, testFunctions, testSave, testBake, testImages, testPlots, testRefusals, testFolders, testManyRuns]) {
+for (const test of [testModels, testFunctions, testSave, testBake, testImages, testPlots, testRefusals, testArguments, testSaveRefusals, testFolders, testManyRuns]) {
     const start = performance.now();
     await test();
     console.log(`tools: ${test.name.replace(/^test/, '').toLowerCase()} ${((performance.now() - start) / 1000).toFixed(1)} s`);

@@ -5,6 +5,26 @@ import { FacetError } from './error.js';
 const MAGIC = 0x46546c67; // "glTF"
 const JSON_CHUNK = 0x4e4f534a;
 const BIN_CHUNK = 0x004e4942;
+const DEEPEST_EDIT = 32; // glTF's materials need six
+
+const isObject = (value) => value !== null && typeof value === 'object' && !Array.isArray(value);
+
+// ---- checks of the parts that are read here; the rest is the reader's business ----
+
+// The objects of json[name]; none where it is missing.
+function listOf(json, name, path) {
+  const list = Object.hasOwn(json, name) ? json[name] : [];
+  if (!Array.isArray(list)) throw new FacetError(`${path}: ${name}: an array was expected`);
+  const odd = list.findIndex((item) => !isObject(item));
+  if (odd >= 0) throw new FacetError(`${path}: ${name}[${odd}]: an object was expected`);
+  return list;
+}
+
+// A count or an offset of bytes.
+function sizeOf(value, where) {
+  if (!Number.isSafeInteger(value) || value < 0) throw new FacetError(`${where}: an integer of at least 0 was expected`);
+  return value;
+}
 
 // ---- GLB ----
 
@@ -40,8 +60,16 @@ function readGlb(bytes, path) {
 
 const padded = (length) => (length + 3) & ~3;
 
-function writeGlb({ json, chunks }) {
-  const text = new TextEncoder().encode(JSON.stringify(json));
+function toJson(json, path) {
+  try {
+    return JSON.stringify(json);
+  } catch (error) { // nested too deeply, or too long for a string
+    throw new FacetError(`${path}: its JSON cannot be written: ${error.message}`);
+  }
+}
+
+function writeGlb({ json, chunks }, path) {
+  const text = new TextEncoder().encode(toJson(json, path));
   const all = [{ type: JSON_CHUNK, bytes: text, fill: 0x20 }, ...chunks];
   const size = all.reduce((sum, { bytes }) => sum + 8 + padded(bytes.length), 12);
   const out = new Uint8Array(size);
@@ -65,16 +93,17 @@ function writeGlb({ json, chunks }) {
 
 function decodeDataUri(uri, path) {
   const [head, body] = [uri.slice(0, uri.indexOf(',')), uri.slice(uri.indexOf(',') + 1)];
-  if (!head.endsWith(';base64')) return new TextEncoder().encode(decodeURIComponent(body));
   try {
+    if (!head.endsWith(';base64')) return new TextEncoder().encode(decodeURIComponent(body));
     return Uint8Array.from(atob(body), (letter) => letter.charCodeAt(0));
   } catch {
-    throw new FacetError(`${path}: a data URI is no valid base64`);
+    throw new FacetError(`${path}: a data URI cannot be decoded`);
   }
 }
 
 // The bytes that a uri of the file at path names; null: not among files.
-function resolveUri(files, path, uri) {
+function resolveUri(files, path, uri, where) {
+  if (typeof uri !== 'string') throw new FacetError(`${path}: ${where}: uri: a string was expected`);
   if (uri.startsWith('data:')) return decodeDataUri(uri, path);
   let name = uri;
   try {
@@ -82,7 +111,7 @@ function resolveUri(files, path, uri) {
   } catch { /* a name with a percent sign */ }
   const base = path.slice(0, path.lastIndexOf('/') + 1);
   const wanted = `${base}${name}`.replace(/(^|\/)\.\//g, '$1');
-  if (files[wanted]) return files[wanted];
+  if (Object.hasOwn(files, wanted)) return files[wanted];
   const near = Object.keys(files).find((known) => known.toLowerCase() === wanted.toLowerCase());
   return near ? files[near] : null;
 }
@@ -116,33 +145,38 @@ class Packing {
 function packBuffers(json, packing, files, path) {
   const places = [];
   const rest = [];
-  for (const [i, buffer] of (json.buffers ?? []).entries()) {
+  for (const [i, buffer] of listOf(json, 'buffers', path).entries()) {
+    const where = `${path}: buffer ${i}`;
     if (buffer.uri === undefined) {
       places.push({ buffer: 1 + rest.length, offset: 0 });
       rest.push(buffer);
       continue;
     }
-    const bytes = resolveUri(files, path, buffer.uri);
-    if (!bytes) throw new FacetError(`${path}: buffer ${i}: there is no file ${buffer.uri.slice(0, 200)}`);
-    places.push({ buffer: 0, offset: packing.add(bytes.subarray(0, buffer.byteLength)) });
+    const bytes = resolveUri(files, path, buffer.uri, `buffer ${i}`);
+    if (!bytes) throw new FacetError(`${where}: there is no file ${buffer.uri.slice(0, 200)}`);
+    const length = sizeOf(buffer.byteLength, `${where}: byteLength`);
+    if (length > bytes.length) throw new FacetError(`${where}: ${length} bytes were expected, its file has ${bytes.length}`);
+    places.push({ buffer: 0, offset: packing.add(bytes.subarray(0, length)) });
   }
-  const move = (view) => {
-    const place = places[view.buffer];
-    if (!place) throw new FacetError(`${path}: there is no buffer ${view.buffer}`);
+  const move = (view, where) => {
+    const place = places[sizeOf(view.buffer, `${where}: buffer`)];
+    if (!place) throw new FacetError(`${where}: there is no buffer ${view.buffer}`);
     view.buffer = place.buffer;
-    if (place.offset || view.byteOffset) view.byteOffset = (view.byteOffset ?? 0) + place.offset;
+    const offset = view.byteOffset === undefined ? 0 : sizeOf(view.byteOffset, `${where}: byteOffset`);
+    if (place.offset || offset) view.byteOffset = offset + place.offset;
   };
-  for (const view of json.bufferViews ?? []) {
-    move(view);
-    for (const extension of Object.values(view.extensions ?? {})) if (extension.buffer !== undefined) move(extension);
+  for (const [i, view] of listOf(json, 'bufferViews', path).entries()) {
+    const where = `${path}: bufferView ${i}`;
+    move(view, where);
+    for (const extension of Object.values(view.extensions ?? {})) if (isObject(extension) && extension.buffer !== undefined) move(extension, where);
   }
   return rest;
 }
 
 // Images of files become views of the buffer; an image whose file is missing keeps its name.
 function packImages(json, packing, files, path) {
-  for (const image of json.images ?? []) {
-    const bytes = image.uri === undefined ? null : resolveUri(files, path, image.uri);
+  for (const [i, image] of listOf(json, 'images', path).entries()) {
+    const bytes = image.uri === undefined ? null : resolveUri(files, path, image.uri, `image ${i}`);
     if (!bytes) continue;
     json.bufferViews ??= [];
     const type = typeOfImage(bytes);
@@ -165,26 +199,46 @@ function packGltf(bytes, files, path) {
 
 // ---- materials ----
 
-const isObject = (value) => value !== null && typeof value === 'object' && !Array.isArray(value);
+// Sets an own member, also one of the name "__proto__", which an assignment would take for the prototype.
+const setMember = (object, name, value) =>
+  Object.defineProperty(object, name, { value, enumerable: true, configurable: true, writable: true });
+
+// A copy of the caller's value, which JSON can hold.
+function copyJson(value, where, depth = 0) {
+  if (value === null || typeof value === 'string' || typeof value === 'boolean' || Number.isFinite(value)) return value;
+  if (typeof value !== 'object') throw new FacetError(`${where}: ${typeof value} ${String(value)} has no place in JSON`);
+  if (depth >= DEEPEST_EDIT) throw new FacetError(`${where.slice(0, 100)}..: nested more than ${DEEPEST_EDIT} times`);
+  if (Array.isArray(value)) return value.map((item, i) => copyJson(item, `${where}[${i}]`, depth + 1));
+  const copy = {};
+  for (const [name, member] of Object.entries(value)) {
+    if (member !== undefined) setMember(copy, name, copyJson(member, `${where}.${name}`, depth + 1));
+  }
+  return copy;
+}
 
 // Named members replace values, null removes one (RFC 7396).
 function merge(target, edit) {
   const merged = isObject(target) ? target : {};
   for (const [name, value] of Object.entries(edit)) {
     if (value === null) delete merged[name];
-    else merged[name] = isObject(value) ? merge(merged[name], value) : value;
+    else setMember(merged, name, isObject(value) ? merge(Object.hasOwn(merged, name) ? merged[name] : {}, value) : value);
   }
   return merged;
 }
 
 function editMaterials(json, edits, path) {
-  const count = json.materials?.length ?? 0;
-  const used = new Set(json.extensionsUsed);
+  if (!isObject(edits)) throw new FacetError(`${path}: edits: an object was expected, with parts of materials by their index`);
+  const materials = listOf(json, 'materials', path);
+  const before = json.extensionsUsed ?? [];
+  if (!Array.isArray(before)) throw new FacetError(`${path}: extensionsUsed: an array was expected`);
+  const used = new Set(before);
   for (const [index, edit] of Object.entries(edits)) {
-    if (!(Number(index) < count)) throw new FacetError(`${path}: there is no material ${index}; it has ${count}, counted from 0`);
+    if (!/^(0|[1-9]\d*)$/.test(index) || Number(index) >= materials.length) {
+      throw new FacetError(`${path}: there is no material ${index || '""'}; it has ${materials.length}, counted from 0`);
+    }
     if (!isObject(edit)) throw new FacetError(`${path}: material ${index}: a part of a glTF material was expected, an object`);
-    json.materials[index] = merge(json.materials[index], edit);
-    for (const name of Object.keys(json.materials[index].extensions ?? {})) used.add(name);
+    materials[index] = merge(materials[index], copyJson(edit, `${path}: material ${index}`));
+    for (const name of Object.keys(materials[index].extensions ?? {})) used.add(name);
   }
   if (used.size) json.extensionsUsed = [...used];
 }
@@ -194,5 +248,5 @@ export function editGltf(files, path, edits) {
   const bytes = files[path];
   const model = isGlb(bytes) ? readGlb(bytes, path) : packGltf(bytes, files, path);
   editMaterials(model.json, edits, path);
-  return writeGlb(model);
+  return writeGlb(model, path);
 }

@@ -5,8 +5,10 @@ import { Codecs } from './codecs.js';
 import { FacetError } from './error.js';
 import { editGltf, isGlb } from './gltf-file.js';
 
+const READ_ONLY = 0o555; // of a folder
 const FOLDER = '/work'; // where files lie in the module's file system
 const KEPT_MEMORY = 256 << 20; // bytes; a module that has grown beyond is replaced, since its memory never shrinks
+const DEEPEST_NAME = 64; // folders in the name of a file, whose cost grows with their square
 const EXIT_NEGATIVE = 1; // the command's answer is "no": images differ, there were warnings with --strict
 
 // ---- a module and its file system ----
@@ -70,11 +72,39 @@ async function createInstance(wasm, codecs) {
       },
     }).then(resolve, reject);
   });
-  return { module, streams: connectStreams(module) };
+  const streams = connectStreams(module);
+  closeFolders(module.FS, '/');
+  module.FS.mkdir(FOLDER);
+  module.FS.chmod('/', READ_ONLY);
+  return { module, streams };
+}
+
+// What is written outside of FOLDER would stay from run to run: the command is refused, with its own sentence.
+function closeFolders(FS, path) {
+  for (const name of FS.readdir(path)) {
+    const at = `${path === '/' ? '' : path}/${name}`;
+    if (name === '.' || name === '..' || at === '/proc' || !FS.isDir(FS.lstat(at).mode)) continue; // nothing is created in /proc
+    closeFolders(FS, at);
+    FS.chmod(at, READ_ONLY);
+  }
+}
+
+const isObject = (value) => value !== null && typeof value === 'object' && !Array.isArray(value);
+
+function checkFiles(files) {
+  if (!isObject(files)) throw new FacetError('files: an object was expected, with the contents of files by their paths');
+}
+
+// Refuses what emscripten's file system cannot hold.
+function checkName(path) {
+  const parts = path.split('/');
+  if (parts.includes('__proto__')) throw new FacetError(`${path.slice(0, 100)}: a file cannot have the name __proto__ here`);
+  if (parts.length > DEEPEST_NAME) throw new FacetError(`${path.slice(0, 100)}..: a name with at most ${DEEPEST_NAME - 1} folders was expected`);
 }
 
 // A path of the caller as one below FOLDER.
 function placeOf(path) {
+  checkName(path);
   const parts = path.split('/').filter((part) => part && part !== '.');
   if (!parts.length || path.startsWith('/') || parts.includes('..')) {
     throw new FacetError(`${path || '""'}: the names of files are relative, without ".."`);
@@ -105,11 +135,16 @@ const toBytes = (data) => {
 // Files are handed over without a copy: the command replaces files, and does not write into them.
 function writeFiles(FS, files) {
   const written = new Map();
+  checkFiles(files);
   for (const [path, data] of Object.entries(files)) {
     const place = placeOf(path);
     const bytes = toBytes(data);
-    FS.mkdirTree(place.slice(0, place.lastIndexOf('/')));
-    FS.writeFile(place, bytes, { canOwn: true });
+    try {
+      FS.mkdirTree(place.slice(0, place.lastIndexOf('/')));
+      FS.writeFile(place, bytes, { canOwn: true });
+    } catch {
+      throw new FacetError(`${path}: files has this path, or a part of it, as a file and as a folder`);
+    }
     written.set(place, bytes);
   }
   return written;
@@ -122,13 +157,13 @@ function isUntouched(FS, at, bytes) {
   return bytes.length === 0 ? usedBytes === 0 : contents.buffer === bytes.buffer && contents.byteOffset === bytes.byteOffset;
 }
 
-// What was written, by path relative to FOLDER.
-function collectFiles(FS, written, path = FOLDER, found = {}) {
+// What was written, as [path relative to FOLDER, bytes].
+function collectFiles(FS, written, path = FOLDER, found = []) {
   for (const name of FS.readdir(path)) {
     if (name === '.' || name === '..') continue;
     const at = `${path}/${name}`;
     if (FS.isDir(FS.stat(at).mode)) collectFiles(FS, written, at, found);
-    else if (!isUntouched(FS, at, written.get(at))) found[at.slice(FOLDER.length + 1)] = FS.readFile(at);
+    else if (!isUntouched(FS, at, written.get(at))) found.push([at.slice(FOLDER.length + 1), FS.readFile(at)]);
   }
   return found;
 }
@@ -156,13 +191,22 @@ function callMain(module, args) {
 
 const kebab = (name) => name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
 
+// A word of the command line, which may name a file.
+function toText(value, what) {
+  if (typeof value !== 'number' && typeof value !== 'string') throw new FacetError(`${what}: a string or a number was expected`);
+  const text = String(value);
+  checkName(text);
+  return text;
+}
+
 // {maxTexture: 512, 'no-tangents': true, angle: [0, 30]} as --max-texture=512 --no-tangents --angle=0,30.
-function optionsToArgs(options = {}) {
+function optionsToArgs(options) {
+  if (!isObject(options)) throw new FacetError('options: an object was expected, with values by the long names of options');
   const args = [];
   for (const [name, value] of Object.entries(options)) {
     if (value === undefined || value === null || value === false) continue;
     const text = Array.isArray(value) ? value.join(',') : value;
-    args.push(value === true ? `--${kebab(name)}` : `--${kebab(name)}=${text}`);
+    args.push(value === true ? `--${kebab(name)}` : `--${kebab(name)}=${toText(text, name)}`);
   }
   return args;
 }
@@ -203,8 +247,10 @@ class Tools {
 
   // A command that lacked decoders runs again when they are loaded; what cannot be loaded is in its sentence.
   async #runWithCodecs(args, files, stdin) {
+    if (!Array.isArray(args)) throw new FacetError('args: an array of words was expected, as ["inspect", "a.glb"]');
+    const words = args.map((word, i) => toText(word, `args[${i}]`));
     for (let tried = []; ; ) {
-      const result = await this.#run(args, files, stdin);
+      const result = await this.#run(words, files, stdin);
       const missing = this.#codecs.takeMissing().filter((name) => !tried.includes(name));
       if (!missing.length) return result;
       await this.#codecs.load(missing);
@@ -221,7 +267,6 @@ class Tools {
     streams.sinks[1].chunks = [];
     streams.sinks[2].chunks = [];
     let isSound = false;
-    FS.mkdirTree(FOLDER);
     FS.chdir(FOLDER);
     try {
       const written = writeFiles(FS, files);
@@ -229,7 +274,7 @@ class Tools {
       isSound = true;
       const [out, err] = [streams.sinks[1].bytes(), streams.sinks[2].bytes()];
       const text = (bytes) => new TextDecoder().decode(bytes);
-      const result = { code, stdoutBytes: out, stderr: text(err), files: collectFiles(FS, written) };
+      const result = { code, stdoutBytes: out, stderr: text(err), files: Object.fromEntries(collectFiles(FS, written)) };
       Object.defineProperty(result, 'stdout', { enumerable: true, get: () => text(out) });
       removeTree(FS, FOLDER);
       return result;
@@ -240,7 +285,7 @@ class Tools {
 
   #call(module, args) {
     try {
-      return callMain(module, args.map(String));
+      return callMain(module, args);
     } catch (error) {
       if (error.name === 'ExitStatus') return error.status;
       throw new FacetError(`facet ${args[0]}: WebAssembly stopped (${error.message}); probably there was not enough memory`);
@@ -291,9 +336,10 @@ class Tools {
   // The model at path as .glb, with edits of materials ({index: part of a glTF material}, whose members replace values). Of a glTF
   // file everything else stays as it is; other formats are converted first. The reader checks the result.
   async save(files, path, edits = {}) {
+    checkFiles(files);
     let all = Object.fromEntries(Object.entries(files).map(([name, data]) => [name, toBytes(data)]));
     let name = path;
-    if (!all[path]) throw new FacetError(`${path}: there is no such file`);
+    if (!Object.hasOwn(all, path)) throw new FacetError(`${String(path)}: there is no such file`);
     if (!/\.gltf$/i.test(path) && !isGlb(all[path])) {
       name = `${path.replace(/^.*\//, '').replace(/\.[^.]*$/, '')}.glb`;
       all = (await this.convert(all, path, { output: name })).files;
