@@ -134,6 +134,13 @@ if command -v jq >/dev/null; then
     [ "$(jq -r '.pages[0].output, (.failures | length), .exit_code' out | tr '\n' ' ')" = "some/tri.html 1 1 " ] || failed "JSON: $(cat out)"
 fi
 
+# a file of the folder's name
+expect 6 view tri.gltf --html in.gltf/
+says "in.gltf is not a folder"
+ln -s page.html link.html
+expect 0 view tri.gltf $small --html link.html -q
+[ ! -L link.html ] || failed "a link was followed"
+
 # misuse
 expect 2 view tri.gltf in.gltf --html page.html
 says "holds one model"

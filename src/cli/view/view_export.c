@@ -43,6 +43,18 @@ static bool is_folder(const char *path)
     return (length && path[length - 1] == '/') || (stat(path, &info) == 0 && S_ISDIR(info.st_mode));
 }
 
+/* Writes "FOLDER/PART" to name, or with three parts "FOLDER/PART/LAST". */
+static facet_result join(const export_run *run, const char *part, const char *last, char name[NAME_SIZE],
+                         facet_error *error)
+{
+    size_t length = strlen(run->target);
+    const char *slash = length && run->target[length - 1] == '/' ? "" : "/";
+    int size = snprintf(name, NAME_SIZE, "%s%s%s%s", run->target, slash, part, last);
+    return size >= 0 && size < NAME_SIZE
+               ? FACET_OK
+               : fail(error, FACET_ERROR_ARGUMENT, "--html: %.200s..: the name is too long", name);
+}
+
 static facet_result check_options(const export_run *run, facet_error *error)
 {
     const command_line *c = run->base.line;
@@ -55,8 +67,11 @@ static facet_result check_options(const export_run *run, facet_error *error)
     if (is_given(c, OPT_SCRIPT))
         return fail(error, FACET_ERROR_ARGUMENT,
                     "--script: it plays in a window, which --html does not open");
-    if (run->is_folder)
-        return FACET_OK;
+    if (run->is_folder) {
+        char index[NAME_SIZE];
+        TRY(join(run, "index.html", "", index, error));
+        return output_check(index, error);
+    }
     if (run->models.count > 1)
         return fail(
             error, FACET_ERROR_ARGUMENT,
@@ -104,18 +119,6 @@ static facet_result read_line(verb_run *base, facet_error *error)
 }
 
 /* ---- files ---- */
-
-/* Writes "FOLDER/PART" to name, or with three parts "FOLDER/PART/LAST". */
-static facet_result join(const export_run *run, const char *part, const char *last, char name[NAME_SIZE],
-                         facet_error *error)
-{
-    size_t length = strlen(run->target);
-    const char *slash = length && run->target[length - 1] == '/' ? "" : "/";
-    int size = snprintf(name, NAME_SIZE, "%s%s%s%s", run->target, slash, part, last);
-    return size >= 0 && size < NAME_SIZE
-               ? FACET_OK
-               : fail(error, FACET_ERROR_ARGUMENT, "--html: %.200s..: the name is too long", name);
-}
 
 /* Refuses an output that is an input. scene NULL: none. */
 static facet_result check_inputs(const export_run *run, const facet_scene *scene, const char *name,
