@@ -208,6 +208,9 @@ try {
 
     const disk = await open(browser, pathToFileURL(at('pages/square.html')).href);
     assert.match(await disk.page.locator('#note').textContent(), /web server.*--html page\.html/);
+    const [preview, note] = await Promise.all(['#preview', '#note'].map((name) => disk.page.locator(name).boundingBox()));
+    assert.ok(preview.y + preview.height <= note.y && preview.height > 50, 'the note covers the preview');
+    assert.deepEqual(disk.messages, [], 'the page from the disk says something');
     await disk.page.close();
 
     // ---- widgets of R: the second one is created at 0 x 0 and shown later ----

@@ -32,5 +32,5 @@ rmSync(at('pages/viewer.wasm.gz'));
 
 const isOfViewer = (name) => /\.(js|wasm)$/.test(name) && !/^(node|tools|facet-command|ocean)\b/.test(name);
 const viewer = readdirSync(at('facet-viewer')).filter(isOfViewer).sort().map((name) => `facet-viewer/${name}`);
-writeFileSync(at('pages/files.txt'), [...viewer, 'pages/beside.js', 'pages/disk.js', 'pages/page.css', 'pages/show.js', ''].join('\n'));
+writeFileSync(at('pages/files.txt'), [...viewer, 'pages/beside.js', 'pages/page.css', 'pages/show.js', 'pages/start.js', ''].join('\n'));
 console.log(`web: pages/single.html ${page.length} bytes`);
