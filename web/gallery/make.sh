@@ -28,10 +28,11 @@ draw boat render "$dist/models/boat.glb" --orbit 40deg,70deg,90% --background '#
 draw spin render "$dist/models/spin.gltf" --background '#eef1f5' --time 0.4
 draw ocean ocean --wind 8 --sun 9,0 --heading 14
 draw sunset ocean --wind 7 --sun 2,0 --heading 8
-draw lagoon ocean --preset lagoon --sun 62,0 --heading 140 --height-of-eye 5
+draw lagoon ocean --preset lagoon --sun 65,120 --eye 0,2,0 --target 0,0,7 --fov 50 --exposure 0.8 --tone-mapping aces
 draw gale ocean --preset gale --sun 30,0
 draw below ocean --preset lagoon --sun 50,0 --height-of-eye -1.2
-"$facet" ocean --wind 8 --sun 20,0 --before-after -q -s 200x250 -o "$dist/pictures/before.webp"
+# two images, 2 pixels between them and 30 rows of labels below
+"$facet" ocean --wind 8 --sun 20,0 --before-after -q -s 199x220 -o "$dist/pictures/before.webp"
 "$facet" plot brdf --roughness 0.15,0.3,0.6 --angle 50 -q -s 400x250 --title '' -o "$dist/pictures/explorer.png" ||
     cp "$dist/pictures/roughness.webp" "$dist/pictures/explorer.png" # a facet without cairo
 : >"$stamp"
