@@ -20,10 +20,10 @@ const usual = (value, common) => (value === common ? null : value);
 export function analysisPanel(app) {
   const channel = choice({ label: 'Show', options: CHANNELS, change: (name) => app.set('channel', usual(name, 'light')) });
   const compare = choice({ label: 'Compare', options: COMPARISONS, change: (name) => app.set('compare', name || null) });
-  const brdf = choice({ label: 'Specular lobe', options: [['energy', 'As the energy says'], ['schlick-ggx', 'Schlick-GGX masking'], ['multiscatter', 'Multiple scattering']],
+  const brdf = choice({ label: 'Specular lobe', options: [['energy', 'Default'], ['schlick-ggx', 'Schlick-GGX masking'], ['multiscatter', 'Multiple scattering']],
     change: (name) => app.set('brdf', usual(name, 'energy')) });
   const energy = choice({ label: 'Energy', options: [['gltf', 'As glTF specifies'], ['conserving', 'Conserving']], change: (name) => app.set('energy', usual(name, 'gltf')) });
-  const transparency = choice({ label: 'Blending', options: [['sorted', 'Sorted triangles'], ['peeled', 'Exact, peeled'], ['weighted', 'Weighted, fast']],
+  const transparency = choice({ label: 'Blending', options: [['sorted', 'Sorted triangles'], ['peeled', 'Depth peeling (exact)'], ['weighted', 'Weighted (fast)']],
     change: (name) => app.set('transparency', usual(name, 'sorted')) });
   const isSmooth = check({ label: 'Specular antialiasing', change: (is) => app.setFlag('specular-aa', is) });
   const shading = choice({ label: 'Shading', options: [['gltf', 'Physically based'], ['ogl1', 'OpenGL 1']], change: (name) => app.set('shading', usual(name, 'gltf')) });

@@ -37,9 +37,9 @@ export function lightPanel(app) {
     sky[name] = value;
     app.setSoon('env', () => setEnvironment(kind.value));
   } });
-  const elevation = skyField('elevation', 'Sun height', -18, 90, 1, 'degrees');
-  const azimuth = skyField('azimuth', 'Sun direction', -180, 360, 1, 'degrees');
-  const turbidity = skyField('turbidity', 'Haze', 1, 10, 0.1, '');
+  const elevation = skyField('elevation', 'Sun elevation', -18, 90, 1, 'degrees');
+  const azimuth = skyField('azimuth', 'Sun azimuth', -180, 360, 1, 'degrees');
+  const turbidity = skyField('turbidity', 'Turbidity', 1, 10, 0.1, '');
   const skyFields = element('div', { class: 'group' }, elevation.root, azimuth.root, turbidity.root);
   const colorField = (label, value) => color({ label, value, change: () => app.setSoon('env', () => setEnvironment(kind.value)) });
   const plain = colorField('Color', '#ffffff');
@@ -99,7 +99,7 @@ export function lightPanel(app) {
 function sunFields(app) {
   let rest = []; // the diameter, if there is one
   const set = () => app.set('sun', isOn.value ? [azimuth.value, elevation.value, lux.value, ...rest].join(',') : null);
-  const isOn = check({ label: 'Sun', change: set });
+  const isOn = check({ label: 'Directional light', change: set });
   const azimuth = range({ label: 'Azimuth', min: -180, max: 180, step: 1, limits: [-1e6, 1e6], value: 45, unit: 'degrees', change: set });
   const elevation = range({ label: 'Elevation', min: -90, max: 90, step: 1, value: 45, unit: 'degrees', change: set });
   const lux = range({ label: 'Illuminance, lux', min: 0, max: 12, step: 0.01, limits: [0, 1e9], value: 3.14, change: set });
