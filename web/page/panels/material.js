@@ -39,15 +39,23 @@ function colorRow(row, value, change) {
   return { root, set value(next) { next.forEach((x, i) => { now[i] = x; }); show(); } };
 }
 
+// Equal names get the number of the material.
+function namesOf(materials) {
+  const names = materials.map(({ name }, i) => name || `Material ${i}`);
+  return names.map((name, i) => (names.indexOf(name) === names.lastIndexOf(name) ? name : `${name} (${i})`));
+}
+
 export function materialPanel(app) {
   let scene = null;
   let shown = 0; // material
+  let variant = null; // null: the file's own materials
   const material = choice({ label: 'Material', options: [], change: (index) => show(Number(index)) });
+  const unused = element('p', { class: 'hint', role: 'status' });
   const reset = button('Reset', () => app.resetMaterial(shown));
   const saveAs = button('Save edited .glb', () => app.saveModel());
   const fields = element('div', { class: 'material' });
   const empty = element('p', { class: 'hint' }, 'The model has no materials; it is drawn with the default one.');
-  const top = element('div', { class: 'section' }, material.root, element('p', { class: 'hint' }, 'Click the model to choose the material there.'),
+  const top = element('div', { class: 'section' }, material.root, unused, element('p', { class: 'hint' }, 'Click the model to choose the material there.'),
     element('div', { class: 'buttons' }, reset, saveAs));
   const root = element('div', {}, top, empty, fields);
 
@@ -110,6 +118,18 @@ export function materialPanel(app) {
     return element('div', { class: 'section add' }, add.root);
   }
 
+  const primitives = () => scene.meshes.flatMap((mesh) => mesh.primitives);
+  const materialOf = ({ material: own, variant_materials: others }) => (variant === null ? own : others?.[variant] ?? own);
+  const isDrawn = (index) => primitives().some((primitive) => materialOf(primitive) === index);
+
+  // Another variant: the material that the same part of the model has now.
+  function followVariant(next) {
+    if (!scene || next === variant) return;
+    const part = primitives().find((primitive) => materialOf(primitive) === shown);
+    variant = next;
+    show(part && !isDrawn(shown) ? materialOf(part) ?? shown : shown);
+  }
+
   function show(index) {
     shown = Math.min(Math.max(0, index), scene.materials.length - 1);
     const has = scene.materials.length > 0;
@@ -120,6 +140,8 @@ export function materialPanel(app) {
       return;
     }
     material.value = String(shown);
+    unused.textContent = isDrawn(shown) ? '' : 'Nothing that is shown has this material: edits do not change the image.';
+    unused.hidden = isDrawn(shown);
     reset.disabled = !app.hasEdits(shown);
     fields.replaceChildren(...GROUPS.map(groupSection).filter(Boolean), coverSection(), addField());
   }
@@ -128,11 +150,12 @@ export function materialPanel(app) {
     root,
     show,
     refresh: () => show(shown),
-    update() {},
-    model(description) {
+    update(_, state) { followVariant(state.variant ?? null); },
+    model(description, state) {
       scene = description;
-      material.options = scene.materials.map(({ name }, i) => [String(i), name || `Material ${i}`]);
-      show(0);
+      variant = state.variant ?? null;
+      material.options = namesOf(scene.materials).map((name, i) => [String(i), name]);
+      show(Math.max(0, scene.materials.findIndex((_, i) => isDrawn(i))));
     },
   };
 }
