@@ -133,6 +133,66 @@ step('a dropped panorama becomes the light', async () => {
     await until('the studio', async () => await image() === before);
 });
 
+step('play starts the first animation, and choosing one shows it', async () => {
+    await drop(models.glb);
+    await shown('spheres.glb');
+    const list = page.locator('.motion select').first();
+    for (const name of await list.locator('option').allTextContents()) assert.doesNotMatch(name, /object/, 'the names of animations');
+    await page.getByRole('button', { name: 'Play' }).click();
+    await until('time to pass', async () => (await viewer_does('state')).time > 0);
+    await until('its name', async () => await list.inputValue() === '0');
+    await page.getByRole('button', { name: 'Pause' }).click();
+    await list.selectOption('');
+    await until('the model at rest', async () => (await options()).animation === undefined);
+    await list.selectOption('0');
+    await until('the animation', async () => (await options()).animation === '0');
+    await list.selectOption('');
+});
+
+step('texts of a view say what they cannot hold', async () => {
+    await page.evaluate(() => { location.hash = '#file=spheres.glb&exposure=1&bloom=0.1&variant=0&material.1.roughnessFactor=0.2'; });
+    await until('the edit', async () => (await options()).bloom === '0.1');
+    await tab('share');
+    const html = await page.getByLabel('HTML of this view').inputValue();
+    assert.match(html, /src="spheres-edited\.glb"[^]*exposure="2"/);
+    assert.doesNotMatch(html, /variant-name="0"/);
+    assert.match(await page.getByLabel('facet command of this view').inputValue(), /spheres-edited\.glb/);
+    assert.match(await page.locator('#tab-share-panel').textContent(), /save it as spheres-edited\.glb.*No attribute sets bloom/);
+    await page.evaluate(() => { location.hash = '#file=spheres.glb'; });
+});
+
+step('materials follow the variant', async () => {
+    await tab('material');
+    const list = page.locator('#tab-material-panel select').first();
+    const names = await list.locator('option').allTextContents();
+    assert.equal(new Set(names).size, names.length, 'equal names');
+    await tab('scene');
+    const before = await list.inputValue();
+    await page.getByLabel('Variant', { exact: true }).selectOption({ index: 1 });
+    await until('the material of the variant', async () => await list.inputValue() !== before || await page.getByText('Nothing that is shown').count() === 0);
+    await page.getByLabel('Variant', { exact: true }).selectOption({ index: 0 });
+});
+
+step('what is missing, and models of other kinds', async () => {
+    await drop(path.join(models.parts, 'spheres.gltf'));
+    await until('a sentence about the folder', async () => (await sentences()).some((text) => /whole folder/.test(text)));
+    const other = path.join(work, 'model.fbx');
+    writeFileSync(other, 'Kaydara');
+    await drop(other);
+    await until('a sentence about .fbx', async () => (await sentences()).some((text) => /model\.fbx: facet reads glTF.*\.glb/.test(text)));
+    await close_messages();
+});
+
+step('a link to a file waits for it', async () => {
+    await page.evaluate(() => { location.hash = '#file=other.glb&variant=1'; });
+    await until('the note', async () => (await sentences()).some((text) => /Drop that file/.test(text)));
+    assert.equal((await sentences()).length, 1);
+    await page.evaluate(() => { location.hash = '#model='; });
+    await until('a sentence', async () => (await sentences()).some((text) => /names no model/.test(text)));
+    assert.ok(!(await sentences()).some((text) => /Drop that file/.test(text)), 'the note of the link before stays');
+    await close_messages();
+});
+
 // ---- the panels ----
 
 // Every field of the tab "Look": mouse and keyboard each change the options.

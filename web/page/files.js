@@ -3,6 +3,15 @@
 export const MODEL = /\.(glb|gltf|obj|stl|ply)$/i;
 const MAX_FILES = 10000; // a folder with more was hardly meant
 
+const OTHER_MODEL = /\.(fbx|blend|dae|3ds|max|ma|mb|usd|usda|usdc|usdz|stp|step|x3d|3mf|c4d)$/i;
+
+// A sentence, if none of the files can be shown but some are models of other kinds; else ''.
+export function faultOf(files) {
+  const other = files.find(({ path }) => OTHER_MODEL.test(path));
+  if (!other || files.some(({ path }) => MODEL.test(path))) return '';
+  return `${other.path}: facet reads glTF (.glb, .gltf), OBJ, STL and PLY. Open the file in the program that made it, or in Blender, export it as .glb, and drop that.`;
+}
+
 const fileOf = (entry) => new Promise((resolve, reject) => entry.file(resolve, reject));
 const someOf = (reader) => new Promise((resolve, reject) => reader.readEntries(resolve, reject));
 

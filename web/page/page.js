@@ -4,7 +4,7 @@ import './facet-viewer/facet-viewer.js';
 import { connectDivider } from './divider.js';
 import { createEdits } from './edits.js';
 import { button, choice, element, icon, section, tabs } from './fields.js';
-import { listenForDrops, listenForPicks, MODEL, save } from './files.js';
+import { faultOf, listenForDrops, listenForPicks, MODEL, save } from './files.js';
 import { connectKeys } from './keys.js';
 import { isOwnModel, readLink, writeLink } from './link.js';
 import { createMessages, copyText, sentenceOf } from './messages.js';
@@ -25,6 +25,7 @@ const viewer = byId('viewer');
 const messages = createMessages(byId('messages'));
 const edits = createEdits(viewer);
 const isNarrow = matchMedia('(max-width: 48rem)');
+const prefersCalm = matchMedia('(prefers-reduced-motion: reduce)');
 const PAGE_BACKGROUND = 'transparent'; // the stage shows through; facet render's own default is white
 
 let source = null; // { reread } of dropped files; null: of the server, or the built-in scene
@@ -35,17 +36,26 @@ let panels = [];
 
 // ---- errors ----
 
+let isOpening = false; // files that were dropped or picked
+
+// Whoever drops the model alone learns what else it needs.
+function showError(error) {
+  const text = sentenceOf(error);
+  const isMissing = isOpening && /there is no (such )?file/.test(text);
+  messages.error(isMissing ? `${text.replace(/\.$/, '')}. Drop the model's whole folder, or all of its files at once.` : text);
+}
+
 async function attempt(what) {
   try {
     return await what();
   } catch (error) {
-    messages.error(error);
+    showError(error);
     return undefined;
   }
 }
 
-viewer.addEventListener('error', (event) => messages.error(event.detail?.message ?? sentenceOf(event.detail?.sourceError)));
-viewer.addEventListener('facet-message', (event) => { byId('model-facts').textContent = event.detail.text; });
+viewer.addEventListener('error', (event) => showError(event.detail?.message ?? event.detail?.sourceError));
+viewer.addEventListener('facet-message', (event) => messages.note(event.detail.text));
 
 // ---- options ----
 
@@ -152,7 +162,14 @@ async function withProgress(text, work) {
 }
 
 async function openFiles({ files, reread }) {
+  const fault = faultOf(files);
+  if (fault) {
+    messages.error(fault);
+    return;
+  }
+  isOpening = true;
   const models = await withProgress(files.length === 1 ? `Reading ${files[0].path}…` : `Reading ${files.length} files…`, () => viewer.openFiles(files));
+  isOpening = false;
   if (!models) return;
   if (!models.length) {
     lights = [...new Set([...lights, ...files.map(({ path }) => path)])];
@@ -201,18 +218,25 @@ async function applyView({ options, edits: values }) {
   // at once: a frame in between would frame the model for some of them
   await setAll(Object.fromEntries(Object.keys(optionsNow()).filter((name) => !(name in wanted)).map((name) => [name, null])));
   for (const name of Object.keys(rest).sort((a, b) => rank(a) - rank(b))) await set(name, rest[name]);
-  if (animation !== undefined) await setAnimation(animation, Number(time ?? 0));
+  if (animation !== undefined) await attempt(() => setAnimation(animation, Number(time ?? 0)));
   await attempt(() => edits.resetAll());
   for (const [index, name, value] of values) await attempt(() => edits.set(index, name, value));
   refresh();
   if (description) material.refresh();
 }
 
+const waitingNote = ({ file }) => `The link shows ${file}. Drop that file here to see it in the link's view.`;
+
+function waitFor(view) {
+  if (waiting) messages.close(waitingNote(waiting));
+  waiting = view;
+  if (view) messages.note(waitingNote(view));
+}
+
 async function applyWaiting() {
-  if (!waiting) return;
   const view = waiting;
-  waiting = null;
-  if (view.file === fileName()) await applyView(view);
+  waitFor(null);
+  if (view && view.file === fileName()) await applyView(view);
 }
 
 async function showServed(name) {
@@ -229,7 +253,12 @@ async function showServed(name) {
 
 async function applyHash() {
   const view = readLink(location.hash);
+  waitFor(null);
   view.faults.forEach((text) => messages.error(text));
+  if (view.model === '') {
+    messages.error('The link names no model: write its file after model=, as in #model=models/boat.glb.');
+    view.model = undefined;
+  }
   if (view.model !== undefined && !isOwnModel(view.model, document.baseURI)) {
     messages.error(`The link's model ${view.model} is not on this server; this page loads none from elsewhere. Download it, and drop it here.`);
     view.model = undefined;
@@ -239,12 +268,14 @@ async function applyHash() {
     else await showBuiltin();
     return;
   }
-  if (!description) await showBuiltin();
+  const isFirst = !description;
+  if (isFirst) await showBuiltin();
   if (view.file !== undefined && view.file !== fileName()) {
-    waiting = view;
-    messages.note(`The link shows ${view.file}. Drop that file here to see it in the link's view.`);
+    waitFor(view);
+    if (isFirst) await applyView({ options: {}, edits: [] });
+    return;
   }
-  await applyView(waiting ? { ...view, edits: [] } : view);
+  await applyView(view);
 }
 
 async function showBuiltin() {
@@ -262,26 +293,56 @@ function hintOfLink() {
   return 'The view is in the part behind #, which browsers send to no server.';
 }
 
+// Edits are in the saved model, so texts name that one.
+const baseName = () => (fileName() || 'model').replace(/\.[^.]*$/, '');
+const editedName = () => `${baseName()}-edited.glb`;
+const EDITS_HINT = () => `The edited materials are in the model: save it as ${editedName()} first (below).`;
+
+// Returns { text, hint }.
 function htmlOfView() {
   const { options } = viewForLink();
-  return htmlOf({ src: viewer.getAttribute('src') ?? (fileName() || 'model.glb'), alt: fileName() || 'A 3D model', options, exposure: viewer.state.exposure }).html;
+  const isServed = Boolean(viewer.src) && !source;
+  const src = edits.any ? editedName() : isServed ? viewer.getAttribute('src') : fileName() || 'model.glb';
+  const { html, rest } = htmlOf({ src, alt: `3D model: ${baseName()}`, options, names: { variants: viewer.availableVariants, animations: viewer.availableAnimations } });
+  const missing = rest.length ? `No attribute sets ${rest.join(', ')}: the element shows the default there.` : '';
+  return { text: html, hint: [edits.any ? EDITS_HINT() : '', missing].filter(Boolean).join(' ') };
+}
+
+// Returns { text, hint }.
+function commandOfView({ width, height }) {
+  const text = viewer.command(width, height);
+  if (!edits.any) return { text, hint: 'The same image from the command line.' };
+  const path = viewer.modelPath ?? '';
+  const at = path ? text.lastIndexOf(path) : -1;
+  return { text: at < 0 ? text : text.slice(0, at) + editedName() + text.slice(at + path.length), hint: EDITS_HINT() };
 }
 
 // ---- animation ----
 
 // which: a name, an index, "all", or "" for the model at rest.
-async function setAnimation(which, time) {
-  const { animations } = viewer.state;
+async function setAnimation(which, time = 0) {
+  const names = viewer.availableAnimations;
   if (which === '' || which === 'none') {
     viewer.pause();
     await setAll({ animation: null, time: null });
     return;
   }
-  viewer.animationName = animations.includes(which) ? which : animations[which] ?? animations[0];
+  const index = names.includes(which) ? names.indexOf(which) : Number(which);
+  if (which !== 'all' && !Object.hasOwn(names, index)) throw new Error(`The model has no animation "${which}".`);
+  viewer.animationName = names[which === 'all' ? 0 : index];
   await viewer.updateComplete;
-  if (which === 'all') await set('animation', which);
-  if (time !== undefined) viewer.currentTime = time;
+  viewer.currentTime = time;
+  await viewer.setOption('animation', which === 'all' ? which : String(index)); // also of equal names
+  viewer.currentTime = time;
   refreshSoon();
+}
+
+// At rest the first animation starts.
+async function togglePlay() {
+  if (!viewer.paused) return viewer.pause();
+  const { animation, time } = optionsNow();
+  if (animation === undefined) await setAnimation('0', Number(time ?? 0));
+  return viewer.play();
 }
 
 // ---- images and models ----
@@ -292,17 +353,20 @@ async function saveImage({ width, height }) {
 
 async function saveModel() {
   const blob = await withProgress('Writing the model…', () => viewer.exportScene());
-  if (blob) save(blob, `${(fileName() || 'model').replace(/\.[^.]*$/, '')}-edited.glb`);
+  if (blob) save(blob, editedName());
 }
 
 // ---- the page ----
 
 const app = {
-  viewer, messages, edits, attempt, set, setAll, setSoon, setAnimation, saveImage, saveModel, shareLink, linkOfView, htmlOfView, hintOfLink,
+  viewer, messages, edits, attempt, set, setAll, setSoon, saveImage, saveModel, shareLink, linkOfView, htmlOfView, commandOfView, hintOfLink,
   setFlag: (name, is) => set(name, is ? '' : null),
-  commandOfView: ({ width, height }) => viewer.command(width, height),
   size: () => ({ width: Math.round(viewer.clientWidth * devicePixelRatio), height: Math.round(viewer.clientHeight * devicePixelRatio) }),
-  togglePlay: () => (viewer.paused ? viewer.play() : viewer.pause()),
+  togglePlay: () => attempt(togglePlay),
+  chooseAnimation: (which) => attempt(async () => {
+    await setAnimation(which);
+    if (which !== '' && !prefersCalm.matches) viewer.play();
+  }),
   // Of a name or an index in an option, the index as a text; '' for none.
   indexOf: (names, text) => (names?.includes(text) ? String(names.indexOf(text)) : text ?? ''),
   editMaterial: (index, name, value) => attempt(() => edits.set(index, name, value)),

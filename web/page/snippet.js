@@ -6,17 +6,21 @@ const ATTRIBUTES = {
 };
 const escapeText = (text) => String(text).replace(/[&"<>]/g, (character) => ({ '&': '&amp;', '"': '&quot;', '<': '&lt;', '>': '&gt;' })[character]);
 
-// options that no attribute says are in the comment's list.
-export function htmlOf({ src, alt, options, exposure }) {
+const isStops = (text) => text !== undefined && text.trim() !== '' && Number.isFinite(Number(text));
+
+// Returns { html, rest }; rest: the options that no attribute says. names: { variants, animations }, for options that give an index.
+export function htmlOf({ src, alt, options, names }) {
   const attributes = [['src', src], ['alt', alt], ['camera-controls', true]];
   const rest = [];
-  for (const [name, value] of Object.entries(options)) {
-    if (name in ATTRIBUTES) attributes.push([ATTRIBUTES[name], value]);
+  const named = (list, text) => (Object.hasOwn(list, text) ? list[text] || text : text);
+  for (const [name, text] of Object.entries(options)) {
+    const value = name === 'variant' ? named(names.variants, text) : name === 'animation' ? named(names.animations, text) : text;
+    if (Object.hasOwn(ATTRIBUTES, name)) attributes.push([ATTRIBUTES[name], value]);
     else if (name === 'ground') attributes.push(['shadow-intensity', '1']);
     else if (name === 'background' && value === 'env') attributes.push(['skybox-image', options.env ?? 'neutral']);
-    else if (name !== 'exposure' && name !== 'background') rest.push(name);
+    else if (name === 'exposure' && isStops(value)) attributes.push(['exposure', String(Number((2 ** Number(value)).toPrecision(6)))]);
+    else if (name !== 'background' || value !== 'transparent') rest.push(name);
   }
-  if (exposure !== undefined && exposure !== 1) attributes.push(['exposure', exposure]);
   const text = attributes.map(([name, value]) => `  ${name}${value === true ? '' : `="${escapeText(value)}"`}`).join('\n');
   return { html: `<script type="module" src="facet-viewer/facet-viewer.js"></script>\n<facet-viewer\n${text}></facet-viewer>`, rest };
 }

@@ -8,7 +8,7 @@ export function motionBar(app) {
   const play = button('', () => app.togglePlay(), { class: 'icon plain' });
   const line = element('input', { type: 'range', min: 0, max: 1, step: 0.001, 'aria-label': 'Time' });
   const time = element('output', { class: 'number quiet' });
-  const animation = choice({ label: 'Animation', options: [], change: (which) => app.setAnimation(which) });
+  const animation = choice({ label: 'Animation', options: [], change: (which) => app.chooseAnimation(which) });
   const speed = choice({ label: 'Speed', options: SPEEDS.map((factor) => [String(factor), `${factor} ×`]), value: '1',
     change: (factor) => { app.viewer.timeScale = Number(factor); } });
   for (const field of [animation, speed]) field.root.querySelector('label').className = 'only-read';
@@ -24,7 +24,7 @@ export function motionBar(app) {
     time.textContent = `${seconds(now)} / ${seconds(end)}`;
   };
   // A time without an animation is the first one's.
-  const valueOf = ({ animation: name, time: at }, { animations }) => {
+  const valueOf = ({ animation: name, time: at }, animations) => {
     if (name === undefined) return at === undefined ? '' : '0';
     return app.indexOf(animations, name);
   };
@@ -42,8 +42,8 @@ export function motionBar(app) {
       // at rest the range is that of the animation that would run
       const state = now.end > now.begin ? now : { ...now, begin: 0, end: app.viewer.duration, time: 0 };
       const isOn = state.end > state.begin;
-      animation.value = valueOf(options, state);
-      line.disabled = play.disabled = !isOn;
+      animation.value = valueOf(options, app.viewer.availableAnimations);
+      line.disabled = !isOn;
       line.min = isOn ? state.begin : 0;
       line.max = isOn ? state.end : 1;
       line.step = isOn ? (state.end - state.begin) / 1000 : 1;
@@ -53,8 +53,8 @@ export function motionBar(app) {
       showPlaying(state.isPlaying);
       showTime(isOn ? state : { time: 0, begin: 0, end: 0 });
     },
-    model(description, state) {
-      const names = state.animations ?? [];
+    model() {
+      const names = app.viewer.availableAnimations;
       root.hidden = !names.length;
       animation.options = [['', 'At rest'], ...names.map((name, i) => [String(i), name || `Animation ${i}`]), ...(names.length > 1 ? [['all', 'All at once']] : [])];
     },

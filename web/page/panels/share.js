@@ -22,15 +22,17 @@ export function sharePanel(app) {
   const command = area('facet command of this view');
   const html = area('HTML of this view');
   const hint = element('p', { class: 'hint' });
+  const commandHint = element('p', { class: 'hint' });
+  const htmlHint = element('p', { class: 'hint' });
   const save = button('Save PNG', () => app.attempt(() => app.saveImage(wanted())), { class: 'primary' });
   const copyLink = copyButton('Copy link', () => app.shareLink(), app.messages);
   const saveModel = button('Save .glb', () => app.saveModel());
   const root = element('div', {},
     section('Image', true, size.root, other.root, element('div', { class: 'buttons' }, save)).root,
     section('Link', true, linkText, hint, element('div', { class: 'buttons' }, copyLink)).root,
-    section('Command', true, command, element('p', { class: 'hint' }, 'The same image from the command line.'),
+    section('Command', true, command, commandHint,
       element('div', { class: 'buttons' }, copyButton('Copy facet command', () => command.value, app.messages))).root,
-    section('HTML', true, html, element('div', { class: 'buttons' }, copyButton('Copy HTML', () => html.value, app.messages))).root,
+    section('HTML', true, html, htmlHint, element('div', { class: 'buttons' }, copyButton('Copy HTML', () => html.value, app.messages))).root,
     section('Model', true, element('p', { class: 'hint' }, 'With the materials as they are edited here.'), element('div', { class: 'buttons' }, saveModel)).root);
 
   function refresh() {
@@ -44,8 +46,12 @@ export function sharePanel(app) {
       return;
     }
     linkText.value = app.linkOfView();
-    command.value = app.commandOfView(pixels);
-    html.value = app.htmlOfView();
+    const texts = [[command, commandHint, app.commandOfView(pixels)], [html, htmlHint, app.htmlOfView()]];
+    for (const [field, below, { text, hint: about }] of texts) {
+      field.value = text;
+      below.textContent = about;
+      below.hidden = !about;
+    }
     hint.textContent = app.hintOfLink();
   }
   return { root, refresh, update: refresh, model: refresh };
