@@ -273,7 +273,8 @@ function makeKept() {
       change();
     } }, icon('close')))));
   const keep = button('Keep for comparison', () => {
-    state.kept.push(materialText(state.model, state.values));
+    const text = materialText(state.model, state.values);
+    if (!state.kept.includes(text)) state.kept.push(text);
     makeSettings();
     change();
   }, { id: 'keep', disabled: state.kept.length >= MAX_KEPT });

@@ -41,7 +41,7 @@ export function materialText(model, values) {
 // The materials and options of a plot; those of OpenGL 1 have no terms.
 export function plotOf(state) {
   const [, , applicable] = KINDS.find(([kind]) => kind === state.kind);
-  const all = [...state.kept, materialText(state.model, state.values)];
+  const all = [...new Set([...state.kept, materialText(state.model, state.values)])];
   const materials = state.kind === 'fresnel' ? [] : all.filter((text) => state.kind !== 'terms' || !text.startsWith('ogl1'));
   const given = { angle: state.angle, energy: state.energy === 'gltf' ? null : state.energy, log: state.log, cosine: state.cosine, fit: state.fit, scale: state.scale ? 'shared' : null };
   const options = Object.fromEntries(Object.entries(given).filter(([name, value]) => applicable.includes(name) && value !== null && value !== false));
