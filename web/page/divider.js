@@ -1,9 +1,13 @@
 // divider.js - the handle over the border between two sides of the image, for pointer and arrow keys; it sets the option "divider".
 
+import { element } from './fields.js';
+
 const STEP = 0.02;
 
 export function connectDivider(handle, app) {
   let position = 0.5;
+  const sides = ['left', 'right'].map((side) => [side, element('p', { class: `side ${side}`, hidden: true })]);
+  handle.before(...sides.map(([, label]) => label));
   const move = (next) => {
     position = Math.min(1, Math.max(0, next));
     show();
@@ -32,8 +36,12 @@ export function connectDivider(handle, app) {
     move(next);
   });
   return {
-    update(options) {
+    update(options, { comparison }) {
       handle.hidden = !options.compare;
+      for (const [side, label] of sides) {
+        label.textContent = comparison?.[side] ?? '';
+        label.hidden = handle.hidden || !label.textContent;
+      }
       position = Number(options.divider ?? 0.5);
       show();
     },
