@@ -195,6 +195,20 @@ step('a link to a file waits for it', async () => {
     await close_messages();
 });
 
+step('a link to a model of the server after a drop, and unknown names', async () => {
+    await page.evaluate(() => { location.hash = '#model=models/spheres.glb'; });
+    await shown('spheres.glb');
+    await drop(path.join(models.parts, 'box.obj'));
+    await shown('box.obj');
+    assert.match(await page.evaluate(() => location.hash), /^#file=box\.obj/, 'the address is that of the model before');
+    await page.evaluate(() => { location.hash = '#model=models/spheres.glb&compare=tone-mapping&constructor=1'; });
+    await shown('spheres.glb');
+    await until('a sentence about constructor', async () => (await sentences()).some((text) => /constructor/.test(text)));
+    await until('labels of the sides', async () => (await page.locator('.stage > .side:visible').allTextContents()).length === 2);
+    await page.evaluate(() => { location.hash = '#model=models/spheres.glb'; });
+    await close_messages();
+});
+
 // ---- the panels ----
 
 // Every field of the tab "Look": mouse and keyboard each change the options.

@@ -11,14 +11,14 @@ export function createEdits(viewer) {
   let scene = null;
 
   const partOf = (name, value) => {
-    if (name in WORDS) return { [name]: value };
+    if (Object.hasOwn(WORDS, name)) return { [name]: value };
     const found = findRow(name);
     if (!found) throw new Error(`There is no parameter "${name}" of a material.`);
     return materialPart(found.group, found.row, value);
   };
 
   const originalOf = (material, name) => {
-    if (name in WORDS) return material[WORDS[name]];
+    if (Object.hasOwn(WORDS, name)) return material[WORDS[name]];
     const { group, row } = findRow(name);
     return valueIn(material, group, row) ?? row.usual ?? INFINITE;
   };

@@ -46,12 +46,12 @@ function readPair(view, name, text) {
   const material = MATERIAL.exec(name);
   if (name === 'model' || name === 'file') view[name] = text;
   else if (material) view.edits.push([Number(material[1]), material[2], valueOf(text)]);
-  else if (NAME.test(name)) view.options[ALIASES[name] ?? name] = text;
+  else if (NAME.test(name)) view.options[Object.hasOwn(ALIASES, name) ? ALIASES[name] : name] = text;
   else throw new Error('it is not the name of an option');
 }
 
 // Models load without a question only from the page's own server, by a relative name.
 export function isOwnModel(name, base) {
-  if (/^([a-z][a-z0-9+.-]*:|\/\/|\\)/i.test(name)) return false;
+  if (name !== name.trim() || /^([a-z][a-z0-9+.-]*:|\/\/|\\)/i.test(name)) return false;
   return new URL(name, base).origin === new URL(base).origin;
 }

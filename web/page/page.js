@@ -179,6 +179,7 @@ async function openFiles({ files, reread }) {
   source = { reread };
   tools.reload.hidden = !reread;
   await applyWaiting();
+  if (location.hash.length > 1) await shareLink(); // the address is of what is shown
 }
 
 const openModel = (path) => withProgress(`Decoding and drawing ${path}…`, () => viewer.openModel(path));
@@ -240,9 +241,14 @@ async function applyWaiting() {
 }
 
 async function showServed(name) {
+  const wasDropped = Boolean(source);
   source = null;
   tools.reload.hidden = true;
-  if (viewer.getAttribute('src') === name && viewer.loaded) return true;
+  if (viewer.getAttribute('src') === name && viewer.loaded && !wasDropped) return true;
+  if (wasDropped) { // the element still has the address of the model before
+    viewer.removeAttribute('src');
+    await viewer.updateComplete;
+  }
   const done = new Promise((resolve) => {
     viewer.addEventListener('load', () => resolve(true), { once: true });
     viewer.addEventListener('error', () => resolve(false), { once: true });
