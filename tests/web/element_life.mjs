@@ -118,6 +118,27 @@ export const cases = ({ page, check, equal, near, requests }) => ({
         near(found.orbit.theta, Math.PI / 6, 'the orbit of the new module');
     },
 
+    async 'a model that always stops the module is given up'() {
+        const found = await page.evaluate(async () => {
+            await clear();
+            const { engine } = await import('./facet-viewer/engine.js'), viewer = make({ src: 'box.gltf' });
+            await event(viewer, 'load');
+            const { prototype } = engine.module.constructor, { draw } = prototype;
+            prototype.draw = function (handle) { return this.destroy(0x7ffffff0 + 0 * handle); };
+            const failed = new Promise((resolve) => viewer.addEventListener('error', ({ detail }) => { if (/not loaded again/.test(detail.message)) resolve(detail.message); }));
+            viewer.exposure = 2;
+            const message = await failed;
+            prototype.draw = draw;
+            const { module } = engine;
+            await new Promise((resolve) => setTimeout(resolve, 300));
+            const isKept = engine.module === module;
+            await viewer.openFiles([{ path: 'again.gltf', file: await (await fetch('box.gltf')).blob() }]);
+            await frames();
+            return { message, isKept, covered: (await image(viewer)).covered };
+        });
+        check(/3 times/.test(found.message) && found.isKept && found.covered > 0.05, JSON.stringify(found));
+    },
+
     async 'reduced motion and the turntable'() {
         const run = () => page.evaluate(async () => {
             await clear();

@@ -69,6 +69,29 @@ export const cases = ({ page, check, equal, near, requests }) => ({
         check(found.seconds > 0, 'the time of a frame');
     },
 
+    async 'the model that was asked for last is shown'() {
+        const found = await page.evaluate(async () => {
+            await clear();
+            const box = await (await fetch('box.gltf')).blob(), viewer = make({ src: 'box.gltf' }), say = (error) => error.name;
+            await event(viewer, 'load');
+            const slow = { arrayBuffer: async () => { await new Promise((resolve) => setTimeout(resolve, 300)); return box.arrayBuffer(); } };
+            const first = viewer.openFiles([{ path: 'slow.gltf', file: slow }]).catch(say), second = viewer.openFiles([{ path: 'fast.gltf', file: box }]);
+            const race = [await first, await second, viewer.modelPath];
+            await event(viewer, 'load', () => { viewer.src = 'box.gltf'; }); // the same address, after a drop
+            const back = viewer.modelPath, errors = [];
+            for (let i = 0; i < 2; i++) errors.push((await event(viewer, 'error', () => { viewer.src = 'broken.glb'; })).type, viewer.loaded, viewer.modelPath);
+            await event(viewer, 'load', () => { viewer.src = 'box.gltf'; });
+            viewer.src = 'box.gltf?late'; // aborted by the drop
+            await viewer.openFiles([{ path: 'dropped.gltf', file: box }]);
+            await new Promise((resolve) => setTimeout(resolve, 200));
+            return { race, back, errors, last: viewer.modelPath };
+        });
+        equal(found.race, ['AbortError', ['fast.gltf'], 'fast.gltf']);
+        equal(found.back, 'box.gltf');
+        equal(found.errors, ['loadfailure', true, 'box.gltf', 'loadfailure', true, 'box.gltf'], 'an address that fails, twice');
+        equal(found.last, 'dropped.gltf');
+    },
+
     async 'values and files of any kind stop nothing'() {
         const found = await page.evaluate(async () => {
             await clear();

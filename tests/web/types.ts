@@ -16,6 +16,11 @@ const hotspot: HotspotData | null = viewer.queryHotspot('hotspot-1');
 const blob: Promise<Blob> = viewer.screenshot({ width: 1920, height: 1080 });
 const models: Promise<string[]> = viewer.openFiles([{ path: 'a.glb', file: new Blob([]) }]);
 viewer.play({ repetitions: 2, pingpong: true });
+const clips: string[] = viewer.state.animations ?? [];
+const [begin, end]: [number, number] = viewer.state.animationTimes?.[0] ?? [0, 0];
+// @ts-expect-error names, not objects
+clips.push({ name: 'walk' });
+console.log(begin, end, viewer.renderInfo.seconds);
 // @ts-expect-error there is no such value
 viewer.loading = 'sometimes';
 // @ts-expect-error read-only

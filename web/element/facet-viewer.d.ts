@@ -65,6 +65,51 @@ export interface PickedPoint {
   material: number;
 }
 
+/** facet's own: what is shown, and how. Angles in degrees, lengths in meters, times in seconds. */
+export interface ViewerState {
+  /** The last warning, or what the last change means; "": nothing. */
+  message: string;
+  /** The path of the model; "": the built-in scene; null: there is none yet. */
+  model: string | null;
+  bounds?: { min: [number, number, number]; max: [number, number, number] };
+  size?: [number, number, number];
+  /** Names, in the order of the file. */
+  animations?: string[];
+  variants?: string[];
+  cameras?: string[];
+  scenes?: string[];
+  /** When each animation begins and ends. */
+  animationTimes?: [number, number][];
+  orbit: {
+    azimuth: number | null; polar: number | null; radius: number | null; target: [number, number, number]; fov: number | null;
+    isOrthographic: boolean; isFramed: boolean;
+  };
+  isPlaying: boolean;
+  time: number;
+  begin: number;
+  end: number;
+  speed: number;
+  /** Indices; null: none is chosen. */
+  animation: number | null;
+  variant: number | null;
+  camera: number | null;
+  comparison: { name: string; position: number; left: string; right: string };
+  stats: RenderInfo;
+}
+
+/** facet's own: the last frame. */
+export interface RenderInfo {
+  triangles?: number;
+  draws?: number;
+  vertices?: number;
+  /** Of the processor, in all and by its parts. */
+  seconds?: number;
+  geometrySeconds?: number;
+  lightSeconds?: number;
+  textureSeconds?: number;
+  drawSeconds?: number;
+}
+
 export type ChangeSource = 'user-interaction' | 'automatic' | 'none';
 export type ToneMapping = 'auto' | 'neutral' | 'commerce' | 'aces' | 'agx' | 'reinhard' | 'cineon' | 'linear' | 'none';
 
@@ -212,8 +257,9 @@ export class FacetViewer extends HTMLElement {
   command(width?: number, height?: number): string;
   /** What `facet inspect --json` says of the model. */
   describe(): Record<string, unknown>;
-  readonly state: Record<string, unknown>;
-  readonly renderInfo: Record<string, unknown>;
+  /** Without a model only a part of it is there. */
+  readonly state: Partial<ViewerState>;
+  readonly renderInfo: RenderInfo;
   /** values: a part of a glTF material. */
   setMaterial(index: number, values: Record<string, unknown>): void;
   readonly materials: Record<string, unknown>[];

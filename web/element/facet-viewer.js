@@ -121,13 +121,15 @@ export class FacetViewer extends HTMLElement {
 
   // Changes are applied together, after the script that made them.
   requestUpdate() {
-    this.#update ??= Promise.resolve().then(() => {
-      this.#update = null;
-      if (!this.isConnected) return;
-      const changed = this.#changed;
-      this.#changed = new Set();
-      for (const part of this.#parts) part.update(changed);
-    });
+    this.#update ??= Promise.resolve().then(() => this.#apply());
+  }
+
+  #apply() {
+    this.#update = null;
+    if (!this.isConnected) return;
+    const changed = this.#changed;
+    this.#changed = new Set();
+    for (const part of this.#parts) part.update(changed);
   }
 
   get updateComplete() { return (this.#update ?? Promise.resolve()).then(() => true); }
@@ -209,11 +211,11 @@ export class FacetViewer extends HTMLElement {
   }
 
   async #open(files, path) {
-    this.#context.loading.take();
-    await this.updateComplete;
+    this.#apply(); // src, if it was set before
+    const turn = this.#context.loading.take();
     await engine.start();
     this.#context.light.want();
-    await this.#context.loading.show(files, path, path);
+    await this.#context.loading.show(files, path, path, turn);
   }
 
   get files() { return this.#context.view.files; }

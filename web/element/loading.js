@@ -38,6 +38,8 @@ export class Loading {
   #isDismissed = false; // by a call, before the model was there
   #wasVisible = false;
   #wanted = null; // the address that is shown or being fetched
+  #isReplaced = false; // by files, or it failed: setting the same address again fetches it
+  #turn = 0; // of the models that were asked for; the last one is shown
   isLoaded = false;
   isRevealed = false;
 
@@ -64,6 +66,7 @@ export class Loading {
 
   drop() {
     this.#abort?.abort();
+    this.#turn++;
     this.#wanted = null;
     this.isLoaded = false;
   }
@@ -103,6 +106,7 @@ export class Loading {
       this.context.view.close();
       this.showPoster();
     }
+    if (changed.has('src') && this.#isReplaced) this.#wanted = null;
     if (changed.has('src') || changed.has('loading') || changed.has('reveal')) this.#consider();
   }
 
@@ -126,6 +130,8 @@ export class Loading {
     this.#abort?.abort();
     const abort = new AbortController();
     this.#abort = abort;
+    this.#isReplaced = false;
+    const turn = ++this.#turn;
     const report = this.progress.begin('model-load');
     this.isLoaded = false;
     try {
@@ -133,19 +139,26 @@ export class Loading {
         withCredentials: element.withCredentials, signal: abort.signal, onProgress: (share) => report(0.8 * share),
       });
       if (abort.signal.aborted) return;
-      await this.show(files, files[0].path, src);
+      await this.show(files, files[0].path, src, turn);
       report(1);
     } catch (error) {
       report(1);
       if (error.name === 'AbortError' || abort.signal.aborted) return;
+      this.#isReplaced = true;
+      this.isLoaded = this.context.view.hasModel; // the last one is still shown
       this.context.fail(error, 'loadfailure');
     }
   }
 
-  // Shows a model of files that are there. url: for the event.
-  async show(files, path, url) {
+  // Shows a model of files that are there, unless another one was asked for since. url: for the event. turn: see take().
+  async show(files, path, url, turn) {
     const { context } = this;
-    await context.view.open(files, path);
+    try {
+      await context.view.open(files, path, () => turn === this.#turn);
+    } catch (error) {
+      if (turn === this.#turn) this.isLoaded = context.view.hasModel;
+      throw error;
+    }
     await context.modelOpened();
     this.isLoaded = true;
     if (this.context.element.reveal === 'auto' || this.#isDismissed) this.#reveal();
@@ -153,11 +166,13 @@ export class Loading {
     context.emit('load', { url });
   }
 
-  // A model that did not come from src.
+  // A model that did not come from src. Returns its turn.
   take() {
     this.#abort?.abort();
     this.#wanted = this.context.element.src;
+    this.#isReplaced = true;
     this.#isDismissed = true;
+    return ++this.#turn;
   }
 
   // ---- the poster ----

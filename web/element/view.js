@@ -4,6 +4,8 @@ import { engine } from './engine.js';
 
 const OF_MODEL = new Set(['animation', 'time', 'variant', 'camera', 'scene', 'orbit', 'target', 'fov']); // options that need the model
 
+const MOST_STOPS = 3; // then a model is not loaded again
+
 // b over a: objects member by member, all else as a whole.
 function join(a, b) {
   const isObject = (value) => value !== null && typeof value === 'object' && !Array.isArray(value);
@@ -31,6 +33,7 @@ export class View {
   #isAlive = false;
   #divisor = 1;
   #isSharp = true;
+  #stops = 0; // of the module, by this model
   #size = { width: 1, height: 1 };
   isVisible = false;
   isRevealed = false;
@@ -76,13 +79,19 @@ export class View {
 
   // Calls use(module, viewer). The first time the viewer is told what was set before.
   use(use) {
-    return engine.call((module) => {
-      if (!this.#handle) {
-        this.#handle = module.create();
-        this.#tell(module);
-      }
-      return use(module, this.#handle);
-    });
+    const { module: before } = engine;
+    try {
+      return engine.call((module) => {
+        if (!this.#handle) {
+          this.#handle = module.create();
+          this.#tell(module);
+        }
+        return use(module, this.#handle);
+      });
+    } catch (error) {
+      if (before?.isLost) this.#stops++;
+      throw error;
+    }
   }
 
   query(use, fallback) { return this.hasModel ? this.use(use) : fallback; }
@@ -98,10 +107,19 @@ export class View {
 
   // ---- what is shown ----
 
-  async open(files, path) {
+  // isCurrent: whether it is still to be shown when its turn comes.
+  async open(files, path, isCurrent = () => true) {
+    this.#stops = 0;
+    await this.#open(files, path, isCurrent);
+  }
+
+  async #open(files, path, isCurrent) {
     await engine.start();
     const isNew = !this.#handle;
-    await this.#withFiles(files, () => this.use((module, viewer) => module.open(viewer, path)));
+    await this.#withFiles(files, () => {
+      if (!isCurrent()) throw new DOMException('another model was asked for meanwhile', 'AbortError');
+      this.use((module, viewer) => module.open(viewer, path));
+    });
     if (!this.#isAlive) {
       this.close();
       throw new DOMException('the element is not in the page', 'AbortError');
@@ -125,8 +143,8 @@ export class View {
 
   // The files are there for C while use runs, once more with the decoders that it found missing.
   async #withFiles(files, use) {
-    const contents = await Promise.all(files.map(({ file }) => file.arrayBuffer()));
     await engine.alone(async () => {
+      const contents = await Promise.all(files.map(({ file }) => file.arrayBuffer()));
       const { codecs } = await engine.start();
       try {
         this.use((module) => files.forEach(({ path }, i) => module.putFile(path, new Uint8Array(contents[i]))));
@@ -268,7 +286,8 @@ export class View {
     if (!model) return;
     this.#model = null;
     try {
-      await this.open(model.files, model.path);
+      if (this.#stops >= MOST_STOPS) throw new Error(`${model.path || 'the built-in scene'}: drawing it has stopped facet ${this.#stops} times; it is not loaded again`);
+      await this.#open(model.files, model.path, () => true);
       this.frame(true);
       for (const [name, text] of options)
         if (OF_MODEL.has(name)) await this.setOption(name, text);
