@@ -10,6 +10,7 @@ version=$(sed -n 's/^project(facet VERSION \([0-9.]*\).*/\1/p' "$here/../CMakeLi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cp -R "$package/." "$work"
+rm -f "$work"/ocean.* # the page of seas, which no export of the package uses
 cp "$here/../LICENSE" "$work"
 sed "s/\"version\": \"0.0.0\"/\"version\": \"$version\"/" "$here/element/package.json" >"$work/package.json"
 target=$(CDPATH= cd -- "$dist/.." && pwd)

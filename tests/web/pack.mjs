@@ -12,6 +12,7 @@ const most = 6 << 20; // bytes
 const files = execFileSync('tar', ['-tzf', archive], { encoding: 'utf8' }).trim().split('\n').map((name) => name.replace(/^package\//, ''));
 for (const name of ['package.json', 'README.md', 'LICENSE', 'facet-viewer.js', 'facet-viewer.d.ts', 'module.js', 'engine.js', 'viewer.js', 'viewer.wasm', 'node.js', 'tools.js'])
     assert.ok(files.includes(name), `${name} is not in the package`);
+assert.ok(!files.some((name) => name.startsWith('ocean')), 'the package has the sea, which nothing in it uses');
 for (const name of files)
     assert.match(name, /^[\w.-]+\.(js|wasm|d\.ts)$|^(package\.json|README\.md|LICENSE)$/, `${name} does not belong in the package`);
 assert.ok(statSync(archive).size < most, `the package has ${statSync(archive).size} bytes`);

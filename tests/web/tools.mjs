@@ -2,7 +2,7 @@
 // Where only the C libraries' elementary functions differ, numbers may differ in their last digits.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
-import { mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 
@@ -301,6 +301,21 @@ async function testFolders() {
     assert.ok(Buffer.from(again['quad.glb']).equals(native(['convert', 'quad/quad.obj', 'quad.glb'], QUAD).read('quad.glb')));
 }
 
+// The README's program, with the package where npm puts it.
+async function testReadme() {
+    const element = new URL('../../web/element/', import.meta.url), folder = join(work, 'project'), root = join(folder, 'node_modules/facet-viewer');
+    cpSync(join(dist, 'facet-viewer'), root, { recursive: true });
+    cpSync(new URL('package.json', element), join(root, 'package.json'));
+    const [, program] = readFileSync(new URL('README.md', element), 'utf8').match(/```js\n([^]*?)```/);
+    writeFileSync(join(folder, 'program.mjs'), program);
+    await writeFiles(join(folder, 'models'), { 'chair.obj': QUAD['quad/quad.obj'].replace('quad.mtl', 'chair.mtl'), 'chair.mtl': QUAD['quad/quad.mtl'] });
+    const { status, stdout, stderr } = spawnSync(process.execPath, ['program.mjs'], { cwd: folder, encoding: 'utf8' });
+    assert.equal(status, 0, stderr);
+    assert.match(stdout, /^2 materials\n/);
+    assert.deepEqual(jsonOfGlb(readFileSync(join(folder, 'out/red.glb'))).json.materials[0].pbrMetallicRoughness.baseColorFactor, [0.8, 0.1, 0.1, 1]);
+    assert.deepEqual(Object.keys(await readFolder(join(folder, 'out'))).sort(), ['chair.glb', 'red.glb']);
+}
+
 // The module's memory is reused: runs do not add up.
 async function testManyRuns() {
     const before = process.memoryUsage().arrayBuffers;
@@ -311,7 +326,7 @@ async function testManyRuns() {
     assert.deepEqual(runs.map(({ files }) => Object.keys(files)), [['1.glb'], ['2.glb'], ['3.glb']], 'calls at the same time wait for each other');
 }
 
-for (const test of [testModels, testFunctions, testSave, testBake, testImages, testPlots, testRefusals, testArguments, testSaveRefusals, testFolders, testManyRuns]) {
+for (const test of [testModels, testFunctions, testSave, testBake, testImages, testPlots, testRefusals, testArguments, testSaveRefusals, testFolders, testReadme, testManyRuns]) {
     const start = performance.now();
     await test();
     console.log(`tools: ${test.name.replace(/^test/, '').toLowerCase()} ${((performance.now() - start) / 1000).toFixed(1)} s`);
