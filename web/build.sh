@@ -11,7 +11,7 @@ step() {
     echo "web: $*"
 }
 [ -f "$generated/compact/gl_text.h" ] || { echo "web: there is no compact/gl_text.h in $generated: libepoxy-dev was missing" >&2; exit 1; }
-step "sources of the libraries, from Debian: 75 MB at the first time, into ${build#"$PWD/"}/sources"
+step "sources of the libraries, from Debian: 68 MB the first time, into ${build#"$PWD/"}/sources"
 sh "$here/sources.sh" "$build/sources" zlib libspng jansson libjpeg-turbo libzstd kissfft
 # the modules of codecs (codecs.cmake), without which the rest works
 sh "$here/sources.sh" "$build/sources" libwebp openexr imath draco || [ -z "${CI_REQUIRES_ALL-}" ] || exit 1
