@@ -7,6 +7,7 @@ import { makePanel } from './ocean_panel.js';
 const byId = (id) => document.getElementById(id);
 const canvas = byId('view');
 const stage = byId('stage');
+const isNarrow = matchMedia('(max-width: 48rem)');
 const calm = matchMedia('(prefers-reduced-motion: reduce)');
 
 let ocean = null;
@@ -196,14 +197,17 @@ function addButtons() {
     made.append(icon(name), element('span', { class: 'wide' }, text));
     return made;
   };
-  byId('actions').append(
+  const made = [
     labelled('copy', 'Copy command', () => copy(ocean.command(...fullSize()), 'Command')),
     labelled('camera', 'Save image', saveImage),
     labelled('share', 'Share', () => {
       writeLink();
       copy(location.href, 'Link');
-    }));
+    })];
   byId('controls').append(playButton);
+  const place = () => byId(isNarrow.matches ? 'controls' : 'actions').append(...made); // the bar has no room for them
+  isNarrow.addEventListener('change', place);
+  place();
 }
 
 // ---- input ----
