@@ -21,7 +21,7 @@ let sphere = null; // of createSphere(), once it was opened
 function readHash() {
   const words = new URLSearchParams(location.hash.slice(1));
   if (KINDS.some(([kind]) => kind === words.get('plot'))) state.kind = words.get('plot');
-  if (PARAMETERS[words.get('model')]) state.model = words.get('model');
+  if (Object.hasOwn(PARAMETERS, words.get('model'))) state.model = words.get('model');
   state.values = defaultsOf(state.model);
   for (const [name, fallback] of Object.entries(state.values)) {
     const text = words.get(name);
