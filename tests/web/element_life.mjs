@@ -79,6 +79,28 @@ export const cases = ({ page, check, equal, near, requests }) => ({
         equal(found.late.hash, found.before.hash);
     },
 
+    async 'loss of the context while a model is opened'() {
+        const found = await page.evaluate(async () => {
+            await clear();
+            const box = await (await fetch('box.gltf')).blob(), viewer = make({ src: 'box.gltf' });
+            await event(viewer, 'load');
+            await frames(4);
+            const before = await image(viewer), { View } = await import('./facet-viewer/view.js');
+            const canvas = viewer.shadowRoot.querySelector('.stage > canvas:not(.image)');
+            const loss = canvas.getContext('webgl2').getExtension('WEBGL_lose_context');
+            const { use } = View.prototype; // the loss comes just before the model is read
+            View.prototype.use = function (act) {
+                if (/open/.test(String(act))) { View.prototype.use = use; loss.loseContext(); setTimeout(() => loss.restoreContext(), 200); }
+                return use.call(this, act);
+            };
+            await viewer.openFiles([{ path: 'late.gltf', file: box }]);
+            await new Promise((resolve) => setTimeout(resolve, 400));
+            await frames(4);
+            return { errors: viewer.log.filter(([type]) => type === 'error'), path: viewer.modelPath, isSame: (await image(viewer)).hash === before.hash };
+        });
+        equal(found, { errors: [], path: 'late.gltf', isSame: true });
+    },
+
     async 'without WebGL 2'() {
         const other = await (await page.context().browser().newContext()).newPage();
         await other.addInitScript(() => { HTMLCanvasElement.prototype.getContext = () => null; });
@@ -172,20 +194,22 @@ export const cases = ({ page, check, equal, near, requests }) => ({
             const viewer = make({ src: 'box.gltf', 'auto-rotate': '', 'auto-rotate-delay': '0' });
             const coarse = await event(viewer, 'render-scale');
             await frames(3);
-            const canvas = viewer.shadowRoot.querySelector('.stage > canvas:not(.image)'), moving = [canvas.width, canvas.height];
+            const size = () => { const { width, height } = viewer.shadowRoot.querySelector('.stage canvas:not(.unused)'); return [width, height]; };
+            const stage = viewer.shadowRoot.querySelector('.stage'), moving = size(), isCopied = stage.querySelectorAll('canvas').length === 1;
             viewer.autoRotate = false;
             const sharp = await event(viewer, 'render-scale');
             await frames(3);
-            const rest = [canvas.width, canvas.height];
+            const rest = size();
             viewer.constructor.minimumRenderScale = 1;
             viewer.autoRotate = true;
             await frames(8);
-            const full = [canvas.width, canvas.height];
+            const full = size();
             viewer.constructor.minimumRenderScale = 0.25;
             delete engine.module.pace;
-            return { coarse, moving, sharp, rest, full };
+            return { coarse, moving, isCopied, sharp, rest, full };
         });
         equal([found.coarse.renderedDpr, found.moving], [0.25, [80, 60]]);
+        check(found.isCopied, 'a coarse image with straight alpha is enlarged');
         equal([found.sharp.renderedDpr, found.rest], [1, [320, 240]]);
         equal(found.full, [320, 240], 'minimumRenderScale = 1');
     },

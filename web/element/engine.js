@@ -1,6 +1,7 @@
 // engine.js - one module and one WebGL context for all elements of a page. Views draw in turn into the one canvas that has the context,
 // and copy the image into canvases of their own; a view that is alone on the screen shows that canvas itself. The context may be
-// lost and the module may run out of memory: views go on with a new one.
+// lost and the module may run out of memory: views go on with a new one. Coarse images are always copied: the one canvas has straight
+// alpha, and browsers that enlarge it mix the edges of the model with black.
 import { loadModule } from './module.js';
 
 const LOSS_PATIENCE_MS = 5000;
@@ -13,6 +14,7 @@ export class Engine {
   #isAsked = false;
   #isLost = false;
   #lossTimer = 0;
+  #waiting = []; // for the context: {resolve, reject}
   #canvas = null;
   #last = Promise.resolve();
   base = undefined;
@@ -88,6 +90,16 @@ export class Engine {
 
   // ---- the loss of the context ----
 
+  // Also between the loss and the event that tells of it.
+  get isContextLost() { return this.#isLost || Boolean(this.#canvas?.getContext('webgl2')?.isContextLost()); }
+
+  // Done when the context is back.
+  restored() { return new Promise((resolve, reject) => this.#waiting.push({ resolve, reject })); }
+
+  #endWaiting(end) {
+    for (const waiting of this.#waiting.splice(0)) end(waiting);
+  }
+
   #listenForLoss(canvas) {
     canvas.addEventListener('webglcontextlost', (event) => {
       if (canvas !== this.#canvas || !this.#module) return;
@@ -98,6 +110,7 @@ export class Engine {
       this.#lossTimer = setTimeout(() => {
         const error = new Error('the browser took the graphics context away and did not give it back');
         for (const view of this.#views) view.fail(error, 'webglcontextlost');
+        this.#endWaiting(({ reject }) => reject(error));
       }, LOSS_PATIENCE_MS);
     });
     canvas.addEventListener('webglcontextrestored', () => {
@@ -108,9 +121,11 @@ export class Engine {
         this.call((module) => module.restore());
       } catch (error) {
         for (const view of this.#views) view.fail(error, 'webglcontextlost');
+        this.#endWaiting(({ reject }) => reject(error));
         return;
       }
       for (const view of this.#views) view.touch();
+      this.#endWaiting(({ resolve }) => resolve());
     });
   }
 
@@ -128,7 +143,7 @@ export class Engine {
   #frame(time) {
     if (this.#isLost || !this.#module) return;
     const views = [...this.#views].filter((view) => view.isDrawn);
-    this.#show(views.length === 1 ? views[0] : null);
+    this.#show(views.length === 1 && !views[0].isCoarse ? views[0] : null);
     const due = views.filter((view) => view.needsFrame);
     if (due.length) this.#fit(due);
     for (const view of due) {

@@ -74,6 +74,7 @@ export class View {
   get isLost() { return engine.isLost; }
   get isDrawn() { return this.isVisible && this.isRevealed && this.hasModel; }
   get isMoving() { return this.hasModel && (this.isPlaying || this.use((module, viewer) => module.isMoving(viewer))); }
+  get isCoarse() { return this.#divisor > 1; }
   // After a failure nothing is drawn until something is set.
   get needsFrame() { return this.isDrawn && (this.#isTouched || (!this.#hasFailed && (!this.#isSharp || this.isMoving))); }
 
@@ -116,7 +117,7 @@ export class View {
   async #open(files, path, isCurrent) {
     await engine.start();
     const isNew = !this.#handle;
-    await this.#withFiles(files, () => {
+    await this.#withContext(files, () => {
       if (!isCurrent()) throw new DOMException('another model was asked for meanwhile', 'AbortError');
       this.use((module, viewer) => module.open(viewer, path));
     });
@@ -131,6 +132,17 @@ export class View {
     if (isNew) await this.#tellFiles();
     if (isNew && this.#comparison.name) this.setOption('compare', this.#comparison.name);
     this.touch();
+  }
+
+  // As #withFiles(), once more if the browser takes the graphics context away meanwhile.
+  async #withContext(files, use) {
+    try {
+      await this.#withFiles(files, use);
+    } catch (error) {
+      if (error.name === 'AbortError' || !engine.isContextLost) throw error;
+      await engine.restored();
+      await this.#withFiles(files, use);
+    }
   }
 
   // Settings of a new viewer whose values are files.
@@ -337,6 +349,7 @@ export class View {
       this.#lastTime = 0;
       this.#isTouched = false;
       this.#hasFailed = true;
+      if (engine.module && engine.isContextLost) return; // drawn again when it is back
       this.fail(error, 'loadfailure');
     }
   }
