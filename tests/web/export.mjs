@@ -102,6 +102,7 @@ try {
     const bytes = await check(browser, 'builtin', []);
     console.log(`builtin.html: ${(bytes / 1e6).toFixed(2)} MB: the viewer and a preview`);
     assert.ok(bytes < 1.5e6, 'the viewer in a page is larger than 1.4 MB');
+    await check(browser, 'usual', [square, '--orbit', '0,75,105%']); // not the element's framing
     for (const model of models) await check(browser, path.parse(model).name, [model]);
     await check(browser, 'options', [square, '--orbit', '20,60,120%', '--env', light, '--env-rotation', '90', '--background', 'env', '--exposure', '-0.5',
         '--tone-mapping', 'agx', '--ground', 'shadow']);
@@ -197,7 +198,8 @@ try {
     const { page, requests, messages } = await open(browser, root);
     assert.equal(await page.locator('h1').textContent(), 'Two models');
     assert.equal(await page.locator('li').count(), 2);
-    assert.ok(await page.evaluate(() => [...document.images].every((image) => image.complete && image.naturalWidth > 0)), 'a preview is missing');
+    // previews are loaded as they come into view
+    await page.waitForFunction(() => [...document.images].every((image) => image.complete && image.naturalWidth > 0), null, { timeout: 10000 });
     await page.getByRole('link', { name: 'square' }).click();
     await drawn(page);
     await page.evaluate(() => document.querySelector('nav').remove());

@@ -3,6 +3,10 @@ import '../facet-viewer/facet-viewer.js';
 
 const CAMERA = ['up', 'ortho', 'framing', 'fov', 'target', 'orbit', 'eye', 'camera'];
 
+// The default orbit of facet render, a millionth farther: exactly that one stands for the element's own framing.
+const USUAL_ORBIT = '0,75,105.0001%';
+const IS_USUAL_ORBIT = /^0(deg)?[ ,]+75(deg)?([ ,]+105%)?$/;
+
 // The value of an option as a text of the command line; of a flag it is empty.
 const textOf = (value) => (value === true ? '' : value);
 
@@ -14,7 +18,8 @@ async function setOptions(viewer, options, wants) {
 // The camera of facet render: without options it shows the whole model, not the framing of <model-viewer>.
 async function setCamera(viewer, options) {
   const isOfFile = 'camera' in options;
-  const camera = isOfFile ? options : { target: 'auto', ...('eye' in options ? {} : { orbit: '0,75,105%' }), ...options };
+  const camera = isOfFile ? { ...options } : { target: 'auto', ...('eye' in options ? {} : { orbit: USUAL_ORBIT }), ...options };
+  if (IS_USUAL_ORBIT.test(camera.orbit)) camera.orbit = USUAL_ORBIT;
   for (const name of CAMERA) if (name in camera) await viewer.setOption(name, textOf(camera[name]));
 }
 
