@@ -413,7 +413,7 @@ const bodies = {
 const panel = byId('panel');
 const openSheet = (is) => { panel.dataset.open = String(is); };
 const panelTabs = tabs('Settings', [['look', 'Look', bodies.look], ['scene', 'Scene', bodies.scene], ['material', 'Material', bodies.material], ['share', 'Share', bodies.share]], {
-  again: () => openSheet(panel.dataset.open === 'false'),
+  again: () => openSheet(!isNarrow.matches || panel.dataset.open === 'false'),
   change: (id) => {
     if (panel.isConnected && description) openSheet(true);
     if (id === 'share') share.refresh();
