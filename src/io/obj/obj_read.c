@@ -194,8 +194,16 @@ static void check_chunks(void *context, size_t begin, size_t end)
         obj_check_chunk(r, &r->chunks[i]);
 }
 
-/* Comments before the first statement: the first one that is recognized names the program that wrote the
- * file. */
+/* Whether a comment is a sentence about the model, and not the name of a program. */
+static bool is_prose(const char *comment, size_t length)
+{
+    while (length && obj_is_blank(comment[length - 1]))
+        length--;
+    return length && comment[length - 1] == '.';
+}
+
+/* Comments before the first statement tell the program that wrote the file; the first one, unless it is a sentence,
+ * is kept as its name. */
 static void read_head(obj_reader *r)
 {
     enum { MAX_COMMENTS = 8, MAX_LENGTH = 200 };
@@ -215,7 +223,7 @@ static void read_head(obj_reader *r)
         if (length == 0)
             continue;
         mtl_reader_hint(r->materials, line, length);
-        if (i++ == 0) {
+        if (i++ == 0 && !is_prose(line, length)) {
             r->scene->generator = obj_copy_name(r, line, length);
             if (!r->scene->generator)
                 return;
