@@ -190,6 +190,8 @@ export const cases = ({ page, check, equal, near, requests }) => ({
             await clear();
             const { engine } = await import('./facet-viewer/engine.js');
             await engine.start();
+            const handle = engine.module.create(), divisors = [0.03, 0.1, 0.45, 0.55].map((seconds) => engine.module.pace(handle, true, 1, seconds));
+            engine.module.destroy(handle);
             engine.module.pace = (_, isMoving) => (isMoving ? 4 : 1); // as after frames of 400 ms
             const viewer = make({ src: 'box.gltf', 'auto-rotate': '', 'auto-rotate-delay': '0' });
             const coarse = await event(viewer, 'render-scale');
@@ -206,9 +208,10 @@ export const cases = ({ page, check, equal, near, requests }) => ({
             const full = size();
             viewer.constructor.minimumRenderScale = 0.25;
             delete engine.module.pace;
-            return { coarse, moving, isCopied, sharp, rest, full };
+            return { divisors, coarse, moving, isCopied, sharp, rest, full };
         });
         equal([found.coarse.renderedDpr, found.moving], [0.25, [80, 60]]);
+        equal(found.divisors, [1, 2, 2, 4], 'frames of 30, 100, 450 and 550 ms');
         check(found.isCopied, 'a coarse image with straight alpha is enlarged');
         equal([found.sharp.renderedDpr, found.rest], [1, [320, 240]]);
         equal(found.full, [320, 240], 'minimumRenderScale = 1');

@@ -268,10 +268,15 @@ EMSCRIPTEN_KEEPALIVE int facet_web_locate(viewer *v, const double position[3], c
     return FACET_OK;
 }
 
+/* Motion in a page may go on for ever, as that of animations does: a quarter of the resolution, in which models are hardly
+ * recognized, is left to frames that take longer than this in half of it. */
+static const double most_half_s = 0.125;
+
 /* After a frame that came that long after the one before (0: the first): by what to divide width and height of the next. */
 EMSCRIPTEN_KEEPALIVE int facet_web_pace(viewer *v, bool is_moving, int divisor, double seconds)
 {
     if (seconds > 0.0 && divisor > 0)
         view_pace_measure(&v->pace, (uint32_t)divisor, seconds);
-    return (int)view_pace_divisor(&v->pace, is_moving);
+    const int wanted = (int)view_pace_divisor(&v->pace, is_moving);
+    return wanted > 2 && v->pace.full_s <= 4.0 * most_half_s ? 2 : wanted;
 }
