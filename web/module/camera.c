@@ -70,6 +70,12 @@ static facet_result follow(viewer *v, float aspect, facet_error *error)
     return FACET_OK;
 }
 
+facet_result web_camera_settle(viewer *v, facet_error *error)
+{
+    bool is_rigged = v->scene && v->rig.is_framed && v->state.camera == VIEW_NO_CAMERA;
+    return is_rigged ? follow(v, (float)v->rig.aspect, error) : FACET_OK;
+}
+
 /* The model turns, not the light. */
 static void turn_light(viewer *v, double by_rad)
 {

@@ -22,6 +22,7 @@ static void follow_shape(viewer *v, float aspect)
 static facet_result update_camera(viewer *v, uint32_t width, uint32_t height, facet_error *error)
 {
     view_state *s = &v->state;
+    TRY(web_camera_settle(v, error));
     if (s->camera == VIEW_NO_CAMERA)
         return view_state_frame(s, (float)width / (float)height, error);
     return facet_camera_from_scene(v->scene, &s->pose, (uint32_t)s->camera, &s->file_camera, error);

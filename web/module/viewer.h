@@ -65,8 +65,10 @@ void web_model_close(viewer *v);
 /* Before a frame of that size, so long after the last one. */
 facet_result web_camera_advance(viewer *v, uint32_t width, uint32_t height, double seconds,
                                 facet_error *error);
+/* Before the camera is read between frames: an orbit that an option has set is taken over, as the next frame would do. */
+facet_result web_camera_settle(viewer *v, facet_error *error);
 bool web_camera_is_moving(const viewer *v);
-/* The camera was not moved: every viewer shows the model like this unless it is told otherwise. */
+/* The camera was not moved: every viewer shows the model like this unless an option says otherwise. */
 bool web_camera_is_home(const viewer *v);
 
 /* ---- draw.c ---- */
