@@ -51,7 +51,7 @@ static double measure(writer *w, packed_orders orders, uint32_t c, uint32_t row)
 static packed_orders best_orders(writer *w, uint32_t c, uint32_t row)
 {
     packed_orders best = {0, 0, 0};
-    double least = INFINITY;
+    double least = HUGE_VAL;
     for (uint32_t i = 0; i < PACKED_ORDERS * PACKED_ORDERS * PACKED_ORDERS; i++) {
         packed_orders orders = {i & 3u, i >> 2 & 3u, i >> 4};
         if (orders.y > row % w->shape.height || orders.z > row / w->shape.height)
