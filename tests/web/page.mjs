@@ -1,5 +1,5 @@
 // page.mjs - the viewer's page in headless Chromium as people use it: drop, pick, every control by mouse and keyboard, links, commands,
-// accessibility. usage: page.mjs FACET DIST WORK [all]
+// accessibility. usage: page.mjs FACET DIST WORK
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
@@ -8,7 +8,7 @@ import path from 'node:path';
 import { serve_page } from '../clients/browser.mjs';
 import { write_models } from './page_model.mjs';
 
-const [facet, dist, work, which] = process.argv.slice(2);
+const [facet, dist, work] = process.argv.slice(2);
 const models = write_models(facet, work);
 const axe = readFileSync(createRequire(new URL('../clients/', import.meta.url)).resolve('axe-core/axe.min.js'), 'utf8');
 const FOLDER = '/a/folder/';
@@ -74,8 +74,6 @@ const drop = async (...files) => {
 
 const steps = [];
 const step = (name, run) => steps.push([name, run]);
-// Only with "all".
-const long_step = (name, run) => { if (which === 'all') step(name, run); };
 
 // ---- opening ----
 
@@ -310,7 +308,7 @@ step('the pointer and the keys move the camera', async () => {
     await until('the whole model', async () => JSON.stringify(await options()) === '{"background":"transparent"}');
 });
 
-long_step('animation: play, pause, time line, speed', async () => {
+step('animation: play, pause, time line, speed', async () => {
     const rest = await image();
     const line = page.getByRole('slider', { name: 'Time' });
     await line.fill('1');
@@ -329,7 +327,7 @@ long_step('animation: play, pause, time line, speed', async () => {
     await line.fill('0');
 });
 
-long_step('variants, the tree and its keys', async () => {
+step('variants, the tree and its keys', async () => {
     await tab('scene');
     const plain = await image();
     await page.getByLabel('Variant', { exact: true }).selectOption({ index: 1 });
@@ -357,7 +355,7 @@ long_step('variants, the tree and its keys', async () => {
 
 // ---- materials ----
 
-long_step('a click selects the material, edits change the image and the saved file', async () => {
+step('a click selects the material, edits change the image and the saved file', async () => {
     const { x, y, width, height } = await page.locator('#viewer').boundingBox();
     await page.mouse.click(x + 0.68 * width, y + 0.55 * height);
     const chosen = page.locator('#tab-material-panel select').first().locator('option:checked');
@@ -384,7 +382,7 @@ long_step('a click selects the material, edits change the image and the saved fi
     await until('no layer', async () => await image() === plain);
 });
 
-long_step('textures show their image, sampler and place', async () => {
+step('textures show their image, sampler and place', async () => {
     await tab('material');
     await page.locator('#tab-material-panel select').first().selectOption({ label: 'Painted' });
     const texture = page.locator('#tab-material-panel .texture').first();
@@ -400,7 +398,7 @@ const link_of = async () => {
     return page.getByRole('textbox', { name: 'Link to this view' }).inputValue();
 };
 
-long_step('a link gives the same view again', async () => {
+step('a link gives the same view again', async () => {
     await page.goto('about:blank');
     await page.goto(`${page_address}#model=models/spheres.glb&orbit=30deg,75deg,105%&exposure=0.5&tone=agx&env=sun:45,135&material.1.roughnessFactor=0.2`);
     await shown('spheres.glb');
@@ -417,7 +415,7 @@ long_step('a link gives the same view again', async () => {
     await until('the same pixels', async () => await viewer_does('loaded').catch(() => '') === 'spheres.glb' && await image(200, 150) === before);
 });
 
-long_step('the copied command renders the same image', async () => {
+step('the copied command renders the same image', async () => {
     await tab('share');
     await page.evaluate(() => { location.hash = '#model=models/spheres.glb&orbit=30deg,75deg,105%25&exposure=0.5&env=sun:45,135&background=env'; });
     await until('the view', async () => (await options()).background === 'env');
@@ -451,7 +449,7 @@ step('bad links and models of other servers get a sentence', async () => {
     messages.splice(0, messages.length, ...messages.filter((text) => !/status of 404/.test(text)));
 });
 
-long_step('a model that cannot be read: its sentence, and the page lives on', async () => {
+step('a model that cannot be read: its sentence, and the page lives on', async () => {
     await drop(models.broken);
     await until('the sentence', async () => (await sentences()).some((text) => /broken\.glb/.test(text)));
     assert.equal(await page.locator('#messages [role=alert]').count(), 1);
@@ -472,7 +470,7 @@ async function check_axe(name) {
     assert.deepEqual(violations, [], `accessibility, ${name}`);
 }
 
-long_step('accessibility in light and dark', async () => {
+step('accessibility in light and dark', async () => {
     for (const scheme of ['light', 'dark']) {
         await page.emulateMedia({ colorScheme: scheme });
         for (const name of ['look', 'scene', 'material', 'share']) {
@@ -487,7 +485,7 @@ long_step('accessibility in light and dark', async () => {
     await page.emulateMedia({ colorScheme: null });
 });
 
-long_step('tabs by keyboard', async () => {
+step('tabs by keyboard', async () => {
     await page.locator('#tab-look').click();
     await page.keyboard.press('ArrowRight');
     assert.equal(await page.locator('[role=tab][aria-selected=true]').textContent(), 'Scene');
@@ -495,7 +493,7 @@ long_step('tabs by keyboard', async () => {
     assert.ok(await page.locator('#tab-share-panel').isVisible());
 });
 
-long_step('narrow screens', async () => {
+step('narrow screens', async () => {
     await page.setViewportSize({ width: 390, height: 844 });
     await settle();
     for (const name of ['scene', 'material', 'share', 'look']) {

@@ -1,6 +1,6 @@
 #!/bin/sh
 # page.sh FACET DIST - the viewer's page of DIST in headless Chromium (CHROMIUM names another one). Skipped without Node.js 18 or newer,
-# npm ci in tests/clients, the browser, or the built page. FACET_PAGE_TEST=all also runs every control, which takes minutes.
+# npm ci in tests/clients, the browser, or the built page.
 set -eu
 facet=$1
 dist=$2
@@ -19,4 +19,4 @@ version=$(node -p 'process.versions.node.split(".")[0]')
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 # shellcheck disable=SC2086
-node "$here/page.mjs" "$facet" "$dist" "$work" ${FACET_PAGE_TEST-}
+node "$here/page.mjs" "$facet" "$dist" "$work"

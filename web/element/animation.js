@@ -7,7 +7,6 @@ export class Animation {
   #isBackward = false;
   #loops = 0;
   #options = { repetitions: Infinity, pingpong: false };
-  #isSet = false; // the pose is of an animation
   timeScale = 1;
 
   constructor(context) {
@@ -33,9 +32,8 @@ export class Animation {
     const { element, view } = this.context;
     if (changed.has('variant-name') && view.hasModel) this.#setVariant();
     if (changed.has('animation-name') && view.hasModel && this.#names.length) {
-      this.#isSet = false;
       this.#time = 0;
-      this.#select();
+      this.#choose();
       this.#pose();
     }
     if (changed.has('autoplay') && element.autoplay && view.hasModel) this.play();
@@ -46,12 +44,11 @@ export class Animation {
     const state = view.state();
     this.#names = state.animations;
     this.#ends = state.animationTimes.map(([, end]) => end);
-    this.#isSet = false;
     this.#time = 0;
     this.#halt();
     if (element.variantName) this.#setVariant();
     if (element.animationName && this.#names.length) {
-      this.#select();
+      this.#choose();
       this.#pose();
     }
     if (element.autoplay) this.play();
@@ -70,10 +67,11 @@ export class Animation {
   // The animation that animation-name says, else the first.
   #index() { return Math.max(0, this.#names.indexOf(this.context.element.animationName)); }
 
+  #choose() { this.context.view.setOption('animation', String(this.#index())); }
+
+  // Where none is chosen; one that an option has chosen stays.
   #select() {
-    if (this.#isSet) return;
-    this.context.view.setOption('animation', String(this.#index()));
-    this.#isSet = true;
+    if (this.context.view.options().animation === undefined) this.#choose();
   }
 
   #pose() {
