@@ -146,7 +146,7 @@ void view_motion_pan(view_motion *m, double dx, double dy, double height)
     double per_pixel = 2.0 * m->now[VIEW_AXIS_RADIUS] * tan(0.5 * view_motion_fov(m)) / fmax(height, 1.0) *
                        m->pan_sensitivity * m->input_sensitivity;
     for (int i = 0; i < 3; i++)
-        set_goal(m, VIEW_AXIS_TARGET + i,
+        set_goal(m, (view_axis)(VIEW_AXIS_TARGET + i),
                  m->goal[VIEW_AXIS_TARGET + i] + per_pixel * (dy * b.up[i] - dx * b.right[i]));
     hold_target(m);
 }
@@ -176,7 +176,7 @@ void view_motion_set_pivot(view_motion *m, const double point[3])
     for (int i = 0; i < 3; i++)
         along += b.back[i] * (point[i] - m->goal[VIEW_AXIS_TARGET + i]);
     for (int i = 0; i < 3; i++)
-        set_goal(m, VIEW_AXIS_TARGET + i, m->goal[VIEW_AXIS_TARGET + i] + along * b.back[i]);
+        set_goal(m, (view_axis)(VIEW_AXIS_TARGET + i), m->goal[VIEW_AXIS_TARGET + i] + along * b.back[i]);
     set_goal(m, VIEW_AXIS_RADIUS, m->goal[VIEW_AXIS_RADIUS] - along);
 }
 

@@ -3,6 +3,7 @@
 #ifndef VIEW_VIEW_MOTION_H
 #define VIEW_VIEW_MOTION_H
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -41,9 +42,12 @@ bool view_motion_set(view_motion *m, const char *name, double value);
 
 /* ---- the goal ---- */
 
-/* NAN keeps a value. Within the limits; the shorter way around where the azimuth has none. */
+/* A value that is kept. */
+#define VIEW_UNSET ((double)NAN)
+
+/* VIEW_UNSET keeps a value. Within the limits; the shorter way around where the azimuth has none. */
 void view_motion_aim(view_motion *m, const double goal[VIEW_AXIS_COUNT]);
-/* Limits of azimuth, polar angle, radius and field of view; infinite: none. NAN keeps one. The goal follows. */
+/* Limits of azimuth, polar angle, radius and field of view; infinite: none. VIEW_UNSET keeps one. The goal follows. */
 void view_motion_limit(view_motion *m, const double low[VIEW_AXIS_TARGET],
                        const double high[VIEW_AXIS_TARGET]);
 /* The camera is at its goal, at once. */

@@ -96,7 +96,7 @@ static void limits_hold_and_the_goal_follows_them(void **state)
 {
     (void)state;
     view_motion m = start();
-    const double low[VIEW_AXIS_TARGET] = {-0.5, 1.0, 2.0, NAN};
+    const double low[VIEW_AXIS_TARGET] = {-0.5, 1.0, 2.0, VIEW_UNSET};
     const double high[VIEW_AXIS_TARGET] = {0.5, 1.2, 3.0, log(0.6)};
     view_motion_limit(&m, low, high);
     assert_near(m.goal[VIEW_AXIS_POLAR], 1.2, 0.0);
@@ -104,7 +104,8 @@ static void limits_hold_and_the_goal_follows_them(void **state)
     assert_near(exp(m.low[VIEW_AXIS_LOG_FOV]), 12.0 * pi / 180.0, 1e-12);
     view_motion_turn(&m, -1000.0, 0.0, 400.0);
     assert_near(m.goal[VIEW_AXIS_AZIMUTH], 0.5, 0.0);
-    view_motion_aim(&m, (const double[VIEW_AXIS_COUNT]){NAN, 0.0, HUGE_VAL, NAN, 7.0, 8.0, 9.0});
+    view_motion_aim(&m,
+                    (const double[VIEW_AXIS_COUNT]){VIEW_UNSET, 0.0, HUGE_VAL, VIEW_UNSET, 7.0, 8.0, 9.0});
     assert_near(m.goal[VIEW_AXIS_AZIMUTH], 0.5, 0.0);
     assert_near(m.goal[VIEW_AXIS_POLAR], 1.0, 0.0);
     assert_near(m.goal[VIEW_AXIS_RADIUS], 3.0, 0.0);
@@ -115,7 +116,8 @@ static void a_free_azimuth_takes_the_shorter_way(void **state)
 {
     (void)state;
     view_motion m = start();
-    view_motion_aim(&m, (const double[VIEW_AXIS_COUNT]){1.75 * pi, NAN, NAN, NAN, NAN, NAN, NAN});
+    view_motion_aim(&m, (const double[VIEW_AXIS_COUNT]){1.75 * pi, VIEW_UNSET, VIEW_UNSET, VIEW_UNSET,
+                                                        VIEW_UNSET, VIEW_UNSET, VIEW_UNSET});
     assert_near(m.goal[VIEW_AXIS_AZIMUTH] - m.now[VIEW_AXIS_AZIMUTH], -0.25 * pi, 1e-12);
 }
 
@@ -123,8 +125,8 @@ static void zoom_moves_radius_and_field_of_view_to_their_limits_together(void **
 {
     (void)state;
     view_motion m = start();
-    const double low[VIEW_AXIS_TARGET] = {NAN, NAN, 2.0, NAN};
-    const double high[VIEW_AXIS_TARGET] = {NAN, NAN, 4.0, log(30.0 * pi / 180.0)};
+    const double low[VIEW_AXIS_TARGET] = {VIEW_UNSET, VIEW_UNSET, 2.0, VIEW_UNSET};
+    const double high[VIEW_AXIS_TARGET] = {VIEW_UNSET, VIEW_UNSET, 4.0, log(30.0 * pi / 180.0)};
     view_motion_limit(&m, low, high);
     double steps = log(30.0 / 12.0) / 0.04;
     view_motion_zoom(&m, -0.5 * steps);
@@ -195,7 +197,7 @@ static void the_turntable_waits_and_turns_camera_against_it(void **state)
     view_motion_advance(&m, 2.9);
     assert_near(m.turntable_rad, pi / 32.0, 1e-12);
     assert_false(view_motion_set(&m, "speed", 1.0));
-    assert_false(view_motion_set(&m, "decay", NAN));
+    assert_false(view_motion_set(&m, "decay", (double)NAN));
 }
 
 static void sides_have_names(void **state)

@@ -85,8 +85,10 @@ static facet_result apply(view_rig *rig, view_rig_text which, const char *text, 
 {
     view_term terms[3];
     double v[3] = {0.0, 0.0, 0.0};
-    double low[VIEW_AXIS_TARGET] = {NAN, NAN, NAN, NAN}, high[VIEW_AXIS_TARGET] = {NAN, NAN, NAN, NAN};
-    double goal[VIEW_AXIS_COUNT] = {NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+    double low[VIEW_AXIS_TARGET] = {VIEW_UNSET, VIEW_UNSET, VIEW_UNSET, VIEW_UNSET},
+           high[VIEW_AXIS_TARGET] = {VIEW_UNSET, VIEW_UNSET, VIEW_UNSET, VIEW_UNSET};
+    double goal[VIEW_AXIS_COUNT] = {VIEW_UNSET, VIEW_UNSET, VIEW_UNSET, VIEW_UNSET,
+                                    VIEW_UNSET, VIEW_UNSET, VIEW_UNSET};
     uint32_t count = terms_of(rig, which, terms);
     TRY(view_terms_read(names[which], text, terms, count, rig->scroll, v, error));
     switch (which) {
@@ -175,7 +177,8 @@ facet_result view_rig_frame(view_rig *rig, const facet_scene *scene, const facet
                                           VIEW_RIG_MIN_ORBIT, VIEW_RIG_MAX_ORBIT, VIEW_RIG_ORBIT,
                                           VIEW_RIG_TARGET};
     double target[3];
-    double direction[VIEW_AXIS_COUNT] = {NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+    double direction[VIEW_AXIS_COUNT] = {VIEW_UNSET, VIEW_UNSET, VIEW_UNSET, VIEW_UNSET,
+                                         VIEW_UNSET, VIEW_UNSET, VIEW_UNSET};
     TRY(apply(rig, VIEW_RIG_FOV, rig->texts[VIEW_RIG_FOV], error));
     TRY(measure(rig, scene, pose, target, error));
     if (keeps_direction && rig->was_aimed)
@@ -200,7 +203,9 @@ void view_rig_set_aspect(view_rig *rig, double aspect)
         return;
     (void)apply(rig, VIEW_RIG_MAX_FOV, rig->texts[VIEW_RIG_MAX_FOV], NULL); /* it was read before */
     rig->home[VIEW_AXIS_LOG_FOV] = log(shown_fov(rig, rig->fov_rad));
-    double goal[VIEW_AXIS_COUNT] = {NAN, NAN, NAN, log(zoom * shown_fov(rig, rig->fov_rad)), NAN, NAN, NAN};
+    double goal[VIEW_AXIS_COUNT] = {
+        VIEW_UNSET, VIEW_UNSET, VIEW_UNSET, log(zoom * shown_fov(rig, rig->fov_rad)),
+        VIEW_UNSET, VIEW_UNSET, VIEW_UNSET};
     view_motion_aim(&rig->motion, goal);
     rig->motion.now[VIEW_AXIS_LOG_FOV] = rig->motion.goal[VIEW_AXIS_LOG_FOV];
     rig->motion.velocity[VIEW_AXIS_LOG_FOV] = 0.0;
@@ -248,7 +253,8 @@ void view_rig_follow(view_rig *rig, const facet_orbit *orbit)
 
 void view_rig_look_at(view_rig *rig, const double *point)
 {
-    double goal[VIEW_AXIS_COUNT] = {NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+    double goal[VIEW_AXIS_COUNT] = {VIEW_UNSET, VIEW_UNSET, VIEW_UNSET, VIEW_UNSET,
+                                    VIEW_UNSET, VIEW_UNSET, VIEW_UNSET};
     rig->motion.idle_s = 0.0;
     if (point) {
         to_scene(rig, point, goal + VIEW_AXIS_TARGET);
