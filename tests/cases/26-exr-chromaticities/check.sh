@@ -6,6 +6,6 @@ printf '#?RADIANCE\nPRIMARIES=1 0 0 1 0 0 .3333 .3333\n\n-Y 1 +X 1\n\323\155\012
 printf 'PF\n1 1\n-1\n\000\000\200\077\000\000\000\000\000\000\000\000' >red.pfm
 expect 0 compare red.pfm xyz.hdr --max max=0.01
 # Invalid primaries give one warning, and the colors stay unchanged.
-printf '#?RADIANCE\nPRIMARIES=0 0 0 0 0 0 0 0\n\n-Y 1 +X 1\n\200\000\000\201' >none.hdr
+printf '#?RADIANCE\nPRIMARIES=.3 .3 .3 .3 .3 .3 .3333 .3333\n\n-Y 1 +X 1\n\200\000\000\201' >none.hdr
 expect 0 compare red.pfm none.hdr --max differing=0
 says "do not form a color space"
