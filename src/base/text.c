@@ -247,7 +247,8 @@ void text_add_bytes(text *t, const void *bytes, size_t size)
         t->has_failed = true;
         return;
     }
-    memcpy(t->data + t->length, bytes, size);
+    if (size > 0) /* bytes may be NULL */
+        memcpy(t->data + t->length, bytes, size);
     t->length += size;
     t->data[t->length] = 0;
 }
