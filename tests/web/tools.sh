@@ -4,17 +4,8 @@
 set -eu
 facet=$(readlink -f "$1")
 dist=$(readlink -f "$2")
-here=$(cd "$(dirname "$0")" && pwd)
-data=${FACET_TEST_DATA-$here/../../../shared/data}
-skip() {
-    echo "skipped: $1"
-    [ -z "${CI_REQUIRES_ALL-}" ] || exit 1
-    exit 77
-}
-command -v node >/dev/null || skip "there is no node"
-version=$(node -p 'process.versions.node.split(".")[0]')
-[ "$version" -ge 18 ] || skip "Node.js $version is older than 18"
-[ -f "$dist/facet-viewer/facet-command.wasm" ] || skip "./run web --build was not run"
+. "$(dirname "$0")/lib.sh"
+need_node facet-viewer/facet-command.wasm
 models=
 for model in core/WaterBottle.glb materials/SunglassesKhronos.glb materials/CompareSheen.glb animation/Fox.glb lights/04_lights.glb; do
     [ ! -f "$data/models/$model" ] || models="$models $data/models/$model"
@@ -22,5 +13,4 @@ done
 [ -n "$models" ] || echo "web: there are no models in $data: those of the test only"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-# shellcheck disable=SC2086
 node "$here/tools.mjs" "$facet" "$dist" "$work" $models
