@@ -36,7 +36,7 @@
 #define KIND_CHOICE(...) OPTION_CHOICE, OPTION_WORDS(__VA_ARGS__), 0, 0
 #define KIND_CHOICES(...) OPTION_CHOICES, OPTION_WORDS(__VA_ARGS__), 0, 0
 
-#ifdef FACET_WITHOUT_HELP /* where nobody can ask for it */
+#ifdef FACET_WITHOUT_HELP /* programs without a help command */
 #define HELP(...) NULL, NULL
 #else
 #define HELP(...) __VA_ARGS__

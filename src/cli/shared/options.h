@@ -68,6 +68,13 @@ typedef struct option_group {
 /* Options of --renderer gl. */
 #define GL_OPTIONS OPT_SHADOWS, OPT_TRANSPARENCY, OPT_BLOOM, OPT_CHANNEL, OPT_BRDF
 
+/* The view: what keys and panels of a viewer change. */
+#define VIEW_OPTIONS                                                                                         \
+    OPT_BACKGROUND, OPT_BACKGROUND_BLUR, OPT_ORBIT, OPT_TARGET, OPT_FOV, OPT_EYE, OPT_UP, OPT_ORTHO,         \
+        OPT_FRAMING, OPT_CAMERA, OPT_ENV, OPT_ENV_ROTATION, OPT_ENV_INTENSITY, OPT_LIGHTS, OPT_GROUND,       \
+        OPT_EXPOSURE, OPT_TONE_MAPPING, OPT_ENERGY, OPT_ANIMATION, OPT_TIME, OPT_SCENE, OPT_VARIANT,         \
+        GL_OPTIONS
+
 /* A list of words. */
 #define OPTION_WORDS(...)                                                                                    \
     (const char *const[])                                                                                    \
@@ -126,6 +133,14 @@ const option *option_find_id(const verb *v, option_id id);
 static inline bool option_takes_value(const option *o)
 {
     return o->kind > OPTION_COUNT;
+}
+
+/* ids: OPTION_IDS(...). */
+static inline bool option_is_among(option_id id, const option_id *ids)
+{
+    while (*ids != OPTION_ID_COUNT && *ids != id)
+        ids++;
+    return *ids == id;
 }
 
 #endif

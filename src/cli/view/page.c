@@ -54,39 +54,8 @@ static json_t *url_json(const char *folder, const char *name)
 /* Whether an option is about the image: all others concern the command, reading (page_reads_otherwise()), or the CPU. */
 static bool is_of_view(option_id id)
 {
-    static const option_id ids[] = {OPT_BACKGROUND,
-                                    OPT_BACKGROUND_BLUR,
-                                    OPT_ORBIT,
-                                    OPT_TARGET,
-                                    OPT_FOV,
-                                    OPT_EYE,
-                                    OPT_UP,
-                                    OPT_ORTHO,
-                                    OPT_FRAMING,
-                                    OPT_CAMERA,
-                                    OPT_ENV,
-                                    OPT_ENV_ROTATION,
-                                    OPT_ENV_INTENSITY,
-                                    OPT_SUN,
-                                    OPT_LIGHTS,
-                                    OPT_GROUND,
-                                    OPT_EXPOSURE,
-                                    OPT_TONE_MAPPING,
-                                    OPT_ENERGY,
-                                    OPT_SPECULAR_AA,
-                                    OPT_SHADING,
-                                    OPT_OGL1_VARIANT,
-                                    OPT_OGL1_SPACE,
-                                    OPT_FOG,
-                                    OPT_ANIMATION,
-                                    OPT_TIME,
-                                    OPT_SCENE,
-                                    OPT_VARIANT,
-                                    GL_OPTIONS};
-    for (size_t i = 0; i < sizeof ids / sizeof *ids; i++)
-        if (ids[i] == id)
-            return true;
-    return false;
+    return option_is_among(id, OPTION_IDS(VIEW_OPTIONS, OPT_SUN, OPT_SPECULAR_AA, OPT_SHADING,
+                                          OPT_OGL1_VARIANT, OPT_OGL1_SPACE, OPT_FOG));
 }
 
 bool page_reads_otherwise(const command_line *c)

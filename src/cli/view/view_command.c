@@ -346,66 +346,16 @@ static void add_pose(view_options *l, const command_line *c, const facet_pose_de
 /* Whether an option is written above, or concerns the window only. */
 static bool is_known(option_id id)
 {
-    static const option_id ids[] = {OPT_SIZE,
-                                    OPT_BACKGROUND,
-                                    OPT_BACKGROUND_BLUR,
-                                    OPT_ORBIT,
-                                    OPT_TARGET,
-                                    OPT_FOV,
-                                    OPT_EYE,
-                                    OPT_UP,
-                                    OPT_ORTHO,
-                                    OPT_FRAMING,
-                                    OPT_CAMERA,
-                                    OPT_ENV,
-                                    OPT_ENV_ROTATION,
-                                    OPT_ENV_INTENSITY,
-                                    OPT_LIGHTS,
-                                    OPT_GROUND,
-                                    OPT_EXPOSURE,
-                                    OPT_TONE_MAPPING,
-                                    OPT_QUALITY,
-                                    OPT_SAMPLES,
-                                    OPT_RENDERER,
-                                    OPT_ENERGY,
-                                    OPT_DENOISE,
-                                    OPT_ANIMATION,
-                                    OPT_TIME,
-                                    OPT_SCENE,
-                                    OPT_VARIANT,
-                                    OPT_THREADS,
-                                    OPT_TIME_LIMIT,
-                                    OPT_QUIET,
-                                    OPT_VERBOSE,
-                                    OPT_HELP,
-                                    OPT_HELP_ALL,
-                                    OPT_SCRIPT,
-                                    OPT_HTML,
-                                    OPT_NO_CLOBBER,
-                                    OPT_TITLE,
-                                    OPT_CONTROLS,
-                                    OPT_JSON,
-                                    OPT_CONFIG,
-                                    OPT_ENV_CACHE,
-                                    OPT_CHANNEL,
-                                    OPT_BRDF,
-                                    OPT_TRANSPARENCY,
-                                    OPT_SHADOWS,
-                                    OPT_BLOOM};
-    for (size_t i = 0; i < sizeof ids / sizeof *ids; i++)
-        if (ids[i] == id)
-            return true;
-    return false;
+    return option_is_among(id, OPTION_IDS(VIEW_OPTIONS, OPT_SIZE, OPT_QUALITY, OPT_SAMPLES, OPT_RENDERER,
+                                          OPT_DENOISE, OPT_THREADS, OPT_TIME_LIMIT, OPT_QUIET, OPT_VERBOSE,
+                                          OPT_HELP, OPT_HELP_ALL, OPT_SCRIPT, OPT_HTML, OPT_NO_CLOBBER,
+                                          OPT_TITLE, OPT_CONTROLS, OPT_JSON, OPT_CONFIG, OPT_ENV_CACHE));
 }
 
 /* Whether only path tracing accepts the option. */
 static bool is_of_paths(option_id id)
 {
-    static const option_id ids[] = {PATH_OPTIONS};
-    for (size_t i = 0; i < sizeof ids / sizeof *ids; i++)
-        if (ids[i] == id)
-            return true;
-    return false;
+    return option_is_among(id, OPTION_IDS(PATH_OPTIONS));
 }
 
 static void add_others(view_options *l, const command_line *c, bool is_path)
