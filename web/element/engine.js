@@ -66,7 +66,7 @@ export class Engine {
     }
   }
 
-  // Calls use when nobody else uses the table of files.
+  // Calls use when no other call uses the table of files.
   alone(use) {
     const done = this.#last.then(use);
     this.#last = done.catch(() => {});

@@ -58,7 +58,7 @@ async function request(url, withCredentials, download) {
   return blob;
 }
 
-// Elements that ask for the same address at the same time wait for one download. It is cancelled when nobody waits any more.
+// Elements that ask for the same address at the same time wait for one download. It is cancelled when no element waits for it.
 const downloads = new Map(); // key -> {promise, listeners, abort}
 
 function forget(key, download) {

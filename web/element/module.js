@@ -29,7 +29,7 @@ function checkIndex(value, what) {
   if (!Number.isInteger(value) || value < 0 || value > 0x7fffffff) throw new FacetError(`${what}: a whole number from 0 is expected, not ${textOf(value)}`);
 }
 
-// What leaves the module in a state that nobody knows: an abort, a trap, a stack that overflowed, or what is no error of JavaScript.
+// What leaves the module in an unknown state: an abort, a trap, a stack that overflowed, or what is no error of JavaScript.
 function hasStopped(error) {
   return !(error instanceof Error) || error instanceof WebAssembly.RuntimeError || error.name === 'ExitStatus' || /stack|recursion/i.test(error.message);
 }

@@ -11,7 +11,7 @@ typedef struct web_light web_light;
 facet_result web_light_create(const char *text, const environment_input *input,
                               const facet_environment_desc *desc, web_light *last, web_light **out,
                               facet_error *error);
-/* That of a model, which nobody shares. */
+/* That of a model, used by one viewer only. */
 facet_result web_light_create_from_scene(const facet_scene *scene, const facet_pose_desc *pose,
                                          const facet_environment_desc *desc, web_light **out,
                                          facet_error *error);
