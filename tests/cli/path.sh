@@ -74,6 +74,7 @@ interrupt() {
     seconds=$2
     shift 2
     rm -f cut*.png
+    : >err # the shell may look for a sample before the command has emptied it
     "$facet" "$@" --renderer path --size 24 --samples 16000000 --json --progress plain >out 2>err &
     process=$!
     waited=0
