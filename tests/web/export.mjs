@@ -102,7 +102,15 @@ try {
     const bytes = await check(browser, 'builtin', []);
     console.log(`builtin.html: ${(bytes / 1e6).toFixed(2)} MB: the viewer and a preview`);
     assert.ok(bytes < 1.5e6, 'the viewer in a page is larger than 1.4 MB');
-    await check(browser, 'usual', [square, '--orbit', '0,75,105%']); // not the element's framing
+    // not the element's framing; the whole model stays framed in a window of another shape
+    await check(browser, 'usual', [square, '--orbit', '0,75,105%'], undefined, async (page) => {
+        await page.setViewportSize({ width: 150, height });
+        await page.waitForTimeout(500);
+        const tall = at('usual_tall.png');
+        writeFileSync(tall, await page.screenshot());
+        run('render', square, '--renderer', 'gl', '-s', `150x${height}`, '-q', '-o', at('usual_tall_gl.png'));
+        assert.ok(difference(tall, at('usual_tall_gl.png')) < 2, 'the model is not framed again in another window');
+    });
     for (const model of models) await check(browser, path.parse(model).name, [model]);
     await check(browser, 'options', [square, '--orbit', '20,60,120%', '--env', light, '--env-rotation', '90', '--background', 'env', '--exposure', '-0.5',
         '--tone-mapping', 'agx', '--ground', 'shadow']);

@@ -57,6 +57,7 @@ export const ATTRIBUTES = {
   orientation: text('0 0 0'),
   scale: text('1 1 1'),
   // facet's own
+  'facet-framing': choice('sphere', 'tight'),
   'facet-channel': text(),
   'facet-brdf': text(),
   'facet-transparency': text(),

@@ -50,6 +50,7 @@ export class Camera {
     for (const [name, factor] of Object.entries(NUMBERS))
       if (changed.has(name)) view.setMotion(MOTION[name] ?? name, Math.max(0, element.attributeValue(name) * factor));
     if (changed.has('auto-rotate')) view.setMotion('auto-rotate', element.autoRotate ? 1 : 0);
+    if (changed.has('facet-framing')) view.setFraming(element.facetFraming === 'tight');
     if (changed.has('orientation') || changed.has('scale')) this.#place();
     for (const name of [...ATTRIBUTES, 'rotation-per-second']) {
       if (!changed.has(name)) continue;

@@ -237,6 +237,9 @@ export class FacetViewer extends HTMLElement {
   activateAR(): Promise<void>;
 
   // facet's own
+  /** 'tight': an unmoved camera shows the whole model as facet render does, from its direction; 'sphere' (default): so that it stays in view
+   * from every direction. */
+  facetFraming: 'sphere' | 'tight';
   facetChannel: string | null;
   facetBrdf: string | null;
   facetTransparency: string | null;

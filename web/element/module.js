@@ -325,6 +325,11 @@ export class Module {
     this.#check(() => this.#wasm._facet_web_frame(viewer, width, height, keepsDirection));
   }
 
+  // How the model is framed from now on: as facet render does, or as <model-viewer>.
+  setFraming(viewer, isTight) {
+    this.#call(() => this.#wasm._facet_web_set_framing(viewer, isTight));
+  }
+
   // Texts of the attributes; the model is to be framed again.
   place(viewer, orientation, scale) {
     this.#check(() => this.#memory.text(orientation, (turn) => this.#memory.text(scale, (size) => this.#wasm._facet_web_place(viewer, turn, size))));

@@ -25,6 +25,7 @@ export class View {
   #camera = new Map();
   #comparison = { name: '', position: 0.5 };
   #materials = [];
+  #isTight = false; // framing
   #placement = null; // texts, unless the model stands as in its file
   #extraFiles = []; // that options name
   #lastTime = 0;
@@ -248,6 +249,15 @@ export class View {
     }
   }
 
+  // As facet render frames a model, or as <model-viewer> does.
+  setFraming(isTight) {
+    if (isTight === this.#isTight) return;
+    this.#isTight = isTight;
+    if (!this.#handle || !engine.module) return;
+    this.use((module, viewer) => module.setFraming(viewer, isTight));
+    if (this.hasModel) this.frame(false);
+  }
+
   // Texts of the attributes orientation and scale.
   place(orientation, scale) {
     const isAsInFile = orientation === '0 0 0' && scale === '1 1 1';
@@ -276,6 +286,7 @@ export class View {
 
   // Settings of a new viewer; those whose values are files follow in open().
   #tell(module) {
+    module.setFraming(this.#handle, this.#isTight);
     for (const [name, value] of this.#motion) module.setMotion(this.#handle, name, value);
     for (const [name, text] of this.#camera) module.setCamera(this.#handle, name, text);
     for (const [name, text] of this.#options) {

@@ -26,12 +26,22 @@ static void place(viewer *v)
     v->state.needs_framing = v->state.is_framed = false;
 }
 
+/* Where the camera is before it is moved. */
+static bool find_home(const viewer *v, facet_orbit *out)
+{
+    if (!view_rig_home(&v->rig, out))
+        return false;
+    if (v->frames_tightly)
+        *out = v->tight_home;
+    return true;
+}
+
 /* Whether the orbit differs from that of an unmoved camera by no more than its options show. */
 static bool is_home(const viewer *v)
 {
     const view_state *s = &v->state;
     facet_orbit home = s->orbit;
-    if (s->camera != VIEW_NO_CAMERA || home.is_orthographic || home.is_z_up || !view_rig_home(&v->rig, &home))
+    if (s->camera != VIEW_NO_CAMERA || home.is_orthographic || home.is_z_up || !find_home(v, &home))
         return false;
     facet_orbit rounded = view_camera_round(&s->orbit);
     home = view_camera_round(&home);
@@ -62,12 +72,24 @@ static facet_result follow(viewer *v, float aspect, facet_error *error)
         return FACET_OK;
     bool goes_home = s->needs_framing && is_usual(&s->orbit);
     TRY(view_state_frame(s, aspect, error));
-    if (goes_home || is_home(v))
+    if (!v->frames_tightly && (goes_home || is_home(v)))
         TRY(view_rig_frame(&v->rig, v->scene, &s->pose, false, error));
     else
         view_rig_follow(&v->rig, &s->orbit);
     place(v);
+    if (goes_home && v->frames_tightly)
+        v->tight_home = s->orbit;
     return FACET_OK;
+}
+
+/* Where facet render puts the camera, unless an attribute or the pointer has put it elsewhere. */
+static void frame_tightly(viewer *v)
+{
+    facet_orbit home = v->state.orbit;
+    if (!v->frames_tightly || v->state.camera != VIEW_NO_CAMERA || !view_rig_home(&v->rig, &home))
+        return;
+    v->state.orbit = facet_orbit_default();
+    v->state.needs_framing = true;
 }
 
 facet_result web_camera_settle(viewer *v, facet_error *error)
@@ -91,6 +113,10 @@ facet_result web_camera_advance(viewer *v, uint32_t width, uint32_t height, doub
     float aspect = (float)width / (float)(height ? height : 1);
     if (!v->scene || !v->rig.is_framed || v->state.camera != VIEW_NO_CAMERA)
         return FACET_OK;
+    if (v->frames_tightly && (double)aspect != v->rig.aspect && web_camera_is_home(v)) {
+        view_rig_set_aspect(&v->rig, (double)aspect);
+        frame_tightly(v);
+    }
     TRY(follow(v, aspect, error));
     double before = v->rig.motion.turntable_rad;
     view_rig_set_aspect(&v->rig, (double)aspect);
@@ -141,7 +167,14 @@ EMSCRIPTEN_KEEPALIVE int facet_web_frame(viewer *v, int width, int height, bool 
     view_rig_set_aspect(&v->rig, (double)width / (height > 0 ? height : 1));
     TRY(view_rig_frame(&v->rig, v->scene, &v->state.pose, keeps_direction, web_error()));
     place(v);
+    frame_tightly(v);
     return FACET_OK;
+}
+
+/* How an unmoved camera shows the model: tightly, as facet render does, or so that it stays in view from every direction. */
+EMSCRIPTEN_KEEPALIVE void facet_web_set_framing(viewer *v, bool is_tight)
+{
+    v->frames_tightly = is_tight;
 }
 
 /* Columns of the matrix that scales, then turns around Z, X and Y: roll, pitch and yaw (rad) of <model-viewer>. */

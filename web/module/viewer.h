@@ -17,8 +17,10 @@ typedef struct viewer {
     web_light *light;
     web_light *file_light; /* of the last file of --env, which the table may not have any more; NULL: none */
     view_state state;
-    view_rig rig;       /* places the orbit of the state, once a page has framed the model */
-    facet_orbit placed; /* by the rig */
+    view_rig rig;        /* places the orbit of the state, once a page has framed the model */
+    facet_orbit placed;  /* by the rig */
+    bool frames_tightly; /* an unmoved camera is that of facet render */
+    facet_orbit tight_home;
     view_pace pace;
     float framed_aspect; /* of the image for which the orbit was found */
 

@@ -3,24 +3,18 @@ import '../facet-viewer/facet-viewer.js';
 
 const CAMERA = ['up', 'ortho', 'framing', 'fov', 'target', 'orbit', 'eye', 'camera'];
 
-// The default orbit of facet render, a millionth farther: exactly that one stands for the element's own framing.
-const USUAL_ORBIT = '0,75,105.0001%';
-const IS_USUAL_ORBIT = /^0(deg)?[ ,]+75(deg)?([ ,]+105%)?$/;
-
 // The value of an option as a text of the command line; of a flag it is empty.
 const textOf = (value) => (value === true ? '' : value);
 
-// Sets options in the order of the command line.
 async function setOptions(viewer, options, wants) {
   for (const [name, value] of Object.entries(options)) if (wants(name)) await viewer.setOption(name, textOf(value));
 }
 
-// The camera of facet render: without options it shows the whole model, not the framing of <model-viewer>.
+// Options of the camera; those that are not given have their defaults again. facet-framing shows the whole model as facet render does.
 async function setCamera(viewer, options) {
-  const isOfFile = 'camera' in options;
-  const camera = isOfFile ? { ...options } : { target: 'auto', ...('eye' in options ? {} : { orbit: USUAL_ORBIT }), ...options };
-  if (IS_USUAL_ORBIT.test(camera.orbit)) camera.orbit = USUAL_ORBIT;
-  for (const name of CAMERA) if (name in camera) await viewer.setOption(name, textOf(camera[name]));
+  const given = CAMERA.filter((name) => name in options);
+  for (const name of CAMERA) if (!given.includes(name)) await viewer.setOption(name, null);
+  for (const name of given) await viewer.setOption(name, textOf(options[name]));
 }
 
 // Shows the view in the element. files: [{path, file: Blob}].
@@ -30,6 +24,7 @@ export async function showView(viewer, view, files) {
   viewer.loading = 'eager';
   viewer.reveal = 'manual';
   viewer.cameraControls = true;
+  viewer.facetFraming = 'tight';
   if (options.fov) Object.assign(viewer, { minFieldOfView: '0.1deg', maxFieldOfView: '179deg' });
   await setOptions(viewer, options, (name) => name === 'shading'); // decides how the model is read
   if (files.length) await viewer.openFiles(files, view.model);
@@ -76,12 +71,7 @@ function addControls(viewer, view) {
     label();
     bar.append(play);
   }
-  bar.append(button('Reset view', () => {
-    viewer.cameraTarget = 'auto auto auto';
-    viewer.fieldOfView = 'auto';
-    viewer.cameraOrbit = '0deg 75deg 105%';
-    viewer.updateComplete.then(() => setCamera(viewer, view.options));
-  }));
+  bar.append(button('Reset view', () => setCamera(viewer, view.options)));
   if (document.fullscreenEnabled)
     bar.append(button('Full screen', () => (document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen())));
   document.body.append(bar);
