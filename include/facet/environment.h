@@ -72,6 +72,12 @@ FACET_API facet_result facet_environment_create_from_scene(const facet_scene *sc
 FACET_API bool facet_scene_has_environment(const facet_scene *scene, const facet_pose_desc *pose);
 FACET_API void facet_environment_destroy(facet_environment *environment);
 
+/* Prepares now what renders filter of the environment when they first need it: reflections of every roughness, sheen and
+ * irradiance. For processes that are forked afterwards and share it; images do not depend on it. thread_count 0:
+ * facet_thread_count(). FACET_ERROR_MEMORY. */
+FACET_API facet_result facet_environment_prepare(facet_environment *environment, uint32_t thread_count,
+                                                 facet_error *error);
+
 typedef struct facet_environment_info {
     facet_layout layout;
     uint32_t width, height; /* of the image, or of a face of a cube map */

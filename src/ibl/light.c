@@ -170,6 +170,22 @@ facet_result ibl_light_prepare(facet_environment *environment, const ibl_light_d
     return FACET_OK;
 }
 
+facet_result facet_environment_prepare(facet_environment *environment, uint32_t thread_count,
+                                       facet_error *error)
+{
+    assert(environment);
+    const ibl_light_desc all = {.thread_count = thread_count,
+                                .needs_irradiance = true,
+                                .needs_specular = true,
+                                .max_roughness = 1.0f,
+                                .needs_sheen = true,
+                                .max_sheen_roughness = 1.0f};
+    const ibl_light *light = NULL;
+    facet_result result = ibl_light_prepare(environment, &all, &light, error);
+    ibl_light_release(light);
+    return result;
+}
+
 void ibl_light_release(const ibl_light *light)
 {
     if (!light)
