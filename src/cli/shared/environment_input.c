@@ -8,6 +8,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "cli/shared/environment_share.h"
 #include "cli/shared/failure.h"
 #include "cli/shared/input.h"
 #include "cli/shared/interrupt.h"
@@ -378,7 +379,9 @@ static facet_result load(const environment_input *input, const facet_environment
 facet_result environment_input_load(const environment_input *input, const facet_environment_desc *desc,
                                     facet_environment **environment, facet_error *error)
 {
-    *environment = NULL;
+    *environment = environment_share_take(input);
+    if (*environment)
+        return FACET_OK;
     if (!desc->cache_folder) /* the cache writes files */
         interrupt_begin_reading(environment_input_name(input));
     facet_result result = load(input, desc, environment, error);

@@ -46,7 +46,7 @@ facet_result environment_input_parse(const char *place, const char *text, unsign
 facet_result environment_input_create(const environment_input *input, const facet_environment_desc *desc,
                                       facet_environment **environment, facet_error *error);
 
-/* Loads or creates the environment; a signal or the time limit ends the process meanwhile (interrupt.h).
+/* Loads or creates the environment, or takes a shared one (environment_share.h); a signal or the time limit ends the process meanwhile (interrupt.h).
  * desc->allocator must be set for standard input. *environment is NULL for ENVIRONMENT_NONE. */
 facet_result environment_input_load(const environment_input *input, const facet_environment_desc *desc,
                                     facet_environment **environment, facet_error *error);
