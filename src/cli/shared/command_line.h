@@ -5,6 +5,8 @@
 #include "cli/shared/options.h"
 #include "facet/facet.h"
 
+#include <jansson.h>
+
 /* Source of a value. A source later in this list does not replace an earlier one. */
 typedef enum option_source { SOURCE_NONE, SOURCE_COMMAND_LINE, SOURCE_CONFIG, SOURCE_PRESET } option_source;
 
@@ -66,5 +68,12 @@ typedef struct config {
  * value). */
 facet_result config_apply(command_line *c, config *storage, facet_error *error);
 void config_destroy(config *storage);
+
+/* A member of such an object in the notation of the command line: the text of a string, a number, or an array of these.
+ * False: another type, or too long. */
+enum { CONFIG_TEXT_SIZE = 4096 };
+bool config_value_text(const json_t *value, char *text, size_t size);
+/* The count of a flag: 1 for true, the number for options that count. Negative: neither. */
+long config_flag_count(const option *o, const json_t *value);
 
 #endif

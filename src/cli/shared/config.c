@@ -49,8 +49,7 @@ static bool append_scalar(const json_t *value, char *text, size_t size)
     return n >= 0 && (size_t)n < size - used;
 }
 
-/* Text of a string, a number, or an array of these. */
-static bool to_text(const json_t *value, char *text, size_t size)
+bool config_value_text(const json_t *value, char *text, size_t size)
 {
     text[0] = 0;
     if (!json_is_array(value))
@@ -68,8 +67,7 @@ static bool to_text(const json_t *value, char *text, size_t size)
     return true;
 }
 
-/* Count of a flag: 1 for true, the number for options that count. Negative: neither. */
-static long flag_count(const option *o, const json_t *value)
+long config_flag_count(const option *o, const json_t *value)
 {
     if (json_is_boolean(value))
         return json_is_true(value);
@@ -81,8 +79,8 @@ static long flag_count(const option *o, const json_t *value)
 static facet_result apply_value(command_line *c, const option *o, const char *name, const json_t *value,
                                 config *storage, facet_error *error)
 {
-    char text[4096];
-    if (!to_text(value, text, sizeof text))
+    char text[CONFIG_TEXT_SIZE];
+    if (!config_value_text(value, text, sizeof text))
         return fail(error, FACET_ERROR_ARGUMENT, "%s: %s: it must be text, a number or an array of these",
                     c->config_name, name);
     const char *kept = keep(storage, text);
@@ -110,7 +108,7 @@ static facet_result apply_member(command_line *c, const char *name, const json_t
     if (is_given(c, o->id))
         return FACET_OK;
     if (!option_takes_value(o)) {
-        long count = flag_count(o, value);
+        long count = config_flag_count(o, value);
         if (count < 0)
             return fail(error, FACET_ERROR_ARGUMENT, "%s: %s: it must be true or false", path, name);
         facet_result result = FACET_OK;
