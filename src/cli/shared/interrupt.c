@@ -118,6 +118,15 @@ void interrupt_install(bool reports_json)
     signal(SIGXFSZ, SIG_IGN); /* a file beyond the user's limit is then a failed write, which cleans up */
 }
 
+void interrupt_reset(void)
+{
+    pending_signal = 0;
+    safe_message = NULL;
+    open_file_count = 0;
+    deadline = 0.0;
+    is_installed = false;
+}
+
 int interrupt_signal(void)
 {
     return pending_signal;

@@ -14,6 +14,8 @@
 /* Installs the signal handlers. reports_json: an end at the time limit is also reported as a JSON object on
  * standard output. */
 void interrupt_install(bool reports_json);
+/* Forgets all of the state, for the child of a fork: no pending signal, no time limit. It resets no handler. */
+void interrupt_reset(void);
 /* The pending signal; 0: none. */
 int interrupt_signal(void);
 
