@@ -15,6 +15,7 @@ typedef struct chart_axis {
     chart_scale scale;
     bool has_range; /* false: that of the data, widened to round numbers */
     double minimum, maximum;
+    bool has_zero;   /* the range of the data is widened to 0 */
     bool is_degrees; /* ticks at 15, 30, 45 .. with a degree sign */
 } chart_axis;
 

@@ -5,10 +5,26 @@
 
 #include "base/result.h"
 
+/* Panels narrower than this, px, get fewer columns if that makes them larger. */
+static const double NARROW = 200.0;
+
+/* The smaller of a panel's width and 1.4 times its height, px. */
+static double panel_size(const chart *c, uint32_t columns)
+{
+    const uint32_t rows = (c->panel_count + columns - 1) / columns;
+    return fmin((double)c->width / columns, 1.4 * c->height / (rows > 0 ? rows : 1));
+}
+
 static uint32_t column_count(const chart *c)
 {
-    const uint32_t columns = c->columns > 0 ? c->columns : 1;
-    return columns < c->panel_count ? columns : c->panel_count > 0 ? c->panel_count : 1;
+    const uint32_t wanted = c->columns > 0 ? c->columns : 1;
+    uint32_t columns = wanted < c->panel_count ? wanted : c->panel_count > 0 ? c->panel_count : 1;
+    if ((double)c->width / columns >= NARROW)
+        return columns;
+    for (uint32_t fewer = columns - 1; fewer > 0; fewer--)
+        if (panel_size(c, fewer) > panel_size(c, columns))
+            columns = fewer;
+    return columns;
 }
 
 static uint32_t row_count(const chart *c)
@@ -211,17 +227,19 @@ static void choose_place(const drawing *d, panel_view *v)
 {
     const canvas_font font = view_tick_font(d);
     legend right, below;
-    legend_create(d->canvas, v->panel, font, d->scale, 0.55 * v->plot.width, &v->legend);
+    /* beside a half disc all of the cell is free */
+    const double inside = v->panel->kind == CHART_POLAR ? 0.9 * v->cell.width : 0.55 * v->plot.width;
+    legend_create(d->canvas, v->panel, font, d->scale, inside, &v->legend);
     if (v->legend.place == LEGEND_NONE)
-        return;
-    const double covered = fit_inside(d, v);
-    if (covered == 0.0)
         return;
     legend_create(d->canvas, v->panel, font, d->scale, 0.36 * v->cell.width, &right);
     legend_create(d->canvas, v->panel, font, d->scale, room_below(v).width, &below);
     right.place = LEGEND_RIGHT;
     below.place = LEGEND_BELOW;
     /* cut names are hardly readable */
+    const double covered = fit_inside(d, v);
+    if (covered == 0.0 && v->legend.name_width >= below.name_width - 0.5)
+        return;
     const bool is_whole = right.height <= v->plot.height && right.name_width >= below.name_width - 0.5;
     const double lost_right = is_whole ? right.width / v->plot.width : 1.0;
     const double lost_below = legend_rows_height(&below, room_below(v).width) / v->plot.height;

@@ -60,12 +60,39 @@ static void axes_of_a_grid_are_aligned(void **state)
     free(v);
 }
 
+/* Three columns of a narrow chart would be too small to read: its panels are below each other. */
+static void narrow_charts_have_fewer_columns(void **state)
+{
+    (void)state;
+    chart_panel panels[6];
+    for (int i = 0; i < 6; i++)
+        panels[i] = data.panels[CHART_XY];
+    chart c = scene_chart(panels);
+    c.panel_count = 6;
+    c.columns = 3;
+    c.width = 375;
+    c.height = 1200;
+    panel_view *v = lay_out(&c);
+    for (int i = 0; i < 6; i++)
+        assert_true(v[i].cell.x == v[0].cell.x && v[i].cell.width > 300.0);
+    free(v);
+    c.width = 1500;
+    c.height = 900;
+    v = lay_out(&c);
+    assert_true(v[2].cell.y == v[0].cell.y && v[3].cell.y > v[0].cell.y);
+    free(v);
+}
+
 /* For any curves the legend is inside the plot without covering one, or outside. */
 static void legends_cover_no_curve(void **state)
 {
     (void)state;
     uint64_t random = 5;
     int places[4] = {0};
+    canvas *measure;
+    assert_int_equal(canvas_create(&(canvas_desc){.format = FACET_PLOT_FORMAT_SVG, .width = 9, .height = 9},
+                                   &measure, NULL),
+                     FACET_OK);
     for (int i = 0; i < 60; i++) {
         static double x[40], y[8][40];
         chart_curve curves[8];
@@ -97,6 +124,9 @@ static void legends_cover_no_curve(void **state)
         places[v->legend.place]++;
         assert_int_not_equal(v->legend.place, LEGEND_NONE);
         assert_true(is_within(&v->legend.box, &all));
+        legend whole;
+        legend_create(measure, &panel, view_tick_font(&d), d.scale, 1e4, &whole);
+        assert_true(v->legend.name_width >= whole.name_width - 0.5); /* no name is cut */
         assert_int_equal(layout_trace(&d, v, &error), FACET_OK);
         if (v->legend.place == LEGEND_INSIDE)
             assert_true(trace_list_length_inside(&v->traces, &v->legend.box) == 0.0);
@@ -105,6 +135,7 @@ static void legends_cover_no_curve(void **state)
         trace_list_destroy(&v->traces);
         free(v);
     }
+    canvas_destroy(measure);
     assert_true(places[LEGEND_INSIDE] > 0 && places[LEGEND_RIGHT] + places[LEGEND_BELOW] > 0);
 }
 
@@ -274,6 +305,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(plots_fill_their_space_at_every_size),
         cmocka_unit_test(axes_of_a_grid_are_aligned),
+        cmocka_unit_test(narrow_charts_have_fewer_columns),
         cmocka_unit_test(legends_cover_no_curve),
         cmocka_unit_test(curves_stay_in_the_plot),
         cmocka_unit_test(coinciding_curves_are_all_visible),

@@ -48,6 +48,9 @@ static void create_axes(const drawing *d, panel_view *v)
         axis_extent_add(&ex, p->x.scale, p->curves[i].count, p->curves[i].x);
         axis_extent_add(&ey, p->y.scale, p->curves[i].count, p->curves[i].y);
     }
+    const double zero = 0.0;
+    if (p->y.has_zero)
+        axis_extent_add(&ey, p->y.scale, 1, &zero);
     if (is_field(v)) {
         x = field_axis(&p->x, p->field->x0, p->field->x1);
         y = field_axis(&p->y, p->field->y0, p->field->y1);

@@ -408,6 +408,18 @@ static void add_color(text *t, const char *before, const float c[3])
         text_addf(t, "%s(%.3g, %.3g, %.3g)", before, (double)c[0], (double)c[1], (double)c[2]);
 }
 
+/* "white metal", "metal, color 0.5", "metal (0.8, 0.1, 0.1)". */
+static void add_colored(text *t, const char *what, const float c[3])
+{
+    bool is_white = is_gray(c) && c[0] >= 1.0f, is_black = is_gray(c) && c[0] <= 0.0f;
+    if (is_white || is_black)
+        text_addf(t, "%s %s", is_white ? "white" : "black", what);
+    else {
+        text_add(t, what);
+        add_color(t, is_gray(c) ? ", color " : " ", c);
+    }
+}
+
 /* F0 of diamond, the largest of a dielectric. */
 static const float MAX_DIELECTRIC_F0 = 0.17f;
 
@@ -425,7 +437,7 @@ static void describe_free_F0(const facet_plot_material *p, text *t)
         diffuse += weights[c] * (double)p->base_color[c];
     }
     bool is_metal = reflected > (double)MAX_DIELECTRIC_F0 && reflected > 2.0 * diffuse;
-    add_color(t, is_metal ? "metal " : "dielectric ", is_metal ? F0 : p->base_color);
+    add_colored(t, is_metal ? "metal" : "dielectric", is_metal ? F0 : p->base_color);
     add_color(t, is_metal ? ", diffuse " : ", F0 ", is_metal ? p->base_color : F0);
 }
 
@@ -435,7 +447,7 @@ static void describe_pbr(const facet_plot_material *p, text *t)
     if (p->metallic <= 0.0f && p->ior <= 0.0f) {
         describe_free_F0(p, t);
     } else {
-        add_color(t, is_metal ? "metal " : "dielectric ", p->base_color);
+        add_colored(t, is_metal ? "metal" : "dielectric", p->base_color);
         if (p->metallic > 0.0f && p->metallic < 1.0f)
             add_number(t, ", metallic ", p->metallic);
         if (p->metallic < 1.0f && (p->ior < 1.5f || p->ior > 1.5f))

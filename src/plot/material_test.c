@@ -187,7 +187,7 @@ static void labels_name_the_relevant_parameters(void **state)
     arena *memory = arena_create(NULL);
     facet_allocator malloc_ = {0};
     facet_plot_material m = material_default();
-    assert_string_equal(material_describe(&m, &malloc_, memory), "dielectric 1, roughness 0.5");
+    assert_string_equal(material_describe(&m, &malloc_, memory), "white dielectric, roughness 0.5");
     m.metallic = 1.0f;
     m.base_color[2] = 0.25f;
     m.clearcoat = 1.0f;
@@ -206,7 +206,7 @@ static void labels_name_the_relevant_parameters(void **state)
                         "metal (0.75, 0.75, 0.188), diffuse 0.0625, roughness 0.5");
     m.base_color[0] = m.base_color[1] = m.base_color[2] = 0.5f;
     assert_string_equal(material_describe(&m, &malloc_, memory),
-                        "dielectric 0.5, F0 (0.75, 0.75, 0.188), roughness 0.5");
+                        "dielectric, color 0.5, F0 (0.75, 0.75, 0.188), roughness 0.5");
     m.model = FACET_PLOT_MODEL_OGL1;
     assert_string_equal(material_describe(&m, &malloc_, memory),
                         "OpenGL 1, diffuse 0.8, specular 1, shininess 50");

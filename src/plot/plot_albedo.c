@@ -73,12 +73,11 @@ facet_result plot_make_albedo(plot *p)
     panel->panel.y.scale = plot_scale(p);
     if (!p->desc->is_logarithmic)
         plot_set_range(&panel->panel.y, 0.0, highest > 1.005 ? ceil(highest * 5.0) / 5.0 : 1.0);
-    panel->panel.note =
-        plot_text(p, "%sintegral of BRDF times N.L over the light, within 0.001%s; %s", plot_fit_note(p),
-                  p->has_channels ? "" : "; luminance",
-                  p->desc->energy == FACET_ENERGY_CONSERVING
-                      ? "energy-conserving"
-                      : "the formulas of glTF, which lose what scatters twice and gain at grazing views");
+    panel->panel.note = plot_text(p, "%sintegral of BRDF times N.L over the light, within 0.001%s; %s",
+                                  plot_fit_note(p), p->has_channels ? "" : "; luminance",
+                                  p->desc->energy == FACET_ENERGY_CONSERVING
+                                      ? "energy-conserving"
+                                      : "formulas of glTF, without multiple scattering");
     return plot_finish(p, "Directional albedo", 1, 960, 640);
 }
 
@@ -176,7 +175,7 @@ static void add_panel(plot *p, const furnace_subject *subject, const double *x, 
     bool is_pbr = subject->parameters.model == FACET_PLOT_MODEL_PBR;
     plot_panel *panel = plot_add_panel(
         p, CHART_XY, subject->title, is_pbr ? "perceptual roughness" : "perceptual roughness of equal width",
-        "light returned of 1");
+        "returned fraction of the light");
     if (!panel)
         return;
     for (uint32_t a = 0; a < p->angle_count; a++)
@@ -217,6 +216,6 @@ facet_result plot_make_furnace(plot *p)
     }
     uint32_t columns = subject_count < 2 ? 1 : subject_count < 5 ? 2 : subject_count < 10 ? 3 : 4;
     uint32_t rows = (subject_count + columns - 1) / columns;
-    return plot_finish(p, "The white furnace: light returned of light from everywhere", columns,
+    return plot_finish(p, "White furnace: returned fraction of light from everywhere", columns,
                        columns == 1 ? 960 : 560 * columns, columns == 1 ? 640 : 430 * rows + 60);
 }

@@ -55,8 +55,8 @@ static const char *note_of(plot *p, double view)
 {
     const char *degrees = plot_degrees(p, view);
     bool is_forced = p->has_cosine && !p->desc->has_cosine;
-    return plot_text(p, "%smirror direction at %s%s, the eye at %s degrees%s%s", plot_fit_note(p),
-                     view > 0.0 ? "-" : "", degrees, degrees, p->has_channels ? "" : "; luminance",
+    return plot_text(p, "%smirror direction at %s%s\u00b0, view at %s\u00b0%s%s", plot_fit_note(p),
+                     view > 0.0 ? "\u2212" : "", degrees, degrees, p->has_channels ? "" : "; luminance",
                      is_forced ? "; times N.L, which OpenGL 1's highlight lacks" : "");
 }
 
@@ -99,7 +99,7 @@ static void add_polar(plot *p, double view)
     const double *angles = plot_light_angles(p, view, &count);
     bool is_log = p->desc->is_logarithmic, is_absolute = is_log || p->highest > 0.0;
     plot_panel *panel =
-        plot_add_panel(p, CHART_POLAR, plot_text(p, "eye at %s degrees", plot_degrees(p, view)), "",
+        plot_add_panel(p, CHART_POLAR, plot_text(p, "View at %s\u00b0", plot_degrees(p, view)), "",
                        is_absolute ? quantity(p) : plot_text(p, "%s, over its peak", quantity(p)));
     double highest = 0.0;
     for (uint32_t k = 0; k < p->subject_count && !p->has_failed; k++) {
@@ -118,7 +118,7 @@ static void add_polar(plot *p, double view)
     plot_set_range(&panel->panel.y, low, high);
     add_ray(p, panel, view, low, high, 2);
     add_ray(p, panel, -view, low, high, 1);
-    panel->panel.note = plot_text(p, "%s (dotted: the eye)", note_of(p, view));
+    panel->panel.note = plot_text(p, "%s (dotted line)", note_of(p, view));
 }
 
 static void add_curves(plot *p, double view)
@@ -128,7 +128,7 @@ static void add_curves(plot *p, double view)
     double *degrees = plot_values(p, count);
     for (size_t i = 0; degrees && i < count; i++)
         degrees[i] = angles[i] / PLOT_DEGREE;
-    plot_panel *panel = plot_add_panel(p, CHART_XY, plot_text(p, "eye at %s degrees", plot_degrees(p, view)),
+    plot_panel *panel = plot_add_panel(p, CHART_XY, plot_text(p, "View at %s\u00b0", plot_degrees(p, view)),
                                        "angle of the light, degrees", quantity(p));
     double highest = 0.0;
     for (uint32_t k = 0; k < p->subject_count && !p->has_failed; k++) {
@@ -140,6 +140,7 @@ static void add_curves(plot *p, double view)
     if (p->has_failed)
         return;
     panel->panel.y.scale = plot_scale(p);
+    panel->panel.y.has_zero = !p->desc->is_logarithmic;
     if (p->desc->is_logarithmic) { /* values that fall to 0 at the horizon would use up all decades */
         double decade = pow(10.0, ceil(log10(fmax(highest, 1e-12))));
         plot_set_range(&panel->panel.y, decade * 1e-6, decade);
@@ -180,7 +181,7 @@ enum { DISC = 161, LOBE = 121 };
 
 static const char *title_of(plot *p, const plot_subject *subject, double view)
 {
-    return plot_text(p, "%s, eye at %s\u00b0", subject->material.label, plot_degrees(p, view));
+    return plot_text(p, "%s, view at %s\u00b0", subject->material.label, plot_degrees(p, view));
 }
 
 /* Luminance of the BRDF for all L; below the horizon NAN. */

@@ -44,7 +44,7 @@ static void add_operators(plot *p, plot_panel *panel, const double *x, const dou
 
 facet_result plot_make_tone(plot *p)
 {
-    plot_panel *stops = plot_add_panel(p, CHART_XY, "over stops", "scene light, stops over middle gray 0.18",
+    plot_panel *stops = plot_add_panel(p, CHART_XY, "Over stops", "scene light, stops over middle gray 0.18",
                                        "display, sRGB-encoded");
     const double *x = plot_steps(p, TONE_POINTS, -STOPS, STOPS);
     double *light = plot_values(p, TONE_POINTS);
@@ -52,7 +52,7 @@ facet_result plot_make_tone(plot *p)
         light[i] = MIDDLE_GRAY * exp2(x[i]);
     add_operators(p, stops, x, light, true);
     plot_panel *linear =
-        plot_add_panel(p, CHART_XY, "over scene light", "scene light, linear, 1: white", "display, linear");
+        plot_add_panel(p, CHART_XY, "Over scene light", "scene light, linear, 1: white", "display, linear");
     const double *even = plot_steps(p, TONE_POINTS, 0.0, 4.0);
     add_operators(p, linear, even, even, false);
     if (p->has_failed)
@@ -127,9 +127,9 @@ static void set_reflectance(const plot *p, plot_panel *panel)
 static void add_dielectrics(plot *p, const dielectric *media, uint32_t count, const double *x, bool is_inside)
 {
     plot_panel *panel =
-        is_inside ? panel_over_angle(p, "from below: total reflection", "reflectance",
+        is_inside ? panel_over_angle(p, "From below: total reflection", "reflectance",
                                      "solid: Fresnel; dashed: Schlick with the cosine of the rarer side")
-                  : panel_over_angle(p, "from above", "reflectance", "solid: Fresnel; dashed: Schlick 1994");
+                  : panel_over_angle(p, "From above", "reflectance", "solid: Fresnel; dashed: Schlick 1994");
     for (uint32_t k = 0; k < count; k++) {
         float eta = is_inside ? 1.0f / media[k].ior : media[k].ior;
         const char *name = plot_text(p, "%s, n = %.4g", media[k].name, (double)media[k].ior);
@@ -150,7 +150,7 @@ static void add_dielectrics(plot *p, const dielectric *media, uint32_t count, co
 static void add_differences(plot *p, const dielectric *media, uint32_t count, const double *x)
 {
     plot_panel *panel =
-        panel_over_angle(p, "error of Schlick's approximation", "Schlick less Fresnel", "from above");
+        panel_over_angle(p, "Error of Schlick's approximation", "Schlick less Fresnel", "from above");
     for (uint32_t k = 0; k < count; k++) {
         double *y = plot_add_curve(p, panel, media[k].name, plot_color(k, 0), FRESNEL_POINTS, x);
         for (int i = 0; y && i < FRESNEL_POINTS; i++) {
@@ -255,12 +255,12 @@ static void add_table(plot *p, dfg_quantity what, const char *title, const char 
 
 facet_result plot_make_dfg(plot *p)
 {
-    add_table(p, DFG_SCALE, "scale A", "A", "reflectance = F0 A + F90 B (Karis 2013), height-correlated GGX",
+    add_table(p, DFG_SCALE, "Scale A", "A", "reflectance = F0 A + F90 B (Karis 2013), height-correlated GGX",
               1.0);
-    add_table(p, DFG_BIAS, "bias B", "B", "the share of F90: what grazing views add", 0.0);
-    add_table(p, DFG_LOST, "light that scatters more than once", "1 - (A + B)",
+    add_table(p, DFG_BIAS, "Bias B", "B", "the share of F90: what grazing views add", 0.0);
+    add_table(p, DFG_LOST, "Light that scatters more than once", "1 - (A + B)",
               "returned by the compensation of Fdez-Aguera 2019", 0.0);
-    add_table(p, DFG_SHEEN, "albedo of sheen", "E",
+    add_table(p, DFG_SHEEN, "Albedo of sheen", "E",
               "Charlie, Estevez and Kulla 2017; more than 1 at smooth grazing rims is shown as 1", 1.0);
     return plot_finish(p, "Tables of split-sum light", 2, 1060, 960);
 }

@@ -13,10 +13,10 @@
 
 enum { METHODS = 5 };
 
-static const char *const names_to_ogl1[METHODS] = {"naive", "closed", "fit, displayable", "fit, unlimited",
-                                                   "display fit, E_display"};
-static const char *const names_to_pbr[METHODS] = {"naive", "closed, core glTF", "fit, core glTF",
-                                                  "closed, specular and ior", "fit, specular and ior"};
+static const char *const names_to_ogl1[METHODS] = {
+    "usual formula", "closed form", "fit", "fit, colors above 1", "fit for displays, error on a display"};
+static const char *const names_to_pbr[METHODS] = {"usual formula", "closed form, core glTF", "fit, core glTF",
+                                                  "closed form, specular and ior", "fit, specular and ior"};
 
 typedef struct error_work {
     const fit_metric *metric;
@@ -271,7 +271,7 @@ static const char *describe_error(plot *p, const material *source, const plot_co
     bool has_layers =
         source->parameters.model == FACET_PLOT_MODEL_PBR && material_has_layers(&source->parameters);
     return plot_text(
-        p, "E %.3f, E_display %.3f%s%s", conversion->error.E, conversion->error.E_display,
+        p, "relative error E %.3f, on a display %.3f%s%s", conversion->error.E, conversion->error.E_display,
         has_dashes ? "; views in order: solid, dashed, dotted" : "",
         has_layers ? "; of the base: clearcoat, sheen, thin film and anisotropy have no counterpart" : "");
 }
@@ -310,7 +310,7 @@ static plot_panel *add_differences(plot *p, const material *source, const plot_c
     for (uint32_t a = 0; a < p->angle_count; a++) {
         double view = (double)p->angles[a];
         pair r = make_pair(p, source, &conversion->material, view);
-        add_pair_curves(p, panel, &r, 2, plot_text(p, "eye at %s degrees", plot_degrees(p, view)), a,
+        add_pair_curves(p, panel, &r, 2, plot_text(p, "view at %s\u00b0", plot_degrees(p, view)), a,
                         (int)(a % 4));
         is_colored = is_colored || r.is_colored;
     }
@@ -327,8 +327,8 @@ static void add_polar(plot *p, const experiment *e, const material *source, cons
 {
     pair r = make_pair(p, source, &conversion->material, e->theta);
     plot_panel *panel =
-        plot_add_panel(p, CHART_POLAR, plot_text(p, "eye at %s degrees, polar", plot_degrees(p, e->theta)),
-                       "", "radiance, light of 1");
+        plot_add_panel(p, CHART_POLAR, plot_text(p, "View at %s\u00b0, polar", plot_degrees(p, e->theta)), "",
+                       "radiance, light of 1");
     add_pair_curves(p, panel, &r, 0, "PBR times pi", 0, 0);
     add_pair_curves(p, panel, &r, 1, "OpenGL 1, fitted", 1, 1);
     double *ray = plot_values(p, 2), *radius = plot_values(p, 2);
@@ -341,7 +341,7 @@ static void add_polar(plot *p, const experiment *e, const material *source, cons
     radius[1] = ceil(highest * 20.0) / 20.0;
     plot_set_range(&panel->panel.y, 0.0, radius[1]);
     plot_add_line(p, panel, "", plot_faint(2), 2, ray, radius);
-    panel->panel.note = "angle: of the light; dotted: the eye";
+    panel->panel.note = "angle: of the light; dotted: the view";
 }
 
 static facet_result make_vignette(plot *p)
@@ -366,10 +366,10 @@ static facet_result make_vignette(plot *p)
     add_vignette_fit(p, e);
     for (uint32_t a = 0; a < p->angle_count; a++)
         add_pair(p, &source, &conversion, (double)p->angles[a],
-                 plot_text(p, "fit over the hemisphere, eye at %s degrees%s",
+                 plot_text(p, "Fit over the hemisphere, view at %s\u00b0%s",
                            plot_degrees(p, (double)p->angles[a]),
                            p->desc->has_heaviside_ramp ? ", with the step" : ""));
-    plot_panel *differences = add_differences(p, &source, &conversion, "what is left");
+    plot_panel *differences = add_differences(p, &source, &conversion, "Difference");
     plot_add_line(p, differences, "the 33 points' fit", plot_faint(1), VIGNETTE_POINTS, e->phi,
                   e->difference);
     add_polar(p, e, &source, &conversion);
@@ -393,8 +393,8 @@ static facet_result make_conversions(plot *p)
         for (uint32_t a = 0; a < p->angle_count; a++)
             add_pair(
                 p, source, &conversion, (double)p->angles[a],
-                plot_text(p, "%s, eye at %s degrees", source->label, plot_degrees(p, (double)p->angles[a])));
-        add_differences(p, source, &conversion, "what is left");
+                plot_text(p, "%s, view at %s\u00b0", source->label, plot_degrees(p, (double)p->angles[a])));
+        add_differences(p, source, &conversion, "Difference");
     }
     uint32_t columns = p->angle_count + 1;
     return plot_finish(p, "Materials and their conversions", columns, 440 * columns,

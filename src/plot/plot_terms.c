@@ -124,9 +124,9 @@ static void add_visibility(plot *p, const roughness_list *list, const double *x,
                         : "V = G / (4 N.L N.V), Smith",
         "N.L", is_G ? "G" : "V",
         last == CHARLIE
-            ? plot_text(p, "eye at %s degrees; KHR_materials_sheen", eye)
+            ? plot_text(p, "view at %s\u00b0; KHR_materials_sheen", eye)
             : plot_text(p,
-                        "eye at %s degrees; solid: height-correlated (Heitz 2014), dashed: separable, "
+                        "view at %s\u00b0; solid: height-correlated (Heitz 2014), dashed: separable, "
                         "dotted: Schlick's (Karis 2013)",
                         eye));
     for (uint32_t k = 0; k < list->count; k++)

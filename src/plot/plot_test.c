@@ -462,8 +462,8 @@ static void errors_equal_those_of_the_fits(void **state)
     ogl1_surface s;
     pbr_to_ogl1_fit(metric, &pbr, FACET_LEGACY_TARGET_LINEAR, FIT_DISPLAYABLE, &s);
     const chart_panel *gray = &f.drawing.panels[0];
-    assert_near(value_at(find_curve(gray, "fit, displayable"), 0.5, 1e-9),
-                fit_compare(metric, &s, &pbr, FIT_FROM_PBR).E, 1e-6);
+    assert_near(value_at(find_curve(gray, "fit"), 0.5, 1e-9), fit_compare(metric, &s, &pbr, FIT_FROM_PBR).E,
+                1e-6);
     fit_metric_destroy(metric);
     /* values of an independent computation for gray dielectrics and white metals: naive, box, free */
     static const struct {
@@ -474,16 +474,16 @@ static void errors_equal_those_of_the_fits(void **state)
                  {1, 1.0, 3.44, .132, .132}};
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
         const chart_panel *panel = &f.drawing.panels[table[i].panel];
-        double naive = value_at(find_curve(panel, "naive"), table[i].roughness, 1e-9);
-        double box = value_at(find_curve(panel, "fit, displayable"), table[i].roughness, 1e-9);
-        double unlimited = value_at(find_curve(panel, "fit, unlimited"), table[i].roughness, 1e-9);
+        double naive = value_at(find_curve(panel, "usual formula"), table[i].roughness, 1e-9);
+        double box = value_at(find_curve(panel, "fit"), table[i].roughness, 1e-9);
+        double unlimited = value_at(find_curve(panel, "fit, colors above 1"), table[i].roughness, 1e-9);
         assert_near(naive, table[i].naive, 0.05 * table[i].naive + 0.003);
         assert_near(box, table[i].box, 0.05 * table[i].box + 0.003);
         assert_near(unlimited, table[i].unlimited, 0.05 * table[i].unlimited + 0.003);
     }
     for (int k = 2; k < 4; k++) { /* a fit is never worse than a formula */
         const chart_panel *panel = &f.drawing.panels[k];
-        const chart_curve *closed = find_curve(panel, "closed, specular"),
+        const chart_curve *closed = find_curve(panel, "closed form, specular"),
                           *fit = find_curve(panel, "fit, specular");
         for (size_t i = 0; i < fit->count; i++)
             assert_true(fit->y[i] <= closed->y[i] * 1.02 + 1e-3);

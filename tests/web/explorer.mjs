@@ -92,6 +92,7 @@ async function testKeyboard() {
     const page = await open();
     assert.match(await command(page), /^facet plot slice roughness=0\.4 --angle 30 -o slice\.svg$/);
     assert.ok(await inkOf(page) > 0.01, 'there is a plot');
+    assert.equal(JSON.parse(execFileSync(facet, ['plot', 'slice', 'roughness=0.4', '-o', '-', '--format', 'json'])).panels[0].y.range[0], 0, 'the axis of a BRDF begins at 0');
     await page.getByRole('slider', { name: 'Roughness' }).first().focus();
     const before = await page.locator('#drawing').getAttribute('src');
     for (let i = 0; i < 10; i++) await page.keyboard.press('ArrowLeft');

@@ -242,6 +242,7 @@ async function openSphere() {
 function makeKinds() {
   const select = (kind) => {
     state.kind = kind;
+    chart.dataset.kind = kind;
     for (const one of byId('kinds').children) one.setAttribute('aria-pressed', String(one.dataset.kind === kind));
     makeSettings();
   };
