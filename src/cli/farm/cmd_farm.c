@@ -30,7 +30,7 @@ const verb farm_verb = {
                    "all is done, else "
                    "1. facet farm retry submits the shards that are unfinished and no longer in Slurm; what "
                    "failed for good, "
-                   "such as an invalid model, only with --failed.",
+                   "such as an invalid model, only with --with-failed.",
     .examples =
         (const example[]){
             {"facet farm submit -- batch --manifest jobs.jsonl -- --size 256",
@@ -45,7 +45,7 @@ const verb farm_verb = {
             {NULL, NULL}},
     .groups =
         (const option_group *const[]){
-            OPTION_GROUP("Run", OPT_RUN, OPT_SHARDS, OPT_TARGET_TIME, OPT_FAILED, OPT_DRY_RUN,
+            OPTION_GROUP("Run", OPT_RUN, OPT_SHARDS, OPT_TARGET_TIME, OPT_WITH_FAILED, OPT_DRY_RUN,
                          OPT_PRINT_COMMANDS),
             OPTION_GROUP("Slurm", OPT_SHARD_CPUS, OPT_SHARD_MEMORY, OPT_SHARD_TIME, OPT_AT_ONCE, OPT_SBATCH),
             OPTION_GROUP("Messages", OPT_QUIET, OPT_VERBOSE, OPT_JSON, OPT_HELP, OPT_HELP_ALL), NULL},
@@ -174,7 +174,7 @@ static void print_status(farm_verb_run *f)
 
 static facet_result retry(farm_verb_run *f, facet_error *error)
 {
-    bool has_failed = is_given(f->base.line, OPT_FAILED);
+    bool has_failed = is_given(f->base.line, OPT_WITH_FAILED);
     for (uint32_t i = 0; i < f->run.shard_count; i++) {
         const farm_shard *s = &f->status.shards[i];
         f->chosen[i] = is_missing(s) || (has_failed && s->failed && s->place == FARM_NOWHERE);

@@ -32,11 +32,11 @@ static void add_failure(farm_status *s, json_t *name, json_t *message)
         json_array_append_new(s->failures, json_pack("{s:O?, s:O?}", "name", name, "message", message));
 }
 
-/* Whether a failure with this exit code is final: the others may succeed at another time or place. */
+/* Whether a failure with this exit code is final: the others may be the machine's. */
 static bool is_final(json_int_t exit_code)
 {
     return exit_code != EXIT_DONE && exit_code != EXIT_READ && exit_code != EXIT_WRITE &&
-           exit_code != EXIT_AGAIN && exit_code != EXIT_ENVIRONMENT && exit_code < 128;
+           exit_code != EXIT_ENVIRONMENT && exit_code != EXIT_AGAIN;
 }
 
 /* ---- a shard of one picture or of frames: the object of --json ---- */
@@ -67,7 +67,7 @@ static void count_results(farm_status *s, farm_shard *part, json_t *results)
     json_object_foreach(results, id, result)
     {
         const char *status = json_string_value(json_object_get(result, "status"));
-        bool is_done = status && (strcmp(status, "done") == 0 || strcmp(status, "kept") == 0);
+        bool is_done = status && strcmp(status, "done") == 0;
         part->done += is_done;
         if (!is_done && is_final(json_integer_value(json_object_get(result, "exit_code")))) {
             part->failed++;
