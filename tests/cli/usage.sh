@@ -24,7 +24,7 @@ expect 2 cmgen
 says "did you mean bake?"
 expect 2 help raytrace
 says "did you mean facet help render?"
-for verb in batch serve merge; do
+for verb in serve merge; do
     expect 2 $verb
     says "this version does not have the command $verb yet"
     [ "$(wc -l <err)" = 1 ] || failed "more than one line on $verb"
@@ -33,7 +33,9 @@ for verb in batch serve merge; do
 done
 expect 2 rendr
 says "did you mean render?"
-expect 2 help batch
+expect 2 help serve
+expect 2 batch
+says "batch: which models?"
 expect 2 -v render
 says "the command comes first"
 

@@ -78,7 +78,8 @@ static facet_result set(command_line *c, const option *o, const char *text, opti
     facet_result result = FACET_OK;
     if (option_takes_value(o) && !*text && o->id != OPT_TITLE)
         result = fail(error, FACET_ERROR_ARGUMENT, "%s: the %s is empty", label, o->argument);
-    else if (o->kind == OPTION_CHOICE && find_choice(o, text, strlen(text)) < 0)
+    else if ((o->kind == OPTION_CHOICE || (o->kind == OPTION_SWITCH && text)) &&
+             find_choice(o, text, strlen(text)) < 0)
         result = fail_choice(label, o, text, error);
     else if (o->kind == OPTION_CHOICES)
         result = check_choices(label, o, text, error);
@@ -151,9 +152,9 @@ static facet_result parse_long(command_line *c, int argc, char **argv, int *at, 
         snprintf(given, sizeof given, "--%s", o->name);
         return parse_value(c, o, given, value, argc, argv, at, error);
     }
-    if (value)
+    if (value && o->kind != OPTION_SWITCH)
         return fail(error, FACET_ERROR_ARGUMENT, "--%s: it takes no value, but got \"%s\"", o->name, value);
-    return set(c, o, NULL, SOURCE_COMMAND_LINE, error);
+    return set(c, o, value, SOURCE_COMMAND_LINE, error);
 }
 
 /* One word of letters: -vv, -n16, -qs 640. */
@@ -225,7 +226,7 @@ facet_result command_line_parse(const verb *v, int argc, char **argv, command_li
         if (!has_options || word[0] != '-' || word[1] == 0)
             out->arguments[out->argument_count++] = word;
         else if (strcmp(word, "--") == 0)
-            has_options = false;
+            has_options = false, out->dashed_index = out->argument_count;
         else if (word[1] == '-')
             result = parse_long(out, argc, argv, &at, error);
         else
@@ -235,6 +236,8 @@ facet_result command_line_parse(const verb *v, int argc, char **argv, command_li
         if (is_given(out, OPT_HELP) || (is_given(out, OPT_HELP_ALL) && strcmp(v->name, "help") != 0))
             return FACET_OK; /* help wins over the rest of the line */
     }
+    if (has_options)
+        out->dashed_index = out->argument_count;
     return check_arguments(out, error);
 }
 

@@ -21,10 +21,10 @@ typedef struct option_value {
 typedef struct command_line {
     const verb *verb;
     option_value values[OPTION_ID_COUNT];
-    const char **arguments; /* words that are not options, in order */
-    size_t argument_count;
-    const char *config_name; /* the file of --config, for messages */
-    bool has_attributes;     /* some options were given as attributes of <model-viewer> */
+    const char **arguments;              /* words that are not options, in order */
+    size_t argument_count, dashed_index; /* arguments[dashed_index] and the following stand after "--" */
+    const char *config_name;             /* the file of --config, for messages */
+    bool has_attributes;                 /* some options were given as attributes of <model-viewer> */
 } command_line;
 
 /* Parses argv (without program and verb). Options stand anywhere before "--"; --name=value, --name value,

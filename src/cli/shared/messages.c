@@ -40,6 +40,16 @@ void progress_clear(void)
         fputs("\r\033[K", stderr);
 }
 
+void progress_line(const char *text)
+{
+    char line[512];
+    snprintf(line, sizeof line, "%.*s", terminal_width(stderr) - 1, text);
+    terminal_disarm(line);
+    fprintf(stderr, "\r%s\033[K", line);
+    fflush(stderr);
+    atomic_store(&is_bar_shown, true);
+}
+
 static void format_time(double seconds, char *text, size_t size)
 {
     unsigned s = (unsigned)(seconds + 0.5);

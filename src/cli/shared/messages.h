@@ -57,6 +57,9 @@ typedef struct progress {
 /* A callback that shows progress and cancels after a signal. */
 facet_progress progress_callback(progress *p);
 
+/* Shows a line in place of the bar; it is cut at the width of the terminal. */
+void progress_line(const char *text);
+
 /* Clears the bar, if one is shown, before other output. */
 void progress_clear(void);
 

@@ -25,6 +25,7 @@
 
 #define KIND_FLAG OPTION_FLAG, 0, 0, 0
 #define KIND_COUNT OPTION_COUNT, 0, 0, 0
+#define KIND_SWITCH(...) OPTION_SWITCH, OPTION_WORDS(__VA_ARGS__), 0, 0
 #define KIND_TEXT OPTION_TEXT, 0, 0, 0
 #define KIND_TEXTS OPTION_TEXTS, 0, 0, 0
 #define KIND_FILE OPTION_FILE, 0, 0, 0
@@ -95,7 +96,7 @@ static bool is_among(const char *name, const char *const *words)
 
 bool verb_is_planned(const char *name)
 {
-    return is_among(name, OPTION_WORDS("batch", "serve", "merge"));
+    return is_among(name, OPTION_WORDS("serve", "merge"));
 }
 
 bool option_is_planned(const char *name)

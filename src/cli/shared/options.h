@@ -11,6 +11,7 @@
 typedef enum option_kind {
     OPTION_FLAG,    /* none */
     OPTION_COUNT,   /* none; occurrences count: -vv */
+    OPTION_SWITCH,  /* none, or one of choices after "=" */
     OPTION_TEXT,    /* parsed by the verb */
     OPTION_TEXTS,   /* the same, of every occurrence */
     OPTION_FILE,    /* completed with file names */
@@ -132,7 +133,7 @@ const option *option_find_id(const verb *v, option_id id);
 
 static inline bool option_takes_value(const option *o)
 {
-    return o->kind > OPTION_COUNT;
+    return o->kind > OPTION_SWITCH;
 }
 
 /* ids: OPTION_IDS(...). */
