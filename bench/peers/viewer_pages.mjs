@@ -79,7 +79,7 @@ function three_bundle(outfile) {
         };
         window.viewer = { ready: load(), turn };`;
     buildSync({ stdin: { contents: source, resolveDir: here }, bundle: true, minify: true, format: 'esm', outfile,
-        alias: { three: 'three-r187' }, logLevel: 'error' });
+        alias: { three: 'three-r187' }, absWorkingDir: here, logLevel: 'error' });
 }
 
 // The file behind a URL below /bundles/, in a folder.

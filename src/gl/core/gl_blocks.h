@@ -30,10 +30,10 @@ typedef struct gl_frame_block {
     int32_t channel;       /* facet_channel */
     int32_t has_coverage;  /* 1: multisample coverage from mask alpha */
     float background_blur; /* perceptual roughness */
-    float tonemap;
-    float far_depth; /* gl_Position.z / w at infinity: 1, or 0 with reversed depth */
+    float far_depth;       /* gl_Position.z / w at infinity: 1, or 0 with reversed depth */
     /* drawn pixels per image pixel along an axis: 2 with FACET_QUALITY_FINAL */
     float pixel_scale;
+    float unused;
     float background[4]; /* display-linear color behind a window's image; w: 0 for none */
 } gl_frame_block;
 

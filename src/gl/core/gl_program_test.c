@@ -188,7 +188,6 @@ static void check_frame_block(gl_context *context)
                    {"exposure", offsetof(gl_frame_block, exposure)},
                    {"channel", offsetof(gl_frame_block, channel)},
                    {"background_blur", offsetof(gl_frame_block, background_blur)},
-                   {"tonemap_operator", offsetof(gl_frame_block, tonemap)},
                    {"far_depth", offsetof(gl_frame_block, far_depth)},
                    {"pixel_scale", offsetof(gl_frame_block, pixel_scale)},
                    {"background", offsetof(gl_frame_block, background)}};

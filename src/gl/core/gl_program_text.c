@@ -72,7 +72,8 @@ static const char *const sea_features[] = {"HAS_IMAGE",
                                            "HAS_OTHER_MICROFACETS",
                                            "AOVS",
                                            NULL};
-static const char *const present_features[] = {"IS_TOP_DOWN", NULL};
+/* ADDS_N are the bits of the facet_tonemap. */
+static const char *const present_features[] = {"IS_TOP_DOWN", "ADDS_1", "ADDS_2", "ADDS_4", NULL};
 
 enum { MAX_SOURCES = 12 };
 
@@ -161,6 +162,11 @@ uint64_t gl_program_feature(gl_main main, const char *name)
     return 0;
 }
 
+uint64_t gl_program_present_features(bool is_top_down, facet_tonemap tonemap)
+{
+    return (uint64_t)tonemap << 1 | is_top_down;
+}
+
 /* ---- texture slots ---- */
 
 const uint8_t gl_slots_by_loss[SCENE_TEXTURE_SLOT_COUNT] = {SCENE_THICKNESS_TEXTURE,
@@ -209,8 +215,9 @@ int gl_material_slot_units(uint64_t features, int8_t units[SCENE_TEXTURE_SLOT_CO
     return count;
 }
 
-/* Adds MATERIAL_LAYERS, the samplers u_material0.., and BASE_COLOR_TEXEL and so on: a vec4 per slot, white
- * for absent textures. FIRST_TEXTURE_SLOT, that of u_material0, is defined where all textures have its footprint. */
+/* Adds MATERIAL_LAYERS, the samplers u_material0.., EACH_TEXTURE(X), which is X(variable of the texel, sampler, slot) of
+ * each of them, and BASE_COLOR_TEXEL and so on: a vec4 per slot, white for absent textures. FIRST_TEXTURE_SLOT, that of
+ * u_material0, is defined where all textures have its footprint. */
 static void slot_text(uint64_t features, text *out)
 {
     int8_t units[SCENE_TEXTURE_SLOT_COUNT];
@@ -222,6 +229,11 @@ static void slot_text(uint64_t features, text *out)
         text_addf(out, "#define HAS_LAYERS\n#define MATERIAL_LAYERS %uu\n", layers);
     for (int i = 0; i < count; i++)
         text_addf(out, "uniform sampler2D u_material%d;\n", i);
+    text_add(out, "#define EACH_TEXTURE(X)");
+    for (int slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++)
+        if (units[slot] >= 0)
+            text_addf(out, " X(texel%d, u_material%d, %d)", units[slot], units[slot], slot);
+    text_add(out, "\n");
     for (int slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++)
         if (has(features, GL_SURFACE_HAS_ONE_FOOTPRINT) && units[slot] == 0)
             text_addf(out, "#define FIRST_TEXTURE_SLOT %d\n", slot);
@@ -232,8 +244,7 @@ static void slot_text(uint64_t features, text *out)
         else if (source != slot)
             text_addf(out, "#define %s_TEXEL %s_TEXEL\n", slot_names[slot], slot_names[source]);
         else
-            text_addf(out, "#define %s_TEXEL material_texel(u_material%d, %d)\n", slot_names[slot],
-                      units[slot], slot);
+            text_addf(out, "#define %s_TEXEL texel%d\n", slot_names[slot], units[slot]);
     }
 }
 

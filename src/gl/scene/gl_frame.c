@@ -195,7 +195,6 @@ static void fill_block(const gl_frame *f, const facet_render_desc *desc, gl_fram
     block->energy = (int32_t)light_energy(desc);
     block->channel = (int32_t)desc->gl.channel;
     block->background_blur = desc->background_blur;
-    block->tonemap = is_light ? (float)desc->tonemap : (float)FACET_TONEMAP_NONE;
     for (int i = 0; i < 3; i++)
         block->background[i] = is_light ? behind[i] : 0.0f;
     block->background[3] = !is_light || desc->background == FACET_BACKGROUND_COLOR;
@@ -378,8 +377,9 @@ facet_result gl_frame_present(gl_frame *f, const gl_target *target, const facet_
     glDisable(GL_CULL_FACE);
     glDisable(GL_BLEND);
     glViewport(x, y, (GLsizei)target->width, (GLsizei)target->height);
-    uint64_t features =
-        gl_camera_is_top_down(f->context) ? gl_program_feature(GL_MAIN_PRESENT, "IS_TOP_DOWN") : 0;
+    uint64_t features = gl_program_present_features(
+        gl_camera_is_top_down(f->context),
+        gl_channel_is_light(desc->gl.channel) ? desc->tonemap : FACET_TONEMAP_NONE);
     facet_result result = draw_screen(f, GL_MAIN_PRESENT, features, error);
     gl_timers_end(&f->timers);
     return result;

@@ -326,10 +326,9 @@ static void describe_levels(const gl_light_atlas *a, const ibl_light *light, pre
     for (uint32_t i = 0; i < count; i++) {
         if (is_there) /* otherwise all levels are black */
             describe_cube(&a->parts[PREFILTER_LEVEL_COUNT * lobe + i], block->places[lobe][i]);
-        float low = prefilter_roughness(lobe, i);
-        block->steps[i][2 * lobe] = low;
-        block->steps[i][2 * lobe + 1] =
-            i + 1 < count ? 1.0f / (prefilter_roughness(lobe, i + 1) - low) : 0.0f;
+        block->steps[lobe][i] = prefilter_roughness(lobe, i);
+        if (i >= range.first && i < range.last && is_there)
+            block->slopes[lobe][i] = 1.0f / (prefilter_roughness(lobe, i + 1) - prefilter_roughness(lobe, i));
     }
 }
 
@@ -346,7 +345,7 @@ static void describe_narrow(const gl_light_atlas *a, const ibl_light *light, gl_
         for (uint32_t k = 0; k < GL_LIGHT_IMAGES; k++)
             if (a->parts[GL_ATLAS_IMAGES + k].texels)
                 block->narrow_weights[i][k] = weights[NARROW_SHARP + k] * a->parts[GL_ATLAS_IMAGES + k].scale;
-        block->narrow_lobe[i] = weights[NARROW_LOBE];
+        block->narrow_lobe[i][0] = weights[NARROW_LOBE];
     }
 }
 

@@ -19,13 +19,14 @@ typedef struct gl_light_block {
     float atlas[4];    /* 1 / width, 1 / height; scale of the background's texels; GLASS_ROOT_MAX of dfg.h */
     int32_t ranges[4]; /* first and last level of GGX, of Charlie */
     float places[PREFILTER_LOBE_COUNT][PREFILTER_LEVEL_COUNT][4];
-    float irradiance[4];                   /* a place */
-    float steps[PREFILTER_LEVEL_COUNT][4]; /* roughness of GGX, 1 / distance to the next; those of Charlie */
-    float images[GL_LIGHT_IMAGES][4];      /* places */
-    float narrow_weights[GL_LIGHT_STEPS][4];         /* weights of the images, times their scales */
-    float narrow_lobe[(GL_LIGHT_STEPS + 3) / 4 * 4]; /* weight of level 1 of GGX */
-    float grid_origin[4];                            /* m, world */
-    float grid_cells[4];                             /* per m */
+    float irradiance[4];                                       /* a place */
+    float steps[PREFILTER_LOBE_COUNT][PREFILTER_LEVEL_COUNT];  /* roughness */
+    float slopes[PREFILTER_LOBE_COUNT][PREFILTER_LEVEL_COUNT]; /* 1 / distance to the next; 0 out of range */
+    float images[GL_LIGHT_IMAGES][4];                          /* places */
+    float narrow_weights[GL_LIGHT_STEPS][4];                   /* weights of the images, times their scales */
+    float narrow_lobe[GL_LIGHT_STEPS][4];                      /* [0]: weight of level 1 of GGX */
+    float grid_origin[4];                                      /* m, world */
+    float grid_cells[4];                                       /* per m */
     /* per axis; 0: no grid, all lights are evaluated everywhere */
     int32_t grid_size[4];
     float shadow[4];        /* edge of a tile, texels; tiles per row; 1 / edge of the map */

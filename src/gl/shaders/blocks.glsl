@@ -14,8 +14,8 @@ layout(std140) uniform Frame
     int channel;
     int has_coverage; /* 1: alpha masks set sample coverage */
     float background_blur;
-    float tonemap_operator;
     float far_depth;   /* gl_Position.z / w at infinity: 1, or 0 where depth is reversed */
     float pixel_scale; /* rendered pixels per pixel of the image, along a row */
+    float unused;
     vec4 background; /* display-linear color behind the image, for a window; w: 0: none */
 };

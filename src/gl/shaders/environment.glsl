@@ -10,11 +10,12 @@ uniform highp sampler3D u_glass;
 vec4 cube_locate(vec3 d)
 {
     vec3 a = abs(d);
-    if (a.x >= a.y && a.x >= a.z)
-        return vec4(0.0, d.x < 0.0 ? 1.0 : 0.0, vec2(d.x < 0.0 ? d.z : -d.z, -d.y) / a.x);
-    if (a.y >= a.z)
-        return vec4(1.0, d.y < 0.0 ? 1.0 : 0.0, vec2(d.x, d.y < 0.0 ? -d.z : d.z) / a.y);
-    return vec4(2.0, d.z < 0.0 ? 1.0 : 0.0, vec2(d.z < 0.0 ? -d.x : d.x, -d.y) / a.z);
+    bool is_x = a.x >= a.y && a.x >= a.z;
+    bool is_y = !is_x && a.y >= a.z;
+    float along = is_x ? d.x : is_y ? d.y : d.z;
+    float side = along < 0.0 ? -1.0 : 1.0;
+    vec2 at = vec2(is_y ? d.x : side * (is_x ? -d.z : d.x), is_y ? side * d.z : -d.y);
+    return vec4(is_x ? 0.0 : is_y ? 1.0 : 2.0, along < 0.0 ? 1.0 : 0.0, at / abs(along));
 }
 
 #ifdef HAS_ENVIRONMENT
@@ -38,22 +39,19 @@ vec3 cube_fetch(vec4 place, vec4 at)
 /* The level of a lobe (0: GGX, 1: Charlie), with fraction, between the first and last prepared ones. */
 float light_lod(int lobe, float roughness)
 {
-    int first = lobe == 0 ? light_ranges.x : light_ranges.z;
-    int last = lobe == 0 ? light_ranges.y : light_ranges.w;
-    float lod = float(first);
-    for (int i = first; i < last; i++) {
-        vec2 level = lobe == 0 ? light_steps[i].xy : light_steps[i].zw;
-        lod += clamp((roughness - level.x) * level.y, 0.0, 1.0);
+    vec4 lod = vec4(0.0);
+    for (int i = 0; i < LIGHT_LEVELS / 4; i++) {
+        int at = LIGHT_LEVELS / 4 * lobe + i;
+        lod += clamp((roughness - light_steps[at]) * light_slopes[at], 0.0, 1.0);
     }
-    return lod;
+    return float(lobe == 0 ? light_ranges.x : light_ranges.z) + dot(lod, vec4(1.0));
 }
 
-/* Interpolated between two levels. */
-vec3 light_levels(int lobe, float lod, vec3 d)
+/* Interpolated between two levels, of which level 1 is the first. */
+vec3 light_levels(int lobe, float lod, vec4 at)
 {
     int last = lobe == 0 ? light_ranges.y : light_ranges.w;
-    int level = min(int(lod), last);
-    vec4 at = cube_locate(d);
+    int level = max(min(int(lod), last), 1);
     vec3 near = cube_fetch(light_places[LIGHT_LEVELS * lobe + level], at);
     vec3 far = cube_fetch(light_places[LIGHT_LEVELS * lobe + min(level + 1, last)], at);
     return near + (far - near) * (lod - float(level));
@@ -77,6 +75,10 @@ vec3 equirect_fetch(vec4 place, vec2 at)
     return textureLod(u_environment, (place.xy + texel + 1.0) * light_atlas.xy, 0.0).xyz;
 }
 
+/* if (condition), as a loop of one turn: software rasterizers compute both sides of every if, but leave loops that no
+ * pixel enters. */
+#define ONLY_IF(condition) for (bool is_wanted = (condition); is_wanted; is_wanted = false)
+
 /* From a mirror (0) up to level 1 of GGX (1): narrow.h. */
 vec3 light_narrow(float lod, vec3 d)
 {
@@ -84,13 +86,10 @@ vec3 light_narrow(float lod, vec3 d)
     int i = min(int(place), LIGHT_STEPS - 2);
     float fraction = place - float(i);
     vec4 weights = mix(light_narrow_weights[i], light_narrow_weights[i + 1], fraction);
-    float lobe = mix(light_narrow_lobe[i / 4][i & 3], light_narrow_lobe[(i + 1) / 4][(i + 1) & 3], fraction);
     vec2 at = equirect_locate(d);
-    vec3 c = vec3(0.0);
-    if (lobe > 0.0)
-        c = cube_fetch(light_places[1], cube_locate(d)) * lobe;
+    vec3 c = cube_fetch(light_places[1], cube_locate(d)) * mix(light_narrow_lobe[i].x, light_narrow_lobe[i + 1].x, fraction);
     for (int k = 0; k < LIGHT_IMAGES; k++)
-        if (weights[k] > 0.0)
+        ONLY_IF(weights[k] > 0.0)
             c += equirect_fetch(light_images[k], at) * weights[k];
     return c;
 }
@@ -102,13 +101,16 @@ vec3 light_specular(vec3 R, float perceptual_roughness)
 {
     vec3 d = to_environment(R);
     float lod = light_lod(0, perceptual_roughness);
-    return frame_light.x * (lod < 1.0 ? light_narrow(lod, d) : light_levels(0, lod, d));
+    vec3 c = light_levels(0, lod, cube_locate(d));
+    ONLY_IF(lod < 1.0)
+        c = light_narrow(lod, d);
+    return frame_light.x * c;
 }
 
 /* Around R, filtered with Charlie's lobe. */
 vec3 light_sheen(vec3 R, float sheen_roughness)
 {
-    return frame_light.x * light_levels(1, light_lod(1, sheen_roughness), to_environment(R));
+    return frame_light.x * light_levels(1, light_lod(1, sheen_roughness), cube_locate(to_environment(R)));
 }
 
 /* Reflected radiance of a white Lambertian surface. */

@@ -11,10 +11,11 @@ layout(std140) uniform Lighting
     ivec4 light_ranges;  /* first and last level of GGX, of Charlie */
     vec4 light_places[2 * LIGHT_LEVELS]; /* of the levels of GGX, then of Charlie: column, row, size, scale */
     vec4 light_irradiance;               /* the same */
-    vec4 light_steps[LIGHT_LEVELS];      /* roughness of GGX, 1 / difference to the next one; Charlie's */
+    vec4 light_steps[LIGHT_LEVELS / 2];  /* roughness of the levels of GGX, four in each, then those of Charlie */
+    vec4 light_slopes[LIGHT_LEVELS / 2]; /* 1 / difference to the next one; 0 outside of the range */
     vec4 light_images[LIGHT_IMAGES]; /* unfiltered, blurred ones: column, row, width, height */
     vec4 light_narrow_weights[LIGHT_STEPS];         /* of the images, with their scales */
-    vec4 light_narrow_lobe[(LIGHT_STEPS + 3) / 4];  /* of level 1 of GGX, four steps each */
+    vec4 light_narrow_lobe[LIGHT_STEPS];            /* x: of level 1 of GGX */
     vec4 light_grid_origin;                         /* m, world */
     vec4 light_grid_cells;                          /* per m */
     ivec4 light_grid_size;                          /* per axis; 0: all lights are evaluated everywhere */

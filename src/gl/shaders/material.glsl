@@ -26,26 +26,33 @@ vec2 texcoord_of_slot(int slot)
     return texcoord_transform(texcoord_of_set(int(row_u.w)), row_u.xyz, texcoord_rows[2 * slot + 1].xyz);
 }
 
-#ifdef FIRST_TEXTURE_SLOT
-/* Of all textures: to find the footprint takes longer than to read a texel. */
-Probes material_probes;
-#endif
+#define DECLARE_TEXEL(texel, image, slot) vec4 texel;
+EACH_TEXTURE(DECLARE_TEXEL)
 
-/* To be called before the first texel is read. */
-void begin_texels()
+/* At the coordinates of a slot and with the filter of its sampler. */
+vec4 texel_of_slot(sampler2D image, int slot)
 {
-#ifdef FIRST_TEXTURE_SLOT
-    material_probes = probes_at(vec2(textureSize(u_material0, 0)), texcoord_of_slot(FIRST_TEXTURE_SLOT));
-#endif
+    return filtered_texel(image, texcoord_of_slot(slot), texcoord_rows[2 * slot + 1].w > 0.0);
 }
 
-/* The texel of a slot, at its coordinates and with the filter of its sampler. */
-vec4 material_texel(sampler2D image, int slot)
+/* Reads all texels, each once. To find the footprint takes longer than to read a texel: where all textures have the same
+ * one, their probes share it, and a loop. */
+void read_texels()
 {
 #ifdef FIRST_TEXTURE_SLOT
-    return probed_texel(image, material_probes);
+#define FIRST_PROBE(texel, image, slot) texel = textureLod(image, p.at, p.lod);
+#define NEXT_PROBE(texel, image, slot) texel += textureLod(image, at, p.lod);
+#define MEAN_OF_PROBES(texel, image, slot) texel /= float(p.count);
+    Probes p = probes_at(vec2(textureSize(u_material0, 0)), texcoord_of_slot(FIRST_TEXTURE_SLOT));
+    EACH_TEXTURE(FIRST_PROBE)
+    for (int i = 1; i < p.count; i++) {
+        vec2 at = p.at + p.stride * float(i);
+        EACH_TEXTURE(NEXT_PROBE)
+    }
+    EACH_TEXTURE(MEAN_OF_PROBES)
 #else
-    return filtered_texel(image, texcoord_of_slot(slot), texcoord_rows[2 * slot + 1].w > 0.0);
+#define READ_TEXEL(texel, image, slot) texel = texel_of_slot(image, slot);
+    EACH_TEXTURE(READ_TEXEL)
 #endif
 }
 

@@ -2,6 +2,19 @@
  * displays, sRGB and not premultiplied. */
 uniform sampler2D u_image;
 
+/* A constant, because software rasterizers compute all operators that a variable may choose. */
+const int tonemap_operator = 0
+#ifdef ADDS_1
+    + 1
+#endif
+#ifdef ADDS_2
+    + 2
+#endif
+#ifdef ADDS_4
+    + 4
+#endif
+    ;
+
 out vec4 fragment;
 
 void main()
@@ -15,7 +28,7 @@ void main()
     vec3 color = vec3(0.0);
     if (opacity > 0.0) {
         color = min(texel.xyz / opacity, vec3(65504.0)); /* half floats may have overflowed */
-        color = tonemap(int(tonemap_operator), color);
+        color = tonemap(tonemap_operator, color);
     }
     if (background.w > 0.0) {
         color = mix(background.xyz, color, opacity);

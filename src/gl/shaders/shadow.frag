@@ -2,7 +2,7 @@
 void main()
 {
 #ifdef HAS_ALPHA_MASK
-    begin_texels();
+    read_texels();
     if (coverage(base_color().w) < 0.5)
         discard;
 #endif

@@ -2,7 +2,7 @@
 #ifdef AOVS
 void main()
 {
-    begin_texels();
+    read_texels();
     vec4 color = base_color();
     vec3 V = view_direction();
     vec3 N = shading_normal(V);
@@ -146,7 +146,7 @@ float mask_share(float alpha)
 
 void main()
 {
-    begin_texels();
+    read_texels();
     vec4 color = base_color();
     float opacity = coverage(color.w);
     vec3 radiance = shaded(color.xyz, opacity);
