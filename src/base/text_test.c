@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "base/base64.h"
 #include "base/text.h"
 #include "tests/support/support.h"
 
@@ -231,6 +232,27 @@ static void base64_is_padded(void **state)
     text_destroy(&t);
 }
 
+static void base64_is_read_back(void **state)
+{
+    (void)state;
+    unsigned char bytes[] = {0, 255, 16, 62, 63, 128, 1}, back[16];
+    for (size_t size = 0; size <= sizeof bytes; size++) {
+        text t = {0};
+        text_add_base64(&t, bytes, size);
+        size_t count = 99;
+        assert_true(base64_decode(size ? t.data : "", t.length, back, &count));
+        assert_int_equal(count, size);
+        assert_memory_equal(back, bytes, size);
+        text_destroy(&t);
+    }
+    size_t count;
+    assert_true(base64_decode("-_8", 3, back, &count)); /* URL-safe, without padding */
+    assert_memory_equal(back, "\xfb\xff", 2);
+    assert_false(base64_decode("A", 1, back, &count));
+    assert_false(base64_decode("AA*A", 4, back, &count));
+    assert_false(base64_decode("AA\n=", 4, back, &count));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -243,6 +265,7 @@ int main(void)
         cmocka_unit_test(html_is_escaped),
         cmocka_unit_test(base64_is_padded),
         cmocka_unit_test(shell_words_are_quoted),
+        cmocka_unit_test(base64_is_read_back),
         cmocka_unit_test(long_text_grows_and_failure_sticks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

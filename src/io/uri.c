@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/base64.h"
 #include "base/result.h"
 #include "io/file_alike.h"
 #include "io/file_source.h"
@@ -29,58 +30,6 @@ static bool uri_fail(uri_bytes *out, facet_result result, const char *format, ..
 
 /* ---- data: ---- */
 
-/* 0 to 63; 64: invalid. Accepts the URL-safe alphabet as well, which some writers use. */
-static unsigned base64_value(unsigned char c)
-{
-    if (c >= 'A' && c <= 'Z')
-        return c - 'A';
-    if (c >= 'a' && c <= 'z')
-        return c - 'a' + 26u;
-    if (c >= '0' && c <= '9')
-        return c - '0' + 52u;
-    return c == '+' || c == '-' ? 62u : c == '/' || c == '_' ? 63u : 64u;
-}
-
-/* Decodes length characters into out (3 bytes for every 4 characters or part of 4); false: invalid base64. */
-static bool decode_base64(const char *text, size_t length, unsigned char *out, size_t *size)
-{
-    unsigned char values[256];
-    for (unsigned i = 0; i < 256; i++)
-        values[i] = (unsigned char)base64_value((unsigned char)i);
-    while (length && text[length - 1] == '=')
-        length--;
-    size_t count = 0;
-    size_t i = 0;
-    for (; i + 4 <= length; i += 4) {
-        unsigned a = values[(unsigned char)text[i]];
-        unsigned b = values[(unsigned char)text[i + 1]];
-        unsigned c = values[(unsigned char)text[i + 2]];
-        unsigned d = values[(unsigned char)text[i + 3]];
-        if ((a | b | c | d) > 63)
-            return false;
-        unsigned bits = a << 18 | b << 12 | c << 6 | d;
-        out[count++] = (unsigned char)(bits >> 16);
-        out[count++] = (unsigned char)(bits >> 8);
-        out[count++] = (unsigned char)bits;
-    }
-    unsigned bits = 0;
-    size_t rest = length - i;
-    if (rest == 1)
-        return false;
-    for (size_t k = 0; k < rest; k++) {
-        unsigned value = values[(unsigned char)text[i + k]];
-        if (value > 63)
-            return false;
-        bits |= value << (18 - 6 * k);
-    }
-    if (rest >= 2)
-        out[count++] = (unsigned char)(bits >> 16);
-    if (rest == 3)
-        out[count++] = (unsigned char)(bits >> 8);
-    *size = count;
-    return true;
-}
-
 static bool load_data_uri(const file_scope *scope, const char *uri, uri_bytes *out)
 {
     const char *comma = strchr(uri, ',');
@@ -88,10 +37,10 @@ static bool load_data_uri(const file_scope *scope, const char *uri, uri_bytes *o
         return uri_fail(out, FACET_ERROR_INVALID, "is a data URI that is not base64");
     const char *text = comma + 1;
     size_t length = strlen(text);
-    unsigned char *bytes = arena_alloc(scope->scene->arena, length / 4 + 1, 3);
+    unsigned char *bytes = arena_alloc(scope->scene->arena, base64_bound(length), 1);
     if (!bytes)
         return uri_fail(out, FACET_ERROR_MEMORY, "out of memory for a data URI of %zu characters", length);
-    if (!decode_base64(text, length, bytes, &out->size))
+    if (!base64_decode(text, length, bytes, &out->size))
         return uri_fail(out, FACET_ERROR_INVALID, "is a data URI with characters that are not base64");
     out->data = bytes;
     return true;
