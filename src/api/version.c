@@ -64,6 +64,7 @@ size_t facet_build_report(char *out, size_t size)
     text_addf(&t, "geometry  meshopt, draco (%s)\n", FACET_DRACO_VERSION);
     text_addf(&t, "json      jansson %s\n", FACET_JANSSON_VERSION);
     text_addf(&t, "plots     csv, json, svg, pdf, png (%s)\n", FACET_CAIRO_VERSION);
+    text_addf(&t, "http      %s\n", FACET_MICROHTTPD_VERSION);
     add_opengl(&t);
     size_t length = t.length;
     if (size) {

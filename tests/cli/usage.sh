@@ -24,7 +24,7 @@ expect 2 cmgen
 says "did you mean bake?"
 expect 2 help raytrace
 says "did you mean facet help render?"
-for verb in serve merge; do
+for verb in merge; do
     expect 2 $verb
     says "this version does not have the command $verb yet"
     [ "$(wc -l <err)" = 1 ] || failed "more than one line on $verb"

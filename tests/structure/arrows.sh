@@ -127,6 +127,7 @@ seen_only '(EGL|GL|GLES[0-9]?|epoxy)/' gl view
 seen_only 'GLFW/' view
 seen_only '(spng|turbojpeg|webp/|openexr|OpenEXR/|Imf|Iex|zstd|avif/|astcenc)' image
 seen_only 'zlib' image cli
+seen_only 'microhttpd' cli
 
 # The command writes files in output.c and video.c only, which keep signals from ending it meanwhile (interrupt.h).
 found=$(grep -nE '\<facet_(bytes|image|scene)_save\(|fopen\([^)]*"[wa]' src/cli/*/*.c src/cli/*.c |

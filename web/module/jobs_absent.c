@@ -1,7 +1,17 @@
-/* jobs_absent.c - WebAssembly has no processes: a job (src/cli/jobs) fails with FACET_ERROR_UNSUPPORTED. Counterpart of
- * job_child.c. */
+/* jobs_absent.c - WebAssembly has no processes: a job (src/cli/jobs) fails with FACET_ERROR_UNSUPPORTED, and so does facet
+ * serve, which also lacks sockets. Counterpart of job_child.c and src/cli/serve. */
 #include "base/result.h"
 #include "cli/jobs/job_child.h"
+#include "cli/shared/failure.h"
+#include "cli/shared/messages.h"
+#include "cli/shared/options.h"
+
+int cmd_serve(struct command_line *c)
+{
+    (void)c;
+    message_error("serve: WebAssembly has no processes for requests");
+    return EXIT_UNSUPPORTED;
+}
 
 facet_result job_child_start(const job_request *job, job_child *child, facet_error *error)
 {

@@ -96,7 +96,7 @@ static bool is_among(const char *name, const char *const *words)
 
 bool verb_is_planned(const char *name)
 {
-    return is_among(name, OPTION_WORDS("serve", "merge"));
+    return is_among(name, OPTION_WORDS("merge"));
 }
 
 bool option_is_planned(const char *name)
