@@ -4,19 +4,6 @@
 
 #include "path/path_film.h"
 
-struct prepared_scene; /* cpu/prepared_scene.h */
-
-/* Identifies an image: 64 hex digits. */
-typedef struct path_key {
-    char hex[65];
-} path_key;
-
-/* A hash of all that a sample depends on: the model's description and vertices, camera, size, light, and
- * desc without the number of samples, limits and what is done after sampling. Fails with
- * FACET_ERROR_MEMORY, and as the pose. */
-facet_result path_key_create(struct prepared_scene *p, const facet_render_desc *desc, path_key *out,
-                             facet_error *error);
-
 /* Writes the film into an OpenEXR file, whole or not at all, bit for bit, which other programs can view:
  * the layers "" (RGBA, means), albedo, normal, samples, and the rest of its state. key: path_key.hex.
  * Fails with FACET_ERROR_WRITE, _MEMORY, and _UNSUPPORTED in a build without OpenEXR. */

@@ -16,6 +16,7 @@
 #include "film/matte.h"
 #include "path/path_checkpoint.h"
 #include "path/path_film.h"
+#include "path/path_key.h"
 #include "path/path_lights.h"
 #include "scene/identity.h"
 
