@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/result.h"
+#include "film/film_channels.h"
 #include "film/film_image.h"
 #include "image/image.h"
 #include "image/srgb.h"
@@ -116,12 +117,7 @@ static facet_result encode_exr(const film *f, bool as_half, const image_encode_d
     for (uint32_t i = 0; i < f->text_count; i++)
         texts[i] = (image_text){f->texts[i].name, f->texts[i].value};
     for (uint32_t i = 0; i < f->layer_count; i++)
-        layers[i] =
-            (image_layer){.channel_names = f->layers[i].channel_names,
-                          .channel_count = f->layers[i].channel_count,
-                          .pixels = f->layers[i].pixels,
-                          .row_stride_bytes = (size_t)f->width * f->layers[i].channel_count * sizeof(float),
-                          .needs_float = f->layers[i].needs_float};
+        layers[i] = film_layer_to_image(&f->layers[i], f->width);
     return image_encode_exr(f->width, f->height, layers, f->layer_count, as_half, &with_texts, bytes, size,
                             error);
 }

@@ -105,6 +105,17 @@ film_layer *film_find(film *f, const char *name)
     return NULL;
 }
 
+void film_remove_layer(film *f, const char *name)
+{
+    film_layer *layer = film_find(f, name);
+    if (!layer)
+        return;
+    mem_free(layer->pixels);
+    f->layer_count--;
+    for (; layer < f->layers + f->layer_count; layer++)
+        layer[0] = layer[1];
+}
+
 static char *copy_text(const char *from, const facet_allocator *allocator)
 {
     size_t size = strlen(from) + 1;

@@ -4,7 +4,7 @@
 
 #include "facet/facet.h"
 
-enum { FILM_MAX_LAYERS = 20, FILM_MAX_TEXTS = 12 };
+enum { FILM_MAX_LAYERS = 20, FILM_MAX_TEXTS = 24 };
 
 typedef struct film_layer {
     const char *name;                 /* "", "normal" .. */
@@ -22,6 +22,9 @@ typedef struct film_text {
 /* Layer 0 is the image, RGBA premultiplied. */
 typedef struct film {
     uint32_t width, height;
+    /* A part of an image: path tracing leaves the sums of its samples as layers in place of what it makes of them
+     * (path_film_give_layers()), and Cryptomatte's layers as sums. */
+    bool keeps_sums;
     uint32_t layer_count;
     film_layer layers[FILM_MAX_LAYERS];
     uint32_t text_count;
@@ -31,8 +34,9 @@ typedef struct film {
 /* Layers for the facet_aov bits of aovs, all 0 (depth: infinity). */
 facet_result film_create(const facet_allocator *allocator, uint32_t width, uint32_t height, uint32_t aovs,
                          film *out, facet_error *error);
-void film_destroy(film *f);                       /* {0} is allowed */
-film_layer *film_find(film *f, const char *name); /* NULL: the film has no such layer */
+void film_destroy(film *f);                        /* {0} is allowed */
+film_layer *film_find(film *f, const char *name);  /* NULL: the film has no such layer */
+void film_remove_layer(film *f, const char *name); /* if there is one */
 /* Adds copies. FACET_ERROR_MEMORY. */
 facet_result film_add_text(film *f, const char *name, const char *value, const facet_allocator *allocator,
                            facet_error *error);

@@ -1,11 +1,9 @@
-/* path_checkpoint.c - see path_checkpoint.h. A pixel is floats, and each of them is a channel of an
- * OpenEXR file, so nothing is converted: the first are the means as R, G, B, A, which any viewer shows.
- * Attributes are texts: the file's kind, the key of its image, and a digest of its values, since stored
- * channels have no checksums. */
+/* path_checkpoint.c - see path_checkpoint.h. The layers of a film are floats, and each of them is a channel of an
+ * OpenEXR file, so nothing is converted. Attributes are texts: the file's kind, the key of its image, and a digest
+ * of its values, since stored channels have no checksums. */
 #include "path/path_checkpoint.h"
 
 #include <inttypes.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,7 +13,7 @@
 #include "base/memory.h"
 #include "base/result.h"
 #include "ibl/cache.h"
-#include "image/image.h"
+#include "film/film_channels.h"
 #include "path/path_film_state.h"
 
 /* ---- the file ---- */
@@ -23,36 +21,13 @@
 static const char VERSION[] = "1";
 enum { KEY_SIZE = 65, DIGEST_SIZE = 17, COUNT_SIZE = 21, VERSION_SIZE = 16 };
 
-/* ---- channels ---- */
-
-static const char *const pixel_names[] = {
-    "R",        "G",        "B",        "A",        "rest.R",   "rest.G",
-    "rest.B",   "rest.A",   "spread.R", "spread.G", "spread.B", "albedo.R",
-    "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z", "filter.excess",
-    "samples.N"};
-static const char *const ground_names[] = {"ground.open", "ground.taken", "ground.spread", "ground.samples"};
-enum {
-    PIXEL_CHANNELS = sizeof pixel_names / sizeof *pixel_names,
-    GROUND_CHANNELS = sizeof ground_names / sizeof *ground_names,
-    CHANNELS = PIXEL_CHANNELS + GROUND_CHANNELS
-};
-_Static_assert(sizeof(path_pixel) == PIXEL_CHANNELS * sizeof(float), "a pixel is its channels");
-_Static_assert(sizeof(path_ground) == GROUND_CHANNELS * sizeof(float), "and so is its ground");
-
 /* Lists the channels of a film in memory; returns their number. */
-static uint32_t list_channels(const path_film *f, image_channel channels[CHANNELS])
+static uint32_t list_channels(const path_film *f, image_channel channels[PATH_FILM_MAX_CHANNELS])
 {
-    uint32_t count = 0;
-    for (uint32_t c = 0; c < PIXEL_CHANNELS; c++)
-        channels[count++] = (image_channel){.name = pixel_names[c],
-                                            .first = (float *)f->pixels + c,
-                                            .texel_stride_bytes = sizeof *f->pixels,
-                                            .row_stride_bytes = f->width * sizeof *f->pixels};
-    for (uint32_t c = 0; f->ground && c < GROUND_CHANNELS; c++)
-        channels[count++] = (image_channel){.name = ground_names[c],
-                                            .first = (float *)f->ground + c,
-                                            .texel_stride_bytes = sizeof *f->ground,
-                                            .row_stride_bytes = f->width * sizeof *f->ground};
+    film_layer layers[PATH_FILM_LAYERS];
+    uint32_t count = 0, layer_count = path_film_list_layers(f, layers);
+    for (uint32_t i = 0; i < layer_count; i++)
+        count += film_layer_list_channels(&layers[i], f->width, channels + count);
     return count;
 }
 
@@ -86,9 +61,11 @@ facet_result path_film_save(const path_film *f, const char *key, const char *pat
     snprintf(dropped, sizeof dropped, "%" PRIu64, path_film_dropped(f));
     const image_text texts[] = {
         {"facetCheckpoint", VERSION}, {"facetKey", key}, {"facetDropped", dropped}, {"facetDigest", digest}};
-    const image_layer layers[] = {
-        {pixel_names, PIXEL_CHANNELS, (const float *)f->pixels, f->width * sizeof *f->pixels, true},
-        {ground_names, GROUND_CHANNELS, (const float *)f->ground, f->width * sizeof *f->ground, true}};
+    film_layer layers[PATH_FILM_LAYERS];
+    image_layer encoded[PATH_FILM_LAYERS];
+    uint32_t layer_count = path_film_list_layers(f, layers);
+    for (uint32_t i = 0; i < layer_count; i++)
+        encoded[i] = film_layer_to_image(&layers[i], f->width);
     const image_encode_desc desc = {.allocator = f->allocator,
                                     .thread_count = thread_count,
                                     .is_stored = true,
@@ -97,7 +74,7 @@ facet_result path_film_save(const path_film *f, const char *key, const char *pat
     unsigned char *bytes;
     size_t size;
     facet_result result =
-        image_encode_exr(f->width, f->height, layers, f->ground ? 2 : 1, false, &desc, &bytes, &size, error);
+        image_encode_exr(f->width, f->height, encoded, layer_count, false, &desc, &bytes, &size, error);
     if (result == FACET_OK)
         result = file_write(path, bytes, size, error);
     mem_free(bytes);
@@ -154,39 +131,9 @@ static facet_result check_image(const checkpoint *c, const path_film *f, const c
     return FACET_OK;
 }
 
-static bool are_finite(const float *values, size_t count)
-{
-    float sum = 0.0f; /* 0 times a finite value stays 0 */
-    for (size_t i = 0; i < count; i++)
-        sum += 0.0f * values[i];
-    return sum == 0.0f;
-}
-
-static bool is_count(float samples)
-{
-    return samples >= 0.0f && samples <= (float)PATH_FILM_MAX_SAMPLES && floorf(samples) == samples;
-}
-
-/* Whether the values are valid for a film. */
-static bool is_sound(const path_film *f)
-{
-    size_t count = (size_t)f->width * f->height;
-    bool is = are_finite((const float *)f->pixels, count * PIXEL_CHANNELS) &&
-              (!f->ground || are_finite((const float *)f->ground, count * GROUND_CHANNELS));
-    for (size_t i = 0; i < count; i++) {
-        const path_pixel *p = &f->pixels[i];
-        is = is && is_count(p->samples) && p->spread[0] >= 0.0f && p->spread[1] >= 0.0f &&
-             p->spread[2] >= 0.0f;
-        if (f->ground)
-            is = is && is_count(f->ground[i].samples) && f->ground[i].samples <= p->samples &&
-                 f->ground[i].spread >= 0.0f;
-    }
-    return is;
-}
-
 static facet_result read_values(const checkpoint *c, path_film *into, const char *key, facet_error *error)
 {
-    image_channel channels[CHANNELS];
+    image_channel channels[PATH_FILM_MAX_CHANNELS];
     uint32_t count = list_channels(into, channels);
     char digest[DIGEST_SIZE] = "", dropped[COUNT_SIZE] = "", expected[DIGEST_SIZE];
     TRY(read_text(c, "facetDigest", digest, sizeof digest, error));
@@ -195,7 +142,7 @@ static facet_result read_values(const checkpoint *c, path_film *into, const char
                                 into->height, channels, count, error));
     uint64_t dropped_count = strtoull(dropped, NULL, 10);
     snprintf(expected, sizeof expected, "%016" PRIx64, digest_of(into, key, dropped_count));
-    if (strcmp(digest, expected) != 0 || !is_sound(into))
+    if (strcmp(digest, expected) != 0 || !path_film_is_sound(into))
         return fail(error, FACET_ERROR_INVALID,
                     "%s: the checkpoint is damaged: its values differ from those that were written", c->path);
     atomic_store(&into->dropped, dropped_count);

@@ -43,6 +43,28 @@ float path_film_share_done(const path_film *f);
  * variance (of the mean, as of independent samples: an upper bound), samples. */
 void path_film_resolve(const path_film *f, float scale, film *target, uint32_t thread_count);
 
+/* Fills target as path_film_resolve() does with scale 2^exposure_ev, ends its Cryptomatte layers, which hold sums, and
+ * denoises where desc->path.denoises is set. The film gets no more samples. *denoise_s: the time that took. */
+facet_result path_film_finish(path_film *f, const facet_render_desc *desc, film *target, double *denoise_s,
+                              facet_error *error);
+
+/* Denoises the image so far into layer "" of target, the shadow on the ground aside. */
+facet_result path_film_denoise(const path_film *f, const facet_render_desc *desc, float scale, film *target,
+                               facet_error *error);
+
+/* The layers that path_film_resolve() makes of samples, beside the image. */
+enum { PATH_FILM_AOVS = FACET_AOV_ALBEDO | FACET_AOV_NORMAL | FACET_AOV_VARIANCE | FACET_AOV_SAMPLES };
+
+/* ---- the film as layers, for files ---- */
+
+enum { PATH_FILM_MAX_CHANNELS = 23 };
+/* The state as one layer or two, which stay the film's. Returns their number. */
+uint32_t path_film_list_layers(const path_film *f, film_layer layers[2]);
+/* Whether the values are those of a film. */
+bool path_film_is_sound(const path_film *f);
+/* Moves these layers to target, in place of those that path_film_resolve() fills. f can be destroyed only. */
+void path_film_give_layers(path_film *f, film *target);
+
 /* Denoises the shadow on the ground, in place: biased, for a film that gets no more samples.
  * FACET_ERROR_MEMORY. */
 facet_result path_film_denoise_ground(path_film *f, uint32_t thread_count, facet_error *error);

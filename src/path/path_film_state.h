@@ -11,7 +11,10 @@
 enum {
     PATH_FILM_MAX_SAMPLES = 1 << 24, /* of a pixel: a float counts exactly up to here */
     PATH_FILM_MIN_SAMPLES = 32,      /* before noise is judged */
-    PATH_FILM_BLOCK = 8              /* side of a block, pixels */
+    PATH_FILM_BLOCK = 8,             /* side of a block, pixels */
+    PATH_FILM_LAYERS = 2,            /* at most, of path_film_list_layers() */
+    PATH_PIXEL_CHANNELS = 19,        /* floats of a path_pixel */
+    PATH_GROUND_CHANNELS = 4         /* of a path_ground */
 };
 
 /* Means over samples. The color's are mean + rest, 48 bits: after n samples their rounding error is about

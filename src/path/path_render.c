@@ -265,27 +265,6 @@ static bool judge(path_job *p, uint32_t goal)
     return path_film_share_done(p->sums) >= 1.0f;
 }
 
-enum { GUIDES = FACET_AOV_ALBEDO | FACET_AOV_NORMAL | FACET_AOV_VARIANCE };
-
-static facet_result denoise(path_job *p, float scale, facet_error *error)
-{
-    double start = clock_seconds();
-    const facet_render_desc *desc = p->desc;
-    film guided;
-    facet_result result =
-        film_create(&desc->allocator, p->target->width, p->target->height, GUIDES, &guided, error);
-    if (result != FACET_OK)
-        return result;
-    path_film_resolve(p->sums, scale, &guided, desc->thread_count);
-    result = film_denoise(&guided, &desc->allocator, desc->thread_count, error);
-    if (result == FACET_OK)
-        memcpy(p->target->layers[0].pixels, guided.layers[0].pixels,
-               (size_t)p->target->width * p->target->height * 4 * sizeof(float));
-    film_destroy(&guided);
-    p->stats->denoise_s = clock_seconds() - start;
-    return result;
-}
-
 /* Calls desc->path.pass, without an image: the caller has the film. Denoising takes its time and is not
  * worth it before the noise has halved; the shadow on the ground stays noisy, since its filter is for
  * films that get no more samples. */
@@ -297,7 +276,7 @@ static void report_pass(path_job *p, uint32_t goal)
         return;
     float scale = exp2f(p->desc->exposure_ev);
     path_film_resolve(p->sums, scale, p->target, p->desc->thread_count);
-    if (path->denoises && goal > 1 && denoise(p, scale, NULL) != FACET_OK)
+    if (path->denoises && goal > 1 && path_film_denoise(p->sums, p->desc, scale, p->target, NULL) != FACET_OK)
         return;
     path->pass(path->pass_user, NULL, goal);
 }
@@ -360,19 +339,11 @@ static facet_result draw(path_job *p, facet_error *error)
 static facet_result draw_aovs(path_job *p, facet_error *error)
 {
     facet_render_desc desc = *p->desc;
-    desc.aovs &= ~(uint32_t)(GUIDES | FACET_AOV_SAMPLES | FACET_AOV_CRYPTOMATTE);
+    desc.aovs &= ~(uint32_t)(PATH_FILM_AOVS | FACET_AOV_CRYPTOMATTE);
     if (!desc.aovs)
         return FACET_OK;
     tiles_desc tiles = {.render = &desc, .scene = &p->setup.shading, .identities = p->setup.identities};
     return tiles_draw_aovs(&tiles, p->target, p->stats, error);
-}
-
-/* Normalizes sums over a pixel's samples to shares of it. */
-static void finish_mattes(path_job *p)
-{
-    size_t pixel_count = (size_t)p->target->width * p->target->height;
-    for (size_t pixel = 0; p->mattes.aovs && pixel < pixel_count; pixel++)
-        matte_finish(&p->mattes, pixel, path_film_share(p->sums, pixel));
 }
 
 static void warn_dropped(const path_job *p)
@@ -388,19 +359,17 @@ static void warn_dropped(const path_job *p)
     log->message(log->user, FACET_LOG_LEVEL_WARNING, message);
 }
 
+/* Counts the samples, and makes the layers of them; a part keeps the samples' sums. */
 static facet_result resolve_film(path_job *p, facet_error *error)
 {
-    const facet_render_desc *desc = p->desc;
-    float scale = exp2f(desc->exposure_ev);
-    if (desc->path.denoises)
-        TRY(path_film_denoise_ground(p->sums, desc->thread_count, error));
-    path_film_resolve(p->sums, scale, p->target, desc->thread_count);
-    finish_mattes(p);
     p->stats->samples = path_film_total_samples(p->sums);
     p->stats->dropped_samples = path_film_dropped(p->sums);
     p->stats->rays += atomic_load(&p->rays);
     warn_dropped(p);
-    return desc->path.denoises ? denoise(p, scale, error) : FACET_OK;
+    if (!p->target->keeps_sums)
+        return path_film_finish(p->sums, p->desc, p->target, &p->stats->denoise_s, error);
+    path_film_give_layers(p->sums, p->target);
+    return FACET_OK;
 }
 
 /* All of it; the caller releases what p holds. *has_setup: the first instant was prepared. */
