@@ -3,6 +3,7 @@
 #include "cli/view/view_command.h"
 
 #include "cli/shared/output.h"
+#include "cli/shared/shell_line.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -11,60 +12,6 @@
 #include <string.h>
 
 #define DEGREE 0.017453292519943295 /* pi / 180 */
-
-/* A growing text in malloc() memory. */
-typedef struct line {
-    char *text;
-    size_t length, capacity;
-    bool has_failed;
-} line;
-
-static void add_bytes(line *l, const char *bytes, size_t size)
-{
-    if (l->length + size + 1 > l->capacity) {
-        size_t capacity = 2 * (l->length + size) + 256;
-        char *grown = l->has_failed ? NULL : realloc(l->text, capacity);
-        l->has_failed = !grown;
-        if (!grown)
-            return;
-        l->text = grown;
-        l->capacity = capacity;
-    }
-    memcpy(l->text + l->length, bytes, size);
-    l->length += size;
-    l->text[l->length] = 0;
-}
-
-/* Appends a word, quoted for the shell if necessary. */
-static void add_word(line *l, const char *word)
-{
-    static const char harmless[] =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:=+@%^";
-    if (l->length)
-        add_bytes(l, " ", 1);
-    if (*word && strspn(word, harmless) == strlen(word)) {
-        add_bytes(l, word, strlen(word));
-        return;
-    }
-    add_bytes(l, "'", 1);
-    for (; *word; word++)
-        if (*word == '\'')
-            add_bytes(l, "'\\''", 4);
-        else
-            add_bytes(l, word, 1);
-    add_bytes(l, "'", 1);
-}
-
-/* Appends --name=value if the value could be taken for an option, else --name value. */
-static void add_option_words(line *l, const view_option *o)
-{
-    char word[4300];
-    bool is_joined = o->value[0] == '-';
-    snprintf(word, sizeof word, "--%s%s%s", o->option->name, is_joined ? "=" : "", is_joined ? o->value : "");
-    add_word(l, word);
-    if (!is_joined && option_takes_value(o->option))
-        add_word(l, o->value);
-}
 
 /* ---- a growing list of options ---- */
 
@@ -383,7 +330,7 @@ void view_options_of(const command_line *c, const render_options *options, const
 
 char *view_command(const command_line *c, const render_options *options, const facet_view_image *p)
 {
-    line l = {0};
+    shell_line l = {0};
     view_options list = {0};
     char stem[1024];
     char output[1100], size[32];
@@ -391,16 +338,16 @@ char *view_command(const command_line *c, const render_options *options, const f
         memcpy(stem, "model", 6);
     snprintf(output, sizeof output, "%s.png", stem);
     snprintf(size, sizeof size, "%ux%u", p->render->width, p->render->height);
-    add_word(&l, "facet");
-    add_word(&l, "render");
+    shell_line_add_word(&l, "facet");
+    shell_line_add_word(&l, "render");
     if (p->model)
-        add_word(&l, p->model);
-    add_word(&l, "-o");
-    add_word(&l, output);
+        shell_line_add_word(&l, p->model);
+    shell_line_add_word(&l, "-o");
+    shell_line_add_word(&l, output);
     add_option(&list, OPT_SIZE, "%s", size);
     view_options_of(c, options, p, &list);
     for (size_t i = 0; i < list.count; i++)
-        add_option_words(&l, &list.items[i]);
+        shell_line_add_option(&l, list.items[i].option, list.items[i].value);
     bool has_failed = l.has_failed || list.has_failed;
     view_options_destroy(&list);
     if (!has_failed)
