@@ -24,6 +24,7 @@
 #include "environment.h"
 #include "image.h"
 #include "legacy.h"
+#include "part.h"
 #include "plot.h"
 #include "render.h"
 #include "scene.h"

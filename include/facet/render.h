@@ -7,6 +7,7 @@
 #include "camera.h"
 #include "environment.h"
 #include "image.h"
+#include "part.h"
 #include "scene.h"
 #include "sea.h"
 
@@ -226,6 +227,7 @@ typedef struct facet_render_desc {
     uint32_t thread_count;  /* 0: facet_thread_count(); the image does not depend on it */
     uint32_t width, height; /* pixels; 0: 1024 x 768 */
     uint32_t crop[4];       /* x, y, width, height of the part to render; {0}: all */
+    facet_part_desc part;   /* of what crop leaves, for one of several processes; {0}: all of it */
     facet_pose_desc pose;   /* what of the scene, and when */
     /* NULL: of facet_orbit_default(); in a sea of facet_sea_camera(), which ignores the scene */
     const facet_camera *camera;

@@ -13,6 +13,7 @@ struct facet_image {
     bool is_straight;     /* the colors of texels are not multiplied by alpha yet */
     facet_render_stats stats;
     bool is_for_display; /* read from a file whose colors are a display's */
+    bool is_part;        /* not finished; for an OpenEXR file (facet_part_desc) */
 };
 
 /* facet_render() by a renderer of OpenGL that is there already, a window's. */

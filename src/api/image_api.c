@@ -149,11 +149,15 @@ facet_result facet_image_encode(const facet_image *source, const facet_image_sav
     if (source->texels)
         return fail(error, FACET_ERROR_ARGUMENT,
                     "image: a compact image is for comparisons and cannot be encoded");
+    if (source->is_part && desc->format != FACET_IMAGE_FORMAT_EXR &&
+        desc->format != FACET_IMAGE_FORMAT_EXR_FLOAT)
+        return fail(error, FACET_ERROR_ARGUMENT, "image: a part of an image is kept in an OpenEXR file");
     image_encode_desc encode = {.allocator = desc->allocator,
                                 .thread_count =
                                     desc->thread_count ? desc->thread_count : facet_thread_count(),
                                 .quality = desc->jpeg_quality,
-                                .compression = desc->png_compression};
+                                .compression = desc->png_compression,
+                                .is_stored = source->is_part};
     image converted = {0};
     facet_result result;
     switch (desc->format) {
@@ -161,7 +165,8 @@ facet_result facet_image_encode(const facet_image *source, const facet_image_sav
         return encode_raw(f, &encode, bytes, size, error);
     case FACET_IMAGE_FORMAT_EXR:
     case FACET_IMAGE_FORMAT_EXR_FLOAT:
-        return encode_exr(f, desc->format == FACET_IMAGE_FORMAT_EXR, &encode, bytes, size, error);
+        return encode_exr(f, desc->format == FACET_IMAGE_FORMAT_EXR && !source->is_part, &encode, bytes, size,
+                          error);
     case FACET_IMAGE_FORMAT_HDR:
     case FACET_IMAGE_FORMAT_PFM:
         result = film_to_linear_image(f, &encode.allocator, encode.thread_count, &converted, error);

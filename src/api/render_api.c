@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "base/result.h"
 #include "film/meter.h"
+#include "render/part.h"
 #include "render/render_gl.h"
 
 struct facet_renderer {
@@ -29,6 +30,20 @@ static void show_pass(void *user, const facet_image *unknown, uint32_t samples)
 
 /* ---- one image ---- */
 
+/* The film is left as the renderer made it. */
+static facet_result render_part(renderer_set *set, const facet_render_desc *desc, facet_image *image,
+                                facet_error *error)
+{
+    facet_render_desc part;
+    film *f = &image->film;
+    TRY(part_narrow(desc, &part, error));
+    image->is_part = true;
+    TRY(film_create(&desc->allocator, part.crop[2], part.crop[3], desc->aovs, f, error));
+    f->keeps_sums = true;
+    TRY(renderer_set_draw(set, &part, f, &image->stats, error));
+    return part_describe(set, desc, &part, image->stats.dropped_samples, f, error);
+}
+
 static facet_result render(facet_renderer *renderer, const facet_render_desc *resolved, facet_image *image,
                            facet_error *error)
 {
@@ -45,6 +60,8 @@ static facet_result render(facet_renderer *renderer, const facet_render_desc *re
         TRY(renderer_set_meter(set, &desc, &ev100, error));
         desc.exposure_ev += (float)meter_exposure_ev(ev100);
     }
+    if (desc.part.count)
+        return render_part(set, &desc, image, error);
     facet_render_desc drawn = desc;
     if (desc.path.pass) {
         drawn.path.pass = show_pass;

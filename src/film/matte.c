@@ -108,22 +108,24 @@ void matte_finish(const matte_layers *m, size_t pixel, float scale)
 
 /* ---- metadata ---- */
 
+void matte_text_name(uint32_t kind, uint32_t i, char name[MATTE_TEXT_NAME_SIZE])
+{
+    static const char *const keys[MATTE_TEXTS] = {"name", "hash", "conversion", "manifest"};
+    const char *layer = kinds[kind].name; /* the prefix: the first 7 digits of the hash of the layer's name */
+    snprintf(name, MATTE_TEXT_NAME_SIZE, "cryptomatte/%.7x/%s", murmur3(layer, strlen(layer), 0) >> 4,
+             keys[i]);
+}
+
 facet_result matte_describe(film *f, uint32_t kind, const char *manifest, const facet_allocator *allocator,
                             facet_error *error)
 {
-    const char *layer = kinds[kind].name;
-    const struct {
-        const char *key, *value;
-    } entries[] = {{"name", layer},
-                   {"hash", "MurmurHash3_32"},
-                   {"conversion", "uint32_to_float32"},
-                   {"manifest", manifest}};
+    const char *const values[MATTE_TEXTS] = {kinds[kind].name, "MurmurHash3_32", "uint32_to_float32",
+                                             manifest};
     facet_result result = FACET_OK;
-    for (size_t i = 0; i < sizeof entries / sizeof *entries && result == FACET_OK; i++) {
-        char name[64]; /* prefix of the attributes: the first 7 digits of the hash of the layer's name */
-        snprintf(name, sizeof name, "cryptomatte/%.7x/%s", murmur3(layer, strlen(layer), 0) >> 4,
-                 entries[i].key);
-        result = film_add_text(f, name, entries[i].value, allocator, error);
+    for (uint32_t i = 0; i < MATTE_TEXTS && result == FACET_OK; i++) {
+        char name[MATTE_TEXT_NAME_SIZE];
+        matte_text_name(kind, i, name);
+        result = film_add_text(f, name, values[i], allocator, error);
     }
     return result;
 }

@@ -22,6 +22,9 @@ void matte_add(const matte_layers *m, size_t pixel, const float ids[MATTE_KINDS]
 /* Multiplies the coverages of a pixel by scale, clamps them to [0, 1] and sorts them, the largest first. */
 void matte_finish(const matte_layers *m, size_t pixel, float scale);
 
+/* The metadata of a layer: names of attributes, i below MATTE_TEXTS. */
+enum { MATTE_TEXTS = 4, MATTE_TEXT_NAME_SIZE = 64 };
+void matte_text_name(uint32_t kind, uint32_t i, char name[MATTE_TEXT_NAME_SIZE]);
 /* Adds the metadata that names a layer and its IDs. kind: 0 to MATTE_KINDS - 1. FACET_ERROR_MEMORY. */
 facet_result matte_describe(film *f, uint32_t kind, const char *manifest, const facet_allocator *allocator,
                             facet_error *error);

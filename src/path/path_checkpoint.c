@@ -145,7 +145,7 @@ static facet_result read_values(const checkpoint *c, path_film *into, const char
     if (strcmp(digest, expected) != 0 || !path_film_is_sound(into))
         return fail(error, FACET_ERROR_INVALID,
                     "%s: the checkpoint is damaged: its values differ from those that were written", c->path);
-    atomic_store(&into->dropped, dropped_count);
+    path_film_set_dropped(into, dropped_count);
     return FACET_OK;
 }
 

@@ -154,6 +154,11 @@ uint64_t path_film_dropped(const path_film *f)
     return atomic_load(&f->dropped);
 }
 
+void path_film_set_dropped(path_film *f, uint64_t count)
+{
+    atomic_store(&f->dropped, count);
+}
+
 /* ---- means to layers ---- */
 
 float path_pixel_scale(const path_pixel *p)

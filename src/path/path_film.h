@@ -24,6 +24,7 @@ uint32_t path_film_samples(const path_film *f, size_t pixel);
 float path_film_share(const path_film *f, size_t pixel);
 uint64_t path_film_total_samples(const path_film *f);
 uint64_t path_film_dropped(const path_film *f);
+void path_film_set_dropped(path_film *f, uint64_t count);
 
 /* The factor from radiance to display-linear values, 1 being white: 2^exposure_ev. Default 1. */
 void path_film_set_scale(path_film *f, float scale);
@@ -60,6 +61,8 @@ enum { PATH_FILM_AOVS = FACET_AOV_ALBEDO | FACET_AOV_NORMAL | FACET_AOV_VARIANCE
 enum { PATH_FILM_MAX_CHANNELS = 23 };
 /* The state as one layer or two, which stay the film's. Returns their number. */
 uint32_t path_film_list_layers(const path_film *f, film_layer layers[2]);
+/* Whether path_film_resolve() makes the layer of that name of samples. */
+bool path_film_makes_layer(const char *name);
 /* Whether the values are those of a film. */
 bool path_film_is_sound(const path_film *f);
 /* Moves these layers to target, in place of those that path_film_resolve() fills. f can be destroyed only. */

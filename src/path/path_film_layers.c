@@ -3,6 +3,7 @@
 #include "path/path_film_state.h"
 
 #include <math.h>
+#include <string.h>
 
 static const char *const pixel_names[] = {
     "R",        "G",        "B",        "A",        "rest.R",   "rest.G",
@@ -32,15 +33,22 @@ uint32_t path_film_list_layers(const path_film *f, film_layer layers[PATH_FILM_L
     return f->ground ? 2 : 1;
 }
 
+static const char *const made[] = {"", "albedo", "normal", "variance", "samples"};
+enum { MADE = sizeof made / sizeof *made };
+
+bool path_film_makes_layer(const char *name)
+{
+    for (size_t i = 0; i < MADE; i++)
+        if (strcmp(name, made[i]) == 0)
+            return true;
+    return false;
+}
+
 void path_film_give_layers(path_film *f, film *target)
 {
-    static const char *const resolved[] = {"", "albedo", "normal", "variance", "samples"};
-    film_layer layers[PATH_FILM_LAYERS];
-    uint32_t count = path_film_list_layers(f, layers);
-    for (size_t i = 0; i < sizeof resolved / sizeof *resolved; i++)
-        film_remove_layer(target, resolved[i]);
-    for (uint32_t i = 0; i < count; i++)
-        target->layers[target->layer_count++] = layers[i];
+    for (size_t i = 0; i < MADE; i++)
+        film_remove_layer(target, made[i]);
+    target->layer_count += path_film_list_layers(f, target->layers + target->layer_count);
     f->pixels = NULL;
     f->ground = NULL;
 }

@@ -300,7 +300,7 @@ static facet_result draw_passes(path_job *p, facet_error *error)
 }
 
 /* Maps the reason that ended the passes to a result. The time limit, and a cancellation with
- * keeps_cancelled, leave an image where each pixel has a sample. */
+ * keeps_cancelled, leave an image where each pixel has a sample; a part has all of its samples. */
 static facet_result conclude(path_job *p, facet_error *error)
 {
     facet_result ended = (facet_result)atomic_load(&p->watch.result);
@@ -308,7 +308,8 @@ static facet_result conclude(path_job *p, facet_error *error)
     if (ended == FACET_OK)
         return FACET_OK;
     bool is_limit = ended == FACET_ERROR_LIMIT;
-    if (!is_limit && !(ended == FACET_ERROR_CANCELLED && p->desc->path.keeps_cancelled))
+    if (p->target->keeps_sums ||
+        (!is_limit && !(ended == FACET_ERROR_CANCELLED && p->desc->path.keeps_cancelled)))
         return render_watch_explain(&p->watch, error);
     if (count_samples(p).fewest == 0)
         return fail(error, ended, "%s before every pixel had a sample; there is no image",

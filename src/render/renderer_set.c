@@ -172,11 +172,11 @@ static void check_white(renderer_set *set, const facet_render_desc *desc, const 
     set->has_warned_of_white = true;
 }
 
-/* Before tone mapping. pose: of the scene; NULL: computed where needed. */
+/* Before tone mapping. pose: of the scene; NULL: computed where needed. A part may show nothing. */
 static void check_image(renderer_set *set, const scene_pose *pose, const facet_render_desc *desc,
                         const film *drawn)
 {
-    if (!desc->log.message)
+    if (!desc->log.message || desc->part.count)
         return;
     check_nothing(set, pose, desc, drawn);
     check_white(set, desc, drawn);

@@ -1,0 +1,319 @@
+/* part_merge.c - parts to the image: their values are read into one film, which is finished like that of one process. */
+#include "base/file.h"
+#include "base/memory.h"
+#include "base/result.h"
+#include "film/film_channels.h"
+#include "film/matte.h"
+#include "path/path_film.h"
+#include "render/part.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- which parts there are ---- */
+
+typedef struct part_entry {
+    const char *path; /* NULL: missing */
+    part_header header;
+} part_entry;
+
+/* The merging of an image. */
+typedef struct merging {
+    const facet_merge_desc *desc;
+    size_t path_count;
+    part_entry *parts; /* part_count of them, by index */
+    uint32_t part_count;
+    const part_entry *first; /* any that is there */
+    film layers;             /* as the parts have them: sums, or the image, and the other AOVs */
+    path_film *sums;         /* NULL: of another renderer */
+} merging;
+
+static facet_result read_header(const merging *m, const char *path, part_header *out, facet_error *error)
+{
+    file_bytes file;
+    TRY(file_open(path, 0, &m->desc->allocator, &file, error));
+    facet_result result = part_header_read(file.data, file.size, path, out, error);
+    file_close(&file);
+    return result;
+}
+
+/* The instruction set alone, which a comma separates from the vendor. */
+static bool has_same_set(const char *a, const char *b)
+{
+    size_t length = strcspn(a, ",");
+    return length == strcspn(b, ",") && memcmp(a, b, length) == 0;
+}
+
+/* Refuses a part of another image than the first. */
+static facet_result check_same(const part_entry *a, const part_entry *b, facet_error *error)
+{
+    const facet_part_info *p = &a->header.info, *q = &b->header.info;
+    if (strcmp(p->version, q->version) != 0)
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: it was rendered by facet %s, and %s by facet %s",
+                    b->path, q->version, a->path, p->version);
+    if (!has_same_set(p->machine, q->machine))
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "%s: it was rendered with another instruction set (--isa) than %s: %.*s, not %.*s",
+                    b->path, a->path, (int)strcspn(q->machine, ","), q->machine,
+                    (int)strcspn(p->machine, ","), p->machine);
+    if (p->split != q->split)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "%s: it is a range of samples and %s a tile, or the other way round; "
+                    "parts of one kind were expected",
+                    b->path, a->path);
+    if (p->count != q->count)
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: it is one of %u parts, and %s one of %u", b->path,
+                    q->count, a->path, p->count);
+    if (strcmp(p->settings, q->settings) != 0 || p->width != q->width || p->height != q->height)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "%s: it is part of another image than %s: the model or an option was different", b->path,
+                    a->path);
+    return FACET_OK;
+}
+
+/* A part that is there twice counts once if both say the same. */
+static facet_result check_twice(const merging *m, const part_entry *there, const part_entry *again,
+                                facet_error *error)
+{
+    if (strcmp(there->header.info.digest, again->header.info.digest) != 0)
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: it is part %u again, with other pixels than %s",
+                    again->path, again->header.info.index, there->path);
+    log_message(&m->desc->log, FACET_LOG_LEVEL_DETAIL, "%s: it is the same part as %s", again->path,
+                there->path);
+    return FACET_OK;
+}
+
+/* Whether parts may differ in a few pixels by one code value. */
+static void warn_of_vendors(const merging *m)
+{
+    const char *machine = m->first->header.info.machine;
+    for (uint32_t i = 0; i < m->part_count; i++)
+        if (strcmp(m->parts[i].header.info.machine, machine) != 0) {
+            log_warning(&m->desc->log,
+                        "%s and %s were rendered on processors of different vendors; pixels may differ by "
+                        "one code value "
+                        "from those of one machine",
+                        m->first->path, m->parts[i].path);
+            return;
+        }
+}
+
+static facet_result add_part(merging *m, const char *path, facet_error *error)
+{
+    part_entry found = {.path = path};
+    TRY(read_header(m, path, &found.header, error));
+    if (!m->parts) {
+        m->part_count = found.header.info.count;
+        if (m->part_count > m->path_count)
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "%s: it is one of %u parts, of which %zu at most are there", path, m->part_count,
+                        m->path_count);
+        m->parts = mem_zalloc(&m->desc->allocator, m->part_count, sizeof *m->parts);
+        if (!m->parts)
+            return fail_memory(error, "parts", m->part_count * sizeof *m->parts);
+    }
+    if (m->first)
+        TRY(check_same(m->first, &found, error));
+    part_entry *entry = &m->parts[found.header.info.index];
+    if (entry->path)
+        return check_twice(m, entry, &found, error);
+    *entry = found;
+    m->first = m->first ? m->first : entry;
+    return FACET_OK;
+}
+
+static facet_result check_complete(const merging *m, facet_error *error)
+{
+    uint32_t missing = 0, least = 0;
+    for (uint32_t i = m->part_count; i-- > 0;)
+        if (!m->parts[i].path) {
+            missing++;
+            least = i;
+        }
+    if (missing)
+        return fail(error, FACET_ERROR_ARGUMENT, "%u of %u parts are missing, part %u among them", missing,
+                    m->part_count, least);
+    uint64_t area = 0;
+    const facet_part_info *whole = &m->first->header.info;
+    for (uint32_t i = 0; i < m->part_count; i++)
+        area += (uint64_t)m->parts[i].header.info.rectangle[2] * m->parts[i].header.info.rectangle[3];
+    if (area != (uint64_t)whole->width * whole->height *
+                    (whole->split == FACET_PART_SPLIT_SAMPLES ? m->part_count : 1))
+        return fail(error, FACET_ERROR_INVALID, "%s: the parts overlap or leave pixels out", m->first->path);
+    return FACET_OK;
+}
+
+static facet_result find_parts(merging *m, const char *const *paths, size_t path_count, facet_error *error)
+{
+    if (path_count == 0)
+        return fail(error, FACET_ERROR_ARGUMENT, "there are no parts");
+    for (size_t i = 0; i < path_count; i++)
+        TRY(add_part(m, paths[i], error));
+    TRY(check_complete(m, error));
+    warn_of_vendors(m);
+    return FACET_OK;
+}
+
+/* ---- values ---- */
+
+/* Creates the film that parts are read into. */
+static facet_result create_films(merging *m, film *target, facet_error *error)
+{
+    const part_header *h = &m->first->header;
+    const facet_part_info *p = &h->info;
+    const facet_allocator *allocator = &m->desc->allocator;
+    bool is_path = renderer_get(h->renderer)->info.features & FACET_RENDERER_FEATURE_PATH;
+    TRY(film_create(allocator, p->width, p->height, h->aovs, target, error));
+    if (is_path)
+        TRY(path_film_create(allocator, p->width, p->height, h->has_ground, &m->sums, error));
+    m->layers = (film){.width = p->width, .height = p->height};
+    for (uint32_t i = 0; i < target->layer_count; i++)
+        if (!is_path || !path_film_makes_layer(target->layers[i].name))
+            m->layers.layers[m->layers.layer_count++] = target->layers[i];
+    if (is_path)
+        m->layers.layer_count += path_film_list_layers(m->sums, m->layers.layers + m->layers.layer_count);
+    return FACET_OK;
+}
+
+static facet_result check_values(const part_entry *part, const film *read, const uint32_t rectangle[4],
+                                 facet_error *error)
+{
+    char digest[17];
+    snprintf(digest, sizeof digest, "%016" PRIx64, part_digest(read, rectangle));
+    if (strcmp(digest, part->header.info.digest) != 0)
+        return fail(error, FACET_ERROR_INVALID,
+                    "%s: the part is damaged: its values differ from those that were written", part->path);
+    return FACET_OK;
+}
+
+/* Reads the values of a part into its rectangle of the layers. */
+static facet_result read_tile(merging *m, const part_entry *part, const file_bytes *file, facet_error *error)
+{
+    image_channel channels[FILM_MAX_LAYERS * 4 + PATH_FILM_MAX_CHANNELS];
+    const uint32_t *r = part->header.info.rectangle;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < m->layers.layer_count; i++) {
+        film_layer l = m->layers.layers[i];
+        l.pixels += ((size_t)r[1] * m->layers.width + r[0]) * l.channel_count;
+        count += film_layer_list_channels(&l, m->layers.width, channels + count);
+    }
+    TRY(image_read_exr_channels(file->data, file->size, part->path, &m->desc->allocator, r[2], r[3], channels,
+                                count, error));
+    return check_values(part, &m->layers, r, error);
+}
+
+static facet_result read_part(merging *m, const part_entry *part, facet_error *error)
+{
+    file_bytes file;
+    TRY(file_open(part->path, 0, &m->desc->allocator, &file, error));
+    facet_result result = read_tile(m, part, &file, error);
+    file_close(&file);
+    return result;
+}
+
+static facet_result read_parts(merging *m, facet_error *error)
+{
+    const facet_progress *progress = &m->desc->progress;
+    uint64_t dropped = 0;
+    for (uint32_t i = 0; i < m->part_count; i++) {
+        TRY(read_part(m, &m->parts[i], error));
+        dropped += m->parts[i].header.dropped;
+        if (progress->report && !progress->report(progress->user, "merge", (i + 1.0) / m->part_count))
+            return fail(error, FACET_ERROR_CANCELLED, "merging was cancelled");
+    }
+    if (!m->sums)
+        return FACET_OK;
+    path_film_set_dropped(m->sums, dropped);
+    return path_film_is_sound(m->sums)
+               ? FACET_OK
+               : fail(error, FACET_ERROR_INVALID, "%s: the parts are damaged: they hold no valid sums",
+                      m->first->path);
+}
+
+/* ---- texts that the image has, too ---- */
+
+enum { MAX_TEXT = 1 << 26 };
+
+/* Adds a text of a part to the image, if it has it. */
+static facet_result copy_text(const merging *m, const file_bytes *file, const char *name, film *target,
+                              facet_error *error)
+{
+    size_t size = 256;
+    facet_result result;
+    do {
+        char *value = mem_alloc(&m->desc->allocator, size *= 4, 1);
+        if (!value)
+            return fail_memory(error, "metadata", size);
+        result = image_read_exr_text(file->data, file->size, m->first->path, name, value, size, error);
+        if (result == FACET_OK)
+            TRY(film_add_text(target, name, value, &m->desc->allocator, error));
+        mem_free(value);
+    } while (result != FACET_OK && size < file->size && size < MAX_TEXT);
+    return result;
+}
+
+static facet_result copy_texts(const merging *m, film *target, facet_error *error)
+{
+    static const uint32_t aovs[MATTE_KINDS] = {FACET_AOV_CRYPTO_OBJECT, FACET_AOV_CRYPTO_MATERIAL,
+                                               FACET_AOV_CRYPTO_INSTANCE};
+    file_bytes file;
+    facet_result result = file_open(m->first->path, 0, &m->desc->allocator, &file, error);
+    for (uint32_t kind = 0; kind < MATTE_KINDS && result == FACET_OK; kind++)
+        for (uint32_t i = 0; m->first->header.aovs & aovs[kind] && i < MATTE_TEXTS && result == FACET_OK;
+             i++) {
+            char name[MATTE_TEXT_NAME_SIZE];
+            matte_text_name(kind, i, name);
+            result = copy_text(m, &file, name, target, error);
+        }
+    file_close(&file);
+    return result;
+}
+
+/* ---- the image ---- */
+
+/* The part of a desc that finishing reads. */
+static facet_render_desc finishing_of(const merging *m)
+{
+    const part_header *h = &m->first->header;
+    facet_render_desc d = {.allocator = m->desc->allocator,
+                           .thread_count = m->desc->thread_count,
+                           .exposure_ev = h->exposure_ev,
+                           .tonemap = m->desc->has_tonemap ? m->desc->tonemap : h->info.tonemap,
+                           .background = h->background,
+                           .shading = h->shading};
+    d.path.denoises = h->denoises;
+    d.ogl1.is_linear = h->is_ogl1_linear;
+    memcpy(d.background_color, h->background_color, sizeof d.background_color);
+    return d;
+}
+
+static facet_result merge(merging *m, const char *const *paths, size_t path_count, film *target,
+                          facet_render_stats *stats, facet_error *error)
+{
+    TRY(find_parts(m, paths, path_count, error));
+    const facet_render_desc finishing = finishing_of(m);
+    TRY(create_films(m, target, error));
+    TRY(read_parts(m, error));
+    TRY(copy_texts(m, target, error));
+    if (m->sums) {
+        stats->samples = path_film_total_samples(m->sums);
+        stats->dropped_samples = path_film_dropped(m->sums);
+        TRY(path_film_finish(m->sums, &finishing, target, &stats->denoise_s, error));
+    }
+    film_develop(target, &finishing);
+    return FACET_OK;
+}
+
+facet_result part_merge(const char *const *paths, size_t path_count, const facet_merge_desc *desc, film *out,
+                        facet_render_stats *stats, facet_error *error)
+{
+    merging m = {.desc = desc, .path_count = path_count};
+    *out = (film){.width = 0};
+    facet_result result = merge(&m, paths, path_count, out, stats, error);
+    path_film_destroy(m.sums);
+    mem_free(m.parts);
+    if (result != FACET_OK)
+        film_destroy(out);
+    return result;
+}
