@@ -64,10 +64,7 @@ static int explain_verb(const char *word, int argc, char **argv)
 {
     const char *near = suggest_verb(word);
     facet_error error;
-    if (verb_is_planned(word)) {
-        fail(&error, FACET_ERROR_ARGUMENT,
-             "this version does not have the command %.60s yet; facet help lists the commands", word);
-    } else if (word[0] == '-') {
+    if (word[0] == '-') {
         fail(&error, FACET_ERROR_ARGUMENT,
              "the command comes first, as in facet render %.300s; facet help lists the commands", word);
     } else if (looks_like_file(word)) {

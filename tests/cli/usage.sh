@@ -24,16 +24,8 @@ expect 2 cmgen
 says "did you mean bake?"
 expect 2 help raytrace
 says "did you mean facet help render?"
-for verb in merge; do
-    expect 2 $verb
-    says "this version does not have the command $verb yet"
-    [ "$(wc -l <err)" = 1 ] || failed "more than one line on $verb"
-    "$facet" help >out
-    ! grep -qE "^  $verb " out || failed "help lists $verb"
-done
 expect 2 rendr
 says "did you mean render?"
-expect 2 help serve
 expect 2 batch
 says "batch: which models?"
 expect 2 -v render

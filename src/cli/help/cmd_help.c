@@ -251,9 +251,7 @@ static int explain_word(const char *word)
     if (help_print_option(stdout, word))
         return EXIT_DONE;
     const char *near = suggest_verb(word);
-    if (verb_is_planned(word))
-        message_error("facet: this version does not have the command %s yet", word);
-    else if (near)
+    if (near)
         message_error("facet: there is no command \"%s\"; did you mean facet help %s?", word, near);
     else
         return search(word);

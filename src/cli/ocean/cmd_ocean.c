@@ -113,7 +113,8 @@ const verb ocean_verb = {
                          OPT_SWEEP),
             OPTION_GROUP("Models", OPT_WITH, OPT_SHADING, OPT_OGL1_VARIANT, OPT_OGL1_SPACE, OPT_FOG),
             OPTION_GROUP("Quality", OPT_QUALITY, OPT_SAMPLES, OPT_RENDERER, OPT_DENOISE),
-            OPTION_GROUP("Motion", OPT_TIME, OPT_FRAMES, OPT_FPS, OPT_LOOP), &limits_group, &messages_group,
+            OPTION_GROUP("Motion", OPT_TIME, OPT_FRAMES, OPT_FPS, OPT_LOOP),
+            OPTION_GROUP("Several machines", OPT_SHARD, OPT_SHARD_BY), &limits_group, &messages_group,
             OPTION_GROUP("Running", OPT_PROGRESS, OPT_CONFIG), NULL},
 };
 
@@ -282,6 +283,8 @@ static facet_result make_frames(ocean_run *run, facet_error *error)
     const render_options *p = &run->options.render;
     facet_result result = FACET_OK;
     for (uint32_t i = 0; i < p->frames.frame_count && result == FACET_OK && !run->base.is_interrupted; i++) {
+        if (!part_options_has_frame(p, i))
+            continue;
         uint32_t number = frame_list_at(&p->frames, i);
         char name[RENDER_NAME_SIZE] = "";
         if (p->output)

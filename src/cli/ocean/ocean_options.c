@@ -377,6 +377,7 @@ static facet_result read_sequence(const command_line *c, ocean_options *out, fac
 static facet_result read_output(const command_line *c, ocean_options *out, facet_error *error)
 {
     render_options *o = &out->render;
+    TRY(part_options_read(c, o, error));
     TRY(image_options_output(c, o, error));
     out->maps = option_text(c, OPT_MAPS, NULL);
     out->sweep = option_text(c, OPT_SWEEP, NULL);
@@ -441,6 +442,18 @@ static facet_result check_output(const command_line *c, const ocean_options *out
     return result == FACET_OK ? image_options_check_sequence(c, &out->render, error) : result;
 }
 
+/* A part is of one image of the sea. */
+static facet_result check_shard(const ocean_options *o, facet_error *error)
+{
+    TRY(part_options_check(&o->render, error));
+    if (o->render.desc.part.count && (o->is_before_after || o->sweep || o->has_mesh || o->maps))
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--shard-by: --before-after, --sweep, --maps and meshes are not divided; an image is, or "
+                    "the frames of "
+                    "a sequence");
+    return FACET_OK;
+}
+
 facet_result ocean_options_read(const command_line *c, ocean_options *out, facet_error *error)
 {
     *out = (ocean_options){.sea = facet_sea_default()};
@@ -457,7 +470,7 @@ facet_result ocean_options_read(const command_line *c, ocean_options *out, facet
     image_options_quality(c, is_before ? FACET_TONEMAP_NONE : FACET_TONEMAP_AGX, &out->render);
     out->render.desc.thread_count = out->render.save.thread_count = out->render.limits.thread_count;
     out->sea.thread_count = out->render.limits.thread_count;
-    return FACET_OK;
+    return check_shard(out, error);
 }
 
 void ocean_options_halves(const command_line *c, const ocean_options *o, ocean_half *before, ocean_half *now)

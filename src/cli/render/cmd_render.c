@@ -60,7 +60,8 @@ typedef struct model_run {
     video *video; /* NULL: files */
     double load_s;
     bool has_lost_checkpoint;
-    bool is_framed; /* the camera is framed, and its warnings are reported */
+    uint32_t frame_count, frames_done; /* of this process */
+    bool is_framed;                    /* the camera is framed, and its warnings are reported */
 } model_run;
 
 static facet_result frame_camera(model_run *m, uint32_t index, const sequence_frame *frame,
@@ -95,13 +96,13 @@ static facet_result check_inputs(const model_run *m, const char *name, facet_err
 
 /* Time limit of an image, s; 0: none. Path tracing uses all of its time, so that images share the rest
  * evenly. */
-static double time_for_frame(const model_run *m, uint32_t index, double left)
+static double time_for_frame(const model_run *m, double left)
 {
     if (!(left < 1e29))
         return 0.0;
     if (!(m->options.renderer.features & FACET_RENDERER_FEATURE_PATH))
         return left;
-    double frames_left = (double)(m->sequence.frames.frame_count - index);
+    double frames_left = (double)(m->frame_count - m->frames_done);
     return left / (frames_left * (double)m->run->models_left);
 }
 
@@ -111,11 +112,11 @@ static facet_result draw_frame(model_run *m, uint32_t index, const sequence_fram
 {
     render_run *run = m->run;
     const render_options *o = &m->options;
-    uint32_t frame_count = m->sequence.frames.frame_count;
+    uint32_t frame_count = m->frame_count;
     progress shown = {.mode = run->base.progress,
                       .subject = output,
                       .start = interrupt_clock(),
-                      .done_before = (double)index / frame_count,
+                      .done_before = (double)m->frames_done / frame_count,
                       .share = 1.0 / frame_count,
                       .last_percent = -10};
     facet_camera camera;
@@ -134,7 +135,7 @@ static facet_result draw_frame(model_run *m, uint32_t index, const sequence_fram
     desc.pose = m->sequence.pose;
     desc.camera = &camera;
     desc.environment = m->environment;
-    desc.time_limit_s = time_for_frame(m, index, left);
+    desc.time_limit_s = time_for_frame(m, left);
     if (o->checkpoint && output_make_folders(checkpoint, error) != FACET_OK)
         return FACET_ERROR_WRITE;
     desc.path.checkpoint_path = o->checkpoint ? checkpoint : NULL;
@@ -188,18 +189,31 @@ static void report_frame(render_run *run, const image_report *report)
         json_array_append_new(run->images, report_image_json(report));
 }
 
+/* Frames the camera for all images by the first one, which another process renders. */
+static facet_result keep_framing_of_first(model_run *m, facet_error *error)
+{
+    facet_camera camera;
+    const sequence_frame first = sequence_at(&m->sequence, 0);
+    return frame_camera(m, 0, &first, &camera, error);
+}
+
 static facet_result render_frames(model_run *m, facet_error *error)
 {
     const render_options *o = &m->options;
     facet_result result = FACET_OK;
+    m->frame_count = part_options_frame_count(o, m->sequence.frames.frame_count);
+    if (!part_options_has_frame(o, 0))
+        TRY(keep_framing_of_first(m, error));
     for (uint32_t i = 0; i < m->sequence.frames.frame_count && result == FACET_OK; i++) {
+        if (!part_options_has_frame(o, i))
+            continue;
         char name[RENDER_NAME_SIZE];
         sequence_frame frame = sequence_at(&m->sequence, i);
         result = render_name(o, m->model, frame.number, name, sizeof name, error);
         if (result != FACET_OK)
             break;
         image_report report = {
-            .model = input_name(m->model->path), .output = name, .load_s = i ? 0.0 : m->load_s};
+            .model = input_name(m->model->path), .output = name, .load_s = m->frames_done ? 0.0 : m->load_s};
         if (interrupt_signal())
             return fail(error, FACET_ERROR_CANCELLED, "%s: interrupted", name);
         result = check_inputs(m, name, error);
@@ -211,6 +225,7 @@ static facet_result render_frames(model_run *m, facet_error *error)
         messages_flush(&m->run->base.messages);
         if (result == FACET_OK)
             report_frame(m->run, &report);
+        m->frames_done++;
         m->has_lost_checkpoint = m->has_lost_checkpoint || report.stats.has_lost_checkpoint;
     }
     if (result == FACET_OK && m->has_lost_checkpoint)

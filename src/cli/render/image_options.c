@@ -100,7 +100,7 @@ static uint32_t all_aovs(const render_options *o)
     for (size_t i = 0; i < AOV_NAMES; i++)
         all |= aov_names[i].aovs;
     all &= o->renderer.aovs;
-    if (o->desc.path.resumes)
+    if (o->desc.path.resumes || o->desc.part.split == FACET_PART_SPLIT_SAMPLES)
         all &= ~(uint32_t)FACET_AOV_CRYPTOMATTE;
     return all;
 }
@@ -120,6 +120,8 @@ static facet_result check_aovs(const char *text, const render_options *o, facet_
     for (size_t i = 0; i < AOV_NAMES; i++) {
         if (!has_word(text, aov_names[i].name) || (aov_names[i].aovs & ~all) == 0)
             continue;
+        if (o->desc.part.split == FACET_PART_SPLIT_SAMPLES && aov_names[i].aovs & FACET_AOV_CRYPTOMATTE)
+            continue; /* part_options_check() */
         if (o->desc.path.resumes && aov_names[i].aovs & FACET_AOV_CRYPTOMATTE)
             return fail(error, FACET_ERROR_ARGUMENT,
                         "--aov: a checkpoint does not hold %s; render it without --resume",
@@ -173,6 +175,7 @@ facet_result image_options_output(const command_line *c, render_options *out, fa
     out->output = option_text(c, OPT_OUTPUT, NULL);
     out->is_stdout = out->output && strcmp(out->output, "-") == 0;
     out->keeps_existing = is_given(c, OPT_NO_CLOBBER);
+    TRY(part_options_name(c, out, error));
     if (!out->output)
         return FACET_OK;
     TRY(output_name_check("--output", out->output, OUTPUT_NAME_WORDS, error));
@@ -223,13 +226,30 @@ static bool is_linear(facet_image_format format)
            format == FACET_IMAGE_FORMAT_HDR || format == FACET_IMAGE_FORMAT_PFM;
 }
 
+/* A part keeps floats; the format of the image is that of facet merge. */
+static facet_result check_part_format(bool is_given, render_options *out, facet_error *error)
+{
+    const char *dot = out->output ? strrchr(out->output, '.') : NULL;
+    bool is_exr = is_given ? strcmp(render_extension(out->save.format), "exr") == 0
+                           : dot && strcasecmp(dot, ".exr") == 0;
+    if (!is_exr || out->video)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "--shard: a part of an image is an .exr file, as in -o part_{shard}.exr, of which facet "
+                    "merge makes "
+                    "the image (several models are divided by facet batch)");
+    out->save.format = FACET_IMAGE_FORMAT_EXR_FLOAT;
+    return FACET_OK;
+}
+
 facet_result image_options_format(const command_line *c, render_options *out, facet_error *error)
 {
     int choice = option_choice(c, OPT_FORMAT, -1);
-    if (choice >= 0) {
+    if (choice >= 0)
         set_format(out, (size_t)choice);
+    if (out->desc.part.count)
+        return check_part_format(choice >= 0, out, error);
+    if (choice >= 0)
         return FACET_OK;
-    }
     if (!out->output) {
         out->save.format = FACET_IMAGE_FORMAT_PNG;
         return FACET_OK;
@@ -293,7 +313,8 @@ facet_result image_options_exposure(const command_line *c, render_options *out, 
 void image_options_quality(const command_line *c, facet_tonemap otherwise, render_options *out)
 {
     static const facet_quality qualities[] = {FACET_QUALITY_DRAFT, FACET_QUALITY_NORMAL, FACET_QUALITY_FINAL};
-    if (is_linear(out->save.format))
+    if (is_linear(out->save.format) &&
+        !out->desc.part.count) /* that of a part is chosen with the image's format */
         otherwise = FACET_TONEMAP_NONE;
     out->desc.tonemap = (facet_tonemap)option_choice(c, OPT_TONE_MAPPING, (int)otherwise);
     out->desc.quality = qualities[option_choice(c, OPT_QUALITY, 1)];

@@ -70,17 +70,16 @@ facet_result render_options_read(const command_line *c, render_options *out, fac
     *out = (render_options){.scene = option_text(c, OPT_SCENE, NULL),
                             .variant = option_text(c, OPT_VARIANT, NULL)};
     facet_result (*const readers[])(const command_line *, render_options *, facet_error *) = {
-        image_options_output, image_options_format, read_size,   read_background,
-        read_color,           camera_options_read,  read_motion, image_options_environment,
-        path_options_read,    image_options_aov};
+        part_options_read,         image_options_output, image_options_format, read_size,
+        read_background,           read_color,           camera_options_read,  read_motion,
+        image_options_environment, path_options_read,    image_options_aov};
     facet_result result = limits_read(c, &out->limits, error);
     for (size_t i = 0; i < sizeof readers / sizeof *readers && result == FACET_OK; i++)
         result = readers[i](c, out, error);
     if (result != FACET_OK)
         return result;
-    result = image_options_check_sequence(c, out, error);
-    if (result != FACET_OK)
-        return result;
+    TRY(image_options_check_sequence(c, out, error));
+    TRY(part_options_check(out, error));
     out->desc.thread_count = out->save.thread_count = out->limits.thread_count;
     return FACET_OK;
 }

@@ -6,6 +6,7 @@
 #include "cli/shared/environment_input.h"
 #include "cli/shared/value.h"
 #include "cli/shared/limits.h"
+#include "cli/shared/shard.h"
 #include "cli/render/video.h"
 #include "facet/facet.h"
 
@@ -48,6 +49,12 @@ typedef struct render_options {
     environment_input environment;
     const char *environment_cache;
 
+    /* several processes */
+    bool has_shard; /* --shard: of frames, or desc.part */
+    shard shard;
+    char part_output[4096]; /* output with the number of the part */
+    char part_command[FACET_PART_COMMAND_SIZE];
+
     /* scene and limits */
     const char *scene;   /* NULL: the file's */
     const char *variant; /* NULL: none */
@@ -89,6 +96,15 @@ void image_options_quality(const command_line *c, facet_tonemap otherwise, rende
 facet_result image_options_frames(const command_line *c, render_options *out, facet_error *error);
 /* --env and the options of the environment. */
 facet_result image_options_environment(const command_line *c, render_options *out, facet_error *error);
+
+/* --shard, --shard-by, before the output is read: has_shard, desc.part. part_options_name(): after it, the name of a
+ * part and its command. part_options_check(): after all others; refuses what cannot be divided. */
+facet_result part_options_read(const command_line *c, render_options *out, facet_error *error);
+facet_result part_options_name(const command_line *c, render_options *out, facet_error *error);
+facet_result part_options_check(const render_options *o, facet_error *error);
+/* Whether this process renders image number index, from 0, of a sequence; how many of frame_count it renders. */
+bool part_options_has_frame(const render_options *o, uint32_t index);
+uint32_t part_options_frame_count(const render_options *o, uint32_t frame_count);
 
 /* Checks that all images have a name; needs is_sequence. */
 facet_result image_options_check_sequence(const command_line *c, const render_options *o, facet_error *error);

@@ -39,6 +39,8 @@ const verb render_verb = {
             {"facet render shoe.glb -o 'turn_####.png' --turntable 360 --renderer gl",
              "the same images, on a GPU"},
             {"facet render old.obj -o old.png --shading ogl1", "as an OpenGL 1 program rendered it"},
+            {"facet render huge.glb -o part_03.exr --size 32768x16384 --shard 3/40",
+             "part 3 of 40 of one image, for facet merge; of a sequence --shard takes frames"},
             {"curl -sL URL | facet render - -o - --format png > out.png", "without files"},
             {NULL, NULL}},
 #endif
@@ -55,5 +57,6 @@ const verb render_verb = {
             OPTION_GROUP("Path tracing (--renderer path)", PATH_OPTIONS, OPT_CHECKPOINT, OPT_RESUME),
             &gl_group, &shading_group, OPTION_GROUP("Motion", OPT_ANIMATION, OPT_TIME, OPT_FRAMES, OPT_FPS),
             &scene_group, &files_group, &legacy_group, &limits_group, &messages_group,
+            OPTION_GROUP("Several machines", OPT_SHARD, OPT_SHARD_BY),
             OPTION_GROUP("Running", OPT_PROGRESS, OPT_CONFIG, OPT_PRESET), NULL},
 };

@@ -183,7 +183,6 @@ static void test_table(void **state)
             }
             assert_false(option_is_planned(o->name));
         }
-        assert_false(verb_is_planned((*v)->name));
     }
 }
 

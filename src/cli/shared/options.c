@@ -94,14 +94,9 @@ static bool is_among(const char *name, const char *const *words)
     return false;
 }
 
-bool verb_is_planned(const char *name)
-{
-    return is_among(name, OPTION_WORDS("merge"));
-}
-
 bool option_is_planned(const char *name)
 {
-    return is_among(name, OPTION_WORDS("material-override", "shard"));
+    return is_among(name, OPTION_WORDS("material-override"));
 }
 
 /* ---- options of a verb ---- */

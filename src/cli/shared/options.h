@@ -119,8 +119,7 @@ struct command_line;
 
 extern const verb *const verbs[];        /* in the order of verbs.def; ends with NULL */
 const verb *verb_find(const char *name); /* NULL: no such verb in this version */
-/* Whether that verb or option is planned for a later version. */
-bool verb_is_planned(const char *name);
+/* Whether that option is planned for a later version. */
 bool option_is_planned(const char *name);
 
 /* An option of a verb, in that verb's description; NULL: none. */
