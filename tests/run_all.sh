@@ -36,7 +36,7 @@ configure() {
 # Khronos' glTF validator, programs that read baked environments, and what the element is compared with; their tests are skipped
 # without npm or network access.
 # Some of tests/clients need a browser, too, which ./run test installs.
-for folder in validator clients web; do
+for folder in validator clients web serve; do
     if command -v npm >/dev/null 2>&1 && [ ! -d "$here/tests/$folder/node_modules" ]; then
         (cd "$here/tests/$folder" && npm ci --no-audit --no-fund >"$build/npm.log" 2>&1) ||
             {

@@ -362,7 +362,10 @@ static void name_output(const reader *d, char name[REQUEST_NAME_SIZE])
     char stem[64] = "";
     const char *format = text_of(d, v == &convert_verb ? "to" : "format", NULL);
     const char *parts = "";
-    if (!d->r->name[0] || !output_name_stem(d->r->name, stem, sizeof stem) || !folder_name_is_plain(stem))
+    bool has_stem = d->r->name[0] && output_name_stem(d->r->name, stem, sizeof stem) &&
+                    folder_name_is_plain(stem) &&
+                    !strpbrk(stem, ":#%{},"); /* words of an environment; placeholders */
+    if (!has_stem)
         snprintf(stem, sizeof stem, "%s",
                  v == &convert_verb ? "model"
                  : v == &bake_verb  ? "environment"

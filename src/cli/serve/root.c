@@ -75,21 +75,6 @@ static void put_below(const char *below, char out[ROOT_PATH_SIZE])
              *below ? below : ".");
 }
 
-bool root_find(const root *r, const char *path, char below[ROOT_PATH_SIZE], answer *refusal)
-{
-    char resolved[PATH_MAX];
-    const char *written = written_below(r, path, refusal);
-    if (!written)
-        return false;
-    if (!realpath(written, resolved))
-        return answer_fail(refusal, ANSWER_MISSING, "%.800s: %s", path, strerror(errno));
-    const char *part = part_below(r, resolved);
-    if (!part)
-        return refuse_outside(path, refusal);
-    put_below(part, below);
-    return true;
-}
-
 /* Cuts the last name off a relative path; false: it was the only one, and the path is now ".". */
 static bool cut_last(char *path)
 {
@@ -104,6 +89,42 @@ static bool cut_last(char *path)
     return true;
 }
 
+/* Resolves the deepest folder above a relative path that exists: folder is its part of the path. False: none can be. */
+static bool resolve_above(const char *path, char folder[ROOT_PATH_SIZE], char resolved[PATH_MAX])
+{
+    snprintf(folder, ROOT_PATH_SIZE, "%.*s", ROOT_PATH_SIZE - 1, path);
+    size_t length = strlen(folder);
+    while (length > 1 && folder[length - 1] == '/')
+        folder[--length] = 0;
+    bool has_more = cut_last(folder);
+    while (!realpath(folder, resolved)) {
+        if ((errno != ENOENT && errno != ENOTDIR) || !has_more)
+            return false;
+        has_more = cut_last(folder);
+    }
+    return true;
+}
+
+bool root_find(const root *r, const char *path, char below[ROOT_PATH_SIZE], answer *refusal)
+{
+    char resolved[PATH_MAX];
+    const char *written = written_below(r, path, refusal);
+    if (!written)
+        return false;
+    if (!realpath(written, resolved)) {
+        char folder[ROOT_PATH_SIZE];
+        int code = errno;
+        if (resolve_above(written, folder, resolved) && !part_below(r, resolved))
+            return refuse_outside(path, refusal);
+        return answer_fail(refusal, ANSWER_MISSING, "%.800s: %s", path, strerror(code));
+    }
+    const char *part = part_below(r, resolved);
+    if (!part)
+        return refuse_outside(path, refusal);
+    put_below(part, below);
+    return true;
+}
+
 bool root_place(const root *r, const char *path, char below[ROOT_PATH_SIZE], answer *refusal)
 {
     char folder[ROOT_PATH_SIZE], resolved[PATH_MAX];
@@ -113,16 +134,8 @@ bool root_place(const root *r, const char *path, char below[ROOT_PATH_SIZE], ans
     if (strstr(written, "..") && (strncmp(written, "../", 3) == 0 || strstr(written, "/../")))
         return answer_fail(refusal, ANSWER_FORBIDDEN, "%.800s: the path of an output cannot contain \"..\"",
                            path);
-    snprintf(folder, sizeof folder, "%.*s", ROOT_PATH_SIZE - 1, written);
-    size_t length = strlen(folder);
-    while (length > 1 && folder[length - 1] == '/')
-        folder[--length] = 0;
-    bool has_more = cut_last(folder);
-    while (!realpath(folder, resolved)) {
-        if ((errno != ENOENT && errno != ENOTDIR) || !has_more)
-            return answer_fail(refusal, ANSWER_UNWRITABLE, "%.800s: %s", path, strerror(errno));
-        has_more = cut_last(folder);
-    }
+    if (!resolve_above(written, folder, resolved))
+        return answer_fail(refusal, ANSWER_UNWRITABLE, "%.800s: %s", path, strerror(errno));
     const char *part = part_below(r, resolved);
     if (!part)
         return refuse_outside(path, refusal);

@@ -76,6 +76,8 @@ static void inputs_stay_inside(void **state)
     check("sub/../../secret", ANSWER_FORBIDDEN, NULL);
     check("link", ANSWER_FORBIDDEN, NULL);
     check("up/secret", ANSWER_FORBIDDEN, NULL);
+    check("up/nothing", ANSWER_FORBIDDEN, NULL);
+    check("sub/nothing/a.glb", ANSWER_MISSING, NULL);
     check("/etc/passwd", ANSWER_FORBIDDEN, NULL);
     check("/nothing", ANSWER_FORBIDDEN, NULL);
     snprintf(path, sizeof path, "%s/inside/secret", outer);
