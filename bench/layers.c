@@ -10,6 +10,7 @@
 
 #include "base/memory.h"
 #include "cpu/preview.h"
+#include "scene/scene.h"
 
 enum { COLUMNS = 128, ROWS = 64, VERTICES = (COLUMNS + 1) * (ROWS + 1), SIZE = 512 };
 

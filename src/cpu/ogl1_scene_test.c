@@ -8,6 +8,8 @@
 
 #include "tests/support/support.h"
 #include "cpu/ogl1_fixture.h"
+#include "cpu/prepared_scene.h"
+#include "cpu/preview.h"
 
 /* ---- sameness ---- */
 

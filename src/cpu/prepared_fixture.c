@@ -10,6 +10,9 @@
 
 #include "base/memory.h"
 #include "cpu/prepared_fixture.h"
+#include "cpu/preview.h"
+
+#include "cpu/preview.h"
 
 facet_result prepared_try(const fixture *f, prepared_scene *p, film *rendered, facet_render_stats *stats,
                           facet_error *error)

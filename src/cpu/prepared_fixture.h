@@ -2,6 +2,7 @@
 #ifndef CPU_PREPARED_FIXTURE_H
 #define CPU_PREPARED_FIXTURE_H
 
+#include "cpu/prepared_scene.h"
 #include "cpu/preview_fixture.h"
 
 facet_result prepared_try(const fixture *f, prepared_scene *p, film *rendered, facet_render_stats *stats,

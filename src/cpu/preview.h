@@ -2,8 +2,9 @@
 #ifndef CPU_PREVIEW_H
 #define CPU_PREVIEW_H
 
-#include "cpu/prepared_scene.h"
 #include "film/film.h"
+
+struct prepared_scene; /* cpu/prepared_scene.h */
 
 /* Renders scene into film as desc says (see facet.h; sizes, samples, crop and camera are resolved, camera
  * is not NULL). The film is linear radiance times 2^exposure_ev, premultiplied, before tone mapping and
@@ -13,7 +14,7 @@ facet_result preview_render(const facet_scene *scene, const facet_render_desc *d
                             facet_render_stats *stats, facet_error *error);
 /* The same with a prepared scene, to which it adds what this image needs. Out of memory, it retries with
  * nothing prepared. p is valid after success and failure. Warns once of textures that cannot be decoded. */
-facet_result preview_render_prepared(prepared_scene *p, const facet_render_desc *desc, film *film,
+facet_result preview_render_prepared(struct prepared_scene *p, const facet_render_desc *desc, film *film,
                                      facet_render_stats *stats, facet_error *error);
 
 #endif

@@ -9,6 +9,8 @@
 
 #include <cmocka.h>
 
+#include "base/memory.h"
+#include "cpu/preview.h"
 #include "image/image.h"
 
 static const double PI_DOUBLE = 3.14159265358979323846;

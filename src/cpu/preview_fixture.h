@@ -2,7 +2,8 @@
 #ifndef CPU_PREVIEW_FIXTURE_H
 #define CPU_PREVIEW_FIXTURE_H
 
-#include "cpu/preview.h"
+#include "film/film.h"
+#include "scene/scene.h"
 
 enum { FIXTURE_CAPACITY = 64 };
 

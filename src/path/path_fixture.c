@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "cpu/preview.h"
 #include "ibl/cache.h"
 #include "ibl/environment.h"
 #include "path/path_render.h"
