@@ -111,6 +111,20 @@ void gl_programs_set_prelude(gl_programs *programs, const char *prelude)
     programs->prelude = prelude;
 }
 
+/* Only when nothing asks for their messages anymore: a browser forgets a shader at once. The program keeps them. */
+static void delete_shaders(gl_program *p)
+{
+    for (int i = 0; i < 2; i++)
+        glDeleteShader(p->shaders[i]);
+    p->shaders[0] = p->shaders[1] = 0;
+}
+
+static void delete_program(gl_program *p)
+{
+    delete_shaders(p);
+    glDeleteProgram(p->name);
+}
+
 void gl_programs_destroy(gl_programs *programs)
 {
     if (!programs)
@@ -118,7 +132,7 @@ void gl_programs_destroy(gl_programs *programs)
     if (programs->count > 0)
         glUseProgram(0); /* a program in use would not be deleted */
     for (size_t i = 0; i < programs->count; i++)
-        glDeleteProgram(programs->items[i].name);
+        delete_program(&programs->items[i]);
     mem_free(programs->items);
     mem_free(programs);
 }
@@ -168,7 +182,6 @@ facet_result gl_programs_request(gl_programs *programs, gl_program_key key, face
             glShaderSource(p->shaders[i], 1, &source, NULL);
             glCompileShader(p->shaders[i]);
             glAttachShader(p->name, p->shaders[i]);
-            glDeleteShader(p->shaders[i]); /* deleted together with the program */
         }
         text_destroy(&t);
     }
@@ -180,7 +193,7 @@ facet_result gl_programs_request(gl_programs *programs, gl_program_key key, face
     glLinkProgram(p->name);
     programs->count += result == FACET_OK;
     if (result != FACET_OK)
-        glDeleteProgram(p->name);
+        delete_program(p);
     return result;
 }
 
@@ -245,6 +258,7 @@ facet_result gl_programs_get(gl_programs *programs, gl_program_key key, uint32_t
         if (!is_linked)
             return fail_link(programs, p, error);
         bind_names(p);
+        delete_shaders(p);
         p->is_linked = true;
     }
     *name = p->name;
