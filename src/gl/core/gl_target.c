@@ -17,7 +17,8 @@ void gl_target_destroy(gl_target *t)
     *t = (gl_target){.width = 0};
 }
 
-/* Point-sampled, so it also works where float textures cannot be filtered. */
+/* Point-sampled, so it also works where float textures cannot be filtered. Left bound to no unit: where a
+ * program has a sampler for it that the draw does not need, browsers refuse to draw into it. */
 static GLuint make_texture(GLenum format, uint32_t width, uint32_t height)
 {
     GLuint name;
@@ -31,6 +32,7 @@ static GLuint make_texture(GLenum format, uint32_t width, uint32_t height)
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glBindTexture(GL_TEXTURE_2D, 0);
     return name;
 }
 
