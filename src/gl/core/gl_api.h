@@ -51,6 +51,13 @@ static inline void gl_api_compile_in_parallel(void)
 {
 }
 
+/* Whether a query has a result before the frame ends. In browsers that is only so in the next task of the page's
+ * event loop; until then it reads as 0. */
+static inline bool gl_api_has_query_results(void)
+{
+    return false;
+}
+
 /* Timer queries are not used in browsers: gl_context.has_timer_query is false. */
 static inline uint64_t gl_api_query_ns(bool is_es, unsigned query)
 {
@@ -104,6 +111,11 @@ static inline void gl_api_depth_range(bool is_es, double nearest, double farthes
 static inline void gl_api_compile_in_parallel(void)
 {
     glMaxShaderCompilerThreadsKHR(0xffffffff);
+}
+
+static inline bool gl_api_has_query_results(void)
+{
+    return true;
 }
 
 /* The result of a timer query, waiting for it. */
