@@ -280,13 +280,13 @@ static void gather(const float *from, uint32_t width, const uint32_t *indices, u
 
 /* ---- uploads ---- */
 
-static facet_result check_size(const gl_vertex_store *store, const char *what, size_t bytes,
+static facet_result check_size(const gl_vertex_store *store, const char *what, uint64_t bytes,
                                facet_error *error)
 {
     if (bytes <= INT_MAX)
         return FACET_OK;
-    return fail(error, FACET_ERROR_LIMIT, "%s: a mesh has %zu bytes of %s; OpenGL draws at most %d",
-                store->source, bytes, what, INT_MAX);
+    return fail(error, FACET_ERROR_LIMIT, "%s: a mesh has %llu bytes of %s; OpenGL draws at most %d",
+                store->source, (unsigned long long)bytes, what, INT_MAX);
 }
 
 static GLuint fill_buffer(gl_vertex_store *store, GLuint buffer, GLenum target, size_t bytes,
@@ -308,13 +308,13 @@ static facet_result upload_vertices(gl_vertex_store *store, const vertex_key *ke
                                     const vertex_choice *choice, bool changes, gl_vertices *v,
                                     facet_error *error)
 {
-    size_t bytes = 0;
+    uint64_t bytes = 0;
     v->count = choice->vertices ? choice->count : key->vertex_count;
     v->arrays = 0;
     for (int i = 0; i < GL_VERTEX_ARRAYS; i++) {
-        v->offsets[i] = bytes;
+        v->offsets[i] = (size_t)bytes;
         if (key->arrays[i])
-            bytes += (size_t)v->count * widths[i] * sizeof(float);
+            bytes += (uint64_t)v->count * widths[i] * sizeof(float);
         v->arrays |= key->arrays[i] ? 1u << i : 0;
     }
     facet_result result = check_size(store, "vertices", bytes, error);
@@ -323,7 +323,7 @@ static facet_result upload_vertices(gl_vertex_store *store, const vertex_key *ke
     float *chosen = NULL;
     if (choice->vertices && !(chosen = mem_alloc(&store->allocator, v->count, 4 * sizeof *chosen)))
         return fail_memory(error, "vertices", v->count * (4 * sizeof *chosen));
-    v->buffer = fill_buffer(store, v->buffer, GL_ARRAY_BUFFER, bytes, NULL, changes);
+    v->buffer = fill_buffer(store, v->buffer, GL_ARRAY_BUFFER, (size_t)bytes, NULL, changes);
     for (int i = 0; i < GL_VERTEX_ARRAYS; i++) {
         const float *data = key->arrays[i];
         size_t size = (size_t)v->count * widths[i] * sizeof(float);
@@ -345,9 +345,9 @@ static facet_result upload_vertices(gl_vertex_store *store, const vertex_key *ke
 static facet_result upload_elements(gl_vertex_store *store, const uint32_t *indices, uint32_t count,
                                     bool changes, gl_elements *e, facet_error *error)
 {
-    size_t bytes = count * sizeof *indices;
+    uint64_t bytes = (uint64_t)count * sizeof *indices;
     TRY(check_size(store, "indices", bytes, error));
-    e->buffer = fill_buffer(store, e->buffer, GL_ELEMENT_ARRAY_BUFFER, bytes, indices, changes);
+    e->buffer = fill_buffer(store, e->buffer, GL_ELEMENT_ARRAY_BUFFER, (size_t)bytes, indices, changes);
     e->count = count;
     e->indices = indices;
     return gl_context_check(store->context, "indices", error);
