@@ -51,7 +51,10 @@ static void bloom_preserves_energy(void **state)
             for (int channel = 0; channel < 4; channel++) {
                 double all = sum_of(&without, channel);
                 assert_true(all > 0.5);
-                assert_true(fabs(sum_of(&with, channel) / all - 1.0) < 0.01);
+                double share = sum_of(&with, channel) / all;
+                if (!(fabs(share - 1.0) < 0.01 * GL_FIXTURE_SLACK))
+                    fail_msg("%u x %u, channel %d: %g of the energy", sizes[size][0], sizes[size][1], channel,
+                             share);
             }
             /* It is missing in the center. */
             float middle = fixture_pixel(&without, "", sizes[size][0] / 2, sizes[size][1] / 2)[0];
@@ -186,6 +189,8 @@ static GLint level_count(void)
     return last == 1000 ? 1 : last + 1;
 }
 
+enum { MAX_NAMES = 20000 };
+
 /* Strict drivers of ES 3.0, browsers among them, draw into levels of immutable storage only. */
 static void textures_with_levels_have_immutable_storage(void **state)
 {
@@ -199,7 +204,7 @@ static void textures_with_levels_have_immutable_storage(void **state)
         film image = gl_fixture_draw(&f, renderer);
         assert_int_equal(gl_context_make_current(&contexts.items[c], NULL), FACET_OK);
         int found = 0;
-        for (GLuint name = 1; name < 1000; name++) {
+        for (GLuint name = 1; name < MAX_NAMES; name++) {
             GLint is_immutable = 0;
             if (!glIsTexture(name))
                 continue;

@@ -122,7 +122,7 @@ static void check_quad(const fixture *f, const ogl1_quad *q, gl_context *context
             count++;
             for (int c = 0; c < 3; c++) {
                 double value = q->is_linear ? (double)pixel[c] : ogl1_encode((double)pixel[c]);
-                if (!(fabs(value - rgb[c]) <= 2e-4 * fmax(1.0, rgb[c])))
+                if (!(fabs(value - rgb[c]) <= GL_FIXTURE_SLACK * 2e-4 * fmax(1.0, rgb[c])))
                     fail_msg("%s: pixel (%u, %u), channel %d: %.8g instead of %.8g", what, x, y, c, value,
                              rgb[c]);
             }

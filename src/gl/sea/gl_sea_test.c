@@ -135,7 +135,7 @@ static void compare_breeze(gl_api api)
     make_shot(&s, WIDTH, HEIGHT, 3.0f, 0.1f);
     expose(&s);
     assert_true(compare(renderer, sea, &s, "10 m/s") < 0.5);
-    if (api == GL_API_CORE) {
+    if (api == GL_API_ANY) {
         s.desc.sea_shading.style = FACET_SEA_STYLE_LEGACY_INTENDED;
         assert_true(compare(renderer, sea, &s, "before") < 0.3);
     }
@@ -145,7 +145,7 @@ static void compare_breeze(gl_api api)
 static void opengl_draws_what_the_preview_does(void **state)
 {
     (void)state;
-    compare_breeze(GL_API_CORE);
+    compare_breeze(GL_API_ANY);
 }
 
 static void opengl_es_draws_what_the_preview_does(void **state)
@@ -161,7 +161,7 @@ static void still_and_shallow_water(void **state)
     (void)state;
     if (IS_SLOW)
         skip();
-    gl_sea *renderer = renderer_of(GL_API_CORE);
+    gl_sea *renderer = renderer_of(GL_API_ANY);
     facet_sea_desc calm = small(0.0f), shallow = small(3.0f);
     shallow.bed = (facet_sea_bed){
         .depth_m = 3.0f, .slope = 0.05f, .direction_rad = -1.2f, .albedo = {0.5f, 0.45f, 0.35f}};
@@ -183,7 +183,7 @@ static void parts_and_depths(void **state)
     (void)state;
     if (IS_SLOW)
         skip();
-    gl_sea *renderer = renderer_of(GL_API_CORE);
+    gl_sea *renderer = renderer_of(GL_API_ANY);
     facet_sea_desc desc = small(5.0f);
     facet_sea *sea = make_sea(&desc);
     shot s;
@@ -211,7 +211,7 @@ static void other_facets(void **state)
     (void)state;
     if (IS_SLOW)
         skip();
-    gl_sea *renderer = renderer_of(GL_API_CORE);
+    gl_sea *renderer = renderer_of(GL_API_ANY);
     facet_sea_desc desc = small(10.0f);
     facet_sea *sea = make_sea(&desc);
     shot s;
@@ -240,7 +240,7 @@ static void environments(void **state)
     (void)state;
     if (IS_SLOW)
         skip();
-    gl_sea *renderer = renderer_of(GL_API_CORE);
+    gl_sea *renderer = renderer_of(GL_API_ANY);
     facet_sea_desc desc = small(3.0f);
     facet_sea *sea = make_sea(&desc);
     facet_environment *studio;
@@ -302,7 +302,7 @@ static void models_far_from_each_other(void **state)
     (void)state;
     if (IS_SLOW)
         skip();
-    gl_sea *renderer = renderer_of(GL_API_CORE);
+    gl_sea *renderer = renderer_of(GL_API_ANY);
     facet_sea_desc desc = small(2.0f);
     facet_sea *sea = make_sea(&desc);
     fixture f = spheres();
@@ -323,7 +323,7 @@ static void a_model_with_many_textures(void **state)
     (void)state;
     if (IS_SLOW)
         skip();
-    gl_sea *renderer = renderer_of(GL_API_CORE);
+    gl_sea *renderer = renderer_of(GL_API_ANY);
     static const unsigned char white[4] = {255, 255, 255, 255};
     static const scene_texture_slot slots[] = {
         SCENE_BASE_COLOR_TEXTURE, SCENE_METALLIC_ROUGHNESS_TEXTURE,  SCENE_EMISSIVE_TEXTURE,
@@ -357,7 +357,7 @@ static void a_hull_in_waves(void **state)
     (void)state;
     if (IS_SLOW)
         skip();
-    gl_sea *renderer = renderer_of(GL_API_CORE);
+    gl_sea *renderer = renderer_of(GL_API_ANY);
     facet_sea_desc desc = small(6.0f);
     facet_sea *sea = make_sea(&desc);
     fixture f = fixture_create();
@@ -379,7 +379,7 @@ static void models(void **state)
     (void)state;
     if (IS_SLOW)
         skip();
-    gl_sea *renderer = renderer_of(GL_API_CORE);
+    gl_sea *renderer = renderer_of(GL_API_ANY);
     compare_model(renderer, 2.0f, 3.0f, 0.35f, 0.0f, 0.6);
     compare_model(renderer, 0.0f, -2.0f, -0.2f, 0.0f, 0.1);
     compare_model(renderer, 2.0f, -2.0f, -0.2f, 0.0f, 0.2);  /* mirrored in the surface from below */
@@ -393,7 +393,7 @@ static void models(void **state)
 static void a_model_in_the_legacy_style(void **state)
 {
     (void)state;
-    gl_sea *renderer = renderer_of(GL_API_CORE);
+    gl_sea *renderer = renderer_of(GL_API_ANY);
     facet_sea_desc desc = small(2.0f);
     facet_sea *sea = make_sea(&desc);
     fixture f = spheres();
@@ -422,7 +422,7 @@ static void frames_are_stills(void **state)
     (void)state;
     facet_sea_desc desc = small(12.0f);
     facet_sea *sea = make_sea(&desc);
-    gl_sea *renderer = renderer_of(GL_API_CORE);
+    gl_sea *renderer = renderer_of(GL_API_ANY);
     shot s;
     film frame, still;
     make_shot(&s, WIDTH, HEIGHT, 3.0f, 0.1f);
@@ -455,11 +455,11 @@ static EGLBoolean refuse_once(EGLDisplay display, EGLSurface draw, EGLSurface re
 static void a_context_that_cannot_be_current_leaves_no_memory(void **state)
 {
     (void)state;
-    renderer_of(GL_API_CORE);
+    renderer_of(GL_API_ANY);
     failing_allocator counted = {.fail_at = -1};
     facet_allocator allocator = failing_allocator_get(&counted);
     gl_sea *renderer;
-    assert_int_equal(gl_sea_create_api(GL_API_CORE, &allocator, &renderer, NULL), FACET_OK);
+    assert_int_equal(gl_sea_create_api(GL_API_ANY, &allocator, &renderer, NULL), FACET_OK);
     assert_true(atomic_load(&counted.blocks) > 1);
     make_current = epoxy_eglMakeCurrent;
     epoxy_eglMakeCurrent = refuse_once;
@@ -472,7 +472,7 @@ static void a_context_that_cannot_be_current_leaves_no_memory(void **state)
 static void unsupported_cameras_are_reported(void **state)
 {
     (void)state;
-    gl_sea *renderer = renderer_of(GL_API_CORE);
+    gl_sea *renderer = renderer_of(GL_API_ANY);
     facet_sea_desc desc = small(0.0f);
     facet_sea *sea = make_sea(&desc);
     shot s;
