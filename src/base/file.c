@@ -198,9 +198,9 @@ static bool leads_to_descriptor(const char *path)
     return is_descriptor(path) || is_descriptor(target);
 }
 
-/* Creates a unique file beside path, with mode 666 less the umask. *name: its path, for free(). Negative:
- * see errno. */
-static int create_temporary(const char *path, char **name)
+/* Tries names beside path until one is free for make(), which returns a descriptor, or -1 with errno. *name: the path, for
+ * free(). Negative: see errno. */
+static int try_names(const char *path, int (*make)(const char *name, int user), int user, char **name)
 {
     enum { MAX_LENGTH = 240, ATTEMPTS = 100 }; /* of the 255 bytes of a file name */
     const char *base = path_base_name(path);
@@ -217,11 +217,48 @@ static int create_temporary(const char *path, char **name)
             errno = ENOMEM;
             return -1;
         }
-        fd = open(*name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        fd = make(*name, user);
         if (fd < 0 && errno != EEXIST)
             return -1;
     }
     return fd;
+}
+
+/* A new file of that name, with mode 666 less the umask. */
+static int create_named(const char *name, int unused)
+{
+    (void)unused;
+    return open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+}
+
+/* Gives a name to a file without one. */
+static int link_unnamed(const char *name, int fd)
+{
+    char link[64];
+    snprintf(link, sizeof link, "/proc/self/fd/%d", fd);
+    return linkat(AT_FDCWD, link, AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0 ? fd : -1;
+}
+
+/* A new file without a name in the folder of path: nothing is left of it if the process is killed. -1: the file system has
+ * none such. */
+static int create_unnamed(const char *path)
+{
+    char *folder = path_folder(NULL, path);
+    int fd = folder ? open(folder, O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666) : -1;
+    mem_free(folder);
+    return fd;
+}
+
+/* Writes a temporary, to which *name leads afterwards; closes the descriptor. False: see errno. */
+static bool fill_temporary(int fd, const char *path, mode_t mode, const void *data, size_t size, char **name)
+{
+    bool is_good = (!mode || fchmod(fd, mode) == 0) && write_all(fd, data, size) && fsync(fd) == 0 &&
+                   (*name || try_names(path, link_unnamed, fd, name) >= 0);
+    int code = errno;
+    if (close(fd) != 0 && is_good)
+        return false;
+    errno = code;
+    return is_good;
 }
 
 /* Writes the temporary of a stage; its destination is not a folder. */
@@ -229,9 +266,13 @@ static facet_result stage_regular(const char *path, const void *data, size_t siz
                                   facet_error *error)
 {
     struct stat old;
-    bool keeps_mode = lstat(path, &old) == 0 && S_ISREG(old.st_mode);
-    stage->path = strdup(path);
-    int fd = stage->path ? create_temporary(path, &stage->temporary) : -1;
+    mode_t mode = lstat(path, &old) == 0 && S_ISREG(old.st_mode) ? old.st_mode & 0777 : 0;
+    *stage = (file_stage){.path = strdup(path)};
+    int fd = stage->path ? create_unnamed(path) : -1;
+    if (fd >= 0 && fill_temporary(fd, path, mode, data, size, &stage->temporary))
+        return FACET_OK;
+    free(stage->temporary); /* of a name that could not be linked */
+    fd = stage->path ? try_names(path, create_named, 0, &stage->temporary) : -1;
     if (fd < 0) {
         int code = stage->path ? errno : ENOMEM;
         free(stage->temporary);
@@ -239,15 +280,9 @@ static facet_result stage_regular(const char *path, const void *data, size_t siz
         *stage = (file_stage){0};
         return fail(error, FACET_ERROR_WRITE, "%s: cannot be created: %s", path, strerror(code));
     }
-    bool written =
-        (!keeps_mode || fchmod(fd, old.st_mode & 0777) == 0) && write_all(fd, data, size) && fsync(fd) == 0;
-    int code = errno;
-    if (close(fd) != 0 && written) {
-        written = false;
-        code = errno;
-    }
-    if (written)
+    if (fill_temporary(fd, path, mode, data, size, &stage->temporary))
         return FACET_OK;
+    int code = errno;
     file_stage_discard(stage);
     return fail(error, FACET_ERROR_WRITE, "%s: cannot be written: %s", path, strerror(code));
 }

@@ -338,23 +338,6 @@ void text_add_base64(text *t, const void *bytes, size_t size)
     }
 }
 
-void text_add_shell_word(text *t, const char *word)
-{
-    static const char harmless[] =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:=+@%^";
-    if (*word && strspn(word, harmless) == strlen(word)) {
-        text_add(t, word);
-        return;
-    }
-    text_add(t, "'");
-    for (const char *end; (end = strchr(word, '\'')); word = end + 1) {
-        text_add_bytes(t, word, (size_t)(end - word));
-        text_add(t, "'\\''");
-    }
-    text_add(t, word);
-    text_add(t, "'");
-}
-
 /* ---- JSON ---- */
 
 static void add_quoted(text *t, const char *value)

@@ -20,8 +20,6 @@ void text_addf(text *t, const char *format, ...) __attribute__((format(printf, 2
 void text_destroy(text *t); /* {0} is allowed */
 /* As HTML: &, <, > and quotes as entities; invalid UTF-8 and control characters become U+FFFD. */
 void text_add_html(text *t, const char *string);
-/* As a word of a POSIX shell: in single quotes unless every character is harmless. */
-void text_add_shell_word(text *t, const char *word);
 /* As base64 (RFC 4648), padded, without line breaks. */
 void text_add_base64(text *t, const void *bytes, size_t size);
 

@@ -193,25 +193,6 @@ static void html_is_escaped(void **state)
     text_destroy(&t);
 }
 
-static void shell_words_are_quoted(void **state)
-{
-    (void)state;
-    static const char *const cases[][2] = {{"a-b_c.png", "a-b_c.png"},
-                                           {"--size=64x48", "--size=64x48"},
-                                           {"", "''"},
-                                           {"two words", "'two words'"},
-                                           {"$HOME/*;`id`\n", "'$HOME/*;`id`\n'"},
-                                           {"it's", "'it'\\''s'"},
-                                           {"''", "''\\'''\\'''"},
-                                           {"\xc3\xa9", "'\xc3\xa9'"}};
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        text t = {0};
-        text_add_shell_word(&t, cases[i][0]);
-        assert_string_equal(t.data, cases[i][1]);
-        text_destroy(&t);
-    }
-}
-
 static void base64_is_padded(void **state)
 {
     (void)state;
@@ -264,7 +245,6 @@ int main(void)
         cmocka_unit_test(strings_are_valid_utf8),
         cmocka_unit_test(html_is_escaped),
         cmocka_unit_test(base64_is_padded),
-        cmocka_unit_test(shell_words_are_quoted),
         cmocka_unit_test(base64_is_read_back),
         cmocka_unit_test(long_text_grows_and_failure_sticks),
     };

@@ -83,6 +83,19 @@ static facet_result read(verb_run *base, facet_error *error)
 
 /* ---- submission ---- */
 
+/* Submits the chosen shards; a failure says how to go on. */
+static facet_result submit_chosen(farm_verb_run *f, facet_error *error)
+{
+    facet_error reason;
+    facet_result result = farm_slurm_submit(&f->run, f->chosen, &reason);
+    if (result == FACET_OK)
+        return FACET_OK;
+    return fail(error, result,
+                "%s; the run is in %.1000s: facet farm retry submits it, and with --print-commands "
+                "another engine can do it",
+                reason.message, f->run.folder);
+}
+
 /* Submits the chosen shards, or prints their commands. */
 static facet_result start(farm_verb_run *f, facet_error *error)
 {
@@ -98,7 +111,7 @@ static facet_result start(farm_verb_run *f, facet_error *error)
     if (result == FACET_OK && count && is_given(c, OPT_PRINT_COMMANDS))
         fputs(lines.data, stdout);
     else if (result == FACET_OK && count)
-        result = farm_slurm_submit(&f->run, f->chosen, error);
+        result = submit_chosen(f, error);
     text_destroy(&lines);
     if (result == FACET_OK && !is_given(c, OPT_PRINT_COMMANDS))
         message_at(&f->base.messages, VERBOSITY_NORMAL, "%s: %u of %u shards submitted", f->run.folder, count,

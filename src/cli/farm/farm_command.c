@@ -2,8 +2,10 @@
 #include "cli/farm/farm_command.h"
 
 #include "base/result.h"
+#include "cli/shared/output.h"
 
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 bool farm_command_is_catalog(const farm_command *c)
@@ -17,6 +19,12 @@ const char *farm_command_option(const farm_command *c, const char *name)
     return o ? c->line.values[o->id].text : NULL;
 }
 
+bool farm_command_has_threads(const farm_command *c)
+{
+    const option *o = option_find_letter(c->verb, 'j');
+    return !o || is_given(&c->line, o->id);
+}
+
 static bool has_option(const farm_command *c, const char *name)
 {
     const option *o = option_find(c->verb, name, strlen(name));
@@ -26,11 +34,10 @@ static bool has_option(const farm_command *c, const char *name)
 /* Options that the run itself sets, or under which a shard has no result. */
 static facet_result check_options(const farm_command *c, facet_error *error)
 {
-    static const char *const own[] = {"shard", "results", "json", "verify", "gallery"};
+    static const char *const own[] = {"shard", "results", "failed", "json", "verify", "gallery"};
     for (size_t i = 0; i < sizeof own / sizeof *own; i++)
         if (has_option(c, own[i]))
-            return fail(error, FACET_ERROR_ARGUMENT,
-                        "farm: the command has --%s, which facet farm sets itself for each shard", own[i]);
+            return fail(error, FACET_ERROR_ARGUMENT, "farm: the command must not have --%s here", own[i]);
     const char *output = farm_command_option(c, "output");
     if (output && strcmp(output, "-") == 0)
         return fail(error, FACET_ERROR_ARGUMENT,
@@ -38,10 +45,31 @@ static facet_result check_options(const farm_command *c, facet_error *error)
     const char *manifest = farm_command_option(c, "manifest");
     if (!farm_command_is_catalog(c) || (manifest && strcmp(manifest, "-") != 0))
         return FACET_OK;
-    return fail(
-        error, FACET_ERROR_ARGUMENT,
-        "farm: facet batch needs --manifest FILE here: every shard reads the list, which must not change "
-        "during the run, as a folder may");
+    return fail(error, FACET_ERROR_ARGUMENT,
+                "farm: facet batch needs --manifest FILE here: every shard reads the list, which must not "
+                "change during the run, as a folder may");
+}
+
+/* Takes the output out of the words: each part of the image has its own. */
+static facet_result take_output(farm_command *c, facet_error *error)
+{
+    const option *o = option_find(c->verb, "output", 6);
+    const option_value *given = &c->line.values[o->id];
+    if (given->count != 1 || c->line.argument_count > 1)
+        return fail(error, FACET_ERROR_ARGUMENT, "farm: facet %s needs %s here", c->verb->name,
+                    given->count != 1 ? "one -o NAME: the image, or frames as frame_####.png"
+                                      : "one model; several are a catalog, for facet batch");
+    c->merged = given->text;
+    for (size_t i = 0; i < c->word_count; i++) {
+        const char *word = c->words[i];
+        if (given->text < word || given->text > word + strlen(word))
+            continue;
+        size_t first = given->text == word ? i - 1 : i; /* "-o NAME" or "-oNAME" */
+        c->word_count -= i + 1 - first;
+        memmove(c->words + first, c->words + i + 1, (c->word_count - first) * sizeof *c->words);
+        break;
+    }
+    return FACET_OK;
 }
 
 facet_result farm_command_read(const char *const *words, size_t word_count, farm_command *out,
@@ -56,15 +84,23 @@ facet_result farm_command_read(const char *const *words, size_t word_count, farm
         return fail(error, FACET_ERROR_ARGUMENT,
                     "farm: \"%.100s\" is not a command that works in shards; facet batch and facet render do",
                     words[0]);
-    out->words = words + 1;
+    out->words = malloc(word_count * sizeof *out->words);
+    if (!out->words)
+        return fail_memory(error, "command", word_count * sizeof *out->words);
     out->word_count = word_count - 1;
+    memcpy(out->words, words + 1, out->word_count * sizeof *out->words);
     TRY(command_line_parse(out->verb, (int)out->word_count, (char **)(uintptr_t)out->words, &out->line,
                            error));
-    return check_options(out, error);
+    TRY(check_options(out, error));
+    const char *by = farm_command_option(out, "shard-by"), *output = farm_command_option(out, "output");
+    bool is_whole = farm_command_is_catalog(out) || (by && strcmp(by, "frames") == 0) ||
+                    (output && output_name_has_frame(output));
+    return is_whole ? FACET_OK : take_output(out, error);
 }
 
 void farm_command_destroy(farm_command *c)
 {
+    free(c->words);
     command_line_destroy(&c->line);
     *c = (farm_command){0};
 }

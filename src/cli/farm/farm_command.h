@@ -6,10 +6,11 @@
 
 /* {0} initially. */
 typedef struct farm_command {
-    const verb *verb;         /* one with --shard */
-    const char *const *words; /* behind the verb; of the caller */
+    const verb *verb;   /* one with --shard */
+    const char **words; /* behind the verb, without the output of an image in parts */
     size_t word_count;
-    command_line line; /* of the words */
+    command_line line;  /* of all words */
+    const char *merged; /* output of facet merge, where shards are parts of an image; NULL: no merging */
 } farm_command;
 
 /* Checks and parses the words of a command, the verb first: it must have --shard and leave to facet farm what a run sets
@@ -20,6 +21,8 @@ void farm_command_destroy(farm_command *c); /* {0} is allowed */
 
 /* The value of an option of the command; NULL: not given. */
 const char *farm_command_option(const farm_command *c, const char *name);
+/* Whether the command has a value for -j, or would not take one. */
+bool farm_command_has_threads(const farm_command *c);
 /* Whether the command renders a catalog. */
 bool farm_command_is_catalog(const farm_command *c);
 

@@ -44,7 +44,7 @@ static facet_result find_folder(const char *folder, farm_run *out, facet_error *
 
 facet_result farm_run_create(const char *folder, farm_run *out, facet_error *error)
 {
-    static const char *const names[] = {"", "/results", "/log"};
+    static const char *const names[] = {"", "/results", "/parts", "/log"};
     char path[PATH_MAX];
     snprintf(path, sizeof path, "%.3000s/run.json", folder);
     if (output_exists(path))

@@ -5,6 +5,7 @@
  *     slurm.sh      the array job of Slurm, which runs chunk.sh
  *     finish.sh     the job after the array: merges parts, says what is missing
  *     results/      what each shard did: SHARD.jsonl of facet batch, SHARD.json of facet render --json
+ *     parts/        parts of an image, for facet merge
  *     log/          standard output and standard error of the jobs */
 #ifndef CLI_FARM_RUN_H
 #define CLI_FARM_RUN_H

@@ -2,23 +2,36 @@
 #include "cli/farm/farm_script.h"
 
 #include "base/file.h"
+#include "cli/shared/shell_line.h"
 
 #include <ctype.h>
 #include <math.h>
+#include <stdlib.h>
 
 enum { REQUEUES = 5 }; /* of an element that exits with 75 */
+
+void farm_script_add_word(text *out, const char *word)
+{
+    shell_line line = {.text = NULL};
+    shell_line_add_word(&line, word);
+    if (line.text && !line.has_failed)
+        text_add(out, line.text);
+    else
+        out->has_failed = true;
+    free(line.text);
+}
 
 static void add_word(text *out, const char *word)
 {
     text_add(out, " ");
-    text_add_shell_word(out, word);
+    farm_script_add_word(out, word);
 }
 
 /* "name=VALUE" and a line feed. */
 static void add_assignment(text *out, const char *name, const char *value)
 {
     text_addf(out, "%s=", name);
-    text_add_shell_word(out, value);
+    farm_script_add_word(out, value);
     text_add(out, "\n");
 }
 
@@ -29,13 +42,27 @@ static void add_place(const farm_script *s, text *out)
     text_add(out, " || exit 75\n");
 }
 
+/* A path in the folder of the run, as a word. */
+static void add_file(const farm_script *s, const char *name, text *out)
+{
+    text path = {.allocator = out->allocator};
+    text_addf(&path, "%s/%s", s->folder, name);
+    if (!path.has_failed)
+        add_word(out, path.data);
+    text_destroy(&path);
+}
+
 /* Options of facet farm come directly behind the verb: the command may contain a "--". */
 void farm_script_command(const farm_script *s, const char *shard, const char *results, text *out)
 {
-    text_add_shell_word(out, s->program);
+    farm_script_add_word(out, s->program);
     text_addf(out, " %s --shard %s/%u", s->command->verb->name, shard, s->shard_count);
-    if (!farm_command_option(s->command, "threads"))
+    if (!farm_command_has_threads(s->command))
         text_addf(out, " -j %u", s->cpu_count);
+    if (s->command->merged) {
+        text_add(out, " -o");
+        add_file(s, "parts/{shard}.exr", out);
+    }
     if (farm_command_is_catalog(s->command))
         text_addf(out, " --resume --results %s.jsonl", results);
     else
@@ -112,11 +139,18 @@ void farm_script_finish(const farm_script *s, text *out)
                   "#SBATCH --ntasks=1 --time=60\n"
                   "#SBATCH --requeue --open-mode=append --output=log/finish.log\n");
     add_place(s, out);
-    text_add(out, "exec");
-    add_word(out, s->program);
+    text_add(out, "code=0\n");
+    if (s->command->merged) {
+        add_assignment(out, "run", s->folder);
+        farm_script_add_word(out, s->program);
+        text_add(out, " merge \"$run\"/parts/*.exr -o");
+        add_word(out, s->command->merged);
+        text_add(out, " || code=$?\n");
+    }
+    farm_script_add_word(out, s->program);
     text_add(out, " farm status --run");
     add_word(out, s->folder);
-    text_add(out, "\n");
+    text_add(out, " || code=$?\nexit $code\n");
 }
 
 void farm_script_line(const char *folder, uint32_t shard, text *out)

@@ -21,6 +21,8 @@ typedef struct farm_script {
     double time_limit_s;
 } farm_script;
 
+/* Adds a word, quoted for the shell if necessary. */
+void farm_script_add_word(text *out, const char *word);
 /* chunk.sh: sh chunk.sh SHARD. */
 void farm_script_chunk(const farm_script *s, text *out);
 /* The command of one shard, as chunk.sh has it. shard and results, the file of the results without extension, are shell

@@ -1,4 +1,5 @@
 /* farm_status.c - see farm_status.h. */
+#define _POSIX_C_SOURCE 200809L
 #include "cli/farm/farm_status.h"
 
 #include "cli/shared/failure.h"
@@ -62,9 +63,9 @@ static void read_single(farm_status *s, farm_shard *part, const char *path)
 /* Counts the last result of each item: a shard that ran again has appended to its results. */
 static void count_results(farm_status *s, farm_shard *part, json_t *results)
 {
-    const char *id;
+    const char *number;
     json_t *result;
-    json_object_foreach(results, id, result)
+    json_object_foreach(results, number, result)
     {
         const char *status = json_string_value(json_object_get(result, "status"));
         bool is_done = status && strcmp(status, "done") == 0;
@@ -76,17 +77,25 @@ static void count_results(farm_status *s, farm_shard *part, json_t *results)
     }
 }
 
-static void read_catalog(farm_status *s, farm_shard *part, const char *path)
+/* Reads the lines of the results; an incomplete one, of a process that was killed, is ignored. */
+static void read_catalog(farm_status *s, farm_shard *part, shard self, const char *path)
 {
     FILE *file = fopen(path, "r");
     json_t *results = json_object();
-    json_t *line;
-    while (file && (line = json_loadf(file, JSON_DISABLE_EOF_CHECK, NULL))) {
-        const char *id = json_string_value(json_object_get(line, "id"));
-        if (id)
-            json_object_set(results, id, line);
-        json_decref(line);
+    char *line = NULL;
+    size_t capacity = 0;
+    ssize_t length;
+    while (file && (length = getline(&line, &capacity, file)) > 0) {
+        char key[32];
+        json_t *result = json_loadb(line, (size_t)length, 0, NULL), *item = json_object_get(result, "item");
+        json_int_t number = json_integer_value(item);
+        if (json_is_integer(item) && number >= 0 && shard_has(self, (uint64_t)number)) {
+            snprintf(key, sizeof key, "%lld", (long long)number);
+            json_object_set(results, key, result);
+        }
+        json_decref(result);
     }
+    free(line);
     if (file)
         fclose(file);
     count_results(s, part, results);
@@ -108,8 +117,9 @@ static void read_shard(const farm_run *run, uint32_t index, farm_status *s)
     bool is_catalog = farm_run_is_catalog(run);
     snprintf(path, sizeof path, "%s/results/%u.json%s", run->folder, index, is_catalog ? "l" : "");
     if (is_catalog) {
-        part->items = shard_size((shard){index, run->shard_count}, run->item_count);
-        read_catalog(s, part, path);
+        shard self = {index, run->shard_count};
+        part->items = shard_size(self, run->item_count);
+        read_catalog(s, part, self, path);
     } else {
         read_single(s, part, path);
     }

@@ -89,7 +89,7 @@ static facet_result render_sample(const farm_submission *s, double *core_seconds
     text results = {0}, path = {0}, command = {0};
     text_addf(&path, "%s/results/sample", script.folder);
     if (!path.has_failed)
-        text_add_shell_word(&results, path.data);
+        farm_script_add_word(&results, path.data);
     if (!results.has_failed)
         farm_script_command(&script, "0", results.data, &command);
     bool has_failed = path.has_failed || results.has_failed || command.has_failed;
