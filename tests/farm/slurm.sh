@@ -1,7 +1,7 @@
 #!/bin/sh
 # slurm.sh - facet farm on a real Slurm of two nodes on this machine: a catalog with an invalid model and one that hangs, and
-# a sharded image, while a node is lost. Everything that can be done is done, in the same bytes as without a cluster.
-# Needs root, slurm-wlm and munge; skipped, or failed where CI_REQUIRES_ALL is set, without them.
+# an image in parts, while a node is lost and a shard is asked to end. Everything that can be done is done, in the bytes of
+# one process. Needs root, slurm-wlm and munge; without them it is skipped, or fails where CI_REQUIRES_ALL is set.
 set -eu
 here=$(CDPATH= cd -- "$(dirname -- "$0")" && pwd)
 . "$here/cluster.sh"
@@ -12,15 +12,62 @@ own_processes sh "$here/slurm.sh" "$@"
 . "$here/../cli/lib.sh"
 trap 'cluster_stop; rm -rf "$work"' EXIT
 trap 'exit 1' INT TERM HUP
+
+# 30 items: one is no model, one a pipe that nobody writes to.
+write_triangle tri.gltf
+echo "not a model" >bad.glb
+mkfifo hang.glb
+for i in $(seq 1 30); do
+    input=tri.gltf
+    [ $i = 4 ] && input=bad.glb
+    [ $i = 11 ] && input=hang.glb
+    echo "{\"input\": \"$input\", \"output\": \"thumbs/it's $i.png\", \"orbit\": [$((i * 20)), 75]}"
+done >jobs.jsonl
+settings="--size 96 --renderer path --samples 64"
+still="render tri.gltf --size 96 --renderer path --samples 64"
+expect 0 $still -o "still wanted.png"
+grep -v '"bad.glb"\|"hang.glb"' jobs.jsonl >good.jsonl
+expect 0 batch --manifest good.jsonl -- $settings
+mv thumbs wanted
+
 cluster_start
-expect 0 farm submit --run still --shards 6 --shard-cpus 1 -- render -o still.png --size 300 --quality final
-cat out err
-runs_on_n2() { squeue -h -w n2 -t R -o %A | grep -q .; }
-wait_for 20 "nothing ran on n2" runs_on_n2
+expect 0 farm submit --run "a catalog" --shards 6 --shard-cpus 1 -- batch --manifest jobs.jsonl --time-limit 8s -- $settings
+catalog=$(sed -n 's/.*"array": "\([0-9]*\)".*/\1/p' "a catalog/run.json")
+expect 0 farm submit --run still --shards 3 --shard-cpus 1 -- $still -o "still got.png"
+says "still: 3 of 3 shards submitted"
+
+# element_on NODE: an element of the catalog whose step runs there; false: none.
+element_on() {
+    element=$(squeue -h -s -w "$1" -o %i | sed -n "s/^${catalog}_\([0-9]*\)\.0$/\1/p" | head -n 1)
+    [ -n "$element" ]
+}
+wait_for 20 "no element ran on n2" element_on n2
+expect 1 farm status --run "a catalog"
+grep -q "shards running" out || failed "status: $(cat out)"
 kill_node n2
-"$facet" farm status --run still || true
-queue_is_empty() { [ -z "$(squeue -h)" ]; }
-wait_for 60 "the queue did not become empty" queue_is_empty
-"$facet" farm status --run still || true
-cat still/log/*
+wait_for 20 "no element ran on n1" element_on n1
+timeout 2 scancel --signal=TERM "${catalog}_$element" 2>/dev/null || true # it waits for what follows the signal
+
+queue_is_empty() {
+    [ -z "$(squeue -h)" ]
+}
+wait_for 90 "the jobs did not end" queue_is_empty
+grep -q "DUE TO JOB REQUEUE" "a catalog"/log/*_*.log || failed "no element that ended with 75 was requeued"
+expect 1 farm status --run "a catalog"
+grep -q "28 of 30 items done" out || failed "status: $(cat out)"
+grep -q "2 items failed" out || failed "status: $(cat out)"
+grep -q "bad.glb" out || failed "status does not name bad.glb: $(cat out)"
+expect 0 farm status --run still
+diff -r thumbs wanted >differences || failed "$(head -3 differences)"
+cmp "still got.png" "still wanted.png" || failed "the merged image differs"
+# Nothing is left to do but what failed; when that is repaired, it is done, too.
+expect 0 farm retry --run "a catalog"
+says "0 of 6 shards submitted"
+rm hang.glb
+cp tri.gltf bad.glb
+cp tri.gltf hang.glb
+expect 0 farm retry --run "a catalog" --with-failed
+says "1 of 6 shards submitted"
+wait_for 60 "the jobs did not end" queue_is_empty
+expect 0 farm status --run "a catalog"
 finish
