@@ -8,18 +8,18 @@
 # does: the next one to the first node that is free. Within a shard, workers take items as they come.
 #
 #     models=1000000     items of the catalog
-#     item_s=0.35        mean cost of an item, core seconds
-#     spread=1           standard deviation of that cost over its mean
-#     nodes=1000 cores=4 of the cluster, and of a node; a shard takes a node
+#     item_s=0.07        mean cost of an item, core seconds
+#     spread=1.6         standard deviation of that cost over its mean
+#     nodes=1000 cores=1 of the cluster, and of a node; a shard takes a node
 #     target_s=180       --target-time
 #     max_shards=1001    MaxArraySize
 #     node_share=0.95    speed of a core while all cores of its node work, relative to one alone
-#     start_s=0.6        start of a shard: facet batch, its environment and tables
-#     element_s=1.5      an element of an array: prolog, srun, epilog, the scheduler's round
+#     start_s=0.3        start of a shard: facet batch, its environment and tables
+#     element_s=1.7      an element of an array: prolog, srun, epilog, the scheduler's round
 #     rate=100           elements that Slurm starts in a second
 #     store_s=0.0006     of an item, per core: result, fsync, rename, on a shared file system
 #     lost=1             nodes lost during the run; noticed after lost_s=300, as SlurmdTimeout is
-#     finish_s=20        the job after the array: facet farm status over all results
+#     finish_s=10        the job after the array: facet farm status over all results
 #     seed=1
 set -eu
 settings= files=
@@ -51,9 +51,9 @@ function sift(i,   child, t) { # a heap of the times at which nodes are free
     }
 }
 BEGIN {
-    v["models"] = 1e6; v["item_s"] = 0.35; v["spread"] = 1; v["nodes"] = 1000; v["cores"] = 4; v["target_s"] = 180
-    v["max_shards"] = 1001; v["node_share"] = 0.95; v["start_s"] = 0.6; v["element_s"] = 1.5; v["rate"] = 100
-    v["store_s"] = 0.0006; v["lost"] = 1; v["lost_s"] = 300; v["finish_s"] = 20; v["seed"] = 1
+    v["models"] = 1e6; v["item_s"] = 0.07; v["spread"] = 1.6; v["nodes"] = 1000; v["cores"] = 1; v["target_s"] = 180
+    v["max_shards"] = 1001; v["node_share"] = 0.95; v["start_s"] = 0.3; v["element_s"] = 1.7; v["rate"] = 100
+    v["store_s"] = 0.0006; v["lost"] = 1; v["lost_s"] = 300; v["finish_s"] = 10; v["seed"] = 1
 }
 {
     for (i = 1; i <= NF; i++) {
@@ -72,10 +72,11 @@ END {
     nodes = v["nodes"]
     work = v["models"] * (v["item_s"] + v["store_s"]) / v["node_share"]
     shards = int(work / (v["cores"] * v["target_s"])) + 1
-    if (shards < nodes)
-        shards = nodes # --shards: at least one for each node
-    if (shards > v["max_shards"])
-        shards = v["max_shards"]
+    # --shards: a multiple of the nodes, since one shard more is a round more
+    rounds = int((shards + nodes - 1) / nodes)
+    if (rounds * nodes > v["max_shards"] && v["max_shards"] >= nodes)
+        rounds = int(v["max_shards"] / nodes)
+    shards = rounds * nodes
     per_shard = v["models"] / shards
     for (i = 1; i <= nodes; i++)
         free[i] = 0

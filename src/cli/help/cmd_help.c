@@ -38,6 +38,7 @@ static const struct {
     {"r.md", "R's rgl: parameters, web pages, vignettes"},
     {"compare.md", "image metrics: FLIP, SSIM, limits for tests"},
     {"inspect.md", "the JSON of facet inspect"},
+    {"farm.md", "many machines: shards, Slurm and other engines"},
     {"view.md", "the window: keys, mouse, scripts; web pages"},
     {"shaders.md", "the shader library as GLSL for other renderers"},
     {"c-api.md", "the library, by example"},
