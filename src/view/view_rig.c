@@ -206,6 +206,8 @@ void view_rig_set_aspect(view_rig *rig, double aspect)
     double goal[VIEW_AXIS_COUNT] = {
         VIEW_UNSET, VIEW_UNSET, VIEW_UNSET, log(zoom * shown_fov(rig, rig->fov_rad)),
         VIEW_UNSET, VIEW_UNSET, VIEW_UNSET};
+    /* a field of view beyond the limit was asked for by number: view_rig_follow() */
+    rig->motion.high[VIEW_AXIS_LOG_FOV] = fmax(rig->motion.high[VIEW_AXIS_LOG_FOV], goal[VIEW_AXIS_LOG_FOV]);
     view_motion_aim(&rig->motion, goal);
     rig->motion.now[VIEW_AXIS_LOG_FOV] = rig->motion.goal[VIEW_AXIS_LOG_FOV];
     rig->motion.velocity[VIEW_AXIS_LOG_FOV] = 0.0;
