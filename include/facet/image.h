@@ -106,6 +106,8 @@ typedef struct facet_image_save_desc {
     facet_image_format format;
     uint32_t jpeg_quality;    /* 1 to 100; 0: 92; for WebP too, where 100 is lossless */
     uint32_t png_compression; /* 1 (fast) to 9 (small); 0: 4 */
+    /* ASCII, kept under the name facet-tag in PNG files (a tEXt chunk) and OpenEXR files (an attribute); NULL: none */
+    const char *tag;
 } facet_image_save_desc;
 
 /* Writes the file whole or not at all. desc NULL: {0}. */

@@ -110,12 +110,14 @@ static facet_result encode_exr(const film *f, bool as_half, const image_encode_d
                                unsigned char **bytes, size_t *size, facet_error *error)
 {
     image_layer layers[FILM_MAX_LAYERS];
-    image_text texts[FILM_MAX_TEXTS];
+    image_text texts[FILM_MAX_TEXTS + 1];
     image_encode_desc with_texts = *desc;
     with_texts.texts = texts;
     with_texts.text_count = f->text_count;
     for (uint32_t i = 0; i < f->text_count; i++)
         texts[i] = (image_text){f->texts[i].name, f->texts[i].value};
+    if (desc->text_count) /* the tag */
+        texts[with_texts.text_count++] = desc->texts[0];
     for (uint32_t i = 0; i < f->layer_count; i++)
         layers[i] = film_layer_to_image(&f->layers[i], f->width);
     return image_encode_exr(f->width, f->height, layers, f->layer_count, as_half, &with_texts, bytes, size,
@@ -158,6 +160,11 @@ facet_result facet_image_encode(const facet_image *source, const facet_image_sav
                                 .quality = desc->jpeg_quality,
                                 .compression = desc->png_compression,
                                 .is_stored = source->is_part};
+    const image_text tag = {"facet-tag", desc->tag};
+    if (desc->tag) {
+        encode.texts = &tag;
+        encode.text_count = 1;
+    }
     image converted = {0};
     facet_result result;
     switch (desc->format) {

@@ -271,6 +271,31 @@ static void other_chunks_are_skipped(void **state)
     image_destroy(&i);
 }
 
+/* A text is a chunk before the data, with a checksum that libspng accepts, and changes nothing else. */
+static void texts_are_written(void **state)
+{
+    (void)state;
+    unsigned char texels[2 * 3] = {1, 2, 3, 4, 5, 6}, *plain, *bytes;
+    const image i = {.width = 2, .height = 1, .channel_count = 3, .type = IMAGE_U8, .pixels = texels};
+    const image_text text = {"facet-tag", "0123abcd"};
+    size_t plain_size, size;
+    assert_int_equal(png_encode(&i, &(image_encode_desc){.compression = 4}, &plain, &plain_size, NULL),
+                     FACET_OK);
+    assert_int_equal(png_encode(&i, &(image_encode_desc){.compression = 4, .texts = &text, .text_count = 1},
+                                &bytes, &size, NULL),
+                     FACET_OK);
+    const size_t header = 8 + 12 + 13, chunk = 12 + 9 + 1 + 8;
+    assert_int_equal(size, plain_size + chunk);
+    assert_memory_equal(bytes, plain, header);
+    assert_memory_equal(bytes + header,
+                        "\0\0\0\22tEXtfacet-tag\0"
+                        "0123abcd",
+                        chunk - 4);
+    assert_memory_equal(bytes + header + chunk, plain + header, plain_size - header);
+    mem_free(plain);
+    mem_free(bytes);
+}
+
 static void size_limits_hold(void **state)
 {
     (void)state;
@@ -367,6 +392,7 @@ int main(void)
         cmocka_unit_test(corrupt_files_are_refused),
         cmocka_unit_test(every_changed_byte_is_noticed),
         cmocka_unit_test(other_chunks_are_skipped),
+        cmocka_unit_test(texts_are_written),
         cmocka_unit_test(size_limits_hold),
         cmocka_unit_test(rows_read_alone_equal_the_whole_image),
     };

@@ -169,7 +169,8 @@ typedef struct image_layer {
     bool needs_float; /* values that halves would round: IDs, counts */
 } image_layer;
 
-/* A named text in an EXR file: an attribute of the type "string". */
+/* A named text in a file: in EXR an attribute of the type "string"; in PNG a tEXt chunk, whose keyword has 1 to 79 bytes and
+ * whose text is Latin-1. */
 typedef struct image_text {
     const char *name, *value;
 } image_text;
@@ -180,7 +181,7 @@ typedef struct image_encode_desc {
     uint32_t quality;        /* JPEG, WebP: 1 to 100, 0: 92; WebP 100 is lossless */
     uint32_t compression;    /* PNG, EXR: zlib level 1 to 9; 0: 4 */
     bool is_stored;          /* EXR: uncompressed, which is fast */
-    const image_text *texts; /* EXR: beside the image */
+    const image_text *texts; /* PNG, EXR: beside the image */
     uint32_t text_count;
 } image_encode_desc;
 

@@ -184,11 +184,33 @@ static unsigned char *end_chunk(unsigned char *data, size_t length)
     return data + length + 4;
 }
 
+/* Bytes of a text chunk's data: keyword, 0, text. */
+static size_t text_length(const image_text *t)
+{
+    return strlen(t->name) + 1 + strlen(t->value);
+}
+
+/* Appends the texts as tEXt chunks. */
+static unsigned char *put_texts(const image_encode_desc *desc, unsigned char *p)
+{
+    for (uint32_t i = 0; i < desc->text_count; i++) {
+        const image_text *t = &desc->texts[i];
+        size_t name = strlen(t->name) + 1;
+        p = begin_chunk(p, "tEXt", text_length(t));
+        memcpy(p, t->name, name);
+        memcpy(p + name, t->value, strlen(t->value));
+        p = end_chunk(p, text_length(t));
+    }
+    return p;
+}
+
 static facet_result assemble(const writing *w, unsigned char **bytes, size_t *size, facet_error *error)
 {
     size_t most = 8 + CHUNK_FRAME + 13 + CHUNK_FRAME + 2 + 4;
     for (size_t b = 0; b < w->block_count; b++)
         most += CHUNK_FRAME + w->blocks[b].size;
+    for (uint32_t i = 0; i < w->desc->text_count; i++)
+        most += CHUNK_FRAME + text_length(&w->desc->texts[i]);
     unsigned char *file = mem_alloc(&w->desc->allocator, most, 1);
     if (!file)
         return fail_memory(error, "PNG file", most);
@@ -200,7 +222,7 @@ static facet_result assemble(const writing *w, unsigned char **bytes, size_t *si
     p[8] = w->image->type == IMAGE_U8 ? 8 : 16;
     p[9] = color_types[w->image->channel_count];
     memset(p + 10, 0, 3); /* deflate, the five filters, not interlaced */
-    p = end_chunk(p, 13);
+    p = put_texts(w->desc, end_chunk(p, 13));
 
     uint32_t checksum = zlib_checksum(NULL, 0);
     for (size_t b = 0; b < w->block_count; b++) {
