@@ -241,8 +241,19 @@ static facet_result check_part_format(bool is_given, render_options *out, facet_
     return FACET_OK;
 }
 
+/* Whether text is at most 200 printable ASCII characters. */
+static bool is_plain(const char *text)
+{
+    size_t length = 0;
+    while (text[length] >= ' ' && text[length] <= '~')
+        length++;
+    return text[length] == 0 && length <= 200;
+}
+
 facet_result image_options_format(const command_line *c, render_options *out, facet_error *error)
 {
+    if (!is_plain(option_text(c, OPT_TAG, "")))
+        return option_fail(c, OPT_TAG, "at most 200 printable ASCII characters", error);
     int choice = option_choice(c, OPT_FORMAT, -1);
     if (choice >= 0)
         set_format(out, (size_t)choice);
@@ -320,6 +331,7 @@ void image_options_quality(const command_line *c, facet_tonemap otherwise, rende
     out->desc.quality = qualities[option_choice(c, OPT_QUALITY, 1)];
     out->save.jpeg_quality = (uint32_t)option_number(c, OPT_JPEG_QUALITY, 0.0);
     out->save.png_compression = (uint32_t)option_number(c, OPT_PNG_COMPRESSION, 0.0);
+    out->save.tag = option_text(c, OPT_TAG, NULL);
 }
 
 facet_result image_options_shading(const command_line *c, render_options *out, facet_error *error)

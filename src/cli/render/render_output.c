@@ -108,6 +108,8 @@ facet_result render_write(const render_options *o, const facet_image *image, con
         return video_add(frames, image, allocator, o->limits.thread_count, error);
     facet_image_save_desc save = o->save;
     save.allocator = *allocator;
+    if (interrupt_signal() && facet_image_get_render_stats(image).is_partial)
+        save.tag = NULL; /* what has the tag is complete */
     if (!o->id_layer)
         return output_write(image, name, &save, error);
     facet_image *colors = NULL;

@@ -50,7 +50,8 @@ const verb render_verb = {
     .groups =
         (const option_group *const[]){
             OPTION_GROUP("Image", OPT_OUTPUT, OPT_NO_CLOBBER, OPT_FORMAT, OPT_SIZE, OPT_BACKGROUND,
-                         OPT_BACKGROUND_BLUR, OPT_CROP, OPT_AOV, OPT_JPEG_QUALITY, OPT_PNG_COMPRESSION),
+                         OPT_BACKGROUND_BLUR, OPT_CROP, OPT_AOV, OPT_JPEG_QUALITY, OPT_PNG_COMPRESSION,
+                         OPT_TAG),
             OPTION_GROUP("Camera", OPT_ORBIT, OPT_TARGET, OPT_FOV, OPT_EYE, OPT_UP, OPT_ORTHO, OPT_FRAMING,
                          OPT_CAMERA, OPT_TURNTABLE, OPT_CAMERA_MATRIX, OPT_VIEW_MATRIX),
             &light_group, &environment_group, &color_group, &quality_group,
