@@ -261,6 +261,13 @@ static bool fill_temporary(int fd, const char *path, mode_t mode, const void *da
     return is_good;
 }
 
+bool file_is_temporary(const char *path)
+{
+    const char *dot = strrchr(path_base_name(path), '.');
+    return dot && dot != path_base_name(path) && strlen(dot + 1) == 8 &&
+           strspn(dot + 1, "0123456789abcdef") == 8;
+}
+
 /* Writes the temporary of a stage; its destination is not a folder. */
 static facet_result stage_regular(const char *path, const void *data, size_t size, file_stage *stage,
                                   facet_error *error)

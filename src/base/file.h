@@ -40,7 +40,10 @@ bool file_is_at(const file_bytes *file, const char *path);
  * regular file (a device, a pipe) is written directly, and so is /dev/stdout. Any other link is replaced,
  * not followed: a user who can create links in a folder must not choose which file is overwritten. */
 facet_result file_write(const char *path, const void *data, size_t size, facet_error *error);
-/* The same, but replaces whatever is at path except a folder: for files of facet's own. */
+/* Whether path has the name of such a temporary file: NAME.xxxxxxxx, eight hexadecimal digits. It may remain where a process
+ * was killed and the file system has no files without names. */
+bool file_is_temporary(const char *path);
+/* The same as file_write(), but replaces whatever is at path except a folder: for files of facet's own. */
 facet_result file_replace(const char *path, const void *data, size_t size, facet_error *error);
 
 /* A file that is written to disk but not yet in place. {0}: none. */

@@ -358,9 +358,21 @@ static void staged_files_appear_on_commit(void **state)
     file_stage_discard(&stage);
 }
 
+static void temporaries_have_their_names(void **state)
+{
+    (void)state;
+    assert_true(file_is_temporary("a.png.0123abcd"));
+    assert_true(file_is_temporary("x/y.z/a.ffffffff"));
+    static const char *const others[] = {"a.png",     "a.0123abc", "a.0123abcde",  "a.0123abcg",
+                                         ".0123abcd", "0123abcd",  "a.0123abcd/b", ""};
+    for (size_t i = 0; i < COUNT_OF(others); i++)
+        assert_false(file_is_temporary(others[i]));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(temporaries_have_their_names),
         cmocka_unit_test(written_bytes_are_read_back),
         cmocka_unit_test(small_files_may_shrink_while_open),
         cmocka_unit_test(files_are_recognized_under_other_names),
