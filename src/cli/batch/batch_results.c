@@ -2,6 +2,7 @@
 #define _GNU_SOURCE
 #include "cli/batch/batch_results.h"
 
+#include "cli/batch/batch_tag.h"
 #include "cli/shared/failure.h"
 #include "cli/shared/output.h"
 
@@ -158,4 +159,13 @@ batch_known batch_history_find(const batch_history *history, const batch_item *i
     const uint64_t *value = batch_map_find(history, item->id);
     bool is_same = value && ((*value ^ batch_map_hash(item->hash)) & ~(uint64_t)KNOWN_BITS) == 0;
     return is_same ? (batch_known)(*value & KNOWN_BITS) : KNOWN_NOT;
+}
+
+bool batch_is_done(const batch_history *history, const batch_item *item)
+{
+    char tag[BATCH_TAG_SIZE];
+    if (item->has_metadata)
+        return batch_tag_read(item->output, tag) && strcmp(tag, item->hash) == 0;
+    return batch_history_find(history, item) == KNOWN_DONE &&
+           (!item->output || item->writes_sequence || output_exists(item->output));
 }

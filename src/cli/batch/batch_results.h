@@ -40,6 +40,10 @@ typedef batch_map batch_history;
  * exist has none. Fails with FACET_ERROR_READ, _MEMORY. */
 facet_result batch_history_read(batch_history *history, const char *path, facet_error *error);
 
+/* Whether an earlier run has done the item with the same settings: the image has its tag, or the results know it and its output
+ * is there. */
+bool batch_is_done(const batch_history *history, const batch_item *item);
+
 /* What the last line about the item with the same settings says. */
 batch_known batch_history_find(const batch_history *history, const batch_item *item);
 

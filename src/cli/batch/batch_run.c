@@ -88,6 +88,18 @@ static facet_result record_problem(batch_run *run, batch_item *item, facet_error
     return record(run, item, &result, false, error);
 }
 
+/* An item that an earlier run has done; the results may lack it, if that run was killed. */
+static facet_result record_kept(batch_run *run, batch_item *item, facet_error *error)
+{
+    facet_result written = FACET_OK;
+    if (batch_history_find(&run->history, item) != KNOWN_DONE)
+        written = batch_lines_add(&run->results, batch_kept_json(item), error);
+    run->progress.kept++;
+    batch_progress_show(&run->progress, NULL, false);
+    batch_item_destroy(item);
+    return written;
+}
+
 /* Counts items in a row whose first try failed by the machine. */
 static void suspect(batch_run *run, const batch_item *item, const job_result *result)
 {
@@ -106,6 +118,8 @@ static facet_result receive(batch_run *run, batch_item *item, job_result *result
 {
     double wait_s;
     run->running_alone = NULL;
+    if (result->end != JOB_EXITED && item->output)
+        batch_remove_temporaries(item->output);
     bool was_put_back =
         result->end == JOB_CANCELLED || (run->stop_time > 0.0 && result->exit_code == EXIT_AGAIN);
     if (was_put_back) {
@@ -160,6 +174,8 @@ static void add_limits(const batch_run *run, const batch_item *item, job_words *
         job_words_addf(w, "--threads=%u", threads ? threads : 1u);
     if (option_find_id(item->verb, OPT_MAX_MEMORY) && !item->has_memory)
         job_words_addf(w, "--max-memory=%" PRIu64, bytes);
+    if (item->has_metadata)
+        job_words_addf(w, "--tag=%s", item->hash);
 }
 
 /* Starts the job of an item. */
@@ -206,14 +222,12 @@ static facet_result check(batch_run *run, batch_item **item, facet_error *error)
     }
     if (i->output && !batch_map_set(&run->outputs, i->output, i->number))
         return fail_memory(error, "names of outputs", 0);
-    if (run->plan->resume == RESUME_NOTHING || batch_history_find(&run->history, i) != KNOWN_DONE ||
-        (i->output && !output_exists(i->output)))
+    if (i->output)
+        batch_leftovers_remove(&run->leftovers, i->output);
+    if (run->plan->resume == RESUME_NOTHING || !batch_is_done(&run->history, i))
         return FACET_OK;
-    run->progress.kept++;
-    batch_progress_show(&run->progress, NULL, false);
-    batch_item_destroy(i);
     *item = NULL;
-    return FACET_OK;
+    return record_kept(run, i, error);
 }
 
 /* The next item to start beside others; NULL: none now. */
@@ -347,4 +361,5 @@ void batch_run_destroy(batch_run *run)
     batch_lines_close(&run->failed);
     batch_map_destroy(&run->history);
     batch_map_destroy(&run->outputs);
+    batch_leftovers_destroy(&run->leftovers);
 }

@@ -2,6 +2,7 @@
 #ifndef CLI_BATCH_RUN_H
 #define CLI_BATCH_RUN_H
 
+#include "cli/batch/batch_leftovers.h"
 #include "cli/batch/batch_progress.h"
 #include "cli/batch/batch_results.h"
 #include "cli/batch/batch_source.h"
@@ -21,7 +22,8 @@ typedef struct batch_run {
     uint64_t for_others; /* failures that another machine may not have */
 
     job_pool *pool;
-    batch_map outputs;         /* numbers of items by their outputs */
+    batch_map outputs; /* numbers of items by their outputs */
+    batch_leftovers leftovers;
     batch_item *later, *alone; /* lists of items to try again */
     unsigned alone_count;
     unsigned start_failures;    /* in a row */
