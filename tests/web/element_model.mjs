@@ -257,7 +257,14 @@ export const cases = ({ page, check, equal, near, requests }) => ({
             await viewer.setOption('compare', null);
             viewer.setMaterial(0, { pbrMetallicRoughness: { baseColorFactor: [0, 1, 0, 1] } });
             const green = await image(viewer);
-            return { list, path, first, second, builtin, errors, both, wrong, green, options: viewer.options, command: viewer.command(640, 480), state: viewer.state, changes: viewer.log.filter(([type]) => type === 'facet-change').length };
+            await viewer.setOption('shading', 'ogl1');
+            await viewer.setOption('shading', null);
+            await viewer.setOption('tone-mapping', 'agx'); // which OpenGL 1 has not
+            const kept = await image(viewer);
+            const faces = [];
+            for (const names of [['px', 'nx', 'py', 'ny', 'pz', 'nz'], ['a', 'b', 'c', 'd', 'e', 'f']])
+                faces.push(await fail(() => viewer.openFiles(names.map((name) => ({ path: `sky/${name}.png`, file: new Blob(['x']) })))));
+            return { kept, faces, list, path, first, second, builtin, errors, both, wrong, green, options: viewer.options, command: viewer.command(640, 480), state: viewer.state, changes: viewer.log.filter(([type]) => type === 'facet-change').length };
         });
         equal(found.list, ['a/box.gltf', 'b.gltf']);
         equal(found.path, 'a/box.gltf');
@@ -271,6 +278,8 @@ export const cases = ({ page, check, equal, near, requests }) => ({
         check(/^facet render b\.gltf/.test(found.command) && /agx/.test(found.command) && /640x480/.test(found.command), found.command);
         check(Array.isArray(found.state.animations) && found.state.isPlaying === false, 'state');
         check(found.green.color[1] > 1.3 * found.green.color[0], `setMaterial gives ${found.green.color}`);
+        equal(found.kept.hash, found.green.hash, 'an edited material is lost when the shading changes');
+        check(found.faces[0].includes('facet bake "faces:sky/{face}.png"') && /none of the 6 files/.test(found.faces[1]), `${found.faces}`);
         check(found.changes >= 2, 'facet-change');
     },
 

@@ -193,9 +193,12 @@ export class View {
     return undefined;
   }
 
-  // The model is read again.
+  // The model is read again, and its materials are edited again.
   async #setShading(text) {
-    await this.#withFiles(this.files, () => this.use((module, viewer) => module.setOption(viewer, 'shading', text)));
+    await this.#withFiles(this.files, () => this.use((module, viewer) => {
+      module.setOption(viewer, 'shading', text);
+      for (const [index, values] of this.#materials) module.setMaterial(viewer, index, values);
+    }));
     this.#options.set('shading', text);
     this.touch();
   }
