@@ -227,12 +227,29 @@ export const cases = ({ page, check, equal, near, requests }) => ({
         await touch('touchEnd', []);
         const zoomed = await read();
         check(zoomed.fov < turned.fov - 0.5, `a pinch does not zoom: ${turned.fov} to ${zoomed.fov}`);
+        await touch('touchStart', [[x + 100, y + 120], [x + 140, y + 120]]);
+        for (let i = 1; i <= 5; i++) await touch('touchMove', [[x + 100 + 8 * i, y + 120], [x + 140 + 8 * i, y + 120]]);
+        await touch('touchEnd', []);
+        const panned = await read();
+        check(Math.abs(panned.target.x - zoomed.target.x) + Math.abs(panned.target.z - zoomed.target.z) > 0.01, 'two fingers do not pan');
+        check(Math.abs(panned.fov - zoomed.fov) < 0.5 && Math.abs(panned.theta - zoomed.theta) < 1e-6, 'two fingers side by side zoom or turn');
         await touch('touchStart', [[x + 100, y + 200]]);
         for (let i = 1; i <= 8; i++) await touch('touchMove', [[x + 100, y + 200 - 15 * i]]);
         await touch('touchEnd', []);
         const scrolled = await read();
         check(scrolled.scroll > 20, 'with pan-y the page does not scroll');
         check(Math.abs(scrolled.phi - zoomed.phi) < 1e-6, 'scrolling turned the camera');
+        // two pixels of the screen per pixel of the page: the same gesture is the same turn
+        const { width, height } = page.viewportSize();
+        await client.send('Emulation.setDeviceMetricsOverride', { width, height, deviceScaleFactor: 2, mobile: false });
+        await page.evaluate(() => window.scrollTo(0, 0));
+        const sharp = await read();
+        await touch('touchStart', [[x + 100, y + 120]]);
+        for (let i = 1; i <= 5; i++) await touch('touchMove', [[x + 100 + 10 * i, y + 120]]);
+        await touch('touchEnd', []);
+        const again = await read();
+        check(Math.abs(again.theta - sharp.theta - (turned.theta - start.theta)) < 0.05, `a finger turns by ${again.theta - sharp.theta} on a screen of twice the pixels, elsewhere by ${turned.theta - start.theta}`);
+        await client.send('Emulation.clearDeviceMetricsOverride');
         await client.detach();
     },
 });

@@ -5,7 +5,7 @@ import { Animation } from './animation.js';
 import { Aria } from './aria.js';
 import { Camera } from './camera.js';
 import { engine } from './engine.js';
-import { fileCache, IMAGE, MODEL } from './files.js';
+import { facesOf, fileCache, IMAGE, MODEL } from './files.js';
 import { Hotspots } from './hotspots.js';
 import { Images } from './images.js';
 import { Input } from './input.js';
@@ -196,7 +196,8 @@ export class FacetViewer extends HTMLElement {
       await this.#context.view.setOptionFile('env', files[0]);
       this.#emit('environment-change');
     } else {
-      const [first] = files;
+      const [first] = files, faces = facesOf(files);
+      if (faces) throw new Error(`${first.path}: facet reads a cube map of six files on the command line only: facet bake "faces:${faces}" -o light.ktx2 makes one file of them, which can be opened here`);
       throw new Error(files.length === 1 ? `${first.path} is neither a model (.glb, .gltf, .obj, .stl, .ply) nor an image`
         : `none of the ${files.length} files is a model (.glb, .gltf, .obj, .stl, .ply)`);
     }

@@ -101,6 +101,17 @@ export const MODEL = /\.(glb|gltf|obj|stl|ply|json)$/i;
 const TEXT = /\.(gltf|obj)$/i; // models that name other files
 export const IMAGE = /\.(hdr|exr|ktx2|png|jpe?g|webp|dds|tga|bmp|pfm)$/i;
 
+const FACES = [['px', 'nx', 'py', 'ny', 'pz', 'nz'], ['posx', 'negx', 'posy', 'negy', 'posz', 'negz'], ['right', 'left', 'top', 'bottom', 'front', 'back']];
+
+// The name of six files that are the faces of a cube map, with {face} in place of a face's; '' for other files.
+export function facesOf(files) {
+  const paths = new Set(files.map(({ path }) => path));
+  if (paths.size !== 6) return '';
+  const patterns = FACES.flatMap((faces) => [...paths].filter((path) => IMAGE.test(path)).map((path) => [faces, path.replace(new RegExp(`${faces[0]}(?=\\.[^./]+$)`), '{face}')]));
+  const [, pattern] = patterns.find(([faces, text]) => text.includes('{face}') && faces.every((face) => paths.has(text.replace('{face}', face)))) ?? [];
+  return pattern ?? '';
+}
+
 // The words of a line, as readers of OBJ and MTL see them.
 const words = (line) => line.trim().split(/\s+/);
 const afterFirst = (line) => line.trim().slice(words(line)[0].length).trim();
