@@ -56,12 +56,13 @@ FN bool footprint_is_finite(Footprint f)
 /* Covers the footprint with probes (after McCormack et al. 1999, "Feline"). finest: texel width of the finest
  * mip that is resident, in texels of mip 0, whose size is 1 / texel_size.
  *
- * There are as many probes as the ratio of the axes requires, up to 16, each as wide as the minor axis. Up
+ * There are as many probes as the ratio of the axes requires, up to a limit that widens the minor axis of longer
+ * footprints: blurred, but without aliasing. Each is as wide as the minor axis. Up
  * to a ratio of 1.5 one probe as wide as the major axis suffices; from there to 2 two probes move apart
  * while their width shrinks to the minor axis. n probes of width w at a distance s have the second moment
  * (w^2 + (n^2 - 1) s^2) / 12; s makes it major^2 / 12, that of the footprint, so that the result hardly
  * jumps where the count changes. */
-FN ProbeRow footprint_probes(Footprint f, float finest, vec2 texel_size)
+FN ProbeRow footprint_probes_up_to(int limit, Footprint f, float finest, vec2 texel_size)
 {
     ProbeRow p;
     p.count = 1;
@@ -69,9 +70,9 @@ FN ProbeRow footprint_probes(Footprint f, float finest, vec2 texel_size)
     p.step_u = 0.0f;
     p.step_v = 0.0f;
     float minor2 = max(f.minor2, finest * finest);
-    if (f.major2 <= 2.25f * minor2)
+    if (limit < 2 || f.major2 <= 2.25f * minor2)
         return p;
-    float most = float(FOOTPRINT_MAX_PROBES * FOOTPRINT_MAX_PROBES);
+    float most = float(limit * limit);
     if (f.major2 > most * minor2)
         minor2 = f.major2 / most;
     float ratio = sqrt(f.major2 / minor2);
@@ -81,13 +82,18 @@ FN ProbeRow footprint_probes(Footprint f, float finest, vec2 texel_size)
         p.count = int(ratio + 0.75f); /* one more than ratio - 1.25, rounded down: they overlap enough */
     else
         p.width2 *= (3.0f - ratio) * (3.0f - ratio);
-    if (p.count > FOOTPRINT_MAX_PROBES)
-        p.count = FOOTPRINT_MAX_PROBES;
+    if (p.count > limit)
+        p.count = limit;
     float axis2 = f.axis_u * f.axis_u + f.axis_v * f.axis_v;
     float scale = sqrt((f.major2 - p.width2) / (axis2 * float(p.count * p.count - 1)));
     p.step_u = f.axis_u * scale * texel_size[0];
     p.step_v = f.axis_v * scale * texel_size[1];
     return p;
+}
+
+FN ProbeRow footprint_probes(Footprint f, float finest, vec2 texel_size)
+{
+    return footprint_probes_up_to(FOOTPRINT_MAX_PROBES, f, finest, texel_size);
 }
 
 #endif

@@ -60,8 +60,26 @@ static void test_probes_cover_it(void **state)
     assert_int_equal(footprint_probes(turned(3.0, 2.9, 0.1, 0.2, size), 1.0f, 1.0f / size).count, 1);
 }
 
+/* Fewer probes cover as much, because they are wider. */
+static void test_a_limit_widens_them(void **state)
+{
+    (void)state;
+    vec2 size = vec2(512.0f, 300.0f);
+    for (int limit = 1; limit <= FOOTPRINT_MAX_PROBES; limit *= 2)
+        for (double ratio = 1.0; ratio < 40.0; ratio *= 1.3) {
+            ProbeRow r =
+                footprint_probes_up_to(limit, turned(2.0 * ratio, 2.0, 0.4, 0.9, size), 1.0f, 1.0f / size);
+            double u = (double)r.step_u * (double)size[0], v = (double)r.step_v * (double)size[1];
+            assert_true(r.count <= limit);
+            expect_relative((double)r.width2 + (r.count * r.count - 1.0) * (u * u + v * v),
+                            4.0 * ratio * ratio, 1e-3, "ratio %g, limit %d", ratio, limit);
+            assert_true((double)r.width2 >= 0.99 * 4.0 * ratio * ratio / (limit * limit));
+        }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_axes), cmocka_unit_test(test_probes_cover_it)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_axes), cmocka_unit_test(test_probes_cover_it),
+                                       cmocka_unit_test(test_a_limit_widens_them)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

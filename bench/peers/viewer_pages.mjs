@@ -88,7 +88,8 @@ export function make_bundles(folder) {
     return (url) => path.join(folder, path.basename(url));
 }
 
-const facet = `
+// isDraft: as frames of a motion, else as the image at rest.
+const facet = (isDraft) => `
 const { loadModule } = await import('/dist/facet-viewer/module.js');
 const c = document.getElementById('c');
 const load = async () => {
@@ -101,7 +102,7 @@ const load = async () => {
     window.viewer.turn = (step) => {
         if (step) facet.turn(viewer, 10, 0, c.height);
         facet.jump(viewer);
-        facet.draw(viewer, c.width, c.height);
+        facet.draw(viewer, c.width, c.height, 0, step && ${isDraft});
     };
     window.viewer.turn(0);
 };
@@ -148,7 +149,8 @@ const load = async () => {
 window.viewer = { ready: load(), turn };`;
 
 export const pages = {
-    'facet': module_page(canvas, facet),
+    'facet': module_page(canvas, facet(true)),
+    'facet at rest': module_page(canvas, facet(false)),
     'model-viewer 4.4.0': module_page('<model-viewer camera-controls></model-viewer>', model_viewer),
     'three r187': module_page(canvas, "await import('/bundles/three.js');"),
     'gltf-viewer 1.1.0': module_page(`${canvas}<script src="/node_modules/@khronosgroup/gltf-viewer/dist/libs/libktx.js"></script>

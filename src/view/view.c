@@ -167,7 +167,7 @@ static double time_to_sleep(const view_app *a)
         return 0.01;
     if (a->state.is_playing && is_visible)
         return 0.0;
-    double rest = a->divisor > 1 ? a->moves_until_s - a->clock_s : (double)INFINITY;
+    double rest = a->divisor > 1 || a->is_draft ? a->moves_until_s - a->clock_s : (double)INFINITY;
     double message = a->message[0] ? a->message_until_s - a->time_s : (double)INFINITY;
     return fmax(fmin(rest, message), 0.001);
 }
@@ -182,7 +182,7 @@ static void advance_clock(view_app *a)
         if (view_state_advance(&a->state, fmin(passed, longest_step_s)))
             a->needs_image = true;
     }
-    if (a->divisor > 1 && now >= a->moves_until_s)
+    if ((a->divisor > 1 || a->is_draft) && now >= a->moves_until_s)
         a->needs_image = true;
     if (a->message[0] && a->time_s >= a->message_until_s) {
         a->message[0] = 0;

@@ -78,6 +78,7 @@ typedef struct view_app {
     double frame_s;        /* of the last frame; smoothed while something moves; 0: none yet */
     view_pace pace;
     uint32_t divisor;     /* of the resolution at which it was drawn */
+    bool is_draft;        /* it was drawn with FACET_QUALITY_DRAFT */
     double moves_until_s; /* on the clock; the camera counts as moving until then */
     char variant[128];    /* label of a side */
     bool needs_image;     /* model, camera or light changed */

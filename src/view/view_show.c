@@ -104,6 +104,7 @@ static facet_result draw_side(view_app *a, int side, facet_render_desc *desc, fa
     a->has_drawn = true;
     if (a->is_for_file)
         return draw_for_file(a, s, desc, error);
+    desc->quality = a->is_draft ? FACET_QUALITY_DRAFT : FACET_QUALITY_NORMAL;
     desc->width = desc->crop[2] = (desc->width + a->divisor - 1) / a->divisor;
     desc->height = desc->crop[3] = (desc->height + a->divisor - 1) / a->divisor;
     TRY(view_surface_resize(s, &a->context, desc->width, desc->height, error));
@@ -202,11 +203,14 @@ facet_result view_show(view_app *a, facet_error *error)
     double start = clock_seconds();
     bool is_moving = !a->script.count && start < a->moves_until_s;
     uint32_t divisor = view_pace_divisor(&a->pace, is_moving);
-    if (divisor != a->divisor) {
+    bool is_playing = !a->script.count && a->state.is_playing;
+    bool is_draft = view_pace_drafts(&a->pace, is_moving || is_playing);
+    if (divisor != a->divisor || is_draft != a->is_draft) {
         a->needs_image = true;
         a->frame_s = 0.0;
     }
     a->divisor = divisor;
+    a->is_draft = is_draft;
     a->has_drawn = false;
     a->state.width = width;
     a->state.height = height;
@@ -231,6 +235,7 @@ facet_result view_show_into(view_app *a, bool has_panels, facet_error *error)
     facet_result result = view_surface_resize(&a->shot, &a->context, width, height, error);
     a->needs_image = true; /* sides may have another size */
     a->divisor = 1;
+    a->is_draft = false;
     a->is_for_file = !has_panels;
     if (result == FACET_OK)
         result = compose(a, a->shot.framebuffer, width, height, has_panels ? 8.0f * a->state.scale : 0.0f,

@@ -368,9 +368,15 @@ bool view_state_point(view_state *s, const view_event *e)
     }
 }
 
-/* ---- resolution while the camera moves ---- */
+/* ---- quality while something moves ---- */
 
-static const double slow_s = 0.05;
+static const double slow_s = 0.05, draft_s = 0.02;
+
+bool view_pace_drafts(view_pace *p, bool is_moving)
+{
+    p->is_draft = is_moving && (p->is_draft || p->full_s > draft_s);
+    return p->is_draft;
+}
 
 uint32_t view_pace_divisor(const view_pace *p, bool is_moving)
 {

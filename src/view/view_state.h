@@ -124,11 +124,16 @@ unsigned view_state_accumulating_sides(const view_state *s);
 /* The whole desc of an image of that size, except for the environment. camera: where it is stored. */
 facet_render_desc view_state_desc(const view_state *s, uint32_t width, uint32_t height, facet_camera *camera);
 
-/* ---- resolution while the camera moves: a coarse image that keeps up says more than a sharp one that lags ---- */
+/* ---- quality while something moves: a coarse image that keeps up says more than a sharp one that lags ---- */
 
 typedef struct view_pace {
     double full_s; /* upper bound of the time of a frame in full resolution; 0: unknown */
+    bool is_draft; /* of the present motion */
 } view_pace;
+
+/* Whether the next frame is one of FACET_QUALITY_DRAFT: from the first frame of a motion that took more than 20 ms
+ * until it rests. */
+bool view_pace_drafts(view_pace *pace, bool is_moving);
 
 /* The divisor of width and height: 1; 2 where frames take more than 50 ms, 4 where a half would, too. */
 uint32_t view_pace_divisor(const view_pace *pace, bool is_moving);

@@ -302,6 +302,22 @@ static void still_images_have_full_resolution(void **state)
     assert_int_equal(view_pace_divisor(&(view_pace){.full_s = 0.04}, true), 1);
 }
 
+/* Draft frames are faster, but the motion goes on with them. */
+static void slow_motions_have_draft_frames(void **state)
+{
+    (void)state;
+    view_pace p = {.full_s = 0.0};
+    assert_false(view_pace_drafts(&p, true));
+    view_pace_measure(&p, 1, 0.017);
+    assert_false(view_pace_drafts(&p, true));
+    view_pace_measure(&p, 1, 0.03);
+    assert_true(view_pace_drafts(&p, true));
+    view_pace_measure(&p, 1, 0.015);
+    assert_true(view_pace_drafts(&p, true));
+    assert_false(view_pace_drafts(&p, false));
+    assert_false(view_pace_drafts(&p, true));
+}
+
 static void slower_frames_are_coarser(void **state)
 {
     (void)state;
@@ -328,6 +344,7 @@ static void one_coarse_frame_corrects_a_slow_first_frame(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(still_images_have_full_resolution),
+                                       cmocka_unit_test(slow_motions_have_draft_frames),
                                        cmocka_unit_test(slower_frames_are_coarser),
                                        cmocka_unit_test(one_coarse_frame_corrects_a_slow_first_frame),
                                        cmocka_unit_test(keys_cycle_through_their_values),

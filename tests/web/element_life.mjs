@@ -217,6 +217,40 @@ export const cases = ({ page, check, equal, near, requests }) => ({
         equal(found.full, [320, 240], 'minimumRenderScale = 1');
     },
 
+    async 'drafts while slow frames move, the whole image at rest'() {
+        const found = await page.evaluate(async () => {
+            await clear();
+            const { engine } = await import('./facet-viewer/engine.js');
+            await engine.start();
+            const { module } = engine, drawn = [];
+            module.pace = () => 1;
+            module.drafts = (_, isMoving) => isMoving; // as after frames of 30 ms
+            module.draw = (...words) => { drawn.push(words[4]); return module.constructor.prototype.draw.apply(module, words); };
+            const viewer = make({ src: 'box.gltf' });
+            await event(viewer, 'load');
+            await frames(4);
+            const hash = async () => (await image(viewer)).hash, first = await hash(), still = drawn.splice(0);
+            viewer.autoRotateDelay = 0;
+            viewer.autoRotate = true;
+            await frames(6);
+            const moving = drawn.splice(0);
+            viewer.autoRotate = false;
+            viewer.resetTurntableRotation();
+            await viewer.updateComplete;
+            await frames(6);
+            const ending = drawn.splice(0), shown = viewer.shadowRoot.querySelector('.image');
+            const rest = shown.toDataURL();
+            for (const name of ['pace', 'drafts', 'draw']) delete module[name];
+            viewer.setOption('exposure', '0'); // draws again
+            await frames(4);
+            return { still, moving, ending, same: shown.width > 100 && shown.toDataURL() === rest, equal: first === await hash() };
+        });
+        check(found.still.length > 0 && found.still.every((isDraft) => !isDraft), `still images are drafts: ${found.still}`);
+        check(found.moving.filter(Boolean).length > 2, `no drafts while it moves: ${found.moving}`);
+        check(found.ending.at(-1) === false, `the last image is a draft: ${found.ending}`);
+        check(found.same && found.equal, 'the image at rest is not the whole one');
+    },
+
     async 'removal frees everything, and an idle page draws nothing'() {
         const found = await page.evaluate(async () => {
             await clear();

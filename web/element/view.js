@@ -353,11 +353,12 @@ export class View {
       this.#host.beforeFrame(seconds);
       this.#isTouched = false;
       const { width, height } = this.pixelSize();
-      this.use((module, viewer) => module.draw(viewer, width, height, seconds));
+      const isDraft = this.use((module, viewer) => module.drafts(viewer, this.isMoving));
+      this.use((module, viewer) => module.draw(viewer, width, height, seconds, isDraft));
       const isMoving = this.isMoving;
       if (!isDirect || !isMoving) this.#copy(width, height);
       this.#lastTime = isMoving ? time : 0;
-      this.#pace(isMoving, seconds);
+      this.#pace(isMoving, isDraft, seconds);
       this.#host.onFrame();
     } catch (error) {
       this.#lastTime = 0;
@@ -379,10 +380,10 @@ export class View {
   }
 
   // Coarser while slow frames move, sharp at rest.
-  #pace(isMoving, seconds) {
+  #pace(isMoving, isDraft, seconds) {
     const divisor = this.use((module, viewer) => module.pace(viewer, isMoving, this.#divisor, seconds));
     const allowed = Math.min(divisor, 1 / engine.minimumRenderScale);
-    this.#isSharp = isMoving || allowed === this.#divisor;
+    this.#isSharp = !isDraft && (isMoving || allowed === this.#divisor);
     if (allowed === this.#divisor) return;
     this.#divisor = allowed;
     this.#host.onScale(1 / allowed, isMoving ? 'GPU throttling' : 'GPU idle');

@@ -311,6 +311,12 @@ EMSCRIPTEN_KEEPALIVE int facet_web_locate(viewer *v, const double position[3], c
  * recognized, is left to frames that take longer than this in half of it. */
 static const double most_half_s = 0.125;
 
+/* Whether the next frame is to be a draft, for facet_web_draw(). */
+EMSCRIPTEN_KEEPALIVE bool facet_web_drafts(viewer *v, bool is_moving)
+{
+    return view_pace_drafts(&v->pace, is_moving);
+}
+
 /* After a frame that came that long after the one before (0: the first): by what to divide width and height of the next. */
 EMSCRIPTEN_KEEPALIVE int facet_web_pace(viewer *v, bool is_moving, int divisor, double seconds)
 {

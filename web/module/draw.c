@@ -80,7 +80,7 @@ static facet_result draw_sides(viewer *v, const facet_render_desc *desc, facet_e
     return gl_context_check(v->context, "the second side", error);
 }
 
-facet_result web_draw(viewer *v, uint32_t width, uint32_t height, facet_error *error)
+facet_result web_draw(viewer *v, uint32_t width, uint32_t height, bool is_draft, facet_error *error)
 {
     facet_camera camera;
     facet_render_desc desc;
@@ -88,6 +88,7 @@ facet_result web_draw(viewer *v, uint32_t width, uint32_t height, facet_error *e
     v->state.height = height;
     follow_shape(v, (float)width / (float)(height ? height : 1));
     TRY(web_draw_desc(v, width, height, &camera, &desc, error));
+    desc.quality = is_draft ? FACET_QUALITY_DRAFT : FACET_QUALITY_NORMAL;
     if (v->state.divider.comparison != VIEW_COMPARE_NOTHING)
         return draw_sides(v, &desc, error);
     return gl_renderer_present(v->renderer, &desc, 0, 0, 0, &v->stats, error);

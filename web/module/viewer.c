@@ -264,11 +264,11 @@ EMSCRIPTEN_KEEPALIVE void facet_web_play(viewer *v, bool plays, double speed)
 /* ---- images ---- */
 
 /* Into framebuffer 0 from its lower left corner. seconds: since the last frame. */
-EMSCRIPTEN_KEEPALIVE int facet_web_draw(viewer *v, int width, int height, double seconds)
+EMSCRIPTEN_KEEPALIVE int facet_web_draw(viewer *v, int width, int height, double seconds, bool is_draft)
 {
     view_state_advance(&v->state, seconds);
     TRY(web_camera_advance(v, (uint32_t)width, (uint32_t)height, seconds, &page.error));
-    return web_draw(v, (uint32_t)width, (uint32_t)height, &page.error);
+    return web_draw(v, (uint32_t)width, (uint32_t)height, is_draft, &page.error);
 }
 
 /* Whether another frame is wanted though nothing was changed from outside. */

@@ -78,7 +78,7 @@ bool web_camera_is_home(const viewer *v);
 /* What is to be drawn, resolved. Finds the orbit where it is left to framing. */
 facet_result web_draw_desc(viewer *v, uint32_t width, uint32_t height, facet_camera *camera,
                            facet_render_desc *out, facet_error *error);
-facet_result web_draw(viewer *v, uint32_t width, uint32_t height, facet_error *error);
+facet_result web_draw(viewer *v, uint32_t width, uint32_t height, bool is_draft, facet_error *error);
 /* RGBA8, rows from the top, straight alpha: a malloc() block. */
 facet_result web_draw_read(viewer *v, uint32_t width, uint32_t height, void **rgba, facet_error *error);
 /* facet_web_pick(), facet_web_project(). */

@@ -33,7 +33,7 @@ typedef struct gl_frame_block {
     float far_depth;       /* gl_Position.z / w at infinity: 1, or 0 with reversed depth */
     /* drawn pixels per image pixel along an axis: 2 with FACET_QUALITY_FINAL */
     float pixel_scale;
-    float unused;
+    int32_t is_draft;    /* 1: one texture lookup for the footprint of a pixel */
     float background[4]; /* display-linear color behind a window's image; w: 0 for none */
 } gl_frame_block;
 

@@ -190,6 +190,7 @@ static void check_frame_block(gl_context *context)
                    {"background_blur", offsetof(gl_frame_block, background_blur)},
                    {"far_depth", offsetof(gl_frame_block, far_depth)},
                    {"pixel_scale", offsetof(gl_frame_block, pixel_scale)},
+                   {"is_draft", offsetof(gl_frame_block, is_draft)},
                    {"background", offsetof(gl_frame_block, background)}};
     gl_programs *programs;
     uint32_t name;

@@ -19,7 +19,8 @@ void gl_renderer_destroy(gl_renderer *renderer); /* NULL is allowed */
 facet_result gl_renderer_render(gl_renderer *renderer, const facet_render_desc *desc, film *target,
                                 facet_render_stats *stats, facet_error *error);
 /* Renders a frame of a window: tone-mapped, sRGB-encoded, over the background, into a rectangle of a
- * framebuffer with lower left corner (x, y) and desc's size. */
+ * framebuffer with lower left corner (x, y) and desc's size. FACET_QUALITY_DRAFT, for frames of a motion: textures
+ * are read once for the footprint of a pixel. */
 facet_result gl_renderer_present(gl_renderer *renderer, const facet_render_desc *desc, uint32_t framebuffer,
                                  int x, int y, facet_render_stats *stats, facet_error *error);
 

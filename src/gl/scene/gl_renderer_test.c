@@ -2,6 +2,7 @@
  * Exits with 77 where there is no OpenGL. */
 #include <epoxy/gl.h>
 #include <math.h>
+#include <stdlib.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -242,6 +243,87 @@ static void distant_surfaces_do_not_z_fight(void **state)
     on_each(check_depth);
 }
 
+/* ---- drafts ---- */
+
+enum { FLOOR_WIDTH = 96, FLOOR_HEIGHT = 64 };
+
+/* A floor that runs away from the eye, with fine stripes across the short axis of its footprints. */
+static fixture make_floor(void)
+{
+    enum { EDGE = 128 };
+    static unsigned char stripes[EDGE][EDGE][4];
+    for (int y = 0; y < EDGE; y++)
+        for (int x = 0; x < EDGE; x++)
+            memset(stripes[y][x], x / 4 % 2 ? 160 : 120, 4);
+    fixture f = fixture_create();
+    scene_material m = gl_fixture_unlit(1.0f, 1.0f, 1.0f, 1.0f);
+    m.textures[SCENE_BASE_COLOR_TEXTURE].texture = fixture_add_texture(&f, EDGE, EDGE, &stripes[0][0][0]);
+    m.is_double_sided = true;
+    gl_fixture_turn(
+        fixture_place(&f, fixture_add_quad(&f, fixture_add_material(&f, m)), 0.0f, 0.0f, 0.0f, 1.0f), -0.66f,
+        0.0f, 0.0f, 0.75f);
+    f.camera = (facet_camera){.eye = {0.0f, 0.0f, 4.0f}, .fov_y_rad = 0.5f};
+    f.desc.width = FLOOR_WIDTH;
+    f.desc.height = FLOOR_HEIGHT;
+    f.desc.samples = 4;
+    return f;
+}
+
+/* Presents the fixture's image in a window of its own; returns the mean of its red values. */
+static double present_alone(fixture *f, gl_renderer *renderer, facet_quality quality, unsigned char *rgba)
+{
+    GLuint texture, framebuffer;
+    facet_render_stats stats;
+    GLsizei width = (GLsizei)f->desc.width, height = (GLsizei)f->desc.height;
+    glGenTextures(1, &texture);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+    glGenFramebuffers(1, &framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+    f->desc.camera = &f->camera;
+    f->desc.quality = quality;
+    assert_int_equal(gl_renderer_present(renderer, &f->desc, framebuffer, 0, 0, &stats, NULL), FACET_OK);
+    glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+    glDeleteFramebuffers(1, &framebuffer);
+    glDeleteTextures(1, &texture);
+    double sum = 0.0;
+    for (GLsizei i = 0; i < width * height; i++)
+        sum += rgba[4 * i];
+    return sum / (width * height);
+}
+
+/* One probe blurs, but changes neither coverage nor the mean; and frames at rest stay as they are. */
+static void check_draft(fixture *ignored, gl_context *context)
+{
+    (void)ignored;
+    enum { PIXELS = FLOOR_WIDTH * FLOOR_HEIGHT };
+    static unsigned char whole[4 * PIXELS], draft[4 * PIXELS], again[4 * PIXELS];
+    fixture f = make_floor();
+    gl_renderer *renderer = gl_fixture_renderer(&f, context);
+    assert_int_equal(gl_context_make_current(context, NULL), FACET_OK);
+    double mean = present_alone(&f, renderer, FACET_QUALITY_NORMAL, whole);
+    double mean_of_draft = present_alone(&f, renderer, FACET_QUALITY_DRAFT, draft);
+    present_alone(&f, renderer, FACET_QUALITY_NORMAL, again);
+    assert_memory_equal(whole, again, sizeof whole);
+    assert_true(fabs(mean_of_draft - mean) < 0.02 * mean);
+    int blurred = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        assert_int_equal(whole[4 * i + 3], draft[4 * i + 3]);
+        blurred += abs(whole[4 * i] - draft[4 * i]) > 3;
+    }
+    assert_true(blurred > PIXELS / 50);
+    gl_renderer_destroy(renderer);
+    gl_context_release(context);
+    fixture_destroy(&f);
+}
+
+static void a_draft_blurs_textures_only(void **state)
+{
+    (void)state;
+    on_each(check_draft);
+}
+
 /* ---- windows ---- */
 
 /* A window's pixels equal those of a file: sRGB, straight alpha, upright, in place. */
@@ -334,6 +416,7 @@ int main(void)
                                        cmocka_unit_test(more_samples_reduce_the_error),
                                        cmocka_unit_test(drivers_without_extensions_draw_the_same),
                                        cmocka_unit_test(distant_surfaces_do_not_z_fight),
+                                       cmocka_unit_test(a_draft_blurs_textures_only),
                                        cmocka_unit_test(a_window_presents_the_tone_mapped_image),
                                        cmocka_unit_test(passes_are_timed)};
     if (!gl_fixture_open(&contexts))

@@ -16,6 +16,6 @@ layout(std140) uniform Frame
     float background_blur;
     float far_depth;   /* gl_Position.z / w at infinity: 1, or 0 where depth is reversed */
     float pixel_scale; /* rendered pixels per pixel of the image, along a row */
-    float unused;
+    int is_draft; /* 1: one texture lookup for the footprint of a pixel */
     vec4 background; /* display-linear color behind the image, for a window; w: 0: none */
 };

@@ -44,8 +44,9 @@ struct Probes
 /* Those that cover the pixel, as the CPU takes them: drivers' anisotropic filters differ. size: texels. */
 Probes probes_at(vec2 size, vec2 uv)
 {
+    int limit = is_draft != 0 ? 1 : FOOTPRINT_MAX_PROBES;
     Footprint f = footprint_from_derivatives(size, dFdx(uv), dFdy(uv));
-    ProbeRow probes = footprint_probes(f, 1.0, 1.0 / size);
+    ProbeRow probes = footprint_probes_up_to(limit, f, 1.0, 1.0 / size);
     float lod = footprint_is_finite(f) ? 0.5 * log2(max(probes.width2, 1e-30)) : 64.0;
     vec2 stride = vec2(probes.step_u, probes.step_v);
     return Probes(uv - stride * (0.5 * float(probes.count - 1)), stride, probes.count, lod);
