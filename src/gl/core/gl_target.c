@@ -136,12 +136,18 @@ facet_result gl_target_update(gl_target *t, gl_context *context, gl_target_kind 
 
 void gl_target_resolve(const gl_target *t)
 {
+    gl_target_resolve_area(t, (int[4]){0, 0, (int)t->width, (int)t->height});
+}
+
+void gl_target_resolve_area(const gl_target *t, const int area[4])
+{
     if (t->framebuffer == t->resolved_framebuffer)
         return;
     glBindFramebuffer(GL_READ_FRAMEBUFFER, t->framebuffer);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, t->resolved_framebuffer);
-    GLint w = (GLint)t->width, h = (GLint)t->height;
-    glBlitFramebuffer(0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    GLint right = area[0] + area[2], top = area[1] + area[3];
+    glBlitFramebuffer(area[0], area[1], right, top, area[0], area[1], right, top, GL_COLOR_BUFFER_BIT,
+                      GL_NEAREST);
 }
 
 void gl_target_read(const gl_target *t, uint32_t layer, uint32_t x, uint32_t y, uint32_t width,

@@ -32,6 +32,8 @@ facet_result gl_target_update(gl_target *target, gl_context *context, gl_target_
 void gl_target_destroy(gl_target *target); /* {0} is allowed */
 /* Resolves the samples. */
 void gl_target_resolve(const gl_target *target);
+/* The same of {left, bottom, width, height}, pixels; the rest keeps its former values. */
+void gl_target_resolve_area(const gl_target *target, const int area[4]);
 /* Reads RGBA of the resolved image or of a layer: width x height pixels from (x, y), rows in OpenGL's order. */
 void gl_target_read(const gl_target *target, uint32_t layer, uint32_t x, uint32_t y, uint32_t width,
                     uint32_t height, float *pixels);

@@ -2,6 +2,7 @@
 #include "gl/scene/gl_frame.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/clock.h"
 #include "base/result.h"
@@ -326,8 +327,16 @@ static facet_result draw_bloom(gl_frame *f, const gl_target *target, const facet
     return result;
 }
 
-facet_result gl_frame_draw(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
-                           gl_frame_block *block, facet_error *error)
+/* Whether nothing but the model is in the image: no background, no ground, no bloom. */
+static bool is_model_alone(const gl_frame *f, const facet_render_desc *desc)
+{
+    return desc->background == FACET_BACKGROUND_TRANSPARENT && desc->shading != FACET_SHADING_OGL1 &&
+           gl_channel_is_light(desc->gl.channel) && !gl_light_has_ground(f->light) &&
+           !(desc->gl.bloom > 0.0f);
+}
+
+static facet_result draw(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
+                         bool is_for_window, gl_frame_block *block, facet_error *error)
 {
     begin(f, target, desc, block);
     facet_result result = draw_opaque(f, target, desc, error);
@@ -341,7 +350,11 @@ facet_result gl_frame_draw(gl_frame *f, const gl_target *target, const facet_ren
         result = draw_blended(f, target, desc, block, error);
     gl_camera_end_depth(f->context);
     gl_timers_begin(&f->timers, GL_TIMER_RESOLVE);
-    gl_target_resolve(target);
+    memcpy(f->area, (int[4]){0, 0, (int)target->width, (int)target->height}, sizeof f->area);
+    if (is_for_window && is_model_alone(f, desc))
+        gl_mesh_area(f->meshes, block, gl_camera_is_top_down(f->context), target->width, target->height,
+                     f->area);
+    gl_target_resolve_area(target, f->area);
     gl_timers_end(&f->timers);
     const gl_pyramid_brush brush = {f->programs, f->empty_array};
     if (result == FACET_OK && desc->shading == FACET_SHADING_OGL1)
@@ -349,6 +362,18 @@ facet_result gl_frame_draw(gl_frame *f, const gl_target *target, const facet_ren
     if (result == FACET_OK)
         result = draw_bloom(f, target, desc, error);
     return result;
+}
+
+facet_result gl_frame_draw(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
+                           gl_frame_block *block, facet_error *error)
+{
+    return draw(f, target, desc, false, block, error);
+}
+
+facet_result gl_frame_draw_window(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
+                                  gl_frame_block *block, facet_error *error)
+{
+    return draw(f, target, desc, true, block, error);
 }
 
 facet_result gl_frame_draw_layers(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
@@ -364,6 +389,20 @@ facet_result gl_frame_draw_layers(gl_frame *f, const gl_target *target, const fa
     return result;
 }
 
+/* Clears the window around the area that was drawn, which is to be scissored. (x, y): corner of the window. */
+static void clear_around(const gl_frame *f, const gl_target *target, int x, int y)
+{
+    bool is_top_down = gl_camera_is_top_down(f->context);
+    int bottom = is_top_down ? (int)target->height - f->area[1] - f->area[3] : f->area[1];
+    glEnable(GL_SCISSOR_TEST);
+    if (f->area[2] != (int)target->width || f->area[3] != (int)target->height) {
+        glScissor(x, y, (GLsizei)target->width, (GLsizei)target->height);
+        glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+        glClear(GL_COLOR_BUFFER_BIT);
+    }
+    glScissor(x + f->area[0], y + bottom, f->area[2], f->area[3]);
+}
+
 facet_result gl_frame_present(gl_frame *f, const gl_target *target, const facet_render_desc *desc, int x,
                               int y, facet_error *error)
 {
@@ -377,10 +416,12 @@ facet_result gl_frame_present(gl_frame *f, const gl_target *target, const facet_
     glDisable(GL_CULL_FACE);
     glDisable(GL_BLEND);
     glViewport(x, y, (GLsizei)target->width, (GLsizei)target->height);
+    clear_around(f, target, x, y);
     uint64_t features = gl_program_present_features(
         gl_camera_is_top_down(f->context),
         gl_channel_is_light(desc->gl.channel) ? desc->tonemap : FACET_TONEMAP_NONE);
     facet_result result = draw_screen(f, GL_MAIN_PRESENT, features, error);
+    glDisable(GL_SCISSOR_TEST);
     gl_timers_end(&f->timers);
     return result;
 }

@@ -22,6 +22,8 @@ typedef struct gl_frame {
     gl_transparency *transparency;
     const gl_scene *scene; /* of the last update */
     gl_timers timers;
+    /* of the last drawing: {left, bottom, width, height} of the pixels of the target that were resolved */
+    int area[4];
     uint32_t frame_buffer; /* buffer of the frame block */
     uint32_t empty_array;  /* vertex array of full-screen passes */
 } gl_frame;
@@ -44,6 +46,9 @@ facet_result gl_frame_draw(gl_frame *frame, const gl_target *target, const facet
 /* Draws the AOVs of the nearest surfaces into the layers of a GL_TARGET_LAYERED target: normal and depth
  * (m; 0: none); base color and occlusion; index of the geometry, texture coordinates, opacity. */
 facet_result gl_frame_draw_layers(gl_frame *frame, const gl_target *target, const facet_render_desc *desc,
+                                  gl_frame_block *block, facet_error *error);
+/* The same, where only gl_frame_present() reads the image: leaves out what is empty around the model. */
+facet_result gl_frame_draw_window(gl_frame *frame, const gl_target *target, const facet_render_desc *desc,
                                   gl_frame_block *block, facet_error *error);
 /* Tone-maps and encodes a resolved image into the bound framebuffer, lower left corner at (x, y). */
 facet_result gl_frame_present(gl_frame *frame, const gl_target *target, const facet_render_desc *desc, int x,

@@ -350,6 +350,58 @@ bool gl_mesh_is_outside(const gl_batch *b, const gl_frame_block *frame)
     return false;
 }
 
+/* Widens low and high by the box in normalized device coordinates; false where a corner is not in front of the eye. */
+static bool widen_by_box(const gl_batch *b, const gl_frame_block *frame, float low[2], float high[2])
+{
+    const float *m = frame->view_projection;
+    for (int corner = 0; corner < 8; corner++) {
+        float at[4] = {m[12], m[13], 0.0f, m[15]}; /* clip coordinates without depth */
+        for (int k = 0; k < 3; k++) {
+            float p = (corner >> k & 1 ? b->bounds_max[k] : b->bounds_min[k]) - frame->eye[k];
+            at[0] += m[4 * k] * p;
+            at[1] += m[4 * k + 1] * p;
+            at[3] += m[4 * k + 3] * p;
+        }
+        if (!(at[3] > 1e-6f))
+            return false;
+        for (int i = 0; i < 2; i++) {
+            low[i] = fminf(low[i], at[i] / at[3]);
+            high[i] = fmaxf(high[i], at[i] / at[3]);
+        }
+    }
+    return true;
+}
+
+void gl_mesh_area(const gl_mesh_set *set, const gl_frame_block *frame, bool is_top_down, uint32_t width,
+                  uint32_t height, int area[4])
+{
+    const int size[2] = {(int)width, (int)height};
+    float low[2] = {1.0f, 1.0f}, high[2] = {-1.0f, -1.0f};
+    memcpy(area, (int[4]){0, 0, size[0], size[1]}, 4 * sizeof *area);
+    for (gl_pass pass = GL_PASS_OPAQUE; pass < GL_PASS_COUNT; pass++) {
+        uint32_t count;
+        const gl_batch *batches = gl_mesh_batches(set, pass, &count);
+        if (count && pass != GL_PASS_OPAQUE)
+            return;
+        for (uint32_t i = 0; i < count; i++)
+            if (batches[i].is_sprites ||
+                (!batches[i].is_outside && !widen_by_box(&batches[i], frame, low, high)))
+                return;
+    }
+    for (int i = 0; i < 2; i++) {
+        bool is_flipped = i == 1 && is_top_down;
+        float from = is_flipped ? -high[i] : low[i], to = is_flipped ? -low[i] : high[i];
+        float half = 0.5f * (float)size[i];
+        /* a pixel more on either side: samples lie beside the middle, and bounds are rounded */
+        int begin = (int)floorf((fminf(fmaxf(from, -1.0f), 1.0f) + 1.0f) * half) - 1;
+        int end = (int)ceilf((fminf(fmaxf(to, -1.0f), 1.0f) + 1.0f) * half) + 1;
+        area[i] = begin > 0 ? begin : 0;
+        area[2 + i] = (end < size[i] ? end : size[i]) - area[i];
+        if (area[2 + i] < 1)
+            area[2 + i] = 1;
+    }
+}
+
 static float depth_of(const gl_batch *b, const gl_frame_block *frame)
 {
     float depth = 0.0f;

@@ -56,6 +56,10 @@ void gl_mesh_order(gl_mesh_set *meshes, const gl_frame_block *frame, const struc
 
 /* Includes the batches outside the image, which may cast shadows into it. */
 const gl_batch *gl_mesh_batches(const gl_mesh_set *meshes, gl_pass pass, uint32_t *count);
+/* Left, bottom, width and height of the drawn pixels that batches of GL_PASS_OPAQUE may cover, or of the whole target
+ * where that is not known, or other batches exist. The frame's order is that of gl_mesh_order(). */
+void gl_mesh_area(const gl_mesh_set *meshes, const gl_frame_block *frame, bool is_top_down, uint32_t width,
+                  uint32_t height, int area[4]);
 /* World-space bounding box of an instance, m. */
 void gl_mesh_instance_box(const scene_instance *instance, float low[3], float high[3]);
 /* Whether a batch is entirely beyond one side of the frame. */

@@ -280,7 +280,7 @@ facet_result gl_renderer_present(gl_renderer *r, const facet_render_desc *wanted
         const gl_view all = {.scale = 1, .width = desc->width, .height = desc->height};
         set_camera(r, &camera, desc, &all, &block);
         block.is_draft = desc->quality == FACET_QUALITY_DRAFT;
-        result = gl_frame_draw(&r->frame, &r->target, desc, &block, error);
+        result = gl_frame_draw_window(&r->frame, &r->target, desc, &block, error);
     }
     if (result == FACET_OK) {
         glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);

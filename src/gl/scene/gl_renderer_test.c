@@ -281,6 +281,8 @@ static double present_alone(fixture *f, gl_renderer *renderer, facet_quality qua
     glGenFramebuffers(1, &framebuffer);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+    glClearColor(1.0f, 1.0f, 1.0f, 1.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
     f->desc.camera = &f->camera;
     f->desc.quality = quality;
     assert_int_equal(gl_renderer_present(renderer, &f->desc, framebuffer, 0, 0, &stats, NULL), FACET_OK);
@@ -322,6 +324,43 @@ static void a_draft_blurs_textures_only(void **state)
 {
     (void)state;
     on_each(check_draft);
+}
+
+/* Only the rectangle around the model is resolved and tone-mapped where nothing else is in the image: all of the
+ * model is in it, and what was in the window is gone. */
+static void check_area(fixture *ignored, gl_context *context)
+{
+    (void)ignored;
+    enum { PIXELS = FLOOR_WIDTH * FLOOR_HEIGHT };
+    static unsigned char alone[4 * PIXELS], over_black[4 * PIXELS];
+    fixture f = make_floor();
+    gl_renderer *renderer = gl_fixture_renderer(&f, context);
+    assert_int_equal(gl_context_make_current(context, NULL), FACET_OK);
+    for (int place = 0; place < 5; place++) {
+        f.camera.eye[0] = 0.4f * (float)(place - 2);
+        f.camera.eye[1] = 0.3f * (float)(place % 3);
+        f.desc.background = FACET_BACKGROUND_TRANSPARENT;
+        present_alone(&f, renderer, FACET_QUALITY_NORMAL, alone);
+        f.desc.background = FACET_BACKGROUND_COLOR;
+        present_alone(&f, renderer, FACET_QUALITY_NORMAL, over_black);
+        int full = 0, empty = 0;
+        for (int i = 0; i < 4 * PIXELS; i += 4) {
+            full += alone[i + 3] == 255;
+            empty += alone[i + 3] == 0;
+            for (int k = 0; k < 3 && alone[i + 3] % 255 == 0; k++)
+                assert_int_equal(alone[i + k], over_black[i + k]);
+        }
+        assert_true(full > PIXELS / 20 && empty > PIXELS / 20);
+    }
+    gl_renderer_destroy(renderer);
+    gl_context_release(context);
+    fixture_destroy(&f);
+}
+
+static void a_window_is_empty_around_the_model(void **state)
+{
+    (void)state;
+    on_each(check_area);
 }
 
 /* ---- windows ---- */
@@ -417,6 +456,7 @@ int main(void)
                                        cmocka_unit_test(drivers_without_extensions_draw_the_same),
                                        cmocka_unit_test(distant_surfaces_do_not_z_fight),
                                        cmocka_unit_test(a_draft_blurs_textures_only),
+                                       cmocka_unit_test(a_window_is_empty_around_the_model),
                                        cmocka_unit_test(a_window_presents_the_tone_mapped_image),
                                        cmocka_unit_test(passes_are_timed)};
     if (!gl_fixture_open(&contexts))
