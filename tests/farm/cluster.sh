@@ -43,6 +43,9 @@ write_configuration() {
     host=${host%%.*}
     port=$((20000 + $(od -An -N2 -tu2 /dev/urandom) % 20000))
     mkdir -p "$work/state" "$work/spool_n1" "$work/spool_n2" "$work/daemons"
+    # slurmd opens the control groups even if nothing uses them, and they are absent in some containers
+    mkdir -p "$work/cgroup"
+    printf 'CgroupPlugin=cgroup/v1\nCgroupMountpoint=%s\n' "$work/cgroup" >"$work/cgroup.conf"
     cat >"$work/slurm.conf" <<END
 ClusterName=facet
 SlurmctldHost=$host(127.0.0.1)

@@ -71,25 +71,75 @@ says "number of shards is not in the environment"
 as FACET=1 -- 2
 says "the environment has none of FACET_SHARD=I/N, SLURM_ARRAY_TASK_ID, JOB_COMPLETION_INDEX"
 
-# GNU parallel. Shard 1 fails at first, as its results cannot be written; the log of jobs says which to run again.
+# A run whose folder needs quotes. GNU parallel. Shard 1 fails at first, as its results cannot be written; the log of jobs says which to run again.
 rm -rf thumbs
-expect 0 farm submit --run "a run" --shards 4 --shard-cpus 1 --print-commands -- batch --manifest jobs.jsonl
+run="it's a \"run\" of \$5"
+expect 0 farm submit --run "$run" --shards 4 --shard-cpus 1 --print-commands -- batch --manifest jobs.jsonl
 cp out commands
-mkdir "a run/results/1.jsonl"
+mkdir "$run/results/1.jsonl"
 code=0
 parallel --will-cite -j 2 --joblog joblog <commands >/dev/null 2>err || code=$?
 [ $code = 1 ] || failed "parallel: exit code $code, not 1 failed job"
-expect 1 farm status --run "a run"
+expect 1 farm status --run "$run"
 grep -q "18 of 24 items done" out || failed "status: $(cat out)"
-grep -q "1 shards unfinished: 1" out || failed "status: $(cat out)"
-expect 0 farm retry --run "a run" --print-commands
+grep -q "shards unfinished: 1 (1)" out || failed "status: $(cat out)"
+expect 0 farm retry --run "$run" --print-commands
 [ "$(cat out)" = "$(sed -n 2p commands)" ] || failed "retry prints $(cat out)"
-rmdir "a run/results/1.jsonl"
+rmdir "$run/results/1.jsonl"
 parallel --will-cite --joblog joblog --retry-failed >/dev/null 2>err || failed "parallel --retry-failed"
-expect 0 farm status --run "a run"
-expect 0 farm retry --run "a run" --print-commands
+expect 0 farm status --run "$run"
+expect 0 farm retry --run "$run" --print-commands
 [ ! -s out ] || failed "retry prints $(cat out)"
 check parallel
+
+# Without --shards and costs a sample is rendered, which the shards keep. What is quick needs one shard.
+rm -rf thumbs
+expect 0 farm submit --run sampled --shard-cpus 1 --print-commands -- batch --manifest jobs.jsonl
+[ "$(wc -l <out)" = 1 ] || failed "the sample gives $(wc -l <out) shards"
+[ "$(find thumbs -type f | wc -l)" = 8 ] || failed "the sample is $(find thumbs -type f | wc -l) items, not 8"
+sh sampled/chunk.sh 0 2>err || failed "chunk.sh"
+check "a run with a sample"
+sed 's/}$/, "cost": 50}/' jobs.jsonl >costs.jsonl
+expect 0 farm submit --run costs --shard-cpus 2 --target-time 100s --print-commands -- batch --manifest costs.jsonl
+[ "$(wc -l <out)" = 6 ] || failed "costs of 1200 core seconds give $(wc -l <out) shards, not 6"
+
+# Frames, and an image in parts; finish.sh merges it, or names what is missing.
+expect 0 render tri.gltf --size 24 --turntable 5 -o 'wanted_##.png'
+expect 0 farm submit --run frames --shards 2 --print-commands -- render tri.gltf --size 24 --turntable 5 -o 'frame_##.png'
+sh out
+expect 0 farm status --run frames
+for i in 1 2 3 4 5; do
+    cmp wanted_0$i.png frame_0$i.png || failed "frame $i"
+done
+expect 0 render tri.gltf --size 50 -o still_wanted.png
+expect 0 farm submit --run "still's" --shards 3 --print-commands -- render tri.gltf --size 50 -o still.png
+sed 2d out | sh
+sh "still's/finish.sh" >out 2>err && failed "finish.sh without a part"
+grep -q -- "--shard 1/3" out || failed "finish.sh does not say which part is missing: $(cat out)"
+expect 0 farm retry --run "still's" --print-commands
+[ "$(wc -l <out)" = 1 ] || failed "retry prints $(cat out)"
+sh out
+sh "still's/finish.sh" >out 2>err || failed "finish.sh"
+cmp still.png still_wanted.png || failed "the merged image differs"
+
+# Slurm's accounting says how an unfinished shard ended.
+mkdir fake
+printf '#!/bin/sh\necho "7_1|TIMEOUT"\n' >fake/sacct
+printf '#!/bin/sh\necho "7 0 PD"\n' >fake/squeue
+printf '#!/bin/sh\ncase $* in *afterany:7*) echo 8 ;; *) echo 7 ;; esac\n' >fake/sbatch
+chmod +x fake/*
+PATH=$PWD/fake:$PATH
+expect 0 farm submit --run slow --shards 3 --at-once 2 --sbatch=--partition=long -- render tri.gltf -o slow.png
+says "3 of 3 shards submitted"
+expect 1 farm status --run slow
+grep -q "shards waiting: 1 (0)" out || failed "status: $(cat out)"
+grep -q "shard 1: TIMEOUT" out || failed "status: $(cat out)"
+expect 1 farm status --run slow --json
+grep -q '"shards_unfinished": 2' out || failed "status --json: $(cat out)"
+expect 0 farm retry --run slow
+says "2 of 3 shards submitted"
+expect 2 farm submit --run slow --shards 3 -- render tri.gltf -o slow.png
+says "holds a run already"
 
 # The examples can be parsed.
 examples=$here/../../docs/examples/farm

@@ -55,7 +55,7 @@ wait_for 90 "the jobs did not end" queue_is_empty
 grep -q "DUE TO JOB REQUEUE" "a catalog"/log/*_*.log || failed "no element that ended with 75 was requeued"
 expect 1 farm status --run "a catalog"
 grep -q "28 of 30 items done" out || failed "status: $(cat out)"
-grep -q "2 items failed" out || failed "status: $(cat out)"
+grep -q "items failed: 2" out || failed "status: $(cat out)"
 grep -q "bad.glb" out || failed "status does not name bad.glb: $(cat out)"
 expect 0 farm status --run still
 diff -r thumbs wanted >differences || failed "$(head -3 differences)"

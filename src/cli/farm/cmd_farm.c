@@ -133,12 +133,12 @@ static facet_result submit(farm_verb_run *f, facet_error *error)
 
 /* ---- status and retry ---- */
 
-/* Prints "  shards 3,5-7 WHAT" for the shards in a state. */
+/* Prints "  shards WHAT: 2 (3,17)" for the chosen shards, unless there are none. */
 static void print_shards(const farm_verb_run *f, uint32_t count, const char *what)
 {
     char *list = count ? farm_shard_list(f->chosen, f->run.shard_count) : NULL;
     if (list)
-        printf("  %u %s: %.200s%s\n", count, what, list, strlen(list) > 200 ? ".." : "");
+        printf("  shards %s: %u (%.200s%s)\n", what, count, list, strlen(list) > 200 ? ".." : "");
     free(list);
 }
 
@@ -166,22 +166,22 @@ static void print_status(farm_verb_run *f)
 {
     const farm_status *s = &f->status;
     const char *what = farm_run_is_catalog(&f->run) ? "items" : "shards";
-    printf("%s: %llu of %llu %s done, in %u shards\n", f->run.folder, (unsigned long long)s->done,
-           (unsigned long long)s->items, what, f->run.shard_count);
+    printf("%s: %llu of %llu %s done\n", f->run.folder, (unsigned long long)s->done,
+           (unsigned long long)s->items, what);
     for (uint32_t i = 0; i < f->run.shard_count; i++)
         f->chosen[i] = s->shards[i].place == FARM_RUNNING;
-    print_shards(f, s->running, "shards running");
+    print_shards(f, s->running, "running");
     for (uint32_t i = 0; i < f->run.shard_count; i++)
         f->chosen[i] = s->shards[i].place == FARM_WAITING;
-    print_shards(f, s->waiting, "shards waiting");
+    print_shards(f, s->waiting, "waiting");
     for (uint32_t i = 0; i < f->run.shard_count; i++)
         f->chosen[i] = is_missing(&s->shards[i]);
-    print_shards(f, s->missing, "shards unfinished");
+    print_shards(f, s->missing, "unfinished");
     for (uint32_t i = 0; i < f->run.shard_count; i++)
         if (f->chosen[i] && s->shards[i].history[0])
             printf("    shard %u: %s\n", i, s->shards[i].history);
     if (s->failed)
-        printf("  %llu %s failed:\n", (unsigned long long)s->failed, what);
+        printf("  %s failed: %llu\n", what, (unsigned long long)s->failed);
     print_failures(s);
 }
 
