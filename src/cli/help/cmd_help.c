@@ -37,6 +37,7 @@ static const struct {
     {"legacy.md", "materials of OpenGL 1, OBJ and MTL, to glTF's and back"},
     {"r.md", "R's rgl: parameters, web pages, vignettes"},
     {"compare.md", "image metrics: FLIP, SSIM, limits for tests"},
+    {"serve.md", "rendering for web servers, programs and agents: HTTP, JSON-RPC, MCP"},
     {"inspect.md", "the JSON of facet inspect"},
     {"farm.md", "many machines: shards, Slurm and other engines"},
     {"view.md", "the window: keys, mouse, scripts; web pages"},
