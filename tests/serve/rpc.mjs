@@ -162,6 +162,15 @@ await run({
         assert((await waiting[0]).result);
         await stop_stdio(server);
     },
+    async 'without a queue a free worker still answers'() {
+        const server = await start_stdio('-j', '1', '--queue', '0', '-v'), { client } = server;
+        assert((await client.call('render', small)).result);
+        const [first, second] = await Promise.all([client.call('render', small), client.call('render', small)]);
+        assert(first.result);
+        assert.equal(second.error.code, -32075);
+        await stop_stdio(server);
+        assert.match(server.log, /render tri.gltf: done, exit code 0/);
+    },
     async 'SIGTERM lets a job end and refuses what waits'() {
         const server = await start_stdio('-j', '1', '--time-limit', '3s'), { client } = server;
         const runs = client.call('render', { ...slow, size: 64 }), waits = client.call('render', small);

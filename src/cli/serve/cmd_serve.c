@@ -95,6 +95,7 @@ static facet_result read_limits(serve_run *run, facet_error *error)
                                       l->max_body_bytes < 1024 || l->max_body_bytes > (uint64_t)4 << 30))
         return option_fail(c, OPT_MAX_BODY, "a size from 1K to 4G", error);
     s->client_timeout_s = 30.0;
+    s->messages = &run->messages;
     if (is_given(c, OPT_CLIENT_TIMEOUT) &&
         !value_seconds(option_text(c, OPT_CLIENT_TIMEOUT, ""), &s->client_timeout_s))
         return option_fail(c, OPT_CLIENT_TIMEOUT, "a time such as 30s, 500ms or 5m", error);

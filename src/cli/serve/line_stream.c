@@ -132,6 +132,17 @@ size_t line_stream_unsent(const line_stream *s)
     return s->is_broken ? 0 : s->pending.length - s->sent;
 }
 
+/* Moves what is left to the front once much has gone, so that an output that is never empty does not grow. */
+static void forget_sent(line_stream *s)
+{
+    enum { MUCH = 1 << 20 };
+    if (s->sent < MUCH || s->sent < s->pending.length / 2)
+        return;
+    s->pending.length -= s->sent;
+    memmove(s->pending.data, s->pending.data + s->sent, s->pending.length + 1);
+    s->sent = 0;
+}
+
 static void write_some(line_stream *s)
 {
     for (int i = 0; i < 64 && s->sent < s->pending.length; i++) {
@@ -151,7 +162,9 @@ static void write_some(line_stream *s)
         if (!is_socket && (poll(&again, 1, 0) != 1 || !(again.revents & POLLOUT)))
             break; /* the next write would block */
     }
-    if (s->sent == s->pending.length) {
+    if (s->sent < s->pending.length) {
+        forget_sent(s);
+    } else {
         text_destroy(&s->pending);
         s->sent = 0;
         s->waits_out = 0.0;

@@ -29,10 +29,10 @@ const verb serve_verb = {
              "for models from strangers"},
             {NULL, NULL}},
     .groups =
-        (const option_group *const[]){OPTION_GROUP("Ways in", OPT_STDIO, OPT_SOCKET, OPT_HTTP, OPT_MCP),
-                                      OPTION_GROUP("Files", OPT_ROOT, OPT_ENV),
-                                      OPTION_GROUP("Limits", OPT_JOBS, OPT_QUEUE, OPT_TIME_LIMIT,
-                                                   OPT_MAX_MEMORY, OPT_MAX_TEXTURE, OPT_MAX_BODY,
-                                                   OPT_CLIENT_TIMEOUT),
-                                      OPTION_GROUP("Messages", OPT_QUIET, OPT_HELP, OPT_HELP_ALL), NULL},
+        (const option_group *const[]){
+            OPTION_GROUP("Ways in", OPT_STDIO, OPT_SOCKET, OPT_HTTP, OPT_MCP),
+            OPTION_GROUP("Files", OPT_ROOT, OPT_ENV),
+            OPTION_GROUP("Limits", OPT_JOBS, OPT_QUEUE, OPT_TIME_LIMIT, OPT_MAX_MEMORY, OPT_MAX_TEXTURE,
+                         OPT_MAX_BODY, OPT_CLIENT_TIMEOUT),
+            OPTION_GROUP("Messages", OPT_QUIET, OPT_VERBOSE, OPT_HELP, OPT_HELP_ALL), NULL},
 };

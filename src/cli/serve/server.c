@@ -103,9 +103,10 @@ void server_describe(const server *s, text *out)
 bool server_is_busy(const server *s, answer *refusal)
 {
     const uint64_t most = s->settings.limits.max_body_bytes * HELD_BODIES;
+    const size_t free_slots = s->settings.worker_count - job_pool_running(s->pool);
     if (s->is_stopping)
         answer_fail(refusal, ANSWER_STOPPING, "the server is stopping");
-    else if (s->queue_depth >= s->settings.queue_limit)
+    else if (s->queue_depth >= s->settings.queue_limit + free_slots)
         answer_fail(refusal, ANSWER_BUSY, "the server is busy: %zu requests are waiting; try again",
                     s->queue_depth);
     else if (s->held_bytes > most)
@@ -162,6 +163,11 @@ static bool take_out(ticket **list, const ticket *t)
 static void end(server *s, ticket *t, answer *a)
 {
     double seconds = interrupt_clock() - t->start;
+    const char *name = t->request.name;
+    message_at(s->settings.messages, VERBOSITY_DETAILS, "%s%s%s: %s, exit code %d, %.3f s%s%s",
+               t->request.method->verb->name, name[0] ? " " : "", name,
+               t->client ? answer_codes[a->kind].word : "client gone", a->exit_code, seconds,
+               a->message[0] ? ": " : "", a->message);
     if (t->client) {
         metrics_count(&s->metrics, t->client->transport, method_index(t->request.method), a->kind);
         metrics_time(&s->metrics, method_index(t->request.method), seconds);

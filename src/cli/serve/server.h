@@ -7,6 +7,7 @@
 #include "cli/serve/metrics.h"
 #include "cli/serve/poll_set.h"
 #include "cli/serve/request.h"
+#include "cli/shared/messages.h"
 
 typedef struct server server;
 typedef struct ticket ticket;
@@ -24,7 +25,8 @@ typedef struct server_settings {
     request_limits limits;
     unsigned worker_count;
     size_t queue_limit;
-    double client_timeout_s; /* for a client that neither sends the rest of a message nor reads */
+    double client_timeout_s;  /* for a client that neither sends the rest of a message nor reads */
+    const messages *messages; /* gets a line for each answer, at VERBOSITY_DETAILS */
 } server_settings;
 
 /* NULL: no memory. */

@@ -241,25 +241,25 @@ static void handle_lines(session *s)
             refuse_line(s);
 }
 
+/* When the client will have had time enough for the rest of a line, or to read; a very large number: nothing is due. */
+static double moment_of_patience(const session *s)
+{
+    const line_stream *l = &s->stream;
+    double timeout = server_settings_of(s->server)->client_timeout_s, moment = 1e300;
+    if (s->has_timeout && l->waits_in > 0.0)
+        moment = l->waits_in + timeout + (double)(l->end - l->start) / SLOWEST_BYTES_PER_S;
+    if (s->has_timeout && l->waits_out > 0.0 && l->waits_out + timeout < moment)
+        moment = l->waits_out + timeout;
+    return moment;
+}
+
 void session_prepare(session *s, poll_set *set)
 {
     bool reads = !is_congested(s);
+    if (!reads && s->stream.waits_in > 0.0)
+        s->stream.waits_in = interrupt_clock(); /* the line is not awaited */
     line_stream_prepare(&s->stream, set, reads);
-    double timeout = server_settings_of(s->server)->client_timeout_s;
-    if (s->has_timeout && s->stream.waits_in > 0.0)
-        poll_set_until(set, s->stream.waits_in + timeout);
-    if (s->has_timeout && s->stream.waits_out > 0.0)
-        poll_set_until(set, s->stream.waits_out + timeout);
-}
-
-/* Whether a client neither sends the rest of a line nor reads what it has asked for. */
-static bool is_stuck(const session *s)
-{
-    double now = interrupt_clock(), timeout = server_settings_of(s->server)->client_timeout_s;
-    const line_stream *l = &s->stream;
-    double patience = timeout + (double)(l->end - l->start) / SLOWEST_BYTES_PER_S;
-    return s->has_timeout && ((l->waits_in > 0.0 && now > l->waits_in + patience) ||
-                              (l->waits_out > 0.0 && now > l->waits_out + timeout));
+    poll_set_until(set, moment_of_patience(s));
 }
 
 bool session_handle(session *s, const poll_set *set)
@@ -268,7 +268,7 @@ bool session_handle(session *s, const poll_set *set)
     handle_lines(s);
     bool is_done = s->stream.has_ended && s->stream.start == s->stream.end && !s->replies &&
                    !line_stream_unsent(&s->stream);
-    return !is_done && !s->stream.is_broken && !is_stuck(s);
+    return !is_done && !s->stream.is_broken && interrupt_clock() <= moment_of_patience(s);
 }
 
 bool session_has_output(const session *s)
