@@ -11,6 +11,7 @@ typedef struct film_layer {
     const char *const *channel_names; /* full names as in an EXR file */
     uint32_t channel_count;
     bool needs_float; /* depth, texture coordinates, IDs and counts, which halves would round */
+    bool is_integer;  /* pixels are 32-bit integers, for files that keep the state of a renderer */
     float *pixels;    /* interleaved, width * height * channel_count; block of mem_alloc() */
 } film_layer;
 

@@ -12,7 +12,8 @@ static inline image_layer film_layer_to_image(const film_layer *layer, uint32_t 
                          .channel_count = layer->channel_count,
                          .pixels = layer->pixels,
                          .row_stride_bytes = (size_t)width * layer->channel_count * sizeof(float),
-                         .needs_float = layer->needs_float};
+                         .needs_float = layer->needs_float,
+                         .is_integer = layer->is_integer};
 }
 
 /* For reading. Returns the number of channels. */
@@ -23,6 +24,7 @@ static inline uint32_t film_layer_list_channels(const film_layer *layer, uint32_
         channels[c] =
             (image_channel){.name = layer->channel_names[c],
                             .first = layer->pixels + c,
+                            .is_integer = layer->is_integer,
                             .texel_stride_bytes = layer->channel_count * sizeof(float),
                             .row_stride_bytes = (size_t)width * layer->channel_count * sizeof(float)};
     return layer->channel_count;

@@ -97,7 +97,7 @@ static void invalid_texels_are_replaced_and_reported_once(void **state)
     for (int k = 0; k < 2; k++) {
         bytes b;
         const char *const names[] = {"R", "G", "B"};
-        const image_layer layer = {names, 3, i.pixels, image_row_size(&i), false};
+        const image_layer layer = {names, 3, i.pixels, image_row_size(&i), false, false};
         b = encode_pfm(&i);
         if (k == 1) {
             mem_free(b.data);

@@ -239,7 +239,8 @@ static facet_result list_channels(const image_layer *layers, uint32_t layer_coun
                                               .first = (float *)(uintptr_t)(layers[l].pixels + k),
                                               .texel_stride = layers[l].channel_count * sizeof(float),
                                               .row_stride = layers[l].row_stride_bytes,
-                                              .needs_float = layers[l].needs_float};
+                                              .needs_float = layers[l].needs_float || layers[l].is_integer,
+                                              .is_integer = layers[l].is_integer};
     qsort(channels, count, sizeof *channels, compare_names);
     for (uint32_t c = 0; c < count; c++) {
         const size_t length = strlen(channels[c].name);
@@ -331,6 +332,7 @@ facet_result image_read_exr_channels(const void *bytes, size_t size, const char 
     for (uint32_t c = 0; c < channel_count; c++)
         named[c] = (exr_channel){.name = channels[c].name,
                                  .first = channels[c].first,
+                                 .is_integer = channels[c].is_integer,
                                  .texel_stride = channels[c].texel_stride_bytes,
                                  .row_stride = channels[c].row_stride_bytes};
     facet_result result = exr_check(bytes, size, name, INT32_MAX, named, channel_count, &info, &s, error);

@@ -74,8 +74,8 @@ static void write_layers(uint32_t threads, bool as_half, const image *rgba, cons
 {
     static const char *const color_names[] = {"R", "G", "B", "A"};
     static const char *const depth_names[] = {"Z"};
-    image_layer layers[] = {{color_names, 4, rgba->pixels, image_row_size(rgba), false},
-                            {depth_names, 1, depth->pixels, image_row_size(depth), true}};
+    image_layer layers[] = {{color_names, 4, rgba->pixels, image_row_size(rgba), false, false},
+                            {depth_names, 1, depth->pixels, image_row_size(depth), true, false}};
     facet_error error;
     if (image_encode_exr(rgba->width, rgba->height, layers, 2, as_half,
                          &(image_encode_desc){.thread_count = threads}, bytes, size, &error) != FACET_OK)
@@ -211,7 +211,7 @@ static void channels_are_chosen(void **state)
                  {only, 1, 3, {1, 1, 1, 0}},
                  {nothing, 2, 0, {0}}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        image_layer l = {cases[k].names, cases[k].count, texels, sizeof texels, false};
+        image_layer l = {cases[k].names, cases[k].count, texels, sizeof texels, false, false};
         unsigned char *bytes;
         size_t size;
         image i;
@@ -235,7 +235,7 @@ static void nonfinite_samples_are_replaced(void **state)
     (void)state;
     static const float values[] = {NAN, INFINITY, -INFINITY, -2.0f, 1e6f, 0.5f};
     static const char *const names[] = {"R", "G", "B"};
-    image_layer l = {names, 3, values, sizeof values, false};
+    image_layer l = {names, 3, values, sizeof values, false, false};
     for (int as_half = 0; as_half < 2; as_half++) {
         unsigned char *bytes;
         size_t size;
@@ -259,7 +259,7 @@ static void images_that_cannot_be_written_are_refused(void **state)
     static const char *const empty[] = {"R", ""};
     unsigned char *bytes;
     size_t size;
-    image_layer l = {twice, 2, texels, 8, false};
+    image_layer l = {twice, 2, texels, 8, false, false};
     assert_int_equal(image_encode_exr(1, 1, &l, 1, true, NULL, &bytes, &size, NULL), FACET_ERROR_ARGUMENT);
     l.channel_names = empty;
     assert_int_equal(image_encode_exr(1, 1, &l, 1, true, NULL, &bytes, &size, NULL), FACET_ERROR_ARGUMENT);

@@ -31,7 +31,7 @@ static int make_values(void **state)
 static unsigned char *encode(bool is_stored, bool as_half, size_t *size)
 {
     const image_text texts[] = {{"first", "one"}, {"second", ""}};
-    image_layer layer = {names, CHANNELS, values, WIDTH * CHANNELS * sizeof(float), false};
+    image_layer layer = {names, CHANNELS, values, WIDTH * CHANNELS * sizeof(float), false, false};
     unsigned char *bytes;
     facet_error error;
     if (image_encode_exr(WIDTH, HEIGHT, &layer, 1, as_half,
@@ -110,7 +110,7 @@ static void missing_channels_and_texts_are_errors(void **state)
     size_t size;
     unsigned char *bytes = encode(true, false, &size);
     static float to[WIDTH * HEIGHT];
-    image_channel channel = {"state.high", to, sizeof(float), WIDTH * sizeof(float)};
+    image_channel channel = {"state.high", to, false, sizeof(float), WIDTH * sizeof(float)};
     facet_error error;
     facet_result result = image_read_exr_channels(bytes, size, "p", NULL, WIDTH, HEIGHT, &channel, 1, &error);
     expect_refusal(result, &error, "p: OpenEXR: channel state.high is missing");

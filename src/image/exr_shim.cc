@@ -309,13 +309,20 @@ int read_header(const unsigned char *bytes, size_t size, Imf::Header &header)
     return version;
 }
 
-/* Whether the file has these channels, as floats at every texel. */
+/* The type of a channel in memory. */
+Imf::PixelType type_of(const exr_channel &channel)
+{
+    return channel.is_integer ? Imf::UINT : Imf::FLOAT;
+}
+
+/* Whether the file has these channels, of their types at every texel. */
 facet_result find_named(const Imf::ChannelList &list, const exr_channel *named, uint32_t count, char *message)
 {
     for (uint32_t c = 0; c < count; c++) {
         const Imf::Channel *channel = list.findChannel(named[c].name);
-        const char *fault = !channel                      ? "is missing"
-                            : channel->type != Imf::FLOAT ? "does not hold floats"
+        const char *fault = !channel ? "is missing"
+                            : channel->type != type_of(named[c])
+                                ? named[c].is_integer ? "does not hold integers" : "does not hold floats"
                             : channel->xSampling != 1 || channel->ySampling != 1
                                 ? "is not sampled at every texel"
                                 : nullptr;
@@ -500,8 +507,8 @@ facet_result exr_shim_read_named(exr_reader *reader, const exr_info *info, const
             const intptr_t before = static_cast<intptr_t>(channels[c].texel_stride) * info->data.min_x +
                                     static_cast<intptr_t>(channels[c].row_stride) * info->data.min_y;
             char *base = reinterpret_cast<char *>(reinterpret_cast<intptr_t>(channels[c].first) - before);
-            buffer.insert(channels[c].name,
-                          Imf::Slice(Imf::FLOAT, base, channels[c].texel_stride, channels[c].row_stride));
+            buffer.insert(channels[c].name, Imf::Slice(type_of(channels[c]), base, channels[c].texel_stride,
+                                                       channels[c].row_stride));
         }
         reader->part.setFrameBuffer(buffer);
         reader->part.readPixels(info->data.min_y, info->data.max_y);
@@ -525,10 +532,10 @@ struct block_deleter {
     }
 };
 
-/* Floats as they stand in memory. */
+/* Floats or integers as they stand in memory. */
 Imf::Slice slice_of(const exr_channel &channel)
 {
-    return Imf::Slice(Imf::FLOAT, reinterpret_cast<char *>(channel.first), channel.texel_stride,
+    return Imf::Slice(type_of(channel), reinterpret_cast<char *>(channel.first), channel.texel_stride,
                       channel.row_stride);
 }
 
@@ -590,7 +597,7 @@ facet_result exr_shim_write(const exr_write_desc *desc, const exr_channel *chann
         for (uint32_t c = 0; c < channel_count; c++)
             header.channels().insert(
                 channels[c].name,
-                Imf::Channel(desc->as_half && !channels[c].needs_float ? Imf::HALF : Imf::FLOAT));
+                Imf::Channel(desc->as_half && !channels[c].needs_float ? Imf::HALF : type_of(channels[c])));
         for (uint32_t t = 0; t < desc->text_count; t++)
             header.insert(desc->texts[t].name, Imf::StringAttribute(desc->texts[t].value));
         {

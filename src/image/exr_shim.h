@@ -27,6 +27,7 @@ typedef struct exr_channel {
     float *first; /* not modified when writing */
     size_t texel_stride, row_stride;
     bool needs_float; /* written as floats even in a file of halves */
+    bool is_integer;  /* 32-bit unsigned integers */
 } exr_channel;
 
 /* Contents of the header of the first part, unchecked. */
@@ -44,7 +45,7 @@ typedef struct exr_info {
 } exr_info;
 
 /* Reads the first header of a file with valid headers (see exr_check()). named: the required channels; NULL:
- * those of the image. FACET_ERROR_INVALID, also if one of named is missing or does not hold floats;
+ * those of the image. FACET_ERROR_INVALID, also if one of named is missing or of another type;
  * FACET_ERROR_UNSUPPORTED. */
 facet_result exr_shim_info(const unsigned char *bytes, size_t size, const exr_channel *named,
                            uint32_t named_count, exr_info *out, char message[EXR_MESSAGE]);

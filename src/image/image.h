@@ -167,6 +167,7 @@ typedef struct image_layer {
     const float *pixels; /* interleaved */
     size_t row_stride_bytes;
     bool needs_float; /* values that halves would round: IDs, counts */
+    bool is_integer;  /* pixels are 32-bit unsigned integers, not floats */
 } image_layer;
 
 /* A named text in a file: in EXR an attribute of the type "string"; in PNG a tEXt chunk, whose keyword has 1 to 79 bytes and
@@ -205,11 +206,12 @@ facet_result image_encode_exr(uint32_t width, uint32_t height, const image_layer
 typedef struct image_channel {
     const char *name; /* full name in the file */
     float *first;
+    bool is_integer; /* 32-bit unsigned integers, not floats */
     size_t texel_stride_bytes, row_stride_bytes;
 } image_channel;
 
-/* Reads named float channels bit for bit; allocator (NULL: malloc) provides a little scratch memory.
- * FACET_ERROR_INVALID if a channel is missing or does not hold floats, the image does not have this size, or
+/* Reads named channels bit for bit; allocator (NULL: malloc) provides a little scratch memory.
+ * FACET_ERROR_INVALID if a channel is missing or of another type, the image does not have this size, or
  * the file is damaged, after which the channels are undefined. */
 facet_result image_read_exr_channels(const void *bytes, size_t size, const char *name,
                                      const facet_allocator *allocator, uint32_t width, uint32_t height,
