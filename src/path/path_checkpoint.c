@@ -1,5 +1,5 @@
-/* path_checkpoint.c - see path_checkpoint.h. The layers of a film are floats, and each of them is a channel of an
- * OpenEXR file, so nothing is converted. Attributes are texts: the file's kind, the key of its image, and a digest
+/* path_checkpoint.c - see path_checkpoint.h. The sums of a film are words of 32 bits, and each of them is a channel of an
+ * OpenEXR file, so nothing is converted; the image is there for viewers. Attributes are texts: the file's kind, the key of its image, and a digest
  * of its values, since stored channels have no checksums. */
 #include "path/path_checkpoint.h"
 
@@ -18,7 +18,7 @@
 
 /* ---- the file ---- */
 
-static const char VERSION[] = "1";
+static const char VERSION[] = "2";
 enum { KEY_SIZE = 65, DIGEST_SIZE = 17, COUNT_SIZE = 21, VERSION_SIZE = 16 };
 
 /* Lists the channels of a film in memory; returns their number. */
@@ -62,10 +62,14 @@ facet_result path_film_save(const path_film *f, const char *key, const char *pat
     const image_text texts[] = {
         {"facetCheckpoint", VERSION}, {"facetKey", key}, {"facetDropped", dropped}, {"facetDigest", digest}};
     film_layer layers[PATH_FILM_LAYERS];
-    image_layer encoded[PATH_FILM_LAYERS];
+    image_layer encoded[PATH_FILM_LAYERS + 1];
+    film seen; /* for viewers */
+    TRY(film_create(&f->allocator, f->width, f->height, 0, &seen, error));
+    path_film_resolve(f, 1.0f, &seen, thread_count);
     uint32_t layer_count = path_film_list_layers(f, layers);
     for (uint32_t i = 0; i < layer_count; i++)
         encoded[i] = film_layer_to_image(&layers[i], f->width);
+    encoded[layer_count++] = film_layer_to_image(&seen.layers[0], f->width);
     const image_encode_desc desc = {.allocator = f->allocator,
                                     .thread_count = thread_count,
                                     .is_stored = true,
@@ -75,6 +79,7 @@ facet_result path_film_save(const path_film *f, const char *key, const char *pat
     size_t size;
     facet_result result =
         image_encode_exr(f->width, f->height, encoded, layer_count, false, &desc, &bytes, &size, error);
+    film_destroy(&seen);
     if (result == FACET_OK)
         result = file_write(path, bytes, size, error);
     mem_free(bytes);

@@ -149,7 +149,8 @@ static void viewers_show_the_image(void **state)
     assert_int_equal(image_decode(file.data, file.size, path, NULL, &picture, NULL), FACET_OK);
     assert_true(picture.width == WIDTH && picture.height == HEIGHT && picture.channel_count == 4);
     for (size_t i = 0; i < COUNT; i++)
-        assert_memory_equal((float *)picture.pixels + 4 * i, f->pixels[i].mean, 4 * sizeof(float));
+        for (int c = 0; c < 3; c++)
+            assert_true(((float *)picture.pixels)[4 * i + (size_t)c] == path_pixel_mean(&f->pixels[i], c));
     image_destroy(&picture);
     file_close(&file);
     path_film_destroy(f);
@@ -190,7 +191,7 @@ static void other_files_are_refused(void **state)
     save(f, path);
     expect_refusal(path, OTHER_KEY, WIDTH, false, FACET_ERROR_ARGUMENT, "of another image");
     expect_refusal(path, KEY, WIDTH + 1, false, FACET_ERROR_ARGUMENT, "23 x 17 pixels, not 24 x 17");
-    expect_refusal(path, KEY, WIDTH, true, FACET_ERROR_INVALID, "channel ground.open is missing");
+    expect_refusal(path, KEY, WIDTH, true, FACET_ERROR_INVALID, "channel ground.0");
 
     bool exists = true;
     assert_int_equal(path_film_load(f, KEY, "/nowhere/there/is.exr", &exists, NULL), FACET_OK);
@@ -202,7 +203,7 @@ static void other_files_are_refused(void **state)
     expect_refusal(other_path, KEY, WIDTH, false, FACET_ERROR_INVALID, "not a checkpoint: an OpenEXR file");
     static const char *const names[] = {"R", "G", "B"};
     static const float texels[WIDTH * HEIGHT * 3];
-    const image_layer layer = {names, 3, texels, WIDTH * 3 * sizeof(float), false};
+    const image_layer layer = {names, 3, texels, WIDTH * 3 * sizeof(float), false, false};
     unsigned char *bytes;
     size_t size;
     assert_int_equal(image_encode_exr(WIDTH, HEIGHT, &layer, 1, false, NULL, &bytes, &size, NULL), FACET_OK);
@@ -275,9 +276,9 @@ static void truncated_files_are_refused(void **state)
     path_film_destroy(back);
 }
 
-/* A changed byte is found, or changes nothing: it is in a header's remark, or in the table of where rows
- * are. From NUMBERS on there are none of these. */
-enum { NUMBERS = 1500 };
+/* A changed byte is found, or changes nothing: it is in a header's remark, in the table of where rows are, or in the
+ * image for viewers. */
+enum { NUMBERS = 2000 };
 static void damaged_files_are_refused(void **state)
 {
     (void)state;
@@ -303,7 +304,6 @@ static void damaged_files_are_refused(void **state)
         else
             assert_true(result == FACET_ERROR_INVALID || result == FACET_ERROR_ARGUMENT ||
                         result == FACET_ERROR_LIMIT || result == FACET_ERROR_UNSUPPORTED);
-        assert_true(at < NUMBERS || result != FACET_OK);
         refused += result != FACET_OK;
         path_film_destroy(back);
     }
@@ -316,23 +316,26 @@ static void damaged_files_are_refused(void **state)
 static void impossible_values_are_refused(void **state)
 {
     (void)state;
-    const float odd[] = {NAN, INFINITY, -INFINITY};
     for (int k = 0; k < 8; k++) {
         path_film *f = create(WIDTH, HEIGHT, true);
         draw(f, 3);
         path_pixel *p = &f->pixels[COUNT / 2];
-        if (k < 3)
-            p->rest[k] = odd[k];
+        if (k == 0)
+            p->color[1] = ((path_fixed)p->samples + 1) << (56 + 46);
+        else if (k == 1)
+            p->color[2] = -(((path_fixed)p->samples + 1) << (56 + 46));
+        else if (k == 2)
+            p->square[0] = -1;
         else if (k == 3)
-            p->samples = 2.5f;
+            p->samples = (1u << 24) + 1;
         else if (k == 4)
-            p->samples = 3.4e7f;
+            p->opacity = INT64_MIN;
         else if (k == 5)
-            f->ground[7].samples = f->pixels[7].samples + 1.0f;
+            f->ground[7].samples = f->pixels[7].samples + 1;
         else if (k == 6)
-            p->spread[1] = -1.0f;
+            p->is_saturated = 2;
         else
-            f->ground[9].open = NAN;
+            f->ground[9].unused[1] = 1;
         save(f, path);
         expect_refusal(path, KEY, WIDTH, true, FACET_ERROR_INVALID, "the checkpoint is damaged");
         path_film_destroy(f);

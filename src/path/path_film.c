@@ -59,11 +59,6 @@ void path_film_destroy(path_film *f)
 
 /* ---- samples to means ---- */
 
-static float luminance_of(const float color[3])
-{
-    return luminance(vec3(color[0], color[1], color[2]));
-}
-
 static bool is_finite(const path_sample *s)
 {
     bool is = isfinite(s->opacity) && isfinite(s->filter_excess);
@@ -73,72 +68,22 @@ static bool is_finite(const path_sample *s)
     return is;
 }
 
-/* The mean squared deviation after one more sample, from its distances to the means before and after it
- * (Welford 1962): no cancellation, however bright and constant the values are. share: 1 / n. */
-static float spread_with(float spread, double from_before, double from_after, double share)
-{
-    double square = from_before * from_after;
-    square = square < (double)FLT_MAX ? square : (double)FLT_MAX;
-    return (float)((double)spread + (square - (double)spread) * share);
-}
-
-static float mean_with(float mean, double value, double share)
-{
-    return (float)((double)mean + (value - (double)mean) * share);
-}
-
-/* Channel c of the color. */
-static void add_color(path_pixel *p, int c, double value, double share)
-{
-    double before = (double)p->mean[c] + (double)p->rest[c];
-    double after = before + (value - before) * share;
-    p->mean[c] = (float)after;
-    p->rest[c] = (float)(after - (double)p->mean[c]);
-    if (c < 3)
-        p->spread[c] = spread_with(p->spread[c], value - before, value - after, share);
-}
-
-static void add_ground(path_ground *g, const path_sample *s)
-{
-    bool is_there = false;
-    for (int c = 0; c < 3; c++)
-        is_there = is_there || s->ground_lit[c] != 0.0f || s->ground_open[c] != 0.0f;
-    if (!is_there)
-        return;
-    double open = (double)luminance_of(s->ground_open);
-    double blocked = open - (double)luminance_of(s->ground_lit);
-    double share = 1.0 / (double)(g->samples += 1.0f);
-    double distance = blocked - (double)g->blocked;
-    g->open = mean_with(g->open, open, share);
-    g->blocked = mean_with(g->blocked, blocked, share);
-    g->spread = spread_with(g->spread, distance, distance * (1.0 - share), share);
-}
-
 void path_film_add(path_film *f, size_t pixel, const path_sample *sample)
 {
     static const path_sample black = {0};
     path_pixel *p = &f->pixels[pixel];
-    if (p->samples >= (float)PATH_FILM_MAX_SAMPLES)
+    if (p->samples >= PATH_FILM_MAX_SAMPLES)
         return;
     if (!is_finite(sample)) {
         atomic_fetch_add_explicit(&f->dropped, 1, memory_order_relaxed);
         sample = &black;
     }
-    double share = 1.0 / (double)(p->samples += 1.0f);
-    for (int c = 0; c < 3; c++) {
-        add_color(p, c, (double)sample->radiance[c], share);
-        p->albedo[c] = mean_with(p->albedo[c], (double)sample->albedo[c], share);
-        p->normal[c] = mean_with(p->normal[c], (double)sample->normal[c], share);
-    }
-    add_color(p, 3, (double)sample->opacity, share);
-    p->filter_excess = mean_with(p->filter_excess, (double)sample->filter_excess, share);
-    if (f->ground)
-        add_ground(&f->ground[pixel], sample);
+    path_pixel_add(p, f->ground ? &f->ground[pixel] : NULL, sample);
 }
 
 uint32_t path_film_samples(const path_film *f, size_t pixel)
 {
-    return (uint32_t)f->pixels[pixel].samples;
+    return f->pixels[pixel].samples;
 }
 
 uint64_t path_film_total_samples(const path_film *f)
@@ -163,14 +108,14 @@ void path_film_set_dropped(path_film *f, uint64_t count)
 
 float path_pixel_scale(const path_pixel *p)
 {
-    float weight = 1.0f + p->filter_excess;
+    float weight = 1.0f + (float)path_pixel_share(p, p->filter_excess);
     return fabsf(weight) > 0.25f ? 1.0f / weight : 1.0f; /* the weights of a few samples may nearly cancel */
 }
 
 float path_film_share(const path_film *f, size_t pixel)
 {
     const path_pixel *p = &f->pixels[pixel];
-    return p->samples > 0.0f ? path_pixel_scale(p) / p->samples : 0.0f;
+    return p->samples ? path_pixel_scale(p) / (float)p->samples : 0.0f;
 }
 
 typedef struct resolving {
@@ -190,8 +135,8 @@ static void resolve_color(const resolving *r, size_t i, float out[4])
     const path_pixel *p = &r->film->pixels[i];
     float scale = path_pixel_scale(p);
     for (int c = 0; c < 3; c++)
-        out[c] = shade_f_clamp(p->mean[c] * (r->scale * scale), -FLT_MAX, FLT_MAX);
-    out[3] = shade_f_clamp(p->mean[3] * scale, 0.0f, 1.0f);
+        out[c] = shade_f_clamp(path_pixel_mean(p, c) * (r->scale * scale), -FLT_MAX, FLT_MAX);
+    out[3] = shade_f_clamp(path_pixel_mean(p, 3) * scale, 0.0f, 1.0f);
     if (r->film->ground) { /* black below the model: no premultiplied color */
         const path_ground *g = &r->film->ground[i];
         out[3] += path_ground_share(g, p) * path_ground_opacity(g);
@@ -203,20 +148,22 @@ static void resolve_color(const resolving *r, size_t i, float out[4])
  * number. Stratified samples have better means. The error of a single sample is taken to be its value. */
 static float resolve_variance(const path_pixel *p, int c, float scale)
 {
-    double square = p->samples > 1.0f ? (double)p->spread[c] / ((double)p->samples - 1.0)
-                                      : (double)p->mean[c] * (double)p->mean[c];
+    double mean = (double)path_pixel_mean(p, c);
+    double square = p->samples > 1 ? path_pixel_spread(p, c) / ((double)p->samples - 1.0) : mean * mean;
     square *= (double)scale * (double)scale;
     return (float)(square < (double)FLT_MAX ? square : (double)FLT_MAX);
 }
 
 static void resolve_normal(const path_pixel *p, float out[3])
 {
-    double square = 0.0;
-    for (int c = 0; c < 3; c++)
-        square += (double)p->normal[c] * (double)p->normal[c];
+    double square = 0.0, mean[3];
+    for (int c = 0; c < 3; c++) {
+        mean[c] = path_pixel_share(p, p->normal[c]);
+        square += mean[c] * mean[c];
+    }
     double scale = square > 1e-12 ? 1.0 / sqrt(square) : 0.0; /* opposite normals cancel */
     for (int c = 0; c < 3; c++)
-        out[c] = (float)((double)p->normal[c] * scale);
+        out[c] = (float)(mean[c] * scale);
 }
 
 static void resolve_pixels(void *context, size_t begin, size_t end)
@@ -229,10 +176,10 @@ static void resolve_pixels(void *context, size_t begin, size_t end)
         if (r->normal)
             resolve_normal(p, r->normal + 3 * i);
         if (r->samples)
-            r->samples[i] = p->samples;
+            r->samples[i] = (float)p->samples;
         for (size_t c = 0; c < 3; c++) {
             if (r->albedo)
-                r->albedo[3 * i + c] = p->albedo[c];
+                r->albedo[3 * i + c] = (float)path_pixel_share(p, p->albedo[c]);
             if (r->variance)
                 r->variance[3 * i + c] = resolve_variance(p, (int)c, r->scale * path_pixel_scale(p));
         }
@@ -275,16 +222,17 @@ static double pixel_noise_square(const path_film *f, size_t i)
     const path_pixel *p = &f->pixels[i];
     double error = 0.0, value = 0.0;
     for (int c = 0; c < 3; c++) {
-        error += weights[c] * sqrt((double)p->spread[c] / ((double)p->samples - 1.0));
-        value += weights[c] * (double)p->mean[c];
+        error += weights[c] * sqrt(path_pixel_spread(p, c) / ((double)p->samples - 1.0));
+        value += weights[c] * (double)path_pixel_mean(p, c);
     }
     double noise = displayed(error * (double)f->scale, value * (double)f->scale);
     double square = noise * noise;
     if (f->ground) {
         const path_ground *g = &f->ground[i];
         double share = (double)path_ground_share(g, p);
-        double shadow = displayed(share * (double)path_ground_error(g),
-                                  1.0 - (double)p->mean[3] - share * (double)path_ground_opacity(g));
+        double shadow =
+            displayed(share * (double)path_ground_error(g),
+                      1.0 - (double)path_pixel_mean(p, 3) - share * (double)path_ground_opacity(g));
         square += shadow * shadow;
     }
     return square < 1e30 ? square : 1e30;
@@ -308,7 +256,7 @@ static float block_noise_square(const path_film *f, uint32_t column, uint32_t ro
     for (uint32_t y = row * PATH_FILM_BLOCK; y < y_end; y++)
         for (uint32_t x = column * PATH_FILM_BLOCK; x < x_end; x++, count++) {
             size_t i = (size_t)y * f->width + x;
-            if (f->pixels[i].samples < (float)PATH_FILM_MIN_SAMPLES)
+            if (f->pixels[i].samples < PATH_FILM_MIN_SAMPLES)
                 return INFINITY;
             sum += pixel_noise_square(f, i);
         }

@@ -1,5 +1,5 @@
-/* path_film.h - the accumulation of a path traced image: means that keep their precision over millions of
- * samples, their noise, which pixels need more. */
+/* path_film.h - the accumulation of a path traced image: sums that are exact over millions of samples, their noise, which
+ * pixels need more. */
 #ifndef PATH_FILM_H
 #define PATH_FILM_H
 
@@ -16,8 +16,10 @@ void path_film_destroy(path_film *f); /* NULL is allowed */
 
 /* Adds a sample to pixel number `pixel` (rows from the top left). A sample that is not finite counts as
  * black, and in path_film_dropped(). A pixel has at most 2^24 samples; later ones are ignored. Threads may
- * add to different pixels; the order of a pixel's samples affects the last bits. */
+ * add to different pixels. The order of a pixel's samples does not matter. */
 void path_film_add(path_film *f, size_t pixel, const path_sample *sample);
+/* Adds all samples of another film of the same kind and size. False: a pixel would have more than 2^24 of them. */
+bool path_film_add_film(path_film *f, const path_film *other);
 uint32_t path_film_samples(const path_film *f, size_t pixel);
 /* The factor from a sum over the samples of a pixel, each with its filter weight, to the mean that
  * path_film_resolve() uses; 0 without samples. */
@@ -58,14 +60,15 @@ enum { PATH_FILM_AOVS = FACET_AOV_ALBEDO | FACET_AOV_NORMAL | FACET_AOV_VARIANCE
 
 /* ---- the film as layers, for files ---- */
 
-enum { PATH_FILM_MAX_CHANNELS = 23 };
+enum { PATH_FILM_MAX_CHANNELS = 64 };
 /* The state as one layer or two, which stay the film's. Returns their number. */
 uint32_t path_film_list_layers(const path_film *f, film_layer layers[2]);
 /* Whether path_film_resolve() makes the layer of that name of samples. */
 bool path_film_makes_layer(const char *name);
 /* Whether the values are those of a film. */
 bool path_film_is_sound(const path_film *f);
-/* Moves these layers to target, in place of those that path_film_resolve() fills. f can be destroyed only. */
+/* Moves these layers to target, in place of those that path_film_resolve() fills but for the image, for viewers. f can
+ * be destroyed only. */
 void path_film_give_layers(path_film *f, film *target);
 
 /* Denoises the shadow on the ground, in place: biased, for a film that gets no more samples.

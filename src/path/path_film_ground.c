@@ -16,12 +16,13 @@
 /* The standard error of the blocked light; 0 for a single sample. */
 static double blocked_error(const path_ground *g)
 {
-    return g->samples > 1.0f ? sqrt((double)g->spread / ((double)g->samples - 1.0)) : 0.0;
+    return g->samples > 1 ? sqrt(path_ground_spread(g) / ((double)g->samples - 1.0)) : 0.0;
 }
 
 float path_ground_error(const path_ground *g)
 {
-    double error = g->open > 0.0f ? blocked_error(g) / (double)g->open : 0.0;
+    double open = path_ground_open(g);
+    double error = open > 0.0 ? blocked_error(g) / open : 0.0;
     return (float)(error < 1.0 ? error : 1.0);
 }
 
@@ -31,17 +32,17 @@ float path_ground_error(const path_ground *g)
  * with the standard error e, which leaves 0.1 of them, and reduces a real shadow by e^2 / d only. */
 float path_ground_opacity(const path_ground *g)
 {
-    double blocked = (double)g->blocked, error = blocked_error(g);
-    if (!(blocked > error && g->open > 0.0f))
+    double blocked = path_ground_blocked(g), open = path_ground_open(g), error = blocked_error(g);
+    if (!(blocked > error && open > 0.0))
         return 0.0f;
     blocked -= error * error / blocked;
-    return (float)(blocked < (double)g->open ? blocked / (double)g->open : 1.0);
+    return (float)(blocked < open ? blocked / open : 1.0);
 }
 
 float path_ground_share(const path_ground *g, const path_pixel *p)
 {
-    float share = p->samples > 0.0f ? (float)((double)g->samples / (double)p->samples) : 0.0f;
-    float transmittance = 1.0f - shade_f_clamp(p->mean[3] * path_pixel_scale(p), 0.0f, 1.0f);
+    float share = p->samples ? (float)((double)g->samples / (double)p->samples) : 0.0f;
+    float transmittance = 1.0f - shade_f_clamp(path_pixel_mean(p, 3) * path_pixel_scale(p), 0.0f, 1.0f);
     return share < transmittance ? share : transmittance;
 }
 
@@ -109,10 +110,13 @@ static void filter_rows(void *context, size_t begin, size_t end)
 /* A single sample has no variance estimate: it gets the largest that a shadow can have. */
 static shadow shadow_of(const path_ground *g)
 {
-    if (!(g->samples > 0.0f && g->open > 0.0f))
+    double open = path_ground_open(g), n = (double)g->samples;
+    if (!(open > 0.0))
         return (shadow){.weight = 0.0f};
-    float variance = g->samples > 1.0f ? g->spread / (g->samples - 1.0f) / square(g->open) : 0.25f;
-    return (shadow){.blocked = g->blocked / g->open, .variance = fminf(variance, 1.0f), .weight = g->samples};
+    float variance = n > 1.0 ? (float)(path_ground_spread(g) / (n - 1.0) / (open * open)) : 0.25f;
+    return (shadow){.blocked = (float)(path_ground_blocked(g) / open),
+                    .variance = fminf(variance, 1.0f),
+                    .weight = (float)g->samples};
 }
 
 facet_result path_film_denoise_ground(path_film *f, uint32_t thread_count, facet_error *error)
@@ -142,8 +146,10 @@ facet_result path_film_denoise_ground(path_film *f, uint32_t thread_count, facet
         path_ground *g = &f->ground[i];
         if (!(filtered[i].weight > 0.0f))
             continue;
-        g->blocked = filtered[i].blocked * g->open;
-        g->spread = filtered[i].variance * square(g->open) * fmaxf(g->samples - 1.0f, 0.0f);
+        double open = path_ground_open(g);
+        path_ground_set_blocked(g, (double)filtered[i].blocked * open,
+                                (double)filtered[i].variance * open * open *
+                                    fmax((double)g->samples - 1.0, 0.0));
     }
     mem_free(buffers[0]);
     mem_free(buffers[1]);

@@ -1,34 +1,34 @@
-/* path_film_layers.c - a film of path tracing as layers, whose channels files keep bit for bit. The first channels
- * are the means as R, G, B, A, which any viewer shows. */
+/* path_film_layers.c - a film of path tracing as layers, whose words files keep bit for bit. */
 #include "path/path_film_state.h"
 
-#include <math.h>
 #include <string.h>
 
-static const char *const pixel_names[] = {
-    "R",        "G",        "B",        "A",        "rest.R",   "rest.G",
-    "rest.B",   "rest.A",   "spread.R", "spread.G", "spread.B", "albedo.R",
-    "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z", "filter.excess",
-    "samples.N"};
-static const char *const ground_names[] = {"ground.open", "ground.taken", "ground.spread", "ground.samples"};
-_Static_assert(sizeof pixel_names / sizeof *pixel_names == PATH_PIXEL_CHANNELS &&
-                   sizeof(path_pixel) == PATH_PIXEL_CHANNELS * sizeof(float),
-               "a pixel is its channels");
-_Static_assert(sizeof ground_names / sizeof *ground_names == PATH_GROUND_CHANNELS &&
-                   sizeof(path_ground) == PATH_GROUND_CHANNELS * sizeof(float),
-               "and so is its ground");
+_Static_assert(sizeof(path_pixel) == PATH_PIXEL_WORDS * sizeof(uint32_t), "a pixel is its words");
+_Static_assert(sizeof(path_ground) == PATH_GROUND_WORDS * sizeof(uint32_t), "and so is its ground");
+
+#define TEN(NAME, TENS)                                                                                      \
+    NAME TENS "0", NAME TENS "1", NAME TENS "2", NAME TENS "3", NAME TENS "4", NAME TENS "5", NAME TENS "6", \
+        NAME TENS "7", NAME TENS "8", NAME TENS "9"
+static const char *const pixel_names[] = {TEN("sums.", "0"), TEN("sums.", "1"), TEN("sums.", "2"),
+                                          TEN("sums.", "3"), "sums.40",         "sums.41",
+                                          "sums.42",         "sums.43"};
+static const char *const ground_names[] = {TEN("ground.", "0"), "ground.10", "ground.11", "ground.12",
+                                           "ground.13",         "ground.14", "ground.15"};
+_Static_assert(sizeof pixel_names / sizeof *pixel_names == PATH_PIXEL_WORDS &&
+                   sizeof ground_names / sizeof *ground_names == PATH_GROUND_WORDS,
+               "each word has a name");
 
 uint32_t path_film_list_layers(const path_film *f, film_layer layers[PATH_FILM_LAYERS])
 {
     layers[0] = (film_layer){.name = "sums",
                              .channel_names = pixel_names,
-                             .channel_count = PATH_PIXEL_CHANNELS,
-                             .needs_float = true,
+                             .channel_count = PATH_PIXEL_WORDS,
+                             .is_integer = true,
                              .pixels = (float *)f->pixels};
     layers[1] = (film_layer){.name = "ground",
                              .channel_names = ground_names,
-                             .channel_count = PATH_GROUND_CHANNELS,
-                             .needs_float = true,
+                             .channel_count = PATH_GROUND_WORDS,
+                             .is_integer = true,
                              .pixels = (float *)f->ground};
     return f->ground ? 2 : 1;
 }
@@ -46,38 +46,10 @@ bool path_film_makes_layer(const char *name)
 
 void path_film_give_layers(path_film *f, film *target)
 {
-    for (size_t i = 0; i < MADE; i++)
+    for (size_t i = 1; i < MADE; i++)
         film_remove_layer(target, made[i]);
+    path_film_resolve(f, 1.0f, target, 1);
     target->layer_count += path_film_list_layers(f, target->layers + target->layer_count);
     f->pixels = NULL;
     f->ground = NULL;
-}
-
-static bool are_finite(const float *values, size_t count)
-{
-    float sum = 0.0f; /* 0 times a finite value stays 0 */
-    for (size_t i = 0; i < count; i++)
-        sum += 0.0f * values[i];
-    return sum == 0.0f;
-}
-
-static bool is_count(float samples)
-{
-    return samples >= 0.0f && samples <= (float)PATH_FILM_MAX_SAMPLES && floorf(samples) == samples;
-}
-
-bool path_film_is_sound(const path_film *f)
-{
-    size_t count = (size_t)f->width * f->height;
-    bool is = are_finite((const float *)f->pixels, count * PATH_PIXEL_CHANNELS) &&
-              (!f->ground || are_finite((const float *)f->ground, count * PATH_GROUND_CHANNELS));
-    for (size_t i = 0; i < count; i++) {
-        const path_pixel *p = &f->pixels[i];
-        is = is && is_count(p->samples) && p->spread[0] >= 0.0f && p->spread[1] >= 0.0f &&
-             p->spread[2] >= 0.0f;
-        if (f->ground)
-            is = is && is_count(f->ground[i].samples) && f->ground[i].samples <= p->samples &&
-                 f->ground[i].spread >= 0.0f;
-    }
-    return is;
 }
