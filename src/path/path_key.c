@@ -84,6 +84,10 @@ static void add_desc(key_state *k, const facet_render_desc *desc)
                              (double)path->shutter_s};
     for (size_t i = 0; i < sizeof values / sizeof *values; i++)
         add_number(k, values[i]);
+    if (desc->part.count && desc->part.split == FACET_PART_SPLIT_SAMPLES) {
+        add_number(k, desc->part.index);
+        add_number(k, desc->part.count);
+    }
     add_camera(k, desc->camera);
     add_light(k, desc);
 }

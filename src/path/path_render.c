@@ -35,6 +35,7 @@ typedef struct path_job {
     facet_render_stats *stats;
     double deadline_s;
     path_film *sums;
+    uint32_t first, end; /* samples of a pixel, numbered from 0 */
     path_key key;
     double saved_s; /* when the checkpoint was written, or rendering begun */
     float ground_y;
@@ -60,7 +61,7 @@ static uint64_t draw_pixel(path_job *p, uint32_t x, uint32_t y, size_t pixel)
 {
     uint64_t rays = 0;
     const uint32_t *crop = p->desc->crop;
-    for (uint32_t i = path_film_samples(p->sums, pixel); i < p->goal; i++) {
+    for (uint32_t i = p->first + path_film_samples(p->sums, pixel); i < p->goal; i++) {
         path_sample sample;
         path_trace(&p->scene, crop[0] + x, crop[1] + y, i, &sample);
         path_film_add(p->sums, pixel, &sample);
@@ -86,7 +87,7 @@ static void draw_tile(path_job *p, uint32_t tile)
             break;
         for (uint32_t x = left; x < right; x++) {
             size_t pixel = (size_t)y * p->target->width + x;
-            uint32_t before = path_film_samples(p->sums, pixel);
+            uint32_t before = p->first + path_film_samples(p->sums, pixel);
             if (p->cut_off_at ? before == p->cut_off_at : path_film_needs_more(p->sums, pixel))
                 rays += draw_pixel(p, x, y, pixel);
             done += p->goal > before ? p->goal - before : 0;
@@ -167,7 +168,7 @@ static uint32_t next_goal(const path_job *p, uint32_t goal)
         for (step = 1; step <= goal;)
             step *= 2;
     uint64_t next = ((uint64_t)goal / step + 1) * step;
-    return next < p->desc->samples ? (uint32_t)next : p->desc->samples;
+    return next < p->end ? (uint32_t)next : p->end;
 }
 
 static facet_result next_instant(path_job *p, uint32_t goal, facet_error *error)
@@ -226,7 +227,7 @@ static sample_range count_samples(const path_job *p)
 {
     sample_range range = {.fewest = UINT32_MAX};
     for (size_t i = 0; i < (size_t)p->target->width * p->target->height; i++) {
-        uint32_t n = path_film_samples(p->sums, i);
+        uint32_t n = p->first + path_film_samples(p->sums, i);
         range.fewest = n < range.fewest ? n : range.fewest;
         range.most = n > range.most ? n : range.most;
     }
@@ -239,7 +240,7 @@ static sample_range count_samples(const path_job *p)
 static uint32_t first_goal(const path_job *p)
 {
     sample_range range = count_samples(p);
-    bool is_adaptive = p->desc->path.noise > 0.0f && range.most < p->desc->samples;
+    bool is_adaptive = p->desc->path.noise > 0.0f && range.most < p->end;
     return is_adaptive ? range.most : range.fewest;
 }
 
@@ -285,7 +286,7 @@ static void report_pass(path_job *p, uint32_t goal)
 static facet_result draw_passes(path_job *p, facet_error *error)
 {
     uint32_t goal = first_goal(p);
-    while (goal < p->desc->samples && !render_watch_is_stopped(&p->watch)) {
+    while (goal < p->end && !render_watch_is_stopped(&p->watch)) {
         if (judge(p, goal))
             break;
         TRY(next_instant(p, goal, error));
@@ -311,7 +312,7 @@ static facet_result conclude(path_job *p, facet_error *error)
     if (p->target->keeps_sums ||
         (!is_limit && !(ended == FACET_ERROR_CANCELLED && p->desc->path.keeps_cancelled)))
         return render_watch_explain(&p->watch, error);
-    if (count_samples(p).fewest == 0)
+    if (count_samples(p).fewest == p->first)
         return fail(error, ended, "%s before every pixel had a sample; there is no image",
                     is_limit ? "the time limit was reached" : "interrupted");
     p->stats->is_partial = true;
@@ -325,7 +326,7 @@ static facet_result draw(path_job *p, facet_error *error)
     TRY(resume(p, error));
     uint64_t pixel_count = (uint64_t)p->target->width * p->target->height;
     render_watch_init(&p->watch, &desc->progress, "sample", p->deadline_s,
-                      (double)pixel_count * (double)desc->samples);
+                      (double)pixel_count * (double)(p->end - p->first));
     atomic_store(&p->watch.done, path_film_total_samples(p->sums));
     facet_result result = draw_passes(p, error);
     if (result == FACET_OK)
@@ -403,8 +404,11 @@ static facet_result attempt(const void *surface, prepared_scene *prepared, const
                   .surface = surface,
                   .target = target,
                   .stats = stats,
+                  .end = desc->samples,
                   .mattes = matte_find(target),
                   .deadline_s = deadline_s};
+    if (desc->part.count && desc->part.split == FACET_PART_SPLIT_SAMPLES)
+        path_part_get_samples(&desc->part, desc->samples, &p.first, &p.end);
     matte_clear(&p.mattes, (size_t)target->width * target->height); /* a failed attempt may have filled it */
     facet_result result = render_image(&p, has_setup, error);
     path_film_destroy(p.sums);

@@ -9,6 +9,14 @@ enum { PATH_DEFAULT_DEPTH = 64 }; /* of facet_path_desc.max_depth */
 
 struct path_surface; /* path_surface.h */
 
+/* The samples of a pixel, numbered from 0, that a part by samples has of all of them. */
+static inline void path_part_get_samples(const facet_part_desc *part, uint32_t samples, uint32_t *first,
+                                         uint32_t *end)
+{
+    *first = (uint32_t)((uint64_t)samples * part->index / part->count);
+    *end = (uint32_t)((uint64_t)samples * (part->index + 1) / part->count);
+}
+
 /* As preview_render_prepared(), for desc->renderer FACET_RENDERER_KIND_PATH. surface: of the scene's
  * primitives that have water; NULL: none has. Past the time limit, or cancelled with keeps_cancelled, the
  * film has the samples so far and stats->is_partial is set; FACET_ERROR_LIMIT, _CANCELLED where a pixel

@@ -4,6 +4,7 @@
 #include "ibl/cache.h"
 #include "image/image.h"
 #include "path/path_film.h"
+#include "path/path_render.h"
 #include "render/part.h"
 
 #include <inttypes.h>
@@ -118,6 +119,11 @@ static part_header header_of(const facet_render_desc *whole, const facet_render_
     bool is_path = renderer_get(whole->renderer)->info.features & FACET_RENDERER_FEATURE_PATH;
     h.has_ground = is_path && whole->ground == FACET_GROUND_SHADOW;
     memcpy(h.background_color, whole->background_color, sizeof h.background_color);
+    if (p->split == FACET_PART_SPLIT_SAMPLES) {
+        uint32_t end;
+        path_part_get_samples(p, whole->samples, &h.info.first_sample, &end);
+        h.info.sample_count = end - h.info.first_sample;
+    }
     return h;
 }
 

@@ -130,8 +130,10 @@ facet_result part_key_create(renderer_set *set, const facet_render_desc *whole, 
 {
     text t = {.allocator = whole->allocator};
     path_key scene = {.hex = ""};
+    facet_render_desc undivided = *whole;
+    undivided.part = (facet_part_desc){.count = 0};
     if (set->scene)
-        TRY(path_key_create(&set->prepared, whole, &scene, error));
+        TRY(path_key_create(&set->prepared, &undivided, &scene, error));
     text_addf(&t, "%s ", scene.hex);
     add_all(&t, whole);
     for (uint64_t i = 0; i < 4 && !t.has_failed; i++)

@@ -27,6 +27,7 @@ typedef struct merging {
     const part_entry *first; /* any that is there */
     film layers;             /* as the parts have them: sums, or the image, and the other AOVs */
     path_film *sums;         /* NULL: of another renderer */
+    path_film *read_sums;    /* of one part; that of sums where parts are tiles */
 } merging;
 
 static facet_result read_header(const merging *m, const char *path, part_header *out, facet_error *error)
@@ -57,11 +58,10 @@ static facet_result check_same(const part_entry *a, const part_entry *b, facet_e
                     "%s: it was rendered with another instruction set (--isa) than %s: %.*s, not %.*s",
                     b->path, a->path, (int)strcspn(q->machine, ","), q->machine,
                     (int)strcspn(p->machine, ","), p->machine);
+    static const char *const kinds[] = {"a tile", "a range of samples"};
     if (p->split != q->split)
-        return fail(error, FACET_ERROR_ARGUMENT,
-                    "%s: it is a range of samples and %s a tile, or the other way round; "
-                    "parts of one kind were expected",
-                    b->path, a->path);
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: it is %s, and %s %s; parts of one kind were expected",
+                    b->path, kinds[q->split], a->path, kinds[p->split]);
     if (p->count != q->count)
         return fail(error, FACET_ERROR_ARGUMENT, "%s: it is one of %u parts, and %s one of %u", b->path,
                     q->count, a->path, p->count);
@@ -167,12 +167,16 @@ static facet_result create_films(merging *m, film *target, facet_error *error)
     TRY(film_create(allocator, p->width, p->height, h->aovs, target, error));
     if (is_path)
         TRY(path_film_create(allocator, p->width, p->height, h->has_ground, &m->sums, error));
+    m->read_sums = m->sums;
+    if (p->split == FACET_PART_SPLIT_SAMPLES)
+        TRY(path_film_create(allocator, p->width, p->height, h->has_ground, &m->read_sums, error));
     m->layers = (film){.width = p->width, .height = p->height};
     for (uint32_t i = 0; i < target->layer_count; i++)
-        if (!is_path || !path_film_makes_layer(target->layers[i].name))
+        if (!is_path || i == 0 || !path_film_makes_layer(target->layers[i].name))
             m->layers.layers[m->layers.layer_count++] = target->layers[i];
     if (is_path)
-        m->layers.layer_count += path_film_list_layers(m->sums, m->layers.layers + m->layers.layer_count);
+        m->layers.layer_count +=
+            path_film_list_layers(m->read_sums, m->layers.layers + m->layers.layer_count);
     return FACET_OK;
 }
 
@@ -209,7 +213,12 @@ static facet_result read_part(merging *m, const part_entry *part, facet_error *e
     TRY(file_open(part->path, 0, &m->desc->allocator, &file, error));
     facet_result result = read_tile(m, part, &file, error);
     file_close(&file);
-    return result;
+    if (result != FACET_OK || m->read_sums == m->sums)
+        return result;
+    return path_film_is_sound(m->read_sums) && path_film_add_film(m->sums, m->read_sums)
+               ? FACET_OK
+               : fail(error, FACET_ERROR_INVALID, "%s: the part is damaged: it holds no valid sums",
+                      part->path);
 }
 
 static facet_result read_parts(merging *m, facet_error *error)
@@ -311,6 +320,8 @@ facet_result part_merge(const char *const *paths, size_t path_count, const facet
     merging m = {.desc = desc, .path_count = path_count};
     *out = (film){.width = 0};
     facet_result result = merge(&m, paths, path_count, out, stats, error);
+    if (m.read_sums != m.sums)
+        path_film_destroy(m.read_sums);
     path_film_destroy(m.sums);
     mem_free(m.parts);
     if (result != FACET_OK)

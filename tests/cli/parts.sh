@@ -5,6 +5,8 @@ set -eu
 . "$(dirname "$0")/lib.sh"
 
 # parts COUNT EXTENSION WORD..: the image of `facet WORD..` equals that of its parts, rendered with other numbers of threads.
+# $by: what they divide.
+by=tiles
 parts() {
     count=$1 extension=$2
     shift 2
@@ -12,11 +14,11 @@ parts() {
     expect 0 "$@" -o whole.$extension
     i=0
     while [ $i -lt $count ]; do
-        expect 0 "$@" -o 'part_{shard}.exr' --shard $i/$count -j $((1 + i % 3))
+        expect 0 "$@" -o 'part_{shard}.exr' --shard $i/$count --shard-by $by -j $((1 + i % 3))
         i=$((i + 1))
     done
     expect 0 merge $(ls -r part_*.exr) -o merged.$extension
-    cmp -s whole.$extension merged.$extension || failed "$count parts differ from the whole image: $*"
+    cmp -s whole.$extension merged.$extension || failed "$count parts by $by differ from the whole image: $*"
 }
 
 # ---- tiles ----
@@ -36,6 +38,28 @@ if "$facet" ocean --info >/dev/null 2>&1; then
     parts 2 exr ocean --size 40x32 --renderer path --samples 2 --aov all
     parts 2 png ocean --size 40x32 --env constant:0.5 --sun 30,40,3
 fi
+
+# ---- samples ----
+
+by=samples
+for count in 1 2 3 7; do
+    parts $count png render --size 33x21 --renderer path --samples 7
+done
+parts 3 exr render --size 40x32 --renderer path --samples 10 --aov variance,samples,albedo,depth --ground shadow --denoise
+parts 2 png render --size 40x32 --renderer path --samples 9 --shutter 0.5 --filter mitchell --exposure auto
+if "$facet" ocean --info >/dev/null 2>&1; then
+    parts 2 exr ocean --size 32x24 --renderer path --samples 3
+fi
+expect 0 render --size 33x21 --renderer path --samples 7 -o tile_1.exr --shard 1/6
+expect 0 render --size 33x21 --renderer path --samples 7 -o part_1.exr --shard 1/7 --shard-by samples
+expect 2 merge part_1.exr tile_1.exr -o merged.png
+says "tile_1.exr: it is a tile, and part_1.exr a range of samples"
+expect 2 render --size 32 -o part_1.exr --shard 1/2 --shard-by samples
+says "--shard-by: samples need --renderer path"
+expect 2 render --size 32 --renderer path --samples 4 -o part_1.exr --shard 1/5 --shard-by samples
+says "an image of 4 samples per pixel has at most that many parts, not 5"
+expect 2 render --size 32 --renderer path --aov cryptomatte -o part_1.exr --shard 1/2 --shard-by samples
+says "the ranks of Cryptomatte depend on all samples of a pixel"
 
 # ---- what is missing ----
 
