@@ -14,20 +14,18 @@
 /* ---- which parts there are ---- */
 
 typedef struct part_entry {
-    const char *path; /* NULL: missing */
+    const char *path;
     part_header header;
 } part_entry;
 
 /* The merging of an image. */
 typedef struct merging {
     const facet_merge_desc *desc;
-    size_t path_count;
-    part_entry *parts; /* part_count of them, by index */
+    part_entry *parts; /* part_count of them so far, in the order of the paths */
     uint32_t part_count;
-    const part_entry *first; /* any that is there */
-    film layers;             /* as the parts have them: sums, or the image, and the other AOVs */
-    path_film *sums;         /* NULL: of another renderer */
-    path_film *read_sums;    /* of one part; that of sums where parts are tiles */
+    film layers;          /* as the parts have them: sums, or the image, and the other AOVs */
+    path_film *sums;      /* NULL: of another renderer */
+    path_film *read_sums; /* of one part; that of sums where parts are tiles */
 } merging;
 
 static facet_result read_header(const merging *m, const char *path, part_header *out, facet_error *error)
@@ -87,60 +85,45 @@ static facet_result check_twice(const merging *m, const part_entry *there, const
 /* Whether parts may differ in a few pixels by one code value. */
 static void warn_of_vendors(const merging *m)
 {
-    const char *machine = m->first->header.info.machine;
+    const char *machine = m->parts[0].header.info.machine;
     for (uint32_t i = 0; i < m->part_count; i++)
         if (strcmp(m->parts[i].header.info.machine, machine) != 0) {
             log_warning(&m->desc->log,
                         "%s and %s were rendered on processors of different vendors; pixels may differ by "
                         "one code value "
                         "from those of one machine",
-                        m->first->path, m->parts[i].path);
+                        m->parts[0].path, m->parts[i].path);
             return;
         }
 }
 
 static facet_result add_part(merging *m, const char *path, facet_error *error)
 {
-    part_entry found = {.path = path};
-    TRY(read_header(m, path, &found.header, error));
-    if (!m->parts) {
-        m->part_count = found.header.info.count;
-        if (m->part_count > m->path_count)
-            return fail(error, FACET_ERROR_ARGUMENT,
-                        "%s: it is one of %u parts, of which %zu at most are there", path, m->part_count,
-                        m->path_count);
-        m->parts = mem_zalloc(&m->desc->allocator, m->part_count, sizeof *m->parts);
-        if (!m->parts)
-            return fail_memory(error, "parts", m->part_count * sizeof *m->parts);
-    }
-    if (m->first)
-        TRY(check_same(m->first, &found, error));
-    part_entry *entry = &m->parts[found.header.info.index];
-    if (entry->path)
-        return check_twice(m, entry, &found, error);
-    *entry = found;
-    m->first = m->first ? m->first : entry;
+    part_entry *found = &m->parts[m->part_count];
+    *found = (part_entry){.path = path};
+    TRY(read_header(m, path, &found->header, error));
+    if (m->part_count > 0)
+        TRY(check_same(&m->parts[0], found, error));
+    for (uint32_t i = 0; i < m->part_count; i++)
+        if (m->parts[i].header.info.index == found->header.info.index)
+            return check_twice(m, &m->parts[i], found, error);
+    m->part_count++;
     return FACET_OK;
 }
 
 static facet_result check_complete(const merging *m, facet_error *error)
 {
-    uint32_t missing = 0, least = 0;
-    for (uint32_t i = m->part_count; i-- > 0;)
-        if (!m->parts[i].path) {
-            missing++;
-            least = i;
-        }
-    if (missing)
-        return fail(error, FACET_ERROR_ARGUMENT, "%u of %u parts are missing, part %u among them", missing,
-                    m->part_count, least);
+    const facet_part_info *whole = &m->parts[0].header.info;
+    if (m->part_count < whole->count)
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: it is one of %u parts, of which %u are missing",
+                    m->parts[0].path, whole->count, whole->count - m->part_count);
     uint64_t area = 0;
-    const facet_part_info *whole = &m->first->header.info;
     for (uint32_t i = 0; i < m->part_count; i++)
         area += (uint64_t)m->parts[i].header.info.rectangle[2] * m->parts[i].header.info.rectangle[3];
     if (area != (uint64_t)whole->width * whole->height *
                     (whole->split == FACET_PART_SPLIT_SAMPLES ? m->part_count : 1))
-        return fail(error, FACET_ERROR_INVALID, "%s: the parts overlap or leave pixels out", m->first->path);
+        return fail(error, FACET_ERROR_INVALID, "%s: the parts overlap or leave pixels out",
+                    m->parts[0].path);
     return FACET_OK;
 }
 
@@ -148,6 +131,9 @@ static facet_result find_parts(merging *m, const char *const *paths, size_t path
 {
     if (path_count == 0)
         return fail(error, FACET_ERROR_ARGUMENT, "there are no parts");
+    m->parts = mem_zalloc(&m->desc->allocator, path_count, sizeof *m->parts);
+    if (!m->parts)
+        return fail_memory(error, "parts", path_count * sizeof *m->parts);
     for (size_t i = 0; i < path_count; i++)
         TRY(add_part(m, paths[i], error));
     TRY(check_complete(m, error));
@@ -160,7 +146,7 @@ static facet_result find_parts(merging *m, const char *const *paths, size_t path
 /* Creates the film that parts are read into. */
 static facet_result create_films(merging *m, film *target, facet_error *error)
 {
-    const part_header *h = &m->first->header;
+    const part_header *h = &m->parts[0].header;
     const facet_part_info *p = &h->info;
     const facet_allocator *allocator = &m->desc->allocator;
     bool is_path = renderer_get(h->renderer)->info.features & FACET_RENDERER_FEATURE_PATH;
@@ -237,7 +223,7 @@ static facet_result read_parts(merging *m, facet_error *error)
     return path_film_is_sound(m->sums)
                ? FACET_OK
                : fail(error, FACET_ERROR_INVALID, "%s: the parts are damaged: they hold no valid sums",
-                      m->first->path);
+                      m->parts[0].path);
 }
 
 /* ---- texts that the image has, too ---- */
@@ -254,7 +240,7 @@ static facet_result copy_text(const merging *m, const file_bytes *file, const ch
         char *value = mem_alloc(&m->desc->allocator, size *= 4, 1);
         if (!value)
             return fail_memory(error, "metadata", size);
-        result = image_read_exr_text(file->data, file->size, m->first->path, name, value, size, error);
+        result = image_read_exr_text(file->data, file->size, m->parts[0].path, name, value, size, error);
         if (result == FACET_OK)
             TRY(film_add_text(target, name, value, &m->desc->allocator, error));
         mem_free(value);
@@ -267,9 +253,9 @@ static facet_result copy_texts(const merging *m, film *target, facet_error *erro
     static const uint32_t aovs[MATTE_KINDS] = {FACET_AOV_CRYPTO_OBJECT, FACET_AOV_CRYPTO_MATERIAL,
                                                FACET_AOV_CRYPTO_INSTANCE};
     file_bytes file;
-    facet_result result = file_open(m->first->path, 0, &m->desc->allocator, &file, error);
+    facet_result result = file_open(m->parts[0].path, 0, &m->desc->allocator, &file, error);
     for (uint32_t kind = 0; kind < MATTE_KINDS && result == FACET_OK; kind++)
-        for (uint32_t i = 0; m->first->header.aovs & aovs[kind] && i < MATTE_TEXTS && result == FACET_OK;
+        for (uint32_t i = 0; m->parts[0].header.aovs & aovs[kind] && i < MATTE_TEXTS && result == FACET_OK;
              i++) {
             char name[MATTE_TEXT_NAME_SIZE];
             matte_text_name(kind, i, name);
@@ -284,7 +270,7 @@ static facet_result copy_texts(const merging *m, film *target, facet_error *erro
 /* The part of a desc that finishing reads. */
 static facet_render_desc finishing_of(const merging *m)
 {
-    const part_header *h = &m->first->header;
+    const part_header *h = &m->parts[0].header;
     facet_render_desc d = {.allocator = m->desc->allocator,
                            .thread_count = m->desc->thread_count,
                            .exposure_ev = h->exposure_ev,
@@ -317,7 +303,7 @@ static facet_result merge(merging *m, const char *const *paths, size_t path_coun
 facet_result part_merge(const char *const *paths, size_t path_count, const facet_merge_desc *desc, film *out,
                         facet_render_stats *stats, facet_error *error)
 {
-    merging m = {.desc = desc, .path_count = path_count};
+    merging m = {.desc = desc};
     *out = (film){.width = 0};
     facet_result result = merge(&m, paths, path_count, out, stats, error);
     if (m.read_sums != m.sums)
