@@ -53,4 +53,118 @@ expect 0 batch models/b.gltf -o 'img/{stem}.png' --resume=content -- $tiny
 says "batch: 1 done, 0 kept"
 expect 2 batch models/b.gltf --resume=bytes
 says '--resume: "bytes" is none of content'
+
+# ---- manifests ----
+
+line() {
+    printf '%s\n' "$1" >>jobs.jsonl
+}
+line '{"id":"one","input":"models/a.gltf","output":"m/a.png","size":[16,8],"background":"transparent"}'
+line ''
+line '{"input":"models/b.gltf","output":"m/b.png","ortho":true,"cost":2}'
+line '{"input":"models/a.gltf","command":"inspect"}'
+line '{"input":"models/a.gltf","command":"convert","output":"m/{stem}.glb"}'
+line '{"input":"models/sub/c.gltf"}'
+expect 0 batch --manifest jobs.jsonl --results m.jsonl -o 'm/{stem}.png' -j 2 -- $tiny
+[ "$(ls m | tr '\n' ' ')" = "a.glb a.png b.png c.png " ] || failed "the outputs are $(ls m)"
+is_type m/a.png "16 x 8, 8-bit/color RGBA"
+[ "$(count m.jsonl '"status":"done"')" = 5 ] && [ "$(count m.jsonl '"id":"one"')" = 1 ] || failed "results: $(cat m.jsonl)"
+grep -F '"command":"inspect"' m.jsonl | grep -qF '"report":{' || failed "the report of inspect is not in the results"
+"$facet" batch --manifest - --results m.jsonl -o 'm/{stem}.png' --resume -- $tiny <jobs.jsonl 2>err || failed "a manifest on standard input"
+says "batch: 0 done, 5 kept, 0 failed"
+expect 0 batch --manifest jobs.jsonl --results m.jsonl -o 'm/{stem}.png' --verify -- $tiny
+rm m/b.png
+expect 1 batch --manifest jobs.jsonl --results m.jsonl -o 'm/{stem}.png' --verify -- $tiny
+grep -qF "missing: m/b.png, of models/b.gltf" out || failed "it verifies: $(cat out)"
+says "batch: 4 done, 0 failed, 1 missing"
+expect 0 batch --manifest jobs.jsonl --results m.jsonl -o 'm/{stem}.png' --resume --dry-run -- $tiny
+[ "$(wc -l <out)" = 1 ] && grep -qF "facet render --size 16 --quality draft --ortho models/b.gltf" out ||
+    failed "it would run: $(cat out)"
+[ ! -e m/b.png ] || failed "a dry run writes"
+sh -c "$(sed "s|^facet|'$facet'|" out)" && [ -s m/b.png ] || failed "the printed command fails: $(cat out)"
+expect 0 batch --manifest jobs.jsonl --results m.jsonl -o 'm/{stem}.png' --verify -- $tiny
+
+# Items run as they come.
+mkfifo stream
+"$facet" batch --manifest - -o 'stream/{stem}.png' -- $tiny <stream 2>err &
+process=$!
+exec 4>stream
+echo '{"input":"models/a.gltf","output":"s/first.png"}' >&4
+tries=0
+while [ ! -e s/first.png ] && [ $tries -lt 200 ]; do
+    sleep 0.1
+    tries=$((tries + 1))
+done
+[ -e s/first.png ] || failed "an item of a stream waits for its end"
+printf '{"input":"models/b.gltf","output":"s/second.png"}' >&4
+exec 4>&-
+wait $process || failed "a stream"
+[ -e s/second.png ] || failed "the last line of a stream, without its end, is lost"
+
+# Wrong lines and wrong items fail alone, each with its place; the failed ones are a manifest again.
+rm jobs.jsonl
+line '{"input":"models/a.gltf","output":"w/a.png"}'
+line '{"input":"models/a.gltf","output":"w/b.png","sise":3}'
+line 'no JSON'
+line '{"input":"models/a.gltf","output":"w/a.png"}'
+line '{"output":"w/d.png"}'
+line '{"input":"models/old.gltf","output":"w/old.png"}'
+line '{"input":"models/a.gltf","output":"w/e.png","time":"soon"}'
+line '{"input":"models/a.gltf","output":"w/f.png","command":"view"}'
+expect 1 batch --manifest jobs.jsonl --failed again.jsonl -- $tiny
+says "jobs.jsonl: line 2: unknown option --sise; did you mean --size?"
+says "jobs.jsonl: line 3: column 2:"
+says "jobs.jsonl: line 4: its output w/a.png is that of item 1 as well"
+says "jobs.jsonl: line 5: it has no input"
+says 'jobs.jsonl: line 7: --time: "soon" is not a number'
+says "jobs.jsonl: line 8: command: it is none of render,"
+says "batch: 1 done, 0 kept, 7 failed"
+grep -qF '"output":"w/old.png","exit_code":5,"message":"models/old.gltf' again.jsonl || failed "failed: $(cat again.jsonl)"
+cp models/b.gltf models/old.gltf
+grep -F old.png again.jsonl >once.jsonl
+expect 0 batch --manifest once.jsonl -- $tiny
+[ -s w/old.png ] || failed "a failed item cannot be run again"
+
+# ---- shards, jobs at a time ----
+
+rm jobs.jsonl
+for i in 0 1 2 3 4 5 6 7 8 9; do
+    line "{\"input\":\"models/a.gltf\",\"output\":\"all/$i.png\",\"orbit\":\"$((i * 30)),75,105%\"}"
+done
+expect 0 batch --manifest jobs.jsonl -j 1 -q -- $tiny
+mv all serial
+for i in 2 0 1; do
+    expect 0 batch --manifest jobs.jsonl -j 3 --shard $i/3 --results 'r.{shard}.jsonl' -q -- $tiny
+done
+diff -r all serial || failed "shards and a serial run differ"
+cat r.0.jsonl r.1.jsonl r.2.jsonl | grep -c '"status":"done"' | grep -qx 10 || failed "the results of the shards"
+expect 0 batch --manifest jobs.jsonl --results 'r.{shard}.jsonl' --verify --json -- $tiny
+grep -qF '"done": 10, "failed": 0, "missing": 0' out || failed "it verifies shards: $(cat out)"
+
+# ---- the gallery ----
+
+line '{"input":"models/package.json","output":"all/bad <one>.png"}'
+echo '{}' >models/package.json
+expect 1 batch --manifest jobs.jsonl --gallery pages/all.html --resume -q -- $tiny
+[ "$(grep -c '<img loading="lazy" src="../all/' pages/all.html)" = 10 ] || failed "images of the gallery"
+grep -qF '<b>bad &lt;one&gt;.png</b>' pages/all.html || failed "failures of the gallery"
+grep -qF '10 done, 1 failed, 0 not made yet' pages/all.html || failed "the head of the gallery"
+
+# ---- usage ----
+
+expect 2 batch models -o one.png --nothing
+expect 2 batch models -o -
+says "items cannot share standard output"
+expect 2 batch models -o '{stem}_{what}.png'
+says "{what} is not a placeholder"
+expect 2 batch models -- --sise 3
+says "unknown option --sise; did you mean --size?"
+expect 2 batch models -- --size 3 models/a.gltf
+says "stands after --"
+expect 2 batch models -- -o x.png
+says "it stands before --"
+expect 3 batch --manifest nothing.jsonl
+expect 3 batch models -- --env missing.hdr
+expect 1 batch models/a.gltf models/b.gltf -o same.png -q -- $tiny
+says "its output same.png is that of item 1 as well"
 finish

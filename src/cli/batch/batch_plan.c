@@ -76,6 +76,10 @@ facet_result batch_plan_read(const command_line *c, batch_plan *out, facet_error
     *out = (batch_plan){.verb = batch_find_command(option_text(c, OPT_COMMAND, "render")),
                         .words = c->arguments + c->dashed_index,
                         .word_count = c->argument_count - c->dashed_index,
+                        .gallery = option_text(c, OPT_GALLERY, NULL),
+                        .verifies = is_given(c, OPT_VERIFY),
+                        .is_dry = is_given(c, OPT_DRY_RUN),
+                        .result_pattern = option_text(c, OPT_RESULTS, NULL),
                         .manifest = option_text(c, OPT_MANIFEST, NULL),
                         .has_shard = is_given(c, OPT_SHARD)};
     if (is_given(c, OPT_RESUME))

@@ -21,8 +21,10 @@ typedef struct batch_plan {
     batch_resume resume;
     shard shard;
     bool has_shard;
-    const char *manifest;   /* NULL: none */
-    char *results, *failed; /* files with the number of the shard; NULL: none */
+    const char *manifest, *gallery; /* NULL: none */
+    bool verifies, is_dry;
+    const char *result_pattern; /* --results; NULL: none */
+    char *results, *failed;     /* files with the number of the shard; NULL: none */
 } batch_plan;
 
 /* Reads the options of the command line, with which most of the text stays. Fails with FACET_ERROR_ARGUMENT. */

@@ -121,13 +121,20 @@ json_t *batch_failed_json(const batch_item *item, int exit_code, const char *mes
 enum { KNOWN_BITS = 3 };
 
 /* Adds a line; false: no memory. */
-static bool add_line(batch_history *history, const char *text, size_t length)
+static bool add_line(batch_history *history, json_t *messages, const char *text, size_t length)
 {
     json_t *line = json_loadb(text, length, 0, NULL);
     const char *id = json_string_value(json_object_get(line, "id"));
     const char *hash = json_string_value(json_object_get(line, "hash"));
     const char *status = json_string_value(json_object_get(line, "status"));
     bool has_memory = true;
+    if (id && status && messages) {
+        json_t *message = strcmp(status, "failed") == 0 ? json_object_get(line, "message") : NULL;
+        if (message)
+            json_object_set(messages, id, message);
+        else
+            json_object_del(messages, id);
+    }
     if (id && hash && status) {
         uint64_t known = strcmp(status, "done") == 0 ? KNOWN_DONE : KNOWN_FAILED;
         has_memory = batch_map_set(history, id, (batch_map_hash(hash) & ~(uint64_t)KNOWN_BITS) | known);
@@ -136,7 +143,8 @@ static bool add_line(batch_history *history, const char *text, size_t length)
     return has_memory;
 }
 
-facet_result batch_history_read(batch_history *history, const char *path, facet_error *error)
+facet_result batch_history_read(batch_history *history, json_t *messages, const char *path,
+                                facet_error *error)
 {
     FILE *file = fopen(path, "re");
     if (!file)
@@ -145,13 +153,18 @@ facet_result batch_history_read(batch_history *history, const char *path, facet_
     size_t capacity = 0;
     bool has_memory = true;
     for (ssize_t n; has_memory && (n = getline(&line, &capacity, file)) > 0;)
-        has_memory = add_line(history, line, (size_t)n);
+        has_memory = add_line(history, messages, line, (size_t)n);
     bool is_read = !ferror(file);
     free(line);
     fclose(file);
     if (!has_memory)
         return fail_memory(error, path, 0);
     return is_read ? FACET_OK : fail(error, FACET_ERROR_READ, "%s: it cannot be read", path);
+}
+
+uint64_t batch_history_value(const batch_item *item, batch_known known)
+{
+    return (batch_map_hash(item->hash) & ~(uint64_t)KNOWN_BITS) | (uint64_t)known;
 }
 
 batch_known batch_history_find(const batch_history *history, const batch_item *item)

@@ -36,13 +36,17 @@ typedef enum batch_known { KNOWN_NOT, KNOWN_DONE, KNOWN_FAILED } batch_known;
 /* The last lines of items by their id: hashes of settings, and batch_known in the lowest two bits. {0}: empty. */
 typedef batch_map batch_history;
 
-/* Adds the lines of a file to history; lines that are incomplete or of something else are ignored. A file that does not
- * exist has none. Fails with FACET_ERROR_READ, _MEMORY. */
-facet_result batch_history_read(batch_history *history, const char *path, facet_error *error);
+/* Adds the lines of a file to history, and the messages of failed items by their id to messages (NULL: not wanted); lines that
+ * are incomplete or of something else are ignored. A file that does not exist has none. Fails with FACET_ERROR_READ, _MEMORY. */
+facet_result batch_history_read(batch_history *history, json_t *messages, const char *path,
+                                facet_error *error);
 
 /* Whether an earlier run has done the item with the same settings: the image has its tag, or the results know it and its output
  * is there. */
 bool batch_is_done(const batch_history *history, const batch_item *item);
+
+/* The entry of an item in a history. */
+uint64_t batch_history_value(const batch_item *item, batch_known known);
 
 /* What the last line about the item with the same settings says. */
 batch_known batch_history_find(const batch_history *history, const batch_item *item);

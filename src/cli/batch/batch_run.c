@@ -5,6 +5,7 @@
 #include "cli/batch/batch_policy.h"
 #include "cli/shared/failure.h"
 #include "cli/shared/interrupt.h"
+#include "cli/shared/shell_line.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -63,6 +64,9 @@ static facet_result record(batch_run *run, batch_item *item, const job_result *r
 {
     const char *message = result->message ? result->message : "it failed without a message";
     facet_result written = batch_lines_add(&run->results, batch_result_json(item, result, is_done), error);
+    uint64_t known = batch_history_value(item, is_done ? KNOWN_DONE : KNOWN_FAILED);
+    if (written == FACET_OK && run->reasons && !batch_map_set(&run->history, item->id, known))
+        written = fail_memory(error, "results", 0);
     if (is_done) {
         run->progress.done++;
         message_at(run->messages, VERBOSITY_DETAILS, "%s: done, %.2f s",
@@ -72,6 +76,8 @@ static facet_result record(batch_run *run, batch_item *item, const job_result *r
         run->for_others += batch_is_for_others(result->exit_code);
         message_error("%s", message);
         add_failure(run, item, message, result->exit_code);
+        if (run->reasons)
+            json_object_set_new(run->reasons, item->id, report_string_json(message));
         if (written == FACET_OK)
             written =
                 batch_lines_add(&run->failed, batch_failed_json(item, result->exit_code, message), error);
@@ -178,12 +184,33 @@ static void add_limits(const batch_run *run, const batch_item *item, job_words *
         job_words_addf(w, "--tag=%s", item->hash);
 }
 
+/* Prints the command of an item as words for a shell. */
+static facet_result print_command(batch_run *run, batch_item *item, const job_words *w, facet_error *error)
+{
+    shell_line line = {.text = NULL};
+    shell_line_add_word(&line, "facet");
+    for (size_t i = 0; i < w->count; i++)
+        shell_line_add_word(&line, w->words[i]);
+    facet_result result = line.has_failed ? fail_memory(error, "a command", 0) : FACET_OK;
+    if (result == FACET_OK)
+        puts(line.text);
+    free(line.text);
+    run->progress.done++;
+    batch_item_destroy(item);
+    return result;
+}
+
 /* Starts the job of an item. */
 static facet_result start(batch_run *run, batch_item *item, facet_error *error)
 {
     job_words w = {.words = NULL};
     job_words_add_all(&w, (const char *const *)item->words.words);
     add_limits(run, item, &w);
+    if (run->plan->is_dry && !w.has_failed) {
+        facet_result printed = print_command(run, item, &w, error);
+        job_words_destroy(&w);
+        return printed;
+    }
     const job_request request = {.words = (const char *const *)w.words,
                                  .name = item->name,
                                  .time_limit_s = item->time_limit_s,
@@ -222,7 +249,7 @@ static facet_result check(batch_run *run, batch_item **item, facet_error *error)
     }
     if (i->output && !batch_map_set(&run->outputs, i->output, i->number))
         return fail_memory(error, "names of outputs", 0);
-    if (i->output)
+    if (i->output && !run->plan->is_dry)
         batch_leftovers_remove(&run->leftovers, i->output);
     if (run->plan->resume == RESUME_NOTHING || !batch_is_done(&run->history, i))
         return FACET_OK;

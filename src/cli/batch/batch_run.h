@@ -17,6 +17,7 @@ typedef struct batch_run {
     batch_lines results, failed;
     batch_history history; /* of earlier runs */
     const messages *messages;
+    json_t *reasons;  /* why items failed, by id, for the gallery; NULL: not wanted */
     json_t *failures; /* receives the first failures; NULL: not wanted */
     batch_progress progress;
     uint64_t for_others; /* failures that another machine may not have */

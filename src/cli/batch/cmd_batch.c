@@ -1,13 +1,17 @@
 /* cmd_batch.c - facet batch: renders or converts many models, each in a process of its own. */
+#define _POSIX_C_SOURCE 200809L
 #include "cli/shared/options.h"
 
 #include "cli/batch/batch_run.h"
+#include "cli/batch/batch_survey.h"
 #include "cli/jobs/job_warm.h"
 #include "cli/shared/failure.h"
 #include "cli/shared/interrupt.h"
 #include "cli/shared/verb_run.h"
 
+#include <glob.h>
 #include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -48,13 +52,13 @@ const verb batch_verb = {
             {"facet batch old/ --command convert -o 'new/{dir}/{stem}.glb'", "another verb than render"},
             {NULL, NULL}},
     .basics = OPTION_IDS(OPT_OUTPUT, OPT_MANIFEST, OPT_COMMAND, OPT_JOBS, OPT_RESUME, OPT_RESULTS, OPT_FAILED,
-                         OPT_SHARD, OPT_TIME_LIMIT, OPT_MAX_MEMORY, OPT_PROGRESS),
+                         OPT_GALLERY, OPT_VERIFY, OPT_SHARD, OPT_TIME_LIMIT, OPT_MAX_MEMORY, OPT_PROGRESS),
     .groups =
         (const option_group *const[]){
             OPTION_GROUP("Items", OPT_OUTPUT, OPT_MANIFEST, OPT_FILES_FROM, OPT_COMMAND, OPT_SHARD),
             OPTION_GROUP("Running", OPT_JOBS, OPT_TIME_LIMIT, OPT_MAX_MEMORY, OPT_RESUME, OPT_PROGRESS,
                          OPT_CONFIG),
-            OPTION_GROUP("Results", OPT_RESULTS, OPT_FAILED),
+            OPTION_GROUP("Results", OPT_RESULTS, OPT_FAILED, OPT_GALLERY, OPT_VERIFY, OPT_DRY_RUN),
             OPTION_GROUP("Messages", OPT_QUIET, OPT_VERBOSE, OPT_JSON, OPT_HELP, OPT_HELP_ALL), NULL},
 };
 
@@ -64,6 +68,7 @@ typedef struct batch_verb_run {
     command_line models_line; /* the models, as the verb of the items takes them */
     model_list models;
     batch_run run;
+    batch_survey survey;
 } batch_verb_run;
 
 /* ---- reading ---- */
@@ -128,29 +133,63 @@ static facet_result read_line(verb_run *base, facet_error *error)
 
 /* ---- the run ---- */
 
-static facet_result work(verb_run *base, facet_error *error)
+/* Reads the results of earlier runs; for --verify of all shards those of all of them. */
+static facet_result read_history(batch_verb_run *b, facet_error *error)
 {
-    batch_verb_run *b = (batch_verb_run *)base;
+    const batch_plan *plan = &b->plan;
+    batch_run *run = &b->run;
+    if (!plan->results || (plan->resume == RESUME_NOTHING && !plan->verifies))
+        return FACET_OK;
+    const char *at = strstr(plan->result_pattern, "{shard}");
+    if (!plan->verifies || plan->has_shard || !at)
+        return batch_history_read(&run->history, run->reasons, plan->results, error);
+    char pattern[BATCH_NAME_SIZE];
+    glob_t found = {.gl_pathc = 0};
+    snprintf(pattern, sizeof pattern, "%.*s[0-9]*%s", (int)(at - plan->result_pattern), plan->result_pattern,
+             at + strlen("{shard}"));
+    facet_result result = FACET_OK;
+    if (glob(pattern, 0, NULL, &found) == 0)
+        for (size_t i = 0; i < found.gl_pathc && result == FACET_OK; i++)
+            result = batch_history_read(&run->history, run->reasons, found.gl_pathv[i], error);
+    globfree(&found);
+    return result;
+}
+
+/* Writes the gallery, or verifies, without running anything. */
+static facet_result survey(batch_verb_run *b, facet_error *error)
+{
+    batch_survey *s = &b->survey;
+    *s = (batch_survey){.plan = &b->plan,
+                        .models = b->models.count ? &b->models : NULL,
+                        .history = &b->run.history,
+                        .messages = b->run.reasons};
+    facet_result result = FACET_OK;
+    if (b->plan.verifies)
+        result = batch_verify(s, is_given(b->base.line, OPT_JSON), error);
+    if (result == FACET_OK && b->plan.gallery)
+        result = batch_gallery_write(s, b->plan.gallery, error);
+    if (b->plan.verifies && result == FACET_OK) {
+        b->base.is_negative = s->failed || s->missing;
+        message_at(&b->base.messages, VERBOSITY_NORMAL,
+                   "batch: %" PRIu64 " done, %" PRIu64 " failed, %" PRIu64 " missing", s->done, s->failed,
+                   s->missing);
+    }
+    return result;
+}
+
+static facet_result run_all(batch_verb_run *b, facet_error *error)
+{
+    verb_run *base = &b->base;
     batch_run *run = &b->run;
     const batch_plan *plan = &b->plan;
-    run->plan = plan;
-    run->messages = &base->messages;
-    run->failures = base->failures;
-    run->progress.mode = base->progress;
-    TRY(read_words(b, error));
-    TRY(batch_source_open(plan, b->models.count ? &b->models : NULL, &run->source, error));
-    run->progress.total = batch_source_count(run->source);
-    if (plan->resume != RESUME_NOTHING && plan->results)
-        TRY(batch_history_read(&run->history, plan->results, error));
-    TRY(batch_lines_open(plan->results, &run->results, error));
-    TRY(batch_lines_open(plan->failed, &run->failed, error));
     facet_result result = batch_run_all(run, error);
     const batch_progress *p = &run->progress;
     char time[BATCH_TIME_SIZE];
     batch_time_text(interrupt_clock() - p->start, time);
-    message_at(&base->messages, VERBOSITY_NORMAL,
-               "batch: %" PRIu64 " done, %" PRIu64 " kept, %" PRIu64 " failed in %s", p->done, p->kept,
-               p->failed, time);
+    if (!plan->is_dry)
+        message_at(&base->messages, VERBOSITY_NORMAL,
+                   "batch: %" PRIu64 " done, %" PRIu64 " kept, %" PRIu64 " failed in %s", p->done, p->kept,
+                   p->failed, time);
     base->is_negative = p->failed > 0;
     if (result == FACET_OK && plan->has_shard && run->for_others)
         return fail(error, FACET_ERROR_CANCELLED,
@@ -160,9 +199,46 @@ static facet_result work(verb_run *base, facet_error *error)
     return result;
 }
 
+static facet_result work(verb_run *base, facet_error *error)
+{
+    batch_verb_run *b = (batch_verb_run *)base;
+    batch_run *run = &b->run;
+    const batch_plan *plan = &b->plan;
+    run->plan = plan;
+    run->messages = &base->messages;
+    run->failures = base->failures;
+    run->progress.mode = base->progress;
+    run->reasons = plan->gallery || plan->verifies ? json_object() : NULL;
+    TRY(read_words(b, error));
+    TRY(read_history(b, error));
+    if (plan->verifies)
+        return survey(b, error);
+    TRY(batch_source_open(plan, b->models.count ? &b->models : NULL, &run->source, error));
+    run->progress.total = batch_source_count(run->source);
+    if (!plan->is_dry) {
+        TRY(batch_lines_open(plan->results, &run->results, error));
+        TRY(batch_lines_open(plan->failed, &run->failed, error));
+    }
+    facet_result result = run_all(b, error), surveyed = FACET_OK;
+    facet_error gallery_error;
+    if (plan->gallery && !plan->is_dry)
+        surveyed = survey(b, &gallery_error);
+    if (result == FACET_OK && surveyed != FACET_OK)
+        *error = gallery_error;
+    return result == FACET_OK ? surveyed : result;
+}
+
 static void add_json(const verb_run *base, json_t *root)
 {
-    const batch_progress *p = &((const batch_verb_run *)base)->run.progress;
+    const batch_verb_run *b = (const batch_verb_run *)base;
+    const batch_progress *p = &b->run.progress;
+    if (b->plan.verifies) {
+        json_t *states = json_pack("{s:I, s:I, s:I}", "done", (json_int_t)b->survey.done, "failed",
+                                   (json_int_t)b->survey.failed, "missing", (json_int_t)b->survey.missing);
+        json_object_update(root, states);
+        json_decref(states);
+        return;
+    }
     json_t *counts = json_pack("{s:I, s:I, s:I}", "done", (json_int_t)p->done, "kept", (json_int_t)p->kept,
                                "failed", (json_int_t)p->failed);
     json_object_update(root, counts);
@@ -172,6 +248,7 @@ static void add_json(const verb_run *base, json_t *root)
 static void destroy(verb_run *base)
 {
     batch_verb_run *b = (batch_verb_run *)base;
+    json_decref(b->run.reasons);
     batch_run_destroy(&b->run);
     batch_plan_destroy(&b->plan);
     model_list_destroy(&b->models);
