@@ -51,9 +51,11 @@ const verb farm_verb = {
             OPTION_GROUP("Messages", OPT_QUIET, OPT_VERBOSE, OPT_JSON, OPT_HELP, OPT_HELP_ALL), NULL},
 };
 
+enum { FARM_SUBMIT, FARM_STATUS, FARM_RETRY };
+
 typedef struct farm_verb_run {
     verb_run base;
-    enum { FARM_SUBMIT, FARM_STATUS, FARM_RETRY } action;
+    int action;                 /* FARM_SUBMIT, .. */
     farm_submission submission; /* of submit */
     farm_run run;
     farm_status status; /* of status and retry */
