@@ -98,6 +98,7 @@ expect 0 farm submit --run sampled --shard-cpus 1 --print-commands -- batch --ma
 [ "$(wc -l <out)" = 1 ] || failed "the sample gives $(wc -l <out) shards"
 [ "$(find thumbs -type f | wc -l)" = 8 ] || failed "the sample is $(find thumbs -type f | wc -l) items, not 8"
 sh sampled/chunk.sh 0 2>err || failed "chunk.sh"
+[ "$(grep -c '"kept"' sampled/results/0.jsonl)" = 8 ] || failed "the shard did not keep the sample"
 check "a run with a sample"
 sed 's/}$/, "cost": 50}/' jobs.jsonl >costs.jsonl
 expect 0 farm submit --run costs --shard-cpus 2 --target-time 100s --print-commands -- batch --manifest costs.jsonl
