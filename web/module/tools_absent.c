@@ -1,5 +1,5 @@
 /* tools_absent.c - what tools.wasm lacks, renderers and a window: the functions of facet.h that need them fail with
- * FACET_ERROR_UNSUPPORTED and a sentence. Counterpart of src/api/render_api.c, view_api.c, version.c and of
+ * FACET_ERROR_UNSUPPORTED and a sentence. Counterpart of src/api/render_api.c, part_api.c, view_api.c, version.c and of
  * src/report/spheres.c. */
 #include <stdio.h>
 
@@ -44,6 +44,21 @@ facet_result facet_renderer_meter(facet_renderer *renderer, const facet_render_d
 void facet_renderer_destroy(facet_renderer *renderer)
 {
     (void)renderer;
+}
+
+facet_result facet_part_read_info(const char *path, facet_part_info *info, facet_error *error)
+{
+    (void)path;
+    *info = (facet_part_info){.count = 0};
+    return fail_to_render(error);
+}
+
+facet_result facet_part_merge(const char *const *paths, size_t path_count, const facet_merge_desc *desc,
+                              facet_image **image, facet_error *error)
+{
+    (void)paths, (void)path_count, (void)desc;
+    *image = NULL;
+    return fail_to_render(error);
 }
 
 facet_render_stats facet_image_get_render_stats(const facet_image *image)
