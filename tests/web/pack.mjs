@@ -28,7 +28,7 @@ const json = JSON.parse(readFileSync(path.join(root, 'package.json'), 'utf8'));
 assert.match(json.version, /^[1-9]?\d+\.\d+\.\d+$/);
 assert.notEqual(json.version, '0.0.0');
 assert.ok(archive.endsWith(`facet-viewer-${json.version}.tgz`));
-for (const target of [json.main, json.types, json.exports['.'].node]) assert.ok(files.includes(target.replace('./', '')), `${target} is not in the package`);
+for (const target of [json.main, json.types, json.exports['.'].node, json.bin.facet]) assert.ok(files.includes(target.replace('./', '')), `${target} is not in the package`);
 
 if (tsc) {
     mkdirSync(path.join(work, 'node_modules'));

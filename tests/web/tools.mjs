@@ -316,6 +316,25 @@ async function testReadme() {
     assert.deepEqual(Object.keys(await readFolder(join(folder, 'out'))).sort(), ['chair.glb', 'red.glb']);
 }
 
+// npx facet: files of the disk, also of other folders, with the output and the exit codes of the native command.
+async function testCommand() {
+    const folder = join(work, 'command'), models = join(work, 'command-models'), here = join(dist, 'facet-viewer/facet.js');
+    mkdirSync(folder);
+    await writeFiles(models, QUAD);
+    const both = (...args) => [[process.execPath, here], [facet]].map(([program, ...first]) => spawnSync(program, [...first, ...args], { cwd: folder, encoding: 'utf8' }));
+    for (const args of [['inspect', '../command-models/quad/quad.obj'], ['inspect', 'nothing.glb'], ['inspect', join(models, 'quad/quad.obj'), '--json']]) {
+        const [node, own] = both(...args);
+        assert.equal(node.stderr, own.stderr, args.join(' '));
+        assert.equal(steady(node.stdout), steady(own.stdout), args.join(' '));
+        assert.equal(node.status, own.status);
+    }
+    const [, own] = ['node.glb', 'own.glb'].map((name, i) => both('convert', '../command-models/quad/quad.obj', '-q', `--output=${name}`)[i]);
+    assert.equal(own.status, 0, own.stderr);
+    assert.ok(readFileSync(join(folder, 'node.glb')).equals(readFileSync(join(folder, 'own.glb'))), 'another model');
+    const [image] = both('render', 'own.glb', '-o', 'own.png');
+    assert.ok(image.status > 0 && /no renderer for the CPU/.test(image.stderr), image.stderr);
+}
+
 // The module's memory is reused: runs do not add up.
 async function testManyRuns() {
     const before = process.memoryUsage().arrayBuffers;
@@ -326,7 +345,7 @@ async function testManyRuns() {
     assert.deepEqual(runs.map(({ files }) => Object.keys(files)), [['1.glb'], ['2.glb'], ['3.glb']], 'calls at the same time wait for each other');
 }
 
-for (const test of [testModels, testFunctions, testSave, testBake, testImages, testPlots, testRefusals, testArguments, testSaveRefusals, testFolders, testReadme, testManyRuns]) {
+for (const test of [testModels, testFunctions, testSave, testBake, testImages, testPlots, testRefusals, testArguments, testSaveRefusals, testFolders, testReadme, testCommand, testManyRuns]) {
     const start = performance.now();
     await test();
     console.log(`tools: ${test.name.replace(/^test/, '').toLowerCase()} ${((performance.now() - start) / 1000).toFixed(1)} s`);

@@ -30,7 +30,7 @@ writeFileSync(at('pages/widget.js'), esbuild('widget.in.js', '--format=iife', '-
   '--loader:.gz=base64'));
 rmSync(at('pages/viewer.wasm.gz'));
 
-const isOfViewer = (name) => /\.(js|wasm)$/.test(name) && !/^(node|tools|facet-command|ocean)\b/.test(name);
+const isOfViewer = (name) => /\.(js|wasm)$/.test(name) && !/^(node|facet|tools|facet-command|ocean)(?!-viewer)\b/.test(name);
 const viewer = readdirSync(at('facet-viewer')).filter(isOfViewer).sort().map((name) => `facet-viewer/${name}`);
 writeFileSync(at('pages/files.txt'), [...viewer, 'pages/beside.js', 'pages/page.css', 'pages/show.js', 'pages/start.js', ''].join('\n'));
 console.log(`web: pages/single.html ${page.length} bytes`);
