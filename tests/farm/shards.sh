@@ -112,8 +112,8 @@ expect 0 farm status --run frames
 for i in 1 2 3 4 5; do
     cmp wanted_0$i.png frame_0$i.png || failed "frame $i"
 done
-expect 0 render tri.gltf --size 50 -o still_wanted.png
-expect 0 farm submit --run "still's" --shards 3 --print-commands -- render tri.gltf --size 50 -o still.png
+expect 0 render tri.gltf --size 50 -o still_wanted.jpg --jpeg-quality 60
+expect 0 farm submit --run "still's" --shards 3 --print-commands -- render tri.gltf --size 50 -qo still.jpg --jpeg-quality=60
 sed 2d out | sh
 sh "still's/finish.sh" >out 2>err && failed "finish.sh without a part"
 grep -q -- "--shard 1/3" out || failed "finish.sh does not say which part is missing: $(cat out)"
@@ -121,7 +121,7 @@ expect 0 farm retry --run "still's" --print-commands
 [ "$(wc -l <out)" = 1 ] || failed "retry prints $(cat out)"
 sh out
 sh "still's/finish.sh" >out 2>err || failed "finish.sh"
-cmp still.png still_wanted.png || failed "the merged image differs"
+cmp still.jpg still_wanted.jpg || failed "the merged image differs"
 
 # Slurm's accounting says how an unfinished shard ended.
 mkdir fake

@@ -19,16 +19,10 @@ const char *farm_command_option(const farm_command *c, const char *name)
     return o ? c->line.values[o->id].text : NULL;
 }
 
-bool farm_command_has_threads(const farm_command *c)
-{
-    const option *o = option_find_letter(c->verb, 'j');
-    return !o || is_given(&c->line, o->id);
-}
-
-static bool has_option(const farm_command *c, const char *name)
+bool farm_command_lacks(const farm_command *c, const char *name)
 {
     const option *o = option_find(c->verb, name, strlen(name));
-    return o && is_given(&c->line, o->id);
+    return o && !is_given(&c->line, o->id);
 }
 
 /* Options that the run itself sets, or under which a shard has no result. */
@@ -36,7 +30,7 @@ static facet_result check_options(const farm_command *c, facet_error *error)
 {
     static const char *const own[] = {"shard", "results", "failed", "json", "verify", "gallery"};
     for (size_t i = 0; i < sizeof own / sizeof *own; i++)
-        if (has_option(c, own[i]))
+        if (option_find(c->verb, own[i], strlen(own[i])) && !farm_command_lacks(c, own[i]))
             return fail(error, FACET_ERROR_ARGUMENT, "farm: the command must not have --%s here", own[i]);
     const char *output = farm_command_option(c, "output");
     if (output && strcmp(output, "-") == 0)
@@ -50,24 +44,42 @@ static facet_result check_options(const farm_command *c, facet_error *error)
                 "change during the run, as a folder may");
 }
 
-/* Takes the output out of the words: each part of the image has its own. */
-static facet_result take_output(farm_command *c, facet_error *error)
+/* Takes an option out of the words and gives it to facet merge. */
+static void take_option(farm_command *c, const option *o)
 {
-    const option *o = option_find(c->verb, "output", 6);
-    const option_value *given = &c->line.values[o->id];
-    if (given->count != 1 || c->line.argument_count > 1)
-        return fail(error, FACET_ERROR_ARGUMENT, "farm: facet %s needs %s here", c->verb->name,
-                    given->count != 1 ? "one -o NAME: the image, or frames as frame_####.png"
-                                      : "one model; several are a catalog, for facet batch");
-    c->merged = given->text;
+    const char *value = c->line.values[o->id].text;
+    c->merge_options[c->merge_option_count++] = o;
     for (size_t i = 0; i < c->word_count; i++) {
         const char *word = c->words[i];
-        if (given->text < word || given->text > word + strlen(word))
+        if (value < word || value > word + strlen(word))
             continue;
-        size_t first = given->text == word ? i - 1 : i; /* "-o NAME" or "-oNAME" */
+        size_t first = value == word ? i - 1 : i; /* "-o NAME" or "-oNAME" */
         c->word_count -= i + 1 - first;
         memmove(c->words + first, c->words + i + 1, (c->word_count - first) * sizeof *c->words);
-        break;
+        return;
+    }
+}
+
+/* Parts of an image have outputs of their own; the file of the whole image is that of facet merge. */
+static facet_result take_output(farm_command *c, facet_error *error)
+{
+    static const char *const names[] = {"output", "format", "jpeg-quality", "png-compression"};
+    const option *output = option_find(c->verb, "output", 6);
+    if (!is_given(&c->line, output->id))
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "farm: facet %s needs -o NAME here: the image, or frames as frame_####.png",
+                    c->verb->name);
+    if (c->line.argument_count > 1)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "farm: facet %s takes one model here; several are a catalog, for facet batch",
+                    c->verb->name);
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        const option *o = option_find(c->verb, names[i], strlen(names[i]));
+        unsigned count = o ? c->line.values[o->id].count : 0;
+        if (count > 1)
+            return fail(error, FACET_ERROR_ARGUMENT, "farm: the command has --%s twice", names[i]);
+        if (count)
+            take_option(c, o);
     }
     return FACET_OK;
 }

@@ -7,7 +7,6 @@
 #include "cli/shared/output.h"
 
 #include <errno.h>
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -45,7 +44,7 @@ static facet_result find_folder(const char *folder, farm_run *out, facet_error *
 facet_result farm_run_create(const char *folder, farm_run *out, facet_error *error)
 {
     static const char *const names[] = {"", "/results", "/parts", "/log"};
-    char path[PATH_MAX];
+    char path[FARM_PATH_SIZE];
     snprintf(path, sizeof path, "%.3000s/run.json", folder);
     if (output_exists(path))
         return fail(
@@ -75,7 +74,7 @@ static facet_result read_members(farm_run *run, const char *path, facet_error *e
 
 facet_result farm_run_load(const char *folder, farm_run *out, facet_error *error)
 {
-    char path[PATH_MAX];
+    char path[FARM_PATH_SIZE];
     snprintf(path, sizeof path, "%.3000s/run.json", folder);
     if (!output_exists(path))
         return fail(error, FACET_ERROR_READ,
@@ -90,7 +89,7 @@ facet_result farm_run_load(const char *folder, farm_run *out, facet_error *error
 
 facet_result farm_run_write(const farm_run *run, const char *name, const char *text, facet_error *error)
 {
-    char path[PATH_MAX];
+    char path[FARM_PATH_SIZE];
     snprintf(path, sizeof path, "%s/%s", run->folder, name);
     return file_replace(path, text, strlen(text), error);
 }

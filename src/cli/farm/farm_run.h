@@ -15,6 +15,8 @@
 #include <jansson.h>
 #include <stdint.h>
 
+enum { FARM_PATH_SIZE = 4096 };
+
 /* {0} initially. */
 typedef struct farm_run {
     char *folder; /* absolute */

@@ -57,19 +57,23 @@ void farm_script_command(const farm_script *s, const char *shard, const char *re
 {
     farm_script_add_word(out, s->program);
     text_addf(out, " %s --shard %s/%u", s->command->verb->name, shard, s->shard_count);
-    if (!farm_command_has_threads(s->command))
+    bool is_catalog = farm_command_is_catalog(s->command);
+    if (farm_command_lacks(s->command, is_catalog ? "jobs" : "threads"))
         text_addf(out, " -j %u", s->cpu_count);
-    if (s->command->merged) {
+    if (s->memory_bytes && farm_command_lacks(s->command, "max-memory")) /* exit code 7 instead of a kill */
+        text_addf(out, " --max-memory %.0fM",
+                  floor(0.9 * (double)s->memory_bytes / (1 << 20) / (is_catalog ? s->cpu_count : 1)));
+    if (s->command->merge_option_count) {
         text_add(out, " -o");
         add_file(s, "parts/{shard}.exr", out);
     }
-    if (farm_command_is_catalog(s->command))
+    if (is_catalog)
         text_addf(out, " --resume --results %s.jsonl", results);
     else
         text_add(out, " --json");
     for (size_t i = 0; i < s->command->word_count; i++)
         add_word(out, s->command->words[i]);
-    if (!farm_command_is_catalog(s->command))
+    if (!is_catalog)
         text_addf(out, " >%s.json", results);
 }
 
@@ -140,11 +144,15 @@ void farm_script_finish(const farm_script *s, text *out)
                   "#SBATCH --requeue --open-mode=append --output=log/finish.log\n");
     add_place(s, out);
     text_add(out, "code=0\n");
-    if (s->command->merged) {
+    if (s->command->merge_option_count) {
         add_assignment(out, "run", s->folder);
         farm_script_add_word(out, s->program);
-        text_add(out, " merge \"$run\"/parts/*.exr -o");
-        add_word(out, s->command->merged);
+        text_add(out, " merge \"$run\"/parts/*.exr");
+        for (size_t i = 0; i < s->command->merge_option_count; i++) {
+            const option *o = s->command->merge_options[i];
+            text_addf(out, " --%s=", o->name);
+            farm_script_add_word(out, s->command->line.values[o->id].text);
+        }
         text_add(out, " || code=$?\n");
     }
     farm_script_add_word(out, s->program);

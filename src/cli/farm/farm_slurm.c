@@ -55,8 +55,11 @@ static facet_result submit(const farm_run *run, const char *own, const char *scr
     const char *words[MAX_WORDS] = {"sbatch", "--parsable", own};
     size_t count = 3, index;
     json_t *option;
-    json_array_foreach(json_object_get(run->root, "sbatch"), index, option) if (count < MAX_WORDS - 2)
-        words[count++] = json_string_value(option);
+    json_array_foreach(json_object_get(run->root, "sbatch"), index, option)
+    {
+        if (count < MAX_WORDS - 2 && json_is_string(option))
+            words[count++] = json_string_value(option);
+    }
     words[count] = script;
     char *output = NULL;
     TRY(farm_program_run(words, run->folder, false, 0, &output, error));
@@ -103,9 +106,12 @@ static bool is_array_of(const farm_run *run, const char *id)
 {
     size_t index;
     json_t *job;
-    json_array_foreach(json_object_get(run->root, "jobs"), index,
-                       job) if (strcmp(json_string_value(json_object_get(job, "array")), id) ==
-                                0) return true;
+    json_array_foreach(json_object_get(run->root, "jobs"), index, job)
+    {
+        const char *array = json_string_value(json_object_get(job, "array"));
+        if (array && strcmp(array, id) == 0)
+            return true;
+    }
     return false;
 }
 
@@ -138,7 +144,11 @@ void farm_slurm_history(const farm_run *run, void (*add)(void *user, uint32_t sh
     size_t index;
     json_t *job;
     json_array_foreach(json_object_get(run->root, "jobs"), index, job)
-        text_addf(&ids, "%s%s", index ? "," : "", json_string_value(json_object_get(job, "array")));
+    {
+        const char *array = json_string_value(json_object_get(job, "array"));
+        if (array)
+            text_addf(&ids, "%s%s", ids.length ? "," : "", array);
+    }
     if (ids.length && !ids.has_failed &&
         farm_program_run(WORDS("sacct", "-n", "-X", "-P", "-o", "JobID,State", "-j", ids.data), "/", true, 0,
                          &output, &error) == FACET_OK)

@@ -5,7 +5,6 @@
 #include "cli/shared/failure.h"
 #include "cli/shared/shard.h"
 
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -112,7 +111,7 @@ static void add_history(void *user, uint32_t index, const char *state)
 
 static void read_shard(const farm_run *run, uint32_t index, farm_status *s)
 {
-    char path[PATH_MAX];
+    char path[FARM_PATH_SIZE];
     farm_shard *part = &s->shards[index];
     bool is_catalog = farm_run_is_catalog(run);
     snprintf(path, sizeof path, "%s/results/%u.json%s", run->folder, index, is_catalog ? "l" : "");

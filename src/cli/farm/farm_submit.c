@@ -183,7 +183,7 @@ facet_result farm_submission_prepare(farm_submission *s, farm_run *run, facet_er
 
 facet_result farm_submission_print(farm_submission *s, facet_error *error)
 {
-    char folder[PATH_MAX + 256];
+    char folder[FARM_PATH_SIZE + 256];
     const char *given = option_text(s->line, OPT_RUN, FARM_DEFAULT_FOLDER);
     snprintf(folder, sizeof folder, "%s%s%s", *given == '/' ? "" : s->place, *given == '/' ? "" : "/", given);
     s->script.folder = folder;

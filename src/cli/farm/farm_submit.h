@@ -6,8 +6,6 @@
 #include "cli/farm/farm_script.h"
 #include "cli/farm/farm_size.h"
 
-#include <limits.h>
-
 #define FARM_DEFAULT_FOLDER "facet-run"
 
 /* {0} initially. */
@@ -17,7 +15,7 @@ typedef struct farm_submission {
     farm_items items; /* of a catalog */
     farm_script script;
     double target_s;
-    char program[PATH_MAX], place[PATH_MAX];
+    char program[FARM_PATH_SIZE], place[FARM_PATH_SIZE];
 } farm_submission;
 
 /* Reads the options and the command, and counts the items of a catalog. */
