@@ -23,9 +23,8 @@ typedef struct merging {
     const facet_merge_desc *desc;
     part_entry *parts; /* part_count of them so far, in the order of the paths */
     uint32_t part_count;
-    film layers;          /* as the parts have them: sums, or the image, and the other AOVs */
-    path_film *sums;      /* NULL: of another renderer */
-    path_film *read_sums; /* of one part; that of sums where parts are tiles */
+    /* of path tracing, where finishing needs the whole image or all samples; else NULL */
+    path_film *sums, *one; /* of all parts, of one part by samples */
 } merging;
 
 static facet_result read_header(const merging *m, const char *path, part_header *out, facet_error *error)
@@ -143,87 +142,150 @@ static facet_result find_parts(merging *m, const char *const *paths, size_t path
 
 /* ---- values ---- */
 
-/* Creates the film that parts are read into. */
-static facet_result create_films(merging *m, film *target, facet_error *error)
+/* The layers of a film into which the values of parts are read, with the sums in place of those that are made of them. */
+static film list_places(const film *f, const path_film *sums)
 {
-    const part_header *h = &m->parts[0].header;
-    const facet_part_info *p = &h->info;
-    const facet_allocator *allocator = &m->desc->allocator;
-    bool is_path = renderer_get(h->renderer)->info.features & FACET_RENDERER_FEATURE_PATH;
-    TRY(film_create(allocator, p->width, p->height, h->aovs, target, error));
-    if (is_path)
-        TRY(path_film_create(allocator, p->width, p->height, h->has_ground, &m->sums, error));
-    m->read_sums = m->sums;
-    if (p->split == FACET_PART_SPLIT_SAMPLES)
-        TRY(path_film_create(allocator, p->width, p->height, h->has_ground, &m->read_sums, error));
-    m->layers = (film){.width = p->width, .height = p->height};
-    for (uint32_t i = 0; i < target->layer_count; i++)
-        if (!is_path || i == 0 || !path_film_makes_layer(target->layers[i].name))
-            m->layers.layers[m->layers.layer_count++] = target->layers[i];
-    if (is_path)
-        m->layers.layer_count +=
-            path_film_list_layers(m->read_sums, m->layers.layers + m->layers.layer_count);
-    return FACET_OK;
+    film places = {.width = f->width, .height = f->height};
+    for (uint32_t i = 0; i < f->layer_count; i++)
+        if (!sums || i == 0 || !path_film_makes_layer(f->layers[i].name))
+            places.layers[places.layer_count++] = f->layers[i];
+    if (sums)
+        places.layer_count += path_film_list_layers(sums, places.layers + places.layer_count);
+    return places;
 }
 
-static facet_result check_values(const part_entry *part, const film *read, const uint32_t rectangle[4],
-                                 facet_error *error)
+/* Reads the values of a part into a rectangle. */
+static facet_result read_values(const merging *m, const part_entry *part, const film *to, const uint32_t r[4],
+                                facet_error *error)
 {
+    image_channel channels[FILM_MAX_LAYERS * 4 + PATH_FILM_MAX_CHANNELS];
+    uint32_t count = 0;
     char digest[17];
-    snprintf(digest, sizeof digest, "%016" PRIx64, part_digest(read, rectangle));
+    file_bytes file;
+    for (uint32_t i = 0; i < to->layer_count; i++) {
+        film_layer l = to->layers[i];
+        l.pixels += ((size_t)r[1] * to->width + r[0]) * l.channel_count;
+        count += film_layer_list_channels(&l, to->width, channels + count);
+    }
+    TRY(file_open(part->path, 0, &m->desc->allocator, &file, error));
+    facet_result result = image_read_exr_channels(file.data, file.size, part->path, &m->desc->allocator, r[2],
+                                                  r[3], channels, count, error);
+    file_close(&file);
+    if (result != FACET_OK)
+        return result;
+    snprintf(digest, sizeof digest, "%016" PRIx64, part_digest(to, r));
     if (strcmp(digest, part->header.info.digest) != 0)
         return fail(error, FACET_ERROR_INVALID,
                     "%s: the part is damaged: its values differ from those that were written", part->path);
     return FACET_OK;
 }
 
-/* Reads the values of a part into its rectangle of the layers. */
-static facet_result read_tile(merging *m, const part_entry *part, const file_bytes *file, facet_error *error)
+static facet_result read_sums(const merging *m, const part_entry *part, const film *f, path_film *sums,
+                              facet_error *error)
 {
-    image_channel channels[FILM_MAX_LAYERS * 4 + PATH_FILM_MAX_CHANNELS];
-    const uint32_t *r = part->header.info.rectangle;
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < m->layers.layer_count; i++) {
-        film_layer l = m->layers.layers[i];
-        l.pixels += ((size_t)r[1] * m->layers.width + r[0]) * l.channel_count;
-        count += film_layer_list_channels(&l, m->layers.width, channels + count);
-    }
-    TRY(image_read_exr_channels(file->data, file->size, part->path, &m->desc->allocator, r[2], r[3], channels,
-                                count, error));
-    return check_values(part, &m->layers, r, error);
+    const film to = list_places(f, sums);
+    TRY(read_values(m, part, &to, (const uint32_t[]){0, 0, f->width, f->height}, error));
+    path_film_set_dropped(sums, part->header.dropped);
+    return path_film_is_sound(sums) ? FACET_OK
+                                    : fail(error, FACET_ERROR_INVALID,
+                                           "%s: the part is damaged: it holds no valid sums", part->path);
 }
 
-static facet_result read_part(merging *m, const part_entry *part, facet_error *error)
+/* ---- tiles that are finished one by one ---- */
+
+static void copy_tile(const film *tile, const uint32_t r[4], film *to)
 {
-    file_bytes file;
-    TRY(file_open(part->path, 0, &m->desc->allocator, &file, error));
-    facet_result result = read_tile(m, part, &file, error);
-    file_close(&file);
-    if (result != FACET_OK || m->read_sums == m->sums)
-        return result;
-    return path_film_is_sound(m->read_sums) && path_film_add_film(m->sums, m->read_sums)
+    for (uint32_t i = 0; i < tile->layer_count; i++) {
+        size_t texel = tile->layers[i].channel_count;
+        for (uint32_t y = 0; y < tile->height; y++)
+            memcpy(to->layers[i].pixels + ((size_t)(r[1] + y) * to->width + r[0]) * texel,
+                   tile->layers[i].pixels + (size_t)y * tile->width * texel,
+                   tile->width * texel * sizeof(float));
+    }
+}
+
+/* Without denoising pixels are finished independently of each other: only the sums of one tile are in memory. */
+static facet_result finish_tile(const merging *m, const part_entry *part, const facet_render_desc *finishing,
+                                film *target, facet_render_stats *stats, facet_error *error)
+{
+    const part_header *h = &part->header;
+    const uint32_t *r = h->info.rectangle;
+    film tile = {.width = 0};
+    path_film *sums = NULL;
+    facet_result result = film_create(&m->desc->allocator, r[2], r[3], h->aovs, &tile, error);
+    if (result == FACET_OK)
+        result = path_film_create(&m->desc->allocator, r[2], r[3], h->has_ground, &sums, error);
+    if (result == FACET_OK)
+        result = read_sums(m, part, &tile, sums, error);
+    if (result == FACET_OK) {
+        stats->samples += path_film_total_samples(sums);
+        stats->dropped_samples += path_film_dropped(sums);
+        result = path_film_finish(sums, finishing, &tile, &stats->denoise_s, error);
+    }
+    if (result == FACET_OK)
+        copy_tile(&tile, r, target);
+    path_film_destroy(sums);
+    film_destroy(&tile);
+    return result;
+}
+
+/* ---- all parts ---- */
+
+/* Reads the sums of a tile to their place in those of the image, or adds samples. */
+static facet_result add_sums(const merging *m, const part_entry *part, const film *target, facet_error *error)
+{
+    if (part->header.info.split == FACET_PART_SPLIT_TILES) {
+        const film to = list_places(target, m->sums);
+        path_film_set_dropped(m->sums, path_film_dropped(m->sums) + part->header.dropped);
+        return read_values(m, part, &to, part->header.info.rectangle, error);
+    }
+    TRY(read_sums(m, part, target, m->one, error));
+    return path_film_add_film(m->sums, m->one)
                ? FACET_OK
-               : fail(error, FACET_ERROR_INVALID, "%s: the part is damaged: it holds no valid sums",
+               : fail(error, FACET_ERROR_INVALID, "%s: the part is damaged: its pixels have too many samples",
                       part->path);
 }
 
-static facet_result read_parts(merging *m, facet_error *error)
+static facet_result create_sums(merging *m, facet_error *error)
+{
+    const part_header *h = &m->parts[0].header;
+    const facet_part_info *p = &h->info;
+    const facet_allocator *allocator = &m->desc->allocator;
+    TRY(path_film_create(allocator, p->width, p->height, h->has_ground, &m->sums, error));
+    return p->split == FACET_PART_SPLIT_SAMPLES
+               ? path_film_create(allocator, p->width, p->height, h->has_ground, &m->one, error)
+               : FACET_OK;
+}
+
+static facet_result finish_sums(const merging *m, const facet_render_desc *finishing, film *target,
+                                facet_render_stats *stats, facet_error *error)
+{
+    if (!path_film_is_sound(m->sums))
+        return fail(error, FACET_ERROR_INVALID, "%s: the parts are damaged: they hold no valid sums",
+                    m->parts[0].path);
+    stats->samples = path_film_total_samples(m->sums);
+    stats->dropped_samples = path_film_dropped(m->sums);
+    return path_film_finish(m->sums, finishing, target, &stats->denoise_s, error);
+}
+
+static facet_result read_parts(merging *m, const facet_render_desc *finishing, film *target,
+                               facet_render_stats *stats, facet_error *error)
 {
     const facet_progress *progress = &m->desc->progress;
-    uint64_t dropped = 0;
+    const part_header *h = &m->parts[0].header;
+    const film pixels = list_places(target, NULL);
+    bool is_path = renderer_get(h->renderer)->info.features & FACET_RENDERER_FEATURE_PATH;
+    if (is_path && (h->denoises || h->info.split == FACET_PART_SPLIT_SAMPLES))
+        TRY(create_sums(m, error));
     for (uint32_t i = 0; i < m->part_count; i++) {
-        TRY(read_part(m, &m->parts[i], error));
-        dropped += m->parts[i].header.dropped;
+        const part_entry *part = &m->parts[i];
+        TRY(m->sums   ? add_sums(m, part, target, error)
+            : is_path ? finish_tile(m, part, finishing, target, stats, error)
+                      : read_values(m, part, &pixels, part->header.info.rectangle, error));
         if (progress->report && !progress->report(progress->user, "merge", (i + 1.0) / m->part_count))
             return fail(error, FACET_ERROR_CANCELLED, "merging was cancelled");
     }
-    if (!m->sums)
-        return FACET_OK;
-    path_film_set_dropped(m->sums, dropped);
-    return path_film_is_sound(m->sums)
-               ? FACET_OK
-               : fail(error, FACET_ERROR_INVALID, "%s: the parts are damaged: they hold no valid sums",
-                      m->parts[0].path);
+    return m->sums ? finish_sums(m, finishing, target, stats, error) : FACET_OK;
 }
 
 /* ---- texts that the image has, too ---- */
@@ -241,9 +303,10 @@ static facet_result copy_text(const merging *m, const file_bytes *file, const ch
         if (!value)
             return fail_memory(error, "metadata", size);
         result = image_read_exr_text(file->data, file->size, m->parts[0].path, name, value, size, error);
-        if (result == FACET_OK)
-            TRY(film_add_text(target, name, value, &m->desc->allocator, error));
+        facet_result added =
+            result == FACET_OK ? film_add_text(target, name, value, &m->desc->allocator, error) : FACET_OK;
         mem_free(value);
+        TRY(added);
     } while (result != FACET_OK && size < file->size && size < MAX_TEXT);
     return result;
 }
@@ -288,14 +351,10 @@ static facet_result merge(merging *m, const char *const *paths, size_t path_coun
 {
     TRY(find_parts(m, paths, path_count, error));
     const facet_render_desc finishing = finishing_of(m);
-    TRY(create_films(m, target, error));
-    TRY(read_parts(m, error));
+    const part_header *h = &m->parts[0].header;
+    TRY(film_create(&m->desc->allocator, h->info.width, h->info.height, h->aovs, target, error));
+    TRY(read_parts(m, &finishing, target, stats, error));
     TRY(copy_texts(m, target, error));
-    if (m->sums) {
-        stats->samples = path_film_total_samples(m->sums);
-        stats->dropped_samples = path_film_dropped(m->sums);
-        TRY(path_film_finish(m->sums, &finishing, target, &stats->denoise_s, error));
-    }
     film_develop(target, &finishing);
     return FACET_OK;
 }
@@ -306,8 +365,7 @@ facet_result part_merge(const char *const *paths, size_t path_count, const facet
     merging m = {.desc = desc};
     *out = (film){.width = 0};
     facet_result result = merge(&m, paths, path_count, out, stats, error);
-    if (m.read_sums != m.sums)
-        path_film_destroy(m.read_sums);
+    path_film_destroy(m.one);
     path_film_destroy(m.sums);
     mem_free(m.parts);
     if (result != FACET_OK)
