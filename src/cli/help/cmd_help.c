@@ -39,6 +39,7 @@ static const struct {
     {"compare.md", "image metrics: FLIP, SSIM, limits for tests"},
     {"serve.md", "rendering for web servers, programs and agents: HTTP, JSON-RPC, MCP"},
     {"inspect.md", "the JSON of facet inspect"},
+    {"parts.md", "one image in parts: tiles, samples, frames, and merging them"},
     {"farm.md", "many machines: shards, Slurm and other engines"},
     {"view.md", "the window: keys, mouse, scripts; web pages"},
     {"shaders.md", "the shader library as GLSL for other renderers"},
