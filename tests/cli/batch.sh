@@ -84,6 +84,9 @@ expect 0 batch --manifest jobs.jsonl --results m.jsonl -o 'm/{stem}.png' --resum
 sh -c "$(sed "s|^facet|'$facet'|" out)" && [ -s m/b.png ] || failed "the printed command fails: $(cat out)"
 expect 0 batch --manifest jobs.jsonl --results m.jsonl -o 'm/{stem}.png' --verify -- $tiny
 
+echo '{"input":"models/sub/c.gltf","output":"d/{dir}.png"}' | "$facet" batch --manifest - -q -- $tiny
+[ -s d/models/sub.png ] || failed "{dir} of an item of a manifest"
+
 # Items run as they come.
 mkfifo stream
 "$facet" batch --manifest - -o 'stream/{stem}.png' -- $tiny <stream 2>err &
@@ -148,7 +151,7 @@ echo '{}' >models/package.json
 expect 1 batch --manifest jobs.jsonl --gallery pages/all.html --resume -q -- $tiny
 [ "$(grep -c '<img loading="lazy" src="../all/' pages/all.html)" = 10 ] || failed "images of the gallery"
 grep -qF '<b>bad &lt;one&gt;.png</b>' pages/all.html || failed "failures of the gallery"
-grep -qF '10 done, 1 failed, 0 not made yet' pages/all.html || failed "the head of the gallery"
+grep -qF '10 done, 1 failed</p>' pages/all.html || failed "the head of the gallery"
 
 # ---- usage ----
 
@@ -157,6 +160,8 @@ expect 2 batch models -o -
 says "items cannot share standard output"
 expect 2 batch models -o '{stem}_{what}.png'
 says "{what} is not a placeholder"
+expect 2 batch models --size 256
+says "--size is an option of facet render; options of all items stand after --"
 expect 2 batch models -- --sise 3
 says "unknown option --sise; did you mean --size?"
 expect 2 batch models -- --size 3 models/a.gltf

@@ -148,12 +148,14 @@ static void assemble(const gallery *g, const batch_survey *s, text *page)
                    "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">"
                    "<title>facet batch</title><style>");
     text_add(page, style);
-    text_addf(page,
-              "</style></head>\n<body><h1>facet batch</h1>\n<p>%" PRIu64 " done, %" PRIu64 " failed, %" PRIu64
-              " not made yet</p>\n",
-              s->done, s->failed, s->missing);
+    text_addf(page, "</style></head>\n<body><h1>facet batch</h1>\n<p>%" PRIu64 " done", s->done);
+    if (s->failed)
+        text_addf(page, ", %" PRIu64 " failed", s->failed);
+    if (s->missing)
+        text_addf(page, ", %" PRIu64 " not made yet", s->missing);
+    text_add(page, "</p>\n");
     if (g->failures.length) {
-        text_add(page, "<h2>Not there</h2>\n<ul>\n");
+        text_add(page, "<h2>Failed or missing</h2>\n<ul>\n");
         text_add_bytes(page, g->failures.data, g->failures.length);
         text_add(page, "</ul>\n");
     }

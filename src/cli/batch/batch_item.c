@@ -5,6 +5,7 @@
 #include "base/hash.h"
 #include "cli/shared/failure.h"
 #include "cli/shared/input.h"
+#include "cli/shared/model_list.h"
 #include "cli/shared/value.h"
 
 #include <stdarg.h>
@@ -265,8 +266,13 @@ static void compose(const batch_plan *plan, batch_item *item, const model_name *
     if (job_options_add(&item->words, item->verb, item->source, own_members, item->place, &error) != FACET_OK)
         set_problem(item, "%s", error.message);
     add_inputs(item, &item->words);
+    char folder[BATCH_NAME_SIZE];
     model_name named = *model;
     named.path = item->name ? item->name : "";
+    if (strlen(named.path) < sizeof folder) {
+        model_folder(named.path, folder);
+        named.folder = folder;
+    }
     const json_t *output = json_object_get(item->source, "output");
     if (output && !json_is_string(output))
         set_problem(item, "%s: output: the name of a file was expected", item->place);

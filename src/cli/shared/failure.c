@@ -17,7 +17,7 @@ const exit_meaning exit_meanings[] = {
     {"7", "a limit is reached: memory, time, size of a texture or file"},
     {"8", "the machine lacks something"},
     {"70", "a bug in facet"},
-    {"75", "interrupted by SIGTERM; run it again"},
+    {"75", "there is more to do: interrupted by SIGTERM, or the machine is suspect; run it again"},
     {"128+N", "killed by signal N"},
     {NULL, NULL},
 };

@@ -135,21 +135,27 @@ static facet_result add_folder(folder_walk *w, const char *path, const char *bel
     return result;
 }
 
-/* The folder of a file for {dir}: without ".." and the root, so that outputs stay below their place. */
-static facet_result add_file(model_list *list, const char *path, facet_error *error)
+void model_folder(const char *path, char *folder)
 {
-    size_t size = strlen(path) + 1, used = 0;
-    char *folder = malloc(size);
-    if (!folder)
-        return fail_memory(error, "names of models", 0);
+    size_t used = 0;
     for (const char *part = path, *slash; (slash = strchr(part, '/')); part = slash + 1) {
         size_t length = (size_t)(slash - part);
-        bool is_dots = length <= 2 && strncmp(part, "..", length) == 0; /* "", ".", ".." */
-        if (!is_dots)
-            used +=
-                (size_t)snprintf(folder + used, size - used, "%s%.*s", used ? "/" : "", (int)length, part);
+        if (length <= 2 && strncmp(part, "..", length) == 0) /* "", ".", ".." */
+            continue;
+        if (used)
+            folder[used++] = '/';
+        memcpy(folder + used, part, length);
+        used += length;
     }
     folder[used] = 0;
+}
+
+static facet_result add_file(model_list *list, const char *path, facet_error *error)
+{
+    char *folder = malloc(strlen(path) + 1);
+    if (!folder)
+        return fail_memory(error, "names of models", 0);
+    model_folder(path, folder);
     const char *kept = keep(list, folder);
     free(folder);
     return kept ? add(list, path, kept, error) : fail_memory(error, "names of models", 0);

@@ -25,6 +25,10 @@ typedef struct model_list {
 facet_result model_list_create(command_line *c, size_t argument_count, model_list *out, facet_error *error);
 void model_list_destroy(model_list *list); /* {0} is allowed */
 
+/* Writes {dir} of a file to folder, which has room for path: its folder without ".." and the root, so that outputs stay below
+ * their place. */
+void model_folder(const char *path, char *folder);
+
 /* The output of a model. */
 typedef struct output_claim {
     char *identity; /* output_identity() */

@@ -345,6 +345,12 @@ facet_result suggest_option(const verb *v, const char *name, size_t length, face
         return fail(error, FACET_ERROR_ARGUMENT,
                     "--ground is an option of facet render; in a sea the water and its bed are the ground "
                     "(--depth, --bed-color)");
+    if (strcmp(v->name, "batch") == 0 && option_find(verb_find("render"), folded, strlen(folded)))
+        return fail(
+            error, FACET_ERROR_ARGUMENT,
+            "--%s is an option of facet render; options of all items stand after --, as in facet batch "
+            "models/ -o '{stem}.png' -- --%s",
+            folded, folded);
     if (owner)
         return fail(error, FACET_ERROR_ARGUMENT, "--%s is an option of facet %s, not of facet %s", folded,
                     owner->name, v->name);
