@@ -43,7 +43,7 @@ expect 2 render --wind 5
 says "--wind is an option of facet ocean, not of facet render"
 expect 2 render --exposure auto --shading ogl1 -o x.png
 says "--exposure: --shading ogl1 produces display values, which auto cannot meter"
-expect 2 render --shard 1/2
+expect 2 render --material-override x.json
 says "does not have it yet"
 expect 2 render --size 12y
 says "--size: \"12y\" is not WIDTHxHEIGHT"
