@@ -127,7 +127,7 @@ static void test_mistakes(void **state)
     expect_sentence(PARSE("--expos", "1"), "did you mean --exposure?");
     expect_sentence(PARSE("--wind", "5"), "--wind is an option of facet ocean, not of facet render");
     expect_sentence(PARSE("--zzzzzz"), "facet help render");
-    expect_sentence(PARSE("--shard"), "does not have it yet");
+    expect_sentence(PARSE("--material-override"), "does not have it yet");
     expect_sentence(PARSE("-w640"), "--size 640x480");
     expect_sentence(PARSE("-Z"), "unknown option -Z");
     expect_sentence(PARSE("-size", "64"), "did you mean --size?");
