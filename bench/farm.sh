@@ -8,16 +8,16 @@
 # does: the next one to the first node that is free. Within a shard, workers take items as they come.
 #
 #     models=1000000     items of the catalog
-#     item_s=0.07        mean cost of an item, core seconds
+#     item_s=0.062       mean cost of an item, core seconds
 #     spread=1.6         standard deviation of that cost over its mean
 #     nodes=1000 cores=1 of the cluster, and of a node; a shard takes a node
 #     target_s=180       --target-time
 #     max_shards=1001    MaxArraySize
 #     node_share=0.95    speed of a core while all cores of its node work, relative to one alone
-#     start_s=0.3        start of a shard: facet batch, its environment and tables
+#     start_s=0.1        start of a shard: facet batch, its environment and tables
 #     element_s=1.7      an element of an array: prolog, srun, epilog, the scheduler's round
 #     rate=100           elements that Slurm starts in a second
-#     store_s=0.0006     of an item, per core: result, fsync, rename, on a shared file system
+#     store_s=0.001      of an item beside its work, per core: fork, report, fsync, rename
 #     lost=1             nodes lost during the run; noticed after lost_s=300, as SlurmdTimeout is
 #     finish_s=10        the job after the array: facet farm status over all results
 #     seed=1
@@ -51,9 +51,9 @@ function sift(i,   child, t) { # a heap of the times at which nodes are free
     }
 }
 BEGIN {
-    v["models"] = 1e6; v["item_s"] = 0.07; v["spread"] = 1.6; v["nodes"] = 1000; v["cores"] = 1; v["target_s"] = 180
-    v["max_shards"] = 1001; v["node_share"] = 0.95; v["start_s"] = 0.3; v["element_s"] = 1.7; v["rate"] = 100
-    v["store_s"] = 0.0006; v["lost"] = 1; v["lost_s"] = 300; v["finish_s"] = 10; v["seed"] = 1
+    v["models"] = 1e6; v["item_s"] = 0.062; v["spread"] = 1.6; v["nodes"] = 1000; v["cores"] = 1; v["target_s"] = 180
+    v["max_shards"] = 1001; v["node_share"] = 0.95; v["start_s"] = 0.1; v["element_s"] = 1.7; v["rate"] = 100
+    v["store_s"] = 0.001; v["lost"] = 1; v["lost_s"] = 300; v["finish_s"] = 10; v["seed"] = 1
 }
 {
     for (i = 1; i <= NF; i++) {
@@ -112,7 +112,7 @@ END {
     printf "wall-clock time %.0f s; %.0f s if nothing but items took time\n\n", wall, ideal / nodes
     printf "| where the time of the nodes goes | share |\n| --- | --- |\n"
     printf "| items | %.2f %% |\n", 100 * useful / total
-    printf "| storing outputs and results | %.2f %% |\n", 100 * store / total
+    printf "| fork, report, outputs, results | %.2f %% |\n", 100 * store / total
     printf "| elements of the array | %.2f %% |\n", 100 * shards * v["element_s"] / total
     printf "| start of facet batch | %.2f %% |\n", 100 * shards * v["start_s"] / total
     printf "| cores idle at the end of a shard | %.2f %% |\n", 100 * tails / total
