@@ -114,8 +114,8 @@ static facet_result check_complete(const merging *m, facet_error *error)
 {
     const facet_part_info *whole = &m->parts[0].header.info;
     if (m->part_count < whole->count)
-        return fail(error, FACET_ERROR_ARGUMENT, "%s: it is one of %u parts, of which %u are missing",
-                    m->parts[0].path, whole->count, whole->count - m->part_count);
+        return fail(error, FACET_ERROR_ARGUMENT, "%s: it is one of %u parts, of which only %u are there",
+                    m->parts[0].path, whole->count, m->part_count);
     uint64_t area = 0;
     for (uint32_t i = 0; i < m->part_count; i++)
         area += (uint64_t)m->parts[i].header.info.rectangle[2] * m->parts[i].header.info.rectangle[3];

@@ -112,8 +112,9 @@ static size_t put_name(const render_options *o, const char *rest, int width, boo
 /* Whether an option belongs to one process rather than to its image. */
 static bool is_of_process(option_id id)
 {
-    return option_is_among(id, OPTION_IDS(OPT_OUTPUT, OPT_SHARD, OPT_THREADS, OPT_QUIET, OPT_VERBOSE,
-                                          OPT_JSON, OPT_PROGRESS, OPT_NO_CLOBBER));
+    return option_is_among(id,
+                           OPTION_IDS(OPT_OUTPUT, OPT_SHARD, OPT_THREADS, OPT_QUIET, OPT_VERBOSE, OPT_JSON,
+                                      OPT_PROGRESS, OPT_NO_CLOBBER, OPT_CHECKPOINT, OPT_RESUME));
 }
 
 /* The command that makes a part, with placeholders for its number. */
