@@ -244,6 +244,14 @@ await run({
         server.child.kill('SIGTERM');
         assert.equal(await server.ended, 0);
     },
+    async 'a program that started it and has gone takes it along'() {
+        const server = await start_stdio('-j', '1');
+        server.client.send('render', slow, 1);
+        await wait_for('it to run', async () => (await server.client.call('status')).result.running === 1);
+        server.child.stdout.destroy();
+        server.child.stdin.destroy();
+        assert.equal(await server.ended, 0);
+    },
     async 'slow and silent clients are ended'() {
         const { file, server, connect: open } = await start_socket('v.sock', '--client-timeout', '300ms');
         const half = net.createConnection(file), idle = await open();

@@ -11,8 +11,9 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-/* The slowest client that is waited for, and the most connections. */
-enum { SLOWEST_BYTES_PER_S = 1 << 16, MAX_CONNECTIONS = 128 };
+/* The slowest client that is waited for, the most connections, bodies (of the largest size) that may be on their way in, and
+ * answers on their way out, beyond which no job starts. */
+enum { SLOWEST_BYTES_PER_S = 1 << 16, MAX_CONNECTIONS = 128, MAX_BODIES = 8, MAX_UNSENT_BYTES = 512 << 20 };
 
 /* One request of a connection. */
 typedef struct exchange {
@@ -28,6 +29,7 @@ typedef struct exchange {
     ticket *ticket;
     server_client client;
     http_response response; /* once it is known */
+    size_t unsent_bytes;    /* of the response, counted in http */
 } exchange;
 
 /* A connection of a client, which may carry several requests in turn. */
@@ -44,6 +46,7 @@ struct http {
     http_library library;
     struct MHD_Daemon *daemon;
     connection *connections;
+    uint64_t body_bytes, unsent_bytes; /* of all exchanges */
     int epoll;
     bool is_local; /* reached by this machine only */
     long entry;
@@ -77,8 +80,17 @@ static void on_done(void *user, ticket *t, const answer *a)
     (void)t;
     e->ticket = NULL;
     e->response = http_answer(&e->http->library, a, e->etag, e->is_get);
+    e->unsent_bytes = a->file_count ? a->files[0].size : 0;
+    e->http->unsent_bytes += e->unsent_bytes;
     e->is_suspended = false;
     e->http->library.resume_connection(e->mhd);
+}
+
+/* Whether clients do not read the answers that are there. */
+static bool is_congested(void *user)
+{
+    const exchange *e = user;
+    return e->http->unsent_bytes > MAX_UNSENT_BYTES;
 }
 
 /* The header of a request; NULL: not given. */
@@ -135,11 +147,23 @@ static bool check_head(exchange *e, const char *url, const char *action, answer 
     return e->params != NULL;
 }
 
+/* The body is complete, or not wanted any more. */
+static void forget_body(exchange *e)
+{
+    e->http->body_bytes -= e->body.size;
+    e->body = (request_body){0};
+}
+
 /* Keeps a part of the body. */
 static void add_body(exchange *e, const char *bytes, size_t size)
 {
+    const uint64_t most = server_settings_of(e->http->server)->limits.max_body_bytes * MAX_BODIES;
     if (e->response.response)
         return;
+    if (e->http->body_bytes + size > most) {
+        set_failure(e, ANSWER_BUSY, "the server is busy: other models are on their way; try again");
+        return;
+    }
     if (is_too_large(e, e->body.size + size)) {
         set_failure(e, ANSWER_TOO_LARGE, "the body is larger than the limit (--max-body)");
         return;
@@ -156,6 +180,7 @@ static void add_body(exchange *e, const char *bytes, size_t size)
     }
     memcpy(e->body.bytes + e->body.size, bytes, size);
     e->body.size += size;
+    e->http->body_bytes += size;
     e->connection->deadline += (double)size / SLOWEST_BYTES_PER_S;
 }
 
@@ -168,8 +193,8 @@ static void submit(exchange *e)
         set_failure(e, ANSWER_USAGE, "the body is empty; POST takes the model as body");
         return;
     }
-    e->body = (request_body){0};
-    e->client = (server_client){on_done, e, NULL, TRANSPORT_HTTP};
+    forget_body(e);
+    e->client = (server_client){on_done, e, is_congested, TRANSPORT_HTTP};
     e->ticket = server_submit(e->http->server, e->page.method, e->params, body, &e->client, &refusal);
     if (!e->ticket) {
         e->response = http_answer(&e->http->library, &refusal, NULL, e->is_get);
@@ -288,8 +313,10 @@ static void on_completed(void *user, struct MHD_Connection *mhd, void **context,
     }
     if (e->response.response)
         h->library.destroy_response(e->response.response);
+    h->unsent_bytes -= e->unsent_bytes;
     json_decref(e->params);
     free(e->body.bytes);
+    forget_body(e);
     free(e->etag);
     free(e);
     *context = NULL;
