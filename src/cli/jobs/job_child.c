@@ -32,7 +32,7 @@ static void set_limits(const job_request *job)
 {
     const struct rlimit none = {0, 0};
     setrlimit(RLIMIT_CORE, &none); /* thousands of crashes must not fill the disk */
-    if (job->max_memory_bytes) {
+    if (job->max_memory_bytes && JOB_HAS_FENCE) {
         rlim_t bytes = (rlim_t)(job->max_memory_bytes + job->max_memory_bytes / 4 + fence_extra);
         const struct rlimit fence = {bytes, bytes};
         setrlimit(RLIMIT_DATA, &fence);

@@ -139,6 +139,8 @@ static answer_kind kind_of_end(const job_result *result)
         break;
     }
     bool timed_out = result->message && strstr(result->message, "--time-limit");
+    if (result->exit_code <= EXIT_NEGATIVE && !result->report) /* every verb of a request prints one */
+        return ANSWER_BUG;
     return answer_kind_of(result->exit_code, timed_out);
 }
 
@@ -158,7 +160,8 @@ void request_finish(request *r, job_result *result, answer *out)
     json_decref(renamed(out->report, names));
     if (kind != ANSWER_DONE) {
         answer_fail(out, kind, "%s", result->message ? result->message : "it failed without a message");
-        out->exit_code = result->exit_code;
+        if (result->exit_code > EXIT_NEGATIVE)
+            out->exit_code = result->exit_code;
         rename_in_text(out->message, sizeof out->message, names);
         return;
     }
