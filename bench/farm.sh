@@ -30,9 +30,15 @@ for word; do
     esac
 done
 measured=
+for file in $files; do
+    [ -s "$file" ] || {
+        echo "farm.sh: $file: no results are there" >&2
+        exit 2
+    }
+done
 if [ -n "$files" ]; then
     measured=$(cat $files | jq -r 'select(.status == "done" and .cpu_seconds) | .cpu_seconds' |
-        awk '{ n++; s += $1; q += $1 * $1 } END { m = s / n; printf "item_s=%g spread=%g", m, sqrt(q / n - m * m) / m }')
+        awk '{ n++; s += $1; q += $1 * $1 } END { if (!n) exit; m = s / n; printf "item_s=%g spread=%g", m, sqrt(q / n - m * m) / m }')
 fi
 # The operating point is printed as a table: a row per share of the nodes' time.
 echo $measured $settings | awk '
