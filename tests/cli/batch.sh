@@ -51,6 +51,14 @@ says "batch: 0 done, 1 kept"
 echo >>models/b.gltf
 expect 0 batch models/b.gltf -o 'img/{stem}.png' --resume=content -- $tiny
 says "batch: 1 done, 0 kept"
+# So does another configuration.
+echo '{"ortho":true}' >view.json
+expect 0 batch models/b.gltf -o 'img/{stem}.png' --resume -q -- $tiny --config view.json
+expect 0 batch models/b.gltf -o 'img/{stem}.png' --resume -- $tiny --config view.json
+says "batch: 0 done, 1 kept"
+echo '{"ortho":true,"fov":20}' >view.json
+expect 0 batch models/b.gltf -o 'img/{stem}.png' --resume -- $tiny --config view.json
+says "batch: 1 done, 0 kept"
 expect 2 batch models/b.gltf --resume=bytes
 says '--resume: "bytes" is none of content'
 

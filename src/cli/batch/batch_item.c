@@ -46,6 +46,20 @@ static void digest_text(digest *d, const char *text)
     digest_add(d, text, strlen(text) + 1);
 }
 
+/* The bytes of a file; false: it cannot be read, which its job will report. */
+static bool digest_file(digest *d, const char *path)
+{
+    FILE *file = fopen(path, "rbe");
+    if (!file)
+        return false;
+    unsigned char block[65536];
+    for (size_t n; (n = fread(block, 1, sizeof block, file)) > 0;)
+        digest_add(d, block, n);
+    bool is_good = !ferror(file);
+    fclose(file);
+    return is_good;
+}
+
 /* Options that do not change what is written. */
 static bool is_indifferent(option_id id)
 {
@@ -72,21 +86,9 @@ static digest digest_settings(const batch_item *item, const command_line *c)
     }
     for (size_t i = 0; i < c->argument_count; i++)
         digest_text(&d, c->arguments[i]);
+    if (is_given(c, OPT_CONFIG)) /* its options are settings as well */
+        digest_file(&d, option_text(c, OPT_CONFIG, ""));
     return d;
-}
-
-/* The bytes of a file; false: it cannot be read, which its job will report. */
-static bool digest_file(digest *d, const char *path)
-{
-    FILE *file = fopen(path, "rbe");
-    if (!file)
-        return false;
-    unsigned char block[65536];
-    for (size_t n; (n = fread(block, 1, sizeof block, file)) > 0;)
-        digest_add(d, block, n);
-    bool is_good = !ferror(file);
-    fclose(file);
-    return is_good;
 }
 
 /* ---- words ---- */
@@ -110,8 +112,7 @@ static void read_words(const batch_plan *plan, batch_item *item, const command_l
             item->time_limit_s = seconds > 0.0 ? seconds + (seconds > 20.0 ? 0.1 * seconds : 2.0) : 0.0;
     }
     bool is_render = strcmp(item->verb->name, "render") == 0;
-    item->writes_sequence = item->output && (output_name_has_frame(item->output) ||
-                                             output_name_has_type(item->output, "gltf obj"));
+    item->writes_sequence = item->output && output_name_has_frame(item->output);
     item->has_metadata =
         is_render && item->output && !item->writes_sequence && is_image_with_metadata(c, item->output);
 }

@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum {
     MAX_ALONE = 64,         /* items that wait to run alone; with more, they run before the next others */
@@ -18,6 +19,11 @@ enum {
     MAX_START_FAILURES = 30 /* seconds without a process to be had */
 };
 static const double stop_grace_s = 20.0; /* for running items after a signal */
+
+static bool is_stopping(const batch_run *run)
+{
+    return run->stop_time > 0.0;
+}
 
 /* ---- lists ---- */
 
@@ -119,6 +125,17 @@ static void suspect(batch_run *run, const batch_item *item, const job_result *re
     run->is_suspect = run->is_suspect || ++run->suspect_count == SUSPECT_COUNT;
 }
 
+/* Removes the image that path tracing has written when it was interrupted, at whose place a complete one was expected. */
+static void remove_partial(const batch_item *item, const job_result *result)
+{
+    const json_t *image = json_array_get(json_object_get(result->report, "pictures"), 0);
+    bool is_wanted =
+        result->end == JOB_EXITED && (result->exit_code == EXIT_DONE || result->exit_code == EXIT_NEGATIVE);
+    if (!is_wanted && item->output && !item->writes_sequence &&
+        json_is_true(json_object_get(image, "partial")))
+        unlink(item->output);
+}
+
 /* Decides what follows from a result. */
 static facet_result receive(batch_run *run, batch_item *item, job_result *result, facet_error *error)
 {
@@ -126,9 +143,11 @@ static facet_result receive(batch_run *run, batch_item *item, job_result *result
     run->running_alone = NULL;
     if (result->end != JOB_EXITED && item->output)
         batch_remove_temporaries(item->output);
-    bool was_put_back =
-        result->end == JOB_CANCELLED || (run->stop_time > 0.0 && result->exit_code == EXIT_AGAIN);
-    if (was_put_back) {
+    remove_partial(item, result);
+    /* Slurm sends its signals to the items, too */
+    bool was_interrupted =
+        interrupt_signal() && (result->end == JOB_KILLED || result->exit_code == EXIT_AGAIN);
+    if (result->end == JOB_CANCELLED || was_interrupted) {
         batch_item_destroy(item);
         return FACET_OK;
     }
@@ -283,7 +302,7 @@ static bool is_time_for_alone(const batch_run *run)
 
 static facet_result start_items(batch_run *run, facet_error *error)
 {
-    while (!run->stop_time && !run->is_suspect && !run->running_alone && job_pool_has_slot(run->pool)) {
+    while (!is_stopping(run) && !run->is_suspect && !run->running_alone && job_pool_has_slot(run->pool)) {
         batch_item *item = NULL;
         if (!is_time_for_alone(run))
             TRY(find_item(run, &item, error));
@@ -304,7 +323,7 @@ static facet_result start_items(batch_run *run, facet_error *error)
 static double wait_time(const batch_run *run)
 {
     double now = interrupt_clock(), wait = 1.0;
-    bool can_start = job_pool_has_slot(run->pool) && !run->running_alone && !run->stop_time;
+    bool can_start = job_pool_has_slot(run->pool) && !run->running_alone && !is_stopping(run);
     for (const batch_item *item = can_start ? run->later : NULL; item; item = item->next)
         wait = item->due - now < wait ? item->due - now : wait;
     return wait > 0.0 ? wait : 0.0;
@@ -313,7 +332,7 @@ static double wait_time(const batch_run *run)
 static facet_result wait_for_result(batch_run *run, facet_error *error)
 {
     job_result result = {.user = NULL};
-    bool polls = run->is_waiting && job_pool_has_slot(run->pool) && !run->stop_time;
+    bool polls = run->is_waiting && job_pool_has_slot(run->pool) && !is_stopping(run);
     struct pollfd input = {.fd = batch_source_descriptor(run->source), .events = POLLIN};
     bool has_ended = job_pool_wait(run->pool, &input, polls ? 1 : 0, wait_time(run), &result);
     facet_result written = has_ended ? receive(run, result.user, &result, error) : FACET_OK;
@@ -326,13 +345,13 @@ static facet_result wait_for_result(batch_run *run, facet_error *error)
 /* After a signal no item is started, and what runs has a while to end. */
 static void check_signal(batch_run *run)
 {
-    if (interrupt_signal() && run->stop_time == 0.0) {
+    if (interrupt_signal() && !is_stopping(run)) {
         run->stop_time = interrupt_clock();
         if (job_pool_running(run->pool))
             message_at(run->messages, VERBOSITY_NORMAL, "batch: it stops after the %u items that run",
                        job_pool_running(run->pool));
     }
-    if (run->is_suspect || (run->stop_time > 0.0 && interrupt_clock() > run->stop_time + stop_grace_s))
+    if (run->is_suspect || (is_stopping(run) && interrupt_clock() > run->stop_time + stop_grace_s))
         job_pool_cancel_all(run->pool);
 }
 
@@ -340,7 +359,7 @@ static bool has_work(const batch_run *run)
 {
     if (job_pool_running(run->pool))
         return true;
-    return !run->stop_time && !run->is_suspect && (!run->is_at_end || run->later || run->alone);
+    return !is_stopping(run) && !run->is_suspect && (!run->is_at_end || run->later || run->alone);
 }
 
 facet_result batch_run_all(batch_run *run, facet_error *error)
@@ -364,7 +383,7 @@ facet_result batch_run_all(batch_run *run, facet_error *error)
                     "--resume, perhaps "
                     "elsewhere. The last: %s",
                     run->reason);
-    if (result == FACET_OK && run->stop_time > 0.0)
+    if (result == FACET_OK && is_stopping(run))
         return fail(error, FACET_ERROR_CANCELLED, "batch: interrupted; --resume continues");
     return result;
 }
