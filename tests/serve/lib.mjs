@@ -39,9 +39,9 @@ export function make_root() {
 
 export const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 
-// Until condition() holds; fails after 20 s.
+// Until condition() holds; fails after a minute, as machines may be busy.
 export async function wait_for(what, condition) {
-    for (const end = Date.now() + 20000; Date.now() < end; await sleep(5)) {
+    for (const end = Date.now() + 60000; Date.now() < end; await sleep(5)) {
         const value = await condition();
         if (value) return value;
     }
@@ -116,11 +116,11 @@ export const png_size = (bytes) => {
 // An image that takes minutes.
 export const slow = { model: 'tri.gltf', size: '2048', renderer: 'path', samples: 1000000, orbit: '0,75,20%' };
 
-// Runs tests in turn; one that takes longer than a minute fails.
+// Runs tests in turn; one that takes longer than two minutes fails.
 export async function run(tests) {
     make_root();
     for (const [name, test] of Object.entries(tests)) {
-        const timer = setTimeout(() => { console.error(`FAILED: ${name}: it takes too long`); process.exit(1); }, 60000);
+        const timer = setTimeout(() => { console.error(`FAILED: ${name}: it takes too long`); process.exit(1); }, 120000);
         try {
             await test();
         } catch (error) {
