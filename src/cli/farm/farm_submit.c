@@ -128,6 +128,9 @@ static facet_result choose_shard_count(farm_submission *s, bool is_dry, facet_er
     if (most > s->items.count)
         most = s->items.count;
     s->script.shard_count = farm_shard_count(core_seconds, s->target_s, s->script.cpu_count, most);
+    double expected_s = core_seconds / s->script.shard_count / s->script.cpu_count;
+    if (!is_given(s->line, OPT_SHARD_TIME)) /* shards are longer where Slurm allows few */
+        s->script.time_limit_s = fmax(s->script.time_limit_s, 5.0 * expected_s);
     return FACET_OK;
 }
 
