@@ -1,6 +1,6 @@
 #!/bin/sh
-# batch.sh - the measures of docs/batch.md: thumbnails per second and core of facet batch beside separate processes, beside f3d if
-# it is installed, and beside a warm browser; scaling; memory over many items; poison; random kills.
+# batch.sh - the measures of docs/batch.md: thumbnails per second and CPU second of facet batch beside separate processes, and beside
+# f3d if it is installed; scaling; memory over many items; broken items; random kills. docs/serve.md has the browser.
 #     sh bench/batch.sh FACET MODELS rate|scale|flat|poison|kill [COUNT]
 set -eu
 facet=$1 models=$2 what=$3 count=${4:-}

@@ -152,6 +152,9 @@ cat r.0.jsonl r.1.jsonl r.2.jsonl | grep -c '"status":"done"' | grep -qx 10 || f
 expect 0 batch --manifest jobs.jsonl --results 'r.{shard}.jsonl' --verify --json -- $tiny
 grep -qF '"done": 10, "failed": 0, "missing": 0' out || failed "it verifies shards: $(cat out)"
 
+expect 0 batch --manifest jobs.jsonl --resume --progress json -q -- $tiny
+tail -n 1 err | grep -qF '"progress": 1.0000, "total": 10, "done": 0, "kept": 10, "failed": 0' || failed "progress: $(cat err)"
+
 # ---- the gallery ----
 
 line '{"input":"models/package.json","output":"all/bad <one>.png"}'

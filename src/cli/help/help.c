@@ -96,8 +96,10 @@ static void print_basics(FILE *stream, const verb *v)
 
 void help_print_verb(FILE *stream, const verb *v, bool all)
 {
-    fprintf(stream, "facet %s - %s\n\n  facet %s%s%s [options]\n", v->name, v->summary, v->name,
-            *v->arguments ? " " : "", v->arguments);
+    const char *rest = strstr(v->arguments, " [-- "); /* options stand before it */
+    int length = (int)(rest ? rest - v->arguments : (ptrdiff_t)strlen(v->arguments));
+    fprintf(stream, "facet %s - %s\n\n  facet %s%s%.*s [options]%s\n", v->name, v->summary, v->name,
+            *v->arguments ? " " : "", length, v->arguments, rest ? rest : "");
     if (v->basics && !all) {
         print_basics(stream, v);
         return;
