@@ -48,10 +48,16 @@ export async function wait_for(what, condition) {
     assert.fail(`waited in vain for ${what}`);
 }
 
+// What still runs when a test has failed.
+const children = new Set();
+process.on('exit', () => { for (const child of children) child.kill('SIGKILL'); });
+
 // facet serve with options: its process, what it said on standard error, and its end.
 export function start(...options) {
     const child = spawn(facet, ['serve', '--root', root, ...options], { cwd: work });
     const server = { child, log: '' };
+    children.add(child);
+    child.on('close', () => children.delete(child));
     child.stderr.on('data', (text) => { server.log += text; });
     child.stdin.on('error', () => {});
     server.ended = new Promise((resolve) => child.on('close', (code, signal) => resolve(signal ?? code)));
