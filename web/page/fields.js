@@ -53,12 +53,14 @@ export const shortNumber = (value, digits = 6) => String(Number(Number(value).to
 //     limits           [min, max] of the number; default: those of the slider
 //     value            null: infinite
 //     unit             spoken after the value, "degrees"
+//     symbol           of the unit, shown after the label
 //     change(value)    while the slider moves, and when the number was entered
-export function range({ label, min, max, step, value = min, limits = [min, max], unit = '', change }) {
+export function range({ label, min, max, step, value = min, limits = [min, max], unit = '', symbol = '', change }) {
   const slider = element('input', { type: 'range', min, max, step });
   const number = element('input', { type: 'number', min: Number.isFinite(limits[0]) && limits[0], max: Number.isFinite(limits[1]) && limits[1], step: 'any' });
   const root = labelled(label, slider, 'range', number);
   number.setAttribute('aria-label', unit ? `${label}, ${unit}` : label);
+  if (symbol) root.querySelector('label').dataset.unit = symbol;
   const show = (next) => {
     if (next === null) return showInfinite();
     slider.value = next;
