@@ -1,6 +1,7 @@
-// ocean.js - the ocean page: when a frame is drawn and how large, input, the link and the buttons. The sea is C (ocean_module.js).
+// ocean.js - the ocean page: input, the link and the buttons. The sea is C (ocean_module.js); ocean_frames.js draws it.
 import { button, element, icon } from './fields.js';
 import { makeDivider } from './ocean_divider.js';
+import { makeFrames } from './ocean_frames.js';
 import { loadOcean } from './ocean_module.js';
 import { makePanel } from './ocean_panel.js';
 
@@ -13,11 +14,7 @@ const calm = matchMedia('(prefers-reduced-motion: reduce)');
 let ocean = null;
 let panel = null;
 let isPlaying = false;
-let isLost = false;
-let isAsked = false;
-let lastTime = 0; // of the last frame in motion, ms
-let lastChange = 0; // of a setting, ms
-let scale = 1; // drawn pixels per pixel of the screen along an axis, in motion
+let frames = null;
 
 // ---- messages ----
 
@@ -46,58 +43,25 @@ function attempt(f) {
 
 // ---- frames ----
 
-const fullSize = () => {
-  const ratio = window.devicePixelRatio || 1;
-  return [canvas.clientWidth, canvas.clientHeight].map((edge) => Math.max(1, Math.round(edge * ratio)));
-};
-
-function fit(by) {
-  const [width, height] = fullSize().map((edge) => Math.max(1, Math.round(edge * by)));
-  if (canvas.width !== width || canvas.height !== height) {
-    canvas.width = width;
-    canvas.height = height;
-  }
-}
-
-// Frames come apart as far as the machine needs for one: aim at 25 to 50 per second.
-const SLOW_MS = 60;
-const FAST_MS = 30;
-const LEAST_SCALE = 0.2;
-function adapt(ms) {
-  if (ms > SLOW_MS) scale = Math.max(LEAST_SCALE, scale * Math.max(0.6, Math.sqrt(45 / ms)));
-  else if (ms < FAST_MS) scale = Math.min(1, scale * 1.05);
-}
-
-const REST_MS = 250; // after a change the image is drawn coarsely for so long
-function frame(time) {
-  isAsked = false;
-  if (isLost) return;
-  const passed = lastTime ? time - lastTime : 0;
-  const isChanging = performance.now() - lastChange < REST_MS;
-  lastTime = isPlaying || isChanging ? time : 0;
-  if (passed && passed < 3000) adapt(passed);
-  fit(isPlaying || isChanging ? scale : 1);
-  const isDrawn = attempt(() => ocean.draw(canvas.width, canvas.height, divider.value, isPlaying ? Math.min(passed, 1000) / 1000 : 0));
+// What takes long says so.
+function report({ isWaiting, isCompiling, share, isSharp }) {
+  const bar = byId('progress-bar');
   const warning = ocean.takeWarning();
   if (warning) say(warning);
-  if (!isDrawn) return;
-  document.body.dataset.sharp = String(!isPlaying && !isChanging && ocean.isSharp);
-  if (isPlaying || isChanging || !ocean.isSharp) ask();
-}
-
-function ask() {
-  if (isAsked || isLost || !ocean) return;
-  isAsked = true;
-  requestAnimationFrame(frame);
+  byId('progress').hidden = !isWaiting;
+  byId('progress-text').textContent = isCompiling ? 'Preparing the shaders…' : share === null ? 'Drawing…' : 'Refining the image…';
+  if (share === null) bar.removeAttribute('value');
+  else bar.value = share;
+  document.body.dataset.sharp = String(isSharp);
+  stage.setAttribute('aria-busy', String(isWaiting));
 }
 
 function play(is) {
   isPlaying = is;
   playButton.setAttribute('aria-label', is ? 'Pause' : 'Play');
   playButton.replaceChildren(icon(is ? 'pause' : 'play'));
-  lastTime = 0;
   if (!is) settle();
-  ask();
+  frames.turn(is);
 }
 
 // ---- settings, the link ----
@@ -107,20 +71,18 @@ const writeLink = () => history.replaceState(null, '', `#${linkText()}`);
 
 // After a change: the panel shows what is set, the link holds it.
 function settle() {
-  const [width, height] = fullSize();
   const isDivided = ocean.options['before-after'] !== undefined;
   divider.hidden = byId('label-before').hidden = byId('label-now').hidden = !isDivided;
-  panel.refresh(ocean.command(width, height));
+  panel.refresh(ocean.command(...frames.fullSize()));
   clearTimeout(linkTimer);
   linkTimer = setTimeout(writeLink, 200); // browsers limit how often an address may change
 }
 
 function change(f) {
-  lastChange = performance.now();
   showError('');
   attempt(f);
   settle();
-  ask();
+  frames.restart();
 }
 
 const set = (changes) => change(() => {
@@ -174,21 +136,21 @@ async function copy(text, what) {
   }
 }
 
-// Any size, with all samples.
+// The image at rest, once it has all samples; a sea in motion waits for it.
 async function saveImage() {
-  const [width, height] = fullSize();
+  const wasPlaying = isPlaying;
+  play(false);
   say('Drawing the image…');
-  await new Promise((resolve) => setTimeout(resolve, 30));
-  let pixels = null;
-  if (!attempt(() => { pixels = ocean.readImage(width, height, divider.value); })) return;
-  const drawn = element('canvas', { width, height });
-  drawn.getContext('2d').putImageData(new ImageData(pixels, width, height), 0, 0);
-  const blob = await new Promise((resolve) => drawn.toBlob(resolve, 'image/png'));
+  if (!await frames.sharpen()) {
+    say('The image was not saved: the sea moved on.');
+    return;
+  }
+  const blob = await new Promise((resolve) => canvas.toBlob(resolve, 'image/png'));
   const link = element('a', { href: URL.createObjectURL(blob), download: 'sea.png' });
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
   say('Saved as sea.png.');
-  ask();
+  if (wasPlaying) play(true);
 }
 
 function addButtons() {
@@ -198,7 +160,7 @@ function addButtons() {
     return made;
   };
   const made = [
-    labelled('copy', 'Copy command', () => copy(ocean.command(...fullSize()), 'Command')),
+    labelled('copy', 'Copy command', () => copy(ocean.command(...frames.fullSize()), 'Command')),
     labelled('camera', 'Save image', saveImage),
     labelled('share', 'Share', () => {
       writeLink();
@@ -259,16 +221,14 @@ function listenToKeys() {
   });
 }
 
-// The last image stays until the browser gives the context back.
 function listenToLoss() {
   canvas.addEventListener('webglcontextlost', (event) => {
     event.preventDefault();
-    isLost = true;
+    frames.lose();
     ocean.lose();
   });
   canvas.addEventListener('webglcontextrestored', () => {
-    isLost = false;
-    if (attempt(() => ocean.restore())) ask();
+    if (attempt(() => ocean.restore())) frames.restore();
   });
 }
 
@@ -279,6 +239,7 @@ const FIRST = { wind: '8,90', sun: '12,0', heading: '14', 'before-after': '' };
 
 async function start() {
   ocean = await loadOcean(canvas);
+  frames = makeFrames({ canvas, ocean, attempt, report, read: () => ({ divider: divider.value, isPlaying }) });
   panel = makePanel({ set, look, rise, read: () => ({ options: ocean.options, values: ocean.values, state: ocean.state }) });
   panel.setHelp(ocean.help);
   byId('panel').append(panel.root);
@@ -293,19 +254,16 @@ async function start() {
   }
   window.addEventListener('hashchange', () => {
     readLink();
-    lastChange = performance.now();
     settle();
-    ask();
+    frames.restart();
   });
-  new ResizeObserver(ask).observe(canvas);
+  new ResizeObserver(frames.restart).observe(canvas);
   calm.addEventListener('change', () => { if (calm.matches) play(false); });
   say('');
-  scale = 0.5;
-  lastChange = performance.now();
   play(!hasTime && !calm.matches);
   settle();
 }
 
 // For tests and scripts of the page.
-window.oceanPage = { ready: start(), get ocean() { return ocean; }, get isPlaying() { return isPlaying; }, play, set };
+window.oceanPage = { ready: start(), get ocean() { return ocean; }, get frames() { return frames; }, get isPlaying() { return isPlaying; }, play, set };
 window.oceanPage.ready.catch((error) => showError(`The sea could not start: ${error.message}`));

@@ -38,7 +38,11 @@ export async function loadOcean(canvas) {
     get state() { return JSON.parse(take(ocean._facet_ocean_state())); },
     command: (width, height) => take(ocean._facet_ocean_command(width, height)),
     takeWarning: () => ocean.UTF8ToString(ocean._facet_ocean_message()),
-    draw: (width, height, divider, seconds = 0) => check(ocean._facet_ocean_draw(width, height, divider, seconds)),
+    // pixels: about how many; 0: one sample of all.
+    draw: (width, height, divider, seconds, pixels) => check(ocean._facet_ocean_draw(width, height, divider, seconds, pixels)),
+    get isCompiling() { return ocean._facet_ocean_is_compiling() !== 0; },
+    get samples() { return ocean._facet_ocean_samples(); },
+    get wantedSamples() { return ocean._facet_ocean_wanted_samples(); },
     get isSharp() { return ocean._facet_ocean_is_sharp() !== 0; },
     look: (azimuth, elevation) => check(ocean._facet_ocean_look(azimuth, elevation)),
     turn: (dx, dy, height) => check(ocean._facet_ocean_turn(dx, dy, height)),
@@ -47,18 +51,5 @@ export async function loadOcean(canvas) {
     lose: () => ocean._facet_ocean_lose(),
     restore: () => check(ocean._facet_ocean_restore()),
     get memory() { return ocean.HEAPU8.length; },
-    // Any size, every sample: straight RGBA, rows from the top.
-    readImage(width, height, divider) {
-      const out = ocean._malloc(4);
-      try {
-        check(ocean._facet_ocean_read_image(width, height, divider, out));
-        const at = new DataView(ocean.HEAPU8.buffer).getUint32(out, true);
-        const pixels = new Uint8ClampedArray(ocean.HEAPU8.slice(at, at + 4 * width * height).buffer);
-        ocean._free(at);
-        return pixels;
-      } finally {
-        ocean._free(out);
-      }
-    },
   };
 }

@@ -13,6 +13,7 @@
 #include <GLES2/gl2ext.h>
 
 #define GL_CONTEXT_LOST 0x0507
+#define GL_COMPLETION_STATUS_KHR 0x91B1
 #define GL_SAMPLE_ALPHA_TO_ONE 0x809F /* never enabled there: gl_material_has_coverage() */
 #define GL_UPPER_LEFT GL_UPPER_LEFT_EXT
 #define GL_LOWER_LEFT GL_LOWER_LEFT_EXT

@@ -248,6 +248,15 @@ static void bind_names(const gl_program *p)
     }
 }
 
+bool gl_programs_is_ready(gl_programs *programs, gl_program_key key)
+{
+    const gl_program *p = find(programs, key);
+    GLint is_complete = 1;
+    if (p && !p->is_linked && programs->context->has_parallel_compile)
+        glGetProgramiv(p->name, GL_COMPLETION_STATUS_KHR, &is_complete);
+    return is_complete != 0;
+}
+
 facet_result gl_programs_get(gl_programs *programs, gl_program_key key, uint32_t *name, facet_error *error)
 {
     TRY(gl_programs_request(programs, key, error));

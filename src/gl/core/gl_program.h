@@ -140,6 +140,8 @@ void gl_programs_destroy(gl_programs *programs); /* NULL is allowed; the context
 
 /* Starts to compile, in the background where the driver can, so that several programs compile at once. */
 facet_result gl_programs_request(gl_programs *programs, gl_program_key key, facet_error *error);
+/* Whether gl_programs_get() need not wait: false while a requested program is compiled in the background. */
+bool gl_programs_is_ready(gl_programs *programs, gl_program_key key);
 /* Waits for a compiled and linked program and returns its OpenGL name. Samplers and blocks are bound as in
  * gl_blocks.h. Fails with FACET_ERROR_SYSTEM and the compiler's message; the numbered source goes to the log. */
 facet_result gl_programs_get(gl_programs *programs, gl_program_key key, uint32_t *name, facet_error *error);

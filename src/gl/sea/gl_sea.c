@@ -72,7 +72,13 @@ facet_result gl_sea_draw(gl_sea *s, const water_frame *frame, film *target, face
 
 /* ---- a window's frame ---- */
 
-/* Tone-maps the crop of a target into a framebuffer, where the whole image has its lower left corner at (x, y). */
+facet_result gl_sea_request(gl_sea *s, const water_frame *frame, bool *is_ready, facet_error *error)
+{
+    TRY(gl_sea_start(s, error));
+    return gl_sea_image_request(s, frame, is_ready, error);
+}
+
+/* Tone-maps the image's part of a target into a framebuffer, where the whole image has its lower left corner at (x, y). */
 static facet_result show(const gl_sea_image *d, const gl_target *mean, const gl_sea_place *to,
                          facet_error *error)
 {
@@ -88,8 +94,8 @@ static facet_result show(const gl_sea_image *d, const gl_target *mean, const gl_
     glViewport(to->x, to->y, (GLsizei)r->width, (GLsizei)r->height);
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_SCISSOR_TEST);
-    glScissor(to->x + (GLint)r->crop[0], to->y + (GLint)(r->height - r->crop[1] - r->crop[3]),
-              (GLsizei)r->crop[2], (GLsizei)r->crop[3]);
+    glScissor(to->x + (GLint)d->part[0], to->y + (GLint)(r->height - d->part[1] - d->part[3]),
+              (GLsizei)d->part[2], (GLsizei)d->part[3]);
     gl_sea_texture_bind(0, GL_TEXTURE_2D, mean->color);
     glUseProgram(program);
     glBindVertexArray(s->empty_array);
@@ -118,13 +124,20 @@ static facet_result draw_sample(gl_sea_image *d, gl_target *mean, uint32_t pass,
 }
 
 facet_result gl_sea_present(gl_sea *s, const water_frame *frame, gl_target *mean, uint32_t pass,
-                            const gl_sea_place *to, facet_render_stats *stats, facet_error *error)
+                            const uint32_t rows[2], const gl_sea_place *to, facet_render_stats *stats,
+                            facet_error *error)
 {
     double begin = clock_seconds();
-    gl_sea_image d = {.s = s, .frame = frame, .is_clipped = true, .earlier = pass};
+    const uint32_t *crop = frame->desc->crop;
+    gl_sea_image d = {.s = s,
+                      .frame = frame,
+                      .is_clipped = true,
+                      .part = {crop[0], crop[1] + rows[0], crop[2], rows[1]},
+                      .is_continued = rows[0] > 0,
+                      .earlier = pass};
     bool is_complete = pass > 0 && pass >= frame->desc->samples;
     facet_result result = is_complete ? gl_sea_start(s, error) : gl_sea_image_prepare(&d, stats, error);
-    if (result == FACET_OK && !is_complete)
+    if (result == FACET_OK && !is_complete && !d.is_continued)
         result = gl_sea_image_draw_grid(&d, error);
     if (result == FACET_OK && !is_complete)
         result = draw_sample(&d, mean, pass, error);

@@ -26,16 +26,23 @@ void gl_sea_destroy(gl_sea *sea); /* NULL is allowed */
 facet_result gl_sea_draw(gl_sea *sea, const water_frame *frame, film *target, facet_render_stats *stats,
                          facet_error *error);
 
+/* Starts to compile what the frame needs. *is_ready: drawing it waits for no compiler. */
+facet_result gl_sea_request(gl_sea *sea, const water_frame *frame, bool *is_ready, facet_error *error);
+
 /* Where a window shows an image: the framebuffer, and the image's lower left corner in it. */
 typedef struct gl_sea_place {
     uint32_t framebuffer;
     int x, y;
 } gl_sea_place;
 
-/* Shows the crop of desc's image in a window, tone-mapped and sRGB-encoded: sample number `pass` of desc->samples,
- * averaged with the earlier ones of the same frame (after the last one nothing is drawn anew), which are in `mean`. It is the caller's: {0} at first,
- * gl_target_destroy() at last. Fails as gl_sea_draw(). */
+/* Shows rows of the crop of desc's image in a window, tone-mapped and sRGB-encoded: sample number `pass` of
+ * desc->samples, averaged with the earlier ones of the same frame (after the last one nothing is drawn anew), which are in
+ * `mean`. It is the caller's: {0} at first, gl_target_destroy() at last.
+ * rows: the first one, counted from the top of the crop, and their number. Where the first one is not 0, the last call was
+ * for the rows above of the same frame and sample: what the whole image needs is drawn with its first rows.
+ * Fails as gl_sea_draw(). */
 facet_result gl_sea_present(gl_sea *sea, const water_frame *frame, gl_target *mean, uint32_t pass,
-                            const gl_sea_place *to, facet_render_stats *stats, facet_error *error);
+                            const uint32_t rows[2], const gl_sea_place *to, facet_render_stats *stats,
+                            facet_error *error);
 
 #endif

@@ -1,6 +1,8 @@
 /* gl_sea_image.c - see gl_sea_image.h. */
 #include "gl/sea/gl_sea_image.h"
 
+#include <string.h>
+
 #include "base/result.h"
 #include "gl/core/gl_blocks.h"
 #include "ibl/environment.h"
@@ -65,26 +67,48 @@ static const uint64_t BESIDE =
 static const uint64_t LAYERS =
     GL_SEA_IS_BELOW | GL_SEA_HAS_BED | GL_SEA_HAS_FOAM | GL_SEA_HAS_MODEL | GL_SEA_HAS_OTHER_MICROFACETS;
 
+enum { PROGRAMS = 9, IMAGE_PROGRAMS = 6 };
+
+/* The programs of a frame, those of layers last; returns their number. */
+static int list_programs(const water_frame *frame, gl_program_key keys[PROGRAMS])
+{
+    uint64_t features = features_of(frame), layers = (features & LAYERS) | GL_SEA_AOVS;
+    const gl_program_key all[PROGRAMS] = {
+        {GL_MAIN_SEA_GRID, 0},
+        {GL_MAIN_SEA_SURFACE, 0},
+        {GL_MAIN_SEA_CLASS, 0},
+        {GL_MAIN_SEA, features | GL_SEA_HAS_CUBIC},
+        {GL_MAIN_SEA, features},
+        {GL_MAIN_SEA, (features & BESIDE) | GL_SEA_IS_BESIDE},
+        {GL_MAIN_SEA, layers | GL_SEA_HAS_CUBIC},
+        {GL_MAIN_SEA, layers},
+        {GL_MAIN_SEA, (layers & (BESIDE | GL_SEA_AOVS)) | GL_SEA_IS_BESIDE}};
+    memcpy(keys, all, sizeof all);
+    return frame->desc->aovs ? PROGRAMS : IMAGE_PROGRAMS;
+}
+
+facet_result gl_sea_image_request(gl_sea *s, const water_frame *frame, bool *is_ready, facet_error *error)
+{
+    gl_program_key keys[PROGRAMS];
+    int count = list_programs(frame, keys);
+    *is_ready = true;
+    gl_programs_set_log(s->programs, &frame->desc->log);
+    for (int i = 0; i < count; i++)
+        TRY(gl_programs_request(s->programs, keys[i], error));
+    for (int i = 0; i < count; i++)
+        *is_ready &= gl_programs_is_ready(s->programs, keys[i]);
+    return FACET_OK;
+}
+
 static facet_result get_programs(gl_sea_image *d, facet_error *error)
 {
-    uint64_t features = features_of(d->frame), layers = (features & LAYERS) | GL_SEA_AOVS;
-    enum { COUNT = 9, IMAGE_COUNT = 6 };
-    const gl_program_key keys[COUNT] = {{GL_MAIN_SEA_GRID, 0},
-                                        {GL_MAIN_SEA_SURFACE, 0},
-                                        {GL_MAIN_SEA_CLASS, 0},
-                                        {GL_MAIN_SEA, features | GL_SEA_HAS_CUBIC},
-                                        {GL_MAIN_SEA, features},
-                                        {GL_MAIN_SEA, (features & BESIDE) | GL_SEA_IS_BESIDE},
-                                        {GL_MAIN_SEA, layers | GL_SEA_HAS_CUBIC},
-                                        {GL_MAIN_SEA, layers},
-                                        {GL_MAIN_SEA, (layers & (BESIDE | GL_SEA_AOVS)) | GL_SEA_IS_BESIDE}};
-    GLuint *names[COUNT] = {&d->grid,         &d->surface,       &d->sorting,
-                            &d->image.cubic,  &d->image.linear,  &d->image.beside,
-                            &d->layers.cubic, &d->layers.linear, &d->layers.beside};
-    int count = d->frame->desc->aovs ? COUNT : IMAGE_COUNT;
-    gl_programs_set_log(d->s->programs, &d->frame->desc->log);
-    for (int i = 0; i < count; i++)
-        TRY(gl_programs_request(d->s->programs, keys[i], error));
+    gl_program_key keys[PROGRAMS];
+    GLuint *names[PROGRAMS] = {&d->grid,         &d->surface,       &d->sorting,
+                               &d->image.cubic,  &d->image.linear,  &d->image.beside,
+                               &d->layers.cubic, &d->layers.linear, &d->layers.beside};
+    int count = list_programs(d->frame, keys);
+    bool is_ready;
+    TRY(gl_sea_image_request(d->s, d->frame, &is_ready, error));
     for (int i = 0; i < count; i++)
         TRY(gl_programs_get(d->s->programs, keys[i], names[i], error));
     return FACET_OK;
@@ -166,15 +190,14 @@ static void draw_classes(const gl_sea_image *d, const gl_sea_programs *programs)
 
 /* ---- passes ---- */
 
-/* Restricts drawing to the crop. */
-static void clip(const gl_sea_image *d, const gl_target *t)
+/* Restricts drawing to a part of the image, {x, y, width, height}. */
+static void clip(const gl_sea_image *d, const gl_target *t, const uint32_t part[4])
 {
-    const uint32_t *crop = d->frame->desc->crop;
-    uint32_t y = gl_camera_is_top_down(d->s->context) ? crop[1] : t->height - crop[1] - crop[3];
+    uint32_t y = gl_camera_is_top_down(d->s->context) ? part[1] : t->height - part[1] - part[3];
     if (!d->is_clipped)
         return;
     glEnable(GL_SCISSOR_TEST);
-    glScissor((GLint)crop[0], (GLint)y, (GLsizei)crop[2], (GLsizei)crop[3]);
+    glScissor((GLint)part[0], (GLint)y, (GLsizei)part[2], (GLsizei)part[3]);
 }
 
 static void begin_pass(const gl_target *t)
@@ -221,12 +244,12 @@ static void set_frame(const gl_sea_image *d, const gl_view *view)
     gl_sea_set_block(d->s->frame_buffer, GL_BLOCK_FRAME, &block, sizeof block);
 }
 
-/* First which water is visible, then its class, then its shading, or its layers. */
-static void draw_water(const gl_sea_image *d, const gl_sea_programs *programs, const gl_target *target)
+/* Which water is visible. */
+static void draw_seen(const gl_sea_image *d)
 {
     const gl_sea *s = d->s;
     begin_pass(&s->seen);
-    clip(d, &s->seen);
+    clip(d, &s->seen, d->frame->desc->crop);
     gl_camera_begin_depth(s->context);
     glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -238,11 +261,21 @@ static void draw_water(const gl_sea_image *d, const gl_sea_programs *programs, c
     glUseProgram(d->surface);
     gl_sea_mesh_draw(&s->mesh);
     glCullFace(GL_BACK); /* the state other passes expect */
-    glBindTexture(GL_TEXTURE_2D, s->seen.color);
+    gl_camera_end_depth(s->context);
+}
+
+/* First which water is visible, then its class, then its shading, or its layers. */
+static void draw_water(const gl_sea_image *d, const gl_sea_programs *programs, const gl_target *target)
+{
+    const gl_sea *s = d->s;
+    if (!d->is_continued)
+        draw_seen(d);
+    bind_textures(s);
     if (d->has_model)
         (programs == &d->layers ? gl_sea_model_bind_layers : gl_sea_model_bind)(&d->model);
     begin_pass(target);
-    clip(d, target);
+    clip(d, target, d->part);
+    gl_camera_begin_depth(s->context);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_ALWAYS);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE,

@@ -24,9 +24,14 @@ typedef struct gl_sea_image {
     bool has_model;
     GLuint grid, surface, sorting; /* programs */
     gl_sea_programs image, layers;
-    bool is_clipped;  /* to the crop, within a target of the whole image */
-    uint32_t earlier; /* images in the target, with which the next one is averaged */
+    bool is_clipped;   /* to the crop, within a target of the whole image */
+    uint32_t part[4];  /* of the crop, to be shaded: x, y, width, height; where is_clipped is set */
+    bool is_continued; /* the visible water of the crop is known from an earlier part */
+    uint32_t earlier;  /* images in the target, with which the next one is averaged */
 } gl_sea_image;
+
+/* Starts to compile the programs that the frame needs. *is_ready: they are there, or the driver cannot tell. */
+facet_result gl_sea_image_request(gl_sea *s, const water_frame *frame, bool *is_ready, facet_error *error);
 
 /* Gets programs, light, textures and mesh for the frame of d. gl_sea_model_end(&d->model) ends it, also after a
  * failure. */
