@@ -38,28 +38,36 @@ const css = `
 @media (prefers-reduced-motion: reduce) { .bar, .bar.done, .prompt, .hotspot ::slotted(*) { transition: none; } }
 `;
 
-const html = `
-<div class="input cover" part="input" role="img" tabindex="0" aria-label="3D model" aria-roledescription="3D model">
-  <div class="stage"><slot name="canvas"><canvas class="image"></canvas></slot></div>
-</div>
-<div class="poster cover shown"><slot name="poster"><img class="image" alt="" hidden></slot></div>
-<div class="hotspots cover"></div>
-<div class="pan"><slot name="pan-target"><div class="dot"></div></slot></div>
-<div class="prompt cover" aria-hidden="true"><slot name="interaction-prompt"><p part="default-interaction-prompt"></p></slot></div>
-<div class="layer cover"><slot></slot></div>
-<div class="layer cover"><slot name="progress-bar"><div class="bar done" part="default-progress-bar" aria-hidden="true"></div></slot></div>
-<div class="unseen"><span role="status"></span></div>`;
+const tag = (name, attributes, ...children) => {
+  const made = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+  made.append(...children);
+  return made;
+};
+const cover = (name, ...children) => tag('div', { class: `${name} cover` }, ...children);
+const slot = (name, ...children) => tag('slot', { name }, ...children);
+
+// Made node by node: pages that require trusted types refuse markup in a text.
+const makeNodes = () => [
+  tag('div', { class: 'input cover', part: 'input', role: 'img', tabindex: '0', 'aria-label': '3D model', 'aria-roledescription': '3D model' },
+    tag('div', { class: 'stage' }, slot('canvas', tag('canvas', { class: 'image' })))),
+  cover('poster shown', slot('poster', tag('img', { class: 'image', alt: '', hidden: '' }))),
+  cover('hotspots'),
+  tag('div', { class: 'pan' }, slot('pan-target', tag('div', { class: 'dot' }))),
+  tag('div', { class: 'prompt cover', 'aria-hidden': 'true' }, slot('interaction-prompt', tag('p', { part: 'default-interaction-prompt' }))),
+  cover('layer', tag('slot', {})),
+  cover('layer', slot('progress-bar', tag('div', { class: 'bar done', part: 'default-progress-bar', 'aria-hidden': 'true' }))),
+  tag('div', { class: 'unseen' }, tag('span', { role: 'status' })),
+];
 
 const sheet = new CSSStyleSheet();
 sheet.replaceSync(css);
-const template = document.createElement('template');
-template.innerHTML = html;
 
 // The parts of the element's shadow tree by name.
 export function makeTree(element) {
   const root = element.attachShadow({ mode: 'open', delegatesFocus: true });
   root.adoptedStyleSheets = [sheet];
-  root.append(template.content.cloneNode(true));
+  root.append(...makeNodes());
   const find = (selector) => root.querySelector(selector);
   return {
     root,
