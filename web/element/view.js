@@ -21,6 +21,7 @@ export class View {
   #tree;
   #model = null; // {files, path} that is shown
   #options = new Map();
+  #turns = new Map(); // how often an option was set
   #motion = new Map();
   #camera = new Map();
   #comparison = { name: '', position: 0.5 };
@@ -184,6 +185,7 @@ export class View {
   // The value may be the path of a file of the model, or one that was set before: then wait for what is returned.
   setOption(name, text) {
     if (name === 'compare' || name === 'divider') return this.#setComparison(name, text);
+    this.#nextTurn(name);
     if (name === 'shading' && this.path) return this.#setShading(text);
     const entry = text !== null && [...this.files, ...this.#extraFiles].find(({ path }) => path === text);
     if (entry) return this.setOptionFile(name, entry);
@@ -193,10 +195,12 @@ export class View {
     return undefined;
   }
 
-  // The model is read again, and its materials are edited again.
+  // The model is read again, and its materials are edited again; glTF's shading gets the tone mapping again, which OpenGL 1 has not.
   async #setShading(text) {
+    const tone = text === 'ogl1' ? null : this.#options.get('tone-mapping') ?? null;
     await this.#withFiles(this.files, () => this.use((module, viewer) => {
       module.setOption(viewer, 'shading', text);
+      if (tone !== null) module.setOption(viewer, 'tone-mapping', tone);
       for (const [index, values] of this.#materials) module.setMaterial(viewer, index, values);
     }));
     this.#options.set('shading', text);
@@ -220,11 +224,22 @@ export class View {
     return { ...this.query((module, viewer) => module.getOptions(viewer), {}), ...own };
   }
 
+  #nextTurn(name) {
+    const turn = (this.#turns.get(name) ?? 0) + 1;
+    this.#turns.set(name, turn);
+    return turn;
+  }
+
+  // Without effect where the option is set again before the file is read.
   async setOptionFile(name, entry) {
+    const turn = this.#nextTurn(name);
     await engine.start();
-    await this.#withFiles([entry], () => this.use((module, viewer) => module.setOption(viewer, name, entry.path)));
-    this.#options.set(name, entry.path);
-    this.#extraFiles = [...this.#extraFiles.filter(({ path }) => path !== entry.path), entry];
+    await this.#withFiles([entry], () => {
+      if (turn !== this.#turns.get(name)) return;
+      this.use((module, viewer) => module.setOption(viewer, name, entry.path));
+      this.#options.set(name, entry.path);
+      this.#extraFiles = [...this.#extraFiles.filter(({ path }) => path !== entry.path), entry];
+    });
     this.touch();
   }
 
