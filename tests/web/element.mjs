@@ -5,6 +5,7 @@ import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { serve_page } from '../clients/browser.mjs';
 import { cases as camera_cases } from './element_camera.mjs';
+import { cases as hostile_cases } from './element_hostile.mjs';
 import { cases as life_cases } from './element_life.mjs';
 import { cases as model_cases } from './element_model.mjs';
 import { box_model } from './element_models.mjs';
@@ -24,7 +25,9 @@ function contents(url) {
     requests.push(url);
     if (url === '/site/test.html') return { text: page_of(['facet-viewer/facet-viewer.js']) };
     if (url === '/site/both.html') return { text: page_of(['facet-viewer/facet-viewer.js', 'google.js'], "script-src 'self' 'unsafe-eval' 'wasm-unsafe-eval' blob:") };
+    if (url === '/site/trusted.html') return { text: page_of(['facet-viewer/facet-viewer.js'], `${policy}; require-trusted-types-for 'script'; trusted-types 'none'`) };
     if (url === '/site/google.js') return google;
+    if (url === '/site/api/model' || url === '/site/api/the box.bin') return { text: apart('the%20box.bin')[url.includes('.bin') ? 1 : 0] };
     if (url.startsWith('/site/box')) return { text: box_model() };
     if (url === '/site/models/apart.gltf' || url === '/site/buffers/the box.bin') return { text: apart()[url.includes('.bin') ? 1 : 0] };
     if (url === '/site/blue.hdr') return { text: blue_sky() };
@@ -34,10 +37,10 @@ function contents(url) {
     return path.join(dist, url.replace('/site/', ''));
 }
 
-// The box as text and buffer in different folders.
-function apart() {
+// The box as a text and the buffer that it names.
+function apart(uri = '../buffers/the%20box.bin') {
     const gltf = JSON.parse(box_model()), bytes = Buffer.from(gltf.buffers[0].uri.split(',')[1], 'base64');
-    gltf.buffers[0].uri = '../buffers/the%20box.bin';
+    gltf.buffers[0].uri = uri;
     return [JSON.stringify(gltf), bytes];
 }
 
@@ -64,8 +67,8 @@ const open = async (name) => {
     await prepare(page);
 };
 
-const tools = { page, check, equal, near, requests };
-const tests = { ...camera_cases(tools), ...model_cases(tools), ...life_cases(tools) };
+const tools = { page, check, equal, near, requests, open };
+const tests = { ...camera_cases(tools), ...model_cases(tools), ...life_cases(tools), ...hostile_cases(tools) };
 
 try {
     await open('/site/test.html');

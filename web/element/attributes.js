@@ -1,12 +1,17 @@
 // attributes.js - the attributes of <facet-viewer> and their properties: names, kinds and defaults are those of <model-viewer> 4.4.
-const text = (fallback = null) => ({ fallback, parse: (value) => value ?? fallback });
-const flag = { fallback: false, parse: (value) => value !== null };
+// parse() gets what an attribute says, or null without it; take(), what a script sets, which may be anything.
+const text = (fallback = null) => ({ fallback, parse: (value) => value ?? fallback, take: (value) => (value === null || value === undefined ? fallback : String(value)) });
+const flag = { fallback: false, parse: (value) => value !== null, take: Boolean };
 const number = (fallback) => ({
   fallback,
   parse: (value) => (value === null || value.trim() === '' || !Number.isFinite(Number(value)) ? fallback : Number(value)),
+  take: (value) => (value === null || typeof value === 'symbol' || !Number.isFinite(Number(value)) ? fallback : Number(value)),
 });
 // One of some words; any other is the first one.
-const choice = (...words) => ({ fallback: words[0], parse: (value) => (words.includes(value) ? value : words[0]) });
+const choice = (...words) => {
+  const find = (value) => (words.includes(value) ? value : words[0]);
+  return { fallback: words[0], parse: find, take: find };
+};
 
 export const ATTRIBUTES = {
   // what is shown
@@ -40,7 +45,7 @@ export const ATTRIBUTES = {
   'auto-rotate': flag,
   'auto-rotate-delay': number(3000),
   'rotation-per-second': text('auto'),
-  a11y: text(),
+  a11y: { ...text(), take: (value) => value ?? null }, // JSON, or an object of a script
   // light
   'environment-image': text(),
   'skybox-image': text(),
@@ -87,8 +92,7 @@ export function defineProperties(prototype, values) {
         return own.has(attribute) ? own.get(attribute) : ATTRIBUTES[attribute].fallback;
       },
       set(value) {
-        const { fallback } = ATTRIBUTES[attribute];
-        values(this).set(attribute, value ?? fallback);
+        values(this).set(attribute, ATTRIBUTES[attribute].take(value));
         this.attributeChanged(attribute);
       },
     });

@@ -129,7 +129,13 @@ export class FacetViewer extends HTMLElement {
     if (!this.isConnected) return;
     const changed = this.#changed;
     this.#changed = new Set();
-    for (const part of this.#parts) part.update(changed);
+    for (const part of this.#parts) {
+      try {
+        part.update(changed);
+      } catch (error) { // the other parts have their values all the same
+        console.warn(`<facet-viewer> ${error.message}`);
+      }
+    }
   }
 
   get updateComplete() { return (this.#update ?? Promise.resolve()).then(() => true); }
@@ -330,7 +336,7 @@ export class FacetViewer extends HTMLElement {
   }
 
   get timeScale() { return this.#context.animation.timeScale; }
-  set timeScale(value) { this.#context.animation.timeScale = Number(value); }
+  set timeScale(value) { this.#context.animation.timeScale = Number.isFinite(Number(value)) ? Number(value) : 1; }
   play(options) { this.#context.animation.play(options); }
   pause() { this.#context.animation.pause(); }
 

@@ -98,7 +98,6 @@ export async function fetchFile(url, { withCredentials = false, signal, onProgre
 }
 
 export const MODEL = /\.(glb|gltf|obj|stl|ply|json)$/i;
-const TEXT = /\.(gltf|obj)$/i; // models that name other files
 export const IMAGE = /\.(hdr|exr|ktx2|png|jpe?g|webp|dds|tga|bmp|pfm)$/i;
 
 const FACES = [['px', 'nx', 'py', 'ny', 'pz', 'nz'], ['posx', 'negx', 'posy', 'negy', 'posz', 'negz'], ['right', 'left', 'top', 'bottom', 'front', 'back']];
@@ -162,28 +161,45 @@ function resolve(uri, from) {
   }
 }
 
-// A model and the files that it refers to, as [{path, file}]; the model is the first. One that cannot be fetched is left to the reader's
-// message, which names the place in the model.
-export async function fetchModel(url, options) {
-  const { onProgress } = options;
-  const base = new URL(url, document.baseURI);
-  const file = await fetchFile(base.href, { ...options, onProgress: (share) => onProgress(0.9 * share) });
-  const name = decode(base.pathname.split('/').pop() || 'model');
-  if (!/^https?:$|^file:$/.test(base.protocol) || !TEXT.test(name)) {
-    onProgress(1);
-    return [{ path: base.protocol === 'data:' ? 'model' : name, file }];
+// The address of a file of the page.
+export function addressOf(url) {
+  try {
+    return new URL(url, document.baseURI);
+  } catch {
+    throw new Error(`"${url}" is no address of a file`);
   }
-  const first = relatedTo(name, await file.text());
+}
+
+export const nameOf = (address) => decode(address.pathname.split('/').pop());
+
+// Servers may give any name to a model: that of a text that begins as JSON counts as one of glTF.
+async function isText(name, file) {
+  if (/\.(gltf|obj)$/i.test(name)) return true;
+  return !MODEL.test(name) && /^\uFEFF?\s*\{/.test(await file.slice(0, 64).text());
+}
+
+// A model and the files that it refers to, as [{path, file}]; the model is the first. One that cannot be fetched is left to the reader's
+// message, which names the place in the model. Every address goes through mapURL.
+export async function fetchModel(url, { mapURL = (address) => address, onProgress, ...options }) {
+  const base = addressOf(mapURL(url));
+  const file = await fetchFile(base.href, { ...options, onProgress: (share) => onProgress(0.9 * share) });
+  const isPlain = base.protocol === 'data:' || base.protocol === 'blob:'; // no other file is beside it
+  const name = (base.protocol !== 'data:' && nameOf(base)) || 'model';
+  if (isPlain || !(await isText(name, file))) {
+    onProgress(1);
+    return [{ path: name, file }];
+  }
+  const first = relatedTo(MODEL.test(name) ? name : '.gltf', await file.text());
   const root = new URL('../'.repeat(climb(first)) || '.', base);
   const pathOf = (address) => decode(address.pathname.slice(root.pathname.length));
-  const files = [{ path: pathOf(base), file }];
+  const files = [{ path: pathOf(base) || name, file }];
   const seen = new Set([base.href]);
   const follow = (uris, from) => Promise.all(uris.map(async (uri) => {
     const address = resolve(uri, from);
     if (!address || seen.has(address.href) || !address.href.startsWith(root.href)) return;
     seen.add(address.href);
     try {
-      const found = await fetchFile(address.href, { ...options, onProgress: () => {} });
+      const found = await fetchFile(addressOf(mapURL(address.href)).href, { ...options, onProgress: () => {} });
       files.push({ path: pathOf(address), file: found });
       if (/\.mtl$/i.test(address.pathname)) await follow(relatedTo(address.pathname, await found.text()), address);
     } catch (error) {

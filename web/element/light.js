@@ -1,5 +1,5 @@
 // light.js - environment, exposure, tone mapping and shadow as options of facet render.
-import { fetchFile } from './files.js';
+import { addressOf, fetchFile, nameOf } from './files.js';
 
 const TONE_MAPPINGS = {
   auto: 'neutral', neutral: 'neutral', commerce: 'neutral', aces: 'aces', agx: 'agx', reinhard: 'reinhard', cineon: 'hable', linear: 'none', none: 'none',
@@ -22,10 +22,10 @@ export class Light {
   detach() {}
 
   update(changed) {
-    const { element, view } = this.context;
-    if (changed.has('exposure')) view.setOption('exposure', `${Math.max(element.exposure, 1e-6)}x`);
+    const { element } = this.context;
+    if (changed.has('exposure')) this.#set('exposure', `${Math.max(element.exposure, 1e-6)}x`);
     if (changed.has('tone-mapping')) this.#setToneMapping(element.toneMapping);
-    if (changed.has('shadow-intensity')) view.setOption('ground', element.shadowIntensity > 0 ? 'shadow' : null);
+    if (changed.has('shadow-intensity')) this.#set('ground', element.shadowIntensity > 0 ? 'shadow' : null);
     for (const [attribute, option] of Object.entries(OWN)) if (changed.has(attribute)) this.#set(option, element.attributeValue(attribute));
     if (changed.has('environment-image') || changed.has('skybox-image')) this.#updateEnvironment();
   }
@@ -84,8 +84,8 @@ export class Light {
 
   async #fetch(address, signal, report) {
     const { element, view } = this.context;
-    const url = new URL(element.mapURL(address), document.baseURI);
+    const url = addressOf(element.mapURL(address));
     const file = await fetchFile(url.href, { withCredentials: element.withCredentials, signal, onProgress: (share) => report(0.8 * share) });
-    if (!signal.aborted) await view.setOptionFile('env', { path: decodeURIComponent(url.pathname.split('/').pop() || 'environment'), file });
+    if (!signal.aborted) await view.setOptionFile('env', { path: nameOf(url) || 'environment', file });
   }
 }

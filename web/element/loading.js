@@ -135,8 +135,8 @@ export class Loading {
     const report = this.progress.begin('model-load');
     this.isLoaded = false;
     try {
-      const files = await fetchModel(element.mapURL(src), {
-        withCredentials: element.withCredentials, signal: abort.signal, onProgress: (share) => report(0.8 * share),
+      const files = await fetchModel(src, {
+        mapURL: (url) => element.mapURL(url), withCredentials: element.withCredentials, signal: abort.signal, onProgress: (share) => report(0.8 * share),
       });
       if (abort.signal.aborted) return;
       await this.show(files, files[0].path, src, turn);

@@ -1,0 +1,87 @@
+// element_hostile.mjs - element.mjs: values, addresses and pages that are not as one would wish.
+
+// tools: see element.mjs
+export const cases = ({ page, check, equal, open }) => ({
+    async 'a property takes any value of a script'() {
+        const found = await page.evaluate(async () => {
+            await clear();
+            const viewer = make({ src: 'box.gltf' }), warnings = [], { warn } = console;
+            await event(viewer, 'load');
+            console.warn = (text) => warnings.push(text);
+            const values = { exposure: NaN, shadowIntensity: 'x', interpolationDecay: 'x', autoRotateDelay: Symbol('x'), orbitSensitivity: {}, loading: 'sometimes',
+                alt: 5, cameraOrbit: 5, fieldOfView: 30, timeScale: NaN };
+            const read = {};
+            for (const [name, value] of Object.entries(values)) {
+                viewer[name] = value;
+                await viewer.updateComplete;
+                read[name] = viewer[name];
+            }
+            window.dispatchEvent(new Event('scroll')); // reads the texts of the camera
+            viewer.exposure = 1e300; // no factor that facet knows; the rest is set all the same
+            viewer.cameraControls = true;
+            await viewer.updateComplete;
+            await frames();
+            console.warn = warn;
+            const input = viewer.shadowRoot.querySelector('.input');
+            return { read, warnings, label: input.getAttribute('aria-label'), isControlled: input.classList.contains('controlled'), covered: (await image(viewer)).covered };
+        });
+        equal(found.read, { exposure: 1, shadowIntensity: 0, interpolationDecay: 50, autoRotateDelay: 3000, orbitSensitivity: 1, loading: 'auto', alt: '5', cameraOrbit: '5',
+            fieldOfView: '30', timeScale: 1 });
+        check(found.warnings.some((text) => /exposure/.test(text)), `no warning: ${found.warnings}`);
+        check(found.isControlled && /^5\./.test(found.label) && found.covered > 0.05, 'a wrong value keeps others from being set');
+    },
+
+    async 'addresses without an ending, that are none, and that a script maps'() {
+        const found = await page.evaluate(async () => {
+            await clear();
+            const viewer = make({ src: 'api/model' });
+            await event(viewer, 'load');
+            const { covered } = await image(viewer), files = viewer.files.map(({ path }) => path);
+            const { message } = await event(viewer, 'error', () => { viewer.src = 'http://['; });
+            const light = await event(viewer, 'error', () => { viewer.environmentImage = 'http://['; });
+            const seen = [];
+            viewer.constructor.mapURLs((url) => { seen.push(url.split('/').pop()); return url.replace('mapped', 'models'); });
+            await event(viewer, 'load', () => { viewer.src = 'mapped/apart.gltf'; });
+            viewer.constructor.mapURLs((url) => url);
+            return { covered, files, message, light: light.message, seen };
+        });
+        check(found.covered > 0.05, 'a model without an ending is empty');
+        equal(found.files, ['model', 'the box.bin']);
+        equal([found.message, found.light], ['"http://[" is no address of a file', '"http://[" is no address of a file']);
+        equal(found.seen, ['apart.gltf', 'the%20box.bin'], 'addresses that mapURLs() gets');
+    },
+
+    async 'the light that was set last'() {
+        const found = await page.evaluate(async () => {
+            await clear();
+            const viewer = make({ src: 'box.gltf' });
+            await event(viewer, 'load');
+            const { fetchFile } = await import('./facet-viewer/files.js');
+            await fetchFile(new URL('blue.hdr', document.baseURI).href);
+            viewer.environmentImage = 'blue.hdr';
+            await viewer.updateComplete;
+            await Promise.resolve(); // the file is there, and waits for its turn
+            viewer.environmentImage = 'sun:45,135';
+            await viewer.updateComplete;
+            await new Promise((resolve) => setTimeout(resolve, 500));
+            const file = { path: 'blue.hdr', file: await (await fetch('blue.hdr')).blob() };
+            const slow = viewer.openFiles([file]);
+            await viewer.setOption('env', 'white');
+            await slow;
+            return [viewer.log.filter(([type]) => type === 'error'), viewer.options.env];
+        });
+        equal(found, [[], 'white']);
+    },
+
+    async 'a page that requires trusted types'() {
+        const home = page.url();
+        await open('/site/trusted.html');
+        const covered = await page.evaluate(async () => {
+            const viewer = make({ src: 'box.gltf' });
+            await event(viewer, 'load');
+            return (await image(viewer)).covered;
+        });
+        await open(home);
+        check(covered > 0.05, 'the image is empty');
+    },
+});
