@@ -73,6 +73,16 @@ export const cases = ({ page, check, equal, open }) => ({
         equal(found, [[], 'white']);
     },
 
+    async 'a model whose name looks like an option'() {
+        const command = await page.evaluate(async () => {
+            await clear();
+            const viewer = make({});
+            await viewer.openFiles([{ path: '--output=x.gltf', file: await (await fetch('box.gltf')).blob() }]);
+            return viewer.command(64, 64);
+        });
+        check(/^facet render \.\/--output=x\.gltf -o \.\/--output=x\.png /.test(command), command);
+    },
+
     async 'a page that requires trusted types'() {
         const home = page.url();
         await open('/site/trusted.html');

@@ -328,6 +328,14 @@ void view_options_of(const command_line *c, const render_options *options, const
     add_others(out, c, facet_renderer_get_info(d->renderer).features & FACET_RENDERER_FEATURE_PATH);
 }
 
+/* A name with a leading dash would be an option; "-" is standard input. */
+static void add_file(shell_line *l, const char *path)
+{
+    char word[4300];
+    snprintf(word, sizeof word, "./%s", path);
+    shell_line_add_word(l, path[0] == '-' && path[1] ? word : path);
+}
+
 char *view_command(const command_line *c, const render_options *options, const facet_view_image *p)
 {
     shell_line l = {0};
@@ -341,9 +349,9 @@ char *view_command(const command_line *c, const render_options *options, const f
     shell_line_add_word(&l, "facet");
     shell_line_add_word(&l, "render");
     if (p->model)
-        shell_line_add_word(&l, p->model);
+        add_file(&l, p->model);
     shell_line_add_word(&l, "-o");
-    shell_line_add_word(&l, output);
+    add_file(&l, output);
     add_option(&list, OPT_SIZE, "%s", size);
     view_options_of(c, options, p, &list);
     for (size_t i = 0; i < list.count; i++)
