@@ -77,12 +77,16 @@ fi
 
 # ---- reading, writing, the machine ----
 
-# A file that comes late is read in the end.
-(sleep 1.5; write_triangle late.gltf.new; mv late.gltf.new late.gltf) &
-expect 0 batch late.gltf -o 'l/{stem}.png' --results l.jsonl -- $tiny
+# A folder that comes late, as one of another machine may, is read in the end.
+(sleep 1.5; mkdir late.new; write_triangle late.new/late.gltf; mv late.new late) &
+expect 0 batch late/late.gltf -o 'l/{stem}.png' --results l.jsonl -- $tiny
 grep -qF '"tries":3' l.jsonl || grep -qF '"tries":2' l.jsonl || failed "a late file: $(cat l.jsonl)"
-# Three items in a row: the machine is suspect.
-expect 75 batch no1.gltf no2.gltf no3.gltf a.gltf -j 1 -o 'l/{stem}.png' -- $tiny
+# Missing files are failures of their items, on any machine.
+expect 1 batch no1.gltf no2.gltf no3.gltf a.gltf -j 1 --shard 0/1 -o 'm/{stem}.png' -- $tiny
+says "batch: 1 done, 0 kept, 3 failed"
+[ -e m/a.png ] || failed "missing files stop the batch"
+# Three items in a row that cannot be read for another reason: the machine is suspect.
+expect 75 batch gone/no1.gltf gone/no2.gltf gone/no3.gltf a.gltf -j 1 -o 'l/{stem}.png' -- $tiny
 says "three items in a row failed as if by this machine"
 [ ! -e l/a.png ] || failed "a suspect machine goes on"
 

@@ -15,10 +15,11 @@ typedef enum batch_answer {
 /* The answer to a result of an item, whose tries include this one. *wait_s: the pause of ANSWER_LATER. */
 batch_answer batch_answer_to(const batch_item *item, const job_result *result, double *wait_s);
 
-/* Whether such a failure may be one of the machine instead of the item: reading, writing, something lacks, signals. */
-bool batch_is_machine_failure(const job_result *result);
+/* Whether such a failure may be one of the machine instead of the item: reading, writing, something lacks, signals. A model
+ * or a file of it that is missing from a folder that can be read is a failure of the item. */
+bool batch_is_machine_failure(const batch_item *item, const job_result *result);
 
 /* Whether an item that failed so for good should be tried on another machine. */
-bool batch_is_for_others(int exit_code);
+bool batch_is_for_others(const batch_item *item, int exit_code);
 
 #endif

@@ -79,7 +79,7 @@ static facet_result record(batch_run *run, batch_item *item, const job_result *r
                    item->output ? item->output : item->name, result->seconds);
     } else {
         run->progress.failed++;
-        run->for_others += batch_is_for_others(result->exit_code);
+        run->for_others += batch_is_for_others(item, result->exit_code);
         message_error("%s", message);
         add_failure(run, item, message, result->exit_code);
         if (run->reasons)
@@ -117,7 +117,7 @@ static void suspect(batch_run *run, const batch_item *item, const job_result *re
 {
     if (item->tries > 1)
         return;
-    if (!batch_is_machine_failure(result)) {
+    if (!batch_is_machine_failure(item, result)) {
         run->suspect_count = 0;
         return;
     }
