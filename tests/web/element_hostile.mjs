@@ -83,6 +83,29 @@ export const cases = ({ page, check, equal, open }) => ({
         check(/^facet render \.\/--output=x\.gltf -o \.\/--output=x\.png /.test(command), command);
     },
 
+    async 'points of a frame that was coarse'() {
+        const found = await page.evaluate(async () => {
+            await clear();
+            const { engine } = await import('./facet-viewer/engine.js');
+            await engine.start();
+            const viewer = make({ src: 'box.gltf', 'camera-controls': '' }), early = event(viewer, 'load').then(() => viewer.pick(160, 120));
+            const isEarly = (await early) === null;
+            await frames(4);
+            const sharp = viewer.pick(160, 120).position, box = viewer.getBoundingClientRect();
+            let coarse = null;
+            engine.module.pace = (_, isMoving) => (isMoving ? 4 : 1);
+            viewer.addEventListener('render-scale', ({ detail }) => { if (detail.renderedDpr === 1) coarse ??= viewer.positionAndNormalFromPoint(box.x + 160, box.y + 120).position; });
+            viewer.zoom(0.01);
+            await event(viewer, 'render-scale');
+            await settled(viewer);
+            await frames(3);
+            delete engine.module.pace;
+            return { isEarly, sharp, coarse: coarse && [coarse.x, coarse.y, coarse.z], outside: viewer.pick(-1, 5) };
+        });
+        check(found.isEarly && found.coarse && found.outside === null, JSON.stringify(found));
+        check(found.sharp.every((value, i) => Math.abs(value - found.coarse[i]) < 0.05), `a point of the frame before: ${JSON.stringify(found)}`);
+    },
+
     async 'a page that requires trusted types'() {
         const home = page.url();
         await open('/site/trusted.html');

@@ -295,13 +295,8 @@ export class FacetViewer extends HTMLElement {
 
   // clientX, clientY: pixels of the window, as in events. Null: the background.
   #pick(clientX, clientY) {
-    const { view } = this.#context;
-    if (!view.hasModel || view.isLost) return null;
     const box = this.getBoundingClientRect();
-    const { width, height } = view.pixelSize();
-    const x = ((clientX - box.x) / box.width) * width;
-    const y = ((clientY - box.y) / box.height) * height;
-    return view.use((module, viewer) => module.pick(viewer, x, y));
+    return this.#context.view.pick((clientX - box.x) / box.width, (clientY - box.y) / box.height);
   }
 
   // x, y: pixels of the element. {position, normal, material}, or null.

@@ -178,8 +178,7 @@ export class Input {
   // The camera goes on turning around what is now in the middle.
   #settlePan() {
     const { view } = this.context;
-    const { width, height } = view.pixelSize();
-    const hit = view.use((module, viewer) => module.pick(viewer, width / 2, height / 2));
+    const hit = view.pick(0.5, 0.5);
     if (hit) this.#act((module, viewer) => module.setPivot(viewer, hit.position));
   }
 

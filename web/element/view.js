@@ -37,6 +37,7 @@ export class View {
   #isSharp = true;
   #stops = 0; // of the module, by this model
   #size = { width: 1, height: 1 };
+  #frameSize = null; // of the last frame
   isVisible = false;
   isRevealed = false;
   isPlaying = false;
@@ -300,7 +301,10 @@ export class View {
   }
 
   // The module is gone.
-  forget() { this.#handle = 0; }
+  forget() {
+    this.#handle = 0;
+    this.#frameSize = null;
+  }
 
   // Settings of a new viewer; those whose values are files follow in open().
   #tell(module) {
@@ -353,6 +357,13 @@ export class View {
     return { width: Math.max(1, Math.round(this.#size.width / this.#divisor)), height: Math.max(1, Math.round(this.#size.height / this.#divisor)) };
   }
 
+  // What is at a point of the last frame, in parts of its width and height: {position, normal, material}, or null.
+  pick(x, y) {
+    if (!this.hasModel || this.isLost || !this.#frameSize || !(x >= 0 && x < 1 && y >= 0 && y < 1)) return null;
+    const { width, height } = this.#frameSize;
+    return this.use((module, viewer) => module.pick(viewer, x * width, y * height));
+  }
+
   placeCanvas(canvas) {
     this.#tree.stage.append(canvas);
     this.showOwnCanvas(false);
@@ -370,6 +381,7 @@ export class View {
       const { width, height } = this.pixelSize();
       const isDraft = this.use((module, viewer) => module.drafts(viewer, this.isMoving));
       this.use((module, viewer) => module.draw(viewer, width, height, seconds, isDraft));
+      this.#frameSize = { width, height };
       const isMoving = this.isMoving;
       if (!isDirect || !isMoving) this.#copy(width, height);
       this.#lastTime = isMoving ? time : 0;
