@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { copyFileSync, mkdirSync, readFileSync, statSync, symlinkSync } from 'node:fs';
 import path from 'node:path';
-import { fileURLToPath } from 'node:url';
+import { fileURLToPath, pathToFileURL } from 'node:url';
 
 const [archive, work, tsc] = process.argv.slice(2);
 const here = path.dirname(fileURLToPath(import.meta.url));
@@ -29,6 +29,11 @@ assert.match(json.version, /^[1-9]?\d+\.\d+\.\d+$/);
 assert.notEqual(json.version, '0.0.0');
 assert.ok(archive.endsWith(`facet-viewer-${json.version}.tgz`));
 for (const target of [json.main, json.types, json.exports['.'].node, json.bin.facet]) assert.ok(files.includes(target.replace('./', '')), `${target} is not in the package`);
+
+// Every attribute has a typed property.
+const { ATTRIBUTES, propertyOf } = await import(pathToFileURL(path.join(root, 'attributes.js')));
+const types = readFileSync(path.join(root, 'facet-viewer.d.ts'), 'utf8');
+assert.deepEqual(Object.keys(ATTRIBUTES).map(propertyOf).filter((name) => !types.includes(`\n  ${name}: `)), [], 'properties without a type');
 
 if (tsc) {
     mkdirSync(path.join(work, 'node_modules'));

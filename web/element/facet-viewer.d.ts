@@ -232,7 +232,15 @@ export class FacetViewer extends HTMLElement {
   toBlob(options?: ToBlobOptions): Promise<Blob>;
   exportScene(): Promise<Blob>;
 
-  // augmented reality: there is none
+  // augmented reality: there is none; its settings are accepted, without effect, as is generateSchema
+  ar: boolean;
+  arModes: string;
+  arScale: string;
+  arPlacement: string;
+  arUsdzMaxTextureSize: string;
+  iosSrc: string | null;
+  xrEnvironment: boolean;
+  generateSchema: boolean;
   readonly canActivateAR: false;
   activateAR(): Promise<void>;
 
