@@ -5,6 +5,7 @@ import { execFileSync } from 'node:child_process';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import path from 'node:path';
+import { pathToFileURL } from 'node:url';
 import { serve_page } from '../clients/browser.mjs';
 import { write_models } from './page_model.mjs';
 
@@ -21,6 +22,7 @@ await page.addInitScript(() => document.addEventListener('DOMContentLoaded', () 
     if (viewer) Object.assign(viewer.style, { width: '160px', height: '120px' });
 }));
 await page.reload();
+messages.length = 0; // of the module whose loading that has stopped
 const requests = [];
 page.on('request', (request) => requests.push(request.url()));
 
@@ -308,6 +310,40 @@ step('the pointer and the keys move the camera', async () => {
     await until('the whole model', async () => JSON.stringify(await options()) === '{"background":"transparent"}');
 });
 
+step('two fingers move nearer and sideways, one turns', async () => {
+    const client = await page.context().newCDPSession(page);
+    const touch = async (points) => client.send('Input.dispatchTouchEvent', { type: points.length ? 'touchMove' : 'touchEnd', touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+    const gesture = async (at) => {
+        const points = at(0).map(([x, y], id) => ({ x, y, id }));
+        for (let count = 1; count <= points.length; count++) await client.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: points.slice(0, count) });
+        for (let i = 1; i <= 4; i++) await touch(at(i));
+        await touch([]);
+        await settle();
+        return page.evaluate(() => {
+            const viewer = document.querySelector('facet-viewer'), { theta, phi, radius } = viewer.getCameraOrbit(), { x } = viewer.getCameraTarget();
+            return { theta, phi, radius, x, scale: visualViewport.scale };
+        });
+    };
+    const rest = await gesture(() => [[10, 110]]);
+    const near = await gesture((i) => [[60 - 5 * i, 100], [90 + 5 * i, 100]]);
+    assert.ok(near.radius < 0.9 * rest.radius && near.theta === rest.theta && near.scale === 1, `spread fingers: ${JSON.stringify([rest, near])}`);
+    const aside = await gesture((i) => [[50 + 6 * i, 100], [80 + 6 * i, 100]]);
+    assert.ok(Math.abs(aside.x - near.x) > 1e-3 && aside.theta === rest.theta, `fingers side by side: ${JSON.stringify([near, aside])}`);
+    const turned = await gesture((i) => [[50 + 6 * i, 100]]);
+    assert.ok(Math.abs(turned.theta - aside.theta) > 0.05, `one finger: ${JSON.stringify([aside, turned])}`);
+    await page.getByRole('button', { name: 'Show the whole model' }).click();
+    await until('the whole model', async () => JSON.stringify(await options()) === '{"background":"transparent"}');
+});
+
+step('a page from the disk says what it needs', async () => {
+    const other = await page.context().browser().newPage();
+    for (const name of ['index', 'explorer', 'side-by-side']) {
+        await other.goto(pathToFileURL(path.join(dist, `${name}.html`)).href);
+        await other.getByText('This page needs a web server').waitFor();
+    }
+    await other.close();
+});
+
 step('animation: play, pause, time line, speed', async () => {
     const rest = await image();
     const line = page.getByRole('slider', { name: 'Time' });
@@ -523,6 +559,7 @@ try {
     await page.setViewportSize({ width: 800, height: 440 });
     await page.emulateMedia({ reducedMotion: 'reduce' });
     for (const [name, run] of steps) {
+        if (process.env.PAGE_TEST && !/^(opens|drops a model)/.test(name) && !name.includes(process.env.PAGE_TEST)) continue;
         const start = performance.now(), start_cpu = await cpu_seconds();
         try {
             await run();
