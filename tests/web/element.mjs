@@ -26,6 +26,7 @@ function contents(url) {
     if (url === '/site/test.html') return { text: page_of(['facet-viewer/facet-viewer.js']) };
     if (url === '/site/both.html') return { text: page_of(['facet-viewer/facet-viewer.js', 'google.js'], "script-src 'self' 'unsafe-eval' 'wasm-unsafe-eval' blob:") };
     if (url === '/site/trusted.html') return { text: page_of(['facet-viewer/facet-viewer.js'], `${policy}; require-trusted-types-for 'script'; trusted-types 'none'`) };
+    if (url === '/site/strict.html') return { text: page_of(['facet-viewer/facet-viewer.js'], policy.replace(" 'wasm-unsafe-eval'", '')) };
     if (url === '/site/google.js') return google;
     if (url === '/site/api/model' || url === '/site/api/the box.bin') return { text: apart('the%20box.bin')[url.includes('.bin') ? 1 : 0] };
     if (url.startsWith('/site/box')) return { text: box_model() };

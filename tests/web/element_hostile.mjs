@@ -106,6 +106,27 @@ export const cases = ({ page, check, equal, open }) => ({
         check(found.sharp.every((value, i) => Math.abs(value - found.coarse[i]) < 0.05), `a point of the frame before: ${JSON.stringify(found)}`);
     },
 
+    async 'a viewer.wasm that does not start'() {
+        const messages = [];
+        for (const [name, answer] of [['test', { status: 404, body: '' }], ['test', { contentType: 'text/html', body: '<!doctype html>' }], ['strict', null]]) {
+            const other = await page.context().browser().newPage();
+            if (answer) await other.route('**/viewer.wasm', (route) => route.fulfill(answer));
+            await other.goto(new URL(`/site/${name}.html`, page.url()).href);
+            messages.push(await other.evaluate(async () => {
+                await customElements.whenDefined('facet-viewer');
+                const viewer = document.createElement('facet-viewer');
+                return new Promise((resolve) => {
+                    viewer.addEventListener('error', ({ detail }) => resolve(detail.message.replace(location.origin, '')));
+                    viewer.src = 'box.gltf';
+                    document.body.append(viewer);
+                });
+            }));
+            await other.close();
+        }
+        equal(messages, ['it cannot be fetched; it belongs beside the scripts of facet', 'the server has another file there, perhaps a web page; it belongs beside the scripts of facet',
+            'the content security policy of the page lacks \'wasm-unsafe-eval\' in script-src'].map((why) => `/site/facet-viewer/viewer.wasm does not start: ${why}`));
+    },
+
     async 'a page that requires trusted types'() {
         const home = page.url();
         await open('/site/trusted.html');

@@ -425,13 +425,29 @@ async function readCarried(name) {
   return carried.get(name);
 }
 
+// What kept viewer.wasm from starting, in place of emscripten's words.
+function failureOf(error, address) {
+  const text = textOf(error?.message ?? error);
+  const why = /content security policy/i.test(text) ? 'the content security policy of the page lacks \'wasm-unsafe-eval\' in script-src'
+    : /fetch/i.test(text) ? 'it cannot be fetched; it belongs beside the scripts of facet'
+    : /magic word/i.test(text) ? 'the server has another file there, perhaps a web page; it belongs beside the scripts of facet'
+    : text.replace(/^Aborted\((.*?)\)*\.? Build with .*$/s, '$1');
+  return new FacetError(`${address} does not start: ${why}`);
+}
+
 // base: the folder of viewer.wasm; that of this file where it is not given.
 export async function loadModule(base) {
   const codecs = new Codecs(carried.size ? { read: readCarried } : {});
   const options = { codecs };
   if (base) options.locateFile = (name) => new URL(name, base).href;
   if (carried.has('viewer.wasm')) options.wasmBinary = carried.get('viewer.wasm');
-  return new Module(await createViewer(options), codecs);
+  let wasm;
+  try {
+    wasm = await createViewer(options);
+  } catch (error) {
+    throw failureOf(error, carried.has('viewer.wasm') ? 'viewer.wasm' : new URL('viewer.wasm', base ?? import.meta.url).href);
+  }
+  return new Module(wasm, codecs);
 }
 
 export { FacetError };
