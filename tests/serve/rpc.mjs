@@ -71,6 +71,8 @@ await run({
             ['render', { ...small, config: 'a.json' }, -32602, 2, 'cannot be given'],
             ['render', { ...small, 'env-cache': '/tmp' }, -32602, 2, 'cannot be given'],
             ['render', { ...small, checkpoint: 'a.exr' }, -32602, 2, 'cannot be given'],
+            ['render', { ...small, 'no-clobber': true }, -32602, 2, 'it needs output'],
+            ['render', { model: 'sub' }, -32602, 2, 'sub: it is not a file'],
             ['render', { model: { base64: '?' } }, -32602, 2, 'base64'],
             ['render', { model: { base64: 'AAAA', name: '../a' } }, -32602, 2, '../a'],
             ['render', { model: { base64: 'AAAA', files: { '/etc/x': 'AAAA' } } }, -32602, 2, '/etc/x'],
@@ -99,6 +101,9 @@ await run({
             assert.match((await client.call('inspect', { model })).error?.message ?? 'read', /leads out/, model);
         for (const output of ['../a.png', path.join(work, 'a.png'), 'up/a.png', 'x/../../a.png'])
             assert.equal((await client.call('render', { ...small, output })).error.code, -32002, output);
+        assert((await client.call('convert', { model: 'tri.gltf', output: '...gltf' })).result);
+        for (const output of ['{stem}/a.png', '{stem}/b.png', '{dir}/a.png', '{name}', '{index}.png']) /* a stem may be ".." */
+            assert.match((await client.call('render', { ...small, model: '...gltf', output })).error.message, /one model/, output);
         writeFileSync(path.join(work, 'light.hdr'), 'x');
         for (const env of ['../light.hdr', `${work}/light.hdr`, 'up/light.hdr'])
             assert.equal((await client.call('render', { ...small, env })).error.code, -32002, env);

@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /* A request while its parameters are read. */
 typedef struct reader {
@@ -182,7 +183,17 @@ bool request_find_environment(const root *r, const char *place, const char *text
     return true;
 }
 
-/* The word for an input: a path, or data. */
+/* The path of an input of the method, which is one file: a folder would be several models, and a pipe may never end. */
+static bool find_file(const reader *d, const char *text, char path[ROOT_PATH_SIZE])
+{
+    struct stat info;
+    if (!root_find(&d->limits->root, text, path, d->refusal))
+        return false;
+    return (stat(path, &info) == 0 && S_ISREG(info.st_mode)) ||
+           answer_fail(d->refusal, ANSWER_USAGE, "%.800s: it is not a file", text);
+}
+
+/* The word for an input: a path, or data. otherwise: as in read_data(). */
 static bool read_input(reader *d, const char *place, const json_t *value, bool is_environment,
                        const char *otherwise, char path[ROOT_PATH_SIZE])
 {
@@ -195,8 +206,9 @@ static bool read_input(reader *d, const char *place, const json_t *value, bool i
     unsigned takes = d->r->method->takes_environment ? 0 : ENVIRONMENT_TAKES_NONE;
     if (!d->r->name[0])
         snprintf(d->r->name, sizeof d->r->name, "%.*s", REQUEST_NAME_SIZE - 1, text);
-    return is_environment ? request_find_environment(&d->limits->root, place, text, takes, path, d->refusal)
-                          : root_find(&d->limits->root, text, path, d->refusal);
+    if (is_environment)
+        return request_find_environment(&d->limits->root, place, text, takes, path, d->refusal);
+    return otherwise ? find_file(d, text, path) : root_find(&d->limits->root, text, path, d->refusal);
 }
 
 /* Adds the arguments of the verb. */
@@ -240,6 +252,8 @@ static bool set_text(reader *d, const char *name, const char *value)
 static bool read_option(reader *d, const option *o, const json_t *value)
 {
     char path[ROOT_PATH_SIZE];
+    if (o->id == OPT_NO_CLOBBER && !json_object_get(d->params, "output"))
+        return answer_fail(d->refusal, ANSWER_USAGE, "%s: it needs output, the file that may exist", o->name);
     switch (parameter_use_of(o)) {
     case PARAMETER_VALUE:
         return true;
@@ -253,6 +267,12 @@ static bool read_option(reader *d, const option *o, const json_t *value)
     }
     if (!json_is_string(value))
         return answer_fail(d->refusal, ANSWER_USAGE, "%s: it must be the path of a file to write", o->name);
+    /* what they stand for is not checked below: the stem of "...glb" is ".." */
+    if (output_name_has_model(json_string_value(value)))
+        return answer_fail(d->refusal, ANSWER_USAGE,
+                           "%s: a request has one model: {stem}, {name}, {dir} and {index} cannot be in the "
+                           "name of its output",
+                           o->name);
     if (json_object_get(d->params, "output") || !d->r->method->makes_file)
         return root_place(&d->limits->root, json_string_value(value), path, d->refusal) &&
                set_text(d, o->name, path);
