@@ -104,9 +104,16 @@ await run({
     async 'only this machine is meant'() {
         const server = await start_http();
         assert(server.url.startsWith('http://127.0.0.1:'));
-        const head = (host) => `GET /health HTTP/1.1\r\nHost: ${host}\r\nConnection: close\r\n\r\n`;
-        assert.match(await raw(server.port, head('evil.example')), /^HTTP\/1.1 403/);
-        assert.match(await raw(server.port, head(`localhost:${server.port}`)), /^HTTP\/1.1 200/);
+        const head = (host, more = '') => `GET /health HTTP/1.1\r\nHost: ${host}\r\n${more}Connection: close\r\n\r\n`;
+        for (const host of ['evil.example', 'localhost.evil.example', '[::1].evil.example', '[::1', ''])
+            assert.match(await raw(server.port, head(host)), /^HTTP\/1.1 403/, host);
+        for (const host of [`localhost:${server.port}`, '127.0.0.1', '[::1]:80'])
+            assert.match(await raw(server.port, head(host)), /^HTTP\/1.1 200/, host);
+        const far = 'Sec-Fetch-Site: cross-site\r\n'; /* what browsers say about pages */
+        for (const more of ['Origin: https://evil.example\r\n', 'Origin: null\r\n', far, `${far}Referer: https://evil.example/localhost\r\n`])
+            assert.match(await raw(server.port, head('localhost', more)), /^HTTP\/1.1 403/, more);
+        for (const more of ['Origin: http://localhost:3000\r\n', 'Sec-Fetch-Site: same-site\r\n', `${far}Referer: http://127.0.0.1:3000/a/\r\n`])
+            assert.match(await raw(server.port, head('localhost', more)), /^HTTP\/1.1 200/, more);
         await stop(server);
     },
     async 'what is no HTTP ends its connection only'() {

@@ -123,6 +123,16 @@ static bool check_body(exchange *e, answer *refusal)
     return true;
 }
 
+/* Whether a web page of another site makes the request, as browsers say: those send requests to this machine, too. */
+static bool is_of_another_site(const exchange *e)
+{
+    const char *origin = header(e, MHD_HTTP_HEADER_ORIGIN), *site = header(e, "Sec-Fetch-Site"),
+               *page = header(e, MHD_HTTP_HEADER_REFERER);
+    if (origin)
+        return !http_page_is_local(origin);
+    return site && strcmp(site, "cross-site") == 0 && !(page && http_page_is_local(page));
+}
+
 /* Checks what is known from the head of a request. */
 static bool check_head(exchange *e, const char *url, const char *action, answer *refusal)
 {
@@ -134,6 +144,9 @@ static bool check_head(exchange *e, const char *url, const char *action, answer 
     if (e->http->is_local && host && !http_host_is_local(host))
         return answer_fail(refusal, ANSWER_FORBIDDEN,
                            "this server answers for localhost only, not for %.100s", host);
+    if (e->http->is_local && is_of_another_site(e))
+        return answer_fail(refusal, ANSWER_FORBIDDEN,
+                           "this server does not answer web pages of other sites than localhost");
     if (e->page.kind == HTTP_PAGE_NONE)
         return answer_fail(refusal, ANSWER_NO_METHOD, "there is no page %.200s; / lists them", url);
     if (!e->page.method)

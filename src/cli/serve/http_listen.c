@@ -101,10 +101,23 @@ bool http_host_is_local(const char *host)
 {
     char name[64];
     struct in_addr address;
-    size_t length = host[0] == '[' ? strcspn(host, "]") + 1 : strcspn(host, ":");
-    if (length >= sizeof name)
+    size_t length = strcspn(host, ":");
+    if (host[0] == '[')
+        length = strchr(host, ']') ? strcspn(host, "]") + 1 : sizeof name;
+    if (length >= sizeof name || (host[length] && host[length] != ':'))
         return false;
     snprintf(name, sizeof name, "%.*s", (int)length, host);
     return strcasecmp(name, "localhost") == 0 || strcmp(name, "[::1]") == 0 ||
            (inet_pton(AF_INET, name, &address) == 1 && ntohl(address.s_addr) >> 24 == 127);
+}
+
+bool http_page_is_local(const char *url)
+{
+    char host[64];
+    const char *begin = strstr(url, "://");
+    size_t length = begin ? strcspn(begin + 3, "/?#") : sizeof host;
+    if (length >= sizeof host)
+        return false; /* no URL, or "null" of a page without an origin */
+    snprintf(host, sizeof host, "%.*s", (int)length, begin + 3);
+    return http_host_is_local(host);
 }

@@ -17,5 +17,7 @@ facet_result http_listen(const char *where, http_address *out, facet_error *erro
 /* Whether Host, with or without a port, names this machine. Programs on other hosts reach a loopback server only
  * through a browser that was told that their name has its address. */
 bool http_host_is_local(const char *host);
+/* The same of the URL of a web page, or its origin. */
+bool http_page_is_local(const char *url);
 
 #endif
