@@ -36,15 +36,19 @@ vec3 cube_fetch(vec4 place, vec4 at)
     return textureLod(u_environment, texel * light_atlas.xy, 0.0).xyz * place.w;
 }
 
-/* The level of a lobe (0: GGX, 1: Charlie), with fraction, between the first and last prepared ones. */
-float light_lod(int lobe, float roughness)
+/* The level of a lobe, with fraction, between the first and last prepared ones. Indices are constants, because software
+ * rasterizers compute addresses that are not for each pixel. */
+#define LIGHT_PASSED(i) clamp((roughness - light_steps[i]) * light_slopes[i], 0.0, 1.0)
+float light_lod_ggx(float roughness)
 {
-    vec4 lod = vec4(0.0);
-    for (int i = 0; i < LIGHT_LEVELS / 4; i++) {
-        int at = LIGHT_LEVELS / 4 * lobe + i;
-        lod += clamp((roughness - light_steps[at]) * light_slopes[at], 0.0, 1.0);
-    }
-    return float(lobe == 0 ? light_ranges.x : light_ranges.z) + dot(lod, vec4(1.0));
+    vec4 passed = LIGHT_PASSED(0) + LIGHT_PASSED(1) + LIGHT_PASSED(2) + LIGHT_PASSED(3);
+    return float(light_ranges.x) + dot(passed, vec4(1.0));
+}
+
+float light_lod_charlie(float roughness)
+{
+    vec4 passed = LIGHT_PASSED(4) + LIGHT_PASSED(5) + LIGHT_PASSED(6) + LIGHT_PASSED(7);
+    return float(light_ranges.z) + dot(passed, vec4(1.0));
 }
 
 /* Interpolated between two levels, of which level 1 is the first. */
@@ -100,7 +104,7 @@ vec3 light_narrow(float lod, vec3 d)
 vec3 light_specular(vec3 R, float perceptual_roughness)
 {
     vec3 d = to_environment(R);
-    float lod = light_lod(0, perceptual_roughness);
+    float lod = light_lod_ggx(perceptual_roughness);
     vec3 c = light_levels(0, lod, cube_locate(d));
     ONLY_IF(lod < 1.0)
         c = light_narrow(lod, d);
@@ -110,7 +114,7 @@ vec3 light_specular(vec3 R, float perceptual_roughness)
 /* Around R, filtered with Charlie's lobe. */
 vec3 light_sheen(vec3 R, float sheen_roughness)
 {
-    return frame_light.x * light_levels(1, light_lod(1, sheen_roughness), cube_locate(to_environment(R)));
+    return frame_light.x * light_levels(1, light_lod_charlie(sheen_roughness), cube_locate(to_environment(R)));
 }
 
 /* Reflected radiance of a white Lambertian surface. */
