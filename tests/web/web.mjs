@@ -93,14 +93,14 @@ window.start = async () => {
         for (const [name, base64] of files) module.putFile(name, toBytes(base64));
         module.open(viewer, path);
     };
-    // The canvas before the browser composites it: rows from the top.
+    // The canvas before the browser composites it: rows from the top, straight alpha.
     web.frame = (viewer = web.viewer) => {
         module.draw(viewer, canvas.width, canvas.height);
         const gl = canvas.getContext('webgl2'), rows = new Uint8Array(4 * canvas.width * canvas.height);
         gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, rows);
         const size = 4 * canvas.width, flipped = new Uint8Array(rows.length);
         for (let y = 0; y < canvas.height; y++) flipped.set(rows.subarray(y * size, (y + 1) * size), (canvas.height - 1 - y) * size);
-        return toText(flipped);
+        return toText(flipped.map((value, i) => i % 4 === 3 ? value : Math.min(255, Math.round(value * 255 / Math.max(1, flipped[i | 3])))));
     };
     web.image = (w, h, viewer = web.viewer) => toText(module.readImage(viewer, w, h).data);
     web.put = (name, base64) => module.putFile(name, toBytes(base64));

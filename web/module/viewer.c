@@ -42,7 +42,6 @@ static facet_result open_context(const char *canvas, facet_error *error)
     emscripten_webgl_init_context_attributes(&wanted);
     wanted.majorVersion = 2;
     wanted.alpha = true;
-    wanted.premultipliedAlpha = false;
     wanted.antialias = wanted.depth = wanted.stencil = false; /* all in gl_target.h */
     EMSCRIPTEN_WEBGL_CONTEXT_HANDLE handle = emscripten_webgl_create_context(canvas, &wanted);
     if (handle <= 0 || emscripten_webgl_make_context_current(handle) != EMSCRIPTEN_RESULT_SUCCESS)

@@ -34,7 +34,7 @@ static void read_limits(gl_context *c)
         c->version >= (c->is_es ? 30 : 42) || gl_api_has_extension("GL_ARB_texture_storage");
     c->has_clip_control =
         has_any("GL_ARB_clip_control", "GL_EXT_clip_control") || (!c->is_es && c->version >= 45);
-    gl_context_find_reset_status(c);
+    gl_context_find_platform(c);
     c->has_debug_output = gl_api_has_extension("GL_KHR_debug");
 }
 

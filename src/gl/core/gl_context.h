@@ -24,6 +24,9 @@ typedef struct gl_context {
     bool has_float_target, has_half_target; /* RGBA32F, RGBA16F can be render targets */
     bool has_texture_storage;               /* glTexStorage2D() */
     bool has_clip_control;                  /* reversed depth is possible: gl_camera.h */
+    /* A page's: its canvas takes premultiplied values, and rows run from the bottom, so that samples can be resolved
+     * into it. */
+    bool is_canvas;
     /* GL_NO_ERROR, or the reason for the loss of the context; NULL: unsupported */
     unsigned (*reset_status)(void);
     bool is_lost;   /* only gl_context_destroy() is allowed */
@@ -49,9 +52,15 @@ bool gl_context_make_current_to_delete(gl_context *context, gl_context *spare);
 void gl_context_release(gl_context *context);
 void gl_context_destroy(gl_context *context); /* {0} is allowed; leaves {0} */
 
+/* Whether the rows of a target run from the top. */
+static inline bool gl_context_is_top_down(const gl_context *context)
+{
+    return context->has_clip_control && !context->is_canvas;
+}
+
 /* What gl_context_adopt() asks of the platform. FACET_ERROR_SYSTEM: OpenGL's library is missing. */
 facet_result gl_context_find_library(facet_error *error);
-void gl_context_find_reset_status(gl_context *context); /* sets reset_status */
+void gl_context_find_platform(gl_context *context); /* sets reset_status and is_canvas */
 
 /* Reports errors of OpenGL since the last call: FACET_ERROR_MEMORY, FACET_ERROR_SYSTEM (a lost context, or
  * a bug in facet, with OpenGL's error code). while_doing: such as "textures". */

@@ -201,7 +201,7 @@ static unsigned ext_reset_status(void)
     return glGetGraphicsResetStatusEXT();
 }
 
-void gl_context_find_reset_status(gl_context *c)
+void gl_context_find_platform(gl_context *c)
 {
     if (c->version >= (c->is_es ? 32 : 45))
         c->reset_status = core_reset_status;

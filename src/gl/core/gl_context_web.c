@@ -43,9 +43,10 @@ static unsigned lost_status(void)
                                                                                     : GL_NO_ERROR;
 }
 
-void gl_context_find_reset_status(gl_context *c)
+void gl_context_find_platform(gl_context *c)
 {
     c->reset_status = lost_status;
+    c->is_canvas = true;
 }
 
 /* ---- contexts ---- */

@@ -121,8 +121,10 @@ facet_result gl_program_text(const char *glsl_version, gl_program_key key, uint3
 uint32_t gl_program_feature_count(gl_main main);
 const char *gl_program_feature_name(gl_main main, uint32_t feature);
 uint64_t gl_program_feature(gl_main main, const char *name); /* the feature's bit; 0: it does not exist */
-/* Of GL_MAIN_PRESENT, for images with rows from the top or the bottom. */
-uint64_t gl_program_present_features(bool is_top_down, facet_tonemap tonemap);
+uint64_t gl_program_present_features(const gl_context *context,
+                                     facet_tonemap tonemap); /* of GL_MAIN_PRESENT */
+/* Of GL_MAIN_SURFACE: opaque surfaces put out what a window shows in place of radiance. */
+uint64_t gl_program_display_features(facet_tonemap tonemap);
 const char *gl_program_main_name(gl_main main);
 
 /* ---- compiled programs ---- */

@@ -45,7 +45,7 @@ static const char *const surface_features[] = {
     "HAS_DIFFUSE_TRANSMISSION", "HAS_VOLUME", "HAS_DISPERSION", "HAS_SCATTER",
     "IS_LIT", "IS_UNLIT", "IS_GLOSSY", "HAS_ALPHA_MASK", "HAS_ALPHA_BLEND", "HAS_COLORS", "IS_VOLUME",
     "HAS_SPECULAR_ANTIALIASING", "HAS_ONE_FOOTPRINT", "IS_SPRITE", "AOVS", "IS_WEIGHTED", "IS_PEELED", "HAS_CHANNEL",
-    "HAS_SCHLICK_GGX", NULL};
+    "HAS_SCHLICK_GGX", "IS_DISPLAYED", "ADDS_1", "ADDS_2", "ADDS_4", NULL};
 /* clang-format on */
 _Static_assert(sizeof slot_names / sizeof *slot_names == SCENE_TEXTURE_SLOT_COUNT, "every slot has a name");
 
@@ -73,9 +73,10 @@ static const char *const sea_features[] = {"HAS_IMAGE",
                                            "AOVS",
                                            NULL};
 /* ADDS_N are the bits of the facet_tonemap. */
-static const char *const present_features[] = {"IS_TOP_DOWN", "ADDS_1", "ADDS_2", "ADDS_4", NULL};
+static const char *const present_features[] = {"IS_TOP_DOWN", "IS_PREMULTIPLIED", "ADDS_1",
+                                               "ADDS_2",      "ADDS_4",           NULL};
 
-enum { MAX_SOURCES = 12 };
+enum { MAX_SOURCES = 13 };
 
 /* The source of a stage: parts of the shader library with their dependencies, then files of src/gl/shaders and shade/compose, the last
  * of which has main(). */
@@ -93,9 +94,9 @@ static const struct {
     stage_source vertex, fragment;
 } mains[GL_MAIN_COUNT] = {
     [GL_MAIN_SURFACE] = {"surface", surface_features, SURFACE,
-        {{"surface", "light", "layers_direct", "layers_ibl", "layers_lobes", "material", "footprint"},
-         {"light_block.glsl", "environment.glsl", "shadow.glsl", "lights.glsl", "surface_io.glsl", "material.glsl",
-          "transmission.glsl", "radiance.glsl", "surface_tables.h", "surface_radiance.h", "surface.frag"}}},
+        {{"surface", "light", "layers_direct", "layers_ibl", "layers_lobes", "material", "footprint", "tonemap", "color"},
+         {"display.glsl", "light_block.glsl", "environment.glsl", "shadow.glsl", "lights.glsl", "surface_io.glsl",
+          "material.glsl", "transmission.glsl", "radiance.glsl", "surface_tables.h", "surface_radiance.h", "surface.frag"}}},
     [GL_MAIN_SHADOW] = {"shadow", surface_features, SURFACE,
         {{"material", "footprint"}, {"surface_io.glsl", "material.glsl", "shadow.frag"}}},
     [GL_MAIN_PHONG] = {"phong", surface_features,
@@ -112,7 +113,7 @@ static const struct {
     [GL_MAIN_BACKGROUND] = {"background", background_features, SCREEN,
         {{"surface"}, {"light_block.glsl", "environment.glsl", "background.frag"}}},
     [GL_MAIN_COMPOSE] = {"compose", compose_features, SCREEN, {{"constants"}, {"compose.frag"}}},
-    [GL_MAIN_PRESENT] = {"present", present_features, SCREEN, {{"tonemap", "color"}, {"present.frag"}}},
+    [GL_MAIN_PRESENT] = {"present", present_features, SCREEN, {{"tonemap", "color"}, {"display.glsl", "present.frag"}}},
     [GL_MAIN_PYRAMID] = {"pyramid", pyramid_features, SCREEN, {{"constants"}, {"pyramid.frag"}}},
     [GL_MAIN_LINEARIZE] = {"linearize", no_features, SCREEN, {{"color"}, {"linearize.frag"}}},
     [GL_MAIN_SEA_GRID] = {"sea_grid", no_features, SCREEN,
@@ -162,9 +163,15 @@ uint64_t gl_program_feature(gl_main main, const char *name)
     return 0;
 }
 
-uint64_t gl_program_present_features(bool is_top_down, facet_tonemap tonemap)
+uint64_t gl_program_present_features(const gl_context *context, facet_tonemap tonemap)
 {
-    return (uint64_t)tonemap << 1 | is_top_down;
+    return (uint64_t)tonemap << 2 | (uint64_t)context->is_canvas << 1 | gl_context_is_top_down(context);
+}
+
+uint64_t gl_program_display_features(facet_tonemap tonemap)
+{
+    uint64_t is_displayed = gl_program_feature(GL_MAIN_SURFACE, "IS_DISPLAYED");
+    return is_displayed | (is_displayed << 1) * (uint64_t)tonemap;
 }
 
 /* ---- texture slots ---- */

@@ -25,9 +25,9 @@ static GLuint make_texture(GLenum format, uint32_t width, uint32_t height)
     glGenTextures(1, &name);
     glBindTexture(GL_TEXTURE_2D, name);
     bool is_depth = format == GL_DEPTH_COMPONENT32F;
+    GLenum type = format == GL_RGBA8 ? GL_UNSIGNED_BYTE : format == GL_RGBA16F ? GL_HALF_FLOAT : GL_FLOAT;
     glTexImage2D(GL_TEXTURE_2D, 0, (GLint)format, (GLsizei)width, (GLsizei)height, 0,
-                 is_depth ? GL_DEPTH_COMPONENT : GL_RGBA, format == GL_RGBA16F ? GL_HALF_FLOAT : GL_FLOAT,
-                 NULL);
+                 is_depth ? GL_DEPTH_COMPONENT : GL_RGBA, type, NULL);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -64,7 +64,8 @@ static void make_layers(gl_target *t)
 
 static void make(gl_target *t)
 {
-    t->color = make_texture(t->format, t->width, t->height);
+    if (t->samples == 1 || t->kind != GL_TARGET_DISPLAY)
+        t->color = make_texture(t->format, t->width, t->height);
     glGenFramebuffers(1, &t->framebuffer);
     glBindFramebuffer(GL_FRAMEBUFFER, t->framebuffer);
     if (t->samples == 1) {
@@ -80,6 +81,8 @@ static void make(gl_target *t)
     t->renderbuffers[1] = make_renderbuffer(GL_DEPTH_COMPONENT32F, t);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, t->renderbuffers[0]);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, t->renderbuffers[1]);
+    if (!t->color)
+        return;
     glGenFramebuffers(1, &t->resolved_framebuffer);
     glBindFramebuffer(GL_FRAMEBUFFER, t->resolved_framebuffer);
     attach(GL_COLOR_ATTACHMENT0, t->color);
@@ -91,7 +94,9 @@ static int list_formats(const gl_context *context, gl_target_kind kind, GLenum f
 {
     bool prefers_half = kind == GL_TARGET_WINDOW;
     int count = 0;
-    for (int i = 0; i < 2; i++) {
+    if (kind == GL_TARGET_DISPLAY)
+        formats[count++] = GL_RGBA8;
+    for (int i = 0; i < 2 && kind != GL_TARGET_DISPLAY; i++) {
         bool is_half = prefers_half == (i == 0);
         if (is_half ? context->has_half_target : context->has_float_target)
             formats[count++] = is_half ? GL_RGBA16F : GL_RGBA32F;
@@ -141,10 +146,14 @@ void gl_target_resolve(const gl_target *t)
 
 void gl_target_resolve_area(const gl_target *t, const int area[4])
 {
-    if (t->framebuffer == t->resolved_framebuffer)
-        return;
+    if (t->framebuffer != t->resolved_framebuffer)
+        gl_target_resolve_into(t, t->resolved_framebuffer, area);
+}
+
+void gl_target_resolve_into(const gl_target *t, uint32_t framebuffer, const int area[4])
+{
     glBindFramebuffer(GL_READ_FRAMEBUFFER, t->framebuffer);
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, t->resolved_framebuffer);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
     GLint right = area[0] + area[2], top = area[1] + area[3];
     glBlitFramebuffer(area[0], area[1], right, top, area[0], area[1], right, top, GL_COLOR_BUFFER_BIT,
                       GL_NEAREST);

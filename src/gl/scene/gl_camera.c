@@ -64,7 +64,7 @@ void gl_camera_set(const gl_context *context, const camera_rays *c, const float 
     double corner_x = (double)view->x + (double)view->jitter[0];
     double top = (double)view->y + (double)view->jitter[1];
     double corner_y = height * scale - top - view->height; /* from the bottom */
-    bool is_top_down = gl_camera_is_top_down(context);
+    bool is_top_down = gl_context_is_top_down(context);
     for (int i = 0; i < 3; i++) {
         block->right[i] = (float)((double)dx[i] / scale);
         block->up[i] = (is_top_down ? 1.0f : -1.0f) * (float)((double)dy[i] / scale);
@@ -103,7 +103,7 @@ void gl_camera_set(const gl_context *context, const camera_rays *c, const float 
 void gl_camera_begin_depth(const gl_context *context)
 {
     if (context->has_clip_control)
-        gl_api_clip_control(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
+        gl_api_clip_control(gl_context_is_top_down(context) ? GL_UPPER_LEFT : GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     gl_api_clear_depth(context->is_es, context->has_clip_control ? 0.0 : 1.0);
     glDepthFunc(context->has_clip_control ? GL_GEQUAL : GL_LEQUAL);
 }

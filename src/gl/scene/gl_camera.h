@@ -29,12 +29,6 @@ void gl_camera_set(const gl_context *context, const camera_rays *camera, const f
                    const float bounds_max[3], uint32_t width, uint32_t height, const gl_view *view,
                    gl_frame_block *block);
 
-/* Whether the rows of a target run from the top. */
-static inline bool gl_camera_is_top_down(const gl_context *context)
-{
-    return context->has_clip_control;
-}
-
 /* Sets the depth test (nearer or equal passes), the clear value and the row order. */
 void gl_camera_begin_depth(const gl_context *context);
 /* Restores OpenGL's initial state. */

@@ -88,7 +88,7 @@ static gl_view view_of(const tile *t, uint32_t scale)
 static void read_tile(const drawing *d, const gl_target *target, uint32_t layer, const tile *t,
                       uint32_t scale)
 {
-    bool is_top_down = gl_camera_is_top_down(d->desc->context);
+    bool is_top_down = gl_context_is_top_down(d->desc->context);
     uint32_t w = t->width * scale, h = t->height * scale;
     gl_target_read(target, layer, t->margin[0] * scale, t->margin[is_top_down ? 1 : 3] * scale, w, h,
                    d->pixels);

@@ -9,6 +9,7 @@
 #include "gl/core/gl_api.h"
 #include "gl/scene/gl_camera.h"
 #include "gl/gl_entry.h"
+#include "shade/lang/lang_c_load.h"
 
 /* ---- lifetime ---- */
 
@@ -49,7 +50,7 @@ void gl_frame_destroy(gl_frame *f)
 static gl_program_key key_of(const gl_frame *f, const gl_batch *batch, bool is_layers)
 {
     uint64_t features = gl_material_features(f->materials, batch) | gl_mesh_features(f->meshes, batch) |
-                        gl_light_features(f->light);
+                        gl_light_features(f->light) | f->display_features;
     if (is_layers)
         features |= gl_program_feature(GL_MAIN_SURFACE, "AOVS");
     return (gl_program_key){gl_material_main(f->materials, batch), features};
@@ -106,6 +107,33 @@ static facet_result update_phong(gl_frame *f, const gl_phong_view *view, facet_e
     return FACET_OK;
 }
 
+static bool has_pass(const gl_frame *f, gl_pass pass)
+{
+    uint32_t count;
+    gl_mesh_batches(f->meshes, pass, &count);
+    return count > 0;
+}
+
+/* Whether nothing but the model and a uniform background is in the image: no ground, no bloom. */
+static bool is_model_alone(const gl_frame *f, const facet_render_desc *desc)
+{
+    return desc->background != FACET_BACKGROUND_ENVIRONMENT && desc->shading != FACET_SHADING_OGL1 &&
+           gl_channel_is_light(desc->gl.channel) && !gl_light_has_ground(f->light) &&
+           !(desc->gl.bloom > 0.0f);
+}
+
+static uint64_t find_display_features(const gl_frame *f, const facet_render_desc *desc)
+{
+    bool is_displayed = f->use == GL_FRAME_CANVAS && is_model_alone(f, desc) &&
+                        !has_pass(f, GL_PASS_TRANSMISSIVE) && !has_pass(f, GL_PASS_BLENDED);
+    return is_displayed ? gl_program_display_features(desc->tonemap) : 0;
+}
+
+gl_target_kind gl_frame_window_kind(const gl_frame *f)
+{
+    return f->display_features ? GL_TARGET_DISPLAY : GL_TARGET_WINDOW;
+}
+
 /* Since the frame was created. */
 static uint64_t count_decoded_texels(const gl_frame *f)
 {
@@ -139,8 +167,10 @@ facet_result gl_frame_update(gl_frame *f, const gl_scene *scene, const camera_ra
     light_setup_destroy(&light);
     stats->textures_s += clock_seconds() - start;
     stats->decoded_texels += count_decoded_texels(f) - decoded_texels;
-    if (result == FACET_OK)
+    if (result == FACET_OK) {
+        f->display_features = find_display_features(f, desc);
         result = request_programs(f, desc, error);
+    }
     gl_timers_begin(&f->timers, GL_TIMER_SHADOWS);
     if (result == FACET_OK)
         result = gl_light_draw_shadows(f->light, f->programs, f->meshes, f->materials, camera->origin,
@@ -202,6 +232,17 @@ static void fill_block(const gl_frame *f, const facet_render_desc *desc, gl_fram
     gl_light_bind(f->light, block);
 }
 
+/* The uniform background, if surfaces are drawn as displayed. */
+static void set_clear_color(const gl_frame *f, const gl_frame_block *block)
+{
+    const float *behind = block->background;
+    vec3 shown = srgb_from_linear(clamp(vec3(behind[0], behind[1], behind[2]), 0.0f, 1.0f));
+    if (f->display_features && behind[3] > 0.0f)
+        glClearColor(shown[0], shown[1], shown[2], 1.0f);
+    else
+        glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+}
+
 static void begin(gl_frame *f, const gl_target *target, const facet_render_desc *desc, gl_frame_block *block)
 {
     fill_block(f, desc, block);
@@ -215,7 +256,7 @@ static void begin(gl_frame *f, const gl_target *target, const facet_render_desc 
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+    set_clear_color(f, block);
     gl_camera_begin_depth(f->context);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
@@ -270,13 +311,6 @@ static facet_result draw_ground(gl_frame *f, const facet_render_desc *desc, face
     return result;
 }
 
-static bool has_transmissive(const gl_frame *f)
-{
-    uint32_t count;
-    gl_mesh_batches(f->meshes, GL_PASS_TRANSMISSIVE, &count);
-    return count > 0;
-}
-
 /* Copies the opaque surfaces for transmissive ones. */
 static facet_result take_opaque(gl_frame *f, const gl_target *target, facet_error *error)
 {
@@ -293,7 +327,7 @@ static facet_result draw_opaque(gl_frame *f, const gl_target *target, const face
                                 facet_error *error)
 {
     facet_channel channel = desc->gl.channel;
-    bool takes = has_transmissive(f) && gl_channel_is_light(channel);
+    bool takes = has_pass(f, GL_PASS_TRANSMISSIVE) && gl_channel_is_light(channel);
     gl_material_show(f->materials, takes ? FACET_CHANNEL_LIGHT : channel);
     facet_result result = draw_pass(f, GL_PASS_OPAQUE, GL_TIMER_OPAQUE, error);
     if (result == FACET_OK && takes)
@@ -308,7 +342,7 @@ static facet_result draw_opaque(gl_frame *f, const gl_target *target, const face
 /* Drawn after the opaque surfaces, a copy of which they look up. */
 static facet_result draw_transmissive(gl_frame *f, facet_error *error)
 {
-    if (!has_transmissive(f))
+    if (!has_pass(f, GL_PASS_TRANSMISSIVE))
         return FACET_OK;
     gl_pyramid_bind_opaque(&f->opaque);
     return draw_pass(f, GL_PASS_TRANSMISSIVE, GL_TIMER_TRANSMISSION, error);
@@ -327,16 +361,23 @@ static facet_result draw_bloom(gl_frame *f, const gl_target *target, const facet
     return result;
 }
 
-/* Whether nothing but the model is in the image: no background, no ground, no bloom. */
-static bool is_model_alone(const gl_frame *f, const facet_render_desc *desc)
+/* Resolves the part of the image that is not empty. */
+static void resolve(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
+                    const gl_frame_block *block)
 {
-    return desc->background == FACET_BACKGROUND_TRANSPARENT && desc->shading != FACET_SHADING_OGL1 &&
-           gl_channel_is_light(desc->gl.channel) && !gl_light_has_ground(f->light) &&
-           !(desc->gl.bloom > 0.0f);
+    gl_timers_begin(&f->timers, GL_TIMER_RESOLVE);
+    memcpy(f->area, (int[4]){0, 0, (int)target->width, (int)target->height}, sizeof f->area);
+    if (f->use != GL_FRAME_IMAGE && desc->background == FACET_BACKGROUND_TRANSPARENT &&
+        is_model_alone(f, desc))
+        gl_mesh_area(f->meshes, block, gl_context_is_top_down(f->context), target->width, target->height,
+                     f->area);
+    if (!f->display_features)
+        gl_target_resolve_area(target, f->area);
+    gl_timers_end(&f->timers);
 }
 
-static facet_result draw(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
-                         bool is_for_window, gl_frame_block *block, facet_error *error)
+facet_result gl_frame_draw(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
+                           gl_frame_block *block, facet_error *error)
 {
     begin(f, target, desc, block);
     facet_result result = draw_opaque(f, target, desc, error);
@@ -349,31 +390,13 @@ static facet_result draw(gl_frame *f, const gl_target *target, const facet_rende
     if (result == FACET_OK)
         result = draw_blended(f, target, desc, block, error);
     gl_camera_end_depth(f->context);
-    gl_timers_begin(&f->timers, GL_TIMER_RESOLVE);
-    memcpy(f->area, (int[4]){0, 0, (int)target->width, (int)target->height}, sizeof f->area);
-    if (is_for_window && is_model_alone(f, desc))
-        gl_mesh_area(f->meshes, block, gl_camera_is_top_down(f->context), target->width, target->height,
-                     f->area);
-    gl_target_resolve_area(target, f->area);
-    gl_timers_end(&f->timers);
+    resolve(f, target, desc, block);
     const gl_pyramid_brush brush = {f->programs, f->empty_array};
     if (result == FACET_OK && desc->shading == FACET_SHADING_OGL1)
         result = gl_phong_linearize(f->phong, &brush, target, error);
     if (result == FACET_OK)
         result = draw_bloom(f, target, desc, error);
     return result;
-}
-
-facet_result gl_frame_draw(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
-                           gl_frame_block *block, facet_error *error)
-{
-    return draw(f, target, desc, false, block, error);
-}
-
-facet_result gl_frame_draw_window(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
-                                  gl_frame_block *block, facet_error *error)
-{
-    return draw(f, target, desc, true, block, error);
 }
 
 facet_result gl_frame_draw_layers(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
@@ -392,7 +415,7 @@ facet_result gl_frame_draw_layers(gl_frame *f, const gl_target *target, const fa
 /* Clears the window around the area that was drawn, which is to be scissored. (x, y): corner of the window. */
 static void clear_around(const gl_frame *f, const gl_target *target, int x, int y)
 {
-    bool is_top_down = gl_camera_is_top_down(f->context);
+    bool is_top_down = gl_context_is_top_down(f->context);
     int bottom = is_top_down ? (int)target->height - f->area[1] - f->area[3] : f->area[1];
     glEnable(GL_SCISSOR_TEST);
     if (f->area[2] != (int)target->width || f->area[3] != (int)target->height) {
@@ -403,24 +426,35 @@ static void clear_around(const gl_frame *f, const gl_target *target, int x, int 
     glScissor(x + f->area[0], y + bottom, f->area[2], f->area[3]);
 }
 
-facet_result gl_frame_present(gl_frame *f, const gl_target *target, const facet_render_desc *desc, int x,
-                              int y, facet_error *error)
+static facet_result tone_map(gl_frame *f, const gl_target *target, const facet_render_desc *desc, int x,
+                             int y, facet_error *error)
 {
     gl_frame_block block = {.size = {(float)target->width, (float)target->height, (float)x, (float)y}};
     fill_block(f, desc, &block);
     set_block(f, &block);
-    gl_timers_begin(&f->timers, GL_TIMER_PRESENT);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, target->color);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
     glDisable(GL_BLEND);
     glViewport(x, y, (GLsizei)target->width, (GLsizei)target->height);
-    clear_around(f, target, x, y);
     uint64_t features = gl_program_present_features(
-        gl_camera_is_top_down(f->context),
-        gl_channel_is_light(desc->gl.channel) ? desc->tonemap : FACET_TONEMAP_NONE);
-    facet_result result = draw_screen(f, GL_MAIN_PRESENT, features, error);
+        f->context, gl_channel_is_light(desc->gl.channel) ? desc->tonemap : FACET_TONEMAP_NONE);
+    return draw_screen(f, GL_MAIN_PRESENT, features, error);
+}
+
+facet_result gl_frame_present(gl_frame *f, const gl_target *target, const facet_render_desc *desc,
+                              uint32_t framebuffer, int x, int y, facet_error *error)
+{
+    facet_result result = FACET_OK;
+    gl_timers_begin(&f->timers, GL_TIMER_PRESENT);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    clear_around(f, target, x, y);
+    if (f->display_features)
+        gl_target_resolve_into(target, framebuffer, f->area);
+    else
+        result = tone_map(f, target, desc, x, y, error);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glDisable(GL_SCISSOR_TEST);
     gl_timers_end(&f->timers);
     return result;

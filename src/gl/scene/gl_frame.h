@@ -10,6 +10,14 @@
 #include "gl/core/gl_timers.h"
 #include "gl/scene/gl_transparency.h"
 
+/* What a frame is drawn for. */
+typedef enum gl_frame_use {
+    GL_FRAME_IMAGE,
+    GL_FRAME_WINDOW, /* read by gl_frame_present() only: what is empty around the model is left out */
+    GL_FRAME_CANVAS /* the same, of a page, with the same corner: opaque surfaces are drawn as displayed, if nothing else is
+                      * in the image, which is then antialiased after tone mapping, as pages antialias everything */
+} gl_frame_use;
+
 /* Everything of a scene in GPU memory; lives as long as its context. */
 typedef struct gl_frame {
     gl_context *context;
@@ -21,6 +29,9 @@ typedef struct gl_frame {
     gl_phong *phong; /* NULL: not used yet */
     gl_transparency *transparency;
     const gl_scene *scene; /* of the last update */
+    gl_frame_use use;      /* of the next update, set by the caller */
+    uint64_t
+        display_features; /* of the last update: gl_program_display_features(), or 0: surfaces put out radiance */
     gl_timers timers;
     /* of the last drawing: {left, bottom, width, height} of the pixels of the target that were resolved */
     int area[4];
@@ -38,6 +49,8 @@ void gl_frame_destroy(gl_frame *frame); /* {0} is allowed; leaves {0} */
 facet_result gl_frame_update(gl_frame *frame, const gl_scene *scene, const camera_rays *camera,
                              const facet_render_desc *desc, facet_render_stats *stats, facet_error *error);
 
+/* The kind of target for a window's image; the frame is up to date. */
+gl_target_kind gl_frame_window_kind(const gl_frame *frame);
 /* The most samples per pixel of a target; the frame is up to date. */
 uint32_t gl_frame_max_samples(const gl_frame *frame, const facet_render_desc *desc);
 /* Draws a view into a target and resolves it. block: filled by gl_camera_set(); the rest is filled in here. */
@@ -47,11 +60,9 @@ facet_result gl_frame_draw(gl_frame *frame, const gl_target *target, const facet
  * (m; 0: none); base color and occlusion; index of the geometry, texture coordinates, opacity. */
 facet_result gl_frame_draw_layers(gl_frame *frame, const gl_target *target, const facet_render_desc *desc,
                                   gl_frame_block *block, facet_error *error);
-/* The same, where only gl_frame_present() reads the image: leaves out what is empty around the model. */
-facet_result gl_frame_draw_window(gl_frame *frame, const gl_target *target, const facet_render_desc *desc,
-                                  gl_frame_block *block, facet_error *error);
-/* Tone-maps and encodes a resolved image into the bound framebuffer, lower left corner at (x, y). */
-facet_result gl_frame_present(gl_frame *frame, const gl_target *target, const facet_render_desc *desc, int x,
-                              int y, facet_error *error);
+/* Tone-maps and encodes a resolved image into a framebuffer, lower left corner at (x, y), or resolves one that was drawn
+ * as displayed. */
+facet_result gl_frame_present(gl_frame *frame, const gl_target *target, const facet_render_desc *desc,
+                              uint32_t framebuffer, int x, int y, facet_error *error);
 
 #endif

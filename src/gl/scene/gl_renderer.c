@@ -119,8 +119,9 @@ static facet_result make_camera(gl_renderer *r, const facet_render_desc *desc, c
 }
 
 /* Everything before drawing: the pose and its uploads. */
-static facet_result prepare(gl_renderer *r, const facet_render_desc *desc, camera_rays *camera,
-                            double deadline_s, facet_render_stats *stats, facet_error *error)
+static facet_result prepare(gl_renderer *r, const facet_render_desc *desc, gl_frame_use use,
+                            camera_rays *camera, double deadline_s, facet_render_stats *stats,
+                            facet_error *error)
 {
     double begin = clock_seconds();
     facet_result result = render_check_limits(desc, "prepare", 0.0, deadline_s, error);
@@ -131,6 +132,7 @@ static facet_result prepare(gl_renderer *r, const facet_render_desc *desc, camer
     if (result == FACET_OK)
         result = make_camera(r, desc, camera, error);
     stats->geometry_s += clock_seconds() - begin;
+    r->frame.use = use;
     if (result == FACET_OK)
         result = gl_frame_update(&r->frame, &r->prepared, camera, desc, stats, error);
     if (result == FACET_OK)
@@ -214,7 +216,7 @@ static facet_result attempt(gl_renderer *r, const facet_render_desc *desc, doubl
     if (result == FACET_OK)
         report_driver(r, &desc->log);
     if (result == FACET_OK)
-        result = prepare(r, desc, &camera, deadline_s, stats, error);
+        result = prepare(r, desc, GL_FRAME_IMAGE, &camera, deadline_s, stats, error);
     double begin = clock_seconds();
     if (result == FACET_OK)
         result = draw_film(r, desc, &camera, deadline_s, target, error);
@@ -264,28 +266,27 @@ facet_result gl_renderer_present(gl_renderer *r, const facet_render_desc *wanted
     const facet_render_desc settled = settle(wanted), *desc = &settled;
     camera_rays camera;
     gl_frame_block block;
+    gl_frame_use use = r->context->is_canvas && x == 0 && y == 0 ? GL_FRAME_CANVAS : GL_FRAME_WINDOW;
     *stats = (facet_render_stats){.thread_count = desc->thread_count};
     if (!desc->width || !desc->height)
         return FACET_OK; /* a window that is reduced to its title bar */
     facet_result result = start(r, error);
     if (result == FACET_OK)
-        result = prepare(r, desc, &camera, 0.0, stats, error);
+        result = prepare(r, desc, use, &camera, 0.0, stats, error);
     double begin = clock_seconds();
     uint32_t most = result == FACET_OK ? gl_frame_max_samples(&r->frame, desc) : 1;
     gl_sampling sampling = gl_sampling_plan(desc->samples ? desc->samples : 4, FACET_QUALITY_NORMAL, most);
     if (result == FACET_OK)
-        result = gl_target_update(&r->target, r->context, GL_TARGET_WINDOW, desc->width, desc->height,
-                                  sampling.samples, error);
+        result = gl_target_update(&r->target, r->context, gl_frame_window_kind(&r->frame), desc->width,
+                                  desc->height, sampling.samples, error);
     if (result == FACET_OK) {
         const gl_view all = {.scale = 1, .width = desc->width, .height = desc->height};
         set_camera(r, &camera, desc, &all, &block);
         block.is_draft = desc->quality == FACET_QUALITY_DRAFT;
-        result = gl_frame_draw_window(&r->frame, &r->target, desc, &block, error);
+        result = gl_frame_draw(&r->frame, &r->target, desc, &block, error);
     }
-    if (result == FACET_OK) {
-        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-        result = gl_frame_present(&r->frame, &r->target, desc, x, y, error);
-    }
+    if (result == FACET_OK)
+        result = gl_frame_present(&r->frame, &r->target, desc, framebuffer, x, y, error);
     if (result == FACET_OK) {
         r->times = gl_timers_finish(&r->frame.timers, false);
         result = gl_context_check(r->context, "the window", error);

@@ -363,6 +363,50 @@ static void a_window_is_empty_around_the_model(void **state)
     on_each(check_area);
 }
 
+/* A page's canvas takes premultiplied values. What is drawn as displayed equals a window's image but at edges, which are
+ * antialiased after tone mapping. */
+static void check_canvas(fixture *ignored, gl_context *context)
+{
+    (void)ignored;
+    enum { PIXELS = FLOOR_WIDTH * FLOOR_HEIGHT };
+    static unsigned char window[4 * PIXELS], canvas[4 * PIXELS];
+    static bool is_edge[PIXELS];
+    fixture f = make_floor();
+    gl_context page = *context;
+    page.is_canvas = true;
+    gl_renderer *renderer = gl_fixture_renderer(&f, context), *of_page = gl_fixture_renderer(&f, &page);
+    assert_int_equal(gl_context_make_current(context, NULL), FACET_OK);
+    f.desc.tonemap = FACET_TONEMAP_ACES;
+    f.desc.background_color[1] = 0.4f;
+    for (int is_behind = 0; is_behind < 2; is_behind++) {
+        f.desc.background = is_behind ? FACET_BACKGROUND_COLOR : FACET_BACKGROUND_TRANSPARENT;
+        present_alone(&f, renderer, FACET_QUALITY_NORMAL, window);
+        present_alone(&f, of_page, FACET_QUALITY_NORMAL, canvas);
+        int edges = 0;
+        for (int i = 0; i < PIXELS; i++) {
+            const unsigned char *a = &window[4 * i], *b = &canvas[4 * i];
+            if (!is_behind)
+                is_edge[i] = a[3] % 255 != 0 || b[3] % 255 != 0;
+            edges += is_edge[i];
+            for (int c = 0; c < 4; c++) {
+                assert_true(b[c] <= b[3]);
+                assert_true(is_edge[i] || abs(a[c] - b[c]) <= 1);
+            }
+        }
+        assert_in_range(edges, 1, PIXELS / 20);
+    }
+    gl_renderer_destroy(of_page);
+    gl_renderer_destroy(renderer);
+    gl_context_release(context);
+    fixture_destroy(&f);
+}
+
+static void a_canvas_shows_what_windows_show(void **state)
+{
+    (void)state;
+    on_each(check_canvas);
+}
+
 /* ---- windows ---- */
 
 /* A window's pixels equal those of a file: sRGB, straight alpha, upright, in place. */
@@ -457,6 +501,7 @@ int main(void)
                                        cmocka_unit_test(distant_surfaces_do_not_z_fight),
                                        cmocka_unit_test(a_draft_blurs_textures_only),
                                        cmocka_unit_test(a_window_is_empty_around_the_model),
+                                       cmocka_unit_test(a_canvas_shows_what_windows_show),
                                        cmocka_unit_test(a_window_presents_the_tone_mapped_image),
                                        cmocka_unit_test(passes_are_timed)};
     if (!gl_fixture_open(&contexts))

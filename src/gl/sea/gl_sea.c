@@ -84,8 +84,7 @@ static facet_result show(const gl_sea_image *d, const gl_target *mean, const gl_
 {
     const gl_sea *s = d->s;
     const facet_render_desc *r = d->frame->desc;
-    bool is_top_down = gl_camera_is_top_down(s->context);
-    const gl_program_key key = {GL_MAIN_PRESENT, gl_program_present_features(is_top_down, r->tonemap)};
+    const gl_program_key key = {GL_MAIN_PRESENT, gl_program_present_features(s->context, r->tonemap)};
     const gl_frame_block block = {.size = {(float)r->width, (float)r->height, (float)to->x, (float)to->y}};
     GLuint program;
     TRY(gl_programs_get(s->programs, key, &program, error));

@@ -193,7 +193,7 @@ static void draw_classes(const gl_sea_image *d, const gl_sea_programs *programs)
 /* Restricts drawing to a part of the image, {x, y, width, height}. */
 static void clip(const gl_sea_image *d, const gl_target *t, const uint32_t part[4])
 {
-    uint32_t y = gl_camera_is_top_down(d->s->context) ? part[1] : t->height - part[1] - part[3];
+    uint32_t y = gl_context_is_top_down(d->s->context) ? part[1] : t->height - part[1] - part[3];
     if (!d->is_clipped)
         return;
     glEnable(GL_SCISSOR_TEST);

@@ -117,7 +117,7 @@ static facet_result draw_cut(gl_sea_model *m, const water_frame *p, const camera
     if (result != FACET_OK)
         return result;
     gl_frame_block block = {.channel = 0};
-    bool is_reversed = gl_camera_is_top_down(m->context);
+    bool is_reversed = gl_context_is_top_down(m->context);
     float side = p->is_below && cut == GL_SEA_MIRRORED ? -1.0f : 1.0f;
     float plane_m = cut_height(p, c->origin[1], side), below_m = plane_m - c->origin[1];
     float scale = plane_scale(p, c, plane_m, side);
@@ -340,7 +340,7 @@ facet_result gl_sea_model_draw(gl_sea_model *m, const water_frame *p, const came
         along += block.view_projection[4 * i + 2] * block.forward[i];
     b->model_depth[0] = along;
     b->model_depth[1] = block.view_projection[14];
-    b->model_depth[2] = gl_camera_is_top_down(m->context) ? 1.0f : 0.0f;
+    b->model_depth[2] = gl_context_is_top_down(m->context) ? 1.0f : 0.0f;
     return gl_frame_draw(&m->frame, &m->seen, &m->desc, &block, error);
 }
 

@@ -1,19 +1,6 @@
-/* present.frag - radiance to the display values of a window: as film_tone_map() computes them for files meant for
- * displays, sRGB and not premultiplied. */
+/* present.frag - radiance to the display values of a window: sRGB, not premultiplied, or premultiplied in that
+ * encoding. */
 uniform sampler2D u_image;
-
-/* A constant, because software rasterizers compute all operators that a variable may choose. */
-const int tonemap_operator = 0
-#ifdef ADDS_1
-    + 1
-#endif
-#ifdef ADDS_2
-    + 2
-#endif
-#ifdef ADDS_4
-    + 4
-#endif
-    ;
 
 out vec4 fragment;
 
@@ -26,13 +13,14 @@ void main()
     vec4 texel = texelFetch(u_image, at, 0);
     float opacity = clamp(texel.w, 0.0, 1.0);
     vec3 color = vec3(0.0);
-    if (opacity > 0.0) {
-        color = min(texel.xyz / opacity, vec3(65504.0)); /* half floats may have overflowed */
-        color = tonemap(tonemap_operator, color);
-    }
+    if (opacity > 0.0)
+        color = display_color(texel.xyz / opacity);
     if (background.w > 0.0) {
         color = mix(background.xyz, color, opacity);
         opacity = 1.0;
     }
-    fragment = vec4(srgb_from_linear(clamp(color, 0.0, 1.0)), opacity);
+    fragment = vec4(display_encode(color), opacity);
+#ifdef IS_PREMULTIPLIED
+    fragment.xyz *= opacity;
+#endif
 }

@@ -1,4 +1,4 @@
-/* surface.frag - radiance (cd/m^2, premultiplied) of a material. */
+/* surface.frag - radiance (cd/m^2, premultiplied) of a material, or what a window shows of it. */
 #ifdef AOVS
 void main()
 {
@@ -150,6 +150,11 @@ void main()
     vec4 color = base_color();
     float opacity = coverage(color.w);
     vec3 radiance = shaded(color.xyz, opacity);
+    float scale = exposure;
+#ifdef IS_DISPLAYED
+    radiance = display_encode(display_color(radiance * exposure));
+    scale = 1.0;
+#endif
 #ifdef HAS_ALPHA_MASK
     if (has_coverage != 0)
         opacity = mask_share(color.w);
@@ -161,6 +166,6 @@ void main()
     if (channel == CHANNEL_OPACITY)
         opacity = 1.0;
 #endif
-    put_fragment(radiance * exposure, opacity);
+    put_fragment(radiance * scale, opacity);
 }
 #endif
