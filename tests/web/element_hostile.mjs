@@ -127,6 +127,18 @@ export const cases = ({ page, check, equal, open }) => ({
             'the content security policy of the page lacks \'wasm-unsafe-eval\' in script-src'].map((why) => `/site/facet-viewer/viewer.wasm does not start: ${why}`));
     },
 
+    async 'an element that is larger than any image'() {
+        const found = await page.evaluate(async () => {
+            await clear();
+            const viewer = make({ src: 'box.gltf' }, [30000, 300]);
+            await event(viewer, 'load');
+            await frames(4);
+            const canvas = viewer.shadowRoot.querySelector('.stage canvas:not(.unused)');
+            return { size: [canvas.width, canvas.height], errors: viewer.log.filter(([type]) => type === 'error'), hit: viewer.pick(15000, 150) !== null };
+        });
+        equal(found, { size: [8192, 82], errors: [], hit: true });
+    },
+
     async 'a page that requires trusted types'() {
         const home = page.url();
         await open('/site/trusted.html');

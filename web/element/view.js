@@ -4,6 +4,7 @@ import { engine } from './engine.js';
 
 const OF_MODEL = new Set(['animation', 'time', 'variant', 'camera', 'scene', 'orbit', 'target', 'fov']); // options that need the model
 
+const LARGEST = 8192; // pixels along a side, which most graphics processors can draw
 const MOST_STOPS = 3; // then a model is not loaded again
 
 // b over a: objects member by member, all else as a whole.
@@ -346,7 +347,8 @@ export class View {
   // ---- the image ----
 
   setSize(width, height) {
-    this.#size = { width: Math.max(1, width), height: Math.max(1, height) };
+    const scale = Math.min(1, LARGEST / width, LARGEST / height);
+    this.#size = { width: Math.max(1, Math.round(scale * width)), height: Math.max(1, Math.round(scale * height)) };
     this.touch();
   }
 
