@@ -12,7 +12,7 @@ facet_result facet_part_read_info(const char *path, facet_part_info *info, facet
     *info = (facet_part_info){.count = 0};
     file_bytes file;
     part_header header;
-    TRY(file_open(path, 0, NULL, &file, error));
+    TRY(part_open(path, NULL, &file, error));
     facet_result result = part_header_read(file.data, file.size, path, &header, error);
     file_close(&file);
     if (result == FACET_OK)

@@ -3,6 +3,7 @@
 #ifndef RENDER_PART_H
 #define RENDER_PART_H
 
+#include "base/file.h"
 #include "render/renderer_set.h"
 
 /* ---- making a part ---- */
@@ -35,6 +36,9 @@ typedef struct part_header {
     bool is_ogl1_linear;
 } part_header;
 
+/* Opens the file of a part. FACET_ERROR_READ: it cannot be read, or is no regular file; a part is read several times. */
+facet_result part_open(const char *path, const facet_allocator *allocator, file_bytes *file,
+                       facet_error *error);
 /* FACET_ERROR_INVALID: the bytes are no part. */
 facet_result part_header_read(const unsigned char *bytes, size_t size, const char *path, part_header *out,
                               facet_error *error);

@@ -1,4 +1,5 @@
 /* part_file.c - the texts of a part's file, written and read: what it is part of, and how it is finished. */
+#define _POSIX_C_SOURCE 200809L
 #include "base/memory.h"
 #include "base/result.h"
 #include "ibl/cache.h"
@@ -11,6 +12,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 static const char FORMAT[] = "1";
 enum { MAX_SIZE = 65536, MAX_COUNT = 1000000, NUMBERS_SIZE = 1024 };
@@ -151,6 +153,16 @@ facet_result part_describe(renderer_set *set, const facet_render_desc *whole, co
 }
 
 /* ---- reading ---- */
+
+facet_result part_open(const char *path, const facet_allocator *allocator, file_bytes *file,
+                       facet_error *error)
+{
+    struct stat info;
+    if (stat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode))
+        return fail(error, FACET_ERROR_READ, "%s: it is a pipe or a device; the file of a part was expected",
+                    path);
+    return file_open(path, 0, allocator, file, error);
+}
 
 /* Whether the file is a part that this version reads. The codec reports a damaged OpenEXR file. */
 static facet_result check_kind(const unsigned char *bytes, size_t size, const char *path, facet_error *error)

@@ -30,7 +30,7 @@ typedef struct merging {
 static facet_result read_header(const merging *m, const char *path, part_header *out, facet_error *error)
 {
     file_bytes file;
-    TRY(file_open(path, 0, &m->desc->allocator, &file, error));
+    TRY(part_open(path, &m->desc->allocator, &file, error));
     facet_result result = part_header_read(file.data, file.size, path, out, error);
     file_close(&file);
     return result;
@@ -167,7 +167,7 @@ static facet_result read_values(const merging *m, const part_entry *part, const 
         l.pixels += ((size_t)r[1] * to->width + r[0]) * l.channel_count;
         count += film_layer_list_channels(&l, to->width, channels + count);
     }
-    TRY(file_open(part->path, 0, &m->desc->allocator, &file, error));
+    TRY(part_open(part->path, &m->desc->allocator, &file, error));
     facet_result result = image_read_exr_channels(file.data, file.size, part->path, &m->desc->allocator, r[2],
                                                   r[3], channels, count, error);
     file_close(&file);
@@ -316,7 +316,7 @@ static facet_result copy_texts(const merging *m, film *target, facet_error *erro
     static const uint32_t aovs[MATTE_KINDS] = {FACET_AOV_CRYPTO_OBJECT, FACET_AOV_CRYPTO_MATERIAL,
                                                FACET_AOV_CRYPTO_INSTANCE};
     file_bytes file;
-    facet_result result = file_open(m->parts[0].path, 0, &m->desc->allocator, &file, error);
+    facet_result result = part_open(m->parts[0].path, &m->desc->allocator, &file, error);
     for (uint32_t kind = 0; kind < MATTE_KINDS && result == FACET_OK; kind++)
         for (uint32_t i = 0; m->parts[0].header.aovs & aovs[kind] && i < MATTE_TEXTS && result == FACET_OK;
              i++) {

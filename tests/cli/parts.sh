@@ -100,6 +100,8 @@ says "image.exr: is an OpenEXR image, but not a part of one"
 expect 4 merge a*.exr whole.png -o merged.png
 says "whole.png: not a part of an image: an OpenEXR file was expected"
 expect 3 merge a*.exr none.exr -o merged.png
+expect 3 merge a*.exr /dev/zero -o merged.png
+says "/dev/zero: it is a pipe or a device; the file of a part was expected"
 expect 2 merge a*.exr -o 'a part_0.exr'
 says "this part would be overwritten"
 expect 2 merge -o merged.png
