@@ -45,13 +45,36 @@ static void set_limits(const job_request *job)
         close(file);
 }
 
+/* Copies the descriptors out of the way of those that they become. */
+static bool move_away(const int descriptors[OUTPUT_DESCRIPTOR + 1], int moved[OUTPUT_DESCRIPTOR + 1])
+{
+    for (int i = 0; i <= OUTPUT_DESCRIPTOR; i++)
+        if ((moved[i] = fcntl(descriptors[i], F_DUPFD_CLOEXEC, OUTPUT_DESCRIPTOR + 1)) < 0)
+            return false;
+    return true;
+}
+
+/* Closes what the child inherits of other jobs, where the system allows few descriptors. */
+static void close_others(const int descriptors[OUTPUT_DESCRIPTOR + 1])
+{
+    for (int fd = 0; fd < 1024; fd++) {
+        bool is_wanted = false;
+        for (int i = 0; i <= OUTPUT_DESCRIPTOR; i++)
+            is_wanted = is_wanted || descriptors[i] == fd;
+        if (!is_wanted)
+            close(fd);
+    }
+}
+
 /* Makes descriptors[i] the descriptor i and closes all others. */
 static bool place_descriptors(const int descriptors[OUTPUT_DESCRIPTOR + 1])
 {
     int moved[OUTPUT_DESCRIPTOR + 1];
-    for (int i = 0; i <= OUTPUT_DESCRIPTOR; i++) /* out of the way */
-        if ((moved[i] = fcntl(descriptors[i], F_DUPFD_CLOEXEC, OUTPUT_DESCRIPTOR + 1)) < 0)
+    if (!move_away(descriptors, moved)) {
+        close_others(descriptors);
+        if (!move_away(descriptors, moved))
             return false;
+    }
     for (int i = 0; i <= OUTPUT_DESCRIPTOR; i++)
         if (dup2(moved[i], i) < 0)
             return false;
@@ -79,8 +102,11 @@ static void run_child(const job_request *job, pid_t parent, const int descriptor
     if (getppid() != parent) /* it has ended meanwhile */
         _exit(EXIT_AGAIN);
     setpgid(0, 0); /* signals of the terminal are for the parent */
-    if (!place_descriptors(descriptors))
+    if (!place_descriptors(descriptors)) {
+        dprintf(descriptors[2], "%s: its process cannot be set up: %s\n",
+                job->name ? job->name : job->words[0], strerror(errno));
         _exit(EXIT_ENVIRONMENT);
+    }
     set_limits(job);
     size_t count = 0;
     while (job->words[count])
@@ -220,6 +246,8 @@ static char *find_message(const job_result *result)
     if (sentence)
         return strdup(sentence);
     const char *log = result->log ? result->log : "";
+    if (!*log || *log == '\n')
+        return NULL;
     if (asprintf(&message, "%.*s", (int)strcspn(log, "\n"), log) < 0)
         return NULL;
     return message;
