@@ -117,7 +117,7 @@ rm jobs.jsonl
 line '{"input":"models/a.gltf","output":"w/a.png"}'
 line '{"input":"models/a.gltf","output":"w/b.png","sise":3}'
 line 'no JSON'
-line '{"input":"models/a.gltf","output":"w/a.png"}'
+line '{"input":"models/a.gltf","output":"./w//./a.png"}'
 line '{"output":"w/d.png"}'
 line '{"input":"models/old.gltf","output":"w/old.png"}'
 line '{"input":"models/a.gltf","output":"w/e.png","time":"soon"}'
@@ -125,7 +125,7 @@ line '{"input":"models/a.gltf","output":"w/f.png","command":"view"}'
 expect 1 batch --manifest jobs.jsonl --failed again.jsonl -- $tiny
 says "jobs.jsonl: line 2: unknown option --sise; did you mean --size?"
 says "jobs.jsonl: line 3: column 2:"
-says "jobs.jsonl: line 4: its output w/a.png is that of item 1 as well"
+says "jobs.jsonl: line 4: its output ./w//./a.png is that of item 1 as well"
 says "jobs.jsonl: line 5: it has no input"
 says 'jobs.jsonl: line 7: --time: "soon" is not a number'
 says "jobs.jsonl: line 8: command: it is none of render,"
@@ -135,6 +135,18 @@ cp models/b.gltf models/old.gltf
 grep -F old.png again.jsonl >once.jsonl
 expect 0 batch --manifest once.jsonl -- $tiny
 [ -s w/old.png ] || failed "a failed item cannot be run again"
+
+# Too long a line, bytes of 0 and invalid UTF-8 fail as items, and the others are done.
+rm jobs.jsonl
+line '{"input":"models/a.gltf","output":"v/a.png"}'
+(printf '{"input":"'; head -c 3000000 /dev/zero | tr '\0' a; printf '"}\n\0\0\n{"input":"\377"\n') >>jobs.jsonl
+line '{"input":"models/a.gltf","output":"v/b.png"}'
+expect 1 batch --manifest jobs.jsonl --failed wrong.jsonl -- $tiny
+says "jobs.jsonl: line 2: it is longer than 1 MiB"
+says "jobs.jsonl: line 3: column"
+says "jobs.jsonl: line 4: column"
+says "batch: 2 done, 0 kept, 3 failed"
+[ "$(wc -l <wrong.jsonl)" = 3 ] || failed "failed lines: $(wc -l <wrong.jsonl)"
 
 # ---- shards, jobs at a time ----
 

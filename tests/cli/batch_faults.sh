@@ -90,6 +90,14 @@ expect 75 batch gone/no1.gltf gone/no2.gltf gone/no3.gltf a.gltf -j 1 -o 'l/{ste
 says "three items in a row failed as if by this machine"
 [ ! -e l/a.png ] || failed "a suspect machine goes on"
 
+# Few descriptors delay items, and pipes at the place of files do not hang the batch.
+(ulimit -n 20; expect 0 batch a.gltf a.gltf -j 8 -o 'few/{index}.png' -- $tiny)
+mkfifo pipe.png
+echo '{"input":"a.gltf","output":"pipe.png"}' >pipe.jsonl
+timeout 20 "$facet" batch --manifest pipe.jsonl --resume --dry-run -- $tiny >out 2>err || failed "a pipe as output: exit $?"
+echo '{"input":"hang.gltf","output":"hang.png"}' >pipe.jsonl
+timeout 20 "$facet" batch --manifest pipe.jsonl --resume=content --dry-run -- $tiny >out 2>err || failed "a pipe as input: exit $?"
+
 # ---- killed at any moment ----
 
 rm -f jobs.jsonl

@@ -3,6 +3,7 @@
 #include "cli/batch/batch_item.h"
 
 #include "base/hash.h"
+#include "cli/batch/batch_tag.h"
 #include "cli/shared/failure.h"
 #include "cli/shared/input.h"
 #include "cli/shared/model_list.h"
@@ -49,7 +50,7 @@ static void digest_text(digest *d, const char *text)
 /* The bytes of a file; false: it cannot be read, which its job will report. */
 static bool digest_file(digest *d, const char *path)
 {
-    FILE *file = fopen(path, "rbe");
+    FILE *file = batch_open_regular(path);
     if (!file)
         return false;
     unsigned char block[65536];
@@ -293,16 +294,21 @@ batch_item *batch_item_from_line(const batch_plan *plan, const char *line, size_
     if (!item)
         return NULL;
     *item = (batch_item){.number = number, .verb = plan->verb, .place = strdup(place)};
-    item->source = json_loadb(line, length, JSON_REJECT_DUPLICATES, &problem);
-    if (!item->source)
+    item->source = line ? json_loadb(line, length, JSON_REJECT_DUPLICATES, &problem) : NULL;
+    if (!line)
+        set_problem(item, "%s: it is longer than 1 MiB", place);
+    else if (!item->source)
         set_problem(item, "%s: column %d: %s", place, problem.column, problem.text);
     else if (!json_is_object(item->source))
         set_problem(item, "%s: a JSON object was expected", place);
     else
         compose(plan, item, &(model_name){.number = (size_t)number + 1});
     if (!json_is_object(item->source)) {
+        char text[1001] = "";
+        if (line)
+            snprintf(text, sizeof text, "%.*s", (int)(length < 1000 ? length : 1000), line);
         json_decref(item->source);
-        item->source = json_pack("{s:o}", "line", json_stringn(line, length < 1000 ? length : 1000));
+        item->source = json_pack("{s:o}", "line", report_string_json(text));
     }
     item->name = item->name ? item->name : strdup(place);
     set_id(item);

@@ -34,8 +34,8 @@ typedef struct batch_item {
 /* An item for the model of an argument. NULL: no memory. */
 batch_item *batch_item_from_model(const batch_plan *plan, const model_name *model, uint64_t number);
 
-/* An item for a line of a manifest, of length bytes; place is "jobs.jsonl: line 3". A wrong line gives an item with a
- * problem. NULL: no memory. */
+/* An item for a line of a manifest, of length bytes; place is "jobs.jsonl: line 3". line NULL: it is too long. A wrong
+ * line gives an item with a problem. NULL: no memory. */
 batch_item *batch_item_from_line(const batch_plan *plan, const char *line, size_t length, const char *place,
                                  uint64_t number);
 

@@ -56,8 +56,11 @@ facet_result batch_lines_add(batch_lines *lines, json_t *object, facet_error *er
         n = write(lines->fd, text, length + 1);
     while (n < 0 && errno == EINTR);
     free(text);
-    return n == (ssize_t)length + 1 ? FACET_OK
-                                    : fail(error, FACET_ERROR_WRITE, "%s: %s", lines->path, strerror(errno));
+    if (n == (ssize_t)length + 1)
+        return FACET_OK;
+    /* a disk that becomes full takes a part of the line and sets no errno */
+    return fail(error, FACET_ERROR_WRITE, "%s: cannot be written: %s", lines->path,
+                strerror(n < 0 ? errno : ENOSPC));
 }
 
 /* Adds text unless it is NULL. */

@@ -251,11 +251,27 @@ static facet_result start(batch_run *run, batch_item *item, facet_error *error)
     return is_hopeless && !job_pool_running(run->pool) ? result : FACET_OK;
 }
 
+/* Writes the name of an output without "./" and double slashes, so that notations of one file are equal. */
+static void simplify(const char *output, char name[BATCH_NAME_SIZE])
+{
+    size_t length = 0;
+    for (const char *at = output; *at && length + 1 < BATCH_NAME_SIZE; at++) {
+        bool is_first = at == output || at[-1] == '/';
+        if (is_first && at[0] == '.' && at[1] == '/')
+            at++;
+        else if (at == output || *at != '/' || !is_first)
+            name[length++] = *at;
+    }
+    name[length] = '\0';
+}
+
 /* Whether an item of the source has nothing to run: it is wrong, or an earlier run has done it; it is then recorded. */
 static facet_result check(batch_run *run, batch_item **item, facet_error *error)
 {
     batch_item *i = *item;
-    const uint64_t *other = i->output && !i->problem ? batch_map_find(&run->outputs, i->output) : NULL;
+    char name[BATCH_NAME_SIZE] = "";
+    simplify(i->output ? i->output : "", name);
+    const uint64_t *other = *name && !i->problem ? batch_map_find(&run->outputs, name) : NULL;
     char text[BATCH_NAME_SIZE + 600];
     if (other && *other != i->number) {
         snprintf(text, sizeof text, "%s: its output %s is that of item %" PRIu64 " as well",
@@ -266,7 +282,7 @@ static facet_result check(batch_run *run, batch_item **item, facet_error *error)
         *item = NULL;
         return record_problem(run, i, error);
     }
-    if (i->output && !batch_map_set(&run->outputs, i->output, i->number))
+    if (*name && !batch_map_set(&run->outputs, name, i->number))
         return fail_memory(error, "names of outputs", 0);
     if (i->output && !run->plan->is_dry)
         batch_leftovers_remove(&run->leftovers, i->output);

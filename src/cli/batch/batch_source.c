@@ -25,6 +25,7 @@ struct batch_source {
 
     int fd; /* of the manifest; -1: none */
     bool may_block, is_at_end;
+    bool is_long; /* the line at begin has lost its first bytes, since it is too long */
     char *buffer; /* BUFFER_BYTES; [begin, end) is not used yet */
     size_t begin, end;
     uint64_t line_number;
@@ -32,11 +33,16 @@ struct batch_source {
 
 /* ---- opening ---- */
 
-/* Whether a line of a manifest is blank. */
+/* Whether a byte of a line says nothing. Bytes of 0, which a crash of the machine can leave, are no space. */
+static bool is_space(char byte)
+{
+    return byte == ' ' || byte == '\t' || byte == '\r';
+}
+
 static bool is_blank(const char *line, size_t length)
 {
     for (size_t i = 0; i < length; i++)
-        if (!strchr(" \t\r\n", line[i]))
+        if (!is_space(line[i]))
             return false;
     return true;
 }
@@ -52,7 +58,7 @@ static uint64_t count_lines(int fd, char *block, size_t size)
             if (block[i] == '\n') {
                 count += has_text;
                 has_text = false;
-            } else if (!strchr(" \t\r", block[i])) {
+            } else if (!is_space(block[i])) {
                 has_text = true;
             }
         }
@@ -121,9 +127,8 @@ static batch_next fill(batch_source *s, facet_error *error)
 {
     const char *name = input_name(s->plan->manifest);
     if (s->end - s->begin > MAX_LINE_BYTES) {
-        fail(error, FACET_ERROR_LIMIT, "%s: line %llu: it is longer than 1 MiB", name,
-             (unsigned long long)s->line_number + 1);
-        return NEXT_FAILED;
+        s->is_long = true;
+        s->begin = s->end;
     }
     memmove(s->buffer, s->buffer + s->begin, s->end - s->begin);
     s->end -= s->begin;
@@ -143,7 +148,7 @@ static batch_next fill(batch_source *s, facet_error *error)
     return NEXT_ITEM;
 }
 
-/* The next line that is not blank; it is valid until the next call. */
+/* The next line that is not blank; it is valid until the next call. *line NULL: it is too long. */
 static batch_next next_line(batch_source *s, const char **line, size_t *length, facet_error *error)
 {
     for (;;) {
@@ -156,13 +161,14 @@ static batch_next next_line(batch_source *s, const char **line, size_t *length, 
                 return state;
             continue;
         }
-        if (!size)
+        if (!size && !s->is_long)
             return NEXT_END;
-        *line = begin;
         *length = stop ? (size_t)(stop - begin) : size;
+        *line = s->is_long || *length > MAX_LINE_BYTES ? NULL : begin;
         s->begin += *length + (stop ? 1 : 0);
         s->line_number++;
-        if (!is_blank(*line, *length))
+        s->is_long = false;
+        if (!*line || !is_blank(*line, *length))
             return NEXT_ITEM;
     }
 }

@@ -1,10 +1,13 @@
 /* batch_tag.c - see batch_tag.h. PNG: chunks of length, type, data, CRC, up to IDAT. OpenEXR: attributes of name, type, size and
  * value, up to an empty name. */
+#define _POSIX_C_SOURCE 200809L
 #include "cli/batch/batch_tag.h"
 
+#include <fcntl.h>
 #include <stdint.h>
-#include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 static const char keyword[] = "facet-tag";
 
@@ -77,11 +80,21 @@ static bool find_in_exr(FILE *file, char tag[BATCH_TAG_SIZE])
     return false;
 }
 
+FILE *batch_open_regular(const char *path)
+{
+    struct stat info;
+    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    FILE *file = fd >= 0 && fstat(fd, &info) == 0 && S_ISREG(info.st_mode) ? fdopen(fd, "rb") : NULL;
+    if (!file && fd >= 0)
+        close(fd);
+    return file;
+}
+
 bool batch_tag_read(const char *path, char tag[BATCH_TAG_SIZE])
 {
     static const unsigned char exr_magic[] = {0x76, 0x2f, 0x31, 0x01};
     unsigned char magic[8];
-    FILE *file = fopen(path, "rbe");
+    FILE *file = batch_open_regular(path);
     if (!file)
         return false;
     bool has_tag = false;
