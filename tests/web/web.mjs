@@ -285,7 +285,8 @@ try {
     assert.match(await page.evaluate(() => window.sentence(() => window.web.module.setMaterial(window.web.viewer, 0, { alphaMode: 3 }))), /materials\[0\].*alphaMode/);
     assert.match(await page.evaluate(() => window.sentence(() => window.web.module.setMaterial(window.web.viewer, 7, {}))), /no material 7/);
     await open(['edited.gltf', [['edited.gltf', base64(JSON.stringify(edited))]]]);
-    assert.ok((await frame()).equals(changed), 'a changed material differs from that of a file');
+    const of_file = await frame(); // to within rounding: these are images of two scenes
+    assert.ok(changed.every((value, i) => Math.abs(value - of_file[i]) <= 1), 'a changed material differs from that of a file');
 
     // ---- files: several, alike names, hostile ones ----
 
