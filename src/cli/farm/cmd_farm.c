@@ -6,6 +6,7 @@
 #include "cli/farm/farm_status.h"
 #include "cli/farm/farm_submit.h"
 #include "cli/shared/failure.h"
+#include "cli/shared/terminal.h"
 #include "cli/shared/verb_run.h"
 
 #include <stdio.h>
@@ -158,10 +159,14 @@ static void print_failures(const farm_status *s)
     {
         const char *name = json_string_value(json_object_get(failure, "name"));
         const char *message = json_string_value(json_object_get(failure, "message"));
-        printf("    %.200s%s%.400s\n", name ? name : "", name ? ": " : "", message ? message : "failed");
+        char line[700];
+        snprintf(line, sizeof line, "    %.200s%s%.400s", name ? name : "", name ? ": " : "",
+                 message ? message : "failed");
+        terminal_disarm(line);
+        puts(line);
     }
-    if (s->failed > FARM_FAILURES)
-        printf("    and %llu more\n", (unsigned long long)(s->failed - FARM_FAILURES));
+    if (s->failed + s->to_retry > FARM_FAILURES)
+        printf("    and %llu more\n", (unsigned long long)(s->failed + s->to_retry - FARM_FAILURES));
 }
 
 static void print_status(farm_verb_run *f)
@@ -184,6 +189,9 @@ static void print_status(farm_verb_run *f)
             printf("    shard %u: %s\n", i, s->shards[i].history);
     if (s->failed)
         printf("  %s failed: %llu\n", what, (unsigned long long)s->failed);
+    if (s->to_retry)
+        printf("  %s failed, and are tried again by facet farm retry: %llu\n", what,
+               (unsigned long long)s->to_retry);
     print_failures(s);
 }
 

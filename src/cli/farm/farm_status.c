@@ -69,10 +69,11 @@ static void count_results(farm_status *s, farm_shard *part, json_t *results)
         const char *status = json_string_value(json_object_get(result, "status"));
         bool is_done = status && strcmp(status, "done") == 0;
         part->done += is_done;
-        if (!is_done && is_final(json_integer_value(json_object_get(result, "exit_code")))) {
-            part->failed++;
+        bool is_over = !is_done && is_final(json_integer_value(json_object_get(result, "exit_code")));
+        part->failed += is_over;
+        s->to_retry += !is_done && !is_over;
+        if (!is_done)
             add_failure(s, json_object_get(result, "id"), json_object_get(result, "message"));
-        }
     }
 }
 

@@ -16,6 +16,7 @@ typedef struct farm_shard {
 typedef struct farm_status {
     farm_shard *shards; /* run->shard_count */
     uint64_t items, done, failed;
+    uint64_t to_retry;                  /* items that failed as if by the machine */
     uint32_t running, waiting, missing; /* shards; missing: unfinished, and nowhere in Slurm */
     json_t *failures;                   /* the first FARM_FAILURES: objects with name and message */
 } farm_status;
