@@ -148,6 +148,13 @@ says "jobs.jsonl: line 4: column"
 says "batch: 2 done, 0 kept, 3 failed"
 [ "$(wc -l <wrong.jsonl)" = 3 ] || failed "failed lines: $(wc -l <wrong.jsonl)"
 
+# Names that are no UTF-8 are found in the results as well.
+mkdir odd
+cp models/a.gltf "$(printf 'odd/\377.gltf')"
+for run in 1 2; do expect 0 batch odd -o 'odd/{stem}.jpg' --results odd.jsonl --resume -- $tiny; done
+says "batch: 0 done, 1 kept, 0 failed"
+[ "$(wc -l <odd.jsonl)" = 1 ] || failed "results of a name that is no UTF-8: $(cat odd.jsonl)"
+
 # ---- shards, jobs at a time ----
 
 rm jobs.jsonl

@@ -64,6 +64,22 @@ if [ -e "/proc/$$/task/$$/children" ]; then
     grep -F crash.png c.jsonl | grep -F '"signal":11' | grep -qF '"tries":2' || failed "the crash: $(cat c.jsonl)"
     [ "$(grep -c '"status":"done"' c.jsonl)" = 3 ] || failed "a crash takes others with it: $(cat c.jsonl)"
 
+    # Three crashes in a row are those of the models, if the machine can render.
+    mkdir -p poison
+    for i in 0 1 2; do mkfifo "poison/$i.gltf"; done
+    "$facet" batch poison/0.gltf poison/1.gltf poison/2.gltf a.gltf -j 1 -o 'p/{stem}.png' --results p.jsonl -- $tiny 2>err &
+    process=$!
+    while kill -0 $process 2>/dev/null; do
+        child=$(children $process)
+        sleep 0.8
+        [ -z "$child" ] || [ "$child" != "$(children $process)" ] || kill -SEGV $child 2>/dev/null || true
+    done
+    code=0
+    wait $process || code=$?
+    process=
+    [ $code = 1 ] || failed "exit code $code after three crashes in a row: $(cat err)"
+    [ -s p/a.png ] || failed "three crashes in a row end the batch"
+
     # Jobs end with their parent, however that ends.
     "$facet" batch --manifest jobs.jsonl -j 1 -- $tiny 2>err &
     process=$!

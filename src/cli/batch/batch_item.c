@@ -185,8 +185,11 @@ static void set_id(batch_item *item)
             item->id = NULL;
     } else if (id)
         set_problem(item, "%s: id: it must be text or a whole number", item->place);
-    if (!item->id)
-        item->id = strdup(item->output ? item->output : item->name);
+    if (item->id)
+        return;
+    json_t *name = report_string_json(item->output ? item->output : item->name); /* as results have it */
+    item->id = name ? strdup(json_string_value(name)) : NULL;
+    json_decref(name);
 }
 
 /* ---- arguments ---- */

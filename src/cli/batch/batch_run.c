@@ -112,6 +112,23 @@ static facet_result record_kept(batch_run *run, batch_item *item, facet_error *e
     return written;
 }
 
+/* Whether a picture without a model can be rendered here: then it is the models that crash, not the machine. */
+static bool can_render_here(void)
+{
+    static const char *const words[] = {"render", "--size=16", "--format=png", "--output=/dev/null", NULL};
+    const job_request request = {.words = words, .name = "a picture", .time_limit_s = 30.0};
+    job_result result = {.exit_code = EXIT_BUG};
+    facet_error error;
+    job_pool *pool = job_pool_create(1);
+    bool is_good = pool && job_pool_start(pool, &request, &error) == FACET_OK;
+    while (is_good && job_pool_running(pool) && !interrupt_signal())
+        job_pool_wait(pool, NULL, 0, 1.0, &result);
+    is_good = is_good && result.end == JOB_EXITED && result.exit_code == EXIT_DONE;
+    job_result_destroy(&result);
+    job_pool_destroy(pool);
+    return is_good;
+}
+
 /* Counts items in a row whose first try failed by the machine. */
 static void suspect(batch_run *run, const batch_item *item, const job_result *result)
 {
@@ -122,7 +139,10 @@ static void suspect(batch_run *run, const batch_item *item, const job_result *re
         return;
     }
     snprintf(run->reason, sizeof run->reason, "%s", result->message ? result->message : item->name);
-    run->is_suspect = run->is_suspect || ++run->suspect_count == SUSPECT_COUNT;
+    if (run->is_suspect || ++run->suspect_count < SUSPECT_COUNT)
+        return;
+    run->suspect_count = 0;
+    run->is_suspect = result->end != JOB_KILLED || !can_render_here();
 }
 
 /* Removes the image that path tracing has written when it was interrupted, at whose place a complete one was expected. */
