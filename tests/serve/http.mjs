@@ -116,6 +116,14 @@ await run({
             assert.match(await raw(server.port, head('localhost', more)), /^HTTP\/1.1 200/, more);
         await stop(server);
     },
+    async 'it listens again after too many connections'() {
+        const server = await start_http('--client-timeout', '500ms');
+        const idle = Array.from({ length: 200 }, () => net.createConnection(server.port, '127.0.0.1'));
+        for (const socket of idle) socket.on('error', () => {}).resume();
+        await wait_for('the end of idle connections', () => idle.every((socket) => socket.destroyed));
+        assert.match(await raw(server.port, 'GET /health HTTP/1.0\r\n\r\n'), /^HTTP\/1.. 200/);
+        await stop(server);
+    },
     async 'what is no HTTP ends its connection only'() {
         const server = await start_http('--client-timeout', '500ms');
         for (const bytes of ['\0\x01\x02\r\n\r\n', 'GET / HTTP/9.9\r\n\r\n', `GET /${'x'.repeat(100000)} HTTP/1.1\r\nHost: localhost\r\n\r\n`,

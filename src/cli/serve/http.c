@@ -47,6 +47,7 @@ struct http {
     struct MHD_Daemon *daemon;
     connection *connections;
     uint64_t body_bytes, unsent_bytes; /* of all exchanges */
+    uint64_t closed_count;             /* connections that have ended */
     int epoll;
     bool is_local; /* reached by this machine only */
     long entry;
@@ -354,6 +355,7 @@ static void on_connection(void *user, struct MHD_Connection *mhd, void **context
         *context = c;
         return;
     }
+    h->closed_count++;
     for (connection **at = &h->connections; *at; at = &(*at)->next)
         if (*at == c) {
             *at = c->next;
@@ -439,8 +441,12 @@ static void check_clients(http *h, const poll_set *set)
 
 void http_handle(http *h, const poll_set *set)
 {
+    uint64_t before;
     check_clients(h, set);
-    h->library.run(h->daemon);
+    do { /* at MAX_CONNECTIONS it stops listening, and listens again in the turn after one has ended */
+        before = h->closed_count;
+        h->library.run(h->daemon);
+    } while (h->closed_count != before);
 }
 
 void http_stop(http *h)
