@@ -1,6 +1,6 @@
 // rpc.mjs - JSON-RPC 2.0 on standard input and output, and on a socket.
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
+import { execFileSync, spawnSync } from 'node:child_process';
 import { existsSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import net from 'node:net';
 import path from 'node:path';
@@ -91,6 +91,11 @@ await run({
         }
         assert((await client.call('render', small)).result);
         await stop_stdio(server);
+    },
+    async 'a closed standard output is no reason to wait'() {
+        const line = JSON.stringify({ jsonrpc: '2.0', id: 1, method: 'status' });
+        const { status } = spawnSync('sh', ['-c', 'exec "$0" serve --stdio >&-', facet], { input: `${line}\n`, timeout: 30000 });
+        assert.equal(status, 0);
     },
     async 'no path leads out of the root'() {
         const server = await start_stdio(), { client } = server;

@@ -57,6 +57,15 @@ static facet_result watch_signals(facet_error *error)
     return FACET_OK;
 }
 
+/* Opens standard streams that are closed, so that nothing else becomes standard input or output. */
+static facet_result open_standard_streams(facet_error *error)
+{
+    for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
+        if (fcntl(fd, F_GETFD) < 0 && open("/dev/null", O_RDWR) < 0)
+            return fail(error, FACET_ERROR_SYSTEM, "serve: /dev/null: %s", strerror(errno));
+    return FACET_OK;
+}
+
 /* ---- options ---- */
 
 static facet_result read_ways(const command_line *c, facet_error *error)
@@ -227,6 +236,7 @@ static facet_result serve(serve_run *run, facet_error *error)
 {
     TRY(read_ways(run->line, error));
     TRY(read_limits(run, error));
+    TRY(open_standard_streams(error));
     TRY(watch_signals(error));
     TRY(open_ways(run, error));
     run_loop(run);
