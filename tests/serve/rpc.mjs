@@ -97,6 +97,11 @@ await run({
         const { status } = spawnSync('sh', ['-c', 'exec "$0" serve --stdio >&-', facet], { input: `${line}\n`, timeout: 30000 });
         assert.equal(status, 0);
     },
+    async 'few descriptors are enough for many workers'() {
+        const line = `${JSON.stringify({ jsonrpc: '2.0', id: 1, method: 'render', params: { ...small, threads: 1 } })}\n`;
+        const { stdout } = spawnSync('sh', ['-c', 'ulimit -n 30; exec "$0" serve --stdio --root "$1" -j 64', facet, root], { input: line, timeout: 30000 });
+        assert(JSON.parse(stdout).result, stdout);
+    },
     async 'no path leads out of the root'() {
         const server = await start_stdio(), { client } = server;
         const secret = path.join(work, 'secret.gltf');

@@ -24,6 +24,7 @@ typedef struct slot {
     job_end end;                       /* why it is being ended; JOB_EXITED: it is not */
     double limit_s;
     size_t max_output_bytes, capacity;
+    size_t entry; /* in polled, while it runs */
     job_result result;
 } slot;
 
@@ -216,16 +217,19 @@ static bool reserve(job_pool *pool, size_t other_count)
 /* Polls once, at most until the moment. Returns poll()'s value. */
 static int poll_once(job_pool *pool, struct pollfd *others, size_t other_count, double moment)
 {
+    size_t running = 0; /* free slots would count for the limit of descriptors */
     for (unsigned i = 0; i < pool->slot_count; i++)
-        pool->polled[i] = (struct pollfd){.fd = pool->slots[i].is_running ? pool->slots[i].child.output : -1,
-                                          .events = POLLIN};
+        if (pool->slots[i].is_running) {
+            pool->slots[i].entry = running;
+            pool->polled[running++] = (struct pollfd){.fd = pool->slots[i].child.output, .events = POLLIN};
+        }
     if (other_count)
-        memcpy(pool->polled + pool->slot_count, others, other_count * sizeof *others);
+        memcpy(pool->polled + running, others, other_count * sizeof *others);
     double left = moment - interrupt_clock();
     int milliseconds = left <= 0.0 ? 0 : left > 1e5 ? 100000000 : (int)(left * 1e3) + 1;
-    int count = poll(pool->polled, pool->slot_count + other_count, milliseconds);
+    int count = poll(pool->polled, running + other_count, milliseconds);
     if (other_count)
-        memcpy(others, pool->polled + pool->slot_count, other_count * sizeof *others);
+        memcpy(others, pool->polled + running, other_count * sizeof *others);
     return count;
 }
 
@@ -244,7 +248,7 @@ bool job_pool_wait(job_pool *pool, struct pollfd *others, size_t other_count, do
             slot *s = &pool->slots[i];
             if (!s->is_running)
                 continue;
-            if (pool->polled[i].revents && drain(s)) {
+            if (pool->polled[s->entry].revents && drain(s)) {
                 finish(pool, s, result);
                 return true;
             }
