@@ -34,6 +34,7 @@ await run({
         assert.equal(inputSchema.properties.denoise.type, 'boolean');
         assert.equal(inputSchema.properties.json, undefined);
         assert.deepEqual(tools[3].inputSchema.required, ['model', 'output']);
+        assert.match(tools[0].inputSchema.properties.size.description, /default: 640x480/);
         assert(JSON.stringify(tools).length < 40000); // it stands in the context of every session
         const options = text_of(await client.tool('options', { tool: 'render' }));
         for (const word of ['orbit ', 'turntable ', 'exposure ']) assert(options.includes(`\n${word}`), word);

@@ -143,7 +143,7 @@ static void call_method(reply *r, const mcp_tool *tool, const json_t *given)
     } else {
         bool has_output = json_object_get(arguments, "output") != NULL;
         if (tool->method->verb == &render_verb && !has_output)
-            set_default(arguments, "size", json_string("640x480"));
+            set_default(arguments, "size", json_string(MCP_IMAGE_SIZE));
         if (tool->method->verb == &compare_verb && !has_output) {
             set_default(arguments, "format", json_string("png"));
             set_default(arguments, "heat-map", json_true());

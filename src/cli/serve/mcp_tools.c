@@ -6,7 +6,8 @@
 
 static const mcp_tool tools[] = {
     {methods + 0, "render", "Render a 3D model",
-     "Renders a model (glTF, OBJ, STL, PLY) and returns the image as PNG, 640x480 unless size is given. With "
+     "Renders a model (glTF, OBJ, STL, PLY) and returns the image as PNG, " MCP_IMAGE_SIZE
+     " unless size is given. With "
      "output "
      "the image is written to that file instead. The whole model is in the image unless orbit, eye or camera "
      "say "
@@ -45,14 +46,16 @@ const mcp_tool *mcp_tool_find(const char *name)
 /* ---- schemas ---- */
 
 /* "help; N, default X". */
-static void add_description(text *out, const option *o)
+static void add_description(text *out, const mcp_tool *tool, const option *o)
 {
+    bool is_image_size = tool->method->verb == &render_verb && o->id == OPT_SIZE;
+    const char *default_text = is_image_size ? MCP_IMAGE_SIZE : o->default_text;
     text sentence = {0};
     text_add(&sentence, o->help);
     if (o->argument && o->kind != OPTION_CHOICE && o->kind != OPTION_CHOICES)
         text_addf(&sentence, "; %s", o->argument);
-    if (o->default_text)
-        text_addf(&sentence, " (default: %s)", o->default_text);
+    if (default_text)
+        text_addf(&sentence, " (default: %s)", default_text);
     text_json_string(out, "description", sentence.data);
     text_destroy(&sentence);
 }
@@ -72,7 +75,7 @@ static void add_number(text *out, const char *key, double value)
     text_json_raw(out, key, digits);
 }
 
-static void add_option(text *out, const option *o)
+static void add_option(text *out, const mcp_tool *tool, const option *o)
 {
     bool is_number = o->kind == OPTION_NUMBER || o->kind == OPTION_INTEGER;
     text_json_begin_object(out, o->name);
@@ -87,7 +90,7 @@ static void add_option(text *out, const option *o)
         add_number(out, "minimum", o->minimum);
         add_number(out, "maximum", o->maximum);
     }
-    add_description(out, o);
+    add_description(out, tool, o);
     text_json_end_object(out);
 }
 
@@ -124,11 +127,11 @@ static void add_properties(text *out, const mcp_tool *tool)
     if (m && basics)
         for (; *basics != OPTION_ID_COUNT; basics++)
             if (is_argument(option_find_id(m->verb, *basics)))
-                add_option(out, option_find_id(m->verb, *basics));
+                add_option(out, tool, option_find_id(m->verb, *basics));
     const option *o;
     for (size_t i = 0; m && !basics && (o = option_at(m->verb, i)); i++)
         if (is_argument(o))
-            add_option(out, o);
+            add_option(out, tool, o);
     text_json_end_object(out);
 }
 

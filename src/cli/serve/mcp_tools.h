@@ -6,6 +6,9 @@
 #include "base/text.h"
 #include "cli/serve/method.h"
 
+/* Of an image that an agent asks for without a size: it is cheap to look at. */
+#define MCP_IMAGE_SIZE "640x480"
+
 typedef struct mcp_tool {
     const method *method; /* NULL: the tool options, which describes the others */
     const char *name, *title, *description;

@@ -122,7 +122,7 @@ void metrics_print(const metrics *m, const metrics_now *now, text *out)
     print_one(out, "facet_queue_limit", "gauge", "Requests that may wait.", (double)now->queue_limit);
     print_one(out, "facet_jobs_running", "gauge", "Jobs that run.", now->running);
     print_one(out, "facet_workers", "gauge", "Jobs that may run at a time.", now->workers);
-    print_one(out, "facet_clients", "gauge", "Connected clients.", now->clients);
+    print_one(out, "facet_clients", "gauge", "Connections of HTTP.", now->clients);
     print_one(out, "process_resident_memory_bytes", "gauge",
               "Resident memory of the server without its jobs.", resident_bytes());
 }
