@@ -55,22 +55,39 @@ FN vec3 case_filter_mitchell(vec2 u)
 
 /* ---- footprint.h ---- */
 
+#define PARITY_IMAGE_SIZE vec2(512.0f, 300.0f)
+
+FN Footprint parity_footprint(vec2 u)
+{
+    return footprint_from_derivatives(PARITY_IMAGE_SIZE, vec2(0.001f + 0.02f * u[0], 0.004f * u[1]),
+                                      vec2(-0.003f * u[1], 0.001f + 0.006f * u[0] * u[1]));
+}
+
+FN vec3 parity_probes(ProbeRow p)
+{
+    return vec3(float(p.count), sqrt(p.width2), 1.0f + length(vec2(p.step_u, p.step_v) * PARITY_IMAGE_SIZE));
+}
+
 FN vec3 case_footprint(vec2 u)
 {
-    vec2 size = vec2(512.0f, 300.0f);
-    Footprint f = footprint_from_derivatives(size, vec2(0.001f + 0.02f * u[0], 0.004f * u[1]),
-                                             vec2(-0.003f * u[1], 0.001f + 0.006f * u[0] * u[1]));
+    Footprint f = parity_footprint(u);
     return vec3(sqrt(f.longest2), sqrt(f.major2) + sqrt(max(f.minor2, 0.0f) + 1.0f),
                 length(vec2(f.axis_u, f.axis_v)) / f.major2 + sel(footprint_is_finite(f), 1.0f, 2.0f));
 }
 
 FN vec3 case_footprint_probes(vec2 u)
 {
-    vec2 size = vec2(512.0f, 300.0f);
-    Footprint f = footprint_from_derivatives(size, vec2(0.001f + 0.02f * u[0], 0.004f * u[1]),
-                                             vec2(-0.003f * u[1], 0.001f + 0.006f * u[0] * u[1]));
-    ProbeRow p = footprint_probes(f, 1.0f, 1.0f / size);
-    return vec3(float(p.count), sqrt(p.width2), 1.0f + length(vec2(p.step_u, p.step_v) * size));
+    return parity_probes(footprint_probes(parity_footprint(u), 1.0f, 1.0f / PARITY_IMAGE_SIZE));
+}
+
+FN vec3 case_footprint_one_probe(vec2 u)
+{
+    return parity_probes(footprint_probes_up_to(1, parity_footprint(u), 1.0f, 1.0f / PARITY_IMAGE_SIZE));
+}
+
+FN vec3 case_footprint_few_probes(vec2 u)
+{
+    return parity_probes(footprint_probes_up_to(3, parity_footprint(u), 1.0f, 1.0f / PARITY_IMAGE_SIZE));
 }
 
 /* ---- light.h ---- */
