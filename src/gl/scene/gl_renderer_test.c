@@ -333,6 +333,8 @@ static void check_area(fixture *ignored, gl_context *context)
     (void)ignored;
     enum { PIXELS = FLOOR_WIDTH * FLOOR_HEIGHT };
     static unsigned char alone[4 * PIXELS], over_black[4 * PIXELS];
+    /* A canvas resolves 8-bit samples, which SwiftShader rounds in another way for all of an image than for a part. */
+    int rounding = context->is_canvas ? 1 : 0;
     fixture f = make_floor();
     gl_renderer *renderer = gl_fixture_renderer(&f, context);
     assert_int_equal(gl_context_make_current(context, NULL), FACET_OK);
@@ -348,7 +350,7 @@ static void check_area(fixture *ignored, gl_context *context)
             full += alone[i + 3] == 255;
             empty += alone[i + 3] == 0;
             for (int k = 0; k < 3 && alone[i + 3] % 255 == 0; k++)
-                assert_int_equal(alone[i + k], over_black[i + k]);
+                assert_true(abs(alone[i + k] - over_black[i + k]) <= rounding);
         }
         assert_true(full > PIXELS / 20 && empty > PIXELS / 20);
     }
