@@ -309,6 +309,16 @@ void text_add_html(text *t, const char *string)
     }
 }
 
+void text_add_url(text *t, const char *string)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._~/";
+    for (; *string; string++)
+        if (strchr(plain, *string))
+            text_add_bytes(t, string, 1);
+        else
+            text_addf(t, "%%%02X", (unsigned char)*string);
+}
+
 /* Writes the four digits of 1 to 3 bytes. */
 static void base64_group(const unsigned char *bytes, size_t count, char out[4])
 {

@@ -20,6 +20,8 @@ void text_addf(text *t, const char *format, ...) __attribute__((format(printf, 2
 void text_destroy(text *t); /* {0} is allowed */
 /* As HTML: &, <, > and quotes as entities; invalid UTF-8 and control characters become U+FFFD. */
 void text_add_html(text *t, const char *string);
+/* As the path of a URL: all but letters, digits and -._~/ as %XX. */
+void text_add_url(text *t, const char *string);
 /* As base64 (RFC 4648), padded, without line breaks. */
 void text_add_base64(text *t, const void *bytes, size_t size);
 

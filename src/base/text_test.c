@@ -193,6 +193,15 @@ static void html_is_escaped(void **state)
     text_destroy(&t);
 }
 
+static void urls_are_escaped(void **state)
+{
+    (void)state;
+    text t = {0};
+    text_add_url(&t, "aZ/09 %?#&\"+:\xc3\xa9-._~");
+    assert_string_equal(t.data, "aZ/09%20%25%3F%23%26%22%2B%3A%C3%A9-._~");
+    text_destroy(&t);
+}
+
 static void base64_is_padded(void **state)
 {
     (void)state;
@@ -244,6 +253,7 @@ int main(void)
         cmocka_unit_test(places_keep_origin_and_offset),
         cmocka_unit_test(strings_are_valid_utf8),
         cmocka_unit_test(html_is_escaped),
+        cmocka_unit_test(urls_are_escaped),
         cmocka_unit_test(base64_is_padded),
         cmocka_unit_test(base64_is_read_back),
         cmocka_unit_test(long_text_grows_and_failure_sticks),

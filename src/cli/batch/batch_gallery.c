@@ -58,17 +58,6 @@ static char *folder_of(const char *path)
     return real;
 }
 
-/* Appends path as a part of an address. */
-static void add_address(text *t, const char *path)
-{
-    for (; *path; path++) {
-        unsigned char c = (unsigned char)*path;
-        bool is_plain =
-            (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || strchr("/-_.~", c);
-        text_addf(t, is_plain ? "%c" : "%%%02X", c);
-    }
-}
-
 /* Appends the address of a file relative to the page. */
 static void add_link(const gallery *g, text *t, const char *path)
 {
@@ -88,12 +77,12 @@ static void add_link(const gallery *g, text *t, const char *path)
             if (*rest == '/')
                 text_add(t, "../");
         const char *rest = to + common + (to[common] == '/');
-        add_address(t, rest);
+        text_add_url(t, rest);
         if (*rest)
             text_add(t, "/");
-        add_address(t, path_base_name(path));
+        text_add_url(t, path_base_name(path));
     } else {
-        add_address(t, path);
+        text_add_url(t, path);
     }
     free(folder);
 }

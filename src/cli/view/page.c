@@ -28,22 +28,12 @@ typedef struct filling {
 
 /* ---- text ---- */
 
-void page_add_url(text *out, const char *string)
-{
-    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._~/";
-    for (; *string; string++)
-        if (strchr(plain, *string))
-            text_add_bytes(out, string, 1);
-        else
-            text_addf(out, "%%%02X", (unsigned char)*string);
-}
-
 /* A folder and a relative name as a URL. */
 static json_t *url_json(const char *folder, const char *name)
 {
     text url = {0};
-    page_add_url(&url, folder);
-    page_add_url(&url, name);
+    text_add_url(&url, folder);
+    text_add_url(&url, name);
     json_t *json = url.has_failed ? NULL : json_string(url.data ? url.data : "");
     text_destroy(&url);
     return json;
@@ -242,7 +232,7 @@ static void add_decoders(filling *f)
 static void add_preview(filling *f)
 {
     if (f->p->preview_url) {
-        page_add_url(f->out, f->p->preview_url);
+        text_add_url(f->out, f->p->preview_url);
         return;
     }
     text_add(f->out, "data:image/png;base64,");

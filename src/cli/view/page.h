@@ -29,7 +29,4 @@ facet_result page_fill(const page *p, const char *template, size_t size, text *o
 /* Whether options change how the model is read, which the page's own reader does not do. */
 bool page_reads_otherwise(const command_line *c);
 
-/* Appends string as a part of a URL: all but letters, digits and -._~/ as %XX. */
-void page_add_url(text *out, const char *string);
-
 #endif

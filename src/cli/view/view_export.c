@@ -328,9 +328,9 @@ static void add_links(const export_run *run, text *out)
         if (!run->stems[i][0])
             continue;
         text_add(out, "<li><a href=\"");
-        page_add_url(out, run->stems[i]);
+        text_add_url(out, run->stems[i]);
         text_add(out, ".html\"><img src=\"previews/");
-        page_add_url(out, run->stems[i]);
+        text_add_url(out, run->stems[i]);
         text_add(out, ".png\" alt=\"\" loading=\"lazy\"><span>");
         text_add_html(out, run->stems[i]);
         text_add(out, "</span></a></li>\n");
