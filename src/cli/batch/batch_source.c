@@ -4,6 +4,7 @@
 
 #include "cli/shared/failure.h"
 #include "cli/shared/input.h"
+#include "cli/shared/manifest_line.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -33,20 +34,6 @@ struct batch_source {
 
 /* ---- opening ---- */
 
-/* Whether a byte of a line says nothing. Bytes of 0, which a crash of the machine can leave, are no space. */
-static bool is_space(char byte)
-{
-    return byte == ' ' || byte == '\t' || byte == '\r';
-}
-
-static bool is_blank(const char *line, size_t length)
-{
-    for (size_t i = 0; i < length; i++)
-        if (!is_space(line[i]))
-            return false;
-    return true;
-}
-
 /* The number of lines of a regular file that are not blank. */
 static uint64_t count_lines(int fd, char *block, size_t size)
 {
@@ -58,7 +45,7 @@ static uint64_t count_lines(int fd, char *block, size_t size)
             if (block[i] == '\n') {
                 count += has_text;
                 has_text = false;
-            } else if (!is_space(block[i])) {
+            } else if (!manifest_is_space(block[i])) {
                 has_text = true;
             }
         }
@@ -168,7 +155,7 @@ static batch_next next_line(batch_source *s, const char **line, size_t *length, 
         s->begin += *length + (stop ? 1 : 0);
         s->line_number++;
         s->is_long = false;
-        if (!*line || !is_blank(*line, *length))
+        if (!*line || !manifest_is_blank(*line, *length))
             return NEXT_ITEM;
     }
 }

@@ -1,5 +1,5 @@
 /* batch_source.h - the items of facet batch, one after the other: of arguments, folders and lists, then of a manifest, which
- * is read as it comes and not kept. */
+ * is read as a stream. */
 #ifndef CLI_BATCH_SOURCE_H
 #define CLI_BATCH_SOURCE_H
 
@@ -20,8 +20,8 @@ facet_result batch_source_open(const batch_plan *plan, const model_list *models,
                                facet_error *error);
 void batch_source_close(batch_source *source); /* NULL is allowed */
 
-/* The next item of the plan's shard, which the caller owns. NEXT_FAILED: the manifest cannot be read (FACET_ERROR_READ), or a
- * line is longer than 1 MiB (_LIMIT). */
+/* The next item of the plan's shard, which the caller owns. A line that is too long, above 1 MiB, is an item with a
+ * problem. NEXT_FAILED: the manifest cannot be read (FACET_ERROR_READ), or there is no memory (_MEMORY). */
 batch_next batch_source_next(batch_source *source, batch_item **item, facet_error *error);
 
 /* The descriptor to poll after NEXT_LATER. */

@@ -3,6 +3,7 @@
 #include "cli/farm/farm_size.h"
 
 #include "base/file.h"
+#include "cli/shared/manifest_line.h"
 #include "cli/shared/shard.h"
 
 #include <jansson.h>
@@ -14,10 +15,7 @@
 static facet_result add_line(farm_items *items, const char *path, uint64_t number, const char *line,
                              size_t size, facet_error *error)
 {
-    size_t blanks = 0;
-    while (blanks < size && memchr(" \t\r", line[blanks], 3))
-        blanks++;
-    if (blanks == size)
+    if (manifest_is_blank(line, size))
         return FACET_OK;
     items->count++;
     if (!memmem(line, size, "\"cost\"", 6))
