@@ -44,13 +44,15 @@ static int make_folders(void **state)
            root_enter("in", &test_root, NULL) != FACET_OK;
 }
 
-static void check(const char *path, answer_kind kind, const char *below)
+typedef bool root_function(const root *r, const char *path, char below[ROOT_PATH_SIZE], answer *refusal);
+
+/* below NULL: a refusal, which has a message. */
+static void check(root_function *find, const char *path, answer_kind kind, const char *below)
 {
     char found[ROOT_PATH_SIZE] = "";
     answer refusal = {0};
-    bool is_found = root_find(&test_root, path, found, &refusal);
+    assert_int_equal(find(&test_root, path, found, &refusal), kind == ANSWER_DONE);
     assert_int_equal(refusal.kind, kind);
-    assert_int_equal(is_found, kind == ANSWER_DONE);
     if (below)
         assert_string_equal(found, below);
     else
@@ -61,62 +63,52 @@ static void inputs_stay_inside(void **state)
 {
     (void)state;
     char path[2 * ROOT_PATH_SIZE];
-    check("a.glb", ANSWER_DONE, "a.glb");
-    check("./sub/../a.glb", ANSWER_DONE, "a.glb");
-    check("sub//b.glb", ANSWER_DONE, "sub/b.glb");
-    check("good", ANSWER_DONE, "sub/b.glb");
-    check("-x.glb", ANSWER_DONE, "./-x.glb");
-    check(".", ANSWER_DONE, ".");
+    check(root_find, "a.glb", ANSWER_DONE, "a.glb");
+    check(root_find, "./sub/../a.glb", ANSWER_DONE, "a.glb");
+    check(root_find, "sub//b.glb", ANSWER_DONE, "sub/b.glb");
+    check(root_find, "good", ANSWER_DONE, "sub/b.glb");
+    check(root_find, "-x.glb", ANSWER_DONE, "./-x.glb");
+    check(root_find, ".", ANSWER_DONE, ".");
     snprintf(path, sizeof path, "%s/in/a.glb", outer);
-    check(path, ANSWER_DONE, "a.glb");
-    check("missing.glb", ANSWER_MISSING, NULL);
-    check("", ANSWER_USAGE, NULL);
-    check("../secret", ANSWER_FORBIDDEN, NULL);
-    check("../nothing", ANSWER_FORBIDDEN, NULL);
-    check("sub/../../secret", ANSWER_FORBIDDEN, NULL);
-    check("link", ANSWER_FORBIDDEN, NULL);
-    check("up/secret", ANSWER_FORBIDDEN, NULL);
-    check("up/nothing", ANSWER_FORBIDDEN, NULL);
-    check("sub/nothing/a.glb", ANSWER_MISSING, NULL);
-    check("/etc/passwd", ANSWER_FORBIDDEN, NULL);
-    check("/nothing", ANSWER_FORBIDDEN, NULL);
+    check(root_find, path, ANSWER_DONE, "a.glb");
+    check(root_find, "missing.glb", ANSWER_MISSING, NULL);
+    check(root_find, "", ANSWER_USAGE, NULL);
+    check(root_find, "../secret", ANSWER_FORBIDDEN, NULL);
+    check(root_find, "../nothing", ANSWER_FORBIDDEN, NULL);
+    check(root_find, "sub/../../secret", ANSWER_FORBIDDEN, NULL);
+    check(root_find, "link", ANSWER_FORBIDDEN, NULL);
+    check(root_find, "up/secret", ANSWER_FORBIDDEN, NULL);
+    check(root_find, "up/nothing", ANSWER_FORBIDDEN, NULL);
+    check(root_find, "sub/nothing/a.glb", ANSWER_MISSING, NULL);
+    check(root_find, "/etc/passwd", ANSWER_FORBIDDEN, NULL);
+    check(root_find, "/nothing", ANSWER_FORBIDDEN, NULL);
     snprintf(path, sizeof path, "%s/inside/secret", outer);
-    check(path, ANSWER_FORBIDDEN, NULL);
+    check(root_find, path, ANSWER_FORBIDDEN, NULL);
     snprintf(path, sizeof path, "%s/in/../secret", outer);
-    check(path, ANSWER_FORBIDDEN, NULL);
+    check(root_find, path, ANSWER_FORBIDDEN, NULL);
     memset(path, 'a', 5000);
     path[5000] = 0;
-    check(path, ANSWER_USAGE, NULL);
-}
-
-static void check_place(const char *path, answer_kind kind, const char *below)
-{
-    char found[ROOT_PATH_SIZE] = "";
-    answer refusal = {0};
-    assert_int_equal(root_place(&test_root, path, found, &refusal), kind == ANSWER_DONE);
-    assert_int_equal(refusal.kind, kind);
-    if (below)
-        assert_string_equal(found, below);
+    check(root_find, path, ANSWER_USAGE, NULL);
 }
 
 static void outputs_stay_inside(void **state)
 {
     (void)state;
     char path[2 * ROOT_PATH_SIZE];
-    check_place("new.png", ANSWER_DONE, "new.png");
-    check_place("a.glb", ANSWER_DONE, "a.glb");
-    check_place("x/y/z.png", ANSWER_DONE, "x/y/z.png");
-    check_place("sub/new/z.png", ANSWER_DONE, "sub/new/z.png");
-    check_place("folder/", ANSWER_DONE, "folder/");
-    check_place("-o.png", ANSWER_DONE, "./-o.png");
+    check(root_place, "new.png", ANSWER_DONE, "new.png");
+    check(root_place, "a.glb", ANSWER_DONE, "a.glb");
+    check(root_place, "x/y/z.png", ANSWER_DONE, "x/y/z.png");
+    check(root_place, "sub/new/z.png", ANSWER_DONE, "sub/new/z.png");
+    check(root_place, "folder/", ANSWER_DONE, "folder/");
+    check(root_place, "-o.png", ANSWER_DONE, "./-o.png");
     snprintf(path, sizeof path, "%s/in/new/a.png", outer);
-    check_place(path, ANSWER_DONE, "new/a.png");
-    check_place("../new.png", ANSWER_FORBIDDEN, NULL);
-    check_place("x/../y.png", ANSWER_FORBIDDEN, NULL);
-    check_place("up/new.png", ANSWER_FORBIDDEN, NULL);
-    check_place("up/new/new.png", ANSWER_FORBIDDEN, NULL);
-    check_place("/tmp/new.png", ANSWER_FORBIDDEN, NULL);
-    check_place("", ANSWER_USAGE, NULL);
+    check(root_place, path, ANSWER_DONE, "new/a.png");
+    check(root_place, "../new.png", ANSWER_FORBIDDEN, NULL);
+    check(root_place, "x/../y.png", ANSWER_FORBIDDEN, NULL);
+    check(root_place, "up/new.png", ANSWER_FORBIDDEN, NULL);
+    check(root_place, "up/new/new.png", ANSWER_FORBIDDEN, NULL);
+    check(root_place, "/tmp/new.png", ANSWER_FORBIDDEN, NULL);
+    check(root_place, "", ANSWER_USAGE, NULL);
 }
 
 static int remove_folders(void **state)
