@@ -55,6 +55,17 @@ film gl_fixture_draw(const fixture *f, gl_renderer *renderer)
     return out;
 }
 
+facet_result gl_fixture_try_draw(const fixture *f, gl_renderer *renderer, facet_error *error)
+{
+    film out;
+    facet_render_stats stats;
+    const facet_render_desc desc = fixture_desc(f);
+    assert_int_equal(film_create(NULL, desc.width, desc.height, 0, &out, NULL), FACET_OK);
+    facet_result result = gl_renderer_render(renderer, &desc, &out, &stats, error);
+    film_destroy(&out);
+    return result;
+}
+
 film gl_fixture_render(const fixture *f, gl_context *context)
 {
     gl_renderer *renderer = gl_fixture_renderer(f, context);

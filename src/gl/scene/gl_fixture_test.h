@@ -25,7 +25,9 @@ void gl_fixture_close(gl_fixture_contexts *contexts);
 /* A renderer of the fixture's scene. Failures abort the test. */
 gl_renderer *gl_fixture_renderer(const fixture *f, gl_context *context);
 film gl_fixture_draw(const fixture *f, gl_renderer *renderer);
-/* The same with a renderer of its own. */
+/* Draws and discards an image without layers, and returns the result of drawing. */
+facet_result gl_fixture_try_draw(const fixture *f, gl_renderer *renderer, facet_error *error);
+/* The image with a renderer of its own. */
 film gl_fixture_render(const fixture *f, gl_context *context);
 
 /* Difference of two images of the same size: mean absolute difference, and share of the pixels in which a

@@ -196,17 +196,6 @@ static unsigned is_reset(void)
     return GL_UNKNOWN_CONTEXT_RESET;
 }
 
-static facet_result try_draw(const fixture *f, gl_renderer *renderer, facet_error *error)
-{
-    film out;
-    facet_render_stats stats;
-    const facet_render_desc desc = fixture_desc(f);
-    assert_int_equal(film_create(NULL, desc.width, desc.height, 0, &out, NULL), FACET_OK);
-    facet_result result = gl_renderer_render(renderer, &desc, &out, &stats, error);
-    film_destroy(&out);
-    return result;
-}
-
 static void a_lost_context_is_replaced(void **state)
 {
     (void)state;
@@ -215,7 +204,7 @@ static void a_lost_context_is_replaced(void **state)
     facet_error error;
     film before = gl_fixture_draw(&f, renderer);
     gl_renderer_get_context(renderer)->reset_status = is_reset;
-    assert_int_equal(try_draw(&f, renderer, &error), FACET_ERROR_SYSTEM);
+    assert_int_equal(gl_fixture_try_draw(&f, renderer, &error), FACET_ERROR_SYSTEM);
     assert_non_null(strstr(error.message, "the driver was reset"));
     film after = gl_fixture_draw(&f, renderer);
     gl_fixture_assert_same(&before, &after);
@@ -265,20 +254,20 @@ static void images_can_be_cancelled(void **state)
     f.desc.samples = 64;
     int calls = 1000000;
     f.desc.progress = (facet_progress){.user = &calls, .report = stop_at_once};
-    assert_int_equal(try_draw(&f, renderer, NULL), FACET_OK);
+    assert_int_equal(gl_fixture_try_draw(&f, renderer, NULL), FACET_OK);
     int all = 1000000 - calls;
     assert_in_range(all, 4, 100);
     for (int most = 1; most <= all; most++) {
         calls = most;
-        assert_int_equal(try_draw(&f, renderer, NULL), FACET_ERROR_CANCELLED);
+        assert_int_equal(gl_fixture_try_draw(&f, renderer, NULL), FACET_ERROR_CANCELLED);
     }
     f.desc.progress = (facet_progress){0};
     f.desc.time_limit_s = 1e-9;
     facet_error error;
-    assert_int_equal(try_draw(&f, renderer, &error), FACET_ERROR_LIMIT);
+    assert_int_equal(gl_fixture_try_draw(&f, renderer, &error), FACET_ERROR_LIMIT);
     assert_non_null(strstr(error.message, "the time limit was reached"));
     f.desc.time_limit_s = 60.0;
-    assert_int_equal(try_draw(&f, renderer, NULL), FACET_OK);
+    assert_int_equal(gl_fixture_try_draw(&f, renderer, NULL), FACET_OK);
     gl_renderer_destroy(renderer);
     fixture_destroy(&f);
 }
@@ -297,11 +286,11 @@ static void scenes_without_light_are_reported(void **state)
     int count = 0;
     f.desc.log = (facet_log){.user = &count, .message = count_warning};
     gl_renderer *renderer = own_renderer(&f);
-    assert_int_equal(try_draw(&f, renderer, NULL), FACET_OK);
+    assert_int_equal(gl_fixture_try_draw(&f, renderer, NULL), FACET_OK);
     assert_int_equal(count, 0);
     facet_environment_destroy(f.environment);
     f.environment = NULL;
-    assert_int_equal(try_draw(&f, renderer, NULL), FACET_OK);
+    assert_int_equal(gl_fixture_try_draw(&f, renderer, NULL), FACET_OK);
     assert_int_equal(count, 1);
     gl_renderer_destroy(renderer);
     fixture_destroy(&f);

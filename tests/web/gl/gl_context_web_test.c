@@ -94,17 +94,6 @@ static void glass_before_a_lamp_is_drawn_without_errors(void **state)
 
 /* ---- lost contexts ---- */
 
-static facet_result try_draw(const fixture *f, gl_renderer *renderer, facet_error *error)
-{
-    film out;
-    facet_render_stats stats;
-    const facet_render_desc desc = fixture_desc(f);
-    assert_int_equal(film_create(NULL, desc.width, desc.height, 0, &out, NULL), FACET_OK);
-    facet_result result = gl_renderer_render(renderer, &desc, &out, &stats, error);
-    film_destroy(&out);
-    return result;
-}
-
 static void a_lost_context_is_reported_and_the_next_one_draws_the_same(void **state)
 {
     (void)state;
@@ -114,7 +103,7 @@ static void a_lost_context_is_reported_and_the_next_one_draws_the_same(void **st
     gl_tests_lose_context();
     facet_error error = {0};
     for (int i = 0; i < 2; i++) {
-        assert_int_equal(try_draw(&f, renderer, &error), FACET_ERROR_SYSTEM);
+        assert_int_equal(gl_fixture_try_draw(&f, renderer, &error), FACET_ERROR_SYSTEM);
         assert_non_null(strstr(error.message, "the driver was reset"));
     }
     assert_true(contexts.items[0].is_lost);
