@@ -103,6 +103,26 @@ FN ShadingFrame frame_from_texcoord(vec3 N, vec3 e1, vec3 e2, vec2 uv1, vec2 uv2
     return f;
 }
 
+/* The frame of a texture whose coordinates KHR_texture_transform maps by the rows of its matrix, from that of the
+ * untransformed coordinates: T along the transformed u, B towards the smaller transformed v. With M the
+ * upper left 2x2 of the matrix, dP/du' is the first column of M^-1 in the basis of dP/du = T and dP/dv = -B,
+ * up to the length: det(M) (M22 T + M21 B); B turns with T, and the other way where M mirrors. Exact where the
+ * untransformed coordinates are not sheared and as dense along u as along v. Unchanged if M is singular. The
+ * extension does not mention tangents; Khronos' sample renderer decided that they follow the texture (its
+ * pull request 16, 2024). */
+FN ShadingFrame frame_transformed(ShadingFrame f, vec3 row_u, vec3 row_v)
+{
+    float determinant = row_u[0] * row_v[1] - row_u[1] * row_v[0];
+    if (!(determinant < 0.0f || determinant > 0.0f))
+        return f;
+    float mirror = sel(determinant < 0.0f, -1.0f, 1.0f);
+    vec2 along = normalize(vec2(row_v[1], row_v[0])) * mirror;
+    ShadingFrame g = f;
+    g.T = f.T * along[0] + f.B * along[1];
+    g.B = (f.B * along[0] - f.T * along[1]) * mirror;
+    return g;
+}
+
 FN bool frame_has_tangent(ShadingFrame f)
 {
     return dot(f.T, f.T) > 0.0f;

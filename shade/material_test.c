@@ -140,6 +140,71 @@ static void test_frames(void **state)
     assert_false(frame_has_tangent(frame_from_texcoord(N, e1, e2, line, line, 1.0f)));
 }
 
+/* Rotations and scales of KHR_texture_transform; T and B in the frame of the untransformed coordinates of a
+ * square, which faces +Z with u to the right and v down: computed in double from the gradients of the
+ * transformed coordinates. */
+static const struct {
+    const char *what;
+    double rotation, scale[2], T[2], B[2];
+} turned_frames[] = {
+    {"unchanged", 0.0, {1.0, 1.0}, {1.0, 0.0}, {0.0, 1.0}},
+    {"90 degrees", 1.57079632679, {1.0, 1.0}, {0.0, -1.0}, {1.0, 0.0}},
+    {"180 degrees", 3.14159265359, {1.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}},
+    {"45 degrees",
+     0.785398163397,
+     {1.0, 1.0},
+     {0.707106781187, -0.707106781187},
+     {0.707106781187, 0.707106781187}},
+    {"30 degrees, twice as dense along u",
+     0.523598775598,
+     {2.0, 1.0},
+     {0.654653670708, -0.755928946018},
+     {0.755928946018, 0.654653670708}},
+    {"mirrored u", 0.0, {-1.0, 1.0}, {-1.0, 0.0}, {0.0, 1.0}},
+    {"mirrored v", 0.0, {1.0, -2.0}, {1.0, 0.0}, {0.0, -1.0}},
+    {"90 degrees, mirrored u", 1.57079632679, {-1.0, 1.0}, {0.0, -1.0}, {-1.0, 0.0}},
+    {"singular", 1.57079632679, {0.0, 1.0}, {1.0, 0.0}, {0.0, 1.0}},
+};
+
+/* Frames turn with the textures: by the closed form, and like the frame of the transformed coordinates. */
+static void test_frames_of_transformed_textures(void **state)
+{
+    (void)state;
+    vec3 N = vec3(0.0f, 0.0f, 1.0f), e1 = vec3(1.0f, 0.0f, 0.0f), e2 = vec3(0.3f, -1.0f, 0.0f);
+    vec2 uv1 = vec2(1.0f, 0.0f), uv2 = vec2(0.3f, 1.0f);
+    for (size_t i = 0; i < sizeof turned_frames / sizeof *turned_frames; ++i) {
+        double c = cos(turned_frames[i].rotation), s = sin(turned_frames[i].rotation);
+        const double *scale = turned_frames[i].scale, *T = turned_frames[i].T, *B = turned_frames[i].B;
+        vec3 row_u = vec3((float)(c * scale[0]), (float)(s * scale[1]), 0.3f);
+        vec3 row_v = vec3((float)(-s * scale[0]), (float)(c * scale[1]), 0.2f);
+        for (int side = -1; side <= 1; side += 2) {
+            ShadingFrame f = frame_from_texcoord(N * (float)side, e1, e2, uv1, uv2, (float)side);
+            ShadingFrame turned = frame_transformed(f, row_u, row_v);
+            expect_vec(turned.T, side * T[0], side * T[1], 0.0, turned_frames[i].what);
+            expect_vec(turned.B, side * B[0], side * B[1], 0.0, turned_frames[i].what);
+            assert_true(turned.N[2] == (float)side);
+            if (scale[0] == 0.0)
+                continue;
+            vec3 no_offset = vec3(1.0f, 1.0f, 0.0f);
+            vec2 changes[2] = {texcoord_transform(uv1, row_u * no_offset, row_v * no_offset),
+                               texcoord_transform(uv2, row_u * no_offset, row_v * no_offset)};
+            f = frame_from_texcoord(N * (float)side, e1, e2, changes[0], changes[1], (float)side);
+            expect_vec(f.T, side * T[0], side * T[1], 0.0, turned_frames[i].what);
+            expect_vec(f.B, side * B[0], side * B[1], 0.0, turned_frames[i].what);
+        }
+    }
+}
+
+/* A rotation by 90 degrees of a texel that leans to the right: the normal leans down. */
+static void test_a_turned_normal_texture(void **state)
+{
+    (void)state;
+    ShadingFrame f = frame_from_tangent(vec3(0.0f, 0.0f, 1.0f), vec3(1.0f, 0.0f, 0.0f), 1.0f, 1.0f);
+    f = frame_transformed(f, vec3(0.0f, 1.0f, 0.0f), vec3(-1.0f, 0.0f, 1.0f));
+    vec3 n = normal_from_texel(vec3(0.8f, 0.5f, 0.9f), 1.0f);
+    expect_vec(frame_normal(f, n, vec3(0.0f)), 0.0, -0.6, 0.8, "shading normal");
+}
+
 static void test_normals(void **state)
 {
     (void)state;
@@ -158,10 +223,14 @@ static void test_normals(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_coverage),         cmocka_unit_test(test_texcoords),
-        cmocka_unit_test(test_surface_channels), cmocka_unit_test(test_layers_are_there_or_not),
-        cmocka_unit_test(test_layer_channels),   cmocka_unit_test(test_frames),
-        cmocka_unit_test(test_normals)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_coverage),
+                                       cmocka_unit_test(test_texcoords),
+                                       cmocka_unit_test(test_surface_channels),
+                                       cmocka_unit_test(test_layers_are_there_or_not),
+                                       cmocka_unit_test(test_layer_channels),
+                                       cmocka_unit_test(test_frames),
+                                       cmocka_unit_test(test_frames_of_transformed_textures),
+                                       cmocka_unit_test(test_a_turned_normal_texture),
+                                       cmocka_unit_test(test_normals)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

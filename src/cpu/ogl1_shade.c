@@ -282,8 +282,9 @@ static vec3 host_mapped_normal(Ogl1Host host)
         return N;
     float texel[4];
     map_texel(host, LEGACY_NORMAL_MAP, texel);
-    vec3 n = normal_from_texel(load3(texel), host->hit->legacy->maps[LEGACY_NORMAL_MAP].bump_multiplier);
-    ShadingFrame f = shading_frame_of_tangents(&host->hit->at, true);
+    const legacy_map *map = &host->hit->legacy->maps[LEGACY_NORMAL_MAP];
+    vec3 n = normal_from_texel(load3(texel), map->bump_multiplier);
+    ShadingFrame f = material_texture_frame(shading_frame_of_tangents(&host->hit->at, true), &map->ref);
     return normalize_or(mul(host->hit->setup->view, f.T * n[0] + f.B * n[1] + f.N * n[2]), N);
 }
 

@@ -187,6 +187,11 @@ shading_texcoord material_texture_coordinates(const shading_hit *h, const scene_
     return c;
 }
 
+ShadingFrame material_texture_frame(ShadingFrame f, const scene_texture_ref *ref)
+{
+    return ref->has_transform ? frame_transformed(f, load3(ref->transform), load3(ref->transform + 3)) : f;
+}
+
 void material_texels_read(const shading_scene *scene, const shading_hit *h, uint32_t wanted, int slot_count,
                           material_texels texels)
 {

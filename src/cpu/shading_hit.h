@@ -52,6 +52,8 @@ typedef float material_texels[SCENE_TEXTURE_SLOT_COUNT][4];
 
 /* Texture coordinates at a hit. */
 shading_texcoord material_texture_coordinates(const shading_hit *h, const scene_texture_ref *ref);
+/* The frame of vectors in a texture, from that of its untransformed coordinates. */
+ShadingFrame material_texture_frame(ShadingFrame f, const scene_texture_ref *ref);
 /* Reads the textures whose bits are set in wanted, all of which the hit's material has; the
  * others of the first slot_count are white. */
 void material_texels_read(const shading_scene *scene, const shading_hit *h, uint32_t wanted, int slot_count,

@@ -40,7 +40,8 @@ static vec3 shading_normal(const shading_hit *h, const material_plan *plan, cons
     if (!(plan->textures & 1u << SCENE_NORMAL_TEXTURE))
         return normalize_or(shading_frame_normal(h, is_front), to_eye);
     vec3 n = normal_from_texel(load3(normal_texel), h->geometry->material->normal_scale);
-    ShadingFrame f = shading_frame_of_tangents(h, is_front);
+    ShadingFrame f = material_texture_frame(shading_frame_of_tangents(h, is_front),
+                                            &h->geometry->material->textures[SCENE_NORMAL_TEXTURE]);
     return frame_normal(f, n, normalize_or(f.N, to_eye));
 }
 
@@ -98,12 +99,14 @@ static vec3 clearcoat_normal(const surface_point *s, const float texel[4])
     if (ref->texture == SCENE_NONE)
         return N;
     vec3 n = normal_from_texel(load3(texel), material->clearcoat_normal_scale);
+    ShadingFrame f;
     /* The geometry's tangents are those of the base's normal texture. */
     const scene_texture_ref *base = &material->textures[SCENE_NORMAL_TEXTURE];
     if (s->hit.geometry->tangents && (base->texture == SCENE_NONE || base->texcoord == ref->texcoord))
-        return frame_normal(shading_frame_of_tangents(&s->hit, s->is_front), n, N);
-    ShadingFrame f = shading_frame_of_texcoord(&s->hit, s->is_front, ref->texcoord);
-    return frame_has_tangent(f) ? frame_normal(f, n, N) : N;
+        f = shading_frame_of_tangents(&s->hit, s->is_front);
+    else
+        f = shading_frame_of_texcoord(&s->hit, s->is_front, ref->texcoord);
+    return frame_has_tangent(f) ? frame_normal(material_texture_frame(f, ref), n, N) : N;
 }
 
 /* These take and return layers by value: they are inlined without copies. */
@@ -126,13 +129,13 @@ static inline Layers add_anisotropy(const surface_point *s, material_texels texe
     float strength = anisotropy_strength(material->anisotropy, texel);
     if (!(strength > 0.0f))
         return m;
+    const scene_texture_ref *ref = &material->textures[SCENE_ANISOTROPY_TEXTURE];
     ShadingFrame f;
-    if (s->hit.geometry->tangents) {
+    if (s->hit.geometry->tangents)
         f = shading_frame_of_tangents(&s->hit, s->is_front);
-    } else {
-        const scene_texture_ref *ref = &material->textures[SCENE_ANISOTROPY_TEXTURE];
+    else
         f = shading_frame_of_texcoord(&s->hit, s->is_front, ref->texture == SCENE_NONE ? 0 : ref->texcoord);
-    }
+    f = material_texture_frame(f, ref);
     return with_anisotropy(m, strength, material->anisotropy_rotation, texel, f);
 }
 

@@ -252,8 +252,11 @@ FN vec3 case_shading_frames(vec2 u)
     vec3 n = normal_from_texel(texel_or_white, 0.7f);
     ShadingFrame tangents =
         frame_from_tangent(N * 1.1f, vec3(0.9f, 0.2f, 0.1f), -1.0f, sel(u[0] > 0.5f, 1.0f, -1.0f));
-    return parity_frame(tangents) + parity_frame(parity_texcoord_frame(u)) + frame_normal(tangents, n, N) +
-           normalize_or(n, N) + 3.0f;
+    float mirror = sel(u[0] > 0.75f, -1.0f, sel(u[0] < 0.02f, 0.0f, 1.0f));
+    ShadingFrame turned = frame_transformed(tangents, vec3(cos(u[1]), 2.0f * sin(u[1]), 0.1f) * mirror,
+                                            vec3(-sin(u[1]), 2.0f * cos(u[1]), 0.2f));
+    return parity_frame(tangents) + parity_frame(parity_texcoord_frame(u)) + parity_frame(turned) +
+           frame_normal(tangents, n, N) + normalize_or(n, N) + 5.0f;
 }
 
 FN MaterialFactors parity_factors(vec2 u)

@@ -13,6 +13,7 @@ const excluded = {
         'gl_material.alpha_modes_match_the_preview', 'gl_material.energy_conservation_matches_the_preview',
         'gl_material.every_extension_matches_the_preview', 'gl_material.every_texture_slot_matches_the_preview',
         'gl_material.shared_texels_are_sampled_once', 'gl_material.texture_coordinates_match_the_preview',
+        'gl_material.transformed_vectors_match_the_preview',
         'gl_mesh.deformed_vertices_are_streamed', 'gl_mesh.high_texture_coordinate_sets_are_read',
         'gl_mesh.lines_with_normals_are_lit', 'gl_mesh.mirrored_instances_are_culled_correctly',
         'gl_mesh.sprites_are_a_pixel_wide', 'gl_phong.every_texture_type_and_mode_matches_the_preview',

@@ -217,6 +217,38 @@ static void texture_coordinates_match_the_preview(void **state)
     }
 }
 
+/* Normals and stretched highlights turn with their textures, each on its own. */
+static void transformed_vectors_match_the_preview(void **state)
+{
+    (void)state;
+    static const struct {
+        scene_texture_slot slot, beside; /* beside: a second texture, untransformed */
+        uint32_t extension;
+    } cases[] = {{SCENE_NORMAL_TEXTURE, SCENE_NORMAL_TEXTURE, 0},
+                 {SCENE_CLEARCOAT_NORMAL_TEXTURE, SCENE_CLEARCOAT_NORMAL_TEXTURE, SCENE_CLEARCOAT},
+                 {SCENE_CLEARCOAT_NORMAL_TEXTURE, SCENE_NORMAL_TEXTURE, SCENE_CLEARCOAT},
+                 {SCENE_ANISOTROPY_TEXTURE, SCENE_ANISOTROPY_TEXTURE, SCENE_ANISOTROPY}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        fixture f = fixture_create();
+        scene_material m = base();
+        m.extensions = cases[i].extension;
+        m.clearcoat = m.anisotropy = 0.8f;
+        m.clearcoat_roughness = 0.3f;
+        uint32_t texture = add_waves(&f, 1);
+        set_texture(&m, cases[i].beside, texture);
+        scene_texture_ref *ref = &m.textures[cases[i].slot];
+        set_texture(&m, cases[i].slot, texture);
+        ref->rotation_rad = 1.9f;
+        ref->scale[0] = -0.8f;
+        scene_texture_ref_update(ref);
+        place(&f, m);
+        char what[32];
+        snprintf(what, sizeof what, "turned vectors, case %d", (int)i);
+        assert_same(&f, what);
+        fixture_destroy(&f);
+    }
+}
+
 /* Texels that one image holds for two slots are sampled once, unless the coordinates differ. */
 static void shared_texels_are_sampled_once(void **state)
 {
@@ -521,6 +553,7 @@ int main(void)
                                        cmocka_unit_test(energy_conservation_matches_the_preview),
                                        cmocka_unit_test(every_texture_slot_matches_the_preview),
                                        cmocka_unit_test(texture_coordinates_match_the_preview),
+                                       cmocka_unit_test(transformed_vectors_match_the_preview),
                                        cmocka_unit_test(shared_texels_are_sampled_once),
                                        cmocka_unit_test(units_are_assigned_to_sampled_slots),
                                        cmocka_unit_test(the_least_important_texture_is_dropped),

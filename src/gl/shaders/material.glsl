@@ -84,6 +84,16 @@ float coverage(float alpha)
 
 /* ---- normals ---- */
 
+/* Slots of textures that hold vectors (scene_texture_slot). */
+const int NORMAL_SLOT = 2;
+const int CLEARCOAT_NORMAL_SLOT = 9;
+const int ANISOTROPY_SLOT = 16;
+
+int texcoord_set_of_slot(int slot)
+{
+    return int(texcoord_rows[2 * slot].w);
+}
+
 /* Unit, from the vertices alone. */
 vec3 smooth_normal(vec3 V)
 {
@@ -98,6 +108,12 @@ ShadingFrame frame_of_texcoord(int set)
                                seen_side());
 }
 
+/* That of vectors in the texture of a slot, from that of its untransformed coordinates. */
+ShadingFrame frame_of_slot(ShadingFrame f, int slot)
+{
+    return frame_transformed(f, texcoord_rows[2 * slot].xyz, texcoord_rows[2 * slot + 1].xyz);
+}
+
 #ifdef HAS_TANGENTS
 ShadingFrame frame_of_tangents()
 {
@@ -109,7 +125,8 @@ vec3 shading_normal(vec3 V)
 {
     vec3 N = smooth_normal(V);
 #if defined(HAS_NORMAL_TEXTURE) && defined(HAS_TANGENTS)
-    return frame_normal(frame_of_tangents(), normal_from_texel(NORMAL_TEXEL.xyz, map_scales.x), N);
+    ShadingFrame f = frame_of_slot(frame_of_tangents(), NORMAL_SLOT);
+    return frame_normal(f, normal_from_texel(NORMAL_TEXEL.xyz, map_scales.x), N);
 #else
     return N;
 #endif
@@ -146,20 +163,20 @@ vec3 clearcoat_normal(vec3 V)
 {
     vec3 N = smooth_normal(V);
 #ifdef HAS_CLEARCOAT_NORMAL_TEXTURE
-    vec3 n = normal_from_texel(CLEARCOAT_NORMAL_TEXEL.xyz, map_scales.z);
-    int set = int(texcoord_rows[18].w);
-#ifdef HAS_TANGENTS
-    /* The same as those of the base's normal texture. */
-#ifdef HAS_NORMAL_TEXTURE
-    if (int(texcoord_rows[4].w) == set)
-        return frame_normal(frame_of_tangents(), n, N);
-#else
-    return frame_normal(frame_of_tangents(), n, N);
-#endif
-#endif
+    int set = texcoord_set_of_slot(CLEARCOAT_NORMAL_SLOT);
+#if defined(HAS_TANGENTS) && defined(HAS_NORMAL_TEXTURE)
+    /* The tangents are those of the base's normal texture. */
     ShadingFrame f = frame_of_texcoord(set);
+    if (texcoord_set_of_slot(NORMAL_SLOT) == set)
+        f = frame_of_tangents();
+#elif defined(HAS_TANGENTS)
+    ShadingFrame f = frame_of_tangents();
+#else
+    ShadingFrame f = frame_of_texcoord(set);
+#endif
+    vec3 n = normal_from_texel(CLEARCOAT_NORMAL_TEXEL.xyz, map_scales.z);
     if (frame_has_tangent(f))
-        N = frame_normal(f, n, N);
+        N = frame_normal(frame_of_slot(f, CLEARCOAT_NORMAL_SLOT), n, N);
 #endif
     return N;
 }
@@ -172,8 +189,9 @@ Layers with_anisotropy_of_material(Layers m)
 #ifdef HAS_TANGENTS
     ShadingFrame f = frame_of_tangents();
 #else
-    ShadingFrame f = frame_of_texcoord(int(texcoord_rows[32].w));
+    ShadingFrame f = frame_of_texcoord(texcoord_set_of_slot(ANISOTROPY_SLOT));
 #endif
+    f = frame_of_slot(f, ANISOTROPY_SLOT);
     float strength = anisotropy_strength(clearcoat_factors.z, texel);
     if (strength > 0.0)
         m = with_anisotropy(m, strength, clearcoat_factors.w, texel, f);

@@ -168,7 +168,9 @@ vec3 host_mapped_normal(Ogl1Host host)
     vec3 N = host.N;
 #if defined(HAS_NORMAL_MAP) && defined(HAS_TANGENTS)
     vec3 n = normal_from_texel(image_texel(u_material6, PHONG_NORMAL_MAP).xyz, phong_flags.w);
-    ShadingFrame f = frame_from_tangent(v_normal, v_tangent, v_handedness, 1.0);
+    ShadingFrame f = frame_transformed(frame_from_tangent(v_normal, v_tangent, v_handedness, 1.0),
+                                       phong_maps[3 * PHONG_NORMAL_MAP].xyz,
+                                       phong_maps[3 * PHONG_NORMAL_MAP + 1].xyz);
     N = normalize_or(to_eye_space(f.T * n.x + f.B * n.y + f.N * n.z), N);
 #endif
     return N;
