@@ -1,0 +1,9 @@
+"""Scenes from arrays."""
+
+
+def create_scene(positions, indices, keywords):
+    raise NotImplementedError
+
+
+def from_trimesh(mesh):
+    raise NotImplementedError
