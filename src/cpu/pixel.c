@@ -31,7 +31,7 @@ static bool is_simple(const pixel_resolver *r, const visibility_hit *hit, float 
     const render_geometry *g = &r->scene->geometries->items[hit->geometry];
     if (g->is_see_through)
         return false;
-    if (g->is_double_sided)
+    if (g->is_double_sided || r->has_visible_hits)
         return true;
     const camera_rays *camera = r->scene->camera;
     float X = x - camera->middle[0];

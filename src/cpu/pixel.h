@@ -29,7 +29,8 @@ typedef struct pixel_resolver {
     const facet_allocator *allocator;
     const shading_scene *scene;
     const visibility_pattern *pattern;
-    bool splits_quarters; /* surfaces are shaded for each quarter of a pixel */
+    bool splits_quarters;  /* surfaces are shaded for each quarter of a pixel */
+    bool has_visible_hits; /* the hits of opaque surfaces are on their visible side */
     bool draws_background;
     float background_blur; /* perceptual roughness */
     float scale;           /* of the radiance */

@@ -156,6 +156,12 @@ facet_result prepared_scene_hierarchy(prepared_scene *p, const facet_render_desc
                                &p->embree, error);
 }
 
+void prepared_scene_skip_hierarchy(prepared_scene *p)
+{
+    if (p->likeness != RENDER_SAME || p->has_moved_sprites)
+        embree_scene_destroy(&p->embree);
+}
+
 facet_result prepared_scene_tangents(prepared_scene *p, const facet_render_desc *desc, facet_error *error)
 {
     if (p->has_tangents)

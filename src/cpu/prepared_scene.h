@@ -53,6 +53,8 @@ facet_result prepared_scene_pose(prepared_scene *p, const facet_render_desc *des
 facet_result prepared_scene_geometry(prepared_scene *p, const facet_render_desc *desc,
                                      const camera_rays *camera, facet_error *error);
 facet_result prepared_scene_hierarchy(prepared_scene *p, const facet_render_desc *desc, facet_error *error);
+/* In place of prepared_scene_hierarchy() for an image that needs none: drops one of other geometries. */
+void prepared_scene_skip_hierarchy(prepared_scene *p);
 facet_result prepared_scene_tangents(prepared_scene *p, const facet_render_desc *desc, facet_error *error);
 facet_result prepared_scene_textures(prepared_scene *p, facet_error *error);
 

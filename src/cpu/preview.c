@@ -20,8 +20,11 @@ static facet_result draw(render_setup *setup, double deadline_s, film *target, f
         result = ogl1_setup_create(&source, &setup->camera, desc, &setup->light, &setup->plans, &ogl1, error);
         setup->shading.ogl1 = &ogl1;
     }
-    tiles_desc tiles = {
-        .render = desc, .scene = &setup->shading, .identities = setup->identities, .deadline_s = deadline_s};
+    tiles_desc tiles = {.render = desc,
+                        .scene = &setup->shading,
+                        .raster = setup->raster,
+                        .identities = setup->identities,
+                        .deadline_s = deadline_s};
     if (result == FACET_OK)
         result = tiles_draw(&tiles, target, setup->stats, error);
     ogl1_setup_destroy(&ogl1);
@@ -49,7 +52,7 @@ static facet_result attempt(const void *context, prepared_scene *prepared, const
     (void)context;
     *stats = (facet_render_stats){.thread_count = desc->thread_count};
     *has_setup = false;
-    render_setup setup = {.prepared = prepared, .desc = desc, .stats = stats};
+    render_setup setup = {.prepared = prepared, .desc = desc, .stats = stats, .rasterises = true};
     facet_result result = render_image(&setup, deadline_s, target, has_setup, error);
     render_setup_destroy(&setup);
     return result;

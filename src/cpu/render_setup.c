@@ -5,11 +5,14 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
+#include "cpu/raster.h"
 #include "cpu/texture_need.h"
 #include "draw/texture_set.h"
 #include "scene/identity.h"
 
 #include <math.h>
+
+#include "shade/shade.h"
 
 /* ---- stages that need the geometry only, and not each other ---- */
 
@@ -40,6 +43,34 @@ static facet_result find_texture_need(render_setup *p, facet_error *error)
     return FACET_OK;
 }
 
+/* Whether rays other than the camera's first hits are traced. */
+static bool needs_hierarchy(const render_setup *p)
+{
+    const uint32_t traced = LAYER_TRANSMISSION | LAYER_VOLUME;
+    const render_geometry_set *set = &p->prepared->geometries;
+    if (!p->rasterises || p->desc->aovs)
+        return true;
+    for (uint32_t i = 0; i < set->count; i++) {
+        const render_geometry *g = &set->items[i];
+        if (g->is_see_through || (!g->legacy && g->is_lit && material_plan_layers(g->material) & traced))
+            return true;
+    }
+    return false;
+}
+
+static facet_result prepare_raster(render_setup *p, facet_error *error)
+{
+    const facet_render_desc *desc = p->desc;
+    const raster_desc rastering = {.geometries = &p->prepared->geometries,
+                                   .camera = &p->camera,
+                                   .width = desc->width,
+                                   .height = desc->height,
+                                   .sample_count = desc->samples,
+                                   .thread_count = desc->thread_count,
+                                   .needs_hierarchy = needs_hierarchy(p)};
+    return p->rasterises ? raster_create(&rastering, &desc->allocator, &p->raster, error) : FACET_OK;
+}
+
 static facet_result prepare_textures(render_setup *p, facet_error *error)
 {
     const facet_render_desc *desc = p->desc;
@@ -56,10 +87,15 @@ static facet_result prepare_textures(render_setup *p, facet_error *error)
     return result;
 }
 
+/* Without it, only first hits are found, by the raster. */
 static facet_result prepare_hierarchy(render_setup *p, facet_error *error)
 {
     double start = clock_seconds();
-    facet_result result = prepared_scene_hierarchy(p->prepared, p->desc, error);
+    facet_result result = FACET_OK;
+    if (p->raster && !needs_hierarchy(p))
+        prepared_scene_skip_hierarchy(p->prepared);
+    else
+        result = prepared_scene_hierarchy(p->prepared, p->desc, error);
     p->hierarchy_s = clock_seconds() - start;
     return result;
 }
@@ -166,6 +202,7 @@ facet_result render_setup_create(render_setup *p, facet_error *error)
     TRY(prepared_scene_pose(p->prepared, desc, error));
     TRY(camera_rays_create(desc->camera, desc->width, desc->height, &p->camera, error));
     TRY(prepared_scene_geometry(p->prepared, desc, &p->camera, error));
+    TRY(prepare_raster(p, error));
     size_t texture_count = p->prepared->scene->texture_count;
     p->uses = mem_zalloc(&desc->allocator, texture_count, sizeof *p->uses);
     if (!p->uses)
@@ -193,6 +230,8 @@ void render_setup_destroy(render_setup *p)
 {
     material_plans_destroy(&p->plans);
     light_setup_destroy(&p->light);
+    raster_destroy(p->raster);
+    p->raster = NULL;
     texture_set_destroy(p->textures);
     mem_free(p->uses);
     mem_free(p->identities);

@@ -16,7 +16,9 @@ typedef struct render_setup {
     bool reads_everywhere;   /* textures are read at full size and outside of the view as well */
     bool reads_opacity_only; /* of textures of glTF materials: no hit is shaded */
     bool samples_light;      /* of light_setup_create() */
+    bool rasterises;         /* first hits, where that is cheaper than tracing rays */
     camera_rays camera;
+    struct raster *raster; /* NULL: first hits are traced */
     texture_use *uses;
     texture_set *textures;
     light_setup light;

@@ -57,19 +57,14 @@ typedef struct projection {
 /* False: a vertex is not in front of the camera. */
 static bool project(const camera_rays *camera, const vec3 p[3], projection *out)
 {
-    vec3 dx = load3(camera->is_orthographic ? camera->origin_dx : camera->direction_dx);
-    vec3 dy = load3(camera->is_orthographic ? camera->origin_dy : camera->direction_dy);
-    vec3 forward = load3(camera->direction);
-    float pixel2 = camera->pixel_size * camera->pixel_size;
     out->nearest = INFINITY;
     for (int i = 0; i < 3; i++) {
-        vec3 d = p[i] - load3(camera->origin);
-        float depth = dot(d, forward);
-        float divisor = camera->is_orthographic ? pixel2 : pixel2 * depth;
-        if (!(divisor > 0.0f))
+        float d[3], at[2], depth;
+        store3(p[i] - load3(camera->origin), d);
+        if (!camera_rays_project(camera, d, at, &depth))
             return false;
-        out->x[i] = dot(d, dx) / divisor + camera->middle[0];
-        out->y[i] = dot(d, dy) / divisor + camera->middle[1];
+        out->x[i] = at[0];
+        out->y[i] = at[1];
         out->nearest = min(out->nearest, depth);
     }
     out->nearest = max(out->nearest, camera->near_m);

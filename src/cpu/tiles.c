@@ -10,11 +10,12 @@
 #include "base/parallel.h"
 #include "base/result.h"
 #include "cpu/pixel.h"
+#include "cpu/raster.h"
 #include "cpu/surface_layers.h"
 #include "draw/render_watch.h"
 #include "scene/identity.h"
 
-enum { TILE = 32 };
+enum { TILE = RASTER_TILE };
 _Static_assert(TILE % VISIBILITY_BLOCK == 0, "tiles are made of whole blocks");
 
 typedef struct tile_job {
@@ -36,6 +37,7 @@ typedef struct tile_job {
 /* Buffers of a thread for a tile. */
 typedef struct workspace {
     pixel_resolver resolver;
+    raster_tile *raster;  /* NULL: hits are traced */
     visibility_hit *hits; /* VISIBILITY_BLOCK_PIXELS * sample_count */
     visibility_hit middle_hits[VISIBILITY_BLOCK_PIXELS];
 } workspace;
@@ -52,13 +54,21 @@ static void write_aovs(const tile_job *p, workspace *w, uint32_t x, uint32_t y, 
     surface_layers_store(&p->layers, pixel, depth_m, &surface, identities ? &identities[geometry] : NULL);
 }
 
-static bool draw_block(const tile_job *p, workspace *w, uint32_t x, uint32_t y)
+/* The hits of the block whose top left pixel is (x, y), number block of its tile. */
+static void find_hits(const tile_job *p, workspace *w, uint32_t x, uint32_t y, uint32_t block)
+{
+    if (w->raster)
+        raster_tile_read(w->raster, block, w->hits);
+    else
+        visibility_trace_block(p->desc->scene->embree, p->desc->scene->camera, x, y, &p->pattern, w->hits);
+    w->resolver.rays += (uint64_t)VISIBILITY_BLOCK_PIXELS * p->pattern.sample_count;
+}
+
+static bool draw_block(const tile_job *p, workspace *w, uint32_t x, uint32_t y, uint32_t block)
 {
     const camera_rays *camera = p->desc->scene->camera;
-    if (p->draws_image) {
-        visibility_trace_block(p->desc->scene->embree, camera, x, y, &p->pattern, w->hits);
-        w->resolver.rays += (uint64_t)VISIBILITY_BLOCK_PIXELS * p->pattern.sample_count;
-    }
+    if (p->draws_image)
+        find_hits(p, w, x, y, block);
     if (p->wants_aovs) {
         visibility_trace_block(p->desc->scene->embree, camera, x, y, &p->middle, w->middle_hits);
         w->resolver.rays += VISIBILITY_BLOCK_PIXELS;
@@ -94,12 +104,17 @@ static void draw_tile(tile_job *p, uint32_t tile)
                                 .scene = p->desc->scene,
                                 .pattern = &p->pattern,
                                 .splits_quarters = render->quality == FACET_QUALITY_FINAL,
+                                .has_visible_hits = p->desc->raster && raster_is_final(p->desc->raster),
                                 .draws_background = render->background == FACET_BACKGROUND_ENVIRONMENT,
                                 .background_blur = render->background_blur,
                                 .scale = exp2f(render->exposure_ev)}};
     uint32_t left = p->crop[0] / TILE * TILE + tile % p->tile_columns * TILE;
     uint32_t top = p->crop[1] / TILE * TILE + tile / p->tile_columns * TILE;
     bool has_memory = w.hits != NULL;
+    if (has_memory && p->draws_image && p->desc->raster) {
+        w.raster = raster_tile_create(p->desc->raster, &p->pattern, left, top, &render->allocator);
+        has_memory = w.raster != NULL;
+    }
     for (uint32_t block = 0; has_memory && block < TILE / VISIBILITY_BLOCK * (TILE / VISIBILITY_BLOCK);
          block++) {
         uint32_t x = left + block % (TILE / VISIBILITY_BLOCK) * VISIBILITY_BLOCK;
@@ -109,7 +124,7 @@ static void draw_tile(tile_job *p, uint32_t tile)
             continue;
         if (render_watch_is_stopped(&p->watch))
             break;
-        has_memory = draw_block(p, &w, x, y);
+        has_memory = draw_block(p, &w, x, y, block);
         render_watch_look(&p->watch); /* a block of glass may cost a hundred times more than others */
     }
     if (!has_memory)
@@ -117,6 +132,7 @@ static void draw_tile(tile_job *p, uint32_t tile)
     atomic_fetch_add(&p->rays, w.resolver.rays);
     atomic_fetch_add(&p->shades, w.resolver.shades);
     pixel_resolver_destroy(&w.resolver);
+    raster_tile_destroy(w.raster);
     mem_free(w.hits);
 }
 

@@ -9,6 +9,7 @@
 typedef struct tiles_desc {
     const facet_render_desc *render;
     const shading_scene *scene;
+    const struct raster *raster;             /* NULL: first hits are traced */
     const struct scene_identity *identities; /* per geometry; NULL: not needed by any layer */
     double deadline_s;                       /* of clock_seconds(); 0: none */
 } tiles_desc;

@@ -35,6 +35,29 @@ static inline void camera_rays_at(const camera_rays *rays, float x, float y, flo
     }
 }
 
+/* Image position, pixels, and depth along the axis of a point, m from camera->origin; false: not in front of the
+ * camera. */
+static inline bool camera_rays_project(const camera_rays *rays, const float point[3], float at[2],
+                                       float *depth_m)
+{
+    const float *dx = rays->is_orthographic ? rays->origin_dx : rays->direction_dx;
+    const float *dy = rays->is_orthographic ? rays->origin_dy : rays->direction_dy;
+    float x = 0.0f, y = 0.0f, depth = 0.0f;
+    for (int i = 0; i < 3; i++) {
+        x += point[i] * dx[i];
+        y += point[i] * dy[i];
+        depth += point[i] * rays->direction[i];
+    }
+    float pixel2 = rays->pixel_size * rays->pixel_size;
+    float divisor = rays->is_orthographic ? pixel2 : pixel2 * depth;
+    if (!(divisor > 0.0f))
+        return false;
+    at[0] = x / divisor + rays->middle[0];
+    at[1] = y / divisor + rays->middle[1];
+    *depth_m = depth;
+    return true;
+}
+
 /* Height of a pixel in m at that depth; negative depths count as 0. */
 static inline float camera_rays_pixel_size(const camera_rays *rays, float depth_m)
 {
