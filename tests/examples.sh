@@ -49,6 +49,7 @@ run inspect "$top/docs/examples/obj/boat.obj" boat.glb
 run fleet "$spin" "$top/docs/examples/obj/boat.obj" fleet.glb
 run convert "$spin" spin.obj
 run turntable "$spin" turntable.png
+run arrays arrays.png
 run sky sky.png
 run frames "$spin" && [ -s frame7.png ]
 run path "$spin" && [ -s path.exr ]

@@ -18,6 +18,7 @@
 #define FACET_FACET_H
 
 #include "base.h"
+#include "arrays.h"
 #include "bake.h"
 #include "camera.h"
 #include "compare.h"

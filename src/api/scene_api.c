@@ -8,6 +8,7 @@
 #include <strings.h>
 
 #include "base/text.h"
+#include "io/arrays/arrays.h"
 #include "io/model_file.h"
 #include "io/model_needs.h"
 #include "io/ogl1/ogl1_json.h"
@@ -51,6 +52,17 @@ facet_result facet_scene_load_memory(const void *bytes, size_t size, const char 
     desc = desc ? desc : &default_desc;
     facet_result result = model_file_load_memory(bytes, size, name ? name : "(memory)", desc, scene, error);
     return result == FACET_OK ? complete(scene, desc, error) : result;
+}
+
+facet_result facet_scene_create(const facet_arrays_desc *arrays, const facet_scene_desc *desc,
+                                facet_scene **scene, facet_error *error)
+{
+    return model_file_create(arrays, desc ? desc : &default_desc, scene, error);
+}
+
+facet_material facet_material_default(void)
+{
+    return arrays_material_default();
 }
 
 facet_result facet_scene_create_builtin(const facet_scene_desc *desc, facet_scene **scene, facet_error *error)

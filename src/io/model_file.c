@@ -5,6 +5,7 @@
 #include <strings.h>
 
 #include "base/result.h"
+#include "io/arrays/arrays.h"
 #include "io/file_source.h"
 #include "io/gltf/gltf.h"
 #include "io/model_kind.h"
@@ -110,6 +111,12 @@ facet_result model_file_load_memory(const void *bytes, size_t size, const char *
                  : kind == MODEL_PARAMETERS ? ogl1_json_load_memory(bytes, size, name, desc, scene, error)
                                             : gltf_load_memory(bytes, size, name, desc, scene, error);
     return settle(result, desc, scene, error);
+}
+
+facet_result model_file_create(const facet_arrays_desc *arrays, const facet_scene_desc *desc,
+                               facet_scene **scene, facet_error *error)
+{
+    return settle(arrays_load(arrays, desc, scene, error), desc, scene, error);
 }
 
 facet_result model_file_save(const facet_scene *scene, const char *path, const char *generator,

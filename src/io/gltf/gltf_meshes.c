@@ -306,6 +306,15 @@ static bool bound_primitive(io_reader *r, scene_primitive *p)
 
 /* ---- primitives ---- */
 
+bool gltf_complete_primitive(io_reader *r, const json_place *at, scene_primitive *p, bool has_missing_normals)
+{
+    if (p->mode == SCENE_TRIANGLES && !p->normals)
+        gltf_make_flat(r, at, p);
+    else if (has_missing_normals)
+        gltf_fill_missing_normals(r, at, p);
+    return io_is_ok(r) && bound_primitive(r, p);
+}
+
 /* An empty primitive keeps its index in the mesh. */
 static void make_empty(scene_primitive *p)
 {
@@ -371,12 +380,7 @@ static void read_primitive(io_reader *r, const json_place *at, scene_primitive *
         return;
     }
     check_texcoords(r, at, p);
-    if (p->mode == SCENE_TRIANGLES && !p->normals)
-        gltf_make_flat(r, at, p);
-    else if (has_missing_normals)
-        gltf_fill_missing_normals(r, at, p);
-    if (io_is_ok(r))
-        bound_primitive(r, p);
+    gltf_complete_primitive(r, at, p, has_missing_normals);
 }
 
 static void read_mesh(io_reader *r, const json_place *at, scene_mesh *mesh)

@@ -217,6 +217,10 @@ bool gltf_make_flat(io_reader *r, const json_place *at, scene_primitive *primiti
 /* Replaces normals of length 0 by those of the adjacent triangles, in a copy. */
 bool gltf_fill_missing_normals(io_reader *r, const json_place *at, scene_primitive *primitive);
 
+/* gltf_meshes.c: what a primitive with its attributes and indices lacks: normals, and bounds. */
+bool gltf_complete_primitive(io_reader *r, const json_place *at, scene_primitive *primitive,
+                             bool has_missing_normals);
+
 /* KHR_materials_variants. */
 void gltf_read_variants(io_reader *r, const json_place *root);
 
