@@ -232,6 +232,13 @@ static bool emits(const render_geometry *g)
     return is_finite(factor) && max3(factor) > 0.0f && max3(factor) <= MAX_RADIANCE;
 }
 
+/* Whether the radiance is the factor alone, without texels, coverage and coat. */
+static bool is_uniform(const render_geometry *g, const material_plan *plan)
+{
+    return !g->is_see_through && !(plan->textures & 1u << SCENE_EMISSIVE_TEXTURE) &&
+           !(plan->layers & LAYER_CLEARCOAT);
+}
+
 vec3 light_emitters_radiance(const light_emitters *e, uint32_t item, float u, float v, vec3 P, vec3 d,
                              float distance_m)
 {
@@ -247,6 +254,8 @@ vec3 light_emitters_radiance(const light_emitters *e, uint32_t item, float u, fl
     store3(d, ray.direction);
     if (!ray_trace_is_visible_side(e->scene, &hit, ray.direction))
         return vec3(0.0f);
+    if (is_uniform(g, &e->scene->plans->items[l->geometry]))
+        return max(emission_factor(g->material), 0.0f);
     shading_point point = {.hit = &hit, .ray = &ray, .shade_count = 1};
     surface_point s;
     surface_point_make(e->scene, &point, &s);
