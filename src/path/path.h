@@ -8,13 +8,6 @@
 #include "path/path_scene.h"
 #include "path/sampler.h"
 
-/* The vertex at which the direction of the ray was sampled: a light that it hits could have been sampled
- * there as well. */
-typedef struct path_previous {
-    vec3 P, N;    /* m; N: as path_lights_sample() was given */
-    float p_bsdf; /* per sr, of the direction */
-} path_previous;
-
 typedef struct path {
     const path_scene *scene;
     path_sample *out;
@@ -34,8 +27,12 @@ typedef struct path {
     media media;                     /* closed volumes that P is in */
     float wavelength_nm;             /* 0: all */
 
-    /* multiple importance sampling of the light that the ray hits */
-    path_previous previous;
+    /* multiple importance sampling of the light that the ray hits: it could have been sampled as well at
+     * the vertex at which the direction was sampled */
+    path_lights_view
+        views[2];     /* the lights as seen there, and from the next vertex; unset: specular vertices */
+    uint32_t view;    /* which one is that vertex's */
+    float p_bsdf;     /* per sr, of the direction */
     float previous_m; /* from there to P, where null interfaces or straight transmission lie between */
     /* no light could have been sampled for the ray: specular lobe, or from the camera */
     bool specular_bounce;
@@ -98,7 +95,7 @@ static inline float path_power_heuristic(float pdf, float other_pdf)
     return 1.0f / (1.0f + q * q);
 }
 
-/* The weight of BSDF-sampled light; p_light: its pdf (per sr) by light sampling at p->previous. */
+/* The weight of BSDF-sampled light; p_light: its pdf (per sr) by light sampling at the previous vertex. */
 static inline float path_weight_of_bsdf(const path *p, float p_light)
 {
     if (p->specular_bounce || !(p_light > 0.0f))
@@ -113,7 +110,7 @@ static inline float path_weight_of_bsdf(const path *p, float p_light)
     case FACET_LIGHT_SAMPLING_MIS:
         break;
     }
-    return path_power_heuristic(p->previous.p_bsdf, p_light);
+    return path_power_heuristic(p->p_bsdf, p_light);
 }
 
 /* The weight of a light sample; p_bsdf: its pdf (per sr) by BSDF sampling. */

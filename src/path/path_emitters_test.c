@@ -27,7 +27,7 @@ static double assert_light_samples_agree(const stage *s, float extent)
         vec3 N = i % 3 ? random_direction() : vec3(0.0f);
         path_light_sample l;
         float u = random_number();
-        if (!path_lights_sample(s->lights, P, N, u, random_pair(), &l) || l.geometry == VISIBILITY_NONE)
+        if (!sample_light(s->lights, P, N, u, random_pair(), &l) || l.geometry == VISIBILITY_NONE)
             continue;
         assert_true(!l.is_delta && !l.is_infinite && l.pdf > 0.0f && isfinite(l.pdf));
         sampled++;
@@ -35,7 +35,7 @@ static double assert_light_samples_agree(const stage *s, float extent)
         if (!m.is_hit || m.hit.geometry != l.geometry || m.hit.primitive != l.primitive)
             continue; /* something is in between, or the ray went through an edge */
         hit++;
-        float pdf = path_lights_emitter_pdf(s->lights, P, N, &m.hit, l.L, m.hit.t);
+        float pdf = emitter_pdf(s->lights, P, N, &m.hit, l.L, m.hit.t);
         float per_cosine = 1.0f / max(abs(dot(normalize(load3(m.hit.normal)), l.L)), 1e-6f); /* rounding */
         assert_true(fabsf(m.hit.t - l.distance_m) < (1e-5f + 1e-6f * per_cosine) * (l.distance_m + 1.0f));
         if (!(fabsf(pdf / l.pdf - 1.0f) < 1e-4f + 1e-5f * per_cosine))
@@ -182,10 +182,10 @@ static void unlit_surfaces_are_not_light_sampled(void **state)
     assert_true(!path_lights_has_any(s.lights));
     encounter found = trace_to(&s, vec3(0.0f), vec3(0.0f, 0.0f, 1.0f));
     assert_true(found.is_hit);
-    assert_true(path_lights_emitter_pdf(s.lights, vec3(0.0f), vec3(0.0f), &found.hit, vec3(0.0f, 0.0f, 1.0f),
-                                        2.0f) == 0.0f);
+    assert_true(emitter_pdf(s.lights, vec3(0.0f), vec3(0.0f), &found.hit, vec3(0.0f, 0.0f, 1.0f), 2.0f) ==
+                0.0f);
     path_light_sample l;
-    assert_true(!path_lights_sample(s.lights, vec3(0.0f), vec3(0.0f), 0.5f, vec2(0.5f), &l));
+    assert_true(!sample_light(s.lights, vec3(0.0f), vec3(0.0f), 0.5f, vec2(0.5f), &l));
     stage_destroy(&s);
 }
 
@@ -201,8 +201,8 @@ static void only_emitters_are_light_sampled(void **state)
     assert_light_samples_agree(&s, 0.5f);
     encounter found = trace_to(&s, vec3(0.0f), vec3(0.0f, 0.0f, 1.0f));
     assert_true(found.is_hit);
-    assert_true(path_lights_emitter_pdf(s.lights, vec3(0.0f), vec3(0.0f), &found.hit, vec3(0.0f, 0.0f, 1.0f),
-                                        2.0f) == 0.0f);
+    assert_true(emitter_pdf(s.lights, vec3(0.0f), vec3(0.0f), &found.hit, vec3(0.0f, 0.0f, 1.0f), 2.0f) ==
+                0.0f);
     stage_destroy(&s);
 }
 
@@ -288,7 +288,7 @@ static void results_do_not_depend_on_threads(void **state)
             path_light_sample l;
             memset(&l, 0, sizeof l);
             float u = random_number();
-            path_lights_sample(s.lights, vec3(0.0f), vec3(0.0f, 0.0f, 1.0f), u, random_pair(), &l);
+            sample_light(s.lights, vec3(0.0f), vec3(0.0f, 0.0f, 1.0f), u, random_pair(), &l);
             if (!run) {
                 first[i] = l;
                 continue;

@@ -11,8 +11,6 @@
 #include "ibl/environment.h"
 
 #include "path/light_emitters.h"
-#include "path/light_environment.h"
-#include "path/light_tree.h"
 
 static const double pi = 3.14159265358979323846;
 static const float EVEN_SHARE = 0.25f;
@@ -263,15 +261,7 @@ uint64_t path_lights_ignored(const path_lights *lights)
 
 /* ---- the choice ---- */
 
-enum { ENVIRONMENT, SUN, DIRECTIONAL, PLACED, KIND_COUNT };
-
-/* The irradiance from each kind of light at P, and the probability with which it is sampled. */
-typedef struct choice {
-    light_environment_view environment;
-    light_tree_view tree;
-    float directional; /* lx */
-    float probabilities[KIND_COUNT];
-} choice;
+enum { ENVIRONMENT, SUN, DIRECTIONAL, PLACED }; /* PATH_LIGHTS_KINDS */
 
 /* Irradiance (mean of the channels) of a directional light. */
 static float directional_irradiance(const Light *l, vec3 N)
@@ -280,8 +270,10 @@ static float directional_irradiance(const Light *l, vec3 N)
     return mean_of(l->intensity) * cosine;
 }
 
-static void estimate_lights(const path_lights *lights, vec3 P, vec3 N, choice *c)
+void path_lights_see(const path_lights *lights, vec3 P, vec3 N, path_lights_view *c)
 {
+    c->P = P;
+    c->N = N;
     float *p = c->probabilities;
     p[ENVIRONMENT] = p[SUN] = p[PLACED] = c->directional = 0.0f;
     if (lights->environment) {
@@ -299,19 +291,19 @@ static void estimate_lights(const path_lights *lights, vec3 P, vec3 N, choice *c
     }
     float sum = 0.0f;
     float kinds = 0.0f;
-    for (int i = 0; i < KIND_COUNT; i++) {
+    for (int i = 0; i < PATH_LIGHTS_KINDS; i++) {
         p[i] = p[i] > 0.0f && p[i] < INFINITY ? p[i] : 0.0f;
         sum += p[i];
         kinds += p[i] > 0.0f ? 1.0f : 0.0f;
     }
-    for (int i = 0; i < KIND_COUNT; i++)
+    for (int i = 0; i < PATH_LIGHTS_KINDS; i++)
         p[i] = p[i] > 0.0f ? (1.0f - EVEN_SHARE) * p[i] / sum + EVEN_SHARE / kinds : 0.0f;
 }
 
 /* ---- each kind ---- */
 
 /* The pdf per sr of a direction by the environment alone. */
-static float environment_pdf(const path_lights *lights, const choice *c, vec3 d)
+static float environment_pdf(const path_lights *lights, const path_lights_view *c, vec3 d)
 {
     if (!(c->probabilities[ENVIRONMENT] > 0.0f))
         return 0.0f;
@@ -319,7 +311,7 @@ static float environment_pdf(const path_lights *lights, const choice *c, vec3 d)
 }
 
 /* The pdf per sr of a direction to environment or sun; pdf: that of the environment alone. */
-static float mixed_pdf(const path_lights *lights, const choice *c, float pdf, bool is_in_sun)
+static float mixed_pdf(const path_lights *lights, const path_lights_view *c, float pdf, bool is_in_sun)
 {
     return c->probabilities[ENVIRONMENT] * pdf + (is_in_sun ? c->probabilities[SUN] * lights->sun.pdf : 0.0f);
 }
@@ -329,7 +321,7 @@ vec3 path_lights_environment(const path_lights *lights, vec3 d)
     return lights->environment ? light_environment_radiance(lights->environment, d) : vec3(0.0f);
 }
 
-static bool sample_environment(const path_lights *lights, const choice *c, const double u[2],
+static bool sample_environment(const path_lights *lights, const path_lights_view *c, const double u[2],
                                path_light_sample *out)
 {
     float pdf = light_environment_sample(lights->environment, &c->environment, u, &out->L);
@@ -340,7 +332,7 @@ static bool sample_environment(const path_lights *lights, const choice *c, const
     return out->pdf > 0.0f;
 }
 
-static bool sample_sun(const path_lights *lights, const choice *c, vec2 u, path_light_sample *out)
+static bool sample_sun(const path_lights *lights, const path_lights_view *c, vec2 u, path_light_sample *out)
 {
     out->L = sun_sample(&lights->sun, u);
     out->is_infinite = true;
@@ -349,7 +341,7 @@ static bool sample_sun(const path_lights *lights, const choice *c, vec2 u, path_
     return out->pdf > 0.0f;
 }
 
-static bool sample_directional(const path_lights *lights, const choice *c, vec3 N, double u,
+static bool sample_directional(const path_lights *lights, const path_lights_view *c, vec3 N, double u,
                                path_light_sample *out)
 {
     double target = u * (double)c->directional;
@@ -404,25 +396,23 @@ static bool sample_emitter(const path_lights *lights, uint32_t item, vec3 P, vec
 
 /* ---- all ---- */
 
-bool path_lights_sample(const path_lights *lights, vec3 P, vec3 N, float u_light, vec2 u,
+bool path_lights_sample(const path_lights *lights, const path_lights_view *view, float u_light, vec2 u,
                         path_light_sample *out)
 {
     *out = (path_light_sample){
         .distance_m = INFINITY, .geometry = VISIBILITY_NONE, .primitive = VISIBILITY_NONE};
-    choice c;
-    estimate_lights(lights, P, N, &c);
     /* 24 bits are few where a choice among 100 000 continues with the rest of the choice before. */
     uint hash = hash_uint(floatBitsToUint(u_light) ^
                           hash_uint(floatBitsToUint(u[0]) ^ hash_uint(floatBitsToUint(u[1]))));
     double fine = (double)u_light + (double)hash * 0x1p-56;
     int kind = 0;
     float probability = 0.0f;
-    for (int i = 0; i < KIND_COUNT; i++) {
-        if (!(c.probabilities[i] > 0.0f))
+    for (int i = 0; i < PATH_LIGHTS_KINDS; i++) {
+        if (!(view->probabilities[i] > 0.0f))
             continue;
         fine -= (double)probability; /* of the one before */
         kind = i;
-        probability = c.probabilities[i];
+        probability = view->probabilities[i];
         if (fine < (double)probability)
             break;
     }
@@ -431,19 +421,19 @@ bool path_lights_sample(const path_lights *lights, vec3 P, vec3 N, float u_light
     fine /= (double)probability;
     fine = fine < 1.0 - 0x1p-53 ? fine : 1.0 - 0x1p-53;
     if (kind == ENVIRONMENT)
-        return sample_environment(lights, &c, (double[2]){(double)u[0], (double)u[1]}, out);
+        return sample_environment(lights, view, (double[2]){(double)u[0], (double)u[1]}, out);
     if (kind == SUN)
-        return sample_sun(lights, &c, u, out);
+        return sample_sun(lights, view, u, out);
     if (kind == DIRECTIONAL)
-        return sample_directional(lights, &c, N, fine, out);
+        return sample_directional(lights, view, view->N, fine, out);
     float share;
-    uint32_t light = light_tree_sample(lights->tree, &c.tree, fine, &share, &fine);
+    uint32_t light = light_tree_sample(lights->tree, &view->tree, fine, &share, &fine);
     if (light == LIGHT_TREE_NONE)
         return false;
     if (light >= lights->emitters.count)
-        return sample_placed_light(&lights->placed[light - lights->emitters.count], P, probability * share,
-                                   out);
-    return sample_emitter(lights, light, P, u, probability * share, out);
+        return sample_placed_light(&lights->placed[light - lights->emitters.count], view->P,
+                                   probability * share, out);
+    return sample_emitter(lights, light, view->P, u, probability * share, out);
 }
 
 vec3 path_lights_infinite(const path_lights *lights, vec3 d)
@@ -454,26 +444,22 @@ vec3 path_lights_infinite(const path_lights *lights, vec3 d)
     return radiance;
 }
 
-float path_lights_infinite_pdf(const path_lights *lights, vec3 P, vec3 N, vec3 d)
+float path_lights_infinite_pdf(const path_lights *lights, const path_lights_view *view, vec3 d)
 {
-    choice c;
-    estimate_lights(lights, P, N, &c);
     bool is_in_sun = lights->sun.pdf > 0.0f && sun_contains(&lights->sun, d);
-    return mixed_pdf(lights, &c, environment_pdf(lights, &c, d), is_in_sun);
+    return mixed_pdf(lights, view, environment_pdf(lights, view, d), is_in_sun);
 }
 
-float path_lights_emitter_pdf(const path_lights *lights, vec3 P, vec3 N, const visibility_hit *hit, vec3 d,
-                              float distance_m)
+float path_lights_emitter_pdf(const path_lights *lights, const path_lights_view *view,
+                              const visibility_hit *hit, vec3 d, float distance_m)
 {
     uint32_t item = light_emitters_find(&lights->emitters, hit->geometry, hit->primitive);
     if (item == LIGHT_EMITTERS_NONE)
         return 0.0f;
-    choice c;
-    estimate_lights(lights, P, N, &c);
-    if (!(c.probabilities[PLACED] > 0.0f))
+    if (!(view->probabilities[PLACED] > 0.0f))
         return 0.0f;
     light_triangle t = light_emitters_triangle(&lights->emitters, item);
-    float pdf = c.probabilities[PLACED] * light_tree_probability(lights->tree, &c.tree, item) *
-                light_triangle_pdf(&t, P, d, distance_m);
+    float pdf = view->probabilities[PLACED] * light_tree_probability(lights->tree, &view->tree, item) *
+                light_triangle_pdf(&t, view->P, d, distance_m);
     return pdf < INFINITY ? pdf : 0.0f;
 }

@@ -5,6 +5,8 @@
 
 #include "cpu/render_setup.h"
 #include "cpu/surface_point.h"
+#include "path/light_environment.h"
+#include "path/light_tree.h"
 
 typedef struct path_lights path_lights;
 
@@ -30,21 +32,34 @@ typedef struct path_light_sample {
     uint32_t geometry, primitive;
 } path_light_sample;
 
-/* Samples a light for point P and a direction to it. N: the unit normal of a surface that scatters on its
- * side only; {0}: all directions count (volumes, transmissive surfaces). u_light, u: uniform. False: no
- * light, or none that reaches P; the estimate is then 0. */
-bool path_lights_sample(const path_lights *lights, vec3 P, vec3 N, float u_light, vec2 u,
+enum { PATH_LIGHTS_KINDS = 4 }; /* environment, sun, directional, with a position */
+
+/* The lights as seen from a point: the irradiance from each part of them, which samples and densities share. */
+typedef struct path_lights_view {
+    vec3 P, N; /* N: as given */
+    light_environment_view environment;
+    light_tree_view tree;
+    float directional; /* lx */
+    float probabilities[PATH_LIGHTS_KINDS];
+} path_lights_view;
+
+/* For point P. N: the unit normal of a surface that scatters on its side only; {0}: all directions count
+ * (volumes, transmissive surfaces). */
+void path_lights_see(const path_lights *lights, vec3 P, vec3 N, path_lights_view *view);
+/* Samples a light and a direction to it by uniform u_light, u. False: no light, or none that reaches the
+ * point; the estimate is then 0. */
+bool path_lights_sample(const path_lights *lights, const path_lights_view *view, float u_light, vec2 u,
                         path_light_sample *out);
 
 /* Radiance of environment and sun from the unit direction d, cd/m^2. */
 vec3 path_lights_infinite(const path_lights *lights, vec3 d);
 /* The same without the sun. */
 vec3 path_lights_environment(const path_lights *lights, vec3 d);
-/* The pdf per sr of path_lights_sample(P, N) for environment or sun in direction d. */
-float path_lights_infinite_pdf(const path_lights *lights, vec3 P, vec3 N, vec3 d);
-/* The same for the point of an emissive triangle that the ray from P in the unit direction d hit at
+/* The pdf per sr of path_lights_sample() for environment or sun in direction d. */
+float path_lights_infinite_pdf(const path_lights *lights, const path_lights_view *view, vec3 d);
+/* The same for the point of an emissive triangle that the ray from view->P in the unit direction d hit at
  * distance_m. */
-float path_lights_emitter_pdf(const path_lights *lights, vec3 P, vec3 N, const visibility_hit *hit, vec3 d,
-                              float distance_m);
+float path_lights_emitter_pdf(const path_lights *lights, const path_lights_view *view,
+                              const visibility_hit *hit, vec3 d, float distance_m);
 
 #endif

@@ -136,6 +136,31 @@ static inline estimate estimate_of(double sum, double sum_of_squares, int count)
     return (estimate){mean, sqrt(fmax(sum_of_squares / count - mean * mean, 0.0) / count)};
 }
 
+/* path_lights.h's functions at a point that is seen once. */
+
+static inline bool sample_light(const path_lights *lights, vec3 P, vec3 N, float u_light, vec2 u,
+                                path_light_sample *out)
+{
+    path_lights_view view;
+    path_lights_see(lights, P, N, &view);
+    return path_lights_sample(lights, &view, u_light, u, out);
+}
+
+static inline float infinite_pdf(const path_lights *lights, vec3 P, vec3 N, vec3 d)
+{
+    path_lights_view view;
+    path_lights_see(lights, P, N, &view);
+    return path_lights_infinite_pdf(lights, &view, d);
+}
+
+static inline float emitter_pdf(const path_lights *lights, vec3 P, vec3 N, const visibility_hit *hit, vec3 d,
+                                float distance_m)
+{
+    path_lights_view view;
+    path_lights_see(lights, P, N, &view);
+    return path_lights_emitter_pdf(lights, &view, hit, d, distance_m);
+}
+
 /* Irradiance (first channel) at P on a surface with normal N, nothing in between. */
 static inline estimate irradiance_at(const stage *s, vec3 P, vec3 N, int count)
 {
@@ -144,7 +169,7 @@ static inline estimate irradiance_at(const stage *s, vec3 P, vec3 N, int count)
     for (int i = 0; i < count; i++) {
         path_light_sample l;
         float u = random_number();
-        if (!path_lights_sample(s->lights, P, N, u, random_pair(), &l))
+        if (!sample_light(s->lights, P, N, u, random_pair(), &l))
             continue;
         double x = (double)(l.radiance[0] * max(dot(l.L, N), 0.0f) / l.pdf);
         sum += x;
@@ -192,7 +217,7 @@ static inline estimate irradiance_by_both(const stage *s, vec3 P, vec3 N, int co
         double x = 0.0;
         path_light_sample l;
         float u = random_number();
-        if (path_lights_sample(s->lights, P, N, u, random_pair(), &l) && dot(l.L, N) > 0.0f) {
+        if (sample_light(s->lights, P, N, u, random_pair(), &l) && dot(l.L, N) > 0.0f) {
             double p = (double)l.pdf;
             double other = l.is_delta ? 0.0 : (double)(dot(l.L, N) * INV_PI);
             x += (double)(l.radiance[0] * dot(l.L, N)) * p / (p * p + other * other);
@@ -201,8 +226,8 @@ static inline estimate irradiance_by_both(const stage *s, vec3 P, vec3 N, int co
         double own = (double)(dot(d, N) * INV_PI);
         encounter m = trace_to(s, P, d);
         vec3 radiance = m.is_hit ? m.radiance : path_lights_infinite(s->lights, d);
-        double other = (double)(m.is_hit ? path_lights_emitter_pdf(s->lights, P, N, &m.hit, d, m.hit.t)
-                                         : path_lights_infinite_pdf(s->lights, P, N, d));
+        double other = (double)(m.is_hit ? emitter_pdf(s->lights, P, N, &m.hit, d, m.hit.t)
+                                         : infinite_pdf(s->lights, P, N, d));
         if (own > 0.0)
             x += (double)(radiance[0] * dot(d, N)) * own / (own * own + other * other);
         sum += x;

@@ -36,7 +36,7 @@ static void quad_lights_have_the_exact_irradiance(void **state)
         for (int k = 0; k < 100; k++) {
             float u = random_number();
             assert_true(
-                !path_lights_sample(s.lights, vec3(shifts[i], 0.0f, 2.5f), vec3(0.0f), u, random_pair(), &l));
+                !sample_light(s.lights, vec3(shifts[i], 0.0f, 2.5f), vec3(0.0f), u, random_pair(), &l));
         }
         stage_destroy(&s);
     }
@@ -51,7 +51,7 @@ static void a_constant_sky_gives_pi(void **state)
     for (int i = 0; i < 1000; i++) {
         path_light_sample l;
         float u = random_number();
-        assert_true(path_lights_sample(s.lights, vec3(0.0f), vec3(0.0f), u, random_pair(), &l));
+        assert_true(sample_light(s.lights, vec3(0.0f), vec3(0.0f), u, random_pair(), &l));
         assert_true(l.is_infinite && !l.is_delta && l.distance_m == INFINITY &&
                     l.geometry == VISIBILITY_NONE);
         assert_true(fabsf(l.radiance[1] / l.pdf / (4.0f * PI) - 1.0f) < 2e-6f);
@@ -82,7 +82,7 @@ static void the_sun_gives_its_illuminance(void **state)
             double turn = angle * (k ? 1.001 : 0.999);
             vec3 d = to_sun * (float)cos(turn) + tangent * (float)sin(turn);
             assert_true((path_lights_infinite(s.lights, d)[0] > 0.0f) == (k == 0));
-            assert_true((path_lights_infinite_pdf(s.lights, vec3(0.0f), vec3(0.0f), d) > 0.0f) == (k == 0));
+            assert_true((infinite_pdf(s.lights, vec3(0.0f), vec3(0.0f), d) > 0.0f) == (k == 0));
         }
         stage_destroy(&s);
     }
@@ -98,7 +98,7 @@ static void punctual_lights_have_the_exact_illuminance(void **state)
         stage_ready(&s);
         vec3 up = vec3(0.0f, 0.0f, 1.0f);
         path_light_sample l;
-        bool reaches = path_lights_sample(s.lights, vec3(0.0f), up, 0.3f, vec2(0.2f, 0.7f), &l);
+        bool reaches = sample_light(s.lights, vec3(0.0f), up, 0.3f, vec2(0.2f, 0.7f), &l);
         assert_true(reaches == (i < 2));
         if (reaches) {
             assert_true(l.is_delta && l.pdf == 1.0f && fabsf(l.distance_m - 2.0f) < 1e-6f);
@@ -123,10 +123,10 @@ static void spots_emit_in_their_cone(void **state)
     stage_ready(&s);
     path_light_sample l;
     vec3 P = vec3(tanf(0.523598775598f), 0.0f, 0.0f);
-    assert_true(path_lights_sample(s.lights, P, vec3(0.0f, 0.0f, 1.0f), 0.9f, vec2(0.5f), &l));
+    assert_true(sample_light(s.lights, P, vec3(0.0f, 0.0f, 1.0f), 0.9f, vec2(0.5f), &l));
     assert_true(l.pdf > 0.999f); /* the other one is 100 m away, beyond its cone */
     assert_true(fabsf(l.radiance[0] * l.distance_m * l.distance_m - 3.31508104841f) < 1e-3f);
-    assert_true(!path_lights_sample(s.lights, vec3(0.0f, 0.0f, 3.0f), vec3(0.0f), 0.9f, vec2(0.5f), &l));
+    assert_true(!sample_light(s.lights, vec3(0.0f, 0.0f, 3.0f), vec3(0.0f), 0.9f, vec2(0.5f), &l));
     stage_destroy(&s);
 }
 
@@ -158,15 +158,14 @@ static void kinds_of_light_add_up(void **state)
     for (int i = 0; i < SAMPLES; i++) {
         path_light_sample l;
         float u = random_number();
-        infinite_count += path_lights_sample(s.lights, vec3(0.0f), up, u, random_pair(), &l) && l.is_infinite;
+        infinite_count += sample_light(s.lights, vec3(0.0f), up, u, random_pair(), &l) && l.is_infinite;
     }
     double integral = 0.0;
     for (int i = 0; i < SIDE * SIDE; i++) {
         float z = 1.0f - 2.0f * ((float)(i / SIDE) + random_number()) / (float)SIDE;
         float phi = 2.0f * PI * ((float)(i % SIDE) + random_number()) / (float)SIDE;
         float r = sqrt(max(1.0f - z * z, 0.0f));
-        integral +=
-            (double)path_lights_infinite_pdf(s.lights, vec3(0.0f), up, vec3(r * cos(phi), r * sin(phi), z));
+        integral += (double)infinite_pdf(s.lights, vec3(0.0f), up, vec3(r * cos(phi), r * sin(phi), z));
     }
     integral *= 4.0 * pi / ((double)SIDE * SIDE);
     double share = (double)infinite_count / SAMPLES;
@@ -246,14 +245,14 @@ static void odd_input_does_no_harm(void **state)
             vec3 P = random_direction() * (i % 10 ? 3.0f : 1e10f);
             vec3 N = i % 3 ? random_direction() : vec3(0.0f);
             float u = i < 2 ? 0x1.fffffep-1f * (float)i : random_number();
-            if (!path_lights_sample(s.lights, P, N, u,
-                                    i < 4 ? vec2(0x1.fffffep-1f * (float)(i % 2)) : random_pair(), &l))
+            if (!sample_light(s.lights, P, N, u,
+                              i < 4 ? vec2(0x1.fffffep-1f * (float)(i % 2)) : random_pair(), &l))
                 continue;
             assert_true(l.pdf > 0.0f && isfinite(l.pdf));
             assert_true(fabsf(dot(l.L, l.L) - 1.0f) < 1e-4f);
             for (int c = 0; c < 3; c++)
                 assert_true(l.radiance[c] >= 0.0f && isfinite(l.radiance[c]));
-            float pdf = path_lights_infinite_pdf(s.lights, P, N, l.L);
+            float pdf = infinite_pdf(s.lights, P, N, l.L);
             assert_true(pdf >= 0.0f && isfinite(pdf));
             vec3 radiance = path_lights_infinite(s.lights, l.L);
             assert_true(isfinite(radiance[0] + radiance[1] + radiance[2]));

@@ -111,7 +111,7 @@ static ground_light sample_ground_light(path *p, vec2 u, float u_light)
 {
     ground_light g = {.lit = vec3(0.0f), .open = vec3(0.0f)};
     path_light_sample light;
-    if (!path_lights_sample(p->scene->lights, p->previous.P, p->previous.N, u_light, u, &light))
+    if (!path_lights_sample(p->scene->lights, &p->views[p->view], u_light, u, &light))
         return g;
     float cosine = max(light.L[1], 0.0f);
     float p_bsdf = pdf_cosine(cosine);
@@ -121,8 +121,8 @@ static ground_light sample_ground_light(path *p, vec2 u, float u_light)
         return g;
     if (light.geometry == VISIBILITY_NONE)
         g.open = radiance;
-    g.lit = radiance *
-            path_shadow(p->scene, p->previous.P, p->P, &light, &p->media, p->wavelength_nm, &p->out->rays);
+    g.lit = radiance * path_shadow(p->scene, p->views[p->view].P, p->P, &light, &p->media, p->wavelength_nm,
+                                   &p->out->rays);
     return g;
 }
 
@@ -130,10 +130,10 @@ static ground_light sample_ground_light(path *p, vec2 u, float u_light)
 static ground_light sample_ground_bsdf(path *p, vec2 u)
 {
     p->D = mul(basis_from_normal(load3(UP)), sample_cosine(u));
-    p->previous.p_bsdf = pdf_cosine(p->D[1]);
+    p->p_bsdf = pdf_cosine(p->D[1]);
     p->specular_bounce = false;
-    p->cone_angle = path_cone_angle(p->previous.p_bsdf);
-    float p_light = path_lights_infinite_pdf(p->scene->lights, p->previous.P, p->previous.N, p->D);
+    p->cone_angle = path_cone_angle(p->p_bsdf);
+    float p_light = path_lights_infinite_pdf(p->scene->lights, &p->views[p->view], p->D);
     vec3 open = path_lights_infinite(p->scene->lights, p->D) * path_weight_of_bsdf(p, p_light);
     path_walk(p, NULL, NULL);
     return (ground_light){.lit = p->L, .open = open};
@@ -150,14 +150,9 @@ static void add3(vec3 light, float share, float out[3])
  * are equal where no model is near. */
 static void light_ground(const path_scene *scene, path_sampler sampler, vec3 P, float share, path_sample *out)
 {
-    path p = {.scene = scene,
-              .sampler = sampler,
-              .beta = vec3(1.0f),
-              .previous = {.P = P, .N = load3(UP)},
-              .P = P,
-              .depth = 1,
-              .vertex = 1,
-              .out = out};
+    path p = {
+        .scene = scene, .sampler = sampler, .beta = vec3(1.0f), .P = P, .depth = 1, .vertex = 1, .out = out};
+    path_lights_see(scene->lights, P, load3(UP), &p.views[p.view]);
     /* The model may stand on the plane: its points of contact cast their shadow from there. */
     p.P[1] += media_tolerance(max3(abs(P)));
     path_sampler_begin(&p.sampler, p.vertex);

@@ -53,7 +53,7 @@ static inline vec3 path_vertex_start(const path_vertex *v, vec3 L)
     return v->s.P + v->Ng * (dot(v->Ng, L) < 0.0f ? -v->tolerance_m : v->tolerance_m);
 }
 
-/* N for path_lights_sample(). */
+/* N for path_lights_see(). */
 static inline vec3 path_vertex_light_normal(const path_vertex *v)
 {
     return v->is_transmissive ? vec3(0.0f) : v->s.m.base.N;

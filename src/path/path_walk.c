@@ -134,7 +134,7 @@ static vec3 light_at_infinity(const path *p)
         return p->beta * path_lights_environment(lights, p->D);
     float p_light = 0.0f;
     if (!p->specular_bounce)
-        p_light = path_lights_infinite_pdf(lights, p->previous.P, p->previous.N, p->D);
+        p_light = path_lights_infinite_pdf(lights, &p->views[p->view], p->D);
     vec3 radiance = path_lights_infinite(lights, p->D);
     if (p->seen_through_m > 0.0f)
         radiance = seen_through_medium(p, radiance, path_lights_environment(lights, p->D));
@@ -149,8 +149,8 @@ static vec3 light_emitted(const path *p, const path_vertex *v, const visibility_
         return vec3(0.0f);
     float p_light = 0.0f;
     if (!p->specular_bounce)
-        p_light = path_lights_emitter_pdf(p->scene->lights, p->previous.P, p->previous.N, hit, p->D,
-                                          p->previous_m + hit->t);
+        p_light =
+            path_lights_emitter_pdf(p->scene->lights, &p->views[p->view], hit, p->D, p->previous_m + hit->t);
     return p->beta * radiance * path_weight_of_bsdf(p, p_light);
 }
 
@@ -185,8 +185,9 @@ static vec3 light_sampled(path *p, const path_vertex *v, const vertex_random *u)
     path_light_sample light;
     if (v->is_specular && scene->setup->light.punctual_count == 0)
         return vec3(0.0f);
-    if (!path_lights_sample(scene->lights, v->s.P, path_vertex_light_normal(v), u->light_choice, u->light,
-                            &light))
+    path_lights_view *view = &p->views[!p->view];
+    path_lights_see(scene->lights, v->s.P, path_vertex_light_normal(v), view);
+    if (!path_lights_sample(scene->lights, view, u->light_choice, u->light, &light))
         return vec3(0.0f);
     if (v->surface && light.is_infinite && p->seen_through_m > 0.0f)
         light.radiance =
@@ -209,7 +210,9 @@ static vec3 light_sampled(path *p, const path_vertex *v, const vertex_random *u)
 static vec3 light_sampled_at_particle(path *p, float g, const vertex_random *u)
 {
     path_light_sample light;
-    if (!path_lights_sample(p->scene->lights, p->P, vec3(0.0f), u->light_choice, u->light, &light))
+    path_lights_view *view = &p->views[!p->view];
+    path_lights_see(p->scene->lights, p->P, vec3(0.0f), view);
+    if (!path_lights_sample(p->scene->lights, view, u->light_choice, u->light, &light))
         return vec3(0.0f);
     float phase = phase_HG(dot(p->D, light.L), g);
     vec3 contribution =
@@ -301,7 +304,8 @@ static void scatter(path *p, const path_vertex *v, const bsdf_sample *b)
     p->is_shadow_lit = b->is_transmission && !p->specular_bounce && v->s.m.layers & LAYER_TRANSMISSION &&
                        path_has_straight_shadows(p->scene);
     if (!p->is_shadow_lit) {
-        p->previous = (path_previous){.P = v->s.P, .N = path_vertex_light_normal(v), .p_bsdf = b->pdf};
+        p->view = !p->view;
+        p->p_bsdf = b->pdf;
         p->specular_bounce = b->is_specular;
     }
     p->previous_m = 0.0f;
@@ -320,7 +324,8 @@ static void scatter_at_particle(path *p, float g, vec2 u)
     float pdf = phase_HG(dot(p->D, L), g);
     p->D = L;
     p->cone_angle = max(p->cone_angle, path_cone_angle(pdf));
-    p->previous = (path_previous){.P = p->P, .N = vec3(0.0f), .p_bsdf = pdf};
+    p->view = !p->view;
+    p->p_bsdf = pdf;
     p->specular_bounce = p->is_shadow_lit = false;
     p->previous_m = 0.0f;
 }
