@@ -68,14 +68,28 @@ FN uint sobol_shuffle(uint i, uint seed)
     return reverse_bits(owen_scramble(reverse_bits(i), seed));
 }
 
+/* A row of digits as a fraction in [0, 1), to 24 digits: exact, never 1. */
+FN float sobol_fraction(uint digits)
+{
+    return float(int(reverse_bits(digits) >> 8u)) * (1.0f / 16777216.0f);
+}
+
+/* The two coordinates of sobol_scrambled(). Rotated by a third, the bits of the seed enter owen_scramble() at
+ * other places. */
+FN float sobol_scrambled_first(uint i, uint seed)
+{
+    return sobol_fraction(owen_scramble(i, (seed << 11u) | (seed >> 21u)));
+}
+FN float sobol_scrambled_second(uint i, uint seed)
+{
+    return sobol_fraction(owen_scramble(sobol_second(i), (seed << 21u) | (seed >> 11u)));
+}
+
 /* Point i of the sequence in [0, 1)^2, its digits scrambled by seed (as for owen_scramble()). Points n 2^m to
  * (n + 1) 2^m - 1 are a (0, m, 2)-net: each elementary interval of area 2^-m contains one of them. */
 FN vec2 sobol_scrambled(uint i, uint seed)
 {
-    /* rotated by a third, the bits of the seed enter owen_scramble() at other places */
-    uint x = reverse_bits(owen_scramble(i, (seed << 11u) | (seed >> 21u)));
-    uint y = reverse_bits(owen_scramble(sobol_second(i), (seed << 21u) | (seed >> 11u)));
-    return vec2(float(x >> 8u), float(y >> 8u)) * (1.0f / 16777216.0f); /* 24 bits: exact, never 1 */
+    return vec2(sobol_scrambled_first(i, seed), sobol_scrambled_second(i, seed));
 }
 
 /* Point `index` of the sequence of a seed (any number). Sequences of different seeds are independent, in

@@ -24,16 +24,14 @@ typedef struct vertex_random {
 static vertex_random draw_random(path *p)
 {
     path_sampler_begin(&p->sampler, p->vertex);
-    vec2 light = path_sampler_pair(&p->sampler);
-    vec2 direction = path_sampler_pair(&p->sampler);
-    vec2 choice = path_sampler_pair(&p->sampler);
-    vec2 rest = path_sampler_pair(&p->sampler);
-    return (vertex_random){.light = light,
-                           .direction = direction,
-                           .light_choice = choice[0],
-                           .lobe = choice[1],
-                           .roulette = rest[0],
-                           .wavelength = rest[1]};
+    vec2 pairs[PATH_SAMPLER_PAIRS];
+    path_sampler_vertex_pairs(&p->sampler, pairs);
+    return (vertex_random){.light = pairs[0],
+                           .direction = pairs[1],
+                           .light_choice = pairs[2][0],
+                           .lobe = pairs[2][1],
+                           .roulette = pairs[3][0],
+                           .wavelength = pairs[3][1]};
 }
 
 static bool is_finite(vec3 v)

@@ -68,6 +68,10 @@ static inline path_sampler path_sampler_start(uint32_t seed, uint32_t x, uint32_
     return s;
 }
 
+/* The pairs of one vertex that are in the chosen orders, the same as those of as many calls of
+ * path_sampler_pair() after path_sampler_begin(), in a third of the time. */
+void path_sampler_vertex_pairs(path_sampler *s, vec2 pairs[PATH_SAMPLER_PAIRS]);
+
 /* A pair in [0, 1)^2, stratified with those of the pixel's other samples at this vertex and dimension. */
 static inline vec2 path_sampler_pair(path_sampler *s)
 {

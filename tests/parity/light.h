@@ -23,7 +23,8 @@ FN vec3 case_sobol(vec2 u)
     vec2 p = sobol_point(uint(u[0] * 4096.0f), hash_uint(uint(u[1] * 4096.0f)));
     uint d = owen_scramble(sobol_second(reverse_bits(uint(u[1] * 4096.0f))), hash_uint(uint(u[0] * 4096.0f)));
     vec2 q = sobol_scrambled(sobol_order(sobol_shuffle(d, 77u), 0x1f050301u), d);
-    return vec3(p[0] + q[0], p[1] + q[1], float(d >> 8u) * (1.0f / 16777216.0f));
+    return vec3(p[0] + q[0], p[1] + q[1],
+                sobol_fraction(d) + sobol_scrambled_first(d, 5u) - sobol_scrambled_second(d, 5u));
 }
 
 /* ---- pixel_filter.h ---- */
