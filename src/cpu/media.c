@@ -25,14 +25,7 @@ typedef struct search {
 
 float media_tolerance_at(const surface_point *s)
 {
-    vec3 most = abs(s->P);
-    if (s->hit.geometry->primitive->mode == SCENE_TRIANGLES)
-        for (int i = 0; i < 3; i++) {
-            float corner[3];
-            render_geometry_corner(s->hit.geometry, s->hit.corner[i], corner);
-            most = max(most, abs(load3(corner)));
-        }
-    return media_tolerance(max3(most));
+    return media_tolerance(max3(max(abs(s->P), s->hit.farthest)));
 }
 
 static void trace(search *s, vec3 origin, vec3 direction, float near_t, float far_t,

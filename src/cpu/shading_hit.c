@@ -62,9 +62,12 @@ shading_hit shading_hit_make(const shading_scene *scene, const shading_point *po
         h.weight[1] = hit->u;
         h.weight[2] = hit->v;
         vec3 p0 = corner(h.geometry, h.corner[0]);
-        vec3 e1 = corner(h.geometry, h.corner[1]) - p0;
-        vec3 e2 = corner(h.geometry, h.corner[2]) - p0;
+        vec3 p1 = corner(h.geometry, h.corner[1]);
+        vec3 p2 = corner(h.geometry, h.corner[2]);
+        vec3 e1 = p1 - p0;
+        vec3 e2 = p2 - p0;
         h.position = p0 + e1 * hit->u + e2 * hit->v;
+        h.farthest = max(max(abs(p0), abs(p1)), abs(p2));
         if (scene->plans->items[hit->geometry].needs_derivatives || scene->has_specular_antialiasing)
             weight_derivatives(point->ray, p0, e1, e2, &h);
         break;

@@ -16,6 +16,7 @@ typedef struct shading_hit {
     float dx[2], dy[2]; /* of weight[1], weight[2] over the ray's footprint */
     vec3 direction;     /* of the ray */
     vec3 position;      /* world, m */
+    vec3 farthest;      /* m: the largest of each coordinate at the corners of a triangle, absolute */
 } shading_hit;
 
 /* TEXCOORD_n, and its change over the footprint along the image's x and y. */

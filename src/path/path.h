@@ -29,11 +29,10 @@ typedef struct path {
 
     /* multiple importance sampling of the light that the ray hits: it could have been sampled as well at
      * the vertex at which the direction was sampled */
-    path_lights_view
-        views[2];     /* the lights as seen there, and from the next vertex; unset: specular vertices */
-    uint32_t view;    /* which one is that vertex's */
-    float p_bsdf;     /* per sr, of the direction */
-    float previous_m; /* from there to P, where null interfaces or straight transmission lie between */
+    path_lights_view *views; /* two: the lights as seen from there and from the next; unset if specular */
+    uint32_t view;           /* which one is that vertex's */
+    float p_bsdf;            /* per sr, of the direction */
+    float previous_m;        /* from there to P, where null interfaces or straight transmission lie between */
     /* no light could have been sampled for the ray: specular lobe, or from the camera */
     bool specular_bounce;
     bool is_shadow_lit; /* the ray passed transmissive surfaces whose light the straight shadow rays found */

@@ -150,8 +150,15 @@ static void add3(vec3 light, float share, float out[3])
  * are equal where no model is near. */
 static void light_ground(const path_scene *scene, path_sampler sampler, vec3 P, float share, path_sample *out)
 {
-    path p = {
-        .scene = scene, .sampler = sampler, .beta = vec3(1.0f), .P = P, .depth = 1, .vertex = 1, .out = out};
+    path_lights_view views[2];
+    path p = {.scene = scene,
+              .sampler = sampler,
+              .beta = vec3(1.0f),
+              .P = P,
+              .depth = 1,
+              .vertex = 1,
+              .views = views,
+              .out = out};
     path_lights_see(scene->lights, P, load3(UP), &p.views[p.view]);
     /* The model may stand on the plane: its points of contact cast their shadow from there. */
     p.P[1] += media_tolerance(max3(abs(P)));
@@ -184,7 +191,7 @@ static vec3 background(const path_scene *scene, vec3 D)
 }
 
 static path start(const path_scene *scene, const path_camera_ray *camera, path_sampler sampler,
-                  path_sample *out)
+                  path_lights_view views[2], path_sample *out)
 {
     const camera_rays *rays = &scene->setup->camera;
     float size = 0.5f * CAMERA_FOOTPRINT * rays->pixel_size;
@@ -197,6 +204,7 @@ static path start(const path_scene *scene, const path_camera_ray *camera, path_s
                   .cone_angle = rays->is_orthographic ? 0.0f : size,
                   .specular_bounce = true,
                   .seeks_features = true,
+                  .views = views,
                   .out = out};
 }
 
@@ -250,7 +258,8 @@ void path_trace(const path_scene *scene, uint32_t x, uint32_t y, uint32_t index,
     path_sampler_begin(&sampler, 0);
     path_camera_ray camera;
     path_sample_camera_ray(scene, &sampler, x, y, &camera);
-    path p = start(scene, &camera, sampler, out);
+    path_lights_view views[2];
+    path p = start(scene, &camera, sampler, views, out);
     out->rays += media_at(&scene->setup->shading, camera.ray.origin, &p.media);
     p.is_in_medium = scene->surface && scene->surface->has_camera;
     if (p.media.count || p.is_in_medium)
