@@ -150,6 +150,9 @@ void path_vertex_make(const path_scene *scene, const visibility_hit *hit, const 
     v->tables = surface_tables(*m, s->V, v->energy);
     v->lobes = layers_lobes(*m, s->V, v->energy, v->tables);
     v->is_specular = is_specular_only(m, &v->lobes);
+    if (m->layers == 0u)
+        v->plain =
+            surface_lobes_at(m->base, s->V, v->lobes.specular, v->lobes.diffuse, v->energy, v->tables.dfg);
 }
 
 /* ---- emission ---- */
@@ -192,6 +195,11 @@ vec3 path_vertex_eval(const path_vertex *v, vec3 L, float *pdf)
     if (!is_on_one_side(v, L))
         return vec3(0.0f);
     const Layers *m = &v->s.m;
+    if (m->layers == 0u) {
+        SurfaceValue x = surface_value(m->base, v->plain, L, v->energy);
+        *pdf = x.pdf;
+        return x.f;
+    }
     *pdf = layers_pdf(*m, v->lobes, v->s.V, L);
     return layers_scatter_cos(*m, v->s.V, L, v->energy, v->tables, sheen_E(m, L));
 }
@@ -218,11 +226,27 @@ static vec3 keep_side(vec3 L, vec3 Ng, float side)
     return c * side > 0.0f ? L : normalize(L - Ng * (2.0f * c - side * 1e-4f));
 }
 
+/* path_vertex_sample() of a surface without layers, for its lobes that are not specular. */
+static bool sample_plain(const path_vertex *v, float u_lobe, vec2 u, bsdf_sample *out)
+{
+    const Surface *s = &v->s.m.base;
+    vec3 L = surface_draw(*s, v->plain, u_lobe, u);
+    if (dot(L, L) < 0.5f || !is_on_one_side(v, L))
+        return false;
+    SurfaceValue x = surface_value(*s, v->plain, L, v->energy);
+    if (!(x.pdf > 0.0f))
+        return false;
+    *out = (bsdf_sample){.L = L, .pdf = x.pdf, .weight = x.f * (1.0f / x.pdf)};
+    return true;
+}
+
 bool path_vertex_sample(const path_vertex *v, float u_lobe, vec2 u, bsdf_sample *out)
 {
     if (v->surface)
         return v->surface->sample(v->surface->self, &v->on, v->s.V, u_lobe, u, out);
     const Layers *m = &v->s.m;
+    if (m->layers == 0u && !(v->plain.is_delta && u_lobe >= v->lobes.diffuse))
+        return sample_plain(v, u_lobe, u, out);
     LayersSample s = layers_sample(*m, v->lobes, v->s.V, u_lobe, u, v->energy, v->tables);
     if (!s.is_valid)
         return false;

@@ -20,6 +20,7 @@ typedef struct path_vertex {
     media behind;           /* on the other side */
     LayerTables tables;
     LayersLobes lobes;
+    SurfaceLobesAtV plain;       /* without layers */
     const path_surface *surface; /* NULL: a mesh with a material */
     path_surface_point on;       /* surface: the point of it */
 } path_vertex;

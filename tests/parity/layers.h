@@ -424,3 +424,15 @@ FN vec3 case_layers_sample_delta(vec2 u)
            layers_draw_clearcoat(m, V, u) + layers_draw_sheen(m, V, u) +
            layers_draw_boundary(m, V, u[1], 0.5f, turned);
 }
+
+/* ---- surface_sample.h ---- */
+
+FN vec3 case_surface_sample(vec2 u)
+{
+    vec3 V = parity_V(u);
+    Surface s = parity_path_layers(u).base;
+    int energy = parity_energy(u);
+    SurfaceLobesAtV t = surface_lobes_at(s, V, 0.4f, 0.6f, energy, vec2(0.8f, 0.1f));
+    SurfaceValue x = surface_value(s, t, parity_L(u), energy);
+    return x.f + x.pdf * 0.1f + surface_draw(s, t, fract(u[0] * 5.0f), vec2(u[1], u[0]));
+}
