@@ -171,8 +171,9 @@ typedef enum facet_background {
 typedef enum facet_ground {
     FACET_GROUND_NONE,
     /* Shadow catcher: an invisible plane below the lowest point of the model; only the light that the
-     * model blocks is drawn, as dark opacity. Not for FACET_RENDERER_KIND_PREVIEW; FACET_RENDERER_KIND_GL
-     * draws a soft contact shadow. */
+     * model blocks is drawn, as dark opacity, which fades to 0 at the border of the image.
+     * FACET_RENDERER_KIND_PREVIEW traces a few rays to the environment and the lights;
+     * FACET_RENDERER_KIND_GL draws the occlusion of a uniform sky. */
     FACET_GROUND_SHADOW
 } facet_ground;
 

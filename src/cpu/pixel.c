@@ -229,25 +229,25 @@ static void composite(const pixel_resolver *r, float rgba[4])
     rgba[3] = ((float)hit_samples - passed_sum) / n;
 }
 
-static void add_background(const pixel_resolver *r, uint32_t x, uint32_t y, float rgba[4])
+void pixel_add_background(const shading_scene *scene, float blur, float scale, uint32_t x, uint32_t y,
+                          float rgba[4])
 {
     float passed = 1.0f - rgba[3];
-    if (!r->draws_background || !(passed > 0.0f))
+    if (!(passed > 0.0f))
         return;
-    const camera_rays *camera = r->scene->camera;
+    const camera_rays *camera = scene->camera;
     float origin[3];
     float direction[3];
     float radiance[3];
     camera_rays_at(camera, (float)x + 0.5f, (float)y + 0.5f, origin, direction);
     vec3 d = normalize(load3(direction));
     float unit[3] = {d[0], d[1], d[2]};
-    if (r->background_blur > 0.0f)
-        light_specular(r->scene->light, unit, r->background_blur, radiance);
+    if (blur > 0.0f)
+        light_specular(scene->light, unit, blur, radiance);
     else
-        light_background(r->scene->light, unit, camera->is_orthographic ? 0.0f : camera->pixel_size,
-                         radiance);
+        light_background(scene->light, unit, camera->is_orthographic ? 0.0f : camera->pixel_size, radiance);
     for (int c = 0; c < 3; c++)
-        rgba[c] += passed * radiance[c];
+        rgba[c] += passed * radiance[c] * scale;
     rgba[3] = 1.0f;
 }
 
@@ -265,7 +265,8 @@ bool pixel_resolve(pixel_resolver *r, uint32_t x, uint32_t y, const visibility_h
         if (r->scene->ogl1)
             ogl1_develop(r->scene, rgba);
     }
-    add_background(r, x, y, rgba);
+    if (r->draws_background)
+        pixel_add_background(r->scene, r->background_blur, 1.0f, x, y, rgba);
     for (int c = 0; c < 3; c++)
         rgba[c] *= r->scale;
     return true;

@@ -45,6 +45,9 @@ typedef struct pixel_resolver {
  * hits. False: no memory. */
 bool pixel_resolve(pixel_resolver *resolver, uint32_t x, uint32_t y, const visibility_hit *hits,
                    float rgba[4]);
+/* Adds the environment times scale where nothing covers the pixel. blur: perceptual roughness. */
+void pixel_add_background(const shading_scene *scene, float blur, float scale, uint32_t x, uint32_t y,
+                          float rgba[4]);
 /* Adds the coverage of that pixel, which pixel_resolve() has just resolved successfully, to Cryptomatte's
  * layers. identities: per geometry. number: of the pixel in the layers. */
 void pixel_add_mattes(const pixel_resolver *resolver, const struct scene_identity *identities,

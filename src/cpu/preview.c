@@ -1,8 +1,11 @@
 /* preview.c - see preview.h. */
 #include "cpu/preview.h"
 
+#include <math.h>
+
 #include "base/clock.h"
 #include "base/result.h"
+#include "cpu/ground_shadow.h"
 #include "cpu/render_setup.h"
 #include "cpu/tiles.h"
 
@@ -20,13 +23,25 @@ static facet_result draw(render_setup *setup, double deadline_s, film *target, f
         result = ogl1_setup_create(&source, &setup->camera, desc, &setup->light, &setup->plans, &ogl1, error);
         setup->shading.ogl1 = &ogl1;
     }
+    bool has_ground = desc->ground == FACET_GROUND_SHADOW; /* which is between the model and the background */
     tiles_desc tiles = {.render = desc,
                         .scene = &setup->shading,
                         .raster = setup->raster,
                         .identities = setup->identities,
-                        .deadline_s = deadline_s};
+                        .deadline_s = deadline_s,
+                        .draws_background = desc->background == FACET_BACKGROUND_ENVIRONMENT && !has_ground};
     if (result == FACET_OK)
         result = tiles_draw(&tiles, target, setup->stats, error);
+    const scene_pose *pose = &setup->prepared->pose;
+    ground_shadow_desc ground = {.render = desc,
+                                 .scene = &setup->shading,
+                                 .height_m = pose->bounds_min[1],
+                                 .model_size_m = fmaxf(pose->bounds_max[0] - pose->bounds_min[0],
+                                                       fmaxf(pose->bounds_max[1] - pose->bounds_min[1],
+                                                             pose->bounds_max[2] - pose->bounds_min[2])),
+                                 .deadline_s = deadline_s};
+    if (result == FACET_OK && has_ground)
+        result = ground_shadow_draw(&ground, target, setup->stats, error);
     ogl1_setup_destroy(&ogl1);
     setup->stats->shade_s = clock_seconds() - start;
     return result;

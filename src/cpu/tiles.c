@@ -105,7 +105,7 @@ static void draw_tile(tile_job *p, uint32_t tile)
                                 .pattern = &p->pattern,
                                 .splits_quarters = render->quality == FACET_QUALITY_FINAL,
                                 .has_visible_hits = p->desc->raster && raster_is_final(p->desc->raster),
-                                .draws_background = render->background == FACET_BACKGROUND_ENVIRONMENT,
+                                .draws_background = p->desc->draws_background,
                                 .background_blur = render->background_blur,
                                 .scale = exp2f(render->exposure_ev)}};
     uint32_t left = p->crop[0] / TILE * TILE + tile % p->tile_columns * TILE;

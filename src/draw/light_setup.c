@@ -11,6 +11,8 @@
 
 /* ---- what must be prepared ---- */
 
+enum { GROUND_SKY_SIZE = 64 }; /* texels per rad of the environment that lights the ground */
+
 facet_energy light_energy(const facet_render_desc *desc)
 {
     return desc->gl.brdf == FACET_BRDF_MULTISCATTER ? FACET_ENERGY_CONSERVING : desc->energy;
@@ -89,7 +91,8 @@ static ibl_light_desc light_needs(const render_geometry_set *set, const camera_r
     for (uint32_t i = 0; i < set->count && !is_sampled; i++)
         if (set->items[i].is_lit)
             add_material(&needs, set->items[i].material, desc);
-    if (desc->ground == FACET_GROUND_SHADOW && !is_sampled) /* a sun's shadow is a share of it */
+    bool has_ground = desc->ground == FACET_GROUND_SHADOW && !is_sampled;
+    if (has_ground) /* shadows are shares of it */
         needs.needs_irradiance = true;
     if (desc->background == FACET_BACKGROUND_ENVIRONMENT) {
         if (desc->background_blur > 0.0f)
@@ -99,6 +102,10 @@ static ibl_light_desc light_needs(const render_geometry_set *set, const camera_r
     }
     if (needs.needs_background)
         needs.background_size = camera->is_orthographic ? 0 : (uint32_t)min(1.0f / camera->pixel_size, 1e6f);
+    else if (has_ground && desc->renderer == FACET_RENDERER_KIND_PREVIEW) {
+        needs.needs_background = true; /* from where the light comes that is blocked */
+        needs.background_size = GROUND_SKY_SIZE;
+    }
     return needs;
 }
 

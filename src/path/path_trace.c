@@ -172,6 +172,15 @@ static void light_ground(const path_scene *scene, path_sampler sampler, vec3 P, 
     add3(by_light.open + by_bsdf.open, share, out->ground_open);
 }
 
+/* Towards the border of the image the ground is lit as if there were no model. */
+static void fade_shadow(const facet_render_desc *desc, uint32_t x, uint32_t y, path_sample *out)
+{
+    vec2 place = vec2(((float)x + 0.5f) / (float)desc->width, ((float)y + 0.5f) / (float)desc->height);
+    float fade = ground_fade(place);
+    for (int c = 0; c < 3; c++)
+        out->ground_lit[c] = mix(out->ground_open[c], out->ground_lit[c], fade);
+}
+
 /* ---- a sample ---- */
 
 /* Radiance where no surface covers the pixel. */
@@ -268,8 +277,10 @@ void path_trace(const path_scene *scene, uint32_t x, uint32_t y, uint32_t index,
         trace_outside(&p, &camera);
     vec3 ground;
     if (out->opacity < 1.0f &&
-        hits_ground(scene, load3(camera.ray.origin), load3(camera.ray.direction), &ground))
+        hits_ground(scene, load3(camera.ray.origin), load3(camera.ray.direction), &ground)) {
         light_ground(scene, sampler, ground, (1.0f - out->opacity) * camera.weight, out);
+        fade_shadow(scene->setup->desc, x, y, out);
+    }
     if (scene->draws_background) {
         p.L += background(scene, load3(camera.ray.direction)) * (1.0f - out->opacity);
         out->opacity = 1.0f;

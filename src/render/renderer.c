@@ -46,16 +46,16 @@ enum {
 
 const renderer_row *renderer_get(facet_renderer_kind kind)
 {
-    static const renderer_row preview = {.title = "the preview",
-                                         .info = {.name = "preview",
-                                                  .features = FACET_RENDERER_FEATURE_OGL1 |
-                                                              FACET_RENDERER_FEATURE_SPECULAR_AA |
-                                                              FACET_RENDERER_FEATURE_SEA_STYLES,
-                                                  .samples = {4, 1, 16},
-                                                  .max_samples = 4096,
-                                                  .aovs = SURFACE_AOVS},
-                                         .lacks = NO_EMBREE,
-                                         RENDERER_OF_CPU(.draw = render_preview_draw)};
+    static const renderer_row preview = {
+        .title = "the preview",
+        .info = {.name = "preview",
+                 .features = FACET_RENDERER_FEATURE_GROUND | FACET_RENDERER_FEATURE_OGL1 |
+                             FACET_RENDERER_FEATURE_SPECULAR_AA | FACET_RENDERER_FEATURE_SEA_STYLES,
+                 .samples = {4, 1, 16},
+                 .max_samples = 4096,
+                 .aovs = SURFACE_AOVS},
+        .lacks = NO_EMBREE,
+        RENDERER_OF_CPU(.draw = render_preview_draw)};
     static const renderer_row path = {
         .title = "path tracing",
         .info = {.name = "path",

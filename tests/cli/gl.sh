@@ -62,8 +62,6 @@ for option in --shadows '--transparency peeled' '--bloom 0.1' '--channel normal'
     expect 2 render model.gltf -o no.png $small $option
     says "it needs --renderer gl"
 done
-expect 2 render model.gltf -o no.png $small --ground shadow
-says "it needs --renderer path or gl"
 expect 2 render model.gltf -o no.png $small --renderer gl --bounces 2
 says "--bounces: it needs --renderer path"
 expect 2 render model.gltf -o no.png $small --renderer gl --channel colour

@@ -25,7 +25,6 @@ cmp -s a.png c.png && failed "another seed gives the same noise"
 # Options of one renderer are refused by the other.
 expect 2 render --noise 0.1 -o x.png
 says "it needs --renderer path"
-expect 2 render --ground shadow -o x.png
 expect 2 render --renderer path --specular-aa -o x.png
 says "it needs --renderer preview or gl"
 expect 2 render --aov variance -o x.exr

@@ -330,6 +330,13 @@ FN vec3 case_specular_aa(vec2 u)
     return parity_surface_sum(wide) + vec3(roughness_specular_aa(u[0], N * 0.1f, N * u[1]), 0.0f, 0.0f);
 }
 
+/* ---- ground.h ---- */
+
+FN vec3 case_ground_fade(vec2 u)
+{
+    return 1.0f + vec3(ground_fade(u), ground_fade(u * 0.125f), ground_fade(vec2(u[1], 0.5f)));
+}
+
 /* ---- layers_sample.h ---- */
 
 FN vec3 parity_lobes(LayersLobes p)

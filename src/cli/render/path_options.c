@@ -20,7 +20,6 @@ static facet_result check_renderer(const command_line *c, const render_options *
         option_id options[16]; /* ends with OPTION_ID_COUNT */
     } rules[] = {{FACET_RENDERER_FEATURE_PATH, {PATH_OPTIONS, OPT_CHECKPOINT, OPT_RESUME, OPTION_ID_COUNT}},
                  {FACET_RENDERER_FEATURE_GL, {GL_OPTIONS, OPTION_ID_COUNT}},
-                 {FACET_RENDERER_FEATURE_GROUND, {OPT_GROUND, OPTION_ID_COUNT}},
                  {FACET_RENDERER_FEATURE_SPECULAR_AA, {OPT_SPECULAR_AA, OPTION_ID_COUNT}},
                  {FACET_RENDERER_FEATURE_OGL1, {OPT_SHADING, OPTION_ID_COUNT}}};
     for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)

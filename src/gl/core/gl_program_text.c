@@ -108,7 +108,7 @@ static const struct {
     [GL_MAIN_GROUND_MAP] = {"ground_map", no_features, SCREEN,
         {{"constants"}, {"light_block.glsl", "ground_map.frag"}}},
     [GL_MAIN_GROUND] = {"ground", ground_features, SCREEN,
-        {{"surface", "light", "color"},
+        {{"ground", "surface", "light", "color"},
          {"light_block.glsl", "environment.glsl", "shadow.glsl", "lights.glsl", "ground.frag"}}},
     [GL_MAIN_BACKGROUND] = {"background", background_features, SCREEN,
         {{"surface"}, {"light_block.glsl", "environment.glsl", "background.frag"}}},

@@ -59,5 +59,6 @@ void main()
     float height = origin.y + eye.y - light_ground.w;
     if (!(height > 0.0 && d.y < 0.0))
         discard;
-    fragment = vec4(0.0, 0.0, 0.0, opacity_at(origin - d * (height / d.y)));
+    float fade = ground_fade((gl_FragCoord.xy + frame_size.zw) / frame_size.xy);
+    fragment = vec4(0.0, 0.0, 0.0, opacity_at(origin - d * (height / d.y)) * fade);
 }
