@@ -32,6 +32,7 @@ const verb render_verb = {
             {"facet render fox.glb -o - --format y4m --animation Run | ffmpeg -i - -pix_fmt yuv420p fox.mp4",
              "a video; with --turntable 120 seen from all around"},
             {"facet render *.glb -o 'thumbs/{stem}.png' --preset thumbnail", "thumbnails of many models"},
+            {"facet render shoe.glb -o shoe.png --preset product", "large, with its shadow"},
             {"facet render models/ -o 'thumbs/{dir}/{stem}.png' --size 256",
              "all models in a folder and below it, in the same folders"},
             {"facet render ring.glb -o ring.png --renderer path --samples 256 --ground shadow --denoise",

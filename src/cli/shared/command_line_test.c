@@ -255,6 +255,28 @@ static void test_preset(void **state)
     assert_string_equal(option_text(&line, OPT_SIZE, ""), "128");
     assert_string_equal(option_text(&line, OPT_BACKGROUND, ""), "transparent");
     assert_true(is_given(&line, OPT_QUIET));
+    assert_int_equal(option_choice(&line, OPT_GROUND, 0), 1);
+    assert_true(strncmp(option_text(&line, OPT_ORBIT, ""), "30,", 3) == 0);
+}
+
+static void test_preset_of_products(void **state)
+{
+    (void)state;
+    assert_int_equal(PARSE("--preset", "product", "--ground", "none"), FACET_OK);
+    assert_int_equal(preset_apply(&line, &error), FACET_OK);
+    assert_string_equal(option_text(&line, OPT_SIZE, ""), "1600");
+    assert_int_equal(option_choice(&line, OPT_GROUND, 1), 0);
+    assert_false(is_given(&line, OPT_QUIET));
+}
+
+/* A preset's view and ground give way to options that exclude them. */
+static void test_preset_beside_exclusive_options(void **state)
+{
+    (void)state;
+    assert_int_equal(PARSE("--preset", "thumbnail", "--eye", "0,0,1", "--up", "z"), FACET_OK);
+    assert_int_equal(preset_apply(&line, &error), FACET_OK);
+    assert_false(is_given(&line, OPT_ORBIT));
+    assert_false(is_given(&line, OPT_GROUND));
 }
 
 int main(void)
@@ -272,6 +294,8 @@ int main(void)
         cmocka_unit_test(test_config),
         cmocka_unit_test(test_bad_config),
         cmocka_unit_test(test_preset),
+        cmocka_unit_test(test_preset_of_products),
+        cmocka_unit_test(test_preset_beside_exclusive_options),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     command_line_destroy(&line);

@@ -186,25 +186,57 @@ typedef struct setting {
     const char *text; /* NULL for flags */
 } setting;
 
+/* A three-quarter view with the shadow on the ground, with room for it. */
+#define PRODUCT_VIEW                                                                                         \
+    {OPT_ORBIT, "30,70,110%"},                                                                               \
+    {                                                                                                        \
+        OPT_GROUND, "shadow"                                                                                 \
+    }
+
 /* Settings for file managers: small, bounded, silent. */
 static const setting thumbnail[] = {
-    {OPT_SIZE, "256"}, {OPT_BACKGROUND, "transparent"}, {OPT_MAX_MEMORY, "1G"}};
+    PRODUCT_VIEW, {OPT_SIZE, "256"}, {OPT_BACKGROUND, "transparent"}, {OPT_MAX_MEMORY, "1G"}};
+/* Settings for shops and pages: large and smooth. */
+static const setting product[] = {PRODUCT_VIEW, {OPT_SIZE, "1600"}, {OPT_QUALITY, "final"}};
+
+/* Whether an option that is given makes one of a preset's impossible: other cameras, a ground below +Y. */
+static bool is_excluded(const command_line *c, option_id id)
+{
+    static const option_id cameras[] = {OPT_EYE, OPT_CAMERA, OPT_CAMERA_MATRIX, OPT_VIEW_MATRIX};
+    for (size_t i = 0; id == OPT_ORBIT && i < sizeof cameras / sizeof *cameras; i++)
+        if (is_given(c, cameras[i]))
+            return true;
+    return id == OPT_GROUND && option_choice(c, OPT_UP, 0) == 1;
+}
+
+static facet_result apply_settings(command_line *c, const setting *settings, size_t count, facet_error *error)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!is_excluded(c, settings[i].id))
+            TRY(command_line_set(c, option_find_id(c->verb, settings[i].id), settings[i].text, SOURCE_PRESET,
+                                 error));
+    return FACET_OK;
+}
+
+static facet_result apply_thumbnail(command_line *c, facet_error *error)
+{
+    static char limit[32]; /* 5 s for each model; a command line lives as long as the process */
+    snprintf(limit, sizeof limit, "%zus", 5 * (c->argument_count ? c->argument_count : 1));
+    TRY(command_line_set(c, option_find_id(c->verb, OPT_TIME_LIMIT), limit, SOURCE_PRESET, error));
+    if (!is_given(c, OPT_VERBOSE))
+        TRY(command_line_set(c, option_find_id(c->verb, OPT_QUIET), NULL, SOURCE_PRESET, error));
+    TRY(apply_settings(c, thumbnail, sizeof thumbnail / sizeof *thumbnail, error));
+    /* concurrent thumbnailers must not occupy every core (f3d issue 300) */
+    if (getpriority(PRIO_PROCESS, 0) > 0)
+        return command_line_set(c, option_find_id(c->verb, OPT_THREADS), "1", SOURCE_PRESET, error);
+    return FACET_OK;
+}
 
 facet_result preset_apply(command_line *c, facet_error *error)
 {
     if (!is_given(c, OPT_PRESET))
         return FACET_OK;
-    static char limit[32]; /* 5 s for each model; a command line lives as long as the process */
-    snprintf(limit, sizeof limit, "%zus", 5 * (c->argument_count ? c->argument_count : 1));
-    facet_result result =
-        command_line_set(c, option_find_id(c->verb, OPT_TIME_LIMIT), limit, SOURCE_PRESET, error);
-    if (result == FACET_OK && !is_given(c, OPT_VERBOSE))
-        result = command_line_set(c, option_find_id(c->verb, OPT_QUIET), NULL, SOURCE_PRESET, error);
-    for (size_t i = 0; i < sizeof thumbnail / sizeof *thumbnail && result == FACET_OK; i++)
-        result = command_line_set(c, option_find_id(c->verb, thumbnail[i].id), thumbnail[i].text,
-                                  SOURCE_PRESET, error);
-    /* concurrent thumbnailers must not occupy every core (f3d issue 300) */
-    if (result == FACET_OK && getpriority(PRIO_PROCESS, 0) > 0)
-        result = command_line_set(c, option_find_id(c->verb, OPT_THREADS), "1", SOURCE_PRESET, error);
-    return result;
+    if (option_choice(c, OPT_PRESET, 0) == 0)
+        return apply_thumbnail(c, error);
+    return apply_settings(c, product, sizeof product / sizeof *product, error);
 }
