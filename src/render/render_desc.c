@@ -106,8 +106,7 @@ static facet_result resolve_renderer(facet_render_desc *d, facet_error *error)
     if (d->sea)
         TRY(resolve_sea(r, d, error));
     if (d->ground != FACET_GROUND_NONE && !(info->features & FACET_RENDERER_FEATURE_GROUND))
-        return fail(error, FACET_ERROR_ARGUMENT,
-                    "ground: %s has no ground shadow", r->title);
+        return fail(error, FACET_ERROR_ARGUMENT, "ground: %s has no ground shadow", r->title);
     return r->resolve ? r->resolve(d, error) : FACET_OK;
 }
 
