@@ -113,11 +113,14 @@ def _discard(discard, result):
 
 
 class _Owner:
-    """A pointer that is released when the last object that needs it is gone."""
+    """A pointer that is released when the last handle that needs it is gone. Any number of calls may read its object at
+    once, or one may change it."""
 
     def __init__(self, pointer, destroy, needs):
         self.pointer = pointer
         self.release = weakref.finalize(self, _destroy, destroy, pointer, needs)
+        self.lock = threading.Lock()
+        self.readers, self.is_changing = 0, False
 
 
 def _destroy(destroy, pointer, _needs):
@@ -125,21 +128,26 @@ def _destroy(destroy, pointer, _needs):
 
 
 class Handle:
-    """Owner of an object of the library, which any number of calls may read at once, or one may change. It is released by
-    close(), at the end of a `with` block, or when nothing refers to it any more."""
+    """An object of the library. It is released by close(), at the end of a `with` block, or when nothing refers to it any
+    more."""
 
     _destroy = None  # the function of the library that releases it
 
     def _own(self, pointer, *needs):
         """needs: handles whose objects must outlive this one."""
         self._owner = _Owner(pointer, type(self)._destroy, [handle._living for handle in needs])
-        self._readers, self._is_changing = 0, False
-        self._lock = threading.Lock()
-        return self
 
     @classmethod
     def _adopt(cls, pointer, *needs):
-        return cls.__new__(cls)._own(pointer, *needs)
+        handle = cls.__new__(cls)
+        handle._own(pointer, *needs)
+        return handle
+
+    def _alias(self):
+        """Another handle of the same object, which closing this one leaves alone."""
+        handle = type(self).__new__(type(self))
+        handle._owner = self._living
+        return handle
 
     @property
     def _living(self):
@@ -154,28 +162,28 @@ class Handle:
     @contextmanager
     def _reading(self):
         owner = self._living
-        with self._lock:
-            if self._is_changing:
+        with owner.lock:
+            if owner.is_changing:
                 raise RuntimeError(f"another thread is changing this {type(self).__name__}")
-            self._readers += 1
+            owner.readers += 1
         try:
             yield owner.pointer
         finally:
-            with self._lock:
-                self._readers -= 1
+            with owner.lock:
+                owner.readers -= 1
 
     @contextmanager
     def _changing(self):
         owner = self._living
-        with self._lock:
-            if self._readers or self._is_changing:
+        with owner.lock:
+            if owner.readers or owner.is_changing:
                 raise RuntimeError(f"this {type(self).__name__} is in use by another call; change it afterwards")
-            self._is_changing = True
+            owner.is_changing = True
         try:
             yield owner.pointer
         finally:
-            with self._lock:
-                self._is_changing = False
+            with owner.lock:
+                owner.is_changing = False
 
     def close(self):
         """Releases the memory of the library, as soon as no call and no other object needs it. Closing twice is allowed."""

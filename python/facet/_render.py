@@ -150,10 +150,11 @@ class Renderer(Handle):
     _destroy = C.renderer_destroy
 
     def __init__(self, scene):
-        self._scene = scene
+        self._scene = None
         if scene is None:
             self._own(create(C.renderer_create, None, None))
         else:
+            self._scene = scene._alias()
             with scene._reading() as pointer:
                 self._own(create(C.renderer_create, pointer, None), scene)
 

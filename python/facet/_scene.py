@@ -73,11 +73,11 @@ class Scene(Handle):
         with self._reading() as pointer:
             return json.loads(take_text(C.scene_describe_json, pointer))
 
-    def bounds(self, **pose):
-        """((x, y, z), (x, y, z)) of what is drawn, m; None: nothing. Keywords: scene_index, variant, animations, time_s."""
+    def bounds(self, *, scene_index=None, variant=None, animations=(), time_s=0.0):
+        """((x, y, z), (x, y, z)) of what is drawn, m; None: nothing."""
         low, high = (ctypes.c_float * 3)(), (ctypes.c_float * 3)()
         keep = []
-        desc = make_pose(self, keep, pose.pop("scene_index", None), **pose)
+        desc = make_pose(self, keep, scene_index, variant, animations, time_s)
         with self._reading() as pointer:
             return (tuple(low), tuple(high)) if C.scene_get_bounds(pointer, desc, low, high) else None
 

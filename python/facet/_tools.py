@@ -21,6 +21,7 @@ class Comparison:
         self.difference = difference
 
     def as_dict(self):
+        """All numbers by name."""
         return {name: value for name, value in self.__dict__.items() if name != "difference"}
 
     def __repr__(self):
@@ -56,15 +57,16 @@ def compare(reference, image, *, mask=None, threads=0, **keywords):
 
 # ---- conversion ----
 
-def convert(source, target, *, load=None, save=None, **materials):
+@keywords_of(_api.facet_legacy_desc)
+def convert(source, output, *, load=None, save=None, **materials):
     """Converts a model file: convert('old.obj', 'new.glb'), convert('model.glb', 'model.obj'). load, save: keywords of
     facet.load() and Scene.save(); others are of Scene.convert_materials(). Returns the conversions of materials."""
     with Scene.load(source, **(load or {})) as scene:
-        if pathlib.Path(target).suffix.lower() in (".obj", ".json"):
+        if pathlib.Path(output).suffix.lower() in (".obj", ".json"):
             scene.convert_materials("ogl1", **materials)
         elif materials:
             scene.convert_materials("metallic-roughness", **materials)
-        scene.save(target, **(save or {}))
+        scene.save(output, **(save or {}))
         return scene.conversions
 
 
