@@ -31,6 +31,7 @@ struct facet_environment {
     facet_layout layout;     /* of the source; {0}: equirectangular */
     uint32_t source_width, source_height; /* for facet_environment_info; 0: those of the panorama */
     uint64_t repaired_texels;
+    bool is_studio; /* the panorama is that of studio_draw() */
     /* The cube map that the panorama was resampled from, in the same range; {0}: the source was not a cube
      * map */
     cube faces;

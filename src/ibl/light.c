@@ -11,6 +11,7 @@
 #include "ibl/environment.h"
 #include "ibl/equirect.h"
 #include "ibl/light.h"
+#include "ibl/studio_draw.h"
 
 /* Version of the preparation; entries of other versions in a cache are ignored. */
 static const uint64_t recipe_version = 3;
@@ -32,6 +33,17 @@ static bool read_level(const facet_environment *e, const char *part, uint64_t re
     return false;
 }
 
+static facet_result prepare_harmonics(facet_environment *e, uint32_t thread_count, facet_error *error)
+{
+    harmonics *out = &e->parts.harmonics;
+    if (e->is_studio)
+        return studio_harmonics(&e->panorama, &e->allocator, thread_count, out, error);
+    return harmonics_create(&e->panorama, PREFILTER_DEGREE, &e->allocator, thread_count, out, error);
+}
+
+_Static_assert((int)STUDIO_DEGREE == (int)PREFILTER_DEGREE,
+               "the studio's harmonics have the degree of all others");
+
 static facet_result prepare_level(facet_environment *e, prefilter_lobe lobe, uint32_t level,
                                   uint32_t thread_count, facet_error *error)
 {
@@ -46,8 +58,7 @@ static facet_result prepare_level(facet_environment *e, prefilter_lobe lobe, uin
     if (read_level(e, part, recipe, prefilter_size(lobe, level), out))
         return FACET_OK;
     if (!parts->harmonics.coefficients)
-        TRY(harmonics_create(&e->panorama, PREFILTER_DEGREE, &e->allocator, thread_count, &parts->harmonics,
-                             error));
+        TRY(prepare_harmonics(e, thread_count, error));
     TRY(prefilter_level(&parts->harmonics, lobe, level, &e->allocator, thread_count, out, error));
     cache_write(e, part, recipe, out->texels, mem_size(out->texels));
     return FACET_OK;

@@ -16,6 +16,7 @@
 #include "ibl/equirect.h"
 #include "ibl/ibl.h"
 #include "ibl/light_fixture.h"
+#include "ibl/studio_draw.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -486,6 +487,28 @@ static void threads_share_prepared_parts(void **state)
         ibl_light_release(lights[i]);
 }
 
+/* The studio's harmonics, which are computed when facet is built, are those of its panorama. */
+static void the_studio_has_its_harmonics(void **state)
+{
+    (void)state;
+    image panorama;
+    harmonics built, found;
+    assert_int_equal(studio_draw(NULL, 1, &panorama, NULL), FACET_OK);
+    assert_int_equal(studio_harmonics(&panorama, NULL, 1, &built, NULL), FACET_OK);
+    assert_int_equal(harmonics_create(&panorama, STUDIO_DEGREE, NULL, 2, &found, NULL), FACET_OK);
+    assert_int_equal(built.degree, found.degree);
+    assert_int_equal(built.column_count, found.column_count);
+    assert_memory_equal(built.mean, found.mean, sizeof built.mean);
+    assert_memory_equal(built.least, found.least, sizeof built.least);
+    assert_int_equal(mem_size(built.coefficients), mem_size(found.coefficients));
+    const size_t count = mem_size(found.coefficients) / sizeof *found.coefficients;
+    for (size_t i = 0; i < count; i++) /* of other machines' C libraries to rounding */
+        assert_near(built.coefficients[i], found.coefficients[i], 1e-6);
+    harmonics_destroy(&built);
+    harmonics_destroy(&found);
+    image_destroy(&panorama);
+}
+
 /* ---- memory ---- */
 
 /* Each failing allocation gives FACET_ERROR_MEMORY, and nothing leaks. */
@@ -535,6 +558,7 @@ int main(void)
         cmocka_unit_test(only_needed_parts_are_prepared),
         cmocka_unit_test(levels_do_not_depend_on_other_parts_or_threads),
         cmocka_unit_test(threads_share_prepared_parts),
+        cmocka_unit_test(the_studio_has_its_harmonics),
         cmocka_unit_test(running_out_of_memory_leaks_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
