@@ -117,7 +117,7 @@ static void test_point_limit(void **state)
         V[2] = fabsf(V[2]) + 0.01f;
         V = normalize(V);
         vec2 dfg = vec2(0.7f, 0.1f);
-        for (int energy = ENERGY_GLTF; energy <= ENERGY_CONSERVING; ++energy) {
+        for (int energy = ENERGY_CONSERVING; energy <= ENERGY_GLTF; ++energy) {
             vec3 point = shade_punctual(s, vec3(0.0f), V, light_point(center, I, 0.0f), energy, dfg);
             vec3 small = shade_sphere(s, vec3(0.0f), V, center, 1e-5f, I, energy, dfg);
             vec3 wide = shade_sphere_widened(s, vec3(0.0f), V, center, 1e-6f, I, energy, dfg);

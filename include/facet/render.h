@@ -30,8 +30,10 @@ typedef enum facet_shading {
 } facet_shading;
 
 typedef enum facet_energy {
-    FACET_ENERGY_GLTF,      /* the formulas of the glTF specification, comparable with Khronos' renderer */
-    FACET_ENERGY_CONSERVING /* multiple scattering compensated: no surface reflects more than it receives */
+    FACET_ENERGY_CONSERVING, /* multiple scattering compensated: no surface reflects more than it receives */
+    /* As Khronos' renderer: punctual lights by the formulas of the glTF specification, without multiple
+     * scattering; the environment with it */
+    FACET_ENERGY_GLTF
 } facet_energy;
 
 /* Sample counts; see facet_render_desc.samples. */

@@ -85,7 +85,7 @@ static void set_boundary(const shading_scene *shading, const visibility_hit *hit
 void path_vertex_set_wavelength(path_vertex *v, const media *in, float wavelength_nm)
 {
     v->s.m.eta = relative_ior(&v->behind, in, wavelength_nm);
-    v->tables = surface_tables(v->s.m, v->s.V, v->energy);
+    v->tables = surface_tables(v->s.m, v->s.V, ENERGY_CONSERVING);
     v->disperses = false;
 }
 
@@ -136,7 +136,7 @@ void path_vertex_make(const path_scene *scene, const visibility_hit *hit, const 
         return;
     v->Ng = geometric_normal(hit, s->V);
     v->tolerance_m = media_tolerance_at(s);
-    v->energy = surface_energy(shading);
+    v->delta_energy = surface_energy(shading);
     if (intersect_surface(scene->surface, hit, v))
         return;
     Layers *m = &s->m;
@@ -147,12 +147,12 @@ void path_vertex_make(const path_scene *scene, const visibility_hit *hit, const 
         m->clearcoat_N = faced_normal(m->clearcoat_N, s->V);
     v->is_transmissive = (m->layers & (LAYER_TRANSMISSION | LAYER_DIFFUSE_TRANSMISSION)) != 0;
     v->passes_straight = s->plan->may_pass_straight && transmits_straight(m);
-    v->tables = surface_tables(*m, s->V, v->energy);
-    v->lobes = layers_lobes(*m, s->V, v->energy, v->tables);
+    v->tables = surface_tables(*m, s->V, ENERGY_CONSERVING);
+    v->lobes = layers_lobes(*m, s->V, ENERGY_CONSERVING, v->tables);
     v->is_specular = is_specular_only(m, &v->lobes);
     if (m->layers == 0u)
-        v->plain =
-            surface_lobes_at(m->base, s->V, v->lobes.specular, v->lobes.diffuse, v->energy, v->tables.dfg);
+        v->plain = surface_lobes_at(m->base, s->V, v->lobes.specular, v->lobes.diffuse, ENERGY_CONSERVING,
+                                    v->tables.dfg);
 }
 
 /* ---- emission ---- */
@@ -196,12 +196,12 @@ vec3 path_vertex_eval(const path_vertex *v, vec3 L, float *pdf)
         return vec3(0.0f);
     const Layers *m = &v->s.m;
     if (m->layers == 0u) {
-        SurfaceValue x = surface_value(m->base, v->plain, L, v->energy);
+        SurfaceValue x = surface_value(m->base, v->plain, L, ENERGY_CONSERVING);
         *pdf = x.pdf;
         return x.f;
     }
     *pdf = layers_pdf(*m, v->lobes, v->s.V, L);
-    return layers_scatter_cos(*m, v->s.V, L, v->energy, v->tables, sheen_E(m, L));
+    return layers_scatter_cos(*m, v->s.V, L, ENERGY_CONSERVING, v->tables, sheen_E(m, L));
 }
 
 vec3 path_vertex_eval_delta(const path_vertex *v, vec3 L)
@@ -214,7 +214,7 @@ vec3 path_vertex_eval_delta(const path_vertex *v, vec3 L)
     Layers m = v->s.m;
     m.base.alpha = max(m.base.alpha, ALPHA_MIN);
     m.clearcoat_roughness = max(m.clearcoat_roughness, ROUGHNESS_MIN);
-    return layers_brdf_cos(m, v->s.V, L, v->energy, v->tables, sheen_E(&m, L));
+    return layers_brdf_cos(m, v->s.V, L, v->delta_energy, v->tables, sheen_E(&m, L));
 }
 
 /* A specular lobe follows the shading normal; where its direction is on the wrong side of the triangle it
@@ -233,7 +233,7 @@ static bool sample_plain(const path_vertex *v, float u_lobe, vec2 u, bsdf_sample
     vec3 L = surface_draw(*s, v->plain, u_lobe, u);
     if (dot(L, L) < 0.5f || !is_on_one_side(v, L))
         return false;
-    SurfaceValue x = surface_value(*s, v->plain, L, v->energy);
+    SurfaceValue x = surface_value(*s, v->plain, L, ENERGY_CONSERVING);
     if (!(x.pdf > 0.0f))
         return false;
     *out = (bsdf_sample){.L = L, .pdf = x.pdf, .weight = x.f * (1.0f / x.pdf)};
@@ -247,7 +247,7 @@ bool path_vertex_sample(const path_vertex *v, float u_lobe, vec2 u, bsdf_sample 
     const Layers *m = &v->s.m;
     if (m->layers == 0u && !(v->plain.is_delta && u_lobe >= v->lobes.diffuse))
         return sample_plain(v, u_lobe, u, out);
-    LayersSample s = layers_sample(*m, v->lobes, v->s.V, u_lobe, u, v->energy, v->tables);
+    LayersSample s = layers_sample(*m, v->lobes, v->s.V, u_lobe, u, ENERGY_CONSERVING, v->tables);
     if (!s.is_valid)
         return false;
     *out = (bsdf_sample){.L = s.L, .pdf = s.pdf, .is_specular = s.is_delta, .is_transmission = s.is_through};
@@ -258,7 +258,8 @@ bool path_vertex_sample(const path_vertex *v, float u_lobe, vec2 u, bsdf_sample 
     }
     if (!is_on_one_side(v, s.L) || !(s.pdf > 0.0f))
         return false;
-    out->weight = layers_scatter_cos(*m, v->s.V, s.L, v->energy, v->tables, sheen_E(m, s.L)) * (1.0f / s.pdf);
+    out->weight =
+        layers_scatter_cos(*m, v->s.V, s.L, ENERGY_CONSERVING, v->tables, sheen_E(m, s.L)) * (1.0f / s.pdf);
     return true;
 }
 
@@ -267,6 +268,7 @@ vec3 path_vertex_straight(const path_vertex *v)
     if (!v->passes_straight)
         return vec3(0.0f);
     LayersLobes only = {.transmission = 1.0f};
-    LayersSample s = layers_sample(v->s.m, only, v->s.V, 0.0f, vec2(0.0f, 0.0f), v->energy, v->tables);
+    LayersSample s =
+        layers_sample(v->s.m, only, v->s.V, 0.0f, vec2(0.0f, 0.0f), ENERGY_CONSERVING, v->tables);
     return s.is_valid && s.is_delta ? s.weight : vec3(0.0f);
 }

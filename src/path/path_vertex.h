@@ -11,7 +11,7 @@ typedef struct path_vertex {
     surface_point s;   /* s.m.base.N is visible from V */
     vec3 Ng;           /* unit, geometric, on the side of V */
     float tolerance_m; /* positions that are nearer are equal: media_tolerance_at() */
-    int energy;
+    int delta_energy; /* ENERGY_* of path_vertex_eval_delta(); other light is reflected with multiple scattering */
     bool is_transmissive;   /* some lobe is on the other side */
     bool is_null_interface; /* the same medium is on both sides: another volume displaces this one here */
     bool is_specular;       /* specular lobes only */

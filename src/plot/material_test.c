@@ -77,6 +77,7 @@ static void radiance_equals_that_of_the_fits(void **state)
     (void)state;
     material a = pbr(0.35f, 0.3f, 0.7f);
     material b = ogl1(0.3f, 0.8f, 20.0f);
+    a.energy = FACET_ENERGY_GLTF;
     pbr_surface A = material_pbr_surface(&a.parameters);
     ogl1_surface B = material_ogl1_surface(&b.parameters);
     for (int separable = 0; separable < 2; separable++)
@@ -104,8 +105,10 @@ static void albedo_equals_that_of_the_lut(void **state)
             float terms[2];
             ibl_dfg((float)cos(degrees[d] * PLOT_DEGREE), roughness[r], terms);
             material white = pbr(roughness[r], 1.0f, 1.0f);
+            white.energy = FACET_ENERGY_GLTF;
             assert_near(albedo(&white, degrees[d]), terms[0] + terms[1], 1e-3);
             material half = pbr(roughness[r], 1.0f, 0.5f);
+            half.energy = FACET_ENERGY_GLTF;
             assert_near(albedo(&half, degrees[d]), 0.5f * terms[0] + terms[1], 1e-3);
         }
 }

@@ -191,7 +191,8 @@ static void peaks_are_not_cut(void **state)
                                                       .material_count = 1,
                                                       .materials = &m,
                                                       .angle_count = 1,
-                                                      .angles_rad = &facing});
+                                                      .angles_rad = &facing,
+                                                      .energy = FACET_ENERGY_GLTF});
         const chart_curve *c = &f.drawing.panels[0].curves[0];
         double alpha = (double)roughness[i] * (double)roughness[i];
         double peak = 0.25 / (PLOT_PI * alpha * alpha), highest = 0.0;
@@ -332,8 +333,8 @@ static void albedo_of_white_metal_is_the_sum_of_the_dfg_terms(void **state)
     facet_plot_material m = material_default();
     m.metallic = 1.0f;
     m.perceptual_roughness = 0.7f;
-    plot_fixture f =
-        make_plot(&(facet_plot_desc){.kind = FACET_PLOT_KIND_ALBEDO, .material_count = 1, .materials = &m});
+    plot_fixture f = make_plot(&(facet_plot_desc){
+        .kind = FACET_PLOT_KIND_ALBEDO, .material_count = 1, .materials = &m, .energy = FACET_ENERGY_GLTF});
     const chart_curve *c = &f.drawing.panels[0].curves[0];
     for (size_t i = 0; i < c->count; i++) {
         float terms[2];

@@ -62,7 +62,9 @@ static void masking_with_its_step_equals_the_shader_library(void **state)
     for (int r = 0; r < 3; r++)
         for (int metallic = 0; metallic < 2; metallic++)
             for (int i = 0; i < VIGNETTE_POINTS; i++) {
-                material m = {.parameters = material_default(), .has_separable_smith = true};
+                material m = {.parameters = material_default(),
+                              .energy = FACET_ENERGY_GLTF,
+                              .has_separable_smith = true};
                 m.parameters.perceptual_roughness = roughness[r];
                 m.parameters.metallic = (float)metallic;
                 m.parameters.base_color[0] = 0.5f;

@@ -217,7 +217,7 @@ static facet_render_desc meter_desc(const facet_render_desc *desc)
     d.samples = 1;
     d.quality = FACET_QUALITY_DRAFT;
     d.renderer = FACET_RENDERER_KIND_PREVIEW;
-    d.energy = FACET_ENERGY_GLTF;
+    d.energy = FACET_ENERGY_CONSERVING;
     d.ground = FACET_GROUND_NONE;
     d.exposure_ev = 0.0f;
     d.aovs = 0;

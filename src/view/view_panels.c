@@ -114,7 +114,7 @@ static void add_renderer(value_rows *v, const view_app *a)
         add(v, "Channel", "%s", view_channel_name(r->gl.channel));
     if (r->gl.brdf != FACET_BRDF_ENERGY)
         add(v, "Specular", "%s", view_brdf_name(r->gl.brdf));
-    if (r->energy != FACET_ENERGY_GLTF)
+    if (r->energy != FACET_ENERGY_CONSERVING)
         add(v, "Energy", "%s", view_energy_name(r->energy));
     if (r->gl.transparency != FACET_TRANSPARENCY_SORTED)
         add(v, "Transparency", "%s", view_transparency_name(r->gl.transparency));

@@ -91,7 +91,7 @@ near() {
 
 # The same image as the preview's, where both shade pixel centers; and the same edges.
 for how in '' '--crop 30,25,60,50' '--background transparent' '--background env' '--sun 30,45' \
-    '--ortho --exposure 1' '--energy conserving'; do
+    '--ortho --exposure 1' '--energy gltf'; do
     expect 0 render -o cpu.exr --size 120x90 --quality draft $how
     expect 0 render -o gpu.exr --size 120x90 --quality draft $how --renderer gl
     near cpu.exr gpu.exr

@@ -4,8 +4,8 @@
  * An image may differ by 0.2 % of its own root mean square: far above the difference between compilers
  * (1e-5), far below the visible (FLIP, which is limited to 0.005 as well). To replace the references,
  * after inspection:
- *     facet render -s 64x48 --background transparent --tone-mapping none -o tests/golden/builtin_gltf.pfm
- *     facet render -s 64x48 --background env --energy conserving --orbit 40,60,105% --env-rotation 30 \
+ *     facet render -s 64x48 --background transparent --energy gltf --tone-mapping none -o tests/golden/builtin_gltf.pfm
+ *     facet render -s 64x48 --background env --orbit 40,60,105% --env-rotation 30 \
  *         --tone-mapping none -o tests/golden/builtin_conserving.pfm
  * A failing test leaves NAME.got.pfm and NAME.difference.png (reference, result, difference) in its working
  * folder; the same by hand: facet compare REFERENCE RESULT --max nrmse=0.002,flip=0.005 --alpha ignore. */
@@ -87,7 +87,7 @@ static void compare(const char *name, const facet_render_desc *desc)
 static void the_builtin_scene_is_unchanged_in_gltf_mode(void **state)
 {
     (void)state;
-    compare("builtin_gltf", &(facet_render_desc){0});
+    compare("builtin_gltf", &(facet_render_desc){.energy = FACET_ENERGY_GLTF});
 }
 
 static void the_builtin_scene_is_unchanged_in_conserving_mode(void **state)

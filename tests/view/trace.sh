@@ -38,7 +38,7 @@ key 0
 key Shift+F
 picture right.png
 END
-view --orbit 0,75,105% # near, so that both differ in many pixels
+view --orbit 0,75,105% --energy gltf # near, so that both differ in many pixels
 differ left.png right.png
 # columns 47 and 48 belong to the border
 for side in left:0,0,46,72:both left:0,0,90,72:dragged right:50,0,46,72:both; do

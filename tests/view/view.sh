@@ -80,7 +80,7 @@ view --sun 30,45
 differ base_color.png gl.png
 grep -q -- '--channel base-color' out || failed "no channel in $(cat out)"
 rendered gl.png facet.png
-for word in '--brdf multiscatter' '--energy conserving' '--transparency peeled' --shadows '--bloom 0.04' '--ground shadow'; do
+for word in '--brdf multiscatter' '--energy gltf' '--transparency peeled' --shadows '--bloom 0.04' '--ground shadow'; do
     grep -qF -- "$word" command || failed "no $word in $(cat command)"
 done
 head -1 out >channel

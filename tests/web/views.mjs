@@ -26,7 +26,7 @@ const VIEWS = {
     'sky and animation': `${MODEL}&env=sun:30,60&env-rotation=75&env-intensity=1.5&exposure=0.7&tone-mapping=agx&background=env&background-blur=0.3&variant=Golden`
         + '&animation=0&time=0.4&orbit=40deg,60deg,120%&fov=40&ground=shadow&bloom=0.05',
     'sun and shadows': `${MODEL}&env=gradient:%23204080,%23a0c0ff,%23302010&sun=30,50,5&shadows=&exposure=-0.5&tone-mapping=aces&background=%23336699&orbit=-30deg,70deg,9&target=0,0.4,0`
-        + '&transparency=peeled&energy=conserving&brdf=schlick-ggx',
+        + '&transparency=peeled&energy=gltf&brdf=schlick-ggx',
     'parallel and upright': `${MODEL}&env=constant:%23c0c8d0&tone-mapping=reinhard&ortho=&orbit=70,40,105%25&lights=none&background=black&specular-aa=`,
     "the file's camera": `${MODEL}&camera=Hero&variant=Golden&animation=0&time=1.25&tone-mapping=none&exposure=auto&background=env`,
     'a moved model of the scene': 'env=preetham:20,200&orbit=200deg,70deg,90%25&channel=normal&background=white',

@@ -176,7 +176,7 @@ try {
     const cases = [
         ['ground', ['', []], { ground: 'shadow', background: 'transparent', orbit: '30,60,90%' }],
         ['light', ['', []], { env: 'sun:30,60', 'env-rotation': '45', 'env-intensity': '0.7', background: 'env', 'background-blur': '0.3' }],
-        ['color', glass, { exposure: '0.5', 'tone-mapping': 'agx', background: '#336699', energy: 'conserving', fov: '50', 'specular-aa': '' }],
+        ['color', glass, { exposure: '0.5', 'tone-mapping': 'agx', background: '#336699', energy: 'gltf', fov: '50', 'specular-aa': '' }],
         ['shadows', with_lights, { shadows: 'true', bloom: '0.1' }],
         ['normal', glass, { channel: 'normal', ortho: '' }],
         ['clearcoat', ['', []], { channel: 'clearcoat', brdf: 'schlick-ggx' }],

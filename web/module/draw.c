@@ -239,7 +239,7 @@ facet_result web_draw_meter(viewer *v, float *stops, facet_error *error)
     desc.samples = 1;
     desc.quality = FACET_QUALITY_DRAFT;
     desc.exposure_ev = 0.0f;
-    desc.energy = FACET_ENERGY_GLTF;
+    desc.energy = FACET_ENERGY_CONSERVING;
     desc.ground = FACET_GROUND_NONE;
     desc.gl = (facet_gl_desc){.channel = FACET_CHANNEL_LIGHT};
     TRY(render(v, &desc, &metered, error));

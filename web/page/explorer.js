@@ -10,7 +10,7 @@ const call = createWorker();
 const isDark = matchMedia('(prefers-color-scheme: dark)');
 const MAX_KEPT = 5;
 
-const state = { kind: 'slice', model: 'pbr', values: defaultsOf('pbr'), kept: [], angle: 30, energy: 'gltf', log: false, cosine: false, fit: false, scale: false };
+const state = { kind: 'slice', model: 'pbr', values: defaultsOf('pbr'), kept: [], angle: 30, energy: 'conserving', log: false, cosine: false, fit: false, scale: false };
 let data = null; // numbers of the plot that is shown; null: not asked for yet
 let reading = null; // {panel, at}
 let shown = null; // {kind, svg}
@@ -31,7 +31,7 @@ function readHash() {
   }
   const angle = Number(words.get('angle') ?? 30);
   if (angle >= 0 && angle < 90) state.angle = angle;
-  state.energy = words.get('energy') === 'conserving' ? 'conserving' : 'gltf';
+  state.energy = words.get('energy') === 'gltf' ? 'gltf' : 'conserving';
   for (const name of ['log', 'cosine', 'fit', 'scale']) state[name] = words.has(name);
   state.kept = words.getAll('with').slice(0, MAX_KEPT);
 }
@@ -41,7 +41,7 @@ function writeHash() {
   const defaults = defaultsOf(state.model);
   for (const [name, value] of Object.entries(state.values)) if (value !== defaults[name]) words.set(name, value);
   if (state.angle !== 30) words.set('angle', state.angle);
-  if (state.energy !== 'gltf') words.set('energy', state.energy);
+  if (state.energy !== 'conserving') words.set('energy', state.energy);
   for (const name of ['log', 'cosine', 'fit', 'scale']) if (state[name]) words.set(name, '');
   for (const text of state.kept) words.append('with', text);
   history.replaceState(null, '', `#${words.toString().replace(/=(?=&|$)/g, '')}`);
@@ -290,7 +290,7 @@ function makeView() {
   };
   const fields = {
     angle: () => range({ label: 'Eye from normal', min: 0, max: 89, step: 1, value: state.angle, limits: [0, 89.9], unit: 'degrees', change: set('angle') }),
-    energy: () => choice({ label: 'Energy', options: [['gltf', 'as glTF'], ['conserving', 'with multiple scattering']], value: state.energy, change: set('energy') }),
+    energy: () => choice({ label: 'Energy', options: [['conserving', 'with multiple scattering'], ['gltf', 'as glTF']], value: state.energy, change: set('energy') }),
     log: () => check({ label: 'Logarithmic', value: state.log, change: set('log') }),
     cosine: () => check({ label: 'Times the cosine of the light', value: state.cosine, change: set('cosine') }),
     fit: () => check({ label: 'Best fit by the other model', value: state.fit, change: set('fit') }),

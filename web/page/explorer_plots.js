@@ -43,7 +43,7 @@ export function plotOf(state) {
   const [, , applicable] = KINDS.find(([kind]) => kind === state.kind);
   const all = [...new Set([...state.kept, materialText(state.model, state.values)])];
   const materials = state.kind === 'fresnel' ? [] : all.filter((text) => state.kind !== 'terms' || !text.startsWith('ogl1'));
-  const given = { angle: state.angle, energy: state.energy === 'gltf' ? null : state.energy, log: state.log, cosine: state.cosine, fit: state.fit, scale: state.scale ? 'shared' : null };
+  const given = { angle: state.angle, energy: state.energy === 'conserving' ? null : state.energy, log: state.log, cosine: state.cosine, fit: state.fit, scale: state.scale ? 'shared' : null };
   const options = Object.fromEntries(Object.entries(given).filter(([name, value]) => applicable.includes(name) && value !== null && value !== false));
   return { kind: state.kind, materials, options };
 }

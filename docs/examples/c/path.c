@@ -28,7 +28,6 @@ int main(int argc, char **argv)
                                   .height = 128,
                                   .environment = studio,
                                   .renderer = FACET_RENDERER_KIND_PATH,
-                                  .energy = FACET_ENERGY_CONSERVING, /* the default of the command */
                                   .ground = FACET_GROUND_SHADOW,
                                   .samples = 64,
                                   .time_limit_s = 30.0,

@@ -177,7 +177,7 @@ static facet_result read_desc(plot_run *run, facet_error *error)
     d->has_shared_scale = option_choice(c, OPT_SCALE, 0) == 1;
     d->is_logarithmic = is_given(c, OPT_LOG);
     d->has_cosine = is_given(c, OPT_COSINE);
-    d->energy = (facet_energy)option_choice(c, OPT_ENERGY, FACET_ENERGY_GLTF);
+    d->energy = (facet_energy)option_choice(c, OPT_ENERGY, FACET_ENERGY_CONSERVING);
     d->title = option_text(c, OPT_TITLE, NULL);
     d->is_dark = is_given(c, OPT_DARK);
     const char *size = option_text(c, OPT_SIZE, NULL);

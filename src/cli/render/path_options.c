@@ -182,12 +182,10 @@ static void read_gl(const command_line *c, render_options *out)
 /* Defaults that depend on the renderer. */
 static void read_defaults(const command_line *c, render_options *out)
 {
-    bool is_path = out->renderer.features & FACET_RENDERER_FEATURE_PATH;
     out->desc.samples =
         (uint32_t)option_number(c, OPT_SAMPLES, (double)out->renderer.samples[out->desc.quality]);
     out->desc.isa = (facet_isa)option_choice(c, OPT_ISA, FACET_ISA_PORTABLE);
-    out->desc.energy =
-        option_choice(c, OPT_ENERGY, is_path ? 1 : 0) ? FACET_ENERGY_CONSERVING : FACET_ENERGY_GLTF;
+    out->desc.energy = (facet_energy)option_choice(c, OPT_ENERGY, FACET_ENERGY_CONSERVING);
 }
 
 facet_result path_options_read(const command_line *c, render_options *out, facet_error *error)

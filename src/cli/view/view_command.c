@@ -258,10 +258,8 @@ static void add_rendering(view_options *l, const facet_render_desc *d)
 {
     facet_renderer_info info = facet_renderer_get_info(d->renderer);
     bool is_path = info.features & FACET_RENDERER_FEATURE_PATH;
-    bool is_conserving = d->energy == FACET_ENERGY_CONSERVING;
     add_option(l, OPT_RENDERER, "%s", info.name);
-    if (is_conserving != is_path)
-        add_option(l, OPT_ENERGY, "%s", is_conserving ? "conserving" : "gltf");
+    add_choice(l, OPT_ENERGY, (int)d->energy);
     if (is_path || d->samples != 4)
         add_option(l, OPT_SAMPLES, "%u", d->samples);
     if (is_path && d->path.denoises)

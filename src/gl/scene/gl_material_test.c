@@ -502,6 +502,7 @@ static void specular_variants_differ_as_expected(void **state)
     place(&f, m);
     facet_environment_destroy(f.environment); /* multiple scattering is on in both energy modes */
     f.environment = NULL;
+    f.desc.energy = FACET_ENERGY_GLTF;
     gl_renderer *renderer = gl_fixture_renderer(&f, &contexts.items[0]);
     film plain = gl_fixture_draw(&f, renderer);
     f.desc.gl.brdf = FACET_BRDF_SCHLICK_GGX;

@@ -22,7 +22,7 @@ export function analysisPanel(app) {
   const compare = choice({ label: 'Compare', options: COMPARISONS, change: (name) => app.set('compare', name || null) });
   const brdf = choice({ label: 'Specular lobe', options: [['energy', 'Default'], ['schlick-ggx', 'Schlick-GGX masking'], ['multiscatter', 'Multiple scattering']],
     change: (name) => app.set('brdf', usual(name, 'energy')) });
-  const energy = choice({ label: 'Energy', options: [['gltf', 'As glTF specifies'], ['conserving', 'Conserving']], change: (name) => app.set('energy', usual(name, 'gltf')) });
+  const energy = choice({ label: 'Energy', options: [['conserving', 'Conserving'], ['gltf', 'As Khronos’ renderer']], change: (name) => app.set('energy', usual(name, 'conserving')) });
   const transparency = choice({ label: 'Blending', options: [['sorted', 'Sorted triangles'], ['peeled', 'Depth peeling (exact)'], ['weighted', 'Weighted (fast)']],
     change: (name) => app.set('transparency', usual(name, 'sorted')) });
   const isSmooth = check({ label: 'Specular antialiasing', change: (is) => app.setFlag('specular-aa', is) });
@@ -38,7 +38,7 @@ export function analysisPanel(app) {
       compare.value = options.compare ?? '';
       hint.hidden = !compare.value;
       brdf.value = options.brdf ?? 'energy';
-      energy.value = options.energy ?? 'gltf';
+      energy.value = options.energy ?? 'conserving';
       transparency.value = options.transparency ?? 'sorted';
       isSmooth.value = 'specular-aa' in options;
       shading.value = options.shading ?? 'gltf';
