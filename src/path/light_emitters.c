@@ -19,7 +19,7 @@
 /* Area of a triangle, relative to the squared distance to its middle, from which directions are sampled.
  * Below it distances and angles to its points differ by a tenth at most, and points cost a fifth of
  * directions. */
-static const float NEAR_AREA = 0.01f;
+static const float NEAR_AREA = 0.1f;
 static const double MIN_SOLID_ANGLE = 1e-6; /* sr; below it the triangle is seen edge on */
 
 typedef struct direction {

@@ -107,6 +107,7 @@ struct path_lights {
     Light *directional;
     uint32_t placed_count, directional_count;
     uint64_t ignored;
+    uint32_t candidates; /* path_lights_candidates() */
 };
 
 /* ---- making ---- */
@@ -209,6 +210,19 @@ static facet_result make_tree(path_lights *lights, const facet_allocator *alloca
     return result;
 }
 
+/* A sample is chosen by irradiance alone. Where the lights are many or of different kinds, what the BSDF makes
+ * of them differs more than another sample costs. Relative MSE of 16 samples with 1, 2, 4 candidates: 10 000
+ * emissive triangles .184, .107, .070; sun and sky .041, .032, .028; but two panels .114, .111, .108, and an
+ * environment alone .0495, .0497, .0494. */
+static uint32_t count_candidates(const path_lights *lights)
+{
+    enum { FEW = 16, CANDIDATES = 4 };
+    uint64_t placed = (uint64_t)lights->emitters.count + lights->placed_count;
+    int kinds = (lights->environment != NULL) + (lights->sun.pdf > 0.0f) + (lights->directional_count > 0) +
+                (placed > 0);
+    return placed > FEW || lights->directional_count > FEW || kinds > 1 ? CANDIDATES : 1;
+}
+
 facet_result path_lights_create(const render_setup *setup, path_lights **out, facet_error *error)
 {
     const facet_render_desc *desc = setup->desc;
@@ -233,6 +247,7 @@ facet_result path_lights_create(const render_setup *setup, path_lights **out, fa
         return result;
     }
     lights->ignored += lights->emitters.ignored;
+    lights->candidates = count_candidates(lights);
     *out = lights;
     return FACET_OK;
 }
@@ -247,6 +262,11 @@ void path_lights_destroy(path_lights *lights)
     mem_free(lights->placed);
     mem_free(lights->directional);
     mem_free(lights);
+}
+
+uint32_t path_lights_candidates(const path_lights *lights)
+{
+    return lights->candidates;
 }
 
 bool path_lights_has_any(const path_lights *lights)

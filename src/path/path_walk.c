@@ -176,26 +176,71 @@ static bool is_ray_in_medium(const path *p, const path_vertex *v, vec3 L)
     return (v->on.side < 0.0f) != (dot(v->Ng, L) < 0.0f);
 }
 
+/* The contribution of one light sample for a surface if nothing is in between. */
+static vec3 light_unshadowed(const path *p, const path_vertex *v, float u_light, vec2 u,
+                             path_light_sample *light)
+{
+    const path_scene *scene = p->scene;
+    if (!path_lights_sample(scene->lights, &p->views[!p->view], u_light, u, light))
+        return vec3(0.0f);
+    if (v->surface && light->is_infinite && p->seen_through_m > 0.0f)
+        light->radiance =
+            seen_through_medium(p, light->radiance, path_lights_environment(scene->lights, light->L));
+    float p_bsdf;
+    vec3 f = eval_for_light(p, v, light, &p_bsdf);
+    vec3 contribution =
+        p->beta * f * light->radiance * (path_weight_of_light(scene, light, p_bsdf) / light->pdf);
+    if (scene->surface && is_ray_in_medium(p, v, light->L))
+        contribution *= scene->surface->transmittance(scene->surface->self, light->distance_m);
+    return contribution;
+}
+
+/* Resampled importance sampling (Talbot, Cline and Egbert 2005): of several light samples the shadow ray goes
+ * to one, chosen in proportion to what each would contribute; its weight is their mean contribution over its
+ * own. The mean is unbiased for any weights of multiple importance sampling in the contributions, and for
+ * samples that depend on one another: here they are one sample shifted over the unit cube by a lattice, so that
+ * each is as well stratified over the pixel's samples as the first. */
+static vec3 light_resampled(const path *p, const path_vertex *v, const vertex_random *u,
+                            path_light_sample *light)
+{
+    static const float STEP_X = 0.754877666f; /* the lattice of Roberts 2018, by the plastic number */
+    static const float STEP_Y = 0.569840291f;
+    uint32_t count = path_lights_candidates(p->scene->lights);
+    if (count == 1)
+        return light_unshadowed(p, v, u->light_choice, u->light, light);
+    vec3 chosen = vec3(0.0f);
+    float sum = 0.0f;
+    float choice = u->wavelength; /* free: it only splits light that is transmitted */
+    for (uint32_t i = 0; i < count; i++) {
+        float step = (float)i;
+        path_light_sample candidate;
+        vec3 each = light_unshadowed(p, v, fract(u->light_choice + step / (float)count),
+                                     fract(u->light + vec2(STEP_X, STEP_Y) * step), &candidate);
+        float weight = max3(each);
+        if (!(weight > 0.0f) || !(weight < INFINITY))
+            continue;
+        sum += weight;
+        float share = weight / sum;
+        if (choice < share) {
+            *light = candidate;
+            chosen = each * (1.0f / weight);
+            choice /= share;
+        } else {
+            choice = (choice - share) / (1.0f - share);
+        }
+    }
+    return chosen * (sum / (float)count);
+}
+
 /* The contribution of one light, sampled for a surface: next event estimation. */
 static vec3 light_sampled(path *p, const path_vertex *v, const vertex_random *u)
 {
     const path_scene *scene = p->scene;
-    path_light_sample light;
     if (v->is_specular && scene->setup->light.punctual_count == 0)
         return vec3(0.0f);
-    path_lights_view *view = &p->views[!p->view];
-    path_lights_see(scene->lights, v->s.P, path_vertex_light_normal(v), view);
-    if (!path_lights_sample(scene->lights, view, u->light_choice, u->light, &light))
-        return vec3(0.0f);
-    if (v->surface && light.is_infinite && p->seen_through_m > 0.0f)
-        light.radiance =
-            seen_through_medium(p, light.radiance, path_lights_environment(scene->lights, light.L));
-    float p_bsdf;
-    vec3 f = eval_for_light(p, v, &light, &p_bsdf);
-    vec3 contribution =
-        p->beta * f * light.radiance * (path_weight_of_light(scene, &light, p_bsdf) / light.pdf);
-    if (scene->surface && is_ray_in_medium(p, v, light.L))
-        contribution *= scene->surface->transmittance(scene->surface->self, light.distance_m);
+    path_lights_see(scene->lights, v->s.P, path_vertex_light_normal(v), &p->views[!p->view]);
+    path_light_sample light;
+    vec3 contribution = light_resampled(p, v, u, &light);
     if (!(max3(contribution) > 0.0f))
         return vec3(0.0f);
     bool is_inside = v->s.m.layers & LAYER_VOLUME && dot(v->Ng, light.L) < 0.0f;
