@@ -18,7 +18,7 @@
 
 /* ---- the file ---- */
 
-static const char VERSION[] = "2";
+static const char VERSION[] = "3";
 enum { KEY_SIZE = 65, DIGEST_SIZE = 17, COUNT_SIZE = 21, VERSION_SIZE = 16 };
 
 /* Lists the channels of a film in memory; returns their number. */

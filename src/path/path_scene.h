@@ -25,8 +25,10 @@ typedef struct path_sample {
     /* excess of the filter's weight, which is in radiance and opacity, over 1; 0 unless the filter has
      * negative lobes */
     float filter_excess;
-    float albedo[3]; /* of the first surface that is neither specular nor clear glass, [0, 1]; 0: none */
-    float normal[3]; /* its unit shading normal, world space */
+    /* of the first surface that is neither specular nor clear glass, times what passes to the camera, [0, 1];
+     * of the environment 1; 0: none */
+    float albedo[3];
+    float normal[3]; /* its unit shading normal, world space; of the environment that of the first surface */
     /* On the shadow-catching ground: illuminance / pi with and without the model. 0: not hit */
     float ground_lit[3], ground_open[3];
     /* The first surface that the camera's ray hits, and the opacity of all alpha-blended ones there in a

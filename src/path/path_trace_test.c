@@ -641,6 +641,29 @@ static void guides_follow_specular_reflections(void **state)
     fixture_destroy(&s.f);
 }
 
+/* A tinted mirror shows the sky, whose albedo is 1, with the mirror's own normal. */
+static void guides_of_the_environment_are_white(void **state)
+{
+    (void)state;
+    stage s;
+    stage_begin(&s);
+    set_sky(&s, 3.0f);
+    scene_material mirror = scene_material_default();
+    mirror.metallic = 1.0f;
+    mirror.perceptual_roughness = 0.0f;
+    mirror.base_color[1] = 0.5f;
+    scene_node *n = fixture_place(&s.f, fixture_add_quad(&s.f, fixture_add_material(&s.f, mirror)), 0.0f,
+                                  0.0f, 0.0f, 1.0f);
+    n->rotation[0] = -0.38268343f;
+    n->rotation[3] = 0.92387953f;
+    mean m = measure(&s);
+    assert_near(m.albedo[0], 1.0, 1e-3);
+    assert_near(m.albedo[1], m.radiance[1] / 3.0, 1e-5);
+    assert_true(m.albedo[1] > 0.49 && m.albedo[1] < 0.52);
+    assert_near(m.normal[1], sqrt(0.5), 1e-6);
+    fixture_destroy(&s.f);
+}
+
 /* No contribution of more than one bounce is above the clamp; direct light stays. */
 static void clamp_cuts_indirect_light(void **state)
 {
@@ -685,6 +708,7 @@ int main(void)
         cmocka_unit_test(ground_is_visible_from_above_only),
         cmocka_unit_test(lens_rays_meet_in_focus),
         cmocka_unit_test(guides_follow_specular_reflections),
+        cmocka_unit_test(guides_of_the_environment_are_white),
         cmocka_unit_test(clamp_cuts_indirect_light),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -406,14 +406,26 @@ static bool is_specular_enough(const path_vertex *v)
     return diffuse < 0.1f && v->s.m.base.alpha < 0.01f;
 }
 
-/* Records albedo and normal of the first surface that is not specular. */
+/* Records albedo and normal of the first surface that is not specular, the albedo as it arrives through what is
+ * before it. Until then the normal is that of the first surface. */
 static void record_features(path *p, const path_vertex *v)
 {
+    if (p->vertex == 1)
+        store3(v->s.m.base.N, p->out->normal);
     p->seeks_features = v->s.is_lit && is_specular_enough(v) && p->vertex < MAX_FEATURE_VERTICES;
     if (p->seeks_features)
         return;
-    store3(clamp(v->s.is_lit ? v->s.m.base.base_color : load3(v->s.base_color), 0.0f, 1.0f), p->out->albedo);
+    vec3 albedo = v->s.is_lit ? v->s.m.base.base_color : load3(v->s.base_color);
+    store3(clamp(albedo * p->beta, 0.0f, 1.0f), p->out->albedo);
     store3(v->s.m.base.N, p->out->normal);
+}
+
+/* The same where specular surfaces only show the environment, whose albedo is 1: the image over its albedo is
+ * then as bright there as where the other samples of the pixel hit a surface. */
+static void record_environment(path *p)
+{
+    if (p->seeks_features)
+        store3(clamp(p->beta, 0.0f, 1.0f), p->out->albedo);
 }
 
 /* ---- the walk ---- */
@@ -449,6 +461,7 @@ void path_walk(path *p, const visibility_hit *first_hit, const shading_ray *firs
     for (uint32_t i = 0; i < MAX_VERTICES && end != TERMINATED;
          i++, end = next_vertex(p, &hit, &ray, &spread)) {
         if (end == AT_INFINITY) {
+            record_environment(p);
             path_add(p, light_at_infinity(p));
             return;
         }
