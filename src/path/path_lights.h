@@ -55,9 +55,8 @@ bool path_lights_sample(const path_lights *lights, const path_lights_view *view,
 vec3 path_lights_infinite(const path_lights *lights, vec3 d);
 /* The same without the sun. */
 vec3 path_lights_environment(const path_lights *lights, vec3 d);
-/* How many samples of path_lights_sample() to choose among at a vertex: 1 where all of them contribute about
- * alike, from an environment or a few lights. */
-uint32_t path_lights_candidates(const path_lights *lights);
+/* How many samples of path_lights_sample() to choose among: 1 where all of them contribute about alike. */
+uint32_t path_lights_candidates(const path_lights *lights, const path_lights_view *view);
 /* The pdf per sr of path_lights_sample() for environment or sun in direction d. */
 float path_lights_infinite_pdf(const path_lights *lights, const path_lights_view *view, vec3 d);
 /* The same for the point of an emissive triangle that the ray from view->P in the unit direction d hit at

@@ -205,7 +205,7 @@ static vec3 light_resampled(const path *p, const path_vertex *v, const vertex_ra
 {
     static const float STEP_X = 0.754877666f; /* the lattice of Roberts 2018, by the plastic number */
     static const float STEP_Y = 0.569840291f;
-    uint32_t count = path_lights_candidates(p->scene->lights);
+    uint32_t count = path_lights_candidates(p->scene->lights, &p->views[!p->view]);
     if (count == 1)
         return light_unshadowed(p, v, u->light_choice, u->light, light);
     vec3 chosen = vec3(0.0f);
