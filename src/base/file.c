@@ -338,9 +338,39 @@ facet_result file_replace(const char *path, const void *data, size_t size, facet
     return file_stage_commit(&stage, error);
 }
 
+/* Opens path if it is an empty regular file under one name that belongs to the user of this process; -1: it is not. */
+static int open_empty(const char *path)
+{
+    struct stat status;
+    if (lstat(path, &status) != 0 || !S_ISREG(status.st_mode) || status.st_size != 0)
+        return -1;
+    int fd = open(path, O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (fd >= 0 && (fstat(fd, &status) != 0 || !S_ISREG(status.st_mode) || status.st_size != 0 ||
+                    status.st_nlink != 1 || status.st_uid != geteuid())) {
+        close(fd);
+        fd = -1;
+    }
+    return fd;
+}
+
+/* Fills an empty file; after a failure it is empty again. Closes the descriptor. */
+static facet_result fill_empty(int fd, const char *path, const void *data, size_t size, facet_error *error)
+{
+    bool is_good = write_all(fd, data, size) && fsync(fd) == 0;
+    int code = errno;
+    if (!is_good && ftruncate(fd, 0) != 0)
+        code = errno;
+    close(fd);
+    return is_good ? FACET_OK
+                   : fail(error, FACET_ERROR_WRITE, "%s: cannot be written: %s", path, strerror(code));
+}
+
 facet_result file_write(const char *path, const void *data, size_t size, facet_error *error)
 {
     file_stage stage;
+    int fd = open_empty(path);
+    if (fd >= 0)
+        return fill_empty(fd, path, data, size, error);
     TRY(file_stage_write(path, data, size, &stage, error));
     return file_stage_commit(&stage, error);
 }

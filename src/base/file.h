@@ -38,7 +38,9 @@ bool file_is_at(const file_bytes *file, const char *path);
 /* Writes size bytes to path: to a temporary file beside it, which is flushed to disk and renamed; after a
  * failure (FACET_ERROR_WRITE) path is unchanged and no temporary remains. An existing path that is not a
  * regular file (a device, a pipe) is written directly, and so is /dev/stdout. Any other link is replaced,
- * not followed: a user who can create links in a folder must not choose which file is overwritten. */
+ * not followed: a user who can create links in a folder must not choose which file is overwritten.
+ * An empty file of the user's is filled in place: a program may have created it and hold it open to read the
+ * result, as thumbnailing services do, and nothing of value can be lost. */
 facet_result file_write(const char *path, const void *data, size_t size, facet_error *error);
 /* Whether path has the name of such a temporary file: NAME.xxxxxxxx, eight hexadecimal digits. It may remain where a process
  * was killed and the file system has no files without names. */

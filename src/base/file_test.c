@@ -369,6 +369,38 @@ static void temporaries_have_their_names(void **state)
         assert_false(file_is_temporary(others[i]));
 }
 
+/* Thumbnailing services create an empty file, hold it open, and read what was written through their descriptor. */
+static void an_empty_file_is_filled_in_place(void **state)
+{
+    (void)state;
+    char *path = in_folder("empty.bin");
+    char *name = in_folder("second.bin");
+    char text[8] = "";
+    facet_error error;
+    int held = open(path, O_RDWR | O_CREAT | O_EXCL, 0600);
+    assert_true(held >= 0);
+    assert_int_equal(file_write(path, "new", 3, &error), FACET_OK);
+    assert_int_equal(read(held, text, sizeof text), 3);
+    assert_string_equal(text, "new");
+    struct stat before, after;
+    assert_int_equal(fstat(held, &before), 0);
+    assert_int_equal(before.st_mode & 0777, 0600);
+    /* it has content now, and is replaced: readers see the old bytes or the new ones */
+    assert_int_equal(file_write(path, "newer", 5, &error), FACET_OK);
+    assert_int_equal(stat(path, &after), 0);
+    assert_true(before.st_ino != after.st_ino);
+    assert_int_equal(pread(held, text, sizeof text, 0), 3);
+    close(held);
+    /* an empty file under two names may be somebody else's: it is replaced */
+    assert_int_equal(truncate(path, 0), 0);
+    assert_int_equal(link(path, name), 0);
+    assert_int_equal(file_write(name, "own", 3, &error), FACET_OK);
+    assert_int_equal(stat(path, &after), 0);
+    assert_int_equal(after.st_size, 0);
+    mem_free(path);
+    mem_free(name);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -385,6 +417,7 @@ int main(void)
         cmocka_unit_test(staged_files_appear_on_commit),
         cmocka_unit_test(paths_split_into_folder_name_and_extension),
         cmocka_unit_test(links_out_of_a_folder_are_refused),
+        cmocka_unit_test(an_empty_file_is_filled_in_place),
         cmocka_unit_test(links_swapped_during_the_check_are_refused),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
