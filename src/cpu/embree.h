@@ -2,13 +2,23 @@
 #ifndef CPU_EMBREE_H
 #define CPU_EMBREE_H
 
-#if __has_include(<embree4/rtcore.h>)
+#if FACET_EMBREE >= 4 /* by the build: facet_dependencies.cmake */
 #include <embree4/rtcore.h>
 #else
 #include <embree3/rtcore.h>
 #endif
 
 #include <stdbool.h>
+
+/* A hit of which nothing is known yet. Embree 4.1 and later may have arrays of instances, whose index is left unset without. */
+static inline struct RTCHit embree_no_hit(void)
+{
+    struct RTCHit hit = {.geomID = RTC_INVALID_GEOMETRY_ID, .instID = {RTC_INVALID_GEOMETRY_ID}};
+#if defined(RTC_GEOMETRY_INSTANCE_ARRAY)
+    hit.instPrimID[0] = RTC_INVALID_GEOMETRY_ID;
+#endif
+    return hit;
+}
 
 #if RTC_VERSION >= 40000
 

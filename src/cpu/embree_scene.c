@@ -203,6 +203,23 @@ static uint32_t native_packet_width(RTCDevice device)
     return rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) ? 8 : 4;
 }
 
+/* Fails where Embree was built without something that facet draws with. Curves and points are lines and points of glTF. */
+static facet_result check_features(RTCDevice device, facet_error *error)
+{
+    static const struct {
+        enum RTCDeviceProperty property;
+        const char *name;
+    } needed[] = {{RTC_DEVICE_PROPERTY_TRIANGLE_GEOMETRY_SUPPORTED, "triangles"},
+                  {RTC_DEVICE_PROPERTY_CURVE_GEOMETRY_SUPPORTED, "curves"},
+                  {RTC_DEVICE_PROPERTY_POINT_GEOMETRY_SUPPORTED, "points"},
+                  {RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED, "filter functions"}};
+    for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
+        if (!rtcGetDeviceProperty(device, needed[i].property))
+            return fail(error, FACET_ERROR_SYSTEM, "Embree: this build of %s has no %s; facet needs them",
+                        embree_scene_version(), needed[i].name);
+    return FACET_OK;
+}
+
 /* The number of threads that Embree may use; 0: it cannot be used. TBB, with which it builds, aborts the
  * process where it is refused a thread: where the process limit is low, this is checked first, with room
  * for the threads that decode textures meanwhile. */
@@ -325,6 +342,11 @@ facet_result embree_scene_create(const render_geometry_set *set, const facet_all
     out->device = rtcNewDevice(config);
     if (!out->device)
         return fail_embree(rtcGetDeviceError(NULL), error);
+    facet_result result = check_features(out->device, error);
+    if (result != FACET_OK) {
+        embree_scene_destroy(out);
+        return result;
+    }
     rtcSetDeviceMemoryMonitorFunction(out->device, count_memory, &out->memory);
     out->packet_width = native_packet_width(out->device);
     return build(out, ray_count, error);

@@ -40,7 +40,7 @@ static void trace(search *s, vec3 origin, vec3 direction, float near_t, float fa
                                     .dir_z = direction[2],
                                     .tfar = far_t,
                                     .mask = UINT32_MAX},
-                            .hit = {.geomID = RTC_INVALID_GEOMETRY_ID, .instID = {RTC_INVALID_GEOMETRY_ID}}};
+                            .hit = embree_no_hit()};
     s->direction = direction;
     embree_intersect1_filtered(s->scene->embree->scene, &ray, &s->context, filter);
 }

@@ -77,9 +77,7 @@ static inline struct RTCRay ray_trace_embree(const shading_ray *ray)
 /* The same with room for a hit. */
 static inline struct RTCRayHit ray_trace_embree_hit(const shading_ray *ray)
 {
-    return (struct RTCRayHit){
-        .ray = ray_trace_embree(ray),
-        .hit = {.geomID = RTC_INVALID_GEOMETRY_ID, .instID = {RTC_INVALID_GEOMETRY_ID}}};
+    return (struct RTCRayHit){.ray = ray_trace_embree(ray), .hit = embree_no_hit()};
 }
 
 #endif

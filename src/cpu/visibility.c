@@ -29,7 +29,12 @@ enum ray_field {
     PRIMITIVE,
     GEOMETRY,
     INSTANCE,
+#if defined(RTC_GEOMETRY_INSTANCE_ARRAY)
+    INSTANCE_PRIMITIVE = INSTANCE + RTC_MAX_INSTANCE_LEVEL_COUNT,
+    FIELD_COUNT = INSTANCE_PRIMITIVE + RTC_MAX_INSTANCE_LEVEL_COUNT
+#else
     FIELD_COUNT = INSTANCE + RTC_MAX_INSTANCE_LEVEL_COUNT
+#endif
 };
 _Static_assert(offsetof(struct RTCRayHit16, ray.tfar) == T_FAR * 64, "order of fields");
 _Static_assert(offsetof(struct RTCRayHit16, hit.geomID) == GEOMETRY * 64, "order of fields");
@@ -66,6 +71,9 @@ static inline __attribute__((always_inline)) void fill_packet(packet *p, int n, 
         p->u[FLAGS * n + i] = 0;
         p->u[GEOMETRY * n + i] = RTC_INVALID_GEOMETRY_ID;
         p->u[INSTANCE * n + i] = RTC_INVALID_GEOMETRY_ID;
+#if defined(RTC_GEOMETRY_INSTANCE_ARRAY)
+        p->u[INSTANCE_PRIMITIVE * n + i] = RTC_INVALID_GEOMETRY_ID;
+#endif
     }
 }
 
