@@ -60,6 +60,22 @@ else()
     message(STATUS "There is no folder \"${FACET_TEST_DATA}\": tests on real models are skipped")
 endif()
 
+# Tests with the label quick, for packagers: seconds, no display, no network, no shared models; -DFACET_TEST_LABEL=quick builds
+# and runs only these.
+set(FACET_QUICK_NAMES
+    "base_.*|codec_.*|gltf_(accessors|meshes|materials|textures|nodes|animations|write)|obj_(read|files|write)|stl|ply|scene"
+    "ibl_(sh|cube|dfg|environment)|film|compare|compare_flip|shade_(brdf|fresnel|color|sampling|surface|light|ibl|layers|tonemap)"
+    "api|api_compare|golden|cli_(command_line|value|usage|documents|render|convert|compare)|package|package_thumbnail")
+list(JOIN FACET_QUICK_NAMES "|" FACET_QUICK_NAMES)
+
+# Sets LABELS of a test: those given, and quick.
+macro(facet_label name labels)
+    set(test_labels ${labels})
+    if("${name}" MATCHES "^(${FACET_QUICK_NAMES})$")
+        list(APPEND test_labels quick)
+    endif()
+endmacro()
+
 # Whether tests run all of their cases: only the optimised build of a run does (tests/support/support.h).
 set(FACET_QUICK_TESTS OFF)
 if(FACET_SANITIZE OR NOT FACET_TRUTH)
@@ -80,7 +96,8 @@ function(facet_add_test name)
     if(T_LONG AND FACET_QUICK_TESTS)
         return()
     endif()
-    if(FACET_TEST_LABEL AND NOT FACET_TEST_LABEL IN_LIST T_LABELS)
+    facet_label(${name} "${T_LABELS}")
+    if(FACET_TEST_LABEL AND NOT FACET_TEST_LABEL IN_LIST test_labels)
         return()
     endif()
     if(NOT T_TIMEOUT)
@@ -90,8 +107,8 @@ function(facet_add_test name)
     set_tests_properties(${FACET_TEST_PREFIX}${name} PROPERTIES TIMEOUT ${T_TIMEOUT} SKIP_RETURN_CODE 77
         ENVIRONMENT "FACET_QUICK_TESTS=$<BOOL:${FACET_QUICK_TESTS}>;TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/tsan.supp;LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/lsan.supp:print_suppressions=0"
         ENVIRONMENT_MODIFICATION "FACET_TEST_DATA=${data_setting}")
-    if(T_LABELS)
-        set_tests_properties(${FACET_TEST_PREFIX}${name} PROPERTIES LABELS "${T_LABELS}")
+    if(test_labels)
+        set_tests_properties(${FACET_TEST_PREFIX}${name} PROPERTIES LABELS "${test_labels}")
     endif()
 endfunction()
 
@@ -105,7 +122,8 @@ function(facet_test name)
     if(T_UNPARSED_ARGUMENTS)
         message(FATAL_ERROR "facet_test(${name}): unknown arguments: ${T_UNPARSED_ARGUMENTS}")
     endif()
-    if((FACET_TEST_LABEL AND NOT FACET_TEST_LABEL IN_LIST T_LABELS) OR (T_LONG AND FACET_QUICK_TESTS))
+    facet_label(${name} "${T_LABELS}")
+    if((FACET_TEST_LABEL AND NOT FACET_TEST_LABEL IN_LIST test_labels) OR (T_LONG AND FACET_QUICK_TESTS))
         return()
     endif()
     add_executable(${name}_test ${T_SOURCES})

@@ -74,7 +74,8 @@ FACET_API void facet_text_destroy(char *text);
 /* Releases bytes that the library returned. NULL is allowed. */
 FACET_API void facet_bytes_destroy(unsigned char *bytes);
 
-/* Writes bytes to a temporary file beside path and renames it: path is written whole or not at all. */
+/* Writes bytes to a temporary file beside path and renames it: path is written whole or not at all. An empty regular file of
+ * the user's is filled in place instead: a program may hold it open to read the result. */
 FACET_API facet_result facet_bytes_save(const void *bytes, size_t size, const char *path, facet_error *error);
 
 /* ---- messages and progress ---- */
@@ -101,12 +102,34 @@ typedef struct facet_progress {
 
 /* ---- version and machine ---- */
 
+/* The semantic version of these headers, which is that of facet: the build reads it from here. */
+#define FACET_VERSION_MAJOR 0
+#define FACET_VERSION_MINOR 2
+#define FACET_VERSION_PATCH 0
+
+/* The number in the name libfacet.so.N, raised by every release that changes the layout of a struct, or removes or changes a
+ * function. */
+#define FACET_ABI_VERSION 0
+
 /* "MAJOR.MINOR.PATCH" of the library that runs. */
 FACET_API const char *facet_version(void);
 
 /* Version, compiler, libraries with their versions, CPU and thread count, one line each. Writes at most
  * size bytes with the closing 0 and returns the length of the whole text. */
 FACET_API size_t facet_build_report(char *text, size_t size);
+
+/* A library that facet uses. */
+typedef struct facet_library_info {
+    const char *name;          /* "OpenEXR" */
+    const char *license;       /* SPDX expression */
+    const char *built_version; /* that facet was built with; "": this build does without the library */
+    const char *file;       /* of a library that is opened when it is needed: "libavif.so.15"; NULL: linked */
+    char found_version[64]; /* on this machine; "": missing */
+} facet_library_info;
+
+FACET_API uint32_t facet_get_library_count(void);
+/* Opens a library that is opened when needed for the time of the call. */
+FACET_API facet_library_info facet_get_library(uint32_t index);
 
 /* The number of CPUs that this process may use under its affinity and cgroup quota; at least 1. */
 FACET_API uint32_t facet_thread_count(void);

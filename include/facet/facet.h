@@ -11,9 +11,8 @@
  *   Threads    different objects may be used from different threads; one object may be read from several; results
  *              are equal to the last bit for every thread count
  *   State      the library never prints, exits, reads environment variables or keeps global state
- *   Versions   before 1.0 every minor version may add fields to any struct and has a binary interface of its own, so
- *              programs are compiled again; the soname has both numbers (libfacet.so.0.2). Patch versions change no
- *              declaration */
+ *   Versions   before 1.0 every minor version may add fields to any struct; programs are then compiled again. The number
+ *              in the soname (libfacet.so.0) changes whenever that is so. Patch versions change no declaration */
 #ifndef FACET_FACET_H
 #define FACET_FACET_H
 

@@ -213,7 +213,16 @@ static void small_questions_are_answered(void **state)
     assert_int_equal(facet_build_report(text, sizeof text), length);
     assert_int_equal(strlen(text), sizeof text - 1);
     assert_memory_equal(text, "facet ", 6);
-    assert_true(facet_version()[0] >= '0' && facet_version()[0] <= '9');
+    char version[32];
+    snprintf(version, sizeof version, "%d.%d.%d", FACET_VERSION_MAJOR, FACET_VERSION_MINOR,
+             FACET_VERSION_PATCH);
+    assert_string_equal(facet_version(), version);
+    for (uint32_t i = 0; i < facet_get_library_count(); i++) {
+        facet_library_info library = facet_get_library(i);
+        assert_true(*library.name && *library.license);
+        assert_true(*library.built_version || !*library.found_version);
+        assert_true(library.file || strcmp(library.built_version, library.found_version) == 0);
+    }
     assert_float_equal(facet_linear_from_srgb(0.5f), 0.21404114f, 1e-7f);
     assert_float_equal(facet_linear_from_srgb(0.04045f), 0.04045f / 12.92f, 1e-8f);
     facet_scene_destroy(NULL);

@@ -42,10 +42,40 @@ static void add_opengl(text *t)
     text_addf(t, "opengl    %s\n", names_itself ? line + strlen(subject) : line);
 }
 
+/* Adds a library: its version; that of its build and the file that is missing; or that the build does without. */
+static void add_library(text *t, const char *name)
+{
+    for (uint32_t i = 0; i < facet_get_library_count(); i++) {
+        const facet_library_info info = facet_get_library(i);
+        if (strcmp(info.name, name) != 0)
+            continue;
+        text_addf(t, "%s ", name);
+        if (!*info.built_version)
+            text_add(t, "not built in");
+        else if (*info.found_version)
+            text_add(t, info.found_version);
+        else
+            text_addf(t, "missing: %s is not installed", info.file);
+    }
+}
+
+/* Adds a line: text in which %NAME% stands for a library. */
+static void add_line(text *t, const char *line)
+{
+    for (const char *mark = strchr(line, '%'); mark; mark = strchr(line, '%')) {
+        char name[32];
+        text_addf(t, "%.*s", (int)(mark - line), line);
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(mark + 1, "%"), mark + 1);
+        add_library(t, name);
+        line = mark + strlen(name) + 2;
+    }
+    text_addf(t, "%s\n", line);
+}
+
 size_t facet_build_report(char *out, size_t size)
 {
     text t = {0};
-    text_addf(&t, "facet     %s\n", FACET_VERSION);
+    text_addf(&t, "facet     %s%s%s\n", FACET_VERSION, *FACET_BUILD_ID ? ", build " : "", FACET_BUILD_ID);
 #if defined(__clang__)
     text_addf(&t, "compiler  clang %s, %s\n", __clang_version__, FACET_BUILD_TYPE);
 #else
@@ -57,14 +87,14 @@ size_t facet_build_report(char *out, size_t size)
         text_addf(&t, "%s%s", i ? ", " : "renderers ", renderer_get((facet_renderer_kind)i)->info.name);
     text_addf(&t, "\n");
     text_addf(&t, "embree    %s\n", embree_scene_version());
-    text_addf(&t, "images    png (spng %s), jpeg (turbojpeg %s), webp (%s), exr (%s), hdr, pfm\n",
-              FACET_SPNG_VERSION, FACET_TURBOJPEG_VERSION, FACET_WEBP_VERSION, FACET_OPENEXR_VERSION);
-    text_addf(&t, "textures  ktx2 (%s, %s), avif (%s)\n", FACET_ZSTD_VERSION, FACET_ASTC_VERSION,
-              FACET_AVIF_VERSION);
-    text_addf(&t, "geometry  meshopt, draco (%s)\n", FACET_DRACO_VERSION);
-    text_addf(&t, "json      jansson %s\n", FACET_JANSSON_VERSION);
-    text_addf(&t, "plots     csv, json, svg, pdf, png (%s)\n", FACET_CAIRO_VERSION);
-    text_addf(&t, "http      %s\n", FACET_MICROHTTPD_VERSION);
+    add_line(
+        &t, "images    png (%libspng%), jpeg (%libjpeg-turbo%), webp (%libwebp%), exr (%OpenEXR%), hdr, pfm");
+    add_line(&t, "textures  ktx2 (%Zstandard%, %astcenc%), avif (%libavif%)");
+    add_line(&t, "geometry  meshopt, draco (%Draco%)");
+    add_line(&t, "waves     %kissfft%");
+    add_line(&t, "json      %jansson%");
+    add_line(&t, "plots     csv, json, svg, pdf and png (%cairo%)");
+    add_line(&t, "http      %libmicrohttpd%");
     add_opengl(&t);
     size_t length = t.length;
     if (size) {

@@ -2,6 +2,7 @@
 #include "base/library.h"
 
 #include <dlfcn.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/result.h"
@@ -43,4 +44,16 @@ facet_result library_open(const char *name, const library_desc *desc, void **han
     if (is_missing)
         return fail(error, desc->missing, "%s: %s%s", desc->subject, name, desc->advice);
     return fail(error, FACET_ERROR_SYSTEM, "%s: %s cannot be opened: %.400s", desc->subject, name, reason);
+}
+
+void library_find_version(const char *name, const char *function, char *version, size_t size)
+{
+    /* it stays loaded: libraries such as GnuTLS do not support unloading */
+    void *handle = dlopen(name, RTLD_LAZY | RTLD_LOCAL | RTLD_NODELETE);
+    const char *(*get)(void) = NULL;
+    void *address = handle ? dlsym(handle, function) : NULL;
+    memcpy(&get, &address, sizeof get);
+    snprintf(version, size, "%s", get ? get() : handle ? "unknown" : "");
+    if (handle)
+        dlclose(handle);
 }

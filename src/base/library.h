@@ -33,4 +33,8 @@ typedef struct library_desc {
  * *handle is open and remains the caller's to close. */
 facet_result library_open(const char *name, const library_desc *desc, void **handle, facet_error *error);
 
+/* Writes the version of the library name to version: text that its function returns. "": the library is not installed;
+ * "unknown": it has no such function. */
+void library_find_version(const char *name, const char *function, char *version, size_t size);
+
 #endif

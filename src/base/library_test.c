@@ -28,6 +28,18 @@ static void a_missing_library_is_reported(void **state)
     assert_string_equal(error.message, "test: libfacet-is-missing.so.2 is not installed");
 }
 
+static void versions_are_found(void **state)
+{
+    (void)state;
+    char version[16] = "?";
+    library_find_version("libfacet-is-missing.so.2", "version", version, sizeof version);
+    assert_string_equal(version, "");
+    library_find_version("libc.so.6", "facet_is_missing", version, sizeof version);
+    assert_string_equal(version, "unknown");
+    library_find_version("libc.so.6", "gnu_get_libc_version", version, sizeof version);
+    assert_true(version[0] >= '0' && version[0] <= '9');
+}
+
 static void a_broken_library_is_not_missing(void **state)
 {
     (void)state;
@@ -71,6 +83,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_missing_library_is_reported),
         cmocka_unit_test(a_broken_library_is_not_missing),
+        cmocka_unit_test(versions_are_found),
         cmocka_unit_test(a_library_that_cannot_be_mapped_is_out_of_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -4,6 +4,6 @@
 
 #include "build_config.h"
 
-#define GL_ENTRY_BUILD FACET_VERSION " " FACET_BUILD_TYPE " " __VERSION__
+#define GL_ENTRY_BUILD FACET_VERSION " " FACET_BUILD_ID " " FACET_BUILD_TYPE " " __VERSION__
 
 #endif

@@ -13,6 +13,11 @@ expect 0 version
 grep -qE '^facet [0-9]+\.[0-9]+\.[0-9]+$' out || failed "version prints $(cat out)"
 expect 0 version -v
 [ "$(wc -l <out)" -gt 4 ] || failed "version -v is short"
+expect 0 version --json
+if command -v jq >/dev/null; then # every library is found with a version, or missing and opened when it is needed
+    jq -e '.libraries | length > 3 and all(.[]; (.name | length > 0) and (.license | length > 0) and (.found or .file))' out >/dev/null ||
+        failed "version --json: $(cat out)"
+fi
 expect 0 help exit-codes
 grep -q '75' out || failed "help exit-codes lacks 75"
 

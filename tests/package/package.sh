@@ -9,7 +9,8 @@ trap 'rm -rf "$prefix"' EXIT
 cmake --install "$build" --prefix "$prefix/usr" >/dev/null
 for file in bin/facet include/facet/facet.h include/facet/base.h include/facet/sea.h share/man/man1/facet.1 share/man/man1/facet-render.1 \
     share/bash-completion/completions/facet share/zsh/site-functions/_facet \
-    share/fish/vendor_completions.d/facet.fish include/facet/shade/brdf.h share/doc/facet/cli.md share/doc/facet/bake.md; do
+    share/fish/vendor_completions.d/facet.fish include/facet/shade/brdf.h share/doc/facet/cli.md share/doc/facet/bake.md share/doc/facet/LICENSE \
+    share/doc/facet/NOTICE share/doc/facet/CHANGELOG.md; do
     [ -e "$prefix/usr/$file" ] || { echo "not installed: $file"; exit 1; }
 done
 for header in "$prefix"/usr/include/facet/*.h; do # each as it is installed
@@ -38,7 +39,10 @@ cc -std=c11 "$sources/consumer.c" $(pkg-config --cflags --static facet) "$lib/li
 cmake -S "$sources" -B cmake -DCMAKE_PREFIX_PATH="$prefix/usr" >/dev/null
 cmake --build cmake >/dev/null
 LD_LIBRARY_PATH=$lib cmake/consumer cmake.png
-cmp shared.png static.png && cmp shared.png cmake.png
+cmake/consumer_static cmake_static.png
+for image in static cmake cmake_static; do
+    cmp shared.png $image.png
+done
 LD_LIBRARY_PATH=$lib usr/bin/facet version
 LD_LIBRARY_PATH=$lib usr/bin/facet help documents >documents
 for document in $(grep -oE '[^ ]*/share/doc/facet/[a-z-]*\.md' documents); do

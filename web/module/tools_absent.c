@@ -106,6 +106,17 @@ const char *facet_version(void)
     return FACET_VERSION;
 }
 
+uint32_t facet_get_library_count(void)
+{
+    return 0;
+}
+
+facet_library_info facet_get_library(uint32_t index)
+{
+    (void)index;
+    return (facet_library_info){.name = "", .license = "", .built_version = ""};
+}
+
 size_t facet_build_report(char *out, size_t size)
 {
     int length = snprintf(out, size,

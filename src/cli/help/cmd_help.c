@@ -75,7 +75,9 @@ static void find_documents(char *folder, size_t size)
     *slash = 0;
     snprintf(folder, size, "%s/%s", command, FACET_DOCUMENTS_FROM_COMMAND);
     char *clean = realpath(folder, NULL);
-    snprintf(folder, size, "%s", clean ? clean : "");
+    snprintf(folder, size, "%s/%s", clean ? clean : "", documents[0].name);
+    bool is_there = clean && access(folder, R_OK) == 0; /* the folder alone may hold licences only */
+    snprintf(folder, size, "%s", is_there ? clean : "");
     free(clean);
 }
 
@@ -99,9 +101,9 @@ static void help_print_documents(FILE *stream)
     char folder[4096];
     find_documents(folder, sizeof folder);
     if (!*folder)
-        fprintf(
-            stream,
-            "The documents are not installed beside this command; they are in docs/ of facet's source.\n\n");
+        fprintf(stream, "The documents are not installed beside this command (Debian's package: facet-doc); "
+                        "they are in docs/ of "
+                        "facet's source.\n\n");
     for (int i = 0; i < DOCUMENT_COUNT; i++)
         print_document(stream, i);
 }

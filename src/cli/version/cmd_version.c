@@ -34,6 +34,22 @@ static char *read_report(void)
     return report;
 }
 
+/* The libraries as objects; "found" is null where one is missing. */
+static json_t *list_libraries(void)
+{
+    json_t *list = json_array();
+    for (uint32_t i = 0; i < facet_get_library_count(); i++) {
+        const facet_library_info info = facet_get_library(i);
+        if (!*info.built_version)
+            continue;
+        json_array_append_new(list,
+                              json_pack("{s:s, s:s, s:s, s:s*, s:s?}", "name", info.name, "license",
+                                        info.license, "built_with", info.built_version, "file", info.file,
+                                        "found", *info.found_version ? info.found_version : NULL));
+    }
+    return list;
+}
+
 int cmd_version(command_line *c)
 {
     bool is_json = is_given(c, OPT_JSON);
@@ -47,8 +63,9 @@ int cmd_version(command_line *c)
         return EXIT_LIMIT;
     }
     if (is_json) {
-        json_t *root = json_pack("{s:s, s:I, s:s}", "version", facet_version(), "threads",
-                                 (json_int_t)facet_thread_count(), "report", report);
+        json_t *root =
+            json_pack("{s:s, s:I, s:o, s:s}", "version", facet_version(), "threads",
+                      (json_int_t)facet_thread_count(), "libraries", list_libraries(), "report", report);
         report_print_json(root);
         json_decref(root);
     } else {
