@@ -118,6 +118,24 @@ FACET_API facet_result facet_image_save(const facet_image *image, const char *pa
 FACET_API facet_result facet_image_encode(const facet_image *image, const facet_image_save_desc *desc,
                                           unsigned char **bytes, size_t *size, facet_error *error);
 
+/* ---- thumbnails ---- */
+
+/* {0}: 256 pixels, no tone mapping. */
+typedef struct facet_thumbnail_desc {
+    facet_allocator allocator;
+    uint32_t thread_count; /* 0: facet_thread_count() */
+    uint32_t size;         /* pixels of the longer edge; smaller images are not enlarged; 0: 256 */
+    facet_tonemap tonemap; /* of light */
+    float exposure_ev;     /* stops above the metered exposure of light */
+} facet_thumbnail_desc;
+
+/* A small copy for display: pixels are means over those of the image; light is exposed for its lit parts and tone-mapped,
+ * colors of a display stay. desc NULL: 256 pixels, FACET_TONEMAP_NEUTRAL. FACET_ERROR_ARGUMENT: the image is compact;
+ * FACET_ERROR_MEMORY. */
+FACET_API facet_result facet_image_create_thumbnail(const facet_image *image,
+                                                    const facet_thumbnail_desc *desc, facet_image **thumbnail,
+                                                    facet_error *error);
+
 /* ---- contact sheets ---- */
 
 /* {0}: as square as possible, without labels. */

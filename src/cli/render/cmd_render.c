@@ -1,6 +1,7 @@
 /* cmd_render.c - facet render: renders models to images, in order. */
 #include "cli/shared/options.h"
 
+#include "cli/render/picture.h"
 #include "cli/render/render_options.h"
 #include "cli/render/render_output.h"
 #include "cli/render/sequence.h"
@@ -344,6 +345,33 @@ static bool is_kept(render_run *run, const model_name *model)
     return true;
 }
 
+/* The thumbnail of an image. False: the file is none. */
+static bool render_picture(render_run *run, const model_name *model, double start, facet_result *result,
+                           facet_error *error)
+{
+    char name[RENDER_NAME_SIZE];
+    facet_error unread;
+    facet_image *image = NULL;
+    if (picture_load(model->path, &run->options, &run->base.allocator, &image, &unread) != FACET_OK)
+        return false;
+    *result = render_name(&run->options, model, 1, name, sizeof name, error);
+    if (*result == FACET_OK && input_is_same_file(model->path, name))
+        *result = fail(error, FACET_ERROR_ARGUMENT,
+                       "%s: this input would be overwritten; name another output with -o", name);
+    if (*result == FACET_OK)
+        *result = render_write(&run->options, image, name, &run->base.allocator, NULL, error);
+    if (*result == FACET_OK) {
+        facet_image_view view = facet_image_get_layer(image, 0);
+        report_frame(run, &(image_report){.model = input_name(model->path),
+                                          .output = name,
+                                          .width = view.width,
+                                          .height = view.height,
+                                          .total_s = interrupt_clock() - start});
+    }
+    facet_image_destroy(image);
+    return true;
+}
+
 static facet_result render_model(render_run *run, const model_name *model, facet_error *error)
 {
     if (is_kept(run, model))
@@ -352,6 +380,11 @@ static facet_result render_model(render_run *run, const model_name *model, facet
     facet_scene *scene = NULL;
     facet_result result = load_model(run, model->path, &scene, error);
     messages_flush(&run->base.messages);
+    bool may_be_picture = result == FACET_ERROR_UNSUPPORTED || result == FACET_ERROR_INVALID;
+    if (may_be_picture && model->path &&
+        strcmp(option_text(run->base.line, OPT_PRESET, ""), "thumbnail") == 0 &&
+        strcmp(model->path, "-") != 0 && render_picture(run, model, start, &result, error))
+        return result;
     if (result == FACET_OK)
         result = render_scene(run, model, scene, start, error);
     facet_scene_destroy(scene);
