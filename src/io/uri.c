@@ -1,6 +1,7 @@
 /* uri.c - resolves URIs and names in a model: base64 data inside it, or a file below the model's folder.
  * No other file is opened. */
 #define _POSIX_C_SOURCE 200809L
+#include <dirent.h>
 #include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -326,6 +327,28 @@ bool file_scope_open(const file_scope *scope, const char *name, const char *show
            (out->result == FACET_ERROR_READ && open_otherwise(scope, name, shown, out));
 }
 
+/* Whether a folder shows a single file, as sandboxes do that let a program see the model alone. */
+static bool has_one_file(const char *folder)
+{
+    DIR *entries = opendir(folder);
+    uint32_t count = 0;
+    for (struct dirent *e; entries && count < 2 && (e = readdir(entries));)
+        count += strcmp(e->d_name, ".") != 0 && strcmp(e->d_name, "..") != 0;
+    if (entries)
+        closedir(entries);
+    return count == 1;
+}
+
+/* Adds the likely reason to the message about a missing file. */
+static void explain_missing(const file_scope *scope, uri_bytes *out)
+{
+    size_t used = strlen(out->message);
+    if (out->result == FACET_ERROR_READ && strncmp(out->message, "there is no file", 16) == 0 &&
+        scope->folder && !file_source_is_given(scope->files) && has_one_file(scope->folder))
+        snprintf(out->message + used, sizeof out->message - used,
+                 "; the model is all that can be seen of its folder, as in a sandbox for thumbnails");
+}
+
 bool uri_load(const file_scope *scope, const char *uri, uri_bytes *out)
 {
     *out = (uri_bytes){0};
@@ -347,6 +370,8 @@ bool uri_load(const file_scope *scope, const char *uri, uri_bytes *out)
             done = true;
         }
     }
+    if (!done)
+        explain_missing(scope, out);
     mem_free(name);
     return done;
 }
