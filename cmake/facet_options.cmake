@@ -65,7 +65,7 @@ endif()
 set(FACET_QUICK_NAMES
     "base_.*|codec_.*|gltf_(accessors|meshes|materials|textures|nodes|animations|write)|obj_(read|files|write)|stl|ply|scene"
     "ibl_(sh|cube|dfg|environment)|film|compare|compare_flip|shade_(brdf|fresnel|color|sampling|surface|light|ibl|layers|tonemap)"
-    "api|api_compare|golden|cli_(command_line|value|usage|documents|render|convert|compare)|package|package_thumbnail")
+    "api|api_compare|api_thumbnail|golden|cli_(command_line|value|usage|documents|render|convert|compare)|package|package_thumbnail")
 list(JOIN FACET_QUICK_NAMES "|" FACET_QUICK_NAMES)
 
 # Sets LABELS of a test: those given, and quick.
