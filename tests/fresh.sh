@@ -14,31 +14,8 @@ for tool in debootstrap git unshare chroot; do
     command -v $tool >/dev/null || { echo "fresh: $tool is missing"; exit 1; }
 done
 folder=${1:-$(mktemp -d /var/tmp/facet-fresh-XXXXXX)}
-system=$folder/system
-base=$folder/base.tar
-mkdir -p "$folder"
-if [ ! -f "$base" ]; then
-    rm -rf "$system"
-    debootstrap --variant=minbase bookworm "$system" "${MIRROR:-http://deb.debian.org/debian}" >"$folder/debootstrap.log" 2>&1 ||
-        { tail -n 5 "$folder/debootstrap.log"; exit 1; }
-    tar -C "$system" -cf "$base.part" . && mv "$base.part" "$base"
-fi
-rm -rf "$system"
-mkdir -p "$system"
-tar -C "$system" -xf "$base"
-
-# Access to packages: host names, apt, certificates.
-cp /etc/resolv.conf "$system/etc/resolv.conf"
-if [ -z "${MIRROR:-}" ]; then
-    cp /etc/apt/sources.list "$system/etc/apt/" 2>/dev/null || true
-    cp /etc/apt/sources.list.d/debian* "$system/etc/apt/sources.list.d/" 2>/dev/null || true
-fi
-grep -l Acquire /etc/apt/apt.conf.d/* 2>/dev/null | while read -r file; do cp "$file" "$system/etc/apt/apt.conf.d/"; done
-certificates=
-if [ -n "${NODE_EXTRA_CA_CERTS:-}" ]; then
-    certificates=/root/certificates.crt
-    cp "$NODE_EXTRA_CA_CERTS" "$system$certificates"
-fi
+. "$here/packaging/system.sh"
+system_create "$folder"
 
 git clone -q "$here" "$system/root/facet"
 data=

@@ -15,7 +15,7 @@ step "sources of the libraries, from Debian: 68 MB the first time, into ${build#
 sh "$here/sources.sh" "$build/sources" zlib libspng jansson libjpeg-turbo libzstd kissfft
 # the modules of codecs (codecs.cmake), without which the rest works
 sh "$here/sources.sh" "$build/sources" libwebp openexr imath draco || [ -z "${CI_REQUIRES_ALL-}" ] || exit 1
-version=$(awk '/define FACET_VERSION_[MP]/ {printf "%s%s", point, $3; point = "."}' "$here/../include/facet/base.h")
+version=$(sh "$here/../packaging/version.sh")
 toolchain="-G Ninja -DCMAKE_TOOLCHAIN_FILE=$here/toolchain.cmake -DCMAKE_BUILD_TYPE=Release"
 log=$build/build.log
 run() {
