@@ -66,9 +66,10 @@ if ! command -v bwrap >/dev/null 2>&1 || ! bwrap --ro-bind / / --unshare-all tru
     echo "thumbnail: bwrap cannot work here: the sandbox is not tested"
     exit 0
 fi
-mkdir out
+mkdir out # emptied for each file, as desktops make a new one
 facet convert boat.glb open.gltf -q # with open.bin beside it
 sandbox() { # INPUT NAME: the output is out/thumbnail.png
+    rm -f out/*
     bwrap --ro-bind /usr /usr --ro-bind-try /etc/ld.so.cache /etc/ld.so.cache --symlink /usr/bin /bin --symlink /usr/lib64 /lib64 \
         --symlink /usr/lib /lib --symlink /usr/sbin /sbin --ro-bind-try /etc/alternatives /etc/alternatives --proc /proc --dev /dev \
         --chdir / --setenv GIO_USE_VFS local --unshare-all --die-with-parent --bind "$tmp/out" /tmp --ro-bind "$1" "/tmp/$2" \
