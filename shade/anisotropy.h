@@ -26,7 +26,8 @@ FN vec3 to_frame(vec3 v, vec3 T, vec3 B, vec3 N)
     return vec3(dot(T, v), dot(B, v), dot(N, v));
 }
 
-/* Lookup direction for light prefiltered with an isotropic lobe: the normal is bent in the plane of B and
+/* Direction of a single lookup of light prefiltered with an isotropic lobe, as the extension has it; ENERGY_GLTF's.
+ * The normal is bent in the plane of B and
  * V, the more so the more anisotropic and smooth the surface is, and the reflection is bent back for rough
  * ones. B is the bitangent, across the stretching. KHR_materials_anisotropy, "Image based lighting", with
  * its last line, which Khronos' renderer omits:
@@ -41,6 +42,51 @@ FN vec3 anisotropic_reflection(vec3 N, vec3 B, vec3 V, float strength, float per
     bent = sel(length2 > 1e-12f, bent * inversesqrt(max(length2, 1e-12f)), N);
     vec3 R = reflect(-V, bent);
     return normalize(mix(R, bent, perceptual_roughness * perceptual_roughness));
+}
+
+/* One of ANISOTROPY_LOOKUPS lookups whose mean by weight is the light that an anisotropic lobe reflects. */
+#define ANISOTROPY_LOOKUPS 16
+STRUCT(AnisotropicLookup)
+{
+    vec3 L;                     /* unit, in the frame of the lobe */
+    float perceptual_roughness; /* of the prefiltered radiance */
+    float weight;               /* above 0 */
+};
+
+/* Lookup k. With the slopes (x, y) of microfacets, of distribution P, the reflected light is
+ *   int f N.l L(l) dl = int P(x, y) (V.z + V.x x + V.y y) G2(V, l) L(l) dx dy / V.z,   l = reflect(-V, h)
+ * The lobe is one of width ay in all directions, spread along T until its width is ax: by facets of y = 0 and
+ *   x = w u / sqrt(1 - u^2),   w^2 = ax^2 - ay^2
+ * which have GGX's slopes for uniform u in [-1, 1]. They reflect light from above the horizon for x between
+ * (V.x - r) / V.z and (V.x + r) / V.z, r^2 = V.x^2 + V.z^2, where all of them are seen: u is uniform between those.
+ * Half the angle between lookups is added to the width. Light reflected by rough facets comes more from around N
+ * than their mirror direction does: by a / 2 here, fading out towards isotropic lobes, which have no such term.
+ *
+ * In the studio, Leadenhall market and studio_small_03 the error is .05 to .6 of the mean (RMS) where that of one
+ * lookup at anisotropic_reflection() is .15 to 4. V and alpha in the frame of the lobe; ax >= ay. */
+FN AnisotropicLookup anisotropic_lookup(int k, vec3 V, vec2 alpha)
+{
+    float z = max(V[2], NDOTV_MIN);
+    float r = sqrt(V[0] * V[0] + z * z);
+    float steep = (abs(V[0]) + r) / z; /* the bound on the side of V; that on the other side is -1 / steep */
+    float w2 = max(alpha[0] * alpha[0] - alpha[1] * alpha[1], 1e-8f);
+    float near_u = steep * inversesqrt(steep * steep + w2);
+    float far_u = -inversesqrt(1.0f + steep * steep * w2);
+    float du = (near_u - far_u) * (1.0f / float(ANISOTROPY_LOOKUPS));
+    float u = (far_u + (float(k) + 0.5f) * du) * sel(V[0] < 0.0f, -1.0f, 1.0f);
+    float cos2 = 1.0f - u * u;
+    float x = u * sqrt(w2 / cos2);
+    float spacing = du * sqrt(w2 / cos2) / (cos2 + w2 * u * u); /* rad: dx / (1 + x^2) */
+
+    AnisotropicLookup s;
+    vec3 H = vec3(x, 0.0f, 1.0f) * inversesqrt(1.0f + x * x);
+    s.L = reflect(-V, H);
+    s.L[2] = max(s.L[2], NDOTV_MIN);
+    s.weight = (z + V[0] * x) * s.L[2] * V_SmithGGX_anisotropic(s.L, vec3(V[0], V[1], z), alpha[0], alpha[1]);
+    s.perceptual_roughness = sqrt(min(sqrt(alpha[1] * alpha[1] + 0.25f * spacing * spacing), 1.0f));
+    float bend = 0.5f * alpha[1] * (w2 / (alpha[0] * alpha[0]));
+    s.L = normalize(mix(s.L, vec3(0.0f, 0.0f, 1.0f), bend));
+    return s;
 }
 
 /* The isotropic lobe with the directional albedo of an anisotropic one: (N.V, perceptual roughness) of the

@@ -220,6 +220,14 @@ FN vec3 layers_reflection(Layers m, vec3 V)
     return normalize(reflect(-V, m.base.N));
 }
 
+/* Lookup k of ANISOTROPY_LOOKUPS of LayerLight.specular where layers_reads_anisotropic(), L in world space. */
+FN AnisotropicLookup layers_anisotropic_lookup(Layers m, vec3 V, int k)
+{
+    AnisotropicLookup s = anisotropic_lookup(k, layers_to_frame(m, V), layers_alpha(m, m.base.alpha));
+    s.L = m.anisotropy_T * s.L[0] + m.anisotropy_B * s.L[1] + m.base.N * s.L[2];
+    return s;
+}
+
 FN vec3 layers_clearcoat_reflection(Layers m, vec3 V)
 {
     return normalize(reflect(-V, m.clearcoat_N));

@@ -52,6 +52,21 @@ FN VolumeExit diffuse_exit(SurfaceHost host, Layers m)
     return e;
 }
 
+/* LayerLight.specular. */
+FN vec3 base_specular(SurfaceHost host, Layers m)
+{
+    if (!layers_reads_anisotropic(m, host.energy))
+        return host_specular(host, layers_reflection(m, host.V), m.base.perceptual_roughness);
+    vec3 sum = vec3(0.0f);
+    float weight = 0.0f;
+    for (int k = 0; k < ANISOTROPY_LOOKUPS; k++) {
+        AnisotropicLookup s = layers_anisotropic_lookup(m, host.V, k);
+        sum += host_specular(host, s.L, s.perceptual_roughness) * s.weight;
+        weight += s.weight;
+    }
+    return sum * (1.0f / weight);
+}
+
 /* Light from everywhere but from punctual lights. e: of diffuse_exit(). */
 FN LayerLight layer_light(SurfaceHost host, Layers m, VolumeExit e)
 {
@@ -63,7 +78,7 @@ FN LayerLight layer_light(SurfaceHost host, Layers m, VolumeExit e)
     light.sheen = vec3(0.0f);
     light.transmitted = vec3(0.0f);
     if (host_has_environment(host)) {
-        light.specular = host_specular(host, layers_reflection(m, host.V), m.base.perceptual_roughness);
+        light.specular = base_specular(host, m);
         light.irradiance_over_pi = host_irradiance_over_pi(host, m.base.N);
         if (has_layer(m, LAYER_DIFFUSE_TRANSMISSION)) {
             light.irradiance_back_over_pi = host_irradiance_over_pi(host, e.normal);

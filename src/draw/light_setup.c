@@ -50,6 +50,8 @@ static void add_layers(ibl_light_desc *needs, const scene_material *m, const fac
     if (layers & LAYER_CLEARCOAT)
         add_lobe(needs, m->clearcoat_roughness, scene_material_has(m, SCENE_CLEARCOAT_ROUGHNESS_TEXTURE),
                  desc->has_specular_antialiasing);
+    if (layers & LAYER_ANISOTROPY && light_energy(desc) == FACET_ENERGY_CONSERVING)
+        add_range(needs, 1.0f, 1.0f); /* layers_anisotropic_lookup() */
     if (layers & LAYER_SHEEN) {
         bool is_textured = scene_material_has(m, SCENE_SHEEN_ROUGHNESS_TEXTURE);
         float lowest = is_textured ? 0.0f : m->sheen_roughness;

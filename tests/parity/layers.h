@@ -138,6 +138,8 @@ FN vec3 case_layers_table_points(vec2 u)
     vec3 r = layers_reflection(m, V) + layers_clearcoat_reflection(m, V) + layers_emission(m, V);
     if (has_layer(m, LAYER_SHEEN) || layers_is_inside(m) || layers_reads_anisotropic(m, energy))
         r += 1.0f;
+    if (layers_reads_anisotropic(m, energy))
+        r += layers_anisotropic_lookup(m, V, int(u[1] * 15.99f)).L + 1.0f;
     return r + vec3(p[0], p[1], layers_clearcoat_NdotV(m, V));
 }
 

@@ -242,6 +242,13 @@ FN vec3 case_anisotropic_reflection(vec2 u)
            to_frame(L, vec3(d[0], d[1], 0.0f), vec3(-d[1], d[0], 0.0f), N);
 }
 
+FN vec3 case_anisotropic_lookup(vec2 u)
+{
+    int k = int(u[0] * 15.99f);
+    AnisotropicLookup s = anisotropic_lookup(k, parity_V(u), anisotropic_alpha(0.05f + 0.4f * u[1], u[0]));
+    return s.L + 2.0f + vec3(s.perceptual_roughness, s.weight, 0.0f);
+}
+
 FN vec3 case_anisotropic_table(vec2 u)
 {
     vec3 V = parity_V(u);
