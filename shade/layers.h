@@ -82,7 +82,7 @@ STRUCT(LayerLight)
     vec3 irradiance_over_pi;      /* around N */
     vec3 irradiance_back_over_pi; /* around -N */
     vec3 clearcoat;               /* prefiltered for layers_clearcoat_reflection() and its roughness */
-    vec3 sheen;                   /* prefiltered with Charlie for reflect(-V, N) and its roughness */
+    vec3 sheen;                   /* prefiltered around N with the mean of Charlie's lobe over views */
     vec3 transmitted; /* along the refracted rays, with attenuation, without the boundary's tint and 1 - F */
 };
 

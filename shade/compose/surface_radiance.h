@@ -10,7 +10,7 @@
  *
  *     bool host_has_environment(host)
  *     vec3 host_specular(host, R, perceptual_roughness)    radiance prefiltered with GGX around R
- *     vec3 host_sheen(host, R, sheen_roughness)            with Charlie
+ *     vec3 host_sheen(host, N, sheen_roughness)            LayerLight.sheen
  *     vec3 host_irradiance_over_pi(host, N)
  *     VolumeExit host_exit(host, m)                        straight behind the surface, along -N
  *     vec3 host_transmitted(host, m)                       LayerLight.transmitted; 0: the host adds it itself
@@ -90,7 +90,7 @@ FN LayerLight layer_light(SurfaceHost host, Layers m, VolumeExit e)
             light.clearcoat =
                 host_specular(host, layers_clearcoat_reflection(m, host.V), m.clearcoat_roughness);
         if (has_layer(m, LAYER_SHEEN))
-            light.sheen = host_sheen(host, normalize(reflect(-host.V, m.base.N)), m.sheen_roughness);
+            light.sheen = host_sheen(host, m.base.N, m.sheen_roughness);
     }
     if (has_layer(m, LAYER_TRANSMISSION))
         light.transmitted = host_transmitted(host, m);

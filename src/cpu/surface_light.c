@@ -28,11 +28,11 @@ static vec3 host_specular(SurfaceHost host, vec3 R, float perceptual_roughness)
     return load3(radiance);
 }
 
-static vec3 host_sheen(SurfaceHost host, vec3 R, float sheen_roughness)
+static vec3 host_sheen(SurfaceHost host, vec3 N, float sheen_roughness)
 {
     float d[3];
     float radiance[3];
-    store3(R, d);
+    store3(N, d);
     light_sheen(host.scene->light, d, sheen_roughness, radiance);
     return load3(radiance);
 }

@@ -263,13 +263,13 @@ void light_specular(const light_setup *light, const float R[3], float perceptual
     scale3(out, light->scale);
 }
 
-void light_sheen(const light_setup *light, const float R[3], float sheen_roughness, float out[3])
+void light_sheen(const light_setup *light, const float N[3], float sheen_roughness, float out[3])
 {
     float d[3];
     out[0] = out[1] = out[2] = 0.0f;
     if (!light->has_sheen)
         return;
-    to_environment(light, R, d);
+    to_environment(light, N, d);
     ibl_sheen(light->ibl, d, sheen_roughness, out);
     scale3(out, light->scale);
 }

@@ -37,7 +37,7 @@ void light_setup_warn_dark(const light_setup *light, const render_geometry_set *
  * light, or none was prepared because no material reads it. */
 void light_irradiance_over_pi(const light_setup *light, const float N[3], float out[3]);
 void light_specular(const light_setup *light, const float R[3], float perceptual_roughness, float out[3]);
-void light_sheen(const light_setup *light, const float R[3], float sheen_roughness, float out[3]);
+void light_sheen(const light_setup *light, const float N[3], float sheen_roughness, float out[3]);
 void light_background(const light_setup *light, const float d[3], float footprint_rad, float out[3]);
 
 #endif

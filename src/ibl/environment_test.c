@@ -264,7 +264,7 @@ static void prepared_parts_are_cached(void **state)
     char folder[] = "/tmp/facet-cache-XXXXXX";
     assert_non_null(mkdtemp(folder));
     int entry_count =
-        (int)prefilter_level_count(PREFILTER_GGX) + (int)prefilter_level_count(PREFILTER_CHARLIE) - 2;
+        (int)prefilter_level_count(PREFILTER_GGX) + (int)prefilter_level_count(PREFILTER_SHEEN) - 2;
     captured_messages m = {0};
     facet_environment *fresh = open_cached(NULL, 0, &m);
     facet_environment *first = open_cached(folder, 0, &m);

@@ -35,10 +35,10 @@ void ibl_light_release(const ibl_light *light); /* NULL is allowed */
 void ibl_irradiance_over_pi(const ibl_light *light, const float N[3], float out[3]);
 /* Radiance around R filtered with the GGX lobe of a perceptual roughness (cd/m^2 per channel). */
 void ibl_specular(const ibl_light *light, const float R[3], float perceptual_roughness, float out[3]);
-/* Radiance around R filtered with Charlie's lobe (KHR_materials_sheen) of a perceptual roughness in [0, 1]
- * (cd/m^2 per channel). The lobe is a ring on the horizon of R; roughness is clamped to 0.1, below which it
- * approaches a circle. */
-void ibl_sheen(const ibl_light *light, const float R[3], float sheen_roughness, float out[3]);
+/* Radiance around N filtered with Charlie's lobe (KHR_materials_sheen) of a perceptual roughness in [0, 1], as its mean
+ * over views (prefilter.h; cd/m^2 per channel). Times ibl_sheen_albedo() it is what sheen of color 1 reflects; exact in
+ * uniform light. Roughness is clamped to 0.1, below which the lobe approaches the horizon. */
+void ibl_sheen(const ibl_light *light, const float N[3], float sheen_roughness, float out[3]);
 /* Radiance from direction d (cd/m^2 per channel), from the panorama at background_size to twice that many
  * texels per rad. footprint_rad is the sampled footprint; with several samples per pixel it is not needed and
  * not used. */

@@ -14,7 +14,7 @@
 #include "ibl/studio_draw.h"
 
 /* Version of the preparation; entries of other versions in a cache are ignored. */
-static const uint64_t recipe_version = 3;
+static const uint64_t recipe_version = 4;
 
 /* Rows of the sharp image: at 0.35 degrees each, finer than most reflections can show. */
 static const double sharp_rows = 512.0;
@@ -165,10 +165,9 @@ facet_result ibl_light_prepare(facet_environment *environment, const ibl_light_d
     const ibl_level_range none = {1, 0};
     l->ranges[PREFILTER_GGX] =
         desc->needs_specular ? find_range(PREFILTER_GGX, desc->min_roughness, desc->max_roughness) : none;
-    l->ranges[PREFILTER_CHARLIE] =
-        desc->needs_sheen
-            ? find_range(PREFILTER_CHARLIE, desc->min_sheen_roughness, desc->max_sheen_roughness)
-            : none;
+    l->ranges[PREFILTER_SHEEN] =
+        desc->needs_sheen ? find_range(PREFILTER_SHEEN, desc->min_sheen_roughness, desc->max_sheen_roughness)
+                          : none;
     pthread_mutex_lock(&environment->mutex);
     facet_result result = prepare_parts(environment, desc, l, error);
     environment->reference_count += result == FACET_OK;
@@ -264,13 +263,13 @@ void ibl_specular(const ibl_light *light, const float R[3], float perceptual_rou
         out[i] = c[i];
 }
 
-void ibl_sheen(const ibl_light *light, const float R[3], float sheen_roughness, float out[3])
+void ibl_sheen(const ibl_light *light, const float N[3], float sheen_roughness, float out[3])
 {
-    const cube *levels = light->levels[PREFILTER_CHARLIE];
-    float lod = find_lod(light, PREFILTER_CHARLIE, sheen_roughness);
+    const cube *levels = light->levels[PREFILTER_SHEEN];
+    float lod = find_lod(light, PREFILTER_SHEEN, sheen_roughness);
     uint32_t level = (uint32_t)lod;
     float fraction = lod - (float)level;
-    cube_point p = cube_locate(R[0], R[1], R[2]);
+    cube_point p = cube_locate(N[0], N[1], N[2]);
     rgbx c = cube_fetch(&levels[level], p);
     if (fraction > 0.0f)
         c += (cube_fetch(&levels[level + 1], p) - c) * fraction;

@@ -5,13 +5,14 @@
 #include <string.h>
 
 #include "ibl/gauss.h"
+#include "ibl/ibl.h"
 #include "ibl/narrow.h"
 
 #include "shade/shade.h"
 
 /* Recipe of a level. Sizes give at least four texels to the half width of a lobe, so that bilinear lookup
- * preserves its shape; degrees truncate less than 0.3 % of the peak for GGX. 160 degrees round off the sharp
- * outer edge of Charlie's ring over 0.02 rad. */
+ * preserves its shape; degrees truncate less than 0.3 % of the peak for GGX. 160 degrees round off the edge of
+ * sheen at the horizon over 0.02 rad. */
 typedef struct level_recipe {
     float roughness;
     uint16_t size, degree;
@@ -20,19 +21,18 @@ typedef struct level_recipe {
 static const level_recipe ggx_levels[] = {{0.0f, 0, 0},    {NARROW_END, 128, 160}, {0.22f, 80, 160},
                                           {0.3f, 64, 128}, {0.4f, 48, 64},         {0.52f, 40, 64},
                                           {0.68f, 32, 64}, {0.84f, 32, 64},        {1.0f, 32, 64}};
-/* Denser than for GGX: blending two thin rings approximates the one between them less well than blending two
- * spots. */
-static const level_recipe charlie_levels[] = {
-    {0.0f, 0, 0},      {0.1f, 128, 160},  {0.115f, 112, 160}, {0.132f, 96, 160},
-    {0.152f, 88, 160}, {0.175f, 80, 160}, {0.2f, 64, 128},    {0.23f, 64, 128},
-    {0.265f, 48, 96},  {0.31f, 48, 96},   {0.36f, 40, 64},    {0.43f, 32, 64},
-    {0.52f, 32, 64},   {0.65f, 32, 64},   {0.81f, 32, 64},    {1.0f, 32, 64}};
+/* Rims at the horizon: denser than GGX's spots where they are thin, since two of them approximate the one between
+ * less well. */
+static const level_recipe sheen_levels[] = {{0.0f, 0, 0},      {0.1f, 96, 160},  {0.125f, 80, 160},
+                                            {0.155f, 64, 160}, {0.19f, 64, 128}, {0.235f, 48, 128},
+                                            {0.3f, 48, 96},    {0.38f, 40, 96},  {0.5f, 32, 64},
+                                            {0.7f, 32, 64},    {1.0f, 32, 64}};
 
 static const struct {
     const level_recipe *levels;
     uint32_t level_count, first;
 } lobes[PREFILTER_LOBE_COUNT] = {{ggx_levels, sizeof ggx_levels / sizeof *ggx_levels, 0},
-                                 {charlie_levels, sizeof charlie_levels / sizeof *charlie_levels, 1}};
+                                 {sheen_levels, sizeof sheen_levels / sizeof *sheen_levels, 1}};
 
 uint32_t prefilter_level_count(prefilter_lobe lobe)
 {
@@ -68,9 +68,11 @@ float prefilter_lod_of(prefilter_lobe lobe, float perceptual_roughness)
     return (float)level + (fraction > 0.0f ? fraction : 0.0f);
 }
 
-/* D at half angle t, up to a constant. */
+/* D (of sheen: E) at half angle t, up to a constant. */
 static double distribution(prefilter_lobe lobe, double t, float alpha)
 {
+    if (lobe == PREFILTER_SHEEN)
+        return (double)ibl_sheen_albedo((float)cos(2.0 * t), sqrt(alpha));
     if (lobe == PREFILTER_GGX)
         return (double)D_GGX_stable((float)cos(t), vec3((float)sin(t), 0.0f, 0.0f), alpha);
     /* D_Charlie relative to the horizon, t = pi / 4: both underflow a float at low roughness */

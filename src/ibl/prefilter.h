@@ -5,8 +5,11 @@
  * which, as N.l = 2 (N.h)^2 - 1, is a convolution of the environment with a lobe that looks the same all
  * around R: harmonics.h. Importance sampling would leave 10 % error around a sun with 64 samples a texel.
  *
- * GGX's lobe is a spot around R. Charlie's (sheen) is a ring around the horizon of R, as D is 0 in the
- * middle: with x = N.l its weight is (1 - x)^(1 / (2 alpha)) x, the mean of x is 2 / (3 + 1 / (2 alpha)). */
+ * GGX's lobe is a spot around R. Charlie's (sheen) would be a ring around the horizon of R, as D is 0 in the
+ * middle: with x = N.l its weight is (1 - x)^(1 / (2 alpha)) x, the mean of x is 2 / (3 + 1 / (2 alpha)). That is far
+ * from what sheen reflects to any view but the one along N: most of the ring is below the horizon of N. Renderers
+ * therefore filter around N with the mean of the lobe over all views (of density N.v / pi). As the lobe is reciprocal,
+ * that is E(x) x, with its directional albedo E. */
 #ifndef IBL_PREFILTER_H
 #define IBL_PREFILTER_H
 
@@ -14,7 +17,13 @@
 #include "ibl/cube.h"
 #include "ibl/harmonics.h"
 
-typedef enum prefilter_lobe { PREFILTER_GGX, PREFILTER_CHARLIE, PREFILTER_LOBE_COUNT } prefilter_lobe;
+/* Those before PREFILTER_LOBE_COUNT have levels, all have kernels. */
+typedef enum prefilter_lobe {
+    PREFILTER_GGX,
+    PREFILTER_SHEEN, /* around N */
+    PREFILTER_LOBE_COUNT,
+    PREFILTER_CHARLIE = PREFILTER_LOBE_COUNT /* around R, for other renderers */
+} prefilter_lobe;
 
 /* Levels of a lobe, from smooth to rough. Level 0 is not a cube map: for GGX it is the panorama itself, and narrow.h makes what lies between it and level 1. */
 enum {
@@ -31,12 +40,12 @@ float prefilter_roughness(prefilter_lobe lobe, uint32_t level);
 uint32_t prefilter_size(prefilter_lobe lobe, uint32_t level);
 /* Identifies how a level is made. */
 uint64_t prefilter_recipe(prefilter_lobe lobe, uint32_t level);
-/* The lod of a roughness in [0, 1], linear in roughness between levels. Charlie begins at 1: narrower rings
+/* The lod of a roughness in [0, 1], linear in roughness between levels. Sheen begins at 1: narrower rims
  * are clamped to level 1, where they reflect almost nothing except at grazing angles. */
 float prefilter_lod_of(prefilter_lobe lobe, float perceptual_roughness);
 
-/* Kernel of a lobe: the scale of degree l, k_l = integral of D N.l P_l(N.l) / integral of D N.l, for l up to
- * degree (at most HARMONICS_MAX_DEGREE); kernel[0] is 1. Roughness above 0. By Gauss-Legendre quadrature over
+/* Kernel of a lobe: the scale of degree l, k_l = integral of D N.l P_l(N.l) / integral of D N.l (of sheen: E in
+ * place of D), for l up to degree (at most HARMONICS_MAX_DEGREE); kernel[0] is 1. Roughness above 0. By Gauss-Legendre quadrature over
  * the half vector, in double. */
 void prefilter_kernel(prefilter_lobe lobe, float perceptual_roughness, uint32_t degree, float *kernel);
 /* The smallest degree (a multiple of 32, at most HARMONICS_MAX_DEGREE) whose truncation error is tolerance of

@@ -37,9 +37,9 @@ FN vec3 host_specular(SurfaceHost host, vec3 R, float perceptual_roughness)
     return mix(vec3(1.0f) + R + host.P, vec3(0.7f, 0.8f, 0.9f), perceptual_roughness);
 }
 
-FN vec3 host_sheen(SurfaceHost host, vec3 R, float sheen_roughness)
+FN vec3 host_sheen(SurfaceHost host, vec3 N, float sheen_roughness)
 {
-    return vec3(1.1f) + host.P + R * (0.5f - 0.4f * sheen_roughness);
+    return vec3(1.1f) + host.P + N * (0.5f - 0.4f * sheen_roughness);
 }
 
 FN vec3 host_irradiance_over_pi(SurfaceHost host, vec3 N)

@@ -45,7 +45,7 @@ float light_lod_ggx(float roughness)
     return float(light_ranges.x) + dot(passed, vec4(1.0));
 }
 
-float light_lod_charlie(float roughness)
+float light_lod_sheen(float roughness)
 {
     vec4 passed = LIGHT_PASSED(4) + LIGHT_PASSED(5) + LIGHT_PASSED(6) + LIGHT_PASSED(7);
     return float(light_ranges.z) + dot(passed, vec4(1.0));
@@ -111,10 +111,10 @@ vec3 light_specular(vec3 R, float perceptual_roughness)
     return frame_light.x * c;
 }
 
-/* Around R, filtered with Charlie's lobe. */
-vec3 light_sheen(vec3 R, float sheen_roughness)
+/* Around N, filtered with the mean of sheen's lobe over views. */
+vec3 light_sheen(vec3 N, float sheen_roughness)
 {
-    return frame_light.x * light_levels(1, light_lod_charlie(sheen_roughness), cube_locate(to_environment(R)));
+    return frame_light.x * light_levels(1, light_lod_sheen(sheen_roughness), cube_locate(to_environment(N)));
 }
 
 /* Reflected radiance of a white Lambertian surface. */
@@ -135,7 +135,7 @@ vec3 light_specular(vec3 R, float perceptual_roughness)
     return vec3(0.0);
 }
 
-vec3 light_sheen(vec3 R, float sheen_roughness)
+vec3 light_sheen(vec3 N, float sheen_roughness)
 {
     return vec3(0.0);
 }

@@ -47,9 +47,9 @@ vec3 host_specular(SurfaceHost host, vec3 R, float perceptual_roughness)
     return light_specular(R, perceptual_roughness);
 }
 
-vec3 host_sheen(SurfaceHost host, vec3 R, float sheen_roughness)
+vec3 host_sheen(SurfaceHost host, vec3 N, float sheen_roughness)
 {
-    return light_sheen(R, sheen_roughness);
+    return light_sheen(N, sheen_roughness);
 }
 
 vec3 host_irradiance_over_pi(SurfaceHost host, vec3 N)
