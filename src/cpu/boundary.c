@@ -1,41 +1,15 @@
 /* boundary.c - see boundary.h. */
 #include "cpu/boundary.h"
 #include "cpu/media.h"
+#include "draw/corner_slopes.h"
 
 /* ---- the normal ---- */
-
-/* On an arc from a to b the normals lean by the same angle at both ends. So along each edge the slopes of
- * the two normals against the triangle are replaced by one, of opposite sign at the ends: the smaller of
- * the two, or 0 where they disagree in sign (the minmod limiter, Roe 1986). Normals of smooth surfaces are
- * unchanged; those that lean towards a sharp edge are straightened. */
-
-/* Cosine at which the lean of a normal from the triangle is clamped. */
-static const float MIN_COS = 0.2f;
 
 typedef struct corner_normals {
     vec3 Ng;       /* unit, outward */
     vec3 farthest; /* coordinates of the corners */
     vec3 slope[3]; /* in the plane of the triangle: normal = Ng + slope */
 } corner_normals;
-
-static float limit(float a, float b)
-{
-    if (!(a * b > 0.0f))
-        return 0.0f;
-    return abs(a) < abs(b) ? a : b;
-}
-
-/* The vector in the plane of the triangle whose dot products with e and f are a and b. */
-static vec3 solve(vec3 e, vec3 f, float a, float b)
-{
-    float ee = dot(e, e);
-    float ef = dot(e, f);
-    float ff = dot(f, f);
-    float determinant = ee * ff - ef * ef;
-    if (!(determinant > 1e-12f * ee * ff))
-        return vec3(0.0f);
-    return e * ((a * ff - b * ef) / determinant) + f * ((b * ee - a * ef) / determinant);
-}
 
 static vec3 unit_normal(const render_geometry *g, size_t vertex)
 {
@@ -49,27 +23,15 @@ static corner_normals corner_normals_of(const shading_hit *h, vec3 Ng)
 {
     corner_normals c = {.Ng = Ng, .farthest = vec3(0.0f)};
     vec3 p[3];
-    vec3 slope[3];
+    vec3 n[3];
     for (int i = 0; i < 3; i++) {
         float corner[3];
         render_geometry_corner(h->geometry, h->corner[i], corner);
         p[i] = load3(corner);
         c.farthest = max(c.farthest, abs(p[i]));
-        vec3 n = unit_normal(h->geometry, h->corner[i]);
-        float cos_n = dot(n, Ng);
-        slope[i] = (n - Ng * cos_n) * (1.0f / max(cos_n, MIN_COS));
+        n[i] = unit_normal(h->geometry, h->corner[i]);
     }
-    float along[3]; /* of the edge from i to i + 1 */
-    for (int i = 0; i < 3; i++) {
-        int k = (i + 1) % 3;
-        vec3 edge = p[k] - p[i];
-        along[i] = limit(-dot(slope[i], edge), dot(slope[k], edge));
-    }
-    for (int i = 0; i < 3; i++) {
-        int next = (i + 1) % 3;
-        int last = (i + 2) % 3;
-        c.slope[i] = solve(p[next] - p[i], p[last] - p[i], -along[i], -along[last]);
-    }
+    corner_slopes(p, n, Ng, c.slope);
     return c;
 }
 

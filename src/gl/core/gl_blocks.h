@@ -47,6 +47,8 @@ enum {
     GL_UNIT_SHADOWS,
     GL_UNIT_OPAQUE,   /* opaque surfaces with mips */
     GL_UNIT_MATERIAL, /* nine units */
+    GL_UNIT_RAYS =
+        GL_UNIT_MATERIAL + 8, /* triangles for rays through glass, whose materials have eight units */
     /* depths of the last peeled layer, where the driver has enough units */
     GL_UNIT_PEELED = GL_UNIT_MATERIAL + 9,
     /* seas, which have no materials */

@@ -45,7 +45,7 @@ static const char *const surface_features[] = {
     "HAS_DIFFUSE_TRANSMISSION", "HAS_VOLUME", "HAS_DISPERSION", "HAS_SCATTER",
     "IS_LIT", "IS_UNLIT", "IS_GLOSSY", "HAS_ALPHA_MASK", "HAS_ALPHA_BLEND", "HAS_COLORS", "IS_VOLUME",
     "HAS_SPECULAR_ANTIALIASING", "HAS_ONE_FOOTPRINT", "IS_SPRITE", "AOVS", "IS_WEIGHTED", "IS_PEELED", "HAS_CHANNEL",
-    "HAS_SCHLICK_GGX", "IS_DISPLAYED", "ADDS_1", "ADDS_2", "ADDS_4", NULL};
+    "HAS_SCHLICK_GGX", "IS_DISPLAYED", "ADDS_1", "ADDS_2", "ADDS_4", "IS_TRACED", NULL};
 /* clang-format on */
 _Static_assert(sizeof slot_names / sizeof *slot_names == SCENE_TEXTURE_SLOT_COUNT, "every slot has a name");
 
@@ -76,7 +76,7 @@ static const char *const sea_features[] = {"HAS_IMAGE",
 static const char *const present_features[] = {"IS_TOP_DOWN", "IS_PREMULTIPLIED", "ADDS_1",
                                                "ADDS_2",      "ADDS_4",           NULL};
 
-enum { MAX_SOURCES = 13 };
+enum { MAX_SOURCES = 15 };
 
 /* The source of a stage: parts of the shader library with their dependencies, then files of src/gl/shaders and shade/compose, the last
  * of which has main(). */
@@ -96,7 +96,8 @@ static const struct {
     [GL_MAIN_SURFACE] = {"surface", surface_features, SURFACE,
         {{"surface", "light", "layers_direct", "layers_ibl", "layers_lobes", "material", "footprint", "tonemap", "color"},
          {"display.glsl", "light_block.glsl", "environment.glsl", "shadow.glsl", "lights.glsl", "surface_io.glsl",
-          "material.glsl", "transmission.glsl", "radiance.glsl", "surface_tables.h", "surface_radiance.h", "surface.frag"}}},
+          "material.glsl", "transmission.glsl", "rays.glsl", "radiance.glsl", "surface_tables.h", "surface_radiance.h",
+          "glass.glsl", "surface.frag"}}},
     [GL_MAIN_SHADOW] = {"shadow", surface_features, SURFACE,
         {{"material", "footprint"}, {"surface_io.glsl", "material.glsl", "shadow.frag"}}},
     [GL_MAIN_PHONG] = {"phong", surface_features,

@@ -20,6 +20,7 @@ enum {
 typedef struct gl_image {
     GLuint names[2];
     uint32_t sizes[2][2]; /* texels: width and height */
+    float means[2][4];    /* linear RGBA */
     bool is_known[2];     /* uploaded, or failed */
     bool lacks_red;       /* read as data */
 } gl_image;
@@ -164,6 +165,22 @@ static facet_result upload(gl_texture_set *set, const texture_pyramid *p, uint32
     return gl_context_check(set->context, "textures", error);
 }
 
+/* Linear RGBA of the coarsest level. */
+static void find_mean(const texture_pyramid *p, float mean[4])
+{
+    const unsigned char *texel = p->levels[p->level_count - 1].texels;
+    const bool is_gray = p->channel_count < 3, has_alpha = p->channel_count == 2 || p->channel_count == 4;
+    for (uint32_t c = 0; c < 4; c++) {
+        const uint32_t from = c == 3 ? p->channel_count - 1 : is_gray ? 0 : c;
+        if (c == 3 && !has_alpha)
+            mean[c] = 1.0f;
+        else if (p->type == IMAGE_U8)
+            mean[c] = (c == 3 ? p->alpha_values : p->color_values)[texel[from]];
+        else
+            mean[c] = (float)((const uint16_t *)(const void *)texel)[from] * (1.0f / 65535.0f);
+    }
+}
+
 /* ---- selection ---- */
 
 /* The finest level within OpenGL's size limit. */
@@ -223,6 +240,7 @@ static facet_result upload_want(gl_texture_set *set, const texture_want *want, c
             TRY(upload(set, p, want->first_level, as_color, &record->names[as_color], error));
             record->sizes[as_color][0] = p->levels[want->first_level].width;
             record->sizes[as_color][1] = p->levels[want->first_level].height;
+            find_mean(p, record->means[as_color]);
         }
         record->is_known[as_color] = true;
         record->lacks_red |= p && p->lacks_red;
@@ -261,6 +279,14 @@ const uint32_t *gl_texture_size(const gl_texture_set *set, uint32_t texture, boo
     static const uint32_t none[2];
     uint32_t number = texture < set->scene->texture_count ? set->scene->textures[texture].image : SCENE_NONE;
     return number < set->scene->image_count ? set->images[number].sizes[as_color] : none;
+}
+
+void gl_texture_mean(const gl_texture_set *set, uint32_t texture, bool as_color, float mean[4])
+{
+    uint32_t number = texture < set->scene->texture_count ? set->scene->textures[texture].image : SCENE_NONE;
+    bool is_there = number < set->scene->image_count && set->images[number].names[as_color];
+    for (int c = 0; c < 4; c++)
+        mean[c] = is_there ? set->images[number].means[as_color][c] : 1.0f;
 }
 
 bool gl_texture_lacks_red(const gl_texture_set *set, uint32_t texture)

@@ -31,7 +31,9 @@ facet_result gl_texture_update(gl_texture_set *set, const texture_use *uses, con
  * was not requested. Samplers are isotropic: surface_io.glsl takes the CPU's anisotropic probes. */
 uint32_t gl_texture_name(const gl_texture_set *set, uint32_t texture, bool as_color);
 const uint32_t *gl_texture_size(const gl_texture_set *set, uint32_t texture,
-                                bool as_color);                         /* width, height */
+                                bool as_color); /* width, height */
+/* Linear RGBA of the coarsest level; white where there is no such texture, or it is not uploaded. */
+void gl_texture_mean(const gl_texture_set *set, uint32_t texture, bool as_color, float mean[4]);
 bool gl_texture_lacks_red(const gl_texture_set *set, uint32_t texture); /* as data, after an update */
 uint32_t gl_texture_sampler(gl_texture_set *set, uint32_t texture);
 uint64_t gl_texture_decoded_texels(const gl_texture_set *set); /* since the set was created */

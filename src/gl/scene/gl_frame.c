@@ -16,7 +16,8 @@
 facet_result gl_frame_create(gl_frame *f, gl_context *context, const facet_scene *scene,
                              const facet_allocator *allocator, facet_error *error)
 {
-    *f = (gl_frame){.context = context, .timers.context = context};
+    *f = (gl_frame){.context = context, .timers.context = context, .rays.context = context};
+    f->rays.allocator = allocator ? *allocator : (facet_allocator){0};
     TRY(gl_programs_create(context, allocator, NULL, &f->programs, error));
     TRY(gl_mesh_create(context, allocator, &f->meshes, error));
     TRY(gl_material_create(context, scene, allocator, &f->materials, error));
@@ -35,6 +36,7 @@ void gl_frame_destroy(gl_frame *f)
     gl_pyramid_destroy(&f->bloom);
     gl_phong_destroy(f->phong);
     gl_pyramid_destroy(&f->opaque);
+    gl_rays_destroy(&f->rays);
     gl_transparency_destroy(f->transparency);
     gl_light_destroy(f->light);
     gl_material_destroy(f->materials);
@@ -53,6 +55,8 @@ static gl_program_key key_of(const gl_frame *f, const gl_batch *batch, bool is_l
                         gl_light_features(f->light) | f->display_features;
     if (is_layers)
         features |= gl_program_feature(GL_MAIN_SURFACE, "AOVS");
+    else if (f->is_traced && batch->plan->lets_rays_through)
+        features |= gl_rays_features(&f->rays);
     return (gl_program_key){gl_material_main(f->materials, batch), features};
 }
 
@@ -79,11 +83,23 @@ static facet_result request_batches(gl_frame *f, bool is_layers, facet_error *er
     return FACET_OK;
 }
 
+/* The other programs of glass, which a window needs when its motion begins or ends. */
+static facet_result request_other_glass(gl_frame *f, facet_error *error)
+{
+    if (f->use == GL_FRAME_IMAGE || !gl_rays_features(&f->rays))
+        return FACET_OK;
+    f->is_traced = !f->is_traced;
+    facet_result result = request_batches(f, false, error);
+    f->is_traced = !f->is_traced;
+    return result;
+}
+
 /* Requests all programs before waiting for the first, so that the driver compiles them in parallel. */
 static facet_result request_programs(gl_frame *f, const facet_render_desc *desc, facet_error *error)
 {
     gl_programs_set_log(f->programs, &desc->log);
     gl_transparency_view blended = transparency_of(f, desc);
+    TRY(request_other_glass(f, error));
     TRY(request_batches(f, false, error));
     TRY(gl_transparency_request(f->transparency, &blended, error));
     if (desc->aovs)
@@ -164,6 +180,10 @@ facet_result gl_frame_update(gl_frame *f, const gl_scene *scene, const camera_ra
         result = gl_material_update(f->materials, f->meshes, desc, error);
     if (result == FACET_OK)
         result = update_phong(f, &(gl_phong_view){scene, camera, &light, f->meshes, desc}, error);
+    f->is_traced = desc->quality != FACET_QUALITY_DRAFT;
+    if (result == FACET_OK)
+        result = gl_rays_update(&f->rays, scene, f->materials,
+                                f->is_traced && has_pass(f, GL_PASS_TRANSMISSIVE), &desc->log, error);
     light_setup_destroy(&light);
     stats->textures_s += clock_seconds() - start;
     stats->decoded_texels += count_decoded_texels(f) - decoded_texels;
@@ -345,6 +365,7 @@ static facet_result draw_transmissive(gl_frame *f, facet_error *error)
     if (!has_pass(f, GL_PASS_TRANSMISSIVE))
         return FACET_OK;
     gl_pyramid_bind_opaque(&f->opaque);
+    gl_rays_bind(&f->rays);
     return draw_pass(f, GL_PASS_TRANSMISSIVE, GL_TIMER_TRANSMISSION, error);
 }
 

@@ -5,6 +5,7 @@
 #include "gl/scene/gl_light.h"
 #include "gl/scene/gl_material.h"
 #include "gl/core/gl_pyramid.h"
+#include "gl/scene/gl_rays.h"
 #include "gl/scene/gl_scene.h"
 #include "gl/core/gl_target.h"
 #include "gl/core/gl_timers.h"
@@ -26,10 +27,12 @@ typedef struct gl_frame {
     gl_material_set *materials;
     gl_light *light;
     gl_pyramid opaque, bloom;
+    gl_rays rays;    /* through transmissive surfaces */
     gl_phong *phong; /* NULL: not used yet */
     gl_transparency *transparency;
     const gl_scene *scene; /* of the last update */
     gl_frame_use use;      /* of the next update, set by the caller */
+    bool is_traced;        /* of the last update: transmissive surfaces trace rays; drafts do not */
     uint64_t
         display_features; /* of the last update: gl_program_display_features(), or 0: surfaces put out radiance */
     gl_timers timers;

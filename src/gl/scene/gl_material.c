@@ -31,7 +31,7 @@ typedef struct gl_material_block {
     float attenuation_color[3], attenuation_distance;
     float diffuse_transmission_color[3], diffuse_transmission;
     float multiscatter_color[3], scatter_anisotropy;
-    float thickness, dispersion, reserved[2];
+    float thickness, dispersion, row, reserved; /* row: in the table of gl_rays.h */
     float texcoords[SCENE_TEXTURE_SLOT_COUNT][2]
                    /* per slot: rows of the transform; w: texture coordinate set; 1: anisotropic probes */
                    [4];
@@ -225,6 +225,12 @@ static uint32_t slots_of(const gl_material_set *set, const gl_batch *batch)
     return slots;
 }
 
+/* Units for the textures of a batch: rays through a transmissive one take the last. */
+static int units_of(const gl_batch *batch)
+{
+    return GL_MATERIAL_UNITS - (batch->plan->lets_rays_through ? 1 : 0);
+}
+
 /* Texture features of a batch. *lost: slots that are dropped for lack of units. */
 static uint64_t texture_features(const gl_material_set *set, const gl_batch *batch, uint32_t *lost)
 {
@@ -245,7 +251,7 @@ static uint64_t texture_features(const gl_material_set *set, const gl_batch *bat
     for (int i = 0; i <= SCENE_TEXTURE_SLOT_COUNT; i++) {
         uint64_t features = (uint64_t)slots << GL_SURFACE_TEXTURES | pair_features(set, batch, slots);
         int8_t units[SCENE_TEXTURE_SLOT_COUNT];
-        if (gl_material_slot_units(features, units) <= GL_MATERIAL_UNITS || i == SCENE_TEXTURE_SLOT_COUNT)
+        if (gl_material_slot_units(features, units) <= units_of(batch) || i == SCENE_TEXTURE_SLOT_COUNT)
             return features;
         uint32_t given_up = 1u << gl_slots_by_loss[i];
         /* the second slot of a pair cannot be sampled without the first */
@@ -314,6 +320,7 @@ static void update_block(gl_material_set *set, const gl_batch *batch)
     gl_material *item = &set->items[batch->geometry->material_id];
     gl_material_block block;
     fill_block(set->scene, batch->geometry->material, &block);
+    block.row = (float)batch->geometry->material_id;
     if (item->is_known && memcmp(&block, &item->block, sizeof block) == 0)
         return;
     item->block = block;
@@ -342,7 +349,7 @@ static void warn_lost(gl_material_set *set, const gl_batch *batch, const facet_l
             log_warning(
                 log, "%s: material %u \"%s\": more textures than OpenGL's %d units: it is drawn without %s",
                 at.source, at.number, batch->geometry->material->name ? batch->geometry->material->name : "",
-                GL_MATERIAL_UNITS, material_textures[slot].key);
+                units_of(batch), material_textures[slot].key);
 }
 
 typedef void batch_function(gl_material_set *set, const gl_batch *batch);
@@ -482,6 +489,27 @@ facet_result gl_material_use(const gl_material_set *set, gl_programs *programs, 
     glUseProgram(program);
     gl_material_bind(set, batch);
     return FACET_OK;
+}
+
+void gl_material_mean(const gl_material_set *set, const scene_material *m, scene_texture_slot slot,
+                      float mean[4])
+{
+    gl_texture_mean(set->textures, m->textures[slot].texture, material_textures[slot].is_color, mean);
+}
+
+uint32_t gl_material_texture(const gl_material_set *set, const scene_material *m, scene_texture_slot slot,
+                             uint32_t size[2])
+{
+    uint32_t texture = m->textures[slot].texture;
+    memcpy(size, gl_texture_size(set->textures, texture, material_textures[slot].is_color), 2 * sizeof *size);
+    return gl_texture_name(set->textures, texture, material_textures[slot].is_color);
+}
+
+bool gl_material_is_nearest(const gl_material_set *set, const scene_material *m, scene_texture_slot slot)
+{
+    uint32_t texture = m->textures[slot].texture;
+    return texture < set->scene->texture_count &&
+           set->scene->textures[texture].mag_filter == SCENE_FILTER_NEAREST;
 }
 
 uint64_t gl_material_decoded_texels(const gl_material_set *set)

@@ -34,6 +34,30 @@ void gl_material_bind(const gl_material_set *set, const gl_batch *batch);
 /* Uses the batch's program with all of these features, and binds its material. Fails as gl_programs_get(). */
 facet_result gl_material_use(const gl_material_set *set, gl_programs *programs, const gl_batch *batch,
                              uint64_t features, facet_error *error);
+/* Linear RGBA of a texture of a material, averaged; white: it has none. After an update. */
+void gl_material_mean(const gl_material_set *set, const scene_material *material, scene_texture_slot slot,
+                      float mean[4]);
+/* OpenGL's name of a slot's texture, with its size in texels; 0: there is none, and the size is 0. */
+uint32_t gl_material_texture(const gl_material_set *set, const scene_material *material,
+                             scene_texture_slot slot, uint32_t size[2]);
+/* Whether the texture shows its texels as squares where they are larger than pixels. */
+bool gl_material_is_nearest(const gl_material_set *set, const scene_material *material,
+                            scene_texture_slot slot);
+
+/* A small copy of the textures that decide what a ray sees of a material where no fragment of it is drawn: four floats
+ * per texel, base color (linear), and 255 alpha + 256 (255 transmission) + 65536 (255 roughness), each rounded. Texels
+ * of one size, at the coordinates of one slot; texture coordinates repeat. */
+typedef struct gl_material_sheet {
+    uint32_t width, height;
+    bool is_nearest; /* read without interpolation */
+} gl_material_sheet;
+enum { GL_MATERIAL_SHEET_SIZE = 256 }; /* most texels along an edge */
+/* The slot with its coordinates. */
+scene_texture_slot gl_material_sheet_slot(const scene_material *material);
+gl_material_sheet gl_material_sheet_size(const gl_material_set *set, const scene_material *material);
+/* Reads it back from OpenGL's textures. */
+void gl_material_sheet_read(const gl_material_set *set, const scene_material *material,
+                            const gl_material_sheet *sheet, float *texels);
 uint64_t gl_material_decoded_texels(const gl_material_set *set);
 
 #endif

@@ -1,5 +1,5 @@
-/* gl_opaque_test.c - what glass shows of surfaces behind it: thin walls, volumes, roughness, dispersion by
- * closed forms, and energy conservation. Exits with 77 where there is no OpenGL. */
+/* gl_opaque_test.c - what glass shows of surfaces behind it in drafts, which look it up in the image: thin walls, volumes,
+ * roughness, dispersion by closed forms, and energy conservation. gl_glass_test.c has the rays of other images. Exits with 77 where there is no OpenGL. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -27,6 +27,13 @@ static scene_material glass(float roughness, float thickness)
         m.thickness = thickness;
     }
     return m;
+}
+
+static fixture draft_fixture(void)
+{
+    fixture f = fixture_create();
+    f.desc.quality = FACET_QUALITY_DRAFT;
+    return f;
 }
 
 /* Unlit squares of two grays, `count` in a row, on a quad of edge 4 m at z = -1, with texels of 64 pixels
@@ -58,7 +65,7 @@ static void clear_glass_shows_the_opaque_image(void **state)
 {
     (void)state;
     for (int c = 0; c < contexts.count; c++) {
-        fixture f = fixture_create();
+        fixture f = draft_fixture();
         add_board(&f, 16, 0, 255);
         film board = gl_fixture_render(&f, &contexts.items[c]);
         add_pane(&f, glass(0.0f, 0.0f));
@@ -82,7 +89,7 @@ static void the_transmission_lobe_shows_the_opaque_image(void **state)
 {
     (void)state;
     for (int c = 0; c < contexts.count; c++) {
-        fixture f = fixture_create();
+        fixture f = draft_fixture();
         add_board(&f, 2, 255, 255);
         add_pane(&f, glass(0.0f, 0.0f));
         f.desc.gl.channel = FACET_CHANNEL_TRANSMISSION;
@@ -100,7 +107,7 @@ static void attenuation_follows_thickness(void **state)
     (void)state;
     for (int c = 0; c < contexts.count; c++)
         for (int k = 0; k < 3; k++) {
-            fixture f = fixture_create();
+            fixture f = draft_fixture();
             add_board(&f, 2, 255, 255);
             scene_material m = glass(0.0f, 0.25f * (float)(k + 1));
             const float color[3] = {0.9f, 0.5f, 0.1f};
@@ -147,7 +154,7 @@ static void roughness_blurs_and_preserves_the_mean(void **state)
         for (int is_volume = 0; is_volume < 2; is_volume++) {
             double last = (double)INFINITY, first_mean = 0.0;
             for (int k = 0; k <= 6; k++) {
-                fixture f = fixture_create();
+                fixture f = draft_fixture();
                 add_board(&f, 16, 0, 255);
                 add_pane(&f, glass((float)k / 6.0f, is_volume ? 0.001f : 0.0f));
                 film seen = gl_fixture_render(&f, &contexts.items[c]);
@@ -169,7 +176,7 @@ static void ior_1_stays_sharp(void **state)
 {
     (void)state;
     for (int c = 0; c < contexts.count; c++) {
-        fixture f = fixture_create();
+        fixture f = draft_fixture();
         add_board(&f, 16, 0, 255);
         film board = gl_fixture_render(&f, &contexts.items[c]);
         scene_material m = glass(1.0f, 0.0f);
@@ -208,7 +215,7 @@ static void a_slab_shifts_rays_by_snells_law(void **state)
         for (int k = 0; k < 4; k++) {
             bool is_dispersive = k == 3;
             double ior = is_dispersive ? 1.5 : iors[k];
-            fixture f = fixture_create();
+            fixture f = draft_fixture();
             static const unsigned char halves[16] = {0, 0, 0, 255, 255, 255, 255, 255,
                                                      0, 0, 0, 255, 255, 255, 255, 255};
             scene_material wall = gl_fixture_unlit(1.0f, 1.0f, 1.0f, 1.0f);
@@ -247,7 +254,7 @@ static void white_glass_passes_the_furnace_test(void **state)
     static const float white[4] = {1, 1, 1, 1};
     for (int c = 0; c < contexts.count; c++)
         for (int k = 0; k < 12; k++) {
-            fixture f = fixture_create();
+            fixture f = draft_fixture();
             f.desc.energy = FACET_ENERGY_CONSERVING;
             scene_material m = glass(k % 3 == 2 ? 0.6f : 0.0f, k % 2 ? 0.5f : 0.0f);
             if (k >= 6) {
@@ -274,7 +281,7 @@ static void rays_beyond_the_image_fade_to_the_environment(void **state)
 {
     (void)state;
     for (int c = 0; c < contexts.count; c++) {
-        fixture f = fixture_create();
+        fixture f = draft_fixture();
         scene_material wall = gl_fixture_unlit(0.2f, 0.2f, 0.2f, 1.0f);
         fixture_place(&f, fixture_add_quad(&f, fixture_add_material(&f, wall)), 0, 0, -3.0f, 4.0f);
         fixture_place(&f, fixture_add_sphere(&f, 128, fixture_add_material(&f, glass(0.0f, 8.0f))), 0, 0, 0,

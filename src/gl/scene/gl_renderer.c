@@ -161,7 +161,7 @@ typedef struct scene_view {
 static void set_camera(const gl_renderer *r, const camera_rays *camera, const facet_render_desc *desc,
                        const gl_view *view, gl_frame_block *block)
 {
-    *block = (gl_frame_block){.channel = 0};
+    *block = (gl_frame_block){.is_draft = desc->quality == FACET_QUALITY_DRAFT};
     gl_camera_set(r->context, camera, r->prepared.pose.bounds_min, r->prepared.pose.bounds_max, desc->width,
                   desc->height, view, block);
 }
@@ -282,7 +282,6 @@ facet_result gl_renderer_present(gl_renderer *r, const facet_render_desc *wanted
     if (result == FACET_OK) {
         const gl_view all = {.scale = 1, .width = desc->width, .height = desc->height};
         set_camera(r, &camera, desc, &all, &block);
-        block.is_draft = desc->quality == FACET_QUALITY_DRAFT;
         result = gl_frame_draw(&r->frame, &r->target, desc, &block, error);
     }
     if (result == FACET_OK)

@@ -147,6 +147,10 @@ float mask_share(float alpha)
 void main()
 {
     read_texels();
+#if defined(IS_TRACED) && defined(HAS_TRANSMISSION)
+    vec3 plane = cross(dFdx(v_position), dFdy(v_position));
+    rays_normal = normalize(dot(plane, view_direction()) < 0.0 ? -plane : plane);
+#endif
     vec4 color = base_color();
     float opacity = coverage(color.w);
     vec3 radiance = shaded(color.xyz, opacity);

@@ -121,8 +121,8 @@ vec3 transmitted_light_of_ior(Layers m, vec3 V, float eta)
     return light_through_volume(m, V, eta);
 }
 
-/* Radiance (cd/m^2) that reaches the boundary from behind along the refracted ray: LayerLight.transmitted. */
-vec3 transmitted_light(Layers m, vec3 V)
+/* One layer of the image. */
+vec3 light_in_image(Layers m, vec3 V)
 {
     if (!has_layer(m, LAYER_VOLUME))
         return light_through_wall(m, V);
@@ -131,6 +131,19 @@ vec3 transmitted_light(Layers m, vec3 V)
                 transmitted_light_of_ior(m, V, layers_eta(m, 2)).z);
 #else
     return transmitted_light_of_ior(m, V, max(m.eta, 1e-3));
+#endif
+}
+#ifdef IS_TRACED
+vec3 traced_light(Layers m, vec3 V); /* glass.glsl */
+#endif
+
+/* Radiance (cd/m^2) that reaches the boundary from behind: LayerLight.transmitted. */
+vec3 transmitted_light(Layers m, vec3 V)
+{
+#ifdef IS_TRACED
+    return traced_light(m, V);
+#else
+    return light_in_image(m, V);
 #endif
 }
 #endif
