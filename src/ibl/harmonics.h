@@ -25,6 +25,7 @@ typedef struct harmonics {
     float mean[3];
     float least[3];      /* least radiance of the panorama, a lower bound of every mean */
     float *coefficients; /* per order m: [l - m][R G B][re im] */
+    bool is_grey;        /* R, G and B are known to be the same: filters then compute one of them */
     float *spectra; /* scratch memory of filters, kept because mapping arrays of this size costs more than */
     rgbx *grid;     /* filtering */
     size_t spectrum_count, grid_count; /* allocated elements */

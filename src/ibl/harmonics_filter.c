@@ -42,8 +42,10 @@ static rgbx *grid_texel(const synthesis *job, int x, int y)
     return job->in->grid + (size_t)(y + PAD) * (job->width + 2 * PAD) + (size_t)(x + PAD);
 }
 
-/* Coefficients of an order, scaled and rotated. */
-static inline void scale_order(const synthesis *job, uint32_t m, float scaled[][PARTS])
+#define INLINE static inline __attribute__((always_inline))
+
+/* The first part_count parts of the coefficients of an order, scaled and rotated. */
+INLINE void scale_order(const synthesis *job, uint32_t m, uint32_t part_count, float scaled[][PARTS])
 {
     const harmonics *h = job->in;
     /* the column centers of both grids lie half a column off phi = 0 */
@@ -52,87 +54,140 @@ static inline void scale_order(const synthesis *job, uint32_t m, float scaled[][
     float s = (float)sin(turn);
     const float *in = h->coefficients + harmonics_order_index(h->degree, m);
     for (uint32_t l = m; l <= job->desc->degree; l++, in += PARTS)
-        for (int i = 0; i < 3; i++) {
-            scaled[l][2 * i] = job->desc->kernel[l] * (in[2 * i] * c - in[2 * i + 1] * s);
-            scaled[l][2 * i + 1] = job->desc->kernel[l] * (in[2 * i] * s + in[2 * i + 1] * c);
+        for (uint32_t i = 0; i < part_count; i += 2) {
+            scaled[l][i] = job->desc->kernel[l] * (in[i] * c - in[i + 1] * s);
+            scaled[l][i + 1] = job->desc->kernel[l] * (in[i] * s + in[i + 1] * c);
         }
+}
+
+/* part_count is a constant where this is inlined. */
+INLINE void synthesise_order(const synthesis *job, uint32_t m, uint32_t part_count)
+{
+    const uint32_t degree = job->desc->degree;
+    float scaled[HARMONICS_MAX_DEGREE + 1][PARTS];
+    scale_order(job, m, part_count, scaled);
+    legendre p;
+    legendre_init(&p, m, degree, &job->rows);
+    for (uint32_t k = 0; k < job->rows.block_count; k++) {
+        float8 even[PARTS] = {{0}};
+        float8 odd[PARTS] = {{0}};
+        double8 x = job->rows.x[k];
+        double8 now = p.now[k];
+        double8 before = p.before[k];
+        for (uint32_t l = p.from[k]; l <= degree; l += 2) {
+            float8 value;
+            legendre_floats(&now, &value);
+            for (uint32_t part = 0; part < part_count; part++)
+                even[part] += value * scaled[l][part];
+            if (l == degree)
+                break;
+            legendre_step(&x, &now, &before, p.b[l + 1], p.a[l + 1]);
+            legendre_floats(&before, &value);
+            for (uint32_t part = 0; part < part_count; part++)
+                odd[part] += value * scaled[l + 1][part];
+            legendre_step(&x, &before, &now, p.b[l + 2], p.a[l + 2]);
+        }
+        for (uint32_t part = 0; part < part_count; part++) {
+            float *to = job->in->spectra + harmonics_spectrum_index(m, 0, part, degree) + (size_t)k * LANES;
+            memcpy(to, &even[part], sizeof even[part]);
+            to = job->in->spectra + harmonics_spectrum_index(m, 1, part, degree) + (size_t)k * LANES;
+            memcpy(to, &odd[part], sizeof odd[part]);
+        }
+    }
 }
 
 DISPATCH_AVX2 static void synthesise_orders(void *context, size_t begin, size_t end)
 {
     const synthesis *job = context;
-    uint32_t degree = job->desc->degree;
-    uint32_t pair_count = degree;
-    for (size_t order = begin; order < end; order++) {
-        uint32_t m = (uint32_t)order;
-        float scaled[HARMONICS_MAX_DEGREE + 1][PARTS];
-        scale_order(job, m, scaled);
-        legendre p;
-        legendre_init(&p, m, degree, &job->rows);
-        for (uint32_t k = 0; k < job->rows.block_count; k++) {
-            float8 even[PARTS] = {{0}};
-            float8 odd[PARTS] = {{0}};
-            double8 x = job->rows.x[k];
-            double8 now = p.now[k];
-            double8 before = p.before[k];
-            for (uint32_t l = p.from[k]; l <= degree; l += 2) {
-                float8 value;
-                legendre_floats(&now, &value);
-                for (uint32_t part = 0; part < PARTS; part++)
-                    even[part] += value * scaled[l][part];
-                if (l == degree)
-                    break;
-                legendre_step(&x, &now, &before, p.b[l + 1], p.a[l + 1]);
-                legendre_floats(&before, &value);
-                for (uint32_t part = 0; part < PARTS; part++)
-                    odd[part] += value * scaled[l + 1][part];
-                legendre_step(&x, &before, &now, p.b[l + 2], p.a[l + 2]);
-            }
-            for (uint32_t part = 0; part < PARTS; part++) {
-                float *to =
-                    job->in->spectra + harmonics_spectrum_index(m, 0, part, pair_count) + (size_t)k * LANES;
-                memcpy(to, &even[part], sizeof even[part]);
-                to = job->in->spectra + harmonics_spectrum_index(m, 1, part, pair_count) + (size_t)k * LANES;
-                memcpy(to, &odd[part], sizeof odd[part]);
-            }
+    for (size_t order = begin; order < end; order++)
+        if (job->in->is_grey)
+            synthesise_order(job, (uint32_t)order, 2);
+        else
+            synthesise_order(job, (uint32_t)order, PARTS);
+}
+
+/* Lanes of the transform: the channels of a row and of its mirror row, or, where those are the same, four rows and
+ * their mirror rows. */
+enum { GREY_ROWS = 4 };
+typedef float float4 __attribute__((vector_size(16)));
+
+/* Waves of the pair of rows j, as lanes of re and im. */
+INLINE void read_waves(const synthesis *job, uint32_t j, float8 *re, float8 *im)
+{
+    const uint32_t pair_count = job->desc->degree;
+    for (uint32_t m = 0; m <= job->desc->degree; m++) {
+        float e[PARTS], o[PARTS];
+        for (uint32_t part = 0; part < PARTS; part++) {
+            e[part] = job->in->spectra[harmonics_spectrum_index(m, 0, part, pair_count) + j];
+            o[part] = job->in->spectra[harmonics_spectrum_index(m, 1, part, pair_count) + j];
         }
+        re[m] = (float8){e[0] + o[0], e[2] + o[2], e[4] + o[4], 0.0f,
+                         e[0] - o[0], e[2] - o[2], e[4] - o[4], 0.0f};
+        im[m] = (float8){e[1] + o[1], e[3] + o[3], e[5] + o[5], 0.0f,
+                         e[1] - o[1], e[3] - o[3], e[5] - o[5], 0.0f};
     }
 }
 
+/* Adds and subtracts the values of even and odd degrees of GREY_ROWS rows. */
+INLINE void join_parities(const float *even, const float *odd, float8 *out)
+{
+    float4 e, o;
+    memcpy(&e, even, sizeof e);
+    memcpy(&o, odd, sizeof o);
+    const float4 north = e + o, south = e - o;
+    memcpy(out, &north, sizeof north);
+    memcpy((float *)out + GREY_ROWS, &south, sizeof south);
+}
+
+/* The same for GREY_ROWS pairs of rows from j on; the number of pairs is a multiple of that. */
+INLINE void read_grey_waves(const synthesis *job, uint32_t j, float8 *re, float8 *im)
+{
+    const uint32_t pair_count = job->desc->degree;
+    for (uint32_t m = 0; m <= job->desc->degree; m++) {
+        const float *even = job->in->spectra + harmonics_spectrum_index(m, 0, 0, pair_count) + j;
+        const float *odd = job->in->spectra + harmonics_spectrum_index(m, 1, 0, pair_count) + j;
+        join_parities(even, odd, &re[m]);
+        join_parities(even + pair_count, odd + pair_count, &im[m]);
+    }
+}
+
+/* Stores lanes of the transformed row as row y of the grid. */
+INLINE void store_grid_row(const synthesis *job, const float8 *row, uint32_t y, const uint32_t lanes[3])
+{
+    const rgbx mean = {job->in->mean[0], job->in->mean[1], job->in->mean[2], 0.0f};
+    const int width = (int)job->width;
+    rgbx *out = grid_texel(job, 0, (int)y);
+    for (int x = 0; x < width; x++)
+        out[x] = (rgbx){row[x][lanes[0]], row[x][lanes[1]], row[x][lanes[2]], 0.0f} + mean;
+    for (int x = 1; x <= PAD; x++) {
+        out[-x] = out[width - x];
+        out[width + x - 1] = out[x - 1];
+    }
+}
+
+/* Items are pairs of rows, or groups of GREY_ROWS of them. */
 DISPATCH_AVX2 static void synthesise_rows(void *context, size_t begin, size_t end)
 {
+    static const uint32_t north[3] = {0, 1, 2}, south[3] = {4, 5, 6};
     const synthesis *job = context;
-    uint32_t pair_count = job->desc->degree;
-    int width = (int)job->width;
-    rgbx mean = {job->in->mean[0], job->in->mean[1], job->in->mean[2], 0.0f};
     float8 row[FOURIER_MAX], re[FOURIER_MAX / 2], im[FOURIER_MAX / 2];
     size_t used = (job->desc->degree + 1) * sizeof *re;
     memset((char *)re + used, 0, job->width / 2 * sizeof *re - used);
     memset((char *)im + used, 0, job->width / 2 * sizeof *im - used);
-    for (size_t j = begin; j < end; j++) {
-        for (uint32_t m = 0; m <= job->desc->degree; m++) {
-            float e[PARTS], o[PARTS];
-            for (uint32_t part = 0; part < PARTS; part++) {
-                e[part] = job->in->spectra[harmonics_spectrum_index(m, 0, part, pair_count) + j];
-                o[part] = job->in->spectra[harmonics_spectrum_index(m, 1, part, pair_count) + j];
-            }
-            re[m] = (float8){e[0] + o[0], e[2] + o[2], e[4] + o[4], 0.0f,
-                             e[0] - o[0], e[2] - o[2], e[4] - o[4], 0.0f};
-            im[m] = (float8){e[1] + o[1], e[3] + o[3], e[5] + o[5], 0.0f,
-                             e[1] - o[1], e[3] - o[3], e[5] - o[5], 0.0f};
+    for (uint32_t j = (uint32_t)begin; j < (uint32_t)end; j++) {
+        if (!job->in->is_grey) {
+            read_waves(job, j, re, im);
+            fourier_backward(&job->transform, re, im, row);
+            store_grid_row(job, row, j, north);
+            store_grid_row(job, row, job->height - 1 - j, south);
+            continue;
         }
+        read_grey_waves(job, GREY_ROWS * j, re, im);
         fourier_backward(&job->transform, re, im, row);
-        rgbx *north = grid_texel(job, 0, (int)j);
-        rgbx *south = grid_texel(job, 0, (int)job->height - 1 - (int)j);
-        for (int x = 0; x < width; x++) {
-            north[x] = (rgbx){row[x][0], row[x][1], row[x][2], 0.0f} + mean;
-            south[x] = (rgbx){row[x][4], row[x][5], row[x][6], 0.0f} + mean;
-        }
-        for (int x = 1; x <= PAD; x++) {
-            north[-x] = north[width - x];
-            north[width + x - 1] = north[x - 1];
-            south[-x] = south[width - x];
-            south[width + x - 1] = south[x - 1];
+        for (uint32_t i = 0; i < GREY_ROWS; i++) {
+            const uint32_t above[3] = {i, i, i}, below[3] = {GREY_ROWS + i, GREY_ROWS + i, GREY_ROWS + i};
+            store_grid_row(job, row, GREY_ROWS * j + i, above);
+            store_grid_row(job, row, job->height - 1 - (GREY_ROWS * j + i), below);
         }
     }
 }
@@ -160,7 +215,7 @@ static inline void cubic_weights(float f, float w[4])
 }
 
 /* Bicubic lookup at (u, v) from the padded corner of the grid. */
-static inline __attribute__((always_inline)) rgbx interpolate(const synthesis *job, float u, float v)
+INLINE rgbx interpolate(const synthesis *job, float u, float v)
 {
     size_t stride = (size_t)job->width + 2 * PAD;
     int u0 = (int)u;
@@ -240,7 +295,8 @@ facet_result harmonics_filter(harmonics *h, const harmonics_filter_desc *desc, c
     fourier_init(&job.transform, job.width);
     legendre_place(&job.rows, 0, degree, job.height);
     parallel_for(desc->thread_count, degree + 1, 4, synthesise_orders, &job);
-    parallel_for(desc->thread_count, degree, 8, synthesise_rows, &job);
+    parallel_for(desc->thread_count, h->is_grey ? degree / GREY_ROWS : degree, h->is_grey ? 8 / GREY_ROWS : 8,
+                 synthesise_rows, &job);
     fill_poles(&job);
     parallel_for(desc->thread_count, 6 * (size_t)desc->size, 16, fill_cube_rows, &job);
     cube_fill_borders(out);

@@ -22,6 +22,7 @@ facet_result studio_harmonics(const image *panorama, const facet_allocator *allo
     (void)thread_count;
     const size_t count = STUDIO_COEFFICIENTS;
     *out = (harmonics){.degree = STUDIO_DEGREE,
+                       .is_grey = true,
                        .column_count = table.column_count,
                        .mean = {table.mean, table.mean, table.mean},
                        .least = {table.least, table.least, table.least}};
