@@ -35,6 +35,7 @@ static facet_result find_texture_need(render_setup *p, facet_error *error)
                               .footprint = footprint,
                               .ogl1 = &desc->ogl1,
                               .opacity_footprint = fminf(footprint, opacity_footprint),
+                              .keeps_all_texels = desc->quality == FACET_QUALITY_FINAL,
                               .is_opacity_only = p->reads_opacity_only,
                               .thread_count = desc->thread_count};
     TRY(texture_need(scene, &p->prepared->geometries, &p->camera, &need, &desc->allocator, p->uses, error));

@@ -22,6 +22,12 @@ enum {
     IGNORED_PIXELS = 4
 };
 
+/* A mip coarser than a part of the image needs is used where its error stays below ERROR_CODES, the root mean square
+ * over the pixels that show the texture. An image and its next mip differ by 2 to 8 codes of 255 in most textures
+ * (data/models), and by less once they are shaded. Interpolating from the coarser mip alone loses that difference times
+ * the missing part of a level. */
+static const float ERROR_CODES = 0.5f, CODES_PER_LOD = 8.0f;
+
 /* Magnification by glass that is provided for, in mip levels. */
 static const float MAGNIFIED_LODS = 1.0f;
 
@@ -176,6 +182,7 @@ typedef struct reader_list {
     need_job *job;
     texture_use *uses;
     bool *must_be_whole; /* per texture */
+    bool *is_exact;      /* per texture: no coarser mip may replace another */
 } reader_list;
 
 static void add_reader(reader_list *list, const scene_texture_ref *ref, bool as_color, float footprint)
@@ -210,6 +217,7 @@ static void add_legacy_readers(reader_list *list, const texture_need_desc *desc)
         if (!(maps >> slot & 1))
             continue;
         bool is_opacity = slot == LEGACY_OPACITY_MAP || slot == LEGACY_DIFFUSE_MAP;
+        list->is_exact[m->maps[slot].ref.texture] |= is_opacity && g->is_see_through;
         add_reader(list, &m->maps[slot].ref, ogl1_map_is_color(m, slot, desc->ogl1->is_linear),
                    is_opacity && g->is_see_through ? desc->opacity_footprint : desc->footprint);
         if (ogl1_map_is_spherical(m, slot))
@@ -230,10 +238,13 @@ static void add_readers(reader_list *list, const texture_need_desc *desc)
     if (desc->is_opacity_only)
         textures &= g->is_see_through ? 1u << SCENE_BASE_COLOR_TEXTURE : 0u;
     for (int slot = 0; slot < SCENE_TEXTURE_SLOT_COUNT; slot++)
-        if (textures >> slot & 1)
+        if (textures >> slot & 1) {
+            list->is_exact[m->textures[slot].texture] |=
+                slot == SCENE_BASE_COLOR_TEXTURE && g->is_see_through;
             add_reader(list, &m->textures[slot], material_textures[slot].is_color,
                        slot == SCENE_BASE_COLOR_TEXTURE && g->is_see_through ? desc->opacity_footprint
                                                                              : desc->footprint);
+        }
 }
 
 /* The finest relevant lod. */
@@ -248,12 +259,31 @@ static float min_lod(const lod_histogram *h)
     return (float)(BIN_COUNT - 1) / (float)BINS_PER_LOD;
 }
 
+/* The coarsest level whose error is allowed, though some of the area needs a finer one. */
+static float allowed_lod(const lod_histogram *h)
+{
+    const float allowed = (ERROR_CODES / CODES_PER_LOD) * (ERROR_CODES / CODES_PER_LOD);
+    for (int level = 16; level > 0; level--) {
+        double area = 0.0, error = 0.0;
+        for (int bin = 0; bin < BIN_COUNT; bin++) {
+            const double a = (double)atomic_load(&h->bins[bin]);
+            const double missing = (double)level - (double)bin / BINS_PER_LOD;
+            area += a;
+            error += missing > 0.0 ? a * missing * missing : 0.0;
+        }
+        if (error <= (double)allowed * area)
+            return (float)level;
+    }
+    return 0.0f;
+}
+
 facet_result texture_need(const facet_scene *scene, const render_geometry_set *set, const camera_rays *camera,
                           const texture_need_desc *desc, const facet_allocator *allocator, texture_use *uses,
                           facet_error *error)
 {
     lod_histogram *histograms = mem_zalloc(allocator, scene->texture_count, sizeof *histograms);
-    bool *must_be_whole = mem_zalloc(allocator, scene->texture_count, sizeof *must_be_whole);
+    bool *must_be_whole = mem_zalloc(allocator, scene->texture_count, 2 * sizeof *must_be_whole);
+    bool *is_exact = must_be_whole + scene->texture_count;
     facet_result result = FACET_OK;
     if (!histograms || !must_be_whole) {
         result = fail_memory(error, "textures", scene->texture_count * sizeof *histograms);
@@ -273,14 +303,18 @@ facet_result texture_need(const facet_scene *scene, const render_geometry_set *s
                         .geometry = &set->items[i],
                         .is_seen_anywhere = is_seen_anywhere,
                         .histograms = histograms};
-        reader_list list = {.scene = scene, .job = &job, .uses = uses, .must_be_whole = must_be_whole};
+        reader_list list = {
+            .scene = scene, .job = &job, .uses = uses, .must_be_whole = must_be_whole, .is_exact = is_exact};
         add_readers(&list, desc);
         if (job.reader_count)
             parallel_for(desc->thread_count, job.geometry->primitive->index_count / 3, TRIANGLE_GRAIN,
                          count_triangles, &job);
     }
     for (uint32_t i = 0; i < scene->texture_count; i++)
-        uses[i].min_lod = must_be_whole[i] ? 0.0f : min_lod(&histograms[i]);
+        uses[i].min_lod = must_be_whole[i] ? 0.0f
+                          : is_exact[i] || desc->keeps_all_texels
+                              ? min_lod(&histograms[i])
+                              : max(min_lod(&histograms[i]), allowed_lod(&histograms[i]));
 done:
     mem_free(histograms);
     mem_free(must_be_whole);

@@ -29,15 +29,19 @@ static setup setup_create(void)
     return s;
 }
 
-static float lod_of(setup *s, float footprint)
+static float find_lod(setup *s, float footprint, bool keeps_all_texels)
 {
     facet_allocator allocator = {0};
     scene_pose pose;
     camera_rays camera;
     render_geometry_set set;
     texture_use use;
-    texture_need_desc desc = {
-        .width = 64, .height = 64, .footprint = footprint, .opacity_footprint = footprint, .thread_count = 2};
+    texture_need_desc desc = {.width = 64,
+                              .height = 64,
+                              .footprint = footprint,
+                              .opacity_footprint = footprint,
+                              .keeps_all_texels = keeps_all_texels,
+                              .thread_count = 2};
     assert_int_equal(scene_pose_create(s->f.scene, NULL, &allocator, 1, &pose, NULL), FACET_OK);
     assert_int_equal(camera_rays_create(&s->f.camera, 64, 64, &camera, NULL), FACET_OK);
     assert_int_equal(render_geometry_create(s->f.scene, &pose, &allocator, &set, NULL), FACET_OK);
@@ -47,6 +51,11 @@ static float lod_of(setup *s, float footprint)
     render_geometry_destroy(&set);
     scene_pose_destroy(&pose);
     return use.min_lod;
+}
+
+static float lod_of(setup *s, float footprint)
+{
+    return find_lod(s, footprint, false);
 }
 
 /* A bound, in steps of a quarter. */
@@ -100,6 +109,30 @@ static void the_nearest_vertex_counts(void **state)
     fixture_destroy(&s.f);
 }
 
+/* A spot of 2 % of the pixels that needs a finer mip: not where its error vanishes in the whole, but for coverage and
+ * where all texels are kept. */
+static void a_spot_may_be_less_sharp(void **state)
+{
+    (void)state;
+    setup s = setup_create();
+    scene_material close = *s.material;
+    uint32_t index = fixture_add_material(&s.f, close);
+    fixture_place(&s.f, fixture_add_quad(&s.f, index), 0.3f, 0.3f, 1.0f, 0.15f); /* 9.6 pixels */
+    s.material = &s.f.scene->materials[0];
+    scene_texture_ref *ref = &s.f.scene->materials[index].textures[SCENE_BASE_COLOR_TEXTURE];
+    ref->scale[0] = ref->scale[1] = 0.135f; /* 3.6 texels a pixel: lod 1.85 */
+    scene_texture_ref_update(ref);
+    assert_true(lod_of(&s, 1.0f) >= 2.0f);
+    assert_true(find_lod(&s, 1.0f, true) < 2.0f);
+    s.f.scene->materials[index].alpha_mode = SCENE_ALPHA_MASK;
+    assert_true(lod_of(&s, 1.0f) < 2.0f);
+    s.f.scene->materials[index].alpha_mode = SCENE_ALPHA_OPAQUE;
+    ref->scale[0] = ref->scale[1] = 0.05f; /* 1.3 texels a pixel: lod 0.4 */
+    scene_texture_ref_update(ref);
+    assert_true(lod_of(&s, 1.0f) < 1.0f);
+    fixture_destroy(&s.f);
+}
+
 static void what_cannot_be_seen_needs_nothing(void **state)
 {
     (void)state;
@@ -130,6 +163,7 @@ int main(void)
         cmocka_unit_test(the_lod_is_that_of_the_pixel),
         cmocka_unit_test(slanted_surfaces_are_read_as_finely),
         cmocka_unit_test(the_nearest_vertex_counts),
+        cmocka_unit_test(a_spot_may_be_less_sharp),
         cmocka_unit_test(what_cannot_be_seen_needs_nothing),
         cmocka_unit_test(samplers_without_mips_read_all),
     };
