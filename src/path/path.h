@@ -54,8 +54,8 @@ typedef struct path_camera_ray {
     float weight; /* of the sample, by the filter */
 } path_camera_ray;
 
-/* Takes two pairs of sampler, the pixel's and the lens's. */
-void path_sample_camera_ray(const path_scene *scene, path_sampler *sampler, uint32_t x, uint32_t y,
+/* u_pixel, u_lens: uniform in [0, 1)^2. */
+void path_sample_camera_ray(const path_scene *scene, vec2 u_pixel, vec2 u_lens, uint32_t x, uint32_t y,
                             path_camera_ray *out);
 
 /* Follows p from p->P in direction p->D until it ends; adds the radiance that it finds to p->L. hit and

@@ -65,13 +65,11 @@ static void normalize_ray(path_camera_ray *r)
     }
 }
 
-void path_sample_camera_ray(const path_scene *scene, path_sampler *sampler, uint32_t x, uint32_t y,
+void path_sample_camera_ray(const path_scene *scene, vec2 u_pixel, vec2 u_lens, uint32_t x, uint32_t y,
                             path_camera_ray *out)
 {
     const render_setup *setup = scene->setup;
     const facet_camera *camera = setup->desc->camera;
-    vec2 u_pixel = path_sampler_pair(sampler);
-    vec2 u_lens = path_sampler_pair(sampler);
     FilterSample f = sample_pixel_filter((int)setup->desc->path.filter, u_pixel);
     out->weight = f.weight;
     out->spread = setup->shading.camera_spread;
@@ -217,10 +215,9 @@ static path start(const path_scene *scene, const path_camera_ray *camera, path_s
                   .out = out};
 }
 
-static ray_first trace_first(path *p, const path_camera_ray *camera)
+static ray_first trace_first(path *p, const path_camera_ray *camera, float u_opacity)
 {
-    ray_first first =
-        ray_trace_first(&p->scene->setup->shading, &camera->ray, path_sampler_number(&p->sampler));
+    ray_first first = ray_trace_first(&p->scene->setup->shading, &camera->ray, u_opacity);
     p->out->rays += first.rays;
     p->out->first_geometry = first.hit.geometry;
     p->out->first_share = first.opacity * camera->weight;
@@ -228,12 +225,10 @@ static ray_first trace_first(path *p, const path_camera_ray *camera)
 }
 
 /* A camera inside of a medium: all that it sees is seen through the medium. */
-static void trace_inside(path *p, const path_camera_ray *camera)
+static void trace_inside(path *p, const path_camera_ray *camera, float u_opacity)
 {
-    path_sampler sampler = p->sampler;
     if (p->scene->finds_first)
-        trace_first(p, camera);
-    p->sampler = sampler; /* the path is the same one */
+        trace_first(p, camera, u_opacity);
     path_walk(p, NULL, NULL);
     p->out->opacity = 1.0f;
 }
@@ -248,9 +243,9 @@ static void add_air(path *p, const path_camera_ray *camera, const ray_first *fir
     p->L = surface->through_air(surface->self, load3(d), first->hit.t, height, radiance) * first->opacity;
 }
 
-static void trace_outside(path *p, const path_camera_ray *camera)
+static void trace_outside(path *p, const path_camera_ray *camera, float u_opacity)
 {
-    ray_first first = trace_first(p, camera);
+    ray_first first = trace_first(p, camera, u_opacity);
     p->out->opacity = first.opacity;
     p->beta = vec3(first.opacity);
     if (!(first.opacity > 0.0f))
@@ -265,16 +260,18 @@ void path_trace(const path_scene *scene, uint32_t x, uint32_t y, uint32_t index,
     memset(out, 0, sizeof *out);
     path_sampler sampler = path_sampler_start(scene->setup->desc->path.seed, x, y, index);
     path_sampler_begin(&sampler, 0);
+    vec2 pairs[PATH_SAMPLER_PAIRS];
+    path_sampler_vertex_pairs(&sampler, pairs); /* of the pixel, of the lens, one for opacity */
     path_camera_ray camera;
-    path_sample_camera_ray(scene, &sampler, x, y, &camera);
+    path_sample_camera_ray(scene, pairs[0], pairs[1], x, y, &camera);
     path_lights_view views[2];
     path p = start(scene, &camera, sampler, views, out);
     out->rays += media_at(&scene->setup->shading, camera.ray.origin, &p.media);
     p.is_in_medium = scene->surface && scene->surface->has_camera;
     if (p.media.count || p.is_in_medium)
-        trace_inside(&p, &camera);
+        trace_inside(&p, &camera, pairs[2][0]);
     else
-        trace_outside(&p, &camera);
+        trace_outside(&p, &camera, pairs[2][0]);
     vec3 ground;
     if (out->opacity < 1.0f &&
         hits_ground(scene, load3(camera.ray.origin), load3(camera.ray.direction), &ground)) {

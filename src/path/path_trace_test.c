@@ -601,7 +601,8 @@ static void lens_rays_meet_in_focus(void **state)
         for (uint32_t i = 0; i < 256; i++) {
             path_sampler sampler = path_sampler_start(0, 4, 4, i);
             path_camera_ray r;
-            path_sample_camera_ray(&s.scene, &sampler, 4, 4, &r);
+            vec2 u_pixel = path_sampler_pair(&sampler);
+            path_sample_camera_ray(&s.scene, u_pixel, path_sampler_pair(&sampler), 4, 4, &r);
             vec3 D = load3(r.ray.direction);
             vec3 P = load3(r.ray.origin);
             assert_near((double)length(D), 1.0, 1e-6);
