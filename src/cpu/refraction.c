@@ -119,6 +119,15 @@ static void end(tracer *t, branch *b)
     t->radiance += b->weight * environment_seen(t->scene, b);
 }
 
+/* Ends a ray that is not followed to the boundaries around it: each would tint it once. Without their colors glass
+ * with many inner reflections (a high ior, a rough surface) is too pale. */
+static void cut(tracer *t, branch *b)
+{
+    for (uint32_t i = 0; i < b->media.count; i++)
+        b->weight *= load3(b->media.volumes[i].material->base_color);
+    end(t, b);
+}
+
 static void follow_later(tracer *t, const branch *b)
 {
     if (t->pending_count < MAX_PENDING) {
@@ -127,7 +136,7 @@ static void follow_later(tracer *t, const branch *b)
     }
     branch last = *b;
     last.ray.spread = &last.spread;
-    end(t, &last);
+    cut(t, &last);
 }
 
 /* ---- the boundary ---- */
@@ -377,7 +386,7 @@ static void follow_all(tracer *t)
         t->pending[heaviest] = t->pending[--t->pending_count];
         b.ray.spread = &b.spread;
         if (t->budget == 0 || b.depth > DEPTH || max3(b.weight) < t->least_weight) {
-            end(t, &b);
+            cut(t, &b);
         } else {
             t->budget--;
             follow(t, &b);
