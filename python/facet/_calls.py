@@ -2,7 +2,8 @@
 
 A long call runs in a thread of its own while the main thread waits. Python delivers Ctrl-C to the main thread only; were
 the call there, KeyboardInterrupt could strike inside of the progress callback, where ctypes drops it. The thread that waits
-can be interrupted at any time: it tells the callback to cancel, waits for the call to end, and raises.
+can be interrupted at any time: it tells the callback to cancel, waits a moment for the call to end, and raises. A call that goes
+on, as it has no progress or reports it rarely, keeps what it needs and releases what it makes.
 """
 import threading
 import warnings
@@ -13,6 +14,7 @@ from . import _api
 from ._library import FacetWarning
 
 _REPORT = dict(_api.facet_progress._fields_)["report"]
+_PATIENCE_S = 0.3
 _MESSAGE = dict(_api.facet_log._fields_)["message"]
 
 
@@ -84,8 +86,8 @@ class Call:
             self.stopped = True
             try:
                 if self.can_stop:
-                    ended.wait()
-            finally:  # a call without progress callback, or a second Ctrl-C: its thread releases what it makes
+                    ended.wait(_PATIENCE_S)
+            finally:
                 abandoned.set()
                 if ended.is_set():
                     self._release(outcome, discard)
@@ -119,6 +121,7 @@ class _Owner:
     def __init__(self, pointer, destroy, needs):
         self.pointer = pointer
         self.release = weakref.finalize(self, _destroy, destroy, pointer, needs)
+        self.release.atexit = False  # a call that was interrupted may still use it; the system takes the memory back
         self.lock = threading.Lock()
         self.readers, self.is_changing = 0, False
 

@@ -25,7 +25,7 @@ scene = facet.Scene.from_arrays(
     material={
         "base_color_texture": {"image": checks, "mag_filter": "nearest"},
         "metallic": 0,
-        "perceptual_roughness": 0.35,
+        "perceptual_roughness": 0.3,
         "is_double_sided": True,
     },
 )
@@ -34,9 +34,10 @@ image = scene.render(
     renderer="path",
     samples=64,
     path={"denoises": True},
-    camera=facet.Orbit(azimuth_rad=0.6, polar_rad=1.05),
-    sun={"azimuth_rad": 1.8, "elevation_rad": 0.7, "illuminance_lux": (4, 3.7, 3.2)},
-    environment_ev=-1,
+    camera=facet.Orbit(azimuth_rad=0.6, polar_rad=1.05, radius_scale=0.9),
+    sun={"azimuth_rad": 1.8, "elevation_rad": 0.7, "illuminance_lux": (2.2, 2.0, 1.7)},
+    environment_ev=-1.2,
+    ground="shadow",
     background="white",
 )
 image.save(sys.argv[1])
