@@ -5,6 +5,8 @@ the call there, KeyboardInterrupt could strike inside of the progress callback, 
 can be interrupted at any time: it tells the callback to cancel, waits a moment for the call to end, and raises. A call that goes
 on, as it has no progress or reports it rarely, keeps what it needs and releases what it makes.
 """
+import os
+import sys
 import threading
 import warnings
 import weakref
@@ -15,6 +17,7 @@ from ._library import FacetWarning
 
 _REPORT = dict(_api.facet_progress._fields_)["report"]
 _PATIENCE_S = 0.3
+_PACKAGE = os.path.dirname(__file__)
 _MESSAGE = dict(_api.facet_log._fields_)["message"]
 
 
@@ -65,7 +68,7 @@ class Call:
             _discard(discard, result)
             raise self.error from None
         for text in self.messages:
-            warnings.warn(text, FacetWarning, stacklevel=4)
+            warnings.warn(text, FacetWarning, stacklevel=_caller())
         if error is not None:
             raise error
         return result
@@ -100,6 +103,14 @@ class Call:
         with Call._lock:
             result, _ = outcome.pop() if outcome else (None, None)
         _discard(discard, result)
+
+
+def _caller():
+    """The stack level of the code that called the package, as seen from the function that calls this one."""
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back is not None and os.path.dirname(frame.f_code.co_filename) == _PACKAGE:
+        level, frame = level + 1, frame.f_back
+    return level
 
 
 def _outcome(work):

@@ -184,7 +184,7 @@ class Image(Handle):
             return take_bytes(C.image_encode, pointer, desc)
 
     def id_colors(self, layer):
-        """A layer of IDs, 'object', 'material' or 'instance', in false color."""
+        """A layer of IDs, 'object' or 'material', in false color; the image also needs the layer 'instance'."""
         with self._reading() as pointer:
             return Image._adopt(create(C.image_create_id_colors, pointer, layer.encode(), None))
 

@@ -7,6 +7,7 @@ import pathlib
 import re
 import shutil
 import subprocess
+import sys
 
 import facet
 import pytest
@@ -103,6 +104,14 @@ def test_types_of_the_examples(tmp_path):
     result = subprocess.run(["mypy", "--strict", "--cache-dir", tmp_path, *examples],
                             env={**os.environ, "MYPYPATH": str(PACKAGE.parent)}, capture_output=True, text=True)
     assert result.returncode == 0, result.stdout
+
+
+def test_the_page_runs(tmp_path):
+    top = pathlib.Path(os.environ["FACET_TEST_TOP"])
+    subprocess.run([sys.executable, top / "docs/examples/python/page.py", top / "docs/python.md", tmp_path / "page"], check=True)
+    written = {path.stem for path in (tmp_path / "page").glob("*.jpg")}
+    shown = set(re.findall(r"pictures/python_(\w+)\.jpg", (top / "docs/python.md").read_text()))
+    assert written == shown
 
 
 def test_errors_name_what_they_are():

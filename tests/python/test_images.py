@@ -142,8 +142,9 @@ def test_keywords_that_are_nearly_right(scene):
 
 def test_warnings_are_pythons(tmp_path):
     (tmp_path / "a.obj").write_text("mtllib missing.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n")
-    with pytest.warns(facet.FacetWarning, match="missing.mtl"):
+    with pytest.warns(facet.FacetWarning, match="missing.mtl") as caught:
         facet.load(tmp_path / "a.obj")
+    assert caught[0].filename == __file__
     messages = []
     with warnings.catch_warnings():
         warnings.simplefilter("error")
