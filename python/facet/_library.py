@@ -85,9 +85,22 @@ def _candidates():
     return [str(place) for place in places if place.exists()] + [_api.SONAME]
 
 
+def _load_libraries_of_wheel():
+    """Loads the libraries that libfacet of a wheel needs. The dynamic linker then finds them by their names."""
+    folder = pathlib.Path(__file__).resolve().parent / "libs"
+    if (folder / "order").exists():
+        for name in (folder / "order").read_text().split():
+            _kept.append(ctypes.CDLL(str(folder / name)))
+
+
+_kept = []
+
+
 def _open():
     path = _candidates()[0]
     try:
+        if not os.environ.get("FACET_LIBRARY"):
+            _load_libraries_of_wheel()
         library = ctypes.CDLL(path)
         library.facet_version.restype = ctypes.c_char_p
     except (OSError, AttributeError) as error:

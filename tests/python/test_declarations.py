@@ -8,6 +8,7 @@ import re
 import shutil
 import subprocess
 import sys
+import zipfile
 
 import facet
 import pytest
@@ -135,6 +136,24 @@ def test_another_minor_version_is_refused(tmp_path, script):
 def test_a_missing_library_is_named(script):
     result = script("import facet", FACET_LIBRARY="/nowhere/libfacet.so")
     assert "libfacet cannot be opened" in result.stderr and "FACET_LIBRARY" in result.stderr
+
+
+@pytest.mark.skipif(not shutil.which("ldd"), reason="no ldd")
+def test_a_wheel_brings_its_libraries(tmp_path, script):
+    top = pathlib.Path(os.environ["FACET_TEST_TOP"])
+    made = subprocess.run([sys.executable, top / "python/wheel.py", PACKAGE.parent.parent, tmp_path / "wheel"], check=True,
+                          capture_output=True, text=True).stdout.strip()
+    with zipfile.ZipFile(made) as wheel:
+        assert wheel.testzip() is None
+        wheel.extractall(tmp_path / "site")
+    result = script("""
+import re
+import facet
+assert len(facet.Scene.builtin().render(size=16, samples=1).encode("png")) > 100
+print(sorted(set(re.findall(r"(\\S*libembree\\S*)", open("/proc/self/maps").read()))))
+""", FACET_LIBRARY="", PYTHONPATH=str(tmp_path / "site"))
+    assert result.returncode == 0, result.stderr
+    assert f"{tmp_path}/site/facet/libs/libembree" in result.stdout and "/usr/lib" not in result.stdout
 
 
 def test_numpy_is_optional(script):
