@@ -44,6 +44,7 @@ static const struct {
     {"view.md", "the window: keys, mouse, scripts; web pages"},
     {"shaders.md", "the shader library as GLSL for other renderers"},
     {"c-api.md", "the library, by example"},
+    {"python.md", "the same from Python, with numpy"},
     {"packaging.md", "packages, thumbnails in file managers, containers, releases"},
     {"security.md", "untrusted files: what holds, and limits"},
     {"comparison.md", "facet compared with other renderers"},
