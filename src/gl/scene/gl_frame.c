@@ -156,6 +156,16 @@ static uint64_t count_decoded_texels(const gl_frame *f)
     return gl_material_decoded_texels(f->materials) + (f->phong ? gl_phong_decoded_texels(f->phong) : 0);
 }
 
+/* Rays through glass take seconds where the driver draws on the CPU: a window there keeps to drafts. */
+static bool traces_rays(const gl_frame *f, const facet_render_desc *desc)
+{
+    static const char *const on_cpu[] = {"llvmpipe", "softpipe", "SwiftShader"};
+    for (size_t i = 0; i < sizeof on_cpu / sizeof *on_cpu; i++)
+        if (f->use != GL_FRAME_IMAGE && strstr(f->context->name, on_cpu[i]))
+            return false;
+    return desc->quality != FACET_QUALITY_DRAFT;
+}
+
 facet_result gl_frame_update(gl_frame *f, const gl_scene *scene, const camera_rays *camera,
                              const facet_render_desc *desc, facet_render_stats *stats, facet_error *error)
 {
@@ -180,7 +190,7 @@ facet_result gl_frame_update(gl_frame *f, const gl_scene *scene, const camera_ra
         result = gl_material_update(f->materials, f->meshes, desc, error);
     if (result == FACET_OK)
         result = update_phong(f, &(gl_phong_view){scene, camera, &light, f->meshes, desc}, error);
-    f->is_traced = desc->quality != FACET_QUALITY_DRAFT;
+    f->is_traced = traces_rays(f, desc);
     if (result == FACET_OK)
         result = gl_rays_update(&f->rays, scene, f->materials,
                                 f->is_traced && has_pass(f, GL_PASS_TRANSMISSIVE), &desc->log, error);

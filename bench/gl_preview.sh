@@ -1,0 +1,25 @@
+#!/bin/sh
+# gl_preview.sh - the difference of OpenGL's images from the preview's, model by model: mean of 8-bit codes as rendered by
+# default, and with 64 samples at --quality final, which leaves out what antialiasing does. The table of docs/gl.md.
+#     bench/gl_preview.sh FACET FOLDER      every .glb and .gltf below FOLDER, worst first
+set -eu
+facet=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+difference() # MODEL OPTIONS...
+{
+    model=$1
+    shift
+    for renderer in preview gl; do
+        "$facet" render "$model" -o "$work/$renderer.png" --size 256x256 --renderer $renderer -q "$@" || return 0
+    done
+    "$facet" compare "$work/preview.png" "$work/gl.png" --json |
+        sed -n 's/.*"mae": \([^,]*\),.*/\1/p' | awk '{ printf "%.2f", 255 * $1 }'
+}
+find "$2" -name '*.glb' -o -name '*.gltf' | sort | while IFS= read -r model; do
+    mean=$(difference "$model")
+    [ -n "$mean" ] || continue # not a model that can be drawn
+    final=-
+    awk "BEGIN { exit !($mean < 1) }" || final=$(difference "$model" --samples 64 --quality final)
+    printf '| %s | %s | %s |\n' "$(basename "$model")" "$mean" "$final"
+done | sort -t '|' -k 3 -rn
