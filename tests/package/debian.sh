@@ -6,6 +6,7 @@ fail() {
     echo "debian: $*"
     exit 1
 }
+[ -d "$here/debian" ] || { echo "debian: a release has no folder debian"; exit 77; }
 version=$(sh "$here/packaging/version.sh")
 revision=$(sed -n '1s/.*(\(.*\)).*/\1/p' "$here/debian/changelog")
 [ "${revision%-*}" = "$version" ] || fail "debian/changelog begins with $revision, include/facet/base.h has $version"
