@@ -8,6 +8,7 @@ const int RAYS_WAITING = 4;     /* branches that are followed later */
 const int RAYS_ROUGH = 4;       /* samples of a rough surface */
 const int RAYS_COLORS = 8;      /* of a dispersive one */
 const float RAYS_LEAST = 0.02;  /* share of a branch that is followed */
+const float RAYS_BLURRED = 3.0; /* factor on it behind a rough surface: excludes the inner reflection of one boundary */
 const float RAYS_SMOOTH = 0.0125; /* GGX width up to which one ray in the middle of the lobe suffices */
 
 /* A ray to be traced: refraction.c. media: materials plus 1 of the volumes that it is in, the last entered first. */
@@ -319,8 +320,8 @@ bool meet(RayHit hit, int sample_index, int samples, float shift, float share, i
     return true;
 }
 
-/* Radiance along a ray. */
-vec3 follow_ray(Branch b, int sample_index, int samples, float shift, float share)
+/* Radiance along a ray. least: weight of branches that are traced. */
+vec3 follow_ray(Branch b, int sample_index, int samples, float shift, float share, float least)
 {
     vec3 sum = vec3(0.0);
     Branch waiting[RAYS_WAITING];
@@ -341,7 +342,7 @@ vec3 follow_ray(Branch b, int sample_index, int samples, float shift, float shar
             goes_on = meet(hit, sample_index, samples, shift, share, b, other, sum);
             float weight = max3(other.weight);
             if (weight > 0.0 && count < RAYS_WAITING) {
-                other.ends = weight < RAYS_LEAST * share;
+                other.ends = weight < least;
                 waiting[count++] = other;
             } else {
                 b.weight += other.weight;
@@ -419,6 +420,7 @@ vec3 traced_light(Layers m, vec3 V)
     samples = max(samples, RAYS_COLORS);
 #endif
     float share = is_rough ? min(4.0 / float(samples), 1.0) : 1.0;
+    float least = RAYS_LEAST * (is_rough ? RAYS_BLURRED : 1.0);
     RayPoint p = first_point(m, V);
     vec3 sum = vec3(0.0), weights = vec3(0.0);
     for (int i = 0; i < samples; i++) {
@@ -430,7 +432,7 @@ vec3 traced_light(Layers m, vec3 V)
         weight = color_weight(shift);
 #endif
         Branch b = first_branch(p, V, H, alpha * alpha * share, shift);
-        sum += weight * follow_ray(b, i, samples, shift, share);
+        sum += weight * follow_ray(b, i, samples, shift, share, least);
         weights += weight;
     }
     return sum / weights;
