@@ -320,6 +320,15 @@ bool meet(RayHit hit, int sample_index, int samples, float shift, float share, i
     return true;
 }
 
+/* The colors of the boundaries that a ray in these volumes has yet to leave through. */
+vec3 exit_tint(ivec4 media)
+{
+    vec3 tint = vec3(1.0);
+    for (; media.x != 0; media = ivec4(media.yzw, 0))
+        tint *= rays_texel(rays_row(media.x - 1)).xyz;
+    return tint;
+}
+
 /* Radiance along a ray. least: weight of branches that are traced. */
 vec3 follow_ray(Branch b, int sample_index, int samples, float shift, float share, float least)
 {
@@ -330,6 +339,8 @@ vec3 follow_ray(Branch b, int sample_index, int samples, float shift, float shar
         RayHit hit = RayHit(-1, 0.0, vec2(0.0));
         if (!b.ends && i < RAYS_BUDGET)
             hit = trace_ray(b.O, b.D, 1e30, false);
+        else
+            b.weight *= exit_tint(b.media);
         bool goes_on = false;
         /* in a volume without exit, at the material's thickness */
         float t = hit.triangle < 0 && b.media.x != 0 ? rays_texel(rays_row(b.media.x - 1) + 6).x : hit.t;
