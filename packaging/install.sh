@@ -39,7 +39,7 @@ used='facet render -o b.png --size 64 --renderer gl && test -s b.png && facet-th
 step "OpenGL, a thumbnail, Python" "$used"
 step "upgrade" "$apt install ./upgrade/*.deb"
 step "the same after it" "$used"
-step "upgrade of the library alone again, with the old module" "$apt --allow-downgrades install ./packages/*.deb"
+step "back to the former revision" "$apt --allow-downgrades install ./packages/*.deb"
 step "purge" "$apt purge facet libfacet0 libfacet-dev facet-gl facet-doc python3-facet facet-thumbnailer"
 left=$(find "$system/usr" "$system/etc" "$system/var/lib" -name '*facet*' ! -path '*/dpkg/*' ! -path '*/apt/*' | head)
 [ -z "$left" ] || { echo "install: left behind: $left"; exit 1; }
