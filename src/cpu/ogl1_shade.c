@@ -314,6 +314,7 @@ void ogl1_shade(const shading_scene *scene, const shading_point *point, shading_
     PhongColor c = ogl1_fragment(&p);
     store3(c.rgb, out->radiance);
     out->opacity = c.opacity;
+    out->behind = 0.0f;
     out->rays = 0;
 }
 

@@ -199,6 +199,7 @@ static void shade_centroid(pixel_resolver *r, uint32_t x, uint32_t y, visibility
     bool is_blended =
         r->scene->ogl1 || r->scene->geometries->items[hit.geometry].material->alpha_mode == SCENE_ALPHA_BLEND;
     s->opacity = is_blended ? result.opacity : 1.0f;
+    s->behind = result.behind;
 }
 
 /* Shades a surface at the centroid of its samples on one triangle, the one in the middle: inside the
@@ -261,6 +262,7 @@ static void composite(const pixel_resolver *r, float rgba[4])
 {
     float sum[3] = {0.0f};
     float passed_sum = 0.0f; /* transmittance of all layers, over the samples that hit */
+    float behind_sum = 0.0f; /* background that is seen through glass */
     uint32_t hit_samples = 0;
     for (size_t i = 0; i < r->fragment_count;) {
         uint32_t sample = r->fragments[i].sample;
@@ -270,6 +272,7 @@ static void composite(const pixel_resolver *r, float rgba[4])
             float weight = passed * s->opacity;
             for (int c = 0; c < 3; c++)
                 sum[c] += weight * s->radiance[c];
+            behind_sum += weight * s->behind;
             passed *= 1.0f - s->opacity;
         }
         passed_sum += passed;
@@ -278,7 +281,7 @@ static void composite(const pixel_resolver *r, float rgba[4])
     float n = (float)r->pattern->sample_count;
     for (int c = 0; c < 3; c++)
         rgba[c] = sum[c] / n;
-    rgba[3] = ((float)hit_samples - passed_sum) / n;
+    rgba[3] = ((float)hit_samples - passed_sum - behind_sum) / n;
 }
 
 void pixel_add_background(const shading_scene *scene, float blur, float scale, uint32_t x, uint32_t y,

@@ -22,6 +22,7 @@ typedef struct pixel_surface {
     float middle[2]; /* of its samples, pixels from the pixel's top left */
     float radiance[3];
     float opacity;
+    float behind; /* share of the background that is seen through it */
 } pixel_surface;
 
 /* The state of one thread that resolves pixels one after the other. */

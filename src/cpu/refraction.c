@@ -32,8 +32,9 @@ typedef struct branch {
     float alpha2; /* squared GGX width of the lobe of directions around it */
     /* shift of the ior: -1 red, 0 green, 1 blue (dispersion.h), and between and beyond */
     float shift;
-    bool is_white;  /* carries all wavelengths: dispersion has not split it */
-    uint32_t depth; /* surfaces before it */
+    bool is_white;     /* carries all wavelengths: dispersion has not split it */
+    bool is_reflected; /* inside of glass; others see the backdrop */
+    uint32_t depth;    /* surfaces before it */
 } branch;
 
 typedef struct tracer {
@@ -44,6 +45,7 @@ typedef struct tracer {
     uint32_t budget;
     uint64_t rays;
     vec3 radiance;
+    vec3 behind, unseen; /* weight of rays to the backdrop, and the environment's radiance along them */
     uint32_t pending_count;
     branch pending[MAX_PENDING];
 } tracer;
@@ -116,7 +118,13 @@ static void end(tracer *t, branch *b)
 {
     if (b->media.count)
         travel(t, b, b->media.volumes[b->media.count - 1].thickness_m);
-    t->radiance += b->weight * environment_seen(t->scene, b);
+    vec3 seen = b->weight * environment_seen(t->scene, b);
+    if (t->scene->backdrop == SHADING_BACKDROP_ENVIRONMENT || b->is_reflected) {
+        t->radiance += seen;
+        return;
+    }
+    t->behind += b->weight;
+    t->unseen += seen;
 }
 
 /* Ends a ray that is not followed to the boundaries around it: each would tint it once. Without their colors glass
@@ -247,6 +255,7 @@ static void reflect_back(tracer *t, const branch *b, const boundary *y, vec3 wei
 {
     bundle_ray bundle = ray_bundle_reflect(&y->bundle, y->H);
     branch c = child_of(b, y, 1.0f, bundle, weight, b->alpha2 + y->alpha * y->alpha * share_of(t, b));
+    c.is_reflected = true;
     follow_later(t, &c);
 }
 
@@ -455,12 +464,26 @@ static vec3 color_sum(const split *p, const shading_point *point)
     return sum;
 }
 
-uint64_t refraction_shade(const shading_scene *scene, const shading_point *point, const surface_point *s,
-                          float radiance[3])
+/* What a tracer has found. */
+static void conclude(const tracer *t, shading_result *out)
+{
+    float behind[3];
+    float unseen[3];
+    store3(t->radiance, out->radiance);
+    store3(t->behind, behind);
+    store3(t->unseen, unseen);
+    out->behind = t->scene->backdrop == SHADING_BACKDROP_ENVIRONMENT
+                      ? 0.0f
+                      : shading_show_backdrop(t->scene, behind, unseen, out->radiance);
+    out->rays = t->rays;
+}
+
+void refraction_shade(const shading_scene *scene, const shading_point *point, const surface_point *s,
+                      shading_result *out)
 {
     split p = choose_split(scene, s, point->shade_count);
     branch first = {.ray = *point->ray, .is_white = true};
-    tracer t = {.scene = scene, .radiance = vec3(0.0f)};
+    tracer t = {.scene = scene, .radiance = vec3(0.0f), .behind = vec3(0.0f), .unseen = vec3(0.0f)};
     vec3 weight = vec3(1.0f);
     if (is_outer_surface(&first, s)) {
         surface_light light = surface_light_at(scene, s);
@@ -491,6 +514,5 @@ uint64_t refraction_shade(const shading_scene *scene, const shading_point *point
         let_through(&t, &b, &y, b.weight);
         follow_all(&t);
     }
-    store3(t.radiance, radiance);
-    return t.rays;
+    conclude(&t, out);
 }

@@ -7,8 +7,8 @@
  * reflections; the rest reads the environment, prefiltered for the lobe that the ray represents. All shares
  * add up to 1, so that in a constant environment glass has exactly its color.
  *
- * Rays without a hit see the environment, also where the image's background is transparent or a color:
- * glass is opaque in the image (glTF's alpha is coverage). Delta lights are not visible through volumes;
+ * Rays without a hit that were only refracted see the background of the image: where that is transparent or a color,
+ * glass lacks opacity. Others see the environment. Delta lights are not visible through volumes;
  * they light what is behind unshadowed. */
 #ifndef CPU_REFRACTION_H
 #define CPU_REFRACTION_H
@@ -17,9 +17,9 @@
 
 struct surface_point;
 
-/* Radiance (cd/m^2) of a surface with LAYER_TRANSMISSION, with reflection and emission. Returns the number
- * of rays. */
-uint64_t refraction_shade(const shading_scene *scene, const shading_point *point,
-                          const struct surface_point *s, float radiance[3]);
+/* Radiance (cd/m^2) of a surface with LAYER_TRANSMISSION, with reflection and emission; sets all of out but the
+ * opacity. */
+void refraction_shade(const shading_scene *scene, const shading_point *point, const struct surface_point *s,
+                      shading_result *out);
 
 #endif

@@ -194,6 +194,12 @@ static void set_options(shading_scene *scene, const facet_render_desc *desc)
     scene->quality = desc->quality;
     scene->has_specular_antialiasing = desc->has_specular_antialiasing;
     scene->background_blur = desc->background == FACET_BACKGROUND_ENVIRONMENT ? desc->background_blur : 0.0f;
+    scene->backdrop = desc->sea || desc->background == FACET_BACKGROUND_ENVIRONMENT
+                          ? SHADING_BACKDROP_ENVIRONMENT
+                      : desc->background == FACET_BACKGROUND_COLOR ? SHADING_BACKDROP_COLOR
+                                                                   : SHADING_BACKDROP_NONE;
+    for (int i = 0; i < 3; i++)
+        scene->backdrop_color[i] = desc->background_color[i] * exp2f(-desc->exposure_ev);
 }
 
 facet_result render_setup_create(render_setup *p, facet_error *error)

@@ -6,6 +6,21 @@
 #include "cpu/surface_light.h"
 #include "cpu/surface_point.h"
 
+float shading_show_backdrop(const shading_scene *scene, const float transmittance[3], const float unseen[3],
+                            float radiance[3])
+{
+    vec3 T = load3(transmittance);
+    float behind = clamp(min(T[0], min(T[1], T[2])), 0.0f, 1.0f);
+    for (int c = 0; c < 3; c++) {
+        float colored = T[c] - behind;
+        if (!(colored > 0.0f))
+            continue;
+        radiance[c] += scene->backdrop == SHADING_BACKDROP_COLOR ? colored * scene->backdrop_color[c]
+                                                                 : unseen[c] * (colored / T[c]);
+    }
+    return behind;
+}
+
 void shading_describe(const shading_scene *scene, const shading_point *point, shading_description *out)
 {
     if (scene->ogl1) {
@@ -32,9 +47,10 @@ void shading_shade(const shading_scene *scene, const shading_point *point, shadi
     surface_point_make(scene, point, &s);
     out->opacity = surface_opacity(s.hit.geometry->material, s.base_color[3]);
     if (s.m.layers & LAYER_TRANSMISSION) {
-        out->rays = refraction_shade(scene, point, &s, out->radiance);
+        refraction_shade(scene, point, &s, out);
         return;
     }
+    out->behind = 0.0f;
     surface_light light = surface_light_at(scene, &s);
     store3(light.radiance, out->radiance);
     out->rays = light.rays;

@@ -54,6 +54,14 @@ static inline shading_ray shading_ray_of_camera(const camera_rays *camera, const
 struct embree_scene; /* cpu/embree_scene.h */
 struct ogl1_setup;   /* draw/ogl1_setup.h */
 
+/* What is seen through glass by light that it has only refracted and that meets nothing behind: the background of the
+ * image, as compositing would show it. Reflections see the environment. */
+typedef enum shading_backdrop {
+    SHADING_BACKDROP_ENVIRONMENT,
+    SHADING_BACKDROP_NONE, /* transparent */
+    SHADING_BACKDROP_COLOR /* backdrop_color */
+} shading_backdrop;
+
 /* The scene as shading reads it; constant while an image is rendered. */
 typedef struct shading_scene {
     const render_geometry_set *geometries;
@@ -69,7 +77,17 @@ typedef struct shading_scene {
     bool has_specular_antialiasing;
     /* perceptual roughness of the environment where it is drawn; 0: sharp, or not drawn */
     float background_blur;
+    shading_backdrop backdrop;
+    float backdrop_color
+        [3]; /* cd/m^2 that are displayed as the color of the background, but for the tone curve */
 } shading_scene;
+
+/* Light from the backdrop, of which a transmittance arrives. What passes in all channels alike is a lack of opacity of
+ * the image; what a color of the glass leaves beyond that is seen against the background's color, or, where that is
+ * unknown, against the environment: its radiance through the glass, unseen. Adds that part to radiance and returns the
+ * lack of opacity. */
+float shading_show_backdrop(const shading_scene *scene, const float transmittance[3], const float unseen[3],
+                            float radiance[3]);
 
 /* A hit and its ray. */
 typedef struct shading_point {
@@ -83,6 +101,7 @@ typedef struct shading_point {
 typedef struct shading_result {
     float radiance[3]; /* cd/m^2 towards the camera; with ogl1 its color values */
     float opacity;     /* [0, 1] */
+    float behind;      /* share of the background that is seen through glass, [0, 1] */
     uint64_t rays;     /* traced for it */
 } shading_result;
 

@@ -37,6 +37,8 @@ typedef struct path {
     bool specular_bounce;
     bool is_shadow_lit; /* the ray passed transmissive surfaces whose light the straight shadow rays found */
     bool excludes_sun;  /* bsdf_sample.excludes_sun */
+    /* the path of the camera has only been transmitted by glass: it sees the backdrop where it meets nothing else */
+    bool sees_backdrop;
 
     /* the medium below scene->surface */
     bool is_in_medium;    /* P is in it */

@@ -211,6 +211,8 @@ static path start(const path_scene *scene, const path_camera_ray *camera, path_s
                   .cone_angle = rays->is_orthographic ? 0.0f : size,
                   .specular_bounce = true,
                   .seeks_features = true,
+                  .sees_backdrop =
+                      !scene->surface && scene->setup->shading.backdrop != SHADING_BACKDROP_ENVIRONMENT,
                   .views = views,
                   .out = out};
 }
@@ -229,8 +231,8 @@ static void trace_inside(path *p, const path_camera_ray *camera, float u_opacity
 {
     if (p->scene->finds_first)
         trace_first(p, camera, u_opacity);
-    path_walk(p, NULL, NULL);
     p->out->opacity = 1.0f;
+    path_walk(p, NULL, NULL);
 }
 
 /* The air between the camera and the first surface. */

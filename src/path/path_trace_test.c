@@ -409,6 +409,7 @@ static void cameras_may_be_inside_a_volume(void **state)
                   0.0f, 0.0f, 1.0f);
     s.f.camera.eye[2] = 0.0f;
     s.f.camera.target[2] = -1.0f;
+    s.f.desc.background = FACET_BACKGROUND_ENVIRONMENT;
     mean m = measure(&s);
     assert_near(m.radiance[0], 0.5, 0.002);
     assert_true(m.opacity == 1.0);
@@ -502,6 +503,7 @@ static void clear_volumes_lose_no_light(void **state)
         stage s;
         stage_begin(&s);
         set_sky(&s, 1.0f);
+        s.f.desc.background = FACET_BACKGROUND_ENVIRONMENT;
         float scale = SCALES[i].scale;
         float x = SCALES[i].x;
         fixture_place(&s.f, fixture_add_sphere(&s.f, 48, fixture_add_material(&s.f, glass(1.5f, 1.0f))), x,
@@ -512,6 +514,35 @@ static void clear_volumes_lose_no_light(void **state)
         s.f.desc.samples = 128;
         assert_near(measure(&s).radiance[0], 1.0, 1e-3);
         fixture_destroy(&s.f);
+    }
+}
+
+/* Glass lacks the opacity with which it shows the background: over light of the environment's radiance it looks as in
+ * front of the environment, rough or not. */
+static void glass_shows_the_background(void **state)
+{
+    (void)state;
+    for (int is_rough = 0; is_rough < 2; is_rough++) {
+        mean means[2];
+        for (int is_clear = 0; is_clear < 2; is_clear++) {
+            stage s;
+            stage_begin(&s);
+            set_sky(&s, 1.0f);
+            scene_material m = glass(1.5f, 0.6f);
+            m.perceptual_roughness = is_rough ? 0.4f : 0.0f;
+            fixture_place(&s.f, fixture_add_sphere(&s.f, 48, fixture_add_material(&s.f, m)), 0.0f, 0.0f, 0.0f,
+                          1.0f);
+            s.f.camera =
+                (facet_camera){.eye = {0.0f, 0.0f, 3.0f}, .target = {0.0f, 0.0f, 0.0f}, .ortho_height = 1.3f};
+            s.f.desc.background = is_clear ? FACET_BACKGROUND_TRANSPARENT : FACET_BACKGROUND_ENVIRONMENT;
+            s.f.desc.energy = FACET_ENERGY_CONSERVING;
+            s.f.desc.samples = 256;
+            means[is_clear] = measure(&s);
+            fixture_destroy(&s.f);
+        }
+        assert_true(means[0].opacity == 1.0);
+        assert_true(means[1].opacity > 0.1 && means[1].opacity < 0.8);
+        assert_near(means[1].radiance[0] + 1.0 - means[1].opacity, means[0].radiance[0], 0.01);
     }
 }
 
@@ -705,6 +736,7 @@ int main(void)
         cmocka_unit_test(dispersion_conserves_energy),
         cmocka_unit_test(closed_surfaces_block_all_light),
         cmocka_unit_test(clear_volumes_lose_no_light),
+        cmocka_unit_test(glass_shows_the_background),
         cmocka_unit_test(ground_is_darkened_by_occluders_only),
         cmocka_unit_test(ground_is_visible_from_above_only),
         cmocka_unit_test(lens_rays_meet_in_focus),

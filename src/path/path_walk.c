@@ -124,10 +124,24 @@ static vec3 seen_through_medium(const path *p, vec3 radiance, vec3 sunless)
     return sunless + (radiance - sunless) * surface->sun_transmittance(surface->self, p->seen_through_m);
 }
 
+/* The background of the image through glass: light from it is a lack of opacity. */
+static vec3 light_of_backdrop(path *p)
+{
+    float transmittance[3];
+    float unseen[3];
+    float radiance[3] = {0.0f, 0.0f, 0.0f};
+    store3(p->beta, transmittance);
+    store3(p->beta * path_lights_infinite(p->scene->lights, p->D), unseen);
+    p->out->opacity -= shading_show_backdrop(&p->scene->setup->shading, transmittance, unseen, radiance);
+    return load3(radiance);
+}
+
 /* The contribution of environment and sun to a ray that hits nothing. */
-static vec3 light_at_infinity(const path *p)
+static vec3 light_at_infinity(path *p)
 {
     const path_lights *lights = p->scene->lights;
+    if (p->sees_backdrop)
+        return light_of_backdrop(p);
     if (p->excludes_sun)
         return p->beta * path_lights_environment(lights, p->D);
     float p_light = 0.0f;
@@ -176,6 +190,12 @@ static bool is_ray_in_medium(const path *p, const path_vertex *v, vec3 L)
     return (v->on.side < 0.0f) != (dot(v->Ng, L) < 0.0f);
 }
 
+/* Whether light that passes a surface keeps the view through it: glass, not paper. */
+static bool is_clear_glass(const path_vertex *v)
+{
+    return (v->s.m.layers & (LAYER_TRANSMISSION | LAYER_DIFFUSE_TRANSMISSION)) == LAYER_TRANSMISSION;
+}
+
 /* The contribution of one light sample for a surface if nothing is in between. */
 static vec3 light_unshadowed(const path *p, const path_vertex *v, float u_light, vec2 u,
                              path_light_sample *light)
@@ -183,6 +203,8 @@ static vec3 light_unshadowed(const path *p, const path_vertex *v, float u_light,
     const path_scene *scene = p->scene;
     if (!path_lights_sample(scene->lights, &p->views[!p->view], u_light, u, light))
         return vec3(0.0f);
+    if (p->sees_backdrop && light->is_infinite && dot(v->Ng, light->L) < 0.0f && is_clear_glass(v))
+        return vec3(0.0f); /* the backdrop is there */
     if (v->surface && light->is_infinite && p->seen_through_m > 0.0f)
         light->radiance =
             seen_through_medium(p, light->radiance, path_lights_environment(scene->lights, light->L));
@@ -353,6 +375,7 @@ static void scatter(path *p, const path_vertex *v, const bsdf_sample *b)
     }
     p->previous_m = 0.0f;
     p->excludes_sun = b->excludes_sun;
+    p->sees_backdrop = p->sees_backdrop && b->is_transmission && is_clear_glass(v);
 
     p->is_indirect = p->is_indirect || (p->is_in_medium && !v->surface);
     p->seen_through_m = v->surface ? p->seen_through_m : 0.0f;
@@ -369,7 +392,7 @@ static void scatter_at_particle(path *p, float g, vec2 u)
     p->cone_angle = max(p->cone_angle, path_cone_angle(pdf));
     p->view = !p->view;
     p->p_bsdf = pdf;
-    p->specular_bounce = p->is_shadow_lit = false;
+    p->specular_bounce = p->is_shadow_lit = p->sees_backdrop = false;
     p->previous_m = 0.0f;
 }
 

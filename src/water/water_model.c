@@ -101,6 +101,7 @@ facet_result water_model_create(const facet_scene *scene, const facet_render_des
                               .reads_opacity_only = !around && desc->shading == FACET_SHADING_GLTF};
     TRY(ogl1_check(scene, &m->desc, error));
     TRY(render_setup_create(&r->setup, error));
+    r->setup.shading.backdrop = SHADING_BACKDROP_ENVIRONMENT; /* the sea's */
     memcpy(m->bounds_min, r->prepared.pose.bounds_min, sizeof m->bounds_min);
     memcpy(m->bounds_max, r->prepared.pose.bounds_max, sizeof m->bounds_max);
     if (desc->shading == FACET_SHADING_OGL1)
