@@ -192,4 +192,21 @@ FN vec3 scattered_ambient(vec3 ahead, vec3 behind, float scatter_anisotropy)
     return mix(behind, ahead, 0.5f + 0.5f * scatter_anisotropy);
 }
 
+/* ---- the background of an image ---- */
+
+/* Light from the background, of which a transmittance T arrives through glass. What passes in all channels alike is a
+ * lack of opacity of the image, in [0, 1]. */
+FN float backdrop_passes(vec3 T)
+{
+    return clamp(min(T[0], min(T[1], T[2])), 0.0f, 1.0f);
+}
+
+/* The radiance of the rest, to which the color of the glass leads: against a background of color (cd/m^2), or, where
+ * that is unknown, against the environment, whose radiance through the glass is unseen. */
+FN vec3 backdrop_radiance(vec3 T, vec3 unseen, vec3 color, bool has_color)
+{
+    vec3 colored = max(T - backdrop_passes(T), 0.0f);
+    return sel(has_color, colored * color, unseen * colored / max(T, 1e-6f));
+}
+
 #endif

@@ -164,6 +164,8 @@ typedef struct facet_gl_desc {
 
 /* ---- the image ---- */
 
+/* Glass shows the background where light is only refracted and meets nothing else; in a transparent image as a lack of
+ * opacity. What it reflects, inside too, is the environment. */
 typedef enum facet_background {
     FACET_BACKGROUND_TRANSPARENT,
     FACET_BACKGROUND_COLOR,      /* background_color, display-referred linear, behind the tone-mapped model */

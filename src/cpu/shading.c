@@ -10,15 +10,10 @@ float shading_show_backdrop(const shading_scene *scene, const float transmittanc
                             float radiance[3])
 {
     vec3 T = load3(transmittance);
-    float behind = clamp(min(T[0], min(T[1], T[2])), 0.0f, 1.0f);
-    for (int c = 0; c < 3; c++) {
-        float colored = T[c] - behind;
-        if (!(colored > 0.0f))
-            continue;
-        radiance[c] += scene->backdrop == SHADING_BACKDROP_COLOR ? colored * scene->backdrop_color[c]
-                                                                 : unseen[c] * (colored / T[c]);
-    }
-    return behind;
+    vec3 color = load3(scene->backdrop_color);
+    vec3 colored = backdrop_radiance(T, load3(unseen), color, scene->backdrop == SHADING_BACKDROP_COLOR);
+    store3(load3(radiance) + colored, radiance);
+    return backdrop_passes(T);
 }
 
 void shading_describe(const shading_scene *scene, const shading_point *point, shading_description *out)

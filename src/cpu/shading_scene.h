@@ -82,10 +82,7 @@ typedef struct shading_scene {
         [3]; /* cd/m^2 that are displayed as the color of the background, but for the tone curve */
 } shading_scene;
 
-/* Light from the backdrop, of which a transmittance arrives. What passes in all channels alike is a lack of opacity of
- * the image; what a color of the glass leaves beyond that is seen against the background's color, or, where that is
- * unknown, against the environment: its radiance through the glass, unseen. Adds that part to radiance and returns the
- * lack of opacity. */
+/* Adds backdrop_radiance() to radiance, and returns backdrop_passes(), of shade/transmission.h. */
 float shading_show_backdrop(const shading_scene *scene, const float transmittance[3], const float unseen[3],
                             float radiance[3]);
 

@@ -332,6 +332,12 @@ FN vec3 case_specular_aa(vec2 u)
     return parity_surface_sum(wide) + vec3(roughness_specular_aa(u[0], N * 0.1f, N * u[1]), 0.0f, 0.0f);
 }
 
+FN vec3 case_backdrop(vec2 u)
+{
+    vec3 T = vec3(u[0], u[1], fract(u[0] + 2.0f * u[1]));
+    return vec3(1.0f + backdrop_passes(T)) + backdrop_radiance(T, T * 0.7f, vec3(0.2f, 0.9f, u[1]), u[0] > 0.5f);
+}
+
 /* ---- ground.h ---- */
 
 FN vec3 case_ground_fade(vec2 u)

@@ -35,6 +35,7 @@ typedef struct gl_frame_block {
     float pixel_scale;
     int32_t is_draft;    /* 1: one texture lookup for the footprint of a pixel */
     float background[4]; /* display-linear color behind a window's image; w: 0 for none */
+    float backdrop[4];   /* of glass; w: 0 the environment, 1 transparent, 2 a color, cd/m^2 */
 } gl_frame_block;
 
 /* Texture units; those of materials come last. */

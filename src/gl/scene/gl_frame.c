@@ -259,6 +259,10 @@ static void fill_block(const gl_frame *f, const facet_render_desc *desc, gl_fram
     for (int i = 0; i < 3; i++)
         block->background[i] = is_light ? behind[i] : 0.0f;
     block->background[3] = !is_light || desc->background == FACET_BACKGROUND_COLOR;
+    if (!desc->sea && is_light && desc->background != FACET_BACKGROUND_ENVIRONMENT)
+        block->backdrop[3] = desc->background == FACET_BACKGROUND_COLOR ? 2.0f : 1.0f;
+    for (int i = 0; i < 3; i++)
+        block->backdrop[i] = behind[i] / block->exposure;
     gl_light_bind(f->light, block);
 }
 

@@ -287,6 +287,7 @@ static void rays_beyond_the_image_fade_to_the_environment(void **state)
         fixture_place(&f, fixture_add_sphere(&f, 128, fixture_add_material(&f, glass(0.0f, 8.0f))), 0, 0, 0,
                       1.4f);
         f.desc.width = f.desc.height = 128;
+        f.desc.background = FACET_BACKGROUND_ENVIRONMENT;
         film seen = gl_fixture_render(&f, &contexts.items[c]);
         float largest = 0.0f, least = 1.0f, most = 0.0f;
         for (uint32_t x = 1; x < 128; x++) {

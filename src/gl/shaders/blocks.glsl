@@ -18,4 +18,6 @@ layout(std140) uniform Frame
     float pixel_scale; /* rendered pixels per pixel of the image, along a row */
     int is_draft; /* 1: one texture lookup for the footprint of a pixel */
     vec4 background; /* display-linear color behind the image, for a window; w: 0: none */
+    /* what glass shows where nothing is behind it: w: 0 the environment, 1 nothing, 2 a color (cd/m^2) */
+    vec4 backdrop;
 };

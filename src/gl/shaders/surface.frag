@@ -83,6 +83,8 @@ vec3 lobe_channel(Layers m, vec3 V)
 
 /* ---- light ---- */
 
+float behind = 0.0; /* share of the background that is seen through glass */
+
 #ifdef IS_LIT
 /* s: without anti-aliasing. */
 vec3 lit_radiance(Surface s, vec3 V)
@@ -100,7 +102,19 @@ vec3 lit_radiance(Surface s, vec3 V)
 #ifdef HAS_CHANNEL
     return lobe_channel(m, V);
 #else
-    return layered_radiance(surface_host(V), m, surface_tables(m, V, energy));
+    LayerTables tables = surface_tables(m, V, energy);
+    vec3 radiance = layered_radiance(surface_host(V), m, tables);
+#ifdef HAS_TRANSMISSION
+    if (backdrop.w > 0.0) {
+        m.base.occlusion = 1.0;
+        LayerLight one = layer_light_of(vec3(0.0));
+        one.transmitted = vec3(1.0);
+        vec3 through = layers_ibl(m, V, tables, one, energy);
+        behind = backdrop_passes(through * backdrop_share);
+        radiance += backdrop_radiance(through * backdrop_share, through * backdrop_unseen, backdrop.xyz, backdrop.w > 1.5);
+    }
+#endif
+    return radiance;
 #endif
 #else
 #ifdef HAS_SPECULAR_ANTIALIASING
@@ -171,5 +185,8 @@ void main()
         opacity = 1.0;
 #endif
     put_fragment(radiance * scale, opacity);
+#ifdef HAS_TRANSMISSION
+    fragment.w *= 1.0 - behind;
+#endif
 }
 #endif

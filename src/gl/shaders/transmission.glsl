@@ -65,10 +65,25 @@ vec3 environment_seen(vec3 D, float alpha2)
     return light_specular(D, environment_blur(alpha2, background_blur));
 }
 
-vec3 light_behind(vec2 at, vec3 D, float lod, float alpha2)
+/* The share of the light at the boundary that comes from the background of the image instead, and the radiance of the
+ * environment there, unseen. backdrop_channels: those of the ray. */
+vec3 backdrop_share = vec3(0.0);
+vec3 backdrop_unseen = vec3(0.0);
+vec3 backdrop_channels = vec3(1.0);
+
+/* Times a factor, by which it reaches the boundary. */
+vec3 light_behind(vec2 at, vec3 D, float lod, float alpha2, vec3 factor)
 {
     vec4 c = opaque_at(at, lod);
-    return c.w >= 1.0 ? c.xyz : c.xyz + environment_seen(D, alpha2) * (1.0 - c.w);
+    if (c.w >= 1.0)
+        return c.xyz * factor;
+    vec3 environment = environment_seen(D, alpha2);
+    if (backdrop.w == 0.0)
+        return (c.xyz + environment * (1.0 - c.w)) * factor;
+    vec3 share = factor * backdrop_channels * (1.0 - c.w);
+    backdrop_share += share;
+    backdrop_unseen += share * environment;
+    return c.xyz * factor;
 }
 
 /* ---- a thin wall ---- */
@@ -76,7 +91,7 @@ vec3 light_behind(vec2 at, vec3 D, float lod, float alpha2)
 vec3 light_through_wall(Layers m, vec3 V)
 {
     float alpha = layers_transmission_alpha(m);
-    return light_behind(gl_FragCoord.xy / vec2(textureSize(u_opaque, 0)), -V, opaque_lod(m), alpha * alpha);
+    return light_behind(gl_FragCoord.xy / vec2(textureSize(u_opaque, 0)), -V, opaque_lod(m), alpha * alpha, vec3(1.0));
 }
 
 /* ---- a closed volume ---- */
@@ -94,9 +109,8 @@ vec3 light_through_volume(Layers m, vec3 V, float eta)
     vec3 D = refract_or_zero(-V, m.base.N, eta);
     vec3 P = v_position + D * m.thickness;
     float own = refracted_alpha(m.base.alpha, eta);
-    vec3 light = light_behind(place_in_image(P), D, opaque_lod(m), own * own) * m.base.base_color;
     vec3 T = volume_transmittance(m.attenuation_color, m.attenuation_distance, m.thickness);
-    light *= T;
+    vec3 light = light_behind(place_in_image(P), D, opaque_lod(m), own * own, m.base.base_color * T);
     if (has_layer(m, LAYER_SCATTER))
         light += (1.0 - T) * scattered_light(m, D);
     return light;
@@ -109,7 +123,7 @@ vec3 light_out_of_volume(Layers m, vec3 V, float eta)
     float own = refracted_alpha(m.base.alpha, eta);
     if (dot(D, D) < 0.5)
         return environment_seen(normalize(reflect(-V, m.base.N)), m.base.alpha * m.base.alpha);
-    return light_behind(place_in_image(v_position + D * m.thickness), D, opaque_lod(m), own * own);
+    return light_behind(place_in_image(v_position + D * m.thickness), D, opaque_lod(m), own * own, vec3(1.0));
 }
 
 /* ---- both ---- */
@@ -127,8 +141,12 @@ vec3 light_in_image(Layers m, vec3 V)
     if (!has_layer(m, LAYER_VOLUME))
         return light_through_wall(m, V);
 #ifdef HAS_DISPERSION
-    return vec3(transmitted_light_of_ior(m, V, layers_eta(m, 0)).x, transmitted_light_of_ior(m, V, layers_eta(m, 1)).y,
-                transmitted_light_of_ior(m, V, layers_eta(m, 2)).z);
+    vec3 light = vec3(0.0);
+    for (int channel = 0; channel < 3; channel++) {
+        backdrop_channels = vec3(channel == 0, channel == 1, channel == 2);
+        light += transmitted_light_of_ior(m, V, layers_eta(m, channel)) * backdrop_channels;
+    }
+    return light;
 #else
     return transmitted_light_of_ior(m, V, max(m.eta, 1e-3));
 #endif
