@@ -335,7 +335,8 @@ FN vec3 case_specular_aa(vec2 u)
 FN vec3 case_backdrop(vec2 u)
 {
     vec3 T = vec3(u[0], u[1], fract(u[0] + 2.0f * u[1]));
-    return vec3(1.0f + backdrop_passes(T)) + backdrop_radiance(T, T * 0.7f, vec3(0.2f, 0.9f, u[1]), u[0] > 0.5f);
+    return vec3(1.0f + backdrop_passes(T)) +
+           backdrop_radiance(T, T * 0.7f, vec3(0.2f, 0.9f, u[1]), u[0] > 0.5f);
 }
 
 /* ---- ground.h ---- */
