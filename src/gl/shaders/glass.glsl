@@ -22,6 +22,7 @@ struct Branch
     ivec4 media;
     int depth;
     bool ends; /* it is too weak to be traced */
+    bool is_reflected; /* inside of glass; others see the backdrop */
 };
 
 /* A point on a triangle. */
@@ -264,6 +265,7 @@ void cross_inside(RayPoint p, vec3 H, float shift, float width2, float transmiss
     float eta = ior_of_medium(b.media.x, shift) / ior_of_medium(behind.x, shift);
     float F = abs(eta - 1.0) < 1e-6 ? 0.0 : F_dielectric(clamp(-dot(b.D, H), 0.0, 1.0), 1.0 / eta);
     Branch reflected = b, refracted = b;
+    reflected.is_reflected = true;
     reflected.weight *= mix(vec3(F), base_color, metallic);
     refracted.weight *= base_color * ((1.0 - F) * (1.0 - metallic) * transmission);
     reflected.alpha2 = min(b.alpha2 + width2, 1.0);
@@ -347,7 +349,13 @@ vec3 follow_ray(Branch b, int sample_index, int samples, float shift, float shar
         b.weight *= transmittance_along(b, t, sum);
         b.cone.x += b.cone.y * t;
         if (hit.triangle < 0) {
-            sum += b.weight * environment_seen(b.D, max(b.alpha2, 0.0625 * b.cone.y * b.cone.y));
+            vec3 seen = b.weight * environment_seen(b.D, max(b.alpha2, 0.0625 * b.cone.y * b.cone.y));
+            if (backdrop.w == 0.0 || b.is_reflected) {
+                sum += seen;
+            } else {
+                backdrop_share += b.weight * backdrop_channels;
+                backdrop_unseen += seen * backdrop_channels;
+            }
         } else {
             Branch other;
             goes_on = meet(hit, sample_index, samples, shift, share, b, other, sum);
@@ -377,7 +385,7 @@ RayPoint first_point(Layers m, vec3 V)
     vec3 P = v_position + eye.xyz;
     float pixel = length(right.xyz) * (eye.w > 0.5 ? 1.0 : dot(v_position, forward.xyz));
     float reach = 4.0 * pixel + 4.0 * rays_tolerance(P);
-    Branch b = Branch(P + V * reach, -V, vec3(1.0), 0.0, vec2(0.0), ivec4(0), 0, false);
+    Branch b = Branch(P + V * reach, -V, vec3(1.0), 0.0, vec2(0.0), ivec4(0), 0, false, false);
     RayHit hit = trace_ray(b.O, b.D, 2.0 * reach, false);
     RayPoint p = RayPoint(P, m.base.N, rays_normal, int(volume_factors.z + 0.5), RAYS_WALL, gl_FrontFacing, 0.0, vec3(1.0), 1.0,
                           1.0, 0.0);
@@ -395,7 +403,7 @@ Branch first_branch(RayPoint p, vec3 V, vec3 H, float width2, float shift)
 {
     float step = length(right.xyz);
     vec2 cone = eye.w > 0.5 ? vec2(step, 0.0) : vec2(step * length(v_position), step);
-    Branch b = Branch(vec3(0.0), -V, vec3(1.0), 0.0, cone, ivec4(0), 0, false);
+    Branch b = Branch(vec3(0.0), -V, vec3(1.0), 0.0, cone, ivec4(0), 0, false, false);
 #ifdef IS_VOLUME
     ivec4 inside = media_entered(ivec4(0), p.material);
     float ior = ior_of_medium(inside.x, shift);
@@ -443,9 +451,13 @@ vec3 traced_light(Layers m, vec3 V)
         weight = color_weight(shift);
 #endif
         Branch b = first_branch(p, V, H, alpha * alpha * share, shift);
+        b.is_reflected = false;
+        backdrop_channels = weight;
         sum += weight * follow_ray(b, i, samples, shift, share, least);
         weights += weight;
     }
+    backdrop_share /= weights;
+    backdrop_unseen /= weights;
     return sum / weights;
 }
 #endif
