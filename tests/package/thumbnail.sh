@@ -17,6 +17,9 @@ facet convert "$here/docs/examples/obj/boat.obj" boat.glb -q
 facet bake studio -o studio.ktx2 --size 64 --lobe none -q 2>/dev/null || facet bake studio -o studio.ktx2 --size 64 -q
 facet render -o image.exr --size 64x48 -q
 facet render -o image.hdr --size 64x48 -q
+printf '%s\n' ply 'format ascii 1.0' 'element vertex 3' 'property float x' 'property float y' 'property float z' 'element face 1' \
+    'property list uchar int vertex_indices' end_header '0 0 0' '1 0 0' '0 1 0' '3 0 1 2' >triangle.ply
+printf '%s\n' 'solid t' 'facet normal 0 0 1' 'outer loop' 'vertex 0 0 0' 'vertex 1 0 0' 'vertex 0 1 0' endloop endfacet 'endsolid t' >triangle.stl
 
 is_png() { # FILE SIZE: a PNG image of at most that size
     [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "$1 is not a PNG file"
@@ -31,10 +34,44 @@ run() { # INPUT OUTPUT SIZE
     set -- $(echo "$line" | sed "s|%i|$1|; s|%o|$2|; s|%s|$3|")
     "$@"
 }
-for input in boat.glb studio.ktx2 image.exr image.hdr "$here/docs/examples/obj/boat.obj"; do
+for input in boat.glb triangle.ply triangle.stl studio.ktx2 image.exr image.hdr "$here/docs/examples/obj/boat.obj"; do
     run "$(readlink -f "$input")" "$tmp/out.png" 128 || fail "$input: exit code $?"
     is_png out.png 128
     rm out.png
+done
+
+# Names as users give them, and outputs that facet would take for options, standard output or patterns.
+newline=$(printf 'a\nb.glb')
+for input in "a b%20.glb" -dash.glb "$newline" "$(printf '\377.glb')" '*?$(x)`"{stem}.glb' "@list.glb"; do
+    cp boat.glb "./$input"
+    for output in -out.png - 'a b%d.png' '{stem}##.png'; do
+        facet-thumbnailer -s 32 "$input" "$output" >seen.png || fail "$input: exit code $?"
+        [ ! -s seen.png ] || fail "$output went to standard output"
+        is_png "./$output" 32
+        rm -- "./$output"
+    done
+done
+: >'100%.png'
+exec 3<'100%.png'
+facet-thumbnailer -s 32 boat.glb '100%.png'
+cmp - 100%.png <&3 && [ -s 100%.png ] || fail "an output held open whose name has a percent sign"
+exec 3<&-
+for options in '-s' '-s 64' '-s 64 boat.glb' 'boat.glb a.png b.png'; do
+    code=0
+    # shellcheck disable=SC2086
+    facet-thumbnailer $options 2>err || code=$?
+    [ "$code" = 2 ] && grep -q usage err || fail "$options: exit code $code"
+done
+if facet-thumbnailer missing.glb '1%.png' 2>err || [ -e '1%.png' ]; then fail "a failure left 1%.png"; fi
+
+# Neither all models of a folder, nor what waits for another program.
+mkdir folder.glb
+cp boat.glb folder.glb/
+mkfifo pipe.glb
+for input in folder.glb pipe.glb; do
+    code=0
+    timeout 4 facet-thumbnailer "$input" out.png 2>err || code=$?
+    [ "$code" = 3 ] && [ "$(wc -l <err)" = 1 ] && [ ! -e out.png ] || fail "$input: exit code $code"
 done
 
 # Tumbler: the output is there, empty, and read through a descriptor that was opened before.
@@ -77,7 +114,7 @@ sandbox() { # INPUT NAME: the output is out/thumbnail.png
         facet-thumbnailer -s 256 "/tmp/$2" /tmp/thumbnail.png
 }
 if ! ldd "$facet" | awk '$3 ~ /^\// {print $3}' | grep -qv '^/\(usr/\)*lib'; then
-    for input in boat.glb studio.ktx2 image.exr image.hdr; do
+    for input in boat.glb triangle.ply triangle.stl studio.ktx2 image.exr image.hdr; do
         sandbox "$tmp/$input" "gnome-desktop-file-to-thumbnail.${input#*.}" || fail "$input in the sandbox: exit code $?"
         is_png out/thumbnail.png 256
         rm out/thumbnail.png

@@ -220,8 +220,10 @@ static facet_result apply_settings(command_line *c, const setting *settings, siz
 
 static facet_result apply_thumbnail(command_line *c, facet_error *error)
 {
-    static char limit[32]; /* 5 s for each model; a command line lives as long as the process */
-    snprintf(limit, sizeof limit, "%zus", 5 * (c->argument_count ? c->argument_count : 1));
+    /* 15 s for each model: file managers remember failures, and machines may be busy. A command
+     * line lives as long as the process. */
+    static char limit[32];
+    snprintf(limit, sizeof limit, "%zus", 15 * (c->argument_count ? c->argument_count : 1));
     TRY(command_line_set(c, option_find_id(c->verb, OPT_TIME_LIMIT), limit, SOURCE_PRESET, error));
     if (!is_given(c, OPT_VERBOSE))
         TRY(command_line_set(c, option_find_id(c->verb, OPT_QUIET), NULL, SOURCE_PRESET, error));
