@@ -255,7 +255,8 @@ static void test_preset(void **state)
     assert_string_equal(option_text(&line, OPT_SIZE, ""), "128");
     assert_string_equal(option_text(&line, OPT_BACKGROUND, ""), "transparent");
     assert_true(is_given(&line, OPT_QUIET));
-    assert_string_equal(option_text(&line, OPT_TIME_LIMIT, ""), "15s"); /* no model here, which counts as one */
+    assert_string_equal(option_text(&line, OPT_TIME_LIMIT, ""),
+                        "15s"); /* no model here, which counts as one */
     assert_int_equal(option_choice(&line, OPT_GROUND, 0), 1);
     assert_true(strncmp(option_text(&line, OPT_ORBIT, ""), "30,", 3) == 0);
 }
