@@ -21,6 +21,7 @@ static const library_row rows[] = {
     {"astcenc", "Apache-2.0", FACET_ASTC_VERSION, NULL, NULL},
     {"jansson", "MIT", FACET_JANSSON_VERSION, NULL, NULL},
     {"kissfft", "BSD-3-Clause", FACET_KISSFFT_VERSION, NULL, NULL},
+    {"libdeflate", "MIT", FACET_LIBDEFLATE_VERSION, NULL, NULL},
     {"libjpeg-turbo", "IJG AND BSD-3-Clause AND Zlib", FACET_TURBOJPEG_VERSION, NULL, NULL},
     {"libspng", "BSD-2-Clause", FACET_SPNG_VERSION, NULL, NULL},
     {"libwebp", "BSD-3-Clause", FACET_WEBP_VERSION, NULL, NULL},

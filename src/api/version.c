@@ -87,8 +87,8 @@ size_t facet_build_report(char *out, size_t size)
         text_addf(&t, "%s%s", i ? ", " : "renderers ", renderer_get((facet_renderer_kind)i)->info.name);
     text_addf(&t, "\n");
     text_addf(&t, "embree    %s\n", embree_scene_version());
-    add_line(
-        &t, "images    png (%libspng%), jpeg (%libjpeg-turbo%), webp (%libwebp%), exr (%OpenEXR%), hdr, pfm");
+    add_line(&t, "images    png (%libspng%, %libdeflate%), jpeg (%libjpeg-turbo%), webp (%libwebp%), exr "
+                 "(%OpenEXR%), hdr, pfm");
     add_line(&t, "textures  ktx2 (%Zstandard%, %astcenc%), avif (%libavif%)");
     add_line(&t, "geometry  meshopt, draco (%Draco%)");
     add_line(&t, "waves     %kissfft%");

@@ -1,20 +1,15 @@
-/* codec_png.c - reading PNG through libspng; png_write.c writes. Gamma, profiles and texts are ignored.
+/* codec_png.c - reading PNG through libspng, or png_whole.c where libdeflate is; png_write.c writes. Gamma, profiles and texts are ignored.
  * Portable Network Graphics, third edition (W3C). */
-#include "image/codec.h"
-
 #include <string.h>
 
 #include <spng.h>
 
 #include "base/memory.h"
 #include "base/result.h"
+#include "image/png_chunk.h"
+#include "image/png_whole.h"
 
-enum {
-    SIGNATURE_SIZE = 8,
-    CHUNK_FRAME = 12, /* length, type, CRC */
-    IHDR_SIZE = 13,
-    LIBRARY_MEMORY = 64 * 1024 /* memory of libspng and zlib besides rows: state, window, buffers */
-};
+enum { LIBRARY_MEMORY = 64 * 1024 /* memory of libspng and zlib besides rows: state, window, buffers */ };
 
 /* Facts from the chunks. */
 typedef struct png_header {
@@ -24,39 +19,16 @@ typedef struct png_header {
     size_t data_size;      /* of all IDAT chunks */
 } png_header;
 
-typedef struct chunk {
-    const unsigned char *start; /* its length */
-    const unsigned char *type, *data, *end;
-} chunk;
-
 /* ---- chunks ---- */
-
-static bool is_type(const chunk *c, const char type[4])
-{
-    return memcmp(c->type, type, 4) == 0;
-}
-
-/* Reads the chunk at *p and advances *p; false: truncated. */
-static bool next_chunk(const unsigned char **p, const unsigned char *end, chunk *c)
-{
-    if (end - *p < CHUNK_FRAME)
-        return false;
-    const size_t size = load_u32_be(*p);
-    if (size > (size_t)(end - *p) - CHUNK_FRAME)
-        return false;
-    *c = (chunk){*p, *p + 4, *p + 8, *p + CHUNK_FRAME + size};
-    *p = c->end;
-    return true;
-}
 
 /* Whether the chunk is passed to libspng: the critical ones, and palette and transparency where they apply.
  * Other chunks can then neither take memory nor be damaged. */
-static bool is_wanted(const chunk *c, uint32_t color_type)
+static bool is_wanted(const png_chunk *c, uint32_t color_type)
 {
     const bool has_alpha = color_type & 4;
-    if (is_type(c, "PLTE"))
+    if (png_chunk_is(c, "PLTE"))
         return color_type == SPNG_COLOR_TYPE_INDEXED; /* otherwise only a suggestion */
-    if (is_type(c, "tRNS"))
+    if (png_chunk_is(c, "tRNS"))
         return !has_alpha;
     return !(c->type[0] & 0x20); /* ancillary chunks are lower case */
 }
@@ -67,12 +39,12 @@ static facet_result read_chunks(const unsigned char *bytes, size_t size, const c
                                 png_header *h, facet_error *error)
 {
     *h = (png_header){0};
-    const unsigned char *p = bytes + SIGNATURE_SIZE;
+    const unsigned char *p = bytes + PNG_SIGNATURE_SIZE;
     const unsigned char *end = bytes + size;
-    chunk c;
-    if (!next_chunk(&p, end, &c))
+    png_chunk c;
+    if (!png_chunk_next(&p, end, &c))
         return fail(error, FACET_ERROR_INVALID, "%s: PNG: the file ends before IHDR", name);
-    if (!is_type(&c, "IHDR") || c.end - c.start != CHUNK_FRAME + IHDR_SIZE)
+    if (!png_chunk_is(&c, "IHDR") || c.end - c.start != PNG_CHUNK_FRAME + PNG_IHDR_SIZE)
         return fail(error, FACET_ERROR_INVALID, "%s: PNG: an IHDR chunk of 13 bytes was expected first",
                     name);
     h->width = load_u32_be(c.data);
@@ -81,25 +53,25 @@ static facet_result read_chunks(const unsigned char *bytes, size_t size, const c
     h->color_type = c.data[9];
     bool is_in_data = false; /* the last chunk was IDAT */
     for (;;) {
-        if (!next_chunk(&p, end, &c))
+        if (!png_chunk_next(&p, end, &c))
             return fail(error, FACET_ERROR_INVALID, "%s: PNG: the file ends before %s", name,
                         h->data_size ? "IEND" : "IDAT");
-        const bool is_data = is_type(&c, "IDAT");
+        const bool is_data = png_chunk_is(&c, "IDAT");
         if (is_data && !to_end)
             return FACET_OK;
-        if (is_type(&c, "IEND"))
+        if (png_chunk_is(&c, "IEND"))
             break;
         if (is_data && h->data_size && !is_in_data)
             return fail(error, FACET_ERROR_INVALID, "%s: PNG: the IDAT chunks do not follow each other",
                         name);
         if (is_data)
-            h->data_size += (size_t)(c.end - c.start) - CHUNK_FRAME;
-        else if (is_type(&c, "tRNS") && h->data_size == 0)
+            h->data_size += png_chunk_size(&c);
+        else if (png_chunk_is(&c, "tRNS") && h->data_size == 0)
             h->has_transparency = is_wanted(&c, h->color_type);
         is_in_data = is_data;
     }
 #ifndef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION /* otherwise changes would not be detected beyond this point */
-    if (c.end - c.start != CHUNK_FRAME || memcmp(c.data, "\xae\x42\x60\x82", 4) != 0)
+    if (c.end - c.start != PNG_CHUNK_FRAME || memcmp(c.data, "\xae\x42\x60\x82", 4) != 0)
         return fail(error, FACET_ERROR_INVALID, "%s: PNG: the CRC of IEND does not fit", name);
 #endif
     return FACET_OK;
@@ -133,9 +105,9 @@ static int read_source(spng_ctx *context, void *user, void *out, size_t size)
     (void)context;
     source *s = user;
     for (unsigned char *to = out; size > 0;) {
-        chunk c;
+        png_chunk c;
         while (s->next == s->part_end) {
-            if (!next_chunk(&s->rest, s->end, &c))
+            if (!png_chunk_next(&s->rest, s->end, &c))
                 return SPNG_IO_EOF;
             if (is_wanted(&c, s->color_type)) {
                 s->next = c.start;
@@ -181,7 +153,7 @@ facet_result png_probe(const unsigned char *bytes, size_t size, const char *name
     struct spng_ihdr ihdr;
     TRY(read_chunks(bytes, size, name, false, &h, error));
     TRY(codec_check_size(name, h.width, h.height, INT32_MAX, error));
-    source s = {bytes, bytes + SIGNATURE_SIZE, bytes + SIGNATURE_SIZE, bytes + size, h.color_type};
+    source s = {bytes, bytes + PNG_SIGNATURE_SIZE, bytes + PNG_SIGNATURE_SIZE, bytes + size, h.color_type};
     spng_ctx *context = spng_ctx_new(0);
     int code = context ? open_png(context, &s, &ihdr) : SPNG_EMEM;
     spng_ctx_free(context);
@@ -301,6 +273,84 @@ static facet_result convert(const image_decode_desc *desc, image *i, facet_error
     return result;
 }
 
+#ifdef HAVE_LIBDEFLATE
+/* ---- libdeflate ---- */
+
+/* Texels of 8 bits with the file's own channels, converted as libspng does: gray is repeated, opaque is 255. */
+static void set_channels(const unsigned char *from, uint32_t width, uint32_t own, uint32_t channels,
+                         unsigned char *to)
+{
+    const uint32_t green = own > 2 ? 1 : 0;
+    const uint32_t blue = own > 2 ? 2 : 0;
+    if (own == channels) {
+        memcpy(to, from, (size_t)width * own);
+        return;
+    }
+    for (uint32_t x = 0; x < width; x++, from += own, to += channels) {
+        to[0] = from[0];
+        to[1] = from[green];
+        to[2] = from[blue];
+        if (channels == 4)
+            to[3] = own % 2 ? 255 : from[own - 1];
+    }
+}
+
+/* Passes the rows to the sink if that takes the file's own channels, otherwise to an image. */
+static facet_result read_whole(const png_whole *p, const image_decode_desc *desc, image *out,
+                               facet_error *error)
+{
+    const uint32_t channels = desc->channel_count ? desc->channel_count : p->channel_count;
+    const bool in_rows = desc->sink && channels == p->channel_count;
+    image made = codec_srgb_header(p->width, p->height, channels, IMAGE_U8);
+    if (in_rows)
+        TRY(desc->sink->begin(desc->sink->user, &made, error));
+    else
+        TRY(image_create(&desc->allocator, p->width, p->height, channels, IMAGE_U8, &made, error));
+    made.is_srgb = true;
+    unsigned char *to = made.pixels;
+    *out = made;
+    for (uint32_t y = 0; y < p->height; y++) {
+        const unsigned char *row = png_whole_row(p, y);
+        if (in_rows)
+            TRY(desc->sink->add_row(desc->sink->user, row, error));
+        else
+            set_channels(row, p->width, p->channel_count, channels, to + y * image_row_size(&made));
+    }
+    return FACET_OK;
+}
+
+/* False: libspng reads the file. */
+static bool decode_whole(const unsigned char *bytes, size_t size, const image_decode_desc *desc, image *out,
+                         facet_result *result, facet_error *error)
+{
+    png_whole p;
+    if (!png_whole_open(bytes, size, &desc->allocator, &p))
+        return false;
+    *result = read_whole(&p, desc, out, error);
+    png_whole_close(&p);
+    return true;
+}
+#else
+static bool decode_whole(const unsigned char *bytes, size_t size, const image_decode_desc *desc, image *out,
+                         facet_result *result, facet_error *error)
+{
+    (void)bytes, (void)size, (void)desc, (void)out, (void)result, (void)error;
+    return false;
+}
+#endif
+
+/* Any file, through libspng. */
+static facet_result decode_any(const unsigned char *bytes, size_t size, const png_header *h, const char *name,
+                               const image_decode_desc *desc, image *out, facet_error *error)
+{
+    source s = {bytes, bytes + PNG_SIGNATURE_SIZE, bytes + PNG_SIGNATURE_SIZE, bytes + size, h->color_type};
+    spng_ctx *context = spng_ctx_new(0);
+    facet_result result = context ? decode(context, h, &s, name, desc, out, error)
+                                  : fail_memory(error, "PNG decoder", LIBRARY_MEMORY);
+    spng_ctx_free(context);
+    return result;
+}
+
 facet_result png_decode(const unsigned char *bytes, size_t size, const char *name,
                         const image_decode_desc *desc, image *out, facet_error *error)
 {
@@ -310,13 +360,11 @@ facet_result png_decode(const unsigned char *bytes, size_t size, const char *nam
     TRY(codec_check_size(name, h.width, h.height, desc->max_size, error));
     /* libspng allocates with malloc(): at most two filtered rows and one of 16-bit RGBA */
     const ptrdiff_t library_memory = LIBRARY_MEMORY + (ptrdiff_t)h.width * 3 * 8;
-    source s = {bytes, bytes + SIGNATURE_SIZE, bytes + SIGNATURE_SIZE, bytes + size, h.color_type};
     if (!mem_account(&desc->allocator, library_memory))
         return fail_memory(error, "PNG decoder", (size_t)library_memory);
-    spng_ctx *context = spng_ctx_new(0);
-    facet_result result = context ? decode(context, &h, &s, name, desc, &made, error)
-                                  : fail_memory(error, "PNG decoder", LIBRARY_MEMORY);
-    spng_ctx_free(context);
+    facet_result result = FACET_OK;
+    if (!decode_whole(bytes, size, desc, &made, &result, error))
+        result = decode_any(bytes, size, &h, name, desc, &made, error);
     mem_account(&desc->allocator, -library_memory);
     if (result == FACET_OK)
         result = convert(desc, &made, error);

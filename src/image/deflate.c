@@ -2,6 +2,9 @@
 #include "image/deflate.h"
 
 #include <zlib.h>
+#ifdef HAVE_LIBDEFLATE
+#include <libdeflate.h>
+#endif
 
 #include "base/memory.h"
 
@@ -48,7 +51,11 @@ void zlib_begin(unsigned char out[2])
 
 uint32_t zlib_checksum(const unsigned char *bytes, size_t size)
 {
+#ifdef HAVE_LIBDEFLATE
+    return libdeflate_adler32(1, bytes, size); /* 1 for NULL */
+#else
     return bytes ? (uint32_t)adler32_z(1, bytes, size) : 1;
+#endif
 }
 
 uint32_t zlib_checksum_join(uint32_t first, uint32_t second, size_t second_size)

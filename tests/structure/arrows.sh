@@ -125,7 +125,7 @@ seen_only 'cairo' plot
 seen_only 'draco/' io
 seen_only '(EGL|GL|GLES[0-9]?|epoxy)/' gl view
 seen_only 'GLFW/' view
-seen_only '(spng|turbojpeg|webp/|openexr|OpenEXR/|Imf|Iex|zstd|avif/|astcenc)' image
+seen_only '(spng|libdeflate|turbojpeg|webp/|openexr|OpenEXR/|Imf|Iex|zstd|avif/|astcenc)' image
 seen_only 'zlib' image cli
 seen_only 'microhttpd' cli
 
