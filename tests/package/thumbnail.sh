@@ -87,13 +87,16 @@ cmp seen.png held.png || fail "the held file differs"
 head -c 400 boat.glb >cut.glb
 echo nothing >no.glb
 : >empty.glb
-for input in cut.glb no.glb empty.glb missing.glb; do
+for image in image.hdr image.exr studio.ktx2; do
+    head -c 200 $image >cut.$image
+done
+for input in cut.glb no.glb empty.glb missing.glb cut.image.hdr cut.image.exr cut.studio.ktx2; do
     : >held.png
     for output in out.png held.png; do
         code=0
         run "$tmp/$input" "$tmp/$output" 128 2>err || code=$?
         [ "$code" -gt 0 ] && [ "$code" -lt 10 ] || fail "$input: exit code $code"
-        [ "$(wc -l <err)" = 1 ] || fail "$input: $(cat err)"
+        [ "$(wc -l <err)" = 1 ] && ! grep -q 'not a model' err || fail "$input: $(cat err)"
     done
     [ ! -e out.png ] && [ ! -s held.png ] || fail "$input left an output"
 done

@@ -345,15 +345,21 @@ static bool is_kept(render_run *run, const model_name *model)
     return true;
 }
 
-/* The thumbnail of an image. False: the file is none. */
+/* The thumbnail of an image. False: the file is none; one that is called so is a broken image. */
 static bool render_picture(render_run *run, const model_name *model, double start, facet_result *result,
                            facet_error *error)
 {
     char name[RENDER_NAME_SIZE];
     facet_error unread;
     facet_image *image = NULL;
-    if (picture_load(model->path, &run->options, &run->base.allocator, &image, &unread) != FACET_OK)
+    facet_result loaded = picture_load(model->path, &run->options, &run->base.allocator, &image, &unread);
+    if (loaded != FACET_OK && !output_name_has_type(model->path, "hdr exr ktx2"))
         return false;
+    if (loaded != FACET_OK) {
+        *result = loaded;
+        *error = unread;
+        return true;
+    }
     *result = render_name(&run->options, model, 1, name, sizeof name, error);
     if (*result == FACET_OK && input_is_same_file(model->path, name))
         *result = fail(error, FACET_ERROR_ARGUMENT,
