@@ -171,23 +171,19 @@ static inline void add_sample(sample_sum *sum, const visibility_hit *hit, const 
     sum->count += 1.0f;
 }
 
-/* Shades the triangle of hit at the centroid of the samples; sample: the first one. */
-static void shade_centroid(pixel_resolver *r, uint32_t x, uint32_t y, visibility_hit hit,
-                           const sample_sum *sum, uint32_t sample, pixel_surface *s)
+/* Shades hit at (cx, cy) in the pixel; sample: the first one of those that share it. */
+static void shade_hit(pixel_resolver *r, uint32_t x, uint32_t y, const visibility_hit *hit, float cx,
+                      float cy, uint32_t sample, pixel_surface *s)
 {
-    hit.t = sum->t / sum->count;
-    hit.u = sum->u / sum->count;
-    hit.v = sum->v / sum->count;
     float footprint = r->splits_quarters ? 0.5f : 1.0f;
-    shading_point point = {.hit = &hit, .x = x, .y = y, .shade_count = 1};
-    if (is_glass(r, &hit)) {
+    shading_point point = {.hit = hit, .x = x, .y = y, .shade_count = 1};
+    if (is_glass(r, hit)) {
         point.shade = sample;
         point.shade_count = r->pattern->sample_count;
         footprint = inversesqrt((float)point.shade_count);
     }
-    shading_ray ray =
-        shading_ray_of_camera(r->scene->camera, &r->scene->camera_spread, (float)x + sum->x / sum->count,
-                              (float)y + sum->y / sum->count, footprint);
+    shading_ray ray = shading_ray_of_camera(r->scene->camera, &r->scene->camera_spread, (float)x + cx,
+                                            (float)y + cy, footprint);
     point.ray = &ray;
     shading_result result;
     shading_shade(r->scene, &point, &result);
@@ -196,10 +192,20 @@ static void shade_centroid(pixel_resolver *r, uint32_t x, uint32_t y, visibility
     for (int i = 0; i < 3; i++)
         s->radiance[i] = result.radiance[i];
     /* Masking was decided for each sample. */
-    bool is_blended =
-        r->scene->ogl1 || r->scene->geometries->items[hit.geometry].material->alpha_mode == SCENE_ALPHA_BLEND;
+    bool is_blended = r->scene->ogl1 ||
+                      r->scene->geometries->items[hit->geometry].material->alpha_mode == SCENE_ALPHA_BLEND;
     s->opacity = is_blended ? result.opacity : 1.0f;
     s->behind = result.behind;
+}
+
+/* Shades the triangle of hit at the centroid of the samples; sample: the first one. */
+static void shade_centroid(pixel_resolver *r, uint32_t x, uint32_t y, visibility_hit hit,
+                           const sample_sum *sum, uint32_t sample, pixel_surface *s)
+{
+    hit.t = sum->t / sum->count;
+    hit.u = sum->u / sum->count;
+    hit.v = sum->v / sum->count;
+    shade_hit(r, x, y, &hit, sum->x / sum->count, sum->y / sum->count, sample, s);
 }
 
 /* Shades a surface at the centroid of its samples on one triangle, the one in the middle: inside the
@@ -221,6 +227,25 @@ static void shade_surface(pixel_resolver *r, uint32_t x, uint32_t y, uint32_t nu
 
 /* ---- one triangle ---- */
 
+/* Whether pixels of one opaque triangle are resolved without fragments. */
+static bool has_plain_pixels(const pixel_resolver *r)
+{
+    return r->has_visible_hits && !r->splits_quarters && !r->scene->ogl1;
+}
+
+/* The color of a pixel of which count samples see s. */
+static void cover(const pixel_resolver *r, const pixel_surface *s, float count, float rgba[4])
+{
+    const float n = (float)r->pattern->sample_count;
+    rgba[0] = rgba[1] = rgba[2] = 0.0f;
+    for (float k = 0.0f; k < count; k += 1.0f)
+        for (int c = 0; c < 3; c++)
+            rgba[c] += s->radiance[c];
+    for (int c = 0; c < 3; c++)
+        rgba[c] /= n;
+    rgba[3] = count / n;
+}
+
 /* The usual pixel: all samples that hit anything hit the same triangle, which is opaque. The result is that of
  * fragments and composite(), in a quarter of the time. False: it is another one. */
 static bool resolve_triangle(pixel_resolver *r, uint32_t x, uint32_t y, const visibility_hit *hits,
@@ -229,7 +254,7 @@ static bool resolve_triangle(pixel_resolver *r, uint32_t x, uint32_t y, const vi
     const uint32_t n = r->pattern->sample_count;
     const visibility_hit *first = NULL;
     sample_sum sum = {.count = 0.0f};
-    if (!r->has_visible_hits || r->splits_quarters || r->scene->ogl1)
+    if (!has_plain_pixels(r))
         return false;
     for (uint32_t sample = 0; sample < n; sample++) {
         const visibility_hit *hit = &hits[sample];
@@ -246,12 +271,7 @@ static bool resolve_triangle(pixel_resolver *r, uint32_t x, uint32_t y, const vi
         return true;
     pixel_surface s;
     shade_centroid(r, x, y, *first, &sum, 0, &s);
-    for (float k = 0.0f; k < sum.count; k += 1.0f)
-        for (int c = 0; c < 3; c++)
-            rgba[c] += s.radiance[c];
-    for (int c = 0; c < 3; c++)
-        rgba[c] /= (float)n;
-    rgba[3] = sum.count / (float)n;
+    cover(r, &s, sum.count, rgba);
     return true;
 }
 
@@ -324,14 +344,38 @@ static bool resolve_fragments(pixel_resolver *r, uint32_t x, uint32_t y, const v
     return true;
 }
 
-bool pixel_resolve(pixel_resolver *r, uint32_t x, uint32_t y, const visibility_hit *hits, float rgba[4])
+/* Adds the background and scales. */
+static void finish(const pixel_resolver *r, uint32_t x, uint32_t y, float rgba[4])
 {
-    if (!resolve_triangle(r, x, y, hits, rgba) && !resolve_fragments(r, x, y, hits, rgba))
-        return false;
     if (r->draws_background)
         pixel_add_background(r->scene, r->background_blur, 1.0f, x, y, rgba);
     for (int c = 0; c < 3; c++)
         rgba[c] *= r->scale;
+}
+
+bool pixel_resolve(pixel_resolver *r, uint32_t x, uint32_t y, const visibility_hit *hits, float rgba[4])
+{
+    if (!resolve_triangle(r, x, y, hits, rgba) && !resolve_fragments(r, x, y, hits, rgba))
+        return false;
+    finish(r, x, y, rgba);
+    return true;
+}
+
+bool pixel_resolve_one(pixel_resolver *r, uint32_t x, uint32_t y, const visibility_hit *hit, float rgba[4])
+{
+    if (!has_plain_pixels(r))
+        return false;
+    if (hit->geometry == VISIBILITY_NONE) {
+        rgba[0] = rgba[1] = rgba[2] = rgba[3] = 0.0f;
+    } else if (r->scene->geometries->items[hit->geometry].is_see_through) {
+        return false;
+    } else {
+        const float *middle = r->pattern->middle;
+        pixel_surface s;
+        shade_hit(r, x, y, hit, middle[0], middle[1], 0, &s);
+        cover(r, &s, (float)r->pattern->sample_count, rgba);
+    }
+    finish(r, x, y, rgba);
     return true;
 }
 

@@ -46,6 +46,9 @@ typedef struct pixel_resolver {
  * hits. False: no memory. */
 bool pixel_resolve(pixel_resolver *resolver, uint32_t x, uint32_t y, const visibility_hit *hits,
                    float rgba[4]);
+/* The same for a pixel whose samples all hit one triangle or nothing; hit: their mean. False: it takes all of its hits. */
+bool pixel_resolve_one(pixel_resolver *resolver, uint32_t x, uint32_t y, const visibility_hit *hit,
+                       float rgba[4]);
 /* Adds the environment times scale where nothing covers the pixel. blur: perceptual roughness. */
 void pixel_add_background(const shading_scene *scene, float blur, float scale, uint32_t x, uint32_t y,
                           float rgba[4]);

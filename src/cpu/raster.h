@@ -41,6 +41,10 @@ raster_tile *raster_tile_create(const raster *r, const visibility_pattern *patte
                                 const facet_allocator *allocator);
 /* Hits of a block of the tile, as visibility_trace_block() has them; blocks are numbered in rows. */
 void raster_tile_read(const raster_tile *tile, uint32_t block, visibility_hit *hits);
+/* Whether count samples of that block from number first on hit one triangle or nothing; if so, hit is the mean of
+ * their hits, or VISIBILITY_NONE. */
+bool raster_tile_read_one(const raster_tile *tile, uint32_t block, size_t first, uint32_t count,
+                          visibility_hit *hit);
 void raster_tile_destroy(raster_tile *tile); /* NULL is allowed */
 
 #endif

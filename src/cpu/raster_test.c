@@ -93,6 +93,30 @@ static void compare_hits(const visibility_hit *a, const visibility_hit *b, compa
     assert_memory_equal(a->normal, b->normal, sizeof a->normal);
 }
 
+/* raster_tile_read_one() against the hits of the pixels of a block. */
+static void check_pixels(const raster_tile *tile, uint32_t block, uint32_t count, const visibility_hit *hits)
+{
+    for (uint32_t first = 0; first < VISIBILITY_BLOCK_PIXELS * count; first += count) {
+        const visibility_hit *a = &hits[first];
+        visibility_hit one;
+        float t = 0.0f;
+        bool is_one = true;
+        for (uint32_t k = 0; k < count; k++) {
+            t += a[k].geometry == VISIBILITY_NONE ? 0.0f : a[k].t;
+            is_one = is_one && a[k].geometry == a->geometry &&
+                     (a->geometry == VISIBILITY_NONE || a[k].primitive == a->primitive);
+        }
+        assert_int_equal(raster_tile_read_one(tile, block, first, count, &one), is_one);
+        if (!is_one)
+            continue;
+        assert_int_equal(one.geometry, a->geometry);
+        if (a->geometry == VISIBILITY_NONE)
+            continue;
+        assert_int_equal(one.primitive, a->primitive);
+        assert_true(one.t == t / (float)count);
+    }
+}
+
 static comparison compare_image(setup *s, const raster *r, uint32_t sample_count)
 {
     enum { MOST = VISIBILITY_BLOCK_PIXELS * 16 };
@@ -110,6 +134,7 @@ static comparison compare_image(setup *s, const raster *r, uint32_t sample_count
                 if (bx + VISIBILITY_BLOCK > SIZE || by + VISIBILITY_BLOCK > SIZE)
                     continue;
                 raster_tile_read(tile, i, rastered);
+                check_pixels(tile, i, sample_count, rastered);
                 visibility_trace_block(&s->embree, &s->camera, bx, by, &pattern, traced);
                 for (uint32_t k = 0; k < VISIBILITY_BLOCK_PIXELS * sample_count; k++)
                     compare_hits(&rastered[k], &traced[k], &c);

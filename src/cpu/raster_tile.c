@@ -244,6 +244,14 @@ raster_tile *raster_tile_create(const raster *r, const visibility_pattern *patte
     return tile;
 }
 
+/* The triangle of a hit, without where it is. */
+static visibility_hit hit_of(const tile_triangle *triangle)
+{
+    visibility_hit hit = {.geometry = triangle->geometry, .primitive = triangle->primitive};
+    memcpy(hit.normal, triangle->normal, sizeof triangle->normal);
+    return hit;
+}
+
 void raster_tile_read(const raster_tile *tile, uint32_t block, visibility_hit *hits)
 {
     const size_t first = (size_t)block * tile->rays_per_block;
@@ -253,14 +261,35 @@ void raster_tile_read(const raster_tile *tile, uint32_t block, visibility_hit *h
             hits[i].geometry = VISIBILITY_NONE;
             continue;
         }
-        const tile_triangle *triangle = &tile->triangles[index];
-        hits[i] = (visibility_hit){.t = tile->t[first + i],
-                                   .u = tile->u[first + i],
-                                   .v = tile->v[first + i],
-                                   .geometry = triangle->geometry,
-                                   .primitive = triangle->primitive};
-        memcpy(hits[i].normal, triangle->normal, sizeof triangle->normal);
+        hits[i] = hit_of(&tile->triangles[index]);
+        hits[i].t = tile->t[first + i];
+        hits[i].u = tile->u[first + i];
+        hits[i].v = tile->v[first + i];
     }
+}
+
+bool raster_tile_read_one(const raster_tile *tile, uint32_t block, size_t first, uint32_t count,
+                          visibility_hit *hit)
+{
+    const size_t begin = (size_t)block * tile->rays_per_block + first;
+    const int32_t index = tile->index[begin];
+    for (size_t i = begin + 1; i < begin + count; i++)
+        if (tile->index[i] != index)
+            return false;
+    hit->geometry = VISIBILITY_NONE;
+    if (index < 0)
+        return true;
+    float t = 0.0f, u = 0.0f, v = 0.0f;
+    for (size_t i = begin; i < begin + count; i++) {
+        t += tile->t[i];
+        u += tile->u[i];
+        v += tile->v[i];
+    }
+    *hit = hit_of(&tile->triangles[index]);
+    hit->t = t / (float)count;
+    hit->u = u / (float)count;
+    hit->v = v / (float)count;
+    return true;
 }
 
 void raster_tile_destroy(raster_tile *tile)

@@ -39,6 +39,7 @@ typedef struct workspace {
     pixel_resolver resolver;
     raster_tile *raster;  /* NULL: hits are traced */
     visibility_hit *hits; /* VISIBILITY_BLOCK_PIXELS * sample_count */
+    bool has_hits;        /* of the block */
     visibility_hit middle_hits[VISIBILITY_BLOCK_PIXELS];
 } workspace;
 
@@ -61,14 +62,29 @@ static void find_hits(const tile_job *p, workspace *w, uint32_t x, uint32_t y, u
         raster_tile_read(w->raster, block, w->hits);
     else
         visibility_trace_block(p->desc->scene->embree, p->desc->scene->camera, x, y, &p->pattern, w->hits);
-    w->resolver.rays += (uint64_t)VISIBILITY_BLOCK_PIXELS * p->pattern.sample_count;
+    w->has_hits = true;
+}
+
+/* Resolves pixel i, which is (x, y), of a block. */
+static bool draw_pixel(const tile_job *p, workspace *w, uint32_t block, uint32_t i, uint32_t x, uint32_t y,
+                       float *rgba)
+{
+    const size_t first = visibility_first_hit(&p->pattern, i);
+    visibility_hit one;
+    if (w->raster && raster_tile_read_one(w->raster, block, first, p->pattern.sample_count, &one) &&
+        pixel_resolve_one(&w->resolver, x, y, &one, rgba))
+        return true;
+    if (!w->has_hits)
+        find_hits(p, w, x - i % VISIBILITY_BLOCK, y - i / VISIBILITY_BLOCK, block);
+    return pixel_resolve(&w->resolver, x, y, w->hits + first, rgba);
 }
 
 static bool draw_block(const tile_job *p, workspace *w, uint32_t x, uint32_t y, uint32_t block)
 {
     const camera_rays *camera = p->desc->scene->camera;
+    w->has_hits = false;
     if (p->draws_image)
-        find_hits(p, w, x, y, block);
+        w->resolver.rays += (uint64_t)VISIBILITY_BLOCK_PIXELS * p->pattern.sample_count;
     if (p->wants_aovs) {
         visibility_trace_block(p->desc->scene->embree, camera, x, y, &p->middle, w->middle_hits);
         w->resolver.rays += VISIBILITY_BLOCK_PIXELS;
@@ -81,8 +97,7 @@ static bool draw_block(const tile_job *p, workspace *w, uint32_t x, uint32_t y, 
             continue;
         size_t pixel = (size_t)(py - p->crop[1]) * p->crop[2] + (px - p->crop[0]);
         float *rgba = p->color->pixels + 4 * pixel;
-        if (p->draws_image &&
-            !pixel_resolve(&w->resolver, px, py, w->hits + visibility_first_hit(&p->pattern, i), rgba))
+        if (p->draws_image && !draw_pixel(p, w, block, i, px, py, rgba))
             return false;
         if (p->draws_image && p->mattes.aovs)
             pixel_add_mattes(&w->resolver, p->desc->identities, &p->mattes, pixel);

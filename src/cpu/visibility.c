@@ -150,6 +150,10 @@ bool visibility_pattern_create(const facet_allocator *allocator, uint32_t sample
     out->offset_x = out->points + 2 * (size_t)sample_count;
     out->offset_y = out->offset_x + ray_count;
     sample_pattern(sample_count, out->points);
+    for (uint32_t i = 0; i < 2 * sample_count; i++)
+        out->middle[i % 2] += out->points[i];
+    out->middle[0] /= (float)sample_count;
+    out->middle[1] /= (float)sample_count;
     for (uint32_t pixel = 0; pixel < VISIBILITY_BLOCK_PIXELS; pixel++) {
         size_t first = visibility_first_hit(out, pixel);
         for (uint32_t i = 0; i < sample_count; i++) {

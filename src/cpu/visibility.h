@@ -47,6 +47,7 @@ static inline visibility_hit visibility_hit_read(const render_geometry_set *geom
 typedef struct visibility_pattern {
     uint32_t sample_count;
     float *points;              /* 2 per sample, in pixels from the pixel's top left; block of mem_alloc() */
+    float middle[2];            /* mean of points */
     float *offset_x, *offset_y; /* per ray of a block, in pixels from the block's top left */
 } visibility_pattern;
 

@@ -12,6 +12,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
+#include "base/simd.h"
 #include "image/deflate.h"
 
 /* ---- filters ---- */
@@ -32,8 +33,9 @@ static inline int paeth(int left, int up, int corner)
 
 /* Stores row minus its prediction in out. above is the previous row, zeros at the top; both are preceded by
  * texel (1 to 8) zeros. */
-static void filter_row(png_filter filter, const unsigned char *row, const unsigned char *above, size_t size,
-                       size_t texel, unsigned char *restrict out)
+static inline __attribute__((always_inline)) void filter_row(png_filter filter, const unsigned char *row,
+                                                             const unsigned char *above, size_t size,
+                                                             size_t texel, unsigned char *restrict out)
 {
     const unsigned char *left = row - texel;
     const unsigned char *corner = above - texel;
@@ -100,15 +102,17 @@ static void load_row(const image *i, uint32_t y, size_t row_size, unsigned char 
 }
 
 /* Sum of absolute filtered bytes as signed numbers, which the PNG specification (12.7) advises to minimise. */
-static uint32_t weight(const unsigned char *filtered, size_t size)
+static inline __attribute__((always_inline)) uint32_t weight(const unsigned char *filtered, size_t size)
 {
     uint32_t sum = 0;
-    for (size_t k = 0; k < size; k++)
-        sum += filtered[k] < 128 ? filtered[k] : 256u - filtered[k];
+    for (size_t k = 0; k < size; k++) {
+        const unsigned char negated = (unsigned char)-filtered[k];
+        sum += filtered[k] < negated ? filtered[k] : negated;
+    }
     return sum;
 }
 
-static void filter_rows(void *context, size_t begin, size_t end)
+DISPATCH_AVX2 static void png_filter_rows(void *context, size_t begin, size_t end)
 {
     writing *w = context;
     const size_t texel = image_texel_size(w->image);
@@ -265,7 +269,7 @@ facet_result png_encode(const image *i, const image_encode_desc *desc, unsigned 
         result = fail_memory(error, "filtered rows", w.filtered_size);
         goto done;
     }
-    parallel_for(desc->thread_count, i->height, 32768 / w.row_size + 8, filter_rows, &w);
+    parallel_for(desc->thread_count, i->height, 32768 / w.row_size + 8, png_filter_rows, &w);
     if (atomic_load(&w.has_no_memory)) {
         result = fail_memory(error, "filtered rows", w.row_size);
         goto done;
