@@ -258,6 +258,37 @@ static void fireflies_are_removed(void **state)
     film_destroy(&truth);
 }
 
+/* Highlights of two and of four pixels, the sun in chrome: as noisy as they are, what is beside them is not: less than
+ * a hundredth of their light spreads there, and they stay highlights. */
+static void highlights_do_not_spread(void **state)
+{
+    (void)state;
+    film truth;
+    film f = noisy_film(WIDTH, HEIGHT, plain_wall, 0.1f, 9, &truth);
+    static const uint32_t places[][2] = {{20, 20}, {21, 20}, {40, 30}, {41, 30}, {40, 31}, {41, 31}};
+    enum { PLACES = sizeof places / sizeof *places };
+    for (size_t k = 0; k < PLACES; k++)
+        for (size_t c = 0; c < 3; c++) {
+            size_t i = places[k][1] * WIDTH + places[k][0];
+            f.layers[0].pixels[4 * i + c] = 400.0f;
+            film_find(&f, "variance")->pixels[3 * i + c] = 200.0f * 200.0f;
+        }
+    denoise(&f);
+    float most = 0.0f;
+    for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
+        bool is_highlight = false;
+        for (size_t k = 0; k < PLACES; k++)
+            is_highlight = is_highlight || i == places[k][1] * WIDTH + places[k][0];
+        float change = fabsf(f.layers[0].pixels[4 * i] - truth.layers[0].pixels[4 * i]);
+        most = !is_highlight && change > most ? change : most;
+        assert_true(!is_highlight || f.layers[0].pixels[4 * i] > 200.0f);
+    }
+    print_message("beside highlights of 400: %.3f\n", (double)most);
+    assert_true(most < 4.0f);
+    film_destroy(&f);
+    film_destroy(&truth);
+}
+
 /* ---- kept properties ---- */
 
 static void clean_images_keep_their_bits(void **state)
@@ -509,6 +540,7 @@ int main(void)
         cmocka_unit_test(errors_of_traced_images_fall),
         cmocka_unit_test(energy_is_kept),
         cmocka_unit_test(fireflies_are_removed),
+        cmocka_unit_test(highlights_do_not_spread),
         cmocka_unit_test(clean_images_keep_their_bits),
         cmocka_unit_test(the_filter_fades_out_as_variance_falls),
         cmocka_unit_test(opacity_is_kept),
