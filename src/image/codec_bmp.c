@@ -149,7 +149,7 @@ static bool read_mapped_row(const bmp_header *h, const unsigned char *row, unsig
 {
     const uint32_t per_byte = 8 / h->bits, mask = (1u << h->bits) - 1;
     for (uint32_t x = 0; x < h->width; x++)
-        if (!put_color(h, row[x / per_byte] >> (8 - h->bits * (x % per_byte + 1)) & mask,
+        if (!put_color(h, (uint32_t)row[x / per_byte] >> (8 - h->bits * (x % per_byte + 1)) & mask,
                        texels + 3 * (size_t)x))
             return false;
     return true;

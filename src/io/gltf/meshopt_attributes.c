@@ -282,7 +282,7 @@ static const uint8_t *decode_block(const layout *l, const uint8_t *in, const uin
     }
     for (size_t c = 0; c < stride / 4; c++) {
         for (unsigned k = 0; k < 4 && in; k++)
-            in = decode_plane(l->is_v1 ? controls[c] >> 2 * k & 3 : 4, in, end, count, planes[k]);
+            in = decode_plane(l->is_v1 ? (unsigned)controls[c] >> 2 * k & 3 : 4, in, end, count, planes[k]);
         if (!in)
             return NULL;
         decode_channel(planes, l->is_v1 ? channel_modes[c] : 0, count, stride, &last[c], out + 4 * c);
