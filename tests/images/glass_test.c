@@ -29,7 +29,8 @@ static int destroy_environments(void **state)
 static model_image render_sphere(const char *path, float x, const char *text, const char *by,
                                  facet_environment *light)
 {
-    facet_render_desc desc = {.environment = light, .samples = 16};
+    facet_render_desc desc = {
+        .environment = light, .background = FACET_BACKGROUND_ENVIRONMENT, .samples = 16};
     model_image p = model_image_of_sphere(path, x, &desc, text, by);
     if (p.count == 0)
         skip();
