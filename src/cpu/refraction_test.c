@@ -414,8 +414,8 @@ static void glass_shows_the_background(void **state)
             const float *b = fixture_pixel(&clear, "", x, 30);
             const float *d = fixture_pixel(&colored, "", x, 30);
             for (int c = 0; c < 3; c++) {
-                assert_near(b[c] + 1.0f - b[3], a[c], 1e-4);
-                assert_near(0.5f * d[c] + 1.0f - d[3], a[c], 1e-4);
+                assert_near(b[c] + 1.0f - b[3], (double)a[c], 1e-4);
+                assert_near(0.5f * d[c] + 1.0f - d[3], (double)a[c], 1e-4);
             }
             if (x > 20 && x < 44)
                 least = fminf(least, b[3]);

@@ -20,7 +20,7 @@ static size_t add_attributes(test_bin *bin, const void *elements, size_t count, 
         for (size_t i = 0; i < 16; i++) {
             uint8_t value = i < count ? bytes[i * stride + k] : last;
             uint8_t delta = (uint8_t)(value - last);
-            stream[at++] = delta & 0x80 ? (uint8_t) ~(delta << 1) : (uint8_t)(delta << 1);
+            stream[at++] = (uint8_t)(delta << 1 ^ (delta & 0x80 ? 0xff : 0));
             last = value;
         }
     }
