@@ -101,8 +101,8 @@ typedef struct facet_plot_desc {
     bool is_logarithmic;   /* the value axis */
     bool has_cosine;       /* multiplies a BRDF by the cosine of the light */
     bool has_shared_scale; /* FACET_PLOT_KIND_BRDF: one scale for all lobes; false: each by its own peak */
-    facet_energy energy;
-    const char *title;      /* NULL: of the kind; "": none */
+    facet_energy energy; /* FACET_PLOT_KIND_LEGACY, has_fit: not read, glTF's BRDF, to which fits are made */
+    const char *title;   /* NULL: of the kind; "": none */
     uint32_t width, height; /* pixels, or 1/96 inch; 0: 960 x 640 or what suits the kind */
     bool is_dark;           /* light lines on a dark background */
 } facet_plot_desc;

@@ -63,7 +63,7 @@ static int tear_down(void **state)
 /* Values at the cell centers; -1 where light or eye would be below the horizon. */
 static void write_material(fixture *f, const facet_plot_material *parameters)
 {
-    material m = {.parameters = *parameters, .label = ""};
+    material m = {.parameters = *parameters, .label = "", .energy = FACET_ENERGY_GLTF}; /* as fits have it */
     size_t cell = 0;
     for (int h = 0; h < MERL_THETA_H; h++)
         for (int d = 0; d < MERL_THETA_D; d++)
@@ -104,7 +104,7 @@ static void cells_and_places_between_them(void **state)
 {
     fixture *f = *state;
     facet_plot_material parameters = shiny(0.3f);
-    material m = {.parameters = parameters, .label = ""};
+    material m = {.parameters = parameters, .label = "", .energy = FACET_ENERGY_GLTF};
     write_material(f, &parameters);
     merl *file = open_file(f);
     double worst = 0.0;

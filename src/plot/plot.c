@@ -185,7 +185,7 @@ static facet_result open_material(plot *p, const facet_plot_material *from, merl
 {
     const facet_plot_desc *desc = p->desc;
     *out = (material){
-        .parameters = *from, .energy = desc->energy, .has_separable_smith = desc->has_separable_smith};
+        .parameters = *from, .energy = plot_energy(desc), .has_separable_smith = desc->has_separable_smith};
     out->label = from->label ? arena_strdup(p->memory, from->label)
                              : material_describe(from, &desc->allocator, p->memory);
     if (!out->label)

@@ -75,7 +75,7 @@ facet_result plot_make_albedo(plot *p)
         plot_set_range(&panel->panel.y, 0.0, highest > 1.005 ? ceil(highest * 5.0) / 5.0 : 1.0);
     panel->panel.note = plot_text(p, "%sintegral of BRDF times N.L over the light, within 0.001%s; %s",
                                   plot_fit_note(p), p->has_channels ? "" : "; luminance",
-                                  p->desc->energy == FACET_ENERGY_CONSERVING
+                                  plot_energy(p->desc) == FACET_ENERGY_CONSERVING
                                       ? "energy-conserving"
                                       : "formulas of glTF, without multiple scattering");
     return plot_finish(p, "Directional albedo", 1, 960, 640);

@@ -302,6 +302,11 @@ const fit_metric *plot_metric(plot *p)
     return p->metric;
 }
 
+facet_energy plot_energy(const facet_plot_desc *desc)
+{
+    return desc->has_fit || desc->kind == FACET_PLOT_KIND_LEGACY ? FACET_ENERGY_GLTF : desc->energy;
+}
+
 static void convert_pbr(const fit_metric *metric, const material *source, bool is_fit, plot_conversion *out)
 {
     pbr_surface pbr = material_pbr_surface(&source->parameters);

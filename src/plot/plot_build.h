@@ -112,6 +112,8 @@ const char *plot_degrees(plot *p, double rad);
 
 /* The metric of errors, made once per plot. NULL: has_failed. */
 const fit_metric *plot_metric(plot *p);
+/* The mode of PBR materials: conversions are fitted to glTF's own BRDF, which plots with them show. */
+facet_energy plot_energy(const facet_plot_desc *desc);
 
 /* A material converted to the other model. */
 typedef struct plot_conversion {

@@ -352,7 +352,10 @@ static facet_result make_vignette(plot *p)
     facet_plot_material white = material_default();
     white.metallic = (float)METALLIC;
     white.perceptual_roughness = (float)ROUGHNESS;
-    material source = {.parameters = white, .label = "the vignette's PBR", .has_separable_smith = true};
+    material source = {.parameters = white,
+                       .label = "the vignette's PBR",
+                       .energy = plot_energy(p->desc),
+                       .has_separable_smith = true};
     plot_conversion conversion;
     TRY(plot_convert(p, &source, FACET_PLOT_MODEL_OGL1, true, &conversion));
 

@@ -54,6 +54,24 @@ static void panels_equal_those_of_the_vignette(void **state)
     }
 }
 
+/* The panels of fits over the hemisphere show the same material, in either energy mode: fits are made to it. */
+static void fits_are_drawn_beside_their_target(void **state)
+{
+    (void)state;
+    for (int mode = 0; mode < 2; mode++) {
+        plot_fixture f =
+            make_plot(&(facet_plot_desc){.energy = mode ? FACET_ENERGY_CONSERVING : FACET_ENERGY_GLTF});
+        const chart_panel *panel = &f.drawing.panels[4];
+        assert_non_null(strstr(panel->title, "30\u00b0"));
+        const chart_curve *pbr = find_curve(panel, "PBR times pi");
+        for (size_t i = 0; i < pbr->count; i++) {
+            double expected = PLOT_PI * vignette_pbr(theta, pbr->x[i], 1, 1, 1, false);
+            assert_near(pbr->y[i], expected, 1e-4 * expected + 1e-5);
+        }
+        free_plot(&f);
+    }
+}
+
 /* With the step it equals shade/ with separable masking for any material. */
 static void masking_with_its_step_equals_the_shader_library(void **state)
 {
@@ -132,6 +150,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(values_equal_those_of_the_vignette),
         cmocka_unit_test(panels_equal_those_of_the_vignette),
+        cmocka_unit_test(fits_are_drawn_beside_their_target),
         cmocka_unit_test(masking_with_its_step_equals_the_shader_library),
         cmocka_unit_test(the_hard_case_fits_to_four_percent),
         cmocka_unit_test(fits_recover_known_parameters),

@@ -60,6 +60,9 @@ grep -q '"model": *"ogl1"' out && grep -q '"parameters": *"ogl1,' out && grep -q
     failed "the JSON lacks the fit"
 expect 0 plot slice metallic=1,roughness=0.4 -o fit.csv --json
 grep -q '"fits": *\[\]' out || failed "a fit that was not asked for"
+expect 0 plot slice metallic=1,roughness=0.4 --fit --energy gltf -o fit.csv
+expect 2 plot slice metallic=1,roughness=0.4 --fit --energy conserving -o fit.csv
+says '"conserving" is not gltf'
 for name in ggx phong blinn-phong; do
     expect 0 plot brdf $name -o $name.csv
 done

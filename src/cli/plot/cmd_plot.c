@@ -178,6 +178,9 @@ static facet_result read_desc(plot_run *run, facet_error *error)
     d->is_logarithmic = is_given(c, OPT_LOG);
     d->has_cosine = is_given(c, OPT_COSINE);
     d->energy = (facet_energy)option_choice(c, OPT_ENERGY, FACET_ENERGY_CONSERVING);
+    if (is_given(c, OPT_ENERGY) && d->energy != FACET_ENERGY_GLTF &&
+        (d->has_fit || d->kind == FACET_PLOT_KIND_LEGACY))
+        return option_fail(c, OPT_ENERGY, "gltf, whose formulas fits and plot legacy have", error);
     d->title = option_text(c, OPT_TITLE, NULL);
     d->is_dark = is_given(c, OPT_DARK);
     const char *size = option_text(c, OPT_SIZE, NULL);
