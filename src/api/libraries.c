@@ -12,7 +12,7 @@ typedef struct library_row {
     const char *name, *license, *built_version, *file, *version_function;
 } library_row;
 
-/* OpenEXR brings Imath, and Embree TBB: what they link is theirs. */
+/* OpenEXR brings Imath, and Embree TBB: what they link is theirs. libepoxy and GLFW are those of the OpenGL module. */
 static const library_row rows[] = {
     {"Draco", "Apache-2.0", FACET_DRACO_VERSION, NULL, NULL},
     {"Embree", "Apache-2.0", NULL, NULL, NULL}, /* its version: embree_scene_version() */
@@ -22,10 +22,12 @@ static const library_row rows[] = {
     {"jansson", "MIT", FACET_JANSSON_VERSION, NULL, NULL},
     {"kissfft", "BSD-3-Clause", FACET_KISSFFT_VERSION, NULL, NULL},
     {"libdeflate", "MIT", FACET_LIBDEFLATE_VERSION, NULL, NULL},
+    {"libepoxy", "MIT", FACET_EPOXY_VERSION, NULL, NULL},
     {"libjpeg-turbo", "IJG AND BSD-3-Clause AND Zlib", FACET_TURBOJPEG_VERSION, NULL, NULL},
     {"libspng", "BSD-2-Clause", FACET_SPNG_VERSION, NULL, NULL},
     {"libwebp", "BSD-3-Clause", FACET_WEBP_VERSION, NULL, NULL},
     {"zlib", "Zlib", FACET_ZLIB_VERSION, NULL, NULL},
+    {"GLFW", "Zlib", FACET_GLFW_VERSION, FACET_GLFW_FILE, "glfwGetVersionString"},
     {"cairo", "LGPL-2.1-only OR MPL-1.1", FACET_CAIRO_VERSION, FACET_CAIRO_FILE, "cairo_version_string"},
     {"libavif", "BSD-2-Clause", FACET_AVIF_VERSION, FACET_AVIF_FILE, "avifVersion"},
     {"libmicrohttpd", "LGPL-2.1-or-later", FACET_MICROHTTPD_VERSION, FACET_MICROHTTPD_FILE,

@@ -11,6 +11,7 @@
 #include "base/library.h"
 #include "base/memory.h"
 #include "base/result.h"
+#include "build_config.h"
 
 /* clang-format off */
 #define GLFW_FUNCTIONS(F, out) \
@@ -220,7 +221,7 @@ static facet_result open_glfw(glfw_library *out, facet_error *error)
                                .stays = true,
                                .symbols = symbols,
                                .symbol_count = sizeof symbols / sizeof *symbols};
-    return library_open("libglfw.so.3", &desc, &out->handle, error);
+    return library_open(FACET_GLFW_FILE, &desc, &out->handle, error);
 }
 
 static facet_result fail_glfw(const view_window *w, const char *what, facet_error *error)
