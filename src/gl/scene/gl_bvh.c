@@ -6,10 +6,7 @@
 #include "base/memory.h"
 #include "base/result.h"
 
-enum {
-    BINS = 12,
-    MAX_DEPTH = 64 /* from there on ranges are halved, which bounds the stack */
-};
+enum { BINS = 12 };
 
 /* ---- boxes ---- */
 
@@ -101,7 +98,14 @@ static int choose_bin(const bin bins[BINS])
     return best;
 }
 
-/* Moves the items of the nearer bins to the front; returns their number, or half of all where no bins differ. */
+/* Most items below a node at a depth: so many fit if ranges are halved from there on. */
+static uint64_t most_below(uint32_t depth)
+{
+    return (uint64_t)GL_BVH_LEAF << (GL_BVH_DEPTH - depth);
+}
+
+/* Moves the items of the nearer bins to the front; returns their number, or half of all where no bins differ or the
+ * tree would become too deep. */
 static uint32_t split(const builder *b, const range *r, const box *centers)
 {
     int axis = 0;
@@ -109,7 +113,7 @@ static uint32_t split(const builder *b, const range *r, const box *centers)
         if (centers->high[i] - centers->low[i] > centers->high[axis] - centers->low[axis])
             axis = i;
     float extent = centers->high[axis] - centers->low[axis], per_m = (float)BINS / extent;
-    if (!(extent > 0.0f) || !isfinite(per_m) || r->depth >= MAX_DEPTH)
+    if (!(extent > 0.0f) || !isfinite(per_m))
         return r->count / 2;
     bin bins[BINS];
     for (int i = 0; i < BINS; i++)
@@ -129,8 +133,8 @@ static uint32_t split(const builder *b, const range *r, const box *centers)
             order[i] = order[near];
             order[near++] = swap;
         }
-    uint32_t count = near - r->first;
-    return count > 0 && count < r->count ? count : r->count / 2;
+    uint32_t count = near - r->first, larger = count > r->count - count ? count : r->count - count;
+    return larger < r->count && larger <= most_below(r->depth + 1) ? count : r->count / 2;
 }
 
 /* ---- all ---- */
@@ -170,9 +174,7 @@ static void build(const builder *b, range *stack)
 facet_result gl_bvh_build(const float *boxes, uint32_t count, const facet_allocator *allocator, gl_bvh *out,
                           facet_error *error)
 {
-    /* Beyond MAX_DEPTH ranges are halved: at most 32 levels more. */
-    enum { STACK = MAX_DEPTH + 34 };
-    range stack[STACK];
+    range stack[GL_BVH_DEPTH + 1];
     size_t most = 2 * (size_t)count;
     *out = (gl_bvh){.count = count};
     out->order = mem_alloc(allocator, count, sizeof *out->order);

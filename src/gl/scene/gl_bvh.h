@@ -1,11 +1,15 @@
-/* gl_bvh.h - a bounding volume hierarchy for shaders, which have no stack: nodes in depth-first order, each with the
- * node that follows its subtree. A ray that misses a box continues there, one that hits it at the next node. */
+/* gl_bvh.h - a bounding volume hierarchy for shaders: nodes in depth-first order, each with the node that follows its
+ * subtree. The first child of an inner node is the next node, the second one follows the first one's subtree. No more
+ * than GL_BVH_DEPTH inner nodes contain each other, which bounds the stack of a shader. */
 #ifndef GL_GL_BVH_H
 #define GL_GL_BVH_H
 
 #include "facet/facet.h"
 
-enum { GL_BVH_LEAF = 4 }; /* most items of a leaf */
+enum {
+    GL_BVH_LEAF = 4,  /* most items of a leaf */
+    GL_BVH_DEPTH = 30 /* enough for 2^32 items */
+};
 
 typedef struct gl_bvh_node {
     float low[3], high[3]; /* m */

@@ -1,4 +1,5 @@
-/* gl_bvh_test.c - every item is in one leaf, every box contains what is below it, and subtrees end where they say. */
+/* gl_bvh_test.c - every item is in one leaf, every box contains what is below it, subtrees end where they say, and are
+ * not too deep. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -35,6 +36,15 @@ static void check_item(const gl_bvh *bvh, const gl_bvh_node *node, const float *
     }
 }
 
+/* Inner nodes above each other, at most. */
+static uint32_t depth_of(const gl_bvh *bvh, uint32_t node)
+{
+    if (bvh->nodes[node].count)
+        return 0;
+    uint32_t near = depth_of(bvh, node + 1), far = depth_of(bvh, bvh->nodes[node + 1].next);
+    return 1 + (near > far ? near : far);
+}
+
 static void leaves_partition_the_items(void **state)
 {
     (void)state;
@@ -46,6 +56,7 @@ static void leaves_partition_the_items(void **state)
             assert_true(boxes && seen);
             fill(boxes, count, kind);
             assert_int_equal(gl_bvh_build(boxes, count, NULL, &bvh, NULL), FACET_OK);
+            assert_true(!count || depth_of(&bvh, 0) <= GL_BVH_DEPTH);
             for (uint32_t i = 0; i < bvh.node_count; i++) {
                 const gl_bvh_node *node = &bvh.nodes[i];
                 assert_true(node->next > i && node->next <= bvh.node_count && node->count <= GL_BVH_LEAF);

@@ -378,6 +378,8 @@ static facet_result draw_transmissive(gl_frame *f, facet_error *error)
 {
     if (!has_pass(f, GL_PASS_TRANSMISSIVE))
         return FACET_OK;
+    if (f->is_traced && gl_rays_features(&f->rays))
+        TRY(gl_rays_draw_depth(f->programs, f->meshes, f->materials, error));
     gl_pyramid_bind_opaque(&f->opaque);
     gl_rays_bind(&f->rays);
     return draw_pass(f, GL_PASS_TRANSMISSIVE, GL_TIMER_TRANSMISSION, error);

@@ -11,8 +11,8 @@
 #include "gl/scene/gl_bvh.h"
 #include "shade/lang/lang_c_load.h"
 
-/* The texture, in texels of four floats: rays.glsl reads it. A texel for the header, two per node, TRIANGLE_TEXELS per
- * triangle in the order of leaves, ROW_TEXELS per material. Integers are floats, exact up to 2^24. */
+/* The texture, in texels of four floats: rays.glsl reads it. A texel for the header, two per node (the children of an
+ * inner node are in sequence), TRIANGLE_TEXELS per triangle in the order of leaves, ROW_TEXELS per material. Integers are floats, exact up to 2^24. */
 enum { WIDTH = 2048, TRIANGLE_TEXELS = 8, ROW_TEXELS = 8, FLOATS = 4 };
 
 /* What a ray does at a material. */
@@ -197,12 +197,31 @@ static void place_sheets(const gl_scene *scene, const gl_material_set *materials
     }
 }
 
+/* A node, whose children are the pair of this number. */
+static void put_node(float *out, const gl_bvh_node *n, size_t pair)
+{
+    put(out, load3(n->low), n->count ? (float)n->first : (float)pair);
+    put(out + FLOATS, load3(n->high), (float)n->count);
+}
+
+/* The pairs of children in the order of their parents. Pair 0 is the root, and one that no ray hits. */
 static void put_nodes(float *out, const gl_bvh *bvh)
 {
-    for (uint32_t i = 0; i < bvh->node_count; i++, out += 2 * FLOATS) {
-        const gl_bvh_node *n = &bvh->nodes[i];
-        put(out, load3(n->low), (float)n->next);
-        put(out + FLOATS, load3(n->high), n->count ? (float)(8 * n->first + n->count) : -1.0f);
+    const gl_bvh_node *nodes = bvh->nodes;
+    size_t pair = 1; /* of the next inner node */
+    put_node(out, &nodes[0], 1);
+    put(out + 2 * FLOATS, vec3(1e30f), 0.0f);
+    put(out + 3 * FLOATS, vec3(1e30f), 1.0f);
+    for (uint32_t i = 0; i < bvh->node_count; i++) {
+        if (nodes[i].count)
+            continue;
+        uint32_t children[2] = {i + 1, nodes[i + 1].next};
+        size_t below = pair + 1;
+        for (int c = 0; c < 2; c++) {
+            put_node(out + 4 * FLOATS * pair + 2 * FLOATS * c, &nodes[children[c]], below);
+            below += (nodes[children[c]].next - children[c]) / 2; /* inner nodes of the subtree */
+        }
+        pair++;
     }
 }
 
@@ -210,7 +229,7 @@ static void fill(const gl_scene *scene, const gl_material_set *materials, const 
                  const gl_bvh *bvh, layout *at, float *out)
 {
     const render_geometry *items = scene->geometries.items;
-    put(out, vec3((float)bvh->node_count, (float)at->triangles, (float)at->rows), 0.0f);
+    put(out, vec3((float)at->triangles, (float)at->rows, 0.0f), 0.0f);
     put_nodes(out + FLOATS, bvh);
     for (uint32_t i = 0; i < bvh->count; i++) {
         const source *s = &sources[bvh->order[i]];
@@ -262,7 +281,7 @@ static facet_result make_texture(gl_rays *r, const gl_scene *scene, const gl_mat
                                  const source *sources, const gl_bvh *bvh, facet_error *error)
 {
     size_t material_count = (size_t)scene->scene->material_count + 1, size = 0;
-    layout at = {.triangles = 1 + 2 * (size_t)bvh->node_count,
+    layout at = {.triangles = 1 + 2 * ((size_t)bvh->node_count + 1),
                  .sheets = mem_zalloc(&r->allocator, material_count, sizeof *at.sheets),
                  .sizes = mem_zalloc(&r->allocator, material_count, sizeof *at.sizes)};
     float *texels = NULL;
@@ -338,6 +357,24 @@ void gl_rays_bind(const gl_rays *r)
     glActiveTexture(GL_TEXTURE0 + GL_UNIT_RAYS);
     glBindSampler(GL_UNIT_RAYS, 0);
     glBindTexture(GL_TEXTURE_2D, r->texture);
+}
+
+facet_result gl_rays_draw_depth(gl_programs *programs, const gl_mesh_set *meshes,
+                                const gl_material_set *materials, facet_error *error)
+{
+    uint32_t count, program;
+    const gl_batch *batches = gl_mesh_batches(meshes, GL_PASS_TRANSMISSIVE, &count);
+    TRY(gl_programs_get(programs, (gl_program_key){GL_MAIN_SHADOW, 0}, &program, error));
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    for (uint32_t i = 0; i < count; i++) {
+        if (batches[i].is_outside || batches[i].geometry->is_see_through)
+            continue;
+        gl_material_bind(materials, &batches[i]);
+        glUseProgram(program);
+        gl_mesh_draw(meshes, &batches[i]);
+    }
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    return FACET_OK;
 }
 
 void gl_rays_destroy(gl_rays *r)

@@ -23,6 +23,10 @@ facet_result gl_rays_update(gl_rays *rays, const gl_scene *scene, const gl_mater
 /* The feature of programs that trace them; 0: there is no texture. */
 uint64_t gl_rays_features(const gl_rays *rays);
 void gl_rays_bind(const gl_rays *rays); /* to GL_UNIT_RAYS */
-void gl_rays_destroy(gl_rays *rays);    /* {0} is allowed; keeps context and allocator */
+/* Draws the depth of transmissive surfaces before they are drawn: rays behind what others hide cost nothing then. Masked
+ * surfaces are left out, as they hide what is behind them in part. */
+facet_result gl_rays_draw_depth(gl_programs *programs, const gl_mesh_set *meshes,
+                                const gl_material_set *materials, facet_error *error);
+void gl_rays_destroy(gl_rays *rays); /* {0} is allowed; keeps context and allocator */
 
 #endif

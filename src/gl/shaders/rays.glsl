@@ -41,29 +41,64 @@ void intersect_triangle(int triangle, vec3 O, vec3 D, bool stops_at_opaque, inou
         hit = RayHit(triangle, t, w);
 }
 
+const int RAYS_DEPTH = 31; /* GL_BVH_DEPTH and the root */
+const int RAYS_END = 0x7fffffff;
+
+/* Where a ray enters a box, m; 1e30: it does not before the hit. */
+float enter_box(vec3 low, vec3 high, vec3 O, vec3 inverse, float far)
+{
+    vec3 a = (low - O) * inverse, b = (high - O) * inverse;
+    vec3 enter = min(a, b), leave = max(a, b);
+    float first = max(max(enter.x, enter.y), max(enter.z, 0.0));
+    float last = min(min(leave.x, leave.y), min(leave.z, far));
+    return first <= last * 1.00001 ? first : 1e30;
+}
+
+/* A leaf: its first triangle and how many, 8 first + count; an inner node: minus the pair of its children. */
+int node_link(vec4 low, vec4 high)
+{
+    int count = int(high.w);
+    return count > 0 ? 8 * int(low.w) + count : -int(low.w);
+}
+
 /* From O (m, in world space) along the unit vector D up to a distance. stops_at_opaque: D is towards the eye, and what
- * matters is what hides O from it. */
+ * matters is what hides O from it: any triangle that does. */
 RayHit trace_ray(vec3 O, vec3 D, float far, bool stops_at_opaque)
 {
-    vec4 head = rays_texel(0);
-    int end = int(head.x), triangles = int(head.y);
+    int triangles = int(rays_texel(0).x);
     vec3 inverse = 1.0 / mix(D, vec3(1e-12), lessThan(abs(D), vec3(1e-12)));
     RayHit hit = RayHit(-1, far, vec2(0.0));
-    int node = 0;
-    while (node < end) {
-        vec4 low = rays_texel(1 + 2 * node), high = rays_texel(2 + 2 * node);
-        vec3 a = (low.xyz - O) * inverse, b = (high.xyz - O) * inverse;
-        vec3 enter = min(a, b), leave = max(a, b);
-        float first = max(max(enter.x, enter.y), max(enter.z, 0.0));
-        float last = min(min(leave.x, leave.y), min(leave.z, hit.t));
-        bool is_passed = first <= last * 1.00001;
-        node = is_passed && high.w < 0.0 ? node + 1 : int(low.w);
-        if (is_passed && high.w >= 0.0) {
-            int leaf = int(high.w), texel = triangles + 8 * (leaf >> 3);
-            for (int k = leaf & 7; k > 0; k--) {
+    int links[RAYS_DEPTH];
+    float starts[RAYS_DEPTH];
+    int waiting = 0, link = 0;
+    while (link != RAYS_END) {
+        bool is_missed = false;
+        while (link <= 0 && !is_missed) { /* to the nearer child, down to a leaf */
+            int texel = 1 - 4 * link;
+            vec4 low_a = rays_texel(texel), high_a = rays_texel(texel + 1), low_b = rays_texel(texel + 2),
+                 high_b = rays_texel(texel + 3);
+            float a = enter_box(low_a.xyz, high_a.xyz, O, inverse, hit.t), b = enter_box(low_b.xyz, high_b.xyz, O, inverse, hit.t);
+            int link_a = node_link(low_a, high_a), link_b = node_link(low_b, high_b);
+            if (max(a, b) < 1e30) {
+                links[waiting] = a <= b ? link_b : link_a;
+                starts[waiting++] = max(a, b);
+            }
+            link = a <= b ? link_a : link_b;
+            is_missed = min(a, b) >= 1e30;
+        }
+        if (!is_missed) {
+            int texel = triangles + 8 * (link >> 3);
+            for (int k = link & 7; k > 0; k--) {
                 intersect_triangle(texel, O, D, stops_at_opaque, hit);
                 texel += 8;
             }
+            if (stops_at_opaque && hit.triangle >= 0)
+                break;
+        }
+        link = RAYS_END;
+        while (waiting > 0 && link == RAYS_END) {
+            waiting--;
+            link = starts[waiting] <= hit.t * 1.00001 ? links[waiting] : RAYS_END;
         }
     }
     return hit;
@@ -72,6 +107,6 @@ RayHit trace_ray(vec3 O, vec3 D, float far, bool stops_at_opaque)
 /* First texel of a material's row. */
 int rays_row(int material)
 {
-    return int(rays_texel(0).z) + 8 * material;
+    return int(rays_texel(0).y) + 8 * material;
 }
 #endif

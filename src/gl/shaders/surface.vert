@@ -23,6 +23,7 @@ in vec3 normal_matrix1;
 in vec3 normal_matrix2;
 #endif
 
+invariant gl_Position; /* the same in all programs */
 out vec3 v_position; /* m, relative to the eye */
 out vec3 v_normal;
 out vec4 v_color;
