@@ -9,10 +9,6 @@ static const unsigned char dfg_packed[] = {
 #include "ibl_dfg_packed.h"
 };
 
-static const unsigned char sheen_packed[] = {
-#include "ibl_sheen_packed.h"
-};
-
 static const unsigned char glass_packed[] = {
 #include "ibl_glass_packed.h"
 };
@@ -23,16 +19,6 @@ const float *ibl_dfg_nodes(void)
     static bool is_unpacked;
     if (!is_unpacked)
         packed_table_read(dfg_packed, (packed_shape)DFG_SHAPE, nodes);
-    is_unpacked = true;
-    return nodes;
-}
-
-const float *ibl_sheen_nodes(void)
-{
-    static float nodes[SHEEN_SIZE * SHEEN_SIZE];
-    static bool is_unpacked;
-    if (!is_unpacked)
-        packed_table_read(sheen_packed, (packed_shape)SHEEN_SHAPE, nodes);
     is_unpacked = true;
     return nodes;
 }
