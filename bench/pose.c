@@ -63,15 +63,16 @@ static facet_scene *make_scene(uint32_t node_count, uint32_t vertex_count)
     scene->meshes[0].primitive_count = scene->mesh_count = 1;
     scene->node_count = node_count;
     for (uint32_t i = 0; i < node_count; i++)
-        scene->nodes[i] = (scene_node){.name = "",
-                                       .parent = SCENE_NONE,
-                                       .translation = {9 * noise(), 9 * noise(), 9 * noise()},
-                                       .rotation = {0.48f, 0.6f, 0.64f, 0},
-                                       .scale = {1, 1, 1},
-                                       .mesh = 0,
-                                       .camera = SCENE_NONE,
-                                       .light = SCENE_NONE,
-                                       .skin = SCENE_NONE};
+        scene->nodes[i] =
+            (scene_node){.name = "",
+                         .parent = SCENE_NONE,
+                         .translation = {9 * (double)noise(), 9 * (double)noise(), 9 * (double)noise()},
+                         .rotation = {0.48f, 0.6f, 0.64f, 0},
+                         .scale = {1, 1, 1},
+                         .mesh = 0,
+                         .camera = SCENE_NONE,
+                         .light = SCENE_NONE,
+                         .skin = SCENE_NONE};
     fill_primitive(scene, &scene->meshes[0].primitives[0], vertex_count);
     return scene;
 }
