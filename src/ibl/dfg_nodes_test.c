@@ -14,6 +14,7 @@
 #define ibl_sheen_nodes packed_sheen_nodes
 #define ibl_glass_nodes packed_glass_nodes
 #include "ibl/dfg_nodes_packed.c"
+#include "ibl/sheen_nodes_packed.c"
 #undef ibl_dfg_nodes
 #undef ibl_sheen_nodes
 #undef ibl_glass_nodes
