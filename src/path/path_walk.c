@@ -429,8 +429,9 @@ static bool is_specular_enough(const path_vertex *v)
     return diffuse < 0.1f && v->s.m.base.alpha < 0.01f;
 }
 
-/* Records albedo and normal of the first surface that is not specular, the albedo as it arrives through what is
- * before it. Until then the normal is that of the first surface. */
+/* Records albedo and normal of the first surface that is not specular, the albedo as it arrives through the specular
+ * surfaces before it. Until then the normal is that of the first surface. A medium before the first surface, such as
+ * water around the camera, leaves the albedo as it is. */
 static void record_features(path *p, const path_vertex *v)
 {
     if (p->vertex == 1)
@@ -439,7 +440,7 @@ static void record_features(path *p, const path_vertex *v)
     if (p->seeks_features)
         return;
     vec3 albedo = v->s.is_lit ? v->s.m.base.base_color : load3(v->s.base_color);
-    store3(clamp(albedo * p->beta, 0.0f, 1.0f), p->out->albedo);
+    store3(clamp(p->vertex == 1 ? albedo : albedo * p->beta, 0.0f, 1.0f), p->out->albedo);
     store3(v->s.m.base.N, p->out->normal);
 }
 
@@ -447,7 +448,7 @@ static void record_features(path *p, const path_vertex *v)
  * then as bright there as where the other samples of the pixel hit a surface. */
 static void record_environment(path *p)
 {
-    if (p->seeks_features)
+    if (p->seeks_features && p->vertex > 0)
         store3(clamp(p->beta, 0.0f, 1.0f), p->out->albedo);
 }
 
