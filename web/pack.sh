@@ -6,7 +6,7 @@ dist=${1-$here/../build/web/dist}
 package=$dist/facet-viewer
 command -v npm >/dev/null || { echo "web: npm, which packs the element, is not installed" >&2; exit 1; }
 [ -f "$package/viewer.wasm" ] || { echo "web: there is no $package/viewer.wasm: run ./run web --build first" >&2; exit 1; }
-version=$(sed -n 's/^project(facet VERSION \([0-9.]*\).*/\1/p' "$here/../CMakeLists.txt")
+version=$(sh "$here/../packaging/version.sh")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cp -R "$package/." "$work"
