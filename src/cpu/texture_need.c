@@ -283,7 +283,7 @@ facet_result texture_need(const facet_scene *scene, const render_geometry_set *s
 {
     lod_histogram *histograms = mem_zalloc(allocator, scene->texture_count, sizeof *histograms);
     bool *must_be_whole = mem_zalloc(allocator, scene->texture_count, 2 * sizeof *must_be_whole);
-    bool *is_exact = must_be_whole + scene->texture_count;
+    bool *is_exact = must_be_whole ? must_be_whole + scene->texture_count : NULL;
     facet_result result = FACET_OK;
     if (!histograms || !must_be_whole) {
         result = fail_memory(error, "textures", scene->texture_count * sizeof *histograms);
