@@ -450,5 +450,5 @@ FN vec3 case_surface_sample(vec2 u)
     int energy = parity_energy(u);
     SurfaceLobesAtV t = surface_lobes_at(s, V, 0.4f, 0.6f, energy, vec2(0.8f, 0.1f));
     SurfaceValue x = surface_value(s, t, parity_L(u), energy);
-    return x.f + x.pdf * 0.1f + surface_draw(s, t, fract(u[0] * 5.0f), vec2(u[1], u[0]));
+    return 2.0f + x.f + x.pdf * 0.1f + surface_draw(s, t, fract(u[0] * 5.0f), vec2(u[1], u[0]));
 }
