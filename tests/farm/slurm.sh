@@ -47,11 +47,12 @@ grep -q "shards running" out || failed "status: $(cat out)"
 kill_node n2
 # Asks an element to end, until one did with items left, so that it exited with 75 and was requeued.
 is_requeued() {
-    if element_on n1; then
-        timeout 2 scancel --signal=TERM "${catalog}_$element" 2>/dev/null || true # it waits for what follows the signal
-        sleep 1
-    fi
-    grep -q "DUE TO JOB REQUEUE" "a catalog"/log/*_*.log
+    element_on n1 || return 1
+    controller=$work/daemons/slurmctld.log
+    before=$(wc -l <"$controller")
+    timeout 2 scancel --signal=TERM "${catalog}_$element" 2>/dev/null || true # it waits for what follows the signal
+    sleep 1
+    tail -n "+$((before + 1))" "$controller" | grep -q "Requeuing JobId=${catalog}_$element("
 }
 wait_for 40 "no element that ended with 75 was requeued" is_requeued
 
