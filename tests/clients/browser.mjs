@@ -8,7 +8,8 @@ import { chromium } from 'playwright-core';
 export { chromium };
 
 const here = path.dirname(fileURLToPath(import.meta.url));
-const types = { '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.wasm': 'application/wasm' };
+const types = { '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.wasm': 'application/wasm',
+    '.svg': 'image/svg+xml' };
 
 // Opens the page at address. contents(url) is the path of the file behind a URL, or { text } of a page. CHROMIUM names the
 // browser (/usr/bin/chromium). Returns the page, what closes it, and what it said: warnings, and errors that on_error gets, too.
