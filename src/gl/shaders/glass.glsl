@@ -95,10 +95,17 @@ vec3 transmittance_along(Branch b, float distance_m, inout vec3 sum)
 
 /* ---- boundaries ---- */
 
+/* The pixel from the image's top left corner, whichever way rows run, so that a window has the noise of a file. */
+uvec2 image_pixel()
+{
+    vec2 at = gl_FragCoord.xy + frame_size.zw;
+    return uvec2(at.x, dot(cross(right.xyz, up.xyz), forward.xyz) > 0.0 ? at.y : frame_size.y - at.y);
+}
+
 /* Two numbers in [0, 1) for sample i of n at a surface along the ray, different per pixel. */
 vec2 rays_random(int i, int n, int depth)
 {
-    uvec2 pixel = uvec2(gl_FragCoord.xy);
+    uvec2 pixel = image_pixel();
     uint h = (pixel.x + 1619u * pixel.y + 31337u * uint(depth)) * 747796405u + 2891336453u;
     h = ((h >> ((h >> 28u) + 4u)) ^ h) * 277803737u;
     h = (h >> 22u) ^ h;
