@@ -324,11 +324,9 @@ static bool decode_whole(const unsigned char *bytes, size_t size, const image_de
                          facet_result *result, facet_error *error)
 {
     png_whole p;
-    *result = png_whole_open(bytes, size, &desc->allocator, &p, error);
-    if (*result == FACET_OK && !p.rows)
+    if (!png_whole_open(bytes, size, &desc->allocator, &p))
         return false;
-    if (*result == FACET_OK)
-        *result = read_whole(&p, desc, out, error);
+    *result = read_whole(&p, desc, out, error);
     png_whole_close(&p);
     return true;
 }

@@ -6,7 +6,6 @@
 #include <libdeflate.h>
 
 #include "base/memory.h"
-#include "base/result.h"
 #include "base/simd.h"
 #include "image/png_chunk.h"
 
@@ -93,39 +92,35 @@ static bool inflate_rows(const unsigned char *data, size_t size, const png_whole
     return is_whole && read == size && has_filters(p);
 }
 
-facet_result png_whole_open(const unsigned char *bytes, size_t size, const facet_allocator *allocator,
-                            png_whole *out, facet_error *error)
+bool png_whole_open(const unsigned char *bytes, size_t size, const facet_allocator *allocator, png_whole *out)
 {
     png_whole p = {0};
     png_chunk c;
     const unsigned char *at = bytes + PNG_SIGNATURE_SIZE;
     const unsigned char *end = bytes + size;
-    *out = (png_whole){0};
     if (size > MOST_BYTES || !png_chunk_next(&at, end, &c) || !read_header(&c, &p))
-        return FACET_OK;
+        return false;
     if (p.width > MOST_BYTES || p.height > MOST_BYTES)
-        return FACET_OK;
+        return false;
     const size_t stride = stride_of(&p);
     const uint64_t row_bytes = (uint64_t)stride * p.height;
     if (row_bytes > MOST_BYTES || row_bytes / MOST_EXPANSION > size)
-        return FACET_OK;
+        return false;
     unsigned char *joined = mem_alloc(allocator, size, 1);
-    p.memory = joined ? mem_alloc(allocator, stride + (size_t)row_bytes, 1) : NULL;
-    if (!p.memory) {
-        mem_free(joined);
-        return fail_memory(error, "rows of a PNG file", stride + (size_t)row_bytes);
-    }
-    memset(p.memory, 0, stride);
-    p.rows = p.memory + stride;
+    p.memory = mem_alloc(allocator, stride + (size_t)row_bytes, 1);
     size_t data_size = 0;
-    const unsigned char *data = find_data(at, end, joined, &data_size);
+    const unsigned char *data = joined && p.memory ? find_data(at, end, joined, &data_size) : NULL;
+    if (data) {
+        memset(p.memory, 0, stride);
+        p.rows = p.memory + stride;
+    }
     const bool is_read = data && inflate_rows(data, data_size, &p, (size_t)row_bytes);
     mem_free(joined);
     if (is_read)
         *out = p;
     else
         png_whole_close(&p);
-    return FACET_OK;
+    return is_read;
 }
 
 void png_whole_close(png_whole *p)

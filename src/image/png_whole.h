@@ -11,11 +11,10 @@ typedef struct png_whole {
     uint32_t width, height, channel_count;
 } png_whole;
 
-/* Inflates a file whose chunks are complete. No rows: it is of another kind (interlaced, palette, transparent color, other
- * depths), damaged, or too large to be in memory in one piece; libspng reads it, or says what is wrong.
- * FACET_ERROR_MEMORY. */
-facet_result png_whole_open(const unsigned char *bytes, size_t size, const facet_allocator *allocator,
-                            png_whole *out, facet_error *error);
+/* Inflates a file whose chunks are complete. False: it is of another kind (interlaced, palette, transparent color, other
+ * depths), damaged, or too large to be in memory in one piece; libspng reads it, or says what is wrong. */
+bool png_whole_open(const unsigned char *bytes, size_t size, const facet_allocator *allocator,
+                    png_whole *out);
 /* Reverses the filter of row y, for all rows in order, and returns its texels. */
 const unsigned char *png_whole_row(const png_whole *p, uint32_t y);
 void png_whole_close(png_whole *p);
