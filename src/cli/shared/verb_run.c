@@ -112,7 +112,9 @@ facet_scene_desc verb_run_scene_desc(verb_run *run)
     l->method = (facet_legacy_method)option_choice(c, OPT_METHOD, FACET_LEGACY_METHOD_CLOSED);
     l->profile = (facet_legacy_profile)option_choice(c, OPT_PROFILE, FACET_LEGACY_PROFILE_SPECULAR_IOR);
     l->target = (facet_legacy_target)option_choice(c, OPT_FIT_TARGET, FACET_LEGACY_TARGET_AUTO);
-    l->colors = option_choice(c, OPT_MTL_COLORS, 0) ? FACET_LEGACY_COLORS_LINEAR : FACET_LEGACY_COLORS_SRGB;
+    if (is_given(c, OPT_MTL_COLORS)) /* otherwise as the file says */
+        l->colors =
+            option_choice(c, OPT_MTL_COLORS, 0) ? FACET_LEGACY_COLORS_LINEAR : FACET_LEGACY_COLORS_SRGB;
     l->dialect = (facet_mtl_dialect)option_choice(c, OPT_DIALECT, FACET_MTL_DIALECT_AUTO);
     l->illum = (facet_mtl_illum)option_choice(c, OPT_ILLUM, FACET_MTL_ILLUM_AUTO);
     l->ambient = (facet_legacy_ambient)option_choice(c, OPT_AMBIENT, FACET_LEGACY_AMBIENT_DROP);
