@@ -69,6 +69,27 @@ static void report(const conversion *c, uint32_t material, const legacy_reading 
     }
 }
 
+/* No screen shows an emission above 1: it is a radiance, chosen for path tracing. Files with one, such as the Cornell
+ * box, mostly state reflectances, which are linear. */
+static void note_radiance(conversion *c)
+{
+    const struct scene_legacy *legacy = c->scene->legacy;
+    if (c->desc.colors != FACET_LEGACY_COLORS_DEFAULT || legacy->colors != FACET_LEGACY_COLORS_SRGB ||
+        legacy->is_rgl)
+        return;
+    for (uint32_t i = 0; i < c->scene->material_count; i++) {
+        const float *Ke = legacy->materials[i].emission;
+        float most = fmaxf(Ke[0], fmaxf(Ke[1], Ke[2]));
+        if (!(most > 1.0f))
+            continue;
+        note_add(
+            &c->notes, i, NOTE_COLORS_MAY_BE_LINEAR,
+            "Ke of %g is a light for path tracing; files with such lights, as the Cornell box, mostly state "
+            "linear colors, which --mtl-colors linear reads",
+            (double)most);
+    }
+}
+
 static void note_file(conversion *c)
 {
     const struct scene_legacy *legacy = c->scene->legacy;
@@ -162,6 +183,7 @@ facet_result convert_from_ogl1(conversion *c, facet_error *error)
     if (result == FACET_OK)
         result = build_all(c, readings, items, error);
     if (result == FACET_OK) {
+        note_radiance(c);
         note_file(c);
         result = lights_from_legacy(c, error);
     }

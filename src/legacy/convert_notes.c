@@ -14,6 +14,7 @@ static const struct {
 } CODES[NOTE_COUNT] = {
     [NOTE_LEGACY_LIGHT_PI] = {"legacy-light-pi", false},
     [NOTE_COLOR_SPACE_ASSUMED] = {"color-space-assumed", false},
+    [NOTE_COLORS_MAY_BE_LINEAR] = {"colors-may-be-linear", true},
     [NOTE_DIALECT_GUESSED] = {"dialect-guessed", false},
     [NOTE_FOG_DROPPED] = {"fog-dropped", true},
     [NOTE_POINT_LIGHT_ATTENUATION] = {"point-light-attenuation", true},

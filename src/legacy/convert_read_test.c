@@ -133,6 +133,33 @@ static void colors_are_srgb_or_linear(void **state)
     scene_destroy(unsaid);
 }
 
+/* The lamp of the Cornell box is 17, 12, 4; an emission up to 1 is a color. */
+static void emission_above_1_suggests_linear_colors(void **state)
+{
+    (void)state;
+    static const char code[] = "colors-may-be-linear";
+    static const facet_legacy_desc srgb = {.colors = FACET_LEGACY_COLORS_SRGB};
+    static const facet_legacy_desc linear = {.colors = FACET_LEGACY_COLORS_LINEAR};
+    legacy_material lamp = gold();
+    set_color(lamp.emission, 17, 12, 4);
+    legacy_material screen = gold();
+    set_color(screen.emission, 1, .5f, 0);
+    const struct {
+        legacy_material material;
+        const facet_legacy_desc *desc;
+        bool is_noted;
+    } cases[] = {{lamp, &PLAIN, true}, {screen, &PLAIN, false}, {lamp, &srgb, false}, {lamp, &linear, false}};
+    for (size_t i = 0; i < 4; i++) {
+        facet_scene *scene = legacy_scene(1);
+        scene->legacy->colors = FACET_LEGACY_COLORS_SRGB;
+        scene->legacy->materials[0] = cases[i].material;
+        convert(scene, cases[i].desc);
+        assert_int_equal(has_warning(scene, 0, code), cases[i].is_noted);
+        assert_int_equal(scene->warning_count > 0, cases[i].is_noted);
+        scene_destroy(scene);
+    }
+}
+
 static void remarks_of_the_fit_are_reported(void **state)
 {
     (void)state;
@@ -587,6 +614,7 @@ int main(void)
         cmocka_unit_test(fit_and_core_are_options),
         cmocka_unit_test(black_becomes_the_darkest_of_the_core),
         cmocka_unit_test(colors_are_srgb_or_linear),
+        cmocka_unit_test(emission_above_1_suggests_linear_colors),
         cmocka_unit_test(remarks_of_the_fit_are_reported),
         cmocka_unit_test(emission_above_one_becomes_strength),
         cmocka_unit_test(ambient_is_dropped_or_emitted),

@@ -108,6 +108,23 @@ expect 0 convert old.obj over.glb --parameters over.json
 cmp -s over.glb new.glb && failed "--parameters changes nothing"
 expect 3 convert old.obj over.glb --parameters missing.json
 
+# The encoding of colors is the file's unless the option says otherwise
+printf '{"facet":"ogl1","version":1,"colors":"linear","materials":[{"name":"matte","color":"steelblue"}]}' >light.json
+expect 0 convert old.obj light.glb --parameters light.json
+expect 0 convert light.json light2.json --to ogl1
+grep -q '"colors": *"linear"' light2.json || failed "the colors of the parameters are no longer linear"
+
+# A light above 1 is one of a path tracer, whose colors are mostly linear
+sed 's/^newmtl matte/&\nKe 17 12 4/' old.mtl >lamp.mtl
+sed 's/old.mtl/lamp.mtl/' old.obj >lamp.obj
+expect 0 convert lamp.obj lamp.glb
+says 'material "matte": Ke of 17 is a light for path tracing'
+for space in srgb linear; do
+    expect 0 convert lamp.obj "$space.glb" --mtl-colors $space
+    grep -q "Ke of 17" err && failed "--mtl-colors $space does not silence the note"
+done
+cmp -s lamp.glb srgb.glb || failed "colors of MTL files are not sRGB by default"
+
 # Images
 expect 0 render old.obj -o a.png $small
 expect 0 render new.glb -o b.png $small
