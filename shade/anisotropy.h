@@ -59,12 +59,12 @@ STRUCT(AnisotropicLookup)
  *   x = w u / sqrt(1 - u^2),   w^2 = ax^2 - ay^2
  * which have GGX's slopes for uniform u in [-1, 1]. They reflect light from above the horizon for x between
  * (V.x - r) / V.z and (V.x + r) / V.z, r^2 = V.x^2 + V.z^2, where all of them are seen: u is uniform between those.
- * Half the angle between lookups is added to the width. Light reflected by rough facets comes more from around N
- * than their mirror direction does: by a / 2 here, fading out towards isotropic lobes, which have no such term.
+ * Half the angle between lookups is added to the width. Each lookup is bent towards N as that of an isotropic lobe of
+ * width ay is, reflection_bend() with F0, at the angle at which the facets are seen; without anisotropy all are that one.
  *
  * In the studio, Leadenhall market and studio_small_03 the error is .05 to .6 of the mean (RMS) where that of one
  * lookup at anisotropic_reflection() is .15 to 4. V and alpha in the frame of the lobe; ax >= ay. */
-FN AnisotropicLookup anisotropic_lookup(int k, vec3 V, vec2 alpha)
+FN AnisotropicLookup anisotropic_lookup(int k, vec3 V, vec2 alpha, float F0)
 {
     float z = max(V[2], NDOTV_MIN);
     float r = sqrt(V[0] * V[0] + z * z);
@@ -84,7 +84,7 @@ FN AnisotropicLookup anisotropic_lookup(int k, vec3 V, vec2 alpha)
     s.L[2] = max(s.L[2], NDOTV_MIN);
     s.weight = (z + V[0] * x) * s.L[2] * V_SmithGGX_anisotropic(s.L, vec3(V[0], V[1], z), alpha[0], alpha[1]);
     s.perceptual_roughness = sqrt(min(sqrt(alpha[1] * alpha[1] + 0.25f * spacing * spacing), 1.0f));
-    float bend = 0.5f * alpha[1] * (w2 / (alpha[0] * alpha[0]));
+    float bend = reflection_bend(alpha[1], clamp(dot(V, H), 0.0f, 1.0f), F0);
     s.L = normalize(mix(s.L, vec3(0.0f, 0.0f, 1.0f), bend));
     return s;
 }

@@ -4,6 +4,7 @@
  *   reference    specular_ibl_sample()   Monte Carlo over the BRDF itself, "SpecularIBL" of Karis 2013
  *   prefilter    prefilter_sample()      one radiance per direction and roughness, "PrefilterEnvMap"
  *   split sum    dfg_sample()            the BRDF's own integral (A, B), "IntegrateBRDF"
+ *   direction    surface_reflection(), of the lookup of prefiltered radiance
  *   use          approximate_specular_ibl(), multiscatter_ibl(), surface_ibl() */
 #ifndef SHADE_IBL_H
 #define SHADE_IBL_H
@@ -120,10 +121,58 @@ FN vec2 integrate_dfg_karis(float perceptual_roughness, float NdotV, uint n)
     return sum * (1.0f / float(n));
 }
 
+/* ---- direction of the lookup ---- */
+
+/* Light that a rough surface reflects comes from around a direction between R = reflect(-V, N) and N: masking and
+ * the horizon take away what arrives at grazing angles. The share b of the way from R to N, in [0, 1]; the lookup is
+ * along mix(R, N, b):
+ *   b = a max(1 + (1 - a)^2 (1/2 - 5/2 N.V) - 0.74 (1 - F0)^6 (1 - N.V), 0)
+ * 0 for a mirror, whose N and R stay apart; 1 for a = 1 and F0 = 1, where D G2 / (4 N.V) is N.L / (2 pi (N.L + N.V)),
+ * the same all around N. Schlick's term adds light from far away from V, most for a small F0, the reflectance facing
+ * (over that at grazing).
+ *
+ * A fit to quadrature in four photographs and three synthetic environments, by RMS error over N.V from 0.05 to 0.97:
+ * for F0 = 1 and perceptual roughness 0.5, 0.75 and 1 it is 0.62, 0.41 and 0.29 times that of lookups along R, and at
+ * most 0.02 more than with the best b for each N.V. The idea is the dominant direction of Lagarde and de Rousiers
+ * 2014, "Moving Frostbite to Physically Based Rendering". */
+FN float reflection_bend(float alpha, float NdotV, float F0)
+{
+    float sharp = 1.0f - alpha;
+    float dark = 1.0f - F0;
+    float dark2 = dark * dark;
+    float grazing = 0.74f * dark2 * dark2 * dark2 * (1.0f - NdotV);
+    return alpha * max(1.0f + sharp * sharp * (0.5f - 2.5f * NdotV) - grazing, 0.0f);
+}
+
+/* Unit direction of the lookup for a lobe of width alpha. ENERGY_GLTF: R, as in Khronos' renderer. */
+FN vec3 specular_reflection(vec3 N, vec3 V, float alpha, float F0, int energy)
+{
+    vec3 R = reflect(-V, N);
+    if (energy == ENERGY_GLTF)
+        return normalize(R);
+    vec3 bent = mix(R, N, reflection_bend(alpha, clamp(dot(N, V), 0.0f, 1.0f), F0));
+    float length2 = dot(bent, bent); /* 0 only for an eye straight behind the surface */
+    return sel(length2 > 1e-12f, bent * inversesqrt(max(length2, 1e-12f)), N);
+}
+
+/* The mean over the channels of a surface's reflectance facing, over that at grazing, for reflection_bend(). */
+FN float surface_facing_reflectance(Surface s)
+{
+    float F0 = dot(mix(s.F0, s.base_color, s.metallic), vec3(1.0f / 3.0f));
+    return min(F0 / max(mix(s.F90, 1.0f, s.metallic), 1e-4f), 1.0f);
+}
+
+/* specular_reflection() of a surface. */
+FN vec3 surface_reflection(Surface s, vec3 V, int energy)
+{
+    return specular_reflection(s.N, V, alpha_from_roughness(s.perceptual_roughness),
+                               surface_facing_reflectance(s), energy);
+}
+
 /* ---- lighting ---- */
 
 /* Reflected radiance by the split sum: prefiltered (F0 A + F90 B); prefiltered in the direction
- * reflect(-V, N). Karis 2013, "ApproximateSpecularIBL". */
+ * reflect(-V, N), or nearer to the integral, specular_reflection(). Karis 2013, "ApproximateSpecularIBL". */
 FN vec3 approximate_specular_ibl(vec3 F0, vec3 F90, vec3 prefiltered, vec2 dfg)
 {
     return prefiltered * (F0 * dfg[0] + F90 * dfg[1]);
@@ -152,7 +201,7 @@ FN MultiScatter multiscatter_ibl(vec3 k_S, vec3 F0, vec3 F90, vec2 dfg)
 }
 
 /* Radiance (cd/m^2) of the environment reflected by a surface, with occlusion, without emission.
- * specular_radiance is prefiltered for the surface's roughness along reflect(-V, N); dfg is (A, B) at NdotV.
+ * specular_radiance is prefiltered for the surface's roughness along surface_reflection(); dfg is (A, B) at NdotV.
  *
  * ENERGY_GLTF is Khronos' renderer: k_S by F_Schlick_roughness, the sum of single and multiple scattering
  * times the specular radiance, the base under a dielectric weighted with one minus that sum (its largest

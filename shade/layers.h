@@ -212,25 +212,27 @@ FN float layers_clearcoat_NdotV(Layers m, vec3 V)
     return clamp(dot(m.clearcoat_N, V), NDOTV_MIN, 1.0f);
 }
 
-/* Unit direction of the lookup of LayerLight.specular: reflect(-V, N), bent for anisotropy. */
-FN vec3 layers_reflection(Layers m, vec3 V)
+/* Unit direction of the lookup of LayerLight.specular, where that is a single one: not layers_reads_anisotropic(). */
+FN vec3 layers_reflection(Layers m, vec3 V, int energy)
 {
     if (has_layer(m, LAYER_ANISOTROPY))
         return anisotropic_reflection(m.base.N, m.anisotropy_B, V, m.anisotropy, m.base.perceptual_roughness);
-    return normalize(reflect(-V, m.base.N));
+    return surface_reflection(m.base, V, energy);
 }
 
 /* Lookup k of ANISOTROPY_LOOKUPS of LayerLight.specular where layers_reads_anisotropic(), L in world space. */
 FN AnisotropicLookup layers_anisotropic_lookup(Layers m, vec3 V, int k)
 {
-    AnisotropicLookup s = anisotropic_lookup(k, layers_to_frame(m, V), layers_alpha(m, m.base.alpha));
+    AnisotropicLookup s = anisotropic_lookup(k, layers_to_frame(m, V), layers_alpha(m, m.base.alpha),
+                                             surface_facing_reflectance(m.base));
     s.L = m.anisotropy_T * s.L[0] + m.anisotropy_B * s.L[1] + m.base.N * s.L[2];
     return s;
 }
 
-FN vec3 layers_clearcoat_reflection(Layers m, vec3 V)
+/* Of the lookup of LayerLight.clearcoat. The lobe has no Fresnel term of its own (F_clearcoat()): F0 = 1. */
+FN vec3 layers_clearcoat_reflection(Layers m, vec3 V, int energy)
 {
-    return normalize(reflect(-V, m.clearcoat_N));
+    return specular_reflection(m.clearcoat_N, V, alpha_from_roughness(m.clearcoat_roughness), 1.0f, energy);
 }
 
 /* Terms of a boundary for an anisotropic lobe, from those of the isotropic one and the split sums of both:

@@ -30,7 +30,8 @@ FN vec3 plain_radiance(SurfaceHost host, Surface s)
     vec2 dfg = host_split_sum(vec2(NdotV, s.perceptual_roughness));
     vec3 radiance = s.emissive;
     if (host_has_environment(host)) {
-        vec3 specular = host_specular(host, normalize(reflect(-host.V, s.N)), s.perceptual_roughness);
+        vec3 specular =
+            host_specular(host, surface_reflection(s, host.V, host.energy), s.perceptual_roughness);
         radiance += surface_ibl(s, NdotV, dfg, specular, host_irradiance_over_pi(host, s.N), host.energy);
     }
     for (LightCursor c = host_first_light(host); c.has_light; c = host_next_light(host, c))
@@ -56,7 +57,7 @@ FN VolumeExit diffuse_exit(SurfaceHost host, Layers m)
 FN vec3 base_specular(SurfaceHost host, Layers m)
 {
     if (!layers_reads_anisotropic(m, host.energy))
-        return host_specular(host, layers_reflection(m, host.V), m.base.perceptual_roughness);
+        return host_specular(host, layers_reflection(m, host.V, host.energy), m.base.perceptual_roughness);
     vec3 sum = vec3(0.0f);
     float weight = 0.0f;
     for (int k = 0; k < ANISOTROPY_LOOKUPS; k++) {
@@ -87,8 +88,8 @@ FN LayerLight layer_light(SurfaceHost host, Layers m, VolumeExit e)
                     volume_transmittance(m.attenuation_color, m.attenuation_distance, e.distance_m);
         }
         if (has_layer(m, LAYER_CLEARCOAT))
-            light.clearcoat =
-                host_specular(host, layers_clearcoat_reflection(m, host.V), m.clearcoat_roughness);
+            light.clearcoat = host_specular(host, layers_clearcoat_reflection(m, host.V, host.energy),
+                                            m.clearcoat_roughness);
         if (has_layer(m, LAYER_SHEEN))
             light.sheen = host_sheen(host, m.base.N, m.sheen_roughness);
     }

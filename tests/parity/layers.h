@@ -135,7 +135,8 @@ FN vec3 case_layers_table_points(vec2 u)
     int energy = parity_energy(u);
     vec2 p = layers_dfg_point(m, V, energy) + layers_transmission_point(m, V, energy) +
              layers_alpha(m, layers_transmission_alpha(m));
-    vec3 r = layers_reflection(m, V) + layers_clearcoat_reflection(m, V) + layers_emission(m, V);
+    vec3 r =
+        layers_reflection(m, V, energy) + layers_clearcoat_reflection(m, V, energy) + layers_emission(m, V);
     if (has_layer(m, LAYER_SHEEN) || layers_is_inside(m) || layers_reads_anisotropic(m, energy))
         r += 1.0f;
     if (layers_reads_anisotropic(m, energy))

@@ -232,6 +232,16 @@ FN vec3 case_multiscatter_ibl(vec2 u)
     return m.single + m.multiple + approximate_specular_ibl(s.F0, vec3(1.0f), vec3(2.0f), dfg);
 }
 
+FN vec3 case_surface_reflection(vec2 u)
+{
+    Surface s = parity_surface(u);
+    vec3 V = parity_V(u);
+    int energy = sel(u[1] > 0.2f, ENERGY_CONSERVING, ENERGY_GLTF);
+    vec3 coat = specular_reflection(s.N, V, u[0], u[1], ENERGY_CONSERVING);
+    return surface_reflection(s, V, energy) + coat +
+           vec3(2.0f + reflection_bend(u[1], u[0], 0.3f), 2.0f, 2.0f + surface_facing_reflectance(s));
+}
+
 FN vec3 case_surface_ibl(vec2 u)
 {
     Surface s = parity_surface(u);

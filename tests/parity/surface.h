@@ -245,7 +245,8 @@ FN vec3 case_anisotropic_reflection(vec2 u)
 FN vec3 case_anisotropic_lookup(vec2 u)
 {
     int k = int(u[0] * 15.99f);
-    AnisotropicLookup s = anisotropic_lookup(k, parity_V(u), anisotropic_alpha(0.05f + 0.4f * u[1], u[0]));
+    AnisotropicLookup s =
+        anisotropic_lookup(k, parity_V(u), anisotropic_alpha(0.05f + 0.4f * u[1], u[0]), u[1]);
     return s.L + 2.0f + vec3(s.perceptual_roughness, s.weight, 0.0f);
 }
 
