@@ -108,6 +108,8 @@ typedef struct facet_sheet_desc {
     facet_bake_desc bake;  /* as for baking the cube */
     facet_tonemap tonemap;
     float exposure_ev;
+    /* exposure_ev is added to what makes the sheet readable, near middle grey, in tenths of a stop */
+    bool meters_exposure;
 } facet_sheet_desc;
 FACET_API facet_result facet_cube_draw_sheet(const facet_cube *cube, facet_environment *environment,
                                              const facet_sheet_desc *desc, facet_image **image,

@@ -11,12 +11,13 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
+#include "film/meter.h"
 #include "ibl/environment.h"
 #include "plot/chart_ticks.h"
 #include "report/report.h"
 
 /* Pixels. */
-enum { CROSS_GAP = 40, LEVEL_GAP = 24, CAPTION = 34, TITLE = 82 };
+enum { CROSS_GAP = 40, LEVEL_GAP = 24, CAPTION = 34, TITLE = 82, TITLE_LINE = 26 };
 
 #define DOT "  \xc2\xb7  "
 
@@ -78,21 +79,26 @@ static void write_title(ibl_sheet *s)
                      ? "  \xc2\xb7  roughness of level k: 1 \xe2\x88\x92 \xe2\x88\x9a(1 \xe2\x88\x92 k/%u)"
                      : "  \xc2\xb7  roughness of level k: k/%u",
                  last);
-    s->y += 26;
+    s->y += TITLE_LINE;
     sheet_write(s, (sheet_word){.size = 28, .strength = SHEET_STRONG, .is_bold = true}, SHEET_MARGIN,
                 (float)s->y, "%s", titles[c->lobe]);
-    char ev[NUMBER_SIZE];
-    number_label((double)s->desc->exposure_ev, 1, ev);
-    static const char *const operators[] = {
-        "none", "neutral", "ACES", "ACES (Narkowicz)", "AgX", "Reinhard", "Reinhard, extended", "Hable"};
-    sheet_write(s, (sheet_word){.size = 14, .strength = SHEET_QUIET, .align = WORD_RIGHT},
-                SHEET_WIDTH - SHEET_MARGIN, (float)s->y, "exposure %s EV  \xc2\xb7  tone mapping: %s", ev,
-                operators[s->desc->tonemap]);
     s->y += 28;
     sheet_write(s, (sheet_word){.size = 15, .strength = SHEET_PLAIN}, SHEET_MARGIN, (float)s->y,
                 "cube map of %u \xc3\x97 %u texels  \xc2\xb7  %u level%s%s", c->levels[0].size,
                 c->levels[0].size, c->level_count, last ? "s" : "", mapping);
     s->y += 28;
+}
+
+/* On the right of the title. */
+static void write_exposure(ibl_sheet *s, double exposure_ev)
+{
+    static const char *const operators[] = {
+        "none", "neutral", "ACES", "ACES (Narkowicz)", "AgX", "Reinhard", "Reinhard, extended", "Hable"};
+    char ev[NUMBER_SIZE];
+    number_label(exposure_ev, 1, ev);
+    sheet_write(s, (sheet_word){.size = 14, .strength = SHEET_QUIET, .align = WORD_RIGHT},
+                SHEET_WIDTH - SHEET_MARGIN, SHEET_MARGIN + TITLE_LINE,
+                "exposure %s EV" DOT "tone mapping: %s", ev, operators[s->desc->tonemap]);
 }
 
 /* ---- crosses ---- */
@@ -126,7 +132,7 @@ static void draw_cross_rows(void *context, size_t begin, size_t end)
                     sum += cube_fetch(job->level,
                                       (cube_point){(uint32_t)face, 2.0f * s - 1.0f, 2.0f * t - 1.0f});
                 }
-            sum *= job->canvas->scale / (float)(samples * samples);
+            sum *= 1.0f / (float)(samples * samples);
             float *pixel = f->layers[0].pixels + 4 * ((job->place.y + y) * f->width + job->place.x + x);
             for (int c = 0; c < 3; c++)
                 pixel[c] = sum[c];
@@ -249,6 +255,35 @@ static uint32_t sheet_height(const facet_cube *c)
            sheet_balls_height(c);
 }
 
+/* Stops that bring what has been drawn to middle grey: its log average, as the eye judges a picture. Small bright lights
+ * among black, as in a studio, would then leave rough levels and diffuse spheres white; it is darker by up to MOST_DARKER
+ * stops, until the mean, which these levels show everywhere, is at most MOST_MEAN of white. */
+static double metered_ev(const film *f)
+{
+    static const double MOST_MEAN = 0.4;
+    static const double MOST_DARKER = 1.5;
+    double average = film_meter(f);
+    if (!(average > 0.0))
+        return 0.0;
+    double grey = log2(METER_KEY / average);
+    double readable = log2(MOST_MEAN / film_average(f));
+    return round(10.0 * fmax(grey - MOST_DARKER, fmin(grey, readable))) / 10.0;
+}
+
+/* Exposes what has been drawn, and writes the exposure beside the title. */
+static void expose(ibl_sheet *s)
+{
+    double ev = (double)s->desc->exposure_ev;
+    if (s->desc->meters_exposure)
+        ev += metered_ev(&s->film);
+    const float scale = (float)exp2(ev);
+    float *pixel = s->film.layers[0].pixels;
+    for (size_t i = (size_t)s->film.width * s->film.height; i-- > 0; pixel += 4)
+        for (int k = 0; k < 3; k++)
+            pixel[k] *= scale;
+    write_exposure(s, ev);
+}
+
 facet_result ibl_sheet_draw(const facet_cube *cube_map, const facet_environment *environment,
                             const facet_sheet_desc *desc, image *out, facet_error *error)
 {
@@ -268,13 +303,14 @@ facet_result ibl_sheet_draw(const facet_cube *cube_map, const facet_environment 
         result = prepare(s, error);
     if (result != FACET_OK)
         goto done;
-    s->canvas = (sheet_canvas){&s->film, exp2f(desc->exposure_ev), desc->thread_count};
+    s->canvas = (sheet_canvas){&s->film, desc->thread_count};
     write_title(s);
     result = draw_levels(s, error);
     if (result == FACET_OK)
         result = sheet_draw_balls(s, error);
     if (result != FACET_OK)
         goto done;
+    expose(s);
     film_tone_map(&s->film, desc->tonemap, BACKGROUND, desc->thread_count);
     *out = (image){.pixels = s->film.layers[0].pixels,
                    .width = SHEET_WIDTH,

@@ -30,10 +30,9 @@ typedef struct sheet_place {
     uint32_t x, y, width;
 } sheet_place;
 
-/* The film and its scale. */
+/* The film, whose values are radiance until the whole sheet is exposed. */
 typedef struct sheet_canvas {
     film *film;
-    float scale; /* film value per radiance */
     uint32_t thread_count;
 } sheet_canvas;
 

@@ -124,7 +124,7 @@ static void sheet_draw_ball(const sheet_canvas *canvas, sheet_place place, const
             const float *value = values + 3 * ((size_t)y * width + x);
             float *pixel = f->layers[0].pixels + 4 * ((size_t)(place.y + y) * f->width + place.x + x);
             for (int c = 0; c < 3; c++)
-                pixel[c] = value[c] * canvas->scale * opacity;
+                pixel[c] = value[c] * opacity;
             pixel[3] = opacity;
         }
 }

@@ -11,6 +11,7 @@
 #include "tests/support/support.h"
 #include "base/memory.h"
 #include "ibl/light_fixture.h"
+#include "image/srgb.h"
 #include "report/ibl_sheet.h"
 #include "report/report.h"
 
@@ -113,7 +114,7 @@ static void crosses_show_upright_faces(void **state)
     cube_fill_borders(&c);
     film f;
     assert_int_equal(film_create(NULL, 4 * EDGE + 3, 3 * EDGE + 5, 0, &f, NULL), FACET_OK);
-    sheet_canvas canvas = {&f, 2.0f, 2};
+    sheet_canvas canvas = {&f, 2};
     sheet_draw_cross(&canvas, (sheet_place){3, 5, 4 * EDGE}, &c);
     size_t covered = 0;
     for (size_t i = 0; i < (size_t)f.width * f.height; i++)
@@ -125,9 +126,9 @@ static void crosses_show_upright_faces(void **state)
                 uint32_t px = 3 + places[k].column * EDGE + 10 + x * EDGE / 2;
                 uint32_t py = 5 + places[k].row * EDGE + 10 + y * EDGE / 2;
                 const float *p = f.layers[0].pixels + 4 * ((size_t)py * f.width + px);
-                assert_near(p[0], 2.0f * (float)places[k].face, 1e-4);
-                assert_near(p[1], 2.0f * (float)x, 1e-4);
-                assert_near(p[2], 2.0f * (float)y, 1e-4);
+                assert_near(p[0], (float)places[k].face, 1e-4);
+                assert_near(p[1], (float)x, 1e-4);
+                assert_near(p[2], (float)y, 1e-4);
             }
     film_destroy(&f);
     cube_destroy(&c);
@@ -225,6 +226,86 @@ static void sheets_do_not_depend_on_threads(void **state)
     facet_environment_destroy(e);
 }
 
+/* Mean sRGB value of the green channel, without the background of the sheet, of which green is 32 of 255. */
+static double mean_code(const image *i)
+{
+    double sum = 0.0;
+    double count = 0.0;
+    for (size_t k = 0; k < (size_t)i->width * i->height; k++) {
+        double code = srgb_encode((double)((const float *)i->pixels)[4 * k + 1]);
+        bool is_background = fabs(code - 32.0 / 255.0) < 1e-4;
+        sum += is_background ? 0.0 : code;
+        count += is_background ? 0.0 : 1.0;
+    }
+    return sum / count;
+}
+
+static float strength = 1.0f;
+
+/* A sky with a small sun. */
+static void sunny(const float d[3], float out[3])
+{
+    float sun = d[1] > 0.98f ? 1e4f : 0.0f;
+    out[0] = strength * (0.2f + sun);
+    out[1] = strength * (0.5f + sun);
+    out[2] = strength * (0.8f + sun);
+}
+
+/* A metered sheet is the same for light in any unit, and neither black nor white; exposure_ev comes on top. */
+static void metered_sheets_are_readable(void **state)
+{
+    (void)state;
+    static const float strengths[] = {1.0f, 65536.0f, 1.0f / 65536.0f, 0.0f};
+    for (int i = 0; i < 4; i++) {
+        strength = strengths[i];
+        facet_environment *e = make_environment(64, 32, sunny);
+        facet_bake_desc desc = {.lobe = FACET_LOBE_GGX, .size = 64, .level_count = 3};
+        facet_cube *c = bake(e, &desc);
+        facet_sheet_desc sheet_desc = {
+            .bake = desc, .tonemap = FACET_TONEMAP_NEUTRAL, .meters_exposure = true};
+        image sheet = draw(c, e, &sheet_desc);
+        double mean = mean_code(&sheet);
+        image_destroy(&sheet);
+        sheet_desc.exposure_ev = 1.0f;
+        image brighter = draw(c, e, &sheet_desc);
+        if (strength > 0.0f) {
+            assert_true(mean > 0.25 && mean < 0.55);
+            assert_true(mean_code(&brighter) > mean + 0.03);
+        } else {
+            assert_true(mean < 0.2); /* black has no exposure */
+        }
+        image_destroy(&brighter);
+        facet_cube_destroy(c);
+        facet_environment_destroy(e);
+    }
+}
+
+/* The opening of a lamp in a dark room. */
+static void lamp(const float d[3], float out[3])
+{
+    out[0] = out[1] = out[2] = d[1] > 0.95f && d[0] > 0.0f ? 200.0f : 0.05f;
+}
+
+/* Small lights leave rough levels and diffuse spheres readable: 2.3 % of the pixels are white, and 4.7 % by the log average alone. */
+static void small_lights_do_not_fill_the_sheet_with_white(void **state)
+{
+    (void)state;
+    facet_environment *e = make_environment(64, 32, lamp);
+    facet_bake_desc desc = {.lobe = FACET_LOBE_GGX, .size = 64, .level_count = 3};
+    facet_cube *c = bake(e, &desc);
+    image sheet = draw(
+        c, e, &(facet_sheet_desc){.bake = desc, .tonemap = FACET_TONEMAP_NEUTRAL, .meters_exposure = true});
+    size_t white = 0;
+    const size_t count = (size_t)sheet.width * sheet.height;
+    for (size_t k = 0; k < count; k++)
+        white += ((const float *)sheet.pixels)[4 * k + 1] > 0.97f;
+    print_message("%.3f of the sheet is white\n", (double)white / (double)count);
+    assert_true((double)white < 0.035 * (double)count);
+    image_destroy(&sheet);
+    facet_cube_destroy(c);
+    facet_environment_destroy(e);
+}
+
 /* Text is drawn in place, over the image. */
 static void text_is_drawn_in_place(void **state)
 {
@@ -316,6 +397,8 @@ int main(void)
         cmocka_unit_test(levels_are_interpolated),
         cmocka_unit_test(differences_are_rms_over_the_sphere),
         cmocka_unit_test(sheets_do_not_depend_on_threads),
+        cmocka_unit_test(metered_sheets_are_readable),
+        cmocka_unit_test(small_lights_do_not_fill_the_sheet_with_white),
         cmocka_unit_test(text_is_drawn_in_place),
         cmocka_unit_test(progress_is_reported_and_can_cancel),
         cmocka_unit_test(running_out_of_memory_leaks_nothing),

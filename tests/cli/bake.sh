@@ -319,9 +319,19 @@ says "12 texels"
 expect 1 bake nan.pfm nan.pfm nan.pfm nan.pfm nan.pfm nan.pfm $tiny -o x.ktx2 --strict
 expect 0 bake neutral --quick -o x.ktx2
 [ "$(u32 x.ktx2 20)" = 128 ] || failed "--quick is not 128 texels"
+expect 2 bake small.pfm $tiny -o x.ktx2 --preview-exposure 0
+says "without --preview"
+expect 2 bake small.pfm $tiny -o x.ktx2 --preview sheet.png --preview-exposure bright
+says "stops such as"
 if ! is_quick; then
     expect 0 bake small.pfm --size 16 --mips 2 --preview sheet.png -o x.ktx2
     is_type sheet.png "PNG image data"
+    # The sheet exposes itself: it looks alike for light in another unit
+    expect 0 bake small.pfm --size 16 --mips 2 --exposure -12 --preview dark.png -o dark.ktx2
+    expect 0 compare sheet.png dark.png --max mae=0.004
+    expect 0 bake small.pfm --size 16 --mips 2 --exposure -12 --preview dark.png --preview-exposure 0 -o y.ktx2
+    cmp -s dark.ktx2 y.ktx2 || failed "--preview-exposure changes the cube map"
+    expect 1 compare sheet.png dark.png --max mae=0.004
 fi
 clean
 

@@ -395,7 +395,9 @@ static facet_result make_sheet(const bake_making *m, bake_file *file, facet_erro
                                    .progress = m->progress,
                                    .thread_count = m->options->limits.thread_count,
                                    .bake = baked->desc,
-                                   .tonemap = m->options->tonemap};
+                                   .tonemap = m->options->tonemap,
+                                   .exposure_ev = (float)m->options->sheet_ev,
+                                   .meters_exposure = m->options->meters_sheet};
     facet_image *sheet = NULL;
     facet_result result = facet_cube_draw_sheet(baked->cube, m->environment, &desc, &sheet, error);
     if (result == FACET_OK)

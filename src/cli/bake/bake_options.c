@@ -156,10 +156,10 @@ static facet_result read_table(const command_line *c, bake_options *out, facet_e
                                            FACET_DFG_KIND_CHARLIE,     FACET_DFG_KIND_CHARLIE_NEUBELT,
                                            FACET_DFG_KIND_GGX_AVERAGE, FACET_DFG_KIND_FILAMENT};
     static const option_id idle[] = {
-        OPT_DIFFUSE,   OPT_SHEEN,   OPT_SH,        OPT_PREVIEW,      OPT_LAYOUT,      OPT_PROJECTION,
-        OPT_LEVEL,     OPT_RGBM,    OPT_MIPS,      OPT_MAPPING,      OPT_LOBE,        OPT_METHOD,
-        OPT_REFERENCE, OPT_SAMPLES, OPT_QUICK,     OPT_VERIFY,       OPT_MAX_ERROR,   OPT_ROTATION,
-        OPT_EXPOSURE,  OPT_CLAMP,   OPT_SH_WINDOW, OPT_INPUT_LAYOUT, OPT_TONE_MAPPING};
+        OPT_DIFFUSE,   OPT_SHEEN,   OPT_SH,        OPT_PREVIEW,      OPT_LAYOUT,       OPT_PROJECTION,
+        OPT_LEVEL,     OPT_RGBM,    OPT_MIPS,      OPT_MAPPING,      OPT_LOBE,         OPT_METHOD,
+        OPT_REFERENCE, OPT_SAMPLES, OPT_QUICK,     OPT_VERIFY,       OPT_MAX_ERROR,    OPT_ROTATION,
+        OPT_EXPOSURE,  OPT_CLAMP,   OPT_SH_WINDOW, OPT_INPUT_LAYOUT, OPT_TONE_MAPPING, OPT_PREVIEW_EXPOSURE};
     static const option_id tables_only[] = {OPT_DISTRIBUTION};
     out->is_table = is_given(c, OPT_DFG);
     out->table = kinds[option_choice(c, OPT_DISTRIBUTION, 0)];
@@ -204,6 +204,15 @@ static facet_result read_format(const command_line *c, bake_options *out, facet_
     return FACET_OK;
 }
 
+static facet_result read_sheet_exposure(const command_line *c, bake_options *out, facet_error *error)
+{
+    if (!value_metered_exposure(option_text(c, OPT_PREVIEW_EXPOSURE, "auto"), &out->meters_sheet,
+                                &out->sheet_ev))
+        return option_fail(c, OPT_PREVIEW_EXPOSURE,
+                           "stops such as +0.5, a factor such as 2x, auto, or auto+0.5", error);
+    return FACET_OK;
+}
+
 static facet_result read_image_layout(const command_line *c, bake_options *out, facet_error *error)
 {
     static const facet_layout projections[] = {FACET_LAYOUT_EQUIRECTANGULAR,
@@ -213,7 +222,7 @@ static facet_result read_image_layout(const command_line *c, bake_options *out, 
                                                FACET_LAYOUT_STRIP_VERTICAL,
                                                FACET_LAYOUT_OCTAHEDRAL,
                                                FACET_LAYOUT_FACES};
-    static const option_id preview_only[] = {OPT_TONE_MAPPING};
+    static const option_id preview_only[] = {OPT_TONE_MAPPING, OPT_PREVIEW_EXPOSURE};
     out->has_projection = is_given(c, OPT_PROJECTION);
     out->projection = projections[option_choice(c, OPT_PROJECTION, 0)];
     out->level = (int)option_number(c, OPT_LEVEL, -1.0);
@@ -222,6 +231,7 @@ static facet_result read_image_layout(const command_line *c, bake_options *out, 
     if (out->level >= (int)out->bake.level_count)
         return fail(error, FACET_ERROR_ARGUMENT, "--level: there are %u levels, numbered from 0, and no %d",
                     out->bake.level_count, out->level);
+    TRY(read_sheet_exposure(c, out, error));
     return out->preview ? FACET_OK : refuse(c, preview_only, COUNT(preview_only), "without --preview", error);
 }
 

@@ -47,9 +47,11 @@ typedef struct bake_options {
     uint32_t zstd_level;
     bool has_projection;
     facet_layout projection;
-    int level;        /* -1: all */
-    float rgbm_range; /* 0: none */
-    facet_tonemap tonemap;
+    int level;             /* -1: all */
+    float rgbm_range;      /* 0: none */
+    facet_tonemap tonemap; /* of the sheet, as its exposure */
+    bool meters_sheet;
+    double sheet_ev;
     bool keeps_existing;
 
     /* filtering */

@@ -62,7 +62,7 @@ const verb bake_verb = {
         (const option_group *const[]){
             OPTION_GROUP("Output", OPT_OUTPUT, OPT_DIFFUSE, OPT_SHEEN, OPT_SH, OPT_PREVIEW, OPT_LAYOUT,
                          OPT_NO_CLOBBER, OPT_FORMAT, OPT_ZSTD, OPT_PROJECTION, OPT_LEVEL, OPT_RGBM,
-                         OPT_TONE_MAPPING),
+                         OPT_TONE_MAPPING, OPT_PREVIEW_EXPOSURE),
             OPTION_GROUP("Filtering", OPT_SIZE, OPT_MIPS, OPT_MAPPING, OPT_LOBE, OPT_METHOD, OPT_REFERENCE,
                          OPT_SAMPLES, OPT_QUICK, OPT_VERIFY, OPT_MAX_ERROR),
             OPTION_GROUP("Environment", OPT_INPUT_LAYOUT, OPT_ROTATION, OPT_EXPOSURE, OPT_CLAMP,

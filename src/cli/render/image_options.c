@@ -305,14 +305,11 @@ facet_result image_options_exposure(const command_line *c, render_options *out, 
 {
     double stops = 0.0;
     const char *text = option_text(c, OPT_EXPOSURE, "+0");
-    out->meters_exposure = strncmp(text, "auto", 4) == 0;
-    text += out->meters_exposure ? 4 : 0;
-    bool has_stops = !out->meters_exposure || *text;
-    if (has_stops && !value_exposure(text, &stops))
+    if (!value_metered_exposure(text, &out->meters_exposure, &stops))
         return option_fail(c, OPT_EXPOSURE, "stops such as +0.5, a factor such as 2x, auto, or auto+0.5",
                            error);
     double plain;
-    if (c->has_attributes && has_stops && text[0] != '+' && text[0] != '-' && value_number(text, &plain))
+    if (c->has_attributes && text[0] != '+' && text[0] != '-' && value_number(text, &plain))
         snprintf(out->note, sizeof out->note,
                  "--exposure %s: read as stops, a factor of %.4g; model-viewer's exposure is a factor, which "
                  "is written --exposure %sx",

@@ -175,6 +175,14 @@ bool value_exposure(const char *text, double *stops)
     return true;
 }
 
+bool value_metered_exposure(const char *text, bool *is_metered, double *stops)
+{
+    *stops = 0.0;
+    *is_metered = strncmp(text, "auto", 4) == 0;
+    text += *is_metered ? 4 : 0;
+    return (*is_metered && !*text) || value_exposure(text, stops);
+}
+
 bool value_angle(const char *text, double *radians)
 {
     static const unit units[] = {{"", DEGREE}, {"deg", DEGREE}, {"rad", 1.0}, {NULL, 0}};

@@ -23,6 +23,8 @@ bool value_bytes(const char *text, uint64_t *bytes);
 bool value_seconds(const char *text, double *seconds);
 /* "+0.5" stops; "2x" the factor 2. */
 bool value_exposure(const char *text, double *stops);
+/* The same, or "auto", "auto+0.5", "auto2x": stops are added to what is metered. */
+bool value_metered_exposure(const char *text, bool *is_metered, double *stops);
 /* "30", "30deg", "0.5rad"; in rad. */
 bool value_angle(const char *text, double *radians);
 

@@ -98,6 +98,12 @@ static void test_units(void **state)
     assert_true(value_exposure("2x", &x) && fabs(x - 1.0) < 1e-12);
     assert_true(value_exposure("0.5X", &x) && fabs(x + 1.0) < 1e-12);
     assert_true(value_exposure("-1 EV", &x) && fabs(x + 1.0) < 1e-12);
+    bool is_metered;
+    assert_true(value_metered_exposure("auto", &is_metered, &x) && is_metered && x == 0.0);
+    assert_true(value_metered_exposure("auto-0.5", &is_metered, &x) && is_metered && x == -0.5);
+    assert_true(value_metered_exposure("2x", &is_metered, &x) && !is_metered && fabs(x - 1.0) < 1e-12);
+    assert_false(value_metered_exposure("automatic", &is_metered, &x) ||
+                 value_metered_exposure("", &is_metered, &x));
     assert_false(value_exposure("0x", &x) || value_exposure("-2x", &x) || value_exposure("1y", &x));
     assert_true(value_angle("90", &x) && fabs(x - 90.0 * DEGREE) < 1e-12);
     assert_true(value_angle("-90deg", &x) && fabs(x + 90.0 * DEGREE) < 1e-12);
