@@ -5,11 +5,17 @@
 #include "facet/facet.h"
 
 enum { DEFLATE_WINDOW = 32768, ZLIB_FRAME = 6 /* bytes that a zlib stream (RFC 1950) adds */ };
+/* Up to this size one piece is better than several for several threads: libdeflate takes half of zlib's time. */
+#ifdef HAVE_LIBDEFLATE
+enum { DEFLATE_WHOLE = 5 << 18 };
+#else
+enum { DEFLATE_WHOLE = 1 };
+#endif
 
 /* Upper bound of the bytes that deflate_piece() writes for size bytes. */
 size_t deflate_bound(size_t size);
 
-/* Compresses bytes like zlib at level (1 to 9), for a stream in which the history_size bytes before them (at
+/* Compresses bytes at level (1 to 9) of zlib, or of libdeflate where one piece is the whole stream, for a stream in which the history_size bytes before them (at
  * most DEFLATE_WINDOW) came first. Pieces but the last end at a byte boundary and can be concatenated.
  * Returns the bytes written to out, which has deflate_bound(size); 0: out of memory. */
 size_t deflate_piece(const facet_allocator *allocator, uint32_t level, const unsigned char *bytes,

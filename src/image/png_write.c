@@ -80,6 +80,7 @@ typedef struct writing {
     size_t row_size;         /* without the filter byte */
     unsigned char *filtered; /* height rows of 1 + row_size bytes */
     size_t filtered_size;
+    size_t block_size; /* of filtered; the last block has what is left */
     block *blocks;
     size_t block_count;
     _Atomic bool has_no_memory;
@@ -158,9 +159,9 @@ static void deflate_blocks(void *context, size_t begin, size_t end)
     writing *w = context;
     for (size_t b = begin; b < end; b++) {
         block *out = &w->blocks[b];
-        size_t first = b * BLOCK_SIZE;
+        size_t first = b * w->block_size;
         bool is_last = b + 1 == w->block_count;
-        out->in_size = is_last ? w->filtered_size - first : BLOCK_SIZE;
+        out->in_size = is_last ? w->filtered_size - first : w->block_size;
         out->deflated = mem_alloc(&w->desc->allocator, deflate_bound(out->in_size), 1);
         if (out->deflated)
             out->size = deflate_piece(&w->desc->allocator, w->desc->compression, w->filtered + first,
@@ -262,7 +263,8 @@ facet_result png_encode(const image *i, const image_encode_desc *desc, unsigned 
         return fail(error, FACET_ERROR_ARGUMENT, "PNG: %u x %u texels are too many", i->width, i->height);
     writing w = {.image = i, .desc = desc, .row_size = image_row_size(i)};
     w.filtered_size = (1 + w.row_size) * i->height;
-    w.block_count = (w.filtered_size + BLOCK_SIZE - 1) / BLOCK_SIZE;
+    w.block_size = w.filtered_size <= DEFLATE_WHOLE ? DEFLATE_WHOLE : BLOCK_SIZE;
+    w.block_count = (w.filtered_size + w.block_size - 1) / w.block_size;
     w.filtered = mem_alloc(&desc->allocator, w.filtered_size, 1);
     w.blocks = mem_zalloc(&desc->allocator, w.block_count, sizeof *w.blocks);
     if (!w.filtered || !w.blocks) {
@@ -276,7 +278,7 @@ facet_result png_encode(const image *i, const image_encode_desc *desc, unsigned 
     }
     parallel_for(desc->thread_count, w.block_count, 1, deflate_blocks, &w);
     if (atomic_load(&w.has_no_memory)) {
-        result = fail_memory(error, "deflate", BLOCK_SIZE);
+        result = fail_memory(error, "deflate", w.block_size);
         goto done;
     }
     result = assemble(&w, bytes, size, error);
