@@ -156,6 +156,43 @@ static void what_the_image_lacks_is_shaded(void **state)
     fixture_destroy(&f);
 }
 
+/* Radiance and what shows of a white background. */
+static double mean_over_white(const film *a)
+{
+    double sum = 0.0;
+    size_t count = (size_t)a->width * a->height;
+    for (size_t i = 0; i < 4 * count; i++)
+        sum += (double)(i % 4 < 3 ? a->layers[0].pixels[i] / 3.0f : 1.0f - a->layers[0].pixels[i]);
+    return sum / (double)count;
+}
+
+/* What glass shows of the background is opacity, too, which no longer is coverage then. */
+static void masked_glass_before_the_background(void **state)
+{
+    (void)state;
+    static const unsigned char gray[16] = {160, 160, 160, 255, 160, 160, 160, 200,
+                                           160, 160, 160, 255, 160, 160, 160, 255};
+    fixture f = fixture_create();
+    scene_material pane = glass(1.5f, 0.0f);
+    pane.alpha_mode = SCENE_ALPHA_MASK;
+    pane.alpha_cutoff = 0.5f;
+    pane.textures[SCENE_BASE_COLOR_TEXTURE].texture = fixture_add_texture(&f, 2, 2, gray);
+    add_quad(&f, pane, 0, 0, 0.9f);
+    f.desc.width = f.desc.height = 32;
+    f.desc.samples = 4;
+    f.desc.background = FACET_BACKGROUND_TRANSPARENT;
+    film wanted = fixture_render(&f);
+    for (int c = 0; c < contexts.count; c++) {
+        film seen = gl_fixture_render(&f, &contexts.items[c]);
+        print_message("masked glass: %.4f, the preview's %.4f\n", mean_over_white(&seen),
+                      mean_over_white(&wanted));
+        assert_true(fabs(mean_over_white(&seen) - mean_over_white(&wanted)) < 0.01);
+        film_destroy(&seen);
+    }
+    film_destroy(&wanted);
+    fixture_destroy(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -163,6 +200,7 @@ int main(void)
         cmocka_unit_test(glass_in_front_of_glass),
         cmocka_unit_test(a_window_of_two_panes),
         cmocka_unit_test(what_the_image_lacks_is_shaded),
+        cmocka_unit_test(masked_glass_before_the_background),
     };
     if (gl_fixture_open(&contexts) == 0)
         return 77;

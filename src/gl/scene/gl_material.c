@@ -351,9 +351,11 @@ bool gl_material_has_coverage(const gl_context *context)
     return !context->is_es;
 }
 
+/* Not of glass, whose opacity is what it shows of the background. */
 static void set_coverage(const gl_material_set *set, const gl_batch *batch)
 {
     bool is_mask = batch->geometry->is_see_through && !batch->geometry->legacy &&
+                   !batch->plan->lets_rays_through &&
                    batch->geometry->material->alpha_mode == SCENE_ALPHA_MASK;
     if (!gl_material_has_coverage(set->context))
         return;

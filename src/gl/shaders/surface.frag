@@ -174,9 +174,14 @@ void main()
     scale = 1.0;
 #endif
 #ifdef HAS_ALPHA_MASK
-    if (has_coverage != 0)
+#ifdef HAS_TRANSMISSION
+    bool is_covering = false; /* opacity is what shows the background */
+#else
+    bool is_covering = has_coverage != 0;
+#endif
+    if (is_covering)
         opacity = mask_share(color.w);
-    if (opacity < (has_coverage != 0 ? 1.0 / 512.0 : 0.5))
+    if (opacity < (is_covering ? 1.0 / 512.0 : 0.5))
         discard;
     radiance /= opacity; /* put_fragment() multiplies by it: coverage is by samples */
 #endif
