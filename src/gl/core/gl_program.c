@@ -22,6 +22,7 @@ static const struct {
                 {"u_opaque", GL_UNIT_OPAQUE},
                 {"u_level", GL_UNIT_OPAQUE},
                 {"u_rays", GL_UNIT_RAYS},
+                {"u_traced", GL_UNIT_RAYS},
                 {"u_image", 0},
                 {"u_heights", GL_UNIT_MATERIAL},
                 {"u_ground", GL_UNIT_MATERIAL},

@@ -45,7 +45,7 @@ static const char *const surface_features[] = {
     "HAS_DIFFUSE_TRANSMISSION", "HAS_VOLUME", "HAS_DISPERSION", "HAS_SCATTER",
     "IS_LIT", "IS_UNLIT", "IS_GLOSSY", "HAS_ALPHA_MASK", "HAS_ALPHA_BLEND", "HAS_COLORS", "IS_VOLUME",
     "HAS_SPECULAR_ANTIALIASING", "HAS_ONE_FOOTPRINT", "IS_SPRITE", "AOVS", "IS_WEIGHTED", "IS_PEELED", "HAS_CHANNEL",
-    "HAS_SCHLICK_GGX", "IS_DISPLAYED", "ADDS_1", "ADDS_2", "ADDS_4", "IS_TRACED", NULL};
+    "HAS_SCHLICK_GGX", "IS_DISPLAYED", "ADDS_1", "ADDS_2", "ADDS_4", "IS_TRACED", "IS_TRACING", NULL};
 /* clang-format on */
 _Static_assert(sizeof slot_names / sizeof *slot_names == SCENE_TEXTURE_SLOT_COUNT, "every slot has a name");
 

@@ -8,6 +8,7 @@
 #include "base/result.h"
 #include "gl/core/gl_api.h"
 #include "gl/scene/gl_camera.h"
+#include "gl/scene/gl_frame_block.h"
 #include "gl/gl_entry.h"
 #include "shade/lang/lang_c_load.h"
 
@@ -37,6 +38,7 @@ void gl_frame_destroy(gl_frame *f)
     gl_phong_destroy(f->phong);
     gl_pyramid_destroy(&f->opaque);
     gl_rays_destroy(&f->rays);
+    gl_glass_destroy(&f->glass);
     gl_transparency_destroy(f->transparency);
     gl_light_destroy(f->light);
     gl_material_destroy(f->materials);
@@ -49,14 +51,17 @@ void gl_frame_destroy(gl_frame *f)
 
 /* ---- programs ---- */
 
-static gl_program_key key_of(const gl_frame *f, const gl_batch *batch, bool is_layers)
+/* What surfaces put out: radiance, AOVs, or the light that rays through glass find. */
+typedef enum output { OUTPUT_RADIANCE, OUTPUT_LAYERS, OUTPUT_TRACED } output;
+
+static gl_program_key key_of(const gl_frame *f, const gl_batch *batch, output what)
 {
     uint64_t features = gl_material_features(f->materials, batch) | gl_mesh_features(f->meshes, batch) |
                         gl_light_features(f->light) | f->display_features;
-    if (is_layers)
+    if (what == OUTPUT_LAYERS)
         features |= gl_program_feature(GL_MAIN_SURFACE, "AOVS");
     else if (f->is_traced && batch->plan->lets_rays_through)
-        features |= gl_rays_features(&f->rays);
+        features |= gl_rays_features(&f->rays, what == OUTPUT_TRACED);
     return (gl_program_key){gl_material_main(f->materials, batch), features};
 }
 
@@ -71,25 +76,37 @@ static gl_transparency_view transparency_of(const gl_frame *f, const facet_rende
                                   .thread_count = desc->thread_count};
 }
 
-static facet_result request_batches(gl_frame *f, bool is_layers, facet_error *error)
+static facet_result request_batches(gl_frame *f, output what, facet_error *error)
 {
-    gl_pass end = is_layers ? GL_PASS_COUNT : GL_PASS_BLENDED;
-    for (gl_pass pass = GL_PASS_OPAQUE; pass < end; pass++) {
+    gl_pass end = what == OUTPUT_LAYERS ? GL_PASS_COUNT : GL_PASS_BLENDED;
+    for (gl_pass pass = what == OUTPUT_TRACED ? GL_PASS_TRANSMISSIVE : GL_PASS_OPAQUE; pass < end; pass++) {
         uint32_t count;
         const gl_batch *batches = gl_mesh_batches(f->meshes, pass, &count);
         for (uint32_t i = 0; i < count; i++)
-            TRY(gl_programs_request(f->programs, key_of(f, &batches[i], is_layers), error));
+            TRY(gl_programs_request(f->programs, key_of(f, &batches[i], what), error));
     }
     return FACET_OK;
+}
+
+static bool has_rays(const gl_frame *f)
+{
+    return f->is_traced && f->rays.is_ready;
+}
+
+static facet_result request_image(gl_frame *f, facet_error *error)
+{
+    if (has_rays(f))
+        TRY(request_batches(f, OUTPUT_TRACED, error));
+    return request_batches(f, OUTPUT_RADIANCE, error);
 }
 
 /* The other programs of glass, which a window needs when its motion begins or ends. */
 static facet_result request_other_glass(gl_frame *f, facet_error *error)
 {
-    if (f->use == GL_FRAME_IMAGE || !gl_rays_features(&f->rays))
+    if (f->use == GL_FRAME_IMAGE || !f->rays.is_ready)
         return FACET_OK;
     f->is_traced = !f->is_traced;
-    facet_result result = request_batches(f, false, error);
+    facet_result result = request_image(f, error);
     f->is_traced = !f->is_traced;
     return result;
 }
@@ -100,10 +117,10 @@ static facet_result request_programs(gl_frame *f, const facet_render_desc *desc,
     gl_programs_set_log(f->programs, &desc->log);
     gl_transparency_view blended = transparency_of(f, desc);
     TRY(request_other_glass(f, error));
-    TRY(request_batches(f, false, error));
+    TRY(request_image(f, error));
     TRY(gl_transparency_request(f->transparency, &blended, error));
     if (desc->aovs)
-        TRY(request_batches(f, true, error));
+        TRY(request_batches(f, OUTPUT_LAYERS, error));
     if (desc->background == FACET_BACKGROUND_ENVIRONMENT) {
         gl_program_key key = {GL_MAIN_BACKGROUND, gl_light_background_features(f->light, desc)};
         TRY(gl_programs_request(f->programs, key, error));
@@ -216,15 +233,15 @@ uint32_t gl_frame_max_samples(const gl_frame *f, const facet_render_desc *desc)
 
 /* ---- passes ---- */
 
-static facet_result draw_batches(gl_frame *f, gl_pass pass, bool is_layers, facet_error *error)
+static facet_result draw_batches(gl_frame *f, gl_pass pass, output what, facet_error *error)
 {
     uint32_t count;
     const gl_batch *batches = gl_mesh_batches(f->meshes, pass, &count);
     for (uint32_t i = 0; i < count; i++) {
         if (batches[i].is_outside)
             continue;
-        TRY(gl_material_use(f->materials, f->programs, &batches[i],
-                            key_of(f, &batches[i], is_layers).features, error));
+        TRY(gl_material_use(f->materials, f->programs, &batches[i], key_of(f, &batches[i], what).features,
+                            error));
         gl_mesh_draw(f->meshes, &batches[i]);
     }
     return FACET_OK;
@@ -241,47 +258,11 @@ static facet_result draw_screen(gl_frame *f, gl_main main, uint64_t features, fa
     return FACET_OK;
 }
 
-static void set_block(gl_frame *f, const gl_frame_block *block)
-{
-    glBindBuffer(GL_UNIFORM_BUFFER, f->frame_buffer);
-    glBufferData(GL_UNIFORM_BUFFER, sizeof *block, block, GL_DYNAMIC_DRAW);
-    glBindBufferBase(GL_UNIFORM_BUFFER, GL_BLOCK_FRAME, f->frame_buffer);
-}
-
-static void fill_block(const gl_frame *f, const facet_render_desc *desc, gl_frame_block *block)
-{
-    const float *behind = desc->background_color;
-    bool is_light = gl_channel_is_light(desc->gl.channel);
-    block->exposure = is_light ? exp2f(desc->exposure_ev) : 1.0f;
-    block->energy = (int32_t)light_energy(desc);
-    block->channel = (int32_t)desc->gl.channel;
-    block->background_blur = desc->background_blur;
-    for (int i = 0; i < 3; i++)
-        block->background[i] = is_light ? behind[i] : 0.0f;
-    block->background[3] = !is_light || desc->background == FACET_BACKGROUND_COLOR;
-    if (!desc->sea && is_light && desc->background != FACET_BACKGROUND_ENVIRONMENT)
-        block->backdrop[3] = desc->background == FACET_BACKGROUND_COLOR ? 2.0f : 1.0f;
-    for (int i = 0; i < 3; i++)
-        block->backdrop[i] = behind[i] / block->exposure;
-    gl_light_bind(f->light, block);
-}
-
-/* The uniform background, if surfaces are drawn as displayed. */
-static void set_clear_color(const gl_frame *f, const gl_frame_block *block)
-{
-    const float *behind = block->background;
-    vec3 shown = srgb_from_linear(clamp(vec3(behind[0], behind[1], behind[2]), 0.0f, 1.0f));
-    if (f->display_features && behind[3] > 0.0f)
-        glClearColor(shown[0], shown[1], shown[2], 1.0f);
-    else
-        glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
-}
-
 static void begin(gl_frame *f, const gl_target *target, const facet_render_desc *desc, gl_frame_block *block)
 {
-    fill_block(f, desc, block);
+    gl_frame_fill_block(f, desc, block);
     block->has_coverage = target->samples > 1 && gl_material_has_coverage(f->context);
-    set_block(f, block);
+    gl_frame_set_block(f, block);
     gl_mesh_order(f->meshes, block, f->materials, gl_material_features);
     glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer);
     glViewport(0, 0, (GLsizei)target->width, (GLsizei)target->height);
@@ -290,7 +271,7 @@ static void begin(gl_frame *f, const gl_target *target, const facet_render_desc 
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    set_clear_color(f, block);
+    gl_frame_set_clear_color(f, block);
     gl_camera_begin_depth(f->context);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
@@ -298,7 +279,7 @@ static void begin(gl_frame *f, const gl_target *target, const facet_render_desc 
 static facet_result draw_pass(gl_frame *f, gl_pass pass, gl_timer timer, facet_error *error)
 {
     gl_timers_begin(&f->timers, timer);
-    facet_result result = draw_batches(f, pass, false, error);
+    facet_result result = draw_batches(f, pass, OUTPUT_RADIANCE, error);
     gl_timers_end(&f->timers);
     return result;
 }
@@ -373,15 +354,32 @@ static facet_result draw_opaque(gl_frame *f, const gl_target *target, const face
     return draw_pass(f, GL_PASS_OPAQUE, GL_TIMER_OPAQUE, error);
 }
 
+/* Traces the rays behind the nearest glass of each pixel. */
+static facet_result trace_rays(gl_frame *f, const gl_target *target, facet_error *error)
+{
+    facet_result result = gl_glass_begin(&f->glass, f->context, target, error);
+    for (gl_pass pass = GL_PASS_OPAQUE; pass <= GL_PASS_TRANSMISSIVE && result == FACET_OK; pass++)
+        result = gl_rays_draw_depth(f->programs, f->meshes, f->materials, pass, error);
+    gl_rays_bind(&f->rays);
+    if (result == FACET_OK)
+        result = draw_batches(f, GL_PASS_TRANSMISSIVE, OUTPUT_TRACED, error);
+    gl_glass_end(&f->glass, target);
+    return result;
+}
+
 /* Drawn after the opaque surfaces, a copy of which they look up. */
-static facet_result draw_transmissive(gl_frame *f, facet_error *error)
+static facet_result draw_transmissive(gl_frame *f, const gl_target *target, facet_error *error)
 {
     if (!has_pass(f, GL_PASS_TRANSMISSIVE))
         return FACET_OK;
-    if (f->is_traced && gl_rays_features(&f->rays))
-        TRY(gl_rays_draw_depth(f->programs, f->meshes, f->materials, error));
     gl_pyramid_bind_opaque(&f->opaque);
-    gl_rays_bind(&f->rays);
+    if (has_rays(f)) {
+        gl_timers_begin(&f->timers, GL_TIMER_TRANSMISSION);
+        facet_result result = trace_rays(f, target, error);
+        gl_timers_end(&f->timers);
+        TRY(result);
+        TRY(gl_rays_draw_depth(f->programs, f->meshes, f->materials, GL_PASS_TRANSMISSIVE, error));
+    }
     return draw_pass(f, GL_PASS_TRANSMISSIVE, GL_TIMER_TRANSMISSION, error);
 }
 
@@ -419,7 +417,7 @@ facet_result gl_frame_draw(gl_frame *f, const gl_target *target, const facet_ren
     begin(f, target, desc, block);
     facet_result result = draw_opaque(f, target, desc, error);
     if (result == FACET_OK)
-        result = draw_transmissive(f, error);
+        result = draw_transmissive(f, target, error);
     if (result == FACET_OK)
         result = draw_background(f, desc, error);
     if (result == FACET_OK)
@@ -443,7 +441,7 @@ facet_result gl_frame_draw_layers(gl_frame *f, const gl_target *target, const fa
     gl_timers_begin(&f->timers, GL_TIMER_LAYERS);
     facet_result result = FACET_OK;
     for (gl_pass pass = GL_PASS_OPAQUE; pass < GL_PASS_COUNT && result == FACET_OK; pass++)
-        result = draw_batches(f, pass, true, error);
+        result = draw_batches(f, pass, OUTPUT_LAYERS, error);
     gl_timers_end(&f->timers);
     gl_camera_end_depth(f->context);
     return result;
@@ -467,8 +465,8 @@ static facet_result tone_map(gl_frame *f, const gl_target *target, const facet_r
                              int y, facet_error *error)
 {
     gl_frame_block block = {.size = {(float)target->width, (float)target->height, (float)x, (float)y}};
-    fill_block(f, desc, &block);
-    set_block(f, &block);
+    gl_frame_fill_block(f, desc, &block);
+    gl_frame_set_block(f, &block);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, target->color);
     glDisable(GL_DEPTH_TEST);

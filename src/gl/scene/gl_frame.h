@@ -2,6 +2,7 @@
 #ifndef GL_GL_FRAME_H
 #define GL_GL_FRAME_H
 
+#include "gl/scene/gl_glass.h"
 #include "gl/scene/gl_light.h"
 #include "gl/scene/gl_material.h"
 #include "gl/core/gl_pyramid.h"
@@ -28,6 +29,7 @@ typedef struct gl_frame {
     gl_light *light;
     gl_pyramid opaque, bloom;
     gl_rays rays;    /* through transmissive surfaces */
+    gl_glass glass;  /* the light that they found */
     gl_phong *phong; /* NULL: not used yet */
     gl_transparency *transparency;
     const gl_scene *scene; /* of the last update */

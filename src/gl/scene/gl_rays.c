@@ -347,9 +347,9 @@ facet_result gl_rays_update(gl_rays *r, const gl_scene *scene, const gl_material
     return FACET_OK;
 }
 
-uint64_t gl_rays_features(const gl_rays *r)
+uint64_t gl_rays_features(const gl_rays *r, bool traces)
 {
-    return r->is_ready ? gl_program_feature(GL_MAIN_SURFACE, "IS_TRACED") : 0;
+    return r->is_ready ? gl_program_feature(GL_MAIN_SURFACE, traces ? "IS_TRACING" : "IS_TRACED") : 0;
 }
 
 void gl_rays_bind(const gl_rays *r)
@@ -360,10 +360,10 @@ void gl_rays_bind(const gl_rays *r)
 }
 
 facet_result gl_rays_draw_depth(gl_programs *programs, const gl_mesh_set *meshes,
-                                const gl_material_set *materials, facet_error *error)
+                                const gl_material_set *materials, gl_pass pass, facet_error *error)
 {
     uint32_t count, program;
-    const gl_batch *batches = gl_mesh_batches(meshes, GL_PASS_TRANSMISSIVE, &count);
+    const gl_batch *batches = gl_mesh_batches(meshes, pass, &count);
     TRY(gl_programs_get(programs, (gl_program_key){GL_MAIN_SHADOW, 0}, &program, error));
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     for (uint32_t i = 0; i < count; i++) {

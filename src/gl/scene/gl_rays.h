@@ -20,13 +20,13 @@ typedef struct gl_rays {
  * with FACET_ERROR_MEMORY, FACET_ERROR_SYSTEM. */
 facet_result gl_rays_update(gl_rays *rays, const gl_scene *scene, const gl_material_set *materials,
                             bool is_needed, const facet_log *log, facet_error *error);
-/* The feature of programs that trace them; 0: there is no texture. */
-uint64_t gl_rays_features(const gl_rays *rays);
+/* Features of programs that trace them, or that look up the light which those found; 0: there is no texture. */
+uint64_t gl_rays_features(const gl_rays *rays, bool traces);
 void gl_rays_bind(const gl_rays *rays); /* to GL_UNIT_RAYS */
-/* Draws the depth of transmissive surfaces before they are drawn: rays behind what others hide cost nothing then. Masked
- * surfaces are left out, as they hide what is behind them in part. */
+/* Draws the depth of the surfaces of a pass before transmissive ones are drawn: rays behind what others hide cost nothing
+ * then. Masked surfaces are left out, as they hide what is behind them in part. */
 facet_result gl_rays_draw_depth(gl_programs *programs, const gl_mesh_set *meshes,
-                                const gl_material_set *materials, facet_error *error);
+                                const gl_material_set *materials, gl_pass pass, facet_error *error);
 void gl_rays_destroy(gl_rays *rays); /* {0} is allowed; keeps context and allocator */
 
 #endif

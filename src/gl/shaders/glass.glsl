@@ -1,7 +1,7 @@
 /* glass.glsl - light through a transmissive surface by rays, as on the CPU (src/cpu/refraction.c): refracted at each
  * boundary, with the volumes that they are in, to an opaque surface or to the environment. An opaque surface has its
  * color in the image, if the eye sees it there too; otherwise it is shaded here, with the means of its textures. */
-#if defined(IS_TRACED) && defined(HAS_TRANSMISSION)
+#if defined(IS_TRACING) && defined(HAS_TRANSMISSION)
 
 const int RAYS_BUDGET = 16;     /* rays per sample */
 const int RAYS_WAITING = 4;     /* branches that are followed later */

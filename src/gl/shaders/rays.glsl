@@ -1,5 +1,5 @@
 /* rays.glsl - rays against the triangles of the scene: the hierarchy of gl_bvh.h in the texture of gl_rays.c. */
-#if defined(IS_TRACED) && defined(HAS_TRANSMISSION)
+#if defined(IS_TRACING) && defined(HAS_TRANSMISSION)
 uniform highp sampler2D u_rays;
 
 /* row_kind of gl_rays.c. */

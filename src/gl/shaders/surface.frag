@@ -13,6 +13,35 @@ void main()
     put_aovs(N, color.xyz, occlusion, coverage(color.w));
 }
 #else
+#ifdef HAS_LAYERS
+/* s: without anti-aliasing. */
+Layers antialiased_layers(Surface s, vec3 V)
+{
+    Layers m = layers_of_material(s, V);
+#ifdef HAS_SPECULAR_ANTIALIASING
+    vec3 dN_dx = dFdx(s.N), dN_dy = dFdy(s.N);
+    m.base = surface_specular_aa(m.base, dN_dx, dN_dy);
+    m.clearcoat_roughness = roughness_specular_aa(m.clearcoat_roughness, dN_dx, dN_dy);
+#endif
+    return m;
+}
+#endif
+
+#ifdef IS_TRACING
+void main()
+{
+    read_texels();
+    vec3 V = view_direction(), plane = cross(dFdx(v_position), dFdy(v_position));
+    rays_normal = normalize(dot(plane, V) < 0.0 ? -plane : plane);
+    vec4 color = base_color();
+    Layers m = antialiased_layers(surface_of_material(shading_normal(V), color.xyz), V);
+    if (coverage(color.w) < 0.5)
+        discard;
+    traced_radiance = vec4(traced_light(m, V), dot(v_position, forward.xyz));
+    traced_backdrop = vec4(backdrop_share, volume_factors.z + 1.0);
+    traced_unseen = vec4(backdrop_unseen, 0.0);
+}
+#else
 /* Without lighting: surfaces without normals, or with KHR_materials_unlit. glTF 2.0, 3.7.2.1. */
 vec3 unlit_radiance(vec3 color)
 {
@@ -89,16 +118,8 @@ float behind = 0.0; /* share of the background that is seen through glass */
 /* s: without anti-aliasing. */
 vec3 lit_radiance(Surface s, vec3 V)
 {
-#ifdef HAS_SPECULAR_ANTIALIASING
-    vec3 dN_dx = dFdx(s.N);
-    vec3 dN_dy = dFdy(s.N);
-#endif
 #ifdef HAS_LAYERS
-    Layers m = layers_of_material(s, V);
-#ifdef HAS_SPECULAR_ANTIALIASING
-    m.base = surface_specular_aa(m.base, dN_dx, dN_dy);
-    m.clearcoat_roughness = roughness_specular_aa(m.clearcoat_roughness, dN_dx, dN_dy);
-#endif
+    Layers m = antialiased_layers(s, V);
 #ifdef HAS_CHANNEL
     return lobe_channel(m, V);
 #else
@@ -118,7 +139,7 @@ vec3 lit_radiance(Surface s, vec3 V)
 #endif
 #else
 #ifdef HAS_SPECULAR_ANTIALIASING
-    s = surface_specular_aa(s, dN_dx, dN_dy);
+    s = surface_specular_aa(s, dFdx(s.N), dFdy(s.N));
 #endif
     return plain_radiance(surface_host(V), s);
 #endif
@@ -161,10 +182,6 @@ float mask_share(float alpha)
 void main()
 {
     read_texels();
-#if defined(IS_TRACED) && defined(HAS_TRANSMISSION)
-    vec3 plane = cross(dFdx(v_position), dFdy(v_position));
-    rays_normal = normalize(dot(plane, view_direction()) < 0.0 ? -plane : plane);
-#endif
     vec4 color = base_color();
     float opacity = coverage(color.w);
     vec3 radiance = shaded(color.xyz, opacity);
@@ -194,4 +211,5 @@ void main()
     fragment.w *= 1.0 - behind;
 #endif
 }
+#endif
 #endif

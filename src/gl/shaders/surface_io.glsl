@@ -75,6 +75,11 @@ layout(location = 0) out vec4 aov_normal_depth;    /* world; m along the camera'
 layout(location = 1) out vec4 aov_color_occlusion; /* linear base color; 1: unoccluded */
 /* of the geometry; TEXCOORD_0; opacity, 0: there is no surface */
 layout(location = 2) out vec4 aov_number_texcoord;
+#elif defined(IS_TRACING)
+/* What reaches the nearest boundary of glass from behind. */
+layout(location = 0) out vec4 traced_radiance; /* cd/m^2; m along the camera's axis */
+layout(location = 1) out vec4 traced_backdrop; /* share of the background; material, 0: there is no surface */
+layout(location = 2) out vec4 traced_unseen;   /* the environment's radiance in its place */
 #elif defined(IS_WEIGHTED)
 layout(location = 0) out vec4 fragment;         /* light and transmittance */
 layout(location = 1) out float fragment_weight; /* the divisor of the light */
@@ -103,7 +108,7 @@ void put_aovs(vec3 N, vec3 color, float occlusion, float opacity)
     aov_color_occlusion = vec4(color, occlusion);
     aov_number_texcoord = vec4(v_instance.z, texcoord_of_set(0), opacity);
 }
-#else
+#elif !defined(IS_TRACING)
 /* radiance: not yet multiplied by opacity. Every fragment ends here, after everything that reads derivatives. */
 void put_fragment(vec3 radiance, float opacity)
 {

@@ -151,14 +151,49 @@ vec3 light_in_image(Layers m, vec3 V)
     return transmitted_light_of_ior(m, V, max(m.eta, 1e-3));
 #endif
 }
-#ifdef IS_TRACED
+
+#if defined(IS_TRACING)
 vec3 traced_light(Layers m, vec3 V); /* glass.glsl */
+#elif defined(IS_TRACED)
+uniform highp sampler2DArray u_traced; /* gl_glass.h */
+
+/* How far a pixel's traced surface is from the one that is shaded, in pixels; huge: another material, or none. */
+float traced_distance(ivec2 at, float pixel)
+{
+    float material = texelFetch(u_traced, ivec3(at, 1), 0).w;
+    if (abs(material - volume_factors.z - 1.0) > 0.5)
+        return 1e30;
+    return abs(texelFetch(u_traced, ivec3(at, 0), 0).w - dot(v_position, forward.xyz)) / pixel;
+}
+
+/* Found by the rays of this pixel, or, where it has another surface in its middle, by those of the most similar one
+ * around it. Where none is similar, the surface is thinner than a pixel. */
+vec3 traced_light(Layers m, vec3 V)
+{
+    float pixel = length(right.xyz) * (eye.w > 0.5 ? 1.0 : dot(v_position, forward.xyz));
+    ivec2 size = textureSize(u_traced, 0).xy, middle = ivec2(gl_FragCoord.xy), best = middle;
+    float least = traced_distance(middle, pixel);
+    if (least > 4.0)
+        for (int i = 0; i < 9; i++) {
+            ivec2 offset = ivec2(i % 3, i / 3) - 1, at = clamp(middle + offset, ivec2(0), size - 1);
+            float far = traced_distance(at, pixel) + 2.0 * length(vec2(offset));
+            if (far < least) {
+                least = far;
+                best = at;
+            }
+        }
+    if (least >= 1e30)
+        return light_in_image(m, V);
+    backdrop_share = texelFetch(u_traced, ivec3(best, 1), 0).xyz;
+    backdrop_unseen = texelFetch(u_traced, ivec3(best, 2), 0).xyz;
+    return texelFetch(u_traced, ivec3(best, 0), 0).xyz;
+}
 #endif
 
 /* Radiance (cd/m^2) that reaches the boundary from behind: LayerLight.transmitted. */
 vec3 transmitted_light(Layers m, vec3 V)
 {
-#ifdef IS_TRACED
+#if defined(IS_TRACED) || defined(IS_TRACING)
     return traced_light(m, V);
 #else
     return light_in_image(m, V);
