@@ -132,7 +132,8 @@ else()
         find_package(embree 3 REQUIRED)
     endif()
 endif()
-# The headers of the Embree that is linked: others may be installed as well.
+set(FACET_EMBREE_SONAME libembree${embree_VERSION_MAJOR}.so.${embree_VERSION_MAJOR})
+# The headers of the Embree that is opened: others may be installed as well.
 target_compile_definitions(facet_flags INTERFACE FACET_EMBREE=${embree_VERSION_MAJOR})
 if(BUILD_TESTING)
     pkg_check_modules(CMOCKA REQUIRED IMPORTED_TARGET cmocka)

@@ -7,6 +7,7 @@ package loads the libraries from its own folder (facet/_library.py). Their licen
 (/usr/share/doc/*/copyright), which the wheel holds too.
 """
 import base64
+import ctypes
 import hashlib
 import os
 import pathlib
@@ -30,6 +31,14 @@ def needed(library):
     return found
 
 
+def opened(build):
+    """The same for the library that libfacet opens to render on the CPU, itself among them."""
+    name = re.search(r'^#define FACET_EMBREE_FILE "(.*)"$', (build / "generated" / "build_config.h").read_text(), re.M)[1]
+    ctypes.CDLL(name)
+    path = pathlib.Path(re.search(rf"/\S*/{re.escape(name)}\S*", pathlib.Path("/proc/self/maps").read_text())[0])
+    return {name: path, **needed(path)}
+
+
 def copyright_of(library):
     """The copyright file of the Debian package that a library is of; None: it is of none."""
     owner = subprocess.run(["dpkg", "-S", str(library)], capture_output=True, text=True)
@@ -51,7 +60,7 @@ def main():
     files["facet/py.typed"] = b""
     files[f"facet/{soname}"] = library.read_bytes()
     # each after those that it needs, whose closures are smaller
-    libraries = sorted(needed(library).items(), key=lambda item: (len(needed(item[1])), item[0]))
+    libraries = sorted({**needed(library), **opened(build)}.items(), key=lambda item: (len(needed(item[1])), item[0]))
     files["facet/libs/order"] = "".join(f"{name}\n" for name, _ in libraries).encode()
     for name, path in libraries:
         files[f"facet/libs/{name}"] = path.read_bytes()

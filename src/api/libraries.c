@@ -15,7 +15,7 @@ typedef struct library_row {
 /* OpenEXR brings Imath, and Embree TBB: what they link is theirs. libepoxy and GLFW are those of the OpenGL module. */
 static const library_row rows[] = {
     {"Draco", "Apache-2.0", FACET_DRACO_VERSION, NULL, NULL},
-    {"Embree", "Apache-2.0", NULL, NULL, NULL}, /* its version: embree_scene_version() */
+    {"Embree", "Apache-2.0", NULL, FACET_EMBREE_FILE, NULL}, /* its versions: embree_scene.h */
     {"OpenEXR", "BSD-3-Clause", FACET_OPENEXR_VERSION, NULL, NULL},
     {"Zstandard", "BSD-3-Clause OR GPL-2.0-only", FACET_ZSTD_VERSION, NULL, NULL},
     {"astcenc", "Apache-2.0", FACET_ASTC_VERSION, NULL, NULL},
@@ -49,7 +49,9 @@ facet_library_info facet_get_library(uint32_t index)
     if (!*info.built_version)
         return info;
     info.file = row->file;
-    if (row->file)
+    if (row->file && !row->version_function)
+        embree_find_version(info.found_version, sizeof info.found_version);
+    else if (row->file)
         library_find_version(row->file, row->version_function, info.found_version, sizeof info.found_version);
     else
         snprintf(info.found_version, sizeof info.found_version, "%s", info.built_version);

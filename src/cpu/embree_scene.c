@@ -44,10 +44,10 @@ static facet_result fail_embree(enum RTCError code, facet_error *error)
 static void set_lines(RTCGeometry geometry, const render_geometry *g)
 {
     uint32_t count = g->primitive->index_count / 2;
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, g->vertices, 0,
-                               4 * sizeof(float), 2 * (size_t)count);
-    uint32_t *starts =
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, sizeof(uint32_t), count);
+    embree.SetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, g->vertices, 0,
+                                   4 * sizeof(float), 2 * (size_t)count);
+    uint32_t *starts = embree.SetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT,
+                                                   sizeof(uint32_t), count);
     for (uint32_t i = 0; starts && i < count; i++)
         starts[i] = 2 * i;
 }
@@ -83,11 +83,11 @@ static enum RTCBuildQuality choose_shape_quality(const render_geometry_set *set,
 
 static RTCGeometry new_triangles(RTCDevice device, const scene_primitive *primitive, const float *vertices)
 {
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices, 0,
-                               3 * sizeof(float), primitive->vertex_count);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, primitive->indices, 0,
-                               3 * sizeof(uint32_t), primitive->index_count / 3);
+    RTCGeometry geometry = embree.NewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    embree.SetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices, 0,
+                                   3 * sizeof(float), primitive->vertex_count);
+    embree.SetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, primitive->indices,
+                                   0, 3 * sizeof(uint32_t), primitive->index_count / 3);
     return geometry;
 }
 
@@ -100,13 +100,13 @@ static RTCGeometry new_geometry(RTCDevice device, const render_geometry *g)
         geometry = new_triangles(device, primitive, g->vertices);
         break;
     case SCENE_LINES:
-        geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_FLAT_LINEAR_CURVE);
+        geometry = embree.NewGeometry(device, RTC_GEOMETRY_TYPE_FLAT_LINEAR_CURVE);
         set_lines(geometry, g);
         break;
     case SCENE_POINTS:
-        geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_DISC_POINT);
-        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, g->vertices, 0,
-                                   4 * sizeof(float), primitive->index_count);
+        geometry = embree.NewGeometry(device, RTC_GEOMETRY_TYPE_DISC_POINT);
+        embree.SetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, g->vertices, 0,
+                                       4 * sizeof(float), primitive->index_count);
         break;
     }
     return geometry;
@@ -114,26 +114,26 @@ static RTCGeometry new_geometry(RTCDevice device, const render_geometry *g)
 
 static RTCScene new_scene(RTCDevice device, enum RTCBuildQuality quality)
 {
-    RTCScene scene = rtcNewScene(device);
+    RTCScene scene = embree.NewScene(device);
     /* Robust: no ray passes between two triangles that share an edge. */
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | EMBREE_SCENE_FLAG_FILTER);
-    rtcSetSceneBuildQuality(scene, quality);
+    embree.SetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | EMBREE_SCENE_FLAG_FILTER);
+    embree.SetSceneBuildQuality(scene, quality);
     return scene;
 }
 
 static void attach(RTCScene scene, RTCGeometry geometry, uint32_t number, enum RTCBuildQuality quality)
 {
-    rtcSetGeometryBuildQuality(geometry, quality);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(scene, geometry, number);
-    rtcReleaseGeometry(geometry);
+    embree.SetGeometryBuildQuality(geometry, quality);
+    embree.CommitGeometry(geometry);
+    embree.AttachGeometryByID(scene, geometry, number);
+    embree.ReleaseGeometry(geometry);
 }
 
 static void attach_instance(const embree_scene *e, RTCScene shape, const float world[16], uint32_t number)
 {
-    RTCGeometry geometry = rtcNewGeometry(e->device, RTC_GEOMETRY_TYPE_INSTANCE);
-    rtcSetGeometryInstancedScene(geometry, shape);
-    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, world);
+    RTCGeometry geometry = embree.NewGeometry(e->device, RTC_GEOMETRY_TYPE_INSTANCE);
+    embree.SetGeometryInstancedScene(geometry, shape);
+    embree.SetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, world);
     attach(e->scene, geometry, number, RTC_BUILD_QUALITY_MEDIUM);
 }
 
@@ -149,7 +149,7 @@ static void attach_role(const embree_scene *e, RTCScene scene, render_role role,
 static void release(RTCScene *scene)
 {
     if (*scene)
-        rtcReleaseScene(*scene);
+        embree.ReleaseScene(*scene);
     *scene = NULL;
 }
 
@@ -162,7 +162,7 @@ static void build_still(embree_scene *e)
     e->still.quality = RTC_BUILD_QUALITY_MEDIUM;
     e->still.scene = new_scene(e->device, e->still.quality);
     attach_role(e, e->still.scene, RENDER_STILL, e->still.quality);
-    rtcCommitScene(e->still.scene);
+    embree.CommitScene(e->still.scene);
 }
 
 static void build_shapes(embree_scene *e, uint64_t ray_count)
@@ -176,7 +176,7 @@ static void build_shapes(embree_scene *e, uint64_t ray_count)
         part->scene = new_scene(e->device, part->quality);
         attach(part->scene, new_triangles(e->device, set->shapes[i].primitive, set->shapes[i].vertices), 0,
                part->quality);
-        rtcCommitScene(part->scene);
+        embree.CommitScene(part->scene);
     }
 }
 
@@ -193,14 +193,14 @@ static void build_top(embree_scene *e, uint64_t ray_count)
         if (set->items[i].role == RENDER_INSTANCED)
             attach_instance(e, e->shapes[set->items[i].shape].scene, set->items[i].world->m, i);
     e->has_instances = e->still.scene || e->shape_count;
-    rtcCommitScene(e->scene);
+    embree.CommitScene(e->scene);
 }
 
 static uint32_t native_packet_width(RTCDevice device)
 {
-    if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED))
+    if (embree.GetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED))
         return 16;
-    return rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) ? 8 : 4;
+    return embree.GetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) ? 8 : 4;
 }
 
 /* Fails where Embree was built without something that facet draws with. Curves and points are lines and points of glTF. */
@@ -214,7 +214,7 @@ static facet_result check_features(RTCDevice device, facet_error *error)
                   {RTC_DEVICE_PROPERTY_POINT_GEOMETRY_SUPPORTED, "points"},
                   {RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED, "filter functions"}};
     for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
-        if (!rtcGetDeviceProperty(device, needed[i].property))
+        if (!embree.GetDeviceProperty(device, needed[i].property))
             return fail(error, FACET_ERROR_SYSTEM, "Embree: this build of %s has no %s; facet needs them",
                         embree_scene_version(), needed[i].name);
     return FACET_OK;
@@ -318,7 +318,7 @@ static facet_result build(embree_scene *e, uint64_t ray_count, facet_error *erro
         build_still(e);
         build_shapes(e, ray_count);
         build_top(e, ray_count);
-        code = rtcGetDeviceError(e->device);
+        code = embree.GetDeviceError(e->device);
     }
     if (code == RTC_ERROR_NONE)
         return FACET_OK;
@@ -337,17 +337,18 @@ facet_result embree_scene_create(const render_geometry_set *set, const facet_all
     if (thread_count == 0)
         return fail(error, FACET_ERROR_SYSTEM,
                     "threads: the system allows too few; Embree needs some (ulimit -u)");
+    TRY(embree_open(error));
     char config[64];
     write_config(thread_count, isa, config, sizeof config);
-    out->device = rtcNewDevice(config);
+    out->device = embree.NewDevice(config);
     if (!out->device)
-        return fail_embree(rtcGetDeviceError(NULL), error);
+        return fail_embree(embree.GetDeviceError(NULL), error);
     facet_result result = check_features(out->device, error);
     if (result != FACET_OK) {
         embree_scene_destroy(out);
         return result;
     }
-    rtcSetDeviceMemoryMonitorFunction(out->device, count_memory, &out->memory);
+    embree.SetDeviceMemoryMonitorFunction(out->device, count_memory, &out->memory);
     out->packet_width = native_packet_width(out->device);
     return build(out, ray_count, error);
 }
@@ -367,12 +368,25 @@ void embree_scene_destroy(embree_scene *scene)
     release(&scene->still.scene);
     release_shapes(scene);
     if (scene->device)
-        rtcReleaseDevice(scene->device);
+        embree.ReleaseDevice(scene->device);
     scene->device = NULL;
     ptrdiff_t left = atomic_exchange(&scene->memory.used, 0) + scene->object_bytes;
     if (left > 0)
         mem_account(&scene->memory.allocator, -left);
     scene->object_bytes = 0;
+}
+
+void embree_find_version(char *version, size_t size)
+{
+    *version = 0;
+    RTCDevice device = embree_open(NULL) == FACET_OK ? embree.NewDevice("threads=1") : NULL;
+    if (!device)
+        return;
+    snprintf(version, size, "%d.%d.%d",
+             (int)embree.GetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION_MAJOR),
+             (int)embree.GetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION_MINOR),
+             (int)embree.GetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION_PATCH));
+    embree.ReleaseDevice(device);
 }
 
 const char *embree_scene_version(void)

@@ -52,7 +52,9 @@ facet_result embree_scene_update(embree_scene *scene, render_likeness likeness, 
                                  uint64_t ray_count, facet_error *error);
 void embree_scene_destroy(embree_scene *scene); /* {0} is allowed */
 
-/* "3.13.5": the version of Embree, for `facet version -v`. */
+/* "3.13.5": the version of Embree that facet was built for, for `facet version -v`. */
 const char *embree_scene_version(void);
+/* That of the Embree on this machine; "": there is none that runs. */
+void embree_find_version(char *version, size_t size);
 
 #endif

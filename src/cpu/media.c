@@ -196,7 +196,7 @@ static int excess_of(const survey *s, const scene_material *material)
 static bool is_within_bounds(const shading_scene *scene, const float P[3])
 {
     struct RTCBounds b;
-    rtcGetSceneBounds(scene->embree->scene, &b);
+    embree.GetSceneBounds(scene->embree->scene, &b);
     return P[0] >= b.lower_x && P[0] <= b.upper_x && P[1] >= b.lower_y && P[1] <= b.upper_y &&
            P[2] >= b.lower_z && P[2] <= b.upper_z;
 }
