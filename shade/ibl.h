@@ -200,6 +200,16 @@ FN MultiScatter multiscatter_ibl(vec3 k_S, vec3 F0, vec3 F90, vec2 dfg)
     return r;
 }
 
+/* Irradiance in a concave place relative to that in the open, per channel: openness is the cosine-weighted share of the
+ * hemisphere in which the environment is visible, and what hides the rest is taken to be as bright as the place itself.
+ * Light of the environment then fills it as it fills an integrating sphere with an opening of that share, for which
+ *   E / E0 = A / (1 - albedo (1 - A))
+ * is exact: a white place is as bright as one in the open, a black one as dark as the light that reaches it directly. */
+FN vec3 ambient_interreflection(float openness, vec3 albedo)
+{
+    return vec3(openness) / max(1.0f - albedo * (1.0f - openness), vec3(1e-6f));
+}
+
 /* Radiance (cd/m^2) of the environment reflected by a surface, with occlusion, without emission.
  * specular_radiance is prefiltered for the surface's roughness along surface_reflection(); dfg is (A, B) at NdotV.
  *

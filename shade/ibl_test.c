@@ -377,18 +377,33 @@ static void test_direct_equals_image_based(void **state)
         }
 }
 
+/* Rays that leave the wall of an integrating sphere with an opening of share A end there with probability A, as the
+ * cosine from a sphere's wall is uniform over the sphere; each bounce keeps the albedo. */
+static void test_interreflection(void **state)
+{
+    (void)state;
+    for (int i = 1; i <= 10; i++)
+        for (int k = 0; k <= 10; k++) {
+            double open = 0.1 * i;
+            double albedo = 0.1 * k;
+            double reaches = 0.0;
+            double walks = 1.0;
+            for (int bounce = 0; bounce < 1000; bounce++, walks *= (1.0 - open) * albedo)
+                reaches += walks * open;
+            vec3 got = ambient_interreflection((float)open, vec3((float)albedo));
+            expect_near((double)got[0], reaches, 1e-5, "openness %g, albedo %g", open, albedo);
+        }
+    assert_true(ambient_interreflection(0.0f, vec3(1.0f))[0] == 0.0f);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_split_sum),
-                                       cmocka_unit_test(test_prefilter_bands),
-                                       cmocka_unit_test(test_prefilter_lod),
-                                       cmocka_unit_test(test_reference_integrator),
-                                       cmocka_unit_test(test_split_sum_error),
-                                       cmocka_unit_test(test_lookup_direction),
-                                       cmocka_unit_test(test_lookup_limits),
-                                       cmocka_unit_test(test_multiscatter),
-                                       cmocka_unit_test(test_surface_furnace),
-                                       cmocka_unit_test(test_khronos),
-                                       cmocka_unit_test(test_direct_equals_image_based)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_split_sum),       cmocka_unit_test(test_prefilter_bands),
+        cmocka_unit_test(test_prefilter_lod),   cmocka_unit_test(test_reference_integrator),
+        cmocka_unit_test(test_split_sum_error), cmocka_unit_test(test_lookup_direction),
+        cmocka_unit_test(test_lookup_limits),   cmocka_unit_test(test_multiscatter),
+        cmocka_unit_test(test_surface_furnace), cmocka_unit_test(test_interreflection),
+        cmocka_unit_test(test_khronos),         cmocka_unit_test(test_direct_equals_image_based)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

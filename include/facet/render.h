@@ -181,6 +181,14 @@ typedef enum facet_ground {
     FACET_GROUND_SHADOW
 } facet_ground;
 
+/* Of the preview: the model dims the diffuse light of the environment where it hides it. Path tracing computes that
+ * anyway; OpenGL has none. */
+typedef enum facet_ambient_occlusion {
+    FACET_AMBIENT_OCCLUSION_AUTO, /* with FACET_GROUND_SHADOW only */
+    FACET_AMBIENT_OCCLUSION_OFF,
+    FACET_AMBIENT_OCCLUSION_ON /* FACET_ERROR_ARGUMENT for OpenGL, FACET_SHADING_OGL1 and seas */
+} facet_ambient_occlusion;
+
 /* Arbitrary output variables: further layers of the image; combine them by or. Each is of the nearest
  * surface at the center of the pixel, unfiltered; 0 where nothing is hit (depth: infinity).
  * FACET_RENDERER_KIND_PATH: normal and albedo are means over the samples of a pixel, for denoisers: seen
@@ -263,6 +271,7 @@ typedef struct facet_render_desc {
     /* Widens highlights by the variance of normals within a pixel (Kaplanyan and Tokuyoshi 2019): fewer
      * sparkles, but not what real-time viewers show. */
     bool has_specular_antialiasing;
+    facet_ambient_occlusion ambient_occlusion;
     /* Preview: decodes textures in full where a reduced size would do, since the mips of a JPEG that is
      * decoded at half size differ slightly. Slower. Path tracing and OpenGL always do. */
     bool decodes_whole_textures;
@@ -288,7 +297,8 @@ typedef enum facet_renderer_feature {
     FACET_RENDERER_FEATURE_SPECULAR_AA = 1u << 4, /* facet_render_desc.has_specular_antialiasing */
     /* all of facet_sea_shading, legacy styles and stages included; else the physical style */
     FACET_RENDERER_FEATURE_SEA_STYLES = 1u << 5,
-    FACET_RENDERER_FEATURE_VIEW = 1u << 6 /* facet_view() shows it */
+    FACET_RENDERER_FEATURE_VIEW = 1u << 6,             /* facet_view() shows it */
+    FACET_RENDERER_FEATURE_AMBIENT_OCCLUSION = 1u << 7 /* facet_render_desc.ambient_occlusion, or always */
 } facet_renderer_feature;
 
 typedef struct facet_renderer_info {

@@ -11,14 +11,13 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
+#include "cpu/interleave.h"
 #include "cpu/media.h"
 #include "cpu/pixel.h"
 #include "cpu/ray_trace.h"
 #include "draw/render_watch.h"
 
 enum {
-    CELL = 4, /* side of the squares of pixels that share the directions */
-    CELL_PIXELS = CELL * CELL,
     TABLE_COLUMNS = 256, /* of the environment's light on the ground */
     TABLE_ROWS = 64,
     MARGIN = 6, /* that the filters reach */
@@ -47,7 +46,7 @@ typedef struct ground_job {
     uint32_t left, top, width, height; /* the crop and MARGIN pixels around it, within the image */
     const struct ray_counts *counts;
     uint32_t rays;          /* per pixel, of both kinds */
-    sky_ray *sky_rays;      /* CELL_PIXELS * rays */
+    sky_ray *sky_rays;      /* INTERLEAVE_PARTS * rays */
     float sky;              /* illuminance by the environment, lx */
     ray_spread wide;        /* for colors that the ground receives */
     float *hidden, *smooth; /* shares of the light, per pixel */
@@ -129,7 +128,7 @@ static float table_radiance(const light_table *t, vec2 u)
 static void draw_rays(ground_job *p, const light_table *t, float mean)
 {
     const struct ray_counts *n = p->counts;
-    for (uint32_t i = 0; i < CELL_PIXELS * p->rays; i++) {
+    for (uint32_t i = 0; i < INTERLEAVE_PARTS * p->rays; i++) {
         uint32_t part = i / p->rays;
         uint32_t k = i % p->rays;
         bool is_cosine = k >= n->light;
@@ -199,14 +198,6 @@ static float reflected(const ground_job *p, const shading_ray *ray)
 
 /* ---- one pixel ---- */
 
-/* The part of the directions that a pixel traces: neighbors have parts that are far apart. */
-static uint32_t part_of(uint32_t x, uint32_t y)
-{
-    static const uint8_t parts[CELL][CELL] = {
-        {0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}}; /* Bayer 1973 */
-    return parts[y % CELL][x % CELL];
-}
-
 /* Where the ray through the middle of a pixel meets the ground, from above. */
 static bool find_ground(const ground_job *p, uint32_t x, uint32_t y, vec3 *out)
 {
@@ -225,27 +216,6 @@ static bool find_ground(const ground_job *p, uint32_t x, uint32_t y, vec3 *out)
     return true;
 }
 
-/* The share of light that passes glass without a change of direction, which is nearly what lenses and bodies of glass
- * do to the light of a wide environment. */
-static float pass_glass(const shading_scene *scene, const ray_crossings *crossings)
-{
-    float passes = 1.0f;
-    for (uint32_t i = 0; i < crossings->count; i++) {
-        const scene_material *m = scene->geometries->items[crossings->hits[i].geometry].material;
-        passes *= m->transmission * luminance(load3(m->base_color)) * (1.0f - 0.04f);
-    }
-    return clamp(passes, 0.0f, 1.0f);
-}
-
-static float transmittance(const ground_job *p, const shading_ray *ray)
-{
-    const shading_scene *scene = p->desc->scene;
-    if (!scene->plans->lets_rays_through)
-        return ray_trace_transmittance(scene, ray, NULL);
-    ray_crossings crossings = {.takes_all = true};
-    return ray_trace_transmittance(scene, ray, &crossings) * pass_glass(scene, &crossings);
-}
-
 static shading_ray ray_from(vec3 P, vec3 L, float distance_m)
 {
     static const ray_spread still = {.moves = false, .turns = false};
@@ -261,7 +231,7 @@ static float hidden_sky(const ground_job *p, vec3 P, uint32_t part)
     for (uint32_t i = 0; i < p->rays; i++) {
         const sky_ray *sky = &p->sky_rays[part * p->rays + i];
         shading_ray ray = ray_from(P, sky->direction, INFINITY);
-        float blocked = 1.0f - transmittance(p, &ray);
+        float blocked = 1.0f - ray_trace_daylight(p->desc->scene, &ray);
         if (blocked > 0.0f)
             hidden += blocked * (sky->blocked - sky->reflected * reflected(p, &ray));
     }
@@ -301,7 +271,7 @@ static float hidden_at(ground_job *p, vec3 P, uint32_t part)
             open += E;
             shading_ray ray = ray_from(P, i == sun ? to_sun(p, l.L, part) : l.L,
                                        l.distance_m < 1e30f ? l.distance_m : INFINITY);
-            blocked += E * (1.0f - transmittance(p, &ray));
+            blocked += E * (1.0f - ray_trace_daylight(p->desc->scene, &ray));
             rays++;
         }
     }
@@ -330,7 +300,7 @@ static void trace_rows(void *context, size_t begin, size_t end)
             vec3 P;
             p->hidden[i] = 0.0f;
             if (p->is_wanted[i] && find_ground(p, x, y, &P))
-                p->hidden[i] = hidden_at(p, P, part_of(x, y));
+                p->hidden[i] = hidden_at(p, P, interleave_part(x, y));
         }
     }
 }
@@ -348,13 +318,12 @@ static const float *value_near(const ground_job *p, uint32_t column, size_t row,
 /* One axis of the kernel in which every residue of CELL has the weight 1 / 4: half of each end. */
 static void smooth_rows(void *context, size_t begin, size_t end)
 {
-    static const float weights[] = {0.125f, 0.25f, 0.25f, 0.25f, 0.125f};
     const ground_job *p = context;
     for (size_t row = begin; row < end; row++)
         for (uint32_t column = 0; column < p->width; column++) {
             float sum = 0.0f;
             for (int k = -2; k <= 2; k++)
-                sum += weights[k + 2] *
+                sum += INTERLEAVE_WEIGHTS[k + 2] *
                        *value_near(p, column, row, p->is_along_x ? k : 0, p->is_along_x ? 0 : k);
             p->to[row * p->width + column] = sum;
         }
@@ -472,7 +441,7 @@ facet_result ground_shadow_draw(const ground_shadow_desc *desc, film *target, fa
     p.rays = p.counts->light + p.counts->cosine;
     find_area(&p);
     size_t count = (size_t)p.width * p.height;
-    p.sky_rays = mem_alloc(allocator, (size_t)CELL_PIXELS * p.rays, sizeof *p.sky_rays);
+    p.sky_rays = mem_alloc(allocator, (size_t)INTERLEAVE_PARTS * p.rays, sizeof *p.sky_rays);
     p.hidden = mem_alloc(allocator, count, sizeof *p.hidden);
     p.smooth = mem_alloc(allocator, count, sizeof *p.smooth);
     p.is_wanted = mem_zalloc(allocator, count, sizeof *p.is_wanted);

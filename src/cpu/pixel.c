@@ -176,7 +176,7 @@ static void shade_hit(pixel_resolver *r, uint32_t x, uint32_t y, const visibilit
                       float cy, uint32_t sample, pixel_surface *s)
 {
     float footprint = r->splits_quarters ? 0.5f : 1.0f;
-    shading_point point = {.hit = hit, .x = x, .y = y, .shade_count = 1};
+    shading_point point = {.hit = hit, .x = x, .y = y, .shade_count = 1, .ambient = r->ambient};
     if (is_glass(r, hit)) {
         point.shade = sample;
         point.shade_count = r->pattern->sample_count;

@@ -29,7 +29,9 @@ static facet_result draw(render_setup *setup, double deadline_s, film *target, f
                         .raster = setup->raster,
                         .identities = setup->identities,
                         .deadline_s = deadline_s,
-                        .draws_background = desc->background == FACET_BACKGROUND_ENVIRONMENT && !has_ground};
+                        .draws_background = desc->background == FACET_BACKGROUND_ENVIRONMENT && !has_ground,
+                        .has_ambient_occlusion =
+                            desc->ambient_occlusion == FACET_AMBIENT_OCCLUSION_ON && setup->light.ibl};
     if (result == FACET_OK)
         result = tiles_draw(&tiles, target, setup->stats, error);
     const scene_pose *pose = &setup->prepared->pose;

@@ -366,3 +366,21 @@ float ray_trace_transmittance(const shading_scene *scene, const shading_ray *ray
     s.ray.spread = &NO_SPREAD;
     return embree_occluded1_filtered(scene->embree->scene, &r, &s.context, dim) ? 0.0f : s.transmittance;
 }
+
+static float pass_glass(const shading_scene *scene, const ray_crossings *crossings)
+{
+    float passes = 1.0f;
+    for (uint32_t i = 0; i < crossings->count; i++) {
+        const scene_material *m = scene->geometries->items[crossings->hits[i].geometry].material;
+        passes *= m->transmission * luminance(load3(m->base_color)) * (1.0f - 0.04f);
+    }
+    return clamp(passes, 0.0f, 1.0f);
+}
+
+float ray_trace_daylight(const shading_scene *scene, const shading_ray *ray)
+{
+    if (!scene->plans->lets_rays_through)
+        return ray_trace_transmittance(scene, ray, NULL);
+    ray_crossings crossings = {.takes_all = true};
+    return ray_trace_transmittance(scene, ray, &crossings) * pass_glass(scene, &crossings);
+}

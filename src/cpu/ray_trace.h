@@ -37,6 +37,10 @@ typedef struct ray_crossings {
  * surfaces that are not part of the result. NULL: none are left out. */
 float ray_trace_transmittance(const shading_scene *scene, const shading_ray *ray, ray_crossings *crossings);
 
+/* The same for light of a wide environment, of which glass lets a share pass without a change of direction: that is
+ * nearly what lenses and bodies of glass do to it. */
+float ray_trace_daylight(const shading_scene *scene, const shading_ray *ray);
+
 /* ---- all surfaces along a ray ---- */
 
 /* More than RAY_TRACE_LAYERS transparent surfaces in a row are of no practical use; the farther ones are

@@ -49,7 +49,8 @@ static bool needs_hierarchy(const render_setup *p)
 {
     const uint32_t traced = LAYER_TRANSMISSION | LAYER_VOLUME;
     const render_geometry_set *set = &p->prepared->geometries;
-    if (!p->rasterises || p->desc->aovs || p->desc->ground != FACET_GROUND_NONE)
+    if (!p->rasterises || p->desc->aovs || p->desc->ground != FACET_GROUND_NONE ||
+        p->desc->ambient_occlusion == FACET_AMBIENT_OCCLUSION_ON)
         return true;
     for (uint32_t i = 0; i < set->count; i++) {
         const render_geometry *g = &set->items[i];

@@ -1,6 +1,7 @@
 /* shading.c - see shading.h. */
 #include "cpu/shading.h"
 
+#include "cpu/ambient_occlusion.h"
 #include "cpu/ogl1_shade.h"
 #include "cpu/refraction.h"
 #include "cpu/surface_light.h"
@@ -46,7 +47,10 @@ void shading_shade(const shading_scene *scene, const shading_point *point, shadi
         return;
     }
     out->behind = 0.0f;
+    uint64_t rays = 0;
+    if (point->ambient)
+        s.ambient = ambient_factor(point->ambient, point, &s, &rays);
     surface_light light = surface_light_at(scene, &s);
     store3(light.radiance, out->radiance);
-    out->rays = light.rays;
+    out->rays = light.rays + rays;
 }

@@ -43,7 +43,9 @@ static vec3 host_irradiance_over_pi(SurfaceHost host, vec3 N)
     float out[3];
     store3(N, d);
     light_irradiance_over_pi(host.scene->light, d, out);
-    return load3(out);
+    bool is_behind =
+        dot(N, host.surface->m.base.N) < 0.0f; /* diffuse transmission, which the model has dimmed */
+    return is_behind ? load3(out) : load3(out) * host.surface->ambient;
 }
 
 /* ---- volumes ---- */

@@ -206,6 +206,7 @@ void surface_point_make(const shading_scene *scene, const shading_point *point, 
     s->is_front =
         g->primitive->mode != SCENE_TRIANGLES || surface_sees_front(g, point->hit, s->hit.direction);
     s->m.layers = 0u;
+    s->ambient = vec3(1.0f);
 
     material_texels texels;
     material_texels_read(scene, &s->hit, s->plan->textures, s->plan->slot_count, texels);

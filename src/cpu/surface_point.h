@@ -17,6 +17,7 @@ typedef struct surface_point {
     float base_color[4]; /* linear, with the alpha before alphaMode */
     bool is_lit;         /* false: only base_color, m.base.emissive and .N are set */
     Layers m;            /* m.layers 0: only base is set */
+    vec3 ambient;        /* factor of the environment's diffuse light, beside the occlusion of m.base */
 } surface_point;
 
 /* Whether the ray hits the front of a triangle: counter-clockwise vertices, unless the instance is

@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
+#include "cpu/ambient_occlusion.h"
 #include "cpu/pixel.h"
 #include "cpu/raster.h"
 #include "cpu/surface_layers.h"
@@ -23,6 +24,7 @@ typedef struct tile_job {
     uint32_t crop[4]; /* x, y, width, height in the whole image */
     uint32_t tile_columns, tile_count;
     visibility_pattern pattern, middle;
+    ambient_sampler ambient; /* if desc->has_ambient_occlusion */
     film_layer *color;
     surface_layers layers;
     matte_layers mattes;
@@ -130,6 +132,12 @@ static void draw_tile(tile_job *p, uint32_t tile)
         w.raster = raster_tile_create(p->desc->raster, &p->pattern, left, top, &render->allocator);
         has_memory = w.raster != NULL;
     }
+    ambient_tile *ambient = NULL;
+    if (has_memory && p->draws_image && p->desc->has_ambient_occlusion) {
+        ambient = ambient_tile_create(&p->ambient, left, top, TILE, &render->allocator, &w.resolver.rays);
+        has_memory = ambient != NULL;
+        w.resolver.ambient = ambient;
+    }
     for (uint32_t block = 0; has_memory && block < TILE / VISIBILITY_BLOCK * (TILE / VISIBILITY_BLOCK);
          block++) {
         uint32_t x = left + block % (TILE / VISIBILITY_BLOCK) * VISIBILITY_BLOCK;
@@ -148,6 +156,7 @@ static void draw_tile(tile_job *p, uint32_t tile)
     atomic_fetch_add(&p->shades, w.resolver.shades);
     pixel_resolver_destroy(&w.resolver);
     raster_tile_destroy(w.raster);
+    ambient_tile_destroy(ambient);
     mem_free(w.hits);
 }
 
@@ -184,6 +193,8 @@ static facet_result draw(const tiles_desc *desc, bool draws_image, film *target,
     bool has_memory =
         visibility_pattern_create(&render->allocator, draws_image ? render->samples : 1, &p.pattern) &&
         visibility_pattern_create(&render->allocator, 1, &p.middle);
+    if (desc->has_ambient_occlusion)
+        ambient_sampler_init(&p.ambient, desc->scene, &p.middle);
     if (has_memory)
         parallel_for(render->thread_count, p.tile_count, 1, draw_tiles, &p);
     visibility_pattern_destroy(&p.pattern);

@@ -13,6 +13,7 @@ typedef struct tiles_desc {
     const struct scene_identity *identities; /* per geometry; NULL: not needed by any layer */
     double deadline_s;                       /* of clock_seconds(); 0: none */
     bool draws_background;                   /* the environment, where nothing covers a pixel */
+    bool has_ambient_occlusion;              /* the geometries have a hierarchy */
 } tiles_desc;
 
 /* Fills every layer of film. Adds to stats->rays and ->shades. Fails with FACET_ERROR_MEMORY,

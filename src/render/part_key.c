@@ -39,9 +39,9 @@ static void add_image(text *t, const facet_render_desc *d)
 {
     ADD(t, d->renderer, d->width, d->height, d->samples, d->quality, d->aovs, d->energy, d->shading,
         d->ogl1.variant, d->ogl1.is_linear, d->ogl1.ignores_fog, d->ogl1.translates_directions,
-        d->has_specular_antialiasing, d->decodes_whole_textures, (double)d->exposure_ev, d->background,
-        (double)d->background_blur, d->tonemap, d->part.has_display_tonemap, d->part.split, d->part.count,
-        d->ground, d->path.denoises);
+        d->has_specular_antialiasing, d->ambient_occlusion, d->decodes_whole_textures, (double)d->exposure_ev,
+        d->background, (double)d->background_blur, d->tonemap, d->part.has_display_tonemap, d->part.split,
+        d->part.count, d->ground, d->path.denoises);
     add_floats(t, d->background_color, 3);
     for (int i = 0; i < 4; i++)
         add_number(t, d->crop[i]);

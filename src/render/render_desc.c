@@ -81,6 +81,26 @@ static facet_result resolve_sea(const renderer_row *r, facet_render_desc *d, fac
     return FACET_OK;
 }
 
+/* ---- ambient occlusion ---- */
+
+static facet_result resolve_ambient_occlusion(const renderer_row *r, facet_render_desc *d, facet_error *error)
+{
+    bool is_possible = (r->info.features & FACET_RENDERER_FEATURE_AMBIENT_OCCLUSION) &&
+                       d->shading == FACET_SHADING_GLTF && !d->sea;
+    if ((unsigned)d->ambient_occlusion > FACET_AMBIENT_OCCLUSION_ON)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "ambient occlusion: %d is no constant of facet_ambient_occlusion",
+                    (int)d->ambient_occlusion);
+    if (d->ambient_occlusion == FACET_AMBIENT_OCCLUSION_ON && !is_possible)
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "ambient occlusion: %s has it for models with FACET_SHADING_GLTF outside of seas only",
+                    d->sea || d->shading != FACET_SHADING_GLTF ? r->title : "the preview");
+    if (d->ambient_occlusion == FACET_AMBIENT_OCCLUSION_AUTO)
+        d->ambient_occlusion = is_possible && d->ground == FACET_GROUND_SHADOW ? FACET_AMBIENT_OCCLUSION_ON
+                                                                               : FACET_AMBIENT_OCCLUSION_OFF;
+    return FACET_OK;
+}
+
 /* ---- all ---- */
 
 static facet_result resolve_renderer(facet_render_desc *d, facet_error *error)
@@ -107,6 +127,7 @@ static facet_result resolve_renderer(facet_render_desc *d, facet_error *error)
         TRY(resolve_sea(r, d, error));
     if (d->ground != FACET_GROUND_NONE && !(info->features & FACET_RENDERER_FEATURE_GROUND))
         return fail(error, FACET_ERROR_ARGUMENT, "ground: %s has no ground shadow", r->title);
+    TRY(resolve_ambient_occlusion(r, d, error));
     return r->resolve ? r->resolve(d, error) : FACET_OK;
 }
 

@@ -50,7 +50,8 @@ const renderer_row *renderer_get(facet_renderer_kind kind)
         .title = "the preview",
         .info = {.name = "preview",
                  .features = FACET_RENDERER_FEATURE_GROUND | FACET_RENDERER_FEATURE_OGL1 |
-                             FACET_RENDERER_FEATURE_SPECULAR_AA | FACET_RENDERER_FEATURE_SEA_STYLES,
+                             FACET_RENDERER_FEATURE_SPECULAR_AA | FACET_RENDERER_FEATURE_SEA_STYLES |
+                             FACET_RENDERER_FEATURE_AMBIENT_OCCLUSION,
                  .samples = {4, 1, 16},
                  .max_samples = 4096,
                  .aovs = SURFACE_AOVS},
@@ -60,7 +61,7 @@ const renderer_row *renderer_get(facet_renderer_kind kind)
         .title = "path tracing",
         .info = {.name = "path",
                  .features = FACET_RENDERER_FEATURE_PATH | FACET_RENDERER_FEATURE_GROUND |
-                             FACET_RENDERER_FEATURE_VIEW,
+                             FACET_RENDERER_FEATURE_VIEW | FACET_RENDERER_FEATURE_AMBIENT_OCCLUSION,
                  .samples = {64, 16, 512},
                  .max_samples = 1 << 24,
                  .aovs = SURFACE_AOVS | STATISTICS_AOVS},

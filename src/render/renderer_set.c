@@ -219,6 +219,7 @@ static facet_render_desc meter_desc(const facet_render_desc *desc)
     d.renderer = FACET_RENDERER_KIND_PREVIEW;
     d.energy = FACET_ENERGY_CONSERVING;
     d.ground = FACET_GROUND_NONE;
+    d.ambient_occlusion = FACET_AMBIENT_OCCLUSION_OFF;
     d.exposure_ev = 0.0f;
     d.aovs = 0;
     d.log = (facet_log){0};

@@ -77,6 +77,13 @@ compare differ "" "--env-rotation 90"
 compare differ "" "--background env"
 compare differ "--background env" "--background env --background-blur 0.7"
 compare same "" "--background white"
+compare same "" "--ao=off"
+compare same "--ground shadow" "--ground shadow --ao"
+expect 2 render $small --ao=much -o a.png
+says "--ao"
+expect 2 render $small --ao --renderer gl -o a.png
+says "it needs --renderer preview or path"
+expect 2 render $small --ao --shading ogl1 -o a.png
 compare same "--background #336699" "--background #369"
 compare differ "" "--energy gltf"
 compare same "" "--energy conserving"

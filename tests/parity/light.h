@@ -251,6 +251,11 @@ FN vec3 case_surface_ibl(vec2 u)
     return surface_ibl(s, surface_NdotV(s, V), dfg, vec3(3.0f, 1.0f, 0.2f), vec3(0.5f, 0.7f, 1.0f), energy);
 }
 
+FN vec3 case_ambient_interreflection(vec2 u)
+{
+    return ambient_interreflection(u[0], vec3(u[1], 0.5f, 1.0f - u[1]));
+}
+
 /* ---- tonemap.h ---- */
 
 FN vec3 case_tonemap(vec2 u)

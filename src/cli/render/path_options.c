@@ -24,6 +24,9 @@ static facet_result check_renderer(const command_line *c, const render_options *
                  {FACET_RENDERER_FEATURE_OGL1, {OPT_SHADING, OPTION_ID_COUNT}}};
     for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
         TRY(image_options_need(c, rules[i].options, rules[i].need, o, error));
+    static const option_id occlusion[] = {OPT_AO, OPTION_ID_COUNT};
+    if (o->desc.ambient_occlusion == FACET_AMBIENT_OCCLUSION_ON)
+        TRY(image_options_need(c, occlusion, FACET_RENDERER_FEATURE_AMBIENT_OCCLUSION, o, error));
     return FACET_OK;
 }
 

@@ -46,6 +46,9 @@ static facet_result read_color(const command_line *c, render_options *out, facet
     image_options_quality(c, d->shading == FACET_SHADING_OGL1 ? FACET_TONEMAP_NONE : FACET_TONEMAP_NEUTRAL,
                           out);
     d->has_specular_antialiasing = is_given(c, OPT_SPECULAR_AA);
+    if (is_given(c, OPT_AO))
+        d->ambient_occlusion = strcmp(option_text(c, OPT_AO, "on"), "off") == 0 ? FACET_AMBIENT_OCCLUSION_OFF
+                                                                                : FACET_AMBIENT_OCCLUSION_ON;
     d->ignores_scene_lights = option_choice(c, OPT_LIGHTS, 0) == 1;
     return FACET_OK;
 }

@@ -56,6 +56,7 @@ const verb render_verb = {
             OPTION_GROUP("Camera", OPT_ORBIT, OPT_TARGET, OPT_FOV, OPT_EYE, OPT_UP, OPT_ORTHO, OPT_FRAMING,
                          OPT_CAMERA, OPT_TURNTABLE, OPT_CAMERA_MATRIX, OPT_VIEW_MATRIX),
             &light_group, &environment_group, &color_group, &quality_group,
+            OPTION_GROUP("Preview (--renderer preview)", OPT_AO),
             OPTION_GROUP("Path tracing (--renderer path)", PATH_OPTIONS, OPT_CHECKPOINT, OPT_RESUME),
             &gl_group, &shading_group, OPTION_GROUP("Motion", OPT_ANIMATION, OPT_TIME, OPT_FRAMES, OPT_FPS),
             &scene_group, &files_group, &legacy_group, &limits_group, &messages_group,

@@ -113,6 +113,8 @@ static const struct {
     {"background-color", OPT_BACKGROUND, "--background '#rrggbb'"},
     {"bg-color", OPT_BACKGROUND, "--background '#rrggbb'"},
     {"bg", OPT_BACKGROUND, "--background '#rrggbb'"},
+    {"ambient-occlusion", OPT_AO, "--ao"},
+    {"ssao", OPT_AO, "--ao"},
     {"shadow-intensity", OPT_GROUND, "--renderer path --ground shadow"},
     {"shadow-softness", OPT_GROUND, "--renderer path --ground shadow"},
     {"blur-background", OPT_BACKGROUND_BLUR, "--background-blur 0.3"},
