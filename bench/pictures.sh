@@ -16,7 +16,7 @@ trap 'rm -rf "$work"' EXIT
 front() {
     python3 "$here/pictures/still_life.py" "$data/models" "$work/deck.glb"
     "$facet" ocean --preset lagoon --wind 6 --with "$work/deck.glb@0,0" --eye 0.06,1.43,1.4 --target 0.06,1.333,0 --fov 19.5 \
-        --sun 13,78 --tone-mapping neutral --exposure -0.15 --renderer path --samples 16 --denoise \
+        --sun 13,78 --tone-mapping neutral --exposure -0.15 --renderer path --samples 64 --denoise \
         -s 1600x720 --jpeg-quality 88 -o "$pictures/front.jpg"
 }
 

@@ -180,7 +180,7 @@ window.draw = async ({ url, target, distance, azimuth, elevation, size, time }) 
 
 export const pages = {
     'khronos': page_of(`<script src="/node_modules/@khronosgroup/gltf-viewer/dist/libs/libktx.js"></script>
-        <script>window.DracoDecoderModule ??= async () => ({});</script>`, khronos),
+        <script src="/node_modules/three-r187/examples/jsm/libs/draco/gltf/draco_decoder.js"></script>`, khronos), // it comes without Draco
     'model-viewer': page_of(`<model-viewer environment-image="/light.hdr" tone-mapping="neutral" exposure="1" shadow-intensity="0" loading="eager"
         interaction-prompt="none" field-of-view="30deg" min-field-of-view="1deg" min-camera-orbit="auto 0deg 0m"></model-viewer>`, model_viewer),
     'three': page_of('', "await import('/bundles/three.js');"),
