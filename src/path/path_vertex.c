@@ -102,6 +102,26 @@ static bool is_specular_only(const Layers *m, const LayersLobes *lobes)
     return !(lobes->diffuse + lobes->diffuse_back + lobes->sheen > 0.0f) && layers_scattering_lobes(*m) == 0u;
 }
 
+/* Twice the probability for the narrower lobes of a surface that also has diffuse ones. What light sampling finds
+ * is most of the diffuse lobes' light, but of the narrow lobes' only part: BSDF samples carry their direct light as
+ * well. Relative MSE of 16 samples with factors of 1, 1.5, 2, 3, 4: a glossy room .101, .097, .098, .098, .103;
+ * glass on a glossy floor .0547, .0517, .0513, .0502, .0497. */
+static LayersLobes with_more_narrow(LayersLobes p)
+{
+    const float favor = 2.0f;
+    float wide = p.diffuse + p.diffuse_back + p.sheen;
+    float narrow = p.specular + p.clearcoat;
+    if (!(wide > 0.0f) || !(narrow > 0.0f))
+        return p;
+    float scale = (wide + narrow) / (wide + favor * narrow);
+    p.diffuse *= scale;
+    p.diffuse_back *= scale;
+    p.sheen *= scale;
+    p.specular *= favor * scale;
+    p.clearcoat *= favor * scale;
+    return p;
+}
+
 /* ---- a boundary that is no mesh's material ---- */
 
 /* False: the hit is not on the surface. */
@@ -148,7 +168,7 @@ void path_vertex_make(const path_scene *scene, const visibility_hit *hit, const 
     v->is_transmissive = (m->layers & (LAYER_TRANSMISSION | LAYER_DIFFUSE_TRANSMISSION)) != 0;
     v->passes_straight = s->plan->may_pass_straight && transmits_straight(m);
     v->tables = surface_tables(*m, s->V, ENERGY_CONSERVING);
-    v->lobes = layers_lobes(*m, s->V, ENERGY_CONSERVING, v->tables);
+    v->lobes = with_more_narrow(layers_lobes(*m, s->V, ENERGY_CONSERVING, v->tables));
     v->is_specular = is_specular_only(m, &v->lobes);
     if (m->layers == 0u)
         v->plain = surface_lobes_at(m->base, s->V, v->lobes.specular, v->lobes.diffuse, ENERGY_CONSERVING,
