@@ -94,7 +94,7 @@ static const struct {
     stage_source vertex, fragment;
 } mains[GL_MAIN_COUNT] = {
     [GL_MAIN_SURFACE] = {"surface", surface_features, SURFACE,
-        {{"surface", "light", "layers_direct", "layers_ibl", "layers_lobes", "material", "footprint", "tonemap", "color"},
+        {{"surface", "light", "layers_direct", "layers_ibl", "layers_lobes", "material", "footprint", "tonemap", "color", "sobol"},
          {"display.glsl", "light_block.glsl", "environment.glsl", "shadow.glsl", "lights.glsl", "surface_io.glsl",
           "material.glsl", "transmission.glsl", "rays.glsl", "radiance.glsl", "surface_tables.h", "surface_radiance.h",
           "glass.glsl", "surface.frag"}}},

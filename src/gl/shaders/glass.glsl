@@ -5,7 +5,7 @@
 
 const int RAYS_BUDGET = 16;     /* rays per sample */
 const int RAYS_WAITING = 4;     /* branches that are followed later */
-const int RAYS_ROUGH = 4;       /* samples of a rough surface */
+const int RAYS_ROUGH = 8;       /* samples of a rough surface */
 const int RAYS_COLORS = 8;      /* of a dispersive one */
 const float RAYS_LEAST = 0.02;  /* share of a branch that is followed */
 const float RAYS_BLURRED = 3.0; /* factor on it behind a rough surface: excludes the inner reflection of one boundary */
@@ -102,15 +102,23 @@ uvec2 image_pixel()
     return uvec2(at.x, dot(cross(right.xyz, up.xyz), forward.xyz) > 0.0 ? at.y : frame_size.y - at.y);
 }
 
-/* Two numbers in [0, 1) for sample i of n at a surface along the ray, different per pixel. */
-vec2 rays_random(int i, int n, int depth)
+/* Index of the pixel on a curve through squares of 2^k pixels, in a random order at every level: pixels take parts of one
+ * sequence so that squares of them are well distributed together, as on the CPU (ray_samples.h). */
+uint rays_place()
 {
     uvec2 pixel = image_pixel();
-    uint h = (pixel.x + 1619u * pixel.y + 31337u * uint(depth)) * 747796405u + 2891336453u;
-    h = ((h >> ((h >> 28u) + 4u)) ^ h) * 277803737u;
-    h = (h >> 22u) ^ h;
-    vec2 turn = vec2(float(h & 0xffffu), float(h >> 16u)) / 65536.0;
-    return fract(hammersley(uint(i), uint(n)) + 0.5 / float(n) + turn);
+    uint place = 1u;
+    for (int level = 11; level >= 0; level--) {
+        uint quarter = (pixel.x >> level & 1u) | (pixel.y >> level & 1u) << 1;
+        place = place << 2 | (quarter ^ hash_uint(place) >> 30);
+    }
+    return place & 0xffffffu;
+}
+
+/* Two numbers in [0, 1) at a surface along the ray. */
+vec2 rays_random(uint index, int depth)
+{
+    return sobol_point(index, uint(depth));
 }
 
 vec3 rays_microfacet(vec3 N, vec3 V, float alpha, vec2 u)
@@ -291,7 +299,7 @@ void cross_inside(RayPoint p, vec3 H, float shift, float width2, float transmiss
 }
 
 /* Adds what the ray meets at a hit; false: it ends there. *other: a branch, of weight 0 if there is none. */
-bool meet(RayHit hit, int sample_index, int samples, float shift, float share, inout Branch b, out Branch other, inout vec3 sum)
+bool meet(RayHit hit, uint index, int samples, float shift, float share, inout Branch b, out Branch other, inout vec3 sum)
 {
     RayPoint p = ray_point(b, hit);
     Surface s = ray_surface(p);
@@ -310,7 +318,7 @@ bool meet(RayHit hit, int sample_index, int samples, float shift, float share, i
     }
     float alpha = p.kind == RAYS_VOLUME ? s.alpha : thin_wall_alpha(s.alpha, rays_texel(rays_row(p.material) + 2).x);
     bool is_sampled = alpha >= RAYS_SMOOTH && samples > 1 && b.depth < 2;
-    vec3 H = is_sampled ? rays_microfacet(p.N, -b.D, alpha, rays_random(sample_index, samples, b.depth)) : p.N;
+    vec3 H = is_sampled ? rays_microfacet(p.N, -b.D, alpha, rays_random(index, b.depth)) : p.N;
     float width2 = alpha * alpha * (is_sampled ? share : 1.0);
     if (is_inside) {
         cross_inside(p, H, shift, width2, p.transmission, s.metallic, base_color, b, other);
@@ -338,8 +346,8 @@ vec3 exit_tint(ivec4 media)
     return tint;
 }
 
-/* Radiance along a ray. least: weight of branches that are traced. */
-vec3 follow_ray(Branch b, int sample_index, int samples, float shift, float share, float least)
+/* Radiance along a ray. index: for random numbers; least: weight of branches that are traced. */
+vec3 follow_ray(Branch b, uint index, int samples, float shift, float share, float least)
 {
     vec3 sum = vec3(0.0);
     Branch waiting[RAYS_WAITING];
@@ -365,7 +373,7 @@ vec3 follow_ray(Branch b, int sample_index, int samples, float shift, float shar
             }
         } else {
             Branch other;
-            goes_on = meet(hit, sample_index, samples, shift, share, b, other, sum);
+            goes_on = meet(hit, index, samples, shift, share, b, other, sum);
             float weight = max3(other.weight);
             if (weight > 0.0 && count < RAYS_WAITING) {
                 other.ends = weight < least;
@@ -448,9 +456,11 @@ vec3 traced_light(Layers m, vec3 V)
     float share = is_rough ? min(4.0 / float(samples), 1.0) : 1.0;
     float least = RAYS_LEAST * (is_rough ? RAYS_BLURRED : 1.0);
     RayPoint p = first_point(m, V);
+    uint place = rays_place() * uint(samples);
     vec3 sum = vec3(0.0), weights = vec3(0.0);
     for (int i = 0; i < samples; i++) {
-        vec3 H = is_rough ? rays_microfacet(p.N, V, alpha, rays_random(i, samples, 0)) : p.N;
+        uint index = place + uint(i);
+        vec3 H = is_rough ? rays_microfacet(p.N, V, alpha, rays_random(index, 0)) : p.N;
         float shift = 0.0;
         vec3 weight = vec3(1.0);
 #ifdef HAS_DISPERSION
@@ -460,7 +470,7 @@ vec3 traced_light(Layers m, vec3 V)
         Branch b = first_branch(p, V, H, alpha * alpha * share, shift);
         b.is_reflected = false;
         backdrop_channels = weight;
-        sum += weight * follow_ray(b, i, samples, shift, share, least);
+        sum += weight * follow_ray(b, index, samples, shift, share, least);
         weights += weight;
     }
     backdrop_share /= weights;
