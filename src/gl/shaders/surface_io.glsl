@@ -1,6 +1,9 @@
 /* surface_io.glsl - what fragments of a surface receive from surface.vert, and what they put out. Inputs are evaluated
  * at the pixel's middle, on the plane of the triangle, even where the triangle covers another part of the pixel:
  * triangles that share a pixel then agree. */
+#if defined(IS_TRACING) && !defined(HAS_TRANSMISSION)
+#undef IS_TRACING /* there is nothing behind */
+#endif
 in vec3 v_position; /* m, relative to the eye */
 in vec3 v_normal;   /* in world space, not unit */
 in vec4 v_color;
