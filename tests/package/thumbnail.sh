@@ -74,6 +74,21 @@ for input in folder.glb pipe.glb; do
     [ "$code" = 3 ] && [ "$(wc -l <err)" = 1 ] && [ ! -e out.png ] || fail "$input: exit code $code"
 done
 
+# Outputs that are no files are refused, unless the caller has opened them.
+mkdir folder
+mkfifo pipe 'pipe%'
+ln -s pipe link
+for output in folder pipe 'pipe%' link /dev/null; do
+    code=0
+    timeout 4 facet-thumbnailer boat.glb "$output" 2>err || code=$?
+    [ "$code" = 6 ] && [ "$(wc -l <err)" = 1 ] && grep -q 'not a regular file' err || fail "$output: exit code $code"
+done
+[ -p pipe ] && [ -c /dev/null ] && [ -z "$(ls folder)" ] || fail "an output that is no file was replaced"
+facet-thumbnailer -s 32 boat.glb /dev/fd/3 3>seen.png
+is_png seen.png 32
+facet-thumbnailer -s 32 boat.glb /dev/fd/3 3>&1 >/dev/null | cat >seen.png
+is_png seen.png 32
+
 # Tumbler: the output is there, empty, and read through a descriptor that was opened before.
 : >held.png
 exec 3<held.png
@@ -87,10 +102,13 @@ cmp seen.png held.png || fail "the held file differs"
 head -c 400 boat.glb >cut.glb
 echo nothing >no.glb
 : >empty.glb
+sed 's/vertex 3/vertex 4000000000/; s/face 1/face 0/; /^[0-9]/d' triangle.ply >none.ply
+sed 's/^v .*/v nan nan nan/' "$here/docs/examples/obj/boat.obj" >nan.obj
+printf '{"asset": {"version": "2.0"}, "scenes": [{"nodes": []}], "scene": 0}' >none.gltf
 for image in image.hdr image.exr studio.ktx2; do
     head -c 200 $image >cut.$image
 done
-for input in cut.glb no.glb empty.glb missing.glb cut.image.hdr cut.image.exr cut.studio.ktx2; do
+for input in cut.glb no.glb empty.glb none.ply nan.obj none.gltf missing.glb cut.image.hdr cut.image.exr cut.studio.ktx2; do
     : >held.png
     for output in out.png held.png; do
         code=0

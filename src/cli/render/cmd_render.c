@@ -84,6 +84,24 @@ static facet_result frame_camera(model_run *m, uint32_t index, const sequence_fr
     return result;
 }
 
+static bool is_thumbnail(const render_run *run)
+{
+    return strcmp(option_text(run->base.line, OPT_PRESET, ""), "thumbnail") == 0;
+}
+
+/* Refuses the thumbnail of a model in which nothing can be drawn: file managers would keep an empty image. An
+ * image of several frames may begin with nothing. */
+static facet_result check_thumbnail(const model_run *m, facet_error *error)
+{
+    float low[3], high[3];
+    if (!is_thumbnail(m->run) || m->frame_count != 1 ||
+        facet_scene_get_bounds(m->scene, &m->sequence.pose, low, high))
+        return FACET_OK;
+    return fail(error, FACET_ERROR_INVALID,
+                "%s: nothing of the model can be drawn; facet inspect lists what there is",
+                input_name(m->model->path));
+}
+
 /* Refuses an output that is a file of the model: helmet.gltf often has a texture helmet.png, the default
  * name of the image. */
 static facet_result check_inputs(const model_run *m, const char *name, facet_error *error)
@@ -122,6 +140,8 @@ static facet_result draw_frame(model_run *m, uint32_t index, const sequence_fram
                       .last_percent = -10};
     facet_camera camera;
     facet_result result = frame_camera(m, index, frame, &camera, error);
+    if (result == FACET_OK)
+        result = check_thumbnail(m, error);
     double left = interrupt_seconds_left();
     if (result == FACET_OK && left <= 0.0)
         result = fail(error, FACET_ERROR_LIMIT, "%s: the time limit (--time-limit) was reached", output);
@@ -387,9 +407,8 @@ static facet_result render_model(render_run *run, const model_name *model, facet
     facet_result result = load_model(run, model->path, &scene, error);
     messages_flush(&run->base.messages);
     bool may_be_picture = result == FACET_ERROR_UNSUPPORTED || result == FACET_ERROR_INVALID;
-    if (may_be_picture && model->path &&
-        strcmp(option_text(run->base.line, OPT_PRESET, ""), "thumbnail") == 0 &&
-        strcmp(model->path, "-") != 0 && render_picture(run, model, start, &result, error))
+    if (may_be_picture && model->path && is_thumbnail(run) && strcmp(model->path, "-") != 0 &&
+        render_picture(run, model, start, &result, error))
         return result;
     if (result == FACET_OK)
         result = render_scene(run, model, scene, start, error);
