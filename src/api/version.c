@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "build_config.h"
-#include "cpu/embree_scene.h"
 #include "render/render_gl.h"
 #include "render/renderer.h"
 
@@ -86,7 +85,7 @@ size_t facet_build_report(char *out, size_t size)
     for (int i = 0; i < RENDERER_COUNT; i++)
         text_addf(&t, "%s%s", i ? ", " : "renderers ", renderer_get((facet_renderer_kind)i)->info.name);
     text_addf(&t, "\n");
-    text_addf(&t, "embree    %s\n", embree_scene_version());
+    add_line(&t, "rays      %Embree%");
     add_line(&t, "images    png (%libspng%, %libdeflate%), jpeg (%libjpeg-turbo%), webp (%libwebp%), exr "
                  "(%OpenEXR%), hdr, pfm");
     add_line(&t, "textures  ktx2 (%Zstandard%, %astcenc%), avif (%libavif%)");

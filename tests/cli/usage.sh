@@ -17,6 +17,14 @@ expect 0 version --json
 if command -v jq >/dev/null; then # every library is found with a version, or missing and opened when it is needed
     jq -e '.libraries | length > 3 and all(.[]; (.name | length > 0) and (.license | length > 0) and (.found or .file))' out >/dev/null ||
         failed "version --json: $(cat out)"
+    jq -r '.libraries[] | select(.found and .file and .name != "GLFW") | .name, .file' out >opened
+    mkdir broken
+    while read -r name && read -r file; do
+        : >"broken/$file"
+        LD_LIBRARY_PATH=$PWD/broken "$facet" version -v >out
+        grep -q "$name missing: $file is not installed" out || failed "version -v does not say that $file is missing"
+    done <opened
+    rm -r opened broken
 fi
 expect 0 help exit-codes
 grep -q '75' out || failed "help exit-codes lacks 75"
