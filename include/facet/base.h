@@ -84,7 +84,8 @@ FACET_API facet_result facet_bytes_save(const void *bytes, size_t size, const ch
 typedef enum facet_log_level {
     FACET_LOG_LEVEL_WARNING, /* something is lost or approximated, and the operation goes on */
     /* information: the graphics driver in use, harmless violations of a file format */
-    FACET_LOG_LEVEL_DETAIL
+    FACET_LOG_LEVEL_DETAIL,
+    FACET_LOG_LEVEL_HINT /* the result is as asked for; an option that is named may serve better */
 } facet_log_level;
 
 /* Message callback; {0}: silent. It may be called from any thread, one call at a time per operation. */

@@ -9,6 +9,8 @@
 #include "draw/empty_view.h"
 #include "film/matte.h"
 #include "film/meter.h"
+#include "film/outline.h"
+#include "gl/gl_entry.h"
 #include "ocean/sea.h"
 #include "scene/identity.h"
 #include "water/water_objects.h"
@@ -116,7 +118,7 @@ facet_result renderer_set_camera(renderer_set *set, const facet_render_desc *des
                           desc->thread_count, camera, error);
 }
 
-/* ---- images that show nothing, or white only ---- */
+/* ---- images that show nothing, white only, or no outline ---- */
 
 static bool explain(const facet_scene *scene, const scene_pose *pose, const facet_render_desc *desc,
                     char *why, size_t size)
@@ -172,6 +174,22 @@ static void check_white(renderer_set *set, const facet_render_desc *desc, const 
     set->has_warned_of_white = true;
 }
 
+/* A shadow on the ground shows where the model stands. */
+static void check_outline(renderer_set *set, const facet_render_desc *desc, const film *drawn)
+{
+    if (set->has_hinted_at_outline || set->has_warned_of_white ||
+        desc->background != FACET_BACKGROUND_COLOR || desc->ground != FACET_GROUND_NONE ||
+        desc->shading == FACET_SHADING_OGL1 || !gl_channel_is_light(desc->gl.channel) ||
+        !film_outline_is_hidden(drawn, desc->tonemap, desc->background_color))
+        return;
+    log_message(
+        &desc->log, FACET_LOG_LEVEL_HINT,
+        "%s: the outline hardly shows on a background of nearly its own color; another --background or "
+        "--ground shadow sets it off",
+        set->scene->source);
+    set->has_hinted_at_outline = true;
+}
+
 /* Before tone mapping. pose: of the scene; NULL: computed where needed. A part may show nothing. */
 static void check_image(renderer_set *set, const scene_pose *pose, const facet_render_desc *desc,
                         const film *drawn)
@@ -180,6 +198,7 @@ static void check_image(renderer_set *set, const scene_pose *pose, const facet_r
         return;
     check_nothing(set, pose, desc, drawn);
     check_white(set, desc, drawn);
+    check_outline(set, desc, drawn);
 }
 
 facet_result renderer_set_draw(renderer_set *set, const facet_render_desc *desc, film *target,

@@ -12,11 +12,11 @@
 struct renderer_set {
     const facet_scene *scene; /* NULL: none, or not at hand (a window's) */
     facet_allocator allocator;
-    prepared_scene prepared;                         /* of scene, for the renderers on the CPU */
-    water_cache water;                               /* of the sea that was drawn last */
-    void *states[RENDERER_COUNT];                    /* NULL: not used yet */
-    bool has_warned_of_nothing, has_warned_of_white; /* each warning comes once */
-    bool has_checked_sea_camera;                     /* whether the default camera in a sea shows the scene */
+    prepared_scene prepared;      /* of scene, for the renderers on the CPU */
+    water_cache water;            /* of the sea that was drawn last */
+    void *states[RENDERER_COUNT]; /* NULL: not used yet */
+    bool has_warned_of_nothing, has_warned_of_white, has_hinted_at_outline; /* each comes once */
+    bool has_checked_sea_camera; /* whether the default camera in a sea shows the scene */
 };
 
 void renderer_set_init(renderer_set *set, const facet_scene *scene, const facet_allocator *allocator);

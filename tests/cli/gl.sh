@@ -70,7 +70,6 @@ expect 2 render model.gltf -o no.png $small --renderer gl --bloom 2
 expect 2 render model.gltf -o no.exr $small --renderer gl --aov variance
 
 # ---- with it ----
-
 code=0
 "$facet" render model.gltf -o probe.png $small --renderer gl >out 2>err || code=$?
 if [ "$code" = 8 ]; then
@@ -80,6 +79,7 @@ if [ "$code" = 8 ]; then
 fi
 [ "$code" = 0 ] || failed "exit code $code, not 0"
 is_type probe.png "PNG image data, 48 x 32"
+says "the outline hardly shows on a background of nearly its own color; another --background or --ground shadow"
 rm -f probe.png
 "$facet" version -v >out
 grep -q '^opengl .*[0-9]\.[0-9]' out || failed "facet version -v does not name the driver"

@@ -44,6 +44,17 @@ compare() {
     rm -f a.png b.png
 }
 write_triangle tri.gltf
+
+# A white triangle on white: a hint, once for all images, which is no warning.
+sed '1s/{/{"materials":[{"doubleSided":true}],/; s/"primitives":\[{/&"material":0,/' tri.gltf >white.gltf
+expect 0 render white.gltf -o 't_##.png' --size 64 --turntable 2 --strict
+says "white.gltf: the outline hardly shows on a background of nearly its own color; another --background or --ground shadow"
+[ "$(grep -c "outline hardly" err)" = 1 ] || failed "the hint at the outline does not come once"
+for options in --quiet "--background #888" "--background transparent" "--ground shadow" "--background env"; do
+    expect 0 render white.gltf -o t.png --size 64 $options
+    ! grep -q "outline" err || failed "a hint at the outline with $options"
+done
+rm t_*.png t.png white.gltf
 compare same "" "--orbit 0,75,105%"
 compare differ "" "--orbit 30"
 compare same "--orbit 30" "--orbit 30deg,auto,auto"

@@ -51,7 +51,7 @@ if command -v jq >/dev/null; then
     json '.counts.triangles' 1
     expect 0 inspect tri.gltf tri.gltf --json
     [ "$(jq -s length out)" = 2 ] || failed "inspect --json of two models"
-    expect 0 render $small tri.gltf -o a.png --progress json
+    expect 0 render $small tri.gltf -o a.png --progress json --background grey
     jq -e . err >/dev/null || failed "progress is no JSON: $(head -1 err)"
 fi
 rm -f ./*.png
@@ -59,7 +59,7 @@ rm -f ./*.png
 # progress
 expect 0 render $small tri.gltf -o a.png --progress plain
 says "a.png: 100 %"
-expect 0 render $small tri.gltf -o a.png
+expect 0 render $small tri.gltf -o a.png --background grey
 [ ! -s err ] || failed "a bar off a terminal"
 [ ! -s out ] || failed "text on standard output"
 expect 0 render $small tri.gltf -q

@@ -5,7 +5,7 @@
 static void print_message(void *user, facet_log_level level, const char *text)
 {
     (void)user;
-    fprintf(stderr, "%s: %s\n", level == FACET_LOG_LEVEL_WARNING ? "warning" : "detail", text);
+    fprintf(stderr, "%s: %s\n", level == FACET_LOG_LEVEL_WARNING ? "warning" : "note", text);
 }
 
 static bool is_wanted(void *user, const char *stage, double fraction)

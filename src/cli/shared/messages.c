@@ -195,7 +195,7 @@ static void receive(void *user, facet_log_level level, const char *text)
     if (level == FACET_LOG_LEVEL_WARNING)
         add_warning(m, text);
     else
-        message_at(m, VERBOSITY_DETAILS, "%s", text);
+        message_at(m, level == FACET_LOG_LEVEL_HINT ? VERBOSITY_NORMAL : VERBOSITY_DETAILS, "%s", text);
 }
 
 verbosity messages_verbosity(const command_line *c)
