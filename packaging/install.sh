@@ -32,6 +32,7 @@ step "lists of packages" "apt-get update"
 step "download of what facet needs" "$apt --download-only install ./packages/facet_*.deb ./packages/libfacet0_*.deb"
 step "install facet" "$apt install ./packages/facet_*.deb ./packages/libfacet0_*.deb"
 step "facet render" "facet render -o a.png && test -s a.png"
+step "a path-traced image" "facet render -o a.png --size 64 --renderer path --samples 4"
 system_run "facet version -v" | grep 'avif\|cairo\|http'
 step "install the others" "$apt install ./packages/*.deb libgl1-mesa-dri bubblewrap python3-numpy"
 used='facet render -o b.png --size 64 --renderer gl && test -s b.png && facet-thumbnailer -s 128 boat.obj t.png && test -s t.png &&

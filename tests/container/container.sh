@@ -19,7 +19,7 @@ container=$(buildah from "facet:$version")
 root=$(buildah mount "$container")
 echo "container: $(du -sk "$root" | cut -f1) kB unpacked"
 status=0
-bwrap --ro-bind "$root" / --unshare-all --uid 65534 --gid 65534 --clearenv --die-with-parent /usr/bin/facet render -o - --format png --size 64 >"$tmp/a.png" || status=1
+bwrap --ro-bind "$root" / --unshare-all --uid 65534 --gid 65534 --clearenv --die-with-parent /usr/bin/facet render -o - --format png --size 64 --renderer path --samples 4 >"$tmp/a.png" || status=1
 [ "$(head -c 8 "$tmp/a.png" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a ] || { echo "container: no image"; status=1; }
 bwrap --ro-bind "$root" / --unshare-all --uid 65534 --gid 65534 --clearenv --die-with-parent /usr/bin/facet version -v || status=1
 [ ! -e "$root/bin/sh" ] && [ ! -e "$root/usr/bin/sh" ] || { echo "container: there is a shell"; status=1; }
