@@ -52,7 +52,7 @@ FACET_API facet_result facet_environment_load_faces(const char *const paths[6],
 /* The built-in neutral studio: soft boxes in a grey room, white on average. */
 FACET_API facet_result facet_environment_create_studio(const facet_environment_desc *desc,
                                                        facet_environment **environment, facet_error *error);
-/* The same radiance (cd/m^2, linear Rec.709) from everywhere. */
+/* The same radiance (cd/m^2, linear Rec.709, finite and at least 0) from everywhere. */
 FACET_API facet_result facet_environment_create_constant(const float radiance[3],
                                                          const facet_environment_desc *desc,
                                                          facet_environment **environment, facet_error *error);

@@ -254,6 +254,25 @@ static void running_out_of_memory_leaks_nothing(void **state)
     cube_destroy(&c);
 }
 
+static void radiance_that_is_none_is_refused(void **state)
+{
+    (void)state;
+    const float bad[] = {-1.0f, NAN, INFINITY}, good[3] = {1.0f, 0.0f, 2.0f};
+    for (int i = 0; i < 9; i++) {
+        float radiance[3] = {1.0f, 1.0f, 1.0f};
+        radiance[i % 3] = bad[i / 3];
+        const float *ends[3] = {good, good, good};
+        ends[i % 3] = radiance;
+        facet_environment *e = NULL;
+        facet_error error = {0};
+        assert_int_equal(facet_environment_create_constant(radiance, NULL, &e, &error), FACET_ERROR_ARGUMENT);
+        assert_non_null(strstr(error.message, "at least 0"));
+        assert_int_equal(facet_environment_create_gradient(ends[0], ends[1], ends[2], NULL, &e, &error),
+                         FACET_ERROR_ARGUMENT);
+        assert_null(e);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -264,6 +283,7 @@ int main(void)
         cmocka_unit_test(other_aspect_ratios_are_refused_or_stretched),
         cmocka_unit_test(large_claims_are_refused_before_memory_is_taken),
         cmocka_unit_test(running_out_of_memory_leaks_nothing),
+        cmocka_unit_test(radiance_that_is_none_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -26,11 +26,22 @@ facet_result facet_environment_create_studio(const facet_environment_desc *desc,
     return cache_finish(result, e, environment);
 }
 
+static facet_result check_radiance(const float radiance[3], facet_error *error)
+{
+    for (int i = 0; i < 3; i++)
+        if (!(radiance[i] >= 0.0f && isfinite(radiance[i])))
+            return fail(error, FACET_ERROR_ARGUMENT,
+                        "environment: a radiance of %g; finite and at least 0 was expected",
+                        (double)radiance[i]);
+    return FACET_OK;
+}
+
 facet_result facet_environment_create_constant(const float radiance[3], const facet_environment_desc *desc,
                                                facet_environment **environment, facet_error *error)
 {
     assert(radiance && environment);
     *environment = NULL;
+    TRY(check_radiance(radiance, error));
     desc = desc ? desc : &default_desc;
     facet_environment *e = NULL;
     TRY(environment_create(desc, &e, error));
@@ -56,6 +67,9 @@ facet_result facet_environment_create_gradient(const float zenith[3], const floa
 {
     assert(zenith && horizon && nadir && environment);
     *environment = NULL;
+    TRY(check_radiance(zenith, error));
+    TRY(check_radiance(horizon, error));
+    TRY(check_radiance(nadir, error));
     desc = desc ? desc : &default_desc;
     facet_environment *e = NULL;
     TRY(environment_create(desc, &e, error));

@@ -16,12 +16,21 @@ static bool are_finite(const float *x, size_t count)
 
 static facet_result check_numbers(const facet_render_desc *d, facet_error *error)
 {
-    const float light[] = {
-        d->exposure_ev,           d->environment_ev,   d->environment_rotation_rad, d->sun.azimuth_rad,
-        d->sun.elevation_rad,     d->sun.diameter_rad, d->sun.illuminance_lux[0],   d->sun.illuminance_lux[1],
-        d->sun.illuminance_lux[2]};
+    const float light[] = {d->exposure_ev,
+                           d->environment_ev,
+                           d->environment_rotation_rad,
+                           d->sun.azimuth_rad,
+                           d->sun.elevation_rad,
+                           d->sun.diameter_rad,
+                           d->sun.illuminance_lux[0],
+                           d->sun.illuminance_lux[1],
+                           d->sun.illuminance_lux[2],
+                           d->background_color[0],
+                           d->background_color[1],
+                           d->background_color[2]};
     if (!are_finite(light, sizeof light / sizeof *light))
-        return fail(error, FACET_ERROR_ARGUMENT, "exposure, light: a value is not a finite number");
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "exposure, light, background: a value is not a finite number");
     const float path[] = {d->path.noise, d->path.clamp, d->path.shutter_s,
                           d->camera ? d->camera->lens_radius_m : 0.0f, d->camera ? d->camera->focus_m : 0.0f};
     for (size_t i = 0; i < sizeof path / sizeof *path; i++)
