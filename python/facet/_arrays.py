@@ -1,17 +1,19 @@
 """Scenes from arrays: keywords and numpy arrays to facet_arrays_desc, and objects of trimesh to keywords."""
 import ctypes
+import numbers
 import os
 
 from . import _api
 from ._calls import Call
 from ._camera import matrix_rows
-from ._fields import fill, to_enum, unknown_keyword
+from ._fields import fill, mapping, to_enum, unknown_keyword
 from ._image import numpy
-from ._library import C, create
+from ._library import C, create, text_bytes
 
 _FLOATS, _INDICES, _DOUBLES = (ctypes.POINTER(t) for t in (ctypes.c_float, ctypes.c_uint32, ctypes.c_double))
 _SLOTS = {f"{slot.name.lower()}_texture": slot for slot in _api.TextureSlot if slot.name != "COUNT"}
 _USE = ("texcoord", "offset", "rotation_rad", "scale")
+_SAMPLER = ("name", "wrap_u", "wrap_v", "mag_filter", "min_filter", "mip_filter")
 
 
 class Builder:
@@ -28,7 +30,14 @@ class Builder:
 
     def floats(self, values, widths, what, count=None):
         """A contiguous float32 array of rows of one of the widths, and its pointer."""
-        array = self.np.ascontiguousarray(values, self.np.float32)
+        try:
+            array = self.np.asarray(values)
+            if array.dtype.kind == "c":
+                raise TypeError(f"they are {array.dtype}, not real numbers")
+            with self.np.errstate(over="ignore"):  # the library names the number that is infinite
+                array = self.np.ascontiguousarray(array, self.np.float32)
+        except (TypeError, ValueError) as error:
+            raise type(error)(f"{what}: {error}") from None
         if array.ndim != 2 or array.shape[1] not in widths or count is not None and len(array) != count:
             rows = f"{count} rows" if count is not None else "rows"
             raise ValueError(f"{what} must have {rows} of {' or '.join(map(str, widths))} numbers, but its shape is "
@@ -41,7 +50,7 @@ class Builder:
 
     def indices(self, values, corners, what):
         array = self.np.asarray(values)
-        if array.dtype.kind not in "ui":
+        if array.size and array.dtype.kind not in "ui":
             raise TypeError(f"{what} must be integers, but are {array.dtype}")
         if array.ndim not in (1, 2) or array.ndim == 2 and array.shape[1] != corners:
             raise ValueError(f"{what} must be flat or rows of {corners}, but the shape is {array.shape}")
@@ -59,6 +68,9 @@ class Builder:
             if array.ndim == 2 and array.shape[1] == 4:
                 linear[:, 3] = array[:, 3] / self.np.float32(255)
             array = linear
+        elif array.dtype.kind in "iufb" and array.size and (array.min() < -1e-3 or array.max() > 1.001):
+            raise ValueError(f"{what} must lie in [0, 1], or be bytes of dtype uint8, but are {array.dtype} from "
+                             f"{array.min()} to {array.max()}")
         array, _ = self.floats(array, (3, 4), what, count)
         if array.shape[1] == 3:
             array = self.np.concatenate([array, self.np.ones((len(array), 1), self.np.float32)], axis=1)
@@ -72,7 +84,10 @@ class Builder:
         if key in self.texture_numbers:
             return self.texture_numbers[key]
         self.keep.append(value)  # its id stays its own
-        desc = fill(_api.facet_texture_desc(), sampler, what, self.keep)
+        for name in sampler:
+            if name not in _SAMPLER:
+                raise unknown_keyword(what, name, ["image", *_USE, *_SAMPLER])
+        desc = fill(_api.facet_texture_desc(), sampler, what)
         if isinstance(value, (str, os.PathLike)):
             with open(value, "rb") as file:
                 value = file.read()
@@ -101,13 +116,13 @@ class Builder:
         self.keep.append(keywords)
         out = C.material_default()
         fields = [name for name, _ in out._fields_ if name != "textures"]
-        for name, value in keywords.items():
+        for name, value in mapping(keywords, "material").items():
             if name in _SLOTS:
                 self.use(out.textures[_SLOTS[name]], value, f"material: {name}")
             elif name in fields:
                 if name in ("base_color", "emissive", "sheen_color", "specular_color", "attenuation_color"):
                     value = _color(value, len(getattr(out, name)))
-                fill(out, {name: value}, "material", self.keep)
+                fill(out, {name: value}, "material")
             else:
                 raise unknown_keyword("material", name, fields + list(_SLOTS))
         self.materials.append(out)
@@ -121,7 +136,7 @@ class Builder:
             raise ValueError(f"{what} needs 'image'")
         image = keywords.pop("image")
         sampler = {name: keywords.pop(name) for name in list(keywords) if name not in _USE}
-        fill(use, keywords, what, self.keep)
+        fill(use, keywords, what)
         use.texture = self.texture(image, sampler, what)
         use.is_used = True
 
@@ -146,7 +161,7 @@ class Builder:
         if material is not None:
             primitive.has_material, primitive.material = True, self.material(material)
         desc = _api.facet_mesh_desc(primitive_count=1, primitives=ctypes.pointer(primitive))
-        desc.name = name.encode() if name else None
+        desc.name = text_bytes(name, "name") if name else None
         self.meshes.append(desc)
         return len(self.meshes) - 1
 
@@ -155,7 +170,7 @@ class Builder:
         return self.pointer(self.np.array(rows).T.ravel().copy(), _DOUBLES)
 
     def add_mesh(self, keywords, has_nodes):
-        keywords = dict(keywords)
+        keywords = mapping(keywords, "a mesh")
         transform, instances = keywords.pop("transform", None), keywords.pop("instances", None)
         if has_nodes and (transform is not None or instances is not None):
             raise ValueError("transform and instances of a mesh cannot be given beside nodes, which place meshes")
@@ -171,20 +186,20 @@ class Builder:
 
     def node(self, keywords):
         desc = _api.facet_node_desc()
-        keywords = {name: value for name, value in keywords.items() if value is not None}
+        keywords = {name: value for name, value in mapping(keywords, "a node").items() if value is not None}
         for name in ("parent", "mesh", "camera", "light"):
             if name in keywords:
                 keywords[f"has_{name}"] = True
         if "matrix" in keywords:
             desc.matrix = self.matrix(keywords.pop("matrix"), "matrix")
-        fill(desc, keywords, "node", self.keep)
+        fill(desc, keywords, "node")
         self.nodes.append(desc)
         return len(self.nodes) - 1
 
     def add(self, kind, table, struct, keywords, has_nodes):
-        keywords = dict(keywords)
+        keywords = mapping(keywords, f"a {kind}")
         pose = keywords.pop("pose", None)
-        table.append(fill(struct, keywords, kind, self.keep))
+        table.append(fill(struct, keywords, kind))
         if has_nodes and pose is not None:
             raise ValueError(f"the pose of a {kind} cannot be given beside nodes, which place it")
         if not has_nodes:
@@ -194,7 +209,7 @@ class Builder:
 
     def create(self, name, log):
         desc, arrays = _api.facet_scene_desc(), _api.facet_arrays_desc()
-        arrays.name = name.encode() if name else None
+        arrays.name = text_bytes(name, "scene_name") if name else None
         for field, kind in (("textures", _api.facet_texture_desc), ("materials", _api.facet_material),
                             ("meshes", _api.facet_mesh_desc), ("cameras", _api.facet_camera_desc),
                             ("lights", _api.facet_light_desc), ("nodes", _api.facet_node_desc)):
@@ -217,7 +232,9 @@ def _sets(texcoords):
 
 def _color(value, length):
     """A number for grey; RGB for RGBA."""
-    values = [value] * 3 if isinstance(value, (int, float)) else [float(x) for x in value]
+    if isinstance(value, str) or not hasattr(value, "__iter__") and not isinstance(value, numbers.Real):
+        return value
+    values = [value] * 3 if isinstance(value, numbers.Real) else list(value)
     return values + [1.0] if length == 4 and len(values) == 3 else values
 
 
@@ -233,6 +250,8 @@ def _check_keywords(function, keywords):
 def create_scene(positions, indices, keywords):
     """The pointer of Scene.from_arrays()."""
     keywords = dict(keywords)
+    if positions is None and indices is None and not keywords:
+        raise TypeError("from_arrays() needs positions, or meshes=[..]")
     name, log = keywords.pop("scene_name", None), keywords.pop("log", None)
     meshes = list(keywords.pop("meshes", ()))
     nodes = keywords.pop("nodes", None)

@@ -1,10 +1,11 @@
 """Environments and tables prefiltered for real-time renderers."""
 import ctypes
+import os
 
 from . import _api
 from ._calls import Call, Handle
 from ._environment import Environment, resolve
-from ._fields import fill, keywords_of, read
+from ._fields import fill, keywords_of, read, to_index
 from ._image import Image, array_of_view, numpy
 from ._library import C, check, create, path_bytes, take_bytes
 
@@ -13,6 +14,7 @@ class Cube(Handle):
     """A prefiltered cube map: cube[level] is an array of (6, size, size, 3); cube.save('environment.ktx2')."""
 
     _destroy = C.cube_destroy
+    _makers = "facet.bake()"
 
     def __len__(self):
         with self._reading() as pointer:
@@ -44,12 +46,14 @@ class Cube(Handle):
     @keywords_of(_api.facet_ktx2_desc, "allocator", "thread_count")
     def encode(self, **keywords):
         """The bytes of a KTX2 file."""
-        desc = fill(_api.facet_ktx2_desc(), keywords, "encode", [])
+        desc = fill(_api.facet_ktx2_desc(), keywords, "encode")
         with self._reading() as pointer:
             return take_bytes(C.cube_encode_ktx2, pointer, desc)
 
     def save(self, path, **keywords):
         """Writes a KTX2 file; keywords as those of encode()."""
+        if not os.fspath(path).lower().endswith(".ktx2"):
+            raise ValueError(f"{path}: a cube map is written as .ktx2; unfold() makes an image of a level")
         data = self.encode(**keywords)
         check(C.bytes_save, data, len(data), path_bytes(path))
 
@@ -57,7 +61,8 @@ class Cube(Handle):
         """A level as one Image."""
         from ._fields import to_enum
         with self._reading() as pointer:
-            return Image._adopt(create(C.cube_unfold, pointer, level, to_enum(_api.Layout, layout, "layout"), height, None))
+            return Image._adopt(create(C.cube_unfold, pointer, to_index(level, "level"), to_enum(_api.Layout, layout, "layout"),
+                                        to_index(height, "height"), None))
 
     def __repr__(self):
         if self._owner is None:
@@ -71,7 +76,7 @@ def bake(environment, *, threads=0, progress=None, **keywords):
     environment = environment if isinstance(environment, Environment) else resolve(environment, None, None, True)
     if environment is None:
         raise ValueError("there is no environment to bake")
-    desc = fill(_api.facet_bake_desc(thread_count=threads), keywords, "bake", [])
+    desc = fill(_api.facet_bake_desc(thread_count=to_index(threads, "threads")), keywords, "bake")
     call = Call(desc, progress)
 
     def work():
@@ -84,7 +89,7 @@ def bake(environment, *, threads=0, progress=None, **keywords):
 @keywords_of(_api.facet_dfg_desc, "allocator", "progress", "thread_count")
 def bake_dfg(*, threads=0, progress=None, **keywords):
     """A table of directional albedo over N.V (x) and perceptual roughness (y): float32 (size, size, channels)."""
-    desc = fill(_api.facet_dfg_desc(thread_count=threads), keywords, "bake_dfg", [])
+    desc = fill(_api.facet_dfg_desc(thread_count=to_index(threads, "threads")), keywords, "bake_dfg")
     call = Call(desc, progress)
     image = Image._adopt(call.run(lambda: create(C.dfg_bake, desc), C.image_destroy))
     return image.pixels[:, :, :C.dfg_get_channel_count(desc.kind)]

@@ -146,6 +146,19 @@ class Handle:
     more."""
 
     _destroy = None  # the function of the library that releases it
+    _owner = None
+
+    def __init__(self, *_, **__):
+        raise TypeError(f"a facet.{type(self).__name__} is made by {self._makers}")
+
+    def __reduce__(self):
+        raise TypeError(f"a facet.{type(self).__name__} cannot be pickled: its memory is the library's; pass a path, bytes or "
+                        "an array, and make it from that")
+
+    def __copy__(self):
+        twin = type(self).__new__(type(self))
+        twin.__dict__.update(self.__dict__)
+        return twin
 
     def _own(self, pointer, *needs):
         """needs: handles whose objects must outlive this one."""

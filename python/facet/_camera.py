@@ -1,14 +1,20 @@
 """Cameras: a place and a direction, a pose, an orbit around the model, or one of the model's file."""
+import functools
 import math
+import numbers
+import reprlib
 
 from . import _api
-from ._fields import fill, keywords_of
-from ._library import C, check
+from ._fields import fill, keywords_of, to_index
+from ._library import C, check, text_bytes
 
 
 def matrix_rows(value, what):
     """A matrix of 4 x 4 as rows of floats, from nested sequences or an array."""
-    rows = [[float(x) for x in row] for row in value]
+    try:
+        rows = [[float(x) for x in row] for row in value]
+    except TypeError:
+        raise TypeError(f"{what} must be a matrix of 4 x 4, but is {reprlib.repr(value)}") from None
     if len(rows) != 4 or any(len(row) != 4 for row in rows):
         raise ValueError(f"{what} must be a matrix of 4 x 4")
     if any(abs(a - b) > 1e-6 for a, b in zip(rows[3], (0, 0, 0, 1))):
@@ -22,7 +28,7 @@ class Camera:
     @keywords_of(_api.facet_camera)
     def __init__(self, **keywords):
         """A camera by the fields of facet_camera."""
-        self._struct = fill(_api.facet_camera(), keywords, "Camera", [])
+        self._struct = fill(_api.facet_camera(), keywords, "Camera")
 
     @classmethod
     def from_pose(cls, pose, fov_y_rad=math.radians(30), **keywords):
@@ -74,7 +80,11 @@ class Orbit:
         self._struct = C.orbit_default()
         if "target" in keywords:
             keywords = {"has_target": True, **keywords}
-        fill(self._struct, keywords, "Orbit", [])
+        fill(self._struct, keywords, "Orbit")
+        self._keywords = dict(keywords)
+
+    def __reduce__(self):
+        return functools.partial(Orbit, **self._keywords), ()
 
     def __repr__(self):
         return f"facet.Orbit(azimuth_rad={self._struct.azimuth_rad:.4f}, polar_rad={self._struct.polar_rad:.4f})"
@@ -90,9 +100,11 @@ def camera_of_file(scene, pose, name):
     """Camera by name or number."""
     camera = _api.facet_camera()
     with scene._reading() as pointer:
-        index = _api.c_uint32(name) if isinstance(name, int) else _api.c_uint32()
+        index = _api.c_uint32()
         if isinstance(name, str):
-            check(C.scene_find_camera, pointer, name.encode(), index)
+            check(C.scene_find_camera, pointer, text_bytes(name, "camera"), index)
+        else:
+            index.value = to_index(name, "camera")
         check(C.camera_from_scene, pointer, pose, index.value, camera)
     return camera
 
@@ -105,7 +117,7 @@ def resolve(camera, scene, pose, aspect):
         if scene is None and isinstance(camera, Orbit):
             raise ValueError("an Orbit goes around a model; a sea without one needs a Camera")
         return camera._resolve(scene, pose, aspect)
-    if isinstance(camera, (int, str)):
+    if isinstance(camera, (numbers.Integral, str)):
         if scene is None:
             raise ValueError("a camera by name is one of the model's file, but there is no model")
         return camera_of_file(scene, pose, camera)

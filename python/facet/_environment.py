@@ -1,5 +1,6 @@
 """Light from all directions."""
 import ctypes
+import numbers
 import os
 
 from . import _api
@@ -10,7 +11,7 @@ from ._library import C, check, create
 
 
 def _numbers(values, count=3):
-    values = [float(x) for x in ([values] * count if isinstance(values, (int, float)) else values)]
+    values = [float(x) for x in ([values] * count if isinstance(values, numbers.Real) else values)]
     if len(values) != count:
         raise ValueError(f"{count} numbers are needed, not {len(values)}")
     return (ctypes.c_float * count)(*values)
@@ -20,12 +21,13 @@ class Environment(Handle):
     """Image-based light, for render(environment=...), bake() and harmonics()."""
 
     _destroy = C.environment_destroy
+    _makers = "Environment.load(), .from_array(), .sky(), .studio(), .constant() or .gradient()"
 
     @classmethod
     @keywords_of(_api.facet_environment_desc, "allocator", "log")
     def load(cls, source, **keywords):
         """An environment from a path, bytes or a binary file object: .hdr, .exr, .ktx2, or 8-bit formats."""
-        desc = fill(_api.facet_environment_desc(), keywords, "load", [])
+        desc = fill(_api.facet_environment_desc(), keywords, "load")
         return load_from(cls, source, desc, C.environment_load, C.environment_load_memory)
 
     @classmethod
@@ -53,7 +55,7 @@ class Environment(Handle):
     @keywords_of(_api.facet_sky_desc)
     def sky(cls, **keywords):
         """A clear sky by day. illuminance_lux=3.14159 makes a white surface 1 cd/m^2; 0 is physical units."""
-        return cls._create(C.environment_create_sky, fill(_api.facet_sky_desc(), keywords, "sky", []))
+        return cls._create(C.environment_create_sky, fill(_api.facet_sky_desc(), keywords, "sky"))
 
     @classmethod
     def _create(cls, function, *arguments):
@@ -72,7 +74,7 @@ class Environment(Handle):
     @keywords_of(_api.facet_sh_desc, "allocator")
     def harmonics(self, **keywords):
         """Nine spherical harmonics as an array of (9, 3); form: 'radiance', 'irradiance' or 'folded'."""
-        desc = fill(_api.facet_sh_desc(), keywords, "harmonics", [])
+        desc = fill(_api.facet_sh_desc(), keywords, "harmonics")
         out = numpy().zeros((9, 3), numpy().float32)
         rows = ctypes.cast(out.ctypes.data, ctypes.POINTER(ctypes.c_float * 3))
         with self._reading() as pointer:
@@ -105,6 +107,8 @@ def resolve(environment, scene, pose, ignores_scene_lights):
         return studio()
     if isinstance(environment, (str, os.PathLike, bytes)) or hasattr(environment, "read"):
         return Environment.load(environment)
+    if isinstance(environment, Handle) and not isinstance(environment, Image):
+        raise TypeError(f"environment must be an Environment, a path, bytes or an array, not a {type(environment).__name__}")
     return Environment.from_array(environment)
 
 

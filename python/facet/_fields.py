@@ -4,10 +4,11 @@ import difflib
 import functools
 import inspect
 import operator
-import os
+import reprlib
 from enum import IntEnum, IntFlag
 
 from . import _api
+from ._library import text_bytes
 
 
 def unknown_keyword(where, name, names):
@@ -33,7 +34,39 @@ def to_enum(kind, value, what):
         raise ValueError(f"{what} is '{value}', but must be one of {words}{hint}")
     if isinstance(value, IntEnum) and not isinstance(value, kind):
         raise ValueError(f"{what} must be a facet.{kind.__name__}, but is a facet.{type(value).__name__}")
+    if not hasattr(value, "__index__"):
+        raise TypeError(f"{what} must be a word or a facet.{kind.__name__}, but is a {type(value).__name__}")
     return kind(operator.index(value))
+
+
+def to_index(value, what, least=0, bits=32):
+    """An integer for an unsigned field, where ctypes would wrap what does not fit."""
+    try:
+        value = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{what} must be an integer, but is a {type(value).__name__}") from None
+    if not least <= value < 1 << bits:
+        raise ValueError(f"{what} is {value}, but must be at least {least} and below 2^{bits}")
+    return value
+
+
+def mapping(value, what):
+    """A copy of a mapping as a dict."""
+    if not hasattr(value, "keys"):
+        raise TypeError(f"{what} must be a mapping, but is a {type(value).__name__}")
+    return dict(value)
+
+
+def _numbers(value, kind, what):
+    """A field of several numbers."""
+    convert = float if kind._type_ in (ctypes.c_float, ctypes.c_double) else lambda x: to_index(x, what)
+    try:
+        numbers = list(value)
+        if len(numbers) != kind._length_:
+            raise ValueError(f"{what} must have {kind._length_} numbers, but has {len(numbers)}")
+        return kind(*map(convert, numbers))
+    except TypeError:
+        raise TypeError(f"{what} must be {kind._length_} numbers, but is {reprlib.repr(value)}") from None
 
 
 def to_flags(kind, value, what):
@@ -59,33 +92,23 @@ FLAGS = {"aovs": _api.Aov, "skipped_metrics": _api.Metric}
 _INTEGERS = {ctypes.c_uint8: 8, ctypes.c_uint16: 16, ctypes.c_uint32: 32, ctypes.c_uint64: 64, ctypes.c_size_t: 64}
 
 
-def _set(struct, name, kind, value, what, keep):
+def _set(struct, name, kind, value, what):
     if name in struct.ENUMS:
         value = to_enum(struct.ENUMS[name], value, what)
     elif name in FLAGS:
         value = to_flags(FLAGS[name], value, what)
     elif kind in _INTEGERS:
-        value = operator.index(value)
-        if not 0 <= value < 1 << _INTEGERS[kind]:
-            raise ValueError(f"{what} is {value}, but must be at least 0 and below 2^{_INTEGERS[kind]}")
+        value = to_index(value, what, bits=_INTEGERS[kind])
     elif isinstance(kind, type) and issubclass(kind, ctypes.Structure):
         if isinstance(value, kind):
             setattr(struct, name, value)
-        elif hasattr(value, "keys"):
-            fill(getattr(struct, name), value, what, keep)
         else:
-            raise TypeError(f"{what} must be a mapping, but is a {type(value).__name__}")
+            fill(getattr(struct, name), mapping(value, what), what)
         return
     elif isinstance(kind, type) and issubclass(kind, ctypes.Array):
-        value = [float(x) if kind._type_ is ctypes.c_float else x for x in value]
-        if len(value) != kind._length_:
-            raise ValueError(f"{what} must have {kind._length_} numbers, but has {len(value)}")
-        value = kind(*value)
+        value = _numbers(value, kind, what)
     elif kind is ctypes.c_char_p:
-        value = None if value is None else os.fsencode(value)
-    elif kind is ctypes.c_void_p and hasattr(value, "_pointer"):
-        keep.append(value)
-        value = value._pointer
+        value = None if value is None else text_bytes(value, what)
     elif kind is ctypes.c_bool:
         value = bool(value)
     try:
@@ -94,13 +117,13 @@ def _set(struct, name, kind, value, what, keep):
         raise TypeError(f"{what}: {error}") from None
 
 
-def fill(struct, keywords, where, keep):
-    """Sets fields of a struct by their names. keep receives what must live as long as the struct."""
+def fill(struct, keywords, where):
+    """Sets fields of a struct by their names."""
     kinds = dict(struct._fields_)
     for name, value in keywords.items():
         if name not in kinds:
             raise unknown_keyword(where, name, list(kinds))
-        _set(struct, name, kinds[name], value, f"{where}: {name}", keep)
+        _set(struct, name, kinds[name], value, f"{where}: {name}")
     return struct
 
 
@@ -149,4 +172,5 @@ def keywords_of(struct, *without):
     return decorate
 
 
-__all__ = ["IntEnum", "IntFlag", "fill", "keywords_of", "read", "to_enum", "to_flags", "unknown_keyword", "word"]
+__all__ = ["IntEnum", "IntFlag", "fill", "keywords_of", "mapping", "read", "to_enum", "to_flags", "to_index",
+           "unknown_keyword", "word"]

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from . import _api
 from ._calls import Call, Handle
 from ._fields import fill, keywords_of, read, to_enum
-from ._library import C, check, create, path_bytes, take_bytes
+from ._library import C, check, create, path_bytes, take_bytes, text_bytes
 
 
 def numpy():
@@ -67,6 +67,7 @@ class Image(Handle):
     """
 
     _destroy = C.image_destroy
+    _makers = "Scene.render(), Image.load() or Image.from_array()"
 
     @classmethod
     def from_array(cls, pixels):
@@ -74,6 +75,8 @@ class Image(Handle):
         uint8: sRGB, straight alpha."""
         np = numpy()
         array = np.asarray(pixels)
+        if array.ndim == 0:
+            raise TypeError(f"an image is an array of (height, width, 1, 3 or 4), not a {type(pixels).__name__}")
         if array.ndim == 2:
             array = array[:, :, None]
         if array.ndim != 3 or array.shape[2] not in (1, 3, 4):
@@ -91,8 +94,7 @@ class Image(Handle):
     def load(cls, source, **keywords):
         """An image from a path, bytes or a binary file object: PNG, JPEG, WebP, AVIF, KTX2, TGA, BMP, GIF, DDS, HDR, EXR,
         PFM."""
-        keep = []
-        desc = fill(_api.facet_image_load_desc(), keywords, "Image.load", keep)
+        desc = fill(_api.facet_image_load_desc(), keywords, "Image.load")
         return load_from(cls, source, desc, C.image_load, C.image_load_memory)
 
     def _layer(self, index):
@@ -170,23 +172,21 @@ class Image(Handle):
     def save(self, path, **keywords):
         """Writes an image file, whole or not at all; the extension decides: .png .jpg .webp .exr .hdr .pfm. An .exr has all
         layers."""
-        keep = []
-        desc = fill(_api.facet_image_save_desc(), keywords, "Image.save", keep)
+        desc = fill(_api.facet_image_save_desc(), keywords, "Image.save")
         with self._reading() as pointer:
             check(C.image_save, pointer, path_bytes(path), desc)
 
     @keywords_of(_api.facet_image_save_desc, "allocator", "format")
     def encode(self, format="png", **keywords):
         """The bytes of an image file."""
-        keep = []
-        desc = fill(_api.facet_image_save_desc(), {"format": format, **keywords}, "Image.encode", keep)
+        desc = fill(_api.facet_image_save_desc(), {"format": format, **keywords}, "Image.encode")
         with self._reading() as pointer:
             return take_bytes(C.image_encode, pointer, desc)
 
     def id_colors(self, layer):
         """A layer of IDs, 'object' or 'material', in false color; the image also needs the layer 'instance'."""
         with self._reading() as pointer:
-            return Image._adopt(create(C.image_create_id_colors, pointer, layer.encode(), None))
+            return Image._adopt(create(C.image_create_id_colors, pointer, text_bytes(layer, "layer"), None))
 
     def _repr_png_(self):
         return self.encode("png")
@@ -238,14 +238,24 @@ def load_from(cls, source, desc, from_path, from_memory, call=None):
     return cls._adopt(call.run(work, cls._destroy))
 
 
+def image_of(value):
+    """An Image of whatever a user may give: an Image, an array, or what Image.load() reads."""
+    if isinstance(value, Image):
+        return value
+    if hasattr(value, "__array_interface__") or isinstance(value, (list, tuple)):
+        return Image.from_array(value)
+    return Image.load(value)
+
+
 @keywords_of(_api.facet_contact_sheet_desc, "allocator", "log", "labels")
 def contact_sheet(images, *, labels=None, **keywords):
-    """Images of one size in rows, with a label below each (needs cairo)."""
-    keep = []
-    desc = fill(_api.facet_contact_sheet_desc(), keywords, "contact_sheet", keep)
-    images = list(images)
+    """Images of one size in rows, with a label below each (needs cairo): images, arrays or paths."""
+    desc = fill(_api.facet_contact_sheet_desc(), keywords, "contact_sheet")
+    if isinstance(images, (Image, str, bytes)) or getattr(images, "ndim", 4) < 4:
+        raise TypeError("contact_sheet() needs a list of images, not one image")
+    images = [image_of(image) for image in images]
     if labels is not None:
-        texts = [label.encode() for label in labels]
+        texts = [text_bytes(label, "a label") for label in labels]
         if len(texts) != len(images):
             raise ValueError(f"there are {len(images)} images, but {len(texts)} labels")
         desc.labels = (ctypes.c_char_p * len(texts))(*texts)

@@ -161,5 +161,16 @@ def take_text(function, *arguments):
         C.text_destroy(pointer)
 
 
+def text_bytes(text, what):
+    """Text or a path for the library, where a null character would end it."""
+    try:
+        data = os.fsencode(text)
+    except TypeError:
+        raise TypeError(f"{what} must be text, but is a {type(text).__name__}") from None
+    if b"\0" in data:
+        raise ValueError(f"{what} has a null character: {text!r}")
+    return data
+
+
 def path_bytes(path):
-    return os.fsencode(path)
+    return text_bytes(path, "the path")

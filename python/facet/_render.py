@@ -1,13 +1,14 @@
 """Rendering: keywords to facet_render_desc, and the renderer that keeps what images of one scene share."""
 import ctypes
 import math
+import numbers
 
 from . import _api
 from . import _camera, _environment
 from ._calls import Call, Handle
-from ._fields import fill, keywords_of, to_enum
+from ._fields import fill, keywords_of, to_enum, to_index
 from ._image import Image, numpy, srgb_color
-from ._library import C, check, create
+from ._library import C, check, create, text_bytes
 
 # Keywords with a meaning beyond the field of that name, or in place of several fields.
 _REPLACED = ("allocator", "width", "height", "pose", "thread_count", "meters_exposure", "exposure_ev", "background_color",
@@ -18,46 +19,51 @@ def make_pose(scene, keep, index=None, variant=None, animations=(), time_s=0.0):
     """facet_pose_desc of names or numbers."""
     pose = _api.facet_pose_desc(time_s=time_s)
 
-    def find(function, name):
+    def find(function, name, what):
         number = ctypes.c_uint32()
         with scene._reading() as pointer:
-            check(function, pointer, name.encode(), number)
+            check(function, pointer, text_bytes(name, what), number)
         return number.value
 
-    def number_of(value, function):
-        return find(function, value) if isinstance(value, str) else value
+    def number_of(value, function, what):
+        return find(function, value, what) if isinstance(value, str) else to_index(value, what)
 
     if index is not None:
-        pose.has_scene_index, pose.scene_index = True, number_of(index, C.scene_find_scene)
+        pose.has_scene_index, pose.scene_index = True, number_of(index, C.scene_find_scene, "scene_index")
     if variant is not None:
-        pose.has_variant, pose.variant = True, number_of(variant, C.scene_find_variant)
-    animations = [animations] if isinstance(animations, (str, int)) else list(animations)
-    if animations:
-        numbers = (ctypes.c_uint32 * len(animations))(*(number_of(a, C.scene_find_animation) for a in animations))
-        keep.append(numbers)
-        pose.animation_count = len(animations)
-        pose.animations = numbers
+        pose.has_variant, pose.variant = True, number_of(variant, C.scene_find_variant, "variant")
+    if isinstance(animations, (str, numbers.Integral)):
+        animations = [animations]
+    found = [number_of(a, C.scene_find_animation, "animations") for a in animations or ()]
+    if found:
+        table = (ctypes.c_uint32 * len(found))(*found)
+        keep.append(table)
+        pose.animation_count = len(found)
+        pose.animations = table
     return pose
 
 
 def _size(size):
     if size is None:
         return 0, 0
-    if isinstance(size, int):
-        return size, size
-    width, height = size
-    return int(width), int(height)
+    sides = [size, size] if isinstance(size, numbers.Number) else list(size)
+    if len(sides) != 2:
+        raise ValueError(f"size must be (width, height) or one number, but has {len(sides)}")
+    return tuple(to_index(side, "size", least=1) for side in sides)
 
 
 def _set_background(desc, background):
     color = srgb_color(background) if isinstance(background, str) else None
     if color is None and not isinstance(background, (str, int)):
-        color = [float(x) for x in background]
+        color = background
     if color is None:
         words = {"env": "environment"}
+        if isinstance(background, str) and background not in (*words, "environment", "transparent"):
+            raise ValueError(f"background is '{background}', but must be 'transparent', 'environment', 'white', 'black', '#rrggbb' "
+                             "or linear (r, g, b)")
         desc.background = to_enum(_api.Background, words.get(background, background), "background")
     else:
-        fill(desc, {"background": "color", "background_color": color}, "background", [])
+        fill(desc, {"background": "color", "background_color": color}, "background")
 
 
 class Request:
@@ -69,20 +75,23 @@ class Request:
         self.desc = desc = _api.facet_render_desc()
         self.keep = []
         desc.width, desc.height = _size(size)
-        desc.thread_count = threads
+        desc.thread_count = to_index(threads, "threads")
         desc.energy = _api.Energy.CONSERVING
         is_ogl1 = fields.get("shading") in ("ogl1", _api.Shading.OGL1)
         desc.tonemap = _api.Tonemap.NONE if is_ogl1 else _api.Tonemap.AGX if sea is not None else _api.Tonemap.NEUTRAL
         _set_background(desc, background)
         desc.meters_exposure = exposure_ev == "auto"
-        desc.exposure_ev = 0.0 if desc.meters_exposure else float(exposure_ev)
-        fill(desc, fields, where, self.keep)
+        if not desc.meters_exposure:
+            fill(desc, {"exposure_ev": exposure_ev}, where)
+        fill(desc, fields, where)
         self.pose = make_pose(scene, self.keep, scene_index, variant, animations, time_s)
         desc.pose = self.pose
         width, height = desc.width or 1024, desc.height or 768
         if camera is not None:
             self.camera = _camera.resolve(camera, scene, self.pose, width / height)
             desc.camera = ctypes.pointer(self.camera)
+        if sea is not None and getattr(sea, "_destroy", None) is not C.sea_destroy:  # its pointer would be taken for a sea
+            raise TypeError(f"sea must be a Sea, but is a {type(sea).__name__}")
         self.sea = sea
         self.environment = None
         if sea is None and not is_ogl1:
@@ -153,6 +162,8 @@ class Renderer(Handle):
         self._scene = None
         if scene is None:
             self._own(create(C.renderer_create, None, None))
+        elif getattr(scene, "_destroy", None) is not C.scene_destroy:
+            raise TypeError(f"a Scene is needed, not a {type(scene).__name__}")
         else:
             self._scene = scene._alias()
             with scene._reading() as pointer:

@@ -7,7 +7,7 @@ import json
 from . import _api, _arrays
 from ._calls import Call, Handle
 from ._camera import matrix_rows
-from ._fields import fill, keywords_of, read, to_enum
+from ._fields import fill, keywords_of, read, to_enum, to_index
 from ._image import load_from
 from ._library import C, check, create, path_bytes, take_text
 from ._render import Renderer, make_pose
@@ -17,6 +17,7 @@ class Scene(Handle):
     """A model: facet.load(path), Scene.from_arrays(), Scene.from_trimesh(), Scene.builtin()."""
 
     _destroy = C.scene_destroy
+    _makers = "facet.load(), Scene.from_arrays(), Scene.from_trimesh() or Scene.builtin()"
 
     # ---- making ----
 
@@ -25,7 +26,7 @@ class Scene(Handle):
     def load(cls, source, *, threads=0, log=None, **keywords):
         """A scene from a path, bytes or a binary file object: .glb, .gltf, .obj, .stl, .ply, rgl's .json. Files beside a model from
         memory need root, their folder."""
-        desc = fill(_api.facet_scene_desc(thread_count=threads), keywords, "load", [])
+        desc = fill(_api.facet_scene_desc(thread_count=to_index(threads, "threads")), keywords, "load")
         return load_from(cls, source, desc, C.scene_load, C.scene_load_memory, Call(desc, log=log))
 
     @classmethod
@@ -118,7 +119,7 @@ class Scene(Handle):
         rows = matrix_rows(matrix, "matrix")
         columns = (ctypes.c_float * 16)(*(rows[row][column] for column in range(4) for row in range(4)))
         with self._changing() as pointer:
-            check(C.scene_place_part, pointer, part, columns)
+            check(C.scene_place_part, pointer, to_index(part, "part"), columns)
 
     def append(self, other):
         """Appends all of another scene, which becomes the next part of this one and is closed."""
@@ -135,7 +136,7 @@ class Scene(Handle):
     def convert_materials(self, to, **keywords):
         """Converts all materials: to 'metallic-roughness', 'specular-glossiness' or 'ogl1', which adds those of OpenGL 1 beside.
         Returns the conversions with their errors, a dict per material."""
-        desc = fill(_api.facet_legacy_desc(), keywords, "convert_materials", [])
+        desc = fill(_api.facet_legacy_desc(), keywords, "convert_materials")
         log = _LogOnly()
         call = Call(log)
 
@@ -160,7 +161,7 @@ class Scene(Handle):
     @keywords_of(_api.facet_scene_save_desc, "allocator", "log", "progress", "thread_count")
     def save(self, path, *, threads=0, progress=None, log=None, **keywords):
         """Writes the scene: .glb, .gltf, .obj or rgl's .json, by the extension. The last two need convert_materials('ogl1')."""
-        desc = fill(_api.facet_scene_save_desc(thread_count=threads), keywords, "save", [])
+        desc = fill(_api.facet_scene_save_desc(thread_count=to_index(threads, "threads")), keywords, "save")
         call = Call(desc, progress, log)
 
         def work():

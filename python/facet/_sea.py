@@ -4,9 +4,9 @@ import ctypes
 from . import _api
 from ._calls import Handle
 from ._camera import Camera
-from ._fields import fill, keywords_of, read
+from ._fields import fill, keywords_of, read, to_index
 from ._image import Image, numpy
-from ._library import C, check, create
+from ._library import C, check, create, text_bytes
 from ._render import Renderer
 from ._scene import Scene
 
@@ -21,9 +21,9 @@ class Sea(Handle):
         """A sea at time 0, by a preset (Sea.presets()) or facet_sea_default(), and the fields of facet_sea_desc."""
         desc = C.sea_default()
         if preset is not None:
-            check(C.sea_preset, preset.encode(), desc)
-        fill(desc, keywords, "Sea", [])
-        desc.thread_count = threads
+            check(C.sea_preset, text_bytes(preset, "preset"), desc)
+        fill(desc, keywords, "Sea")
+        desc.thread_count = to_index(threads, "threads")
         self._own(create(C.sea_create, desc))
 
     @staticmethod
@@ -46,7 +46,11 @@ class Sea(Handle):
         """The surface at positions (n, 2), pairs of x and z, m: a dict of arrays height_m (n), normal (n, 3), velocity_mps (n),
         jacobian (n)."""
         np = numpy()
-        places = np.ascontiguousarray(positions, np.float64).reshape(-1, 2)
+        places = np.ascontiguousarray(np.asarray(positions).astype(np.float64, casting="same_kind"))
+        if places.shape == (2,):
+            places = places[None]
+        if places.ndim != 2 or places.shape[1] != 2 or not np.isfinite(places).all():
+            raise ValueError(f"positions must be finite numbers of shape (n, 2), but the shape is {places.shape}")
         out = np.zeros((len(places), 6), np.float32)
         with self._reading() as pointer:
             C.sea_get_points(pointer, places.ctypes.data_as(ctypes.POINTER(ctypes.c_double)), len(places),
@@ -64,12 +68,12 @@ class Sea(Handle):
     def maps(self, tile=0):
         """A tile of waves as an Image of displacements with the layers 'normal', 'slope', 'jacobian' and 'foam'."""
         with self._reading() as pointer:
-            return Image._adopt(create(C.sea_create_maps, pointer, tile, None))
+            return Image._adopt(create(C.sea_create_maps, pointer, to_index(tile, "tile"), None))
 
     @keywords_of(_api.facet_sea_mesh_desc, "allocator")
     def mesh(self, **keywords):
         """A square of the surface, and of the bed, as a Scene."""
-        desc = fill(_api.facet_sea_mesh_desc(), keywords, "mesh", [])
+        desc = fill(_api.facet_sea_mesh_desc(), keywords, "mesh")
         with self._reading() as pointer:
             return Scene._adopt(create(C.sea_create_mesh, pointer, desc), self)
 

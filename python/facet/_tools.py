@@ -1,12 +1,13 @@
 """Comparison of images, conversion of models, plots, the shader library."""
 import ctypes
+import os
 import pathlib
 
 from . import _api
 from ._calls import Call
-from ._fields import fill, keywords_of, read, to_enum
-from ._image import Image
-from ._library import C, check, path_bytes, take_bytes
+from ._fields import fill, keywords_of, mapping, read, to_enum, to_index
+from ._image import Image, image_of
+from ._library import C, check, path_bytes, take_bytes, text_bytes
 from ._scene import Scene
 
 
@@ -28,21 +29,12 @@ class Comparison:
         return f"<facet.Comparison flip={self.flip:.6f} psnr={self.psnr:.2f} ssim={self.ssim:.6f}>"
 
 
-def _image(value):
-    """An Image of whatever a user may give, and whether it is a temporary one."""
-    if isinstance(value, Image):
-        return value
-    if hasattr(value, "__array_interface__") or isinstance(value, (list, tuple)):
-        return Image.from_array(value)
-    return Image.load(value)
-
-
 @keywords_of(_api.facet_compare_desc, "allocator", "thread_count")
 def compare(reference, image, *, mask=None, threads=0, **keywords):
     """Compares an image with a reference: images, arrays or paths. Returns a Comparison: .flip, .psnr, .ssim, .rmse, .."""
-    images = [_image(reference), _image(image)] + ([_image(mask)] if mask is not None else [])
+    images = [image_of(reference), image_of(image)] + ([image_of(mask)] if mask is not None else [])
     owners = [i._living for i in images]
-    desc = fill(_api.facet_compare_desc(thread_count=threads), keywords, "compare", [])
+    desc = fill(_api.facet_compare_desc(thread_count=to_index(threads, "threads")), keywords, "compare")
     if mask is not None:
         desc.mask = owners[2].pointer
     out, difference = _api.facet_comparison(), ctypes.c_void_p()
@@ -79,7 +71,11 @@ class Plot:
         self.data, self.format, self.fits = data, format, fits
 
     def save(self, path):
-        """Writes the file, whole or not at all."""
+        """Writes the file, whole or not at all. Its extension must be that of the format."""
+        wanted = f".{self.format.name.lower()}"
+        if pathlib.Path(os.fsdecode(path)).suffix.lower() != wanted:
+            raise ValueError(f"the chart is {self.format.name}, but {os.fsdecode(path)} does not end in {wanted}; plot() has the "
+                             "keyword format")
         check(C.bytes_save, self.data, len(self.data), path_bytes(path))
 
     def _repr_svg_(self):
@@ -92,13 +88,14 @@ class Plot:
         return f"<facet.Plot, {self.format.name.lower()}, {len(self.data)} bytes>"
 
 
-def _material(value, keep):
+def _material(value):
     material = C.plot_material_default()
-    if isinstance(value, tuple) and isinstance(value[0], Scene):  # (scene, number)
-        with value[0]._reading() as pointer:
-            check(C.plot_material_from_scene, pointer, value[1], _api.PlotModel.PBR, material)
+    if isinstance(value, tuple) and value and isinstance(value[0], Scene):
+        scene, number = value
+        with scene._reading() as pointer:
+            check(C.plot_material_from_scene, pointer, to_index(number, "plot: the material"), _api.PlotModel.PBR, material)
         return material
-    return fill(material, value, "plot: material", keep)
+    return fill(material, mapping(value, "plot: a material"), "plot: material")
 
 
 @keywords_of(_api.facet_plot_desc, "allocator", "thread_count", "materials", "material_count", "angle_count",
@@ -107,11 +104,11 @@ def plot(kind, *, materials=(), angles_rad=(), format="svg", threads=0, **keywor
     """A chart of reflectance: 'legacy', 'brdf', 'slice', 'hemisphere', 'lobe', 'terms', 'albedo', 'furnace', 'dfg', 'tone',
     'fresnel' or 'error'. materials: mappings of the fields of facet_plot_material, or (scene, number). format: 'svg', 'pdf',
     'png', 'csv', 'json'. Notebooks show the Plot that it returns."""
-    keep = []
-    desc = fill(_api.facet_plot_desc(kind=to_enum(_api.PlotKind, kind, "kind"), thread_count=threads), keywords, "plot", keep)
+    desc = _api.facet_plot_desc(kind=to_enum(_api.PlotKind, kind, "kind"), thread_count=to_index(threads, "threads"))
+    fill(desc, keywords, "plot")
     if isinstance(materials, dict):
         materials = [materials]
-    rows = [_material(m, keep) for m in materials]
+    rows = [_material(m) for m in materials]
     table = (_api.facet_plot_material * max(1, len(rows)))(*rows)
     angles = (ctypes.c_float * max(1, len(angles_rad)))(*angles_rad)
     fits = (_api.facet_plot_fit * _api.FACET_PLOT_MAX_MATERIALS)()
@@ -129,8 +126,8 @@ def plot(kind, *, materials=(), angles_rad=(), format="svg", threads=0, **keywor
 @keywords_of(_api.facet_shader_desc, "allocator", "part_count")
 def shader_text(*, parts=(), version=None, names="facet"):
     """facet's shading functions as GLSL, or parts of them (shader_parts())."""
-    texts = [part.encode() for part in ([parts] if isinstance(parts, str) else parts)]
-    desc = fill(_api.facet_shader_desc(), {"version": version, "names": names}, "shader_text", [])
+    texts = [text_bytes(part, "a part") for part in ([parts] if isinstance(parts, str) else parts)]
+    desc = fill(_api.facet_shader_desc(), {"version": version, "names": names}, "shader_text")
     desc.parts = (ctypes.c_char_p * max(1, len(texts)))(*texts)
     desc.part_count = len(texts)
     return take_bytes(C.shader_text, desc).decode()
