@@ -1,5 +1,6 @@
 """Environments and tables prefiltered for real-time renderers."""
 import ctypes
+import operator
 import os
 
 from . import _api
@@ -22,20 +23,24 @@ class Cube(Handle):
 
     def face(self, level, face):
         """float32 (size, size, 3), linear: a read-only view without a copy. Faces +X -X +Y -Y +Z -Z."""
-        if not (0 <= level < len(self) and 0 <= face < 6):
-            raise IndexError(f"there is no face {face} of level {level}")
-        owner = self._living
+        owner, level = self._living, self._level(level)
+        if not 0 <= operator.index(face) < 6:
+            raise IndexError(f"there are 6 faces, but not {face}")
         return array_of_view(owner, C.cube_get_face(owner.pointer, level, face))[:, :, :3]
 
-    def __getitem__(self, level):
-        if not 0 <= level < len(self):
+    def _level(self, level):
+        """The number of a level; the library does not check it everywhere."""
+        if not 0 <= operator.index(level) < len(self):
             raise IndexError(f"there are {len(self)} levels, but not {level}")
+        return operator.index(level)
+
+    def __getitem__(self, level):
         return numpy().stack([self.face(level, face) for face in range(6)])
 
     def roughness(self, level):
         """Perceptual roughness of a level."""
         with self._reading() as pointer:
-            return C.cube_get_roughness(pointer, level)
+            return C.cube_get_roughness(pointer, self._level(level))
 
     @property
     def stats(self):
@@ -61,7 +66,7 @@ class Cube(Handle):
         """A level as one Image."""
         from ._fields import to_enum
         with self._reading() as pointer:
-            return Image._adopt(create(C.cube_unfold, pointer, to_index(level, "level"), to_enum(_api.Layout, layout, "layout"),
+            return Image._adopt(create(C.cube_unfold, pointer, self._level(level), to_enum(_api.Layout, layout, "layout"),
                                         to_index(height, "height"), None))
 
     def __repr__(self):

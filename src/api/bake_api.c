@@ -35,11 +35,20 @@ static facet_result give(image *texels, const facet_allocator *allocator, facet_
     return result;
 }
 
+static facet_result check_level(const facet_cube *c, uint32_t level, facet_error *error)
+{
+    if (level < c->level_count)
+        return FACET_OK;
+    return fail(error, FACET_ERROR_ARGUMENT, "cube map: there is no level %u; it has %u, counted from 0",
+                level, c->level_count);
+}
+
 facet_result facet_cube_unfold(const facet_cube *c, uint32_t level, facet_layout layout, uint32_t height,
                                const facet_allocator *allocator, facet_image **out, facet_error *error)
 {
     *out = NULL;
     allocator = allocator ? allocator : &default_allocator;
+    TRY(check_level(c, level, error));
     image texels = {0};
     facet_result result =
         layout_write(&c->levels[level], layout, height, allocator, facet_thread_count(), &texels, error);
@@ -51,6 +60,10 @@ facet_result facet_cube_copy_face(const facet_cube *c, uint32_t level, uint32_t 
 {
     *out = NULL;
     allocator = allocator ? allocator : &default_allocator;
+    TRY(check_level(c, level, error));
+    if (face >= 6)
+        return fail(error, FACET_ERROR_ARGUMENT, "cube map: there is no face %u; it has 6, counted from 0",
+                    face);
     uint32_t size = c->levels[level].size;
     image texels = {0};
     facet_result result = image_create(allocator, size, size, 4, IMAGE_F32, &texels, error);

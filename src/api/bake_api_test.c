@@ -105,6 +105,11 @@ static void rgbm(void **state)
     unsigned char *bytes = NULL;
     size_t size = 0;
     facet_error error;
+    assert_int_equal(facet_cube_unfold(c, 99, FACET_LAYOUT_STRIP_VERTICAL, 0, NULL, &image, &error),
+                     FACET_ERROR_ARGUMENT);
+    assert_non_null(strstr(error.message, "no level 99"));
+    assert_int_equal(facet_cube_copy_face(c, 99, 0, NULL, &image, &error), FACET_ERROR_ARGUMENT);
+    assert_int_equal(facet_cube_copy_face(c, 0, 6, NULL, &image, &error), FACET_ERROR_ARGUMENT);
     assert_int_equal(facet_cube_unfold(c, 0, FACET_LAYOUT_STRIP_VERTICAL, 0, NULL, &image, NULL), FACET_OK);
     assert_int_equal(facet_image_encode_rgbm(image, 8.0f, NULL, &bytes, &size, &error), FACET_OK);
     assert_memory_equal(bytes, "\x89PNG\r\n\x1a\n", 8);

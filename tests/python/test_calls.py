@@ -69,7 +69,7 @@ def test_the_gil_is_free_during_a_render(scene):
 
     thread = threading.Thread(target=count)
     thread.start()
-    scene.render(size=256, samples=16, threads=1)
+    scene.render(size=256, samples=64, threads=1)
     ended.set()
     thread.join()
     assert steps[0] > 20

@@ -127,3 +127,12 @@ def test_points_of_the_sea():
     refused(ValueError, "shape (n, 2)", sea.points, np.zeros((2, 3)))
     refused(ValueError, "finite", sea.points, [[math.nan, 0]])
     assert sea.points([1, 2])["height_m"].shape == (1,)
+
+
+@pytest.mark.parametrize("level", [-1, 4, 99, 1 << 32])
+def test_levels_that_are_none(level):
+    cube = facet.bake("studio", size=8, samples=1)
+    for call in (cube.roughness, cube.unfold, cube.__getitem__, lambda i: cube.face(i, 0)):
+        refused(IndexError, f"there are 4 levels, but not {level}", call, level)
+    refused(IndexError, "there are 6 faces", cube.face, 0, 6)
+    assert len(list(cube)) == 4 and cube.unfold(1).size == (16, 8)
