@@ -2,7 +2,10 @@
 # trace.sh - facet view: path tracing converges to the image of facet render --renderer path; the divider shows both sides.
 set -eu
 . "$(dirname "$0")/lib.sh"
-write_triangle triangle.gltf
+write_triangle rough.gltf
+# a roughness at which the split sum and the traced image differ
+sed 's/"attributes":{"POSITION":0}/&,"material":0/; s/^"meshes"/"materials":[{"pbrMetallicRoughness":{"roughnessFactor":0.4}}],\n&/' \
+    rough.gltf >triangle.gltf
 size="--size 96x72"
 
 cat >script <<'END'
