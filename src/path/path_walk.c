@@ -245,7 +245,7 @@ static vec3 light_resampled(const path *p, const path_vertex *v, const vertex_ra
         float share = weight / sum;
         if (choice < share) {
             *light = candidate;
-            chosen = each * (1.0f / weight);
+            chosen = each / weight; /* whose reciprocal may be infinite */
             choice /= share;
         } else {
             choice = (choice - share) / (1.0f - share);

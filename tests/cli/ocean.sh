@@ -194,6 +194,13 @@ sed 's/"mesh":0/"mesh":0,"translation":[0,-2,0]/' boat.gltf >sunk.gltf
 expect 0 ocean $small --with sunk.gltf -o a.png
 says "m or more under water"
 rm -f scaled.gltf sunk.gltf
+# Lamps so far away under water that what arrives is below the least normal number
+nodes=$(for x in 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16; do printf '{"mesh":0,"translation":[%s,1,0]},' $x; done)
+sed "s/\"nodes\":\[0,1\]/\"nodes\":[0,1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16]/; s/^\"nodes\".*/\"nodes\":[${nodes%,}],/
+    s/^\"cameras\".*/\"materials\":[{\"emissiveFactor\":[1,1,1],\"doubleSided\":true}],/; s/\"POSITION\":0}/&,\"material\":0/" boat.gltf >lamps.gltf
+expect 0 ocean --preset lagoon --with lamps.gltf@0,0 --eye 0,30,10 --target 0,0,-2500 --fov 20 --renderer path --samples 16 -s 64x48 -o a.png
+grep -q "not finite" err && failed "light from far away is not finite"
+rm -f lamps.gltf
 # OpenGL 1's shading of the model
 expect 0 ocean $small --with boat.gltf --shading ogl1 --tone-mapping none -o c.png
 expect 0 ocean $small --with boat.gltf --tone-mapping none -o b.png
