@@ -135,6 +135,10 @@ endif()
 set(FACET_EMBREE_SONAME libembree${embree_VERSION_MAJOR}.so.${embree_VERSION_MAJOR})
 # The headers of the Embree that is opened: others may be installed as well.
 target_compile_definitions(facet_flags INTERFACE FACET_EMBREE=${embree_VERSION_MAJOR})
+# LeakSanitizer fails on the thread-local storage of a library that is opened while the program runs.
+if(FACET_SANITIZE)
+    target_link_options(facet_flags INTERFACE "LINKER:--push-state,--no-as-needed,$<TARGET_FILE:embree>,--pop-state")
+endif()
 if(BUILD_TESTING)
     pkg_check_modules(CMOCKA REQUIRED IMPORTED_TARGET cmocka)
     pkg_check_modules(CMINPACK REQUIRED IMPORTED_TARGET cminpack) # what facet's fits are checked with
