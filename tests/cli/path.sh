@@ -58,9 +58,9 @@ says "the time limit"
 [ ! -e never.png ] || failed "an image without a sample for each pixel was written"
 # Images of a sequence share the time, and so do those of a sea.
 for words in "render --turntable 3" "ocean --frames 1-3"; do
-    limit=3s # a busy machine under a sanitizer needs more than that before the first sample
-    "$facet" $words --renderer path --size 24 --samples 10000000 --time-limit $limit -o 'frame_##.png' >out 2>err || limit=30s
-    expect 0 $words --renderer path --size 24 --samples 10000000 --time-limit $limit --json -o 'frame_##.png'
+    for limit in 3s 30s; do # a busy machine under a sanitizer needs more than 3 s before the first sample
+        "$facet" $words --renderer path --size 24 --samples 10000000 --time-limit $limit --json -o 'frame_##.png' >out 2>err && break
+    done
     [ "$(grep -o '"partial": true' out | wc -l)" = 3 ] || failed "not all of three images are partial: $words"
     [ "$(grep -o '"text": "frame_0[123].png: the image is partial' out | wc -l)" = 3 ] || failed "warnings: $words"
     for i in 1 2 3; do is_type frame_0$i.png "PNG image data, 24 x 24"; done
