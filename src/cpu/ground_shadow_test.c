@@ -107,10 +107,7 @@ static void a_crop_has_the_pixels_of_the_image(void **state)
     memcpy(f.desc.crop, crop, sizeof crop);
     f.desc.thread_count = 5;
     film part = fixture_render(&f);
-    for (uint32_t y = 0; y < crop[3]; y++)
-        for (uint32_t x = 0; x < crop[2]; x++)
-            assert_memory_equal(fixture_pixel(&part, "", x, y),
-                                fixture_pixel(&whole, "", crop[0] + x, crop[1] + y), 4 * sizeof(float));
+    fixture_assert_crop(&whole, &part, crop);
     film_destroy(&part);
     film_destroy(&whole);
     fixture_destroy(&f);

@@ -244,6 +244,15 @@ const float *fixture_pixel(const film *rendered, const char *layer, uint32_t x, 
     return l->pixels + ((size_t)y * rendered->width + x) * l->channel_count;
 }
 
+void fixture_assert_crop(const film *whole, const film *part, const uint32_t crop[4])
+{
+    assert_int_equal(part->width, crop[2]);
+    assert_int_equal(part->height, crop[3]);
+    for (uint32_t y = 0; y < crop[3]; y++)
+        assert_memory_equal(fixture_pixel(part, "", 0, y), fixture_pixel(whole, "", crop[0], crop[1] + y),
+                            crop[2] * 4 * sizeof(float));
+}
+
 void fixture_assert_same(const film *a, const film *b)
 {
     assert_int_equal(a->width, b->width);

@@ -43,5 +43,7 @@ facet_result fixture_try_render(fixture *f, film *out, facet_render_stats *stats
 const float *fixture_pixel(const film *rendered, const char *layer, uint32_t x, uint32_t y);
 /* Aborts the test unless all layers are the same, bit for bit. */
 void fixture_assert_same(const film *a, const film *b);
+/* The same unless part is what crop (x, y, width, height) cuts out of the image. */
+void fixture_assert_crop(const film *whole, const film *part, const uint32_t crop[4]);
 
 #endif

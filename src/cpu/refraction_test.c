@@ -506,9 +506,7 @@ static void glass_is_the_same_for_all_threads_and_crops(void **state)
             film_destroy(&again);
         }
         film part = render_many_kinds((facet_quality)quality, 2, crop);
-        for (uint32_t y = 0; y < crop[3]; y++)
-            assert_memory_equal(fixture_pixel(&part, "", 0, y),
-                                fixture_pixel(&whole, "", crop[0], crop[1] + y), crop[2] * 4 * sizeof(float));
+        fixture_assert_crop(&whole, &part, crop);
         film_destroy(&part);
         film_destroy(&whole);
     }
