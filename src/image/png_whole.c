@@ -1,21 +1,17 @@
 /* png_whole.c - see png_whole.h. */
 #include "image/png_whole.h"
 
-#include <stdlib.h>
-
 #include <libdeflate.h>
 
 #include "base/memory.h"
 #include "base/simd.h"
 #include "image/png_chunk.h"
+#include "image/png_filter.h"
 
 enum {
     MOST_BYTES = 96 << 20, /* of an image's rows, and of a file */
     MOST_EXPANSION = 1032  /* of deflate */
 };
-
-/* Filters: what was subtracted from each byte (PNG, section 9). */
-enum { FILTER_LEFT = 1, FILTER_UP, FILTER_AVERAGE, FILTER_PAETH };
 
 /* ---- inflating ---- */
 
@@ -77,7 +73,7 @@ static size_t stride_of(const png_whole *p)
 static bool has_filters(const png_whole *p)
 {
     for (uint32_t y = 0; y < p->height; y++)
-        if (p->rows[y * stride_of(p)] > FILTER_PAETH)
+        if (p->rows[y * stride_of(p)] > PNG_PAETH)
             return false;
     return true;
 }
@@ -131,29 +127,20 @@ void png_whole_close(png_whole *p)
 
 /* ---- filters ---- */
 
-/* Whichever of left, up and corner is nearest to left + up - corner. */
-static inline int nearest(int left, int up, int corner)
-{
-    const int to_left = abs(up - corner);
-    const int to_up = abs(left - corner);
-    const int to_corner = abs(left + up - 2 * corner);
-    const int other = to_up <= to_corner ? up : corner;
-    return to_left <= to_up && to_left <= to_corner ? left : other;
-}
-
 /* Adds the prediction of filter to a row in place. above is the row before, zeros at the top. channels and filter are
  * constants at each call site, so that the texel's channels are computed side by side. */
-static inline __attribute__((always_inline)) void
-add_prediction(unsigned char *row, const unsigned char *above, size_t size, size_t channels, int filter)
+static inline __attribute__((always_inline)) void add_prediction(unsigned char *row,
+                                                                 const unsigned char *above, size_t size,
+                                                                 size_t channels, png_filter filter)
 {
     int left[4] = {0};
     int corner[4] = {0};
     for (size_t k = 0; k < size; k += channels)
         for (size_t i = 0; i < channels; i++) {
             const int up = above[k + i];
-            const int prediction = filter == FILTER_LEFT      ? left[i]
-                                   : filter == FILTER_AVERAGE ? (left[i] + up) >> 1
-                                                              : nearest(left[i], up, corner[i]);
+            const int prediction = filter == PNG_LEFT      ? left[i]
+                                   : filter == PNG_AVERAGE ? (left[i] + up) >> 1
+                                                           : png_paeth(left[i], up, corner[i]);
             left[i] = row[k + i] = (unsigned char)(row[k + i] + prediction);
             corner[i] = up;
         }
@@ -163,18 +150,18 @@ static inline __attribute__((always_inline)) void unfilter(unsigned char *row, c
                                                            size_t size, size_t channels)
 {
     switch (row[-1]) {
-    case FILTER_LEFT:
-        add_prediction(row, above, size, channels, FILTER_LEFT);
+    case PNG_LEFT:
+        add_prediction(row, above, size, channels, PNG_LEFT);
         break;
-    case FILTER_UP:
+    case PNG_UP:
         for (size_t k = 0; k < size; k++)
             row[k] = (unsigned char)(row[k] + above[k]);
         break;
-    case FILTER_AVERAGE:
-        add_prediction(row, above, size, channels, FILTER_AVERAGE);
+    case PNG_AVERAGE:
+        add_prediction(row, above, size, channels, PNG_AVERAGE);
         break;
-    case FILTER_PAETH:
-        add_prediction(row, above, size, channels, FILTER_PAETH);
+    case PNG_PAETH:
+        add_prediction(row, above, size, channels, PNG_PAETH);
         break;
     default:
         break;

@@ -5,7 +5,6 @@
 #include "image/codec.h"
 
 #include <stdatomic.h>
-#include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
 
@@ -14,22 +13,10 @@
 #include "base/result.h"
 #include "base/simd.h"
 #include "image/deflate.h"
+#include "image/png_chunk.h"
+#include "image/png_filter.h"
 
 /* ---- filters ---- */
-
-/* Filters: each byte minus its prediction (PNG third edition, section 9). */
-typedef enum png_filter { PNG_NONE, PNG_LEFT, PNG_UP, PNG_AVERAGE, PNG_PAETH } png_filter;
-enum { PNG_FILTER_COUNT = 5 };
-
-/* Paeth predictor: whichever of left, up and corner is nearest to left + up - corner. */
-static inline int paeth(int left, int up, int corner)
-{
-    int to_left = abs(up - corner);
-    int to_up = abs(left - corner);
-    int to_corner = abs(left + up - 2 * corner);
-    int nearest = to_up <= to_corner ? up : corner;
-    return to_left <= to_up && to_left <= to_corner ? left : nearest;
-}
 
 /* Stores row minus its prediction in out. above is the previous row, zeros at the top; both are preceded by
  * texel (1 to 8) zeros. */
@@ -57,15 +44,12 @@ static inline __attribute__((always_inline)) void filter_row(png_filter filter, 
         return;
     case PNG_PAETH:
         for (size_t k = 0; k < size; k++)
-            out[k] = (unsigned char)(row[k] - paeth(left[k], above[k], corner[k]));
+            out[k] = (unsigned char)(row[k] - png_paeth(left[k], above[k], corner[k]));
         return;
     }
 }
 
-enum {
-    BLOCK_SIZE = 128 * 1024, /* filtered bytes per work item */
-    CHUNK_FRAME = 12
-};
+enum { BLOCK_SIZE = 128 * 1024 }; /* filtered bytes per work item */
 
 /* One IDAT chunk. */
 typedef struct block {
@@ -211,11 +195,11 @@ static unsigned char *put_texts(const image_encode_desc *desc, unsigned char *p)
 
 static facet_result assemble(const writing *w, unsigned char **bytes, size_t *size, facet_error *error)
 {
-    size_t most = 8 + CHUNK_FRAME + 13 + CHUNK_FRAME + 2 + 4;
+    size_t most = PNG_SIGNATURE_SIZE + PNG_CHUNK_FRAME + PNG_IHDR_SIZE + PNG_CHUNK_FRAME + 2 + 4;
     for (size_t b = 0; b < w->block_count; b++)
-        most += CHUNK_FRAME + w->blocks[b].size;
+        most += PNG_CHUNK_FRAME + w->blocks[b].size;
     for (uint32_t i = 0; i < w->desc->text_count; i++)
-        most += CHUNK_FRAME + text_length(&w->desc->texts[i]);
+        most += PNG_CHUNK_FRAME + text_length(&w->desc->texts[i]);
     unsigned char *file = mem_alloc(&w->desc->allocator, most, 1);
     if (!file)
         return fail_memory(error, "PNG file", most);
