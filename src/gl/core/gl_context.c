@@ -86,3 +86,11 @@ facet_result gl_context_check(gl_context *c, const char *while_doing, facet_erro
                     while_doing);
     return fail(error, FACET_ERROR_SYSTEM, "OpenGL (%s): error 0x%04x (%s)", c->name, code, while_doing);
 }
+
+facet_result gl_context_check_framebuffer(gl_context *c, const char *while_doing, const char *unsupported,
+                                          facet_error *error)
+{
+    bool is_complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+    TRY(gl_context_check(c, while_doing, error));
+    return is_complete ? FACET_OK : fail(error, FACET_ERROR_SYSTEM, "OpenGL (%s): %s", c->name, unsupported);
+}

@@ -65,5 +65,9 @@ void gl_context_find_platform(gl_context *context); /* sets reset_status and is_
 /* Reports errors of OpenGL since the last call: FACET_ERROR_MEMORY, FACET_ERROR_SYSTEM (a lost context, or
  * a bug in facet, with OpenGL's error code). while_doing: such as "textures". */
 facet_result gl_context_check(gl_context *context, const char *while_doing, facet_error *error);
+/* The same after a framebuffer was made, which is bound. FACET_ERROR_SYSTEM with the text `unsupported`: the driver cannot
+ * draw into it. */
+facet_result gl_context_check_framebuffer(gl_context *context, const char *while_doing,
+                                          const char *unsupported, facet_error *error);
 
 #endif

@@ -78,11 +78,8 @@ static facet_result update(gl_pyramid *p, gl_context *context, uint32_t width, u
     glGenFramebuffers(1, &p->framebuffer);
     allocate(p, context);
     begin_level(p, 0, -1);
-    bool is_complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-    facet_result result = gl_context_check(context, "the mip levels of an image", error);
-    if (result == FACET_OK && !is_complete)
-        result = fail(error, FACET_ERROR_SYSTEM, "OpenGL (%s): half float images cannot be rendered",
-                      context->name);
+    facet_result result = gl_context_check_framebuffer(context, "the mip levels of an image",
+                                                       "half float images cannot be rendered", error);
     if (result != FACET_OK)
         gl_pyramid_destroy(p);
     return result;

@@ -1,7 +1,6 @@
 /* gl_glass.c - see gl_glass.h. */
 #include "gl/scene/gl_glass.h"
 
-#include "base/result.h"
 #include "gl/core/gl_api.h"
 #include "gl/core/gl_blocks.h"
 
@@ -42,11 +41,8 @@ static facet_result update(gl_glass *g, gl_context *context, const gl_target *ta
     gl_glass_destroy(g);
     *g = (gl_glass){.width = target->width, .height = target->height};
     make(g, !context->has_float_target);
-    bool is_complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-    facet_result result = gl_context_check(context, "the light behind glass", error);
-    if (result == FACET_OK && !is_complete)
-        result = fail(error, FACET_ERROR_SYSTEM, "OpenGL (%s): floating point images cannot be rendered",
-                      context->name);
+    facet_result result = gl_context_check_framebuffer(context, "the light behind glass",
+                                                       "floating point images cannot be rendered", error);
     if (result != FACET_OK)
         gl_glass_destroy(g);
     return result;

@@ -125,11 +125,8 @@ static facet_result update(gl_layers *l, const gl_transparency_view *view, facet
         make_peeled(l, format);
     else
         make_weighted(l, format);
-    bool is_complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-    facet_result result = gl_context_check(l->context, "blended surfaces", error);
-    if (result == FACET_OK && !is_complete)
-        result = fail(error, FACET_ERROR_SYSTEM,
-                      "OpenGL (%s): blending into floating point images is not supported", l->context->name);
+    facet_result result = gl_context_check_framebuffer(
+        l->context, "blended surfaces", "blending into floating point images is not supported", error);
     if (result != FACET_OK)
         clear(l);
     return result;
