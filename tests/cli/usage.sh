@@ -20,6 +20,7 @@ if command -v jq >/dev/null; then # every library is found with a version, or mi
     jq -r '.libraries[] | select(.found and .file and .name != "GLFW") | .name, .file' out >opened
     mkdir broken
     while read -r name && read -r file; do
+        ! ldd "$facet" | grep -q "$file" || continue # builds with sanitizers link Embree
         : >"broken/$file"
         LD_LIBRARY_PATH=$PWD/broken "$facet" version -v >out
         grep -q "$name missing: $file is not installed" out || failed "version -v does not say that $file is missing"
