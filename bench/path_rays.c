@@ -8,6 +8,8 @@
 #include "median.h"
 #include "path_rays.h"
 
+#include "cpu/embree_scene.h"
+
 enum { GRAIN = 1024 /* rays that a thread takes at once: 80 kB of them */ };
 
 /* A ray with the other arguments of its function; spread is not recorded. */
@@ -162,7 +164,7 @@ rays_result rays_trace_facet(const shading_scene *scene, rays_kind kind, uint32_
 static void trace_embree(void *context, size_t begin, size_t end)
 {
     const pass *p = context;
-    RTCScene scene = p->scene->embree->scene;
+    RTCScene scene = ((const embree_scene *)p->scene->rays->bvh)->scene;
     if (p->kind == RAYS_SHADOW)
         for (size_t i = begin; i < end; i++)
             embree_occluded1(scene, &p->embree[i].ray);
@@ -207,7 +209,7 @@ static void trace_packets(void *context, size_t begin, size_t end)
 {
     static const _Alignas(64) int all[16] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
     const pass *p = context;
-    RTCScene scene = p->scene->embree->scene;
+    RTCScene scene = ((const embree_scene *)p->scene->rays->bvh)->scene;
     for (size_t i = begin; i < end; i++)
         embree_intersect16(all, scene, &p->packet[i]);
 }

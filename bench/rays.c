@@ -12,6 +12,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "cpu/embree_scene.h"
 #include "cpu/visibility.h"
 #include "io/gltf/gltf.h"
 #include "median.h"
@@ -23,7 +24,7 @@ typedef struct setup {
     facet_scene *scene;
     scene_pose pose;
     render_geometry_set set;
-    embree_scene embree;
+    ray_scene rays;
     camera_rays camera;
     uint32_t size;
     visibility_pattern pattern;
@@ -107,7 +108,7 @@ static double time_facet(const setup *s, uint64_t *hit_count)
     double start = clock_seconds();
     for (uint32_t y = 0; y < s->size; y += VISIBILITY_BLOCK)
         for (uint32_t x = 0; x < s->size; x += VISIBILITY_BLOCK) {
-            visibility_trace_block(&s->embree, &s->camera, x, y, &s->pattern, hits);
+            visibility_trace_block(&s->rays, &s->camera, x, y, &s->pattern, hits);
             for (int i = 0; i < VISIBILITY_BLOCK_PIXELS * SAMPLES; i++)
                 count += hits[i].geometry != VISIBILITY_NONE;
         }
@@ -159,7 +160,7 @@ static double time_embree(const setup *s, uint64_t *hit_count)
         }
         double start = clock_seconds();
         for (uint32_t i = 0; i < n; i++)
-            embree_intersect16(all, s->embree.scene, &packets[i]);
+            embree_intersect16(all, ((const embree_scene *)s->rays.bvh)->scene, &packets[i]);
         seconds += clock_seconds() - start;
         for (uint32_t i = 0; i < n; i++)
             for (int lane = 0; lane < 16; lane++)
@@ -185,8 +186,9 @@ int main(int argc, char **argv)
         look_at(&s, (float[3]){-1, -1, -1}, (float[3]){1, 1, 1});
     }
     double start = clock_seconds();
-    if (embree_scene_create(&s.set, &allocator, UINT64_MAX, 2, FACET_ISA_NATIVE, &s.embree, &error) !=
-        FACET_OK)
+    const ray_scene_desc desc = {.ray_count = UINT64_MAX, .thread_count = 2, .isa = FACET_ISA_NATIVE};
+    if (embree_find_tracer(&s.rays.tracer, &error) != FACET_OK ||
+        s.rays.tracer->create(&s.set, &desc, &allocator, &s.rays.bvh, &error) != FACET_OK)
         die(&error);
     double build_s = clock_seconds() - start;
 
@@ -206,7 +208,7 @@ int main(int argc, char **argv)
            100.0 * (double)embree_hits / rays);
     printf("facet      %6.1f M rays/s, %.1f %% hit\n", rays / ours * 1e-6, 100.0 * (double)facet_hits / rays);
     printf("ratio      %6.2f\n", bare / ours);
-    embree_scene_destroy(&s.embree);
+    ray_scene_destroy(&s.rays);
     visibility_pattern_destroy(&s.pattern);
     return facet_hits == embree_hits ? 0 : 1;
 }

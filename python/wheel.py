@@ -34,6 +34,8 @@ def needed(library):
 def opened(build):
     """The same for the library that libfacet opens to render on the CPU, itself among them."""
     name = re.search(r'^#define FACET_EMBREE_FILE "(.*)"$', (build / "generated" / "build_config.h").read_text(), re.M)[1]
+    if not name:  # built without Embree
+        return {}
     ctypes.CDLL(name)
     path = pathlib.Path(re.search(rf"/\S*/{re.escape(name)}\S*", pathlib.Path("/proc/self/maps").read_text())[0])
     return {name: path, **needed(path)}

@@ -5,7 +5,7 @@
 
 #include "base/library.h"
 #include "build_config.h"
-#include "cpu/embree_scene.h"
+#include "cpu/embree_version.h"
 
 /* A library; version() of one that is opened when it is needed returns text. */
 typedef struct library_row {
@@ -15,7 +15,7 @@ typedef struct library_row {
 /* OpenEXR brings Imath, and Embree TBB: what they link is theirs. libepoxy and GLFW are those of the OpenGL module. */
 static const library_row rows[] = {
     {"Draco", "Apache-2.0", FACET_DRACO_VERSION, NULL, NULL},
-    {"Embree", "Apache-2.0", NULL, FACET_EMBREE_FILE, NULL}, /* its versions: embree_scene.h */
+    {"Embree", "Apache-2.0", NULL, FACET_EMBREE_FILE, NULL}, /* its versions: embree_version.h */
     {"OpenEXR", "BSD-3-Clause", FACET_OPENEXR_VERSION, NULL, NULL},
     {"Zstandard", "BSD-3-Clause OR GPL-2.0-only", FACET_ZSTD_VERSION, NULL, NULL},
     {"astcenc", "Apache-2.0", FACET_ASTC_VERSION, NULL, NULL},

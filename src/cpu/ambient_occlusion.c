@@ -130,8 +130,7 @@ static void fill_block(ambient_tile *t, uint32_t column, uint32_t row, uint64_t 
 {
     const ambient_sampler *a = t->sampler;
     visibility_hit hits[VISIBILITY_BLOCK_PIXELS];
-    visibility_trace_block(a->scene->embree, a->scene->camera, t->left + column, t->top + row, a->middle,
-                           hits);
+    visibility_trace_block(a->scene->rays, a->scene->camera, t->left + column, t->top + row, a->middle, hits);
     *rays += VISIBILITY_BLOCK_PIXELS;
     for (uint32_t i = 0; i < VISIBILITY_BLOCK_PIXELS; i++) {
         uint32_t dx = column + i % VISIBILITY_BLOCK;

@@ -5,6 +5,7 @@
 #include <stdatomic.h>
 
 #include "cpu/embree.h"
+#include "cpu/embree_version.h"
 #include "draw/render_geometry.h"
 
 /* Embree's own memory, counted against the budget of the allocator where there is one. */
@@ -51,10 +52,5 @@ facet_result embree_scene_create(const render_geometry_set *set, const facet_all
 facet_result embree_scene_update(embree_scene *scene, render_likeness likeness, bool has_moved_sprites,
                                  uint64_t ray_count, facet_error *error);
 void embree_scene_destroy(embree_scene *scene); /* {0} is allowed */
-
-/* "3.13.5": the version of Embree that facet was built for, for `facet version -v`. */
-const char *embree_scene_version(void);
-/* That of the Embree on this machine; "": there is none that runs. */
-void embree_find_version(char *version, size_t size);
 
 #endif

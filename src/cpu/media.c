@@ -1,4 +1,4 @@
-/* media.c - see media.h. Embree calls a filter for every candidate on a ray. */
+/* media.c - see media.h. A filter sees every candidate on a ray. */
 #include "cpu/media.h"
 #include "cpu/ray_trace.h"
 
@@ -11,7 +11,6 @@ typedef struct boundary {
 } boundary;
 
 typedef struct search {
-    embree_context context; /* first: what Embree hands to the filter */
     const shading_scene *scene;
     vec3 direction;
     const scene_material *material;   /* of the boundaries that are searched */
@@ -28,47 +27,34 @@ float media_tolerance_at(const surface_point *s)
     return media_tolerance(max3(max(abs(s->P), s->hit.farthest)));
 }
 
-static void trace(search *s, vec3 origin, vec3 direction, float near_t, float far_t,
-                  RTCFilterFunctionN filter)
+static void trace(search *s, vec3 origin, vec3 direction, float near_t, float far_t, ray_filter filter)
 {
-    struct RTCRayHit ray = {.ray = {.org_x = origin[0],
-                                    .org_y = origin[1],
-                                    .org_z = origin[2],
-                                    .tnear = near_t,
-                                    .dir_x = direction[0],
-                                    .dir_y = direction[1],
-                                    .dir_z = direction[2],
-                                    .tfar = far_t,
-                                    .mask = UINT32_MAX},
-                            .hit = embree_no_hit()};
+    ray_segment ray = {.near_t = near_t, .far_t = far_t};
+    visibility_hit hit;
+    store3(origin, ray.origin);
+    store3(direction, ray.direction);
     s->direction = direction;
-    embree_intersect1_filtered(s->scene->embree->scene, &ray, &s->context, filter);
+    s->scene->rays->tracer->nearest_filtered(s->scene->rays->bvh, &ray, filter, s, &hit);
 }
 
 /* ---- the far side ---- */
 
-/* Accepts back faces of the material, nearest first. */
-static void take_exit(const struct RTCFilterFunctionNArguments *arguments)
+/* A ray_filter: accepts back faces of the material, nearest first. */
+static bool take_exit(void *context, const visibility_hit *hit)
 {
-    if (arguments->valid[0] != -1)
-        return;
-    search *s = (search *)(void *)arguments->context;
-    const struct RTCRay *ray = (const struct RTCRay *)(const void *)arguments->ray;
-    visibility_hit hit = visibility_hit_read(s->scene->geometries, ray->tfar,
-                                             (const struct RTCHit *)(const void *)arguments->hit);
-    const render_geometry *g = &s->scene->geometries->items[hit.geometry];
+    search *s = context;
+    const render_geometry *g = &s->scene->geometries->items[hit->geometry];
     if (g->material != s->material || g->primitive->mode != SCENE_TRIANGLES ||
-        surface_sees_front(g, &hit, s->direction)) {
-        arguments->valid[0] = 0;
-        return;
-    }
-    if (s->has_exit && s->exit_t <= hit.t)
-        return;
+        surface_sees_front(g, hit, s->direction))
+        return false;
+    if (s->has_exit && s->exit_t <= hit->t)
+        return true;
     s->has_exit = true;
-    s->exit_t = hit.t;
+    s->exit_t = hit->t;
     float sign = g->is_mirrored ? -1.0f : 1.0f;
     for (int i = 0; i < 3; i++)
-        s->exit_normal[i] = hit.normal[i] * sign;
+        s->exit_normal[i] = hit->normal[i] * sign;
+    return true;
 }
 
 bool media_find_exit(const shading_scene *scene, const surface_point *s, vec3 direction, media_exit *out)
@@ -88,28 +74,23 @@ bool media_find_exit(const shading_scene *scene, const surface_point *s, vec3 di
 
 /* ---- boundaries in one place ---- */
 
-/* Records the boundary of each volume. */
-static void note_boundary(const struct RTCFilterFunctionNArguments *arguments)
+/* A ray_filter: records the boundary of each volume. */
+static bool note_boundary(void *context, const visibility_hit *hit)
 {
-    if (arguments->valid[0] != -1)
-        return;
-    search *s = (search *)(void *)arguments->context;
-    arguments->valid[0] = 0;
-    const struct RTCRay *ray = (const struct RTCRay *)(const void *)arguments->ray;
-    visibility_hit hit = visibility_hit_read(s->scene->geometries, ray->tfar,
-                                             (const struct RTCHit *)(const void *)arguments->hit);
-    const render_geometry *g = &s->scene->geometries->items[hit.geometry];
-    if (g->material == s->elsewhere->material || !s->scene->plans->items[hit.geometry].is_volume)
-        return;
+    search *s = context;
+    const render_geometry *g = &s->scene->geometries->items[hit->geometry];
+    if (g->material == s->elsewhere->material || !s->scene->plans->items[hit->geometry].is_volume)
+        return false;
     uint32_t place = s->count;
-    while (place > 0 && s->boundaries[place - 1].geometry > hit.geometry)
+    while (place > 0 && s->boundaries[place - 1].geometry > hit->geometry)
         place--;
-    if ((place > 0 && s->boundaries[place - 1].geometry == hit.geometry) || s->count == COINCIDENT)
-        return; /* a ray through an edge hits two triangles of one boundary */
+    if ((place > 0 && s->boundaries[place - 1].geometry == hit->geometry) || s->count == COINCIDENT)
+        return false; /* a ray through an edge hits two triangles of one boundary */
     memmove(&s->boundaries[place + 1], &s->boundaries[place], (s->count - place) * sizeof *s->boundaries);
     s->boundaries[place] = (boundary){
-        .geometry = hit.geometry, .t = hit.t, .is_front = surface_sees_front(g, &hit, s->direction)};
+        .geometry = hit->geometry, .t = hit->t, .is_front = surface_sees_front(g, hit, s->direction)};
     s->count++;
+    return false;
 }
 
 static void cross_one(const render_geometry *g, bool is_front, media *m)
@@ -137,7 +118,6 @@ void media_cross(const shading_scene *scene, const visibility_hit *hit, const su
 /* ---- the closed volumes around a point ---- */
 
 typedef struct survey {
-    embree_context context; /* first: what Embree hands to the filter */
     const shading_scene *scene;
     vec3 direction;
     uint32_t count;
@@ -162,26 +142,22 @@ static void count_side(survey *s, const visibility_hit *hit)
     s->volumes[i].excess += surface_sees_front(g, hit, s->direction) ? -1 : 1;
 }
 
-static void note_side(const struct RTCFilterFunctionNArguments *arguments)
+/* A ray_filter. */
+static bool note_side(void *context, const visibility_hit *hit)
 {
-    if (arguments->valid[0] != -1)
-        return;
-    survey *s = (survey *)(void *)arguments->context;
-    const struct RTCRay *ray = (const struct RTCRay *)(const void *)arguments->ray;
-    const struct RTCHit *h = (const struct RTCHit *)(const void *)arguments->hit;
-    visibility_hit hit = visibility_hit_read(s->scene->geometries, ray->tfar, h);
-    arguments->valid[0] = 0;
-    if (s->scene->plans->items[hit.geometry].is_closed_volume)
-        count_side(s, &hit);
+    survey *s = context;
+    if (s->scene->plans->items[hit->geometry].is_closed_volume)
+        count_side(s, hit);
+    return false;
 }
 
 static survey survey_from(const shading_scene *scene, const float P[3], vec3 direction)
 {
     survey s = {.scene = scene, .direction = direction};
-    shading_ray ray = {.origin = {P[0], P[1], P[2]}, .far_t = INFINITY};
+    ray_segment ray = {.origin = {P[0], P[1], P[2]}, .far_t = INFINITY};
+    visibility_hit hit;
     store3(direction, ray.direction);
-    struct RTCRayHit rayhit = ray_trace_embree_hit(&ray);
-    embree_intersect1_filtered(scene->embree->scene, &rayhit, &s.context, note_side);
+    scene->rays->tracer->nearest_filtered(scene->rays->bvh, &ray, note_side, &s, &hit);
     return s;
 }
 
@@ -195,10 +171,10 @@ static int excess_of(const survey *s, const scene_material *material)
 
 static bool is_within_bounds(const shading_scene *scene, const float P[3])
 {
-    struct RTCBounds b;
-    embree.GetSceneBounds(scene->embree->scene, &b);
-    return P[0] >= b.lower_x && P[0] <= b.upper_x && P[1] >= b.lower_y && P[1] <= b.upper_y &&
-           P[2] >= b.lower_z && P[2] <= b.upper_z;
+    float low[3], high[3];
+    scene->rays->tracer->bounds(scene->rays->bvh, low, high);
+    return P[0] >= low[0] && P[0] <= high[0] && P[1] >= low[1] && P[1] <= high[1] && P[2] >= low[2] &&
+           P[2] <= high[2];
 }
 
 /* Three directions that are not aligned to any model: an open mesh shows its back to one of them at most

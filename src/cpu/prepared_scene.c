@@ -21,7 +21,7 @@ void prepared_scene_clear(prepared_scene *p)
 {
     const facet_scene *scene = p->scene;
     facet_allocator allocator = p->allocator;
-    embree_scene_destroy(&p->embree);
+    ray_scene_destroy(&p->rays);
     render_geometry_destroy(&p->geometries);
     scene_pose_destroy(&p->geometry_pose);
     scene_pose_destroy(&p->pose);
@@ -147,19 +147,21 @@ facet_result prepared_scene_geometry(prepared_scene *p, const facet_render_desc 
 
 facet_result prepared_scene_hierarchy(prepared_scene *p, const facet_render_desc *desc, facet_error *error)
 {
-    if (p->embree.scene && p->thread_count == desc->thread_count && p->isa == desc->isa)
-        return embree_scene_update(&p->embree, p->likeness, p->has_moved_sprites, p->ray_count, error);
-    embree_scene_destroy(&p->embree);
+    const ray_scene_desc wanted = {
+        .ray_count = p->ray_count, .thread_count = desc->thread_count, .isa = desc->isa};
+    if (p->rays.bvh && p->thread_count == desc->thread_count && p->isa == desc->isa)
+        return p->rays.tracer->update(p->rays.bvh, &wanted, p->likeness, p->has_moved_sprites, error);
+    ray_scene_destroy(&p->rays);
     p->thread_count = desc->thread_count;
     p->isa = desc->isa;
-    return embree_scene_create(&p->geometries, &p->allocator, p->ray_count, desc->thread_count, desc->isa,
-                               &p->embree, error);
+    TRY(ray_tracer_choose(FACET_BVH_AUTO, &p->rays.tracer, error));
+    return p->rays.tracer->create(&p->geometries, &wanted, &p->allocator, &p->rays.bvh, error);
 }
 
 void prepared_scene_skip_hierarchy(prepared_scene *p)
 {
     if (p->likeness != RENDER_SAME || p->has_moved_sprites)
-        embree_scene_destroy(&p->embree);
+        ray_scene_destroy(&p->rays);
 }
 
 facet_result prepared_scene_tangents(prepared_scene *p, const facet_render_desc *desc, facet_error *error)

@@ -11,13 +11,13 @@
 #ifndef CPU_PREPARED_SCENE_H
 #define CPU_PREPARED_SCENE_H
 
-#include "cpu/embree_scene.h"
+#include "cpu/ray_scene.h"
 #include "draw/render_geometry.h"
 #include "draw/tangent_store.h"
 
 struct texture_store; /* draw/texture_store.h */
 
-/* Stays where it is between init and clear: Embree keeps its address. */
+/* Stays where it is between init and clear: its BVH keeps the address of the geometries. */
 typedef struct prepared_scene {
     const facet_scene *scene;
     uint64_t content_revision; /* of the scene that everything here is of */
@@ -34,9 +34,9 @@ typedef struct prepared_scene {
     legacy_material default_legacy; /* of primitives without a material */
     render_likeness likeness;       /* of the geometries to those of the BVH */
     bool has_moved_sprites;
-    embree_scene embree;
-    uint32_t thread_count; /* of embree */
-    facet_isa isa;         /* of embree */
+    ray_scene rays;
+    uint32_t thread_count; /* of rays */
+    facet_isa isa;         /* of rays */
     tangent_store tangents;
     struct texture_store *textures; /* NULL: not read yet */
     bool has_warned_occlusion;      /* which materials have no occlusion */
@@ -48,7 +48,7 @@ void prepared_scene_clear(prepared_scene *p); /* as after init; that of {0} is {
 
 /* The stages, in this order; BVH, tangents and textures touch different members and may run concurrently.
  * desc: resolved, as for preview_render(). camera: the image's. After a failed stage other than the
- * pose's, clear. Fail with FACET_ERROR_MEMORY, and as scene_pose_create(), embree_scene_create(). */
+ * pose's, clear. Fail with FACET_ERROR_MEMORY, and as scene_pose_create(), ray_tracer.create(). */
 facet_result prepared_scene_pose(prepared_scene *p, const facet_render_desc *desc, facet_error *error);
 facet_result prepared_scene_geometry(prepared_scene *p, const facet_render_desc *desc,
                                      const camera_rays *camera, facet_error *error);

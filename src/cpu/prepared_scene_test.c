@@ -11,7 +11,16 @@
 
 #include "tests/support/support.h"
 #include "base/memory.h"
+#include "cpu/embree_scene.h"
 #include "cpu/prepared_fixture.h"
+
+static const embree_scene *embree_of(const prepared_scene *p)
+{
+    const ray_tracer *tracer = NULL;
+    assert_int_equal(embree_find_tracer(&tracer, NULL), FACET_OK);
+    assert_ptr_equal(p->rays.tracer, tracer);
+    return p->rays.bvh;
+}
 
 /* ---- views ---- */
 
@@ -29,8 +38,8 @@ static void turntables_keep_everything_but_the_camera(void **state)
             prepared_orbit(&f, 0.8f * (float)i, 5.0f);
             facet_render_stats stats = prepared_compare(&f, &p);
             assert_true(i == 0 || stats.decoded_texels == 0);
-            first = i ? first : p.embree.scene;
-            assert_true(has_sprites || p.embree.scene == first);
+            first = i ? first : embree_of(&p)->scene;
+            assert_true(has_sprites || embree_of(&p)->scene == first);
             assert_int_equal(p.tangents.count, 1);
         }
         prepared_scene_clear(&p);
@@ -119,7 +128,8 @@ static void each_image_has_a_bvh_as_good_as_it_needs(void **state)
     for (int i = 0; i < 4; i++) {
         f.desc.samples = i % 2 ? 16 : 4;
         prepared_compare(&f, &prepared);
-        assert_int_equal(prepared.embree.quality, i % 2 ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_LOW);
+        assert_int_equal(embree_of(&prepared)->quality,
+                         i % 2 ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_LOW);
     }
     prepared_scene_clear(&prepared);
     fixture_destroy(&f);
@@ -171,10 +181,11 @@ static void rigid_parts_move_in_a_bvh_that_stays(void **state)
         prepared_orbit(&f, 0.2f * (float)(i / 2), 6.0f);
         prepared_compare(&f, &p);
         assert_int_equal(p.geometries.shape_count, 2);
-        assert_true(p.geometries.is_animated && p.embree.still.scene && p.embree.shapes[0].scene);
-        assert_true(i == 0 || (p.embree.still.scene == still && p.embree.shapes[0].scene == shape));
-        still = p.embree.still.scene;
-        shape = p.embree.shapes[0].scene;
+        assert_true(p.geometries.is_animated && embree_of(&p)->still.scene && embree_of(&p)->shapes[0].scene);
+        assert_true(i == 0 ||
+                    (embree_of(&p)->still.scene == still && embree_of(&p)->shapes[0].scene == shape));
+        still = embree_of(&p)->still.scene;
+        shape = embree_of(&p)->shapes[0].scene;
     }
     /* At rest, without animations, all is flat again. */
     f.desc.pose.animation_count = 0;
@@ -214,7 +225,7 @@ static void small_animations_are_flat(void **state)
     for (int i = 0; i < 5; i++) {
         f.desc.pose.time_s = 0.5 * i;
         prepared_compare(&f, &p);
-        assert_false(p.embree.has_instances);
+        assert_false(embree_of(&p)->has_instances);
     }
     prepared_scene_clear(&p);
     fixture_destroy(&f);
@@ -249,8 +260,8 @@ static void deformed_meshes_are_rebuilt(void **state)
             f.desc.pose.time_s = i == 3 ? 0.0 : 0.4 * i;
             prepared_compare(&f, &p);
             assert_true(p.geometries.is_animated == is_large);
-            assert_true(i == 0 || p.embree.still.scene == still);
-            still = p.embree.still.scene;
+            assert_true(i == 0 || embree_of(&p)->still.scene == still);
+            still = embree_of(&p)->still.scene;
             assert_true(p.tangents.count <= 5); /* of four meshes at rest, and one as it is now */
         }
         prepared_scene_clear(&p);
@@ -272,8 +283,8 @@ static void animated_materials_keep_the_geometry(void **state)
     for (int i = 0; i < 5; i++) {
         f.desc.pose.time_s = 0.4 * i;
         facet_render_stats stats = prepared_compare(&f, &p);
-        first = i ? first : p.embree.scene;
-        assert_true(p.embree.scene == first);
+        first = i ? first : embree_of(&p)->scene;
+        assert_true(embree_of(&p)->scene == first);
         assert_true(i == 0 || stats.decoded_texels == 0);
     }
     prepared_scene_clear(&p);

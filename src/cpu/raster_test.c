@@ -20,7 +20,7 @@ typedef struct setup {
     scene_pose pose;
     camera_rays camera;
     render_geometry_set set;
-    embree_scene embree;
+    ray_scene rays;
 } setup;
 
 /* Seen from (0, 0, 4) by a lens of 60 degrees. */
@@ -46,14 +46,14 @@ static void prepare(setup *s)
     assert_int_equal(render_geometry_create(s->f.scene, &s->pose, &s->allocator, &s->set, NULL), FACET_OK);
     assert_int_equal(render_geometry_transform(&s->set, &s->pose, &s->camera, &s->allocator, 1, NULL),
                      FACET_OK);
-    assert_int_equal(
-        embree_scene_create(&s->set, &s->allocator, SIZE * SIZE * 4, 1, FACET_ISA_PORTABLE, &s->embree, NULL),
-        FACET_OK);
+    const ray_scene_desc desc = {.ray_count = SIZE * SIZE * 4, .thread_count = 1};
+    assert_int_equal(ray_tracer_choose(FACET_BVH_AUTO, &s->rays.tracer, NULL), FACET_OK);
+    assert_int_equal(s->rays.tracer->create(&s->set, &desc, &s->allocator, &s->rays.bvh, NULL), FACET_OK);
 }
 
 static void setup_destroy(setup *s)
 {
-    embree_scene_destroy(&s->embree);
+    ray_scene_destroy(&s->rays);
     render_geometry_destroy(&s->set);
     scene_pose_destroy(&s->pose);
     fixture_destroy(&s->f);
@@ -135,7 +135,7 @@ static comparison compare_image(setup *s, const raster *r, uint32_t sample_count
                     continue;
                 raster_tile_read(tile, i, rastered);
                 check_pixels(tile, i, sample_count, rastered);
-                visibility_trace_block(&s->embree, &s->camera, bx, by, &pattern, traced);
+                visibility_trace_block(&s->rays, &s->camera, bx, by, &pattern, traced);
                 for (uint32_t k = 0; k < VISIBILITY_BLOCK_PIXELS * sample_count; k++)
                     compare_hits(&rastered[k], &traced[k], &c);
             }

@@ -1,4 +1,4 @@
-/* ray_trace.c - see ray_trace.h. Embree's nearest hit is used where it is opaque, which is the usual case;
+/* ray_trace.c - see ray_trace.h. The nearest hit is used where it is opaque, which is the usual case;
  * otherwise a filter function looks at every candidate. */
 #include <math.h>
 #include <string.h>
@@ -31,8 +31,8 @@ float ray_trace_opacity(const shading_scene *scene, const shading_point *point)
 
 /* ---- all surfaces along a ray ---- */
 
-/* One traversal per ray: Embree calls a filter for every candidate. A transparent one is recorded and
- * rejected, so that Embree continues; an opaque one is accepted, so that Embree looks no farther. */
+/* One traversal per ray, with a filter that sees every candidate. A transparent one is recorded and
+ * rejected, so that the ray continues; an opaque one is accepted, so that nothing behind it is looked for. */
 
 /* From this opacity on, nothing behind is visible in 8 bits of color. */
 static const float OPAQUE = 0.999f;
@@ -42,7 +42,6 @@ static const float SAME_DISTANCE = 2e-6f;
 static const float ON_EDGE = 1e-4f;
 
 typedef struct layer_search {
-    embree_context context; /* first: what Embree hands to the filter */
     const shading_scene *scene;
     const shading_ray *ray;
     bool has_opaque;
@@ -108,9 +107,10 @@ static void insert(layer_search *w, const visibility_hit *hit)
     w->count = kept + 1;
 }
 
-/* Whether the candidate ends the ray. */
-static bool consider(layer_search *w, const visibility_hit *hit)
+/* A ray_filter: whether the candidate ends the ray. */
+static bool collect_layers(void *context, const visibility_hit *hit)
 {
+    layer_search *w = context;
     if (!ray_trace_is_visible_side(w->scene, hit, w->ray->direction))
         return false;
     shading_point point = {.hit = hit, .ray = w->ray};
@@ -124,18 +124,6 @@ static bool consider(layer_search *w, const visibility_hit *hit)
     if (opacity > 0.0f)
         insert(w, hit);
     return false;
-}
-
-static void collect_layers(const struct RTCFilterFunctionNArguments *arguments)
-{
-    if (arguments->valid[0] != -1)
-        return;
-    layer_search *w = (layer_search *)(void *)arguments->context;
-    const struct RTCRay *ray = (const struct RTCRay *)(const void *)arguments->ray;
-    const struct RTCHit *h = (const struct RTCHit *)(const void *)arguments->hit;
-    visibility_hit hit = visibility_hit_read(w->scene->geometries, ray->tfar, h);
-    if (!consider(w, &hit))
-        arguments->valid[0] = 0;
 }
 
 /* Sorts layers at equal distances by index, and removes duplicates at edges. */
@@ -168,8 +156,9 @@ uint32_t ray_trace_layers(const shading_scene *scene, const shading_ray *ray,
     w.ray = ray;
     w.has_opaque = false;
     w.count = 0;
-    struct RTCRayHit rayhit = ray_trace_embree_hit(ray);
-    embree_intersect1_filtered(scene->embree->scene, &rayhit, &w.context, collect_layers);
+    const ray_segment segment = ray_trace_segment(ray);
+    visibility_hit last;
+    scene->rays->tracer->nearest_filtered(scene->rays->bvh, &segment, collect_layers, &w, &last);
 
     /* An opaque surface may have been found after layers behind it. */
     while (w.has_opaque && w.count > 0 && is_nearer(&w.opaque, &w.layers[w.count - 1]))
@@ -185,12 +174,8 @@ uint32_t ray_trace_layers(const shading_scene *scene, const shading_ray *ray,
 
 static bool nearest_of_all(const shading_scene *scene, const shading_ray *ray, visibility_hit *hit)
 {
-    struct RTCRayHit rayhit = ray_trace_embree_hit(ray);
-    embree_intersect1(scene->embree->scene, &rayhit);
-    if (rayhit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
-        return false;
-    *hit = visibility_hit_read(scene->geometries, rayhit.ray.tfar, &rayhit.hit);
-    return true;
+    const ray_segment segment = ray_trace_segment(ray);
+    return scene->rays->tracer->nearest(scene->rays->bvh, &segment, hit);
 }
 
 static bool is_see_through(const shading_scene *scene, const visibility_hit *hit)
@@ -265,7 +250,6 @@ ray_first ray_trace_first(const shading_scene *scene, const shading_ray *ray, fl
 static const ray_spread NO_SPREAD = {.moves = false, .turns = false};
 
 typedef struct search {
-    embree_context context; /* first: what Embree hands to the filter */
     const shading_scene *scene;
     shading_ray ray; /* without spread */
     uint32_t random;
@@ -273,29 +257,18 @@ typedef struct search {
     ray_crossings *crossings;
 } search;
 
-static visibility_hit candidate(const struct RTCFilterFunctionNArguments *arguments)
-{
-    const search *s = (const search *)(const void *)arguments->context;
-    const struct RTCRay *ray = (const struct RTCRay *)(const void *)arguments->ray;
-    const struct RTCHit *h = (const struct RTCHit *)(const void *)arguments->hit;
-    return visibility_hit_read(s->scene->geometries, ray->tfar, h);
-}
-
 static float uniform_of(uint32_t random, const visibility_hit *hit)
 {
     uint32_t bits = hash_uint(hash_uint(random ^ hash_uint(hit->geometry)) + hit->primitive);
     return (float)(bits >> 8) * (1.0f / 16777216.0f);
 }
 
-static void accept_by_opacity(const struct RTCFilterFunctionNArguments *arguments)
+/* A ray_filter. */
+static bool accept_by_opacity(void *context, const visibility_hit *hit)
 {
-    if (arguments->valid[0] != -1)
-        return;
-    const search *s = (const search *)(const void *)arguments->context;
-    visibility_hit hit = candidate(arguments);
-    float opacity = opacity_of(s->scene, &s->ray, &hit);
-    if (!(opacity >= 1.0f) && !(uniform_of(s->random, &hit) < opacity))
-        arguments->valid[0] = 0;
+    const search *s = context;
+    float opacity = opacity_of(s->scene, &s->ray, hit);
+    return opacity >= 1.0f || uniform_of(s->random, hit) < opacity;
 }
 
 bool ray_trace_nearest(const shading_scene *scene, const shading_ray *ray, uint32_t random,
@@ -307,13 +280,9 @@ bool ray_trace_nearest(const shading_scene *scene, const shading_ray *ray, uint3
         return true;
     search s = {.scene = scene, .ray = *ray, .random = random};
     s.ray.spread = &NO_SPREAD;
-    struct RTCRayHit rayhit = ray_trace_embree_hit(ray);
-    rayhit.ray.tnear = max(ray->near_t, hit->t);
-    embree_intersect1_filtered(scene->embree->scene, &rayhit, &s.context, accept_by_opacity);
-    if (rayhit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
-        return false;
-    *hit = visibility_hit_read(scene->geometries, rayhit.ray.tfar, &rayhit.hit);
-    return true;
+    ray_segment segment = ray_trace_segment(ray);
+    segment.near_t = max(ray->near_t, hit->t);
+    return scene->rays->tracer->nearest_filtered(scene->rays->bvh, &segment, accept_by_opacity, &s, hit);
 }
 
 /* Records a surface by distance; the farthest is dropped when there are too many. */
@@ -337,34 +306,31 @@ static bool is_crossed(const search *s, const visibility_hit *hit)
     return s->crossings && (plan->may_pass_straight || (s->crossings->takes_all && plan->lets_rays_through));
 }
 
-static void dim(const struct RTCFilterFunctionNArguments *arguments)
+/* A ray_filter: whether the ray is blocked. */
+static bool dim(void *context, const visibility_hit *hit)
 {
-    if (arguments->valid[0] != -1)
-        return;
-    search *s = (search *)(void *)arguments->context;
-    visibility_hit hit = candidate(arguments);
-    if (is_crossed(s, &hit)) {
-        note(s->crossings, &hit);
-        arguments->valid[0] = 0;
-        return;
+    search *s = context;
+    if (is_crossed(s, hit)) {
+        note(s->crossings, hit);
+        return false;
     }
-    s->transmittance *= max(1.0f - opacity_of(s->scene, &s->ray, &hit), 0.0f);
-    if (s->transmittance > 0.0f)
-        arguments->valid[0] = 0;
+    s->transmittance *= max(1.0f - opacity_of(s->scene, &s->ray, hit), 0.0f);
+    return !(s->transmittance > 0.0f);
 }
 
 float ray_trace_transmittance(const shading_scene *scene, const shading_ray *ray, ray_crossings *crossings)
 {
-    struct RTCRay r = ray_trace_embree(ray);
+    const ray_segment segment = ray_trace_segment(ray);
+    const ray_tracer *tracer = scene->rays->tracer;
     if (crossings) {
         crossings->count = 0;
         crossings->is_cut = false;
     }
     if (!scene->plans->has_see_through && !crossings)
-        return embree_occluded1(scene->embree->scene, &r) ? 0.0f : 1.0f;
+        return tracer->occluded(scene->rays->bvh, &segment) ? 0.0f : 1.0f;
     search s = {.scene = scene, .ray = *ray, .transmittance = 1.0f, .crossings = crossings};
     s.ray.spread = &NO_SPREAD;
-    return embree_occluded1_filtered(scene->embree->scene, &r, &s.context, dim) ? 0.0f : s.transmittance;
+    return tracer->occluded_filtered(scene->rays->bvh, &segment, dim, &s) ? 0.0f : s.transmittance;
 }
 
 static float pass_glass(const shading_scene *scene, const ray_crossings *crossings)

@@ -63,25 +63,14 @@ bool ray_trace_is_visible_side(const shading_scene *scene, const visibility_hit 
 /* Coverage of the surface at the hit, [0, 1]; MASK gives 0 or 1. Cheaper than a shade. */
 float ray_trace_opacity(const shading_scene *scene, const shading_point *point);
 
-/* ---- for Embree ---- */
+/* ---- a ray ---- */
 
-static inline struct RTCRay ray_trace_embree(const shading_ray *ray)
+static inline ray_segment ray_trace_segment(const shading_ray *ray)
 {
-    return (struct RTCRay){.org_x = ray->origin[0],
-                           .org_y = ray->origin[1],
-                           .org_z = ray->origin[2],
-                           .tnear = ray->near_t,
-                           .dir_x = ray->direction[0],
-                           .dir_y = ray->direction[1],
-                           .dir_z = ray->direction[2],
-                           .tfar = ray->far_t,
-                           .mask = UINT32_MAX};
-}
-
-/* The same with room for a hit. */
-static inline struct RTCRayHit ray_trace_embree_hit(const shading_ray *ray)
-{
-    return (struct RTCRayHit){.ray = ray_trace_embree(ray), .hit = embree_no_hit()};
+    return (ray_segment){.origin = {ray->origin[0], ray->origin[1], ray->origin[2]},
+                         .direction = {ray->direction[0], ray->direction[1], ray->direction[2]},
+                         .near_t = ray->near_t,
+                         .far_t = ray->far_t};
 }
 
 #endif

@@ -224,7 +224,7 @@ facet_result render_setup_create(render_setup *p, facet_error *error)
         TRY(scene_identities_create(p->prepared->scene, &p->prepared->pose, &desc->allocator, &p->identities,
                                     error));
     p->shading = (shading_scene){.geometries = &p->prepared->geometries,
-                                 .embree = &p->prepared->embree,
+                                 .rays = &p->prepared->rays,
                                  .plans = &p->plans,
                                  .textures = p->textures,
                                  .light = &p->light,

@@ -2,7 +2,7 @@
 #ifndef CPU_SHADING_SCENE_H
 #define CPU_SHADING_SCENE_H
 
-#include "cpu/visibility_hit.h"
+#include "cpu/ray_scene.h"
 #include "draw/camera_rays.h"
 #include "draw/light_setup.h"
 #include "draw/material_plan.h"
@@ -51,8 +51,7 @@ static inline shading_ray shading_ray_of_camera(const camera_rays *camera, const
 
 /* ---- the scene ---- */
 
-struct embree_scene; /* cpu/embree_scene.h */
-struct ogl1_setup;   /* draw/ogl1_setup.h */
+struct ogl1_setup; /* draw/ogl1_setup.h */
 
 /* What is seen through glass by light that it has only refracted and that meets nothing behind: the background of the
  * image, as compositing would show it. Reflections see the environment. */
@@ -65,7 +64,7 @@ typedef enum shading_backdrop {
 /* The scene as shading reads it; constant while an image is rendered. */
 typedef struct shading_scene {
     const render_geometry_set *geometries;
-    const struct embree_scene *embree;
+    const ray_scene *rays;
     const material_plan_set *plans;
     const texture_set *textures;
     const light_setup *light;

@@ -63,7 +63,7 @@ static void find_hits(const tile_job *p, workspace *w, uint32_t x, uint32_t y, u
     if (w->raster)
         raster_tile_read(w->raster, block, w->hits);
     else
-        visibility_trace_block(p->desc->scene->embree, p->desc->scene->camera, x, y, &p->pattern, w->hits);
+        visibility_trace_block(p->desc->scene->rays, p->desc->scene->camera, x, y, &p->pattern, w->hits);
     w->has_hits = true;
 }
 
@@ -88,7 +88,7 @@ static bool draw_block(const tile_job *p, workspace *w, uint32_t x, uint32_t y, 
     if (p->draws_image)
         w->resolver.rays += (uint64_t)VISIBILITY_BLOCK_PIXELS * p->pattern.sample_count;
     if (p->wants_aovs) {
-        visibility_trace_block(p->desc->scene->embree, camera, x, y, &p->middle, w->middle_hits);
+        visibility_trace_block(p->desc->scene->rays, camera, x, y, &p->middle, w->middle_hits);
         w->resolver.rays += VISIBILITY_BLOCK_PIXELS;
     }
     for (uint32_t i = 0; i < VISIBILITY_BLOCK_PIXELS; i++) {

@@ -48,8 +48,8 @@ uint64_t part_digest(const film *f, const uint32_t rectangle[4]);
 /* What the image depends on. FACET_ERROR_MEMORY, and as the pose. */
 facet_result part_key_create(renderer_set *set, const facet_render_desc *whole, char hex[65],
                              facet_error *error);
-/* The machine, as far as pixels depend on it: "portable, GenuineIntel". */
-void part_describe_machine(facet_isa isa, char *text, size_t size);
+/* The machine, as far as pixels depend on it: "portable, GenuineIntel"; "own BVH". */
+void part_describe_machine(const facet_render_desc *desc, char *text, size_t size);
 
 /* ---- merging ---- */
 

@@ -136,7 +136,7 @@ facet_result part_describe(renderer_set *set, const facet_render_desc *whole, co
     char numbers[NUMBERS_SIZE], settings[65], machine[64], digest[17];
     print_numbers(&h, numbers);
     TRY(part_key_create(set, whole, settings, error));
-    part_describe_machine(whole->isa, machine, sizeof machine);
+    part_describe_machine(whole, machine, sizeof machine);
     snprintf(digest, sizeof digest, "%016" PRIx64,
              part_digest(f, (const uint32_t[]){0, 0, f->width, f->height}));
     const struct {

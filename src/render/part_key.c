@@ -1,6 +1,7 @@
 /* part_key.c - what an image depends on, as a hash: parts of different ones are not merged. */
 #include "base/result.h"
 #include "base/text.h"
+#include "cpu/ray_scene.h"
 #include "ibl/cache.h"
 #include "ibl/environment.h"
 #include "path/path_key.h"
@@ -108,7 +109,7 @@ static void add_all(text *t, const facet_render_desc *d)
 {
     char machine[64];
     text_add(t, FACET_VERSION " ");
-    part_describe_machine(d->isa, machine, sizeof machine);
+    part_describe_machine(d, machine, sizeof machine);
     text_add_bytes(t, machine, strcspn(machine, ","));
     add_image(t, d);
     add_view(t, d);
@@ -158,7 +159,7 @@ static const char *isa_name(facet_isa isa)
     return "portable";
 }
 
-void part_describe_machine(facet_isa isa, char *out, size_t size)
+static void describe_embree(facet_isa isa, char *out, size_t size)
 {
     unsigned highest, vendor[3] = {0};
     __cpuid(0, highest, vendor[0], vendor[2], vendor[1]);
@@ -168,10 +169,19 @@ void part_describe_machine(facet_isa isa, char *out, size_t size)
 
 #else
 
-void part_describe_machine(facet_isa isa, char *out, size_t size)
+static void describe_embree(facet_isa isa, char *out, size_t size)
 {
     (void)isa;
     snprintf(out, size, "one instruction set, not x86-64");
 }
 
 #endif
+
+void part_describe_machine(const facet_render_desc *desc, char *out, size_t size)
+{
+    const ray_tracer *tracer = NULL;
+    if (ray_tracer_choose(FACET_BVH_AUTO, &tracer, NULL) == FACET_OK && tracer == &bvh_tracer)
+        snprintf(out, size, "own BVH");
+    else
+        describe_embree(desc->isa, out, size);
+}
