@@ -34,6 +34,9 @@ typedef struct ktx2_format {
  * the library. */
 const ktx2_format *ktx2_find_format(uint32_t number, bool *is_srgb, bool *is_missing);
 
+/* Whether this build decodes ASTC. */
+bool ktx2_is_astc_built(void);
+
 /* The format behind VK_FORMAT_UNDEFINED (0), ETC1S or UASTC, by color model and channels of the file's format
  * descriptor (KDF section 5); NULL: another. second: channel of the second sample, -1: there is one sample. */
 enum {

@@ -268,6 +268,15 @@ static const vk_format vk_formats[] = {
     {183, 184, {"ASTC 12x12", KTX2_ASTC, IMAGE_U8, 4, 12, 12, 16, 0, NULL, NULL, NULL, RGBA}},
 };
 
+bool ktx2_is_astc_built(void)
+{
+#ifdef HAVE_ASTC
+    return true;
+#else
+    return false;
+#endif
+}
+
 const ktx2_format *ktx2_find_format(uint32_t number, bool *is_srgb, bool *is_missing)
 {
     *is_srgb = *is_missing = false;
@@ -276,9 +285,7 @@ const ktx2_format *ktx2_find_format(uint32_t number, bool *is_srgb, bool *is_mis
         if (number == 0 || (number != f->linear && number != f->srgb))
             continue;
         *is_srgb = number == f->srgb;
-#ifndef HAVE_ASTC
-        *is_missing = f->format.kind == KTX2_ASTC;
-#endif
+        *is_missing = f->format.kind == KTX2_ASTC && !ktx2_is_astc_built();
         return &f->format;
     }
     return NULL;

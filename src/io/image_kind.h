@@ -12,7 +12,7 @@ typedef struct image_kind {
     bool is_converted;          /* converted to PNG for glTF: no core or ratified extension allows it */
 } image_kind;
 
-/* By magic bytes; NULL: unknown. */
+/* By magic bytes; a KTX2 file of ASTC blocks, which has an extension of its own, by its format. NULL: unknown. */
 const image_kind *image_kind_of_bytes(const void *bytes, size_t size);
 /* By MIME type; NULL: unknown. */
 const image_kind *image_kind_of_mime_type(const char *mime_type);

@@ -1,7 +1,7 @@
 /* gltf_extensions.c - the table of extensions, and what is reported about those that a file uses. */
 #include <string.h>
 
-#include "image/image.h"
+#include "image/ktx2.h"
 #include "io/gltf/gltf_reader.h"
 
 /* Kinds of objects that an extension may extend; or-ed. */
@@ -35,6 +35,7 @@ static const known_extension KNOWN[] = {
     /* Only groups primitives that may be drawn in one call; they are ordinary ones, and are drawn. */
     {"EXT_mesh_primitive_restart", SCENE_SUPPORTED, ELSEWHERE, NULL, 0},
     {"EXT_meshopt_compression", SCENE_SUPPORTED, BUFFER | VIEW, NULL, 0},
+    {"EXT_texture_astc", SCENE_SUPPORTED, TEXTURE, "fallback images are used where the file has them", 0},
     {"EXT_texture_avif", SCENE_SUPPORTED, TEXTURE, "fallback images are used where the file has them",
      IMAGE_CODEC_AVIF},
     {"EXT_texture_webp", SCENE_SUPPORTED, TEXTURE, "fallback images are used where the file has them",
@@ -104,6 +105,8 @@ static const known_extension KNOWN[] = {
 
 static bool is_built(const known_extension *known)
 {
+    if (strcmp(known->name, "EXT_texture_astc") == 0)
+        return ktx2_is_astc_built();
     return !known->codec || image_codec_is_built(known->codec);
 }
 

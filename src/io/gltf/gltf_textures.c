@@ -1,6 +1,6 @@
 /* gltf_textures.c - images, located but not decoded, and textures with their samplers (glTF 2.0 sections
  * 3.8, 5.18,
- * 5.29; KHR_texture_basisu, EXT_texture_webp, EXT_texture_avif, MSFT_texture_dds). A missing image is reported and
+ * 5.29; KHR_texture_basisu, EXT_texture_astc, EXT_texture_webp, EXT_texture_avif, MSFT_texture_dds). A missing image is reported and
  * rendered white, as in other viewers. */
 #include <string.h>
 
@@ -55,13 +55,14 @@ static bool find_bytes(io_reader *r, const json_place *at, scene_image *out)
     return out->bytes != NULL;
 }
 
-/* The requirements of KHR_texture_basisu, and how deviations are handled. */
+/* The requirements of KHR_texture_basisu and EXT_texture_astc, and how deviations are handled. */
 static void check_ktx2(io_reader *r, const json_place *at, const scene_image *i)
 {
     ktx2 k;
     if (ktx2_open(i->bytes, i->size, "", &k, NULL) != FACET_OK)
         return; /* read_size() reports it */
-    if (k.format->kind != KTX2_ETC1S && k.format->decode != uastc_decode)
+    bool is_astc = k.format->kind == KTX2_ASTC && gltf_is_extension_listed(r, "EXT_texture_astc");
+    if (!is_astc && k.format->kind != KTX2_ETC1S && k.format->decode != uastc_decode)
         io_note(r, at, NULL, "holds %s, where KHR_texture_basisu has ETC1S or UASTC", k.format->name);
     if (k.is_cube)
         io_warn(r, at, NULL, "is a cube; its first face is used");
@@ -195,8 +196,9 @@ static uint32_t get_source(io_reader *r, const json_place *at, const char *name)
 /* The first readable source wins; extensions come before the fallback. */
 static void find_source(io_reader *r, const json_place *at, scene_texture *out)
 {
-    static const char *const names[] = {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif", NULL,
-                                        "MSFT_texture_dds"};
+    static const char *const names[] = {
+        "KHR_texture_basisu", "EXT_texture_astc", "EXT_texture_webp", "EXT_texture_avif", NULL,
+        "MSFT_texture_dds"};
     bool has_source = false;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         uint32_t source = get_source(r, at, names[i]); /* all sources, so that each is checked */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "image/ktx2.h"
 #include "image/ktx2_test_file.h"
 
 /* A model of images, one per file, each a view of the binary chunk. */
@@ -161,10 +162,47 @@ static void ktx2_files_are_read_without_the_extension(void **state)
     }
 }
 
+/* ASTC blocks are KHR_texture_basisu's in no file; EXT_texture_astc is theirs. */
+static void astc_has_an_extension_of_its_own(void **state)
+{
+    (void)state;
+    /* a void-extent block: one color, 16 bits per channel */
+    static const unsigned char block[16] = {0xfc, 0xfd, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff,
+                                            0xff, 0xff, 0,    0x80, 0,    0,    0xff, 0xff};
+    for (int is_listed = 0; is_listed < 2; is_listed++) {
+        ktx2_test_file f = {.vk_format = 157,
+                            .width = 4,
+                            .height = 4,
+                            .faces = 1,
+                            .levels = 1,
+                            .transfer = 1,
+                            .model = 162,
+                            .bytes = {block},
+                            .sizes = {sizeof block}};
+        size_t size;
+        unsigned char *bytes = ktx2_test_write(&f, &size);
+        image_files m = {0};
+        add_bytes(&m, "image/png", white_png, sizeof white_png);
+        add_bytes(&m, "image/ktx2", bytes, size);
+        free(bytes);
+        facet_scene *scene = load_model(&m, is_listed ? "'EXT_texture_astc'" : "'KHR_texture_basisu'",
+                                        "{'source':0,'extensions':{" SOURCE("EXT_texture_astc", "1") "}}");
+        const bool is_built = ktx2_is_astc_built();
+        assert_int_equal(scene->textures[0].image, is_built ? 1 : 0);
+        assert_int_equal(scene->warning_count, is_built ? 0 : 1 + is_listed);
+        assert_int_equal(has_note(scene, "images[1]: holds ASTC 4x4, where KHR_texture_basisu has"),
+                         is_built && !is_listed);
+        assert_int_equal(has_note(scene, "images[1]: is a KTX2 file, which needs EXT_texture_astc"),
+                         is_built && !is_listed);
+        scene_destroy(scene);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_first_source_that_can_be_read_wins),
+        cmocka_unit_test(astc_has_an_extension_of_its_own),
         cmocka_unit_test(ktx2_files_are_read_without_the_extension),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
