@@ -4,7 +4,8 @@
 #include <string.h>
 
 #include "base/parallel.h"
-#include "io/gltf/gltf_reader.h"
+#include "io/gltf/gltf_components.h"
+#include "scene/origin.h"
 
 const uint32_t gltf_component_counts[GLTF_TYPE_COUNT] = {1, 2, 3, 4, 4, 9, 16};
 
@@ -12,14 +13,6 @@ static const char *const TYPE_NAMES[GLTF_TYPE_COUNT] = {"SCALAR", "VEC2", "VEC3"
                                                         "MAT2",   "MAT3", "MAT4"};
 
 /* ---- sizes ---- */
-
-/* bytes */
-static size_t component_size(gltf_component component)
-{
-    return component == GLTF_I8 || component == GLTF_U8     ? 1
-           : component == GLTF_I16 || component == GLTF_U16 ? 2
-                                                            : 4;
-}
 
 /* 1 for types other than matrices */
 static size_t column_count(gltf_type type)
@@ -30,7 +23,7 @@ static size_t column_count(gltf_type type)
 static size_t column_size(gltf_component component, gltf_type type)
 {
     size_t columns = column_count(type);
-    size_t size = gltf_component_counts[type] / columns * component_size(component);
+    size_t size = gltf_component_counts[type] / columns * gltf_component_size(component);
     return columns == 1 ? size : (size + 3) / 4 * 4; /* section 3.6.2.4 */
 }
 
@@ -51,7 +44,14 @@ static size_t accessor_stride(const io_reader *r, const gltf_accessor *a)
 static gltf_component get_component(io_reader *r, const json_place *at)
 {
     uint64_t value = io_get_uint(r, at, "componentType", UINT32_MAX, IO_REQUIRED_UINT);
-    bool is_known = (value >= GLTF_I8 && value <= GLTF_U16) || value == GLTF_U32 || value == GLTF_F32;
+    bool is_known = (value >= GLTF_I8 && value <= GLTF_U16) || value == GLTF_U32 || value == GLTF_F32 ||
+                    value == GLTF_F64 || value == GLTF_F16;
+    const char *extension = value == GLTF_F64   ? "KHR_accessor_float64"
+                            : value == GLTF_F16 ? "KHR_accessor_float16"
+                                                : NULL;
+    if (extension && !gltf_is_extension_listed(r, extension))
+        io_note(r, at, "componentType", "%u needs %s, which the file does not list", (unsigned)value,
+                extension);
     if (!is_known && io_is_ok(r))
         io_fail(r, at, "componentType", FACET_ERROR_INVALID,
                 "%llu is not one of 5120, 5121, 5122, 5123, 5125, 5126", (unsigned long long)value);
@@ -128,7 +128,7 @@ static void read_sparse(io_reader *r, const json_place *accessor, gltf_accessor 
     }
     if (r->gltf->views[a->sparse_index_view].stride || r->gltf->views[a->sparse_value_view].stride)
         io_warn(r, &at, NULL, "uses a buffer view with byteStride, which is ignored");
-    size_t size = component_size(c);
+    size_t size = gltf_component_size(c);
     check_extent(r, &indices, a->sparse_index_view, a->sparse_index_offset, a->sparse_count, size, size);
     size = gltf_element_size(a->component, a->type);
     check_extent(r, &values, a->sparse_value_view, a->sparse_value_offset, a->sparse_count, size, size);
@@ -148,7 +148,7 @@ static void read_accessor(io_reader *r, const json_place *at, gltf_accessor *a)
         return;
     if (a->count == 0)
         io_note(r, at, "count", "must be at least 1, but is 0");
-    if (a->is_normalized && (a->component == GLTF_F32 || a->component == GLTF_U32)) {
+    if (a->is_normalized && (gltf_is_float(a->component) || a->component == GLTF_U32)) {
         io_note(r, at, "normalized", "has no meaning for this componentType and is ignored");
         a->is_normalized = false;
     }
@@ -161,8 +161,8 @@ static void read_accessor(io_reader *r, const json_place *at, gltf_accessor *a)
                     "buffer view %u",
                     size, view->stride, a->view);
         check_extent(r, at, a->view, a->offset, a->count, accessor_stride(r, a), size);
-        if (io_is_ok(r) && (a->offset % component_size(a->component) ||
-                            (a->offset + view->offset) % component_size(a->component)))
+        if (io_is_ok(r) && (a->offset % gltf_component_size(a->component) ||
+                            (a->offset + view->offset) % gltf_component_size(a->component)))
             io_note(r, at, "byteOffset", "%zu is not aligned to its components", a->offset);
     }
     read_sparse(r, at, a);
@@ -224,66 +224,6 @@ uint32_t gltf_get_required_accessor(io_reader *r, const json_place *object, cons
 
 enum { GRAIN = 1 << 15 }; /* elements per work item */
 
-/* ---- components ---- */
-
-/* Little-endian loads from unaligned addresses. */
-static uint16_t load_u16(const unsigned char *p)
-{
-    return (uint16_t)(p[0] | p[1] << 8);
-}
-
-static uint32_t load_u32(const unsigned char *p)
-{
-    return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
-}
-
-/* An unsigned component that is not normalized. */
-static uint32_t load_unsigned(const unsigned char *p, gltf_component component)
-{
-    return component == GLTF_U8 ? p[0] : component == GLTF_U16 ? load_u16(p) : load_u32(p);
-}
-
-/* Converts components in order (section 3.6.2.2; normalized ones: 3.11). The compiler turns each case into
- * a loop. */
-static void convert_components(const unsigned char *in, gltf_component component, bool is_normalized,
-                               size_t count, float *out)
-{
-    switch (component) {
-    case GLTF_I8:
-        for (size_t i = 0; i < count; i++) {
-            float value = (float)(int8_t)in[i];
-            out[i] = !is_normalized ? value : value < -127.0f ? -1.0f : value / 127.0f;
-        }
-        break;
-    case GLTF_U8:
-        for (size_t i = 0; i < count; i++)
-            out[i] = is_normalized ? (float)in[i] / 255.0f : (float)in[i];
-        break;
-    case GLTF_I16:
-        for (size_t i = 0; i < count; i++) {
-            float value = (float)(int16_t)load_u16(in + 2 * i);
-            out[i] = !is_normalized ? value : value < -32767.0f ? -1.0f : value / 32767.0f;
-        }
-        break;
-    case GLTF_U16:
-        for (size_t i = 0; i < count; i++) {
-            float value = (float)load_u16(in + 2 * i);
-            out[i] = is_normalized ? value / 65535.0f : value;
-        }
-        break;
-    case GLTF_U32:
-        for (size_t i = 0; i < count; i++)
-            out[i] = (float)load_u32(in + 4 * i);
-        break;
-    case GLTF_F32:
-        for (size_t i = 0; i < count; i++) {
-            uint32_t bits = load_u32(in + 4 * i);
-            memcpy(&out[i], &bits, sizeof bits);
-        }
-        break;
-    }
-}
-
 /* ---- elements ---- */
 
 typedef struct conversion {
@@ -302,16 +242,16 @@ typedef struct conversion {
 static void convert_element(const conversion *c, const unsigned char *in, float *out)
 {
     for (size_t done = 0; done < c->component_count; done += c->column_length, in += c->column_size)
-        convert_components(in, c->component, c->is_normalized, c->column_length, out + done);
+        gltf_convert_components(in, c->component, c->is_normalized, c->column_length, out + done);
 }
 
 static void convert_floats(void *context, size_t begin, size_t end)
 {
     const conversion *c = context;
-    size_t size = component_size(c->component) * c->component_count;
+    size_t size = gltf_component_size(c->component) * c->component_count;
     if (c->stride == size && c->column_length == c->component_count) { /* tight */
-        convert_components(c->bytes + begin * size, c->component, c->is_normalized,
-                           (end - begin) * c->component_count, c->floats + begin * c->component_count);
+        gltf_convert_components(c->bytes + begin * size, c->component, c->is_normalized,
+                                (end - begin) * c->component_count, c->floats + begin * c->component_count);
         return;
     }
     for (size_t i = begin; i < end; i++)
@@ -342,11 +282,11 @@ static bool apply_sparse(io_reader *r, const json_place *at, const gltf_accessor
         return false;
     places += a->sparse_index_offset;
     values += a->sparse_value_offset;
-    size_t place_size = component_size(a->sparse_index_component);
+    size_t place_size = gltf_component_size(a->sparse_index_component);
     conversion c = make_conversion(r, a, values);
     c.stride = gltf_element_size(a->component, a->type);
     for (size_t i = 0; i < a->sparse_count; i++) {
-        uint32_t place = load_unsigned(places + i * place_size, a->sparse_index_component);
+        uint32_t place = gltf_load_unsigned(places + i * place_size, a->sparse_index_component);
         if (place >= a->count)
             return io_fail(r, at, NULL, FACET_ERROR_INVALID,
                            "sparse index %zu is %u, but the accessor has %u elements", i, place, a->count);
@@ -354,7 +294,7 @@ static bool apply_sparse(io_reader *r, const json_place *at, const gltf_accessor
         if (floats)
             convert_element(&c, value, floats + place * c.component_count);
         else
-            indices[place] = load_unsigned(value, a->component);
+            indices[place] = gltf_load_unsigned(value, a->component);
     }
     return true;
 }
@@ -430,6 +370,33 @@ const float *gltf_get_accessor_floats(io_reader *r, const json_place *at, uint32
     return floats;
 }
 
+/* A point near the accessor's positions, if these are too far from 0 for floats. False: an error is recorded. */
+static bool find_origin(io_reader *r, const json_place *at, uint32_t index)
+{
+    gltf_accessor *a = &r->gltf->accessors[index];
+    const float *rounded = gltf_get_accessor_floats(r, at, index);
+    return rounded && (scene_find_origin(rounded, a->count, r->allocator, a->origin) || io_is_ok(r));
+}
+
+const float *gltf_get_accessor_near(io_reader *r, const json_place *at, uint32_t index)
+{
+    gltf_accessor *a = &r->gltf->accessors[index];
+    ACCESSOR_PLACE(place, index);
+    const unsigned char *bytes;
+    if (a->sparse_count || a->type != GLTF_VEC3)
+        return gltf_get_accessor_floats(r, at, index);
+    if (!find_origin(r, at, index) || !get_dense_bytes(r, &place, a, &bytes))
+        return NULL;
+    if (!bytes || (a->origin[0] == 0.0 && a->origin[1] == 0.0 && a->origin[2] == 0.0))
+        return a->floats;
+    float *floats = io_alloc_raw(r, "accessor", 3 * (size_t)a->count, sizeof *floats);
+    size_t stride = accessor_stride(r, a);
+    for (size_t i = 0; floats && i < a->count; i++)
+        for (size_t k = 0; k < 3; k++)
+            floats[3 * i + k] = (float)(gltf_load_f64(bytes + i * stride + 8 * k) - a->origin[k]);
+    return floats;
+}
+
 /* ---- indices ---- */
 
 static void convert_indices(void *context, size_t begin, size_t end)
@@ -441,10 +408,10 @@ static void convert_indices(void *context, size_t begin, size_t end)
             out[i] = c->bytes[i * c->stride];
     else if (c->component == GLTF_U16)
         for (size_t i = begin; i < end; i++)
-            out[i] = load_u16(c->bytes + i * c->stride);
+            out[i] = gltf_load_u16(c->bytes + i * c->stride);
     else
         for (size_t i = begin; i < end; i++)
-            out[i] = load_u32(c->bytes + i * c->stride);
+            out[i] = gltf_load_u32(c->bytes + i * c->stride);
 }
 
 static void find_largest(void *context, size_t begin, size_t end)

@@ -61,6 +61,90 @@ static void component_types_convert_as_the_specification_says(void **state)
     scene_destroy(scene);
 }
 
+#define WIDE "'extensionsUsed':['KHR_accessor_float64'],'extensionsRequired':['KHR_accessor_float64'],"
+
+static void halves_are_read(void **state)
+{
+    (void)state;
+    /* 1, -2, 2^-24, 65504, 0.333.., 0, in two more elements; strides of 8 bytes */
+    const uint16_t halves[12] = {0x3c00, 0xc000, 0x0001, 0, 0x7bff, 0x3555, 0x8000, 0, 0, 0x3c00, 0x4000, 0};
+    const float expected[9] = {1, -2, 0x1p-24f, 65504, 0.333251953125f, -0.0f, 0, 1, 2};
+    facet_scene *scene = load_positions(halves, sizeof halves, 5131, "");
+    assert_floats(first_primitive(scene)->positions, expected, 9, 0);
+    assert_true(has_note(scene, "5131 needs KHR_accessor_float16, which the file does not list"));
+    scene_destroy(scene);
+}
+
+/* The triangle is near the equator, at the radius of the earth; floats are 0.5 m apart there. */
+static const double far_triangle[9] = {6378137.125, 0.25, -3, 6378137.25, 0.5, -2, 6378138.0, 1, -1};
+
+static void distant_doubles_keep_their_detail(void **state)
+{
+    (void)state;
+    test_model m = {0};
+    double other[9];
+    for (int i = 0; i < 9; i++)
+        other[i] = far_triangle[i] + (i % 3 == 0 ? 100.0625 : 0.0);
+    model_add(&m, far_triangle, 3, "VEC3", 5130, "");
+    model_add(&m, other, 3, "VEC3", 5130, "");
+    facet_scene *scene = model_load(&m, "%s",
+                                    WIDE "'meshes':[{'primitives':[{'attributes':{'POSITION':0}},"
+                                         "{'attributes':{'POSITION':1}}]},"
+                                         "{'primitives':[{'attributes':{'POSITION':1}}]}]");
+    assert_int_equal(scene->note_count, 0);
+    assert_int_equal(scene->warning_count, 0);
+    for (uint32_t i = 0; i < 2; i++)
+        for (uint32_t k = 0; k < scene->meshes[i].primitive_count; k++) {
+            const scene_primitive *p = &scene->meshes[i].primitives[k];
+            const double *expected = i + k ? other : far_triangle, *origin = scene->meshes[i].origin;
+            for (int c = 0; c < 9; c++)
+                assert_true(origin[c % 3] + (double)p->positions[c] == expected[c]);
+            assert_true(fabsf(p->bounds_min[0]) < 200.0f);
+            assert_true(origin[0] + (double)p->bounds_max[0] == expected[6]);
+            /* normals of triangles this small and far need the detail */
+            assert_near(p->normals[1] * p->normals[1] + p->normals[2] * p->normals[2] +
+                            p->normals[0] * p->normals[0],
+                        1, 1e-5);
+        }
+    scene_destroy(scene);
+}
+
+static void near_doubles_become_floats(void **state)
+{
+    (void)state;
+    const double values[9] = {1, 2, 3, 4, 5, 0.1, 7, 8, 9};
+    test_model m = {0};
+    model_add(&m, values, 3, "VEC3", 5130, "");
+    facet_scene *scene =
+        model_load(&m, "%s", WIDE "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'mode':0}]}]");
+    for (int i = 0; i < 9; i++)
+        assert_true(first_primitive(scene)->positions[i] == (float)values[i]);
+    assert_true(scene->meshes[0].origin[0] == 0.0);
+    scene_destroy(scene);
+}
+
+static void doubles_that_break_rules_are_reported(void **state)
+{
+    (void)state;
+    const double broken[9] = {NAN, 2, 3, 1e300, 5, 6, 7, 8, 9};
+    test_model m = {0};
+    model_add(&m, broken, 3, "VEC3", 5130, "");
+    facet_scene *scene =
+        model_load(&m, "%s", WIDE "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'mode':0}]}]");
+    assert_true(has_warning(scene, "accessor 0 has positions that are not finite"));
+    assert_int_equal(first_primitive(scene)->index_count, 1);
+    scene_destroy(scene);
+    model_assert_refused(&m, "must have SCALAR elements of an unsigned type to be indices", "%s",
+                         WIDE "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'indices':0}]}]");
+    /* fewer bytes than elements of 24 bytes need */
+    test_bin bin = {0};
+    bin_add(&bin, broken, 71);
+    assert_refused("'bufferViews':[{'buffer':0,'byteLength':71}],'accessors':[{'bufferView':0,"
+                   "'componentType':5130,'count':3,'type':'VEC3'}],"
+                   "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}]",
+                   &bin, FACET_ERROR_INVALID, "3 elements of 24 bytes, 24 apart");
+}
+
 static void tight_floats_stay_in_the_file(void **state)
 {
     (void)state;
@@ -313,6 +397,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(component_types_convert_as_the_specification_says),
+        cmocka_unit_test(halves_are_read),
+        cmocka_unit_test(distant_doubles_keep_their_detail),
+        cmocka_unit_test(near_doubles_become_floats),
+        cmocka_unit_test(doubles_that_break_rules_are_reported),
         cmocka_unit_test(tight_floats_stay_in_the_file),
         cmocka_unit_test(interleaved_attributes_are_separated),
         cmocka_unit_test(misaligned_floats_are_read_with_a_warning),

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/gltf/gltf_reader.h"
+#include "io/gltf/gltf_components.h"
 
 /* ---- times ---- */
 
@@ -153,7 +153,7 @@ static bool read_sampler(io_reader *r, const json_place *at, scene_sampler *out)
         return false;
     const gltf_accessor *times = &r->gltf->accessors[input];
     const gltf_accessor *values = &r->gltf->accessors[output];
-    if (times->type != GLTF_SCALAR || times->component != GLTF_F32) {
+    if (times->type != GLTF_SCALAR || !gltf_is_float(times->component)) {
         io_warn(r, at, "input", "accessor %u must have SCALAR elements of floats; it animates nothing",
                 input);
         return false;

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
-#include "io/gltf/gltf_reader.h"
+#include "io/gltf/gltf_components.h"
 
 /* ---- formats ---- */
 
@@ -40,6 +40,8 @@ static unsigned format_of(const gltf_accessor *a)
 {
     switch (a->component) {
     case GLTF_F32:
+    case GLTF_F64:
+    case GLTF_F16:
         return F32;
     case GLTF_U8:
     case GLTF_U16:
@@ -201,7 +203,8 @@ const float *gltf_get_positions(io_reader *r, const json_place *at, uint32_t ind
     *is_lost = a->is_lost;
     if (a->positions)
         return a->positions;
-    const float *in = gltf_get_accessor_floats(r, at, index);
+    const float *in = a->component == GLTF_F64 ? gltf_get_accessor_near(r, at, index)
+                                               : gltf_get_accessor_floats(r, at, index);
     check c = {.in = in, .width = 3};
     if (!in || !run_check(r, &c, a->count, check_finite))
         return NULL;
@@ -280,7 +283,7 @@ const float *gltf_get_normals(io_reader *r, const json_place *at, uint32_t index
         return NULL;
     if (c.repairs == 0)
         return a->normals = in;
-    if (c.warned && a->component == GLTF_F32)
+    if (c.warned && gltf_is_float(a->component))
         io_note(r, at, NULL, "%zu normals of accessor %u are not of length 1", c.warned, index);
     float *out = io_alloc_raw(r, "normals", a->count, 3 * sizeof *out);
     if (!out)
@@ -316,7 +319,7 @@ const float *gltf_get_tangents(io_reader *r, const json_place *at, uint32_t inde
     a->has_tangents = true;
     if (c.repairs == 0)
         return a->tangents = in;
-    if (c.warned && a->component == GLTF_F32)
+    if (c.warned && gltf_is_float(a->component))
         io_note(r, at, NULL, "tangents of accessor %u are not all of length 1 with w 1 or -1", index);
     float *out = io_alloc_raw(r, "tangents", a->count, 4 * sizeof *out);
     if (!out)

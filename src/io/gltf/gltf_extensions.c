@@ -40,6 +40,8 @@ static const known_extension KNOWN[] = {
      IMAGE_CODEC_AVIF},
     {"EXT_texture_webp", SCENE_SUPPORTED, TEXTURE, "fallback images are used where the file has them",
      IMAGE_CODEC_WEBP},
+    {"KHR_accessor_float16", SCENE_SUPPORTED, ANYWHERE, NULL, 0},
+    {"KHR_accessor_float64", SCENE_SUPPORTED, ANYWHERE, NULL, 0},
     {"KHR_animation_pointer", SCENE_SUPPORTED, TARGET, NULL, 0},
 #ifdef HAVE_DRACO
     {"KHR_draco_mesh_compression", SCENE_SUPPORTED, PRIMITIVE, NULL, 0},

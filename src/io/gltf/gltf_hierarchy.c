@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "io/gltf/gltf_reader.h"
+#include "io/gltf/gltf_components.h"
 
 /* Copies of copies can grow exponentially. The first path to a node is the node itself, and each other
  * path a copy; with MAX_PATHS paths there are too many copies. */
@@ -226,7 +226,7 @@ static uint32_t get_instances(io_reader *r, const json_place *attributes, const 
         return SCENE_NONE;
     const gltf_accessor *a = &r->gltf->accessors[index];
     bool is_signed = a->is_normalized && (a->component == GLTF_I8 || a->component == GLTF_I16);
-    if (a->type != type || !(a->component == GLTF_F32 || (type == GLTF_VEC4 && is_signed))) {
+    if (a->type != type || !(gltf_is_float(a->component) || (type == GLTF_VEC4 && is_signed))) {
         io_fail(r, attributes, name, FACET_ERROR_INVALID,
                 "accessor %u has a type and componentType that are not allowed for %s of instances", index,
                 name);

@@ -383,6 +383,36 @@ static void read_primitive(io_reader *r, const json_place *at, scene_primitive *
     gltf_complete_primitive(r, at, p, has_missing_normals);
 }
 
+/* Positions relative to the origin of their accessor (of doubles that are far from 0) become relative to that of
+ * the mesh, which its first primitive that is drawn sets. */
+static void settle_positions(io_reader *r, const json_place *at, scene_mesh *mesh, scene_primitive *p)
+{
+    json_place attributes = io_get_object(r, at, "attributes");
+    uint32_t position = io_peek_index(&attributes, "POSITION", r->gltf->accessor_count);
+    const double zero[3] = {0.0, 0.0, 0.0};
+    if (!io_is_ok(r) || position == SCENE_NONE || p->index_count == 0)
+        return;
+    const double *origin = r->gltf->accessors[position].origin;
+    const scene_primitive *first = mesh->primitives;
+    while (first->index_count == 0)
+        first++;
+    if (p == first)
+        memcpy(mesh->origin, origin, sizeof mesh->origin);
+    double shift[3];
+    for (int k = 0; k < 3; k++)
+        shift[k] = origin[k] - mesh->origin[k];
+    if (memcmp(shift, zero, sizeof zero) == 0)
+        return;
+    float *moved = io_alloc_raw(r, "positions", 3 * (size_t)p->vertex_count, sizeof *moved);
+    for (size_t i = 0; moved && i < 3 * (size_t)p->vertex_count; i++)
+        moved[i] = (float)((double)p->positions[i] + shift[i % 3]);
+    for (int k = 0; k < 3; k++) {
+        p->bounds_min[k] = (float)((double)p->bounds_min[k] + shift[k]);
+        p->bounds_max[k] = (float)((double)p->bounds_max[k] + shift[k]);
+    }
+    p->positions = moved ? moved : p->positions;
+}
+
 static void read_mesh(io_reader *r, const json_place *at, scene_mesh *mesh)
 {
     mesh->name = io_get_name(r, at);
@@ -395,6 +425,7 @@ static void read_mesh(io_reader *r, const json_place *at, scene_mesh *mesh)
         json_place at_primitive = io_get_element_object(r, &array, i);
         scene_primitive *primitive = &mesh->primitives[i];
         read_primitive(r, &at_primitive, primitive);
+        settle_positions(r, &at_primitive, mesh, primitive);
         primitive->variant_materials = read_mappings(r, &at_primitive);
         primitive->meta = gltf_get_meta(r, &at_primitive);
         json_place targets = io_get_array(r, &at_primitive, "targets");

@@ -32,7 +32,9 @@ typedef enum gltf_component {
     GLTF_I16 = 5122,
     GLTF_U16 = 5123,
     GLTF_U32 = 5125,
-    GLTF_F32 = 5126
+    GLTF_F32 = 5126,
+    GLTF_F64 = 5130, /* KHR_accessor_float64 */
+    GLTF_F16 = 5131  /* KHR_accessor_float16 */
 } gltf_component;
 
 typedef enum gltf_type {
@@ -67,7 +69,8 @@ typedef struct gltf_accessor {
     const float *floats;
     const uint32_t *indices;
     uint32_t largest_index;
-    const float *positions; /* finite */
+    const float *positions; /* finite, relative to origin */
+    double origin[3];       /* of positions in double that are far from 0, for scene_mesh.origin */
     const uint8_t *is_lost; /* per vertex: its position was not finite; NULL: none */
     const float *normals, *tangents, *colors;
     const float *finite;      /* texture coordinates, or displacements of a morph target */
@@ -149,6 +152,9 @@ uint32_t gltf_get_required_accessor(io_reader *r, const json_place *object, cons
 extern const uint32_t gltf_component_counts[GLTF_TYPE_COUNT];
 /* Bytes of one element; the columns of a matrix begin at multiples of 4 bytes. */
 size_t gltf_element_size(gltf_component component, gltf_type type);
+
+/* Positions of doubles as floats relative to an origin near them: the accessor's origin. As gltf_get_accessor_floats(). */
+const float *gltf_get_accessor_near(io_reader *r, const json_place *at, uint32_t accessor);
 
 /* All elements as floats, gltf_component_counts[type] each; normalized integers become [-1, 1] or [0, 1].
  * Points into the file where it holds such floats. NULL: an error is recorded. */

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
-#include "io/gltf/gltf_reader.h"
+#include "io/gltf/gltf_components.h"
 
 /* ---- influences of a vertex ---- */
 
@@ -209,7 +209,7 @@ static void read_bind_matrices(io_reader *r, const json_place *skin, scene_skin 
     if (index == SCENE_NONE)
         return;
     const gltf_accessor *a = &r->gltf->accessors[index];
-    if (a->type != GLTF_MAT4 || a->component != GLTF_F32)
+    if (a->type != GLTF_MAT4 || !gltf_is_float(a->component))
         io_fail(r, skin, "inverseBindMatrices", FACET_ERROR_INVALID,
                 "accessor %u must have MAT4 elements of floats", index);
     else if (a->count < out->joint_count)

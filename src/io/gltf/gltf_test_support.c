@@ -154,7 +154,10 @@ static size_t element_size(const char *type, unsigned component)
         const char *type;
         size_t count;
     } types[] = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
-    size_t size = component < 5122 ? 1 : component < 5124 ? 2 : 4;
+    size_t size = component < 5122                        ? 1
+                  : component < 5124 || component == 5131 ? 2
+                  : component == 5130                     ? 8
+                                                          : 4;
     for (size_t i = 0; i < sizeof types / sizeof *types; i++)
         if (strcmp(types[i].type, type) == 0)
             return types[i].count * size;

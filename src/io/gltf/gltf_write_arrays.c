@@ -5,15 +5,16 @@
 #include "io/gltf/gltf_writer.h"
 
 /* Component types of glTF. */
-enum { UNSIGNED_BYTE = 5121, UNSIGNED_SHORT = 5123, UNSIGNED_INT = 5125, FLOAT = 5126 };
+enum { UNSIGNED_BYTE = 5121, UNSIGNED_SHORT = 5123, UNSIGNED_INT = 5125, FLOAT = 5126, DOUBLE = 5130 };
 
+static const char DOUBLES[] = "KHR_accessor_float64";
 static const char *const type_names[] = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT4"};
 static const uint32_t component_counts[] = {1, 2, 3, 4, 16};
 
-/* Appends size bytes at a multiple of 4; NULL: no memory. */
-static unsigned char *add_bytes(gltf_writer *w, size_t size, size_t *offset)
+/* Appends size bytes at a multiple of alignment, a power of two from 4; NULL: no memory. */
+static unsigned char *add_bytes(gltf_writer *w, size_t size, size_t alignment, size_t *offset)
 {
-    size_t begin = (w->bin_size + 3) & ~(size_t)3;
+    size_t begin = (w->bin_size + alignment - 1) & ~(alignment - 1);
     if (size > UINT32_MAX || begin + size > UINT32_MAX - 64) {
         if (gltf_writer_is_ok(w))
             w->result = fail(w->error, FACET_ERROR_LIMIT,
@@ -47,14 +48,19 @@ static uint32_t add_view(gltf_writer *w, size_t offset, size_t size, size_t stri
     return (uint32_t)json_array_size(w->views) - 1;
 }
 
-uint32_t gltf_write_view(gltf_writer *w, const void *bytes, size_t size, int target)
+static uint32_t write_view(gltf_writer *w, const void *bytes, size_t size, size_t alignment, int target)
 {
     size_t offset;
-    unsigned char *at = add_bytes(w, size, &offset);
+    unsigned char *at = add_bytes(w, size, alignment, &offset);
     if (!at)
         return 0;
     memcpy(at, bytes, size);
     return add_view(w, offset, size, 0, target);
+}
+
+uint32_t gltf_write_view(gltf_writer *w, const void *bytes, size_t size, int target)
+{
+    return write_view(w, bytes, size, 4, target);
 }
 
 /* view: SCENE_NONE: zeros. */
@@ -132,6 +138,38 @@ uint32_t gltf_write_floats(gltf_writer *w, const float *values, size_t count, wr
     return last_accessor(w);
 }
 
+/* Whether the file that the scene comes from has numbers in double. */
+static bool has_doubles(const facet_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->extension_count; i++)
+        if (strcmp(scene->extensions[i].name, DOUBLES) == 0)
+            return true;
+    return false;
+}
+
+/* Positions relative to an origin, as numbers in double (KHR_accessor_float64). */
+static uint32_t write_doubles(gltf_writer *w, const float *values, size_t count, const double origin[3])
+{
+    double *moved = mem_alloc(w->allocator, count, 3 * sizeof *moved), low[3], high[3];
+    if (!moved) {
+        gltf_writer_fail_memory(w, 3 * count * sizeof *moved);
+        return 0;
+    }
+    for (size_t i = 0; i < 3 * count; i++) {
+        const double value = origin[i % 3] + (double)values[i];
+        low[i % 3] = i < 3 || value < low[i % 3] ? value : low[i % 3];
+        high[i % 3] = i < 3 || value > high[i % 3] ? value : high[i % 3];
+        moved[i] = value;
+    }
+    json_t *accessor = add_accessor(w, write_view(w, moved, 3 * count * sizeof *moved, 8, WRITE_VERTICES),
+                                    DOUBLE, count, WRITE_VEC3);
+    gltf_put(w, accessor, "min", gltf_json_doubles(low, 3));
+    gltf_put(w, accessor, "max", gltf_json_doubles(high, 3));
+    gltf_require_extension(w, DOUBLES);
+    mem_free(moved);
+    return last_accessor(w);
+}
+
 uint32_t gltf_write_positions(gltf_writer *w, const float *values, size_t count, const double origin[3])
 {
     if (origin[0] == 0.0 && origin[1] == 0.0 && origin[2] == 0.0)
@@ -140,6 +178,8 @@ uint32_t gltf_write_positions(gltf_writer *w, const float *values, size_t count,
     uint32_t found = find_or_note(w, values, size, 5u << 8);
     if (found != SCENE_NONE)
         return found;
+    if (has_doubles(w->scene))
+        return write_doubles(w, values, count, origin);
     float *moved = mem_alloc(w->allocator, count, 3 * sizeof *moved);
     if (!moved) {
         gltf_writer_fail_memory(w, size);
@@ -175,7 +215,7 @@ uint32_t gltf_write_indices(gltf_writer *w, const uint32_t *values, size_t count
     bool is_short = largest < UINT16_MAX; /* the largest value is reserved for primitive restart */
     size_t size = count * (is_short ? sizeof(uint16_t) : sizeof(uint32_t));
     size_t offset;
-    unsigned char *at = add_bytes(w, size, &offset);
+    unsigned char *at = add_bytes(w, size, 4, &offset);
     for (size_t i = 0; at && i < count; i++) {
         uint16_t narrow = (uint16_t)values[i];
         memcpy(at + i * (is_short ? 2 : 4), is_short ? (const void *)&narrow : (const void *)&values[i],
@@ -197,7 +237,7 @@ uint32_t gltf_write_joints(gltf_writer *w, const uint16_t *joints, size_t count,
             largest = joints[stride * i + k] > largest ? joints[stride * i + k] : largest;
     size_t width = largest > UINT8_MAX ? 2 : 1;
     size_t offset;
-    unsigned char *at = add_bytes(w, 4 * width * count, &offset);
+    unsigned char *at = add_bytes(w, 4 * width * count, 4, &offset);
     for (size_t i = 0; at && i < 4 * count; i++) {
         uint16_t joint = joints[stride * (i / 4) + i % 4];
         at[width * i] = (unsigned char)joint;
@@ -216,7 +256,7 @@ uint32_t gltf_write_weights(gltf_writer *w, const float *weights, size_t count, 
         return found;
     size_t size = 4 * sizeof(float) * count;
     size_t offset;
-    unsigned char *at = add_bytes(w, size, &offset);
+    unsigned char *at = add_bytes(w, size, 4, &offset);
     for (size_t i = 0; at && i < count; i++)
         memcpy(at + 4 * sizeof(float) * i, weights + stride * i, 4 * sizeof(float));
     add_accessor(w, at ? add_view(w, offset, size, 0, WRITE_VERTICES) : 0, FLOAT, count, WRITE_VEC4);

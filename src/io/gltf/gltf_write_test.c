@@ -470,6 +470,35 @@ static void distant_vertices_round_trip(void **state)
     empty_folder();
 }
 
+/* Positions in double, which no floats hold, are written in double. */
+static void distant_doubles_round_trip(void **state)
+{
+    (void)state;
+    static const double triangle[] = {6378137.125, 0.25, -3, 6378137.25, 0.5, -2, 6378138.0, 1, -1};
+    test_model m = {0};
+    char path[256];
+    facet_scene *again = NULL;
+    model_add(&m, triangle, 3, "VEC3", 5130, "");
+    facet_scene *scene =
+        model_load(&m, "%s",
+                   "'extensionsUsed':['KHR_accessor_float64'],'extensionsRequired':['KHR_accessor_float64'],"
+                   "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}],'nodes':[{'mesh':0}],"
+                   "'scenes':[{'nodes':[0]}]");
+    assert_int_equal(scene_settle_origin(scene, NULL, NULL, NULL), FACET_OK);
+    snprintf(path, sizeof path, "%s/a.glb", folder.path);
+    assert_int_equal(gltf_save(scene, path, "a test", NULL, NULL), FACET_OK);
+    assert_int_equal(gltf_load(path, NULL, &again, NULL), FACET_OK);
+    assert_int_equal(again->note_count, 0);
+    assert_int_equal(again->extension_count, 1);
+    assert_true(again->extensions[0].is_required);
+    for (int i = 0; i < 9; i++)
+        assert_true(again->meshes[0].origin[i % 3] + (double)again->meshes[0].primitives[0].positions[i] ==
+                    triangle[i]);
+    scene_destroy(again);
+    scene_destroy(scene);
+    empty_folder();
+}
+
 static void characters_0_in_extras_survive(void **state)
 {
     (void)state;
@@ -620,6 +649,7 @@ int main(void)
         cmocka_unit_test(values_that_glTF_forbids_are_not_written),
         cmocka_unit_test(empty_targets_keep_their_index),
         cmocka_unit_test(distant_vertices_round_trip),
+        cmocka_unit_test(distant_doubles_round_trip),
         cmocka_unit_test(characters_0_in_extras_survive),
         cmocka_unit_test(names_need_not_be_UTF_8),
         cmocka_unit_test(all_files_are_written_or_none),
