@@ -113,6 +113,7 @@ FACET_API facet_result facet_scene_find_variant(const facet_scene *scene, const 
 typedef struct facet_animation {
     const char *name;      /* "": unnamed; lives as long as the scene */
     double begin_s, end_s; /* first and last keyframe */
+    bool is_external;      /* of an external asset (glTF 2.1), which plays with the file's own animation */
 } facet_animation;
 /* {0} past the end. */
 FACET_API facet_animation facet_scene_get_animation(const facet_scene *scene, uint32_t index);

@@ -209,8 +209,10 @@ facet_animation facet_scene_get_animation(const facet_scene *scene, uint32_t ind
     if (index >= scene->animation_count)
         return (facet_animation){0};
     const scene_animation *animation = &scene->animations[index];
-    return (facet_animation){
-        .name = animation->name, .begin_s = (double)animation->begin_s, .end_s = (double)animation->end_s};
+    return (facet_animation){.name = animation->name,
+                             .begin_s = (double)animation->begin_s,
+                             .end_s = (double)animation->end_s,
+                             .is_external = animation->is_external};
 }
 
 facet_result facet_scene_place(facet_scene *scene, const float matrix[16], facet_error *error)

@@ -481,6 +481,7 @@ void scene_describe_json(const facet_scene *scene, struct text *t)
     write_bounds(t, scene, NULL);
     describe_index(t, "default_scene", scene->default_scene);
     write_scenes(t, scene);
+    describe_externals(t, scene);
     DESCRIBE_ARRAY("nodes", scene->nodes, scene->node_count, write_node);
     write_meshes(t, scene);
     describe_materials(t, scene);

@@ -20,6 +20,7 @@ void describe_meta(text *t, const scene_meta *meta);
 
 void describe_materials(text *t, const facet_scene *scene); /* "materials" */
 void describe_images(text *t, const facet_scene *scene);    /* "textures", "images" */
+void describe_externals(text *t, const facet_scene *scene); /* "external_assets", if any */
 void describe_legacy(text *t, const facet_scene *scene);    /* "legacy", if any */
 
 #endif

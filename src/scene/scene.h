@@ -329,6 +329,7 @@ typedef struct scene_animation {
     const scene_channel *channels; /* later ones take precedence for the same target */
     const scene_sampler *samplers;
     float begin_s, end_s; /* first and last key of all */
+    bool is_external;     /* of an external asset, which plays with the file's own */
     scene_meta meta;
 } scene_animation;
 
@@ -356,12 +357,21 @@ typedef struct scene_part {
     uint32_t first[SCENE_ITEM_COUNT]; /* index in the scene of what has the number 0 in that file */
 } scene_part;
 
+/* An asset of another file whose roots are children of a node (glTF 2.1: externalAssets), with those inside it. */
+typedef struct scene_external {
+    const char *name; /* the path of nodes to it, "stage/lamp" */
+    const char *file; /* its path, or where it is embedded */
+    uint32_t node;
+    uint32_t depth;      /* 0: of this file; 1: of an asset in it, .. */
+    uint32_t node_count; /* with those of the assets inside it */
+} scene_external;
+
 /* An array that was joined, with space for what is appended next: in scene/parts.c. */
 typedef struct scene_room {
     const void *array;
     size_t capacity; /* bytes */
 } scene_room;
-enum { SCENE_ROOM_COUNT = 16 };
+enum { SCENE_ROOM_COUNT = 17 };
 
 typedef struct facet_scene {
     facet_allocator allocator;
@@ -395,6 +405,8 @@ typedef struct facet_scene {
     /* Raised by every change after loading, so that renderers drop what they have made of an earlier state:
      * by the place of a part or the values of a material; by anything else. */
     uint64_t place_revision, content_revision;
+    uint32_t external_count;
+    scene_external *externals;
     uint32_t part_count; /* 0: the scene was neither placed nor joined with another */
     scene_part *parts;
     scene_room rooms[SCENE_ROOM_COUNT];

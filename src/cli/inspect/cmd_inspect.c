@@ -312,6 +312,25 @@ static void print_textures(FILE *stream, const json_t *textures, bool all)
     print_rest(stream, count, all);
 }
 
+/* Prints the tree of files that the model refers to. */
+static void print_externals(FILE *stream, const json_t *list, bool all)
+{
+    size_t count = json_array_size(list);
+    if (!count)
+        return;
+    print_heading(stream, "External assets", count);
+    table t = {.column_count = 3};
+    for (size_t i = 0; i < count && (all || i < FEW); i++) {
+        const json_t *item = json_array_get(list, i);
+        long long nodes = integer_of(item, "nodes"), depth = integer_of(item, "depth");
+        table_add(&t, "%*s%s", (int)(2 * (depth < 16 ? depth : 16)), "", text_of(item, "name"));
+        table_add(&t, "%lld node%s", nodes, nodes == 1 ? "" : "s");
+        table_add(&t, "%s", text_of(item, "file"));
+    }
+    table_print(&t, stream, 2);
+    print_rest(stream, count, all);
+}
+
 /* Prints cameras, lights and scenes, which options refer to. */
 static void print_named(FILE *stream, const json_t *list, const char *title, bool all)
 {
@@ -443,6 +462,7 @@ static void print_text(FILE *stream, const char *name, const json_t *model, bool
                 has_extras && has_xmp ? ", " : "", has_xmp ? "XMP" : "");
     if (json_array_size(json_object_get(model, "scenes")) > 1)
         print_named(stream, json_object_get(model, "scenes"), "Scenes", all);
+    print_externals(stream, json_object_get(model, "external_assets"), all);
     print_materials(stream, json_object_get(model, "materials"), all);
     print_legacy(stream, json_object_get(model, "legacy"), all);
     print_textures(stream, json_object_get(model, "textures"), all);

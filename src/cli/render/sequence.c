@@ -9,7 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Chooses the animations: the named one, else the first one if a time or frames are given. */
+/* Chooses the animations: the named one, else the first one, and those of external assets, if a time or frames are
+ * given. */
 static facet_result choose_animations(const facet_scene *scene, const char *name, const render_options *o,
                                       sequence *out, facet_error *error)
 {
@@ -26,12 +27,13 @@ static facet_result choose_animations(const facet_scene *scene, const char *name
                           : o->has_fps  ? "fps"
                                         : "frames");
     bool all = o->animation && strcmp(o->animation, "all") == 0;
-    uint32_t count = all ? there : 1;
-    out->animations = calloc(count, sizeof *out->animations);
+    out->animations = calloc(there, sizeof *out->animations);
     if (!out->animations)
         return fail(error, FACET_ERROR_MEMORY, "out of memory: animations");
-    for (uint32_t i = 0; i < count; i++)
-        out->animations[i] = i;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < there; i++)
+        if (i == 0 || all || (!o->animation && facet_scene_get_animation(scene, i).is_external))
+            out->animations[count++] = i;
     if (o->animation && !all) {
         facet_result result = facet_scene_find_animation(scene, o->animation, &out->animations[0], error);
         if (result != FACET_OK)

@@ -7,7 +7,7 @@
 
 #include "base/result.h"
 #include "io/file_source.h"
-#include "io/gltf/gltf_reader.h"
+#include "io/gltf/gltf_external.h"
 
 /* ---- the container: header, JSON chunk, binary chunk ---- */
 
@@ -150,15 +150,14 @@ static void read_asset(io_reader *r, const json_place *root)
                 minor);
         return;
     }
-    if (minor != 0)
-        io_warn(r, &asset, "version", "is glTF %u.%u; it is read as glTF 2.0", major, minor);
+    r->gltf->has_externals = minor >= 1;
+    if (minor > 1)
+        io_warn(r, &asset, "version", "is glTF %u.%u; it is read as glTF 2.1", major, minor);
     if (minimum && !parse_version(minimum, &major, &minor))
         io_note(r, &asset, "minVersion", "\"%.40s\" is not a version", minimum);
-    else if (minimum && (major > 2 || minor > 0))
+    else if (minimum && (major > 2 || minor > 1))
         io_fail(r, &asset, "minVersion", FACET_ERROR_UNSUPPORTED,
-                "requires a reader of glTF %u.%u; facet "
-                "reads 2.0",
-                major, minor);
+                "requires a reader of glTF %u.%u; facet reads 2.1", major, minor);
     if (!io_is_ok(r))
         return;
     r->scene->version = copy_string(r, &asset, "version");
@@ -184,8 +183,13 @@ static void read_document(io_reader *r)
     enum { IMAGES = 4 /* concerns up to images */, ALL = sizeof concerns / sizeof *concerns };
     for (size_t i = 0; i < (r->gltf->reads_images_only ? IMAGES : ALL) && io_is_ok(r); i++)
         concerns[i](r, &root);
-    if (io_is_ok(r) && !r->gltf->reads_images_only)
-        gltf_check_unused_parts(r);
+    if (r->gltf->outer)
+        r->gltf->outer->has_default_scene = io_has_member(&root, "scene");
+    if (!io_is_ok(r) || r->gltf->reads_images_only)
+        return;
+    gltf_check_unused_parts(r);
+    if (io_is_ok(r))
+        gltf_read_externals(r, &root); /* the arrays of the scene grow */
 }
 
 static void read_bytes(io_reader *r, const unsigned char *bytes, size_t size)
@@ -222,7 +226,7 @@ static void read_bytes(io_reader *r, const unsigned char *bytes, size_t size)
 }
 
 /* Reads the bytes of file, which the scene takes over. folder: as in io_reader. */
-static facet_result load(file_bytes *file, const char *source, const char *folder, bool reads_images_only,
+static facet_result load(file_bytes *file, const char *source, const char *folder, gltf_tables tables,
                          const facet_scene_desc *desc, facet_scene **out, facet_error *error)
 {
     facet_scene *scene = NULL;
@@ -235,7 +239,7 @@ static facet_result load(file_bytes *file, const char *source, const char *folde
         scene_destroy(scene);
         return fail_memory(error, "files", sizeof *file);
     }
-    gltf_tables tables = {.reads_images_only = reads_images_only};
+    tables.path = scene->source;
     io_reader r = {.scene = scene,
                    .gltf = &tables,
                    .allocator = &desc->allocator,
@@ -245,10 +249,13 @@ static facet_result load(file_bytes *file, const char *source, const char *folde
                    .max_file_bytes = file_limit(desc->max_file_bytes),
                    .files = &desc->files,
                    .folder = folder,
-                   .root = desc->root};
+                   .root = desc->root,
+                   .work = tables.outer ? tables.outer->state->work : 0};
     io_begin_remarks(&r);
     read_bytes(&r, bytes, size);
     io_end_remarks(&r);
+    if (tables.outer)
+        tables.outer->state->work = r.work;
     if (r.result != FACET_OK) {
         scene_destroy(scene);
         return r.result;
@@ -266,7 +273,9 @@ static facet_result load_path(const char *path, bool reads_images_only, const fa
     file_bytes file = {0};
     TRY(model_file_open(path, desc, &file, error));
     char *folder = path_folder(&desc->allocator, path);
-    facet_result result = folder ? load(&file, path, folder, reads_images_only, desc, scene, error)
+    const gltf_tables tables = {
+        .reads_images_only = reads_images_only, .device = file.device, .number = file.number};
+    facet_result result = folder ? load(&file, path, folder, tables, desc, scene, error)
                                  : fail_memory(error, "path", strlen(path));
     mem_free(folder);
     file_close(&file);
@@ -298,7 +307,17 @@ facet_result gltf_load_memory(const void *bytes, size_t size, const char *name, 
     memcpy(copy, bytes, size);
     copy[size] = 0;
     file_bytes file = {.data = copy, .size = size, .mapping = copy};
-    facet_result result = load(&file, name, NULL, false, desc, scene, error);
+    facet_result result = load(&file, name, NULL, (gltf_tables){0}, desc, scene, error);
     file_close(&file);
     return result;
+}
+
+facet_result gltf_load_asset(const uri_bytes *bytes, const char *path, const char *folder, uint64_t device,
+                             uint64_t number, const facet_scene_desc *desc, gltf_outer *outer,
+                             facet_scene **scene, facet_error *error)
+{
+    const gltf_tables tables = {.outer = outer, .device = device, .number = number};
+    file_bytes file = {.data = bytes->data, .size = bytes->size}; /* of the file that refers to it */
+    *scene = NULL;
+    return load(&file, path, folder, tables, desc, scene, error);
 }

@@ -98,7 +98,7 @@ static bool load_buffer(io_reader *r, const json_place *at, uint32_t index)
     size_t size = 0;
     if (buffer->uri) {
         uri_bytes bytes;
-        if (!io_load_uri(r, buffer->uri, &bytes)) { /* searched for once only */
+        if (!gltf_load_uri(r, buffer->uri, &bytes)) { /* searched for once only */
             io_fail(r, at, "uri", bytes.result, "%s", bytes.message);
             return io_defer(r, &buffer->problem) && io_fail_deferred(r, &buffer->problem);
         }
@@ -166,7 +166,7 @@ void gltf_check_unused_parts(io_reader *r)
         uri_bytes bytes;
         io_warn_deferred(r, &r->gltf->buffers[i].problem);
         if (!r->gltf->buffers[i].data && r->gltf->buffers[i].uri && !r->gltf->buffers[i].is_fallback &&
-            !io_load_uri(r, r->gltf->buffers[i].uri, &bytes))
+            !gltf_load_uri(r, r->gltf->buffers[i].uri, &bytes))
             io_note(r, &at, "uri", "%s; nothing uses it", bytes.message);
     }
     for (uint32_t i = 0; i < r->gltf->view_count; i++)

@@ -331,10 +331,10 @@ static void other_versions_are_refused(void **state)
         {"{'asset':{'version':'two'}}", FACET_ERROR_INVALID, "is not a version"},
         {"{'asset':{'version':'20'}}", FACET_ERROR_INVALID, "is not a version"},
         {"{'asset':{'version':2}}", FACET_ERROR_INVALID, "must be a string, but is a number"},
-        {"{'asset':{'version':'2.0','minVersion':'2.1'}}", FACET_ERROR_UNSUPPORTED,
-         "requires a reader of glTF 2.1"},
-        {"{'asset':{'version':'2.1'}}", FACET_OK, "is glTF 2.1; it is read as glTF 2.0"},
-        {"{'asset':{'version':'2.1','minVersion':'2.0'}}", FACET_OK, "is glTF 2.1; it is read as glTF 2.0"},
+        {"{'asset':{'version':'2.0','minVersion':'2.2'}}", FACET_ERROR_UNSUPPORTED,
+         "requires a reader of glTF 2.2"},
+        {"{'asset':{'version':'2.2'}}", FACET_OK, "is glTF 2.2; it is read as glTF 2.1"},
+        {"{'asset':{'version':'2.2','minVersion':'2.1'}}", FACET_OK, "is glTF 2.2; it is read as glTF 2.1"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         facet_scene *scene = NULL;

@@ -88,6 +88,8 @@ typedef struct gltf_mesh {
 
 typedef struct gltf_draco_state gltf_draco_state; /* gltf_draco.c */
 
+typedef struct gltf_outer gltf_outer; /* gltf_external.h */
+
 /* State of the glTF reader: io_reader.gltf. */
 typedef struct gltf_tables {
     const unsigned char *bin; /* binary chunk of a .glb; NULL: none */
@@ -108,6 +110,10 @@ typedef struct gltf_tables {
     bool reads_images_only; /* gltf_load_images() */
     bool has_quantization;
     bool has_decoded_views;  /* some buffer view was decompressed */
+    gltf_outer *outer;       /* the file that refers to this one; NULL: none */
+    const char *path;        /* of this file, or where it is embedded */
+    uint64_t device, number; /* identify the file under any name; number 0: none */
+    bool has_externals;      /* it is glTF 2.1 */
     gltf_draco_state *draco; /* NULL: no primitive has used it yet */
     /* corners of the primitive that is being read, from its Draco bitstream; NULL: it has none */
     const uint32_t *faces;
@@ -251,6 +257,11 @@ void gltf_read_animations(io_reader *r, const json_place *root);
 /* gltf_hierarchy.c */
 /* The children of node `index`. */
 void gltf_read_children(io_reader *r, const json_place *at, uint32_t index, uint32_t node_count);
+/* gltf_external.c: io_load_uri() where the file that refers to this one may replace URIs (glTF 2.1: aliases). */
+bool gltf_load_uri(io_reader *r, const char *uri, uri_bytes *out);
+/* After everything else: reads the external assets of nodes (glTF 2.1) and attaches them. */
+void gltf_read_externals(io_reader *r, const json_place *root);
+
 /* After all nodes are read: sets their parents. A node with several parents is copied for each but the
  * first. */
 void gltf_settle_hierarchy(io_reader *r, const json_place *array);

@@ -40,7 +40,7 @@ static bool find_bytes(io_reader *r, const json_place *at, scene_image *out)
     }
     if (uri) {
         uri_bytes bytes;
-        if (!io_load_uri(r, uri, &bytes)) {
+        if (!gltf_load_uri(r, uri, &bytes)) {
             if (bytes.result == FACET_ERROR_MEMORY)
                 return io_fail(r, at, "uri", bytes.result, "%s", bytes.message);
             io_warn_each(r, at, "uri", "%s; white is used", bytes.message);
