@@ -6,6 +6,7 @@
 
 #include "image/block.h"
 #include "image/codec.h"
+#include "image/half.h"
 #include "tests/support/support.h"
 
 enum { WIDTH = 7, HEIGHT = 5, MAX_FILE = 65536 };
@@ -574,16 +575,101 @@ static void dds_with_uncompressed_texels(void **state)
     }
 }
 
+/* 2 x 2 blocks of halves, cropped to 7 x 5 texels. */
+static void dds_with_blocks_of_halves(void **state)
+{
+    (void)state;
+    static const struct {
+        uint32_t dxgi;
+        block_decode *decode;
+    } kinds[] = {{95, bc6h_decode}, {96, bc6h_signed_decode}};
+    for (size_t k = 0; k < 2; k++) {
+        made m;
+        unsigned char blocks[64];
+        put_dds_header(&m, 4, "DX10", 0, NULL, kinds[k].dxgi);
+        for (uint32_t i = 0; i < sizeof blocks; i++)
+            blocks[i] = (unsigned char)(i * 37 + 11);
+        put(&m, blocks, sizeof blocks);
+        image i;
+        assert_int_equal(image_decode(m.bytes, m.size, "a", NULL, &i, NULL), FACET_OK);
+        assert_int_equal(i.type, IMAGE_F16);
+        assert_int_equal(i.channel_count, 3);
+        assert_false(i.is_srgb);
+        for (uint32_t y = 0; y < HEIGHT; y++)
+            for (uint32_t x = 0; x < WIDTH; x++) {
+                uint16_t tile[64];
+                kinds[k].decode(blocks + (y / 4 * 2 + x / 4) * 16, tile);
+                assert_memory_equal((const uint16_t *)i.pixels + 3 * (y * WIDTH + x),
+                                    tile + 4 * (y % 4 * 4 + x % 4), 3 * sizeof *tile);
+            }
+        image_destroy(&i);
+    }
+}
+
+/* Signed directions have the codes of unsigned ones. */
+static void dds_with_signed_normals(void **state)
+{
+    (void)state;
+    made m;
+    put_dds_header(&m, 4, "BC5S", 0, NULL, 0);
+    for (int i = 0; i < 4; i++) /* x = 1, y = -127/127 in all texels */
+        put(&m, (unsigned char[16]){0x7f, 0x7f, 0, 0, 0, 0, 0, 0, 0x81, 0x81}, 16);
+    image i = decode_made(&m, IMAGE_CODEC_DDS);
+    assert_int_equal(i.channel_count, 3);
+    for (uint32_t t = 0; t < WIDTH * HEIGHT; t++)
+        assert_memory_equal((const uint8_t *)i.pixels + 3 * t, ((uint8_t[3]){255, 0, 128}), 3);
+    image_destroy(&i);
+}
+
+static void dds_with_floats(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *letters;
+        uint32_t dxgi, size, channel_count;
+    } kinds[] = {
+        {"DX10", 2, 4, 4}, {"DX10", 6, 4, 3}, {"DX10", 10, 2, 4}, {"q\0\0\0", 0, 2, 4}, {"t\0\0\0", 0, 4, 4}};
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+        made m;
+        put_dds_header(&m, 4, kinds[k].letters, 0, NULL, kinds[k].dxgi);
+        for (uint32_t c = 0; c < WIDTH * HEIGHT * kinds[k].channel_count; c++) {
+            const float value = c == 5 ? INFINITY : 0.25f * (float)c - 1.0f;
+            uint32_t bits;
+            memcpy(&bits, &value, sizeof bits);
+            /* quarters up to 64 are exact in halves */
+            const unsigned half = half_from_float(value);
+            put(&m,
+                kinds[k].size == 4 ? (unsigned char[4]){bits & 255, bits >> 8 & 255, bits >> 16 & 255,
+                                                        (unsigned char)(bits >> 24)}
+                                   : (unsigned char[4]){half & 255, (unsigned char)(half >> 8)},
+                kinds[k].size);
+        }
+        image i;
+        assert_int_equal(image_decode(m.bytes, m.size, "a", NULL, &i, NULL), FACET_OK);
+        assert_int_equal(i.type, IMAGE_F32);
+        assert_int_equal(i.channel_count, kinds[k].channel_count);
+        assert_false(i.is_srgb);
+        for (uint32_t c = 0; c < WIDTH * HEIGHT * kinds[k].channel_count; c++) {
+            const float value = ((const float *)i.pixels)[c];
+            assert_true(c == 5 ? isfinite(value) : value == 0.25f * (float)c - 1.0f);
+        }
+        image_destroy(&i);
+        m.size -= kinds[k].size; /* a component is missing */
+        facet_error error;
+        assert_int_equal(image_decode(m.bytes, m.size, "a", NULL, &i, &error), FACET_ERROR_INVALID);
+    }
+}
+
 static void unsupported_dds_kinds_are_named(void **state)
 {
     (void)state;
     made m;
     image i;
     facet_error error;
-    put_dds_header(&m, 4, "DX10", 0, NULL, 95);
+    put_dds_header(&m, 4, "DX10", 0, NULL, 26);
     put(&m, (unsigned char[64]){0}, 64);
     assert_int_equal(image_decode(m.bytes, m.size, "a", NULL, &i, &error), FACET_ERROR_UNSUPPORTED);
-    assert_non_null(strstr(error.message, "a: DDS: texels of DXGI format 95 are not read"));
+    assert_non_null(strstr(error.message, "a: DDS: texels of DXGI format 26 are not read"));
     put_dds_header(&m, 4, "UYVY", 0, NULL, 0);
     assert_int_equal(image_decode(m.bytes, m.size, "a", NULL, &i, &error), FACET_ERROR_UNSUPPORTED);
     assert_non_null(strstr(error.message, "\"UYVY\""));
@@ -603,6 +689,9 @@ int main(void)
         cmocka_unit_test(gif_sizes_are_checked),
         cmocka_unit_test(dds_with_blocks),
         cmocka_unit_test(dds_with_uncompressed_texels),
+        cmocka_unit_test(dds_with_blocks_of_halves),
+        cmocka_unit_test(dds_with_signed_normals),
+        cmocka_unit_test(dds_with_floats),
         cmocka_unit_test(unsupported_dds_kinds_are_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
