@@ -20,6 +20,7 @@ enum { BANDS = LIGHT_ENVIRONMENT_BANDS, BLOCKS = LIGHT_ENVIRONMENT_BLOCKS, CELLS
 struct light_environment {
     const image *map;
     float scale, rotation_cos, rotation_sin;
+    float floor;            /* of radiance, mean of the channels, unscaled: only what exceeds it is sampled */
     uint32_t width, height; /* patches: as many columns as points, one more row */
     bool is_finer;          /* than the image */
     uint32_t *columns;      /* per row, per block: ends of counts, in proportion to the patches' radiance */
@@ -46,16 +47,17 @@ static inline float mean_of_channels(const float *texel)
     return (texel[0] + texel[1] + texel[2]) * (1.0f / 3.0f);
 }
 
-/* Mean of the channels at point x of row y, unscaled. */
+/* Mean of the channels at point x of row y above the floor, unscaled. */
 static inline float radiance_at(const light_environment *e, uint32_t x, uint32_t y)
 {
     const image *p = e->map;
     if (!e->is_finer)
-        return mean_of_channels((const float *)p->pixels + 3 * ((size_t)p->width * y + x));
+        return max(mean_of_channels((const float *)p->pixels + 3 * ((size_t)p->width * y + x)) - e->floor,
+                   0.0f);
     equirect_point point = {((float)x + 0.5f) / (float)e->width - 0.5f,
                             ((float)y + 0.5f) / (float)(e->height - 1)};
     rgbx c = equirect_fetch(p, point);
-    return mean_of_channels((float[3]){c[0], c[1], c[2]});
+    return max(mean_of_channels((float[3]){c[0], c[1], c[2]}) - e->floor, 0.0f);
 }
 
 enum {
@@ -253,7 +255,21 @@ static uint32_t points_for(uint32_t size, uint32_t finest)
     return size < finest ? (finest + size - 1) / size | 1u : 1;
 }
 
-facet_result light_environment_create(const image *map, const light_setup *light,
+/* Half of the mean radiance. Relative MSE of 16 samples with 0, .3, .5, 1 times the mean, over that of 0: sun and sky
+ * .94, .89, .86; glass under soft boxes .94, .89, .89; an armchair under a clear sky .69, .66, .67; a bottle in a hall
+ * .80, .93, 1.02. Where light samples are nearly free of noise, as on a diffuse surface that nothing shades, the
+ * whole mean adds the noise of BSDF samples. */
+static facet_result find_floor(light_environment *e, const facet_allocator *allocator, uint32_t thread_count,
+                               facet_error *error)
+{
+    double mean[3];
+    TRY(equirect_mean(e->map, allocator, thread_count, mean, error));
+    float floor = 0.5f * mean_of_channels((float[3]){(float)mean[0], (float)mean[1], (float)mean[2]});
+    e->floor = floor < INFINITY ? floor : 0.0f;
+    return FACET_OK;
+}
+
+facet_result light_environment_create(const image *map, const light_setup *light, bool is_compensated,
                                       const facet_allocator *allocator, uint32_t thread_count,
                                       light_environment **out, facet_error *error)
 {
@@ -270,7 +286,9 @@ facet_result light_environment_create(const image *map, const light_setup *light
     e->height = map->height * points_for(map->height, FINEST_HEIGHT) + 1;
     e->is_finer = e->width > map->width || e->height > map->height + 1;
     facet_result result = FACET_OK;
-    if (allocate(&b, allocator)) {
+    if (is_compensated)
+        result = find_floor(e, allocator, thread_count, error);
+    if (result == FACET_OK && allocate(&b, allocator)) {
         make_tables(&b);
         parallel_for(thread_count, e->height, 16, make_rows, &b);
         float all = 0.0f;
@@ -280,7 +298,7 @@ facet_result light_environment_create(const image *map, const light_setup *light
         }
         if (all > 0.0f && all < INFINITY)
             *out = e;
-    } else {
+    } else if (result == FACET_OK) {
         result = fail_memory(error, "environment", (size_t)e->width * e->height * sizeof *e->columns);
     }
     mem_free(b.column_cos);

@@ -2,8 +2,8 @@
  * each texel gives a surface.
  *
  * The density is bilinear between texel centers, as radiance is (the mean of its three channels), and
- * differs from it only by the change of solid angle within a row near the poles: it is positive wherever
- * radiance is, and uniform where radiance is. Above the patches of four texels there are
+ * differs from it only by the change of solid angle within a row near the poles: without compensation it is
+ * positive wherever radiance is, and uniform where radiance is. Above the patches of four texels there are
  * LIGHT_ENVIRONMENT_CELLS parts of the sphere, each weighted by its light and by the cosine at the
  * surface (product sampling on the coarse levels: Clarberg et al. 2005, "Wavelet Importance Sampling";
  * Cline et al. 2006, "Two Stage Importance Sampling for Direct Lighting"). Nearby random numbers give
@@ -25,8 +25,12 @@ enum {
 typedef struct light_environment light_environment;
 
 /* For an image (F32 RGB, finite, not negative) that outlives it, rotated and scaled as in light. *out:
- * NULL where it is black. Takes 4 bytes per texel. Fails with FACET_ERROR_MEMORY. */
-facet_result light_environment_create(const image *map, const light_setup *light,
+ * NULL where it is black. Takes 4 bytes per texel. Fails with FACET_ERROR_MEMORY.
+ *
+ * is_compensated: only radiance above half of its mean over the sphere is sampled. The rest is left to BSDF samples,
+ * with which these must be combined by multiple importance sampling. Karlik et al. 2019, "MIS Compensation:
+ * Optimizing Sampling Techniques in Multiple Importance Sampling". */
+facet_result light_environment_create(const image *map, const light_setup *light, bool is_compensated,
                                       const facet_allocator *allocator, uint32_t thread_count,
                                       light_environment **out, facet_error *error);
 void light_environment_destroy(light_environment *e); /* NULL is allowed */

@@ -61,12 +61,17 @@ static light_setup placed(float rotation_rad, float scale)
         .scale = scale, .rotation_cos = cosf(rotation_rad), .rotation_sin = sinf(rotation_rad)};
 }
 
-static light_environment *make_environment(const image *map, float rotation_rad, float scale)
+static light_environment *make_any(const image *map, float rotation_rad, float scale, bool is_compensated)
 {
     light_setup light = placed(rotation_rad, scale);
     light_environment *e;
-    assert_int_equal(light_environment_create(map, &light, NULL, 2, &e, NULL), FACET_OK);
+    assert_int_equal(light_environment_create(map, &light, is_compensated, NULL, 2, &e, NULL), FACET_OK);
     return e;
+}
+
+static light_environment *make_environment(const image *map, float rotation_rad, float scale)
+{
+    return make_any(map, rotation_rad, scale, false);
 }
 
 static vec3 random_direction(void)
@@ -326,14 +331,113 @@ static void stratified_numbers_reduce_noise(void **state)
 
 /* ---- limits ---- */
 
+static float mean_of(vec3 channels)
+{
+    return (channels[0] + channels[1] + channels[2]) * (1.0f / 3.0f);
+}
+
+/* One light sample and one cosine sample, weighted by the power heuristic. */
+static estimate irradiance_by_both(const light_environment *e, vec3 N, int count)
+{
+    light_environment_view view;
+    light_environment_see(e, N, &view);
+    mat3 frame = basis_from_normal(N);
+    double sum = 0.0;
+    double sum2 = 0.0;
+    for (int k = 0; k < count; k++) {
+        double x = 0.0;
+        for (int strategy = 0; strategy < 2; strategy++) {
+            double u[2] = {random_number(), random_number()};
+            vec3 d = mul(frame, sample_cosine(vec2((float)u[0], (float)u[1])));
+            double pdfs[2];
+            pdfs[0] = (double)(strategy ? light_environment_pdf(e, &view, d)
+                                        : light_environment_sample(e, &view, u, &d));
+            pdfs[1] = (double)pdf_cosine(max(dot(N, d), 0.0f));
+            double squares = pdfs[0] * pdfs[0] + pdfs[1] * pdfs[1];
+            x += (double)(light_environment_radiance(e, d)[0] * max(dot(N, d), 0.0f)) * pdfs[strategy] /
+                 squares;
+        }
+        sum += x;
+        sum2 += x * x;
+    }
+    double mean = sum / count;
+    return (estimate){mean, sqrt(fmax(sum2 / count - mean * mean, 0.0) / count)};
+}
+
+/* With BSDF samples the result is the same whether the mean is sampled or left to them. */
+static void compensation_keeps_the_mean(void **state)
+{
+    (void)state;
+    enum { COUNT = 200000 };
+    image map = make_sky(96, 48, 20);
+    light_environment *plain = make_any(&map, 0.4f, 3.0f, false);
+    light_environment *compensated = make_any(&map, 0.4f, 3.0f, true);
+    for (int i = 1; i < 4; i++) {
+        estimate a = irradiance(plain, normal_number(i), COUNT);
+        estimate b = irradiance_by_both(compensated, normal_number(i), COUNT);
+        if (fabs(a.mean - b.mean) > 4.0 * hypot(a.error, b.error) || b.error > 2e-3 * b.mean)
+            fail_msg("normal %d: %.5f +- %.5f, compensated %.5f +- %.5f", i, a.mean, a.error, b.mean,
+                     b.error);
+    }
+    light_environment_destroy(plain);
+    light_environment_destroy(compensated);
+    image_destroy(&map);
+}
+
+/* Compensated, the density is positive above half of the mean radiance and 0 well below it; it integrates to 1, and
+ * samples have it. That of a constant is uniform. */
+static void compensated_densities_are_of_the_excess(void **state)
+{
+    (void)state;
+    enum { COUNT = 400000 };
+    image map = make_sky(96, 48, 0);
+    double mean[3];
+    assert_int_equal(equirect_mean(&map, NULL, 1, mean, NULL), FACET_OK);
+    double floor = 0.5 * (mean[0] + mean[1] + mean[2]) / 3.0;
+    light_environment *e = make_any(&map, 0.4f, 1.0f, true);
+    light_environment_view view;
+    light_environment_see(e, vec3(0.0f), &view);
+    double sum = 0.0;
+    int below = 0;
+    for (int k = 0; k < COUNT; k++) {
+        vec3 d = random_direction();
+        float pdf = light_environment_pdf(e, &view, d);
+        sum += (double)pdf;
+        double radiance = (double)mean_of(light_environment_radiance(e, d));
+        if (radiance > 1.001 * floor)
+            assert_true(pdf > 0.0f);
+        if (radiance < 0.95 * floor && d[1] > 0.0f) { /* away from the edge of the black part */
+            assert_true(pdf == 0.0f);
+            below++;
+        }
+        double u[2] = {random_number(), random_number()};
+        pdf = light_environment_sample(e, &view, u, &d);
+        assert_true(pdf > 0.0f && fabsf(pdf / light_environment_pdf(e, &view, d) - 1.0f) < 0.02f);
+    }
+    assert_true(fabs(sum * 4.0 * pi / COUNT - 1.0) < 5e-3);
+    assert_true(below > 0);
+    light_environment_destroy(e);
+    for (size_t k = 0; k < (size_t)3 * 96 * 48; k++)
+        ((float *)map.pixels)[k] = 0.7f;
+    e = make_any(&map, 0.4f, 3.0f, true);
+    light_environment_see(e, vec3(0.0f), &view);
+    for (int k = 0; k < 100; k++) {
+        vec3 d = random_direction();
+        assert_true(fabs((double)light_environment_pdf(e, &view, d) * 4.0 * pi - 1.0) < 1e-4);
+        assert_true(fabsf(light_environment_radiance(e, d)[1] - 2.1f) < 1e-5f);
+    }
+    light_environment_destroy(e);
+    image_destroy(&map);
+}
+
 static void results_do_not_depend_on_threads(void **state)
 {
     (void)state;
     image map = make_sky(200, 100, 20);
     light_setup light = placed(0.3f, 1.0f);
     light_environment *e[2];
-    assert_int_equal(light_environment_create(&map, &light, NULL, 1, &e[0], NULL), FACET_OK);
-    assert_int_equal(light_environment_create(&map, &light, NULL, 7, &e[1], NULL), FACET_OK);
+    assert_int_equal(light_environment_create(&map, &light, false, NULL, 1, &e[0], NULL), FACET_OK);
+    assert_int_equal(light_environment_create(&map, &light, false, NULL, 7, &e[1], NULL), FACET_OK);
     for (int i = 0; i < 1000; i++) {
         double u[2] = {random_number(), random_number()};
         vec3 N = normal_number(i % 4);
@@ -363,7 +467,7 @@ static void memory_is_a_third_of_the_map(void **state)
         assert_int_equal(facet_budget_create(limit, &budget, NULL), FACET_OK);
         facet_allocator allocator = facet_budget_allocator(budget);
         light_environment *e;
-        facet_result result = light_environment_create(&map, &light, &allocator, 2, &e, NULL);
+        facet_result result = light_environment_create(&map, &light, true, &allocator, 2, &e, NULL);
         assert_int_equal(result, limit == bytes / 2 ? FACET_OK : FACET_ERROR_MEMORY);
         if (result != FACET_OK)
             assert_null(e);
@@ -415,6 +519,8 @@ int main(void)
         cmocka_unit_test(samples_have_their_density),
         cmocka_unit_test(irradiance_agrees_with_a_sum_over_the_map),
         cmocka_unit_test(stratified_numbers_reduce_noise),
+        cmocka_unit_test(compensation_keeps_the_mean),
+        cmocka_unit_test(compensated_densities_are_of_the_excess),
         cmocka_unit_test(results_do_not_depend_on_threads),
         cmocka_unit_test(memory_is_a_third_of_the_map),
         cmocka_unit_test(extremes_are_finite),

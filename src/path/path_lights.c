@@ -221,7 +221,8 @@ facet_result path_lights_create(const render_setup *setup, path_lights **out, fa
     lights->sun = sun_create(&desc->sun);
     facet_result result = take_punctual(lights, allocator, error);
     if (result == FACET_OK && desc->environment)
-        result = light_environment_create(&desc->environment->panorama, &setup->light, allocator,
+        result = light_environment_create(&desc->environment->panorama, &setup->light,
+                                          desc->path.light_sampling == FACET_LIGHT_SAMPLING_MIS, allocator,
                                           desc->thread_count, &lights->environment, error);
     if (result == FACET_OK)
         result =
