@@ -579,7 +579,7 @@ static void styles_are_refused_or_followed(void **state)
                  {{.masking = FACET_SEA_MASKING_SCHLICK_KARIS}, FACET_ERROR_ARGUMENT},
                  {{.omits_glints = true}, FACET_ERROR_ARGUMENT},
                  {{.omits_caustics = true}, FACET_ERROR_ARGUMENT},
-                 {{.clamp = 10.0f}, FACET_ERROR_ARGUMENT},
+                 {{.clamp = 10.0f}, FACET_OK},
                  {{.omits_foam = true}, FACET_OK},
                  {{.has_schlick_fresnel = true}, FACET_OK},
                  {{.perceptual_roughness = 0.3f}, FACET_OK}};
@@ -592,6 +592,39 @@ static void styles_are_refused_or_followed(void **state)
             assert_non_null(strstr(failure.message, "path tracing"));
         facet_image_destroy(made);
     }
+    end(&p);
+}
+
+static float brightest(const facet_image *image)
+{
+    facet_image_view v = facet_image_get_layer(image, 0);
+    float most = 0.0f;
+    for (size_t i = 0; i < (size_t)4 * v.width * v.height; i++)
+        most = i % 4 != 3 && v.pixels[i] > most ? v.pixels[i] : most;
+    return most;
+}
+
+/* facet_sea_shading.clamp limits radiance times exposure in both renderers: of the sun's reflection nothing is
+ * brighter, and where the image is darker it stays. */
+static void bright_samples_are_clamped(void **state)
+{
+    (void)state;
+    facet_sea_desc desc = sea_of(5.0f);
+    pair p;
+    begin(&p, &desc, 24, 18, NULL);
+    p.camera = facet_sea_camera(p.sea, 0.0f, p.d.sky.sun_azimuth_rad);
+    p.d.render.exposure_ev = -13.0f;
+    draw(&p, 4, 8);
+    assert_true(brightest(p.preview) > 2.0f && brightest(p.path) > 2.0f);
+    p.d.shading.clamp = 2.0f;
+    draw(&p, 4, 8);
+    assert_true(brightest(p.preview) <= 2.0f && brightest(p.path) <= 2.0f + 1e-5f);
+    p.d.shading.clamp = 1e9f;
+    draw(&p, 4, 8);
+    double unlimited = rows_mean(p.path, 0, 18);
+    p.d.shading.clamp = 0.0f;
+    draw(&p, 4, 8);
+    assert_true(fabs(rows_mean(p.path, 0, 18) - unlimited) <= 1e-6 * unlimited);
     end(&p);
 }
 
@@ -636,6 +669,7 @@ int main(void)
                                        cmocka_unit_test(a_model_shades_the_bed),
                                        cmocka_unit_test(a_bed_lights_a_model),
                                        cmocka_unit_test(styles_are_refused_or_followed),
+                                       cmocka_unit_test(bright_samples_are_clamped),
                                        cmocka_unit_test(memory_runs_out)};
     const struct CMUnitTest numbers[] = {cmocka_unit_test(swell_is_where_it_is),
                                          cmocka_unit_test(rough_water_is_the_same),

@@ -88,6 +88,10 @@ static void add_desc(key_state *k, const facet_render_desc *desc)
         add_number(k, desc->part.index);
         add_number(k, desc->part.count);
     }
+    if (desc->sea_shading.clamp > 0.0f) {
+        add_number(k, (double)desc->sea_shading.clamp);
+        add_number(k, (double)desc->exposure_ev);
+    }
     add_camera(k, desc->camera);
     add_light(k, desc);
 }

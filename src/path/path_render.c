@@ -143,6 +143,8 @@ static facet_result begin_instant(path_job *p, facet_error *error)
                             .draws_background = desc->background == FACET_BACKGROUND_ENVIRONMENT,
                             .surface = p->surface,
                             .finds_first = p->mattes.aovs != 0};
+    if (p->surface)
+        p->scene.max_radiance = desc->sea_shading.clamp * exp2f(-desc->exposure_ev);
     return FACET_OK;
 }
 

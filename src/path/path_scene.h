@@ -16,6 +16,7 @@ typedef struct path_scene {
     bool draws_background;
     const struct path_surface *surface; /* NULL: meshes' materials only */
     bool finds_first;                   /* path_sample.first_geometry is needed, even where it costs a ray */
+    float max_radiance; /* of a sample's channels, cd/m^2, biased: facet_sea_shading.clamp; 0: none */
 } path_scene;
 
 /* One sample of a pixel. */

@@ -284,6 +284,8 @@ void path_trace(const path_scene *scene, uint32_t x, uint32_t y, uint32_t index,
         p.L += background(scene, load3(camera.ray.direction)) * (1.0f - out->opacity);
         out->opacity = 1.0f;
     }
+    if (scene->max_radiance > 0.0f)
+        p.L = min(p.L, scene->max_radiance);
     out->filter_excess = camera.weight - 1.0f;
     out->opacity *= camera.weight;
     store3(p.L * camera.weight, out->radiance);

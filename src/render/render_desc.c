@@ -71,7 +71,7 @@ static bool is_physical(const facet_sea_shading *s)
 {
     return s->style == FACET_SEA_STYLE_PHYSICAL && s->stage == 0 &&
            s->normals == FACET_SEA_NORMALS_BECKMANN && s->masking == FACET_SEA_MASKING_SCALES &&
-           !s->omits_glints && !s->omits_caustics && !(s->clamp > 0.0f);
+           !s->omits_glints && !s->omits_caustics;
 }
 
 /* Refuses what the renderer does not draw in a sea. The sky is the background. */
@@ -84,7 +84,7 @@ static facet_result resolve_sea(const renderer_row *r, facet_render_desc *d, fac
     if (!(r->info.features & FACET_RENDERER_FEATURE_SEA_STYLES) && !is_physical(&d->sea_shading))
         return fail(error, FACET_ERROR_ARGUMENT,
                     "sea_shading: %s supports the physical style only: no stage, GGX normals, other masking, "
-                    "omits_glints, omits_caustics or clamp",
+                    "omits_glints or omits_caustics",
                     r->title);
     d->background = FACET_BACKGROUND_ENVIRONMENT;
     return FACET_OK;

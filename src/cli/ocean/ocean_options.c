@@ -279,8 +279,8 @@ static facet_result read_shading(const command_line *c, ocean_options *out, face
         TRY(image_options_aov(c, o, error));
     o->desc.path.denoises = is_given(c, OPT_DENOISE);
     TRY(image_options_need(c, OPTION_IDS(OPT_DENOISE), FACET_RENDERER_FEATURE_PATH, o, error));
-    static const option_id styles[] = {OPT_BEFORE,  OPT_BEFORE_AFTER, OPT_STAGE,       OPT_NORMALS,
-                                       OPT_MASKING, OPT_NO_GLINTS,    OPT_NO_CAUSTICS, OPT_CLAMP};
+    static const option_id styles[] = {OPT_BEFORE,  OPT_BEFORE_AFTER, OPT_STAGE,      OPT_NORMALS,
+                                       OPT_MASKING, OPT_NO_GLINTS,    OPT_NO_CAUSTICS};
     const option *other = first_given(c, styles, sizeof styles / sizeof *styles, SOURCE_PRESET);
     if (other && !(o->renderer.features & FACET_RENDERER_FEATURE_SEA_STYLES))
         return fail(error, FACET_ERROR_ARGUMENT, "--%s: it has no effect with --renderer %s", other->name,
