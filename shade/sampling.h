@@ -40,6 +40,17 @@ FN mat3 basis_from_normal(vec3 N)
     return mat3(vec3(1.0f + s * N[0] * N[0] * a, s * b, -s * N[0]), vec3(b, s + N[1] * N[1] * a, -N[1]), N);
 }
 
+/* The same with V in the plane of the first and third column, on the side of the first. V unit. */
+FN mat3 basis_from_view(vec3 N, vec3 V)
+{
+    vec3 across = V - N * dot(N, V);
+    float length2 = dot(across, across);
+    if (length2 < 1e-12f)
+        return basis_from_normal(N);
+    vec3 X = across * inversesqrt(length2);
+    return mat3(X, cross(N, X), N);
+}
+
 /* ---- cosine-weighted hemisphere ---- */
 
 /* Direction with density z / pi. Malley's method: a uniform point of the disk, projected up. */

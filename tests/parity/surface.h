@@ -180,6 +180,37 @@ FN vec3 case_metallic_roughness(vec2 u)
            s.occlusion + s.emissive + plain.F0;
 }
 
+/* ---- diffuse.h, diffuse_sample.h ---- */
+
+FN vec3 case_diffuse_brdf(vec2 u)
+{
+    vec3 rho = vec3(u[0], 0.5f, u[1]);
+    float r = fract(3.0f * u[0] + u[1]);
+    return 0.1f + brdf_eon(rho, r, 0.1f + 0.9f * u[0], 0.1f + 0.9f * u[1], 2.0f * u[0] - 1.0f) +
+           eon_reflected(rho, u[1], r, vec3(0.5f, 1.0f, 2.0f), vec3(1.0f, 0.7f, 0.2f)) +
+           eon_multiple(rho, r) + vec3(eon_scale(r), eon_shape(u[0]), eon_lost(u[1]) + eon_albedo(u[0], r));
+}
+
+FN vec3 case_diffuse_light(vec2 u)
+{
+    vec3 up = vec3(1.0f, u[0], u[1]);
+    DiffuseLight d =
+        diffuse_light(up, vec3(0.3f), up * 0.9f, up * 0.4f, vec3(0.5f), vec3(u[1]), up, vec3(u[0]));
+    return 0.1f + eon_single_light(d, u[0], u[1]) + eon_multiple_light(d);
+}
+
+FN vec3 case_diffuse_sample(vec2 u)
+{
+    float r = fract(3.0f * u[0] + u[1]);
+    float NdotV = 0.1f + 0.9f * u[1];
+    vec3 L = normalize(vec3(u[0] - 0.5f, u[1] - 0.5f, 0.4f));
+    EonTransform t = eon_transform(NdotV, r);
+    mat3 frame = basis_from_view(normalize(vec3(0.1f, 0.3f, 1.0f)), L);
+    return 2.0f + sample_eon(vec2(u[1], u[0]), NdotV, r) + mul(frame, L) +
+           vec3(pdf_eon(L, NdotV, r), eon_uniform_probability(NdotV, r), eon_clipped_share(t)) +
+           vec3(t.a + t.b, t.c, t.d);
+}
+
 /* ---- sheen.h ---- */
 
 FN vec3 case_D_Charlie(vec2 u)

@@ -17,13 +17,13 @@ const verb shaders_verb = {
     .arguments = "[PART...]",
     .max_arguments = SIZE_MAX,
     .output_types = "glsl",
-    .words = OPTION_WORDS("constants", "color", "brdf", "fresnel", "sampling", "sobol", "pixel_filter",
-                          "footprint", "surface", "light", "area_light", "ibl", "sheen", "clearcoat",
-                          "anisotropy", "iridescence", "dispersion", "transmission", "glass", "volume", "sky",
-                          "water_surface", "water_means", "glint", "water", "water_place", "water_crest",
-                          "water_facets", "water_legacy", "water_caustic", "specular_aa",
-                          "specular_glossiness", "ground", "layers", "layers_direct", "layers_ibl",
-                          "layers_lobes", "material", "layers_sample", "surface_sample", "phong", "tonemap"),
+    .words = OPTION_WORDS(
+        "constants", "color", "brdf", "fresnel", "sampling", "sobol", "pixel_filter", "diffuse",
+        "diffuse_sample", "footprint", "surface", "light", "area_light", "ibl", "sheen", "clearcoat",
+        "anisotropy", "iridescence", "dispersion", "transmission", "glass", "volume", "sky", "water_surface",
+        "water_means", "glint", "water", "water_place", "water_crest", "water_facets", "water_legacy",
+        "water_caustic", "specular_aa", "specular_glossiness", "ground", "layers", "layers_direct",
+        "layers_ibl", "layers_lobes", "material", "layers_sample", "surface_sample", "phong", "tonemap"),
     .description =
         "Prints the functions of facet's shader library as one GLSL file, or the named parts of it "
         "with all that they use. It has no main(): other programs put it before their own shader, in "
