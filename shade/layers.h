@@ -21,6 +21,7 @@
 #define LAYER_VOLUME 64u
 #define LAYER_DISPERSION 128u
 #define LAYER_SCATTER 256u
+#define LAYER_DIFFUSE_ROUGHNESS 512u
 
 /* A shaded point. Members of a layer whose bit is not in `layers` are ignored. Start from
  * layers_from_surface(). */
@@ -60,6 +61,8 @@ STRUCT(Layers)
     /* LAYER_SCATTER */
     vec3 multiscatter_color;  /* [0, 1]: albedo of a deep volume */
     float scatter_anisotropy; /* g of Henyey and Greenstein, (-1, 1) */
+    /* LAYER_DIFFUSE_ROUGHNESS: of diffuse reflection and transmission; without it both are Lambert's */
+    float diffuse_roughness; /* [0, 1] */
 };
 
 /* View-dependent terms, computed once per point for all lights by layer_tables(). */
@@ -75,6 +78,13 @@ STRUCT(LayerTables)
     vec3 film_F_metal;
 };
 
+/* Radiance of the environment for a rough diffuse lobe: eon_single_light(), eon_multiple_light(). */
+STRUCT(RoughLight)
+{
+    vec3 single;
+    vec3 multiple;
+};
+
 /* Radiance of the environment, cd/m^2. Members of inactive layers are ignored. */
 STRUCT(LayerLight)
 {
@@ -84,6 +94,7 @@ STRUCT(LayerLight)
     vec3 clearcoat;               /* prefiltered for layers_clearcoat_reflection() and its roughness */
     vec3 sheen;                   /* prefiltered around N with the mean of Charlie's lobe over views */
     vec3 transmitted; /* along the refracted rays, with attenuation, without the boundary's tint and 1 - F */
+    RoughLight rough, rough_back; /* around N, and around -N for the mirrored V */
 };
 
 /* The surface without layers, every member neutral. */
@@ -114,6 +125,7 @@ FN Layers layers_from_surface(Surface s)
     m.dispersion = 0.0f;
     m.multiscatter_color = vec3(0.0f);
     m.scatter_anisotropy = 0.0f;
+    m.diffuse_roughness = 0.0f;
     return m;
 }
 

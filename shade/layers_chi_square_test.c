@@ -121,9 +121,18 @@ static Layers leaf(void)
     return m;
 }
 
+/* Rough diffuse reflection, and both with diffuse transmission. */
+static Layers clay(float roughness, uint layers)
+{
+    Layers m = layers ? leaf() : diffuse();
+    m.layers = LAYER_DIFFUSE_ROUGHNESS | layers;
+    m.diffuse_roughness = roughness;
+    return m;
+}
+
 /* ---- tests ---- */
 
-enum { TESTS = 80 };
+enum { TESTS = 90 };
 
 static double p_value(Layers from, Layers m, vec3 V, int energy, uint64_t seed)
 {
@@ -153,6 +162,8 @@ static void test_reflection(void **state)
     for (size_t v = 0; v < COUNT_OF(views); ++v) {
         vec3 V = seen_at(views[v], 2.0f * (float)v + 0.3f);
         expect_density(diffuse(), V, "diffuse");
+        expect_density(clay(0.4f, 0u), V, "rough diffuse");
+        expect_density(clay(1.0f, 0u), V, "rough diffuse");
         for (size_t r = 0; r < COUNT_OF(roughness); ++r)
             expect_density(conductor(roughness[r], 0.0f), V, "conductor");
         expect_density(conductor(0.4f, 0.5f), V, "brushed conductor");
@@ -179,6 +190,7 @@ static void test_transmission(void **state)
         expect_density(wall(0.6f, 0.0f), V, "thin wall");
         expect_density(wall(0.5f, 0.5f), V, "brushed thin wall");
         expect_density(leaf(), V, "leaf");
+        expect_density(clay(0.8f, LAYER_DIFFUSE_TRANSMISSION), V, "rough leaf");
     }
 }
 
@@ -189,7 +201,7 @@ static void test_mixtures(void **state)
     test_rng rng = {9};
     for (int i = 0; i < 16; ++i) {
         vec3 V = view_at(i % 4 ? 0.1f + 0.8f * rng_float(&rng) : -0.2f);
-        Layers m = random_layers(&rng, rng_uint(&rng) % 512u & ~LAYER_DISPERSION, V, false);
+        Layers m = random_layers(&rng, rng_uint(&rng) % 1024u & ~LAYER_DISPERSION, V, false);
         if (layers_scattering_lobes(m) == LOBES_ALL || !has_layer(m, LAYER_TRANSMISSION) ||
             !layers_transmission_is_delta(m))
             expect_density(m, V, "mixture");

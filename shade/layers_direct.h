@@ -147,6 +147,12 @@ STRUCT(BelowShares)
     vec3 diffuse;      /* scattered back to the eye's side */
     vec3 diffuse_back; /* scattered through, without a volume's attenuation */
     vec3 specular;     /* transmitted by the boundary, tinted */
+    /* The shares of the lobes of base_color and of diffuse_transmission_color, whose BRDF may be rough, and what is left of
+     * diffuse and diffuse_back without them. */
+    float lobe;
+    float lobe_back;
+    vec3 plain;
+    vec3 plain_back;
 };
 
 /* mix(mix(diffuse, diffuse transmission), specular transmission); transmission is applied first, the rest is
@@ -159,19 +165,32 @@ FN BelowShares below_shares(Layers m)
     s.diffuse = m.base.base_color;
     s.diffuse_back = vec3(0.0f);
     s.specular = vec3(0.0f);
+    s.lobe = 1.0f;
+    s.lobe_back = 0.0f;
+    s.plain = vec3(0.0f);
+    s.plain_back = vec3(0.0f);
     if (has_layer(m, LAYER_DIFFUSE_TRANSMISSION)) {
+        s.lobe = 1.0f - m.diffuse_transmission;
+        s.lobe_back = m.diffuse_transmission;
         vec3 through = m.diffuse_transmission_color * m.diffuse_transmission;
         s.diffuse *= 1.0f - m.diffuse_transmission;
         s.diffuse_back = through;
         if (has_layer(m, LAYER_SCATTER)) {
             s.diffuse += through * m.multiscatter_color;
             s.diffuse_back = through * (1.0f - m.multiscatter_color);
+            s.plain = through * m.multiscatter_color;
+            s.plain_back = s.diffuse_back;
+            s.lobe_back = 0.0f;
         }
     }
     if (has_layer(m, LAYER_TRANSMISSION)) {
         s.diffuse *= 1.0f - m.transmission;
         s.diffuse_back *= 1.0f - m.transmission;
         s.specular = m.base.base_color * m.transmission;
+        s.lobe *= 1.0f - m.transmission;
+        s.lobe_back *= 1.0f - m.transmission;
+        s.plain *= 1.0f - m.transmission;
+        s.plain_back *= 1.0f - m.transmission;
     }
     return s;
 }
@@ -206,7 +225,12 @@ FN vec3 layers_base_front_cos(Layers m, vec3 V, vec3 L, int energy, LayerTables 
     vec3 specular = vec3(0.0f);
     if ((lobes & LOBE_SPECULAR) != 0u)
         specular = w.specular * layers_DV(m, V, L, sum * inverse, NdotL, NdotV);
-    return (specular + brdf_lambert(below_shares(m).diffuse) * w.below) * NdotL;
+    BelowShares share = below_shares(m);
+    vec3 diffuse = brdf_lambert(share.diffuse);
+    if (has_layer(m, LAYER_DIFFUSE_ROUGHNESS))
+        diffuse = brdf_lambert(share.plain) +
+                  brdf_eon(m.base.base_color, m.diffuse_roughness, NdotL, NdotV, dot(L, V)) * share.lobe;
+    return (specular + diffuse * w.below) * NdotL;
 }
 
 /* v in a frame of N: with the tangents of the base, or any without anisotropy. */
@@ -260,7 +284,14 @@ FN vec3 layers_base_back_cos(Layers m, vec3 V_world, vec3 L_world, int energy, L
     float VdotH = min(0.5f * length(sum), 1.0f);
     BelowShares share = below_shares(m);
     BoundaryWeights w = boundary_weights(m, V[2], VdotH, energy, t);
-    vec3 f = brdf_lambert(share.diffuse_back) * (w.below * -L[2]);
+    vec3 diffuse = brdf_lambert(share.diffuse_back);
+    if (has_layer(m, LAYER_DIFFUSE_ROUGHNESS)) {
+        float LdotV = V[0] * L[0] + V[1] * L[1] - V[2] * L[2]; /* of L mirrored to the side of V */
+        diffuse = brdf_lambert(share.plain_back) +
+                  brdf_eon(m.diffuse_transmission_color, m.diffuse_roughness, min(-L[2], 1.0f), V[2], LdotV) *
+                      share.lobe_back;
+    }
+    vec3 f = diffuse * (w.below * -L[2]);
     bool is_volume = has_layer(m, LAYER_VOLUME);
     if (is_volume)
         f *= volume_transmittance(m.attenuation_color, m.attenuation_distance, m.thickness);

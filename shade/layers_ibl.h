@@ -94,18 +94,32 @@ STRUCT(LayeredRadiance)
     vec3 back;
 };
 
+/* Radiance of a rough diffuse lobe. */
+FN vec3 layers_rough_ibl(Layers m, vec3 albedo, float NdotV, RoughLight light)
+{
+    return eon_reflected(albedo, NdotV, m.diffuse_roughness, light.single, light.multiple);
+}
+
 /* The base, below sheen and coat. */
 FN LayeredRadiance layers_base_ibl(Layers m, float NdotV, LayerTables t, LayerLight light, int energy)
 {
     BoundaryIbl b = boundary_ibl(m, NdotV, t, energy);
     BelowShares share = below_shares(m);
     vec3 multiple_radiance = sel(energy == ENERGY_GLTF, light.specular, light.irradiance_over_pi);
+    vec3 diffuse = share.diffuse * light.irradiance_over_pi;
+    vec3 diffuse_back = share.diffuse_back * light.irradiance_back_over_pi;
+    if (has_layer(m, LAYER_DIFFUSE_ROUGHNESS)) {
+        diffuse = share.plain * light.irradiance_over_pi +
+                  layers_rough_ibl(m, m.base.base_color, NdotV, light.rough) * share.lobe;
+        diffuse_back =
+            share.plain_back * light.irradiance_back_over_pi +
+            layers_rough_ibl(m, m.diffuse_transmission_color, NdotV, light.rough_back) * share.lobe_back;
+    }
     LayeredRadiance r;
-    r.front = b.single * light.specular + b.multiple * multiple_radiance +
-              share.diffuse * light.irradiance_over_pi * b.below;
+    r.front = b.single * light.specular + b.multiple * multiple_radiance + diffuse * b.below;
     r.back = vec3(0.0f);
     if (has_layer(m, LAYER_DIFFUSE_TRANSMISSION))
-        r.back += share.diffuse_back * light.irradiance_back_over_pi * b.below;
+        r.back += diffuse_back * b.below;
     if (has_layer(m, LAYER_TRANSMISSION))
         r.back += share.specular * light.transmitted * b.below;
     return r;

@@ -28,6 +28,9 @@ FN LayerLight layer_light_of(vec3 radiance)
     light.clearcoat = radiance;
     light.sheen = radiance;
     light.transmitted = radiance;
+    light.rough.single = radiance;
+    light.rough.multiple = radiance;
+    light.rough_back = light.rough;
     return light;
 }
 
@@ -43,10 +46,12 @@ FN vec3 layers_ibl_alone(Layers m, vec3 V, LayerTables t, LayerLight light, int 
     if (lobe == ALONE_TRANSMISSION) {
         some.transmitted = light.transmitted;
         some.irradiance_back_over_pi = light.irradiance_back_over_pi;
+        some.rough_back = light.rough_back;
     }
     if (lobe == ALONE_DIFFUSE || lobe == ALONE_SPECULAR) {
         some.specular = light.specular;
         some.irradiance_over_pi = light.irradiance_over_pi;
+        some.rough = light.rough;
     }
     Layers black = layers_without_diffuse(m);
     if (lobe == ALONE_SPECULAR)

@@ -372,12 +372,22 @@ FN float layers_clearcoat_pdf(Layers m, vec3 V, vec3 L)
                           alpha_from_roughness(m.clearcoat_roughness));
 }
 
+/* Of diffuse reflection, or of diffuse transmission with V and L mirrored; V above N. */
+FN float layers_diffuse_pdf(Layers m, vec3 V, vec3 L, float NdotL)
+{
+    if (!has_layer(m, LAYER_DIFFUSE_ROUGHNESS))
+        return pdf_cosine(NdotL);
+    vec3 l = mul(transpose(basis_from_view(m.base.N, V)), L);
+    l[2] = NdotL;
+    return pdf_eon(l, surface_NdotV(m.base, V), m.diffuse_roughness);
+}
+
 /* Density per sr of L in layers_sample(), for the non-specular lobes. */
 FN float layers_pdf(Layers m, LayersLobes p, vec3 V_eye, vec3 L)
 {
     vec3 V = view_above(m.base.N, V_eye);
     float NdotL = dot(m.base.N, L);
-    float pdf = p.diffuse * pdf_cosine(NdotL);
+    float pdf = p.diffuse * layers_diffuse_pdf(m, V, L, NdotL);
     bool is_coupled = layers_is_coupled(m);
     if (p.specular > 0.0f && NdotL > 0.0f && !is_coupled && !layers_specular_is_delta(m))
         pdf += p.specular * layers_specular_pdf(m, V, L);
@@ -385,7 +395,7 @@ FN float layers_pdf(Layers m, LayersLobes p, vec3 V_eye, vec3 L)
         return pdf;
     if (is_coupled)
         pdf += (p.specular + p.transmission) * layers_coupled_pdf(m, V, L);
-    pdf += p.diffuse_back * pdf_cosine(-NdotL);
+    pdf += p.diffuse_back * layers_diffuse_pdf(m, V, L, -NdotL);
     if (p.sheen > 0.0f)
         pdf += p.sheen * pdf_sheen_rim(NdotL, surface_NdotV(m.base, V), sheen_alpha(m.sheen_roughness));
     if (p.transmission > 0.0f && NdotL < 0.0f && !is_coupled && !layers_transmission_is_delta(m))
@@ -433,6 +443,14 @@ FN mat3 layers_any_frame(Layers m)
 }
 
 /* Sampled directions L in world space; the zero vector if the lobe gives none. */
+
+/* On the side of V, which is above N. */
+FN vec3 layers_draw_diffuse(Layers m, vec3 V, vec2 u)
+{
+    if (!has_layer(m, LAYER_DIFFUSE_ROUGHNESS))
+        return mul(basis_from_normal(m.base.N), sample_cosine(u));
+    return mul(basis_from_view(m.base.N, V), sample_eon(u, surface_NdotV(m.base, V), m.diffuse_roughness));
+}
 
 FN vec3 layers_draw_clearcoat(Layers m, vec3 V, vec2 u)
 {
@@ -545,7 +563,7 @@ FN LayersSample layers_sample(Layers m, LayersLobes p, vec3 V_eye, float u_lobe,
     float y = x - boundary;
     float z = y - p.diffuse_back;
     if (x < 0.0f) {
-        L = mul(basis_from_normal(m.base.N), sample_cosine(u));
+        L = layers_draw_diffuse(m, V, u);
     } else if (y < 0.0f) {
         bool is_through = x >= p.specular;
         if (layers_is_coupled(m))
@@ -557,6 +575,8 @@ FN LayersSample layers_sample(Layers m, LayersLobes p, vec3 V_eye, float u_lobe,
             L = layers_draw_boundary(m, V, x, p.specular, u);
     } else if (z < 0.0f) {
         L = -mul(basis_from_normal(m.base.N), sample_cosine(u));
+        if (has_layer(m, LAYER_DIFFUSE_ROUGHNESS))
+            L = mirror_through(layers_draw_diffuse(m, V, u), m.base.N);
     } else if (z < p.clearcoat) {
         if (layers_clearcoat_is_delta(m))
             return layers_sample_delta_clearcoat(m, p, V_eye);

@@ -289,6 +289,15 @@ FN Layers with_scatter(Layers m, vec3 multiscatter_color, float anisotropy)
     return m;
 }
 
+/* KHR_materials_diffuse_roughness: red. */
+FN Layers with_diffuse_roughness(Layers m, float roughness, vec3 texel)
+{
+    m.diffuse_roughness = clamp(roughness * texel[0], 0.0f, 1.0f);
+    if (m.diffuse_roughness > 0.0f && m.base.metallic < 1.0f)
+        m.layers |= LAYER_DIFFUSE_ROUGHNESS;
+    return m;
+}
+
 /* ---- specular anti-aliasing ---- */
 
 /* Perceptual roughness for alpha_specular_aa(). */

@@ -62,6 +62,7 @@ typedef enum facet_texture_slot {
     FACET_TEXTURE_SLOT_DIFFUSE_TRANSMISSION,  /* A */
     FACET_TEXTURE_SLOT_DIFFUSE_TRANSMISSION_COLOR,
     FACET_TEXTURE_SLOT_SPECULAR_GLOSSINESS, /* RGB: specular color, A: glossiness */
+    FACET_TEXTURE_SLOT_DIFFUSE_ROUGHNESS,   /* R */
     FACET_TEXTURE_SLOT_COUNT
 } facet_texture_slot;
 
@@ -109,6 +110,7 @@ typedef struct facet_material {
     float dispersion;                                                   /* 0; 20 / Abbe number */
     float diffuse_transmission, diffuse_transmission_color[3];          /* 0; 1 */
     float multiscatter_color[3], scatter_anisotropy;                    /* 0 */
+    float diffuse_roughness;                                            /* 0: Lambert */
     facet_texture_use textures[FACET_TEXTURE_SLOT_COUNT];               /* by facet_texture_slot */
 } facet_material;
 FACET_API facet_material facet_material_default(void);

@@ -30,6 +30,7 @@ typedef struct facet_plot_material {
     float sheen_color[3], sheen_roughness;                        /* 0 */
     float anisotropy, anisotropy_rotation_rad;                    /* 0 */
     float iridescence, iridescence_ior, iridescence_thickness_nm; /* 0; 1.3; 400 */
+    float diffuse_roughness;                                      /* 0 */
     /* FACET_PLOT_MODEL_OGL1 */
     float diffuse[3], ogl1_specular[3], shininess; /* 0.8; 1; 50 */
     /* FACET_PLOT_MODEL_MERL: the file */

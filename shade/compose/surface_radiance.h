@@ -12,6 +12,8 @@
  *     vec3 host_specular(host, R, perceptual_roughness)    radiance prefiltered with GGX around R
  *     vec3 host_sheen(host, N, sheen_roughness)            LayerLight.sheen
  *     vec3 host_irradiance_over_pi(host, N)
+ *     vec3 host_unoccluded_irradiance_over_pi(host, N)     the same for any direction, without occlusion ..
+ *     vec3 host_ambient(host)                              .. and that occlusion, [0, 1], on the side of the eye
  *     VolumeExit host_exit(host, m)                        straight behind the surface, along -N
  *     vec3 host_transmitted(host, m)                       LayerLight.transmitted; 0: the host adds it itself
  *     LightCursor host_first_light(host), host_next_light(host, cursor)
@@ -68,6 +70,24 @@ FN vec3 base_specular(SurfaceHost host, Layers m)
     return sum * (1.0f / weight);
 }
 
+/* The environment for a rough diffuse lobe around N, on whose side V is seen. */
+FN RoughLight rough_light(SurfaceHost host, vec3 N, vec3 V, float NdotV, float roughness)
+{
+    mat3 frame = basis_from_view(N, V);
+    vec3 X = COL(frame, 0);
+    vec3 Y = COL(frame, 1);
+    vec3 XN = (X + N) * 0.70710678f;
+    DiffuseLight d = diffuse_light(
+        host_unoccluded_irradiance_over_pi(host, N), host_unoccluded_irradiance_over_pi(host, -N),
+        host_unoccluded_irradiance_over_pi(host, X), host_unoccluded_irradiance_over_pi(host, -X),
+        host_unoccluded_irradiance_over_pi(host, Y), host_unoccluded_irradiance_over_pi(host, -Y),
+        host_unoccluded_irradiance_over_pi(host, XN), host_unoccluded_irradiance_over_pi(host, -XN));
+    RoughLight light;
+    light.single = eon_single_light(d, NdotV, roughness);
+    light.multiple = eon_multiple_light(d);
+    return light;
+}
+
 /* Light from everywhere but from punctual lights. e: of diffuse_exit(). */
 FN LayerLight layer_light(SurfaceHost host, Layers m, VolumeExit e)
 {
@@ -78,6 +98,9 @@ FN LayerLight layer_light(SurfaceHost host, Layers m, VolumeExit e)
     light.clearcoat = vec3(0.0f);
     light.sheen = vec3(0.0f);
     light.transmitted = vec3(0.0f);
+    light.rough.single = vec3(0.0f);
+    light.rough.multiple = vec3(0.0f);
+    light.rough_back = light.rough;
     if (host_has_environment(host)) {
         light.specular = base_specular(host, m);
         light.irradiance_over_pi = host_irradiance_over_pi(host, m.base.N);
@@ -86,6 +109,21 @@ FN LayerLight layer_light(SurfaceHost host, Layers m, VolumeExit e)
             if (has_layer(m, LAYER_VOLUME))
                 light.irradiance_back_over_pi *=
                     volume_transmittance(m.attenuation_color, m.attenuation_distance, e.distance_m);
+        }
+        if (has_layer(m, LAYER_DIFFUSE_ROUGHNESS)) {
+            float NdotV = surface_NdotV(m.base, host.V);
+            vec3 ambient = host_ambient(host);
+            light.rough = rough_light(host, m.base.N, host.V, NdotV, m.diffuse_roughness);
+            light.rough.single *= ambient;
+            light.rough.multiple *= ambient;
+            if (has_layer(m, LAYER_DIFFUSE_TRANSMISSION)) {
+                vec3 inside = vec3(1.0f);
+                if (has_layer(m, LAYER_VOLUME))
+                    inside = volume_transmittance(m.attenuation_color, m.attenuation_distance, e.distance_m);
+                light.rough_back = rough_light(host, e.normal, host.V, NdotV, m.diffuse_roughness);
+                light.rough_back.single *= inside;
+                light.rough_back.multiple *= inside;
+            }
         }
         if (has_layer(m, LAYER_CLEARCOAT))
             light.clearcoat = host_specular(host, layers_clearcoat_reflection(m, host.V, host.energy),

@@ -180,6 +180,7 @@ static inline __attribute__((unused)) Layers random_layers(test_rng *rng, uint l
     m.attenuation_distance = 0.1f;
     m.dispersion = rng_float(rng);
     m.multiscatter_color = rng_color(rng);
+    m.diffuse_roughness = rng_float(rng);
     return m;
 }
 

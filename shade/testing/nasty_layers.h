@@ -32,7 +32,7 @@ static inline __attribute__((unused)) Layers nasty_layers(test_rng *rng, vec3 N)
     float metallic = nasty_unit(rng), roughness = nasty_unit(rng), specular = nasty_unit(rng);
     float ior = rng_uint(rng) % 4u ? 1.0f + nasty_unit(rng) : 0.0f;
     Surface s = surface_from_gltf(N, base, metallic, roughness, ior, specular, vec3(1.0f), 1.0f, vec3(0.0f));
-    uint layers = rng_uint(rng) % 512u;
+    uint layers = rng_uint(rng) % 1024u;
     Layers m = random_layers(rng, layers, N, false);
     mat3 basis = basis_from_normal(N);
     m.base = s;
@@ -42,6 +42,7 @@ static inline __attribute__((unused)) Layers nasty_layers(test_rng *rng, vec3 N)
     m.clearcoat_roughness = nasty_unit(rng);
     m.sheen_roughness = nasty_unit(rng);
     m.anisotropy = nasty_unit(rng);
+    m.diffuse_roughness = nasty_unit(rng);
     m.iridescence_thickness_nm = 2000.0f * nasty_unit(rng);
     m.attenuation_distance = nasty_unit(rng);
     if (rng_uint(rng) % 8u == 0)

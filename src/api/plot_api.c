@@ -13,7 +13,7 @@ facet_plot_material facet_plot_material_default(void)
     return material_default();
 }
 
-/* The layers above the base, which the fits leave out. glTF takes the maximum of a thin film's thickness
+/* What the fits leave out: layers above the base, and the roughness of the diffuse lobe. glTF takes the maximum of a thin film's thickness
  * where it has no texture. */
 static void add_layers(const scene_material *from, facet_plot_material *to)
 {
@@ -26,6 +26,7 @@ static void add_layers(const scene_material *from, facet_plot_material *to)
     to->iridescence = from->iridescence;
     to->iridescence_ior = from->iridescence_ior;
     to->iridescence_thickness_nm = from->iridescence_thickness_maximum;
+    to->diffuse_roughness = from->diffuse_roughness;
 }
 
 facet_result facet_plot_material_from_scene(const facet_scene *scene, uint32_t index, facet_plot_model model,

@@ -57,9 +57,9 @@ static double greatest_difference(const film *a, const film *b)
 
 /* ---- factors ---- */
 
-static const uint32_t EXTENSIONS = SCENE_CLEARCOAT | SCENE_SHEEN | SCENE_TRANSMISSION | SCENE_VOLUME |
-                                   SCENE_IRIDESCENCE | SCENE_ANISOTROPY | SCENE_DISPERSION |
-                                   SCENE_DIFFUSE_TRANSMISSION | SCENE_VOLUME_SCATTER;
+static const uint32_t EXTENSIONS =
+    SCENE_CLEARCOAT | SCENE_SHEEN | SCENE_TRANSMISSION | SCENE_VOLUME | SCENE_IRIDESCENCE | SCENE_ANISOTROPY |
+    SCENE_DISPERSION | SCENE_DIFFUSE_TRANSMISSION | SCENE_VOLUME_SCATTER | SCENE_DIFFUSE_ROUGHNESS;
 
 /* Every layer, with visible values. */
 static scene_material with_all(float factor)
@@ -81,6 +81,7 @@ static scene_material with_all(float factor)
     m.diffuse_transmission = 0.4f * factor;
     m.diffuse_transmission_color[0] = 0.3f;
     m.multiscatter_color[1] = 0.5f;
+    m.diffuse_roughness = 0.8f * factor;
     return m;
 }
 
@@ -103,8 +104,9 @@ static void a_texel_of_0_is_the_base(void **state)
     (void)state;
     static const unsigned char black[4] = {0, 0, 0, 0};
     static const scene_texture_slot slots[] = {
-        SCENE_CLEARCOAT_TEXTURE,   SCENE_SHEEN_COLOR_TEXTURE, SCENE_TRANSMISSION_TEXTURE,
-        SCENE_IRIDESCENCE_TEXTURE, SCENE_ANISOTROPY_TEXTURE,  SCENE_DIFFUSE_TRANSMISSION_TEXTURE};
+        SCENE_CLEARCOAT_TEXTURE,        SCENE_SHEEN_COLOR_TEXTURE, SCENE_TRANSMISSION_TEXTURE,
+        SCENE_IRIDESCENCE_TEXTURE,      SCENE_ANISOTROPY_TEXTURE,  SCENE_DIFFUSE_TRANSMISSION_TEXTURE,
+        SCENE_DIFFUSE_ROUGHNESS_TEXTURE};
     fixture g = fixture_create();
     g.desc.samples = 1;
     film plain = render_ball(base(), &g, false);
@@ -191,6 +193,9 @@ static void apply_texel(scene_material *m, scene_texture_slot slot)
     case SCENE_SPECULAR_GLOSSINESS_TEXTURE:
         multiply_color(m->specular_color);
         m->glossiness *= a;
+        break;
+    case SCENE_DIFFUSE_ROUGHNESS_TEXTURE:
+        m->diffuse_roughness *= r;
         break;
     default:
         fail_msg("slot %d", (int)slot);

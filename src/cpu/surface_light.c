@@ -37,15 +37,26 @@ static vec3 host_sheen(SurfaceHost host, vec3 N, float sheen_roughness)
     return load3(radiance);
 }
 
-static vec3 host_irradiance_over_pi(SurfaceHost host, vec3 N)
+static vec3 host_ambient(SurfaceHost host)
+{
+    return host.surface->ambient;
+}
+
+static vec3 host_unoccluded_irradiance_over_pi(SurfaceHost host, vec3 N)
 {
     float d[3];
     float out[3];
     store3(N, d);
     light_irradiance_over_pi(host.scene->light, d, out);
+    return load3(out);
+}
+
+static vec3 host_irradiance_over_pi(SurfaceHost host, vec3 N)
+{
+    vec3 irradiance = host_unoccluded_irradiance_over_pi(host, N);
     bool is_behind =
         dot(N, host.surface->m.base.N) < 0.0f; /* diffuse transmission, which the model has dimmed */
-    return is_behind ? load3(out) : load3(out) * host.surface->ambient;
+    return is_behind ? irradiance : irradiance * host_ambient(host);
 }
 
 /* ---- volumes ---- */

@@ -179,6 +179,9 @@ static inline Layers make_layers(const surface_point *s, material_texels texels)
         m = add_anisotropy(s, texels, m);
     if (possible & (LAYER_TRANSMISSION | LAYER_DIFFUSE_TRANSMISSION))
         m = add_transmission(s, texels, m);
+    if (possible & LAYER_DIFFUSE_ROUGHNESS)
+        m = with_diffuse_roughness(m, material->diffuse_roughness,
+                                   load3(texels[SCENE_DIFFUSE_ROUGHNESS_TEXTURE]));
     return m;
 }
 

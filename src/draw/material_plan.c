@@ -22,12 +22,17 @@ static bool is_black(const float color[3])
 
 /* ---- layers ---- */
 
+static bool is_metal(const scene_material *m)
+{
+    return m->metallic >= 1.0f && !scene_material_has(m, SCENE_METALLIC_ROUGHNESS_TEXTURE);
+}
+
 /* Layers below the surface of a dielectric. ior 0 means a surface that reflects everything: no light gets
  * below it. */
 static uint32_t layers_below(const scene_material *m)
 {
     uint32_t layers = 0;
-    if (m->metallic >= 1.0f && !scene_material_has(m, SCENE_METALLIC_ROUGHNESS_TEXTURE))
+    if (is_metal(m))
         return 0;
     if (has(m, SCENE_TRANSMISSION) && m->transmission > 0.0f && m->ior > 0.0f)
         layers |= LAYER_TRANSMISSION;
@@ -56,6 +61,8 @@ uint32_t material_plan_layers(const scene_material *m)
         layers |= LAYER_IRIDESCENCE;
     if (has(m, SCENE_ANISOTROPY) && m->anisotropy > 0.0f)
         layers |= LAYER_ANISOTROPY;
+    if (has(m, SCENE_DIFFUSE_ROUGHNESS) && m->diffuse_roughness > 0.0f && !is_metal(m))
+        layers |= LAYER_DIFFUSE_ROUGHNESS;
     return layers;
 }
 
@@ -75,6 +82,8 @@ static uint32_t textures_of_layers(uint32_t layers)
         bits |= BIT(SCENE_IRIDESCENCE_TEXTURE) | BIT(SCENE_IRIDESCENCE_THICKNESS_TEXTURE);
     if (layers & LAYER_ANISOTROPY)
         bits |= BIT(SCENE_ANISOTROPY_TEXTURE);
+    if (layers & LAYER_DIFFUSE_ROUGHNESS)
+        bits |= BIT(SCENE_DIFFUSE_ROUGHNESS_TEXTURE);
     if (layers & LAYER_TRANSMISSION)
         bits |= BIT(SCENE_TRANSMISSION_TEXTURE);
     if (layers & LAYER_DIFFUSE_TRANSMISSION) {

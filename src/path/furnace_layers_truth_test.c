@@ -21,6 +21,7 @@ typedef enum layer_kind {
     LEAF,
     HALF_METAL,
     VOLUME,
+    CLAY,
     LAYER_KINDS
 } layer_kind;
 
@@ -65,6 +66,10 @@ static void add_layer(scene_material *m, layer_kind kind, float amount)
         m->transmission = 1.0f;
         m->thickness = 1.0f;
         m->ior = 1.4f;
+        return;
+    case CLAY:
+        m->extensions |= SCENE_DIFFUSE_ROUGHNESS;
+        m->diffuse_roughness = amount;
         return;
     case LAYER_KINDS:
         return;

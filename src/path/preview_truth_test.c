@@ -41,9 +41,13 @@ static scene_material material_number(int i)
         m.specular_color[1] = 0.3f;
         m.ior = 1.8f;
     }
+    if (i == 6) {
+        m.extensions |= SCENE_DIFFUSE_ROUGHNESS;
+        m.diffuse_roughness = 1.0f;
+    }
     return m;
 }
-enum { MATERIALS = 6 };
+enum { MATERIALS = 7 };
 
 /* One light at a time, since path tracing samples one of several. */
 static void place_light(fixture *f, int number)

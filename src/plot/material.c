@@ -65,7 +65,7 @@ static Layers layers_of(const facet_plot_material *p)
         m.iridescence_ior = p->iridescence_ior;
         m.iridescence_thickness_nm = p->iridescence_thickness_nm;
     }
-    return m;
+    return with_diffuse_roughness(m, p->diffuse_roughness, vec3(1.0f));
 }
 
 static vec2 dfg_at(vec2 point)
@@ -145,14 +145,8 @@ void material_albedo_image_based(const material *m, const float V_[3], double ou
 {
     Layers layers = layers_of(&m->parameters);
     vec3 V = load3(V_);
-    vec3 one = vec3(1.0f);
-    LayerLight light = {.specular = one,
-                        .irradiance_over_pi = one,
-                        .irradiance_back_over_pi = one,
-                        .clearcoat = one,
-                        .sheen = one,
-                        .transmitted = one};
-    vec3 radiance = layers_ibl(layers, V, tables_of(layers, V, (int)m->energy), light, (int)m->energy);
+    LayerTables tables = tables_of(layers, V, (int)m->energy);
+    vec3 radiance = layers_ibl(layers, V, tables, layer_light_of(vec3(1.0f)), (int)m->energy);
     for (int c = 0; c < 3; c++)
         out[c] = (double)radiance[c];
 }
@@ -464,6 +458,8 @@ static void describe_pbr(const facet_plot_material *p, text *t)
         add_number(t, ", anisotropy ", p->anisotropy);
     if (p->iridescence > 0.0f)
         text_addf(t, ", film of %.4g nm", (double)p->iridescence_thickness_nm);
+    if (p->diffuse_roughness > 0.0f)
+        add_number(t, ", diffuse roughness ", p->diffuse_roughness);
 }
 
 const char *material_describe(const facet_plot_material *p, const facet_allocator *allocator, arena *memory)

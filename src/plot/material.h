@@ -59,7 +59,8 @@ facet_plot_material material_from_ogl1(const ogl1_surface *s);
 facet_result material_fit(const material *measured, facet_plot_model model, const facet_allocator *allocator,
                           facet_plot_material *out, double *rms, facet_error *error);
 
-/* Whether a PBR material has layers that the fits ignore: clearcoat, sheen, iridescence, anisotropy. */
+/* Whether a PBR material has layers that the fits ignore: clearcoat, sheen, iridescence, anisotropy, diffuse
+ * roughness. */
 bool material_has_layers(const facet_plot_material *p);
 
 #endif

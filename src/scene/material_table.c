@@ -12,6 +12,7 @@ static const char ROOT[] = "";
 static const char CORE[] = "pbrMetallicRoughness";
 static const char ANISOTROPY[] = "KHR_materials_anisotropy";
 static const char CLEARCOAT[] = "KHR_materials_clearcoat";
+static const char DIFFUSE_ROUGHNESS[] = "KHR_materials_diffuse_roughness";
 static const char DIFFUSE_TRANSMISSION[] = "KHR_materials_diffuse_transmission";
 static const char DISPERSION[] = "KHR_materials_dispersion";
 static const char EMISSIVE_STRENGTH[] = "KHR_materials_emissive_strength";
@@ -67,6 +68,8 @@ const material_parameter material_parameters[MATERIAL_PARAMETER_COUNT] = {
     {SCENE_SPECULAR_GLOSSINESS, SPECULAR_GLOSSINESS, NULL, "diffuseFactor", AT(base_color), 4, 0, 1},
     {SCENE_SPECULAR_GLOSSINESS, SPECULAR_GLOSSINESS, NULL, "specularFactor", AT(specular_color), 3, 0, 1},
     {SCENE_SPECULAR_GLOSSINESS, SPECULAR_GLOSSINESS, NULL, "glossinessFactor", AT(glossiness), 1, 0, 1},
+    {SCENE_DIFFUSE_ROUGHNESS, DIFFUSE_ROUGHNESS, NULL, "diffuseRoughnessFactor", AT(diffuse_roughness), 1, 0,
+     1},
 };
 
 const material_texture material_textures[SCENE_TEXTURE_SLOT_COUNT] = {
@@ -94,6 +97,8 @@ const material_texture material_textures[SCENE_TEXTURE_SLOT_COUNT] = {
                                                   "diffuseTransmissionColorTexture", true},
     [SCENE_SPECULAR_GLOSSINESS_TEXTURE] = {SCENE_SPECULAR_GLOSSINESS, SPECULAR_GLOSSINESS,
                                            "specularGlossinessTexture", true},
+    [SCENE_DIFFUSE_ROUGHNESS_TEXTURE] = {SCENE_DIFFUSE_ROUGHNESS, DIFFUSE_ROUGHNESS,
+                                         "diffuseRoughnessTexture", false},
 };
 
 const material_extension material_extensions[MATERIAL_EXTENSION_COUNT] = {
@@ -111,4 +116,5 @@ const material_extension material_extensions[MATERIAL_EXTENSION_COUNT] = {
     {SCENE_DIFFUSE_TRANSMISSION, DIFFUSE_TRANSMISSION},
     {SCENE_VOLUME_SCATTER, VOLUME_SCATTER},
     {SCENE_SPECULAR_GLOSSINESS, SPECULAR_GLOSSINESS},
+    {SCENE_DIFFUSE_ROUGHNESS, DIFFUSE_ROUGHNESS},
 };

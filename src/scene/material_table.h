@@ -32,7 +32,7 @@ typedef struct material_extension {
     const char *name;
 } material_extension;
 
-enum { MATERIAL_PARAMETER_COUNT = 34, MATERIAL_EXTENSION_COUNT = 14 };
+enum { MATERIAL_PARAMETER_COUNT = 35, MATERIAL_EXTENSION_COUNT = 15 };
 extern const material_parameter material_parameters[MATERIAL_PARAMETER_COUNT];
 extern const material_texture material_textures[SCENE_TEXTURE_SLOT_COUNT]; /* by slot */
 extern const material_extension material_extensions[MATERIAL_EXTENSION_COUNT];

@@ -142,6 +142,7 @@ typedef enum scene_texture_slot {
     SCENE_DIFFUSE_TRANSMISSION_TEXTURE,
     SCENE_DIFFUSE_TRANSMISSION_COLOR_TEXTURE,
     SCENE_SPECULAR_GLOSSINESS_TEXTURE, /* sRGB RGB specular color, linear A glossiness */
+    SCENE_DIFFUSE_ROUGHNESS_TEXTURE,
     SCENE_TEXTURE_SLOT_COUNT
 } scene_texture_slot;
 
@@ -160,8 +161,9 @@ typedef enum scene_material_extension {
     SCENE_DISPERSION = 1 << 10,           /* KHR_materials_dispersion */
     SCENE_DIFFUSE_TRANSMISSION = 1 << 11, /* KHR_materials_diffuse_transmission */
     SCENE_VOLUME_SCATTER = 1 << 12,       /* KHR_materials_volume_scatter */
-    SCENE_SPECULAR_GLOSSINESS =
-        1 << 13 /* KHR_materials_pbrSpecularGlossiness: in place of metallic-roughness */
+    /* KHR_materials_pbrSpecularGlossiness: in place of metallic-roughness */
+    SCENE_SPECULAR_GLOSSINESS = 1 << 13,
+    SCENE_DIFFUSE_ROUGHNESS = 1 << 14 /* KHR_materials_diffuse_roughness */
 } scene_material_extension;
 
 typedef enum scene_alpha_mode { SCENE_ALPHA_OPAQUE, SCENE_ALPHA_MASK, SCENE_ALPHA_BLEND } scene_alpha_mode;
@@ -196,6 +198,7 @@ typedef struct scene_material {
     float dispersion;                                                   /* 0; 20 / Abbe number */
     float diffuse_transmission, diffuse_transmission_color[3];          /* 0, 1 */
     float multiscatter_color[3], scatter_anisotropy;                    /* 0 */
+    float diffuse_roughness;                                            /* 0 */
 
     scene_texture_ref textures[SCENE_TEXTURE_SLOT_COUNT];
     scene_meta meta;

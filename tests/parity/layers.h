@@ -19,7 +19,7 @@ FN Layers parity_layers(vec2 u)
 {
     Layers m = layers_from_surface(parity_surface(u));
     mat3 basis = basis_from_normal(m.base.N);
-    m.layers = uint(u[0] * 512.0f);
+    m.layers = uint(u[0] * 1024.0f);
     m.ior = 1.3f + u[0];
     m.eta = sel(u[1] < 0.7f, m.ior, 1.0f / m.ior);
     m.clearcoat = 0.8f;
@@ -40,6 +40,7 @@ FN Layers parity_layers(vec2 u)
     m.attenuation_distance = 0.2f;
     m.dispersion = 2.0f;
     m.multiscatter_color = vec3(0.2f, 0.4f, 0.6f);
+    m.diffuse_roughness = 0.2f + 0.8f * u[1];
     return m;
 }
 
@@ -113,6 +114,7 @@ FN vec3 parity_layer_parts(Layers m, vec3 V, vec3 L, int energy, LayerTables t)
            layers_volume_cos(m, V_local, L_below, energy, t) +
            layers_volume_cos1(m, V_local, L_below, 1.4f, energy, t) + layers_to_frame(m, L) +
            layers_base_front_cos(m, V, N, energy, t, LOBES_ALL) +
+           layers_rough_ibl(m, vec3(0.2f, 0.5f, 0.9f), NdotV, layer_light_of(vec3(0.5f)).rough) +
            layers_base_back_cos(m, V, -N, energy, t, LOBES_ALL) +
            layers_sheen_cos(m, V, N, energy, t, 0.3f, vec3(1.0f)) +
            layers_clearcoat_cos(m, V, N, energy, t, layers_base_cos(m, V, N, energy, t, LOBES_ALL),
@@ -182,6 +184,9 @@ FN vec3 case_layers_ibl(vec2 u)
     light.clearcoat = vec3(1.0f, 2.0f, 3.0f);
     light.sheen = vec3(0.3f, 0.2f, 0.1f);
     light.transmitted = vec3(1.0f, 0.5f, 0.7f);
+    light.rough.single = vec3(0.4f, 0.8f, 0.9f);
+    light.rough.multiple = vec3(0.6f, 0.7f, 0.8f);
+    light.rough_back = light.rough;
     return layers_ibl(m, V, t, light, energy) + parity_layer_ibl_parts(m, V, energy, t, light);
 }
 
@@ -303,6 +308,7 @@ FN Layers parity_material_layers(vec2 u, vec3 texel)
     m = with_diffuse_transmission(m, 0.5f, vec3(0.3f, 0.6f, 0.9f), u[0], texel);
     m = with_volume(m, 0.3f, texel, vec3(0.9f, 0.8f, 0.7f), 2.0f, 0.4f);
     m = with_scatter(m, vec3(0.2f, 0.5f, 1.4f), 0.3f);
+    m = with_diffuse_roughness(m, 0.9f, texel);
     return with_anisotropy(m, anisotropy_strength(0.8f, texel), u[1], texel, parity_texcoord_frame(u));
 }
 
@@ -316,8 +322,8 @@ FN vec3 case_material_layers(vec2 u)
            m.anisotropy_T * 0.5f + m.anisotropy_B * 0.1f +
            vec3(m.clearcoat + m.clearcoat_roughness + m.sheen_roughness, m.iridescence + m.iridescence_ior,
                 m.iridescence_thickness_nm * 0.01f + m.transmission + m.diffuse_transmission) +
-           vec3(m.thickness + m.attenuation_distance * 1e-6f, m.dispersion + m.scatter_anisotropy,
-                m.ior + m.eta) +
+           vec3(m.thickness + m.attenuation_distance * 1e-6f,
+                m.dispersion + m.scatter_anisotropy + m.diffuse_roughness, m.ior + m.eta) +
            vec3(m.anisotropy + turn[0], float(m.layers) * 0.01f + turn[1], 0.0f);
 }
 
@@ -439,6 +445,8 @@ FN vec3 case_layers_sample_delta(vec2 u)
     return parity_sampled(layers_sample_delta(m, p, V, u[0] > 0.4f, energy, t)) +
            parity_sampled(no_sample(V)) + parity_sampled(layers_sample_delta_clearcoat(m, p, V)) +
            layers_draw_clearcoat(m, V, u) + layers_draw_sheen(m, V, u) +
+           layers_draw_diffuse(m, view_above(m.base.N, V), u) +
+           layers_diffuse_pdf(m, view_above(m.base.N, V), m.base.N, 1.0f) +
            layers_draw_boundary(m, V, u[1], 0.5f, turned);
 }
 

@@ -47,6 +47,16 @@ FN vec3 host_irradiance_over_pi(SurfaceHost host, vec3 N)
     return vec3(0.6f) + host.P * 0.1f + N * 0.3f;
 }
 
+FN vec3 host_unoccluded_irradiance_over_pi(SurfaceHost host, vec3 N)
+{
+    return vec3(0.6f) + host.P * 0.1f + N * (0.3f + 0.1f * N[1]);
+}
+
+FN vec3 host_ambient(SurfaceHost host)
+{
+    return vec3(0.8f, 0.9f, 0.7f) - host.P * 0.1f;
+}
+
 /* ---- volumes ---- */
 
 STRUCT(VolumeExit)

@@ -34,8 +34,8 @@ FN vec3 case_layer_light(vec2 u)
     LayerLight light = layer_light(host, m, e);
     Light l = host_punctual(host, host_first_light(host));
     return light.specular + light.irradiance_over_pi + light.irradiance_back_over_pi + light.clearcoat +
-           light.sheen + light.transmitted + e.normal + e.distance_m + sheen_albedo_of_light(host, m, l) +
-           base_specular(host, m);
+           light.sheen + light.transmitted + light.rough.single + light.rough_back.multiple + e.normal +
+           e.distance_m + sheen_albedo_of_light(host, m, l) + base_specular(host, m);
 }
 
 FN vec3 case_layered_radiance(vec2 u)

@@ -20,6 +20,7 @@ export const PARAMETERS = {
     ['Base', [['roughness', 'Roughness', 0, 1, 0.01, 0.4], ['metallic', 'Metallic', 0, 1, 0.01, 0], ['color', 'Color', '#ffffff'],
       ['ior', 'Index of refraction', 1, 3, 0.01, 1.5], ['specular', 'Specular', 0, 1, 0.01, 1], ['specular-color', 'Specular color', '#ffffff']]],
     ['Clear coat', [['clearcoat', 'Amount', 0, 1, 0.01, 0], ['clearcoat-roughness', 'Roughness', 0, 1, 0.01, 0]]],
+    ['Diffuse', [['diffuse-roughness', 'Roughness', 0, 1, 0.01, 0]]],
     ['Sheen', [['sheen-color', 'Color', '#000000'], ['sheen-roughness', 'Roughness', 0, 1, 0.01, 0]]],
     ['Anisotropy', [['anisotropy', 'Strength', 0, 1, 0.01, 0], ['anisotropy-rotation', 'Rotation', -90, 90, 1, 0, 'degrees']]],
     ['Iridescence', [['iridescence', 'Amount', 0, 1, 0.01, 0], ['iridescence-ior', 'Index of refraction', 1, 3, 0.01, 1.3],

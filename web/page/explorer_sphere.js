@@ -46,6 +46,7 @@ function materialOf(values) {
       KHR_materials_specular: { specularFactor: values.specular, specularColorFactor: linearOf(values['specular-color']) ?? [1, 1, 1] },
       KHR_materials_clearcoat: { clearcoatFactor: values.clearcoat, clearcoatRoughnessFactor: values['clearcoat-roughness'] },
       KHR_materials_sheen: { sheenColorFactor: linearOf(values['sheen-color']) ?? [0, 0, 0], sheenRoughnessFactor: values['sheen-roughness'] },
+      KHR_materials_diffuse_roughness: { diffuseRoughnessFactor: values['diffuse-roughness'] },
       KHR_materials_anisotropy: { anisotropyStrength: values.anisotropy, anisotropyRotation: (values['anisotropy-rotation'] * Math.PI) / 180 },
       KHR_materials_iridescence: { iridescenceFactor: values.iridescence, iridescenceIor: values['iridescence-ior'], iridescenceThicknessMaximum: values['iridescence-thickness'] },
     },

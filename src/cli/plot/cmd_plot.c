@@ -42,7 +42,8 @@ const verb plot_verb = {
         "(.binary). Several are plotted together.\n\n"
         "Parameters are color, metallic, roughness, ior, specular, specular-color, clearcoat, "
         "clearcoat-roughness, sheen-color, sheen-roughness, anisotropy, anisotropy-rotation "
-        "(degrees), iridescence, iridescence-ior, iridescence-thickness (nm); after ogl1, diffuse, "
+        "(degrees), iridescence, iridescence-ior, iridescence-thickness (nm), diffuse-roughness; after ogl1, "
+        "diffuse, "
         "specular, shininess. A color is #rrggbb or a CSS name, one linear number for a grey, or "
         "three as r/g/b; the others are glTF's, mostly from 0 to 1.",
     .examples =

@@ -38,6 +38,7 @@ static const parameter parameters[] = {
     {"iridescence", FACET_PLOT_MODEL_PBR, AT(iridescence), .maximum = 1},
     {"iridescence-ior", FACET_PLOT_MODEL_PBR, AT(iridescence_ior), .minimum = 1, .maximum = 100},
     {"iridescence-thickness", FACET_PLOT_MODEL_PBR, AT(iridescence_thickness_nm), .maximum = 1e5},
+    {"diffuse-roughness", FACET_PLOT_MODEL_PBR, AT(diffuse_roughness), .maximum = 1},
     {"diffuse", FACET_PLOT_MODEL_OGL1, AT(diffuse), .is_color = true},
     {"specular", FACET_PLOT_MODEL_OGL1, AT(ogl1_specular), .is_color = true},
     {"shininess", FACET_PLOT_MODEL_OGL1, AT(shininess), .maximum = 1e6},

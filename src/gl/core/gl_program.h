@@ -46,9 +46,9 @@ enum {
 enum {
     GL_SURFACE_TEXTURES = 4, /* one per scene_texture_slot */
     /* one per pair of gl_slot_pairs: the second slot reads the first one's texel */
-    GL_SURFACE_PAIRS = GL_SURFACE_TEXTURES + 20,
+    GL_SURFACE_PAIRS = GL_SURFACE_TEXTURES + 21,
     GL_SURFACE_LAYERS = GL_SURFACE_PAIRS + 7, /* one per bit of LAYER_* */
-    GL_SURFACE_LAYER_COUNT = 9,
+    GL_SURFACE_LAYER_COUNT = 10,
     GL_SURFACE_IS_LIT = GL_SURFACE_LAYERS + GL_SURFACE_LAYER_COUNT,
     GL_SURFACE_IS_UNLIT,  /* KHR_materials_unlit */
     GL_SURFACE_IS_GLOSSY, /* KHR_materials_pbrSpecularGlossiness */

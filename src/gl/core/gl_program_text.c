@@ -22,7 +22,7 @@ typedef struct glsl_part {
     X(BASE_COLOR) X(METALLIC_ROUGHNESS) X(NORMAL) X(OCCLUSION) X(EMISSIVE) X(SPECULAR) X(SPECULAR_COLOR) \
     X(CLEARCOAT) X(CLEARCOAT_ROUGHNESS) X(CLEARCOAT_NORMAL) X(SHEEN_COLOR) X(SHEEN_ROUGHNESS) \
     X(TRANSMISSION) X(THICKNESS) X(IRIDESCENCE) X(IRIDESCENCE_THICKNESS) X(ANISOTROPY) \
-    X(DIFFUSE_TRANSMISSION) X(DIFFUSE_TRANSMISSION_COLOR) X(SPECULAR_GLOSSINESS)
+    X(DIFFUSE_TRANSMISSION) X(DIFFUSE_TRANSMISSION_COLOR) X(SPECULAR_GLOSSINESS) X(DIFFUSE_ROUGHNESS)
 
 /* Pairs of slots that often share one texture: the second can then read the first one's texel. */
 #define TEXTURE_PAIRS(X) \
@@ -42,7 +42,7 @@ static const char *const surface_features[] = {
     "HAS_TANGENTS", "HAS_ENVIRONMENT", "HAS_LIGHTS", "HAS_SHADOWS",
     TEXTURE_SLOTS(TEXTURE_FEATURE) TEXTURE_PAIRS(PAIR_FEATURE)
     "HAS_CLEARCOAT", "HAS_SHEEN", "HAS_ANISOTROPY", "HAS_IRIDESCENCE", "HAS_TRANSMISSION",
-    "HAS_DIFFUSE_TRANSMISSION", "HAS_VOLUME", "HAS_DISPERSION", "HAS_SCATTER",
+    "HAS_DIFFUSE_TRANSMISSION", "HAS_VOLUME", "HAS_DISPERSION", "HAS_SCATTER", "HAS_DIFFUSE_ROUGHNESS",
     "IS_LIT", "IS_UNLIT", "IS_GLOSSY", "HAS_ALPHA_MASK", "HAS_ALPHA_BLEND", "HAS_COLORS", "IS_VOLUME",
     "HAS_SPECULAR_ANTIALIASING", "HAS_ONE_FOOTPRINT", "IS_SPRITE", "AOVS", "IS_WEIGHTED", "IS_PEELED", "HAS_CHANNEL",
     "HAS_SCHLICK_GGX", "IS_DISPLAYED", "ADDS_1", "ADDS_2", "ADDS_4", "IS_TRACED", "IS_TRACING", NULL};
@@ -181,6 +181,7 @@ const uint8_t gl_slots_by_loss[SCENE_TEXTURE_SLOT_COUNT] = {SCENE_THICKNESS_TEXT
                                                             SCENE_IRIDESCENCE_THICKNESS_TEXTURE,
                                                             SCENE_SPECULAR_TEXTURE,
                                                             SCENE_SPECULAR_COLOR_TEXTURE,
+                                                            SCENE_DIFFUSE_ROUGHNESS_TEXTURE,
                                                             SCENE_SHEEN_ROUGHNESS_TEXTURE,
                                                             SCENE_CLEARCOAT_ROUGHNESS_TEXTURE,
                                                             SCENE_CLEARCOAT_NORMAL_TEXTURE,

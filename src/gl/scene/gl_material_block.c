@@ -51,6 +51,7 @@ static void fill_layers(const scene_material *m, gl_material_block *b)
     b->dispersion = m->dispersion;
     copy3(m->multiscatter_color, b->multiscatter_color);
     b->scatter_anisotropy = m->scatter_anisotropy;
+    b->diffuse_roughness = m->diffuse_roughness;
 }
 
 void gl_material_block_fill(const facet_scene *scene, const scene_material *m, gl_material_block *b)

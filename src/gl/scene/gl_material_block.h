@@ -17,7 +17,7 @@ typedef struct gl_material_block {
     float attenuation_color[3], attenuation_distance;
     float diffuse_transmission_color[3], diffuse_transmission;
     float multiscatter_color[3], scatter_anisotropy;
-    float thickness, dispersion, row, reserved; /* row: in the table of gl_rays.h */
+    float thickness, dispersion, row, diffuse_roughness; /* row: in the table of gl_rays.h */
     float texcoords[SCENE_TEXTURE_SLOT_COUNT][2]
                    /* per slot: rows of the transform; w: texture coordinate set; 1: anisotropic probes */
                    [4];

@@ -125,6 +125,12 @@ static void every_extension_matches_the_preview(void **state)
     m = base();
     m.extensions = SCENE_UNLIT;
     check(m, "unlit");
+    m = base();
+    m.metallic = 0.0f;
+    m.extensions = SCENE_DIFFUSE_ROUGHNESS | SCENE_DIFFUSE_TRANSMISSION;
+    m.diffuse_roughness = 0.8f;
+    m.diffuse_transmission = 0.4f;
+    check(m, "rough diffuse reflection and transmission");
 }
 
 static void energy_conservation_matches_the_preview(void **state)
@@ -163,7 +169,8 @@ static void every_texture_slot_matches_the_preview(void **state)
         {"clearcoat, sheen", SCENE_CLEARCOAT_TEXTURE, SCENE_SHEEN_ROUGHNESS_TEXTURE},
         {"iridescence, anisotropy, diffuse transmission", SCENE_IRIDESCENCE_TEXTURE,
          SCENE_DIFFUSE_TRANSMISSION_COLOR_TEXTURE},
-        {"specular-glossiness", SCENE_SPECULAR_GLOSSINESS_TEXTURE, SCENE_SPECULAR_GLOSSINESS_TEXTURE}};
+        {"specular-glossiness", SCENE_SPECULAR_GLOSSINESS_TEXTURE, SCENE_SPECULAR_GLOSSINESS_TEXTURE},
+        {"diffuse roughness", SCENE_DIFFUSE_ROUGHNESS_TEXTURE, SCENE_DIFFUSE_ROUGHNESS_TEXTURE}};
     for (size_t g = 0; g < sizeof groups / sizeof *groups; g++) {
         fixture f = fixture_create();
         scene_material m = base();
@@ -177,6 +184,7 @@ static void every_texture_slot_matches_the_preview(void **state)
         m.anisotropy_rotation = 0.6f;
         m.diffuse_transmission = 0.6f;
         m.glossiness = 0.7f;
+        m.diffuse_roughness = 1.0f;
         for (int slot = (int)groups[g].first; slot <= (int)groups[g].last; slot++) {
             m.extensions |= material_textures[slot].extension;
             set_texture(&m, (scene_texture_slot)slot, add_waves(&f, (uint32_t)slot));

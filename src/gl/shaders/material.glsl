@@ -14,8 +14,8 @@ layout(std140) uniform Material
     vec4 attenuation;           /* color; distance */
     vec4 diffuse_transmission_factors; /* color; factor */
     vec4 scatter_factors;              /* color; anisotropy */
-    vec4 volume_factors;               /* thickness, dispersion */
-    vec4 texcoord_rows[40];            /* by slot: rows of the transform; w: the set; 1: trilinear */
+    vec4 volume_factors;               /* thickness, dispersion; w: diffuse roughness */
+    vec4 texcoord_rows[42];            /* by slot: rows of the transform; w: the set; 1: trilinear */
 };
 
 /* ---- texels ---- */
@@ -236,6 +236,9 @@ Layers layers_of_material(Surface s, vec3 V)
 #endif
 #ifdef HAS_SCATTER
     m = with_scatter(m, scatter_factors.xyz, scatter_factors.w);
+#endif
+#ifdef HAS_DIFFUSE_ROUGHNESS
+    m = with_diffuse_roughness(m, volume_factors.w, DIFFUSE_ROUGHNESS_TEXEL.xyz);
 #endif
     m.layers &= MATERIAL_LAYERS; /* constant, so the compiler removes the other layers */
     return m;

@@ -57,6 +57,16 @@ vec3 host_irradiance_over_pi(SurfaceHost host, vec3 N)
     return light_irradiance_over_pi(N);
 }
 
+vec3 host_unoccluded_irradiance_over_pi(SurfaceHost host, vec3 N)
+{
+    return light_irradiance_over_pi(N);
+}
+
+vec3 host_ambient(SurfaceHost host)
+{
+    return vec3(1.0);
+}
+
 /* ---- volumes ---- */
 
 struct VolumeExit

@@ -55,6 +55,7 @@ static const material_member MEMBERS[] = {
     MEMBER(diffuse_transmission_color),
     MEMBER(multiscatter_color),
     MEMBER(scatter_anisotropy),
+    MEMBER(diffuse_roughness),
 };
 enum { MEMBER_COUNT = sizeof MEMBERS / sizeof *MEMBERS };
 

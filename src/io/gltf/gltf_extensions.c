@@ -52,6 +52,7 @@ static const known_extension KNOWN[] = {
     {"KHR_lights_punctual", SCENE_SUPPORTED, ROOT | NODE, NULL, 0},
     {"KHR_materials_anisotropy", SCENE_SUPPORTED, MATERIAL, NULL, 0},
     {"KHR_materials_clearcoat", SCENE_SUPPORTED, MATERIAL, NULL, 0},
+    {"KHR_materials_diffuse_roughness", SCENE_SUPPORTED, MATERIAL, NULL, 0},
     {"KHR_materials_diffuse_transmission", SCENE_SUPPORTED, MATERIAL, NULL, 0},
     {"KHR_materials_dispersion", SCENE_SUPPORTED, MATERIAL, NULL, 0},
     {"KHR_materials_emissive_strength", SCENE_SUPPORTED, MATERIAL, NULL, 0},

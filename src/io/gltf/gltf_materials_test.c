@@ -81,7 +81,8 @@ static void extensions_are_read(void **state)
         "'extensionsUsed':['KHR_materials_emissive_strength','KHR_materials_ior','KHR_materials_specular',"
         "'KHR_materials_clearcoat','KHR_materials_sheen','KHR_materials_transmission','KHR_materials_volume',"
         "'KHR_materials_iridescence','KHR_materials_anisotropy','KHR_materials_dispersion',"
-        "'KHR_materials_diffuse_transmission','KHR_materials_volume_scatter'],"
+        "'KHR_materials_diffuse_transmission','KHR_materials_volume_scatter',"
+        "'KHR_materials_diffuse_roughness'],"
         "'materials':[{'emissiveFactor':[1,0.5,0],'extensions':{"
         "'KHR_materials_emissive_strength':{'emissiveStrength':8},'KHR_materials_ior':{'ior':1.25},"
         "'KHR_materials_specular':{'specularFactor':0.25,'specularColorFactor':[1,2,3],"
@@ -103,7 +104,9 @@ static void extensions_are_read(void **state)
         "'KHR_materials_diffuse_transmission':{'diffuseTransmissionFactor':0.5,"
         "'diffuseTransmissionTexture':{'index':1},'diffuseTransmissionColorFactor':[0.5,1,0],"
         "'diffuseTransmissionColorTexture':{'index':0}},"
-        "'KHR_materials_volume_scatter':{'multiscatterColor':[1,0.5,0.25],'scatterAnisotropy':-0.5}}}]",
+        "'KHR_materials_volume_scatter':{'multiscatterColor':[1,0.5,0.25],'scatterAnisotropy':-0.5},"
+        "'KHR_materials_diffuse_roughness':{'diffuseRoughnessFactor':0.625,"
+        "'diffuseRoughnessTexture':{'index':1}}}}]",
         NULL);
     const scene_material *m = &scene->materials[0];
     const float emissive[3] = {1, 0.5f, 0};
@@ -113,7 +116,7 @@ static void extensions_are_read(void **state)
     const float diffuse_transmission_color[3] = {0.5f, 1, 0};
     const float multiscatter_color[3] = {1, 0.5f, 0.25f};
     const uint32_t apart = SCENE_UNLIT | SCENE_SPECULAR_GLOSSINESS;
-    assert_int_equal(m->extensions, ((1 << 14) - 1) & ~(int)apart);
+    assert_int_equal(m->extensions, ((1 << 15) - 1) & ~(int)apart);
     assert_floats(m->emissive, emissive, 3, 0);
     assert_near(m->emissive_strength, 8, 0);
     assert_near(m->ior, 1.25, 0);
@@ -138,6 +141,7 @@ static void extensions_are_read(void **state)
     assert_near(m->diffuse_transmission, 0.5, 0);
     assert_floats(m->diffuse_transmission_color, diffuse_transmission_color, 3, 0);
     assert_floats(m->multiscatter_color, multiscatter_color, 3, 0);
+    assert_near(m->diffuse_roughness, 0.625, 0);
     assert_near(m->scatter_anisotropy, -0.5, 0);
     static const struct {
         scene_texture_slot slot;

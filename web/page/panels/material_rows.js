@@ -40,6 +40,7 @@ export const GROUPS = [
   extension('KHR_materials_dispersion', 'Dispersion', [{ ...open('dispersion', '20 / Abbe number', 2, 0), first: 0.5 }]),
   extension('KHR_materials_diffuse_transmission', 'Diffuse transmission', [{ ...share('diffuseTransmissionFactor', 'Share', 0), first: 0.5 },
     color('diffuseTransmissionColorFactor', 'Color', [1, 1, 1])], [['diffuseTransmissionTexture', 'Share'], ['diffuseTransmissionColorTexture', 'Color']]),
+  extension('KHR_materials_diffuse_roughness', 'Diffuse roughness', [{ ...share('diffuseRoughnessFactor', 'Roughness', 0), first: 1 }], [['diffuseRoughnessTexture', 'Roughness']]),
   extension('KHR_materials_pbrSpecularGlossiness', 'Specular and glossiness', [color('diffuseFactor', 'Diffuse', [1, 1, 1, 1]), color('specularFactor', 'Specular', [1, 1, 1]),
     share('glossinessFactor', 'Glossiness', 1)], [['specularGlossinessTexture', 'Specular, glossiness']]),
 ];
