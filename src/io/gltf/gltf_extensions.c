@@ -101,6 +101,9 @@ static const known_extension KNOWN[] = {
     {"OMI_physics_shape", SCENE_IGNORED, ANYWHERE, NULL, 0},
     {"OMI_spawn_point", SCENE_IGNORED, ANYWHERE, NULL, 0},
     /* Unsupported; docs/gltf-support.md gives the reasons. */
+    {"EXT_lights_area", SCENE_IGNORED, ANYWHERE, "its lights are left out", 0},
+    {"EXT_materials_bump", SCENE_IGNORED, ANYWHERE, "its heights do not tilt normals", 0},
+    {"EXT_mesh_primitive_edge_visibility", SCENE_IGNORED, ANYWHERE, "its edges are left out", 0},
     {"EXT_lights_ies", SCENE_IGNORED, ANYWHERE, "its lights are left out", 0},
     {"MSFT_texture_dds", SCENE_SUPPORTED, TEXTURE, "fallback images are used where the file has them",
      IMAGE_CODEC_DDS},

@@ -369,6 +369,28 @@ static void unsupported_extensions_are_reported(void **state)
     scene_destroy(scene);
 }
 
+/* One warning per name, wherever and however often objects have it. */
+static void extensions_that_change_the_image_are_named_once(void **state)
+{
+    (void)state;
+    facet_scene *scene = load("'extensionsUsed':['VENDOR_y','EXT_materials_bump'],"
+                              "'materials':[{'extensions':{'VENDOR_y':{},'EXT_materials_bump':{}}},"
+                              "{'extensions':{'VENDOR_y':{},'EXT_materials_bump':{}}}],"
+                              "'textures':[{'extensions':{'VENDOR_y':{}}}],"
+                              "'meshes':[{'primitives':[{'attributes':{},'extensions':{'VENDOR_y':{}}}]}]",
+                              NULL);
+    assert_true(has_warning(scene, "uses the extension VENDOR_y, which facet does not support"));
+    assert_true(
+        has_warning(scene, "uses EXT_materials_bump, which is not drawn: its heights do not tilt normals"));
+    uint32_t named = 0;
+    for (uint32_t i = 0; i < scene->warning_count; i++)
+        named += strstr(scene->warnings[i], "VENDOR_y") || strstr(scene->warnings[i], "EXT_materials_bump");
+    assert_int_equal(named, 2);
+    scene_destroy(scene);
+    assert_refused("'extensionsUsed':['EXT_materials_bump'],'extensionsRequired':['EXT_materials_bump']",
+                   NULL, FACET_ERROR_UNSUPPORTED, "requires the extension EXT_materials_bump");
+}
+
 static void asset_and_names_are_kept(void **state)
 {
     (void)state;
@@ -406,6 +428,7 @@ int main(void)
         cmocka_unit_test(large_numbers_are_rounded),
         cmocka_unit_test(other_versions_are_refused),
         cmocka_unit_test(unsupported_extensions_are_reported),
+        cmocka_unit_test(extensions_that_change_the_image_are_named_once),
         cmocka_unit_test(asset_and_names_are_kept),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
