@@ -13,6 +13,7 @@
 #include "io/ogl1/ogl1_json.h"
 #include "io/ply/ply.h"
 #include "io/stl/stl.h"
+#include "io/usd/usd.h"
 #include "scene/legacy.h"
 #include "scene/origin.h"
 #include "scene/unseen.h"
@@ -131,6 +132,8 @@ facet_result model_file_save(const facet_scene *scene, const char *path, const c
         return fail(error, FACET_ERROR_ARGUMENT,
                     "%s: the scene has no materials of OpenGL 1; facet_scene_convert_materials() makes them",
                     path);
+    if (!desc->is_glb && strcasecmp(extension, "usdz") == 0)
+        return usdz_save(scene, path, generator, desc, error);
     if (is_obj)
         return obj_save(scene, path, generator, desc, error);
     if (is_parameters)

@@ -27,7 +27,7 @@ rm -f *.glb *.png again.*
 expect 2 convert in.gltf
 says "a model and the name of the new one were expected"
 expect 2 convert in.gltf out.stl
-says '"out.stl" does not end in .glb, .gltf, .obj or .json'
+says '"out.stl" does not end in .glb, .gltf, .obj, .json or .usdz'
 expect 2 convert in.gltf out.glb --to gltf
 says '--to: gltf is written to a .gltf file, but the output is "out.glb"'
 expect 2 convert in.gltf out.glb --to ogl1

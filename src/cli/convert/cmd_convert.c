@@ -160,10 +160,10 @@ const verb convert_verb = {
     .arguments = "MODEL NEW",
     .max_arguments = SIZE_MAX,
     .file_types = "glb gltf obj stl ply json",
-    .output_types = "glb gltf obj json",
+    .output_types = "glb gltf obj json usdz",
     .description =
         "Reads MODEL (.glb, .gltf, .obj with its .mtl, .stl, .ply, .json of rgl's parameters; - is "
-        "standard input) and writes it as NEW (.glb, .gltf, .obj, .json).\n\n"
+        "standard input) and writes it as NEW (.glb, .gltf, .obj, .json, .usdz).\n\n"
         "From glTF to glTF everything is kept: meshes, materials with all extensions, textures as "
         "they are, animations, cameras, lights, variants, metadata. Compressed data (Draco, meshopt, "
         "quantization) is written uncompressed.\n\n"

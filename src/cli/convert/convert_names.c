@@ -14,7 +14,11 @@
 static const struct {
     const char *extension;
     model_format format;
-} extensions[] = {{".glb", MODEL_GLB}, {".gltf", MODEL_GLTF}, {".obj", MODEL_OBJ}, {".json", MODEL_OGL1}};
+} extensions[] = {{".glb", MODEL_GLB},
+                  {".gltf", MODEL_GLTF},
+                  {".obj", MODEL_OBJ},
+                  {".json", MODEL_OGL1},
+                  {".usdz", MODEL_USDZ}};
 
 /* ---- formats ---- */
 
@@ -51,8 +55,8 @@ static facet_result read_format(const command_line *c, convert_names *out, facet
                           "--to: standard output takes a .glb file; other formats consist of several files");
     }
     if (!find_format(out->output, &out->format))
-        return fail(error, FACET_ERROR_ARGUMENT, "convert: \"%s\" does not end in .glb, .gltf, .obj or .json",
-                    out->output);
+        return fail(error, FACET_ERROR_ARGUMENT,
+                    "convert: \"%s\" does not end in .glb, .gltf, .obj, .json or .usdz", out->output);
     if (to >= 0 && choices[to] != out->format)
         return fail(error, FACET_ERROR_ARGUMENT, "--to: %s is written to %s, but the output is \"%s\"",
                     option_text(c, OPT_TO, ""), files[to], out->output);

@@ -7,7 +7,7 @@
 
 enum { CONVERT_NAME_SIZE = 4096 };
 
-typedef enum model_format { MODEL_GLB, MODEL_GLTF, MODEL_OBJ, MODEL_OGL1 } model_format;
+typedef enum model_format { MODEL_GLB, MODEL_GLTF, MODEL_OBJ, MODEL_OGL1, MODEL_USDZ } model_format;
 
 typedef struct convert_names {
     model_list models;
