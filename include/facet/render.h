@@ -355,10 +355,10 @@ FACET_API facet_render_stats facet_image_get_render_stats(const facet_image *ima
 
 /* ---- exposure ---- */
 
-/* Measures a small preview, without shadows and interreflection, so that all renderers get the same
- * exposure: EV at ISO 100 that brings the log-average luminance of the model, and of the environment where
- * it is the background, to 0.22 of white (Reinhard et al. 2002). With a sea, the sea without the scene and
- * without glints is measured. Meter sequences once; their frames would flicker otherwise. Where nothing is
+/* EV at ISO 100 that brings the log-average luminance of the model, and of the environment where it is the background, to
+ * 0.22 of white (Reinhard et al. 2002). Measures a small image: by path tracing (128 pixels, 16 samples, denoised) for
+ * FACET_RENDERER_KIND_PATH, else by the preview with its ambient occlusion; without the shadow on the ground. With a sea, the sea
+ * without the scene and without glints is measured. Meter sequences once; their frames would flicker otherwise. Where nothing is
  * visible or all is black, the exposure is 0 and log gets a warning. desc NULL: {0}. Fails as
  * facet_render(), and with FACET_ERROR_ARGUMENT for FACET_SHADING_OGL1, which has display values. */
 FACET_API facet_result facet_renderer_meter(facet_renderer *renderer, const facet_render_desc *desc,

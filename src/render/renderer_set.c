@@ -5,7 +5,6 @@
 
 #include "base/result.h"
 #include "base/text.h"
-#include "cpu/preview.h"
 #include "draw/empty_view.h"
 #include "film/matte.h"
 #include "film/meter.h"
@@ -221,28 +220,37 @@ facet_result renderer_set_draw(renderer_set *set, const facet_render_desc *desc,
 
 /* ---- the light meter ---- */
 
-enum { METER_SIZE = 128 }; /* pixels along the longer edge */
+enum {
+    METER_SIZE = 128,   /* pixels along the longer edge */
+    METER_SAMPLES = 16, /* per pixel, of path tracing */
+};
 
-/* The same view at a small size by the preview. Warnings are left to the image itself. */
+/* The same view at a small size: path tracing, whose light the model blocks and reflects, meters itself, denoised; the
+ * preview meters itself and OpenGL. A shadow on the ground is none of the model's light. Warnings are left to the image. */
 static facet_render_desc meter_desc(const facet_render_desc *desc)
 {
     facet_render_desc d = *desc;
+    bool is_path = desc->renderer == FACET_RENDERER_KIND_PATH;
     double longer = d.width > d.height ? d.width : d.height;
     d.width = (uint32_t)ceil(METER_SIZE * d.width / longer);
     d.height = (uint32_t)ceil(METER_SIZE * d.height / longer);
     d.crop[0] = d.crop[1] = 0;
     d.crop[2] = d.width;
     d.crop[3] = d.height;
-    d.samples = 1;
+    d.part = (facet_part_desc){0};
+    d.samples = is_path ? METER_SAMPLES : 1;
     d.quality = FACET_QUALITY_DRAFT;
-    d.renderer = FACET_RENDERER_KIND_PREVIEW;
+    d.renderer = is_path ? FACET_RENDERER_KIND_PATH : FACET_RENDERER_KIND_PREVIEW;
+    d.path = (facet_path_desc){.max_depth = desc->path.max_depth,
+                               .clamp = desc->path.clamp,
+                               .has_straight_shadows = desc->path.has_straight_shadows,
+                               .denoises = true};
     d.energy = FACET_ENERGY_CONSERVING;
     d.ground = FACET_GROUND_NONE;
-    d.ambient_occlusion = FACET_AMBIENT_OCCLUSION_OFF;
     d.exposure_ev = 0.0f;
     d.aovs = 0;
     d.log = (facet_log){0};
-    d.progress = (facet_progress){0};
+    d.progress = is_path ? desc->progress : (facet_progress){0}; /* for cancelling */
     return d;
 }
 
@@ -250,12 +258,16 @@ static facet_result meter_scene(renderer_set *set, const facet_render_desc *desc
                                 facet_error *error)
 {
     const facet_render_desc small = meter_desc(desc);
+    const renderer_row *r = renderer_get(small.renderer);
+    void **state = &set->states[small.renderer];
     facet_render_stats stats;
     film metered = {0};
     *ev100 = meter_exposure_ev(0.0); /* an exposure of 0 */
+    if (!*state)
+        TRY(r->create(set, state, error));
     facet_result result = film_create(&small.allocator, small.width, small.height, 0, &metered, error);
     if (result == FACET_OK)
-        result = preview_render_prepared(&set->prepared, &small, &metered, &stats, error);
+        result = r->draw(*state, &small, &metered, &stats, error);
     if (result == FACET_OK) {
         double average = film_meter(&metered);
         if (average > 0.0)
