@@ -7,35 +7,30 @@
 #ifndef CPU_AMBIENT_OCCLUSION_H
 #define CPU_AMBIENT_OCCLUSION_H
 
-#include "cpu/interleave.h"
+#include "cpu/raster.h"
 #include "cpu/surface_point.h"
-#include "cpu/visibility.h"
+#include "draw/render_watch.h"
 
-enum { AMBIENT_PARTS = 4 * INTERLEAVE_PARTS, AMBIENT_MOST_RAYS = 8 };
-
-/* What all tiles of an image share. */
-typedef struct ambient_sampler {
+typedef struct ambient_desc {
     const shading_scene *scene;
-    const visibility_pattern *middle;                   /* one sample per pixel */
-    uint32_t rays;                                      /* per pixel; a power of two */
-    vec3 directions[AMBIENT_PARTS * AMBIENT_MOST_RAYS]; /* around +Z, distributed as the cosine */
-} ambient_sampler;
+    const raster *raster; /* finds the first hits; NULL: they are traced */
+    uint32_t width, height, thread_count;
+    uint32_t crop[4]; /* x, y, width, height of the pixels that are shaded */
+    const facet_allocator *allocator;
+    render_watch *watch;
+} ambient_desc;
 
-void ambient_sampler_init(ambient_sampler *sampler, const shading_scene *scene,
-                          const visibility_pattern *middle);
+/* The openness of the first hits of an image. */
+typedef struct ambient_image ambient_image;
 
-/* The openness of the first hits of a tile and around it. */
-typedef struct ambient_tile ambient_tile;
+/* Traces the rays, and filters. A pixel's value depends neither on the crop nor on the threads. Ends early where the watch
+ * stops. Adds to *rays. NULL: no memory. */
+ambient_image *ambient_image_create(const ambient_desc *desc, uint64_t *rays);
+void ambient_image_destroy(ambient_image *image); /* NULL is allowed */
 
-/* Traces the rays of the tile of size * size pixels, a multiple of VISIBILITY_BLOCK, at (left, top) of the whole image.
- * The values do not depend on what else is rendered. Adds to *rays. NULL: no memory. */
-ambient_tile *ambient_tile_create(const ambient_sampler *sampler, uint32_t left, uint32_t top, uint32_t size,
-                                  const facet_allocator *allocator, uint64_t *rays);
-void ambient_tile_destroy(ambient_tile *tile); /* NULL is allowed */
-
-/* The factor of the environment's diffuse light at a surface of the tile, before the occlusion of its texture. Traces
- * rays where the tile has no point of the same surface near by; adds to *rays. */
-vec3 ambient_factor(const ambient_tile *tile, const shading_point *point, const surface_point *s,
+/* The factor of the environment's diffuse light at a surface in a pixel of the crop, before the occlusion of its texture. Traces
+ * rays where no pixel near by has a point of the same surface; adds to *rays. */
+vec3 ambient_factor(const ambient_image *image, const shading_point *point, const surface_point *s,
                     uint64_t *rays);
 
 #endif

@@ -11,7 +11,6 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/result.h"
-#include "cpu/interleave.h"
 #include "cpu/media.h"
 #include "cpu/pixel.h"
 #include "cpu/ray_trace.h"
@@ -23,6 +22,20 @@ enum {
     MARGIN = 6, /* that the filters reach */
     GRAIN_ROWS = 4
 };
+
+/* Interleaved sampling (Keller and Heidrich 2001): each pixel of a square of 4 x 4 has its own part of a set of samples. */
+enum { INTERLEAVE_SIDE = 4, INTERLEAVE_PARTS = INTERLEAVE_SIDE * INTERLEAVE_SIDE };
+
+/* The part of a pixel: neighbors have parts that are far apart. Bayer 1973. */
+static uint32_t interleave_part(uint32_t x, uint32_t y)
+{
+    static const uint8_t parts[INTERLEAVE_SIDE][INTERLEAVE_SIDE] = {
+        {0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
+    return parts[y % INTERLEAVE_SIDE][x % INTERLEAVE_SIDE];
+}
+
+/* Weights of the pixels -2 .. 2 away along an axis: of those with the same part together 1/4. */
+static const float INTERLEAVE_WEIGHTS[5] = {0.125f, 0.25f, 0.25f, 0.25f, 0.125f};
 
 /* Of the hidden share, that the filter removes. */
 static const float STEP = 0.05f;

@@ -40,7 +40,7 @@ typedef struct pixel_resolver {
     size_t fragment_capacity, surface_capacity;
     size_t fragment_count, surface_count;
     uint64_t rays, shades;
-    const struct ambient_tile *ambient; /* of the pixels; NULL: none */
+    const struct ambient_image *ambient; /* of the pixels; NULL: none */
 } pixel_resolver;
 
 /* Radiance times scale, premultiplied, and coverage of pixel (x, y) of the whole image, whose samples hit

@@ -92,7 +92,7 @@ typedef struct shading_point {
     uint32_t x, y; /* pixel */
     /* Which of how many shades of the pixel; with the pixel, the seed of random numbers for glass. */
     uint32_t shade, shade_count;
-    const struct ambient_tile
+    const struct ambient_image
         *ambient; /* cpu/ambient_occlusion.h, which has the pixel; NULL: no ambient occlusion */
 } shading_point;
 

@@ -24,7 +24,7 @@ typedef struct tile_job {
     uint32_t crop[4]; /* x, y, width, height in the whole image */
     uint32_t tile_columns, tile_count;
     visibility_pattern pattern, middle;
-    ambient_sampler ambient; /* if desc->has_ambient_occlusion */
+    ambient_image *ambient; /* NULL: none */
     film_layer *color;
     surface_layers layers;
     matte_layers mattes;
@@ -120,6 +120,7 @@ static void draw_tile(tile_job *p, uint32_t tile)
                    .resolver = {.allocator = &render->allocator,
                                 .scene = p->desc->scene,
                                 .pattern = &p->pattern,
+                                .ambient = p->ambient,
                                 .splits_quarters = render->quality == FACET_QUALITY_FINAL,
                                 .has_visible_hits = p->desc->raster && raster_is_final(p->desc->raster),
                                 .draws_background = p->desc->draws_background,
@@ -131,12 +132,6 @@ static void draw_tile(tile_job *p, uint32_t tile)
     if (has_memory && p->draws_image && p->desc->raster) {
         w.raster = raster_tile_create(p->desc->raster, &p->pattern, left, top, &render->allocator);
         has_memory = w.raster != NULL;
-    }
-    ambient_tile *ambient = NULL;
-    if (has_memory && p->draws_image && p->desc->has_ambient_occlusion) {
-        ambient = ambient_tile_create(&p->ambient, left, top, TILE, &render->allocator, &w.resolver.rays);
-        has_memory = ambient != NULL;
-        w.resolver.ambient = ambient;
     }
     for (uint32_t block = 0; has_memory && block < TILE / VISIBILITY_BLOCK * (TILE / VISIBILITY_BLOCK);
          block++) {
@@ -156,7 +151,6 @@ static void draw_tile(tile_job *p, uint32_t tile)
     atomic_fetch_add(&p->shades, w.resolver.shades);
     pixel_resolver_destroy(&w.resolver);
     raster_tile_destroy(w.raster);
-    ambient_tile_destroy(ambient);
     mem_free(w.hits);
 }
 
@@ -170,6 +164,22 @@ static void draw_tiles(void *context, size_t begin, size_t end)
         draw_tile(p, (uint32_t)tile);
         render_watch_add(&p->watch, 1);
     }
+}
+
+/* False: no memory. */
+static bool find_ambient(tile_job *p, facet_render_stats *stats)
+{
+    const facet_render_desc *render = p->desc->render;
+    ambient_desc ambient = {.scene = p->desc->scene,
+                            .raster = p->desc->raster,
+                            .width = render->width,
+                            .height = render->height,
+                            .thread_count = render->thread_count,
+                            .allocator = &render->allocator,
+                            .watch = &p->watch};
+    memcpy(ambient.crop, p->crop, sizeof ambient.crop);
+    p->ambient = ambient_image_create(&ambient, &stats->rays);
+    return p->ambient != NULL;
 }
 
 static facet_result draw(const tiles_desc *desc, bool draws_image, film *target, facet_render_stats *stats,
@@ -193,12 +203,13 @@ static facet_result draw(const tiles_desc *desc, bool draws_image, film *target,
     bool has_memory =
         visibility_pattern_create(&render->allocator, draws_image ? render->samples : 1, &p.pattern) &&
         visibility_pattern_create(&render->allocator, 1, &p.middle);
-    if (desc->has_ambient_occlusion)
-        ambient_sampler_init(&p.ambient, desc->scene, &p.middle);
+    if (has_memory && draws_image && desc->has_ambient_occlusion)
+        has_memory = find_ambient(&p, stats);
     if (has_memory)
         parallel_for(render->thread_count, p.tile_count, 1, draw_tiles, &p);
     visibility_pattern_destroy(&p.pattern);
     visibility_pattern_destroy(&p.middle);
+    ambient_image_destroy(p.ambient);
     if (!has_memory)
         return fail_memory(error, "sample pattern", render->samples * sizeof(float));
     stats->rays += atomic_load(&p.rays);
