@@ -1,9 +1,11 @@
 #!/bin/sh
-# pictures.sh - makes the pictures of README.md and web.md.
+# pictures.sh - makes the pictures of README.md, web.md and ocean.md.
 #     bench/pictures.sh FACET DATA [NAME...]     FACET: the command; DATA: a folder with models/core/WaterBottle.glb, ..;
-#                                                NAME: front, turntable, viewer, or all of them
-# Writes docs/pictures/NAME. The turntable needs img2webp (Debian: webp), the picture of the viewer a built page (./run web
-# --build), Chromium and npm ci in tests/clients. The other pictures have their commands in the pages that show them.
+#                                                NAME: front, turntable, viewer, a picture of ocean.md (ocean, ocean_boat, ..),
+#                                                or all of them
+# Writes docs/pictures/NAME. Needs img2webp (Debian: webp) for the turntable; for the picture of the viewer a built
+# page (./run web --build), Chromium and npm ci in tests/clients. The pictures of ocean.md are made by the commands that stand below
+# them there, those of python.md by docs/examples/python/page.py. bench/gallery.sh and bench/peers make the others.
 set -eu
 facet=$(readlink -f "$1")
 data=$(readlink -f "$2")
@@ -30,7 +32,22 @@ viewer() {
     node "$here/pictures/viewer.mjs" "$here/../build/web/dist" "$data/models/materials/MaterialsVariantsShoe.glb" "$pictures/viewer.jpg"
 }
 
-[ $# -gt 0 ] || set -- front turntable viewer
+# Joins the lines of the commands of ocean.md and prints that which writes NAME.jpg.
+command_of() {
+    sed -n 's/^    //p' "$here/../docs/ocean.md" | sed -e ':a' -e '/\\$/N; s/\\\n *//; ta' | grep -e "-o $1.jpg"
+}
+
+sea() {
+    line=$(command_of "$1")
+    python3 "$here/pictures/boat.py" "$work/boat.glb"
+    (cd "$work" && eval "\"$facet\" ${line#facet } -q --jpeg-quality 82")
+    mv "$work/$1.jpg" "$pictures/"
+}
+
+[ $# -gt 0 ] || set -- front turntable viewer ocean ocean_winds ocean_boat ocean_lagoon ocean_below ocean_storm
 for name in "$@"; do
-    "$name"
+    case $name in
+    ocean*) sea "$name" ;;
+    *) "$name" ;;
+    esac
 done
