@@ -96,12 +96,15 @@ static void the_meter_follows_the_light(void **state)
                               .environment = studio,
                               .tonemap = FACET_TONEMAP_NEUTRAL,
                               .log = {&warnings, count_warning}};
-    assert_int_equal(facet_renderer_meter(renderer, &desc, &read[0], NULL), FACET_OK);
-    desc.environment_ev = 4.0f;
-    desc.renderer = FACET_RENDERER_KIND_PATH;
     desc.samples = 2;
-    assert_int_equal(facet_renderer_meter(renderer, &desc, &read[1], NULL), FACET_OK);
-    assert_true(read[1] - read[0] > 3.9 && read[1] - read[0] < 4.0); /* one of the spheres emits */
+    for (int i = 0; i < 2; i++) {
+        desc.renderer = i ? FACET_RENDERER_KIND_PATH : FACET_RENDERER_KIND_PREVIEW;
+        desc.environment_ev = 0.0f;
+        assert_int_equal(facet_renderer_meter(renderer, &desc, &read[0], NULL), FACET_OK);
+        desc.environment_ev = 4.0f;
+        assert_int_equal(facet_renderer_meter(renderer, &desc, &read[1], NULL), FACET_OK);
+        assert_true(read[1] - read[0] > 3.9 && read[1] - read[0] < 4.0); /* one of the spheres emits */
+    }
     desc.meters_exposure = true;
     assert_int_equal(facet_renderer_render(renderer, &desc, &images[0], NULL), FACET_OK);
     assert_int_equal(warnings, 0);

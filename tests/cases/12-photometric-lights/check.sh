@@ -1,4 +1,4 @@
-# Lights in real units: a warning names the exposure that shows the model, and --exposure auto finds it, alike for all renderers.
+# Lights in real units: a warning names the exposure that shows the model, and --exposure auto finds it, alike by the preview and by paths for a model that hides no light from itself.
 lit=$case_dir/sun-1W-blender.gltf
 for renderer in preview path; do
     expect 0 render "$lit" -o burnt.png --size 64 --samples 4 --renderer $renderer
