@@ -26,6 +26,14 @@ FN vec3 case_plain_radiance(vec2 u)
     return plain_radiance(parity_surface_host(u), parity_surface(u));
 }
 
+FN vec3 case_rough_light(vec2 u)
+{
+    SurfaceHost host = parity_surface_host(u);
+    vec3 N = normalize(vec3(u[0] - 0.5f, 0.2f, 1.0f));
+    RoughLight light = rough_light(host, N, host.V, clamp(dot(N, host.V), 0.0f, 1.0f), u[1]);
+    return light.single + light.multiple * 0.5f;
+}
+
 FN vec3 case_layer_light(vec2 u)
 {
     SurfaceHost host = parity_surface_host(u);
