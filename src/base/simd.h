@@ -6,9 +6,9 @@
 /* Eight values of a loop over an array. */
 typedef float float8 __attribute__((vector_size(32), may_alias));
 
-/* Before a function: compiles it twice, for AVX2 and for plain x86-64, without fused multiply-adds, so
- * that both give the same bits. Empty elsewhere, and under sanitizers, which run before the choice can be
- * made. The function's name must be unique in the library, even if static: clang's resolvers are global. */
+/* Before a static function: compiles it twice, for AVX2 and for plain x86-64, without fused multiply-adds,
+ * so that both give the same bits. Empty elsewhere, and under sanitizers, which run before the choice can be
+ * made. The function's name must be unique in the library: clang's resolvers are global. */
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
 #define DISPATCH_AVX2

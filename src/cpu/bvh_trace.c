@@ -412,34 +412,55 @@ INLINE bool run(search *s, purpose p)
            search_instances(s, p, &r);
 }
 
-DISPATCH_AVX2 bool bvh_nearest(const bvh_scene *scene, const ray_segment *ray, visibility_hit *hit)
+DISPATCH_AVX2 static bool bvh_search_dispatched(search *s)
+{
+    run(s, (purpose){.ends_at_first = false});
+    return s->has_hit;
+}
+
+DISPATCH_AVX2 static bool bvh_filtered_search_dispatched(search *s)
+{
+    run(s, (purpose){.has_filter = true});
+    return s->has_hit;
+}
+
+DISPATCH_AVX2 static bool bvh_shadow_dispatched(search *s)
+{
+    return run(s, (purpose){.ends_at_first = true});
+}
+
+DISPATCH_AVX2 static bool bvh_filtered_shadow_dispatched(search *s)
+{
+    return run(s, (purpose){.ends_at_first = true, .has_filter = true});
+}
+
+bool bvh_nearest(const bvh_scene *scene, const ray_segment *ray, visibility_hit *hit)
 {
     search s = {.scene = scene, .ray = ray};
-    run(&s, (purpose){.ends_at_first = false});
-    if (s.has_hit)
-        *hit = s.hit;
-    return s.has_hit;
+    if (!bvh_search_dispatched(&s))
+        return false;
+    *hit = s.hit;
+    return true;
 }
 
-DISPATCH_AVX2 bool bvh_nearest_filtered(const bvh_scene *scene, const ray_segment *ray, ray_filter filter,
-                                        void *context, visibility_hit *hit)
+bool bvh_nearest_filtered(const bvh_scene *scene, const ray_segment *ray, ray_filter filter, void *context,
+                          visibility_hit *hit)
 {
     search s = {.scene = scene, .ray = ray, .filter = filter, .context = context};
-    run(&s, (purpose){.has_filter = true});
-    if (s.has_hit)
-        *hit = s.hit;
-    return s.has_hit;
+    if (!bvh_filtered_search_dispatched(&s))
+        return false;
+    *hit = s.hit;
+    return true;
 }
 
-DISPATCH_AVX2 bool bvh_occluded(const bvh_scene *scene, const ray_segment *ray)
+bool bvh_occluded(const bvh_scene *scene, const ray_segment *ray)
 {
     search s = {.scene = scene, .ray = ray};
-    return run(&s, (purpose){.ends_at_first = true});
+    return bvh_shadow_dispatched(&s);
 }
 
-DISPATCH_AVX2 bool bvh_occluded_filtered(const bvh_scene *scene, const ray_segment *ray, ray_filter filter,
-                                         void *context)
+bool bvh_occluded_filtered(const bvh_scene *scene, const ray_segment *ray, ray_filter filter, void *context)
 {
     search s = {.scene = scene, .ray = ray, .filter = filter, .context = context};
-    return run(&s, (purpose){.ends_at_first = true, .has_filter = true});
+    return bvh_filtered_shadow_dispatched(&s);
 }
