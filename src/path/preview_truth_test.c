@@ -166,7 +166,8 @@ static void compare_means(fixture *f, int material, const char *what, double bou
 
 /* The mean over the object is to be within 2 %. In a sky of first harmonics that does not change along the view
  * the split sum is right on average. In the studio, whose soft boxes are farther apart than the lobe is wide, metals
- * are off by up to 2.4 %. (Light from behind, which only grazing views reflect, is less accurate: the lobe leans
+ * are off by up to 2.4 %, and rough diffuse reflection (material 6), which takes the lobe's moments up to degree 2, by
+ * 3.2 %. (Light from behind, which only grazing views reflect, is less accurate: the lobe leans
  * towards the normal there.) Both compensate for multiple scattering. */
 static void environments_are_nearly_equal(void **state)
 {
@@ -177,7 +178,10 @@ static void environments_are_nearly_equal(void **state)
         compare_means(&f, material, "smooth sky", 0.002);
         f = body(material, FACET_ENERGY_CONSERVING);
         assert_int_equal(facet_environment_create_studio(NULL, &f.environment, NULL), FACET_OK);
-        compare_means(&f, material, "studio", material == 1 || material == 4 ? 0.025 : 0.02);
+        compare_means(&f, material, "studio",
+                      material == 6                    ? 0.035
+                      : material == 1 || material == 4 ? 0.025
+                                                       : 0.02);
     }
 }
 

@@ -126,7 +126,7 @@ static void near_doubles_become_floats(void **state)
 static void doubles_that_break_rules_are_reported(void **state)
 {
     (void)state;
-    const double broken[9] = {NAN, 2, 3, 1e300, 5, 6, 7, 8, 9};
+    const double broken[9] = {(double)NAN, 2, 3, 1e300, 5, 6, 7, 8, 9};
     test_model m = {0};
     model_add(&m, broken, 3, "VEC3", 5130, "");
     facet_scene *scene =
