@@ -84,3 +84,12 @@ uint32_t zlib_checksum_join(uint32_t first, uint32_t second, size_t second_size)
 {
     return (uint32_t)adler32_combine(first, second, (z_off_t)second_size);
 }
+
+uint32_t crc32_checksum(const unsigned char *bytes, size_t size)
+{
+#ifdef HAVE_LIBDEFLATE
+    return libdeflate_crc32(0, bytes, size);
+#else
+    return (uint32_t)crc32_z(0, bytes, size);
+#endif
+}

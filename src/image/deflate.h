@@ -27,4 +27,6 @@ uint32_t zlib_checksum(const unsigned char *bytes, size_t size); /* Adler-32 */
 /* Checksum of a concatenation, from those of both parts and the size of the second. */
 uint32_t zlib_checksum_join(uint32_t first, uint32_t second, size_t second_size);
 
+uint32_t crc32_checksum(const unsigned char *bytes, size_t size); /* of PNG's chunks and of zip archives */
+
 #endif

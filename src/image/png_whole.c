@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "base/simd.h"
+#include "image/deflate.h"
 #include "image/png_chunk.h"
 #include "image/png_filter.h"
 
@@ -22,7 +23,7 @@ static bool is_sound(const png_chunk *c)
     if (c->type)
         return true;
 #endif
-    return libdeflate_crc32(0, c->type, png_chunk_size(c) + 4) == load_u32_be(c->end - 4);
+    return crc32_checksum(c->type, png_chunk_size(c) + 4) == load_u32_be(c->end - 4);
 }
 
 /* The sizes of an image of the kind that is read here; false: of another kind. */

@@ -6,7 +6,6 @@
 
 #include <stdatomic.h>
 #include <string.h>
-#include <zlib.h>
 
 #include "base/memory.h"
 #include "base/parallel.h"
@@ -169,7 +168,7 @@ static unsigned char *begin_chunk(unsigned char *p, const char type[4], size_t l
 
 static unsigned char *end_chunk(unsigned char *data, size_t length)
 {
-    store_u32_be(data + length, (uint32_t)crc32(crc32(0, NULL, 0), data - 4, (unsigned)length + 4));
+    store_u32_be(data + length, crc32_checksum(data - 4, length + 4));
     return data + length + 4;
 }
 

@@ -4,22 +4,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* CRC-32 of section 4.4.7, bit by bit from the lowest, through a table of nibbles. */
-static uint32_t checksum(const unsigned char *bytes, size_t size)
-{
-    uint32_t table[16], crc = UINT32_MAX;
-    for (uint32_t i = 0; i < 16; i++) {
-        table[i] = i;
-        for (int bit = 0; bit < 4; bit++)
-            table[i] = table[i] >> 1 ^ (table[i] & 1 ? 0xedb88320u : 0u);
-    }
-    for (size_t i = 0; i < size; i++) {
-        crc ^= bytes[i];
-        crc = crc >> 4 ^ table[crc & 15];
-        crc = crc >> 4 ^ table[crc & 15];
-    }
-    return ~crc;
-}
+#include "image/deflate.h"
 
 static void put(text *t, uint32_t value, int bytes)
 {
@@ -50,7 +35,7 @@ void usdz_zip_add(usdz_zip *zip, const char *name, const void *bytes, size_t siz
     const size_t begin = zip->files.length, name_size = strlen(name);
     const size_t data = begin + HEADER + name_size + EXTRA_HEADER;
     const size_t padding = (USDZ_ALIGNMENT - data % USDZ_ALIGNMENT) % USDZ_ALIGNMENT;
-    const uint32_t crc = checksum(bytes, size);
+    const uint32_t crc = crc32_checksum(bytes, size);
     put(&zip->files, 0x04034b50, 4);
     put_common(&zip->files, crc, (uint32_t)size, (uint32_t)name_size, (uint32_t)(EXTRA_HEADER + padding));
     text_add(&zip->files, name);
