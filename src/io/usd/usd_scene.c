@@ -3,6 +3,7 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "io/usd/usd_writer.h"
 
 /* ---- values ---- */
@@ -114,16 +115,23 @@ static void write_mesh(usd_writer *w, uint32_t index)
 
 /* ---- transforms ---- */
 
-/* The sampler of the first animation that moves a member of a node; NULL: none. */
-static const scene_sampler *find_motion(const usd_writer *w, uint32_t node, size_t offset)
+usd_node *usd_nodes_create(const facet_scene *scene)
 {
-    const scene_animation *a = w->scene->animations;
-    const scene_sampler *found = NULL;
-    for (uint32_t i = 0; w->scene->animation_count && i < a->channel_count; i++)
-        if (a->channels[i].kind == SCENE_TARGET_NODE && a->channels[i].index == node &&
-            a->channels[i].offset == offset)
-            found = &a->samplers[a->channels[i].sampler];
-    return found;
+    usd_node *nodes = mem_zalloc(&scene->allocator, (size_t)scene->node_count + 1, sizeof *nodes);
+    const scene_animation *a = scene->animations;
+    for (uint32_t i = 0; nodes && scene->animation_count && i < a->channel_count; i++) {
+        const scene_channel *c = &a->channels[i];
+        const scene_sampler *sampler = &a->samplers[c->sampler];
+        if (c->kind != SCENE_TARGET_NODE)
+            continue;
+        if (c->offset == offsetof(scene_node, translation))
+            nodes[c->index].translation = sampler;
+        else if (c->offset == offsetof(scene_node, rotation))
+            nodes[c->index].rotation = sampler;
+        else if (c->offset == offsetof(scene_node, scale))
+            nodes[c->index].scale = sampler;
+    }
+    return nodes;
 }
 
 /* glTF has x y z w, USD the real part first. */
@@ -177,16 +185,14 @@ static void write_transform(usd_writer *w, uint32_t index)
     }
     const float translation[3] = {(float)n->translation[0], (float)n->translation[1],
                                   (float)n->translation[2]};
-    const scene_sampler *motion = find_motion(w, index, offsetof(scene_node, translation));
-    if (motion)
-        write_operation(w, "double3 xformOp:translate", translation, 3, motion);
+    const usd_node *motion = &w->nodes[index];
+    if (motion->translation)
+        write_operation(w, "double3 xformOp:translate", translation, 3, motion->translation);
     else
         text_addf(&w->out, "double3 xformOp:translate = (%.17g, %.17g, %.17g)\n", n->translation[0],
                   n->translation[1], n->translation[2]);
-    write_operation(w, "quatf xformOp:orient", n->rotation, 4,
-                    find_motion(w, index, offsetof(scene_node, rotation)));
-    write_operation(w, "float3 xformOp:scale", n->scale, 3,
-                    find_motion(w, index, offsetof(scene_node, scale)));
+    write_operation(w, "quatf xformOp:orient", n->rotation, 4, motion->rotation);
+    write_operation(w, "float3 xformOp:scale", n->scale, 3, motion->scale);
     text_add(&w->out, "uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:orient\", "
                       "\"xformOp:scale\"]\n");
 }
@@ -230,31 +236,17 @@ static void begin_node(usd_writer *w, uint32_t index)
 
 void usd_write_node(usd_writer *w, uint32_t root)
 {
-    const scene_node *nodes = w->scene->nodes;
-    uint32_t node = root;
-    begin_node(w, node);
-    for (
-        ;
-        ;) { /* to the first child, else the next sibling of the node or of its nearest ancestor that has one */
-        if (nodes[node].child_count) {
-            node = nodes[node].children[0];
+    begin_node(w, root);
+    for (uint32_t node = root;;) { /* nodes may nest too deep for recursion */
+        const scene_node *n = &w->scene->nodes[node];
+        if (w->nodes[node].children_begun < n->child_count) {
+            node = n->children[w->nodes[node].children_begun++];
             begin_node(w, node);
             continue;
         }
-        for (;;) {
-            text_add(&w->out, "}\n");
-            if (node == root)
-                return;
-            const scene_node *parent = &nodes[nodes[node].parent];
-            uint32_t i = 0;
-            while (parent->children[i] != node)
-                i++;
-            if (i + 1 < parent->child_count) {
-                node = parent->children[i + 1];
-                begin_node(w, node);
-                break;
-            }
-            node = nodes[node].parent;
-        }
+        text_add(&w->out, "}\n");
+        if (node == root)
+            return;
+        node = n->parent;
     }
 }

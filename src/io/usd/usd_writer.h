@@ -20,9 +20,16 @@ typedef enum usd_loss {
 
 enum { USD_FPS = 24 }; /* time codes per second */
 
+/* How the writer has come along with a node. */
+typedef struct usd_node {
+    const scene_sampler *translation, *rotation, *scale; /* of the first animation; NULL: at rest */
+    uint32_t children_begun;
+} usd_node;
+
 typedef struct usd_writer {
     const facet_scene *scene;
     const char *const *images; /* by image: its path in the archive; NULL: it cannot be read */
+    usd_node *nodes;           /* per node of the scene; usd_nodes_create() */
     text out;
     unsigned losses;
 } usd_writer;
@@ -35,7 +42,9 @@ void usd_identifier(usd_writer *w, const char *name, uint32_t number);
 
 /* usd_materials.c: the scope "/Root/Materials" with Material_0, Material_1, .. */
 void usd_write_materials(usd_writer *w);
-/* usd_scene.c: a root node with all below it. */
+/* usd_scene.c: a block of mem_alloc(); NULL: no memory. */
+usd_node *usd_nodes_create(const facet_scene *scene);
+/* A root node with all below it. */
 void usd_write_node(usd_writer *w, uint32_t node);
 
 #endif

@@ -143,6 +143,28 @@ static void scenes_are_described(void **state)
     scene_destroy(scene);
 }
 
+/* Each node is written once, within its parent, in the file's order. */
+static void nodes_nest_as_in_the_scene(void **state)
+{
+    (void)state;
+    test_model m = {0};
+    facet_scene *scene =
+        model_load(&m, "%s",
+                   "'nodes':[{'name':'a','children':[1,3,4]},{'name':'b','children':[2]},{'name':'c'},"
+                   "{'name':'d'},{'name':'e','children':[5]},{'name':'f'}],'scenes':[{'nodes':[0]}]");
+    char *usda = save(scene), nesting[32] = "";
+    size_t length = 0;
+    for (const char *c = strstr(usda, "def Xform \"a_0\""); c && *c && length + 1 < sizeof nesting; c++) {
+        if (strncmp(c, "def Xform \"", 11) == 0)
+            nesting[length++] = c[11];
+        else if (*c == '}')
+            nesting[length++] = '}';
+    }
+    assert_string_equal(nesting, "abc}}d}ef}}}}"); /* and Root */
+    free(usda);
+    scene_destroy(scene);
+}
+
 static void losses_are_named_in_one_warning(void **state)
 {
     (void)state;
@@ -168,6 +190,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_are_stored_and_aligned),
         cmocka_unit_test(scenes_are_described),
+        cmocka_unit_test(nodes_nest_as_in_the_scene),
         cmocka_unit_test(losses_are_named_in_one_warning),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

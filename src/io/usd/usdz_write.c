@@ -135,10 +135,14 @@ facet_result usdz_save(const facet_scene *scene, const char *path, const char *g
     desc = desc ? desc : &defaults;
     archived *images = mem_zalloc(&scene->allocator, (size_t)scene->image_count + 1, sizeof *images);
     const char **paths = mem_zalloc(&scene->allocator, (size_t)scene->image_count + 1, sizeof *paths);
-    usd_writer w = {.scene = scene, .images = paths, .out.allocator = scene->allocator};
+    usd_writer w = {
+        .scene = scene, .images = paths, .nodes = usd_nodes_create(scene), .out.allocator = scene->allocator};
     usdz_zip zip = {.files.allocator = scene->allocator, .directory.allocator = scene->allocator};
-    facet_result result =
-        images && paths ? FACET_OK : fail_memory(error, path, (size_t)scene->image_count * sizeof *images);
+    facet_result result = images && paths && w.nodes
+                              ? FACET_OK
+                              : fail_memory(error, path,
+                                            (size_t)scene->image_count * sizeof *images +
+                                                (size_t)scene->node_count * sizeof *w.nodes);
     for (uint32_t i = 0; i < scene->image_count && result == FACET_OK; i++) {
         result = archive_image(scene, i, &desc->log, &images[i], error);
         paths[i] = images[i].path[0] ? images[i].path : NULL;
@@ -163,6 +167,7 @@ facet_result usdz_save(const facet_scene *scene, const char *path, const char *g
         mem_free(images[i].made);
     mem_free(images);
     mem_free(paths);
+    mem_free(w.nodes);
     text_destroy(&w.out);
     text_destroy(&zip.files);
     text_destroy(&zip.directory);
