@@ -12,19 +12,13 @@
 
 #include "base/memory.h"
 #include "cpu/visibility.h"
-#include "io/gltf/gltf.h"
 #include "median.h"
+#include "ray_setup.h"
 
 enum { MAX_RUNS = 99, SIZE = 512, RAYS = SIZE * SIZE };
 
 typedef struct setup {
-    scene_primitive sphere;
-    render_geometry geometry;
-    scene_material material;
-    facet_scene *scene;
-    scene_pose pose;
-    render_geometry_set set;
-    camera_rays camera;
+    ray_setup scene;
     ray_segment *rays[2]; /* of the camera, of bounces */
     size_t counts[2];
     int runs;
@@ -36,73 +30,12 @@ static void die(const char *message)
     exit(1);
 }
 
-/* ---- scenes ---- */
-
 static void *allocate(size_t count, size_t size)
 {
     void *block = mem_zalloc(NULL, count, size);
     if (!block)
         die("out of memory");
     return block;
-}
-
-static void make_sphere(setup *s, uint32_t columns, uint32_t rows)
-{
-    float *positions = allocate(((size_t)columns + 1) * (rows + 1) + 1, 3 * sizeof(float));
-    uint32_t *indices = allocate((size_t)columns * rows, 6 * sizeof(uint32_t));
-    uint32_t count = 0;
-    for (uint32_t row = 0; row <= rows; row++)
-        for (uint32_t column = 0; column <= columns; column++) {
-            const double theta = 3.14159265358979 * row / rows;
-            const double phi = 2.0 * 3.14159265358979 * column / columns;
-            const double radius = 1.0 + 0.2 * sin(9.0 * phi) * sin(7.0 * theta);
-            const uint32_t i = row * (columns + 1) + column;
-            positions[3 * i] = (float)(radius * sin(theta) * sin(phi));
-            positions[3 * i + 1] = (float)(radius * cos(theta));
-            positions[3 * i + 2] = (float)(radius * sin(theta) * cos(phi));
-            if (row == rows || column == columns)
-                continue;
-            const uint32_t corners[6] = {i, i + columns + 1, i + 1, i + 1, i + columns + 1, i + columns + 2};
-            memcpy(indices + count, corners, sizeof corners);
-            count += 6;
-        }
-    s->sphere = (scene_primitive){.mode = SCENE_TRIANGLES,
-                                  .vertex_count = (columns + 1) * (rows + 1),
-                                  .index_count = count,
-                                  .indices = indices,
-                                  .positions = positions};
-    s->material = scene_material_default();
-    s->geometry = (render_geometry){.primitive = &s->sphere, .material = &s->material, .vertices = positions};
-    s->set = (render_geometry_set){.count = 1, .items = &s->geometry};
-}
-
-static void look_at(setup *s, const float minimum[3], const float maximum[3])
-{
-    facet_error error;
-    facet_camera camera = {.fov_y_rad = 0.5236f};
-    float radius = 0.0f;
-    for (int i = 0; i < 3; i++) {
-        camera.target[i] = 0.5f * (minimum[i] + maximum[i]);
-        radius = fmaxf(radius, 0.5f * (maximum[i] - minimum[i]));
-    }
-    const float offset[3] = {2.0f, 1.5f, 4.0f};
-    for (int i = 0; i < 3; i++)
-        camera.eye[i] = camera.target[i] + offset[i] * radius;
-    if (camera_rays_create(&camera, SIZE, SIZE, &s->camera, &error) != FACET_OK)
-        die(error.message);
-}
-
-static void load_model(setup *s, const char *path)
-{
-    facet_error error;
-    const facet_allocator allocator = {0};
-    if (gltf_load(path, &(facet_scene_desc){0}, &s->scene, &error) != FACET_OK ||
-        scene_pose_create(s->scene, NULL, &allocator, 1, &s->pose, &error) != FACET_OK)
-        die(error.message);
-    look_at(s, s->pose.bounds_min, s->pose.bounds_max);
-    if (render_geometry_create(s->scene, &s->pose, &allocator, &s->set, &error) != FACET_OK ||
-        render_geometry_transform(&s->set, &s->pose, &s->camera, &allocator, 1, &error) != FACET_OK)
-        die(error.message);
 }
 
 static uint64_t count_triangles(const render_geometry_set *set)
@@ -154,8 +87,8 @@ static void make_rays(setup *s, const ray_scene *rays)
         for (uint32_t x = 0; x < SIZE; x++) {
             ray_segment *ray = &s->rays[0][s->counts[0]++];
             visibility_hit hit;
-            *ray = (ray_segment){.near_t = s->camera.near_m, .far_t = s->camera.far_m};
-            camera_rays_at(&s->camera, (float)x + 0.5f, (float)y + 0.5f, ray->origin, ray->direction);
+            *ray = (ray_segment){.near_t = s->scene.camera.near_m, .far_t = s->scene.camera.far_m};
+            camera_rays_at(&s->scene.camera, (float)x + 0.5f, (float)y + 0.5f, ray->origin, ray->direction);
             if (rays->tracer->nearest(rays->bvh, ray, &hit))
                 s->rays[1][s->counts[1]++] = bounce(ray, &hit, &state);
         }
@@ -184,7 +117,7 @@ static double build(const setup *s, const ray_tracer *tracer, ray_scene *out)
     ray_scene_destroy(out);
     out->tracer = tracer;
     const double start = cpu_seconds();
-    if (tracer->create(&s->set, &desc, &allocator, &out->bvh, &error) != FACET_OK)
+    if (tracer->create(&s->scene.set, &desc, &allocator, &out->bvh, &error) != FACET_OK)
         die(error.message);
     return cpu_seconds() - start;
 }
@@ -198,7 +131,7 @@ static void measure(setup *s, const char *name)
         die(error.message);
     ray_scene scenes[2] = {{0}};
     double seconds[2][MAX_RUNS];
-    const double triangles = (double)count_triangles(&s->set);
+    const double triangles = (double)count_triangles(&s->scene.set);
     double medians[2];
     for (int run = 0; run < s->runs; run++)
         for (int i = 0; i < 2; i++)
@@ -228,7 +161,8 @@ static void measure(setup *s, const char *name)
 
 int main(int argc, char **argv)
 {
-    setup s = {.runs = 5};
+    setup s = {.scene.size = SIZE, .runs = 5};
+    facet_error error;
     int first = 1;
     if (argc > 2 && strcmp(argv[1], "-n") == 0) {
         s.runs = atoi(argv[2]);
@@ -237,13 +171,13 @@ int main(int argc, char **argv)
     if (s.runs < 1 || s.runs > MAX_RUNS)
         die("-n: 1 to 99");
     for (int i = first; i < argc; i++) {
-        load_model(&s, argv[i]);
+        if (ray_setup_load(&s.scene, argv[i], &error) != FACET_OK)
+            die(error.message);
         measure(&s, argv[i]);
     }
     for (uint32_t i = 0; i < 2 && first == argc; i++) {
-        const uint32_t columns = i ? 1280 : 240;
-        make_sphere(&s, columns, i ? 768 : 128);
-        look_at(&s, (float[3]){-1, -1, -1}, (float[3]){1, 1, 1});
+        if (ray_setup_sphere(&s.scene, i ? 1280 : 240, i ? 768 : 128, 0.2, &error) != FACET_OK)
+            die(error.message);
         measure(&s, "wavy sphere");
     }
     return 0;

@@ -14,19 +14,14 @@
 #include "base/memory.h"
 #include "cpu/embree_scene.h"
 #include "cpu/visibility.h"
-#include "io/gltf/gltf.h"
 #include "median.h"
+#include "ray_setup.h"
 
 enum { RUNS = 15, SAMPLES = 4, COLUMNS = 160, ROWS = 48, CHUNK = 64 };
 
 typedef struct setup {
-    scene_primitive sphere;
-    facet_scene *scene;
-    scene_pose pose;
-    render_geometry_set set;
+    ray_setup scene;
     ray_scene rays;
-    camera_rays camera;
-    uint32_t size;
     visibility_pattern pattern;
 } setup;
 
@@ -36,69 +31,6 @@ static void die(const facet_error *error)
     exit(1);
 }
 
-/* ---- scene ---- */
-
-static void make_sphere(setup *s)
-{
-    static float positions[3 * (COLUMNS + 1) * (ROWS + 1)];
-    static uint32_t indices[6 * COLUMNS * ROWS];
-    static scene_material material;
-    static render_geometry geometry;
-    uint32_t count = 0;
-    for (uint32_t row = 0; row <= ROWS; row++)
-        for (uint32_t column = 0; column <= COLUMNS; column++) {
-            double theta = 3.14159265358979 * row / ROWS;
-            double phi = 2.0 * 3.14159265358979 * column / COLUMNS;
-            double radius = 1.0 + 0.1 * sin(9.0 * phi) * sin(7.0 * theta);
-            uint32_t i = row * (COLUMNS + 1) + column;
-            positions[3 * i] = (float)(radius * sin(theta) * sin(phi));
-            positions[3 * i + 1] = (float)(radius * cos(theta));
-            positions[3 * i + 2] = (float)(radius * sin(theta) * cos(phi));
-            if (row == ROWS || column == COLUMNS)
-                continue;
-            uint32_t corners[6] = {i, i + COLUMNS + 1, i + 1, i + 1, i + COLUMNS + 1, i + COLUMNS + 2};
-            memcpy(indices + count, corners, sizeof corners);
-            count += 6;
-        }
-    s->sphere = (scene_primitive){.mode = SCENE_TRIANGLES,
-                                  .vertex_count = (COLUMNS + 1) * (ROWS + 1),
-                                  .index_count = count,
-                                  .indices = indices,
-                                  .positions = positions};
-    material = scene_material_default();
-    geometry = (render_geometry){.primitive = &s->sphere, .material = &material, .vertices = positions};
-    s->set = (render_geometry_set){.count = 1, .items = &geometry};
-}
-
-static void look_at(setup *s, const float minimum[3], const float maximum[3])
-{
-    facet_error error;
-    facet_camera camera = {.fov_y_rad = 0.5236f};
-    float radius = 0.0f;
-    for (int i = 0; i < 3; i++) {
-        camera.target[i] = 0.5f * (minimum[i] + maximum[i]);
-        radius = fmaxf(radius, 0.5f * (maximum[i] - minimum[i]));
-    }
-    camera.eye[0] = camera.target[0] + 2.0f * radius;
-    camera.eye[1] = camera.target[1] + 1.5f * radius;
-    camera.eye[2] = camera.target[2] + 4.0f * radius;
-    if (camera_rays_create(&camera, s->size, s->size, &s->camera, &error) != FACET_OK)
-        die(&error);
-}
-
-static void load_model(setup *s, const char *path)
-{
-    facet_error error;
-    facet_allocator allocator = {0};
-    if (gltf_load(path, &(facet_scene_desc){0}, &s->scene, &error) != FACET_OK ||
-        scene_pose_create(s->scene, NULL, &allocator, 1, &s->pose, &error) != FACET_OK)
-        die(&error);
-    look_at(s, s->pose.bounds_min, s->pose.bounds_max);
-    if (render_geometry_create(s->scene, &s->pose, &allocator, &s->set, &error) != FACET_OK ||
-        render_geometry_transform(&s->set, &s->pose, &s->camera, &allocator, 1, &error) != FACET_OK)
-        die(&error);
-}
-
 /* ---- facet ---- */
 
 static double time_facet(const setup *s, uint64_t *hit_count)
@@ -106,9 +38,9 @@ static double time_facet(const setup *s, uint64_t *hit_count)
     visibility_hit hits[VISIBILITY_BLOCK_PIXELS * SAMPLES];
     uint64_t count = 0;
     double start = clock_seconds();
-    for (uint32_t y = 0; y < s->size; y += VISIBILITY_BLOCK)
-        for (uint32_t x = 0; x < s->size; x += VISIBILITY_BLOCK) {
-            visibility_trace_block(&s->rays, &s->camera, x, y, &s->pattern, hits);
+    for (uint32_t y = 0; y < s->scene.size; y += VISIBILITY_BLOCK)
+        for (uint32_t x = 0; x < s->scene.size; x += VISIBILITY_BLOCK) {
+            visibility_trace_block(&s->rays, &s->scene.camera, x, y, &s->pattern, hits);
             for (int i = 0; i < VISIBILITY_BLOCK_PIXELS * SAMPLES; i++)
                 count += hits[i].geometry != VISIBILITY_NONE;
         }
@@ -125,7 +57,7 @@ static void make_packet(const setup *s, uint32_t x, uint32_t y, struct RTCRayHit
     for (uint32_t i = 0; i < 16; i++) {
         float origin[3];
         float direction[3];
-        camera_rays_at(&s->camera, (float)(x + i / 4 % 2) + s->pattern.points[2 * (i % 4)],
+        camera_rays_at(&s->scene.camera, (float)(x + i / 4 % 2) + s->pattern.points[2 * (i % 4)],
                        (float)(y + i / 8) + s->pattern.points[2 * (i % 4) + 1], origin, direction);
         p->ray.org_x[i] = origin[0];
         p->ray.org_y[i] = origin[1];
@@ -146,7 +78,7 @@ static double time_embree(const setup *s, uint64_t *hit_count)
     static const _Alignas(64) int all[16] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
     double seconds = 0.0;
     uint64_t count = 0;
-    uint32_t squares = s->size / 2;
+    uint32_t squares = s->scene.size / 2;
     /* in 4 x 4 blocks, as in facet */
     uint32_t total = squares * squares;
     for (uint32_t first = 0; first < total; first += CHUNK) {
@@ -154,8 +86,8 @@ static double time_embree(const setup *s, uint64_t *hit_count)
         for (uint32_t i = 0; i < n; i++) {
             uint32_t block = (first + i) / 4;
             uint32_t square = (first + i) % 4;
-            uint32_t x = block % (s->size / 4) * 4 + square % 2 * 2;
-            uint32_t y = block / (s->size / 4) * 4 + square / 2 * 2;
+            uint32_t x = block % (s->scene.size / 4) * 4 + square % 2 * 2;
+            uint32_t y = block / (s->scene.size / 4) * 4 + square / 2 * 2;
             make_packet(s, x, y, &packets[i]);
         }
         double start = clock_seconds();
@@ -174,21 +106,18 @@ static double time_embree(const setup *s, uint64_t *hit_count)
 
 int main(int argc, char **argv)
 {
-    setup s = {.size = argc > 2 ? (uint32_t)strtoul(argv[2], NULL, 10) / 4 * 4 : 1024};
+    setup s = {.scene.size = argc > 2 ? (uint32_t)strtoul(argv[2], NULL, 10) / 4 * 4 : 1024};
     facet_error error;
     facet_allocator allocator = {0};
     if (!visibility_pattern_create(&allocator, SAMPLES, &s.pattern))
         return 1;
-    if (argc > 1 && argv[1][0]) {
-        load_model(&s, argv[1]);
-    } else {
-        make_sphere(&s);
-        look_at(&s, (float[3]){-1, -1, -1}, (float[3]){1, 1, 1});
-    }
+    if ((argc > 1 && argv[1][0] ? ray_setup_load(&s.scene, argv[1], &error)
+                                : ray_setup_sphere(&s.scene, COLUMNS, ROWS, 0.1, &error)) != FACET_OK)
+        die(&error);
     double start = clock_seconds();
     const ray_scene_desc desc = {.ray_count = UINT64_MAX, .thread_count = 2, .isa = FACET_ISA_NATIVE};
     if (embree_find_tracer(&s.rays.tracer, &error) != FACET_OK ||
-        s.rays.tracer->create(&s.set, &desc, &allocator, &s.rays.bvh, &error) != FACET_OK)
+        s.rays.tracer->create(&s.scene.set, &desc, &allocator, &s.rays.bvh, &error) != FACET_OK)
         die(&error);
     double build_s = clock_seconds() - start;
 
@@ -200,7 +129,7 @@ int main(int argc, char **argv)
         facet_s[i] = time_facet(&s, &facet_hits);
         embree_s[i] = time_embree(&s, &embree_hits);
     }
-    double rays = (double)s.size * s.size * SAMPLES;
+    double rays = (double)s.scene.size * s.scene.size * SAMPLES;
     double ours = median(facet_s, RUNS);
     double bare = median(embree_s, RUNS);
     printf("hierarchy  %6.2f ms\n", build_s * 1e3);
