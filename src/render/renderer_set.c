@@ -200,21 +200,29 @@ static void check_image(renderer_set *set, const scene_pose *pose, const facet_r
     check_outline(set, desc, drawn);
 }
 
-facet_result renderer_set_draw(renderer_set *set, const facet_render_desc *desc, film *target,
-                               facet_render_stats *stats, facet_error *error)
+/* By the renderer of desc, which is created when it is first used. */
+static facet_result draw(renderer_set *set, const facet_render_desc *desc, film *target,
+                         facet_render_stats *stats, facet_error *error)
 {
     const renderer_row *r = renderer_get(desc->renderer);
     void **state = &set->states[desc->renderer];
-    if (desc->sea)
-        water_warn_of_eye(desc);
     if (!*state)
         TRY(r->create(set, state, error));
-    TRY(r->draw(*state, desc, target, stats, error));
+    return r->draw(*state, desc, target, stats, error);
+}
+
+facet_result renderer_set_draw(renderer_set *set, const facet_render_desc *desc, film *target,
+                               facet_render_stats *stats, facet_error *error)
+{
+    if (desc->sea)
+        water_warn_of_eye(desc);
+    TRY(draw(set, desc, target, stats, error));
     if (desc->sea)
         return describe_mattes_in_sea(set->scene, desc, target, error);
     TRY(describe_mattes(set->scene, desc, target, error));
     if (set->scene)
-        check_image(set, r->poses_scene ? NULL : &set->prepared.pose, desc, target);
+        check_image(set, renderer_get(desc->renderer)->poses_scene ? NULL : &set->prepared.pose, desc,
+                    target);
     return FACET_OK;
 }
 
@@ -258,16 +266,12 @@ static facet_result meter_scene(renderer_set *set, const facet_render_desc *desc
                                 facet_error *error)
 {
     const facet_render_desc small = meter_desc(desc);
-    const renderer_row *r = renderer_get(small.renderer);
-    void **state = &set->states[small.renderer];
     facet_render_stats stats;
     film metered = {0};
     *ev100 = meter_exposure_ev(0.0); /* an exposure of 0 */
-    if (!*state)
-        TRY(r->create(set, state, error));
     facet_result result = film_create(&small.allocator, small.width, small.height, 0, &metered, error);
     if (result == FACET_OK)
-        result = r->draw(*state, &small, &metered, &stats, error);
+        result = draw(set, &small, &metered, &stats, error);
     if (result == FACET_OK) {
         double average = film_meter(&metered);
         if (average > 0.0)
