@@ -4,16 +4,10 @@
 facet_result ray_tracer_choose(facet_bvh kind, const ray_tracer **out, facet_error *error)
 {
     *out = &bvh_tracer;
-    switch (kind) {
-    case FACET_BVH_AUTO:
-        break;
-    case FACET_BVH_EMBREE:
-        return embree_find_tracer(out, error);
-    case FACET_BVH_OWN:
+    if (kind == FACET_BVH_OWN)
         return FACET_OK;
-    }
     const facet_result result = embree_find_tracer(out, error);
-    if (result != FACET_ERROR_SYSTEM)
+    if (kind == FACET_BVH_EMBREE || result != FACET_ERROR_SYSTEM)
         return result;
     *out = &bvh_tracer;
     return FACET_OK;
