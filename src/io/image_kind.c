@@ -7,11 +7,13 @@
 #include "base/file.h"
 #include "image/ktx2.h"
 
+static const char ASTC_EXTENSION[] = "EXT_texture_astc";
+
 static const image_kind KINDS[] = {
     {IMAGE_CODEC_PNG, "image/png", "PNG", "png", NULL, false},
     {IMAGE_CODEC_JPEG, "image/jpeg", "JPEG", "jpg", NULL, false},
     {IMAGE_CODEC_KTX2, "image/ktx2", "KTX2", "ktx2", "KHR_texture_basisu", false},
-    {IMAGE_CODEC_KTX2, "image/ktx2", "KTX2", "ktx2", "EXT_texture_astc", false}, /* of ASTC blocks */
+    {IMAGE_CODEC_KTX2, "image/ktx2", "KTX2", "ktx2", ASTC_EXTENSION, false}, /* of ASTC blocks */
     {IMAGE_CODEC_WEBP, "image/webp", "WebP", "webp", "EXT_texture_webp", false},
     {IMAGE_CODEC_AVIF, "image/avif", "AVIF", "avif", "EXT_texture_avif", false},
     {IMAGE_CODEC_TGA, "image/x-tga", "TGA", "tga", NULL, true},
@@ -19,7 +21,7 @@ static const image_kind KINDS[] = {
     {IMAGE_CODEC_GIF, "image/gif", "GIF", "gif", NULL, true},
     {IMAGE_CODEC_DDS, "image/vnd-ms.dds", "DDS", "dds", "MSFT_texture_dds", true},
 };
-enum { KIND_COUNT = sizeof KINDS / sizeof *KINDS, KIND_KTX2 = 2, KIND_ASTC = 3 };
+enum { KIND_COUNT = sizeof KINDS / sizeof *KINDS };
 
 static bool is_astc(const void *bytes, size_t size)
 {
@@ -30,10 +32,9 @@ static bool is_astc(const void *bytes, size_t size)
 const image_kind *image_kind_of_bytes(const void *bytes, size_t size)
 {
     image_codec codec = image_codec_detect(bytes, size);
-    if (codec == IMAGE_CODEC_KTX2)
-        return &KINDS[is_astc(bytes, size) ? KIND_ASTC : KIND_KTX2];
+    const bool has_astc = codec == IMAGE_CODEC_KTX2 && is_astc(bytes, size);
     for (size_t i = 0; i < KIND_COUNT; i++)
-        if (KINDS[i].codec == codec)
+        if (KINDS[i].codec == codec && has_astc == (KINDS[i].gltf_extension == ASTC_EXTENSION))
             return &KINDS[i];
     return NULL;
 }
