@@ -129,16 +129,23 @@ typedef struct asset {
     scene_attachment attachment;
 } asset;
 
-/* Names the files from the one that an asset repeats, and the asset: "a.gltf -> b.gltf -> a.gltf". */
-static void write_chain(const io_reader *r, const located *file, char *text, size_t size)
+/* The reader that has the file open: r or one that it is read for. NULL: none. */
+static const io_reader *find_open(const io_reader *r, const located *file)
 {
-    const io_reader *chain[MAX_DEPTH + 1];
-    size_t count = 0, used = 0;
-    for (; r; r = r->gltf->outer ? r->gltf->outer->reader : NULL) {
-        chain[count++] = r;
+    for (; r && file->number; r = r->gltf->outer ? r->gltf->outer->reader : NULL)
         if (r->gltf->device == file->device && r->gltf->number == file->number)
-            break;
-    }
+            return r;
+    return NULL;
+}
+
+/* Names the files from first to r, and the asset, which is first again: "a.gltf -> b.gltf -> a.gltf". */
+static void write_chain(const io_reader *first, const io_reader *r, const located *file, char *text,
+                        size_t size)
+{
+    const io_reader *chain[MAX_DEPTH + 1] = {r};
+    size_t count = 1, used = 0;
+    for (; r != first; chain[count++] = r)
+        r = r->gltf->outer->reader;
     while (count-- > 0 && used < size)
         used +=
             (size_t)snprintf(text + used, size - used, "%s -> ", path_base_name(chain[count]->gltf->path));
@@ -146,22 +153,15 @@ static void write_chain(const io_reader *r, const located *file, char *text, siz
         snprintf(text + used, size - used, "%s", path_base_name(file->path));
 }
 
-static bool is_open(const io_reader *r, const located *file)
-{
-    for (; r && file->number; r = r->gltf->outer ? r->gltf->outer->reader : NULL)
-        if (r->gltf->device == file->device && r->gltf->number == file->number)
-            return true;
-    return false;
-}
-
 /* False: an error, of the whole model, is recorded. */
 static bool check_limits(io_reader *r, const json_place *at, const located *file, gltf_asset_state *state)
 {
     const uint32_t depth = r->gltf->outer ? r->gltf->outer->depth : 0;
     char chain[600];
+    const io_reader *open = find_open(r, file);
     state->is_fatal = true;
-    if (is_open(r, file)) {
-        write_chain(r, file, chain, sizeof chain);
+    if (open) {
+        write_chain(open, r, file, chain, sizeof chain);
         return io_fail(r, at, NULL, FACET_ERROR_INVALID, "is a cycle of files, %s", chain);
     }
     if (depth >= MAX_DEPTH)
