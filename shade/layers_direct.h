@@ -147,8 +147,8 @@ STRUCT(BelowShares)
     vec3 diffuse;      /* scattered back to the eye's side */
     vec3 diffuse_back; /* scattered through, without a volume's attenuation */
     vec3 specular;     /* transmitted by the boundary, tinted */
-    /* The shares of the lobes of base_color and of diffuse_transmission_color, whose BRDF may be rough, and what is left of
-     * diffuse and diffuse_back without them. */
+    /* Weights of the lobes with the diffuse roughness: of reflection with base_color, and of transmission with
+     * diffuse_transmission_color. plain, plain_back: the rest of diffuse, diffuse_back, which is Lambert's. */
     float lobe;
     float lobe_back;
     vec3 plain;

@@ -106,24 +106,22 @@ FN LayerLight layer_light(SurfaceHost host, Layers m, VolumeExit e)
         light.irradiance_over_pi = host_irradiance_over_pi(host, m.base.N);
         if (has_layer(m, LAYER_DIFFUSE_TRANSMISSION)) {
             light.irradiance_back_over_pi = host_irradiance_over_pi(host, e.normal);
-            if (has_layer(m, LAYER_VOLUME))
-                light.irradiance_back_over_pi *=
-                    volume_transmittance(m.attenuation_color, m.attenuation_distance, e.distance_m);
-        }
-        if (has_layer(m, LAYER_DIFFUSE_ROUGHNESS)) {
-            float NdotV = surface_NdotV(m.base, host.V);
-            vec3 ambient = host_ambient(host);
-            light.rough = rough_light(host, m.base.N, host.V, NdotV, m.diffuse_roughness);
-            light.rough.single *= ambient;
-            light.rough.multiple *= ambient;
-            if (has_layer(m, LAYER_DIFFUSE_TRANSMISSION)) {
-                vec3 inside = vec3(1.0f);
-                if (has_layer(m, LAYER_VOLUME))
-                    inside = volume_transmittance(m.attenuation_color, m.attenuation_distance, e.distance_m);
-                light.rough_back = rough_light(host, e.normal, host.V, NdotV, m.diffuse_roughness);
+            if (has_layer(m, LAYER_DIFFUSE_ROUGHNESS))
+                light.rough_back =
+                    rough_light(host, e.normal, host.V, surface_NdotV(m.base, host.V), m.diffuse_roughness);
+            if (has_layer(m, LAYER_VOLUME)) {
+                vec3 inside = volume_transmittance(m.attenuation_color, m.attenuation_distance, e.distance_m);
+                light.irradiance_back_over_pi *= inside;
                 light.rough_back.single *= inside;
                 light.rough_back.multiple *= inside;
             }
+        }
+        if (has_layer(m, LAYER_DIFFUSE_ROUGHNESS)) {
+            vec3 ambient = host_ambient(host);
+            light.rough =
+                rough_light(host, m.base.N, host.V, surface_NdotV(m.base, host.V), m.diffuse_roughness);
+            light.rough.single *= ambient;
+            light.rough.multiple *= ambient;
         }
         if (has_layer(m, LAYER_CLEARCOAT))
             light.clearcoat = host_specular(host, layers_clearcoat_reflection(m, host.V, host.energy),
